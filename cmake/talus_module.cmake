@@ -1,0 +1,42 @@
+# talus_module(NAME [DEPENDS module...]): one folder of libcore, one target.
+#
+# Plain sources become talus_NAME, which needs Eigen and the modules it depends on. A source whose
+# name ends in _cgal, _gdal, _hdf5, _sqlite or _toml becomes part of talus_NAME_cgal and so on, which
+# alone sees that library. A tool therefore links what it uses and nothing else.
+
+add_library(talus_options INTERFACE)
+target_compile_options(talus_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Werror)
+target_include_directories(talus_options INTERFACE ${PROJECT_SOURCE_DIR}/libcore)
+
+set(TALUS_LIBRARY_cgal CGAL::CGAL)
+set(TALUS_LIBRARY_gdal GDAL::GDAL)
+set(TALUS_LIBRARY_hdf5 hdf5::hdf5)
+set(TALUS_LIBRARY_sqlite SQLiteCpp SQLite::SQLite3)
+set(TALUS_LIBRARY_toml tomlplusplus::tomlplusplus)
+
+function(talus_module name)
+  cmake_parse_arguments(ARG "" "" "DEPENDS" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
+  set(plain ${sources})
+  list(FILTER plain EXCLUDE REGEX "_(cgal|gdal|hdf5|sqlite|toml)\\.cpp$")
+  list(TRANSFORM ARG_DEPENDS PREPEND talus_ OUTPUT_VARIABLE modules)
+
+  if(plain)
+    add_library(talus_${name} STATIC ${plain})
+    set(scope PUBLIC)
+  else()
+    add_library(talus_${name} INTERFACE)
+    set(scope INTERFACE)
+  endif()
+  target_link_libraries(talus_${name} ${scope} talus_options Eigen3::Eigen ${modules})
+
+  foreach(library cgal gdal hdf5 sqlite toml)
+    set(own ${sources})
+    list(FILTER own INCLUDE REGEX "_${library}\\.cpp$")
+    if(own)
+      add_library(talus_${name}_${library} STATIC ${own})
+      target_link_libraries(talus_${name}_${library} PUBLIC talus_${name}
+                            PRIVATE ${TALUS_LIBRARY_${library}})
+    endif()
+  endforeach()
+endfunction()

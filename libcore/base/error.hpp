@@ -1,0 +1,54 @@
+// libcore/base/error.hpp
+// How the library says that something went wrong: unusable input throws InputError with place,
+// finding, expectation and a way out; a run that must end throws NumericsError; a broken promise
+// between our own functions asserts. The library never prints and never exits.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace talus {
+
+/// Where something was found: a file, and what in it (line, layer, feature, coordinates).
+struct Where {
+  std::string file;    ///< path as the user gave it; empty when there is no file
+  int line = 0;        ///< 1-based line of a text file; 0 when it has none
+  std::string item{};  ///< e.g. "layer contours, feature 17"; empty when the file says enough
+  /// "sites/a/site.toml:14", "map.gpkg: layer contours, feature 17"; empty when nothing is known
+  [[nodiscard]] std::string text() const;
+};
+
+/// The input cannot be used (exit code 1).
+class InputError : public std::runtime_error {
+ public:
+  /// `finding` says what was found and what was expected; `hint` says a way out (may be empty).
+  InputError(const Where& where, const std::string& finding, std::string hint = {});
+  [[nodiscard]] const std::string& hint() const { return hint_; }
+
+ private:
+  std::string hint_;
+};
+
+/// The numbers failed: a limit of the run's health was broken (exit code 3).
+class NumericsError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The user interrupted; what could be kept has been kept (exit code 130).
+class Interrupted : public std::runtime_error {
+ public:
+  Interrupted() : std::runtime_error("interrupted") {}
+};
+
+[[noreturn]] void assertion_failed(const char* condition, const char* file, int line);
+
+}  // namespace talus
+
+#ifdef NDEBUG
+#define TALUS_ASSERT(condition) static_cast<void>(0)
+#else
+/// A promise between our own functions; on in every preset but release.
+#define TALUS_ASSERT(condition) \
+  static_cast<void>((condition) || (::talus::assertion_failed(#condition, __FILE__, __LINE__), 0))
+#endif

@@ -1,0 +1,29 @@
+// libcore/base/sha256.hpp
+// SHA-256 of bytes and files (FIPS 180-4): what ties an output to its inputs.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+namespace talus {
+
+/// Feed bytes with add(), read the digest once with hex().
+class Sha256 {
+ public:
+  void add(const void* bytes, std::size_t n_bytes);
+  [[nodiscard]] std::string hex();  ///< 64 lower-case digits; the object is spent afterwards
+
+ private:
+  void compress(const unsigned char* block);
+  std::array<std::uint32_t, 8> state_{0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a,
+                                      0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
+  std::array<unsigned char, 64> buffer_{};
+  std::uint64_t n_bytes_ = 0;
+};
+
+/// Digest of a file's content. Throws InputError when it cannot be read.
+[[nodiscard]] std::string sha256_of_file(const std::string& path);
+
+}  // namespace talus

@@ -1,0 +1,27 @@
+// libcore/base/text.hpp
+// Numbers as text, the same for every locale, and the nearest known name for a misspelt one.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace talus {
+
+/// Shortest decimal text that reads back to the same double ("0.1", "1e-12", "nan").
+[[nodiscard]] std::string text(double value);
+
+/// `value` with `digits` significant digits, without trailing zeros ("12.35").
+[[nodiscard]] std::string text(double value, int digits);
+
+/// The whole of `text` as a finite double; false when it is anything else. Locale independent.
+[[nodiscard]] bool parse_double(std::string_view text, double& value);
+
+/// The entry of `known` with the smallest edit distance to `name`; empty when none is near
+/// (distance above a third of the name's length).
+[[nodiscard]] std::string nearest_name(std::string_view name, const std::vector<std::string>& known);
+
+/// Lower case of the ASCII letters; other bytes as they are.
+[[nodiscard]] std::string lower(std::string_view text);
+
+}  // namespace talus
