@@ -1,14 +1,14 @@
 // tools/tool.hpp
 // The frame of every executable: common options, inputs checked before long work, outputs written
 // to a temporary name and renamed only when whole, progress, exit codes, the run registry, and the
-// only catch. A tool is a list of options and one function.
+// only catch. A tool is a list of options and one function. docs/tools/common.md
 #pragma once
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "base/error.hpp"
@@ -18,6 +18,13 @@ namespace talus {
 
 using Json = nlohmann::ordered_json;
 
+/// One effective setting and where it came from: "default", "file" or "cli".
+struct ConfigValue {
+  std::string key;
+  std::string value;
+  std::string source;
+};
+
 class Tool {
  public:
   /// `name` as typed ("talus-tin"); `purpose` one sentence for --help.
@@ -26,53 +33,63 @@ class Tool {
   Tool(const Tool&) = delete;
   Tool& operator=(const Tool&) = delete;
 
-  /// For options that the functions below do not cover. Long names carry the unit (--cell-size-m).
+  /// For what the functions below do not cover (groups, sub-commands).
   CLI::App& app();
 
   // --- declare, before run() ---------------------------------------------------------------------
-  /// A file read: must exist; hashed into the registry with `role`, the option's name.
-  /// A name without dashes is positional and required.
+  /// A file read: must exist; hashed into the registry under the option's name. A name without
+  /// dashes is positional and required. GDAL's virtual paths (/vsi...) are passed on unchecked.
   CLI::Option* input(const std::string& name, std::string& path, const std::string& help);
-  CLI::Option* inputs(const std::string& name, std::vector<std::string>& paths, const std::string& help);
-  /// A file written: refused when it exists and --overwrite is not given, or when its folder cannot
-  /// be written. The first declared one decides where runs.sqlite stands by default.
+  CLI::Option* inputs(const std::string& name, std::vector<std::string>& paths,
+                      const std::string& help);
+  /// A file written: refused when it exists and --overwrite is not given, when it is also an input,
+  /// or when its folder cannot be written. runs.sqlite stands beside the first one given.
   CLI::Option* output(const std::string& name, std::string& path, const std::string& help);
-  /// A folder written into (made when missing).
+  /// A folder written into, made when missing; refused when not empty without --overwrite.
   CLI::Option* output_folder(const std::string& name, std::string& path, const std::string& help);
-  /// A value with its default shown in --help and recorded in the registry with its source.
+  /// A value; its default is shown by --help, and its effective value is recorded with its source.
   template <class T>
   CLI::Option* option(const std::string& name, T& value, const std::string& help) {
     return app().add_option(name, value, help)->capture_default_str();
   }
+  CLI::Option* flag(const std::string& name, bool& value, const std::string& help) {
+    return app().add_flag(name, value, help);
+  }
   /// Remarks below the options in --help, e.g. an example.
   void footer(const std::string& text);
+  /// Settings beyond the command line (a site file's), asked for once the command line is known;
+  /// shown by --print-config and recorded. May throw InputError.
+  void more_config(std::function<std::vector<ConfigValue>()> settings);
 
   // --- use, inside the body ----------------------------------------------------------------------
   /// Where to write `path` for now: a hidden name in the same folder with the same extension. All
   /// staged files are synced and renamed when the body has returned, removed when it has thrown.
-  /// A sidecar (a style, statistics) is staged like any other file.
-  std::string stage(const std::string& path);
-  /// Further paths that were read but are not options (members of a folder, files named in a site file).
+  /// Sidecars (styles, statistics) are staged like any other file.
+  [[nodiscard]] std::string stage(const std::string& path);
+  /// A file that was read but is not an option's value (named in a site file, member of a set).
   void read_also(const std::string& role, const std::string& path);
   /// To hand to long work; throws Interrupted after SIGINT or SIGTERM.
-  ProgressFunction progress();
-  [[nodiscard]] bool interrupted() const;
+  [[nodiscard]] ProgressFunction progress();
+  [[nodiscard]] bool interrupted() const;  ///< SIGINT or SIGTERM has come
   void info(const std::string& text);      ///< to stderr, not with -q
   void detail(const std::string& text);    ///< to stderr, with -v
-  void warn(const std::string& text);      ///< to stderr, kept in the registry
+  void warn(const std::string& text);      ///< to stderr, kept in the registry and in result()
   void metric(const std::string& name, double value, const std::string& unit);
+  /// A limit of the run's health; a failed one makes the exit code 3 once the outputs are in place.
   void check(const std::string& name, double value, double limit, bool pass);
-  /// What --json prints; without --json, `summary` is printed to stdout, not with -q.
+  /// What --json prints; without --json `summary` goes to stdout, not with -q.
   void result(Json result, const std::string& summary);
   [[nodiscard]] bool overwrite() const;
-  [[nodiscard]] std::string run_id() const;  ///< of this run in the registry; stands in the outputs' tags
+  /// Digest of tool, version, options and input contents (16 digits); it stands in outputs' tags.
+  /// Inputs named by read_also() count when they were named before the first call.
+  [[nodiscard]] std::string run_id();
 
-  /// Parse, check, run `body`, commit the outputs, record, return the exit code.
+  /// Parse, check, run `body`, put the outputs in place, record; returns the exit code.
   int run(int argc, char** argv, const std::function<void()>& body);
 
  private:
   struct Impl;
-  Impl* impl_;
+  std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace talus

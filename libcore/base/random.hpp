@@ -14,11 +14,11 @@ class Random {
  public:
   /// `stream` names what the numbers are for, so that adding one use does not shift another.
   explicit Random(std::uint64_t seed, std::string_view stream = {});
-  double uniform();                        ///< in [0, 1), 53 bits
+  double uniform();                         ///< in [0, 1), 53 bits
   double uniform(double low, double high);  ///< in [low, high)
-  double normal();                         ///< mean 0, standard deviation 1 (Box-Muller)
-  double exponential();                    ///< mean 1
-  std::uint64_t below(std::uint64_t n);    ///< whole number in [0, n), n > 0, unbiased
+  double normal();                          ///< mean 0, standard deviation 1 (Box-Muller)
+  double exponential();                     ///< mean 1
+  std::uint64_t below(std::uint64_t n);     ///< whole number in [0, n), n > 0, unbiased
 
  private:
   std::mt19937_64 engine_;

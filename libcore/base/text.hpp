@@ -19,7 +19,8 @@ namespace talus {
 
 /// The entry of `known` with the smallest edit distance to `name`; empty when none is near
 /// (distance above a third of the name's length).
-[[nodiscard]] std::string nearest_name(std::string_view name, const std::vector<std::string>& known);
+[[nodiscard]] std::string nearest_name(std::string_view name,
+                                       const std::vector<std::string>& known);
 
 /// Lower case of the ASCII letters; other bytes as they are.
 [[nodiscard]] std::string lower(std::string_view text);

@@ -1,0 +1,88 @@
+// libcore/store/runs.hpp
+// The run registry: who ran what on which inputs, with which options and outcome. One SQLite file
+// (WAL), shared by any number of processes; every write is one BEGIN IMMEDIATE transaction.
+// The tables are those of W3C PROV: run = Activity, artifact = Entity, run_input = used,
+// run_output = wasGeneratedBy. docs/formats.md#registry
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace talus {
+
+struct RunParam {
+  std::string key;  ///< long option name or site-file key, unit in the name
+  std::string value;
+  std::string source;  ///< "default", "file" or "cli"
+};
+
+/// A file read or written, with its digest; `sha256` is empty when the content was not hashed.
+struct RunFile {
+  std::string role;  ///< name of the option that gave it
+  std::string path;  ///< absolute
+  std::string sha256;
+  std::int64_t n_bytes = 0;
+};
+
+struct RunMetric {
+  std::string name;
+  double value = 0;
+  std::string unit;
+};
+
+struct RunEvent {
+  double time_s = 0;  ///< since the run's start [s]
+  std::string level;  ///< "info", "warning" or "error"
+  std::string text;
+};
+
+struct RunCheck {
+  std::string name;
+  double value = 0;
+  double limit = 0;
+  bool pass = false;
+};
+
+/// One run of one tool.
+struct RunRecord {
+  std::int64_t id = 0;  ///< row of the registry, given by start_run
+  /// Digest of tool, version, options and input contents: equal for runs that must give equal
+  /// bytes.
+  std::string content_id;
+  std::string tool, version, git_commit, command_line, folder, host, cpu;
+  int process_id = 0;
+  std::string started, ended;       ///< UTC, ISO 8601; `ended` empty while running
+  std::string status;               ///< "running", "done", "failed" or "interrupted"
+  int exit_code = -1;               ///< -1 while running
+  double cpu_time_s = 0;            ///< user + system [s]
+  double wall_time_s = 0;           ///< [s]
+  std::int64_t peak_memory_kb = 0;  ///< largest resident set [KiB]
+  std::vector<RunParam> params;
+  std::vector<RunFile> inputs, outputs;
+  std::vector<RunMetric> metrics;
+  std::vector<RunEvent> events;
+  std::vector<RunCheck> checks;
+};
+
+/// Writes the run as it begins (status "running") and returns its row. Makes the registry when it
+/// does not exist. Throws InputError when `db` cannot be written or is not a registry.
+[[nodiscard]] std::int64_t start_run(const std::string& db, const RunRecord& run);
+
+/// Completes the row `run.id`: outcome, times, inputs named since, outputs, metrics, events,
+/// checks.
+void finish_run(const std::string& db, const RunRecord& run);
+
+/// All runs without their details, in the order of their rows. Throws InputError when `db` does not
+/// exist or is not a registry.
+[[nodiscard]] std::vector<RunRecord> list_runs(const std::string& db);
+
+/// One run with everything known of it. `id` is a row or the beginning of a content id (the newest
+/// run that has it). Throws InputError when there is none.
+[[nodiscard]] RunRecord read_run(const std::string& db, const std::string& id);
+
+/// Rows of the finished runs that wrote a file with this digest, newest first.
+[[nodiscard]] std::vector<std::int64_t> runs_that_wrote(const std::string& db,
+                                                        const std::string& sha256);
+
+}  // namespace talus

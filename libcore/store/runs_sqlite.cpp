@@ -1,0 +1,271 @@
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <sqlite3.h>
+
+#include <filesystem>
+
+#include "base/error.hpp"
+#include "store/runs.hpp"
+
+namespace talus {
+namespace {
+
+constexpr int schema_version = 1;
+constexpr int busy_timeout_ms = 60000;
+
+constexpr const char* schema = R"sql(
+CREATE TABLE run (
+  id INTEGER PRIMARY KEY, content_id TEXT NOT NULL, tool TEXT NOT NULL, version TEXT NOT NULL,
+  git_commit TEXT NOT NULL, command_line TEXT NOT NULL, folder TEXT NOT NULL, host TEXT NOT NULL,
+  cpu TEXT NOT NULL, process_id INTEGER NOT NULL, started TEXT NOT NULL, ended TEXT NOT NULL,
+  status TEXT NOT NULL CHECK (status IN ('running', 'done', 'failed', 'interrupted')),
+  exit_code INTEGER NOT NULL, cpu_time_s REAL NOT NULL, wall_time_s REAL NOT NULL,
+  peak_memory_kb INTEGER NOT NULL) STRICT;
+CREATE TABLE param (run_id INTEGER NOT NULL REFERENCES run, key TEXT NOT NULL, value TEXT NOT NULL,
+  source TEXT NOT NULL CHECK (source IN ('default', 'file', 'cli'))) STRICT;
+CREATE TABLE artifact (id INTEGER PRIMARY KEY, path TEXT NOT NULL, sha256 TEXT NOT NULL,
+  bytes INTEGER NOT NULL, UNIQUE (path, sha256)) STRICT;
+CREATE TABLE run_input (run_id INTEGER NOT NULL REFERENCES run,
+  artifact_id INTEGER NOT NULL REFERENCES artifact, role TEXT NOT NULL) STRICT;
+CREATE TABLE run_output (run_id INTEGER NOT NULL REFERENCES run,
+  artifact_id INTEGER NOT NULL REFERENCES artifact, role TEXT NOT NULL) STRICT;
+CREATE TABLE metric (run_id INTEGER NOT NULL REFERENCES run, name TEXT NOT NULL, value REAL,
+  unit TEXT NOT NULL) STRICT;
+CREATE TABLE event (run_id INTEGER NOT NULL REFERENCES run, time_s REAL NOT NULL,
+  level TEXT NOT NULL, text TEXT NOT NULL) STRICT;
+CREATE TABLE "check" (run_id INTEGER NOT NULL REFERENCES run, name TEXT NOT NULL, value REAL,
+  "limit" REAL, pass INTEGER NOT NULL) STRICT;
+CREATE INDEX artifact_sha256 ON artifact (sha256);
+CREATE INDEX param_run ON param (run_id);
+CREATE INDEX run_input_run ON run_input (run_id);
+CREATE INDEX run_output_run ON run_output (run_id);
+CREATE INDEX run_output_artifact ON run_output (artifact_id);
+CREATE INDEX metric_run ON metric (run_id);
+CREATE INDEX event_run ON event (run_id);
+CREATE INDEX check_run ON "check" (run_id);
+)sql";
+
+[[noreturn]] void refuse(const std::string& db, const std::string& finding) {
+  throw InputError({db}, finding, "name another registry with --db, or run with --no-db");
+}
+
+void check_version(SQLite::Database& database, const std::string& db) {
+  const int version = database.execAndGet("PRAGMA user_version").getInt();
+  if (version != schema_version)
+    refuse(db, "is not a run registry of this version (schema " + std::to_string(version) +
+                   ", expected " + std::to_string(schema_version) + ")");
+}
+
+// Two processes may come to an empty file at once: both wait for the write lock, the second finds
+// the tables made.
+void make_tables(SQLite::Database& database) {
+  SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
+  const bool is_empty = database.execAndGet("SELECT count(*) FROM sqlite_master").getInt() == 0;
+  if (is_empty) {
+    database.exec(schema);
+    database.exec("PRAGMA user_version = " + std::to_string(schema_version));
+  }
+  transaction.commit();
+}
+
+SQLite::Database open_to_write(const std::string& db) {
+  SQLite::Database database(db, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, busy_timeout_ms);
+  // The busy handler is not asked when the journal mode changes while another process reads, so
+  // the mode is changed only where it is not WAL yet, and tried again until the other one is done.
+  for (int attempt = 0; database.execAndGet("PRAGMA journal_mode").getString() != "wal";
+       ++attempt) {
+    try {
+      database.exec("PRAGMA journal_mode = WAL");
+    } catch (const SQLite::Exception& error) {
+      if (error.getErrorCode() != SQLITE_BUSY || attempt > 1000) throw;
+      sqlite3_sleep(20);
+    }
+  }
+  database.exec("PRAGMA synchronous = NORMAL");
+  make_tables(database);
+  check_version(database, db);
+  return database;
+}
+
+SQLite::Database open_to_read(const std::string& db) {
+  if (!std::filesystem::exists(db))
+    throw InputError({db}, "there is no such registry", "name it with --db");
+  SQLite::Database database(db, SQLite::OPEN_READWRITE, busy_timeout_ms);
+  check_version(database, db);
+  return database;
+}
+
+// SQLite's own errors become input errors that name the registry.
+template <class Work>
+auto with_registry(const std::string& db, Work&& work) {
+  try {
+    return work();
+  } catch (const SQLite::Exception& error) {
+    refuse(db, std::string("the run registry cannot be used: ") + error.what());
+  }
+}
+
+template <class... Values>
+void insert(SQLite::Database& database, const char* sql, const Values&... values) {
+  SQLite::Statement statement(database, sql);
+  int column = 0;
+  (statement.bind(++column, values), ...);
+  statement.exec();
+}
+
+void insert_files(SQLite::Database& database, const char* table, std::int64_t run_id,
+                  const std::vector<RunFile>& files) {
+  for (const RunFile& file : files) {
+    insert(database, "INSERT OR IGNORE INTO artifact (path, sha256, bytes) VALUES (?, ?, ?)",
+           file.path, file.sha256, file.n_bytes);
+    const std::string link = std::string("INSERT INTO ") + table +
+                             " SELECT ?, id, ? FROM artifact WHERE path = ? AND sha256 = ?";
+    insert(database, link.c_str(), run_id, file.role, file.path, file.sha256);
+  }
+}
+
+constexpr const char* run_columns =
+    "SELECT id, content_id, tool, version, git_commit, command_line, folder, host, cpu, "
+    "process_id, "
+    "started, ended, status, exit_code, cpu_time_s, wall_time_s, peak_memory_kb FROM run ";
+
+RunRecord read_columns(SQLite::Statement& row) {
+  RunRecord run;
+  int i = 0;
+  run.id = row.getColumn(i++).getInt64();
+  for (std::string* field : {&run.content_id, &run.tool, &run.version, &run.git_commit,
+                             &run.command_line, &run.folder, &run.host, &run.cpu})
+    *field = row.getColumn(i++).getString();
+  run.process_id = row.getColumn(i++).getInt();
+  for (std::string* field : {&run.started, &run.ended, &run.status})
+    *field = row.getColumn(i++).getString();
+  run.exit_code = row.getColumn(i++).getInt();
+  run.cpu_time_s = row.getColumn(i++).getDouble();
+  run.wall_time_s = row.getColumn(i++).getDouble();
+  run.peak_memory_kb = row.getColumn(i++).getInt64();
+  return run;
+}
+
+std::vector<RunFile> read_files(SQLite::Database& database, const std::string& table,
+                                std::int64_t run_id) {
+  SQLite::Statement row(database,
+                        "SELECT role, path, sha256, bytes FROM " + table +
+                            " JOIN artifact ON artifact.id = artifact_id WHERE run_id = ? "
+                            "ORDER BY " +
+                            table + ".rowid");
+  row.bind(1, run_id);
+  std::vector<RunFile> files;
+  while (row.executeStep())
+    files.push_back({row.getColumn(0).getString(), row.getColumn(1).getString(),
+                     row.getColumn(2).getString(), row.getColumn(3).getInt64()});
+  return files;
+}
+
+void read_details(SQLite::Database& database, RunRecord& run) {
+  SQLite::Statement param(database, "SELECT key, value, source FROM param WHERE run_id = ?");
+  for (param.bind(1, run.id); param.executeStep();)
+    run.params.push_back({param.getColumn(0).getString(), param.getColumn(1).getString(),
+                          param.getColumn(2).getString()});
+  run.inputs = read_files(database, "run_input", run.id);
+  run.outputs = read_files(database, "run_output", run.id);
+  SQLite::Statement metric(database, "SELECT name, value, unit FROM metric WHERE run_id = ?");
+  for (metric.bind(1, run.id); metric.executeStep();)
+    run.metrics.push_back({metric.getColumn(0).getString(), metric.getColumn(1).getDouble(),
+                           metric.getColumn(2).getString()});
+  SQLite::Statement event(database, "SELECT time_s, level, text FROM event WHERE run_id = ?");
+  for (event.bind(1, run.id); event.executeStep();)
+    run.events.push_back({event.getColumn(0).getDouble(), event.getColumn(1).getString(),
+                          event.getColumn(2).getString()});
+  SQLite::Statement check(database,
+                          "SELECT name, value, \"limit\", pass FROM \"check\" WHERE run_id = ?");
+  for (check.bind(1, run.id); check.executeStep();)
+    run.checks.push_back({check.getColumn(0).getString(), check.getColumn(1).getDouble(),
+                          check.getColumn(2).getDouble(), check.getColumn(3).getInt() != 0});
+}
+
+}  // namespace
+
+std::int64_t start_run(const std::string& db, const RunRecord& run) {
+  return with_registry(db, [&] {
+    SQLite::Database database = open_to_write(db);
+    SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
+    insert(database,
+           "INSERT INTO run (content_id, tool, version, git_commit, command_line, folder, host, "
+           "cpu, process_id, started, ended, status, exit_code, cpu_time_s, wall_time_s, "
+           "peak_memory_kb) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, '', 'running', -1, 0, 0, 0)",
+           run.content_id, run.tool, run.version, run.git_commit, run.command_line, run.folder,
+           run.host, run.cpu, run.process_id, run.started);
+    const std::int64_t id = database.getLastInsertRowid();
+    for (const RunParam& param : run.params)
+      insert(database, "INSERT INTO param VALUES (?, ?, ?, ?)", id, param.key, param.value,
+             param.source);
+    insert_files(database, "run_input", id, run.inputs);
+    transaction.commit();
+    return id;
+  });
+}
+
+void finish_run(const std::string& db, const RunRecord& run) {
+  with_registry(db, [&] {
+    SQLite::Database database = open_to_write(db);
+    SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
+    insert(database,
+           "UPDATE run SET content_id = ?, ended = ?, status = ?, exit_code = ?, cpu_time_s = ?, "
+           "wall_time_s = ?, peak_memory_kb = ? WHERE id = ?",
+           run.content_id, run.ended, run.status, run.exit_code, run.cpu_time_s, run.wall_time_s,
+           run.peak_memory_kb, run.id);
+    insert(database, "DELETE FROM run_input WHERE run_id = ?", run.id);  // the body may add some
+    insert_files(database, "run_input", run.id, run.inputs);
+    insert_files(database, "run_output", run.id, run.outputs);
+    for (const RunMetric& metric : run.metrics)
+      insert(database, "INSERT INTO metric VALUES (?, ?, ?, ?)", run.id, metric.name, metric.value,
+             metric.unit);
+    for (const RunEvent& event : run.events)
+      insert(database, "INSERT INTO event VALUES (?, ?, ?, ?)", run.id, event.time_s, event.level,
+             event.text);
+    for (const RunCheck& check : run.checks)
+      insert(database, "INSERT INTO \"check\" VALUES (?, ?, ?, ?, ?)", run.id, check.name,
+             check.value, check.limit, check.pass ? 1 : 0);
+    transaction.commit();
+  });
+}
+
+std::vector<RunRecord> list_runs(const std::string& db) {
+  return with_registry(db, [&] {
+    SQLite::Database database = open_to_read(db);
+    SQLite::Statement row(database, std::string(run_columns) + "ORDER BY id");
+    std::vector<RunRecord> runs;
+    while (row.executeStep()) runs.push_back(read_columns(row));
+    return runs;
+  });
+}
+
+RunRecord read_run(const std::string& db, const std::string& id) {
+  return with_registry(db, [&] {
+    SQLite::Database database = open_to_read(db);
+    SQLite::Statement row(database, std::string(run_columns) +
+                                        "WHERE CAST(id AS TEXT) = ?1 OR substr(content_id, 1, "
+                                        "length(?1)) = ?1 ORDER BY CAST(id AS TEXT) = ?1 DESC, id "
+                                        "DESC LIMIT 1");
+    row.bind(1, id);
+    if (id.empty() || !row.executeStep())
+      throw InputError({db}, "no run has the id " + id, "talus-runs list shows the ids");
+    RunRecord run = read_columns(row);
+    read_details(database, run);
+    return run;
+  });
+}
+
+std::vector<std::int64_t> runs_that_wrote(const std::string& db, const std::string& sha256) {
+  return with_registry(db, [&] {
+    SQLite::Database database = open_to_read(db);
+    SQLite::Statement row(database,
+                          "SELECT DISTINCT run_id FROM run_output JOIN artifact ON artifact.id = "
+                          "artifact_id WHERE sha256 = ? ORDER BY run_id DESC");
+    row.bind(1, sha256);
+    std::vector<std::int64_t> ids;
+    while (row.executeStep()) ids.push_back(row.getColumn(0).getInt64());
+    return ids;
+  });
+}
+
+}  // namespace talus

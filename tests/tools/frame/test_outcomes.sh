@@ -1,0 +1,50 @@
+# Every way to end gives its exit code, its words, and either whole outputs or none.
+printf 'hello' >in.txt
+
+expect 0 frame-probe in.txt -o out.txt --second two.txt
+prints copied
+says "frame-probe: warning: a warning"
+cmp -s in.txt out.txt && cmp -s in.txt two.txt || fail "the copies differ"
+nothing_left
+
+expect 1 frame-probe in.txt -o out.txt
+says "out.txt: exists already"
+says "hint: give --overwrite to replace it"
+expect 0 frame-probe in.txt -o out.txt --overwrite
+expect 0 frame-probe in.txt -o out.txt -overwrite -q
+[ ! -s out ] || fail "-q prints"
+
+expect 1 frame-probe absent.txt -o new.txt
+says "frame-probe: absent.txt: there is no such file"
+expect 1 frame-probe in.txt -o in.txt --overwrite
+says "is both an input and an output"
+expect 1 frame-probe in.txt -o new.txt --second new.txt
+says "is named for two outputs"
+expect 1 frame-probe in.txt -o no/such/folder/new.txt
+says "there is no such folder"
+expect 1 frame-probe in.txt -o new.txt --mode refuse
+says "frame-probe: in.txt:3: found a, expected b"
+says "  hint: write b"
+expect 3 frame-probe in.txt -o new.txt --mode fail
+says "the energy grew"
+expect 1 frame-probe in.txt -o new.txt --mode throw
+says "unexpected: a surprise"
+expect 2 frame-probe in.txt
+expect 2 frame-probe in.txt -o new.txt --factor-m metres
+expect 2 frame-probe in.txt -o new.txt --colour red
+nothing_left new.txt
+
+# A broken limit of the run's health: the file is kept, the code says so.
+expect 3 frame-probe in.txt -o kept.txt --mode check
+says "health: largest_penetration_m is 2, limit 1"
+[ -s kept.txt ] || fail "the output of a run with a broken limit must be kept"
+
+# Interrupted: 130, nothing left.
+frame-probe in.txt -o new.txt --mode wait 2>err &
+process=$!
+sleep 1
+kill -INT "$process" 2>/dev/null || kill -TERM "$process"
+code=0
+wait "$process" || code=$?
+case $code in 130) ;; *) kill -TERM "$process" 2>/dev/null; fail "an interrupt gave exit code $code" ;; esac
+nothing_left new.txt

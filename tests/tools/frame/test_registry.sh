@@ -1,0 +1,39 @@
+# What was run, with what, and how it ended, stands in the registry; and odd names hurt nobody.
+printf 'hello' >"it's a \"file\" ü.txt"
+expect 0 frame-probe "it's a \"file\" ü.txt" -o out.txt --factor-m 2 --json
+id=$(sed -n 's/.*"run_id": "\(.*\)".*/\1/p' out)
+[ "${#id}" -eq 16 ] || fail "no run id in: $(cat out)"
+expect 3 frame-probe out.txt -o two.txt --mode fail
+expect 0 frame-probe out.txt -o two.txt
+
+expect 0 talus-runs list
+prints "$id"
+prints failed
+expect 0 talus-runs show 1 --json
+prints '"sha256": "2cf24dba5fb0a30e26e83b2ac5b9e29e1b161e5c1fa7425e73043362938b9824"'
+prints '"text": "a warning"'
+expect 0 talus-runs show "$id"
+prints "param        factor-m = 2  (cli)"
+prints "param        mode = copy  (default)"
+expect 0 talus-runs trace two.txt
+prints "by run 3: frame-probe out.txt -o two.txt"
+prints "it's a"
+expect 1 talus-runs trace err
+says "no run in runs.sqlite wrote a file with this content"
+expect 1 talus-runs show 99
+expect 1 talus-runs list --db absent.sqlite
+printf 'not a database' >broken.sqlite
+expect 1 talus-runs list --db broken.sqlite
+says "broken.sqlite"
+expect 1 frame-probe out.txt -o three.txt --db broken.sqlite
+says "hint: name another registry with --db, or run with --no-db"
+nothing_left three.txt
+
+# The id depends on content and options, not on names or on how often it was run.
+mkdir elsewhere
+cp "it's a \"file\" ü.txt" elsewhere/plain.txt
+expect 0 frame-probe elsewhere/plain.txt -o elsewhere/out.txt --factor-m 2 --json --no-db
+prints "$id"
+[ ! -e elsewhere/runs.sqlite ] || fail "--no-db wrote a registry"
+expect 0 frame-probe elsewhere/plain.txt -o elsewhere/out.txt --factor-m 3 --json --overwrite
+if grep -q "$id" out; then fail "the id does not depend on the options"; fi
