@@ -23,7 +23,7 @@ void ErrorCollector::add(const Trn& trn, double x, double y, double truth) {
     return;
   }
   errors_.push_back(error);
-  if (std::abs(error) <= std::abs(largest_)) return;
+  if (errors_.size() > 1 && std::abs(error) <= std::abs(largest_)) return;
   largest_ = error;
   largest_at_ = {x, y};
 }
