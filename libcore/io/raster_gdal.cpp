@@ -90,21 +90,10 @@ GridFrame frame_of_raster(GDALDataset& dataset, const std::string& path) {
   return {n_rows, n_cols, width, {g[0] + 0.5 * width, g[3] - 0.5 * width}};
 }
 
-std::string crs_of(GDALDataset& dataset) {
-  const OGRSpatialReference* srs = dataset.GetSpatialRef();
-  if (!srs || srs->IsEmpty()) return {};
-  char* wkt = nullptr;
-  const char* const options[] = {"FORMAT=WKT2_2019", nullptr};
-  srs->exportToWkt(&wkt, options);
-  std::string copied(wkt ? wkt : "");
-  CPLFree(wkt);
-  return copied;
-}
-
 // The file's CRS, or the one that the user gives for a file without.
 std::string effective_crs(GDALDataset& dataset, const std::string& path,
                           const DemOptions& options) {
-  const std::string own = crs_of(dataset);
+  const std::string own = wkt_of(dataset.GetSpatialRef());
   if (!own.empty()) {
     if (options.crs_given && !same_crs(own, options.crs))
       throw InputError({path}, "the CRS is " + crs_name(own) + ", not " + crs_name(options.crs),

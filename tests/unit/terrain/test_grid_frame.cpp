@@ -57,6 +57,41 @@ TEST(GridFrame, PartsKeepTheLatticeAndCoverTheWindow) {
   EXPECT_EQ(all.n_cols, 80);
 }
 
+TEST(FrameOnDem, TakesTheDemsOwnNodesForItsOwnCellSize) {
+  const GridFrame dem{146, 172, 4.997678230579, {248362.7612662384, 351760.3630344}};
+  const MapWindow everywhere{-1e9, -1e9, 1e9, 1e9};
+  for (const double size : {0.0, 4.997678230579, 4.99768, 4.9977}) {
+    const GridFrame frame = talus::frame_on_dem(dem, size, everywhere);
+    EXPECT_EQ(frame.cell_size, dem.cell_size);
+    EXPECT_EQ(frame.north_west, dem.north_west);
+    EXPECT_EQ(frame.n_rows, 146);
+    EXPECT_EQ(frame.n_cols, 172);
+  }
+  EXPECT_EQ(talus::frame_on_dem(dem, 5, everywhere).cell_size, 5);
+}
+
+// The square of every node lies on the cells of the DEM, and there is no room for another row.
+TEST(FrameOnDem, UsesTheDemUpToItsBorder) {
+  const GridFrame dem{40, 60, 2.5, {1001.25, 8998.75}};  // cells over 1000..1150, 8900..9000
+  const MapWindow everywhere{-1e9, -1e9, 1e9, 1e9};
+  for (const double size : {1.0, 2.0, 3.0, 5.0, 10.0, 12.5}) {
+    const MapWindow nodes = talus::extent(talus::frame_on_dem(dem, size, everywhere));
+    const double half = std::max(size, 2.5) / 2;
+    EXPECT_GE(nodes.x_min - half, 1000);
+    EXPECT_LT(nodes.x_min - half, 1000 + size);
+    EXPECT_LE(nodes.x_max + half, 1150);
+    EXPECT_GT(nodes.x_max + half, 1150 - size);
+    EXPECT_GE(nodes.y_min - half, 8900);
+    EXPECT_LE(nodes.y_max + half, 9000);
+  }
+  const MapWindow part = talus::extent(talus::frame_on_dem(dem, 10, {1044, 8931, 1071, 8969}));
+  EXPECT_EQ(part.x_min, 1040);
+  EXPECT_EQ(part.x_max, 1080);
+  EXPECT_EQ(part.y_min, 8930);
+  EXPECT_EQ(part.y_max, 8970);
+  EXPECT_TRUE(talus::frame_on_dem(dem, 10, {2000, 8931, 2071, 8969}).empty());
+}
+
 TEST(GridFrame, TooManyNodesAreRefused) {
   EXPECT_THROW(static_cast<void>(talus::frame_inside({0, 0, 1e6, 1e6}, 0.01)), talus::InputError);
   EXPECT_TRUE(talus::frame_inside({0.1, 0.1, 0.9, 0.9}, 1).empty());
