@@ -1,6 +1,7 @@
 // libcore/geometry/orient2d.hpp
 // On which side of a line a point lies, without rounding errors. Decides where lines of a map meet.
-// Source: J. R. Shewchuk (1997), Adaptive precision floating-point arithmetic, Discrete Comput. Geom. 18.
+// Source: J. R. Shewchuk (1997), Adaptive precision floating-point arithmetic, Discrete Comput.
+// Geom. 18.
 #pragma once
 
 #include "base/types.hpp"

@@ -41,7 +41,8 @@ void lay_out(const std::vector<Vec2>& points, const std::vector<Segment>& segmen
 // Calls visit(cell) for every cell that segment a, b may pass through, row by row.
 template <class Visit>
 void for_each_cell(const SegmentGrid& grid, Vec2 a, Vec2 b, const Visit& visit) {
-  constexpr double slack = 1e-6;  // of a cell: a neighbour too many costs time, one too few a crossing
+  constexpr double slack =
+      1e-6;  // of a cell: a neighbour too many costs time, one too few a crossing
   a = (a - grid.low) / grid.cell_size;
   b = (b - grid.low) / grid.cell_size;
   if (a.y() > b.y()) std::swap(a, b);

@@ -51,8 +51,9 @@ class HeightJudge {
     if (n_conflicts_ == 0) return;
     const std::string more =
         n_conflicts_ > 1 ? ", and so in " + std::to_string(n_conflicts_ - 1) + " more places" : "";
-    throw InputError({map_.source}, first_ + more + "; expected lines of different height to stay apart",
-                     "mend the lines at the place named, or take wrong ones out with ogr2ogr -where");
+    throw InputError(
+        {map_.source}, first_ + more + "; expected lines of different height to stay apart",
+        "mend the lines at the place named, or take wrong ones out with ogr2ogr -where");
   }
 
  private:
@@ -220,8 +221,8 @@ class Splitter {
     const Segment& s = network_.segments[index(crossing.first)];
     const Segment& t = network_.segments[index(crossing.second)];
     const Vec2 a = plan(network_.points[index(s.a)]), b = plan(network_.points[index(s.b)]);
-    const double share = crossing_share(a, b, plan(network_.points[index(t.a)]),
-                                        plan(network_.points[index(t.b)]));
+    const double share =
+        crossing_share(a, b, plan(network_.points[index(t.a)]), plan(network_.points[index(t.b)]));
     const Vec2 place = a + share * (b - a);
     const double share_t = share_along(network_, t, place);
     const double height_s = height_along(network_, s, share);
@@ -318,6 +319,38 @@ double contour_interval(const ContourMap& map) {
   return *middle;
 }
 
+std::vector<Vec3> hold_back_contours(int every, ContourMap& map) {
+  TALUS_ASSERT(every >= 2);
+  const std::vector<double> levels = contour_levels(map);
+  std::vector<Vec3> held_back;
+  Polylines kept;
+  for (int l = 0; l < map.contours.n_lines(); ++l) {
+    const auto begin = map.contours.points.begin() + map.contours.begin[index(l)];
+    const auto end = map.contours.points.begin() + map.contours.begin[index(l) + 1];
+    const auto level = std::lower_bound(levels.begin(), levels.end(), begin->z() - same_height_m);
+    const bool takes_out =
+        level + 1 < levels.end() && (level - levels.begin()) % every == every - 1;
+    std::vector<Vec3>& to = takes_out ? held_back : kept.points;
+    to.insert(to.end(), begin, end);
+    if (takes_out) continue;
+    kept.begin.push_back(static_cast<int>(kept.points.size()));
+    kept.feature.push_back(map.contours.feature[index(l)]);
+  }
+  map.contours = std::move(kept);
+  return held_back;
+}
+
+void check_heights(const ContourMap& map) {
+  const std::vector<double> levels = contour_levels(map);
+  if (levels.size() >= 2) return;
+  const std::string lines = map.contours.n_lines() == 1 ? "there is one contour only, at "
+                                                        : "all contours stand at one height, ";
+  throw InputError({map.source},
+                   lines + text(levels.front() + map.origin.z(), 8) +
+                       " m, expected contours at two heights at least",
+                   "choose the field that holds the elevation with --elevation-field");
+}
+
 CleanLines clean_lines(const ContourMap& map) {
   CleaningCounts counts;
   HeightJudge judge(map, contour_interval(map));
@@ -329,9 +362,10 @@ CleanLines clean_lines(const ContourMap& map) {
     if (!split_where_lines_meet(map, network, judge, counts))
       return contours_first(network, counts);
   }
-  throw InputError({map.source}, "lines still cross each other after " +
-                                     std::to_string(max_rounds) + " rounds of splitting",
-                   "simplify the lines, e.g. with ogr2ogr -simplify");
+  throw InputError(
+      {map.source},
+      "lines still cross each other after " + std::to_string(max_rounds) + " rounds of splitting",
+      "simplify the lines, e.g. with ogr2ogr -simplify");
 }
 
 }  // namespace talus

@@ -1,5 +1,6 @@
 #include "terrain/flat.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -18,7 +19,8 @@ constexpr double spacing_in_segments = 1.5;
 constexpr double most_nodes = 4e7;
 constexpr int fewest_nodes = 4;  // a flat region of fewer is narrower than the lattice can show
 constexpr double nearest_in_spacings = 0.35;  // nodes nearer to a line would make slivers
-constexpr double full_density_in_spacings = 3;  // all nodes up to here, then every second, fourth ...
+constexpr double full_density_in_spacings =
+    3;  // all nodes up to here, then every second, fourth ...
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
@@ -114,10 +116,11 @@ PlateProblem pose_problem(const TriangleMesh& mesh, const Lattice& lattice,
   problem.n_x = lattice.n_x;
   problem.n_y = lattice.n_y;
   problem.node.resize(lattice.size());
-  std::transform(lattice.triangle.begin(), lattice.triangle.end(), problem.node.begin(), [&](int t) {
-    if (t < 0) return Role::outside;
-    return part[index(t)] == Part::kept ? Role::known : Role::free;
-  });
+  std::transform(lattice.triangle.begin(), lattice.triangle.end(), problem.node.begin(),
+                 [&](int t) {
+                   if (t < 0) return Role::outside;
+                   return part[index(t)] == Part::kept ? Role::known : Role::free;
+                 });
   problem.tension = tension(mesh, lattice, part, interval);
   problem.anchors.reserve(on_lines.size());
   for (const Vec3& p : on_lines)
@@ -210,9 +213,8 @@ MendingPoints mend_flat_triangles(const TriangleMesh& mesh, MeasuredPoints measu
   const auto height_of = [&](std::size_t node) {
     return height_in_triangle(mesh, lattice.triangle[node], lattice.place(node));
   };
-  const PlateSolution plate =
-      solve_plate(pose_problem(mesh, lattice, part, on_lines, mending.contour_interval), height_of,
-                  progress);
+  const PlateSolution plate = solve_plate(
+      pose_problem(mesh, lattice, part, on_lines, mending.contour_interval), height_of, progress);
   mended.n_unknowns = static_cast<int>(plate.height.size());
   mended.n_regions = plate.n_regions;
   mended.n_unsolved = plate.n_unsolved;
@@ -223,8 +225,7 @@ MendingPoints mend_flat_triangles(const TriangleMesh& mesh, MeasuredPoints measu
     if (t < 0 || part[index(t)] == Part::kept) continue;
     const double solved = plate.height[unknown++];
     if (!std::isfinite(solved) || !is_wanted(node, lattice, distance[node])) continue;
-    const double height =
-        bounded_height(mesh, t, part[index(t)], solved, mending.contour_interval);
+    const double height = bounded_height(mesh, t, part[index(t)], solved, mending.contour_interval);
     mended.largest_change = std::max(mended.largest_change, std::abs(height - height_of(node)));
     mended.points.emplace_back(lattice.place(node).x(), lattice.place(node).y(), height);
   }

@@ -51,15 +51,15 @@ struct MendingPoints {
 /// Points with heights that mend the flat triangles: a plate under tension through the contours,
 /// over the flat triangles and over the triangles that share with them a level edge that is no
 /// contour. The tension grows with the slope s of the ground around as (s / interval)^2: a slope
-/// dies out within the distance in which it would reach the next contour, which is not there. Heights
-/// stay strictly within half an interval of a flat triangle, and between the heights of the corners of
-/// another one, so no point passes the next contour.
+/// dies out within the distance in which it would reach the next contour, which is not there.
+/// Heights stay strictly within half an interval of a flat triangle, and between the heights of the
+/// corners of another one, so no point passes the next contour.
 [[nodiscard]] MendingPoints mend_flat_triangles(const TriangleMesh& mesh, MeasuredPoints measured,
                                                 const FlatMending& mending,
                                                 const ProgressFunction& progress = {});
 
-/// `value` where it is well inside low..high, bent towards the nearer bound over the outer fifths so
-/// that it never reaches it: monotone, with a continuous slope.
+/// `value` where it is well inside low..high, bent towards the nearer bound over the outer fifths
+/// so that it never reaches it: monotone, with a continuous slope.
 [[nodiscard]] double bend_into(double value, double low, double high);
 
 }  // namespace talus

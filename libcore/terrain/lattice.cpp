@@ -42,7 +42,8 @@ void scan_triangle(const TriangleMesh& mesh, int t, Lattice& lattice) {
     }
     const int first = static_cast<int>(std::ceil((x_low - lattice.low.x()) / lattice.spacing));
     const int last = static_cast<int>(std::floor((x_high - lattice.low.x()) / lattice.spacing));
-    for (int i = first; i <= last; ++i) lattice.triangle[index(row) * index(lattice.n_x) + index(i)] = t;
+    for (int i = first; i <= last; ++i)
+      lattice.triangle[index(row) * index(lattice.n_x) + index(i)] = t;
   }
 }
 
@@ -51,7 +52,9 @@ void sweep(const Lattice& lattice, bool backwards, std::vector<float>& distance)
   const auto straight = static_cast<float>(lattice.spacing);
   const float diagonal = straight * std::sqrt(2.0F);
   const int n_x = lattice.n_x, n_y = lattice.n_y, step = backwards ? 1 : -1;
-  const auto at = [&](int i, int j) -> float& { return distance[index(j) * index(n_x) + index(i)]; };
+  const auto at = [&](int i, int j) -> float& {
+    return distance[index(j) * index(n_x) + index(i)];
+  };
   for (int j_count = 0; j_count < n_y; ++j_count) {
     const int j = backwards ? n_y - 1 - j_count : j_count;
     const bool has_row = j + step >= 0 && j + step < n_y;
@@ -88,11 +91,14 @@ void coarsen(int n_x, int n_y, const std::vector<float>& values,
     if (coarse_known[parent] > 0) coarse[parent] /= static_cast<float>(coarse_known[parent]);
 }
 
-// Bilinear value of the coarse lattice at fine node (i, j), whose parent's centre is half a node off.
+// Bilinear value of the coarse lattice at fine node (i, j), whose parent's centre is half a node
+// off.
 float interpolate(const std::vector<float>& coarse, int n_x, int n_y, int i, int j) {
   const auto [i0, i1] = std::pair(i / 2, std::clamp(i / 2 + (i % 2 == 0 ? -1 : 1), 0, n_x - 1));
   const auto [j0, j1] = std::pair(j / 2, std::clamp(j / 2 + (j % 2 == 0 ? -1 : 1), 0, n_y - 1));
-  const auto at = [&](int column, int row) { return coarse[index(row) * index(n_x) + index(column)]; };
+  const auto at = [&](int column, int row) {
+    return coarse[index(row) * index(n_x) + index(column)];
+  };
   return 0.5625F * at(i0, j0) + 0.1875F * (at(i1, j0) + at(i0, j1)) + 0.0625F * at(i1, j1);
 }
 
@@ -141,7 +147,8 @@ std::vector<float> distance_to_points(const Lattice& lattice, const std::vector<
   std::vector<float> distance(lattice.size(), std::numeric_limits<float>::infinity());
   for (const Vec3& point : points) {
     const Vec2 at = (point.head<2>() - lattice.low) / lattice.spacing;
-    const int i_near = static_cast<int>(std::floor(at.x())), j_near = static_cast<int>(std::floor(at.y()));
+    const int i_near = static_cast<int>(std::floor(at.x())),
+              j_near = static_cast<int>(std::floor(at.y()));
     for (int j = std::max(j_near - 1, 0); j <= std::min(j_near + 2, lattice.n_y - 1); ++j)
       for (int i = std::max(i_near - 1, 0); i <= std::min(i_near + 2, lattice.n_x - 1); ++i) {
         float& nearest = distance[index(j) * index(lattice.n_x) + index(i)];

@@ -39,8 +39,8 @@ struct Lattice {
 [[nodiscard]] std::vector<float> distance_to_points(const Lattice& lattice,
                                                     const std::vector<Vec3>& points);
 
-/// Gives every node where known[node] == 0 a smooth mean of the known values around it, by averaging
-/// to ever coarser lattices and interpolating back. All zero when nothing is known.
+/// Gives every node where known[node] == 0 a smooth mean of the known values around it, by
+/// averaging to ever coarser lattices and interpolating back. All zero when nothing is known.
 void spread_values(int n_x, int n_y, std::vector<float>& values, std::vector<std::uint8_t> known);
 
 }  // namespace talus

@@ -143,9 +143,9 @@ class NormalEquations {
   const PlateProblem& problem_;
   const std::function<double(std::size_t)>& height_of_;
   int n_unknowns_ = 0;
-  std::vector<int> unknown_;                    // of each node, -1 when it is not free
-  std::vector<std::size_t> node_of_;            // of each unknown
-  std::vector<std::array<double, 7>> rows_;     // of K, by lower_neighbors
+  std::vector<int> unknown_;                 // of each node, -1 when it is not free
+  std::vector<std::size_t> node_of_;         // of each unknown
+  std::vector<std::array<double, 7>> rows_;  // of K, by lower_neighbors
   std::vector<double> right_;
 };
 

@@ -22,10 +22,10 @@ namespace talus {
 struct PlateProblem {
   enum class Node : std::uint8_t { outside, known, free };
   int n_x = 0, n_y = 0;
-  std::vector<Node> node;          ///< role of each node                          (n_x * n_y)
-  std::vector<float> tension;      ///< tau at each node, >= 0 [-]                 (n_x * n_y)
-  std::vector<Vec3> anchors;       ///< x, y in nodes from node (0, 0); height [m]
-  double anchor_weight = 100;      ///< w [-]
+  std::vector<Node> node;      ///< role of each node                          (n_x * n_y)
+  std::vector<float> tension;  ///< tau at each node, >= 0 [-]                 (n_x * n_y)
+  std::vector<Vec3> anchors;   ///< x, y in nodes from node (0, 0); height [m]
+  double anchor_weight = 100;  ///< w [-]
 };
 
 /// Heights of the free nodes in the order of their numbers [m].

@@ -18,10 +18,12 @@ namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 // The number of the point, and of the triangle in the mesh written last.
 using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<int, Kernel>;
-using FaceBase = CGAL::Triangulation_face_base_with_info_2<
-    int, Kernel, CGAL::Constrained_triangulation_face_base_2<Kernel>>;
+using FaceBase =
+    CGAL::Triangulation_face_base_with_info_2<int, Kernel,
+                                              CGAL::Constrained_triangulation_face_base_2<Kernel>>;
 using Structure = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
-// Crossing segments have been refused with their place before; here they must not be joined silently.
+// Crossing segments have been refused with their place before; here they must not be joined
+// silently.
 using Crossings = CGAL::No_constraint_intersection_requiring_constructions_tag;
 using Delaunay = CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure, Crossings>;
 
@@ -71,7 +73,8 @@ Triangulation::Triangulation(std::vector<Vec3> points,
   impl_->points = std::move(points);
   impl_->insert_points();
   if (impl_->delaunay.dimension() < 2)
-    throw InputError({source}, "all points stand on one straight line, expected lines that span an area",
+    throw InputError({source},
+                     "all points stand on one straight line, expected lines that span an area",
                      "give the contours of the whole slope");
   try {
     impl_->insert_segments(segments);
