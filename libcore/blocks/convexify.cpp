@@ -5,8 +5,11 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "blocks/block_set.hpp"
+#include "blocks/cut.hpp"
+#include "blocks/solid.hpp"
 
 namespace talus {
 namespace {
@@ -179,35 +182,168 @@ Polyhedron cut_to_volume(const Polyhedron& body, const Vec3& normal, double low,
   return below((low + high) / 2);
 }
 
+// What the cells of a block say about its shape.
+struct RockShape {
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity());
+  Vec3 high = -low;
+  Vec3 terrain_normal = Vec3::Zero();  // upward, mean; zero when the block has no such face
+  Vec3 bed_normal = Vec3::Zero();
+};
+
+Vec3 upward_unit(Vec3 sum, double size) {
+  if (sum.norm() < 1e-12 * size * size) return Vec3::Zero();
+  return sum.z() < 0 ? Vec3(-sum.normalized()) : Vec3(sum.normalized());
+}
+
+RockShape shape_of(const std::vector<Polyhedron>& cells) {
+  RockShape shape;
+  Vec3 terrain = Vec3::Zero(), failure = Vec3::Zero();
+  for (const Polyhedron& cell : cells) {
+    for (const Vec3& v : cell.vertices)
+      shape.low = shape.low.cwiseMin(v), shape.high = shape.high.cwiseMax(v);
+    for (int f = 0; f < n_faces(cell); ++f) {
+      if (cell.face_tag[f] == cut_terrain) terrain += face_area_vector(cell, f);
+      if (cell.face_tag[f] == cut_failure) failure += face_area_vector(cell, f);
+    }
+  }
+  const double size = (shape.high - shape.low).norm();
+  shape.terrain_normal = upward_unit(terrain, size);
+  shape.bed_normal = upward_unit(failure, size);
+  return shape;
+}
+
+double largest_along(const std::vector<Polyhedron>& cells, const Vec3& direction) {
+  double largest = -std::numeric_limits<double>::infinity();
+  for (const Polyhedron& cell : cells) largest = std::max(largest, largest_along(cell, direction));
+  return largest;
+}
+
+// The part of a task on the inside of a plane.
+ConvexTask part_of(const ConvexTask& task, const Plane& plane, double tolerance) {
+  ConvexTask part;
+  part.room = clip_convex(task.room, plane, face_internal, tolerance);
+  double whole = 0;
+  for (const Polyhedron& cell : task.cells) {
+    Polyhedron clipped = clip_convex(cell, plane, cut_wall, tolerance);
+    whole += volume_of(cell);
+    if (n_faces(clipped) == 0) continue;
+    part.volume += volume_of(clipped);
+    part.cells.push_back(std::move(clipped));
+  }
+  // What was given to the block by its neighbours is shared out by volume.
+  if (whole > 0) part.volume *= task.volume / whole;
+  return part;
+}
+
 }  // namespace
 
-Polyhedron made_convex(const ConvexTask& task, const Trn& bed, double tolerance_m) {
-  const bool has_top = task.terrain_normal.squaredNorm() > 0;
-  const bool has_bed = task.bed_normal.squaredNorm() > 0;
+Polyhedron made_convex(const ConvexTask& task, const Trn& bed, const ConvexOptions& options) {
+  const double tolerance = options.tolerance_m;
+  const RockShape shape = shape_of(task.cells);
+  const bool has_top = shape.terrain_normal.squaredNorm() > 0;
+  const bool has_bed = shape.bed_normal.squaredNorm() > 0;
   Polyhedron room = task.room;
-  const std::array<Plane, 4> box_sides = {{{-Vec3::UnitX(), -task.low.x()},
-                                           {Vec3::UnitX(), task.high.x()},
-                                           {-Vec3::UnitY(), -task.low.y()},
-                                           {Vec3::UnitY(), task.high.y()}}};
-  if (has_top)
-    for (const Plane& side : box_sides)
-      if (n_faces(room) > 0) room = clip_convex(room, side, face_terrain, tolerance_m);
+  const std::array<Plane, 4> box_sides = {{{-Vec3::UnitX(), -shape.low.x()},
+                                           {Vec3::UnitX(), shape.high.x()},
+                                           {-Vec3::UnitY(), -shape.low.y()},
+                                           {Vec3::UnitY(), shape.high.y()}}};
+  // The joint cell may reach beyond the rock, even beyond the terrain: the block does not.
+  for (const Plane& side : box_sides)
+    if (n_faces(room) > 0) room = clip_convex(room, side, face_terrain, tolerance);
   if (n_faces(room) == 0) return {};
-  const Vec3 up = has_bed ? task.bed_normal : task.terrain_normal;
-  if (!has_top) return has_bed ? raised_off(room, bed, up, tolerance_m) : room;
+  const auto cleaned = [&](const Polyhedron& body) {
+    return without_short_edges(body, options.shortest_edge * std::cbrt(task.volume));
+  };
+  const Vec3 up = has_bed ? shape.bed_normal : shape.terrain_normal;
+  if (!has_top) return cleaned(has_bed ? raised_off(room, bed, up, tolerance) : room);
 
   // First with the top where it was; only when that is too little, with a higher one.
+  const double support = largest_along(task.cells, shape.terrain_normal);
+  const double height = support + largest_along(task.cells, -shape.terrain_normal);
   for (const double rise : {0.0, 0.25, 1.0}) {
-    const double top = task.terrain_support + rise * task.height;
+    const double top = support + rise * height;
     const Polyhedron below =
-        clip_convex(room, {task.terrain_normal, top}, face_terrain, tolerance_m);
-    const Polyhedron body = raised_off(below, bed, up, tolerance_m);
+        clip_convex(room, {shape.terrain_normal, top}, face_terrain, tolerance);
+    const Polyhedron body = raised_off(below, bed, up, tolerance);
     if (n_faces(body) == 0) continue;
     if (volume_of(body) < task.volume && rise < 1) continue;
-    return cut_to_volume(body, task.terrain_normal, -largest_along(body, -task.terrain_normal), top,
-                         task.volume, tolerance_m);
+    return cleaned(cut_to_volume(body, shape.terrain_normal,
+                                 -largest_along(body, -shape.terrain_normal), top, task.volume,
+                                 tolerance));
   }
   return {};
+}
+
+std::vector<Polyhedron> made_convex_parts(const ConvexTask& task, const Trn& bed,
+                                          const ConvexOptions& options) {
+  struct Part {
+    ConvexTask task;
+    Polyhedron body;
+    [[nodiscard]] double missing() const { return task.volume - volume_of(body); }
+  };
+  std::vector<Part> parts = {{task, made_convex(task, bed, options)}};
+  const auto missing = [&] {
+    double sum = 0;
+    for (const Part& part : parts) sum += std::abs(part.missing());
+    return sum;
+  };
+  // The part that misses most is divided across the direction that then misses least.
+  while (missing() > options.max_loss * task.volume) {
+    if (parts.size() == 4) return {};
+    const auto worst =
+        std::max_element(parts.begin(), parts.end(),
+                         [](const Part& a, const Part& b) { return a.missing() < b.missing(); });
+    Moments sum;
+    for (const Polyhedron& cell : worst->task.cells) sum = joined(sum, moments(cell));
+    std::array<Part, 2> best;
+    double least = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < 4; ++k) {
+      const double angle = k * std::numbers::pi / 4;
+      const Plane plane = plane_through(sum.centroid, Vec3(std::cos(angle), std::sin(angle), 0));
+      std::array<Part, 2> halves;
+      halves[0].task = part_of(worst->task, plane, options.tolerance_m);
+      halves[1].task = part_of(worst->task, flipped(plane), options.tolerance_m);
+      double lost = 0;
+      for (Part& half : halves) {
+        if (half.task.volume > 0) half.body = made_convex(half.task, bed, options);
+        lost += half.missing();
+      }
+      if (lost < least) least = lost, best = std::move(halves);
+    }
+    if (!(least < worst->missing())) return {};
+    *worst = std::move(best[0]);
+    parts.push_back(std::move(best[1]));
+  }
+  std::vector<Polyhedron> bodies;
+  for (Part& part : parts)
+    if (n_faces(part.body) > 0) bodies.push_back(std::move(part.body));
+  return bodies;
+}
+
+Polyhedron without_short_edges(const Polyhedron& body, double shortest) {
+  if (n_faces(body) == 0 || talus::shortest_edge(body) >= shortest) return body;
+  std::vector<Vec3> kept;
+  for (const Vec3& v : body.vertices) {
+    const bool is_apart = std::all_of(kept.begin(), kept.end(), [&](const Vec3& k) {
+      return (k - v).squaredNorm() >= shortest * shortest;
+    });
+    if (is_apart) kept.push_back(v);
+  }
+  Polyhedron hull = convex_hull(kept, 0);
+  if (n_faces(hull) == 0) return body;
+  // Each new face takes the tag of the old one that it lies along best.
+  std::vector<Vec3> normals;
+  for (int f = 0; f < n_faces(body); ++f) normals.push_back(face_normal(body, f));
+  for (int f = 0; f < n_faces(hull); ++f) {
+    const Vec3 normal = face_normal(hull, f);
+    const auto along = [&](const Vec3& a, const Vec3& b) { return a.dot(normal) < b.dot(normal); };
+    const auto best = std::max_element(normals.begin(), normals.end(), along);
+    hull.face_tag[f] = body.face_tag[static_cast<size_t>(best - normals.begin())];
+  }
+  hull = with_joined_faces(hull);
+  const bool is_sound =
+      check_surface(hull).fault == SurfaceFault::none && volume_of(hull) >= 0.99 * volume_of(body);
+  return is_sound ? hull : body;
 }
 
 }  // namespace talus
