@@ -344,7 +344,7 @@ class Assembler {
     ConvexOptions options;
     options.max_loss = options_.max_convex_loss;
     options.tolerance_m = tolerance_;
-    options.shortest_edge = options_.shortest_edge;
+    options.min_edge = options_.min_edge < 0 ? 1e-3 * std::cbrt(volume) : options_.min_edge;
     std::vector<Polyhedron> parts = made_convex_parts(task, bed_, options);
     const bool all_sound = std::all_of(parts.begin(), parts.end(), [](const Polyhedron& part) {
       return check_surface(part).fault == SurfaceFault::none;

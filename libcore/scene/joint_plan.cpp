@@ -201,6 +201,7 @@ AssembleOptions plan_limits(const Site& site, const std::vector<PlannedSet>& set
   options.min_thickness = !std::isnan(source.min_block_thickness_m) ? source.min_block_thickness_m
                           : std::isfinite(smallest)                 ? 0.05 * smallest
                                                                     : 0;
+  if (!std::isnan(source.min_block_edge_m)) options.min_edge = source.min_block_edge_m;
   options.max_aspect = source.max_block_aspect;
   options.max_convex_loss = source.max_convex_loss;
   options.material = material_index(site, source.material);
