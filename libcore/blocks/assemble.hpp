@@ -48,7 +48,4 @@ struct AssembleReport {
                                              const AssembleOptions& options, BlockSet& set,
                                              const ProgressFunction& progress = {});
 
-/// Extents of the box with the same second moments, largest first [m].
-[[nodiscard]] Vec3 extents(const Moments& moments);
-
 }  // namespace talus

@@ -1,5 +1,3 @@
-#include "blocks/convexify.hpp"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -8,6 +6,7 @@
 #include <numbers>
 
 #include "blocks/block_set.hpp"
+#include "blocks/convexify.hpp"
 #include "blocks/cut.hpp"
 #include "blocks/solid.hpp"
 
