@@ -352,7 +352,7 @@ Polyhedron without_short_edges(const Polyhedron& body, double shortest, double m
     const auto best = std::max_element(normals.begin(), normals.end(), along);
     hull.face_tag[f] = body.face_tag[static_cast<size_t>(best - normals.begin())];
   }
-  hull = with_joined_faces(hull);
+  hull = in_standard_order(with_joined_faces(hull));
   const bool is_sound = check_surface(hull).fault == SurfaceFault::none &&
                         volume_of(hull) >= (1 - max_loss) * volume_of(body);
   return is_sound ? hull : body;

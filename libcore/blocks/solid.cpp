@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "base/text.hpp"
 #include "geometry/triangulate.hpp"
@@ -176,6 +177,31 @@ void name_part_faces(std::vector<Polyhedron>& parts, const Polyhedron& body, dou
 }
 
 }  // namespace
+
+Polyhedron in_standard_order(const Polyhedron& body) {
+  std::vector<int> order(body.vertices.size()), place(order.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto key = [&](int v) {
+    const Vec3& p = body.vertices[v];
+    return std::array{p.x(), p.y(), p.z()};
+  };
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return key(a) < key(b); });
+  Polyhedron ordered;
+  for (size_t k = 0; k < order.size(); ++k) {
+    place[order[k]] = static_cast<int>(k);
+    ordered.vertices.push_back(body.vertices[order[k]]);
+  }
+  std::vector<std::pair<std::vector<int>, int>> faces;
+  for (int f = 0; f < n_faces(body); ++f) {
+    std::vector<int> loop;
+    for (const int v : face(body, f)) loop.push_back(place[v]);
+    std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
+    faces.emplace_back(std::move(loop), body.face_tag[f]);
+  }
+  std::sort(faces.begin(), faces.end());
+  for (const auto& [loop, tag] : faces) add_face(ordered, loop, tag);
+  return ordered;
+}
 
 std::vector<Polyhedron> convex_parts(const Polyhedron& body, const Where& where) {
   constexpr int max_faces = 20000;

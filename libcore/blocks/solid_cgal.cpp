@@ -120,7 +120,7 @@ Polyhedron convex_hull(const std::vector<Vec3>& points, int tag) {
     for (const auto v : mesh.vertices_around_face(mesh.halfedge(f))) loop.push_back(index[v]);
     add_face(hull, loop, tag);
   }
-  return hull;
+  return in_standard_order(hull);  // the hull's own order follows addresses in memory
 }
 
 Body make_solid(const Polyhedron& surface, const Where& where, bool& was_turned) {
