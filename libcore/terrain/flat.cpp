@@ -71,10 +71,18 @@ std::vector<int> number_regions(const TriangleMesh& mesh, const std::vector<std:
 // What the mending may do with a triangle.
 enum class Part : std::uint8_t { kept, flat, beside };
 
+double rise(const TriangleMesh& mesh, std::size_t t) {
+  const auto& [a, b, c] = mesh.triangles[t];
+  const auto [low, high] = std::minmax(
+      {mesh.points[index(a)].z(), mesh.points[index(b)].z(), mesh.points[index(c)].z()});
+  return high - low;
+}
+
 // Flat triangles, and the sloping ones beside a flat region that the lattice can show, across a
-// level edge that is no contour: the ground there is as little level as in the region.
+// level edge that is no contour: the ground there is as little level as in the region. A triangle
+// that rises past the next contour bridges ground without contours, at the map's edge: it is kept.
 std::vector<Part> find_parts(const TriangleMesh& mesh, const std::vector<std::uint8_t>& flat,
-                             const Lattice& lattice) {
+                             const Lattice& lattice, double interval) {
   int n_regions = 0;
   const std::vector<int> region = number_regions(mesh, flat, n_regions);
   std::vector<int> n_nodes(index(n_regions), 0);
@@ -86,10 +94,23 @@ std::vector<Part> find_parts(const TriangleMesh& mesh, const std::vector<std::ui
     for (std::size_t k = 0; k < 3 && part[t] == Part::kept; ++k) {
       const int next = mesh.neighbors[t][k];
       if (next < 0 || flat[index(next)] == 0 || is_constrained(mesh, t, k)) continue;
-      if (n_nodes[index(region[index(next)])] >= fewest_nodes) part[t] = Part::beside;
+      if (n_nodes[index(region[index(next)])] >= fewest_nodes && rise(mesh, t) < 1.5 * interval)
+        part[t] = Part::beside;
     }
   }
   return part;
+}
+
+// Edges between triangles that are mended and triangles that are kept, but for constrained ones.
+std::vector<std::array<int, 2>> border_of(const TriangleMesh& mesh, const std::vector<Part>& part) {
+  std::vector<std::array<int, 2>> border;
+  for (std::size_t t = 0; t < part.size(); ++t)
+    for (std::size_t k = 0; k < 3 && part[t] != Part::kept; ++k) {
+      const int next = mesh.neighbors[t][k];
+      if (next < 0 || part[index(next)] != Part::kept || is_constrained(mesh, t, k)) continue;
+      border.push_back({mesh.triangles[t][(k + 1) % 3], mesh.triangles[t][(k + 2) % 3]});
+    }
+  return border;
 }
 
 // Squared inverse of the distance, in nodes, in which the ground around reaches the next contour.
@@ -226,7 +247,8 @@ MendingPoints mend_flat_triangles(const TriangleMesh& mesh, const std::vector<st
   mended.spacing =
       std::max(mending.spacing > 0 ? mending.spacing : lattice_spacing(mesh), finest_spacing(mesh));
   const Lattice lattice = lay_lattice(mesh, mended.spacing);
-  const std::vector<Part> part = find_parts(mesh, flat, lattice);
+  const std::vector<Part> part = find_parts(mesh, flat, lattice, mending.contour_interval);
+  mended.border = border_of(mesh, part);
   const std::vector<Vec3> between = points_between(mesh, mended.spacing);
   const auto height_of = [&](std::size_t node) {
     return height_in_triangle(mesh, lattice.triangle[node], lattice.place(node));
