@@ -76,8 +76,8 @@ struct FeatureCounts {
 /// Eq. (4): discrete contact combinations of two bodies, N = (v_a + e_a + f_a)(v_b + e_b + f_b).
 [[nodiscard]] std::int64_t contact_combinations(const FeatureCounts& a, const FeatureCounts& b);
 
-/// Throws InputError naming `file` unless the grid has at least 2 x 2 nodes, at most 2^30 cells, a
-/// positive finite cell size, one elevation a node and at least one triangle of known ground.
+/// Throws InputError naming `file` unless the grid has at least 2 x 2 nodes, a positive finite cell
+/// size, one elevation a node and at least one triangle of known ground.
 void check_trn(const Trn& trn, const std::string& file);
 
 // --- nodes -------------------------------------------------------------------------------------
