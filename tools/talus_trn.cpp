@@ -325,7 +325,7 @@ int main(int argc, char** argv) {
     const Json report = report_on(tool, o, trn);
     talus::write_trn(tool.stage(o.out), trn, {{{"RUN_ID", tool.run_id()}}, o.creation_options});
     if (!o.hillshade.empty()) talus::write_hillshade(tool.stage(o.hillshade), trn);
-    if (!o.report.empty()) std::ofstream(tool.stage(o.report)) << report.dump(2) << '\n';
+    if (!o.report.empty()) tool.write_text(o.report, report.dump(2) + "\n");
     tool.result(report, summary_of(report));
   });
 }
