@@ -44,9 +44,11 @@ struct MendingPoints {
   double largest_change = 0;  ///< of a node against the triangles [m]
 };
 
-/// The larger of 1.5 mean segments and an eighth of the mean plan distance of the contours [m];
-/// widened where the lattice would have more than 40 million nodes.
+/// The larger of 1.5 mean segments and an eighth of the mean plan distance of the contours [m].
 [[nodiscard]] double lattice_spacing(const TriangleMesh& mesh);
+
+/// The spacing with which a lattice over the mesh has 40 million nodes [m]; none may be finer.
+[[nodiscard]] double finest_spacing(const TriangleMesh& mesh);
 
 /// Points with heights that mend the triangles marked `flat` (find_flat_triangles): a plate under
 /// tension through the contours, over the flat triangles and over the triangles that share with
