@@ -51,7 +51,7 @@ awk -v n="$(value "$work/su42.fill.json" n_points)" -v a="$(value "$work/su42.fi
   'BEGIN { printf "| su42 10 m (genuine) | %d | %.1f -> %.1f %% | | | | | | |\n", n, 100 * a, 100 * b }'
 
 echo
-echo "Maps that nothing was chosen by, contoured here with gdal_contour:"
+echo "Further maps, contoured here with gdal_contour:"
 echo
 header
 # made NAME DEM INTERVAL
