@@ -32,7 +32,7 @@ struct Trn {  // clang-format off
   Vec2 node0 = Vec2::Zero();      ///< local x, y of node (0, 0), the north-west one [m]
   Vec3 origin = Vec3::Zero();     ///< map coordinates of the local zero [m]
   std::string crs_wkt;            ///< projected, metres; empty when unknown
-  std::vector<double> elevation;  ///< local z at [r * n_cols + c], NaN: unknown [m] (n_rows * n_cols)
+  std::vector<double> elevation;  ///< z at [r * n_cols + c] [m], NaN: unknown  (n_rows * n_cols)
 };  // clang-format on
 
 /// A cell by the row and column of its north-west node.
