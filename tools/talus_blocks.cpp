@@ -314,6 +314,7 @@ Json shapes_json(const BlockSet& set) {
 Json cut_json(const Options& o, const Work& work) {
   const AssembleReport& cut = work.cut;
   return {{"exact", o.exact},
+          {"failure_surface", work.site.source.failure_surface},
           {"prism_volume_m3", work.mass.volume},
           {"polygon_area_m2", work.mass.polygon_area},
           {"mean_depth_m", work.mass.mean_depth},
