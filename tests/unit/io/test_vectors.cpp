@@ -58,7 +58,7 @@ TEST(ReadVectors, OtherCoordinateSystemsAreReprojected) {
   const VectorShapes found =
       read_vectors({path, "", "", VectorKind::lines}, crs_from_user("EPSG:32633", "test"));
   EXPECT_FALSE(found.source_crs.empty());
-  EXPECT_NEAR(found.shapes[0][0].x(), 500000, 1e-6);  // 15 E is the middle of zone 33
+  EXPECT_NEAR(found.shapes[0][0].x(), 500000, 1e-6);         // 15 E is the middle of zone 33
   EXPECT_NEAR(found.shapes[0][0].y(), 0.9996 * 5207247, 1);  // meridian arc to 47 N
 }
 
