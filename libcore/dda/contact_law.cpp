@@ -12,16 +12,23 @@ struct SlipDirection {
   Mat3 change;  // d e / d trial
 };
 
-SlipDirection slip_direction(const ContactRow& row, const Vec3& trial, double speed) {
+// `threshold`: trial speed at which the contact begins to slip. There the direction is that of the
+// trial, so that the impulse is continuous; the start's direction comes in as slip takes over.
+SlipDirection slip_direction(const ContactRow& row, const Vec3& trial, double speed,
+                             double threshold) {
   const Vec3 end = trial / speed;
   const Mat3 end_change = (Mat3::Identity() - end * end.transpose()) / speed;
   const double along = row.slip_start.dot(end);
   if (!(along > 0)) return {end, end_change};
-  const Vec3 sum = end + along * row.slip_start;
+  const double share = 1 - threshold / speed;
+  const Vec3 sum = end + (share * along) * row.slip_start;
   const double length = sum.norm();
   const Vec3 e = sum / length;
-  const Mat3 projector = (Mat3::Identity() - e * e.transpose()) / length;
-  return {e, projector * (end_change + row.slip_start * (row.slip_start.transpose() * end_change))};
+  const Vec3 share_change = along * threshold / (speed * speed) * end;
+  const Vec3 along_change = share * (end_change * row.slip_start);
+  const Mat3 sum_change =
+      end_change + row.slip_start * (share_change + along_change).transpose();
+  return {e, (Mat3::Identity() - e * e.transpose()) * sum_change / length};
 }
 
 }  // namespace
@@ -47,7 +54,7 @@ ContactResponse contact_response(const ContactRow& row, const Vec3& velocity, do
   }
   response.state = ContactState::slip;
   if (cap <= 0) return response;
-  const SlipDirection slip = slip_direction(row, trial, speed);
+  const SlipDirection slip = slip_direction(row, trial, speed, cap / row.shear_damping);
   response.impulse -= cap * slip.e;
   response.tangent += cap * (slip.change - (slip.change * n) * n.transpose());
   if (coupled) response.tangent -= (row.friction * row.normal_damping) * slip.e * n.transpose();

@@ -39,6 +39,11 @@ BlockNumbers numbers_of(const Scene& scene, int b) {
           touch_ratio * radius, std::max(2 * g * dt, 1e-6), g, scene.blocks.inertia[i]};
 }
 
+// Gap up to which a contact may come to press within a substep though the free motion keeps it open.
+double search_margin(const BlockNumbers& c, double h) {
+  return 4 * c.gravity * h * h + 1e-3 * c.radius;
+}
+
 /// A substep of `h`: where the block would be without contact, and how the solution changes that.
 struct Substep {
   double h = 0;
@@ -371,10 +376,10 @@ struct Advance {
   template <int Dof>
   Attempt attempt(double t, double& h, bool last) {
     const Substep s = predict(scene, b, c, motion(), t, h);
-    const double margin = 4 * c.gravity * h * h + 1e-3 * c.radius;
     const Mat3 stretch = stretch_of(state, b);
     const SearchResult near = find_contacts(scene.ground, scene.blocks.shapes, b, s.free.pose,
-                                            stretch, margin, work.world_vertices, work.contacts);
+                                            stretch, search_margin(c, h), work.world_vertices,
+                                            work.contacts);
     if (near.reach == Reach::off_ground) return Attempt::left;
     if (near.reach == Reach::below) report.flags = report.flags | StepFlag::fell_through;
     if (work.contacts.empty()) {
@@ -493,6 +498,37 @@ struct Advance {
   }
 };
 
+// Static iteration: steps from rest, each ending at rest, until the block moves no more. friction < 0:
+// that of the ground. False when it keeps moving or the forces do not converge.
+bool settle(const Scene& scene, int b, double friction, bool from_touch, State& state, Work& work) {
+  BlockNumbers c = numbers_of(scene, b);
+  const double h = scene.settings.dt;
+  c.recovery_time = h / 2;  // from rest, this lands in equilibrium at once as k grows
+  Motion& motion = state.motion[static_cast<size_t>(b)];
+  StepReport report;
+  for (int pass = 0; pass < 100; ++pass) {
+    const Substep s = predict(scene, b, c, motion, 0, h);
+    (void)find_contacts(scene.ground, scene.blocks.shapes, b, s.free.pose, stretch_of(state, b),
+                        search_margin(c, h), work.world_vertices, work.contacts);
+    make_rows(scene, b, c, s, state, work);
+    if (work.rows.empty()) return true;
+    for (ContactRow& row : work.rows) {
+      if (friction >= 0) row.friction = friction;
+      if (from_touch && pass == 0) row.offset = 0, set_law(scene, c, s, row);
+    }
+    BlockSystem<6> system = make_system<6>(scene, b, c, s, state);
+    if (!solve_contacts(system, std::span(work.rows), scene.settings.max_passes).converged)
+      return false;
+    const Solved<6> solved = solved_motion(c, s, system);
+    remember(c, s, solved, state, work, b, report);
+    const double moved = (solved.end.pose.position - motion.pose.position).norm() +
+                         c.radius * solved.end.pose.attitude.angularDistance(motion.pose.attitude);
+    motion.pose = solved.end.pose;
+    if (moved < 1e-14 * c.radius) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 double contact_stiffness(const Scene& scene, int b) {
@@ -513,35 +549,16 @@ void advance_block_talus(const Scene& scene, int b, double t_end, State& state, 
 
 void settle_block(const Scene& scene, int b, State& state, Work& work) {
   const auto i = static_cast<size_t>(b);
-  BlockNumbers c = numbers_of(scene, b);
-  const double h = scene.settings.dt;
-  c.recovery_time = h / 2;  // from rest, this lands in equilibrium at once as k grows
-  StepReport report;
   const EnergyLedger ledger = state.ledger;
-  const Motion rest = state.motion[i];
-  for (int pass = 0; pass < 100; ++pass) {
-    const Substep s = predict(scene, b, c, state.motion[i], 0, h);
-    (void)find_contacts(scene.ground, scene.blocks.shapes, b, s.free.pose, stretch_of(state, b),
-                        4 * c.gravity * h * h + 1e-3 * c.radius, work.world_vertices, work.contacts);
-    make_rows(scene, b, c, s, state, work);
-    if (work.rows.empty()) break;
-    for (ContactRow& row : work.rows) {
-      row.friction = 57;  // tan(89 degrees)
-      if (pass == 0) row.offset = 0, set_law(scene, c, s, row);
-    }
-    BlockSystem<6> system = make_system<6>(scene, b, c, s, state);
-    if (!solve_contacts(system, std::span(work.rows), scene.settings.max_passes).converged) break;
-    const Solved<6> solved = solved_motion(c, s, system);
-    remember(c, s, solved, state, work, b, report);
-    const double moved =
-        (solved.end.pose.position - state.motion[i].pose.position).norm() +
-        c.radius * solved.end.pose.attitude.angularDistance(state.motion[i].pose.attitude);
-    state.motion[i].pose = solved.end.pose;
-    if (moved < 1e-15 * c.radius) break;
+  constexpr double sticking = 57;  // tan(89 degrees)
+  (void)settle(scene, b, sticking, true, state, work);
+  const Motion stuck = state.motion[i];
+  const std::vector<ContactMemory> memory = state.memory[i];
+  if (!settle(scene, b, -1, false, state, work)) {  // it will not stay: let it go from there
+    state.motion[i] = stuck;
+    state.memory[i] = memory;
   }
   state.ledger = ledger;
-  state.motion[i].velocity = rest.velocity;
-  state.motion[i].angular_momentum = rest.angular_momentum;
 }
 
 }  // namespace talus
