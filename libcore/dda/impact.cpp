@@ -64,7 +64,7 @@ ImpactResult apply_impact(const Scene& scene, int b, double touch, double restin
   system.mass.diagonal() << Vec3::Constant(scene.blocks.mass[i]), inertia;
   system.free_velocity = before;
   system.radius = scene.blocks.shapes.radius[i];
-  system.tolerance = 1e-10 * (before.head<3>().norm() + before.tail<3>().norm() * system.radius);
+  system.tolerance = 1e-7 * (before.head<3>().norm() + before.tail<3>().norm() * system.radius);
   const double energy = kinetic_energy(system, before);
   for (int pass = 0; pass < 12; ++pass) {
     system.velocity = before;

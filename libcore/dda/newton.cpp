@@ -48,7 +48,7 @@ void linearise(const BlockSystem<Dof>& system, std::span<ContactRow> rows, bool 
   out.matrix = system.mass;
   for (ContactRow& row : rows) {
     if (row.waits_for_impact) continue;
-    const Vec3 w = point_velocity<Dof>(system.velocity, row.point);
+    const Vec3 w = point_velocity<Dof>(system.velocity, row.point) + row.drift;
     const ContactResponse r = contact_response(row, w, lagged ? row.held_cap : -1.0);
     row.impulse = r.impulse;
     row.state = r.state;

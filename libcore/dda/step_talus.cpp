@@ -136,10 +136,13 @@ void make_rows(const Scene& scene, int b, const BlockNumbers& c, const Substep& 
     ContactRow& row = work.rows[i] = ContactRow{};
     row.contact = static_cast<int>(i);
     row.normal = to_body * contact.normal;
-    row.point = contact.point_a;
-    row.free_move = s.free.pose.position - s.start.pose.position + (s.R - R_start) * row.point;
+    const Vec3& X = contact.point_a;
+    const Vec3 lever_start = to_body * (R_start * X);
+    row.point = (X + lever_start) / 2;
+    row.drift = s.spin_free.cross(X - row.point);
+    row.free_move = s.free.pose.position - s.start.pose.position + s.R * (X - lever_start);
     row.gap_start = contact.gap - contact.normal.dot(row.free_move);
-    const Vec3 w = s.start.velocity + R_start * spin_start.cross(row.point);
+    const Vec3 w = s.start.velocity + R_start * spin_start.cross(X);
     row.speed_start = contact.normal.dot(w);
     const Vec3 slip = w - row.speed_start * contact.normal;
     const double slip_speed = slip.norm();
@@ -506,7 +509,7 @@ bool settle(const Scene& scene, int b, double friction, bool from_touch, State& 
   c.recovery_time = h / 2;  // from rest, this lands in equilibrium at once as k grows
   Motion& motion = state.motion[static_cast<size_t>(b)];
   StepReport report;
-  for (int pass = 0; pass < 100; ++pass) {
+  for (int pass = 0; pass < 40; ++pass) {
     const Substep s = predict(scene, b, c, motion, 0, h);
     (void)find_contacts(scene.ground, scene.blocks.shapes, b, s.free.pose, stretch_of(state, b),
                         search_margin(c, h), work.world_vertices, work.contacts);
@@ -549,12 +552,18 @@ void advance_block_talus(const Scene& scene, int b, double t_end, State& state, 
 
 void settle_block(const Scene& scene, int b, State& state, Work& work) {
   const auto i = static_cast<size_t>(b);
+  const Motion rest = state.motion[i];
   const EnergyLedger ledger = state.ledger;
   constexpr double sticking = 57;  // tan(89 degrees)
-  (void)settle(scene, b, sticking, true, state, work);
+  if (!settle(scene, b, sticking, true, state, work)) {  // it topples: let it go from where it is
+    state.motion[i] = rest;
+    state.memory[i].clear();
+    state.ledger = ledger;
+    return;
+  }
   const Motion stuck = state.motion[i];
   const std::vector<ContactMemory> memory = state.memory[i];
-  if (!settle(scene, b, -1, false, state, work)) {  // it will not stay: let it go from there
+  if (!settle(scene, b, -1, false, state, work)) {  // it slides: let it go from where it stuck
     state.motion[i] = stuck;
     state.memory[i] = memory;
   }

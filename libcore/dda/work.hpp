@@ -23,7 +23,8 @@ struct Segment {
 /// A contact made ready for the contact law; velocities are those of block A's point relative to B's.
 struct ContactRow {
   Vec3 normal = Vec3::Zero();               ///< body axes of A, unit
-  Vec3 point = Vec3::Zero();                ///< contact point, body axes of A [m]
+  Vec3 point = Vec3::Zero();  ///< lever arm in the middle of the step, body axes of A [m]
+  Vec3 drift = Vec3::Zero();  ///< velocity at the end is T(point) v + drift, body axes [m/s]
   Vec3 shear = Vec3::Zero();                ///< s_n, body axes [m]
   Vec3 slip_start = Vec3::Zero();           ///< unit direction of sliding at the start of the step, or zero
   double bias = 0;           ///< b_n: N > 0 needs v_n + b_n < 0 [m/s]
