@@ -123,6 +123,25 @@ void inherit(const ContactMemory& memory, int index, const Substep& s, double to
   row.shear = tangent_length > 0 ? Vec3(tangent * (length / tangent_length)) : Vec3(Vec3::Zero());
 }
 
+// How fast the contact would close without contact forces: at the start of the substep, or on the
+// mean over it where the spin turns the point round.
+double approach(const ContactRow& row, const Substep& s) {
+  return std::min(row.speed_start, row.normal.dot(s.R.transpose() * row.free_move) / s.h);
+}
+
+// Gap of a vertex to the ground below it when the substep begins. A vertex may stand behind the
+// plane of the triangle that it will reach, a ridge away, and yet above the ground: it will hit on
+// its way.
+double clearance_at_start(const Scene& scene, const Contact& contact, const Substep& s) {
+  if (contact.key.mode != ContactMode::vertex_face) return -1;
+  const Trn& trn = scene.ground.trn;
+  const Vec3 x = place(s.start.pose, contact.point_a);
+  if (!contains(trn, x.x(), x.y())) return -1;
+  const TrianglePlane plane = triangle_plane(trn, triangle_at(trn, x.x(), x.y()));
+  const double gap = plane.normal.dot(x - plane.point);
+  return gap > 0 ? gap : -1;  // also where the ground is unknown
+}
+
 void set_law(const Scene& scene, const BlockNumbers& c, const Substep& s, ContactRow& row) {
   const double x = row.gap_start + row.offset;
   const Mobility W = mobility(c.mass, c.inertia, row.point, row.normal);
@@ -134,7 +153,7 @@ void set_law(const Scene& scene, const BlockNumbers& c, const Substep& s, Contac
   row.shear_velocity = row.shear / c.recovery_time;
   row.bias = x < 0 ? x / c.recovery_time : x / s.h;
   row.waits_for_impact =
-      row.memory < 0 && row.speed_start < -c.resting_speed && row.gap_start > c.touch;
+      row.memory < 0 && row.gap_start > c.touch && approach(row, s) < -c.resting_speed;
 }
 
 void make_rows(const Scene& scene, int b, const BlockNumbers& c, const Substep& s,
@@ -166,11 +185,19 @@ void make_rows(const Scene& scene, int b, const BlockNumbers& c, const Substep& 
   const std::vector<ContactMemory>& memory = state.memory[static_cast<size_t>(b)];
   for (size_t m = 0; m < memory.size(); ++m) {
     const int i = row_of(memory[m], work);
-    if (i >= 0)
-      inherit(memory[m], static_cast<int>(m), s, c.touch, work.rows[static_cast<size_t>(i)]);
+    if (i < 0) continue;
+    ContactRow& row = work.rows[static_cast<size_t>(i)];
+    // a plane that the contact only now runs into is met by an impact, not inherited
+    if (row.gap_start > c.touch && approach(row, s) < -c.resting_speed) continue;
+    inherit(memory[m], static_cast<int>(m), s, c.touch, row);
   }
   for (ContactRow& row : work.rows) {
-    if (row.memory < 0) row.offset = std::max(0.0, -row.gap_start);
+    if (row.memory < 0) {
+      const Contact& contact = work.contacts[static_cast<size_t>(row.contact)];
+      if (row.gap_start <= c.touch && contact.gap < -c.touch && approach(row, s) < -c.resting_speed)
+        row.gap_start = std::max(row.gap_start, clearance_at_start(scene, contact, s));
+      row.offset = std::max(0.0, -row.gap_start);
+    }
     set_law(scene, c, s, row);
     const GroundClass& ground = scene.ground.classes[static_cast<size_t>(
         work.contacts[static_cast<size_t>(row.contact)].ground_class)];
@@ -404,8 +431,6 @@ struct Advance {
         find_contacts(scene.ground, scene.blocks.shapes, b, s.free.pose, stretch,
                       search_margin(c, h), work.world_vertices, work.contacts);
     if (near.reach == Reach::off_ground) return Attempt::left;
-    if (near.reach == Reach::below && !left_ground(scene, s.free.pose.position))
-      report.flags = report.flags | StepFlag::fell_through;
     if (work.contacts.empty()) {
       if (near.reach == Reach::above && free_fall_only() && begin_flight(t, h))
         return Attempt::flight;
@@ -439,6 +464,7 @@ struct Advance {
       h = hit;
       return Attempt::shorter;
     }
+    if (near.reach == Reach::below) report.flags = report.flags | StepFlag::fell_through;
     remember(c, s, solved, state, work, b, report);
     if constexpr (Dof == 12) {
       state.strain[i()] += h / 2 * (state.strain_rate[i()] + system.velocity.template tail<6>());
