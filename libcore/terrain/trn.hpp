@@ -25,16 +25,15 @@
 
 namespace talus {
 
-struct Trn {
-  int n_rows = 0;              ///< nodes from north to south, the paper's m
-  int n_cols = 0;              ///< nodes from west to east, the paper's n
-  double cell_size = 0;        ///< Delta, > 0 [m]
-  Vec2 node0 = Vec2::Zero();   ///< local x, y of node (0, 0), the north-west one [m]
-  Vec3 origin = Vec3::Zero();  ///< map coordinates of the local zero [m]
-  std::string crs_wkt;         ///< projected, metres; empty when unknown
-  std::vector<double>
-      elevation;  ///< local z at [r * n_cols + c], NaN unknown [m]  (n_rows * n_cols)
-};
+struct Trn {  // clang-format off
+  int n_rows = 0;                 ///< nodes from north to south, the paper's m
+  int n_cols = 0;                 ///< nodes from west to east, the paper's n
+  double cell_size = 0;           ///< Delta, > 0 [m]
+  Vec2 node0 = Vec2::Zero();      ///< local x, y of node (0, 0), the north-west one [m]
+  Vec3 origin = Vec3::Zero();     ///< map coordinates of the local zero [m]
+  std::string crs_wkt;            ///< projected, metres; empty when unknown
+  std::vector<double> elevation;  ///< local z at [r * n_cols + c], NaN = unknown [m] (n_rows * n_cols)
+};  // clang-format on
 
 /// A cell by the row and column of its north-west node.
 struct Cell {

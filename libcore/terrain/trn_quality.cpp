@@ -1,0 +1,84 @@
+#include "terrain/trn_quality.hpp"
+
+#include <numbers>
+
+namespace talus {
+
+double elevation_or_node(const Trn& trn, double x, double y) {
+  constexpr double tolerance = 1e-6;
+  const double col = (x - trn.node0.x()) / trn.cell_size;
+  const double row = (trn.node0.y() - y) / trn.cell_size;
+  const double near_col = std::round(col), near_row = std::round(row);
+  const bool at_node = std::abs(col - near_col) <= tolerance &&
+                       std::abs(row - near_row) <= tolerance && near_col >= 0 && near_row >= 0 &&
+                       near_col < trn.n_cols && near_row < trn.n_rows;
+  if (!at_node) return elevation_at(trn, x, y);
+  return trn.elevation[node_index(trn, static_cast<int>(near_row), static_cast<int>(near_col))];
+}
+
+void ErrorCollector::add(const Trn& trn, double x, double y, double truth) {
+  const double error = elevation_or_node(trn, x, y) - truth;
+  if (std::isnan(error)) {
+    ++n_uncovered_;
+    return;
+  }
+  errors_.push_back(error);
+  if (std::abs(error) <= std::abs(largest_)) return;
+  largest_ = error;
+  largest_at_ = {x, y};
+}
+
+ErrorStatistics ErrorCollector::statistics() const {
+  ErrorStatistics result;
+  result.n = static_cast<std::int64_t>(errors_.size());
+  result.n_uncovered = n_uncovered_;
+  if (errors_.empty()) return result;
+  std::vector<double> sizes;
+  sizes.reserve(errors_.size());
+  double sum = 0, sum_abs = 0, sum_sq = 0;
+  for (const double error : errors_) {
+    sizes.push_back(std::abs(error));
+    sum += error;
+    sum_abs += std::abs(error);
+    sum_sq += error * error;
+  }
+  const auto n = static_cast<double>(result.n);
+  result.mean = sum / n;
+  result.mae = sum_abs / n;
+  result.rmse = std::sqrt(sum_sq / n);
+  const auto rank = static_cast<std::ptrdiff_t>(std::ceil(0.95 * n)) - 1;
+  std::nth_element(sizes.begin(), sizes.begin() + rank, sizes.end());
+  result.p95 = sizes[static_cast<std::size_t>(rank)];
+  result.largest = largest_;
+  result.largest_at = largest_at_;
+  return result;
+}
+
+SlopeStatistics slope_statistics(const Trn& trn) {
+  constexpr double degrees = 180 / std::numbers::pi;
+  SlopeStatistics result;
+  for (const double z : trn.elevation) result.n_nodes_known += !std::isnan(z);
+  double sum_deg = 0;
+  for (int cell = 0; cell < n_triangles(trn) / 2; ++cell) {
+    bool ground = false, steep = false;
+    for (const int triangle : {2 * cell, 2 * cell + 1}) {
+      if (!is_known(trn, triangle)) continue;
+      const double slope = triangle_gradient(trn, triangle).norm();
+      const double slope_deg = std::atan(slope) * degrees;
+      ground = true;
+      steep = steep || slope_deg > steep_deg;
+      ++result.n_triangles;
+      result.n_flat += slope == 0;
+      const std::size_t bin = static_cast<std::size_t>(slope_deg / SlopeStatistics::bin_deg);
+      ++result.n_in_bin[std::min(bin, result.n_in_bin.size() - 1)];
+      sum_deg += slope_deg;
+      result.largest_deg = std::max(result.largest_deg, slope_deg);
+    }
+    result.n_cells += ground;
+    result.n_cells_steep += steep;
+  }
+  if (result.n_triangles > 0) result.mean_deg = sum_deg / static_cast<double>(result.n_triangles);
+  return result;
+}
+
+}  // namespace talus
