@@ -116,10 +116,13 @@ GridFrame frame_like(const Options& o, const std::string& crs_wkt) {
 }
 
 void check_frame(const GridFrame& frame, const MapWindow& data, const Options& o) {
+  const MapWindow common =
+      talus::intersection(frame.empty() ? o.window : talus::extent(frame), data);
+  if (common.x_min > common.x_max || common.y_min > common.y_max)
+    throw InputError({o.source},
+                     "the grid asked for lies outside of the data, " + window_as_text(data),
+                     o.like.empty() ? "look at --window" : "look at --like and --window");
   if (frame.n_rows >= 2 && frame.n_cols >= 2) return;
-  if (frame.empty() && o.window.x_min > -far)
-    throw InputError({o.source}, "the window " + window_as_text(o.window) +
-                                     " lies outside of the data, " + window_as_text(data));
   throw InputError({o.source},
                    "there is room for " + std::to_string(frame.n_cols) + " x " +
                        std::to_string(frame.n_rows) + " nodes, expected at least 2 x 2",

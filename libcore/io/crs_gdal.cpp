@@ -65,6 +65,7 @@ std::string describe_problem(const OGRSpatialReference& srs) {
 
 std::string wkt_of(const OGRSpatialReference* srs) {
   if (!srs || srs->IsEmpty()) return {};
+  if (srs->IsLocal() && std::abs(srs->GetLinearUnits() - 1) < 1e-9) return {};
   char* wkt = nullptr;
   const char* const options[] = {"FORMAT=WKT2_2019", nullptr};
   srs->exportToWkt(&wkt, options);

@@ -11,7 +11,8 @@ class OGRSpatialReference;
 
 namespace talus {
 
-/// WKT2:2019; empty for a null or empty reference.
+/// WKT2:2019; empty for a null or empty reference, and for a local one in metres: it names no place
+/// (GeoTIFF makes one up, "unnamed", for a raster without a CRS).
 [[nodiscard]] std::string wkt_of(const OGRSpatialReference* srs);
 
 /// WKT2:2019 of what a user writes: "EPSG:31287", a PROJ string, WKT, the name of a file. "none"

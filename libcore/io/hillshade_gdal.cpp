@@ -31,7 +31,8 @@ Dataset wrap(const Trn& trn) {
 
 Dataset shade(GDALDataset& elevation) {
   CPLStringList words;
-  for (const char* word : {"-of", "MEM", "-compute_edges"}) words.AddString(word);
+  for (const char* word : {"-of", "MEM", "-compute_edges", "-multidirectional"})
+    words.AddString(word);
   GDALDEMProcessingOptions* const options = GDALDEMProcessingOptionsNew(words.List(), nullptr);
   GDALDatasetH shaded = GDALDEMProcessing("", GDALDataset::ToHandle(&elevation), "hillshade",
                                           nullptr, options, nullptr);

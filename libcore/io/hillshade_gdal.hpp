@@ -8,7 +8,7 @@
 
 namespace talus {
 
-/// PNG of the TRN's nodes, a pixel each, lit from the north-west at 45 degrees; unknown nodes are
+/// PNG of the nodes, a pixel each, lit from four sides (mostly north-west); unknown nodes are
 /// black. Throws InputError when it cannot be written.
 void write_hillshade(const std::string& path, const Trn& trn);
 

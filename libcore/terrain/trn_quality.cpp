@@ -23,7 +23,7 @@ void ErrorCollector::add(const Trn& trn, double x, double y, double truth) {
     return;
   }
   errors_.push_back(error);
-  if (std::abs(error) <= std::abs(largest_)) return;
+  if (errors_.size() > 1 && std::abs(error) <= std::abs(largest_)) return;
   largest_ = error;
   largest_at_ = {x, y};
 }
@@ -54,30 +54,37 @@ ErrorStatistics ErrorCollector::statistics() const {
   return result;
 }
 
+namespace {
+
+constexpr double degrees = 180 / std::numbers::pi;
+
+// One triangle of known ground with its gradient squared.
+void add_triangle(double slope_sq, SlopeStatistics& result) {
+  const double slope_deg = std::atan(std::sqrt(slope_sq)) * degrees;
+  const auto bin = static_cast<std::size_t>(slope_deg / SlopeStatistics::bin_deg);
+  ++result.n_in_bin[std::min(bin, result.n_in_bin.size() - 1)];
+  ++result.n_triangles;
+  result.n_flat += slope_sq == 0;
+  result.mean_deg += slope_deg;  // a sum until the end
+  result.largest_deg = std::max(result.largest_deg, slope_deg);
+}
+
+}  // namespace
+
 SlopeStatistics slope_statistics(const Trn& trn) {
-  constexpr double degrees = 180 / std::numbers::pi;
+  const double steep = std::tan(steep_deg / degrees);
   SlopeStatistics result;
   for (const double z : trn.elevation) result.n_nodes_known += !std::isnan(z);
-  double sum_deg = 0;
-  for (int cell = 0; cell < n_triangles(trn) / 2; ++cell) {
-    bool ground = false, steep = false;
-    for (const int triangle : {2 * cell, 2 * cell + 1}) {
-      if (!is_known(trn, triangle)) continue;
-      const double slope = triangle_gradient(trn, triangle).norm();
-      const double slope_deg = std::atan(slope) * degrees;
-      ground = true;
-      steep = steep || slope_deg > steep_deg;
-      ++result.n_triangles;
-      result.n_flat += slope == 0;
-      const std::size_t bin = static_cast<std::size_t>(slope_deg / SlopeStatistics::bin_deg);
-      ++result.n_in_bin[std::min(bin, result.n_in_bin.size() - 1)];
-      sum_deg += slope_deg;
-      result.largest_deg = std::max(result.largest_deg, slope_deg);
+  for (Cell cell; cell.row < trn.n_rows - 1; ++cell.row)
+    for (cell.col = 0; cell.col < trn.n_cols - 1; ++cell.col) {
+      const double lower = triangle_gradient(trn, cell, false).squaredNorm();
+      const double upper = triangle_gradient(trn, cell, true).squaredNorm();
+      if (!std::isnan(lower)) add_triangle(lower, result);
+      if (!std::isnan(upper)) add_triangle(upper, result);
+      result.n_cells += !std::isnan(lower) || !std::isnan(upper);
+      result.n_cells_steep += lower > steep * steep || upper > steep * steep;
     }
-    result.n_cells += ground;
-    result.n_cells_steep += steep;
-  }
-  if (result.n_triangles > 0) result.mean_deg = sum_deg / static_cast<double>(result.n_triangles);
+  if (result.n_triangles > 0) result.mean_deg /= static_cast<double>(result.n_triangles);
   return result;
 }
 
