@@ -14,7 +14,7 @@ namespace talus {
 // say that a list has to be looked at again.
 
 static_assert(sizeof(Motion) == 112 && sizeof(EnergyLedger) == 40 && sizeof(RunCounters) == 64);
-static_assert(sizeof(ContactMemory) == 128 && sizeof(HealthRow) == 160);
+static_assert(sizeof(ContactMemory) == 128 && sizeof(HealthRow) == 168);
 
 template <class Archive>
 void fields(Fields<Archive>& archive, Motion& motion) {
@@ -66,7 +66,7 @@ void fields(Fields<Archive>& archive, FrameSampler& sampler) {
 template <class Archive>
 void fields(Fields<Archive>& archive, HealthRow& row) {
   archive(row.time, row.shortest_dt, row.steps, row.substeps, row.passes, row.impacts,
-          row.unconverged, row.left_domain, row.fell_through, row.not_finite,
+          row.unconverged, row.left_domain, row.fell_through, row.not_finite, row.deep,
           row.largest_penetration, row.translation, row.rotation, row.potential, row.elastic,
           row.friction, row.impact, row.contact, row.base, row.removed);
 }

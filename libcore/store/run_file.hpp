@@ -66,8 +66,9 @@ struct HealthRow {
   double time = 0;         ///< [s]
   double shortest_dt = 0;  ///< of a step with contact search; 0 when there was none [s]
   std::int64_t steps = 0, substeps = 0, passes = 0, impacts = 0, unconverged = 0;
-  std::int64_t left_domain = 0, fell_through = 0, not_finite = 0;       ///< blocks so far
-  double largest_penetration = 0;                                       ///< [m]
+  std::int64_t left_domain = 0;  ///< blocks that have left the known terrain
+  std::int64_t fell_through = 0, not_finite = 0, deep = 0;  ///< steps so far with such a block
+  double largest_penetration = 0;                           ///< [m]
   double translation = 0, rotation = 0, potential = 0, elastic = 0;     ///< at `time` [J]
   double friction = 0, impact = 0, contact = 0, base = 0, removed = 0;  ///< since the start [J]
 };
