@@ -130,10 +130,12 @@ Json as_json(const ContourMap& map, const talus::ContourReading& reading) {
 }
 
 // Adds points to the triangulation that mend its flat triangles; what was done goes to `report`.
-void mend(Tool& tool, const Options& o, const ContourMap& map, talus::MeasuredPoints measured,
+void mend(Tool& tool, const Options& o, const ContourMap& map,
+          const std::vector<std::uint8_t>& flat, double interval,
           talus::Triangulation& triangulation, talus::TriangleMesh& mesh, Json& report) {
-  const talus::MendingPoints mended = talus::mend_flat_triangles(
-      mesh, measured, {talus::contour_interval(map), o.fill_spacing_m}, tool.progress());
+  const talus::MendingPoints mended =
+      talus::mend_flat_triangles(mesh, flat, {interval, o.fill_spacing_m}, tool.progress());
+  mesh = {};
   triangulation.add(mended.points);
   mesh = mesh_inside(map, triangulation, o);
   report["spacing_m"] = mended.spacing;
@@ -141,6 +143,30 @@ void mend(Tool& tool, const Options& o, const ContourMap& map, talus::MeasuredPo
   report["largest_change_m"] = mended.largest_change;
   if (mended.n_unsolved > 0)
     tool.warn(std::to_string(mended.n_unsolved) + " places were left flat: nothing holds them");
+}
+
+// Triangles of the cleaned lines, mended as asked for. Frees what it no longer needs as it goes.
+talus::TriangleMesh make_mesh(Tool& tool, const Options& o, ContourMap& map, Json& report) {
+  const double interval = talus::contour_interval(map);
+  talus::CleanLines clean = talus::clean_lines(map);
+  talus::forget_lines(map);
+  report["cleaning"] = as_json(clean.counts);
+  const talus::MeasuredPoints measured{clean.n_contour_points,
+                                       static_cast<int>(clean.points.size())};
+  talus::Triangulation triangulation(std::move(clean.points), clean.segments, map.source);
+  clean.segments = {};
+  talus::TriangleMesh mesh = mesh_inside(map, triangulation, o);
+  const std::vector<std::uint8_t> flat = find_flat_triangles(mesh, measured);
+  const talus::AreaShare before = area_of(mesh, flat);
+  report["flat"] = {{"mode", o.flat}, {"share_before", before.share()}};
+  if (o.flat == "fill" && before.marked_m2 > 0)
+    mend(tool, o, map, flat, interval, triangulation, mesh, report["flat"]);
+  const talus::AreaShare after = area_of(mesh, find_flat_triangles(mesh, measured));
+  report["flat"]["share_after"] = after.share();
+  report["area_m2"] = after.all_m2;
+  tool.metric("flat_share_before", before.share(), "1");
+  tool.metric("flat_share_after", after.share(), "1");
+  return mesh;
 }
 
 std::string summary_of(const Json& report) {
@@ -173,26 +199,10 @@ Json build(Tool& tool, Options& o, talus::Tin& tin) {
     talus::write_points(tool.stage(o.hold_out), "held_back", map.crs_wkt, map.origin, held_back);
     report["held_back"] = {{"every", o.hold_out_every}, {"n_points", held_back.size()}};
   }
-  const talus::CleanLines clean = talus::clean_lines(map);
-  report["cleaning"] = as_json(clean.counts);
-  const talus::MeasuredPoints measured{clean.n_contour_points,
-                                       static_cast<int>(clean.points.size())};
-  talus::Triangulation triangulation(clean.points, clean.segments, map.source);
-  talus::TriangleMesh mesh = mesh_inside(map, triangulation, o);
-  const talus::AreaShare before = area_of(mesh, find_flat_triangles(mesh, measured));
-  report["flat"] = {{"mode", o.flat}, {"share_before", before.share()}};
-  if (o.flat == "fill" && before.marked_m2 > 0)
-    mend(tool, o, map, measured, triangulation, mesh, report["flat"]);
-  const talus::AreaShare after = area_of(mesh, find_flat_triangles(mesh, measured));
-  report["flat"]["share_after"] = after.share();
-  tin = talus::to_tin(mesh, map);
-  report["tin"] = {{"n_points", tin.points.size()},
-                   {"n_triangles", tin.triangles.size()},
-                   {"area_m2", after.all_m2}};
+  tin = talus::to_tin(make_mesh(tool, o, map, report), map);
+  report["tin"] = {{"n_points", tin.points.size()}, {"n_triangles", tin.triangles.size()}};
   report["notes"] = reading.notes;
   tool.metric("n_points", static_cast<double>(tin.points.size()), "1");
-  tool.metric("flat_share_before", before.share(), "1");
-  tool.metric("flat_share_after", after.share(), "1");
   return report;
 }
 

@@ -6,6 +6,8 @@
 #include <map>
 #include <numeric>
 
+#include "blocks/solid.hpp"
+
 namespace talus {
 namespace {
 
@@ -107,6 +109,37 @@ Polyhedron as_polyhedron(Sheet& s) {
 }
 
 }  // namespace
+
+Polyhedron with_joined_faces(const Polyhedron& surface) {
+  Sheet sheet;
+  sheet.points = &surface.vertices;
+  std::map<std::pair<int, int>, int> waiting;  // half-edge by its ends
+  for (int f = 0; f < n_faces(surface); ++f) {
+    const auto loop = face(surface, f);
+    const int first = static_cast<int>(sheet.next.size()), n = static_cast<int>(loop.size());
+    sheet.parent.push_back(f);
+    sheet.made_by.push_back(surface.face_tag[f]);
+    sheet.normal.push_back(face_normal(surface, f));
+    for (int k = 0; k < n; ++k) {
+      sheet.next.push_back(first + (k + 1) % n);
+      sheet.previous.push_back(first + (k + n - 1) % n);
+      sheet.vertex.push_back(loop[k]);
+      sheet.face.push_back(f);
+      sheet.twin.push_back(-1);
+      const auto other = waiting.find({loop[(k + 1) % n], loop[k]});
+      if (other == waiting.end()) {
+        waiting[{loop[k], loop[(k + 1) % n]}] = first + k;
+        continue;
+      }
+      sheet.twin[first + k] = other->second;
+      sheet.twin[other->second] = first + k;
+    }
+  }
+  sheet.is_dead.assign(sheet.next.size(), 0);
+  join_faces(sheet);
+  remove_middle_vertices(sheet);
+  return as_polyhedron(sheet);
+}
 
 ShellReader::ShellReader(const CellComplex& complex)
     : complex_(complex),

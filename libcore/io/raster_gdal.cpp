@@ -231,8 +231,9 @@ std::vector<double> read_dem(const DemFile& dem, const GridFrame& frame,
   if (first > last || resampler.n_cols() < 1) return resampler.take();
   const auto n_cols = static_cast<std::size_t>(resampler.n_cols());
   std::vector<double> strip(rows_at_once * n_cols);
-  for (int row = first; row <= last; row += rows_at_once) {
-    const int n_rows = std::min(rows_at_once, last - row + 1);
+  for (int row = first, n_rows = 0; row <= last; row += n_rows) {
+    // strips end where rows of tiles do, so that no tile is unpacked twice
+    n_rows = std::min(rows_at_once - row % rows_at_once, last - row + 1);
     dem.read(row, n_rows, resampler.first_col(), resampler.n_cols(), strip.data());
     for (int i = 0; i < n_rows; ++i)
       resampler.add_row(strip.data() + static_cast<std::size_t>(i) * n_cols);

@@ -41,6 +41,7 @@ struct Header {
   std::size_t n_bytes = 0;  // up to and with the line end_header
 };
 
+constexpr std::size_t bytes_of_face = 13;        // a count and three corners
 constexpr std::size_t longest_header = 1 << 20;  // bytes; a WKT takes two thousand
 
 [[noreturn]] void refuse(const std::string& source, const std::string& finding) {
@@ -314,17 +315,20 @@ std::string header_text(const Tin& tin) {
 void write_tin(const std::string& path, const Tin& tin) {
   std::ofstream file(path, std::ios::binary);
   file << header_text(tin);
-  for (const Vec3& point : tin.points) {
-    const Vec3 on_map = point + tin.origin;
-    file.write(reinterpret_cast<const char*>(on_map.data()), 3 * sizeof(double));
-  }
+  std::vector<Vec3> on_map(tin.points.size());
+  for (std::size_t i = 0; i < on_map.size(); ++i) on_map[i] = tin.points[i] + tin.origin;
+  static_assert(sizeof(Vec3) == 3 * sizeof(double));
+  file.write(reinterpret_cast<const char*>(on_map.data()),
+             static_cast<std::streamsize>(on_map.size() * sizeof(Vec3)));
+  std::vector<char> faces;
+  faces.reserve(tin.triangles.size() * bytes_of_face);
   for (const auto& corners : tin.triangles) {
-    std::array<char, 13> entry{};
-    entry[0] = 3;
-    static_assert(sizeof corners == 12);
-    std::memcpy(entry.data() + 1, corners.data(), sizeof corners);
-    file.write(entry.data(), entry.size());
+    static_assert(sizeof corners == bytes_of_face - 1);
+    const auto* const bytes = reinterpret_cast<const char*>(corners.data());
+    faces.push_back(3);
+    faces.insert(faces.end(), bytes, bytes + sizeof corners);
   }
+  file.write(faces.data(), static_cast<std::streamsize>(faces.size()));
   file.close();
   if (!file)
     throw InputError({path}, "cannot be written to its end",

@@ -368,4 +368,10 @@ CleanLines clean_lines(const ContourMap& map) {
       "simplify the lines, e.g. with ogr2ogr -simplify");
 }
 
+void forget_lines(ContourMap& map) {
+  map.contours = {};
+  map.breaklines = {};
+  map.spots = {};
+}
+
 }  // namespace talus

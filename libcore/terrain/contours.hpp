@@ -76,4 +76,7 @@ void check_heights(const ContourMap& map);
 /// points coincide at different heights.
 [[nodiscard]] CleanLines clean_lines(const ContourMap& map);
 
+/// Gives back the memory of the lines; origin, CRS and boundary stay.
+void forget_lines(ContourMap& map);
+
 }  // namespace talus

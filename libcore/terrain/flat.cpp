@@ -108,8 +108,19 @@ std::vector<float> tension(const TriangleMesh& mesh, const Lattice& lattice,
   return tau;
 }
 
+// Whether a corner of the lattice cell at `at`, in nodes, is free.
+bool touches_free_node(const PlateProblem& problem, const Vec2& at) {
+  const auto n_x = index(problem.n_x);
+  const auto corner = static_cast<std::size_t>(at.y()) * n_x + static_cast<std::size_t>(at.x());
+  const auto is_free = [&](std::size_t node) {
+    return problem.node[node] == PlateProblem::Node::free;
+  };
+  return is_free(corner) || is_free(corner + 1) || is_free(corner + n_x) ||
+         is_free(corner + n_x + 1);
+}
+
 PlateProblem pose_problem(const TriangleMesh& mesh, const Lattice& lattice,
-                          const std::vector<Part>& part, const std::vector<Vec3>& on_lines,
+                          const std::vector<Part>& part, const std::vector<Vec3>& between,
                           double interval) {
   using Role = PlateProblem::Node;
   PlateProblem problem;
@@ -122,10 +133,11 @@ PlateProblem pose_problem(const TriangleMesh& mesh, const Lattice& lattice,
                    return part[index(t)] == Part::kept ? Role::known : Role::free;
                  });
   problem.tension = tension(mesh, lattice, part, interval);
-  problem.anchors.reserve(on_lines.size());
-  for (const Vec3& p : on_lines)
-    problem.anchors.emplace_back((p.x() - lattice.low.x()) / lattice.spacing,
-                                 (p.y() - lattice.low.y()) / lattice.spacing, p.z());
+  for (const std::vector<Vec3>* points : {&mesh.points, &between})
+    for (const Vec3& p : *points) {
+      const Vec2 at = (p.head<2>() - lattice.low) / lattice.spacing;
+      if (touches_free_node(problem, at)) problem.anchors.emplace_back(at.x(), at.y(), p.z());
+    }
   return problem;
 }
 
@@ -202,23 +214,23 @@ double bend_into(double value, double low, double high) {
   return value;
 }
 
-MendingPoints mend_flat_triangles(const TriangleMesh& mesh, MeasuredPoints measured,
+MendingPoints mend_flat_triangles(const TriangleMesh& mesh, const std::vector<std::uint8_t>& flat,
                                   const FlatMending& mending, const ProgressFunction& progress) {
   TALUS_ASSERT(mending.contour_interval > 0);
   MendingPoints mended;
   mended.spacing = mending.spacing > 0 ? mending.spacing : lattice_spacing(mesh);
   const Lattice lattice = lay_lattice(mesh, mended.spacing);
-  const std::vector<Part> part = find_parts(mesh, find_flat_triangles(mesh, measured), lattice);
-  const std::vector<Vec3> on_lines = points_along_lines(mesh, mended.spacing);
+  const std::vector<Part> part = find_parts(mesh, flat, lattice);
+  const std::vector<Vec3> between = points_between(mesh, mended.spacing);
   const auto height_of = [&](std::size_t node) {
     return height_in_triangle(mesh, lattice.triangle[node], lattice.place(node));
   };
   const PlateSolution plate = solve_plate(
-      pose_problem(mesh, lattice, part, on_lines, mending.contour_interval), height_of, progress);
+      pose_problem(mesh, lattice, part, between, mending.contour_interval), height_of, progress);
   mended.n_unknowns = static_cast<int>(plate.height.size());
   mended.n_regions = plate.n_regions;
   mended.n_unsolved = plate.n_unsolved;
-  const std::vector<float> distance = distance_to_points(lattice, on_lines);
+  const std::vector<float> distance = distance_to_points(lattice, mesh.points, between);
   std::size_t unknown = 0;
   for (std::size_t node = 0; node < lattice.size(); ++node) {
     const int t = lattice.triangle[node];

@@ -48,13 +48,14 @@ struct MendingPoints {
 /// widened where the lattice would have more than 40 million nodes.
 [[nodiscard]] double lattice_spacing(const TriangleMesh& mesh);
 
-/// Points with heights that mend the flat triangles: a plate under tension through the contours,
-/// over the flat triangles and over the triangles that share with them a level edge that is no
-/// contour. The tension grows with the slope s of the ground around as (s / interval)^2: a slope
-/// dies out within the distance in which it would reach the next contour, which is not there.
-/// Heights stay strictly within half an interval of a flat triangle, and between the heights of the
-/// corners of another one, so no point passes the next contour.
-[[nodiscard]] MendingPoints mend_flat_triangles(const TriangleMesh& mesh, MeasuredPoints measured,
+/// Points with heights that mend the triangles marked `flat` (find_flat_triangles): a plate under
+/// tension through the contours, over the flat triangles and over the triangles that share with
+/// them a level edge that is no contour. The tension grows with the slope s of the ground around as
+/// (s / interval)^2: a slope dies out within the distance in which it would reach the next contour,
+/// which is not there. Heights stay strictly within half an interval of a flat triangle, and
+/// between the heights of the corners of another one, so no point passes the next contour.
+[[nodiscard]] MendingPoints mend_flat_triangles(const TriangleMesh& mesh,
+                                                const std::vector<std::uint8_t>& flat,
                                                 const FlatMending& mending,
                                                 const ProgressFunction& progress = {});
 

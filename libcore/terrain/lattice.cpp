@@ -10,41 +10,57 @@ namespace {
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
-// x of the edge a-b at height y of the plan. The ends are always taken in the same order, so that
-// both triangles of an edge find the same bits and no node falls between them.
-double edge_at(const TriangleMesh& mesh, int a, int b, double y) {
-  if (a > b) std::swap(a, b);
-  const Vec3 &p = mesh.points[index(a)], &q = mesh.points[index(b)];
-  return p.x() + (q.x() - p.x()) * ((y - p.y()) / (q.y() - p.y()));
+// An edge that runs upwards, or along a row of nodes.
+struct RisingEdge {
+  double y_low, y_high, x_low, x_per_y, x_high;
+};
+
+// The ends are always taken in the same order, so that both triangles of an edge find the same bits
+// and no node falls between them.
+RisingEdge rising_edge(const TriangleMesh& mesh, int a, int b) {
+  const Vec3 *low = &mesh.points[index(a)], *high = &mesh.points[index(b)];
+  if (low->y() > high->y() || (low->y() == high->y() && a > b)) std::swap(low, high);
+  const double rise = high->y() - low->y();
+  return {low->y(), high->y(), low->x(), rise > 0 ? (high->x() - low->x()) / rise : 0, high->x()};
 }
 
 // Marks the nodes under triangle t, borders included.
 void scan_triangle(const TriangleMesh& mesh, int t, Lattice& lattice) {
-  const std::array<int, 3>& corner = mesh.triangles[index(t)];
-  double y_low = mesh.points[index(corner[0])].y(), y_high = y_low;
-  for (const int c : corner) {
-    y_low = std::min(y_low, mesh.points[index(c)].y());
-    y_high = std::max(y_high, mesh.points[index(c)].y());
-  }
+  const auto& [a, b, c] = mesh.triangles[index(t)];
+  const auto [y_low, y_high] = std::minmax(
+      {mesh.points[index(a)].y(), mesh.points[index(b)].y(), mesh.points[index(c)].y()});
   const int row_first = static_cast<int>(std::ceil((y_low - lattice.low.y()) / lattice.spacing));
   const int row_last = static_cast<int>(std::floor((y_high - lattice.low.y()) / lattice.spacing));
+  if (row_first > row_last) return;
+  const std::array<RisingEdge, 3> edges = {rising_edge(mesh, a, b), rising_edge(mesh, b, c),
+                                           rising_edge(mesh, c, a)};
   for (int row = row_first; row <= row_last; ++row) {
     const double y = lattice.low.y() + lattice.spacing * row;
     double x_low = std::numeric_limits<double>::infinity(), x_high = -x_low;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const int a = corner[k], b = corner[(k + 1) % 3];
-      const double y_a = mesh.points[index(a)].y(), y_b = mesh.points[index(b)].y();
-      if (y < std::min(y_a, y_b) || y > std::max(y_a, y_b)) continue;
-      const double x_a = y_a == y_b ? mesh.points[index(a)].x() : edge_at(mesh, a, b, y);
-      const double x_b = y_a == y_b ? mesh.points[index(b)].x() : x_a;
-      x_low = std::min({x_low, x_a, x_b});
-      x_high = std::max({x_high, x_a, x_b});
+    for (const RisingEdge& edge : edges) {
+      if (y < edge.y_low || y > edge.y_high) continue;
+      const bool level = edge.y_low == edge.y_high;
+      const double x = edge.x_low + (y - edge.y_low) * edge.x_per_y;
+      x_low = std::min({x_low, x, level ? edge.x_high : x});
+      x_high = std::max({x_high, x, level ? edge.x_high : x});
     }
     const int first = static_cast<int>(std::ceil((x_low - lattice.low.x()) / lattice.spacing));
     const int last = static_cast<int>(std::floor((x_high - lattice.low.x()) / lattice.spacing));
     for (int i = first; i <= last; ++i)
       lattice.triangle[index(row) * index(lattice.n_x) + index(i)] = t;
   }
+}
+
+// Exact distances of the nodes next to a point.
+void seed_distance(const Lattice& lattice, const Vec2& point, std::vector<float>& distance) {
+  const Vec2 at = (point - lattice.low) / lattice.spacing;
+  const int i_near = static_cast<int>(at.x()), j_near = static_cast<int>(at.y());
+  for (int j = std::max(j_near - 1, 0); j <= std::min(j_near + 2, lattice.n_y - 1); ++j)
+    for (int i = std::max(i_near - 1, 0); i <= std::min(i_near + 2, lattice.n_x - 1); ++i) {
+      float& nearest = distance[index(j) * index(lattice.n_x) + index(i)];
+      const double gap = lattice.spacing * (Vec2(i, j) - at).norm();
+      nearest = std::min(nearest, static_cast<float>(gap));
+    }
 }
 
 // One sweep of the chamfer distance, forwards or backwards through the rows.
@@ -129,8 +145,8 @@ double height_in_triangle(const TriangleMesh& mesh, int t, const Vec2& place) {
   return origin.z() + share_b * u.z() + share_c * v.z();
 }
 
-std::vector<Vec3> points_along_lines(const TriangleMesh& mesh, double spacing) {
-  std::vector<Vec3> along = mesh.points;
+std::vector<Vec3> points_between(const TriangleMesh& mesh, double spacing) {
+  std::vector<Vec3> between;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k) {
       const bool constrained = (mesh.constrained[t] >> k & 1) != 0;
@@ -138,24 +154,16 @@ std::vector<Vec3> points_along_lines(const TriangleMesh& mesh, double spacing) {
       const Vec3& a = mesh.points[index(mesh.triangles[t][(k + 1) % 3])];
       const Vec3& b = mesh.points[index(mesh.triangles[t][(k + 2) % 3])];
       const int n = static_cast<int>(std::ceil((b - a).head<2>().norm() / spacing));
-      for (int i = 1; i < n; ++i) along.push_back(a + (b - a) * (static_cast<double>(i) / n));
+      for (int i = 1; i < n; ++i) between.push_back(a + (b - a) * (static_cast<double>(i) / n));
     }
-  return along;
+  return between;
 }
 
-std::vector<float> distance_to_points(const Lattice& lattice, const std::vector<Vec3>& points) {
+std::vector<float> distance_to_points(const Lattice& lattice, const std::vector<Vec3>& points,
+                                      const std::vector<Vec3>& more) {
   std::vector<float> distance(lattice.size(), std::numeric_limits<float>::infinity());
-  for (const Vec3& point : points) {
-    const Vec2 at = (point.head<2>() - lattice.low) / lattice.spacing;
-    const int i_near = static_cast<int>(std::floor(at.x())),
-              j_near = static_cast<int>(std::floor(at.y()));
-    for (int j = std::max(j_near - 1, 0); j <= std::min(j_near + 2, lattice.n_y - 1); ++j)
-      for (int i = std::max(i_near - 1, 0); i <= std::min(i_near + 2, lattice.n_x - 1); ++i) {
-        float& nearest = distance[index(j) * index(lattice.n_x) + index(i)];
-        const double gap = lattice.spacing * (Vec2(i, j) - at).norm();
-        nearest = std::min(nearest, static_cast<float>(gap));
-      }
-  }
+  for (const std::vector<Vec3>* list : {&points, &more})
+    for (const Vec3& point : *list) seed_distance(lattice, point.head<2>(), distance);
   sweep(lattice, false, distance);
   sweep(lattice, true, distance);
   return distance;

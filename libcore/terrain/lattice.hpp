@@ -32,12 +32,14 @@ struct Lattice {
 /// Height of the mesh's triangle `t` at `place` [m].
 [[nodiscard]] double height_in_triangle(const TriangleMesh& mesh, int t, const Vec2& place);
 
-/// A point every `spacing` or less along each constrained edge, ends included once each [m].
-[[nodiscard]] std::vector<Vec3> points_along_lines(const TriangleMesh& mesh, double spacing);
+/// Points that divide the constrained edges longer than `spacing` into equal parts no longer [m].
+[[nodiscard]] std::vector<Vec3> points_between(const TriangleMesh& mesh, double spacing);
 
-/// Distance of each node from the nearest of `points` [m], exact to 8 % (chamfer distance).
+/// Distance of each node from the nearest of `points` and `more` [m], exact to 8 % (chamfer
+/// distance).
 [[nodiscard]] std::vector<float> distance_to_points(const Lattice& lattice,
-                                                    const std::vector<Vec3>& points);
+                                                    const std::vector<Vec3>& points,
+                                                    const std::vector<Vec3>& more);
 
 /// Gives every node where known[node] == 0 a smooth mean of the known values around it, by
 /// averaging to ever coarser lattices and interpolating back. All zero when nothing is known.

@@ -68,6 +68,15 @@ class NormalEquations {
            problem_.node[number(i, j)] != Role::outside;
   }
 
+  // Whether the node or one of its four neighbours is free: only there is anything to add.
+  [[nodiscard]] bool near_free(int i, int j) const {
+    const auto is_free = [this](std::size_t node) { return problem_.node[node] == Role::free; };
+    const std::size_t node = number(i, j), row = static_cast<std::size_t>(problem_.n_x);
+    return is_free(node) || (i > 0 && is_free(node - 1)) ||
+           (i + 1 < problem_.n_x && is_free(node + 1)) || (j > 0 && is_free(node - row)) ||
+           (j + 1 < problem_.n_y && is_free(node + row));
+  }
+
   // Adds weight * (sum coefficient z - target)^2.
   void add_square(std::span<const Term> terms, double target, double weight) {
     for (const Term& p : terms) {
@@ -101,7 +110,7 @@ class NormalEquations {
 
   // Bending and tension at node (i, j).
   void add_node(int i, int j) {
-    if (!inside(i, j)) return;
+    if (!inside(i, j) || !near_free(i, j)) return;
     std::array<Term, 5> laplacian;
     std::size_t n = 1;
     const auto add_direction = [&](int di, int dj) {

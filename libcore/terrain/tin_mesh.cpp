@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 
 namespace talus {
 namespace {
@@ -79,22 +80,25 @@ void cut_to_rings(const std::vector<std::vector<Vec2>>& rings, TriangleMesh& mes
     for (int& t : neighbors) t = t < 0 ? -1 : new_number[index(t)];
 }
 
-Tin to_tin(const TriangleMesh& mesh, const ContourMap& map) {
+Tin to_tin(TriangleMesh mesh, const ContourMap& map) {
+  mesh.neighbors = {};
   Tin tin;
   tin.origin = map.origin;
   tin.crs_wkt = map.crs_wkt;
-  std::vector<bool> used(mesh.points.size(), false);
-  for (const auto& corners : mesh.triangles)
-    for (const int corner : corners) used[index(corner)] = true;
   std::vector<int> new_number(mesh.points.size(), -1);
-  for (std::size_t i = 0; i < used.size(); ++i) {
-    if (!used[i]) continue;
-    new_number[i] = static_cast<int>(tin.points.size());
-    tin.points.push_back(mesh.points[i]);
+  for (const auto& corners : mesh.triangles)
+    for (const int corner : corners) new_number[index(corner)] = 0;
+  int n_used = 0;
+  for (std::size_t i = 0; i < new_number.size(); ++i) {
+    if (new_number[i] < 0) continue;
+    mesh.points[index(n_used)] = mesh.points[i];
+    new_number[i] = n_used++;
   }
-  tin.triangles.reserve(mesh.triangles.size());
-  for (const auto& [a, b, c] : mesh.triangles)
-    tin.triangles.push_back({new_number[index(a)], new_number[index(b)], new_number[index(c)]});
+  mesh.points.resize(index(n_used));
+  for (auto& corners : mesh.triangles)
+    for (int& corner : corners) corner = new_number[index(corner)];
+  tin.points = std::move(mesh.points);
+  tin.triangles = std::move(mesh.triangles);
   return tin;
 }
 

@@ -14,7 +14,8 @@ namespace talus {
 /// a hole). Without rings nothing is dropped.
 void cut_to_rings(const std::vector<std::vector<Vec2>>& rings, TriangleMesh& mesh);
 
-/// The mesh as a TIN in the map's place, without points that stand in no triangle.
-[[nodiscard]] Tin to_tin(const TriangleMesh& mesh, const ContourMap& map);
+/// The mesh as a TIN in the map's place, without points that stand in no triangle. Uses up the
+/// mesh.
+[[nodiscard]] Tin to_tin(TriangleMesh mesh, const ContourMap& map);
 
 }  // namespace talus

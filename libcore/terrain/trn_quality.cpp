@@ -58,33 +58,50 @@ namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
 
-// One triangle of known ground with its gradient squared.
-void add_triangle(double slope_sq, SlopeStatistics& result) {
-  const double slope_deg = std::atan(std::sqrt(slope_sq)) * degrees;
-  const auto bin = static_cast<std::size_t>(slope_deg / SlopeStatistics::bin_deg);
-  ++result.n_in_bin[std::min(bin, result.n_in_bin.size() - 1)];
+// Squares of the gradients at which the bins end, all but the last.
+std::array<double, 17> bin_ends() {
+  std::array<double, 17> ends{};
+  for (std::size_t k = 0; k < ends.size(); ++k) {
+    const double slope = std::tan(static_cast<double>(k + 1) * SlopeStatistics::bin_deg / degrees);
+    ends[k] = slope * slope;
+  }
+  return ends;
+}
+
+// One triangle of known ground with its gradient squared. Counting the ends below it costs half of
+// an arc tangent.
+void add_triangle(double slope_sq, const std::array<double, 17>& ends, SlopeStatistics& result) {
+  std::size_t bin = 0;
+  for (const double end : ends) bin += slope_sq >= end;
+  ++result.n_in_bin[bin];
   ++result.n_triangles;
   result.n_flat += slope_sq == 0;
-  result.mean_deg += slope_deg;  // a sum until the end
-  result.largest_deg = std::max(result.largest_deg, slope_deg);
 }
 
 }  // namespace
 
 SlopeStatistics slope_statistics(const Trn& trn) {
   const double steep = std::tan(steep_deg / degrees);
+  const std::array<double, 17> ends = bin_ends();
   SlopeStatistics result;
   for (const double z : trn.elevation) result.n_nodes_known += !std::isnan(z);
+  double sum = 0, largest_sq = 0;
   for (Cell cell; cell.row < trn.n_rows - 1; ++cell.row)
     for (cell.col = 0; cell.col < trn.n_cols - 1; ++cell.col) {
       const double lower = triangle_gradient(trn, cell, false).squaredNorm();
       const double upper = triangle_gradient(trn, cell, true).squaredNorm();
-      if (!std::isnan(lower)) add_triangle(lower, result);
-      if (!std::isnan(upper)) add_triangle(upper, result);
+      for (const double slope_sq : {lower, upper}) {
+        if (std::isnan(slope_sq)) continue;
+        add_triangle(slope_sq, ends, result);
+        sum += std::sqrt(slope_sq);
+        largest_sq = std::max(largest_sq, slope_sq);
+      }
       result.n_cells += !std::isnan(lower) || !std::isnan(upper);
       result.n_cells_steep += lower > steep * steep || upper > steep * steep;
     }
-  if (result.n_triangles > 0) result.mean_deg /= static_cast<double>(result.n_triangles);
+  if (result.n_triangles > 0)
+    result.mean_deg = std::atan(sum / static_cast<double>(result.n_triangles)) * degrees;
+  result.largest_deg = std::atan(std::sqrt(largest_sq)) * degrees;
   return result;
 }
 

@@ -51,7 +51,8 @@ struct SlopeStatistics {
   std::int64_t n_flat = 0;         ///< triangles with three equal corners
   std::int64_t n_cells = 0;        ///< cells with ground
   std::int64_t n_cells_steep = 0;  ///< cells with a triangle steeper than steep_deg
-  double mean_deg = 0, largest_deg = 0;
+  double mean_deg = 0;             ///< angle of the mean gradient
+  double largest_deg = 0;          ///< of the steepest triangle
   std::array<std::int64_t, 18>
       n_in_bin{};  ///< triangles of 0 to below 5 degrees, 5 to below 10 ...
 };
