@@ -56,12 +56,13 @@ void linearise(const BlockSystem<Dof>& system, std::span<ContactRow> rows, bool 
   }
 }
 
-// The residual as a velocity: impulse over mass, angular impulse over inertia times radius.
+// The residual as a velocity of the block's points: impulse over mass; angular impulse over inertia,
+// times the radius of gyration about that axis.
 template <int Dof>
 double residual_speed(const BlockSystem<Dof>& s, const typename BlockSystem<Dof>::Vec& r) {
   double largest = 0;
   for (int i = 0; i < Dof; ++i)
-    largest = std::max(largest, std::abs(r[i]) / s.mass(i, i) * (i < 3 ? 1 : s.radius));
+    largest = std::max(largest, std::abs(r[i]) / std::sqrt(s.mass(i, i) * s.mass(0, 0)));
   return largest;
 }
 

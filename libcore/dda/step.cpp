@@ -27,9 +27,7 @@ Vec3 base_velocity(const BaseMotion& base, double t) {
   return sum;
 }
 
-bool at_rest(const Scene& scene, size_t b) {
-  return scene.blocks.velocity[b].isZero(0) && scene.blocks.spin[b].isZero(0);
-}
+bool spins(const Scene& scene, size_t b) { return !scene.blocks.spin[b].isZero(0); }
 
 }  // namespace
 
@@ -67,7 +65,7 @@ State start(const Scene& scene) {
   if (scene.settings.law == Law::talus && scene.settings.static_start) {
     Work work = make_work(scene);
     for (size_t b = 0; b < n; ++b)
-      if (at_rest(scene, b)) settle_block(scene, static_cast<int>(b), state, work);
+      if (!spins(scene, b)) settle_block(scene, static_cast<int>(b), state, work);
   }
   return state;
 }

@@ -16,8 +16,8 @@ namespace {
 
 using std::size_t;
 
-// k_n dt^2 / m of the stiffest contact that is computed with.
-constexpr double stiffest = 100;
+// k_n dt^2 / m of the stiffest contact that is computed with, m being the mass that the contact feels.
+constexpr double stiffest = 400;
 // Overlap is pressed out over this many time steps: no velocity is turned round on the way.
 constexpr double recovery_steps = 3;
 // A contact is touching when its gap is below this part of the block's radius.
@@ -27,7 +27,9 @@ constexpr int most_tries = 24;       // substeps repeated to find an event or to
 
 /// Constants of one block in one run.
 struct BlockNumbers {
-  double mass, radius, stiffness, recovery_time, touch, resting_speed, gravity;
+  double mass, radius;
+  double stiffness;  // k_n of a contact that feels the whole mass
+  double recovery_time, touch, resting_speed, gravity;
   Vec3 inertia;
 };
 
@@ -35,7 +37,7 @@ BlockNumbers numbers_of(const Scene& scene, int b) {
   const auto i = static_cast<size_t>(b);
   const double g = scene.gravity.norm(), dt = scene.settings.dt;
   const double radius = scene.blocks.shapes.radius[i];
-  return {scene.blocks.mass[i], radius, contact_stiffness(scene, b), recovery_steps * dt,
+  return {scene.blocks.mass[i], radius, stiffest * scene.blocks.mass[i] / (dt * dt), recovery_steps * dt,
           touch_ratio * radius, std::max(2 * g * dt, 1e-6), g, scene.blocks.inertia[i]};
 }
 
@@ -114,8 +116,12 @@ void inherit(const ContactMemory& memory, int index, const Substep& s, double to
 
 void set_law(const Scene& scene, const BlockNumbers& c, const Substep& s, ContactRow& row) {
   const double x = row.gap_start + row.offset;
-  row.normal_damping = c.stiffness * s.h * c.recovery_time;
-  row.shear_damping = scene.settings.shear_ratio * row.normal_damping;
+  const Mobility W = mobility(c.mass, c.inertia, row.point, row.normal);
+  const double asked = scene.settings.normal_stiffness;
+  const double k_n = std::min(asked > 0 ? asked : c.stiffness, c.stiffness / (c.mass * W.normal));
+  const double k_s = std::min(scene.settings.shear_ratio * k_n, c.stiffness / (c.mass * W.tangent));
+  row.normal_damping = k_n * s.h * c.recovery_time;
+  row.shear_damping = k_s * s.h * c.recovery_time;
   row.shear_time = c.recovery_time;
   row.bias = x < 0 ? x / c.recovery_time : x / s.h;
   row.waits_for_impact =
@@ -170,7 +176,6 @@ BlockSystem<Dof> make_system(const Scene& scene, int b, const BlockNumbers& c, c
                              const State& state) {
   const auto i = static_cast<size_t>(b);
   BlockSystem<Dof> system;
-  system.radius = c.radius;
   const Vec3 v_free = s.R.transpose() * s.free.velocity;
   const Vec3 v_start = s.R.transpose() * s.start.velocity;
   const Vec3 spin_start =
@@ -501,6 +506,18 @@ struct Advance {
   }
 };
 
+// Whether the block touches the ground and moves neither into it nor off it.
+bool touches_at_rest(const Scene& scene, int b, const Motion& motion, Work& work) {
+  const BlockNumbers c = numbers_of(scene, b);
+  (void)find_contacts(scene.ground, scene.blocks.shapes, b, motion.pose, Mat3::Identity(),
+                      1e3 * c.touch, work.world_vertices, work.contacts);
+  const double slow = 1e-6 * motion.velocity.norm();
+  return !work.contacts.empty() &&
+         std::all_of(work.contacts.begin(), work.contacts.end(), [&](const Contact& contact) {
+           return std::abs(contact.normal.dot(motion.velocity)) <= slow;
+         });
+}
+
 // Static iteration: steps from rest, each ending at rest, until the block moves no more. friction < 0:
 // that of the ground. False when it keeps moving or the forces do not converge.
 bool settle(const Scene& scene, int b, double friction, bool from_touch, State& state, Work& work) {
@@ -534,13 +551,6 @@ bool settle(const Scene& scene, int b, double friction, bool from_touch, State& 
 
 }  // namespace
 
-double contact_stiffness(const Scene& scene, int b) {
-  const double dt = scene.settings.dt;
-  const double cap = stiffest * scene.blocks.mass[static_cast<size_t>(b)] / (dt * dt);
-  const double asked = scene.settings.normal_stiffness;
-  return asked > 0 ? std::min(asked, cap) : cap;
-}
-
 void advance_block_talus(const Scene& scene, int b, double t_end, State& state, Work& work,
                          StepReport& report) {
   Advance advance{scene, b, state, work, report, numbers_of(scene, b)};
@@ -555,19 +565,24 @@ void settle_block(const Scene& scene, int b, State& state, Work& work) {
   const Motion rest = state.motion[i];
   const EnergyLedger ledger = state.ledger;
   constexpr double sticking = 57;  // tan(89 degrees)
-  if (!settle(scene, b, sticking, true, state, work)) {  // it topples: let it go from where it is
-    state.motion[i] = rest;
-    state.memory[i].clear();
-    state.ledger = ledger;
-    return;
-  }
-  const Motion stuck = state.motion[i];
-  const std::vector<ContactMemory> memory = state.memory[i];
-  if (!settle(scene, b, -1, false, state, work)) {  // it slides: let it go from where it stuck
-    state.motion[i] = stuck;
-    state.memory[i] = memory;
+  if (touches_at_rest(scene, b, rest, work)) {
+    state.motion[i].velocity.setZero();
+    if (!settle(scene, b, sticking, true, state, work)) {  // it topples: from where it is
+      state.motion[i].pose = rest.pose;
+      state.memory[i].clear();
+    } else if (!rest.velocity.isZero(0)) {  // it moves along the ground: only the overlap is kept
+      for (ContactMemory& memory : state.memory[i]) memory.shear.setZero();
+    } else {
+      const Motion stuck = state.motion[i];
+      const std::vector<ContactMemory> memory = state.memory[i];
+      if (!settle(scene, b, -1, false, state, work)) {  // it slides: from where it stuck
+        state.motion[i] = stuck;
+        state.memory[i] = memory;
+      }
+    }
   }
   state.ledger = ledger;
+  state.motion[i].velocity = rest.velocity;
 }
 
 }  // namespace talus
