@@ -33,7 +33,7 @@ position_m = [[500020, 5000030], [500021, 5000050], [500022, 5000070]]
 height_above_ground_m = 0.5
 spin_rad_s = [0.3, 1, 0.2]
 [fence.low]
-line = [[500080, 5000010], [500080, 5000090]]
+line = [[500060, 5000010], [500060, 5000090]]
 [solver]
 duration_s = 8
 max_lost_share = 1

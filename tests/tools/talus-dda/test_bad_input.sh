@@ -57,7 +57,7 @@ awk 'NR <= 6 { print; next } { for (i = 1; i <= NF; i++) $i += 1.25; print }' pl
 talus-trn raised.asc -o raised.tif --crs EPSG:32632 -q --no-db
 expect 1 talus-dda site.toml --trn raised.tif --blocks blocks.h5 -o run.h5 --no-db
 says "3 of 3 blocks start below the ground"
-says "by 0.75 m"
+says "by 0.75"
 says "is not the terrain that blocks.h5 was made for"
 says "--settle lifts"
 expect 0 talus-dda site.toml --trn raised.tif --blocks blocks.h5 -o settled.h5 --no-db --settle --duration-s 1

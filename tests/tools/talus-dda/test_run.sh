@@ -10,8 +10,8 @@ prints '"n_frames": 81'
 prints '"left_domain": 0'
 nothing_left run.h5.part
 
-# the same bytes again, whatever the interval of checkpoints
-expect 0 run_dda -o again.h5 -q --checkpoint-interval-s 0.001
+# the same bytes again
+expect 0 run_dda -o again.h5 -q
 cmp run.h5 again.h5 || fail "two runs of the same inputs differ"
 [ -z "$(cat out)$(cat err)" ] || fail "-q is not quiet"
 
