@@ -211,7 +211,7 @@ void finish(Runner& runner) {
   // the time is a sum of steps: a frame due at the very end may lie above it by rounding
   take(runner, state.time + 1e-3 * runner.scene.settings.dt);
   const RunFrames& frames = runner.file.frames;
-  if (frames.time.empty() || frames.time.back() < state.time - half_step(runner))
+  if (frames.time.empty() || frames.time.back() < state.time - 1e-3 * runner.scene.settings.dt)
     append(runner.file.frames, last_frame(runner.sampler, state.time), runner.options.strain);
 }
 
