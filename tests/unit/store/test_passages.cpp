@@ -398,17 +398,20 @@ TEST(Passages, FlushedEarlyAreTheSame) {
 }
 
 // Of a ballistic path over a plane the highest point lies at vz = slope * vx, inside the path.
-TEST(LargestHeight, FindsTheApexAboveSlopingGround) {
+TEST(LargestHeights, FindTheApexAboveSlopingGround) {
   const double slope = -0.6, vx = 8, vz = 3, g = 9.81, h = 1.2;
   const Trn trn = trn_of(4, 30, 1, [&](double x, double) { return slope * x; });
   const Vec3 from(2, 1.3, slope * 2 + 1);
   const Vec3 to = from + Vec3(vx * h, 0.2, vz * h - 0.5 * g * h * h);
   const double t = (vz - slope * vx) / g;
   const double apex = 1 + (vz - slope * vx) * t - 0.5 * g * t * t;
-  EXPECT_NEAR(talus::largest_height(trn, from, to, -0.5 * g * h * h, 0, 1), apex, 1e-12);
+  const double sag = -0.5 * g * h * h;
+  const talus::Heights all = talus::largest_heights(trn, {from, to, 0.5, 0.5, sag}, 0, 1);
+  EXPECT_NEAR(all.centroid, apex, 1e-12);
+  EXPECT_NEAR(all.top, apex + 0.5, 1e-12);
   const double s = 0.5 * t / h;  // cut off before the apex: the end is the highest
   const double at_end = 1 + (vz - slope * vx) * s * h - 0.5 * g * s * h * s * h;
-  EXPECT_NEAR(talus::largest_height(trn, from, to, -0.5 * g * h * h, 0, s), at_end, 1e-12);
+  EXPECT_NEAR(talus::largest_heights(trn, {from, to, 0, 0, sag}, 0, s).centroid, at_end, 1e-12);
 }
 
 }  // namespace
