@@ -5,14 +5,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "store/motion.hpp"
 #include "terrain/trn_pyramid.hpp"
 #include "terrain/trn_walk.hpp"
 
 namespace talus {
 namespace {
 
-constexpr double largest_turn = 0.25;  // of a piece [rad]
+constexpr double largest_turn = flight_stride;  // of a piece [rad]
 
 // --- axes --------------------------------------------------------------------------------------
 
@@ -281,13 +280,11 @@ void record_piece(PassageRecorder& recorder, const Scene& scene, const Piece& pi
   tracker.last_time = piece.t_start + piece.duration;
 }
 
-// From above, by how much a block turns in a segment [rad]. In flight omega = I^-1 L, whose rate is
-// at most |L| |omega| / I_min: a vertex's acceleration by turning is below 2 r (|L| / I_min)^2.
+// From above, by how much a block turns in a segment [rad]. In flight the rate of omega is at most
+// |L| |omega| / I_min: a vertex's acceleration by turning is below 2 r (|L| / I_min)^2.
 double turn_of(const Segment& segment, const Vec3& inertia) {
-  if (segment.flight)
-    return segment.start.angular_momentum.norm() / inertia.minCoeff() *
-           (segment.t_end - segment.t_start);
-  return turn_bound(segment.start.pose.attitude, segment.end.pose.attitude);
+  return segment.flight ? flight_turn(segment, inertia)
+                        : turn_bound(segment.start.pose.attitude, segment.end.pose.attitude);
 }
 
 // So many pieces that each turns by less than `largest_turn` and bends in plan by less than a
@@ -416,7 +413,8 @@ void record_start(PassageRecorder& recorder, const Scene& scene, int block, cons
   flush(recorder.table, block, tracker);
 }
 
-void record_passages(PassageRecorder& recorder, const Scene& scene, const Segment& segment) {
+void record_passages(PassageRecorder& recorder, const Scene& scene, SegmentMotion& motion) {
+  const Segment& segment = motion.segment();
   const int block = segment.block;
   const Vec3& inertia = scene.blocks.inertia[block];
   const double turn = turn_of(segment, inertia);
@@ -436,7 +434,7 @@ void record_passages(PassageRecorder& recorder, const Scene& scene, const Segmen
   for (int i = 1; i <= n; ++i) {
     piece.t_start = segment.t_start + (i - 1) * duration;
     const double t = i < n ? segment.t_start + i * duration : segment.t_end;
-    piece.b = instant_of(scene, block, motion_at(segment, inertia, t));
+    piece.b = instant_of(scene, block, motion.at(t));
     record_piece(recorder, scene, piece);
     piece.a = piece.b;
   }

@@ -20,6 +20,7 @@
 
 #include "dda/scene.hpp"
 #include "dda/work.hpp"
+#include "store/motion.hpp"
 #include "terrain/trn.hpp"
 
 namespace talus {
@@ -104,8 +105,9 @@ struct PassageRecorder {
 /// A block's place and motion before its first segment.
 void record_start(PassageRecorder& recorder, const Scene& scene, int block, const Motion& motion,
                   double time);
-/// The next segment of a block; segments of one block come in the order of time.
-void record_passages(PassageRecorder& recorder, const Scene& scene, const Segment& segment);
+/// The next segment of a block, which `motion` follows; segments of one block come in the order of
+/// time.
+void record_passages(PassageRecorder& recorder, const Scene& scene, SegmentMotion& motion);
 /// Writes what is pending into the table; further segments may follow.
 void flush_passages(PassageRecorder& recorder);
 

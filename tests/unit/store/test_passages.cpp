@@ -26,6 +26,12 @@ Rows rows_of(PassageRecorder& recorder, int block = 0) {
   return rows;
 }
 
+void record(PassageRecorder& recorder, const Scene& scene, const Segment& segment) {
+  talus::SegmentMotion motion;
+  motion.follow(segment, scene.blocks.inertia[static_cast<std::size_t>(segment.block)]);
+  talus::record_passages(recorder, scene, motion);
+}
+
 // The path of one block, recorded.
 PassageRecorder recorded(const Scene& scene, const std::vector<Segment>& path, bool by_centroid,
                          double cell_size = 0) {
@@ -33,7 +39,7 @@ PassageRecorder recorded(const Scene& scene, const std::vector<Segment>& path, b
       talus::start_passages(scene, talus::passage_grid(scene.ground.trn, cell_size), by_centroid);
   talus::record_start(recorder, scene, path.front().block, path.front().start,
                       path.front().t_start);
-  for (const Segment& segment : path) talus::record_passages(recorder, scene, segment);
+  for (const Segment& segment : path) record(recorder, scene, segment);
   return recorder;
 }
 
@@ -387,7 +393,7 @@ TEST(Passages, FlushedEarlyAreTheSame) {
       talus::start_passages(scene, talus::passage_grid(scene.ground.trn, 0), false);
   talus::record_start(often, scene, 0, path.front().start, 0);
   for (const Segment& segment : path) {
-    talus::record_passages(often, scene, segment);
+    record(often, scene, segment);
     talus::flush_passages(often);
   }
   const Rows a = rows_of(once), b = rows_of(often);
