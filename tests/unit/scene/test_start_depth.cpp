@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <array>
+
 #include "base/random.hpp"
 #include "scene/start_depth.hpp"
 
