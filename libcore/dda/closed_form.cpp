@@ -495,7 +495,7 @@ CaseResult own_weight(const Settings& settings) {
   with_strains.strains = true;
   const SlopeFrame flat = slope_frame(0, 0);
   Run run(on_plane(with_strains, flat, ground_of(30), body_of(cube_on(flat, 10)), 20));
-  run.advance_to(200 * settings.dt);
+  run.advance_to(1);
   const Material material;
   const Vec6 stress = elastic_matrix(material.young, material.poisson) * run.state.strain[0];
   const double expected = -material.density * g * 10 / 2;
