@@ -217,7 +217,7 @@ void cut(Tool& tool, const Options& o, Work& work) {
   find_mass(tool, work);
   plan_joints(tool, work);
   draw_all_joints(work);
-  work.limits = plan_limits(work.site, work.sets);
+  work.limits = plan_limits(work.site, work.sets, work.mass.volume);
   work.limits.exact = o.exact;
   for (const PlannedSet& planned : work.sets)
     work.blocks.joint_set_names.push_back(planned.set.name);
@@ -340,7 +340,8 @@ Json cut_json(const Options& o, const Work& work) {
             {"thickness_m", work.limits.min_thickness},
             {"aspect", work.limits.max_aspect}}},
           {"n_rings_parted", cut.n_rings_parted},
-          {"n_kept_as_unions", cut.n_kept_exact},
+          {"n_divided", cut.n_divided},
+          {"n_kept_exact", cut.n_kept_exact},
           {"convexified_lost_m3", cut.lost},
           {"convexified_gained_m3", cut.gained},
           {"convexified_change",
@@ -385,8 +386,9 @@ std::string summary_of(const Json& report) {
            number(cut["slivers_merged_m3"]) + " m3) given to a neighbour";
   if (!cut["exact"].get<bool>())
     lines += "\nmade convex: volume " + text(100 * cut["convexified_change"].get<double>(), 3) +
-             " %, " + std::to_string(cut["n_kept_as_unions"].get<int>()) +
-             " blocks kept as unions of convex parts";
+             " %, " + std::to_string(cut["n_divided"].get<int>()) +
+             " blocks as several convex parts, " + std::to_string(cut["n_kept_exact"].get<int>()) +
+             " kept exact";
   return lines;
 }
 

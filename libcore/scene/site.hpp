@@ -50,6 +50,7 @@ struct SourceSettings {
   std::int64_t max_blocks = 20000;
   double min_block_volume_m3 = not_given;    ///< not given: 1e-3 of the mean joint cell
   double min_block_thickness_m = not_given;  ///< not given: 0.05 of the smallest spacing
+  double min_block_edge_m = not_given;  ///< not given: 1e-3 of the cube root of the block's volume
   double max_block_aspect = 50;
   double max_convex_loss = 0.05;  ///< share of a block's volume; above it the block stays exact
 };
