@@ -218,7 +218,7 @@ struct Site {
 /// or plain text where the key takes text. Throws InputError as read_site does.
 void override_value(Site& site, const std::string& key, const std::string& value);
 
-/// A value in effect, as TOML, and where it came from: "default", "file, line 7", "command line".
+/// A value in effect, as TOML, and where it came from: "default", "file, line 7", "cli".
 struct EffectiveValue {
   std::string section, key, value, source;  ///< value is empty when not given
 };

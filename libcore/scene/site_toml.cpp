@@ -625,7 +625,7 @@ struct ValueLister {
   std::string source_of(const std::string& path) const {
     const auto found = site.sources.find(path);
     if (found == site.sources.end()) return "default";
-    if (found->second.kind == ValueSource::from_cli) return "command line";
+    if (found->second.kind == ValueSource::from_cli) return "cli";
     return "file, line " + std::to_string(found->second.line);
   }
   template <class Section>

@@ -2,7 +2,7 @@
 . "$source_dir/tests/tools/talus-blocks/scene.sh"
 make_site
 expect 0 blocks --print-config --set source.depth_m=7
-prints "source.depth_m = 7  # command line"
+prints "source.depth_m = 7  # cli"
 prints "joints.sliding.dip_deg = 35  # file, line 10"
 prints "source.seed = 1  # default"
 expect 1 blocks --set source.depth=7

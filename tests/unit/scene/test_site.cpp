@@ -128,7 +128,7 @@ TEST(Site, PrintedConfigurationReadsBackTheSame) {
   Site site = parse_site(whole, "s/site.toml");
   talus::override_value(site, "source.depth_m", "12");
   const std::string printed = talus::print_config(site);
-  EXPECT_NE(printed.find("depth_m = 12  # command line"), std::string::npos);
+  EXPECT_NE(printed.find("depth_m = 12  # cli"), std::string::npos);
   EXPECT_NE(printed.find("dip_deg = 44  # file, line 16"), std::string::npos);
   EXPECT_NE(printed.find("law = 'talus'  # default"), std::string::npos);
   const auto without_comments = [](const std::string& text) {
