@@ -161,7 +161,10 @@ Energies energies(const Scene& scene, const State& state) {
   Energies sum;
   for (int b = 0; b < n_blocks(scene); ++b) {
     const auto i = static_cast<size_t>(b);
-    const Motion m = motion_at(scene, state, b, state.time);
+    Motion m = state.motion[i];  // a flight's spin energy does not change: no need to follow it
+    const double flown = state.phase[i] == Phase::flight ? state.time - state.local_time[i] : 0;
+    m.pose.position += flown * m.velocity + 0.5 * flown * flown * scene.gravity;
+    m.velocity += flown * scene.gravity;
     const double mass = scene.blocks.mass[i];
     const Vec3 spin =
         angular_velocity(m.pose.attitude, m.angular_momentum, scene.blocks.inertia[i]);
