@@ -11,7 +11,6 @@ enum class StepFlag : unsigned {
   not_finite = 2,    ///< NaN or infinity: the block was stopped at its last good state
   left_domain = 4,   ///< a block left the known terrain and was stopped
   fell_through = 8,  ///< a block lies wholly below the ground under it
-  deep = 16,         ///< a penetration above a tenth of the block's thickness
 };
 
 [[nodiscard]] inline StepFlag operator|(StepFlag a, StepFlag b) {

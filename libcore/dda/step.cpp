@@ -47,6 +47,22 @@ void put_to_sleep(const Scene& scene, size_t b, State& state) {
   state.motion[b].angular_momentum.setZero();
 }
 
+bool does_not_move(Phase phase) {
+  return phase == Phase::asleep || phase == Phase::left_domain || phase == Phase::stopped;
+}
+
+bool is_finite(const Motion& m) {
+  return m.pose.position.allFinite() && m.pose.attitude.coeffs().allFinite() &&
+         m.velocity.allFinite() && m.angular_momentum.allFinite();
+}
+
+void stop_at(const Motion& last_good, size_t b, State& state, StepReport& report) {
+  state.motion[b] = {last_good.pose, Vec3::Zero(), Vec3::Zero()};
+  state.phase[b] = Phase::stopped;
+  state.memory[b].clear();
+  report.flags = report.flags | StepFlag::not_finite;
+}
+
 bool spins(const Scene& scene, size_t b) { return !scene.blocks.spin[b].isZero(0); }
 
 }  // namespace
@@ -108,20 +124,22 @@ Work make_work(const Scene& scene) {
 StepReport step(const Scene& scene, State& state, Work& work) {
   StepReport report;
   const double t_end = state.time + scene.settings.dt;
-  const bool may_sleep = scene.settings.sleep && scene.base.time.empty();
+  const bool may_sleep =
+      scene.settings.sleep && scene.settings.law == Law::talus && scene.base.time.empty();
   work.segments.clear();
   for (int b = 0; b < n_blocks(scene); ++b) {
     const auto i = static_cast<size_t>(b);
-    if (state.phase[i] == Phase::asleep || state.phase[i] == Phase::left_domain) continue;
+    if (does_not_move(state.phase[i])) continue;
     if (state.phase[i] == Phase::flight && state.flight_end[i] >= t_end) {
       ++state.counters.flight_skips;
       continue;
     }
-    if (scene.settings.law == Law::paper) {
+    const Motion before = state.motion[i];
+    if (scene.settings.law == Law::paper)
       advance_block_paper(scene, b, state, work, report);
-      continue;
-    }
-    advance_block_talus(scene, b, t_end, state, work, report);
+    else
+      advance_block_talus(scene, b, t_end, state, work, report);
+    if (!is_finite(state.motion[i])) stop_at(before, i, state, report);
     if (may_sleep && state.phase[i] == Phase::near_ground) put_to_sleep(scene, i, state);
   }
   state.time = t_end;

@@ -209,7 +209,7 @@ void make_rows(const Scene& scene, int b, const BlockNumbers& c, const Substep& 
 // Residual at which the contact forces count as found, as a velocity: 1e-8 of what gravity does in
 // the substep, or what the rounding of the coordinates makes of the stiffest contact.
 double newton_tolerance(const BlockNumbers& c, const Substep& s) {
-  const double rounding = std::numeric_limits<double>::epsilon() *
+  const double rounding = 8 * std::numeric_limits<double>::epsilon() *
                           s.start.pose.position.cwiseAbs().maxCoeff() * c.stiffness * s.h / c.mass;
   return std::clamp(rounding, 1e-8 * c.gravity * s.h, 1e-6 * c.gravity * s.h) +
          1e-13 * s.start.velocity.norm();
