@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 struct Options {
   DdaFiles files;
   std::string out, xdmf, plan, passages_by = "footprint";
-  bool resume = false;
+  bool resume = false, independent = false;
 };
 
 void declare(Tool& tool, SiteOptions& site, Options& o) {
@@ -38,6 +38,9 @@ void declare(Tool& tool, SiteOptions& site, Options& o) {
                       "print what the scene needs and what is left out, then end; --plan=full "
                       "computes everything");
   tool.flag("--resume", o.resume, "go on from the checkpoint of a run that was stopped, if any");
+  tool.flag("--independent", o.independent,
+            "move each block as if it were alone; needed for more than one block, as contacts "
+            "between blocks are not computed yet");
   tool.flag("--settle", o.files.settle, "lift blocks that start below the ground onto it");
   tool.option("--passages-by", o.passages_by,
               "a cell is passed while the footprint or only the centroid is over it")
@@ -293,9 +296,23 @@ void write_outputs(Tool& tool, Runner& runner, const Options& o) {
   write_xdmf(tool.stage(o.xdmf), tool.stage(data.string()), data.filename().string(), runner.file);
 }
 
+// A slide whose blocks pass through each other must not look like a result.
+void check_blocks_apart(Tool& tool, const Options& o, int n) {
+  if (n < 2) return;
+  const std::string finding = std::to_string(n) + " blocks";
+  if (!o.independent)
+    throw InputError({o.files.blocks},
+                     finding + ", and contacts between blocks are not computed yet, expected one",
+                     "--independent moves each as if it were alone: right for rocks that fall one "
+                     "by one, not for a mass that slides together");
+  tool.warn(finding + " move as if each were alone: contacts between them are not computed");
+}
+
 void note_lines(Tool& tool, const Site& site) {
   for (const std::string& key : keys_without_effect(site))
     tool.warn(where_of(site, key).text() + ": " + key + " has no effect in this version");
+  if (!site.fences.empty())
+    tool.warn("fences stop nothing in this version: what crosses their lines is recorded");
 }
 
 }  // namespace
@@ -319,6 +336,7 @@ int main(int argc, char** argv) {
       tool.result({{"plan", as_json(plan)}}, as_text(plan));
       return;
     }
+    check_blocks_apart(tool, o, n_blocks(inputs.parts.blocks));
     tool.detail(as_text(plan));
     RunFile file = new_file(site, inputs, plan, o);
     const BlockSet blocks = inputs.parts.blocks;

@@ -29,7 +29,7 @@ constexpr int most_tries = 24;   // substeps repeated to find an event or to con
 
 /// Constants of one block in one run.
 struct BlockNumbers {
-  double mass, radius;
+  double mass, radius, thickness;
   double stiffness;  // k_n of a contact that feels the whole mass
   double recovery_time, touch, resting_speed, gravity;
   Vec3 inertia;
@@ -41,6 +41,7 @@ BlockNumbers numbers_of(const Scene& scene, int b) {
   const double radius = scene.blocks.shapes.radius[i];
   return {scene.blocks.mass[i],
           radius,
+          scene.blocks.shapes.thickness[i],
           stiffest * scene.blocks.mass[i] / (dt * dt),
           recovery_steps * dt,
           touch_ratio * radius,
@@ -333,7 +334,7 @@ void remember(const BlockNumbers& c, const Substep& s, const Solved<Dof>& solved
     memory.shear = s.R * shear;
     work.memory_next.push_back(memory);
     ++report.n_closed;
-    report.largest_penetration = std::max(report.largest_penetration, -(row.gap_start + along));
+    note_penetration(report, -(row.gap_start + along), c.thickness);
   }
   std::swap(state.memory[static_cast<size_t>(b)], work.memory_next);
 }

@@ -90,9 +90,9 @@ ScenePlan make_plan(const PlanFacts& facts, bool full) {
     return plan.items.back().on;
   };
   plan.strains = add(strains(facts, full));
-  plan.block_contacts =
-      add({"contacts between blocks", facts.n_blocks > 1,
-           "searched where there are two blocks or more", number(facts.n_blocks, "block")});
+  add({"contacts between blocks", false, "not computed yet; talus-dda --independent",
+       facts.n_blocks > 1 ? number(facts.n_blocks, "block") + " move as if each were alone"
+                          : "1 block"});
   add({"shear terms", facts.largest_friction_deg > 0,
        "shear springs and sliding where something has friction",
        "largest friction angle " + text(facts.largest_friction_deg, 4) + " degrees"});

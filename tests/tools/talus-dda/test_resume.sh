@@ -19,7 +19,7 @@ wait_for() {
 # killed three times at different moments, with a half-written checkpoint lying about
 for pause in 0 0.1 0.3; do
   rm -f killed.h5.part
-  talus-dda site.toml --trn slope.tif --blocks blocks.h5 --no-db -o killed.h5 $slow &
+  talus-dda site.toml --trn slope.tif --blocks blocks.h5 --no-db --independent -o killed.h5 $slow &
   run_id=$!
   wait_for killed.h5.part
   sleep $pause
@@ -37,7 +37,7 @@ for pause in 0 0.1 0.3; do
 done
 
 # interrupted: exit 130 after a checkpoint
-talus-dda site.toml --trn slope.tif --blocks blocks.h5 --no-db -o stopped.h5 $slow &
+talus-dda site.toml --trn slope.tif --blocks blocks.h5 --no-db --independent -o stopped.h5 $slow &
 run_id=$!
 wait_for stopped.h5.part
 kill -TERM $run_id

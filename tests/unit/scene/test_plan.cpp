@@ -27,7 +27,6 @@ PlanFacts one_stiff_block() {
 TEST(ScenePlan, LeavesOutWhatASceneDoesNotNeed) {
   const ScenePlan plan = make_plan(one_stiff_block(), false);
   EXPECT_FALSE(plan.strains);
-  EXPECT_FALSE(plan.block_contacts);
   EXPECT_FALSE(plan.base_motion);
   EXPECT_FALSE(plan.crossings);
   EXPECT_TRUE(plan.flight);
@@ -45,7 +44,7 @@ TEST(ScenePlan, KeepsWhatASceneNeeds) {
   facts.n_fences = 1;
   facts.has_base_motion = true;
   const ScenePlan plan = make_plan(facts, false);
-  EXPECT_TRUE(plan.block_contacts);
+  EXPECT_FALSE(item(plan, "contacts between blocks").on);  // and said so
   EXPECT_TRUE(plan.base_motion);
   EXPECT_FALSE(plan.flight);
   EXPECT_TRUE(plan.crossings);
