@@ -50,8 +50,8 @@ inline constexpr double strain_that_matters = 1e-4;
 struct ScenePlan {
   std::vector<PlanItem> items;
   bool strains = false;  ///< 12 degrees of freedom a block instead of 6
-  bool flight = true;  ///< skip the search while nothing can be hit
-  bool sleep = true;   ///< leave out blocks at rest
+  bool flight = true;    ///< skip the search while nothing can be hit
+  bool sleep = true;     ///< leave out blocks at rest
   bool base_motion = false;
   bool passages = true;
   bool crossings = false;
