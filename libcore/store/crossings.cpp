@@ -16,21 +16,26 @@ double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(
 // Segment i of a line as start + w * direction; w runs over 0..1, and on beyond both ends of the
 // line in its first and last segment.
 struct LinePart {
-  Vec2 start, direction;
-  double w_low = 0, w_high = 1;
+  Vec2 start, end, direction;
+  bool is_first = false, is_last = false;
 };
 
 int n_parts(const RecordLine& line) { return static_cast<int>(line.points.size()) - 1; }
 
 LinePart part_of(const RecordLine& line, int i) {
-  constexpr double endless = std::numeric_limits<double>::infinity();
   const Vec2 a = line.points[i].head<2>(), b = line.points[i + 1].head<2>();
-  return {a, b - a, i == 0 ? -endless : 0, i + 1 == n_parts(line) ? endless : 1};
+  return {a, b, b - a, i == 0, i + 1 == n_parts(line)};
+}
+
+double share_of(const LinePart& part, const Vec2& point) {
+  return (point - part.start).dot(part.direction) / part.direction.squaredNorm();
 }
 
 double distance_to(const LinePart& part, const Vec2& point) {
-  const double w = (point - part.start).dot(part.direction) / part.direction.squaredNorm();
-  return (part.start + std::clamp(w, part.w_low, part.w_high) * part.direction - point).norm();
+  double w = share_of(part, point);
+  if (!part.is_first) w = std::max(w, 0.0);
+  if (!part.is_last) w = std::min(w, 1.0);
+  return (part.start + w * part.direction - point).norm();
 }
 
 double distance_to_lines(const std::vector<RecordLine>& lines, const Vec2& point) {
@@ -49,17 +54,19 @@ struct Meeting {
   int direction = 0;  // +1 to the part's left
 };
 
-// A point on the line counts as lying to its left, so that no crossing is missed or seen twice
-// when a step ends on the line.
+// The ends of each lie on different sides of the other. A point on a line counts as lying to its
+// left, and a corner of the line has one side of the way for both of its parts, so that no crossing
+// is missed or seen twice when a step ends on the line or goes through a corner.
 Meeting meet(const LinePart& part, const Vec2& a, const Vec2& b) {
   const double side_a = cross(part.direction, a - part.start);
   const double side_b = cross(part.direction, b - part.start);
   if ((side_a >= 0) == (side_b >= 0)) return {};
+  const Vec2 way = b - a;
+  const double start = part.is_first ? -cross(way, part.direction) : cross(way, part.start - a);
+  const double end = part.is_last ? cross(way, part.direction) : cross(way, part.end - a);
+  if ((start >= 0) == (end >= 0)) return {};
   const double s = side_a / (side_a - side_b);
-  const Vec2 place = a + s * (b - a);
-  const double w = (place - part.start).dot(part.direction) / part.direction.squaredNorm();
-  if (!(w >= part.w_low && w < part.w_high)) return {};
-  return {true, s, w, side_b >= 0 ? 1 : -1};
+  return {true, s, share_of(part, a + s * way), side_b >= 0 ? 1 : -1};
 }
 
 // Time at which the centroid reaches share s of its way in plan. The way is a line, but where the
@@ -84,7 +91,7 @@ Crossing crossing_at(const Scene& scene, const RecordLine& line, int i, const Se
   row.direction = meeting.direction;
   row.time = time_at(segment, meeting.s);
   row.chainage = line.chainage[i] + meeting.w * (line.chainage[i + 1] - line.chainage[i]);
-  row.beside = meeting.w < 0 || meeting.w > 1;
+  row.beside = (i == 0 && meeting.w < 0) || (i + 1 == n_parts(line) && meeting.w > 1);
   const Motion motion = motion_at(segment, inertia, row.time);
   row.position = motion.pose.position;
   row.velocity = motion.velocity;
