@@ -33,7 +33,7 @@ class Tracer {
     while (!sides_.empty()) {
       const auto [start, direction] = sides_.begin()->first;
       const int group = group_[sides_.begin()->second];
-      const std::vector<Vec2> ring = take_ring(start, direction);
+      const std::vector<Vec2> ring = take_ring(start, direction, group);
       auto& rings = polygons[group];
       rings.insert(twice_area(ring) > 0 ? rings.begin() : rings.end(), ring);
     }
@@ -88,8 +88,9 @@ class Tracer {
     }
   }
 
-  // Follows the sides, turning left first: cells that meet in a corner alone stay apart.
-  std::vector<Vec2> take_ring(const Node& start, int direction) {
+  // Follows the sides of one group, turning right first: where the group meets itself in a corner
+  // its outline is parted into an outer ring and a hole, neither of which meets itself.
+  std::vector<Vec2> take_ring(const Node& start, int direction, int group) {
     std::vector<Vec2> ring;
     Node at = start;
     int previous = -1;
@@ -100,11 +101,12 @@ class Tracer {
       if (direction != previous) ring.push_back(point(at));
       previous = direction;
       at = next(at, direction);
-      for (const int turn : {1, 0, 3})
-        if (sides_.contains({at, (direction + turn) % 4})) {
-          direction = (direction + turn) % 4;
-          break;
-        }
+      for (const int turn : {3, 0, 1}) {
+        const auto ahead = sides_.find({at, (direction + turn) % 4});
+        if (ahead == sides_.end() || group_[ahead->second] != group) continue;
+        direction = (direction + turn) % 4;
+        break;
+      }
     }
     return ring;
   }

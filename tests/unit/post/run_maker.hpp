@@ -31,8 +31,7 @@ inline void add_box(RunFile& run, const Vec3& size, const Vec3& centre) {
   b.volume.push_back(volume);
   b.mass.push_back(mass);
   const Vec3 sq = size.cwiseAbs2();
-  b.inertia.emplace_back(mass / 12 *
-                         Vec3(sq.y() + sq.z(), sq.x() + sq.z(), sq.x() + sq.y()));
+  b.inertia.emplace_back(mass / 12 * Vec3(sq.y() + sq.z(), sq.x() + sq.z(), sq.x() + sq.y()));
   b.rest.push_back({centre, Quat::Identity()});
   const Polyhedron shell = box(-0.5 * size, 0.5 * size);
   const int first = b.vertex_begin.back();
