@@ -57,6 +57,7 @@ std::span<const MapRow> rows_of(const CellRows& cells, std::size_t i) {
   return std::span(cells.rows).subspan(cells.begin[i], cells.begin[i + 1] - cells.begin[i]);
 }
 
+// The largest values of both; what belongs to the arrival comes from the earlier one.
 void take_earlier(MapRow& row, const MapRow& other) {
   row.largest.raise(other.largest);
   if (other.first_time >= row.first_time) return;
@@ -65,9 +66,24 @@ void take_earlier(MapRow& row, const MapRow& other) {
   row.heading = other.heading;
 }
 
-MapRow map_row(const Passage& passage, std::uint32_t cell, int run, float weight) {
+// Rows of the same block and cell become one.
+void merge_equal_cells(std::vector<MapRow>& rows) {
+  std::stable_sort(rows.begin(), rows.end(), [](const MapRow& a, const MapRow& b) {
+    return a.block != b.block ? a.block < b.block : a.cell < b.cell;
+  });
+  std::size_t n = 0;
+  for (const MapRow& row : rows) {
+    if (n > 0 && rows[n - 1].block == row.block && rows[n - 1].cell == row.cell)
+      take_earlier(rows[n - 1], row);
+    else
+      rows[n++] = row;
+  }
+  rows.resize(n);
+}
+
+MapRow map_row(const Passage& passage, std::uint32_t cell, float weight) {
   return {cell,
-          run,
+          0,
           passage.block,
           weight,
           passage.largest,
@@ -286,44 +302,30 @@ MapGrid map_grid(const PassageGrid& recorded, double cell_size, const std::strin
   return map;
 }
 
-void append_rows(std::vector<MapRow>& rows, std::span<const Passage> passages,
-                 const PassageGrid& recorded, const MapGrid& map, int run,
-                 std::span<const double> weight) {
-  const auto weight_of = [weight](const Passage& passage) {
-    return static_cast<float>(weight[passage.block]);
-  };
-  if (map.factor == 1) {
-    for (const Passage& passage : passages)
-      rows.push_back(
-          map_row(passage, static_cast<std::uint32_t>(passage.cell), run, weight_of(passage)));
-    return;
-  }
-  const auto first = static_cast<std::ptrdiff_t>(rows.size());
+std::vector<MapRow> map_rows(std::span<const Passage> passages, const PassageGrid& recorded,
+                             const MapGrid& map, std::span<const double> weight) {
+  std::vector<MapRow> rows;
+  rows.reserve(passages.size());
   for (const Passage& passage : passages) {
-    const int row = passage.cell / recorded.n_cols / map.factor;
-    const int col = passage.cell % recorded.n_cols / map.factor;
-    const auto cell = static_cast<std::uint32_t>(row) * static_cast<std::uint32_t>(map.grid.n_cols);
+    auto cell = static_cast<std::uint32_t>(passage.cell);
+    if (map.factor > 1) {
+      const int row = passage.cell / recorded.n_cols / map.factor;
+      const int col = passage.cell % recorded.n_cols / map.factor;
+      cell = static_cast<std::uint32_t>(row) * static_cast<std::uint32_t>(map.grid.n_cols) +
+             static_cast<std::uint32_t>(col);
+    }
     rows.push_back(
-        map_row(passage, cell + static_cast<std::uint32_t>(col), run, weight_of(passage)));
+        map_row(passage, cell, weight.empty() ? 1 : static_cast<float>(weight[passage.block])));
   }
-  std::stable_sort(rows.begin() + first, rows.end(), [](const MapRow& a, const MapRow& b) {
-    return a.block != b.block ? a.block < b.block : a.cell < b.cell;
-  });
-  auto last = rows.begin() + first;
-  for (auto row = last; row != rows.end(); ++row) {
-    if (row == last) continue;
-    if (row->block == last->block && row->cell == last->cell)
-      take_earlier(*last, *row);
-    else
-      *++last = *row;
-  }
-  if (last != rows.end()) rows.erase(last + 1, rows.end());
+  if (map.factor > 1) merge_equal_cells(rows);
+  return rows;
 }
 
-CellRows group_by_cell(std::vector<MapRow> rows, std::size_t n_cells) {
-  // Counting sort: it keeps the order of rows within a cell.
+CellRows group_by_cell(std::vector<std::vector<MapRow>> runs, std::size_t n_cells) {
+  // Counting sort: it keeps the order of runs and blocks within a cell.
   std::vector<std::uint64_t> place(n_cells + 1, 0);
-  for (const MapRow& row : rows) ++place[row.cell + 1];
+  for (const auto& rows : runs)
+    for (const MapRow& row : rows) ++place[row.cell + 1];
   CellRows cells;
   for (std::size_t cell = 0; cell < n_cells; ++cell) {
     if (place[cell + 1] > 0) {
@@ -332,8 +334,14 @@ CellRows group_by_cell(std::vector<MapRow> rows, std::size_t n_cells) {
     }
     place[cell + 1] += place[cell];
   }
-  cells.rows.resize(rows.size());
-  for (const MapRow& row : rows) cells.rows[place[row.cell]++] = row;
+  cells.rows.resize(cells.begin.back());
+  for (std::size_t run = 0; run < runs.size(); ++run) {
+    for (MapRow& row : runs[run]) {
+      row.run = static_cast<std::int32_t>(run);
+      cells.rows[place[row.cell]++] = row;
+    }
+    std::vector<MapRow>().swap(runs[run]);
+  }
   return cells;
 }
 

@@ -44,10 +44,10 @@ struct MapGrid {
                                const std::string& item);
 
 /// Rows of one run's passages, brought to the map's cells: one row per block and cell.
-/// `weight`: of each block                                                          (n_blocks)
-void append_rows(std::vector<MapRow>& rows, std::span<const Passage> passages,
-                 const PassageGrid& recorded, const MapGrid& map, int run,
-                 std::span<const double> weight);
+/// `weight`: of each block; empty: 1                                                 (n_blocks)
+[[nodiscard]] std::vector<MapRow> map_rows(std::span<const Passage> passages,
+                                           const PassageGrid& recorded, const MapGrid& map,
+                                           std::span<const double> weight);
 
 /// Rows by cell, ascending; within a cell by run and block.
 struct CellRows {
@@ -56,8 +56,9 @@ struct CellRows {
   std::vector<MapRow> rows;
 };
 
-/// `n_cells`: of the grid. Runs must have been appended in ascending order of `run`.
-[[nodiscard]] CellRows group_by_cell(std::vector<MapRow> rows, std::size_t n_cells);
+/// `runs`: rows of each run, in the order of run ids; they are given that place. `n_cells`: of the
+/// grid.
+[[nodiscard]] CellRows group_by_cell(std::vector<std::vector<MapRow>> runs, std::size_t n_cells);
 
 /// What was released: the denominators.
 struct Released {

@@ -37,9 +37,8 @@ struct HandMade {
     return r;
   }
   [[nodiscard]] CellRows cells(const MapGrid& map) const {
-    std::vector<MapRow> rows;
-    for (std::size_t r = 0; r < runs.size(); ++r)
-      append_rows(rows, runs[r].passages, grid, map, static_cast<int>(r), runs[r].weight);
+    std::vector<std::vector<MapRow>> rows;
+    for (const auto& run : runs) rows.push_back(map_rows(run.passages, grid, map, run.weight));
     return group_by_cell(std::move(rows),
                          static_cast<std::size_t>(map.grid.n_rows) * map.grid.n_cols);
   }
