@@ -63,16 +63,20 @@ Quat rotation_by(const Vec3& r) {
 }
 
 Quat free_rotation(const Quat& attitude, const Vec3& L, const Vec3& inertia, double h) {
+  if (L.isZero(0) || h == 0) return attitude;
   const double low = inertia.minCoeff(), high = inertia.maxCoeff();
-  const double turn = L.norm() / low * h;
-  if (turn == 0) return attitude;
   if (high - low <= 1e-12 * high) return (rotation_by(L * (h / low)) * attitude).normalized();
   SplitSpin spin{attitude, attitude.conjugate() * L, inertia.cwiseInverse()};
-  if (turn < 1e-3) {  // order 2 errs by turn^3 / 12 < 1e-10 rad
-    spin.order2(h);
-  } else {
-    const int n = 1 + static_cast<int>(turn / largest_turn);
-    for (int i = 0; i < n; ++i) spin.order4(h / n);
+  double left = h;
+  while (left > 0) {
+    const double speed = spin.momentum.cwiseProduct(spin.per_inertia).norm();
+    const double n = std::ceil(speed * left / largest_turn);
+    const double part = n > 1 ? left / n : left;
+    if (speed * part < 1e-3)  // order 2 errs by turn^3 / 12 < 1e-10 rad
+      spin.order2(part);
+    else
+      spin.order4(part);
+    left = n > 1 ? left - part : 0;
   }
   return spin.q.normalized();
 }

@@ -63,6 +63,28 @@ std::string describe_problem(const OGRSpatialReference& srs) {
 
 }  // namespace
 
+std::string wkt_of(const OGRSpatialReference* srs) {
+  if (!srs || srs->IsEmpty()) return {};
+  if (srs->IsLocal() && std::abs(srs->GetLinearUnits() - 1) < 1e-9) return {};
+  char* wkt = nullptr;
+  const char* const options[] = {"FORMAT=WKT2_2019", nullptr};
+  srs->exportToWkt(&wkt, options);
+  std::string copied(wkt ? wkt : "");
+  CPLFree(wkt);
+  return copied;
+}
+
+bool reproject(const std::string& from, const std::string& to, std::vector<Vec3>& points) {
+  const GdalErrors errors;
+  const OGRSpatialReference source = parse(from), target = parse(to);
+  const std::unique_ptr<OGRCoordinateTransformation> transformation(
+      OGRCreateCoordinateTransformation(&source, &target));
+  if (!transformation) return false;
+  for (Vec3& point : points)
+    if (!transformation->Transform(1, &point.x(), &point.y())) return false;
+  return true;
+}
+
 std::string crs_from_user(const std::string& user_text, const std::string& option) {
   if (user_text == "none") return {};
   const GdalErrors errors;
@@ -70,12 +92,7 @@ std::string crs_from_user(const std::string& user_text, const std::string& optio
   if (user_text.empty() || srs.SetFromUserInput(user_text.c_str()) != OGRERR_NONE)
     throw InputError({"", 0, option}, "\"" + user_text + "\" is not a CRS",
                      "write EPSG:code, for example EPSG:31287, or a PROJ string");
-  char* wkt = nullptr;
-  const char* const options[] = {"FORMAT=WKT2_2019", nullptr};
-  srs.exportToWkt(&wkt, options);
-  std::string copied(wkt ? wkt : "");
-  CPLFree(wkt);
-  return copied;
+  return wkt_of(&srs);
 }
 
 std::string crs_name(const std::string& crs_wkt) {

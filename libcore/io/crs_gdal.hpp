@@ -3,10 +3,17 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "base/types.hpp"
 
+class OGRSpatialReference;
+
 namespace talus {
+
+/// WKT2:2019; empty for a null or empty reference, and for a local one in metres: it names no place
+/// (GeoTIFF makes one up, "unnamed", for a raster without a CRS).
+[[nodiscard]] std::string wkt_of(const OGRSpatialReference* srs);
 
 /// WKT2:2019 of what a user writes: "EPSG:31287", a PROJ string, WKT, the name of a file. "none"
 /// gives an empty text: local metres without a place on the map. Throws InputError that names
@@ -18,6 +25,11 @@ namespace talus {
 
 /// Whether both describe the same system; two empty ones do.
 [[nodiscard]] bool same_crs(const std::string& a, const std::string& b);
+
+/// Takes points from one CRS to another, x (east, longitude) first; heights stay as they are. False
+/// when a point cannot be taken there; `points` are then spoilt.
+[[nodiscard]] bool reproject(const std::string& from, const std::string& to,
+                             std::vector<Vec3>& points);
 
 /// Why a CRS cannot be computed in, and what to reproject to.
 struct CrsProblem {

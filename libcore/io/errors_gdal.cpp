@@ -1,5 +1,6 @@
 #include "io/errors_gdal.hpp"
 
+#include <cpl_conv.h>
 #include <cpl_error.h>
 #include <gdal.h>
 
@@ -32,7 +33,11 @@ void GdalErrors::note(bool is_failure, const char* message) {
 }
 
 void register_gdal_drivers() {
-  static const bool once = (GDALAllRegister(), true);
+  static const bool once = [] {
+    GDALAllRegister();
+    if (CPLGetConfigOption("GDAL_CACHEMAX", nullptr) == nullptr) GDALSetCacheMax64(128 << 20);
+    return true;
+  }();
   static_cast<void>(once);
 }
 

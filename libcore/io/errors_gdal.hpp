@@ -23,7 +23,8 @@ class GdalErrors {
   std::string failure_;
 };
 
-/// All drivers, once.
+/// All drivers, once. GDAL's cache of blocks gets 128 MB unless GDAL_CACHEMAX says otherwise: its
+/// default is a twentieth of the machine, which a pass over a large raster would fill.
 void register_gdal_drivers();
 
 }  // namespace talus

@@ -441,11 +441,15 @@ std::vector<double> H5Reader::attribute_numbers(const std::string& object,
 
 void write_bytes(const std::string& path, std::span<const unsigned char> bytes) {
   const int descriptor = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  const auto remove = [&] {
+    std::error_code error;
+    if (std::filesystem::is_regular_file(path, error)) std::filesystem::remove(path, error);
+  };
   const auto fail = [&](const char* what) {
     const std::string reason = std::strerror(errno);
     if (descriptor >= 0) {
       close(descriptor);
-      unlink(path.c_str());
+      remove();
     }
     throw InputError({path}, std::string(what) + ": " + reason,
                      "make room, or name an output elsewhere");
@@ -459,7 +463,7 @@ void write_bytes(const std::string& path, std::span<const unsigned char> bytes) 
   }
   if (fsync(descriptor) != 0 && errno != EINVAL) fail("cannot be synced to the disk");
   if (close(descriptor) == 0) return;
-  unlink(path.c_str());
+  remove();
   throw InputError({path}, "cannot be closed after writing");
 }
 

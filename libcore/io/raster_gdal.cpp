@@ -90,21 +90,10 @@ GridFrame frame_of_raster(GDALDataset& dataset, const std::string& path) {
   return {n_rows, n_cols, width, {g[0] + 0.5 * width, g[3] - 0.5 * width}};
 }
 
-std::string crs_of(GDALDataset& dataset) {
-  const OGRSpatialReference* srs = dataset.GetSpatialRef();
-  if (!srs || srs->IsEmpty()) return {};
-  char* wkt = nullptr;
-  const char* const options[] = {"FORMAT=WKT2_2019", nullptr};
-  srs->exportToWkt(&wkt, options);
-  std::string copied(wkt ? wkt : "");
-  CPLFree(wkt);
-  return copied;
-}
-
 // The file's CRS, or the one that the user gives for a file without.
 std::string effective_crs(GDALDataset& dataset, const std::string& path,
                           const DemOptions& options) {
-  const std::string own = crs_of(dataset);
+  const std::string own = wkt_of(dataset.GetSpatialRef());
   if (!own.empty()) {
     if (options.crs_given && !same_crs(own, options.crs))
       throw InputError({path}, "the CRS is " + crs_name(own) + ", not " + crs_name(options.crs),
@@ -242,8 +231,9 @@ std::vector<double> read_dem(const DemFile& dem, const GridFrame& frame,
   if (first > last || resampler.n_cols() < 1) return resampler.take();
   const auto n_cols = static_cast<std::size_t>(resampler.n_cols());
   std::vector<double> strip(rows_at_once * n_cols);
-  for (int row = first; row <= last; row += rows_at_once) {
-    const int n_rows = std::min(rows_at_once, last - row + 1);
+  for (int row = first, n_rows = 0; row <= last; row += n_rows) {
+    // strips end where rows of tiles do, so that no tile is unpacked twice
+    n_rows = std::min(rows_at_once - row % rows_at_once, last - row + 1);
     dem.read(row, n_rows, resampler.first_col(), resampler.n_cols(), strip.data());
     for (int i = 0; i < n_rows; ++i)
       resampler.add_row(strip.data() + static_cast<std::size_t>(i) * n_cols);

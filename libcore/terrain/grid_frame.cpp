@@ -77,6 +77,22 @@ GridFrame part_covering(const GridFrame& frame, const MapWindow& window) {
   return part;
 }
 
+bool is_own_cell_size(const GridFrame& frame, double cell_size) {
+  const double drift = std::abs(cell_size - frame.cell_size) * std::max(frame.n_rows, frame.n_cols);
+  return drift < 0.01 * frame.cell_size;
+}
+
+GridFrame frame_on_dem(const GridFrame& dem, double cell_size, const MapWindow& window) {
+  if (cell_size == 0 || is_own_cell_size(dem, cell_size)) return part_covering(dem, window);
+  const double margin = 0.5 * (std::max(cell_size, dem.cell_size) - dem.cell_size);
+  const MapWindow nodes = extent(dem);
+  const MapWindow reach{nodes.x_min + margin, nodes.y_min + margin, nodes.x_max - margin,
+                        nodes.y_max - margin};
+  const MapWindow common = intersection(window, nodes);
+  if (!(common.x_min <= common.x_max && common.y_min <= common.y_max)) return {};
+  return frame_inside(intersection(reach, extent(frame_covering(common, cell_size))), cell_size);
+}
+
 Trn make_trn(const GridFrame& frame, std::string crs_wkt, std::vector<double> elevation) {
   const auto whole = [](double value) { return 100 * std::floor(value / 100); };
   Trn trn;

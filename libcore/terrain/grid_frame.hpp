@@ -41,6 +41,16 @@ struct MapWindow {
 /// extent; empty when they have no point in common.
 [[nodiscard]] GridFrame part_covering(const GridFrame& frame, const MapWindow& window);
 
+/// Whether cells of `cell_size` drift by less than 0.01 cell from those of `frame` over its extent:
+/// then the user means the frame's own (4.99768 for 4.997678230579).
+[[nodiscard]] bool is_own_cell_size(const GridFrame& frame, double cell_size);
+
+/// Nodes at which the DEM `dem` can be known, inside `window` or just around it: the DEM's own
+/// where the cell size is its own (or 0), else multiples of the cell size whose square
+/// (RowResampler) lies on the DEM. Empty when the window misses the DEM.
+[[nodiscard]] GridFrame frame_on_dem(const GridFrame& dem, double cell_size,
+                                     const MapWindow& window);
+
 /// A TRN on the nodes of `frame` from map elevations at [r * n_cols + c]. The local origin is the
 /// south-west corner taken down to whole hundreds of metres; heights stay those of the map.
 [[nodiscard]] Trn make_trn(const GridFrame& frame, std::string crs_wkt,
