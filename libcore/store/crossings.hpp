@@ -22,6 +22,7 @@ struct RecordLine {
   std::string name;
   std::vector<Vec3> points;      ///< local, z = base of the line [m]; at least two, no two alike
   std::vector<double> chainage;  ///< of the points, horizontal, from the first [m]  (n_points)
+  bool standing = false;         ///< a fence that stops blocks; false: a line that stops nothing
 };
 
 /// Chainages of `points`. Throws InputError naming the line for fewer than two points, or two in
