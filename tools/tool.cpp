@@ -297,7 +297,11 @@ struct Tool::Impl {
     add(record.tool);
     add(record.version);
     for (const RunParam& param : record.params) add(param.key), add(param.value);
-    for (const RunFile& file : record.inputs) add(file.role), add(file.sha256);
+    // Results do not depend on the order in which several inputs of one option are named.
+    std::vector<std::pair<std::string, std::string>> contents;
+    for (const RunFile& file : record.inputs) contents.emplace_back(file.role, file.sha256);
+    std::sort(contents.begin(), contents.end());
+    for (const auto& [role, sha256] : contents) add(role), add(sha256);
     return hash.hex().substr(0, 16);
   }
 

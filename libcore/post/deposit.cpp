@@ -205,6 +205,12 @@ void add_deposit(DepositSums& sums, const PassageGrid& grid, const RunFile& run,
   }
 }
 
+void add(DepositSums& sums, const DepositSums& other) {
+  for (const auto& [cell, value] : other.count) sums.count[cell] += value;
+  for (const auto& [cell, value] : other.weight) sums.weight[cell] += value;
+  for (const auto& [cell, value] : other.volume) sums.volume[cell] += value;
+}
+
 MapLayer deposit_layer(const DepositSums& sums, double cell_size, const Released& released) {
   MapLayer layer{"deposit", "Deposit", {}, {}};
   for (const auto& [cell, volume] : sums.volume) layer.cell.push_back(cell);

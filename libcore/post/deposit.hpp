@@ -47,6 +47,7 @@ struct DepositSums {
   std::map<std::uint32_t, double> volume;  ///< of all blocks at rest, over the cell [m3]
 };
 void add_deposit(DepositSums& sums, const PassageGrid& grid, const RunFile& run, double rest_speed);
+void add(DepositSums& sums, const DepositSums& other);
 
 /// n_deposit, deposit_fraction, deposit_thickness (mean over runs).
 [[nodiscard]] MapLayer deposit_layer(const DepositSums& sums, double cell_size,
