@@ -100,6 +100,8 @@ struct H5Writer::Impl {
     Id access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     Id creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
     require(H5Pset_fapl_core(access, 1 << 20, false) >= 0, "a file in memory");
+    // small nodes: most arrays are one chunk, and the usual node takes two kilobytes for it
+    require(H5Pset_istore_k(creation, 4) >= 0, "a small index of chunks");
     require(H5Pset_obj_track_times(creation, false) >= 0, "a file without times");
     return {H5Fcreate("talus", H5F_ACC_TRUNC, creation, access), H5Fclose};
   }
@@ -126,12 +128,14 @@ struct H5Writer::Impl {
     put_text(object, "description", description);
   }
 
+  static constexpr std::size_t smallest_chunk = 1024;
+
   // Chunks of about 64 KiB along the first dimension; short arrays in one piece without filters.
   static Id creation(const Shape& shape, std::size_t size) {
     Id list(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
     require(H5Pset_obj_track_times(list, false) >= 0, "an array without times");
     const std::size_t row = std::max<std::size_t>(1, shape[0] == 0 ? 1 : product(shape) / shape[0]);
-    if (product(shape) * size < 512) return list;
+    if (product(shape) * size < smallest_chunk) return list;
     std::vector<hsize_t> chunk(shape.begin(), shape.end());
     chunk[0] = std::clamp<hsize_t>(65536 / (row * size), 1, shape[0]);
     require(H5Pset_chunk(list, static_cast<int>(chunk.size()), chunk.data()) >= 0 &&

@@ -27,7 +27,7 @@ class H5Writer {
   /// `path` from the root without a leading slash; its parent must exist.
   void group(const std::string& path, const std::string& description);
   /// An array of `shape`, row by row. `units` "1" for numbers without. Stored in chunks, shuffled
-  /// and deflated when it is longer than a few hundred bytes.
+  /// and deflated when it is longer than a kilobyte.
   template <class T>
   void array(const std::string& path, std::span<const T> values, const Shape& shape,
              const std::string& units, const std::string& description);
