@@ -1,7 +1,6 @@
 // tools/talus_maps.cpp
 // Hazard maps from the passages of one or many runs. Page: docs/tools/talus-maps.md
 #include <filesystem>
-#include <fstream>
 #include <limits>
 
 #include "base/text.hpp"
@@ -104,19 +103,13 @@ talus::MapRaster raster_of(const MapLayer& layer, const talus::PassageGrid& grid
   return raster;
 }
 
-void write_text(const std::string& path, const std::string& content) {
-  std::ofstream stream(path, std::ios::binary);
-  stream << content;
-  if (!stream.flush()) throw talus::InputError({path}, "cannot be written");
-}
-
 Json write_layer(Tool& tool, const Options& o, const MapLayer& layer, talus::MapRaster raster,
                  const talus::Trn& trn, const std::string& remark) {
   const std::string base = (std::filesystem::path(o.folder) / layer.name).string();
   const talus::RasterStyle style = talus::map_style(layer, remark);
   raster.tags.emplace_back("SHOWN_BAND", layer.bands[style.band - 1].name);
   talus::write_map_raster(tool.stage(base + ".tif"), raster, o.creation_options);
-  write_text(tool.stage(base + ".qml"), talus::raster_qml(style));
+  tool.write_text(base + ".qml", talus::raster_qml(style));
   if (o.png) {
     const talus::PassageGrid grid{raster.corner - trn.origin.head<2>(), raster.cell_size,
                                   raster.n_rows, raster.n_cols};

@@ -151,6 +151,7 @@ struct Tool::Impl {
   std::vector<std::pair<CLI::Option*, std::function<std::vector<std::string>()>>> inputs;
   std::vector<Output> outputs;
   std::vector<CLI::Option*> common;
+  const std::string* json_path = nullptr;  // where the result is also written
   std::function<std::vector<ConfigValue>()> more_config;
 
   bool quiet = false, verbose = false, json = false, overwrite = false, no_db = false,
@@ -498,6 +499,18 @@ CLI::Option* Tool::output_folder(const std::string& name, std::string& path,
   return option;
 }
 
+void Tool::json_output(std::string& path, const std::string& help) {
+  std::erase(impl_->common, app().get_option("--json"));
+  app().remove_option(app().get_option("--json"));
+  // Without a value CLI11 gives a flag's "true".
+  CLI::Option* const option = output("--json", path, help)->expected(0, 1);
+  option->transform([this](const std::string& word) {
+    impl_->json = word == "true";
+    return impl_->json ? std::string() : word;
+  });
+  impl_->json_path = &path;
+}
+
 void Tool::footer(const std::string& text) { app().footer(text); }
 
 void Tool::more_config(std::function<std::vector<ConfigValue>()> settings) {
@@ -555,6 +568,9 @@ void Tool::check(const std::string& name, double value, double limit, bool pass)
 void Tool::result(Json result, const std::string& summary) {
   impl_->result = std::move(result);
   impl_->summary = summary;
+  if (impl_->json_path != nullptr && !impl_->json_path->empty())
+    write_text(*impl_->json_path,
+               impl_->result.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 bool Tool::overwrite() const { return impl_->overwrite; }

@@ -112,35 +112,8 @@ const char* text(Verdict verdict) {
   return names[static_cast<std::size_t>(verdict)];
 }
 
-Fence make_fence(const FenceSettings& settings, const std::vector<Vec2>& line, const Trn& trn,
-                 const Where& where) {
-  if (line.size() < 2)
-    throw InputError(
-        where, "the fence has " + std::to_string(line.size()) + " point, expected two or more");
-  Fence fence{settings.name, {}, {}, settings.height_m, settings.capacity_kj * 1e3};
-  const auto add_post = [&](const Vec2& at, double chainage) {
-    const double ground = elevation_at(trn, at.x(), at.y());
-    if (std::isnan(ground))
-      throw InputError(where,
-                       "the fence leaves the known terrain at " + text(at.x() + trn.origin.x(), 9) +
-                           ", " + text(at.y() + trn.origin.y(), 9),
-                       "shorten the fence, or take a larger terrain");
-    fence.post.emplace_back(at.x(), at.y(), ground);
-    fence.chainage.push_back(chainage);
-  };
-  add_post(line[0], 0);
-  for (std::size_t i = 1; i < line.size(); ++i) {
-    const Vec2 piece = line[i] - line[i - 1];
-    if (!(piece.norm() > 0))
-      throw InputError(where,
-                       "point " + std::to_string(i + 1) + " of the fence repeats the one before");
-    const double start = fence.chainage.back();
-    const int n =
-        std::max(1, static_cast<int>(std::ceil(piece.norm() / settings.post_spacing_m - 1e-9)));
-    for (int k = 1; k <= n; ++k)
-      add_post(line[i - 1] + piece * k / n, start + piece.norm() * k / n);
-  }
-  return fence;
+Fence make_fence(const RecordLine& line, const FenceSettings& settings) {
+  return {line.name, line.points, line.chainage, settings.height_m, settings.capacity_kj * 1e3};
 }
 
 double base_at(const Fence& fence, double chainage) {

@@ -29,11 +29,8 @@ struct Fence {
 }
 [[nodiscard]] inline double length(const Fence& fence) { return fence.chainage.back(); }
 
-/// Posts at the points of the line and in between, so that fields are equal on each straight piece
-/// and not longer than the post spacing. Throws InputError for a line with fewer than two points, a
-/// repeated point, or a post outside the known terrain.
-[[nodiscard]] Fence make_fence(const FenceSettings& settings, const std::vector<Vec2>& line,
-                               const Trn& trn, const Where& where);
+/// The posts are the line's points (posts_on_ground).
+[[nodiscard]] Fence make_fence(const RecordLine& line, const FenceSettings& settings);
 
 /// Height of the base at a chainage; beyond the ends that of the end [m].
 [[nodiscard]] double base_at(const Fence& fence, double chainage);

@@ -44,6 +44,15 @@ BlockReach block_reach(const RunFile& run, int block, const ReachSettings& setti
   return out;
 }
 
+// The recorder has seen every step, the frames only their own moments.
+void raise_by_passages(std::vector<BlockReach>& blocks, const std::vector<Passage>& passages) {
+  for (const Passage& passage : passages) {
+    BlockReach& b = blocks[passage.block];
+    b.max_speed = std::max<double>(b.max_speed, passage.largest.speed);
+    b.max_energy = std::max<double>(b.max_energy, passage.largest.total_energy);
+  }
+}
+
 Vec3 highest_point(const RunFile& run) {
   Vec3 top(0, 0, -std::numeric_limits<double>::infinity());
   for (int block = 0; block < n_blocks(run); ++block) {
@@ -230,6 +239,7 @@ EventReach event_reach(const RunFile& run, const Trn& trn, const ReachSettings& 
     drop += run.blocks.mass[block] * event.blocks.back().reach.height;
     length += run.blocks.mass[block] * event.blocks.back().reach.path;
   }
+  raise_by_passages(event.blocks, run.passages);
   event.sum_angle = angle_of(drop, length);
   event.centre_of_mass =
       reach_along(simplified(centre_of_mass_path(run), settings.tolerance).point);

@@ -72,8 +72,8 @@ struct BlockReach {
   int block = 0;
   Fate fate = Fate::deposited;
   ReachLine reach;        ///< of the centroid
-  double max_speed = 0;   ///< over the frames [m/s]
-  double max_energy = 0;  ///< translation and rotation, over the frames [J]
+  double max_speed = 0;   ///< over all steps, or the frames when passages are missing [m/s]
+  double max_energy = 0;  ///< of translation and rotation, over the same [J]
 };
 
 /// What Eq. (29) needs, and what stands beside it.

@@ -26,13 +26,15 @@ FenceSettings fence_settings() {
   settings.name = "test";
   settings.height_m = 4;
   settings.capacity_kj = 500;
-  settings.post_spacing_m = 10;
   return settings;
 }
 
-Fence straight_fence() {
-  return make_fence(fence_settings(), {{20, 10}, {20, 40}}, flat(), {"site.toml"});
+Fence fence_along(const std::vector<Vec2>& corners, const Trn& trn, double spacing = 10) {
+  return make_fence(record_line("test", posts_on_ground(trn, corners, spacing, {"site.toml"})),
+                    fence_settings());
 }
+
+Fence straight_fence() { return fence_along({{20, 10}, {20, 40}}, flat()); }
 
 // Adds a cube of edge `edge` that crosses the line at `chainage` with the centroid at `height`.
 void add_crossing(RunFile& run, double chainage, double height, double edge, double energy,
@@ -65,11 +67,8 @@ Verdict verdict_of_single(double chainage, double height, double edge, double en
 
 }  // namespace
 
-TEST(MakeFence, PutsPostsAtEqualDistancesOnTheGround) {
-  FenceSettings settings = fence_settings();
-  settings.post_spacing_m = 8;
-  const Fence fence =
-      make_fence(settings, {{20, 10}, {20, 40}, {25, 40}}, plane_trn(0.5, 2, 40, 30), {});
+TEST(PostsOnGround, StandAtEqualDistances) {
+  const Fence fence = fence_along({{20, 10}, {20, 40}, {25, 40}}, plane_trn(0.5, 2, 40, 30), 8);
   ASSERT_EQ(fence.post.size(), 6U);  // 30 m in 4 fields, 5 m in 1
   EXPECT_DOUBLE_EQ(fence.chainage[1], 7.5);
   EXPECT_DOUBLE_EQ(fence.chainage[5], 35);
@@ -77,13 +76,12 @@ TEST(MakeFence, PutsPostsAtEqualDistancesOnTheGround) {
   EXPECT_DOUBLE_EQ(base_at(fence, 32.5), 100 - 11.25);
 }
 
-TEST(MakeFence, RefusesWhatIsNoFence) {
+TEST(PostsOnGround, RefuseWhatIsNoFence) {
   const Trn trn = flat();
-  EXPECT_THROW(static_cast<void>(make_fence(fence_settings(), {{20, 10}}, trn, {})), InputError);
-  EXPECT_THROW(static_cast<void>(make_fence(fence_settings(), {{20, 10}, {20, 10}}, trn, {})),
-               InputError);
-  EXPECT_THROW(static_cast<void>(make_fence(fence_settings(), {{20, 10}, {20, 500}}, trn, {})),
-               InputError);
+  using Corners = std::vector<Vec2>;
+  for (const Corners& corners :
+       {Corners{{20, 10}}, Corners{{20, 10}, {20, 10}}, Corners{{20, 10}, {20, 500}}})
+    EXPECT_THROW(static_cast<void>(posts_on_ground(trn, corners, 10, {"site.toml"})), InputError);
 }
 
 // One block of each kind at a fence of 4 m and 500 kJ, free border 0.5 m.
@@ -128,9 +126,7 @@ TEST(ExpectedVerdict, SeesTheDipBetweenTwoPosts) {
   Trn trn = flat();
   for (int c = 0; c < trn.n_cols; ++c)
     trn.elevation[node_index(trn, trn.n_rows - 1 - 7, c)] = 95;  // y = 14
-  FenceSettings settings = fence_settings();
-  settings.post_spacing_m = 10;
-  const Fence fence = make_fence(settings, {{20, 10}, {20, 20}}, trn, {});
+  const Fence fence = fence_along({{20, 10}, {20, 20}}, trn);
   RunFile run;
   add_crossing(run, 4, -4, 2, 1e3);  // on the bottom of the dip
   EXPECT_EQ(expected_verdict(arrivals(run, 0, fence, 0)[0], fence, 0.5), Verdict::underpassed);
@@ -209,7 +205,7 @@ TEST(Summarise, AddsUpTheHitsOfOneSecond) {
 // of 10 m a field.
 TEST(Storage, OfAPlaneIsTheWedge) {
   const Trn trn = plane_trn(0.5, 1, 80, 60);
-  const Fence fence = make_fence(fence_settings(), {{40, 10}, {40, 40}}, trn, {});
+  const Fence fence = fence_along({{40, 10}, {40, 40}}, trn);
   EXPECT_NEAR(storage(fence, 1, 1, trn, 100), 0.5 * 4 * 8 * 10, 1e-9);
 }
 
