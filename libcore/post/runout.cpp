@@ -103,8 +103,13 @@ std::vector<Vec3> streamline(const RunFile& run, const EventReach& event, const 
                              double tolerance, Vec3& toe) {
   const std::vector<Vec3> way = simplified(block_path(run, event.toe_block), tolerance).point;
   toe = outermost_point(run, event.toe_block, way, trn);
+  // The way is put on the ground, so that bounces and the block's own size do not bend the profile.
   std::vector<Vec3> line{event.top};
-  line.insert(line.end(), way.begin(), way.end());
+  for (Vec3 at : way) {
+    const double ground = elevation_at(trn, at.x(), at.y());
+    if (!std::isnan(ground)) at.z() = ground;
+    line.push_back(at);
+  }
   line.push_back(toe);
   return line;
 }

@@ -82,7 +82,7 @@ struct EventReach {
   Vec3 toe = Vec3::Zero();     ///< outermost point of the deposit's outermost block, on the ground
   int toe_block = -1;          ///< that came farthest along its path from the top
   bool toe_deposited = false;  ///< false: no block had come to rest, the farthest one counts
-  std::vector<Vec3> streamline;  ///< top, start of the toe block, its way, toe [m]
+  std::vector<Vec3> streamline;  ///< top, the toe block's way on the ground, toe [m]
   ReachLine event;               ///< along the streamline
   AngleProfile profile;          ///< along the streamline
   ReachLine centre_of_mass;      ///< H_cm, L_cm along the way of the centre of mass
