@@ -136,6 +136,7 @@ void mend(Tool& tool, const Options& o, const ContourMap& map,
   const talus::MendingPoints mended =
       talus::mend_flat_triangles(mesh, flat, {interval, o.fill_spacing_m}, tool.progress());
   mesh = {};
+  triangulation.fix_edges(mended.border);
   triangulation.add(mended.points);
   mesh = mesh_inside(map, triangulation, o);
   report["spacing_m"] = mended.spacing;

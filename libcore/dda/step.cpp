@@ -6,6 +6,7 @@
 #include "dda/displacement.hpp"
 #include "dda/flight.hpp"
 #include "dda/rotation.hpp"
+#include "dda/step_paper.hpp"
 #include "dda/step_talus.hpp"
 
 namespace talus {
@@ -50,6 +51,7 @@ State start(const Scene& scene) {
   state.acceleration.assign(n, Vec3::Zero());
   state.spin_rate.assign(n, Vec3::Zero());
   state.still_steps.assign(n, 0);
+  state.rebound.assign(n, Vec3::Zero());
   state.memory.resize(n);
   if (scene.settings.strains) {
     state.strain.assign(n, Vec6::Zero());
@@ -94,7 +96,10 @@ StepReport step(const Scene& scene, State& state, Work& work) {
       ++state.counters.flight_skips;
       continue;
     }
-    advance_block_talus(scene, b, t_end, state, work, report);
+    if (scene.settings.law == Law::talus)
+      advance_block_talus(scene, b, t_end, state, work, report);
+    else
+      advance_block_paper(scene, b, state, work, report);
   }
   state.time = t_end;
   ++state.counters.steps;

@@ -389,7 +389,8 @@ struct Advance {
                                             stretch, search_margin(c, h), work.world_vertices,
                                             work.contacts);
     if (near.reach == Reach::off_ground) return Attempt::left;
-    if (near.reach == Reach::below) report.flags = report.flags | StepFlag::fell_through;
+    if (near.reach == Reach::below && !left_ground(scene, s.free.pose.position))
+      report.flags = report.flags | StepFlag::fell_through;
     if (work.contacts.empty()) {
       if (near.reach == Reach::above && free_fall_only() && begin_flight(t, h)) return Attempt::flight;
       state.memory[i()].clear();
@@ -475,11 +476,14 @@ struct Advance {
     return true;
   }
 
-  // A substep moves no point farther than half a cell.
+  // Near the ground a substep moves no point farther than half a cell and turns the block by at most
+  // half a radian; a needle that rolls at more than 100 radians a step is not followed any closer.
   double longest_substep() {
-    const Vec3 spin = angular_velocity(motion().pose.attitude, motion().angular_momentum, c.inertia);
-    const double speed = motion().velocity.norm() + spin.norm() * c.radius;
-    return 0.5 * scene.ground.trn.cell_size / (speed + 1e-300);
+    const Vec3 body = (motion().pose.attitude.conjugate() * motion().angular_momentum);
+    const double spin = body.cwiseQuotient(c.inertia).norm();
+    const double speed = motion().velocity.norm() + spin * c.radius;
+    const double turn = std::max(0.5 / (spin + 1e-300), scene.settings.dt / 200);
+    return std::min(0.5 * scene.ground.trn.cell_size / (speed + 1e-300), turn);
   }
 
   template <int Dof>
@@ -544,7 +548,7 @@ bool settle(const Scene& scene, int b, double friction, bool from_touch, State& 
     const double moved = (solved.end.pose.position - motion.pose.position).norm() +
                          c.radius * solved.end.pose.attitude.angularDistance(motion.pose.attitude);
     motion.pose = solved.end.pose;
-    if (moved < 1e-14 * c.radius) return true;
+    if (moved < 1e-14 * c.radius + 1e-15 * motion.pose.position.norm()) return true;
   }
   return false;
 }

@@ -1,7 +1,5 @@
 #include "store/frames.hpp"
 
-#include "store/motion.hpp"
-
 namespace talus {
 namespace {
 
@@ -41,16 +39,16 @@ void record_start(FrameSampler& sampler, const Scene& scene, int block, const Mo
   sampler.latest[block] = frame_block(motion, scene.blocks.inertia[block], strain);
 }
 
-void record_frames(FrameSampler& sampler, const Scene& scene, const Segment& segment,
+void record_frames(FrameSampler& sampler, const Scene& scene, SegmentMotion& motion,
                    const Vec6& strain) {
+  const Segment& segment = motion.segment();
   const int b = segment.block;
   const Vec3& inertia = scene.blocks.inertia[b];
   std::int64_t& next = sampler.next[b];
   for (; time_of(sampler, next) < segment.t_start; ++next)
     frame_at(sampler, next).blocks[b] = sampler.latest[b];
   for (double t; (t = time_of(sampler, next)) <= segment.t_end; ++next)
-    frame_at(sampler, next).blocks[b] =
-        frame_block(motion_at(segment, inertia, t), inertia, strain);
+    frame_at(sampler, next).blocks[b] = frame_block(motion.at(t), inertia, strain);
   sampler.latest[b] = frame_block(segment.end, inertia, strain);
 }
 

@@ -9,6 +9,7 @@
 
 #include "dda/scene.hpp"
 #include "dda/work.hpp"
+#include "store/motion.hpp"
 
 namespace talus {
 
@@ -40,8 +41,9 @@ struct FrameSampler {
 /// The place and motion of a block at `time`: at the start, and for blocks that get no segments.
 void record_start(FrameSampler& sampler, const Scene& scene, int block, const Motion& motion,
                   const Vec6& strain);
-/// The next segment of a block; `strain` is that at its end (zero for rigid blocks).
-void record_frames(FrameSampler& sampler, const Scene& scene, const Segment& segment,
+/// The next segment of a block, which `motion` follows; `strain` is that at its end (zero for rigid
+/// blocks).
+void record_frames(FrameSampler& sampler, const Scene& scene, SegmentMotion& motion,
                    const Vec6& strain);
 
 /// The frames with a time below or at `time`, to which all blocks have come: those without a

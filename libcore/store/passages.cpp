@@ -5,14 +5,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "store/motion.hpp"
 #include "terrain/trn_pyramid.hpp"
 #include "terrain/trn_walk.hpp"
 
 namespace talus {
 namespace {
 
-constexpr double largest_turn = 0.25;  // of a piece [rad]
+constexpr double largest_turn = flight_stride;  // of a piece [rad]
 
 // --- axes --------------------------------------------------------------------------------------
 
@@ -99,12 +98,11 @@ PassageValues values_between(const Scene& scene, const Piece& piece, double s_in
         std::max(values.translational_energy, static_cast<float>(translation));
     values.total_energy = std::max(values.total_energy, static_cast<float>(translation + spin));
   }
-  const Vec3 &from = a.pose.position, &to = b.pose.position;
-  values.centroid_height =
-      static_cast<float>(largest_height(scene.ground.trn, from, to, piece.sag, s_in, s_out));
-  values.top_height =
-      static_cast<float>(largest_height(scene.ground.trn, from + Vec3(0, 0, piece.a.top),
-                                        to + Vec3(0, 0, piece.b.top), piece.sag, s_in, s_out));
+  const Heights heights = largest_heights(
+      scene.ground.trn, {a.pose.position, b.pose.position, piece.a.top, piece.b.top, piece.sag},
+      s_in, s_out);
+  values.centroid_height = static_cast<float>(heights.centroid);
+  values.top_height = static_cast<float>(heights.top);
   return values;
 }
 
@@ -307,13 +305,11 @@ void record_piece(PassageRecorder& recorder, const Scene& scene, const Piece& pi
   tracker.last_time = piece.t_start + piece.duration;
 }
 
-// From above, by how much a block turns in a segment [rad]. In flight omega = I^-1 L, whose rate is
-// at most |L| |omega| / I_min: a vertex's acceleration by turning is below 2 r (|L| / I_min)^2.
+// From above, by how much a block turns in a segment [rad]. In flight the rate of omega is at most
+// |L| |omega| / I_min: a vertex's acceleration by turning is below 2 r (|L| / I_min)^2.
 double turn_of(const Segment& segment, const Vec3& inertia) {
-  if (segment.flight)
-    return segment.start.angular_momentum.norm() / inertia.minCoeff() *
-           (segment.t_end - segment.t_start);
-  return turn_bound(segment.start.pose.attitude, segment.end.pose.attitude);
+  return segment.flight ? flight_turn(segment, inertia)
+                        : turn_bound(segment.start.pose.attitude, segment.end.pose.attitude);
 }
 
 // So many pieces that each turns by less than `largest_turn` and bends in plan by less than a
@@ -344,31 +340,35 @@ void grow(PassageTable& table) {
 
 float larger(float a, float b) { return a >= b || std::isnan(b) ? a : b; }
 
-// Height above the plane of one triangle between s0 and s1, where the path stays over it.
-double height_over_triangle(const Trn& trn, const Vec3& from, const Vec3& to, double sag, double s0,
-                            double s1) {
-  const Vec3 change = to - from;
-  const auto at = [&](double s) {
-    Vec3 point = from + s * change;
-    point.z() -= sag * s * (1 - s);
-    return point;
-  };
-  const Vec3 middle = from + 0.5 * (s0 + s1) * change;
+void raise(double& largest, double height) {
+  if (!(height <= largest) && !std::isnan(height)) largest = height;
+}
+
+// Heights above the plane of one triangle between s0 and s1, where the path stays over it.
+void raise_over_triangle(const Trn& trn, const HeightPath& path, double s0, double s1,
+                         Heights& largest) {
+  const Vec3 change = path.to - path.from;
+  const Vec3 middle = path.from + 0.5 * (s0 + s1) * change;
   const int triangle = triangle_at(trn, middle.x(), middle.y());
   const Vec2 gradient = triangle_gradient(trn, triangle);
   const Cell cell = cell_of_triangle(trn, triangle);
-  const Vec3 node = node_point(trn, cell.row, cell.col);
-  const auto height = [&](double s) {
-    const Vec3 off = at(s) - node;
-    return off.z() - gradient.dot(off.head<2>());
+  const Vec3 off = path.from - node_point(trn, cell.row, cell.col);
+  const double start = off.z() - gradient.dot(off.head<2>());
+  const double rate = change.z() - gradient.dot(change.head<2>());
+  const double top_rate = path.top_to - path.top_from;
+  const auto height = [&](double s) { return start + rate * s - path.sag * s * (1 - s); };
+  const auto try_at = [&](double s) {
+    const double at = height(s);
+    raise(largest.centroid, at);
+    raise(largest.top, at + path.top_from + top_rate * s);
   };
-  double largest = std::max(height(s0), height(s1));
-  if (sag < 0) {  // h'(s) = rate - sag + 2 sag s vanishes
-    const double rate = change.z() - gradient.dot(change.head<2>());
-    const double s = (sag - rate) / (2 * sag);
-    if (s > s0 && s < s1) largest = std::max(largest, height(s));
+  try_at(s0);
+  try_at(s1);
+  if (path.sag >= 0) return;
+  for (const double r : {rate, rate + top_rate}) {  // h'(s) = r - sag + 2 sag s vanishes
+    const double s = (path.sag - r) / (2 * path.sag);
+    if (s > s0 && s < s1) try_at(s);
   }
-  return largest;
 }
 
 }  // namespace
@@ -441,7 +441,8 @@ void record_start(PassageRecorder& recorder, const Scene& scene, int block, cons
   flush(recorder.table, block, tracker);
 }
 
-void record_passages(PassageRecorder& recorder, const Scene& scene, const Segment& segment) {
+void record_passages(PassageRecorder& recorder, const Scene& scene, SegmentMotion& motion) {
+  const Segment& segment = motion.segment();
   const int block = segment.block;
   const Vec3& inertia = scene.blocks.inertia[block];
   const double turn = turn_of(segment, inertia);
@@ -461,7 +462,7 @@ void record_passages(PassageRecorder& recorder, const Scene& scene, const Segmen
   for (int i = 1; i <= n; ++i) {
     piece.t_start = segment.t_start + (i - 1) * duration;
     const double t = i < n ? segment.t_start + i * duration : segment.t_end;
-    piece.b = instant_of(scene, block, motion_at(segment, inertia, t));
+    piece.b = instant_of(scene, block, motion.at(t));
     record_piece(recorder, scene, piece);
     piece.a = piece.b;
   }
@@ -472,17 +473,15 @@ void flush_passages(PassageRecorder& recorder) {
     flush(recorder.table, static_cast<int>(block), recorder.trackers[block]);
 }
 
-double largest_height(const Trn& trn, const Vec3& from, const Vec3& to, double sag, double s_in,
-                      double s_out) {
-  const Vec2 a = (from + s_in * (to - from)).head<2>(), b = (from + s_out * (to - from)).head<2>();
+Heights largest_heights(const Trn& trn, const HeightPath& path, double s_in, double s_out) {
+  const Vec2 change = (path.to - path.from).head<2>();
+  const Vec2 a = path.from.head<2>() + s_in * change, b = path.from.head<2>() + s_out * change;
+  Heights largest;
   if (contains(trn, a.x(), a.y()) && contains(trn, b.x(), b.y()) &&
-      triangle_at(trn, a.x(), a.y()) == triangle_at(trn, b.x(), b.y()))
-    return height_over_triangle(trn, from, to, sag, s_in, s_out);
-  double largest = PassageValues::unknown;
-  const auto add = [&](double s0, double s1) {
-    const double height = height_over_triangle(trn, from, to, sag, s0, s1);
-    if (!(height <= largest)) largest = std::isnan(height) ? largest : height;
-  };
+      triangle_at(trn, a.x(), a.y()) == triangle_at(trn, b.x(), b.y())) {
+    raise_over_triangle(trn, path, s_in, s_out, largest);
+    return largest;
+  }
   walk_cells(trn, a, b, [&](const CellPart& part) {
     const auto off_diagonal = [&](double t) {  // > 0 south-west of the cell's diagonal
       const Vec2 at = a + t * (b - a);
@@ -490,13 +489,16 @@ double largest_height(const Trn& trn, const Vec3& from, const Vec3& to, double s
              ((at.x() - trn.node0.x()) / trn.cell_size - part.cell.col);
     };
     const double d_in = off_diagonal(part.t_in), d_out = off_diagonal(part.t_out);
-    const auto s = [&](double t) { return s_in + t * (s_out - s_in); };
+    const auto add = [&](double t0, double t1) {
+      const double range = s_out - s_in;
+      raise_over_triangle(trn, path, s_in + t0 * range, s_in + t1 * range, largest);
+    };
     if (d_in * d_out < 0) {
       const double t = part.t_in + d_in / (d_in - d_out) * (part.t_out - part.t_in);
-      add(s(part.t_in), s(t));
-      add(s(t), s(part.t_out));
+      add(part.t_in, t);
+      add(t, part.t_out);
     } else {
-      add(s(part.t_in), s(part.t_out));
+      add(part.t_in, part.t_out);
     }
   });
   return largest;

@@ -20,6 +20,7 @@
 
 #include "dda/scene.hpp"
 #include "dda/work.hpp"
+#include "store/motion.hpp"
 #include "terrain/trn.hpp"
 
 namespace talus {
@@ -112,15 +113,25 @@ struct PassageRecorder {
 /// A block's place and motion before its first segment.
 void record_start(PassageRecorder& recorder, const Scene& scene, int block, const Motion& motion,
                   double time);
-/// The next segment of a block; segments of one block come in the order of time.
-void record_passages(PassageRecorder& recorder, const Scene& scene, const Segment& segment);
+/// The next segment of a block, which `motion` follows; segments of one block come in the order of
+/// time.
+void record_passages(PassageRecorder& recorder, const Scene& scene, SegmentMotion& motion);
 /// Writes what is pending into the table; further segments may follow.
 void flush_passages(PassageRecorder& recorder);
 
-/// Greatest height of a point above the ground while it moves from `from` to `to`, straight in plan
-/// and with `sag` = a_z h^2 / 2 along z: z(s) = from + (to - from) s - sag s (1 - s), s from s_in
-/// to s_out. Exact for the TRN's triangles. NaN where no ground is known below the path.
-[[nodiscard]] double largest_height(const Trn& trn, const Vec3& from, const Vec3& to, double sag,
-                                    double s_in, double s_out);
+/// The way of a block's centroid and of its top above it: straight in plan, z(s) = from + (to -
+/// from) s - sag s (1 - s) with sag = a_z h^2 / 2, s from 0 to 1.
+struct HeightPath {
+  Vec3 from, to;                    ///< centroid [m]
+  double top_from = 0, top_to = 0;  ///< highest vertex above the centroid, linear in s [m]
+  double sag = 0;                   ///< [m]
+};
+struct Heights {
+  double centroid = PassageValues::unknown, top = PassageValues::unknown;  ///< [m]
+};
+/// Greatest heights above the ground below the centroid for s from s_in to s_out. Exact for the
+/// TRN's triangles. NaN where no ground is known below the path.
+[[nodiscard]] Heights largest_heights(const Trn& trn, const HeightPath& path, double s_in,
+                                      double s_out);
 
 }  // namespace talus

@@ -14,9 +14,12 @@ Vec6 strain_of(const State& state, int b) {
 }
 
 void record(Runner& runner, const Segment& segment) {
-  if (runner.options.passages) record_passages(runner.passages, runner.scene, segment);
+  const auto b = static_cast<std::size_t>(segment.block);
+  runner.motion.follow(segment, runner.scene.blocks.inertia[b]);
+  if (runner.options.passages) record_passages(runner.passages, runner.scene, runner.motion);
   record_crossings(runner.crossings, runner.scene, segment);
-  record_frames(runner.sampler, runner.scene, segment, strain_of(runner.state, segment.block));
+  record_frames(runner.sampler, runner.scene, runner.motion,
+                strain_of(runner.state, segment.block));
 }
 
 void take(Runner& runner, double time) {
@@ -126,6 +129,7 @@ Runner make_runner(const Scene& scene, const RunOptions& options, std::vector<Re
                 start_crossings(scene, std::move(lines)),
                 start_frames(scene, options.frame_interval),
                 {},
+                {},
                 0,
                 std::move(file)};
   if (options.passages)
@@ -210,7 +214,7 @@ void finish(Runner& runner) {
   // the time is a sum of steps: a frame due at the very end may lie above it by rounding
   take(runner, state.time + 1e-3 * runner.scene.settings.dt);
   const RunFrames& frames = runner.file.frames;
-  if (frames.time.empty() || frames.time.back() < state.time - half_step(runner))
+  if (frames.time.empty() || frames.time.back() < state.time - 1e-3 * runner.scene.settings.dt)
     append(runner.file.frames, last_frame(runner.sampler, state.time), runner.options.strain);
 }
 

@@ -54,6 +54,7 @@ struct Runner {
   PassageRecorder passages;
   CrossingRecorder crossings;
   FrameSampler sampler;
+  SegmentMotion motion;     ///< of the segment at hand
   HealthRow interval;       ///< since the last row of health
   double energy_start = 0;  ///< kinetic, potential and elastic energy at time 0 [J]
   RunFile file;

@@ -45,7 +45,9 @@ std::vector<Frame> frames_of(const ThreeBlocks& run, double interval, bool take_
     for (Frame& frame : talus::take_frames(sampler, time)) frames.push_back(std::move(frame));
   };
   for (const Segment& segment : run.segments) {
-    talus::record_frames(sampler, run.scene, segment, no_strain);
+    talus::SegmentMotion motion;
+    motion.follow(segment, run.scene.blocks.inertia[static_cast<std::size_t>(segment.block)]);
+    talus::record_frames(sampler, run.scene, motion, no_strain);
     if (take_often && segment.block == 1) take(std::min(segment.t_end, 1.0));
   }
   take(1.0);

@@ -26,6 +26,12 @@ Rows rows_of(PassageRecorder& recorder, int block = 0) {
   return rows;
 }
 
+void record(PassageRecorder& recorder, const Scene& scene, const Segment& segment) {
+  talus::SegmentMotion motion;
+  motion.follow(segment, scene.blocks.inertia[static_cast<std::size_t>(segment.block)]);
+  talus::record_passages(recorder, scene, motion);
+}
+
 // The path of one block, recorded.
 PassageRecorder recorded(const Scene& scene, const std::vector<Segment>& path, bool by_centroid,
                          double cell_size = 0) {
@@ -33,7 +39,7 @@ PassageRecorder recorded(const Scene& scene, const std::vector<Segment>& path, b
       talus::start_passages(scene, talus::passage_grid(scene.ground.trn, cell_size), by_centroid);
   talus::record_start(recorder, scene, path.front().block, path.front().start,
                       path.front().t_start);
-  for (const Segment& segment : path) talus::record_passages(recorder, scene, segment);
+  for (const Segment& segment : path) record(recorder, scene, segment);
   return recorder;
 }
 
@@ -396,7 +402,7 @@ TEST(Passages, FlushedEarlyAreTheSame) {
       talus::start_passages(scene, talus::passage_grid(scene.ground.trn, 0), false);
   talus::record_start(often, scene, 0, path.front().start, 0);
   for (const Segment& segment : path) {
-    talus::record_passages(often, scene, segment);
+    record(often, scene, segment);
     talus::flush_passages(often);
   }
   const Rows a = rows_of(once), b = rows_of(often);
@@ -407,17 +413,20 @@ TEST(Passages, FlushedEarlyAreTheSame) {
 }
 
 // Of a ballistic path over a plane the highest point lies at vz = slope * vx, inside the path.
-TEST(LargestHeight, FindsTheApexAboveSlopingGround) {
+TEST(LargestHeights, FindTheApexAboveSlopingGround) {
   const double slope = -0.6, vx = 8, vz = 3, g = 9.81, h = 1.2;
   const Trn trn = trn_of(4, 30, 1, [&](double x, double) { return slope * x; });
   const Vec3 from(2, 1.3, slope * 2 + 1);
   const Vec3 to = from + Vec3(vx * h, 0.2, vz * h - 0.5 * g * h * h);
   const double t = (vz - slope * vx) / g;
   const double apex = 1 + (vz - slope * vx) * t - 0.5 * g * t * t;
-  EXPECT_NEAR(talus::largest_height(trn, from, to, -0.5 * g * h * h, 0, 1), apex, 1e-12);
+  const double sag = -0.5 * g * h * h;
+  const talus::Heights all = talus::largest_heights(trn, {from, to, 0.5, 0.5, sag}, 0, 1);
+  EXPECT_NEAR(all.centroid, apex, 1e-12);
+  EXPECT_NEAR(all.top, apex + 0.5, 1e-12);
   const double s = 0.5 * t / h;  // cut off before the apex: the end is the highest
   const double at_end = 1 + (vz - slope * vx) * s * h - 0.5 * g * s * h * s * h;
-  EXPECT_NEAR(talus::largest_height(trn, from, to, -0.5 * g * h * h, 0, s), at_end, 1e-12);
+  EXPECT_NEAR(talus::largest_heights(trn, {from, to, 0, 0, sag}, 0, s).centroid, at_end, 1e-12);
 }
 
 }  // namespace
