@@ -1,5 +1,6 @@
 // tools/talus_maps.cpp
 // Hazard maps from the passages of one or many runs. Page: docs/tools/talus-maps.md
+#include <cmath>
 #include <filesystem>
 #include <limits>
 
@@ -85,6 +86,14 @@ std::vector<MapLayer> layers_of(const talus::CellRows& cells, const Gathered& g,
   return layers;
 }
 
+bool has_percentiles(const MapLayer& layer) {
+  for (const talus::MapBand& band : layer.bands)
+    if (band.name == layer.name + "_p95")
+      for (const float value : band.value)
+        if (!std::isnan(value)) return true;
+  return false;
+}
+
 talus::MapRaster raster_of(const MapLayer& layer, const talus::PassageGrid& grid,
                            const talus::Trn& trn, const std::vector<bool>& known) {
   talus::MapRaster raster;
@@ -138,6 +147,8 @@ void run_tool(Tool& tool, Options& o, talus::RunInputs& runs) {
   const std::vector<bool> known = talus::known_cells(trn, grid);
   Json files = Json::array();
   const auto layers = layers_of(cells, gathered, o.settings);
+  if (n_rows > 0 && !has_percentiles(layers[1]))
+    tool.warn("no cell has the passages that a 95th percentile needs: styles show the maximum");
   for (const MapLayer& layer : layers) {
     talus::MapRaster raster = raster_of(layer, grid, trn, known);
     raster.tags = tags;

@@ -39,7 +39,7 @@ void declare(Tool& tool, Options& o) {
   tool.input("--mobility", o.mobility, "relations to compare with (CSV) [share/mobility.csv]");
   tool.option("--path-tolerance-m", o.tolerance_m,
               "no point of a block's way lies farther from its simplified path [m]")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(1e-6, 1e6));
   tool.option("--friction-deg", o.friction_deg,
               "angle of friction, shown beside H_cm/L_cm [deg]; nan: not shown");
   tool.flag("--confined", o.confined, "the path is laterally confined (for the relations)");
