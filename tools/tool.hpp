@@ -18,7 +18,7 @@ namespace talus {
 
 using Json = nlohmann::ordered_json;
 
-/// One effective setting and where it came from: "default", "file" or "cli".
+/// One effective setting and where it came from: "default", "cli", or a place in the site file.
 struct ConfigValue {
   std::string key;
   std::string value;
