@@ -220,7 +220,11 @@ VectorLayer streamline_layer(const Runs& runs, const MapPlace& map) {
   for (const auto& [member, r] : runs) {
     const EventReach& e = r->event;
     if (e.streamline.empty()) continue;
-    VectorFeature f = line_feature(e.streamline, e.profile.distance, map);
+    std::vector<double> distance{0};
+    for (std::size_t i = 1; i < e.streamline.size(); ++i)
+      distance.push_back(distance.back() +
+                         (e.streamline[i] - e.streamline[i - 1]).head<2>().norm());
+    VectorFeature f = line_feature(e.streamline, distance, map);
     f.values = {member->info.run_id,
                 e.event.height,
                 e.event.path,
@@ -479,7 +483,7 @@ std::string summary_of(const Ordered& all) {
   if (!first.event.profile.monotone)
     out += "\nthe angle is not monotone along the path: the smallest, " +
            text(first.event.profile.smallest * degrees, 4) + " deg, lies " +
-           text(first.event.profile.smallest_at, 4) + " m from the top";
+           text(first.event.profile.smallest_at, 4) + " m from the toe block's start";
   out += "\nvolume: released " + text(all.balance.released, 6) + " m3 = deposited " +
          text(all.balance.deposited, 6) + " + moving " + text(all.balance.moving, 6) + " + left " +
          text(all.balance.left, 6);

@@ -152,6 +152,7 @@ struct Tool::Impl {
   std::vector<Output> outputs;
   std::vector<CLI::Option*> common;
   const std::string* json_path = nullptr;  // where the result is also written
+  const CLI::Option* json_option = nullptr;
   std::function<std::vector<ConfigValue>()> more_config;
 
   bool quiet = false, verbose = false, json = false, overwrite = false, no_db = false,
@@ -502,13 +503,10 @@ CLI::Option* Tool::output_folder(const std::string& name, std::string& path,
 void Tool::json_output(std::string& path, const std::string& help) {
   std::erase(impl_->common, app().get_option("--json"));
   app().remove_option(app().get_option("--json"));
-  // Without a value CLI11 gives a flag's "true".
   CLI::Option* const option = output("--json", path, help)->expected(0, 1);
-  option->transform([this](const std::string& word) {
-    impl_->json = word == "true";
-    return impl_->json ? std::string() : word;
-  });
+  option->default_str("");
   impl_->json_path = &path;
+  impl_->json_option = option;
 }
 
 void Tool::footer(const std::string& text) { app().footer(text); }
@@ -568,6 +566,8 @@ void Tool::check(const std::string& name, double value, double limit, bool pass)
 void Tool::result(Json result, const std::string& summary) {
   impl_->result = std::move(result);
   impl_->summary = summary;
+  if (impl_->json_option != nullptr && impl_->json_option->count() > 0 && impl_->json_path->empty())
+    impl_->json = true;
   if (impl_->json_path != nullptr && !impl_->json_path->empty())
     write_text(*impl_->json_path,
                impl_->result.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");

@@ -82,6 +82,13 @@ Vec3 outermost_point(const RunFile& run, int block, const std::vector<Vec3>& way
   return toe;
 }
 
+// How far a block started from a point in the direction that it then went [m].
+double ahead_of(const Vec3& from, const RunFile& run, int block) {
+  const Vec2 start = first_pose(run, block).position.head<2>();
+  const Vec2 moved = last_pose(run, block).position.head<2>() - start;
+  return moved.norm() > 0 ? (start - from.head<2>()).dot(moved.normalized()) : 0;
+}
+
 // Blocks at rest go before others; among them the one farthest from the top along its way.
 int find_toe_block(const EventReach& event, const RunFile& run, bool& deposited) {
   deposited = std::any_of(event.blocks.begin(), event.blocks.end(), [](const BlockReach& b) {
@@ -91,7 +98,7 @@ int find_toe_block(const EventReach& event, const RunFile& run, bool& deposited)
   double farthest = -1;
   for (const BlockReach& b : event.blocks) {
     if (deposited && b.fate != Fate::deposited) continue;
-    const double way = plan_distance(event.top, first_pose(run, b.block).position) + b.reach.path;
+    const double way = ahead_of(event.top, run, b.block) + b.reach.path;
     if (way <= farthest) continue;
     farthest = way;
     toe = b.block;
@@ -253,7 +260,9 @@ EventReach event_reach(const RunFile& run, const Trn& trn, const ReachSettings& 
   event.toe_block = find_toe_block(event, run, event.toe_deposited);
   event.streamline = streamline(run, event, trn, settings.tolerance, event.toe);
   event.event = reach_along(event.streamline);
-  event.profile = angle_profile(event.streamline, 0.1 * event.event.path, 1e-3);
+  // From where the toe block started: the piece from the top to there may lead sideways.
+  event.profile = angle_profile(std::span<const Vec3>(event.streamline).subspan(1),
+                                0.1 * event.event.path, 1e-3);
   return event;
 }
 

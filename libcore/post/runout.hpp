@@ -84,7 +84,7 @@ struct EventReach {
   bool toe_deposited = false;  ///< false: no block had come to rest, the farthest one counts
   std::vector<Vec3> streamline;  ///< top, the toe block's way on the ground, toe [m]
   ReachLine event;               ///< along the streamline
-  AngleProfile profile;          ///< along the streamline
+  AngleProfile profile;          ///< along the streamline from the toe block's start
   ReachLine centre_of_mass;      ///< H_cm, L_cm along the way of the centre of mass
   double sum_angle = 0;  ///< atan(sum m H / sum m L) over blocks: tan(phi) for pure sliding [rad]
   std::vector<BlockReach> blocks;  ///< of each block                                (n_blocks)

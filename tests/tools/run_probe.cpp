@@ -112,9 +112,8 @@ RunFile make_run(const Words& words, int r, const std::string& trn_sha256) {
   run.info.time = run.info.status == "done" ? 8 : 5;
   run.blocks = blocks_of(scene);
   PassageRecorder passages = start_passages(scene, passage_grid(scene.ground.trn, 0), false);
-  CrossingRecorder crossings =
-      start_crossings(scene, {record_line("check", {{30, 4, 200 - std::tan(angle) * 30},
-                                                    {30, 20, 200 - std::tan(angle) * 30}})});
+  CrossingRecorder crossings = start_crossings(
+      scene, {record_line("check", posts_on_ground(scene.ground.trn, {{30, 4}, {30, 20}}, 8, {}))});
   FrameSampler sampler = start_frames(scene, interval);
   const double scale = 1 + 0.01 * r;
   for (int b = 0; b < n_blocks(scene); ++b) {
@@ -122,9 +121,11 @@ RunFile make_run(const Words& words, int r, const std::string& trn_sha256) {
     record_start(passages, scene, b, way[0].start, 0);
     record_start(sampler, scene, b, way[0].start, Vec6::Zero());
     for (const Segment& segment : way) {
-      record_passages(passages, scene, segment);
+      SegmentMotion motion;
+      motion.follow(segment, scene.blocks.inertia[static_cast<std::size_t>(b)]);
+      record_passages(passages, scene, motion);
       record_crossings(crossings, scene, segment);
-      record_frames(sampler, scene, segment, Vec6::Zero());
+      record_frames(sampler, scene, motion, Vec6::Zero());
     }
   }
   flush_passages(passages);
