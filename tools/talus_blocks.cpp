@@ -60,12 +60,6 @@ std::string file_text(const std::string& path) {
   return content.str();
 }
 
-void write_text(const std::string& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  if (!file.flush()) throw InputError({path}, "cannot be written", "is the disk full?");
-}
-
 // What the run works on, filled step by step.
 struct Work {
   Site site;
@@ -217,7 +211,7 @@ void cut(Tool& tool, const Options& o, Work& work) {
   find_mass(tool, work);
   plan_joints(tool, work);
   draw_all_joints(work);
-  work.limits = plan_limits(work.site, work.sets);
+  work.limits = plan_limits(work.site, work.sets, work.mass.volume);
   work.limits.exact = o.exact;
   for (const PlannedSet& planned : work.sets)
     work.blocks.joint_set_names.push_back(planned.set.name);
@@ -321,6 +315,7 @@ Json shapes_json(const BlockSet& set) {
 Json cut_json(const Options& o, const Work& work) {
   const AssembleReport& cut = work.cut;
   return {{"exact", o.exact},
+          {"failure_surface", work.site.source.failure_surface},
           {"prism_volume_m3", work.mass.volume},
           {"polygon_area_m2", work.mass.polygon_area},
           {"mean_depth_m", work.mass.mean_depth},
@@ -340,7 +335,8 @@ Json cut_json(const Options& o, const Work& work) {
             {"thickness_m", work.limits.min_thickness},
             {"aspect", work.limits.max_aspect}}},
           {"n_rings_parted", cut.n_rings_parted},
-          {"n_kept_as_unions", cut.n_kept_exact},
+          {"n_divided", cut.n_divided},
+          {"n_kept_exact", cut.n_kept_exact},
           {"convexified_lost_m3", cut.lost},
           {"convexified_gained_m3", cut.gained},
           {"convexified_change",
@@ -385,8 +381,9 @@ std::string summary_of(const Json& report) {
            number(cut["slivers_merged_m3"]) + " m3) given to a neighbour";
   if (!cut["exact"].get<bool>())
     lines += "\nmade convex: volume " + text(100 * cut["convexified_change"].get<double>(), 3) +
-             " %, " + std::to_string(cut["n_kept_as_unions"].get<int>()) +
-             " blocks kept as unions of convex parts";
+             " %, " + std::to_string(cut["n_divided"].get<int>()) +
+             " blocks as several convex parts, " + std::to_string(cut["n_kept_exact"].get<int>()) +
+             " kept exact";
   return lines;
 }
 
@@ -418,10 +415,9 @@ void write_pictures(Tool& tool, const Options& o, const Work& work) {
       sets.push_back({work.sets[s].set.name,
                       pole(work.sets[s].set.dip, work.sets[s].set.dip_direction),
                       poles_of(work, s)});
-    write_text(tool.stage(o.stereonet), stereonet_svg(sets, slope_normal(work)));
+    tool.write_text(o.stereonet, stereonet_svg(sets, slope_normal(work)));
   }
-  if (!o.size_curve.empty())
-    write_text(tool.stage(o.size_curve), size_curve_svg(work.blocks.volume));
+  if (!o.size_curve.empty()) tool.write_text(o.size_curve, size_curve_svg(work.blocks.volume));
 }
 
 void write_objs(Tool& tool, const Options& o, const BlockSet& set) {
@@ -429,8 +425,8 @@ void write_objs(Tool& tool, const Options& o, const BlockSet& set) {
     std::string number = std::to_string(b);
     number.insert(0, 6 - std::min<size_t>(6, number.size()), '0');
     const std::string name = "block_" + number;
-    write_text(tool.stage(o.obj_folder + "/" + name + ".obj"),
-               obj_text(block_shell(set, b), name, set.origin));
+    tool.write_text(o.obj_folder + "/" + name + ".obj",
+                    obj_text(block_shell(set, b), name, set.origin));
   }
 }
 
@@ -447,7 +443,7 @@ void write_all(Tool& tool, const Options& o, const Work& work, const Json& repor
   }
   write_pictures(tool, o, work);
   if (!o.obj_folder.empty()) write_objs(tool, o, work.blocks);
-  if (!o.report.empty()) write_text(tool.stage(o.report), report.dump(2) + "\n");
+  if (!o.report.empty()) tool.write_text(o.report, report.dump(2) + "\n");
 }
 
 std::string hash_of(const Options& o, const Work& work) {

@@ -1,6 +1,7 @@
 // libcore/blocks/convexify.hpp
 // Makes a block convex inside its joint cell: the bed is kept clear of by supporting planes, the
-// volume is kept by the height of one plane on the terrain side.
+// volume is kept by the height of one plane on the terrain side. A block that would lose too much
+// as one convex body becomes two or four that meet in planes.
 #pragma once
 
 #include <vector>
@@ -12,18 +13,31 @@ namespace talus {
 
 /// A block as it was cut, and the room that it may take.
 struct ConvexTask {
-  Polyhedron room;                     ///< convex: joint cell, cut off from other blocks in it
-  Vec3 low, high;                      ///< box of the block as it was cut [m]
-  Vec3 terrain_normal = Vec3::Zero();  ///< upward, mean over its terrain faces; zero: it has none
-  double terrain_support = 0;          ///< largest terrain_normal . x over its vertices [m]
-  Vec3 bed_normal = Vec3::Zero();      ///< upward, mean over its bed faces; zero: it has none
-  double volume = 0;                   ///< to be kept [m3]
-  double height = 0;  ///< its extent along terrain_normal: how far the top may rise [m]
+  std::vector<Polyhedron> cells;  ///< convex cells that fill the block; face_tag as CutFace
+  Polyhedron room;                ///< convex: joint cell, cut off from other blocks in it
+  double volume = 0;              ///< to be kept, > 0 [m3]
+};
+
+struct ConvexOptions {
+  double max_loss = 0.05;     ///< share of the volume
+  double tolerance_m = 1e-9;  ///< of lying on a plane
+  double min_edge = 0;        ///< shorter edges are removed [m]
 };
 
 /// The convex block; without faces when nothing of it is left. Its volume is that of the task where
-/// the room allows. Lies above `bed` everywhere to within `tolerance_m`, and within the room. Faces
+/// the room allows. Lies above `bed` everywhere to within the tolerance, and within the room. Faces
 /// on the terrain side carry face_terrain, those on the bed face_failure, the others their tag.
-[[nodiscard]] Polyhedron made_convex(const ConvexTask& task, const Trn& bed, double tolerance_m);
+[[nodiscard]] Polyhedron made_convex(const ConvexTask& task, const Trn& bed,
+                                     const ConvexOptions& options);
+
+/// One, two or up to four convex bodies that keep at least 1 - max_loss of the volume; empty when
+/// that cannot be done. Two bodies meet in a vertical plane and do not overlap.
+[[nodiscard]] std::vector<Polyhedron> made_convex_parts(const ConvexTask& task, const Trn& bed,
+                                                        const ConvexOptions& options);
+
+/// A convex body inside `body` without edges shorter than `shortest` [m]: of vertices that near one
+/// stays. `body` itself when it has no such edge, or would lose more than `max_loss` of its volume.
+[[nodiscard]] Polyhedron without_short_edges(const Polyhedron& body, double shortest,
+                                             double max_loss);
 
 }  // namespace talus

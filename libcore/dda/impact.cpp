@@ -25,8 +25,6 @@ void make_impact_rows(const Scene& scene, int b, double resting_speed, const Mat
     row.contact = static_cast<int>(i);
     row.normal = to_body * contact.normal;
     row.point = contact.point_a;
-    row.shear.setZero();
-    row.shear_time = 1;
     const Vec3 w = point_velocity<6>(velocity, row.point);
     row.speed_start = row.normal.dot(w);
     const Vec3 tangent = w - row.speed_start * row.normal;
@@ -43,6 +41,13 @@ void make_impact_rows(const Scene& scene, int b, double resting_speed, const Mat
 
 double kinetic_energy(const BlockSystem<6>& system, const Vec6& velocity) {
   return 0.5 * velocity.dot(system.mass * velocity);
+}
+
+// The part of the change of velocity that leaves the kinetic energy where it was.
+Vec6 limited(const BlockSystem<6>& system, const Vec6& before) {
+  const Vec6 change = system.velocity - before;
+  const double slope = before.dot(system.mass * change), curve = 2 * kinetic_energy(system, change);
+  return before + std::clamp(-2 * slope / curve, 0.0, 1.0) * change;
 }
 
 }  // namespace
@@ -66,8 +71,8 @@ ImpactResult apply_impact(const Scene& scene, int b, double touch, double restin
   system.mass.setZero();
   system.mass.diagonal() << Vec3::Constant(scene.blocks.mass[i]), inertia;
   system.free_velocity = before;
-  system.tolerance = 1e-8 * (before.head<3>().norm() +
-                             before.tail<3>().norm() * scene.blocks.shapes.radius[i]);
+  system.tolerance =
+      1e-8 * (before.head<3>().norm() + before.tail<3>().norm() * scene.blocks.shapes.radius[i]);
   const double energy = kinetic_energy(system, before);
   for (int pass = 0; pass < 12; ++pass) {
     system.velocity = before;
@@ -78,6 +83,8 @@ ImpactResult apply_impact(const Scene& scene, int b, double touch, double restin
     if (result.dissipated >= -1e-7 * energy) break;
     for (ContactRow& row : work.rows) row.bias *= pass < 10 ? 0.7 : 0.0;
   }
+  if (result.dissipated < -1e-7 * energy) system.velocity = limited(system, before);
+  result.dissipated = energy - kinetic_energy(system, system.velocity);
   motion.velocity = R * system.velocity.head<3>();
   motion.angular_momentum = R * system.velocity.tail<3>().cwiseProduct(inertia).eval();
   return result;

@@ -28,6 +28,41 @@ Vec3 base_velocity(const BaseMotion& base, double t) {
   return sum;
 }
 
+// A block that sticks with all its contacts and stands still is left out until something wakes it.
+void put_to_sleep(const Scene& scene, size_t b, State& state) {
+  constexpr double still = 1e-6;  // [m/s]
+  constexpr int long_enough = 100;
+  const Motion& m = state.motion[b];
+  const double spin = m.angular_momentum.norm() / scene.blocks.inertia[b].minCoeff();
+  const std::vector<ContactMemory>& memory = state.memory[b];
+  const bool sticks = std::all_of(memory.begin(), memory.end(), [](const ContactMemory& c) {
+    return c.state == static_cast<std::uint8_t>(ContactState::stick);
+  });
+  const bool rests =
+      sticks && !memory.empty() && m.velocity.norm() + spin * scene.blocks.shapes.radius[b] < still;
+  state.still_steps[b] = rests ? state.still_steps[b] + 1 : 0;
+  if (state.still_steps[b] < long_enough) return;
+  state.phase[b] = Phase::asleep;
+  state.motion[b].velocity.setZero();
+  state.motion[b].angular_momentum.setZero();
+}
+
+bool does_not_move(Phase phase) {
+  return phase == Phase::asleep || phase == Phase::left_domain || phase == Phase::stopped;
+}
+
+bool is_finite(const Motion& m) {
+  return m.pose.position.allFinite() && m.pose.attitude.coeffs().allFinite() &&
+         m.velocity.allFinite() && m.angular_momentum.allFinite();
+}
+
+void stop_at(const Motion& last_good, size_t b, State& state, StepReport& report) {
+  state.motion[b] = {last_good.pose, Vec3::Zero(), Vec3::Zero()};
+  state.phase[b] = Phase::stopped;
+  state.memory[b].clear();
+  report.flags = report.flags | StepFlag::not_finite;
+}
+
 bool spins(const Scene& scene, size_t b) { return !scene.blocks.spin[b].isZero(0); }
 
 }  // namespace
@@ -35,7 +70,8 @@ bool spins(const Scene& scene, size_t b) { return !scene.blocks.spin[b].isZero(0
 Vec3 free_acceleration(const Scene& scene, int b, double t_start, double t_end) {
   Vec3 a = scene.gravity;
   if (!scene.base.time.empty())
-    a -= (base_velocity(scene.base, t_end) - base_velocity(scene.base, t_start)) / (t_end - t_start);
+    a -=
+        (base_velocity(scene.base, t_end) - base_velocity(scene.base, t_start)) / (t_end - t_start);
   for (const PointLoad& load : scene.loads)
     if (load.block == b) a += load.force / scene.blocks.mass[static_cast<size_t>(b)];
   return a;
@@ -88,18 +124,23 @@ Work make_work(const Scene& scene) {
 StepReport step(const Scene& scene, State& state, Work& work) {
   StepReport report;
   const double t_end = state.time + scene.settings.dt;
+  const bool may_sleep =
+      scene.settings.sleep && scene.settings.law == Law::talus && scene.base.time.empty();
   work.segments.clear();
   for (int b = 0; b < n_blocks(scene); ++b) {
     const auto i = static_cast<size_t>(b);
-    if (state.phase[i] == Phase::asleep || state.phase[i] == Phase::left_domain) continue;
+    if (does_not_move(state.phase[i])) continue;
     if (state.phase[i] == Phase::flight && state.flight_end[i] >= t_end) {
       ++state.counters.flight_skips;
       continue;
     }
-    if (scene.settings.law == Law::talus)
-      advance_block_talus(scene, b, t_end, state, work, report);
-    else
+    const Motion before = state.motion[i];
+    if (scene.settings.law == Law::paper)
       advance_block_paper(scene, b, state, work, report);
+    else
+      advance_block_talus(scene, b, t_end, state, work, report);
+    if (!is_finite(state.motion[i])) stop_at(before, i, state, report);
+    if (may_sleep && state.phase[i] == Phase::near_ground) put_to_sleep(scene, i, state);
   }
   state.time = t_end;
   ++state.counters.steps;
@@ -120,7 +161,10 @@ Energies energies(const Scene& scene, const State& state) {
   Energies sum;
   for (int b = 0; b < n_blocks(scene); ++b) {
     const auto i = static_cast<size_t>(b);
-    const Motion m = motion_at(scene, state, b, state.time);
+    Motion m = state.motion[i];  // a flight's spin energy does not change: no need to follow it
+    const double flown = state.phase[i] == Phase::flight ? state.time - state.local_time[i] : 0;
+    m.pose.position += flown * m.velocity + 0.5 * flown * flown * scene.gravity;
+    m.velocity += flown * scene.gravity;
     const double mass = scene.blocks.mass[i];
     const Vec3 spin =
         angular_velocity(m.pose.attitude, m.angular_momentum, scene.blocks.inertia[i]);
@@ -128,9 +172,10 @@ Energies energies(const Scene& scene, const State& state) {
     sum.rotation += 0.5 * spin.dot(m.angular_momentum);
     sum.potential -= mass * scene.gravity.dot(m.pose.position);
     if (!state.strain.empty())
-      sum.elastic += 0.5 * scene.blocks.volume[i] *
-                     state.strain[i].dot(elastic_matrix(scene.blocks.young[i],
-                                                        scene.blocks.poisson[i]) * state.strain[i]);
+      sum.elastic +=
+          0.5 * scene.blocks.volume[i] *
+          state.strain[i].dot(elastic_matrix(scene.blocks.young[i], scene.blocks.poisson[i]) *
+                              state.strain[i]);
   }
   return sum;
 }

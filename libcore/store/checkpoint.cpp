@@ -15,6 +15,7 @@ namespace talus {
 
 static_assert(sizeof(Motion) == 112 && sizeof(EnergyLedger) == 40 && sizeof(RunCounters) == 64);
 static_assert(sizeof(ContactMemory) == 128 && sizeof(HealthRow) == 168);
+static_assert(sizeof(State) == 8 + 11 * 24 + sizeof(EnergyLedger) + sizeof(RunCounters));
 
 template <class Archive>
 void fields(Fields<Archive>& archive, Motion& motion) {
@@ -38,8 +39,8 @@ void fields(Fields<Archive>& archive, ContactMemory& memory) {
 template <class Archive>
 void fields(Fields<Archive>& archive, State& state) {
   archive(state.time, state.motion, state.local_time, state.flight_end, state.phase,
-          state.acceleration, state.spin_rate, state.still_steps, state.strain, state.strain_rate,
-          state.memory, state.ledger, state.counters);
+          state.acceleration, state.spin_rate, state.rebound, state.still_steps, state.strain,
+          state.strain_rate, state.memory, state.ledger, state.counters);
 }
 template <class Archive>
 void fields(Fields<Archive>& archive, PassageValues& values) {

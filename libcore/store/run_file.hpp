@@ -53,12 +53,12 @@ struct RunBlocks {  // clang-format off
 
 /// Frames as they are stored: positions in full, the rest in single precision.
 struct RunFrames {  // clang-format off
-  std::vector<double> time;      ///< [s]                                      (n_frames)
-  std::vector<double> position;  ///< of the centroids, local [m]              (n_frames x n_blocks x 3)
-  std::vector<float> attitude;   ///< w x y z, body to local axes              (n_frames x n_blocks x 4)
-  std::vector<float> velocity;   ///< [m/s]                                    (n_frames x n_blocks x 3)
-  std::vector<float> spin;       ///< local axes [rad/s]                       (n_frames x n_blocks x 3)
-  std::vector<float> strain;     ///< empty when not asked for [-]             (n_frames x n_blocks x 6)
+  std::vector<double> time;      ///< [s]                                (n_frames)
+  std::vector<double> position;  ///< of the centroids, local [m]        (n_frames x n_blocks x 3)
+  std::vector<float> attitude;   ///< w x y z, body to local axes        (n_frames x n_blocks x 4)
+  std::vector<float> velocity;   ///< [m/s]                              (n_frames x n_blocks x 3)
+  std::vector<float> spin;       ///< local axes [rad/s]                 (n_frames x n_blocks x 3)
+  std::vector<float> strain;     ///< empty when not asked for [-]       (n_frames x n_blocks x 6)
 };  // clang-format on
 void append(RunFrames& frames, const Frame& frame, bool with_strain);
 

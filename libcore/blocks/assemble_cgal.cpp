@@ -1,6 +1,3 @@
-#include "blocks/assemble.hpp"
-
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -8,6 +5,7 @@
 #include <map>
 #include <numeric>
 
+#include "blocks/assemble.hpp"
 #include "blocks/convexify.hpp"
 #include "blocks/shell.hpp"
 
@@ -60,7 +58,8 @@ int root(std::vector<int>& parent, int i) {
 }
 
 // Cells joined through walls within their joint cell, in the order of the cells.
-std::vector<Piece> find_pieces(const CellComplex& c, std::vector<int>& piece_of_cell) {
+std::vector<Piece> find_pieces(const CellComplex& c, const std::vector<Polyhedron>& bodies,
+                               std::vector<int>& piece_of_cell) {
   const int n_cells = static_cast<int>(c.cell_leaf.size());
   std::vector<int> parent(n_cells);
   std::iota(parent.begin(), parent.end(), 0);
@@ -71,7 +70,6 @@ std::vector<Piece> find_pieces(const CellComplex& c, std::vector<int>& piece_of_
     const int b = root(parent, c.face_cell[c.dart_face[other]]);
     parent[std::max(a, b)] = std::min(a, b);
   }
-  const std::vector<Polyhedron> bodies = cells_as_polyhedra(c);
   std::vector<Piece> pieces;
   piece_of_cell.assign(n_cells, -1);
   for (int cell = 0; cell < n_cells; ++cell) {
@@ -179,7 +177,12 @@ class Assembler {
  public:
   Assembler(const CellComplex& complex, const std::vector<Joint>& joints, const Trn& bed,
             const AssembleOptions& options)
-      : complex_(complex), joints_(joints), bed_(bed), options_(options), reader_(complex) {
+      : complex_(complex),
+        joints_(joints),
+        bed_(bed),
+        options_(options),
+        reader_(complex),
+        cells_(cells_as_polyhedra(complex)) {
     Vec3 low = Vec3::Zero(), high = low;
     if (!complex.vertices.empty()) low = high = complex.vertices[0];
     for (const Vec3& v : complex.vertices) low = low.cwiseMin(v), high = high.cwiseMax(v);
@@ -191,7 +194,7 @@ class Assembler {
 
   AssembleReport run(BlockSet& set, const ProgressFunction& progress) {
     std::vector<int> piece_of_cell;
-    const std::vector<Piece> pieces = find_pieces(complex_, piece_of_cell);
+    const std::vector<Piece> pieces = find_pieces(complex_, cells_, piece_of_cell);
     const Contacts contacts = find_contacts(complex_, joints_, piece_of_cell);
     AssembleReport report;
     report.n_cells = static_cast<int>(complex_.cell_leaf.size());
@@ -226,11 +229,8 @@ class Assembler {
     }
     if (!options_.exact) {
       Body body;
-      body.parts.push_back(convex_body(pieces, main, in_same_leaf, exact.volume));
-      const Polyhedron& convex = body.parts[0];
-      const double volume = n_faces(convex) > 0 ? moments(convex).volume : 0;
-      if (volume >= (1 - options_.max_convex_loss) * exact.volume &&
-          check_surface(convex).fault == SurfaceFault::none) {
+      body.parts = convex_bodies(pieces, main, in_same_leaf, exact.volume);
+      if (!body.parts.empty()) {
         append(body, cells, exact.volume, set, report);
         return;
       }
@@ -252,6 +252,7 @@ class Assembler {
     add_body(set, body);
     const double volume = set.volume.back();
     const double change = exact_volume < 0 ? 0 : volume - exact_volume;
+    if (exact_volume >= 0 && body.parts.size() > 1) ++report.n_divided;
     (change > 0 ? report.gained : report.lost) += std::abs(change);
     report.block_volume += volume;
     report.exact_volume.push_back(exact_volume < 0 ? volume : exact_volume);
@@ -294,16 +295,6 @@ class Assembler {
     return body;
   }
 
-  // Mean upward normal of the faces of a piece made by `origin`; zero when it has none.
-  Vec3 mean_normal(const Piece& piece, int made_by) const {
-    Vec3 sum = Vec3::Zero();
-    for (const int cell : piece.cells)
-      for (int f = cell_face_begin_[cell]; f < cell_face_begin_[cell + 1]; ++f)
-        if (complex_.face_made_by[f] == made_by) sum += measure_face(complex_, f).area_vector;
-    if (sum.z() < 0) sum = -sum;
-    return sum.norm() > tolerance_ * tolerance_ ? Vec3(sum.normalized()) : Vec3::Zero();
-  }
-
   template <class Visit>
   void for_each_vertex(const Piece& piece, Visit visit) const {
     for (const int cell : piece.cells)
@@ -341,26 +332,22 @@ class Assembler {
     return room;
   }
 
-  Polyhedron convex_body(const std::vector<Piece>& pieces, int p, const std::vector<int>& in_leaf,
-                         double volume) const {
-    const Piece& piece = pieces[p];
+  std::vector<Polyhedron> convex_bodies(const std::vector<Piece>& pieces, int p,
+                                        const std::vector<int>& in_leaf, double volume) const {
     ConvexTask task;
     task.room = room_of(pieces, p, in_leaf);
     if (n_faces(task.room) == 0) return {};
-    task.low = Vec3::Constant(std::numeric_limits<double>::infinity());
-    task.high = -task.low;
-    for_each_vertex(piece, [&](const Vec3& v) {
-      task.low = task.low.cwiseMin(v);
-      task.high = task.high.cwiseMax(v);
-    });
-    task.terrain_normal = mean_normal(piece, cut_terrain);
-    task.bed_normal = mean_normal(piece, cut_failure);
+    for (const int cell : pieces[p].cells) task.cells.push_back(cells_[cell]);
     task.volume = volume;
-    if (task.terrain_normal.squaredNorm() > 0) {
-      task.terrain_support = largest_along(piece, task.terrain_normal);
-      task.height = task.terrain_support + largest_along(piece, -task.terrain_normal);
-    }
-    return made_convex(task, bed_, tolerance_);
+    ConvexOptions options;
+    options.max_loss = options_.max_convex_loss;
+    options.tolerance_m = tolerance_;
+    options.min_edge = options_.min_edge < 0 ? 1e-3 * std::cbrt(volume) : options_.min_edge;
+    std::vector<Polyhedron> parts = made_convex_parts(task, bed_, options);
+    const bool all_sound = std::all_of(parts.begin(), parts.end(), [](const Polyhedron& part) {
+      return check_surface(part).fault == SurfaceFault::none;
+    });
+    return all_sound ? parts : std::vector<Polyhedron>{};
   }
 
   void add_pairs(BlockSet& set) const {
@@ -389,19 +376,13 @@ class Assembler {
   const Trn& bed_;
   const AssembleOptions& options_;
   ShellReader reader_;
+  std::vector<Polyhedron> cells_;  // of the complex, face_tag as CutFace
   std::vector<int> cell_face_begin_;
   std::vector<int> block_of_cell_;
   double tolerance_ = 0;
 };
 
 }  // namespace
-
-Vec3 extents(const Moments& m) {
-  if (m.volume <= 0) return Vec3::Zero();
-  const Eigen::SelfAdjointEigenSolver<Mat3> axes(m.second, Eigen::EigenvaluesOnly);
-  const Vec3 size = (12 / m.volume * axes.eigenvalues().cwiseMax(0)).cwiseSqrt();
-  return {size.z(), size.y(), size.x()};
-}
 
 AssembleReport assemble_blocks(const CellComplex& complex, const std::vector<Joint>& joints,
                                const Trn& bed, const AssembleOptions& options, BlockSet& set,
