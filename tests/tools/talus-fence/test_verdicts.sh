@@ -15,7 +15,7 @@ s = (30 - 11) / math.cos(math.pi / 6)
 energies = [0.5 * 2600 * 2 * 3 * (1 + 0.01 * r) * s / 1e3 for r in range(80)]
 e = j['whole']['energy_kj']
 assert abs(e['max'] - energies[79]) < 1e-2 and abs(e['p50'] - energies[39]) < 1e-2
-assert abs(e['p95'] - energies[75]) < 1e-2 and abs(e['p95_hi'] - energies[78]) < 1e-1, e
+assert abs(e['p95'] - energies[75]) < 1e-2 and abs(e['p95_hi'] - energies[79]) < 1e-2, e  # 80 < 93: the largest
 assert e['p99_hi'] is None
 assert abs(j['whole']['mean_angle_to_normal_deg']) < 1e-9
 assert abs(j['whole']['top_height_m']['max'] - 1.1) < 1e-6
