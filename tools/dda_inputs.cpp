@@ -148,56 +148,6 @@ std::vector<std::uint8_t> ground_classes(Tool& tool, const Site& site, const Trn
   return classify_cells(trn, areas, elsewhere);
 }
 
-// --- fences ------------------------------------------------------------------------------------
-
-// The line with a point at least every `spacing`, its base on the ground.
-std::vector<Vec3> on_ground(const Site& site, const FenceSettings& fence, const Trn& trn,
-                            const std::vector<Vec3>& corners) {
-  std::vector<Vec3> points;
-  const auto add = [&](const Vec2& at) {
-    const double z = elevation_at(trn, at.x(), at.y());
-    if (std::isnan(z)) {
-      const Vec2 place = at + trn.origin.head<2>();
-      throw InputError(
-          {site.file, fence.line_number, "fence." + fence.name},
-          "leaves the known terrain at " + text(place.x(), 9) + ", " + text(place.y(), 9),
-          "shorten the line, or make the terrain larger");
-    }
-    points.emplace_back(at.x(), at.y(), z);
-  };
-  for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
-    const Vec2 a = corners[i].head<2>(), b = corners[i + 1].head<2>();
-    const int n =
-        std::max(1, static_cast<int>(std::ceil((b - a).norm() / fence.post_spacing_m - 1e-9)));
-    for (int k = 0; k < n; ++k) add(a + (b - a) * (static_cast<double>(k) / n));
-  }
-  if (!corners.empty()) add(corners.back().head<2>());
-  return points;
-}
-
-void add_fence(Tool& tool, const Site& site, const Trn& trn, const FenceSettings& fence,
-               std::vector<RecordLine>& lines) {
-  const std::string key = "fence." + fence.name + ".line";
-  std::vector<std::vector<Vec3>> found;
-  if (!fence.line.empty()) found.push_back(local_points(tool, site, trn, fence.line, key));
-  if (!fence.line_file.empty()) {
-    const std::string path = resolved(site, fence.line_file);
-    tool.read_also("fence." + fence.name, path);
-    VectorShapes shapes =
-        read_vectors({path, fence.line_layer, "", VectorKind::lines}, trn.crs_wkt);
-    for (std::vector<Vec3>& line : shapes.shapes) {
-      for (Vec3& point : line) point -= trn.origin;
-      found.push_back(std::move(line));
-    }
-  }
-  if (found.empty())
-    throw InputError({site.file, fence.line_number, "fence." + fence.name}, "has no line",
-                     "give line or line_file");
-  for (std::size_t i = 0; i < found.size(); ++i)
-    lines.push_back(record_line(fence.name + (found.size() > 1 ? "." + std::to_string(i + 1) : ""),
-                                on_ground(site, fence, trn, found[i])));
-}
-
 }  // namespace
 
 DdaInputs read_dda_inputs(Tool& tool, const Site& site, const DdaFiles& files) {
@@ -218,7 +168,8 @@ DdaInputs read_dda_inputs(Tool& tool, const Site& site, const DdaFiles& files) {
   parts.blocks = read_checked_blocks(tool, parts.trn, inputs.trn_digest, files);
   parts.cell_class = ground_classes(tool, site, parts.trn);
   for (const FenceSettings& fence : site.fences)
-    add_fence(tool, site, parts.trn, fence, inputs.lines);
+    for (RecordLine& line : fence_lines(tool, site, parts.trn, fence))
+      inputs.lines.push_back(std::move(line));
   return inputs;
 }
 

@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "io/crs_gdal.hpp"
+#include "io/vectors_gdal.hpp"
 
 namespace talus {
 
@@ -19,6 +20,33 @@ std::vector<Vec3> local_points(Tool& tool, const Site& site, const Trn& ground,
   }
   for (Vec3& p : points) p -= ground.origin;
   return points;
+}
+
+std::vector<RecordLine> fence_lines(Tool& tool, const Site& site, const Trn& trn,
+                                    const FenceSettings& fence) {
+  const Where where{site.file, fence.line_number, "fence." + fence.name};
+  std::vector<std::vector<Vec3>> found;
+  if (!fence.line.empty())
+    found.push_back(local_points(tool, site, trn, fence.line, "fence." + fence.name + ".line"));
+  if (!fence.line_file.empty()) {
+    const std::string path = resolved(site, fence.line_file);
+    tool.read_also("fence." + fence.name, path);
+    VectorShapes shapes =
+        read_vectors({path, fence.line_layer, "", VectorKind::lines}, trn.crs_wkt);
+    for (std::vector<Vec3>& line : shapes.shapes) {
+      for (Vec3& point : line) point -= trn.origin;
+      found.push_back(std::move(line));
+    }
+  }
+  if (found.empty()) throw InputError(where, "has no line", "give line or line_file");
+  std::vector<RecordLine> lines;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    std::vector<Vec2> corners;
+    for (const Vec3& point : found[i]) corners.push_back(point.head<2>());
+    lines.push_back(record_line(fence.name + (found.size() > 1 ? "." + std::to_string(i + 1) : ""),
+                                posts_on_ground(trn, corners, fence.post_spacing_m, where)));
+  }
+  return lines;
 }
 
 }  // namespace talus

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scene/site.hpp"
+#include "store/crossings.hpp"
 #include "terrain/trn.hpp"
 #include "tool.hpp"
 
@@ -16,5 +17,10 @@ namespace talus {
 /// `key` is where they stand. Throws InputError when they cannot be reprojected.
 [[nodiscard]] std::vector<Vec3> local_points(Tool& tool, const Site& site, const Trn& ground,
                                              std::vector<Vec3> points, const std::string& key);
+
+/// The line or lines of a [fence.*], with posts on the ground; several are named NAME.1, NAME.2 ...
+/// Throws InputError for a fence without a line and as posts_on_ground().
+[[nodiscard]] std::vector<RecordLine> fence_lines(Tool& tool, const Site& site, const Trn& trn,
+                                                  const FenceSettings& fence);
 
 }  // namespace talus

@@ -151,6 +151,8 @@ struct Tool::Impl {
   std::vector<std::pair<CLI::Option*, std::function<std::vector<std::string>()>>> inputs;
   std::vector<Output> outputs;
   std::vector<CLI::Option*> common;
+  const std::string* json_path = nullptr;  // where the result is also written
+  const CLI::Option* json_option = nullptr;
   std::function<std::vector<ConfigValue>()> more_config;
 
   bool quiet = false, verbose = false, json = false, overwrite = false, no_db = false,
@@ -297,7 +299,11 @@ struct Tool::Impl {
     add(record.tool);
     add(record.version);
     for (const RunParam& param : record.params) add(param.key), add(param.value);
-    for (const RunFile& file : record.inputs) add(file.role), add(file.sha256);
+    // Results do not depend on the order in which several inputs of one option are named.
+    std::vector<std::pair<std::string, std::string>> contents;
+    for (const RunFile& file : record.inputs) contents.emplace_back(file.role, file.sha256);
+    std::sort(contents.begin(), contents.end());
+    for (const auto& [role, sha256] : contents) add(role), add(sha256);
     return hash.hex().substr(0, 16);
   }
 
@@ -494,6 +500,15 @@ CLI::Option* Tool::output_folder(const std::string& name, std::string& path,
   return option;
 }
 
+void Tool::json_output(std::string& path, const std::string& help) {
+  std::erase(impl_->common, app().get_option("--json"));
+  app().remove_option(app().get_option("--json"));
+  CLI::Option* const option = output("--json", path, help)->expected(0, 1);
+  option->default_str("");
+  impl_->json_path = &path;
+  impl_->json_option = option;
+}
+
 void Tool::footer(const std::string& text) { app().footer(text); }
 
 void Tool::more_config(std::function<std::vector<ConfigValue>()> settings) {
@@ -551,6 +566,11 @@ void Tool::check(const std::string& name, double value, double limit, bool pass)
 void Tool::result(Json result, const std::string& summary) {
   impl_->result = std::move(result);
   impl_->summary = summary;
+  if (impl_->json_option != nullptr && impl_->json_option->count() > 0 && impl_->json_path->empty())
+    impl_->json = true;
+  if (impl_->json_path != nullptr && !impl_->json_path->empty())
+    write_text(*impl_->json_path,
+               impl_->result.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 bool Tool::overwrite() const { return impl_->overwrite; }

@@ -47,6 +47,8 @@ class Tool {
   CLI::Option* output(const std::string& name, std::string& path, const std::string& help);
   /// A folder written into, made when missing; refused when not empty without --overwrite.
   CLI::Option* output_folder(const std::string& name, std::string& path, const std::string& help);
+  /// Lets --json name a file that the result is written to; without a name it prints, as always.
+  void json_output(std::string& path, const std::string& help);
   /// A value; its default is shown by --help, and its effective value is recorded with its source.
   template <class T>
   CLI::Option* option(const std::string& name, T& value, const std::string& help) {

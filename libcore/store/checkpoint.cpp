@@ -50,7 +50,7 @@ void fields(Fields<Archive>& archive, PassageValues& values) {
 template <class Archive>
 void fields(Fields<Archive>& archive, PassageTracker& tracker) {
   archive(tracker.last.motion, tracker.last.top, tracker.last.spin_energy, tracker.last_time,
-          tracker.margin, tracker.covered, tracker.pending);
+          tracker.margin, tracker.start_z, tracker.path, tracker.covered, tracker.pending);
 }
 template <class Archive>
 void fields(Fields<Archive>& archive, FrameBlock& block) {

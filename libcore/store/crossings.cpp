@@ -134,6 +134,33 @@ void add(CrossingRecorder& recorder, int line, Crossing row) {
 
 }  // namespace
 
+std::vector<Vec3> posts_on_ground(const Trn& trn, const std::vector<Vec2>& corners, double spacing,
+                                  const Where& where) {
+  if (corners.size() < 2)
+    throw InputError(where, "the line has " + std::to_string(corners.size()) + " point" +
+                                (corners.size() == 1 ? "" : "s") + ", expected two or more");
+  std::vector<Vec3> posts;
+  const auto add = [&](const Vec2& at) {
+    const double z = elevation_at(trn, at.x(), at.y());
+    if (std::isnan(z)) {
+      const Vec2 place = at + trn.origin.head<2>();
+      throw InputError(
+          where, "leaves the known terrain at " + text(place.x(), 9) + ", " + text(place.y(), 9),
+          "shorten the line, or make the terrain larger");
+    }
+    posts.emplace_back(at.x(), at.y(), z);
+  };
+  for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
+    const Vec2 &a = corners[i], &b = corners[i + 1];
+    if (!((b - a).norm() > 0))
+      throw InputError(where, "point " + std::to_string(i + 2) + " repeats the one before");
+    const int n = std::max(1, static_cast<int>(std::ceil((b - a).norm() / spacing - 1e-9)));
+    for (int k = 0; k < n; ++k) add(a + (b - a) * (static_cast<double>(k) / n));
+  }
+  add(corners.back());
+  return posts;
+}
+
 RecordLine record_line(std::string name, std::vector<Vec3> points) {
   RecordLine line{std::move(name), std::move(points), {}};
   const Where where{"", 0, "line " + line.name};

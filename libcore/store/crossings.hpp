@@ -14,6 +14,7 @@
 
 #include "dda/scene.hpp"
 #include "dda/work.hpp"
+#include "terrain/trn.hpp"
 
 namespace talus {
 
@@ -22,7 +23,14 @@ struct RecordLine {
   std::string name;
   std::vector<Vec3> points;      ///< local, z = base of the line [m]; at least two, no two alike
   std::vector<double> chainage;  ///< of the points, horizontal, from the first [m]  (n_points)
+  bool standing = false;         ///< a fence that stops blocks; false: a line that stops nothing
 };
+
+/// The corners of a line and, between them, posts at equal distances not longer than `spacing`, all
+/// on the ground. Throws InputError at `where` for fewer than two corners, two in a row at the same
+/// place, and for a post outside the known terrain.
+[[nodiscard]] std::vector<Vec3> posts_on_ground(const Trn& trn, const std::vector<Vec2>& corners,
+                                                double spacing, const Where& where);
 
 /// Chainages of `points`. Throws InputError naming the line for fewer than two points, or two in
 /// a row at the same place.

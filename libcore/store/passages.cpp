@@ -223,9 +223,27 @@ Footprint footprint_of(const Scene& scene, int block, const Motion& motion) {
 
 // --- recording ---------------------------------------------------------------------------------
 
+// The row of a block that comes over a cell now, `path` from its start.
+Passage arrival(int block, const PassageTracker& tracker, double time, double z, double path,
+                const Vec3& velocity) {
+  Passage row;
+  row.block = block;
+  row.first_time = static_cast<float>(time);
+  if (path > 0) row.travel_angle = static_cast<float>(std::atan2(tracker.start_z - z, path));
+  if (velocity.x() != 0 || velocity.y() != 0)
+    row.heading = static_cast<float>(std::atan2(velocity.y(), velocity.x()));
+  return row;
+}
+
 void flush(PassageTable& table, int block, const PassageTracker& tracker) {
-  for (const int cell : tracker.covered)
-    table.raise(block, cell, tracker.pending, tracker.last_time);
+  const Motion& motion = tracker.last.motion;
+  Passage row = arrival(block, tracker, tracker.last_time, motion.pose.position.z(), tracker.path,
+                        motion.velocity);
+  row.largest = tracker.pending;
+  for (const int cell : tracker.covered) {
+    row.cell = cell;
+    table.raise(row);
+  }
 }
 
 // The block at the end of `piece`: its cells, and its values there as the first of the new set.
@@ -243,10 +261,16 @@ void settle(PassageRecorder& recorder, const Scene& scene, const Piece& piece) {
 void record_sweep(PassageRecorder& recorder, const Scene& scene, const Piece& piece,
                   const PassageValues& whole) {
   const Motion &a = piece.a.motion, &b = piece.b.motion;
+  const PassageTracker& tracker = recorder.trackers[piece.block];
+  const Vec3 way = b.pose.position - a.pose.position;
   const auto visit = [&](int cell, double s_in, double s_out) {
-    const bool all = s_in <= 0 && s_out >= 1;
-    recorder.table.raise(piece.block, cell, all ? whole : values_between(scene, piece, s_in, s_out),
-                         piece.t_start + s_in * piece.duration);
+    const double z = a.pose.position.z() + s_in * way.z() - piece.sag * s_in * (1 - s_in);
+    Passage row = arrival(piece.block, tracker, piece.t_start + s_in * piece.duration, z,
+                          tracker.path + s_in * way.head<2>().norm(),
+                          a.velocity + s_in * (b.velocity - a.velocity));
+    row.cell = cell;
+    row.largest = s_in <= 0 && s_out >= 1 ? whole : values_between(scene, piece, s_in, s_out);
+    recorder.table.raise(row);
   };
   if (recorder.by_centroid) {
     walk_cells(recorder.frame, plan(a), plan(b), [&](const CellPart& part) {
@@ -276,6 +300,7 @@ void record_piece(PassageRecorder& recorder, const Scene& scene, const Piece& pi
     record_sweep(recorder, scene, piece, whole);
     settle(recorder, scene, piece);
   }
+  tracker.path += (plan(b) - plan(a)).norm();
   tracker.last = piece.b;
   tracker.last_time = piece.t_start + piece.duration;
 }
@@ -356,18 +381,20 @@ void PassageValues::raise(const PassageValues& other) {
   top_height = larger(top_height, other.top_height);
 }
 
-void PassageTable::raise(int block, int cell, const PassageValues& values, double time) {
+void PassageTable::raise(const Passage& visit) {
   if (4 * (rows.size() + 1) > 3 * slots.size()) grow(*this);
   const std::size_t mask = slots.size() - 1;
-  std::size_t slot = hash_of(block, cell) & mask;
+  std::size_t slot = hash_of(visit.block, visit.cell) & mask;
   for (; slots[slot] != 0; slot = (slot + 1) & mask) {
     Passage& row = rows[slots[slot] - 1];
-    if (row.block != block || row.cell != cell) continue;
-    row.largest.raise(values);
-    row.first_time = std::min(row.first_time, static_cast<float>(time));
+    if (row.block != visit.block || row.cell != visit.cell) continue;
+    PassageValues largest = row.largest;
+    largest.raise(visit.largest);
+    if (visit.first_time < row.first_time) row = visit;
+    row.largest = largest;
     return;
   }
-  rows.push_back({block, cell, values, static_cast<float>(time)});
+  rows.push_back(visit);
   slots[slot] = static_cast<std::uint32_t>(rows.size());
 }
 
@@ -405,6 +432,7 @@ void record_start(PassageRecorder& recorder, const Scene& scene, int block, cons
   PassageTracker& tracker = recorder.trackers[block];
   tracker.last = instant;
   tracker.last_time = time;
+  tracker.start_z = motion.pose.position.z();
   Piece still;
   still.block = block;
   still.a = still.b = instant;

@@ -50,6 +50,10 @@ struct Passage {
   std::int32_t cell = 0;  ///< index in the grid
   PassageValues largest;
   float first_time = 0;  ///< when the block came over the cell [s]
+  /// Then: from its centroid's start, below the horizontal, atan(drop / length of its path in plan)
+  /// [rad]; NaN before it has moved in plan.
+  float travel_angle = PassageValues::unknown;
+  float heading = PassageValues::unknown;  ///< then, from x to y [rad]; NaN: it stood in plan
 };
 
 /// Rows with an index over (block, cell): open addressing, grown by doubling.
@@ -57,7 +61,9 @@ struct PassageTable {
   std::vector<Passage> rows;         ///< in the order of the first visit
   std::vector<std::uint32_t> slots;  ///< row + 1, 0 empty; a power of two
 
-  void raise(int block, int cell, const PassageValues& values, double time);
+  /// A block over a cell: its values raise those of earlier visits, its arrival counts if it is the
+  /// first.
+  void raise(const Passage& visit);
 };
 
 /// Rows in the order of block, then cell: what is written.
@@ -83,6 +89,8 @@ struct PassageTracker {
   PassageInstant last;
   double last_time = 0;      ///< [s]
   double margin = 0;         ///< the set below cannot change before a point moves this far [m]
+  double start_z = 0;        ///< of the centroid [m]
+  double path = 0;           ///< of the centroid in plan, up to `last` [m]
   std::vector<int> covered;  ///< cells under the footprint at `last`
   PassageValues pending;     ///< largest since the set was found, not yet in the table
 };

@@ -41,6 +41,7 @@ struct RunInfo {
 struct RunBlocks {  // clang-format off
   std::vector<double> mass;              ///< [kg]                                    (n_blocks)
   std::vector<double> volume;            ///< [m3]                                    (n_blocks)
+  std::vector<double> weight;            ///< in statistics; empty: 1 each            (n_blocks)
   std::vector<Vec3> inertia;             ///< principal moments [kg m2]               (n_blocks)
   std::vector<Pose> rest;                ///< as cut, local                           (n_blocks)
   std::vector<int> vertex_begin{0};      ///< vertices of block b: [b], [b + 1)       (n_blocks + 1)
@@ -84,6 +85,7 @@ struct RunFile {
   std::vector<RecordLine> lines;
   std::vector<Crossing> crossings;  ///< by line, then block
   std::vector<HealthRow> health;
+  std::vector<Phase> phase;  ///< at info.time; empty: not known               (n_blocks)
   std::vector<std::uint8_t> checkpoint;  ///< store/checkpoint.hpp; empty when the run is done
 };
 

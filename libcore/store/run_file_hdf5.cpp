@@ -45,6 +45,14 @@ void passage_columns(Visit&& column) {
   column(
       "first_time_s", "s", "when the block came over the cell",
       [](Passage & p) -> auto& { return p.first_time; });
+  column(
+      "travel_angle_rad", "rad",
+      "then: atan(drop of the centroid since its start / length of its path in plan); NaN: it had "
+      "not moved in plan",
+      [](Passage & p) -> auto& { return p.travel_angle; });
+  column(
+      "heading_rad", "rad", "then: direction of the centroid, from x to y; NaN: it stood in plan",
+      [](Passage & p) -> auto& { return p.heading; });
 }
 
 template <class Visit>
@@ -303,6 +311,8 @@ void write_blocks(H5Writer& file, const RunBlocks& blocks) {
   put_points(file, "blocks/rest_position_m", position, "m", "centroid as cut, local");
   file.array<double>("blocks/rest_attitude", attitude, {n, 4}, "1",
                      "quaternion w x y z as cut, body to local axes");
+  if (!blocks.weight.empty())
+    file.array<double>("blocks/weight", blocks.weight, {n}, "1", "weight in statistics");
   put_points(file, "blocks/vertices_m", blocks.vertices, "m", "vertices, body axes");
   put_indices(file, "blocks/vertex_begin", blocks.vertex_begin,
               "vertices of block b: [b], [b + 1)");
@@ -340,6 +350,10 @@ RunBlocks read_blocks(const H5Reader& file, const std::string& path) {
   };
   blocks.volume = file.array<double>("blocks/volume_m3", 1);
   same("blocks/volume_m3", blocks.volume.size());
+  if (file.has("blocks/weight")) {
+    blocks.weight = file.array<double>("blocks/weight", 1);
+    same("blocks/weight", blocks.weight.size());
+  }
   blocks.inertia = as_points(file.array<double>("blocks/inertia_kg_m2", 3));
   same("blocks/inertia_kg_m2", blocks.inertia.size());
   const std::vector<Vec3> position = as_points(file.array<double>("blocks/rest_position_m", 3));
@@ -447,9 +461,10 @@ void write_crossings(H5Writer& file, const RunFile& run) {
               run.crossings, [](auto&& column) { crossing_columns(column); });
   std::vector<std::string> names;
   std::vector<Vec3> points;
-  std::vector<int> begin{0};
+  std::vector<int> begin{0}, standing;
   for (const RecordLine& line : run.lines) {
     names.push_back(line.name);
+    standing.push_back(line.standing ? 1 : 0);
     points.insert(points.end(), line.points.begin(), line.points.end());
     begin.push_back(static_cast<int>(points.size()));
   }
@@ -457,6 +472,7 @@ void write_crossings(H5Writer& file, const RunFile& run) {
   file.texts("lines/name", names, "name of the line");
   put_points(file, "lines/points_m", points, "m", "points of all lines, local, z = base");
   put_indices(file, "lines/begin", begin, "points of line l: [l], [l + 1)");
+  put_indices(file, "lines/standing", standing, "1: a fence that stops blocks, 0: a line only");
 }
 
 void read_crossings(const H5Reader& file, const std::string& path, RunFile& run) {
@@ -464,9 +480,14 @@ void read_crossings(const H5Reader& file, const std::string& path, RunFile& run)
   const std::vector<Vec3> points = as_points(file.array<double>("lines/points_m", 3));
   const std::vector<int> begin = file.array<std::int32_t>("lines/begin", 1);
   check_begin(begin, names.size(), points.size(), {path, 0, "lines/begin"});
-  for (std::size_t l = 0; l < names.size(); ++l)
+  const std::vector<int> standing = file.array<std::int32_t>("lines/standing", 1);
+  if (standing.size() != names.size())
+    throw InputError({path, 0, "lines/standing"}, "does not have a row for each line");
+  for (std::size_t l = 0; l < names.size(); ++l) {
     run.lines.push_back(
         record_line(names[l], {points.begin() + begin[l], points.begin() + begin[l + 1]}));
+    run.lines.back().standing = standing[l] != 0;
+  }
   run.crossings =
       read_table<Crossing>(file, "crossings", [](auto&& column) { crossing_columns(column); });
   for (Crossing& row : run.crossings) {
@@ -479,44 +500,37 @@ void read_crossings(const H5Reader& file, const std::string& path, RunFile& run)
   }
 }
 
-}  // namespace
+void write_phases(H5Writer& file, const RunFile& run) {
+  std::vector<std::uint8_t> phases;
+  for (const Phase phase : run.phase) phases.push_back(static_cast<std::uint8_t>(phase));
+  if (!phases.empty())
+    file.array<std::uint8_t>("blocks/phase", phases, {phases.size()}, "1",
+                             "at the end: 0 near the ground, 1 in flight, 2 asleep, 3 left the "
+                             "terrain");
+}
 
-void append(RunFrames& frames, const Frame& frame, bool with_strain) {
-  frames.time.push_back(frame.time);
-  const auto add = [](std::vector<float>& list, const auto& vector) {
-    for (const double entry : vector) list.push_back(static_cast<float>(entry));
-  };
-  for (const FrameBlock& block : frame.blocks) {
-    for (const double entry : block.position) frames.position.push_back(entry);
-    const Quat& q = block.attitude;
-    add(frames.attitude, Eigen::Vector4d(q.w(), q.x(), q.y(), q.z()));
-    add(frames.velocity, block.velocity);
-    add(frames.spin, block.spin);
-    if (with_strain) add(frames.strain, block.strain);
+std::vector<Phase> read_phases(const H5Reader& file, std::size_t n_blocks,
+                               const std::string& path) {
+  std::vector<Phase> phases;
+  if (!file.has("blocks/phase")) return phases;
+  for (const std::uint8_t phase : file.array<std::uint8_t>("blocks/phase", 1)) {
+    if (phase > static_cast<std::uint8_t>(Phase::left_domain))
+      throw InputError({path, 0, "blocks/phase"}, "holds an unknown phase");
+    phases.push_back(static_cast<Phase>(phase));
   }
+  if (phases.size() != n_blocks)
+    throw InputError({path, 0, "blocks/phase"}, "does not have a row for each block");
+  return phases;
 }
 
-FrameBlock frame_block(const RunFile& run, int k, int b) {
-  const std::size_t i =
-      static_cast<std::size_t>(k) * run.blocks.mass.size() + static_cast<std::size_t>(b);
-  const RunFrames& frames = run.frames;
-  FrameBlock block;
-  block.position = Eigen::Map<const Vec3>(frames.position.data() + 3 * i);
-  const float* q = frames.attitude.data() + 4 * i;
-  block.attitude = Quat(q[0], q[1], q[2], q[3]).normalized();
-  block.velocity = Eigen::Map<const Eigen::Vector3f>(frames.velocity.data() + 3 * i).cast<double>();
-  block.spin = Eigen::Map<const Eigen::Vector3f>(frames.spin.data() + 3 * i).cast<double>();
-  if (!frames.strain.empty())
-    block.strain =
-        Eigen::Map<const Eigen::Matrix<float, 6, 1>>(frames.strain.data() + 6 * i).cast<double>();
-  return block;
-}
+}  // namespace
 
 RunFile read_run_file(const std::string& path, const RunParts& parts) {
   const H5Reader file(path);
   RunFile run;
   run.info = read_info(file, path);
   run.blocks = read_blocks(file, path);
+  run.phase = read_phases(file, run.blocks.mass.size(), path);
   if (parts.frames) run.frames = read_frames(file, run.blocks.mass.size(), path);
   if (parts.passages && file.has("passages")) read_passages(file, path, run);
   if (parts.crossings) read_crossings(file, path, run);
@@ -532,6 +546,7 @@ void write_run_file(const std::string& path, const RunFile& run) {
   H5Writer file;
   write_info(file, run);
   write_blocks(file, run.blocks);
+  write_phases(file, run);
   write_frames(file, run);
   if (run.grid.n_rows > 0) write_passages(file, run);
   write_crossings(file, run);

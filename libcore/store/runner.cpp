@@ -168,8 +168,7 @@ Runner resume_run(const Scene& scene, const RunOptions& options, std::vector<Rec
   runner.interval = checkpoint.interval;
   runner.energy_start = checkpoint.energy_start;
   runner.passages.trackers = std::move(checkpoint.trackers);
-  for (const Passage& row : runner.file.passages)
-    runner.passages.table.raise(row.block, row.cell, row.largest, row.first_time);
+  for (const Passage& row : runner.file.passages) runner.passages.table.raise(row);
   const std::size_t n_lines = runner.crossings.lines.size();
   for (const Crossing& row : runner.file.crossings) {
     runner.crossings.row_of[static_cast<std::size_t>(row.block) * n_lines +
@@ -227,6 +226,7 @@ void update_file(Runner& runner, bool with_checkpoint) {
   }
   file.crossings = sorted(runner.crossings);
   file.info.time = runner.state.time;
+  file.phase = runner.state.phase;
   file.checkpoint.clear();
   if (with_checkpoint)
     file.checkpoint = pack({runner.state, runner.passages.trackers, runner.sampler, runner.interval,

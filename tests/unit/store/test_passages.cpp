@@ -127,7 +127,7 @@ Rows sampled(const Scene& scene, const std::vector<Segment>& path, bool by_centr
           const Vec2 centre = grid.corner + grid.cell_size * Vec2(col + 0.5, -row - 0.5);
           if ((centre - points[0]).norm() > 3 * grid.cell_size + 5) continue;
           if (separation(hull, centre, grid.cell_size) < reach)
-            table.raise(0, row * grid.n_cols + col, values, t);
+            table.raise({0, row * grid.n_cols + col, values, static_cast<float>(t)});
         }
     }
   Rows rows;
@@ -286,6 +286,8 @@ TEST(Passages, CountABlockThatSlidesFarInOneStepInEveryCell) {
       EXPECT_FLOAT_EQ(row.largest.top_height, 1);
       const double front = by_centroid ? 2.5 : 3;
       EXPECT_NEAR(row.first_time, col == 0 ? 0 : (5 * col - front) / 50, 1e-6);
+      EXPECT_EQ(row.heading, 0);
+      EXPECT_EQ(std::isnan(row.travel_angle), col == 0);
     }
   }
 }
@@ -316,6 +318,13 @@ TEST(Passages, EqualTheClosedFormOfAStraightSlide) {
     EXPECT_NEAR(row.largest.centroid_height, 0.4, 1e-4) << col;
     const double entry = (std::max(2.0 * col, 1.0) - 1) / along.x();
     EXPECT_NEAR(row.first_time, std::sqrt(2 * entry / a), 1e-3) << col;
+    if (col == 0) {  // where it started: no way yet, and it stood
+      EXPECT_TRUE(std::isnan(row.travel_angle) && std::isnan(row.heading));
+      continue;
+    }
+    // a h^2 / 8 = 4e-5 m: between two steps the way in plan is taken as even in time
+    EXPECT_NEAR(row.travel_angle, std::numbers::pi / 6, 2e-5) << col;
+    EXPECT_EQ(row.heading, 0) << col;
   }
 }
 

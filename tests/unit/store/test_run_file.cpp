@@ -72,7 +72,8 @@ RunFile sample(int n_frames, int n_rows) {
   }
   run.grid = {{-5, 95}, 5, 20, 30};
   for (int i = 0; i < n_rows; ++i)
-    run.passages.push_back({i % 2, i % 600, {1.5f * static_cast<float>(i), 2, 3, 4, 5}, 0.25f});
+    run.passages.push_back(
+        {i % 2, i % 600, {1.5f * static_cast<float>(i), 2, 3, 4, 5}, 0.25f, 0.5f, -3});
   run.lines.push_back(talus::record_line("fence.low", {{0, 0, 1}, {10, 0, 2}, {10, 5, 2}}));
   talus::Crossing crossing;
   crossing.block = 1;
@@ -85,6 +86,9 @@ RunFile sample(int n_frames, int n_rows) {
   run.health[2].unconverged = 5;
   run.health[2].friction = 1e6;
   run.checkpoint = {1, 2, 3, 255};
+  run.phase = {talus::Phase::asleep, talus::Phase::left_domain};
+  run.blocks.weight = {1, 0.25};
+  run.lines[0].standing = true;
   return run;
 }
 
@@ -109,6 +113,11 @@ TEST(RunFile, ReadsBackWhatWasWritten) {
   EXPECT_EQ(back.passages[699].block, 1);
   EXPECT_EQ(back.passages[699].cell, 99);
   EXPECT_EQ(back.passages[699].largest.speed, 1.5f * 699);
+  EXPECT_EQ(back.passages[699].travel_angle, 0.5f);
+  EXPECT_EQ(back.passages[699].heading, -3);
+  EXPECT_EQ(back.phase, run.phase);
+  EXPECT_EQ(back.blocks.weight, run.blocks.weight);
+  EXPECT_TRUE(back.lines[0].standing);
   EXPECT_EQ(back.grid.corner, run.grid.corner);
   EXPECT_EQ(back.grid.n_cols, 30);
   ASSERT_EQ(back.lines.size(), 1u);

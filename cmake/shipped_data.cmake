@@ -1,0 +1,32 @@
+# talus_shipped_data(OUT file...): a source OUT that holds files of share/ as text, declared in
+# tools/shipped_data.hpp; made again when one of them changes.
+function(talus_shipped_data out)
+  set(entries "")
+  foreach(name ${ARGN})
+    set(path ${PROJECT_SOURCE_DIR}/share/${name})
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${path})
+    file(READ ${path} content)
+    string(APPEND entries "    {\"${name}\", R\"talus(${content})talus\"},\n")
+  endforeach()
+  set(source ${CMAKE_CURRENT_BINARY_DIR}/shipped_data.cpp)
+  file(CONFIGURE OUTPUT ${source} @ONLY CONTENT [[
+#include "shipped_data.hpp"
+
+#include <map>
+
+#include "base/error.hpp"
+
+namespace talus {
+
+const std::string& shipped_data(const std::string& name) {
+  static const std::map<std::string, std::string> files = {
+@entries@  };
+  const auto at = files.find(name);
+  if (at == files.end()) throw InputError({name}, "is not a data file that is shipped");
+  return at->second;
+}
+
+}  // namespace talus
+]])
+  set(${out} ${source} PARENT_SCOPE)
+endfunction()

@@ -1,0 +1,48 @@
+// libcore/io/geopackage_gdal.hpp
+// Features with attributes as layers of a GeoPackage, each with the style that QGIS opens it with.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "base/types.hpp"
+
+namespace talus {
+
+/// A value of an attribute; monostate is NULL.
+using FieldValue = std::variant<std::monostate, std::int64_t, double, std::string>;
+
+enum class FieldType { integer, real, text };
+struct VectorField {
+  std::string name;  ///< unit in the name
+  FieldType type = FieldType::real;
+};
+
+enum class GeometryType { point_z, line_zm, multi_polygon, none };
+
+/// Points of one feature: a point, a line, or the rings of polygons; map coordinates [m].
+struct VectorFeature {
+  std::vector<Vec3> points;     ///< a point or a line
+  std::vector<double> measure;  ///< M of each point of a line; may be empty         (n_points)
+  std::vector<std::vector<std::vector<Vec2>>>
+      polygons;                    ///< polygon, ring, points; first ring outer
+  std::vector<FieldValue> values;  ///<                        (n_fields)
+};
+
+struct VectorLayer {
+  std::string name, description;
+  GeometryType type = GeometryType::point_z;
+  std::vector<VectorField> fields;
+  std::vector<VectorFeature> features;
+  std::string qml;  ///< default style; empty: none
+};
+
+/// Writes a new GeoPackage, byte by byte the same for the same layers. `tags` become metadata of
+/// the file. NaN is written as NULL. Throws InputError when it cannot be written whole.
+void write_geopackage(const std::string& path, const std::string& crs_wkt,
+                      const std::vector<VectorLayer>& layers,
+                      const std::vector<std::pair<std::string, std::string>>& tags = {});
+
+}  // namespace talus

@@ -1,0 +1,166 @@
+#include "io/map_raster_gdal.hpp"
+
+#include <cpl_string.h>
+#include <gdal_priv.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "base/error.hpp"
+#include "io/errors_gdal.hpp"
+
+namespace talus {
+namespace {
+
+using Dataset = std::unique_ptr<GDALDataset>;
+
+constexpr int tile_size = 512;  // of the COG driver: smaller rasters have no overviews
+
+Dataset create_in_memory(int n_cols, int n_rows, int n_bands, GDALDataType type) {
+  GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("MEM");
+  return Dataset(driver->Create("", n_cols, n_rows, n_bands, type, nullptr));
+}
+
+void write_cells(GDALRasterBand& band, const std::vector<float>& value) {
+  const int n_cols = band.GetXSize(), n_rows = band.GetYSize();
+  if (band.RasterIO(GF_Write, 0, 0, n_cols, n_rows, const_cast<float*>(value.data()), n_cols,
+                    n_rows, GDT_Float32, 0, 0, nullptr) != CE_None)
+    CPLError(CE_Failure, CPLE_FileIO, "a band cannot be filled");
+}
+
+// Smallest, largest, mean and standard deviation, kept in the file for styles and legends.
+void set_statistics(GDALRasterBand& band, const std::vector<float>& value) {
+  double low = INFINITY, high = -INFINITY, sum = 0, sum_sq = 0, n = 0;
+  for (const float v : value) {
+    if (v == MapRaster::nodata) continue;
+    low = std::min<double>(low, v);
+    high = std::max<double>(high, v);
+    sum += v;
+    sum_sq += static_cast<double>(v) * v;
+    ++n;
+  }
+  if (n == 0) return;
+  const double mean = sum / n;
+  band.SetStatistics(low, high, mean, std::sqrt(std::max(0.0, sum_sq / n - mean * mean)));
+}
+
+Dataset to_dataset(const MapRaster& raster) {
+  Dataset dataset = create_in_memory(raster.n_cols, raster.n_rows,
+                                     static_cast<int>(raster.bands.size()), GDT_Float32);
+  if (!dataset) return nullptr;
+  std::array<double, 6> transform = {raster.corner.x(), raster.cell_size, 0, raster.corner.y(), 0,
+                                     -raster.cell_size};
+  dataset->SetGeoTransform(transform.data());
+  if (!raster.crs_wkt.empty()) dataset->SetProjection(raster.crs_wkt.c_str());
+  dataset->SetMetadataItem("AREA_OR_POINT", "Area");
+  for (const auto& [key, value] : raster.tags) dataset->SetMetadataItem(key.c_str(), value.c_str());
+  for (std::size_t b = 0; b < raster.bands.size(); ++b) {
+    const MapRasterBand& from = raster.bands[b];
+    GDALRasterBand& band = *dataset->GetRasterBand(static_cast<int>(b) + 1);
+    band.SetNoDataValue(MapRaster::nodata);
+    band.SetDescription(from.name.c_str());
+    band.SetUnitType(from.unit.c_str());
+    band.SetMetadataItem("long_name", from.long_name.c_str());
+    write_cells(band, from.value);
+    set_statistics(band, from.value);
+  }
+  return dataset;
+}
+
+// Each cell of the overview holds the largest of the cells below its area.
+std::vector<float> largest_of(const std::vector<float>& value, int n_cols, int n_rows,
+                              int overview_cols, int overview_rows) {
+  std::vector<float> overview(static_cast<std::size_t>(overview_cols) * overview_rows,
+                              MapRaster::nodata);
+  for (int r = 0; r < n_rows; ++r)
+    for (int c = 0; c < n_cols; ++c) {
+      const auto row =
+          static_cast<std::size_t>(static_cast<std::int64_t>(r) * overview_rows / n_rows);
+      const auto col =
+          static_cast<std::size_t>(static_cast<std::int64_t>(c) * overview_cols / n_cols);
+      float& cell = overview[row * static_cast<std::size_t>(overview_cols) + col];
+      cell = std::max(cell, value[static_cast<std::size_t>(r) * static_cast<std::size_t>(n_cols) +
+                                  static_cast<std::size_t>(c)]);
+    }
+  return overview;
+}
+
+void add_overviews(GDALDataset& dataset, const MapRaster& raster) {
+  std::vector<int> factors;
+  for (int factor = 2; std::max(raster.n_cols, raster.n_rows) * 2 / factor > tile_size; factor *= 2)
+    factors.push_back(factor);
+  if (factors.empty()) return;
+  dataset.BuildOverviews("NONE", static_cast<int>(factors.size()), factors.data(), 0, nullptr,
+                         nullptr, nullptr);
+  for (std::size_t b = 0; b < raster.bands.size(); ++b) {
+    GDALRasterBand& band = *dataset.GetRasterBand(static_cast<int>(b) + 1);
+    for (int i = 0; i < band.GetOverviewCount(); ++i) {
+      GDALRasterBand& overview = *band.GetOverview(i);
+      write_cells(overview, largest_of(raster.bands[b].value, raster.n_cols, raster.n_rows,
+                                       overview.GetXSize(), overview.GetYSize()));
+    }
+  }
+}
+
+CPLStringList cog_options(const std::vector<std::string>& given) {
+  CPLStringList options;
+  options.SetNameValue("COMPRESS", "DEFLATE");
+  options.SetNameValue("PREDICTOR", "YES");
+  options.SetNameValue("OVERVIEWS", "FORCE_USE_EXISTING");
+  options.SetNameValue("NUM_THREADS", "1");
+  for (const std::string& option : given) {
+    const auto equal = option.find('=');
+    if (equal == std::string::npos)
+      throw InputError({"", 0, "-co"}, option + " is not NAME=VALUE", "e.g. -co COMPRESS=ZSTD");
+    options.SetNameValue(option.substr(0, equal).c_str(), option.substr(equal + 1).c_str());
+  }
+  return options;
+}
+
+Dataset copy_to(const char* driver_name, const std::string& path, GDALDataset& source,
+                const CPLStringList& options) {
+  GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName(driver_name);
+  if (driver == nullptr) return nullptr;
+  return Dataset(
+      driver->CreateCopy(path.c_str(), &source, FALSE, options.List(), nullptr, nullptr));
+}
+
+void check_written(const std::string& path, bool written, const GdalErrors& errors) {
+  if (written && !errors.failed()) return;
+  throw InputError({path}, "cannot be written: " + errors.failure(),
+                   "is the disk full, or its quota used up?");
+}
+
+}  // namespace
+
+void write_map_raster(const std::string& path, const MapRaster& raster,
+                      const std::vector<std::string>& creation_options) {
+  register_gdal_drivers();
+  const CPLStringList options = cog_options(creation_options);
+  const GdalErrors errors;
+  const Dataset source = to_dataset(raster);
+  if (source) add_overviews(*source, raster);
+  Dataset written = source ? copy_to("COG", path, *source, options) : nullptr;
+  const bool is_written = written != nullptr;
+  written.reset();  // the last bytes are written here
+  check_written(path, is_written, errors);
+}
+
+void write_png(const std::string& path, const Picture& picture) {
+  register_gdal_drivers();
+  const GdalErrors errors;
+  const Dataset source = create_in_memory(picture.n_cols, picture.n_rows, 4, GDT_Byte);
+  bool is_written = source != nullptr;
+  if (source) {
+    void* const pixels = const_cast<std::array<std::uint8_t, 4>*>(picture.pixel.data());
+    const CPLErr status = source->RasterIO(GF_Write, 0, 0, picture.n_cols, picture.n_rows, pixels,
+                                           picture.n_cols, picture.n_rows, GDT_Byte, 4, nullptr, 4,
+                                           static_cast<GSpacing>(4) * picture.n_cols, 1, nullptr);
+    source->GetRasterBand(4)->SetColorInterpretation(GCI_AlphaBand);
+    is_written = status == CE_None && copy_to("PNG", path, *source, {}) != nullptr;
+  }
+  check_written(path, is_written, errors);
+}
+
+}  // namespace talus

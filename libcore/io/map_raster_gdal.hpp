@@ -1,0 +1,51 @@
+// libcore/io/map_raster_gdal.hpp
+// Results as rasters: cloud-optimised GeoTIFF with bands that say what they hold, and pictures.
+// in:    bands of cells from north to south, west to east
+// out:   COG (deflate, overviews that keep the largest value), PNG
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/types.hpp"
+
+namespace talus {
+
+struct MapRasterBand {
+  std::string name;          ///< the band's description
+  std::string unit;          ///< "kJ", "m", "m/s", "deg", "1", ...
+  std::string long_name;     ///< definition, one sentence
+  std::vector<float> value;  ///< `nodata` where there is none                  (n_rows x n_cols)
+};
+
+struct MapRaster {
+  static constexpr float nodata = -9999;
+  Vec2 corner = Vec2::Zero();  ///< map coordinates of the north-west corner [m]
+  double cell_size = 0;        ///< [m]
+  int n_rows = 0, n_cols = 0;
+  std::string crs_wkt;
+  std::vector<MapRasterBand> bands;
+  std::vector<std::pair<std::string, std::string>> tags;  ///< of the whole file, e.g. RUN_ID
+};
+
+/// Writes a COG, byte by byte the same for the same raster and options. Overviews take the largest
+/// of their cells, so that a fast block is not averaged away when zooming out.
+/// `creation_options`: the COG driver's NAME=VALUE; they win over COMPRESS=DEFLATE and the like.
+/// Throws InputError when it cannot be written whole.
+void write_map_raster(const std::string& path, const MapRaster& raster,
+                      const std::vector<std::string>& creation_options = {});
+
+/// A picture, 8 bits a channel.
+struct Picture {
+  int n_rows = 0, n_cols = 0;
+  std::vector<std::array<std::uint8_t, 4>> pixel;  ///< red green blue alpha      (n_rows x n_cols)
+};
+
+/// Writes a PNG. Throws InputError when it cannot be written whole.
+void write_png(const std::string& path, const Picture& picture);
+
+}  // namespace talus

@@ -1,0 +1,49 @@
+// libcore/io/style.hpp
+// How results are coloured: classes with limits, colours and labels; the same ones in QGIS styles,
+// in pictures and in legends.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace talus {
+
+using Colour = std::array<std::uint8_t, 4>;  ///< red, green, blue, alpha
+
+/// Values up to and with `upper` that no class before takes.
+struct StyleClass {
+  double upper = 0;
+  Colour colour{};
+  std::string label;  ///< with its unit
+};
+
+struct RasterStyle {
+  int band = 1;                     ///< that is shown, from 1
+  std::string title;                ///< of the legend, with the unit
+  std::vector<StyleClass> classes;  ///< ascending; the last one's limit is infinite
+};
+
+/// The colour of a value; transparent for NaN.
+[[nodiscard]] Colour colour_of(const RasterStyle& style, double value);
+
+/// A style file that QGIS (3.22 and later) takes up when it lies beside the raster: NAME.qml.
+[[nodiscard]] std::string raster_qml(const RasterStyle& style);
+
+enum class SymbolKind { point, line, polygon };
+
+/// How a layer of features is drawn: one symbol, or one for each value of `field`.
+struct VectorStyle {
+  SymbolKind kind = SymbolKind::line;
+  std::string field;  ///< empty: one symbol, the first class
+  struct Class {
+    std::string value, label;
+    Colour colour{};
+  };
+  std::vector<Class> classes;
+  double size_mm = 0.4;  ///< width of lines and outlines, diameter of points
+};
+[[nodiscard]] std::string vector_qml(const VectorStyle& style);
+
+}  // namespace talus

@@ -1,0 +1,271 @@
+#include "post/fence.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/text.hpp"
+#include "post/statistics.hpp"
+
+namespace talus {
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr std::array percentile_levels = {0.5, 0.9, 0.95, 0.99};
+constexpr int n_resamples = 400;
+constexpr int min_runs = 10;  // for a bound by bootstrap
+
+int field_at(const Fence& fence, double chainage) {
+  const auto after = std::upper_bound(fence.chainage.begin(), fence.chainage.end(), chainage);
+  return std::clamp(static_cast<int>(after - fence.chainage.begin()) - 1, 0, n_fields(fence) - 1);
+}
+
+int nearest_post(const Fence& fence, double chainage) {
+  const int field = field_at(fence, chainage);
+  const double before = chainage - fence.chainage[field];
+  return fence.chainage[field + 1] - chainage < before ? field + 1 : field;
+}
+
+Vec2 along(const Fence& fence, int field) {
+  return (fence.post[field + 1] - fence.post[field]).head<2>().normalized();
+}
+
+// Angle between the horizontal velocity and the normal of the field, 0 to 90 degrees.
+double angle_to_normal(const Vec3& velocity, const Vec2& tangent) {
+  const double parallel = std::abs(velocity.head<2>().dot(tangent));
+  const double across = std::abs(velocity.x() * tangent.y() - velocity.y() * tangent.x());
+  return std::atan2(parallel, across);
+}
+
+// The direction of moving is to the left of the line (+1): then its first point is on the left.
+Verdict bypass(const FenceArrival& arrival) {
+  const bool at_first_end = arrival.chainage < 0;
+  const bool left = arrival.direction > 0 ? at_first_end : !at_first_end;
+  return left ? Verdict::bypassed_left : Verdict::bypassed_right;
+}
+
+double distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
+  const Vec2 u = b - a;
+  const double s = std::clamp((p - a).dot(u) / u.squaredNorm(), 0.0, 1.0);
+  return (p - a - s * u).norm();
+}
+
+double distance_to(const Fence& fence, const Vec2& p) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < n_fields(fence); ++i)
+    nearest = std::min(
+        nearest, distance_to_segment(p, fence.post[i].head<2>(), fence.post[i + 1].head<2>()));
+  return nearest;
+}
+
+struct Bounds {
+  bool runs_repeat = false;
+  int n_runs_here = 0;
+  const RunResamples* resamples = nullptr;
+};
+
+QuantitySummary summary_of(const std::vector<FenceArrival>& arrivals, double n_eff,
+                           const Bounds& bounds, double (*quantity)(const FenceArrival&)) {
+  QuantitySummary summary;
+  std::vector<WeightedValue> ascending;
+  std::vector<RunValue> descending;
+  for (const FenceArrival& a : arrivals) {
+    ascending.push_back({quantity(a), a.weight});
+    descending.push_back({quantity(a), a.weight, a.run});
+  }
+  sort_values(ascending);
+  std::sort(descending.begin(), descending.end(),
+            [](const RunValue& a, const RunValue& b) { return a.value > b.value; });
+  summary.largest = ascending.empty() ? none : ascending.back().value;
+  const int n = static_cast<int>(n_eff + 1e-9);
+  for (std::size_t k = 0; k < percentile_levels.size(); ++k) {
+    const double p = percentile_levels[k];
+    BoundedPercentile& out = summary.percentile[k];
+    out = {weighted_percentile(ascending, p), none};
+    if (n < smallest_sample(p)) continue;
+    if (!bounds.runs_repeat)
+      out.upper = weighted_percentile(ascending, static_cast<double>(upper_bound_rank(n, p)) / n);
+    else if (bounds.n_runs_here >= min_runs)
+      out.upper = bootstrap_upper_percentile(descending, *bounds.resamples, p);
+  }
+  return summary;
+}
+
+// Largest sum of energies of one run within a second.
+void find_busiest_second(const std::vector<FenceArrival>& of_run, FencePartSummary& summary) {
+  double sum = 0;
+  std::size_t first = 0;
+  for (std::size_t last = 0; last < of_run.size(); ++last) {
+    sum += of_run[last].energy();
+    while (of_run[last].time - of_run[first].time > 1) sum -= of_run[first++].energy();
+    if (sum <= summary.window_energy) continue;
+    summary.window_energy = sum;
+    summary.window_hits = static_cast<int>(last - first + 1);
+  }
+}
+
+}  // namespace
+
+const char* text(Verdict verdict) {
+  constexpr std::array names = {"stopped",       "pierced",        "free_border", "overtopped",
+                                "bypassed_left", "bypassed_right", "underpassed", "not_reached"};
+  return names[static_cast<std::size_t>(verdict)];
+}
+
+Fence make_fence(const RecordLine& line, const FenceSettings& settings) {
+  return {line.name, line.points, line.chainage, settings.height_m, settings.capacity_kj * 1e3};
+}
+
+double base_at(const Fence& fence, double chainage) {
+  const int field = field_at(fence, chainage);
+  const double c0 = fence.chainage[field], c1 = fence.chainage[field + 1];
+  const double s = std::clamp((chainage - c0) / (c1 - c0), 0.0, 1.0);
+  return fence.post[field].z() + s * (fence.post[field + 1].z() - fence.post[field].z());
+}
+
+std::vector<FenceArrival> arrivals(const RunFile& file, int line, const Fence& fence, int run) {
+  std::vector<FenceArrival> out;
+  for (const Crossing& c : file.crossings) {
+    if (c.line != line) continue;
+    FenceArrival a;
+    a.run = run;
+    a.block = c.block;
+    a.weight = weight_of(file, c.block);
+    a.time = c.time;
+    a.chainage = c.chainage;
+    a.beside = c.beside;
+    a.direction = c.direction;
+    if (!c.beside) {
+      a.field = field_at(fence, c.chainage);
+      a.post = nearest_post(fence, c.chainage);
+      a.angle = angle_to_normal(c.velocity, along(fence, a.field));
+    }
+    a.speed = c.velocity.norm();
+    a.spin = c.spin.norm();
+    a.translation = c.translational_energy;
+    a.rotation = c.rotational_energy;
+    a.centroid = c.position.z() - base_at(fence, c.chainage);
+    a.top = a.centroid + c.top_height - c.centroid_height;
+    a.bottom = a.centroid + c.bottom_height - c.centroid_height;
+    a.volume = file.blocks.volume[c.block];
+    a.passed_for_good = c.beside || c.n_crossings % 2 == 1;
+    out.push_back(a);
+  }
+  return out;
+}
+
+Verdict expected_verdict(const FenceArrival& arrival, const Fence& fence, double free_border) {
+  if (arrival.beside) return bypass(arrival);
+  if (arrival.top < 0) return Verdict::underpassed;
+  if (arrival.bottom > fence.height) return Verdict::overtopped;
+  if (arrival.energy() > fence.capacity) return Verdict::pierced;  // false for an unknown capacity
+  if (arrival.top > fence.height - free_border) return Verdict::free_border;
+  return Verdict::stopped;
+}
+
+Verdict observed_verdict(const FenceArrival& arrival, const Fence& fence, double free_border) {
+  if (arrival.beside) return bypass(arrival);
+  if (arrival.top < 0) return Verdict::underpassed;
+  if (arrival.bottom > fence.height) return Verdict::overtopped;
+  if (arrival.top > fence.height - free_border && !(arrival.energy() > fence.capacity))
+    return Verdict::free_border;
+  return Verdict::pierced;
+}
+
+bool came_near(const RunFile& file, int block, const Fence& fence, double contact) {
+  for (int k = 0; k < n_frames(file.frames); ++k) {
+    const FrameBlock at = frame_block(file, k, block);
+    for (int v = file.blocks.vertex_begin[block]; v < file.blocks.vertex_begin[block + 1]; ++v) {
+      const Vec3 point = at.position + at.attitude * file.blocks.vertices[v];
+      if (distance_to(fence, point.head<2>()) <= contact) return true;
+    }
+  }
+  return false;
+}
+
+std::vector<BlockVerdict> verdicts_of(const RunFile& file, int run,
+                                      const std::vector<FenceArrival>& of_run, const Fence& fence,
+                                      double free_border, bool standing, double contact) {
+  std::vector<BlockVerdict> out;
+  for (int block = 0; block < n_blocks(file); ++block)
+    out.push_back({run, block, Verdict::not_reached, -1});
+  for (std::size_t i = 0; i < of_run.size(); ++i) {
+    BlockVerdict& v = out[of_run[i].block];
+    v.arrival = static_cast<int>(i);
+    v.verdict = standing ? observed_verdict(of_run[i], fence, free_border)
+                         : expected_verdict(of_run[i], fence, free_border);
+  }
+  if (!standing) return out;
+  for (BlockVerdict& v : out)
+    if (v.arrival < 0 && came_near(file, v.block, fence, contact)) v.verdict = Verdict::stopped;
+  return out;
+}
+
+FencePartSummary summarise(const std::vector<FenceArrival>& given, int n_runs, std::uint64_t seed) {
+  FencePartSummary summary;
+  std::vector<FenceArrival> sorted = given;
+  std::sort(sorted.begin(), sorted.end(), [](const FenceArrival& a, const FenceArrival& b) {
+    if (a.run != b.run) return a.run < b.run;
+    return a.time != b.time ? a.time < b.time : a.block < b.block;
+  });
+  double w = 0, w_sq = 0, angle = 0;
+  for (const FenceArrival& a : sorted) {
+    w += a.weight;
+    w_sq += a.weight * a.weight;
+    angle += a.weight * a.angle;
+  }
+  summary.n = static_cast<int>(sorted.size());
+  summary.per_run = static_cast<double>(summary.n) / n_runs;
+  summary.n_eff = effective_size(w, w_sq);
+  summary.mean_angle = angle / w;
+  Bounds bounds;
+  int n_twice = 0;
+  for (std::size_t i = 0; i < sorted.size();) {
+    std::vector<FenceArrival> of_run;
+    for (const int run = sorted[i].run; i < sorted.size() && sorted[i].run == run; ++i)
+      of_run.push_back(sorted[i]);
+    ++bounds.n_runs_here;
+    bounds.runs_repeat |= of_run.size() > 1;
+    n_twice += of_run.size() > 1;
+    summary.most_in_a_run = std::max(summary.most_in_a_run, static_cast<int>(of_run.size()));
+    find_busiest_second(of_run, summary);
+  }
+  summary.runs_hit_twice = static_cast<double>(n_twice) / n_runs;
+  RunResamples resamples;
+  if (bounds.runs_repeat && bounds.n_runs_here >= min_runs)
+    resamples = resample_runs(n_runs, n_resamples, seed);
+  bounds.resamples = &resamples;
+  const auto of = [&](double (*quantity)(const FenceArrival&)) {
+    return summary_of(sorted, summary.n_eff, bounds, quantity);
+  };
+  summary.energy = of([](const FenceArrival& a) { return a.energy(); });
+  summary.translation = of([](const FenceArrival& a) { return a.translation; });
+  summary.top = of([](const FenceArrival& a) { return a.top; });
+  summary.speed = of([](const FenceArrival& a) { return a.speed; });
+  return summary;
+}
+
+double storage(const Fence& fence, int field, int side, const Trn& trn, double reach) {
+  const Vec2 a = fence.post[field].head<2>(), b = fence.post[field + 1].head<2>();
+  const Vec2 tangent = along(fence, field);
+  const Vec2 uphill = side * Vec2(-tangent.y(), tangent.x());
+  const double step = 0.25 * trn.cell_size;
+  const int n_across = std::max(1, static_cast<int>(std::ceil((b - a).norm() / step)));
+  const double width = (b - a).norm() / n_across;
+  double volume = 0;
+  for (int i = 0; i < n_across; ++i) {
+    const double s = (i + 0.5) / n_across;
+    const Vec2 foot = a + s * (b - a);
+    const double fill = fence.post[field].z() +
+                        s * (fence.post[field + 1].z() - fence.post[field].z()) + fence.height;
+    for (double far = 0.5 * step; far < reach; far += step) {
+      const Vec2 at = foot + far * uphill;
+      const double depth = fill - elevation_at(trn, at.x(), at.y());
+      if (!(depth > 0)) break;
+      volume += depth * step * width;
+    }
+  }
+  return volume;
+}
+
+}  // namespace talus

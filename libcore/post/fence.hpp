@@ -1,0 +1,130 @@
+// libcore/post/fence.hpp
+// What fences would meet and what becomes of each block at them.
+// in:    crossings of the fences' lines, recorded where nothing stops the blocks, or with the fence
+//        standing; the terrain
+// out:   one verdict a block, statistics of each field and post, storage behind the fence
+// Definitions: docs/formats.md#fence
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "post/deposit.hpp"
+#include "scene/site.hpp"
+#include "terrain/trn.hpp"
+
+namespace talus {
+
+/// A fence on the terrain. Its base is straight from post foot to post foot.
+struct Fence {
+  std::string name;
+  std::vector<Vec3> post;        ///< feet, local [m]                               (n_posts)
+  std::vector<double> chainage;  ///< of the posts, horizontal, from the first [m]  (n_posts)
+  double height = 0;             ///< above the base [m]
+  double capacity = 0;           ///< kinetic energy that a field takes [J]; NaN: not known
+};
+[[nodiscard]] inline int n_fields(const Fence& fence) {
+  return static_cast<int>(fence.post.size()) - 1;
+}
+[[nodiscard]] inline double length(const Fence& fence) { return fence.chainage.back(); }
+
+/// The posts are the line's points (posts_on_ground).
+[[nodiscard]] Fence make_fence(const RecordLine& line, const FenceSettings& settings);
+
+/// Height of the base at a chainage; beyond the ends that of the end [m].
+[[nodiscard]] double base_at(const Fence& fence, double chainage);
+
+enum class Verdict {
+  stopped,        ///< came at the fence below its free border with no more energy than its capacity
+  pierced,        ///< came with more energy than the capacity
+  free_border,    ///< top above h - f_min, bottom not above h: the border or the rope is hit
+  overtopped,     ///< bottom above h
+  bypassed_left,  ///< passed beside the end on the left, seen in the direction of moving
+  bypassed_right,  ///< on the right
+  underpassed,     ///< top below the base: through a dip between two posts
+  not_reached,     ///< neither crossed the line nor passed beside it
+};
+inline constexpr std::array verdicts = {
+    Verdict::stopped,       Verdict::pierced,        Verdict::free_border, Verdict::overtopped,
+    Verdict::bypassed_left, Verdict::bypassed_right, Verdict::underpassed, Verdict::not_reached};
+[[nodiscard]] const char* text(Verdict verdict);
+
+/// Heights of a crossing above the fence's own base, and what else its verdict needs.
+struct FenceArrival {
+  int run = 0, block = 0;
+  double weight = 1;
+  double time = 0;            ///< [s]
+  double chainage = 0;        ///< [m]
+  bool beside = false;        ///< beyond an end
+  int direction = 0;          ///< +1 to the left of the line seen from its first point, -1 right
+  int field = -1, post = -1;  ///< of the chainage; nearest post; -1 beside
+  double speed = 0;           ///< [m/s]
+  double angle = 0;           ///< between the horizontal velocity and the field's normal [rad]
+  double spin = 0;            ///< [rad/s]
+  double translation = 0, rotation = 0;      ///< [J]
+  double centroid = 0, top = 0, bottom = 0;  ///< heights above the base [m]
+  double volume = 0;                         ///< [m3]
+  bool passed_for_good = false;  ///< ended on the far side: crossed an odd number of times
+  [[nodiscard]] double energy() const { return translation + rotation; }
+};
+
+/// All crossings of one line of a run. `run` is what the arrivals carry.
+[[nodiscard]] std::vector<FenceArrival> arrivals(const RunFile& file, int line, const Fence& fence,
+                                                 int run);
+
+/// Where nothing stopped the blocks: what would become of an arrival. `free_border`: f_min [m].
+/// The order of precedence: beside, underpassed, overtopped, pierced, free border, stopped.
+[[nodiscard]] Verdict expected_verdict(const FenceArrival& arrival, const Fence& fence,
+                                       double free_border);
+
+/// With the fence standing: a crossing means that the block came through, and how. Blocks that did
+/// not cross were stopped when any part of them came within `contact` of the line in any frame [m],
+/// else they did not reach it.
+[[nodiscard]] Verdict observed_verdict(const FenceArrival& arrival, const Fence& fence,
+                                       double free_border);
+[[nodiscard]] bool came_near(const RunFile& file, int block, const Fence& fence, double contact);
+
+/// A verdict for each block of a run, exactly one.
+struct BlockVerdict {
+  int run = 0, block = 0;
+  Verdict verdict = Verdict::not_reached;
+  int arrival = -1;  ///< index among the run's arrivals, -1 none
+};
+[[nodiscard]] std::vector<BlockVerdict> verdicts_of(const RunFile& file, int run,
+                                                    const std::vector<FenceArrival>& arrivals,
+                                                    const Fence& fence, double free_border,
+                                                    bool standing, double contact);
+
+/// A percentile with what bounds it; NaN where the sample gives none.
+struct BoundedPercentile {
+  double value = 0, upper = 0;  ///< 95 % upper bound
+};
+/// Of one quantity over arrivals: the largest value, and percentiles 50, 90, 95, 99.
+struct QuantitySummary {
+  double largest = 0;
+  std::array<BoundedPercentile, 4> percentile{};
+};
+
+struct FencePartSummary {
+  int n = 0;           ///< arrivals over all runs
+  double per_run = 0;  ///< arrivals a run
+  double n_eff = 0;
+  QuantitySummary energy, translation, top, speed;
+  double mean_angle = 0;      ///< to the normal [rad]
+  int most_in_a_run = 0;      ///< hits of one run: the multi-hit check
+  double runs_hit_twice = 0;  ///< share of runs with two hits or more
+  double window_energy = 0;   ///< largest sum of energies within one second, any run [J]
+  int window_hits = 0;        ///< of that second
+};
+/// `n_runs`: all of them, also those without an arrival. Bounds by ranks when no run has two
+/// arrivals here, else by the bootstrap over runs (seeded).
+[[nodiscard]] FencePartSummary summarise(const std::vector<FenceArrival>& arrivals, int n_runs,
+                                         std::uint64_t seed);
+
+/// Space behind a field up to a horizontal fill at the fence's height [m3]: the ground on the side
+/// where blocks come from, walked upwards along the field's normal until it meets the fill, at most
+/// `reach` [m] far. `side`: +1 the left of the line seen from its first point, -1 the right.
+[[nodiscard]] double storage(const Fence& fence, int field, int side, const Trn& trn, double reach);
+
+}  // namespace talus

@@ -1,0 +1,169 @@
+#include "post/fence_design.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "post/statistics.hpp"
+
+namespace talus {
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+double factor(const DesignCode& code, const std::string& key) { return code.factor.at(key); }
+
+// The percentile of a quantity that a code asks for, the largest value when it is not one of ours.
+double percentile(const QuantitySummary& quantity, double p) {
+  constexpr std::array levels = {0.5, 0.9, 0.95, 0.99};
+  for (std::size_t k = 0; k < levels.size(); ++k)
+    if (std::abs(levels[k] - p) < 1e-9) return quantity.percentile[k].value;
+  return quantity.largest;
+}
+
+struct Demand {
+  double energy, barrier_factor, height;
+  int n_needed;
+};
+
+// E_d = 1/2 m_d v_d^2 gamma_r with v_d = v_p gamma_trajectory gamma_survey and m_d = V rho
+// gamma_volume gamma_density.
+Demand uni_demand(const DesignCode& code, const DesignInput& input, const FencePartSummary& part,
+                  bool enough_speed, bool enough_height) {
+  const double p_v = factor(code, "speed_percentile"), p_h = factor(code, "height_percentile");
+  const double by_site = factor(code, "gamma_trajectory") * factor(code, "gamma_survey");
+  const double speed = (enough_speed ? percentile(part.speed, p_v) : part.speed.largest) * by_site;
+  const double mass = input.block_volume * input.density * factor(code, "gamma_volume") *
+                      factor(code, "gamma_density");
+  const double top = enough_height ? percentile(part.top, p_h) : part.top.largest;
+  return {0.5 * mass * speed * speed * factor(code, "gamma_risk"),
+          factor(code, input.service_level ? "gamma_energy_sel" : "gamma_energy_mel"),
+          top * by_site * factor(code, "gamma_height"),
+          std::max(smallest_sample(p_v), smallest_sample(p_h))};
+}
+
+Demand onr_demand(const DesignCode& code, const DesignInput& input, const FencePartSummary& part,
+                  bool enough_energy, bool enough_height) {
+  const std::string consequence = "_cc" + std::to_string(input.consequence_class);
+  const double p_e = factor(code, "energy_percentile"), p_h = factor(code, "height_percentile");
+  const double energy = enough_energy ? percentile(part.energy, p_e) : part.energy.largest;
+  const double top = enough_height ? percentile(part.top, p_h) : part.top.largest;
+  return {energy * factor(code, "gamma_energy" + consequence), 1,
+          top * factor(code, "gamma_height" + consequence),
+          std::max(smallest_sample(p_e), smallest_sample(p_h))};
+}
+
+Demand demand_of(const DesignCode& code, const DesignInput& input, const FencePartSummary& part) {
+  const auto enough = [&part](double p) { return part.n_eff + 1e-9 >= smallest_sample(p); };
+  const bool enough_height = enough(factor(code, "height_percentile"));
+  if (code.formula == DesignFormula::uni)
+    return uni_demand(code, input, part, enough(factor(code, "speed_percentile")), enough_height);
+  return onr_demand(code, input, part, enough(factor(code, "energy_percentile")), enough_height);
+}
+
+double required_distance(const DesignCode& code, double deflection) {
+  const auto extra = code.factor.find("deflection_extra_m");
+  const double scaled = factor(code, "deflection_factor") * deflection;
+  return extra == code.factor.end() ? scaled : std::max(scaled, deflection + extra->second);
+}
+
+std::vector<std::string> needed_keys(DesignFormula formula) {
+  if (formula == DesignFormula::uni)
+    return {"speed_percentile", "height_percentile", "gamma_trajectory", "gamma_survey",
+            "gamma_volume",     "gamma_density",     "gamma_risk",       "gamma_energy_mel",
+            "gamma_energy_sel", "gamma_height",      "f_min_m",          "f_min_share_of_block",
+            "deflection_factor"};
+  return {"energy_percentile", "height_percentile",    "gamma_energy_cc1", "gamma_energy_cc2",
+          "gamma_energy_cc3",  "gamma_height_cc1",     "gamma_height_cc2", "gamma_height_cc3",
+          "f_min_m",           "f_min_share_of_block", "deflection_factor"};
+}
+
+void find_what_governs(DesignResult& result) {
+  const std::array<std::pair<double, const char*>, 3> uses = {{{result.energy_use, "energy"},
+                                                               {result.height_use, "height"},
+                                                               {result.distance_use, "distance"}}};
+  double largest = -1;
+  result.pass = result.enough;
+  for (const auto& [use, name] : uses) {
+    if (std::isnan(use)) continue;
+    if (use > 1) result.pass = false;
+    if (use <= largest) continue;
+    largest = use;
+    result.governs = name;
+  }
+}
+
+}  // namespace
+
+DesignCode design_code(const CsvTable& table) {
+  DesignCode code;
+  code.file = table.file;
+  bool has_formula = false;
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    const std::string& key = table.at(row, "key");
+    if (key == "formula") {
+      const std::string& name = table.at(row, "value");
+      if (name != "uni" && name != "onr")
+        throw InputError({table.file, table.line[row]},
+                         "formula is \"" + name + "\", expected uni or onr");
+      code.formula = name == "uni" ? DesignFormula::uni : DesignFormula::onr;
+      has_formula = true;
+      continue;
+    }
+    code.factor[key] = table.number(row, "value");
+    if (table.at(row, "mark") == "m") code.from_memory.push_back(key);
+  }
+  if (!has_formula) throw InputError({table.file}, "names no formula, expected uni or onr");
+  for (const std::string& key : needed_keys(code.formula))
+    if (!code.factor.contains(key) || !(code.factor[key] >= 0))
+      throw InputError({table.file}, "gives no value for " + key);
+  return code;
+}
+
+std::vector<BarrierClass> barrier_classes(const CsvTable& table) {
+  std::vector<BarrierClass> classes;
+  for (std::size_t row = 0; row < table.rows.size(); ++row)
+    classes.push_back({table.at(row, "class"), table.number(row, "sel_kj") * 1e3,
+                       table.number(row, "mel_kj") * 1e3});
+  return classes;
+}
+
+double free_border(const DesignCode& code, double mean_block_size) {
+  return std::max(factor(code, "f_min_m"), factor(code, "f_min_share_of_block") * mean_block_size);
+}
+
+DesignResult check_design(const DesignCode& code, const std::vector<BarrierClass>& classes,
+                          const DesignInput& input, const FencePartSummary& part,
+                          const Fence& fence) {
+  DesignResult result;
+  if (part.n == 0) {
+    result = {false, 0, none, none, none, none, none, "", none, none, none, none, "", false};
+    result.free_border = free_border(code, input.mean_block_size);
+    return result;
+  }
+  const Demand demand = demand_of(code, input, part);
+  result.n_needed = demand.n_needed;
+  result.enough = part.n_eff + 1e-9 >= demand.n_needed;
+  result.design_energy = demand.energy;
+  result.required_capacity = demand.energy * demand.barrier_factor;
+  result.design_height = demand.height;
+  result.free_border = free_border(code, input.mean_block_size);
+  result.required_height = demand.height + result.free_border;
+  result.smallest_class = "above all";
+  for (const BarrierClass& c : classes) {
+    const double level = input.service_level ? c.sel : c.mel;
+    if (!(level >= result.required_capacity)) continue;
+    result.smallest_class = c.name;
+    break;
+  }
+  result.energy_use = result.required_capacity / fence.capacity;
+  result.height_use = result.required_height / fence.height;
+  result.required_distance = required_distance(code, input.deflection);
+  result.distance_use = result.required_distance / input.distance_to_object;
+  find_what_governs(result);
+  return result;
+}
+
+}  // namespace talus

@@ -1,0 +1,30 @@
+// libcore/post/map_picture.hpp
+// A map over the hillshade of its terrain, with its legend: what is looked at before anything is
+// believed.
+#pragma once
+
+#include <vector>
+
+#include "io/map_raster_gdal.hpp"
+#include "io/style.hpp"
+#include "post/maps.hpp"
+#include "terrain/trn.hpp"
+
+namespace talus {
+
+/// Whether the ground is known anywhere below a cell (its centre or a corner)   (n_rows x n_cols)
+[[nodiscard]] std::vector<bool> known_cells(const Trn& trn, const PassageGrid& grid);
+
+/// Pixels of the grid's extent, lit from the north-west, each cell in the colour of its class laid
+/// over it at 75 %; the legend on the right. Small grids are enlarged by whole numbers of pixels,
+/// large ones taken down.
+[[nodiscard]] Picture map_picture(const Trn& trn, const PassageGrid& grid,
+                                  const std::vector<float>& value, float nodata,
+                                  const RasterStyle& style);
+
+/// Words in capitals of strokes, `height` pixels high, at the upper left corner (row, col); lower
+/// case is drawn as small capitals. Returns the column behind the last letter.
+int draw_text(Picture& picture, int row, int col, int height, const std::string& words,
+              const Colour& colour);
+
+}  // namespace talus

@@ -1,0 +1,107 @@
+#include "post/map_style.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+
+namespace talus {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// From pale yellow over orange and red to dark purple.
+Colour ramp(double share) {
+  constexpr std::array<std::array<double, 3>, 6> stops = {{{255, 249, 196},
+                                                           {254, 217, 118},
+                                                           {253, 141, 60},
+                                                           {227, 26, 28},
+                                                           {158, 1, 66},
+                                                           {73, 0, 106}}};
+  const double place = std::clamp(share, 0.0, 1.0) * (stops.size() - 1);
+  const auto i = std::min<std::size_t>(static_cast<std::size_t>(place), stops.size() - 2);
+  const double s = place - static_cast<double>(i);
+  Colour colour{0, 0, 0, 255};
+  for (std::size_t k = 0; k < 3; ++k)
+    colour[k] =
+        static_cast<std::uint8_t>(std::lround(stops[i][k] + s * (stops[i + 1][k] - stops[i][k])));
+  return colour;
+}
+
+struct Breaks {
+  const char* layer;
+  const char* band;  // empty: percentile or maximum
+  std::vector<double> upper;
+  bool zero_is_transparent;
+};
+
+const std::vector<Breaks>& all_breaks() {
+  const std::vector<double> energy = {1, 3, 10, 30, 100, 300, 1000, 3000, 10000};
+  static const std::vector<Breaks> breaks = {
+      {"reach", "reach_probability", {0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 0.8}, true},
+      {"velocity", "", {1, 2.5, 5, 10, 15, 20, 30}, true},
+      {"ke_translational", "", energy, true},
+      {"ke_total", "", energy, true},
+      {"pass_height_centroid", "", {0.5, 1, 2, 3, 4, 5, 7, 10}, false},
+      {"pass_height_top", "", {0.5, 1, 2, 3, 4, 5, 7, 10}, false},
+      {"exceedance", "p_exceed_300kJ", {0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 0.8}, true},
+      {"deposit", "deposit_thickness", {0.25, 0.5, 1, 2, 4, 8, 16}, true},
+      {"arrival", "", {1, 2, 5, 10, 20, 30, 60}, false},
+      {"energy_line", "", {20, 25, 28, 30, 32, 35, 40, 45}, false},
+  };
+  return breaks;
+}
+
+int shown_band(const MapLayer& layer, const std::string& wanted) {
+  const auto find = [&layer](const std::string& name) {
+    for (std::size_t b = 0; b < layer.bands.size(); ++b)
+      if (layer.bands[b].name == name) return static_cast<int>(b);
+    return -1;
+  };
+  if (!wanted.empty()) return std::max(0, find(wanted));
+  const int p95 = find(layer.name + "_p95");
+  const auto has_values = [](const MapBand& band) {
+    return std::any_of(band.value.begin(), band.value.end(),
+                       [](float v) { return !std::isnan(v); });
+  };
+  if (p95 >= 0 && has_values(layer.bands[p95])) return p95;
+  return std::max(0, find(layer.name + "_max"));
+}
+
+// The Swiss classes of intensity by kinetic energy.
+std::string intensity(const std::string& unit, double upper) {
+  if (unit != "kJ") return "";
+  return upper <= 30 ? " (low)" : upper <= 300 ? " (medium)" : " (high)";
+}
+
+}  // namespace
+
+RasterStyle map_style(const MapLayer& layer, const std::string& remark) {
+  const auto& list = all_breaks();
+  const auto at = std::find_if(list.begin(), list.end(),
+                               [&layer](const Breaks& b) { return b.layer == layer.name; });
+  TALUS_ASSERT(at != list.end());
+  RasterStyle style;
+  const int index = shown_band(layer, at->band);
+  const MapBand& band = layer.bands[index];
+  style.band = index + 1;
+  style.title = band.name + " [" + band.unit + "]" + (remark.empty() ? "" : ", " + remark);
+  const std::string unit = band.unit == "1" ? "" : " " + band.unit;
+  if (at->zero_is_transparent) style.classes.push_back({0, {255, 255, 255, 0}, "0" + unit});
+  std::string lower = at->zero_is_transparent ? "0" : "";
+  const double n = static_cast<double>(at->upper.size());
+  for (std::size_t i = 0; i < at->upper.size(); ++i) {
+    const double upper = at->upper[i];
+    style.classes.push_back({upper, ramp(static_cast<double>(i) / n),
+                             (lower.empty() ? "up to " : lower + " - ") + text(upper) + unit +
+                                 intensity(band.unit, upper)});
+    lower = text(upper);
+  }
+  style.classes.push_back(
+      {infinity, ramp(1), "above " + lower + unit + intensity(band.unit, infinity)});
+  return style;
+}
+
+}  // namespace talus

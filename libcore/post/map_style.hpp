@@ -1,0 +1,16 @@
+// libcore/post/map_style.hpp
+// Classes, colours and legends of the map layers.
+#pragma once
+
+#include "io/style.hpp"
+#include "post/maps.hpp"
+
+namespace talus {
+
+/// The style of a layer. It shows the 95th percentile where any cell has one, else the maximum; for
+/// layers without percentiles their main band. Energies break at 30 and 300 kJ, the limits of low,
+/// medium and high intensity; zero is transparent. `remark` is added to the title (e.g. that runs
+/// were unfinished).
+[[nodiscard]] RasterStyle map_style(const MapLayer& layer, const std::string& remark = {});
+
+}  // namespace talus

@@ -1,0 +1,124 @@
+#include "post/run_set.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "post/deposit.hpp"
+
+namespace talus {
+namespace {
+
+// "done", or why a run does not count as whole.
+std::string state_of(const RunInfo& info) {
+  if (info.status == "done") return "done";
+  if (info.status == "failed") return "failed: " + info.reason;
+  return info.status + " at " + text(info.time, 4) + " of " + text(info.duration, 4) + " s";
+}
+
+void check_same(const std::string& mine, const std::string& other, const char* what,
+                const RunMember& run, const RunMember& first, const char* hint) {
+  if (mine == other) return;
+  throw InputError(
+      {run.file},
+      std::string(what) + " is " + mine + ", expected " + other + " as in " + first.file, hint);
+}
+
+std::string text_of(const PassageGrid& grid) {
+  return text(grid.cell_size) + " m cells, " + std::to_string(grid.n_rows) + " x " +
+         std::to_string(grid.n_cols) + " from " + text(grid.corner.x()) + ", " +
+         text(grid.corner.y());
+}
+
+template <class Field>
+auto sum_of(const std::vector<RunMember>& runs, Field field) {
+  auto total = runs.empty() ? decltype(runs[0].*field){} : runs[0].*field;
+  for (std::size_t i = 1; i < runs.size(); ++i) total += runs[i].*field;
+  return total;
+}
+
+}  // namespace
+
+RunMember member_of(const std::string& file, const RunFile& run) {
+  RunMember member{file, run.info, run.grid, n_blocks(run), 0, 0, 0, 0, 0, 0};
+  for (int block = 0; block < member.n_blocks; ++block) member.weight += weight_of(run, block);
+  for (const HealthRow& row : run.health) {
+    member.largest_penetration = std::max(member.largest_penetration, row.largest_penetration);
+    member.unconverged += row.unconverged;
+    member.left_domain = row.left_domain;  // these three count from the start
+    member.fell_through = row.fell_through;
+    member.not_finite = row.not_finite;
+  }
+  return member;
+}
+
+void check_member(const RunMember& run, const RunMember& first, const RunSetOptions& options) {
+  if (run.info.status != "done" && !options.allow_unfinished)
+    throw InputError({run.file}, "the run is " + state_of(run.info) + ", expected a finished run",
+                     "let talus-dda finish it (--resume), or give --allow-unfinished");
+  if (!run.info.trn_sha256.empty() && run.info.trn_sha256 != options.trn_sha256)
+    throw InputError({run.file},
+                     "was computed on another terrain than " + options.trn_file + " (SHA-256 " +
+                         run.info.trn_sha256.substr(0, 16) + ", not " +
+                         options.trn_sha256.substr(0, 16) + ")",
+                     "give the TRN that talus-dda was given");
+  check_same(run.info.site, first.info.site, "the site", run, first,
+             "evaluate each site by itself");
+  check_same(run.info.trn_sha256, first.info.trn_sha256, "the terrain's SHA-256", run, first,
+             "evaluate runs on one terrain together");
+  check_same(run.info.version, first.info.version, "the version of the program", run, first,
+             "compute all runs with one version");
+  check_same(text_of(run.grid), text_of(first.grid), "the grid of passages", run, first,
+             "compute all runs with the same [output] cell_size_m");
+  if (run.info.origin != first.info.origin)
+    throw InputError({run.file}, "has another local origin than " + first.file,
+                     "compute all runs from the same TRN");
+}
+
+std::vector<int> order_by_id(const std::vector<RunMember>& runs) {
+  std::vector<int> order(runs.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+            [&runs](int a, int b) { return runs[a].info.run_id < runs[b].info.run_id; });
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    const RunMember &a = runs[order[i - 1]], &b = runs[order[i]];
+    if (a.info.run_id == b.info.run_id)
+      throw InputError({b.file}, "is the same run as " + a.file + " (id " + a.info.run_id + ")",
+                       "name each run once; give runs different seeds");
+  }
+  return order;
+}
+
+std::vector<std::pair<std::string, std::string>> tags_of(const std::vector<RunMember>& runs) {
+  const auto n_unfinished = std::count_if(
+      runs.begin(), runs.end(), [](const RunMember& run) { return run.info.status != "done"; });
+  double weight = 0, penetration = 0;
+  for (const int i : order_by_id(runs)) {
+    weight += runs[i].weight;
+    penetration = std::max(penetration, runs[i].largest_penetration);
+  }
+  const std::string n_runs = std::to_string(runs.size());
+  std::vector<std::pair<std::string, std::string>> tags = {
+      {"N_RUNS", n_runs},
+      {"N_UNFINISHED", std::to_string(n_unfinished)},
+      {"DENOMINATOR", "W = " + text(weight, 9) + ", the weight of all " +
+                          std::to_string(sum_of(runs, &RunMember::n_blocks)) +
+                          " blocks released in " + n_runs + (runs.size() == 1 ? " run" : " runs")}};
+  if (!runs.empty()) {
+    tags.emplace_back("SITE", runs[0].info.site);
+    tags.emplace_back("VERSION", runs[0].info.version);
+  }
+  tags.emplace_back("HEALTH", n_unfinished == 0 ? "all runs finished within their limits"
+                                                : std::to_string(n_unfinished) + " of " + n_runs +
+                                                      " runs UNFINISHED OR FAILED");
+  tags.emplace_back("HEALTH_LARGEST_PENETRATION_M", text(penetration, 4));
+  tags.emplace_back("HEALTH_UNCONVERGED_STEPS",
+                    std::to_string(sum_of(runs, &RunMember::unconverged)));
+  tags.emplace_back("HEALTH_LEFT_DOMAIN", std::to_string(sum_of(runs, &RunMember::left_domain)));
+  tags.emplace_back("HEALTH_FELL_THROUGH", std::to_string(sum_of(runs, &RunMember::fell_through)));
+  tags.emplace_back("HEALTH_NOT_FINITE", std::to_string(sum_of(runs, &RunMember::not_finite)));
+  return tags;
+}
+
+}  // namespace talus

@@ -1,0 +1,47 @@
+// libcore/post/run_set.hpp
+// Runs that are evaluated together: what must agree, in which order they stand, how sound they are.
+// in:    run files in any order
+// out:   their order by run id, the sum of their health, tags for every output
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "store/run_file.hpp"
+
+namespace talus {
+
+/// What is kept of a run for the set.
+struct RunMember {
+  std::string file;
+  RunInfo info;
+  PassageGrid grid;
+  int n_blocks = 0;
+  double weight = 0;  ///< sum over its blocks
+  // health over the whole run
+  double largest_penetration = 0;  ///< [m]
+  std::int64_t unconverged = 0;    ///< block steps accepted without convergence
+  std::int64_t left_domain = 0, fell_through = 0, not_finite = 0;  ///< blocks
+};
+[[nodiscard]] RunMember member_of(const std::string& file, const RunFile& run);
+
+struct RunSetOptions {
+  bool allow_unfinished = false;
+  std::string trn_file, trn_sha256;  ///< that the evaluation is given
+};
+
+/// Throws InputError unless `run` is finished (or unfinished ones are allowed), was computed on the
+/// terrain of `options`, and agrees with `first`, another run of the set, in site, terrain, blocks'
+/// origin, version of the program and grid of passages.
+void check_member(const RunMember& run, const RunMember& first, const RunSetOptions& options);
+
+/// Order by run id. Throws InputError naming both files when the same run is given twice.
+[[nodiscard]] std::vector<int> order_by_id(const std::vector<RunMember>& runs);
+
+/// Tags N_RUNS, N_UNFINISHED, DENOMINATOR, VERSION, SITE, HEALTH and HEALTH_*, the same in whatever
+/// order the runs come.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> tags_of(
+    const std::vector<RunMember>& runs);
+
+}  // namespace talus

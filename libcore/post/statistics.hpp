@@ -1,0 +1,90 @@
+// libcore/post/statistics.hpp
+// What a sample of blocks or runs says about a quantity, and how sure it is.
+// in:    values with weights; counts; the run that each value came from
+// out:   percentiles, confidence bounds, effective sample size
+// Every result depends on the values alone, not on their order in the input.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace talus {
+
+struct WeightedValue {
+  double value = 0;
+  double weight = 1;  ///< >= 0
+};
+
+/// The p-percentile, 0 <= p <= 1: the smallest value that at least the share p of the weight does
+/// not exceed (inverse of the distribution function; for equal weights the value of rank
+/// ceil(p n)). It is always one of the values. `sorted` ascends by value; NaN when it is empty or
+/// has no weight.
+[[nodiscard]] double weighted_percentile(std::span<const WeightedValue> sorted, double p);
+
+/// Ascending by value, equal ones by weight: the order that weighted_percentile() takes.
+void sort_values(std::span<WeightedValue> values);
+
+/// Kish's effective sample size (sum w)^2 / sum w^2; 0 for no weight.
+[[nodiscard]] double effective_size(double sum_of_weights, double sum_of_squared_weights);
+
+struct Interval {
+  double low = 0, high = 0;
+};
+
+/// Wilson's score interval of a share that was `share` among n trials (n > 0, need not be whole).
+/// `z` is the normal quantile: 1.959964 for 95 % between the bounds. Wilson (1927).
+[[nodiscard]] Interval wilson_interval(double share, double n, double z = 1.959963984540054);
+
+/// Rank (1 = smallest of n) of the order statistic that is an upper bound of the true p-percentile
+/// with at least `confidence`, whatever the distribution: the smallest k with P(Binomial(n, p) <=
+/// k - 1) >= confidence. 0 when n is too small for any (Wilks: p = 0.95 needs 59, 0.99 needs 299).
+[[nodiscard]] int upper_bound_rank(int n, double p, double confidence = 0.95);
+
+/// The mirror image: the largest k whose order statistic is a lower bound; 0 when there is none.
+[[nodiscard]] int lower_bound_rank(int n, double p, double confidence = 0.95);
+
+/// The smallest n for which upper_bound_rank() exists: ceil(log(1 - confidence) / log p).
+[[nodiscard]] int smallest_sample(double p, double confidence = 0.95);
+
+/// How often each run stands in each resample of all runs, drawn with replacement: the bootstrap
+/// over runs, which keeps together the blocks of one run because they are not independent.
+struct RunResamples {
+  int n_runs = 0, n_resamples = 0;
+  std::vector<std::uint16_t> count;  ///< at [run * n_resamples + resample]
+
+  [[nodiscard]] std::span<const std::uint16_t> of_run(int run) const {
+    return std::span(count).subspan(static_cast<std::size_t>(run) * n_resamples, n_resamples);
+  }
+};
+[[nodiscard]] RunResamples resample_runs(int n_runs, int n_resamples, std::uint64_t seed);
+
+struct RunValue {
+  double value = 0;
+  double weight = 1;
+  int run = 0;
+};
+
+/// Upper bound of the p-percentile by the bootstrap over runs: the `confidence`-percentile of the
+/// percentiles of all resamples that hold any weight. `sorted` DESCENDS by value. NaN for none.
+[[nodiscard]] double bootstrap_upper_percentile(std::span<const RunValue> sorted,
+                                                const RunResamples& resamples, double p,
+                                                double confidence = 0.95);
+
+/// What one run adds to a sum.
+struct RunWeight {
+  int run = 0;
+  double weight = 0;
+};
+
+/// The sum over runs of `of_run` in each resample                            (n_resamples)
+[[nodiscard]] std::vector<double> resampled_sums(const RunResamples& resamples,
+                                                 std::span<const double> of_run);
+
+/// Interval of the share sum(parts) / sum(whole) by the bootstrap over runs, `confidence` between
+/// the bounds. `parts` names only runs that add something; `whole` comes from resampled_sums().
+[[nodiscard]] Interval bootstrap_share(std::span<const RunWeight> parts,
+                                       std::span<const double> whole, const RunResamples& resamples,
+                                       double confidence = 0.95);
+
+}  // namespace talus

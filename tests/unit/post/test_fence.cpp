@@ -1,0 +1,269 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "base/error.hpp"
+#include "base/random.hpp"
+#include "post/fence.hpp"
+#include "post/fence_design.hpp"
+#include "post/statistics.hpp"
+#include "run_maker.hpp"
+
+using namespace talus;
+using namespace talus::testing;
+
+namespace {
+
+// A flat terrain at z = 100, a fence along x = 20 from y = 10 to y = 40, 4 m high; blocks come from
+// the west (from the left of the line drawn from south to north).
+Trn flat() { return plane_trn(0, 2, 40, 30); }
+
+FenceSettings fence_settings() {
+  FenceSettings settings;
+  settings.name = "test";
+  settings.height_m = 4;
+  settings.capacity_kj = 500;
+  return settings;
+}
+
+Fence fence_along(const std::vector<Vec2>& corners, const Trn& trn, double spacing = 10) {
+  return make_fence(record_line("test", posts_on_ground(trn, corners, spacing, {"site.toml"})),
+                    fence_settings());
+}
+
+Fence straight_fence() { return fence_along({{20, 10}, {20, 40}}, flat()); }
+
+// Adds a cube of edge `edge` that crosses the line at `chainage` with the centroid at `height`.
+void add_crossing(RunFile& run, double chainage, double height, double edge, double energy,
+                  double time = 1) {
+  const int block = n_blocks(run);
+  add_box(run, {edge, edge, edge}, {0, 0, 0});
+  Crossing c;
+  c.block = block;
+  c.direction = -1;  // eastwards: to the right of a line that runs north
+  c.beside = chainage < 0 || chainage > 30;
+  c.n_crossings = c.beside ? 0 : 1;
+  c.time = time;
+  c.chainage = chainage;
+  c.position = {20, 10 + chainage, 100 + height};
+  c.velocity = {10, 0, 0};
+  c.translational_energy = energy;
+  c.centroid_height = height;
+  c.top_height = height + edge / 2;
+  c.bottom_height = height - edge / 2;
+  run.crossings.push_back(c);
+}
+
+Verdict verdict_of_single(double chainage, double height, double edge, double energy) {
+  RunFile run;
+  add_crossing(run, chainage, height, edge, energy);
+  const Fence fence = straight_fence();
+  const auto list = arrivals(run, 0, fence, 0);
+  return verdicts_of(run, 0, list, fence, 0.5, false, 0.1).at(0).verdict;
+}
+
+}  // namespace
+
+TEST(PostsOnGround, StandAtEqualDistances) {
+  const Fence fence = fence_along({{20, 10}, {20, 40}, {25, 40}}, plane_trn(0.5, 2, 40, 30), 8);
+  ASSERT_EQ(fence.post.size(), 6U);  // 30 m in 4 fields, 5 m in 1
+  EXPECT_DOUBLE_EQ(fence.chainage[1], 7.5);
+  EXPECT_DOUBLE_EQ(fence.chainage[5], 35);
+  EXPECT_DOUBLE_EQ(fence.post[5].z(), 100 - 12.5);
+  EXPECT_DOUBLE_EQ(base_at(fence, 32.5), 100 - 11.25);
+}
+
+TEST(PostsOnGround, RefuseWhatIsNoFence) {
+  const Trn trn = flat();
+  using Corners = std::vector<Vec2>;
+  for (const Corners& corners :
+       {Corners{{20, 10}}, Corners{{20, 10}, {20, 10}}, Corners{{20, 10}, {20, 500}}})
+    EXPECT_THROW(static_cast<void>(posts_on_ground(trn, corners, 10, {"site.toml"})), InputError);
+}
+
+// One block of each kind at a fence of 4 m and 500 kJ, free border 0.5 m.
+TEST(ExpectedVerdict, IsTheRightOneForEachKind) {
+  EXPECT_EQ(verdict_of_single(15, 1, 1, 400e3), Verdict::stopped);
+  EXPECT_EQ(verdict_of_single(15, 1, 1, 501e3), Verdict::pierced);
+  EXPECT_EQ(verdict_of_single(15, 3.1, 1, 400e3), Verdict::free_border);  // top 3.6 m
+  EXPECT_EQ(verdict_of_single(15, 4.2, 1, 400e3), Verdict::free_border);  // the rope is hit
+  EXPECT_EQ(verdict_of_single(15, 4.6, 1, 400e3), Verdict::overtopped);
+  EXPECT_EQ(verdict_of_single(15, 4.6, 1, 900e3), Verdict::overtopped);
+  EXPECT_EQ(verdict_of_single(15, -1, 1, 400e3), Verdict::underpassed);
+  // eastwards at a line that runs north: its first (southern) end is on the right
+  EXPECT_EQ(verdict_of_single(-3, 1, 1, 400e3), Verdict::bypassed_right);
+  EXPECT_EQ(verdict_of_single(33, 1, 1, 400e3), Verdict::bypassed_left);
+}
+
+TEST(Verdicts, AreExactlyOneABlock) {
+  Random random(1);
+  RunFile run;
+  for (int i = 0; i < 200; ++i) {
+    if (random.below(4) == 0)
+      add_box(run, {1, 1, 1}, {0, 0, 0});  // never comes
+    else
+      add_crossing(run, random.uniform(-10, 40), random.uniform(-2, 7), random.uniform(0.5, 3),
+                   random.uniform(0, 1e6));
+  }
+  const Fence fence = straight_fence();
+  const auto list = arrivals(run, 0, fence, 0);
+  std::map<Verdict, int> count;
+  for (const BlockVerdict& v : verdicts_of(run, 0, list, fence, 0.5, false, 0.1)) {
+    ++count[v.verdict];
+    EXPECT_EQ(v.verdict == Verdict::not_reached, v.arrival < 0);
+  }
+  int sum = 0;
+  for (const auto& [verdict, n] : count) sum += n;
+  EXPECT_EQ(sum, 200);
+  EXPECT_EQ(count.size(), verdicts.size());
+}
+
+// A dip between two posts: what rolls through it below the straight base passes underneath.
+TEST(ExpectedVerdict, SeesTheDipBetweenTwoPosts) {
+  Trn trn = flat();
+  for (int c = 0; c < trn.n_cols; ++c)
+    trn.elevation[node_index(trn, trn.n_rows - 1 - 7, c)] = 95;  // y = 14
+  const Fence fence = fence_along({{20, 10}, {20, 20}}, trn);
+  RunFile run;
+  add_crossing(run, 4, -4, 2, 1e3);  // on the bottom of the dip
+  EXPECT_EQ(expected_verdict(arrivals(run, 0, fence, 0)[0], fence, 0.5), Verdict::underpassed);
+}
+
+// With the fence standing, blocks that did not cross but lie at it were stopped.
+TEST(ObservedVerdict, TellsStoppedFromNotReached) {
+  RunFile run;
+  add_box(run, {2, 2, 2}, {0, 0, 0});
+  add_box(run, {2, 2, 2}, {0, 0, 0});
+  add_frame(run, 0, {standing({5, 20, 101}), standing({5, 30, 101})});
+  add_frame(run, 1, {standing({18.95, 20, 101}), standing({12, 30, 101})});
+  const Fence fence = straight_fence();
+  add_crossing(run, 5, 1, 1, 1e3);  // came through
+  add_crossing(run, 5, 6, 1, 1e3);  // over the top
+  run.frames = {};
+  add_frame(run, 1,
+            {standing({18.95, 20, 101}), standing({12, 30, 101}), standing({40, 15, 101}),
+             standing({40, 15, 101})});
+  const auto list = verdicts_of(run, 0, arrivals(run, 0, fence, 0), fence, 0.5, true, 0.1);
+  EXPECT_EQ(list[0].verdict, Verdict::stopped);
+  EXPECT_EQ(list[1].verdict, Verdict::not_reached);
+  EXPECT_EQ(list[2].verdict, Verdict::pierced);
+  EXPECT_EQ(list[3].verdict, Verdict::overtopped);
+}
+
+TEST(Arrivals, MeasureTheAngleToTheFieldsNormal) {
+  RunFile run;
+  add_crossing(run, 5, 1, 1, 1e3);
+  run.crossings[0].velocity = {1, std::sqrt(3.0), -7};
+  const FenceArrival a = arrivals(run, 0, straight_fence(), 0)[0];
+  EXPECT_NEAR(a.angle, 60 * std::numbers::pi / 180, 1e-12);
+  EXPECT_EQ(a.field, 0);
+  EXPECT_EQ(a.post, 0);  // 5 m from both: the first
+}
+
+// Reference: the percentile of the plain sorted list and the Wilks ranks.
+TEST(Summarise, GivesPercentilesWithBoundsOfIndependentRuns) {
+  Random random(2);
+  std::vector<FenceArrival> list;
+  std::vector<double> energies;
+  for (int run = 0; run < 120; ++run) {
+    FenceArrival a;
+    a.run = run;
+    a.translation = std::floor(random.uniform(0, 1e6));
+    a.rotation = 1000;
+    energies.push_back(a.energy());
+    list.push_back(a);
+  }
+  std::sort(energies.begin(), energies.end());
+  const FencePartSummary s = summarise(list, 150, 1);
+  EXPECT_EQ(s.n, 120);
+  EXPECT_DOUBLE_EQ(s.per_run, 0.8);
+  EXPECT_EQ(s.energy.largest, energies.back());
+  EXPECT_EQ(s.energy.percentile[2].value, energies[113]);  // rank ceil(0.95 * 120) = 114
+  EXPECT_EQ(s.energy.percentile[2].upper, energies[upper_bound_rank(120, 0.95) - 1]);
+  EXPECT_TRUE(std::isnan(s.energy.percentile[3].upper));  // 120 < 299
+  EXPECT_EQ(s.most_in_a_run, 1);
+  EXPECT_EQ(s.runs_hit_twice, 0);
+}
+
+// Hits at 0, 0.4, 0.9, 1.3, 5 s: the busiest second holds those at 0.4, 0.9 and 1.3 s.
+TEST(Summarise, AddsUpTheHitsOfOneSecond) {
+  RunFile run;
+  const std::vector<double> times = {0.9, 0, 5, 0.4, 1.3},
+                            energies = {40e3, 10e3, 70e3, 20e3, 30e3};
+  for (int i = 0; i < 5; ++i) add_crossing(run, 5, 1, 1, energies[i], times[i]);
+  const FencePartSummary s = summarise(arrivals(run, 0, straight_fence(), 0), 1, 1);
+  EXPECT_DOUBLE_EQ(s.window_energy, 90e3);
+  EXPECT_EQ(s.window_hits, 3);
+  EXPECT_EQ(s.most_in_a_run, 5);
+  EXPECT_EQ(s.runs_hit_twice, 1);
+}
+
+// On a slope of 0.5 that falls to the east, filled to 4 m: a triangle of 4 m by 8 m behind a fence
+// of 10 m a field.
+TEST(Storage, OfAPlaneIsTheWedge) {
+  const Trn trn = plane_trn(0.5, 1, 80, 60);
+  const Fence fence = fence_along({{40, 10}, {40, 40}}, trn);
+  EXPECT_NEAR(storage(fence, 1, 1, trn, 100), 0.5 * 4 * 8 * 10, 1e-9);
+}
+
+TEST(DesignCode, OfUniMultipliesSpeedPercentileAndDesignMass) {
+  const DesignCode code = design_code(read_csv(TALUS_SOURCE_DIR "/share/codes/uni_11211-4.csv"));
+  const auto classes =
+      barrier_classes(read_csv(TALUS_SOURCE_DIR "/share/codes/barrier_classes.csv"));
+  FencePartSummary part;
+  part.n = 100;
+  part.n_eff = 100;
+  part.speed.percentile[2].value = 20;
+  part.top.percentile[2].value = 2;
+  const DesignInput input{1, 0.8, 2700, 2, false, 4, 30};
+  const Fence fence = straight_fence();
+  const DesignResult r = check_design(code, classes, input, part, fence);
+  const double mass = 2700 * 1.10, speed = 20 * 1.10 * 1.10;
+  EXPECT_NEAR(r.design_energy, 0.5 * mass * speed * speed * 1.05, 1e-6);
+  EXPECT_NEAR(r.required_capacity, 1.2 * r.design_energy, 1e-6);
+  EXPECT_EQ(r.smallest_class, "4");  // 1,096 kJ: MEL 1,500
+  EXPECT_NEAR(r.required_height, 2 * 1.21 + 0.5, 1e-12);
+  EXPECT_EQ(r.governs, "energy");
+  EXPECT_FALSE(r.pass);
+  EXPECT_TRUE(r.enough);
+}
+
+TEST(DesignCode, OfOnrTakesFactorsOfItsConsequenceClassAndTheDeflectionRule) {
+  const DesignCode code = design_code(read_csv(TALUS_SOURCE_DIR "/share/codes/onr_24810.csv"));
+  FencePartSummary part;
+  part.n = 400;
+  part.n_eff = 400;
+  part.energy.percentile[3].value = 300e3;
+  part.top.percentile[2].value = 2;
+  const DesignInput input{1, 0.8, 2700, 3, false, 4, 4.9};
+  const DesignResult r = check_design(code, {}, input, part, straight_fence());
+  EXPECT_NEAR(r.required_capacity, 1.15 * 300e3, 1e-6);
+  EXPECT_NEAR(r.required_height, 1.3 * 2, 1e-12);
+  EXPECT_DOUBLE_EQ(r.required_distance, 5);  // d + 1 > 1.2 d
+  EXPECT_EQ(r.governs, "distance");
+  EXPECT_FALSE(r.pass);
+}
+
+TEST(CheckDesign, WithTooFewArrivalsTakesTheLargestAndPassesNothing) {
+  const DesignCode code = design_code(read_csv(TALUS_SOURCE_DIR "/share/codes/onr_24810.csv"));
+  FencePartSummary part;
+  part.n = 20;
+  part.n_eff = 20;
+  part.energy.largest = 10e3;
+  part.top.largest = 1;
+  const DesignResult r =
+      check_design(code, {}, {1, 0.8, 2700, 1, false, NAN, NAN}, part, straight_fence());
+  EXPECT_FALSE(r.enough);
+  EXPECT_EQ(r.n_needed, 299);
+  EXPECT_NEAR(r.design_energy, 10e3, 1e-9);
+  EXPECT_FALSE(r.pass);
+}
+
+TEST(DesignCode, RefusesAFileWithoutAFactor) {
+  EXPECT_THROW(static_cast<void>(design_code(
+                   parse_csv("key,value,unit,mark,source\nformula,uni,,v,\n", "x.csv"))),
+               InputError);
+}

@@ -1,0 +1,79 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "base/error.hpp"
+#include "post/mobility.hpp"
+
+using namespace talus;
+
+namespace {
+
+std::vector<MobilityRelation> shipped() {
+  return mobility_relations(read_csv(TALUS_SOURCE_DIR "/share/mobility.csv"));
+}
+
+const MobilityRelation& named(const std::vector<MobilityRelation>& list, const std::string& id) {
+  for (const MobilityRelation& r : list)
+    if (r.id == id) return r;
+  throw std::runtime_error("no relation " + id);
+}
+
+}  // namespace
+
+TEST(Mobility, ShippedRelationsNameTheirSourceAndWhatIsFromMemory) {
+  int n_from_memory = 0;
+  for (const MobilityRelation& r : shipped()) {
+    EXPECT_FALSE(r.source.empty()) << r.id;
+    n_from_memory += r.from_memory;
+  }
+  EXPECT_EQ(n_from_memory, 6);
+}
+
+// Corominas, all rockfalls, 1e4 m3: log10(H/L) = 0.210 - 0.109 * 4 = -0.226.
+TEST(Mobility, PowerLawGivesTheLengthOfItsLineAndOfItsLowerBound) {
+  const auto list = shipped();
+  const MobilityRow row =
+      compare(named(list, "corominas_rockfall_all"), {"", 1e4, 200, 400, false});
+  EXPECT_NEAR(row.length, 200 / std::pow(10, -0.226), 1e-9);
+  EXPECT_NEAR(row.length_upper, 200 / std::pow(10, -0.226 - 0.253), 1e-9);
+  EXPECT_NEAR(row.ratio, 400 / row.length, 1e-12);
+  EXPECT_TRUE(std::isnan(row.exceedance));
+}
+
+// Rock avalanches of Canada: mean for 1e6 m3 and H = 1000 m is 10^(1.334 + 0.6712 * 3); an event on
+// the mean is exceeded by half, one standard deviation above it by 15.87 %.
+TEST(Mobility, LengthRegressionGivesAnExceedanceProbability) {
+  const auto list = shipped();
+  const MobilityRelation& r = named(list, "mitchell_length");
+  const double mean = std::pow(10, 1.334 + 0.6712 * 3);
+  EXPECT_NEAR(compare(r, {"", 1e6, 1000, mean, false}).exceedance, 0.5, 1e-12);
+  EXPECT_NEAR(compare(r, {"", 1e6, 1000, mean * std::pow(10, 0.111), false}).exceedance, 0.158655,
+              1e-6);
+  EXPECT_NEAR(compare(r, {"", 1e6, 1000, mean, true}).length / mean, std::pow(10, 0.1437), 1e-9);
+}
+
+TEST(Mobility, FixedAngleIsALine) {
+  const auto list = shipped();
+  EXPECT_NEAR(compare(named(list, "cone_method"), {"", 1, 100, 100, false}).length,
+              100 / std::tan(33 * std::numbers::pi / 180), 1e-9);
+}
+
+TEST(Mobility, OfAnEventWithoutLengthSaysNothing) {
+  for (const MobilityRelation& r : shipped())
+    EXPECT_TRUE(std::isnan(compare(r, {"", 10, 5, 0, false}).length));
+}
+
+TEST(Csv, ReadsQuotesAndRefusesRaggedRowsWithTheLine) {
+  const CsvTable table = parse_csv("# remark\na,b\n\"x, \"\"y\"\"\",2\n", "f.csv");
+  EXPECT_EQ(table.at(0, "a"), "x, \"y\"");
+  EXPECT_EQ(table.number(0, "b"), 2);
+  EXPECT_EQ(csv_line({"x, \"y\"", "2", ""}), "\"x, \"\"y\"\"\",2,\n");
+  try {
+    static_cast<void>(parse_csv("a,b\n1,2\n3\n", "f.csv"));
+    FAIL();
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find("f.csv:3"), std::string::npos) << e.what();
+  }
+}

@@ -1,0 +1,168 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "base/random.hpp"
+#include "post/runout.hpp"
+#include "run_maker.hpp"
+
+using namespace talus;
+using namespace talus::testing;
+
+namespace {
+
+constexpr double deg = std::numbers::pi / 180;
+
+// A cube of edge 2 that slides along (x, 0) down a plane of slope 0.5 with friction tan(phi) = 0.2
+// on it, from x = 10 to the plane's end at x = 30, and then on the flat to where it stops.
+RunFile sliding_block(double frame_interval) {
+  RunFile run;
+  add_box(run, {2, 2, 2}, {0, 0, 0});
+  for (double x = 10; x <= 80 + 1e-9; x += frame_interval) {
+    FrameBlock at = standing({x, 0, x < 30 ? 100 - 0.5 * x : 85});
+    at.velocity = {x < 80 - 1e-9 ? 3.0 : 0, 0, 0};
+    add_frame(run, x - 10, {at});
+  }
+  return run;
+}
+
+Trn bent_trn() {
+  Trn trn = plane_trn(0.5, 2, 60, 3);
+  trn.node0 = Vec2(0, 2);
+  for (double& z : trn.elevation) z = std::max(z - 1, 84.0);  // a metre below the centroids
+  return trn;
+}
+
+}  // namespace
+
+TEST(ReachLine, OfAnLShapedWayTellsPathFromChord) {
+  const std::vector<Vec3> way = {{0, 0, 30}, {30, 0, 10}, {30, 40, 0}};
+  const ReachLine reach = reach_along(way);
+  EXPECT_DOUBLE_EQ(reach.height, 30);
+  EXPECT_DOUBLE_EQ(reach.path, 70);
+  EXPECT_DOUBLE_EQ(reach.chord, 50);
+  EXPECT_DOUBLE_EQ(reach.path_angle(), std::atan(30.0 / 70));
+  EXPECT_DOUBLE_EQ(reach.chord_angle(), std::atan(30.0 / 50));
+  EXPECT_TRUE(std::isnan(ReachLine{}.path_angle()));
+}
+
+// The straight slide: H, L and the angles are known to the last digit, whatever the frames.
+TEST(EventReach, OfAStraightSlideIsExact) {
+  for (const double interval : {0.5, 7.0}) {
+    const EventReach event = event_reach(sliding_block(interval), bent_trn(), {});
+    ASSERT_EQ(event.blocks.size(), 1U);
+    EXPECT_NEAR(event.blocks[0].reach.height, 10, 1e-9);
+    EXPECT_NEAR(event.blocks[0].reach.path, 70, 1e-9);
+    EXPECT_NEAR(event.centre_of_mass.path_angle(), std::atan(10.0 / 70), 1e-12);
+    EXPECT_NEAR(event.sum_angle, std::atan(10.0 / 70), 1e-12);
+    EXPECT_DOUBLE_EQ(event.top.z(), 96);  // the cube's upper side
+    EXPECT_DOUBLE_EQ(event.toe.x(), 81);
+    EXPECT_DOUBLE_EQ(event.toe.z(), 84);  // on the ground
+    EXPECT_NEAR(event.event.height, 12, 1e-9);
+    EXPECT_TRUE(event.toe_deposited);
+    EXPECT_EQ(event.blocks[0].fate, Fate::deposited);
+    EXPECT_DOUBLE_EQ(event.blocks[0].max_speed, 3);
+    EXPECT_DOUBLE_EQ(event.blocks[0].max_energy, 0.5 * 16000 * 9);
+  }
+}
+
+// A way that flattens and then drops again: the angle at its end hides that a flatter energy line
+// would have been needed before.
+TEST(AngleProfile, SaysWhereItIsNotMonotone) {
+  const std::vector<Vec3> falling = {{0, 0, 100}, {50, 0, 60}, {150, 0, 40}};
+  EXPECT_TRUE(angle_profile(falling, 5, 1e-3).monotone);
+  const std::vector<Vec3> stepped = {{0, 0, 100}, {50, 0, 60}, {150, 0, 50}, {200, 0, 0}};
+  const AngleProfile profile = angle_profile(stepped, 5, 1e-3);
+  EXPECT_FALSE(profile.monotone);
+  EXPECT_DOUBLE_EQ(profile.smallest, std::atan(50.0 / 150));
+  EXPECT_DOUBLE_EQ(profile.smallest_at, 150);
+  EXPECT_DOUBLE_EQ(profile.angle.back(), std::atan(100.0 / 200));
+}
+
+// Intersections of the line z = 100 - d tan(angle) with the way, by hand.
+TEST(EnergyLineStop, FindsFirstAndLastMeeting) {
+  const std::vector<Vec3> stepped = {
+      {0, 0, 100}, {50, 0, 60}, {150, 0, 60}, {200, 0, 0}, {300, 0, 0}};
+  const EnergyLineStop stop = energy_line_stop(stepped, std::atan(0.4));
+  EXPECT_NEAR(stop.first, 100, 1e-9);
+  EXPECT_NEAR(stop.last, 250, 1e-9);
+  EXPECT_DOUBLE_EQ(energy_line_stop(stepped, 45 * deg).first, 0);
+  EXPECT_TRUE(std::isnan(energy_line_stop(stepped, 5 * deg).first));
+}
+
+TEST(Simplified, LeavesNoPointFartherThanTheTolerance) {
+  Random random(5);
+  std::vector<Vec3> points;
+  Vec3 at = Vec3::Zero();
+  for (int i = 0; i < 400; ++i) {
+    at += Vec3(random.uniform(0, 1), random.normal() * 0.3, -random.uniform(0, 1));
+    points.push_back(at);
+  }
+  for (const double tolerance : {0.1, 0.5, 2.0}) {
+    const auto kept = simplified(std::span<const Vec3>(points), tolerance);
+    EXPECT_EQ(kept.front(), 0);
+    EXPECT_EQ(kept.back(), 399);
+    for (std::size_t k = 1; k < kept.size(); ++k)
+      for (int i = kept[k - 1]; i <= kept[k]; ++i) {
+        const Vec3 a = points[kept[k - 1]], u = (points[kept[k]] - a);
+        const double s = std::clamp((points[i] - a).dot(u) / u.squaredNorm(), 0.0, 1.0);
+        EXPECT_LE((points[i] - a - s * u).norm(), tolerance + 1e-12);
+      }
+  }
+  EXPECT_LT(simplified(std::span<const Vec3>(points), 2.0).size(), 100U);
+}
+
+// Two blocks of masses 1 : 8; the centre of mass goes with the heavy one.
+TEST(CentreOfMass, WeighsByMass) {
+  RunFile run;
+  add_box(run, {1, 1, 1}, {0, 0, 0});
+  add_box(run, {2, 2, 2}, {0, 0, 0});
+  add_frame(run, 0, {standing({0, 0, 0}), standing({0, 0, 0})});
+  add_frame(run, 1, {standing({0, 0, 0}), standing({9, 0, -9})});
+  const TimedPath path = centre_of_mass_path(run);
+  EXPECT_TRUE(path.point[1].isApprox(Vec3(8, 0, -8)));
+  const EventReach event = event_reach(run, bent_trn(), {});
+  EXPECT_EQ(event.toe_block, 1);
+  EXPECT_NEAR(event.sum_angle, 45 * deg, 1e-12);
+}
+
+TEST(Curves, HoldEnergiesAndTheFront) {
+  RunFile run;
+  add_box(run, {2, 2, 2}, {0, 0, 0});
+  FrameBlock at = standing({3, 4, -2});
+  at.velocity = {0, 3, 4};
+  at.spin = {0, 0, 2};
+  add_frame(run, 0, {standing({0, 0, 0})});
+  add_frame(run, 1, {at});
+  const auto rows = curves(run);
+  EXPECT_DOUBLE_EQ(rows[1].front, 5);
+  EXPECT_DOUBLE_EQ(rows[1].mean_speed, 5);
+  EXPECT_DOUBLE_EQ(rows[1].translation, 0.5 * 16000 * 25);
+  EXPECT_NEAR(rows[1].rotation, 0.5 * (16000.0 / 12 * 8) * 4, 1e-6);
+}
+
+TEST(EnergyShares, SumToOne) {
+  RunFile run;
+  HealthRow start, end;
+  start.potential = 1000;
+  end.potential = 200;
+  end.friction = 500;
+  end.impact = 200;
+  end.contact = 60;
+  end.translation = 30;
+  end.rotation = 10;
+  run.health = {start, end};
+  const EnergyShares s = energy_shares(run);
+  EXPECT_DOUBLE_EQ(s.put_in, 800);
+  EXPECT_DOUBLE_EQ(s.friction, 0.625);
+  EXPECT_NEAR(s.unaccounted, 0, 1e-15);
+}
+
+TEST(EventReach, OfARunWithoutFramesHasNoAngle) {
+  RunFile run;
+  add_box(run, {1, 1, 1}, {0, 0, 0});
+  const EventReach event = event_reach(run, bent_trn(), {});
+  EXPECT_TRUE(std::isnan(event.event.path_angle()));
+  EXPECT_EQ(event.toe_block, -1);
+}

@@ -1,0 +1,193 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "base/random.hpp"
+#include "post/statistics.hpp"
+
+using namespace talus;
+
+namespace {
+
+std::vector<WeightedValue> random_sample(Random& random, int n, bool whole_weights) {
+  std::vector<WeightedValue> sample(n);
+  for (WeightedValue& v : sample)
+    v = {std::floor(random.uniform(0, 20)), whole_weights ? 1.0 + random.below(4) : 1.0};
+  sort_values(sample);
+  return sample;
+}
+
+// P(Binomial(n, p) <= k) by the plain recursion, in long double.
+long double binomial_cdf(int n, long double p, int k) {
+  long double pmf = std::pow(1 - p, static_cast<long double>(n)), sum = 0;
+  for (int j = 0; j <= k; ++j) {
+    sum += pmf;
+    pmf *= static_cast<long double>(n - j) / (j + 1) * p / (1 - p);
+  }
+  return sum;
+}
+
+}  // namespace
+
+// A weight of 3 must say the same as three equal values; the list of copies is the reference.
+TEST(WeightedPercentile, EqualsThePercentileOfRepeatedValues) {
+  Random random(1);
+  for (int trial = 0; trial < 300; ++trial) {
+    const auto sample = random_sample(random, 1 + static_cast<int>(random.below(40)), true);
+    std::vector<double> copies;
+    for (const auto& v : sample)
+      for (int i = 0; i < v.weight; ++i) copies.push_back(v.value);
+    const auto n = static_cast<long long>(copies.size());
+    for (const int per_cent : {0, 1, 5, 25, 50, 75, 90, 95, 99, 100}) {
+      const auto rank = std::max(1LL, (per_cent * n + 99) / 100);  // ceil, in whole numbers
+      EXPECT_EQ(weighted_percentile(sample, per_cent / 100.0), copies[rank - 1]);
+    }
+  }
+}
+
+TEST(WeightedPercentile, OfNothingIsNan) {
+  EXPECT_TRUE(std::isnan(weighted_percentile({}, 0.5)));
+  const std::vector<WeightedValue> weightless{{1, 0}};
+  EXPECT_TRUE(std::isnan(weighted_percentile(weightless, 0.5)));
+}
+
+TEST(WeightedPercentile, IgnoresValuesWithoutWeight) {
+  const std::vector<WeightedValue> sample{{1, 0}, {2, 1}, {3, 0}};
+  for (const double p : {0.0, 0.5, 1.0}) EXPECT_EQ(weighted_percentile(sample, p), 2);
+}
+
+TEST(EffectiveSize, CountsEqualWeightsAndSeesOneHeavyOne) {
+  EXPECT_DOUBLE_EQ(effective_size(7 * 0.3, 7 * 0.09), 7);
+  EXPECT_NEAR(effective_size(1000 + 10, 1000.0 * 1000 + 10), 1.02, 0.001);
+  EXPECT_EQ(effective_size(0, 0), 0);
+}
+
+// The bounds are the roots q of (s - q)^2 = z^2 q (1 - q) / n.
+TEST(WilsonInterval, SolvesItsQuadraticEquation) {
+  const double z = 1.959963984540054;
+  for (const double n : {1.0, 10.0, 59.0, 1000.0})
+    for (const double share : {0.1, 0.5, 0.9}) {
+      const Interval i = wilson_interval(share, n);
+      for (const double q : {i.low, i.high})
+        EXPECT_NEAR((share - q) * (share - q), z * z * q * (1 - q) / n, 1e-12);
+      EXPECT_LT(i.low, share);
+      EXPECT_GT(i.high, share);
+    }
+}
+
+// 0 of 10 and 10 of 10: z^2 / (n + z^2) and its mirror image.
+TEST(WilsonInterval, HasItsClosedFormAtTheEnds) {
+  EXPECT_EQ(wilson_interval(0, 10).low, 0);
+  EXPECT_NEAR(wilson_interval(0, 10).high, 3.841458820694124 / 13.841458820694124, 1e-12);
+  EXPECT_EQ(wilson_interval(1, 10).high, 1);
+  EXPECT_NEAR(wilson_interval(1, 10).low, 10 / 13.841458820694124, 1e-12);
+}
+
+TEST(BoundRank, NeedsWilksSampleSizes) {
+  EXPECT_EQ(smallest_sample(0.5), 5);
+  EXPECT_EQ(smallest_sample(0.9), 29);
+  EXPECT_EQ(smallest_sample(0.95), 59);
+  EXPECT_EQ(smallest_sample(0.99), 299);
+  EXPECT_EQ(upper_bound_rank(58, 0.95), 0);
+  EXPECT_EQ(upper_bound_rank(59, 0.95), 59);
+  EXPECT_EQ(upper_bound_rank(298, 0.99), 0);
+  EXPECT_EQ(upper_bound_rank(299, 0.99), 299);
+  EXPECT_EQ(upper_bound_rank(93, 0.95), 93 - 1);  // the second largest: Wilks' second order
+}
+
+TEST(BoundRank, IsTheSmallestThatTheBinomialDistributionAllows) {
+  for (const int n : {1, 5, 30, 59, 100, 500, 2000})
+    for (const double p : {0.5, 0.9, 0.95, 0.99}) {
+      const int rank = upper_bound_rank(n, p);
+      if (rank == 0) {
+        EXPECT_LT(binomial_cdf(n, p, n - 1), 0.95L);
+        continue;
+      }
+      EXPECT_GE(binomial_cdf(n, p, rank - 1), 0.95L - 1e-9L);
+      EXPECT_LT(binomial_cdf(n, p, rank - 2), 0.95L);
+    }
+}
+
+TEST(BoundRank, OfTheMedianIsSymmetric) {
+  for (const int n : {5, 20, 101})
+    EXPECT_EQ(lower_bound_rank(n, 0.5), n + 1 - upper_bound_rank(n, 0.5));
+}
+
+// With runs of one value each, all percentiles of all resamples can be listed and sorted.
+TEST(BootstrapUpperPercentile, EqualsTheListOfAllResamples) {
+  Random random(3);
+  const RunResamples resamples = resample_runs(12, 99, 5);
+  std::vector<RunValue> values;
+  for (int run = 0; run < 12; ++run)
+    for (std::uint64_t i = 0; i < 1 + random.below(3); ++i)
+      values.push_back({std::floor(random.uniform(0, 9)), 1.0 + random.below(3), run});
+  std::sort(values.begin(), values.end(), [](auto& a, auto& b) { return a.value > b.value; });
+  for (const double p : {0.5, 0.9, 0.95}) {
+    std::vector<double> expected;
+    for (int b = 0; b < 99; ++b) {
+      std::vector<WeightedValue> sample;
+      for (const RunValue& v : values)
+        sample.push_back({v.value, v.weight * resamples.of_run(v.run)[b]});
+      sort_values(sample);
+      const double value = weighted_percentile(sample, p);
+      if (!std::isnan(value)) expected.push_back(value);
+    }
+    std::sort(expected.begin(), expected.end());
+    const auto rank = static_cast<std::size_t>(std::ceil(0.95 * expected.size() - 1e-9));
+    EXPECT_EQ(bootstrap_upper_percentile(values, resamples, p), expected[rank - 1]);
+  }
+}
+
+TEST(ResampleRuns, DrawsAsManyRunsAsThereAreAndRepeatsItself) {
+  const RunResamples a = resample_runs(30, 50, 7);
+  EXPECT_EQ(a.count, resample_runs(30, 50, 7).count);
+  EXPECT_NE(a.count, resample_runs(30, 50, 8).count);
+  for (int b = 0; b < 50; ++b) {
+    int sum = 0;
+    for (int run = 0; run < 30; ++run) sum += a.of_run(run)[b];
+    EXPECT_EQ(sum, 30);
+  }
+}
+
+// 40 runs with 25 blocks each that share their run's factor: the bound must cover the true
+// percentile about as often as it says, where blocks taken as independent would not.
+TEST(BootstrapUpperPercentile, CoversThePercentileOfRunsWhoseBlocksGoTogether) {
+  Random random(11);
+  const RunResamples resamples = resample_runs(40, 200, 1);
+  const auto draw = [&random](double factor) { return factor + 0.1 * random.normal(); };
+  std::vector<double> population(400000);
+  for (double& value : population) value = draw(random.uniform());
+  std::sort(population.begin(), population.end());
+  const double truth = population[population.size() / 10 * 9];
+
+  int covered = 0, covered_as_if_independent = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    std::vector<RunValue> values;
+    for (int run = 0; run < 40; ++run) {
+      const double factor = random.uniform();
+      for (int i = 0; i < 25; ++i) values.push_back({draw(factor), 1, run});
+    }
+    std::sort(values.begin(), values.end(), [](auto& a, auto& b) { return a.value > b.value; });
+    covered += bootstrap_upper_percentile(values, resamples, 0.9) >= truth;
+    covered_as_if_independent += values[1000 - upper_bound_rank(1000, 0.9)].value >= truth;
+  }
+  EXPECT_GE(covered, 300 * 0.88);
+  EXPECT_LE(covered_as_if_independent, 300 * 0.80);
+}
+
+TEST(BootstrapShare, IsExactWhenAllRunsAgreeAndWideWhenTheyDoNot) {
+  const RunResamples resamples = resample_runs(20, 400, 2);
+  const std::vector<double> released = resampled_sums(resamples, std::vector<double>(20, 10.0));
+  std::vector<RunWeight> same, all_or_none;
+  for (int run = 0; run < 20; ++run) same.push_back({run, 3});
+  for (int run = 0; run < 6; ++run) all_or_none.push_back({run, 10});
+  EXPECT_DOUBLE_EQ(bootstrap_share(same, released, resamples).low, 0.3);
+  EXPECT_DOUBLE_EQ(bootstrap_share(same, released, resamples).high, 0.3);
+  // 20 trials with share 0.3: two standard deviations are 0.2
+  const Interval interval = bootstrap_share(all_or_none, released, resamples);
+  EXPECT_NEAR(interval.low, 0.1, 0.051);
+  EXPECT_NEAR(interval.high, 0.5, 0.051);
+}

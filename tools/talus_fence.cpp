@@ -1,0 +1,731 @@
+// tools/talus_fence.cpp
+// What fences would meet, what they hold and what they change. Page: docs/tools/talus-fence.md
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "base/sha256.hpp"
+#include "base/text.hpp"
+#include "io/geopackage_gdal.hpp"
+#include "io/style.hpp"
+#include "post/fence.hpp"
+#include "post/fence_design.hpp"
+#include "post/runout.hpp"
+#include "post/statistics.hpp"
+#include "run_inputs.hpp"
+#include "shipped_data.hpp"
+#include "site_options.hpp"
+#include "site_places.hpp"
+
+namespace {
+
+using namespace talus;  // NOLINT: a program of its own
+
+constexpr double degrees = 180 / std::numbers::pi;
+constexpr double contact_m = 0.25;  // a block so near a standing fence touches it
+
+struct Options {
+  std::string out, json, csv, code = "uni";
+  std::vector<std::string> without;
+  DesignInput design;
+  double free_border_m = std::nan(""), bulking = 1.3;
+  std::uint64_t seed = 1;
+};
+
+void declare(Tool& tool, Options& o) {
+  o.design = {std::nan(""), 0, 0, 2, false, std::nan(""), std::nan("")};
+  tool.output("-o,--out", o.out, "fields, posts and arrivals (GeoPackage)")->required();
+  tool.json_output(o.json, "verdicts, statistics, design check, comparison (JSON)");
+  tool.output("--csv", o.csv, "one row a block and fence: its verdict (CSV)");
+  tool.inputs("--without", o.without, "runs without the fence, to compare with");
+  tool.option("--code", o.code, "design code: uni, onr, or a data file (CSV)");
+  tool.option("--consequence-class", o.design.consequence_class, "of ONR 24810")
+      ->check(CLI::Range(1, 3));
+  tool.flag("--service-level", o.design.service_level, "UNI: check the service energy level (SEL)");
+  tool.option("--design-block-m3", o.design.block_volume,
+              "volume of the design block [m3]; nan: 95th percentile of the released blocks");
+  tool.option("--deflection-m", o.design.deflection, "largest deflection of the barrier [m]");
+  tool.option("--object-distance-m", o.design.distance_to_object,
+              "distance from the fence to the object behind it [m]");
+  tool.option("--free-border-m", o.free_border_m, "f_min [m]; nan: that of the code");
+  tool.option("--bulking", o.bulking, "volume of piled blocks over that of their rock")
+      ->check(CLI::Range(1.0, 3.0));
+  tool.option("--seed", o.seed, "of the bootstrap over runs");
+  tool.footer(
+      "Example:\n  talus-fence site.toml run_*.h5 --trn slope.tif -o fence.gpkg --json fence.json\n"
+      "  talus-fence site.toml with.h5 --without without.h5 --trn slope.tif -o fence.gpkg");
+}
+
+// --- what the runs say
+// -----------------------------------------------------------------------------
+
+/// A run at one fence.
+struct RunAtFence {
+  std::vector<FenceArrival> arrivals;
+  std::vector<BlockVerdict> verdicts;
+  bool standing = false;
+};
+
+/// A run as a whole, for the comparison.
+struct RunWhole {
+  std::vector<double> volume, weight;
+  double density = 0;
+  double free_border = 0;  // by the size of its blocks [m]
+  ReachLine event, centre;
+  std::vector<RunAtFence> at_fence;  // of each fence
+};
+
+struct FenceCase {
+  FenceSettings settings;
+  RecordLine line;
+  Fence fence;
+};
+
+std::vector<FenceCase> cases_of(Tool& tool, const Site& site, const Trn& trn) {
+  std::vector<FenceCase> cases;
+  for (const FenceSettings& settings : site.fences)
+    for (const RecordLine& line : fence_lines(tool, site, trn, settings))
+      cases.push_back({settings, line, make_fence(line, settings)});
+  if (cases.empty())
+    throw InputError({site.file}, "has no section [fence.*]", "add one with its line and height");
+  return cases;
+}
+
+// The line of the run that belongs to a fence; it must be the one of the site file.
+int find_line(const RunFile& run, const FenceCase& c, const std::string& file,
+              const std::string& site_file) {
+  for (std::size_t l = 0; l < run.lines.size(); ++l) {
+    if (run.lines[l].name != c.line.name) continue;
+    const std::vector<Vec3>&a = run.lines[l].points, &b = c.line.points;
+    const auto same = [](const Vec3& p, const Vec3& q) { return (p - q).norm() < 1e-3; };
+    if (a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(), same))
+      return static_cast<int>(l);
+    throw InputError({file},
+                     "recorded another line for fence " + c.line.name + " than " + site_file,
+                     "run talus-dda again with the fence where it is now");
+  }
+  throw InputError({file}, "recorded no line for fence " + c.line.name,
+                   "the fence was added later: run talus-dda again");
+}
+
+RunWhole whole_of(const RunFile& run, int index, const std::vector<FenceCase>& cases,
+                  const Options& o, const DesignCode& code, const RunInputs& inputs, const Trn& trn,
+                  const std::string& site_file) {
+  RunWhole out;
+  const EventReach event = event_reach(run, trn, {0.5, inputs.rest_speed_m_s});
+  out.event = event.event;
+  out.centre = event.centre_of_mass;
+  out.volume = run.blocks.volume;
+  double mass = 0, volume = 0;
+  for (int b = 0; b < n_blocks(run); ++b) {
+    out.weight.push_back(weight_of(run, b));
+    mass += run.blocks.mass[b];
+    volume += run.blocks.volume[b];
+  }
+  out.density = mass / volume;
+  double size = 0;
+  for (const double v : run.blocks.volume) size += std::cbrt(v) / n_blocks(run);
+  out.free_border = std::isnan(o.free_border_m) ? free_border(code, size) : o.free_border_m;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const int line = find_line(run, cases[i], inputs.members[index].file, site_file);
+    RunAtFence at;
+    at.standing = run.lines[line].standing;
+    at.arrivals = arrivals(run, line, cases[i].fence, index);
+    at.verdicts = verdicts_of(run, index, at.arrivals, cases[i].fence, out.free_border, at.standing,
+                              contact_m);
+    out.at_fence.push_back(std::move(at));
+  }
+  return out;
+}
+
+/// Runs in the order of their ids, numbered in that order.
+struct RunGroup {
+  std::vector<RunMember> members;
+  std::vector<RunWhole> runs;
+
+  [[nodiscard]] std::vector<FenceArrival> arrivals_at(std::size_t fence) const {
+    std::vector<FenceArrival> out;
+    for (std::size_t r = 0; r < runs.size(); ++r)
+      for (FenceArrival a : runs[r].at_fence[fence].arrivals) {
+        a.run = static_cast<int>(r);
+        out.push_back(a);
+      }
+    return out;
+  }
+  [[nodiscard]] int n() const { return static_cast<int>(runs.size()); }
+};
+
+RunGroup ordered(const std::vector<RunMember>& members, std::vector<RunWhole> runs) {
+  RunGroup group;
+  for (const int i : order_by_id(members)) {
+    group.members.push_back(members[i]);
+    group.runs.push_back(std::move(runs[i]));
+  }
+  return group;
+}
+
+// --- numbers
+// -----------------------------------------------------------------------------------------
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+Json quantity_json(const QuantitySummary& q, double scale) {
+  Json json = {{"max", number(q.largest * scale)}};
+  constexpr std::array names = {"p50", "p90", "p95", "p99"};
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    json[names[k]] = number(q.percentile[k].value * scale);
+    json[std::string(names[k]) + "_hi"] = number(q.percentile[k].upper * scale);
+  }
+  return json;
+}
+
+Json part_json(const FencePartSummary& p) {
+  return {{"n", p.n},
+          {"per_run", number(p.per_run)},
+          {"n_eff", p.n_eff},
+          {"energy_kj", quantity_json(p.energy, 1e-3)},
+          {"translational_energy_kj", quantity_json(p.translation, 1e-3)},
+          {"top_height_m", quantity_json(p.top, 1)},
+          {"speed_m_s", quantity_json(p.speed, 1)},
+          {"mean_angle_to_normal_deg", number(p.mean_angle * degrees)},
+          {"most_hits_in_a_run", p.most_in_a_run},
+          {"runs_hit_twice", number(p.runs_hit_twice)},
+          {"energy_in_one_second_kj", p.window_energy / 1e3},
+          {"hits_in_that_second", p.window_hits}};
+}
+
+// Share of a verdict with its 95 % interval: Wilson for single-block runs, bootstrap over runs
+// else.
+Json share_json(const RunGroup& group, std::size_t fence, Verdict verdict, std::uint64_t seed) {
+  std::vector<RunWeight> parts;
+  std::vector<double> whole;
+  double n = 0, weight = 0, total = 0, total_sq = 0;
+  bool single = true;
+  for (int r = 0; r < group.n(); ++r) {
+    const RunWhole& run = group.runs[r];
+    parts.push_back({r, 0});
+    whole.push_back(0);
+    for (const BlockVerdict& v : run.at_fence[fence].verdicts) {
+      const double w = run.weight[v.block];
+      whole.back() += w;
+      total_sq += w * w;
+      if (v.verdict != verdict) continue;
+      parts.back().weight += w;
+      n += 1;
+    }
+    single = single && run.weight.size() <= 1;
+    total += whole.back();
+    weight += parts.back().weight;
+  }
+  Json json = {{"n", n}, {"share", number(weight / total)}, {"low", nullptr}, {"high", nullptr}};
+  if (!single && group.n() < 10) return json;
+  Interval interval;
+  if (single) {
+    interval =
+        wilson_interval(std::clamp(weight / total, 0.0, 1.0), effective_size(total, total_sq));
+  } else {
+    const RunResamples resamples = resample_runs(group.n(), 400, seed);
+    interval = bootstrap_share(parts, resampled_sums(resamples, whole), resamples);
+  }
+  json["low"] = interval.low;
+  json["high"] = interval.high;
+  return json;
+}
+
+double mean_size(const std::vector<FenceArrival>& arrivals, const RunGroup& group) {
+  double sum = 0, n = 0;
+  for (const FenceArrival& a : arrivals) sum += std::cbrt(a.volume), n += 1;
+  if (n == 0)
+    for (const RunWhole& run : group.runs)
+      for (const double v : run.volume) sum += std::cbrt(v), n += 1;
+  return n > 0 ? sum / n : 0;
+}
+
+DesignInput design_input(const Options& o, const RunGroup& group, double mean_block_size) {
+  DesignInput input = o.design;
+  input.mean_block_size = mean_block_size;
+  input.density = group.runs[0].density;
+  if (std::isnan(input.block_volume)) {
+    std::vector<WeightedValue> volumes;
+    for (const RunWhole& run : group.runs)
+      for (std::size_t b = 0; b < run.volume.size(); ++b)
+        volumes.push_back({run.volume[b], run.weight[b]});
+    sort_values(volumes);
+    input.block_volume = weighted_percentile(volumes, 0.95);
+  }
+  return input;
+}
+
+Json design_json(const DesignResult& r) {
+  return {{"enough_arrivals", r.enough},
+          {"arrivals_needed", r.n_needed},
+          {"design_energy_kj", number(r.design_energy / 1e3)},
+          {"required_capacity_kj", number(r.required_capacity / 1e3)},
+          {"smallest_class", r.smallest_class},
+          {"design_height_m", number(r.design_height)},
+          {"free_border_m", number(r.free_border)},
+          {"required_height_m", number(r.required_height)},
+          {"energy_use", number(r.energy_use)},
+          {"height_use", number(r.height_use)},
+          {"required_distance_m", number(r.required_distance)},
+          {"distance_use", number(r.distance_use)},
+          {"governs", r.governs},
+          {"pass", r.pass}};
+}
+
+// --- one fence
+// -----------------------------------------------------------------------------------------
+
+struct Code {
+  DesignCode code;
+  std::string sha256;
+  std::vector<BarrierClass> classes;
+};
+
+Code read_code(const std::string& name) {
+  const bool shipped = name == "uni" || name == "onr";
+  const std::string file = name == "uni" ? "codes/uni_11211-4.csv" : "codes/onr_24810.csv";
+  Code out;
+  out.classes = barrier_classes(
+      parse_csv(shipped_data("codes/barrier_classes.csv"), "share/codes/barrier_classes.csv"));
+  if (shipped) {
+    Sha256 hash;
+    hash.add(shipped_data(file).data(), shipped_data(file).size());
+    out.code = design_code(parse_csv(shipped_data(file), "share/" + file));
+    out.sha256 = hash.hex();
+  } else {
+    out.code = design_code(read_csv(name));
+    out.sha256 = sha256_of_file(name);
+  }
+  return out;
+}
+
+struct FieldResult {
+  FencePartSummary part;
+  DesignResult design;
+  double storage = 0;
+};
+
+struct FenceResult {
+  std::vector<FenceArrival> arrivals;  // at the line itself
+  std::vector<FieldResult> fields;
+  std::vector<FencePartSummary> posts;
+  FencePartSummary whole;
+  DesignResult design;
+  double storage = 0, retained = 0;  // [m3]; retained a run, as it lies
+  int side = 0;
+};
+
+std::vector<FenceArrival> only(const std::vector<FenceArrival>& list, int FenceArrival::*member,
+                               int value) {
+  std::vector<FenceArrival> out;
+  for (const FenceArrival& a : list)
+    if (a.*member == value) out.push_back(a);
+  return out;
+}
+
+// Rock volume that the fence would hold, a run, in the run where it is largest.
+double retained_volume(const RunGroup& group, std::size_t fence) {
+  double largest = 0;
+  for (const RunWhole& run : group.runs) {
+    double volume = 0;
+    for (const BlockVerdict& v : run.at_fence[fence].verdicts)
+      if (v.verdict == Verdict::stopped) volume += run.volume[v.block];
+    largest = std::max(largest, volume);
+  }
+  return largest;
+}
+
+FenceResult evaluate(const FenceCase& c, std::size_t index, const RunGroup& group, const Code& code,
+                     const Options& o, const Trn& trn) {
+  FenceResult r;
+  int towards_left = 0;
+  for (const FenceArrival& a : group.arrivals_at(index)) {
+    if (a.beside) continue;
+    r.arrivals.push_back(a);
+    towards_left += a.direction;
+  }
+  r.side = towards_left > 0 ? -1 : 1;
+  const DesignInput input = design_input(o, group, mean_size(r.arrivals, group));
+  r.whole = summarise(r.arrivals, group.n(), o.seed);
+  r.design = check_design(code.code, code.classes, input, r.whole, c.fence);
+  const double reach = 50 * c.fence.height;
+  for (int f = 0; f < n_fields(c.fence); ++f) {
+    FieldResult field;
+    field.part = summarise(only(r.arrivals, &FenceArrival::field, f), group.n(), o.seed);
+    field.design = check_design(code.code, code.classes, input, field.part, c.fence);
+    field.storage = storage(c.fence, f, r.side, trn, reach);
+    r.storage += field.storage;
+    r.fields.push_back(std::move(field));
+  }
+  for (int p = 0; p <= n_fields(c.fence); ++p)
+    r.posts.push_back(summarise(only(r.arrivals, &FenceArrival::post, p), group.n(), o.seed));
+  r.retained = o.bulking * retained_volume(group, index);
+  return r;
+}
+
+// What the numbers do not know, in plain words.
+Json notes_of(const FenceCase& c, const FenceResult& r, bool standing) {
+  Json notes = Json::array();
+  notes.push_back(standing
+                      ? "The runs were computed with the fence standing: verdicts are observed."
+                      : "The runs were computed without the fence: verdicts say what each block "
+                        "would meet at the line; how blocks pile up, deflect or break the fence "
+                        "one after the other was not modelled.");
+  notes.push_back(
+      "Barrier classes are tested with single blocks at mid-field; hits at posts, by "
+      "several blocks at once or in a damaged field are not covered by them.");
+  if (r.whole.window_hits > 1)
+    notes.push_back("Up to " + std::to_string(r.whole.window_hits) +
+                    " blocks come within one "
+                    "second: the sum of their energies stands beside the single-block check.");
+  if (r.retained > 0.5 * r.storage)
+    notes.push_back(
+        "The retained volume fills more than half of the storage wedge: the fence is "
+        "then loaded by a deposit, for which no barrier class is tested.");
+  if (std::isnan(c.fence.capacity))
+    notes.push_back("The fence has no capacity_kj: no block counts as piercing it.");
+  return notes;
+}
+
+Json fence_json(const FenceCase& c, std::size_t index, const FenceResult& r, const RunGroup& group,
+                const Code& code, const Options& o) {
+  const bool standing = group.runs[0].at_fence[index].standing;
+  Json shares;
+  for (const Verdict v : verdicts) shares[text(v)] = share_json(group, index, v, o.seed);
+  Json fields = Json::array(), posts = Json::array();
+  for (std::size_t f = 0; f < r.fields.size(); ++f) {
+    Json json = part_json(r.fields[f].part);
+    json["from_m"] = c.fence.chainage[f];
+    json["to_m"] = c.fence.chainage[f + 1];
+    json["storage_m3"] = r.fields[f].storage;
+    json["design"] = design_json(r.fields[f].design);
+    fields.push_back(json);
+  }
+  for (std::size_t p = 0; p < r.posts.size(); ++p) {
+    Json json = part_json(r.posts[p]);
+    json["chainage_m"] = c.fence.chainage[p];
+    posts.push_back(json);
+  }
+  const double top_p95 = r.whole.top.percentile[2].value;
+  return {{"name", c.line.name},
+          {"length_m", length(c.fence)},
+          {"height_m", c.fence.height},
+          {"capacity_kj", number(c.fence.capacity / 1e3)},
+          {"standing", standing},
+          {"free_border_m", group.runs[0].free_border},
+          {"freeboard_left_m", number(c.fence.height - top_p95)},
+          {"verdicts", shares},
+          {"whole", part_json(r.whole)},
+          {"storage_m3", r.storage},
+          {"retained_m3", r.retained},
+          {"design",
+           {{"code", code.code.file},
+            {"sha256", code.sha256},
+            {"from_memory", code.code.from_memory},
+            {"whole", design_json(r.design)}}},
+          {"fields", fields},
+          {"posts", posts},
+          {"notes", notes_of(c, r, standing)}};
+}
+
+// --- with and without
+// ------------------------------------------------------------------------------------
+
+Json side_json(const RunGroup& group, std::size_t fence) {
+  double weight = 0, total = 0, volume = 0, n = 0;
+  double length = 0, angle = 0, centre = 0;
+  std::vector<WeightedValue> energy;
+  for (const RunWhole& run : group.runs) {
+    for (const double w : run.weight) total += w;
+    for (const FenceArrival& a : run.at_fence[fence].arrivals) {
+      if (!a.passed_for_good) continue;
+      weight += a.weight;
+      volume += a.volume;
+      n += 1;
+      energy.push_back({a.energy() / 1e3, a.weight});
+    }
+    length += run.event.path / group.n();
+    angle += run.event.path_angle() * degrees / group.n();
+    centre += run.centre.path / group.n();
+  }
+  sort_values(energy);
+  return {
+      {"n_runs", group.n()},
+      {"blocks_behind_the_line", n},
+      {"share_behind_the_line", number(weight / total)},
+      {"volume_behind_the_line_m3_per_run", volume / group.n()},
+      {"energy_at_the_line_kj_p50", number(weighted_percentile(energy, 0.5))},
+      {"energy_at_the_line_kj_max", number(energy.empty() ? std::nan("") : energy.back().value)},
+      {"mean_L_path_m", number(length)},
+      {"mean_reach_angle_path_deg", number(angle)},
+      {"mean_centre_of_mass_L_path_m", number(centre)}};
+}
+
+Json comparison_json(const RunGroup& with, const RunGroup& without, std::size_t fence) {
+  const Json a = side_json(with, fence), b = side_json(without, fence);
+  Json change;
+  for (const auto& [key, value] : a.items())
+    if (key != "n_runs" && value.is_number() && b[key].is_number())
+      change[key] = value.get<double>() - b[key].get<double>();
+  return {{"with", a}, {"without", b}, {"with_minus_without", change}};
+}
+
+// --- layers and tables
+// -------------------------------------------------------------------------------------
+
+VectorStyle verdict_style(SymbolKind kind, double size) {
+  return {kind,
+          "verdict",
+          {{"stopped", "stopped", {51, 160, 44, 255}},
+           {"pierced", "pierced", {227, 26, 28, 255}},
+           {"free_border", "free border", {253, 191, 111, 255}},
+           {"overtopped", "overtopped", {255, 127, 0, 255}},
+           {"bypassed_left", "bypassed on the left", {106, 61, 154, 255}},
+           {"bypassed_right", "bypassed on the right", {202, 178, 214, 255}},
+           {"underpassed", "underpassed", {177, 89, 40, 255}}},
+          size};
+}
+
+void add_part(std::vector<FieldValue>& values, const FencePartSummary& p) {
+  values.insert(
+      values.end(),
+      {static_cast<std::int64_t>(p.n), p.per_run, p.energy.percentile[2].value / 1e3,
+       p.energy.percentile[2].upper / 1e3, p.energy.largest / 1e3, p.top.percentile[2].value,
+       p.top.percentile[2].upper, p.top.largest, p.speed.percentile[2].value, p.speed.largest,
+       p.mean_angle * degrees, p.window_energy / 1e3});
+}
+
+std::vector<VectorField> part_fields(std::vector<VectorField> fields) {
+  fields.push_back({"n", FieldType::integer});
+  for (const char* name : {"per_run", "energy_p95_kj", "energy_p95_hi_kj", "energy_max_kj",
+                           "top_p95_m", "top_p95_hi_m", "top_max_m", "speed_p95_m_s",
+                           "speed_max_m_s", "angle_to_normal_deg", "energy_in_one_second_kj"})
+    fields.push_back({name, FieldType::real});
+  return fields;
+}
+
+VectorLayer field_layer(const std::vector<FenceCase>& cases,
+                        const std::vector<FenceResult>& results, const Vec3& origin) {
+  VectorLayer layer{"fence_fields",
+                    "fields of the fences",
+                    GeometryType::line_zm,
+                    part_fields({{"fence", FieldType::text}, {"field", FieldType::integer}}),
+                    {},
+                    vector_qml({SymbolKind::line,
+                                "pass",
+                                {{"1", "meets the code", {51, 160, 44, 255}},
+                                 {"0", "does not, or too few arrivals", {227, 26, 28, 255}}},
+                                1.2})};
+  for (const char* name : {"storage_m3", "required_capacity_kj", "required_height_m"})
+    layer.fields.push_back({name, FieldType::real});
+  for (const char* name : {"smallest_class", "governs"})
+    layer.fields.push_back({name, FieldType::text});
+  layer.fields.push_back({"pass", FieldType::integer});
+  for (std::size_t i = 0; i < cases.size(); ++i)
+    for (std::size_t f = 0; f < results[i].fields.size(); ++f) {
+      const FieldResult& r = results[i].fields[f];
+      const Fence& fence = cases[i].fence;
+      VectorFeature feature;
+      feature.points = {fence.post[f] + origin, fence.post[f + 1] + origin};
+      feature.measure = {fence.chainage[f], fence.chainage[f + 1]};
+      feature.values = {fence.name, static_cast<std::int64_t>(f)};
+      add_part(feature.values, r.part);
+      feature.values.insert(feature.values.end(),
+                            {r.storage, r.design.required_capacity / 1e3, r.design.required_height,
+                             r.design.smallest_class, r.design.governs,
+                             static_cast<std::int64_t>(r.design.pass ? 1 : 0)});
+      layer.features.push_back(std::move(feature));
+    }
+  return layer;
+}
+
+VectorLayer post_layer(const std::vector<FenceCase>& cases, const std::vector<FenceResult>& results,
+                       const Vec3& origin) {
+  VectorLayer layer{"fence_posts",
+                    "posts, with the arrivals nearest to each",
+                    GeometryType::point_z,
+                    part_fields({{"fence", FieldType::text}, {"post", FieldType::integer}}),
+                    {},
+                    vector_qml({SymbolKind::point, "", {{"", "", {60, 60, 60, 255}}}, 1.6})};
+  for (std::size_t i = 0; i < cases.size(); ++i)
+    for (std::size_t p = 0; p < results[i].posts.size(); ++p) {
+      VectorFeature feature;
+      feature.points = {cases[i].fence.post[p] + origin};
+      feature.values = {cases[i].fence.name, static_cast<std::int64_t>(p)};
+      add_part(feature.values, results[i].posts[p]);
+      layer.features.push_back(std::move(feature));
+    }
+  return layer;
+}
+
+// Place of an arrival on the line, its height that of the centroid.
+Vec3 place_of(const FenceArrival& a, const Fence& fence) {
+  const int field = std::clamp(
+      static_cast<int>(std::upper_bound(fence.chainage.begin(), fence.chainage.end(), a.chainage) -
+                       fence.chainage.begin()) -
+          1,
+      0, n_fields(fence) - 1);
+  const double s =
+      (a.chainage - fence.chainage[field]) / (fence.chainage[field + 1] - fence.chainage[field]);
+  Vec3 at = fence.post[field] + s * (fence.post[field + 1] - fence.post[field]);
+  at.z() = base_at(fence, a.chainage) + a.centroid;
+  return at;
+}
+
+VectorLayer arrival_layer_of(const std::vector<FenceCase>& cases, const RunGroup& group,
+                             const Vec3& origin) {
+  VectorLayer layer{"fence_arrivals",
+                    "where and how blocks come at the fences or pass beside them",
+                    GeometryType::point_z,
+                    {{"fence", FieldType::text},
+                     {"run_id", FieldType::text},
+                     {"block", FieldType::integer},
+                     {"verdict", FieldType::text}},
+                    {},
+                    vector_qml(verdict_style(SymbolKind::point, 2))};
+  for (const char* name : {"time_s", "chainage_m", "speed_m_s", "angle_to_normal_deg", "spin_rad_s",
+                           "translational_energy_kj", "rotational_energy_kj", "centroid_height_m",
+                           "top_height_m", "bottom_height_m", "volume_m3"})
+    layer.fields.push_back({name, FieldType::real});
+  for (std::size_t i = 0; i < cases.size(); ++i)
+    for (int r = 0; r < group.n(); ++r)
+      for (const BlockVerdict& v : group.runs[r].at_fence[i].verdicts) {
+        if (v.arrival < 0) continue;
+        const FenceArrival& a = group.runs[r].at_fence[i].arrivals[v.arrival];
+        VectorFeature f;
+        f.points = {place_of(a, cases[i].fence) + origin};
+        f.values = {cases[i].fence.name,
+                    group.members[r].info.run_id,
+                    static_cast<std::int64_t>(a.block),
+                    std::string(text(v.verdict)),
+                    a.time,
+                    a.chainage,
+                    a.speed,
+                    a.beside ? std::nan("") : a.angle * degrees,
+                    a.spin,
+                    a.translation / 1e3,
+                    a.rotation / 1e3,
+                    a.centroid,
+                    a.top,
+                    a.bottom,
+                    a.volume};
+        layer.features.push_back(std::move(f));
+      }
+  return layer;
+}
+
+std::string verdict_csv(const std::vector<FenceCase>& cases, const RunGroup& group) {
+  std::string out =
+      csv_line({"fence", "run_id", "block", "verdict", "weight", "volume_m3", "chainage_m",
+                "time_s", "energy_kj", "top_height_m", "bottom_height_m"});
+  for (std::size_t i = 0; i < cases.size(); ++i)
+    for (int r = 0; r < group.n(); ++r)
+      for (const BlockVerdict& v : group.runs[r].at_fence[i].verdicts) {
+        std::vector<std::string> row = {cases[i].fence.name,
+                                        group.members[r].info.run_id,
+                                        std::to_string(v.block),
+                                        text(v.verdict),
+                                        text(group.runs[r].weight[v.block]),
+                                        text(group.runs[r].volume[v.block], 7)};
+        if (v.arrival >= 0) {
+          const FenceArrival& a = group.runs[r].at_fence[i].arrivals[v.arrival];
+          for (const double value : {a.chainage, a.time, a.energy() / 1e3, a.top, a.bottom})
+            row.push_back(text(value, 7));
+        }
+        row.resize(11);
+        out += csv_line(row);
+      }
+  return out;
+}
+
+std::string summary_of(const FenceCase& c, std::size_t index, const FenceResult& r,
+                       const RunGroup& group) {
+  std::map<Verdict, int> count;
+  int total = 0;
+  for (const RunWhole& run : group.runs)
+    for (const BlockVerdict& v : run.at_fence[index].verdicts) ++count[v.verdict], ++total;
+  std::string out = "fence " + c.line.name + ": " + std::to_string(total) + " blocks of " +
+                    std::to_string(group.n()) + (group.n() == 1 ? " run:" : " runs:");
+  for (const auto& [verdict, n] : count) out += " " + std::to_string(n) + " " + text(verdict) + ",";
+  out.back() = ';';
+  if (r.whole.n == 0) return out + " nothing arrived";
+  out += " largest energy " + text(r.whole.energy.largest / 1e3, 4) + " kJ, highest top " +
+         text(r.whole.top.largest, 3) + " m; ";
+  if (!r.design.enough)
+    return out + "design check not possible: " + std::to_string(r.whole.n) + " arrivals, needs " +
+           std::to_string(r.design.n_needed);
+  return out + "needs " + text(r.design.required_capacity / 1e3, 4) + " kJ (class " +
+         r.design.smallest_class + ") and " + text(r.design.required_height, 3) + " m: " +
+         (r.design.pass ? "meets the code"
+                        : "does not meet the code, " + r.design.governs + " governs");
+}
+
+// --- the whole
+// -----------------------------------------------------------------------------------------------
+
+void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& inputs) {
+  const Site& site = site_options.load();
+  const Code code = read_code(o.code);
+  if (o.code != "uni" && o.code != "onr") tool.read_also("code", o.code);
+  const Trn& trn = inputs.trn();
+  const std::vector<FenceCase> cases = cases_of(tool, site, trn);
+  std::vector<RunWhole> runs;
+  const auto take = [&](RunFile& run, int index) {
+    runs.push_back(whole_of(run, index, cases, o, code.code, inputs, trn, site.file));
+  };
+  const RunParts parts{true, true, true, true, false};
+  inputs.read(parts, take);
+  const std::size_t n_with = runs.size();
+  inputs.read(o.without, parts, take);
+  const auto split = [&](std::size_t first, std::size_t last) {
+    return ordered({inputs.members.begin() + first, inputs.members.begin() + last},
+                   {runs.begin() + first, runs.begin() + last});
+  };
+  const RunGroup with = split(0, n_with), without = split(n_with, runs.size());
+
+  std::vector<FenceResult> results;
+  Json fences = Json::array();
+  std::string summary;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    results.push_back(evaluate(cases[i], i, with, code, o, trn));
+    Json json = fence_json(cases[i], i, results[i], with, code, o);
+    if (without.n() > 0) {
+      json["comparison"] = comparison_json(with, without, i);
+      if (!with.runs[0].at_fence[i].standing)
+        tool.warn("fence " + cases[i].line.name +
+                  " did not stand in the runs compared with --without");
+    }
+    fences.push_back(json);
+    summary += (i > 0 ? "\n" : "") + summary_of(cases[i], i, results[i], with);
+    if (results[i].whole.n > 0 && !results[i].design.enough)
+      tool.warn("fence " + cases[i].line.name + ": " + std::to_string(results[i].whole.n) +
+                " arrivals are too few for the percentiles of the code, which need " +
+                std::to_string(results[i].design.n_needed) +
+                ": the largest values stand in for them, and nothing passes");
+  }
+  auto tags = tags_of(inputs.members);
+  tags.insert(tags.begin(), {"RUN_ID", tool.run_id()});
+  if (const std::string remark = inputs.remark(); !remark.empty())
+    tags.emplace_back("REMARK", remark);
+  write_geopackage(tool.stage(o.out), trn.crs_wkt,
+                   {field_layer(cases, results, trn.origin), post_layer(cases, results, trn.origin),
+                    arrival_layer_of(cases, with, trn.origin)},
+                   tags);
+  if (!o.csv.empty()) tool.write_text(o.csv, verdict_csv(cases, with));
+  Json tag_list;
+  for (const auto& [key, value] : tags) tag_list[key] = value;
+  tool.result({{"run_id", tool.run_id()}, {"tags", tag_list}, {"fences", fences}}, summary);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  Tool tool("talus-fence", "What fences would meet, what they hold and what they change.");
+  SiteOptions site(tool);
+  RunInputs runs(tool);
+  declare(tool, options);
+  return tool.run(argc, argv, [&] { run_tool(tool, options, site, runs); });
+}
