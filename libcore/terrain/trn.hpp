@@ -1,18 +1,26 @@
 // libcore/terrain/trn.hpp
 // Terrain as a triangulated regular network (TRN): one elevation a node, two triangles a cell.
 // in:    elevation raster written by talus-trn
-// paper: Zhang et al. 2018, Sect. 3 (TRN) and Eq. (4)-(7)
+// out:   cell, triangle, plane and elevation at a point, in a time that the size does not enter
+// paper: Zhang et al. 2018, Sect. 3 (TRN) and Eq. (4)
 //
 // Row r counts southwards from the northernmost row, column c eastwards. Cell (r, c) has node (r,
 // c) at its north-west corner and is cut along the diagonal (r, c) - (r + 1, c + 1), as in the
-// paper. Triangles are never stored: triangle 2 [(n_cols - 1) r + c] is the lower left one, (r, c)
-// (r + 1, c) (r + 1, c + 1), and the next, odd one the upper right, (r, c) (r + 1, c + 1) (r, c +
-// 1).
+// paper. Triangles are never stored: triangle 2 [(n_cols - 1) r + c] is the lower left one,
+// (r, c) (r + 1, c) (r + 1, c + 1), and the next, odd one the upper right,
+// (r, c) (r + 1, c + 1) (r, c + 1); both counter-clockwise seen from above.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
+#include "base/error.hpp"
 #include "base/types.hpp"
 
 namespace talus {
@@ -25,7 +33,174 @@ struct Trn {
   Vec3 origin = Vec3::Zero();  ///< map coordinates of the local zero [m]
   std::string crs_wkt;         ///< projected, metres; empty when unknown
   std::vector<double>
-      elevation;  ///< local z at [r * n_cols + c], NaN = unknown [m]  (n_rows * n_cols)
+      elevation;  ///< local z at [r * n_cols + c], NaN unknown [m]  (n_rows * n_cols)
 };
+
+/// A cell by the row and column of its north-west node.
+struct Cell {
+  int row = 0, col = 0;
+  bool operator==(const Cell&) const = default;
+};
+
+/// A point in the plane as the grid sees it.
+struct GridPoint {
+  Cell cell;         ///< that holds the point; of the nearest border cell when it lies outside
+  double east = 0;   ///< from the cell's west side, in cells; 0 to 1 inside [-]
+  double south = 0;  ///< from the cell's north side, in cells; 0 to 1 inside [-]
+};
+
+/// The plane of a triangle: signed distance of x is normal.dot(x - point), > 0 above the ground.
+struct TrianglePlane {
+  Vec3 point;   ///< north-west node of the cell, a corner of both of its triangles [m]
+  Vec3 normal;  ///< unit, upward
+};
+
+/// An edge of the network and the two triangles that meet at it, seen when walking from a to b.
+struct TrnEdge {
+  Cell a, b;      ///< its nodes by row and column
+  int left = 0;   ///< triangle on the left
+  int right = 0;  ///< triangle on the right
+};
+
+/// The three edges that node (r, c) owns: to (r, c + 1), to (r + 1, c), to (r + 1, c + 1).
+enum class EdgeKind { east, south, diagonal };
+
+/// Numbers of vertices, edges and faces of a terrain or of a block.
+struct FeatureCounts {
+  std::int64_t vertices = 0, edges = 0, faces = 0;
+  bool operator==(const FeatureCounts&) const = default;
+};
+
+/// v_a = m n, e_a = (n - 1) m + (m - 1) n + (m - 1)(n - 1), f_a = 2 (m - 1)(n - 1).
+[[nodiscard]] FeatureCounts feature_counts(const Trn& trn);
+
+/// Eq. (4): discrete contact combinations of two bodies, N = (v_a + e_a + f_a)(v_b + e_b + f_b).
+[[nodiscard]] std::int64_t contact_combinations(const FeatureCounts& a, const FeatureCounts& b);
+
+/// Throws InputError naming `file` unless the grid has at least 2 x 2 nodes, at most 2^30 cells, a
+/// positive finite cell size, one elevation a node and at least one triangle of known ground.
+void check_trn(const Trn& trn, const std::string& file);
+
+// --- nodes -------------------------------------------------------------------------------------
+
+[[nodiscard]] inline std::size_t node_index(const Trn& trn, int row, int col) {
+  TALUS_ASSERT(row >= 0 && row < trn.n_rows && col >= 0 && col < trn.n_cols);
+  return static_cast<std::size_t>(row) * static_cast<std::size_t>(trn.n_cols) +
+         static_cast<std::size_t>(col);
+}
+
+/// Local position of a node; z is NaN where it is unknown [m].
+[[nodiscard]] inline Vec3 node_point(const Trn& trn, int row, int col) {
+  return {trn.node0.x() + col * trn.cell_size, trn.node0.y() - row * trn.cell_size,
+          trn.elevation[node_index(trn, row, col)]};
+}
+
+// --- cells and triangles -----------------------------------------------------------------------
+
+[[nodiscard]] inline int n_triangles(const Trn& trn) {
+  return 2 * (trn.n_rows - 1) * (trn.n_cols - 1);
+}
+
+/// Whether (x, y) lies on the grid, its border included; false for NaN. Says nothing of nodata.
+[[nodiscard]] inline bool contains(const Trn& trn, double x, double y) {
+  const double east = (x - trn.node0.x()) / trn.cell_size;
+  const double south = (trn.node0.y() - y) / trn.cell_size;
+  return east >= 0 && south >= 0 && east <= trn.n_cols - 1 && south <= trn.n_rows - 1;
+}
+
+/// The cell of (x, y) and the place in it. floor() stands in for the paper's INT, which gives cell
+/// 0 to a point just west of it; outside, the cell is clamped and `east`, `south` leave 0..1.
+[[nodiscard]] inline GridPoint locate(const Trn& trn, double x, double y) {
+  const double east = (x - trn.node0.x()) / trn.cell_size;
+  const double south = (trn.node0.y() - y) / trn.cell_size;
+  const double col = std::clamp(std::floor(east), 0.0, static_cast<double>(trn.n_cols - 2));
+  const double row = std::clamp(std::floor(south), 0.0, static_cast<double>(trn.n_rows - 2));
+  return {{static_cast<int>(row), static_cast<int>(col)}, east - col, south - row};
+}
+
+/// Index of the lower left triangle of a cell; the upper right one is the next.
+[[nodiscard]] inline int first_triangle(const Trn& trn, const Cell& cell) {
+  return 2 * ((trn.n_cols - 1) * cell.row + cell.col);
+}
+
+[[nodiscard]] inline Cell cell_of_triangle(const Trn& trn, int triangle) {
+  return {triangle / 2 / (trn.n_cols - 1), triangle / 2 % (trn.n_cols - 1)};
+}
+
+/// A point on the diagonal belongs to the lower left triangle.
+[[nodiscard]] inline int triangle_of(const Trn& trn, const GridPoint& point) {
+  return first_triangle(trn, point.cell) + (point.south < point.east ? 1 : 0);
+}
+
+/// The triangle above or below (x, y); that of the nearest border cell when the point lies outside.
+[[nodiscard]] inline int triangle_at(const Trn& trn, double x, double y) {
+  return triangle_of(trn, locate(trn, x, y));
+}
+
+/// Corners counter-clockwise seen from above; z is NaN where it is unknown [m].
+[[nodiscard]] inline std::array<Vec3, 3> triangle_corners(const Trn& trn, int triangle) {
+  const auto [r, c] = cell_of_triangle(trn, triangle);
+  if (triangle % 2 == 0)
+    return {node_point(trn, r, c), node_point(trn, r + 1, c), node_point(trn, r + 1, c + 1)};
+  return {node_point(trn, r, c), node_point(trn, r + 1, c + 1), node_point(trn, r, c + 1)};
+}
+
+/// (dz/dx, dz/dy) of a triangle; NaN when a corner is unknown [-].
+[[nodiscard]] inline Vec2 triangle_gradient(const Trn& trn, int triangle) {
+  const Cell cell = cell_of_triangle(trn, triangle);
+  const double* north = trn.elevation.data() + node_index(trn, cell.row, cell.col);
+  const double* south = north + trn.n_cols;
+  const double per_cell = 1 / trn.cell_size;
+  if (triangle % 2 == 0)
+    return {(south[1] - south[0]) * per_cell, (north[0] - south[0]) * per_cell};
+  return {(north[1] - north[0]) * per_cell, (north[1] - south[1]) * per_cell};
+}
+
+/// Whether all three corners are known: a triangle with an unknown corner is not ground.
+[[nodiscard]] inline bool is_known(const Trn& trn, int triangle) {
+  const Vec2 gradient = triangle_gradient(trn, triangle);
+  return !std::isnan(gradient.x()) && !std::isnan(gradient.y());
+}
+
+/// NaN in point or normal when the triangle is not ground.
+[[nodiscard]] inline TrianglePlane triangle_plane(const Trn& trn, int triangle) {
+  const Cell cell = cell_of_triangle(trn, triangle);
+  const Vec2 gradient = triangle_gradient(trn, triangle);
+  const double per_length = 1 / std::sqrt(1 + gradient.squaredNorm());
+  return {node_point(trn, cell.row, cell.col),
+          Vec3(-gradient.x() * per_length, -gradient.y() * per_length, per_length)};
+}
+
+/// Elevation of the ground at a place in its cell; NaN when its triangle is not ground [m].
+[[nodiscard]] inline double elevation_at(const Trn& trn, const GridPoint& point) {
+  const double* north = trn.elevation.data() + node_index(trn, point.cell.row, point.cell.col);
+  const double* south = north + trn.n_cols;
+  if (point.south < point.east)
+    return north[0] + (north[1] - north[0]) * point.east + (south[1] - north[1]) * point.south;
+  return north[0] + (south[0] - north[0]) * point.south + (south[1] - south[0]) * point.east;
+}
+
+/// Elevation of the ground at local (x, y); NaN off the grid and where the triangle that holds the
+/// point is not ground [m]. At a node the first term stands alone: its elevation, bit for bit,
+/// unless the node lies in the last row or column.
+[[nodiscard]] inline double elevation_at(const Trn& trn, double x, double y) {
+  if (!contains(trn, x, y)) return std::numeric_limits<double>::quiet_NaN();
+  return elevation_at(trn, locate(trn, x, y));
+}
+
+/// The edge of `kind` owned by node (row, col). Both of its triangles must exist: an east edge of
+/// the first or last row and a south edge of the first or last column have only one.
+[[nodiscard]] inline TrnEdge trn_edge(const Trn& trn, int row, int col, EdgeKind kind) {
+  const int own = first_triangle(trn, {row, col});
+  switch (kind) {
+    case EdgeKind::east:
+      return {{row, col}, {row, col + 1}, first_triangle(trn, {row - 1, col}), own + 1};
+    case EdgeKind::south:
+      return {{row, col}, {row + 1, col}, own, first_triangle(trn, {row, col - 1}) + 1};
+    case EdgeKind::diagonal:
+      break;
+  }
+  return {{row, col}, {row + 1, col + 1}, own + 1, own};
+}
 
 }  // namespace talus

@@ -1,0 +1,40 @@
+// libcore/contact/ground.hpp
+// The terrain as the contact search reads it: elevations, convex features, bounds and classes.
+// in:    a TRN and, for each cell, the class of its ground
+// out:   everything about the terrain that a contact needs; const during a run
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "terrain/trn.hpp"
+#include "terrain/trn_flags.hpp"
+#include "terrain/trn_pyramid.hpp"
+
+namespace talus {
+
+/// What a contact with one class of ground does.
+struct GroundClass {
+  double friction = 0;     ///< tan(phi), >= 0 [-]
+  double cohesion = 0;     ///< c, acts on bonded area until the bond breaks [Pa]
+  double tension = 0;      ///< tensile strength of the same bond [Pa]
+  double restitution = 0;  ///< coefficient of restitution along the normal, 0 to 1 [-]
+};
+
+struct Ground {
+  Trn trn;
+  std::vector<std::uint8_t> flags;       ///< ground_flags: convex edges and nodes      (n_nodes)
+  TrnPyramid pyramid;                    ///< build_pyramid
+  std::vector<std::uint8_t> cell_class;  ///< index into `classes`; empty: all 0        (n_cells)
+  std::vector<GroundClass> classes;      ///< at least one
+};
+
+/// Flags and pyramid of `trn`, one class for all of it.
+[[nodiscard]] Ground make_ground(Trn trn, const GroundClass& ground_class);
+
+/// Class of a triangle's cell.
+[[nodiscard]] inline int class_of(const Ground& ground, int triangle) {
+  return ground.cell_class.empty() ? 0 : ground.cell_class[static_cast<std::size_t>(triangle / 2)];
+}
+
+}  // namespace talus

@@ -1,0 +1,35 @@
+// libcore/dda/report.hpp
+// What one step reports: its numbers for the health record, and trouble as bits.
+#pragma once
+
+namespace talus {
+
+/// Bits, since several can happen at once. Counted per run in the run record; never hidden.
+enum class StepFlag : unsigned {
+  none = 0,
+  unconverged = 1,  ///< a block's contact forces did not converge at the shortest step
+  not_finite = 2,   ///< NaN or infinity: the block was stopped at its last good state
+  left_domain = 4,  ///< a block left the known terrain and was stopped
+  fell_through = 8,  ///< a block lies wholly below the ground under it
+  deep = 16,        ///< a penetration above a tenth of the block's thickness
+};
+
+[[nodiscard]] inline StepFlag operator|(StepFlag a, StepFlag b) {
+  return static_cast<StepFlag>(static_cast<unsigned>(a) | static_cast<unsigned>(b));
+}
+[[nodiscard]] inline bool has(StepFlag flags, StepFlag flag) {
+  return (static_cast<unsigned>(flags) & static_cast<unsigned>(flag)) != 0;
+}
+
+struct StepReport {
+  StepFlag flags = StepFlag::none;
+  int passes = 0;                  ///< iterations, summed over blocks and substeps
+  int substeps = 0;                ///< block steps with contact search
+  int n_closed = 0;                ///< contacts that press at the end of the step
+  int n_impacts = 0;               ///< impact events
+  int n_unconverged = 0;           ///< block steps accepted without convergence
+  double largest_penetration = 0;  ///< over contacts that press, at the end of the step [m]
+  double shortest_dt = 0;          ///< shortest substep; 0 when no block searched contact [s]
+};
+
+}  // namespace talus

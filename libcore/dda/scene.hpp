@@ -1,0 +1,75 @@
+// libcore/dda/scene.hpp
+// What a run is made of, read once and const afterwards: ground, blocks at rest, loads, settings.
+// in:    plain data; make_scene() in dda/make_scene.hpp fills it from a block set
+// paper: Zhang et al. 2018, Sect. 2; docs/theory.md
+#pragma once
+
+#include <vector>
+
+#include "base/types.hpp"
+#include "contact/ground.hpp"
+#include "contact/pose.hpp"
+#include "contact/shapes.hpp"
+
+namespace talus {
+
+using Vec6 = Eigen::Matrix<double, 6, 1>;
+
+/// `paper`: penalty springs, open-close iteration, fixed step. `talus`: docs/theory.md.
+enum class Law { talus, paper };
+
+/// How a run is computed. The defaults of law talus serve every scene.
+struct Settings {
+  Law law = Law::talus;
+  bool strains = false;         ///< 12 degrees of freedom a block instead of 6
+  double dt = 0.005;            ///< time step, > 0; law talus shortens it where it must [s]
+  double normal_stiffness = 0;  ///< k_n, > 0; 0 lets law talus choose [N/m]
+  double shear_ratio = 1;       ///< k_s / k_n [-]
+  int max_passes = 40;          ///< Newton or open-close iterations before a step is repeated
+  bool static_start = true;     ///< law talus: blocks at rest start in equilibrium with the ground
+  bool flight = true;           ///< law talus: skip the search while nothing can be hit
+  bool sleep = true;            ///< law talus: blocks that stick and stand still are left out
+};
+
+/// A force on a material point of a block, constant in local axes.
+struct PointLoad {
+  int block = 0;
+  Vec3 point = Vec3::Zero();  ///< body axes [m]
+  Vec3 force = Vec3::Zero();  ///< local axes [N]
+};
+
+/// Acceleration of the ground, linear between samples; the scene is computed in the ground's frame.
+struct BaseMotion {
+  std::vector<double> time;        ///< increasing [s]                        (n_samples)
+  std::vector<Vec3> acceleration;  ///< of the ground, local axes [m/s2]      (n_samples)
+};
+
+/// Bodies at rest. Body axes: origin at the centroid, axes along the principal axes of inertia.
+struct Blocks {  // clang-format off
+  std::vector<double> mass;           ///< [kg]                                        (n_blocks)
+  std::vector<double> volume;         ///< [m3]                                        (n_blocks)
+  std::vector<Vec3> inertia;          ///< principal moments of inertia [kg m2]        (n_blocks)
+  std::vector<Vec3> second_moment;    ///< S_xx, S_yy, S_zz, body axes [m5]            (n_blocks)
+  std::vector<double> young;          ///< E [Pa]                                      (n_blocks)
+  std::vector<double> poisson;        ///< nu [-]                                      (n_blocks)
+  std::vector<Pose> rest;             ///< as cut: the attitude turns body to local axes (n_blocks)
+  std::vector<Vec3> velocity;         ///< at the start [m/s]                          (n_blocks)
+  std::vector<Vec3> spin;             ///< at the start, local axes [rad/s]            (n_blocks)
+  std::vector<Vec6> initial_stress;   ///< sx sy sz tyz tzx txy, body axes; may be empty [Pa]
+  Shapes shapes;                      ///< surfaces
+};  // clang-format on
+
+struct Scene {
+  Ground ground;
+  Blocks blocks;
+  Vec3 gravity = Vec3(0, 0, -9.81);  ///< [m/s2]
+  std::vector<PointLoad> loads;      ///< sorted by block
+  BaseMotion base;                   ///< empty: the ground stands still
+  Settings settings;
+};
+
+[[nodiscard]] inline int n_blocks(const Scene& scene) {
+  return static_cast<int>(scene.blocks.mass.size());
+}
+
+}  // namespace talus

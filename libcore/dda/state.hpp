@@ -1,0 +1,67 @@
+// libcore/dda/state.hpp
+// All that must be saved to resume a run, bit for bit: motion of the blocks, contact memory, time.
+// filled by: start() in dda/step.hpp; changed by step() alone
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "contact/contact.hpp"
+#include "contact/pose.hpp"
+#include "dda/scene.hpp"
+
+namespace talus {
+
+/// What a block is doing.
+enum class Phase : std::uint8_t {
+  near_ground,  ///< contact is searched in every step
+  flight,       ///< free until flight_end; its motion below is that at `local_time`
+  asleep,       ///< sticks and stands still
+  left_domain,  ///< left the known terrain: stopped where it left, and counted
+};
+
+/// Motion of one block at its own time.
+struct Motion {
+  Pose pose;                            ///< centroid [m], attitude
+  Vec3 velocity = Vec3::Zero();         ///< of the centroid [m/s]
+  Vec3 angular_momentum = Vec3::Zero();  ///< about the centroid, local axes [kg m2/s]
+};
+
+/// Sums since the start over all blocks, all in joule; what each adds is >= 0 except `numeric`.
+struct EnergyLedger {
+  double friction = 0;  ///< dissipated by sliding
+  double impact = 0;    ///< dissipated by the restitution law
+  double contact = 0;   ///< dissipated or stored by normal contact and strain damping
+  double base = 0;      ///< put in by base motion and point loads
+  double removed = 0;   ///< kinetic energy of blocks stopped at the domain's edge
+};
+
+/// Counts since the start.
+struct RunCounters {
+  std::int64_t steps = 0;             ///< calls of step()
+  std::int64_t substeps = 0;          ///< block steps with contact search
+  std::int64_t flight_skips = 0;      ///< block steps skipped in flight
+  std::int64_t impacts = 0;           ///< impact events
+  std::int64_t passes = 0;            ///< Newton or open-close iterations
+  std::int64_t unconverged = 0;       ///< block steps accepted without convergence
+  std::int64_t cut_back = 0;          ///< block steps repeated with a shorter one
+  int left_domain = 0;                ///< blocks that left the known terrain
+};
+
+struct State {  // clang-format off
+  double time = 0;                          ///< end of the last step [s]
+  std::vector<Motion> motion;               ///<                                     (n_blocks)
+  std::vector<double> local_time;           ///< time of `motion`; lags in flight [s] (n_blocks)
+  std::vector<double> flight_end;           ///< nothing can be hit before [s]       (n_blocks)
+  std::vector<Phase> phase;                 ///<                                     (n_blocks)
+  std::vector<Vec3> acceleration;           ///< of the last step, by contact too [m/s2]  (n_blocks)
+  std::vector<Vec3> spin_rate;              ///< angular acceleration, body axes [rad/s2] (n_blocks)
+  std::vector<int> still_steps;             ///< steps in a row at rest              (n_blocks)
+  std::vector<Vec6> strain;                 ///< body axes; empty for rigid blocks [-]    (n_blocks)
+  std::vector<Vec6> strain_rate;            ///< body axes; empty for rigid blocks [1/s]  (n_blocks)
+  std::vector<std::vector<ContactMemory>> memory;  ///< contacts of block b          (n_blocks)
+  EnergyLedger ledger;
+  RunCounters counters;
+};  // clang-format on
+
+}  // namespace talus

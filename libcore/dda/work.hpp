@@ -1,0 +1,59 @@
+// libcore/dda/work.hpp
+// What a step recomputes and may be thrown away; the comment above a group names what fills it.
+// Buffers grow to the largest step and are kept: the step loop does not allocate.
+#pragma once
+
+#include <vector>
+
+#include "contact/contact.hpp"
+#include "dda/state.hpp"
+
+namespace talus {
+
+/// A piece of a block's motion with constant acceleration of the centroid, from one event to the
+/// next: position(t) = start + v_start (t - t_start) + a (t - t_start)^2 / 2. A flight is one piece.
+struct Segment {
+  int block = 0;
+  bool flight = false;               ///< nothing was touched
+  double t_start = 0, t_end = 0;     ///< [s]
+  Motion start, end;                 ///< motion just after t_start and just before t_end
+  Vec3 acceleration = Vec3::Zero();  ///< of the centroid, constant over the segment [m/s2]
+};
+
+/// A contact made ready for the contact law; velocities are those of block A's point relative to B's.
+struct ContactRow {
+  Vec3 normal;               ///< body axes of A, unit
+  Vec3 point;                ///< contact point, body axes of A [m]
+  Vec3 shear;                ///< s_n, body axes [m]
+  Vec3 slip_start;           ///< unit direction of sliding at the start of the step, or zero
+  double bias = 0;           ///< b_n: N > 0 needs v_n + b_n < 0 [m/s]
+  double normal_damping = 0;  ///< impulse per velocity below -b_n [kg/s s = kg]
+  double shear_damping = 0;   ///< impulse per tangential velocity while sticking [kg]
+  double shear_time = 0;      ///< tau_t: stick velocity that relaxes s_n is -s_n / tau_t [s]
+  double friction = 0;        ///< tan(phi) [-]
+  double cohesion_impulse = 0;  ///< c A_c h [N s]
+  double tension_impulse = 0;   ///< t A_c h [N s]
+  double speed_start = 0;     ///< normal velocity at the start of the step [m/s]
+  double gap_start = 0;       ///< gap + offset at the start of the step [m]
+  double offset = 0;          ///< see ContactMemory [m]
+  double bond_area = 0;       ///< [m2]
+  int contact = 0;            ///< index into Work::contacts
+  int memory = -1;            ///< index into the block's memory, -1: new
+  bool waits_for_impact = false;  ///< approaches too fast for the step: presses nothing until hit
+  // set by the contact law
+  Vec3 impulse;               ///< on A, body axes [N s]
+  ContactState state = ContactState::open;
+};
+
+struct Work {  // clang-format off
+  // find_contacts: candidates of the block at hand
+  std::vector<Vec3> world_vertices;          ///< at the predicted pose [m]
+  std::vector<Contact> contacts;             ///<
+  // make_rows, solve_contacts
+  std::vector<ContactRow> rows;              ///< of the block at hand
+  std::vector<ContactMemory> memory_next;    ///< becomes the block's memory
+  // advance_block: the motion of this step, block by block, in order of time
+  std::vector<Segment> segments;
+};  // clang-format on
+
+}  // namespace talus
