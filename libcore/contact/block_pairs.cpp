@@ -172,31 +172,31 @@ double pair_margin(const Search& s, int a, int b) {
   return s.settings.margin + turn + (s.motion.step[a] - s.motion.step[b]).norm();
 }
 
-// Searches the axis of a pair at the present poses.
-void search_axis(const Search& s, const PairWatch& watch, double margin, ListedPair& pair) {
+// Searches axis and features of a pair.
+void search_all(const Search& s, const PairWatch& watch, double margin, ListedPair& pair) {
   ++s.report.n_searched;
-  const AxisChoice choice =
-      find_axis(s.hulls, s.placed, watch.part_a, watch.part_b, margin, pair.axis, s.work.axis);
-  pair.axis = choice.axis;
-  pair.other_face = choice.other_face;
-  pair.hold = choice.axis.kind == AxisKind::none ? std::max(0.0, choice.separation) : choice.hold;
+  pair.held_begin = static_cast<int>(s.work.next_held.size());
+  const ContactSearch found =
+      search_contact(s.hulls, s.placed, watch.part_a, watch.part_b, margin, pair.axis,
+                     s.settings.with_areas, s.work.axis, s.work.clip, s.work.next_held);
+  pair.held_end = static_cast<int>(s.work.next_held.size());
+  pair.axis = found.choice.axis;
+  pair.incident = found.incident;
+  pair.area = found.area;
+  pair.other_face = found.choice.other_face;
+  pair.hold =
+      pair.axis.kind == AxisKind::none ? std::max(0.0, found.choice.separation) : found.choice.hold;
 }
 
-// Searches the features of a pair that touches along a known axis.
-void search_features(const Search& s, const PairWatch& watch, ListedPair& pair) {
+// Searches the features of a pair that touches along a known axis; false when none meet.
+bool search_features(const Search& s, const PairWatch& watch, ListedPair& pair) {
   ++s.report.n_clipped;
-  const int begin = static_cast<int>(s.work.next_held.size());
-  if (pair.axis.kind != AxisKind::edges) {
-    const bool of_a = pair.axis.kind == AxisKind::face_a;
-    const int slot = of_a ? s.hulls.face_begin[watch.part_a] + pair.axis.feature_a
-                          : s.hulls.face_begin[watch.part_b] + pair.axis.feature_b;
-    pair.incident = incident_face(s.hulls, s.placed, of_a ? watch.part_b : watch.part_a,
-                                  normal_at(s.placed, slot));
-  }
+  pair.held_begin = static_cast<int>(s.work.next_held.size());
+  pair.incident = incident_of(s.hulls, s.placed, watch.part_a, watch.part_b, pair.axis);
   pair.area = find_features(s.hulls, s.placed, watch.part_a, watch.part_b, pair.axis, pair.incident,
                             s.settings.with_areas, s.work.clip, s.work.next_held);
-  pair.held_begin = begin;
   pair.held_end = static_cast<int>(s.work.next_held.size());
+  return pair.held_end > pair.held_begin;
 }
 
 void keep_features(const Search& s, ListedPair& pair) {
@@ -219,6 +219,27 @@ void add_contacts(const Search& s, const PairWatch& watch, double moved, double 
     s.work.shallow.push_back(static_cast<int>(s.work.manifolds.size()) - 1);
 }
 
+// Brings axis and features of a pair up to date; returns the motion since its features were found.
+double refresh(const Search& s, const PairWatch& watch, double moved, const Vec3& between,
+               double turned, double margin, ListedPair& pair) {
+  const double thickness =
+      std::min(s.hulls.thickness[watch.part_a], s.hulls.thickness[watch.part_b]);
+  const bool known = s.settings.use_cache && pair.axis.kind != AxisKind::none && moved <= pair.hold;
+  if (known && moved <= features_hold_ratio * thickness) {
+    keep_features(s, pair);
+    return moved;
+  }
+  if (known && search_features(s, watch, pair)) {
+    pair.hold -= moved;
+    pair.other_face += moved;
+  } else {
+    search_all(s, watch, margin, pair);
+  }
+  pair.between = between;
+  pair.turned = turned;
+  return 0;
+}
+
 // Looks at one listed pair: sets when to look next, and adds its contacts.
 void look_at(const Search& s, PairWatch& watch, ListedPair& pair) {
   const int a = s.hulls.body[watch.part_a], b = s.hulls.body[watch.part_b];
@@ -227,43 +248,16 @@ void look_at(const Search& s, PairWatch& watch, ListedPair& pair) {
   const double turned = s.placed.turned[a] + s.placed.turned[b];
   const double margin = pair_margin(s, a, b);
   double moved = (between - pair.between).norm() + turned - pair.turned;
-
-  const bool known = s.settings.use_cache && pair.hold >= 0;
-  const bool touches = pair.axis.kind != AxisKind::none;
-  if (known && !touches && pair.hold - moved > margin) {
+  const bool stays_apart =
+      s.settings.use_cache && pair.axis.kind == AxisKind::none && pair.hold - moved > margin;
+  if (!stays_apart) moved = refresh(s, watch, moved, between, turned, margin, pair);
+  if (pair.axis.kind == AxisKind::none) {
     watch.wake = s.state.travel[a] + s.state.travel[b] + pair.hold - moved;
     return;
   }
-  Vec3 normal = Vec3::Zero();
-  if (known && touches && moved <= pair.hold)
-    normal = axis_normal(s.hulls, s.placed, watch.part_a, watch.part_b, pair.axis);
-  const bool search = normal.isZero(0);
-  if (search) {
-    search_axis(s, watch, margin, pair);
-    if (pair.axis.kind != AxisKind::none)
-      normal = axis_normal(s.hulls, s.placed, watch.part_a, watch.part_b, pair.axis);
-  }
-  const double thickness =
-      std::min(s.hulls.thickness[watch.part_a], s.hulls.thickness[watch.part_b]);
-  if (search || moved > features_hold_ratio * thickness) {
-    if (!search) {
-      pair.hold -= moved;
-      pair.other_face += moved;
-    }
-    pair.between = between;
-    pair.turned = turned;
-    moved = 0;
-    pair.held_begin = pair.held_end = 0;
-    if (pair.axis.kind == AxisKind::none) {
-      watch.wake = s.state.travel[a] + s.state.travel[b] + pair.hold;
-      return;
-    }
-    search_features(s, watch, pair);
-  } else {
-    keep_features(s, pair);
-  }
   watch.wake = look_now;
-  add_contacts(s, watch, moved, margin, normal, pair);
+  const Vec3 normal = axis_normal(s.hulls, s.placed, watch.part_a, watch.part_b, pair.axis);
+  if (!normal.isZero(0)) add_contacts(s, watch, moved, margin, normal, pair);
 }
 
 void look_at_pairs(const Search& s) {

@@ -3,11 +3,13 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace talus {
 namespace {
 
 constexpr double on_side_ratio = 1e-6;  // of the thickness: nearer than this lies on a side
+constexpr double depth_ratio = 0.1;     // a face may miss this part of the depth of edges
 
 // The face that clips (reference) and the face that is clipped (incident), and who they belong to.
 struct FacePair {
@@ -321,6 +323,54 @@ double find_features(const Hulls& hulls, const PlacedHulls& placed, int part_a, 
   const std::size_t begin = held.size();
   for (const ClipCorner& corner : scratch.polygon) held.push_back({key_of(hulls, pair, corner), 0});
   return with_areas ? share_area(scratch.polygon, held.data() + begin) : 0;
+}
+
+double deepest_gap(const Hulls& hulls, const PlacedHulls& placed, int part_a, int part_b,
+                   const PairAxis& axis, int incident, std::span<const HeldPoint> held) {
+  const FaceContacts face =
+      face_contacts(hulls, placed, face_pair(hulls, part_a, part_b, axis, incident));
+  double deepest = std::numeric_limits<double>::infinity();
+  for (const HeldPoint& h : held) deepest = std::min(deepest, contact_at(face, h.key).height);
+  return deepest;
+}
+
+ContactSearch search_contact(const Hulls& hulls, const PlacedHulls& placed, int part_a, int part_b,
+                             double margin, const PairAxis& last, bool with_areas,
+                             AxisScratch& axis_scratch, ClipScratch& clip_scratch,
+                             std::vector<HeldPoint>& held) {
+  ContactSearch found;
+  AxisChoice& choice = found.choice;
+  choice = find_axis(hulls, placed, part_a, part_b, margin, last, axis_scratch);
+  if (choice.axis.kind == AxisKind::none) return found;
+  const std::size_t begin = held.size();
+  found.incident = incident_of(hulls, placed, part_a, part_b, choice.axis);
+  found.area = find_features(hulls, placed, part_a, part_b, choice.axis, found.incident, with_areas,
+                             clip_scratch, held);
+  if (choice.better_edges.kind == AxisKind::none) return found;
+  const double deep_enough =
+      choice.edge_separation + depth_ratio * std::abs(choice.edge_separation);
+  if (deepest_gap(hulls, placed, part_a, part_b, choice.axis, found.incident,
+                  std::span(held).subspan(begin)) <= deep_enough)
+    return found;
+  held.resize(begin);
+  choice.axis = choice.better_edges;
+  choice.normal = axis_normal(hulls, placed, part_a, part_b, choice.axis);
+  choice.separation = choice.edge_separation;
+  choice.hold = 0;
+  found.area =
+      find_features(hulls, placed, part_a, part_b, choice.axis, -1, with_areas, clip_scratch, held);
+  return found;
+}
+
+int incident_of(const Hulls& hulls, const PlacedHulls& placed, int part_a, int part_b,
+                const PairAxis& axis) {
+  if (axis.kind == AxisKind::face_a)
+    return incident_face(hulls, placed, part_b,
+                         normal_at(placed, hulls.face_begin[part_a] + axis.feature_a));
+  if (axis.kind == AxisKind::face_b)
+    return incident_face(hulls, placed, part_a,
+                         normal_at(placed, hulls.face_begin[part_b] + axis.feature_b));
+  return -1;
 }
 
 bool add_manifold(const Hulls& hulls, const PlacedHulls& placed, int part_a, int part_b,

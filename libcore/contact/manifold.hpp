@@ -57,6 +57,10 @@ struct ClipScratch {
   std::vector<Vec2> reference;  ///< corners of the reference face in its frame [m]
 };
 
+/// incident_face of the face that names a face axis; -1 for edges.
+[[nodiscard]] int incident_of(const Hulls& hulls, const PlacedHulls& placed, int part_a, int part_b,
+                              const PairAxis& axis);
+
 /// Which features of two parts meet along `axis`; appends to `held`.
 ///
 /// A face axis clips the incident face by the sides of the reference face: its corners inside are
@@ -67,6 +71,27 @@ struct ClipScratch {
 double find_features(const Hulls& hulls, const PlacedHulls& placed, int part_a, int part_b,
                      const PairAxis& axis, int incident, bool with_areas, ClipScratch& scratch,
                      std::vector<HeldPoint>& held);
+
+/// Smallest gap over the features `held` of a face axis [m]; infinity without any.
+[[nodiscard]] double deepest_gap(const Hulls& hulls, const PlacedHulls& placed, int part_a,
+                                 int part_b, const PairAxis& axis, int incident,
+                                 std::span<const HeldPoint> held);
+
+/// What search_contact finds.
+struct ContactSearch {
+  AxisChoice choice;  ///< axis kind none: no contact
+  int incident = -1;  ///< incident_face of a face axis
+  double area = 0;    ///< of the clipped polygon [m2]
+};
+
+/// find_axis, then find_features, which are appended to `held`. Where find_axis passed over a pair
+/// of edges for a face in nearly the same direction, but that face meets nothing as deep, the edges
+/// are used after all, for one step.
+[[nodiscard]] ContactSearch search_contact(const Hulls& hulls, const PlacedHulls& placed,
+                                           int part_a, int part_b, double margin,
+                                           const PairAxis& last, bool with_areas,
+                                           AxisScratch& axis_scratch, ClipScratch& clip_scratch,
+                                           std::vector<HeldPoint>& held);
 
 /// Appends the manifold of two parts along `axis` and those of its points `held` whose gap is at
 /// most `margin` [m], at the places where they are now. Nothing, and false, when there are none.

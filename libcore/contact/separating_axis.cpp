@@ -223,6 +223,10 @@ AxisChoice face_choice(const Parts& parts, const AxisScratch& scratch, const Fac
   choice.hold = std::min(face.separation + keep_bonus(face, thickness) - choice.other_face,
                          best_separation + edge_bar - edges.separation) /
                 2;
+  if (edges.separation > choice.separation) {
+    choice.better_edges = {AxisKind::edges, edges.a, edges.b};
+    choice.edge_separation = edges.separation;
+  }
   return choice;
 }
 

@@ -38,6 +38,8 @@ struct AxisChoice {
   double separation = 0;       ///< along `normal`; the largest found when kind is none [m]
   double other_face = 0;       ///< largest along face normals that are other directions [m]
   double hold = 0;             ///< relative motion within which the same axis stays chosen [m]
+  PairAxis better_edges;       ///< the edges passed over for a face that is a little worse
+  double edge_separation = 0;  ///< along them [m]
 };
 
 /// Arrays that find_axis fills anew; kept to spare allocation.
