@@ -79,7 +79,7 @@ double find_features(const Hulls& hulls, const PlacedHulls& placed, int part_a, 
 
 /// What search_contact finds.
 struct ContactSearch {
-  AxisChoice choice;  ///< axis kind none: no contact
+  AxisChoice choice;
   int incident = -1;  ///< incident_face of a face axis
   double area = 0;    ///< of the clipped polygon [m2]
 };
