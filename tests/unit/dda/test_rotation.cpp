@@ -95,6 +95,13 @@ TEST(FreeRotation, EqualMomentsTurnExactly) {
   EXPECT_LT(q.angularDistance(truth), 1e-14);
 }
 
+TEST(FreeRotation, TwoEqualMomentsTurnExactly) {
+  const Vec3 I(1, 3, 3), omega(4, 1, -2);
+  const Vec3 L = I.cwiseProduct(omega);
+  const Quat q = talus::free_rotation(Quat::Identity(), L, I, 5);
+  EXPECT_LT(degrees(q.angularDistance(reference_attitude(I, omega, 5, 200000))), 1e-8);
+}
+
 // Theory 1.9: the linear update multiplies areas by 1 + |r|^2 a step; the exponential does not.
 TEST(RotationBy, IsARotationForAnyAngle) {
   for (const double angle : {0.0, 1e-9, 1e-5, 1e-4, 1e-3, 0.1, 1.0, 3.0, 20.0}) {

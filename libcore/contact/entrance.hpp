@@ -1,0 +1,51 @@
+// libcore/contact/entrance.hpp
+// Exact local entrance tests: whether two convex features can be the ones through which two bodies
+// first touch, that is, whether they give a face of the entrance block (Minkowski difference).
+// theory 2.2; paper: Sect. 3, "Identification of the entrance plane"
+#pragma once
+
+#include <Eigen/Geometry>
+#include <span>
+
+#include "base/types.hpp"
+
+namespace talus {
+
+/// V-F: a vertex enters through a face with outward normal `normal` when none of the vertex's
+/// neighbours lies behind the plane through it; `tolerance` is a length [m].
+[[nodiscard]] inline bool vertex_may_enter(const Vec3& vertex, std::span<const Vec3> neighbours,
+                                           const Vec3& normal, double tolerance) {
+  for (const Vec3& neighbour : neighbours)
+    if ((neighbour - vertex).dot(normal) < -tolerance) return false;
+  return true;
+}
+
+/// E-E: edges of A and B, each between two faces with outward normals a1, a2 and b1, b2. True when
+/// the arc a1-a2 crosses the arc of the negatives of b1, b2 on the sphere of normals. Flat edges
+/// have no arc, concave ones a reversed one: leave both out.
+[[nodiscard]] inline bool edges_may_touch(const Vec3& a1, const Vec3& a2, const Vec3& b1,
+                                          const Vec3& b2) {
+  const Vec3 c = -b1, d = -b2;
+  const Vec3 b_cross_a = a2.cross(a1), d_cross_c = d.cross(c);
+  const double c_side = c.dot(b_cross_a), d_side = d.dot(b_cross_a);
+  const double a_side = a1.dot(d_cross_c), b_side = a2.dot(d_cross_c);
+  return c_side * d_side < 0 && a_side * b_side < 0 && c_side * b_side > 0;
+}
+
+/// The points of two lines that are nearest to each other: p + s e, q + t f.
+struct LinePair {
+  double s = 0, t = 0;
+  bool parallel = false;  ///< |e x f| below sin(1 degree) |e| |f|: s and t mean nothing
+};
+[[nodiscard]] inline LinePair nearest_on_lines(const Vec3& p, const Vec3& e, const Vec3& q,
+                                               const Vec3& f) {
+  const double ee = e.squaredNorm(), ff = f.squaredNorm(), ef = e.dot(f);
+  const double cross_sq = ee * ff - ef * ef;
+  constexpr double sin_sq = 3.046e-4;  // of 1 degree
+  if (!(cross_sq > sin_sq * ee * ff)) return {0, 0, true};
+  const Vec3 d = q - p;
+  const double de = d.dot(e), df = d.dot(f);
+  return {(de * ff - df * ef) / cross_sq, (de * ef - df * ee) / cross_sq, false};
+}
+
+}  // namespace talus

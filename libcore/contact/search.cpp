@@ -1,0 +1,225 @@
+#include "contact/search.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "contact/entrance.hpp"
+
+namespace talus {
+namespace {
+
+using std::size_t;
+
+/// A triangle, and across which of its edges the next one lies.
+struct Neighbour {
+  int d_row, d_col, odd;     // cell offset and which triangle of that cell
+  int corner_row, corner_col;  // corner of the own triangle opposite to the shared edge
+};
+// Lower left: west, south, diagonal. Upper right: north, east, diagonal.
+constexpr Neighbour neighbours[2][3] = {{{0, -1, 1, 1, 1}, {1, 0, 1, 0, 0}, {0, 0, 1, 1, 0}},
+                                        {{-1, 0, 0, 1, 1}, {0, 1, 0, 0, 0}, {0, 0, 0, 0, 1}}};
+
+void add_plane(const TrianglePlane& plane, const Ground& ground, int triangle, int b, int v,
+               const Vec3& X, const Vec3& x, double gap, std::vector<Contact>& contacts) {
+  Contact contact;
+  contact.key = {ContactMode::vertex_face, -1, v, -1};
+  contact.block_a = b;
+  contact.ground_class = class_of(ground, triangle);
+  contact.normal = plane.normal;
+  contact.point_a = X;
+  contact.point_b = x - gap * plane.normal;
+  contact.gap = gap;
+  contacts.push_back(contact);
+}
+
+// The planes on the other side of valley lines near the vertex. There the ground is the higher of
+// the two planes, so both half-spaces hold; at a ridge or a flat edge only the own plane does.
+void add_valley_planes(const Ground& ground, const GridPoint& at, const TrianglePlane& own, int b,
+                       int v, const Vec3& X, const Vec3& x, double margin,
+                       std::vector<Contact>& contacts) {
+  const Trn& trn = ground.trn;
+  const bool odd = at.south < at.east;
+  const double near_cells = 4 * margin / trn.cell_size;
+  const double distance[2][3] = {{at.east, 1 - at.south, (at.south - at.east) * 0.7071},
+                                 {at.south, 1 - at.east, (at.east - at.south) * 0.7071}};
+  for (int k = 0; k < 3; ++k) {
+    if (distance[odd][k] > near_cells) continue;
+    const Neighbour& n = neighbours[odd][k];
+    const Cell cell{at.cell.row + n.d_row, at.cell.col + n.d_col};
+    if (cell.row < 0 || cell.col < 0 || cell.row > trn.n_rows - 2 || cell.col > trn.n_cols - 2)
+      continue;
+    const int triangle = first_triangle(trn, cell) + n.odd;
+    const TrianglePlane plane = triangle_plane(trn, triangle);
+    const Vec3 corner = node_point(trn, at.cell.row + n.corner_row, at.cell.col + n.corner_col);
+    const double above = plane.normal.dot(corner - plane.point);
+    if (!(above > 1e-9 * trn.cell_size)) continue;  // flat or a ridge
+    if (own.normal.dot(plane.normal) > 1 - 1e-12) continue;
+    const double gap = plane.normal.dot(x - plane.point);
+    if (gap < margin) add_plane(plane, ground, triangle, b, v, X, x, gap, contacts);
+  }
+}
+
+void find_mode_1(const Ground& ground, const Shapes& shapes, int b, double highest, double margin,
+                 const std::vector<Vec3>& vertices, std::vector<Contact>& contacts) {
+  const std::span<const Vec3> body = vertices_of(shapes, b);
+  const Trn& trn = ground.trn;
+  for (size_t v = 0; v < vertices.size(); ++v) {
+    const Vec3& x = vertices[v];
+    if (x.z() > highest + margin || !contains(trn, x.x(), x.y())) continue;
+    const GridPoint at = locate(trn, x.x(), x.y());
+    const int triangle = triangle_of(trn, at);
+    const TrianglePlane plane = triangle_plane(trn, triangle);
+    const double gap = plane.normal.dot(x - plane.point);
+    if (!(gap < margin)) continue;  // also when the triangle is not ground
+    const int id = static_cast<int>(v);
+    add_plane(plane, ground, triangle, b, id, body[v], x, gap, contacts);
+    add_valley_planes(ground, at, plane, b, id, body[v], x, margin, contacts);
+  }
+}
+
+/// Candidate cells and the block in its own axes, for modes 2 and 3.
+struct FeatureSearch {
+  const Ground& ground;
+  const Shapes& shapes;
+  int b;
+  const Pose& pose;
+  double margin;
+  Mat3 to_local;  // body to local axes
+
+  [[nodiscard]] Vec3 to_body(const Vec3& x) const {
+    return to_local.transpose() * (x - pose.position);
+  }
+};
+
+// The six neighbours of an inner node of the network.
+std::array<Vec3, 6> node_ring(const Trn& trn, int row, int col) {
+  return {node_point(trn, row, col + 1),     node_point(trn, row - 1, col),
+          node_point(trn, row - 1, col - 1), node_point(trn, row, col - 1),
+          node_point(trn, row + 1, col),     node_point(trn, row + 1, col + 1)};
+}
+
+void find_mode_2(const FeatureSearch& s, int row, int col, std::vector<Contact>& contacts) {
+  const Trn& trn = s.ground.trn;
+  const Vec3 node = node_point(trn, row, col);
+  const Vec3 X = s.to_body(node);
+  const double radius = s.shapes.radius[static_cast<size_t>(s.b)] + s.margin;
+  if (X.squaredNorm() > radius * radius) return;
+  for (int p = s.shapes.part_begin[static_cast<size_t>(s.b)];
+       p < s.shapes.part_begin[static_cast<size_t>(s.b) + 1]; ++p) {
+    int nearest = -1;
+    double gap = -2 * radius;
+    for (int f = s.shapes.face_begin[static_cast<size_t>(p)];
+         f < s.shapes.face_begin[static_cast<size_t>(p) + 1]; ++f) {
+      const ShapeFace& face = s.shapes.faces[static_cast<size_t>(f)];
+      const double d = face.normal.dot(X) - face.offset;
+      if (d > gap) gap = d, nearest = f;
+    }
+    if (nearest < 0 || gap > s.margin) continue;
+    const Vec3 outward = s.to_local * s.shapes.faces[static_cast<size_t>(nearest)].normal;
+    if (!vertex_may_enter(node, node_ring(trn, row, col), outward, 1e-12 * trn.cell_size)) continue;
+    Contact contact;
+    contact.key = {ContactMode::face_vertex, -1, nearest, static_cast<int>(node_index(trn, row, col))};
+    contact.block_a = s.b;
+    contact.ground_class =
+        class_of(s.ground, first_triangle(trn, {std::min(row, trn.n_rows - 2),
+                                                std::min(col, trn.n_cols - 2)}));
+    contact.normal = -outward;
+    contact.gap = gap;
+    contact.point_a = X - gap * s.shapes.faces[static_cast<size_t>(nearest)].normal;
+    contact.point_b = node;
+    contacts.push_back(contact);
+  }
+}
+
+void find_mode_3(const FeatureSearch& s, int row, int col, EdgeKind kind,
+                 std::vector<Contact>& contacts) {
+  const Trn& trn = s.ground.trn;
+  const TrnEdge edge = trn_edge(trn, row, col, kind);
+  const Vec3 end_a = node_point(trn, edge.a.row, edge.a.col);
+  const Vec3 end_b = node_point(trn, edge.b.row, edge.b.col);
+  const Vec3 Q = s.to_body(end_a);
+  const Vec3 f = s.to_local.transpose() * (end_b - end_a);
+  const double radius = s.shapes.radius[static_cast<size_t>(s.b)] + s.margin;
+  const double nearest = std::clamp(-Q.dot(f) / f.squaredNorm(), 0.0, 1.0);
+  if ((Q + nearest * f).squaredNorm() > radius * radius) return;
+  const Vec3 left = s.to_local.transpose() * triangle_plane(trn, edge.left).normal;
+  const Vec3 right = s.to_local.transpose() * triangle_plane(trn, edge.right).normal;
+  const double deepest = s.shapes.thickness[static_cast<size_t>(s.b)] / 2;
+  const std::span<const Vec3> body = vertices_of(s.shapes, s.b);
+  const std::span<const ShapeEdge> edges = edges_of(s.shapes, s.b);
+  for (size_t i = 0; i < edges.size(); ++i) {
+    if (!edges_may_touch(edges[i].normal_left, edges[i].normal_right, left, right)) continue;
+    const Vec3& P = body[static_cast<size_t>(edges[i].a)];
+    const Vec3 e = body[static_cast<size_t>(edges[i].b)] - P;
+    const LinePair at = nearest_on_lines(P, e, Q, f);
+    if (at.parallel || at.s < 0 || at.s > 1 || at.t < 0 || at.t > 1) continue;
+    Vec3 normal = e.cross(f).normalized();
+    if (normal.dot(left + right) < 0) normal = -normal;
+    const Vec3 a = P + at.s * e;
+    const double gap = normal.dot(a - (Q + at.t * f));
+    if (gap > s.margin || gap < -deepest) continue;
+    Contact contact;
+    contact.key = {ContactMode::edge_edge, -1, static_cast<int>(i),
+                   4 * static_cast<int>(node_index(trn, row, col)) + static_cast<int>(kind)};
+    contact.block_a = s.b;
+    contact.ground_class = class_of(s.ground, edge.left);
+    contact.normal = s.to_local * normal;
+    contact.gap = gap;
+    contact.point_a = a;
+    contact.point_b = end_a + at.t * (end_b - end_a);
+    contacts.push_back(contact);
+  }
+}
+
+// Modes 2 and 3 at the nodes of the candidate cells; nearly all flags are 0.
+void find_features(const FeatureSearch& s, const CellRange& cells, std::vector<Contact>& contacts) {
+  const Trn& trn = s.ground.trn;
+  for (int row = cells.row_first; row <= cells.row_last + 1; ++row) {
+    const std::uint8_t* flags = s.ground.flags.data() + node_index(trn, row, 0);
+    for (int col = cells.col_first; col <= cells.col_last + 1; ++col) {
+      const std::uint8_t flag = flags[col];
+      if (flag == 0) continue;
+      if (flag & trn_flag::convex_vertex) find_mode_2(s, row, col, contacts);
+      if (flag & trn_flag::convex_east) find_mode_3(s, row, col, EdgeKind::east, contacts);
+      if (flag & trn_flag::convex_south) find_mode_3(s, row, col, EdgeKind::south, contacts);
+      if (flag & trn_flag::convex_diagonal) find_mode_3(s, row, col, EdgeKind::diagonal, contacts);
+    }
+  }
+}
+
+}  // namespace
+
+SearchResult find_contacts(const Ground& ground, const Shapes& shapes, int b, const Pose& pose,
+                           const Mat3& stretch, double margin, std::vector<Vec3>& vertices,
+                           std::vector<Contact>& contacts) {
+  contacts.clear();
+  vertices.clear();
+  const Mat3 R = pose.attitude.toRotationMatrix();
+  const Mat3 F = R * stretch;
+  Vec3 low = pose.position, high = pose.position;
+  for (const Vec3& X : vertices_of(shapes, b)) {
+    const Vec3 x = pose.position + F * X;
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+    vertices.push_back(x);
+  }
+  const NearCells near = find_near_cells(ground.trn, ground.pyramid, low, high, margin);
+  if (near.reach == Reach::above) return {near.reach, low.z() - near.ground.high};
+  if (near.reach == Reach::off_ground) return {near.reach, 0};
+  find_mode_1(ground, shapes, b, near.ground.high, margin, vertices, contacts);
+  find_features({ground, shapes, b, pose, margin, R}, near.cells, contacts);
+  return {near.reach, 0};
+}
+
+double depth_below_ground(const Ground& ground, const Shapes& shapes, int b, const Pose& pose) {
+  std::vector<Vec3> vertices;
+  std::vector<Contact> contacts;
+  (void)find_contacts(ground, shapes, b, pose, Mat3::Identity(), 0, vertices, contacts);
+  double depth = 0;
+  for (const Contact& contact : contacts)
+    if (contact.key.mode != ContactMode::edge_edge) depth = std::max(depth, -contact.gap);
+  return depth;
+}
+
+}  // namespace talus

@@ -1,0 +1,86 @@
+#include "dda/impact.hpp"
+
+#include <algorithm>
+
+#include "contact/search.hpp"
+#include "dda/newton.hpp"
+#include "dda/rotation.hpp"
+
+namespace talus {
+namespace {
+
+// Contacts are stiff dampers during an impact: the velocity condition holds to this part of it.
+constexpr double stiffness_ratio = 1e7;
+
+void make_impact_rows(const Scene& scene, int b, double resting_speed, const Mat3& to_body,
+                      const Vec6& velocity, Work& work) {
+  const double mass = scene.blocks.mass[static_cast<std::size_t>(b)];
+  const Vec3& inertia = scene.blocks.inertia[static_cast<std::size_t>(b)];
+  work.rows.clear();
+  for (std::size_t i = 0; i < work.contacts.size(); ++i) {
+    const Contact& contact = work.contacts[i];
+    const GroundClass& ground =
+        scene.ground.classes[static_cast<std::size_t>(contact.ground_class)];
+    ContactRow row;
+    row.contact = static_cast<int>(i);
+    row.normal = to_body * contact.normal;
+    row.point = contact.point_a;
+    row.shear.setZero();
+    row.shear_time = 1;
+    const Vec3 w = point_velocity<6>(velocity, row.point);
+    row.speed_start = row.normal.dot(w);
+    const Vec3 tangent = w - row.speed_start * row.normal;
+    const double slip_speed = tangent.norm();
+    row.slip_start = slip_speed > 0 ? Vec3(tangent / slip_speed) : Vec3(Vec3::Zero());
+    row.bias = row.speed_start < -resting_speed ? ground.restitution * row.speed_start : 0.0;
+    const Mobility W = mobility(mass, inertia, row.point, row.normal);
+    row.normal_damping = stiffness_ratio / W.normal;
+    row.shear_damping = stiffness_ratio / W.tangent;
+    row.friction = ground.friction;
+    work.rows.push_back(row);
+  }
+}
+
+double kinetic_energy(const BlockSystem<6>& system, const Vec6& velocity) {
+  return 0.5 * velocity.dot(system.mass * velocity);
+}
+
+}  // namespace
+
+ImpactResult apply_impact(const Scene& scene, int b, double touch, double resting_speed,
+                          Motion& motion, Work& work) {
+  const auto i = static_cast<std::size_t>(b);
+  ImpactResult result;
+  (void)find_contacts(scene.ground, scene.blocks.shapes, b, motion.pose, Mat3::Identity(), touch,
+                      work.world_vertices, work.contacts);
+  const Mat3 R = motion.pose.attitude.toRotationMatrix();
+  const Vec3& inertia = scene.blocks.inertia[i];
+  Vec6 before;
+  before << R.transpose() * motion.velocity,
+      (R.transpose() * motion.angular_momentum).cwiseQuotient(inertia);
+  make_impact_rows(scene, b, resting_speed, R.transpose(), before, work);
+  for (const ContactRow& row : work.rows) result.hit |= row.speed_start < -resting_speed;
+  if (!result.hit) return result;
+
+  BlockSystem<6> system;
+  system.mass.setZero();
+  system.mass.diagonal() << Vec3::Constant(scene.blocks.mass[i]), inertia;
+  system.free_velocity = before;
+  system.tolerance = 1e-8 * (before.head<3>().norm() +
+                             before.tail<3>().norm() * scene.blocks.shapes.radius[i]);
+  const double energy = kinetic_energy(system, before);
+  for (int pass = 0; pass < 12; ++pass) {
+    system.velocity = before;
+    const NewtonResult newton = solve_contacts(system, std::span(work.rows), 120);
+    result.converged = newton.converged;
+    result.passes += newton.passes;
+    result.dissipated = energy - kinetic_energy(system, system.velocity);
+    if (result.dissipated >= -1e-7 * energy) break;
+    for (ContactRow& row : work.rows) row.bias *= pass < 10 ? 0.7 : 0.0;
+  }
+  motion.velocity = R * system.velocity.head<3>();
+  motion.angular_momentum = R * system.velocity.tail<3>().cwiseProduct(inertia).eval();
+  return result;
+}
+
+}  // namespace talus

@@ -1,0 +1,28 @@
+// libcore/dda/impact.hpp
+// Impact of one block on the ground: a change of velocity at one instant, for all touching contacts
+// together: v_n+ >= -e v_n-, p_n >= 0, complementary; Coulomb friction on the impulses.
+// theory 1.12 (Newton's law at velocity level); replaces Eq. (28)
+#pragma once
+
+#include <span>
+
+#include "dda/scene.hpp"
+#include "dda/state.hpp"
+#include "dda/work.hpp"
+
+namespace talus {
+
+struct ImpactResult {
+  bool hit = false;        ///< some contact approached faster than the resting speed
+  bool converged = true;
+  int passes = 0;
+  double dissipated = 0;   ///< kinetic energy lost, >= 0 [J]
+};
+
+/// Applies the impact law to `motion` of block b at its pose; contacts closer than `touch` take part.
+/// Those that approach slower than `resting_speed` get no restitution. Where Newton's law with friction
+/// would raise the kinetic energy, the restitution of all contacts is lowered until it does not.
+ImpactResult apply_impact(const Scene& scene, int b, double touch, double resting_speed,
+                          Motion& motion, Work& work);
+
+}  // namespace talus

@@ -1,0 +1,133 @@
+#include "dda/step.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dda/displacement.hpp"
+#include "dda/flight.hpp"
+#include "dda/rotation.hpp"
+#include "dda/step_talus.hpp"
+
+namespace talus {
+namespace {
+
+using std::size_t;
+
+constexpr size_t expected_contacts = 16;  // of a block, before a buffer has to grow
+
+// Integral of the base acceleration, linear between samples and zero outside them, up to t.
+Vec3 base_velocity(const BaseMotion& base, double t) {
+  Vec3 sum = Vec3::Zero();
+  for (size_t k = 1; k < base.time.size() && base.time[k - 1] < t; ++k) {
+    const double t0 = base.time[k - 1], t1 = base.time[k], end = std::min(t, t1);
+    const Vec3 at_end = base.acceleration[k - 1] +
+                        (end - t0) / (t1 - t0) * (base.acceleration[k] - base.acceleration[k - 1]);
+    sum += (end - t0) / 2 * (base.acceleration[k - 1] + at_end);
+  }
+  return sum;
+}
+
+bool spins(const Scene& scene, size_t b) { return !scene.blocks.spin[b].isZero(0); }
+
+}  // namespace
+
+Vec3 free_acceleration(const Scene& scene, int b, double t_start, double t_end) {
+  Vec3 a = scene.gravity;
+  if (!scene.base.time.empty())
+    a -= (base_velocity(scene.base, t_end) - base_velocity(scene.base, t_start)) / (t_end - t_start);
+  for (const PointLoad& load : scene.loads)
+    if (load.block == b) a += load.force / scene.blocks.mass[static_cast<size_t>(b)];
+  return a;
+}
+
+State start(const Scene& scene) {
+  const auto n = static_cast<size_t>(n_blocks(scene));
+  State state;
+  state.motion.resize(n);
+  state.local_time.assign(n, 0);
+  state.flight_end.assign(n, 0);
+  state.phase.assign(n, Phase::near_ground);
+  state.acceleration.assign(n, Vec3::Zero());
+  state.spin_rate.assign(n, Vec3::Zero());
+  state.still_steps.assign(n, 0);
+  state.memory.resize(n);
+  if (scene.settings.strains) {
+    state.strain.assign(n, Vec6::Zero());
+    state.strain_rate.assign(n, Vec6::Zero());
+  }
+  for (size_t b = 0; b < n; ++b) {
+    state.memory[b].reserve(expected_contacts);
+    state.motion[b].pose = scene.blocks.rest[b];
+    state.motion[b].velocity = scene.blocks.velocity[b];
+    state.motion[b].angular_momentum = angular_momentum(
+        scene.blocks.rest[b].attitude, scene.blocks.spin[b], scene.blocks.inertia[b]);
+  }
+  if (scene.settings.law == Law::talus && scene.settings.static_start) {
+    Work work = make_work(scene);
+    for (size_t b = 0; b < n; ++b)
+      if (!spins(scene, b)) settle_block(scene, static_cast<int>(b), state, work);
+  }
+  return state;
+}
+
+Work make_work(const Scene& scene) {
+  Work work;
+  size_t most_vertices = 0;
+  for (int b = 0; b < n_blocks(scene); ++b)
+    most_vertices = std::max(most_vertices, vertices_of(scene.blocks.shapes, b).size());
+  work.world_vertices.reserve(most_vertices);
+  work.contacts.reserve(8 * (most_vertices + expected_contacts));
+  work.rows.reserve(8 * (most_vertices + expected_contacts));
+  work.memory_next.reserve(expected_contacts);
+  work.segments.reserve(8 * static_cast<size_t>(n_blocks(scene)) + 64);
+  return work;
+}
+
+StepReport step(const Scene& scene, State& state, Work& work) {
+  StepReport report;
+  const double t_end = state.time + scene.settings.dt;
+  work.segments.clear();
+  for (int b = 0; b < n_blocks(scene); ++b) {
+    const auto i = static_cast<size_t>(b);
+    if (state.phase[i] == Phase::asleep || state.phase[i] == Phase::left_domain) continue;
+    if (state.phase[i] == Phase::flight && state.flight_end[i] >= t_end) {
+      ++state.counters.flight_skips;
+      continue;
+    }
+    advance_block_talus(scene, b, t_end, state, work, report);
+  }
+  state.time = t_end;
+  ++state.counters.steps;
+  state.counters.substeps += report.substeps;
+  state.counters.impacts += report.n_impacts;
+  state.counters.passes += report.passes;
+  state.counters.unconverged += report.n_unconverged;
+  return report;
+}
+
+Motion motion_at(const Scene& scene, const State& state, int b, double time) {
+  const auto i = static_cast<size_t>(b);
+  if (state.phase[i] != Phase::flight || time == state.local_time[i]) return state.motion[i];
+  return fly(state.motion[i], scene.blocks.inertia[i], scene.gravity, time - state.local_time[i]);
+}
+
+Energies energies(const Scene& scene, const State& state) {
+  Energies sum;
+  for (int b = 0; b < n_blocks(scene); ++b) {
+    const auto i = static_cast<size_t>(b);
+    const Motion m = motion_at(scene, state, b, state.time);
+    const double mass = scene.blocks.mass[i];
+    const Vec3 spin =
+        angular_velocity(m.pose.attitude, m.angular_momentum, scene.blocks.inertia[i]);
+    sum.translation += 0.5 * mass * m.velocity.squaredNorm();
+    sum.rotation += 0.5 * spin.dot(m.angular_momentum);
+    sum.potential -= mass * scene.gravity.dot(m.pose.position);
+    if (!state.strain.empty())
+      sum.elastic += 0.5 * scene.blocks.volume[i] *
+                     state.strain[i].dot(elastic_matrix(scene.blocks.young[i],
+                                                        scene.blocks.poisson[i]) * state.strain[i]);
+  }
+  return sum;
+}
+
+}  // namespace talus

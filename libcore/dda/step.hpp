@@ -1,0 +1,41 @@
+// libcore/dda/step.hpp
+// One time step of all blocks: near cells, entrances, contact law, solution, update (Fig. 4).
+// in:    Scene (const), State, Work (scratch)
+// out:   State at the end of the step; the motion in between as segments in Work
+// paper: Zhang et al. 2018, Fig. 4; theory 1.7-1.12
+#pragma once
+
+#include "dda/report.hpp"
+#include "dda/scene.hpp"
+#include "dda/state.hpp"
+#include "dda/work.hpp"
+
+namespace talus {
+
+/// State at time 0. With law talus and Settings::static_start, a block at rest that touches the
+/// ground is let down into equilibrium with it (its weight over the contact stiffness, micrometres).
+[[nodiscard]] State start(const Scene& scene);
+
+/// Buffers for `scene`, large enough that step() does not allocate.
+[[nodiscard]] Work make_work(const Scene& scene);
+
+/// Advances all blocks to state.time + settings.dt.
+///
+/// A block in flight is not touched until its flight ends: its motion is that at local_time;
+/// motion_at() gives it at any time. A block that leaves the known terrain is stopped there.
+StepReport step(const Scene& scene, State& state, Work& work);
+
+/// Motion of block b at `time`, between its local time and the end of its flight.
+[[nodiscard]] Motion motion_at(const Scene& scene, const State& state, int b, double time);
+
+/// Acceleration of a free block over a step, in the ground's frame: gravity less the mean of the
+/// base acceleration, plus point loads over mass [m/s2].
+[[nodiscard]] Vec3 free_acceleration(const Scene& scene, int b, double t_start, double t_end);
+
+/// Energies of all blocks at state.time [J]. Potential energy counts from the local zero.
+struct Energies {
+  double translation = 0, rotation = 0, potential = 0, elastic = 0;
+};
+[[nodiscard]] Energies energies(const Scene& scene, const State& state);
+
+}  // namespace talus

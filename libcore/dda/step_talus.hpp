@@ -1,0 +1,21 @@
+// libcore/dda/step_talus.hpp
+// Law talus for one block: prediction, contact rows, semismooth Newton, impacts at their time, flight.
+// theory 1.10 (correction about the free motion), 1.12 (impacts); docs/design-notes.md
+#pragma once
+
+#include "dda/report.hpp"
+#include "dda/scene.hpp"
+#include "dda/state.hpp"
+#include "dda/work.hpp"
+
+namespace talus {
+
+/// Moves block b from its local time to `t_end` in as many substeps as events and convergence ask for.
+void advance_block_talus(const Scene& scene, int b, double t_end, State& state, Work& work,
+                         StepReport& report);
+
+/// Lets block b, which touches the ground at rest or slides along it, down into static equilibrium;
+/// a block that topples or does not touch stays where it is.
+void settle_block(const Scene& scene, int b, State& state, Work& work);
+
+}  // namespace talus
