@@ -213,6 +213,30 @@ void pair_cost(benchmark::State& bench, double gap, Repeat repeat) {
   }
   bench.counters["points"] = static_cast<double>(points.size());
 }
+// Two balls of 60 random tangent planes, overlapping a little: faces, edges and vertices by the
+// hundred, where a search over all of them is at its worst.
+void BallsSearched(benchmark::State& bench) {
+  std::mt19937_64 random(2);
+  std::normal_distribution<double> normal;
+  Scene scene;
+  for (const double x : {0.0, 1.98}) {
+    Polyhedron ball = box(Vec3(-1, -1, -1), Vec3(1, 1, 1));
+    for (int k = 0; k < 60; ++k)
+      ball = clip_convex(
+          ball, {Vec3(normal(random), normal(random), normal(random)).normalized(), 1}, 0, 1e-6);
+    add_hulls(scene.hulls, std::span(&ball, 1), Vec3::Zero(), Mat3::Identity());
+    scene.rest.push_back({Vec3(x, 0, 0), Quat::Identity()});
+  }
+  PlacedHulls placed;
+  place_hulls(scene.hulls, scene.rest, {}, {}, placed);
+  AxisScratch axis;
+  for (auto _ : bench)
+    benchmark::DoNotOptimize(find_axis(scene.hulls, placed, 0, 1, 0.01, {}, axis));
+  bench.counters["faces"] = scene.hulls.n_faces[0];
+  bench.counters["vertices"] = scene.hulls.vertex_begin[1];
+}
+BENCHMARK(BallsSearched);
+
 void PairHeld(benchmark::State& bench) { pair_cost(bench, -1e-5, Repeat::places); }
 void PairClipped(benchmark::State& bench) { pair_cost(bench, -1e-5, Repeat::features); }
 void PairSearched(benchmark::State& bench) { pair_cost(bench, -1e-5, Repeat::axis); }
