@@ -124,7 +124,8 @@ void merge_list(PairState& state, PairWork& work) {
   work.next_watch.clear();
   work.next_pairs.clear();
   std::size_t old = 0;
-  for (const auto& [a, b] : work.close) {
+  for (const std::array<int, 2>& close : work.close) {
+    const int a = close[0], b = close[1];
     const auto before = [&](const PairWatch& w) {
       return w.part_a != a ? w.part_a < a : w.part_b < b;
     };
