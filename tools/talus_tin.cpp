@@ -1,7 +1,5 @@
 // tools/talus_tin.cpp
 // Contour lines to a triangulated irregular network. Page: docs/tools/talus-tin.md
-#include <fstream>
-
 #include "base/text.hpp"
 #include "io/contours_gdal.hpp"
 #include "io/crs_gdal.hpp"
@@ -136,6 +134,7 @@ void mend(Tool& tool, const Options& o, const ContourMap& map,
   const talus::MendingPoints mended =
       talus::mend_flat_triangles(mesh, flat, {interval, o.fill_spacing_m}, tool.progress());
   mesh = {};
+  triangulation.fix_edges(mended.border);
   triangulation.add(mended.points);
   mesh = mesh_inside(map, triangulation, o);
   report["spacing_m"] = mended.spacing;
@@ -217,7 +216,7 @@ int main(int argc, char** argv) {
     talus::Tin tin;
     const Json report = build(tool, o, tin);
     talus::write_tin(tool.stage(o.out), tin);
-    if (!o.report.empty()) std::ofstream(tool.stage(o.report)) << report.dump(2) << '\n';
+    if (!o.report.empty()) tool.write_text(o.report, report.dump(2) + "\n");
     tool.result(report, summary_of(report));
   });
 }

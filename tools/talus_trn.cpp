@@ -77,7 +77,9 @@ void declare(Tool& tool, Options& o) {
              "points with a height to hold the terrain against (any vector source)");
   tool.output("--report", o.report, "errors, slopes, coverage (JSON)");
   tool.output("--hillshade", o.hillshade, "picture of the terrain (PNG)");
-  tool.option("--co", o.creation_options, "creation option of the GeoTIFF, NAME=VALUE");
+  tool.app()
+      .add_option("--co", o.creation_options, "creation option of the GeoTIFF, NAME=VALUE")
+      ->allow_extra_args(false);
   tool.footer(
       "Example:\n  talus-trn slope.ply -o slope.tif --cell-size-m 5 --report slope.json\n"
       "  talus-trn dem.tif -o slope.tif --window 248400,351100,249200,351700");
@@ -122,6 +124,7 @@ void check_frame(const GridFrame& frame, const MapWindow& data, const Options& o
     throw InputError({o.source},
                      "the grid asked for lies outside of the data, " + window_as_text(data),
                      o.like.empty() ? "look at --window" : "look at --like and --window");
+  talus::check_size(frame, o.source);
   if (frame.n_rows >= 2 && frame.n_cols >= 2) return;
   throw InputError({o.source},
                    "there is room for " + std::to_string(frame.n_cols) + " x " +
@@ -322,7 +325,7 @@ int main(int argc, char** argv) {
     const Json report = report_on(tool, o, trn);
     talus::write_trn(tool.stage(o.out), trn, {{{"RUN_ID", tool.run_id()}}, o.creation_options});
     if (!o.hillshade.empty()) talus::write_hillshade(tool.stage(o.hillshade), trn);
-    if (!o.report.empty()) std::ofstream(tool.stage(o.report)) << report.dump(2) << '\n';
+    if (!o.report.empty()) tool.write_text(o.report, report.dump(2) + "\n");
     tool.result(report, summary_of(report));
   });
 }

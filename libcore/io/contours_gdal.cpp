@@ -181,8 +181,7 @@ void for_each_part(const LayerChoice& choice, Source& source, Shape shape, std::
     throw InputError(where,
                      std::to_string(n_null) + " of " + std::to_string(n_features) +
                          " features have no geometry, expected none: is the file truncated?",
-                     "copy the file anew; features that are meant to be empty are dropped by "
-                     "ogr2ogr -where \"OGR_GEOM_AREA IS NOT NULL\" or by editing");
+                     "copy the file anew; features that are meant to be empty must be deleted");
   if (errors.failed()) throw InputError(where, "reading failed: " + errors.failure());
 }
 

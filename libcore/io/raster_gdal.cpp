@@ -160,7 +160,7 @@ DemFile::DemFile(const std::string& path, const DemOptions& options)
   GDALDataset* dataset = impl_->source.get();
   check_band(*dataset, path);
   impl_->crs = effective_crs(*dataset, path, options);
-  if (!options.t_srs.empty()) {
+  if (!options.t_srs.empty() && !same_crs(impl_->crs, options.t_srs)) {
     if (impl_->crs.empty())
       throw InputError({path}, "there is no CRS to reproject from", "name it with --crs EPSG:code");
     impl_->warped = reproject(*dataset, path, impl_->crs, options.t_srs);
@@ -246,6 +246,7 @@ Trn read_trn(const std::string& path) {
   DemOptions options;
   options.crs_may_be_missing = true;
   const DemFile dem(path, options);
+  check_size(dem.frame(), path);
   Trn trn = make_trn(dem.frame(), dem.crs_wkt(), read_dem(dem, dem.frame()));
   check_trn(trn, path);
   return trn;

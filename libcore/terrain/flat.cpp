@@ -17,6 +17,7 @@ namespace {
 constexpr double nodes_per_contour_distance = 8;
 constexpr double spacing_in_segments = 1.5;
 constexpr double most_nodes = 4e7;
+constexpr double steepest_slope = 10;  // 84 degrees: slivers at a cliff would rule all around
 constexpr int fewest_nodes = 4;  // a flat region of fewer is narrower than the lattice can show
 constexpr double nearest_in_spacings = 0.35;  // nodes nearer to a line would make slivers
 constexpr double full_density_in_spacings =
@@ -70,10 +71,18 @@ std::vector<int> number_regions(const TriangleMesh& mesh, const std::vector<std:
 // What the mending may do with a triangle.
 enum class Part : std::uint8_t { kept, flat, beside };
 
+double rise(const TriangleMesh& mesh, std::size_t t) {
+  const auto& [a, b, c] = mesh.triangles[t];
+  const auto [low, high] = std::minmax(
+      {mesh.points[index(a)].z(), mesh.points[index(b)].z(), mesh.points[index(c)].z()});
+  return high - low;
+}
+
 // Flat triangles, and the sloping ones beside a flat region that the lattice can show, across a
-// level edge that is no contour: the ground there is as little level as in the region.
+// level edge that is no contour: the ground there is as little level as in the region. A triangle
+// that rises past the next contour bridges ground without contours, at the map's edge: it is kept.
 std::vector<Part> find_parts(const TriangleMesh& mesh, const std::vector<std::uint8_t>& flat,
-                             const Lattice& lattice) {
+                             const Lattice& lattice, double interval) {
   int n_regions = 0;
   const std::vector<int> region = number_regions(mesh, flat, n_regions);
   std::vector<int> n_nodes(index(n_regions), 0);
@@ -85,10 +94,23 @@ std::vector<Part> find_parts(const TriangleMesh& mesh, const std::vector<std::ui
     for (std::size_t k = 0; k < 3 && part[t] == Part::kept; ++k) {
       const int next = mesh.neighbors[t][k];
       if (next < 0 || flat[index(next)] == 0 || is_constrained(mesh, t, k)) continue;
-      if (n_nodes[index(region[index(next)])] >= fewest_nodes) part[t] = Part::beside;
+      if (n_nodes[index(region[index(next)])] >= fewest_nodes && rise(mesh, t) < 1.5 * interval)
+        part[t] = Part::beside;
     }
   }
   return part;
+}
+
+// Edges between triangles that are mended and triangles that are kept, but for constrained ones.
+std::vector<std::array<int, 2>> border_of(const TriangleMesh& mesh, const std::vector<Part>& part) {
+  std::vector<std::array<int, 2>> border;
+  for (std::size_t t = 0; t < part.size(); ++t)
+    for (std::size_t k = 0; k < 3 && part[t] != Part::kept; ++k) {
+      const int next = mesh.neighbors[t][k];
+      if (next < 0 || part[index(next)] != Part::kept || is_constrained(mesh, t, k)) continue;
+      border.push_back({mesh.triangles[t][(k + 1) % 3], mesh.triangles[t][(k + 2) % 3]});
+    }
+  return border;
 }
 
 // Squared inverse of the distance, in nodes, in which the ground around reaches the next contour.
@@ -100,7 +122,7 @@ std::vector<float> tension(const TriangleMesh& mesh, const Lattice& lattice,
     const int t = lattice.triangle[node];
     if (t < 0 || part[index(t)] != Part::kept) continue;
     known[node] = 1;
-    tau[node] = static_cast<float>(slope(mesh, index(t)));
+    tau[node] = static_cast<float>(std::min(slope(mesh, index(t)), steepest_slope));
   }
   spread_values(lattice.n_x, lattice.n_y, tau, std::move(known));
   const auto scale = static_cast<float>(lattice.spacing / interval);
@@ -184,12 +206,17 @@ AreaShare area_of(const TriangleMesh& mesh, const std::vector<std::uint8_t>& mar
   return area;
 }
 
-double lattice_spacing(const TriangleMesh& mesh) {
-  double length = 0, area = 0;
-  std::size_t n_segments = 0;
+double finest_spacing(const TriangleMesh& mesh) {
   Vec2 low = mesh.points.front().head<2>(), high = low;
   for (const Vec3& p : mesh.points)
     low = low.cwiseMin(p.head<2>()), high = high.cwiseMax(p.head<2>());
+  const Vec2 extent = high - low;
+  return std::max(std::sqrt(extent.x() * extent.y() / most_nodes), extent.maxCoeff() / most_nodes);
+}
+
+double lattice_spacing(const TriangleMesh& mesh) {
+  double length = 0, area = 0;
+  std::size_t n_segments = 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     area += plan_area(mesh, t);
     for (std::size_t k = 0; k < 3; ++k) {
@@ -199,10 +226,9 @@ double lattice_spacing(const TriangleMesh& mesh) {
       ++n_segments;
     }
   }
-  const Vec2 extent = high - low;
-  return std::max({spacing_in_segments * length / static_cast<double>(n_segments),
-                   area / length / nodes_per_contour_distance,
-                   std::sqrt(extent.x() * extent.y() / most_nodes)});
+  if (n_segments == 0) return std::sqrt(area / static_cast<double>(mesh.points.size()));
+  return std::max(spacing_in_segments * length / static_cast<double>(n_segments),
+                  area / length / nodes_per_contour_distance);
 }
 
 double bend_into(double value, double low, double high) {
@@ -218,9 +244,11 @@ MendingPoints mend_flat_triangles(const TriangleMesh& mesh, const std::vector<st
                                   const FlatMending& mending, const ProgressFunction& progress) {
   TALUS_ASSERT(mending.contour_interval > 0);
   MendingPoints mended;
-  mended.spacing = mending.spacing > 0 ? mending.spacing : lattice_spacing(mesh);
+  mended.spacing =
+      std::max(mending.spacing > 0 ? mending.spacing : lattice_spacing(mesh), finest_spacing(mesh));
   const Lattice lattice = lay_lattice(mesh, mended.spacing);
-  const std::vector<Part> part = find_parts(mesh, flat, lattice);
+  const std::vector<Part> part = find_parts(mesh, flat, lattice, mending.contour_interval);
+  mended.border = border_of(mesh, part);
   const std::vector<Vec3> between = points_between(mesh, mended.spacing);
   const auto height_of = [&](std::size_t node) {
     return height_in_triangle(mesh, lattice.triangle[node], lattice.place(node));

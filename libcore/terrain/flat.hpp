@@ -4,6 +4,7 @@
 // method: docs/design-notes.md, "Flat triangles"
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -36,17 +37,20 @@ struct FlatMending {
 };
 
 struct MendingPoints {
-  std::vector<Vec3> points;   ///< to be added to the triangulation [m]
-  double spacing = 0;         ///< of the lattice used [m]
-  int n_unknowns = 0;         ///< lattice nodes solved for
-  int n_regions = 0;          ///< groups of nodes solved by themselves
-  int n_unsolved = 0;         ///< nodes left as they were because nothing holds them
-  double largest_change = 0;  ///< of a node against the triangles [m]
+  std::vector<Vec3> points;                ///< to be added to the triangulation [m]
+  std::vector<std::array<int, 2>> border;  ///< edges to be fixed before, so that all else stays
+  double spacing = 0;                      ///< of the lattice used [m]
+  int n_unknowns = 0;                      ///< lattice nodes solved for
+  int n_regions = 0;                       ///< groups of nodes solved by themselves
+  int n_unsolved = 0;                      ///< nodes left as they were because nothing holds them
+  double largest_change = 0;               ///< of a node against the triangles [m]
 };
 
-/// The larger of 1.5 mean segments and an eighth of the mean plan distance of the contours [m];
-/// widened where the lattice would have more than 40 million nodes.
+/// The larger of 1.5 mean segments and an eighth of the mean plan distance of the contours [m].
 [[nodiscard]] double lattice_spacing(const TriangleMesh& mesh);
+
+/// The spacing with which a lattice over the mesh has 40 million nodes [m]; none may be finer.
+[[nodiscard]] double finest_spacing(const TriangleMesh& mesh);
 
 /// Points with heights that mend the triangles marked `flat` (find_flat_triangles): a plate under
 /// tension through the contours, over the flat triangles and over the triangles that share with

@@ -13,13 +13,16 @@ struct NodeRange {
   double first, last;  // multiples of the cell size, whole numbers
 };
 
+void refuse_size(double n_rows, double n_cols, const std::string& file) {
+  throw InputError({file},
+                   "the grid would have " + text(n_cols, 9) + " x " + text(n_rows, 9) +
+                       " nodes, expected at most " + std::to_string(largest_n_nodes),
+                   "choose a larger cell or a smaller window");
+}
+
 GridFrame frame_of_nodes(const NodeRange& cols, const NodeRange& rows, double cell_size) {
   const double n_cols = cols.last - cols.first + 1, n_rows = rows.last - rows.first + 1;
-  if (!(n_cols * n_rows <= static_cast<double>(1 << 30)))
-    throw InputError({},
-                     "cells of " + text(cell_size) + " m make a grid of " + text(n_rows, 6) +
-                         " x " + text(n_cols, 6) + " nodes, expected at most 2^30",
-                     "choose a larger cell or a smaller window");
+  if (!(n_cols * n_rows <= static_cast<double>(largest_n_nodes))) refuse_size(n_rows, n_cols, {});
   GridFrame frame;
   if (n_cols < 1 || n_rows < 1) return frame;
   frame.n_cols = static_cast<int>(n_cols);
@@ -38,6 +41,11 @@ NodeRange nodes_covering(double low, double high, double cell_size) {
 }
 
 }  // namespace
+
+void check_size(const GridFrame& frame, const std::string& file) {
+  if (std::int64_t{frame.n_rows} * frame.n_cols > largest_n_nodes)
+    refuse_size(frame.n_rows, frame.n_cols, file);
+}
 
 MapWindow extent(const GridFrame& frame) {
   return {frame.x(0), frame.y(frame.n_rows - 1), frame.x(frame.n_cols - 1), frame.y(0)};

@@ -18,6 +18,12 @@ struct GridFrame {
   [[nodiscard]] bool empty() const { return n_rows < 1 || n_cols < 1; }
 };
 
+/// More nodes than a grid may have: 2 GB of elevations, and triangle indices stay within int.
+inline constexpr std::int64_t largest_n_nodes = std::int64_t{1} << 28;
+
+/// Throws InputError naming `file` when the frame has more nodes than that.
+void check_size(const GridFrame& frame, const std::string& file);
+
 /// A rectangle of the map [m].
 struct MapWindow {
   double x_min = 0, y_min = 0, x_max = 0, y_max = 0;
@@ -31,7 +37,7 @@ struct MapWindow {
 
 /// Nodes at whole multiples of the cell size, so that grids of neighbouring windows fit together:
 /// all that lie in `window`, its border included. Coordinates that are multiples but for rounding
-/// (1e-6 of a cell) count as such. Throws InputError when more than 2^30 nodes would be needed.
+/// (1e-6 of a cell) count as such. Throws InputError when there would be too many.
 [[nodiscard]] GridFrame frame_inside(const MapWindow& window, double cell_size);
 
 /// The same with one more row and column where needed, so that the nodes enclose `window`.

@@ -48,23 +48,22 @@ struct Triangulation::Impl {
   void insert_points() {
     std::vector<Kernel::Point_2> places(points.size());
     std::transform(points.begin(), points.end(), places.begin(), plan);
-    handles.resize(points.size());
     Delaunay::Face_handle hint;
     for (const std::size_t i : spatial_order(places)) {
-      handles[i] = delaunay.insert(places[i], hint);
-      handles[i]->info() = static_cast<int>(i);
-      hint = handles[i]->face();
+      const Delaunay::Vertex_handle vertex = delaunay.insert(places[i], hint);
+      vertex->info() = static_cast<int>(i);
+      hint = vertex->face();
     }
   }
 
-  void insert_segments(const std::vector<std::array<int, 2>>& segments) {
-    for (const auto& [a, b] : segments)
+  void constrain(const std::vector<std::array<int, 2>>& edges) {
+    std::vector<Delaunay::Vertex_handle> handles(points.size());
+    for (const auto vertex : delaunay.finite_vertex_handles())
+      handles[static_cast<std::size_t>(vertex->info())] = vertex;
+    for (const auto& [a, b] : edges)
       delaunay.insert_constraint(handles[static_cast<std::size_t>(a)],
                                  handles[static_cast<std::size_t>(b)]);
-    handles = {};
   }
-
-  std::vector<Delaunay::Vertex_handle> handles;  // of the points, until the segments are in
 };
 
 Triangulation::Triangulation(std::vector<Vec3> points,
@@ -77,7 +76,7 @@ Triangulation::Triangulation(std::vector<Vec3> points,
                      "all points stand on one straight line, expected lines that span an area",
                      "give the contours of the whole slope");
   try {
-    impl_->insert_segments(segments);
+    impl_->constrain(segments);
   } catch (const Delaunay::Intersection_of_constraints_exception&) {
     throw InputError({source}, "lines cross that cleaning left apart",
                      "simplify the lines, e.g. with ogr2ogr -simplify");
@@ -87,6 +86,10 @@ Triangulation::Triangulation(std::vector<Vec3> points,
 Triangulation::~Triangulation() = default;
 Triangulation::Triangulation(Triangulation&&) noexcept = default;
 Triangulation& Triangulation::operator=(Triangulation&&) noexcept = default;
+
+void Triangulation::fix_edges(const std::vector<std::array<int, 2>>& edges) {
+  impl_->constrain(edges);
+}
 
 void Triangulation::add(const std::vector<Vec3>& points) {
   std::vector<Kernel::Point_2> places(points.size());

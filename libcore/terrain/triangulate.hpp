@@ -33,6 +33,9 @@ class Triangulation {
   Triangulation(Triangulation&&) noexcept;
   Triangulation& operator=(Triangulation&&) noexcept;
 
+  /// Keeps edges of the triangulation as they are, whatever points are added: pairs of points.
+  void fix_edges(const std::vector<std::array<int, 2>>& edges);
+
   /// Adds points behind the others, along a curve that fills the plane. A point that stands on
   /// another in plan is left out.
   void add(const std::vector<Vec3>& points);

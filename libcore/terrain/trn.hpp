@@ -32,7 +32,7 @@ struct Trn {  // clang-format off
   Vec2 node0 = Vec2::Zero();      ///< local x, y of node (0, 0), the north-west one [m]
   Vec3 origin = Vec3::Zero();     ///< map coordinates of the local zero [m]
   std::string crs_wkt;            ///< projected, metres; empty when unknown
-  std::vector<double> elevation;  ///< local z at [r * n_cols + c], NaN = unknown [m] (n_rows * n_cols)
+  std::vector<double> elevation;  ///< z at [r * n_cols + c] [m], NaN: unknown  (n_rows * n_cols)
 };  // clang-format on
 
 /// A cell by the row and column of its north-west node.
@@ -76,8 +76,8 @@ struct FeatureCounts {
 /// Eq. (4): discrete contact combinations of two bodies, N = (v_a + e_a + f_a)(v_b + e_b + f_b).
 [[nodiscard]] std::int64_t contact_combinations(const FeatureCounts& a, const FeatureCounts& b);
 
-/// Throws InputError naming `file` unless the grid has at least 2 x 2 nodes, at most 2^30 cells, a
-/// positive finite cell size, one elevation a node and at least one triangle of known ground.
+/// Throws InputError naming `file` unless the grid has at least 2 x 2 nodes, a positive finite cell
+/// size, one elevation a node and at least one triangle of known ground.
 void check_trn(const Trn& trn, const std::string& file);
 
 // --- nodes -------------------------------------------------------------------------------------

@@ -56,3 +56,8 @@ prints "RMSE 0 m"
 expect 0 talus-trn dem.asc -o local.tif --crs none --overwrite
 expect 1 talus-trn dem.asc -o local.tif --crs none
 says "--overwrite"
+
+# reprojecting to the CRS that it has changes nothing
+expect 0 talus-trn trn.tif -o same.tif --t-srs EPSG:32632
+gdal_translate -q -of ENVI -ot Float64 -a_nodata none same.tif same.bin
+cmp trn.bin same.bin || fail "reprojected to its own CRS, the terrain changed"

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <set>
 
 #include "base/random.hpp"
 #include "terrain/contours.hpp"
@@ -149,7 +150,12 @@ TEST(Mending, NeverPassesTheNextContour) {
   }
 }
 
-TEST(Mending, LeavesHardlyAnyFlatTriangle) {
+struct MendedScene {
+  TriangleMesh before, after;
+  std::vector<std::uint8_t> flat_before, flat_after;
+};
+
+MendedScene mend_ragged_rings() {
   ContourMap map;
   for (int i = 0; i < 6; ++i)
     add_ring(
@@ -158,18 +164,47 @@ TEST(Mending, LeavesHardlyAnyFlatTriangle) {
   CleanLines clean = talus::clean_lines(map);
   const MeasuredPoints measured{clean.n_contour_points, static_cast<int>(clean.points.size())};
   Triangulation triangulation(clean.points, clean.segments, "");
-  const TriangleMesh before = triangulation.mesh();
-  const auto flat = talus::find_flat_triangles(before, measured);
-  triangulation.add(talus::mend_flat_triangles(before, flat, {10, 0}).points);
-  const TriangleMesh after = triangulation.mesh();
-  const double share_before = talus::area_of(before, flat).share();
-  const double share_after =
-      talus::area_of(after, talus::find_flat_triangles(after, measured)).share();
-  EXPECT_GT(share_before, 0.1);
-  EXPECT_LT(share_after, 0.1 * share_before);
-  EXPECT_NEAR(talus::area_of(before, flat).all_m2,
-              talus::area_of(after, std::vector<std::uint8_t>(after.triangles.size())).all_m2,
-              1e-6);
+  MendedScene scene;
+  scene.before = triangulation.mesh();
+  scene.flat_before = talus::find_flat_triangles(scene.before, measured);
+  const MendingPoints mended = talus::mend_flat_triangles(scene.before, scene.flat_before, {10, 0});
+  triangulation.fix_edges(mended.border);
+  triangulation.add(mended.points);
+  scene.after = triangulation.mesh();
+  scene.flat_after = talus::find_flat_triangles(scene.after, measured);
+  return scene;
+}
+
+TEST(Mending, LeavesHardlyAnyFlatTriangle) {
+  const MendedScene scene = mend_ragged_rings();
+  const talus::AreaShare before = talus::area_of(scene.before, scene.flat_before);
+  const talus::AreaShare after = talus::area_of(scene.after, scene.flat_after);
+  EXPECT_GT(before.share(), 0.1);
+  EXPECT_LT(after.share(), 0.1 * before.share());
+  EXPECT_NEAR(before.all_m2, after.all_m2, 1e-6);
+}
+
+// Triangles away from flat ones are still there, corner by corner.
+TEST(Mending, LeavesTheSlopesAsTheyAre) {
+  const MendedScene scene = mend_ragged_rings();
+  const auto sorted = [](std::array<int, 3> corners) {
+    std::sort(corners.begin(), corners.end());
+    return corners;
+  };
+  std::set<std::array<int, 3>> after;
+  for (const auto& corners : scene.after.triangles) after.insert(sorted(corners));
+  int n_slopes = 0;
+  for (std::size_t t = 0; t < scene.before.triangles.size(); ++t) {
+    const auto is_flat = [&](int other) {
+      return other >= 0 && scene.flat_before[static_cast<std::size_t>(other)] != 0;
+    };
+    const auto& neighbors = scene.before.neighbors[t];
+    if (scene.flat_before[t] != 0 || std::any_of(neighbors.begin(), neighbors.end(), is_flat))
+      continue;
+    ++n_slopes;
+    EXPECT_EQ(after.count(sorted(scene.before.triangles[t])), 1U);
+  }
+  EXPECT_GT(n_slopes, 500);
 }
 
 TEST(Mending, IsTheSameEveryTime) {
