@@ -25,8 +25,6 @@ void make_impact_rows(const Scene& scene, int b, double resting_speed, const Mat
     row.contact = static_cast<int>(i);
     row.normal = to_body * contact.normal;
     row.point = contact.point_a;
-    row.shear.setZero();
-    row.shear_time = 1;
     const Vec3 w = point_velocity<6>(velocity, row.point);
     row.speed_start = row.normal.dot(w);
     const Vec3 tangent = w - row.speed_start * row.normal;

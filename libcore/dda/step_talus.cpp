@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "contact/search.hpp"
 #include "dda/displacement.hpp"
@@ -122,7 +123,7 @@ void set_law(const Scene& scene, const BlockNumbers& c, const Substep& s, Contac
   const double k_s = std::min(scene.settings.shear_ratio * k_n, c.stiffness / (c.mass * W.tangent));
   row.normal_damping = k_n * s.h * c.recovery_time;
   row.shear_damping = k_s * s.h * c.recovery_time;
-  row.shear_time = c.recovery_time;
+  row.shear_velocity = row.shear / c.recovery_time;
   row.bias = x < 0 ? x / c.recovery_time : x / s.h;
   row.waits_for_impact =
       row.memory < 0 && row.speed_start < -c.resting_speed && row.gap_start > c.touch;
@@ -171,6 +172,15 @@ void make_rows(const Scene& scene, int b, const BlockNumbers& c, const Substep& 
   }
 }
 
+// Residual at which the contact forces count as found, as a velocity: 1e-8 of what gravity does in the
+// substep, or what the rounding of the coordinates makes of the stiffest contact.
+double newton_tolerance(const BlockNumbers& c, const Substep& s) {
+  const double rounding = std::numeric_limits<double>::epsilon() *
+                          s.start.pose.position.cwiseAbs().maxCoeff() * c.stiffness * s.h / c.mass;
+  return std::clamp(rounding, 1e-8 * c.gravity * s.h, 1e-6 * c.gravity * s.h) +
+         1e-13 * s.start.velocity.norm();
+}
+
 template <int Dof>
 BlockSystem<Dof> make_system(const Scene& scene, int b, const BlockNumbers& c, const Substep& s,
                              const State& state) {
@@ -207,9 +217,7 @@ BlockSystem<Dof> make_system(const Scene& scene, int b, const BlockNumbers& c, c
     system.velocity.template head<6>() << v_start + s.h * (s.R.transpose() * state.acceleration[i]),
         spin_start + s.h * state.spin_rate[i];
   }
-  system.tolerance = std::max(1e-9 * c.gravity * s.h,
-                              1e-13 * (system.velocity.template head<3>().norm() +
-                                       c.radius * system.velocity.template segment<3>(3).norm()));
+  system.tolerance = newton_tolerance(c, s);
   return system;
 }
 
@@ -283,8 +291,8 @@ void remember(const BlockNumbers& c, const Substep& s, const Solved<Dof>& solved
     memory.normal_force = p_n / s.h;
     memory.state = static_cast<std::uint8_t>(row.state);
     const bool slips = row.state == ContactState::slip;
-    memory.bond_area = slips ? 0 : row.bond_area;
-    const double k_t = row.shear_damping / (row.shear_time * s.h);
+    memory.bond_area = row.bond_area;
+    const double k_t = row.shear_damping / (c.recovery_time * s.h);
     const Vec3 shear = slips ? Vec3(p_t / (-s.h * k_t)) : Vec3(row.shear + moved - along * row.normal);
     memory.shear = s.R * shear;
     work.memory_next.push_back(memory);
@@ -432,14 +440,18 @@ struct Advance {
     return hit <= s.h ? Attempt::impact : Attempt::done;
   }
 
-  // A bond that slipped or opened is gone: its step is computed again without it.
+  // A bond that opened is gone; bonds that slip are gone when no other holds the block any more, so that
+  // a face fails at the sum of its strengths. The substep is then computed again without them.
   bool break_bonds() {
-    bool broken = false;
+    bool holds = false, broken = false;
     for (const ContactRow& row : work.rows)
-      if (row.bond_area > 0 && row.state != ContactState::stick) {
-        state.memory[i()][static_cast<size_t>(row.memory)].bond_area = 0;
-        broken = true;
-      }
+      holds |= row.bond_area > 0 && row.state == ContactState::stick;
+    for (const ContactRow& row : work.rows) {
+      const bool fails = row.state == ContactState::open || (row.state == ContactState::slip && !holds);
+      if (row.bond_area == 0 || !fails) continue;
+      state.memory[i()][static_cast<size_t>(row.memory)].bond_area = 0;
+      broken = true;
+    }
     return broken;
   }
 
@@ -510,6 +522,45 @@ struct Advance {
   }
 };
 
+// Bonds of the faces that lie on the ground with all their corners when the run begins: each corner holds
+// its share of the face's area (theory 1.7). Only where the ground has cohesion or tensile strength.
+// `work.contacts` are those that touch.
+void bond_faces(const Scene& scene, int b, const Pose& pose, const Work& work,
+                std::vector<ContactMemory>& memory) {
+  constexpr double parallel = 1 - 1e-6;
+  const Shapes& shapes = scene.blocks.shapes;
+  const auto touching = [&](int vertex, const Vec3& outward) -> const Contact* {
+    for (const Contact& c : work.contacts)
+      if (c.key.mode == ContactMode::vertex_face && c.key.feature_a == vertex &&
+          c.normal.dot(outward) < -parallel)
+        return &c;
+    return nullptr;
+  };
+  const int first_part = shapes.part_begin[static_cast<size_t>(b)];
+  const int last_part = shapes.part_begin[static_cast<size_t>(b) + 1];
+  for (int f = shapes.face_begin[static_cast<size_t>(first_part)];
+       f < shapes.face_begin[static_cast<size_t>(last_part)]; ++f) {
+    const ShapeFace& face = shapes.faces[static_cast<size_t>(f)];
+    const Vec3 outward = pose.attitude * face.normal;
+    const int n = face.vertex_end - face.vertex_begin;
+    int held = 0;
+    for (int k = face.vertex_begin; k < face.vertex_end; ++k)
+      held += touching(shapes.face_vertices[static_cast<size_t>(k)], outward) != nullptr;
+    if (held < n) continue;
+    for (int k = face.vertex_begin; k < face.vertex_end; ++k) {
+      const Contact& c = *touching(shapes.face_vertices[static_cast<size_t>(k)], outward);
+      const GroundClass& ground = scene.ground.classes[static_cast<size_t>(c.ground_class)];
+      if (ground.cohesion == 0 && ground.tension == 0) continue;
+      ContactMemory bond;
+      bond.key = c.key;
+      bond.normal = c.normal;
+      bond.gap_end = c.gap;
+      bond.bond_area = face.area / n;
+      memory.push_back(bond);
+    }
+  }
+}
+
 // Whether the block touches the ground and moves neither into it nor off it.
 bool touches_at_rest(const Scene& scene, int b, const Motion& motion, Work& work) {
   const BlockNumbers c = numbers_of(scene, b);
@@ -571,6 +622,7 @@ void settle_block(const Scene& scene, int b, State& state, Work& work) {
   constexpr double sticking = 57;  // tan(89 degrees)
   if (touches_at_rest(scene, b, rest, work)) {
     state.motion[i].velocity.setZero();
+    bond_faces(scene, b, rest.pose, work, state.memory[i]);
     if (!settle(scene, b, sticking, true, state, work)) {  // it topples: from where it is
       state.motion[i].pose = rest.pose;
       state.memory[i].clear();

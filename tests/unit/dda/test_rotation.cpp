@@ -66,7 +66,7 @@ TEST(FreeRotation, MiddleAxisWithinHundredthOfADegree) {
 }
 
 TEST(FreeRotation, ConvergesWithOrderFour) {
-  const double coarse = attitude_error_deg(0.02, 4), fine = attitude_error_deg(0.01, 4);
+  const double coarse = attitude_error_deg(0.01, 4), fine = attitude_error_deg(0.005, 4);
   EXPECT_GT(coarse / fine, 12);
   EXPECT_LT(coarse / fine, 20);
 }
