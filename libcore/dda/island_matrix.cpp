@@ -1,6 +1,5 @@
 #include "dda/island_matrix.hpp"
 
-#include <Eigen/Cholesky>
 #include <cmath>
 
 namespace talus {
@@ -8,78 +7,69 @@ namespace {
 
 using std::size_t;
 
-Mat3 skew(const Vec3& x) {
-  Mat3 S;
-  S << 0, -x.z(), x.y(), x.z(), 0, -x.x(), -x.y(), x.x(), 0;
-  return S;
-}
-
 /// Sum of the stick stiffness k T(r)^T T(r) of a pair's contacts. For rigid bodies its moments do:
 /// T^T T = [I, -S; S, |r|^2 I - r r^T] with S = [r]x.
 template <int Dof>
 struct StickSum {
-  Eigen::Matrix<double, Dof, Dof> sum = Eigen::Matrix<double, Dof, Dof>::Zero();
+  Packed<Dof> sum;
   void add(double k, const Vec3& arm) {
-    const Mat3x12 T = displacement_matrix(arm);
-    sum.noalias() += k * (T.transpose() * T);
+    for (int axis = 0; axis < 3; ++axis)
+      add_outer<Dof>(k, generalised<Dof>(arm, Vec3::Unit(axis)), sum);
   }
-  void add_to(Eigen::Matrix<double, Dof, Dof>& W) const { W += sum; }
+  void add_to(Packed<Dof>& W) const { talus::add(sum, W); }
 };
 
 template <>
 struct StickSum<6> {
   double k_sum = 0;
-  Vec3 first = Vec3::Zero();   // sum k r
-  Mat3 second = Mat3::Zero();  // sum k r r^T
+  Vec3 first = Vec3::Zero();  // sum k r
+  double xx = 0, yy = 0, zz = 0, xy = 0, xz = 0, yz = 0;  // sum k r r^T
   void add(double k, const Vec3& arm) {
+    const Vec3 kr = k * arm;
     k_sum += k;
-    const Vec3 weighted = k * arm;
-    first += weighted;
-    second.noalias() += weighted.lazyProduct(arm.transpose());
+    first += kr;
+    xx += kr.x() * arm.x(), yy += kr.y() * arm.y(), zz += kr.z() * arm.z();
+    xy += kr.x() * arm.y(), xz += kr.x() * arm.z(), yz += kr.y() * arm.z();
   }
-  void add_to(Mat6& W) const {
-    const Mat3 S = skew(first);
-    W.topLeftCorner<3, 3>().diagonal().array() += k_sum;
-    W.topRightCorner<3, 3>() -= S;
-    W.bottomLeftCorner<3, 3>() += S;
-    W.bottomRightCorner<3, 3>() -= second;
-    W.bottomRightCorner<3, 3>().diagonal().array() += second.trace();
+  void add_to(Packed<6>& W) const {
+    for (int i = 0; i < 3; ++i) W(i, i) += k_sum;
+    W(3, 1) -= first.z(), W(3, 2) += first.y();
+    W(4, 0) += first.z(), W(4, 2) -= first.x();
+    W(5, 0) -= first.y(), W(5, 1) += first.x();
+    W(3, 3) += yy + zz, W(4, 4) += xx + zz, W(5, 5) += xx + yy;
+    W(4, 3) -= xy, W(5, 3) -= xz, W(5, 4) -= yz;
   }
 };
 
-// W += k q r^T with q = T(arm)^T left, r = T(arm)^T right.
+// q of a contact acting along `direction`.
 template <int Dof>
-void add_product(double k, const Vec3& arm, const Vec3& left, const Vec3& right,
-                 Eigen::Matrix<double, Dof, Dof>& W) {
-  const Eigen::Matrix<double, Dof, 1> q = k * generalised<Dof>(arm, left);
-  W.noalias() += q.lazyProduct(generalised<Dof>(arm, right).transpose());
+Eigen::Matrix<double, Dof, 1> along(const IslandRow& row, const Vec3& direction) {
+  return generalised<Dof>(row.arm, direction);
 }
 
-// A slipping contact: k_n n n^T and the stiffness across the slip; exact: the turn of the mean
-// direction e with that at the end of the step, and the friction bound's tan(phi) k_n e n^T.
+// A slipping contact: k_n n n^T and the stiffness across the slip. Exact: the mean direction e turns
+// with that at the end of the step, and the friction bound adds -tan(phi) k_n e n^T.
 template <int Dof>
-void add_slip(const IslandRow& row, Tangent tangent, Eigen::Matrix<double, Dof, Dof>& W) {
+void add_slip(const IslandRow& row, Packed<Dof>& W, Eigen::Matrix<double, Dof, Dof>* rest) {
   const Vec3& n = row.normal;
+  const Eigen::Matrix<double, Dof, 1> q_n = along<Dof>(row, n);
+  add_outer<Dof>(row.normal_damping, q_n, W);
+  if (!(row.slip_stiffness > 0)) return;
   const double p_n = n.dot(row.impulse);
-  Vec3 normal_part = n;
-  if (row.slip_stiffness > 0) {
-    const Vec3 e = (p_n * n - row.impulse).normalized();
-    const Vec3 across = n.cross(e);
-    Vec3 across_end = across;
-    const double along = e.dot(row.slip_start);
-    if (tangent == Tangent::exact && along > 0)
-      across_end = n.cross((2 * e - along * row.slip_start).normalized());
-    add_product<Dof>(row.slip_stiffness, row.arm, across, across_end, W);
-    if (tangent == Tangent::exact && p_n > 0) normal_part -= row.friction * e;
-  }
-  add_product<Dof>(row.normal_damping, row.arm, normal_part, n, W);
+  const Vec3 e = (p_n * n - row.impulse).normalized();
+  const Vec3 across = n.cross(e);
+  if (!rest) return add_outer<Dof>(row.slip_stiffness, along<Dof>(row, across), W);
+  const double cosine = e.dot(row.slip_start);
+  const Vec3 end = cosine > 0 ? Vec3((2 * e - cosine * row.slip_start).normalized()) : e;
+  *rest += row.slip_stiffness * along<Dof>(row, across) * along<Dof>(row, n.cross(end)).transpose();
+  if (p_n > 0) *rest -= row.friction * row.normal_damping * along<Dof>(row, e) * q_n.transpose();
 }
 
 // W of one pair, and whether a contact presses. Stick: k_t I + (k_n - k_t) n n^T.
 template <int Dof>
-bool sum_tangents(std::span<const IslandRow> rows, Tangent tangent,
-                  Eigen::Matrix<double, Dof, Dof>& W) {
-  W.setZero();
+[[gnu::flatten]] bool sum_tangents(std::span<const IslandRow> rows, Packed<Dof>& W_out,
+                  Eigen::Matrix<double, Dof, Dof>* rest) {
+  Packed<Dof> W;
   StickSum<Dof> stick;
   bool closed = false;
   for (const IslandRow& row : rows) {
@@ -87,12 +77,14 @@ bool sum_tangents(std::span<const IslandRow> rows, Tangent tangent,
     closed = true;
     if (row.state == ContactState::stick) {
       stick.add(row.shear_damping, row.arm);
-      add_product<Dof>(row.normal_damping - row.shear_damping, row.arm, row.normal, row.normal, W);
+      if (row.normal_damping != row.shear_damping)
+        add_outer<Dof>(row.normal_damping - row.shear_damping, along<Dof>(row, row.normal), W);
     } else {
-      add_slip<Dof>(row, tangent, W);
+      add_slip<Dof>(row, W, rest);
     }
   }
   stick.add_to(W);
+  W_out = W;
   return closed;
 }
 
@@ -103,24 +95,32 @@ Eigen::Matrix<double, Dof, Dof> shift_matrix(const Vec3& shift) {
   return X;
 }
 
-// X^T W X, what the pair adds to the diagonal block of B.
+// D += X^T W X, what the pair adds to the diagonal block of B.
 template <int Dof>
-Eigen::Matrix<double, Dof, Dof> carried_tangent(const Eigen::Matrix<double, Dof, Dof>& W,
-                                                const Vec3& shift) {
-  if constexpr (Dof == 6) {
-    const Mat3 S = skew(shift);  // X = [I, -S; 0, I]
-    Mat6 out;
-    const Mat3 K = W.template topLeftCorner<3, 3>();
-    const Mat3 B = W.template topRightCorner<3, 3>() - K * S;
-    const Mat3 C = W.template bottomLeftCorner<3, 3>();
-    out.topLeftCorner<3, 3>() = K;
-    out.topRightCorner<3, 3>() = B;
-    out.bottomLeftCorner<3, 3>() = C + S * K;
-    out.bottomRightCorner<3, 3>() = W.template bottomRightCorner<3, 3>() - C * S + S * B;
-    return out;
-  } else {
-    const Mat12 X = shift_matrix<12>(shift);
-    return X.transpose() * W * X;
+void add_carried(const Packed<Dof>& W, const Vec3& shift, Packed<Dof>& D) {
+  const Eigen::Matrix<double, Dof, Dof> X = shift_matrix<Dof>(shift);
+  add(packed<Dof>(X.transpose() * unpacked(W) * X), D);
+}
+
+// For rigid bodies X = [I, -S; 0, I] with S = [shift]x: W = [K, .; L, C] becomes
+// [K, .; L + S K, C - L S + S (L + S K)^T].
+template <>
+void add_carried<6>(const Packed<6>& W, const Vec3& shift, Packed<6>& D) {
+  const Mat3 K = (Mat3() << W(0, 0), W(1, 0), W(2, 0), W(1, 0), W(1, 1), W(2, 1), W(2, 0), W(2, 1),
+                  W(2, 2))
+                     .finished();
+  const Mat3 L = (Mat3() << W(3, 0), W(3, 1), W(3, 2), W(4, 0), W(4, 1), W(4, 2), W(5, 0), W(5, 1),
+                  W(5, 2))
+                     .finished();
+  Mat3 carried;
+  for (int j = 0; j < 3; ++j) carried.col(j) = L.col(j) + shift.cross(K.col(j));
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 left = shift.cross(L.row(i));         // -(L S)_ij, row i
+    const Vec3 right = shift.cross(carried.row(i));  // (S carried^T)_ji, column i
+    for (int j = 0; j <= i; ++j) D(i, j) += W(i, j);
+    for (int j = 0; j < 3; ++j) D(3 + i, j) += carried(i, j);
+    for (int j = 0; j <= i; ++j) D(3 + i, 3 + j) += W(3 + i, 3 + j) + left[j];
+    for (int j = i; j < 3; ++j) D(3 + j, 3 + i) += right[j];
   }
 }
 
@@ -130,33 +130,6 @@ double dot(std::span<const Eigen::Matrix<double, Dof, 1>> x,
   double sum = 0;
   for (size_t i = 0; i < x.size(); ++i) sum += x[i].dot(y[i]);
   return sum;
-}
-
-template <int Dof>
-void sum_diagonals(const Island<Dof>& island, IslandMatrix<Dof>& matrix) {
-  for (size_t i = 0; i < island.mass.size(); ++i)
-    if (matrix.body_changed[i]) matrix.own[i] = matrix.diagonal[i] = island.mass[i];
-  for (size_t p = 0; p < island.pairs.size(); ++p) {
-    const auto a = static_cast<size_t>(island.pairs[p].a);
-    if (matrix.body_changed[a]) {
-      matrix.diagonal[a] += matrix.pair[p];
-      if (island.pairs[p].b < 0) matrix.own[a] += matrix.pair[p];
-    }
-    if (island.pairs[p].b < 0) continue;
-    const auto b = static_cast<size_t>(island.pairs[p].b);
-    if (matrix.body_changed[b])
-      matrix.diagonal[b] += carried_tangent<Dof>(matrix.pair[p], matrix.shift[p]);
-  }
-}
-
-template <int Dof>
-void invert_diagonals(IslandMatrix<Dof>& matrix) {
-  using Mat = typename IslandMatrix<Dof>::Mat;
-  for (size_t i = 0; i < matrix.inverse.size(); ++i) {
-    if (!matrix.inverse_stale[i]) continue;
-    matrix.inverse[i] = matrix.diagonal[i].llt().solve(Mat::Identity());
-    matrix.inverse_stale[i] = 0;
-  }
 }
 
 }  // namespace
@@ -173,62 +146,81 @@ void prepare_matrix(const Island<Dof>& island, IslandMatrix<Dof>& matrix) {
   }
   matrix.pair_changed.assign(n_pairs, 1);
   matrix.body_changed.assign(n, 1);
-  matrix.inverse_stale.assign(n, 1);
   matrix.pair.resize(n_pairs);
   matrix.pair_closed.resize(n_pairs);
-  matrix.own.resize(n);
-  matrix.diagonal.resize(n);
-  matrix.inverse.resize(n);
+  for (auto* blocks : {&matrix.own, &matrix.diagonal, &matrix.inverse}) blocks->resize(n);
   for (auto* vectors : {&matrix.residual, &matrix.preconditioned, &matrix.direction, &matrix.product})
     vectors->resize(n);
 }
 
 template <int Dof>
-void update_matrix(const Island<Dof>& island, Tangent tangent, IslandMatrix<Dof>& matrix) {
+void update_tangents(const Island<Dof>& island, Tangent tangent, IslandMatrix<Dof>& matrix) {
+  const size_t n_pairs = island.pairs.size();
+  if (tangent != matrix.tangent) matrix.pair_changed.assign(n_pairs, 1);
+  matrix.tangent = tangent;
+  const bool exact = tangent == Tangent::exact;
+  if (exact) matrix.rest.resize(n_pairs);
   matrix.coupled.clear();
-  for (size_t p = 0; p < island.pairs.size(); ++p) {
+  for (size_t p = 0; p < n_pairs; ++p) {
     const BodyPair& pair = island.pairs[p];
-    const std::span<const IslandRow> rows(
-        island.rows.data() + pair.row_begin, static_cast<size_t>(pair.row_end - pair.row_begin));
     if (matrix.pair_changed[p]) {
-      matrix.pair_closed[p] = sum_tangents<Dof>(rows, tangent, matrix.pair[p]);
+      const std::span<const IslandRow> rows(island.rows.data() + pair.row_begin,
+                                            static_cast<size_t>(pair.row_end - pair.row_begin));
+      if (exact) matrix.rest[p].setZero();
+      matrix.pair_closed[p] =
+          sum_tangents<Dof>(rows, matrix.pair[p], exact ? &matrix.rest[p] : nullptr);
       matrix.pair_changed[p] = 0;
       matrix.body_changed[static_cast<size_t>(pair.a)] = 1;
       if (pair.b >= 0) matrix.body_changed[static_cast<size_t>(pair.b)] = 1;
     }
     if (pair.b >= 0 && matrix.pair_closed[p]) matrix.coupled.push_back(static_cast<int>(p));
   }
-  sum_diagonals(island, matrix);
+}
+
+template <int Dof>
+[[gnu::flatten]] void update_diagonals(const Island<Dof>& island, IslandMatrix<Dof>& matrix) {
+  for (size_t i = 0; i < island.mass.size(); ++i)
+    if (matrix.body_changed[i]) matrix.own[i] = matrix.diagonal[i] = packed<Dof>(island.mass[i]);
+  for (size_t p = 0; p < island.pairs.size(); ++p) {
+    if (!matrix.pair_closed[p]) continue;
+    const BodyPair& pair = island.pairs[p];
+    const auto a = static_cast<size_t>(pair.a);
+    if (matrix.body_changed[a]) {
+      add(matrix.pair[p], matrix.diagonal[a]);
+      if (pair.b < 0) add(matrix.pair[p], matrix.own[a]);
+    }
+    if (pair.b >= 0 && matrix.body_changed[static_cast<size_t>(pair.b)])
+      add_carried<Dof>(matrix.pair[p], matrix.shift[p], matrix.diagonal[static_cast<size_t>(pair.b)]);
+  }
   for (size_t i = 0; i < island.mass.size(); ++i) {
-    matrix.inverse_stale[i] |= matrix.body_changed[i];
+    if (matrix.body_changed[i]) matrix.inverse[i] = inverse(matrix.diagonal[i]);
     matrix.body_changed[i] = 0;
   }
 }
 
 template <int Dof>
-void multiply(const Island<Dof>& island, const IslandMatrix<Dof>& matrix,
+[[gnu::flatten]] void multiply(const Island<Dof>& island, const IslandMatrix<Dof>& matrix,
               std::span<const Eigen::Matrix<double, Dof, 1>> x,
               std::span<Eigen::Matrix<double, Dof, 1>> y) {
-  for (size_t i = 0; i < x.size(); ++i) y[i].noalias() = matrix.own[i].lazyProduct(x[i]);
+  for (size_t i = 0; i < x.size(); ++i) y[i] = product(matrix.own[i], x[i]);
   for (const int p : matrix.coupled) {
     const auto k = static_cast<size_t>(p);
     const auto a = static_cast<size_t>(island.pairs[k].a);
     const auto b = static_cast<size_t>(island.pairs[k].b);
     const Eigen::Matrix<double, Dof, 1> f =
-        matrix.pair[k].lazyProduct(relative_motion<Dof>(x[a], x[b], matrix.shift[k]));
+        product<Dof>(matrix.pair[k], relative_motion<Dof>(x[a], x[b], matrix.shift[k]));
     y[a] += f;
     y[b] -= carried_to_b<Dof>(f, matrix.shift[k]);
   }
 }
 
 template <int Dof>
-LinearResult solve_conjugate_gradients(const Island<Dof>& island, IslandMatrix<Dof>& matrix,
+[[gnu::flatten]] LinearResult solve_conjugate_gradients(const Island<Dof>& island, IslandMatrix<Dof>& matrix,
                                        std::span<const Eigen::Matrix<double, Dof, 1>> b,
                                        double tolerance, int max_iterations,
                                        std::span<Eigen::Matrix<double, Dof, 1>> x) {
   using Vec = Eigen::Matrix<double, Dof, 1>;
   const size_t n = island.mass.size();
-  invert_diagonals(matrix);
   auto& r = matrix.residual;
   auto& z = matrix.preconditioned;
   auto& p = matrix.direction;
@@ -237,7 +229,7 @@ LinearResult solve_conjugate_gradients(const Island<Dof>& island, IslandMatrix<D
   for (size_t i = 0; i < n; ++i) {
     x[i].setZero();
     r[i] = b[i];
-    p[i].noalias() = matrix.inverse[i].lazyProduct(r[i]);
+    p[i] = product(matrix.inverse[i], r[i]);
     rz += r[i].dot(p[i]);
   }
   const double goal = tolerance * tolerance * rz;
@@ -252,7 +244,7 @@ LinearResult solve_conjugate_gradients(const Island<Dof>& island, IslandMatrix<D
     for (size_t i = 0; i < n; ++i) {
       x[i] += step * p[i];
       r[i] -= step * q[i];
-      z[i].noalias() = matrix.inverse[i].lazyProduct(r[i]);
+      z[i] = product(matrix.inverse[i], r[i]);
       rz_next += r[i].dot(z[i]);
     }
     const double ratio = rz_next / rz;
@@ -263,34 +255,52 @@ LinearResult solve_conjugate_gradients(const Island<Dof>& island, IslandMatrix<D
   return result;
 }
 
+namespace {
+
+template <int Dof>
+void sum_blocks(const Island<Dof>& island, IslandMatrix<Dof>& matrix) {
+  using Mat = typename IslandMatrix<Dof>::Mat;
+  BlockLu<Dof>& lu = matrix.lu;
+  const auto diagonal_of = [&](int body) -> Mat& {
+    return lu.diagonal[static_cast<size_t>(lu.pattern.place[static_cast<size_t>(body)])];
+  };
+  for (int i = 0; i < n_bodies(island); ++i) diagonal_of(i) = island.mass[static_cast<size_t>(i)];
+  for (size_t p = 0; p < island.pairs.size(); ++p) {
+    if (!matrix.pair_closed[p]) continue;
+    const BodyPair& pair = island.pairs[p];
+    Mat W = unpacked(matrix.pair[p]);
+    if (matrix.tangent == Tangent::exact) W += matrix.rest[p];
+    diagonal_of(pair.a) += W;
+    if (pair.b < 0) continue;
+    const Mat X = shift_matrix<Dof>(matrix.shift[p]);
+    const Mat WX = W.lazyProduct(X), XtW = X.transpose().lazyProduct(W);
+    diagonal_of(pair.b) += X.transpose().lazyProduct(WX);
+    add_blocks<Dof>(lu, pair.a, pair.b, -WX, -XtW);
+  }
+}
+
+}  // namespace
+
 template <int Dof>
 void solve_direct(const Island<Dof>& island, IslandMatrix<Dof>& matrix,
                   std::span<const Eigen::Matrix<double, Dof, 1>> b,
                   std::span<Eigen::Matrix<double, Dof, 1>> x) {
-  using Mat = typename IslandMatrix<Dof>::Mat;
   matrix.edges.clear();
   for (const int p : matrix.coupled) {
     const BodyPair& pair = island.pairs[static_cast<size_t>(p)];
     matrix.edges.emplace_back(pair.a, pair.b);
   }
-  BlockLu<Dof>& lu = matrix.lu;
-  analyse_pattern(n_bodies(island), matrix.edges, lu.pattern);
-  clear_matrix(lu);
-  for (size_t i = 0; i < island.mass.size(); ++i)
-    lu.diagonal[static_cast<size_t>(lu.pattern.place[i])] = matrix.diagonal[i];
-  for (const int p : matrix.coupled) {
-    const auto k = static_cast<size_t>(p);
-    const Mat X = shift_matrix<Dof>(matrix.shift[k]);
-    const Mat ab = -(matrix.pair[k] * X), ba = -(X.transpose() * matrix.pair[k]);
-    add_blocks<Dof>(lu, island.pairs[k].a, island.pairs[k].b, ab, ba);
-  }
-  factor(lu);
-  solve<Dof>(lu, b, x);
+  analyse_pattern(n_bodies(island), matrix.edges, matrix.lu.pattern);
+  clear_matrix(matrix.lu);
+  sum_blocks(island, matrix);
+  factor(matrix.lu);
+  solve<Dof>(matrix.lu, b, x);
 }
 
 #define TALUS_INSTANTIATE(Dof)                                                                     \
   template void prepare_matrix<Dof>(const Island<Dof>&, IslandMatrix<Dof>&);                       \
-  template void update_matrix<Dof>(const Island<Dof>&, Tangent, IslandMatrix<Dof>&);                        \
+  template void update_tangents<Dof>(const Island<Dof>&, Tangent, IslandMatrix<Dof>&);  \
+  template void update_diagonals<Dof>(const Island<Dof>&, IslandMatrix<Dof>&);  \
   template void multiply<Dof>(const Island<Dof>&, const IslandMatrix<Dof>&,                        \
                               std::span<const Eigen::Matrix<double, Dof, 1>>,                      \
                               std::span<Eigen::Matrix<double, Dof, 1>>);                           \

@@ -11,6 +11,7 @@
 #include "dda/block_lu.hpp"
 #include "dda/island.hpp"
 #include "dda/newton.hpp"
+#include "dda/packed_matrix.hpp"
 
 namespace talus {
 
@@ -33,6 +34,10 @@ template <int Dof>
   return out;
 }
 
+/// Tangents with or without the change of the friction bound with the normal impulse. With it the
+/// matrix is the exact derivative, and not symmetric.
+enum class Tangent : std::uint8_t { symmetric, exact };
+
 template <int Dof>
 struct IslandMatrix {  // clang-format off
   using Vec = Eigen::Matrix<double, Dof, 1>;
@@ -40,16 +45,18 @@ struct IslandMatrix {  // clang-format off
   // prepare_matrix
   std::vector<Vec3> shift;         ///< x_A - x_B [m]                                   (n_pairs)
   std::vector<std::uint8_t> pair_changed;  ///< tangent has to be summed again          (n_pairs)
-  std::vector<std::uint8_t> body_changed;  ///< a pair of the body changed              (n_bodies)
-  // update_matrix
-  std::vector<Mat> pair;           ///< W of pair p                                     (n_pairs)
+  std::vector<std::uint8_t> body_changed;  ///< a pair of the body changed since        (n_bodies)
+  // update_tangents
+  Tangent tangent = Tangent::symmetric;    ///< what `pair` and `rest` hold
+  std::vector<Packed<Dof>> pair;   ///< W of pair p, its symmetric part                 (n_pairs)
+  std::vector<Mat> rest;           ///< exact: what W has besides                       (n_pairs or 0)
   std::vector<std::uint8_t> pair_closed;   ///< W != 0                                  (n_pairs)
-  std::vector<Mat> own;            ///< M + contacts with the ground                    (n_bodies)
-  std::vector<Mat> diagonal;       ///< diagonal block of K                             (n_bodies)
-  std::vector<std::uint8_t> inverse_stale;  ///< diagonal block changed since           (n_bodies)
   std::vector<int> coupled;        ///< pairs of two bodies with W != 0                 (n_coupled)
+  // update_diagonals
+  std::vector<Packed<Dof>> own;       ///< M + contacts with the ground                 (n_bodies)
+  std::vector<Packed<Dof>> diagonal;  ///< diagonal block of K                          (n_bodies)
+  std::vector<Packed<Dof>> inverse;   ///< of the diagonal block                        (n_bodies)
   // solvers
-  std::vector<Mat> inverse;        ///< of the diagonal block                           (n_bodies)
   std::vector<Vec> residual, preconditioned, direction, product;  ///<                  (n_bodies)
   std::vector<std::pair<int, int>> edges;  ///< graph for the factorisation
   BlockLu<Dof> lu;
@@ -59,15 +66,15 @@ struct IslandMatrix {  // clang-format off
 template <int Dof>
 void prepare_matrix(const Island<Dof>& island, IslandMatrix<Dof>& matrix);
 
-/// Tangents with or without the change of the friction bound with the normal impulse. With it the
-/// matrix is the exact derivative, and not symmetric.
-enum class Tangent : std::uint8_t { symmetric, exact };
-
-/// Brings pairs marked as changed, and the blocks of their bodies, up to date with the rows' states.
+/// Brings pairs marked as changed up to date with the rows' states.
 template <int Dof>
-void update_matrix(const Island<Dof>& island, Tangent tangent, IslandMatrix<Dof>& matrix);
+void update_tangents(const Island<Dof>& island, Tangent tangent, IslandMatrix<Dof>& matrix);
 
-/// y = K x.
+/// Brings the diagonal blocks of bodies with changed pairs, and their inverses, up to date.
+template <int Dof>
+void update_diagonals(const Island<Dof>& island, IslandMatrix<Dof>& matrix);
+
+/// y = K x, with symmetric tangents and after update_diagonals.
 template <int Dof>
 void multiply(const Island<Dof>& island, const IslandMatrix<Dof>& matrix,
               std::span<const Eigen::Matrix<double, Dof, 1>> x,
@@ -78,15 +85,16 @@ struct LinearResult {
   int iterations = 0;
 };
 
-/// K x = b, K symmetric, by conjugate gradients from zero, preconditioned with the diagonal blocks, until the
-/// residual in the preconditioner's norm has fallen to `tolerance` of its start.
+/// K x = b by conjugate gradients from zero, preconditioned with the diagonal blocks, until the
+/// residual in the preconditioner's norm has fallen to `tolerance` of its start. Needs symmetric
+/// tangents and update_diagonals.
 template <int Dof>
 LinearResult solve_conjugate_gradients(const Island<Dof>& island, IslandMatrix<Dof>& matrix,
                                        std::span<const Eigen::Matrix<double, Dof, 1>> b,
                                        double tolerance, int max_iterations,
                                        std::span<Eigen::Matrix<double, Dof, 1>> x);
 
-/// K x = b by block LU. A singular matrix gives an x that is not finite.
+/// K x = b by block LU, with either tangent. A singular matrix gives an x that is not finite.
 template <int Dof>
 void solve_direct(const Island<Dof>& island, IslandMatrix<Dof>& matrix,
                   std::span<const Eigen::Matrix<double, Dof, 1>> b,

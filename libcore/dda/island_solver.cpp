@@ -31,7 +31,6 @@ struct Solve {
   double tolerance = 0;
   double best_residual = std::numeric_limits<double>::infinity();
   bool direct = false;
-  Tangent tangent_before = Tangent::symmetric;
 
   [[nodiscard]] std::span<IslandRow> rows_of(const BodyPair& pair) const {
     return {island.rows.data() + pair.row_begin, static_cast<size_t>(pair.row_end - pair.row_begin)};
@@ -78,7 +77,7 @@ struct Solve {
     return row.state != state || row.slip_stiffness != stiffness;
   }
 
-  void evaluate_pair(size_t p, Mode mode) {
+  [[gnu::flatten]] void evaluate_pair(size_t p, Mode mode) {
     const BodyPair& pair = island.pairs[p];
     const auto a = static_cast<size_t>(pair.a), b = static_cast<size_t>(pair.b);
     const Vec3& shift = work.matrix.shift[p];
@@ -127,14 +126,13 @@ struct Solve {
   void find_step(Mode mode) {
     const Tangent tangent =
         direct && mode == Mode::coupled ? Tangent::exact : Tangent::symmetric;
-    if (tangent != tangent_before) work.matrix.pair_changed.assign(island.pairs.size(), 1);
-    tangent_before = tangent;
-    update_matrix(island, tangent, work.matrix);
+    update_tangents(island, tangent, work.matrix);
     for (Vec& r : work.residual) r = -r;
     if (direct) {
       ++result.factorisations;
       solve_direct<Dof>(island, work.matrix, work.residual, work.step);
     } else {
+      update_diagonals(island, work.matrix);
       const LinearResult linear = solve_conjugate_gradients<Dof>(
           island, work.matrix, work.residual, settings.linear_tolerance,
           settings.max_linear_iterations, work.step);
