@@ -35,9 +35,6 @@ struct IslandRow {  // clang-format off
   Vec3 impulse = Vec3::Zero();  ///< on A; B gets the opposite [N s]
   ContactState state = ContactState::open;  ///< in: inherited; a new contact is `open`
   bool waits_for_impact = false;  ///< presses nothing
-  // solver's own
-  double slip_stiffness = 0;    ///< of a slipping contact across its direction [kg]
-  double held_cap = 0;          ///< friction bound while it is held [N s]
 };  // clang-format on
 
 /// Contacts of one pair of bodies, or of one body with the ground: consecutive rows.

@@ -7,87 +7,6 @@ namespace {
 
 using std::size_t;
 
-/// Sum of the stick stiffness k T(r)^T T(r) of a pair's contacts. For rigid bodies its moments do:
-/// T^T T = [I, -S; S, |r|^2 I - r r^T] with S = [r]x.
-template <int Dof>
-struct StickSum {
-  Packed<Dof> sum;
-  void add(double k, const Vec3& arm) {
-    for (int axis = 0; axis < 3; ++axis)
-      add_outer<Dof>(k, generalised<Dof>(arm, Vec3::Unit(axis)), sum);
-  }
-  void add_to(Packed<Dof>& W) const { talus::add(sum, W); }
-};
-
-template <>
-struct StickSum<6> {
-  double k_sum = 0;
-  Vec3 first = Vec3::Zero();  // sum k r
-  double xx = 0, yy = 0, zz = 0, xy = 0, xz = 0, yz = 0;  // sum k r r^T
-  void add(double k, const Vec3& arm) {
-    const Vec3 kr = k * arm;
-    k_sum += k;
-    first += kr;
-    xx += kr.x() * arm.x(), yy += kr.y() * arm.y(), zz += kr.z() * arm.z();
-    xy += kr.x() * arm.y(), xz += kr.x() * arm.z(), yz += kr.y() * arm.z();
-  }
-  void add_to(Packed<6>& W) const {
-    for (int i = 0; i < 3; ++i) W(i, i) += k_sum;
-    W(3, 1) -= first.z(), W(3, 2) += first.y();
-    W(4, 0) += first.z(), W(4, 2) -= first.x();
-    W(5, 0) -= first.y(), W(5, 1) += first.x();
-    W(3, 3) += yy + zz, W(4, 4) += xx + zz, W(5, 5) += xx + yy;
-    W(4, 3) -= xy, W(5, 3) -= xz, W(5, 4) -= yz;
-  }
-};
-
-// q of a contact acting along `direction`.
-template <int Dof>
-Eigen::Matrix<double, Dof, 1> along(const IslandRow& row, const Vec3& direction) {
-  return generalised<Dof>(row.arm, direction);
-}
-
-// A slipping contact: k_n n n^T and the stiffness across the slip. Exact: the mean direction e turns
-// with that at the end of the step, and the friction bound adds -tan(phi) k_n e n^T.
-template <int Dof>
-void add_slip(const IslandRow& row, Packed<Dof>& W, Eigen::Matrix<double, Dof, Dof>* rest) {
-  const Vec3& n = row.normal;
-  const Eigen::Matrix<double, Dof, 1> q_n = along<Dof>(row, n);
-  add_outer<Dof>(row.normal_damping, q_n, W);
-  if (!(row.slip_stiffness > 0)) return;
-  const double p_n = n.dot(row.impulse);
-  const Vec3 e = (p_n * n - row.impulse).normalized();
-  const Vec3 across = n.cross(e);
-  if (!rest) return add_outer<Dof>(row.slip_stiffness, along<Dof>(row, across), W);
-  const double cosine = e.dot(row.slip_start);
-  const Vec3 end = cosine > 0 ? Vec3((2 * e - cosine * row.slip_start).normalized()) : e;
-  *rest += row.slip_stiffness * along<Dof>(row, across) * along<Dof>(row, n.cross(end)).transpose();
-  if (p_n > 0) *rest -= row.friction * row.normal_damping * along<Dof>(row, e) * q_n.transpose();
-}
-
-// W of one pair, and whether a contact presses. Stick: k_t I + (k_n - k_t) n n^T.
-template <int Dof>
-[[gnu::flatten]] bool sum_tangents(std::span<const IslandRow> rows, Packed<Dof>& W_out,
-                  Eigen::Matrix<double, Dof, Dof>* rest) {
-  Packed<Dof> W;
-  StickSum<Dof> stick;
-  bool closed = false;
-  for (const IslandRow& row : rows) {
-    if (row.waits_for_impact || row.state == ContactState::open) continue;
-    closed = true;
-    if (row.state == ContactState::stick) {
-      stick.add(row.shear_damping, row.arm);
-      if (row.normal_damping != row.shear_damping)
-        add_outer<Dof>(row.normal_damping - row.shear_damping, along<Dof>(row, row.normal), W);
-    } else {
-      add_slip<Dof>(row, W, rest);
-    }
-  }
-  stick.add_to(W);
-  W_out = W;
-  return closed;
-}
-
 template <int Dof>
 Eigen::Matrix<double, Dof, Dof> shift_matrix(const Vec3& shift) {
   Eigen::Matrix<double, Dof, Dof> X = Eigen::Matrix<double, Dof, Dof>::Identity();
@@ -103,25 +22,33 @@ void add_carried(const Packed<Dof>& W, const Vec3& shift, Packed<Dof>& D) {
 }
 
 // For rigid bodies X = [I, -S; 0, I] with S = [shift]x: W = [K, .; L, C] becomes
-// [K, .; L + S K, C - L S + S (L + S K)^T].
+// [K, .; L' = L + S K, C' = C - L S + S L'^T].
 template <>
 void add_carried<6>(const Packed<6>& W, const Vec3& shift, Packed<6>& D) {
-  const Mat3 K = (Mat3() << W(0, 0), W(1, 0), W(2, 0), W(1, 0), W(1, 1), W(2, 1), W(2, 0), W(2, 1),
-                  W(2, 2))
-                     .finished();
-  const Mat3 L = (Mat3() << W(3, 0), W(3, 1), W(3, 2), W(4, 0), W(4, 1), W(4, 2), W(5, 0), W(5, 1),
-                  W(5, 2))
-                     .finished();
-  Mat3 carried;
-  for (int j = 0; j < 3; ++j) carried.col(j) = L.col(j) + shift.cross(K.col(j));
-  for (int i = 0; i < 3; ++i) {
-    const Vec3 left = shift.cross(L.row(i));         // -(L S)_ij, row i
-    const Vec3 right = shift.cross(carried.row(i));  // (S carried^T)_ji, column i
-    for (int j = 0; j <= i; ++j) D(i, j) += W(i, j);
-    for (int j = 0; j < 3; ++j) D(3 + i, j) += carried(i, j);
-    for (int j = 0; j <= i; ++j) D(3 + i, 3 + j) += W(3 + i, 3 + j) + left[j];
-    for (int j = i; j < 3; ++j) D(3 + j, 3 + i) += right[j];
+  const double x = shift.x(), y = shift.y(), z = shift.z();
+  const double K[3][3] = {{W(0, 0), W(1, 0), W(2, 0)},
+                          {W(1, 0), W(1, 1), W(2, 1)},
+                          {W(2, 0), W(2, 1), W(2, 2)}};
+  double L[3][3];
+#pragma GCC unroll 3
+  for (int j = 0; j < 3; ++j) {
+    L[0][j] = W(3, j) + (y * K[2][j] - z * K[1][j]);
+    L[1][j] = W(4, j) + (z * K[0][j] - x * K[2][j]);
+    L[2][j] = W(5, j) + (x * K[1][j] - y * K[0][j]);
   }
+  D(0, 0) += K[0][0], D(1, 0) += K[1][0], D(1, 1) += K[1][1];
+  D(2, 0) += K[2][0], D(2, 1) += K[2][1], D(2, 2) += K[2][2];
+#pragma GCC unroll 3
+  for (int i = 0; i < 3; ++i)
+#pragma GCC unroll 3
+    for (int j = 0; j < 3; ++j) D(3 + i, j) += L[i][j];
+  // S L'^T, entry (i, j), less (L S), entry (i, j)
+  D(3, 3) += W(3, 3) + (y * L[0][2] - z * L[0][1]) - (W(3, 1) * z - W(3, 2) * y);
+  D(4, 3) += W(4, 3) + (z * L[0][0] - x * L[0][2]) - (W(4, 1) * z - W(4, 2) * y);
+  D(4, 4) += W(4, 4) + (z * L[1][0] - x * L[1][2]) - (W(4, 2) * x - W(4, 0) * z);
+  D(5, 3) += W(5, 3) + (x * L[0][1] - y * L[0][0]) - (W(5, 1) * z - W(5, 2) * y);
+  D(5, 4) += W(5, 4) + (x * L[1][1] - y * L[1][0]) - (W(5, 2) * x - W(5, 0) * z);
+  D(5, 5) += W(5, 5) + (x * L[2][1] - y * L[2][0]) - (W(5, 0) * y - W(5, 1) * x);
 }
 
 template <int Dof>
@@ -154,7 +81,8 @@ void prepare_matrix(const Island<Dof>& island, IslandMatrix<Dof>& matrix) {
 }
 
 template <int Dof>
-void update_tangents(const Island<Dof>& island, Tangent tangent, IslandMatrix<Dof>& matrix) {
+void update_tangents(const Island<Dof>& island, Tangent tangent, RowGroups& rows,
+                     IslandMatrix<Dof>& matrix) {
   const size_t n_pairs = island.pairs.size();
   if (tangent != matrix.tangent) matrix.pair_changed.assign(n_pairs, 1);
   matrix.tangent = tangent;
@@ -164,11 +92,9 @@ void update_tangents(const Island<Dof>& island, Tangent tangent, IslandMatrix<Do
   for (size_t p = 0; p < n_pairs; ++p) {
     const BodyPair& pair = island.pairs[p];
     if (matrix.pair_changed[p]) {
-      const std::span<const IslandRow> rows(island.rows.data() + pair.row_begin,
-                                            static_cast<size_t>(pair.row_end - pair.row_begin));
       if (exact) matrix.rest[p].setZero();
-      matrix.pair_closed[p] =
-          sum_tangents<Dof>(rows, matrix.pair[p], exact ? &matrix.rest[p] : nullptr);
+      matrix.pair_closed[p] = sum_tangents<Dof>(groups_of(rows, p), matrix.pair[p],
+                                                exact ? &matrix.rest[p] : nullptr);
       matrix.pair_changed[p] = 0;
       matrix.body_changed[static_cast<size_t>(pair.a)] = 1;
       if (pair.b >= 0) matrix.body_changed[static_cast<size_t>(pair.b)] = 1;
@@ -299,7 +225,7 @@ void solve_direct(const Island<Dof>& island, IslandMatrix<Dof>& matrix,
 
 #define TALUS_INSTANTIATE(Dof)                                                                     \
   template void prepare_matrix<Dof>(const Island<Dof>&, IslandMatrix<Dof>&);                       \
-  template void update_tangents<Dof>(const Island<Dof>&, Tangent, IslandMatrix<Dof>&);  \
+  template void update_tangents<Dof>(const Island<Dof>&, Tangent, RowGroups&, IslandMatrix<Dof>&);  \
   template void update_diagonals<Dof>(const Island<Dof>&, IslandMatrix<Dof>&);  \
   template void multiply<Dof>(const Island<Dof>&, const IslandMatrix<Dof>&,                        \
                               std::span<const Eigen::Matrix<double, Dof, 1>>,                      \

@@ -12,8 +12,15 @@
 #include "dda/island.hpp"
 #include "dda/newton.hpp"
 #include "dda/packed_matrix.hpp"
+#include "dda/row_groups.hpp"
 
 namespace talus {
+
+[[nodiscard]] inline std::span<RowGroup> groups_of(RowGroups& rows, std::size_t pair) {
+  return std::span(rows.groups)
+      .subspan(static_cast<std::size_t>(rows.begin[pair]),
+               static_cast<std::size_t>(rows.begin[pair + 1] - rows.begin[pair]));
+}
 
 /// u = v_A - X v_B: motion of A relative to B as a field about A's centroid; `shift` = x_A - x_B.
 template <int Dof>
@@ -68,7 +75,8 @@ void prepare_matrix(const Island<Dof>& island, IslandMatrix<Dof>& matrix);
 
 /// Brings pairs marked as changed up to date with the rows' states.
 template <int Dof>
-void update_tangents(const Island<Dof>& island, Tangent tangent, IslandMatrix<Dof>& matrix);
+void update_tangents(const Island<Dof>& island, Tangent tangent, RowGroups& rows,
+                     IslandMatrix<Dof>& matrix);
 
 /// Brings the diagonal blocks of bodies with changed pairs, and their inverses, up to date.
 template <int Dof>

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "dda/island_law.hpp"
 
 namespace talus {
 namespace {
@@ -13,12 +12,9 @@ using std::size_t;
 
 constexpr int free_steps = 3;         // Newton steps before the line search looks at them
 constexpr int most_halvings = 8;      // of a step
+constexpr double slack = 0.1;          // of a slip stiffness before its tangent is summed again
 constexpr double hopeless = 1e5;      // growth of the residual at which coupled steps are given up
 constexpr double least_relaxation = 0.3;  // of the held friction bounds
-
-/// How the rows are evaluated: with the states they came with, with the law, or with the law and the
-/// friction bounds held.
-enum class Mode { inherited, coupled, held };
 
 /// One solve; a struct so that its parts share what they all need.
 template <int Dof>
@@ -32,10 +28,6 @@ struct Solve {
   double best_residual = std::numeric_limits<double>::infinity();
   bool direct = false;
 
-  [[nodiscard]] std::span<IslandRow> rows_of(const BodyPair& pair) const {
-    return {island.rows.data() + pair.row_begin, static_cast<size_t>(pair.row_end - pair.row_begin)};
-  }
-
   [[nodiscard]] double reduced_mass(const BodyPair& pair) const {
     const double m_a = island.mass[static_cast<size_t>(pair.a)](0, 0);
     if (pair.b < 0) return m_a;
@@ -43,54 +35,41 @@ struct Solve {
     return m_a * (m_b / (m_a + m_b));
   }
 
-  // Lowers what is too stiff, and sets the tolerance above the rounding of the stiffest impulse.
+  // Packs the rows, and sets the tolerance above the rounding of the stiffest impulse.
   void prepare() {
+    const size_t n = island.mass.size(), n_pairs = island.pairs.size();
+    work.limit.resize(n_pairs);
     double floor = 0;
-    for (const BodyPair& pair : island.pairs) {
-      const double mass = reduced_mass(pair), limit = settings.stiffest * mass;
-      for (IslandRow& row : rows_of(pair)) {
-        if (row.normal_damping > limit || row.shear_damping > limit) ++result.n_lowered;
-        row.normal_damping = std::min(row.normal_damping, limit);
-        row.shear_damping = std::min(row.shear_damping, limit);
-        const double speed = std::abs(row.bias) + row.shear_velocity.norm() +
-                             island.free_velocity[static_cast<size_t>(pair.a)].template head<3>().norm();
-        floor = std::max(floor, std::max(row.normal_damping, row.shear_damping) / mass * speed);
+    for (size_t p = 0; p < n_pairs; ++p) {
+      const BodyPair& pair = island.pairs[p];
+      const double mass = reduced_mass(pair);
+      work.limit[p] = settings.stiffest * mass;
+      const double free_speed =
+          island.free_velocity[static_cast<size_t>(pair.a)].template head<3>().norm();
+      for (int r = pair.row_begin; r < pair.row_end; ++r) {
+        const IslandRow& row = island.rows[static_cast<size_t>(r)];
+        const double stiffness = std::min(std::max(row.normal_damping, row.shear_damping), work.limit[p]);
+        floor = std::max(floor, stiffness / mass * (std::abs(row.bias) + free_speed));
       }
     }
     tolerance = std::max(settings.tolerance, 8 * std::numeric_limits<double>::epsilon() * floor);
+    result.n_lowered = pack_rows(island.pairs, island.rows, work.limit, work.rows);
     prepare_matrix(island, work.matrix);
-    for (auto* vectors : {&work.residual, &work.step, &work.from, &work.best})
-      vectors->resize(island.mass.size());
+    for (auto* vectors : {&work.residual, &work.step, &work.from, &work.best}) vectors->resize(n);
     direct = n_bodies(island) <= settings.direct_bodies;
-    for (size_t i = 0; i < island.mass.size(); ++i)
+    for (size_t i = 0; i < n; ++i)
       if (!island.velocity[i].allFinite()) island.velocity[i] = island.free_velocity[i];
   }
 
-  // True when a row's tangent is another one now.
-  static bool apply(IslandRow& row, const Vec3& w, Mode mode) {
-    const ContactState state = row.state;
-    const double stiffness = row.slip_stiffness;
-    if (mode == Mode::inherited)
-      apply_inherited(row, w);
-    else
-      apply_law(row, w, mode == Mode::held);
-    return row.state != state || row.slip_stiffness != stiffness;
-  }
-
-  [[gnu::flatten]] void evaluate_pair(size_t p, Mode mode) {
+  [[gnu::flatten]] void evaluate_contacts(size_t p, Evaluation evaluation) {
     const BodyPair& pair = island.pairs[p];
     const auto a = static_cast<size_t>(pair.a), b = static_cast<size_t>(pair.b);
     const Vec3& shift = work.matrix.shift[p];
     const Vec u = pair.b < 0 ? island.velocity[a]
                              : relative_motion<Dof>(island.velocity[a], island.velocity[b], shift);
-    Vec f = Vec::Zero();
-    bool changed = false;
-    for (IslandRow& row : rows_of(pair)) {
-      if (row.waits_for_impact) continue;
-      changed |= apply(row, point_velocity<Dof>(u, row.arm), mode);
-      if (row.state != ContactState::open) f += generalised<Dof>(row.arm, row.impulse);
-    }
-    if (changed) work.matrix.pair_changed[p] = 1;
+    Vec f;
+    if (evaluate_pair<Dof>(groups_of(work.rows, p), u, evaluation, direct ? 0 : slack, f))
+      work.matrix.pair_changed[p] = 1;
     work.residual[a] -= f;
     if (pair.b >= 0) work.residual[b] += carried_to_b<Dof>(f, shift);
   }
@@ -108,14 +87,14 @@ struct Solve {
     return largest;
   }
 
-  double evaluate(Mode mode) {
+  double evaluate(Evaluation evaluation) {
     ++result.passes;
     for (size_t i = 0; i < island.mass.size(); ++i)
       work.residual[i].noalias() =
           island.mass[i].lazyProduct(island.velocity[i] - island.free_velocity[i]);
-    for (size_t p = 0; p < island.pairs.size(); ++p) evaluate_pair(p, mode);
+    for (size_t p = 0; p < island.pairs.size(); ++p) evaluate_contacts(p, evaluation);
     result.residual = residual_speed();
-    if (mode == Mode::coupled && result.residual < best_residual) {
+    if (evaluation == Evaluation::coupled && result.residual < best_residual) {
       best_residual = result.residual;
       std::copy(island.velocity.begin(), island.velocity.end(), work.best.begin());
     }
@@ -123,10 +102,10 @@ struct Solve {
   }
 
   // K step = -residual. Factored, K is the exact derivative while the friction bounds are coupled.
-  void find_step(Mode mode) {
+  void find_step(Evaluation evaluation) {
     const Tangent tangent =
-        direct && mode == Mode::coupled ? Tangent::exact : Tangent::symmetric;
-    update_tangents(island, tangent, work.matrix);
+        direct && evaluation == Evaluation::coupled ? Tangent::exact : Tangent::symmetric;
+    update_tangents(island, tangent, work.rows, work.matrix);
     for (Vec& r : work.residual) r = -r;
     if (direct) {
       ++result.factorisations;
@@ -150,51 +129,43 @@ struct Solve {
 
   // A Newton step; with `search` it is shortened until the residual's work along it is at most half
   // of what it was at the start: there the step does not overshoot.
-  double advance(Mode mode, bool search) {
-    find_step(mode);
+  double advance(Evaluation evaluation, bool search) {
+    find_step(evaluation);
     const double start_slope = std::abs(slope());
     std::copy(island.velocity.begin(), island.velocity.end(), work.from.begin());
     double fraction = 1;
     for (int i = 0;; ++i, fraction /= 2) {
       for (size_t k = 0; k < work.step.size(); ++k)
         island.velocity[k] = work.from[k] + fraction * work.step[k];
-      const double residual = evaluate(mode);
+      const double residual = evaluate(evaluation);
       if (!search || i >= most_halvings || residual <= tolerance) return residual;
       if (slope() <= 0.5 * start_slope) return residual;
     }
   }
 
   bool solve_coupled(int max_passes) {
-    evaluate(Mode::inherited);
+    evaluate(Evaluation::inherited);
     for (int steps = 0; result.passes < max_passes; ++steps) {
-      const double residual = advance(Mode::coupled, steps >= free_steps);
+      const double residual = advance(Evaluation::coupled, steps >= free_steps);
       if (residual <= tolerance) return true;
       if (!(residual < hopeless * best_residual)) return false;
     }
     return false;
   }
 
-  void renew_bounds(double part) {
-    for (IslandRow& row : island.rows) {
-      const double next = friction_bound(row, row.normal.dot(row.impulse));
-      row.held_cap += part * (next - row.held_cap);
-    }
-  }
-
   bool solve_held() {
     restore(std::numeric_limits<double>::infinity());
-    evaluate(Mode::coupled);
+    evaluate(Evaluation::coupled);
     restore(best_residual);
-    evaluate(Mode::coupled);
-    for (IslandRow& row : island.rows) row.held_cap = 0;
-    double relaxation = 1;
+    evaluate(Evaluation::coupled);
+    double relaxation = 1;  // the bounds start at those of the best velocities
     while (result.passes < settings.max_passes) {
-      renew_bounds(relaxation);
-      double residual = evaluate(Mode::held);
+      renew_bounds(work.rows.groups, relaxation);
+      double residual = evaluate(Evaluation::held);
       while (residual > tolerance && result.passes < settings.max_passes)
-        residual = advance(Mode::held, true);
+        residual = advance(Evaluation::held, true);
       if (!std::isfinite(residual)) return false;
-      if (evaluate(Mode::coupled) <= tolerance) return true;
+      if (evaluate(Evaluation::coupled) <= tolerance) return true;
       relaxation = std::max(least_relaxation, 0.9 * relaxation);
     }
     return false;
@@ -208,9 +179,11 @@ struct Solve {
   void run() {
     prepare();
     result.converged = solve_coupled(settings.max_passes / 2) || solve_held();
-    if (result.converged) return;
-    restore(best_residual);
-    evaluate(Mode::coupled);
+    if (!result.converged) {
+      restore(best_residual);
+      evaluate(Evaluation::coupled);
+    }
+    unpack_rows(island.pairs, work.rows, island.rows);
   }
 };
 

@@ -37,6 +37,8 @@ template <int Dof>
 struct IslandWork {
   using Vec = Eigen::Matrix<double, Dof, 1>;
   IslandMatrix<Dof> matrix;
+  RowGroups rows;
+  std::vector<double> limit;  ///< of D_n and D_t [kg]                                  (n_pairs)
   std::vector<Vec> residual;  ///< M (v - v_free) - sum B^T p                           (n_bodies)
   std::vector<Vec> step;      ///< of Newton                                            (n_bodies)
   std::vector<Vec> from;      ///< velocity before the step                             (n_bodies)
