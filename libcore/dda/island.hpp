@@ -65,4 +65,13 @@ template <int Dof>
   return static_cast<int>(island.mass.size());
 }
 
+/// m_a m_b / (m_a + m_b); m_a on the ground [kg].
+template <int Dof>
+[[nodiscard]] double reduced_mass(const Island<Dof>& island, const BodyPair& pair) {
+  const double m_a = island.mass[static_cast<std::size_t>(pair.a)](0, 0);
+  if (pair.b < 0) return m_a;
+  const double m_b = island.mass[static_cast<std::size_t>(pair.b)](0, 0);
+  return m_a * (m_b / (m_a + m_b));
+}
+
 }  // namespace talus

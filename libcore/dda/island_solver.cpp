@@ -1,5 +1,6 @@
 #include "dda/island_solver.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,8 +14,10 @@ using std::size_t;
 constexpr int free_steps = 3;         // Newton steps before the line search looks at them
 constexpr int most_halvings = 8;      // of a step
 constexpr double slack = 0.1;          // of a slip stiffness before its tangent is summed again
+constexpr double first_ratio = 1;      // D / m at which stiffening starts
+constexpr double ratio_growth = 4;
+constexpr double soft_tolerance = 1e-3;  // of a stage before the last, relative to its start
 constexpr double hopeless = 1e5;      // growth of the residual at which coupled steps are given up
-constexpr double least_relaxation = 0.3;  // of the held friction bounds
 
 /// One solve; a struct so that its parts share what they all need.
 template <int Dof>
@@ -27,13 +30,8 @@ struct Solve {
   double tolerance = 0;
   double best_residual = std::numeric_limits<double>::infinity();
   bool direct = false;
-
-  [[nodiscard]] double reduced_mass(const BodyPair& pair) const {
-    const double m_a = island.mass[static_cast<size_t>(pair.a)](0, 0);
-    if (pair.b < 0) return m_a;
-    const double m_b = island.mass[static_cast<size_t>(pair.b)](0, 0);
-    return m_a * (m_b / (m_a + m_b));
-  }
+  bool tracking = true;
+  double stiffness_ratio = 0;
 
   // Packs the rows, and sets the tolerance above the rounding of the stiffest impulse.
   void prepare() {
@@ -42,13 +40,14 @@ struct Solve {
     double floor = 0;
     for (size_t p = 0; p < n_pairs; ++p) {
       const BodyPair& pair = island.pairs[p];
-      const double mass = reduced_mass(pair);
+      const double mass = reduced_mass(island, pair);
       work.limit[p] = settings.stiffest * mass;
       const double free_speed =
           island.free_velocity[static_cast<size_t>(pair.a)].template head<3>().norm();
       for (int r = pair.row_begin; r < pair.row_end; ++r) {
         const IslandRow& row = island.rows[static_cast<size_t>(r)];
         const double stiffness = std::min(std::max(row.normal_damping, row.shear_damping), work.limit[p]);
+        stiffness_ratio = std::max(stiffness_ratio, stiffness / mass);
         floor = std::max(floor, stiffness / mass * (std::abs(row.bias) + free_speed));
       }
     }
@@ -94,18 +93,16 @@ struct Solve {
           island.mass[i].lazyProduct(island.velocity[i] - island.free_velocity[i]);
     for (size_t p = 0; p < island.pairs.size(); ++p) evaluate_contacts(p, evaluation);
     result.residual = residual_speed();
-    if (evaluation == Evaluation::coupled && result.residual < best_residual) {
+    if (tracking && evaluation == Evaluation::coupled && result.residual < best_residual) {
       best_residual = result.residual;
       std::copy(island.velocity.begin(), island.velocity.end(), work.best.begin());
     }
     return result.residual;
   }
 
-  // K step = -residual. Factored, K is the exact derivative while the friction bounds are coupled.
-  void find_step(Evaluation evaluation) {
-    const Tangent tangent =
-        direct && evaluation == Evaluation::coupled ? Tangent::exact : Tangent::symmetric;
-    update_tangents(island, tangent, work.rows, work.matrix);
+  // K step = -residual.
+  void find_step() {
+    update_tangents(island, direct ? Tangent::exact : Tangent::symmetric, work.rows, work.matrix);
     for (Vec& r : work.residual) r = -r;
     if (direct) {
       ++result.factorisations;
@@ -127,48 +124,56 @@ struct Solve {
     return sum;
   }
 
-  // A Newton step; with `search` it is shortened until the residual's work along it is at most half
-  // of what it was at the start: there the step does not overshoot.
-  double advance(Evaluation evaluation, bool search) {
-    find_step(evaluation);
+  // A Newton step; with `search` it is shortened: with the exact derivative until the residual falls,
+  // else until the residual's work along the step is at most half of what it was at the start.
+  double advance(bool search) {
+    find_step();
+    const double start_residual = result.residual;
     const double start_slope = std::abs(slope());
     std::copy(island.velocity.begin(), island.velocity.end(), work.from.begin());
     double fraction = 1;
     for (int i = 0;; ++i, fraction /= 2) {
       for (size_t k = 0; k < work.step.size(); ++k)
         island.velocity[k] = work.from[k] + fraction * work.step[k];
-      const double residual = evaluate(evaluation);
+      const double residual = evaluate(Evaluation::coupled);
       if (!search || i >= most_halvings || residual <= tolerance) return residual;
-      if (slope() <= 0.5 * start_slope) return residual;
+      if (direct ? residual < start_residual : slope() <= 0.5 * start_slope) return residual;
     }
   }
 
   bool solve_coupled(int max_passes) {
     evaluate(Evaluation::inherited);
     for (int steps = 0; result.passes < max_passes; ++steps) {
-      const double residual = advance(Evaluation::coupled, steps >= free_steps);
+      const double residual = advance(steps >= free_steps);
       if (residual <= tolerance) return true;
       if (!(residual < hopeless * best_residual)) return false;
     }
     return false;
   }
 
-  bool solve_held() {
-    restore(std::numeric_limits<double>::infinity());
-    evaluate(Evaluation::coupled);
-    restore(best_residual);
-    evaluate(Evaluation::coupled);
-    double relaxation = 1;  // the bounds start at those of the best velocities
-    while (result.passes < settings.max_passes) {
-      renew_bounds(work.rows.groups, relaxation);
-      double residual = evaluate(Evaluation::held);
-      while (residual > tolerance && result.passes < settings.max_passes)
-        residual = advance(Evaluation::held, true);
-      if (!std::isfinite(residual)) return false;
-      if (evaluate(Evaluation::coupled) <= tolerance) return true;
-      relaxation = std::max(least_relaxation, 0.9 * relaxation);
+  // The law with D_n and D_t at most `ratio` times the reduced mass.
+  double soften(double ratio) {
+    for (size_t p = 0; p < work.limit.size(); ++p)
+      work.limit[p] = ratio * reduced_mass(island, island.pairs[p]);
+    (void)pack_rows(island.pairs, island.rows, work.limit, work.rows);
+    work.matrix.pair_changed.assign(island.pairs.size(), 1);
+    return evaluate(Evaluation::coupled);
+  }
+
+  // From rest in the free motion, at a stiffness where Newton finds its way, then at higher ones from
+  // there; factored, since slipping contacts that are stiff couple through their friction bounds.
+  bool solve_stiffening() {
+    std::copy(island.free_velocity.begin(), island.free_velocity.end(), island.velocity.begin());
+    direct = n_bodies(island) <= settings.direct_fallback;
+    for (double ratio = first_ratio;; ratio *= ratio_growth) {
+      tracking = ratio >= stiffness_ratio;
+      double residual = soften(std::min(ratio, settings.stiffest));
+      const double goal = tracking ? tolerance : tolerance + soft_tolerance * residual;
+      for (int steps = 0; residual > goal && result.passes < settings.max_passes; ++steps)
+        residual = advance(steps >= free_steps);
+      if (tracking) return residual <= tolerance;
+      if (!std::isfinite(residual) || result.passes >= settings.max_passes) return false;
     }
-    return false;
   }
 
   void restore(double residual) {
@@ -176,13 +181,21 @@ struct Solve {
     std::copy(good.begin(), good.end(), island.velocity.begin());
   }
 
+  // v -= M^-1 residual: not more than the tolerance, and what the bodies exchange adds up to nothing
+  // whatever the tolerance.
+  void keep_momentum() {
+    for (size_t i = 0; i < island.mass.size(); ++i)
+      island.velocity[i] -= island.mass[i].llt().solve(work.residual[i]);
+  }
+
   void run() {
     prepare();
-    result.converged = solve_coupled(settings.max_passes / 2) || solve_held();
+    result.converged = solve_coupled(settings.max_passes / 3) || solve_stiffening();
     if (!result.converged) {
       restore(best_residual);
-      evaluate(Evaluation::coupled);
+      result.residual = soften(settings.stiffest);
     }
+    if (result.converged) keep_momentum();
     unpack_rows(island.pairs, work.rows, island.rows);
   }
 };

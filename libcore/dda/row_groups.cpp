@@ -102,9 +102,7 @@ template <int Dof>
 [[gnu::always_inline]] inline void press(const RowGroup& g, const Two& p_n, Evaluation evaluation,
                                          Mask& closed, Two& cap) {
   closed = p_n > -g.tension;
-  if (evaluation == Evaluation::held) {
-    cap = g.held_cap;
-  } else if (evaluation == Evaluation::coupled) {
+  if (evaluation == Evaluation::coupled) {
     friction_bound(g, p_n, cap);
   } else {
     Two last_p_n;
@@ -251,15 +249,6 @@ void unpack_rows(std::span<const BodyPair> pairs, const RowGroups& groups,
       row.impulse = lane_of(group.impulse, lane);
       row.state = static_cast<ContactState>(static_cast<int>(group.state[lane]));
     }
-}
-
-void renew_bounds(std::span<RowGroup> groups, double part) {
-  for (RowGroup& g : groups) {
-    Two p_n, cap;
-    dot(g.normal, g.impulse, p_n);
-    friction_bound(g, p_n, cap);
-    g.held_cap += part * (cap - g.held_cap);
-  }
 }
 
 template <int Dof>

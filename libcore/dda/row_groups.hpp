@@ -29,7 +29,6 @@ struct RowGroup {
   Two state;            ///< ContactState
   Two slip_stiffness;   ///< of a slipping contact across its direction [kg]
   Two used_stiffness;   ///< slip_stiffness when the tangent was last summed [kg]
-  Two held_cap;         ///< friction bound while it is held [N s]
 };
 
 /// Rows [row_begin, row_end) of the pair fill groups [begin[p], begin[p + 1]).
@@ -39,9 +38,9 @@ struct RowGroups {
 };
 
 /// How contacts are evaluated: with the states they came with and friction bounded by the last step's
-/// normal impulses (a bound from the predicted overlap has no limit; a new contact sticks); with the
-/// law; or with the law and the friction bounds held.
-enum class Evaluation : std::uint8_t { inherited, coupled, held };
+/// normal impulses (a bound from the predicted overlap has no limit; a new contact sticks); or with
+/// the law.
+enum class Evaluation : std::uint8_t { inherited, coupled };
 
 /// Packs the rows; those stiffer than `limit[p]` (D_n or D_t) are lowered to it. Returns how many.
 int pack_rows(std::span<const BodyPair> pairs, std::span<const IslandRow> rows,
@@ -50,9 +49,6 @@ int pack_rows(std::span<const BodyPair> pairs, std::span<const IslandRow> rows,
 /// Impulses and states back to the rows.
 void unpack_rows(std::span<const BodyPair> pairs, const RowGroups& groups,
                  std::span<IslandRow> rows);
-
-/// held_cap += part (friction bound - held_cap).
-void renew_bounds(std::span<RowGroup> groups, double part);
 
 /// Impulses of a pair's contacts at the relative motion u; `f` is their sum as a generalised impulse
 /// on A about its centroid. True when a tangent changed: a state, or a slip stiffness by more than
