@@ -19,6 +19,10 @@
 namespace talus {
 
 /// A contact of an island. Velocities are those of A's point relative to B's.
+///
+/// A bond that breaks within the step makes the law jump, and a step with a jump may have no solution:
+/// give an intact bond without limit (1e9 m g h, say), compare its impulse with the limits afterwards
+/// and solve again without the bonds that were exceeded.
 struct IslandRow {  // clang-format off
   // filled by the caller; vectors in local axes
   Vec3 normal = Vec3::Zero();          ///< unit, from B to A

@@ -110,7 +110,7 @@ template <int Dof>
     friction_bound(g, last_p_n, cap);
     const auto slips = (g.state == slip_lanes) | ((g.friction + g.cohesion) <= zero);
     cap = slips ? cap : unbounded + zero;
-    closed = closed | (g.state != open_lanes);
+    closed = (p_n >= -g.tension) | (g.state != open_lanes);  // what just touches may be pushed
   }
 }
 
