@@ -11,6 +11,8 @@
 // so that a pair costs one tangent W = sum T(r_A)^T K T(r_A) instead of three blocks.
 #pragma once
 
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <vector>
 
 #include "contact/contact.hpp"
@@ -55,7 +57,8 @@ template <int Dof>
 struct Island {  // clang-format off
   using Vec = Eigen::Matrix<double, Dof, 1>;
   using Mat = Eigen::Matrix<double, Dof, Dof>;
-  std::vector<Mat> mass;           ///< M, for 12 plus the damping of the strains       (n_bodies)
+  std::vector<Mat> mass;           ///< M: for 6 diag(m, m, m, inertia), for 12 with the
+                                   ///< damping of the strains                          (n_bodies)
   std::vector<Vec> free_velocity;  ///< without contact [m/s, rad/s, 1/s]               (n_bodies)
   std::vector<Vec> velocity;       ///< in: first guess; out: at the end of the step    (n_bodies)
   std::vector<Vec3> position;      ///< centroids [m]                                   (n_bodies)
@@ -67,6 +70,27 @@ struct Island {  // clang-format off
 template <int Dof>
 [[nodiscard]] int n_bodies(const Island<Dof>& island) {
   return static_cast<int>(island.mass.size());
+}
+
+/// M v and M^-1 p of one body.
+template <int Dof>
+[[nodiscard]] inline Eigen::Matrix<double, Dof, 1> times_mass(
+    const Eigen::Matrix<double, Dof, Dof>& M, const Eigen::Matrix<double, Dof, 1>& v) {
+  if constexpr (Dof == 12) return M * v;
+  Eigen::Matrix<double, Dof, 1> p;
+  p.template head<3>() = M(0, 0) * v.template head<3>();
+  p.template segment<3>(3) =
+      M.template block<3, 3>(3, 3).lazyProduct(v.template segment<3>(3));
+  return p;
+}
+template <int Dof>
+[[nodiscard]] inline Eigen::Matrix<double, Dof, 1> solve_mass(
+    const Eigen::Matrix<double, Dof, Dof>& M, const Eigen::Matrix<double, Dof, 1>& p) {
+  if constexpr (Dof == 12) return M.llt().solve(p);
+  Eigen::Matrix<double, Dof, 1> v;
+  v.template head<3>() = p.template head<3>() / M(0, 0);
+  v.template segment<3>(3) = M.template block<3, 3>(3, 3).inverse() * p.template segment<3>(3);
+  return v;
 }
 
 /// m_a m_b / (m_a + m_b); m_a on the ground [kg].

@@ -112,10 +112,10 @@ struct Impact {
         f += generalised<Dof>(row.arm, row.impulse);
       }
       const auto a = static_cast<size_t>(pair.a), b = static_cast<size_t>(pair.b);
-      island.velocity[a] += island.mass[a].llt().solve(f);
+      island.velocity[a] += solve_mass<Dof>(island.mass[a], f);
       if (pair.b < 0) continue;
       const Vec3 shift = island.position[a] - island.position[b];
-      island.velocity[b] -= island.mass[b].llt().solve(carried_to_b<Dof>(f, shift));
+      island.velocity[b] -= solve_mass<Dof>(island.mass[b], carried_to_b<Dof>(f, shift));
     }
   }
 

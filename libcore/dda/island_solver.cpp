@@ -1,6 +1,5 @@
 #include "dda/island_solver.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -86,11 +85,11 @@ struct Solve {
     return largest;
   }
 
-  double evaluate(Evaluation evaluation) {
+  [[gnu::flatten]] double evaluate(Evaluation evaluation) {
     ++result.passes;
     for (size_t i = 0; i < island.mass.size(); ++i)
-      work.residual[i].noalias() =
-          island.mass[i].lazyProduct(island.velocity[i] - island.free_velocity[i]);
+      work.residual[i] =
+          times_mass<Dof>(island.mass[i], island.velocity[i] - island.free_velocity[i]);
     for (size_t p = 0; p < island.pairs.size(); ++p) evaluate_contacts(p, evaluation);
     result.residual = residual_speed();
     if (tracking && evaluation == Evaluation::coupled && result.residual < best_residual) {
@@ -185,7 +184,7 @@ struct Solve {
   // whatever the tolerance.
   void keep_momentum() {
     for (size_t i = 0; i < island.mass.size(); ++i)
-      island.velocity[i] -= island.mass[i].llt().solve(work.residual[i]);
+      island.velocity[i] -= solve_mass<Dof>(island.mass[i], work.residual[i]);
   }
 
   void run() {

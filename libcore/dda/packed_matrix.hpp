@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <cmath>
+#include <cstddef>
 
 namespace talus {
 
@@ -74,44 +74,46 @@ template <int N>
   return y;
 }
 
-/// Inverse of a positive definite matrix by Cholesky; not finite when it is not.
+/// Inverse of a positive definite matrix, by A = L D L^T.
 template <int N>
 [[nodiscard]] inline Packed<N> inverse(const Packed<N>& a) {
-  Packed<N> L, out;  // A = L L^T, then L becomes its inverse
-  std::array<double, N> pivot;  // 1 / L_ii
+  Packed<N> L, V, out;           // V = L D; L, of unit diagonal, becomes its inverse
+  std::array<double, N> per_d{};  // 1 / D
 #pragma GCC unroll 12
   for (int j = 0; j < N; ++j) {
-    double d = a(j, j);
 #pragma GCC unroll 12
-    for (int k = 0; k < j; ++k) d -= L(j, k) * L(j, k);
-    pivot[static_cast<std::size_t>(j)] = 1 / std::sqrt(d);
-#pragma GCC unroll 12
-    for (int i = j + 1; i < N; ++i) {
+    for (int i = j; i < N; ++i) {
       double s = a(i, j);
 #pragma GCC unroll 12
-      for (int k = 0; k < j; ++k) s -= L(i, k) * L(j, k);
-      L(i, j) = s * pivot[static_cast<std::size_t>(j)];
+      for (int k = 0; k < j; ++k) s -= V(i, k) * L(j, k);
+      V(i, j) = s;
     }
+    per_d[static_cast<std::size_t>(j)] = 1 / V(j, j);
+#pragma GCC unroll 12
+    for (int i = j + 1; i < N; ++i) L(i, j) = V(i, j) * per_d[static_cast<std::size_t>(j)];
   }
 #pragma GCC unroll 12
   for (int i = 0; i < N; ++i) {
-    const double p = pivot[static_cast<std::size_t>(i)];
+    L(i, i) = 1;
 #pragma GCC unroll 12
     for (int j = 0; j < i; ++j) {
-      double s = L(i, j) * L(j, j);
+      double s = L(i, j);
 #pragma GCC unroll 12
       for (int k = j + 1; k < i; ++k) s += L(i, k) * L(k, j);
-      L(i, j) = -s * p;
+      L(i, j) = -s;
     }
-    L(i, i) = p;
   }
+#pragma GCC unroll 12
+  for (int i = 0; i < N; ++i)
+#pragma GCC unroll 12
+    for (int k = i; k < N; ++k) V(k, i) = L(k, i) * per_d[static_cast<std::size_t>(k)];
 #pragma GCC unroll 12
   for (int i = 0; i < N; ++i)
 #pragma GCC unroll 12
     for (int j = 0; j <= i; ++j) {
       double s = 0;
 #pragma GCC unroll 12
-      for (int k = i; k < N; ++k) s += L(k, i) * L(k, j);
+      for (int k = i; k < N; ++k) s += V(k, i) * L(k, j);
       out(i, j) = s;
     }
   return out;

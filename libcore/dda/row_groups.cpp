@@ -45,22 +45,27 @@ constexpr Two stick_lanes = {2, 2};
 
 [[gnu::always_inline]] inline double sum(const Two& x) { return x[0] + x[1]; }
 
-void set_lane(const IslandRow& row, double limit, int lane, RowGroup& group) {
+// The place of a contact that is missing or waits: it has no stiffness and never presses.
+const IslandRow nothing;
+
+[[gnu::always_inline]] inline void set_group(const IslandRow& p, const IslandRow& q, double limit,
+                                             RowGroup& g) {
+#pragma GCC unroll 3
   for (int k = 0; k < 3; ++k) {
-    group.normal[k][lane] = row.normal[k];
-    group.arm[k][lane] = row.arm[k];
-    group.shear_velocity[k][lane] = row.shear_velocity[k];
-    group.slip_start[k][lane] = row.slip_start[k];
-    group.impulse[k][lane] = row.waits_for_impact ? 0 : row.impulse[k];
+    g.normal[k] = Two{p.normal[k], q.normal[k]};
+    g.arm[k] = Two{p.arm[k], q.arm[k]};
+    g.shear_velocity[k] = Two{p.shear_velocity[k], q.shear_velocity[k]};
+    g.slip_start[k] = Two{p.slip_start[k], q.slip_start[k]};
+    g.impulse[k] = Two{p.impulse[k], q.impulse[k]};
   }
-  group.bias[lane] = row.bias;
-  if (row.waits_for_impact) return;
-  group.normal_damping[lane] = std::min(row.normal_damping, limit);
-  group.shear_damping[lane] = std::min(row.shear_damping, limit);
-  group.friction[lane] = row.friction;
-  group.cohesion[lane] = row.cohesion_impulse;
-  group.tension[lane] = row.tension_impulse;
-  group.state[lane] = static_cast<double>(row.state);
+  g.bias = Two{p.bias, q.bias};
+  g.normal_damping = Two{std::min(p.normal_damping, limit), std::min(q.normal_damping, limit)};
+  g.shear_damping = Two{std::min(p.shear_damping, limit), std::min(q.shear_damping, limit)};
+  g.friction = Two{p.friction, q.friction};
+  g.cohesion = Two{p.cohesion_impulse, q.cohesion_impulse};
+  g.tension = Two{p.tension_impulse, q.tension_impulse};
+  g.state = Two{static_cast<double>(p.state), static_cast<double>(q.state)};
+  g.slip_stiffness = g.used_stiffness = zero;
 }
 
 // Velocity of the contact points.
@@ -226,16 +231,18 @@ int pack_rows(std::span<const BodyPair> pairs, std::span<const IslandRow> rows,
   for (const BodyPair& pair : pairs)
     out.begin.push_back(out.begin.back() + (pair.row_end - pair.row_begin + width - 1) / width);
   out.groups.resize(static_cast<size_t>(out.begin.back()));
-  for (size_t p = 0; p < pairs.size(); ++p)
-    for (int r = pairs[p].row_begin; r < pairs[p].row_end; r += width) {
-      RowGroup& group = out.groups[static_cast<size_t>(out.begin[p] + (r - pairs[p].row_begin) / width)];
-      group = RowGroup{};
-      for (int lane = 0; lane < width && r + lane < pairs[p].row_end; ++lane) {
-        const IslandRow& row = rows[static_cast<size_t>(r + lane)];
-        n_lowered += std::max(row.normal_damping, row.shear_damping) > limit[p];
-        set_lane(row, limit[p], lane, group);
-      }
-    }
+  size_t group = 0;
+  for (size_t p = 0; p < pairs.size(); ++p) {
+    const auto row_or_nothing = [&](int r) -> const IslandRow& {
+      if (r >= pairs[p].row_end) return nothing;
+      const IslandRow& row = rows[static_cast<size_t>(r)];
+      if (row.waits_for_impact) return nothing;
+      n_lowered += std::max(row.normal_damping, row.shear_damping) > limit[p];
+      return row;
+    };
+    for (int r = pairs[p].row_begin; r < pairs[p].row_end; r += width)
+      set_group(row_or_nothing(r), row_or_nothing(r + 1), limit[p], out.groups[group++]);
+  }
   return n_lowered;
 }
 

@@ -5,7 +5,7 @@
 #include <benchmark/benchmark.h>
 
 #include "dda/island_solver.hpp"
-#include "unit/dda/island_scenes.hpp"
+#include "../unit/dda/island_scenes.hpp"
 
 namespace {
 
@@ -88,8 +88,8 @@ Parts solved_pile() {
 
 void count_per(benchmark::State& state, const char* name, std::size_t n) {
   state.counters[name] =
-      benchmark::Counter(1e-9 * static_cast<double>(n) * static_cast<double>(state.iterations()),
-                         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+      benchmark::Counter(static_cast<double>(n), benchmark::Counter::kIsIterationInvariantRate |
+                                                     benchmark::Counter::kInvert);
 }
 
 void evaluate_rows(benchmark::State& state) {
@@ -102,7 +102,7 @@ void evaluate_rows(benchmark::State& state) {
                                                        parts.island.velocity[a],
                                                        talus::Evaluation::coupled, 0.1, f));
     }
-  count_per(state, "ns_per_row", parts.island.rows.size());
+  count_per(state, "per_row", parts.island.rows.size());
 }
 
 void assemble_rows(benchmark::State& state) {
@@ -111,7 +111,7 @@ void assemble_rows(benchmark::State& state) {
   for (auto _ : state)
     for (std::size_t p = 0; p < parts.island.pairs.size(); ++p)
       benchmark::DoNotOptimize(talus::sum_tangents<6>(groups_of(parts.work.rows, p), W, nullptr));
-  count_per(state, "ns_per_row", parts.island.rows.size());
+  count_per(state, "per_row", parts.island.rows.size());
 }
 
 void update_diagonals_of_all(benchmark::State& state) {
@@ -120,7 +120,7 @@ void update_diagonals_of_all(benchmark::State& state) {
     parts.work.matrix.body_changed.assign(parts.island.mass.size(), 1);
     update_diagonals(parts.island, parts.work.matrix);
   }
-  count_per(state, "ns_per_body", parts.island.mass.size());
+  count_per(state, "per_body", parts.island.mass.size());
 }
 
 void multiply_matrix(benchmark::State& state) {
@@ -128,7 +128,7 @@ void multiply_matrix(benchmark::State& state) {
   auto& matrix = parts.work.matrix;
   for (auto _ : state)
     talus::multiply<6>(parts.island, matrix, parts.work.step, matrix.product);
-  count_per(state, "ns_per_pair", matrix.coupled.size());
+  count_per(state, "per_pair", matrix.coupled.size());
 }
 
 void invert_6x6(benchmark::State& state) {
@@ -136,7 +136,7 @@ void invert_6x6(benchmark::State& state) {
   for (auto _ : state)
     for (const auto& block : parts.work.matrix.diagonal)
       benchmark::DoNotOptimize(talus::inverse(block));
-  count_per(state, "ns_per_body", parts.work.matrix.diagonal.size());
+  count_per(state, "per_body", parts.work.matrix.diagonal.size());
 }
 
 BENCHMARK(evaluate_rows);
