@@ -12,7 +12,7 @@ using std::size_t;
 
 constexpr int free_steps = 3;         // Newton steps before the line search looks at them
 constexpr int most_halvings = 8;      // of a step
-constexpr double slack = 0.1;          // of a slip stiffness before its tangent is summed again
+constexpr double slack = 0.5;          // of a slip stiffness before its tangent is summed again
 constexpr double first_ratio = 1;      // D / m at which stiffening starts
 constexpr double ratio_growth = 4;
 constexpr double soft_tolerance = 1e-3;  // of a stage before the last, relative to its start
