@@ -507,6 +507,13 @@ std::string Tool::stage(const std::string& path) {
   return impl_->staged.back().temporary;
 }
 
+void Tool::write_text(const std::string& path, const std::string& content) {
+  std::ofstream file(stage(path), std::ios::binary);
+  file << content;
+  file.close();
+  if (!file) throw InputError({path}, std::string("cannot be written: ") + std::strerror(errno));
+}
+
 void Tool::read_also(const std::string& role, const std::string& path) {
   impl_->add_input(role, path);
 }

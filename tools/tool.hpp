@@ -18,7 +18,7 @@ namespace talus {
 
 using Json = nlohmann::ordered_json;
 
-/// One effective setting and where it came from: "default", "file" or "cli".
+/// One effective setting and where it came from: "default", "cli", or a place in the site file.
 struct ConfigValue {
   std::string key;
   std::string value;
@@ -66,6 +66,8 @@ class Tool {
   /// staged files are synced and renamed when the body has returned, removed when it has thrown.
   /// Sidecars (styles, statistics) are staged like any other file.
   [[nodiscard]] std::string stage(const std::string& path);
+  /// Stages `path` and writes `content` into it. Throws InputError when it cannot be written.
+  void write_text(const std::string& path, const std::string& content);
   /// A file that was read but is not an option's value (named in a site file, member of a set).
   void read_also(const std::string& role, const std::string& path);
   /// To hand to long work; throws Interrupted after SIGINT or SIGTERM.

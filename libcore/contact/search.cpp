@@ -22,15 +22,8 @@ constexpr Neighbour neighbours[2][3] = {{{0, -1, 1, 1, 1}, {1, 0, 1, 0, 0}, {0, 
 
 void add_plane(const TrianglePlane& plane, const Ground& ground, int triangle, int b, int v,
                const Vec3& X, const Vec3& x, double gap, std::vector<Contact>& contacts) {
-  Contact contact;
-  contact.key = {ContactMode::vertex_face, -1, v, -1};
-  contact.block_a = b;
-  contact.ground_class = class_of(ground, triangle);
-  contact.normal = plane.normal;
-  contact.point_a = X;
-  contact.point_b = x - gap * plane.normal;
-  contact.gap = gap;
-  contacts.push_back(contact);
+  contacts.push_back({{ContactMode::vertex_face, -1, v, -1}, b, -1, class_of(ground, triangle),
+                      plane.normal, X, x - gap * plane.normal, gap});
 }
 
 // The planes on the other side of valley lines near the vertex. There the ground is the higher of
@@ -193,16 +186,18 @@ void find_features(const FeatureSearch& s, const CellRange& cells, std::vector<C
 SearchResult find_contacts(const Ground& ground, const Shapes& shapes, int b, const Pose& pose,
                            const Mat3& stretch, double margin, std::vector<Vec3>& vertices,
                            std::vector<Contact>& contacts) {
+  const std::span<const Vec3> body = vertices_of(shapes, b);
   contacts.clear();
-  vertices.clear();
+  vertices.resize(body.size());
   const Mat3 R = pose.attitude.toRotationMatrix();
   const Mat3 F = R * stretch;
   Vec3 low = pose.position, high = pose.position;
-  for (const Vec3& X : vertices_of(shapes, b)) {
-    const Vec3 x = pose.position + F * X;
+  for (size_t v = 0; v < body.size(); ++v) {
+    const Vec3 x = pose.position + body[v].x() * F.col(0) + body[v].y() * F.col(1) +
+                   body[v].z() * F.col(2);
     low = low.cwiseMin(x);
     high = high.cwiseMax(x);
-    vertices.push_back(x);
+    vertices[v] = x;
   }
   const NearCells near = find_near_cells(ground.trn, ground.pyramid, low, high, margin);
   if (near.reach == Reach::above) return {near.reach, low.z() - near.ground.high};

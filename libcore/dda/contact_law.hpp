@@ -8,21 +8,82 @@
 // -D_t (v_t + s / tau) is the impulse while it stays below tan(phi) p_n + c A_c h, else the contact
 // slips with tan(phi) p_n along the mean of the slip directions at the step's start and end: second
 // order in the step, which the end direction alone is not (it errs by 1e-3 on an oblique slide).
+// Inline: this is the innermost loop of the engine.
 #pragma once
+
+#include <algorithm>
+#include <cmath>
 
 #include "dda/work.hpp"
 
 namespace talus {
 
-/// What the contact law gives at a point velocity.
-struct ContactResponse {
-  Vec3 impulse;            ///< on A [N s]
-  Mat3 tangent;            ///< -d impulse / d velocity [kg]
-  ContactState state;
-};
+/// Mean of the slip directions at the start and the end of the step, not yet of unit length. At the
+/// speed where slip begins it is the end's alone, so that the impulse is continuous.
+[[nodiscard]] inline Vec3 slip_sum(const ContactRow& row, const Vec3& end, double share) {
+  const double along = row.slip_start.dot(end);
+  return along > 0 ? Vec3(end + (share * along) * row.slip_start) : end;
+}
 
-/// Body axes throughout. `cap` < 0: the friction bound follows the normal impulse (Newton couples
-/// the two, the tangent is not symmetric); otherwise the bound is `cap` [N s].
-[[nodiscard]] ContactResponse contact_response(const ContactRow& row, const Vec3& velocity, double cap);
+/// Evaluates the law for the point's velocity `w` and keeps what it found in `row`. Body axes
+/// throughout. `held_cap` < 0: the bound follows the normal impulse, otherwise it is held.
+inline void evaluate(const Vec3& w, double held_cap, ContactRow& row) {
+  const Vec3& n = row.normal;
+  const double speed_n = n.dot(w);
+  const double p_n = -row.normal_damping * (speed_n + row.bias);
+  if (p_n <= -row.tension_impulse) {
+    row.state = ContactState::open;
+    row.impulse.setZero();
+    return;
+  }
+  row.cap = held_cap < 0 ? row.friction * std::max(p_n, 0.0) + row.cohesion_impulse : held_cap;
+  row.trial = w - speed_n * n + row.shear_velocity;
+  row.trial_speed = row.trial.norm();
+  const double trial_impulse = row.shear_damping * row.trial_speed;
+  if (trial_impulse <= row.cap) {
+    row.state = ContactState::stick;
+    row.impulse = p_n * n - row.shear_damping * row.trial;
+    return;
+  }
+  row.state = ContactState::slip;
+  const Vec3 sum = slip_sum(row, row.trial / row.trial_speed, 1 - row.cap / trial_impulse);
+  row.direction = sum / sum.norm();
+  row.impulse = p_n * n - row.cap * row.direction;
+}
+
+/// -d impulse / d velocity [kg] where the law was evaluated; not for an open contact. `coupled`: the
+/// bound follows the normal impulse, which makes the derivative unsymmetric.
+[[nodiscard]] inline Mat3 tangent(const ContactRow& row, bool coupled) {
+  const Vec3& n = row.normal;
+  Mat3 A;
+  if (row.state == ContactState::stick) {
+    A = (row.normal_damping - row.shear_damping) * n * n.transpose();
+    A.diagonal().array() += row.shear_damping;
+    return A;
+  }
+  A = row.normal_damping * n * n.transpose();
+  if (row.cap > 0) {
+    const Vec3 end = row.trial / row.trial_speed;
+    Mat3 change = -end * end.transpose();  // of the end direction, by the trial
+    change.diagonal().array() += 1;
+    change /= row.trial_speed;
+    const double along = row.slip_start.dot(end);
+    if (along > 0) {
+      const double threshold = row.cap / row.shear_damping, share = 1 - threshold / row.trial_speed;
+      const Vec3 turned = change * row.slip_start;
+      const Vec3 start_change =
+          (along * threshold / (row.trial_speed * row.trial_speed)) * end + share * turned;
+      const double length = slip_sum(row, end, share).norm();
+      change += row.slip_start * start_change.transpose();
+      const Eigen::RowVector3d lengthening = row.direction.transpose() * change;
+      change -= row.direction * lengthening;
+      change /= length;
+    }
+    const Vec3 normal_part = change * n;
+    A += row.cap * (change - normal_part * n.transpose());
+  }
+  if (coupled) A -= (row.friction * row.normal_damping) * row.direction * n.transpose();
+  return A;
+}
 
 }  // namespace talus

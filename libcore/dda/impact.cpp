@@ -10,11 +10,12 @@ namespace talus {
 namespace {
 
 // Contacts are stiff dampers during an impact: the velocity condition holds to this part of it.
-constexpr double stiffness_ratio = 1e8;
+constexpr double stiffness_ratio = 1e7;
 
 void make_impact_rows(const Scene& scene, int b, double resting_speed, const Mat3& to_body,
                       const Vec6& velocity, Work& work) {
   const double mass = scene.blocks.mass[static_cast<std::size_t>(b)];
+  const Vec3& inertia = scene.blocks.inertia[static_cast<std::size_t>(b)];
   work.rows.clear();
   for (std::size_t i = 0; i < work.contacts.size(); ++i) {
     const Contact& contact = work.contacts[i];
@@ -24,15 +25,15 @@ void make_impact_rows(const Scene& scene, int b, double resting_speed, const Mat
     row.contact = static_cast<int>(i);
     row.normal = to_body * contact.normal;
     row.point = contact.point_a;
-    row.shear.setZero();
-    row.shear_time = 1;
     const Vec3 w = point_velocity<6>(velocity, row.point);
     row.speed_start = row.normal.dot(w);
     const Vec3 tangent = w - row.speed_start * row.normal;
     const double slip_speed = tangent.norm();
     row.slip_start = slip_speed > 0 ? Vec3(tangent / slip_speed) : Vec3(Vec3::Zero());
     row.bias = row.speed_start < -resting_speed ? ground.restitution * row.speed_start : 0.0;
-    row.normal_damping = row.shear_damping = stiffness_ratio * mass;
+    const Mobility W = mobility(mass, inertia, row.point, row.normal);
+    row.normal_damping = stiffness_ratio / W.normal;
+    row.shear_damping = stiffness_ratio / W.tangent;
     row.friction = ground.friction;
     work.rows.push_back(row);
   }
@@ -63,8 +64,8 @@ ImpactResult apply_impact(const Scene& scene, int b, double touch, double restin
   system.mass.setZero();
   system.mass.diagonal() << Vec3::Constant(scene.blocks.mass[i]), inertia;
   system.free_velocity = before;
-  system.radius = scene.blocks.shapes.radius[i];
-  system.tolerance = 1e-10 * (before.head<3>().norm() + before.tail<3>().norm() * system.radius);
+  system.tolerance = 1e-8 * (before.head<3>().norm() +
+                             before.tail<3>().norm() * scene.blocks.shapes.radius[i]);
   const double energy = kinetic_energy(system, before);
   for (int pass = 0; pass < 12; ++pass) {
     system.velocity = before;

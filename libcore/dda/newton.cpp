@@ -1,68 +1,109 @@
 #include "dda/newton.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "dda/contact_law.hpp"
 
 namespace talus {
 namespace {
 
-Mat3 skew(const Vec3& x) {
-  Mat3 S;
-  S << 0, -x.z(), x.y(), x.z(), 0, -x.x(), -x.y(), x.x(), 0;
-  return S;
-}
-
-/// Residual and its derivative at the system's velocity.
 template <int Dof>
-struct Linearised {
-  typename BlockSystem<Dof>::Vec residual;
-  typename BlockSystem<Dof>::Mat matrix;
-};
-
+using Vec = typename BlockSystem<Dof>::Vec;
 template <int Dof>
-void add_contact(const Vec3& X, const ContactResponse& r, Linearised<Dof>& out) {
-  out.residual -= generalised<Dof>(X, r.impulse);
-  const Mat3& A = r.tangent;
-  if constexpr (Dof == 6) {
-    const Mat3 S = skew(X);  // J = [I, -S]
-    const Mat3 SA = S * A;
-    out.matrix.template topLeftCorner<3, 3>() += A;
-    out.matrix.template topRightCorner<3, 3>() -= A * S;
-    out.matrix.template bottomLeftCorner<3, 3>() += SA;
-    out.matrix.template bottomRightCorner<3, 3>() -= SA * S;
-  } else {
+using Mat = typename BlockSystem<Dof>::Mat;
+
+// H += J^T A J with J = [I, -S, strain columns], S = skew(X).
+template <int Dof>
+void add_tangent(const Vec3& X, const Mat3& A, Mat<Dof>& H) {
+  if constexpr (Dof == 12) {
     const Mat3x12 T = displacement_matrix(X);
-    out.matrix += T.transpose() * A * T;
+    H.noalias() += T.transpose() * (A * T).eval();
+    return;
+  }
+  const double x = X.x(), y = X.y(), z = X.z();
+  double B[3][6];  // A J
+  for (int i = 0; i < 3; ++i) {
+    const double a = A(i, 0), b = A(i, 1), c = A(i, 2);
+    B[i][0] = a;
+    B[i][1] = b;
+    B[i][2] = c;
+    B[i][3] = y * c - z * b;
+    B[i][4] = z * a - x * c;
+    B[i][5] = x * b - y * a;
+  }
+  for (int j = 0; j < 6; ++j) {
+    H(0, j) += B[0][j];
+    H(1, j) += B[1][j];
+    H(2, j) += B[2][j];
+    H(3, j) += y * B[2][j] - z * B[1][j];
+    H(4, j) += z * B[0][j] - x * B[2][j];
+    H(5, j) += x * B[1][j] - y * B[0][j];
   }
 }
 
-// `lagged`: friction bounds are those of the rows' last impulses, kept in cap_of(row).
+// Momentum that is missing at the system's velocity. `lagged`: friction bounds are the rows' held ones.
 template <int Dof>
-void linearise(const BlockSystem<Dof>& system, std::span<ContactRow> rows, bool lagged,
-               Linearised<Dof>& out) {
-  out.residual = system.mass * (system.velocity - system.free_velocity);
-  out.matrix = system.mass;
+Vec<Dof> residual(const BlockSystem<Dof>& system, std::span<ContactRow> rows, bool lagged) {
+  Vec<Dof> r;
+  if constexpr (Dof == 6)
+    r = system.mass.diagonal().cwiseProduct(system.velocity - system.free_velocity);
+  else
+    r.noalias() = system.mass * (system.velocity - system.free_velocity);
   for (ContactRow& row : rows) {
     if (row.waits_for_impact) continue;
-    const Vec3 w = point_velocity<Dof>(system.velocity, row.point);
-    const ContactResponse r = contact_response(row, w, lagged ? row.held_cap : -1.0);
-    row.impulse = r.impulse;
-    row.state = r.state;
-    if (r.state != ContactState::open) add_contact<Dof>(row.point, r, out);
+    const Vec3 w = point_velocity<Dof>(system.velocity, row.point) + row.drift;
+    evaluate(w, lagged ? row.held_cap : -1.0, row);
+    if (row.state != ContactState::open) r -= generalised<Dof>(row.point, row.impulse);
   }
+  return r;
 }
 
-// The residual as a velocity: impulse over mass, angular impulse over inertia times radius.
+// Derivative of the residual where it was last evaluated.
 template <int Dof>
-double residual_speed(const BlockSystem<Dof>& s, const typename BlockSystem<Dof>::Vec& r) {
-  double largest = 0;
+Mat<Dof> derivative(const BlockSystem<Dof>& system, std::span<const ContactRow> rows, bool lagged) {
+  Mat<Dof> H = system.mass;
+  for (const ContactRow& row : rows) {
+    if (row.waits_for_impact || row.state == ContactState::open) continue;
+    add_tangent<Dof>(row.point, tangent(row, !lagged), H);
+  }
+  return H;
+}
+
+// x with H x = b, by elimination with row pivoting; H is a few rows and regular (M is in it).
+template <int Dof>
+Vec<Dof> solve_dense(Mat<Dof> H, Vec<Dof> b) {
+  for (int k = 0; k < Dof; ++k) {
+    int pivot = k;
+    for (int i = k + 1; i < Dof; ++i)
+      if (std::abs(H(i, k)) > std::abs(H(pivot, k))) pivot = i;
+    if (pivot != k) {
+      for (int j = k; j < Dof; ++j) std::swap(H(k, j), H(pivot, j));
+      std::swap(b[k], b[pivot]);
+    }
+    const double inverse = 1 / H(k, k);
+    for (int i = k + 1; i < Dof; ++i) {
+      const double factor = H(i, k) * inverse;
+      for (int j = k + 1; j < Dof; ++j) H(i, j) -= factor * H(k, j);
+      b[i] -= factor * b[k];
+    }
+  }
+  for (int k = Dof - 1; k >= 0; --k) {
+    for (int j = k + 1; j < Dof; ++j) b[k] -= H(k, j) * b[j];
+    b[k] /= H(k, k);
+  }
+  return b;
+}
+
+// The residual as a velocity of the block's points: impulse over mass; angular impulse over inertia,
+// times the radius of gyration about that axis.
+template <int Dof>
+bool is_small(const BlockSystem<Dof>& s, const Vec<Dof>& r) {
+  const double limit = s.tolerance * s.tolerance * s.mass(0, 0);
   for (int i = 0; i < Dof; ++i)
-    largest = std::max(largest, std::abs(r[i]) / s.mass(i, i) * (i < 3 ? 1 : s.radius));
-  return largest;
+    if (!(r[i] * r[i] <= limit * s.mass(i, i))) return false;
+  return true;
 }
 
 double cap_of(const ContactRow& row) {
@@ -73,22 +114,21 @@ double cap_of(const ContactRow& row) {
 // no more, which for this convex problem always makes progress.
 template <int Dof>
 int solve_held(BlockSystem<Dof>& system, std::span<ContactRow> rows, int max_passes, bool& settled) {
-  Linearised<Dof> at;
   int passes = 1;
-  linearise(system, rows, true, at);
-  settled = residual_speed(system, at.residual) <= system.tolerance;
+  Vec<Dof> r = residual(system, rows, true);
+  settled = is_small(system, r);
   while (!settled && passes < max_passes) {
-    const typename BlockSystem<Dof>::Vec step = at.matrix.partialPivLu().solve(-at.residual);
-    const typename BlockSystem<Dof>::Vec from = system.velocity;
-    const double slope = std::abs(at.residual.dot(step));
+    const Vec<Dof> step = solve_dense<Dof>(derivative<Dof>(system, rows, true), -r);
+    const Vec<Dof> from = system.velocity;
+    const double slope = std::abs(r.dot(step));
     double fraction = 1;
     for (int i = 0; i < 8; ++i, fraction /= 2) {
       system.velocity = from + fraction * step;
-      linearise(system, rows, true, at);
+      r = residual(system, rows, true);
       ++passes;
-      if (at.residual.dot(step) <= 0.5 * slope) break;
+      if (r.dot(step) <= 0.5 * slope) break;
     }
-    settled = residual_speed(system, at.residual) <= system.tolerance;
+    settled = is_small(system, r);
   }
   return passes;
 }
@@ -120,17 +160,16 @@ NewtonResult solve_lagged(BlockSystem<Dof>& system, std::span<ContactRow> rows, 
 
 template <int Dof>
 NewtonResult solve_contacts(BlockSystem<Dof>& system, std::span<ContactRow> rows, int max_passes) {
-  Linearised<Dof> at;
   NewtonResult result;
   const int coupled_passes = std::max(8, max_passes / 3);
   while (result.passes < coupled_passes) {
-    linearise(system, rows, false, at);
+    const Vec<Dof> r = residual(system, rows, false);
     ++result.passes;
-    if (residual_speed(system, at.residual) <= system.tolerance) {
+    if (is_small(system, r)) {
       result.converged = true;
       return result;
     }
-    system.velocity -= at.matrix.partialPivLu().solve(at.residual);
+    system.velocity -= solve_dense<Dof>(derivative<Dof>(system, rows, false), r);
   }
   if (!system.velocity.allFinite()) system.velocity = system.free_velocity;
   NewtonResult lagged = solve_lagged(system, rows, max_passes);

@@ -3,6 +3,7 @@
 // theory 1.7, 1.10; docs/design-notes.md (why the friction bound is iterated inside the step)
 #pragma once
 
+#include <algorithm>
 #include <span>
 
 #include "dda/displacement.hpp"
@@ -20,7 +21,6 @@ struct BlockSystem {
   Vec free_velocity;   ///< without contact [m/s, rad/s, 1/s]
   Vec velocity;        ///< in: first guess; out: at the end of the step
   double tolerance = 0;  ///< largest residual, as a velocity of the block's points [m/s]
-  double radius = 1;     ///< of the block, turns spin into velocity [m]
 };
 
 struct NewtonResult {
@@ -56,6 +56,18 @@ template <int Dof>
   f.template segment<3>(3) = X.cross(p);
   if constexpr (Dof == 12) f.template tail<6>() = strain_load(X, p);
   return f;
+}
+
+/// Velocity of a body point per impulse along the normal there, and the largest along any tangent.
+struct Mobility {
+  double normal, tangent;  ///< [1/kg]
+};
+[[nodiscard]] inline Mobility mobility(double mass, const Vec3& inertia, const Vec3& X,
+                                       const Vec3& n) {
+  const Vec3 per_inertia = inertia.cwiseInverse(), sq = X.cwiseAbs2(), turn = X.cross(n);
+  const double normal = 1 / mass + turn.cwiseAbs2().dot(per_inertia);
+  const double all = 3 / mass + per_inertia.dot(Vec3::Constant(sq.sum()) - sq);
+  return {normal, std::max(normal, all - normal)};
 }
 
 extern template NewtonResult solve_contacts<6>(BlockSystem<6>&, std::span<ContactRow>, int);

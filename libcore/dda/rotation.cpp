@@ -1,11 +1,12 @@
 #include "dda/rotation.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace talus {
 namespace {
 
-constexpr double largest_turn = 0.25;  // |omega| h of one substep of order 4 [rad]
+constexpr double largest_turn = 0.06;  // |omega| h of one substep of order 4 [rad]
 
 /// Spin split into turns about the body axes; carries attitude and body momentum along.
 struct SplitSpin {
@@ -49,6 +50,20 @@ struct SplitSpin {
   }
 };
 
+bool is_axis_of_symmetry(const Vec3& inertia, int k) {
+  const double a = inertia[(k + 1) % 3], b = inertia[(k + 2) % 3];
+  return std::abs(a - b) <= 1e-9 * std::max(a, b);  // equal but for the rounding of coordinates
+}
+
+// A body with two equal moments precesses steadily: about L at |L| / I_across, and about its own axis
+// at what is left of its spin there.
+Quat symmetric_rotation(const Quat& attitude, const Vec3& L, const Vec3& inertia, int axis, double h) {
+  const double across = inertia[(axis + 1) % 3];
+  const double along = (attitude.conjugate() * L)[axis];
+  const double own = h * along * (1 / inertia[axis] - 1 / across);
+  return (rotation_by(L * (h / across)) * attitude * rotation_by(own * Vec3::Unit(axis))).normalized();
+}
+
 }  // namespace
 
 Quat rotation_by(const Vec3& r) {
@@ -63,16 +78,20 @@ Quat rotation_by(const Vec3& r) {
 }
 
 Quat free_rotation(const Quat& attitude, const Vec3& L, const Vec3& inertia, double h) {
-  const double low = inertia.minCoeff(), high = inertia.maxCoeff();
-  const double turn = L.norm() / low * h;
-  if (turn == 0) return attitude;
-  if (high - low <= 1e-12 * high) return (rotation_by(L * (h / low)) * attitude).normalized();
+  if (L.isZero(0) || h == 0) return attitude;
+  for (int k = 0; k < 3; ++k)
+    if (is_axis_of_symmetry(inertia, k)) return symmetric_rotation(attitude, L, inertia, k, h);
   SplitSpin spin{attitude, attitude.conjugate() * L, inertia.cwiseInverse()};
-  if (turn < 1e-3) {  // order 2 errs by turn^3 / 12 < 1e-10 rad
-    spin.order2(h);
-  } else {
-    const int n = 1 + static_cast<int>(turn / largest_turn);
-    for (int i = 0; i < n; ++i) spin.order4(h / n);
+  double left = h;
+  while (left > 0) {
+    const double speed = spin.momentum.cwiseProduct(spin.per_inertia).norm();
+    const double n = std::ceil(speed * left / largest_turn);
+    const double part = n > 1 ? left / n : left;
+    if (speed * part < 1e-3)  // order 2 errs by turn^3 / 12 < 1e-10 rad
+      spin.order2(part);
+    else
+      spin.order4(part);
+    left = n > 1 ? left - part : 0;
   }
   return spin.q.normalized();
 }

@@ -26,6 +26,7 @@ struct Settings {
   double normal_stiffness = 0;  ///< k_n, > 0; 0 lets law talus choose [N/m]
   double shear_ratio = 1;       ///< k_s / k_n [-]
   int max_passes = 40;          ///< Newton or open-close iterations before a step is repeated
+  bool post_adjustment = true;  ///< law paper: restitution by (28); off, that of the springs
   bool static_start = true;     ///< law talus: blocks at rest start in equilibrium with the ground
   bool flight = true;           ///< law talus: skip the search while nothing can be hit
   bool sleep = true;            ///< law talus: blocks that stick and stand still are left out

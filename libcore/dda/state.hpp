@@ -56,6 +56,7 @@ struct State {  // clang-format off
   std::vector<Phase> phase;                 ///<                                     (n_blocks)
   std::vector<Vec3> acceleration;           ///< of the last step, by contact too [m/s2]  (n_blocks)
   std::vector<Vec3> spin_rate;              ///< angular acceleration, body axes [rad/s2] (n_blocks)
+  std::vector<Vec3> rebound;                ///< law paper: v_a of the hit under way, (28) [m/s] (n_blocks)
   std::vector<int> still_steps;             ///< steps in a row at rest              (n_blocks)
   std::vector<Vec6> strain;                 ///< body axes; empty for rigid blocks [-]    (n_blocks)
   std::vector<Vec6> strain_rate;            ///< body axes; empty for rigid blocks [1/s]  (n_blocks)

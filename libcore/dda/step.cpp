@@ -6,6 +6,7 @@
 #include "dda/displacement.hpp"
 #include "dda/flight.hpp"
 #include "dda/rotation.hpp"
+#include "dda/step_paper.hpp"
 #include "dda/step_talus.hpp"
 
 namespace talus {
@@ -27,9 +28,26 @@ Vec3 base_velocity(const BaseMotion& base, double t) {
   return sum;
 }
 
-bool at_rest(const Scene& scene, size_t b) {
-  return scene.blocks.velocity[b].isZero(0) && scene.blocks.spin[b].isZero(0);
+// A block that sticks with all its contacts and stands still is left out until something wakes it.
+void put_to_sleep(const Scene& scene, size_t b, State& state) {
+  constexpr double still = 1e-6;  // [m/s]
+  constexpr int long_enough = 100;
+  const Motion& m = state.motion[b];
+  const double spin = m.angular_momentum.norm() / scene.blocks.inertia[b].minCoeff();
+  const std::vector<ContactMemory>& memory = state.memory[b];
+  const bool sticks = std::all_of(memory.begin(), memory.end(), [](const ContactMemory& c) {
+    return c.state == static_cast<std::uint8_t>(ContactState::stick);
+  });
+  const bool rests = sticks && !memory.empty() &&
+                     m.velocity.norm() + spin * scene.blocks.shapes.radius[b] < still;
+  state.still_steps[b] = rests ? state.still_steps[b] + 1 : 0;
+  if (state.still_steps[b] < long_enough) return;
+  state.phase[b] = Phase::asleep;
+  state.motion[b].velocity.setZero();
+  state.motion[b].angular_momentum.setZero();
 }
+
+bool spins(const Scene& scene, size_t b) { return !scene.blocks.spin[b].isZero(0); }
 
 }  // namespace
 
@@ -52,6 +70,7 @@ State start(const Scene& scene) {
   state.acceleration.assign(n, Vec3::Zero());
   state.spin_rate.assign(n, Vec3::Zero());
   state.still_steps.assign(n, 0);
+  state.rebound.assign(n, Vec3::Zero());
   state.memory.resize(n);
   if (scene.settings.strains) {
     state.strain.assign(n, Vec6::Zero());
@@ -67,7 +86,7 @@ State start(const Scene& scene) {
   if (scene.settings.law == Law::talus && scene.settings.static_start) {
     Work work = make_work(scene);
     for (size_t b = 0; b < n; ++b)
-      if (at_rest(scene, b)) settle_block(scene, static_cast<int>(b), state, work);
+      if (!spins(scene, b)) settle_block(scene, static_cast<int>(b), state, work);
   }
   return state;
 }
@@ -88,6 +107,7 @@ Work make_work(const Scene& scene) {
 StepReport step(const Scene& scene, State& state, Work& work) {
   StepReport report;
   const double t_end = state.time + scene.settings.dt;
+  const bool may_sleep = scene.settings.sleep && scene.base.time.empty();
   work.segments.clear();
   for (int b = 0; b < n_blocks(scene); ++b) {
     const auto i = static_cast<size_t>(b);
@@ -96,7 +116,12 @@ StepReport step(const Scene& scene, State& state, Work& work) {
       ++state.counters.flight_skips;
       continue;
     }
+    if (scene.settings.law == Law::paper) {
+      advance_block_paper(scene, b, state, work, report);
+      continue;
+    }
     advance_block_talus(scene, b, t_end, state, work, report);
+    if (may_sleep && state.phase[i] == Phase::near_ground) put_to_sleep(scene, i, state);
   }
   state.time = t_end;
   ++state.counters.steps;

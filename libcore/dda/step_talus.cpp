@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "contact/search.hpp"
 #include "dda/displacement.hpp"
@@ -16,8 +17,8 @@ namespace {
 
 using std::size_t;
 
-// k_n dt^2 / m of the stiffest contact that is computed with.
-constexpr double stiffest = 100;
+// k_n dt^2 / m of the stiffest contact that is computed with, m being the mass that the contact feels.
+constexpr double stiffest = 400;
 // Overlap is pressed out over this many time steps: no velocity is turned round on the way.
 constexpr double recovery_steps = 3;
 // A contact is touching when its gap is below this part of the block's radius.
@@ -27,7 +28,9 @@ constexpr int most_tries = 24;       // substeps repeated to find an event or to
 
 /// Constants of one block in one run.
 struct BlockNumbers {
-  double mass, radius, stiffness, recovery_time, touch, resting_speed, gravity;
+  double mass, radius;
+  double stiffness;  // k_n of a contact that feels the whole mass
+  double recovery_time, touch, resting_speed, gravity;
   Vec3 inertia;
 };
 
@@ -35,8 +38,13 @@ BlockNumbers numbers_of(const Scene& scene, int b) {
   const auto i = static_cast<size_t>(b);
   const double g = scene.gravity.norm(), dt = scene.settings.dt;
   const double radius = scene.blocks.shapes.radius[i];
-  return {scene.blocks.mass[i], radius, contact_stiffness(scene, b), recovery_steps * dt,
+  return {scene.blocks.mass[i], radius, stiffest * scene.blocks.mass[i] / (dt * dt), recovery_steps * dt,
           touch_ratio * radius, std::max(2 * g * dt, 1e-6), g, scene.blocks.inertia[i]};
+}
+
+// Gap up to which a contact may come to press within a substep though the free motion keeps it open.
+double search_margin(const BlockNumbers& c, double h) {
+  return 4 * c.gravity * h * h + 1e-3 * c.radius;
 }
 
 /// A substep of `h`: where the block would be without contact, and how the solution changes that.
@@ -109,9 +117,13 @@ void inherit(const ContactMemory& memory, int index, const Substep& s, double to
 
 void set_law(const Scene& scene, const BlockNumbers& c, const Substep& s, ContactRow& row) {
   const double x = row.gap_start + row.offset;
-  row.normal_damping = c.stiffness * s.h * c.recovery_time;
-  row.shear_damping = scene.settings.shear_ratio * row.normal_damping;
-  row.shear_time = c.recovery_time;
+  const Mobility W = mobility(c.mass, c.inertia, row.point, row.normal);
+  const double asked = scene.settings.normal_stiffness;
+  const double k_n = std::min(asked > 0 ? asked : c.stiffness, c.stiffness / (c.mass * W.normal));
+  const double k_s = std::min(scene.settings.shear_ratio * k_n, c.stiffness / (c.mass * W.tangent));
+  row.normal_damping = k_n * s.h * c.recovery_time;
+  row.shear_damping = k_s * s.h * c.recovery_time;
+  row.shear_velocity = row.shear / c.recovery_time;
   row.bias = x < 0 ? x / c.recovery_time : x / s.h;
   row.waits_for_impact =
       row.memory < 0 && row.speed_start < -c.resting_speed && row.gap_start > c.touch;
@@ -131,10 +143,13 @@ void make_rows(const Scene& scene, int b, const BlockNumbers& c, const Substep& 
     ContactRow& row = work.rows[i] = ContactRow{};
     row.contact = static_cast<int>(i);
     row.normal = to_body * contact.normal;
-    row.point = contact.point_a;
-    row.free_move = s.free.pose.position - s.start.pose.position + (s.R - R_start) * row.point;
+    const Vec3& X = contact.point_a;
+    const Vec3 lever_start = to_body * (R_start * X);
+    row.point = (X + lever_start) / 2;
+    row.drift = s.spin_free.cross(X - row.point);
+    row.free_move = s.free.pose.position - s.start.pose.position + s.R * (X - lever_start);
     row.gap_start = contact.gap - contact.normal.dot(row.free_move);
-    const Vec3 w = s.start.velocity + R_start * spin_start.cross(row.point);
+    const Vec3 w = s.start.velocity + R_start * spin_start.cross(X);
     row.speed_start = contact.normal.dot(w);
     const Vec3 slip = w - row.speed_start * contact.normal;
     const double slip_speed = slip.norm();
@@ -157,12 +172,20 @@ void make_rows(const Scene& scene, int b, const BlockNumbers& c, const Substep& 
   }
 }
 
+// Residual at which the contact forces count as found, as a velocity: 1e-8 of what gravity does in the
+// substep, or what the rounding of the coordinates makes of the stiffest contact.
+double newton_tolerance(const BlockNumbers& c, const Substep& s) {
+  const double rounding = std::numeric_limits<double>::epsilon() *
+                          s.start.pose.position.cwiseAbs().maxCoeff() * c.stiffness * s.h / c.mass;
+  return std::clamp(rounding, 1e-8 * c.gravity * s.h, 1e-6 * c.gravity * s.h) +
+         1e-13 * s.start.velocity.norm();
+}
+
 template <int Dof>
 BlockSystem<Dof> make_system(const Scene& scene, int b, const BlockNumbers& c, const Substep& s,
                              const State& state) {
   const auto i = static_cast<size_t>(b);
   BlockSystem<Dof> system;
-  system.radius = c.radius;
   const Vec3 v_free = s.R.transpose() * s.free.velocity;
   const Vec3 v_start = s.R.transpose() * s.start.velocity;
   const Vec3 spin_start =
@@ -194,9 +217,7 @@ BlockSystem<Dof> make_system(const Scene& scene, int b, const BlockNumbers& c, c
     system.velocity.template head<6>() << v_start + s.h * (s.R.transpose() * state.acceleration[i]),
         spin_start + s.h * state.spin_rate[i];
   }
-  system.tolerance = std::max(1e-9 * c.gravity * s.h,
-                              1e-13 * (system.velocity.template head<3>().norm() +
-                                       c.radius * system.velocity.template segment<3>(3).norm()));
+  system.tolerance = newton_tolerance(c, s);
   return system;
 }
 
@@ -270,8 +291,8 @@ void remember(const BlockNumbers& c, const Substep& s, const Solved<Dof>& solved
     memory.normal_force = p_n / s.h;
     memory.state = static_cast<std::uint8_t>(row.state);
     const bool slips = row.state == ContactState::slip;
-    memory.bond_area = slips ? 0 : row.bond_area;
-    const double k_t = row.shear_damping / (row.shear_time * s.h);
+    memory.bond_area = row.bond_area;
+    const double k_t = row.shear_damping / (c.recovery_time * s.h);
     const Vec3 shear = slips ? Vec3(p_t / (-s.h * k_t)) : Vec3(row.shear + moved - along * row.normal);
     memory.shear = s.R * shear;
     work.memory_next.push_back(memory);
@@ -371,12 +392,13 @@ struct Advance {
   template <int Dof>
   Attempt attempt(double t, double& h, bool last) {
     const Substep s = predict(scene, b, c, motion(), t, h);
-    const double margin = 4 * c.gravity * h * h + 1e-3 * c.radius;
     const Mat3 stretch = stretch_of(state, b);
     const SearchResult near = find_contacts(scene.ground, scene.blocks.shapes, b, s.free.pose,
-                                            stretch, margin, work.world_vertices, work.contacts);
+                                            stretch, search_margin(c, h), work.world_vertices,
+                                            work.contacts);
     if (near.reach == Reach::off_ground) return Attempt::left;
-    if (near.reach == Reach::below) report.flags = report.flags | StepFlag::fell_through;
+    if (near.reach == Reach::below && !left_ground(scene, s.free.pose.position))
+      report.flags = report.flags | StepFlag::fell_through;
     if (work.contacts.empty()) {
       if (near.reach == Reach::above && free_fall_only() && begin_flight(t, h)) return Attempt::flight;
       state.memory[i()].clear();
@@ -418,14 +440,18 @@ struct Advance {
     return hit <= s.h ? Attempt::impact : Attempt::done;
   }
 
-  // A bond that slipped or opened is gone: its step is computed again without it.
+  // A bond that opened is gone; bonds that slip are gone when no other holds the block any more, so that
+  // a face fails at the sum of its strengths. The substep is then computed again without them.
   bool break_bonds() {
-    bool broken = false;
+    bool holds = false, broken = false;
     for (const ContactRow& row : work.rows)
-      if (row.bond_area > 0 && row.state != ContactState::stick) {
-        state.memory[i()][static_cast<size_t>(row.memory)].bond_area = 0;
-        broken = true;
-      }
+      holds |= row.bond_area > 0 && row.state == ContactState::stick;
+    for (const ContactRow& row : work.rows) {
+      const bool fails = row.state == ContactState::open || (row.state == ContactState::slip && !holds);
+      if (row.bond_area == 0 || !fails) continue;
+      state.memory[i()][static_cast<size_t>(row.memory)].bond_area = 0;
+      broken = true;
+    }
     return broken;
   }
 
@@ -462,11 +488,14 @@ struct Advance {
     return true;
   }
 
-  // A substep moves no point farther than half a cell.
+  // Near the ground a substep moves no point farther than half a cell and turns the block by at most
+  // half a radian; a needle that rolls at more than 100 radians a step is not followed any closer.
   double longest_substep() {
-    const Vec3 spin = angular_velocity(motion().pose.attitude, motion().angular_momentum, c.inertia);
-    const double speed = motion().velocity.norm() + spin.norm() * c.radius;
-    return 0.5 * scene.ground.trn.cell_size / (speed + 1e-300);
+    const Vec3 body = (motion().pose.attitude.conjugate() * motion().angular_momentum);
+    const double spin = body.cwiseQuotient(c.inertia).norm();
+    const double speed = motion().velocity.norm() + spin * c.radius;
+    const double turn = std::max(0.5 / (spin + 1e-300), scene.settings.dt / 200);
+    return std::min(0.5 * scene.ground.trn.cell_size / (speed + 1e-300), turn);
   }
 
   template <int Dof>
@@ -493,14 +522,89 @@ struct Advance {
   }
 };
 
-}  // namespace
-
-double contact_stiffness(const Scene& scene, int b) {
-  const double dt = scene.settings.dt;
-  const double cap = stiffest * scene.blocks.mass[static_cast<size_t>(b)] / (dt * dt);
-  const double asked = scene.settings.normal_stiffness;
-  return asked > 0 ? std::min(asked, cap) : cap;
+// Bonds of the faces that lie on the ground with all their corners when the run begins: each corner holds
+// its share of the face's area (theory 1.7). Only where the ground has cohesion or tensile strength.
+// `work.contacts` are those that touch.
+void bond_faces(const Scene& scene, int b, const Pose& pose, const Work& work,
+                std::vector<ContactMemory>& memory) {
+  constexpr double parallel = 1 - 1e-6;
+  const Shapes& shapes = scene.blocks.shapes;
+  const auto touching = [&](int vertex, const Vec3& outward) -> const Contact* {
+    for (const Contact& c : work.contacts)
+      if (c.key.mode == ContactMode::vertex_face && c.key.feature_a == vertex &&
+          c.normal.dot(outward) < -parallel)
+        return &c;
+    return nullptr;
+  };
+  const int first_part = shapes.part_begin[static_cast<size_t>(b)];
+  const int last_part = shapes.part_begin[static_cast<size_t>(b) + 1];
+  for (int f = shapes.face_begin[static_cast<size_t>(first_part)];
+       f < shapes.face_begin[static_cast<size_t>(last_part)]; ++f) {
+    const ShapeFace& face = shapes.faces[static_cast<size_t>(f)];
+    const Vec3 outward = pose.attitude * face.normal;
+    const int n = face.vertex_end - face.vertex_begin;
+    int held = 0;
+    for (int k = face.vertex_begin; k < face.vertex_end; ++k)
+      held += touching(shapes.face_vertices[static_cast<size_t>(k)], outward) != nullptr;
+    if (held < n) continue;
+    for (int k = face.vertex_begin; k < face.vertex_end; ++k) {
+      const Contact& c = *touching(shapes.face_vertices[static_cast<size_t>(k)], outward);
+      const GroundClass& ground = scene.ground.classes[static_cast<size_t>(c.ground_class)];
+      if (ground.cohesion == 0 && ground.tension == 0) continue;
+      ContactMemory bond;
+      bond.key = c.key;
+      bond.normal = c.normal;
+      bond.gap_end = c.gap;
+      bond.bond_area = face.area / n;
+      memory.push_back(bond);
+    }
+  }
 }
+
+// Whether the block touches the ground and moves neither into it nor off it.
+bool touches_at_rest(const Scene& scene, int b, const Motion& motion, Work& work) {
+  const BlockNumbers c = numbers_of(scene, b);
+  (void)find_contacts(scene.ground, scene.blocks.shapes, b, motion.pose, Mat3::Identity(),
+                      1e3 * c.touch, work.world_vertices, work.contacts);
+  const double slow = 1e-6 * motion.velocity.norm();
+  return !work.contacts.empty() &&
+         std::all_of(work.contacts.begin(), work.contacts.end(), [&](const Contact& contact) {
+           return std::abs(contact.normal.dot(motion.velocity)) <= slow;
+         });
+}
+
+// Static iteration: steps from rest, each ending at rest, until the block moves no more. friction < 0:
+// that of the ground. False when it keeps moving or the forces do not converge.
+bool settle(const Scene& scene, int b, double friction, bool from_touch, State& state, Work& work) {
+  BlockNumbers c = numbers_of(scene, b);
+  const double h = scene.settings.dt;
+  c.recovery_time = h / 2;  // from rest, this lands in equilibrium at once as k grows
+  Motion& motion = state.motion[static_cast<size_t>(b)];
+  StepReport report;
+  for (int pass = 0; pass < 40; ++pass) {
+    const Substep s = predict(scene, b, c, motion, 0, h);
+    (void)find_contacts(scene.ground, scene.blocks.shapes, b, s.free.pose, stretch_of(state, b),
+                        search_margin(c, h), work.world_vertices, work.contacts);
+    make_rows(scene, b, c, s, state, work);
+    if (work.rows.empty()) return true;
+    for (ContactRow& row : work.rows) {
+      if (friction >= 0) row.friction = friction;
+      if (from_touch && pass == 0) row.offset = 0, set_law(scene, c, s, row);
+    }
+    BlockSystem<6> system = make_system<6>(scene, b, c, s, state);
+    if (!solve_contacts(system, std::span(work.rows), scene.settings.max_passes).converged)
+      return false;
+    const Solved<6> solved = solved_motion(c, s, system);
+    remember(c, s, solved, state, work, b, report);
+    const double moved = (solved.end.pose.position - motion.pose.position).norm() +
+                         c.radius * solved.end.pose.attitude.angularDistance(motion.pose.attitude);
+    motion.pose = solved.end.pose;
+    if (moved < 1e-14 * c.radius + 1e-15 * motion.pose.position.norm()) return true;
+  }
+  return false;
+}
+
+}  // namespace
 
 void advance_block_talus(const Scene& scene, int b, double t_end, State& state, Work& work,
                          StepReport& report) {
@@ -513,35 +617,28 @@ void advance_block_talus(const Scene& scene, int b, double t_end, State& state, 
 
 void settle_block(const Scene& scene, int b, State& state, Work& work) {
   const auto i = static_cast<size_t>(b);
-  BlockNumbers c = numbers_of(scene, b);
-  const double h = scene.settings.dt;
-  c.recovery_time = h / 2;  // from rest, this lands in equilibrium at once as k grows
-  StepReport report;
-  const EnergyLedger ledger = state.ledger;
   const Motion rest = state.motion[i];
-  for (int pass = 0; pass < 100; ++pass) {
-    const Substep s = predict(scene, b, c, state.motion[i], 0, h);
-    (void)find_contacts(scene.ground, scene.blocks.shapes, b, s.free.pose, stretch_of(state, b),
-                        4 * c.gravity * h * h + 1e-3 * c.radius, work.world_vertices, work.contacts);
-    make_rows(scene, b, c, s, state, work);
-    if (work.rows.empty()) break;
-    for (ContactRow& row : work.rows) {
-      row.friction = 57;  // tan(89 degrees)
-      if (pass == 0) row.offset = 0, set_law(scene, c, s, row);
+  const EnergyLedger ledger = state.ledger;
+  constexpr double sticking = 57;  // tan(89 degrees)
+  if (touches_at_rest(scene, b, rest, work)) {
+    state.motion[i].velocity.setZero();
+    bond_faces(scene, b, rest.pose, work, state.memory[i]);
+    if (!settle(scene, b, sticking, true, state, work)) {  // it topples: from where it is
+      state.motion[i].pose = rest.pose;
+      state.memory[i].clear();
+    } else if (!rest.velocity.isZero(0)) {  // it moves along the ground: only the overlap is kept
+      for (ContactMemory& memory : state.memory[i]) memory.shear.setZero();
+    } else {
+      const Motion stuck = state.motion[i];
+      const std::vector<ContactMemory> memory = state.memory[i];
+      if (!settle(scene, b, -1, false, state, work)) {  // it slides: from where it stuck
+        state.motion[i] = stuck;
+        state.memory[i] = memory;
+      }
     }
-    BlockSystem<6> system = make_system<6>(scene, b, c, s, state);
-    if (!solve_contacts(system, std::span(work.rows), scene.settings.max_passes).converged) break;
-    const Solved<6> solved = solved_motion(c, s, system);
-    remember(c, s, solved, state, work, b, report);
-    const double moved =
-        (solved.end.pose.position - state.motion[i].pose.position).norm() +
-        c.radius * solved.end.pose.attitude.angularDistance(state.motion[i].pose.attitude);
-    state.motion[i].pose = solved.end.pose;
-    if (moved < 1e-15 * c.radius) break;
   }
   state.ledger = ledger;
   state.motion[i].velocity = rest.velocity;
-  state.motion[i].angular_momentum = rest.angular_momentum;
 }
 
 }  // namespace talus

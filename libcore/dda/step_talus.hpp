@@ -14,11 +14,8 @@ namespace talus {
 void advance_block_talus(const Scene& scene, int b, double t_end, State& state, Work& work,
                          StepReport& report);
 
-/// Lets block b, at rest, down into static equilibrium with the ground, sticking everywhere.
+/// Lets block b, which touches the ground at rest or slides along it, down into static equilibrium;
+/// a block that topples or does not touch stays where it is.
 void settle_block(const Scene& scene, int b, State& state, Work& work);
-
-/// Contact stiffness of block b: the scene's k_n, at most 100 m / dt^2 [N/m]. Beyond that a stiffer
-/// spring changes nothing within a step and only costs digits.
-[[nodiscard]] double contact_stiffness(const Scene& scene, int b);
 
 }  // namespace talus

@@ -14,7 +14,7 @@ namespace talus {
 struct RunParam {
   std::string key;  ///< long option name or site-file key, unit in the name
   std::string value;
-  std::string source;  ///< "default", "file" or "cli"
+  std::string source;  ///< "default", "cli", or the place in the site file ("file, line 7")
 };
 
 /// A file read or written, with its digest; `sha256` is empty when the content was not hashed.

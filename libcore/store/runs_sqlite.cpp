@@ -21,7 +21,7 @@ CREATE TABLE run (
   exit_code INTEGER NOT NULL, cpu_time_s REAL NOT NULL, wall_time_s REAL NOT NULL,
   peak_memory_kb INTEGER NOT NULL) STRICT;
 CREATE TABLE param (run_id INTEGER NOT NULL REFERENCES run, key TEXT NOT NULL, value TEXT NOT NULL,
-  source TEXT NOT NULL CHECK (source IN ('default', 'file', 'cli'))) STRICT;
+  source TEXT NOT NULL) STRICT;
 CREATE TABLE artifact (id INTEGER PRIMARY KEY, path TEXT NOT NULL, sha256 TEXT NOT NULL,
   bytes INTEGER NOT NULL, UNIQUE (path, sha256)) STRICT;
 CREATE TABLE run_input (run_id INTEGER NOT NULL REFERENCES run,

@@ -19,12 +19,6 @@ void check_trn(const Trn& trn, const std::string& file) {
     throw InputError(where, "the grid has " + std::to_string(trn.n_rows) + " rows and " +
                                 std::to_string(trn.n_cols) +
                                 " columns of nodes, expected at least 2 x 2");
-  const std::int64_t n_cells = std::int64_t{trn.n_rows - 1} * (trn.n_cols - 1);
-  if (n_cells > std::int64_t{1} << 30)
-    throw InputError(where,
-                     "the grid has " + std::to_string(n_cells) + " cells, expected at most " +
-                         std::to_string(std::int64_t{1} << 30),
-                     "choose a window or a larger cell");
   if (!(trn.cell_size > 0) || !std::isfinite(trn.cell_size))
     throw InputError(where, "the cell size is " + text(trn.cell_size) + " m, expected above 0");
   if (trn.elevation.size() != static_cast<std::size_t>(feature_counts(trn).vertices))

@@ -25,16 +25,15 @@
 
 namespace talus {
 
-struct Trn {
-  int n_rows = 0;              ///< nodes from north to south, the paper's m
-  int n_cols = 0;              ///< nodes from west to east, the paper's n
-  double cell_size = 0;        ///< Delta, > 0 [m]
-  Vec2 node0 = Vec2::Zero();   ///< local x, y of node (0, 0), the north-west one [m]
-  Vec3 origin = Vec3::Zero();  ///< map coordinates of the local zero [m]
-  std::string crs_wkt;         ///< projected, metres; empty when unknown
-  std::vector<double>
-      elevation;  ///< local z at [r * n_cols + c], NaN unknown [m]  (n_rows * n_cols)
-};
+struct Trn {  // clang-format off
+  int n_rows = 0;                 ///< nodes from north to south, the paper's m
+  int n_cols = 0;                 ///< nodes from west to east, the paper's n
+  double cell_size = 0;           ///< Delta, > 0 [m]
+  Vec2 node0 = Vec2::Zero();      ///< local x, y of node (0, 0), the north-west one [m]
+  Vec3 origin = Vec3::Zero();     ///< map coordinates of the local zero [m]
+  std::string crs_wkt;            ///< projected, metres; empty when unknown
+  std::vector<double> elevation;  ///< z at [r * n_cols + c] [m], NaN: unknown  (n_rows * n_cols)
+};  // clang-format on
 
 /// A cell by the row and column of its north-west node.
 struct Cell {
@@ -77,8 +76,8 @@ struct FeatureCounts {
 /// Eq. (4): discrete contact combinations of two bodies, N = (v_a + e_a + f_a)(v_b + e_b + f_b).
 [[nodiscard]] std::int64_t contact_combinations(const FeatureCounts& a, const FeatureCounts& b);
 
-/// Throws InputError naming `file` unless the grid has at least 2 x 2 nodes, at most 2^30 cells, a
-/// positive finite cell size, one elevation a node and at least one triangle of known ground.
+/// Throws InputError naming `file` unless the grid has at least 2 x 2 nodes, a positive finite cell
+/// size, one elevation a node and at least one triangle of known ground.
 void check_trn(const Trn& trn, const std::string& file);
 
 // --- nodes -------------------------------------------------------------------------------------
@@ -108,14 +107,17 @@ void check_trn(const Trn& trn, const std::string& file);
   return east >= 0 && south >= 0 && east <= trn.n_cols - 1 && south <= trn.n_rows - 1;
 }
 
-/// The cell of (x, y) and the place in it. floor() stands in for the paper's INT, which gives cell
-/// 0 to a point just west of it; outside, the cell is clamped and `east`, `south` leave 0..1.
+/// The cell of (x, y) and the place in it. Outside, the cell is that of the border and `east`,
+/// `south` leave 0..1; NaN gives cell (0, 0). Clamping comes before the cast to int, which then is
+/// the floor (the paper's INT gives cell 0 to a point just west of it) and costs nothing.
 [[nodiscard]] inline GridPoint locate(const Trn& trn, double x, double y) {
+  const auto clamped = [](double value, int last) {
+    return static_cast<int>(value > 0 ? std::min(value, static_cast<double>(last)) : 0.0);
+  };
   const double east = (x - trn.node0.x()) / trn.cell_size;
   const double south = (trn.node0.y() - y) / trn.cell_size;
-  const double col = std::clamp(std::floor(east), 0.0, static_cast<double>(trn.n_cols - 2));
-  const double row = std::clamp(std::floor(south), 0.0, static_cast<double>(trn.n_rows - 2));
-  return {{static_cast<int>(row), static_cast<int>(col)}, east - col, south - row};
+  const Cell cell{clamped(south, trn.n_rows - 2), clamped(east, trn.n_cols - 2)};
+  return {cell, east - cell.col, south - cell.row};
 }
 
 /// Index of the lower left triangle of a cell; the upper right one is the next.
@@ -127,9 +129,11 @@ void check_trn(const Trn& trn, const std::string& file);
   return {triangle / 2 / (trn.n_cols - 1), triangle / 2 % (trn.n_cols - 1)};
 }
 
-/// A point on the diagonal belongs to the lower left triangle.
+/// Whether a place lies in the upper right triangle of its cell; the diagonal is the lower left's.
+[[nodiscard]] inline bool is_upper(const GridPoint& point) { return point.south < point.east; }
+
 [[nodiscard]] inline int triangle_of(const Trn& trn, const GridPoint& point) {
-  return first_triangle(trn, point.cell) + (point.south < point.east ? 1 : 0);
+  return first_triangle(trn, point.cell) + (is_upper(point) ? 1 : 0);
 }
 
 /// The triangle above or below (x, y); that of the nearest border cell when the point lies outside.
@@ -145,15 +149,21 @@ void check_trn(const Trn& trn, const std::string& file);
   return {node_point(trn, r, c), node_point(trn, r + 1, c + 1), node_point(trn, r, c + 1)};
 }
 
-/// (dz/dx, dz/dy) of a triangle; NaN when a corner is unknown [-].
-[[nodiscard]] inline Vec2 triangle_gradient(const Trn& trn, int triangle) {
-  const Cell cell = cell_of_triangle(trn, triangle);
+/// (dz/dx, dz/dy) of a cell's lower left or upper right triangle; NaN when a corner is unknown [-].
+/// Walking north-west, middle, south-east corner, one of the two steps goes east, the other south;
+/// written without a branch, which at random points would be mispredicted every second time.
+[[nodiscard]] inline Vec2 triangle_gradient(const Trn& trn, const Cell& cell, bool upper) {
   const double* north = trn.elevation.data() + node_index(trn, cell.row, cell.col);
   const double* south = north + trn.n_cols;
+  const double middle = *(upper ? north + 1 : south);
+  const double first = middle - north[0], second = south[1] - middle;
   const double per_cell = 1 / trn.cell_size;
-  if (triangle % 2 == 0)
-    return {(south[1] - south[0]) * per_cell, (north[0] - south[0]) * per_cell};
-  return {(north[1] - north[0]) * per_cell, (north[1] - south[1]) * per_cell};
+  return {(upper ? first : second) * per_cell, (upper ? -second : -first) * per_cell};
+}
+
+/// The same by the triangle's index.
+[[nodiscard]] inline Vec2 triangle_gradient(const Trn& trn, int triangle) {
+  return triangle_gradient(trn, cell_of_triangle(trn, triangle), triangle % 2 != 0);
 }
 
 /// Whether all three corners are known: a triangle with an unknown corner is not ground.
@@ -162,22 +172,32 @@ void check_trn(const Trn& trn, const std::string& file);
   return !std::isnan(gradient.x()) && !std::isnan(gradient.y());
 }
 
-/// NaN in point or normal when the triangle is not ground.
-[[nodiscard]] inline TrianglePlane triangle_plane(const Trn& trn, int triangle) {
-  const Cell cell = cell_of_triangle(trn, triangle);
-  const Vec2 gradient = triangle_gradient(trn, triangle);
+/// Plane of a cell's lower left or upper right triangle; NaN in point or normal when it is not
+/// ground.
+[[nodiscard]] inline TrianglePlane triangle_plane(const Trn& trn, const Cell& cell, bool upper) {
+  const Vec2 gradient = triangle_gradient(trn, cell, upper);
   const double per_length = 1 / std::sqrt(1 + gradient.squaredNorm());
   return {node_point(trn, cell.row, cell.col),
           Vec3(-gradient.x() * per_length, -gradient.y() * per_length, per_length)};
+}
+
+/// The same by the triangle's index.
+[[nodiscard]] inline TrianglePlane triangle_plane(const Trn& trn, int triangle) {
+  return triangle_plane(trn, cell_of_triangle(trn, triangle), triangle % 2 != 0);
+}
+
+/// Plane of the triangle that holds a place: the quickest way, as it needs no index.
+[[nodiscard]] inline TrianglePlane plane_at(const Trn& trn, const GridPoint& point) {
+  return triangle_plane(trn, point.cell, is_upper(point));
 }
 
 /// Elevation of the ground at a place in its cell; NaN when its triangle is not ground [m].
 [[nodiscard]] inline double elevation_at(const Trn& trn, const GridPoint& point) {
   const double* north = trn.elevation.data() + node_index(trn, point.cell.row, point.cell.col);
   const double* south = north + trn.n_cols;
-  if (point.south < point.east)
-    return north[0] + (north[1] - north[0]) * point.east + (south[1] - north[1]) * point.south;
-  return north[0] + (south[0] - north[0]) * point.south + (south[1] - south[0]) * point.east;
+  const double middle = *(is_upper(point) ? north + 1 : south);
+  return north[0] + (middle - north[0]) * std::max(point.east, point.south) +
+         (south[1] - middle) * std::min(point.east, point.south);
 }
 
 /// Elevation of the ground at local (x, y); NaN off the grid and where the triangle that holds the

@@ -60,8 +60,8 @@ struct TrnPyramid {
   const double north = (trn.node0.y() - box_high.y() - ctol) / trn.cell_size;  // (5d)
   const bool touches = west <= last_col + 1 && east >= 0 && north <= last_row + 1 && south >= 0;
   if (!touches) return {};
-  const auto index = [](double value, double last) {
-    return static_cast<int>(std::clamp(std::floor(value), 0.0, last));
+  const auto index = [](double value, double last) {  // the cast is the floor: not below 0
+    return static_cast<int>(std::clamp(value, 0.0, last));
   };
   return {index(north, last_row), index(south, last_row), index(west, last_col),
           index(east, last_col)};

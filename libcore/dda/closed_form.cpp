@@ -1,0 +1,545 @@
+#include "dda/closed_form.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <utility>
+
+#include "dda/cases.hpp"
+#include "dda/displacement.hpp"
+#include "dda/rotation.hpp"
+#include "dda/step.hpp"
+
+namespace talus::cases {
+namespace {
+
+constexpr double g = 10;
+constexpr double degree = std::numbers::pi / 180;
+
+/// A scene on its way.
+struct Run {
+  Scene scene;
+  State state;
+  Work work;
+  CaseResult result;
+
+  explicit Run(Scene s) : scene(std::move(s)), state(start(scene)), work(make_work(scene)) {}
+
+  StepReport advance() {
+    const StepReport report = step(scene, state, work);
+    ++result.steps;
+    result.passes += report.passes;
+    result.unconverged += report.n_unconverged;
+    result.largest_penetration = std::max(result.largest_penetration, report.largest_penetration);
+    result.flags = result.flags | report.flags;
+    return report;
+  }
+  void advance_to(double time) {
+    const long n = std::lround((time - state.time) / scene.settings.dt);
+    for (long i = 0; i < n; ++i) advance();
+  }
+  [[nodiscard]] Motion motion() const { return motion_at(scene, state, 0, state.time); }
+  [[nodiscard]] Vec3 spin(const Motion& m) const {
+    return angular_velocity(m.pose.attitude, m.angular_momentum, scene.blocks.inertia[0]);
+  }
+  CaseResult finish(double value, double expected, double error) {
+    result.value = value;
+    result.expected = expected;
+    result.error = error;
+    return result;
+  }
+};
+
+GroundClass ground_of(double friction_deg, double restitution = 0) {
+  GroundClass ground;
+  ground.friction = std::tan(friction_deg * degree);
+  ground.restitution = restitution;
+  return ground;
+}
+
+Scene on_plane(const Settings& settings, const SlopeFrame& frame, const GroundClass& ground,
+               const Body& body, double reach, double cell_size = 0.5,
+               const Vec3& through = Vec3::Zero()) {
+  return scene_of(plane_trn(frame, cell_size, reach, through), ground, {body}, settings);
+}
+
+Body body_of(Polyhedron shape, const Vec3& velocity = Vec3::Zero(),
+             const Vec3& spin = Vec3::Zero()) {
+  Body body;
+  body.parts = {std::move(shape)};
+  body.velocity = velocity;
+  body.spin = spin;
+  return body;
+}
+
+Polyhedron cube_on(const SlopeFrame& frame, double side, const Vec3& base = Vec3::Zero()) {
+  const double h = side / 2;
+  return box_in(frame, base, Vec3(-h, -h, 0), Vec3(h, h, side));
+}
+
+// Where `happens` turns from false to true between low and high.
+double bisect(double low, double high, int n, const std::function<bool(double)>& happens) {
+  for (int i = 0; i < n; ++i) {
+    const double middle = (low + high) / 2;
+    (happens(middle) ? high : low) = middle;
+  }
+  return (low + high) / 2;
+}
+
+}  // namespace
+
+CaseResult parabola(const Settings& settings) {
+  const SlopeFrame flat = slope_frame(0, 0);
+  const Body body = body_of(box_in(flat, Vec3(0, 0, 50), Vec3(-1, -1, -1), Vec3(1, 1, 1)),
+                            Vec3(0, 10, 0));
+  Run run(on_plane(settings, flat, ground_of(0), body, 40, 2));
+  const Vec3 from = run.motion().pose.position;
+  run.advance_to(1);
+  const double t = run.state.time;
+  const Vec3 moved = run.motion().pose.position - from;
+  const Vec3 expected(0, 10 * t, -g * t * t / 2);
+  return run.finish(moved.z(), expected.z(), (moved - expected).cwiseAbs().maxCoeff());
+}
+
+CaseResult sliding(const Settings& settings, double friction_deg, double azimuth_deg,
+                   double duration_s, const Vec3& offset, double cell_size) {
+  const SlopeFrame frame = slope_frame(30, azimuth_deg);
+  Run run(on_plane(settings, frame, ground_of(friction_deg), body_of(cube_on(frame, 1, offset)), 60,
+                   cell_size, offset));
+  const bool sticks = friction_deg >= 30;
+  if (sticks) run.advance_to(duration_s / 4);
+  const Vec3 from = run.motion().pose.position;
+  run.advance_to(duration_s);
+  const Vec3 moved = run.motion().pose.position - from;
+  if (sticks) return run.finish(moved.norm(), 0, moved.norm());
+  const double a = g * (std::sin(30 * degree) - std::tan(friction_deg * degree) * std::cos(30 * degree));
+  const double expected = a * run.state.time * run.state.time / 2;  // (26)
+  return run.finish(moved.dot(frame.dip), expected,
+                    (moved - expected * frame.dip).norm() / expected);
+}
+
+CaseResult oblique_slide(const Settings& settings, double azimuth_deg) {
+  const SlopeFrame frame = slope_frame(30, azimuth_deg);
+  Run run(on_plane(settings, frame, ground_of(20), body_of(cube_on(frame, 1), 10 * frame.strike), 40));
+  const Vec3 from = run.motion().pose.position;
+  run.advance_to(2);
+  // dv/dt = g sin(30) dip - mu g cos(30) v / |v|, by the classic Runge-Kutta method
+  const double drive = g * std::sin(30 * degree);
+  const double brake = g * std::cos(30 * degree) * std::tan(20 * degree);
+  const auto rate = [&](const Vec2& v) { return Vec2(Vec2(drive, 0) - brake * v.normalized()); };
+  Vec2 v(0, 10), x(0, 0);
+  double path = 0;
+  constexpr int n = 20000;
+  const double h = run.state.time / n;
+  for (int i = 0; i < n; ++i) {
+    const Vec2 k1 = rate(v), k2 = rate(v + h / 2 * k1), k3 = rate(v + h / 2 * k2), k4 = rate(v + h * k3);
+    x += h * v + h * h / 6 * (k1 + k2 + k3);
+    path += h * v.norm();
+    v += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
+  }
+  const Vec3 moved = run.motion().pose.position - from;
+  const Vec2 in_plane(moved.dot(frame.dip), moved.dot(frame.strike));
+  return run.finish(in_plane.y(), x.y(), (in_plane - x).norm() / path);
+}
+
+CaseResult rolling_angle(const Settings& settings, int n_sides) {
+  const double expected = 180.0 / n_sides;
+  CaseResult total;
+  const auto rolls = [&](double dip) {
+    const SlopeFrame frame = slope_frame(dip, 20);
+    Run run(on_plane(settings, frame, ground_of(80),
+                     body_of(prism_on(frame, Vec3::Zero(), n_sides, 1, 0.5)), 10));
+    const Quat from = run.motion().pose.attitude;
+    bool rolled = false;
+    while (!rolled && run.state.time < 6) {
+      run.advance();
+      rolled = run.motion().pose.attitude.angularDistance(from) > 90 / n_sides * degree;
+    }
+    total.steps += run.result.steps;
+    total.passes += run.result.passes;
+    total.unconverged += run.result.unconverged;
+    total.flags = total.flags | run.result.flags;
+    return rolled;
+  };
+  total.expected = expected;
+  total.value = bisect(0.95 * expected, 1.05 * expected, 14, rolls);
+  total.error = std::abs(total.value - expected);
+  return total;
+}
+
+CaseResult sustained_rolling(const Settings& settings, int n_sides) {
+  const SlopeFrame frame = slope_frame(10, 0);
+  const double half = std::numbers::pi / n_sides, apothem = std::cos(half);
+  const Vec3 edge = std::sin(half) * frame.dip, spin = 1.5 * frame.strike;
+  const Body body = body_of(prism_on(frame, Vec3::Zero(), n_sides, 1, 0.5),
+                            spin.cross(apothem * frame.normal - edge), spin);
+  const Vec3 middle = 60 * frame.dip;
+  Run run(on_plane(settings, frame, ground_of(80), body, 70, 2, middle));
+  double before = 0;
+  while (run.motion().pose.position.dot(frame.dip) < 100 && run.state.time < 60) {
+    run.advance();
+    const auto& segments = run.work.segments;
+    for (std::size_t k = 1; k < segments.size(); ++k) {
+      const double end = run.spin(segments[k - 1].end).norm();
+      if (run.spin(segments[k].start).norm() < 0.98 * end) before = end;
+    }
+  }
+  const double c = std::cos(2 * half), kappa = (2 + 7 * c) / (8 + c);
+  const double inertia = (2 + c) / 6 + 1, s = 2 * std::sin(half);  // about an edge, over m R^2
+  const double expected =
+      std::sqrt(2 * g * s * std::sin(10 * degree) / (inertia * (1 - kappa * kappa)));
+  return run.finish(before, expected, std::abs(before / expected - 1));
+}
+
+CaseResult bounce(const Settings& settings, double restitution, Landing landing) {
+  Polyhedron cube = box(Vec3::Constant(-0.5), Vec3::Constant(0.5));
+  if (landing == Landing::edge)
+    cube = moved(cube, Eigen::AngleAxisd(45 * degree, Vec3::UnitX()).toRotationMatrix(), Vec3::Zero());
+  if (landing == Landing::corner)
+    cube = moved(cube, Quat::FromTwoVectors(Vec3::Ones(), Vec3::UnitZ()).toRotationMatrix(),
+                 Vec3::Zero());
+  double low = 0;
+  for (const Vec3& v : cube.vertices) low = std::max(low, -v.z());
+  const Body body = body_of(moved(cube, Mat3::Identity(), Vec3::Zero(), Vec3(0.1, 0.2, low + 5)));
+  Run run(on_plane(settings, slope_frame(0, 0), ground_of(25, restitution), body, 10));
+  double error = 0, expected = 5, height = 0;
+  int found = 0;
+  while (found < 3 && run.state.time < 9) {
+    run.advance();
+    for (const Segment& segment : run.work.segments) {
+      const double up = segment.start.velocity.z(), z = segment.start.pose.position.z() - low;
+      if (found == 3 || up <= 0 || segment.end.velocity.z() > 0) continue;
+      height = z + up * up / (2 * g);
+      expected *= restitution * restitution;
+      error = std::max(error, std::abs(height / expected - 1));
+      ++found;
+    }
+  }
+  return run.finish(height, expected, found == 3 ? error : 1);
+}
+
+CaseResult corner_impulse(const Settings& settings, double restitution) {
+  const Mat3 turn = (Eigen::AngleAxisd(0.4, Vec3::UnitX()) * Eigen::AngleAxisd(0.3, Vec3::UnitY()))
+                        .toRotationMatrix();
+  const Polyhedron cube = box(Vec3::Constant(-0.5), Vec3::Constant(0.5));
+  const Body body = body_of(moved(cube, turn, Vec3::Zero(), Vec3(0, 0, 2)), Vec3(3, 1, 0));
+  Run run(on_plane(settings, slope_frame(0, 0), ground_of(0, restitution), body, 20));
+  const double mass = run.scene.blocks.mass[0], inertia = run.scene.blocks.inertia[0].x();
+  while (run.state.time < 2) {
+    run.advance();
+    const auto& segments = run.work.segments;
+    for (std::size_t k = 1; k < segments.size(); ++k) {
+      const Motion &before = segments[k - 1].end, &after = segments[k].start;
+      const double impulse = mass * (after.velocity - before.velocity).z();
+      if (impulse < 0.1 * mass) continue;
+      Vec3 lever = Vec3::Zero();
+      for (const Vec3& X : vertices_of(run.scene.blocks.shapes, 0)) {
+        const Vec3 arm = before.pose.attitude * X;
+        if (arm.z() < lever.z()) lever = arm;
+      }
+      const double W = 1 / mass + lever.cross(Vec3::UnitZ()).squaredNorm() / inertia;
+      const double speed = before.velocity.z() + run.spin(before).cross(lever).z();
+      const double expected = -(1 + restitution) * speed / W;
+      return run.finish(impulse, expected, std::abs(impulse / expected - 1));
+    }
+  }
+  return run.finish(0, 1, 1);
+}
+
+CaseResult free_spin(const Settings& settings, double duration_s) {
+  const SlopeFrame flat = slope_frame(0, 0);
+  const Vec3 spin(0.02, 5, 0.01);
+  const Body body = body_of(box_in(flat, Vec3(0, 0, 600), Vec3(-1, -1.5, -2.5), Vec3(1, 1.5, 2.5)),
+                            Vec3(1, 0, g * duration_s / 2), spin);
+  Run run(on_plane(settings, flat, ground_of(0), body, 100, 10));
+  const Vec3 inertia = run.scene.blocks.inertia[0], L = run.motion().angular_momentum;
+  run.advance_to(duration_s);
+  // Euler's equations in body axes and the attitude, by the classic Runge-Kutta method
+  using State7 = Eigen::Matrix<double, 7, 1>;
+  const auto rate = [&](const State7& s) {
+    const Vec3 w = s.head<3>();
+    State7 r;
+    r.head<3>() = (inertia.cwiseProduct(w).cross(w)).cwiseQuotient(inertia);
+    const Quat q(s[3], s[4], s[5], s[6]), dq = q * Quat(0, w.x() / 2, w.y() / 2, w.z() / 2);
+    r.tail<4>() << dq.w(), dq.x(), dq.y(), dq.z();
+    return r;
+  };
+  State7 s;
+  s << spin, 1, 0, 0, 0;
+  constexpr int n = 200000;
+  const double h = run.state.time / n;
+  for (int i = 0; i < n; ++i) {
+    const State7 k1 = rate(s), k2 = rate(s + h / 2 * k1), k3 = rate(s + h / 2 * k2), k4 = rate(s + h * k3);
+    s += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
+  }
+  const Quat truth = Quat(s[3], s[4], s[5], s[6]).normalized();
+  const double error = run.motion().pose.attitude.angularDistance(truth) / degree;
+  run.result.largest_penetration = (run.motion().angular_momentum - L).norm() / L.norm();
+  return run.finish(error, 0, error);
+}
+
+namespace {
+
+/// The valley of the wedge, turned so that its line runs along a row of nodes.
+struct WedgeGeometry {
+  Vec3 normal_a, normal_b, line;
+};
+WedgeGeometry wedge_geometry() {
+  const auto normal = [](double dip_deg, double direction_deg) {
+    const double dip = dip_deg * degree, azimuth = (90 - direction_deg) * degree;
+    return Vec3(std::sin(dip) * std::cos(azimuth), std::sin(dip) * std::sin(azimuth), std::cos(dip));
+  };
+  Vec3 a = normal(40, 130), b = normal(60, 220);
+  Vec3 line = a.cross(b).normalized();
+  if (line.z() > 0) line = -line;
+  const Mat3 turn =
+      Eigen::AngleAxisd(-std::atan2(line.y(), line.x()), Vec3::UnitZ()).toRotationMatrix();
+  return {turn * a, turn * b, turn * line};
+}
+
+Run wedge_run(const Settings& settings, double friction_deg) {
+  const WedgeGeometry w = wedge_geometry();
+  const auto height = [&](double x, double y) {
+    return std::max(-(w.normal_a.x() * x + w.normal_a.y() * y) / w.normal_a.z(),
+                    -(w.normal_b.x() * x + w.normal_b.y() * y) / w.normal_b.z());
+  };
+  const auto up = [&](const Vec3& normal, const Vec3& other) {
+    const Vec3 u = normal.cross(w.line).normalized();
+    return Vec3(u.dot(other) < 0 ? -u : u);
+  };
+  const Vec3 on_a = up(w.normal_a, w.normal_b), on_b = up(w.normal_b, w.normal_a);
+  std::vector<Vec3> corners = {Vec3::Zero(), w.line, on_a, on_a + w.line, on_b, on_b + w.line};
+  std::vector<std::vector<int>> faces = {{0, 2, 4}, {1, 5, 3}, {0, 1, 3, 2}, {0, 4, 5, 1}, {2, 3, 5, 4}};
+  if (moments(polyhedron(corners, faces)).volume < 0)
+    for (auto& f : faces) std::reverse(f.begin(), f.end());
+  return Run(scene_of(make_trn(height, 0.5, 15), ground_of(friction_deg),
+                      {body_of(polyhedron(corners, faces))}, settings));
+}
+
+}  // namespace
+
+CaseResult wedge(const Settings& settings, double friction_deg) {
+  const WedgeGeometry w = wedge_geometry();
+  Run run = wedge_run(settings, friction_deg);
+  const Vec3 from = run.motion().pose.position;
+  run.advance_to(1);
+  const double value = 2 * (run.motion().pose.position - from).dot(w.line) / (g * run.state.time * run.state.time);
+  // N_a n_a + N_b n_b carries the weight across the line; friction on both faces acts along it
+  const Vec3 weight(0, 0, -1);
+  const Vec3 across = weight - weight.dot(w.line) * w.line;
+  Eigen::Matrix<double, 3, 2> normals;
+  normals << w.normal_a, w.normal_b;
+  const Vec2 N = (normals.transpose() * normals).inverse() * normals.transpose() * -across;
+  const double expected = weight.dot(w.line) - std::tan(friction_deg * degree) * N.sum();
+  return run.finish(value, expected, std::abs(value / expected - 1));
+}
+
+CaseResult wedge_critical(const Settings& settings) {
+  const WedgeGeometry w = wedge_geometry();
+  CaseResult total;
+  total.expected = 33.357;
+  total.value = bisect(33, 34, 12, [&](double friction_deg) {
+    Run run = wedge_run(settings, friction_deg);
+    run.advance_to(1);
+    total.steps += run.result.steps;
+    total.passes += run.result.passes;
+    total.unconverged += run.result.unconverged;
+    return run.motion().velocity.dot(w.line) < 1e-5;
+  });
+  total.error = std::abs(total.value - total.expected);
+  return total;
+}
+
+namespace {
+
+// Angle at which the column does what `moves` looks for.
+CaseResult column_angle(const Settings& settings, double friction_deg, double low, double high,
+                        double expected,
+                        const std::function<bool(const SlopeFrame&, const Motion&, const Motion&)>& moves) {
+  CaseResult total;
+  total.expected = expected;
+  total.value = bisect(low, high, 12, [&](double dip) {
+    const SlopeFrame frame = slope_frame(dip, 25);
+    const Body body = body_of(box_in(frame, Vec3::Zero(), Vec3(-0.25, -0.25, 0), Vec3(0.25, 0.25, 1)));
+    Run run(on_plane(settings, frame, ground_of(friction_deg), body, 10));
+    const Motion from = run.motion();
+    bool moved = false;
+    while (!moved && run.state.time < 2) {
+      run.advance();
+      moved = moves(frame, from, run.motion());
+    }
+    total.steps += run.result.steps;
+    total.passes += run.result.passes;
+    total.unconverged += run.result.unconverged;
+    return moved;
+  });
+  total.error = std::abs(total.value - expected);
+  return total;
+}
+
+}  // namespace
+
+CaseResult toppling_angle(const Settings& settings) {
+  return column_angle(settings, 60, 25.5, 27.5, std::atan(0.5) / degree,
+                      [](const SlopeFrame&, const Motion& from, const Motion& now) {
+                        return now.pose.attitude.angularDistance(from.pose.attitude) > 0.05;
+                      });
+}
+
+CaseResult sliding_angle(const Settings& settings) {
+  return column_angle(settings, 20, 19, 21, 20,
+                      [](const SlopeFrame& frame, const Motion&, const Motion& now) {
+                        return now.velocity.dot(frame.dip) > 1e-3;
+                      });
+}
+
+namespace {
+
+/// What a rocking column did at its first impact.
+struct Rocking {
+  CaseResult result;
+  double time = 0, before = 0, after = 0;
+};
+Rocking rock(const Settings& settings) {
+  const SlopeFrame frame = slope_frame(0, 30);
+  const double b = 0.25, h = 1, slenderness = std::atan2(b, h);
+  const Polyhedron column = box_in(frame, Vec3::Zero(), Vec3(-b, -0.5, 0), Vec3(b, 0.5, 2 * h));
+  const Mat3 turn = Eigen::AngleAxisd(slenderness / 2, frame.strike).toRotationMatrix();
+  Run run(on_plane(settings, frame, ground_of(80), body_of(moved(column, turn, b * frame.dip)), 10));
+  Rocking rocking;
+  while (rocking.time == 0 && run.state.time < 2) {
+    run.advance();
+    const auto& segments = run.work.segments;
+    for (std::size_t k = 1; k < segments.size() && rocking.time == 0; ++k) {
+      const double before = run.spin(segments[k - 1].end).norm();
+      const double after = run.spin(segments[k].start).norm();
+      if (after < 0.98 * before)
+        rocking.time = segments[k].t_start, rocking.before = before, rocking.after = after;
+    }
+  }
+  rocking.result = run.result;
+  return rocking;
+}
+
+}  // namespace
+
+CaseResult rocking_time(const Settings& settings) {
+  const Rocking rocking = rock(settings);
+  // (theta - alpha)'' = p^2 sin(theta - alpha), p^2 = 3 g / (4 R), from theta = alpha / 2 to 0
+  const double alpha = std::atan(0.25), R = std::hypot(0.25, 1.0), p_sq = 3 * g / (4 * R);
+  double theta = alpha / 2, rate = 0, t = 0;
+  const double step_s = 1e-6;
+  while (theta > 0) {
+    rate -= step_s / 2 * p_sq * std::sin(alpha - theta);
+    theta += step_s * rate;
+    rate -= step_s / 2 * p_sq * std::sin(alpha - theta);
+    t += step_s;
+  }
+  CaseResult result = rocking.result;
+  result.value = rocking.time;
+  result.expected = t;
+  result.error = std::abs(rocking.time / t - 1);
+  return result;
+}
+
+CaseResult rocking_ratio(const Settings& settings) {
+  const Rocking rocking = rock(settings);
+  const double sine = std::sin(std::atan(0.25));
+  CaseResult result = rocking.result;
+  result.value = rocking.after / rocking.before;
+  result.expected = 1 - 1.5 * sine * sine;
+  result.error = std::abs(result.value / result.expected - 1);
+  return result;
+}
+
+CaseResult shaken_block(const Settings& settings) {
+  const SlopeFrame frame = slope_frame(20, 0);
+  const Body body = body_of(box_in(frame, Vec3::Zero(), Vec3(-0.5, -0.5, 0), Vec3(0.5, 0.5, 0.2)));
+  Scene scene = on_plane(settings, frame, ground_of(30), body, 15);
+  constexpr int n = 20000;
+  for (int i = 0; i <= n; ++i) {
+    const double t = 10.0 * i / n;
+    scene.base.time.push_back(t);
+    scene.base.acceleration.push_back(Vec3(-5 * std::sin(2 * std::numbers::pi * t), 0, 0));
+  }
+  Run run(std::move(scene));
+  const Vec3 from = run.motion().pose.position;
+  run.advance_to(10);
+  const double value = (run.motion().pose.position - from).dot(frame.dip), expected = 3.196940;
+  return run.finish(value, expected, std::abs(value / expected - 1));
+}
+
+CaseResult energy_line(const Settings& settings) {
+  // The slope eases from 27 to 23 degrees over 400 m: v^2 / R stays below g / 500
+  const double steep = std::tan(27 * degree), gentle = std::tan(23 * degree), reach = 400;
+  const auto height = [&](double x, double) {
+    return -steep * x + (steep - gentle) * x * x / (2 * reach);
+  };
+  const SlopeFrame frame = slope_frame(27, 0);
+  const Body body = body_of(box_in(frame, Vec3(0.3, 0.4, height(0.3, 0)), Vec3(-0.1, -0.1, 1e-3),
+                                   Vec3(0.1, 0.1, 0.05)));
+  Run run(scene_of(make_trn(height, 0.5, 210, Vec2(200, 0)), ground_of(25), {body}, settings));
+  const Vec3 from = run.motion().pose.position;
+  while (run.state.time < 120) {
+    run.advance();
+    if (run.state.time > 20 && run.motion().velocity.norm() < 1e-6) break;
+  }
+  const Vec3 moved = run.motion().pose.position - from;
+  const double expected = -moved.z() / std::tan(25 * degree), value = moved.head<2>().norm();
+  return run.finish(value, expected, std::abs(value / expected - 1));
+}
+
+CaseResult own_weight(const Settings& settings) {
+  Settings with_strains = settings;
+  with_strains.strains = true;
+  const SlopeFrame flat = slope_frame(0, 0);
+  Run run(on_plane(with_strains, flat, ground_of(30), body_of(cube_on(flat, 10)), 20));
+  run.advance_to(1);
+  const Material material;
+  const Vec6 stress = elastic_matrix(material.young, material.poisson) * run.state.strain[0];
+  const double expected = -material.density * g * 10 / 2;
+  return run.finish(stress[2], expected, std::abs(stress[2] / expected - 1));
+}
+
+CaseResult ghost_collisions(const Settings& settings, double dip_deg) {
+  const SlopeFrame frame = slope_frame(dip_deg, 33);
+  const Mat3 turn = Eigen::AngleAxisd(0.3, frame.normal).toRotationMatrix();
+  const Vec3 velocity = 20 * (0.6 * frame.dip + 0.8 * frame.strike);
+  const Body body = body_of(moved(cube_on(frame, 1.7), turn, Vec3::Zero()), velocity);
+  Run run(on_plane(settings, frame, ground_of(0), body, 120, 1));
+  const Vec3 from = run.motion().pose.position;
+  const Vec3 a = g * std::sin(dip_deg * degree) * frame.dip;
+  double largest = 0;
+  while (run.state.time < 4 - settings.dt / 2) {
+    run.advance();
+    const double t = run.state.time;
+    const Vec3 expected = from + t * velocity + t * t / 2 * a;
+    largest = std::max(largest, (run.motion().pose.position - expected).norm());
+  }
+  return run.finish(largest, 0, largest);
+}
+
+CaseResult elastic_restitution(const Settings& settings, double young) {
+  Settings with_strains = settings;
+  with_strains.strains = true;
+  with_strains.law = Law::paper;
+  with_strains.post_adjustment = false;
+  const SlopeFrame flat = slope_frame(0, 0);
+  Material material;
+  material.young = young;
+  const Body body = body_of(cube_on(flat, 1, Vec3(0, 0, 10 * settings.dt * 2)), Vec3(0, 0, -4));
+  Run run(scene_of(plane_trn(flat, 0.5, 5), ground_of(0, 1), {body}, with_strains, material));
+  double before = 0, height = 0;  // fastest downwards; the hit is over long before the end
+  while (run.state.time < 0.02) {
+    run.advance();
+    const Motion m = run.motion();
+    if (m.velocity.z() < before) before = m.velocity.z(), height = m.pose.position.z();
+  }
+  const Motion end = run.motion();
+  const double after =
+      std::sqrt(end.velocity.z() * end.velocity.z() + 2 * g * (end.pose.position.z() - height));
+  return run.finish(-after / before, 1, 1 + after / before);
+}
+
+}  // namespace talus::cases

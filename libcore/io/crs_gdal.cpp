@@ -1,0 +1,131 @@
+#include "io/crs_gdal.hpp"
+
+#include <cpl_conv.h>
+#include <ogr_spatialref.h>
+
+#include <cmath>
+#include <memory>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "io/errors_gdal.hpp"
+
+namespace talus {
+namespace {
+
+OGRSpatialReference parse(const std::string& wkt) {
+  OGRSpatialReference srs;
+  srs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  if (srs.importFromWkt(wkt.c_str()) != OGRERR_NONE)
+    throw InputError({}, "the CRS cannot be understood: " + wkt.substr(0, 80));
+  return srs;
+}
+
+std::string authority(const OGRSpatialReference& srs) {
+  const char* name = srs.GetAuthorityName(nullptr);
+  const char* code = srs.GetAuthorityCode(nullptr);
+  return name && code ? std::string(name) + ":" + code : std::string();
+}
+
+// UTM zone of a place given in `srs`; empty when the place cannot be transformed.
+std::string utm_zone(const OGRSpatialReference& srs, const Vec2& place) {
+  OGRSpatialReference wgs84;
+  wgs84.importFromEPSG(4326);
+  wgs84.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  const std::unique_ptr<OGRCoordinateTransformation> to_degrees(
+      OGRCreateCoordinateTransformation(&srs, &wgs84));
+  double longitude = place.x(), latitude = place.y();
+  if (!to_degrees || !to_degrees->Transform(1, &longitude, &latitude)) return {};
+  if (!(std::abs(longitude) <= 180 && std::abs(latitude) <= 84)) return {};
+  const int zone = std::min(60, 1 + static_cast<int>(std::floor((longitude + 180) / 6)));
+  return "EPSG:" + std::to_string((latitude < 0 ? 32700 : 32600) + zone);
+}
+
+std::string unit_text(double metres, const char* name) {
+  return std::string(name ? name : "unknown units") + " of " + text(metres, 10) + " m";
+}
+
+std::string describe_problem(const OGRSpatialReference& srs) {
+  const std::string code = authority(srs);
+  if (srs.IsGeographic()) return "in degrees";
+  if (srs.IsGeocentric()) return "measured from the centre of the Earth";
+  if (!srs.IsProjected() && !srs.IsLocal()) return "neither projected nor local";
+  if (code == "EPSG:3857" || code == "EPSG:3785" || code == "EPSG:900913")
+    return "whose metres are stretched by 1 / cos(latitude)";
+  const char* name = nullptr;
+  const double unit = srs.GetLinearUnits(&name);
+  if (std::abs(unit - 1) > 1e-9) return "in " + unit_text(unit, name);
+  const double height_unit = srs.GetTargetLinearUnits("VERT_CS", &name);
+  if (srs.IsVertical() && std::abs(height_unit - 1) > 1e-9)
+    return "with heights in " + unit_text(height_unit, name);
+  return {};
+}
+
+}  // namespace
+
+std::string wkt_of(const OGRSpatialReference* srs) {
+  if (!srs || srs->IsEmpty()) return {};
+  if (srs->IsLocal() && std::abs(srs->GetLinearUnits() - 1) < 1e-9) return {};
+  char* wkt = nullptr;
+  const char* const options[] = {"FORMAT=WKT2_2019", nullptr};
+  srs->exportToWkt(&wkt, options);
+  std::string copied(wkt ? wkt : "");
+  CPLFree(wkt);
+  return copied;
+}
+
+bool reproject(const std::string& from, const std::string& to, std::vector<Vec3>& points) {
+  const GdalErrors errors;
+  const OGRSpatialReference source = parse(from), target = parse(to);
+  const std::unique_ptr<OGRCoordinateTransformation> transformation(
+      OGRCreateCoordinateTransformation(&source, &target));
+  if (!transformation) return false;
+  for (Vec3& point : points)
+    if (!transformation->Transform(1, &point.x(), &point.y())) return false;
+  return true;
+}
+
+std::string crs_from_user(const std::string& user_text, const std::string& option) {
+  if (user_text == "none") return {};
+  const GdalErrors errors;
+  OGRSpatialReference srs;
+  if (user_text.empty() || srs.SetFromUserInput(user_text.c_str()) != OGRERR_NONE)
+    throw InputError({"", 0, option}, "\"" + user_text + "\" is not a CRS",
+                     "write EPSG:code, for example EPSG:31287, or a PROJ string");
+  return wkt_of(&srs);
+}
+
+std::string crs_name(const std::string& crs_wkt) {
+  if (crs_wkt.empty()) return "no CRS";
+  const GdalErrors errors;
+  const OGRSpatialReference srs = parse(crs_wkt);
+  const char* name = srs.GetName();
+  const std::string code = authority(srs);
+  if (!name) return code.empty() ? "a CRS without a name" : code;
+  return code.empty() ? std::string(name) : code + " (" + name + ")";
+}
+
+bool same_crs(const std::string& a, const std::string& b) {
+  if (a == b) return true;
+  if (a.empty() || b.empty()) return false;
+  const GdalErrors errors;
+  const OGRSpatialReference first = parse(a), second = parse(b);
+  const char* const options[] = {"IGNORE_DATA_AXIS_TO_SRS_AXIS_MAPPING=YES",
+                                 "CRITERION=EQUIVALENT_EXCEPT_AXIS_ORDER_GEOGCRS", nullptr};
+  if (first.IsSame(&second, options)) return true;
+  const std::string code = authority(first);
+  return !code.empty() && code == authority(second);
+}
+
+CrsProblem find_crs_problem(const std::string& crs_wkt, const Vec2& place) {
+  if (crs_wkt.empty()) return {"there is no CRS, expected a projected one in metres", {}};
+  const GdalErrors errors;
+  const OGRSpatialReference srs = parse(crs_wkt);
+  const std::string problem = describe_problem(srs);
+  if (problem.empty()) return {};
+  return {
+      "the CRS is " + crs_name(crs_wkt) + ", " + problem + ", expected a projected one in metres",
+      utm_zone(srs, place)};
+}
+
+}  // namespace talus

@@ -1,0 +1,30 @@
+// libcore/io/errors_gdal.hpp
+// Keeps GDAL from printing and holds what it would have said, for our own messages.
+#pragma once
+
+#include <string>
+
+namespace talus {
+
+/// While it lives, GDAL's and PROJ's complaints of this thread are collected instead of printed.
+class GdalErrors {
+ public:
+  GdalErrors();
+  ~GdalErrors();
+  GdalErrors(const GdalErrors&) = delete;
+  GdalErrors& operator=(const GdalErrors&) = delete;
+
+  [[nodiscard]] bool failed() const { return !failure_.empty(); }
+  /// The first failure, without a full stop at its end; empty when there was none.
+  [[nodiscard]] const std::string& failure() const { return failure_; }
+  void note(bool is_failure, const char* message);  ///< called by GDAL
+
+ private:
+  std::string failure_;
+};
+
+/// All drivers, once. GDAL's cache of blocks gets 128 MB unless GDAL_CACHEMAX says otherwise: its
+/// default is a twentieth of the machine, which a pass over a large raster would fill.
+void register_gdal_drivers();
+
+}  // namespace talus

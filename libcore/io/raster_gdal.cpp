@@ -1,0 +1,341 @@
+#include "io/raster_gdal.hpp"
+
+#include <cpl_string.h>
+#include <gdal_priv.h>
+#include <gdal_utils.h>
+#include <ogr_spatialref.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "base/text.hpp"
+#include "io/crs_gdal.hpp"
+#include "io/errors_gdal.hpp"
+#include "terrain/resample.hpp"
+
+namespace talus {
+namespace {
+
+constexpr double nodata_written = -9999;
+constexpr double highest_elevation = 12'000;  // [m], either way; the Earth keeps within
+constexpr double lattice_tolerance = 1e-3;    // of a cell, at the far end of the raster
+constexpr int rows_at_once = 256;
+
+struct CloseDataset {
+  void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
+};
+using Dataset = std::unique_ptr<GDALDataset, CloseDataset>;
+
+std::string size_text(int n_rows, int n_cols) {
+  return std::to_string(n_cols) + " x " + std::to_string(n_rows) + " cells";
+}
+
+Dataset open_raster(const std::string& path) {
+  register_gdal_drivers();
+  GdalErrors errors;
+  Dataset dataset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR));
+  if (!dataset)
+    throw InputError({path}, "cannot be opened as a raster: " + errors.failure(),
+                     "gdalinfo " + path + " shows what GDAL makes of it");
+  return dataset;
+}
+
+void check_band(GDALDataset& dataset, const std::string& path) {
+  const int n_bands = dataset.GetRasterCount();
+  if (n_bands != 1)
+    throw InputError({path}, "the raster has " + std::to_string(n_bands) + " bands, expected one",
+                     "gdal_translate -b 1 " + path + " one_band.tif");
+  GDALRasterBand& band = *dataset.GetRasterBand(1);
+  if (GDALDataTypeIsComplex(band.GetRasterDataType()))
+    throw InputError({path}, "the band holds complex numbers, expected elevations");
+  const std::string unit = lower(band.GetUnitType() ? band.GetUnitType() : "");
+  for (const char* metre : {"", "m", "metre", "metres", "meter", "meters"})
+    if (unit == metre) return;
+  throw InputError(
+      {path}, "the elevations are in \"" + unit + "\", expected metres",
+      "convert them first; for international feet: gdal_translate -ot Float64 -scale 0 "
+      "10000 0 3048 " +
+          path + " metres.tif, then set the band's unit to m");
+}
+
+// The lattice of the cell centres; refuses what no TRN can stand on.
+GridFrame frame_of_raster(GDALDataset& dataset, const std::string& path) {
+  std::array<double, 6> g{};
+  const int n_cols = dataset.GetRasterXSize(), n_rows = dataset.GetRasterYSize();
+  if (dataset.GetGeoTransform(g.data()) != CE_None)
+    throw InputError({path}, "the raster has no place on the map (no geotransform)",
+                     "gdal_translate -a_ullr XMIN YMAX XMAX YMIN " + path + " placed.tif");
+  const double width = std::abs(g[1]), height = std::abs(g[5]);
+  const double smaller = std::min(width, height);
+  const std::string warp = "gdalwarp -r bilinear -tr " + text(smaller, 6) + " " + text(smaller, 6) +
+                           " " + path + " north_up.tif";
+  if (!(std::isfinite(g[0]) && std::isfinite(g[3]) && smaller > 0 && std::isfinite(width + height)))
+    throw InputError({path}, "the cell is " + text(width) + " by " + text(height) +
+                                 ", expected a finite size above 0");
+  const double skew = std::max(std::abs(g[2]) * n_rows, std::abs(g[4]) * n_cols);
+  if (skew > lattice_tolerance * smaller)
+    throw InputError({path},
+                     "the raster is rotated (by " + text(std::atan2(g[4], g[1]) * 180 / M_PI, 4) +
+                         " degrees), expected north-up",
+                     warp);
+  if (g[1] < 0 || g[5] > 0)
+    throw InputError({path}, "the rows do not run from north to south, expected north-up", warp);
+  if (std::abs(width - height) * std::max(n_rows, n_cols) > lattice_tolerance * smaller)
+    throw InputError(
+        {path},
+        "the cells are " + text(width, 10) + " by " + text(height, 10) + ", expected squares",
+        warp);
+  return {n_rows, n_cols, width, {g[0] + 0.5 * width, g[3] - 0.5 * width}};
+}
+
+// The file's CRS, or the one that the user gives for a file without.
+std::string effective_crs(GDALDataset& dataset, const std::string& path,
+                          const DemOptions& options) {
+  const std::string own = wkt_of(dataset.GetSpatialRef());
+  if (!own.empty()) {
+    if (options.crs_given && !same_crs(own, options.crs))
+      throw InputError({path}, "the CRS is " + crs_name(own) + ", not " + crs_name(options.crs),
+                       "leave --crs away; --t-srs reprojects");
+    return own;
+  }
+  if (!options.crs_given && !options.crs_may_be_missing)
+    throw InputError({path}, "there is no CRS, expected a projected one in metres",
+                     "name it with --crs EPSG:code, or --crs none for local metres");
+  return options.crs;
+}
+
+// A virtual raster that reprojects what is read from it. Exact transformation (-et 0): the default
+// eighth of a cell is a metre of height on a steep slope.
+Dataset reproject(GDALDataset& source, const std::string& path, const std::string& from,
+                  const std::string& to) {
+  CPLStringList words;
+  for (const char* word : {"-of", "VRT", "-r", "bilinear", "-et", "0", "-dstnodata", "nan", "-ot",
+                           "Float64", "-s_srs", from.c_str(), "-t_srs", to.c_str()})
+    words.AddString(word);
+  GdalErrors errors;
+  GDALWarpAppOptions* const options = GDALWarpAppOptionsNew(words.List(), nullptr);
+  GDALDatasetH handle = &source;
+  Dataset warped(GDALDataset::FromHandle(GDALWarp("", nullptr, 1, &handle, options, nullptr)));
+  GDALWarpAppOptionsFree(options);
+  if (!warped)
+    throw InputError({path}, "cannot be reprojected to " + crs_name(to) + ": " + errors.failure());
+  return warped;
+}
+
+void check_crs(const std::string& crs, const std::string& path, const Vec2& place) {
+  if (crs.empty()) return;
+  const CrsProblem problem = find_crs_problem(crs, place);
+  if (problem.finding.empty()) return;
+  const std::string to = problem.mend_to.empty() ? "EPSG:code" : problem.mend_to;
+  throw InputError(
+      {path}, problem.finding,
+      "--t-srs " + to + ", or gdalwarp -r bilinear -t_srs " + to + " " + path + " projected.tif");
+}
+
+}  // namespace
+
+struct DemFile::Impl {
+  std::string path, crs;
+  GridFrame frame;
+  Dataset source, warped;  // warped reads from source and is closed first
+  GDALRasterBand* band = nullptr;
+  double scale = 1, offset = 0;
+
+  [[nodiscard]] Where where(std::size_t index, int row, int col, int n_cols) const {
+    const int r = row + static_cast<int>(index / static_cast<std::size_t>(n_cols));
+    const int c = col + static_cast<int>(index % static_cast<std::size_t>(n_cols));
+    return {path, 0,
+            "row " + std::to_string(r) + ", column " + std::to_string(c) + " (" +
+                text(frame.x(c), 10) + ", " + text(frame.y(r), 10) + ")"};
+  }
+  void check_value(double raw, const Where& place) const;
+};
+
+DemFile::DemFile(const std::string& path, const DemOptions& options)
+    : impl_(std::make_unique<Impl>()) {
+  impl_->path = path;
+  impl_->source = open_raster(path);
+  GDALDataset* dataset = impl_->source.get();
+  check_band(*dataset, path);
+  impl_->crs = effective_crs(*dataset, path, options);
+  if (!options.t_srs.empty() && !same_crs(impl_->crs, options.t_srs)) {
+    if (impl_->crs.empty())
+      throw InputError({path}, "there is no CRS to reproject from", "name it with --crs EPSG:code");
+    impl_->warped = reproject(*dataset, path, impl_->crs, options.t_srs);
+    dataset = impl_->warped.get();
+    impl_->crs = options.t_srs;
+  }
+  std::array<double, 6> g{};
+  dataset->GetGeoTransform(g.data());
+  check_crs(impl_->crs, path,
+            {g[0] + 0.5 * g[1] * dataset->GetRasterXSize(),
+             g[3] + 0.5 * g[5] * dataset->GetRasterYSize()});
+  impl_->frame = frame_of_raster(*dataset, path);
+  impl_->band = dataset->GetRasterBand(1);
+  impl_->scale = impl_->band->GetScale();
+  impl_->offset = impl_->band->GetOffset();
+}
+
+DemFile::~DemFile() = default;
+
+const std::string& DemFile::path() const { return impl_->path; }
+const GridFrame& DemFile::frame() const { return impl_->frame; }
+const std::string& DemFile::crs_wkt() const { return impl_->crs; }
+
+void DemFile::Impl::check_value(double raw, const Where& place) const {
+  const double z = raw * scale + offset;
+  const bool usual_nodata = raw == -9999 || raw == -32767 || raw == -32768;
+  if (std::abs(z) <= highest_elevation && !usual_nodata) return;
+  throw InputError(place,
+                   "the elevation is " + text(z, 10) +
+                       " m, which the file does not declare as "
+                       "nodata",
+                   "if it stands for nodata: gdal_translate -a_nodata " + text(raw) + " " + path +
+                       " declared.tif");
+}
+
+void DemFile::read(int row, int n_rows, int col, int n_cols, double* elevation) const {
+  const std::size_t n = static_cast<std::size_t>(n_rows) * static_cast<std::size_t>(n_cols);
+  const GdalErrors errors;
+  std::vector<unsigned char> mask;
+  CPLErr status = impl_->band->RasterIO(GF_Read, col, row, n_cols, n_rows, elevation, n_cols,
+                                        n_rows, GDT_Float64, 0, 0, nullptr);
+  if (status == CE_None && impl_->band->GetMaskFlags() != GMF_ALL_VALID) {
+    mask.resize(n);
+    status = impl_->band->GetMaskBand()->RasterIO(GF_Read, col, row, n_cols, n_rows, mask.data(),
+                                                  n_cols, n_rows, GDT_Byte, 0, 0, nullptr);
+  }
+  if (status != CE_None || errors.failed())
+    throw InputError(
+        {impl_->path},
+        "reading rows " + std::to_string(row) + " to " + std::to_string(row + n_rows - 1) + " of " +
+            size_text(impl_->frame.n_rows, impl_->frame.n_cols) + " failed: " + errors.failure(),
+        "the file is damaged or cut short: fetch it again");
+  for (std::size_t i = 0; i < n; ++i) {
+    double& z = elevation[i];
+    if (std::isnan(z) || (!mask.empty() && mask[i] == 0)) {
+      z = std::numeric_limits<double>::quiet_NaN();
+      continue;
+    }
+    if (!(std::abs(z) < 9999)) impl_->check_value(z, impl_->where(i, row, col, n_cols));
+    if (impl_->scale != 1 || impl_->offset != 0) z = z * impl_->scale + impl_->offset;
+  }
+}
+
+std::vector<double> read_dem(const DemFile& dem, const GridFrame& frame,
+                             const ProgressFunction& progress) {
+  RowResampler resampler(dem.frame(), frame);
+  const int first = resampler.first_row(), last = resampler.last_row();
+  if (first > last || resampler.n_cols() < 1) return resampler.take();
+  const auto n_cols = static_cast<std::size_t>(resampler.n_cols());
+  std::vector<double> strip(rows_at_once * n_cols);
+  for (int row = first, n_rows = 0; row <= last; row += n_rows) {
+    // strips end where rows of tiles do, so that no tile is unpacked twice
+    n_rows = std::min(rows_at_once - row % rows_at_once, last - row + 1);
+    dem.read(row, n_rows, resampler.first_col(), resampler.n_cols(), strip.data());
+    for (int i = 0; i < n_rows; ++i)
+      resampler.add_row(strip.data() + static_cast<std::size_t>(i) * n_cols);
+    if (progress) progress(static_cast<double>(row + n_rows - first) / (last - first + 1));
+  }
+  return resampler.take();
+}
+
+Trn read_trn(const std::string& path) {
+  DemOptions options;
+  options.crs_may_be_missing = true;
+  const DemFile dem(path, options);
+  check_size(dem.frame(), path);
+  Trn trn = make_trn(dem.frame(), dem.crs_wkt(), read_dem(dem, dem.frame()));
+  check_trn(trn, path);
+  return trn;
+}
+
+namespace {
+
+struct ElevationSums {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+  double sum = 0, sum_sq = 0;
+  double n = 0;
+};
+
+// Map elevations of some rows with nodata in place of NaN; adds the known ones to `sums`.
+std::vector<double> rows_to_write(const Trn& trn, int row, int n_rows, ElevationSums& sums) {
+  const double* z = trn.elevation.data() + node_index(trn, row, 0);
+  const std::size_t n = static_cast<std::size_t>(n_rows) * static_cast<std::size_t>(trn.n_cols);
+  std::vector<double> rows(n, nodata_written);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (std::isnan(z[i])) continue;
+    rows[i] = z[i] + trn.origin.z();
+    sums.low = std::min(sums.low, rows[i]);
+    sums.high = std::max(sums.high, rows[i]);
+    sums.sum += rows[i];
+    sums.sum_sq += rows[i] * rows[i];
+    sums.n += 1;
+  }
+  return rows;
+}
+
+Dataset create_geotiff(const std::string& path, const Trn& trn, const TrnFileOptions& options) {
+  register_gdal_drivers();
+  CPLStringList words;
+  for (const char* word :
+       {"TILED=YES", "COMPRESS=DEFLATE", "PREDICTOR=3", "ZLEVEL=1", "BIGTIFF=IF_SAFER"})
+    words.AddString(word);
+  for (const std::string& option : options.creation_options) {
+    const std::size_t equals = option.find('=');
+    if (equals == std::string::npos)
+      throw InputError({"", 0, "-co " + option}, "no value, expected NAME=VALUE");
+    words.SetNameValue(option.substr(0, equals).c_str(), option.substr(equals + 1).c_str());
+  }
+  GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("GTiff");
+  return Dataset(
+      driver->Create(path.c_str(), trn.n_cols, trn.n_rows, 1, GDT_Float64, words.List()));
+}
+
+void describe(GDALDataset& dataset, const Trn& trn, const TrnFileOptions& options) {
+  const GridFrame frame = frame_of(trn);
+  const double half = 0.5 * frame.cell_size;
+  std::array<double, 6> transform = {frame.x(0) - half, frame.cell_size, 0, frame.y(0) + half, 0,
+                                     -frame.cell_size};
+  dataset.SetMetadataItem(GDALMD_AREA_OR_POINT, GDALMD_AOP_POINT);
+  dataset.SetGeoTransform(transform.data());
+  OGRSpatialReference srs;
+  if (!trn.crs_wkt.empty() && srs.importFromWkt(trn.crs_wkt.c_str()) == OGRERR_NONE)
+    dataset.SetSpatialRef(&srs);
+  for (const auto& [name, value] : options.tags)
+    dataset.SetMetadataItem(name.c_str(), value.c_str());
+  GDALRasterBand& band = *dataset.GetRasterBand(1);
+  band.SetNoDataValue(nodata_written);
+  band.SetDescription("elevation of the TRN's nodes");
+  band.SetUnitType("m");
+}
+
+}  // namespace
+
+void write_trn(const std::string& path, const Trn& trn, const TrnFileOptions& options) {
+  const GdalErrors errors;
+  Dataset dataset = create_geotiff(path, trn, options);
+  CPLErr status = dataset ? CE_None : CE_Failure;
+  if (dataset) describe(*dataset, trn, options);
+  ElevationSums sums;
+  for (int row = 0; row < trn.n_rows && status == CE_None; row += rows_at_once) {
+    const int n_rows = std::min(rows_at_once, trn.n_rows - row);
+    std::vector<double> rows = rows_to_write(trn, row, n_rows, sums);
+    status = dataset->GetRasterBand(1)->RasterIO(GF_Write, 0, row, trn.n_cols, n_rows, rows.data(),
+                                                 trn.n_cols, n_rows, GDT_Float64, 0, 0, nullptr);
+  }
+  if (dataset && sums.n > 0) {
+    const double mean = sums.sum / sums.n;
+    dataset->GetRasterBand(1)->SetStatistics(
+        sums.low, sums.high, mean, std::sqrt(std::max(0.0, sums.sum_sq / sums.n - mean * mean)));
+  }
+  dataset.reset();  // the last bytes are written here
+  if (status != CE_None || errors.failed())
+    throw InputError({path}, "cannot be written: " + errors.failure(),
+                     "is the disk full, or its quota used up?");
+}
+
+}  // namespace talus

@@ -1,0 +1,76 @@
+// libcore/io/raster_gdal.hpp
+// Elevation rasters: any GDAL raster read as rows of node elevations, the TRN read and written.
+// in:    single-band rasters, north-up, square cells, projected in metres
+// out:   Trn; GeoTIFF with AREA_OR_POINT=Point
+//
+// The nodes are the centres of the raster's cells, whatever AREA_OR_POINT says: GDAL's geotransform
+// has the half cell of a Point raster in it already.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/progress.hpp"
+#include "terrain/grid_frame.hpp"
+
+namespace talus {
+
+/// What the user says about a DEM that the file does not, or not as wanted.
+struct DemOptions {
+  bool crs_given = false;  ///< `crs` replaces a missing CRS; refused when the file has another one
+  std::string crs;         ///< WKT; empty: local metres, no place on the map
+  std::string t_srs;       ///< WKT; not empty: reproject to it (bilinear, at the file's resolution)
+  bool crs_may_be_missing = false;  ///< no CRS and none given means local metres
+};
+
+/// An open elevation raster. Reads only what is asked for, so that it may be larger than memory.
+class DemFile {
+ public:
+  /// Throws InputError when the raster cannot be opened, has not exactly one band of real numbers,
+  /// is rotated, not north-up or not square (by more than 1e-3 of a cell at its far end), is not in
+  /// projected metres, has elevations in another unit, or when the options contradict it. The hint
+  /// holds the command that mends it.
+  explicit DemFile(const std::string& path, const DemOptions& options = {});
+  ~DemFile();
+  DemFile(const DemFile&) = delete;
+  DemFile& operator=(const DemFile&) = delete;
+
+  [[nodiscard]] const std::string& path() const;
+  [[nodiscard]] const GridFrame& frame() const;      ///< its cell centres
+  [[nodiscard]] const std::string& crs_wkt() const;  ///< empty for local metres
+
+  /// Elevations of n_rows x n_cols nodes from (row, col) on, NaN = unknown [m]. Throws InputError
+  /// with the place for a file that ends early and for values that are no elevations: infinite,
+  /// beyond +-12,000 m, or one of the usual nodata values while the file declares another or none.
+  void read(int row, int n_rows, int col, int n_cols, double* elevation) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// The TRN of a GeoTIFF written by write_trn(), or of any raster that DemFile takes: its cell
+/// centres become nodes as they are. A missing CRS is left empty. Throws InputError (DemFile,
+/// check_trn).
+[[nodiscard]] Trn read_trn(const std::string& path);
+
+/// Elevations of `dem` on the nodes of `frame`, which is in the CRS of `dem`: area-weighted means
+/// where the cell grows, bilinear where it shrinks, copies where the nodes are the DEM's own
+/// (RowResampler). Reads the rows and columns that the frame needs, strip by strip.
+[[nodiscard]] std::vector<double> read_dem(const DemFile& dem, const GridFrame& frame,
+                                           const ProgressFunction& progress = {});
+
+/// What a TRN file says besides its elevations.
+struct TrnFileOptions {
+  std::map<std::string, std::string> tags;    ///< metadata, e.g. RUN_ID
+  std::vector<std::string> creation_options;  ///< GTiff's, NAME=VALUE; they win over ours
+};
+
+/// Writes a tiled, deflated GeoTIFF of Float64 node elevations, AREA_OR_POINT=Point, nodata -9999,
+/// to `path`, byte by byte the same for the same TRN and options. Throws InputError when it cannot
+/// be written whole.
+void write_trn(const std::string& path, const Trn& trn, const TrnFileOptions& options = {});
+
+}  // namespace talus

@@ -1,0 +1,30 @@
+// libcore/io/tin_ply.hpp
+// TIN as binary PLY: what talus-tin writes and talus-trn reads; opens in MeshLab, ParaView and as a
+// mesh layer of QGIS. Coordinates in the file are those of the map (double), so that a viewer sets
+// it in its place; the CRS and the origin stand in comments:
+//   comment crs PROJCRS["..."]        the WKT in one line; left out when there is no CRS
+//   comment origin_m X Y Z            map coordinates of the local zero used while computing
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "terrain/tin.hpp"
+
+namespace talus {
+
+/// Writes binary little-endian PLY: vertices x y z (double), faces as lists of three (uchar, int).
+/// Throws InputError when the file cannot be written.
+void write_tin(const std::string& path, const Tin& tin);
+
+/// Reads a TIN written by write_tin, or any little-endian binary PLY of triangles: float or
+/// double x y z, further numbers at a vertex or behind a face's corners are passed over. Clockwise
+/// triangles are turned. Without an origin in the file the lowest corner, floored to 100 m, is
+/// taken. Throws InputError, with what was expected, for anything else, a truncated or a lying
+/// file.
+[[nodiscard]] Tin read_tin(const std::string& path);
+
+/// The same from memory; `source` names it in messages.
+[[nodiscard]] Tin parse_tin(std::span<const char> bytes, const std::string& source);
+
+}  // namespace talus

@@ -1,0 +1,82 @@
+// libcore/terrain/contours.hpp
+// A contour map as plain data, and its cleaning: what meets at one height is joined and counted,
+// what meets at two heights is refused with the place.
+// in:    lines read by io/contours_gdal
+// out:   points and segments that a constrained triangulation can take as they are
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/types.hpp"
+
+namespace talus {
+
+/// Heights nearer than this are one height: no map states millimetres [m].
+inline constexpr double same_height_m = 1e-3;
+
+/// Polylines in one array: line l has the points begin[l] to begin[l + 1] - 1.
+struct Polylines {
+  std::vector<Vec3> points;           ///< relative to the map's origin [m]    (n_points)
+  std::vector<int> begin = {0};       ///< first point of each line             (n_lines + 1)
+  std::vector<std::int64_t> feature;  ///< id in the source, for messages       (n_lines)
+  [[nodiscard]] int n_lines() const { return static_cast<int>(begin.size()) - 1; }
+};
+
+/// All that a map may hold. Rings are closed without repeating their first point.
+struct ContourMap {
+  std::string source;                       ///< file of the contours, for messages
+  std::string crs_wkt;                      ///< projected, metres; empty when unknown
+  Vec3 origin = Vec3::Zero();               ///< map coordinates of the local zero [m]
+  Polylines contours;                       ///< each line at one height
+  Polylines breaklines;                     ///< height by point
+  std::vector<Vec3> spots;                  ///< spot heights, relative to `origin` [m]
+  std::vector<std::vector<Vec2>> boundary;  ///< rings, even-odd, relative to `origin` [m]
+};
+
+/// What cleaning found and mended.
+struct CleaningCounts {
+  std::size_t duplicate_points = 0;    ///< points on another point at the same height
+  std::size_t duplicate_segments = 0;  ///< segments digitised twice
+  std::size_t touches = 0;             ///< points on another line at the same height
+  std::size_t crossings = 0;           ///< crossings of two lines at the same height
+  std::size_t single_points = 0;       ///< lines of one distinct point, kept as a point
+  std::size_t breakline_meetings =
+      0;  ///< breakline or spot height on a contour: the contour's height taken
+};
+
+/// Lines that meet at their ends only. The points of contours come first.
+struct CleanLines {
+  std::vector<Vec3> points;                  ///< distinct in x, y, relative to the origin [m]
+  std::vector<std::array<int, 2>> segments;  ///< indices into `points`, each pair once
+  int n_contour_points = 0;                  ///< points from here on are of breaklines and spots
+  CleaningCounts counts;
+};
+
+/// Distinct heights of the contours, rising [m above the origin].
+[[nodiscard]] std::vector<double> contour_levels(const ContourMap& map);
+
+/// Vertical distance of neighbouring contours: median step between the distinct heights [m];
+/// 0 when there are fewer than two heights.
+[[nodiscard]] double contour_interval(const ContourMap& map);
+
+/// Takes the contours at every `every`-th height (>= 2) out of the map and returns their points:
+/// what the terrain made from the rest can be held against. The highest contours always stay.
+[[nodiscard]] std::vector<Vec3> hold_back_contours(int every, ContourMap& map);
+
+/// Throws InputError when the contours stand at fewer than two heights: they make no slope.
+void check_heights(const ContourMap& map);
+
+/// Joins and counts what meets at the same height (within same_height_m). A breakline or spot
+/// height that meets a contour within half a contour interval takes the contour's height there.
+/// Throws InputError, with the place in map coordinates and both heights, where lines meet or
+/// points coincide at different heights.
+[[nodiscard]] CleanLines clean_lines(const ContourMap& map);
+
+/// Gives back the memory of the lines; origin, CRS and boundary stay.
+void forget_lines(ContourMap& map);
+
+}  // namespace talus

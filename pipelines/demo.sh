@@ -1,0 +1,20 @@
+#!/bin/sh
+# The main job on a sample site, from the contour map to the results. Installs what is missing,
+# builds the tools, runs the site's pipeline, says where the results are.
+#   sh pipelines/demo.sh [SITE]      SITE: a folder of sample_sites (maungawhau)
+set -eu
+cd "$(dirname "$0")/.."
+site=${1:-maungawhau}
+[ -f "sample_sites/$site/Makefile" ] || {
+  echo "demo.sh: there is no sample_sites/$site; there are: $(cd sample_sites && echo *)" >&2
+  exit 2
+}
+
+sh pipelines/install_packages.sh build
+export CCACHE_SLOPPINESS=pch_defines,time_macros  # lets ccache keep files that use a precompiled header
+cmake --preset release -DTALUS_TESTS=OFF -DTALUS_BENCH=OFF -B build/demo >/dev/null
+cmake --build build/demo
+make -C "sample_sites/$site" BIN="$PWD/build/demo/tools/"
+echo
+echo "The results are in sample_sites/$site/out:"
+ls "sample_sites/$site/out"

@@ -1,0 +1,60 @@
+// Law paper on the paper's four benchmarks: what the printed method gives, bounded loosely, since its
+// errors are its own (docs/verification.md reports them). What it must do exactly is asserted tightly.
+#include <gtest/gtest.h>
+
+#include "dda/closed_form.hpp"
+
+namespace {
+
+using namespace talus;
+using namespace talus::cases;
+
+Settings law_paper(double dt, double normal_stiffness) {
+  Settings settings;
+  settings.law = Law::paper;
+  settings.dt = dt;
+  settings.normal_stiffness = normal_stiffness;
+  settings.shear_ratio = 0.4;  // k_n / 2.5, as Shi's code has it
+  return settings;
+}
+
+TEST(LawPaper, ParabolaIsExact) {  // Fig. 9: the scheme is exact for a constant force
+  EXPECT_LT(parabola(law_paper(1e-2, 5e10)).error, 1e-11);
+  EXPECT_LT(parabola(law_paper(1e-4, 5e10)).error, 1e-11);
+}
+
+TEST(LawPaper, SlidesNearTheClosedForm) {  // Fig. 10
+  EXPECT_LT(sliding(law_paper(1e-4, 5e10), 0, 37, 1).error, 1e-6);
+  for (const double friction : {5.0, 10.0, 15.0, 20.0})
+    EXPECT_LT(sliding(law_paper(1e-4, 5e10), friction, 37, 1).error, 5e-3) << friction;
+  EXPECT_LT(sliding(law_paper(1e-4, 5e10), 35, 37, 1).error, 5e-3);  // creep [m]: it does not quite stick
+}
+
+TEST(LawPaper, PrismStartsToRollNearTheCriticalAngle) {  // Fig. 11, (27)
+  for (const int n : {3, 6, 12}) EXPECT_LT(rolling_angle(law_paper(1e-3, 1e9), n).error, 0.5) << n;
+}
+
+TEST(LawPaper, PostAdjustmentGivesTheRestitutionOfOneBounce) {  // Fig. 12a, (28)
+  for (const double restitution : {0.7, 1.0})
+    EXPECT_LT(bounce(law_paper(1e-4, 5e10), restitution, Landing::face).error, 5e-3) << restitution;
+}
+
+// Fig. 12b: elastic block, no post-adjustment. Restitution grows with E and tends to 1 when both E and
+// k_n grow, each step of the integrator being short against the hit.
+TEST(LawPaper, ElasticRestitutionTendsToOne) {
+  double last = 0;
+  for (const double young : {1e8, 1e9, 1e10, 1e11, 1e12}) {
+    const double now = elastic_restitution(law_paper(1e-6, 1e9), young).value;
+    EXPECT_GT(now, last - 1e-3) << young;
+    EXPECT_LT(now, 1 + 1e-6);
+    last = now;
+  }
+  EXPECT_GT(last, 0.99);
+  EXPECT_LT(elastic_restitution(law_paper(1e-6, 1e11), 1e8).value, 0.85);
+}
+
+TEST(LawPaper, OwnWeightStressesTheBlock) {
+  EXPECT_LT(own_weight(law_paper(1e-3, 5e10)).error, 1e-2);
+}
+
+}  // namespace

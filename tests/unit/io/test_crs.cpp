@@ -1,0 +1,73 @@
+#include <gtest/gtest.h>
+
+#include "base/error.hpp"
+#include "io/crs_gdal.hpp"
+
+namespace {
+
+using talus::crs_from_user;
+using talus::find_crs_problem;
+using talus::Vec2;
+using talus::Vec3;
+
+TEST(Crs, ProjectedMetresAreFit) {
+  for (const char* crs : {"EPSG:31287", "EPSG:27700", "EPSG:2193", "EPSG:32632", "EPSG:5972",
+                          "+proj=utm +zone=32 +datum=WGS84"})
+    EXPECT_EQ(find_crs_problem(crs_from_user(crs, "--crs"), {500000, 5200000}).finding, "") << crs;
+}
+
+TEST(Crs, DegreesFeetAndStretchedMetresAreNot) {
+  const auto problem = [](const char* crs, double x, double y) {
+    return find_crs_problem(crs_from_user(crs, "--crs"), {x, y});
+  };
+  const auto says = [](const talus::CrsProblem& found, const char* words) {
+    return found.finding.find(words) != std::string::npos;
+  };
+  EXPECT_TRUE(says(problem("EPSG:4326", 11.3, 47), "in degrees"));
+  EXPECT_TRUE(says(problem("EPSG:4979", 11.3, 47), "in degrees"));
+  EXPECT_TRUE(says(problem("EPSG:4978", 4e6, 1e6), "centre of the Earth"));
+  EXPECT_TRUE(says(problem("EPSG:2225", 6e6, 2.1e6), "US survey foot"));
+  EXPECT_TRUE(says(problem("EPSG:32632+6360", 5e5, 5e6), "heights in US survey foot"));
+  EXPECT_TRUE(says(problem("EPSG:3857", 1.2e6, 5.9e6), "1 / cos(latitude)"));
+  EXPECT_TRUE(says(find_crs_problem("", {0, 0}), "there is no CRS"));
+}
+
+// The zone of the place, north and south, is the way out; longitude comes first.
+TEST(Crs, TheUtmZoneOfThePlaceIsOffered) {
+  const std::string degrees = crs_from_user("EPSG:4326", "--crs");
+  EXPECT_EQ(find_crs_problem(degrees, {11.3, 47}).mend_to, "EPSG:32632");
+  EXPECT_EQ(find_crs_problem(degrees, {174.76, -36.88}).mend_to, "EPSG:32760");
+  EXPECT_EQ(find_crs_problem(degrees, {180, -10}).mend_to, "EPSG:32760");
+  EXPECT_EQ(find_crs_problem(degrees, {-122.2, 46.2}).mend_to, "EPSG:32610");
+  EXPECT_EQ(find_crs_problem(degrees, {11, 89}).mend_to, "");
+  EXPECT_EQ(find_crs_problem(crs_from_user("EPSG:2225", "--crs"), {6e6, 2.1e6}).mend_to,
+            "EPSG:32610");
+}
+
+TEST(Crs, SameSystemsAreRecognisedHoweverTheyAreWritten) {
+  const std::string utm = crs_from_user("EPSG:32632", "--crs");
+  EXPECT_TRUE(talus::same_crs(utm, utm));
+  EXPECT_TRUE(talus::same_crs(utm, crs_from_user("urn:ogc:def:crs:EPSG::32632", "--crs")));
+  EXPECT_FALSE(talus::same_crs(utm, crs_from_user("EPSG:32633", "--crs")));
+  EXPECT_FALSE(talus::same_crs(utm, ""));
+  EXPECT_TRUE(talus::same_crs("", ""));
+  EXPECT_EQ(talus::crs_name(utm), "EPSG:32632 (WGS 84 / UTM zone 32N)");
+}
+
+TEST(Crs, WhatIsNoCrsIsRefused) {
+  EXPECT_EQ(crs_from_user("none", "--crs"), "");
+  for (const char* words : {"", "EPSG:nonsense", "somewhere", "EPSG:99999999"})
+    EXPECT_THROW(static_cast<void>(crs_from_user(words, "--crs")), talus::InputError) << words;
+}
+
+TEST(Crs, ReprojectionTakesLongitudeFirst) {
+  std::vector<Vec3> points = {{9, 0, 5}, {9, 47, 7}};
+  ASSERT_TRUE(talus::reproject(crs_from_user("EPSG:4326", "--crs"),
+                               crs_from_user("EPSG:32632", "--crs"), points));
+  EXPECT_NEAR(points[0].x(), 500'000, 1e-6);
+  EXPECT_NEAR(points[0].y(), 0, 1e-6);
+  EXPECT_NEAR(points[1].y(), 5'205'264, 300);  // 47 degrees along a meridian, times 0.9996
+  EXPECT_EQ(points[1].z(), 7);
+}
+
+}  // namespace

@@ -1,0 +1,66 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "terrain/tin_mesh.hpp"
+
+namespace {
+
+using talus::ContourMap;
+using talus::Tin;
+using talus::TriangleMesh;
+using talus::Vec2;
+using talus::Vec3;
+
+// 20 x 20 squares of 1 m, with heights x + y.
+TriangleMesh raster_mesh() {
+  std::vector<Vec3> points;
+  for (int j = 0; j <= 20; ++j)
+    for (int i = 0; i <= 20; ++i) points.emplace_back(i, j, i + j);
+  return talus::Triangulation(points, {}, "").mesh();
+}
+
+double area_of(const Tin& tin) {
+  double area = 0;
+  for (const auto& [a, b, c] : tin.triangles) {
+    const Vec3 u =
+        tin.points[static_cast<std::size_t>(b)] - tin.points[static_cast<std::size_t>(a)];
+    const Vec3 v =
+        tin.points[static_cast<std::size_t>(c)] - tin.points[static_cast<std::size_t>(a)];
+    area += (u.x() * v.y() - u.y() * v.x()) / 2;
+  }
+  return area;
+}
+
+TEST(Boundary, WithoutRingsNothingIsCut) {
+  TriangleMesh mesh = raster_mesh();
+  talus::cut_to_rings({}, mesh);
+  EXPECT_EQ(mesh.triangles.size(), 800U);
+}
+
+TEST(Boundary, KeepsTheRingWithoutItsHole) {
+  TriangleMesh mesh = raster_mesh();
+  const std::vector<Vec2> outer = {{2, 2}, {12, 2}, {12, 8}, {2, 8}};
+  const std::vector<Vec2> hole = {{5, 4}, {5, 6}, {9, 6}, {9, 4}};
+  talus::cut_to_rings({outer, hole}, mesh);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (const int other : mesh.neighbors[t])
+      EXPECT_LT(other, static_cast<int>(mesh.triangles.size()));
+  ContourMap map;
+  map.origin = Vec3(100, 200, 0);
+  map.crs_wkt = "LOCAL_CS[]";
+  const Tin tin = talus::to_tin(mesh, map);
+  EXPECT_NEAR(area_of(tin), 60 - 8, 1e-12);
+  EXPECT_EQ(tin.points.size(), 11U * 7 - 3);  // three points stand inside the hole
+  EXPECT_EQ(tin.origin, map.origin);
+  EXPECT_EQ(tin.crs_wkt, map.crs_wkt);
+  for (const Vec3& p : tin.points) EXPECT_EQ(p.z(), p.x() + p.y());
+}
+
+TEST(Boundary, ARingElsewhereLeavesNothing) {
+  TriangleMesh mesh = raster_mesh();
+  talus::cut_to_rings({{{50, 50}, {60, 50}, {60, 60}}}, mesh);
+  EXPECT_TRUE(mesh.triangles.empty());
+}
+
+}  // namespace

@@ -1,0 +1,222 @@
+// tools/talus_tin.cpp
+// Contour lines to a triangulated irregular network. Page: docs/tools/talus-tin.md
+#include "base/text.hpp"
+#include "io/contours_gdal.hpp"
+#include "io/crs_gdal.hpp"
+#include "io/tin_ply.hpp"
+#include "terrain/flat.hpp"
+#include "terrain/tin_mesh.hpp"
+#include "tool.hpp"
+
+namespace {
+
+using talus::ContourMap;
+using talus::InputError;
+using talus::Json;
+using talus::text;
+using talus::Tool;
+
+struct Options {
+  talus::ContourSources sources;
+  std::string out, crs, t_srs, report, hold_out;
+  std::string flat = "fill";
+  double fill_spacing_m = 0;
+  int hold_out_every = 0;
+};
+
+std::string check_not_negative(const std::string& word) {
+  double value = 0;
+  if (talus::parse_double(word, value) && value >= 0) return {};
+  return word + " is no distance, expected metres, 0 or more";
+}
+
+std::string check_positive(const std::string& word) {
+  double value = 0;
+  if (talus::parse_double(word, value) && value > 0) return {};
+  return word + " is no unit, expected metres above 0";
+}
+
+std::string check_every(const std::string& word) {
+  double value = 0;
+  if (talus::parse_double(word, value) && value >= 2 && value == static_cast<int>(value)) return {};
+  return word + " is no step, expected a whole number of 2 or more";
+}
+
+void declare(Tool& tool, Options& o) {
+  talus::ContourSources& s = o.sources;
+  tool.input("contours", s.contours.path, "contour lines (any vector source that GDAL reads)");
+  tool.output("-o,--out", o.out, "TIN to write (binary PLY)")->required();
+  tool.option("--layer", s.contours.layer, "layer of the contours; empty: the only one with lines");
+  tool.option("--elevation-field", s.elevation_field,
+              "field with the elevation; Z: the geometries' own; empty: found by itself");
+  tool.option("--elevation-unit-m", s.elevation_unit_m, "metres in one unit of elevation")
+      ->check(check_positive);
+  tool.input("--breaklines", s.breaklines.path, "lines with heights where the slope breaks");
+  tool.option("--breaklines-layer", s.breaklines.layer, "their layer");
+  tool.input("--spots", s.spots.path, "spot heights (points)");
+  tool.option("--spots-layer", s.spots.layer, "their layer");
+  tool.input("--boundary", s.boundary.path, "polygons: triangles with their centre outside go");
+  tool.option("--boundary-layer", s.boundary.layer, "their layer");
+  tool.option("--crs", o.crs, "CRS of contours that have none; none: local metres");
+  tool.option("--t-srs", o.t_srs, "reproject to this CRS, e.g. EPSG:32632 (heights stay)");
+  tool.option("--flat", o.flat, "flat triangles on summits, ridges, valley floors: fill or keep")
+      ->check(CLI::IsMember({"fill", "keep"}));
+  tool.option("--fill-spacing-m", o.fill_spacing_m,
+              "distance of the points that mend flat triangles [m]; 0: from the map")
+      ->check(check_not_negative);
+  tool.option("--hold-out-every", o.hold_out_every,
+              "hold back the contours at every K-th height, K >= 2; 0: none")
+      ->check(check_every);
+  tool.output("--hold-out", o.hold_out, "points of the contours held back (GeoPackage)");
+  tool.output("--report", o.report, "what was read, cleaned and mended (JSON)");
+  tool.footer(
+      "Example:\n  talus-tin contours.gpkg -o slope.tin.ply --report slope.tin.json\n"
+      "  talus-tin map.dxf -o slope.tin.ply --crs EPSG:31287 --spots heights.gpkg");
+}
+
+// --- steps ---------------------------------------------------------------------------------------
+
+void check_together(const Options& o) {
+  if ((o.hold_out_every > 0) == !o.hold_out.empty()) return;
+  throw InputError({"", 0, o.hold_out.empty() ? "--hold-out-every" : "--hold-out"},
+                   "--hold-out-every and --hold-out go together, only one is given");
+}
+
+ContourMap read_map(Tool& tool, Options& o, talus::ContourReading& reading) {
+  o.sources.crs_given = !o.crs.empty();
+  if (!o.crs.empty()) o.sources.crs = talus::crs_from_user(o.crs, "--crs");
+  if (!o.t_srs.empty()) o.sources.t_srs = talus::crs_from_user(o.t_srs, "--t-srs");
+  ContourMap map = talus::read_contours(o.sources, reading);
+  talus::check_heights(map);
+  tool.info("elevation from " + reading.elevation_from + " of layer " + reading.layer);
+  if (reading.n_ignored > 0)
+    reading.notes.push_back(std::to_string(reading.n_ignored) +
+                            " features of the drawing are no lines and were passed over");
+  for (const std::string& note : reading.notes) tool.info(note);
+  return map;
+}
+
+talus::TriangleMesh mesh_inside(const ContourMap& map, talus::Triangulation& triangulation,
+                                const Options& o) {
+  talus::TriangleMesh mesh = triangulation.mesh();
+  talus::cut_to_rings(map.boundary, mesh);
+  if (mesh.triangles.empty())
+    throw InputError({o.sources.boundary.path}, "the boundary and the contours share no ground");
+  return mesh;
+}
+
+Json as_json(const talus::CleaningCounts& c) {
+  return {{"duplicate_points", c.duplicate_points},
+          {"duplicate_segments", c.duplicate_segments},
+          {"touches_at_one_height", c.touches},
+          {"crossings_at_one_height", c.crossings},
+          {"lines_of_one_point", c.single_points},
+          {"breaklines_and_spots_on_contours", c.breakline_meetings}};
+}
+
+Json as_json(const ContourMap& map, const talus::ContourReading& reading) {
+  const std::vector<double> levels = talus::contour_levels(map);
+  return {{"n_features", reading.n_features},
+          {"n_lines", map.contours.n_lines()},
+          {"n_points", map.contours.points.size()},
+          {"n_heights", levels.size()},
+          {"lowest_m", levels.front() + map.origin.z()},
+          {"highest_m", levels.back() + map.origin.z()},
+          {"interval_m", talus::contour_interval(map)},
+          {"n_breaklines", map.breaklines.n_lines()},
+          {"n_spots", map.spots.size()}};
+}
+
+// Adds points to the triangulation that mend its flat triangles; what was done goes to `report`.
+void mend(Tool& tool, const Options& o, const ContourMap& map,
+          const std::vector<std::uint8_t>& flat, double interval,
+          talus::Triangulation& triangulation, talus::TriangleMesh& mesh, Json& report) {
+  const talus::MendingPoints mended =
+      talus::mend_flat_triangles(mesh, flat, {interval, o.fill_spacing_m}, tool.progress());
+  mesh = {};
+  triangulation.fix_edges(mended.border);
+  triangulation.add(mended.points);
+  mesh = mesh_inside(map, triangulation, o);
+  report["spacing_m"] = mended.spacing;
+  report["n_points_added"] = mended.points.size();
+  report["largest_change_m"] = mended.largest_change;
+  if (mended.n_unsolved > 0)
+    tool.warn(std::to_string(mended.n_unsolved) + " places were left flat: nothing holds them");
+}
+
+// Triangles of the cleaned lines, mended as asked for. Frees what it no longer needs as it goes.
+talus::TriangleMesh make_mesh(Tool& tool, const Options& o, ContourMap& map, Json& report) {
+  const double interval = talus::contour_interval(map);
+  talus::CleanLines clean = talus::clean_lines(map);
+  talus::forget_lines(map);
+  report["cleaning"] = as_json(clean.counts);
+  const talus::MeasuredPoints measured{clean.n_contour_points,
+                                       static_cast<int>(clean.points.size())};
+  talus::Triangulation triangulation(std::move(clean.points), clean.segments, map.source);
+  clean.segments = {};
+  talus::TriangleMesh mesh = mesh_inside(map, triangulation, o);
+  const std::vector<std::uint8_t> flat = find_flat_triangles(mesh, measured);
+  const talus::AreaShare before = area_of(mesh, flat);
+  report["flat"] = {{"mode", o.flat}, {"share_before", before.share()}};
+  if (o.flat == "fill" && before.marked_m2 > 0)
+    mend(tool, o, map, flat, interval, triangulation, mesh, report["flat"]);
+  const talus::AreaShare after = area_of(mesh, find_flat_triangles(mesh, measured));
+  report["flat"]["share_after"] = after.share();
+  report["area_m2"] = after.all_m2;
+  tool.metric("flat_share_before", before.share(), "1");
+  tool.metric("flat_share_after", after.share(), "1");
+  return mesh;
+}
+
+std::string summary_of(const Json& report) {
+  const auto percent = [](const Json& value) { return text(100 * value.get<double>(), 3) + " %"; };
+  const Json &contours = report["contours"], &tin = report["tin"], &flat = report["flat"];
+  return std::to_string(contours["n_lines"].get<int>()) + " contours, " +
+         std::to_string(contours["n_points"].get<std::size_t>()) + " points, every " +
+         text(contours["interval_m"].get<double>(), 6) + " m from " +
+         text(contours["lowest_m"].get<double>(), 8) + " to " +
+         text(contours["highest_m"].get<double>(), 8) + " m\n" +
+         std::to_string(tin["n_points"].get<std::size_t>()) + " points, " +
+         std::to_string(tin["n_triangles"].get<std::size_t>()) + " triangles; flat " +
+         percent(flat["share_before"]) + " of the area, " + percent(flat["share_after"]) +
+         (flat["mode"] == "fill" ? " after mending" : " (kept)");
+}
+
+Json build(Tool& tool, Options& o, talus::Tin& tin) {
+  talus::ContourReading reading;
+  ContourMap map = read_map(tool, o, reading);
+  Json report = {{"tool", "talus-tin"},
+                 {"source", o.sources.contours.path},
+                 {"run_id", tool.run_id()},
+                 {"layer", reading.layer},
+                 {"elevation_from", reading.elevation_from},
+                 {"crs", talus::crs_name(map.crs_wkt)},
+                 {"contours", as_json(map, reading)}};
+  if (o.hold_out_every > 0) {
+    const auto held_back = talus::hold_back_contours(o.hold_out_every, map);
+    talus::check_heights(map);
+    talus::write_points(tool.stage(o.hold_out), "held_back", map.crs_wkt, map.origin, held_back);
+    report["held_back"] = {{"every", o.hold_out_every}, {"n_points", held_back.size()}};
+  }
+  tin = talus::to_tin(make_mesh(tool, o, map, report), map);
+  report["tin"] = {{"n_points", tin.points.size()}, {"n_triangles", tin.triangles.size()}};
+  report["notes"] = reading.notes;
+  tool.metric("n_points", static_cast<double>(tin.points.size()), "1");
+  return report;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options o;
+  Tool tool("talus-tin", "Makes a triangulated irregular network (TIN) from contour lines.");
+  declare(tool, o);
+  return tool.run(argc, argv, [&] {
+    check_together(o);
+    talus::Tin tin;
+    const Json report = build(tool, o, tin);
+    talus::write_tin(tool.stage(o.out), tin);
+    if (!o.report.empty()) tool.write_text(o.report, report.dump(2) + "\n");
+    tool.result(report, summary_of(report));
+  });
+}

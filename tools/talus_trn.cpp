@@ -1,0 +1,331 @@
+// tools/talus_trn.cpp
+// A TIN or a DEM to the terrain that blocks move on, and how good it is. Page:
+// docs/tools/talus-trn.md
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <optional>
+
+#include "base/text.hpp"
+#include "io/crs_gdal.hpp"
+#include "io/hillshade_gdal.hpp"
+#include "io/points_gdal.hpp"
+#include "io/raster_gdal.hpp"
+#include "io/tin_ply.hpp"
+#include "terrain/grid_tin.hpp"
+#include "terrain/trn_quality.hpp"
+#include "tool.hpp"
+
+namespace {
+
+using talus::DemFile;
+using talus::GridFrame;
+using talus::InputError;
+using talus::Json;
+using talus::MapWindow;
+using talus::text;
+using talus::Tool;
+using talus::Trn;
+
+constexpr double far = std::numeric_limits<double>::infinity();
+constexpr MapWindow everywhere{-far, -far, far, far};
+
+struct Options {
+  std::string source, out, window_text, t_srs, crs, like, reference, reference_points, report,
+      hillshade;
+  double cell_size_m = 0;
+  std::vector<std::string> creation_options;
+  MapWindow window = everywhere;
+};
+
+// --- command line ------------------------------------------------------------------------------
+
+std::string parse_window(const std::string& words, MapWindow& window) {
+  std::array<double, 4> number{};
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::size_t end = i < 3 ? words.find(',', begin) : words.size();
+    if (end == std::string::npos ||
+        !talus::parse_double(words.substr(begin, end - begin), number[i]))
+      return words + " is no window, expected XMIN,YMIN,XMAX,YMAX";
+    begin = end + 1;
+  }
+  window = {number[0], number[1], number[2], number[3]};
+  if (window.x_min < window.x_max && window.y_min < window.y_max) return {};
+  return "the window " + words + " has no area, expected XMIN < XMAX and YMIN < YMAX";
+}
+
+std::string check_positive(const std::string& word) {
+  double value = 0;
+  if (talus::parse_double(word, value) && value > 0) return {};
+  return word + " is no size, expected metres above 0";
+}
+
+void declare(Tool& tool, Options& o) {
+  tool.input("source", o.source, "TIN written by talus-tin (.ply), or an elevation raster");
+  tool.output("-o,--out", o.out, "terrain to write (GeoTIFF)")->required();
+  tool.option("--cell-size-m", o.cell_size_m,
+              "distance of the nodes [m]; 0: the DEM's own, or near that of the TIN's points")
+      ->check(check_positive);
+  tool.option("--window", o.window_text, "part to take, map coordinates: XMIN,YMIN,XMAX,YMAX [m]")
+      ->check([&o](const std::string& words) { return parse_window(words, o.window); });
+  tool.input("--like", o.like, "put the nodes on the cell centres of this raster");
+  tool.option("--t-srs", o.t_srs, "reproject a DEM to this CRS, e.g. EPSG:32632 (bilinear)");
+  tool.option("--crs", o.crs, "CRS of a source that has none; none: local metres");
+  tool.input("--reference", o.reference, "better known DEM to hold the terrain against");
+  tool.input("--reference-points", o.reference_points,
+             "points with a height to hold the terrain against (any vector source)");
+  tool.output("--report", o.report, "errors, slopes, coverage (JSON)");
+  tool.output("--hillshade", o.hillshade, "picture of the terrain (PNG)");
+  tool.app()
+      .add_option("--co", o.creation_options, "creation option of the GeoTIFF, NAME=VALUE")
+      ->allow_extra_args(false);
+  tool.footer(
+      "Example:\n  talus-trn slope.ply -o slope.tif --cell-size-m 5 --report slope.json\n"
+      "  talus-trn dem.tif -o slope.tif --window 248400,351100,249200,351700");
+}
+
+// --- the terrain ---------------------------------------------------------------------------------
+
+bool is_tin(const std::string& path) {
+  if (talus::lower(std::filesystem::path(path).extension().string()) == ".ply") return true;
+  std::array<char, 4> head{};
+  std::ifstream(path, std::ios::binary).read(head.data(), 4);
+  return std::string(head.data(), 3) == "ply" && (head[3] == '\n' || head[3] == '\r');
+}
+
+std::string window_as_text(const MapWindow& w) {
+  return text(w.x_min, 10) + "," + text(w.y_min, 10) + " to " + text(w.x_max, 10) + "," +
+         text(w.y_max, 10);
+}
+
+// The part of a raster's lattice that is wanted, for a source in `crs_wkt`.
+GridFrame frame_like(const Options& o, const std::string& crs_wkt) {
+  talus::DemOptions lattice_options;
+  lattice_options.crs_may_be_missing = true;
+  const DemFile lattice(o.like, lattice_options);
+  if (!lattice.crs_wkt().empty() && !talus::same_crs(lattice.crs_wkt(), crs_wkt))
+    throw InputError({o.like},
+                     "the CRS is " + talus::crs_name(lattice.crs_wkt()) + ", that of " + o.source +
+                         " is " + talus::crs_name(crs_wkt),
+                     "--like needs the same CRS");
+  if (o.cell_size_m != 0 && !talus::is_own_cell_size(lattice.frame(), o.cell_size_m))
+    throw InputError({o.like},
+                     "the cells are " + text(lattice.frame().cell_size, 10) +
+                         " m, --cell-size-m is " + text(o.cell_size_m),
+                     "give one of --like and --cell-size-m");
+  return talus::part_covering(lattice.frame(), o.window);
+}
+
+void check_frame(const GridFrame& frame, const MapWindow& data, const Options& o) {
+  const MapWindow common =
+      talus::intersection(frame.empty() ? o.window : talus::extent(frame), data);
+  if (common.x_min > common.x_max || common.y_min > common.y_max)
+    throw InputError({o.source},
+                     "the grid asked for lies outside of the data, " + window_as_text(data),
+                     o.like.empty() ? "look at --window" : "look at --like and --window");
+  talus::check_size(frame, o.source);
+  if (frame.n_rows >= 2 && frame.n_cols >= 2) return;
+  throw InputError({o.source},
+                   "there is room for " + std::to_string(frame.n_cols) + " x " +
+                       std::to_string(frame.n_rows) + " nodes, expected at least 2 x 2",
+                   "choose a smaller cell or a larger window");
+}
+
+Trn trn_of_tin(Tool& tool, const Options& o) {
+  if (!o.t_srs.empty())
+    throw InputError(
+        {o.source}, "a TIN is not reprojected",
+        "reproject the contours (ogr2ogr -t_srs " + o.t_srs + ") and make the TIN again");
+  const talus::Tin tin = talus::read_tin(o.source);
+  std::string crs = tin.crs_wkt;
+  if (!o.crs.empty()) {
+    crs = talus::crs_from_user(o.crs, "--crs");
+    if (!tin.crs_wkt.empty() && !talus::same_crs(tin.crs_wkt, crs))
+      throw InputError({o.source}, "the CRS is " + talus::crs_name(tin.crs_wkt) + ", not " + o.crs);
+  }
+  const MapWindow data = talus::extent(tin);
+  const double size = o.cell_size_m > 0 ? o.cell_size_m : talus::natural_cell_size(tin);
+  const MapWindow common = talus::intersection(o.window, data);
+  GridFrame frame;
+  if (!o.like.empty())
+    frame = frame_like(o, crs);
+  else if (common.x_min <= common.x_max && common.y_min <= common.y_max)
+    frame = o.window.x_min > -far ? talus::frame_covering(o.window, size)
+                                  : talus::frame_inside(data, size);
+  check_frame(frame, data, o);
+  return talus::make_trn(frame, crs, talus::grid_tin(tin, frame, tool.progress()));
+}
+
+Trn trn_of_dem(Tool& tool, const Options& o) {
+  talus::DemOptions options;
+  options.crs_given = !o.crs.empty();
+  if (options.crs_given) options.crs = talus::crs_from_user(o.crs, "--crs");
+  if (!o.t_srs.empty()) options.t_srs = talus::crs_from_user(o.t_srs, "--t-srs");
+  const DemFile dem(o.source, options);
+  const GridFrame frame = o.like.empty() ? talus::frame_on_dem(dem.frame(), o.cell_size_m, o.window)
+                                         : frame_like(o, dem.crs_wkt());
+  check_frame(frame, talus::extent(dem.frame()), o);
+  if (o.cell_size_m != 0 && frame.cell_size != o.cell_size_m)
+    tool.info("the nodes are the DEM's own, " + text(frame.cell_size, 12) + " m apart");
+  return talus::make_trn(frame, dem.crs_wkt(), talus::read_dem(dem, frame, tool.progress()));
+}
+
+// --- how good it is ------------------------------------------------------------------------------
+
+// A reference DEM node by node, in strips.
+talus::ErrorStatistics errors_against_dem(const Trn& trn, const std::string& path) {
+  talus::DemOptions options;
+  options.crs_may_be_missing = true;
+  const DemFile dem(path, options);
+  if (!dem.crs_wkt().empty() && !talus::same_crs(dem.crs_wkt(), trn.crs_wkt))
+    throw InputError(
+        {path},
+        "the CRS is " + talus::crs_name(dem.crs_wkt()) + ", that of the terrain is " +
+            talus::crs_name(trn.crs_wkt),
+        "a DEM is never reprojected silently: talus-trn " + path + " -o reference.tif --t-srs CRS");
+  const GridFrame all = talus::part_covering(dem.frame(), talus::extent(talus::frame_of(trn)));
+  talus::ErrorCollector errors;
+  for (int row = 0; row < all.n_rows; row += 256) {
+    const GridFrame strip{
+        std::min(256, all.n_rows - row), all.n_cols, all.cell_size, {all.x(0), all.y(row)}};
+    const std::vector<double> truth = talus::read_dem(dem, strip);
+    for (int r = 0; r < strip.n_rows; ++r)
+      for (int c = 0; c < strip.n_cols; ++c) {
+        const double z =
+            truth[static_cast<std::size_t>(r) * static_cast<std::size_t>(strip.n_cols) +
+                  static_cast<std::size_t>(c)];
+        if (!std::isnan(z))
+          errors.add(trn, strip.x(c) - trn.origin.x(), strip.y(r) - trn.origin.y(), z);
+      }
+  }
+  return errors.statistics();
+}
+
+talus::ErrorStatistics errors_against_points(Tool& tool, const Trn& trn, const std::string& path) {
+  const talus::MapPoints truth = talus::read_points(path, trn.crs_wkt);
+  if (!truth.source_crs.empty())
+    tool.info(path + ": reprojected from " + talus::crs_name(truth.source_crs));
+  talus::ErrorCollector errors;
+  for (const talus::Vec3& point : truth.points)
+    errors.add(trn, point.x() - trn.origin.x(), point.y() - trn.origin.y(), point.z());
+  return errors.statistics();
+}
+
+double share(std::int64_t part, std::int64_t whole) {
+  return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0;
+}
+
+Json as_json(const talus::ErrorStatistics& e, const Trn& trn, const std::string& path) {
+  return {{"file", path},
+          {"n", e.n},
+          {"covered_share", share(e.n, e.n + e.n_uncovered)},
+          {"rmse_m", e.rmse},
+          {"mae_m", e.mae},
+          {"mean_m", e.mean},
+          {"p95_m", e.p95},
+          {"largest_m", e.largest},
+          {"largest_at", {e.largest_at.x() + trn.origin.x(), e.largest_at.y() + trn.origin.y()}}};
+}
+
+Json as_json(const talus::SlopeStatistics& s) {
+  Json histogram = Json::array();
+  for (std::size_t bin = 0; bin < s.n_in_bin.size(); ++bin)
+    histogram.push_back({{"from_deg", static_cast<int>(bin) * s.bin_deg},
+                         {"to_deg", static_cast<int>(bin + 1) * s.bin_deg},
+                         {"share", share(s.n_in_bin[bin], s.n_triangles)}});
+  return {{"mean_deg", s.mean_deg},
+          {"largest_deg", s.largest_deg},
+          {"flat_share", share(s.n_flat, s.n_triangles)},
+          {"cells_steeper_than_70_deg", s.n_cells_steep},
+          {"share_steeper_than_70_deg", share(s.n_cells_steep, s.n_cells)},
+          {"histogram", histogram}};
+}
+
+Json as_json(const Trn& trn, const talus::SlopeStatistics& s) {
+  const GridFrame frame = talus::frame_of(trn);
+  const MapWindow window = talus::extent(frame);
+  double low = far, high = -far;
+  for (const double z : trn.elevation) {
+    low = z < low ? z : low;
+    high = z > high ? z : high;
+  }
+  return {{"n_rows", trn.n_rows},
+          {"n_cols", trn.n_cols},
+          {"cell_size_m", trn.cell_size},
+          {"window", {window.x_min, window.y_min, window.x_max, window.y_max}},
+          {"crs", talus::crs_name(trn.crs_wkt)},
+          {"lowest_m", low},
+          {"highest_m", high},
+          {"covered_share", share(s.n_nodes_known, talus::feature_counts(trn).vertices)},
+          {"n_triangles", s.n_triangles}};
+}
+
+std::string summary_of(const Json& report) {
+  const auto percent = [](const Json& value) { return text(100 * value.get<double>(), 3) + " %"; };
+  const Json &grid = report["grid"], &slope = report["slope"];
+  std::string lines =
+      std::to_string(grid["n_cols"].get<int>()) + " x " +
+      std::to_string(grid["n_rows"].get<int>()) + " nodes, " +
+      text(grid["cell_size_m"].get<double>(), 10) + " m apart, " + percent(grid["covered_share"]) +
+      " known, " + text(grid["lowest_m"].get<double>(), 6) + " to " +
+      text(grid["highest_m"].get<double>(), 6) + " m\nslope " +
+      text(slope["mean_deg"].get<double>(), 3) + " degrees on average, up to " +
+      text(slope["largest_deg"].get<double>(), 3) + "; flat " + percent(slope["flat_share"]) +
+      "; steeper than 70 degrees " + percent(slope["share_steeper_than_70_deg"]);
+  for (const char* name : {"reference", "reference_points"}) {
+    if (!report.contains(name)) continue;
+    const Json& e = report[name];
+    const auto metres = [&](const char* key) { return text(e[key].get<double>(), 4) + " m"; };
+    lines += "\nagainst " + e["file"].get<std::string>() + ": RMSE " + metres("rmse_m") + ", MAE " +
+             metres("mae_m") + ", 95 % within " + metres("p95_m") + ", largest " +
+             metres("largest_m") + " at " + text(e["largest_at"][0].get<double>(), 9) + "," +
+             text(e["largest_at"][1].get<double>(), 9) + "; covers " + percent(e["covered_share"]);
+  }
+  return lines;
+}
+
+void add_errors(Tool& tool, const talus::ErrorStatistics& errors, const std::string& name,
+                const std::string& path, const Trn& trn, Json& report) {
+  if (errors.n == 0)
+    throw InputError({path}, "no place in common with known ground of the terrain");
+  report[name] = as_json(errors, trn, path);
+  tool.metric(name + "_rmse_m", errors.rmse, "m");
+  tool.metric(name + "_largest_m", errors.largest, "m");
+}
+
+Json report_on(Tool& tool, const Options& o, const Trn& trn) {
+  const talus::SlopeStatistics slopes = talus::slope_statistics(trn);
+  Json report = {{"tool", "talus-trn"},
+                 {"source", o.source},
+                 {"run_id", tool.run_id()},
+                 {"grid", as_json(trn, slopes)},
+                 {"slope", as_json(slopes)}};
+  if (!o.reference.empty())
+    add_errors(tool, errors_against_dem(trn, o.reference), "reference", o.reference, trn, report);
+  if (!o.reference_points.empty())
+    add_errors(tool, errors_against_points(tool, trn, o.reference_points), "reference_points",
+               o.reference_points, trn, report);
+  tool.metric("covered_share", report["grid"]["covered_share"].get<double>(), "1");
+  if (slopes.n_cells_steep > 0)
+    tool.warn(std::to_string(slopes.n_cells_steep) +
+              " cells are steeper than 70 degrees, where a height field is a poor model");
+  return report;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options o;
+  Tool tool("talus-trn", "Makes the terrain of nodes (TRN) from a TIN or an elevation raster.");
+  declare(tool, o);
+  return tool.run(argc, argv, [&] {
+    const Trn trn = is_tin(o.source) ? trn_of_tin(tool, o) : trn_of_dem(tool, o);
+    talus::check_trn(trn, o.source);
+    const Json report = report_on(tool, o, trn);
+    talus::write_trn(tool.stage(o.out), trn, {{{"RUN_ID", tool.run_id()}}, o.creation_options});
+    if (!o.hillshade.empty()) talus::write_hillshade(tool.stage(o.hillshade), trn);
+    if (!o.report.empty()) tool.write_text(o.report, report.dump(2) + "\n");
+    tool.result(report, summary_of(report));
+  });
+}
