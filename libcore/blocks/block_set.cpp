@@ -146,6 +146,8 @@ void add_body(BlockSet& set, const Body& body) {
   set.block_vertex_begin.push_back(static_cast<int>(set.vertices.size()));
   set.block_face_begin.push_back(static_cast<int>(set.joint_set.size()));
   set.convex_part_begin.push_back(static_cast<int>(set.part_begin.size()) - 1);
+  // A shell of its own is the whole body, parts too thin to be solid included.
+  if (own_shell) sum = moments(body.shell);
   set.material.push_back(body.material);
   set.volume.push_back(sum.volume);
   set.centroid.push_back(sum.centroid);

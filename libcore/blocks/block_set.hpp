@@ -21,7 +21,7 @@ namespace talus {
 enum FaceOrigin : int {
   face_terrain = -1,   ///< the ground surface, or any face of a block that was not cut here
   face_failure = -2,   ///< the failure surface below the mass
-  face_internal = -3,  ///< between two convex parts of one body; never on a shell of a cut body
+  face_internal = -3,  ///< in the rock: between convex parts, or where a ring was parted
 };
 
 struct BlockSet {  // clang-format off
@@ -78,7 +78,7 @@ struct Body {
   Vec3 velocity = Vec3::Zero();  ///< [m/s]
   Vec3 spin = Vec3::Zero();      ///< [rad/s]
 };
-/// Appends a body; its moments are those of its parts taken together.
+/// Appends a body; its moments are those of its shell, or of its parts taken together.
 void add_body(BlockSet& set, const Body& body);
 
 /// The shell of block b, or convex part p, as a polyhedron of its own.

@@ -106,12 +106,12 @@ void box_parts(const Hulls& hulls, const PlacedHulls& placed, const PairState& s
                std::vector<Box>& boxes) {
   boxes.resize(hulls.body.size());
   for (int p = 0; p < n_parts(hulls); ++p) {
-    const int first = hulls.vertex_begin[p], last = first + hulls.n_vertices[p];
+    const int first = hulls.vertex_begin[p], last = hulls.vertex_begin[p + 1];
     Box& box = boxes[p];
-    box = {vertex_at(placed, first), vertex_at(placed, first)};
+    box = {placed.vertices[first], placed.vertices[first]};
     for (int v = first + 1; v < last; ++v) {
-      box.low = box.low.cwiseMin(vertex_at(placed, v));
-      box.high = box.high.cwiseMax(vertex_at(placed, v));
+      box.low = box.low.cwiseMin(placed.vertices[v]);
+      box.high = box.high.cwiseMax(placed.vertices[v]);
     }
     box.low += state.budget[hulls.body[p]].low;
     box.high += state.budget[hulls.body[p]].high;
@@ -124,7 +124,8 @@ void merge_list(PairState& state, PairWork& work) {
   work.next_watch.clear();
   work.next_pairs.clear();
   std::size_t old = 0;
-  for (const auto& [a, b] : work.close) {
+  for (const std::array<int, 2>& close : work.close) {
+    const int a = close[0], b = close[1];
     const auto before = [&](const PairWatch& w) {
       return w.part_a != a ? w.part_a < a : w.part_b < b;
     };
@@ -176,11 +177,12 @@ double pair_margin(const Search& s, int a, int b) {
 void search_all(const Search& s, const PairWatch& watch, double margin, ListedPair& pair) {
   ++s.report.n_searched;
   pair.held_begin = static_cast<int>(s.work.next_held.size());
-  const ContactSearch found =
-      search_contact(s.hulls, s.placed, watch.part_a, watch.part_b, margin, pair.axis,
-                     s.settings.with_areas, s.work.axis, s.work.clip, s.work.next_held);
+  const ContactSearch found = search_contact(
+      s.hulls, s.placed, watch.part_a, watch.part_b, margin, pair.touches ? pair.axis : PairAxis{},
+      s.settings.with_areas, s.work.axis, s.work.clip, s.work.next_held);
   pair.held_end = static_cast<int>(s.work.next_held.size());
   pair.axis = found.choice.axis;
+  pair.touches = found.choice.touches;
   pair.incident = found.incident;
   pair.area = found.area;
   pair.other_face = found.choice.other_face;
@@ -219,45 +221,71 @@ void add_contacts(const Search& s, const PairWatch& watch, double moved, double 
     s.work.shallow.push_back(static_cast<int>(s.work.manifolds.size()) - 1);
 }
 
-// Brings axis and features of a pair up to date; returns the motion since its features were found.
-double refresh(const Search& s, const PairWatch& watch, double moved, const Vec3& between,
-               double turned, double margin, ListedPair& pair) {
+// Where the bodies of a pair are, and how far they moved since that was last noted in the pair.
+struct Lookup {
+  Vec3 between;
+  double turned, moved, margin;
+};
+
+Lookup look_up(const Search& s, const ListedPair& pair, int a, int b) {
+  Lookup now;
+  now.between = s.placed.position[b] - s.placed.position[a];
+  now.turned = s.placed.turned[a] + s.placed.turned[b];
+  now.moved = (now.between - pair.between).norm() + now.turned - pair.turned;
+  now.margin = pair_margin(s, a, b);
+  return now;
+}
+
+void note(Lookup& now, ListedPair& pair) {
+  pair.between = now.between;
+  pair.turned = now.turned;
+  now.moved = 0;
+}
+
+// Does the axis that separated the parts still do so?
+bool stays_apart(const Search& s, const PairWatch& watch, Lookup& now, ListedPair& pair) {
+  if (!s.settings.use_cache || pair.touches || pair.axis.kind == AxisKind::none) return false;
+  if (pair.hold - now.moved > now.margin) return true;
+  const double separation =
+      apart_along(s.hulls, s.placed, watch.part_a, watch.part_b,
+                  axis_normal(s.hulls, s.placed, watch.part_a, watch.part_b, pair.axis));
+  if (separation <= now.margin) return false;
+  pair.hold = separation;
+  note(now, pair);
+  return true;
+}
+
+// Brings axis and features of a pair up to date.
+void refresh(const Search& s, const PairWatch& watch, Lookup& now, ListedPair& pair) {
   const double thickness =
       std::min(s.hulls.thickness[watch.part_a], s.hulls.thickness[watch.part_b]);
-  const bool known = s.settings.use_cache && pair.axis.kind != AxisKind::none && moved <= pair.hold;
-  if (known && moved <= features_hold_ratio * thickness) {
-    keep_features(s, pair);
-    return moved;
-  }
+  const bool known = s.settings.use_cache && pair.touches && now.moved <= pair.hold;
+  if (known && now.moved <= features_hold_ratio * thickness) return keep_features(s, pair);
   if (known && search_features(s, watch, pair)) {
-    pair.hold -= moved;
-    pair.other_face += moved;
+    pair.hold -= now.moved;
+    pair.other_face += now.moved;
   } else {
-    search_all(s, watch, margin, pair);
+    search_all(s, watch, now.margin, pair);
   }
-  pair.between = between;
-  pair.turned = turned;
-  return 0;
+  note(now, pair);
 }
 
 // Looks at one listed pair: sets when to look next, and adds its contacts.
 void look_at(const Search& s, PairWatch& watch, ListedPair& pair) {
   const int a = s.hulls.body[watch.part_a], b = s.hulls.body[watch.part_b];
   if (!is_awake(s.motion, a) && !is_awake(s.motion, b)) return keep_features(s, pair);
-  const Vec3 between = s.placed.position[b] - s.placed.position[a];
-  const double turned = s.placed.turned[a] + s.placed.turned[b];
-  const double margin = pair_margin(s, a, b);
-  double moved = (between - pair.between).norm() + turned - pair.turned;
-  const bool stays_apart =
-      s.settings.use_cache && pair.axis.kind == AxisKind::none && pair.hold - moved > margin;
-  if (!stays_apart) moved = refresh(s, watch, moved, between, turned, margin, pair);
-  if (pair.axis.kind == AxisKind::none) {
-    watch.wake = s.state.travel[a] + s.state.travel[b] + pair.hold - moved;
+  Lookup now = look_up(s, pair, a, b);
+  if (!stays_apart(s, watch, now, pair)) refresh(s, watch, now, pair);
+  if (!pair.touches) {
+    watch.wake = s.state.travel[a] + s.state.travel[b] + pair.hold - now.moved;
     return;
   }
   watch.wake = look_now;
   const Vec3 normal = axis_normal(s.hulls, s.placed, watch.part_a, watch.part_b, pair.axis);
-  if (!normal.isZero(0)) add_contacts(s, watch, moved, margin, normal, pair);
+  if (normal.isZero(0))
+    pair.hold = -1;  // edges turned parallel
+  else
+    add_contacts(s, watch, now.moved, now.margin, normal, pair);
 }
 
 void look_at_pairs(const Search& s) {

@@ -46,7 +46,8 @@ struct PairWatch {
 
 /// What is known of a listed pair of parts, and where the bodies were then.
 struct ListedPair {
-  PairAxis axis;                ///< kind none: apart, or not searched yet
+  PairAxis axis;                ///< kind none: not searched yet
+  bool touches = false;         ///< along that axis; else it separates the parts
   int incident = -1;            ///< incident_face of a face axis
   double hold = -1;             ///< < 0: search; touching: see AxisChoice; apart: separation [m]
   double other_face = 0;        ///< bound on AxisChoice::other_face [m]

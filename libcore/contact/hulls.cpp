@@ -139,25 +139,14 @@ std::vector<Vec3> surface_arc(const std::vector<DraftPart>& parts, const Vec3& a
 }
 
 void add_vertices(Hulls& hulls, const DraftPart& part) {
-  const std::size_t first = hulls.x.size();
-  for (const Vec3& v : part.vertices) {
-    hulls.x.push_back(v.x());
-    hulls.y.push_back(v.y());
-    hulls.z.push_back(v.z());
-    const int vertex = static_cast<int>(hulls.x.size() - 1 - first);
+  for (std::size_t v = 0; v < part.vertices.size(); ++v) {
+    hulls.vertices.push_back(part.vertices[v]);
     for (std::size_t f = 0; f < part.loops.size(); ++f)
-      if (std::find(part.loops[f].begin(), part.loops[f].end(), vertex) != part.loops[f].end())
+      if (std::count(part.loops[f].begin(), part.loops[f].end(), static_cast<int>(v)) > 0)
         hulls.ring_faces.push_back(static_cast<int>(f));
     hulls.ring_begin.push_back(static_cast<int>(hulls.ring_faces.size()));
   }
-  hulls.n_vertices.push_back(static_cast<int>(part.vertices.size()));
-  while (hulls.x.size() % 4 != 0) {
-    hulls.x.push_back(hulls.x.back());
-    hulls.y.push_back(hulls.y.back());
-    hulls.z.push_back(hulls.z.back());
-    hulls.ring_begin.push_back(hulls.ring_begin.back());
-  }
-  hulls.vertex_begin.push_back(static_cast<int>(hulls.x.size()));
+  hulls.vertex_begin.push_back(static_cast<int>(hulls.vertices.size()));
 }
 
 void add_normal(Hulls& hulls, const Vec3& normal, int joint_set, bool internal) {
@@ -240,13 +229,12 @@ void add_part(Hulls& hulls, const std::vector<DraftPart>& parts, const DraftPart
   hulls.face_begin.push_back(static_cast<int>(hulls.nx.size()));
 }
 
-// Rows of `turn` times the points (x, y, z) plus `shift`, for slots [begin, end), multiples of 4.
-void transform(const std::array<const double*, 3>& from, int begin, int end, const Mat3& turn,
-               const Vec3& shift, const std::array<double*, 3>& to) {
-  for (int i = begin; i < end; i += 4) {
-    const Lanes X = lanes(from[0] + i), Y = lanes(from[1] + i), Z = lanes(from[2] + i);
-    for (int k = 0; k < 3; ++k)
-      lanes(to[k] + i) = turn(k, 0) * X + turn(k, 1) * Y + turn(k, 2) * Z + shift[k];
+// The normals of slots [begin, end), multiples of 4, turned into local axes.
+void turn_normals(const Hulls& hulls, int begin, int end, const Mat3& turn, PlacedHulls& placed) {
+  double* const to[3] = {placed.nx.data(), placed.ny.data(), placed.nz.data()};
+  for (int f = begin; f < end; f += n_lanes) {
+    const Lanes x = lanes(&hulls.nx[f]), y = lanes(&hulls.ny[f]), z = lanes(&hulls.nz[f]);
+    for (int k = 0; k < 3; ++k) lanes(to[k] + f) = turn(k, 0) * x + turn(k, 1) * y + turn(k, 2) * z;
   }
 }
 
@@ -261,20 +249,19 @@ void normalize(PlacedHulls& placed, int begin, int end) {
 
 void place_part(const Hulls& hulls, int p, const Mat3& axes, const Mat3& normal_axes, bool rigid,
                 const Vec3& position, PlacedHulls& placed) {
-  transform({hulls.x.data(), hulls.y.data(), hulls.z.data()}, hulls.vertex_begin[p],
-            hulls.vertex_begin[p + 1], axes, position,
-            {placed.x.data(), placed.y.data(), placed.z.data()});
+  const int first = hulls.vertex_begin[p];
+  for (int v = first; v < hulls.vertex_begin[p + 1]; ++v)
+    placed.vertices[v].noalias() = axes * hulls.vertices[v] + position;
   const int face_first = hulls.face_begin[p], face_end = hulls.face_begin[p + 1];
-  transform({hulls.nx.data(), hulls.ny.data(), hulls.nz.data()}, face_first, face_end, normal_axes,
-            Vec3::Zero(), {placed.nx.data(), placed.ny.data(), placed.nz.data()});
+  turn_normals(hulls, face_first, face_end, normal_axes, placed);
   if (!rigid) normalize(placed, face_first, face_end);
   for (int f = face_first; f < face_first + hulls.n_faces[p]; ++f)
-    placed.offset[f] = normal_at(placed, f).dot(
-        vertex_at(placed, hulls.vertex_begin[p] + hulls.loop_vertices[hulls.loop_begin[f]]));
+    placed.offset[f] =
+        normal_at(placed, f).dot(placed.vertices[first + hulls.loop_vertices[hulls.loop_begin[f]]]);
 }
 
 void resize(const Hulls& hulls, PlacedHulls& placed) {
-  for (std::vector<double>* v : {&placed.x, &placed.y, &placed.z}) v->resize(hulls.x.size());
+  placed.vertices.resize(hulls.vertices.size());
   for (std::vector<double>* v : {&placed.nx, &placed.ny, &placed.nz, &placed.offset})
     v->resize(hulls.nx.size());
   placed.position.resize(hulls.radius.size());

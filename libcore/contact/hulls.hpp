@@ -1,7 +1,7 @@
 // libcore/contact/hulls.hpp
 // The convex parts of all blocks as the search of contacts between blocks reads them.
 // in:    the parts of each body (block set), then the pose of each body at every step
-// out:   vertices and face normals in local axes as padded arrays of x, y and z
+// out:   vertices in local axes, and face normals as padded arrays of x, y and z
 // theory: docs/theory.md 2.2 (edges and their Gauss arcs), 2.6
 #pragma once
 
@@ -15,7 +15,7 @@
 
 namespace talus {
 
-/// An edge of a convex part. Faces, normals and vertices count from the part's first slot.
+/// An edge of a convex part. Faces, normals and vertices count from the part's first.
 struct HullEdge {
   int a = 0, b = 0;                 ///< vertices, a -> b as face `left` runs through it
   int left = 0, right = 0;          ///< faces of the part
@@ -27,21 +27,20 @@ struct Hulls {  // clang-format off
   // bodies
   std::vector<int> part_begin{0};     ///< parts of body b: [b], [b + 1)                 (n_bodies + 1)
   std::vector<double> radius;         ///< farthest vertex from the centroid [m]         (n_bodies)
-  std::vector<int> body_vertex_begin{0};  ///< vertex slots of body b                    (n_bodies + 1)
+  std::vector<int> body_vertex_begin{0};  ///< vertices of body b                        (n_bodies + 1)
   std::vector<int> body_edge_begin{0};    ///< edges of body b                           (n_bodies + 1)
   // parts
   std::vector<int> body;              ///< body of part p                                (n_parts)
   std::vector<double> thickness;      ///< smallest width over the face normals [m]      (n_parts)
-  std::vector<int> vertex_begin{0};   ///< vertex slots of part p, a multiple of 4       (n_parts + 1)
-  std::vector<int> n_vertices;        ///< without the padding                           (n_parts)
+  std::vector<int> vertex_begin{0};   ///< vertices of part p: [p], [p + 1)              (n_parts + 1)
   std::vector<int> face_begin{0};     ///< face slots of part p, a multiple of 4         (n_parts + 1)
   std::vector<int> n_faces;           ///< own faces; they come first                    (n_parts)
   std::vector<int> n_normals;         ///< own faces, then faces of other parts that an arc needs (n_parts)
   std::vector<int> edge_begin{0};     ///< edges of part p                               (n_parts + 1)
   std::vector<int> n_active_edges;    ///< convex edges of the body's surface; they come first (n_parts)
-  // vertex slots; the padding repeats the part's last vertex
-  std::vector<double> x, y, z;        ///< body axes [m]                                 (n_vertex_slots)
-  std::vector<int> ring_begin{0};     ///< faces at vertex v: ring_faces[[v], [v + 1))   (n_vertex_slots + 1)
+  // vertices
+  std::vector<Vec3> vertices;         ///< body axes [m]                                 (n_vertices)
+  std::vector<int> ring_begin{0};     ///< faces at vertex v: ring_faces[[v], [v + 1))   (n_vertices + 1)
   std::vector<int> ring_faces;        ///< own faces of the part
   // face slots; the padding repeats the part's last normal
   std::vector<double> nx, ny, nz;     ///< unit outward normals, body axes               (n_face_slots)
@@ -72,10 +71,10 @@ void add_hulls(Hulls& hulls, std::span<const Polyhedron> parts, const Vec3& cent
 struct BlockSet;
 [[nodiscard]] Hulls make_hulls(const BlockSet& set, std::span<const Pose> rest);
 
-/// Hulls where the bodies are now, in local axes. Slots as in Hulls.
+/// Hulls where the bodies are now, in local axes; numbered as in Hulls.
 struct PlacedHulls {  // clang-format off
   // place_hulls
-  std::vector<double> x, y, z;        ///< vertices [m]                                  (n_vertex_slots)
+  std::vector<Vec3> vertices;         ///< [m]                                           (n_vertices)
   std::vector<double> nx, ny, nz;     ///< unit outward normals                          (n_face_slots)
   std::vector<double> offset;         ///< normal . x of the face's plane [m]            (n_face_slots)
   std::vector<Vec3> position;         ///< centroids [m]                                 (n_bodies)
@@ -90,9 +89,6 @@ struct PlacedHulls {  // clang-format off
 void place_hulls(const Hulls& hulls, std::span<const Pose> poses, std::span<const Mat3> stretch,
                  std::span<const std::uint8_t> moving, PlacedHulls& placed);
 
-[[nodiscard]] inline Vec3 vertex_at(const PlacedHulls& placed, int slot) {
-  return {placed.x[slot], placed.y[slot], placed.z[slot]};
-}
 [[nodiscard]] inline Vec3 normal_at(const PlacedHulls& placed, int slot) {
   return {placed.nx[slot], placed.ny[slot], placed.nz[slot]};
 }

@@ -41,9 +41,9 @@ struct Frame {
 
 Frame frame_of(const Hulls& hulls, const PlacedHulls& placed, const FacePair& pair) {
   const Vec3 origin =
-      vertex_at(placed, corner_slot(hulls, pair.reference_part, pair.reference_face, 0));
+      placed.vertices[corner_slot(hulls, pair.reference_part, pair.reference_face, 0)];
   const Vec3 u =
-      (vertex_at(placed, corner_slot(hulls, pair.reference_part, pair.reference_face, 1)) - origin)
+      (placed.vertices[corner_slot(hulls, pair.reference_part, pair.reference_face, 1)] - origin)
           .normalized();
   return {origin, u, normal_at(placed, pair.reference_face).cross(u)};
 }
@@ -56,7 +56,7 @@ void start_polygon(const Hulls& hulls, const PlacedHulls& placed, const FacePair
   const int n = n_corners(hulls, pair.incident_face);
   for (int i = n - 1; i >= 0; --i) {
     const Vec3 from =
-        vertex_at(placed, corner_slot(hulls, pair.incident_part, pair.incident_face, i)) -
+        placed.vertices[corner_slot(hulls, pair.incident_part, pair.incident_face, i)] -
         frame.origin;
     polygon.push_back({frame.u.dot(from), frame.v.dot(from), ContactMode::vertex_face, i, -1,
                        i == 0 ? n - 1 : i - 1});
@@ -124,7 +124,7 @@ void clip_by_reference(const Hulls& hulls, const PlacedHulls& placed, const Face
   scratch.reference.clear();
   for (int k = 0; k < n; ++k) {
     const Vec3 from =
-        vertex_at(placed, corner_slot(hulls, pair.reference_part, pair.reference_face, k)) -
+        placed.vertices[corner_slot(hulls, pair.reference_part, pair.reference_face, k)] -
         frame.origin;
     scratch.reference.emplace_back(frame.u.dot(from), frame.v.dot(from));
   }
@@ -199,33 +199,6 @@ double share_area(const std::vector<ClipCorner>& polygon, HeldPoint* held) {
   return sum / 2;
 }
 
-// A point of the incident part and its height above the plane of the reference face.
-struct Contact3 {
-  Vec3 point;
-  double height;
-};
-
-// Vertices of the two ends of a body's edge, as slots.
-struct EdgeEnds {
-  int a, b;
-};
-EdgeEnds edge_ends(const Hulls& hulls, int part, int edge_of_body) {
-  const HullEdge& edge = hulls.edges[hulls.body_edge_begin[hulls.body[part]] + edge_of_body];
-  return {hulls.vertex_begin[part] + edge.a, hulls.vertex_begin[part] + edge.b};
-}
-
-// Where an edge of the incident part crosses a side of the reference face, seen along its normal.
-Contact3 edge_crossing(const PlacedHulls& placed, const EdgeEnds& side, const EdgeEnds& edge,
-                       const Vec3& normal, double offset) {
-  const Vec3 start = vertex_at(placed, side.a);
-  const Vec3 across = normal.cross(vertex_at(placed, side.b) - start);
-  const Vec3 p = vertex_at(placed, edge.a), q = vertex_at(placed, edge.b);
-  const double d_p = across.dot(p - start), d_q = across.dot(q - start);
-  const double t = d_p == d_q ? 0.5 : std::clamp(d_p / (d_p - d_q), 0.0, 1.0);
-  const Vec3 point = p + t * (q - p);
-  return {point, normal.dot(point) - offset};
-}
-
 // The places of the contacts of a face axis. `n` is the outward normal of the reference face.
 struct FaceContacts {
   const Hulls& hulls;
@@ -233,40 +206,82 @@ struct FaceContacts {
   FacePair pair;
   Vec3 n, incident_normal;
   double offset, incident_offset;
-  double slope;  // n . incident_normal, < 0
+  double slope;                               // n . incident_normal, < 0
+  int reference_vertices, incident_vertices;  // first of the bodies
+  int reference_edges, incident_edges;
 };
 
 FaceContacts face_contacts(const Hulls& hulls, const PlacedHulls& placed, const FacePair& pair) {
-  const Vec3 n = normal_at(placed, pair.reference_face);
-  const Vec3 incident_normal = normal_at(placed, pair.incident_face);
-  return {hulls,
-          placed,
-          pair,
-          n,
-          incident_normal,
-          placed.offset[pair.reference_face],
-          placed.offset[pair.incident_face],
-          std::min(n.dot(incident_normal), -1e-9)};
+  const int reference = hulls.body[pair.reference_part], incident = hulls.body[pair.incident_part];
+  FaceContacts face{hulls,
+                    placed,
+                    pair,
+                    normal_at(placed, pair.reference_face),
+                    normal_at(placed, pair.incident_face),
+                    placed.offset[pair.reference_face],
+                    placed.offset[pair.incident_face],
+                    0,
+                    hulls.body_vertex_begin[reference],
+                    hulls.body_vertex_begin[incident],
+                    hulls.body_edge_begin[reference],
+                    hulls.body_edge_begin[incident]};
+  face.slope = std::min(face.n.dot(face.incident_normal), -1e-9);
+  return face;
 }
 
-Contact3 contact_at(const FaceContacts& face, const ContactKey& key) {
-  const bool ref_is_a = face.pair.reference_is_a;
-  const int ref = face.pair.reference_part, inc = face.pair.incident_part;
-  const int ref_feature = ref_is_a ? key.feature_a : key.feature_b;
-  const int inc_feature = ref_is_a ? key.feature_b : key.feature_a;
-  if (key.mode == ContactMode::edge_edge)
-    return edge_crossing(face.placed, edge_ends(face.hulls, ref, ref_feature),
-                         edge_ends(face.hulls, inc, inc_feature), face.n, face.offset);
-  const bool incident_vertex = (key.mode == ContactMode::face_vertex) == ref_is_a;
-  if (incident_vertex) {
-    const Vec3 point =
-        vertex_at(face.placed, face.hulls.body_vertex_begin[face.hulls.body[inc]] + inc_feature);
-    return {point, face.n.dot(point) - face.offset};
-  }
-  const Vec3 corner =
-      vertex_at(face.placed, face.hulls.body_vertex_begin[face.hulls.body[ref]] + ref_feature);
-  const double height = (face.incident_offset - face.incident_normal.dot(corner)) / face.slope;
-  return {corner + height * face.n, height};
+// A point of the incident part and its height above the plane of the reference face. The functions
+// that fill it work on references and single numbers: copies of vectors to the stack, read back in
+// other widths, made them three times slower.
+struct Place {
+  double x, y, z, height;
+};
+
+// Where an edge of the incident part crosses a side of the reference face, seen along its normal.
+Place edge_crossing(const FaceContacts& face, int side_of_body, int edge_of_body) {
+  const HullEdge& side = face.hulls.edges[face.reference_edges + side_of_body];
+  const HullEdge& edge = face.hulls.edges[face.incident_edges + edge_of_body];
+  const Vec3* reference = &face.placed.vertices[face.hulls.vertex_begin[face.pair.reference_part]];
+  const Vec3* incident = &face.placed.vertices[face.hulls.vertex_begin[face.pair.incident_part]];
+  const Vec3 &s = reference[side.a], &e = reference[side.b];
+  const Vec3 &p = incident[edge.a], &q = incident[edge.b];
+  const double u = e.x() - s.x(), v = e.y() - s.y(), w = e.z() - s.z();
+  const double across_x = face.n.y() * w - face.n.z() * v;
+  const double across_y = face.n.z() * u - face.n.x() * w;
+  const double across_z = face.n.x() * v - face.n.y() * u;
+  const double d_p =
+      across_x * (p.x() - s.x()) + across_y * (p.y() - s.y()) + across_z * (p.z() - s.z());
+  const double d_q =
+      across_x * (q.x() - s.x()) + across_y * (q.y() - s.y()) + across_z * (q.z() - s.z());
+  const double t = d_p == d_q ? 0.5 : std::clamp(d_p / (d_p - d_q), 0.0, 1.0);
+  const double x = p.x() + t * (q.x() - p.x()), y = p.y() + t * (q.y() - p.y()),
+               z = p.z() + t * (q.z() - p.z());
+  return {x, y, z, face.n.x() * x + face.n.y() * y + face.n.z() * z - face.offset};
+}
+
+// A vertex of the incident part.
+Place incident_vertex(const FaceContacts& face, int vertex_of_body) {
+  const Vec3& p = face.placed.vertices[face.incident_vertices + vertex_of_body];
+  return {p.x(), p.y(), p.z(),
+          face.n.x() * p.x() + face.n.y() * p.y() + face.n.z() * p.z() - face.offset};
+}
+
+// The point of the incident face above a vertex of the reference part.
+Place above_reference_vertex(const FaceContacts& face, int vertex_of_body) {
+  const Vec3& p = face.placed.vertices[face.reference_vertices + vertex_of_body];
+  const Vec3& m = face.incident_normal;
+  const double height =
+      (face.incident_offset - m.x() * p.x() - m.y() * p.y() - m.z() * p.z()) / face.slope;
+  return {p.x() + height * face.n.x(), p.y() + height * face.n.y(), p.z() + height * face.n.z(),
+          height};
+}
+
+Place place_of(const FaceContacts& face, const ContactKey& key) {
+  const bool of_a = face.pair.reference_is_a;
+  const int reference = of_a ? key.feature_a : key.feature_b;
+  const int incident = of_a ? key.feature_b : key.feature_a;
+  if (key.mode == ContactMode::edge_edge) return edge_crossing(face, reference, incident);
+  if ((key.mode == ContactMode::face_vertex) == of_a) return incident_vertex(face, incident);
+  return above_reference_vertex(face, reference);
 }
 
 void add_face_points(const Hulls& hulls, const PlacedHulls& placed, const FacePair& pair,
@@ -274,11 +289,16 @@ void add_face_points(const Hulls& hulls, const PlacedHulls& placed, const FacePa
                      std::vector<PairPoint>& points) {
   const FaceContacts face = face_contacts(hulls, placed, pair);
   for (const HeldPoint& h : held) {
-    const Contact3 contact = contact_at(face, h.key);
-    if (!(contact.height <= margin)) continue;
-    points.push_back(
-        {h.key, pair.reference_is_a ? contact.point : Vec3(contact.point - contact.height * face.n),
-         contact.height, h.area});
+    const Place p = place_of(face, h.key);
+    if (!(p.height <= margin)) continue;
+    const double back = pair.reference_is_a ? 0 : p.height;  // B's point, when A is incident
+    PairPoint& point = points.emplace_back();
+    point.key = h.key;
+    point.point_b.x() = p.x - back * face.n.x();
+    point.point_b.y() = p.y - back * face.n.y();
+    point.point_b.z() = p.z - back * face.n.z();
+    point.gap = p.height;
+    point.area = h.area;
   }
 }
 
@@ -294,12 +314,12 @@ void add_edge_point(const Hulls& hulls, const PlacedHulls& placed, int part_a, i
                     std::vector<PairPoint>& points) {
   const HullEdge& edge_a = hulls.edges[hulls.edge_begin[part_a] + axis.feature_a];
   const HullEdge& edge_b = hulls.edges[hulls.edge_begin[part_b] + axis.feature_b];
-  const Vec3 a = vertex_at(placed, hulls.vertex_begin[part_a] + edge_a.a);
-  const Vec3 b = vertex_at(placed, hulls.vertex_begin[part_b] + edge_b.a);
+  const Vec3& a = placed.vertices[hulls.vertex_begin[part_a] + edge_a.a];
+  const Vec3& b = placed.vertices[hulls.vertex_begin[part_b] + edge_b.a];
   const double gap = normal.dot(a - b);
   if (!(gap <= margin)) return;
-  const Vec3 along_a = vertex_at(placed, hulls.vertex_begin[part_a] + edge_a.b) - a;
-  const Vec3 along_b = vertex_at(placed, hulls.vertex_begin[part_b] + edge_b.b) - b;
+  const Vec3 along_a = placed.vertices[hulls.vertex_begin[part_a] + edge_a.b] - a;
+  const Vec3 along_b = placed.vertices[hulls.vertex_begin[part_b] + edge_b.b] - b;
   points.push_back({held.key, crossing_on_b(a, along_a, b, along_b), gap, held.area});
 }
 
@@ -330,7 +350,7 @@ double deepest_gap(const Hulls& hulls, const PlacedHulls& placed, int part_a, in
   const FaceContacts face =
       face_contacts(hulls, placed, face_pair(hulls, part_a, part_b, axis, incident));
   double deepest = std::numeric_limits<double>::infinity();
-  for (const HeldPoint& h : held) deepest = std::min(deepest, contact_at(face, h.key).height);
+  for (const HeldPoint& h : held) deepest = std::min(deepest, place_of(face, h.key).height);
   return deepest;
 }
 
@@ -341,7 +361,7 @@ ContactSearch search_contact(const Hulls& hulls, const PlacedHulls& placed, int 
   ContactSearch found;
   AxisChoice& choice = found.choice;
   choice = find_axis(hulls, placed, part_a, part_b, margin, last, axis_scratch);
-  if (choice.axis.kind == AxisKind::none) return found;
+  if (!choice.touches) return found;
   const std::size_t begin = held.size();
   found.incident = incident_of(hulls, placed, part_a, part_b, choice.axis);
   found.area = find_features(hulls, placed, part_a, part_b, choice.axis, found.incident, with_areas,

@@ -11,7 +11,8 @@
 namespace talus {
 namespace {
 
-constexpr double none = -std::numeric_limits<double>::infinity();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double none = -infinity;
 constexpr double parallel_sin_sq = 3.0458649045213493e-4;  // sin^2 1 deg: edges that make no axis
 constexpr double keep_ratio = 0.1;   // another face must be better by this part of |separation|
 constexpr double face_ratio = 1e-3;  // ... and of the thickness; edges too
@@ -29,15 +30,15 @@ struct Parts {
 int slot(const Hulls& hulls, int part, int vertex) { return hulls.vertex_begin[part] + vertex; }
 
 Vec3 edge_direction(const Parts& parts, int part, const HullEdge& edge) {
-  return vertex_at(parts.placed, slot(parts.hulls, part, edge.b)) -
-         vertex_at(parts.placed, slot(parts.hulls, part, edge.a));
+  return parts.placed.vertices[slot(parts.hulls, part, edge.b)] -
+         parts.placed.vertices[slot(parts.hulls, part, edge.a)];
 }
 
 // direction . normal for all normals of `part` into row[0, n_normals), padded.
 void normal_dots(const Parts& parts, int part, const Vec3& direction, double* row) {
   const PlacedHulls& placed = parts.placed;
   const int begin = parts.hulls.face_begin[part], end = parts.hulls.face_begin[part + 1];
-  for (int f = begin; f < end; f += 4)
+  for (int f = begin; f < end; f += n_lanes)
     lanes(row + f - begin) = direction.x() * lanes(&placed.nx[f]) +
                              direction.y() * lanes(&placed.ny[f]) +
                              direction.z() * lanes(&placed.nz[f]);
@@ -66,8 +67,8 @@ Vec3 edge_normal(const Parts& parts, const HullEdge& edge_b, const Vec3& along_a
 
 double edge_separation(const Parts& parts, const HullEdge& edge_a, const HullEdge& edge_b,
                        const Vec3& normal) {
-  return normal.dot(vertex_at(parts.placed, slot(parts.hulls, parts.a, edge_a.a)) -
-                    vertex_at(parts.placed, slot(parts.hulls, parts.b, edge_b.a)));
+  return normal.dot(parts.placed.vertices[slot(parts.hulls, parts.a, edge_a.a)] -
+                    parts.placed.vertices[slot(parts.hulls, parts.b, edge_b.a)]);
 }
 
 void consider_edges(const Parts& parts, int e_a, int e_b, const Vec3& along_a, BestEdges& best) {
@@ -210,13 +211,23 @@ FaceAxis settled_face(const Parts& parts, const AxisScratch& scratch, const Face
   return chosen;
 }
 
+PairAxis name_of(const Parts& parts, const FaceAxis& face) {
+  if (face.part == parts.a) return {AxisKind::face_a, face.face, -1};
+  return {AxisKind::face_b, -1, face.face};
+}
+
+AxisChoice apart_choice(const Parts& parts, const FaceAxis& face) {
+  AxisChoice choice;
+  choice.axis = name_of(parts, face);
+  choice.separation = face.separation;
+  return choice;
+}
+
 AxisChoice face_choice(const Parts& parts, const AxisScratch& scratch, const FaceAxis& face,
                        double best_separation, double edge_bar, const BestEdges& edges,
                        double thickness) {
   AxisChoice choice;
-  const bool of_a = face.part == parts.a;
-  choice.axis = {of_a ? AxisKind::face_a : AxisKind::face_b, of_a ? face.face : -1,
-                 of_a ? -1 : face.face};
+  choice.axis = name_of(parts, face);
   choice.normal = to_a(parts, face);
   choice.separation = face.separation;
   choice.other_face = best_other_face(parts, scratch, choice.normal);
@@ -247,35 +258,39 @@ void face_separations(const Hulls& hulls, const PlacedHulls& placed, int face_pa
                       std::vector<double>& separation) {
   const int begin = hulls.face_begin[face_part], n = hulls.n_faces[face_part];
   const int first = hulls.vertex_begin[vertex_part];
-  const int last = first + hulls.n_vertices[vertex_part];
+  const int last = hulls.vertex_begin[vertex_part + 1];
   const std::size_t padded = (static_cast<std::size_t>(n) + 3) / 4 * 4;
   if (separation.size() < padded) separation.resize(padded);
-  for (int f = 0; f < n; f += 4) {
-    const Lanes nx = lanes(&placed.nx[begin + f]), ny = lanes(&placed.ny[begin + f]),
-                nz = lanes(&placed.nz[begin + f]);
-    Lanes lowest = nx * placed.x[first] + ny * placed.y[first] + nz * placed.z[first];
-    for (int v = first + 1; v < last; ++v) {
-      const Lanes height = nx * placed.x[v] + ny * placed.y[v] + nz * placed.z[v];
-      lowest = height < lowest ? height : lowest;
+  for (int f = 0; f < n; f += 2 * n_lanes) {  // two at a time hide each other's latency
+    const double *x = &placed.nx[begin + f], *y = &placed.ny[begin + f], *z = &placed.nz[begin + f];
+    const Lanes x0 = lanes(x), y0 = lanes(y), z0 = lanes(z);
+    const Lanes x1 = lanes(x + n_lanes), y1 = lanes(y + n_lanes), z1 = lanes(z + n_lanes);
+    Lanes lowest0 = Lanes{} + infinity, lowest1 = lowest0;
+    for (int v = first; v < last; ++v) {
+      const Vec3& p = placed.vertices[v];
+      const Lanes height0 = x0 * p.x() + y0 * p.y() + z0 * p.z();
+      const Lanes height1 = x1 * p.x() + y1 * p.y() + z1 * p.z();
+      lowest0 = height0 < lowest0 ? height0 : lowest0;
+      lowest1 = height1 < lowest1 ? height1 : lowest1;
     }
-    lanes(&separation[f]) = lowest - lanes(&placed.offset[begin + f]);
+    lanes(&separation[f]) = lowest0 - lanes(&placed.offset[begin + f]);
+    lanes(&separation[f + n_lanes]) = lowest1 - lanes(&placed.offset[begin + f + n_lanes]);
   }
 }
 
 int incident_face(const Hulls& hulls, const PlacedHulls& placed, int part, const Vec3& normal) {
-  const int first = hulls.vertex_begin[part], last = first + hulls.n_vertices[part];
+  const int first = hulls.vertex_begin[part], last = hulls.vertex_begin[part + 1];
   int support = first;
-  double lowest = std::numeric_limits<double>::infinity();
+  double lowest = infinity;
   for (int v = first; v < last; ++v) {
-    const double height =
-        normal.x() * placed.x[v] + normal.y() * placed.y[v] + normal.z() * placed.z[v];
+    const double height = normal.dot(placed.vertices[v]);
     if (height < lowest) {
       lowest = height;
       support = v;
     }
   }
   int face = -1;
-  double most_opposed = std::numeric_limits<double>::infinity();
+  double most_opposed = infinity;
   for (int k = hulls.ring_begin[support]; k < hulls.ring_begin[support + 1]; ++k) {
     const double cosine =
         normal.dot(normal_at(placed, hulls.face_begin[part] + hulls.ring_faces[k]));
@@ -292,12 +307,14 @@ AxisChoice find_axis(const Hulls& hulls, const PlacedHulls& placed, int part_a, 
   const Parts parts{hulls, placed, part_a, part_b};
   face_separations(hulls, placed, part_a, part_b, scratch.face_a);
   face_separations(hulls, placed, part_b, part_a, scratch.face_b);
-  AxisChoice apart;
-  apart.separation = best_face(parts, scratch).separation;
+  AxisChoice apart = apart_choice(parts, best_face(parts, scratch));
   if (apart.separation > margin) return apart;
   const BestEdges edges = find_edges(parts, scratch);
-  apart.separation = std::max(apart.separation, edges.separation);
-  if (apart.separation > margin) return apart;
+  if (edges.separation > margin && edges.separation > apart.separation) {
+    apart.axis = {AxisKind::edges, edges.a, edges.b};
+    apart.separation = edges.separation;
+    return apart;
+  }
 
   remove_internal(parts, scratch);
   const double thickness = std::min(hulls.thickness[part_a], hulls.thickness[part_b]);
@@ -312,12 +329,24 @@ AxisChoice find_axis(const Hulls& hulls, const PlacedHulls& placed, int part_a, 
         settled_face(parts, scratch, best, last_face(parts, scratch, last), thickness);
     choice = face_choice(parts, scratch, face, best.separation, edge_bar, edges, thickness);
   } else {
+    apart.axis = {};
     return apart;
   }
+  choice.touches = true;
   const double radius =
       std::min(hulls.radius[hulls.body[part_a]], hulls.radius[hulls.body[part_b]]);
   choice.hold = std::clamp(choice.hold, 0.0, std::min(longest_hold, longest_hold_ratio * radius));
   return choice;
+}
+
+double apart_along(const Hulls& hulls, const PlacedHulls& placed, int part_a, int part_b,
+                   const Vec3& normal) {
+  double lowest_a = infinity, highest_b = -infinity;
+  for (int v = hulls.vertex_begin[part_a]; v < hulls.vertex_begin[part_a + 1]; ++v)
+    lowest_a = std::min(lowest_a, normal.dot(placed.vertices[v]));
+  for (int v = hulls.vertex_begin[part_b]; v < hulls.vertex_begin[part_b + 1]; ++v)
+    highest_b = std::max(highest_b, normal.dot(placed.vertices[v]));
+  return lowest_a - highest_b;
 }
 
 Vec3 axis_normal(const Hulls& hulls, const PlacedHulls& placed, int part_a, int part_b,

@@ -13,7 +13,7 @@
 namespace talus {
 
 enum class AxisKind : std::uint8_t {
-  none,    ///< not searched, or apart by more than the margin
+  none,    ///< not searched, or nothing but inner faces meet
   face_a,  ///< normal of a face of A
   face_b,  ///< normal of a face of B
   edges,   ///< normal to an edge of A and an edge of B whose Gauss arcs cross
@@ -33,9 +33,10 @@ inline constexpr double same_axis_cos = 0.9993908270190958;  // cos 2 deg
 
 /// Outcome of find_axis.
 struct AxisChoice {
-  PairAxis axis;               ///< kind none when farther apart than the margin
+  PairAxis axis;
+  bool touches = false;        ///< not farther apart than the margin
   Vec3 normal = Vec3::Zero();  ///< unit, from B to A
-  double separation = 0;       ///< along `normal`; the largest found when kind is none [m]
+  double separation = 0;       ///< along the axis [m]
   double other_face = 0;       ///< largest along face normals that are other directions [m]
   double hold = 0;             ///< relative motion within which the same axis stays chosen [m]
   PairAxis better_edges;       ///< the edges passed over for a face that is a little worse
@@ -56,13 +57,19 @@ void face_separations(const Hulls& hulls, const PlacedHulls& placed, int face_pa
 /// The largest separation of the parts, over their face normals and over the pairs of active edges
 /// whose Gauss arcs cross, which are all faces of the entrance block (theory 2.1).
 ///
-/// Beyond `margin` [m] any separating face ends the search. Otherwise the axis chosen is that of
-/// the largest separation, except: `last` stays until another face is better by a tenth, a face is
-/// preferred to a pair of edges that is better by less than a thousandth of the thickness, and a
-/// face of A to one of B in the same direction. Faces and edges inside a body are never chosen.
+/// A face that separates by more than `margin` [m] ends the search. Otherwise the axis chosen is
+/// that of the largest separation, except: `last` stays until another face is better by a tenth, a
+/// face is preferred to a pair of edges that is better by less than a thousandth of the thickness,
+/// and a face of A to one of B in the same direction. Faces and edges inside a body are never
+/// chosen.
 [[nodiscard]] AxisChoice find_axis(const Hulls& hulls, const PlacedHulls& placed, int part_a,
                                    int part_b, double margin, const PairAxis& last,
                                    AxisScratch& scratch);
+
+/// Separation along a unit normal from B to A, over all vertices: a bound of the parts' distance
+/// from below [m].
+[[nodiscard]] double apart_along(const Hulls& hulls, const PlacedHulls& placed, int part_a,
+                                 int part_b, const Vec3& normal);
 
 /// Normal from B to A of a named axis at the present poses.
 [[nodiscard]] Vec3 axis_normal(const Hulls& hulls, const PlacedHulls& placed, int part_a,

@@ -17,10 +17,10 @@ std::vector<std::array<int, 2>> close_parts(const Hulls& hulls, const PlacedHull
   std::vector<Box> boxes;
   for (int p = 0; p < n_parts(hulls); ++p) {
     const int first = hulls.vertex_begin[p];
-    Box box{vertex_at(placed, first), vertex_at(placed, first)};
-    for (int v = first; v < first + hulls.n_vertices[p]; ++v) {
-      box.low = box.low.cwiseMin(vertex_at(placed, v));
-      box.high = box.high.cwiseMax(vertex_at(placed, v));
+    Box box{placed.vertices[first], placed.vertices[first]};
+    for (int v = first; v < hulls.vertex_begin[p + 1]; ++v) {
+      box.low = box.low.cwiseMin(placed.vertices[v]);
+      box.high = box.high.cwiseMax(placed.vertices[v]);
     }
     box.low.array() -= distance / 2;
     box.high.array() += distance / 2;
@@ -35,7 +35,7 @@ std::vector<std::array<int, 2>> close_parts(const Hulls& hulls, const PlacedHull
 std::vector<Vec3> corners_of(const Hulls& hulls, const PlacedHulls& placed, int part, int slot) {
   std::vector<Vec3> corners;
   for (int k = hulls.loop_begin[slot]; k < hulls.loop_begin[slot + 1]; ++k)
-    corners.push_back(vertex_at(placed, hulls.vertex_begin[part] + hulls.loop_vertices[k]));
+    corners.push_back(placed.vertices[hulls.vertex_begin[part] + hulls.loop_vertices[k]]);
   return corners;
 }
 
@@ -83,7 +83,7 @@ std::vector<BlockOverlap> block_overlaps(const Hulls& hulls, const PlacedHulls& 
   AxisScratch scratch;
   for (const auto& [a, b] : close_parts(hulls, placed, 0)) {
     const AxisChoice axis = find_axis(hulls, placed, a, b, -tolerance, {}, scratch);
-    if (axis.axis.kind == AxisKind::none) continue;
+    if (!axis.touches) continue;
     const Moments common = moments(common_part(hulls, placed, a, b));
     if (!(common.volume > 0)) continue;
     const int block_a = hulls.body[a], block_b = hulls.body[b];
@@ -107,8 +107,8 @@ std::vector<BlockOverlap> block_overlaps(const Hulls& hulls, const PlacedHulls& 
 Polyhedron placed_part(const Hulls& hulls, const PlacedHulls& placed, int p) {
   Polyhedron part;
   const int first = hulls.vertex_begin[p];
-  for (int v = first; v < first + hulls.n_vertices[p]; ++v)
-    part.vertices.push_back(vertex_at(placed, v));
+  for (int v = first; v < hulls.vertex_begin[p + 1]; ++v)
+    part.vertices.push_back(placed.vertices[v]);
   for (int f = hulls.face_begin[p]; f < hulls.face_begin[p] + hulls.n_faces[p]; ++f)
     add_face(part,
              std::span(hulls.loop_vertices)

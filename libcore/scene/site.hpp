@@ -49,8 +49,9 @@ struct SourceSettings {
   std::int64_t seed = 1;
   std::int64_t max_blocks = 20000;
   double min_block_volume_m3 = not_given;    ///< not given: 1e-3 of the mean joint cell
-  double min_block_thickness_m = not_given;  ///< not given: 0.02 of the smallest spacing
+  double min_block_thickness_m = not_given;  ///< not given: 0.05 of the smallest spacing
   double max_block_aspect = 50;
+  double max_convex_loss = 0.05;  ///< share of a block's volume; above it the block stays exact
 };
 
 /// [joints.NAME]
@@ -215,6 +216,12 @@ struct Site {
 /// Sets "section.key" from the command line, e.g. ("solver.duration_s", "30"). The value is TOML,
 /// or plain text where the key takes text. Throws InputError as read_site does.
 void override_value(Site& site, const std::string& key, const std::string& value);
+
+/// A value in effect, as TOML, and where it came from: "default", "file, line 7", "command line".
+struct EffectiveValue {
+  std::string section, key, value, source;  ///< value is empty when not given
+};
+[[nodiscard]] std::vector<EffectiveValue> effective_values(const Site& site);
 
 /// The effective values as TOML, each with a comment that says where it came from.
 [[nodiscard]] std::string print_config(const Site& site);

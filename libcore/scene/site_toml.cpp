@@ -97,7 +97,8 @@ template <> const std::vector<Key<SourceSettings>>& keys() {
       {"max_blocks", &S::max_blocks, "more expected blocks than this are refused before cutting", {1, 10000000}},
       {"min_block_volume_m3", &S::min_block_volume_m3, "smaller blocks are merged into a neighbour", not_negative},
       {"min_block_thickness_m", &S::min_block_thickness_m, "thinner blocks are merged into a neighbour", not_negative},
-      {"max_block_aspect", &S::max_block_aspect, "blocks with a larger ratio of longest to shortest axis are merged into a neighbour", at_least_1}};
+      {"max_block_aspect", &S::max_block_aspect, "blocks with a larger ratio of longest to shortest axis are merged into a neighbour", at_least_1},
+      {"max_convex_loss", &S::max_convex_loss, "blocks that would lose a larger share by being made convex stay a union of convex parts; 1: never", share}};
   return table;
 }
 template <> const std::vector<Key<JointSettings>>& keys() {
@@ -597,42 +598,43 @@ void check_names(const Site& site) {
 
 // --- printing ----------------------------------------------------------------------------------
 
-struct ConfigPrinter {
-  const Site& site;
-  std::ostringstream& out;
+std::string key_text(const std::string& name) {
+  const bool is_bare = !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-';
+  });
+  return is_bare ? name : quoted(name);
+}
 
+struct ValueLister {
+  const Site& site;
+  std::vector<EffectiveValue>& values;
+
+  // `section` is the name for people, `path` the key of Site::sources.
   template <class Section>
-  void section(const std::string& name, const Section& values) const {
-    out << "[" << name << "]\n";
+  void list(const std::string& section, const std::string& path, const Section& fields) const {
     for (const auto& key : keys<Section>())
-      std::visit([&](auto field) { line(name, key.name, values.*field); }, key.field);
-    out << "\n";
+      std::visit(
+          [&](auto field) {
+            const auto& value = fields.*field;
+            values.push_back({section, key.name, is_given(value) ? literal(value) : "",
+                              source_of(path + "." + key.name)});
+          },
+          key.field);
   }
-  template <class T>
-  void line(const std::string& section, const std::string& key, const T& value) const {
-    const auto found = site.sources.find(section + "." + key);
-    const ValueSource source = found == site.sources.end() ? ValueSource{} : found->second;
-    std::string origin = "default";
-    if (source.kind == ValueSource::from_file) origin = "file, line " + std::to_string(source.line);
-    if (source.kind == ValueSource::from_cli) origin = "command line";
-    if (is_given(value))
-      out << key << " = " << literal(value) << "  # " << origin << "\n";
-    else
-      out << "# " << key << ": not given\n";
+  std::string source_of(const std::string& path) const {
+    const auto found = site.sources.find(path);
+    if (found == site.sources.end()) return "default";
+    if (found->second.kind == ValueSource::from_cli) return "command line";
+    return "file, line " + std::to_string(found->second.line);
   }
   template <class Section>
-  void operator()(const char* name, const Section& values) const {
-    section(name, values);
+  void operator()(const char* name, const Section& fields) const {
+    list(name, name, fields);
   }
   template <class Section>
   void operator()(const char* group, const std::vector<Section>& sections) const {
-    for (const Section& values : sections) section(group + ("." + key_text(values.name)), values);
-  }
-  static std::string key_text(const std::string& name) {
-    const bool is_bare = !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
-      return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-';
-    });
-    return is_bare ? name : quoted(name);
+    for (const Section& fields : sections)
+      list(group + ("." + key_text(fields.name)), group + ("." + fields.name), fields);
   }
 };
 
@@ -753,10 +755,21 @@ void override_value(Site& site, const std::string& key, const std::string& value
   check_names(site);
 }
 
+std::vector<EffectiveValue> effective_values(const Site& site) {
+  std::vector<EffectiveValue> values;
+  for_each_group(site, ValueLister{site, values});
+  return values;
+}
+
 std::string print_config(const Site& site) {
-  std::ostringstream out;
-  for_each_group(site, ConfigPrinter{site, out});
-  return out.str();
+  std::string out, section;
+  for (const EffectiveValue& entry : effective_values(site)) {
+    if (entry.section != section) out += (section.empty() ? "[" : "\n[") + entry.section + "]\n";
+    section = entry.section;
+    out += entry.value.empty() ? "# " + entry.key + ": not given\n"
+                               : entry.key + " = " + entry.value + "  # " + entry.source + "\n";
+  }
+  return out;
 }
 
 Where where_of(const Site& site, const std::string& key) {

@@ -57,14 +57,18 @@ inline void place(Bodies& bodies) {
   place_hulls(bodies.hulls, bodies.poses, {}, {}, bodies.placed);
 }
 
+inline int n_vertices(const Hulls& hulls, int p) {
+  return hulls.vertex_begin[p + 1] - hulls.vertex_begin[p];
+}
+
 /// Separation of two parts along a unit normal from B to A; negative: overlap.
 inline double separation_along(const Hulls& hulls, const PlacedHulls& placed, int a, int b,
                                const Vec3& normal) {
   double lowest_a = std::numeric_limits<double>::infinity(), highest_b = -lowest_a;
-  for (int v = 0; v < hulls.n_vertices[a]; ++v)
-    lowest_a = std::min(lowest_a, normal.dot(vertex_at(placed, hulls.vertex_begin[a] + v)));
-  for (int v = 0; v < hulls.n_vertices[b]; ++v)
-    highest_b = std::max(highest_b, normal.dot(vertex_at(placed, hulls.vertex_begin[b] + v)));
+  for (int v = 0; v < n_vertices(hulls, a); ++v)
+    lowest_a = std::min(lowest_a, normal.dot(placed.vertices[hulls.vertex_begin[a] + v]));
+  for (int v = 0; v < n_vertices(hulls, b); ++v)
+    highest_b = std::max(highest_b, normal.dot(placed.vertices[hulls.vertex_begin[b] + v]));
   return lowest_a - highest_b;
 }
 
@@ -80,8 +84,8 @@ inline double brute_separation(const Hulls& hulls, const PlacedHulls& placed, in
   for (int f = 0; f < hulls.n_faces[b]; ++f) consider(normal_at(placed, hulls.face_begin[b] + f));
   const auto along = [&](int p, int e) {
     const HullEdge& edge = hulls.edges[hulls.edge_begin[p] + e];
-    return Vec3(vertex_at(placed, hulls.vertex_begin[p] + edge.b) -
-                vertex_at(placed, hulls.vertex_begin[p] + edge.a));
+    return Vec3(placed.vertices[hulls.vertex_begin[p] + edge.b] -
+                placed.vertices[hulls.vertex_begin[p] + edge.a]);
   };
   for (int i = 0; i < hulls.edge_begin[a + 1] - hulls.edge_begin[a]; ++i)
     for (int k = 0; k < hulls.edge_begin[b + 1] - hulls.edge_begin[b]; ++k) {

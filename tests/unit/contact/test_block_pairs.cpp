@@ -1,10 +1,27 @@
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <cstdlib>
 #include <map>
+#include <new>
 #include <tuple>
 
 #include "contact/block_pairs.hpp"
 #include "convex_bodies.hpp"
+
+namespace {
+std::atomic<long> n_allocations = 0;
+}
+
+// Counts every allocation of this executable, for the test that a step makes none. Not inlined, or
+// the compiler sees half of the pair and warns of a mismatch.
+[[gnu::noinline]] void* operator new(std::size_t size) {
+  ++n_allocations;
+  if (void* memory = std::malloc(size)) return memory;
+  throw std::bad_alloc();
+}
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace {
 
@@ -155,6 +172,31 @@ TEST(BlockPairs, CommonMotionUsesNoBudget) {
   EXPECT_EQ(n_relisted, 1);
   EXPECT_EQ(n_searched, 0);
   EXPECT_EQ(n_clipped, 0);
+}
+
+// To and fro twice: the second time nothing grows any more, whatever is listed or searched anew.
+TEST(BlockPairs, StepsAllocateNothingOnceTheArraysHaveGrown) {
+  Random random(36);
+  Bodies bodies = heap(random, 30, 4);
+  const Drift motion = drift(random, bodies, 1.0);
+  PairState state;
+  PairWork work;
+  long n_before = 0, n_in_steps = 0;
+  int n_relisted = 0;
+  for (int cycle = 0; cycle < 2; ++cycle)
+    for (int k = 0; k < 200; ++k) {
+      n_before = n_allocations;
+      const PairReport report =
+          find_pair_contacts(bodies.hulls, bodies.placed, {}, {}, state, work);
+      if (cycle == 1) {
+        n_in_steps += n_allocations - n_before;
+        n_relisted += report.relisted ? 1 : 0;
+      }
+      motion.move(bodies, k < 100 ? 2e-3 : -2e-3);
+      place(bodies);
+    }
+  EXPECT_GT(n_relisted, 0);
+  EXPECT_EQ(n_in_steps, 0);
 }
 
 // A point that closes within the coming step is reported beforehand: fast relative motion widens

@@ -22,7 +22,7 @@ TEST(Hulls, BoxHasSixFacesAndTwelveActiveEdgesWithRightAngles) {
   add(bodies, box(Vec3(-1, -2, -3), Vec3(1, 2, 3)), {});
   const Hulls& hulls = bodies.hulls;
   EXPECT_EQ(hulls.n_faces[0], 6);
-  EXPECT_EQ(hulls.n_vertices[0], 8);
+  EXPECT_EQ(n_vertices(hulls, 0), 8);
   EXPECT_EQ(hulls.n_active_edges[0], 12);
   EXPECT_NEAR(hulls.thickness[0], 2, 1e-15);
   EXPECT_NEAR(hulls.radius[0], std::sqrt(14.0), 1e-15);
@@ -31,7 +31,7 @@ TEST(Hulls, BoxHasSixFacesAndTwelveActiveEdgesWithRightAngles) {
     const Vec3 left = normal_at(bodies.placed, edge.arc_left);
     const Vec3 right = normal_at(bodies.placed, edge.arc_right);
     const Vec3 along =
-        (vertex_at(bodies.placed, edge.b) - vertex_at(bodies.placed, edge.a)).normalized();
+        (bodies.placed.vertices[edge.b] - bodies.placed.vertices[edge.a]).normalized();
     EXPECT_NEAR(left.cross(right).dot(along), 1, 1e-15);
   }
 }
@@ -42,9 +42,9 @@ TEST(Hulls, PlacedVerticesAndPlanesFollowThePose) {
   add(bodies, convex_body(random, Vec3(1, 2, 0.5), 5), {Vec3(3, -4, 5), attitude(random)});
   place(bodies);
   const Hulls& hulls = bodies.hulls;
-  for (int v = 0; v < hulls.n_vertices[0]; ++v) {
-    const Vec3 expected = talus::place(bodies.poses[0], Vec3(hulls.x[v], hulls.y[v], hulls.z[v]));
-    EXPECT_LT((vertex_at(bodies.placed, v) - expected).norm(), 1e-14);
+  for (int v = 0; v < n_vertices(hulls, 0); ++v) {
+    const Vec3 expected = talus::place(bodies.poses[0], hulls.vertices[v]);
+    EXPECT_LT((bodies.placed.vertices[v] - expected).norm(), 1e-14);
     EXPECT_LT(outside_by(hulls, bodies.placed, 0, expected), 1e-14);
   }
 }
@@ -60,8 +60,8 @@ TEST(Hulls, NormalsFollowTheStretch) {
   place_hulls(bodies.hulls, bodies.poses, std::span(&stretch, 1), {}, bodies.placed);
   const Polyhedron check = [&] {
     Polyhedron body;
-    for (int v = 0; v < bodies.hulls.n_vertices[0]; ++v)
-      body.vertices.push_back(vertex_at(bodies.placed, v));
+    for (int v = 0; v < n_vertices(bodies.hulls, 0); ++v)
+      body.vertices.push_back(bodies.placed.vertices[v]);
     for (int f = 0; f < bodies.hulls.n_faces[0]; ++f)
       add_face(body,
                std::span(bodies.hulls.loop_vertices)
@@ -85,8 +85,8 @@ TEST(Hulls, TurningBoundsTheMotionOfEveryVertex) {
         Quat(Eigen::AngleAxisd(uniform(random, 0, 0.05), direction(random))) *
         bodies.poses[0].attitude;
     place(bodies);
-    for (int v = 0; v < bodies.hulls.n_vertices[0]; ++v)
-      EXPECT_LE((vertex_at(bodies.placed, v) - vertex_at(start, v)).norm(),
+    for (int v = 0; v < n_vertices(bodies.hulls, 0); ++v)
+      EXPECT_LE((bodies.placed.vertices[v] - start.vertices[v]).norm(),
                 bodies.placed.turned[0] + 1e-14);
   }
 }

@@ -137,11 +137,11 @@ TEST(Manifold, PointsLieOnBothSurfaces) {
     AxisScratch scratch;
     // part them along their own axis until they overlap by `depth`
     const AxisChoice choice = find_axis(bodies.hulls, bodies.placed, 0, 1, 10, {}, scratch);
-    ASSERT_NE(choice.axis.kind, AxisKind::none);
+    ASSERT_TRUE(choice.touches);
     bodies.poses[1].position += (choice.separation + depth) * choice.normal;
     place(bodies);
     const Manifold m = contact(bodies, 0.0);
-    if (m.choice.axis.kind == AxisKind::none) continue;  // it was a vertex beyond an edge
+    if (!m.choice.touches) continue;  // it was a vertex beyond an edge
     if (brute_separation(bodies.hulls, bodies.placed, 0, 1) < -1.5 * depth) continue;
     ASSERT_FALSE(m.points.empty()) << k;
     double deepest = 0;
@@ -186,8 +186,8 @@ TEST(Manifold, AreaAndItsCentreAreThoseOfTheFacesIntersection) {
     const auto corners = [&](int part, int slot) {
       std::vector<Vec3> c;
       for (int i = bodies.hulls.loop_begin[slot]; i < bodies.hulls.loop_begin[slot + 1]; ++i)
-        c.push_back(vertex_at(bodies.placed,
-                              bodies.hulls.vertex_begin[part] + bodies.hulls.loop_vertices[i]));
+        c.push_back(bodies.placed
+                        .vertices[bodies.hulls.vertex_begin[part] + bodies.hulls.loop_vertices[i]]);
       return c;
     };
     const FaceOverlap exact = face_overlap(corners(0, f_a), n_a, corners(1, f_b));
@@ -207,6 +207,29 @@ TEST(Manifold, AreaAndItsCentreAreThoseOfTheFacesIntersection) {
     EXPECT_LT((centre / sum - exact.centre).norm(), 2e-5);
   }
   EXPECT_GT(n, 500);
+}
+
+// The solver's contact: the gap must follow from the two body points, and both stay on their
+// bodies.
+TEST(Manifold, ContactsOfTheSolverHoldBodyPoints) {
+  Random random(26);
+  Bodies bodies = cube_on_cube(0.3, 0.2, 0.4, 1e-4);
+  const Quat turn = attitude(random);
+  for (Pose& pose : bodies.poses) {
+    pose.position = turn * pose.position + Vec3(500, -300, 200);
+    pose.attitude = turn * pose.attitude;
+  }
+  place(bodies);
+  const Manifold m = contact(bodies, 0);
+  ASSERT_FALSE(m.points.empty());
+  for (const PairPoint& p : m.points) {
+    const Contact c = as_contact(m.manifolds[0], p, bodies.poses[0], bodies.poses[1]);
+    const Vec3 a = talus::place(bodies.poses[0], c.point_a),
+               b = talus::place(bodies.poses[1], c.point_b);
+    EXPECT_NEAR(c.normal.dot(a - b), p.gap, 1e-12);
+    EXPECT_NEAR(c.point_a.z(), 1, 1e-12);
+    EXPECT_NEAR(c.point_b.z(), -1, 1e-12);
+  }
 }
 
 // The reference may be either face: keys and places must not tell which.

@@ -3,10 +3,12 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "base/random.hpp"
 #include "geometry/polyhedron.hpp"
+#include "geometry/triangulate.hpp"
 
 namespace {
 
@@ -175,6 +177,32 @@ TEST(Edges, OfACubeAreTwelveWithTheirTwoFaces) {
     EXPECT_GT(inward.dot(talus::face_centroid(cube, edge.left) - cube.vertices[edge.a]), 0);
   }
   EXPECT_EQ(talus::shortest_edge(cube), 1);
+}
+
+// Ears of an outline with many reflex corners: they add up to its area and all turn its way.
+TEST(TrianglesOfFace, FillNonConvexFaces) {
+  Random random(6);
+  for (int trial = 0; trial < 200; ++trial) {
+    Polyhedron body;
+    const int n = 4 + trial % 30;
+    std::vector<int> loop;
+    for (int k = 0; k < n; ++k) {
+      const double angle = 2 * std::numbers::pi * k / n, radius = random.uniform(0.1, 1);
+      body.vertices.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 3);
+      loop.push_back(k);
+    }
+    talus::add_face(body, loop, 0);
+    const auto triangles = talus::triangles_of_face(body, 0);
+    ASSERT_EQ(triangles.size(), static_cast<size_t>(n - 2));
+    double area = 0;
+    for (const auto& [a, b, c] : triangles) {
+      const Vec3 u = body.vertices[b] - body.vertices[a], v = body.vertices[c] - body.vertices[a];
+      const double twice = u.x() * v.y() - u.y() * v.x();
+      EXPECT_GT(twice, 0);
+      area += twice / 2;
+    }
+    EXPECT_NEAR(area, talus::face_area(body, 0), 1e-12);
+  }
 }
 
 TEST(FaceCentroid, OfANonConvexFaceIsItsCentreOfArea) {

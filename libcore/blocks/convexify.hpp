@@ -1,0 +1,42 @@
+// libcore/blocks/convexify.hpp
+// Makes a block convex inside its joint cell: the bed is kept clear of by supporting planes, the
+// volume is kept by the height of one plane on the terrain side. A block that would lose too much
+// as one convex body becomes two or four that meet in planes.
+#pragma once
+
+#include <vector>
+
+#include "geometry/polyhedron.hpp"
+#include "terrain/trn.hpp"
+
+namespace talus {
+
+/// A block as it was cut, and the room that it may take.
+struct ConvexTask {
+  std::vector<Polyhedron> cells;  ///< convex cells that fill the block; face_tag as CutFace
+  Polyhedron room;                ///< convex: joint cell, cut off from other blocks in it
+  double volume = 0;              ///< to be kept, > 0 [m3]
+};
+
+struct ConvexOptions {
+  double max_loss = 0.05;     ///< share of the volume
+  double tolerance_m = 1e-9;  ///< of lying on a plane
+  double shortest_edge = 0;   ///< edges below this share of the cube root of the volume are removed
+};
+
+/// The convex block; without faces when nothing of it is left. Its volume is that of the task where
+/// the room allows. Lies above `bed` everywhere to within the tolerance, and within the room. Faces
+/// on the terrain side carry face_terrain, those on the bed face_failure, the others their tag.
+[[nodiscard]] Polyhedron made_convex(const ConvexTask& task, const Trn& bed,
+                                     const ConvexOptions& options);
+
+/// One, two or up to four convex bodies that keep at least 1 - max_loss of the volume; empty when
+/// that cannot be done. Two bodies meet in a vertical plane and do not overlap.
+[[nodiscard]] std::vector<Polyhedron> made_convex_parts(const ConvexTask& task, const Trn& bed,
+                                                        const ConvexOptions& options);
+
+/// A convex body inside `body` without edges shorter than `shortest` [m]: of vertices that near one
+/// stays. `body` itself when it has no such edge, or would lose more than 1 % of its volume.
+[[nodiscard]] Polyhedron without_short_edges(const Polyhedron& body, double shortest);
+
+}  // namespace talus

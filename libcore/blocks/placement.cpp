@@ -1,0 +1,139 @@
+#include "blocks/placement.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace talus {
+namespace {
+
+double triangle_area(const std::array<Vec3, 3>& p) {
+  return (p[1] - p[0]).cross(p[2] - p[0]).norm() / 2;
+}
+
+// Where the segment a-b crosses the three families of grid lines in plan, as shares of its length.
+void add_grid_crossings(const Trn& trn, const Vec3& a, const Vec3& b, std::vector<double>& shares) {
+  const auto in_cells = [&](const Vec3& p) {
+    return Vec2((p.x() - trn.node0.x()) / trn.cell_size, (trn.node0.y() - p.y()) / trn.cell_size);
+  };
+  const Vec2 from = in_cells(a), to = in_cells(b);
+  const auto cross_family = [&](double u, double v) {
+    if (u == v) return;
+    for (double line = std::ceil(std::min(u, v)); line <= std::max(u, v); line += 1)
+      shares.push_back((line - u) / (v - u));
+  };
+  cross_family(from.x(), to.x());
+  cross_family(from.y(), to.y());
+  cross_family(from.x() - from.y(), to.x() - to.y());  // the diagonals, south = east
+}
+
+// Lowest z of a convex body above or below (x, y); infinity when it is not there.
+double lower_side(const Polyhedron& body, const Vec2& p) {
+  double low = -std::numeric_limits<double>::infinity(), high = -low;
+  for (int f = 0; f < n_faces(body); ++f) {
+    const Vec3 n = face_normal(body, f);
+    const double offset = n.dot(body.vertices[face(body, f)[0]]) - n.head<2>().dot(p);
+    if (n.z() < -1e-12)
+      low = std::max(low, offset / n.z());
+    else if (n.z() > 1e-12)
+      high = std::min(high, offset / n.z());
+    else if (offset < 0)
+      return std::numeric_limits<double>::infinity();
+  }
+  return low <= high ? low : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+std::vector<Vec2> points_along(const std::vector<Vec2>& line, double spacing) {
+  std::vector<Vec2> points;
+  double next = 0, walked = 0;
+  for (size_t k = 0; k + 1 < line.size(); ++k) {
+    const double length = (line[k + 1] - line[k]).norm();
+    for (; length > 0 && next <= walked + length * (1 + 1e-12); next += spacing)
+      points.push_back(line[k] + (next - walked) / length * (line[k + 1] - line[k]));
+    walked += length;
+  }
+  return points;
+}
+
+std::vector<Vec2> points_over(const Trn& ground, const Area& area, double spacing) {
+  std::vector<Vec2> points;
+  double sum = 0.5 * spacing * spacing;  // the first point after half a share
+  // R2 sequence: steps by the plastic number fill the unit square evenly.
+  constexpr double step_u = 0.7548776662466927, step_v = 0.5698402909980532;
+  double u = 0.5, v = 0.5;
+  for (int t = 0; t < n_triangles(ground); ++t) {
+    const auto p = triangle_corners(ground, t);
+    const Vec3 middle = (p[0] + p[1] + p[2]) / 3;
+    if (!is_known(ground, t) || !contains(area, Vec2(middle.x(), middle.y()))) continue;
+    sum += triangle_area(p);
+    for (; sum >= spacing * spacing; sum -= spacing * spacing) {
+      u = std::fmod(u + step_u, 1), v = std::fmod(v + step_v, 1);
+      const bool fold = u + v > 1;
+      const double a = fold ? 1 - u : u, b = fold ? 1 - v : v;
+      const Vec3 at = p[0] + a * (p[1] - p[0]) + b * (p[2] - p[0]);
+      points.emplace_back(at.x(), at.y());
+    }
+  }
+  return points;
+}
+
+double clearance(const Polyhedron& convex, const Trn& ground) {
+  double smallest = std::numeric_limits<double>::infinity();
+  bool is_known_below = true;
+  const auto compare = [&](const Vec3& p) {
+    const double gap = p.z() - elevation_at(ground, p.x(), p.y());
+    if (std::isnan(gap))
+      is_known_below = false;
+    else
+      smallest = std::min(smallest, gap);
+  };
+  Vec3 low = convex.vertices[0], high = low;
+  for (const Vec3& v : convex.vertices) {
+    compare(v);
+    low = low.cwiseMin(v), high = high.cwiseMax(v);
+  }
+  if (!is_known_below) return std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> shares;
+  for (const PolyhedronEdge& edge : edges(convex)) {
+    const Vec3 &a = convex.vertices[edge.a], &b = convex.vertices[edge.b];
+    shares.clear();
+    add_grid_crossings(ground, a, b, shares);
+    for (const double s : shares) compare(a + std::clamp(s, 0.0, 1.0) * (b - a));
+  }
+  const Cell first = locate(ground, low.x(), high.y()).cell;
+  const Cell last = locate(ground, high.x(), low.y()).cell;
+  for (int r = first.row; r <= last.row + 1; ++r)
+    for (int c = first.col; c <= last.col + 1; ++c) {
+      const Vec3 node = node_point(ground, r, c);
+      const double side = lower_side(convex, Vec2(node.x(), node.y()));
+      if (std::isfinite(side)) smallest = std::min(smallest, side - node.z());
+    }
+  return is_known_below ? smallest : std::numeric_limits<double>::quiet_NaN();
+}
+
+double clearance(const Body& body, const Trn& ground) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const Polyhedron& part : body.parts) {
+    const double gap = clearance(part, ground);
+    if (std::isnan(gap)) return gap;
+    smallest = std::min(smallest, gap);
+  }
+  return smallest;
+}
+
+void move_by(Body& body, const Vec3& shift) {
+  for (Polyhedron& part : body.parts)
+    for (Vec3& v : part.vertices) v += shift;
+  for (Vec3& v : body.shell.vertices) v += shift;
+}
+
+void rotate(Body& body, const Mat3& rotation) {
+  for (Polyhedron& part : body.parts)
+    for (Vec3& v : part.vertices) v = rotation * v;
+  for (Vec3& v : body.shell.vertices) v = rotation * v;
+}
+
+}  // namespace talus

@@ -1,0 +1,253 @@
+#include "blocks/solid.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "base/text.hpp"
+#include "geometry/triangulate.hpp"
+
+namespace talus {
+namespace {
+
+double size_of(const Polyhedron& body) {
+  Vec3 low = body.vertices[0], high = low;
+  for (const Vec3& v : body.vertices) low = low.cwiseMin(v), high = high.cwiseMax(v);
+  return (high - low).norm();
+}
+
+std::string text_of(const Vec3& p) {
+  return "(" + text(p.x(), 7) + ", " + text(p.y(), 7) + ", " + text(p.z(), 7) + ")";
+}
+
+// --- binary tree of the planes of a body's faces ----------------------------------------------
+
+// A convex piece of a face.
+struct Patch {
+  std::vector<Vec3> loop;
+  Plane plane;
+};
+
+// Convex faces stay whole; others become triangles.
+void add_patches(const Polyhedron& body, int f, std::vector<Patch>& patches) {
+  const Plane plane = plane_through(face_centroid(body, f), face_normal(body, f));
+  if (plane.normal.squaredNorm() == 0) return;
+  if (is_convex_face(body, f)) {
+    std::vector<Vec3> loop;
+    for (const int v : face(body, f)) loop.push_back(body.vertices[v]);
+    patches.push_back({std::move(loop), plane});
+    return;
+  }
+  for (const auto& [i, j, k] : triangles_of_face(body, f))
+    patches.push_back({{body.vertices[i], body.vertices[j], body.vertices[k]}, plane});
+}
+
+struct Halves {
+  std::vector<Vec3> inside, outside;  // empty when nothing of it is there
+};
+
+Halves split(const std::vector<Vec3>& loop, const Plane& plane, double tolerance) {
+  Halves halves;
+  bool any_inside = false, any_outside = false;
+  for (size_t k = 0; k < loop.size(); ++k) {
+    const Vec3 &a = loop[k], &b = loop[(k + 1) % loop.size()];
+    const double da = distance(plane, a), db = distance(plane, b);
+    any_inside |= da < -tolerance;
+    any_outside |= da > tolerance;
+    if (da <= tolerance) halves.inside.push_back(a);
+    if (da >= -tolerance) halves.outside.push_back(a);
+    if ((da < -tolerance && db > tolerance) || (da > tolerance && db < -tolerance)) {
+      const Vec3 p = a + da / (da - db) * (b - a);
+      halves.inside.push_back(p);
+      halves.outside.push_back(p);
+    }
+  }
+  if (!any_inside) halves.inside.clear();
+  if (!any_outside) halves.outside.clear();
+  return halves;
+}
+
+// The plane, of up to 32 looked at, that cuts the fewest other patches and balances best.
+size_t best_plane(const std::vector<Patch>& patches, double tolerance) {
+  size_t best = 0;
+  double best_cost = std::numeric_limits<double>::infinity();
+  const size_t step = std::max<size_t>(1, patches.size() / 32);
+  for (size_t i = 0; i < patches.size(); i += step) {
+    double n_cut = 0, balance = 0;
+    for (const Patch& other : patches) {
+      bool inside = false, outside = false;
+      for (const Vec3& v : other.loop) {
+        const double d = distance(patches[i].plane, v);
+        inside |= d < -tolerance;
+        outside |= d > tolerance;
+      }
+      n_cut += inside && outside;
+      balance += inside ? 1 : outside ? -1 : 0;
+    }
+    const double cost = 8 * n_cut + std::abs(balance);
+    if (cost < best_cost) best = i, best_cost = cost;
+  }
+  return best;
+}
+
+// Cuts `cell` by the planes of the patches in it; what lies inside all of them is a part.
+void grow(const Polyhedron& cell, std::vector<Patch> patches, double tolerance,
+          std::vector<Polyhedron>& parts) {
+  if (n_faces(cell) == 0) return;
+  const Plane plane = patches[best_plane(patches, tolerance)].plane;
+  std::vector<Patch> inside, outside;
+  for (Patch& patch : patches) {
+    Halves halves = split(patch.loop, plane, tolerance);
+    if (!halves.inside.empty()) inside.push_back({std::move(halves.inside), patch.plane});
+    if (!halves.outside.empty()) outside.push_back({std::move(halves.outside), patch.plane});
+  }
+  const Polyhedron inner = clip_convex(cell, plane, face_internal, tolerance);
+  if (inside.empty()) {
+    if (n_faces(inner) > 0) parts.push_back(inner);
+  } else {
+    grow(inner, std::move(inside), tolerance, parts);
+  }
+  if (!outside.empty())
+    grow(clip_convex(cell, flipped(plane), face_internal, tolerance), std::move(outside), tolerance,
+         parts);
+}
+
+// --- joining parts ------------------------------------------------------------------------------
+
+Plane plane_of(const Polyhedron& body, int f) {
+  return plane_through(face_centroid(body, f), face_normal(body, f));
+}
+
+// The union of two convex bodies that meet in a plane, when it is convex; else without faces.
+Polyhedron convex_union(const Polyhedron& a, const Polyhedron& b, double tolerance) {
+  for (int f = 0; f < n_faces(a); ++f) {
+    const Plane between = plane_of(a, f);
+    int opposite = -1;
+    for (int g = 0; g < n_faces(b); ++g)
+      if (face_normal(b, g).dot(between.normal) < -1 + 1e-12 &&
+          std::abs(distance(between, b.vertices[face(b, g)[0]])) <= tolerance)
+        opposite = g;
+    if (opposite < 0) continue;
+    const auto within = [&](const Polyhedron& body, const Polyhedron& other, int skipped) {
+      for (int g = 0; g < n_faces(other); ++g)
+        for (const Vec3& v : body.vertices)
+          if (g != skipped && distance(plane_of(other, g), v) > tolerance) return false;
+      return true;
+    };
+    if (!within(a, b, opposite) || !within(b, a, f)) continue;
+    const double size = size_of(a) + size_of(b);
+    Polyhedron joined = box(a.vertices[0] - Vec3::Constant(2 * size),
+                            a.vertices[0] + Vec3::Constant(2 * size), face_internal);
+    for (int g = 0; g < n_faces(a) && n_faces(joined) > 0; ++g)
+      if (g != f) joined = clip_convex(joined, plane_of(a, g), a.face_tag[g], tolerance);
+    for (int g = 0; g < n_faces(b) && n_faces(joined) > 0; ++g)
+      if (g != opposite) joined = clip_convex(joined, plane_of(b, g), b.face_tag[g], tolerance);
+    const double sum = moments(a).volume + moments(b).volume;
+    if (n_faces(joined) > 0 && std::abs(moments(joined).volume - sum) <= 1e-9 * sum) return joined;
+  }
+  return {};
+}
+
+void join_parts(std::vector<Polyhedron>& parts, double tolerance) {
+  for (size_t i = 0; i < parts.size(); ++i)
+    for (size_t j = i + 1; j < parts.size();) {
+      Polyhedron joined = convex_union(parts[i], parts[j], tolerance);
+      if (n_faces(joined) == 0) {
+        ++j;
+        continue;
+      }
+      parts[i] = std::move(joined);
+      parts.erase(parts.begin() + static_cast<std::ptrdiff_t>(j));
+      j = i + 1;
+    }
+}
+
+// Faces that do not lie on the body's own are between parts.
+void name_part_faces(std::vector<Polyhedron>& parts, const Polyhedron& body, double tolerance) {
+  std::vector<Plane> planes;
+  for (int f = 0; f < n_faces(body); ++f) planes.push_back(plane_of(body, f));
+  for (Polyhedron& part : parts)
+    for (int f = 0; f < n_faces(part); ++f) {
+      const Vec3 centre = face_centroid(part, f), normal = face_normal(part, f);
+      const bool is_own = std::any_of(planes.begin(), planes.end(), [&](const Plane& plane) {
+        return plane.normal.dot(normal) > 1 - 1e-9 &&
+               std::abs(distance(plane, centre)) <= tolerance;
+      });
+      part.face_tag[f] = is_own ? face_terrain : face_internal;
+    }
+}
+
+}  // namespace
+
+std::vector<Polyhedron> convex_parts(const Polyhedron& body, const Where& where) {
+  constexpr int max_faces = 20000;
+  if (n_faces(body) > max_faces)
+    throw InputError(where,
+                     "the mesh is not convex and has " + std::to_string(n_faces(body)) +
+                         " faces, expected at most " + std::to_string(max_faces),
+                     "simplify it, or take its convex hull");
+  const double size = size_of(body), tolerance = 1e-9 * size;
+  std::vector<Patch> patches;
+  for (int f = 0; f < n_faces(body); ++f) add_patches(body, f, patches);
+  const Vec3 room = Vec3::Constant(size);
+  std::vector<Polyhedron> parts;
+  grow(box(body.vertices[0] - 2 * room, body.vertices[0] + 2 * room, face_internal),
+       std::move(patches), tolerance, parts);
+  const double volume = moments(body).volume;
+  std::erase_if(parts, [&](const Polyhedron& part) {
+    return check_surface(part).fault != SurfaceFault::none || moments(part).volume < 1e-12 * volume;
+  });
+  double sum = 0;
+  for (const Polyhedron& part : parts) sum += moments(part).volume;
+  if (!(std::abs(sum - volume) <= 1e-6 * volume))
+    throw InputError(where,
+                     "the mesh cannot be taken apart: its convex parts hold " + text(sum, 8) +
+                         " of its " + text(volume, 8) + " m3",
+                     "repair the mesh; faces may lie on top of each other");
+  if (parts.size() <= 400) join_parts(parts, tolerance);
+  name_part_faces(parts, body, 1e-7 * size);
+  return parts;
+}
+
+Body make_solid(const Polyhedron& surface, const Where& where, bool& was_turned) {
+  was_turned = false;
+  Polyhedron body = surface;
+  for (const Vec3& v : body.vertices)
+    if (!v.allFinite()) throw InputError(where, "a coordinate is not finite");
+  const SurfaceCheck check = check_surface(body);
+  if (check.fault == SurfaceFault::inside_out) {
+    for (int f = 0; f < n_faces(body); ++f)
+      std::reverse(body.face_vertices.begin() + body.face_begin[f],
+                   body.face_vertices.begin() + body.face_begin[f + 1]);
+    was_turned = true;
+  } else if (check.fault != SurfaceFault::none) {
+    std::string place;
+    if (check.vertex_a >= 0 && check.vertex_b >= 0)
+      place = " at the edge " + text_of(body.vertices[check.vertex_a]) + " - " +
+              text_of(body.vertices[check.vertex_b]);
+    throw InputError(where,
+                     std::string("the mesh is ") + text(check.fault) + place +
+                         ", expected a closed surface around a volume",
+                     "close and repair it with a mesh editor");
+  }
+  if (const auto crossing = find_self_intersection(body))
+    throw InputError(where,
+                     "the mesh cuts through itself: faces " + std::to_string(crossing->first + 1) +
+                         " and " + std::to_string(crossing->second + 1) + " near " +
+                         text_of(face_centroid(body, crossing->first)),
+                     "repair it with a mesh editor");
+  std::fill(body.face_tag.begin(), body.face_tag.end(), face_terrain);
+  body = with_joined_faces(body);
+  Body solid;
+  if (is_convex(body, 1e-7 * size_of(body))) {
+    solid.parts.push_back(std::move(body));
+    return solid;
+  }
+  solid.parts = convex_parts(body, where);
+  if (solid.parts.size() > 1) solid.shell = std::move(body);
+  return solid;
+}
+
+}  // namespace talus

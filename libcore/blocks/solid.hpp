@@ -1,0 +1,36 @@
+// libcore/blocks/solid.hpp
+// From a surface to a body: checked for being a solid, taken apart into convex parts.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/error.hpp"
+#include "blocks/block_set.hpp"
+
+namespace talus {
+
+/// The surface with faces in one plane joined into one polygon (where that is a disc), and vertices
+/// in the middle of straight edges removed. Needs a closed oriented surface.
+[[nodiscard]] Polyhedron with_joined_faces(const Polyhedron& surface);
+
+/// Two faces that cut through or touch each other away from what they share; nothing when there are
+/// none. Exact for the coordinates as they stand.
+[[nodiscard]] std::optional<std::pair<int, int>> find_self_intersection(const Polyhedron& surface);
+
+/// Smallest convex body around the points; without faces when they are flat. Exact predicates.
+[[nodiscard]] Polyhedron convex_hull(const std::vector<Vec3>& points, int tag);
+
+/// Convex parts that fill a closed, non-convex body, by a binary tree of its faces' planes; then
+/// joined where the union is convex again. Throws InputError when the parts do not add up to the
+/// volume of the body to 1e-6, or the body has more than 20,000 faces.
+[[nodiscard]] std::vector<Polyhedron> convex_parts(const Polyhedron& body, const Where& where);
+
+/// A surface as a body of material 0, at rest. Refuses with InputError what is open, not a
+/// manifold, flat, not finite or cuts through itself, saying where; a surface that is inside-out is
+/// turned, and `was_turned` says so.
+[[nodiscard]] Body make_solid(const Polyhedron& surface, const Where& where, bool& was_turned);
+
+}  // namespace talus

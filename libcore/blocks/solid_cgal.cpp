@@ -1,0 +1,115 @@
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/convex_hull_3.h>
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+#include "blocks/solid.hpp"
+#include "geometry/triangulate.hpp"
+
+namespace talus {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Point = Kernel::Point_3;
+using Triangle = Kernel::Triangle_3;
+using Segment = Kernel::Segment_3;
+
+Point point(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
+
+// A triangle of a face and its extent along x.
+struct Piece {
+  std::array<int, 3> v;
+  int face;
+  double low, high;
+};
+
+std::vector<Piece> pieces_of(const Polyhedron& surface) {
+  std::vector<Piece> pieces;
+  for (int f = 0; f < n_faces(surface); ++f)
+    for (const auto& v : triangles_of_face(surface, f)) {
+      const auto [low, high] = std::minmax(
+          {surface.vertices[v[0]].x(), surface.vertices[v[1]].x(), surface.vertices[v[2]].x()});
+      pieces.push_back({v, f, low, high});
+    }
+  std::sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) {
+    return std::tie(a.low, a.face, a.v) < std::tie(b.low, b.face, b.v);
+  });
+  return pieces;
+}
+
+// Pieces that share an edge collide when they lie on top of each other, those that share a corner
+// when the far edge of one meets the other; others when they have a point in common.
+bool collide(const Polyhedron& surface, const Piece& a, const Piece& b) {
+  const auto at = [&](int v) { return point(surface.vertices[v]); };
+  std::vector<int> shared, rest_a, rest_b;
+  for (const int v : a.v)
+    (std::find(b.v.begin(), b.v.end(), v) != b.v.end() ? shared : rest_a).push_back(v);
+  for (const int v : b.v)
+    if (std::find(a.v.begin(), a.v.end(), v) == a.v.end()) rest_b.push_back(v);
+  const Triangle ta(at(a.v[0]), at(a.v[1]), at(a.v[2])), tb(at(b.v[0]), at(b.v[1]), at(b.v[2]));
+  if (shared.size() == 3) return true;
+  if (shared.size() == 2) {
+    const Point p = at(shared[0]), q = at(shared[1]), r = at(rest_a[0]), s = at(rest_b[0]);
+    return CGAL::coplanar(p, q, r, s) && CGAL::coplanar_orientation(p, q, r, s) == CGAL::POSITIVE;
+  }
+  if (ta.is_degenerate() || tb.is_degenerate()) return false;
+  if (shared.size() == 1)
+    return CGAL::do_intersect(ta, Segment(at(rest_b[0]), at(rest_b[1]))) ||
+           CGAL::do_intersect(tb, Segment(at(rest_a[0]), at(rest_a[1])));
+  return CGAL::do_intersect(ta, tb);
+}
+
+}  // namespace
+
+std::optional<std::pair<int, int>> find_self_intersection(const Polyhedron& surface) {
+  const std::vector<Piece> pieces = pieces_of(surface);
+  const auto apart = [&](const Piece& a, const Piece& b) {
+    for (const Eigen::Index axis : {1, 2}) {
+      const auto extent = [&](const Piece& p) {
+        return std::minmax({surface.vertices[p.v[0]][axis], surface.vertices[p.v[1]][axis],
+                            surface.vertices[p.v[2]][axis]});
+      };
+      const auto [low_a, high_a] = extent(a);
+      const auto [low_b, high_b] = extent(b);
+      if (low_a > high_b || low_b > high_a) return true;
+    }
+    return false;
+  };
+  for (size_t i = 0; i < pieces.size(); ++i)
+    for (size_t j = i + 1; j < pieces.size() && pieces[j].low <= pieces[i].high; ++j)
+      if (pieces[i].face != pieces[j].face && !apart(pieces[i], pieces[j]) &&
+          collide(surface, pieces[i], pieces[j]))
+        return std::minmax(pieces[i].face, pieces[j].face);
+  return std::nullopt;
+}
+
+Polyhedron convex_hull(const std::vector<Vec3>& points, int tag) {
+  if (points.size() < 4) return {};
+  std::vector<Point> exact;
+  for (const Vec3& p : points) exact.push_back(point(p));
+  const bool is_flat = std::all_of(exact.begin(), exact.end(), [&](const Point& p) {
+    return CGAL::coplanar(exact[0], exact[1], exact[2], p);
+  });
+  if (is_flat && !CGAL::collinear(exact[0], exact[1], exact[2])) return {};
+  CGAL::Surface_mesh<Point> mesh;
+  CGAL::convex_hull_3(exact.begin(), exact.end(), mesh);
+  Polyhedron hull;
+  std::vector<int> index(mesh.number_of_vertices());
+  for (const auto v : mesh.vertices()) {
+    index[v] = static_cast<int>(hull.vertices.size());
+    const Point& p = mesh.point(v);
+    hull.vertices.emplace_back(p.x(), p.y(), p.z());
+  }
+  std::vector<int> loop;
+  for (const auto f : mesh.faces()) {
+    loop.clear();
+    for (const auto v : mesh.vertices_around_face(mesh.halfedge(f))) loop.push_back(index[v]);
+    add_face(hull, loop, tag);
+  }
+  return hull;
+}
+
+}  // namespace talus

@@ -1,0 +1,22 @@
+// libcore/io/footprints_gdal.hpp
+// Plan views of blocks as a GeoPackage for QGIS, with a default style.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "blocks/block_set.hpp"
+
+namespace talus {
+
+/// Writes layer `blocks`: the plan outline (convex hull) of each block with block_id, volume_m3,
+/// material, top and bottom elevation, extents; and layer `source_area` with the rings given in map
+/// coordinates, when there are any. The same set gives the same bytes. Throws InputError.
+void write_footprints(const std::string& path, const BlockSet& set,
+                      const std::vector<std::vector<Vec2>>& source_rings,
+                      const std::map<std::string, std::string>& tags = {});
+
+/// Convex hull of points in the plane, counter-clockwise (monotone chain).
+[[nodiscard]] std::vector<Vec2> plan_outline(std::vector<Vec2> points);
+
+}  // namespace talus

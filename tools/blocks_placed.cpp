@@ -1,0 +1,250 @@
+#include "blocks_placed.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "base/text.hpp"
+#include "blocks/placement.hpp"
+#include "blocks/shapes.hpp"
+#include "blocks/solid.hpp"
+#include "io/crs_gdal.hpp"
+#include "io/mesh.hpp"
+#include "io/vectors_gdal.hpp"
+#include "scene/joint_plan.hpp"
+
+namespace talus {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+Where where_of_section(const PlacedContext& context, const PlacedSettings& section) {
+  return {context.site.file, section.line, "blocks." + section.name};
+}
+
+Vec3 vector_of(const std::vector<double>& values) {
+  return values.size() == 3 ? Vec3(values[0], values[1], values[2]) : Vec3::Zero();
+}
+
+// --- bodies ------------------------------------------------------------------------------------
+
+Polyhedron shape_of(const PlacedContext& context, const PlacedSettings& section, Random& random) {
+  Vec3 size = Vec3::Ones();
+  const std::vector<double>& given = section.size_m;
+  if (given.empty() && std::isnan(section.volume_m3))
+    throw InputError(where_of_section(context, section), "neither size_m nor volume_m3 is given",
+                     "give the extents of the shape, or its volume");
+  const size_t wanted = section.shape == "prism" ? 2 : 3;
+  if (given.size() == 1)
+    size = Vec3::Constant(given[0]);
+  else if (given.size() == wanted)
+    for (size_t k = 0; k < wanted; ++k) size[static_cast<Eigen::Index>(k)] = given[k];
+  else if (!given.empty())
+    throw InputError(where_of(context.site, "blocks." + section.name + ".size_m"),
+                     "size_m has " + std::to_string(given.size()) + " numbers, expected 1 or " +
+                         std::to_string(wanted) + " for a " + section.shape);
+  Polyhedron body;
+  if (section.shape == "box") body = box(-size / 2, size / 2, face_terrain);
+  if (section.shape == "prism") body = prism(static_cast<int>(section.n_sides), size.x(), size.y());
+  if (section.shape == "eota") body = eota(size);
+  if (section.shape == "rock") body = rock(size, static_cast<int>(section.n_points), random);
+  if (n_faces(body) == 0 || check_surface(body).fault != SurfaceFault::none)
+    throw InputError(where_of_section(context, section), "the " + section.shape + " has no volume",
+                     "choose a larger size, or more points");
+  return std::isnan(section.volume_m3) ? body : scaled_to(std::move(body), section.volume_m3);
+}
+
+// The bodies of a mesh file, as they stand in it.
+std::vector<Body> mesh_bodies(const PlacedContext& context, const PlacedSettings& section) {
+  const std::string path = resolved(context.site, section.file);
+  context.tool.read_also("blocks." + section.name, path);
+  std::vector<Body> bodies;
+  for (const MeshBody& mesh : read_mesh(path)) {
+    Polyhedron surface = mesh.surface;
+    for (Vec3& v : surface.vertices) {
+      if (section.y_up) v = Vec3(v.x(), -v.z(), v.y());
+      v *= section.scale;
+      if (section.in_place) v -= context.ground.origin;
+    }
+    const std::string name =
+        mesh.name.empty() ? "body " + std::to_string(bodies.size() + 1) : mesh.name;
+    bool was_turned = false;
+    bodies.push_back(make_solid(surface, {path, 0, name}, was_turned));
+    if (was_turned) context.tool.warn(path + ": " + name + " was inside-out and has been turned");
+  }
+  return bodies;
+}
+
+double volume_of(const Body& body) {
+  double sum = 0;
+  for (const Polyhedron& part : body.parts) sum += moments(part).volume;
+  return sum;
+}
+
+// Centre of mass of all bodies together to the origin.
+void centre(std::vector<Body>& bodies) {
+  Moments sum;
+  bool is_first = true;
+  for (const Body& body : bodies)
+    for (const Polyhedron& part : body.parts) {
+      sum = is_first ? moments(part) : joined(sum, moments(part));
+      is_first = false;
+    }
+  for (Body& body : bodies) move_by(body, -sum.centroid);
+}
+
+void scale_to_volume(std::vector<Body>& bodies, double volume) {
+  double sum = 0;
+  for (const Body& body : bodies) sum += volume_of(body);
+  const double factor = std::cbrt(volume / sum);
+  for (Body& body : bodies) {
+    for (Polyhedron& part : body.parts)
+      for (Vec3& v : part.vertices) v *= factor;
+    for (Vec3& v : body.shell.vertices) v *= factor;
+  }
+}
+
+// --- positions ---------------------------------------------------------------------------------
+
+std::vector<Vec3> release_from_file(const PlacedContext& context, const PlacedSettings& section) {
+  const std::string path = resolved(context.site, section.release_file);
+  context.tool.read_also("blocks." + section.name + ".release", path);
+  const bool along_lines = !std::isnan(section.release_spacing_m);
+  const VectorShapes found = read_vectors(
+      {path, section.release_layer, "", along_lines ? VectorKind::lines : VectorKind::points},
+      context.ground.crs_wkt);
+  if (!found.source_crs.empty())
+    context.tool.info(path + ": reprojected from " + crs_name(found.source_crs));
+  std::vector<Vec3> positions;
+  for (const auto& shape : found.shapes) {
+    std::vector<Vec2> line;
+    for (const Vec3& v : shape) line.push_back(v.head<2>() - context.ground.origin.head<2>());
+    if (along_lines) line = points_along(line, section.release_spacing_m);
+    for (const Vec2& p : line) positions.emplace_back(p.x(), p.y(), NAN);
+  }
+  return positions;
+}
+
+std::vector<Vec3> positions_of(const PlacedContext& context, const PlacedSettings& section) {
+  std::vector<Vec3> positions =
+      local_points(context, section.position_m, "blocks." + section.name + ".position_m");
+  if (!section.release_file.empty())
+    for (const Vec3& p : release_from_file(context, section)) positions.push_back(p);
+  if (section.release_grid) {
+    if (!context.source_area)
+      throw InputError(where_of_section(context, section),
+                       "release_grid needs the polygon of [source]", "add [source] with a polygon");
+    if (std::isnan(section.release_spacing_m))
+      throw InputError(where_of_section(context, section), "release_grid needs release_spacing_m");
+    for (const Vec2& p :
+         points_over(context.ground, *context.source_area, section.release_spacing_m))
+      positions.emplace_back(p.x(), p.y(), NAN);
+  }
+  if (positions.empty())
+    throw InputError(where_of_section(context, section), "the bodies have no place",
+                     "give position_m, release_file or release_grid");
+  return positions;
+}
+
+// Turned, moved to the place and, unless its height is given, set on the ground.
+void put(const PlacedContext& context, const PlacedSettings& section, const Mat3& turn,
+         const Vec3& position, std::vector<Body>& bodies) {
+  const double z0 = elevation_at(context.ground, position.x(), position.y());
+  const Vec3 place = position + context.ground.origin;
+  const auto off_ground = [&] {
+    return InputError(where_of_section(context, section),
+                      "a body at (" + text(place.x(), 10) + ", " + text(place.y(), 10) +
+                          ") does not lie over known ground",
+                      "move it, or make the terrain larger");
+  };
+  if (std::isnan(z0)) throw off_ground();
+  const bool by_height = !std::isnan(section.height_above_ground_m) || std::isnan(position.z());
+  const Vec3 at(position.x(), position.y(), by_height ? z0 : position.z());
+  double gap = std::numeric_limits<double>::infinity();
+  for (Body& body : bodies) {
+    rotate(body, turn);
+    move_by(body, at);
+    const double own = clearance(body, context.ground);
+    if (std::isnan(own)) throw off_ground();
+    gap = std::min(gap, own);
+  }
+  if (by_height) {
+    const double height =
+        std::isnan(section.height_above_ground_m) ? 0 : section.height_above_ground_m;
+    for (Body& body : bodies) move_by(body, {0, 0, height - gap});
+  } else if (gap < 0) {
+    context.tool.warn("blocks." + section.name + ": a body at (" + text(place.x(), 10) + ", " +
+                      text(place.y(), 10) + ") reaches " + text(-gap, 3) + " m into the ground");
+  }
+}
+
+void add_section(const PlacedContext& context, const PlacedSettings& section, BlockSet& set) {
+  if (section.file.empty() == section.shape.empty())
+    throw InputError(
+        where_of_section(context, section),
+        section.file.empty() ? "neither file nor shape is given" : "both file and shape are given",
+        "a body is one or the other");
+  Random random(static_cast<std::uint64_t>(section.seed), "blocks " + section.name);
+  std::vector<Body> meshes;
+  if (!section.file.empty()) meshes = mesh_bodies(context, section);
+  const auto add = [&](std::vector<Body>& bodies) {
+    for (Body& body : bodies) {
+      body.material = material_index(context.site, section.material);
+      body.velocity = vector_of(section.velocity_m_s);
+      body.spin = vector_of(section.spin_rad_s);
+      add_body(set, body);
+    }
+  };
+  if (section.in_place) {
+    if (section.file.empty())
+      throw InputError(where_of_section(context, section), "in_place needs a mesh file");
+    for (const Body& body : meshes)
+      if (std::isnan(clearance(body, context.ground)))
+        throw InputError(where_of_section(context, section),
+                         "the mesh does not lie over known ground",
+                         "in_place takes map coordinates; without it, give position_m");
+    add(meshes);
+    return;
+  }
+  if (!meshes.empty()) {
+    centre(meshes);
+    if (!std::isnan(section.volume_m3)) scale_to_volume(meshes, section.volume_m3);
+  }
+  const Mat3 fixed =
+      rotation(section.yaw_deg * degree, section.pitch_deg * degree, section.roll_deg * degree);
+  for (const Vec3& position : positions_of(context, section))
+    for (std::int64_t copy = 0; copy < section.n_per_point; ++copy) {
+      std::vector<Body> bodies = meshes;
+      if (bodies.empty()) {
+        bodies.emplace_back();
+        bodies[0].parts = {shape_of(context, section, random)};
+      }
+      const Mat3 turn = section.random_orientation ? random_rotation(random) : fixed;
+      put(context, section, turn, position, bodies);
+      add(bodies);
+    }
+}
+
+}  // namespace
+
+std::vector<Vec3> local_points(const PlacedContext& context, std::vector<Vec3> points,
+                               const std::string& key) {
+  const std::string& user_crs = context.site.info.crs;
+  if (!user_crs.empty() && !points.empty() && !context.ground.crs_wkt.empty()) {
+    const std::string crs = crs_from_user(user_crs, "site.crs");
+    if (!crs.empty() && !same_crs(crs, context.ground.crs_wkt)) {
+      if (!reproject(crs, context.ground.crs_wkt, points))
+        throw InputError(where_of(context.site, key), "cannot be reprojected from " +
+                                                          crs_name(crs) + " to " +
+                                                          crs_name(context.ground.crs_wkt));
+      context.tool.info(key + ": reprojected from " + crs_name(crs));
+    }
+  }
+  for (Vec3& p : points) p -= context.ground.origin;
+  return points;
+}
+
+void add_placed_blocks(const PlacedContext& context, BlockSet& set) {
+  for (const PlacedSettings& section : context.site.blocks) add_section(context, section, set);
+}
+
+}  // namespace talus

@@ -1,0 +1,28 @@
+// tools/blocks_placed.hpp
+// The [blocks.*] sections of the site file: bodies from meshes and shapes, put where they start.
+#pragma once
+
+#include "blocks/block_set.hpp"
+#include "blocks/source.hpp"
+#include "scene/site.hpp"
+#include "terrain/trn.hpp"
+#include "tool.hpp"
+
+namespace talus {
+
+/// What the sections need from the rest of the tool.
+struct PlacedContext {
+  Tool& tool;
+  const Site& site;
+  const Trn& ground;
+  const Area* source_area = nullptr;  ///< for release_grid; null when the site has no source
+};
+
+/// Points of the site file (map coordinates in the CRS of [site]) as local ones; z NaN stays NaN.
+[[nodiscard]] std::vector<Vec3> local_points(const PlacedContext& context, std::vector<Vec3> points,
+                                             const std::string& key);
+
+/// Adds the bodies of all [blocks.*] sections to `set`. Throws InputError.
+void add_placed_blocks(const PlacedContext& context, BlockSet& set);
+
+}  // namespace talus
