@@ -22,6 +22,7 @@ namespace talus {
 
 /// A contact of an island. Velocities are those of A's point relative to B's.
 ///
+/// A known part of the point's velocity (ContactRow::drift) goes into bias and shear_velocity.
 /// A bond that breaks within the step makes the law jump, and a step with a jump may have no solution:
 /// give an intact bond without limit (1e9 m g h, say), compare its impulse with the limits afterwards
 /// and solve again without the bonds that were exceeded.
@@ -29,9 +30,9 @@ struct IslandRow {  // clang-format off
   // filled by the caller; vectors in local axes
   Vec3 normal = Vec3::Zero();          ///< unit, from B to A
   Vec3 arm = Vec3::Zero();             ///< contact point from the centroid of A [m]
-  Vec3 shear_velocity = Vec3::Zero();  ///< s_n / tau_t, s_n . n = 0: trial velocity of the spring [m/s]
+  Vec3 shear_velocity = Vec3::Zero();  ///< s_n / tau, tangential, plus the tangential drift [m/s]
   Vec3 slip_start = Vec3::Zero();      ///< unit direction of sliding at the start of the step, or zero
-  double bias = 0;              ///< b_n: N > 0 needs v_n + b_n < 0 [m/s]
+  double bias = 0;              ///< b_n: N > 0 needs v_n + b_n < 0; with the drift's part [m/s]
   double normal_damping = 0;    ///< D_n, impulse per velocity below -b_n [kg]
   double shear_damping = 0;     ///< D_t, impulse per tangential velocity while sticking [kg]
   double friction = 0;          ///< tan(phi) [-]

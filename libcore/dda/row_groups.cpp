@@ -65,7 +65,7 @@ const IslandRow nothing;
   g.cohesion = Two{p.cohesion_impulse, q.cohesion_impulse};
   g.tension = Two{p.tension_impulse, q.tension_impulse};
   g.state = Two{static_cast<double>(p.state), static_cast<double>(q.state)};
-  g.slip_stiffness = g.used_stiffness = zero;
+  g.slip_stiffness = g.used_stiffness = g.trial_speed = zero;
 }
 
 // Velocity of the contact points.
@@ -119,20 +119,24 @@ template <int Dof>
   }
 }
 
-// Friction on contacts that slip, along the mean of its directions at the step's start and end: with
-// the angle t between these two it is at atan(tan(t) / 2), which turns by 2 / (1 + 3 cos^2 t) as t
-// grows. speed * sqrt(1 + 3 cos^2 t) = sqrt(speed^2 + 3 a^2), a = start . trial.
+// Friction on contacts that slip, against trial + share a start: from the end direction where slip
+// just begins (share 0) to the mean of those at the step's start and end. a = start . trial.
+// With t the angle between these two it is at atan(tan(t) / (1 + share)), which turns by
+// (1 + share) / (1 + share (2 + share) cos^2 t) as t grows.
 [[gnu::always_inline]] inline void add_slip(const Mask& slip, const Two (&trial)[3],
                                             const Two& speed_sq, const Two& cap, RowGroup& g) {
   Two a, speed, length;
   dot(g.slip_start, trial, a);
   a = a > zero ? a : zero;
-  const Two length_sq = speed_sq + 3 * a * a;
-  square_root(speed_sq, speed);
+  square_root(slip ? speed_sq : one, speed);
+  const Two share = slip ? 1 - cap / (g.shear_damping * speed) : zero;
+  const Two length_sq = speed_sq + share * (2 + share) * a * a;
   square_root(slip ? length_sq : one, length);
   const Two per_length = 1 / length, force = slip ? cap * per_length : zero;
-  for (int k = 0; k < 3; ++k) g.impulse[k] -= force * (trial[k] + a * g.slip_start[k]);
-  g.slip_stiffness = a > zero ? 2 * force * speed * per_length : force;
+  const Two on_start = force * share * a;
+  for (int k = 0; k < 3; ++k) g.impulse[k] -= force * trial[k] + on_start * g.slip_start[k];
+  g.slip_stiffness = a > zero ? (1 + share) * force * speed * per_length : force;
+  g.trial_speed = speed;
 }
 
 // The contact law at point velocities w: impulses, states and slip stiffness of the group.
@@ -193,21 +197,32 @@ template <int Dof>
 
 Vec3 lane_of(const Two (&v)[3], int lane) { return {v[0][lane], v[1][lane], v[2][lane]}; }
 
-// A slipping contact's exact tangent besides k_n n n^T: the mean direction e turns with that at the
-// end of the step, and the friction bound gives -tan(phi) k_n e n^T.
+// A slipping contact's exact tangent besides k_n n n^T. Its direction e turns with the end direction
+// and with the share of the start direction (see add_slip), which grows with the trial speed and
+// falls with the friction bound; the bound itself changes by -tan(phi) k_n n^T.
 template <int Dof>
 void add_exact_slip(const RowGroup& g, int lane, Eigen::Matrix<double, Dof, Dof>& rest) {
   const Vec3 n = lane_of(g.normal, lane), arm = lane_of(g.arm, lane);
   const Vec3 impulse = lane_of(g.impulse, lane), start = lane_of(g.slip_start, lane);
-  const double p_n = n.dot(impulse);
-  const Vec3 e = (p_n * n - impulse).normalized();
-  const double cosine = e.dot(start);
-  const Vec3 end = cosine > 0 ? Vec3((2 * e - cosine * start).normalized()) : e;
-  rest += g.slip_stiffness[lane] * generalised<Dof>(arm, n.cross(e)) *
-          generalised<Dof>(arm, n.cross(end)).transpose();
+  const double p_n = n.dot(impulse), speed = g.trial_speed[lane];
+  const Vec3 friction = p_n * n - impulse;
+  const double cap = friction.norm();
+  const Vec3 e = friction / cap, across = n.cross(e);
+  const double cosine = e.dot(start), threshold = cap / (g.shear_damping[lane] * speed);
+  const double share = 1 - threshold;
+  Vec3 by_trial = g.slip_stiffness[lane] * across, bound = e;
+  if (cosine > 0) {
+    const Vec3 end = ((1 + share) * e - share * cosine * start).normalized();
+    const double c = end.dot(start), turn = -c * n.cross(start).dot(end) /
+                                            (1 + share * (2 + share) * c * c);  // d angle / d share
+    by_trial = g.slip_stiffness[lane] * n.cross(end) + cap / speed * turn * threshold * end;
+    bound -= turn * threshold * across;
+  }
+  const auto q_n = generalised<Dof>(arm, n);
+  rest += generalised<Dof>(arm, across) * generalised<Dof>(arm, by_trial).transpose();
   if (p_n > 0)
-    rest -= g.friction[lane] * g.normal_damping[lane] * generalised<Dof>(arm, e) *
-            generalised<Dof>(arm, n).transpose();
+    rest -= g.friction[lane] * g.normal_damping[lane] * generalised<Dof>(arm, bound) *
+            q_n.transpose();
 }
 
 // The stiffness across the slip, s a a^T with a = n x t / |t|, t the tangential impulse.

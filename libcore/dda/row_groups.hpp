@@ -28,6 +28,7 @@ struct RowGroup {
   Two impulse[3];
   Two state;            ///< ContactState
   Two slip_stiffness;   ///< of a slipping contact across its direction [kg]
+  Two trial_speed;      ///< of a slipping contact, v_t + s / tau [m/s]
   Two used_stiffness;   ///< slip_stiffness when the tangent was last summed [kg]
 };
 
