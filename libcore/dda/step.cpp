@@ -6,6 +6,7 @@
 #include "dda/displacement.hpp"
 #include "dda/flight.hpp"
 #include "dda/rotation.hpp"
+#include "dda/step_island.hpp"
 #include "dda/step_paper.hpp"
 #include "dda/step_talus.hpp"
 
@@ -45,6 +46,12 @@ void put_to_sleep(const Scene& scene, size_t b, State& state) {
   state.phase[b] = Phase::asleep;
   state.motion[b].velocity.setZero();
   state.motion[b].angular_momentum.setZero();
+}
+
+// Whether block b shares its island with others.
+bool in_company(const IslandGroups& groups, int b) {
+  const auto k = static_cast<size_t>(groups.island_of[static_cast<size_t>(b)]);
+  return groups.block_begin[k + 1] - groups.block_begin[k] > 1;
 }
 
 bool spins(const Scene& scene, size_t b) { return !scene.blocks.spin[b].isZero(0); }
@@ -110,8 +117,17 @@ StepReport step(const Scene& scene, State& state, Work& work) {
   const double t_end = state.time + scene.settings.dt;
   const bool may_sleep = scene.settings.sleep && scene.base.time.empty();
   work.segments.clear();
+  const bool islands = n_blocks(scene) > 1 && scene.settings.law == Law::talus;
+  if (islands) form_islands(scene, state, work);
   for (int b = 0; b < n_blocks(scene); ++b) {
     const auto i = static_cast<size_t>(b);
+    if (islands && in_company(work.islands.groups, b)) {
+      const int k = work.islands.groups.island_of[i];
+      if (work.islands.groups.local_index[i] > 0) continue;
+      advance_island(scene, k, t_end, state, work, report);
+      if (may_sleep) put_island_to_sleep(scene, k, state, work);
+      continue;
+    }
     if (state.phase[i] == Phase::asleep || state.phase[i] == Phase::left_domain) continue;
     if (state.phase[i] == Phase::flight && state.flight_end[i] >= t_end) {
       ++state.counters.flight_skips;
