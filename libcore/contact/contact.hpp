@@ -30,25 +30,26 @@ struct ContactKey {
 struct Contact {
   ContactKey key;
   int block_a = 0;
-  int block_b = -1;      ///< -1: the ground, which adds to no matrix but A's
+  int block_b = -1;  ///< -1: the ground, which adds to no matrix but A's
   int ground_class = 0;
-  Vec3 normal = Vec3::Zero();           ///< unit, local axes, from B to A
-  Vec3 point_a = Vec3::Zero();          ///< contact point of A, body axes of A [m]
-  Vec3 point_b = Vec3::Zero();          ///< contact point of B, body axes of B; of the ground, local axes [m]
-  double gap = 0;        ///< n . (a - b), > 0 open [m]. The paper's d_n is -gap.
+  Vec3 normal = Vec3::Zero();   ///< unit, local axes, from B to A
+  Vec3 point_a = Vec3::Zero();  ///< contact point of A, body axes of A [m]
+  Vec3 point_b =
+      Vec3::Zero();  ///< contact point of B, body axes of B; of the ground, local axes [m]
+  double gap = 0;    ///< n . (a - b), > 0 open [m]. The paper's d_n is -gap.
 };
 
 /// What is carried from step to step for a contact that pressed or may press again.
 struct ContactMemory {
   ContactKey key;
-  Vec3 normal = Vec3::Zero();               ///< of the last step, unit, local axes
-  Vec3 shear = Vec3::Zero();                ///< elastic shear spring s_n, s_n . n = 0 [m]
-  Vec3 slip_direction = Vec3::Zero();       ///< unit tangent of the last slip, zero when it stuck
-  double offset = 0;         ///< overlap that presses nothing, >= 0; relaxed with time [m]
-  double gap_end = 0;        ///< gap + offset at the end of the last step [m]
-  double normal_force = 0;   ///< N of the last step, >= 0 [N]
-  double bond_area = 0;      ///< A_c, share of bonded area; 0 once the bond is broken [m2]
-  std::uint8_t state = 0;    ///< ContactState of the last step
+  Vec3 normal = Vec3::Zero();          ///< of the last step, unit, local axes
+  Vec3 shear = Vec3::Zero();           ///< elastic shear spring s_n, s_n . n = 0 [m]
+  Vec3 slip_direction = Vec3::Zero();  ///< unit tangent of the last slip, zero when it stuck
+  double offset = 0;        ///< overlap that presses nothing, >= 0; relaxed with time [m]
+  double gap_end = 0;       ///< gap + offset at the end of the last step [m]
+  double normal_force = 0;  ///< N of the last step, >= 0 [N]
+  double bond_area = 0;     ///< A_c, share of bonded area; 0 once the bond is broken [m2]
+  std::uint8_t state = 0;   ///< ContactState of the last step
 };
 
 enum class ContactState : std::uint8_t { open = 0, slip = 1, stick = 2 };

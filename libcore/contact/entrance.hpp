@@ -5,6 +5,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <span>
 
 #include "base/types.hpp"
@@ -21,15 +22,19 @@ namespace talus {
 }
 
 /// E-E: edges of A and B, each between two faces with outward normals a1, a2 and b1, b2. True when
-/// the arc a1-a2 crosses the arc of the negatives of b1, b2 on the sphere of normals. Flat edges
-/// have no arc, concave ones a reversed one: leave both out.
+/// the arc a1-a2 crosses the arc of the negatives of b1, b2 on the sphere of normals, or an end of
+/// one arc lies within `tolerance` (sine of an angle) of the other: a face that rests on an edge of
+/// the other body touches it through two of its own edges, and is never parallel to rounding. Flat
+/// edges have no arc, concave ones a reversed one: leave both out.
 [[nodiscard]] inline bool edges_may_touch(const Vec3& a1, const Vec3& a2, const Vec3& b1,
-                                          const Vec3& b2) {
-  const Vec3 c = -b1, d = -b2;
-  const Vec3 b_cross_a = a2.cross(a1), d_cross_c = d.cross(c);
-  const double c_side = c.dot(b_cross_a), d_side = d.dot(b_cross_a);
-  const double a_side = a1.dot(d_cross_c), b_side = a2.dot(d_cross_c);
-  return c_side * d_side < 0 && a_side * b_side < 0 && c_side * b_side > 0;
+                                          const Vec3& b2, double tolerance) {
+  const Vec3 along_a = a2.cross(a1).normalized(), along_b = b2.cross(b1).normalized();
+  const double c = -b1.dot(along_a), d = -b2.dot(along_a);
+  const double a = a1.dot(along_b), b = a2.dot(along_b);
+  const auto crosses = [&](double s, double t) {
+    return std::min(s, t) <= tolerance && std::max(s, t) >= -tolerance;
+  };
+  return crosses(c, d) && crosses(a, b) && (c - d) * (b - a) > 0;
 }
 
 /// The points of two lines that are nearest to each other: p + s e, q + t f.

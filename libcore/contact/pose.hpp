@@ -12,8 +12,8 @@ using Quat = Eigen::Quaterniond;
 
 /// A body point X lies at position + attitude * X.
 struct Pose {
-  Vec3 position = Vec3::Zero();       ///< centroid, relative to the origin [m]
-  Quat attitude = Quat::Identity();   ///< unit quaternion, body to local axes
+  Vec3 position = Vec3::Zero();      ///< centroid, relative to the origin [m]
+  Quat attitude = Quat::Identity();  ///< unit quaternion, body to local axes
 };
 
 [[nodiscard]] inline Vec3 place(const Pose& pose, const Vec3& body_point) {

@@ -11,9 +11,13 @@ namespace {
 
 using std::size_t;
 
+// A block's face and a ridge count as parallel below this sine; ten times what ground_flags calls
+// flat.
+constexpr double nearly_parallel = 1e-3;
+
 /// A triangle, and across which of its edges the next one lies.
 struct Neighbour {
-  int d_row, d_col, odd;     // cell offset and which triangle of that cell
+  int d_row, d_col, odd;       // cell offset and which triangle of that cell
   int corner_row, corner_col;  // corner of the own triangle opposite to the shared edge
 };
 // Lower left: west, south, diagonal. Upper right: north, east, diagonal.
@@ -22,8 +26,14 @@ constexpr Neighbour neighbours[2][3] = {{{0, -1, 1, 1, 1}, {1, 0, 1, 0, 0}, {0, 
 
 void add_plane(const TrianglePlane& plane, const Ground& ground, int triangle, int b, int v,
                const Vec3& X, const Vec3& x, double gap, std::vector<Contact>& contacts) {
-  contacts.push_back({{ContactMode::vertex_face, -1, v, -1}, b, -1, class_of(ground, triangle),
-                      plane.normal, X, x - gap * plane.normal, gap});
+  contacts.push_back({{ContactMode::vertex_face, -1, v, -1},
+                      b,
+                      -1,
+                      class_of(ground, triangle),
+                      plane.normal,
+                      X,
+                      x - gap * plane.normal,
+                      gap});
 }
 
 // The planes on the other side of valley lines near the vertex. There the ground is the higher of
@@ -112,11 +122,11 @@ void find_mode_2(const FeatureSearch& s, int row, int col, std::vector<Contact>&
     const Vec3 outward = s.to_local * s.shapes.faces[static_cast<size_t>(nearest)].normal;
     if (!vertex_may_enter(node, node_ring(trn, row, col), outward, 1e-12 * trn.cell_size)) continue;
     Contact contact;
-    contact.key = {ContactMode::face_vertex, -1, nearest, static_cast<int>(node_index(trn, row, col))};
+    contact.key = {ContactMode::face_vertex, -1, nearest,
+                   static_cast<int>(node_index(trn, row, col))};
     contact.block_a = s.b;
-    contact.ground_class =
-        class_of(s.ground, first_triangle(trn, {std::min(row, trn.n_rows - 2),
-                                                std::min(col, trn.n_cols - 2)}));
+    contact.ground_class = class_of(s.ground, first_triangle(trn, {std::min(row, trn.n_rows - 2),
+                                                                   std::min(col, trn.n_cols - 2)}));
     contact.normal = -outward;
     contact.gap = gap;
     contact.point_a = X - gap * s.shapes.faces[static_cast<size_t>(nearest)].normal;
@@ -142,7 +152,8 @@ void find_mode_3(const FeatureSearch& s, int row, int col, EdgeKind kind,
   const std::span<const Vec3> body = vertices_of(s.shapes, s.b);
   const std::span<const ShapeEdge> edges = edges_of(s.shapes, s.b);
   for (size_t i = 0; i < edges.size(); ++i) {
-    if (!edges_may_touch(edges[i].normal_left, edges[i].normal_right, left, right)) continue;
+    if (!edges_may_touch(edges[i].normal_left, edges[i].normal_right, left, right, nearly_parallel))
+      continue;
     const Vec3& P = body[static_cast<size_t>(edges[i].a)];
     const Vec3 e = body[static_cast<size_t>(edges[i].b)] - P;
     const LinePair at = nearest_on_lines(P, e, Q, f);
@@ -193,8 +204,8 @@ SearchResult find_contacts(const Ground& ground, const Shapes& shapes, int b, co
   const Mat3 F = R * stretch;
   Vec3 low = pose.position, high = pose.position;
   for (size_t v = 0; v < body.size(); ++v) {
-    const Vec3 x = pose.position + body[v].x() * F.col(0) + body[v].y() * F.col(1) +
-                   body[v].z() * F.col(2);
+    const Vec3 x =
+        pose.position + body[v].x() * F.col(0) + body[v].y() * F.col(1) + body[v].z() * F.col(2);
     low = low.cwiseMin(x);
     high = high.cwiseMax(x);
     vertices[v] = x;

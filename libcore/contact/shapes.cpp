@@ -21,8 +21,8 @@ void add_part(Shapes& shapes, const Polyhedron& part, std::span<const int> verte
       shapes.face_vertices.push_back(vertex_of[static_cast<std::size_t>(v)]);
     face_data.vertex_end = static_cast<int>(shapes.face_vertices.size());
     for (int i = face_data.vertex_begin; i < face_data.vertex_end; ++i)
-      face_data.offset += face_data.normal.dot(
-          body_vertices[static_cast<std::size_t>(shapes.face_vertices[static_cast<std::size_t>(i)])]);
+      face_data.offset += face_data.normal.dot(body_vertices[static_cast<std::size_t>(
+          shapes.face_vertices[static_cast<std::size_t>(i)])]);
     face_data.offset /= face_data.vertex_end - face_data.vertex_begin;
     shapes.faces.push_back(face_data);
   }
@@ -35,11 +35,12 @@ void add_edges(Shapes& shapes, const Polyhedron& shell, std::span<const int> ver
     if (edge.left < 0 || edge.right < 0) continue;
     const int a = vertex_of[static_cast<std::size_t>(edge.a)];
     const int b = vertex_of[static_cast<std::size_t>(edge.b)];
-    const Vec3 along = (body_vertices[static_cast<std::size_t>(b)] -
-                        body_vertices[static_cast<std::size_t>(a)]).normalized();
+    const Vec3 along =
+        (body_vertices[static_cast<std::size_t>(b)] - body_vertices[static_cast<std::size_t>(a)])
+            .normalized();
     const Vec3 left = to_body * face_normal(shell, edge.left);
     const Vec3 right = to_body * face_normal(shell, edge.right);
-    if (right.cross(left).dot(along) > flattest_edge) shapes.edges.push_back({a, b, left, right});
+    if (left.cross(right).dot(along) > flattest_edge) shapes.edges.push_back({a, b, left, right});
   }
   shapes.edge_begin.push_back(static_cast<int>(shapes.edges.size()));
 }
@@ -87,8 +88,7 @@ void add_shape(Shapes& shapes, std::span<const Polyhedron> parts, const Polyhedr
   shapes.vertices.insert(shapes.vertices.end(), vertices.begin(), vertices.end());
   shapes.vertex_begin.push_back(static_cast<int>(shapes.vertices.size()));
   shapes.radius.push_back(size);
-  shapes.thickness.push_back(
-      smallest_width(std::span(shapes.faces).subspan(first_face), vertices));
+  shapes.thickness.push_back(smallest_width(std::span(shapes.faces).subspan(first_face), vertices));
 }
 
 }  // namespace talus

@@ -1,6 +1,7 @@
 // libcore/contact/shapes.hpp
-// The surfaces of all blocks as the contact search reads them, in body axes: origin at the centroid,
-// axes along the principal axes of inertia. Flat arrays; what belongs to block b stands together.
+// The surfaces of all blocks as the contact search reads them, in body axes: origin at the
+// centroid, axes along the principal axes of inertia. Flat arrays; what belongs to block b stands
+// together.
 #pragma once
 
 #include <span>
@@ -13,15 +14,15 @@ namespace talus {
 
 /// A convex edge of a block's shell with the outward normals of the two faces that meet at it.
 struct ShapeEdge {
-  int a = 0, b = 0;            ///< vertices, counted from the block's first
+  int a = 0, b = 0;                ///< vertices, counted from the block's first
   Vec3 normal_left, normal_right;  ///< unit, body axes
 };
 
 /// A face of a convex part.
 struct ShapeFace {
-  Vec3 normal;         ///< unit outward, body axes
-  double offset = 0;   ///< normal . X of the face's plane [m]
-  double area = 0;     ///< [m2]
+  Vec3 normal;                           ///< unit outward, body axes
+  double offset = 0;                     ///< normal . X of the face's plane [m]
+  double area = 0;                       ///< [m2]
   int vertex_begin = 0, vertex_end = 0;  ///< its corners in Shapes::face_vertices
 };
 
@@ -41,7 +42,8 @@ struct Shapes {  // clang-format off
 /// Vertices of block b.
 [[nodiscard]] inline std::span<const Vec3> vertices_of(const Shapes& shapes, int b) {
   const auto begin = static_cast<std::size_t>(shapes.vertex_begin[b]);
-  return {shapes.vertices.data() + begin, static_cast<std::size_t>(shapes.vertex_begin[b + 1]) - begin};
+  return {shapes.vertices.data() + begin,
+          static_cast<std::size_t>(shapes.vertex_begin[b + 1]) - begin};
 }
 
 [[nodiscard]] inline std::span<const ShapeEdge> edges_of(const Shapes& shapes, int b) {

@@ -8,7 +8,8 @@
 namespace talus::cases {
 
 SlopeFrame slope_frame(double dip_deg, double azimuth_deg) {
-  const double dip = dip_deg * std::numbers::pi / 180, azimuth = azimuth_deg * std::numbers::pi / 180;
+  const double dip = dip_deg * std::numbers::pi / 180,
+               azimuth = azimuth_deg * std::numbers::pi / 180;
   const Vec3 out(std::cos(azimuth), std::sin(azimuth), 0);
   SlopeFrame frame;
   frame.dip = std::cos(dip) * out - std::sin(dip) * Vec3::UnitZ();

@@ -27,8 +27,8 @@ struct SlopeFrame {
 [[nodiscard]] Trn plane_trn(const SlopeFrame& frame, double cell_size, double reach,
                             const Vec3& through = Vec3::Zero());
 
-/// Body with corners at base + x a + y b + z c of the box corners low..high: a box in a slope's axes
-/// when (a, b, c) = (dip, strike, normal).
+/// Body with corners at base + x a + y b + z c of the box corners low..high: a box in a slope's
+/// axes when (a, b, c) = (dip, strike, normal).
 [[nodiscard]] Polyhedron box_in(const SlopeFrame& frame, const Vec3& base, const Vec3& low,
                                 const Vec3& high);
 

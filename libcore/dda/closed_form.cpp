@@ -91,8 +91,8 @@ double bisect(double low, double high, int n, const std::function<bool(double)>&
 
 CaseResult parabola(const Settings& settings) {
   const SlopeFrame flat = slope_frame(0, 0);
-  const Body body = body_of(box_in(flat, Vec3(0, 0, 50), Vec3(-1, -1, -1), Vec3(1, 1, 1)),
-                            Vec3(0, 10, 0));
+  const Body body =
+      body_of(box_in(flat, Vec3(0, 0, 50), Vec3(-1, -1, -1), Vec3(1, 1, 1)), Vec3(0, 10, 0));
   Run run(on_plane(settings, flat, ground_of(0), body, 40, 2));
   const Vec3 from = run.motion().pose.position;
   run.advance_to(1);
@@ -113,7 +113,8 @@ CaseResult sliding(const Settings& settings, double friction_deg, double azimuth
   run.advance_to(duration_s);
   const Vec3 moved = run.motion().pose.position - from;
   if (sticks) return run.finish(moved.norm(), 0, moved.norm());
-  const double a = g * (std::sin(30 * degree) - std::tan(friction_deg * degree) * std::cos(30 * degree));
+  const double a =
+      g * (std::sin(30 * degree) - std::tan(friction_deg * degree) * std::cos(30 * degree));
   const double expected = a * run.state.time * run.state.time / 2;  // (26)
   return run.finish(moved.dot(frame.dip), expected,
                     (moved - expected * frame.dip).norm() / expected);
@@ -121,7 +122,8 @@ CaseResult sliding(const Settings& settings, double friction_deg, double azimuth
 
 CaseResult oblique_slide(const Settings& settings, double azimuth_deg) {
   const SlopeFrame frame = slope_frame(30, azimuth_deg);
-  Run run(on_plane(settings, frame, ground_of(20), body_of(cube_on(frame, 1), 10 * frame.strike), 40));
+  Run run(
+      on_plane(settings, frame, ground_of(20), body_of(cube_on(frame, 1), 10 * frame.strike), 40));
   const Vec3 from = run.motion().pose.position;
   run.advance_to(2);
   // dv/dt = g sin(30) dip - mu g cos(30) v / |v|, by the classic Runge-Kutta method
@@ -133,7 +135,8 @@ CaseResult oblique_slide(const Settings& settings, double azimuth_deg) {
   constexpr int n = 20000;
   const double h = run.state.time / n;
   for (int i = 0; i < n; ++i) {
-    const Vec2 k1 = rate(v), k2 = rate(v + h / 2 * k1), k3 = rate(v + h / 2 * k2), k4 = rate(v + h * k3);
+    const Vec2 k1 = rate(v), k2 = rate(v + h / 2 * k1), k3 = rate(v + h / 2 * k2),
+               k4 = rate(v + h * k3);
     x += h * v + h * h / 6 * (k1 + k2 + k3);
     path += h * v.norm();
     v += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
@@ -195,7 +198,8 @@ CaseResult sustained_rolling(const Settings& settings, int n_sides) {
 CaseResult bounce(const Settings& settings, double restitution, Landing landing) {
   Polyhedron cube = box(Vec3::Constant(-0.5), Vec3::Constant(0.5));
   if (landing == Landing::edge)
-    cube = moved(cube, Eigen::AngleAxisd(45 * degree, Vec3::UnitX()).toRotationMatrix(), Vec3::Zero());
+    cube =
+        moved(cube, Eigen::AngleAxisd(45 * degree, Vec3::UnitX()).toRotationMatrix(), Vec3::Zero());
   if (landing == Landing::corner)
     cube = moved(cube, Quat::FromTwoVectors(Vec3::Ones(), Vec3::UnitZ()).toRotationMatrix(),
                  Vec3::Zero());
@@ -270,7 +274,8 @@ CaseResult free_spin(const Settings& settings, double duration_s) {
   constexpr int n = 200000;
   const double h = run.state.time / n;
   for (int i = 0; i < n; ++i) {
-    const State7 k1 = rate(s), k2 = rate(s + h / 2 * k1), k3 = rate(s + h / 2 * k2), k4 = rate(s + h * k3);
+    const State7 k1 = rate(s), k2 = rate(s + h / 2 * k1), k3 = rate(s + h / 2 * k2),
+                 k4 = rate(s + h * k3);
     s += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
   }
   const Quat truth = Quat(s[3], s[4], s[5], s[6]).normalized();
@@ -288,7 +293,8 @@ struct WedgeGeometry {
 WedgeGeometry wedge_geometry() {
   const auto normal = [](double dip_deg, double direction_deg) {
     const double dip = dip_deg * degree, azimuth = (90 - direction_deg) * degree;
-    return Vec3(std::sin(dip) * std::cos(azimuth), std::sin(dip) * std::sin(azimuth), std::cos(dip));
+    return Vec3(std::sin(dip) * std::cos(azimuth), std::sin(dip) * std::sin(azimuth),
+                std::cos(dip));
   };
   Vec3 a = normal(40, 130), b = normal(60, 220);
   Vec3 line = a.cross(b).normalized();
@@ -310,7 +316,8 @@ Run wedge_run(const Settings& settings, double friction_deg) {
   };
   const Vec3 on_a = up(w.normal_a, w.normal_b), on_b = up(w.normal_b, w.normal_a);
   std::vector<Vec3> corners = {Vec3::Zero(), w.line, on_a, on_a + w.line, on_b, on_b + w.line};
-  std::vector<std::vector<int>> faces = {{0, 2, 4}, {1, 5, 3}, {0, 1, 3, 2}, {0, 4, 5, 1}, {2, 3, 5, 4}};
+  std::vector<std::vector<int>> faces = {
+      {0, 2, 4}, {1, 5, 3}, {0, 1, 3, 2}, {0, 4, 5, 1}, {2, 3, 5, 4}};
   if (moments(polyhedron(corners, faces)).volume < 0)
     for (auto& f : faces) std::reverse(f.begin(), f.end());
   return Run(scene_of(make_trn(height, 0.5, 15), ground_of(friction_deg),
@@ -324,7 +331,8 @@ CaseResult wedge(const Settings& settings, double friction_deg) {
   Run run = wedge_run(settings, friction_deg);
   const Vec3 from = run.motion().pose.position;
   run.advance_to(1);
-  const double value = 2 * (run.motion().pose.position - from).dot(w.line) / (g * run.state.time * run.state.time);
+  const double value =
+      2 * (run.motion().pose.position - from).dot(w.line) / (g * run.state.time * run.state.time);
   // N_a n_a + N_b n_b carries the weight across the line; friction on both faces acts along it
   const Vec3 weight(0, 0, -1);
   const Vec3 across = weight - weight.dot(w.line) * w.line;
@@ -354,14 +362,15 @@ CaseResult wedge_critical(const Settings& settings) {
 namespace {
 
 // Angle at which the column does what `moves` looks for.
-CaseResult column_angle(const Settings& settings, double friction_deg, double low, double high,
-                        double expected,
-                        const std::function<bool(const SlopeFrame&, const Motion&, const Motion&)>& moves) {
+CaseResult column_angle(
+    const Settings& settings, double friction_deg, double low, double high, double expected,
+    const std::function<bool(const SlopeFrame&, const Motion&, const Motion&)>& moves) {
   CaseResult total;
   total.expected = expected;
   total.value = bisect(low, high, 12, [&](double dip) {
     const SlopeFrame frame = slope_frame(dip, 25);
-    const Body body = body_of(box_in(frame, Vec3::Zero(), Vec3(-0.25, -0.25, 0), Vec3(0.25, 0.25, 1)));
+    const Body body =
+        body_of(box_in(frame, Vec3::Zero(), Vec3(-0.25, -0.25, 0), Vec3(0.25, 0.25, 1)));
     Run run(on_plane(settings, frame, ground_of(friction_deg), body, 10));
     const Motion from = run.motion();
     bool moved = false;
@@ -406,7 +415,8 @@ Rocking rock(const Settings& settings) {
   const double b = 0.25, h = 1, slenderness = std::atan2(b, h);
   const Polyhedron column = box_in(frame, Vec3::Zero(), Vec3(-b, -0.5, 0), Vec3(b, 0.5, 2 * h));
   const Mat3 turn = Eigen::AngleAxisd(slenderness / 2, frame.strike).toRotationMatrix();
-  Run run(on_plane(settings, frame, ground_of(80), body_of(moved(column, turn, b * frame.dip)), 10));
+  Run run(
+      on_plane(settings, frame, ground_of(80), body_of(moved(column, turn, b * frame.dip)), 10));
   Rocking rocking;
   while (rocking.time == 0 && run.state.time < 2) {
     run.advance();
@@ -477,8 +487,8 @@ CaseResult energy_line(const Settings& settings) {
     return -steep * x + (steep - gentle) * x * x / (2 * reach);
   };
   const SlopeFrame frame = slope_frame(27, 0);
-  const Body body = body_of(box_in(frame, Vec3(0.3, 0.4, height(0.3, 0)), Vec3(-0.1, -0.1, 1e-3),
-                                   Vec3(0.1, 0.1, 0.05)));
+  const Body body = body_of(
+      box_in(frame, Vec3(0.3, 0.4, height(0.3, 0)), Vec3(-0.1, -0.1, 1e-3), Vec3(0.1, 0.1, 0.05)));
   Run run(scene_of(make_trn(height, 0.5, 210, Vec2(200, 0)), ground_of(25), {body}, settings));
   const Vec3 from = run.motion().pose.position;
   while (run.state.time < 120) {

@@ -24,9 +24,10 @@ struct CaseResult {
 /// Projectile, 10 m/s sideways, 1 s (25a, b): largest error of the three coordinates [m].
 CaseResult parabola(const Settings& settings);
 
-/// Cube of 1 m sliding from rest on 30 degrees (26), `duration_s` long. Slope turned by `azimuth_deg`,
-/// `offset` = local coordinates of the start. Relative error of the displacement down the dip;
-/// with friction above 30 degrees the displacement after the first quarter of the time [m].
+/// Cube of 1 m sliding from rest on 30 degrees (26), `duration_s` long. Slope turned by
+/// `azimuth_deg`, `offset` = local coordinates of the start. Relative error of the displacement
+/// down the dip; with friction above 30 degrees the displacement after the first quarter of the
+/// time [m].
 CaseResult sliding(const Settings& settings, double friction_deg, double azimuth_deg,
                    double duration_s, const Vec3& offset = Vec3::Zero(), double cell_size = 0.5);
 
@@ -37,8 +38,8 @@ CaseResult oblique_slide(const Settings& settings, double azimuth_deg);
 /// Critical rolling initiation angle of a prism of n sides, 180 / n (27): error by bisection [deg].
 CaseResult rolling_angle(const Settings& settings, int n_sides);
 
-/// Sustained rolling of a prism at 10 degrees with plastic edge impacts: speed before an impact in the
-/// steady state, relative error (theory 4, 5).
+/// Sustained rolling of a prism at 10 degrees with plastic edge impacts: speed before an impact in
+/// the steady state, relative error (theory 4, 5).
 CaseResult sustained_rolling(const Settings& settings, int n_sides);
 
 enum class Landing { face, edge, corner };
@@ -52,8 +53,8 @@ CaseResult corner_impulse(const Settings& settings, double restitution);
 /// [deg]; `largest_penetration` holds the relative change of the angular momentum.
 CaseResult free_spin(const Settings& settings, double duration_s);
 
-/// Double-face wedge 40/130 and 60/220 (dip/dip direction): relative error of the acceleration along the
-/// line of intersection, plunge 37.058 degrees.
+/// Double-face wedge 40/130 and 60/220 (dip/dip direction): relative error of the acceleration
+/// along the line of intersection, plunge 37.058 degrees.
 CaseResult wedge(const Settings& settings, double friction_deg);
 /// Its critical friction angle, 33.357 degrees: error by bisection [deg].
 CaseResult wedge_critical(const Settings& settings);
@@ -63,24 +64,27 @@ CaseResult toppling_angle(const Settings& settings);
 /// The same column with friction 20 degrees: angle at which it slides [deg].
 CaseResult sliding_angle(const Settings& settings);
 
-/// Rocking column 0.5 m x 2 m let go at half its slenderness angle: relative error of the time of the
-/// first impact, 0.48909 s, or of the ratio of the spins after and before it, 1 - 1.5 sin^2 alpha.
+/// Rocking column 0.5 m x 2 m let go at half its slenderness angle: relative error of the time of
+/// the first impact, 0.48909 s, or of the ratio of the spins after and before it, 1 - 1.5 sin^2
+/// alpha.
 CaseResult rocking_time(const Settings& settings);
 CaseResult rocking_ratio(const Settings& settings);
 
-/// Block on 20 degrees, tan(phi) = tan 30 degrees, base shaken horizontally by 5 sin(2 pi t) m/s2 for 10 s
-/// (Newmark's sliding block): relative error of the displacement, 3.196940 m.
+/// Block on 20 degrees, tan(phi) = tan 30 degrees, base shaken horizontally by 5 sin(2 pi t) m/s2
+/// for 10 s (Newmark's sliding block): relative error of the displacement, 3.196940 m.
 CaseResult shaken_block(const Settings& settings);
 
-/// Block of 0.2 m sliding down a slope that eases from 27 to 23 degrees, friction 25 degrees: relative
-/// error of the run-out L = H / tan(phi) (energy line; the curve's own friction is below 0.2 %).
+/// Block of 0.2 m sliding down a slope that eases from 27 to 23 degrees, friction 25 degrees:
+/// relative error of the run-out L = H / tan(phi) (energy line; the curve's own friction is below
+/// 0.2 %).
 CaseResult energy_line(const Settings& settings);
 
-/// Cube of 10 m under its own weight, strains on: relative error of the mean vertical stress rho g h / 2.
+/// Cube of 10 m under its own weight, strains on: relative error of the mean vertical stress rho g
+/// h / 2.
 CaseResult own_weight(const Settings& settings);
 
-/// Cube of 1.7 m, turned by 0.3 rad, at 20 m/s over 80 m of a frictionless plane with 1 m cells and the
-/// given dip: largest distance to the closed form [m].
+/// Cube of 1.7 m, turned by 0.3 rad, at 20 m/s over 80 m of a frictionless plane with 1 m cells and
+/// the given dip: largest distance to the closed form [m].
 CaseResult ghost_collisions(const Settings& settings, double dip_deg);
 
 /// Elastic bounce of law paper with strains: speed after over speed before the hit.

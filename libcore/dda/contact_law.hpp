@@ -2,13 +2,13 @@
 // Impulse of one contact as a function of the velocity of its point, and its exact derivative.
 // paper: Eq. (16)-(24) and the three patterns of Fig. 8; theory 1.7 (return mapping), 1.8
 //
-// Law talus works with impulses over a step. Normal: p_n = max(0, -D_n (v_n + b)), where b holds the
-// overlap at the start of the step, so that a resting contact of stiffness k_n presses with k_n times
-// its overlap, and one that just closes takes the approach away and no more. Tangent: the trial
-// -D_t (v_t + s / tau) is the impulse while it stays below tan(phi) p_n + c A_c h, else the contact
-// slips with tan(phi) p_n along the mean of the slip directions at the step's start and end: second
-// order in the step, which the end direction alone is not (it errs by 1e-3 on an oblique slide).
-// Inline: this is the innermost loop of the engine.
+// Law talus works with impulses over a step. Normal: p_n = max(0, -D_n (v_n + b)), where b holds
+// the overlap at the start of the step, so that a resting contact of stiffness k_n presses with k_n
+// times its overlap, and one that just closes takes the approach away and no more. Tangent: the
+// trial -D_t (v_t + s / tau) is the impulse while it stays below tan(phi) p_n + c A_c h, else the
+// contact slips with tan(phi) p_n along the mean of the slip directions at the step's start and
+// end: second order in the step, which the end direction alone is not (it errs by 1e-3 on an
+// oblique slide). Inline: this is the innermost loop of the engine.
 #pragma once
 
 #include <algorithm>
@@ -51,8 +51,8 @@ inline void evaluate(const Vec3& w, double held_cap, ContactRow& row) {
   row.impulse = p_n * n - row.cap * row.direction;
 }
 
-/// -d impulse / d velocity [kg] where the law was evaluated; not for an open contact. `coupled`: the
-/// bound follows the normal impulse, which makes the derivative unsymmetric.
+/// -d impulse / d velocity [kg] where the law was evaluated; not for an open contact. `coupled`:
+/// the bound follows the normal impulse, which makes the derivative unsymmetric.
 [[nodiscard]] inline Mat3 tangent(const ContactRow& row, bool coupled) {
   const Vec3& n = row.normal;
   Mat3 A;

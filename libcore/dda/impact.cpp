@@ -43,6 +43,13 @@ double kinetic_energy(const BlockSystem<6>& system, const Vec6& velocity) {
   return 0.5 * velocity.dot(system.mass * velocity);
 }
 
+// The part of the change of velocity that leaves the kinetic energy where it was.
+Vec6 limited(const BlockSystem<6>& system, const Vec6& before) {
+  const Vec6 change = system.velocity - before;
+  const double slope = before.dot(system.mass * change), curve = 2 * kinetic_energy(system, change);
+  return before + std::clamp(-2 * slope / curve, 0.0, 1.0) * change;
+}
+
 }  // namespace
 
 ImpactResult apply_impact(const Scene& scene, int b, double touch, double resting_speed,
@@ -64,8 +71,8 @@ ImpactResult apply_impact(const Scene& scene, int b, double touch, double restin
   system.mass.setZero();
   system.mass.diagonal() << Vec3::Constant(scene.blocks.mass[i]), inertia;
   system.free_velocity = before;
-  system.tolerance = 1e-8 * (before.head<3>().norm() +
-                             before.tail<3>().norm() * scene.blocks.shapes.radius[i]);
+  system.tolerance =
+      1e-8 * (before.head<3>().norm() + before.tail<3>().norm() * scene.blocks.shapes.radius[i]);
   const double energy = kinetic_energy(system, before);
   for (int pass = 0; pass < 12; ++pass) {
     system.velocity = before;
@@ -76,6 +83,8 @@ ImpactResult apply_impact(const Scene& scene, int b, double touch, double restin
     if (result.dissipated >= -1e-7 * energy) break;
     for (ContactRow& row : work.rows) row.bias *= pass < 10 ? 0.7 : 0.0;
   }
+  if (result.dissipated < -1e-7 * energy) system.velocity = limited(system, before);
+  result.dissipated = energy - kinetic_energy(system, system.velocity);
   motion.velocity = R * system.velocity.head<3>();
   motion.angular_momentum = R * system.velocity.tail<3>().cwiseProduct(inertia).eval();
   return result;

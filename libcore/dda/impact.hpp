@@ -13,15 +13,16 @@
 namespace talus {
 
 struct ImpactResult {
-  bool hit = false;        ///< some contact approached faster than the resting speed
+  bool hit = false;  ///< some contact approached faster than the resting speed
   bool converged = true;
   int passes = 0;
-  double dissipated = 0;   ///< kinetic energy lost, >= 0 [J]
+  double dissipated = 0;  ///< kinetic energy lost, >= 0 [J]
 };
 
-/// Applies the impact law to `motion` of block b at its pose; contacts closer than `touch` take part.
-/// Those that approach slower than `resting_speed` get no restitution. Where Newton's law with friction
-/// would raise the kinetic energy, the restitution of all contacts is lowered until it does not.
+/// Applies the impact law to `motion` of block b at its pose; contacts closer than `touch` take
+/// part. Those that approach slower than `resting_speed` get no restitution. Where Newton's law
+/// with friction would raise the kinetic energy, the restitution of all contacts is lowered until
+/// it does not.
 ImpactResult apply_impact(const Scene& scene, int b, double touch, double resting_speed,
                           Motion& motion, Work& work);
 

@@ -80,8 +80,8 @@ void check_scene(const Scene& scene) {
   if (!(s.normal_stiffness >= 0))
     throw InputError({}, "normal stiffness is " + text(s.normal_stiffness) + " N/m, expected >= 0");
   if (!(s.shear_ratio > 0))
-    throw InputError({}, "ratio of shear to normal stiffness is " + text(s.shear_ratio) +
-                             ", expected above 0");
+    throw InputError(
+        {}, "ratio of shear to normal stiffness is " + text(s.shear_ratio) + ", expected above 0");
   for (const GroundClass& g : scene.ground.classes) {
     if (!(g.friction >= 0 && std::isfinite(g.friction)))
       throw InputError({}, "friction tan(phi) is " + text(g.friction) + ", expected >= 0");
@@ -95,7 +95,8 @@ void check_scene(const Scene& scene) {
     throw InputError({}, "base motion has as many times as accelerations");
   for (std::size_t i = 1; i < base.time.size(); ++i)
     if (!(base.time[i] > base.time[i - 1]))
-      throw InputError({}, "times of the base motion do not increase at sample " + std::to_string(i));
+      throw InputError({},
+                       "times of the base motion do not increase at sample " + std::to_string(i));
 }
 
 }  // namespace talus

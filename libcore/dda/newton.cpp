@@ -1,5 +1,6 @@
 #include "dda/newton.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -43,7 +44,8 @@ void add_tangent(const Vec3& X, const Mat3& A, Mat<Dof>& H) {
   }
 }
 
-// Momentum that is missing at the system's velocity. `lagged`: friction bounds are the rows' held ones.
+// Momentum that is missing at the system's velocity. `lagged`: friction bounds are the rows' held
+// ones.
 template <int Dof>
 Vec<Dof> residual(const BlockSystem<Dof>& system, std::span<ContactRow> rows, bool lagged) {
   Vec<Dof> r;
@@ -96,8 +98,8 @@ Vec<Dof> solve_dense(Mat<Dof> H, Vec<Dof> b) {
   return b;
 }
 
-// The residual as a velocity of the block's points: impulse over mass; angular impulse over inertia,
-// times the radius of gyration about that axis.
+// The residual as a velocity of the block's points: impulse over mass; angular impulse over
+// inertia, times the radius of gyration about that axis.
 template <int Dof>
 bool is_small(const BlockSystem<Dof>& s, const Vec<Dof>& r) {
   const double limit = s.tolerance * s.tolerance * s.mass(0, 0);
@@ -113,7 +115,8 @@ double cap_of(const ContactRow& row) {
 // Newton with the bound held: the step is shortened until the residual's work along it changes sign
 // no more, which for this convex problem always makes progress.
 template <int Dof>
-int solve_held(BlockSystem<Dof>& system, std::span<ContactRow> rows, int max_passes, bool& settled) {
+int solve_held(BlockSystem<Dof>& system, std::span<ContactRow> rows, int max_passes,
+               bool& settled) {
   int passes = 1;
   Vec<Dof> r = residual(system, rows, true);
   settled = is_small(system, r);
@@ -156,6 +159,47 @@ NewtonResult solve_lagged(BlockSystem<Dof>& system, std::span<ContactRow> rows, 
   return result;
 }
 
+// Gauss-Seidel over the contacts, each given the impulse that its own law asks for: slow, but it
+// gets through where Newton goes round in circles. Slip follows the end velocity.
+template <int Dof>
+NewtonResult solve_sweeps(BlockSystem<Dof>& system, std::span<ContactRow> rows) {
+  constexpr int most_sweeps = 2000;
+  const Mat<Dof> per_mass = system.mass.inverse();
+  system.velocity = system.free_velocity;
+  for (ContactRow& row : rows) row.impulse.setZero();
+  for (int sweep = 1; sweep <= most_sweeps; ++sweep) {
+    double change = 0;
+    for (ContactRow& row : rows) {
+      if (row.waits_for_impact) continue;
+      const Vec3& n = row.normal;
+      const Vec3 w = point_velocity<Dof>(system.velocity, row.point) + row.drift;
+      const Vec<Dof> along_n = generalised<Dof>(row.point, n);
+      const double give_n = along_n.dot(per_mass * along_n) + 1 / row.normal_damping;
+      const double p_old = row.impulse.dot(n);
+      const double p_n =
+          std::max(0.0, p_old - (n.dot(w) + row.bias + p_old / row.normal_damping) / give_n);
+      const Vec3 t_old = row.impulse - p_old * n;
+      double give_t = 1 / row.shear_damping;
+      for (int k = 0; k < 3; ++k) {
+        const Vec<Dof> unit = generalised<Dof>(row.point, Vec3::Unit(k));
+        give_t += unit.dot(per_mass * unit);
+      }
+      const Vec3 trial = w - n.dot(w) * n + row.shear_velocity;
+      Vec3 t = t_old - (trial + t_old / row.shear_damping) / give_t;
+      const double cap = row.friction * p_n + row.cohesion_impulse, size = t.norm();
+      row.state = p_n == 0 ? ContactState::open : ContactState::stick;
+      if (size > cap) t *= cap / size, row.state = p_n == 0 ? row.state : ContactState::slip;
+      const Vec3 impulse = p_n * n + t;
+      const Vec<Dof> dv = per_mass * generalised<Dof>(row.point, impulse - row.impulse);
+      system.velocity += dv;
+      row.impulse = impulse;
+      change = std::max(change, point_velocity<Dof>(dv, row.point).norm());
+    }
+    if (change <= 10 * system.tolerance) return {true, sweep};
+  }
+  return {false, most_sweeps};
+}
+
 }  // namespace
 
 template <int Dof>
@@ -172,9 +216,11 @@ NewtonResult solve_contacts(BlockSystem<Dof>& system, std::span<ContactRow> rows
     system.velocity -= solve_dense<Dof>(derivative<Dof>(system, rows, false), r);
   }
   if (!system.velocity.allFinite()) system.velocity = system.free_velocity;
-  NewtonResult lagged = solve_lagged(system, rows, max_passes);
-  lagged.passes += result.passes;
-  return lagged;
+  const NewtonResult lagged = solve_lagged(system, rows, max_passes);
+  result.passes += lagged.passes;
+  if (lagged.converged) return {true, result.passes};
+  const NewtonResult sweeps = solve_sweeps(system, rows);
+  return {sweeps.converged, result.passes + sweeps.passes};
 }
 
 template NewtonResult solve_contacts<6>(BlockSystem<6>&, std::span<ContactRow>, int);

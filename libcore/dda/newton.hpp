@@ -17,9 +17,9 @@ template <int Dof>
 struct BlockSystem {
   using Vec = Eigen::Matrix<double, Dof, 1>;
   using Mat = Eigen::Matrix<double, Dof, Dof>;
-  Mat mass;            ///< M plus the damping of the elastic strains [kg, kg m2]
-  Vec free_velocity;   ///< without contact [m/s, rad/s, 1/s]
-  Vec velocity;        ///< in: first guess; out: at the end of the step
+  Mat mass;              ///< M plus the damping of the elastic strains [kg, kg m2]
+  Vec free_velocity;     ///< without contact [m/s, rad/s, 1/s]
+  Vec velocity;          ///< in: first guess; out: at the end of the step
   double tolerance = 0;  ///< largest residual, as a velocity of the block's points [m/s]
 };
 
@@ -32,7 +32,7 @@ struct NewtonResult {
 ///
 /// Full Newton steps with the friction bound coupled to the normal impulse; if that has not settled
 /// after a third of `max_passes`, the bound is held while a convex problem is solved with a line
-/// search, and then renewed.
+/// search, and then renewed. What is still open after that goes to Gauss-Seidel sweeps.
 template <int Dof>
 NewtonResult solve_contacts(BlockSystem<Dof>& system, std::span<ContactRow> rows, int max_passes);
 

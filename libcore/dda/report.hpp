@@ -7,11 +7,11 @@ namespace talus {
 /// Bits, since several can happen at once. Counted per run in the run record; never hidden.
 enum class StepFlag : unsigned {
   none = 0,
-  unconverged = 1,  ///< a block's contact forces did not converge at the shortest step
-  not_finite = 2,   ///< NaN or infinity: the block was stopped at its last good state
-  left_domain = 4,  ///< a block left the known terrain and was stopped
+  unconverged = 1,   ///< a block's contact forces did not converge at the shortest step
+  not_finite = 2,    ///< NaN or infinity: the block was stopped at its last good state
+  left_domain = 4,   ///< a block left the known terrain and was stopped
   fell_through = 8,  ///< a block lies wholly below the ground under it
-  deep = 16,        ///< a penetration above a tenth of the block's thickness
+  deep = 16,         ///< a penetration above a tenth of the block's thickness
 };
 
 [[nodiscard]] inline StepFlag operator|(StepFlag a, StepFlag b) {

@@ -55,13 +55,15 @@ bool is_axis_of_symmetry(const Vec3& inertia, int k) {
   return std::abs(a - b) <= 1e-9 * std::max(a, b);  // equal but for the rounding of coordinates
 }
 
-// A body with two equal moments precesses steadily: about L at |L| / I_across, and about its own axis
-// at what is left of its spin there.
-Quat symmetric_rotation(const Quat& attitude, const Vec3& L, const Vec3& inertia, int axis, double h) {
+// A body with two equal moments precesses steadily: about L at |L| / I_across, and about its own
+// axis at what is left of its spin there.
+Quat symmetric_rotation(const Quat& attitude, const Vec3& L, const Vec3& inertia, int axis,
+                        double h) {
   const double across = inertia[(axis + 1) % 3];
   const double along = (attitude.conjugate() * L)[axis];
   const double own = h * along * (1 / inertia[axis] - 1 / across);
-  return (rotation_by(L * (h / across)) * attitude * rotation_by(own * Vec3::Unit(axis))).normalized();
+  return (rotation_by(L * (h / across)) * attitude * rotation_by(own * Vec3::Unit(axis)))
+      .normalized();
 }
 
 }  // namespace

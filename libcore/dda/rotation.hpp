@@ -12,13 +12,16 @@ namespace talus {
 
 /// Attitude of a body that spins freely for `h` seconds with angular momentum `L` [kg m2/s].
 ///
-/// `inertia` holds the principal moments, axes = body axes. Symmetric splitting into rotations about
-/// the body axes, composed to order 4 (Suzuki), in substeps of |omega| h <= 0.06; L is a constant
-/// of the call, the energy error stays bounded. A body with two moments equal to 1e-9: exact.
-[[nodiscard]] Quat free_rotation(const Quat& attitude, const Vec3& L, const Vec3& inertia, double h);
+/// `inertia` holds the principal moments, axes = body axes. Symmetric splitting into rotations
+/// about the body axes, composed to order 4 (Suzuki), in substeps of |omega| h <= 0.06; L is a
+/// constant of the call, the energy error stays bounded. A body with two moments equal to 1e-9:
+/// exact.
+[[nodiscard]] Quat free_rotation(const Quat& attitude, const Vec3& L, const Vec3& inertia,
+                                 double h);
 
 /// omega = I^-1 L in local axes [rad/s].
-[[nodiscard]] inline Vec3 angular_velocity(const Quat& attitude, const Vec3& L, const Vec3& inertia) {
+[[nodiscard]] inline Vec3 angular_velocity(const Quat& attitude, const Vec3& L,
+                                           const Vec3& inertia) {
   const Vec3 body = attitude.conjugate() * L;
   return attitude * body.cwiseQuotient(inertia).eval();
 }

@@ -22,8 +22,8 @@ enum class Phase : std::uint8_t {
 
 /// Motion of one block at its own time.
 struct Motion {
-  Pose pose;                            ///< centroid [m], attitude
-  Vec3 velocity = Vec3::Zero();         ///< of the centroid [m/s]
+  Pose pose;                             ///< centroid [m], attitude
+  Vec3 velocity = Vec3::Zero();          ///< of the centroid [m/s]
   Vec3 angular_momentum = Vec3::Zero();  ///< about the centroid, local axes [kg m2/s]
 };
 
@@ -38,14 +38,14 @@ struct EnergyLedger {
 
 /// Counts since the start.
 struct RunCounters {
-  std::int64_t steps = 0;             ///< calls of step()
-  std::int64_t substeps = 0;          ///< block steps with contact search
-  std::int64_t flight_skips = 0;      ///< block steps skipped in flight
-  std::int64_t impacts = 0;           ///< impact events
-  std::int64_t passes = 0;            ///< Newton or open-close iterations
-  std::int64_t unconverged = 0;       ///< block steps accepted without convergence
-  std::int64_t cut_back = 0;          ///< block steps repeated with a shorter one
-  int left_domain = 0;                ///< blocks that left the known terrain
+  std::int64_t steps = 0;         ///< calls of step()
+  std::int64_t substeps = 0;      ///< block steps with contact search
+  std::int64_t flight_skips = 0;  ///< block steps skipped in flight
+  std::int64_t impacts = 0;       ///< impact events
+  std::int64_t passes = 0;        ///< Newton or open-close iterations
+  std::int64_t unconverged = 0;   ///< block steps accepted without convergence
+  std::int64_t cut_back = 0;      ///< block steps repeated with a shorter one
+  int left_domain = 0;            ///< blocks that left the known terrain
 };
 
 struct State {  // clang-format off

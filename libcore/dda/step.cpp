@@ -38,8 +38,8 @@ void put_to_sleep(const Scene& scene, size_t b, State& state) {
   const bool sticks = std::all_of(memory.begin(), memory.end(), [](const ContactMemory& c) {
     return c.state == static_cast<std::uint8_t>(ContactState::stick);
   });
-  const bool rests = sticks && !memory.empty() &&
-                     m.velocity.norm() + spin * scene.blocks.shapes.radius[b] < still;
+  const bool rests =
+      sticks && !memory.empty() && m.velocity.norm() + spin * scene.blocks.shapes.radius[b] < still;
   state.still_steps[b] = rests ? state.still_steps[b] + 1 : 0;
   if (state.still_steps[b] < long_enough) return;
   state.phase[b] = Phase::asleep;
@@ -54,7 +54,8 @@ bool spins(const Scene& scene, size_t b) { return !scene.blocks.spin[b].isZero(0
 Vec3 free_acceleration(const Scene& scene, int b, double t_start, double t_end) {
   Vec3 a = scene.gravity;
   if (!scene.base.time.empty())
-    a -= (base_velocity(scene.base, t_end) - base_velocity(scene.base, t_start)) / (t_end - t_start);
+    a -=
+        (base_velocity(scene.base, t_end) - base_velocity(scene.base, t_start)) / (t_end - t_start);
   for (const PointLoad& load : scene.loads)
     if (load.block == b) a += load.force / scene.blocks.mass[static_cast<size_t>(b)];
   return a;
@@ -150,9 +151,10 @@ Energies energies(const Scene& scene, const State& state) {
     sum.rotation += 0.5 * spin.dot(m.angular_momentum);
     sum.potential -= mass * scene.gravity.dot(m.pose.position);
     if (!state.strain.empty())
-      sum.elastic += 0.5 * scene.blocks.volume[i] *
-                     state.strain[i].dot(elastic_matrix(scene.blocks.young[i],
-                                                        scene.blocks.poisson[i]) * state.strain[i]);
+      sum.elastic +=
+          0.5 * scene.blocks.volume[i] *
+          state.strain[i].dot(elastic_matrix(scene.blocks.young[i], scene.blocks.poisson[i]) *
+                              state.strain[i]);
   }
   return sum;
 }

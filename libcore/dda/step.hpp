@@ -13,7 +13,8 @@
 namespace talus {
 
 /// State at time 0. With law talus and Settings::static_start, a block at rest that touches the
-/// ground is let down into equilibrium with it (its weight over the contact stiffness, micrometres).
+/// ground is let down into equilibrium with it (its weight over the contact stiffness,
+/// micrometres).
 [[nodiscard]] State start(const Scene& scene);
 
 /// Buffers for `scene`, large enough that step() does not allocate.

@@ -71,8 +71,7 @@ Equations<Dof> equations(const Scene& scene, int b, const State& state) {
     eq.velocity.template tail<6>() =
         strain_vector(eq.R * strain_tensor(state.strain_rate[i]) * eq.R.transpose());
     eq.K.template bottomRightCorner<6, 6>() += volume * C;
-    Vec6 stress =
-        C * strain_vector(eq.R * strain_tensor(state.strain[i]) * eq.R.transpose());
+    Vec6 stress = C * strain_vector(eq.R * strain_tensor(state.strain[i]) * eq.R.transpose());
     if (!blocks.initial_stress.empty()) stress += blocks.initial_stress[i];
     eq.F.template tail<6>() -= volume * stress;
   }
@@ -82,10 +81,10 @@ Equations<Dof> equations(const Scene& scene, int b, const State& state) {
 
 /// A contact during open-close: how it enters Eq. (3).
 struct Spring {
-  double gap = 0;    // at the pass's solution, > 0 open
-  Vec3 shear;        // s_n + P T D at the pass's solution
-  double N = 0;      // normal force of the pass before
-  Vec3 direction;    // e_s of the pass before
+  double gap = 0;  // at the pass's solution, > 0 open
+  Vec3 shear;      // s_n + P T D at the pass's solution
+  double N = 0;    // normal force of the pass before
+  Vec3 direction;  // e_s of the pass before
 };
 
 ContactState judge(const ContactRow& row, const Spring& spring, double k_n, double k_s,
@@ -127,8 +126,8 @@ struct OpenClose {
       F += k_n * row.gap_start * G;                                 // (17b), d_0 = -gap
       if (row.state == ContactState::stick) {
         const Mat3 N = Mat3::Identity() - n * n.transpose();
-        K += k_s * T_a.transpose() * N * T_a;     // (20a)
-        F -= k_s * T_a.transpose() * row.shear;   // (20b)
+        K += k_s * T_a.transpose() * N * T_a;    // (20a)
+        F -= k_s * T_a.transpose() * row.shear;  // (20b)
       } else {
         F -= row.held_cap * T_a.transpose() * row.slip_start;  // (24)
       }
@@ -163,8 +162,7 @@ void make_rows(const Scene& scene, const State& state, int b, const Mat3& R, Wor
   work.rows.clear();
   for (size_t i = 0; i < work.contacts.size(); ++i) {
     const Contact& contact = work.contacts[i];
-    const GroundClass& ground =
-        scene.ground.classes[static_cast<size_t>(contact.ground_class)];
+    const GroundClass& ground = scene.ground.classes[static_cast<size_t>(contact.ground_class)];
     ContactRow row;
     row.contact = static_cast<int>(i);
     row.normal = contact.normal;
@@ -215,8 +213,8 @@ void remember(const OpenClose<Dof>& solved, State& state, Work& work, int b, Ste
   std::swap(state.memory[static_cast<size_t>(b)], work.memory_next);
 }
 
-// Eq. (28), v_a = COR v_b, on the normal component of the centroid's velocity, once a collision: v_b is
-// kept when a free block first closes a contact, v_a set when its last contact opens again.
+// Eq. (28), v_a = COR v_b, on the normal component of the centroid's velocity, once a collision:
+// v_b is kept when a free block first closes a contact, v_a set when its last contact opens again.
 void post_adjust(const Scene& scene, int b, bool was_free, const Vec3& velocity_before,
                  const Work& work, State& state) {
   const auto i = static_cast<size_t>(b);
@@ -236,8 +234,7 @@ void post_adjust(const Scene& scene, int b, bool was_free, const Vec3& velocity_
   const Vec3 normal = state.rebound[i] / wanted;
   Vec3& v = state.motion[i].velocity;
   const Vec3 adjusted = v + (wanted - normal.dot(v)) * normal;
-  state.ledger.impact +=
-      0.5 * scene.blocks.mass[i] * (v.squaredNorm() - adjusted.squaredNorm());
+  state.ledger.impact += 0.5 * scene.blocks.mass[i] * (v.squaredNorm() - adjusted.squaredNorm());
   v = adjusted;
   state.rebound[i].setZero();
 }
@@ -247,15 +244,20 @@ void advance(const Scene& scene, int b, State& state, Work& work, StepReport& re
   const auto i = static_cast<size_t>(b);
   const double dt = scene.settings.dt, radius = scene.blocks.shapes.radius[i];
   const Motion before = state.motion[i];
-  OpenClose<Dof> solver{scene, work, equations<Dof>(scene, b, state), scene.settings.normal_stiffness,
-                        scene.settings.normal_stiffness * scene.settings.shear_ratio, {}};
+  OpenClose<Dof> solver{scene,
+                        work,
+                        equations<Dof>(scene, b, state),
+                        scene.settings.normal_stiffness,
+                        scene.settings.normal_stiffness * scene.settings.shear_ratio,
+                        {}};
   const double spin = solver.eq.velocity.template segment<3>(3).norm();
-  const double ctol = 1.5 * dt * (before.velocity.norm() + spin * radius +
-                                  scene.gravity.norm() * dt) + 1e-9 * radius;
+  const double ctol =
+      1.5 * dt * (before.velocity.norm() + spin * radius + scene.gravity.norm() * dt) +
+      1e-9 * radius;
   Mat3 stretch = Mat3::Identity();
   if constexpr (Dof == 12) stretch += strain_tensor(state.strain[i]);
-  const SearchResult near = find_contacts(scene.ground, scene.blocks.shapes, b, before.pose, stretch,
-                                          ctol, work.world_vertices, work.contacts);
+  const SearchResult near = find_contacts(scene.ground, scene.blocks.shapes, b, before.pose,
+                                          stretch, ctol, work.world_vertices, work.contacts);
   if (near.reach == Reach::below) report.flags = report.flags | StepFlag::fell_through;
   make_rows(scene, state, b, solver.eq.R, work);
   int passes = 0, switched = 1;
@@ -274,19 +276,17 @@ void advance(const Scene& scene, int b, State& state, Work& work, StepReport& re
   const typename Equations<Dof>::Vec velocity = 2 / dt * D - solver.eq.velocity;
   Motion& m = state.motion[i];
   m.pose.position += D.template head<3>();
-  m.pose.attitude =
-      (rotation_by(D.template segment<3>(3)) * m.pose.attitude).normalized();
+  m.pose.attitude = (rotation_by(D.template segment<3>(3)) * m.pose.attitude).normalized();
   m.velocity = velocity.template head<3>();
-  m.angular_momentum = angular_momentum(m.pose.attitude, velocity.template segment<3>(3),
-                                        scene.blocks.inertia[i]);
+  m.angular_momentum =
+      angular_momentum(m.pose.attitude, velocity.template segment<3>(3), scene.blocks.inertia[i]);
   if constexpr (Dof == 12) {
     const Mat3& R = solver.eq.R;
     state.strain[i] += strain_vector(R.transpose() * strain_tensor(D.template tail<6>()) * R);
     state.strain_rate[i] =
         strain_vector(R.transpose() * strain_tensor(velocity.template tail<6>()) * R);
   }
-  if (scene.settings.post_adjustment)
-    post_adjust(scene, b, was_free, before.velocity, work, state);
+  if (scene.settings.post_adjustment) post_adjust(scene, b, was_free, before.velocity, work, state);
   Segment segment;
   segment.block = b;
   segment.flight = work.rows.empty();
@@ -294,7 +294,8 @@ void advance(const Scene& scene, int b, State& state, Work& work, StepReport& re
   segment.t_end = state.time + dt;
   segment.start = before;
   segment.end = m;
-  segment.acceleration = 2 / (dt * dt) * (m.pose.position - before.pose.position - dt * before.velocity);
+  segment.acceleration =
+      2 / (dt * dt) * (m.pose.position - before.pose.position - dt * before.velocity);
   work.segments.push_back(segment);
   state.local_time[i] = state.time + dt;
 }

@@ -17,14 +17,15 @@ namespace {
 
 using std::size_t;
 
-// k_n dt^2 / m of the stiffest contact that is computed with, m being the mass that the contact feels.
+// k_n dt^2 / m of the stiffest contact that is computed with, m being the mass that the contact
+// feels.
 constexpr double stiffest = 400;
 // Overlap is pressed out over this many time steps: no velocity is turned round on the way.
 constexpr double recovery_steps = 3;
 // A contact is touching when its gap is below this part of the block's radius.
 constexpr double touch_ratio = 1e-8;
-constexpr int most_events = 40;      // impacts of a block in a step before bouncing is given up
-constexpr int most_tries = 24;       // substeps repeated to find an event or to converge
+constexpr int most_events = 40;  // impacts of a block in a step before bouncing is given up
+constexpr int most_tries = 24;   // substeps repeated to find an event or to converge
 
 /// Constants of one block in one run.
 struct BlockNumbers {
@@ -38,11 +39,18 @@ BlockNumbers numbers_of(const Scene& scene, int b) {
   const auto i = static_cast<size_t>(b);
   const double g = scene.gravity.norm(), dt = scene.settings.dt;
   const double radius = scene.blocks.shapes.radius[i];
-  return {scene.blocks.mass[i], radius, stiffest * scene.blocks.mass[i] / (dt * dt), recovery_steps * dt,
-          touch_ratio * radius, std::max(2 * g * dt, 1e-6), g, scene.blocks.inertia[i]};
+  return {scene.blocks.mass[i],
+          radius,
+          stiffest * scene.blocks.mass[i] / (dt * dt),
+          recovery_steps * dt,
+          touch_ratio * radius,
+          std::max(2 * g * dt, 1e-6),
+          g,
+          scene.blocks.inertia[i]};
 }
 
-// Gap up to which a contact may come to press within a substep though the free motion keeps it open.
+// Gap up to which a contact may come to press within a substep though the free motion keeps it
+// open.
 double search_margin(const BlockNumbers& c, double h) {
   return 4 * c.gravity * h * h + 1e-3 * c.radius;
 }
@@ -51,9 +59,9 @@ double search_margin(const BlockNumbers& c, double h) {
 struct Substep {
   double h = 0;
   Vec3 free_acceleration;
-  Motion start, free;   // free: at the end of the substep without contact
-  Mat3 R;               // free attitude, body to local axes
-  Vec3 spin_free;       // body axes
+  Motion start, free;  // free: at the end of the substep without contact
+  Mat3 R;              // free attitude, body to local axes
+  Vec3 spin_free;      // body axes
 };
 
 Vec3 load_torque(const Scene& scene, int b, const Quat& attitude) {
@@ -115,6 +123,25 @@ void inherit(const ContactMemory& memory, int index, const Substep& s, double to
   row.shear = tangent_length > 0 ? Vec3(tangent * (length / tangent_length)) : Vec3(Vec3::Zero());
 }
 
+// How fast the contact would close without contact forces: at the start of the substep, or on the
+// mean over it where the spin turns the point round.
+double approach(const ContactRow& row, const Substep& s) {
+  return std::min(row.speed_start, row.normal.dot(s.R.transpose() * row.free_move) / s.h);
+}
+
+// Gap of a vertex to the ground below it when the substep begins. A vertex may stand behind the
+// plane of the triangle that it will reach, a ridge away, and yet above the ground: it will hit on
+// its way.
+double clearance_at_start(const Scene& scene, const Contact& contact, const Substep& s) {
+  if (contact.key.mode != ContactMode::vertex_face) return -1;
+  const Trn& trn = scene.ground.trn;
+  const Vec3 x = place(s.start.pose, contact.point_a);
+  if (!contains(trn, x.x(), x.y())) return -1;
+  const TrianglePlane plane = triangle_plane(trn, triangle_at(trn, x.x(), x.y()));
+  const double gap = plane.normal.dot(x - plane.point);
+  return gap > 0 ? gap : -1;  // also where the ground is unknown
+}
+
 void set_law(const Scene& scene, const BlockNumbers& c, const Substep& s, ContactRow& row) {
   const double x = row.gap_start + row.offset;
   const Mobility W = mobility(c.mass, c.inertia, row.point, row.normal);
@@ -126,20 +153,18 @@ void set_law(const Scene& scene, const BlockNumbers& c, const Substep& s, Contac
   row.shear_velocity = row.shear / c.recovery_time;
   row.bias = x < 0 ? x / c.recovery_time : x / s.h;
   row.waits_for_impact =
-      row.memory < 0 && row.speed_start < -c.resting_speed && row.gap_start > c.touch;
+      row.memory < 0 && row.gap_start > c.touch && approach(row, s) < -c.resting_speed;
 }
 
 void make_rows(const Scene& scene, int b, const BlockNumbers& c, const Substep& s,
                const State& state, Work& work) {
   const Mat3 to_body = s.R.transpose();
   const Mat3 R_start = s.start.pose.attitude.toRotationMatrix();
-  const Vec3 spin_start =
-      (R_start.transpose() * s.start.angular_momentum).cwiseQuotient(c.inertia);
+  const Vec3 spin_start = (R_start.transpose() * s.start.angular_momentum).cwiseQuotient(c.inertia);
   work.rows.resize(work.contacts.size());
   for (size_t i = 0; i < work.contacts.size(); ++i) {
     const Contact& contact = work.contacts[i];
-    const GroundClass& ground =
-        scene.ground.classes[static_cast<size_t>(contact.ground_class)];
+    const GroundClass& ground = scene.ground.classes[static_cast<size_t>(contact.ground_class)];
     ContactRow& row = work.rows[i] = ContactRow{};
     row.contact = static_cast<int>(i);
     row.normal = to_body * contact.normal;
@@ -160,10 +185,19 @@ void make_rows(const Scene& scene, int b, const BlockNumbers& c, const Substep& 
   const std::vector<ContactMemory>& memory = state.memory[static_cast<size_t>(b)];
   for (size_t m = 0; m < memory.size(); ++m) {
     const int i = row_of(memory[m], work);
-    if (i >= 0) inherit(memory[m], static_cast<int>(m), s, c.touch, work.rows[static_cast<size_t>(i)]);
+    if (i < 0) continue;
+    ContactRow& row = work.rows[static_cast<size_t>(i)];
+    // a plane that the contact only now runs into is met by an impact, not inherited
+    if (row.gap_start > c.touch && approach(row, s) < -c.resting_speed) continue;
+    inherit(memory[m], static_cast<int>(m), s, c.touch, row);
   }
   for (ContactRow& row : work.rows) {
-    if (row.memory < 0) row.offset = std::max(0.0, -row.gap_start);
+    if (row.memory < 0) {
+      const Contact& contact = work.contacts[static_cast<size_t>(row.contact)];
+      if (row.gap_start <= c.touch && contact.gap < -c.touch && approach(row, s) < -c.resting_speed)
+        row.gap_start = std::max(row.gap_start, clearance_at_start(scene, contact, s));
+      row.offset = std::max(0.0, -row.gap_start);
+    }
     set_law(scene, c, s, row);
     const GroundClass& ground = scene.ground.classes[static_cast<size_t>(
         work.contacts[static_cast<size_t>(row.contact)].ground_class)];
@@ -172,8 +206,8 @@ void make_rows(const Scene& scene, int b, const BlockNumbers& c, const Substep& 
   }
 }
 
-// Residual at which the contact forces count as found, as a velocity: 1e-8 of what gravity does in the
-// substep, or what the rounding of the coordinates makes of the stiffest contact.
+// Residual at which the contact forces count as found, as a velocity: 1e-8 of what gravity does in
+// the substep, or what the rounding of the coordinates makes of the stiffest contact.
 double newton_tolerance(const BlockNumbers& c, const Substep& s) {
   const double rounding = std::numeric_limits<double>::epsilon() *
                           s.start.pose.position.cwiseAbs().maxCoeff() * c.stiffness * s.h / c.mass;
@@ -246,7 +280,8 @@ Solved<Dof> solved_motion(const BlockNumbers& c, const Substep& s, const BlockSy
   out.end.velocity += dv;
   out.end.pose.position += s.h / 2 * dv;
   out.end.pose.attitude = (rotation_by(s.h / 2 * dw) * s.free.pose.attitude).normalized();
-  out.end.angular_momentum += s.R * out.change.template segment<3>(3).cwiseProduct(c.inertia).eval();
+  out.end.angular_momentum +=
+      s.R * out.change.template segment<3>(3).cwiseProduct(c.inertia).eval();
   return out;
 }
 
@@ -293,12 +328,12 @@ void remember(const BlockNumbers& c, const Substep& s, const Solved<Dof>& solved
     const bool slips = row.state == ContactState::slip;
     memory.bond_area = row.bond_area;
     const double k_t = row.shear_damping / (c.recovery_time * s.h);
-    const Vec3 shear = slips ? Vec3(p_t / (-s.h * k_t)) : Vec3(row.shear + moved - along * row.normal);
+    const Vec3 shear =
+        slips ? Vec3(p_t / (-s.h * k_t)) : Vec3(row.shear + moved - along * row.normal);
     memory.shear = s.R * shear;
     work.memory_next.push_back(memory);
     ++report.n_closed;
-    report.largest_penetration =
-        std::max(report.largest_penetration, -(row.gap_start + along));
+    report.largest_penetration = std::max(report.largest_penetration, -(row.gap_start + along));
   }
   std::swap(state.memory[static_cast<size_t>(b)], work.memory_next);
 }
@@ -324,8 +359,8 @@ void stop_outside(const Scene& scene, int b, State& state, StepReport& report) {
   const auto i = static_cast<size_t>(b);
   Motion& m = state.motion[i];
   const Vec3 spin = angular_velocity(m.pose.attitude, m.angular_momentum, scene.blocks.inertia[i]);
-  state.ledger.removed += 0.5 * scene.blocks.mass[i] * m.velocity.squaredNorm() +
-                          0.5 * spin.dot(m.angular_momentum);
+  state.ledger.removed +=
+      0.5 * scene.blocks.mass[i] * m.velocity.squaredNorm() + 0.5 * spin.dot(m.angular_momentum);
   m.velocity.setZero();
   m.angular_momentum.setZero();
   state.phase[i] = Phase::left_domain;
@@ -339,7 +374,8 @@ void set_rates(const Scene& scene, int b, const Motion& start, const Motion& end
   const auto i = static_cast<size_t>(b);
   const Vec3& inertia = scene.blocks.inertia[i];
   state.acceleration[i] = (end.velocity - start.velocity) / h;
-  const Vec3 before = (start.pose.attitude.conjugate() * start.angular_momentum).cwiseQuotient(inertia);
+  const Vec3 before =
+      (start.pose.attitude.conjugate() * start.angular_momentum).cwiseQuotient(inertia);
   const Vec3 after = (end.pose.attitude.conjugate() * end.angular_momentum).cwiseQuotient(inertia);
   state.spin_rate[i] = (after - before) / h;
 }
@@ -368,8 +404,7 @@ struct Advance {
     set_rates(scene, b, s.start, end, s.h, state);
     const Vec3 external = s.free_acceleration - scene.gravity;
     if (!external.isZero(0))
-      state.ledger.base +=
-          c.mass * external.dot(end.pose.position - s.start.pose.position);
+      state.ledger.base += c.mass * external.dot(end.pose.position - s.start.pose.position);
     motion() = end;
     state.local_time[i()] = t_next;
     report.shortest_dt = report.shortest_dt > 0 ? std::min(report.shortest_dt, s.h) : s.h;
@@ -377,8 +412,7 @@ struct Advance {
   }
 
   void impact() {
-    const ImpactResult hit =
-        apply_impact(scene, b, 2 * c.touch, c.resting_speed, motion(), work);
+    const ImpactResult hit = apply_impact(scene, b, 2 * c.touch, c.resting_speed, motion(), work);
     if (!hit.hit) return;
     state.ledger.impact += hit.dissipated;
     ++report.n_impacts;
@@ -393,14 +427,13 @@ struct Advance {
   Attempt attempt(double t, double& h, bool last) {
     const Substep s = predict(scene, b, c, motion(), t, h);
     const Mat3 stretch = stretch_of(state, b);
-    const SearchResult near = find_contacts(scene.ground, scene.blocks.shapes, b, s.free.pose,
-                                            stretch, search_margin(c, h), work.world_vertices,
-                                            work.contacts);
+    const SearchResult near =
+        find_contacts(scene.ground, scene.blocks.shapes, b, s.free.pose, stretch,
+                      search_margin(c, h), work.world_vertices, work.contacts);
     if (near.reach == Reach::off_ground) return Attempt::left;
-    if (near.reach == Reach::below && !left_ground(scene, s.free.pose.position))
-      report.flags = report.flags | StepFlag::fell_through;
     if (work.contacts.empty()) {
-      if (near.reach == Reach::above && free_fall_only() && begin_flight(t, h)) return Attempt::flight;
+      if (near.reach == Reach::above && free_fall_only() && begin_flight(t, h))
+        return Attempt::flight;
       state.memory[i()].clear();
       relax_strain(h);
       finish(s, s.free, t, t + h);
@@ -431,6 +464,7 @@ struct Advance {
       h = hit;
       return Attempt::shorter;
     }
+    if (near.reach == Reach::below) report.flags = report.flags | StepFlag::fell_through;
     remember(c, s, solved, state, work, b, report);
     if constexpr (Dof == 12) {
       state.strain[i()] += h / 2 * (state.strain_rate[i()] + system.velocity.template tail<6>());
@@ -440,14 +474,15 @@ struct Advance {
     return hit <= s.h ? Attempt::impact : Attempt::done;
   }
 
-  // A bond that opened is gone; bonds that slip are gone when no other holds the block any more, so that
-  // a face fails at the sum of its strengths. The substep is then computed again without them.
+  // A bond that opened is gone; bonds that slip are gone when no other holds the block any more, so
+  // that a face fails at the sum of its strengths. The substep is then computed again without them.
   bool break_bonds() {
     bool holds = false, broken = false;
     for (const ContactRow& row : work.rows)
       holds |= row.bond_area > 0 && row.state == ContactState::stick;
     for (const ContactRow& row : work.rows) {
-      const bool fails = row.state == ContactState::open || (row.state == ContactState::slip && !holds);
+      const bool fails =
+          row.state == ContactState::open || (row.state == ContactState::slip && !holds);
       if (row.bond_area == 0 || !fails) continue;
       state.memory[i()][static_cast<size_t>(row.memory)].bond_area = 0;
       broken = true;
@@ -463,7 +498,8 @@ struct Advance {
   }
 
   bool begin_flight(double t, double h) {
-    constexpr double longest = 1e3;
+    constexpr double longest_turn = 60;  // [rad]: bounds what motion_at() costs
+    const double longest = std::min(1e3, longest_turn / (spin_speed() + 1e-300));
     const double safe = free_time(scene.ground, c.radius, motion().pose.position, motion().velocity,
                                   scene.gravity, longest);
     if (!(safe > 2 * h)) return false;
@@ -488,11 +524,16 @@ struct Advance {
     return true;
   }
 
-  // Near the ground a substep moves no point farther than half a cell and turns the block by at most
-  // half a radian; a needle that rolls at more than 100 radians a step is not followed any closer.
+  double spin_speed() {
+    const Vec3 body = motion().pose.attitude.conjugate() * motion().angular_momentum;
+    return body.cwiseQuotient(c.inertia).norm();
+  }
+
+  // Near the ground a substep moves no point farther than half a cell and turns the block by at
+  // most half a radian; a needle that rolls at more than 100 radians a step is not followed any
+  // closer.
   double longest_substep() {
-    const Vec3 body = (motion().pose.attitude.conjugate() * motion().angular_momentum);
-    const double spin = body.cwiseQuotient(c.inertia).norm();
+    const double spin = spin_speed();
     const double speed = motion().velocity.norm() + spin * c.radius;
     const double turn = std::max(0.5 / (spin + 1e-300), scene.settings.dt / 200);
     return std::min(0.5 * scene.ground.trn.cell_size / (speed + 1e-300), turn);
@@ -522,9 +563,9 @@ struct Advance {
   }
 };
 
-// Bonds of the faces that lie on the ground with all their corners when the run begins: each corner holds
-// its share of the face's area (theory 1.7). Only where the ground has cohesion or tensile strength.
-// `work.contacts` are those that touch.
+// Bonds of the faces that lie on the ground with all their corners when the run begins: each corner
+// holds its share of the face's area (theory 1.7). Only where the ground has cohesion or tensile
+// strength. `work.contacts` are those that touch.
 void bond_faces(const Scene& scene, int b, const Pose& pose, const Work& work,
                 std::vector<ContactMemory>& memory) {
   constexpr double parallel = 1 - 1e-6;
@@ -573,8 +614,8 @@ bool touches_at_rest(const Scene& scene, int b, const Motion& motion, Work& work
          });
 }
 
-// Static iteration: steps from rest, each ending at rest, until the block moves no more. friction < 0:
-// that of the ground. False when it keeps moving or the forces do not converge.
+// Static iteration: steps from rest, each ending at rest, until the block moves no more. friction <
+// 0: that of the ground. False when it keeps moving or the forces do not converge.
 bool settle(const Scene& scene, int b, double friction, bool from_touch, State& state, Work& work) {
   BlockNumbers c = numbers_of(scene, b);
   const double h = scene.settings.dt;

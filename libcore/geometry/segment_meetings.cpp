@@ -119,12 +119,12 @@ class MeetingFinder {
   [[nodiscard]] bool boxes_apart(int s, int t) const {
     const auto [a, b] = segments_[static_cast<std::size_t>(s)];
     const auto [c, d] = segments_[static_cast<std::size_t>(t)];
-    const auto apart = [&](Eigen::Index axis) {
+    for (const Eigen::Index axis : {0, 1}) {
       const auto [s_low, s_high] = std::minmax(at(a)[axis], at(b)[axis]);
       const auto [t_low, t_high] = std::minmax(at(c)[axis], at(d)[axis]);
-      return s_high < t_low || t_high < s_low;
-    };
-    return apart(0) || apart(1);
+      if (s_high < t_low || t_high < s_low) return true;
+    }
+    return false;
   }
 
   // Segments with a common end meet elsewhere only where they lie on one line.

@@ -1,5 +1,6 @@
-// Law paper on the paper's four benchmarks: what the printed method gives, bounded loosely, since its
-// errors are its own (docs/verification.md reports them). What it must do exactly is asserted tightly.
+// Law paper on the paper's four benchmarks: what the printed method gives, bounded loosely, since
+// its errors are its own (docs/verification.md reports them). What it must do exactly is asserted
+// tightly.
 #include <gtest/gtest.h>
 
 #include "dda/closed_form.hpp"
@@ -27,7 +28,8 @@ TEST(LawPaper, SlidesNearTheClosedForm) {  // Fig. 10
   EXPECT_LT(sliding(law_paper(1e-4, 5e10), 0, 37, 1).error, 1e-6);
   for (const double friction : {5.0, 10.0, 15.0, 20.0})
     EXPECT_LT(sliding(law_paper(1e-4, 5e10), friction, 37, 1).error, 5e-3) << friction;
-  EXPECT_LT(sliding(law_paper(1e-4, 5e10), 35, 37, 1).error, 5e-3);  // creep [m]: it does not quite stick
+  EXPECT_LT(sliding(law_paper(1e-4, 5e10), 35, 37, 1).error,
+            5e-3);  // creep [m]: it does not quite stick
 }
 
 TEST(LawPaper, PrismStartsToRollNearTheCriticalAngle) {  // Fig. 11, (27)
@@ -39,8 +41,8 @@ TEST(LawPaper, PostAdjustmentGivesTheRestitutionOfOneBounce) {  // Fig. 12a, (28
     EXPECT_LT(bounce(law_paper(1e-4, 5e10), restitution, Landing::face).error, 5e-3) << restitution;
 }
 
-// Fig. 12b: elastic block, no post-adjustment. Restitution grows with E and tends to 1 when both E and
-// k_n grow, each step of the integrator being short against the hit.
+// Fig. 12b: elastic block, no post-adjustment. Restitution grows with E and tends to 1 when both E
+// and k_n grow, each step of the integrator being short against the hit.
 TEST(LawPaper, ElasticRestitutionTendsToOne) {
   double last = 0;
   for (const double young : {1e8, 1e9, 1e10, 1e11, 1e12}) {

@@ -14,7 +14,7 @@ double degrees(double radians) { return radians * 180 / std::numbers::pi; }
 
 // Independent reference: Euler's equations and the attitude by the classic Runge-Kutta method.
 struct EulerState {
-  Vec3 omega;  // body axes
+  Vec3 omega;         // body axes
   Eigen::Vector4d q;  // w x y z
 };
 EulerState rate(const EulerState& s, const Vec3& I) {
@@ -108,7 +108,8 @@ TEST(RotationBy, IsARotationForAnyAngle) {
     const Vec3 axis = Vec3(1, -2, 0.5).normalized();
     const Quat q = talus::rotation_by(angle * axis);
     EXPECT_NEAR(q.norm(), 1, 1e-15);
-    EXPECT_LT((q.toRotationMatrix() - Eigen::AngleAxisd(angle, axis).toRotationMatrix()).norm(), 1e-14);
+    EXPECT_LT((q.toRotationMatrix() - Eigen::AngleAxisd(angle, axis).toRotationMatrix()).norm(),
+              1e-14);
   }
 }
 

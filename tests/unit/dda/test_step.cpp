@@ -1,0 +1,302 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <new>
+#include <numbers>
+
+#include "base/random.hpp"
+#include "contact/search.hpp"
+#include "dda/cases.hpp"
+#include "dda/flight.hpp"
+#include "dda/rotation.hpp"
+#include "dda/step.hpp"
+
+namespace {
+
+long n_allocations = 0;
+
+}  // namespace
+
+// Counts what the C++ library asks for; not inlined, or the compiler sees malloc meet delete.
+__attribute__((noinline)) void* operator new(std::size_t size) {
+  ++n_allocations;
+  if (void* p = std::malloc(size)) return p;
+  throw std::bad_alloc();
+}
+__attribute__((noinline)) void operator delete(void* p) noexcept { std::free(p); }
+__attribute__((noinline)) void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+
+namespace {
+
+using namespace talus;
+using namespace talus::cases;
+
+constexpr double degree = std::numbers::pi / 180;
+
+Body body_of(Polyhedron shape, const Vec3& velocity = Vec3::Zero(),
+             const Vec3& spin = Vec3::Zero()) {
+  Body body;
+  body.parts = {std::move(shape)};
+  body.velocity = velocity;
+  body.spin = spin;
+  return body;
+}
+
+double bumps(double x, double y) {
+  return 2 * std::sin(0.35 * x) * std::cos(0.27 * y) +
+         0.3 * std::sin(1.7 * x + 0.4) * std::sin(1.3 * y) - 0.4 * x;
+}
+
+// A tumbling block on rough ground.
+Scene rough_scene(const Settings& settings) {
+  GroundClass ground;
+  ground.friction = 0.5;
+  ground.restitution = 0.4;
+  Polyhedron shape = box(Vec3(-0.8, -0.5, -0.3), Vec3(0.8, 0.5, 0.3));
+  shape = moved(shape, Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix(),
+                Vec3::Zero(), Vec3(-40, 3, bumps(-40, 3) + 6));
+  return scene_of(make_trn(bumps, 1, 80), ground, {body_of(shape, Vec3(4, 1, 0), Vec3(1, 2, 0.5))},
+                  settings);
+}
+
+TEST(Step, DoesNotAllocate) {
+  for (const bool strains : {false, true}) {
+    Settings settings;
+    settings.strains = strains;
+    const Scene scene = rough_scene(settings);
+    State state = start(scene);
+    Work work = make_work(scene);
+    const long before = n_allocations;
+    for (int i = 0; i < 2000; ++i) step(scene, state, work);
+    EXPECT_EQ(n_allocations, before);
+    EXPECT_GT(state.counters.impacts, 5);
+  }
+}
+
+TEST(Step, IsTheSameToTheBitWhenRepeated) {
+  const Scene scene = rough_scene({});
+  Motion last[2];
+  for (Motion& m : last) {
+    State state = start(scene);
+    Work work = make_work(scene);
+    for (int i = 0; i < 1500; ++i) {
+      step(scene, state, work);
+      if (&m == &last[0]) (void)motion_at(scene, state, 0, state.time);  // looking changes nothing
+    }
+    m = motion_at(scene, state, 0, state.time);
+  }
+  EXPECT_EQ(last[0].pose.position, last[1].pose.position);
+  EXPECT_EQ(last[0].pose.attitude.coeffs(), last[1].pose.attitude.coeffs());
+  EXPECT_EQ(last[0].velocity, last[1].velocity);
+}
+
+// Kinetic, potential and what friction, impacts and contacts took add up to what there was.
+TEST(Step, EnergyBalanceCloses) {
+  const Scene scene = rough_scene({});
+  State state = start(scene);
+  Work work = make_work(scene);
+  const auto total = [&] {
+    const Energies e = energies(scene, state);
+    const EnergyLedger& l = state.ledger;
+    return e.translation + e.rotation + e.potential + l.friction + l.impact + l.contact + l.removed;
+  };
+  const double before = total();
+  const Energies e = energies(scene, state);
+  for (int i = 0; i < 2000; ++i) step(scene, state, work);
+  EXPECT_GT(state.ledger.impact, 0.01 * (e.translation + e.rotation));
+  EXPECT_NEAR(total(), before, 1e-3 * (e.translation + e.rotation));
+}
+
+// The segments of a run follow one another without a gap, each a parabola, from start to now.
+TEST(Step, SegmentsAreParabolasEndToEnd) {
+  const Scene scene = rough_scene({});
+  State state = start(scene);
+  Work work = make_work(scene);
+  Vec3 position = state.motion[0].pose.position;
+  double time = 0;
+  bool flew = false;
+  for (int i = 0; i < 1000; ++i) {
+    step(scene, state, work);
+    for (const Segment& s : work.segments) {
+      EXPECT_NEAR(s.t_start, time, 1e-9);
+      EXPECT_LT((s.start.pose.position - position).norm(), 1e-12);
+      const double h = s.t_end - s.t_start;
+      const Vec3 end = s.start.pose.position + h * (s.start.velocity + h / 2 * s.acceleration);
+      EXPECT_LT((end - s.end.pose.position).norm(), 1e-9);
+      position = s.end.pose.position;
+      time = s.t_end;
+      flew |= s.flight;
+    }
+  }
+  EXPECT_TRUE(flew);
+  EXPECT_NEAR(state.phase[0] == Phase::flight ? state.local_time[0] : state.time, time, 1e-9);
+}
+
+// In between, a free body keeps its angular momentum to the bit and its parabola to rounding.
+TEST(Step, FlightAndStepwiseMotionAgree) {
+  Settings stepwise;
+  stepwise.flight = false;
+  const Scene a = rough_scene({}), b = rough_scene(stepwise);
+  State sa = start(a), sb = start(b);
+  Work wa = make_work(a), wb = make_work(b);
+  for (int i = 0; i < 60; ++i) step(a, sa, wa), step(b, sb, wb);  // before the first hit
+  const Motion ma = motion_at(a, sa, 0, sa.time), mb = motion_at(b, sb, 0, sb.time);
+  EXPECT_EQ(sa.counters.impacts, 0);
+  EXPECT_LT((ma.pose.position - mb.pose.position).norm(), 1e-12);
+  EXPECT_LT(ma.pose.attitude.angularDistance(mb.pose.attitude), 1e-6);
+  EXPECT_EQ(ma.angular_momentum, mb.angular_momentum);
+}
+
+TEST(FreeTime, NothingIsBelowTheBallBeforeIt) {
+  const Ground ground = make_ground(make_trn(bumps, 1, 60), {});
+  Random random(5, "free time");
+  int flights = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    const double x = random.uniform(-40, 40), y = random.uniform(-40, 40), radius = 0.5;
+    const Vec3 from(x, y, bumps(x, y) + random.uniform(1, 20));
+    const Vec3 v(random.uniform(-15, 15), random.uniform(-15, 15), random.uniform(-10, 10));
+    const Vec3 a(0, 0, -10);
+    const double T = free_time(ground, radius, from, v, a, 100);
+    flights += T > 0;
+    for (int k = 0; k <= 100; ++k) {
+      const double t = T * k / 100;
+      const Vec3 at = from + t * v + t * t / 2 * a;
+      for (int corner = 0; corner < 4; ++corner) {
+        const double px = at.x() + (corner & 1 ? radius : -radius) * 0.7;
+        const double py = at.y() + (corner & 2 ? radius : -radius) * 0.7;
+        if (!contains(ground.trn, px, py)) continue;
+        EXPECT_GT(at.z() - radius, elevation_at(ground.trn, px, py) - 1e-9);
+      }
+    }
+  }
+  EXPECT_GT(flights, 100);
+}
+
+double weight_carried(const State& state) {
+  double N = 0;
+  for (const ContactMemory& memory : state.memory[0]) N += memory.normal_force * memory.normal.z();
+  return N;
+}
+
+// Mode 3: a beam across two ridges rests on them by its edges alone.
+TEST(Step, BeamRestsOnRidgesByItsEdges) {
+  const auto ridges = [](double x, double) { return -0.5 * std::abs(std::abs(x) - 1); };
+  const Body beam = body_of(box(Vec3(-1.8, -0.3, 0), Vec3(1.9, 0.35, 0.4)));
+  GroundClass ground;
+  ground.friction = 0.5;
+  Settings settings;
+  settings.sleep = false;
+  const Scene scene = scene_of(make_trn(ridges, 0.5, 6), ground, {beam}, settings);
+  State state = start(scene);
+  Work work = make_work(scene);
+  const Vec3 from = state.motion[0].pose.position;
+  for (int i = 0; i < 1000; ++i) step(scene, state, work);
+  EXPECT_LT((state.motion[0].pose.position - from).norm(), 1e-6);
+  EXPECT_NEAR(weight_carried(state) / (scene.blocks.mass[0] * 10), 1, 1e-6);
+  for (const ContactMemory& memory : state.memory[0])
+    EXPECT_EQ(memory.key.mode, ContactMode::edge_edge);
+}
+
+// Mode 2: a plate on four peaks rests on them by its face alone.
+TEST(Step, PlateRestsOnPeaksByItsFace) {
+  const auto peaks = [](double x, double y) {
+    return -0.6 * std::max(std::abs(std::abs(x) - 1), std::abs(std::abs(y) - 1));
+  };
+  const Body plate = body_of(box(Vec3(-1.7, -1.6, 0), Vec3(1.6, 1.7, 0.2)));
+  GroundClass ground;
+  ground.friction = 0.5;
+  Settings settings;
+  settings.sleep = false;
+  const Scene scene = scene_of(make_trn(peaks, 0.5, 6), ground, {plate}, settings);
+  State state = start(scene);
+  Work work = make_work(scene);
+  const Vec3 from = state.motion[0].pose.position;
+  for (int i = 0; i < 1000; ++i) step(scene, state, work);
+  EXPECT_LT((state.motion[0].pose.position - from).norm(), 1e-6);
+  EXPECT_NEAR(weight_carried(state) / (scene.blocks.mass[0] * 10), 1, 1e-6);
+  for (const ContactMemory& memory : state.memory[0])
+    EXPECT_EQ(memory.key.mode, ContactMode::face_vertex);
+}
+
+TEST(Step, BlockThatLeavesIsStoppedAndCounted) {
+  const SlopeFrame frame = slope_frame(30, 0);
+  const Body cube = body_of(box_in(frame, Vec3::Zero(), Vec3(-0.5, -0.5, 0), Vec3(0.5, 0.5, 1)));
+  const Scene scene = scene_of(plane_trn(frame, 1, 10), {}, {cube}, {});
+  State state = start(scene);
+  Work work = make_work(scene);
+  StepFlag flags = StepFlag::none;
+  for (int i = 0; i < 2000; ++i) flags = flags | step(scene, state, work).flags;
+  EXPECT_TRUE(has(flags, StepFlag::left_domain));
+  EXPECT_FALSE(has(flags, StepFlag::fell_through));
+  EXPECT_EQ(state.counters.left_domain, 1);
+  EXPECT_EQ(state.phase[0], Phase::left_domain);
+  EXPECT_GT(state.ledger.removed, 0);
+}
+
+// Bonded face on a slope: fails where rho g h sin(th) = tan(phi) rho g h cos(th) + c.
+TEST(Step, BondHoldsToItsStrengthAndBreaksForGood) {
+  const double friction = std::tan(20 * degree), cohesion = 0.3 * 2500 * 10;
+  const auto slides = [&](double dip) {
+    const SlopeFrame frame = slope_frame(dip, 20);
+    GroundClass ground;
+    ground.friction = friction;
+    ground.cohesion = ground.tension = cohesion;
+    const Body cube = body_of(box_in(frame, Vec3::Zero(), Vec3(-0.5, -0.5, 0), Vec3(0.5, 0.5, 1)));
+    const Scene scene = scene_of(plane_trn(frame, 0.5, 10), ground, {cube}, {});
+    State state = start(scene);
+    Work work = make_work(scene);
+    for (int i = 0; i < 200; ++i) step(scene, state, work);
+    // once broken, it slides by friction alone
+    const double a = 10 * (std::sin(dip * degree) - friction * std::cos(dip * degree));
+    const double speed = state.motion[0].velocity.dot(frame.dip);
+    const bool slid = speed > 1e-3;
+    if (slid) {
+      EXPECT_NEAR(speed / (a * state.time), 1, 1e-2);
+    }
+    return slid;
+  };
+  double low = 30, high = 40;  // sin(th) - tan(20) cos(th) = 0.3
+  for (int i = 0; i < 60; ++i) {
+    const double th = (low + high) / 2;
+    (std::sin(th * degree) - friction * std::cos(th * degree) > 0.3 ? high : low) = th;
+  }
+  EXPECT_FALSE(slides(low - 0.05));
+  EXPECT_TRUE(slides(low + 0.05));
+}
+
+TEST(Step, SleepingBlockStaysWhereItWouldStayAwake) {
+  const SlopeFrame frame = slope_frame(20, 20);
+  GroundClass ground;
+  ground.friction = std::tan(35 * degree);
+  const Body cube = body_of(box_in(frame, Vec3::Zero(), Vec3(-0.5, -0.5, 0), Vec3(0.5, 0.5, 1)));
+  Vec3 end[2];
+  for (const bool sleep : {false, true}) {
+    Settings settings;
+    settings.sleep = sleep;
+    const Scene scene = scene_of(plane_trn(frame, 0.5, 10), ground, {cube}, settings);
+    State state = start(scene);
+    Work work = make_work(scene);
+    for (int i = 0; i < 400; ++i) step(scene, state, work);
+    EXPECT_EQ(state.phase[0] == Phase::asleep, sleep);
+    end[sleep] = state.motion[0].pose.position;
+  }
+  EXPECT_LT((end[0] - end[1]).norm(), 1e-12);
+}
+
+// A push on the centroid equal to the weight on a frictionless plane: a = F / m.
+TEST(Step, PointLoadPushesAndTurns) {
+  const SlopeFrame flat = slope_frame(0, 0);
+  const Body cube = body_of(box_in(flat, Vec3::Zero(), Vec3(-0.5, -0.5, 0), Vec3(0.5, 0.5, 0.1)));
+  Scene scene = scene_of(plane_trn(flat, 0.5, 10), {}, {cube}, {});
+  const double mass = scene.blocks.mass[0];
+  scene.loads = {{0, Vec3(0.5, 0, 0), Vec3(0, mass, 0)}};
+  State state = start(scene);
+  Work work = make_work(scene);
+  for (int i = 0; i < 20; ++i) step(scene, state, work);
+  EXPECT_NEAR(state.motion[0].velocity.y(), state.time, 1e-6);
+  const double torque = 0.5 * mass;  // about z, while the block has hardly turned
+  EXPECT_NEAR(state.motion[0].angular_momentum.z() / (torque * state.time), 1, 1e-2);
+}
+
+}  // namespace
