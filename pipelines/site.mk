@@ -11,15 +11,17 @@ BIN ?= $(PIPELINES)../build/release/tools/
 .DELETE_ON_ERROR:
 .SUFFIXES:
 
-.PHONY: all terrain clean help
-all: terrain
+.PHONY: all terrain blocks clean help
+all: blocks
 terrain: $(OUT)/trn.tif ## contours -> TIN -> TRN
+blocks: $(OUT)/blocks.h5 ## source and joints -> blocks and their bed
 
 $(OUT):
 	mkdir -p $@
 
 include $(PIPELINES)tin.mk
 include $(PIPELINES)trn.mk
+include $(PIPELINES)blocks.mk
 
 # Sites whose data are not in the repository keep a list of what they need, with checksums.
 ifneq ($(wildcard manifest.sha256),)

@@ -59,12 +59,6 @@ std::string file_text(const std::string& path) {
   return content.str();
 }
 
-void write_text(const std::string& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  if (!file.flush()) throw InputError({path}, "cannot be written", "is the disk full?");
-}
-
 // What the run works on, filled step by step.
 struct Work {
   Site site;
@@ -216,7 +210,7 @@ void cut(Tool& tool, const Options& o, Work& work) {
   find_mass(tool, work);
   plan_joints(tool, work);
   draw_all_joints(work);
-  work.limits = plan_limits(work.site, work.sets);
+  work.limits = plan_limits(work.site, work.sets, work.mass.volume);
   work.limits.exact = o.exact;
   for (const PlannedSet& planned : work.sets)
     work.blocks.joint_set_names.push_back(planned.set.name);
@@ -320,6 +314,7 @@ Json shapes_json(const BlockSet& set) {
 Json cut_json(const Options& o, const Work& work) {
   const AssembleReport& cut = work.cut;
   return {{"exact", o.exact},
+          {"failure_surface", work.site.source.failure_surface},
           {"prism_volume_m3", work.mass.volume},
           {"polygon_area_m2", work.mass.polygon_area},
           {"mean_depth_m", work.mass.mean_depth},
@@ -419,10 +414,9 @@ void write_pictures(Tool& tool, const Options& o, const Work& work) {
       sets.push_back({work.sets[s].set.name,
                       pole(work.sets[s].set.dip, work.sets[s].set.dip_direction),
                       poles_of(work, s)});
-    write_text(tool.stage(o.stereonet), stereonet_svg(sets, slope_normal(work)));
+    tool.write_text(o.stereonet, stereonet_svg(sets, slope_normal(work)));
   }
-  if (!o.size_curve.empty())
-    write_text(tool.stage(o.size_curve), size_curve_svg(work.blocks.volume));
+  if (!o.size_curve.empty()) tool.write_text(o.size_curve, size_curve_svg(work.blocks.volume));
 }
 
 void write_objs(Tool& tool, const Options& o, const BlockSet& set) {
@@ -430,8 +424,8 @@ void write_objs(Tool& tool, const Options& o, const BlockSet& set) {
     std::string number = std::to_string(b);
     number.insert(0, 6 - std::min<size_t>(6, number.size()), '0');
     const std::string name = "block_" + number;
-    write_text(tool.stage(o.obj_folder + "/" + name + ".obj"),
-               obj_text(block_shell(set, b), name, set.origin));
+    tool.write_text(o.obj_folder + "/" + name + ".obj",
+                    obj_text(block_shell(set, b), name, set.origin));
   }
 }
 
@@ -448,7 +442,7 @@ void write_all(Tool& tool, const Options& o, const Work& work, const Json& repor
   }
   write_pictures(tool, o, work);
   if (!o.obj_folder.empty()) write_objs(tool, o, work.blocks);
-  if (!o.report.empty()) write_text(tool.stage(o.report), report.dump(2) + "\n");
+  if (!o.report.empty()) tool.write_text(o.report, report.dump(2) + "\n");
 }
 
 std::string hash_of(const Options& o, const Work& work) {

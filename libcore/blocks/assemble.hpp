@@ -20,7 +20,8 @@ struct AssembleOptions {
   double max_aspect = 0;          ///< or a larger ratio of largest to smallest extent; 0 = no limit
   double max_convex_loss = 0.05;  ///< blocks that would lose a larger share become several convex
                                   ///< parts, or stay exact when four do not help either
-  double shortest_edge = 1e-3;    ///< of convex parts, as a share of the cube root of their volume
+  double min_edge = -1;  ///< shorter edges of convex parts are removed [m]; < 0: 1e-3 of the cube
+                         ///< root of the block's volume
   int material = 0;
 };
 
@@ -32,12 +33,12 @@ struct AssembleReport {
   double merged_volume = 0;
   int n_dropped = 0;  ///< slivers without a neighbour, left out
   double dropped_volume = 0;
-  int n_rings_parted = 0;            ///< ring-shaped blocks cut open, so that each is like a ball
-  int n_divided = 0;       ///< blocks made of two to four convex parts for the same reason
-  int n_kept_exact = 0;              ///< blocks that would have lost too much by being made convex
-  double cut_volume = 0;             ///< of all cells [m3]
-  double block_volume = 0;           ///< of all blocks [m3]
-  double gained = 0, lost = 0;       ///< by being made convex, summed over the blocks [m3]
+  int n_rings_parted = 0;       ///< ring-shaped blocks cut open, so that each is like a ball
+  int n_divided = 0;            ///< blocks made of two to four convex parts for the same reason
+  int n_kept_exact = 0;         ///< blocks that would have lost too much by being made convex
+  double cut_volume = 0;        ///< of all cells [m3]
+  double block_volume = 0;      ///< of all blocks [m3]
+  double gained = 0, lost = 0;  ///< by being made convex, summed over the blocks [m3]
   std::vector<double> exact_volume;  ///< of each block as cut (n_blocks) [m3]
 };
 
@@ -46,8 +47,5 @@ struct AssembleReport {
                                              const std::vector<Joint>& joints, const Trn& bed,
                                              const AssembleOptions& options, BlockSet& set,
                                              const ProgressFunction& progress = {});
-
-/// Extents of the box with the same second moments, largest first [m].
-[[nodiscard]] Vec3 extents(const Moments& moments);
 
 }  // namespace talus

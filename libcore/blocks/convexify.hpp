@@ -21,7 +21,7 @@ struct ConvexTask {
 struct ConvexOptions {
   double max_loss = 0.05;     ///< share of the volume
   double tolerance_m = 1e-9;  ///< of lying on a plane
-  double shortest_edge = 0;   ///< edges below this share of the cube root of the volume are removed
+  double min_edge = 0;        ///< shorter edges are removed [m]
 };
 
 /// The convex block; without faces when nothing of it is left. Its volume is that of the task where
@@ -36,7 +36,8 @@ struct ConvexOptions {
                                                         const ConvexOptions& options);
 
 /// A convex body inside `body` without edges shorter than `shortest` [m]: of vertices that near one
-/// stays. `body` itself when it has no such edge, or would lose more than 1 % of its volume.
-[[nodiscard]] Polyhedron without_short_edges(const Polyhedron& body, double shortest);
+/// stays. `body` itself when it has no such edge, or would lose more than `max_loss` of its volume.
+[[nodiscard]] Polyhedron without_short_edges(const Polyhedron& body, double shortest,
+                                             double max_loss);
 
 }  // namespace talus

@@ -204,11 +204,14 @@ class Cutter {
   // Faces of the piece that lie on the joint become the joint's; two columns do not hang together
   // through them any more.
   void mark_faces_on(const Piece& piece, int j) {
-    if (!touches(piece, j)) return;
-    for (auto it = lcc_.one_dart_per_incident_cell<2, 3, 2>(piece.dart).begin(),
-              end = lcc_.one_dart_per_incident_cell<2, 3, 2>(piece.dart).end();
-         it != end; ++it)
-      if (lcc_.info<2>(it) == cut_wall && is_on(it, j)) lcc_.info<2>(it) = j;
+    for_each_wall_on(piece, j, [&](Dart face) { lcc_.info<2>(face) = j; });
+  }
+
+  // Whether rock on the other side of joint j hangs on to the piece through a wall on the joint.
+  bool has_wall_on(const Piece& piece, int j) {
+    bool found = false;
+    for_each_wall_on(piece, j, [&](Dart) { found = true; });
+    return found;
   }
 
   // Whether the discs of joint j cover its section through the piece.
@@ -275,7 +278,15 @@ class Cutter {
     if (inside && outside) return 2;
     return inside ? -1 : outside ? 1 : 0;
   }
-  bool is_on(Dart face, int j) { return face_side(face, j) == 0; }
+
+  template <class Visit>
+  void for_each_wall_on(const Piece& piece, int j, Visit visit) {
+    if (!touches(piece, j)) return;
+    for (auto it = lcc_.one_dart_per_incident_cell<2, 3, 2>(piece.dart).begin(),
+              end = lcc_.one_dart_per_incident_cell<2, 3, 2>(piece.dart).end();
+         it != end; ++it)
+      if (lcc_.info<2>(it) == cut_wall && face_side(it, j) == 0) visit(it);
+  }
 
   bool touches(const Piece& piece, int j) const {
     const Plane& plane = joints_[j].plane;
@@ -445,7 +456,8 @@ class CellTree {
       const int sides = cutter_.sides_of(piece, j);
       inside |= (sides & 1) != 0;
       outside |= (sides & 2) != 0;
-      if (sides == 3 && !cutter_.is_covered(piece, j)) return false;
+      const bool is_crossed = sides == 3 || cutter_.has_wall_on(piece, j);
+      if (is_crossed && !cutter_.is_covered(piece, j)) return false;
     }
     return inside && outside;
   }

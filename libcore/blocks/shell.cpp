@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
 
 #include "blocks/solid.hpp"
 
@@ -253,6 +254,16 @@ void find_planes(Group& group) {
     group.planes.push_back(plane_through(face_centroid(group.body, f), face_normal(group.body, f)));
 }
 
+// Plane of a half-face; nothing when it has no area.
+std::optional<Plane> plane_of_face(const CellComplex& c, int f) {
+  Vec3 area = Vec3::Zero();
+  const Vec3& o = c.vertices[c.dart_vertex[c.face_dart[f]]];
+  for (int d = c.dart_next[c.face_dart[f]]; d != c.face_dart[f]; d = c.dart_next[d])
+    area += (c.vertices[c.dart_vertex[d]] - o).cross(c.vertices[c.dart_vertex[c.dart_next[d]]] - o);
+  if (!(area.norm() > 0)) return std::nullopt;
+  return plane_through(o, area.normalized());
+}
+
 // Every vertex of `inner` lies within all planes of `outer` but those that lie in `between`.
 bool fits(const Group& inner, const Group& outer, const Plane& between, double tolerance) {
   for (const Plane& plane : outer.planes) {
@@ -297,14 +308,9 @@ std::vector<std::vector<int>> ShellReader::convex_groups(const std::vector<int>&
         const int g = root(group_of_cell[cell]), h = root(neighbour->second);
         if (g == h) continue;
         Group &a = groups[std::min(g, h)], &b = groups[std::max(g, h)];
-        Vec3 area = Vec3::Zero();
-        const Vec3& o = c.vertices[c.dart_vertex[c.face_dart[f]]];
-        for (int d = c.dart_next[c.face_dart[f]]; d != c.face_dart[f]; d = c.dart_next[d])
-          area += (c.vertices[c.dart_vertex[d]] - o)
-                      .cross(c.vertices[c.dart_vertex[c.dart_next[d]]] - o);
-        if (!(area.norm() > 0)) continue;
-        const Plane between = plane_through(o, area.normalized());
-        if (!fits(a, b, between, tolerance_m) || !fits(b, a, between, tolerance_m)) continue;
+        const auto between = plane_of_face(c, f);
+        if (!between) continue;
+        if (!fits(a, b, *between, tolerance_m) || !fits(b, a, *between, tolerance_m)) continue;
         parent[std::max(g, h)] = std::min(g, h);
         a.cells.insert(a.cells.end(), b.cells.begin(), b.cells.end());
         a.body = shell(a.cells);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "base/text.hpp"
 #include "geometry/triangulate.hpp"
@@ -16,10 +17,6 @@ double size_of(const Polyhedron& body) {
   Vec3 low = body.vertices[0], high = low;
   for (const Vec3& v : body.vertices) low = low.cwiseMin(v), high = high.cwiseMax(v);
   return (high - low).norm();
-}
-
-std::string text_of(const Vec3& p) {
-  return "(" + text(p.x(), 7) + ", " + text(p.y(), 7) + ", " + text(p.z(), 7) + ")";
 }
 
 // --- binary tree of the planes of a body's faces ----------------------------------------------
@@ -181,6 +178,31 @@ void name_part_faces(std::vector<Polyhedron>& parts, const Polyhedron& body, dou
 
 }  // namespace
 
+Polyhedron in_standard_order(const Polyhedron& body) {
+  std::vector<int> order(body.vertices.size()), place(order.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto key = [&](int v) {
+    const Vec3& p = body.vertices[v];
+    return std::array{p.x(), p.y(), p.z()};
+  };
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return key(a) < key(b); });
+  Polyhedron ordered;
+  for (size_t k = 0; k < order.size(); ++k) {
+    place[order[k]] = static_cast<int>(k);
+    ordered.vertices.push_back(body.vertices[order[k]]);
+  }
+  std::vector<std::pair<std::vector<int>, int>> faces;
+  for (int f = 0; f < n_faces(body); ++f) {
+    std::vector<int> loop;
+    for (const int v : face(body, f)) loop.push_back(place[v]);
+    std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
+    faces.emplace_back(std::move(loop), body.face_tag[f]);
+  }
+  std::sort(faces.begin(), faces.end());
+  for (const auto& [loop, tag] : faces) add_face(ordered, loop, tag);
+  return ordered;
+}
+
 std::vector<Polyhedron> convex_parts(const Polyhedron& body, const Where& where) {
   constexpr int max_faces = 20000;
   if (n_faces(body) > max_faces)
@@ -209,45 +231,6 @@ std::vector<Polyhedron> convex_parts(const Polyhedron& body, const Where& where)
   if (parts.size() <= 400) join_parts(parts, tolerance);
   name_part_faces(parts, body, 1e-7 * size);
   return parts;
-}
-
-Body make_solid(const Polyhedron& surface, const Where& where, bool& was_turned) {
-  was_turned = false;
-  Polyhedron body = surface;
-  for (const Vec3& v : body.vertices)
-    if (!v.allFinite()) throw InputError(where, "a coordinate is not finite");
-  const SurfaceCheck check = check_surface(body);
-  if (check.fault == SurfaceFault::inside_out) {
-    for (int f = 0; f < n_faces(body); ++f)
-      std::reverse(body.face_vertices.begin() + body.face_begin[f],
-                   body.face_vertices.begin() + body.face_begin[f + 1]);
-    was_turned = true;
-  } else if (check.fault != SurfaceFault::none) {
-    std::string place;
-    if (check.vertex_a >= 0 && check.vertex_b >= 0)
-      place = " at the edge " + text_of(body.vertices[check.vertex_a]) + " - " +
-              text_of(body.vertices[check.vertex_b]);
-    throw InputError(where,
-                     std::string("the mesh is ") + text(check.fault) + place +
-                         ", expected a closed surface around a volume",
-                     "close and repair it with a mesh editor");
-  }
-  if (const auto crossing = find_self_intersection(body))
-    throw InputError(where,
-                     "the mesh cuts through itself: faces " + std::to_string(crossing->first + 1) +
-                         " and " + std::to_string(crossing->second + 1) + " near " +
-                         text_of(face_centroid(body, crossing->first)),
-                     "repair it with a mesh editor");
-  std::fill(body.face_tag.begin(), body.face_tag.end(), face_terrain);
-  body = with_joined_faces(body);
-  Body solid;
-  if (is_convex(body, 1e-7 * size_of(body))) {
-    solid.parts.push_back(std::move(body));
-    return solid;
-  }
-  solid.parts = convex_parts(body, where);
-  if (solid.parts.size() > 1) solid.shell = std::move(body);
-  return solid;
 }
 
 }  // namespace talus

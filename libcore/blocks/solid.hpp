@@ -16,11 +16,16 @@ namespace talus {
 /// in the middle of straight edges removed. Needs a closed oriented surface.
 [[nodiscard]] Polyhedron with_joined_faces(const Polyhedron& surface);
 
+/// The same body with vertices in the order of their coordinates, faces beginning at their first
+/// vertex and in the order of their vertices: what does not depend on how it was made.
+[[nodiscard]] Polyhedron in_standard_order(const Polyhedron& body);
+
 /// Two faces that cut through or touch each other away from what they share; nothing when there are
 /// none. Exact for the coordinates as they stand.
 [[nodiscard]] std::optional<std::pair<int, int>> find_self_intersection(const Polyhedron& surface);
 
-/// Smallest convex body around the points; without faces when they are flat. Exact predicates.
+/// Smallest convex body around the points, in standard order; without faces when they are flat. Its
+/// faces are triangles; exact predicates.
 [[nodiscard]] Polyhedron convex_hull(const std::vector<Vec3>& points, int tag);
 
 /// Convex parts that fill a closed, non-convex body, by a binary tree of its faces' planes; then

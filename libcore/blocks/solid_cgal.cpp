@@ -6,6 +6,7 @@
 #include <array>
 #include <numeric>
 
+#include "base/text.hpp"
 #include "blocks/solid.hpp"
 #include "geometry/triangulate.hpp"
 
@@ -62,6 +63,16 @@ bool collide(const Polyhedron& surface, const Piece& a, const Piece& b) {
   return CGAL::do_intersect(ta, tb);
 }
 
+double size_of(const Polyhedron& body) {
+  Vec3 low = body.vertices[0], high = low;
+  for (const Vec3& v : body.vertices) low = low.cwiseMin(v), high = high.cwiseMax(v);
+  return (high - low).norm();
+}
+
+std::string text_of(const Vec3& p) {
+  return "(" + text(p.x(), 7) + ", " + text(p.y(), 7) + ", " + text(p.z(), 7) + ")";
+}
+
 }  // namespace
 
 std::optional<std::pair<int, int>> find_self_intersection(const Polyhedron& surface) {
@@ -109,7 +120,46 @@ Polyhedron convex_hull(const std::vector<Vec3>& points, int tag) {
     for (const auto v : mesh.vertices_around_face(mesh.halfedge(f))) loop.push_back(index[v]);
     add_face(hull, loop, tag);
   }
-  return hull;
+  return in_standard_order(hull);  // the hull's own order follows addresses in memory
+}
+
+Body make_solid(const Polyhedron& surface, const Where& where, bool& was_turned) {
+  was_turned = false;
+  Polyhedron body = surface;
+  for (const Vec3& v : body.vertices)
+    if (!v.allFinite()) throw InputError(where, "a coordinate is not finite");
+  const SurfaceCheck check = check_surface(body);
+  if (check.fault == SurfaceFault::inside_out) {
+    for (int f = 0; f < n_faces(body); ++f)
+      std::reverse(body.face_vertices.begin() + body.face_begin[f],
+                   body.face_vertices.begin() + body.face_begin[f + 1]);
+    was_turned = true;
+  } else if (check.fault != SurfaceFault::none) {
+    std::string place;
+    if (check.vertex_a >= 0 && check.vertex_b >= 0)
+      place = " at the edge " + text_of(body.vertices[check.vertex_a]) + " - " +
+              text_of(body.vertices[check.vertex_b]);
+    throw InputError(where,
+                     std::string("the mesh is ") + text(check.fault) + place +
+                         ", expected a closed surface around a volume",
+                     "close and repair it with a mesh editor");
+  }
+  if (const auto crossing = find_self_intersection(body))
+    throw InputError(where,
+                     "the mesh cuts through itself: faces " + std::to_string(crossing->first + 1) +
+                         " and " + std::to_string(crossing->second + 1) + " near " +
+                         text_of(face_centroid(body, crossing->first)),
+                     "repair it with a mesh editor");
+  std::fill(body.face_tag.begin(), body.face_tag.end(), face_terrain);
+  body = with_joined_faces(body);
+  Body solid;
+  if (is_convex(body, 1e-7 * size_of(body))) {
+    solid.parts.push_back(std::move(body));
+    return solid;
+  }
+  solid.parts = convex_parts(body, where);
+  if (solid.parts.size() > 1) solid.shell = std::move(body);
+  return solid;
 }
 
 }  // namespace talus

@@ -1,5 +1,6 @@
 #include "geometry/polyhedron.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -214,6 +215,13 @@ Moments joined(const Moments& one, const Moments& other) {
   return {
       volume, one.centroid + other.volume / volume * apart,
       one.second + other.second + one.volume * other.volume / volume * apart * apart.transpose()};
+}
+
+Vec3 extents(const Moments& m) {
+  if (m.volume <= 0) return Vec3::Zero();
+  const Eigen::SelfAdjointEigenSolver<Mat3> axes(m.second, Eigen::EigenvaluesOnly);
+  const Vec3 size = (12 / m.volume * axes.eigenvalues().cwiseMax(0)).cwiseSqrt();
+  return {size.z(), size.y(), size.x()};
 }
 
 const char* text(SurfaceFault fault) {

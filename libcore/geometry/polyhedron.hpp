@@ -58,6 +58,9 @@ struct Moments {
 /// Moments of two bodies that do not overlap, taken as one.
 [[nodiscard]] Moments joined(const Moments& one, const Moments& other);
 
+/// Edges of the box with the same second moments, longest first; 0 without volume [m].
+[[nodiscard]] Vec3 extents(const Moments& moments);
+
 /// What is wrong with a surface, worst first.
 enum class SurfaceFault {
   none,

@@ -8,7 +8,6 @@
 #include <memory>
 
 #include "base/error.hpp"
-#include "blocks/assemble.hpp"
 #include "io/errors_gdal.hpp"
 
 namespace talus {

@@ -183,24 +183,23 @@ SourceOptions plan_source(const Site& site, const Vec3& origin) {
   return options;
 }
 
-AssembleOptions plan_limits(const Site& site, const std::vector<PlannedSet>& sets) {
+AssembleOptions plan_limits(const Site& site, const std::vector<PlannedSet>& sets,
+                            double mass_volume) {
   AssembleOptions options;
-  double smallest = std::numeric_limits<double>::infinity(), mean_volume = 1;
+  // Where the joints stand wider than the mass is large, the mass itself is the measure.
+  double smallest = std::cbrt(mass_volume);
   std::vector<JointSet> joint_sets;
   for (const PlannedSet& planned : sets) {
     smallest = std::min(smallest, planned.set.mean_spacing);
     joint_sets.push_back(planned.set);
   }
-  // Mean volume of a joint cell; without three sets there is no such thing, and no default limit.
-  mean_volume = 1e9 / expected_cells(joint_sets, 1e9);
-  const bool has_cells = mean_volume < 1e9;
   const SourceSettings& source = site.source;
-  options.min_volume = !std::isnan(source.min_block_volume_m3) ? source.min_block_volume_m3
-                       : has_cells                             ? 0.01 * mean_volume
-                                                               : 0;
-  options.min_thickness = !std::isnan(source.min_block_thickness_m) ? source.min_block_thickness_m
-                          : std::isfinite(smallest)                 ? 0.05 * smallest
-                                                                    : 0;
+  options.min_volume = !std::isnan(source.min_block_volume_m3)
+                           ? source.min_block_volume_m3
+                           : 0.01 * mass_volume / expected_cells(joint_sets, mass_volume);
+  options.min_thickness =
+      !std::isnan(source.min_block_thickness_m) ? source.min_block_thickness_m : 0.05 * smallest;
+  if (!std::isnan(source.min_block_edge_m)) options.min_edge = source.min_block_edge_m;
   options.max_aspect = source.max_block_aspect;
   options.max_convex_loss = source.max_convex_loss;
   options.material = material_index(site, source.material);

@@ -50,6 +50,7 @@ struct SourceSettings {
   std::int64_t max_blocks = 20000;
   double min_block_volume_m3 = not_given;    ///< not given: 1e-3 of the mean joint cell
   double min_block_thickness_m = not_given;  ///< not given: 0.05 of the smallest spacing
+  double min_block_edge_m = not_given;  ///< not given: 1e-3 of the cube root of the block's volume
   double max_block_aspect = 50;
   double max_convex_loss = 0.05;  ///< share of a block's volume; above it the block stays exact
 };
@@ -217,7 +218,7 @@ struct Site {
 /// or plain text where the key takes text. Throws InputError as read_site does.
 void override_value(Site& site, const std::string& key, const std::string& value);
 
-/// A value in effect, as TOML, and where it came from: "default", "file, line 7", "command line".
+/// A value in effect, as TOML, and where it came from: "default", "file, line 7", "cli".
 struct EffectiveValue {
   std::string section, key, value, source;  ///< value is empty when not given
 };

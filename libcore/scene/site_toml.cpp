@@ -97,6 +97,7 @@ template <> const std::vector<Key<SourceSettings>>& keys() {
       {"max_blocks", &S::max_blocks, "more expected blocks than this are refused before cutting", {1, 10000000}},
       {"min_block_volume_m3", &S::min_block_volume_m3, "smaller blocks are merged into a neighbour", not_negative},
       {"min_block_thickness_m", &S::min_block_thickness_m, "thinner blocks are merged into a neighbour", not_negative},
+      {"min_block_edge_m", &S::min_block_edge_m, "shorter edges of convex blocks are removed, one of their ends stays", not_negative},
       {"max_block_aspect", &S::max_block_aspect, "blocks with a larger ratio of longest to shortest axis are merged into a neighbour", at_least_1},
       {"max_convex_loss", &S::max_convex_loss, "blocks that would lose a larger share by being made convex stay a union of convex parts; 1: never", share}};
   return table;
@@ -624,7 +625,7 @@ struct ValueLister {
   std::string source_of(const std::string& path) const {
     const auto found = site.sources.find(path);
     if (found == site.sources.end()) return "default";
-    if (found->second.kind == ValueSource::from_cli) return "command line";
+    if (found->second.kind == ValueSource::from_cli) return "cli";
     return "file, line " + std::to_string(found->second.line);
   }
   template <class Section>

@@ -118,7 +118,7 @@ TEST(AssembleBlocks, ExactBlocksFillRandomMasses) {
 // bed.
 TEST(AssembleBlocks, NoTwoBlocksOverlapAndNoneReachesBelowTheBed) {
   Random random(22);
-  for (int number = 0; number < 60; ++number) {
+  for (int number = 0; number < 30; ++number) {
     SCOPED_TRACE("trial " + std::to_string(number));
     const Trial trial = random_trial(random, number);
     for (const bool exact : {false, true}) {
@@ -147,6 +147,31 @@ TEST(AssembleBlocks, NoTwoBlocksOverlapAndNoneReachesBelowTheBed) {
         EXPECT_GT(point.z() + 1e-6 * cell, elevation_at(trial.scene.bed, point.x(), point.y()));
       }
     }
+  }
+}
+
+// The same by volume: every pair of convex parts of different blocks, cut by each other's planes.
+TEST(AssembleBlocks, PairsOfBlocksShareNoVolume) {
+  Random random(23);
+  for (int number = 0; number < 30; ++number) {
+    SCOPED_TRACE("trial " + std::to_string(number));
+    const Trial trial = random_trial(random, number);
+    BlockSet set = new_set();
+    static_cast<void>(assemble_blocks(trial.complex, trial.joints, trial.scene.bed, {}, set));
+    const auto bodies = parts_by_block(set);
+    for (int a = 0; a < n_blocks(set); ++a)
+      for (int b = a + 1; b < n_blocks(set); ++b) {
+        double shared = 0;
+        for (const Polyhedron& one : bodies[a])
+          for (const Polyhedron& other : bodies[b]) {
+            Polyhedron common = one;
+            for (int f = 0; f < n_faces(other) && n_faces(common) > 0; ++f)
+              common = clip_convex(
+                  common, plane_through(face_centroid(other, f), face_normal(other, f)), 0, 0);
+            if (n_faces(common) > 0) shared += std::abs(moments(common).volume);
+          }
+        ASSERT_LE(shared, 1e-9 * std::max(set.volume[a], set.volume[b])) << a << " and " << b;
+      }
   }
 }
 

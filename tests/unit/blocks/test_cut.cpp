@@ -109,3 +109,33 @@ TEST(CutMass, FillsRandomMassesExactly) {
     }
   }
 }
+
+// A disc parts the rock when it covers all of the section, and not when it ends inside; another
+// joint that makes the section smaller comes to the disc's help, whatever the order of the two.
+TEST(CutMass, DiscsPartOnlyWhatTheyCover) {
+  const Trn ground = grid(9, 9, 1, [](double, double) { return 0.0; });
+  Trn bed = ground;
+  for (int r = 1; r < 8; ++r)
+    for (int c = 1; c < 8; ++c) bed.elevation[node_index(bed, r, c)] = -2;
+  const auto disc_joint = [](double radius) {
+    Joint joint;
+    joint.plane = {Vec3::UnitX(), 4};
+    joint.is_through = false;
+    joint.discs = {{Vec3(4, 2, -1), radius}};
+    return joint;
+  };
+  Joint across;  // y = 4, through-going
+  across.plane = {Vec3::UnitY(), 4};
+  across.set = 1;
+  const auto n_pieces = [&](const std::vector<Joint>& joints) {
+    const CellComplex complex = cut_mass(ground, bed, joints);
+    EXPECT_NEAR(sum_of_volumes(complex), 98, 1e-10);
+    return n_components(complex, true);
+  };
+  EXPECT_EQ(n_pieces({disc_joint(7)}), 2);  // reaches (4, 8, 0), the farthest corner
+  EXPECT_EQ(n_pieces({disc_joint(5)}), 1);  // does not
+  EXPECT_EQ(n_pieces({disc_joint(3)}), 1);
+  EXPECT_EQ(n_pieces({disc_joint(3), across}), 3);  // covers the half with y < 4
+  EXPECT_EQ(n_pieces({across, disc_joint(3)}), 3);
+  EXPECT_EQ(n_pieces({across, disc_joint(1)}), 2);
+}

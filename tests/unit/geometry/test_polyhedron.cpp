@@ -60,6 +60,14 @@ TEST(Moments, OfARotatedBoxAreTheClosedForm) {
   }
 }
 
+TEST(Extents, AreTheEdgesOfATurnedBox) {
+  Random random(12);
+  Polyhedron body = talus::box({0, 0, 0}, {2, 0.5, 7});
+  const Mat3 turn = Eigen::AngleAxisd(1.1, random_direction(random)).toRotationMatrix();
+  transform(body, turn, {40, -3, 9});
+  EXPECT_LT((talus::extents(talus::moments(body)) - Vec3(7, 2, 0.5)).norm(), 1e-11);
+}
+
 TEST(Moments, OfATetrahedronAreTheClosedForm) {
   Polyhedron body;
   body.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};

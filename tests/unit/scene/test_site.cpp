@@ -1,7 +1,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <iostream>
 #include <set>
+#include <sstream>
 
 #include "base/random.hpp"
 #include "scene/site.hpp"
@@ -124,7 +128,7 @@ TEST(Site, PrintedConfigurationReadsBackTheSame) {
   Site site = parse_site(whole, "s/site.toml");
   talus::override_value(site, "source.depth_m", "12");
   const std::string printed = talus::print_config(site);
-  EXPECT_NE(printed.find("depth_m = 12  # command line"), std::string::npos);
+  EXPECT_NE(printed.find("depth_m = 12  # cli"), std::string::npos);
   EXPECT_NE(printed.find("dip_deg = 44  # file, line 16"), std::string::npos);
   EXPECT_NE(printed.find("law = 'talus'  # default"), std::string::npos);
   const auto without_comments = [](const std::string& text) {
@@ -147,6 +151,27 @@ TEST(Site, EveryKeyIsDescribedAndUnique) {
     EXPECT_FALSE(row.help.empty()) << row.key;
   }
   EXPECT_TRUE(seen.count("joints.NAME.dip_deg"));
+}
+
+// docs/site-file.md holds the table of keys; TALUS_PRINT_KEYS=1 prints what should stand there.
+TEST(Site, ThePageOfKeysIsTheTable) {
+  std::string rows, section;
+  for (const auto& row : talus::site_keys()) {
+    if (row.section != section)
+      rows += "\n### [" + row.section +
+              "]\n| Key | Holds | Default | Allowed | Meaning |\n|---|---|---|---|---|\n";
+    section = row.section;
+    std::string allowed = row.range;
+    for (size_t at = 0; (at = allowed.find('|', at)) != std::string::npos; at += 2)
+      allowed.replace(at, 1, ", ");
+    rows += "| `" + row.key + "` | " + row.type + " | " + row.default_value + " | " + allowed +
+            " | " + row.help + " |\n";
+  }
+  if (std::getenv("TALUS_PRINT_KEYS")) std::cout << rows;
+  std::ifstream file(std::string(TALUS_SOURCE_DIR) + "/docs/site-file.md");
+  std::ostringstream page;
+  page << file.rdbuf();
+  EXPECT_NE(page.str().find(rows), std::string::npos) << "the table of keys has changed";
 }
 
 // Mangled files are refused or accepted, never anything else.

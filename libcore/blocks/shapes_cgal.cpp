@@ -1,11 +1,10 @@
-#include "blocks/shapes.hpp"
-
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
 #include "blocks/block_set.hpp"
+#include "blocks/shapes.hpp"
 #include "blocks/solid.hpp"
 
 namespace talus {

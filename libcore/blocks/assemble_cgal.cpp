@@ -1,6 +1,3 @@
-#include "blocks/assemble.hpp"
-
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -8,6 +5,7 @@
 #include <map>
 #include <numeric>
 
+#include "blocks/assemble.hpp"
 #include "blocks/convexify.hpp"
 #include "blocks/shell.hpp"
 
@@ -344,7 +342,7 @@ class Assembler {
     ConvexOptions options;
     options.max_loss = options_.max_convex_loss;
     options.tolerance_m = tolerance_;
-    options.shortest_edge = options_.shortest_edge;
+    options.min_edge = options_.min_edge < 0 ? 1e-3 * std::cbrt(volume) : options_.min_edge;
     std::vector<Polyhedron> parts = made_convex_parts(task, bed_, options);
     const bool all_sound = std::all_of(parts.begin(), parts.end(), [](const Polyhedron& part) {
       return check_surface(part).fault == SurfaceFault::none;
@@ -385,13 +383,6 @@ class Assembler {
 };
 
 }  // namespace
-
-Vec3 extents(const Moments& m) {
-  if (m.volume <= 0) return Vec3::Zero();
-  const Eigen::SelfAdjointEigenSolver<Mat3> axes(m.second, Eigen::EigenvaluesOnly);
-  const Vec3 size = (12 / m.volume * axes.eigenvalues().cwiseMax(0)).cwiseSqrt();
-  return {size.z(), size.y(), size.x()};
-}
 
 AssembleReport assemble_blocks(const CellComplex& complex, const std::vector<Joint>& joints,
                                const Trn& bed, const AssembleOptions& options, BlockSet& set,

@@ -1,5 +1,3 @@
-#include "blocks/convexify.hpp"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -8,6 +6,7 @@
 #include <numbers>
 
 #include "blocks/block_set.hpp"
+#include "blocks/convexify.hpp"
 #include "blocks/cut.hpp"
 #include "blocks/solid.hpp"
 
@@ -252,7 +251,7 @@ Polyhedron made_convex(const ConvexTask& task, const Trn& bed, const ConvexOptio
     if (n_faces(room) > 0) room = clip_convex(room, side, face_terrain, tolerance);
   if (n_faces(room) == 0) return {};
   const auto cleaned = [&](const Polyhedron& body) {
-    return without_short_edges(body, options.shortest_edge * std::cbrt(task.volume));
+    return without_short_edges(body, options.min_edge, options.max_loss);
   };
   const Vec3 up = has_bed ? shape.bed_normal : shape.terrain_normal;
   if (!has_top) return cleaned(has_bed ? raised_off(room, bed, up, tolerance) : room);
@@ -320,16 +319,29 @@ std::vector<Polyhedron> made_convex_parts(const ConvexTask& task, const Trn& bed
   return bodies;
 }
 
-Polyhedron without_short_edges(const Polyhedron& body, double shortest) {
+Polyhedron without_short_edges(const Polyhedron& body, double shortest, double max_loss) {
   if (n_faces(body) == 0 || talus::shortest_edge(body) >= shortest) return body;
-  std::vector<Vec3> kept;
-  for (const Vec3& v : body.vertices) {
-    const bool is_apart = std::all_of(kept.begin(), kept.end(), [&](const Vec3& k) {
-      return (k - v).squaredNorm() >= shortest * shortest;
+  // Of vertices that near the first one stays; the order that leaves most volume is taken.
+  const Vec3 centre = moments(body).centroid;
+  const auto hull_in_order = [&](const std::vector<Vec3>& order) {
+    std::vector<Vec3> kept;
+    for (const Vec3& v : order) {
+      const bool is_apart = std::all_of(kept.begin(), kept.end(), [&](const Vec3& k) {
+        return (k - v).squaredNorm() >= shortest * shortest;
+      });
+      if (is_apart) kept.push_back(v);
+    }
+    return convex_hull(kept, 0);
+  };
+  Polyhedron hull = hull_in_order(body.vertices);
+  std::vector<Vec3> order = body.vertices;
+  for (const double sign : {1.0, -1.0}) {
+    std::stable_sort(order.begin(), order.end(), [&](const Vec3& a, const Vec3& b) {
+      return sign * (a - centre).squaredNorm() > sign * (b - centre).squaredNorm();
     });
-    if (is_apart) kept.push_back(v);
+    Polyhedron other = hull_in_order(order);
+    if (volume_of(other) > volume_of(hull)) hull = std::move(other);
   }
-  Polyhedron hull = convex_hull(kept, 0);
   if (n_faces(hull) == 0) return body;
   // Each new face takes the tag of the old one that it lies along best.
   std::vector<Vec3> normals;
@@ -340,9 +352,9 @@ Polyhedron without_short_edges(const Polyhedron& body, double shortest) {
     const auto best = std::max_element(normals.begin(), normals.end(), along);
     hull.face_tag[f] = body.face_tag[static_cast<size_t>(best - normals.begin())];
   }
-  hull = with_joined_faces(hull);
-  const bool is_sound =
-      check_surface(hull).fault == SurfaceFault::none && volume_of(hull) >= 0.99 * volume_of(body);
+  hull = in_standard_order(with_joined_faces(hull));
+  const bool is_sound = check_surface(hull).fault == SurfaceFault::none &&
+                        volume_of(hull) >= (1 - max_loss) * volume_of(body);
   return is_sound ? hull : body;
 }
 

@@ -1,0 +1,7 @@
+# Terrain and site file -> blocks, their bed, and what to look at.
+# in: site.toml, BLOCKS_FLAGS (e.g. --exact)   out: $(OUT)/blocks.h5, $(OUT)/bed.tif, $(OUT)/blocks.json,
+#     $(OUT)/blocks.gpkg, $(OUT)/stereonet.svg, $(OUT)/sizes.svg
+$(OUT)/blocks.h5 $(OUT)/bed.tif $(OUT)/blocks.json $(OUT)/blocks.gpkg $(OUT)/stereonet.svg $(OUT)/sizes.svg &: site.toml $(OUT)/trn.tif
+	$(BIN)talus-blocks site.toml --trn $(OUT)/trn.tif -o $(OUT)/blocks.h5 --trn-out $(OUT)/bed.tif \
+	  --report $(OUT)/blocks.json --footprints $(OUT)/blocks.gpkg --stereonet $(OUT)/stereonet.svg \
+	  --size-curve $(OUT)/sizes.svg $(BLOCKS_FLAGS) --overwrite

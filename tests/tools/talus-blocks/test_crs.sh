@@ -1,0 +1,19 @@
+# Coordinates in another system are reprojected with a note; a terrain in degrees is refused.
+. "$source_dir/tests/tools/talus-blocks/scene.sh"
+make_site
+expect 0 blocks --report here.json
+cat >area.csv <<'CSV'
+id,wkt
+1,"POLYGON ((500012 5200012, 500034 5200012, 500034 5200034, 500012 5200034, 500012 5200012))"
+CSV
+ogr2ogr -q -f GPKG area.gpkg area.csv -oo GEOM_POSSIBLE_NAMES=wkt -a_srs EPSG:32633 -nlt POLYGON
+ogr2ogr -q -f GPKG degrees.gpkg area.gpkg -t_srs EPSG:4326
+sed 's/^polygon = .*/polygon_file = "degrees.gpkg"/' site.toml >degrees.toml
+expect 0 talus-blocks degrees.toml --trn trn.tif -o there.h5 --no-db --report there.json
+says "degrees.gpkg: reprojected from EPSG:4326"
+a=$(value here.json prism_volume_m3) b=$(value there.json prism_volume_m3)
+holds "($a / $b - 1) ^ 2 < 0.01"
+
+sed 's/EPSG:32633/EPSG:31468/' site.toml >other.toml
+expect 1 talus-blocks other.toml --trn trn.tif -o other.h5 --no-db
+says "reaches outside the terrain"

@@ -1,0 +1,22 @@
+# A source is cut: all outputs are written, volumes agree with the prism sum, the bed lies below.
+. "$source_dir/tests/tools/talus-blocks/scene.sh"
+make_site
+expect 0 blocks --report r.json --footprints f.gpkg --trn-out bed.tif --stereonet net.svg \
+  --size-curve size.svg --obj objs
+prints " blocks, "
+for file in blocks.h5 r.json f.gpkg bed.tif net.svg size.svg objs/block_000000.obj; do
+  [ -s "$file" ] || fail "$file is missing"
+done
+n=$(value r.json n_blocks)
+[ "$n" -eq "$(find objs -name '*.obj' | wc -l)" ] || fail "not one OBJ a block"
+[ "$n" -eq "$(ogrinfo -so f.gpkg blocks | sed -n 's/Feature Count: //p')" ] || fail "not one footprint a block"
+holds "$(value r.json volume_error) < 1e-9 && $(value r.json volume_error) > -1e-9"
+holds "$(value r.json convexified_change) < 0.01 && $(value r.json convexified_change) > -0.02"
+# (ground - bed) summed over nodes times the cell is the prism sum
+gdal_calc=$(command -v gdal_calc.py || true)
+if [ -n "$gdal_calc" ]; then
+  "$gdal_calc" --quiet -A trn.tif -B bed.tif --calc "A-B" --outfile depth.tif --type Float64 --NoDataValue=-9999
+  mean=$(gdalinfo -stats depth.tif | sed -n 's/.*STATISTICS_MEAN=//p')
+  volume=$(value r.json prism_volume_m3)
+  holds "($mean * 576 * 4 / $volume - 1) ^ 2 < 1e-12"
+fi
