@@ -83,7 +83,8 @@ void analyse_pattern(int n, std::span<const std::pair<int, int>> edges, BlockPat
 
 int entry_of(const BlockPattern& pattern, int row_place, int column_place) {
   const auto begin = pattern.row.begin() + pattern.column_begin[static_cast<size_t>(column_place)];
-  const auto end = pattern.row.begin() + pattern.column_begin[static_cast<size_t>(column_place) + 1];
+  const auto end =
+      pattern.row.begin() + pattern.column_begin[static_cast<size_t>(column_place) + 1];
   return static_cast<int>(std::lower_bound(begin, end, row_place) - pattern.row.begin());
 }
 

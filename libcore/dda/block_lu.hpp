@@ -1,7 +1,8 @@
 // libcore/dda/block_lu.hpp
 // LU factorisation of a sparse matrix of small dense blocks whose pattern is symmetric, its values
 // need not be: P A P^T = L U. Pivots are chosen within the diagonal blocks.
-// The order is minimum degree on the graph of the blocks; the analysis is kept while the graph stays.
+// The order is minimum degree on the graph of the blocks; the analysis is kept while the graph
+// stays.
 #pragma once
 
 #include <Eigen/LU>

@@ -1,12 +1,12 @@
 // libcore/dda/island.hpp
 // An island: bodies that touch each other, directly or through others, over one time step.
-// in:    masses, free motion and contacts, from the step that assembles them (local axes throughout)
-// out:   velocities at the end of the step and the impulse of every contact
-// theory 1.6 (relative map B_c = [T_A, -T_B]), 1.7, 3.5
+// in:     masses, free motion and contacts from the step that assembles them, in local axes
+// out:    velocities at the end of the step and the impulse of every contact
+// theory: 1.6 (relative map B_c = [T_A, -T_B]), 1.7, 3.5
 //
-// A contact has one point, common to both bodies, so that its two impulses are opposite on one line:
-// momentum and angular momentum are kept to rounding. With one point, all contacts of a pair act
-// through the relative motion of the two bodies as seen from A's centroid,
+// A contact has one point, common to both bodies, so that its two impulses are opposite on one
+// line: momentum and angular momentum are kept to rounding. With one point, all contacts of a pair
+// act through the relative motion of the two bodies as seen from A's centroid,
 //   u = v_A - X v_B,   X v_B: the velocity field of B at A's centroid,   w = T(r_A) u,
 // so that a pair costs one tangent W = sum T(r_A)^T K T(r_A) instead of three blocks.
 #pragma once
@@ -23,15 +23,15 @@ namespace talus {
 /// A contact of an island. Velocities are those of A's point relative to B's.
 ///
 /// A known part of the point's velocity (ContactRow::drift) goes into bias and shear_velocity.
-/// A bond that breaks within the step makes the law jump, and a step with a jump may have no solution:
-/// give an intact bond without limit (1e9 m g h, say), compare its impulse with the limits afterwards
-/// and solve again without the bonds that were exceeded.
+/// A bond that breaks within the step makes the law jump, and a step with a jump may have no
+/// solution: give an intact bond without limit (1e9 m g h, say), compare its impulse with the
+/// limits afterwards and solve again without the bonds that were exceeded.
 struct IslandRow {  // clang-format off
   // filled by the caller; vectors in local axes
   Vec3 normal = Vec3::Zero();          ///< unit, from B to A
   Vec3 arm = Vec3::Zero();             ///< contact point from the centroid of A [m]
   Vec3 shear_velocity = Vec3::Zero();  ///< s_n / tau, tangential, plus the tangential drift [m/s]
-  Vec3 slip_start = Vec3::Zero();      ///< unit direction of sliding at the start of the step, or zero
+  Vec3 slip_start = Vec3::Zero();      ///< unit direction of sliding at the step's start, or zero
   double bias = 0;              ///< b_n: N > 0 needs v_n + b_n < 0; with the drift's part [m/s]
   double normal_damping = 0;    ///< D_n, impulse per velocity below -b_n [kg]
   double shear_damping = 0;     ///< D_t, impulse per tangential velocity while sticking [kg]
@@ -52,8 +52,8 @@ struct BodyPair {
   int row_end = 0;
 };
 
-/// One island over one step. Dof is 6 (rigid) or 12. Velocity: of the centroid, spin, and for 12 the
-/// strain rates, in local axes; `mass` is the matrix that belongs to it.
+/// One island over one step. Dof is 6 (rigid) or 12. Velocity: of the centroid, spin, and for 12
+/// the strain rates, in local axes; `mass` is the matrix that belongs to it.
 template <int Dof>
 struct Island {  // clang-format off
   using Vec = Eigen::Matrix<double, Dof, 1>;
@@ -80,8 +80,7 @@ template <int Dof>
   if constexpr (Dof == 12) return M * v;
   Eigen::Matrix<double, Dof, 1> p;
   p.template head<3>() = M(0, 0) * v.template head<3>();
-  p.template segment<3>(3) =
-      M.template block<3, 3>(3, 3).lazyProduct(v.template segment<3>(3));
+  p.template segment<3>(3) = M.template block<3, 3>(3, 3).lazyProduct(v.template segment<3>(3));
   return p;
 }
 template <int Dof>

@@ -46,7 +46,8 @@ void find_islands(int n_blocks, std::span<const std::pair<int, int>> pairs,
   for (const auto& [a, b] : pairs) {
     if (!joining(a) || !joining(b)) continue;
     const int root_a = root_of(parent, a), root_b = root_of(parent, b);
-    parent[static_cast<size_t>(root_a > root_b ? root_a : root_b)] = root_a < root_b ? root_a : root_b;
+    parent[static_cast<size_t>(root_a > root_b ? root_a : root_b)] =
+        root_a < root_b ? root_a : root_b;
   }
   groups.island_of.assign(static_cast<size_t>(n_blocks), -1);
   int n_islands = 0;
@@ -56,7 +57,9 @@ void find_islands(int n_blocks, std::span<const std::pair<int, int>> pairs,
     groups.island_of[static_cast<size_t>(b)] =
         root == b ? n_islands++ : groups.island_of[static_cast<size_t>(root)];
   }
-  const auto island_of = [&](int b) { return b < 0 ? -1 : groups.island_of[static_cast<size_t>(b)]; };
+  const auto island_of = [&](int b) {
+    return b < 0 ? -1 : groups.island_of[static_cast<size_t>(b)];
+  };
   sort_by_group(n_blocks, n_islands, island_of, groups.block_begin, groups.blocks);
   const auto island_of_pair = [&](int i) {
     const auto& [a, b] = pairs[static_cast<size_t>(i)];

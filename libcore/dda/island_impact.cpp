@@ -8,7 +8,7 @@ namespace {
 
 using std::size_t;
 
-constexpr double gain_rounding = 1e-13;  // of the energy before: not a gain
+constexpr double gain_rounding = 1e-13;                      // of the energy before: not a gain
 constexpr double stiffest_round = 100, softest_round = 0.2;  // D / m
 
 /// One impact; a struct so that its parts share what they all need.
@@ -31,9 +31,9 @@ struct Impact {
 
   void prepare() {
     for (size_t i = 0; i < island.mass.size(); ++i)
-      speed = std::max(speed, island.free_velocity[i].template head<3>().norm() +
-                                  island.radius[i] *
-                                      island.free_velocity[i].template segment<3>(3).norm());
+      speed = std::max(
+          speed, island.free_velocity[i].template head<3>().norm() +
+                     island.radius[i] * island.free_velocity[i].template segment<3>(3).norm());
     work.asked.resize(island.rows.size());
     for (size_t r = 0; r < island.rows.size(); ++r) {
       IslandRow& row = island.rows[r];
@@ -159,7 +159,8 @@ struct Impact {
       result.converged &= solve(0);
       if (gains(before)) {  // not converged: from no impulse towards those of e = 0
         keep_outcome();
-        std::copy(island.free_velocity.begin(), island.free_velocity.end(), island.velocity.begin());
+        std::copy(island.free_velocity.begin(), island.free_velocity.end(),
+                  island.velocity.begin());
         for (IslandRow& row : island.rows) row.impulse.setZero();
       }
       result.restitution_part = blend(before);

@@ -26,9 +26,8 @@ void add_carried(const Packed<Dof>& W, const Vec3& shift, Packed<Dof>& D) {
 template <>
 void add_carried<6>(const Packed<6>& W, const Vec3& shift, Packed<6>& D) {
   const double x = shift.x(), y = shift.y(), z = shift.z();
-  const double K[3][3] = {{W(0, 0), W(1, 0), W(2, 0)},
-                          {W(1, 0), W(1, 1), W(2, 1)},
-                          {W(2, 0), W(2, 1), W(2, 2)}};
+  const double K[3][3] = {
+      {W(0, 0), W(1, 0), W(2, 0)}, {W(1, 0), W(1, 1), W(2, 1)}, {W(2, 0), W(2, 1), W(2, 2)}};
   double L[3][3];
 #pragma GCC unroll 3
   for (int j = 0; j < 3; ++j) {
@@ -76,7 +75,8 @@ void prepare_matrix(const Island<Dof>& island, IslandMatrix<Dof>& matrix) {
   matrix.pair.resize(n_pairs);
   matrix.pair_closed.resize(n_pairs);
   for (auto* blocks : {&matrix.own, &matrix.diagonal, &matrix.inverse}) blocks->resize(n);
-  for (auto* vectors : {&matrix.residual, &matrix.preconditioned, &matrix.direction, &matrix.product})
+  for (auto* vectors :
+       {&matrix.residual, &matrix.preconditioned, &matrix.direction, &matrix.product})
     vectors->resize(n);
 }
 
@@ -93,8 +93,8 @@ void update_tangents(const Island<Dof>& island, Tangent tangent, RowGroups& rows
     const BodyPair& pair = island.pairs[p];
     if (matrix.pair_changed[p]) {
       if (exact) matrix.rest[p].setZero();
-      matrix.pair_closed[p] = sum_tangents<Dof>(groups_of(rows, p), matrix.pair[p],
-                                                exact ? &matrix.rest[p] : nullptr);
+      matrix.pair_closed[p] =
+          sum_tangents<Dof>(groups_of(rows, p), matrix.pair[p], exact ? &matrix.rest[p] : nullptr);
       matrix.pair_changed[p] = 0;
       matrix.body_changed[static_cast<size_t>(pair.a)] = 1;
       if (pair.b >= 0) matrix.body_changed[static_cast<size_t>(pair.b)] = 1;
@@ -116,7 +116,8 @@ template <int Dof>
       if (pair.b < 0) add(matrix.pair[p], matrix.own[a]);
     }
     if (pair.b >= 0 && matrix.body_changed[static_cast<size_t>(pair.b)])
-      add_carried<Dof>(matrix.pair[p], matrix.shift[p], matrix.diagonal[static_cast<size_t>(pair.b)]);
+      add_carried<Dof>(matrix.pair[p], matrix.shift[p],
+                       matrix.diagonal[static_cast<size_t>(pair.b)]);
   }
   for (size_t i = 0; i < island.mass.size(); ++i) {
     if (matrix.body_changed[i]) matrix.inverse[i] = inverse(matrix.diagonal[i]);
@@ -126,8 +127,8 @@ template <int Dof>
 
 template <int Dof>
 [[gnu::flatten]] void multiply(const Island<Dof>& island, const IslandMatrix<Dof>& matrix,
-              std::span<const Eigen::Matrix<double, Dof, 1>> x,
-              std::span<Eigen::Matrix<double, Dof, 1>> y) {
+                               std::span<const Eigen::Matrix<double, Dof, 1>> x,
+                               std::span<Eigen::Matrix<double, Dof, 1>> y) {
   for (size_t i = 0; i < x.size(); ++i) y[i] = product(matrix.own[i], x[i]);
   for (const int p : matrix.coupled) {
     const auto k = static_cast<size_t>(p);
@@ -141,10 +142,10 @@ template <int Dof>
 }
 
 template <int Dof>
-[[gnu::flatten]] LinearResult solve_conjugate_gradients(const Island<Dof>& island, IslandMatrix<Dof>& matrix,
-                                       std::span<const Eigen::Matrix<double, Dof, 1>> b,
-                                       double tolerance, int max_iterations,
-                                       std::span<Eigen::Matrix<double, Dof, 1>> x) {
+[[gnu::flatten]] LinearResult solve_conjugate_gradients(
+    const Island<Dof>& island, IslandMatrix<Dof>& matrix,
+    std::span<const Eigen::Matrix<double, Dof, 1>> b, double tolerance, int max_iterations,
+    std::span<Eigen::Matrix<double, Dof, 1>> x) {
   using Vec = Eigen::Matrix<double, Dof, 1>;
   const size_t n = island.mass.size();
   auto& r = matrix.residual;
@@ -225,8 +226,8 @@ void solve_direct(const Island<Dof>& island, IslandMatrix<Dof>& matrix,
 
 #define TALUS_INSTANTIATE(Dof)                                                                     \
   template void prepare_matrix<Dof>(const Island<Dof>&, IslandMatrix<Dof>&);                       \
-  template void update_tangents<Dof>(const Island<Dof>&, Tangent, RowGroups&, IslandMatrix<Dof>&);  \
-  template void update_diagonals<Dof>(const Island<Dof>&, IslandMatrix<Dof>&);  \
+  template void update_tangents<Dof>(const Island<Dof>&, Tangent, RowGroups&, IslandMatrix<Dof>&); \
+  template void update_diagonals<Dof>(const Island<Dof>&, IslandMatrix<Dof>&);                     \
   template void multiply<Dof>(const Island<Dof>&, const IslandMatrix<Dof>&,                        \
                               std::span<const Eigen::Matrix<double, Dof, 1>>,                      \
                               std::span<Eigen::Matrix<double, Dof, 1>>);                           \

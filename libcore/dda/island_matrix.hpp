@@ -56,7 +56,7 @@ struct IslandMatrix {  // clang-format off
   // update_tangents
   Tangent tangent = Tangent::symmetric;    ///< what `pair` and `rest` hold
   std::vector<Packed<Dof>> pair;   ///< W of pair p, its symmetric part                 (n_pairs)
-  std::vector<Mat> rest;           ///< exact: what W has besides                       (n_pairs or 0)
+  std::vector<Mat> rest;           ///< exact: what W has besides                     (n_pairs or 0)
   std::vector<std::uint8_t> pair_closed;   ///< W != 0                                  (n_pairs)
   std::vector<int> coupled;        ///< pairs of two bodies with W != 0                 (n_coupled)
   // update_diagonals

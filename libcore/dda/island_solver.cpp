@@ -4,19 +4,18 @@
 #include <cmath>
 #include <limits>
 
-
 namespace talus {
 namespace {
 
 using std::size_t;
 
-constexpr int free_steps = 3;         // Newton steps before the line search looks at them
-constexpr int most_halvings = 8;      // of a step
-constexpr double slack = 0.5;          // of a slip stiffness before its tangent is summed again
-constexpr double first_ratio = 1;      // D / m at which stiffening starts
+constexpr int free_steps = 3;      // Newton steps before the line search looks at them
+constexpr int most_halvings = 8;   // of a step
+constexpr double slack = 0.5;      // of a slip stiffness before its tangent is summed again
+constexpr double first_ratio = 1;  // D / m at which stiffening starts
 constexpr double ratio_growth = 4;
 constexpr double soft_tolerance = 1e-3;  // of a stage before the last, relative to its start
-constexpr double hopeless = 1e5;      // growth of the residual at which coupled steps are given up
+constexpr double hopeless = 1e5;  // growth of the residual at which coupled steps are given up
 
 /// One solve; a struct so that its parts share what they all need.
 template <int Dof>
@@ -45,7 +44,8 @@ struct Solve {
           island.free_velocity[static_cast<size_t>(pair.a)].template head<3>().norm();
       for (int r = pair.row_begin; r < pair.row_end; ++r) {
         const IslandRow& row = island.rows[static_cast<size_t>(r)];
-        const double stiffness = std::min(std::max(row.normal_damping, row.shear_damping), work.limit[p]);
+        const double stiffness =
+            std::min(std::max(row.normal_damping, row.shear_damping), work.limit[p]);
         stiffness_ratio = std::max(stiffness_ratio, stiffness / mass);
         floor = std::max(floor, stiffness / mass * (std::abs(row.bias) + free_speed));
       }
@@ -72,7 +72,8 @@ struct Solve {
     if (pair.b >= 0) work.residual[b] += carried_to_b<Dof>(f, shift);
   }
 
-  // The largest residual as a velocity: impulse over mass, angular impulse over inertia times radius.
+  // The largest residual as a velocity: impulse over mass, angular impulse over inertia times
+  // radius.
   [[nodiscard]] double residual_speed() const {
     double largest = 0;
     for (size_t i = 0; i < island.mass.size(); ++i) {
@@ -123,8 +124,9 @@ struct Solve {
     return sum;
   }
 
-  // A Newton step; with `search` it is shortened: with the exact derivative until the residual falls,
-  // else until the residual's work along the step is at most half of what it was at the start.
+  // A Newton step; with `search` it is shortened: with the exact derivative until the residual
+  // falls, else until the residual's work along the step is at most half of what it was at the
+  // start.
   double advance(bool search) {
     find_step();
     const double start_residual = result.residual;
@@ -159,8 +161,9 @@ struct Solve {
     return evaluate(Evaluation::coupled);
   }
 
-  // From rest in the free motion, at a stiffness where Newton finds its way, then at higher ones from
-  // there; factored, since slipping contacts that are stiff couple through their friction bounds.
+  // From rest in the free motion, at a stiffness where Newton finds its way, then at higher ones
+  // from there; factored, since slipping contacts that are stiff couple through their friction
+  // bounds.
   bool solve_stiffening() {
     std::copy(island.free_velocity.begin(), island.free_velocity.end(), island.velocity.begin());
     direct = n_bodies(island) <= settings.direct_fallback;
@@ -180,8 +183,8 @@ struct Solve {
     std::copy(good.begin(), good.end(), island.velocity.begin());
   }
 
-  // v -= M^-1 residual: not more than the tolerance, and what the bodies exchange adds up to nothing
-  // whatever the tolerance.
+  // v -= M^-1 residual: not more than the tolerance, and what the bodies exchange adds up to
+  // nothing whatever the tolerance.
   void keep_momentum() {
     for (size_t i = 0; i < island.mass.size(); ++i)
       island.velocity[i] -= solve_mass<Dof>(island.mass[i], work.residual[i]);

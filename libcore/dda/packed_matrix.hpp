@@ -77,7 +77,7 @@ template <int N>
 /// Inverse of a positive definite matrix, by A = L D L^T.
 template <int N>
 [[nodiscard]] inline Packed<N> inverse(const Packed<N>& a) {
-  Packed<N> L, V, out;           // V = L D; L, of unit diagonal, becomes its inverse
+  Packed<N> L, V, out;            // V = L D; L, of unit diagonal, becomes its inverse
   std::array<double, N> per_d{};  // 1 / D
 #pragma GCC unroll 12
   for (int j = 0; j < N; ++j) {

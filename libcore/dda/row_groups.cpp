@@ -23,8 +23,7 @@ constexpr Two stick_lanes = {2, 2};
   out = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-[[gnu::always_inline]] inline void cross(const Two (&a)[3], const Two (&b)[3],
-                                         Two (&out)[3]) {
+[[gnu::always_inline]] inline void cross(const Two (&a)[3], const Two (&b)[3], Two (&out)[3]) {
   out[0] = a[1] * b[2] - a[2] * b[1];
   out[1] = a[2] * b[0] - a[0] * b[2];
   out[2] = a[0] * b[1] - a[1] * b[0];
@@ -197,9 +196,9 @@ template <int Dof>
 
 Vec3 lane_of(const Two (&v)[3], int lane) { return {v[0][lane], v[1][lane], v[2][lane]}; }
 
-// A slipping contact's exact tangent besides k_n n n^T. Its direction e turns with the end direction
-// and with the share of the start direction (see add_slip), which grows with the trial speed and
-// falls with the friction bound; the bound itself changes by -tan(phi) k_n n^T.
+// A slipping contact's exact tangent besides k_n n n^T. Its direction e turns with the end
+// direction and with the share of the start direction (see add_slip), which grows with the trial
+// speed and falls with the friction bound; the bound itself changes by -tan(phi) k_n n^T.
 template <int Dof>
 void add_exact_slip(const RowGroup& g, int lane, Eigen::Matrix<double, Dof, Dof>& rest) {
   const Vec3 n = lane_of(g.normal, lane), arm = lane_of(g.arm, lane);
@@ -221,14 +220,13 @@ void add_exact_slip(const RowGroup& g, int lane, Eigen::Matrix<double, Dof, Dof>
   const auto q_n = generalised<Dof>(arm, n);
   rest += generalised<Dof>(arm, across) * generalised<Dof>(arm, by_trial).transpose();
   if (p_n > 0)
-    rest -= g.friction[lane] * g.normal_damping[lane] * generalised<Dof>(arm, bound) *
-            q_n.transpose();
+    rest -=
+        g.friction[lane] * g.normal_damping[lane] * generalised<Dof>(arm, bound) * q_n.transpose();
 }
 
 // The stiffness across the slip, s a a^T with a = n x t / |t|, t the tangential impulse.
 template <int Dof>
-[[gnu::always_inline]] inline void add_across(const RowGroup& g,
-                                              Two (&out)[Packed<Dof>::size]) {
+[[gnu::always_inline]] inline void add_across(const RowGroup& g, Two (&out)[Packed<Dof>::size]) {
   Two across[3], q[Dof], length_sq;
   cross(g.normal, g.impulse, across);
   dot(across, across, length_sq);
@@ -274,8 +272,9 @@ void unpack_rows(std::span<const BodyPair> pairs, const RowGroups& groups,
 }
 
 template <int Dof>
-[[gnu::flatten]] bool evaluate_pair(std::span<RowGroup> groups, const Eigen::Matrix<double, Dof, 1>& u,
-                   Evaluation evaluation, double slack, Eigen::Matrix<double, Dof, 1>& f) {
+[[gnu::flatten]] bool evaluate_pair(std::span<RowGroup> groups,
+                                    const Eigen::Matrix<double, Dof, 1>& u, Evaluation evaluation,
+                                    double slack, Eigen::Matrix<double, Dof, 1>& f) {
   Two total[Dof];
   for (Two& t : total) t = zero;
   bool changed = false;
@@ -297,7 +296,7 @@ template <int Dof>
 
 template <int Dof>
 [[gnu::flatten]] bool sum_tangents(std::span<RowGroup> groups, Packed<Dof>& W,
-                  Eigen::Matrix<double, Dof, Dof>* rest) {
+                                   Eigen::Matrix<double, Dof, Dof>* rest) {
   Two total[Packed<Dof>::size];
   for (Two& t : total) t = zero;
   bool closed = false;

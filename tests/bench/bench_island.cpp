@@ -1,11 +1,11 @@
-// Coupled solve of islands: time of a solve, of its parts, and how they grow. CPU time; `rows`, passes
-// and conjugate-gradient iterations per solve stand in the counters.
-// Steps follow each other as in a run: velocities and states of the last solve start the next, the
-// free motion changes by the argument `noise` (in per mille) of itself.
+// Coupled solve of islands: time of a solve, of its parts, and how they grow. CPU time; `rows`,
+// passes and conjugate-gradient iterations per solve stand in the counters. Steps follow each other
+// as in a run: velocities and states of the last solve start the next, the free motion changes by
+// the argument `noise` (in per mille) of itself.
 #include <benchmark/benchmark.h>
 
-#include "dda/island_solver.hpp"
 #include "../unit/dda/island_scenes.hpp"
+#include "dda/island_solver.hpp"
 
 namespace {
 
@@ -45,7 +45,9 @@ void solve_steps(benchmark::State& state, const Island<6>& start, const LawOfSce
   state.counters["unconverged"] = per_step(unconverged);
 }
 
-double noise_of(const benchmark::State& state) { return 1e-3 * static_cast<double>(state.range(0)); }
+double noise_of(const benchmark::State& state) {
+  return 1e-3 * static_cast<double>(state.range(0));
+}
 
 void solve_stack_50(benchmark::State& state) {
   const LawOfScene law;
@@ -126,8 +128,7 @@ void update_diagonals_of_all(benchmark::State& state) {
 void multiply_matrix(benchmark::State& state) {
   Parts parts = solved_pile();
   auto& matrix = parts.work.matrix;
-  for (auto _ : state)
-    talus::multiply<6>(parts.island, matrix, parts.work.step, matrix.product);
+  for (auto _ : state) talus::multiply<6>(parts.island, matrix, parts.work.step, matrix.product);
   count_per(state, "per_pair", matrix.coupled.size());
 }
 

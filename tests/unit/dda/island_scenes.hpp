@@ -135,10 +135,10 @@ Island<Dof> pile(const std::array<int, 3>& n, const LawOfScene& law, Random& ran
       const Vec3 normal = (Vec3::Unit(axis) + spread(0.3)).normalized();
       const Vec3 u = 0.4 * Vec3::Unit((axis + 1) % 3), v = 0.4 * Vec3::Unit((axis + 2) % 3);
       const int b = ground ? -1 : i - stride[static_cast<std::size_t>(axis)];
-      const double overlap = (random.uniform() - 0.3) * law.gravity * law.step * law.step /
-                             law.stiffness_ratio;
-      add_contacts<Dof>(i, b, normal, rectangle(centre - 0.5 * Vec3::Unit(axis), u, v), overlap, law,
-                        island);
+      const double overlap =
+          (random.uniform() - 0.3) * law.gravity * law.step * law.step / law.stiffness_ratio;
+      add_contacts<Dof>(i, b, normal, rectangle(centre - 0.5 * Vec3::Unit(axis), u, v), overlap,
+                        law, island);
     }
   }
   return island;

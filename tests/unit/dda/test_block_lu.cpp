@@ -30,7 +30,8 @@ void expect_dense_solution(std::uint64_t seed) {
     clear_matrix(lu);
     Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n * Dof, n * Dof);
     for (int i = 0; i < n; ++i) {
-      auto& block = lu.diagonal[static_cast<std::size_t>(lu.pattern.place[static_cast<std::size_t>(i)])];
+      auto& block =
+          lu.diagonal[static_cast<std::size_t>(lu.pattern.place[static_cast<std::size_t>(i)])];
       block = random_block<Dof>(random) + 5.0 * Dof * Lu::Mat::Identity();
       A.block<Dof, Dof>(i * Dof, i * Dof) = block;
     }
@@ -73,10 +74,12 @@ TEST(Packed, InverseAndProductAreThoseOfTheFullMatrix) {
   talus::Random random(5, "packed");
   for (int round = 0; round < 50; ++round) {
     const auto A = random_block<6>(random);
-    const Eigen::Matrix<double, 6, 6> S = A * A.transpose() + Eigen::Matrix<double, 6, 6>::Identity();
+    const Eigen::Matrix<double, 6, 6> S =
+        A * A.transpose() + Eigen::Matrix<double, 6, 6>::Identity();
     const talus::Packed<6> P = talus::packed<6>(S);
-    EXPECT_LT((talus::unpacked(talus::inverse(P)) * S - Eigen::Matrix<double, 6, 6>::Identity()).norm(),
-              1e-13);
+    EXPECT_LT(
+        (talus::unpacked(talus::inverse(P)) * S - Eigen::Matrix<double, 6, 6>::Identity()).norm(),
+        1e-13);
     const Eigen::Matrix<double, 6, 1> x = A.col(0);
     EXPECT_LT((talus::product<6>(P, x) - S * x).norm(), 1e-14);
   }

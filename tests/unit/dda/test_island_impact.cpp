@@ -39,8 +39,7 @@ void ask_restitution(Island<6>& island, const Restitution& restitution) {
   for (const BodyPair& pair : island.pairs)
     for (int r = pair.row_begin; r < pair.row_end; ++r) {
       IslandRow& row = island.rows[static_cast<std::size_t>(r)];
-      const double v_n =
-          row.normal.dot(point_velocity_of(island, island.free_velocity, pair, row));
+      const double v_n = row.normal.dot(point_velocity_of(island, island.free_velocity, pair, row));
       row.bias = v_n < 0 ? restitution() * v_n : 0;
     }
 }
@@ -66,7 +65,8 @@ Island<6> row_of_cubes(int n, const LawOfScene& law) {
   return island;
 }
 
-// Closed form of two equal blocks: the centre of mass goes on, the difference turns to e times itself.
+// Closed form of two equal blocks: the centre of mass goes on, the difference turns to e times
+// itself.
 TEST(ApplyIslandImpact, TwoBlocksPartWithTheirRestitution) {
   for (const double e : {0.0, 0.3, 0.7, 1.0}) {
     Island<6> island = row_of_cubes(2, weightless(0.5));

@@ -87,8 +87,8 @@ Vec3 local_impulse(ContactRow row, const Vec3& w, const Mat3& W, Vec3 p) {
   return p;
 }
 
-/// Gauss-Seidel over the contacts, each solved by itself with the law of one block: slow, and shares
-/// nothing with the island solver but the law.
+/// Gauss-Seidel over the contacts, each solved by itself with the law of one block: slow, and
+/// shares nothing with the island solver but the law.
 template <int Dof>
 Eigen::VectorXd gauss_seidel(const Island<Dof>& island, int sweeps) {
   const Dense<Dof> dense(island);
@@ -123,8 +123,7 @@ double dense_error(const Island<Dof>& island) {
     ContactRow row = as_contact_row(island.rows[c]);
     p.segment(at, 3) = island.rows[c].impulse;
     talus::evaluate(w.segment(at, 3), -1, row);
-    error =
-        std::max(error, (row.impulse - island.rows[c].impulse).norm() / row.normal_damping);
+    error = std::max(error, (row.impulse - island.rows[c].impulse).norm() / row.normal_damping);
   }
   const Eigen::VectorXd balance =
       v - dense.free - dense.mass.ldlt().solve(dense.map.transpose() * p);
@@ -295,7 +294,8 @@ TEST(SolveIsland, WallOf400BlocksConverges) {
   EXPECT_LT(dense_error(island), 2e-9 * law.gravity * law.step);
 }
 
-// A push at one end of 200 blocks in a row travels through all of them in one step when they are hard.
+// A push at one end of 200 blocks in a row travels through all of them in one step when they are
+// hard.
 TEST(SolveIsland, PushTravelsThroughALongChain) {
   LawOfScene law;
   law.gravity = 0;
@@ -304,10 +304,10 @@ TEST(SolveIsland, PushTravelsThroughALongChain) {
   for (int i = 0; i < 200; ++i) {
     talus::scenes::add_box<6>({Vec3(i, 0, 0), Vec3::Constant(0.5)}, law, island);
     if (i > 0)
-      talus::scenes::add_contacts<6>(i - 1, i, -Vec3::UnitX(),
-                                     talus::scenes::rectangle(Vec3(i - 0.5, 0, 0),
-                                                              Vec3(0, 0.5, 0), Vec3(0, 0, 0.5)),
-                                     0, law, island);
+      talus::scenes::add_contacts<6>(
+          i - 1, i, -Vec3::UnitX(),
+          talus::scenes::rectangle(Vec3(i - 0.5, 0, 0), Vec3(0, 0.5, 0), Vec3(0, 0, 0.5)), 0, law,
+          island);
   }
   island.free_velocity[0][0] = 200;
   IslandWork<6> work;
@@ -318,7 +318,8 @@ TEST(SolveIsland, PushTravelsThroughALongChain) {
   for (const auto& v : island.velocity) EXPECT_NEAR(v[0], 1, 0.1);  // compliance 200 x 200 / 1e6
 }
 
-// Whatever the stiffness, the outcome is finite, and either satisfies the law or says that it does not.
+// Whatever the stiffness, the outcome is finite, and either satisfies the law or says that it does
+// not.
 TEST(SolveIsland, StaysFiniteAndHonestOver20DecadesOfStiffness) {
   talus::Random random(51, "stiffness");
   IslandWork<6> work;
