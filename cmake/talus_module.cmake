@@ -37,6 +37,11 @@ function(talus_module name)
       add_library(talus_${name}_${library} STATIC ${own})
       target_link_libraries(talus_${name}_${library} PUBLIC talus_${name}
                             PRIVATE ${TALUS_LIBRARY_${library}})
+      foreach(module ${modules})  # io_hdf5 serves store_hdf5
+        if(TARGET ${module}_${library})
+          target_link_libraries(talus_${name}_${library} PUBLIC ${module}_${library})
+        endif()
+      endforeach()
     endif()
   endforeach()
 endfunction()

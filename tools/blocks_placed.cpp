@@ -11,6 +11,7 @@
 #include "io/mesh.hpp"
 #include "io/vectors_gdal.hpp"
 #include "scene/joint_plan.hpp"
+#include "site_places.hpp"
 
 namespace talus {
 namespace {
@@ -228,19 +229,7 @@ void add_section(const PlacedContext& context, const PlacedSettings& section, Bl
 
 std::vector<Vec3> local_points(const PlacedContext& context, std::vector<Vec3> points,
                                const std::string& key) {
-  const std::string& user_crs = context.site.info.crs;
-  if (!user_crs.empty() && !points.empty() && !context.ground.crs_wkt.empty()) {
-    const std::string crs = crs_from_user(user_crs, "site.crs");
-    if (!crs.empty() && !same_crs(crs, context.ground.crs_wkt)) {
-      if (!reproject(crs, context.ground.crs_wkt, points))
-        throw InputError(where_of(context.site, key), "cannot be reprojected from " +
-                                                          crs_name(crs) + " to " +
-                                                          crs_name(context.ground.crs_wkt));
-      context.tool.info(key + ": reprojected from " + crs_name(crs));
-    }
-  }
-  for (Vec3& p : points) p -= context.ground.origin;
-  return points;
+  return local_points(context.tool, context.site, context.ground, std::move(points), key);
 }
 
 void add_placed_blocks(const PlacedContext& context, BlockSet& set) {

@@ -29,6 +29,14 @@ class SiteOptions {
     });
   }
 
+  /// An option of the tool that stands for a key of the site file and wins over it.
+  void option(Tool& tool, const std::string& name, const std::string& key,
+              const std::string& help) {
+    tool.app().add_option_function<std::string>(
+        name, [this, key](const std::string& value) { overrides_.push_back(key + "=" + value); },
+        help + " [" + key + "]");
+  }
+
   /// Throws InputError (read_site, override_value).
   const Site& load() {
     if (site_) return *site_;

@@ -20,6 +20,7 @@
 #include "io/vectors_gdal.hpp"
 #include "scene/joint_plan.hpp"
 #include "site_options.hpp"
+#include "terrain/trn_digest.hpp"
 #include "tool.hpp"
 
 namespace {
@@ -495,6 +496,8 @@ int main(int argc, char** argv) {
     add_placed_blocks({tool, work.site, work.ground, work.has_source() ? &work.area : nullptr},
                       work.blocks);
     work.blocks.content_hash = hash_of(o, work);
+    work.blocks.ground_digests = {trn_digest(work.ground)};
+    if (work.is_cut()) work.blocks.ground_digests = {trn_digest(work.mass.bed)};
     const Json report = report_on(tool, o, work);
     record_metrics(tool, report);
     write_all(tool, o, work, report);

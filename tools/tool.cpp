@@ -537,7 +537,7 @@ void Tool::detail(const std::string& text) {
 
 void Tool::warn(const std::string& text) {
   impl_->event("warning", text);
-  impl_->print(impl_->name + ": warning: " + text);
+  if (!impl_->quiet) impl_->print(impl_->name + ": warning: " + text);
 }
 
 void Tool::metric(const std::string& name, double value, const std::string& unit) {

@@ -75,7 +75,7 @@ class Tool {
   [[nodiscard]] bool interrupted() const;  ///< SIGINT or SIGTERM has come
   void info(const std::string& text);      ///< to stderr, not with -q
   void detail(const std::string& text);    ///< to stderr, with -v
-  void warn(const std::string& text);      ///< to stderr, kept in the registry and in result()
+  void warn(const std::string& text);      ///< as info(); kept in the registry and in result()
   void metric(const std::string& name, double value, const std::string& unit);
   /// A limit of the run's health; a failed one makes the exit code 3 once the outputs are in place.
   void check(const std::string& name, double value, double limit, bool pass);

@@ -28,6 +28,7 @@ struct BlockSet {  // clang-format off
   Vec3 origin = Vec3::Zero();   ///< map coordinates of the local zero [m]
   std::string crs_wkt;          ///< projected, metres; empty when unknown
   std::string content_hash;     ///< SHA-256 over inputs and options that made the blocks
+  std::vector<std::string> ground_digests;  ///< trn_digest of the terrains that they were made for
   std::vector<std::string> material_names;   ///< names of [material.*]               (n_materials)
   std::vector<std::string> joint_set_names;  ///< names of [joints.*]                 (n_joint_sets)
 

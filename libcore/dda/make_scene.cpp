@@ -93,7 +93,8 @@ void check_scene(const Scene& scene) {
   }
   const BaseMotion& base = scene.base;
   if (base.time.size() != base.acceleration.size())
-    throw InputError({}, "base motion has as many times as accelerations");
+    throw InputError({}, "base motion has " + std::to_string(base.time.size()) + " times and " +
+                             std::to_string(base.acceleration.size()) + " accelerations");
   for (std::size_t i = 1; i < base.time.size(); ++i)
     if (!(base.time[i] > base.time[i - 1]))
       throw InputError({},

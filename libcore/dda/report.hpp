@@ -11,7 +11,7 @@ enum class StepFlag : unsigned {
   not_finite = 2,    ///< NaN or infinity: the block was stopped at its last good state
   left_domain = 4,   ///< a block left the known terrain and was stopped
   fell_through = 8,  ///< a block lies wholly below the ground under it
-  deep = 16,         ///< a penetration above a tenth of the block's thickness
+  deep = 16,         ///< a contact presses with an overlap above a tenth of the block's thickness
 };
 
 [[nodiscard]] inline StepFlag operator|(StepFlag a, StepFlag b) {
@@ -20,6 +20,9 @@ enum class StepFlag : unsigned {
 [[nodiscard]] inline bool has(StepFlag flags, StepFlag flag) {
   return (static_cast<unsigned>(flags) & static_cast<unsigned>(flag)) != 0;
 }
+
+/// Overlap from which StepFlag::deep is set, as a share of the block's thickness.
+inline constexpr double deep_share = 0.1;
 
 struct StepReport {
   StepFlag flags = StepFlag::none;
@@ -31,5 +34,11 @@ struct StepReport {
   double largest_penetration = 0;  ///< over contacts that press, at the end of the step [m]
   double shortest_dt = 0;          ///< shortest substep; 0 when no block searched contact [s]
 };
+
+/// Takes an overlap of a contact that presses into the report.
+inline void note_penetration(StepReport& report, double overlap, double thickness) {
+  if (overlap > report.largest_penetration) report.largest_penetration = overlap;
+  if (overlap > deep_share * thickness) report.flags = report.flags | StepFlag::deep;
+}
 
 }  // namespace talus

@@ -19,6 +19,7 @@ enum class Phase : std::uint8_t {
   flight,       ///< free until flight_end; its motion below is that at `local_time`
   asleep,       ///< sticks and stands still
   left_domain,  ///< left the known terrain: stopped where it left, and counted
+  stopped,      ///< its numbers failed: stopped at its last good state, and flagged
 };
 
 /// Motion of one block at its own time.

@@ -9,6 +9,7 @@
 #include "dda/step_island.hpp"
 #include "dda/step_paper.hpp"
 #include "dda/step_talus.hpp"
+#include "dda/substep.hpp"
 
 namespace talus {
 namespace {
@@ -52,6 +53,10 @@ void put_to_sleep(const Scene& scene, size_t b, State& state) {
 bool in_company(const IslandGroups& groups, int b) {
   const auto k = static_cast<size_t>(groups.island_of[static_cast<size_t>(b)]);
   return groups.block_begin[k + 1] - groups.block_begin[k] > 1;
+}
+
+bool does_not_move(Phase phase) {
+  return phase == Phase::asleep || phase == Phase::left_domain || phase == Phase::stopped;
 }
 
 bool spins(const Scene& scene, size_t b) { return !scene.blocks.spin[b].isZero(0); }
@@ -115,7 +120,8 @@ Work make_work(const Scene& scene) {
 StepReport step(const Scene& scene, State& state, Work& work) {
   StepReport report;
   const double t_end = state.time + scene.settings.dt;
-  const bool may_sleep = scene.settings.sleep && scene.base.time.empty();
+  const bool may_sleep =
+      scene.settings.sleep && scene.settings.law == Law::talus && scene.base.time.empty();
   work.segments.clear();
   const bool islands = n_blocks(scene) > 1 && scene.settings.law == Law::talus;
   if (islands) form_islands(scene, state, work);
@@ -128,16 +134,17 @@ StepReport step(const Scene& scene, State& state, Work& work) {
       if (may_sleep) put_island_to_sleep(scene, k, state, work);
       continue;
     }
-    if (state.phase[i] == Phase::asleep || state.phase[i] == Phase::left_domain) continue;
+    if (does_not_move(state.phase[i])) continue;
     if (state.phase[i] == Phase::flight && state.flight_end[i] >= t_end) {
       ++state.counters.flight_skips;
       continue;
     }
-    if (scene.settings.law == Law::paper) {
+    const Motion before = state.motion[i];
+    if (scene.settings.law == Law::paper)
       advance_block_paper(scene, b, state, work, report);
-      continue;
-    }
-    advance_block_talus(scene, b, t_end, state, work, report);
+    else
+      advance_block_talus(scene, b, t_end, state, work, report);
+    if (!is_finite(state.motion[i])) stop_at(before, i, state, report);
     if (may_sleep && state.phase[i] == Phase::near_ground) put_to_sleep(scene, i, state);
   }
   state.time = t_end;
@@ -159,7 +166,10 @@ Energies energies(const Scene& scene, const State& state) {
   Energies sum;
   for (int b = 0; b < n_blocks(scene); ++b) {
     const auto i = static_cast<size_t>(b);
-    const Motion m = motion_at(scene, state, b, state.time);
+    Motion m = state.motion[i];  // a flight's spin energy does not change: no need to follow it
+    const double flown = state.phase[i] == Phase::flight ? state.time - state.local_time[i] : 0;
+    m.pose.position += flown * m.velocity + 0.5 * flown * flown * scene.gravity;
+    m.velocity += flown * scene.gravity;
     const double mass = scene.blocks.mass[i];
     const Vec3 spin =
         angular_velocity(m.pose.attitude, m.angular_momentum, scene.blocks.inertia[i]);

@@ -29,7 +29,8 @@ Vec3 spin_of(const Motion& m, const Vec3& inertia) {
 }
 
 bool takes_part(const State& state, int b) {
-  return state.phase[static_cast<size_t>(b)] != Phase::left_domain;
+  const Phase phase = state.phase[static_cast<size_t>(b)];
+  return phase != Phase::left_domain && phase != Phase::stopped;
 }
 
 // Contacts between the blocks marked in work.islands.moving, and of those with others, over `h`.
@@ -420,7 +421,7 @@ struct AdvanceIsland {
                                                      : Vec3(row.shear + path - along * row.normal);
       state.memory[static_cast<size_t>(contact.a)].push_back(memory);
       ++report.n_closed;
-      report.largest_penetration = std::max(report.largest_penetration, -(row.gap_start + along));
+      note_penetration(report, -(row.gap_start + along), numbers(contact.a).thickness);
     }
   }
 
@@ -447,6 +448,7 @@ struct AdvanceIsland {
         state.ledger.base +=
             w.numbers[k].mass * external.dot(end.pose.position - s.start.pose.position);
       motion(k) = end;
+      if (!is_finite(end)) stop_at(s.start, block(k), state, report);
       state.local_time[block(k)] = t + h;
       ++report.substeps;
     }
@@ -563,10 +565,11 @@ struct AdvanceIsland {
     }
   }
 
-  // Stops the members that left the known ground; those that stay go on.
+  // Stops the members that left the known ground; those that stay, and whose numbers did not fail,
+  // go on.
   void stop_outsiders(double t_end) {
     const auto is_outside = [&](int b) {
-      return b == outsider ||
+      return b == outsider || !takes_part(state, b) ||
              left_ground(scene, state.motion[static_cast<size_t>(b)].pose.position);
     };
     if (std::none_of(w.members.begin(), w.members.end(), is_outside)) return;
@@ -576,7 +579,7 @@ struct AdvanceIsland {
         stay.push_back(b);
         continue;
       }
-      stop_outside(scene, b, state, report);
+      if (takes_part(state, b)) stop_outside(scene, b, state, report);
       state.local_time[static_cast<size_t>(b)] = t_end;
     }
     outsider = -1;

@@ -205,7 +205,8 @@ void remember(const OpenClose<Dof>& solved, State& state, Work& work, int b, Ste
     memory.state = static_cast<std::uint8_t>(row.state);
     work.memory_next.push_back(memory);
     ++report.n_closed;
-    report.largest_penetration = std::max(report.largest_penetration, -memory.gap_end);
+    note_penetration(report, -memory.gap_end,
+                     solved.scene.blocks.shapes.thickness[static_cast<size_t>(b)]);
     state.ledger.contact -= memory.normal_force * along;
     if (!sticks)
       state.ledger.friction += row.held_cap * (moved - along * row.normal).dot(row.slip_start);

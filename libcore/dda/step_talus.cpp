@@ -136,7 +136,7 @@ void remember(const BlockNumbers& c, const Substep& s, const Solved<Dof>& solved
     memory.shear = s.R * shear;
     work.memory_next.push_back(memory);
     ++report.n_closed;
-    report.largest_penetration = std::max(report.largest_penetration, -(row.gap_start + along));
+    note_penetration(report, -(row.gap_start + along), c.thickness);
   }
   std::swap(state.memory[static_cast<size_t>(b)], work.memory_next);
 }

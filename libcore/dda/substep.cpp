@@ -66,6 +66,7 @@ BlockNumbers numbers_of(const Scene& scene, int b, double stiffness_ratio) {
   const double radius = scene.blocks.shapes.radius[i];
   return {scene.blocks.mass[i],
           radius,
+          scene.blocks.shapes.thickness[i],
           stiffness_ratio * scene.blocks.mass[i] / (dt * dt),
           recovery_steps * dt,
           touch_ratio * radius,
@@ -185,7 +186,7 @@ void make_rows(const Scene& scene, int b, const BlockNumbers& c, const Substep& 
 // Residual at which the contact forces count as found, as a velocity: 1e-8 of what gravity does in
 // the substep, or what the rounding of the coordinates makes of the stiffest contact.
 double newton_tolerance(const BlockNumbers& c, const Substep& s) {
-  const double rounding = std::numeric_limits<double>::epsilon() *
+  const double rounding = 8 * std::numeric_limits<double>::epsilon() *
                           s.start.pose.position.cwiseAbs().maxCoeff() * c.stiffness * s.h / c.mass;
   return std::clamp(rounding, 1e-8 * c.gravity * s.h, 1e-6 * c.gravity * s.h) +
          1e-13 * s.start.velocity.norm();
@@ -231,6 +232,18 @@ void set_rates(const Scene& scene, int b, const Motion& start, const Motion& end
       (start.pose.attitude.conjugate() * start.angular_momentum).cwiseQuotient(inertia);
   const Vec3 after = (end.pose.attitude.conjugate() * end.angular_momentum).cwiseQuotient(inertia);
   state.spin_rate[i] = (after - before) / h;
+}
+
+bool is_finite(const Motion& m) {
+  return m.pose.position.allFinite() && m.pose.attitude.coeffs().allFinite() &&
+         m.velocity.allFinite() && m.angular_momentum.allFinite();
+}
+
+void stop_at(const Motion& last_good, size_t b, State& state, StepReport& report) {
+  state.motion[b] = {last_good.pose, Vec3::Zero(), Vec3::Zero()};
+  state.phase[b] = Phase::stopped;
+  state.memory[b].clear();
+  report.flags = report.flags | StepFlag::not_finite;
 }
 
 }  // namespace talus

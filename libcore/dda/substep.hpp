@@ -60,6 +60,11 @@ void add_segment(int b, bool flight, double t, double h, const Motion& start, co
 /// Stops block b where it left the known terrain, and counts it.
 void stop_outside(const Scene& scene, int b, State& state, StepReport& report);
 
+[[nodiscard]] bool is_finite(const Motion& m);
+
+/// Stops block b, whose numbers failed, at its last good state, and flags it.
+void stop_at(const Motion& last_good, std::size_t b, State& state, StepReport& report);
+
 /// Keeps the accelerations of the substep, the first guess of the next.
 void set_rates(const Scene& scene, int b, const Motion& start, const Motion& end, double h,
                State& state);

@@ -8,7 +8,7 @@ namespace talus {
 
 /// Constants of one block in one run.
 struct BlockNumbers {
-  double mass = 0, radius = 0;
+  double mass = 0, radius = 0, thickness = 0;
   double stiffness = 0;      ///< k_n of a contact that feels the whole mass [N/m]
   double recovery_time = 0;  ///< overlap is pressed out over this time [s]
   double touch = 0;          ///< a contact is touching when its gap is below this [m]

@@ -307,6 +307,7 @@ void write_blocks(const std::string& path, const BlockSet& set,
   writer.text_attribute(file, "content_hash", set.content_hash);
   writer.numbers_attribute(file, "origin_m",
                            std::vector<double>{set.origin.x(), set.origin.y(), set.origin.z()});
+  writer.texts_attribute(file, "ground_digests", set.ground_digests);
   writer.texts_attribute(file, "material_names", set.material_names);
   writer.texts_attribute(file, "joint_set_names", set.joint_set_names);
   for (const auto& [name, value] : tags) writer.text_attribute(file, name.c_str(), value);
@@ -340,6 +341,7 @@ BlockSet read_blocks(const std::string& path) {
   set.crs_wkt = reader.text_attribute("crs");
   set.content_hash = reader.text_attribute("content_hash");
   reader.numbers_attribute("origin_m", set.origin.data(), 3);
+  set.ground_digests = reader.texts_attribute("ground_digests");
   set.material_names = reader.texts_attribute("material_names");
   set.joint_set_names = reader.texts_attribute("joint_set_names");
   for_each_array(set, ReadArray{reader});

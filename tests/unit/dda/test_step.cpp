@@ -234,6 +234,24 @@ TEST(Step, BlockThatLeavesIsStoppedAndCounted) {
   EXPECT_GT(state.ledger.removed, 0);
 }
 
+// A cube of 1 m on springs so soft that its weight presses them in by 0.02 m or by 0.2 m.
+TEST(Step, DeepPenetrationIsFlagged) {
+  const SlopeFrame frame = slope_frame(0, 0);
+  const Body cube = body_of(box_in(frame, Vec3::Zero(), Vec3(-0.5, -0.5, 0), Vec3(0.5, 0.5, 1)));
+  for (const auto& [depth, is_deep] : {std::pair{0.02, false}, {0.2, true}}) {
+    Settings settings;
+    settings.law = Law::paper;
+    settings.dt = 1e-3;
+    settings.normal_stiffness = 2500 * 10 / (4 * depth);
+    const Scene scene = scene_of(plane_trn(frame, 1, 10), {}, {cube}, settings);
+    State state = start(scene);
+    Work work = make_work(scene);
+    StepFlag flags = StepFlag::none;
+    for (int i = 0; i < 1000; ++i) flags = flags | step(scene, state, work).flags;
+    EXPECT_EQ(has(flags, StepFlag::deep), is_deep) << depth;
+  }
+}
+
 // Bonded face on a slope: fails where rho g h sin(th) = tan(phi) rho g h cos(th) + c.
 TEST(Step, BondHoldsToItsStrengthAndBreaksForGood) {
   const double friction = std::tan(20 * degree), cohesion = 0.3 * 2500 * 10;

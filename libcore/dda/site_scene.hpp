@@ -1,0 +1,36 @@
+// libcore/dda/site_scene.hpp
+// From a site file, its terrain and its blocks to the scene that is computed.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "blocks/block_set.hpp"
+#include "dda/scene.hpp"
+#include "scene/base_motion.hpp"
+#include "scene/plan.hpp"
+#include "scene/site.hpp"
+
+namespace talus {
+
+/// What a site file's settings refer to, read by the caller.
+struct SceneParts {
+  Trn trn;
+  std::vector<std::uint8_t> cell_class;  ///< index into [ground.*]; empty: one class   (n_cells)
+  BlockSet blocks;                       ///< in the TRN's local coordinates
+  AccelerationRecord base;
+};
+
+/// The effective time step: [solver] time_step_s, else 5 ms for law talus and 0.1 ms for law paper,
+/// within min_time_step_s and max_time_step_s [s].
+[[nodiscard]] double time_step(const SolverSettings& solver);
+
+/// The scene with the settings of the site and the decisions of the plan. Scatter of friction and
+/// restitution and the jitter of the start are drawn from [solver] seed. Throws InputError for a
+/// block material that the site file does not know, and what check_scene() refuses.
+[[nodiscard]] Scene make_site_scene(const Site& site, const ScenePlan& plan, SceneParts parts);
+
+/// Keys of the site file that were given and that law talus or paper make no use of.
+[[nodiscard]] std::vector<std::string> keys_without_effect(const Site& site);
+
+}  // namespace talus

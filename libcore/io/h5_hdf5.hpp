@@ -1,0 +1,90 @@
+// libcore/io/h5_hdf5.hpp
+// HDF5 as Talus uses it: arrays with a unit and a description, attributes, nothing else.
+//
+// Writing builds the whole file in memory, without time stamps, so that equal content gives equal
+// bytes and no half-written HDF5 file ever reaches the disk. Reading checks type, rank and extent
+// of every array before it takes memory for it.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace talus {
+
+using Shape = std::vector<std::size_t>;
+
+/// Element types: std::uint8_t, std::int32_t, std::int64_t, float, double.
+class H5Writer {
+ public:
+  H5Writer();
+  ~H5Writer();
+  H5Writer(const H5Writer&) = delete;
+  H5Writer& operator=(const H5Writer&) = delete;
+
+  /// `path` from the root without a leading slash; its parent must exist.
+  void group(const std::string& path, const std::string& description);
+  /// An array of `shape`, row by row. `units` "1" for numbers without. Stored in chunks, shuffled
+  /// and deflated when it is longer than a kilobyte.
+  template <class T>
+  void array(const std::string& path, std::span<const T> values, const Shape& shape,
+             const std::string& units, const std::string& description);
+  void text(const std::string& path, const std::string& value, const std::string& description);
+  void texts(const std::string& path, const std::vector<std::string>& values,
+             const std::string& description);
+
+  /// `object` "" is the root.
+  void attribute(const std::string& object, const std::string& name, const std::string& value);
+  void attribute(const std::string& object, const std::string& name, double value);
+  void attribute(const std::string& object, const std::string& name, std::int64_t value);
+  void attribute(const std::string& object, const std::string& name, std::span<const double> value);
+
+  /// The bytes of the file; nothing can be added afterwards.
+  [[nodiscard]] std::vector<unsigned char> image();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Opens a file for reading. Every function throws InputError naming file and object for what is
+/// missing, of another type or shape, or cannot be read.
+class H5Reader {
+ public:
+  explicit H5Reader(const std::string& path);
+  ~H5Reader();
+  H5Reader(const H5Reader&) = delete;
+  H5Reader& operator=(const H5Reader&) = delete;
+
+  [[nodiscard]] bool has(const std::string& path) const;
+  [[nodiscard]] Shape shape(const std::string& path) const;
+  /// All values; `columns` is the product of the extents after the first, 0 for any.
+  template <class T>
+  [[nodiscard]] std::vector<T> array(const std::string& path, std::size_t columns) const;
+  /// Rows first..first + n - 1 of the first dimension.
+  template <class T>
+  [[nodiscard]] std::vector<T> rows(const std::string& path, std::size_t columns, std::size_t first,
+                                    std::size_t n) const;
+  [[nodiscard]] std::string text(const std::string& path) const;
+  [[nodiscard]] std::vector<std::string> texts(const std::string& path) const;
+
+  [[nodiscard]] std::string attribute_text(const std::string& object,
+                                           const std::string& name) const;
+  [[nodiscard]] double attribute_number(const std::string& object, const std::string& name) const;
+  [[nodiscard]] std::int64_t attribute_integer(const std::string& object,
+                                               const std::string& name) const;
+  [[nodiscard]] std::vector<double> attribute_numbers(const std::string& object,
+                                                      const std::string& name) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Writes bytes to `path`, synced to the disk. Throws InputError with the system's reason (disk
+/// full, file too large, no permission); what was written so far is removed.
+void write_bytes(const std::string& path, std::span<const unsigned char> bytes);
+
+}  // namespace talus

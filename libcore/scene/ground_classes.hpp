@@ -1,0 +1,24 @@
+// libcore/scene/ground_classes.hpp
+// Which cell of the terrain has which class of ground: the sections [ground.*] with their areas.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "terrain/trn.hpp"
+
+namespace talus {
+
+/// The area of one class: rings in local coordinates, even-odd, so that a ring in a ring is a hole.
+struct GroundArea {
+  int ground_class = 0;
+  std::vector<std::vector<Vec2>> rings;  ///< without the first point at the end [m]
+};
+
+/// Class of every cell of `trn`: that of the last area whose inside holds the cell's centre, else
+/// `elsewhere`.                                                                     (n_cells)
+[[nodiscard]] std::vector<std::uint8_t> classify_cells(const Trn& trn,
+                                                       const std::vector<GroundArea>& areas,
+                                                       int elsewhere);
+
+}  // namespace talus

@@ -1,0 +1,21 @@
+// libcore/scene/start_depth.hpp
+// How deep blocks stand in the ground before anything moves.
+#pragma once
+
+#include <vector>
+
+#include "blocks/block_set.hpp"
+#include "terrain/trn.hpp"
+
+namespace talus {
+
+/// Depth of each block below the ground: how far it has to be lifted until no point of it lies
+/// below. Exact for convex parts on known ground: the largest overlap along the vertical stands at
+/// a vertex, at a terrain node, or where an edge crosses one of the terrain's. <= 0: above [m];
+/// -infinity where no ground is known below.                                       (n_blocks)
+[[nodiscard]] std::vector<double> depths_below_ground(const Trn& trn, const BlockSet& blocks);
+
+/// Moves block b along z, with all that the set holds of it.
+void lift_block(BlockSet& blocks, int b, double height);
+
+}  // namespace talus

@@ -1,0 +1,181 @@
+#include "store/checkpoint.hpp"
+
+#include <algorithm>
+#include <array>
+#include <initializer_list>
+
+#include "base/sha256.hpp"
+#include "store/bytes.hpp"
+
+namespace talus {
+
+// --- what is stored of each struct -------------------------------------------------------------
+// A field added to one of these structs and forgotten here would be lost on --resume: the sizes
+// say that a list has to be looked at again.
+
+static_assert(sizeof(Motion) == 112 && sizeof(EnergyLedger) == 40 && sizeof(RunCounters) == 64);
+static_assert(sizeof(ContactMemory) == 128 && sizeof(HealthRow) == 168);
+static_assert(sizeof(State) == 8 + 11 * 24 + sizeof(EnergyLedger) + sizeof(RunCounters) +
+                                   sizeof(PairState) + sizeof(PlacedHulls));
+static_assert(sizeof(PairState) == 272 && sizeof(PlacedHulls) == 192 && sizeof(ListedPair) == 88);
+static_assert(sizeof(PairWatch) == 16 && sizeof(HeldPoint) == 24);
+
+template <class Archive>
+void fields(Fields<Archive>& archive, Motion& motion) {
+  archive(motion.pose.position, motion.pose.attitude, motion.velocity, motion.angular_momentum);
+}
+template <class Archive>
+void fields(Fields<Archive>& archive, EnergyLedger& ledger) {
+  archive(ledger.friction, ledger.impact, ledger.contact, ledger.base, ledger.removed);
+}
+template <class Archive>
+void fields(Fields<Archive>& archive, RunCounters& counters) {
+  archive(counters.steps, counters.substeps, counters.flight_skips, counters.impacts,
+          counters.passes, counters.unconverged, counters.cut_back, counters.left_domain);
+}
+template <class Archive>
+void fields(Fields<Archive>& archive, ContactMemory& memory) {
+  archive(memory.key.mode, memory.key.body_b, memory.key.feature_a, memory.key.feature_b,
+          memory.normal, memory.shear, memory.slip_direction, memory.offset, memory.gap_end,
+          memory.normal_force, memory.bond_area, memory.state);
+}
+template <class Archive>
+void fields(Fields<Archive>& archive, Mat3& value) {
+  for (int i = 0; i < 9; ++i) archive(value.data()[i]);
+}
+template <class Archive>
+void fields(Fields<Archive>& archive, Box& box) {
+  archive(box.low, box.high);
+}
+template <class Archive>
+void fields(Fields<Archive>& archive, PairWatch& watch) {
+  archive(watch.wake, watch.part_a, watch.part_b);
+}
+template <class Archive>
+void fields(Fields<Archive>& archive, ListedPair& pair) {
+  archive(pair.axis.kind, pair.axis.feature_a, pair.axis.feature_b, pair.touches, pair.incident,
+          pair.hold, pair.other_face, pair.between, pair.turned, pair.area, pair.held_begin,
+          pair.held_end);
+}
+template <class Archive>
+void fields(Fields<Archive>& archive, HeldPoint& point) {
+  archive(point.key.mode, point.key.body_b, point.key.feature_a, point.key.feature_b, point.area);
+}
+template <class Archive>
+void fields(Fields<Archive>& archive, PairState& pairs) {
+  archive(pairs.watch, pairs.pairs, pairs.held, pairs.in_frame, pairs.frame, pairs.listed_at,
+          pairs.listed_turned, pairs.budget, pairs.last_frame, pairs.last_at, pairs.last_turned,
+          pairs.travel);
+}
+template <class Archive>
+void fields(Fields<Archive>& archive, PlacedHulls& placed) {
+  archive(placed.vertices, placed.nx, placed.ny, placed.nz, placed.offset, placed.position,
+          placed.axes, placed.turned);
+}
+template <class Archive>
+void fields(Fields<Archive>& archive, State& state) {
+  archive(state.time, state.motion, state.local_time, state.flight_end, state.phase,
+          state.acceleration, state.spin_rate, state.rebound, state.still_steps, state.strain,
+          state.strain_rate, state.memory, state.pairs, state.placed, state.ledger, state.counters);
+}
+template <class Archive>
+void fields(Fields<Archive>& archive, PassageValues& values) {
+  archive(values.speed, values.translational_energy, values.total_energy, values.centroid_height,
+          values.top_height);
+}
+template <class Archive>
+void fields(Fields<Archive>& archive, PassageTracker& tracker) {
+  archive(tracker.last.motion, tracker.last.top, tracker.last.spin_energy, tracker.last_time,
+          tracker.margin, tracker.covered, tracker.pending);
+}
+template <class Archive>
+void fields(Fields<Archive>& archive, FrameBlock& block) {
+  archive(block.position, block.attitude, block.velocity, block.spin, block.strain);
+}
+template <class Archive>
+void fields(Fields<Archive>& archive, Frame& frame) {
+  archive(frame.time, frame.blocks);
+}
+template <class Archive>
+void fields(Fields<Archive>& archive, FrameSampler& sampler) {
+  archive(sampler.interval, sampler.open, sampler.n_closed, sampler.next, sampler.latest);
+}
+template <class Archive>
+void fields(Fields<Archive>& archive, HealthRow& row) {
+  archive(row.time, row.shortest_dt, row.steps, row.substeps, row.passes, row.impacts,
+          row.unconverged, row.left_domain, row.fell_through, row.not_finite, row.deep,
+          row.largest_penetration, row.translation, row.rotation, row.potential, row.elastic,
+          row.friction, row.impact, row.contact, row.base, row.removed);
+}
+template <class Archive>
+void fields(Fields<Archive>& archive, Checkpoint& checkpoint) {
+  archive(checkpoint.state, checkpoint.trackers, checkpoint.sampler, checkpoint.interval,
+          checkpoint.energy_start);
+}
+
+namespace {
+
+constexpr std::uint64_t format = 0x31306b6365686374;  // "tcheck01"
+constexpr std::size_t digest_length = 64;
+
+std::string digest_of(std::span<const std::uint8_t> bytes) {
+  Sha256 hash;
+  hash.add(bytes.data(), bytes.size());
+  return hash.hex();
+}
+
+bool all_are(std::size_t n, std::initializer_list<std::size_t> sizes) {
+  return std::all_of(sizes.begin(), sizes.end(), [n](std::size_t size) { return size == n; });
+}
+
+bool fits(const Checkpoint& checkpoint, std::size_t n_blocks, int n_cells) {
+  const State& state = checkpoint.state;
+  const FrameSampler& sampler = checkpoint.sampler;
+  if (!all_are(n_blocks, {state.motion.size(), state.local_time.size(), state.flight_end.size(),
+                          state.phase.size(), state.acceleration.size(), state.spin_rate.size(),
+                          state.still_steps.size(), state.memory.size(), sampler.next.size(),
+                          sampler.latest.size()}))
+    return false;
+  if (!checkpoint.trackers.empty() && checkpoint.trackers.size() != n_blocks) return false;
+  for (const PassageTracker& tracker : checkpoint.trackers)
+    for (const int cell : tracker.covered)
+      if (cell < 0 || cell >= n_cells) return false;
+  return std::all_of(sampler.open.begin(), sampler.open.end(),
+                     [n_blocks](const Frame& frame) { return frame.blocks.size() == n_blocks; });
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> pack(const Checkpoint& checkpoint) {
+  ByteWriter writer;
+  Fields<ByteWriter> archive{writer};
+  std::uint64_t mark = format;
+  Checkpoint copy = checkpoint;  // reading and writing share the lists of fields
+  archive(mark, copy);
+  const std::string digest = digest_of(writer.bytes);
+  writer.raw(digest.data(), digest.size());
+  return std::move(writer.bytes);
+}
+
+Checkpoint unpack(const std::vector<std::uint8_t>& bytes, int n_blocks, int n_cells,
+                  const std::string& file) {
+  const Where where{file, 0, "checkpoint"};
+  const std::string hint = "start the run again without --resume";
+  if (bytes.size() < digest_length + sizeof format)
+    throw InputError(where, "is missing or too short", hint);
+  const std::span<const std::uint8_t> body(bytes.data(), bytes.size() - digest_length);
+  if (!std::equal(bytes.end() - digest_length, bytes.end(), digest_of(body).begin()))
+    throw InputError(where, "is damaged: its digest differs", hint);
+  ByteReader reader{body, file};
+  Fields<ByteReader> archive{reader};
+  std::uint64_t mark = 0;
+  archive(mark);
+  if (mark != format) throw InputError(where, "was written by another version", hint);
+  Checkpoint checkpoint;
+  archive(checkpoint);
+  if (!reader.bytes.empty() || !fits(checkpoint, static_cast<std::size_t>(n_blocks), n_cells))
+    throw InputError(where, "belongs to another scene", hint);
+  return checkpoint;
+}
+
+}  // namespace talus

@@ -1,0 +1,32 @@
+// libcore/store/checkpoint.hpp
+// What a run needs to go on as if it had not been stopped: to the bit.
+// The rows recorded so far stand in the run file itself; here is the rest.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "dda/state.hpp"
+#include "store/frames.hpp"
+#include "store/passages.hpp"
+#include "store/run_file.hpp"
+
+namespace talus {
+
+struct Checkpoint {
+  State state;
+  std::vector<PassageTracker> trackers;  ///< empty when passages are off
+  FrameSampler sampler;
+  HealthRow interval;       ///< health since the last row
+  double energy_start = 0;  ///< of all blocks at time 0 [J]
+};
+
+[[nodiscard]] std::vector<std::uint8_t> pack(const Checkpoint& checkpoint);
+
+/// Throws InputError naming `file` for bytes of another version, damaged ones, and those of a scene
+/// with another number of blocks or cells.
+[[nodiscard]] Checkpoint unpack(const std::vector<std::uint8_t>& bytes, int n_blocks, int n_cells,
+                                const std::string& file);
+
+}  // namespace talus

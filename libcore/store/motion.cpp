@@ -1,0 +1,71 @@
+#include "store/motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace talus {
+
+double flight_turn(const Segment& segment, const Vec3& inertia) {
+  return segment.start.angular_momentum.norm() / inertia.minCoeff() *
+         (segment.t_end - segment.t_start);
+}
+
+void SegmentMotion::follow(const Segment& segment, const Vec3& inertia) {
+  segment_ = &segment;
+  inertia_ = &inertia;
+  if (!segment.flight) return;
+  attitudes_.assign(1, segment.start.pose.attitude);
+  const double n = std::max(1.0, std::ceil(flight_turn(segment, inertia) / flight_stride));
+  stride_ = (segment.t_end - segment.t_start) / n;
+}
+
+Motion SegmentMotion::at(double t) {
+  const Motion &a = segment_->start, &b = segment_->end;
+  if (t <= segment_->t_start) return a;
+  if (t >= segment_->t_end) return b;
+  const double elapsed = t - segment_->t_start;
+  if (segment_->flight) return in_flight(elapsed);
+  const double duration = segment_->t_end - segment_->t_start, s = elapsed / duration;
+  Motion motion;
+  motion.pose.position = a.pose.position + s * (b.pose.position - a.pose.position) -
+                         0.5 * elapsed * (duration - elapsed) * segment_->acceleration;
+  motion.pose.attitude = a.pose.attitude.slerp(s, b.pose.attitude);
+  motion.velocity = a.velocity + s * (b.velocity - a.velocity);
+  motion.angular_momentum = a.angular_momentum + s * (b.angular_momentum - a.angular_momentum);
+  return motion;
+}
+
+Motion SegmentMotion::in_flight(double elapsed) {
+  const Motion& start = segment_->start;
+  const Vec3& L = start.angular_momentum;
+  const double strides = elapsed / stride_, whole = std::floor(strides + 1e-12);
+  while (static_cast<double>(attitudes_.size()) <= whole)
+    attitudes_.push_back(free_rotation(attitudes_.back(), L, *inertia_, stride_));
+  Motion motion;
+  motion.pose.attitude = attitudes_[static_cast<std::size_t>(whole)];
+  if (strides - whole > 1e-12)
+    motion.pose.attitude =
+        free_rotation(motion.pose.attitude, L, *inertia_, (strides - whole) * stride_);
+  motion.pose.position = start.pose.position + elapsed * start.velocity +
+                         0.5 * elapsed * elapsed * segment_->acceleration;
+  motion.velocity = start.velocity + elapsed * segment_->acceleration;
+  motion.angular_momentum = L;
+  return motion;
+}
+
+Motion motion_at(const Segment& segment, const Vec3& inertia, double t) {
+  SegmentMotion motion;
+  motion.follow(segment, inertia);
+  return motion.at(t);
+}
+
+double translational_energy(double mass, const Vec3& velocity) {
+  return 0.5 * mass * velocity.squaredNorm();
+}
+
+double rotational_energy(const Motion& motion, const Vec3& inertia) {
+  const Vec3 body = motion.pose.attitude.conjugate() * motion.angular_momentum;
+  return 0.5 * body.cwiseAbs2().cwiseQuotient(inertia).sum();
+}
+
+}  // namespace talus

@@ -1,0 +1,479 @@
+#include "store/passages.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numbers>
+
+#include "terrain/trn_pyramid.hpp"
+#include "terrain/trn_walk.hpp"
+
+namespace talus {
+namespace {
+
+constexpr double largest_turn = flight_stride;  // of a piece [rad]
+
+// --- axes --------------------------------------------------------------------------------------
+
+struct Axes {
+  AxisArray x, y;
+  AxisArray half_cell;  // half the extent of a cell of size 1
+  Axes() {
+    for (int k = 0; k < n_footprint_axes; ++k) {
+      const double angle = k * std::numbers::pi / n_footprint_axes;
+      x[k] = std::cos(angle);
+      y[k] = std::sin(angle);
+    }
+    x[n_footprint_axes / 2] = 0;  // not 6e-17: the axes along the grid are exact
+    half_cell = 0.5 * (x.abs() + y.abs());
+  }
+  [[nodiscard]] AxisArray project(const Vec2& point) const { return point.x() * x + point.y() * y; }
+};
+const Axes axes;
+
+Extents extents_of(const Shapes& shapes, int block, const Quat& attitude) {
+  const Mat3 turn = attitude.toRotationMatrix();
+  Extents extents;
+  extents.low.setConstant(std::numeric_limits<double>::infinity());
+  extents.high.setConstant(-std::numeric_limits<double>::infinity());
+  for (const Vec3& vertex : vertices_of(shapes, block)) {
+    const AxisArray at = turn.row(0).dot(vertex) * axes.x + turn.row(1).dot(vertex) * axes.y;
+    extents.low = extents.low.min(at);
+    extents.high = extents.high.max(at);
+  }
+  return extents;
+}
+
+void widen(Extents& extents, double by) {
+  extents.low -= by;
+  extents.high += by;
+}
+
+// --- the moments between which a piece runs ----------------------------------------------------
+
+PassageInstant instant_of(const Scene& scene, int block, const Motion& motion) {
+  PassageInstant instant;
+  instant.motion = motion;
+  const Vec3 up = motion.pose.attitude.toRotationMatrix().row(2);
+  const std::span<const Vec3> vertices = vertices_of(scene.blocks.shapes, block);
+  const auto is_lower = [&up](const Vec3& a, const Vec3& b) { return up.dot(a) < up.dot(b); };
+  instant.top = up.dot(*std::max_element(vertices.begin(), vertices.end(), is_lower));
+  instant.spin_energy = rotational_energy(motion, scene.blocks.inertia[block]);
+  return instant;
+}
+
+bool same_motion(const Motion& a, const Motion& b) {
+  return a.velocity == b.velocity && a.angular_momentum == b.angular_momentum &&
+         a.pose.position == b.pose.position && a.pose.attitude.coeffs() == b.pose.attitude.coeffs();
+}
+
+// A piece of motion, straight in plan, with less than `largest_turn` between its ends.
+struct Piece {
+  int block = 0;
+  PassageInstant a, b;
+  double t_start = 0, duration = 0;
+  double sag = 0;      // a_z h^2 / 2 [m]
+  double turn = 0;     // the attitude turns by less [rad]
+  double sagitta = 0;  // of a vertex's way by turning, from above [m]
+};
+
+Vec2 plan(const Motion& motion) { return motion.pose.position.head<2>(); }
+
+// Angle between two attitudes, from above: theta = 4 asin(d / 2) <= 2.1 d for d <= 0.9.
+double turn_bound(const Quat& a, const Quat& b) {
+  const double same = (a.coeffs() - b.coeffs()).norm(), other = (a.coeffs() + b.coeffs()).norm();
+  return 2.1 * std::min(same, other);
+}
+
+PassageValues values_between(const Scene& scene, const Piece& piece, double s_in, double s_out) {
+  const double mass = scene.blocks.mass[piece.block];
+  const Motion &a = piece.a.motion, &b = piece.b.motion;
+  PassageValues values;
+  for (const double s : {s_in, s_out}) {  // |v(s)|^2 is convex: largest at an end
+    const double speed_sq = (a.velocity + s * (b.velocity - a.velocity)).squaredNorm();
+    const double spin = piece.a.spin_energy + s * (piece.b.spin_energy - piece.a.spin_energy);
+    const double translation = 0.5 * mass * speed_sq;
+    values.speed = std::max(values.speed, static_cast<float>(std::sqrt(speed_sq)));
+    values.translational_energy =
+        std::max(values.translational_energy, static_cast<float>(translation));
+    values.total_energy = std::max(values.total_energy, static_cast<float>(translation + spin));
+  }
+  const Heights heights = largest_heights(
+      scene.ground.trn, {a.pose.position, b.pose.position, piece.a.top, piece.b.top, piece.sag},
+      s_in, s_out);
+  values.centroid_height = static_cast<float>(heights.centroid);
+  values.top_height = static_cast<float>(heights.top);
+  return values;
+}
+
+// --- cells below a footprint -------------------------------------------------------------------
+
+struct CellBox {
+  CellRange cells;    // clipped to the grid
+  double margin = 0;  // from the extent's sides to the grid lines beyond [m]
+};
+
+// Cells below the box low..high (map orientation: x east, y north).
+CellBox cells_below(const PassageGrid& grid, const Vec2& low, const Vec2& high) {
+  const double west = (low.x() - grid.corner.x()) / grid.cell_size;
+  const double east = (high.x() - grid.corner.x()) / grid.cell_size;
+  const double north = (grid.corner.y() - high.y()) / grid.cell_size;
+  const double south = (grid.corner.y() - low.y()) / grid.cell_size;
+  CellBox box;
+  const double inside = std::min({west - std::floor(west), std::ceil(east) - east,
+                                  north - std::floor(north), std::ceil(south) - south});
+  box.margin = inside * grid.cell_size;
+  if (!(west < grid.n_cols && east > 0 && north < grid.n_rows && south > 0)) return box;
+  const auto index = [](double value, int n) {
+    return static_cast<int>(std::clamp(std::floor(value), 0.0, n - 1.0));
+  };
+  box.cells = {index(north, grid.n_rows), index(std::ceil(south) - 1, grid.n_rows),
+               index(west, grid.n_cols), index(std::ceil(east) - 1, grid.n_cols)};
+  return box;
+}
+
+Vec2 cell_centre(const PassageGrid& grid, int row, int col) {
+  return grid.corner + grid.cell_size * Vec2(col + 0.5, -row - 0.5);
+}
+
+template <class Visit>
+void for_each_cell(const CellRange& range, Visit&& visit) {
+  for (int row = range.row_first; row <= range.row_last; ++row)
+    for (int col = range.col_first; col <= range.col_last; ++col) visit(row, col);
+}
+
+int cell_index(const PassageGrid& grid, int row, int col) { return row * grid.n_cols + col; }
+
+// The part of 0..1 where all of value + s * rate are positive; none when in >= out.
+struct Share {
+  double in = 0, out = 1;
+  void keep_positive(const AxisArray& value, const AxisArray& rate) {
+    for (int k = 0; k < n_footprint_axes; ++k) {
+      const double zero = -value[k] / rate[k];
+      if (rate[k] > 0)
+        in = std::max(in, zero);
+      else if (rate[k] < 0)
+        out = std::min(out, zero);
+      else if (!(value[k] > 0))
+        out = -1;
+    }
+  }
+};
+
+// A footprint at one end of a piece.
+struct Footprint {
+  Vec2 at;
+  Extents extents;
+  [[nodiscard]] Vec2 low() const {
+    return at + Vec2(extents.low[0], extents.low[n_footprint_axes / 2]);
+  }
+  [[nodiscard]] Vec2 high() const {
+    return at + Vec2(extents.high[0], extents.high[n_footprint_axes / 2]);
+  }
+};
+
+// Calls visit(cell, s_in, s_out) for every cell that the footprint lies over on its way from `a` to
+// `b`: while their extents overlap along each axis.
+template <class Visit>
+void sweep(const PassageGrid& grid, const Footprint& a, const Footprint& b, Visit&& visit) {
+  const CellBox box = cells_below(grid, a.low().cwiseMin(b.low()), a.high().cwiseMax(b.high()));
+  const AxisArray place = axes.project(a.at), rate = axes.project(b.at - a.at);
+  const AxisArray low = place + a.extents.low, high = place + a.extents.high;
+  const AxisArray low_rate = rate + b.extents.low - a.extents.low;
+  const AxisArray high_rate = rate + b.extents.high - a.extents.high;
+  const AxisArray half = grid.cell_size * axes.half_cell;
+  for_each_cell(box.cells, [&](int row, int col) {
+    const AxisArray centre = axes.project(cell_centre(grid, row, col));
+    Share share;
+    share.keep_positive(high - centre + half, high_rate);
+    share.keep_positive(centre + half - low, -low_rate);
+    if (share.in < share.out) visit(cell_index(grid, row, col), share.in, share.out);
+  });
+}
+
+// The cells below the footprint at rest, and how far its points may move before they change.
+void find_covered(const PassageGrid& grid, const Footprint& footprint, PassageTracker& tracker) {
+  const CellBox box = cells_below(grid, footprint.low(), footprint.high());
+  const AxisArray place = axes.project(footprint.at), half = grid.cell_size * axes.half_cell;
+  const AxisArray low = place + footprint.extents.low, high = place + footprint.extents.high;
+  tracker.covered.clear();
+  tracker.margin = box.margin;
+  for_each_cell(box.cells, [&](int row, int col) {
+    const AxisArray centre = axes.project(cell_centre(grid, row, col));
+    const double separation = (low - centre - half).max(centre - half - high).maxCoeff();
+    tracker.margin = std::min(tracker.margin, std::abs(separation));
+    if (separation < 0) tracker.covered.push_back(cell_index(grid, row, col));
+  });
+}
+
+// The same for the centroid alone, which a grid line puts into the cell east or south of it.
+void find_covered(const PassageRecorder& recorder, const Vec2& at, PassageTracker& tracker) {
+  tracker.covered.clear();
+  tracker.margin = 0;
+  walk_cells(recorder.frame, at, at, [&](const CellPart& part) {
+    const Vec2 off = at - cell_centre(recorder.grid, part.cell.row, part.cell.col);
+    tracker.covered.push_back(cell_index(recorder.grid, part.cell.row, part.cell.col));
+    tracker.margin = std::max(0.0, 0.5 * recorder.grid.cell_size - off.cwiseAbs().maxCoeff());
+  });
+}
+
+Footprint footprint_of(const Scene& scene, int block, const Motion& motion) {
+  return {plan(motion), extents_of(scene.blocks.shapes, block, motion.pose.attitude)};
+}
+
+// --- recording ---------------------------------------------------------------------------------
+
+void flush(PassageTable& table, int block, const PassageTracker& tracker) {
+  for (const int cell : tracker.covered)
+    table.raise(block, cell, tracker.pending, tracker.last_time);
+}
+
+// The block at the end of `piece`: its cells, and its values there as the first of the new set.
+void settle(PassageRecorder& recorder, const Scene& scene, const Piece& piece) {
+  PassageTracker& tracker = recorder.trackers[piece.block];
+  const Vec2 at = plan(piece.b.motion);
+  if (recorder.by_centroid)
+    find_covered(recorder, at, tracker);
+  else
+    find_covered(recorder.grid, footprint_of(scene, piece.block, piece.b.motion), tracker);
+  tracker.pending = values_between(scene, piece, 1, 1);
+}
+
+// What a piece passes when the covered cells may change in it.
+void record_sweep(PassageRecorder& recorder, const Scene& scene, const Piece& piece,
+                  const PassageValues& whole) {
+  const Motion &a = piece.a.motion, &b = piece.b.motion;
+  const auto visit = [&](int cell, double s_in, double s_out) {
+    const bool all = s_in <= 0 && s_out >= 1;
+    recorder.table.raise(piece.block, cell, all ? whole : values_between(scene, piece, s_in, s_out),
+                         piece.t_start + s_in * piece.duration);
+  };
+  if (recorder.by_centroid) {
+    walk_cells(recorder.frame, plan(a), plan(b), [&](const CellPart& part) {
+      visit(cell_index(recorder.grid, part.cell.row, part.cell.col), part.t_in, part.t_out);
+    });
+    return;
+  }
+  Footprint start = footprint_of(scene, piece.block, a);
+  Footprint end = footprint_of(scene, piece.block, b);
+  widen(start.extents, piece.sagitta);
+  widen(end.extents, piece.sagitta);
+  sweep(recorder.grid, start, end, visit);
+}
+
+void record_piece(PassageRecorder& recorder, const Scene& scene, const Piece& piece) {
+  PassageTracker& tracker = recorder.trackers[piece.block];
+  const Motion &a = piece.a.motion, &b = piece.b.motion;
+  const double moved =
+      (plan(b) - plan(a)).norm() +
+      (recorder.by_centroid ? 0 : scene.blocks.shapes.radius[piece.block] * piece.turn);
+  const PassageValues whole = values_between(scene, piece, 0, 1);
+  if (moved < tracker.margin || moved == 0) {
+    tracker.margin -= moved;
+    tracker.pending.raise(whole);
+  } else {
+    flush(recorder.table, piece.block, tracker);
+    record_sweep(recorder, scene, piece, whole);
+    settle(recorder, scene, piece);
+  }
+  tracker.last = piece.b;
+  tracker.last_time = piece.t_start + piece.duration;
+}
+
+// From above, by how much a block turns in a segment [rad]. In flight the rate of omega is at most
+// |L| |omega| / I_min: a vertex's acceleration by turning is below 2 r (|L| / I_min)^2.
+double turn_of(const Segment& segment, const Vec3& inertia) {
+  return segment.flight ? flight_turn(segment, inertia)
+                        : turn_bound(segment.start.pose.attitude, segment.end.pose.attitude);
+}
+
+// So many pieces that each turns by less than `largest_turn` and bends in plan by less than a
+// hundredth of a cell (a flight over shaking ground is a parabola in plan too).
+int n_pieces(const Segment& segment, double turn, double cell_size) {
+  const double duration = segment.t_end - segment.t_start;
+  const double bend = segment.acceleration.head<2>().norm() * duration * duration / 8;
+  const double n = std::max(turn / largest_turn, std::sqrt(bend / (0.01 * cell_size)));
+  return std::max(1, static_cast<int>(std::ceil(n)));
+}
+
+std::size_t hash_of(std::int32_t block, std::int32_t cell) {
+  std::uint64_t key = static_cast<std::uint64_t>(static_cast<std::uint32_t>(block)) << 32 |
+                      static_cast<std::uint32_t>(cell);
+  key = (key ^ (key >> 29)) * 0xbf58476d1ce4e5b9ULL;  // mixing of splitmix64
+  return static_cast<std::size_t>(key ^ (key >> 32));
+}
+
+void grow(PassageTable& table) {
+  table.slots.assign(std::max<std::size_t>(64, 2 * table.slots.size()), 0);
+  const std::size_t mask = table.slots.size() - 1;
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    std::size_t slot = hash_of(table.rows[row].block, table.rows[row].cell) & mask;
+    while (table.slots[slot] != 0) slot = (slot + 1) & mask;
+    table.slots[slot] = static_cast<std::uint32_t>(row + 1);
+  }
+}
+
+float larger(float a, float b) { return a >= b || std::isnan(b) ? a : b; }
+
+void raise(double& largest, double height) {
+  if (!(height <= largest) && !std::isnan(height)) largest = height;
+}
+
+// Heights above the plane of one triangle between s0 and s1, where the path stays over it.
+void raise_over_triangle(const Trn& trn, const HeightPath& path, double s0, double s1,
+                         Heights& largest) {
+  const Vec3 change = path.to - path.from;
+  const Vec3 middle = path.from + 0.5 * (s0 + s1) * change;
+  const int triangle = triangle_at(trn, middle.x(), middle.y());
+  const Vec2 gradient = triangle_gradient(trn, triangle);
+  const Cell cell = cell_of_triangle(trn, triangle);
+  const Vec3 off = path.from - node_point(trn, cell.row, cell.col);
+  const double start = off.z() - gradient.dot(off.head<2>());
+  const double rate = change.z() - gradient.dot(change.head<2>());
+  const double top_rate = path.top_to - path.top_from;
+  const auto height = [&](double s) { return start + rate * s - path.sag * s * (1 - s); };
+  const auto try_at = [&](double s) {
+    const double at = height(s);
+    raise(largest.centroid, at);
+    raise(largest.top, at + path.top_from + top_rate * s);
+  };
+  try_at(s0);
+  try_at(s1);
+  if (path.sag >= 0) return;
+  for (const double r : {rate, rate + top_rate}) {  // h'(s) = r - sag + 2 sag s vanishes
+    const double s = (path.sag - r) / (2 * path.sag);
+    if (s > s0 && s < s1) try_at(s);
+  }
+}
+
+}  // namespace
+
+void PassageValues::raise(const PassageValues& other) {
+  speed = larger(speed, other.speed);
+  translational_energy = larger(translational_energy, other.translational_energy);
+  total_energy = larger(total_energy, other.total_energy);
+  centroid_height = larger(centroid_height, other.centroid_height);
+  top_height = larger(top_height, other.top_height);
+}
+
+void PassageTable::raise(int block, int cell, const PassageValues& values, double time) {
+  if (4 * (rows.size() + 1) > 3 * slots.size()) grow(*this);
+  const std::size_t mask = slots.size() - 1;
+  std::size_t slot = hash_of(block, cell) & mask;
+  for (; slots[slot] != 0; slot = (slot + 1) & mask) {
+    Passage& row = rows[slots[slot] - 1];
+    if (row.block != block || row.cell != cell) continue;
+    row.largest.raise(values);
+    row.first_time = std::min(row.first_time, static_cast<float>(time));
+    return;
+  }
+  rows.push_back({block, cell, values, static_cast<float>(time)});
+  slots[slot] = static_cast<std::uint32_t>(rows.size());
+}
+
+std::vector<Passage> sorted(const PassageTable& table) {
+  std::vector<Passage> rows = table.rows;
+  std::sort(rows.begin(), rows.end(), [](const Passage& a, const Passage& b) {
+    return a.block != b.block ? a.block < b.block : a.cell < b.cell;
+  });
+  return rows;
+}
+
+PassageGrid passage_grid(const Trn& trn, double cell_size) {
+  if (!(cell_size > 0)) return {trn.node0, trn.cell_size, trn.n_rows - 1, trn.n_cols - 1};
+  const auto n_cells = [&](int n_trn_cells) {  // a whole number of cells, but for rounding
+    return static_cast<int>(std::ceil(n_trn_cells * trn.cell_size / cell_size - 1e-9));
+  };
+  return {trn.node0, cell_size, n_cells(trn.n_rows - 1), n_cells(trn.n_cols - 1)};
+}
+
+PassageRecorder start_passages(const Scene& scene, const PassageGrid& grid, bool by_centroid) {
+  PassageRecorder recorder;
+  recorder.grid = grid;
+  recorder.frame.n_rows = grid.n_rows + 1;
+  recorder.frame.n_cols = grid.n_cols + 1;
+  recorder.frame.cell_size = grid.cell_size;
+  recorder.frame.node0 = grid.corner;
+  recorder.by_centroid = by_centroid;
+  recorder.trackers.resize(static_cast<std::size_t>(n_blocks(scene)));
+  return recorder;
+}
+
+void record_start(PassageRecorder& recorder, const Scene& scene, int block, const Motion& motion,
+                  double time) {
+  const PassageInstant instant = instant_of(scene, block, motion);
+  PassageTracker& tracker = recorder.trackers[block];
+  tracker.last = instant;
+  tracker.last_time = time;
+  Piece still;
+  still.block = block;
+  still.a = still.b = instant;
+  still.t_start = time;
+  settle(recorder, scene, still);
+  flush(recorder.table, block, tracker);
+}
+
+void record_passages(PassageRecorder& recorder, const Scene& scene, SegmentMotion& motion) {
+  const Segment& segment = motion.segment();
+  const int block = segment.block;
+  const Vec3& inertia = scene.blocks.inertia[block];
+  const double turn = turn_of(segment, inertia);
+  const int n = n_pieces(segment, turn, recorder.grid.cell_size);
+  const double duration = (segment.t_end - segment.t_start) / n;
+  PassageTracker& tracker = recorder.trackers[block];
+  Piece piece;
+  piece.block = block;
+  piece.duration = duration;
+  piece.sag = 0.5 * segment.acceleration.z() * duration * duration;
+  piece.turn = turn / n;
+  piece.sagitta =
+      scene.blocks.shapes.radius[block] * piece.turn * piece.turn / (segment.flight ? 4 : 8);
+  piece.a = same_motion(tracker.last.motion, segment.start)
+                ? tracker.last
+                : instant_of(scene, block, segment.start);
+  for (int i = 1; i <= n; ++i) {
+    piece.t_start = segment.t_start + (i - 1) * duration;
+    const double t = i < n ? segment.t_start + i * duration : segment.t_end;
+    piece.b = instant_of(scene, block, motion.at(t));
+    record_piece(recorder, scene, piece);
+    piece.a = piece.b;
+  }
+}
+
+void flush_passages(PassageRecorder& recorder) {
+  for (std::size_t block = 0; block < recorder.trackers.size(); ++block)
+    flush(recorder.table, static_cast<int>(block), recorder.trackers[block]);
+}
+
+Heights largest_heights(const Trn& trn, const HeightPath& path, double s_in, double s_out) {
+  const Vec2 change = (path.to - path.from).head<2>();
+  const Vec2 a = path.from.head<2>() + s_in * change, b = path.from.head<2>() + s_out * change;
+  Heights largest;
+  if (contains(trn, a.x(), a.y()) && contains(trn, b.x(), b.y()) &&
+      triangle_at(trn, a.x(), a.y()) == triangle_at(trn, b.x(), b.y())) {
+    raise_over_triangle(trn, path, s_in, s_out, largest);
+    return largest;
+  }
+  walk_cells(trn, a, b, [&](const CellPart& part) {
+    const auto off_diagonal = [&](double t) {  // > 0 south-west of the cell's diagonal
+      const Vec2 at = a + t * (b - a);
+      return (trn.node0.y() - at.y()) / trn.cell_size - part.cell.row -
+             ((at.x() - trn.node0.x()) / trn.cell_size - part.cell.col);
+    };
+    const double d_in = off_diagonal(part.t_in), d_out = off_diagonal(part.t_out);
+    const auto add = [&](double t0, double t1) {
+      const double range = s_out - s_in;
+      raise_over_triangle(trn, path, s_in + t0 * range, s_in + t1 * range, largest);
+    };
+    if (d_in * d_out < 0) {
+      const double t = part.t_in + d_in / (d_in - d_out) * (part.t_out - part.t_in);
+      add(part.t_in, t);
+      add(t, part.t_out);
+    } else {
+      add(part.t_in, part.t_out);
+    }
+  });
+  return largest;
+}
+
+}  // namespace talus

@@ -1,0 +1,115 @@
+// libcore/store/run_file.hpp
+// One run as a file: who moved where, when and how. docs/formats.md#run
+// in:    what the recorder holds
+// out:   an HDF5 file that is whole at any moment, or none
+//
+// A file is always written in one go, under another name, synced, and renamed: a run that is killed
+// leaves the file of its last checkpoint, whole and closed. It says so itself (status "running",
+// time_s below duration_s) and can be read by everything that reads a finished one.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "store/crossings.hpp"
+#include "store/frames.hpp"
+#include "store/passages.hpp"
+
+namespace talus {
+
+/// What is said of a run as a whole.
+struct RunInfo {
+  std::string run_id;          ///< digest of version, settings and inputs
+  std::string version;         ///< of the program
+  std::string site;            ///< name of the site
+  std::string crs_wkt;         ///< of the map; empty when unknown
+  Vec3 origin = Vec3::Zero();  ///< map coordinates of the local zero [m]
+  std::string trn_sha256;      ///< of the TRN file
+  std::string blocks_hash;     ///< of the block set
+  std::string law;             ///< "talus" or "paper"
+  std::int64_t seed = 0;
+  std::string status = "running";  ///< "running", "done" or "failed"
+  std::string reason;              ///< why it failed
+  double duration = 0;             ///< asked for [s]
+  double time = 0;                 ///< reached [s]
+  std::string config;              ///< effective settings, TOML
+  std::string plan;                ///< what was computed and what left out, JSON
+};
+
+/// The blocks as they are drawn and weighed.
+struct RunBlocks {  // clang-format off
+  std::vector<double> mass;              ///< [kg]                                    (n_blocks)
+  std::vector<double> volume;            ///< [m3]                                    (n_blocks)
+  std::vector<Vec3> inertia;             ///< principal moments [kg m2]               (n_blocks)
+  std::vector<Pose> rest;                ///< as cut, local                           (n_blocks)
+  std::vector<int> vertex_begin{0};      ///< vertices of block b: [b], [b + 1)       (n_blocks + 1)
+  std::vector<Vec3> vertices;            ///< body axes [m]                           (n_vertices)
+  std::vector<int> face_vertices;        ///< into `vertices`, counter-clockwise from outside
+  std::vector<int> face_begin{0};        ///< first entry of face f                   (n_faces + 1)
+  std::vector<int> block_face_begin{0};  ///< faces of block b: [b], [b + 1)          (n_blocks + 1)
+};  // clang-format on
+
+/// Frames as they are stored: positions in full, the rest in single precision.
+struct RunFrames {  // clang-format off
+  std::vector<double> time;      ///< [s]                                (n_frames)
+  std::vector<double> position;  ///< of the centroids, local [m]        (n_frames x n_blocks x 3)
+  std::vector<float> attitude;   ///< w x y z, body to local axes        (n_frames x n_blocks x 4)
+  std::vector<float> velocity;   ///< [m/s]                              (n_frames x n_blocks x 3)
+  std::vector<float> spin;       ///< local axes [rad/s]                 (n_frames x n_blocks x 3)
+  std::vector<float> strain;     ///< empty when not asked for [-]       (n_frames x n_blocks x 6)
+};  // clang-format on
+void append(RunFrames& frames, const Frame& frame, bool with_strain);
+
+/// Health over an interval that ends at `time`; counts are those of the interval.
+struct HealthRow {
+  double time = 0;         ///< [s]
+  double shortest_dt = 0;  ///< of a step with contact search; 0 when there was none [s]
+  std::int64_t steps = 0, substeps = 0, passes = 0, impacts = 0, unconverged = 0;
+  std::int64_t left_domain = 0;  ///< blocks that have left the known terrain
+  std::int64_t fell_through = 0, not_finite = 0, deep = 0;  ///< steps so far with such a block
+  double largest_penetration = 0;                           ///< [m]
+  double translation = 0, rotation = 0, potential = 0, elastic = 0;     ///< at `time` [J]
+  double friction = 0, impact = 0, contact = 0, base = 0, removed = 0;  ///< since the start [J]
+};
+
+/// Everything that a run file holds.
+struct RunFile {
+  RunInfo info;
+  RunBlocks blocks;
+  RunFrames frames;
+  PassageGrid grid;
+  bool passages_by_centroid = false;
+  std::vector<Passage> passages;  ///< by block, then cell
+  std::vector<RecordLine> lines;
+  std::vector<Crossing> crossings;  ///< by line, then block
+  std::vector<HealthRow> health;
+  std::vector<std::uint8_t> checkpoint;  ///< store/checkpoint.hpp; empty when the run is done
+};
+
+[[nodiscard]] inline int n_blocks(const RunFile& run) {
+  return static_cast<int>(run.blocks.mass.size());
+}
+[[nodiscard]] inline int n_frames(const RunFrames& frames) {
+  return static_cast<int>(frames.time.size());
+}
+/// Block b in frame k; strain zero when it was not stored.
+[[nodiscard]] FrameBlock frame_block(const RunFile& run, int k, int b);
+
+/// What to read beside info and blocks; files of many runs are read for their passages alone.
+struct RunParts {
+  bool frames = true, passages = true, crossings = true, health = true, checkpoint = true;
+};
+
+/// Reads a run file. Throws InputError for a file that is no run, is damaged, or contradicts itself
+/// (an index out of range, arrays of different lengths, numbers that are not finite where they
+/// must be).
+[[nodiscard]] RunFile read_run_file(const std::string& path, const RunParts& parts = {});
+
+/// Writes `run` to `path` itself, synced. Equal content gives equal bytes.
+void write_run_file(const std::string& path, const RunFile& run);
+
+/// Writes to a name beside `path` and puts it in its place when it is whole.
+void replace_run_file(const std::string& path, const RunFile& run);
+
+}  // namespace talus

@@ -1,0 +1,554 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <system_error>
+
+#include "base/error.hpp"
+#include "io/h5_hdf5.hpp"
+#include "store/run_file.hpp"
+
+namespace talus {
+namespace {
+
+const char* const format_name = "talus-run";
+constexpr std::int64_t format_version = 1;
+
+// --- rows and columns --------------------------------------------------------------------------
+// A table is stored column by column. One list of columns serves writing and reading: it calls
+// column(name, units, description, field) with a function that gives a row's field.
+
+template <class Visit>
+void passage_columns(Visit&& column) {
+  column(
+      "block", "1", "index of the block", [](Passage & p) -> auto& { return p.block; });
+  column(
+      "cell", "1", "row * n_cols + column of the cell, row 0 in the north, column 0 in the west",
+      [](Passage & p) -> auto& { return p.cell; });
+  column(
+      "speed_m_s", "m/s", "largest speed of the centroid",
+      [](Passage & p) -> auto& { return p.largest.speed; });
+  column(
+      "translational_energy_j", "J", "largest kinetic energy of translation",
+      [](Passage & p) -> auto& { return p.largest.translational_energy; });
+  column(
+      "total_energy_j", "J", "largest kinetic energy of translation and rotation together",
+      [](Passage & p) -> auto& { return p.largest.total_energy; });
+  column(
+      "centroid_height_m", "m",
+      "largest height of the centroid above the ground below it, vertical; NaN: no known ground",
+      [](Passage & p) -> auto& { return p.largest.centroid_height; });
+  column(
+      "top_height_m", "m",
+      "largest height of the highest vertex above the ground below the centroid, vertical",
+      [](Passage & p) -> auto& { return p.largest.top_height; });
+  column(
+      "first_time_s", "s", "when the block came over the cell",
+      [](Passage & p) -> auto& { return p.first_time; });
+}
+
+template <class Visit>
+void crossing_columns(Visit&& column) {
+  column(
+      "block", "1", "index of the block", [](Crossing & c) -> auto& { return c.block; });
+  column(
+      "line", "1", "index of the line", [](Crossing & c) -> auto& { return c.line; });
+  column(
+      "segment", "1", "segment of the line, from 0",
+      [](Crossing & c) -> auto& { return c.segment; });
+  column(
+      "direction", "1", "+1 to the left of the line seen from its first point, -1 to the right",
+      [](Crossing & c) -> auto& { return c.direction; });
+  column(
+      "n_crossings", "1", "how often the line itself was crossed, returns included; 0: beside it",
+      [](Crossing & c) -> auto& { return c.n_crossings; });
+  column(
+      "time_s", "s", "when the centroid crossed", [](Crossing & c) -> auto& { return c.time; });
+  column(
+      "chainage_m", "m",
+      "where, horizontally from the line's first point; below 0 or above its length: beside it",
+      [](Crossing & c) -> auto& { return c.chainage; });
+  column(
+      "position_x_m", "m", "centroid, local x",
+      [](Crossing & c) -> auto& { return c.position.x(); });
+  column(
+      "position_y_m", "m", "centroid, local y",
+      [](Crossing & c) -> auto& { return c.position.y(); });
+  column(
+      "position_z_m", "m", "centroid, local z",
+      [](Crossing & c) -> auto& { return c.position.z(); });
+  column(
+      "velocity_x_m_s", "m/s", "velocity, x", [](Crossing & c) -> auto& { return c.velocity.x(); });
+  column(
+      "velocity_y_m_s", "m/s", "velocity, y", [](Crossing & c) -> auto& { return c.velocity.y(); });
+  column(
+      "velocity_z_m_s", "m/s", "velocity, z", [](Crossing & c) -> auto& { return c.velocity.z(); });
+  column(
+      "spin_x_rad_s", "rad/s", "angular velocity, x",
+      [](Crossing & c) -> auto& { return c.spin.x(); });
+  column(
+      "spin_y_rad_s", "rad/s", "angular velocity, y",
+      [](Crossing & c) -> auto& { return c.spin.y(); });
+  column(
+      "spin_z_rad_s", "rad/s", "angular velocity, z",
+      [](Crossing & c) -> auto& { return c.spin.z(); });
+  column(
+      "translational_energy_j", "J", "kinetic energy of translation",
+      [](Crossing & c) -> auto& { return c.translational_energy; });
+  column(
+      "rotational_energy_j", "J", "kinetic energy of rotation",
+      [](Crossing & c) -> auto& { return c.rotational_energy; });
+  column(
+      "centroid_height_m", "m", "centroid above the line's base",
+      [](Crossing & c) -> auto& { return c.centroid_height; });
+  column(
+      "top_height_m", "m", "highest vertex above the line's base",
+      [](Crossing & c) -> auto& { return c.top_height; });
+  column(
+      "bottom_height_m", "m", "lowest vertex above the line's base",
+      [](Crossing & c) -> auto& { return c.bottom_height; });
+}
+
+template <class Visit>
+void health_columns(Visit&& column) {
+  column(
+      "time_s", "s", "end of the interval", [](HealthRow & h) -> auto& { return h.time; });
+  column(
+      "shortest_dt_s", "s", "shortest step with contact search; 0: none",
+      [](HealthRow & h) -> auto& { return h.shortest_dt; });
+  column(
+      "steps", "1", "steps in the interval", [](HealthRow & h) -> auto& { return h.steps; });
+  column(
+      "substeps", "1", "block steps with contact search in the interval",
+      [](HealthRow & h) -> auto& { return h.substeps; });
+  column(
+      "passes", "1", "iterations of the contact law in the interval",
+      [](HealthRow & h) -> auto& { return h.passes; });
+  column(
+      "impacts", "1", "impacts in the interval", [](HealthRow & h) -> auto& { return h.impacts; });
+  column(
+      "unconverged", "1", "block steps accepted without convergence in the interval",
+      [](HealthRow & h) -> auto& { return h.unconverged; });
+  column(
+      "left_domain", "1", "blocks that have left the known terrain",
+      [](HealthRow & h) -> auto& { return h.left_domain; });
+  column(
+      "fell_through", "1", "steps so far that ended with a block below the ground",
+      [](HealthRow & h) -> auto& { return h.fell_through; });
+  column(
+      "not_finite", "1", "steps so far in which a block was stopped for want of a finite number",
+      [](HealthRow & h) -> auto& { return h.not_finite; });
+  column(
+      "largest_penetration_m", "m", "largest penetration of a pressing contact in the interval",
+      [](HealthRow & h) -> auto& { return h.largest_penetration; });
+  column(
+      "translational_energy_j", "J", "kinetic energy of translation, all blocks",
+      [](HealthRow & h) -> auto& { return h.translation; });
+  column(
+      "rotational_energy_j", "J", "kinetic energy of rotation, all blocks",
+      [](HealthRow & h) -> auto& { return h.rotation; });
+  column(
+      "potential_energy_j", "J", "potential energy above the local zero, all blocks",
+      [](HealthRow & h) -> auto& { return h.potential; });
+  column(
+      "elastic_energy_j", "J", "elastic energy, all blocks",
+      [](HealthRow & h) -> auto& { return h.elastic; });
+  column(
+      "friction_loss_j", "J", "dissipated by friction since the start",
+      [](HealthRow & h) -> auto& { return h.friction; });
+  column(
+      "impact_loss_j", "J", "dissipated by impacts since the start",
+      [](HealthRow & h) -> auto& { return h.impact; });
+  column(
+      "contact_loss_j", "J", "dissipated or stored by normal contact since the start",
+      [](HealthRow & h) -> auto& { return h.contact; });
+  column(
+      "base_work_j", "J", "put in by base motion and point loads since the start",
+      [](HealthRow & h) -> auto& { return h.base; });
+  column(
+      "removed_energy_j", "J", "kinetic energy of blocks stopped at the edge since the start",
+      [](HealthRow & h) -> auto& { return h.removed; });
+}
+
+template <class Row, class Field>
+using FieldType = std::remove_cvref_t<std::invoke_result_t<Field, Row&>>;
+
+template <class Row, class Columns>
+void write_table(H5Writer& file, const std::string& group, const std::string& description,
+                 std::vector<Row> rows, Columns&& columns) {
+  file.group(group, description);
+  columns([&](const char* name, const char* units, const char* meaning, auto field) {
+    std::vector<FieldType<Row, decltype(field)>> values;
+    values.reserve(rows.size());
+    for (Row& row : rows) values.push_back(field(row));
+    file.array<FieldType<Row, decltype(field)>>(group + "/" + name, values, {values.size()}, units,
+                                                meaning);
+  });
+}
+
+template <class Row, class Columns>
+std::vector<Row> read_table(const H5Reader& file, const std::string& group, Columns&& columns) {
+  std::vector<Row> rows;
+  bool is_first = true;
+  columns([&](const char* name, const char*, const char*, auto field) {
+    const auto values = file.array<FieldType<Row, decltype(field)>>(group + "/" + name, 1);
+    if (is_first) rows.resize(values.size());
+    is_first = false;
+    if (values.size() != rows.size())
+      throw InputError({group + "/" + name}, "has " + std::to_string(values.size()) +
+                                                 " rows, the columns beside it have " +
+                                                 std::to_string(rows.size()));
+    for (std::size_t i = 0; i < rows.size(); ++i) field(rows[i]) = values[i];
+  });
+  return rows;
+}
+
+// --- arrays of small vectors -------------------------------------------------------------------
+
+template <class Vector>
+std::vector<double> flat(const std::vector<Vector>& values) {
+  std::vector<double> list;
+  list.reserve(values.size() * static_cast<std::size_t>(Vector::SizeAtCompileTime));
+  for (const Vector& value : values)
+    for (const double entry : value) list.push_back(entry);
+  return list;
+}
+
+std::vector<Vec3> as_points(const std::vector<double>& list) {
+  std::vector<Vec3> points(list.size() / 3);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    points[i] = Vec3(list[3 * i], list[3 * i + 1], list[3 * i + 2]);
+  return points;
+}
+
+void put_points(H5Writer& file, const std::string& path, const std::vector<Vec3>& points,
+                const std::string& units, const std::string& description) {
+  file.array<double>(path, flat(points), {points.size(), 3}, units, description);
+}
+
+void put_indices(H5Writer& file, const std::string& path, const std::vector<int>& values,
+                 const std::string& description) {
+  file.array<std::int32_t>(path, values, {values.size()}, "1", description);
+}
+
+// --- groups ------------------------------------------------------------------------------------
+
+void write_info(H5Writer& file, const RunFile& run) {
+  const RunInfo& info = run.info;
+  file.attribute("", "format", std::string(format_name));
+  file.attribute("", "format_version", format_version);
+  file.attribute("", "description", std::string("One run of talus-dda"));
+  file.attribute("", "run_id", info.run_id);
+  file.attribute("", "version", info.version);
+  file.attribute("", "site", info.site);
+  file.attribute("", "crs", info.crs_wkt);
+  file.attribute("", "origin_m", std::span<const double>(info.origin.data(), 3));
+  file.attribute("", "trn_sha256", info.trn_sha256);
+  file.attribute("", "blocks_hash", info.blocks_hash);
+  file.attribute("", "law", info.law);
+  file.attribute("", "seed", info.seed);
+  file.attribute("", "status", info.status);
+  file.attribute("", "reason", info.reason);
+  file.attribute("", "duration_s", info.duration);
+  file.attribute("", "time_s", info.time);
+  file.text("config", info.config, "effective settings as TOML, each with its origin");
+  file.text("plan", info.plan, "what was computed and what was left out, JSON");
+}
+
+RunInfo read_info(const H5Reader& file, const std::string& path) {
+  if (file.attribute_text("", "format") != format_name)
+    throw InputError({path}, "is not a run of talus-dda");
+  if (const std::int64_t version = file.attribute_integer("", "format_version");
+      version != format_version)
+    throw InputError({path},
+                     "has format version " + std::to_string(version) + ", expected " +
+                         std::to_string(format_version),
+                     "run talus-dda of this version again");
+  RunInfo info;
+  info.run_id = file.attribute_text("", "run_id");
+  info.version = file.attribute_text("", "version");
+  info.site = file.attribute_text("", "site");
+  info.crs_wkt = file.attribute_text("", "crs");
+  const std::vector<double> origin = file.attribute_numbers("", "origin_m");
+  if (origin.size() != 3 || !std::isfinite(origin[0] + origin[1] + origin[2]))
+    throw InputError({path, 0, "origin_m"}, "is not three finite numbers");
+  info.origin = Vec3(origin[0], origin[1], origin[2]);
+  info.trn_sha256 = file.attribute_text("", "trn_sha256");
+  info.blocks_hash = file.attribute_text("", "blocks_hash");
+  info.law = file.attribute_text("", "law");
+  info.seed = file.attribute_integer("", "seed");
+  info.status = file.attribute_text("", "status");
+  info.reason = file.attribute_text("", "reason");
+  info.duration = file.attribute_number("", "duration_s");
+  info.time = file.attribute_number("", "time_s");
+  info.config = file.text("config");
+  info.plan = file.text("plan");
+  return info;
+}
+
+void write_blocks(H5Writer& file, const RunBlocks& blocks) {
+  const std::size_t n = blocks.mass.size();
+  file.group("blocks", "the blocks; body axes: origin at the centroid, principal axes of inertia");
+  file.array<double>("blocks/mass_kg", blocks.mass, {n}, "kg", "mass");
+  file.array<double>("blocks/volume_m3", blocks.volume, {n}, "m3", "volume");
+  put_points(file, "blocks/inertia_kg_m2", blocks.inertia, "kg m2", "principal moments of inertia");
+  std::vector<Vec3> position;
+  std::vector<double> attitude;
+  for (const Pose& pose : blocks.rest) {
+    position.push_back(pose.position);
+    for (const double q :
+         {pose.attitude.w(), pose.attitude.x(), pose.attitude.y(), pose.attitude.z()})
+      attitude.push_back(q);
+  }
+  put_points(file, "blocks/rest_position_m", position, "m", "centroid as cut, local");
+  file.array<double>("blocks/rest_attitude", attitude, {n, 4}, "1",
+                     "quaternion w x y z as cut, body to local axes");
+  put_points(file, "blocks/vertices_m", blocks.vertices, "m", "vertices, body axes");
+  put_indices(file, "blocks/vertex_begin", blocks.vertex_begin,
+              "vertices of block b: [b], [b + 1)");
+  put_indices(file, "blocks/face_vertices", blocks.face_vertices,
+              "indices into vertices_m, face by face, counter-clockwise from outside");
+  put_indices(file, "blocks/face_begin", blocks.face_begin,
+              "first entry of face f in face_vertices");
+  put_indices(file, "blocks/block_face_begin", blocks.block_face_begin,
+              "faces of block b: [b], [b + 1)");
+}
+
+// `begin` starts at 0, does not decrease and ends at `end`; it has n + 1 entries.
+void check_begin(const std::vector<int>& begin, std::size_t n, std::size_t end,
+                 const Where& where) {
+  if (begin.size() != n + 1 || begin.front() != 0 ||
+      static_cast<std::size_t>(begin.back()) != end || !std::is_sorted(begin.begin(), begin.end()))
+    throw InputError(where, "does not divide the array that it points into");
+}
+
+void check_indices(const std::vector<int>& values, std::size_t n, const Where& where) {
+  for (const int value : values)
+    if (value < 0 || static_cast<std::size_t>(value) >= n)
+      throw InputError(where, "holds " + std::to_string(value) + ", expected 0 to " +
+                                  std::to_string(n) + " exclusive");
+}
+
+RunBlocks read_blocks(const H5Reader& file, const std::string& path) {
+  RunBlocks blocks;
+  blocks.mass = file.array<double>("blocks/mass_kg", 1);
+  const std::size_t n = blocks.mass.size();
+  const auto same = [&](const std::string& name, std::size_t rows) {
+    if (rows != n)
+      throw InputError({path, 0, name}, "has " + std::to_string(rows) + " rows for " +
+                                            std::to_string(n) + " blocks");
+  };
+  blocks.volume = file.array<double>("blocks/volume_m3", 1);
+  same("blocks/volume_m3", blocks.volume.size());
+  blocks.inertia = as_points(file.array<double>("blocks/inertia_kg_m2", 3));
+  same("blocks/inertia_kg_m2", blocks.inertia.size());
+  const std::vector<Vec3> position = as_points(file.array<double>("blocks/rest_position_m", 3));
+  same("blocks/rest_position_m", position.size());
+  const std::vector<double> attitude = file.array<double>("blocks/rest_attitude", 4);
+  same("blocks/rest_attitude", attitude.size() / 4);
+  for (std::size_t b = 0; b < n; ++b) {
+    const double* q = attitude.data() + 4 * b;
+    blocks.rest.push_back({position[b], Quat(q[0], q[1], q[2], q[3])});
+  }
+  blocks.vertices = as_points(file.array<double>("blocks/vertices_m", 3));
+  blocks.vertex_begin = file.array<std::int32_t>("blocks/vertex_begin", 1);
+  blocks.face_vertices = file.array<std::int32_t>("blocks/face_vertices", 1);
+  blocks.face_begin = file.array<std::int32_t>("blocks/face_begin", 1);
+  blocks.block_face_begin = file.array<std::int32_t>("blocks/block_face_begin", 1);
+  check_begin(blocks.vertex_begin, n, blocks.vertices.size(), {path, 0, "blocks/vertex_begin"});
+  if (blocks.face_begin.empty()) throw InputError({path, 0, "blocks/face_begin"}, "is empty");
+  check_begin(blocks.face_begin, blocks.face_begin.size() - 1, blocks.face_vertices.size(),
+              {path, 0, "blocks/face_begin"});
+  check_begin(blocks.block_face_begin, n, blocks.face_begin.size() - 1,
+              {path, 0, "blocks/block_face_begin"});
+  check_indices(blocks.face_vertices, blocks.vertices.size(), {path, 0, "blocks/face_vertices"});
+  return blocks;
+}
+
+void write_frames(H5Writer& file, const RunFile& run) {
+  const RunFrames& frames = run.frames;
+  const std::size_t n = frames.time.size(), n_blocks = run.blocks.mass.size();
+  file.group("frames", "states of all blocks at equal intervals, and at the end");
+  file.array<double>("frames/time_s", frames.time, {n}, "s", "time of the frame");
+  file.array<double>("frames/position_m", frames.position, {n, n_blocks, 3}, "m",
+                     "centroids, local");
+  file.array<float>("frames/attitude", frames.attitude, {n, n_blocks, 4}, "1",
+                    "quaternions w x y z, body to local axes");
+  file.array<float>("frames/velocity_m_s", frames.velocity, {n, n_blocks, 3}, "m/s",
+                    "velocities of the centroids");
+  file.array<float>("frames/spin_rad_s", frames.spin, {n, n_blocks, 3}, "rad/s",
+                    "angular velocities, local axes");
+  if (!frames.strain.empty())
+    file.array<float>("frames/strain", frames.strain, {n, n_blocks, 6}, "1",
+                      "strains exx eyy ezz gyz gzx gxy, body axes");
+}
+
+RunFrames read_frames(const H5Reader& file, std::size_t n_blocks, const std::string& path) {
+  RunFrames frames;
+  frames.time = file.array<double>("frames/time_s", 1);
+  const auto check = [&](const std::string& name) {
+    if (file.shape(name)[0] != frames.time.size())
+      throw InputError({path, 0, name}, "does not have as many frames as frames/time_s");
+  };
+  for (const char* name :
+       {"frames/position_m", "frames/attitude", "frames/velocity_m_s", "frames/spin_rad_s"})
+    check(name);
+  frames.position = file.array<double>("frames/position_m", 3 * n_blocks);
+  frames.attitude = file.array<float>("frames/attitude", 4 * n_blocks);
+  frames.velocity = file.array<float>("frames/velocity_m_s", 3 * n_blocks);
+  frames.spin = file.array<float>("frames/spin_rad_s", 3 * n_blocks);
+  if (file.has("frames/strain")) {
+    check("frames/strain");
+    frames.strain = file.array<float>("frames/strain", 6 * n_blocks);
+  }
+  return frames;
+}
+
+void write_passages(H5Writer& file, const RunFile& run) {
+  write_table(file, "passages", "one row per block and cell that it passed", run.passages,
+              [](auto&& column) { passage_columns(column); });
+  const PassageGrid& grid = run.grid;
+  const Vec2 corner = grid.corner + run.info.origin.head<2>();
+  file.attribute("passages", "corner_map_m", std::span<const double>(corner.data(), 2));
+  file.attribute("passages", "corner_local_m", std::span<const double>(grid.corner.data(), 2));
+  file.attribute("passages", "cell_size_m", grid.cell_size);
+  file.attribute("passages", "n_rows", static_cast<std::int64_t>(grid.n_rows));
+  file.attribute("passages", "n_cols", static_cast<std::int64_t>(grid.n_cols));
+  file.attribute("passages", "passes_by",
+                 std::string(run.passages_by_centroid ? "centroid" : "footprint"));
+}
+
+void read_passages(const H5Reader& file, const std::string& path, RunFile& run) {
+  PassageGrid& grid = run.grid;
+  const Where where{path, 0, "passages"};
+  const std::vector<double> corner = file.attribute_numbers("passages", "corner_local_m");
+  if (corner.size() != 2) throw InputError(where, "corner_local_m is not two numbers");
+  grid.corner = {corner[0], corner[1]};
+  grid.cell_size = file.attribute_number("passages", "cell_size_m");
+  const std::int64_t n_rows = file.attribute_integer("passages", "n_rows");
+  const std::int64_t n_cols = file.attribute_integer("passages", "n_cols");
+  constexpr std::int64_t most = 1LL << 30;
+  if (!(grid.cell_size > 0) || !std::isfinite(corner[0] + corner[1] + grid.cell_size) ||
+      n_rows < 1 || n_cols < 1 || n_rows > most || n_cols > most / n_rows)
+    throw InputError(where, "the grid of cells makes no sense");
+  grid.n_rows = static_cast<int>(n_rows);
+  grid.n_cols = static_cast<int>(n_cols);
+  run.passages_by_centroid = file.attribute_text("passages", "passes_by") == "centroid";
+  run.passages =
+      read_table<Passage>(file, "passages", [](auto&& column) { passage_columns(column); });
+  for (const Passage& row : run.passages)
+    if (row.block < 0 || row.block >= n_blocks(run) || row.cell < 0 || row.cell >= n_rows * n_cols)
+      throw InputError(where, "a row names block " + std::to_string(row.block) + ", cell " +
+                                  std::to_string(row.cell) + ", which do not exist");
+}
+
+void write_crossings(H5Writer& file, const RunFile& run) {
+  write_table(file, "crossings", "one row per block and line that it crossed or passed beside",
+              run.crossings, [](auto&& column) { crossing_columns(column); });
+  std::vector<std::string> names;
+  std::vector<Vec3> points;
+  std::vector<int> begin{0};
+  for (const RecordLine& line : run.lines) {
+    names.push_back(line.name);
+    points.insert(points.end(), line.points.begin(), line.points.end());
+    begin.push_back(static_cast<int>(points.size()));
+  }
+  file.group("lines", "the lines that crossings belong to");
+  file.texts("lines/name", names, "name of the line");
+  put_points(file, "lines/points_m", points, "m", "points of all lines, local, z = base");
+  put_indices(file, "lines/begin", begin, "points of line l: [l], [l + 1)");
+}
+
+void read_crossings(const H5Reader& file, const std::string& path, RunFile& run) {
+  const std::vector<std::string> names = file.texts("lines/name");
+  const std::vector<Vec3> points = as_points(file.array<double>("lines/points_m", 3));
+  const std::vector<int> begin = file.array<std::int32_t>("lines/begin", 1);
+  check_begin(begin, names.size(), points.size(), {path, 0, "lines/begin"});
+  for (std::size_t l = 0; l < names.size(); ++l)
+    run.lines.push_back(
+        record_line(names[l], {points.begin() + begin[l], points.begin() + begin[l + 1]}));
+  run.crossings =
+      read_table<Crossing>(file, "crossings", [](auto&& column) { crossing_columns(column); });
+  for (Crossing& row : run.crossings) {
+    const bool known = row.block >= 0 && row.block < n_blocks(run) && row.line >= 0 &&
+                       row.line < static_cast<int>(run.lines.size());
+    if (!known || row.segment < 0 ||
+        row.segment + 1 >= static_cast<int>(run.lines[row.line].points.size()))
+      throw InputError({path, 0, "crossings"}, "a row names a block or line that does not exist");
+    row.beside = row.n_crossings == 0;
+  }
+}
+
+}  // namespace
+
+void append(RunFrames& frames, const Frame& frame, bool with_strain) {
+  frames.time.push_back(frame.time);
+  const auto add = [](std::vector<float>& list, const auto& vector) {
+    for (const double entry : vector) list.push_back(static_cast<float>(entry));
+  };
+  for (const FrameBlock& block : frame.blocks) {
+    for (const double entry : block.position) frames.position.push_back(entry);
+    const Quat& q = block.attitude;
+    add(frames.attitude, Eigen::Vector4d(q.w(), q.x(), q.y(), q.z()));
+    add(frames.velocity, block.velocity);
+    add(frames.spin, block.spin);
+    if (with_strain) add(frames.strain, block.strain);
+  }
+}
+
+FrameBlock frame_block(const RunFile& run, int k, int b) {
+  const std::size_t i =
+      static_cast<std::size_t>(k) * run.blocks.mass.size() + static_cast<std::size_t>(b);
+  const RunFrames& frames = run.frames;
+  FrameBlock block;
+  block.position = Eigen::Map<const Vec3>(frames.position.data() + 3 * i);
+  const float* q = frames.attitude.data() + 4 * i;
+  block.attitude = Quat(q[0], q[1], q[2], q[3]).normalized();
+  block.velocity = Eigen::Map<const Eigen::Vector3f>(frames.velocity.data() + 3 * i).cast<double>();
+  block.spin = Eigen::Map<const Eigen::Vector3f>(frames.spin.data() + 3 * i).cast<double>();
+  if (!frames.strain.empty())
+    block.strain =
+        Eigen::Map<const Eigen::Matrix<float, 6, 1>>(frames.strain.data() + 6 * i).cast<double>();
+  return block;
+}
+
+RunFile read_run_file(const std::string& path, const RunParts& parts) {
+  const H5Reader file(path);
+  RunFile run;
+  run.info = read_info(file, path);
+  run.blocks = read_blocks(file, path);
+  if (parts.frames) run.frames = read_frames(file, run.blocks.mass.size(), path);
+  if (parts.passages && file.has("passages")) read_passages(file, path, run);
+  if (parts.crossings) read_crossings(file, path, run);
+  if (parts.health)
+    run.health =
+        read_table<HealthRow>(file, "health", [](auto&& column) { health_columns(column); });
+  if (parts.checkpoint && file.has("checkpoint"))
+    run.checkpoint = file.array<std::uint8_t>("checkpoint", 1);
+  return run;
+}
+
+void write_run_file(const std::string& path, const RunFile& run) {
+  H5Writer file;
+  write_info(file, run);
+  write_blocks(file, run.blocks);
+  write_frames(file, run);
+  if (run.grid.n_rows > 0) write_passages(file, run);
+  write_crossings(file, run);
+  write_table(file, "health", "how the computation went, interval by interval", run.health,
+              [](auto&& column) { health_columns(column); });
+  if (!run.checkpoint.empty())
+    file.array<std::uint8_t>("checkpoint", run.checkpoint, {run.checkpoint.size()}, "1",
+                             "state of the solver and the recorder, for talus-dda --resume");
+  write_bytes(path, file.image());
+}
+
+void replace_run_file(const std::string& path, const RunFile& run) {
+  const std::string temporary = path + ".new";
+  write_run_file(temporary, run);
+  std::error_code error;
+  std::filesystem::rename(temporary, path, error);
+  if (error) throw InputError({path}, "cannot be put in place: " + error.message());
+}
+
+}  // namespace talus

@@ -1,0 +1,89 @@
+# What cannot be computed is refused before anything is, with where and a way out; nothing is left.
+. "$source_dir/tests/tools/talus-dda/common.sh"
+make_inputs
+
+# refuses TEXT OPTIONS...: exit 1, the text, no output
+refuses() {
+  wanted=$1
+  shift
+  expect 1 run_dda -o run.h5 "$@"
+  says "$wanted"
+  nothing_left run.h5 run.h5.part
+}
+
+refuses "friction_deg is 90, expected 0 to below 90" --set ground.ground.friction_deg=90
+refuses "cor is 1.5, expected 0 to 1" --set ground.ground.cor=1.5
+refuses "time_step_s is 0, expected above 0" --time-step-s 0
+refuses "time_step_s is -1" --time-step-s -1
+refuses "duration_s is 0" --duration-s 0
+refuses "density_kg_m3 is 0" --set material.rock.density_kg_m3=0
+refuses "law" --law newton
+expect 2 run_dda -o run.h5 --no-such-option
+expect 1 run_dda
+says "no output is named"
+
+# base motion
+printf 'time_s,ax_m_s2,ay_m_s2,az_m_s2\n0,0,0,0\n5,1,0,0\n' >short.csv
+refuses "the base motion ends at 5 s, the run lasts 8 s" --set base_motion.file=short.csv
+printf 'time_s,ax_m_s2,ay_m_s2\n0,0,0\n9,1,0\n' >column.csv
+refuses "there is no column az_m_s2" --set base_motion.file=column.csv
+printf 'time_s,ax_m_s2,ay_m_s2,az_m_s2\n0,0,0,0\n5,1,0,x\n' >word.csv
+refuses "word.csv:3: has no number for az_m_s2" --set base_motion.file=word.csv
+printf 'time_s,ax_m_s2,ay_m_s2,az_m_s2\n0,0,0,0\n5,1,0,0\n5,1,0,0\n' >still.csv
+refuses "time_s is 5, expected above 5" --set base_motion.file=still.csv
+
+# ground without a class, fence off the terrain
+printf '[ground.scree]\npolygon = [[500000, 5000000], [500050, 5000000], [500050, 5000050]]\n' >>site.toml
+expect 0 run_dda -o two.h5 -q --duration-s 0.5
+printf '[ground.rock]\nfriction_deg = 33\n' >>site.toml
+refuses "has no polygon, and neither has"
+make_site
+printf '[fence.high]\nline = [[500080, 5000010], [500280, 5000090]]\n' >>site.toml
+refuses "leaves the known terrain at"
+make_site
+
+# blocks that do not belong to the terrain
+sed 's/^xllcenter.*/xllcenter 600000/' plane.asc >far.asc
+talus-trn far.asc -o far.tif --crs EPSG:32632 -q --no-db
+expect 1 talus-dda site.toml --trn far.tif --blocks blocks.h5 -o run.h5 --no-db --independent
+says "outside the terrain"
+talus-trn plane.asc -o other.tif --crs EPSG:32633 -q --no-db
+expect 1 talus-dda site.toml --trn other.tif --blocks blocks.h5 -o run.h5 --no-db --independent
+says "the terrain other.tif is in EPSG:32633"
+nothing_left run.h5
+
+# in the ground: refused with how deep, or lifted
+awk 'NR <= 6 { print; next } { for (i = 1; i <= NF; i++) $i += 1.25; print }' plane.asc >raised.asc
+talus-trn raised.asc -o raised.tif --crs EPSG:32632 -q --no-db
+expect 1 talus-dda site.toml --trn raised.tif --blocks blocks.h5 -o run.h5 --no-db --independent
+says "3 of 3 blocks start below the ground"
+says "by 0.75"
+says "is not the terrain that blocks.h5 was made for"
+says "--settle lifts"
+expect 0 talus-dda site.toml --trn raised.tif --blocks blocks.h5 -o settled.h5 --no-db --independent --settle --duration-s 1
+says "lifted onto it"
+
+# damaged or foreign block sets
+head -c 3000 blocks.h5 >cut.h5
+expect 1 talus-dda site.toml --trn slope.tif --blocks cut.h5 -o run.h5 --no-db --independent
+says "cut.h5"
+expect 1 talus-dda site.toml --trn slope.tif --blocks settled.h5 -o run.h5 --no-db --independent
+says "settled.h5"
+sed 's/material.rock/material.granite/' site.toml >granite.toml
+expect 1 talus-dda granite.toml --trn slope.tif --blocks blocks.h5 -o run.h5 --no-db --independent
+says "the blocks are of material rock, which the site file does not have"
+
+# a broken limit: exit 3, said which, and the file is kept
+expect 3 run_dda -o limit.h5 --set solver.max_penetration_m=1e-12
+says "largest penetration, m"
+[ -s limit.h5 ] || fail "the file of a failed run was not kept"
+exit 0
+
+# Several blocks without contacts between them are not a slide: asked for by name, and said.
+expect 1 talus-dda site.toml --trn slope.tif --blocks blocks.h5 -o run.h5 --no-db
+says "blocks.h5: 3 blocks, and contacts between blocks are not computed yet, expected one"
+says "hint: --independent"
+nothing_left run.h5
+expect 0 run_dda -o alone.h5 --duration-s 0.1
+says "warning: 3 blocks move as if each were alone"
+says "warning: fences stop nothing in this version"

@@ -1,0 +1,62 @@
+# A run that is killed or interrupted leaves a readable file, and goes on to the same bytes.
+. "$source_dir/tests/tools/talus-dda/common.sh"
+make_inputs
+slow="--time-step-s 0.00005 --checkpoint-interval-s 0.02 -q"
+
+expect 0 run_dda -o whole.h5 $slow
+
+# wait_for FILE: until it exists, while the run goes on
+wait_for() {
+  n=0
+  while [ ! -e "$1" ]; do
+    n=$((n + 1))
+    [ $n -lt 600 ] || fail "$1 did not appear"
+    kill -0 $run_id 2>/dev/null || fail "the run ended before its first checkpoint"
+    sleep 0.05
+  done
+}
+
+# killed three times at different moments, with a half-written checkpoint lying about
+for pause in 0 0.1 0.3; do
+  rm -f killed.h5.part
+  talus-dda site.toml --trn slope.tif --blocks blocks.h5 --no-db --independent -o killed.h5 $slow &
+  run_id=$!
+  wait_for killed.h5.part
+  sleep $pause
+  kill -9 $run_id 2>/dev/null || fail "the run was over before it could be killed"
+  wait $run_id 2>/dev/null || true
+  [ ! -e killed.h5 ] || fail "a killed run left an output"
+  [ -s killed.h5.part ] || fail "a killed run left nothing to go on from"
+  printf 'half' >killed.h5.part.new
+  expect 1 run_dda -o killed.h5 $slow
+  says "a run that was stopped left behind"
+  expect 0 run_dda -o killed.h5 $slow --resume
+  cmp whole.h5 killed.h5 || fail "the resumed run differs from the whole one"
+  rm -f killed.h5 killed.h5.part.new
+  nothing_left killed.h5.part
+done
+
+# interrupted: exit 130 after a checkpoint
+talus-dda site.toml --trn slope.tif --blocks blocks.h5 --no-db --independent -o stopped.h5 $slow &
+run_id=$!
+wait_for stopped.h5.part
+kill -TERM $run_id
+code=0
+wait $run_id || code=$?
+[ $code -eq 130 ] || fail "exit code $code after SIGTERM, expected 130"
+[ -s stopped.h5.part ] || fail "no checkpoint after SIGTERM"
+
+# only with the same settings
+expect 1 run_dda -o stopped.h5 $slow --resume --set ground.ground.friction_deg=21
+says "belongs to a run of other inputs or settings"
+expect 0 run_dda -o stopped.h5 $slow --resume
+cmp whole.h5 stopped.h5 || fail "the run resumed after SIGTERM differs from the whole one"
+
+# damaged, or none
+printf 'not HDF5' >broken.h5.part
+expect 1 run_dda -o broken.h5 $slow --resume
+says "broken.h5.part"
+expect 0 run_dda -o broken.h5 $slow --overwrite
+expect 0 run_dda -o fresh.h5 $slow --resume
+cmp whole.h5 fresh.h5 || fail "--resume without a checkpoint is not a run from the start"
+exit 0

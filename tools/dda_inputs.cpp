@@ -1,0 +1,225 @@
+#include "dda_inputs.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/sha256.hpp"
+#include "base/text.hpp"
+#include "io/blocks_hdf5.hpp"
+#include "io/crs_gdal.hpp"
+#include "io/raster_gdal.hpp"
+#include "io/vectors_gdal.hpp"
+#include "scene/ground_classes.hpp"
+#include "scene/start_depth.hpp"
+#include "site_places.hpp"
+#include "terrain/trn_digest.hpp"
+
+namespace talus {
+namespace {
+
+// Overlap of blocks and ground that rounding and stored files explain [m].
+constexpr double depth_tolerance = 1e-3;
+
+// --- blocks ------------------------------------------------------------------------------------
+
+void move_to_origin(BlockSet& blocks, const Vec3& origin) {
+  const Vec3 shift = blocks.origin - origin;
+  for (Vec3& vertex : blocks.vertices) vertex += shift;
+  for (Vec3& centroid : blocks.centroid) centroid += shift;
+  for (Vec3& point : blocks.pair_point) point += shift;
+  blocks.origin = origin;
+}
+
+void check_crs(const BlockSet& blocks, const Trn& trn, const DdaFiles& files) {
+  if (blocks.crs_wkt.empty() || trn.crs_wkt.empty() || same_crs(blocks.crs_wkt, trn.crs_wkt))
+    return;
+  throw InputError({files.blocks},
+                   "the blocks are in " + crs_name(blocks.crs_wkt) + ", the terrain " + files.trn +
+                       " is in " + crs_name(trn.crs_wkt),
+                   "cut the blocks from this terrain with talus-blocks");
+}
+
+double distance_off(const Trn& trn, const Vec3& point) {
+  const double east = trn.node0.x() + (trn.n_cols - 1) * trn.cell_size;
+  const double south = trn.node0.y() - (trn.n_rows - 1) * trn.cell_size;
+  const Vec2 nearest(std::clamp(point.x(), trn.node0.x(), east),
+                     std::clamp(point.y(), south, trn.node0.y()));
+  return (point.head<2>() - nearest).norm();
+}
+
+void check_place(const BlockSet& blocks, const Trn& trn, const DdaFiles& files) {
+  for (std::size_t b = 0; b < blocks.centroid.size(); ++b) {
+    const Vec3& at = blocks.centroid[b];
+    if (!std::isnan(elevation_at(trn, at.x(), at.y()))) continue;
+    const Vec3 place = at + blocks.origin;
+    const double off = distance_off(trn, at);
+    throw InputError({files.blocks, 0, "block " + std::to_string(b)},
+                     off > 0 ? "lies " + text(off, 4) + " m outside the terrain " + files.trn +
+                                   ", at " + text(place.x(), 9) + ", " + text(place.y(), 9)
+                             : "lies where the ground of " + files.trn + " is not known, at " +
+                                   text(place.x(), 9) + ", " + text(place.y(), 9),
+                     "give the terrain that the blocks were cut from, or a larger window");
+  }
+}
+
+void check_depth(Tool& tool, BlockSet& blocks, const Trn& trn, const DdaFiles& files) {
+  const std::vector<double> depths = depths_below_ground(trn, blocks);
+  const auto is_deep = [](double depth) { return depth > depth_tolerance; };
+  const auto n = std::count_if(depths.begin(), depths.end(), is_deep);
+  if (n == 0) return;
+  const auto deepest = std::max_element(depths.begin(), depths.end());
+  const std::string finding =
+      std::to_string(n) + " of " + std::to_string(depths.size()) +
+      (n == 1 ? " blocks starts" : " blocks start") + " below the ground, block " +
+      std::to_string(deepest - depths.begin()) + " by " + text(*deepest, 4) + " m, the most";
+  if (!files.settle)
+    throw InputError({files.blocks}, finding,
+                     "blocks cut out of a slope slide on the bed that talus-blocks --trn-out "
+                     "writes; --settle lifts blocks onto the ground");
+  for (std::size_t b = 0; b < depths.size(); ++b)
+    if (is_deep(depths[b])) lift_block(blocks, static_cast<int>(b), depths[b]);
+  tool.info(finding + ": lifted onto it");
+}
+
+BlockSet read_checked_blocks(Tool& tool, const Trn& trn, const std::string& digest,
+                             const DdaFiles& files) {
+  BlockSet blocks = read_blocks(files.blocks);
+  if (n_blocks(blocks) == 0)
+    throw InputError({files.blocks}, "there is no block in it", "nothing would move");
+  check_crs(blocks, trn, files);
+  move_to_origin(blocks, trn.origin);
+  check_place(blocks, trn, files);
+  const std::vector<std::string>& known = blocks.ground_digests;
+  if (!known.empty() && std::find(known.begin(), known.end(), digest) == known.end())
+    tool.warn(files.trn + " is not the terrain that " + files.blocks + " was made for");
+  check_depth(tool, blocks, trn, files);
+  return blocks;
+}
+
+// --- ground classes ----------------------------------------------------------------------------
+
+GroundArea ground_area(Tool& tool, const Site& site, const Trn& trn, int index) {
+  const GroundSettings& ground = site.grounds[static_cast<std::size_t>(index)];
+  const std::string key = "ground." + ground.name + ".polygon";
+  GroundArea area{index, {}};
+  const auto add = [&area](const std::vector<Vec3>& ring) {
+    area.rings.emplace_back();
+    for (const Vec3& point : ring) area.rings.back().push_back(point.head<2>());
+  };
+  if (!ground.polygon.empty()) add(local_points(tool, site, trn, ground.polygon, key));
+  if (ground.polygon_file.empty()) return area;
+  const std::string path = resolved(site, ground.polygon_file);
+  tool.read_also("ground." + ground.name, path);
+  VectorShapes shapes = read_vectors(
+      {path, ground.polygon_layer, ground.polygon_where, VectorKind::areas}, trn.crs_wkt);
+  if (!shapes.source_crs.empty())
+    tool.info(path + ": reprojected from " + crs_name(shapes.source_crs));
+  for (std::vector<Vec3>& ring : shapes.shapes) {
+    for (Vec3& point : ring) point -= trn.origin;
+    add(ring);
+  }
+  return area;
+}
+
+// One class needs no map of classes.
+std::vector<std::uint8_t> ground_classes(Tool& tool, const Site& site, const Trn& trn) {
+  const int n = static_cast<int>(site.grounds.size());
+  if (n == 1) return {};
+  if (n > 255)
+    throw InputError({site.file}, std::to_string(n) + " sections [ground.*], expected up to 255");
+  std::vector<GroundArea> areas;
+  int elsewhere = -1;
+  for (int i = 0; i < n; ++i) {
+    const GroundSettings& ground = site.grounds[static_cast<std::size_t>(i)];
+    const bool has_area = !ground.polygon.empty() || !ground.polygon_file.empty();
+    if (!has_area && elsewhere >= 0)
+      throw InputError({site.file, ground.line},
+                       "[ground." + ground.name + "] has no polygon, and neither has [ground." +
+                           site.grounds[static_cast<std::size_t>(elsewhere)].name + "]",
+                       "one section holds elsewhere, the others need a polygon");
+    if (has_area)
+      areas.push_back(ground_area(tool, site, trn, i));
+    else
+      elsewhere = i;
+  }
+  if (elsewhere < 0)
+    throw InputError({site.file}, "no section [ground.*] holds outside the polygons",
+                     "add one without polygon");
+  return classify_cells(trn, areas, elsewhere);
+}
+
+// --- fences ------------------------------------------------------------------------------------
+
+// The line with a point at least every `spacing`, its base on the ground.
+std::vector<Vec3> on_ground(const Site& site, const FenceSettings& fence, const Trn& trn,
+                            const std::vector<Vec3>& corners) {
+  std::vector<Vec3> points;
+  const auto add = [&](const Vec2& at) {
+    const double z = elevation_at(trn, at.x(), at.y());
+    if (std::isnan(z)) {
+      const Vec2 place = at + trn.origin.head<2>();
+      throw InputError(
+          {site.file, fence.line_number, "fence." + fence.name},
+          "leaves the known terrain at " + text(place.x(), 9) + ", " + text(place.y(), 9),
+          "shorten the line, or make the terrain larger");
+    }
+    points.emplace_back(at.x(), at.y(), z);
+  };
+  for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
+    const Vec2 a = corners[i].head<2>(), b = corners[i + 1].head<2>();
+    const int n =
+        std::max(1, static_cast<int>(std::ceil((b - a).norm() / fence.post_spacing_m - 1e-9)));
+    for (int k = 0; k < n; ++k) add(a + (b - a) * (static_cast<double>(k) / n));
+  }
+  if (!corners.empty()) add(corners.back().head<2>());
+  return points;
+}
+
+void add_fence(Tool& tool, const Site& site, const Trn& trn, const FenceSettings& fence,
+               std::vector<RecordLine>& lines) {
+  const std::string key = "fence." + fence.name + ".line";
+  std::vector<std::vector<Vec3>> found;
+  if (!fence.line.empty()) found.push_back(local_points(tool, site, trn, fence.line, key));
+  if (!fence.line_file.empty()) {
+    const std::string path = resolved(site, fence.line_file);
+    tool.read_also("fence." + fence.name, path);
+    VectorShapes shapes =
+        read_vectors({path, fence.line_layer, "", VectorKind::lines}, trn.crs_wkt);
+    for (std::vector<Vec3>& line : shapes.shapes) {
+      for (Vec3& point : line) point -= trn.origin;
+      found.push_back(std::move(line));
+    }
+  }
+  if (found.empty())
+    throw InputError({site.file, fence.line_number, "fence." + fence.name}, "has no line",
+                     "give line or line_file");
+  for (std::size_t i = 0; i < found.size(); ++i)
+    lines.push_back(record_line(fence.name + (found.size() > 1 ? "." + std::to_string(i + 1) : ""),
+                                on_ground(site, fence, trn, found[i])));
+}
+
+}  // namespace
+
+DdaInputs read_dda_inputs(Tool& tool, const Site& site, const DdaFiles& files) {
+  DdaInputs inputs;
+  SceneParts& parts = inputs.parts;
+  parts.trn = read_trn(files.trn);
+  const Vec2 place = parts.trn.origin.head<2>() + parts.trn.node0;
+  const CrsProblem problem = find_crs_problem(parts.trn.crs_wkt, place);
+  if (!parts.trn.crs_wkt.empty() && !problem.finding.empty())
+    throw InputError({files.trn}, problem.finding, "reproject it with talus-trn --t-srs");
+  inputs.crs_wkt = parts.trn.crs_wkt;
+  inputs.origin = parts.trn.origin;
+  inputs.trn_sha256 = sha256_of_file(files.trn);
+  inputs.trn_digest = trn_digest(parts.trn);
+  parts.base = base_motion(site, site.solver.duration_s);
+  if (!site.base_motion.file.empty())
+    tool.read_also("base_motion", resolved(site, site.base_motion.file));
+  parts.blocks = read_checked_blocks(tool, parts.trn, inputs.trn_digest, files);
+  parts.cell_class = ground_classes(tool, site, parts.trn);
+  for (const FenceSettings& fence : site.fences)
+    add_fence(tool, site, parts.trn, fence, inputs.lines);
+  return inputs;
+}
+
+}  // namespace talus

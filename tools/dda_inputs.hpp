@@ -1,0 +1,35 @@
+// tools/dda_inputs.hpp
+// What talus-dda reads, checked against one another before anything is computed.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "blocks/block_set.hpp"
+#include "dda/site_scene.hpp"
+#include "scene/plan.hpp"
+#include "scene/site.hpp"
+#include "store/crossings.hpp"
+#include "tool.hpp"
+
+namespace talus {
+
+struct DdaFiles {
+  std::string trn, blocks;
+  bool settle = false;  ///< lift blocks that stand in the ground
+};
+
+struct DdaInputs {
+  SceneParts parts;
+  std::vector<RecordLine> lines;  ///< of [fence.*], on the ground
+  std::string crs_wkt;
+  Vec3 origin = Vec3::Zero();  ///< of the TRN: everything is relative to it
+  std::string trn_sha256, trn_digest;
+};
+
+/// Reads TRN, blocks, ground classes, base motion and fences. Throws InputError for blocks of
+/// another CRS, off the terrain or in the ground (unless files.settle), ground without a class, and
+/// a base motion that ends early. Warns of a TRN that the blocks were not made for.
+[[nodiscard]] DdaInputs read_dda_inputs(Tool& tool, const Site& site, const DdaFiles& files);
+
+}  // namespace talus

@@ -1,0 +1,20 @@
+// tools/site_places.hpp
+// Places that a site file names, in the local coordinates of the terrain: corners and lines written
+// in the file itself or in vector files beside it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene/site.hpp"
+#include "terrain/trn.hpp"
+#include "tool.hpp"
+
+namespace talus {
+
+/// Points of the site file (map coordinates in the CRS of [site]) as local ones; z NaN stays NaN.
+/// `key` is where they stand. Throws InputError when they cannot be reprojected.
+[[nodiscard]] std::vector<Vec3> local_points(Tool& tool, const Site& site, const Trn& ground,
+                                             std::vector<Vec3> points, const std::string& key);
+
+}  // namespace talus

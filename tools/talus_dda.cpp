@@ -1,0 +1,359 @@
+// tools/talus_dda.cpp
+// Moves blocks by three-dimensional discontinuous deformation analysis. Page:
+// docs/tools/talus-dda.md
+#include <chrono>
+#include <cmath>
+#include <ctime>
+#include <filesystem>
+
+#include "base/sha256.hpp"
+#include "base/text.hpp"
+#include "build_info.hpp"
+#include "dda/site_scene.hpp"
+#include "dda_inputs.hpp"
+#include "site_options.hpp"
+#include "store/runner.hpp"
+#include "store/xdmf_hdf5.hpp"
+#include "terrain/trn_flags.hpp"
+#include "tool.hpp"
+
+namespace {
+
+using namespace talus;  // NOLINT: a program of its own
+namespace fs = std::filesystem;
+
+struct Options {
+  DdaFiles files;
+  std::string out, xdmf, plan, passages_by = "footprint";
+  bool resume = false, independent = false;
+};
+
+void declare(Tool& tool, SiteOptions& site, Options& o) {
+  tool.input("--trn", o.files.trn, "terrain that the blocks slide on (talus-trn, talus-blocks)")
+      ->required();
+  tool.input("--blocks", o.files.blocks, "block set (talus-blocks)")->required();
+  tool.output("-o,--out", o.out, "run to write (HDF5); not needed for --plan");
+  tool.output("--xdmf", o.xdmf, "scene for ParaView (XDMF), with its own HDF5 file beside it");
+  tool.app().add_flag("--plan{show}", o.plan,
+                      "print what the scene needs and what is left out, then end; --plan=full "
+                      "computes everything");
+  tool.flag("--resume", o.resume, "go on from the checkpoint of a run that was stopped, if any");
+  tool.flag("--independent", o.independent,
+            "move each block as if it were alone; needed for more than one block, as contacts "
+            "between blocks are not computed yet");
+  tool.flag("--settle", o.files.settle, "lift blocks that start below the ground onto it");
+  tool.option("--passages-by", o.passages_by,
+              "a cell is passed while the footprint or only the centroid is over it")
+      ->check(CLI::IsMember({"footprint", "centroid"}));
+  site.option(tool, "--law", "solver.law", "contact law, talus or paper");
+  site.option(tool, "--duration-s", "solver.duration_s", "time simulated");
+  site.option(tool, "--time-step-s", "solver.time_step_s", "time step");
+  site.option(tool, "--seed", "solver.seed", "seed of scatter and jitter");
+  site.option(tool, "--frame-interval-s", "output.frame_interval_s", "time between frames");
+  site.option(tool, "--checkpoint-interval-s", "output.checkpoint_interval_s",
+              "wall time between checkpoints");
+  tool.footer(
+      "Example:\n  talus-dda site.toml --trn bed.tif --blocks blocks.h5 -o run.h5\n"
+      "A run that was stopped leaves run.h5.part: a readable run, and where --resume goes on.");
+}
+
+// --- the plan ----------------------------------------------------------------------------------
+
+Json as_json(const ScenePlan& plan) {
+  Json list = Json::array();
+  for (const PlanItem& item : plan.items)
+    list.push_back(
+        {{"item", item.item}, {"on", item.on}, {"rule", item.rule}, {"reason", item.reason}});
+  return list;
+}
+
+ScenePlan plan_of(const Site& site, const DdaInputs& inputs, const Options& o) {
+  if (!o.plan.empty() && o.plan != "show" && o.plan != "full")
+    throw InputError({"", 0, "--plan"}, "is " + o.plan + ", expected full or nothing");
+  const Trn& trn = inputs.parts.trn;
+  return make_plan(plan_facts(site, inputs.parts.blocks, trn, ground_flags(trn)), o.plan == "full");
+}
+
+// --- the run -----------------------------------------------------------------------------------
+
+// Equal for runs that must give equal bytes, whatever was interrupted and resumed on the way.
+std::string run_id_of(const Site& site, const DdaInputs& inputs, const Options& o) {
+  Sha256 hash;
+  const auto add = [&hash](const std::string& words) { hash.add(words.c_str(), words.size() + 1); };
+  add(build_version);
+  for (const EffectiveValue& entry : effective_values(site))
+    if (entry.key != "checkpoint_interval_s" && entry.key != "folder")
+      add(entry.section + "." + entry.key + "=" + entry.value);
+  add(inputs.trn_digest);
+  for (const Vec3& vertex : inputs.parts.blocks.vertices) hash.add(vertex.data(), sizeof vertex);
+  for (const std::uint8_t c : inputs.parts.cell_class) hash.add(&c, 1);
+  for (const Vec3& a : inputs.parts.base.acceleration) hash.add(a.data(), sizeof a);
+  for (const RecordLine& line : inputs.lines)
+    for (const Vec3& point : line.points) hash.add(point.data(), sizeof point);
+  add(o.passages_by);
+  add(o.plan);
+  return hash.hex().substr(0, 16);
+}
+
+RunOptions run_options(const Site& site, const ScenePlan& plan, const Options& o) {
+  RunOptions options;
+  options.duration = site.solver.duration_s;
+  options.frame_interval = site.output.frame_interval_s;
+  options.passages = plan.passages;
+  options.passages_by_centroid = o.passages_by == "centroid";
+  options.passage_cell_size = site.output.cell_size_m;
+  options.strain = site.output.strain && plan.strains;
+  options.limits = {site.solver.max_penetration_m, site.solver.max_energy_gain,
+                    site.solver.max_lost_share};
+  return options;
+}
+
+RunFile new_file(const Site& site, const DdaInputs& inputs, const ScenePlan& plan,
+                 const Options& o) {
+  RunFile file;
+  RunInfo& info = file.info;
+  info.run_id = run_id_of(site, inputs, o);
+  info.version = build_version;
+  info.site = site.info.name;
+  info.crs_wkt = inputs.crs_wkt;
+  info.origin = inputs.origin;
+  info.trn_sha256 = inputs.trn_sha256;
+  info.blocks_hash = inputs.parts.blocks.content_hash;
+  info.law = site.solver.law;
+  info.seed = site.solver.seed;
+  info.config = print_config(site);
+  info.plan = as_json(plan).dump(1);
+  return file;
+}
+
+std::string part_of(const Options& o) { return o.out + ".part"; }
+
+void check_leftover(Tool& tool, const Options& o) {
+  if (!fs::exists(part_of(o)) || o.resume || tool.overwrite()) return;
+  throw InputError({part_of(o)}, "is what a run that was stopped left behind",
+                   "--resume goes on with it, --overwrite starts again");
+}
+
+// From the checkpoint when there is one and it is asked for, else from the beginning.
+Runner runner_of(Tool& tool, const Scene& scene, const RunOptions& options,
+                 const std::vector<RecordLine>& lines, RunFile file, const Options& o) {
+  if (!o.resume || !fs::exists(part_of(o))) {
+    if (o.resume) tool.info(part_of(o) + " does not exist: the run starts at its beginning");
+    return begin_run(scene, options, lines, std::move(file));
+  }
+  RunFile part = read_run_file(part_of(o));
+  if (part.info.run_id != file.info.run_id)
+    throw InputError(
+        {part_of(o)},
+        "belongs to a run of other inputs or settings (" + part.info.run_id + ", this one is " +
+            file.info.run_id + ")",
+        "give the same site file, options and inputs, or start again with --overwrite");
+  part.info = file.info;
+  Runner runner = resume_run(scene, options, lines, std::move(part), part_of(o));
+  tool.info("goes on at " + text(runner.state.time, 6) + " s");
+  return runner;
+}
+
+double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+// Writes checkpoints at intervals, more rarely where writing one takes long.
+class Checkpoints {
+ public:
+  Checkpoints(Tool& tool, std::string path, double interval_s)
+      : tool_(tool), path_(std::move(path)), interval_s_(interval_s) {}
+
+  void write(Runner& runner) {
+    const auto begin = Clock::now();
+    update_file(runner, true);
+    replace_run_file(path_, runner.file);
+    const double cost = std::chrono::duration<double>(Clock::now() - begin).count();
+    next_ = Clock::now() + to_duration(std::max(interval_s_, 20 * cost));
+  }
+  // A full disk does not end a run that still can end well.
+  void write_if_due(Runner& runner) {
+    if (Clock::now() < next_) return;
+    try {
+      write(runner);
+    } catch (const InputError& error) {
+      tool_.warn(std::string("no checkpoint: ") + error.what());
+      next_ = Clock::now() + to_duration(10 * interval_s_);
+    }
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  static Clock::duration to_duration(double seconds) {
+    return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+  }
+  Tool& tool_;
+  std::string path_;
+  double interval_s_;
+  Clock::time_point next_ = Clock::now() + to_duration(interval_s_);
+};
+
+// To the end, to a broken limit, or to a signal.
+void compute(Tool& tool, Runner& runner, const std::string& part, double interval_s) {
+  Checkpoints checkpoints(tool, part, interval_s);
+  const ProgressFunction progress = tool.progress();
+  std::size_t n_rows = runner.file.health.size();
+  while (!is_over(runner)) {
+    if (tool.interrupted()) {
+      checkpoints.write(runner);
+      tool.info("stopped at " + text(runner.state.time, 6) + " s; --resume goes on from " + part);
+      throw Interrupted();
+    }
+    advance(runner);
+    if (runner.file.health.size() > n_rows) {  // once an interval: clocks and limits
+      n_rows = runner.file.health.size();
+      if (has_failed(runner)) break;
+      progress(std::min(1.0, runner.state.time / runner.options.duration));
+      checkpoints.write_if_due(runner);
+    }
+  }
+  finish(runner);
+}
+
+// --- the result --------------------------------------------------------------------------------
+
+double largest_speed(const RunFile& file) {
+  float largest = 0;
+  for (const Passage& row : file.passages) largest = std::max(largest, row.largest.speed);
+  return largest;
+}
+
+// Mean displacement of the blocks by mass, from the first frame to the last.
+Vec3 mean_displacement(const RunFile& file) {
+  Vec3 sum = Vec3::Zero();
+  double mass = 0;
+  for (int b = 0; b < n_blocks(file); ++b) {
+    const double m = file.blocks.mass[static_cast<std::size_t>(b)];
+    sum += m * (frame_block(file, n_frames(file.frames) - 1, b).position -
+                frame_block(file, 0, b).position);
+    mass += m;
+  }
+  return sum / mass;
+}
+
+Json report_on(const Runner& runner, const ScenePlan& plan, double cpu_s) {
+  const RunFile& file = runner.file;
+  const RunCounters& counters = runner.state.counters;
+  const Vec3 moved = mean_displacement(file);
+  Json json = {{"run_id", file.info.run_id},
+               {"status", file.info.status},
+               {"time_s", file.info.time},
+               {"n_blocks", n_blocks(file)},
+               {"steps", counters.steps},
+               {"block_steps", counters.substeps},
+               {"flight_skips", counters.flight_skips},
+               {"passes", counters.passes},
+               {"impacts", counters.impacts},
+               {"unconverged", counters.unconverged},
+               {"left_domain", counters.left_domain},
+               {"n_passages", file.passages.size()},
+               {"n_crossings", file.crossings.size()},
+               {"n_frames", n_frames(file.frames)},
+               {"largest_speed_m_s", largest_speed(file)},
+               {"mean_displacement_m", {moved.x(), moved.y(), moved.z()}},
+               {"cpu_time_s", cpu_s}};
+  json["health"] = Json::array();
+  for (const HealthCheck& check : health_checks(runner))
+    json["health"].push_back({{"check", check.name},
+                              {"value", check.value},
+                              {"limit", check.limit},
+                              {"pass", check.pass}});
+  json["plan"] = as_json(plan);
+  return json;
+}
+
+std::string summary_of(const Json& report) {
+  const auto number = [&report](const char* key) { return text(report[key].get<double>(), 4); };
+  const Json& moved = report["mean_displacement_m"];
+  const double horizontal = std::hypot(moved[0].get<double>(), moved[1].get<double>());
+  return report["n_blocks"].dump() + " blocks, " + number("time_s") + " s in " +
+         report["steps"].dump() + " steps: centre of mass moved " + text(horizontal, 4) +
+         " m and fell " + text(-moved[2].get<double>(), 4) + " m, largest speed " +
+         number("largest_speed_m_s") + " m/s, " + report["n_passages"].dump() + " passages, " +
+         report["n_crossings"].dump() + " crossings";
+}
+
+void record_health(Tool& tool, Runner& runner) {
+  for (const HealthCheck& check : health_checks(runner)) {
+    tool.check(check.name, check.value, check.limit, check.pass);
+    if (check.pass) continue;
+    runner.file.info.status = "failed";
+    runner.file.info.reason += (runner.file.info.reason.empty() ? "" : "; ") + check.name + " is " +
+                               text(check.value, 6) + ", limit " + text(check.limit, 6);
+  }
+}
+
+void write_outputs(Tool& tool, Runner& runner, const Options& o) {
+  runner.file.info.status = "done";
+  record_health(tool, runner);
+  update_file(runner, false);
+  write_run_file(tool.stage(o.out), runner.file);
+  if (o.xdmf.empty()) return;
+  const fs::path data = fs::path(o.xdmf).replace_extension(".xdmf.h5");
+  write_xdmf(tool.stage(o.xdmf), tool.stage(data.string()), data.filename().string(), runner.file);
+}
+
+// A slide whose blocks pass through each other must not look like a result.
+void check_blocks_apart(Tool& tool, const Options& o, int n) {
+  if (n < 2) return;
+  const std::string finding = std::to_string(n) + " blocks";
+  if (!o.independent)
+    throw InputError({o.files.blocks},
+                     finding + ", and contacts between blocks are not computed yet, expected one",
+                     "--independent moves each as if it were alone: right for rocks that fall one "
+                     "by one, not for a mass that slides together");
+  tool.warn(finding + " move as if each were alone: contacts between them are not computed");
+}
+
+void note_lines(Tool& tool, const Site& site) {
+  for (const std::string& key : keys_without_effect(site))
+    tool.warn(where_of(site, key).text() + ": " + key + " has no effect in this version");
+  if (!site.fences.empty())
+    tool.warn("fences stop nothing in this version: what crosses their lines is recorded");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options o;
+  Tool tool("talus-dda", "Moves blocks by three-dimensional discontinuous deformation analysis.");
+  SiteOptions site_options(tool);
+  declare(tool, site_options, o);
+  bool is_written = false;
+  const int code = tool.run(argc, argv, [&] {
+    const double cpu_start = processor_seconds();
+    const Site& site = site_options.load();
+    if (o.out.empty() && o.plan != "show")
+      throw InputError({"", 0, "--out"}, "no output is named", "give -o RUN.h5");
+    if (!o.out.empty()) check_leftover(tool, o);
+    note_lines(tool, site);
+    DdaInputs inputs = read_dda_inputs(tool, site, o.files);
+    const ScenePlan plan = plan_of(site, inputs, o);
+    if (o.plan == "show") {
+      tool.result({{"plan", as_json(plan)}}, as_text(plan));
+      return;
+    }
+    check_blocks_apart(tool, o, n_blocks(inputs.parts.blocks));
+    tool.detail(as_text(plan));
+    RunFile file = new_file(site, inputs, plan, o);
+    const BlockSet blocks = inputs.parts.blocks;
+    const Scene scene = make_site_scene(site, plan, std::move(inputs.parts));
+    file.blocks = run_blocks(scene, blocks);
+    Runner runner =
+        runner_of(tool, scene, run_options(site, plan, o), inputs.lines, std::move(file), o);
+    compute(tool, runner, part_of(o), site.output.checkpoint_interval_s);
+    write_outputs(tool, runner, o);
+    const Json report = report_on(runner, plan, processor_seconds() - cpu_start);
+    for (const char* key : {"steps", "impacts", "unconverged", "left_domain", "largest_speed_m_s"})
+      tool.metric(key, report[key].get<double>(),
+                  std::string(key) == "largest_speed_m_s" ? "m/s" : "1");
+    tool.result(report, summary_of(report));
+    is_written = true;
+  });
+  // the run is in place: what it could have been resumed from is of no more use
+  if (is_written && (code == 0 || code == 3)) fs::remove(part_of(o));
+  return code;
+}
