@@ -39,8 +39,7 @@ void declare(Tool& tool, SiteOptions& site, Options& o) {
                       "computes everything");
   tool.flag("--resume", o.resume, "go on from the checkpoint of a run that was stopped, if any");
   tool.flag("--independent", o.independent,
-            "move each block as if it were alone; needed for more than one block, as contacts "
-            "between blocks are not computed yet");
+            "move each block as if it were alone: rocks that fall one by one");
   tool.flag("--settle", o.files.settle, "lift blocks that start below the ground onto it");
   tool.option("--passages-by", o.passages_by,
               "a cell is passed while the footprint or only the centroid is over it")
@@ -71,7 +70,9 @@ ScenePlan plan_of(const Site& site, const DdaInputs& inputs, const Options& o) {
   if (!o.plan.empty() && o.plan != "show" && o.plan != "full")
     throw InputError({"", 0, "--plan"}, "is " + o.plan + ", expected full or nothing");
   const Trn& trn = inputs.parts.trn;
-  return make_plan(plan_facts(site, inputs.parts.blocks, trn, ground_flags(trn)), o.plan == "full");
+  PlanFacts facts = plan_facts(site, inputs.parts.blocks, trn, ground_flags(trn));
+  facts.independent = o.independent;
+  return make_plan(facts, o.plan == "full");
 }
 
 // --- the run -----------------------------------------------------------------------------------
@@ -297,14 +298,14 @@ void write_outputs(Tool& tool, Runner& runner, const Options& o) {
 }
 
 // A slide whose blocks pass through each other must not look like a result.
-void check_blocks_apart(Tool& tool, const Options& o, int n) {
-  if (n < 2) return;
+void check_blocks_apart(Tool& tool, const Options& o, const ScenePlan& plan, int n) {
+  if (n < 2 || plan.block_contacts) return;
   const std::string finding = std::to_string(n) + " blocks";
   if (!o.independent)
-    throw InputError({o.files.blocks},
-                     finding + ", and contacts between blocks are not computed yet, expected one",
-                     "--independent moves each as if it were alone: right for rocks that fall one "
-                     "by one, not for a mass that slides together");
+    throw InputError(
+        {o.files.blocks},
+        finding + ", and law paper computes no contacts between blocks, expected one",
+        "take law talus, or --independent, which moves each block as if it were alone");
   tool.warn(finding + " move as if each were alone: contacts between them are not computed");
 }
 
@@ -336,7 +337,7 @@ int main(int argc, char** argv) {
       tool.result({{"plan", as_json(plan)}}, as_text(plan));
       return;
     }
-    check_blocks_apart(tool, o, n_blocks(inputs.parts.blocks));
+    check_blocks_apart(tool, o, plan, n_blocks(inputs.parts.blocks));
     tool.detail(as_text(plan));
     RunFile file = new_file(site, inputs, plan, o);
     const BlockSet blocks = inputs.parts.blocks;

@@ -86,6 +86,7 @@ Scene scene_of(Trn trn, const GroundClass& ground, const std::vector<Body>& bodi
                const Settings& settings, const Material& material) {
   Scene scene;
   scene.ground = make_ground(std::move(trn), ground);
+  scene.joint = ground;
   scene.gravity = Vec3(0, 0, -10);
   scene.settings = settings;
   BlockSet set;

@@ -14,7 +14,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dda/work.hpp"
+#include "dda/contact_row.hpp"
 
 namespace talus {
 

@@ -55,6 +55,7 @@ void add_block(Scene& scene, const BlockSet& set, int b, const Material& materia
     parts.push_back(convex_part(set, p));
   add_shape(blocks.shapes, parts, block_shell(set, b), set.centroid[i], axes.transpose(),
             face_internal);
+  add_hulls(blocks.hulls, parts, set.centroid[i], axes.transpose());
 }
 
 }  // namespace

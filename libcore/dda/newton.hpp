@@ -3,11 +3,12 @@
 // theory 1.7, 1.10; docs/design-notes.md (why the friction bound is iterated inside the step)
 #pragma once
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <span>
 
+#include "dda/contact_row.hpp"
 #include "dda/displacement.hpp"
-#include "dda/work.hpp"
 
 namespace talus {
 

@@ -8,6 +8,7 @@
 
 #include "base/types.hpp"
 #include "contact/ground.hpp"
+#include "contact/hulls.hpp"
 #include "contact/pose.hpp"
 #include "contact/shapes.hpp"
 
@@ -29,6 +30,7 @@ struct Settings {
   bool post_adjustment = true;  ///< law paper: restitution by (28); off, that of the springs
   bool static_start = true;     ///< law talus: blocks at rest start in equilibrium with the ground
   bool flight = true;           ///< law talus: skip the search while nothing can be hit
+  bool block_contacts = true;   ///< law talus: blocks touch each other; off, each moves as if alone
   bool sleep = true;            ///< law talus: blocks that stick and stand still are left out
 };
 
@@ -57,11 +59,13 @@ struct Blocks {  // clang-format off
   std::vector<Vec3> velocity;         ///< at the start [m/s]                          (n_blocks)
   std::vector<Vec3> spin;             ///< at the start, local axes [rad/s]            (n_blocks)
   std::vector<Vec6> initial_stress;   ///< sx sy sz tyz tzx txy, body axes; may be empty [Pa]
-  Shapes shapes;                      ///< surfaces
+  Shapes shapes;                      ///< surfaces, as the search of the ground reads them
+  Hulls hulls;                        ///< convex parts, as the search of other blocks reads them
 };  // clang-format on
 
 struct Scene {
   Ground ground;
+  GroundClass joint;  ///< contacts between blocks; cohesion and tension are not used
   Blocks blocks;
   Vec3 gravity = Vec3(0, 0, -9.81);  ///< [m/s2]
   std::vector<PointLoad> loads;      ///< sorted by block

@@ -26,6 +26,21 @@ GroundClass ground_class(const GroundSettings& ground, const SolverSettings& sol
   return made;
 }
 
+// Contacts between blocks: the smallest friction and restitution of the materials there are.
+GroundClass joint_class(const Site& site, const BlockSet& blocks) {
+  GroundClass made;
+  double friction = 89, cor = 1;
+  for (const MaterialSettings& material : site.materials) {
+    const auto& names = blocks.material_names;
+    if (std::find(names.begin(), names.end(), material.name) == names.end()) continue;
+    friction = std::min(friction, material.friction_deg);
+    cor = std::min(cor, std::isnan(site.solver.cor) ? material.cor : site.solver.cor);
+  }
+  made.friction = std::tan(friction * degree);
+  made.restitution = cor;
+  return made;
+}
+
 // Materials in the order of the block set's names.
 std::vector<Material> materials_of(const Site& site, const BlockSet& blocks) {
   std::vector<Material> materials;
@@ -51,6 +66,7 @@ Settings settings_of(const SolverSettings& solver, const ScenePlan& plan) {
   settings.shear_ratio = solver.shear_stiffness_ratio;
   settings.max_passes = static_cast<int>(solver.max_passes);
   settings.flight = plan.flight;
+  settings.block_contacts = plan.block_contacts;
   settings.sleep = plan.sleep;
   return settings;
 }
@@ -85,6 +101,7 @@ Scene make_site_scene(const Site& site, const ScenePlan& plan, SceneParts parts)
     scene.ground.classes.push_back(ground_class(ground, solver, friction_shift, cor_shift));
   }
   scene.ground.cell_class = std::move(parts.cell_class);
+  scene.joint = joint_class(site, parts.blocks);
   scene.gravity = {0, 0, -solver.gravity_m_s2};
   scene.settings = settings_of(solver, plan);
   scene.base = {std::move(parts.base.time), std::move(parts.base.acceleration)};

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "contact/block_pairs.hpp"
 #include "contact/contact.hpp"
 #include "contact/pose.hpp"
 #include "dda/scene.hpp"
@@ -61,7 +62,10 @@ struct State {  // clang-format off
   std::vector<int> still_steps;             ///< steps in a row at rest              (n_blocks)
   std::vector<Vec6> strain;                 ///< body axes; empty for rigid blocks [-]    (n_blocks)
   std::vector<Vec6> strain_rate;            ///< body axes; empty for rigid blocks [1/s]  (n_blocks)
-  std::vector<std::vector<ContactMemory>> memory;  ///< contacts of block b          (n_blocks)
+  std::vector<std::vector<ContactMemory>> memory;  ///< contacts of block b with the ground and
+                                                   ///< blocks of higher number       (n_blocks)
+  PairState pairs;                          ///< close pairs of blocks and their axes
+  PlacedHulls placed;                       ///< where the pairs were searched last
   EnergyLedger ledger;
   RunCounters counters;
 };  // clang-format on

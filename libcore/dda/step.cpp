@@ -6,8 +6,10 @@
 #include "dda/displacement.hpp"
 #include "dda/flight.hpp"
 #include "dda/rotation.hpp"
+#include "dda/step_island.hpp"
 #include "dda/step_paper.hpp"
 #include "dda/step_talus.hpp"
+#include "dda/substep.hpp"
 
 namespace talus {
 namespace {
@@ -47,20 +49,14 @@ void put_to_sleep(const Scene& scene, size_t b, State& state) {
   state.motion[b].angular_momentum.setZero();
 }
 
+// Whether block b shares its island with others.
+bool in_company(const IslandGroups& groups, int b) {
+  const auto k = static_cast<size_t>(groups.island_of[static_cast<size_t>(b)]);
+  return groups.block_begin[k + 1] - groups.block_begin[k] > 1;
+}
+
 bool does_not_move(Phase phase) {
   return phase == Phase::asleep || phase == Phase::left_domain || phase == Phase::stopped;
-}
-
-bool is_finite(const Motion& m) {
-  return m.pose.position.allFinite() && m.pose.attitude.coeffs().allFinite() &&
-         m.velocity.allFinite() && m.angular_momentum.allFinite();
-}
-
-void stop_at(const Motion& last_good, size_t b, State& state, StepReport& report) {
-  state.motion[b] = {last_good.pose, Vec3::Zero(), Vec3::Zero()};
-  state.phase[b] = Phase::stopped;
-  state.memory[b].clear();
-  report.flags = report.flags | StepFlag::not_finite;
 }
 
 bool spins(const Scene& scene, size_t b) { return !scene.blocks.spin[b].isZero(0); }
@@ -127,8 +123,18 @@ StepReport step(const Scene& scene, State& state, Work& work) {
   const bool may_sleep =
       scene.settings.sleep && scene.settings.law == Law::talus && scene.base.time.empty();
   work.segments.clear();
+  const bool islands =
+      n_blocks(scene) > 1 && scene.settings.law == Law::talus && scene.settings.block_contacts;
+  if (islands) form_islands(scene, state, work);
   for (int b = 0; b < n_blocks(scene); ++b) {
     const auto i = static_cast<size_t>(b);
+    if (islands && in_company(work.islands.groups, b)) {
+      const int k = work.islands.groups.island_of[i];
+      if (work.islands.groups.local_index[i] > 0) continue;
+      advance_island(scene, k, t_end, state, work, report);
+      if (may_sleep) put_island_to_sleep(scene, k, state, work);
+      continue;
+    }
     if (does_not_move(state.phase[i])) continue;
     if (state.phase[i] == Phase::flight && state.flight_end[i] >= t_end) {
       ++state.counters.flight_skips;

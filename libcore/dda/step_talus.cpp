@@ -11,210 +11,12 @@
 #include "dda/newton.hpp"
 #include "dda/rotation.hpp"
 #include "dda/step.hpp"
+#include "dda/substep.hpp"
 
 namespace talus {
 namespace {
 
 using std::size_t;
-
-// k_n dt^2 / m of the stiffest contact that is computed with, m being the mass that the contact
-// feels.
-constexpr double stiffest = 400;
-// Overlap is pressed out over this many time steps: no velocity is turned round on the way.
-constexpr double recovery_steps = 3;
-// A contact is touching when its gap is below this part of the block's radius.
-constexpr double touch_ratio = 1e-8;
-constexpr int most_events = 40;  // impacts of a block in a step before bouncing is given up
-constexpr int most_tries = 24;   // substeps repeated to find an event or to converge
-
-/// Constants of one block in one run.
-struct BlockNumbers {
-  double mass, radius, thickness;
-  double stiffness;  // k_n of a contact that feels the whole mass
-  double recovery_time, touch, resting_speed, gravity;
-  Vec3 inertia;
-};
-
-BlockNumbers numbers_of(const Scene& scene, int b) {
-  const auto i = static_cast<size_t>(b);
-  const double g = scene.gravity.norm(), dt = scene.settings.dt;
-  const double radius = scene.blocks.shapes.radius[i];
-  return {scene.blocks.mass[i],
-          radius,
-          scene.blocks.shapes.thickness[i],
-          stiffest * scene.blocks.mass[i] / (dt * dt),
-          recovery_steps * dt,
-          touch_ratio * radius,
-          std::max(2 * g * dt, 1e-6),
-          g,
-          scene.blocks.inertia[i]};
-}
-
-// Gap up to which a contact may come to press within a substep though the free motion keeps it
-// open.
-double search_margin(const BlockNumbers& c, double h) {
-  return 4 * c.gravity * h * h + 1e-3 * c.radius;
-}
-
-/// A substep of `h`: where the block would be without contact, and how the solution changes that.
-struct Substep {
-  double h = 0;
-  Vec3 free_acceleration;
-  Motion start, free;  // free: at the end of the substep without contact
-  Mat3 R;              // free attitude, body to local axes
-  Vec3 spin_free;      // body axes
-};
-
-Vec3 load_torque(const Scene& scene, int b, const Quat& attitude) {
-  Vec3 torque = Vec3::Zero();
-  for (const PointLoad& load : scene.loads)
-    if (load.block == b) torque += (attitude * load.point).cross(load.force);
-  return torque;
-}
-
-Substep predict(const Scene& scene, int b, const BlockNumbers& c, const Motion& start, double t,
-                double h) {
-  Substep s;
-  s.h = h;
-  s.start = start;
-  s.free_acceleration = free_acceleration(scene, b, t, t + h);
-  s.free = fly(start, c.inertia, s.free_acceleration, h);
-  if (!scene.loads.empty())
-    s.free.angular_momentum += h * load_torque(scene, b, start.pose.attitude);
-  s.R = s.free.pose.attitude.toRotationMatrix();
-  s.spin_free = (s.R.transpose() * s.free.angular_momentum).cwiseQuotient(c.inertia);
-  return s;
-}
-
-Mat3 stretch_of(const State& state, int b) {
-  Mat3 U = Mat3::Identity();
-  if (state.strain.empty()) return U;
-  const Vec6& e = state.strain[static_cast<size_t>(b)];
-  U += (Mat3() << e[0], e[5] / 2, e[4] / 2, e[5] / 2, e[1], e[3] / 2, e[4] / 2, e[3] / 2, e[2])
-           .finished();
-  return U;
-}
-
-// The row that a remembered contact continues: same features, nearest normal.
-int row_of(const ContactMemory& memory, const Work& work) {
-  int best = -1;
-  double nearest = 0.5;  // never over more than 60 degrees
-  for (size_t i = 0; i < work.rows.size(); ++i) {
-    const Contact& contact = work.contacts[static_cast<size_t>(work.rows[i].contact)];
-    if (!(contact.key == memory.key)) continue;
-    const double cosine = contact.normal.dot(memory.normal);
-    if (cosine > nearest) nearest = cosine, best = static_cast<int>(i);
-  }
-  return best;
-}
-
-// What the row inherits: the shear spring turned into the new tangent plane, and the overlap that
-// presses nothing. Where the ground below changes plane the gap jumps; the jump does no work.
-void inherit(const ContactMemory& memory, int index, const Substep& s, double touch,
-             ContactRow& row) {
-  row.memory = index;
-  row.bond_area = memory.bond_area;
-  row.offset = std::min(memory.offset, std::max(0.0, -row.gap_start));
-  const double jump = memory.gap_end - (row.gap_start + row.offset);
-  if (jump > touch) row.offset += std::min(jump, std::max(0.0, -row.gap_start - row.offset));
-  const Vec3 shear = s.R.transpose() * memory.shear;
-  const double length = shear.norm();
-  const Vec3 tangent = shear - row.normal.dot(shear) * row.normal;
-  const double tangent_length = tangent.norm();
-  row.shear = tangent_length > 0 ? Vec3(tangent * (length / tangent_length)) : Vec3(Vec3::Zero());
-}
-
-// How fast the contact would close without contact forces: at the start of the substep, or on the
-// mean over it where the spin turns the point round.
-double approach(const ContactRow& row, const Substep& s) {
-  return std::min(row.speed_start, row.normal.dot(s.R.transpose() * row.free_move) / s.h);
-}
-
-// Gap of a vertex to the ground below it when the substep begins. A vertex may stand behind the
-// plane of the triangle that it will reach, a ridge away, and yet above the ground: it will hit on
-// its way.
-double clearance_at_start(const Scene& scene, const Contact& contact, const Substep& s) {
-  if (contact.key.mode != ContactMode::vertex_face) return -1;
-  const Trn& trn = scene.ground.trn;
-  const Vec3 x = place(s.start.pose, contact.point_a);
-  if (!contains(trn, x.x(), x.y())) return -1;
-  const TrianglePlane plane = triangle_plane(trn, triangle_at(trn, x.x(), x.y()));
-  const double gap = plane.normal.dot(x - plane.point);
-  return gap > 0 ? gap : -1;  // also where the ground is unknown
-}
-
-void set_law(const Scene& scene, const BlockNumbers& c, const Substep& s, ContactRow& row) {
-  const double x = row.gap_start + row.offset;
-  const Mobility W = mobility(c.mass, c.inertia, row.point, row.normal);
-  const double asked = scene.settings.normal_stiffness;
-  const double k_n = std::min(asked > 0 ? asked : c.stiffness, c.stiffness / (c.mass * W.normal));
-  const double k_s = std::min(scene.settings.shear_ratio * k_n, c.stiffness / (c.mass * W.tangent));
-  row.normal_damping = k_n * s.h * c.recovery_time;
-  row.shear_damping = k_s * s.h * c.recovery_time;
-  row.shear_velocity = row.shear / c.recovery_time;
-  row.bias = x < 0 ? x / c.recovery_time : x / s.h;
-  row.waits_for_impact =
-      row.memory < 0 && row.gap_start > c.touch && approach(row, s) < -c.resting_speed;
-}
-
-void make_rows(const Scene& scene, int b, const BlockNumbers& c, const Substep& s,
-               const State& state, Work& work) {
-  const Mat3 to_body = s.R.transpose();
-  const Mat3 R_start = s.start.pose.attitude.toRotationMatrix();
-  const Vec3 spin_start = (R_start.transpose() * s.start.angular_momentum).cwiseQuotient(c.inertia);
-  work.rows.resize(work.contacts.size());
-  for (size_t i = 0; i < work.contacts.size(); ++i) {
-    const Contact& contact = work.contacts[i];
-    const GroundClass& ground = scene.ground.classes[static_cast<size_t>(contact.ground_class)];
-    ContactRow& row = work.rows[i] = ContactRow{};
-    row.contact = static_cast<int>(i);
-    row.normal = to_body * contact.normal;
-    const Vec3& X = contact.point_a;
-    const Vec3 lever_start = to_body * (R_start * X);
-    row.point = (X + lever_start) / 2;
-    row.drift = s.spin_free.cross(X - row.point);
-    row.free_move = s.free.pose.position - s.start.pose.position + s.R * (X - lever_start);
-    row.gap_start = contact.gap - contact.normal.dot(row.free_move);
-    const Vec3 w = s.start.velocity + R_start * spin_start.cross(X);
-    row.speed_start = contact.normal.dot(w);
-    const Vec3 slip = w - row.speed_start * contact.normal;
-    const double slip_speed = slip.norm();
-    row.slip_start = slip_speed > 0 ? Vec3(to_body * (slip / slip_speed)) : Vec3(Vec3::Zero());
-    row.shear.setZero();
-    row.friction = ground.friction;
-  }
-  const std::vector<ContactMemory>& memory = state.memory[static_cast<size_t>(b)];
-  for (size_t m = 0; m < memory.size(); ++m) {
-    const int i = row_of(memory[m], work);
-    if (i < 0) continue;
-    ContactRow& row = work.rows[static_cast<size_t>(i)];
-    // a plane that the contact only now runs into is met by an impact, not inherited
-    if (row.gap_start > c.touch && approach(row, s) < -c.resting_speed) continue;
-    inherit(memory[m], static_cast<int>(m), s, c.touch, row);
-  }
-  for (ContactRow& row : work.rows) {
-    if (row.memory < 0) {
-      const Contact& contact = work.contacts[static_cast<size_t>(row.contact)];
-      if (row.gap_start <= c.touch && contact.gap < -c.touch && approach(row, s) < -c.resting_speed)
-        row.gap_start = std::max(row.gap_start, clearance_at_start(scene, contact, s));
-      row.offset = std::max(0.0, -row.gap_start);
-    }
-    set_law(scene, c, s, row);
-    const GroundClass& ground = scene.ground.classes[static_cast<size_t>(
-        work.contacts[static_cast<size_t>(row.contact)].ground_class)];
-    row.cohesion_impulse = ground.cohesion * row.bond_area * s.h;
-    row.tension_impulse = ground.tension * row.bond_area * s.h;
-  }
-}
-
-// Residual at which the contact forces count as found, as a velocity: 1e-8 of what gravity does in
-// the substep, or what the rounding of the coordinates makes of the stiffest contact.
-double newton_tolerance(const BlockNumbers& c, const Substep& s) {
-  const double rounding = 8 * std::numeric_limits<double>::epsilon() *
-                          s.start.pose.position.cwiseAbs().maxCoeff() * c.stiffness * s.h / c.mass;
-  return std::clamp(rounding, 1e-8 * c.gravity * s.h, 1e-6 * c.gravity * s.h) +
-         1e-13 * s.start.velocity.norm();
-}
 
 template <int Dof>
 BlockSystem<Dof> make_system(const Scene& scene, int b, const BlockNumbers& c, const Substep& s,
@@ -337,48 +139,6 @@ void remember(const BlockNumbers& c, const Substep& s, const Solved<Dof>& solved
     note_penetration(report, -(row.gap_start + along), c.thickness);
   }
   std::swap(state.memory[static_cast<size_t>(b)], work.memory_next);
-}
-
-void add_segment(int b, bool flight, double t, double h, const Motion& start, const Motion& end,
-                 Work& work) {
-  Segment segment;
-  segment.block = b;
-  segment.flight = flight;
-  segment.t_start = t;
-  segment.t_end = t + h;
-  segment.start = start;
-  segment.end = end;
-  segment.acceleration = (end.velocity - start.velocity) / h;
-  work.segments.push_back(segment);
-}
-
-bool left_ground(const Scene& scene, const Vec3& x) {
-  return std::isnan(elevation_at(scene.ground.trn, x.x(), x.y()));
-}
-
-void stop_outside(const Scene& scene, int b, State& state, StepReport& report) {
-  const auto i = static_cast<size_t>(b);
-  Motion& m = state.motion[i];
-  const Vec3 spin = angular_velocity(m.pose.attitude, m.angular_momentum, scene.blocks.inertia[i]);
-  state.ledger.removed +=
-      0.5 * scene.blocks.mass[i] * m.velocity.squaredNorm() + 0.5 * spin.dot(m.angular_momentum);
-  m.velocity.setZero();
-  m.angular_momentum.setZero();
-  state.phase[i] = Phase::left_domain;
-  state.memory[i].clear();
-  ++state.counters.left_domain;
-  report.flags = report.flags | StepFlag::left_domain;
-}
-
-void set_rates(const Scene& scene, int b, const Motion& start, const Motion& end, double h,
-               State& state) {
-  const auto i = static_cast<size_t>(b);
-  const Vec3& inertia = scene.blocks.inertia[i];
-  state.acceleration[i] = (end.velocity - start.velocity) / h;
-  const Vec3 before =
-      (start.pose.attitude.conjugate() * start.angular_momentum).cwiseQuotient(inertia);
-  const Vec3 after = (end.pose.attitude.conjugate() * end.angular_momentum).cwiseQuotient(inertia);
-  state.spin_rate[i] = (after - before) / h;
 }
 
 /// Outcome of one attempt at a substep.
@@ -631,7 +391,7 @@ bool settle(const Scene& scene, int b, double friction, bool from_touch, State& 
     if (work.rows.empty()) return true;
     for (ContactRow& row : work.rows) {
       if (friction >= 0) row.friction = friction;
-      if (from_touch && pass == 0) row.offset = 0, set_law(scene, c, s, row);
+      if (from_touch && pass == 0) row.offset = 0, set_ground_law(scene, c, s, row);
     }
     BlockSystem<6> system = make_system<6>(scene, b, c, s, state);
     if (!solve_contacts(system, std::span(work.rows), scene.settings.max_passes).converged)

@@ -5,8 +5,13 @@
 
 #include <vector>
 
+#include "contact/block_pairs.hpp"
 #include "contact/contact.hpp"
+#include "dda/contact_row.hpp"
+#include "dda/island_groups.hpp"
+#include "dda/island_impact.hpp"
 #include "dda/state.hpp"
+#include "dda/substep_numbers.hpp"
 
 namespace talus {
 
@@ -21,38 +26,35 @@ struct Segment {
   Vec3 acceleration = Vec3::Zero();  ///< of the centroid, constant over the segment [m/s2]
 };
 
-/// A contact made ready for the contact law; velocities are those of block A's point relative to
-/// B's.
-struct ContactRow {
-  Vec3 normal = Vec3::Zero();  ///< body axes of A, unit
-  Vec3 point = Vec3::Zero();   ///< lever arm in the middle of the step, body axes of A [m]
-  Vec3 drift = Vec3::Zero();   ///< velocity at the end is T(point) v + drift, body axes [m/s]
-  Vec3 shear = Vec3::Zero();   ///< s_n, body axes [m]
-  Vec3 shear_velocity = Vec3::Zero();  ///< s_n / tau [m/s]
-  Vec3 slip_start = Vec3::Zero();  ///< unit direction of sliding at the start of the step, or zero
-  double bias = 0;                 ///< b_n: N > 0 needs v_n + b_n < 0 [m/s]
-  double normal_damping = 0;       ///< D_n, impulse per velocity below -b_n [kg]
-  double shear_damping = 0;        ///< D_t, impulse per tangential velocity while sticking [kg]
-  double friction = 0;             ///< tan(phi) [-]
-  double cohesion_impulse = 0;     ///< c A_c h [N s]
-  double tension_impulse = 0;      ///< t A_c h [N s]
-  Vec3 free_move = Vec3::Zero();   ///< displacement of the point without contact, local axes [m]
-  double speed_start = 0;          ///< normal velocity at the start of the step [m/s]
-  double gap_start = 0;            ///< gap + offset at the start of the step [m]
-  double offset = 0;               ///< see ContactMemory [m]
-  double bond_area = 0;            ///< [m2]
-  int contact = 0;                 ///< index into Work::contacts
-  int memory = -1;                 ///< index into the block's memory, -1: new
-  bool waits_for_impact = false;   ///< approaches too fast for the step: presses nothing until hit
-  // set by solve_contacts: the law at its last evaluation
-  Vec3 trial = Vec3::Zero();      ///< v_t + s / tau [m/s]
-  Vec3 direction = Vec3::Zero();  ///< of slip in the middle of the step, unit; while slipping
-  double trial_speed = 0;         ///< |trial| [m/s]
-  double cap = 0;                 ///< bound of the tangential impulse [N s]
-  double held_cap = 0;            ///< friction bound while it is held [N s]
-  Vec3 impulse = Vec3::Zero();    ///< on A, body axes [N s]
-  ContactState state = ContactState::open;
+/// A contact of an island; its row is in local axes.
+struct IslandContact {
+  ContactRow row;
+  ContactKey key;
+  int a = 0, b = -1;    ///< blocks; b = -1: the ground
+  double gap_free = 0;  ///< gap at the end of the substep without contact forces [m]
 };
+
+/// What the step of islands recomputes.
+struct IslandStepWork {  // clang-format off
+  // form_islands
+  std::vector<Pose> poses;                  ///< at the start of the step or substep     (n_blocks)
+  std::vector<Vec3> step;                   ///< displacement ahead [m]                  (n_blocks)
+  std::vector<double> turn;                 ///< path of turning ahead [m]               (n_blocks)
+  std::vector<std::uint8_t> moving, awake;  ///<                                         (n_blocks)
+  PairWork pairs;
+  std::vector<std::pair<int, int>> joined;  ///< blocks within reach of each other
+  IslandGroups groups;
+  // advance_island: the island at hand
+  std::vector<int> members;                 ///< ascending
+  std::vector<BlockNumbers> numbers;        ///<                                         (n_members)
+  std::vector<double> bearing;              ///< mass of the heaviest block touched [kg] (n_members)
+  std::vector<Substep> substeps;            ///<                                         (n_members)
+  std::vector<int> place;                   ///< of a block in `members`, -1: not in it  (n_blocks)
+  std::vector<IslandContact> contacts;      ///< in the order of island.rows
+  Island<6> island;
+  IslandWork<6> solver;
+  ImpactWork<6> impact;
+};  // clang-format on
 
 struct Work {  // clang-format off
   // find_contacts: candidates of the block at hand
@@ -63,6 +65,7 @@ struct Work {  // clang-format off
   std::vector<ContactMemory> memory_next;    ///< becomes the block's memory
   // advance_block: the motion of this step, block by block, in order of time
   std::vector<Segment> segments;
+  IslandStepWork islands;
 };  // clang-format on
 
 }  // namespace talus

@@ -80,8 +80,20 @@ PlanFacts plan_facts(const Site& site, const BlockSet& blocks, const Trn& trn,
   facts.stress_wanted = site.output.strain;
   facts.strain = site.solver.strain;
   facts.passages = site.output.passages;
+  facts.law = site.solver.law;
   return facts;
 }
+
+namespace {
+
+PlanItem block_contacts(const PlanFacts& facts) {
+  const bool on = facts.n_blocks > 1 && facts.law == "talus" && !facts.independent;
+  const std::string count = number(facts.n_blocks, "block");
+  return {"contacts between blocks", on, "law talus, two blocks or more, not --independent",
+          on || facts.n_blocks < 2 ? count : count + ", each moves as if it were alone"};
+}
+
+}  // namespace
 
 ScenePlan make_plan(const PlanFacts& facts, bool full) {
   ScenePlan plan;
@@ -90,9 +102,7 @@ ScenePlan make_plan(const PlanFacts& facts, bool full) {
     return plan.items.back().on;
   };
   plan.strains = add(strains(facts, full));
-  add({"contacts between blocks", false, "not computed yet; talus-dda --independent",
-       facts.n_blocks > 1 ? number(facts.n_blocks, "block") + " move as if each were alone"
-                          : "1 block"});
+  plan.block_contacts = add(block_contacts(facts));
   add({"shear terms", facts.largest_friction_deg > 0,
        "shear springs and sliding where something has friction",
        "largest friction angle " + text(facts.largest_friction_deg, 4) + " degrees"});

@@ -37,6 +37,8 @@ struct PlanFacts {
   bool stress_wanted = false;   ///< [output] strain
   std::string strain = "auto";  ///< [solver] strain: auto, on, off
   bool passages = true;
+  std::string law = "talus";
+  bool independent = false;  ///< each block is to move as if it were alone
 };
 
 /// A strain of a block under its own weight above which strains are computed: a block of 10 m is
@@ -50,8 +52,9 @@ inline constexpr double strain_that_matters = 1e-4;
 struct ScenePlan {
   std::vector<PlanItem> items;
   bool strains = false;  ///< 12 degrees of freedom a block instead of 6
-  bool flight = true;    ///< skip the search while nothing can be hit
-  bool sleep = true;     ///< leave out blocks at rest
+  bool block_contacts = false;
+  bool flight = true;  ///< skip the search while nothing can be hit
+  bool sleep = true;   ///< leave out blocks at rest
   bool base_motion = false;
   bool passages = true;
   bool crossings = false;

@@ -15,7 +15,10 @@ namespace talus {
 
 static_assert(sizeof(Motion) == 112 && sizeof(EnergyLedger) == 40 && sizeof(RunCounters) == 64);
 static_assert(sizeof(ContactMemory) == 128 && sizeof(HealthRow) == 168);
-static_assert(sizeof(State) == 8 + 11 * 24 + sizeof(EnergyLedger) + sizeof(RunCounters));
+static_assert(sizeof(State) == 8 + 11 * 24 + sizeof(EnergyLedger) + sizeof(RunCounters) +
+                                   sizeof(PairState) + sizeof(PlacedHulls));
+static_assert(sizeof(PairState) == 272 && sizeof(PlacedHulls) == 192 && sizeof(ListedPair) == 88);
+static_assert(sizeof(PairWatch) == 16 && sizeof(HeldPoint) == 24);
 
 template <class Archive>
 void fields(Fields<Archive>& archive, Motion& motion) {
@@ -37,10 +40,43 @@ void fields(Fields<Archive>& archive, ContactMemory& memory) {
           memory.normal_force, memory.bond_area, memory.state);
 }
 template <class Archive>
+void fields(Fields<Archive>& archive, Mat3& value) {
+  for (int i = 0; i < 9; ++i) archive(value.data()[i]);
+}
+template <class Archive>
+void fields(Fields<Archive>& archive, Box& box) {
+  archive(box.low, box.high);
+}
+template <class Archive>
+void fields(Fields<Archive>& archive, PairWatch& watch) {
+  archive(watch.wake, watch.part_a, watch.part_b);
+}
+template <class Archive>
+void fields(Fields<Archive>& archive, ListedPair& pair) {
+  archive(pair.axis.kind, pair.axis.feature_a, pair.axis.feature_b, pair.touches, pair.incident,
+          pair.hold, pair.other_face, pair.between, pair.turned, pair.area, pair.held_begin,
+          pair.held_end);
+}
+template <class Archive>
+void fields(Fields<Archive>& archive, HeldPoint& point) {
+  archive(point.key.mode, point.key.body_b, point.key.feature_a, point.key.feature_b, point.area);
+}
+template <class Archive>
+void fields(Fields<Archive>& archive, PairState& pairs) {
+  archive(pairs.watch, pairs.pairs, pairs.held, pairs.in_frame, pairs.frame, pairs.listed_at,
+          pairs.listed_turned, pairs.budget, pairs.last_frame, pairs.last_at, pairs.last_turned,
+          pairs.travel);
+}
+template <class Archive>
+void fields(Fields<Archive>& archive, PlacedHulls& placed) {
+  archive(placed.vertices, placed.nx, placed.ny, placed.nz, placed.offset, placed.position,
+          placed.axes, placed.turned);
+}
+template <class Archive>
 void fields(Fields<Archive>& archive, State& state) {
   archive(state.time, state.motion, state.local_time, state.flight_end, state.phase,
           state.acceleration, state.spin_rate, state.rebound, state.still_steps, state.strain,
-          state.strain_rate, state.memory, state.ledger, state.counters);
+          state.strain_rate, state.memory, state.pairs, state.placed, state.ledger, state.counters);
 }
 template <class Archive>
 void fields(Fields<Archive>& archive, PassageValues& values) {

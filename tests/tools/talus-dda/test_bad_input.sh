@@ -79,11 +79,11 @@ says "largest penetration, m"
 [ -s limit.h5 ] || fail "the file of a failed run was not kept"
 exit 0
 
-# Several blocks without contacts between them are not a slide: asked for by name, and said.
-expect 1 talus-dda site.toml --trn slope.tif --blocks blocks.h5 -o run.h5 --no-db
-says "blocks.h5: 3 blocks, and contacts between blocks are not computed yet, expected one"
-says "hint: --independent"
+# Blocks that would pass through each other are no result, unless asked for by name, and then said.
+expect 1 talus-dda site.toml --trn slope.tif --blocks blocks.h5 -o run.h5 --no-db --law paper
+says "blocks.h5: 3 blocks, and law paper computes no contacts between blocks, expected one"
 nothing_left run.h5
+expect 0 talus-dda site.toml --trn slope.tif --blocks blocks.h5 -o together.h5 --no-db --duration-s 0.1
 expect 0 run_dda -o alone.h5 --duration-s 0.1
 says "warning: 3 blocks move as if each were alone"
 says "warning: fences stop nothing in this version"

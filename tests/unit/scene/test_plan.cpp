@@ -44,7 +44,9 @@ TEST(ScenePlan, KeepsWhatASceneNeeds) {
   facts.n_fences = 1;
   facts.has_base_motion = true;
   const ScenePlan plan = make_plan(facts, false);
-  EXPECT_FALSE(item(plan, "contacts between blocks").on);  // and said so
+  EXPECT_TRUE(plan.block_contacts);
+  facts.independent = true;
+  EXPECT_FALSE(make_plan(facts, false).block_contacts);
   EXPECT_TRUE(plan.base_motion);
   EXPECT_FALSE(plan.flight);
   EXPECT_TRUE(plan.crossings);

@@ -1,0 +1,416 @@
+#include "contact/block_pairs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace talus {
+namespace {
+
+constexpr double look_now = -std::numeric_limits<double>::infinity();
+constexpr double features_hold_ratio = 1e-3;  // motion that features outlast, of the thickness
+constexpr double skin_ratio = 0.1;            // motion budget of a body, of its radius ...
+constexpr double steps_ahead = 20;            // ... and along the motion of so many steps ahead ...
+constexpr double farthest_ahead = 0.5;        // ... up to this part of its radius
+
+bool is_fixed(const PairMotion& motion, int b) {
+  return !motion.fixed.empty() && motion.fixed[b] != 0;
+}
+bool is_awake(const PairMotion& motion, int b) {
+  return motion.awake.empty() || motion.awake[b] != 0;
+}
+Vec3 step_of(const PairMotion& motion, int b) {
+  return motion.step.empty() ? Vec3(Vec3::Zero()) : motion.step[b];
+}
+double turn_of(const PairMotion& motion, int b) { return motion.turn.empty() ? 0 : motion.turn[b]; }
+
+// Mean over the bodies; zero where budgets are not relative to it.
+template <class Value>
+Vec3 frame_mean(const Hulls& hulls, bool in_frame, Value&& value) {
+  Vec3 sum = Vec3::Zero();
+  if (!in_frame) return sum;
+  for (int b = 0; b < n_bodies(hulls); ++b) sum += value(b);
+  return sum / std::max(1, n_bodies(hulls));
+}
+
+Vec3 mean_position(const Hulls& hulls, const PlacedHulls& placed, bool in_frame) {
+  return frame_mean(hulls, in_frame, [&](int b) -> const Vec3& { return placed.position[b]; });
+}
+Vec3 mean_step(const Hulls& hulls, const PairMotion& motion, bool in_frame) {
+  if (motion.step.empty()) return Vec3::Zero();
+  return frame_mean(hulls, in_frame, [&](int b) -> const Vec3& { return motion.step[b]; });
+}
+
+// How far body b reaches for contacts: the reaches of two bodies cover the margin of their pair.
+double reach(const PairMotion& motion, const PairSettings& settings, int b,
+             const Vec3& frame_step) {
+  if (is_fixed(motion, b)) return settings.margin / 2;
+  return settings.margin / 2 + (step_of(motion, b) - frame_step).norm() + turn_of(motion, b);
+}
+
+// Adds the motion since the last step to `travel`, and fills `reach`.
+void follow_motion(const Hulls& hulls, const PlacedHulls& placed, const PairMotion& motion,
+                   const PairSettings& settings, PairState& state, PairWork& work) {
+  work.reach.resize(hulls.radius.size());
+  const Vec3 frame_step = mean_step(hulls, motion, state.in_frame);
+  for (int b = 0; b < n_bodies(hulls); ++b) work.reach[b] = reach(motion, settings, b, frame_step);
+  if (state.travel.empty()) return;
+  const Vec3 frame = mean_position(hulls, placed, state.in_frame);
+  for (int b = 0; b < n_bodies(hulls); ++b) {
+    state.travel[b] += (placed.position[b] - state.last_at[b] - (frame - state.last_frame)).norm();
+    state.last_at[b] = placed.position[b];
+  }
+  state.last_frame = frame;
+}
+
+bool list_is_good(const Hulls& hulls, const PlacedHulls& placed, const PairSettings& settings,
+                  const PairState& state, const PairWork& work) {
+  if (!settings.use_cache || state.listed_at.size() != hulls.radius.size()) return false;
+  const Vec3 shift = state.last_frame - state.frame;
+  for (int b = 0; b < n_bodies(hulls); ++b) {
+    const Vec3 moved = placed.position[b] - state.listed_at[b] - shift;
+    const double around = placed.turned[b] - state.listed_turned[b] + work.reach[b];
+    const Box& budget = state.budget[b];
+    if (!((moved.array() + around <= budget.high.array()).all() &&
+          (moved.array() - around >= budget.low.array()).all()))
+      return false;
+  }
+  return true;
+}
+
+void set_budgets(const Hulls& hulls, const PlacedHulls& placed, const PairMotion& motion,
+                 const PairSettings& settings, PairState& state) {
+  state.in_frame = std::none_of(motion.fixed.begin(), motion.fixed.end(),
+                                [](std::uint8_t fixed) { return fixed != 0; });
+  state.frame = mean_position(hulls, placed, state.in_frame);
+  state.listed_at = placed.position;
+  state.listed_turned = placed.turned;
+  state.last_frame = state.frame;
+  state.last_at = placed.position;
+  state.last_turned = placed.turned;
+  state.travel.assign(hulls.radius.size(), 0);
+  state.budget.resize(hulls.radius.size());
+  const Vec3 frame_step = mean_step(hulls, motion, state.in_frame);
+  for (int b = 0; b < n_bodies(hulls); ++b) {
+    const double skin = (is_fixed(motion, b) ? 0 : skin_ratio * hulls.radius[b]) +
+                        2 * reach(motion, settings, b, frame_step);
+    Vec3 ahead = is_fixed(motion, b) ? Vec3(Vec3::Zero())
+                                     : Vec3(steps_ahead * (step_of(motion, b) - frame_step));
+    const double farthest = farthest_ahead * hulls.radius[b];
+    if (ahead.norm() > farthest) ahead *= farthest / ahead.norm();
+    state.budget[b] = {ahead.cwiseMin(0).array() - skin, ahead.cwiseMax(0).array() + skin};
+  }
+}
+
+void box_parts(const Hulls& hulls, const PlacedHulls& placed, const PairState& state,
+               std::vector<Box>& boxes) {
+  boxes.resize(hulls.body.size());
+  for (int p = 0; p < n_parts(hulls); ++p) {
+    const int first = hulls.vertex_begin[p], last = hulls.vertex_begin[p + 1];
+    Box& box = boxes[p];
+    box = {placed.vertices[first], placed.vertices[first]};
+    for (int v = first + 1; v < last; ++v) {
+      box.low = box.low.cwiseMin(placed.vertices[v]);
+      box.high = box.high.cwiseMax(placed.vertices[v]);
+    }
+    box.low += state.budget[hulls.body[p]].low;
+    box.high += state.budget[hulls.body[p]].high;
+  }
+}
+
+// The new list; pairs that were listed before keep what is known of them. Travel starts anew, so
+// every pair is looked at once.
+void merge_list(PairState& state, PairWork& work) {
+  work.next_watch.clear();
+  work.next_pairs.clear();
+  std::size_t old = 0;
+  for (const std::array<int, 2>& close : work.close) {
+    const int a = close[0], b = close[1];
+    const auto before = [&](const PairWatch& w) {
+      return w.part_a != a ? w.part_a < a : w.part_b < b;
+    };
+    while (old < state.watch.size() && before(state.watch[old])) ++old;
+    const bool known =
+        old < state.watch.size() && state.watch[old].part_a == a && state.watch[old].part_b == b;
+    work.next_watch.push_back({look_now, a, b});
+    work.next_pairs.push_back(known ? state.pairs[old] : ListedPair{});
+  }
+  state.watch.swap(work.next_watch);
+  state.pairs.swap(work.next_pairs);
+}
+
+void relist(const Hulls& hulls, const PlacedHulls& placed, const PairMotion& motion,
+            const PairSettings& settings, PairState& state, PairWork& work) {
+  set_budgets(hulls, placed, motion, settings, state);
+  box_parts(hulls, placed, state, work.boxes);
+  work.fixed_parts.clear();
+  if (!state.in_frame)
+    for (int p = 0; p < n_parts(hulls); ++p)
+      work.fixed_parts.push_back(motion.fixed[hulls.body[p]]);
+  find_overlaps(work.boxes, hulls.body, work.fixed_parts, work.overlaps, work.close);
+  merge_list(state, work);
+}
+
+double graze_height(const Hulls& hulls, const PairSettings& settings, int part_a, int part_b) {
+  return settings.graze_ratio * std::min(hulls.thickness[part_a], hulls.thickness[part_b]) +
+         settings.graze_m;
+}
+
+// All that the functions below hand on.
+struct Search {
+  const Hulls& hulls;
+  const PlacedHulls& placed;
+  const PairMotion& motion;
+  const PairSettings& settings;
+  PairState& state;
+  PairWork& work;
+  PairReport& report;
+};
+
+double pair_margin(const Search& s, int a, int b) {
+  const double turn = turn_of(s.motion, a) + turn_of(s.motion, b);
+  if (s.motion.step.empty()) return s.settings.margin + turn;
+  return s.settings.margin + turn + (s.motion.step[a] - s.motion.step[b]).norm();
+}
+
+// Searches axis and features of a pair.
+void search_all(const Search& s, const PairWatch& watch, double margin, ListedPair& pair) {
+  ++s.report.n_searched;
+  pair.held_begin = static_cast<int>(s.work.next_held.size());
+  const ContactSearch found = search_contact(
+      s.hulls, s.placed, watch.part_a, watch.part_b, margin, pair.touches ? pair.axis : PairAxis{},
+      s.settings.with_areas, s.work.axis, s.work.clip, s.work.next_held);
+  pair.held_end = static_cast<int>(s.work.next_held.size());
+  pair.axis = found.choice.axis;
+  pair.touches = found.choice.touches;
+  pair.incident = found.incident;
+  pair.area = found.area;
+  pair.other_face = found.choice.other_face;
+  pair.hold =
+      pair.axis.kind == AxisKind::none ? std::max(0.0, found.choice.separation) : found.choice.hold;
+}
+
+// Searches the features of a pair that touches along a known axis; false when none meet.
+bool search_features(const Search& s, const PairWatch& watch, ListedPair& pair) {
+  ++s.report.n_clipped;
+  pair.held_begin = static_cast<int>(s.work.next_held.size());
+  pair.incident = incident_of(s.hulls, s.placed, watch.part_a, watch.part_b, pair.axis);
+  pair.area = find_features(s.hulls, s.placed, watch.part_a, watch.part_b, pair.axis, pair.incident,
+                            s.settings.with_areas, s.work.clip, s.work.next_held);
+  pair.held_end = static_cast<int>(s.work.next_held.size());
+  return pair.held_end > pair.held_begin;
+}
+
+void keep_features(const Search& s, ListedPair& pair) {
+  const int begin = static_cast<int>(s.work.next_held.size());
+  s.work.next_held.insert(s.work.next_held.end(), s.state.held.begin() + pair.held_begin,
+                          s.state.held.begin() + pair.held_end);
+  pair.held_begin = begin;
+  pair.held_end = static_cast<int>(s.work.next_held.size());
+}
+
+// Contacts of a pair whose axis is known. `moved`: since its features were searched.
+void add_contacts(const Search& s, const PairWatch& watch, double moved, double margin,
+                  const Vec3& normal, ListedPair& pair) {
+  const std::span<const HeldPoint> held(s.work.next_held.data() + pair.held_begin,
+                                        s.work.next_held.data() + pair.held_end);
+  if (!add_manifold(s.hulls, s.placed, watch.part_a, watch.part_b, pair.axis, pair.incident, normal,
+                    pair.area, margin, held, s.work.manifolds, s.work.points))
+    return;
+  if (pair.other_face + moved >= -graze_height(s.hulls, s.settings, watch.part_a, watch.part_b))
+    s.work.shallow.push_back(static_cast<int>(s.work.manifolds.size()) - 1);
+}
+
+// Where the bodies of a pair are, and how far they moved since that was last noted in the pair.
+struct Lookup {
+  Vec3 between;
+  double turned, moved, margin;
+};
+
+Lookup look_up(const Search& s, const ListedPair& pair, int a, int b) {
+  Lookup now;
+  now.between = s.placed.position[b] - s.placed.position[a];
+  now.turned = s.placed.turned[a] + s.placed.turned[b];
+  now.moved = (now.between - pair.between).norm() + now.turned - pair.turned;
+  now.margin = pair_margin(s, a, b);
+  return now;
+}
+
+void note(Lookup& now, ListedPair& pair) {
+  pair.between = now.between;
+  pair.turned = now.turned;
+  now.moved = 0;
+}
+
+// Does the axis that separated the parts still do so?
+bool stays_apart(const Search& s, const PairWatch& watch, Lookup& now, ListedPair& pair) {
+  if (!s.settings.use_cache || pair.touches || pair.axis.kind == AxisKind::none) return false;
+  if (pair.hold - now.moved > now.margin) return true;
+  const double separation =
+      apart_along(s.hulls, s.placed, watch.part_a, watch.part_b,
+                  axis_normal(s.hulls, s.placed, watch.part_a, watch.part_b, pair.axis));
+  if (separation <= now.margin) return false;
+  pair.hold = separation;
+  note(now, pair);
+  return true;
+}
+
+// Brings axis and features of a pair up to date.
+void refresh(const Search& s, const PairWatch& watch, Lookup& now, ListedPair& pair) {
+  const double thickness =
+      std::min(s.hulls.thickness[watch.part_a], s.hulls.thickness[watch.part_b]);
+  const bool known = s.settings.use_cache && pair.touches && now.moved <= pair.hold;
+  if (known && now.moved <= features_hold_ratio * thickness) return keep_features(s, pair);
+  if (known && search_features(s, watch, pair)) {
+    pair.hold -= now.moved;
+    pair.other_face += now.moved;
+  } else {
+    search_all(s, watch, now.margin, pair);
+  }
+  note(now, pair);
+}
+
+// Looks at one listed pair: sets when to look next, and adds its contacts.
+void look_at(const Search& s, PairWatch& watch, ListedPair& pair) {
+  const int a = s.hulls.body[watch.part_a], b = s.hulls.body[watch.part_b];
+  if (!is_awake(s.motion, a) && !is_awake(s.motion, b)) return keep_features(s, pair);
+  Lookup now = look_up(s, pair, a, b);
+  if (!stays_apart(s, watch, now, pair)) refresh(s, watch, now, pair);
+  if (!pair.touches) {
+    watch.wake = s.state.travel[a] + s.state.travel[b] + pair.hold - now.moved;
+    return;
+  }
+  watch.wake = look_now;
+  const Vec3 normal = axis_normal(s.hulls, s.placed, watch.part_a, watch.part_b, pair.axis);
+  if (normal.isZero(0))
+    pair.hold = -1;  // edges turned parallel
+  else
+    add_contacts(s, watch, now.moved, now.margin, normal, pair);
+}
+
+void look_at_pairs(const Search& s) {
+  PairState& state = s.state;
+  s.work.next_held.clear();
+  for (int b = 0; b < n_bodies(s.hulls); ++b) s.work.reach[b] += state.travel[b];
+  for (std::size_t i = 0; i < state.watch.size(); ++i) {
+    PairWatch& watch = state.watch[i];
+    const double reached =
+        s.work.reach[s.hulls.body[watch.part_a]] + s.work.reach[s.hulls.body[watch.part_b]];
+    if (!s.settings.use_cache || reached >= watch.wake) look_at(s, watch, state.pairs[i]);
+  }
+  state.held.swap(s.work.next_held);
+}
+
+// Manifolds by block that bear it for certain: closed within `graze`, and not shallow themselves.
+void list_supports(const Hulls& hulls, const PairSettings& settings, PairWork& work) {
+  const auto bears = [&](const PairManifold& m) {
+    const double graze = graze_height(hulls, settings, m.part_a, m.part_b);
+    return std::any_of(work.points.begin() + m.point_begin, work.points.begin() + m.point_end,
+                       [&](const PairPoint& p) { return p.gap <= graze; });
+  };
+  std::vector<int>& begin = work.support_begin;
+  begin.assign(static_cast<std::size_t>(n_bodies(hulls)) + 2, 0);
+  std::vector<int>& bearing = work.bearing;
+  bearing.clear();
+  auto next_shallow = work.shallow.begin();
+  for (int m = 0; m < static_cast<int>(work.manifolds.size()); ++m) {
+    if (next_shallow != work.shallow.end() && *next_shallow == m) {
+      ++next_shallow;
+    } else if (bears(work.manifolds[m])) {
+      bearing.push_back(m);
+      ++begin[work.manifolds[m].block_a + 1];
+      ++begin[work.manifolds[m].block_b + 1];
+    }
+  }
+  for (std::size_t b = 1; b < begin.size(); ++b) begin[b] += begin[b - 1];
+  work.supports.resize(2 * bearing.size());
+  for (auto m = bearing.rbegin(); m != bearing.rend(); ++m) {
+    work.supports[--begin[work.manifolds[*m].block_a + 1]] = *m;
+    work.supports[--begin[work.manifolds[*m].block_b + 1]] = *m;
+  }
+}
+
+// Does another block than `other` bear `block` along `direction`?
+bool is_borne(const PairWork& work, int block, int other, const Vec3& direction) {
+  for (int k = work.support_begin[block + 1]; k < work.support_begin[block + 2]; ++k) {
+    const PairManifold& m = work.manifolds[work.supports[k]];
+    if (m.block_a == other || m.block_b == other) continue;
+    const double along = m.normal.dot(direction);
+    if ((m.block_a == block ? along : -along) >= same_axis_cos) return true;
+  }
+  return false;
+}
+
+bool is_grazing(const Hulls& hulls, const PlacedHulls& placed, const PairSettings& settings,
+                const PairManifold& m, PairWork& work) {
+  const double least = -graze_height(hulls, settings, m.part_a, m.part_b);
+  for (const int part : {m.part_a, m.part_b}) {
+    const int other = part == m.part_a ? m.part_b : m.part_a;
+    face_separations(hulls, placed, part, other, work.axis.face_a);
+    for (int f = 0; f < hulls.n_faces[part]; ++f) {
+      const int slot = hulls.face_begin[part] + f;
+      if (work.axis.face_a[f] < least || hulls.internal[slot] != 0) continue;
+      const Vec3 outward = normal_at(placed, slot);
+      const Vec3 to_a = part == m.part_b ? outward : Vec3(-outward);
+      if (to_a.dot(m.normal) >= same_axis_cos) continue;
+      if (is_borne(work, m.block_a, m.block_b, to_a) || is_borne(work, m.block_b, m.block_a, -to_a))
+        return true;
+    }
+  }
+  return false;
+}
+
+// Takes out the manifolds whose number stands in `dropped`, and their points.
+void drop_manifolds(PairWork& work) {
+  std::size_t kept = 0;
+  int n_points = 0;
+  auto next = work.dropped.begin();
+  for (std::size_t m = 0; m < work.manifolds.size(); ++m) {
+    if (next != work.dropped.end() && *next == static_cast<int>(m)) {
+      ++next;
+      continue;
+    }
+    PairManifold manifold = work.manifolds[m];
+    const auto from = work.points.begin();
+    std::copy(from + manifold.point_begin, from + manifold.point_end, from + n_points);
+    manifold.point_end = n_points + manifold.point_end - manifold.point_begin;
+    manifold.point_begin = n_points;
+    n_points = manifold.point_end;
+    work.manifolds[kept++] = manifold;
+  }
+  work.manifolds.resize(kept);
+  work.points.resize(static_cast<std::size_t>(n_points));
+}
+
+int drop_grazing(const Hulls& hulls, const PlacedHulls& placed, const PairSettings& settings,
+                 PairWork& work) {
+  if (work.shallow.empty()) return 0;
+  list_supports(hulls, settings, work);
+  work.dropped.clear();
+  for (const int m : work.shallow)
+    if (is_grazing(hulls, placed, settings, work.manifolds[m], work)) work.dropped.push_back(m);
+  if (!work.dropped.empty()) drop_manifolds(work);
+  return static_cast<int>(work.dropped.size());
+}
+
+}  // namespace
+
+PairReport find_pair_contacts(const Hulls& hulls, const PlacedHulls& placed,
+                              const PairMotion& motion, const PairSettings& settings,
+                              PairState& state, PairWork& work) {
+  PairReport report;
+  work.manifolds.clear();
+  work.points.clear();
+  work.shallow.clear();
+  follow_motion(hulls, placed, motion, settings, state, work);
+  if (!list_is_good(hulls, placed, settings, state, work)) {
+    relist(hulls, placed, motion, settings, state, work);
+    report.relisted = true;
+  }
+  look_at_pairs({hulls, placed, motion, settings, state, work, report});
+  report.n_listed = static_cast<int>(state.pairs.size());
+  report.n_grazing = drop_grazing(hulls, placed, settings, work);
+  return report;
+}
+
+}  // namespace talus

@@ -1,0 +1,420 @@
+#include "contact/manifold.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace talus {
+namespace {
+
+constexpr double on_side_ratio = 1e-6;  // of the thickness: nearer than this lies on a side
+constexpr double depth_ratio = 0.1;     // a face may miss this part of the depth of edges
+
+// The face that clips (reference) and the face that is clipped (incident), and who they belong to.
+struct FacePair {
+  int reference_part, incident_part;
+  int reference_face, incident_face;  // slots
+  bool reference_is_a;
+};
+
+FacePair face_pair(const Hulls& hulls, int part_a, int part_b, const PairAxis& axis, int incident) {
+  if (axis.kind == AxisKind::face_a)
+    return {part_a, part_b, hulls.face_begin[part_a] + axis.feature_a,
+            hulls.face_begin[part_b] + incident, true};
+  return {part_b, part_a, hulls.face_begin[part_b] + axis.feature_b,
+          hulls.face_begin[part_a] + incident, false};
+}
+
+int corner_slot(const Hulls& hulls, int part, int face_slot, int corner) {
+  return hulls.vertex_begin[part] + hulls.loop_vertices[hulls.loop_begin[face_slot] + corner];
+}
+
+int n_corners(const Hulls& hulls, int face_slot) {
+  return hulls.loop_begin[face_slot + 1] - hulls.loop_begin[face_slot];
+}
+
+// Plane coordinates on the reference face.
+struct Frame {
+  Vec3 origin, u, v;
+};
+
+Frame frame_of(const Hulls& hulls, const PlacedHulls& placed, const FacePair& pair) {
+  const Vec3 origin =
+      placed.vertices[corner_slot(hulls, pair.reference_part, pair.reference_face, 0)];
+  const Vec3 u =
+      (placed.vertices[corner_slot(hulls, pair.reference_part, pair.reference_face, 1)] - origin)
+          .normalized();
+  return {origin, u, normal_at(placed, pair.reference_face).cross(u)};
+}
+
+// The incident face, turned so that it runs counter-clockwise about the reference normal: corner i
+// of its loop leads to corner i - 1 along edge i - 1.
+void start_polygon(const Hulls& hulls, const PlacedHulls& placed, const FacePair& pair,
+                   const Frame& frame, std::vector<ClipCorner>& polygon) {
+  polygon.clear();
+  const int n = n_corners(hulls, pair.incident_face);
+  for (int i = n - 1; i >= 0; --i) {
+    const Vec3 from =
+        placed.vertices[corner_slot(hulls, pair.incident_part, pair.incident_face, i)] -
+        frame.origin;
+    polygon.push_back({frame.u.dot(from), frame.v.dot(from), ContactMode::vertex_face, i, -1,
+                       i == 0 ? n - 1 : i - 1});
+  }
+}
+
+// A side of the reference face.
+struct Side {
+  double u, v;                // start [m]
+  double inward_u, inward_v;  // normal to its left, as long as the side
+  double tolerance;           // of a product with `inward`
+  int number, n_sides;
+};
+
+double inside_by(const Side& side, const ClipCorner& p) {
+  return side.inward_u * (p.u - side.u) + side.inward_v * (p.v - side.v);
+}
+
+// Where the way from p (inside by d_p) to q (by d_q) crosses the side.
+ClipCorner crossing(const Side& side, const ClipCorner& p, const ClipCorner& q, double d_p,
+                    double d_q, int next_side) {
+  const double t = d_p / (d_p - d_q);
+  ClipCorner corner{p.u + t * (q.u - p.u), p.v + t * (q.v - p.v), ContactMode::edge_edge,
+                    p.next_side,           side.number,           next_side};
+  if (p.next_side >= 0) return corner;
+  // two sides of the reference face meet in its corner
+  const int other = -1 - p.next_side;
+  const bool follows = side.number == (other + 1) % side.n_sides;
+  corner.mode = ContactMode::face_vertex;
+  corner.incident = -1;
+  corner.reference = follows ? side.number : (side.number + 1) % side.n_sides;
+  return corner;
+}
+
+// Keeps what lies on the inner side (Sutherland-Hodgman); a corner on the side stays as it is.
+void clip(const Side& side, std::vector<ClipCorner>& polygon, std::vector<ClipCorner>& clipped) {
+  bool all_inside = true;
+  for (const ClipCorner& p : polygon) all_inside &= inside_by(side, p) >= -side.tolerance;
+  if (all_inside) return;
+  clipped.clear();
+  const std::size_t n = polygon.size();
+  const int along = -1 - side.number;
+  double d = inside_by(side, polygon[0]);
+  for (std::size_t i = 0; i < n; ++i) {
+    const ClipCorner &p = polygon[i], &q = polygon[i + 1 == n ? 0 : i + 1];
+    const double d_next = inside_by(side, q);
+    const bool is_inside = d >= -side.tolerance, next_inside = d_next >= -side.tolerance;
+    if (is_inside) clipped.push_back(p);
+    if (is_inside && !next_inside) {
+      if (d > side.tolerance)
+        clipped.push_back(crossing(side, p, q, d, d_next, along));
+      else
+        clipped.back().next_side = along;
+    } else if (!is_inside && next_inside && d_next > side.tolerance) {
+      clipped.push_back(crossing(side, p, q, d, d_next, p.next_side));
+    }
+    d = d_next;
+  }
+  polygon.swap(clipped);
+}
+
+void clip_by_reference(const Hulls& hulls, const PlacedHulls& placed, const FacePair& pair,
+                       const Frame& frame, double on_side, ClipScratch& scratch) {
+  const int n = n_corners(hulls, pair.reference_face);
+  scratch.reference.clear();
+  for (int k = 0; k < n; ++k) {
+    const Vec3 from =
+        placed.vertices[corner_slot(hulls, pair.reference_part, pair.reference_face, k)] -
+        frame.origin;
+    scratch.reference.emplace_back(frame.u.dot(from), frame.v.dot(from));
+  }
+  for (int k = 0; k < n && !scratch.polygon.empty(); ++k) {
+    const Vec2& start = scratch.reference[k];
+    const Vec2 along = scratch.reference[k + 1 == n ? 0 : k + 1] - start;
+    const double length = std::abs(along.x()) + std::abs(along.y());
+    clip({start.x(), start.y(), -along.y(), along.x(), on_side * length, k, n}, scratch.polygon,
+         scratch.clipped);
+  }
+}
+
+// Numbers from the first of the body.
+int body_part(const Hulls& hulls, int part) { return part - hulls.part_begin[hulls.body[part]]; }
+int body_vertex(const Hulls& hulls, int part, int slot) {
+  return slot - hulls.body_vertex_begin[hulls.body[part]];
+}
+int body_edge(const Hulls& hulls, int part, int edge) {
+  return hulls.edge_begin[part] + edge - hulls.body_edge_begin[hulls.body[part]];
+}
+
+ContactKey key_of(const Hulls& hulls, const FacePair& pair, const ClipCorner& corner) {
+  const int inc = pair.incident_part, ref = pair.reference_part;
+  int inc_feature = 0, ref_feature = 0;
+  ContactMode mode = corner.mode;
+  switch (corner.mode) {
+    case ContactMode::edge_edge:
+      inc_feature = body_edge(
+          hulls, inc, hulls.loop_edges[hulls.loop_begin[pair.incident_face] + corner.incident]);
+      ref_feature = body_edge(
+          hulls, ref, hulls.loop_edges[hulls.loop_begin[pair.reference_face] + corner.reference]);
+      break;
+    case ContactMode::vertex_face:
+      inc_feature =
+          body_vertex(hulls, inc, corner_slot(hulls, inc, pair.incident_face, corner.incident));
+      ref_feature = body_part(hulls, ref);
+      if (pair.reference_is_a) mode = ContactMode::face_vertex;
+      break;
+    case ContactMode::face_vertex:
+      inc_feature = body_part(hulls, inc);
+      ref_feature =
+          body_vertex(hulls, ref, corner_slot(hulls, ref, pair.reference_face, corner.reference));
+      if (pair.reference_is_a) mode = ContactMode::vertex_face;
+      break;
+  }
+  if (pair.reference_is_a) return {mode, hulls.body[inc], ref_feature, inc_feature};
+  return {mode, hulls.body[ref], inc_feature, ref_feature};
+}
+
+// Area of the polygon, and into `held` what belongs to each corner: half of the two triangles that
+// it makes with the polygon's centre of area, which keeps the area and its first moment exactly.
+double share_area(const std::vector<ClipCorner>& polygon, HeldPoint* held) {
+  const std::size_t n = polygon.size();
+  if (n < 3) return 0;
+  const auto twice = [](const Vec2& p, const Vec2& q) { return p.x() * q.y() - p.y() * q.x(); };
+  const auto at = [&](std::size_t i) { return Vec2(polygon[i].u, polygon[i].v); };
+  double sum = 0;
+  Vec2 centre = Vec2::Zero();
+  for (std::size_t i = 1; i + 1 < n; ++i) {
+    const Vec2 p = at(i) - at(0), q = at(i + 1) - at(0);
+    sum += twice(p, q);
+    centre += twice(p, q) * (p + q);
+  }
+  if (!(sum > 0)) return 0;
+  centre = at(0) + centre / (3 * sum);
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t next = i + 1 == n ? 0 : i + 1;
+    const double area = twice(at(i) - centre, at(next) - centre) / 4;
+    held[i].area += area;
+    held[next].area += area;
+  }
+  return sum / 2;
+}
+
+// The places of the contacts of a face axis. `n` is the outward normal of the reference face.
+struct FaceContacts {
+  const Hulls& hulls;
+  const PlacedHulls& placed;
+  FacePair pair;
+  Vec3 n, incident_normal;
+  double offset, incident_offset;
+  double slope;                               // n . incident_normal, < 0
+  int reference_vertices, incident_vertices;  // first of the bodies
+  int reference_edges, incident_edges;
+};
+
+FaceContacts face_contacts(const Hulls& hulls, const PlacedHulls& placed, const FacePair& pair) {
+  const int reference = hulls.body[pair.reference_part], incident = hulls.body[pair.incident_part];
+  FaceContacts face{hulls,
+                    placed,
+                    pair,
+                    normal_at(placed, pair.reference_face),
+                    normal_at(placed, pair.incident_face),
+                    placed.offset[pair.reference_face],
+                    placed.offset[pair.incident_face],
+                    0,
+                    hulls.body_vertex_begin[reference],
+                    hulls.body_vertex_begin[incident],
+                    hulls.body_edge_begin[reference],
+                    hulls.body_edge_begin[incident]};
+  face.slope = std::min(face.n.dot(face.incident_normal), -1e-9);
+  return face;
+}
+
+// A point of the incident part and its height above the plane of the reference face. The functions
+// that fill it work on references and single numbers: copies of vectors to the stack, read back in
+// other widths, made them three times slower.
+struct Place {
+  double x, y, z, height;
+};
+
+// Where an edge of the incident part crosses a side of the reference face, seen along its normal.
+Place edge_crossing(const FaceContacts& face, int side_of_body, int edge_of_body) {
+  const HullEdge& side = face.hulls.edges[face.reference_edges + side_of_body];
+  const HullEdge& edge = face.hulls.edges[face.incident_edges + edge_of_body];
+  const Vec3* reference = &face.placed.vertices[face.hulls.vertex_begin[face.pair.reference_part]];
+  const Vec3* incident = &face.placed.vertices[face.hulls.vertex_begin[face.pair.incident_part]];
+  const Vec3 &s = reference[side.a], &e = reference[side.b];
+  const Vec3 &p = incident[edge.a], &q = incident[edge.b];
+  const double u = e.x() - s.x(), v = e.y() - s.y(), w = e.z() - s.z();
+  const double across_x = face.n.y() * w - face.n.z() * v;
+  const double across_y = face.n.z() * u - face.n.x() * w;
+  const double across_z = face.n.x() * v - face.n.y() * u;
+  const double d_p =
+      across_x * (p.x() - s.x()) + across_y * (p.y() - s.y()) + across_z * (p.z() - s.z());
+  const double d_q =
+      across_x * (q.x() - s.x()) + across_y * (q.y() - s.y()) + across_z * (q.z() - s.z());
+  const double t = d_p == d_q ? 0.5 : std::clamp(d_p / (d_p - d_q), 0.0, 1.0);
+  const double x = p.x() + t * (q.x() - p.x()), y = p.y() + t * (q.y() - p.y()),
+               z = p.z() + t * (q.z() - p.z());
+  return {x, y, z, face.n.x() * x + face.n.y() * y + face.n.z() * z - face.offset};
+}
+
+// A vertex of the incident part.
+Place incident_vertex(const FaceContacts& face, int vertex_of_body) {
+  const Vec3& p = face.placed.vertices[face.incident_vertices + vertex_of_body];
+  return {p.x(), p.y(), p.z(),
+          face.n.x() * p.x() + face.n.y() * p.y() + face.n.z() * p.z() - face.offset};
+}
+
+// The point of the incident face above a vertex of the reference part.
+Place above_reference_vertex(const FaceContacts& face, int vertex_of_body) {
+  const Vec3& p = face.placed.vertices[face.reference_vertices + vertex_of_body];
+  const Vec3& m = face.incident_normal;
+  const double height =
+      (face.incident_offset - m.x() * p.x() - m.y() * p.y() - m.z() * p.z()) / face.slope;
+  return {p.x() + height * face.n.x(), p.y() + height * face.n.y(), p.z() + height * face.n.z(),
+          height};
+}
+
+Place place_of(const FaceContacts& face, const ContactKey& key) {
+  const bool of_a = face.pair.reference_is_a;
+  const int reference = of_a ? key.feature_a : key.feature_b;
+  const int incident = of_a ? key.feature_b : key.feature_a;
+  if (key.mode == ContactMode::edge_edge) return edge_crossing(face, reference, incident);
+  if ((key.mode == ContactMode::face_vertex) == of_a) return incident_vertex(face, incident);
+  return above_reference_vertex(face, reference);
+}
+
+void add_face_points(const Hulls& hulls, const PlacedHulls& placed, const FacePair& pair,
+                     double margin, std::span<const HeldPoint> held,
+                     std::vector<PairPoint>& points) {
+  const FaceContacts face = face_contacts(hulls, placed, pair);
+  for (const HeldPoint& h : held) {
+    const Place p = place_of(face, h.key);
+    if (!(p.height <= margin)) continue;
+    const double back = pair.reference_is_a ? 0 : p.height;  // B's point, when A is incident
+    PairPoint& point = points.emplace_back();
+    point.key = h.key;
+    point.point_b.x() = p.x - back * face.n.x();
+    point.point_b.y() = p.y - back * face.n.y();
+    point.point_b.z() = p.z - back * face.n.z();
+    point.gap = p.height;
+    point.area = h.area;
+  }
+}
+
+// The point of edge B nearest to the line of edge A, within the edge.
+Vec3 crossing_on_b(const Vec3& a, const Vec3& along_a, const Vec3& b, const Vec3& along_b) {
+  const double aa = along_a.squaredNorm(), bb = along_b.squaredNorm(), ab = along_a.dot(along_b);
+  const double t = (ab * along_a.dot(b - a) - aa * along_b.dot(b - a)) / (aa * bb - ab * ab);
+  return b + std::clamp(t, 0.0, 1.0) * along_b;
+}
+
+void add_edge_point(const Hulls& hulls, const PlacedHulls& placed, int part_a, int part_b,
+                    const PairAxis& axis, const Vec3& normal, double margin, const HeldPoint& held,
+                    std::vector<PairPoint>& points) {
+  const HullEdge& edge_a = hulls.edges[hulls.edge_begin[part_a] + axis.feature_a];
+  const HullEdge& edge_b = hulls.edges[hulls.edge_begin[part_b] + axis.feature_b];
+  const Vec3& a = placed.vertices[hulls.vertex_begin[part_a] + edge_a.a];
+  const Vec3& b = placed.vertices[hulls.vertex_begin[part_b] + edge_b.a];
+  const double gap = normal.dot(a - b);
+  if (!(gap <= margin)) return;
+  const Vec3 along_a = placed.vertices[hulls.vertex_begin[part_a] + edge_a.b] - a;
+  const Vec3 along_b = placed.vertices[hulls.vertex_begin[part_b] + edge_b.b] - b;
+  points.push_back({held.key, crossing_on_b(a, along_a, b, along_b), gap, held.area});
+}
+
+}  // namespace
+
+double find_features(const Hulls& hulls, const PlacedHulls& placed, int part_a, int part_b,
+                     const PairAxis& axis, int incident, bool with_areas, ClipScratch& scratch,
+                     std::vector<HeldPoint>& held) {
+  if (axis.kind == AxisKind::edges) {
+    held.push_back(
+        {{ContactMode::edge_edge, hulls.body[part_b], body_edge(hulls, part_a, axis.feature_a),
+          body_edge(hulls, part_b, axis.feature_b)},
+         0});
+    return 0;
+  }
+  const FacePair pair = face_pair(hulls, part_a, part_b, axis, incident);
+  const Frame frame = frame_of(hulls, placed, pair);
+  start_polygon(hulls, placed, pair, frame, scratch.polygon);
+  const double on_side = on_side_ratio * std::min(hulls.thickness[part_a], hulls.thickness[part_b]);
+  clip_by_reference(hulls, placed, pair, frame, on_side, scratch);
+  const std::size_t begin = held.size();
+  for (const ClipCorner& corner : scratch.polygon) held.push_back({key_of(hulls, pair, corner), 0});
+  return with_areas ? share_area(scratch.polygon, held.data() + begin) : 0;
+}
+
+double deepest_gap(const Hulls& hulls, const PlacedHulls& placed, int part_a, int part_b,
+                   const PairAxis& axis, int incident, std::span<const HeldPoint> held) {
+  const FaceContacts face =
+      face_contacts(hulls, placed, face_pair(hulls, part_a, part_b, axis, incident));
+  double deepest = std::numeric_limits<double>::infinity();
+  for (const HeldPoint& h : held) deepest = std::min(deepest, place_of(face, h.key).height);
+  return deepest;
+}
+
+ContactSearch search_contact(const Hulls& hulls, const PlacedHulls& placed, int part_a, int part_b,
+                             double margin, const PairAxis& last, bool with_areas,
+                             AxisScratch& axis_scratch, ClipScratch& clip_scratch,
+                             std::vector<HeldPoint>& held) {
+  ContactSearch found;
+  AxisChoice& choice = found.choice;
+  choice = find_axis(hulls, placed, part_a, part_b, margin, last, axis_scratch);
+  if (!choice.touches) return found;
+  const std::size_t begin = held.size();
+  found.incident = incident_of(hulls, placed, part_a, part_b, choice.axis);
+  found.area = find_features(hulls, placed, part_a, part_b, choice.axis, found.incident, with_areas,
+                             clip_scratch, held);
+  if (choice.better_edges.kind == AxisKind::none) return found;
+  const double deep_enough =
+      choice.edge_separation + depth_ratio * std::abs(choice.edge_separation);
+  if (deepest_gap(hulls, placed, part_a, part_b, choice.axis, found.incident,
+                  std::span(held).subspan(begin)) <= deep_enough)
+    return found;
+  held.resize(begin);
+  choice.axis = choice.better_edges;
+  choice.normal = axis_normal(hulls, placed, part_a, part_b, choice.axis);
+  choice.separation = choice.edge_separation;
+  choice.hold = 0;
+  found.area =
+      find_features(hulls, placed, part_a, part_b, choice.axis, -1, with_areas, clip_scratch, held);
+  return found;
+}
+
+int incident_of(const Hulls& hulls, const PlacedHulls& placed, int part_a, int part_b,
+                const PairAxis& axis) {
+  if (axis.kind == AxisKind::face_a)
+    return incident_face(hulls, placed, part_b,
+                         normal_at(placed, hulls.face_begin[part_a] + axis.feature_a));
+  if (axis.kind == AxisKind::face_b)
+    return incident_face(hulls, placed, part_a,
+                         normal_at(placed, hulls.face_begin[part_b] + axis.feature_b));
+  return -1;
+}
+
+bool add_manifold(const Hulls& hulls, const PlacedHulls& placed, int part_a, int part_b,
+                  const PairAxis& axis, int incident, const Vec3& normal, double area,
+                  double margin, std::span<const HeldPoint> held,
+                  std::vector<PairManifold>& manifolds, std::vector<PairPoint>& points) {
+  const int begin = static_cast<int>(points.size());
+  int face_a = axis.feature_a, face_b = axis.feature_b;
+  if (axis.kind == AxisKind::edges) {
+    add_edge_point(hulls, placed, part_a, part_b, axis, normal, margin, held[0], points);
+    face_a = hulls.edges[hulls.edge_begin[part_a] + axis.feature_a].left;
+    face_b = hulls.edges[hulls.edge_begin[part_b] + axis.feature_b].left;
+  } else {
+    add_face_points(hulls, placed, face_pair(hulls, part_a, part_b, axis, incident), margin, held,
+                    points);
+    (axis.kind == AxisKind::face_a ? face_b : face_a) = incident;
+  }
+  const int end = static_cast<int>(points.size());
+  if (end == begin) return false;
+  manifolds.push_back({hulls.body[part_a], hulls.body[part_b], part_a, part_b,
+                       hulls.joint_set[hulls.face_begin[part_a] + face_a],
+                       hulls.joint_set[hulls.face_begin[part_b] + face_b], begin, end, area,
+                       normal});
+  return true;
+}
+
+}  // namespace talus

@@ -1,0 +1,118 @@
+// libcore/contact/manifold.hpp
+// The contact points of two convex parts along a given axis.
+// in:    two placed parts and the axis that find_axis chose
+// out:   which features meet; then one normal and a point, a gap and a share of the area for each
+// theory: docs/theory.md 1.6 (one form for all modes), 2.6 (clipping)
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "contact/contact.hpp"
+#include "contact/hulls.hpp"
+#include "contact/separating_axis.hpp"
+
+namespace talus {
+
+/// A contact point of a manifold.
+///
+/// The key names it by features of the bodies, so it survives a change of the reference face:
+/// vertex_face: vertex of A, part of B; face_vertex: part of A, vertex of B; edge_edge: both edges.
+/// Each counts from the first of its body.
+struct PairPoint {
+  ContactKey key;
+  Vec3 point_b;     ///< on B, local axes [m]; the point of A is point_b + gap * normal
+  double gap = 0;   ///< along the manifold's normal, > 0 open [m]
+  double area = 0;  ///< share of the contact area; the shares keep the area's centre [m2]
+};
+
+/// The contact of a part of block A with a part of block B, block_a < block_b.
+struct PairManifold {
+  int block_a = 0, block_b = 0;
+  int part_a = 0, part_b = 0;
+  int joint_set_a = 0, joint_set_b = 0;  ///< of the faces in contact; of an edge, its left face
+  int point_begin = 0, point_end = 0;    ///< its points
+  double area = 0;                       ///< of the faces' overlap seen along the normal [m2]
+  Vec3 normal;                           ///< unit, local axes, from B to A
+};
+
+/// A point of a manifold as a contact of the solver: both points in body axes.
+[[nodiscard]] inline Contact as_contact(const PairManifold& manifold, const PairPoint& point,
+                                        const Pose& pose_a, const Pose& pose_b) {
+  Contact contact;
+  contact.key = point.key;
+  contact.block_a = manifold.block_a;
+  contact.block_b = manifold.block_b;
+  contact.normal = manifold.normal;
+  contact.point_a =
+      pose_a.attitude.conjugate() * (point.point_b + point.gap * manifold.normal - pose_a.position);
+  contact.point_b = pose_b.attitude.conjugate() * (point.point_b - pose_b.position);
+  contact.gap = point.gap;
+  return contact;
+}
+
+/// The features of a contact, without their places: what stays while the parts hardly move.
+struct HeldPoint {
+  ContactKey key;
+  double area = 0;  ///< [m2]
+};
+
+/// A corner of the polygon that is being clipped, in the frame of the reference face.
+struct ClipCorner {
+  double u = 0, v = 0;                          ///< [m]
+  ContactMode mode = ContactMode::vertex_face;  ///< seen from the incident part
+  int incident = -1;   ///< corner of the incident loop, or its edge (mode edge_edge)
+  int reference = -1;  ///< corner of the reference loop, or its side (mode edge_edge)
+  int next_side = 0;   ///< what leads to the next corner: incident edge i, or reference side -1 - k
+};
+
+/// Arrays that find_features fills anew; kept to spare allocation.
+struct ClipScratch {
+  std::vector<ClipCorner> polygon, clipped;
+  std::vector<Vec2> reference;  ///< corners of the reference face in its frame [m]
+};
+
+/// incident_face of the face that names a face axis; -1 for edges.
+[[nodiscard]] int incident_of(const Hulls& hulls, const PlacedHulls& placed, int part_a, int part_b,
+                              const PairAxis& axis);
+
+/// Which features of two parts meet along `axis`; appends to `held`.
+///
+/// A face axis clips the incident face by the sides of the reference face: its corners inside are
+/// vertex-face contacts, corners of the reference face inside are face-vertex contacts, crossings
+/// of sides edge-edge contacts. Points within 1e-6 of the smaller thickness of a side count as on
+/// it. An axis of two edges gives those edges. Returns the area of the polygon [m2]; without
+/// `with_areas` areas are zero. `incident` (counted from the part's first) is for face axes only.
+double find_features(const Hulls& hulls, const PlacedHulls& placed, int part_a, int part_b,
+                     const PairAxis& axis, int incident, bool with_areas, ClipScratch& scratch,
+                     std::vector<HeldPoint>& held);
+
+/// Smallest gap over the features `held` of a face axis [m]; infinity without any.
+[[nodiscard]] double deepest_gap(const Hulls& hulls, const PlacedHulls& placed, int part_a,
+                                 int part_b, const PairAxis& axis, int incident,
+                                 std::span<const HeldPoint> held);
+
+/// What search_contact finds.
+struct ContactSearch {
+  AxisChoice choice;
+  int incident = -1;  ///< incident_face of a face axis
+  double area = 0;    ///< of the clipped polygon [m2]
+};
+
+/// find_axis, then find_features, which are appended to `held`. Where find_axis passed over a pair
+/// of edges for a face in nearly the same direction, but that face meets nothing as deep, the edges
+/// are used after all, for one step.
+[[nodiscard]] ContactSearch search_contact(const Hulls& hulls, const PlacedHulls& placed,
+                                           int part_a, int part_b, double margin,
+                                           const PairAxis& last, bool with_areas,
+                                           AxisScratch& axis_scratch, ClipScratch& clip_scratch,
+                                           std::vector<HeldPoint>& held);
+
+/// Appends the manifold of two parts along `axis` and those of its points `held` whose gap is at
+/// most `margin` [m], at the places where they are now. Nothing, and false, when there are none.
+bool add_manifold(const Hulls& hulls, const PlacedHulls& placed, int part_a, int part_b,
+                  const PairAxis& axis, int incident, const Vec3& normal, double area,
+                  double margin, std::span<const HeldPoint> held,
+                  std::vector<PairManifold>& manifolds, std::vector<PairPoint>& points);
+
+}  // namespace talus

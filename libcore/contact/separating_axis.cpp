@@ -1,0 +1,365 @@
+#include "contact/separating_axis.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/error.hpp"
+#include "contact/lanes.hpp"
+
+namespace talus {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double none = -infinity;
+constexpr double parallel_sin_sq = 3.0458649045213493e-4;  // sin^2 1 deg: edges that make no axis
+constexpr double keep_ratio = 0.1;   // another face must be better by this part of |separation|
+constexpr double face_ratio = 1e-3;  // ... and of the thickness; edges too
+constexpr double same_axis_ratio = 2e-2;     // ... in the same direction
+constexpr double longest_hold_ratio = 0.02;  // of the smaller radius, and at most longest_hold
+constexpr double longest_hold = 0.05;        // [m]
+
+// The two parts with what the functions below ask for all the time.
+struct Parts {
+  const Hulls& hulls;
+  const PlacedHulls& placed;
+  int a, b;
+};
+
+int slot(const Hulls& hulls, int part, int vertex) { return hulls.vertex_begin[part] + vertex; }
+
+Vec3 edge_direction(const Parts& parts, int part, const HullEdge& edge) {
+  return parts.placed.vertices[slot(parts.hulls, part, edge.b)] -
+         parts.placed.vertices[slot(parts.hulls, part, edge.a)];
+}
+
+// direction . normal for all normals of `part` into row[0, n_normals), padded.
+void normal_dots(const Parts& parts, int part, const Vec3& direction, double* row) {
+  const PlacedHulls& placed = parts.placed;
+  const int begin = parts.hulls.face_begin[part], end = parts.hulls.face_begin[part + 1];
+  for (int f = begin; f < end; f += n_lanes)
+    lanes(row + f - begin) = direction.x() * lanes(&placed.nx[f]) +
+                             direction.y() * lanes(&placed.ny[f]) +
+                             direction.z() * lanes(&placed.nz[f]);
+}
+
+struct BestEdges {
+  double separation = none;
+  double second = none;
+  int a = -1, b = -1;
+  Vec3 normal = Vec3::Zero();
+};
+
+// Unit normal of two edges, from B to A; zero when they are parallel within a degree.
+Vec3 edge_normal(const Parts& parts, const HullEdge& edge_b, const Vec3& along_a,
+                 const Vec3& along_b) {
+  const Vec3 cross = along_a.cross(along_b);
+  const double length_sq = cross.squaredNorm();
+  if (!(length_sq > parallel_sin_sq * along_a.squaredNorm() * along_b.squaredNorm()))
+    return Vec3::Zero();
+  const int first = parts.hulls.face_begin[parts.b];
+  const Vec3 outward = normal_at(parts.placed, first + edge_b.arc_left) +
+                       normal_at(parts.placed, first + edge_b.arc_right);
+  const double scale = 1 / std::sqrt(length_sq);
+  return cross.dot(outward) > 0 ? Vec3(scale * cross) : Vec3(-scale * cross);
+}
+
+double edge_separation(const Parts& parts, const HullEdge& edge_a, const HullEdge& edge_b,
+                       const Vec3& normal) {
+  return normal.dot(parts.placed.vertices[slot(parts.hulls, parts.a, edge_a.a)] -
+                    parts.placed.vertices[slot(parts.hulls, parts.b, edge_b.a)]);
+}
+
+void consider_edges(const Parts& parts, int e_a, int e_b, const Vec3& along_a, BestEdges& best) {
+  const Hulls& hulls = parts.hulls;
+  const HullEdge& edge_a = hulls.edges[hulls.edge_begin[parts.a] + e_a];
+  const HullEdge& edge_b = hulls.edges[hulls.edge_begin[parts.b] + e_b];
+  const Vec3 normal = edge_normal(parts, edge_b, along_a, edge_direction(parts, parts.b, edge_b));
+  if (normal.isZero(0)) return;
+  const double separation = edge_separation(parts, edge_a, edge_b, normal);
+  if (separation <= best.separation) {
+    best.second = std::max(best.second, separation);
+    return;
+  }
+  best = {separation, best.separation, e_a, e_b, normal};
+}
+
+// All pairs of active edges whose Gauss arcs cross (theory 2.2). Along an edge, left x right of its
+// arc points as the edge does, so the arcs' cross products are the edges' directions, and the test
+// needs only the products of edge directions with the other part's normals.
+BestEdges find_edges(const Parts& parts, AxisScratch& scratch) {
+  const Hulls& hulls = parts.hulls;
+  const std::size_t width_a = hulls.face_begin[parts.a + 1] - hulls.face_begin[parts.a];
+  const std::size_t width_b = hulls.face_begin[parts.b + 1] - hulls.face_begin[parts.b];
+  const HullEdge* edges_a = hulls.edges.data() + hulls.edge_begin[parts.a];
+  const HullEdge* edges_b = hulls.edges.data() + hulls.edge_begin[parts.b];
+  const int n_a = hulls.n_active_edges[parts.a], n_b = hulls.n_active_edges[parts.b];
+  if (scratch.dots_a.size() < width_b) scratch.dots_a.resize(width_b);
+  if (scratch.dots_b.size() < n_b * width_a) scratch.dots_b.resize(n_b * width_a);
+  double* const row = scratch.dots_a.data();
+  for (int e = 0; e < n_b; ++e)
+    normal_dots(parts, parts.a, edge_direction(parts, parts.b, edges_b[e]),
+                scratch.dots_b.data() + e * width_a);
+
+  BestEdges best;
+  for (int i = 0; i < n_a; ++i) {
+    const Vec3 along_a = edge_direction(parts, parts.a, edges_a[i]);
+    normal_dots(parts, parts.b, along_a, row);
+    const double* column = scratch.dots_b.data();
+    for (int k = 0; k < n_b; ++k, column += width_a) {
+      const double left = row[edges_b[k].arc_left];
+      if (left * row[edges_b[k].arc_right] >= 0) continue;
+      const double right = column[edges_a[i].arc_right];
+      if (column[edges_a[i].arc_left] * right >= 0 || left * right >= 0) continue;
+      consider_edges(parts, i, k, along_a, best);
+    }
+  }
+  return best;
+}
+
+// A face axis by number: faces of A first, then those of B.
+struct FaceAxis {
+  int part = -1, face = -1;
+  double separation = none;
+};
+
+Vec3 outward(const Parts& parts, const FaceAxis& axis) {
+  return normal_at(parts.placed, parts.hulls.face_begin[axis.part] + axis.face);
+}
+Vec3 to_a(const Parts& parts, const FaceAxis& axis) {
+  const Vec3 normal = outward(parts, axis);
+  return axis.part == parts.b ? normal : Vec3(-normal);
+}
+
+template <class Visit>
+void for_each_face(const Parts& parts, const AxisScratch& scratch, Visit&& visit) {
+  for (int f = 0; f < parts.hulls.n_faces[parts.a]; ++f)
+    visit(FaceAxis{parts.a, f, scratch.face_a[f]});
+  for (int f = 0; f < parts.hulls.n_faces[parts.b]; ++f)
+    visit(FaceAxis{parts.b, f, scratch.face_b[f]});
+}
+
+bool has_pieces(const Hulls& hulls, int part) {
+  const int body = hulls.body[part];
+  return hulls.part_begin[body + 1] - hulls.part_begin[body] > 1;
+}
+
+// Faces inside a body, and faces that would meet one, stop nothing: their axes are taken out.
+void remove_internal(const Parts& parts, AxisScratch& scratch) {
+  if (!has_pieces(parts.hulls, parts.a) && !has_pieces(parts.hulls, parts.b)) return;
+  const auto hidden = [&](int part, int face) {
+    return parts.hulls.internal[parts.hulls.face_begin[part] + face] != 0;
+  };
+  for_each_face(parts, scratch, [&](const FaceAxis& axis) {
+    const int other = axis.part == parts.a ? parts.b : parts.a;
+    if (hidden(axis.part, axis.face) ||
+        hidden(other, incident_face(parts.hulls, parts.placed, other, outward(parts, axis))))
+      (axis.part == parts.a ? scratch.face_a : scratch.face_b)[axis.face] = none;
+  });
+}
+
+FaceAxis best_face(const Parts& parts, const AxisScratch& scratch) {
+  FaceAxis best;
+  for_each_face(parts, scratch, [&](const FaceAxis& axis) {
+    if (axis.separation > best.separation) best = axis;
+  });
+  return best;
+}
+
+// Largest separation along face normals in other directions than `normal`.
+double best_other_face(const Parts& parts, const AxisScratch& scratch, const Vec3& normal) {
+  double best = none;
+  for_each_face(parts, scratch, [&](const FaceAxis& axis) {
+    if (axis.separation > best && to_a(parts, axis).dot(normal) < same_axis_cos)
+      best = axis.separation;
+  });
+  return best;
+}
+
+double keep_bonus(const FaceAxis& last, double thickness) {
+  return std::max(keep_ratio * std::abs(last.separation), face_ratio * thickness);
+}
+
+FaceAxis last_face(const Parts& parts, const AxisScratch& scratch, const PairAxis& last) {
+  if (last.kind == AxisKind::face_a)
+    return {parts.a, last.feature_a, scratch.face_a[last.feature_a]};
+  if (last.kind == AxisKind::face_b)
+    return {parts.b, last.feature_b, scratch.face_b[last.feature_b]};
+  return {};
+}
+
+// The face to use when `best` has the largest separation: the last one while it is nearly as good;
+// else one of A in the same direction as a best one of B, so that rounding does not choose.
+FaceAxis settled_face(const Parts& parts, const AxisScratch& scratch, const FaceAxis& best,
+                      const FaceAxis& last, double thickness) {
+  if (last.separation > none) {
+    const bool same = to_a(parts, last).dot(to_a(parts, best)) >= same_axis_cos;
+    const double bonus = same ? same_axis_ratio * thickness : keep_bonus(last, thickness);
+    if (last.separation + bonus >= best.separation) return last;
+  }
+  if (best.part == parts.a) return best;
+  FaceAxis chosen = best;
+  double least = best.separation - face_ratio * thickness;
+  const Vec3 normal = to_a(parts, best);
+  for (int f = 0; f < parts.hulls.n_faces[parts.a]; ++f) {
+    const FaceAxis axis{parts.a, f, scratch.face_a[f]};
+    if (axis.separation < least || to_a(parts, axis).dot(normal) < same_axis_cos) continue;
+    chosen = axis;
+    least = axis.separation;
+  }
+  return chosen;
+}
+
+PairAxis name_of(const Parts& parts, const FaceAxis& face) {
+  if (face.part == parts.a) return {AxisKind::face_a, face.face, -1};
+  return {AxisKind::face_b, -1, face.face};
+}
+
+AxisChoice apart_choice(const Parts& parts, const FaceAxis& face) {
+  AxisChoice choice;
+  choice.axis = name_of(parts, face);
+  choice.separation = face.separation;
+  return choice;
+}
+
+AxisChoice face_choice(const Parts& parts, const AxisScratch& scratch, const FaceAxis& face,
+                       double best_separation, double edge_bar, const BestEdges& edges,
+                       double thickness) {
+  AxisChoice choice;
+  choice.axis = name_of(parts, face);
+  choice.normal = to_a(parts, face);
+  choice.separation = face.separation;
+  choice.other_face = best_other_face(parts, scratch, choice.normal);
+  choice.hold = std::min(face.separation + keep_bonus(face, thickness) - choice.other_face,
+                         best_separation + edge_bar - edges.separation) /
+                2;
+  if (edges.separation > choice.separation) {
+    choice.better_edges = {AxisKind::edges, edges.a, edges.b};
+    choice.edge_separation = edges.separation;
+  }
+  return choice;
+}
+
+AxisChoice edge_choice(const Parts& parts, const AxisScratch& scratch, const BestEdges& edges,
+                       double best_face_separation, double edge_bar) {
+  AxisChoice choice;
+  choice.axis = {AxisKind::edges, edges.a, edges.b};
+  choice.normal = edges.normal;
+  choice.separation = edges.separation;
+  choice.other_face = best_other_face(parts, scratch, edges.normal);
+  choice.hold = (edges.separation - std::max(best_face_separation + edge_bar, edges.second)) / 2;
+  return choice;
+}
+
+}  // namespace
+
+void face_separations(const Hulls& hulls, const PlacedHulls& placed, int face_part, int vertex_part,
+                      std::vector<double>& separation) {
+  const int begin = hulls.face_begin[face_part], n = hulls.n_faces[face_part];
+  const int first = hulls.vertex_begin[vertex_part];
+  const int last = hulls.vertex_begin[vertex_part + 1];
+  const std::size_t padded = (static_cast<std::size_t>(n) + 3) / 4 * 4;
+  if (separation.size() < padded) separation.resize(padded);
+  for (int f = 0; f < n; f += 2 * n_lanes) {  // two at a time hide each other's latency
+    const double *x = &placed.nx[begin + f], *y = &placed.ny[begin + f], *z = &placed.nz[begin + f];
+    const Lanes x0 = lanes(x), y0 = lanes(y), z0 = lanes(z);
+    const Lanes x1 = lanes(x + n_lanes), y1 = lanes(y + n_lanes), z1 = lanes(z + n_lanes);
+    Lanes lowest0 = Lanes{} + infinity, lowest1 = lowest0;
+    for (int v = first; v < last; ++v) {
+      const Vec3& p = placed.vertices[v];
+      const Lanes height0 = x0 * p.x() + y0 * p.y() + z0 * p.z();
+      const Lanes height1 = x1 * p.x() + y1 * p.y() + z1 * p.z();
+      lowest0 = height0 < lowest0 ? height0 : lowest0;
+      lowest1 = height1 < lowest1 ? height1 : lowest1;
+    }
+    lanes(&separation[f]) = lowest0 - lanes(&placed.offset[begin + f]);
+    lanes(&separation[f + n_lanes]) = lowest1 - lanes(&placed.offset[begin + f + n_lanes]);
+  }
+}
+
+int incident_face(const Hulls& hulls, const PlacedHulls& placed, int part, const Vec3& normal) {
+  const int first = hulls.vertex_begin[part], last = hulls.vertex_begin[part + 1];
+  int support = first;
+  double lowest = infinity;
+  for (int v = first; v < last; ++v) {
+    const double height = normal.dot(placed.vertices[v]);
+    if (height < lowest) {
+      lowest = height;
+      support = v;
+    }
+  }
+  int face = -1;
+  double most_opposed = infinity;
+  for (int k = hulls.ring_begin[support]; k < hulls.ring_begin[support + 1]; ++k) {
+    const double cosine =
+        normal.dot(normal_at(placed, hulls.face_begin[part] + hulls.ring_faces[k]));
+    if (cosine < most_opposed) {
+      most_opposed = cosine;
+      face = hulls.ring_faces[k];
+    }
+  }
+  return face;
+}
+
+AxisChoice find_axis(const Hulls& hulls, const PlacedHulls& placed, int part_a, int part_b,
+                     double margin, const PairAxis& last, AxisScratch& scratch) {
+  const Parts parts{hulls, placed, part_a, part_b};
+  face_separations(hulls, placed, part_a, part_b, scratch.face_a);
+  face_separations(hulls, placed, part_b, part_a, scratch.face_b);
+  AxisChoice apart = apart_choice(parts, best_face(parts, scratch));
+  if (apart.separation > margin) return apart;
+  const BestEdges edges = find_edges(parts, scratch);
+  if (edges.separation > margin && edges.separation > apart.separation) {
+    apart.axis = {AxisKind::edges, edges.a, edges.b};
+    apart.separation = edges.separation;
+    return apart;
+  }
+
+  remove_internal(parts, scratch);
+  const double thickness = std::min(hulls.thickness[part_a], hulls.thickness[part_b]);
+  const FaceAxis best = best_face(parts, scratch);
+  // what edges need above the best face: half as much when an edge pair was chosen last
+  const double edge_bar = face_ratio * thickness * (last.kind == AxisKind::edges ? 0.5 : 1);
+  AxisChoice choice;
+  if (edges.separation > best.separation + edge_bar) {
+    choice = edge_choice(parts, scratch, edges, best.separation, edge_bar);
+  } else if (best.separation > none) {
+    const FaceAxis face =
+        settled_face(parts, scratch, best, last_face(parts, scratch, last), thickness);
+    choice = face_choice(parts, scratch, face, best.separation, edge_bar, edges, thickness);
+  } else {
+    apart.axis = {};
+    return apart;
+  }
+  choice.touches = true;
+  const double radius =
+      std::min(hulls.radius[hulls.body[part_a]], hulls.radius[hulls.body[part_b]]);
+  choice.hold = std::clamp(choice.hold, 0.0, std::min(longest_hold, longest_hold_ratio * radius));
+  return choice;
+}
+
+double apart_along(const Hulls& hulls, const PlacedHulls& placed, int part_a, int part_b,
+                   const Vec3& normal) {
+  double lowest_a = infinity, highest_b = -infinity;
+  for (int v = hulls.vertex_begin[part_a]; v < hulls.vertex_begin[part_a + 1]; ++v)
+    lowest_a = std::min(lowest_a, normal.dot(placed.vertices[v]));
+  for (int v = hulls.vertex_begin[part_b]; v < hulls.vertex_begin[part_b + 1]; ++v)
+    highest_b = std::max(highest_b, normal.dot(placed.vertices[v]));
+  return lowest_a - highest_b;
+}
+
+Vec3 axis_normal(const Hulls& hulls, const PlacedHulls& placed, int part_a, int part_b,
+                 const PairAxis& axis) {
+  if (axis.kind == AxisKind::face_a)
+    return -normal_at(placed, hulls.face_begin[part_a] + axis.feature_a);
+  if (axis.kind == AxisKind::face_b)
+    return normal_at(placed, hulls.face_begin[part_b] + axis.feature_b);
+  const Parts parts{hulls, placed, part_a, part_b};
+  const HullEdge& edge_a = hulls.edges[hulls.edge_begin[part_a] + axis.feature_a];
+  const HullEdge& edge_b = hulls.edges[hulls.edge_begin[part_b] + axis.feature_b];
+  return edge_normal(parts, edge_b, edge_direction(parts, part_a, edge_a),
+                     edge_direction(parts, part_b, edge_b));
+}
+
+}  // namespace talus

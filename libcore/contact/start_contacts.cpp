@@ -1,0 +1,120 @@
+#include "contact/start_contacts.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "contact/face_overlap.hpp"
+#include "contact/neighbours.hpp"
+#include "contact/separating_axis.hpp"
+
+namespace talus {
+namespace {
+
+// Pairs of parts of different bodies whose boxes come closer than `distance`.
+std::vector<std::array<int, 2>> close_parts(const Hulls& hulls, const PlacedHulls& placed,
+                                            double distance) {
+  std::vector<Box> boxes;
+  for (int p = 0; p < n_parts(hulls); ++p) {
+    const int first = hulls.vertex_begin[p];
+    Box box{placed.vertices[first], placed.vertices[first]};
+    for (int v = first; v < hulls.vertex_begin[p + 1]; ++v) {
+      box.low = box.low.cwiseMin(placed.vertices[v]);
+      box.high = box.high.cwiseMax(placed.vertices[v]);
+    }
+    box.low.array() -= distance / 2;
+    box.high.array() += distance / 2;
+    boxes.push_back(box);
+  }
+  OverlapScratch scratch;
+  std::vector<std::array<int, 2>> pairs;
+  find_overlaps(boxes, hulls.body, {}, scratch, pairs);
+  return pairs;
+}
+
+std::vector<Vec3> corners_of(const Hulls& hulls, const PlacedHulls& placed, int part, int slot) {
+  std::vector<Vec3> corners;
+  for (int k = hulls.loop_begin[slot]; k < hulls.loop_begin[slot + 1]; ++k)
+    corners.push_back(placed.vertices[hulls.vertex_begin[part] + hulls.loop_vertices[k]]);
+  return corners;
+}
+
+void add_joint_contacts(const Hulls& hulls, const PlacedHulls& placed, int part_a, int part_b,
+                        double tolerance, double opposed, std::vector<JointContact>& contacts) {
+  for (int i = 0; i < hulls.n_faces[part_a]; ++i)
+    for (int k = 0; k < hulls.n_faces[part_b]; ++k) {
+      const int face_a = hulls.face_begin[part_a] + i, face_b = hulls.face_begin[part_b] + k;
+      if (hulls.internal[face_a] != 0 || hulls.internal[face_b] != 0) continue;
+      const Vec3 normal_a = normal_at(placed, face_a), normal_b = normal_at(placed, face_b);
+      if (normal_a.dot(normal_b) > -opposed) continue;
+      const FaceOverlap common = face_overlap(corners_of(hulls, placed, part_a, face_a), normal_a,
+                                              corners_of(hulls, placed, part_b, face_b));
+      if (!(common.area > tolerance * tolerance)) continue;
+      if (std::abs(normal_b.dot(common.centre) - placed.offset[face_b]) > tolerance) continue;
+      contacts.push_back({hulls.body[part_a], hulls.body[part_b], hulls.joint_set[face_a],
+                          hulls.joint_set[face_b], normal_b, common.centre, common.area});
+    }
+}
+
+// Common part of two placed parts; no faces when there is none.
+Polyhedron common_part(const Hulls& hulls, const PlacedHulls& placed, int part_a, int part_b) {
+  Polyhedron common = placed_part(hulls, placed, part_a);
+  const double on_plane = 1e-9 * std::min(hulls.thickness[part_a], hulls.thickness[part_b]);
+  for (int f = 0; f < hulls.n_faces[part_b] && n_faces(common) > 0; ++f) {
+    const int slot = hulls.face_begin[part_b] + f;
+    common = clip_convex(common, {normal_at(placed, slot), placed.offset[slot]}, 0, on_plane);
+  }
+  return common;
+}
+
+}  // namespace
+
+std::vector<JointContact> joint_contacts(const Hulls& hulls, const PlacedHulls& placed,
+                                         double tolerance, double angle) {
+  std::vector<JointContact> contacts;
+  for (const auto& [a, b] : close_parts(hulls, placed, 2 * tolerance))
+    add_joint_contacts(hulls, placed, a, b, tolerance, std::cos(angle), contacts);
+  return contacts;
+}
+
+std::vector<BlockOverlap> block_overlaps(const Hulls& hulls, const PlacedHulls& placed,
+                                         double tolerance) {
+  std::vector<BlockOverlap> overlaps;
+  AxisScratch scratch;
+  for (const auto& [a, b] : close_parts(hulls, placed, 0)) {
+    const AxisChoice axis = find_axis(hulls, placed, a, b, -tolerance, {}, scratch);
+    if (!axis.touches) continue;
+    const Moments common = moments(common_part(hulls, placed, a, b));
+    if (!(common.volume > 0)) continue;
+    const int block_a = hulls.body[a], block_b = hulls.body[b];
+    const auto known = std::find_if(overlaps.begin(), overlaps.end(), [&](const BlockOverlap& o) {
+      return o.block_a == block_a && o.block_b == block_b;
+    });
+    BlockOverlap& sum =
+        known != overlaps.end()
+            ? *known
+            : overlaps.emplace_back(BlockOverlap{block_a, block_b, 0, 0, Vec3::Zero()});
+    sum.point =
+        (sum.volume * sum.point + common.volume * common.centroid) / (sum.volume + common.volume);
+    sum.volume += common.volume;
+    sum.depth = std::max(sum.depth, -axis.separation);
+  }
+  std::stable_sort(overlaps.begin(), overlaps.end(),
+                   [](const BlockOverlap& p, const BlockOverlap& q) { return p.depth > q.depth; });
+  return overlaps;
+}
+
+Polyhedron placed_part(const Hulls& hulls, const PlacedHulls& placed, int p) {
+  Polyhedron part;
+  const int first = hulls.vertex_begin[p];
+  for (int v = first; v < hulls.vertex_begin[p + 1]; ++v)
+    part.vertices.push_back(placed.vertices[v]);
+  for (int f = hulls.face_begin[p]; f < hulls.face_begin[p] + hulls.n_faces[p]; ++f)
+    add_face(part,
+             std::span(hulls.loop_vertices)
+                 .subspan(hulls.loop_begin[f], hulls.loop_begin[f + 1] - hulls.loop_begin[f]),
+             hulls.joint_set[f]);
+  return part;
+}
+
+}  // namespace talus

@@ -1,0 +1,245 @@
+#include "dda/island_matrix.hpp"
+
+#include <cmath>
+
+namespace talus {
+namespace {
+
+using std::size_t;
+
+template <int Dof>
+Eigen::Matrix<double, Dof, Dof> shift_matrix(const Vec3& shift) {
+  Eigen::Matrix<double, Dof, Dof> X = Eigen::Matrix<double, Dof, Dof>::Identity();
+  X.template topRows<3>() = displacement_matrix(shift).template leftCols<Dof>();
+  return X;
+}
+
+// D += X^T W X, what the pair adds to the diagonal block of B.
+template <int Dof>
+void add_carried(const Packed<Dof>& W, const Vec3& shift, Packed<Dof>& D) {
+  const Eigen::Matrix<double, Dof, Dof> X = shift_matrix<Dof>(shift);
+  add(packed<Dof>(X.transpose() * unpacked(W) * X), D);
+}
+
+// For rigid bodies X = [I, -S; 0, I] with S = [shift]x: W = [K, .; L, C] becomes
+// [K, .; L' = L + S K, C' = C - L S + S L'^T].
+template <>
+void add_carried<6>(const Packed<6>& W, const Vec3& shift, Packed<6>& D) {
+  const double x = shift.x(), y = shift.y(), z = shift.z();
+  const double K[3][3] = {
+      {W(0, 0), W(1, 0), W(2, 0)}, {W(1, 0), W(1, 1), W(2, 1)}, {W(2, 0), W(2, 1), W(2, 2)}};
+  double L[3][3];
+#pragma GCC unroll 3
+  for (int j = 0; j < 3; ++j) {
+    L[0][j] = W(3, j) + (y * K[2][j] - z * K[1][j]);
+    L[1][j] = W(4, j) + (z * K[0][j] - x * K[2][j]);
+    L[2][j] = W(5, j) + (x * K[1][j] - y * K[0][j]);
+  }
+  D(0, 0) += K[0][0], D(1, 0) += K[1][0], D(1, 1) += K[1][1];
+  D(2, 0) += K[2][0], D(2, 1) += K[2][1], D(2, 2) += K[2][2];
+#pragma GCC unroll 3
+  for (int i = 0; i < 3; ++i)
+#pragma GCC unroll 3
+    for (int j = 0; j < 3; ++j) D(3 + i, j) += L[i][j];
+  // S L'^T, entry (i, j), less (L S), entry (i, j)
+  D(3, 3) += W(3, 3) + (y * L[0][2] - z * L[0][1]) - (W(3, 1) * z - W(3, 2) * y);
+  D(4, 3) += W(4, 3) + (z * L[0][0] - x * L[0][2]) - (W(4, 1) * z - W(4, 2) * y);
+  D(4, 4) += W(4, 4) + (z * L[1][0] - x * L[1][2]) - (W(4, 2) * x - W(4, 0) * z);
+  D(5, 3) += W(5, 3) + (x * L[0][1] - y * L[0][0]) - (W(5, 1) * z - W(5, 2) * y);
+  D(5, 4) += W(5, 4) + (x * L[1][1] - y * L[1][0]) - (W(5, 2) * x - W(5, 0) * z);
+  D(5, 5) += W(5, 5) + (x * L[2][1] - y * L[2][0]) - (W(5, 0) * y - W(5, 1) * x);
+}
+
+template <int Dof>
+double dot(std::span<const Eigen::Matrix<double, Dof, 1>> x,
+           std::span<const Eigen::Matrix<double, Dof, 1>> y) {
+  double sum = 0;
+  for (size_t i = 0; i < x.size(); ++i) sum += x[i].dot(y[i]);
+  return sum;
+}
+
+}  // namespace
+
+template <int Dof>
+void prepare_matrix(const Island<Dof>& island, IslandMatrix<Dof>& matrix) {
+  const size_t n = island.mass.size(), n_pairs = island.pairs.size();
+  matrix.shift.resize(n_pairs);
+  for (size_t p = 0; p < n_pairs; ++p) {
+    const BodyPair& pair = island.pairs[p];
+    matrix.shift[p] = pair.b < 0 ? Vec3(Vec3::Zero())
+                                 : Vec3(island.position[static_cast<size_t>(pair.a)] -
+                                        island.position[static_cast<size_t>(pair.b)]);
+  }
+  matrix.pair_changed.assign(n_pairs, 1);
+  matrix.body_changed.assign(n, 1);
+  matrix.pair.resize(n_pairs);
+  matrix.pair_closed.resize(n_pairs);
+  for (auto* blocks : {&matrix.own, &matrix.diagonal, &matrix.inverse}) blocks->resize(n);
+  for (auto* vectors :
+       {&matrix.residual, &matrix.preconditioned, &matrix.direction, &matrix.product})
+    vectors->resize(n);
+}
+
+template <int Dof>
+void update_tangents(const Island<Dof>& island, Tangent tangent, RowGroups& rows,
+                     IslandMatrix<Dof>& matrix) {
+  const size_t n_pairs = island.pairs.size();
+  if (tangent != matrix.tangent) matrix.pair_changed.assign(n_pairs, 1);
+  matrix.tangent = tangent;
+  const bool exact = tangent == Tangent::exact;
+  if (exact) matrix.rest.resize(n_pairs);
+  matrix.coupled.clear();
+  for (size_t p = 0; p < n_pairs; ++p) {
+    const BodyPair& pair = island.pairs[p];
+    if (matrix.pair_changed[p]) {
+      if (exact) matrix.rest[p].setZero();
+      matrix.pair_closed[p] =
+          sum_tangents<Dof>(groups_of(rows, p), matrix.pair[p], exact ? &matrix.rest[p] : nullptr);
+      matrix.pair_changed[p] = 0;
+      matrix.body_changed[static_cast<size_t>(pair.a)] = 1;
+      if (pair.b >= 0) matrix.body_changed[static_cast<size_t>(pair.b)] = 1;
+    }
+    if (pair.b >= 0 && matrix.pair_closed[p]) matrix.coupled.push_back(static_cast<int>(p));
+  }
+}
+
+template <int Dof>
+[[gnu::flatten]] void update_diagonals(const Island<Dof>& island, IslandMatrix<Dof>& matrix) {
+  for (size_t i = 0; i < island.mass.size(); ++i)
+    if (matrix.body_changed[i]) matrix.own[i] = matrix.diagonal[i] = packed<Dof>(island.mass[i]);
+  for (size_t p = 0; p < island.pairs.size(); ++p) {
+    if (!matrix.pair_closed[p]) continue;
+    const BodyPair& pair = island.pairs[p];
+    const auto a = static_cast<size_t>(pair.a);
+    if (matrix.body_changed[a]) {
+      add(matrix.pair[p], matrix.diagonal[a]);
+      if (pair.b < 0) add(matrix.pair[p], matrix.own[a]);
+    }
+    if (pair.b >= 0 && matrix.body_changed[static_cast<size_t>(pair.b)])
+      add_carried<Dof>(matrix.pair[p], matrix.shift[p],
+                       matrix.diagonal[static_cast<size_t>(pair.b)]);
+  }
+  for (size_t i = 0; i < island.mass.size(); ++i) {
+    if (matrix.body_changed[i]) matrix.inverse[i] = inverse(matrix.diagonal[i]);
+    matrix.body_changed[i] = 0;
+  }
+}
+
+template <int Dof>
+[[gnu::flatten]] void multiply(const Island<Dof>& island, const IslandMatrix<Dof>& matrix,
+                               std::span<const Eigen::Matrix<double, Dof, 1>> x,
+                               std::span<Eigen::Matrix<double, Dof, 1>> y) {
+  for (size_t i = 0; i < x.size(); ++i) y[i] = product(matrix.own[i], x[i]);
+  for (const int p : matrix.coupled) {
+    const auto k = static_cast<size_t>(p);
+    const auto a = static_cast<size_t>(island.pairs[k].a);
+    const auto b = static_cast<size_t>(island.pairs[k].b);
+    const Eigen::Matrix<double, Dof, 1> f =
+        product<Dof>(matrix.pair[k], relative_motion<Dof>(x[a], x[b], matrix.shift[k]));
+    y[a] += f;
+    y[b] -= carried_to_b<Dof>(f, matrix.shift[k]);
+  }
+}
+
+template <int Dof>
+[[gnu::flatten]] LinearResult solve_conjugate_gradients(
+    const Island<Dof>& island, IslandMatrix<Dof>& matrix,
+    std::span<const Eigen::Matrix<double, Dof, 1>> b, double tolerance, int max_iterations,
+    std::span<Eigen::Matrix<double, Dof, 1>> x) {
+  using Vec = Eigen::Matrix<double, Dof, 1>;
+  const size_t n = island.mass.size();
+  auto& r = matrix.residual;
+  auto& z = matrix.preconditioned;
+  auto& p = matrix.direction;
+  auto& q = matrix.product;
+  double rz = 0;
+  for (size_t i = 0; i < n; ++i) {
+    x[i].setZero();
+    r[i] = b[i];
+    p[i] = product(matrix.inverse[i], r[i]);
+    rz += r[i].dot(p[i]);
+  }
+  const double goal = tolerance * tolerance * rz;
+  LinearResult result;
+  while (rz > goal && result.iterations < max_iterations) {
+    ++result.iterations;
+    multiply<Dof>(island, matrix, p, q);
+    const double curvature = dot<Dof>(std::span<const Vec>(p), std::span<const Vec>(q));
+    if (!(curvature > 0)) return result;
+    const double step = rz / curvature;
+    double rz_next = 0;
+    for (size_t i = 0; i < n; ++i) {
+      x[i] += step * p[i];
+      r[i] -= step * q[i];
+      z[i] = product(matrix.inverse[i], r[i]);
+      rz_next += r[i].dot(z[i]);
+    }
+    const double ratio = rz_next / rz;
+    rz = rz_next;
+    for (size_t i = 0; i < n; ++i) p[i] = z[i] + ratio * p[i];
+  }
+  result.converged = rz <= goal;
+  return result;
+}
+
+namespace {
+
+template <int Dof>
+void sum_blocks(const Island<Dof>& island, IslandMatrix<Dof>& matrix) {
+  using Mat = typename IslandMatrix<Dof>::Mat;
+  BlockLu<Dof>& lu = matrix.lu;
+  const auto diagonal_of = [&](int body) -> Mat& {
+    return lu.diagonal[static_cast<size_t>(lu.pattern.place[static_cast<size_t>(body)])];
+  };
+  for (int i = 0; i < n_bodies(island); ++i) diagonal_of(i) = island.mass[static_cast<size_t>(i)];
+  for (size_t p = 0; p < island.pairs.size(); ++p) {
+    if (!matrix.pair_closed[p]) continue;
+    const BodyPair& pair = island.pairs[p];
+    Mat W = unpacked(matrix.pair[p]);
+    if (matrix.tangent == Tangent::exact) W += matrix.rest[p];
+    diagonal_of(pair.a) += W;
+    if (pair.b < 0) continue;
+    const Mat X = shift_matrix<Dof>(matrix.shift[p]);
+    const Mat WX = W.lazyProduct(X), XtW = X.transpose().lazyProduct(W);
+    diagonal_of(pair.b) += X.transpose().lazyProduct(WX);
+    add_blocks<Dof>(lu, pair.a, pair.b, -WX, -XtW);
+  }
+}
+
+}  // namespace
+
+template <int Dof>
+void solve_direct(const Island<Dof>& island, IslandMatrix<Dof>& matrix,
+                  std::span<const Eigen::Matrix<double, Dof, 1>> b,
+                  std::span<Eigen::Matrix<double, Dof, 1>> x) {
+  matrix.edges.clear();
+  for (const int p : matrix.coupled) {
+    const BodyPair& pair = island.pairs[static_cast<size_t>(p)];
+    matrix.edges.emplace_back(pair.a, pair.b);
+  }
+  analyse_pattern(n_bodies(island), matrix.edges, matrix.lu.pattern);
+  clear_matrix(matrix.lu);
+  sum_blocks(island, matrix);
+  factor(matrix.lu);
+  solve<Dof>(matrix.lu, b, x);
+}
+
+#define TALUS_INSTANTIATE(Dof)                                                                     \
+  template void prepare_matrix<Dof>(const Island<Dof>&, IslandMatrix<Dof>&);                       \
+  template void update_tangents<Dof>(const Island<Dof>&, Tangent, RowGroups&, IslandMatrix<Dof>&); \
+  template void update_diagonals<Dof>(const Island<Dof>&, IslandMatrix<Dof>&);                     \
+  template void multiply<Dof>(const Island<Dof>&, const IslandMatrix<Dof>&,                        \
+                              std::span<const Eigen::Matrix<double, Dof, 1>>,                      \
+                              std::span<Eigen::Matrix<double, Dof, 1>>);                           \
+  template LinearResult solve_conjugate_gradients<Dof>(                                            \
+      const Island<Dof>&, IslandMatrix<Dof>&, std::span<const Eigen::Matrix<double, Dof, 1>>,      \
+      double, int, std::span<Eigen::Matrix<double, Dof, 1>>);                                      \
+  template void solve_direct<Dof>(const Island<Dof>&, IslandMatrix<Dof>&,                          \
+                                  std::span<const Eigen::Matrix<double, Dof, 1>>,                  \
+                                  std::span<Eigen::Matrix<double, Dof, 1>>);
+
+TALUS_INSTANTIATE(6)
+TALUS_INSTANTIATE(12)
+#undef TALUS_INSTANTIATE
+
+}  // namespace talus

@@ -1,0 +1,63 @@
+// libcore/dda/island_solver.hpp
+// Contact impulses of an island: semismooth Newton on the balance of momentum of all its bodies,
+//   M (v - v_free) = sum B_c^T p_c(B_c v),
+// with the contact law of dda/contact_law.hpp. A body that touches only the ground is cheaper with
+// solve_contacts() in dda/newton.hpp.
+// theory 1.7, 3.3-3.5; docs/design-notes.md
+#pragma once
+
+#include "dda/island.hpp"
+#include "dda/island_matrix.hpp"
+
+namespace talus {
+
+struct IslandSettings {
+  double tolerance = 0;  ///< largest residual, as a velocity of a body's points, > 0 [m/s]
+  int max_passes = 100;  ///< evaluations of all contacts
+  double linear_tolerance = 1e-2;   ///< of conjugate gradients, relative to the step's start
+  int max_linear_iterations = 250;  ///< of conjugate gradients in one step
+  int direct_bodies = 8;            ///< islands up to this size are factored
+  int direct_fallback = 1500;       ///< up to this size where conjugate gradients stagnate
+  /// Largest D_n and D_t over the reduced mass of the pair; stiffer rows are lowered to it. Beyond,
+  /// the mass is lost in the rounding of the matrix.
+  double stiffest = 1e8;
+};
+
+struct IslandResult {
+  bool converged = false;     ///< residual <= tolerance, or below the rounding of the impulses
+  double residual = 0;        ///< at the velocities returned, NaN when there are none [m/s]
+  int passes = 0;             ///< evaluations of all contacts
+  int linear_iterations = 0;  ///< of conjugate gradients, summed
+  int factorisations = 0;
+  int n_lowered = 0;  ///< rows stiffer than IslandSettings::stiffest
+};
+
+/// Scratch of solve_island; reused from call to call, it stops allocating.
+template <int Dof>
+struct IslandWork {
+  using Vec = Eigen::Matrix<double, Dof, 1>;
+  IslandMatrix<Dof> matrix;
+  RowGroups rows;
+  std::vector<double> limit;  ///< of D_n and D_t [kg]                                  (n_pairs)
+  std::vector<Vec> residual;  ///< M (v - v_free) - sum B^T p                           (n_bodies)
+  std::vector<Vec> step;      ///< of Newton                                            (n_bodies)
+  std::vector<Vec> from;      ///< velocity before the step                             (n_bodies)
+  std::vector<Vec> best;      ///< velocity with the smallest residual so far           (n_bodies)
+};
+
+/// Solves the island: sets velocity, impulse and state of the rows.
+///
+/// The first step keeps the inherited states, bounds friction by the last step's normal impulses
+/// and lets new contacts stick. Steps follow with the law at the iterate, from the fourth on with a
+/// line search: with the exact derivative where the matrix is factored, with a symmetric one for
+/// conjugate gradients. Where that has not settled after a third of `max_passes`, the island is
+/// solved with softer contacts first and then with ever stiffer ones. At last the velocities are
+/// made those that the impulses give, so that momentum and angular momentum are kept to rounding.
+///
+/// Not finite input, or no convergence: `converged` is false and the velocities are those of the
+/// smallest residual found.
+template <int Dof>
+IslandResult solve_island(Island<Dof>& island, const IslandSettings& settings,
+                          IslandWork<Dof>& work);
+
+}  // namespace talus

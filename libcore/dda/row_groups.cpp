@@ -1,0 +1,330 @@
+#include "dda/row_groups.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dda/newton.hpp"
+
+namespace talus {
+namespace {
+
+using std::size_t;
+
+constexpr int width = 2;
+constexpr double unbounded = 1e150;  // friction bound whose square is finite
+using Mask = decltype(Two{} < Two{});
+constexpr Two zero = {0, 0};
+constexpr Two one = {1, 1};
+constexpr Two open_lanes = zero;
+constexpr Two slip_lanes = one;
+constexpr Two stick_lanes = {2, 2};
+
+[[gnu::always_inline]] inline void dot(const Two (&a)[3], const Two (&b)[3], Two& out) {
+  out = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+[[gnu::always_inline]] inline void cross(const Two (&a)[3], const Two (&b)[3], Two (&out)[3]) {
+  out[0] = a[1] * b[2] - a[2] * b[1];
+  out[1] = a[2] * b[0] - a[0] * b[2];
+  out[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+[[gnu::always_inline]] inline void square_root(const Two& x, Two& out) {
+#if defined(__SSE2__)
+  out = __builtin_ia32_sqrtpd(x);
+#else
+  for (int i = 0; i < width; ++i) out[i] = std::sqrt(x[i]);
+#endif
+}
+
+[[gnu::always_inline]] inline bool any(const Two& x) {  // lanes other than 0
+  const auto hit = x != zero;
+  return (hit[0] | hit[1]) != 0;
+}
+
+[[gnu::always_inline]] inline double sum(const Two& x) { return x[0] + x[1]; }
+
+// The place of a contact that is missing or waits: it has no stiffness and never presses.
+const IslandRow nothing;
+
+[[gnu::always_inline]] inline void set_group(const IslandRow& p, const IslandRow& q, double limit,
+                                             RowGroup& g) {
+#pragma GCC unroll 3
+  for (int k = 0; k < 3; ++k) {
+    g.normal[k] = Two{p.normal[k], q.normal[k]};
+    g.arm[k] = Two{p.arm[k], q.arm[k]};
+    g.shear_velocity[k] = Two{p.shear_velocity[k], q.shear_velocity[k]};
+    g.slip_start[k] = Two{p.slip_start[k], q.slip_start[k]};
+    g.impulse[k] = Two{p.impulse[k], q.impulse[k]};
+  }
+  g.bias = Two{p.bias, q.bias};
+  g.normal_damping = Two{std::min(p.normal_damping, limit), std::min(q.normal_damping, limit)};
+  g.shear_damping = Two{std::min(p.shear_damping, limit), std::min(q.shear_damping, limit)};
+  g.friction = Two{p.friction, q.friction};
+  g.cohesion = Two{p.cohesion_impulse, q.cohesion_impulse};
+  g.tension = Two{p.tension_impulse, q.tension_impulse};
+  g.state = Two{static_cast<double>(p.state), static_cast<double>(q.state)};
+  g.slip_stiffness = g.used_stiffness = g.trial_speed = zero;
+}
+
+// Velocity of the contact points.
+template <int Dof>
+[[gnu::always_inline]] inline void velocity_at(const Two (&r)[3],
+                                               const Eigen::Matrix<double, Dof, 1>& u,
+                                               Two (&w)[3]) {
+  w[0] = u[0] + (u[4] * r[2] - u[5] * r[1]);
+  w[1] = u[1] + (u[5] * r[0] - u[3] * r[2]);
+  w[2] = u[2] + (u[3] * r[1] - u[4] * r[0]);
+  if constexpr (Dof == 12) {
+    w[0] += u[6] * r[0] + 0.5 * (u[10] * r[2] + u[11] * r[1]);
+    w[1] += u[7] * r[1] + 0.5 * (u[9] * r[2] + u[11] * r[0]);
+    w[2] += u[8] * r[2] + 0.5 * (u[9] * r[1] + u[10] * r[0]);
+  }
+}
+
+// T(r)^T p.
+template <int Dof>
+[[gnu::always_inline]] inline void generalised_lanes(const Two (&r)[3], const Two (&p)[3],
+                                                     Two (&q)[Dof]) {
+  for (int k = 0; k < 3; ++k) q[k] = p[k];
+  q[3] = r[1] * p[2] - r[2] * p[1];
+  q[4] = r[2] * p[0] - r[0] * p[2];
+  q[5] = r[0] * p[1] - r[1] * p[0];
+  if constexpr (Dof == 12) {
+    for (int k = 0; k < 3; ++k) q[6 + k] = r[k] * p[k];
+    q[9] = 0.5 * (r[2] * p[1] + r[1] * p[2]);
+    q[10] = 0.5 * (r[2] * p[0] + r[0] * p[2]);
+    q[11] = 0.5 * (r[1] * p[0] + r[0] * p[1]);
+  }
+}
+
+[[gnu::always_inline]] inline void friction_bound(const RowGroup& g, const Two& p_n, Two& cap) {
+  cap = g.friction * (p_n > zero ? p_n : zero) + g.cohesion;
+}
+
+// Which contacts press at normal impulse p_n, and their friction bounds.
+[[gnu::always_inline]] inline void press(const RowGroup& g, const Two& p_n, Evaluation evaluation,
+                                         Mask& closed, Two& cap) {
+  closed = p_n > -g.tension;
+  if (evaluation == Evaluation::coupled) {
+    friction_bound(g, p_n, cap);
+  } else {
+    Two last_p_n;
+    dot(g.normal, g.impulse, last_p_n);
+    friction_bound(g, last_p_n, cap);
+    const auto slips = (g.state == slip_lanes) | ((g.friction + g.cohesion) <= zero);
+    cap = slips ? cap : unbounded + zero;
+    closed = (p_n >= -g.tension) | (g.state != open_lanes);  // what just touches may be pushed
+  }
+}
+
+// Friction on contacts that slip, against trial + share a start: from the end direction where slip
+// just begins (share 0) to the mean of those at the step's start and end. a = start . trial.
+// With t the angle between these two it is at atan(tan(t) / (1 + share)), which turns by
+// (1 + share) / (1 + share (2 + share) cos^2 t) as t grows.
+[[gnu::always_inline]] inline void add_slip(const Mask& slip, const Two (&trial)[3],
+                                            const Two& speed_sq, const Two& cap, RowGroup& g) {
+  Two a, speed, length;
+  dot(g.slip_start, trial, a);
+  a = a > zero ? a : zero;
+  square_root(slip ? speed_sq : one, speed);
+  const Two share = slip ? 1 - cap / (g.shear_damping * speed) : zero;
+  const Two length_sq = speed_sq + share * (2 + share) * a * a;
+  square_root(slip ? length_sq : one, length);
+  const Two per_length = 1 / length, force = slip ? cap * per_length : zero;
+  const Two on_start = force * share * a;
+  for (int k = 0; k < 3; ++k) g.impulse[k] -= force * trial[k] + on_start * g.slip_start[k];
+  g.slip_stiffness = a > zero ? (1 + share) * force * speed * per_length : force;
+  g.trial_speed = speed;
+}
+
+// The contact law at point velocities w: impulses, states and slip stiffness of the group.
+[[gnu::always_inline]] inline void apply_law(const Two (&w)[3], Evaluation evaluation,
+                                             RowGroup& g) {
+  Two v_n, p_n, cap, trial[3], speed_sq;
+  dot(g.normal, w, v_n);
+  p_n = -g.normal_damping * (v_n + g.bias);
+  Mask closed;
+  press(g, p_n, evaluation, closed, cap);
+  for (int k = 0; k < 3; ++k) trial[k] = w[k] - v_n * g.normal[k] + g.shear_velocity[k];
+  dot(trial, trial, speed_sq);
+  const Mask within = (g.shear_damping * g.shear_damping * speed_sq <= cap * cap) & (cap > zero);
+  const Mask stick = closed & within, slip = closed & ~within;
+  const Two on_normal = closed ? p_n : zero, on_trial = stick ? g.shear_damping : zero;
+  for (int k = 0; k < 3; ++k) g.impulse[k] = on_normal * g.normal[k] - on_trial * trial[k];
+  g.state = stick ? stick_lanes : slip ? slip_lanes : open_lanes;
+  g.slip_stiffness = zero;
+  const Mask rubs = slip & (cap > zero);
+  if ((rubs[0] | rubs[1]) != 0) add_slip(rubs, trial, speed_sq, cap, g);
+}
+
+// sum += k q q^T, lower triangle.
+template <int Dof>
+[[gnu::always_inline]] inline void add_outer(const Two& k, const Two (&q)[Dof],
+                                             Two (&out)[Packed<Dof>::size]) {
+#pragma GCC unroll 12
+  for (int i = 0; i < Dof; ++i) {
+    const Two kq = k * q[i];
+#pragma GCC unroll 12
+    for (int j = 0; j <= i; ++j) out[Packed<Dof>::at(i, j)] += kq * q[j];
+  }
+}
+
+// Stick: k (T^T T). Rigid: T^T T = [I, -S; S, |r|^2 I - r r^T] with S = [r]x.
+template <int Dof>
+[[gnu::always_inline]] inline void add_stick(const Two& k, const Two (&r)[3],
+                                             Two (&out)[Packed<Dof>::size]) {
+  if constexpr (Dof == 6) {
+    using P = Packed<6>;
+    const Two x = k * r[0], y = k * r[1], z = k * r[2];
+    const Two xx = x * r[0], yy = y * r[1], zz = z * r[2];
+    for (int i = 0; i < 3; ++i) out[P::at(i, i)] += k;
+    out[P::at(3, 1)] -= z, out[P::at(3, 2)] += y;
+    out[P::at(4, 0)] += z, out[P::at(4, 2)] -= x;
+    out[P::at(5, 0)] -= y, out[P::at(5, 1)] += x;
+    out[P::at(3, 3)] += yy + zz, out[P::at(4, 4)] += xx + zz, out[P::at(5, 5)] += xx + yy;
+    out[P::at(4, 3)] -= x * r[1], out[P::at(5, 3)] -= x * r[2], out[P::at(5, 4)] -= y * r[2];
+  } else {
+    for (int axis = 0; axis < 3; ++axis) {
+      Two unit[3] = {zero, zero, zero}, q[Dof];
+      unit[axis] = one;
+      generalised_lanes<Dof>(r, unit, q);
+      add_outer<Dof>(k, q, out);
+    }
+  }
+}
+
+Vec3 lane_of(const Two (&v)[3], int lane) { return {v[0][lane], v[1][lane], v[2][lane]}; }
+
+// A slipping contact's exact tangent besides k_n n n^T. Its direction e turns with the end
+// direction and with the share of the start direction (see add_slip), which grows with the trial
+// speed and falls with the friction bound; the bound itself changes by -tan(phi) k_n n^T.
+template <int Dof>
+void add_exact_slip(const RowGroup& g, int lane, Eigen::Matrix<double, Dof, Dof>& rest) {
+  const Vec3 n = lane_of(g.normal, lane), arm = lane_of(g.arm, lane);
+  const Vec3 impulse = lane_of(g.impulse, lane), start = lane_of(g.slip_start, lane);
+  const double p_n = n.dot(impulse), speed = g.trial_speed[lane];
+  const Vec3 friction = p_n * n - impulse;
+  const double cap = friction.norm();
+  const Vec3 e = friction / cap, across = n.cross(e);
+  const double cosine = e.dot(start), threshold = cap / (g.shear_damping[lane] * speed);
+  const double share = 1 - threshold;
+  Vec3 by_trial = g.slip_stiffness[lane] * across, bound = e;
+  if (cosine > 0) {
+    const Vec3 end = ((1 + share) * e - share * cosine * start).normalized();
+    const double c = end.dot(start), turn = -c * n.cross(start).dot(end) /
+                                            (1 + share * (2 + share) * c * c);  // d angle / d share
+    by_trial = g.slip_stiffness[lane] * n.cross(end) + cap / speed * turn * threshold * end;
+    bound -= turn * threshold * across;
+  }
+  const auto q_n = generalised<Dof>(arm, n);
+  rest += generalised<Dof>(arm, across) * generalised<Dof>(arm, by_trial).transpose();
+  if (p_n > 0)
+    rest -=
+        g.friction[lane] * g.normal_damping[lane] * generalised<Dof>(arm, bound) * q_n.transpose();
+}
+
+// The stiffness across the slip, s a a^T with a = n x t / |t|, t the tangential impulse.
+template <int Dof>
+[[gnu::always_inline]] inline void add_across(const RowGroup& g, Two (&out)[Packed<Dof>::size]) {
+  Two across[3], q[Dof], length_sq;
+  cross(g.normal, g.impulse, across);
+  dot(across, across, length_sq);
+  const Two k = g.slip_stiffness / (length_sq > zero ? length_sq : one);
+  generalised_lanes<Dof>(g.arm, across, q);
+  add_outer<Dof>(k, q, out);
+}
+
+}  // namespace
+
+int pack_rows(std::span<const BodyPair> pairs, std::span<const IslandRow> rows,
+              std::span<const double> limit, RowGroups& out) {
+  int n_lowered = 0;
+  out.begin.assign(1, 0);
+  for (const BodyPair& pair : pairs)
+    out.begin.push_back(out.begin.back() + (pair.row_end - pair.row_begin + width - 1) / width);
+  out.groups.resize(static_cast<size_t>(out.begin.back()));
+  size_t group = 0;
+  for (size_t p = 0; p < pairs.size(); ++p) {
+    const auto row_or_nothing = [&](int r) -> const IslandRow& {
+      if (r >= pairs[p].row_end) return nothing;
+      const IslandRow& row = rows[static_cast<size_t>(r)];
+      if (row.waits_for_impact) return nothing;
+      n_lowered += std::max(row.normal_damping, row.shear_damping) > limit[p];
+      return row;
+    };
+    for (int r = pairs[p].row_begin; r < pairs[p].row_end; r += width)
+      set_group(row_or_nothing(r), row_or_nothing(r + 1), limit[p], out.groups[group++]);
+  }
+  return n_lowered;
+}
+
+void unpack_rows(std::span<const BodyPair> pairs, const RowGroups& groups,
+                 std::span<IslandRow> rows) {
+  for (size_t p = 0; p < pairs.size(); ++p)
+    for (int r = pairs[p].row_begin; r < pairs[p].row_end; ++r) {
+      const int place = r - pairs[p].row_begin, lane = place % width;
+      const RowGroup& group = groups.groups[static_cast<size_t>(groups.begin[p] + place / width)];
+      IslandRow& row = rows[static_cast<size_t>(r)];
+      row.impulse = lane_of(group.impulse, lane);
+      row.state = static_cast<ContactState>(static_cast<int>(group.state[lane]));
+    }
+}
+
+template <int Dof>
+[[gnu::flatten]] bool evaluate_pair(std::span<RowGroup> groups,
+                                    const Eigen::Matrix<double, Dof, 1>& u, Evaluation evaluation,
+                                    double slack, Eigen::Matrix<double, Dof, 1>& f) {
+  Two total[Dof];
+  for (Two& t : total) t = zero;
+  bool changed = false;
+  for (RowGroup& g : groups) {
+    Two w[3], q[Dof];
+    velocity_at<Dof>(g.arm, u, w);
+    const Two state_before = g.state;
+    apply_law(w, evaluation, g);
+    generalised_lanes<Dof>(g.arm, g.impulse, q);
+    for (int k = 0; k < Dof; ++k) total[k] += q[k];
+    const Two difference = g.slip_stiffness - g.used_stiffness;
+    const Two off = difference > zero ? difference : -difference;
+    const Two moved = off > slack * g.used_stiffness ? one : zero;
+    changed |= any((g.state != state_before ? one : zero) + moved);
+  }
+  for (int k = 0; k < Dof; ++k) f[k] = sum(total[k]);
+  return changed;
+}
+
+template <int Dof>
+[[gnu::flatten]] bool sum_tangents(std::span<RowGroup> groups, Packed<Dof>& W,
+                                   Eigen::Matrix<double, Dof, Dof>* rest) {
+  Two total[Packed<Dof>::size];
+  for (Two& t : total) t = zero;
+  bool closed = false;
+  for (RowGroup& g : groups) {
+    g.used_stiffness = g.slip_stiffness;
+    if (!any(g.state)) continue;
+    closed = true;
+    const Two k_t = g.state == stick_lanes ? g.shear_damping : zero;
+    const Two k_n = (g.state != open_lanes ? g.normal_damping : zero) - k_t;
+    Two q[Dof];
+    if (any(k_t)) add_stick<Dof>(k_t, g.arm, total);
+    if (any(k_n)) {
+      generalised_lanes<Dof>(g.arm, g.normal, q);
+      add_outer<Dof>(k_n, q, total);
+    }
+    if (!rest && any(g.slip_stiffness)) add_across<Dof>(g, total);
+    for (int lane = 0; rest && lane < width; ++lane)
+      if (g.slip_stiffness[lane] > 0) add_exact_slip<Dof>(g, lane, *rest);
+  }
+  for (int k = 0; k < Packed<Dof>::size; ++k) W.value[static_cast<size_t>(k)] = sum(total[k]);
+  return closed;
+}
+
+template bool evaluate_pair<6>(std::span<RowGroup>, const Eigen::Matrix<double, 6, 1>&, Evaluation,
+                               double, Eigen::Matrix<double, 6, 1>&);
+template bool evaluate_pair<12>(std::span<RowGroup>, const Eigen::Matrix<double, 12, 1>&,
+                                Evaluation, double, Eigen::Matrix<double, 12, 1>&);
+template bool sum_tangents<6>(std::span<RowGroup>, Packed<6>&, Eigen::Matrix<double, 6, 6>*);
+template bool sum_tangents<12>(std::span<RowGroup>, Packed<12>&, Eigen::Matrix<double, 12, 12>*);
+
+}  // namespace talus

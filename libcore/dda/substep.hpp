@@ -1,0 +1,72 @@
+// libcore/dda/substep.hpp
+// What a substep of law talus starts from, for a lone block and for an island: numbers of a block,
+// its free motion, and the rows of its contacts with the ground.
+// theory 1.7, 1.8 (law of a contact over a step), 1.10 (correction about the free motion)
+#pragma once
+
+#include "dda/newton.hpp"
+#include "dda/report.hpp"
+#include "dda/scene.hpp"
+#include "dda/state.hpp"
+#include "dda/substep_numbers.hpp"
+#include "dda/work.hpp"
+
+namespace talus {
+
+/// k_n dt^2 / m of the stiffest contact of a lone block, m being the mass that the contact feels.
+inline constexpr double stiffest_lone = 400;
+inline constexpr int most_events = 40;  ///< impacts in a step before bouncing is given up
+inline constexpr int most_tries = 24;   ///< substeps repeated to find an event or to converge
+
+/// `stiffness_ratio` is k_n dt^2 / m of the stiffest contact.
+[[nodiscard]] BlockNumbers numbers_of(const Scene& scene, int b,
+                                      double stiffness_ratio = stiffest_lone);
+
+/// Gap up to which a contact may come to press within a substep of `h` though the free motion keeps
+/// it open [m].
+[[nodiscard]] double search_margin(const BlockNumbers& c, double h);
+
+[[nodiscard]] Substep predict(const Scene& scene, int b, const BlockNumbers& c, const Motion& start,
+                              double t, double h);
+
+/// I + strain of block b.
+[[nodiscard]] Mat3 stretch_of(const State& state, int b);
+
+/// What a row inherits from memory `index`: the shear spring turned into the new tangent plane, and
+/// the overlap that presses nothing. Where what lies below changes plane the gap jumps; the jump
+/// does no work. `to_row` turns local into the row's axes.
+void inherit(const ContactMemory& memory, int index, const Mat3& to_row, double touch,
+             ContactRow& row);
+
+/// Stiffness, bias and whether the row waits for its impact. `approach`: normal velocity without
+/// contact forces, < 0 closing [m/s].
+void set_law(const Scene& scene, const BlockNumbers& c, double h, const Mobility& W,
+             double approach, ContactRow& row);
+/// The same for a contact with the ground.
+void set_ground_law(const Scene& scene, const BlockNumbers& c, const Substep& s, ContactRow& row);
+
+/// Rows of `work.contacts`, contacts of block b with the ground, in the body axes of s.R.
+void make_rows(const Scene& scene, int b, const BlockNumbers& c, const Substep& s,
+               const State& state, Work& work);
+
+/// Residual at which the contact forces of a lone block count as found [m/s].
+[[nodiscard]] double newton_tolerance(const BlockNumbers& c, const Substep& s);
+
+void add_segment(int b, bool flight, double t, double h, const Motion& start, const Motion& end,
+                 Work& work);
+
+[[nodiscard]] bool left_ground(const Scene& scene, const Vec3& x);
+
+/// Stops block b where it left the known terrain, and counts it.
+void stop_outside(const Scene& scene, int b, State& state, StepReport& report);
+
+[[nodiscard]] bool is_finite(const Motion& m);
+
+/// Stops block b, whose numbers failed, at its last good state, and flags it.
+void stop_at(const Motion& last_good, std::size_t b, State& state, StepReport& report);
+
+/// Keeps the accelerations of the substep, the first guess of the next.
+void set_rates(const Scene& scene, int b, const Motion& start, const Motion& end, double h,
+               State& state);
+
+}  // namespace talus

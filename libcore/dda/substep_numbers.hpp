@@ -1,0 +1,29 @@
+// libcore/dda/substep_numbers.hpp
+// Constants of a block and its free motion over a substep, as dda/substep.hpp computes them.
+#pragma once
+
+#include "dda/state.hpp"
+
+namespace talus {
+
+/// Constants of one block in one run.
+struct BlockNumbers {
+  double mass = 0, radius = 0, thickness = 0;
+  double stiffness = 0;      ///< k_n of a contact that feels the whole mass [N/m]
+  double recovery_time = 0;  ///< overlap is pressed out over this time [s]
+  double touch = 0;          ///< a contact is touching when its gap is below this [m]
+  double resting_speed = 0;  ///< below this approach there is no impact [m/s]
+  double gravity = 0;        ///< [m/s2]
+  Vec3 inertia = Vec3::Zero();
+};
+
+/// A substep of `h`: where the block would be without contact.
+struct Substep {
+  double h = 0;
+  Vec3 free_acceleration = Vec3::Zero();
+  Motion start, free;             ///< free: at the end of the substep without contact
+  Mat3 R = Mat3::Identity();      ///< free attitude, body to local axes
+  Vec3 spin_free = Vec3::Zero();  ///< body axes [rad/s]
+};
+
+}  // namespace talus

@@ -1,0 +1,149 @@
+// Coupled solve of islands: time of a solve, of its parts, and how they grow. CPU time; `rows`,
+// passes and conjugate-gradient iterations per solve stand in the counters. Steps follow each other
+// as in a run: velocities and states of the last solve start the next, the free motion changes by
+// the argument `noise` (in per mille) of itself.
+#include <benchmark/benchmark.h>
+
+#include "../unit/dda/island_scenes.hpp"
+#include "dda/island_solver.hpp"
+
+namespace {
+
+using talus::Island;
+using talus::IslandResult;
+using talus::IslandSettings;
+using talus::IslandWork;
+using talus::scenes::LawOfScene;
+
+constexpr double loose = 1e-2;  // tolerance of the slide, relative to g h
+
+void solve_steps(benchmark::State& state, const Island<6>& start, const LawOfScene& law,
+                 double noise) {
+  Island<6> island = start;
+  IslandWork<6> work;
+  IslandSettings settings;
+  settings.tolerance = loose * law.gravity * law.step;
+  talus::Random random(1, "noise");
+  long passes = 0, iterations = 0, unconverged = 0, steps = 0;
+  (void)solve_island(island, settings, work);
+  for (auto _ : state) {
+    state.PauseTiming();
+    for (std::size_t i = 0; i < island.free_velocity.size(); ++i)
+      island.free_velocity[i] = start.free_velocity[i] * (1 + noise * random.uniform(-1, 1));
+    state.ResumeTiming();
+    const IslandResult result = solve_island(island, settings, work);
+    passes += result.passes;
+    iterations += result.linear_iterations;
+    unconverged += !result.converged;
+    ++steps;
+  }
+  const auto per_step = [&](long n) { return static_cast<double>(n) / static_cast<double>(steps); };
+  state.counters["blocks"] = talus::n_bodies(island);
+  state.counters["rows"] = static_cast<double>(island.rows.size());
+  state.counters["passes"] = per_step(passes);
+  state.counters["cg"] = per_step(iterations);
+  state.counters["unconverged"] = per_step(unconverged);
+}
+
+double noise_of(const benchmark::State& state) {
+  return 1e-3 * static_cast<double>(state.range(0));
+}
+
+void solve_stack_50(benchmark::State& state) {
+  const LawOfScene law;
+  solve_steps(state, talus::scenes::stack<6>(50, law), law, noise_of(state));
+}
+
+void solve_wall_400(benchmark::State& state) {
+  const LawOfScene law;
+  solve_steps(state, talus::scenes::wall<6>(20, 20, law), law, noise_of(state));
+}
+
+void solve_pile(benchmark::State& state, int n_x, int n_y, int n_z) {
+  const LawOfScene law;
+  talus::Random random(1, "pile");
+  solve_steps(state, talus::scenes::pile<6>({n_x, n_y, n_z}, law, random), law, noise_of(state));
+}
+
+BENCHMARK(solve_stack_50)->Arg(3)->Arg(300)->Unit(benchmark::kMicrosecond);
+BENCHMARK(solve_wall_400)->Arg(3)->Arg(300)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(solve_pile, 8, 2, 2, 2)->Arg(3)->Arg(300)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(solve_pile, 39, 13, 3, 1)->Arg(3)->Arg(300)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(solve_pile, 390, 13, 10, 3)->Arg(3)->Arg(300)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(solve_pile, 3900, 26, 25, 6)->Arg(3)->Arg(300)->Unit(benchmark::kMicrosecond);
+
+/// A solved pile of 390 blocks and its scratch, for the parts.
+struct Parts {
+  Island<6> island;
+  IslandWork<6> work;
+};
+
+Parts solved_pile() {
+  const LawOfScene law;
+  talus::Random random(1, "pile");
+  Parts parts{talus::scenes::pile<6>({13, 10, 3}, law, random), {}};
+  IslandSettings settings;
+  settings.tolerance = loose * law.gravity * law.step;
+  (void)solve_island(parts.island, settings, parts.work);
+  return parts;
+}
+
+void count_per(benchmark::State& state, const char* name, std::size_t n) {
+  state.counters[name] =
+      benchmark::Counter(static_cast<double>(n), benchmark::Counter::kIsIterationInvariantRate |
+                                                     benchmark::Counter::kInvert);
+}
+
+void evaluate_rows(benchmark::State& state) {
+  Parts parts = solved_pile();
+  Eigen::Matrix<double, 6, 1> f;
+  for (auto _ : state)
+    for (std::size_t p = 0; p < parts.island.pairs.size(); ++p) {
+      const auto a = static_cast<std::size_t>(parts.island.pairs[p].a);
+      benchmark::DoNotOptimize(talus::evaluate_pair<6>(groups_of(parts.work.rows, p),
+                                                       parts.island.velocity[a],
+                                                       talus::Evaluation::coupled, 0.1, f));
+    }
+  count_per(state, "per_row", parts.island.rows.size());
+}
+
+void assemble_rows(benchmark::State& state) {
+  Parts parts = solved_pile();
+  talus::Packed<6> W;
+  for (auto _ : state)
+    for (std::size_t p = 0; p < parts.island.pairs.size(); ++p)
+      benchmark::DoNotOptimize(talus::sum_tangents<6>(groups_of(parts.work.rows, p), W, nullptr));
+  count_per(state, "per_row", parts.island.rows.size());
+}
+
+void update_diagonals_of_all(benchmark::State& state) {
+  Parts parts = solved_pile();
+  for (auto _ : state) {
+    parts.work.matrix.body_changed.assign(parts.island.mass.size(), 1);
+    update_diagonals(parts.island, parts.work.matrix);
+  }
+  count_per(state, "per_body", parts.island.mass.size());
+}
+
+void multiply_matrix(benchmark::State& state) {
+  Parts parts = solved_pile();
+  auto& matrix = parts.work.matrix;
+  for (auto _ : state) talus::multiply<6>(parts.island, matrix, parts.work.step, matrix.product);
+  count_per(state, "per_pair", matrix.coupled.size());
+}
+
+void invert_6x6(benchmark::State& state) {
+  Parts parts = solved_pile();
+  for (auto _ : state)
+    for (const auto& block : parts.work.matrix.diagonal)
+      benchmark::DoNotOptimize(talus::inverse(block));
+  count_per(state, "per_body", parts.work.matrix.diagonal.size());
+}
+
+BENCHMARK(evaluate_rows);
+BENCHMARK(assemble_rows);
+BENCHMARK(update_diagonals_of_all);
+BENCHMARK(multiply_matrix);
+BENCHMARK(invert_6x6);
+
+}  // namespace

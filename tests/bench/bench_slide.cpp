@@ -1,0 +1,124 @@
+// The peers' slide (scene F): 39 blocks on 2,240 triangles, friction 25 degrees, COR 0.7, 20 s.
+// TALUS_PEERS_DIR=... bench_slide; counters: mean position s (down the slope) and x, the largest
+// penetration, steps accepted unconverged, and the error of the energy balance over the fall.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <numbers>
+#include <sstream>
+#include <string>
+
+#include "base/random.hpp"
+#include "dda/cases.hpp"
+#include "dda/step.hpp"
+
+namespace {
+
+using namespace talus;
+
+Trn read_grid(const std::string& path) {
+  std::ifstream in(path);
+  std::string key;
+  Trn trn;
+  double x0 = 0, y0 = 0, unknown = 0;
+  in >> key >> trn.n_cols >> key >> trn.n_rows >> key >> x0 >> key >> y0 >> key >> trn.cell_size >>
+      key >> unknown;
+  trn.node0 = Vec2(x0, y0 + (trn.n_rows - 1) * trn.cell_size);
+  trn.elevation.resize(static_cast<std::size_t>(trn.n_cols * trn.n_rows));
+  for (double& z : trn.elevation) in >> z;
+  return trn;
+}
+
+std::vector<Body> read_blocks(const std::string& path) {
+  std::ifstream in(path);
+  std::vector<Body> bodies;
+  std::vector<Vec3> vertices;
+  std::vector<std::vector<int>> faces;
+  int first = 1;
+  const auto flush = [&] {
+    if (faces.empty()) return;
+    first += static_cast<int>(vertices.size());
+    Body body;
+    body.parts = {cases::polyhedron(std::move(vertices), faces)};
+    bodies.push_back(std::move(body));
+    vertices.clear();
+    faces.clear();
+  };
+  for (std::string line; std::getline(in, line);) {
+    std::istringstream words(line);
+    std::string word;
+    words >> word;
+    if (word == "o") flush();
+    if (word == "v") {
+      Vec3 v;
+      words >> v.x() >> v.y() >> v.z();
+      vertices.push_back(v);
+    }
+    if (word != "f") continue;
+    faces.emplace_back();
+    while (words >> word) faces.back().push_back(std::atoi(word.c_str()) - first);
+  }
+  flush();
+  return bodies;
+}
+
+Vec3 mean_position(const Scene& scene, const State& state) {
+  Vec3 sum = Vec3::Zero();
+  double mass = 0;
+  for (int b = 0; b < n_blocks(scene); ++b) {
+    const double m = scene.blocks.mass[static_cast<std::size_t>(b)];
+    sum += m * motion_at(scene, state, b, state.time).pose.position;
+    mass += m;
+  }
+  return sum / mass;
+}
+
+double mechanical_energy(const Scene& scene, const State& state) {
+  const Energies e = energies(scene, state);
+  return e.translation + e.rotation + e.potential;
+}
+
+// Arguments: time step [1e-4 s], seed of a start velocity of 1 mm/s (0: at rest).
+void Slide39(benchmark::State& run) {
+  const char* peers = std::getenv("TALUS_PEERS_DIR");
+  if (peers == nullptr) return run.SkipWithError("TALUS_PEERS_DIR is not set");
+  const std::string folder = peers;
+  std::vector<Body> bodies = read_blocks(folder + "/blocks_39.obj");
+  Random random(static_cast<std::uint64_t>(run.range(1)));
+  for (Body& body : bodies)
+    if (run.range(1) != 0)
+      body.velocity =
+          1e-3 * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+  GroundClass ground;
+  ground.friction = std::tan(25 * std::numbers::pi / 180);
+  ground.restitution = 0.7;
+  Settings settings;
+  settings.dt = 1e-4 * static_cast<double>(run.range(0));
+  const Scene scene = cases::scene_of(read_grid(folder + "/terrain_F.asc"), ground, bodies,
+                                      settings, {2500, 5e10, 0.25});
+  for (auto _ : run) {
+    State state = start(scene);
+    Work work = make_work(scene);
+    const double before = mechanical_energy(scene, state);
+    double deepest = 0;
+    while (state.time < 20 - settings.dt / 2)
+      deepest = std::max(deepest, step(scene, state, work).largest_penetration);
+    const Vec3 end = mean_position(scene, state);
+    const double lost = before - mechanical_energy(scene, state);
+    const EnergyLedger& l = state.ledger;
+    run.counters["s"] = 320 - end.y();
+    run.counters["x"] = end.x();
+    run.counters["deepest_m"] = deepest;
+    run.counters["unconverged"] = static_cast<double>(state.counters.unconverged);
+    run.counters["balance"] = (lost - l.friction - l.impact - l.contact - l.removed) / lost;
+  }
+}
+BENCHMARK(Slide39)
+    ->ArgsProduct({{20, 50, 100}, {0, 1, 2}})
+    ->Unit(benchmark::kSecond)
+    ->Iterations(1);
+
+}  // namespace

@@ -1,0 +1,391 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cstdlib>
+#include <limits>
+
+#include "dda/contact_law.hpp"
+#include "dda/island_solver.hpp"
+#include "unit/dda/island_scenes.hpp"
+
+namespace {
+
+using talus::BodyPair;
+using talus::ContactRow;
+using talus::ContactState;
+using talus::Island;
+using talus::IslandResult;
+using talus::IslandRow;
+using talus::IslandSettings;
+using talus::IslandWork;
+using talus::Mat3;
+using talus::Vec3;
+using talus::scenes::LawOfScene;
+
+ContactRow as_contact_row(const IslandRow& row) {
+  ContactRow out;
+  out.normal = row.normal;
+  out.point = row.arm;
+  out.shear_velocity = row.shear_velocity;
+  out.slip_start = row.slip_start;
+  out.bias = row.bias;
+  out.normal_damping = row.normal_damping;
+  out.shear_damping = row.shear_damping;
+  out.friction = row.friction;
+  out.cohesion_impulse = row.cohesion_impulse;
+  out.tension_impulse = row.tension_impulse;
+  return out;
+}
+
+/// The same island as one dense system: row c of the map is w_c = B_c v (theory 1.6).
+template <int Dof>
+struct Dense {
+  Eigen::MatrixXd mass, map;
+  Eigen::VectorXd free;
+
+  explicit Dense(const Island<Dof>& island) {
+    const int n = talus::n_bodies(island), m = static_cast<int>(island.rows.size());
+    mass = Eigen::MatrixXd::Zero(n * Dof, n * Dof);
+    map = Eigen::MatrixXd::Zero(3 * m, n * Dof);
+    free.resize(n * Dof);
+    for (int i = 0; i < n; ++i) {
+      mass.block<Dof, Dof>(i * Dof, i * Dof) = island.mass[static_cast<std::size_t>(i)];
+      free.segment<Dof>(i * Dof) = island.free_velocity[static_cast<std::size_t>(i)];
+    }
+    for (const BodyPair& pair : island.pairs)
+      for (int r = pair.row_begin; r < pair.row_end; ++r) {
+        const Vec3& arm = island.rows[static_cast<std::size_t>(r)].arm;
+        map.block<3, Dof>(3 * r, pair.a * Dof) =
+            talus::displacement_matrix(arm).template leftCols<Dof>();
+        if (pair.b < 0) continue;
+        const Vec3 arm_b = arm + island.position[static_cast<std::size_t>(pair.a)] -
+                           island.position[static_cast<std::size_t>(pair.b)];
+        map.block<3, Dof>(3 * r, pair.b * Dof) =
+            -talus::displacement_matrix(arm_b).template leftCols<Dof>();
+      }
+  }
+};
+
+template <int Dof>
+Eigen::VectorXd stacked(const std::vector<Eigen::Matrix<double, Dof, 1>>& v) {
+  Eigen::VectorXd out(static_cast<Eigen::Index>(v.size()) * Dof);
+  for (std::size_t i = 0; i < v.size(); ++i)
+    out.segment<Dof>(static_cast<Eigen::Index>(i) * Dof) = v[i];
+  return out;
+}
+
+/// p = law(w + W p) of one contact: Newton, and where that cycles a relaxed iteration.
+Vec3 local_impulse(ContactRow row, const Vec3& w, const Mat3& W, Vec3 p) {
+  for (int k = 0; k < 300; ++k) {
+    talus::evaluate(w + W * p, -1, row);
+    const Vec3 error = p - row.impulse;
+    if (error.norm() <= 1e-14 * (1 + p.norm())) break;
+    Mat3 J = Mat3::Identity();
+    if (row.state != ContactState::open) J += talus::tangent(row, true) * W;
+    p -= k < 20 ? Vec3(J.partialPivLu().solve(error)) : Vec3(0.2 * error);
+  }
+  return p;
+}
+
+/// Gauss-Seidel over the contacts, each solved by itself with the law of one block: slow, and
+/// shares nothing with the island solver but the law.
+template <int Dof>
+Eigen::VectorXd gauss_seidel(const Island<Dof>& island, int sweeps) {
+  const Dense<Dof> dense(island);
+  const Eigen::MatrixXd response = dense.mass.ldlt().solve(dense.map.transpose());
+  Eigen::VectorXd v = dense.free;
+  std::vector<Vec3> impulse(island.rows.size(), Vec3::Zero());
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    double change = 0;
+    for (std::size_t c = 0; c < island.rows.size(); ++c) {
+      const auto at = 3 * static_cast<Eigen::Index>(c);
+      const Mat3 own = dense.map.middleRows(at, 3) * response.middleCols(at, 3);
+      const Vec3 others = dense.map.middleRows(at, 3) * v - own * impulse[c];
+      const Vec3 p = local_impulse(as_contact_row(island.rows[c]), others, own, impulse[c]);
+      v += response.middleCols(at, 3) * (p - impulse[c]);
+      change = std::max(change, (p - impulse[c]).norm());
+      impulse[c] = p;
+    }
+    if (change < 1e-13) break;
+  }
+  return v;
+}
+
+/// Largest violation of the balance of momentum and of the law, with both written out densely.
+template <int Dof>
+double dense_error(const Island<Dof>& island) {
+  const Dense<Dof> dense(island);
+  const Eigen::VectorXd v = stacked<Dof>(island.velocity), w = dense.map * v;
+  Eigen::VectorXd p(w.size());
+  double error = 0;
+  for (std::size_t c = 0; c < island.rows.size(); ++c) {
+    const auto at = 3 * static_cast<Eigen::Index>(c);
+    ContactRow row = as_contact_row(island.rows[c]);
+    p.segment(at, 3) = island.rows[c].impulse;
+    talus::evaluate(w.segment(at, 3), -1, row);
+    error = std::max(error, (row.impulse - island.rows[c].impulse).norm() / row.normal_damping);
+  }
+  const Eigen::VectorXd balance =
+      v - dense.free - dense.mass.ldlt().solve(dense.map.transpose() * p);
+  return std::max(error, balance.cwiseAbs().maxCoeff());
+}
+
+LawOfScene soft_law(talus::Random& random) {
+  LawOfScene law;
+  law.stiffness_ratio = std::pow(10, random.uniform(-1, 0));
+  law.friction = random.uniform(0, 0.6);
+  return law;
+}
+
+template <int Dof>
+Island<Dof> random_pile(talus::Random& random, const LawOfScene& law) {
+  const auto size = [&](std::uint64_t most) { return 1 + static_cast<int>(random.below(most)); };
+  Island<Dof> island = talus::scenes::pile<Dof>({size(3), size(2), size(2)}, law, random);
+  for (IslandRow& row : island.rows) {
+    if (random.uniform() < 0.2) row.cohesion_impulse = row.tension_impulse = 1e9;  // a bond
+  }
+  return island;
+}
+
+template <int Dof>
+void expect_gauss_seidel(std::uint64_t seed, int rounds, int direct_bodies) {
+  talus::Random random(seed, "solver");
+  IslandWork<Dof> work;
+  IslandSettings settings;
+  settings.direct_bodies = direct_bodies;
+  for (int round = 0; round < rounds; ++round) {
+    const LawOfScene law = soft_law(random);
+    settings.tolerance = 1e-12 * law.gravity * law.step;
+    Island<Dof> island = random_pile<Dof>(random, law);
+    const Eigen::VectorXd expected = gauss_seidel(island, 1000);
+    const IslandResult result = solve_island(island, settings, work);
+    ASSERT_TRUE(result.converged) << result.residual;
+    EXPECT_LT(dense_error(island), 1e-11 * law.gravity * law.step);
+    EXPECT_LT((stacked<Dof>(island.velocity) - expected).cwiseAbs().maxCoeff(),
+              1e-9 * law.gravity * law.step);
+  }
+}
+
+TEST(SolveIsland, AgreesWithGaussSeidelWhenFactored) { expect_gauss_seidel<6>(21, 20, 30); }
+
+TEST(SolveIsland, AgreesWithGaussSeidelByConjugateGradients) { expect_gauss_seidel<6>(22, 20, 0); }
+
+TEST(SolveIsland, AgreesWithGaussSeidelForDeformableBlocks) {
+  expect_gauss_seidel<12>(23, 6, 30);
+  expect_gauss_seidel<12>(24, 6, 0);
+}
+
+// p_n >= 0 and |p_t| <= tan(phi) p_n, p_n v_n + ... complementary up to the contact's compliance.
+TEST(SolveIsland, KeepsImpulsesInTheirCones) {
+  talus::Random random(31, "cone");
+  IslandWork<6> work;
+  for (int round = 0; round < 50; ++round) {
+    const LawOfScene law = soft_law(random);
+    Island<6> island = talus::scenes::pile<6>({3, 3, 2}, law, random);
+    IslandSettings settings;
+    settings.tolerance = 1e-10 * law.gravity * law.step;
+    ASSERT_TRUE(solve_island(island, settings, work).converged);
+    const Dense<6> dense(island);
+    const Eigen::VectorXd w = dense.map * stacked<6>(island.velocity);
+    for (std::size_t c = 0; c < island.rows.size(); ++c) {
+      const IslandRow& row = island.rows[c];
+      const double p_n = row.normal.dot(row.impulse);
+      const double v_n = row.normal.dot(w.segment<3>(3 * static_cast<Eigen::Index>(c)));
+      const double p_t = (row.impulse - p_n * row.normal).norm();
+      EXPECT_GE(p_n, 0);
+      EXPECT_LE(p_t, row.friction * p_n * (1 + 1e-12) + 1e-12);
+      EXPECT_NEAR(p_n, std::max(0.0, -row.normal_damping * (v_n + row.bias)),
+                  1e-8 * row.normal_damping * law.gravity * law.step);
+    }
+  }
+}
+
+// Linear and angular momentum of blocks that touch only each other, at the slide's loose tolerance.
+TEST(SolveIsland, ConservesMomentumOfAClosedSystemToRounding) {
+  talus::Random random(41, "momentum");
+  IslandWork<6> work;
+  for (int round = 0; round < 50; ++round) {
+    const LawOfScene law = soft_law(random);
+    Island<6> island = talus::scenes::pile<6>({4, 3, 2}, law, random);
+    std::erase_if(island.pairs, [](const BodyPair& pair) { return pair.b < 0; });
+    IslandSettings settings;
+    settings.tolerance = 1e-2 * law.gravity * law.step;
+    ASSERT_TRUE(solve_island(island, settings, work).converged);
+    Vec3 P = Vec3::Zero(), L = Vec3::Zero();
+    double scale = 0;
+    for (std::size_t i = 0; i < island.mass.size(); ++i) {
+      const Eigen::Matrix<double, 6, 1> change =
+          island.mass[i] * (island.velocity[i] - island.free_velocity[i]);
+      P += change.head<3>();
+      L += change.tail<3>() + island.position[i].cross(change.head<3>());
+      scale += change.norm();
+    }
+    EXPECT_GT(scale, 1);
+    EXPECT_LT(P.norm(), 1e-13 * scale);
+    EXPECT_LT(L.norm(), 1e-12 * scale);
+  }
+}
+
+IslandResult solve_at_rest(Island<6>& island, const LawOfScene& law, double tolerance) {
+  IslandWork<6> work;
+  IslandSettings settings;
+  settings.tolerance = tolerance * law.gravity * law.step;
+  return solve_island(island, settings, work);
+}
+
+double pressed_on_ground(const Island<6>& island) {
+  double sum = 0;
+  for (const BodyPair& pair : island.pairs)
+    for (int r = pair.row_begin; r < pair.row_end && pair.b < 0; ++r)
+      sum += island.rows[static_cast<std::size_t>(r)].impulse.z();
+  return sum;
+}
+
+// The impulses of a stack at rest are the weights above: closed form.
+TEST(SolveIsland, StackOf50CarriesTheWeightsAbove) {
+  for (const double ratio : {1.0, 100.0, 1e4, 1e6}) {
+    LawOfScene law;
+    law.stiffness_ratio = ratio;
+    Island<6> island = talus::scenes::stack<6>(50, law);
+    const double weight = 2500 * law.gravity * law.step;
+    for (const BodyPair& pair : island.pairs)  // overlaps of the static state
+      for (int r = pair.row_begin; r < pair.row_end; ++r) {
+        IslandRow& row = island.rows[static_cast<std::size_t>(r)];
+        row.bias = -weight * (50 - pair.a) / 4 / row.normal_damping;
+      }
+    const IslandResult result = solve_at_rest(island, law, 1e-9);
+    EXPECT_TRUE(result.converged) << ratio << ' ' << result.residual;
+    for (const BodyPair& pair : island.pairs) {
+      double sum = 0;
+      for (int r = pair.row_begin; r < pair.row_end; ++r)
+        sum += island.rows[static_cast<std::size_t>(r)].impulse.z();
+      EXPECT_NEAR(sum, weight * (50 - pair.a), 1e-6 * weight);
+    }
+  }
+}
+
+TEST(SolveIsland, LargeBlockOnFourSmallOnesPressesWithItsWeight) {
+  for (const double density : {2.5e-3, 2500.0, 25000.0})  // mass ratios 1, 1e6, 1e7
+    for (const double ratio : {0.3, 100.0}) {
+      LawOfScene law;
+      law.stiffness_ratio = ratio;
+      Island<6> island = talus::scenes::block_on_feet<6>(density, law);
+      // Feet carry the large block's weight: the ground's stiffness is set for that.
+      for (IslandRow& row : island.rows)
+        row.normal_damping = row.shear_damping = ratio * island.mass[0](0, 0);
+      const IslandResult result = solve_at_rest(island, law, 1e-10);
+      EXPECT_TRUE(result.converged) << density << ' ' << ratio << ' ' << result.residual;
+      EXPECT_LE(result.passes, 4);
+      const Dense<6> dense(island);
+      const Eigen::VectorXd v = stacked<6>(island.velocity);
+      const double momentum = (dense.mass * (v - dense.free)).dot(Eigen::VectorXd::Ones(v.size()));
+      EXPECT_NEAR(pressed_on_ground(island), momentum, 1e-9 * momentum);
+      for (std::size_t i = 1; i < island.mass.size(); ++i)  // feet are not squeezed out
+        EXPECT_LT(island.velocity[i].head<2>().norm(), 1e-9 * law.gravity * law.step);
+    }
+}
+
+TEST(SolveIsland, WallOf400BlocksConverges) {
+  LawOfScene law;
+  Island<6> island = talus::scenes::wall<6>(20, 20, law);
+  const IslandResult result = solve_at_rest(island, law, 1e-9);
+  EXPECT_TRUE(result.converged);
+  EXPECT_EQ(result.factorisations, 0);
+  EXPECT_LT(dense_error(island), 2e-9 * law.gravity * law.step);
+}
+
+// A push at one end of 200 blocks in a row travels through all of them in one step when they are
+// hard.
+TEST(SolveIsland, PushTravelsThroughALongChain) {
+  LawOfScene law;
+  law.gravity = 0;
+  law.stiffness_ratio = 1e6;
+  Island<6> island;
+  for (int i = 0; i < 200; ++i) {
+    talus::scenes::add_box<6>({Vec3(i, 0, 0), Vec3::Constant(0.5)}, law, island);
+    if (i > 0)
+      talus::scenes::add_contacts<6>(
+          i - 1, i, -Vec3::UnitX(),
+          talus::scenes::rectangle(Vec3(i - 0.5, 0, 0), Vec3(0, 0.5, 0), Vec3(0, 0, 0.5)), 0, law,
+          island);
+  }
+  island.free_velocity[0][0] = 200;
+  IslandWork<6> work;
+  IslandSettings settings;
+  settings.tolerance = 1e-7;
+  const IslandResult result = solve_island(island, settings, work);
+  EXPECT_TRUE(result.converged) << result.residual;
+  for (const auto& v : island.velocity) EXPECT_NEAR(v[0], 1, 0.1);  // compliance 200 x 200 / 1e6
+}
+
+// Whatever the stiffness, the outcome is finite, and either satisfies the law or says that it does
+// not.
+TEST(SolveIsland, StaysFiniteAndHonestOver20DecadesOfStiffness) {
+  talus::Random random(51, "stiffness");
+  IslandWork<6> work;
+  int n_converged = 0, n = 0;
+  for (int decade = -6; decade <= 14; ++decade)
+    for (int round = 0; round < 10; ++round) {
+      LawOfScene law;
+      law.stiffness_ratio = std::pow(10.0, decade);
+      Island<6> island = talus::scenes::pile<6>({2, 2, 2}, law, random);
+      IslandSettings settings;
+      settings.tolerance = 1e-6 * law.gravity * law.step;
+      const IslandResult result = solve_island(island, settings, work);
+      ++n;
+      for (const auto& v : island.velocity) ASSERT_TRUE(v.allFinite());
+      for (const IslandRow& row : island.rows) ASSERT_TRUE(row.impulse.allFinite());
+      if (decade != 8) {
+        EXPECT_EQ(result.n_lowered > 0, decade > 8);
+      }
+      if (!result.converged) {
+        EXPECT_GT(result.residual, settings.tolerance);
+        continue;
+      }
+      ++n_converged;
+      if (decade <= 3) {
+        EXPECT_LT(dense_error(island), 2 * settings.tolerance) << decade;
+      }
+    }
+  EXPECT_GT(n_converged, n / 2);
+}
+
+TEST(SolveIsland, NeverHidesWhatItCannotSolve) {
+  LawOfScene law;
+  Island<6> island = talus::scenes::stack<6>(4, law);
+  IslandWork<6> work;
+  IslandSettings settings;
+  settings.tolerance = 1e-9;
+  settings.max_passes = 2;
+  talus::Random random(61, "hidden");
+  Island<6> pile = talus::scenes::pile<6>({3, 3, 3}, law, random);
+  const IslandResult few = solve_island(pile, settings, work);
+  EXPECT_FALSE(few.converged);
+  EXPECT_GT(few.residual, settings.tolerance);
+
+  island.free_velocity[2][1] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(solve_island(island, IslandSettings{.tolerance = 1e-9}, work).converged);
+
+  island = talus::scenes::stack<6>(4, law);
+  island.velocity[1][0] = std::numeric_limits<double>::quiet_NaN();  // a bad guess does no harm
+  EXPECT_TRUE(solve_island(island, IslandSettings{.tolerance = 1e-9}, work).converged);
+}
+
+TEST(SolveIsland, GivesTheSameBitsWithNewAndUsedScratch) {
+  talus::Random random(71, "bits");
+  const LawOfScene law;
+  const Island<6> start = talus::scenes::pile<6>({4, 4, 4}, law, random);
+  Island<6> first = start, second = start, other = talus::scenes::wall<6>(5, 7, law);
+  IslandWork<6> fresh, used;
+  IslandSettings settings;
+  settings.tolerance = 1e-6;
+  (void)solve_island(other, settings, used);
+  const IslandResult a = solve_island(first, settings, fresh);
+  const IslandResult b = solve_island(second, settings, used);
+  EXPECT_EQ(a.passes, b.passes);
+  EXPECT_EQ(a.linear_iterations, b.linear_iterations);
+  for (std::size_t i = 0; i < first.velocity.size(); ++i)
+    EXPECT_EQ(first.velocity[i], second.velocity[i]);
+}
+
+}  // namespace

@@ -1,0 +1,212 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "dda/cases.hpp"
+#include "dda/rotation.hpp"
+#include "dda/step.hpp"
+
+namespace {
+
+using namespace talus;
+using namespace talus::cases;
+
+constexpr double degree = std::numbers::pi / 180;
+
+Body body_of(Polyhedron shape, const Vec3& velocity = Vec3::Zero(),
+             const Vec3& spin = Vec3::Zero()) {
+  Body body;
+  body.parts = {std::move(shape)};
+  body.velocity = velocity;
+  body.spin = spin;
+  return body;
+}
+
+GroundClass rough(double phi_deg, double restitution = 0) {
+  GroundClass ground;
+  ground.friction = std::tan(phi_deg * degree);
+  ground.restitution = restitution;
+  return ground;
+}
+
+// n unit cubes one on the other on a slope.
+Scene tower(int n, double dip_deg, double phi_deg, const Settings& settings = {}) {
+  const SlopeFrame frame = slope_frame(dip_deg, 30);
+  std::vector<Body> bodies;
+  for (int i = 0; i < n; ++i)
+    bodies.push_back(
+        body_of(box_in(frame, Vec3::Zero(), Vec3(-0.5, -0.5, i), Vec3(0.5, 0.5, i + 1))));
+  return scene_of(plane_trn(frame, 1, 20), rough(phi_deg), bodies, settings);
+}
+
+void run(const Scene& scene, double time, State& state) {
+  Work work = make_work(scene);
+  const int n = static_cast<int>(std::lround(time / scene.settings.dt));
+  for (int i = 0; i < n; ++i) step(scene, state, work);
+}
+
+std::vector<Vec3> places(const State& state) {
+  std::vector<Vec3> out;
+  for (const Motion& m : state.motion) out.push_back(m.pose.position);
+  return out;
+}
+
+double kinetic(const Scene& scene, const State& state) {
+  const Energies e = energies(scene, state);
+  return e.translation + e.rotation;
+}
+
+class Stack : public testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(StepIsland, Stack, testing::Values(3, 10));
+
+// Beyond the overlap that their weight presses them into, nothing moves in the next seconds.
+TEST_P(Stack, StandsStill) {
+  Settings settings;
+  settings.sleep = false;
+  const Scene scene = tower(GetParam(), 0, 30, settings);
+  State state = start(scene);
+  run(scene, 2, state);
+  const std::vector<Vec3> before = places(state);
+  run(scene, 8, state);
+  for (std::size_t b = 0; b < before.size(); ++b) {
+    EXPECT_LT((state.motion[b].pose.position - before[b]).norm(), 1e-6) << b;
+    EXPECT_LT((state.motion[b].pose.position - scene.blocks.rest[b].position).norm(), 0.05) << b;
+  }
+  EXPECT_EQ(state.counters.unconverged, 0);
+}
+
+TEST_P(Stack, GoesToSleepAsAWhole) {
+  const Scene scene = tower(GetParam(), 0, 30);
+  State state = start(scene);
+  run(scene, 10, state);
+  for (const Phase phase : state.phase) EXPECT_EQ(phase, Phase::asleep);
+}
+
+TEST(StepIsland, TowerHoldsWhereFrictionIsEnough) {
+  Settings settings;
+  settings.sleep = false;
+  const Scene scene = tower(3, 15, 15.5, settings);
+  State state = start(scene);
+  run(scene, 1, state);
+  const std::vector<Vec3> before = places(state);
+  run(scene, 4, state);
+  for (std::size_t b = 0; b < before.size(); ++b)
+    EXPECT_LT((state.motion[b].pose.position - before[b]).norm(), 1e-6) << b;
+}
+
+TEST(StepIsland, TowerSlidesAsOne) {
+  const Scene scene = tower(3, 15, 10);
+  // joints hold: they are rougher than the ground
+  Scene joined = scene;
+  joined.joint = rough(40);
+  State state = start(joined);
+  const std::vector<Vec3> before = places(state);
+  run(joined, 1, state);
+  const Vec3 dip = slope_frame(15, 30).dip;
+  const double a = 10 * (std::sin(15 * degree) - std::tan(10 * degree) * std::cos(15 * degree));
+  for (std::size_t b = 0; b < before.size(); ++b)
+    EXPECT_NEAR(dip.dot(state.motion[b].pose.position - before[b]), a / 2, 2e-3 * a / 2) << b;
+}
+
+// Two tumbling boxes that fly into each other, far above the ground.
+Scene meeting(double restitution, double phi_deg) {
+  std::vector<Body> bodies;
+  const Mat3 turn = Eigen::AngleAxisd(0.6, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+  bodies.push_back(body_of(moved(box(Vec3(-0.5, -0.4, -0.3), Vec3(0.5, 0.4, 0.3)), turn,
+                                 Vec3::Zero(), Vec3(-2, 0.2, 500)),
+                           Vec3(6, 0, 3), Vec3(0.3, 1, -2)));
+  bodies.push_back(body_of(moved(box(Vec3(-0.7, -0.5, -0.5), Vec3(0.7, 0.5, 0.5)), turn.transpose(),
+                                 Vec3::Zero(), Vec3(2, 0, 500.1)),
+                           Vec3(-5, 0, 3), Vec3(1, 0, 0.5)));
+  return scene_of(plane_trn(slope_frame(0, 0), 5, 100), rough(phi_deg, restitution), bodies, {});
+}
+
+TEST(StepIsland, CollisionInFlightKeepsMomentum) {
+  for (const double restitution : {0.0, 0.7, 1.0}) {
+    const Scene scene = meeting(restitution, 25);
+    State state = start(scene);
+    const auto sums = [&] {
+      Vec6 sum = Vec6::Zero();
+      for (int b = 0; b < 2; ++b) {
+        const Motion m = motion_at(scene, state, b, state.time);
+        const Vec3 p = scene.blocks.mass[static_cast<std::size_t>(b)] *
+                       (m.velocity - state.time * scene.gravity);
+        const Vec3 x = m.pose.position - 0.5 * state.time * state.time * scene.gravity;
+        sum.head<3>() += p;
+        sum.tail<3>() += m.angular_momentum + (x - state.time * Vec3::Zero()).cross(p);
+      }
+      return sum;
+    };
+    const Vec6 before = sums();
+    const double scale_p = scene.blocks.mass[1] * 5, scale_l = scale_p * 500;
+    const Vec3 v0 = state.motion[0].velocity;
+    run(scene, 1, state);
+    const Vec6 after = sums();
+    EXPECT_GE(state.counters.impacts, 1);
+    EXPECT_GT((motion_at(scene, state, 0, state.time).velocity - v0 - scene.gravity).norm(), 1);
+    EXPECT_LT((after - before).head<3>().norm(), 1e-10 * scale_p);
+    EXPECT_LT((after - before).tail<3>().norm(), 1e-10 * scale_l);
+  }
+}
+
+// Equal cubes face to face, without friction: they swap e of their relative speed.
+TEST(StepIsland, HeadOnCollisionHasItsRestitution) {
+  for (const double e : {0.0, 0.5, 1.0}) {
+    std::vector<Body> bodies;
+    const Polyhedron cube = box(Vec3::Constant(-0.5), Vec3::Constant(0.5));
+    bodies.push_back(
+        body_of(moved(cube, Mat3::Identity(), Vec3::Zero(), Vec3(-3, 0, 200)), Vec3(4, 0, 0)));
+    bodies.push_back(
+        body_of(moved(cube, Mat3::Identity(), Vec3::Zero(), Vec3(3, 0, 200)), Vec3(-4, 0, 0)));
+    const Scene scene = scene_of(plane_trn(slope_frame(0, 0), 5, 100), rough(0, e), bodies, {});
+    State state = start(scene);
+    run(scene, 1, state);
+    const Motion a = motion_at(scene, state, 0, state.time);
+    const Motion b = motion_at(scene, state, 1, state.time);
+    EXPECT_NEAR(b.velocity.x() - a.velocity.x(), e * 8, 1e-5);
+    // met after 5/8 s, 2.5 m on their way
+    EXPECT_NEAR(a.pose.position.x(), -0.5 - e * 4 * 0.375, 1e-4);
+  }
+}
+
+// A heap thrown on the ground: kinetic and potential energy together never rise.
+TEST(StepIsland, EnergyNeverRises) {
+  std::vector<Body> bodies;
+  for (int i = 0; i < 6; ++i) {
+    const Mat3 turn = Eigen::AngleAxisd(0.5 + i, Vec3(1, i, 2).normalized()).toRotationMatrix();
+    bodies.push_back(body_of(moved(box(Vec3(-0.6, -0.4, -0.3), Vec3(0.6, 0.4, 0.3)), turn,
+                                   Vec3::Zero(), Vec3(0.3 * (i % 2), 0.2 * (i % 3), 2 + 1.7 * i)),
+                             Vec3::Zero(), Vec3(0.5, 1, 0)));
+  }
+  const Scene scene = scene_of(plane_trn(slope_frame(0, 0), 1, 30), rough(30, 0.4), bodies, {});
+  State state = start(scene);
+  Work work = make_work(scene);
+  const auto total = [&] { return kinetic(scene, state) + energies(scene, state).potential; };
+  double last = total(), worst = 0;
+  const double first = last;
+  for (int i = 0; i < 1200; ++i) {
+    step(scene, state, work);
+    worst = std::max(worst, total() - last);
+    last = total();
+  }
+  EXPECT_LT(worst, 1e-4 * first);
+  EXPECT_LT(last, 0.5 * first);
+  EXPECT_LT(state.counters.unconverged, 12);
+}
+
+// A 10 m cube on four cubes of 0.1 m, a million times lighter.
+TEST(StepIsland, LargeBlockRestsOnSmallOnes) {
+  std::vector<Body> bodies;
+  bodies.push_back(body_of(box(Vec3(-5, -5, 0.1), Vec3(5, 5, 10.1))));
+  for (const double x : {-4.0, 4.0})
+    for (const double y : {-4.0, 4.0})
+      bodies.push_back(body_of(box(Vec3(x - 0.05, y - 0.05, 0), Vec3(x + 0.05, y + 0.05, 0.1))));
+  const Scene scene = scene_of(plane_trn(slope_frame(0, 0), 2, 40), rough(30), bodies, {});
+  State state = start(scene);
+  run(scene, 2, state);
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    EXPECT_LT((state.motion[b].pose.position - scene.blocks.rest[b].position).norm(), 1e-3) << b;
+}
+
+}  // namespace
