@@ -1,0 +1,373 @@
+// tools/report/viewer.js
+// The 3-D viewer of the HTML report: terrain, blocks and fences over time, in plain WebGL2.
+// in:  talusViewer(element, scene); scene as talus-report writes it (docs/formats.md#viewer):
+//      terrain {n_rows, n_cols, cell_size_m, x0_m, y0_m, z_m}, blocks {n, position_m, block, mass_kg},
+//      frames {time_s, pose}, fences [{name, points_m, height_m}]; arrays are base64, little-endian
+// The poses of all frames lie in one texture; the vertex shader takes two frames and interpolates,
+// so that a frame costs one draw call however many blocks there are. z is up.
+'use strict';
+
+function talusViewer(root, scene) {
+  const bytes = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer;
+  const floats = (text) => new Float32Array(bytes(text));
+
+  // --- elements -----------------------------------------------------------------------------------
+  root.innerHTML = `
+    <canvas tabindex="0" aria-label="3-D view of the run: drag to turn, right-drag or shift-drag to move, wheel to zoom"></canvas>
+    <div class="viewer-bar">
+      <button type="button" class="viewer-play" aria-label="play">&#9654;</button>
+      <input type="range" class="viewer-time" min="0" max="1" step="any" value="0" aria-label="time">
+      <output class="viewer-clock"></output>
+      <label>pace <select class="viewer-pace"><option value="0.25">&frac14;</option><option value="1" selected>1</option>
+        <option value="4">4</option><option value="16">16</option></select></label>
+      <label><input type="checkbox" class="viewer-fences" checked> fences</label>
+    </div>
+    <div class="viewer-legend"><span>0</span><i></i><span class="viewer-top"></span></div>
+    <div class="viewer-block" aria-live="polite">Click a block to see its speed and energy.</div>`;
+  const find = (name) => root.querySelector(name);
+  const canvas = find('canvas');
+  const gl = canvas.getContext('webgl2', {antialias: true, preserveDrawingBuffer: true});
+  if (!gl) {
+    root.innerHTML = '<p class="viewer-none">This browser has no WebGL2, so the animation cannot be shown. ' +
+        'All results stand in the maps, tables and curves of this page.</p>';
+    return null;
+  }
+
+  // --- data ---------------------------------------------------------------------------------------
+  const times = scene.frames.time_s;
+  const nBlocks = scene.blocks.n, nFrames = times.length;
+  const pose = floats(scene.frames.pose);  // x y z speed, qx qy qz qw: a frame, a block
+  let topSpeed = 1e-6;
+  for (let i = 3; i < pose.length; i += 8) topSpeed = Math.max(topSpeed, pose[i]);
+  find('.viewer-top').textContent = topSpeed.toFixed(topSpeed < 10 ? 1 : 0) + ' m/s';
+
+  const program = (vertex, fragment) => {
+    const made = gl.createProgram();
+    for (const [kind, source] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]]) {
+      const shader = gl.createShader(kind);
+      gl.shaderSource(shader, '#version 300 es\nprecision highp float;precision highp int;precision highp sampler2D;\n' + source);
+      gl.compileShader(shader);
+      if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS)) throw new Error(gl.getShaderInfoLog(shader));
+      gl.attachShader(made, shader);
+    }
+    gl.linkProgram(made);
+    if (!gl.getProgramParameter(made, gl.LINK_STATUS)) throw new Error(gl.getProgramInfoLog(made));
+    const uniforms = {};
+    for (let i = 0; i < gl.getProgramParameter(made, gl.ACTIVE_UNIFORMS); ++i) {
+      const name = gl.getActiveUniform(made, i).name;
+      uniforms[name] = gl.getUniformLocation(made, name);
+    }
+    return {made, uniforms};
+  };
+
+  // Surfaces are lit by the normal of the drawn triangle, so that no normals need to be stored.
+  const light = `vec3 lit(vec3 colour, vec3 p) {
+      vec3 n = normalize(cross(dFdx(p), dFdy(p)));  // towards the eye
+      return colour * (0.35 + 0.65 * max(dot(n, normalize(vec3(-0.5, 0.5, 0.8))), 0.0));
+    }`;
+  const ground = program(
+      `in vec3 position; uniform mat4 view; out vec3 p;
+       void main() { p = position; gl_Position = view * vec4(position, 1.0); }`,
+      `in vec3 p; out vec4 colour; uniform vec4 tint;${light}
+       void main() { colour = vec4(lit(tint.rgb, p), tint.a); }`);
+  const rock = program(
+      `in vec3 position; in uint block; uniform mat4 view; uniform sampler2D poses; uniform int width, count, frame;
+       uniform float share; out vec3 p; flat out uint id; out float speed;
+       vec4 texel(int f, int part) {
+         int i = 2 * (f * count + int(block)) + part;
+         return texelFetch(poses, ivec2(i % width, i / width), 0);
+       }
+       void main() {
+         vec4 a = texel(frame, 0), b = texel(frame + 1, 0), qa = texel(frame, 1), qb = texel(frame + 1, 1);
+         vec4 q = normalize(mix(qa, dot(qa, qb) < 0.0 ? -qb : qb, share));
+         vec3 x = position + 2.0 * cross(q.xyz, cross(q.xyz, position) + q.w * position);
+         p = x + mix(a.xyz, b.xyz, share);
+         speed = mix(a.w, b.w, share);
+         id = block;
+         gl_Position = view * vec4(p, 1.0);
+       }`,
+      `in vec3 p; flat in uint id; in float speed; out vec4 colour; uniform float top; uniform int picking, chosen;${light}
+       vec3 ramp(float s) {
+         return s < 0.5 ? mix(vec3(0.20, 0.42, 0.76), vec3(0.98, 0.84, 0.35), 2.0 * s)
+                        : mix(vec3(0.98, 0.84, 0.35), vec3(0.80, 0.12, 0.14), 2.0 * s - 1.0);
+       }
+       void main() {
+         if (picking == 1) {
+           uint i = id + 1u;
+           colour = vec4(float(i & 255u), float((i >> 8) & 255u), float((i >> 16) & 255u), 255.0) / 255.0;
+           return;
+         }
+         vec3 base = int(id) == chosen ? vec3(0.95, 0.25, 0.85) : ramp(clamp(speed / top, 0.0, 1.0));
+         colour = vec4(lit(base, p), 1.0);
+       }`);
+
+  // A vertex array with one buffer an attribute and, for the terrain, indices.
+  const mesh = (shader, attributes, indices) => {
+    const array = gl.createVertexArray();
+    gl.bindVertexArray(array);
+    for (const [name, data, size] of attributes) {
+      const place = gl.getAttribLocation(shader.made, name);
+      gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
+      gl.bufferData(gl.ARRAY_BUFFER, data, gl.STATIC_DRAW);
+      gl.enableVertexAttribArray(place);
+      if (data instanceof Uint32Array) gl.vertexAttribIPointer(place, size, gl.UNSIGNED_INT, 0, 0);
+      else gl.vertexAttribPointer(place, size, gl.FLOAT, false, 0, 0);
+    }
+    if (indices) {
+      gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, gl.createBuffer());
+      gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, indices, gl.STATIC_DRAW);
+    }
+    return {array, n: indices ? indices.length : attributes[0][1].length / 3, indexed: Boolean(indices)};
+  };
+
+  const terrainMesh = () => {
+    const t = scene.terrain, z = floats(t.z_m);
+    const points = new Float32Array(3 * z.length), triangles = [];
+    for (let r = 0, i = 0; r < t.n_rows; ++r)
+      for (let c = 0; c < t.n_cols; ++c, ++i)
+        points.set([t.x0_m + c * t.cell_size_m, t.y0_m - r * t.cell_size_m, Number.isNaN(z[i]) ? 0 : z[i]], 3 * i);
+    const add = (...corners) => { if (corners.every((i) => !Number.isNaN(z[i]))) triangles.push(...corners); };
+    for (let r = 0; r + 1 < t.n_rows; ++r)
+      for (let c = 0; c + 1 < t.n_cols; ++c) {
+        const nw = r * t.n_cols + c, sw = nw + t.n_cols;
+        add(nw, sw, sw + 1);
+        add(nw, sw + 1, nw + 1);
+      }
+    return mesh(ground, [['position', points, 3]], new Uint32Array(triangles));
+  };
+
+  const fenceMesh = () => {
+    const corners = [];
+    for (const fence of scene.fences)
+      for (let i = 0; i + 1 < fence.points_m.length; ++i) {
+        const a = fence.points_m[i], b = fence.points_m[i + 1];
+        const up = (p) => [p[0], p[1], p[2] + fence.height_m];
+        corners.push(...a, ...b, ...up(b), ...a, ...up(b), ...up(a));
+      }
+    return mesh(ground, [['position', new Float32Array(corners), 3]]);
+  };
+
+  const terrain = terrainMesh();
+  const fences = fenceMesh();
+  const blocks = mesh(rock, [['position', floats(scene.blocks.position_m), 3],
+                             ['block', new Uint32Array(bytes(scene.blocks.block)), 1]]);
+
+  const width = 2048;
+  const texture = gl.createTexture();
+  {
+    const height = Math.ceil(pose.length / 4 / width);
+    const padded = new Float32Array(4 * width * height);
+    padded.set(pose);
+    gl.bindTexture(gl.TEXTURE_2D, texture);
+    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA32F, width, height, 0, gl.RGBA, gl.FLOAT, padded);
+    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.NEAREST);
+    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.NEAREST);
+  }
+
+  // --- camera: turns about a point --------------------------------------------------------------
+  const camera = {azimuth: -2.2, height: 0.6, distance: 1, target: [0, 0, 0]};
+  {
+    const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
+    for (let i = 0; i < pose.length; i += 8)
+      for (let k = 0; k < 3; ++k) {
+        low[k] = Math.min(low[k], pose[i + k]);
+        high[k] = Math.max(high[k], pose[i + k]);
+      }
+    camera.target = low.map((v, k) => (v + high[k]) / 2);
+    camera.distance = 1.3 * Math.max(20, Math.hypot(...high.map((v, k) => v - low[k])));
+    // Look from the side that the mass moves to.
+    const last = 8 * nBlocks * (nFrames - 1), way = [0, 0];
+    for (let b = 0; b < nBlocks; ++b)
+      for (let k = 0; k < 2; ++k) way[k] += pose[last + 8 * b + k] - pose[8 * b + k];
+    if (Math.hypot(...way) > 0) camera.azimuth = Math.atan2(way[1], way[0]) + 0.7;
+  }
+
+  const viewMatrix = () => {
+    const {azimuth, height, distance, target} = camera;
+    const back = [Math.cos(azimuth) * Math.cos(height), Math.sin(azimuth) * Math.cos(height), Math.sin(height)];
+    const right = [-Math.sin(azimuth), Math.cos(azimuth), 0];
+    const up = [back[1] * right[2] - back[2] * right[1], back[2] * right[0] - back[0] * right[2], back[0] * right[1] - back[1] * right[0]];
+    const eye = target.map((v, k) => v + distance * back[k]);
+    const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    const focal = 1 / Math.tan(0.4), aspect = canvas.width / canvas.height;
+    const near = distance / 100, far = distance * 20;
+    const rows = [right, up, back].map((axis) => [...axis, -dot(axis, eye)]);
+    const matrix = new Float32Array(16);
+    for (let c = 0; c < 4; ++c) {
+      matrix[4 * c] = focal / aspect * rows[0][c];
+      matrix[4 * c + 1] = focal * rows[1][c];
+      matrix[4 * c + 2] = (far + near) / (near - far) * rows[2][c] + (c === 3 ? 2 * far * near / (near - far) : 0);
+      matrix[4 * c + 3] = -rows[2][c];
+    }
+    return {matrix, right, up, back};
+  };
+
+  // --- drawing ------------------------------------------------------------------------------------
+  let now = times[0], playing = false, chosen = -1, asked = false, before = 0;
+
+  // The frame before `now`, and how far it is to the next.
+  const moment = () => {
+    let low = 0, high = nFrames - 1;
+    while (high - low > 1) {
+      const middle = (low + high) >> 1;
+      if (times[middle] <= now) low = middle; else high = middle;
+    }
+    const frame = Math.max(0, Math.min(low, nFrames - 2));
+    const span = nFrames > 1 ? times[frame + 1] - times[frame] : 1;
+    return {frame, share: nFrames > 1 ? Math.min(1, Math.max(0, (now - times[frame]) / span)) : 0};
+  };
+
+  const drawMesh = (made) => {
+    if (made.n === 0) return;
+    gl.bindVertexArray(made.array);
+    if (made.indexed) gl.drawElements(gl.TRIANGLES, made.n, gl.UNSIGNED_INT, 0);
+    else gl.drawArrays(gl.TRIANGLES, 0, made.n);
+  };
+
+  const drawBlocks = (matrix, picking) => {
+    const {frame, share} = moment();
+    gl.useProgram(rock.made);
+    gl.uniformMatrix4fv(rock.uniforms.view, false, matrix);
+    gl.uniform1i(rock.uniforms.width, width);
+    gl.uniform1i(rock.uniforms.count, nBlocks);
+    gl.uniform1i(rock.uniforms.frame, nFrames > 1 ? frame : 0);
+    gl.uniform1f(rock.uniforms.share, share);
+    gl.uniform1f(rock.uniforms.top, topSpeed);
+    gl.uniform1i(rock.uniforms.picking, picking ? 1 : 0);
+    gl.uniform1i(rock.uniforms.chosen, chosen);
+    drawMesh(blocks);
+  };
+
+  const drawGround = (made, matrix, tint) => {
+    gl.useProgram(ground.made);
+    gl.uniformMatrix4fv(ground.uniforms.view, false, matrix);
+    gl.uniform4fv(ground.uniforms.tint, tint);
+    drawMesh(made);
+  };
+
+  const draw = () => {
+    asked = false;
+    const scale = window.devicePixelRatio || 1;
+    const w = Math.max(1, Math.round(canvas.clientWidth * scale)), h = Math.max(1, Math.round(canvas.clientHeight * scale));
+    if (canvas.width !== w || canvas.height !== h) [canvas.width, canvas.height] = [w, h];
+    gl.viewport(0, 0, w, h);
+    gl.clearColor(0.93, 0.95, 0.97, 1);
+    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    gl.enable(gl.DEPTH_TEST);
+    const {matrix} = viewMatrix();
+    drawGround(terrain, matrix, [0.74, 0.72, 0.66, 1]);
+    drawBlocks(matrix, false);
+    if (find('.viewer-fences').checked) {
+      gl.enable(gl.BLEND);
+      gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
+      drawGround(fences, matrix, [0.15, 0.45, 0.25, 0.6]);
+      gl.disable(gl.BLEND);
+    }
+    showNumbers();
+  };
+
+  const showNumbers = () => {
+    find('.viewer-clock').textContent = now.toFixed(2) + ' s';
+    find('.viewer-time').value = String((now - times[0]) / Math.max(1e-9, times[nFrames - 1] - times[0]));
+    if (chosen < 0) return;
+    const {frame, share} = moment();
+    const value = (k) => {
+      const at = (f) => pose[8 * (Math.min(f, nFrames - 1) * nBlocks + chosen) + k];
+      return at(frame) + share * (at(frame + 1) - at(frame));
+    };
+    const mass = scene.blocks.mass_kg[chosen], speed = value(3);
+    find('.viewer-block').textContent = `Block ${chosen}: ${speed.toFixed(2)} m/s, ` +
+        `${(0.0005 * mass * speed * speed).toPrecision(4)} kJ (translation), ${(mass / 1000).toPrecision(4)} t, ` +
+        `elevation ${(value(2) + (scene.terrain.z_origin_m || 0)).toFixed(1)} m`;
+  };
+
+  const ask = () => {
+    if (asked) return;
+    asked = true;
+    requestAnimationFrame(tick);
+  };
+  const tick = (clock) => {
+    if (playing) {
+      now += Math.min(0.1, (clock - before) / 1000) * Number(find('.viewer-pace').value);
+      if (now >= times[nFrames - 1]) {
+        now = times[nFrames - 1];
+        setPlaying(false);
+      }
+    }
+    before = clock;
+    draw();
+    if (playing) ask();
+  };
+  const setPlaying = (on) => {
+    playing = on;
+    if (on && now >= times[nFrames - 1]) now = times[0];
+    before = performance.now();
+    find('.viewer-play').innerHTML = on ? '&#10073;&#10073;' : '&#9654;';
+    find('.viewer-play').setAttribute('aria-label', on ? 'pause' : 'play');
+    ask();
+  };
+
+  // Which block is under a point of the canvas: its number is drawn in place of its colour.
+  const pick = (x, y) => {
+    const {matrix} = viewMatrix();
+    gl.clearColor(0, 0, 0, 1);
+    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    drawBlocks(matrix, true);
+    const pixel = new Uint8Array(4), scale = canvas.width / canvas.clientWidth;
+    gl.readPixels(Math.round(x * scale), Math.round(canvas.height - y * scale), 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
+    chosen = pixel[0] + 256 * pixel[1] + 65536 * pixel[2] - 1;
+    if (chosen < 0) find('.viewer-block').textContent = 'Click a block to see its speed and energy.';
+    ask();
+  };
+
+  // --- hands --------------------------------------------------------------------------------------
+  let held = null;
+  canvas.addEventListener('pointerdown', (e) => {
+    held = {x: e.offsetX, y: e.offsetY, moved: false, shift: e.button === 2 || e.shiftKey};
+    canvas.setPointerCapture(e.pointerId);
+  });
+  canvas.addEventListener('pointermove', (e) => {
+    if (!held) return;
+    const dx = e.offsetX - held.x, dy = e.offsetY - held.y;
+    if (Math.hypot(dx, dy) < 3 && !held.moved) return;
+    Object.assign(held, {x: e.offsetX, y: e.offsetY, moved: true});
+    if (held.shift) {
+      const {right, up} = viewMatrix(), step = camera.distance / canvas.clientHeight;
+      camera.target = camera.target.map((v, k) => v - step * dx * right[k] + step * dy * up[k]);
+    } else {
+      camera.azimuth -= 0.006 * dx;
+      camera.height = Math.min(1.55, Math.max(-0.2, camera.height + 0.006 * dy));
+    }
+    ask();
+  });
+  canvas.addEventListener('pointerup', (e) => {
+    if (held && !held.moved) pick(e.offsetX, e.offsetY);
+    held = null;
+  });
+  canvas.addEventListener('contextmenu', (e) => e.preventDefault());
+  canvas.addEventListener('wheel', (e) => {
+    e.preventDefault();
+    camera.distance *= Math.exp(0.001 * e.deltaY);
+    ask();
+  }, {passive: false});
+  canvas.addEventListener('keydown', (e) => {
+    const turn = {ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, 0.1], ArrowDown: [0, -0.1]}[e.key];
+    if (turn) {
+      camera.azimuth += turn[0];
+      camera.height = Math.min(1.55, Math.max(-0.2, camera.height + turn[1]));
+    } else if (e.key === '+' || e.key === '-') camera.distance *= e.key === '+' ? 0.9 : 1.1;
+    else if (e.key === ' ') setPlaying(!playing);
+    else return;
+    e.preventDefault();
+    ask();
+  });
+  find('.viewer-play').addEventListener('click', () => setPlaying(!playing));
+  find('.viewer-time').addEventListener('input', (e) => {
+    now = times[0] + Number(e.target.value) * (times[nFrames - 1] - times[0]);
+    ask();
+  });
+  find('.viewer-fences').addEventListener('change', ask);
+  new ResizeObserver(ask).observe(canvas);
+  ask();
+  return {play: () => setPlaying(true), seek: (t) => { now = t; ask(); }, pick, state: () => ({now, playing, chosen})};
+}
