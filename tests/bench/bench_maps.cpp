@@ -11,7 +11,7 @@ namespace {
 
 using namespace talus;
 
-constexpr PassageGrid grid{Vec2(0, 0), 5, 120, 160};
+const PassageGrid grid{Vec2(0, 0), 5, 120, 160};
 
 // Runs of `n_blocks` blocks that wander down a slope, some 100 cells each.
 std::vector<std::vector<Passage>> make_runs(int n_runs, int n_blocks) {
