@@ -113,19 +113,17 @@ talus::MapRaster raster_of(const MapLayer& layer, const talus::PassageGrid& grid
 }
 
 Json write_layer(Tool& tool, const Options& o, const MapLayer& layer, talus::MapRaster raster,
-                 const talus::Trn& trn, const std::string& remark) {
+                 const talus::PassageGrid& grid, const talus::Shading& shading,
+                 const std::string& remark) {
   const std::string base = (std::filesystem::path(o.folder) / layer.name).string();
   const talus::RasterStyle style = talus::map_style(layer, remark);
   raster.tags.emplace_back("SHOWN_BAND", layer.bands[style.band - 1].name);
   talus::write_map_raster(tool.stage(base + ".tif"), raster, o.creation_options);
   tool.write_text(base + ".qml", talus::raster_qml(style));
-  if (o.png) {
-    const talus::PassageGrid grid{raster.corner - trn.origin.head<2>(), raster.cell_size,
-                                  raster.n_rows, raster.n_cols};
+  if (o.png)
     talus::write_png(tool.stage(base + ".png"),
-                     talus::map_picture(trn, grid, raster.bands[style.band - 1].value,
+                     talus::map_picture(shading, grid, raster.bands[style.band - 1].value,
                                         talus::MapRaster::nodata, style));
-  }
   Json bands = Json::array();
   for (const auto& band : layer.bands) bands.push_back(band.name);
   return {{"file", base + ".tif"}, {"shown_band", raster.tags.back().second}, {"bands", bands}};
@@ -145,6 +143,7 @@ void run_tool(Tool& tool, Options& o, talus::RunInputs& runs) {
   tags.insert(tags.begin(), {"RUN_ID", tool.run_id()});
   const std::string remark = runs.remark();
   const std::vector<bool> known = talus::known_cells(trn, grid);
+  const talus::Shading shading = o.png ? talus::shading_of(trn, grid) : talus::Shading{};
   Json files = Json::array();
   const auto layers = layers_of(cells, gathered, o.settings);
   if (n_rows > 0 && !has_percentiles(layers[1]))
@@ -153,7 +152,7 @@ void run_tool(Tool& tool, Options& o, talus::RunInputs& runs) {
     talus::MapRaster raster = raster_of(layer, grid, trn, known);
     raster.tags = tags;
     if (!remark.empty()) raster.tags.emplace_back("REMARK", remark);
-    files.push_back(write_layer(tool, o, layer, std::move(raster), trn, remark));
+    files.push_back(write_layer(tool, o, layer, std::move(raster), grid, shading, remark));
   }
   tool.metric("passages", static_cast<double>(n_rows), "1");
   tool.metric("cells_touched", static_cast<double>(cells.cell.size()), "1");

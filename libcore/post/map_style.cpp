@@ -38,7 +38,7 @@ struct Breaks {
 };
 
 const std::vector<Breaks>& all_breaks() {
-  const std::vector<double> energy = {1, 3, 10, 30, 100, 300, 1000, 3000, 10000};
+  const std::vector<double> energy = {1, 10, 30, 100, 300, 1000, 3000, 10000, 30000, 100000};
   static const std::vector<Breaks> breaks = {
       {"reach", "reach_probability", {0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 0.8}, true},
       {"velocity", "", {1, 2.5, 5, 10, 15, 20, 30}, true},
