@@ -54,6 +54,29 @@ const std::vector<Breaks>& all_breaks() {
   return breaks;
 }
 
+// From the largest loss (blue) over no change (transparent) to the largest gain (red).
+std::vector<StyleClass> change_classes(const std::vector<double>& limits, const std::string& unit) {
+  std::vector<StyleClass> classes;
+  const auto n = static_cast<double>(limits.size());
+  const auto label = [&](const char* word, std::size_t i) {
+    if (i + 1 == limits.size()) return word + (" by more than " + text(limits[i])) + unit;
+    return std::string(word) + " by " + text(limits[i]) + " - " + text(limits[i + 1]) + unit;
+  };
+  for (std::size_t i = limits.size(); i-- > 0;) {
+    const double share = (static_cast<double>(i) + 1) / n;
+    const auto part = [share](double pale, double deep) {
+      return static_cast<std::uint8_t>(std::lround(pale + share * (deep - pale)));
+    };
+    classes.push_back(
+        {-limits[i], {part(222, 8), part(235, 48), part(247, 107), 255}, label("less", i)});
+  }
+  classes.push_back({limits[0], {255, 255, 255, 0}, "within " + text(limits[0]) + unit});
+  for (std::size_t i = 0; i < limits.size(); ++i)
+    classes.push_back({i + 1 < limits.size() ? limits[i + 1] : infinity,
+                       ramp((static_cast<double>(i) + 1) / n), label("more", i)});
+  return classes;
+}
+
 int shown_band(const MapLayer& layer, const std::string& wanted) {
   const auto find = [&layer](const std::string& name) {
     for (std::size_t b = 0; b < layer.bands.size(); ++b)
@@ -77,6 +100,12 @@ std::string intensity(const std::string& unit, double upper) {
 }
 
 }  // namespace
+
+RasterStyle change_style(const MapLayer& layer, const std::string& remark) {
+  const MapBand& band = layer.bands[0];
+  return {1, band.name + " [" + band.unit + "]" + (remark.empty() ? "" : ", " + remark),
+          change_classes({0.05, 0.25, 0.5, 1, 2, 4}, " " + band.unit)};
+}
 
 RasterStyle map_style(const MapLayer& layer, const std::string& remark) {
   const auto& list = all_breaks();
