@@ -705,6 +705,9 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& inpu
                   " did not stand in the runs compared with --without");
     }
     fences.push_back(json);
+    if (std::isnan(cases[i].fence.capacity))
+      tool.warn("fence " + cases[i].line.name +
+                " has no capacity_kj: no block counts as piercing it");
     summary += (i > 0 ? "\n" : "") + summary_of(cases[i], i, results[i], with);
     if (results[i].whole.n > 0 && !results[i].design.enough)
       tool.warn("fence " + cases[i].line.name + ": " + std::to_string(results[i].whole.n) +

@@ -123,14 +123,6 @@ std::vector<MapLayer> layers_of(talus::RunInputs& runs, Gathered& g, const Optio
   return layers;
 }
 
-bool has_percentiles(const MapLayer& layer) {
-  for (const talus::MapBand& band : layer.bands)
-    if (band.name == layer.name + "_p95")
-      for (const float value : band.value)
-        if (!std::isnan(value)) return true;
-  return false;
-}
-
 void run_tool(Tool& tool, Options& o, talus::RunInputs& runs) {
   const talus::Trn& trn = runs.trn();
   Gathered gathered = gather(runs, o);
@@ -147,12 +139,12 @@ void run_tool(Tool& tool, Options& o, talus::RunInputs& runs) {
   if (!remark.empty()) tags.emplace_back("REMARK", remark);
   const talus::MapFrame frame = talus::map_frame(trn, grid, o.png);
   Json files = Json::array();
-  if (n_rows > 0 && !has_percentiles(layers[1]))
-    tool.warn("no cell has the passages that a 95th percentile needs: styles show the maximum");
   for (const MapLayer& layer : layers) {
     const std::string path = (std::filesystem::path(o.folder) / (layer.name + ".tif")).string();
     const std::string shown = talus::write_map(
         tool, frame, path, layer, talus::map_style(layer, remark), tags, o.creation_options);
+    if (shown == "velocity_max" && n_rows > 0)
+      tool.warn("cells with too few passages for a 95th percentile: styles show the maximum");
     Json bands = Json::array();
     for (const auto& band : layer.bands) bands.push_back(band.name);
     files.push_back({{"file", path}, {"shown_band", shown}, {"bands", bands}});

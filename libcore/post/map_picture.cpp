@@ -103,6 +103,7 @@ double shade(const Trn& trn, double x, double y) {
   if (std::isnan(gradient.x()) || std::isnan(gradient.y())) {
     if (!contains(trn, x, y)) return std::nan("");
     gradient = triangle_gradient(trn, triangle_at(trn, x, y));
+    if (std::isnan(gradient.x() + gradient.y())) return std::nan("");
   }
   const Vec3 normal = Vec3(-gradient.x(), -gradient.y(), 1).normalized();
   const Vec3 light = Vec3(-0.5, 0.5, std::sqrt(0.5));

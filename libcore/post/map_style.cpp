@@ -77,6 +77,13 @@ std::vector<StyleClass> change_classes(const std::vector<double>& limits, const 
   return classes;
 }
 
+// In no more than a twentieth of the cells that were touched is there no value.
+bool is_nearly_everywhere(const MapBand& band) {
+  const auto n_missing =
+      std::count_if(band.value.begin(), band.value.end(), [](float v) { return std::isnan(v); });
+  return !band.value.empty() && static_cast<double>(n_missing) <= 0.05 * band.value.size();
+}
+
 int shown_band(const MapLayer& layer, const std::string& wanted) {
   const auto find = [&layer](const std::string& name) {
     for (std::size_t b = 0; b < layer.bands.size(); ++b)
@@ -85,12 +92,9 @@ int shown_band(const MapLayer& layer, const std::string& wanted) {
   };
   if (!wanted.empty()) return std::max(0, find(wanted));
   const int p95 = find(layer.name + "_p95");
-  const auto has_values = [](const MapBand& band) {
-    return std::any_of(band.value.begin(), band.value.end(),
-                       [](float v) { return !std::isnan(v); });
-  };
-  if (p95 >= 0 && has_values(layer.bands[p95])) return p95;
-  return std::max(0, find(layer.name + "_max"));
+  return p95 >= 0 && is_nearly_everywhere(layer.bands[p95])
+             ? p95
+             : std::max(0, find(layer.name + "_max"));
 }
 
 // The Swiss classes of intensity by kinetic energy.
@@ -124,9 +128,9 @@ RasterStyle map_style(const MapLayer& layer, const std::string& remark) {
   for (std::size_t i = 0; i < at->upper.size(); ++i) {
     const double upper = at->upper[i];
     style.classes.push_back({upper, ramp(static_cast<double>(i) / n),
-                             (lower.empty() ? "up to " : lower + " - ") + text(upper) + unit +
+                             (lower.empty() ? "up to " : lower + " - ") + text(upper, 9) + unit +
                                  intensity(band.unit, upper)});
-    lower = text(upper);
+    lower = text(upper, 9);
   }
   style.classes.push_back(
       {infinity, ramp(1), "above " + lower + unit + intensity(band.unit, infinity)});
