@@ -136,7 +136,9 @@ void remember(const BlockNumbers& c, const Substep& s, const Solved<Dof>& solved
     ++report.n_closed;
     note_penetration(report, -(row.gap_start + along), c.thickness);
   }
-  std::swap(state.memory[static_cast<size_t>(b)], work.memory_next);
+  std::vector<ContactMemory>& memory = state.memory[static_cast<size_t>(b)];
+  report.n_flips += count_flips(work.rows, memory);
+  std::swap(memory, work.memory_next);
 }
 
 /// Outcome of one attempt at a substep.
@@ -170,8 +172,12 @@ struct Advance {
     ++report.substeps;
   }
 
+  // The gap of edges over a substep is not quite linear: where the hit was foreseen, they may still
+  // be a little apart. Without the wider search nothing would be hit, again and again.
   void impact() {
-    const ImpactResult hit = apply_impact(scene, b, 2 * c.touch, c.resting_speed, motion(), work);
+    ImpactResult hit;
+    for (double touch = 2 * c.touch; !hit.hit && touch <= 2e4 * c.touch; touch *= 10)
+      hit = apply_impact(scene, b, touch, c.resting_speed, motion(), work);
     if (!hit.hit) return;
     state.ledger.impact += hit.dissipated;
     ++report.n_impacts;
@@ -193,6 +199,7 @@ struct Advance {
     if (work.contacts.empty()) {
       if (near.reach == Reach::above && free_fall_only() && begin_flight(t, h))
         return Attempt::flight;
+      report.n_flips += static_cast<int>(state.memory[i()].size());
       state.memory[i()].clear();
       relax_strain(h);
       finish(s, s.free, t, t + h);
@@ -264,6 +271,7 @@ struct Advance {
     if (!(safe > 2 * h)) return false;
     state.phase[i()] = Phase::flight;
     state.flight_end[i()] = t + safe;
+    report.n_flips += static_cast<int>(state.memory[i()].size());
     state.memory[i()].clear();
     relax_strain(h);
     return true;
