@@ -152,6 +152,8 @@ struct Advance {
   Work& work;
   StepReport& report;
   BlockNumbers c;
+  Contact foreseen = {};     // the one that an attempt found about to hit
+  bool is_foreseen = false;  // not yet tried
 
   [[nodiscard]] size_t i() const { return static_cast<size_t>(b); }
   Motion& motion() { return state.motion[i()]; }
@@ -173,11 +175,15 @@ struct Advance {
   }
 
   // The gap of edges over a substep is not quite linear: where the hit was foreseen, they may still
-  // be a little apart. Without the wider search nothing would be hit, again and again.
+  // be a little apart, or just not cross. Then the contact that was foreseen is taken; without it
+  // nothing would be hit, again and again.
   void impact() {
-    ImpactResult hit;
-    for (double touch = 2 * c.touch; !hit.hit && touch <= 2e4 * c.touch; touch *= 10)
-      hit = apply_impact(scene, b, touch, c.resting_speed, motion(), work);
+    ImpactResult hit = apply_impact(scene, b, 2 * c.touch, c.resting_speed, motion(), work);
+    if (!hit.hit && is_foreseen) {
+      work.contacts.assign(1, foreseen);
+      hit = apply_impact(scene, b, c.resting_speed, motion(), work);
+    }
+    is_foreseen = false;
     if (!hit.hit) return;
     state.ledger.impact += hit.dissipated;
     ++report.n_impacts;
@@ -208,8 +214,11 @@ struct Advance {
     make_rows(scene, b, c, s, state, work);
     for (const ContactRow& row : work.rows)
       if (row.memory < 0 && row.gap_start <= c.touch && row.gap_start > -1e4 * c.touch &&
-          row.speed_start < -c.resting_speed)
+          row.speed_start < -c.resting_speed) {
+        foreseen = work.contacts[static_cast<size_t>(row.contact)];
+        is_foreseen = true;
         return Attempt::impact;
+      }
     BlockSystem<Dof> system = make_system<Dof>(scene, b, c, s, state);
     const NewtonResult newton =
         solve_contacts(system, std::span(work.rows), scene.settings.max_passes);
