@@ -225,6 +225,13 @@ void cut(Tool& tool, const Options& o, Work& work) {
   if (work.cut.n_dropped > 0)
     tool.warn(std::to_string(work.cut.n_dropped) + " slivers without a neighbour were left out, " +
               text(work.cut.dropped_volume, 3) + " m3 in all");
+  if (work.cut.n_below_limits > 0)
+    tool.warn(std::to_string(work.cut.n_below_limits) +
+              " blocks are below the limits for slivers after they were made convex");
+  if (work.cut.n_short_edged > 0)
+    tool.warn(std::to_string(work.cut.n_short_edged) +
+              " blocks keep edges that are shorter than min_block_edge_m: without them they would "
+              "lose too much of their volume");
   if (n_blocks(work.blocks) == 1)
     tool.warn("the mass stays in one piece: " + why_in_one_piece(work));
   if (n_blocks(work.blocks) == 0)
@@ -337,6 +344,8 @@ Json cut_json(const Options& o, const Work& work) {
           {"n_rings_parted", cut.n_rings_parted},
           {"n_divided", cut.n_divided},
           {"n_kept_exact", cut.n_kept_exact},
+          {"n_below_limits", cut.n_below_limits},
+          {"n_short_edged", cut.n_short_edged},
           {"convexified_lost_m3", cut.lost},
           {"convexified_gained_m3", cut.gained},
           {"convexified_change",
