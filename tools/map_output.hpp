@@ -1,0 +1,36 @@
+// tools/map_output.hpp
+// Layers of cells as every tool writes them: raster, style and picture beside each other.
+// in:    layers over the cells of one grid, the terrain below
+// out:   NAME.tif (COG), NAME.qml, NAME.png
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "io/map_raster_gdal.hpp"
+#include "post/map_picture.hpp"
+#include "tool.hpp"
+
+namespace talus {
+
+using MapTags = std::vector<std::pair<std::string, std::string>>;
+
+/// What all maps of one grid share.
+struct MapFrame {
+  Vec2 corner = Vec2::Zero();  ///< north-west, map coordinates [m]
+  PassageGrid grid;
+  std::string crs_wkt;
+  std::vector<bool> known;  ///< ground below the cell                              (n_cells)
+  bool png = false;
+  Shading shading;  ///< empty without `png`
+};
+[[nodiscard]] MapFrame map_frame(const Trn& trn, const PassageGrid& grid, bool png);
+
+/// Stages `path` (NAME.tif) and its sidecars. Cells without known ground that nothing touched hold
+/// nodata. Adds the tag SHOWN_BAND. Returns the band that the style shows. Throws InputError.
+std::string write_map(Tool& tool, const MapFrame& frame, const std::string& path,
+                      const MapLayer& layer, const RasterStyle& style, MapTags tags,
+                      const std::vector<std::string>& creation_options = {});
+
+}  // namespace talus
