@@ -682,7 +682,7 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& inpu
             inputs.rest_speed_m_s);
     runs.push_back(whole_of(run, index, cases, o, code.code, inputs, trn, site.file));
   };
-  const RunParts parts{true, true, true, true, false};
+  const RunParts parts{.checkpoint = false};
   inputs.read(parts, take);
   const std::size_t n_with = runs.size();
   inputs.read(o.without, parts, take);

@@ -437,7 +437,7 @@ struct Ordered {
 
 Ordered read_runs(RunInputs& inputs, const Options& o, const Trn& trn) {
   Ordered out;
-  inputs.read({true, true, false, true, false}, [&](RunFile& run, int) {
+  inputs.read({.crossings = false, .checkpoint = false}, [&](RunFile& run, int) {
     out.results.push_back(result_of(run, trn, o, inputs.rest_speed_m_s));
     out.grid = run.grid.n_rows > 0 ? run.grid : passage_grid(trn, 0);
   });
