@@ -138,7 +138,7 @@ void run_tool(Tool& tool, Options& o, talus::RunInputs& runs) {
   const auto layers = layers_of(runs, gathered, o);
   const std::size_t n_touched = layers[0].cell.size();
   if (n_rows == 0) tool.warn("no block passed any cell: the maps are empty");
-  runs.warn_of_moving();
+  runs.warn_of_ends();
 
   auto tags = talus::tags_of(runs.members);
   tags.insert(tags.begin(), {"RUN_ID", tool.run_id()});

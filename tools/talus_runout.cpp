@@ -492,7 +492,7 @@ void run_tool(Tool& tool, Options& o, RunInputs& inputs) {
   tags.insert(tags.begin(), {"RUN_ID", tool.run_id()});
   const std::string remark = inputs.remark();
   if (!remark.empty()) tags.emplace_back("REMARK", remark);
-  inputs.warn_of_moving();
+  inputs.warn_of_ends();
 
   const MapPlace map{trn.origin};
   double area = 0;
