@@ -15,7 +15,7 @@ namespace {
 
 using talus::Json;
 
-Json files_as_json(const std::vector<talus::RunFile>& files) {
+Json files_as_json(const std::vector<talus::RunArtifact>& files) {
   Json list = Json::array();
   for (const auto& file : files)
     list.push_back({{"role", file.role},

@@ -232,7 +232,7 @@ struct Tool::Impl {
     }
   }
 
-  RunFile described(const std::string& role, const std::string& path) const {
+  RunArtifact described(const std::string& role, const std::string& path) const {
     const std::string where = absolute(path);
     if (is_virtual(path) || !fs::is_regular_file(path)) return {role, where, "", 0};
     return {role, where, sha256_of_file(path), static_cast<std::int64_t>(fs::file_size(path))};
@@ -267,7 +267,7 @@ struct Tool::Impl {
       check_folder(path);
       return;
     }
-    for (const RunFile& file : record.inputs)
+    for (const RunArtifact& file : record.inputs)
       if (file.path == absolute(path.string()))
         throw InputError({path.string()}, "is both an input and an output", "name another output");
     if (fs::is_directory(path))
@@ -301,7 +301,7 @@ struct Tool::Impl {
     for (const RunParam& param : record.params) add(param.key), add(param.value);
     // Results do not depend on the order in which several inputs of one option are named.
     std::vector<std::pair<std::string, std::string>> contents;
-    for (const RunFile& file : record.inputs) contents.emplace_back(file.role, file.sha256);
+    for (const RunArtifact& file : record.inputs) contents.emplace_back(file.role, file.sha256);
     std::sort(contents.begin(), contents.end());
     for (const auto& [role, sha256] : contents) add(role), add(sha256);
     return hash.hex().substr(0, 16);

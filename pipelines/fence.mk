@@ -1,0 +1,10 @@
+# Runs -> what reaches each fence of the site, what it holds and changes.
+# in: [fence.*], FENCE_FLAGS (e.g. --code onr)   out: $(OUT)/fence.gpkg, .json, .csv; nothing for a site without fences
+$(eval $(call remember,fence,$(EVALUATE_FLAGS) $(FENCE_FLAGS)))
+ifneq ($(SITE_FENCES),)
+fence_files := $(addprefix $(OUT)/,fence.gpkg fence.json fence.csv)
+$(fence_files) &: $(run_files) $(without_files) $(OUT)/bed.tif $(STAGES)/fence.txt $(STAGES)/runs.flags $(STAGES)/fence.flags
+	$(BIN)talus-fence site.toml $(run_files) $(addprefix --without ,$(without_files)) --trn $(OUT)/bed.tif -o $(OUT)/fence.gpkg \
+	  --json $(OUT)/fence.json --csv $(OUT)/fence.csv $(EVALUATE_FLAGS) $(FENCE_FLAGS) --overwrite $(DB)
+endif
+fence: $(fence_files) ## runs -> what the fences meet and hold
