@@ -146,7 +146,7 @@ RunRecord read_columns(SQLite::Statement& row) {
 }
 
 std::vector<RunArtifact> read_files(SQLite::Database& database, const std::string& table,
-                                std::int64_t run_id) {
+                                    std::int64_t run_id) {
   SQLite::Statement row(database,
                         "SELECT role, path, sha256, bytes FROM " + table +
                             " JOIN artifact ON artifact.id = artifact_id WHERE run_id = ? "
