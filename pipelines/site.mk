@@ -18,7 +18,7 @@ DB := --db $(OUT)/runs.sqlite
 .SUFFIXES:
 .PHONY: all terrain blocks runs runout maps fence report clean help
 
-all: runout maps fence ## everything
+all: report ## everything, up to the report
 terrain: $(OUT)/trn.tif ## contours or elevation model -> terrain
 blocks: $(OUT)/blocks.h5 ## source and joints -> blocks and their bed
 
@@ -67,6 +67,7 @@ include $(PIPELINES)dda.mk
 include $(PIPELINES)runout.mk
 include $(PIPELINES)maps.mk
 include $(PIPELINES)fence.mk
+include $(PIPELINES)report.mk
 endif
 
 # Sites whose data are not in the repository keep a list of what they need, with checksums.

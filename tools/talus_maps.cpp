@@ -1,5 +1,6 @@
 // tools/talus_maps.cpp
 // Hazard maps from the passages of one or many runs. Page: docs/tools/talus-maps.md
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -37,7 +38,8 @@ void declare(Tool& tool, Options& o) {
   tool.option("--resamples", o.settings.n_resamples, "resamples of the bootstrap over runs")
       ->check(CLI::Range(20, 10000));
   tool.option("--seed", o.settings.seed, "of the bootstrap");
-  tool.flag("--png", o.png, "a picture of each map over hillshade beside it");
+  tool.flag("--png", o.png,
+            "a picture of each map over hillshade beside it, around the passed cells");
   tool.option("--co", o.creation_options, "creation option of the COGs, NAME=VALUE");
   tool.footer("Example:\n  talus-maps run_1.h5 run_2.h5 --trn slope.tif -o maps --png");
 }
@@ -112,20 +114,50 @@ talus::MapRaster raster_of(const MapLayer& layer, const talus::PassageGrid& grid
   return raster;
 }
 
+/// Part of a map that is drawn: rows and columns, the last ones excluded.
+struct PictureWindow {
+  int row_begin = 0, row_end = 0, col_begin = 0, col_end = 0;
+};
+
+// The cells that anything passed and half as much again on each side: on a large terrain the slide
+// would else be a dot.
+PictureWindow picture_window(const talus::CellRows& cells, const talus::PassageGrid& grid) {
+  if (cells.cell.empty()) return {0, grid.n_rows, 0, grid.n_cols};
+  PictureWindow w{grid.n_rows, 0, grid.n_cols, 0};
+  for (const auto cell : cells.cell) {
+    const int row = static_cast<int>(cell) / grid.n_cols,
+              col = static_cast<int>(cell) % grid.n_cols;
+    w = {std::min(w.row_begin, row), std::max(w.row_end, row + 1), std::min(w.col_begin, col),
+         std::max(w.col_end, col + 1)};
+  }
+  const int margin = std::max({10, (w.row_end - w.row_begin) / 2, (w.col_end - w.col_begin) / 2});
+  return {std::max(0, w.row_begin - margin), std::min(grid.n_rows, w.row_end + margin),
+          std::max(0, w.col_begin - margin), std::min(grid.n_cols, w.col_end + margin)};
+}
+
+talus::Picture picture_of(const talus::Trn& trn, const talus::MapRaster& raster,
+                          const PictureWindow& w, const talus::RasterStyle& style) {
+  const talus::Vec2 corner = raster.corner - trn.origin.head<2>() +
+                             raster.cell_size * talus::Vec2(w.col_begin, -w.row_begin);
+  const talus::PassageGrid grid{corner, raster.cell_size, w.row_end - w.row_begin,
+                                w.col_end - w.col_begin};
+  std::vector<float> value;
+  for (int row = w.row_begin; row < w.row_end; ++row) {
+    const auto first = raster.bands[style.band - 1].value.begin() +
+                       static_cast<std::ptrdiff_t>(row) * raster.n_cols;
+    value.insert(value.end(), first + w.col_begin, first + w.col_end);
+  }
+  return talus::map_picture(trn, grid, value, talus::MapRaster::nodata, style);
+}
+
 Json write_layer(Tool& tool, const Options& o, const MapLayer& layer, talus::MapRaster raster,
-                 const talus::Trn& trn, const std::string& remark) {
+                 const talus::Trn& trn, const PictureWindow& window, const std::string& remark) {
   const std::string base = (std::filesystem::path(o.folder) / layer.name).string();
   const talus::RasterStyle style = talus::map_style(layer, remark);
   raster.tags.emplace_back("SHOWN_BAND", layer.bands[style.band - 1].name);
   talus::write_map_raster(tool.stage(base + ".tif"), raster, o.creation_options);
   tool.write_text(base + ".qml", talus::raster_qml(style));
-  if (o.png) {
-    const talus::PassageGrid grid{raster.corner - trn.origin.head<2>(), raster.cell_size,
-                                  raster.n_rows, raster.n_cols};
-    talus::write_png(tool.stage(base + ".png"),
-                     talus::map_picture(trn, grid, raster.bands[style.band - 1].value,
-                                        talus::MapRaster::nodata, style));
-  }
+  if (o.png) talus::write_png(tool.stage(base + ".png"), picture_of(trn, raster, window, style));
   Json bands = Json::array();
   for (const auto& band : layer.bands) bands.push_back(band.name);
   return {{"file", base + ".tif"}, {"shown_band", raster.tags.back().second}, {"bands", bands}};
@@ -145,6 +177,7 @@ void run_tool(Tool& tool, Options& o, talus::RunInputs& runs) {
   tags.insert(tags.begin(), {"RUN_ID", tool.run_id()});
   const std::string remark = runs.remark();
   const std::vector<bool> known = talus::known_cells(trn, grid);
+  const PictureWindow window = picture_window(cells, grid);
   Json files = Json::array();
   const auto layers = layers_of(cells, gathered, o.settings);
   if (n_rows > 0 && !has_percentiles(layers[1]))
@@ -153,7 +186,7 @@ void run_tool(Tool& tool, Options& o, talus::RunInputs& runs) {
     talus::MapRaster raster = raster_of(layer, grid, trn, known);
     raster.tags = tags;
     if (!remark.empty()) raster.tags.emplace_back("REMARK", remark);
-    files.push_back(write_layer(tool, o, layer, std::move(raster), trn, remark));
+    files.push_back(write_layer(tool, o, layer, std::move(raster), trn, window, remark));
   }
   tool.metric("passages", static_cast<double>(n_rows), "1");
   tool.metric("cells_touched", static_cast<double>(cells.cell.size()), "1");

@@ -575,6 +575,8 @@ void Tool::result(Json result, const std::string& summary) {
 
 bool Tool::overwrite() const { return impl_->overwrite; }
 
+std::string Tool::registry() const { return impl_->registry_path(); }
+
 std::string Tool::run_id() {
   if (impl_->record.content_id.empty()) impl_->record.content_id = impl_->content_id();
   return impl_->record.content_id;
