@@ -23,7 +23,7 @@ $(foreach case,$(CASES),$(eval $(call remember,case_$(case),$(CASE_$(case)))))
 run_options = --seed $(lastword $(subst _, ,$*)) $(CASE_$(firstword $(subst _, ,$*))) $(DDA_FLAGS)
 dda = $(BIN)talus-dda site.toml --trn $(OUT)/bed.tif --blocks $(OUT)/blocks.h5 -o $@ $(run_options) --resume --overwrite $(DB)
 
-$(run_files) $(without_files): $(OUT)/blocks.h5 $(OUT)/bed.tif $(STAGES)/run.txt $(STAGES)/dda.flags | $(OUT)/runs $(OUT)/without
+$(run_files) $(without_files): $(OUT)/blocks.h5 $(STAGES)/run.txt $(STAGES)/dda.flags | $(OUT)/runs $(OUT)/without
 $(foreach case,$(CASES),$(eval $(filter $(OUT)/runs/run_$(case)_% $(OUT)/without/run_$(case)_%,$(run_files) $(without_files)): $(STAGES)/case_$(case).flags))
 $(OUT)/runs/run_%.h5:
 	$(dda)

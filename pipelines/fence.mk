@@ -3,7 +3,8 @@
 $(eval $(call remember,fence,$(EVALUATE_FLAGS) $(FENCE_FLAGS)))
 ifneq ($(SITE_FENCES),)
 fence_files := $(addprefix $(OUT)/,fence.gpkg fence.json fence.csv)
-$(fence_files) &: $(run_files) $(without_files) $(OUT)/bed.tif $(STAGES)/fence.txt $(STAGES)/runs.flags $(STAGES)/fence.flags
+$(eval $(call together,$(fence_files)))
+$(OUT)/fence.gpkg: $(run_files) $(without_files) $(OUT)/blocks.h5 $(STAGES)/fence.txt $(STAGES)/runs.flags $(STAGES)/fence.flags
 	$(BIN)talus-fence site.toml $(run_files) $(addprefix --without ,$(without_files)) --trn $(OUT)/bed.tif -o $(OUT)/fence.gpkg \
 	  --json $(OUT)/fence.json --csv $(OUT)/fence.csv $(EVALUATE_FLAGS) $(FENCE_FLAGS) --overwrite $(DB)
 endif

@@ -3,6 +3,7 @@
 $(eval $(call remember,runout,$(EVALUATE_FLAGS) $(RUNOUT_FLAGS)))
 runout_files := $(addprefix $(OUT)/,runout.gpkg runout.json runout.csv runout.svg curves.csv thickness.tif)
 runout: $(runout_files) ## runs -> deposit, paths, angle of reach
-$(runout_files) &: $(run_files) $(OUT)/bed.tif $(STAGES)/runs.flags $(STAGES)/runout.flags
+$(eval $(call together,$(runout_files)))
+$(OUT)/runout.gpkg: $(run_files) $(OUT)/blocks.h5 $(STAGES)/runs.flags $(STAGES)/runout.flags
 	$(BIN)talus-runout $(run_files) --trn $(OUT)/bed.tif -o $(OUT)/runout.gpkg --json $(OUT)/runout.json --csv $(OUT)/runout.csv \
 	  --svg $(OUT)/runout.svg --curves $(OUT)/curves.csv --thickness $(OUT)/thickness.tif $(EVALUATE_FLAGS) $(RUNOUT_FLAGS) --overwrite $(DB)

@@ -19,14 +19,12 @@ DB := --db $(OUT)/runs.sqlite
 .PHONY: all terrain blocks runs runout maps fence report clean help
 
 all: report ## everything, up to the report
-terrain: $(OUT)/trn.tif ## contours or elevation model -> terrain
-blocks: $(OUT)/blocks.h5 ## source and joints -> blocks and their bed
 
 clean: ## remove everything that was made
 	rm -rf $(OUT)
 
 help: ## this list
-	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  \1: \2/p' $(MAKEFILE_LIST)
+	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  \1: \2/p' $(sort $(MAKEFILE_LIST) $(wildcard $(PIPELINES)*.mk))
 	@echo 'Several runs side by side: make RUNS=50 -j4. One input, other results: make OUT=out2 ...'
 
 include $(PIPELINES)new_site.mk
@@ -52,6 +50,17 @@ $$(shell mkdir -p $(STAGES))$$(file >$(STAGES)/$1.flags,$$(strip flags: $2))
 endif
 endif
 $(STAGES)/$1.flags: ;
+endef
+
+# together(FILES): what one run of a tool writes, the first file last and all with the same time. Rules
+# name the first; the others come with it. One that is missing beside it makes the tool run again.
+define together
+$(wordlist 2,99,$1): $(firstword $1) ;
+ifneq ($$(wildcard $(firstword $1)),)
+ifneq ($$(words $$(wildcard $1)),$(words $1))
+.PHONY: $(firstword $1)
+endif
+endif
 endef
 
 CONTOURS ?= $(SITE_CONTOURS)

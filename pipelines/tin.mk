@@ -2,6 +2,8 @@
 # in: CONTOURS, [terrain], TIN_FLAGS (e.g. --hold-out-every 3)   out: $(OUT)/tin.ply, $(OUT)/tin.json
 $(eval $(call remember,tin,$(CONTOURS) $(TIN_FLAGS)))
 ifneq ($(CONTOURS),)
-$(OUT)/tin.ply $(OUT)/tin.json &: $(CONTOURS) $(STAGES)/tin.txt $(STAGES)/tin.flags | $(OUT)
+tin_files := $(OUT)/tin.ply $(OUT)/tin.json
+$(eval $(call together,$(tin_files)))
+$(OUT)/tin.ply: $(CONTOURS) $(STAGES)/tin.txt $(STAGES)/tin.flags | $(OUT)
 	$(BIN)talus-tin $(CONTOURS) -o $(OUT)/tin.ply --report $(OUT)/tin.json $(SITE_TIN_FLAGS) $(TIN_FLAGS) --overwrite $(DB)
 endif

@@ -2,6 +2,9 @@
 # in: [terrain], DEM, TRN_FLAGS (e.g. --like)   out: $(OUT)/trn.tif, $(OUT)/trn.json, $(OUT)/hillshade.png
 $(eval $(call remember,trn,$(DEM) $(TRN_FLAGS)))
 ground_source := $(if $(CONTOURS),$(OUT)/tin.ply,$(DEM))
-$(OUT)/trn.tif $(OUT)/trn.json $(OUT)/hillshade.png &: $(ground_source) $(STAGES)/trn.txt $(STAGES)/trn.flags | $(OUT)
+trn_files := $(addprefix $(OUT)/,trn.tif trn.json hillshade.png)
+terrain: $(trn_files) ## contours or elevation model -> terrain
+$(eval $(call together,$(trn_files)))
+$(OUT)/trn.tif: $(ground_source) $(STAGES)/trn.txt $(STAGES)/trn.flags | $(OUT)
 	$(BIN)talus-trn $(ground_source) -o $(OUT)/trn.tif --report $(OUT)/trn.json --hillshade $(OUT)/hillshade.png \
 	  $(SITE_TRN_FLAGS) $(TRN_FLAGS) --overwrite $(DB)

@@ -186,10 +186,11 @@ int main(int argc, char** argv) {
   tool.footer("Example:\n  talus-site site.toml -o out/stages --overwrite --no-db");
   return tool.run(argc, argv, [&] {
     const Site& site = site_options.load();
+    // Always written; staged first, so that it comes in place last: its time says when the site
+    // file was last looked at.
+    tool.write_text((fs::path(folder) / "site.mk").string(), make_variables(site));
     for (const Stage& stage : stages())
       write_if_changed(tool, fs::path(folder) / (std::string(stage.name) + ".txt"),
                        settings_of(site, stage));
-    // Always written, and last: its time says when the site file was last looked at.
-    tool.write_text((fs::path(folder) / "site.mk").string(), make_variables(site));
   });
 }

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -376,10 +377,25 @@ struct Tool::Impl {
     }
   }
 
+  // The order in which outputs come in place: the one staged first is last, or the main output when
+  // the tool has one. Who finds it, finds the others of the same run beside it.
+  std::vector<Staged> in_order_of_commit() const {
+    std::vector<Staged> files(staged.rbegin(), staged.rend());
+    const std::string main = outputs.empty() ? "" : *outputs.front().path;
+    std::stable_partition(files.begin(), files.end(),
+                          [&main](const Staged& file) { return file.path != main; });
+    return files;
+  }
+
+  // All outputs of a run bear the same time, so that make sees none as older than another.
   // GDAL puts what a format cannot hold into NAME.aux.xml beside it.
   void commit_outputs() {
-    for (const Staged& file : staged) {
+    timespec now{};
+    clock_gettime(CLOCK_REALTIME, &now);
+    const timespec times[2] = {now, now};
+    for (const Staged& file : in_order_of_commit()) {
       if (!fs::exists(file.temporary)) continue;
+      utimensat(AT_FDCWD, file.temporary.c_str(), times, 0);
       sync_path(file.temporary, O_RDONLY);
       const std::string statistics = file.temporary + ".aux.xml";
       if (fs::exists(statistics)) rename_over(statistics, file.path + ".aux.xml");
