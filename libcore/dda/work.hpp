@@ -9,7 +9,7 @@
 #include "contact/contact.hpp"
 #include "dda/contact_row.hpp"
 #include "dda/island_groups.hpp"
-#include "dda/island_impact.hpp"
+#include "dda/island_solver.hpp"
 #include "dda/state.hpp"
 #include "dda/substep_numbers.hpp"
 
@@ -30,8 +30,16 @@ struct Segment {
 struct IslandContact {
   ContactRow row;
   ContactKey key;
-  int a = 0, b = -1;    ///< blocks; b = -1: the ground
-  double gap_free = 0;  ///< gap at the end of the substep without contact forces [m]
+  int a = 0, b = -1;       ///< blocks; b = -1: the ground
+  double gap_free = 0;     ///< gap at the end of the substep without contact forces [m]
+  double approach = 0;     ///< normal velocity without contact forces, < 0 closing [m/s]
+  double touch = 0;        ///< it touches below this gap [m]
+  double restitution = 0;  ///< of the two surfaces [-]
+  bool waits = false;      ///< approaches too fast to press without being hit
+  bool hit = false;        ///< hit within the substep
+  double hit_time = 0;     ///< from the start of the substep [s]
+  double hit_speed = 0;    ///< normal velocity just before, < 0 [m/s]
+  double target = 0;       ///< normal velocity at the end of the substep [m/s]
 };
 
 /// What the step of islands recomputes.
@@ -43,6 +51,8 @@ struct IslandStepWork {  // clang-format off
   std::vector<std::uint8_t> moving, awake;  ///<                                         (n_blocks)
   PairWork pairs;
   std::vector<std::pair<int, int>> joined;  ///< blocks within reach of each other
+  std::vector<int> joined_manifold;         ///< of each                                 (n_joined)
+  bool pairs_of_step = false;               ///< `pairs` are still those of form_islands
   IslandGroups groups;
   // advance_island: the island at hand
   std::vector<int> members;                 ///< ascending
@@ -53,7 +63,9 @@ struct IslandStepWork {  // clang-format off
   std::vector<IslandContact> contacts;      ///< in the order of island.rows
   Island<6> island;
   IslandWork<6> solver;
-  ImpactWork<6> impact;
+  std::vector<int> island_manifolds;        ///< of the island at hand
+  std::vector<double> weight, time;         ///< impulses expected [N s]; mean time of theirs [s] (n_members)
+  std::vector<Vec6> displacement;           ///< by contact over the substep             (n_members)
 };  // clang-format on
 
 struct Work {  // clang-format off

@@ -64,29 +64,47 @@ struct Bounds {
   const RunResamples* resamples = nullptr;
 };
 
+// Places of the upper bounds by the bootstrap over runs in the ascending list; -1 where there is
+// none.
+std::vector<int> bootstrap_bounds(const std::vector<const FenceArrival*>& ascending,
+                                  const RunResamples& resamples) {
+  std::vector<RunWeight> descending;
+  for (auto a = ascending.rbegin(); a != ascending.rend(); ++a)
+    descending.push_back({(*a)->run, (*a)->weight});
+  const std::vector<double> levels(percentile_levels.rbegin(), percentile_levels.rend());
+  std::vector<int> places = bootstrap_upper_places(descending, resamples, levels);
+  std::reverse(places.begin(), places.end());
+  for (int& place : places)
+    if (place >= 0) place = static_cast<int>(ascending.size()) - 1 - place;
+  return places;
+}
+
 QuantitySummary summary_of(const std::vector<FenceArrival>& arrivals, double n_eff,
                            const Bounds& bounds, double (*quantity)(const FenceArrival&)) {
+  std::vector<const FenceArrival*> ascending;
+  for (const FenceArrival& a : arrivals) ascending.push_back(&a);
+  std::sort(ascending.begin(), ascending.end(),
+            [quantity](const FenceArrival* a, const FenceArrival* b) {
+              const double x = quantity(*a), y = quantity(*b);
+              return x != y ? x < y : a->weight < b->weight;
+            });
+  std::vector<WeightedValue> values;
+  for (const FenceArrival* a : ascending) values.push_back({quantity(*a), a->weight});
   QuantitySummary summary;
-  std::vector<WeightedValue> ascending;
-  std::vector<RunValue> descending;
-  for (const FenceArrival& a : arrivals) {
-    ascending.push_back({quantity(a), a.weight});
-    descending.push_back({quantity(a), a.weight, a.run});
-  }
-  sort_values(ascending);
-  std::sort(descending.begin(), descending.end(),
-            [](const RunValue& a, const RunValue& b) { return a.value > b.value; });
-  summary.largest = ascending.empty() ? none : ascending.back().value;
+  summary.largest = values.empty() ? none : values.back().value;
+  const bool by_runs = bounds.runs_repeat && bounds.n_runs_here >= min_runs;
+  std::vector<int> places;
+  if (by_runs) places = bootstrap_bounds(ascending, *bounds.resamples);
   const int n = static_cast<int>(n_eff + 1e-9);
   for (std::size_t k = 0; k < percentile_levels.size(); ++k) {
     const double p = percentile_levels[k];
     BoundedPercentile& out = summary.percentile[k];
-    out = {weighted_percentile(ascending, p), none};
+    out = {weighted_percentile(values, p), none};
     if (n < smallest_sample(p)) continue;
     if (!bounds.runs_repeat)
-      out.upper = weighted_percentile(ascending, static_cast<double>(upper_bound_rank(n, p)) / n);
-    else if (bounds.n_runs_here >= min_runs)
-      out.upper = bootstrap_upper_percentile(descending, *bounds.resamples, p);
+      out.upper = weighted_percentile(values, static_cast<double>(upper_bound_rank(n, p)) / n);
+    else if (by_runs && places[k] >= 0)
+      out.upper = values[static_cast<std::size_t>(places[k])].value;
   }
   return summary;
 }

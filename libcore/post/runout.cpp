@@ -215,11 +215,15 @@ AngleProfile angle_profile(std::span<const Vec3> points, double from, double tol
     profile.distance.push_back(distance);
     profile.angle.push_back(angle);
     if (std::isnan(angle) || distance < from) continue;
-    if (angle > profile.smallest + tolerance) profile.monotone = false;
-    if (angle >= profile.smallest) continue;  // true for the first: comparison with NaN fails
+    if (angle >= profile.smallest) {  // false for the first: comparison with NaN fails
+      const double head = profile.smallest_at * (std::tan(angle) - std::tan(profile.smallest));
+      profile.missing_head = std::max(profile.missing_head, head);
+      continue;
+    }
     profile.smallest = angle;
     profile.smallest_at = distance;
   }
+  profile.monotone = profile.missing_head <= tolerance;
   return profile;
 }
 
@@ -262,7 +266,7 @@ EventReach event_reach(const RunFile& run, const Trn& trn, const ReachSettings& 
   event.event = reach_along(event.streamline);
   // From where the toe block started: the piece from the top to there may lead sideways.
   event.profile = angle_profile(std::span<const Vec3>(event.streamline).subspan(1),
-                                0.1 * event.event.path, 1e-3);
+                                0.1 * event.event.path, settings.tolerance);
   return event;
 }
 

@@ -112,12 +112,17 @@ void Slide39(benchmark::State& run) {
     run.counters["s"] = 320 - end.y();
     run.counters["x"] = end.x();
     run.counters["deepest_m"] = deepest;
+    run.counters["passes"] = static_cast<double>(state.counters.passes);
+    run.counters["impacts"] = static_cast<double>(state.counters.impacts);
+    run.counters["substeps"] = static_cast<double>(state.counters.substeps);
+    run.counters["asleep"] =
+        static_cast<double>(std::count(state.phase.begin(), state.phase.end(), Phase::asleep));
     run.counters["unconverged"] = static_cast<double>(state.counters.unconverged);
     run.counters["balance"] = (lost - l.friction - l.impact - l.contact - l.removed) / lost;
   }
 }
 BENCHMARK(Slide39)
-    ->ArgsProduct({{20, 50, 100}, {0, 1, 2}})
+    ->ArgsProduct({{10, 20, 50, 100, 167, 200, 300}, {0, 1, 2, 3, 4, 5, 6, 7, 8}})
     ->Unit(benchmark::kSecond)
     ->Iterations(1);
 

@@ -132,6 +132,29 @@ TEST(RunFile, ReadsBackWhatWasWritten) {
   EXPECT_EQ(back.checkpoint, run.checkpoint);
 }
 
+TEST(RunFile, IsReadInParts) {
+  const TemporaryFile file("parts.h5");
+  const RunFile run = sample(50, 70);
+  talus::write_run_file(file.path, run);
+  const RunFile head = talus::read_run_head(file.path);
+  EXPECT_EQ(head.info.site, run.info.site);
+  EXPECT_EQ(head.info.trn_sha256, run.info.trn_sha256);
+  EXPECT_TRUE(head.info.config.empty());
+  EXPECT_EQ(head.grid.n_cols, run.grid.n_cols);
+  EXPECT_EQ(n_blocks(head), 0);
+
+  const RunFile ends = talus::read_run_file(file.path, {true, false, false, false, false, true});
+  ASSERT_EQ(n_frames(ends.frames), 2);
+  EXPECT_EQ(ends.frames.time[1], run.frames.time[49]);
+  for (int b = 0; b < 2; ++b)
+    for (const int k : {0, 1}) {
+      const auto found = frame_block(ends, k, b), expected = frame_block(run, 49 * k, b);
+      EXPECT_EQ(found.position, expected.position);
+      EXPECT_EQ(found.attitude.coeffs(), expected.attitude.coeffs());
+      EXPECT_EQ(found.spin, expected.spin);
+    }
+}
+
 TEST(RunFile, HoldsARunWithoutRows) {
   const TemporaryFile file("empty.h5");
   RunFile run = sample(0, 0);
