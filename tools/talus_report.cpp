@@ -78,7 +78,8 @@ std::vector<fs::path> evaluated_runs(const Folder& folder, const Json& runout) {
   for (const Json& run : runout.at("runs")) ids.insert(run.at("run_id").get<std::string>());
   std::vector<std::pair<std::int64_t, fs::path>> found;
   for (const auto& entry : fs::directory_iterator(folder.required("runs", "talus-dda"))) {
-    if (entry.path().extension() != ".h5") continue;
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with("run_") || !name.ends_with(".h5")) continue;  // staged ones are hidden
     const RunInfo info =
         read_run_file(entry.path().string(), {false, false, false, false, false}).info;
     if (ids.count(info.run_id) > 0) found.emplace_back(info.seed, entry.path());
@@ -181,7 +182,8 @@ ReportData read_data(Tool& tool, const Site& site, const Folder& folder) {
   if (folder.has("maps")) {
     std::vector<fs::path> pictures;
     for (const auto& entry : fs::directory_iterator(folder.path("maps")))
-      if (entry.path().extension() == ".png") pictures.push_back(entry.path());
+      if (entry.path().extension() == ".png" && entry.path().filename().string()[0] != '.')
+        pictures.push_back(entry.path());
     std::sort(pictures.begin(), pictures.end());
     for (const fs::path& path : pictures)
       data.maps.push_back({path.stem().string(), folder.text("maps/" + path.filename().string())});
