@@ -21,7 +21,7 @@ TEST(Base64, NumbersAreLittleEndianAndSingle) {
 
 TEST(Escaped, NothingOfTheTextIsMarkup) {
   EXPECT_EQ(escaped("<a href=\"x\">&</a>"), "&lt;a href=&quot;x&quot;&gt;&amp;&lt;/a&gt;");
-  EXPECT_EQ(escaped(std::string("a\0b\x01c\nd", 7)), "abc\nd");
+  EXPECT_EQ(escaped(std::string("a\0b\001c\nd", 7)), "abc\nd");
 }
 
 // A fence called "</script>" must not end the script element that its name stands in.
