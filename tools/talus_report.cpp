@@ -110,7 +110,10 @@ std::string farthest_run(const Json& runout) {
 
 void read_runs(Tool& tool, const Folder& folder, ReportData& data) {
   const std::string shown = farthest_run(data.runout);
-  for (const fs::path& path : evaluated_runs(folder, data.runout)) {
+  const std::vector<fs::path> files = evaluated_runs(folder, data.runout);
+  const ProgressFunction progress = tool.progress();
+  for (const fs::path& path : files) {
+    progress(static_cast<double>(data.runs.size()) / static_cast<double>(files.size()));
     tool.read_also("run", path.string());
     RunFile run = read_run_file(path.string(), {false, false, false, true, false});
     if (run.info.run_id == shown)
