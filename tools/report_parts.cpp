@@ -341,6 +341,10 @@ std::string fence_section(const ReportData& data) {
           "Of the design code these numbers are from memory and have to be checked: " + list + ".");
     }
   }
+  if (!data.change_png.empty())
+    out += figure("<img loading=\"lazy\" alt=\"change by the fence\" src=\"" +
+                      data_address("image/png", data.change_png) + "\">",
+                  "What the fence changes: with minus without. <code>change.tif</code>");
   return section("fences", "Fences", out);
 }
 

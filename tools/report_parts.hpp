@@ -36,7 +36,7 @@ struct ReportData {
   const Site& site;
   Json tin, trn, blocks, runout, fence;  ///< reports of the tools
   Trn terrain, bed;                      ///< before the slide; what the blocks slide on
-  std::string hillshade_png, mobility_svg, stereonet_svg, sizes_svg, curves_csv;
+  std::string hillshade_png, mobility_svg, stereonet_svg, sizes_svg, curves_csv, change_png;
   std::vector<MapPicture> maps;
   std::vector<RunFile> runs;  ///< info and health, in the order of their seeds; frames left out
   RunFile shown;              ///< the run of the animation, whole

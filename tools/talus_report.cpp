@@ -167,7 +167,8 @@ void read_registry(const std::string& db, const Folder& folder, ReportData& data
 // --- the page ------------------------------------------------------------------------------------
 
 ReportData read_data(Tool& tool, const Site& site, const Folder& folder) {
-  ReportData data{site, {}, {}, {}, {}, {}, {}, {}, "", "", "", "", "", {}, {}, {}, {}, {}, "", ""};
+  ReportData data{site, {}, {}, {}, {}, {}, {}, {}, "", "", "",
+                  "",   "", "", {}, {}, {}, {}, {}, "", ""};
   data.version = build_version;
   data.terrain = read_trn(folder.required("trn.tif", "talus-trn"));
   data.bed = folder.has("bed.tif") ? read_trn(folder.path("bed.tif").string()) : data.terrain;
@@ -182,6 +183,7 @@ ReportData read_data(Tool& tool, const Site& site, const Folder& folder) {
   data.stereonet_svg = folder.text("stereonet.svg");
   data.sizes_svg = folder.text("sizes.svg");
   data.curves_csv = folder.text("curves.csv");
+  data.change_png = folder.text("change.png");
   if (folder.has("maps")) {
     std::vector<fs::path> pictures;
     for (const auto& entry : fs::directory_iterator(folder.path("maps")))
@@ -258,6 +260,10 @@ QgisProject project_of(const ReportData& data, const Options& o, const Folder& f
   if (!tag("REMARK").empty()) project.layout_lines.push_back(tag("REMARK"));
 
   add_package(project, o, folder, "fence.gpkg", "Fences", {"fence_posts"});
+  if (folder.has("change.tif"))
+    project.layers.push_back({"Fences", "change by the fence",
+                              relative_to(o.qgis, folder.path("change.tif")), QgisLayer::raster,
+                              folder.text("change.qml"), false});
   add_package(project, o, folder, "runout.gpkg", "Paths", {"path_points", "paths", "envelope"});
   add_package(project, o, folder, "blocks.gpkg", "Source", {"blocks"});
   add_maps(project, o, folder);

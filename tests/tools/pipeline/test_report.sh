@@ -37,7 +37,7 @@ for link in page.links:
     if link.startswith("#"): assert link[1:] in page.ids, link
 assert "<b>&\"" not in text, "the site's name is markup"
 assert "&lt;b&gt;&amp;&quot; name" in text
-assert len(re.findall(r'src="data:image/png', text)) == 10, "ten maps"
+assert len(re.findall(r'src="data:image/png', text)) == 11, "ten maps and the change by the fence"
 assert "Health: pass" in text and "talus-tin contours.gpkg" in text
 
 archive = zipfile.ZipFile(f"{out}/site.qgz")
