@@ -593,12 +593,11 @@ std::string file_list(const Site& site, const std::vector<RunArtifact>& files) {
 
 std::string provenance_section(const ReportData& data) {
   std::vector<std::vector<std::string>> rows;
-  for (const ProvenanceStep& step : data.steps)
-    rows.push_back({"<code>" + escaped(bare_command(step.record.command_line)) + "</code>",
-                    escaped(step.record.version + " (" + step.record.git_commit + ")"),
-                    "<code>" + escaped(step.record.content_id) + "</code>",
-                    file_list(data.site, step.record.inputs),
-                    file_list(data.site, step.record.outputs)});
+  for (const RunRecord& step : data.steps)
+    rows.push_back({"<code>" + escaped(bare_command(step.command_line)) + "</code>",
+                    escaped(step.version + " (" + step.git_commit + ")"),
+                    "<code>" + escaped(step.content_id) + "</code>",
+                    file_list(data.site, step.inputs), file_list(data.site, step.outputs)});
   std::string out =
       rows.empty()
           ? note("The registry holds no record of these results.")

@@ -22,17 +22,14 @@ struct LimitOverRuns {
   int n_failed = 0;
 };
 
-/// One step of the ancestry: a run of a tool, after those whose outputs it read.
-struct ProvenanceStep {
-  RunRecord record;
-};
-
 struct MapPicture {
   std::string name, png;
 };
 
 /// Everything that the sections show; JSON is null and text empty where a file is missing.
 struct ReportData {
+  explicit ReportData(const Site& of_site) : site(of_site) {}
+
   const Site& site;
   Json tin, trn, blocks, runout, fence;  ///< reports of the tools
   Trn terrain, bed;                      ///< before the slide; what the blocks slide on
@@ -41,7 +38,7 @@ struct ReportData {
   std::vector<RunFile> runs;  ///< info and health, in the order of their seeds; frames left out
   RunFile shown;              ///< the run of the animation, whole
   std::vector<LimitOverRuns> limits;
-  std::vector<ProvenanceStep> steps;
+  std::vector<RunRecord> steps;  ///< each behind those whose outputs it read
   std::string run_id, version;
 };
 

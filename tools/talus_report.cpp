@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <set>
 
 #include "base/sha256.hpp"
@@ -144,13 +145,13 @@ void add_limits(const RunRecord& record, std::vector<LimitOverRuns>& limits) {
 
 // Depth first, so that each step stands behind those whose outputs it reads.
 void add_steps(const std::string& db, const std::string& sha256, std::int64_t before,
-               std::set<std::int64_t>& seen, std::vector<ProvenanceStep>& steps) {
+               std::set<std::int64_t>& seen, std::vector<RunRecord>& steps) {
   if (sha256.empty()) return;
   const RunRecord record = writer_of(db, sha256, before);
   if (record.id == 0 || !seen.insert(record.id).second) return;
   for (const RunArtifact& input : record.inputs)
     add_steps(db, input.sha256, record.id, seen, steps);
-  steps.push_back({record});
+  steps.push_back(record);
 }
 
 void read_registry(const std::string& db, const Folder& folder, ReportData& data) {
@@ -167,8 +168,7 @@ void read_registry(const std::string& db, const Folder& folder, ReportData& data
 // --- the page ------------------------------------------------------------------------------------
 
 ReportData read_data(Tool& tool, const Site& site, const Folder& folder) {
-  ReportData data{site, {}, {}, {}, {}, {}, {}, {}, "", "", "",
-                  "",   "", "", {}, {}, {}, {}, {}, "", ""};
+  ReportData data(site);
   data.version = build_version;
   data.terrain = read_trn(folder.required("trn.tif", "talus-trn"));
   data.bed = folder.has("bed.tif") ? read_trn(folder.path("bed.tif").string()) : data.terrain;

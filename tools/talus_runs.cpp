@@ -197,6 +197,23 @@ Json prov_of(const std::string& db, const std::set<std::int64_t>& ids) {
   return prov;
 }
 
+void show_ancestry(talus::Tool& tool, const std::string& db, const std::string& file, bool prov) {
+  Ancestry ancestry{db, {}, {}};
+  Json node = ancestry.add(std::filesystem::absolute(file).string(), talus::sha256_of_file(file), 0,
+                           std::numeric_limits<std::int64_t>::max());
+  if (!node.contains("run"))
+    throw talus::InputError({file}, "no run in " + db + " wrote a file with this content",
+                            "name the registry that stands beside the output with --db");
+  ancestry.text.pop_back();
+  if (!prov) {
+    tool.result(std::move(node), ancestry.text);
+    return;
+  }
+  Json document = prov_of(db, ancestry.shown);
+  const std::string text = document.dump(2, ' ', false, Json::error_handler_t::replace);
+  tool.result(std::move(document), text);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -237,21 +254,7 @@ int main(int argc, char** argv) {
       tool.result(details_as_json(run), as_text(run));
     } else {
       if (db_option->count() == 0) db = registry_near(file, db);
-      Ancestry ancestry{db, {}, {}};
-      Json node =
-          ancestry.add(std::filesystem::absolute(file).string(), talus::sha256_of_file(file), 0,
-                       std::numeric_limits<std::int64_t>::max());
-      if (!node.contains("run"))
-        throw talus::InputError({file}, "no run in " + db + " wrote a file with this content",
-                                "name the registry that stands beside the output with --db");
-      ancestry.text.pop_back();
-      if (prov) {
-        Json document = prov_of(db, ancestry.shown);
-        const std::string text = document.dump(2, ' ', false, Json::error_handler_t::replace);
-        tool.result(std::move(document), text);
-      } else {
-        tool.result(node, ancestry.text);
-      }
+      show_ancestry(tool, db, file, prov);
     }
   });
 }
