@@ -722,7 +722,8 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& inpu
   if (!remark.empty()) tags.emplace_back("REMARK", remark);
   if (!o.change.empty()) {
     const MapLayer layer = change_layer(ground_with, ground_without, grid.cell_size);
-    write_map(tool, map_frame(trn, grid, true), o.change, layer, change_style(layer, remark), tags);
+    write_map(tool, map_frame(trn, grid, true, layer.cell), o.change, layer,
+              change_style(layer, remark), tags);
   }
   write_geopackage(tool.stage(o.out), trn.crs_wkt,
                    {field_layer(cases, results, trn.origin), post_layer(cases, results, trn.origin),

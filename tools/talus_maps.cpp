@@ -144,7 +144,7 @@ void run_tool(Tool& tool, Options& o, talus::RunInputs& runs) {
   tags.insert(tags.begin(), {"RUN_ID", tool.run_id()});
   const std::string remark = runs.remark();
   if (!remark.empty()) tags.emplace_back("REMARK", remark);
-  const talus::MapFrame frame = talus::map_frame(trn, grid, o.png);
+  const talus::MapFrame frame = talus::map_frame(trn, grid, o.png, layers[0].cell);
   Json files = Json::array();
   for (const MapLayer& layer : layers) {
     const std::string path = (std::filesystem::path(o.folder) / (layer.name + ".tif")).string();

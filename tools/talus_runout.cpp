@@ -459,8 +459,8 @@ void write_thickness(Tool& tool, const Options& o, const Ordered& all, const Trn
                      const MapTags& tags, const std::string& remark) {
   MapLayer layer = deposit_layer(all.deposit, all.grid.cell_size, all.released);
   layer.bands.erase(layer.bands.begin(), layer.bands.begin() + 2);
-  write_map(tool, map_frame(trn, all.grid, false), o.thickness, layer, map_style(layer, remark),
-            tags);
+  write_map(tool, map_frame(trn, all.grid, false, layer.cell), o.thickness, layer,
+            map_style(layer, remark), tags);
 }
 
 std::string summary_of(const Ordered& all) {
