@@ -1,5 +1,6 @@
 #include "map_output.hpp"
 
+#include <algorithm>
 #include <filesystem>
 
 namespace talus {
@@ -21,11 +22,50 @@ MapRaster raster_of(const MapFrame& frame, const MapLayer& layer) {
   return raster;
 }
 
+PassageGrid part_of(const PassageGrid& grid, const CellWindow& w) {
+  PassageGrid part = grid;
+  part.corner += grid.cell_size * Vec2(w.col_begin, -w.row_begin);
+  part.n_rows = w.row_end - w.row_begin;
+  part.n_cols = w.col_end - w.col_begin;
+  return part;
+}
+
+std::vector<float> part_of(const std::vector<float>& value, const PassageGrid& grid,
+                           const CellWindow& w) {
+  std::vector<float> part;
+  for (int row = w.row_begin; row < w.row_end; ++row) {
+    const auto first = value.begin() + static_cast<std::ptrdiff_t>(row) * grid.n_cols;
+    part.insert(part.end(), first + w.col_begin, first + w.col_end);
+  }
+  return part;
+}
+
+CellWindow window_around(const PassageGrid& grid, const std::vector<std::uint32_t>& touched) {
+  if (touched.empty()) return {0, grid.n_rows, 0, grid.n_cols};
+  CellWindow w{grid.n_rows, 0, grid.n_cols, 0};
+  for (const std::uint32_t cell : touched) {
+    const int row = static_cast<int>(cell) / grid.n_cols,
+              col = static_cast<int>(cell) % grid.n_cols;
+    w = {std::min(w.row_begin, row), std::max(w.row_end, row + 1), std::min(w.col_begin, col),
+         std::max(w.col_end, col + 1)};
+  }
+  const int margin = std::max({10, (w.row_end - w.row_begin) / 2, (w.col_end - w.col_begin) / 2});
+  return {std::max(0, w.row_begin - margin), std::min(grid.n_rows, w.row_end + margin),
+          std::max(0, w.col_begin - margin), std::min(grid.n_cols, w.col_end + margin)};
+}
+
 }  // namespace
 
-MapFrame map_frame(const Trn& trn, const PassageGrid& grid, bool png) {
-  return {grid.corner + trn.origin.head<2>(),     grid, trn.crs_wkt, known_cells(trn, grid), png,
-          png ? shading_of(trn, grid) : Shading{}};
+MapFrame map_frame(const Trn& trn, const PassageGrid& grid, bool png,
+                   const std::vector<std::uint32_t>& touched) {
+  const CellWindow drawn = window_around(grid, touched);
+  return {grid.corner + trn.origin.head<2>(),
+          grid,
+          trn.crs_wkt,
+          known_cells(trn, grid),
+          png,
+          drawn,
+          png ? shading_of(trn, part_of(grid, drawn)) : Shading{}};
 }
 
 std::string write_map(Tool& tool, const MapFrame& frame, const std::string& path,
@@ -42,8 +82,9 @@ std::string write_map(Tool& tool, const MapFrame& frame, const std::string& path
   tool.write_text(beside(".qml"), raster_qml(style));
   if (frame.png)
     write_png(tool.stage(beside(".png")),
-              map_picture(frame.shading, frame.grid, raster.bands[shown].value, MapRaster::nodata,
-                          style));
+              map_picture(frame.shading, part_of(frame.grid, frame.drawn),
+                          part_of(raster.bands[shown].value, frame.grid, frame.drawn),
+                          MapRaster::nodata, style));
   return layer.bands[shown].name;
 }
 

@@ -437,7 +437,7 @@ struct Ordered {
 
 Ordered read_runs(RunInputs& inputs, const Options& o, const Trn& trn) {
   Ordered out;
-  inputs.read({true, true, false, true, false}, [&](RunFile& run, int) {
+  inputs.read({.crossings = false, .checkpoint = false}, [&](RunFile& run, int) {
     out.results.push_back(result_of(run, trn, o, inputs.rest_speed_m_s));
     out.grid = run.grid.n_rows > 0 ? run.grid : passage_grid(trn, 0);
   });
@@ -459,8 +459,8 @@ void write_thickness(Tool& tool, const Options& o, const Ordered& all, const Trn
                      const MapTags& tags, const std::string& remark) {
   MapLayer layer = deposit_layer(all.deposit, all.grid.cell_size, all.released);
   layer.bands.erase(layer.bands.begin(), layer.bands.begin() + 2);
-  write_map(tool, map_frame(trn, all.grid, false), o.thickness, layer, map_style(layer, remark),
-            tags);
+  write_map(tool, map_frame(trn, all.grid, false, layer.cell), o.thickness, layer,
+            map_style(layer, remark), tags);
 }
 
 std::string summary_of(const Ordered& all) {
@@ -492,7 +492,7 @@ void run_tool(Tool& tool, Options& o, RunInputs& inputs) {
   tags.insert(tags.begin(), {"RUN_ID", tool.run_id()});
   const std::string remark = inputs.remark();
   if (!remark.empty()) tags.emplace_back("REMARK", remark);
-  inputs.warn_of_moving();
+  inputs.warn_of_ends();
 
   const MapPlace map{trn.origin};
   double area = 0;
