@@ -57,12 +57,17 @@ void RunInputs::read_members(std::size_t first, const RunParts& parts,
   progress(1);
 }
 
-void RunInputs::warn_of_moving() const {
+void RunInputs::warn_of_ends() const {
   int moving = 0, released = 0;
+  std::int64_t left = 0;
   for (const RunMember& member : members) {
     moving += member.n_moving;
     released += member.n_blocks;
+    left += member.left_domain;
   }
+  if (left > 0)
+    tool_.warn(std::to_string(left) + " of " + std::to_string(released) +
+               " blocks left the known terrain: maps and run-out end where it does");
   if (moving > 0)
     tool_.warn(std::to_string(moving) + " of " + std::to_string(released) +
                " blocks were still moving when their runs ended: deposits leave them out; give "

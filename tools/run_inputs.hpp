@@ -36,8 +36,9 @@ class RunInputs {
   /// Warns of unfinished runs; "" when all are whole, else what pictures and legends say.
   [[nodiscard]] std::string remark() const;
 
-  /// Warns when blocks were still moving as their runs ended: deposits leave them out.
-  void warn_of_moving() const;
+  /// Warns when blocks were still moving as their runs ended, or had left the known terrain:
+  /// deposits leave them out.
+  void warn_of_ends() const;
 
   std::vector<std::string> files;
   std::string trn_file;

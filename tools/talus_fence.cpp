@@ -340,7 +340,7 @@ FenceResult evaluate(const FenceCase& c, std::size_t index, const RunGroup& grou
     r.arrivals.push_back(a);
     towards_left += a.direction;
   }
-  r.side = towards_left > 0 ? -1 : 1;
+  r.side = towards_left != 0 ? (towards_left > 0 ? -1 : 1) : uphill_side(c.fence, trn);
   const DesignInput input = design_input(o, group, mean_size(r.arrivals, group));
   r.whole = summarise(r.arrivals, group.n(), o.seed);
   r.design = check_design(code.code, code.classes, input, r.whole, c.fence);
@@ -682,7 +682,7 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& inpu
             inputs.rest_speed_m_s);
     runs.push_back(whole_of(run, index, cases, o, code.code, inputs, trn, site.file));
   };
-  const RunParts parts{true, true, true, true, false};
+  const RunParts parts{.checkpoint = false};
   inputs.read(parts, take);
   const std::size_t n_with = runs.size();
   inputs.read(o.without, parts, take);
@@ -715,7 +715,7 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& inpu
                 std::to_string(results[i].design.n_needed) +
                 ": the largest values stand in for them, and nothing passes");
   }
-  inputs.warn_of_moving();
+  inputs.warn_of_ends();
   auto tags = tags_of(inputs.members);
   tags.insert(tags.begin(), {"RUN_ID", tool.run_id()});
   const std::string remark = inputs.remark();

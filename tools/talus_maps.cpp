@@ -63,7 +63,12 @@ struct Gathered {
 // All that does not grow with the number of runs, and the rows as long as they are few enough.
 Gathered gather(talus::RunInputs& runs, const Options& o) {
   Gathered out;
-  runs.read({true, true, false, true, false, true}, [&](RunFile& run, int index) {
+  const talus::RunParts parts{.crossings = false,
+                              .checkpoint = false,
+                              .only_last_frame = true,
+                              .only_faults = true,
+                              .words = false};
+  runs.read(parts, [&](RunFile& run, int index) {
     if (run.grid.n_rows == 0)
       throw talus::InputError({runs.members[index].file}, "holds no passages",
                               "set [output] passages = true and run talus-dda again");
@@ -101,13 +106,15 @@ std::vector<MapLayer> passage_layers(const talus::CellRows& cells, const Gathere
 
 // Tile by tile, each from its own reading of the runs where there is more than one.
 std::vector<MapLayer> layers_of(talus::RunInputs& runs, Gathered& g, const Options& o) {
+  const talus::RunParts only_passages{
+      .frames = false, .crossings = false, .health = false, .checkpoint = false, .words = false};
   std::vector<MapLayer> layers;
   const std::vector<talus::MapTile> tiles = g.n_rows > o.most_rows()
                                                 ? talus::tiles_of(g.rows_of_cell, o.most_rows())
                                                 : std::vector<talus::MapTile>{{}};
   for (const talus::MapTile& tile : tiles) {
     if (g.rows.empty())
-      runs.read_again({false, true, false, false, false}, [&](RunFile& run, int) {
+      runs.read_again(only_passages, [&](RunFile& run, int) {
         g.rows.push_back(talus::map_rows(run.passages, run.grid, g.map, run.blocks.weight, tile));
       });
     const talus::CellRows cells = talus::group_by_cell(std::move(g.rows), g.rows_of_cell.size());
@@ -131,7 +138,7 @@ void run_tool(Tool& tool, Options& o, talus::RunInputs& runs) {
   const auto layers = layers_of(runs, gathered, o);
   const std::size_t n_touched = layers[0].cell.size();
   if (n_rows == 0) tool.warn("no block passed any cell: the maps are empty");
-  runs.warn_of_moving();
+  runs.warn_of_ends();
 
   auto tags = talus::tags_of(runs.members);
   tags.insert(tags.begin(), {"RUN_ID", tool.run_id()});

@@ -437,7 +437,7 @@ struct Ordered {
 
 Ordered read_runs(RunInputs& inputs, const Options& o, const Trn& trn) {
   Ordered out;
-  inputs.read({true, true, false, true, false}, [&](RunFile& run, int) {
+  inputs.read({.crossings = false, .checkpoint = false}, [&](RunFile& run, int) {
     out.results.push_back(result_of(run, trn, o, inputs.rest_speed_m_s));
     out.grid = run.grid.n_rows > 0 ? run.grid : passage_grid(trn, 0);
   });
@@ -492,7 +492,7 @@ void run_tool(Tool& tool, Options& o, RunInputs& inputs) {
   tags.insert(tags.begin(), {"RUN_ID", tool.run_id()});
   const std::string remark = inputs.remark();
   if (!remark.empty()) tags.emplace_back("REMARK", remark);
-  inputs.warn_of_moving();
+  inputs.warn_of_ends();
 
   const MapPlace map{trn.origin};
   double area = 0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace talus {
 namespace {
@@ -15,6 +16,9 @@ constexpr double slack = 0.5;      // of a slip stiffness before its tangent is 
 constexpr double first_ratio = 1;  // D / m at which stiffening starts
 constexpr double ratio_growth = 4;
 constexpr double soft_tolerance = 1e-3;  // of a stage before the last, relative to its start
+constexpr int all_every = 4;             // every so many linear solutions move all bodies
+constexpr size_t least = 8;              // ... of at least 64
+constexpr size_t few = 8;                // the neighbourhood alone where fewer than 1 in 8 move
 constexpr double hopeless = 1e5;  // growth of the residual at which coupled steps are given up
 
 /// One solve; a struct so that its parts share what they all need.
@@ -30,6 +34,7 @@ struct Solve {
   bool direct = false;
   bool tracking = true;
   double stiffness_ratio = 0;
+  int n_linear = 0;  // linear solutions by conjugate gradients
 
   // Packs the rows, and sets the tolerance above the rounding of the stiffest impulse.
   void prepare() {
@@ -54,33 +59,50 @@ struct Solve {
     result.n_lowered = pack_rows(island.pairs, island.rows, work.limit, work.rows);
     prepare_matrix(island, work.matrix);
     for (auto* vectors : {&work.residual, &work.step, &work.from, &work.best}) vectors->resize(n);
+    work.speed.resize(n);
+    work.moves.resize(n);
+    work.pair_impulse.resize(n_pairs);
+    activate_all();
     direct = n_bodies(island) <= settings.direct_bodies;
     for (size_t i = 0; i < n; ++i)
       if (!island.velocity[i].allFinite()) island.velocity[i] = island.free_velocity[i];
   }
 
+  void activate_all() {
+    work.matrix.is_active.assign(island.mass.size(), 1);
+    work.matrix.active.resize(island.mass.size());
+    std::iota(work.matrix.active.begin(), work.matrix.active.end(), 0);
+    work.matrix.active_coupled = work.matrix.coupled;
+  }
+
+  // Contacts of an active body; what a body at rest had from them before is replaced.
   [[gnu::flatten]] void evaluate_contacts(size_t p, Evaluation evaluation) {
     const BodyPair& pair = island.pairs[p];
     const auto a = static_cast<size_t>(pair.a), b = static_cast<size_t>(pair.b);
+    const std::vector<std::uint8_t>& active = work.matrix.is_active;
+    const bool active_b = pair.b >= 0 && active[b];
+    if (!active[a] && !active_b) return;
     const Vec3& shift = work.matrix.shift[p];
     const Vec u = pair.b < 0 ? island.velocity[a]
                              : relative_motion<Dof>(island.velocity[a], island.velocity[b], shift);
     Vec f;
     if (evaluate_pair<Dof>(groups_of(work.rows, p), u, evaluation, direct ? 0 : slack, f))
       work.matrix.pair_changed[p] = 1;
-    work.residual[a] -= f;
-    if (pair.b >= 0) work.residual[b] += carried_to_b<Dof>(f, shift);
+    const Vec change = f - work.pair_impulse[p];
+    work.pair_impulse[p] = f;
+    work.residual[a] -= active[a] ? f : change;
+    if (pair.b >= 0) work.residual[b] += carried_to_b<Dof>(active_b ? f : change, shift);
   }
 
   // The largest residual as a velocity: impulse over mass, angular impulse over inertia times
   // radius.
-  [[nodiscard]] double residual_speed() const {
+  [[nodiscard]] double residual_speed() {
     double largest = 0;
     for (size_t i = 0; i < island.mass.size(); ++i) {
       const Vec speed = work.residual[i].cwiseAbs().cwiseQuotient(island.mass[i].diagonal());
       const double turning = speed.template tail<Dof - 3>().maxCoeff() * island.radius[i];
-      const double of_body = std::max(speed.template head<3>().maxCoeff(), turning);
-      if (!(of_body <= largest)) largest = of_body;  // NaN stays
+      work.speed[i] = std::max(speed.template head<3>().maxCoeff(), turning);
+      if (!(work.speed[i] <= largest)) largest = work.speed[i];  // NaN stays
       if (std::isnan(largest)) return largest;
     }
     return largest;
@@ -88,9 +110,11 @@ struct Solve {
 
   [[gnu::flatten]] double evaluate(Evaluation evaluation) {
     ++result.passes;
-    for (size_t i = 0; i < island.mass.size(); ++i)
+    for (const int body : work.matrix.active) {
+      const auto i = static_cast<size_t>(body);
       work.residual[i] =
           times_mass<Dof>(island.mass[i], island.velocity[i] - island.free_velocity[i]);
+    }
     for (size_t p = 0; p < island.pairs.size(); ++p) evaluate_contacts(p, evaluation);
     result.residual = residual_speed();
     if (tracking && evaluation == Evaluation::coupled && result.residual < best_residual) {
@@ -100,15 +124,31 @@ struct Solve {
     return result.residual;
   }
 
+  // Do so few bodies move that their neighbourhood is worth a linear solution of its own? Not in
+  // every step: a push that travels far needs them all.
+  bool few_move() {
+    size_t n = 0;
+    for (size_t i = 0; i < work.moves.size(); ++i) {
+      work.moves[i] = !(work.speed[i] <= tolerance);
+      n += work.moves[i];
+    }
+    return ++n_linear % all_every != 0 && few * std::max(n, least) < work.moves.size();
+  }
+
   // K step = -residual.
   void find_step() {
     update_tangents(island, direct ? Tangent::exact : Tangent::symmetric, work.rows, work.matrix);
     for (Vec& r : work.residual) r = -r;
     if (direct) {
+      activate_all();
       ++result.factorisations;
       solve_direct<Dof>(island, work.matrix, work.residual, work.step);
     } else {
       update_diagonals(island, work.matrix);
+      if (few_move())
+        choose_active<Dof>(island, work.moves, work.matrix);
+      else
+        activate_all();
       const LinearResult linear = solve_conjugate_gradients<Dof>(
           island, work.matrix, work.residual, settings.linear_tolerance,
           settings.max_linear_iterations, work.step);
@@ -143,7 +183,9 @@ struct Solve {
   }
 
   bool solve_coupled(int max_passes) {
-    evaluate(Evaluation::inherited);
+    const double at_start =
+        evaluate(settings.continues ? Evaluation::coupled : Evaluation::inherited);
+    if (settings.continues && at_start <= tolerance) return true;
     for (int steps = 0; result.passes < max_passes; ++steps) {
       const double residual = advance(steps >= free_steps);
       if (residual <= tolerance) return true;
@@ -158,6 +200,7 @@ struct Solve {
       work.limit[p] = ratio * reduced_mass(island, island.pairs[p]);
     (void)pack_rows(island.pairs, island.rows, work.limit, work.rows);
     work.matrix.pair_changed.assign(island.pairs.size(), 1);
+    activate_all();
     return evaluate(Evaluation::coupled);
   }
 

@@ -203,6 +203,7 @@ struct AdvanceIsland {
 
   void clear_island() {
     w.contacts.clear();
+    w.turns.clear();
     w.island.mass.clear();
     w.island.free_velocity.clear();
     w.island.velocity.clear();
@@ -215,10 +216,13 @@ struct AdvanceIsland {
   void add_member(size_t k, double h) {
     const BlockNumbers& c = w.numbers[k];
     const Substep& s = w.substeps[k];
+    const FreeTurn turn = {s.R * s.start.pose.attitude.conjugate().toRotationMatrix(),
+                           spin_of(s.start, c.inertia), s.R * s.spin_free};
     Vec6 free, guess;
-    free << s.free.velocity, s.R * s.spin_free;
+    free << s.free.velocity, turn.spin_end;
     guess << s.start.velocity + h * state.acceleration[block(k)],
-        spin_of(s.start, c.inertia) + h * (s.R * state.spin_rate[block(k)]);
+        turn.spin_start + h * (s.R * state.spin_rate[block(k)]);
+    w.turns.push_back(turn);
     Mat6 M = Mat6::Zero();
     M.topLeftCorner<3, 3>().diagonal().setConstant(c.mass);
     M.bottomRightCorner<3, 3>() = s.R * c.inertia.asDiagonal() * s.R.transpose();
@@ -300,13 +304,15 @@ struct AdvanceIsland {
   struct PointPath {
     Vec3 start, end, moved, velocity, spin_end;
   };
-  static PointPath path_of(const Substep& s, const Vec3& inertia, const Vec3& x) {
+  [[nodiscard]] PointPath path_of(size_t k, const Vec3& x) const {
+    const Substep& s = w.substeps[k];
+    const FreeTurn& turn = w.turns[k];
     PointPath p;
     p.start = x - s.start.pose.position;
-    p.end = s.R * (s.start.pose.attitude.conjugate() * p.start);
+    p.end = turn.by * p.start;
     p.moved = s.free.pose.position - s.start.pose.position + p.end - p.start;
-    p.velocity = s.start.velocity + spin_of(s.start, inertia).cross(p.start);
-    p.spin_end = s.R * s.spin_free;
+    p.velocity = s.start.velocity + turn.spin_start.cross(p.start);
+    p.spin_end = turn.spin_end;
     return p;
   }
 
@@ -327,11 +333,11 @@ struct AdvanceIsland {
 
   void add_point(const PairManifold& m, const PairPoint& point) {
     const size_t ka = place(m.block_a), kb = place(m.block_b);
-    const Substep &sa = w.substeps[ka], &sb = w.substeps[kb];
+    const Substep& sa = w.substeps[ka];
     const BlockNumbers &ca = w.numbers[ka], &cb = w.numbers[kb];
     const Vec3& n = m.normal;
-    const PointPath pa = path_of(sa, ca.inertia, point.point_b + point.gap * n);
-    const PointPath pb = path_of(sb, cb.inertia, point.point_b);
+    const PointPath pa = path_of(ka, point.point_b + point.gap * n);
+    const PointPath pb = path_of(kb, point.point_b);
     const Vec3 shift = w.island.position[ka] - w.island.position[kb];  // of B's arms from A's
     const Vec3 arm = (pa.start + pa.end + pb.start + pb.end) / 4 - shift / 2;
     const Vec3 arm_b = arm + shift;
@@ -514,8 +520,9 @@ struct AdvanceIsland {
     return fastest;
   }
 
-  bool solve_once(double h) {
+  bool solve_once(double h, bool continues) {
     IslandSettings settings;
+    settings.continues = continues;
     const double by_gravity = scene.gravity.norm() * h;
     settings.tolerance = small_tolerance * by_gravity;
     if (!is_small()) {
@@ -541,7 +548,7 @@ struct AdvanceIsland {
   bool solve(double h) {
     int hits = find_hits(h, true);
     set_times(h);
-    bool converged = solve_once(h);
+    bool converged = solve_once(h, false);
     for (int round = 0; round < most_hit_rounds && converged; ++round) {
       const int more = find_hits(h, false);
       hits += more;
@@ -549,12 +556,12 @@ struct AdvanceIsland {
       const double error = correct_hits();
       if (more > 0) set_times(h);
       if (more == 0 && error <= (is_small() ? small_hit_tolerance : hit_tolerance)) break;
-      converged = solve_once(h);
+      converged = solve_once(h, true);
     }
     report.n_impacts += hits;
     if (converged && work_on_velocities() > gain_rounding * hit_energy()) {
       forgo_rebound();
-      converged = solve_once(h);
+      converged = solve_once(h, true);
     }
     return converged;
   }

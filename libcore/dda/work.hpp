@@ -42,6 +42,12 @@ struct IslandContact {
   double target = 0;       ///< normal velocity at the end of the substep [m/s]
 };
 
+/// How a body turns over a substep without contact.
+struct FreeTurn {
+  Mat3 by;                    ///< from start to end, local axes
+  Vec3 spin_start, spin_end;  ///< local axes [rad/s]
+};
+
 /// What the step of islands recomputes.
 struct IslandStepWork {  // clang-format off
   // form_islands
@@ -59,6 +65,7 @@ struct IslandStepWork {  // clang-format off
   std::vector<BlockNumbers> numbers;        ///<                                         (n_members)
   std::vector<double> bearing;              ///< mass of the heaviest block touched [kg] (n_members)
   std::vector<Substep> substeps;            ///<                                         (n_members)
+  std::vector<FreeTurn> turns;              ///<                                         (n_members)
   std::vector<int> place;                   ///< of a block in `members`, -1: not in it  (n_blocks)
   std::vector<IslandContact> contacts;      ///< in the order of island.rows
   Island<6> island;

@@ -263,6 +263,19 @@ FencePartSummary summarise(const std::vector<FenceArrival>& given, int n_runs, s
   return summary;
 }
 
+int uphill_side(const Fence& fence, const Trn& trn) {
+  double higher_on_the_left = 0;
+  for (int field = 0; field < n_fields(fence); ++field) {
+    const Vec2 tangent = along(fence, field), left(-tangent.y(), tangent.x());
+    const Vec2 middle = 0.5 * (fence.post[field] + fence.post[field + 1]).head<2>();
+    const Vec2 a = middle + fence.height * left, b = middle - fence.height * left;
+    const double rise = elevation_at(trn, a.x(), a.y()) - elevation_at(trn, b.x(), b.y());
+    if (!std::isnan(rise))
+      higher_on_the_left += rise * (fence.chainage[field + 1] - fence.chainage[field]);
+  }
+  return higher_on_the_left < 0 ? -1 : 1;
+}
+
 double storage(const Fence& fence, int field, int side, const Trn& trn, double reach) {
   const Vec2 a = fence.post[field].head<2>(), b = fence.post[field + 1].head<2>();
   const Vec2 tangent = along(fence, field);
@@ -279,7 +292,7 @@ double storage(const Fence& fence, int field, int side, const Trn& trn, double r
     for (double far = 0.5 * step; far < reach; far += step) {
       const Vec2 at = foot + far * uphill;
       const double depth = fill - elevation_at(trn, at.x(), at.y());
-      if (!(depth > 0)) break;
+      if (!(depth > 0) || depth > 2 * fence.height) break;
       volume += depth * step * width;
     }
   }

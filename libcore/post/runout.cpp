@@ -82,14 +82,8 @@ Vec3 outermost_point(const RunFile& run, int block, const std::vector<Vec3>& way
   return toe;
 }
 
-// How far a block started from a point in the direction that it then went [m].
-double ahead_of(const Vec3& from, const RunFile& run, int block) {
-  const Vec2 start = first_pose(run, block).position.head<2>();
-  const Vec2 moved = last_pose(run, block).position.head<2>() - start;
-  return moved.norm() > 0 ? (start - from.head<2>()).dot(moved.normalized()) : 0;
-}
-
-// Blocks at rest go before others; among them the one farthest from the top along its way.
+// Blocks at rest go before others; among them the one that lies farthest from the top. The length
+// of its way says less: a block that danced in a hollow has a long one.
 int find_toe_block(const EventReach& event, const RunFile& run, bool& deposited) {
   deposited = std::any_of(event.blocks.begin(), event.blocks.end(), [](const BlockReach& b) {
     return b.fate == Fate::deposited && b.reach.path > 0;
@@ -98,9 +92,9 @@ int find_toe_block(const EventReach& event, const RunFile& run, bool& deposited)
   double farthest = -1;
   for (const BlockReach& b : event.blocks) {
     if (deposited && b.fate != Fate::deposited) continue;
-    const double way = ahead_of(event.top, run, b.block) + b.reach.path;
-    if (way <= farthest) continue;
-    farthest = way;
+    const double distance = plan_distance(event.top, last_pose(run, b.block).position);
+    if (distance <= farthest) continue;
+    farthest = distance;
     toe = b.block;
   }
   return toe;

@@ -85,7 +85,7 @@ struct BlockReach {
 struct EventReach {
   Vec3 top = Vec3::Zero();     ///< highest point of the mass before it moved [m]
   Vec3 toe = Vec3::Zero();     ///< outermost point of the deposit's outermost block, on the ground
-  int toe_block = -1;          ///< that came farthest along its path from the top
+  int toe_block = -1;          ///< that came to lie farthest from the top, in plan
   bool toe_deposited = false;  ///< false: no block had come to rest, the farthest one counts
   std::vector<Vec3> streamline;  ///< top, the toe block's way on the ground, toe [m]
   ReachLine event;               ///< along the streamline

@@ -101,7 +101,9 @@ struct RunFile {
 /// What to read beside info and blocks; files of many runs are read for their passages alone.
 struct RunParts {
   bool frames = true, passages = true, crossings = true, health = true, checkpoint = true;
-  bool only_end_frames = false;  ///< of the frames, the first and the last
+  bool only_last_frame = false;  ///< of the frames
+  bool only_faults = false;      ///< of the health, penetrations and counts of what went wrong
+  bool words = true;             ///< info's config and plan
 };
 
 /// Reads a run file. Throws InputError for a file that is no run, is damaged, or contradicts itself

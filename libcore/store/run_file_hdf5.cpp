@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <set>
 #include <system_error>
 
 #include "base/error.hpp"
@@ -194,11 +195,14 @@ void write_table(H5Writer& file, const std::string& group, const std::string& de
   });
 }
 
+// `wanted`: the columns to read; empty: all.
 template <class Row, class Columns>
-std::vector<Row> read_table(const H5Reader& file, const std::string& group, Columns&& columns) {
+std::vector<Row> read_table(const H5Reader& file, const std::string& group, Columns&& columns,
+                            const std::set<std::string>& wanted = {}) {
   std::vector<Row> rows;
   bool is_first = true;
   columns([&](const char* name, const char*, const char*, auto field) {
+    if (!wanted.empty() && !wanted.contains(name)) return;
     const auto values = file.array<FieldType<Row, decltype(field)>>(group + "/" + name, 1);
     if (is_first) rows.resize(values.size());
     is_first = false;
@@ -395,30 +399,18 @@ void write_frames(H5Writer& file, const RunFile& run) {
                       "strains exx eyy ezz gyz gzx gxy, body axes");
 }
 
-// All rows of an array, or the first and the last.
-template <class T>
-std::vector<T> read_rows(const H5Reader& file, const std::string& name, std::size_t columns,
-                         std::size_t n, bool only_ends) {
-  if (!only_ends || n <= 2) return file.array<T>(name, columns);
-  std::vector<T> values = file.rows<T>(name, columns, 0, 1);
-  const std::vector<T> last = file.rows<T>(name, columns, n - 1, 1);
-  values.insert(values.end(), last.begin(), last.end());
-  return values;
-}
-
 RunFrames read_frames(const H5Reader& file, std::size_t n_blocks, const std::string& path,
-                      bool only_ends) {
+                      bool only_last) {
   const std::size_t n = file.shape("frames/time_s")[0];
-  const bool has_strain = file.has("frames/strain");
-  std::vector<std::string> names = {"frames/position_m", "frames/attitude", "frames/velocity_m_s",
-                                    "frames/spin_rad_s"};
-  if (has_strain) names.emplace_back("frames/strain");
-  for (const std::string& name : names)
-    if (file.shape(name)[0] != n)
-      throw InputError({path, 0, name}, "does not have as many frames as frames/time_s");
   const auto read = [&](const std::string& name, std::size_t columns, auto& values) {
-    values = read_rows<typename std::remove_reference_t<decltype(values)>::value_type>(
-        file, name, columns, n, only_ends);
+    using Value = typename std::remove_reference_t<decltype(values)>::value_type;
+    if (only_last && n > 0) {
+      values = file.rows<Value>(name, columns, n - 1, 1);
+      return;
+    }
+    values = file.array<Value>(name, columns);
+    if (values.size() != n * columns)
+      throw InputError({path, 0, name}, "does not have as many frames as frames/time_s");
   };
   RunFrames frames;
   read("frames/time_s", 1, frames.time);
@@ -426,7 +418,7 @@ RunFrames read_frames(const H5Reader& file, std::size_t n_blocks, const std::str
   read("frames/attitude", 4 * n_blocks, frames.attitude);
   read("frames/velocity_m_s", 3 * n_blocks, frames.velocity);
   read("frames/spin_rad_s", 3 * n_blocks, frames.spin);
-  if (has_strain) read("frames/strain", 6 * n_blocks, frames.strain);
+  if (file.has("frames/strain")) read("frames/strain", 6 * n_blocks, frames.strain);
   return frames;
 }
 
@@ -548,17 +540,24 @@ RunFile read_run_file(const std::string& path, const RunParts& parts) {
   const H5Reader file(path);
   RunFile run;
   run.info = read_info(file, path);
-  run.info.config = file.text("config");
-  run.info.plan = file.text("plan");
+  if (parts.words) {
+    run.info.config = file.text("config");
+    run.info.plan = file.text("plan");
+  }
   run.blocks = read_blocks(file, path);
   run.phase = read_phases(file, run.blocks.mass.size(), path);
   if (parts.frames)
-    run.frames = read_frames(file, run.blocks.mass.size(), path, parts.only_end_frames);
+    run.frames = read_frames(file, run.blocks.mass.size(), path, parts.only_last_frame);
   if (parts.passages && file.has("passages")) read_passages(file, path, run);
   if (parts.crossings) read_crossings(file, path, run);
-  if (parts.health)
-    run.health =
-        read_table<HealthRow>(file, "health", [](auto&& column) { health_columns(column); });
+  if (parts.health) {
+    std::set<std::string> wanted;
+    if (parts.only_faults)
+      wanted = {"unconverged", "left_domain", "fell_through", "not_finite",
+                "largest_penetration_m"};
+    run.health = read_table<HealthRow>(
+        file, "health", [](auto&& column) { health_columns(column); }, wanted);
+  }
   if (parts.checkpoint && file.has("checkpoint"))
     run.checkpoint = file.array<std::uint8_t>("checkpoint", 1);
   return run;

@@ -70,6 +70,19 @@ TEST(EventReach, OfAStraightSlideIsExact) {
   }
 }
 
+// The toe is where the deposit ends, not where the longest way ends.
+TEST(EventReach, TakesTheFarthestBlockAsToe) {
+  RunFile run;
+  for (int block = 0; block < 2; ++block) add_box(run, {2, 2, 2}, {0, 0, 0});
+  const std::vector<Vec3> round = {
+      {10, 0, 95}, {20, 0, 95}, {20, 10, 95}, {10, 10, 95}, {10, 0, 95}};
+  for (int k = 0; k < 5; ++k)
+    add_frame(run, k, {standing(round[k]), standing({10 + 8.0 * k, 0, 90})});
+  const EventReach event = event_reach(run, bent_trn(), {});
+  EXPECT_GT(event.blocks[0].reach.path, event.blocks[1].reach.path);
+  EXPECT_EQ(event.toe_block, 1);
+}
+
 // A way that flattens and then drops again: the angle at its end hides that a flatter energy line
 // would have been needed before.
 TEST(AngleProfile, SaysWhereItIsNotMonotone) {
