@@ -5,6 +5,7 @@
 #include <span>
 
 #include "contact/search.hpp"
+#include "dda/fence.hpp"
 #include "dda/flight.hpp"
 #include "dda/rotation.hpp"
 #include "dda/step.hpp"
@@ -23,6 +24,7 @@ constexpr size_t small_island = 8;
 constexpr double pair_touch_ratio = 1e-6;  // a pair touches when its gap is below this part of r
 constexpr int most_island_events = 8;      // impacts in a step before the resting speed is raised
 constexpr int most_halvings = 4;           // of a substep that does not converge
+constexpr double held = 1e100;             // strength of an intact bond while the forces are sought
 
 Vec3 spin_of(const Motion& m, const Vec3& inertia) {
   return angular_velocity(m.pose.attitude, m.angular_momentum, inertia);
@@ -42,10 +44,11 @@ void find_pairs(const Scene& scene, double h, State& state, Work& work) {
     margin = std::max(margin, search_margin(numbers_of(scene, b), h));
   PairSettings settings;
   settings.margin = margin;
+  settings.with_areas = !state.bonds.empty();
   settings.graze_m = scene.gravity.norm() * h * h / stiffest_in_island;
   place_hulls(blocks.hulls, w.poses, {}, w.moving, state.placed);
-  (void)find_pair_contacts(blocks.hulls, state.placed, {w.step, w.turn, w.awake, {}}, settings,
-                           state.pairs, w.pairs);
+  (void)find_pair_contacts(blocks.hulls, state.placed, {w.step, w.turn, w.awake, w.fixed, w.group},
+                           settings, state.pairs, w.pairs);
 }
 
 void set_motion_ahead(const Scene& scene, int b, const Motion& m, double h, IslandStepWork& w) {
@@ -55,11 +58,37 @@ void set_motion_ahead(const Scene& scene, int b, const Motion& m, double h, Isla
   w.turn[i] = h * scene.blocks.shapes.radius[i] * spin_of(m, scene.blocks.inertia[i]).norm();
 }
 
+// Fixed bodies where they are now: they step nowhere and need no contacts of their own. Panels of
+// fences that gave way have moved since they were placed last.
+void place_fixed(const Scene& scene, const State& state, IslandStepWork& w) {
+  const int n = n_blocks(scene), n_bodies = n + n_fixed(scene);
+  if (n == n_bodies) return;
+  w.fixed.assign(static_cast<size_t>(n_bodies), 0);
+  w.group.clear();
+  for (int b = n; b < n_bodies; ++b) {
+    const auto i = static_cast<size_t>(b);
+    w.poses[i] = fixed_pose(scene, state, b);
+    w.step[i].setZero();
+    w.turn[i] = 0;
+    w.moving[i] = !state.placed.turned.empty() && state.placed.position[i] != w.poses[i].position;
+    w.awake[i] = 0;
+    w.fixed[i] = 1;
+  }
+  if (scene.settings.block_contacts) return;
+  w.group.assign(static_cast<size_t>(n_bodies), 0);
+  for (int b = n; b < n_bodies; ++b) w.group[static_cast<size_t>(b)] = 1;
+}
+
 // Pairs of blocks within reach; true when one of them was asleep and now is not.
-bool join_pairs(State& state, IslandStepWork& w) {
+bool join_pairs(const Scene& scene, State& state, IslandStepWork& w) {
   bool woken = false;
   w.joined.clear();
   for (const PairManifold& m : w.pairs.manifolds) {
+    if (is_fixed(scene, m.block_b)) {
+      const auto a = static_cast<size_t>(m.block_a);
+      if (takes_part(state, m.block_a) && stands(scene, state, m.block_b)) w.near_fixed[a] = 1;
+      continue;
+    }
     if (!takes_part(state, m.block_a) || !takes_part(state, m.block_b)) continue;
     w.joined.emplace_back(m.block_a, m.block_b);
     for (const int b : {m.block_a, m.block_b}) {
@@ -110,7 +139,7 @@ struct AdvanceIsland {
 
   void gather(std::span<const int> blocks) {
     w.members.assign(blocks.begin(), blocks.end());
-    w.place.assign(static_cast<size_t>(n_blocks(scene)), -1);
+    w.place.assign(w.poses.size(), -1);
     w.numbers.clear();
     for (size_t k = 0; k < w.members.size(); ++k) {
       w.place[block(k)] = static_cast<int>(k);
@@ -122,12 +151,13 @@ struct AdvanceIsland {
 
   // The pairs at the poses of now, for at most `h` ahead.
   void search_pairs(double h) {
-    w.moving.assign(static_cast<size_t>(n_blocks(scene)), 0);
+    w.moving.assign(w.poses.size(), 0);
     for (size_t k = 0; k < w.members.size(); ++k) {
       w.moving[block(k)] = 1;
       set_motion_ahead(scene, w.members[k], motion(k), h, w);
     }
     w.awake = w.moving;
+    place_fixed(scene, state, w);
     find_pairs(scene, h, state, work);
     set_stiffness();
   }
@@ -138,7 +168,7 @@ struct AdvanceIsland {
     w.bearing.clear();
     for (const BlockNumbers& c : w.numbers) w.bearing.push_back(c.mass);
     for (const PairManifold& m : w.pairs.manifolds) {
-      if (!in_island(m)) continue;
+      if (!in_island(m) || is_fixed(scene, m.block_b)) continue;
       double& a = w.bearing[static_cast<size_t>(w.place[static_cast<size_t>(m.block_a)])];
       double& b = w.bearing[static_cast<size_t>(w.place[static_cast<size_t>(m.block_b)])];
       a = std::max(a, numbers(m.block_b).mass);
@@ -204,6 +234,7 @@ struct AdvanceIsland {
     out.friction = row.friction;
     out.cohesion_impulse = row.cohesion_impulse;
     out.tension_impulse = row.tension_impulse;
+    out.normal_limit = row.normal_limit;
     out.waits_for_impact = row.waits_for_impact;
     if (row.memory >= 0) {
       const ContactMemory& m =
@@ -219,6 +250,7 @@ struct AdvanceIsland {
   bool add_ground(size_t k) {
     const Substep& s = w.substeps[k];
     const int b = w.members[k];
+    if (!scene.settings.trn_contacts) return true;
     const SearchResult near =
         find_contacts(scene.ground, scene.blocks.shapes, b, s.free.pose, Mat3::Identity(),
                       search_margin(w.numbers[k], s.h), work.world_vertices, work.contacts);
@@ -235,7 +267,15 @@ struct AdvanceIsland {
            {&row.normal, &row.point, &row.drift, &row.shear, &row.shear_velocity, &row.slip_start})
         *v = s.R * *v;
       const Contact& contact = work.contacts[static_cast<size_t>(row.contact)];
-      w.contacts.push_back({row, contact.key, b, -1, contact.gap});
+      const GroundClass& ground = scene.ground.classes[static_cast<size_t>(contact.ground_class)];
+      if (row.bond_area > 0) hold(ground, w.numbers[k].recovery_time, row);
+      IslandContact out;
+      out.row = row;
+      out.key = contact.key;
+      out.a = b;
+      out.gap_free = contact.gap;
+      out.ground_class = contact.ground_class;
+      w.contacts.push_back(out);
       push_row();
     }
     return true;
@@ -255,15 +295,55 @@ struct AdvanceIsland {
     return p;
   }
 
-  // The memory that a contact continues, -1: none.
-  [[nodiscard]] int memory_of(int a, const ContactKey& key, const Vec3& normal) const {
-    const std::vector<ContactMemory>& memory = state.memory[static_cast<size_t>(a)];
-    for (size_t m = 0; m < memory.size(); ++m)
-      if (memory[m].key == key && memory[m].normal.dot(normal) > 0.5) return static_cast<int>(m);
-    return -1;
+  // The memories that the points of a manifold continue, -1: none. First those of the same
+  // features; then, where features changed, those that the pair leaves without a successor, so that
+  // a face that rests on another keeps its support and its friction while corners pass edges.
+  void match_memories(const PairManifold& m) {
+    const std::vector<ContactMemory>& memory = state.memory[static_cast<size_t>(m.block_a)];
+    w.continued.assign(static_cast<size_t>(m.point_end - m.point_begin), -1);
+    w.claimed.assign(memory.size(), 0);
+    const auto claim = [&](const auto& continues, double least_cosine) {
+      for (size_t p = 0; p < w.continued.size(); ++p)
+        for (size_t i = 0; i < memory.size() && w.continued[p] < 0; ++i) {
+          if (w.claimed[i] != 0 || memory[i].key.body_b != m.block_b ||
+              memory[i].normal.dot(m.normal) <= least_cosine ||
+              !continues(w.pairs.points[static_cast<size_t>(m.point_begin) + p].key, memory[i].key))
+            continue;
+          w.continued[p] = static_cast<int>(i);
+          w.claimed[i] = 1;
+        }
+    };
+    claim(
+        [](const ContactKey& now, const ContactKey& then) {
+          return now.mode == then.mode && now.feature_a == then.feature_a &&
+                 now.feature_b == then.feature_b;
+        },
+        0.5);
+    claim([](const ContactKey&, const ContactKey&) { return true; }, 0.99);
   }
 
-  void add_point(const PairManifold& m, const PairPoint& point) {
+  // Holds a contact of a bond without limit; break_bonds() compares what it carries.
+  static void hold(const GroundClass& face, double recovery_time, ContactRow& row) {
+    row.cohesion_impulse = held;
+    row.tension_impulse = face.tension > 0 ? held : 0;
+    row.bias = (row.gap_start + row.offset) / recovery_time;
+    row.waits_for_impact = false;
+  }
+
+  // The share of a contact in the bond of its blocks, if there is one. Where the faces were when
+  // the bond was new, it carries nothing.
+  void bond(const PairManifold& m, const PairPoint& point, double recovery_time,
+            IslandContact& contact) const {
+    contact.bond = find_bond(state.bonds, m.block_a, m.block_b);
+    if (contact.bond < 0) return;
+    const BlockBond& of_blocks = state.bonds[static_cast<size_t>(contact.bond)];
+    ContactRow& row = contact.row;
+    row.bond_area = m.area > 0 ? of_blocks.area * point.area / m.area : 0;
+    if (row.memory < 0) row.offset = -row.gap_start;
+    hold(of_blocks.face, recovery_time, row);
+  }
+
+  void add_point(const PairManifold& m, const PairPoint& point, int memory) {
     const auto ka = static_cast<size_t>(w.place[static_cast<size_t>(m.block_a)]);
     const auto kb = static_cast<size_t>(w.place[static_cast<size_t>(m.block_b)]);
     const Substep &sa = w.substeps[ka], &sb = w.substeps[kb];
@@ -291,12 +371,11 @@ struct AdvanceIsland {
     const Vec3 tangent = slip - row.speed_start * n;
     const double slip_speed = tangent.norm();
     if (slip_speed > 0) row.slip_start = tangent / slip_speed;
-    row.friction = scene.joint.friction;
+    row.friction = pair_class(scene, m).friction;
     contact.gap_free = point.gap + n.dot(row.free_move);
 
     const double approach = std::min(row.speed_start, n.dot(row.free_move) / sa.h);
     const double touch = pair_touch(ca, cb);
-    const int memory = memory_of(m.block_a, contact.key, n);
     if (memory >= 0 && !(row.gap_start > touch && approach < -ca.resting_speed))
       inherit(state.memory[static_cast<size_t>(m.block_a)][static_cast<size_t>(memory)], memory,
               Mat3::Identity(), touch, row);
@@ -309,8 +388,79 @@ struct AdvanceIsland {
     c.touch = touch;
     c.stiffness = std::max(ca.stiffness, cb.stiffness) * (ca.mass / std::min(ca.mass, cb.mass));
     set_law(scene, c, sa.h, {Wa.normal + Wb.normal, Wa.tangent + Wb.tangent}, approach, row);
+    bond(m, point, c.recovery_time, contact);
     w.contacts.push_back(contact);
     push_row();
+  }
+
+  // A point on a fixed body: for the solver, on the ground. `n_closing`: points of the manifold
+  // that close within the substep; they share the force with which a panel of a fence gives way.
+  void add_fixed_point(const PairManifold& m, const PairPoint& point, int memory, int n_closing) {
+    const auto k = static_cast<size_t>(w.place[static_cast<size_t>(m.block_a)]);
+    const Substep& s = w.substeps[k];
+    const Vec3& n = m.normal;
+    BlockNumbers c = w.numbers[k];
+    c.touch = pair_touch(c, c);
+    const PointPath path = path_of(s, c.inertia, point.point_b + point.gap * n);
+
+    IslandContact contact;
+    contact.a = m.block_a;
+    contact.fixed = m.block_b;
+    contact.key = point.key;
+    contact.key.body_b = m.block_b;
+    ContactRow& row = contact.row;
+    row.normal = n;
+    row.point = (path.start + path.end) / 2;
+    row.drift = path.spin_end.cross(path.end - row.point);
+    row.free_move = path.moved;
+    row.gap_start = point.gap;
+    row.speed_start = n.dot(path.velocity);
+    const Vec3 tangent = path.velocity - row.speed_start * n;
+    const double slip_speed = tangent.norm();
+    if (slip_speed > 0) row.slip_start = tangent / slip_speed;
+    row.friction = fixed_class(scene, m.block_b).friction;
+    contact.gap_free = point.gap + n.dot(row.free_move);
+
+    const double approach = std::min(row.speed_start, n.dot(row.free_move) / s.h);
+    const FencePanel* panel = giving_way(scene, m.block_b, n);
+    const bool knows = panel != nullptr && knows_body(m.block_a, m.block_b);
+    if (memory >= 0 && (knows || !(row.gap_start > c.touch && approach < -c.resting_speed)))
+      inherit(state.memory[static_cast<size_t>(m.block_a)][static_cast<size_t>(memory)], memory,
+              Mat3::Identity(), c.touch, row);
+    else
+      row.offset = std::max(0.0, -row.gap_start);
+    set_law(scene, c, s.h,
+            mobility(c.mass, c.inertia, s.R.transpose() * row.point, s.R.transpose() * n), approach,
+            row);
+    if (panel != nullptr) row.normal_limit = panel->force * s.h / n_closing;
+    if (knows) row.waits_for_impact = false;
+    w.contacts.push_back(contact);
+    push_row();
+  }
+
+  [[nodiscard]] int continued(const PairManifold& m, int p) const {
+    return w.continued[static_cast<size_t>(p - m.point_begin)];
+  }
+
+  // Whether block a touched body b in the last step.
+  [[nodiscard]] bool knows_body(int a, int b) const {
+    const std::vector<ContactMemory>& memory = state.memory[static_cast<size_t>(a)];
+    return std::any_of(memory.begin(), memory.end(),
+                       [b](const ContactMemory& m) { return m.key.body_b == b; });
+  }
+
+  void add_fixed_points(const PairManifold& m) {
+    const auto k = static_cast<size_t>(w.place[static_cast<size_t>(m.block_a)]);
+    const Substep& s = w.substeps[k];
+    int n_closing = 0;
+    for (int p = m.point_begin; p < m.point_end; ++p) {
+      const PairPoint& point = w.pairs.points[static_cast<size_t>(p)];
+      const PointPath path = path_of(s, w.numbers[k].inertia, point.point_b + point.gap * m.normal);
+      n_closing += point.gap + m.normal.dot(path.moved) <= 0;
+    }
+    for (int p = m.point_begin; p < m.point_end; ++p)
+      add_fixed_point(m, w.pairs.points[static_cast<size_t>(p)], continued(m, p),
+                      std::max(n_closing, 1));
   }
 
   static double pair_touch(const BlockNumbers& a, const BlockNumbers& b) {
@@ -319,7 +469,8 @@ struct AdvanceIsland {
 
   [[nodiscard]] bool in_island(const PairManifold& m) const {
     return w.place[static_cast<size_t>(m.block_a)] >= 0 &&
-           w.place[static_cast<size_t>(m.block_b)] >= 0;
+           (is_fixed(scene, m.block_b) ? stands(scene, state, m.block_b)
+                                       : w.place[static_cast<size_t>(m.block_b)] >= 0);
   }
 
   // Bodies, and all contacts of the island, over h from t. False: a member left the ground.
@@ -335,8 +486,13 @@ struct AdvanceIsland {
     for (const PairManifold& m : w.pairs.manifolds) {
       if (!in_island(m)) continue;
       open_pair(w.place[static_cast<size_t>(m.block_a)], w.place[static_cast<size_t>(m.block_b)]);
+      match_memories(m);
+      if (is_fixed(scene, m.block_b)) {
+        add_fixed_points(m);
+        continue;
+      }
       for (int p = m.point_begin; p < m.point_end; ++p)
-        add_point(m, w.pairs.points[static_cast<size_t>(p)]);
+        add_point(m, w.pairs.points[static_cast<size_t>(p)], continued(m, p));
     }
     return true;
   }
@@ -345,8 +501,9 @@ struct AdvanceIsland {
     return w.numbers[static_cast<size_t>(w.place[static_cast<size_t>(b)])];
   }
   [[nodiscard]] double touch_of(const IslandContact& contact) const {
-    return contact.b < 0 ? numbers(contact.a).touch
-                         : pair_touch(numbers(contact.a), numbers(contact.b));
+    const BlockNumbers& a = numbers(contact.a);
+    if (contact.fixed >= 0) return pair_touch(a, a);
+    return contact.b < 0 ? a.touch : pair_touch(a, numbers(contact.b));
   }
 
   [[nodiscard]] bool hits_now() const {
@@ -354,7 +511,8 @@ struct AdvanceIsland {
       const ContactRow& row = contact.row;
       const BlockNumbers& c = numbers(contact.a);
       const bool deep = contact.b < 0 && row.gap_start <= -1e4 * c.touch;
-      return row.memory < 0 && row.gap_start <= touch_of(contact) && !deep &&
+      const bool takes_impact = row.normal_limit >= no_normal_limit;
+      return row.memory < 0 && row.gap_start <= touch_of(contact) && !deep && takes_impact &&
              row.speed_start < -c.resting_speed;
     });
   }
@@ -394,6 +552,46 @@ struct AdvanceIsland {
     return first;
   }
 
+  // Presses on a panel of a fence that gives way.
+  static bool pushes_on(const ContactRow& row) {
+    return row.normal_limit < no_normal_limit && !row.waits_for_impact &&
+           row.state != ContactState::open;
+  }
+
+  // What the blocks do to the panels that give way.
+  void find_pushes(double h) {
+    w.pushes.clear();
+    for (const IslandContact& contact : w.contacts) {
+      const ContactRow& row = contact.row;
+      if (!pushes_on(row)) continue;
+      const FencePanel& panel = *giving_way(scene, contact.fixed, row.normal);
+      const double force = row.normal.dot(row.impulse) / h;
+      const double along = row.normal.dot(row.free_move + moved(contact, h));
+      PanelPush push;
+      push.block = contact.a;
+      push.panel = panel_number(scene, contact.fixed);
+      push.work = -force * along;
+      push.power = -force * row.speed_start;
+      if (force * h >= (1 - 1e-12) * row.normal_limit)
+        push.shift = std::min(0.0, row.gap_start + along) * row.normal.dot(panel.normal);
+      add_push(push, w.pushes);
+    }
+  }
+
+  // First touches, and what the touched panels left to their blocks.
+  void note_touched_panels(double t) {
+    for (const IslandContact& contact : w.contacts) {
+      const ContactRow& row = contact.row;
+      if (contact.fixed < 0 || row.waits_for_impact || row.state == ContactState::open ||
+          panel_number(scene, contact.fixed) < 0)
+        continue;
+      const auto k = static_cast<size_t>(w.place[static_cast<size_t>(contact.a)]);
+      const Motion& before = w.substeps[k].start;
+      note_hit(scene, contact.a, contact.fixed, before.pose.position + row.point, t, before,
+               motion(k), state.fence);
+    }
+  }
+
   // What the contacts keep for the next step, and the work they did.
   void remember(double h) {
     const double gravity = scene.gravity.norm();
@@ -406,16 +604,16 @@ struct AdvanceIsland {
       const double p_n = row.normal.dot(row.impulse);
       const Vec3 p_t = row.impulse - p_n * row.normal;
       const double along = row.normal.dot(path);
-      state.ledger.contact -= p_n * along / h;
+      if (!pushes_on(row)) state.ledger.contact -= p_n * along / h;
       state.ledger.friction -= p_t.dot(path) / h;
       ContactMemory memory;
       memory.key = contact.key;
       memory.normal = row.normal;
-      memory.offset = std::max(0.0, row.offset - relax);
+      memory.offset = contact.bond >= 0 ? row.offset : std::max(0.0, row.offset - relax);
       memory.gap_end = row.gap_start + row.offset + along - (row.offset - memory.offset);
       memory.normal_force = p_n / h;
       memory.state = static_cast<std::uint8_t>(row.state);
-      memory.bond_area = row.bond_area;
+      memory.bond_area = contact.bond >= 0 ? 0 : row.bond_area;  // of the ground
       const double k_t = row.shear_damping / (numbers(contact.a).recovery_time * h);
       memory.shear = row.state == ContactState::slip ? Vec3(p_t / (-h * k_t))
                                                      : Vec3(row.shear + path - along * row.normal);
@@ -455,6 +653,55 @@ struct AdvanceIsland {
     report.shortest_dt = report.shortest_dt > 0 ? std::min(report.shortest_dt, h) : h;
   }
 
+  // Bonds that carry more than they hold are gone, and true: the substep is computed without them.
+  bool break_bonds(double h) {
+    w.bond_loads.clear();
+    for (const IslandContact& contact : w.contacts) {
+      const ContactRow& row = contact.row;
+      if (row.bond_area == 0 || row.state == ContactState::open) continue;
+      const double per_h = 1 / (h * numbers(contact.a).recovery_time);
+      const Vec3 path = row.free_move + moved(contact, h);
+      const double along = row.normal.dot(path);
+      const double N = -per_h * row.normal_damping * (row.gap_start + row.offset + along);
+      const Vec3 shear = -per_h * row.shear_damping * (row.shear + path - along * row.normal);
+      add_load(N, shear, row.bond_area, bond_class(contact), load_of(contact));
+    }
+    bool broken = false;
+    for (const BondLoad& load : w.bond_loads) {
+      if (!breaks(load)) continue;
+      break_bond(load.bond);
+      broken = true;
+    }
+    return broken;
+  }
+
+  // Bonds are numbered as in the state; after them come those of the blocks with the ground.
+  [[nodiscard]] int bond_of(const IslandContact& contact) const {
+    return contact.bond >= 0 ? contact.bond : static_cast<int>(state.bonds.size()) + contact.a;
+  }
+  [[nodiscard]] const GroundClass& bond_class(const IslandContact& contact) const {
+    return contact.bond >= 0 ? state.bonds[static_cast<size_t>(contact.bond)].face
+                             : scene.ground.classes[static_cast<size_t>(contact.ground_class)];
+  }
+  void break_bond(int bond) {
+    const int n = static_cast<int>(state.bonds.size());
+    if (bond < n) {
+      state.bonds[static_cast<size_t>(bond)].area = 0;
+      return;
+    }
+    for (ContactMemory& memory : state.memory[static_cast<size_t>(bond - n)])
+      if (memory.key.body_b < 0) memory.bond_area = 0;
+  }
+
+  BondLoad& load_of(const IslandContact& contact) {
+    const int bond = bond_of(contact);
+    for (BondLoad& load : w.bond_loads)
+      if (load.bond == bond) return load;
+    BondLoad& load = w.bond_loads.emplace_back();
+    load.bond = bond;
+    return load;
+  }
+
   // Solves the island; true when the substep is to be repeated with half its length.
   bool solve(double& h, bool last) {
     IslandSettings settings;
@@ -481,14 +728,22 @@ struct AdvanceIsland {
   Attempt attempt(double t, double& h, bool last) {
     if (!assemble(t, h)) return Attempt::left;
     if (hits_now()) return Attempt::impact;
-    if (solve(h, last)) return Attempt::shorter;
+    if (solve(h, last) || break_bonds(h)) return Attempt::shorter;
     const double hit = first_hit(h);
     if (hit < h && !last) {
       h = hit;
       return Attempt::shorter;
     }
+    find_pushes(h);
+    const double broken = time_to_first_break(scene, state.fence, w.pushes, h);
+    if (broken < h && !last) {
+      h = broken;
+      return Attempt::shorter;
+    }
     remember(h);
     finish(t, h);
+    note_touched_panels(t);
+    push_panels(scene, w.pushes, t + h, state);
     return hit <= h ? Attempt::impact : Attempt::done;
   }
 
@@ -511,6 +766,31 @@ struct AdvanceIsland {
     w.island.pairs.back().row_end = static_cast<int>(w.island.rows.size());
   }
 
+  void add_fixed_impact(const PairManifold& m) {
+    const int a = w.place[static_cast<size_t>(m.block_a)];
+    const BlockNumbers& c = w.numbers[static_cast<size_t>(a)];
+    open_pair(a, -1);
+    for (int p = m.point_begin; p < m.point_end; ++p) {
+      const PairPoint& point = w.pairs.points[static_cast<size_t>(p)];
+      if (point.gap > 2 * pair_touch(c, c)) continue;
+      if (panel_number(scene, m.block_b) >= 0)
+        w.touched_panels.push_back({static_cast<int>(w.island.rows.size()), a, m.block_b});
+      add_impact_row(static_cast<size_t>(a), -1, m.normal, point.point_b,
+                     fixed_class(scene, m.block_b));
+    }
+  }
+
+  // Panels that took an impulse; `before`: the motions of the members until then.
+  void note_struck_panels(double t, const std::vector<Motion>& before) {
+    for (const auto& [row, member, body] : w.touched_panels) {
+      const IslandRow& struck = w.island.rows[static_cast<size_t>(row)];
+      if (struck.impulse.isZero(0)) continue;
+      const auto k = static_cast<size_t>(member);
+      note_hit(scene, w.members[k], body, before[k].pose.position + struck.arm, t, before[k],
+               motion(k), state.fence);
+    }
+  }
+
   void assemble_impact() {
     clear_island();
     for (size_t k = 0; k < w.members.size(); ++k) {
@@ -520,6 +800,7 @@ struct AdvanceIsland {
       add_body(w.numbers[k], m.pose.attitude.toRotationMatrix(), m.pose.position, v, v);
     }
     for (size_t k = 0; k < w.members.size(); ++k) {
+      if (!scene.settings.trn_contacts) break;
       (void)find_contacts(scene.ground, scene.blocks.shapes, w.members[k], motion(k).pose,
                           Mat3::Identity(), 2 * w.numbers[k].touch, work.world_vertices,
                           work.contacts);
@@ -529,8 +810,13 @@ struct AdvanceIsland {
         add_impact_row(k, -1, c.normal, place(motion(k).pose, c.point_a),
                        scene.ground.classes[static_cast<size_t>(c.ground_class)]);
     }
+    w.touched_panels.clear();
     for (const PairManifold& m : w.pairs.manifolds) {
       if (!in_island(m)) continue;
+      if (is_fixed(scene, m.block_b)) {
+        if (giving_way(scene, m.block_b, m.normal) == nullptr) add_fixed_impact(m);
+        continue;
+      }
       const int a = w.place[static_cast<size_t>(m.block_a)];
       const int b = w.place[static_cast<size_t>(m.block_b)];
       const double touch =
@@ -540,7 +826,7 @@ struct AdvanceIsland {
         const PairPoint& point = w.pairs.points[static_cast<size_t>(p)];
         if (point.gap > touch) continue;
         add_impact_row(static_cast<size_t>(a), b, m.normal,
-                       point.point_b + point.gap / 2 * m.normal, scene.joint);
+                       point.point_b + point.gap / 2 * m.normal, pair_class(scene, m));
       }
     }
   }
@@ -551,6 +837,9 @@ struct AdvanceIsland {
     if (std::none_of(rows.begin(), rows.end(),
                      [](const IslandRow& row) { return row.waits_for_impact; }))
       return;
+    std::vector<Motion> before;
+    if (!w.touched_panels.empty())
+      for (size_t k = 0; k < w.members.size(); ++k) before.push_back(motion(k));
     const IslandImpactResult hit = apply_island_impact(w.island, ImpactSettings{}, w.impact);
     state.ledger.impact += hit.dissipated;
     ++report.n_impacts;
@@ -563,6 +852,7 @@ struct AdvanceIsland {
       state.acceleration[block(k)] = scene.gravity;
       state.spin_rate[block(k)].setZero();
     }
+    note_struck_panels(state.local_time[block(0)], before);
   }
 
   // Stops the members that left the known ground; those that stay, and whose numbers did not fail,
@@ -618,7 +908,8 @@ struct AdvanceIsland {
 void form_islands(const Scene& scene, State& state, Work& work) {
   IslandStepWork& w = work.islands;
   const int n = n_blocks(scene);
-  const auto size = static_cast<size_t>(n);
+  const auto size = static_cast<size_t>(n + n_fixed(scene));
+  w.near_fixed.assign(static_cast<size_t>(n), scene.settings.trn_contacts ? 0 : 1);
   w.poses.resize(size);
   w.step.resize(size);
   w.turn.resize(size);
@@ -629,13 +920,18 @@ void form_islands(const Scene& scene, State& state, Work& work) {
     set_motion_ahead(scene, b, motion_at(scene, state, b, state.time), scene.settings.dt, w);
     w.awake[i] = takes_part(state, b) && state.phase[i] != Phase::asleep;
   }
+  place_fixed(scene, state, w);
   do find_pairs(scene, scene.settings.dt, state, work);
-  while (join_pairs(state, w));
+  while (join_pairs(scene, state, w));
   find_islands(n, w.joined, {}, w.groups);
   for (const auto& [a, b] : w.joined)
     for (const int i : {a, b})
       if (state.phase[static_cast<size_t>(i)] == Phase::flight)
         end_flight_now(scene, i, state, work);
+  for (int b = 0; b < n; ++b)
+    if (w.near_fixed[static_cast<size_t>(b)] != 0 &&
+        state.phase[static_cast<size_t>(b)] == Phase::flight)
+      end_flight_now(scene, b, state, work);
 }
 
 void advance_island(const Scene& scene, int k, double t_end, State& state, Work& work,

@@ -3,6 +3,7 @@
 // Buffers grow to the largest step and are kept: the step loop does not allocate.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "contact/block_pairs.hpp"
@@ -30,26 +31,38 @@ struct Segment {
 struct IslandContact {
   ContactRow row;
   ContactKey key;
-  int a = 0, b = -1;    ///< blocks; b = -1: the ground
-  double gap_free = 0;  ///< gap at the end of the substep without contact forces [m]
+  int a = 0, b = -1;     ///< blocks; b = -1: the ground, or a fixed body
+  int fixed = -1;        ///< fixed body (as body of Blocks::hulls), -1: none
+  double gap_free = 0;   ///< gap at the end of the substep without contact forces [m]
+  int ground_class = 0;  ///< where b and fixed are -1
+  int bond = -1;         ///< index into State::bonds; row.bond_area is its share, -1: not held
 };
 
 /// What the step of islands recomputes.
 struct IslandStepWork {  // clang-format off
   // form_islands
-  std::vector<Pose> poses;                  ///< at the start of the step or substep     (n_blocks)
-  std::vector<Vec3> step;                   ///< displacement ahead [m]                  (n_blocks)
-  std::vector<double> turn;                 ///< path of turning ahead [m]               (n_blocks)
-  std::vector<std::uint8_t> moving, awake;  ///<                                         (n_blocks)
+  // blocks, then fixed bodies
+  std::vector<Pose> poses;                  ///< at the start of the step or substep     (n_bodies)
+  std::vector<Vec3> step;                   ///< displacement ahead [m]                  (n_bodies)
+  std::vector<double> turn;                 ///< path of turning ahead [m]               (n_bodies)
+  std::vector<std::uint8_t> moving, awake;  ///<                                         (n_bodies)
+  std::vector<std::uint8_t> fixed;          ///< 1: never moves; empty: none is          (n_bodies)
+  std::vector<int> group;                   ///< no contacts within; empty: all meet     (n_bodies)
   PairWork pairs;
   std::vector<std::pair<int, int>> joined;  ///< blocks within reach of each other
+  std::vector<std::uint8_t> near_fixed;     ///< 1: within reach of a fixed body         (n_blocks)
   IslandGroups groups;
   // advance_island: the island at hand
   std::vector<int> members;                 ///< ascending
   std::vector<BlockNumbers> numbers;        ///<                                         (n_members)
   std::vector<double> bearing;              ///< mass of the heaviest block touched [kg] (n_members)
   std::vector<Substep> substeps;            ///<                                         (n_members)
-  std::vector<int> place;                   ///< of a block in `members`, -1: not in it  (n_blocks)
+  std::vector<int> place;                   ///< of a body in `members`, -1: not in it   (n_bodies)
+  std::vector<int> continued;               ///< memory that a manifold's point continues
+  std::vector<std::uint8_t> claimed;        ///< 1: a memory that is continued
+  std::vector<BondLoad> bond_loads;         ///< of this substep, by bond
+  std::vector<PanelPush> pushes;            ///< on panels of fences, in this substep
+  std::vector<std::array<int, 3>> touched_panels;  ///< row, member, fixed body of an impact
   std::vector<IslandContact> contacts;      ///< in the order of island.rows
   Island<6> island;
   IslandWork<6> solver;
