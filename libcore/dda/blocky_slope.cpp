@@ -13,14 +13,15 @@ Polyhedron prism_below(const std::array<Vec3, 3>& top, double depth) {
   Polyhedron prism;
   prism.vertices.assign(top.begin(), top.end());
   for (const Vec3& v : top) prism.vertices.push_back(v - depth * Vec3::UnitZ());
-  const auto add = [&prism](std::initializer_list<int> face) {
-    add_face(prism, std::vector<int>(face), face_terrain);
+  const auto add = [&prism](std::initializer_list<int> face, int tag) {
+    add_face(prism, std::vector<int>(face), tag);
   };
-  add({0, 1, 2});
-  add({5, 4, 3});
-  add({0, 3, 4, 1});
-  add({1, 4, 5, 2});
-  add({2, 5, 3, 0});
+  // the sides lie against those of the neighbours: no block can touch them
+  add({0, 1, 2}, face_terrain);
+  add({5, 4, 3}, face_terrain);
+  add({0, 3, 4, 1}, face_internal);
+  add({1, 4, 5, 2}, face_internal);
+  add({2, 5, 3, 0}, face_internal);
   return prism;
 }
 

@@ -1,7 +1,6 @@
 #include "dda/fence.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -190,7 +189,10 @@ void add_push(const PanelPush& push, std::vector<PanelPush>& pushes) {
     if (known.block != push.block || known.panel != push.panel) continue;
     known.work += push.work;
     known.power += push.power;
-    if (std::abs(push.shift) > std::abs(known.shift)) known.shift = push.shift;
+    if (std::abs(push.shift) > std::abs(known.shift)) {
+      known.shift = push.shift;
+      known.to = push.to;
+    }
     return;
   }
   pushes.push_back(push);
@@ -218,19 +220,16 @@ double time_to_first_break(const Scene& scene, const FenceState& fence,
 
 void push_panels(const Scene& scene, std::span<const PanelPush> pushes, double time, State& state) {
   FenceState& fence = state.fence;
-  std::vector<std::array<double, 2>> reach;  // of the pushes on each panel, to both sides
   for (const PanelPush& push : pushes) {
     const auto p = static_cast<size_t>(push.panel);
-    if (reach.empty()) reach.assign(fence.work.size(), {0, 0});
-    reach[p] = {std::min(reach[p][0], push.shift), std::max(reach[p][1], push.shift)};
     fence.work[p] += push.work;
     state.ledger.fence += push.work;
+    if (push.shift < 0) fence.deflection[p] = std::min(fence.deflection[p], push.to);
+    if (push.shift > 0) fence.deflection[p] = std::max(fence.deflection[p], push.to);
     if (FenceHit* hit = find_hit(fence, push.block, scene.fixed.panels[p])) hit->work += push.work;
   }
   for (const PanelPush& push : pushes) {
     const auto p = static_cast<size_t>(push.panel);
-    fence.deflection[p] += reach[p][0] + reach[p][1];
-    reach[p] = {0, 0};
     if (fence.work[p] < used_up * scene.fixed.panels[p].capacity || fence.broken_by[p] >= 0)
       continue;
     fence.broken_at[p] = time;

@@ -42,6 +42,7 @@ struct PanelPush {
   double work = 0;   ///< taken from the block [J]
   double power = 0;  ///< of the force at the start of the substep [W]
   double shift = 0;  ///< that the panel is pushed on, along its normal [m]
+  double to = 0;  ///< FencePanel deflection that the block pushes it to, where shift is not 0 [m]
 };
 
 /// First touch of a block and a panel, and what became of it.

@@ -1,6 +1,6 @@
 #include "dda/island_matrix.hpp"
 
-#include <cmath>
+#include <algorithm>
 
 namespace talus {
 namespace {
@@ -50,12 +50,10 @@ void add_carried<6>(const Packed<6>& W, const Vec3& shift, Packed<6>& D) {
   D(5, 5) += W(5, 5) + (x * L[2][1] - y * L[2][0]) - (W(5, 0) * y - W(5, 1) * x);
 }
 
-template <int Dof>
-double dot(std::span<const Eigen::Matrix<double, Dof, 1>> x,
-           std::span<const Eigen::Matrix<double, Dof, 1>> y) {
-  double sum = 0;
-  for (size_t i = 0; i < x.size(); ++i) sum += x[i].dot(y[i]);
-  return sum;
+int root_of(std::vector<int>& group, int i) {
+  const auto at = [&](int k) -> int& { return group[static_cast<size_t>(k)]; };
+  while (at(i) != i) i = at(i) = at(at(i));
+  return i;
 }
 
 }  // namespace
@@ -126,11 +124,41 @@ template <int Dof>
 }
 
 template <int Dof>
+void choose_active(const Island<Dof>& island, std::span<const std::uint8_t> moves,
+                   IslandMatrix<Dof>& matrix) {
+  const size_t n = island.mass.size();
+  matrix.group.resize(n);
+  for (size_t i = 0; i < n; ++i) matrix.group[i] = static_cast<int>(i);
+  for (const int p : matrix.coupled) {
+    const BodyPair& pair = island.pairs[static_cast<size_t>(p)];
+    const int a = root_of(matrix.group, pair.a), b = root_of(matrix.group, pair.b);
+    matrix.group[static_cast<size_t>(std::max(a, b))] = std::min(a, b);
+  }
+  matrix.is_active.assign(n, 0);
+  for (size_t i = 0; i < n; ++i)
+    if (moves[i])
+      matrix.is_active[static_cast<size_t>(root_of(matrix.group, static_cast<int>(i)))] = 1;
+  matrix.active.clear();
+  for (size_t i = 0; i < n; ++i) {  // a root comes before the bodies below it
+    const auto root = static_cast<size_t>(root_of(matrix.group, static_cast<int>(i)));
+    matrix.is_active[i] = matrix.is_active[root];
+    if (matrix.is_active[i]) matrix.active.push_back(static_cast<int>(i));
+  }
+  matrix.active_coupled.clear();
+  for (const int p : matrix.coupled)
+    if (matrix.is_active[static_cast<size_t>(island.pairs[static_cast<size_t>(p)].a)])
+      matrix.active_coupled.push_back(p);
+}
+
+template <int Dof>
 [[gnu::flatten]] void multiply(const Island<Dof>& island, const IslandMatrix<Dof>& matrix,
                                std::span<const Eigen::Matrix<double, Dof, 1>> x,
                                std::span<Eigen::Matrix<double, Dof, 1>> y) {
-  for (size_t i = 0; i < x.size(); ++i) y[i] = product(matrix.own[i], x[i]);
-  for (const int p : matrix.coupled) {
+  for (const int body : matrix.active) {
+    const auto i = static_cast<size_t>(body);
+    y[i] = product(matrix.own[i], x[i]);
+  }
+  for (const int p : matrix.active_coupled) {
     const auto k = static_cast<size_t>(p);
     const auto a = static_cast<size_t>(island.pairs[k].a);
     const auto b = static_cast<size_t>(island.pairs[k].b);
@@ -146,15 +174,14 @@ template <int Dof>
     const Island<Dof>& island, IslandMatrix<Dof>& matrix,
     std::span<const Eigen::Matrix<double, Dof, 1>> b, double tolerance, int max_iterations,
     std::span<Eigen::Matrix<double, Dof, 1>> x) {
-  using Vec = Eigen::Matrix<double, Dof, 1>;
-  const size_t n = island.mass.size();
   auto& r = matrix.residual;
   auto& z = matrix.preconditioned;
   auto& p = matrix.direction;
   auto& q = matrix.product;
+  for (auto& v : x) v.setZero();
   double rz = 0;
-  for (size_t i = 0; i < n; ++i) {
-    x[i].setZero();
+  for (const int body : matrix.active) {
+    const auto i = static_cast<size_t>(body);
     r[i] = b[i];
     p[i] = product(matrix.inverse[i], r[i]);
     rz += r[i].dot(p[i]);
@@ -164,11 +191,14 @@ template <int Dof>
   while (rz > goal && result.iterations < max_iterations) {
     ++result.iterations;
     multiply<Dof>(island, matrix, p, q);
-    const double curvature = dot<Dof>(std::span<const Vec>(p), std::span<const Vec>(q));
+    double curvature = 0;
+    for (const int body : matrix.active)
+      curvature += p[static_cast<size_t>(body)].dot(q[static_cast<size_t>(body)]);
     if (!(curvature > 0)) return result;
     const double step = rz / curvature;
     double rz_next = 0;
-    for (size_t i = 0; i < n; ++i) {
+    for (const int body : matrix.active) {
+      const auto i = static_cast<size_t>(body);
       x[i] += step * p[i];
       r[i] -= step * q[i];
       z[i] = product(matrix.inverse[i], r[i]);
@@ -176,7 +206,10 @@ template <int Dof>
     }
     const double ratio = rz_next / rz;
     rz = rz_next;
-    for (size_t i = 0; i < n; ++i) p[i] = z[i] + ratio * p[i];
+    for (const int body : matrix.active) {
+      const auto i = static_cast<size_t>(body);
+      p[i] = z[i] + ratio * p[i];
+    }
   }
   result.converged = rz <= goal;
   return result;
@@ -228,6 +261,8 @@ void solve_direct(const Island<Dof>& island, IslandMatrix<Dof>& matrix,
   template void prepare_matrix<Dof>(const Island<Dof>&, IslandMatrix<Dof>&);                       \
   template void update_tangents<Dof>(const Island<Dof>&, Tangent, RowGroups&, IslandMatrix<Dof>&); \
   template void update_diagonals<Dof>(const Island<Dof>&, IslandMatrix<Dof>&);                     \
+  template void choose_active<Dof>(const Island<Dof>&, std::span<const std::uint8_t>,              \
+                                   IslandMatrix<Dof>&);                                            \
   template void multiply<Dof>(const Island<Dof>&, const IslandMatrix<Dof>&,                        \
                               std::span<const Eigen::Matrix<double, Dof, 1>>,                      \
                               std::span<Eigen::Matrix<double, Dof, 1>>);                           \

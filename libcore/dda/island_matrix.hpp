@@ -59,6 +59,11 @@ struct IslandMatrix {  // clang-format off
   std::vector<Mat> rest;           ///< exact: what W has besides                     (n_pairs or 0)
   std::vector<std::uint8_t> pair_closed;   ///< W != 0                                  (n_pairs)
   std::vector<int> coupled;        ///< pairs of two bodies with W != 0                 (n_coupled)
+  // choose_active
+  std::vector<int> active;         ///< bodies that the linear solution moves, ascending (n_active)
+  std::vector<int> active_coupled;         ///< coupled pairs of theirs
+  std::vector<std::uint8_t> is_active;     ///<                                         (n_bodies)
+  std::vector<int> group;                  ///< union-find over the coupled pairs       (n_bodies)
   // update_diagonals
   std::vector<Packed<Dof>> own;       ///< M + contacts with the ground                 (n_bodies)
   std::vector<Packed<Dof>> diagonal;  ///< diagonal block of K                          (n_bodies)
@@ -82,7 +87,13 @@ void update_tangents(const Island<Dof>& island, Tangent tangent, RowGroups& rows
 template <int Dof>
 void update_diagonals(const Island<Dof>& island, IslandMatrix<Dof>& matrix);
 
-/// y = K x, with symmetric tangents and after update_diagonals.
+/// Makes those bodies active that pressing contacts join, directly or through others, to one with
+/// `moves` != 0. The rest of the matrix is decoupled from them.
+template <int Dof>
+void choose_active(const Island<Dof>& island, std::span<const std::uint8_t> moves,
+                   IslandMatrix<Dof>& matrix);
+
+/// y = K x for the active bodies, with symmetric tangents and after update_diagonals.
 template <int Dof>
 void multiply(const Island<Dof>& island, const IslandMatrix<Dof>& matrix,
               std::span<const Eigen::Matrix<double, Dof, 1>> x,
@@ -94,8 +105,8 @@ struct LinearResult {
 };
 
 /// K x = b by conjugate gradients from zero, preconditioned with the diagonal blocks, until the
-/// residual in the preconditioner's norm has fallen to `tolerance` of its start. Needs symmetric
-/// tangents and update_diagonals.
+/// residual in the preconditioner's norm has fallen to `tolerance` of its start. Active bodies
+/// only; x of the others is zero. Needs symmetric tangents and update_diagonals.
 template <int Dof>
 LinearResult solve_conjugate_gradients(const Island<Dof>& island, IslandMatrix<Dof>& matrix,
                                        std::span<const Eigen::Matrix<double, Dof, 1>> b,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace talus {
 namespace {
@@ -54,33 +55,49 @@ struct Solve {
     result.n_lowered = pack_rows(island.pairs, island.rows, work.limit, work.rows);
     prepare_matrix(island, work.matrix);
     for (auto* vectors : {&work.residual, &work.step, &work.from, &work.best}) vectors->resize(n);
+    work.speed.resize(n);
+    work.moves.resize(n);
+    work.pair_impulse.resize(n_pairs);
+    activate_all();
     direct = n_bodies(island) <= settings.direct_bodies;
     for (size_t i = 0; i < n; ++i)
       if (!island.velocity[i].allFinite()) island.velocity[i] = island.free_velocity[i];
   }
 
+  void activate_all() {
+    work.matrix.is_active.assign(island.mass.size(), 1);
+    work.matrix.active.resize(island.mass.size());
+    std::iota(work.matrix.active.begin(), work.matrix.active.end(), 0);
+  }
+
+  // Contacts of an active body; what a body at rest had from them before is replaced.
   [[gnu::flatten]] void evaluate_contacts(size_t p, Evaluation evaluation) {
     const BodyPair& pair = island.pairs[p];
     const auto a = static_cast<size_t>(pair.a), b = static_cast<size_t>(pair.b);
+    const std::vector<std::uint8_t>& active = work.matrix.is_active;
+    const bool active_b = pair.b >= 0 && active[b];
+    if (!active[a] && !active_b) return;
     const Vec3& shift = work.matrix.shift[p];
     const Vec u = pair.b < 0 ? island.velocity[a]
                              : relative_motion<Dof>(island.velocity[a], island.velocity[b], shift);
     Vec f;
     if (evaluate_pair<Dof>(groups_of(work.rows, p), u, evaluation, direct ? 0 : slack, f))
       work.matrix.pair_changed[p] = 1;
-    work.residual[a] -= f;
-    if (pair.b >= 0) work.residual[b] += carried_to_b<Dof>(f, shift);
+    const Vec change = f - work.pair_impulse[p];
+    work.pair_impulse[p] = f;
+    work.residual[a] -= active[a] ? f : change;
+    if (pair.b >= 0) work.residual[b] += carried_to_b<Dof>(active_b ? f : change, shift);
   }
 
   // The largest residual as a velocity: impulse over mass, angular impulse over inertia times
   // radius.
-  [[nodiscard]] double residual_speed() const {
+  [[nodiscard]] double residual_speed() {
     double largest = 0;
     for (size_t i = 0; i < island.mass.size(); ++i) {
       const Vec speed = work.residual[i].cwiseAbs().cwiseQuotient(island.mass[i].diagonal());
       const double turning = speed.template tail<Dof - 3>().maxCoeff() * island.radius[i];
-      const double of_body = std::max(speed.template head<3>().maxCoeff(), turning);
-      if (!(of_body <= largest)) largest = of_body;  // NaN stays
+      work.speed[i] = std::max(speed.template head<3>().maxCoeff(), turning);
+      if (!(work.speed[i] <= largest)) largest = work.speed[i];  // NaN stays
       if (std::isnan(largest)) return largest;
     }
     return largest;
@@ -88,9 +105,11 @@ struct Solve {
 
   [[gnu::flatten]] double evaluate(Evaluation evaluation) {
     ++result.passes;
-    for (size_t i = 0; i < island.mass.size(); ++i)
+    for (const int body : work.matrix.active) {
+      const auto i = static_cast<size_t>(body);
       work.residual[i] =
           times_mass<Dof>(island.mass[i], island.velocity[i] - island.free_velocity[i]);
+    }
     for (size_t p = 0; p < island.pairs.size(); ++p) evaluate_contacts(p, evaluation);
     result.residual = residual_speed();
     if (tracking && evaluation == Evaluation::coupled && result.residual < best_residual) {
@@ -105,10 +124,13 @@ struct Solve {
     update_tangents(island, direct ? Tangent::exact : Tangent::symmetric, work.rows, work.matrix);
     for (Vec& r : work.residual) r = -r;
     if (direct) {
+      activate_all();
       ++result.factorisations;
       solve_direct<Dof>(island, work.matrix, work.residual, work.step);
     } else {
       update_diagonals(island, work.matrix);
+      for (size_t i = 0; i < work.moves.size(); ++i) work.moves[i] = !(work.speed[i] <= tolerance);
+      choose_active<Dof>(island, work.moves, work.matrix);
       const LinearResult linear = solve_conjugate_gradients<Dof>(
           island, work.matrix, work.residual, settings.linear_tolerance,
           settings.max_linear_iterations, work.step);
@@ -143,7 +165,9 @@ struct Solve {
   }
 
   bool solve_coupled(int max_passes) {
-    evaluate(Evaluation::inherited);
+    const double at_start =
+        evaluate(settings.continues ? Evaluation::coupled : Evaluation::inherited);
+    if (settings.continues && at_start <= tolerance) return true;
     for (int steps = 0; result.passes < max_passes; ++steps) {
       const double residual = advance(steps >= free_steps);
       if (residual <= tolerance) return true;
@@ -158,6 +182,7 @@ struct Solve {
       work.limit[p] = ratio * reduced_mass(island, island.pairs[p]);
     (void)pack_rows(island.pairs, island.rows, work.limit, work.rows);
     work.matrix.pair_changed.assign(island.pairs.size(), 1);
+    activate_all();
     return evaluate(Evaluation::coupled);
   }
 

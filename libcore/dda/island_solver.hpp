@@ -21,6 +21,9 @@ struct IslandSettings {
   /// Largest D_n and D_t over the reduced mass of the pair; stiffer rows are lowered to it. Beyond,
   /// the mass is lost in the rounding of the matrix.
   double stiffest = 1e8;
+  /// The rows' impulses and states are those of an earlier solution, hardly changed since: no step
+  /// with friction bounds that are held.
+  bool continues = false;
 };
 
 struct IslandResult {
@@ -40,9 +43,12 @@ struct IslandWork {
   RowGroups rows;
   std::vector<double> limit;  ///< of D_n and D_t [kg]                                  (n_pairs)
   std::vector<Vec> residual;  ///< M (v - v_free) - sum B^T p                           (n_bodies)
-  std::vector<Vec> step;      ///< of Newton                                            (n_bodies)
-  std::vector<Vec> from;      ///< velocity before the step                             (n_bodies)
-  std::vector<Vec> best;      ///< velocity with the smallest residual so far           (n_bodies)
+  std::vector<double> speed;  ///< of the residual [m/s]                                (n_bodies)
+  std::vector<std::uint8_t> moves;  ///< residual above the tolerance                   (n_bodies)
+  std::vector<Vec> pair_impulse;    ///< sum B^T p of a pair, about A                    (n_pairs)
+  std::vector<Vec> step;  ///< of Newton                                            (n_bodies)
+  std::vector<Vec> from;  ///< velocity before the step                             (n_bodies)
+  std::vector<Vec> best;  ///< velocity with the smallest residual so far           (n_bodies)
 };
 
 /// Solves the island: sets velocity, impulse and state of the rows.
@@ -50,9 +56,11 @@ struct IslandWork {
 /// The first step keeps the inherited states, bounds friction by the last step's normal impulses
 /// and lets new contacts stick. Steps follow with the law at the iterate, from the fourth on with a
 /// line search: with the exact derivative where the matrix is factored, with a symmetric one for
-/// conjugate gradients. Where that has not settled after a third of `max_passes`, the island is
-/// solved with softer contacts first and then with ever stiffer ones. At last the velocities are
-/// made those that the impulses give, so that momentum and angular momentum are kept to rounding.
+/// conjugate gradients. Bodies that have settled, and that no pressing contact joins to one that
+/// has not, stay out of the next step. Where that has not settled after a third of `max_passes`,
+/// the island is solved with softer contacts first and then with ever stiffer ones. At last the
+/// velocities are made those that the impulses give, so that momentum and angular momentum are kept
+/// to rounding.
 ///
 /// Not finite input, or no convergence: `converged` is false and the velocities are those of the
 /// smallest residual found.

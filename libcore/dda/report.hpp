@@ -2,6 +2,8 @@
 // What one step reports: its numbers for the health record, and trouble as bits.
 #pragma once
 
+#include <algorithm>
+
 namespace talus {
 
 /// Bits, since several can happen at once. Counted per run in the run record; never hidden.
@@ -32,11 +34,13 @@ struct StepReport {
   int n_impacts = 0;               ///< impact events
   int n_unconverged = 0;           ///< block steps accepted without convergence
   double largest_penetration = 0;  ///< over contacts that press, at the end of the step [m]
+  double sum_penetration = 0;      ///< over the same contacts [m]
   double shortest_dt = 0;          ///< shortest substep; 0 when no block searched contact [s]
 };
 
 /// Takes an overlap of a contact that presses into the report.
 inline void note_penetration(StepReport& report, double overlap, double thickness) {
+  report.sum_penetration += std::max(overlap, 0.0);
   if (overlap > report.largest_penetration) report.largest_penetration = overlap;
   if (overlap > deep_share * thickness) report.flags = report.flags | StepFlag::deep;
 }

@@ -3,14 +3,13 @@
 // Buffers grow to the largest step and are kept: the step loop does not allocate.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "contact/block_pairs.hpp"
 #include "contact/contact.hpp"
 #include "dda/contact_row.hpp"
 #include "dda/island_groups.hpp"
-#include "dda/island_impact.hpp"
+#include "dda/island_solver.hpp"
 #include "dda/state.hpp"
 #include "dda/substep_numbers.hpp"
 
@@ -31,11 +30,26 @@ struct Segment {
 struct IslandContact {
   ContactRow row;
   ContactKey key;
-  int a = 0, b = -1;     ///< blocks; b = -1: the ground, or a fixed body
-  int fixed = -1;        ///< fixed body (as body of Blocks::hulls), -1: none
-  double gap_free = 0;   ///< gap at the end of the substep without contact forces [m]
-  int ground_class = 0;  ///< where b and fixed are -1
-  int bond = -1;         ///< index into State::bonds; row.bond_area is its share, -1: not held
+  int a = 0, b = -1;         ///< blocks; b = -1: the ground, or a fixed body
+  int fixed = -1;            ///< fixed body (as body of Blocks::hulls), -1: none
+  int ground_class = 0;      ///< where b and fixed are -1
+  int bond = -1;             ///< index into State::bonds; row.bond_area is its share, -1: none
+  bool never_waits = false;  ///< bonded, or on a panel that gives way: takes no hit
+  double gap_free = 0;       ///< gap at the end of the substep without contact forces [m]
+  double approach = 0;       ///< normal velocity without contact forces, < 0 closing [m/s]
+  double touch = 0;          ///< it touches below this gap [m]
+  double restitution = 0;    ///< of the two surfaces [-]
+  bool waits = false;        ///< approaches too fast to press without being hit
+  bool hit = false;          ///< hit within the substep
+  double hit_time = 0;       ///< from the start of the substep [s]
+  double hit_speed = 0;      ///< normal velocity just before, < 0 [m/s]
+  double target = 0;         ///< normal velocity at the end of the substep [m/s]
+};
+
+/// How a body turns over a substep without contact.
+struct FreeTurn {
+  Mat3 by;                    ///< from start to end, local axes
+  Vec3 spin_start, spin_end;  ///< local axes [rad/s]
 };
 
 /// What the step of islands recomputes.
@@ -51,6 +65,8 @@ struct IslandStepWork {  // clang-format off
   PairWork pairs;
   std::vector<std::pair<int, int>> joined;  ///< blocks within reach of each other
   std::vector<std::uint8_t> near_fixed;     ///< 1: within reach of a fixed body         (n_blocks)
+  std::vector<int> joined_manifold;         ///< of each                                 (n_joined)
+  bool pairs_of_step = false;               ///< `pairs` are still those of form_islands
   IslandGroups groups;
   // advance_island: the island at hand
   std::vector<int> members;                 ///< ascending
@@ -62,11 +78,13 @@ struct IslandStepWork {  // clang-format off
   std::vector<std::uint8_t> claimed;        ///< 1: a memory that is continued
   std::vector<BondLoad> bond_loads;         ///< of this substep, by bond
   std::vector<PanelPush> pushes;            ///< on panels of fences, in this substep
-  std::vector<std::array<int, 3>> touched_panels;  ///< row, member, fixed body of an impact
+  std::vector<FreeTurn> turns;              ///<                                         (n_members)
   std::vector<IslandContact> contacts;      ///< in the order of island.rows
   Island<6> island;
   IslandWork<6> solver;
-  ImpactWork<6> impact;
+  std::vector<int> island_manifolds;        ///< of the island at hand
+  std::vector<double> weight, time;         ///< impulses expected [N s]; mean time of theirs [s] (n_members)
+  std::vector<Vec6> displacement;           ///< by contact over the substep             (n_members)
 };  // clang-format on
 
 struct Work {  // clang-format off

@@ -35,43 +35,67 @@ double mechanical_energy(const Scene& scene, const State& state) {
   return e.translation + e.rotation + e.potential;
 }
 
-// Arguments: time step [1e-4 s], seed of a start velocity of 1 mm/s (0: at rest).
-void Slide39(benchmark::State& run) {
-  const char* peers = std::getenv("TALUS_PEERS_DIR");
-  if (peers == nullptr) return run.SkipWithError("TALUS_PEERS_DIR is not set");
-  const std::string folder = peers;
-  std::vector<Body> bodies = read_blocks(folder + "/blocks_39.obj");
-  Random random(static_cast<std::uint64_t>(run.range(1)));
+// The scene as the peers have it; a start velocity of 1 mm/s from `seed`, 0: at rest.
+Scene slide(const std::string& folder, int blocks, double dt, std::uint64_t seed) {
+  std::vector<Body> bodies = read_blocks(folder + "/blocks_" + std::to_string(blocks) + ".obj");
+  Random random(seed);
   for (Body& body : bodies)
-    if (run.range(1) != 0)
+    if (seed != 0)
       body.velocity =
           1e-3 * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
   GroundClass ground;
   ground.friction = std::tan(25 * std::numbers::pi / 180);
   ground.restitution = 0.7;
   Settings settings;
-  settings.dt = 1e-4 * static_cast<double>(run.range(0));
-  const Scene scene = cases::scene_of(read_grid(folder + "/terrain_F.asc"), ground, bodies,
-                                      settings, {2500, 5e10, 0.25});
+  settings.dt = dt;
+  return cases::scene_of(read_grid(folder + "/terrain_F.asc"), ground, bodies, settings,
+                         {2500, 5e10, 0.25});
+}
+
+// Arguments: blocks, time step [1e-4 s], seed, duration [0.1 s].
+void Slide(benchmark::State& run) {
+  const char* peers = std::getenv("TALUS_PEERS_DIR");
+  if (peers == nullptr) return run.SkipWithError("TALUS_PEERS_DIR is not set");
+  const double dt = 1e-4 * static_cast<double>(run.range(1));
+  const double duration = 0.1 * static_cast<double>(run.range(3));
+  const Scene scene =
+      slide(peers, static_cast<int>(run.range(0)), dt, static_cast<std::uint64_t>(run.range(2)));
   for (auto _ : run) {
     State state = start(scene);
     Work work = make_work(scene);
     const double before = mechanical_energy(scene, state);
-    double deepest = 0;
-    while (state.time < 20 - settings.dt / 2)
-      deepest = std::max(deepest, step(scene, state, work).largest_penetration);
+    double deepest = 0, depth = 0, closed = 0;
+    while (state.time < duration - dt / 2) {
+      const StepReport report = step(scene, state, work);
+      deepest = std::max(deepest, report.largest_penetration);
+      depth += report.sum_penetration;
+      closed += report.n_closed;
+    }
     const Vec3 end = mean_position(scene, state);
     const double lost = before - mechanical_energy(scene, state);
     const EnergyLedger& l = state.ledger;
     run.counters["s"] = 320 - end.y();
     run.counters["x"] = end.x();
     run.counters["deepest_m"] = deepest;
+    run.counters["mean_m"] = depth / closed;
+    run.counters["closed"] = closed / static_cast<double>(state.counters.steps);
+    run.counters["passes"] = static_cast<double>(state.counters.passes);
+    run.counters["impacts"] = static_cast<double>(state.counters.impacts);
+    run.counters["substeps"] = static_cast<double>(state.counters.substeps);
+    run.counters["asleep"] =
+        static_cast<double>(std::count(state.phase.begin(), state.phase.end(), Phase::asleep));
     run.counters["unconverged"] = static_cast<double>(state.counters.unconverged);
     run.counters["balance"] = (lost - l.friction - l.impact - l.contact - l.removed) / lost;
   }
 }
-BENCHMARK(Slide39)
-    ->ArgsProduct({{20, 50, 100}, {0, 1, 2}})
+BENCHMARK(Slide)
+    ->Name("Slide39")
+    ->ArgsProduct({{39}, {10, 50, 100, 200, 300}, {0, 1, 2, 3, 4, 5, 6, 7, 8}, {200}})
+    ->Unit(benchmark::kSecond)
+    ->Iterations(1);
+BENCHMARK(Slide)
+    ->Name("SlideDense")
+    ->ArgsProduct({{39, 390, 3900}, {10, 50, 100}, {0}, {5}})
     ->Unit(benchmark::kSecond)
     ->Iterations(1);
 
