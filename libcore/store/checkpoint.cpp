@@ -17,7 +17,7 @@ static_assert(sizeof(Motion) == 112 && sizeof(EnergyLedger) == 48 && sizeof(RunC
 static_assert(sizeof(ContactMemory) == 128 && sizeof(HealthRow) == 176);
 static_assert(sizeof(State) == 8 + 12 * 24 + sizeof(EnergyLedger) + sizeof(RunCounters) +
                                    sizeof(PairState) + sizeof(PlacedHulls) + sizeof(FenceState));
-static_assert(sizeof(FenceState) == 5 * 24 && sizeof(FenceHit) == 112 && sizeof(BlockBond) == 48);
+static_assert(sizeof(FenceState) == 5 * 24 && sizeof(FenceHit) == 104 && sizeof(BlockBond) == 48);
 static_assert(sizeof(PairState) == 272 && sizeof(PlacedHulls) == 192 && sizeof(ListedPair) == 88);
 static_assert(sizeof(PairWatch) == 16 && sizeof(HeldPoint) == 24);
 

@@ -22,7 +22,7 @@ cmp -s soft.h5 again.h5 || fail "two runs with a fence differ"
 
 # too weak: panels break, when and by which block is said, and blocks go on
 sed 's/active = false/capacity_kj = 20\nmax_deflection_m = 2/' site.toml >weak.toml
-expect 0 talus-dda weak.toml --trn slope.tif --blocks blocks.h5 -o weak.h5 --no-db --json
+expect 0 talus-dda weak.toml --trn slope.tif --blocks blocks.h5 -o weak.h5 --no-db --json --duration-s 12
 cp out weak.json
 python3 - <<'PY' || fail 'fences of the result'
 import json
@@ -32,8 +32,9 @@ assert rigid['n_fence_hits'] >= 3 and soft['n_fence_hits'] >= 3
 work = [p['work_kj'] for p in soft['fences']]
 assert 50 < sum(work) < 2000 and max(p['deflection_m'] for p in soft['fences']) < 0.01
 broken = [p for p in weak['fences'] if p['broken']]
-assert len(broken) == 3 and all(abs(p['work_kj'] - 20) < 1e-4 for p in broken), weak['fences']
-assert sorted(p['broken_by_block'] for p in broken) == [0, 1, 2]
+assert len(broken) >= 3 and all(abs(p['work_kj'] - 20) < 1e-4 for p in broken), weak['fences']
+assert all(p['work_kj'] < 20 for p in weak['fences'] if not p['broken'])
+assert {p['broken_by_block'] for p in broken} == {0, 1, 2}
 assert weak['n_crossings'] == 3
 PY
 
@@ -51,7 +52,7 @@ refused 'line = [[500060, 5000010], [500160, 5000010]]' 'fence.low'
 refused 'line = [[500021, 5000030], [500021, 5000040]]' 'block 0 and panel 0 of fence low by'
 # with law paper it stops nothing
 expect 0 talus-dda rigid.toml --trn slope.tif --blocks blocks.h5 -o paper.h5 --no-db --law paper --independent \
-  --duration-s 0.01
+  --duration-s 0.001 --time-step-s 1e-4 --set solver.normal_stiffness_n_m=1e9
 says 'fences stop nothing with law paper'
 
 # the slope as fixed blocks: the blocks come to lie where they do on the TRN, to the impacts' chaos
@@ -64,4 +65,4 @@ a, b = (json.load(open(f))['mean_displacement_m'] for f in ('blocky.json', 'out'
 assert all(abs(x - y) < 0.5 for x, y in zip(a, b)), (a, b)
 PY
 expect 1 run_dda -o p.h5 --set 'solver.terrain_model="blocky"' --law paper
-says 'solver.terrain_model'
+says 'is blocky with law paper'

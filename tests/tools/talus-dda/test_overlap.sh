@@ -31,7 +31,7 @@ says 'moved apart, by 0.015 m at most'
 expect 0 dda -o light.h5 --settle --set material.rock.density_kg_m3=260
 says 'material.rock.density_kg_m3 is 260 kg/m3; rock has 2000 to 3200 kg/m3'
 expect 0 dda -o soft.h5 --settle --set material.rock.young_modulus_pa=5e5
-says 'material.rock.young_modulus_pa is 500000 Pa'
+says 'material.rock.young_modulus_pa is 5e+05 Pa'
 expect 0 dda -o stiff.h5 --settle --set solver.normal_stiffness_n_m=1e15
 says 'solver.normal_stiffness_n_m is 1e+15 N/m'
 

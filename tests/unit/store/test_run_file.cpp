@@ -153,6 +153,8 @@ TEST(RunFile, HoldsARunWithoutRows) {
   RunFile run = sample(0, 0);
   run.crossings.clear();
   run.lines.clear();
+  run.panels.clear();
+  run.fence_hits.clear();
   run.health.clear();
   run.checkpoint.clear();
   run.grid = {};
