@@ -1,14 +1,14 @@
-# talus_shipped_data(OUT file...): a source OUT that holds files of share/ as text, declared in
+# talus_shipped_data(OUT FOLDER file...): a source OUT that holds files of FOLDER as text, declared in
 # tools/shipped_data.hpp; made again when one of them changes.
-function(talus_shipped_data out)
+function(talus_shipped_data out folder)
   set(entries "")
   foreach(name ${ARGN})
-    set(path ${PROJECT_SOURCE_DIR}/share/${name})
+    set(path ${PROJECT_SOURCE_DIR}/${folder}/${name})
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${path})
     file(READ ${path} content)
     string(APPEND entries "    {\"${name}\", R\"talus(${content})talus\"},\n")
   endforeach()
-  set(source ${CMAKE_CURRENT_BINARY_DIR}/shipped_data.cpp)
+  set(source ${CMAKE_CURRENT_BINARY_DIR}/${out}.cpp)
   file(CONFIGURE OUTPUT ${source} @ONLY CONTENT [[
 #include "shipped_data.hpp"
 

@@ -1,4 +1,9 @@
 # Contours -> triangulated irregular network.
-# in: CONTOURS, TIN_FLAGS (e.g. --elevation-field)   out: $(OUT)/tin.ply, $(OUT)/tin.json
-$(OUT)/tin.ply $(OUT)/tin.json &: $(CONTOURS) | $(OUT)
-	$(BIN)talus-tin $(CONTOURS) -o $(OUT)/tin.ply --report $(OUT)/tin.json $(TIN_FLAGS) --overwrite
+# in: CONTOURS, [terrain], TIN_FLAGS (e.g. --hold-out-every 3)   out: $(OUT)/tin.ply, $(OUT)/tin.json
+$(eval $(call remember,tin,$(CONTOURS) $(TIN_FLAGS)))
+ifneq ($(CONTOURS),)
+tin_files := $(OUT)/tin.ply $(OUT)/tin.json
+$(eval $(call together,$(tin_files)))
+$(OUT)/tin.ply: $(CONTOURS) $(STAGES)/tin.txt $(STAGES)/tin.flags | $(OUT)
+	$(BIN)talus-tin $(CONTOURS) -o $(OUT)/tin.ply --report $(OUT)/tin.json $(SITE_TIN_FLAGS) $(TIN_FLAGS) --overwrite $(DB)
+endif

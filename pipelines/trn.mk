@@ -1,4 +1,10 @@
-# TIN -> terrain of nodes, with its error report and a hillshade to look at.
-# in: TRN_FLAGS (e.g. --cell-size-m)   out: $(OUT)/trn.tif, $(OUT)/trn.json, $(OUT)/hillshade.png
-$(OUT)/trn.tif $(OUT)/trn.json $(OUT)/hillshade.png &: $(OUT)/tin.ply
-	$(BIN)talus-trn $(OUT)/tin.ply -o $(OUT)/trn.tif --report $(OUT)/trn.json --hillshade $(OUT)/hillshade.png $(TRN_FLAGS) --overwrite
+# TIN or elevation model -> terrain of nodes, with its error report and a hillshade to look at.
+# in: [terrain], DEM, TRN_FLAGS (e.g. --like)   out: $(OUT)/trn.tif, $(OUT)/trn.json, $(OUT)/hillshade.png
+$(eval $(call remember,trn,$(DEM) $(TRN_FLAGS)))
+ground_source := $(if $(CONTOURS),$(OUT)/tin.ply,$(DEM))
+trn_files := $(addprefix $(OUT)/,trn.tif trn.json hillshade.png)
+terrain: $(trn_files) ## contours or elevation model -> terrain
+$(eval $(call together,$(trn_files)))
+$(OUT)/trn.tif: $(ground_source) $(STAGES)/trn.txt $(STAGES)/trn.flags | $(OUT)
+	$(BIN)talus-trn $(ground_source) -o $(OUT)/trn.tif --report $(OUT)/trn.json --hillshade $(OUT)/hillshade.png \
+	  $(SITE_TRN_FLAGS) $(TRN_FLAGS) --overwrite $(DB)

@@ -5,7 +5,8 @@ import pathlib
 import re
 import sys
 
-MODULES = ["base", "geometry", "terrain", "blocks", "scene", "contact", "dda", "io", "store", "post"]
+MODULES = ["base", "geometry", "terrain", "blocks", "scene", "contact", "dda", "io", "store", "post",
+           "report"]
 LIBRARY_HEADERS = {
     "cgal": re.compile(r"^(CGAL|boost)/"),
     "gdal": re.compile(r"^(gdal|ogr|cpl_|proj)"),

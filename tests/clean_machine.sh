@@ -1,7 +1,8 @@
 #!/bin/sh
 # clean_machine.sh [FOLDER]: runs both commands of README.md in a bare Debian 12 made by debootstrap
-# in FOLDER (default: a temporary one), and prints how long each took. Needs root, debootstrap and the
-# package source that this machine uses. Not part of the normal tests.
+# in FOLDER (default: a temporary one), installs the Debian package in a second bare one, FOLDER.deb, and
+# computes a site there, and prints how long each took. Needs root, debootstrap and the package source
+# that this machine uses. Not part of the normal tests.
 set -eu
 cd "$(dirname "$0")/.."
 checkout=$PWD
@@ -10,19 +11,30 @@ command -v debootstrap >/dev/null || { echo "clean_machine.sh: install debootstr
 
 root=${1:-$(mktemp -d)}
 mirror=$(sed -n 's/^URIs: *//p; s/^deb \(\[.*\] \)*\([^ ]*\) .*/\2/p' /etc/apt/sources.list.d/*.sources /etc/apt/sources.list 2>/dev/null | head -n 1)
-[ -x "$root/bin/sh" ] || debootstrap --variant=minbase bookworm "$root" "$mirror" >/dev/null
-cp /etc/apt/apt.conf.d/* "$root/etc/apt/apt.conf.d/" 2>/dev/null || true
-cp /etc/resolv.conf "$root/etc/resolv.conf" 2>/dev/null || true
-rm -rf "$root/talus"
-git -c safe.directory='*' clone -q "$checkout" "$root/talus"
-
-mount -t proc proc "$root/proc"
-trap 'umount "$root/proc"' EXIT
+bare() {  # a bare system in $1
+  [ -x "$1/bin/sh" ] || debootstrap --variant=minbase bookworm "$1" "$mirror" >/dev/null
+  cp /etc/apt/apt.conf.d/* "$1/etc/apt/apt.conf.d/" 2>/dev/null || true
+  cp /etc/resolv.conf "$1/etc/resolv.conf" 2>/dev/null || true
+  mount -t proc proc "$1/proc"
+}
+trap 'umount "$root/proc" "$root.deb/proc" 2>/dev/null || true' EXIT
+# timed ROOT COMMAND
 timed() {
   before=$(date +%s)
-  chroot "$root" sh -c "cd /talus && $1" >"$root/log" 2>&1 || { tail -n 40 "$root/log" >&2; echo "FAILED: $1" >&2; exit 1; }
-  echo "$1: $(($(date +%s) - before)) s"
+  chroot "$1" sh -c "$2" >"$1/log" 2>&1 || { tail -n 40 "$1/log" >&2; echo "FAILED: $2" >&2; exit 1; }
+  echo "$2: $(($(date +%s) - before)) s"
 }
-timed "sh pipelines/demo.sh"
-timed "sh pipelines/demo.sh # a second time"
-timed "sh tests/run.sh"
+bare "$root"
+rm -rf "$root/talus"
+git -c safe.directory='*' clone -q "$checkout" "$root/talus"
+timed "$root" "cd /talus && sh pipelines/demo.sh"
+timed "$root" "cd /talus && make -C sample_sites/maungawhau clean && sh pipelines/demo.sh"
+timed "$root" "cd /talus && apt-get install -y -qq --no-install-recommends dpkg-dev file && cd build/demo && cpack"
+
+bare "$root.deb"
+cp "$root"/talus/build/demo/talus_*.deb "$root.deb/"
+timed "$root.deb" "apt-get update -qq && apt-get install -y -qq --no-install-recommends /talus_*.deb make gdal-bin man-db"
+timed "$root.deb" "cp -r /usr/share/talus/sample_sites/designed /site && cd /site && sed -i 's|include .*|include /usr/share/talus/pipelines/site.mk|' Makefile && make && test -s out/report.html"
+timed "$root.deb" "man -w talus-report"
+
+timed "$root" "cd /talus && sh tests/run.sh"

@@ -210,6 +210,10 @@ void add_section(const PlacedContext& context, const PlacedSettings& section, Bl
     centre(meshes);
     if (!std::isnan(section.volume_m3)) scale_to_volume(meshes, section.volume_m3);
   }
+  if (section.n_per_point > 1)
+    context.tool.warn("blocks." + section.name + ": " + std::to_string(section.n_per_point) +
+                      " bodies at each release point overlap: move them alone (talus-dda "
+                      "--independent), or set n_per_point to 1");
   const Mat3 fixed =
       rotation(section.yaw_deg * degree, section.pitch_deg * degree, section.roll_deg * degree);
   for (const Vec3& position : positions_of(context, section))

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/sha256.hpp"
+#include "post/deposit.hpp"
 
 namespace talus {
 
@@ -26,15 +27,51 @@ void RunInputs::read(const std::vector<std::string>& paths, const RunParts& part
                      const std::function<void(RunFile&, int)>& take) {
   if (set_options_.trn_sha256.empty())
     set_options_ = {allow_unfinished, trn_file, sha256_of_file(trn_file)};
+  std::vector<RunMember> found;
+  for (const std::string& path : paths) {
+    found.push_back(member_of(path, read_run_head(path)));
+    check_member(found.back(), members.empty() ? found.front() : members.front(), set_options_);
+  }
+  const std::size_t first = members.size();
+  for (const int i : order_by_id(found)) members.push_back(std::move(found[i]));
+  read_members(first, parts, [&](RunFile& run, int i) {
+    members[i] = member_of(members[i].file, run);
+    members[i].n_moving = balance_of(run, rest_speed_m_s).n_moving;
+    take(run, i);
+  });
+}
+
+void RunInputs::read_again(const RunParts& parts, const std::function<void(RunFile&, int)>& take) {
+  read_members(0, parts, take);
+}
+
+void RunInputs::read_members(std::size_t first, const RunParts& parts,
+                             const std::function<void(RunFile&, int)>& take) {
   const ProgressFunction progress = tool_.progress();
-  for (std::size_t i = 0; i < paths.size(); ++i) {
-    progress(static_cast<double>(i) / static_cast<double>(paths.size()));
-    RunFile run = read_run_file(paths[i], parts);
-    members.push_back(member_of(paths[i], run));
-    check_member(members.back(), members.front(), set_options_);
-    take(run, static_cast<int>(members.size()) - 1);
+  const auto n = static_cast<double>(members.size() - first);
+  for (std::size_t i = first; i < members.size(); ++i) {
+    progress(static_cast<double>(i - first) / n);
+    RunFile run = read_run_file(members[i].file, parts);
+    take(run, static_cast<int>(i));
   }
   progress(1);
+}
+
+void RunInputs::warn_of_ends() const {
+  int moving = 0, released = 0;
+  std::int64_t left = 0;
+  for (const RunMember& member : members) {
+    moving += member.n_moving;
+    released += member.n_blocks;
+    left += member.left_domain;
+  }
+  if (left > 0)
+    tool_.warn(std::to_string(left) + " of " + std::to_string(released) +
+               " blocks left the known terrain: maps and run-out end where it does");
+  if (moving > 0)
+    tool_.warn(std::to_string(moving) + " of " + std::to_string(released) +
+               " blocks were still moving when their runs ended: deposits leave them out; give "
+               "talus-dda a longer --duration-s");
 }
 
 std::string RunInputs::remark() const {

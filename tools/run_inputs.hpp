@@ -20,24 +20,36 @@ class RunInputs {
   /// The terrain. Throws InputError (read_trn).
   [[nodiscard]] const Trn& trn();
 
-  /// Reads each file in turn, checks that it belongs to the others (run_set.hpp) and hands it over
-  /// with its place in `members`. Throws InputError; Interrupted between two files.
+  /// Checks that all files belong together (run_set.hpp), then reads them one by one in the order
+  /// of their run ids, and hands each over with its place in `members`. So results do not depend on
+  /// the order of the command line, and no more than one run is held. Throws InputError;
+  /// Interrupted between two files.
   void read(const std::vector<std::string>& files, const RunParts& parts,
             const std::function<void(RunFile&, int)>& take);
   void read(const RunParts& parts, const std::function<void(RunFile&, int)>& take) {
     read(files, parts, take);
   }
 
+  /// Reads all members once more, in the same order.
+  void read_again(const RunParts& parts, const std::function<void(RunFile&, int)>& take);
+
   /// Warns of unfinished runs; "" when all are whole, else what pictures and legends say.
   [[nodiscard]] std::string remark() const;
+
+  /// Warns when blocks were still moving as their runs ended, or had left the known terrain:
+  /// deposits leave them out.
+  void warn_of_ends() const;
 
   std::vector<std::string> files;
   std::string trn_file;
   double rest_speed_m_s = 0.05;
   bool allow_unfinished = false;
-  std::vector<RunMember> members;  ///< of the files read so far
+  std::vector<RunMember> members;  ///< of the files read so far; of one call by run id
 
  private:
+  void read_members(std::size_t first, const RunParts& parts,
+                    const std::function<void(RunFile&, int)>& take);
+
   Tool& tool_;
   RunSetOptions set_options_;
   Trn trn_;

@@ -1,12 +1,12 @@
 // tools/shipped_data.hpp
-// The data files of share/ as they were when the tool was built.
+// Data files (of share/, of tools/report/) as they were when the tool was built.
 #pragma once
 
 #include <string>
 
 namespace talus {
 
-/// Content of share/NAME. Throws InputError for another name.
+/// Content of the file NAME. Throws InputError for another name.
 [[nodiscard]] const std::string& shipped_data(const std::string& name);
 
 }  // namespace talus

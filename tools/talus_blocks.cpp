@@ -225,6 +225,13 @@ void cut(Tool& tool, const Options& o, Work& work) {
   if (work.cut.n_dropped > 0)
     tool.warn(std::to_string(work.cut.n_dropped) + " slivers without a neighbour were left out, " +
               text(work.cut.dropped_volume, 3) + " m3 in all");
+  if (work.cut.n_below_limits > 0)
+    tool.warn(std::to_string(work.cut.n_below_limits) +
+              " blocks are below the limits for slivers after they were made convex");
+  if (work.cut.n_short_edged > 0)
+    tool.warn(std::to_string(work.cut.n_short_edged) +
+              " blocks keep edges that are shorter than min_block_edge_m: without them they would "
+              "lose too much of their volume");
   if (n_blocks(work.blocks) == 1)
     tool.warn("the mass stays in one piece: " + why_in_one_piece(work));
   if (n_blocks(work.blocks) == 0)
@@ -314,33 +321,41 @@ Json shapes_json(const BlockSet& set) {
 
 Json cut_json(const Options& o, const Work& work) {
   const AssembleReport& cut = work.cut;
-  return {{"exact", o.exact},
-          {"failure_surface", work.site.source.failure_surface},
-          {"prism_volume_m3", work.mass.volume},
-          {"polygon_area_m2", work.mass.polygon_area},
-          {"mean_depth_m", work.mass.mean_depth},
-          {"largest_depth_m", work.mass.max_depth},
-          {"expected_blocks", work.expected},
-          {"n_cells", cut.n_cells},
-          {"n_pieces", cut.n_pieces},
-          {"cut_volume_m3", cut.cut_volume},
-          {"volume_error", (cut.cut_volume - work.mass.volume) / work.mass.volume},
-          {"block_volume_m3", cut.block_volume},
-          {"n_slivers_merged", cut.n_merged},
-          {"slivers_merged_m3", cut.merged_volume},
-          {"n_slivers_left_out", cut.n_dropped},
-          {"slivers_left_out_m3", cut.dropped_volume},
-          {"sliver_limits",
-           {{"volume_m3", work.limits.min_volume},
-            {"thickness_m", work.limits.min_thickness},
-            {"aspect", work.limits.max_aspect}}},
-          {"n_rings_parted", cut.n_rings_parted},
-          {"n_divided", cut.n_divided},
-          {"n_kept_exact", cut.n_kept_exact},
-          {"convexified_lost_m3", cut.lost},
-          {"convexified_gained_m3", cut.gained},
-          {"convexified_change",
-           (cut.block_volume + cut.dropped_volume - cut.cut_volume) / cut.cut_volume}};
+  Json rows = {{"exact", o.exact},
+               {"failure_surface", work.site.source.failure_surface},
+               {"prism_volume_m3", work.mass.volume},
+               {"polygon_area_m2", work.mass.polygon_area},
+               {"mean_depth_m", work.mass.mean_depth},
+               {"largest_depth_m", work.mass.max_depth},
+               {"expected_blocks", work.expected},
+               {"n_cells", cut.n_cells},
+               {"n_pieces", cut.n_pieces},
+               {"cut_volume_m3", cut.cut_volume},
+               {"volume_error", (cut.cut_volume - work.mass.volume) / work.mass.volume},
+               {"block_volume_m3", cut.block_volume},
+               {"n_slivers_merged", cut.n_merged},
+               {"slivers_merged_m3", cut.merged_volume},
+               {"n_slivers_left_out", cut.n_dropped},
+               {"slivers_left_out_m3", cut.dropped_volume},
+               {"sliver_limits",
+                {{"volume_m3", work.limits.min_volume},
+                 {"thickness_m", work.limits.min_thickness},
+                 {"aspect", work.limits.max_aspect}}},
+               {"n_rings_parted", cut.n_rings_parted},
+               {"n_divided", cut.n_divided},
+               {"n_kept_exact", cut.n_kept_exact},
+               {"n_below_limits", cut.n_below_limits},
+               {"n_short_edged", cut.n_short_edged},
+               {"convexified_lost_m3", cut.lost},
+               {"convexified_gained_m3", cut.gained},
+               {"convexified_change",
+                (cut.block_volume + cut.dropped_volume - cut.cut_volume) / cut.cut_volume}};
+  const SourceSettings& source = work.site.source;
+  if (source.failure_surface == "slbl") {
+    rows["slbl_curvature_m"] = source.slbl_curvature_m;
+    if (!std::isnan(source.slbl_max_depth_m)) rows["slbl_max_depth_m"] = source.slbl_max_depth_m;
+  }
+  return rows;
 }
 
 Json report_on(Tool& tool, const Options& o, const Work& work) {

@@ -141,11 +141,16 @@ void check_leftover(Tool& tool, const Options& o) {
 // From the checkpoint when there is one and it is asked for, else from the beginning.
 Runner runner_of(Tool& tool, const Scene& scene, const RunOptions& options,
                  const std::vector<RecordLine>& lines, RunFile file, const Options& o) {
+  const auto from_start = [&] { return begin_run(scene, options, lines, std::move(file)); };
   if (!o.resume || !fs::exists(part_of(o))) {
-    if (o.resume) tool.info(part_of(o) + " does not exist: the run starts at its beginning");
-    return begin_run(scene, options, lines, std::move(file));
+    if (o.resume) tool.detail(part_of(o) + " does not exist: the run starts at its beginning");
+    return from_start();
   }
   RunFile part = read_run_file(part_of(o));
+  if (part.info.run_id != file.info.run_id && tool.overwrite()) {
+    tool.info(part_of(o) + " is of other inputs or settings: the run starts at its beginning");
+    return from_start();
+  }
   if (part.info.run_id != file.info.run_id)
     throw InputError(
         {part_of(o)},

@@ -9,8 +9,11 @@
 #include "base/text.hpp"
 #include "io/geopackage_gdal.hpp"
 #include "io/style.hpp"
+#include "map_output.hpp"
 #include "post/fence.hpp"
+#include "post/fence_change.hpp"
 #include "post/fence_design.hpp"
+#include "post/map_style.hpp"
 #include "post/runout.hpp"
 #include "post/statistics.hpp"
 #include "run_inputs.hpp"
@@ -26,7 +29,7 @@ constexpr double degrees = 180 / std::numbers::pi;
 constexpr double contact_m = 0.25;  // a block so near a standing fence touches it
 
 struct Options {
-  std::string out, json, csv, code = "uni";
+  std::string out, json, csv, change, code = "uni";
   std::vector<std::string> without;
   DesignInput design;
   double free_border_m = std::nan(""), bulking = 1.3;
@@ -39,6 +42,9 @@ void declare(Tool& tool, Options& o) {
   tool.json_output(o.json, "verdicts, statistics, design check, comparison (JSON)");
   tool.output("--csv", o.csv, "one row a block and fence: its verdict (CSV)");
   tool.inputs("--without", o.without, "runs without the fence, to compare with");
+  tool.output("--change", o.change,
+              "deposit and speed with the fences minus those of --without (GeoTIFF; style and "
+              "picture beside it)");
   tool.option("--code", o.code, "design code: uni, onr, or a data file (CSV)");
   tool.option("--consequence-class", o.design.consequence_class, "of ONR 24810")
       ->check(CLI::Range(1, 3));
@@ -57,8 +63,7 @@ void declare(Tool& tool, Options& o) {
       "  talus-fence site.toml with.h5 --without without.h5 --trn slope.tif -o fence.gpkg");
 }
 
-// --- what the runs say
-// -----------------------------------------------------------------------------
+// --- what the runs say --------------------------------------------------------------------------
 
 /// A run at one fence.
 struct RunAtFence {
@@ -156,17 +161,7 @@ struct RunGroup {
   [[nodiscard]] int n() const { return static_cast<int>(runs.size()); }
 };
 
-RunGroup ordered(const std::vector<RunMember>& members, std::vector<RunWhole> runs) {
-  RunGroup group;
-  for (const int i : order_by_id(members)) {
-    group.members.push_back(members[i]);
-    group.runs.push_back(std::move(runs[i]));
-  }
-  return group;
-}
-
-// --- numbers
-// -----------------------------------------------------------------------------------------
+// --- numbers ------------------------------------------------------------------------------------
 
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
@@ -274,8 +269,7 @@ Json design_json(const DesignResult& r) {
           {"pass", r.pass}};
 }
 
-// --- one fence
-// -----------------------------------------------------------------------------------------
+// --- one fence ----------------------------------------------------------------------------------
 
 struct Code {
   DesignCode code;
@@ -346,7 +340,7 @@ FenceResult evaluate(const FenceCase& c, std::size_t index, const RunGroup& grou
     r.arrivals.push_back(a);
     towards_left += a.direction;
   }
-  r.side = towards_left > 0 ? -1 : 1;
+  r.side = towards_left != 0 ? (towards_left > 0 ? -1 : 1) : uphill_side(c.fence, trn);
   const DesignInput input = design_input(o, group, mean_size(r.arrivals, group));
   r.whole = summarise(r.arrivals, group.n(), o.seed);
   r.design = check_design(code.code, code.classes, input, r.whole, c.fence);
@@ -430,8 +424,7 @@ Json fence_json(const FenceCase& c, std::size_t index, const FenceResult& r, con
           {"notes", notes_of(c, r, standing)}};
 }
 
-// --- with and without
-// ------------------------------------------------------------------------------------
+// --- with and without ---------------------------------------------------------------------------
 
 Json side_json(const RunGroup& group, std::size_t fence) {
   double weight = 0, total = 0, volume = 0, n = 0;
@@ -472,8 +465,7 @@ Json comparison_json(const RunGroup& with, const RunGroup& without, std::size_t 
   return {{"with", a}, {"without", b}, {"with_minus_without", change}};
 }
 
-// --- layers and tables
-// -------------------------------------------------------------------------------------
+// --- layers and tables --------------------------------------------------------------------------
 
 VectorStyle verdict_style(SymbolKind kind, double size) {
   return {kind,
@@ -662,26 +654,41 @@ std::string summary_of(const FenceCase& c, std::size_t index, const FenceResult&
                         : "does not meet the code, " + r.design.governs + " governs");
 }
 
-// --- the whole
-// -----------------------------------------------------------------------------------------------
+// --- the whole ----------------------------------------------------------------------------------
+
+Json change_json(const GroundSums& with, const GroundSums& without) {
+  const DepositChange change = deposit_change(with, without);
+  return {{"with_m3_per_run", change.with},
+          {"without_m3_per_run", change.without},
+          {"more_m3_per_run", change.more},
+          {"less_m3_per_run", change.less}};
+}
 
 void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& inputs) {
   const Site& site = site_options.load();
   const Code code = read_code(o.code);
+  if (!o.change.empty() && o.without.empty())
+    throw InputError({"", 0, "--change"}, "has nothing to compare with",
+                     "give runs without the fences by --without");
   if (o.code != "uni" && o.code != "onr") tool.read_also("code", o.code);
   const Trn& trn = inputs.trn();
   const std::vector<FenceCase> cases = cases_of(tool, site, trn);
   std::vector<RunWhole> runs;
+  GroundSums ground_with, ground_without;
+  PassageGrid grid = passage_grid(trn, 0);
   const auto take = [&](RunFile& run, int index) {
+    if (run.grid.n_rows > 0) grid = run.grid;
+    add_run(runs.size() < inputs.files.size() ? ground_with : ground_without, grid, run,
+            inputs.rest_speed_m_s);
     runs.push_back(whole_of(run, index, cases, o, code.code, inputs, trn, site.file));
   };
-  const RunParts parts{true, true, true, true, false};
+  const RunParts parts{.checkpoint = false};
   inputs.read(parts, take);
   const std::size_t n_with = runs.size();
   inputs.read(o.without, parts, take);
   const auto split = [&](std::size_t first, std::size_t last) {
-    return ordered({inputs.members.begin() + first, inputs.members.begin() + last},
-                   {runs.begin() + first, runs.begin() + last});
+    return RunGroup{{inputs.members.begin() + first, inputs.members.begin() + last},
+                    {runs.begin() + first, runs.begin() + last}};
   };
   const RunGroup with = split(0, n_with), without = split(n_with, runs.size());
 
@@ -698,6 +705,9 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& inpu
                   " did not stand in the runs compared with --without");
     }
     fences.push_back(json);
+    if (std::isnan(cases[i].fence.capacity))
+      tool.warn("fence " + cases[i].line.name +
+                " has no capacity_kj: no block counts as piercing it");
     summary += (i > 0 ? "\n" : "") + summary_of(cases[i], i, results[i], with);
     if (results[i].whole.n > 0 && !results[i].design.enough)
       tool.warn("fence " + cases[i].line.name + ": " + std::to_string(results[i].whole.n) +
@@ -705,10 +715,16 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& inpu
                 std::to_string(results[i].design.n_needed) +
                 ": the largest values stand in for them, and nothing passes");
   }
+  inputs.warn_of_ends();
   auto tags = tags_of(inputs.members);
   tags.insert(tags.begin(), {"RUN_ID", tool.run_id()});
-  if (const std::string remark = inputs.remark(); !remark.empty())
-    tags.emplace_back("REMARK", remark);
+  const std::string remark = inputs.remark();
+  if (!remark.empty()) tags.emplace_back("REMARK", remark);
+  if (!o.change.empty()) {
+    const MapLayer layer = change_layer(ground_with, ground_without, grid.cell_size);
+    write_map(tool, map_frame(trn, grid, true, layer.cell), o.change, layer,
+              change_style(layer, remark), tags);
+  }
   write_geopackage(tool.stage(o.out), trn.crs_wkt,
                    {field_layer(cases, results, trn.origin), post_layer(cases, results, trn.origin),
                     arrival_layer_of(cases, with, trn.origin)},
@@ -716,7 +732,9 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& inpu
   if (!o.csv.empty()) tool.write_text(o.csv, verdict_csv(cases, with));
   Json tag_list;
   for (const auto& [key, value] : tags) tag_list[key] = value;
-  tool.result({{"run_id", tool.run_id()}, {"tags", tag_list}, {"fences", fences}}, summary);
+  Json result = {{"run_id", tool.run_id()}, {"tags", tag_list}, {"fences", fences}};
+  if (without.n() > 0) result["deposit_change"] = change_json(ground_with, ground_without);
+  tool.result(result, summary);
 }
 
 }  // namespace

@@ -5,9 +5,8 @@
 #include <limits>
 
 #include "base/text.hpp"
-#include "io/map_raster_gdal.hpp"
+#include "map_output.hpp"
 #include "post/deposit.hpp"
-#include "post/map_picture.hpp"
 #include "post/map_style.hpp"
 #include "post/maps.hpp"
 #include "run_inputs.hpp"
@@ -24,7 +23,13 @@ struct Options {
   double cell_size_m = std::numeric_limits<double>::quiet_NaN();
   talus::MapSettings settings;
   bool png = false;
+  double memory_mb = 2000;
   std::vector<std::string> creation_options;
+
+  // Rows that may be held: each twice while they are sorted.
+  [[nodiscard]] std::uint64_t most_rows() const {
+    return static_cast<std::uint64_t>(memory_mb * 1e6 / (2 * sizeof(talus::MapRow)));
+  }
 };
 
 void declare(Tool& tool, Options& o) {
@@ -38,134 +43,130 @@ void declare(Tool& tool, Options& o) {
       ->check(CLI::Range(20, 10000));
   tool.option("--seed", o.settings.seed, "of the bootstrap");
   tool.flag("--png", o.png, "a picture of each map over hillshade beside it");
+  tool.option("--memory-mb", o.memory_mb,
+              "for rows of passages [MB]; more of them are taken in several readings of the runs")
+      ->check(CLI::PositiveNumber);
   tool.option("--co", o.creation_options, "creation option of the COGs, NAME=VALUE");
   tool.footer("Example:\n  talus-maps run_1.h5 run_2.h5 --trn slope.tif -o maps --png");
 }
 
 /// What the runs give to the maps.
 struct Gathered {
-  std::vector<std::vector<talus::MapRow>> rows;  // of each run
+  talus::MapGrid map;
   talus::Released released;
   talus::DepositSums deposit;
-  talus::MapGrid map;
+  std::vector<std::uint32_t> rows_of_cell;  // of the map
+  std::uint64_t n_rows = 0;
+  std::vector<std::vector<talus::MapRow>> rows;  // of each run; empty when they are too many
 };
 
-// Runs are read in the order of the command line and used in the order of their ids.
+// All that does not grow with the number of runs, and the rows as long as they are few enough.
 Gathered gather(talus::RunInputs& runs, const Options& o) {
   Gathered out;
-  std::vector<std::vector<talus::MapRow>> rows;
-  std::vector<talus::DepositSums> deposits;
-  runs.read({true, true, false, true, false}, [&](RunFile& run, int index) {
+  const talus::RunParts parts{.crossings = false,
+                              .checkpoint = false,
+                              .only_last_frame = true,
+                              .only_faults = true,
+                              .words = false};
+  runs.read(parts, [&](RunFile& run, int index) {
     if (run.grid.n_rows == 0)
       throw talus::InputError({runs.members[index].file}, "holds no passages",
                               "set [output] passages = true and run talus-dda again");
-    if (index == 0) out.map = talus::map_grid(run.grid, o.cell_size_m, "--cell-size-m");
-    rows.push_back(talus::map_rows(run.passages, run.grid, out.map, run.blocks.weight));
-    deposits.emplace_back();
-    talus::add_deposit(deposits.back(), out.map.grid, run, runs.rest_speed_m_s);
+    if (index == 0) {
+      out.map = talus::map_grid(run.grid, o.cell_size_m, "--cell-size-m");
+      out.rows_of_cell.assign(static_cast<std::size_t>(out.map.grid.n_rows) * out.map.grid.n_cols,
+                              0);
+    }
+    std::vector<talus::MapRow> rows =
+        talus::map_rows(run.passages, run.grid, out.map, run.blocks.weight);
+    for (const talus::MapRow& row : rows) ++out.rows_of_cell[row.cell];
+    out.n_rows += rows.size();
+    if (out.n_rows > o.most_rows())
+      std::vector<std::vector<talus::MapRow>>().swap(out.rows);
+    else
+      out.rows.push_back(std::move(rows));
+    out.released.weight.push_back(runs.members[index].weight);
+    out.released.n_blocks.push_back(runs.members[index].n_blocks);
+    talus::add_deposit(out.deposit, out.map.grid, run, runs.rest_speed_m_s);
   });
-  for (const int i : talus::order_by_id(runs.members)) {
-    out.rows.push_back(std::move(rows[i]));
-    out.released.weight.push_back(runs.members[i].weight);
-    out.released.n_blocks.push_back(runs.members[i].n_blocks);
-    talus::add(out.deposit, deposits[i]);
-  }
   return out;
 }
 
-std::vector<MapLayer> layers_of(const talus::CellRows& cells, const Gathered& g,
-                                const talus::MapSettings& settings) {
-  const double cell_size = g.map.grid.cell_size;
-  std::vector<MapLayer> layers{talus::reach_layer(cells, cell_size, g.released, settings)};
+std::vector<MapLayer> passage_layers(const talus::CellRows& cells, const Gathered& g,
+                                     const talus::MapSettings& settings) {
+  std::vector<MapLayer> layers{
+      talus::reach_layer(cells, g.map.grid.cell_size, g.released, settings)};
   for (const talus::MapQuantity quantity : talus::map_quantities)
     layers.push_back(talus::quantity_layer(cells, quantity, g.released, settings));
   layers.push_back(talus::exceedance_layer(cells, g.released));
-  layers.push_back(talus::deposit_layer(g.deposit, cell_size, g.released));
   layers.push_back(talus::arrival_layer(cells));
   layers.push_back(talus::energy_line_layer(cells));
   return layers;
 }
 
-bool has_percentiles(const MapLayer& layer) {
-  for (const talus::MapBand& band : layer.bands)
-    if (band.name == layer.name + "_p95")
-      for (const float value : band.value)
-        if (!std::isnan(value)) return true;
-  return false;
-}
-
-talus::MapRaster raster_of(const MapLayer& layer, const talus::PassageGrid& grid,
-                           const talus::Trn& trn, const std::vector<bool>& known) {
-  talus::MapRaster raster;
-  raster.corner = grid.corner + trn.origin.head<2>();
-  raster.cell_size = grid.cell_size;
-  raster.n_rows = grid.n_rows;
-  raster.n_cols = grid.n_cols;
-  raster.crs_wkt = trn.crs_wkt;
-  for (const talus::MapBand& band : layer.bands) {
-    raster.bands.push_back({band.name, band.unit, band.description,
-                            talus::on_grid(layer, band, known.size(), talus::MapRaster::nodata)});
-    for (std::size_t i = 0; i < known.size(); ++i)
-      if (!known[i] && raster.bands.back().value[i] == 0)
-        raster.bands.back().value[i] = talus::MapRaster::nodata;
+// Tile by tile, each from its own reading of the runs where there is more than one.
+std::vector<MapLayer> layers_of(talus::RunInputs& runs, Gathered& g, const Options& o) {
+  const talus::RunParts only_passages{
+      .frames = false, .crossings = false, .health = false, .checkpoint = false, .words = false};
+  std::vector<MapLayer> layers;
+  const std::vector<talus::MapTile> tiles = g.n_rows > o.most_rows()
+                                                ? talus::tiles_of(g.rows_of_cell, o.most_rows())
+                                                : std::vector<talus::MapTile>{{}};
+  for (const talus::MapTile& tile : tiles) {
+    if (g.rows.empty())
+      runs.read_again(only_passages, [&](RunFile& run, int) {
+        g.rows.push_back(talus::map_rows(run.passages, run.grid, g.map, run.blocks.weight, tile));
+      });
+    const talus::CellRows cells = talus::group_by_cell(std::move(g.rows), g.rows_of_cell.size());
+    g.rows.clear();
+    std::vector<MapLayer> next = passage_layers(cells, g, o.settings);
+    if (layers.empty()) {
+      layers = std::move(next);
+      continue;
+    }
+    for (std::size_t i = 0; i < layers.size(); ++i) talus::append(layers[i], next[i]);
   }
-  return raster;
-}
-
-Json write_layer(Tool& tool, const Options& o, const MapLayer& layer, talus::MapRaster raster,
-                 const talus::Trn& trn, const std::string& remark) {
-  const std::string base = (std::filesystem::path(o.folder) / layer.name).string();
-  const talus::RasterStyle style = talus::map_style(layer, remark);
-  raster.tags.emplace_back("SHOWN_BAND", layer.bands[style.band - 1].name);
-  talus::write_map_raster(tool.stage(base + ".tif"), raster, o.creation_options);
-  tool.write_text(base + ".qml", talus::raster_qml(style));
-  if (o.png) {
-    const talus::PassageGrid grid{raster.corner - trn.origin.head<2>(), raster.cell_size,
-                                  raster.n_rows, raster.n_cols};
-    talus::write_png(tool.stage(base + ".png"),
-                     talus::map_picture(trn, grid, raster.bands[style.band - 1].value,
-                                        talus::MapRaster::nodata, style));
-  }
-  Json bands = Json::array();
-  for (const auto& band : layer.bands) bands.push_back(band.name);
-  return {{"file", base + ".tif"}, {"shown_band", raster.tags.back().second}, {"bands", bands}};
+  layers.push_back(talus::deposit_layer(g.deposit, g.map.grid.cell_size, g.released));
+  return layers;
 }
 
 void run_tool(Tool& tool, Options& o, talus::RunInputs& runs) {
   const talus::Trn& trn = runs.trn();
   Gathered gathered = gather(runs, o);
-  std::size_t n_rows = 0;
-  for (const auto& rows : gathered.rows) n_rows += rows.size();
+  const std::uint64_t n_rows = gathered.n_rows;
   const talus::PassageGrid grid = gathered.map.grid;
-  const auto n_cells = static_cast<std::size_t>(grid.n_rows) * grid.n_cols;
-  const talus::CellRows cells = talus::group_by_cell(std::move(gathered.rows), n_cells);
+  const auto layers = layers_of(runs, gathered, o);
+  const std::size_t n_touched = layers[0].cell.size();
   if (n_rows == 0) tool.warn("no block passed any cell: the maps are empty");
+  runs.warn_of_ends();
 
   auto tags = talus::tags_of(runs.members);
   tags.insert(tags.begin(), {"RUN_ID", tool.run_id()});
   const std::string remark = runs.remark();
-  const std::vector<bool> known = talus::known_cells(trn, grid);
+  if (!remark.empty()) tags.emplace_back("REMARK", remark);
+  const talus::MapFrame frame = talus::map_frame(trn, grid, o.png, layers[0].cell);
   Json files = Json::array();
-  const auto layers = layers_of(cells, gathered, o.settings);
-  if (n_rows > 0 && !has_percentiles(layers[1]))
-    tool.warn("no cell has the passages that a 95th percentile needs: styles show the maximum");
   for (const MapLayer& layer : layers) {
-    talus::MapRaster raster = raster_of(layer, grid, trn, known);
-    raster.tags = tags;
-    if (!remark.empty()) raster.tags.emplace_back("REMARK", remark);
-    files.push_back(write_layer(tool, o, layer, std::move(raster), trn, remark));
+    const std::string path = (std::filesystem::path(o.folder) / (layer.name + ".tif")).string();
+    const std::string shown = talus::write_map(
+        tool, frame, path, layer, talus::map_style(layer, remark), tags, o.creation_options);
+    if (shown == "velocity_max" && n_rows > 0)
+      tool.warn("cells with too few passages for a 95th percentile: styles show the maximum");
+    Json bands = Json::array();
+    for (const auto& band : layer.bands) bands.push_back(band.name);
+    files.push_back({{"file", path}, {"shown_band", shown}, {"bands", bands}});
   }
   tool.metric("passages", static_cast<double>(n_rows), "1");
-  tool.metric("cells_touched", static_cast<double>(cells.cell.size()), "1");
+  tool.metric("cells_touched", static_cast<double>(n_touched), "1");
   tool.result({{"run_id", tool.run_id()},
                {"n_runs", runs.members.size()},
                {"n_passages", n_rows},
-               {"n_cells_touched", cells.cell.size()},
+               {"n_cells_touched", n_touched},
                {"cell_size_m", grid.cell_size},
                {"layers", files}},
               std::to_string(layers.size()) + " maps of " + std::to_string(runs.members.size()) +
                   (runs.members.size() == 1 ? " run" : " runs") + ", " + std::to_string(n_rows) +
-                  " passages over " + std::to_string(cells.cell.size()) + " cells of " +
+                  " passages over " + std::to_string(n_touched) + " cells of " +
                   talus::text(grid.cell_size) + " m, in " + o.folder);
 }
 

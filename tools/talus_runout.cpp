@@ -7,9 +7,9 @@
 
 #include "base/text.hpp"
 #include "io/geopackage_gdal.hpp"
-#include "io/map_raster_gdal.hpp"
 #include "io/style.hpp"
-#include "post/map_picture.hpp"
+#include "map_output.hpp"
+#include "post/map_style.hpp"
 #include "post/mobility.hpp"
 #include "post/outline.hpp"
 #include "post/runout.hpp"
@@ -281,8 +281,7 @@ VectorLayer envelope_layer(const std::vector<std::uint32_t>& cells, const Passag
   return layer;
 }
 
-// --- tables
-// ----------------------------------------------------------------------------------------
+// --- tables -------------------------------------------------------------------------------------
 
 std::string block_csv(const Runs& runs) {
   std::string out = csv_line({"run_id", "block", "fate", "volume_m3", "mass_kg", "drop_m",
@@ -353,6 +352,7 @@ Json run_json(const RunMember& member, const RunResult& r, double friction_deg) 
           {"toe_block", e.toe_block},
           {"toe_is_deposited", e.toe_deposited},
           {"angle_monotone_along_path", e.profile.monotone},
+          {"missing_head_m", number(e.profile.missing_head)},
           {"smallest_angle_along_path_deg", number(e.profile.smallest * degrees)},
           {"smallest_angle_at_m", number(e.profile.smallest_at)},
           {"centre_of_mass", centre},
@@ -423,8 +423,7 @@ Json mobility_json(const std::vector<MobilityRelation>& relations,
   return list;
 }
 
-// --- the whole
-// -------------------------------------------------------------------------------------
+// --- the whole ----------------------------------------------------------------------------------
 
 struct Ordered {
   std::vector<RunResult> results;
@@ -438,11 +437,11 @@ struct Ordered {
 
 Ordered read_runs(RunInputs& inputs, const Options& o, const Trn& trn) {
   Ordered out;
-  inputs.read({true, true, false, true, false}, [&](RunFile& run, int) {
+  inputs.read({.crossings = false, .checkpoint = false}, [&](RunFile& run, int) {
     out.results.push_back(result_of(run, trn, o, inputs.rest_speed_m_s));
     out.grid = run.grid.n_rows > 0 ? run.grid : passage_grid(trn, 0);
   });
-  for (const int i : order_by_id(inputs.members)) {
+  for (std::size_t i = 0; i < out.results.size(); ++i) {
     const RunResult& r = out.results[i];
     out.runs.emplace_back(&inputs.members[i], &r);
     add(out.balance, r.balance);
@@ -457,20 +456,11 @@ Ordered read_runs(RunInputs& inputs, const Options& o, const Trn& trn) {
 }
 
 void write_thickness(Tool& tool, const Options& o, const Ordered& all, const Trn& trn,
-                     std::vector<std::pair<std::string, std::string>> tags) {
-  const MapLayer layer = deposit_layer(all.deposit, all.grid.cell_size, all.released);
-  const MapBand& band = layer.bands[2];
-  const auto n_cells = static_cast<std::size_t>(all.grid.n_rows) * all.grid.n_cols;
-  const Vec2 corner = all.grid.corner + trn.origin.head<2>();
-  write_map_raster(
-      tool.stage(o.thickness),
-      {corner,
-       all.grid.cell_size,
-       all.grid.n_rows,
-       all.grid.n_cols,
-       trn.crs_wkt,
-       {{band.name, band.unit, band.description, on_grid(layer, band, n_cells, MapRaster::nodata)}},
-       std::move(tags)});
+                     const MapTags& tags, const std::string& remark) {
+  MapLayer layer = deposit_layer(all.deposit, all.grid.cell_size, all.released);
+  layer.bands.erase(layer.bands.begin(), layer.bands.begin() + 2);
+  write_map(tool, map_frame(trn, all.grid, false, layer.cell), o.thickness, layer,
+            map_style(layer, remark), tags);
 }
 
 std::string summary_of(const Ordered& all) {
@@ -483,7 +473,9 @@ std::string summary_of(const Ordered& all) {
   if (!first.event.profile.monotone)
     out += "\nthe angle is not monotone along the path: the smallest, " +
            text(first.event.profile.smallest * degrees, 4) + " deg, lies " +
-           text(first.event.profile.smallest_at, 4) + " m from the toe block's start";
+           text(first.event.profile.smallest_at, 4) +
+           " m from the toe block's start, where a steeper energy line ends " +
+           text(first.event.profile.missing_head, 3) + " m below the ground";
   out += "\nvolume: released " + text(all.balance.released, 6) + " m3 = deposited " +
          text(all.balance.deposited, 6) + " + moving " + text(all.balance.moving, 6) + " + left " +
          text(all.balance.left, 6);
@@ -498,8 +490,9 @@ void run_tool(Tool& tool, Options& o, RunInputs& inputs) {
   const Ordered all = read_runs(inputs, o, trn);
   auto tags = tags_of(inputs.members);
   tags.insert(tags.begin(), {"RUN_ID", tool.run_id()});
-  if (const std::string remark = inputs.remark(); !remark.empty())
-    tags.emplace_back("REMARK", remark);
+  const std::string remark = inputs.remark();
+  if (!remark.empty()) tags.emplace_back("REMARK", remark);
+  inputs.warn_of_ends();
 
   const MapPlace map{trn.origin};
   double area = 0;
@@ -514,7 +507,7 @@ void run_tool(Tool& tool, Options& o, RunInputs& inputs) {
   if (!o.csv.empty()) tool.write_text(o.csv, block_csv(all.runs));
   if (!o.curves.empty()) tool.write_text(o.curves, curve_csv(all.runs, map));
   if (!o.svg.empty()) tool.write_text(o.svg, mobility_svg(relations, events));
-  if (!o.thickness.empty()) write_thickness(tool, o, all, trn, tags);
+  if (!o.thickness.empty()) write_thickness(tool, o, all, trn, tags, remark);
 
   Json runs = Json::array(), tag_list;
   for (const auto& [member, r] : all.runs) runs.push_back(run_json(*member, *r, o.friction_deg));

@@ -15,7 +15,7 @@ namespace {
 
 using talus::Json;
 
-Json files_as_json(const std::vector<talus::RunFile>& files) {
+Json files_as_json(const std::vector<talus::RunArtifact>& files) {
   Json list = Json::array();
   for (const auto& file : files)
     list.push_back({{"role", file.role},
@@ -131,17 +131,104 @@ struct Ancestry {
   }
 };
 
+// The registry that stands beside a file or one folder up; `otherwise` when there is none.
+std::string registry_near(const std::string& file, const std::string& otherwise) {
+  const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
+  for (const auto& place : {folder, folder.parent_path()})
+    if (std::filesystem::exists(place / "runs.sqlite")) return (place / "runs.sqlite").string();
+  return otherwise;
+}
+
+// --- W3C PROV
+// --------------------------------------------------------------------------------------
+
+std::string entity_id(const talus::RunArtifact& file) {
+  return "talus:file/" + (file.sha256.empty() ? file.path : file.sha256);
+}
+
+Json entity_of(const talus::RunArtifact& file) {
+  return {{"prov:label", std::filesystem::path(file.path).filename().string()},
+          {"prov:atLocation", file.path},
+          {"talus:sha256", file.sha256},
+          {"talus:bytes", file.n_bytes}};
+}
+
+Json activity_of(const talus::RunRecord& run) {
+  Json activity = {{"prov:label", run.tool},
+                   {"prov:startTime", run.started},
+                   {"talus:content_id", run.content_id},
+                   {"talus:command_line", run.command_line},
+                   {"talus:folder", run.folder},
+                   {"talus:status", run.status}};
+  if (!run.ended.empty()) activity["prov:endTime"] = run.ended;
+  for (const auto& p : run.params) activity["talus:param/" + p.key] = p.value;
+  return activity;
+}
+
+// W3C PROV-JSON (https://www.w3.org/submissions/prov-json/) of the runs that led to a file.
+Json prov_of(const std::string& db, const std::set<std::int64_t>& ids) {
+  Json prov = {{"prefix", {{"talus", "urn:talus:"}}}};
+  for (const char* key :
+       {"entity", "activity", "agent", "used", "wasGeneratedBy", "wasAssociatedWith"})
+    prov[key] = Json::object();
+  for (const std::int64_t id : ids) {
+    const talus::RunRecord run = talus::read_run(db, std::to_string(id));
+    const std::string row = std::to_string(run.id), activity = "talus:run/" + row;
+    prov["activity"][activity] = activity_of(run);
+    const std::string agent = "talus:tool/" + run.tool + "/" + run.version;
+    prov["agent"][agent] = {{"prov:type", "prov:SoftwareAgent"},
+                            {"prov:label", run.tool + " " + run.version},
+                            {"talus:commit", run.git_commit}};
+    prov["wasAssociatedWith"]["_:by" + row] = {{"prov:activity", activity}, {"prov:agent", agent}};
+    const auto relate = [&](const char* relation, const char* mark,
+                            const std::vector<talus::RunArtifact>& files) {
+      int n = 0;
+      for (const talus::RunArtifact& file : files) {
+        prov["entity"][entity_id(file)] = entity_of(file);
+        prov[relation][std::string("_:") + mark + row + "_" + std::to_string(++n)] = {
+            {"prov:activity", activity},
+            {"prov:entity", entity_id(file)},
+            {"prov:role", file.role}};
+      }
+    };
+    relate("used", "used", run.inputs);
+    relate("wasGeneratedBy", "made", run.outputs);
+  }
+  return prov;
+}
+
+void show_ancestry(talus::Tool& tool, const std::string& db, const std::string& file, bool prov) {
+  Ancestry ancestry{db, {}, {}};
+  Json node = ancestry.add(std::filesystem::absolute(file).string(), talus::sha256_of_file(file), 0,
+                           std::numeric_limits<std::int64_t>::max());
+  if (!node.contains("run"))
+    throw talus::InputError({file}, "no run in " + db + " wrote a file with this content",
+                            "name the registry that stands beside the output with --db");
+  ancestry.text.pop_back();
+  if (!prov) {
+    tool.result(std::move(node), ancestry.text);
+    return;
+  }
+  Json document = prov_of(db, ancestry.shown);
+  const std::string text = document.dump(2, ' ', false, Json::error_handler_t::replace);
+  tool.result(std::move(document), text);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   std::string id, file;
   std::string db = "runs.sqlite";
+  bool prov = false;
   talus::Tool tool("talus-runs",
                    "Reads the run registry: what was run, from what, with which outcome.");
   tool.app().remove_option(tool.app().get_option("--db"));
   tool.app().require_subcommand(1);
   tool.app().fallthrough();
-  tool.app().add_option("--db", db, "run registry")->capture_default_str();
+  const CLI::Option* const db_option =
+      tool.app()
+          .add_option("--db", db, "run registry; trace looks for it beside FILE and one folder up")
+          ->capture_default_str();
   CLI::App* list = tool.app().add_subcommand("list", "all runs, a line each");
   CLI::App* show =
       tool.app().add_subcommand("show", "one run with options, files, metrics and events");
@@ -149,6 +236,7 @@ int main(int argc, char** argv) {
   CLI::App* trace =
       tool.app().add_subcommand("trace", "where a file came from, back to the first inputs");
   trace->add_option("FILE", file, "an output of any tool")->required();
+  trace->add_flag("--prov", prov, "print the ancestry as W3C PROV-JSON");
 
   return tool.run(argc, argv, [&] {
     if (list->parsed()) {
@@ -165,15 +253,8 @@ int main(int argc, char** argv) {
       const talus::RunRecord run = talus::read_run(db, id);
       tool.result(details_as_json(run), as_text(run));
     } else {
-      Ancestry ancestry{db, {}, {}};
-      Json node =
-          ancestry.add(std::filesystem::absolute(file).string(), talus::sha256_of_file(file), 0,
-                       std::numeric_limits<std::int64_t>::max());
-      if (!node.contains("run"))
-        throw talus::InputError({file}, "no run in " + db + " wrote a file with this content",
-                                "name the registry that stands beside the output with --db");
-      ancestry.text.pop_back();
-      tool.result(node, ancestry.text);
+      if (db_option->count() == 0) db = registry_near(file, db);
+      show_ancestry(tool, db, file, prov);
     }
   });
 }

@@ -1,5 +1,9 @@
 // tools/talus_tin.cpp
 // Contour lines to a triangulated irregular network. Page: docs/tools/talus-tin.md
+#if __has_include(<malloc.h>)
+#include <malloc.h>
+#endif
+
 #include "base/text.hpp"
 #include "io/contours_gdal.hpp"
 #include "io/crs_gdal.hpp"
@@ -96,13 +100,30 @@ ContourMap read_map(Tool& tool, Options& o, talus::ContourReading& reading) {
   return map;
 }
 
-talus::TriangleMesh mesh_inside(const ContourMap& map, talus::Triangulation& triangulation,
-                                const Options& o) {
-  talus::TriangleMesh mesh = triangulation.mesh();
+// Arrays of a large map each get pages of their own, which go back to the system with them; what is
+// smaller stays for the next step. By default glibc keeps arrays of up to 32 MB, in the way of
+// others.
+void keep_large_arrays_apart() {
+#ifdef __GLIBC__
+  mallopt(M_MMAP_THRESHOLD, 12 << 20);
+  mallopt(M_TRIM_THRESHOLD, 128 << 20);
+#endif
+}
+
+// What a step has freed goes back to the system, so that the next one does not come on top of it.
+void give_memory_back() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+}
+
+// Brings the mesh up to date, inside the boundary.
+void refresh_inside(const ContourMap& map, talus::Triangulation& triangulation, const Options& o,
+                    bool only_triangles, talus::TriangleMesh& mesh) {
+  triangulation.refresh(mesh, only_triangles);
   talus::cut_to_rings(map.boundary, mesh);
   if (mesh.triangles.empty())
     throw InputError({o.sources.boundary.path}, "the boundary and the contours share no ground");
-  return mesh;
 }
 
 Json as_json(const talus::CleaningCounts& c) {
@@ -133,10 +154,11 @@ void mend(Tool& tool, const Options& o, const ContourMap& map,
           talus::Triangulation& triangulation, talus::TriangleMesh& mesh, Json& report) {
   const talus::MendingPoints mended =
       talus::mend_flat_triangles(mesh, flat, {interval, o.fill_spacing_m}, tool.progress());
-  mesh = {};
+  mesh.triangles = {};
+  give_memory_back();
   triangulation.fix_edges(mended.border);
   triangulation.add(mended.points);
-  mesh = mesh_inside(map, triangulation, o);
+  refresh_inside(map, triangulation, o, true, mesh);
   report["spacing_m"] = mended.spacing;
   report["n_points_added"] = mended.points.size();
   report["largest_change_m"] = mended.largest_change;
@@ -154,7 +176,8 @@ talus::TriangleMesh make_mesh(Tool& tool, const Options& o, ContourMap& map, Jso
                                        static_cast<int>(clean.points.size())};
   talus::Triangulation triangulation(std::move(clean.points), clean.segments, map.source);
   clean.segments = {};
-  talus::TriangleMesh mesh = mesh_inside(map, triangulation, o);
+  talus::TriangleMesh mesh;
+  refresh_inside(map, triangulation, o, o.flat == "keep", mesh);
   const std::vector<std::uint8_t> flat = find_flat_triangles(mesh, measured);
   const talus::AreaShare before = area_of(mesh, flat);
   report["flat"] = {{"mode", o.flat}, {"share_before", before.share()}};
@@ -208,6 +231,7 @@ Json build(Tool& tool, Options& o, talus::Tin& tin) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  keep_large_arrays_apart();
   Options o;
   Tool tool("talus-tin", "Makes a triangulated irregular network (TIN) from contour lines.");
   declare(tool, o);

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -232,7 +233,7 @@ struct Tool::Impl {
     }
   }
 
-  RunFile described(const std::string& role, const std::string& path) const {
+  RunArtifact described(const std::string& role, const std::string& path) const {
     const std::string where = absolute(path);
     if (is_virtual(path) || !fs::is_regular_file(path)) return {role, where, "", 0};
     return {role, where, sha256_of_file(path), static_cast<std::int64_t>(fs::file_size(path))};
@@ -267,7 +268,7 @@ struct Tool::Impl {
       check_folder(path);
       return;
     }
-    for (const RunFile& file : record.inputs)
+    for (const RunArtifact& file : record.inputs)
       if (file.path == absolute(path.string()))
         throw InputError({path.string()}, "is both an input and an output", "name another output");
     if (fs::is_directory(path))
@@ -301,7 +302,7 @@ struct Tool::Impl {
     for (const RunParam& param : record.params) add(param.key), add(param.value);
     // Results do not depend on the order in which several inputs of one option are named.
     std::vector<std::pair<std::string, std::string>> contents;
-    for (const RunFile& file : record.inputs) contents.emplace_back(file.role, file.sha256);
+    for (const RunArtifact& file : record.inputs) contents.emplace_back(file.role, file.sha256);
     std::sort(contents.begin(), contents.end());
     for (const auto& [role, sha256] : contents) add(role), add(sha256);
     return hash.hex().substr(0, 16);
@@ -376,10 +377,25 @@ struct Tool::Impl {
     }
   }
 
+  // The order in which outputs come in place: the one staged first is last, or the main output when
+  // the tool has one. Who finds it, finds the others of the same run beside it.
+  std::vector<Staged> in_order_of_commit() const {
+    std::vector<Staged> files(staged.rbegin(), staged.rend());
+    const std::string main = outputs.empty() ? "" : *outputs.front().path;
+    std::stable_partition(files.begin(), files.end(),
+                          [&main](const Staged& file) { return file.path != main; });
+    return files;
+  }
+
+  // All outputs of a run bear the same time, so that make sees none as older than another.
   // GDAL puts what a format cannot hold into NAME.aux.xml beside it.
   void commit_outputs() {
-    for (const Staged& file : staged) {
+    timespec now{};
+    clock_gettime(CLOCK_REALTIME, &now);
+    const timespec times[2] = {now, now};
+    for (const Staged& file : in_order_of_commit()) {
       if (!fs::exists(file.temporary)) continue;
+      utimensat(AT_FDCWD, file.temporary.c_str(), times, 0);
       sync_path(file.temporary, O_RDONLY);
       const std::string statistics = file.temporary + ".aux.xml";
       if (fs::exists(statistics)) rename_over(statistics, file.path + ".aux.xml");
@@ -574,6 +590,8 @@ void Tool::result(Json result, const std::string& summary) {
 }
 
 bool Tool::overwrite() const { return impl_->overwrite; }
+
+std::string Tool::registry() const { return impl_->registry_path(); }
 
 std::string Tool::run_id() {
   if (impl_->record.content_id.empty()) impl_->record.content_id = impl_->content_id();

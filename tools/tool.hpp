@@ -84,6 +84,7 @@ class Tool {
   /// What --json prints; without --json `summary` goes to stdout, not with -q.
   void result(Json result, const std::string& summary);
   [[nodiscard]] bool overwrite() const;
+  [[nodiscard]] std::string registry() const;  ///< that runs are recorded in, whether or not there
   /// Digest of tool, version, options and input contents (16 digits); it stands in outputs' tags.
   /// Inputs named by read_also() count when they were named before the first call.
   [[nodiscard]] std::string run_id();

@@ -251,6 +251,12 @@ class Assembler {
     body.material = options_.material;
     add_body(set, body);
     const double volume = set.volume.back();
+    if (is_sliver({volume, set.centroid.back(), set.second_moment.back()}, options_))
+      ++report.n_below_limits;
+    const double shortest = min_edge(exact_volume < 0 ? volume : exact_volume);
+    if (std::any_of(body.parts.begin(), body.parts.end(),
+                    [&](const Polyhedron& part) { return shortest_edge(part) < shortest; }))
+      ++report.n_short_edged;
     const double change = exact_volume < 0 ? 0 : volume - exact_volume;
     if (exact_volume >= 0 && body.parts.size() > 1) ++report.n_divided;
     (change > 0 ? report.gained : report.lost) += std::abs(change);
@@ -313,6 +319,12 @@ class Assembler {
     return largest;
   }
 
+  // Edges of convex parts of a block of this volume are no shorter [m].
+  double min_edge(double volume) const {
+    if (options_.exact) return 0;
+    return options_.min_edge < 0 ? 1e-3 * std::cbrt(volume) : options_.min_edge;
+  }
+
   // The joint cell, cut off half way to the other pieces in it.
   Polyhedron room_of(const std::vector<Piece>& pieces, int p,
                      const std::vector<int>& others) const {
@@ -342,7 +354,7 @@ class Assembler {
     ConvexOptions options;
     options.max_loss = options_.max_convex_loss;
     options.tolerance_m = tolerance_;
-    options.min_edge = options_.min_edge < 0 ? 1e-3 * std::cbrt(volume) : options_.min_edge;
+    options.min_edge = min_edge(volume);
     std::vector<Polyhedron> parts = made_convex_parts(task, bed_, options);
     const bool all_sound = std::all_of(parts.begin(), parts.end(), [](const Polyhedron& part) {
       return check_surface(part).fault == SurfaceFault::none;

@@ -63,6 +63,14 @@ void add_valley_planes(const Ground& ground, const GridPoint& at, const Triangle
   }
 }
 
+// Whether the gap is above `margin` for sure, told from the height without a root: the gap is the
+// height over sqrt(1 + gradient^2).
+bool is_far_above(const Trn& trn, const GridPoint& at, double z, double margin) {
+  const double height = z - elevation_at(trn, at);
+  const Vec2 gradient = triangle_gradient(trn, at.cell, is_upper(at));
+  return height > 0 && height * height > 1.0001 * margin * margin * (1 + gradient.squaredNorm());
+}
+
 void find_mode_1(const Ground& ground, const Shapes& shapes, int b, double highest, double margin,
                  const std::vector<Vec3>& vertices, std::vector<Contact>& contacts) {
   const std::span<const Vec3> body = vertices_of(shapes, b);
@@ -71,12 +79,12 @@ void find_mode_1(const Ground& ground, const Shapes& shapes, int b, double highe
     const Vec3& x = vertices[v];
     if (x.z() > highest + margin || !contains(trn, x.x(), x.y())) continue;
     const GridPoint at = locate(trn, x.x(), x.y());
-    const int triangle = triangle_of(trn, at);
-    const TrianglePlane plane = triangle_plane(trn, triangle);
+    if (is_far_above(trn, at, x.z(), margin)) continue;
+    const TrianglePlane plane = plane_at(trn, at);
     const double gap = plane.normal.dot(x - plane.point);
     if (!(gap < margin)) continue;  // also when the triangle is not ground
     const int id = static_cast<int>(v);
-    add_plane(plane, ground, triangle, b, id, body[v], x, gap, contacts);
+    add_plane(plane, ground, triangle_of(trn, at), b, id, body[v], x, gap, contacts);
     add_valley_planes(ground, at, plane, b, id, body[v], x, margin, contacts);
   }
 }
@@ -181,6 +189,9 @@ void find_features(const FeatureSearch& s, const CellRange& cells, std::vector<C
   const Trn& trn = s.ground.trn;
   for (int row = cells.row_first; row <= cells.row_last + 1; ++row) {
     const std::uint8_t* flags = s.ground.flags.data() + node_index(trn, row, 0);
+    unsigned any = 0;
+    for (int col = cells.col_first; col <= cells.col_last + 1; ++col) any |= flags[col];
+    if (any == 0) continue;
     for (int col = cells.col_first; col <= cells.col_last + 1; ++col) {
       const std::uint8_t flag = flags[col];
       if (flag == 0) continue;

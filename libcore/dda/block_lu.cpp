@@ -71,7 +71,8 @@ void analyse_pattern(int n, std::span<const std::pair<int, int>> edges, BlockPat
     pattern.place[static_cast<size_t>(i)] = j;
     pattern.order.push_back(i);
     const std::vector<int>& below = pattern.neighbours[static_cast<size_t>(i)];
-    pattern.row.insert(pattern.row.end(), below.begin(), below.end());  // unknowns for now
+    // Numbers of unknowns; they become places when all of these are known.
+    pattern.row.insert(pattern.row.end(), below.begin(), below.end());
     pattern.column_begin.push_back(static_cast<int>(pattern.row.size()));
     eliminate(i, pattern.neighbours, pattern.merged);
   }

@@ -49,8 +49,8 @@ inline void evaluate(const Vec3& w, double held_cap, ContactRow& row) {
     return;
   }
   row.state = ContactState::slip;
-  const Vec3 sum = slip_sum(row, row.trial / row.trial_speed, 1 - row.cap / trial_impulse);
-  row.direction = sum / sum.norm();
+  const Vec3 sum = slip_sum(row, (1 / row.trial_speed) * row.trial, 1 - row.cap / trial_impulse);
+  row.direction = (1 / sum.norm()) * sum;
   row.impulse = p_n * n - row.cap * row.direction;
 }
 
@@ -65,28 +65,26 @@ inline void evaluate(const Vec3& w, double held_cap, ContactRow& row) {
     A.diagonal().array() += row.shear_damping;
     return A;
   }
-  A = normal_damping * n * n.transpose();
-  if (row.cap > 0) {
-    const Vec3 end = row.trial / row.trial_speed;
-    Mat3 change = -end * end.transpose();  // of the end direction, by the trial
-    change.diagonal().array() += 1;
-    change /= row.trial_speed;
-    const double along = row.slip_start.dot(end);
-    if (along > 0) {
-      const double threshold = row.cap / row.shear_damping, share = 1 - threshold / row.trial_speed;
-      const Vec3 turned = change * row.slip_start;
-      const Vec3 start_change =
-          (along * threshold / (row.trial_speed * row.trial_speed)) * end + share * turned;
-      const double length = slip_sum(row, end, share).norm();
-      change += row.slip_start * start_change.transpose();
-      const Eigen::RowVector3d lengthening = row.direction.transpose() * change;
-      change -= row.direction * lengthening;
-      change /= length;
-    }
-    const Vec3 normal_part = change * n;
-    A += row.cap * (change - normal_part * n.transpose());
+  // the end direction turns with the trial only sideways: its derivative is side side^T / speed
+  A = (coupled ? Vec3(normal_damping * (n - row.friction * row.direction))
+               : Vec3(normal_damping * n)) *
+      n.transpose();
+  if (row.cap <= 0) return A;
+  const Vec3 end = (1 / row.trial_speed) * row.trial, side = n.cross(end);
+  const double along = row.slip_start.dot(end);
+  if (along <= 0) {
+    A += (row.cap / row.trial_speed) * side * side.transpose();
+    return A;
   }
-  if (coupled) A -= (row.friction * normal_damping) * row.direction * n.transpose();
+  const Vec3 &d = row.direction, &start = row.slip_start;
+  const double threshold = row.cap / row.shear_damping, share = 1 - threshold / row.trial_speed;
+  const double scale = row.cap / slip_sum(row, end, share).norm();
+  const double side_scale = scale / row.trial_speed;
+  const Vec3 start_change =
+      (scale * along * threshold / (row.trial_speed * row.trial_speed)) * end +
+      (side_scale * share * side.dot(start)) * side;
+  A += (side_scale * (side - d.dot(side) * d)) * side.transpose();
+  A += (start - d.dot(start) * d) * start_change.transpose();
   return A;
 }
 

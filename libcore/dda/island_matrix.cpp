@@ -1,11 +1,11 @@
 #include "dda/island_matrix.hpp"
 
-#include <algorithm>
-
 namespace talus {
 namespace {
 
 using std::size_t;
+
+constexpr int rings = 2;  // of neighbours that move along with bodies that have not settled
 
 template <int Dof>
 Eigen::Matrix<double, Dof, Dof> shift_matrix(const Vec3& shift) {
@@ -48,12 +48,6 @@ void add_carried<6>(const Packed<6>& W, const Vec3& shift, Packed<6>& D) {
   D(5, 3) += W(5, 3) + (x * L[0][1] - y * L[0][0]) - (W(5, 1) * z - W(5, 2) * y);
   D(5, 4) += W(5, 4) + (x * L[1][1] - y * L[1][0]) - (W(5, 2) * x - W(5, 0) * z);
   D(5, 5) += W(5, 5) + (x * L[2][1] - y * L[2][0]) - (W(5, 0) * y - W(5, 1) * x);
-}
-
-int root_of(std::vector<int>& group, int i) {
-  const auto at = [&](int k) -> int& { return group[static_cast<size_t>(k)]; };
-  while (at(i) != i) i = at(i) = at(at(i));
-  return i;
 }
 
 }  // namespace
@@ -126,28 +120,26 @@ template <int Dof>
 template <int Dof>
 void choose_active(const Island<Dof>& island, std::span<const std::uint8_t> moves,
                    IslandMatrix<Dof>& matrix) {
-  const size_t n = island.mass.size();
-  matrix.group.resize(n);
-  for (size_t i = 0; i < n; ++i) matrix.group[i] = static_cast<int>(i);
+  matrix.is_active.assign(moves.begin(), moves.end());
+  for (int ring = 0; ring < rings; ++ring) {
+    matrix.was_active = matrix.is_active;
+    for (const int p : matrix.coupled) {
+      const BodyPair& pair = island.pairs[static_cast<size_t>(p)];
+      const auto a = static_cast<size_t>(pair.a), b = static_cast<size_t>(pair.b);
+      if (matrix.was_active[a] || matrix.was_active[b])
+        matrix.is_active[a] = matrix.is_active[b] = 1;
+    }
+  }
+  matrix.active.clear();
+  for (size_t i = 0; i < moves.size(); ++i)
+    if (matrix.is_active[i]) matrix.active.push_back(static_cast<int>(i));
+  matrix.active_coupled.clear();
   for (const int p : matrix.coupled) {
     const BodyPair& pair = island.pairs[static_cast<size_t>(p)];
-    const int a = root_of(matrix.group, pair.a), b = root_of(matrix.group, pair.b);
-    matrix.group[static_cast<size_t>(std::max(a, b))] = std::min(a, b);
-  }
-  matrix.is_active.assign(n, 0);
-  for (size_t i = 0; i < n; ++i)
-    if (moves[i])
-      matrix.is_active[static_cast<size_t>(root_of(matrix.group, static_cast<int>(i)))] = 1;
-  matrix.active.clear();
-  for (size_t i = 0; i < n; ++i) {  // a root comes before the bodies below it
-    const auto root = static_cast<size_t>(root_of(matrix.group, static_cast<int>(i)));
-    matrix.is_active[i] = matrix.is_active[root];
-    if (matrix.is_active[i]) matrix.active.push_back(static_cast<int>(i));
-  }
-  matrix.active_coupled.clear();
-  for (const int p : matrix.coupled)
-    if (matrix.is_active[static_cast<size_t>(island.pairs[static_cast<size_t>(p)].a)])
+    if (matrix.is_active[static_cast<size_t>(pair.a)] ||
+        matrix.is_active[static_cast<size_t>(pair.b)])
       matrix.active_coupled.push_back(p);
+  }
 }
 
 template <int Dof>
@@ -179,6 +171,7 @@ template <int Dof>
   auto& p = matrix.direction;
   auto& q = matrix.product;
   for (auto& v : x) v.setZero();
+  for (auto& v : p) v.setZero();  // bodies that are not active stand
   double rz = 0;
   for (const int body : matrix.active) {
     const auto i = static_cast<size_t>(body);

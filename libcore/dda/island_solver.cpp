@@ -16,6 +16,9 @@ constexpr double slack = 0.5;      // of a slip stiffness before its tangent is 
 constexpr double first_ratio = 1;  // D / m at which stiffening starts
 constexpr double ratio_growth = 4;
 constexpr double soft_tolerance = 1e-3;  // of a stage before the last, relative to its start
+constexpr int all_every = 4;             // every so many linear solutions move all bodies
+constexpr size_t least = 8;              // ... of at least 64
+constexpr size_t few = 8;                // the neighbourhood alone where fewer than 1 in 8 move
 constexpr double hopeless = 1e5;  // growth of the residual at which coupled steps are given up
 
 /// One solve; a struct so that its parts share what they all need.
@@ -31,6 +34,7 @@ struct Solve {
   bool direct = false;
   bool tracking = true;
   double stiffness_ratio = 0;
+  int n_linear = 0;  // linear solutions by conjugate gradients
 
   // Packs the rows, and sets the tolerance above the rounding of the stiffest impulse.
   void prepare() {
@@ -68,6 +72,7 @@ struct Solve {
     work.matrix.is_active.assign(island.mass.size(), 1);
     work.matrix.active.resize(island.mass.size());
     std::iota(work.matrix.active.begin(), work.matrix.active.end(), 0);
+    work.matrix.active_coupled = work.matrix.coupled;
   }
 
   // Contacts of an active body; what a body at rest had from them before is replaced.
@@ -119,6 +124,17 @@ struct Solve {
     return result.residual;
   }
 
+  // Do so few bodies move that their neighbourhood is worth a linear solution of its own? Not in
+  // every step: a push that travels far needs them all.
+  bool few_move() {
+    size_t n = 0;
+    for (size_t i = 0; i < work.moves.size(); ++i) {
+      work.moves[i] = !(work.speed[i] <= tolerance);
+      n += work.moves[i];
+    }
+    return ++n_linear % all_every != 0 && few * std::max(n, least) < work.moves.size();
+  }
+
   // K step = -residual.
   void find_step() {
     update_tangents(island, direct ? Tangent::exact : Tangent::symmetric, work.rows, work.matrix);
@@ -129,8 +145,10 @@ struct Solve {
       solve_direct<Dof>(island, work.matrix, work.residual, work.step);
     } else {
       update_diagonals(island, work.matrix);
-      for (size_t i = 0; i < work.moves.size(); ++i) work.moves[i] = !(work.speed[i] <= tolerance);
-      choose_active<Dof>(island, work.moves, work.matrix);
+      if (few_move())
+        choose_active<Dof>(island, work.moves, work.matrix);
+      else
+        activate_all();
       const LinearResult linear = solve_conjugate_gradients<Dof>(
           island, work.matrix, work.residual, settings.linear_tolerance,
           settings.max_linear_iterations, work.step);

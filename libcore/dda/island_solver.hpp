@@ -56,11 +56,10 @@ struct IslandWork {
 /// The first step keeps the inherited states, bounds friction by the last step's normal impulses
 /// and lets new contacts stick. Steps follow with the law at the iterate, from the fourth on with a
 /// line search: with the exact derivative where the matrix is factored, with a symmetric one for
-/// conjugate gradients. Bodies that have settled, and that no pressing contact joins to one that
-/// has not, stay out of the next step. Where that has not settled after a third of `max_passes`,
-/// the island is solved with softer contacts first and then with ever stiffer ones. At last the
-/// velocities are made those that the impulses give, so that momentum and angular momentum are kept
-/// to rounding.
+/// conjugate gradients, which move only the bodies that have not settled and their neighbours.
+/// Where that has not settled after a third of `max_passes`, the island is solved with softer
+/// contacts first and then with ever stiffer ones. At last the velocities are made those that the
+/// impulses give, so that momentum and angular momentum are kept to rounding.
 ///
 /// Not finite input, or no convergence: `converged` is false and the velocities are those of the
 /// smallest residual found.

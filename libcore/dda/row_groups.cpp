@@ -151,6 +151,12 @@ template <int Dof>
   g.normal_stiffness = below_limit ? g.normal_damping : zero;
   Mask closed;
   press(g, p_n, evaluation, closed, cap);
+  if ((closed[0] | closed[1]) == 0) {
+    for (int k = 0; k < 3; ++k) g.impulse[k] = zero;
+    g.state = open_lanes;
+    g.slip_stiffness = zero;
+    return;
+  }
   for (int k = 0; k < 3; ++k) trial[k] = w[k] - v_n * g.normal[k] + g.shear_velocity[k];
   dot(trial, trial, speed_sq);
   const Mask within = (g.shear_damping * g.shear_damping * speed_sq <= cap * cap) & (cap > zero);

@@ -110,7 +110,7 @@ double first_hit(const BlockNumbers& c, const Substep& s, const Solved<Dof>& sol
 template <int Dof>
 void remember(const BlockNumbers& c, const Substep& s, const Solved<Dof>& solved, State& state,
               Work& work, int b, StepReport& report) {
-  const double relax = std::min(0.3, 0.25 * c.gravity * s.h) * s.h;
+  const double relax = std::min(0.3, 0.25 * c.gravity * s.h) * s.h, per_h = 1 / s.h;
   work.memory_next.clear();
   for (ContactRow& row : work.rows) {
     if (row.waits_for_impact || row.state == ContactState::open) continue;
@@ -119,22 +119,20 @@ void remember(const BlockNumbers& c, const Substep& s, const Solved<Dof>& solved
     const double p_n = row.normal.dot(row.impulse);
     const Vec3 p_t = row.impulse - p_n * row.normal;
     const double along = row.normal.dot(moved);
-    state.ledger.contact -= p_n * along / s.h;
-    state.ledger.friction -= p_t.dot(moved) / s.h;
-    ContactMemory memory;
+    state.ledger.contact -= p_n * along * per_h;
+    state.ledger.friction -= p_t.dot(moved) * per_h;
+    ContactMemory& memory = work.memory_next.emplace_back();
     memory.key = contact.key;
     memory.normal = contact.normal;
     memory.offset = std::max(0.0, row.offset - relax);
     memory.gap_end = row.gap_start + row.offset + along - (row.offset - memory.offset);
-    memory.normal_force = p_n / s.h;
+    memory.normal_force = p_n * per_h;
     memory.state = static_cast<std::uint8_t>(row.state);
     const bool slips = row.state == ContactState::slip;
     memory.bond_area = row.bond_area;
-    const double k_t = row.shear_damping / (c.recovery_time * s.h);
-    const Vec3 shear =
-        slips ? Vec3(p_t / (-s.h * k_t)) : Vec3(row.shear + moved - along * row.normal);
+    const Vec3 shear = slips ? Vec3((-c.recovery_time / row.shear_damping) * p_t)
+                             : Vec3(row.shear + moved - along * row.normal);
     memory.shear = s.R * shear;
-    work.memory_next.push_back(memory);
     ++report.n_closed;
     note_penetration(report, -(row.gap_start + along), c.thickness);
   }

@@ -110,21 +110,22 @@ void inherit(const ContactMemory& memory, int index, const Mat3& to_row, double 
   const double jump = memory.gap_end - (row.gap_start + row.offset);
   if (jump > touch) row.offset += std::min(jump, std::max(0.0, -row.gap_start - row.offset));
   const Vec3 shear = to_row * memory.shear;
-  const double length = shear.norm();
   const Vec3 tangent = shear - row.normal.dot(shear) * row.normal;
-  const double tangent_length = tangent.norm();
-  row.shear = tangent_length > 0 ? Vec3(tangent * (length / tangent_length)) : Vec3(Vec3::Zero());
+  const double tangent_sq = tangent.squaredNorm();
+  row.shear = tangent_sq > 0 ? Vec3(std::sqrt(shear.squaredNorm() / tangent_sq) * tangent)
+                             : Vec3(Vec3::Zero());
 }
 
 void set_law(const Scene& scene, const BlockNumbers& c, double h, const Mobility& W,
              double approach, ContactRow& row) {
   const double x = row.gap_start + row.offset;
   const double asked = scene.settings.normal_stiffness;
-  const double k_n = std::min(asked > 0 ? asked : c.stiffness, c.stiffness / (c.mass * W.normal));
-  const double k_s = std::min(scene.settings.shear_ratio * k_n, c.stiffness / (c.mass * W.tangent));
+  const double per_mass = c.stiffness / c.mass;
+  const double k_n = std::min(asked > 0 ? asked : c.stiffness, per_mass / W.normal);
+  const double k_s = std::min(scene.settings.shear_ratio * k_n, per_mass / W.tangent);
   row.normal_damping = k_n * h * c.recovery_time;
   row.shear_damping = k_s * h * c.recovery_time;
-  row.shear_velocity = row.shear / c.recovery_time;
+  row.shear_velocity = (1 / c.recovery_time) * row.shear;
   row.bias = x < 0 ? x / c.recovery_time : x / h;
   row.waits_for_impact = row.memory < 0 && row.gap_start > c.touch && approach < -c.resting_speed;
 }
@@ -137,7 +138,9 @@ void make_rows(const Scene& scene, int b, const BlockNumbers& c, const Substep& 
                const State& state, Work& work) {
   const Mat3 to_body = s.R.transpose();
   const Mat3 R_start = s.start.pose.attitude.toRotationMatrix();
+  const Mat3 from_start = to_body * R_start;  // body axes at the start to those at the end
   const Vec3 spin_start = (R_start.transpose() * s.start.angular_momentum).cwiseQuotient(c.inertia);
+  const Vec3 moved = s.free.pose.position - s.start.pose.position;
   work.rows.resize(work.contacts.size());
   for (size_t i = 0; i < work.contacts.size(); ++i) {
     const Contact& contact = work.contacts[i];
@@ -146,16 +149,17 @@ void make_rows(const Scene& scene, int b, const BlockNumbers& c, const Substep& 
     row.contact = static_cast<int>(i);
     row.normal = to_body * contact.normal;
     const Vec3& X = contact.point_a;
-    const Vec3 lever_start = to_body * (R_start * X);
+    const Vec3 lever_start = from_start * X;
     row.point = (X + lever_start) / 2;
     row.drift = s.spin_free.cross(X - row.point);
-    row.free_move = s.free.pose.position - s.start.pose.position + s.R * (X - lever_start);
+    row.free_move = moved + s.R * (X - lever_start);
     row.gap_start = contact.gap - contact.normal.dot(row.free_move);
     const Vec3 w = s.start.velocity + R_start * spin_start.cross(X);
     row.speed_start = contact.normal.dot(w);
     const Vec3 slip = w - row.speed_start * contact.normal;
     const double slip_speed = slip.norm();
-    row.slip_start = slip_speed > 0 ? Vec3(to_body * (slip / slip_speed)) : Vec3(Vec3::Zero());
+    row.slip_start =
+        slip_speed > 0 ? Vec3(to_body * ((1 / slip_speed) * slip)) : Vec3(Vec3::Zero());
     row.shear.setZero();
     row.friction = ground.friction;
   }
@@ -227,11 +231,15 @@ void set_rates(const Scene& scene, int b, const Motion& start, const Motion& end
                State& state) {
   const auto i = static_cast<size_t>(b);
   const Vec3& inertia = scene.blocks.inertia[i];
-  state.acceleration[i] = (end.velocity - start.velocity) / h;
+  // a running mean: what comes and goes at the solver's tolerance is not carried on
+  constexpr double share = 0.5;
+  const double per_h = share / h;
+  state.acceleration[i] =
+      (1 - share) * state.acceleration[i] + per_h * (end.velocity - start.velocity);
   const Vec3 before =
       (start.pose.attitude.conjugate() * start.angular_momentum).cwiseQuotient(inertia);
   const Vec3 after = (end.pose.attitude.conjugate() * end.angular_momentum).cwiseQuotient(inertia);
-  state.spin_rate[i] = (after - before) / h;
+  state.spin_rate[i] = (1 - share) * state.spin_rate[i] + per_h * (after - before);
 }
 
 bool is_finite(const Motion& m) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <numeric>
 
 #include "base/error.hpp"
@@ -154,6 +155,49 @@ Vec3 face_centroid(const Polyhedron& body, int f) {
   return total > 0 ? Vec3(o + weighted / total) : mean;
 }
 
+namespace {
+
+// Direction in which face f lies beside the edge a -> b, as an angle about the edge that grows
+// towards the outside of a face that runs from a to b.
+class AnglesAboutEdge {
+ public:
+  AnglesAboutEdge(const Polyhedron& body, int a, int b)
+      : body_(body), along_((body.vertices[b] - body.vertices[a]).normalized()) {
+    Eigen::Index thinnest = 0;
+    along_.cwiseAbs().minCoeff(&thinnest);
+    across_ = along_.cross(Vec3::Unit(thinnest)).normalized();
+    up_ = along_.cross(across_);
+  }
+  [[nodiscard]] double operator()(int f, bool forward) const {
+    const Vec3 into = face_normal(body_, f).cross(forward ? along_ : Vec3(-along_));
+    return std::atan2(into.dot(up_), into.dot(across_));
+  }
+
+ private:
+  const Polyhedron& body_;
+  Vec3 along_, across_, up_;
+};
+
+// Brings each of `right` to the place of its partner in `left`: the face on the other side of the
+// material. Faces that lie on each other, of two bodies that touch, have none between them.
+void pair_about_edge(const Polyhedron& body, int a, int b, const std::vector<int>& left,
+                     std::vector<int>& right) {
+  constexpr double full_turn = 2 * std::numbers::pi, same_direction = 1e-9;
+  const AnglesAboutEdge angle(body, a, b);
+  for (size_t i = 0; i < std::min(left.size(), right.size()); ++i) {
+    const auto material = [&](int f) {
+      const double turn = std::fmod(angle(left[i], true) - angle(f, false) + full_turn, full_turn);
+      return turn > same_direction ? turn : full_turn;
+    };
+    const auto partner =
+        std::min_element(right.begin() + static_cast<std::ptrdiff_t>(i), right.end(),
+                         [&](int f, int g) { return material(f) < material(g); });
+    std::iter_swap(right.begin() + static_cast<std::ptrdiff_t>(i), partner);
+  }
+}
+
+}  // namespace
+
 std::vector<PolyhedronEdge> edges(const Polyhedron& body) {
   const std::vector<EdgeUse> uses = edge_uses(body);
   std::vector<PolyhedronEdge> found;
@@ -165,6 +209,7 @@ std::vector<PolyhedronEdge> edges(const Polyhedron& body) {
          ++k)
       (uses[k].forward ? left : right).push_back(uses[k].face);
     const size_t n = std::max(left.size(), right.size());
+    if (n > 1) pair_about_edge(body, uses[first].low, uses[first].high, left, right);
     for (size_t i = 0; i < n; ++i)
       found.push_back({uses[first].low, uses[first].high, i < left.size() ? left[i] : -1,
                        i < right.size() ? right[i] : -1});

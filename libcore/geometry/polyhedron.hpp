@@ -42,7 +42,8 @@ struct PolyhedronEdge {
   int left = -1, right = -1;  ///< -1: no such face, the surface is open there
 };
 /// Each undirected edge once, sorted by (min, max) vertex. An edge with more than one face a side
-/// is listed once for each pair of faces, paired in the order of the faces.
+/// is listed once for each pair of faces that bound the same wedge of material: where bodies that
+/// share vertices touch along an edge, each keeps to itself.
 [[nodiscard]] std::vector<PolyhedronEdge> edges(const Polyhedron& body);
 [[nodiscard]] double shortest_edge(const Polyhedron& body);  ///< [m]; infinity without edges
 

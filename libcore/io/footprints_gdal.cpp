@@ -89,8 +89,9 @@ void add_style(GDALDataset& dataset, const std::string& path, const GdalErrors& 
   OGRLayer* styles =
       dataset.CreateLayer("layer_styles", nullptr, wkbNone, const_cast<char**>(no_options));
   if (!styles) fail(path, errors);
-  for (const char* name : {"f_table_catalog", "f_table_schema", "f_table_name", "f_geometry_column",
-                           "styleName", "styleQML"}) {
+  for (const char* name :
+       {"f_table_catalog", "f_table_schema", "f_table_name", "f_geometry_column", "styleName",
+        "styleQML", "styleSLD", "description", "owner", "ui", "update_time"}) {
     OGRFieldDefn field(name, OFTString);
     styles->CreateField(&field);
   }
@@ -106,6 +107,8 @@ void add_style(GDALDataset& dataset, const std::string& path, const GdalErrors& 
   style->SetField("styleName", "blocks");
   style->SetField("styleQML", style_qml);
   style->SetField("useAsDefault", 1);
+  for (const char* name : {"styleSLD", "description", "owner", "ui"}) style->SetField(name, "");
+  style->SetField("update_time", "2000-01-01T00:00:00.000Z");
   if (styles->CreateFeature(style.get()) != OGRERR_NONE) fail(path, errors);
 }
 

@@ -359,7 +359,14 @@ Shape H5Reader::shape(const std::string& path) const {
 
 template <class T>
 std::vector<T> H5Reader::array(const std::string& path, std::size_t columns) const {
-  return rows<T>(path, columns, 0, shape(path)[0]);
+  const Id set = impl_->set(path);
+  impl_->check_class(path, set, std::is_integral_v<T>);
+  const Shape shape = impl_->shape_of(path, set);
+  std::vector<T> values(shape[0] * impl_->check(path, shape, columns, sizeof(T)));
+  if (!values.empty() &&
+      H5Dread(set, native_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
+    impl_->fail(path, "cannot be read: its content is damaged");
+  return values;
 }
 
 template <class T>

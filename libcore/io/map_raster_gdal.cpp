@@ -103,8 +103,16 @@ void add_overviews(GDALDataset& dataset, const MapRaster& raster) {
   }
 }
 
-CPLStringList cog_options(const std::vector<std::string>& given) {
+// Tiles no larger than a small raster: what stands out over its edge is compressed as well.
+int tile_size_of(const MapRaster& raster) {
+  constexpr int step = 16;  // tiles are whole multiples of it
+  const int longest = std::max(raster.n_cols, raster.n_rows);
+  return std::min(tile_size, (longest + step - 1) / step * step);
+}
+
+CPLStringList cog_options(const MapRaster& raster, const std::vector<std::string>& given) {
   CPLStringList options;
+  options.SetNameValue("BLOCKSIZE", std::to_string(tile_size_of(raster)).c_str());
   options.SetNameValue("COMPRESS", "DEFLATE");
   options.SetNameValue("PREDICTOR", "YES");
   options.SetNameValue("OVERVIEWS", "FORCE_USE_EXISTING");
@@ -137,7 +145,7 @@ void check_written(const std::string& path, bool written, const GdalErrors& erro
 void write_map_raster(const std::string& path, const MapRaster& raster,
                       const std::vector<std::string>& creation_options) {
   register_gdal_drivers();
-  const CPLStringList options = cog_options(creation_options);
+  const CPLStringList options = cog_options(raster, creation_options);
   const GdalErrors errors;
   const Dataset source = to_dataset(raster);
   if (source) add_overviews(*source, raster);

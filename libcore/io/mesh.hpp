@@ -1,7 +1,8 @@
 // libcore/io/mesh.hpp
 // Bodies from mesh files: OBJ, PLY (text and binary), OFF, STL (text and binary); one or many a
-// file. in:    any bytes; everything is checked before it is believed out:   one surface for each
-// connected piece of the file, as it stands there
+// file.
+// in:    any bytes; everything is checked before it is believed
+// out:   one surface for each body of the file, as it stands there
 #pragma once
 
 #include <string>
@@ -17,7 +18,7 @@ struct MeshBody {
   Polyhedron surface;  ///< coordinates of the file; face_tag is 0
 };
 
-/// Polygons of a file before they are taken apart; vertices at equal coordinates are one.
+/// Vertices and polygons of a file before they are taken apart into bodies.
 struct Mesh {
   Polyhedron surface;  ///< face_tag: index into `names`
   std::vector<std::string> names{""};
@@ -32,7 +33,13 @@ struct Mesh {
 [[nodiscard]] Mesh parse_off(const std::string& bytes, const std::string& path);
 [[nodiscard]] Mesh parse_stl(const std::string& bytes, const std::string& path);
 
-/// The connected pieces of a mesh, in the order of their first faces.
+/// The bodies of a mesh, in the order of their first faces: faces that hang together through edges.
+///
+/// Closed bodies of the file's own vertices stand as they are, so that bodies which touch, in
+/// faces, edges or vertices at equal coordinates, stay apart. What is open so has its vertices at
+/// equal coordinates joined, within an object of the file first and then over the whole file: many
+/// formats and programs repeat them for each face. Of bodies that touch along a whole edge then,
+/// each keeps the faces about its own material.
 [[nodiscard]] std::vector<MeshBody> bodies_of(const Mesh& mesh);
 
 /// Reads a file; the format follows from the extension. Throws InputError.

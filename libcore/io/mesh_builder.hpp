@@ -1,12 +1,10 @@
 // libcore/io/mesh_builder.hpp
-// What the parsers of mesh formats fill: vertices welded by coordinates, polygons checked.
+// What the parsers of mesh formats fill: vertices as they stand in the file, polygons checked.
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
-#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,15 +22,13 @@ class MeshBuilder {
   void add_polygon(const std::vector<std::int64_t>& file_vertices, const Where& where);
   void start_object(const std::string& name);
   [[nodiscard]] std::int64_t n_file_vertices() const {
-    return static_cast<std::int64_t>(index_.size());
+    return static_cast<std::int64_t>(mesh_.surface.vertices.size());
   }
   /// Throws InputError when there is no face.
   [[nodiscard]] Mesh finished(const std::string& path);
 
  private:
   Mesh mesh_;
-  std::map<std::array<double, 3>, int> known_;
-  std::vector<int> index_;  // of file vertices in the mesh
 };
 
 /// Words and lines of a text format, with the line number for messages.

@@ -35,7 +35,7 @@ struct Element {
 
 struct Header {
   std::vector<Element> elements;
-  std::string crs_wkt;
+  std::string crs, crs_wkt;  // one line, and all lines of the WKT
   bool has_origin = false;
   Vec3 origin = Vec3::Zero();
   std::size_t n_bytes = 0;  // up to and with the line end_header
@@ -43,6 +43,7 @@ struct Header {
 
 constexpr std::size_t bytes_of_face = 13;        // a count and three corners
 constexpr std::size_t longest_header = 1 << 20;  // bytes; a WKT takes two thousand
+constexpr std::size_t longest_wkt_line = 400;    // MeshLab gives up on lines of more than 500 bytes
 
 [[noreturn]] void refuse(const std::string& source, const std::string& finding) {
   throw InputError({source}, finding, "write the TIN anew with talus-tin");
@@ -120,8 +121,11 @@ void read_property(const std::vector<std::string>& words, const std::string& sou
 
 void read_comment(const std::string& line, const std::vector<std::string>& words,
                   const std::string& source, Header& header) {
-  if (words.size() > 2 && words[1] == "crs") {
-    header.crs_wkt = line.substr(line.find("crs") + 4);
+  constexpr std::string_view wkt_begin = "comment crs_wkt ";
+  if (line.starts_with(wkt_begin)) {
+    header.crs_wkt += line.substr(wkt_begin.size());
+  } else if (words.size() > 2 && words[1] == "crs") {
+    header.crs = line.substr(line.find("crs") + 4);
   } else if (words.size() == 5 && words[1] == "origin_m") {
     for (std::size_t k = 0; k < 3; ++k)
       if (!parse_double(words[k + 2], header.origin[static_cast<Eigen::Index>(k)]))
@@ -184,20 +188,23 @@ double as_double(const char* at) {
   return static_cast<double>(value);
 }
 
-double number_at(const char* at, std::string_view type) {
+// Found once for a property: a file holds millions of its numbers.
+using NumberReader = double (*)(const char*);
+
+NumberReader reader_of(std::string_view type) {
   const bool is_unsigned = type.front() == 'u';
   switch (size_of_type(type)) {
     case 1:
-      return is_unsigned ? as_double<std::uint8_t>(at) : as_double<std::int8_t>(at);
+      return is_unsigned ? as_double<std::uint8_t> : as_double<std::int8_t>;
     case 2:
-      return is_unsigned ? as_double<std::uint16_t>(at) : as_double<std::int16_t>(at);
+      return is_unsigned ? as_double<std::uint16_t> : as_double<std::int16_t>;
     case 8:
-      return as_double<double>(at);
+      return as_double<double>;
     default:
       break;
   }
-  if (!is_whole_type(type)) return as_double<float>(at);
-  return is_unsigned ? as_double<std::uint32_t>(at) : as_double<std::int32_t>(at);
+  if (!is_whole_type(type)) return as_double<float>;
+  return is_unsigned ? as_double<std::uint32_t> : as_double<std::int32_t>;
 }
 
 // Bytes of an entry's plain numbers; refuses lists among them.
@@ -216,21 +223,22 @@ std::size_t stride_of(std::span<const Property> properties, const std::string& e
 void read_points(const Element& element, const std::string& source, Cursor& cursor, Tin& tin) {
   const std::size_t stride = stride_of(element.properties, element.name, source);
   std::array<std::size_t, 3> offset{};
-  std::array<std::string, 3> type;
+  std::array<NumberReader, 3> read{};
   std::size_t at = 0;
   for (const Property& property : element.properties) {
     const std::size_t axis = std::string_view("xyz").find(property.name);
-    if (property.name.size() == 1 && axis < 3) offset[axis] = at, type[axis] = property.type;
+    if (property.name.size() == 1 && axis < 3)
+      offset[axis] = at, read[axis] = reader_of(property.type);
     at += size_of_type(property.type);
   }
-  if (type[0].empty() || type[1].empty() || type[2].empty())
+  if (read[0] == nullptr || read[1] == nullptr || read[2] == nullptr)
     refuse(source, "element vertex lacks x, y or z");
   cursor.expect(element.n, stride, "vertices");
   tin.points.resize(element.n);
   for (std::size_t i = 0; i < tin.points.size(); ++i) {
     const char* entry = cursor.take(stride);
     for (std::size_t k = 0; k < 3; ++k)
-      tin.points[i][static_cast<Eigen::Index>(k)] = number_at(entry + offset[k], type[k]);
+      tin.points[i][static_cast<Eigen::Index>(k)] = read[k](entry + offset[k]);
     if (!tin.points[i].allFinite())
       refuse(source, "vertex " + std::to_string(i) + " has a coordinate that is not finite");
   }
@@ -245,18 +253,19 @@ void read_triangles(const Element& element, const std::string& source, Cursor& c
   const Property& list = element.properties[0];
   const std::size_t count_size = size_of_type(list.count_type),
                     index_size = size_of_type(list.type);
+  const NumberReader read_count = reader_of(list.count_type), read_index = reader_of(list.type);
   const std::size_t rest =
       stride_of(std::span(element.properties).subspan(1), element.name, source);
   cursor.expect(element.n, count_size + 3 * index_size + rest, "faces");
   tin.triangles.resize(element.n);
   for (std::size_t t = 0; t < tin.triangles.size(); ++t) {
-    const double n_corners = number_at(cursor.take(count_size), list.count_type);
+    const double n_corners = read_count(cursor.take(count_size));
     if (n_corners != 3)
       refuse(source, "face " + std::to_string(t) + " has " + text(n_corners) +
                          " corners, expected triangles");
     const char* entry = cursor.take(3 * index_size + rest);
     for (std::size_t k = 0; k < 3; ++k) {
-      const double corner = number_at(entry + k * index_size, list.type);
+      const double corner = read_index(entry + k * index_size);
       if (!(corner >= 0 && corner < static_cast<double>(tin.points.size())))
         refuse(source, "face " + std::to_string(t) + " has the corner " + text(corner) +
                            ", expected 0 to " +
@@ -295,12 +304,45 @@ void turn_clockwise_triangles(Tin& tin) {
   }
 }
 
+// Small entries to a file through one buffer, so that a TIN needs no second copy to be written.
+class EntryWriter {
+ public:
+  explicit EntryWriter(std::ofstream& file) : file_(file) { buffer_.reserve(size); }
+  void add(const void* entry, std::size_t n_bytes) {
+    if (buffer_.size() + n_bytes > size) flush();
+    const auto* const bytes = static_cast<const char*>(entry);
+    buffer_.insert(buffer_.end(), bytes, bytes + n_bytes);
+  }
+  void flush() {
+    file_.write(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
+    buffer_.clear();
+  }
+
+ private:
+  static constexpr std::size_t size = 1 << 18;
+  std::ofstream& file_;
+  std::vector<char> buffer_;
+};
+
+// The code at the end of a WKT that has one for the whole system; empty when it has none.
+std::string epsg_code(const std::string& wkt) {
+  constexpr std::string_view begin = "ID[\"EPSG\",", end = "]]";
+  const std::size_t at = wkt.rfind(begin);
+  if (at == wkt.npos || !wkt.ends_with(end)) return {};
+  const std::size_t first = at + begin.size();
+  const std::string code = wkt.substr(first, wkt.size() - end.size() - first);
+  return code.find_first_not_of("0123456789") == code.npos ? code : std::string();
+}
+
 std::string header_text(const Tin& tin) {
   std::string wkt = tin.crs_wkt;
   std::replace_if(
       wkt.begin(), wkt.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
   std::string header = "ply\nformat binary_little_endian 1.0\n";
-  if (!wkt.empty()) header += "comment crs " + wkt + "\n";
+  const std::string code = epsg_code(wkt);
+  if (!code.empty()) header += "comment crs EPSG:" + code + "\n";
+  for (std::size_t at = 0; at < wkt.size(); at += longest_wkt_line)
+    header += "comment crs_wkt " + wkt.substr(at, longest_wkt_line) + "\n";
   header += "comment origin_m " + text(tin.origin.x()) + " " + text(tin.origin.y()) + " " +
             text(tin.origin.z()) + "\n";
   header += "element vertex " + std::to_string(tin.points.size()) +
@@ -315,20 +357,18 @@ std::string header_text(const Tin& tin) {
 void write_tin(const std::string& path, const Tin& tin) {
   std::ofstream file(path, std::ios::binary);
   file << header_text(tin);
-  std::vector<Vec3> on_map(tin.points.size());
-  for (std::size_t i = 0; i < on_map.size(); ++i) on_map[i] = tin.points[i] + tin.origin;
-  static_assert(sizeof(Vec3) == 3 * sizeof(double));
-  file.write(reinterpret_cast<const char*>(on_map.data()),
-             static_cast<std::streamsize>(on_map.size() * sizeof(Vec3)));
-  std::vector<char> faces;
-  faces.reserve(tin.triangles.size() * bytes_of_face);
-  for (const auto& corners : tin.triangles) {
-    static_assert(sizeof corners == bytes_of_face - 1);
-    const auto* const bytes = reinterpret_cast<const char*>(corners.data());
-    faces.push_back(3);
-    faces.insert(faces.end(), bytes, bytes + sizeof corners);
+  EntryWriter writer(file);
+  for (const Vec3& point : tin.points) {
+    const Vec3 on_map = point + tin.origin;
+    writer.add(on_map.data(), 3 * sizeof(double));
   }
-  file.write(faces.data(), static_cast<std::streamsize>(faces.size()));
+  for (const auto& corners : tin.triangles) {
+    constexpr char n_corners = 3;
+    static_assert(sizeof corners + sizeof n_corners == bytes_of_face);
+    writer.add(&n_corners, sizeof n_corners);
+    writer.add(corners.data(), sizeof corners);
+  }
+  writer.flush();
   file.close();
   if (!file)
     throw InputError({path}, "cannot be written to its end",
@@ -355,7 +395,7 @@ Tin parse_tin(std::span<const char> bytes, const std::string& source) {
     refuse(source, "the PLY file has no vertices followed by faces");
   make_relative(header, tin);
   turn_clockwise_triangles(tin);
-  tin.crs_wkt = header.crs_wkt;
+  tin.crs_wkt = header.crs_wkt.empty() ? header.crs : header.crs_wkt;
   return tin;
 }
 

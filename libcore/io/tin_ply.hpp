@@ -2,7 +2,8 @@
 // TIN as binary PLY: what talus-tin writes and talus-trn reads; opens in MeshLab, ParaView and as a
 // mesh layer of QGIS. Coordinates in the file are those of the map (double), so that a viewer sets
 // it in its place; the CRS and the origin stand in comments:
-//   comment crs PROJCRS["..."]        the WKT in one line; left out when there is no CRS
+//   comment crs EPSG:code             for viewers, when the WKT ends with a code of its own
+//   comment crs_wkt PROJCRS["..."]    the WKT in lines of 400 bytes; left out when there is no CRS
 //   comment origin_m X Y Z            map coordinates of the local zero used while computing
 #pragma once
 

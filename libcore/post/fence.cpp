@@ -64,29 +64,47 @@ struct Bounds {
   const RunResamples* resamples = nullptr;
 };
 
+// Places of the upper bounds by the bootstrap over runs in the ascending list; -1 where there is
+// none.
+std::vector<int> bootstrap_bounds(const std::vector<const FenceArrival*>& ascending,
+                                  const RunResamples& resamples) {
+  std::vector<RunWeight> descending;
+  for (auto a = ascending.rbegin(); a != ascending.rend(); ++a)
+    descending.push_back({(*a)->run, (*a)->weight});
+  const std::vector<double> levels(percentile_levels.rbegin(), percentile_levels.rend());
+  std::vector<int> places = bootstrap_upper_places(descending, resamples, levels);
+  std::reverse(places.begin(), places.end());
+  for (int& place : places)
+    if (place >= 0) place = static_cast<int>(ascending.size()) - 1 - place;
+  return places;
+}
+
 QuantitySummary summary_of(const std::vector<FenceArrival>& arrivals, double n_eff,
                            const Bounds& bounds, double (*quantity)(const FenceArrival&)) {
+  std::vector<const FenceArrival*> ascending;
+  for (const FenceArrival& a : arrivals) ascending.push_back(&a);
+  std::sort(ascending.begin(), ascending.end(),
+            [quantity](const FenceArrival* a, const FenceArrival* b) {
+              const double x = quantity(*a), y = quantity(*b);
+              return x != y ? x < y : a->weight < b->weight;
+            });
+  std::vector<WeightedValue> values;
+  for (const FenceArrival* a : ascending) values.push_back({quantity(*a), a->weight});
   QuantitySummary summary;
-  std::vector<WeightedValue> ascending;
-  std::vector<RunValue> descending;
-  for (const FenceArrival& a : arrivals) {
-    ascending.push_back({quantity(a), a.weight});
-    descending.push_back({quantity(a), a.weight, a.run});
-  }
-  sort_values(ascending);
-  std::sort(descending.begin(), descending.end(),
-            [](const RunValue& a, const RunValue& b) { return a.value > b.value; });
-  summary.largest = ascending.empty() ? none : ascending.back().value;
+  summary.largest = values.empty() ? none : values.back().value;
+  const bool by_runs = bounds.runs_repeat && bounds.n_runs_here >= min_runs;
+  std::vector<int> places;
+  if (by_runs) places = bootstrap_bounds(ascending, *bounds.resamples);
   const int n = static_cast<int>(n_eff + 1e-9);
   for (std::size_t k = 0; k < percentile_levels.size(); ++k) {
     const double p = percentile_levels[k];
     BoundedPercentile& out = summary.percentile[k];
-    out = {weighted_percentile(ascending, p), none};
+    out = {weighted_percentile(values, p), none};
     if (n < smallest_sample(p)) continue;
     if (!bounds.runs_repeat)
-      out.upper = weighted_percentile(ascending, static_cast<double>(upper_bound_rank(n, p)) / n);
-    else if (bounds.n_runs_here >= min_runs)
-      out.upper = bootstrap_upper_percentile(descending, *bounds.resamples, p);
+      out.upper = weighted_percentile(values, static_cast<double>(upper_bound_rank(n, p)) / n);
+    else if (by_runs && places[k] >= 0)
+      out.upper = values[static_cast<std::size_t>(places[k])].value;
   }
   return summary;
 }
@@ -172,7 +190,12 @@ Verdict observed_verdict(const FenceArrival& arrival, const Fence& fence, double
   return Verdict::pierced;
 }
 
+// Whether the block touched the fence: as recorded, else as near as frames show.
 bool came_near(const RunFile& file, int block, const Fence& fence, double contact) {
+  if (!file.panels.empty())
+    return std::any_of(file.fence_hits.begin(), file.fence_hits.end(), [&](const FenceHit& hit) {
+      return hit.block == block && file.lines[hit.line].name == fence.name;
+    });
   for (int k = 0; k < n_frames(file.frames); ++k) {
     const FrameBlock at = frame_block(file, k, block);
     for (int v = file.blocks.vertex_begin[block]; v < file.blocks.vertex_begin[block + 1]; ++v) {
@@ -245,6 +268,19 @@ FencePartSummary summarise(const std::vector<FenceArrival>& given, int n_runs, s
   return summary;
 }
 
+int uphill_side(const Fence& fence, const Trn& trn) {
+  double higher_on_the_left = 0;
+  for (int field = 0; field < n_fields(fence); ++field) {
+    const Vec2 tangent = along(fence, field), left(-tangent.y(), tangent.x());
+    const Vec2 middle = 0.5 * (fence.post[field] + fence.post[field + 1]).head<2>();
+    const Vec2 a = middle + fence.height * left, b = middle - fence.height * left;
+    const double rise = elevation_at(trn, a.x(), a.y()) - elevation_at(trn, b.x(), b.y());
+    if (!std::isnan(rise))
+      higher_on_the_left += rise * (fence.chainage[field + 1] - fence.chainage[field]);
+  }
+  return higher_on_the_left < 0 ? -1 : 1;
+}
+
 double storage(const Fence& fence, int field, int side, const Trn& trn, double reach) {
   const Vec2 a = fence.post[field].head<2>(), b = fence.post[field + 1].head<2>();
   const Vec2 tangent = along(fence, field);
@@ -261,7 +297,7 @@ double storage(const Fence& fence, int field, int side, const Trn& trn, double r
     for (double far = 0.5 * step; far < reach; far += step) {
       const Vec2 at = foot + far * uphill;
       const double depth = fill - elevation_at(trn, at.x(), at.y());
-      if (!(depth > 0)) break;
+      if (!(depth > 0) || depth > 2 * fence.height) break;
       volume += depth * step * width;
     }
   }

@@ -122,9 +122,14 @@ struct FencePartSummary {
 [[nodiscard]] FencePartSummary summarise(const std::vector<FenceArrival>& arrivals, int n_runs,
                                          std::uint64_t seed);
 
+/// The side of a fence on which the ground lies higher, at its height from the line: from where
+/// blocks come when none has. +1 left, -1 right.
+[[nodiscard]] int uphill_side(const Fence& fence, const Trn& trn);
+
 /// Space behind a field up to a horizontal fill at the fence's height [m3]: the ground on the side
-/// where blocks come from, walked upwards along the field's normal until it meets the fill, at most
-/// `reach` [m] far. `side`: +1 the left of the line seen from its first point, -1 the right.
+/// where blocks come from, walked along the field's normal until it meets the fill or falls more
+/// than the fence's height below its base, where the fence holds nothing; at most `reach` [m] far.
+/// `side`: +1 the left of the line seen from its first point, -1 the right.
 [[nodiscard]] double storage(const Fence& fence, int field, int side, const Trn& trn, double reach);
 
 }  // namespace talus

@@ -91,14 +91,19 @@ void fill(Picture& picture, int row, int col, int n_rows, int n_cols, const Colo
 }
 
 // Brightness of the ground lit from the north-west at 45 degrees, 0 to 255; NaN off the ground.
+// Slopes are differences over a cell, one-sided at the terrain's border.
 double shade(const Trn& trn, double x, double y) {
   const double d = 0.5 * trn.cell_size;
-  const double east = elevation_at(trn, x + d, y), west = elevation_at(trn, x - d, y);
-  const double north = elevation_at(trn, x, y + d), south = elevation_at(trn, x, y - d);
-  Vec2 gradient((east - west) / (2 * d), (north - south) / (2 * d));
+  const Vec2 low = trn.node0 - Vec2(0, (trn.n_rows - 1) * trn.cell_size);
+  const Vec2 high = trn.node0 + Vec2((trn.n_cols - 1) * trn.cell_size, 0);
+  const double east = std::min(x + d, high.x()), west = std::max(x - d, low.x());
+  const double north = std::min(y + d, high.y()), south = std::max(y - d, low.y());
+  Vec2 gradient((elevation_at(trn, east, y) - elevation_at(trn, west, y)) / (east - west),
+                (elevation_at(trn, x, north) - elevation_at(trn, x, south)) / (north - south));
   if (std::isnan(gradient.x()) || std::isnan(gradient.y())) {
     if (!contains(trn, x, y)) return std::nan("");
     gradient = triangle_gradient(trn, triangle_at(trn, x, y));
+    if (std::isnan(gradient.x() + gradient.y())) return std::nan("");
   }
   const Vec3 normal = Vec3(-gradient.x(), -gradient.y(), 1).normalized();
   const Vec3 light = Vec3(-0.5, 0.5, std::sqrt(0.5));
@@ -182,31 +187,40 @@ int draw_text(Picture& picture, int row, int col, int height, const std::string&
   return col;
 }
 
-Picture map_picture(const Trn& trn, const PassageGrid& grid, const std::vector<float>& value,
-                    float nodata, const RasterStyle& style) {
+Shading shading_of(const Trn& trn, const PassageGrid& grid) {
   const double cells = std::max(grid.n_rows, grid.n_cols);
-  const double per_cell =
+  Shading out;
+  out.per_cell =
       cells < long_side ? std::max(1.0, std::floor(long_side / cells)) : long_side / cells;
-  const int map_cols = std::max(1, static_cast<int>(grid.n_cols * per_cell));
-  const int map_rows = std::max(1, static_cast<int>(grid.n_rows * per_cell));
+  out.n_rows = std::max(1, static_cast<int>(grid.n_rows * out.per_cell));
+  out.n_cols = std::max(1, static_cast<int>(grid.n_cols * out.per_cell));
+  for (int r = 0; r < out.n_rows; ++r)
+    for (int c = 0; c < out.n_cols; ++c) {
+      const Vec2 at = grid.corner + grid.cell_size / out.per_cell * Vec2(c + 0.5, -r - 0.5);
+      out.brightness.push_back(static_cast<float>(shade(trn, at.x(), at.y())));
+    }
+  return out;
+}
+
+Picture map_picture(const Shading& shading, const PassageGrid& grid,
+                    const std::vector<float>& value, float nodata, const RasterStyle& style) {
   const int legend_rows = 40 + static_cast<int>(style.classes.size() + 1) * (letter_height + 8);
   Picture picture;
-  picture.n_cols = map_cols + legend_width(style);
-  picture.n_rows = std::max(map_rows, legend_rows);
+  picture.n_cols = shading.n_cols + legend_width(style);
+  picture.n_rows = std::max(shading.n_rows, legend_rows);
   picture.pixel.assign(
       static_cast<std::size_t>(picture.n_rows) * static_cast<std::size_t>(picture.n_cols),
       Colour{255, 255, 255, 255});
-  for (int r = 0; r < map_rows; ++r)
-    for (int c = 0; c < map_cols; ++c) {
-      const double down = (r + 0.5) / per_cell, right = (c + 0.5) / per_cell;
-      const Vec2 at = grid.corner + grid.cell_size * Vec2(right, -down);
-      const double ground = shade(trn, at.x(), at.y());
-      if (std::isnan(ground)) continue;
-      const float v = value[static_cast<std::size_t>(down) * static_cast<std::size_t>(grid.n_cols) +
-                            static_cast<std::size_t>(right)];
-      put(picture, r, c, over(ground, v == nodata ? Colour{} : colour_of(style, v)));
+  const float* ground = shading.brightness.data();
+  for (int r = 0; r < shading.n_rows; ++r)
+    for (int c = 0; c < shading.n_cols; ++c, ++ground) {
+      if (std::isnan(*ground)) continue;
+      const auto row = static_cast<std::size_t>((r + 0.5) / shading.per_cell);
+      const auto col = static_cast<std::size_t>((c + 0.5) / shading.per_cell);
+      const float v = value[row * static_cast<std::size_t>(grid.n_cols) + col];
+      put(picture, r, c, over(*ground, v == nodata ? Colour{} : colour_of(style, v)));
     }
-  draw_legend(picture, map_cols + 16, style);
+  draw_legend(picture, shading.n_cols + 16, style);
   return picture;
 }
 

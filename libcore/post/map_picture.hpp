@@ -15,10 +15,17 @@ namespace talus {
 /// Whether the ground is known anywhere below a cell (its centre or a corner)   (n_rows x n_cols)
 [[nodiscard]] std::vector<bool> known_cells(const Trn& trn, const PassageGrid& grid);
 
-/// Pixels of the grid's extent, lit from the north-west, each cell in the colour of its class laid
-/// over it at 75 %; the legend on the right. Small grids are enlarged by whole numbers of pixels,
-/// large ones taken down.
-[[nodiscard]] Picture map_picture(const Trn& trn, const PassageGrid& grid,
+/// The ground of a grid's extent lit from the north-west, for all pictures of one grid. Small grids
+/// are enlarged by whole numbers of pixels, large ones taken down.
+struct Shading {
+  int n_rows = 0, n_cols = 0;     ///< pixels
+  double per_cell = 1;            ///< pixels a cell
+  std::vector<float> brightness;  ///< 0 to 255; NaN off the known ground        (n_rows x n_cols)
+};
+[[nodiscard]] Shading shading_of(const Trn& trn, const PassageGrid& grid);
+
+/// Each cell in the colour of its class laid over the ground at 75 %; the legend on the right.
+[[nodiscard]] Picture map_picture(const Shading& shading, const PassageGrid& grid,
                                   const std::vector<float>& value, float nodata,
                                   const RasterStyle& style);
 

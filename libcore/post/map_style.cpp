@@ -38,7 +38,7 @@ struct Breaks {
 };
 
 const std::vector<Breaks>& all_breaks() {
-  const std::vector<double> energy = {1, 3, 10, 30, 100, 300, 1000, 3000, 10000};
+  const std::vector<double> energy = {1, 10, 30, 100, 300, 1000, 3000, 10000, 30000, 100000};
   static const std::vector<Breaks> breaks = {
       {"reach", "reach_probability", {0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 0.8}, true},
       {"velocity", "", {1, 2.5, 5, 10, 15, 20, 30}, true},
@@ -54,6 +54,36 @@ const std::vector<Breaks>& all_breaks() {
   return breaks;
 }
 
+// From the largest loss (blue) over no change (transparent) to the largest gain (red).
+std::vector<StyleClass> change_classes(const std::vector<double>& limits, const std::string& unit) {
+  std::vector<StyleClass> classes;
+  const auto n = static_cast<double>(limits.size());
+  const auto label = [&](const char* word, std::size_t i) {
+    if (i + 1 == limits.size()) return word + (" by more than " + text(limits[i])) + unit;
+    return std::string(word) + " by " + text(limits[i]) + " - " + text(limits[i + 1]) + unit;
+  };
+  for (std::size_t i = limits.size(); i-- > 0;) {
+    const double share = (static_cast<double>(i) + 1) / n;
+    const auto part = [share](double pale, double deep) {
+      return static_cast<std::uint8_t>(std::lround(pale + share * (deep - pale)));
+    };
+    classes.push_back(
+        {-limits[i], {part(222, 8), part(235, 48), part(247, 107), 255}, label("less", i)});
+  }
+  classes.push_back({limits[0], {255, 255, 255, 0}, "within " + text(limits[0]) + unit});
+  for (std::size_t i = 0; i < limits.size(); ++i)
+    classes.push_back({i + 1 < limits.size() ? limits[i + 1] : infinity,
+                       ramp((static_cast<double>(i) + 1) / n), label("more", i)});
+  return classes;
+}
+
+// In no more than a twentieth of the cells that were touched is there no value.
+bool is_nearly_everywhere(const MapBand& band) {
+  const auto n_missing =
+      std::count_if(band.value.begin(), band.value.end(), [](float v) { return std::isnan(v); });
+  return !band.value.empty() && static_cast<double>(n_missing) <= 0.05 * band.value.size();
+}
+
 int shown_band(const MapLayer& layer, const std::string& wanted) {
   const auto find = [&layer](const std::string& name) {
     for (std::size_t b = 0; b < layer.bands.size(); ++b)
@@ -62,12 +92,9 @@ int shown_band(const MapLayer& layer, const std::string& wanted) {
   };
   if (!wanted.empty()) return std::max(0, find(wanted));
   const int p95 = find(layer.name + "_p95");
-  const auto has_values = [](const MapBand& band) {
-    return std::any_of(band.value.begin(), band.value.end(),
-                       [](float v) { return !std::isnan(v); });
-  };
-  if (p95 >= 0 && has_values(layer.bands[p95])) return p95;
-  return std::max(0, find(layer.name + "_max"));
+  return p95 >= 0 && is_nearly_everywhere(layer.bands[p95])
+             ? p95
+             : std::max(0, find(layer.name + "_max"));
 }
 
 // The Swiss classes of intensity by kinetic energy.
@@ -77,6 +104,12 @@ std::string intensity(const std::string& unit, double upper) {
 }
 
 }  // namespace
+
+RasterStyle change_style(const MapLayer& layer, const std::string& remark) {
+  const MapBand& band = layer.bands[0];
+  return {1, band.name + " [" + band.unit + "]" + (remark.empty() ? "" : ", " + remark),
+          change_classes({0.05, 0.25, 0.5, 1, 2, 4}, " " + band.unit)};
+}
 
 RasterStyle map_style(const MapLayer& layer, const std::string& remark) {
   const auto& list = all_breaks();
@@ -95,9 +128,9 @@ RasterStyle map_style(const MapLayer& layer, const std::string& remark) {
   for (std::size_t i = 0; i < at->upper.size(); ++i) {
     const double upper = at->upper[i];
     style.classes.push_back({upper, ramp(static_cast<double>(i) / n),
-                             (lower.empty() ? "up to " : lower + " - ") + text(upper) + unit +
+                             (lower.empty() ? "up to " : lower + " - ") + text(upper, 9) + unit +
                                  intensity(band.unit, upper)});
-    lower = text(upper);
+    lower = text(upper, 9);
   }
   style.classes.push_back(
       {infinity, ramp(1), "above " + lower + unit + intensity(band.unit, infinity)});

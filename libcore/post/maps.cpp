@@ -92,6 +92,14 @@ MapRow map_row(const Passage& passage, std::uint32_t cell, float weight) {
           passage.heading};
 }
 
+std::uint32_t map_cell(const Passage& passage, const PassageGrid& recorded, const MapGrid& map) {
+  if (map.factor == 1) return static_cast<std::uint32_t>(passage.cell);
+  const int row = passage.cell / recorded.n_cols / map.factor;
+  const int col = passage.cell % recorded.n_cols / map.factor;
+  return static_cast<std::uint32_t>(row) * static_cast<std::uint32_t>(map.grid.n_cols) +
+         static_cast<std::uint32_t>(col);
+}
+
 int n_runs(const Released& released) { return static_cast<int>(released.weight.size()); }
 
 double sum(std::span<const double> values) {
@@ -180,19 +188,36 @@ struct CellSample {
   }
 };
 
-// Upper 95 % bound of a percentile. Passages of different runs are independent, and ranks bound
-// them exactly; blocks of one run are not, and the runs are resampled.
-double upper_bound(const CellSample& sample, double p, BoundRanks& ranks, LazyResamples& resamples,
-                   const MapSettings& settings) {
+// Upper 95 % bounds of the percentiles; NaN where the sample gives none. Passages of different runs
+// are independent, and ranks bound them exactly; blocks of one run are not, and the runs are
+// resampled.
+std::array<double, percentiles.size()> upper_bounds(const CellSample& sample,
+                                                    std::span<BoundRanks> ranks,
+                                                    LazyResamples& resamples,
+                                                    const MapSettings& settings) {
+  std::array<double, percentiles.size()> bounds;
+  bounds.fill(none);
   const int n = static_cast<int>(sample.n_eff + 1e-9);
-  if (n < smallest_sample(p)) return none;
-  if (!sample.runs_repeat) return sample.percentile(static_cast<double>(ranks.of(n)) / n);
-  if (sample.n_runs < settings.min_runs) return none;
-  std::vector<RunValue> descending;
+  std::size_t n_bounded = 0;  // the lower percentiles need fewer
+  while (n_bounded < bounds.size() && n >= smallest_sample(percentiles[n_bounded].p)) ++n_bounded;
+  if (!sample.runs_repeat) {
+    for (std::size_t k = 0; k < n_bounded; ++k)
+      bounds[k] = sample.percentile(static_cast<double>(ranks[k].of(n)) / n);
+    return bounds;
+  }
+  if (sample.n_runs < settings.min_runs || n_bounded == 0) return bounds;
+  std::vector<RunWeight> descending;
   descending.reserve(sample.items.size());
   for (auto item = sample.items.rbegin(); item != sample.items.rend(); ++item)
-    descending.push_back({item->value, item->weight, item->run});
-  return bootstrap_upper_percentile(descending, resamples.get(), p);
+    descending.push_back({item->run, item->weight});
+  std::vector<double> levels;
+  for (std::size_t k = n_bounded; k-- > 0;) levels.push_back(percentiles[k].p);
+  const std::vector<int> places = bootstrap_upper_places(descending, resamples.get(), levels);
+  for (std::size_t k = 0; k < n_bounded; ++k) {
+    const int place = places[n_bounded - 1 - k];
+    if (place >= 0) bounds[k] = sample.items[sample.items.size() - 1 - place].value;
+  }
+  return bounds;
 }
 
 MapBand band(std::string name, std::string unit, std::string description, std::size_t n_touched,
@@ -303,22 +328,32 @@ MapGrid map_grid(const PassageGrid& recorded, double cell_size, const std::strin
 }
 
 std::vector<MapRow> map_rows(std::span<const Passage> passages, const PassageGrid& recorded,
-                             const MapGrid& map, std::span<const double> weight) {
+                             const MapGrid& map, std::span<const double> weight,
+                             const MapTile& tile) {
   std::vector<MapRow> rows;
-  rows.reserve(passages.size());
+  rows.reserve(tile.first == 0 ? passages.size() : 0);
   for (const Passage& passage : passages) {
-    auto cell = static_cast<std::uint32_t>(passage.cell);
-    if (map.factor > 1) {
-      const int row = passage.cell / recorded.n_cols / map.factor;
-      const int col = passage.cell % recorded.n_cols / map.factor;
-      cell = static_cast<std::uint32_t>(row) * static_cast<std::uint32_t>(map.grid.n_cols) +
-             static_cast<std::uint32_t>(col);
-    }
+    const std::uint32_t cell = map_cell(passage, recorded, map);
+    if (cell < tile.first || cell >= tile.end) continue;
     rows.push_back(
         map_row(passage, cell, weight.empty() ? 1 : static_cast<float>(weight[passage.block])));
   }
   if (map.factor > 1) merge_equal_cells(rows);
   return rows;
+}
+
+std::vector<MapTile> tiles_of(std::span<const std::uint32_t> rows_of_cell, std::uint64_t most) {
+  std::vector<MapTile> tiles{{0, 0}};
+  std::uint64_t n = 0;
+  for (const std::uint32_t rows : rows_of_cell) {
+    if (n + rows > most && tiles.back().end > tiles.back().first) {
+      tiles.push_back({tiles.back().end, tiles.back().end});
+      n = 0;
+    }
+    n += rows;
+    ++tiles.back().end;
+  }
+  return tiles;
 }
 
 CellRows group_by_cell(std::vector<std::vector<MapRow>> runs, std::size_t n_cells) {
@@ -362,11 +397,12 @@ MapLayer quantity_layer(const CellRows& cells, MapQuantity quantity, const Relea
     };
     put(0, sample.mean);
     put(1 + n_p, sample.items.back().value);
+    const auto bounds = upper_bounds(sample, ranks, resamples, settings);
     for (std::size_t k = 0; k < n_p; ++k) {
       const double p = percentiles[k].p;
       const int needed = settings.min_passages > 0 ? settings.min_passages : smallest_sample(p);
       if (sample.n_eff + 1e-9 >= needed) put(1 + k, sample.percentile(p));
-      put(2 + n_p + k, upper_bound(sample, p, ranks[k], resamples, settings));
+      put(2 + n_p + k, bounds[k]);
     }
   }
   return layer;
@@ -446,6 +482,15 @@ MapLayer energy_line_layer(const CellRows& cells) {
       out.value[i] = std::fmin(out.value[i], static_cast<float>(row.travel_angle * degrees));
   layer.bands.push_back(std::move(out));
   return layer;
+}
+
+void append(MapLayer& layer, const MapLayer& next) {
+  TALUS_ASSERT(layer.name == next.name && layer.bands.size() == next.bands.size());
+  layer.cell.insert(layer.cell.end(), next.cell.begin(), next.cell.end());
+  for (std::size_t b = 0; b < layer.bands.size(); ++b) {
+    std::vector<float>& value = layer.bands[b].value;
+    value.insert(value.end(), next.bands[b].value.begin(), next.bands[b].value.end());
+  }
 }
 
 std::vector<float> on_grid(const MapLayer& layer, const MapBand& band_values, std::size_t n_cells,

@@ -5,7 +5,8 @@
 //
 // A block counts once in a cell, with its largest value there. The rows of a cell are put in the
 // order of run and block before anything is summed, so the same runs give the same bytes in
-// whatever order they come. Memory grows with rows of passages, not with steps or frames.
+// whatever order they come. A map may be made in tiles, a range of cells at a time: then memory
+// grows with the cells, and no longer with the runs.
 #pragma once
 
 #include <array>
@@ -43,11 +44,22 @@ struct MapGrid {
 [[nodiscard]] MapGrid map_grid(const PassageGrid& recorded, double cell_size,
                                const std::string& item);
 
-/// Rows of one run's passages, brought to the map's cells: one row per block and cell.
+/// Cells of the map from `first` to before `end`.
+struct MapTile {
+  std::uint32_t first = 0, end = std::numeric_limits<std::uint32_t>::max();
+};
+
+/// Rows of one run's passages over a tile, brought to the map's cells: one row per block and cell.
 /// `weight`: of each block; empty: 1                                                 (n_blocks)
 [[nodiscard]] std::vector<MapRow> map_rows(std::span<const Passage> passages,
                                            const PassageGrid& recorded, const MapGrid& map,
-                                           std::span<const double> weight);
+                                           std::span<const double> weight,
+                                           const MapTile& tile = {});
+
+/// Tiles that cover all cells, each with at most `most` rows, or a single cell. `rows_of_cell`: how
+/// many rows each cell has                                                           (n_cells)
+[[nodiscard]] std::vector<MapTile> tiles_of(std::span<const std::uint32_t> rows_of_cell,
+                                            std::uint64_t most);
 
 /// Rows by cell, ascending; within a cell by run and block.
 struct CellRows {
@@ -112,6 +124,9 @@ inline constexpr std::array map_quantities = {
 [[nodiscard]] MapLayer arrival_layer(const CellRows& cells);
 /// energy_line_angle.
 [[nodiscard]] MapLayer energy_line_layer(const CellRows& cells);
+
+/// Adds the cells of a layer that follow on those of `layer`: another tile of the same map.
+void append(MapLayer& layer, const MapLayer& next);
 
 /// A band over all cells of the grid, `nodata` where it has no value.
 [[nodiscard]] std::vector<float> on_grid(const MapLayer& layer, const MapBand& band,

@@ -41,7 +41,8 @@ auto sum_of(const std::vector<RunMember>& runs, Field field) {
 }  // namespace
 
 RunMember member_of(const std::string& file, const RunFile& run) {
-  RunMember member{file, run.info, run.grid, n_blocks(run), 0, 0, 0, 0, 0, 0};
+  RunMember member{file, run.info, run.grid, n_blocks(run), 0, 0, 0, 0, 0, 0, 0};
+  for (std::string* words : {&member.info.config, &member.info.plan}) std::string().swap(*words);
   for (int block = 0; block < member.n_blocks; ++block) member.weight += weight_of(run, block);
   for (const HealthRow& row : run.health) {
     member.largest_penetration = std::max(member.largest_penetration, row.largest_penetration);
@@ -109,6 +110,7 @@ std::vector<std::pair<std::string, std::string>> tags_of(const std::vector<RunMe
     tags.emplace_back("SITE", runs[0].info.site);
     tags.emplace_back("VERSION", runs[0].info.version);
   }
+  tags.emplace_back("N_MOVING_AT_END", std::to_string(sum_of(runs, &RunMember::n_moving)));
   tags.emplace_back("HEALTH", n_unfinished == 0 ? "all runs finished within their limits"
                                                 : std::to_string(n_unfinished) + " of " + n_runs +
                                                       " runs UNFINISHED OR FAILED");

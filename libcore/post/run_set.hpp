@@ -15,15 +15,18 @@ namespace talus {
 /// What is kept of a run for the set.
 struct RunMember {
   std::string file;
-  RunInfo info;
+  RunInfo info;  ///< without config and plan, which are as large as a small run
   PassageGrid grid;
   int n_blocks = 0;
+  int n_moving = 0;   ///< at the end, by the evaluation's own limit of speed
   double weight = 0;  ///< sum over its blocks
   // health over the whole run
-  double largest_penetration = 0;  ///< [m]
-  std::int64_t unconverged = 0;    ///< block steps accepted without convergence
-  std::int64_t left_domain = 0, fell_through = 0, not_finite = 0;  ///< blocks
+  double largest_penetration = 0;                 ///< [m]
+  std::int64_t unconverged = 0;                   ///< block steps accepted without convergence
+  std::int64_t left_domain = 0;                   ///< blocks
+  std::int64_t fell_through = 0, not_finite = 0;  ///< steps
 };
+/// Of a run read in any parts; health, blocks and weight as far as they were read.
 [[nodiscard]] RunMember member_of(const std::string& file, const RunFile& run);
 
 struct RunSetOptions {

@@ -82,14 +82,8 @@ Vec3 outermost_point(const RunFile& run, int block, const std::vector<Vec3>& way
   return toe;
 }
 
-// How far a block started from a point in the direction that it then went [m].
-double ahead_of(const Vec3& from, const RunFile& run, int block) {
-  const Vec2 start = first_pose(run, block).position.head<2>();
-  const Vec2 moved = last_pose(run, block).position.head<2>() - start;
-  return moved.norm() > 0 ? (start - from.head<2>()).dot(moved.normalized()) : 0;
-}
-
-// Blocks at rest go before others; among them the one farthest from the top along its way.
+// Blocks at rest go before others; among them the one that lies farthest from the top. The length
+// of its way says less: a block that danced in a hollow has a long one.
 int find_toe_block(const EventReach& event, const RunFile& run, bool& deposited) {
   deposited = std::any_of(event.blocks.begin(), event.blocks.end(), [](const BlockReach& b) {
     return b.fate == Fate::deposited && b.reach.path > 0;
@@ -98,9 +92,9 @@ int find_toe_block(const EventReach& event, const RunFile& run, bool& deposited)
   double farthest = -1;
   for (const BlockReach& b : event.blocks) {
     if (deposited && b.fate != Fate::deposited) continue;
-    const double way = ahead_of(event.top, run, b.block) + b.reach.path;
-    if (way <= farthest) continue;
-    farthest = way;
+    const double distance = plan_distance(event.top, last_pose(run, b.block).position);
+    if (distance <= farthest) continue;
+    farthest = distance;
     toe = b.block;
   }
   return toe;
@@ -215,11 +209,15 @@ AngleProfile angle_profile(std::span<const Vec3> points, double from, double tol
     profile.distance.push_back(distance);
     profile.angle.push_back(angle);
     if (std::isnan(angle) || distance < from) continue;
-    if (angle > profile.smallest + tolerance) profile.monotone = false;
-    if (angle >= profile.smallest) continue;  // true for the first: comparison with NaN fails
+    if (angle >= profile.smallest) {  // false for the first: comparison with NaN fails
+      const double head = profile.smallest_at * (std::tan(angle) - std::tan(profile.smallest));
+      profile.missing_head = std::max(profile.missing_head, head);
+      continue;
+    }
     profile.smallest = angle;
     profile.smallest_at = distance;
   }
+  profile.monotone = profile.missing_head <= tolerance;
   return profile;
 }
 
@@ -262,7 +260,7 @@ EventReach event_reach(const RunFile& run, const Trn& trn, const ReachSettings& 
   event.event = reach_along(event.streamline);
   // From where the toe block started: the piece from the top to there may lead sideways.
   event.profile = angle_profile(std::span<const Vec3>(event.streamline).subspan(1),
-                                0.1 * event.event.path, 1e-3);
+                                0.1 * event.event.path, settings.tolerance);
   return event;
 }
 

@@ -1,7 +1,8 @@
 // libcore/post/runout.hpp
 // How far a run came: paths, streamline, H, L and the angle of reach of the event, of each block
-// and of the centre of mass; curves over time; where the energy went. in:    frames of one run, its
-// terrain paper: Zhang et al. 2018, Eq. (29) and Fig. 14; definitions in docs/formats.md#runout
+// and of the centre of mass; curves over time; where the energy went.
+// in:    frames of one run, its terrain
+// paper: Zhang et al. 2018, Eq. (29) and Fig. 14; definitions in docs/formats.md#run-out
 #pragma once
 
 #include <array>
@@ -53,10 +54,14 @@ struct AngleProfile {
   std::vector<double> angle;     ///< [rad]; NaN at the start                        (n_points)
   double smallest = 0;           ///< the energy line that clears the whole way [rad]
   double smallest_at = 0;        ///< its distance [m]
-  bool monotone = true;          ///< falls all the way, but for `tolerance`
+  /// How far an energy line from the start to a later point runs below the ground at an earlier
+  /// one, at most: the head that a mass on that line lacks to come by there [m].
+  double missing_head = 0;
+  bool monotone = true;  ///< falls all the way: no head above `tolerance` is missing
 };
-/// `tolerance`: a rise by less is not one [rad]. Points nearer than `from` to the start are left
-/// out, since the first steps of a fall say nothing of reach [m].
+/// `tolerance`: a missing head of no more is not told from the error of the points' heights [m].
+/// Points nearer than `from` to the start are left out, since the first steps of a fall say nothing
+/// of reach [m].
 [[nodiscard]] AngleProfile angle_profile(std::span<const Vec3> points, double from,
                                          double tolerance);
 
@@ -80,7 +85,7 @@ struct BlockReach {
 struct EventReach {
   Vec3 top = Vec3::Zero();     ///< highest point of the mass before it moved [m]
   Vec3 toe = Vec3::Zero();     ///< outermost point of the deposit's outermost block, on the ground
-  int toe_block = -1;          ///< that came farthest along its path from the top
+  int toe_block = -1;          ///< that came to lie farthest from the top, in plan
   bool toe_deposited = false;  ///< false: no block had come to rest, the farthest one counts
   std::vector<Vec3> streamline;  ///< top, the toe block's way on the ground, toe [m]
   ReachLine event;               ///< along the streamline

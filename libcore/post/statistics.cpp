@@ -19,12 +19,75 @@ double log_binomial_pmf(int n, double p, int k) {
          (n - k) * std::log1p(-p);
 }
 
-// Entry of rank ceil(p n) of an ascending list; NaN when it is empty.
-double percentile_of_sorted(const std::vector<double>& sorted, double p) {
-  if (sorted.empty()) return none;
-  const double n = static_cast<double>(sorted.size());
-  const double rank = std::ceil(p * n * (1 - rounding));
-  return sorted[static_cast<std::size_t>(std::clamp(rank, 1.0, n)) - 1];
+// Rank of the p-percentile among n values, 1 the smallest.
+std::size_t rank_of(double p, std::size_t n) {
+  const double rank = std::ceil(p * static_cast<double>(n) * (1 - rounding));
+  return static_cast<std::size_t>(std::clamp(rank, 1.0, static_cast<double>(n)));
+}
+
+// The value of rank ceil(p n); NaN when there is none. Reorders `values`.
+double percentile_of(std::vector<double>& values, double p) {
+  if (values.empty()) return none;
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(rank_of(p, values.size()) - 1);
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+// Resamples are worked on in groups of this size, which the compiler turns into vectors.
+constexpr int lanes = 16;
+
+// sum[b] += weight * count[b] for all resamples.
+template <class T>
+void add_to_resamples(T* sum, const RunResamples& resamples, int run, T weight) {
+  const std::uint16_t* count =
+      resamples.count.data() + static_cast<std::size_t>(run) * resamples.stride;
+  for (int b = 0; b < resamples.stride; b += lanes, sum += lanes, count += lanes)
+    for (int k = 0; k < lanes; ++k) sum[k] += weight * static_cast<T>(count[k]);
+}
+
+template <class T>
+int count_above(const std::vector<T>& sum, const std::vector<T>& limit) {
+  int n = 0;
+  const T *a = sum.data(), *b = limit.data();
+  for (std::size_t i = 0; i < sum.size(); i += lanes, a += lanes, b += lanes)
+    for (int k = 0; k < lanes; ++k) n += a[k] > b[k];
+  return n;
+}
+
+// bootstrap_upper_places() with sums of type T, exact in integers where all weights are equal.
+// The p-percentile of a resample is the first value, from the largest down, that with those above
+// it holds more than the share 1 - p of the weight.
+template <class T>
+std::vector<int> places_of(std::span<const RunWeight> descending, const RunResamples& resamples,
+                           std::span<const double> levels, double confidence, double unit) {
+  const auto n = static_cast<std::size_t>(resamples.stride);
+  std::vector<T> of_run(static_cast<std::size_t>(resamples.n_runs), T{}), total(n, T{});
+  for (const RunWeight& item : descending) of_run[item.run] += static_cast<T>(item.weight / unit);
+  for (int run = 0; run < resamples.n_runs; ++run)
+    if (of_run[run] > 0) add_to_resamples(total.data(), resamples, run, of_run[run]);
+  const auto n_valid = static_cast<std::size_t>(
+      std::count_if(total.begin(), total.end(), [](T t) { return t > 0; }));
+  std::vector<int> places(levels.size(), -1);
+  if (n_valid == 0) return places;
+  const auto needed = static_cast<int>(n_valid - rank_of(confidence, n_valid) + 1);
+  std::vector<T> above(n, T{}), limit(n, std::numeric_limits<T>::max());
+  std::size_t level = 0;
+  const auto set_limits = [&] {
+    const double share = 1 - levels[level] * (1 - rounding);
+    for (std::size_t b = 0; b < n; ++b)
+      if (total[b] > 0) limit[b] = static_cast<T>(static_cast<double>(total[b]) * share);
+  };
+  set_limits();
+  for (std::size_t i = 0; i < descending.size(); ++i) {
+    add_to_resamples(above.data(), resamples, descending[i].run,
+                     static_cast<T>(descending[i].weight / unit));
+    while (count_above(above, limit) >= needed) {
+      places[level] = static_cast<int>(i);
+      if (++level == levels.size()) return places;
+      set_limits();
+    }
+  }
+  return places;
 }
 
 }  // namespace
@@ -88,63 +151,46 @@ int smallest_sample(double p, double confidence) {
 
 RunResamples resample_runs(int n_runs, int n_resamples, std::uint64_t seed) {
   TALUS_ASSERT(n_runs > 0 && n_resamples > 0);
-  RunResamples resamples{n_runs, n_resamples, {}};
-  resamples.count.assign(static_cast<std::size_t>(n_runs) * n_resamples, 0);
+  RunResamples resamples{n_runs, n_resamples, (n_resamples + lanes - 1) / lanes * lanes, {}};
+  resamples.count.assign(static_cast<std::size_t>(n_runs) * resamples.stride, 0);
   Random random(seed, "bootstrap over runs");
   for (int b = 0; b < n_resamples; ++b)
     for (int draw = 0; draw < n_runs; ++draw)
-      ++resamples.count[random.below(n_runs) * n_resamples + b];
+      ++resamples.count[random.below(n_runs) * resamples.stride + b];
   return resamples;
 }
 
-double bootstrap_upper_percentile(std::span<const RunValue> sorted, const RunResamples& resamples,
-                                  double p, double confidence) {
-  const auto n = static_cast<std::size_t>(resamples.n_resamples);
-  std::vector<double> total(n, 0.0), above(n, 0.0), percentile(n, none);
-  for (const RunValue& v : sorted) {
-    const auto count = resamples.of_run(v.run);
-    for (std::size_t b = 0; b < n; ++b) total[b] += v.weight * count[b];
-  }
-  // From the largest value down: the percentile is the first one that leaves less than p below it.
-  std::size_t open = n;
-  for (const RunValue& v : sorted) {
-    if (open == 0) break;
-    const auto count = resamples.of_run(v.run);
-    for (std::size_t b = 0; b < n; ++b) {
-      above[b] += v.weight * count[b];
-      if (count[b] == 0 || !std::isnan(percentile[b])) continue;
-      if (total[b] - above[b] >= p * total[b] * (1 - rounding)) continue;
-      percentile[b] = v.value;
-      --open;
-    }
-  }
-  std::erase_if(percentile, [](double value) { return std::isnan(value); });
-  std::sort(percentile.begin(), percentile.end());
-  return percentile_of_sorted(percentile, confidence);
+std::vector<int> bootstrap_upper_places(std::span<const RunWeight> descending,
+                                        const RunResamples& resamples,
+                                        std::span<const double> levels, double confidence) {
+  TALUS_ASSERT(std::is_sorted(levels.rbegin(), levels.rend()));
+  if (descending.empty() || levels.empty()) return std::vector<int>(levels.size(), -1);
+  const double unit = descending[0].weight;
+  const bool equal = unit > 0 && std::all_of(descending.begin(), descending.end(),
+                                             [unit](auto& item) { return item.weight == unit; });
+  return equal ? places_of<std::int32_t>(descending, resamples, levels, confidence, unit)
+               : places_of<double>(descending, resamples, levels, confidence, 1);
 }
 
 std::vector<double> resampled_sums(const RunResamples& resamples, std::span<const double> of_run) {
   TALUS_ASSERT(static_cast<int>(of_run.size()) == resamples.n_runs);
-  std::vector<double> sums(static_cast<std::size_t>(resamples.n_resamples), 0.0);
-  for (int run = 0; run < resamples.n_runs; ++run) {
-    const auto count = resamples.of_run(run);
-    for (std::size_t b = 0; b < sums.size(); ++b) sums[b] += of_run[run] * count[b];
-  }
+  std::vector<double> sums(static_cast<std::size_t>(resamples.stride), 0.0);
+  for (int run = 0; run < resamples.n_runs; ++run)
+    add_to_resamples(sums.data(), resamples, run, of_run[run]);
+  sums.resize(static_cast<std::size_t>(resamples.n_resamples));
   return sums;
 }
 
 Interval bootstrap_share(std::span<const RunWeight> parts, std::span<const double> whole,
                          const RunResamples& resamples, double confidence) {
-  std::vector<double> shares(whole.size(), 0.0);
-  for (const RunWeight& part : parts) {
-    const auto count = resamples.of_run(part.run);
-    for (std::size_t b = 0; b < shares.size(); ++b) shares[b] += part.weight * count[b];
-  }
+  std::vector<double> shares(static_cast<std::size_t>(resamples.stride), 0.0);
+  for (const RunWeight& part : parts)
+    add_to_resamples(shares.data(), resamples, part.run, part.weight);
+  shares.resize(whole.size());
   for (std::size_t b = 0; b < shares.size(); ++b) shares[b] /= whole[b];
   std::erase_if(shares, [](double share) { return std::isnan(share); });
-  std::sort(shares.begin(), shares.end());
-  return {percentile_of_sorted(shares, (1 - confidence) / 2),
-          percentile_of_sorted(shares, (1 + confidence) / 2)};
+  const double low = percentile_of(shares, (1 - confidence) / 2);
+  return {low, percentile_of(shares, (1 + confidence) / 2)};
 }
 
 }  // namespace talus

@@ -51,31 +51,30 @@ struct Interval {
 /// over runs, which keeps together the blocks of one run because they are not independent.
 struct RunResamples {
   int n_runs = 0, n_resamples = 0;
-  std::vector<std::uint16_t> count;  ///< at [run * n_resamples + resample]
+  int stride = 0;                    ///< n_resamples, rounded up to whole vectors of processors
+  std::vector<std::uint16_t> count;  ///< at [run * stride + resample]; 0 in the padding
 
   [[nodiscard]] std::span<const std::uint16_t> of_run(int run) const {
-    return std::span(count).subspan(static_cast<std::size_t>(run) * n_resamples, n_resamples);
+    return std::span(count).subspan(static_cast<std::size_t>(run) * stride, n_resamples);
   }
 };
 [[nodiscard]] RunResamples resample_runs(int n_runs, int n_resamples, std::uint64_t seed);
 
-struct RunValue {
-  double value = 0;
-  double weight = 1;
-  int run = 0;
-};
-
-/// Upper bound of the p-percentile by the bootstrap over runs: the `confidence`-percentile of the
-/// percentiles of all resamples that hold any weight. `sorted` DESCENDS by value. NaN for none.
-[[nodiscard]] double bootstrap_upper_percentile(std::span<const RunValue> sorted,
-                                                const RunResamples& resamples, double p,
-                                                double confidence = 0.95);
-
-/// What one run adds to a sum.
+/// What one run adds to a sum, or the weight and run of one value.
 struct RunWeight {
   int run = 0;
   double weight = 0;
 };
+
+/// Where in a list of values the upper bounds of its percentiles stand, by the bootstrap over runs:
+/// each bound is the `confidence`-percentile of the percentiles of all resamples that hold any
+/// weight. `descending`: run and weight (>= 0) of each value, the largest value first. `levels`:
+/// the percentiles wanted, the largest first. All are found in one pass from the largest value down
+/// to the lowest bound. -1: no resample holds any weight                            (n_levels)
+[[nodiscard]] std::vector<int> bootstrap_upper_places(std::span<const RunWeight> descending,
+                                                      const RunResamples& resamples,
+                                                      std::span<const double> levels,
+                                                      double confidence = 0.95);
 
 /// The sum over runs of `of_run` in each resample                            (n_resamples)
 [[nodiscard]] std::vector<double> resampled_sums(const RunResamples& resamples,

@@ -115,12 +115,18 @@ struct RunFile {
 /// What to read beside info and blocks; files of many runs are read for their passages alone.
 struct RunParts {
   bool frames = true, passages = true, crossings = true, health = true, checkpoint = true;
+  bool only_last_frame = false;  ///< of the frames
+  bool only_faults = false;      ///< of the health, penetrations and counts of what went wrong
+  bool words = true;             ///< info's config and plan
 };
 
 /// Reads a run file. Throws InputError for a file that is no run, is damaged, or contradicts itself
 /// (an index out of range, arrays of different lengths, numbers that are not finite where they
 /// must be).
 [[nodiscard]] RunFile read_run_file(const std::string& path, const RunParts& parts = {});
+
+/// What tells whether a run belongs to others: `info` without config and plan, and `grid`.
+[[nodiscard]] RunFile read_run_head(const std::string& path);
 
 /// Writes `run` to `path` itself, synced. Equal content gives equal bytes.
 void write_run_file(const std::string& path, const RunFile& run);

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <set>
 #include <system_error>
 
 #include "base/error.hpp"
@@ -263,11 +264,14 @@ void write_table(H5Writer& file, const std::string& group, const std::string& de
   });
 }
 
+// `wanted`: the columns to read; empty: all.
 template <class Row, class Columns>
-std::vector<Row> read_table(const H5Reader& file, const std::string& group, Columns&& columns) {
+std::vector<Row> read_table(const H5Reader& file, const std::string& group, Columns&& columns,
+                            const std::set<std::string>& wanted = {}) {
   std::vector<Row> rows;
   bool is_first = true;
   columns([&](const char* name, const char*, const char*, auto field) {
+    if (!wanted.empty() && !wanted.contains(name)) return;
     const auto values = file.array<FieldType<Row, decltype(field)>>(group + "/" + name, 1);
     if (is_first) rows.resize(values.size());
     is_first = false;
@@ -358,8 +362,6 @@ RunInfo read_info(const H5Reader& file, const std::string& path) {
   info.reason = file.attribute_text("", "reason");
   info.duration = file.attribute_number("", "duration_s");
   info.time = file.attribute_number("", "time_s");
-  info.config = file.text("config");
-  info.plan = file.text("plan");
   return info;
 }
 
@@ -466,24 +468,26 @@ void write_frames(H5Writer& file, const RunFile& run) {
                       "strains exx eyy ezz gyz gzx gxy, body axes");
 }
 
-RunFrames read_frames(const H5Reader& file, std::size_t n_blocks, const std::string& path) {
-  RunFrames frames;
-  frames.time = file.array<double>("frames/time_s", 1);
-  const auto check = [&](const std::string& name) {
-    if (file.shape(name)[0] != frames.time.size())
+RunFrames read_frames(const H5Reader& file, std::size_t n_blocks, const std::string& path,
+                      bool only_last) {
+  const std::size_t n = file.shape("frames/time_s")[0];
+  const auto read = [&](const std::string& name, std::size_t columns, auto& values) {
+    using Value = typename std::remove_reference_t<decltype(values)>::value_type;
+    if (only_last && n > 0) {
+      values = file.rows<Value>(name, columns, n - 1, 1);
+      return;
+    }
+    values = file.array<Value>(name, columns);
+    if (values.size() != n * columns)
       throw InputError({path, 0, name}, "does not have as many frames as frames/time_s");
   };
-  for (const char* name :
-       {"frames/position_m", "frames/attitude", "frames/velocity_m_s", "frames/spin_rad_s"})
-    check(name);
-  frames.position = file.array<double>("frames/position_m", 3 * n_blocks);
-  frames.attitude = file.array<float>("frames/attitude", 4 * n_blocks);
-  frames.velocity = file.array<float>("frames/velocity_m_s", 3 * n_blocks);
-  frames.spin = file.array<float>("frames/spin_rad_s", 3 * n_blocks);
-  if (file.has("frames/strain")) {
-    check("frames/strain");
-    frames.strain = file.array<float>("frames/strain", 6 * n_blocks);
-  }
+  RunFrames frames;
+  read("frames/time_s", 1, frames.time);
+  read("frames/position_m", 3 * n_blocks, frames.position);
+  read("frames/attitude", 4 * n_blocks, frames.attitude);
+  read("frames/velocity_m_s", 3 * n_blocks, frames.velocity);
+  read("frames/spin_rad_s", 3 * n_blocks, frames.spin);
+  if (file.has("frames/strain")) read("frames/strain", 6 * n_blocks, frames.strain);
   return frames;
 }
 
@@ -501,8 +505,8 @@ void write_passages(H5Writer& file, const RunFile& run) {
                  std::string(run.passages_by_centroid ? "centroid" : "footprint"));
 }
 
-void read_passages(const H5Reader& file, const std::string& path, RunFile& run) {
-  PassageGrid& grid = run.grid;
+PassageGrid read_grid(const H5Reader& file, const std::string& path) {
+  PassageGrid grid;
   const Where where{path, 0, "passages"};
   const std::vector<double> corner = file.attribute_numbers("passages", "corner_local_m");
   if (corner.size() != 2) throw InputError(where, "corner_local_m is not two numbers");
@@ -516,13 +520,20 @@ void read_passages(const H5Reader& file, const std::string& path, RunFile& run) 
     throw InputError(where, "the grid of cells makes no sense");
   grid.n_rows = static_cast<int>(n_rows);
   grid.n_cols = static_cast<int>(n_cols);
+  return grid;
+}
+
+void read_passages(const H5Reader& file, const std::string& path, RunFile& run) {
+  run.grid = read_grid(file, path);
   run.passages_by_centroid = file.attribute_text("passages", "passes_by") == "centroid";
   run.passages =
       read_table<Passage>(file, "passages", [](auto&& column) { passage_columns(column); });
   for (const Passage& row : run.passages)
-    if (row.block < 0 || row.block >= n_blocks(run) || row.cell < 0 || row.cell >= n_rows * n_cols)
-      throw InputError(where, "a row names block " + std::to_string(row.block) + ", cell " +
-                                  std::to_string(row.cell) + ", which do not exist");
+    if (row.block < 0 || row.block >= n_blocks(run) || row.cell < 0 ||
+        row.cell >= run.grid.n_rows * run.grid.n_cols)
+      throw InputError({path, 0, "passages"}, "a row names block " + std::to_string(row.block) +
+                                                  ", cell " + std::to_string(row.cell) +
+                                                  ", which do not exist");
 }
 
 void write_crossings(H5Writer& file, const RunFile& run) {
@@ -625,19 +636,37 @@ RunFile read_run_file(const std::string& path, const RunParts& parts) {
   const H5Reader file(path);
   RunFile run;
   run.info = read_info(file, path);
+  if (parts.words) {
+    run.info.config = file.text("config");
+    run.info.plan = file.text("plan");
+  }
   run.blocks = read_blocks(file, path);
   run.phase = read_phases(file, run.blocks.mass.size(), path);
-  if (parts.frames) run.frames = read_frames(file, run.blocks.mass.size(), path);
+  if (parts.frames)
+    run.frames = read_frames(file, run.blocks.mass.size(), path, parts.only_last_frame);
   if (parts.passages && file.has("passages")) read_passages(file, path, run);
   if (parts.crossings) {
     read_crossings(file, path, run);
     read_fences(file, path, run);
   }
-  if (parts.health)
-    run.health =
-        read_table<HealthRow>(file, "health", [](auto&& column) { health_columns(column); });
+  if (parts.health) {
+    std::set<std::string> wanted;
+    if (parts.only_faults)
+      wanted = {"unconverged", "left_domain", "fell_through", "not_finite",
+                "largest_penetration_m"};
+    run.health = read_table<HealthRow>(
+        file, "health", [](auto&& column) { health_columns(column); }, wanted);
+  }
   if (parts.checkpoint && file.has("checkpoint"))
     run.checkpoint = file.array<std::uint8_t>("checkpoint", 1);
+  return run;
+}
+
+RunFile read_run_head(const std::string& path) {
+  const H5Reader file(path);
+  RunFile run;
+  run.info = read_info(file, path);
+  if (file.has("passages")) run.grid = read_grid(file, path);
   return run;
 }
 

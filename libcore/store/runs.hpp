@@ -18,7 +18,7 @@ struct RunParam {
 };
 
 /// A file read or written, with its digest; `sha256` is empty when the content was not hashed.
-struct RunFile {
+struct RunArtifact {
   std::string role;  ///< name of the option that gave it
   std::string path;  ///< absolute
   std::string sha256;
@@ -59,7 +59,7 @@ struct RunRecord {
   double wall_time_s = 0;           ///< [s]
   std::int64_t peak_memory_kb = 0;  ///< largest resident set [KiB]
   std::vector<RunParam> params;
-  std::vector<RunFile> inputs, outputs;
+  std::vector<RunArtifact> inputs, outputs;
   std::vector<RunMetric> metrics;
   std::vector<RunEvent> events;
   std::vector<RunCheck> checks;

@@ -113,8 +113,8 @@ void insert(SQLite::Database& database, const char* sql, const Values&... values
 }
 
 void insert_files(SQLite::Database& database, const char* table, std::int64_t run_id,
-                  const std::vector<RunFile>& files) {
-  for (const RunFile& file : files) {
+                  const std::vector<RunArtifact>& files) {
+  for (const RunArtifact& file : files) {
     insert(database, "INSERT OR IGNORE INTO artifact (path, sha256, bytes) VALUES (?, ?, ?)",
            file.path, file.sha256, file.n_bytes);
     const std::string link = std::string("INSERT INTO ") + table +
@@ -145,15 +145,15 @@ RunRecord read_columns(SQLite::Statement& row) {
   return run;
 }
 
-std::vector<RunFile> read_files(SQLite::Database& database, const std::string& table,
-                                std::int64_t run_id) {
+std::vector<RunArtifact> read_files(SQLite::Database& database, const std::string& table,
+                                    std::int64_t run_id) {
   SQLite::Statement row(database,
                         "SELECT role, path, sha256, bytes FROM " + table +
                             " JOIN artifact ON artifact.id = artifact_id WHERE run_id = ? "
                             "ORDER BY " +
                             table + ".rowid");
   row.bind(1, run_id);
-  std::vector<RunFile> files;
+  std::vector<RunArtifact> files;
   while (row.executeStep())
     files.push_back({row.getColumn(0).getString(), row.getColumn(1).getString(),
                      row.getColumn(2).getString(), row.getColumn(3).getInt64()});

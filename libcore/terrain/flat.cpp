@@ -155,11 +155,17 @@ PlateProblem pose_problem(const TriangleMesh& mesh, const Lattice& lattice,
                    return part[index(t)] == Part::kept ? Role::known : Role::free;
                  });
   problem.tension = tension(mesh, lattice, part, interval);
-  for (const std::vector<Vec3>* points : {&mesh.points, &between})
-    for (const Vec3& p : *points) {
-      const Vec2 at = (p.head<2>() - lattice.low) / lattice.spacing;
-      if (touches_free_node(problem, at)) problem.anchors.emplace_back(at.x(), at.y(), p.z());
-    }
+  const auto for_each_anchor = [&](const auto& visit) {
+    for (const std::vector<Vec3>* points : {&mesh.points, &between})
+      for (const Vec3& p : *points) {
+        const Vec2 at = (p.head<2>() - lattice.low) / lattice.spacing;
+        if (touches_free_node(problem, at)) visit(Vec3(at.x(), at.y(), p.z()));
+      }
+  };
+  std::size_t n_anchors = 0;
+  for_each_anchor([&](const Vec3&) { ++n_anchors; });
+  problem.anchors.reserve(n_anchors);
+  for_each_anchor([&](const Vec3& anchor) { problem.anchors.push_back(anchor); });
   return problem;
 }
 
@@ -240,7 +246,7 @@ double bend_into(double value, double low, double high) {
   return value;
 }
 
-MendingPoints mend_flat_triangles(const TriangleMesh& mesh, const std::vector<std::uint8_t>& flat,
+MendingPoints mend_flat_triangles(TriangleMesh& mesh, const std::vector<std::uint8_t>& flat,
                                   const FlatMending& mending, const ProgressFunction& progress) {
   TALUS_ASSERT(mending.contour_interval > 0);
   MendingPoints mended;
@@ -250,6 +256,8 @@ MendingPoints mend_flat_triangles(const TriangleMesh& mesh, const std::vector<st
   const std::vector<Part> part = find_parts(mesh, flat, lattice, mending.contour_interval);
   mended.border = border_of(mesh, part);
   const std::vector<Vec3> between = points_between(mesh, mended.spacing);
+  mesh.neighbors = {};
+  mesh.constrained = {};
   const auto height_of = [&](std::size_t node) {
     return height_in_triangle(mesh, lattice.triangle[node], lattice.place(node));
   };

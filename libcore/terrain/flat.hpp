@@ -57,8 +57,9 @@ struct MendingPoints {
 /// them a level edge that is no contour. The tension grows with the slope s of the ground around as
 /// (s / interval)^2: a slope dies out within the distance in which it would reach the next contour,
 /// which is not there. Heights stay strictly within half an interval of a flat triangle, and
-/// between the heights of the corners of another one, so no point passes the next contour.
-[[nodiscard]] MendingPoints mend_flat_triangles(const TriangleMesh& mesh,
+/// between the heights of the corners of another one, so no point passes the next contour. Leaves
+/// the mesh without neighbors and constrained, which are as large as the solution.
+[[nodiscard]] MendingPoints mend_flat_triangles(TriangleMesh& mesh,
                                                 const std::vector<std::uint8_t>& flat,
                                                 const FlatMending& mending,
                                                 const ProgressFunction& progress = {});

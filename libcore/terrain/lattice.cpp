@@ -24,13 +24,18 @@ RisingEdge rising_edge(const TriangleMesh& mesh, int a, int b) {
   return {low->y(), high->y(), low->x(), rise > 0 ? (high->x() - low->x()) / rise : 0, high->x()};
 }
 
-// Marks the nodes under triangle t, borders included.
+// Whole numbers not below and not above x >= 0; std::ceil and std::floor are calls on a plain
+// x86-64.
+int rounded_down(double x) { return static_cast<int>(x); }
+int rounded_up(double x) { return static_cast<int>(x) + (x > static_cast<int>(x) ? 1 : 0); }
+
+// Marks the nodes under triangle t, borders included. The lattice begins south-west of the mesh.
 void scan_triangle(const TriangleMesh& mesh, int t, Lattice& lattice) {
   const auto& [a, b, c] = mesh.triangles[index(t)];
   const auto [y_low, y_high] = std::minmax(
       {mesh.points[index(a)].y(), mesh.points[index(b)].y(), mesh.points[index(c)].y()});
-  const int row_first = static_cast<int>(std::ceil((y_low - lattice.low.y()) / lattice.spacing));
-  const int row_last = static_cast<int>(std::floor((y_high - lattice.low.y()) / lattice.spacing));
+  const int row_first = rounded_up((y_low - lattice.low.y()) / lattice.spacing);
+  const int row_last = rounded_down((y_high - lattice.low.y()) / lattice.spacing);
   if (row_first > row_last) return;
   const std::array<RisingEdge, 3> edges = {rising_edge(mesh, a, b), rising_edge(mesh, b, c),
                                            rising_edge(mesh, c, a)};
@@ -44,8 +49,8 @@ void scan_triangle(const TriangleMesh& mesh, int t, Lattice& lattice) {
       x_low = std::min({x_low, x, level ? edge.x_high : x});
       x_high = std::max({x_high, x, level ? edge.x_high : x});
     }
-    const int first = static_cast<int>(std::ceil((x_low - lattice.low.x()) / lattice.spacing));
-    const int last = static_cast<int>(std::floor((x_high - lattice.low.x()) / lattice.spacing));
+    const int first = rounded_up((x_low - lattice.low.x()) / lattice.spacing);
+    const int last = rounded_down((x_high - lattice.low.x()) / lattice.spacing);
     for (int i = first; i <= last; ++i)
       lattice.triangle[index(row) * index(lattice.n_x) + index(i)] = t;
   }

@@ -3,165 +3,130 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <numeric>
 #include <span>
-
-#include "base/error.hpp"
 
 namespace talus {
 namespace {
 
 using Role = PlateProblem::Node;
 
-// A free node is coupled to itself and to six nodes of lower number (and to six of higher number,
-// which hold the same coefficient).
+// A free node shares squares with itself and with six nodes of lower number (and with six of higher
+// number, which hold the same coefficients).
 struct Offset {
   int i = 0, j = 0;
 };
 constexpr std::array<Offset, 7> lower_neighbors = {
     {{0, 0}, {-1, 0}, {-2, 0}, {-1, -1}, {0, -1}, {1, -1}, {0, -2}}};
 
+// Coefficient of the height at node (i, j).
 struct Term {
-  std::size_t node = 0;
+  int i = 0, j = 0;
   double coefficient = 0;
 };
 
-// The normal equations of the sum of squares, K z = f, K by its lower half.
-class NormalEquations {
+// The free nodes are the unknowns, numbered as they come. A bit a node and a count every 8 nodes,
+// since most nodes are none.
+class Unknowns {
  public:
-  NormalEquations(const PlateProblem& problem, const std::function<double(std::size_t)>& height_of)
-      : problem_(problem), height_of_(height_of), unknown_(problem.node.size(), -1) {
-    for (std::size_t node = 0; node < problem.node.size(); ++node)
-      if (problem.node[node] == Role::free) unknown_[node] = n_unknowns_++;
-    rows_.resize(static_cast<std::size_t>(n_unknowns_));
-    right_.assign(rows_.size(), 0);
-    for (std::size_t node = 0; node < problem.node.size(); ++node)
-      if (unknown_[node] >= 0) node_of_.push_back(node);
-    for (int j = 0; j < problem.n_y; ++j)
-      for (int i = 0; i < problem.n_x; ++i) add_node(i, j);
-    for (const Vec3& anchor : problem.anchors) add_anchor(anchor);
+  explicit Unknowns(const std::vector<Role>& node)
+      : is_free_(node.size() / 8 + 1, 0), n_before_(is_free_.size(), 0) {
+    for (std::size_t i = 0; i < node.size(); ++i) {
+      if (i % 8 == 0) n_before_[i / 8] = count();
+      if (node[i] != Role::free) continue;
+      is_free_[i / 8] |= static_cast<std::uint8_t>(1U << i % 8);
+      node_.push_back(static_cast<int>(i));
+    }
   }
-
-  [[nodiscard]] int n_unknowns() const { return n_unknowns_; }
-  [[nodiscard]] double coefficient(int u, std::size_t k) const {
-    return rows_[static_cast<std::size_t>(u)][k];
+  [[nodiscard]] int count() const { return static_cast<int>(node_.size()); }
+  [[nodiscard]] std::size_t node(int unknown) const {
+    return static_cast<std::size_t>(node_[static_cast<std::size_t>(unknown)]);
   }
-  [[nodiscard]] double right(int u) const { return right_[static_cast<std::size_t>(u)]; }
-  // The unknown coupled to u by lower_neighbors[k]; -1 when there is none.
-  [[nodiscard]] int coupled(int u, std::size_t k) const {
-    if (rows_[static_cast<std::size_t>(u)][k] == 0) return -1;
-    const Offset offset = lower_neighbors[k];
-    const auto step = static_cast<std::ptrdiff_t>(offset.j) * problem_.n_x + offset.i;
-    return unknown_[static_cast<std::size_t>(
-        static_cast<std::ptrdiff_t>(node_of_[static_cast<std::size_t>(u)]) + step)];
+  // The unknown at a node, -1 when the node is not free.
+  [[nodiscard]] int at(std::size_t node) const {
+    const unsigned bit = 1U << node % 8, byte = is_free_[node / 8];
+    if ((byte & bit) == 0) return -1;
+    return n_before_[node / 8] + bits_in[byte & (bit - 1)];
   }
 
  private:
+  // std::popcount is a call on a plain x86-64.
+  static constexpr std::array<std::uint8_t, 128> bits_in = [] {
+    std::array<std::uint8_t, 128> table{};
+    for (unsigned byte = 0; byte < table.size(); ++byte)
+      table[byte] = static_cast<std::uint8_t>(std::popcount(byte));
+    return table;
+  }();
+
+  std::vector<std::uint8_t> is_free_;
+  std::vector<int> n_before_;
+  std::vector<int> node_;  // of each unknown
+};
+
+// Nodes of the problem by column and row.
+class Nodes {
+ public:
+  explicit Nodes(const PlateProblem& problem)
+      : problem_(problem), n_x_(static_cast<std::size_t>(problem.n_x)) {}
   [[nodiscard]] std::size_t number(int i, int j) const {
-    return static_cast<std::size_t>(j) * static_cast<std::size_t>(problem_.n_x) +
-           static_cast<std::size_t>(i);
+    return static_cast<std::size_t>(j) * n_x_ + static_cast<std::size_t>(i);
+  }
+  [[nodiscard]] std::array<int, 2> place(std::size_t node) const {
+    return {static_cast<int>(node % n_x_), static_cast<int>(node / n_x_)};
   }
   [[nodiscard]] bool inside(int i, int j) const {
     return i >= 0 && j >= 0 && i < problem_.n_x && j < problem_.n_y &&
            problem_.node[number(i, j)] != Role::outside;
   }
-
-  // Whether the node or one of its four neighbours is free: only there is anything to add.
-  [[nodiscard]] bool near_free(int i, int j) const {
-    const auto is_free = [this](std::size_t node) { return problem_.node[node] == Role::free; };
-    const std::size_t node = number(i, j), row = static_cast<std::size_t>(problem_.n_x);
-    return is_free(node) || (i > 0 && is_free(node - 1)) ||
-           (i + 1 < problem_.n_x && is_free(node + 1)) || (j > 0 && is_free(node - row)) ||
-           (j + 1 < problem_.n_y && is_free(node + row));
-  }
-
-  // Adds weight * (sum coefficient z - target)^2.
-  void add_square(std::span<const Term> terms, double target, double weight) {
-    for (const Term& p : terms) {
-      if (unknown_[p.node] < 0) continue;
-      const auto row = static_cast<std::size_t>(unknown_[p.node]);
-      const double scale = weight * p.coefficient;
-      right_[row] += scale * target;
-      for (const Term& q : terms) {
-        const double value = scale * q.coefficient;
-        if (unknown_[q.node] < 0)
-          right_[row] -= value * height_of_(q.node);
-        else if (q.node <= p.node)
-          rows_[row][slot(p.node, q.node)] += value;
-      }
-    }
-  }
-
-  // Which of lower_neighbors leads from node p to q, q <= p.
-  [[nodiscard]] std::size_t slot(std::size_t p, std::size_t q) const {
-    const auto n_x = static_cast<std::size_t>(problem_.n_x);
-    const int i = static_cast<int>(q % n_x) - static_cast<int>(p % n_x);
-    const int j = static_cast<int>(q / n_x) - static_cast<int>(p / n_x);
-    if (j == 0) return static_cast<std::size_t>(-i);
-    return j == -2 ? 6 : static_cast<std::size_t>(4 + i);
-  }
-
-  [[nodiscard]] bool any_free(std::span<const Term> terms) const {
-    return std::any_of(terms.begin(), terms.end(),
-                       [this](const Term& t) { return unknown_[t.node] >= 0; });
-  }
-
-  // Bending and tension at node (i, j).
-  void add_node(int i, int j) {
-    if (!inside(i, j) || !near_free(i, j)) return;
-    std::array<Term, 5> laplacian;
-    std::size_t n = 1;
-    const auto add_direction = [&](int di, int dj) {
-      if (!inside(i - di, j - dj) || !inside(i + di, j + dj)) return;
-      laplacian[n++] = {number(i - di, j - dj), 1};
-      laplacian[n++] = {number(i + di, j + dj), 1};
-    };
-    add_direction(1, 0);
-    add_direction(0, 1);
-    laplacian[0] = {number(i, j), 1 - static_cast<double>(n)};
-    const std::span<const Term> terms(laplacian.data(), n);
-    if (n > 1 && any_free(terms)) add_square(terms, 0, 1);
-    add_tension(i, j, i + 1, j);
-    add_tension(i, j, i, j + 1);
-  }
-
-  void add_tension(int i, int j, int i2, int j2) {
-    if (!inside(i2, j2)) return;
-    const std::array<Term, 2> difference = {{{number(i, j), 1}, {number(i2, j2), -1}}};
-    if (!any_free(difference)) return;
-    const double tau = 0.5 * (static_cast<double>(problem_.tension[difference[0].node]) +
-                              static_cast<double>(problem_.tension[difference[1].node]));
-    add_square(difference, 0, tau);
-  }
-
-  void add_anchor(const Vec3& anchor) {
+  // Bilinear height at an anchor; coefficients of 0 where a corner of its cell is outside.
+  [[nodiscard]] std::array<Term, 4> height_at(const Vec3& anchor) const {
     const int i = static_cast<int>(std::floor(anchor.x()));
     const int j = static_cast<int>(std::floor(anchor.y()));
     const double x = anchor.x() - i, y = anchor.y() - j;
     for (int corner = 0; corner < 4; ++corner)
-      if (!inside(i + corner % 2, j + corner / 2)) return;
-    const std::array<Term, 4> bilinear = {{{number(i, j), (1 - x) * (1 - y)},
-                                           {number(i + 1, j), x * (1 - y)},
-                                           {number(i, j + 1), (1 - x) * y},
-                                           {number(i + 1, j + 1), x * y}}};
-    if (any_free(bilinear)) add_square(bilinear, anchor.z(), problem_.anchor_weight);
+      if (!inside(i + corner % 2, j + corner / 2)) return {};
+    return {{{i, j, (1 - x) * (1 - y)},
+             {i + 1, j, x * (1 - y)},
+             {i, j + 1, (1 - x) * y},
+             {i + 1, j + 1, x * y}}};
   }
 
+ private:
   const PlateProblem& problem_;
-  const std::function<double(std::size_t)>& height_of_;
-  int n_unknowns_ = 0;
-  std::vector<int> unknown_;                 // of each node, -1 when it is not free
-  std::vector<std::size_t> node_of_;         // of each unknown
-  std::vector<std::array<double, 7>> rows_;  // of K, by lower_neighbors
-  std::vector<double> right_;
+  std::size_t n_x_;
 };
 
-// Groups of unknowns that hang together, each rising, in the order of their first unknowns.
-std::vector<std::vector<int>> find_regions(const NormalEquations& equations) {
-  const int n = equations.n_unknowns();
-  std::vector<int> root(static_cast<std::size_t>(n));
+// Items in groups: those of group g are items[begin[g]] to items[begin[g + 1] - 1], rising.
+struct Groups {
+  std::vector<int> begin, items;
+  [[nodiscard]] std::span<const int> of(int group) const {
+    const auto g = static_cast<std::size_t>(group);
+    return std::span(items).subspan(static_cast<std::size_t>(begin[g]),
+                                    static_cast<std::size_t>(begin[g + 1] - begin[g]));
+  }
+};
+
+// Groups items by their group, -1 in none.
+Groups grouped(const std::vector<int>& group_of_item, int n_groups) {
+  Groups groups;
+  groups.begin.assign(static_cast<std::size_t>(n_groups) + 1, 0);
+  for (const int g : group_of_item)
+    if (g >= 0) ++groups.begin[static_cast<std::size_t>(g)];
+  std::inclusive_scan(groups.begin.begin(), groups.begin.end(), groups.begin.begin());
+  groups.items.resize(static_cast<std::size_t>(groups.begin.back()));
+  for (std::size_t i = group_of_item.size(); i-- > 0;)
+    if (group_of_item[i] >= 0)
+      groups.items[static_cast<std::size_t>(
+          --groups.begin[static_cast<std::size_t>(group_of_item[i])])] = static_cast<int>(i);
+  return groups;
+}
+
+// Region of each unknown: unknowns that may share a square, numbered by their first ones.
+std::vector<int> find_regions(const Nodes& nodes, const Unknowns& unknowns, int& n_regions) {
+  std::vector<int> root(static_cast<std::size_t>(unknowns.count()));
   std::iota(root.begin(), root.end(), 0);
   const auto find = [&](int u) {
     while (root[static_cast<std::size_t>(u)] != u) {
@@ -171,71 +136,195 @@ std::vector<std::vector<int>> find_regions(const NormalEquations& equations) {
     }
     return u;
   };
-  for (int u = 0; u < n; ++u)
-    for (std::size_t k = 1; k < lower_neighbors.size(); ++k) {
-      const int v = equations.coupled(u, k);
+  for (int u = 0; u < unknowns.count(); ++u) {
+    const auto [i, j] = nodes.place(unknowns.node(u));
+    for (const Offset offset : lower_neighbors) {
+      if (!nodes.inside(i + offset.i, j + offset.j)) continue;
+      const int v = unknowns.at(nodes.number(i + offset.i, j + offset.j));
       if (v < 0) continue;
       const int root_u = find(u), root_v = find(v);
       root[static_cast<std::size_t>(std::max(root_u, root_v))] = std::min(root_u, root_v);
     }
-  std::vector<int> region_of_root(static_cast<std::size_t>(n), -1);
-  std::vector<std::vector<int>> regions;
-  for (int u = 0; u < n; ++u) {
-    int& region = region_of_root[static_cast<std::size_t>(find(u))];
-    if (region < 0) {
-      region = static_cast<int>(regions.size());
-      regions.emplace_back();
-    }
-    regions[static_cast<std::size_t>(region)].push_back(u);
   }
-  return regions;
+  // A root is the lowest of its region, so its entry is a region's number before others read it.
+  n_regions = 0;
+  for (std::size_t u = 0; u < root.size(); ++u)
+    root[u] =
+        root[u] == static_cast<int>(u) ? n_regions++ : root[static_cast<std::size_t>(root[u])];
+  return root;
 }
 
-// Heights of one region into `height`; false when nothing holds it.
-bool solve_region(const NormalEquations& equations, const std::vector<int>& region,
-                  std::vector<int>& local, std::vector<double>& height) {
-  const auto n = static_cast<Eigen::Index>(region.size());
-  for (std::size_t i = 0; i < region.size(); ++i)
-    local[static_cast<std::size_t>(region[i])] = static_cast<int>(i);
-  std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(region.size() * lower_neighbors.size());
-  Eigen::VectorXd right(n);
-  for (std::size_t i = 0; i < region.size(); ++i) {
-    right[static_cast<Eigen::Index>(i)] = equations.right(region[i]);
-    for (std::size_t k = 0; k < lower_neighbors.size(); ++k) {
-      const int other = equations.coupled(region[i], k);
-      if (other >= 0)
-        entries.emplace_back(static_cast<int>(i), local[static_cast<std::size_t>(other)],
-                             equations.coefficient(region[i], k));
+// The normal equations of one region, K z = f, K by its lower half, unknowns by their place in the
+// region.
+class NormalEquations {
+ public:
+  NormalEquations(const PlateProblem& problem, const std::function<double(std::size_t)>& height_of,
+                  const Nodes& nodes, const Unknowns& unknowns,
+                  const std::vector<int>& region_of_unknown)
+      : problem_(problem),
+        height_of_(height_of),
+        nodes_(nodes),
+        unknowns_(unknowns),
+        region_of_unknown_(region_of_unknown),
+        local_(region_of_unknown.size(), -1) {}
+
+  void assemble(int region, std::span<const int> members, std::span<const int> anchors) {
+    region_ = region;
+    members_ = members;
+    rows_.assign(members.size(), {});
+    right_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(members.size()));
+    for (std::size_t k = 0; k < members.size(); ++k)
+      local_[static_cast<std::size_t>(members[k])] = static_cast<int>(k);
+    add_nodes();
+    for (const int a : anchors) {
+      const Vec3& anchor = problem_.anchors[static_cast<std::size_t>(a)];
+      add_square(nodes_.height_at(anchor), anchor.z(), problem_.anchor_weight);
     }
   }
-  Eigen::SparseMatrix<double> matrix(n, n);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  entries = {};
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> factor(matrix);
-  const bool held = factor.info() == Eigen::Success && factor.vectorD().minCoeff() > 0;
-  if (held) right = factor.solve(right);
-  for (std::size_t i = 0; i < region.size(); ++i)
-    height[static_cast<std::size_t>(region[i])] =
-        held ? right[static_cast<Eigen::Index>(i)] : std::numeric_limits<double>::quiet_NaN();
-  return held;
-}
+
+  // Heights of the region's unknowns; empty when nothing holds them.
+  [[nodiscard]] Eigen::VectorXd solved() const {
+    const Eigen::SimplicialLDLT<Matrix, Eigen::Lower> factor(matrix());
+    if (factor.info() != Eigen::Success || !(factor.vectorD().minCoeff() > 0)) return {};
+    return factor.solve(right_);
+  }
+
+ private:
+  using Matrix = Eigen::SparseMatrix<double>;
+
+  [[nodiscard]] Matrix matrix() const {
+    std::vector<Eigen::Triplet<double>> entries;
+    entries.reserve(rows_.size() * lower_neighbors.size());
+    for (std::size_t u = 0; u < rows_.size(); ++u) {
+      const auto [i, j] = nodes_.place(unknowns_.node(members_[u]));
+      for (std::size_t k = 0; k < lower_neighbors.size(); ++k) {
+        if (rows_[u][k] == 0) continue;
+        const Offset offset = lower_neighbors[k];
+        const int other = unknowns_.at(nodes_.number(i + offset.i, j + offset.j));
+        entries.emplace_back(static_cast<int>(u), local_[static_cast<std::size_t>(other)],
+                             rows_[u][k]);
+      }
+    }
+    const auto n = static_cast<Eigen::Index>(rows_.size());
+    Matrix lower(n, n);
+    lower.setFromTriplets(entries.begin(), entries.end());
+    return lower;
+  }
+
+  // Squares at the region's nodes and at those beside them, each once and by rising number: the
+  // nodes shifted by five offsets are five rising lists, which are merged.
+  void add_nodes() {
+    const auto n_x = static_cast<std::ptrdiff_t>(problem_.n_x);
+    const std::array<std::ptrdiff_t, 5> offset = {-n_x, -1, 0, 1, n_x};
+    const auto n_nodes = static_cast<std::ptrdiff_t>(problem_.node.size());
+    std::array<std::size_t, 5> at{};
+    const auto head = [&](std::size_t k) {
+      return at[k] < members_.size()
+                 ? static_cast<std::ptrdiff_t>(unknowns_.node(members_[at[k]])) + offset[k]
+                 : n_nodes;
+    };
+    while (at.back() < members_.size()) {
+      std::ptrdiff_t lowest = n_nodes;
+      for (std::size_t k = 0; k < at.size(); ++k) lowest = std::min(lowest, head(k));
+      for (std::size_t k = 0; k < at.size(); ++k) at[k] += head(k) == lowest ? 1 : 0;
+      if (lowest >= n_nodes) return;
+      if (lowest >= 0) add_node(static_cast<std::size_t>(lowest));
+    }
+  }
+
+  // Bending and tension at a node.
+  void add_node(std::size_t node) {
+    const auto [i, j] = nodes_.place(node);
+    if (!nodes_.inside(i, j)) return;
+    std::array<Term, 5> laplacian;
+    std::size_t n = 1;
+    for (const Offset d : {Offset{1, 0}, Offset{0, 1}}) {
+      if (!nodes_.inside(i - d.i, j - d.j) || !nodes_.inside(i + d.i, j + d.j)) continue;
+      laplacian[n++] = {i - d.i, j - d.j, 1};
+      laplacian[n++] = {i + d.i, j + d.j, 1};
+    }
+    laplacian[0] = {i, j, 1 - static_cast<double>(n)};
+    if (n > 1) add_square(std::span(laplacian).first(n), 0, 1);
+    for (const Offset d : {Offset{1, 0}, Offset{0, 1}}) {
+      if (!nodes_.inside(i + d.i, j + d.j)) continue;
+      const std::size_t next = nodes_.number(i + d.i, j + d.j);
+      const double tau = 0.5 * (static_cast<double>(problem_.tension[node]) +
+                                static_cast<double>(problem_.tension[next]));
+      add_square(std::array{Term{i, j, 1}, Term{i + d.i, j + d.j, -1}}, 0, tau);
+    }
+  }
+
+  // Adds weight * (sum coefficient z - target)^2, unless it is another region's: all unknowns of a
+  // square are in one region.
+  void add_square(std::span<const Term> terms, double target, double weight) {
+    std::array<int, 5> local{};
+    bool is_ours = false;
+    for (std::size_t k = 0; k < terms.size(); ++k) {
+      const int unknown = unknowns_.at(nodes_.number(terms[k].i, terms[k].j));
+      local[k] = unknown < 0 ? -1 : local_[static_cast<std::size_t>(unknown)];
+      is_ours |= unknown >= 0 && region_of_unknown_[static_cast<std::size_t>(unknown)] == region_;
+    }
+    if (!is_ours) return;
+    for (std::size_t p = 0; p < terms.size(); ++p) {
+      if (local[p] < 0) continue;
+      const double scale = weight * terms[p].coefficient;
+      right_[local[p]] += scale * target;
+      for (std::size_t q = 0; q < terms.size(); ++q) {
+        const double value = scale * terms[q].coefficient;
+        if (local[q] < 0)
+          right_[local[p]] -= value * height_of_(nodes_.number(terms[q].i, terms[q].j));
+        else if (local[q] <= local[p])
+          rows_[static_cast<std::size_t>(local[p])][slot(terms[p], terms[q])] += value;
+      }
+    }
+  }
+
+  // Which of lower_neighbors leads from p to q, a node of no higher number.
+  static std::size_t slot(const Term& p, const Term& q) {
+    if (p.j == q.j) return static_cast<std::size_t>(p.i - q.i);
+    return p.j - q.j == 2 ? 6 : static_cast<std::size_t>(4 + q.i - p.i);
+  }
+
+  const PlateProblem& problem_;
+  const std::function<double(std::size_t)>& height_of_;
+  const Nodes& nodes_;
+  const Unknowns& unknowns_;
+  const std::vector<int>& region_of_unknown_;
+  int region_ = -1;
+  std::span<const int> members_;             // unknowns of the region
+  std::vector<int> local_;                   // place of an unknown in its region (n_unknowns)
+  std::vector<std::array<double, 7>> rows_;  // of K, by lower_neighbors
+  Eigen::VectorXd right_;
+};
 
 }  // namespace
 
 PlateSolution solve_plate(const PlateProblem& problem,
                           const std::function<double(std::size_t)>& height_of,
                           const ProgressFunction& progress) {
-  const NormalEquations equations(problem, height_of);
+  const Nodes nodes(problem);
+  const Unknowns unknowns(problem.node);
   PlateSolution solution;
-  solution.height.resize(static_cast<std::size_t>(equations.n_unknowns()));
-  std::vector<int> local(solution.height.size());
+  const std::vector<int> region_of_unknown = find_regions(nodes, unknowns, solution.n_regions);
+  std::vector<int> region_of_anchor(problem.anchors.size(), -1);
+  for (std::size_t a = 0; a < problem.anchors.size(); ++a)
+    for (const Term& term : nodes.height_at(problem.anchors[a]))
+      if (const int u = unknowns.at(nodes.number(term.i, term.j)); term.coefficient != 0 && u >= 0)
+        region_of_anchor[a] = region_of_unknown[static_cast<std::size_t>(u)];
+  const Groups members = grouped(region_of_unknown, solution.n_regions);
+  const Groups anchors = grouped(region_of_anchor, solution.n_regions);
+
+  solution.height.assign(region_of_unknown.size(), std::numeric_limits<double>::quiet_NaN());
+  NormalEquations equations(problem, height_of, nodes, unknowns, region_of_unknown);
   std::size_t n_done = 0;
-  for (const std::vector<int>& region : find_regions(equations)) {
-    ++solution.n_regions;
-    if (!solve_region(equations, region, local, solution.height))
-      solution.n_unsolved += static_cast<int>(region.size());
-    n_done += region.size();
+  for (int region = 0; region < solution.n_regions; ++region) {
+    const std::span<const int> of_region = members.of(region);
+    equations.assemble(region, of_region, anchors.of(region));
+    const Eigen::VectorXd height = equations.solved();
+    if (height.size() == 0) solution.n_unsolved += static_cast<int>(of_region.size());
+    for (Eigen::Index k = 0; k < height.size(); ++k)
+      solution.height[static_cast<std::size_t>(of_region[static_cast<std::size_t>(k)])] = height[k];
+    n_done += of_region.size();
     if (progress)
       progress(static_cast<double>(n_done) / static_cast<double>(solution.height.size()));
   }

@@ -62,6 +62,7 @@ class RingBands {
 void cut_to_rings(const std::vector<std::vector<Vec2>>& rings, TriangleMesh& mesh) {
   if (rings.empty()) return;
   const RingBands bands(rings);
+  const bool has_neighbors = !mesh.neighbors.empty();
   std::vector<int> new_number(mesh.triangles.size(), -1);
   int n_kept = 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -69,11 +70,12 @@ void cut_to_rings(const std::vector<std::vector<Vec2>>& rings, TriangleMesh& mes
     const Vec3 sum = mesh.points[index(a)] + mesh.points[index(b)] + mesh.points[index(c)];
     if (!bands.contains(sum.head<2>() / 3)) continue;
     mesh.triangles[index(n_kept)] = mesh.triangles[t];
-    mesh.neighbors[index(n_kept)] = mesh.neighbors[t];
-    mesh.constrained[index(n_kept)] = mesh.constrained[t];
+    if (has_neighbors) mesh.neighbors[index(n_kept)] = mesh.neighbors[t];
+    if (has_neighbors) mesh.constrained[index(n_kept)] = mesh.constrained[t];
     new_number[t] = n_kept++;
   }
   mesh.triangles.resize(index(n_kept));
+  if (!has_neighbors) return;
   mesh.neighbors.resize(index(n_kept));
   mesh.constrained.resize(index(n_kept));
   for (auto& neighbors : mesh.neighbors)

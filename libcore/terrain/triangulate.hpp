@@ -18,8 +18,8 @@ namespace talus {
 struct TriangleMesh {
   std::vector<Vec3> points;                   ///< [m]                                (n_points)
   std::vector<std::array<int, 3>> triangles;  ///< indices into `points`              (n_triangles)
-  std::vector<std::array<int, 3>> neighbors;  ///< across each edge, -1 outside       (n_triangles)
-  std::vector<std::uint8_t> constrained;      ///< bit k: edge k is a segment given   (n_triangles)
+  std::vector<std::array<int, 3>> neighbors;  ///< across each edge, -1 outside (n_triangles or 0)
+  std::vector<std::uint8_t> constrained;  ///< bit k: edge k is a segment given (n_triangles or 0)
 };
 
 /// A triangulation that points can still be added to. Points keep their order and heights.
@@ -36,11 +36,17 @@ class Triangulation {
   /// Keeps edges of the triangulation as they are, whatever points are added: pairs of points.
   void fix_edges(const std::vector<std::array<int, 2>>& edges);
 
-  /// Adds points behind the others, along a curve that fills the plane. A point that stands on
+  /// Adds points behind the others, in an order that depends on them alone. A point that stands on
   /// another in plan is left out.
   void add(const std::vector<Vec3>& points);
 
-  /// The triangles as they are now, in an order that depends on nothing but the input.
+  /// Brings a mesh up to date: the points added since the last mesh go behind its own, which must
+  /// be the points given and added before (none at first: a mesh takes the points over, since they
+  /// are many), the triangles are as they are now, in an order that depends on nothing but the
+  /// input. With `only_triangles` neighbors and constrained stay empty.
+  void refresh(TriangleMesh& mesh, bool only_triangles = false);
+
+  /// The first mesh.
   [[nodiscard]] TriangleMesh mesh();
 
  private:

@@ -288,7 +288,7 @@ function talusViewer(root, scene) {
   };
   const tick = (clock) => {
     if (playing) {
-      now += Math.min(0.1, (clock - before) / 1000) * Number(find('.viewer-pace').value);
+      now += Math.min(0.1, Math.max(0, clock - before) / 1000) * Number(find('.viewer-pace').value);
       if (now >= times[nFrames - 1]) {
         now = times[nFrames - 1];
         setPlaying(false);

@@ -18,8 +18,15 @@ prints "param        mode = copy  (default)"
 expect 0 talus-runs trace two.txt
 prints "by run 3: frame-probe out.txt -o two.txt"
 prints "it's a"
+expect 0 talus-runs trace two.txt --prov
+prints '"talus:run/3": {'
+prints '"prov:entity": "talus:file/2cf24dba5fb0a30e26e83b2ac5b9e29e1b161e5c1fa7425e73043362938b9824"'
+mkdir -p away && cd away
+expect 0 talus-runs trace ../two.txt
+prints "by run 3: frame-probe out.txt -o two.txt"
+cd ..
 expect 1 talus-runs trace err
-says "no run in runs.sqlite wrote a file with this content"
+says "runs.sqlite wrote a file with this content"
 expect 1 talus-runs show 99
 expect 1 talus-runs list --db absent.sqlite
 printf 'not a database' >broken.sqlite

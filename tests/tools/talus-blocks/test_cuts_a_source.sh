@@ -20,3 +20,9 @@ if [ -n "$gdal_calc" ]; then
   volume=$(value r.json prism_volume_m3)
   holds "($mean * 576 * 4 / $volume - 1) ^ 2 < 1e-12"
 fi
+
+# the sloping local base level: its limits and its volume are reported
+expect 0 blocks --overwrite --report slbl.json --set source.failure_surface=slbl \
+  --set source.slbl_curvature_m=0.05 --set source.slbl_max_depth_m=3
+holds "$(value slbl.json slbl_curvature_m) == 0.05 && $(value slbl.json slbl_max_depth_m) == 3"
+holds "$(value slbl.json prism_volume_m3) > 0 && $(value slbl.json largest_depth_m) < 3 + 1e-9"

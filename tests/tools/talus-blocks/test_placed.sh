@@ -41,6 +41,10 @@ for shape in box prism eota rock; do
   holds "($(value r.json volume_m3) - 2.5) ^ 2 < 1e-20"
 done
 
+placed 'shape = "box"' 'size_m = [1]' 'position_m = [500020, 5200020]' 'n_per_point = 3'
+expect 0 blocks --overwrite
+says "blocks.one: 3 bodies at each release point overlap"
+
 placed 'shape = "box"' 'position_m = [500020, 5200020]'
 expect 1 blocks --overwrite
 says "neither size_m nor volume_m3 is given"

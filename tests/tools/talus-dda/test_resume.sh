@@ -49,6 +49,11 @@ wait $run_id || code=$?
 # only with the same settings
 expect 1 run_dda -o stopped.h5 $slow --resume --set ground.ground.friction_deg=21
 says "belongs to a run of other inputs or settings"
+cp stopped.h5.part other.h5.part
+expect 0 run_dda -o other.h5 $slow --resume --overwrite --set ground.ground.friction_deg=21
+expect 0 run_dda -o direct.h5 $slow --set ground.ground.friction_deg=21
+cmp other.h5 direct.h5 || fail "--resume --overwrite went on from a run of other settings"
+nothing_left other.h5.part
 expect 0 run_dda -o stopped.h5 $slow --resume
 cmp whole.h5 stopped.h5 || fail "the run resumed after SIGTERM differs from the whole one"
 

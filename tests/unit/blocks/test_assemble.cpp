@@ -175,6 +175,40 @@ TEST(AssembleBlocks, PairsOfBlocksShareNoVolume) {
   }
 }
 
+// The limits hold for the blocks as they come out, or the report counts those for which they do
+// not.
+TEST(AssembleBlocks, BlocksBelowTheLimitsAreCounted) {
+  Random random(24);
+  int n_checked = 0;
+  for (int number = 0; number < 40; ++number) {
+    SCOPED_TRACE("trial " + std::to_string(number));
+    const Trial trial = random_trial(random, number);
+    BlockSet set = new_set();
+    AssembleOptions options;
+    options.min_volume = 1e-3 * trial.volume;
+    options.min_thickness = 0.1 * trial.scene.bed.cell_size;
+    options.max_aspect = 20;
+    const AssembleReport report =
+        assemble_blocks(trial.complex, trial.joints, trial.scene.bed, options, set);
+    const auto bodies = parts_by_block(set);
+    int n_below = 0, n_short = 0;
+    for (int b = 0; b < n_blocks(set); ++b) {
+      const Vec3 size = extents({set.volume[b], set.centroid[b], set.second_moment[b]});
+      n_below += set.volume[b] < options.min_volume || size.z() < options.min_thickness ||
+                 size.x() > options.max_aspect * size.z();
+      double shortest = 1e9;
+      for (const Polyhedron& part : bodies[b])
+        for (const PolyhedronEdge& edge : edges(part))
+          shortest = std::min(shortest, (part.vertices[edge.a] - part.vertices[edge.b]).norm());
+      n_short += shortest < 1e-3 * std::cbrt(report.exact_volume[b]);
+      ++n_checked;
+    }
+    EXPECT_EQ(report.n_below_limits, n_below);
+    EXPECT_EQ(report.n_short_edged, n_short);
+  }
+  EXPECT_GT(n_checked, 200);
+}
+
 // A block below flat ground on a flat bed is convex as it is cut.
 TEST(AssembleBlocks, ConvexBlocksKeepTheirVolumeWhereTheyCan) {
   const Trn ground = grid(21, 21, 1, [](double x, double) { return 0.4 * x; });

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -219,4 +220,31 @@ TEST(FaceCentroid, OfANonConvexFaceIsItsCentreOfArea) {
   talus::add_face(body, std::array{0, 1, 2, 3, 4, 5}, 0);
   EXPECT_NEAR(talus::face_area(body, 0), 3, 1e-15);
   EXPECT_LT((talus::face_centroid(body, 0) - Vec3(2.5 / 3, 2.5 / 3, 1)).norm(), 1e-15);
+}
+
+// Four boxes around one edge, with common vertices, some of their faces lying on each other: the
+// eight faces at the edge pair up by box.
+TEST(Edges, FacesAboutACommonEdgePairUpByBody) {
+  using namespace talus;
+  Polyhedron all;
+  for (int k = 0; k < 4; ++k) {
+    const Vec3 low(k & 1, k >> 1, 0);
+    const Polyhedron one = box(low, low + Vec3::Ones(), k);
+    for (int f = 0; f < n_faces(one); ++f) {
+      std::vector<int> loop;
+      for (const int v : face(one, f)) {
+        const auto known = std::find(all.vertices.begin(), all.vertices.end(), one.vertices[v]);
+        loop.push_back(static_cast<int>(known - all.vertices.begin()));
+        if (known == all.vertices.end()) all.vertices.push_back(one.vertices[v]);
+      }
+      add_face(all, loop, k);
+    }
+  }
+  int n_at_the_edge = 0;
+  for (const PolyhedronEdge& edge : edges(all)) {
+    EXPECT_EQ(all.face_tag[edge.left], all.face_tag[edge.right]);
+    n_at_the_edge += all.vertices[edge.a].head<2>() == Vec2(1, 1) &&
+                     all.vertices[edge.b].head<2>() == Vec2(1, 1);
+  }
+  EXPECT_EQ(n_at_the_edge, 4);
 }

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <functional>
@@ -152,6 +153,116 @@ TEST(Mesh, ManyBodiesStandInOneFile) {
   ASSERT_EQ(bodies.size(), 2u);
   EXPECT_EQ(bodies[1].name, "other");
   EXPECT_NEAR(moments(bodies[1].surface).volume, 1.0 / 6, 1e-15);
+}
+
+// Eight unit cubes around one corner of a 2 x 2 x 2 cube: faces, edges and the corner in common.
+std::vector<Polyhedron> eight_cubes() {
+  std::vector<Polyhedron> cubes;
+  for (int k = 0; k < 8; ++k) {
+    const Vec3 low(k & 1, k >> 1 & 1, k >> 2);
+    cubes.push_back(box(low, low + Vec3::Ones()));
+  }
+  return cubes;
+}
+
+void expect_eight_cubes(const std::vector<MeshBody>& bodies) {
+  ASSERT_EQ(bodies.size(), 8u);
+  for (const MeshBody& body : bodies) {
+    EXPECT_EQ(check_surface(body.surface).fault, SurfaceFault::none);
+    EXPECT_EQ(check_surface(body.surface).n_shells, 1);
+    EXPECT_EQ(body.surface.vertices.size(), 8u);
+    EXPECT_DOUBLE_EQ(moments(body.surface).volume, 1);
+  }
+}
+
+// Each with vertices of its own, as objects of an OBJ file and without a name in an OFF file.
+TEST(Mesh, TouchingBodiesWithOwnVerticesStayApart) {
+  std::string objects, off = "OFF\n64 48 0\n", off_faces;
+  const std::vector<Polyhedron> cubes = eight_cubes();
+  for (size_t k = 0; k < cubes.size(); ++k) {
+    objects += "o cube" + std::to_string(k) + "\n";
+    for (const Vec3& v : cubes[k].vertices) {
+      const std::string words = text(v.x()) + " " + text(v.y()) + " " + text(v.z()) + "\n";
+      objects += "v " + words;
+      off += words;
+    }
+    for (int f = 0; f < 6; ++f) {
+      objects += "f";
+      off_faces += "4";
+      for (const int v : face(cubes[k], f)) {
+        objects += " " + std::to_string(8 * k + static_cast<size_t>(v) + 1);
+        off_faces += " " + std::to_string(8 * k + static_cast<size_t>(v));
+      }
+      objects += "\n";
+      off_faces += "\n";
+    }
+  }
+  const auto bodies = bodies_of(parse_obj(objects, "eight.obj"));
+  expect_eight_cubes(bodies);
+  EXPECT_EQ(bodies[3].name, "cube3");
+  expect_eight_cubes(bodies_of(parse_off(off + off_faces, "eight.off")));
+}
+
+// An STL file repeats the vertices of each triangle: only the orientation of the faces about an
+// edge tells which of them bound the same cube.
+TEST(Mesh, TouchingBodiesOfTrianglesStayApart) {
+  std::string stl = "solid eight\n";
+  for (const Polyhedron& cube : eight_cubes())
+    for (int f = 0; f < 6; ++f)
+      for (const int first : {0, 1}) {
+        const auto loop = face(cube, f);
+        stl += "facet normal 0 0 0\nouter loop\n";
+        for (const int v : {loop[0], loop[first + 1], loop[first + 2]})
+          stl += "vertex " + text(cube.vertices[v].x()) + " " + text(cube.vertices[v].y()) + " " +
+                 text(cube.vertices[v].z()) + "\n";
+        stl += "endloop\nendfacet\n";
+      }
+  expect_eight_cubes(bodies_of(parse_stl(stl + "endsolid eight\n", "eight.stl")));
+}
+
+// A body whose faces all have vertices of their own is closed by joining them within the object.
+TEST(Mesh, ObjectsOfLooseFacesAreClosed) {
+  std::string objects;
+  size_t n = 0;
+  for (const Polyhedron& cube : eight_cubes()) {
+    objects += "o cube\n";
+    for (int f = 0; f < 6; ++f) {
+      for (const int v : face(cube, f))
+        objects += "v " + text(cube.vertices[v].x()) + " " + text(cube.vertices[v].y()) + " " +
+                   text(cube.vertices[v].z()) + "\n";
+      objects += "f -4 -3 -2 -1\n";
+      ++n;
+    }
+  }
+  ASSERT_EQ(n, 48u);
+  expect_eight_cubes(bodies_of(parse_obj(objects, "loose.obj")));
+}
+
+// Groups divide the surface of one body; they do not make it two.
+TEST(Mesh, GroupsOfFacesAreOneBody) {
+  std::string cube = vertices_text("v ") + faces_text("f ", 1);
+  cube.insert(cube.find("f "), "g bottom\n");
+  cube.insert(cube.rfind("f "), "g side\n");
+  const auto bodies = bodies_of(parse_obj(cube, "groups.obj"));
+  ASSERT_EQ(bodies.size(), 1u);
+  EXPECT_DOUBLE_EQ(moments(bodies[0].surface).volume, 1);
+}
+
+// Blocks in place on a slope, with vertices of neighbours at equal coordinates. The volumes are
+// those with which the scene was made: 4,000 m3 in all, rounded to 9 decimals of a coordinate.
+TEST(Mesh, JointedRockMassReadsAsItsBlocks) {
+  const auto bodies = read_mesh(std::string(TALUS_SOURCE_DIR) + "/tests/data/blocks_39.obj");
+  ASSERT_EQ(bodies.size(), 39u);
+  double sum = 0, smallest = 1e9;
+  for (size_t b = 0; b < bodies.size(); ++b) {
+    EXPECT_EQ(bodies[b].name, "block_" + std::to_string(b));
+    EXPECT_EQ(check_surface(bodies[b].surface).fault, SurfaceFault::none);
+    EXPECT_TRUE(is_convex(bodies[b].surface, 1e-6));
+    sum += moments(bodies[b].surface).volume;
+    smallest = std::min(smallest, moments(bodies[b].surface).volume);
+  }
+  EXPECT_NEAR(sum, 4000, 1e-6);
+  EXPECT_NEAR(smallest, 51.8, 0.05);
 }
 
 TEST(Mesh, FaultsSayWhere) {

@@ -51,6 +51,25 @@ std::string with(const std::string& from, const std::string& to) {
   return bytes.replace(bytes.find(from), from.size(), to);
 }
 
+// MeshLab does not open a file with longer lines; the code is for viewers that look for one.
+TEST(TinPly, LongCrsStandsInShortLinesAndReadsBackWhole) {
+  Tin tin = example();
+  tin.crs_wkt = "PROJCRS[\"" + std::string(1500, 'x') + " y\",ID[\"EPSG\",2193]]";
+  const std::string bytes = bytes_of(tin);
+  EXPECT_EQ(parse_tin(bytes, "x.ply").crs_wkt, tin.crs_wkt);
+  std::stringstream header(bytes.substr(0, bytes.find("end_header")));
+  for (std::string line; std::getline(header, line);) EXPECT_LE(line.size(), 450u);
+  EXPECT_NE(bytes.find("\ncomment crs EPSG:2193\n"), std::string::npos);
+  tin.crs_wkt = "COMPOUNDCRS[\"a\",VERTCRS[\"b\",ID[\"EPSG\",5703]]]";  // the code of a part only
+  EXPECT_EQ(bytes_of(tin).find("comment crs "), std::string::npos);
+}
+
+// One line with the whole CRS is read too.
+TEST(TinPly, CrsInOneLineIsRead) {
+  const std::string bytes = with("comment crs_wkt ", "comment crs ");
+  EXPECT_EQ(parse_tin(bytes, "x.ply").crs_wkt, parse_tin(bytes_of(example()), "x.ply").crs_wkt);
+}
+
 TEST(TinPly, ReadsBackWhatItWrote) {
   const Tin tin = example(), back = parse_tin(bytes_of(tin), "x.ply");
   EXPECT_EQ(back.origin, tin.origin);

@@ -207,6 +207,8 @@ TEST(Storage, OfAPlaneIsTheWedge) {
   const Trn trn = plane_trn(0.5, 1, 80, 60);
   const Fence fence = fence_along({{40, 10}, {40, 40}}, trn);
   EXPECT_NEAR(storage(fence, 1, 1, trn, 100), 0.5 * 4 * 8 * 10, 1e-9);
+  EXPECT_EQ(uphill_side(fence, trn), 1);
+  EXPECT_EQ(uphill_side(fence, plane_trn(-0.5, 1, 80, 60)), -1);
 }
 
 TEST(DesignCode, OfUniMultipliesSpeedPercentileAndDesignMass) {

@@ -286,6 +286,59 @@ TEST(MapGrid, RefusesSizesThatWouldHaveToBeResampled) {
     EXPECT_THROW(map_grid(recorded, size, "--x"), InputError);
 }
 
+TEST(MapTiles, CoverAllCellsWithNoMoreRowsThanAllowed) {
+  Random random(8);
+  std::vector<std::uint32_t> rows_of_cell(500);
+  for (auto& n : rows_of_cell) n = static_cast<std::uint32_t>(random.below(40));
+  rows_of_cell[77] = 1000;  // more than a tile may hold
+  std::uint32_t end = 0;
+  for (const MapTile& tile : tiles_of(rows_of_cell, 100)) {
+    EXPECT_EQ(tile.first, end);
+    end = tile.end;
+    std::uint32_t n = 0;
+    for (std::uint32_t cell = tile.first; cell < tile.end; ++cell) n += rows_of_cell[cell];
+    EXPECT_TRUE(n <= 100 || tile.end == tile.first + 1) << n;
+  }
+  EXPECT_EQ(end, 500U);
+}
+
+// Layers made tile by tile hold the bits of those made at once.
+TEST(MapTiles, ChangeNothing) {
+  const HandMade made = random_runs(14, 9, true, 0.6, 6);
+  for (const int factor : {1, 2}) {
+    const MapGrid map = map_grid(made.grid, made.grid.cell_size * factor, "");
+    const auto layers_of = [&](const MapTile& tile) {
+      std::vector<std::vector<MapRow>> rows;
+      for (const auto& run : made.runs)
+        rows.push_back(map_rows(run.passages, made.grid, map, run.weight, tile));
+      const CellRows cells = group_by_cell(
+          std::move(rows), static_cast<std::size_t>(map.grid.n_rows) * map.grid.n_cols);
+      return std::vector{reach_layer(cells, 2, made.released(), {}),
+                         quantity_layer(cells, MapQuantity::centroid_height, made.released(), {}),
+                         arrival_layer(cells)};
+    };
+    std::vector<std::uint32_t> rows_of_cell(static_cast<std::size_t>(map.grid.n_rows) *
+                                            map.grid.n_cols);
+    for (const auto& run : made.runs)
+      for (const MapRow& row : map_rows(run.passages, made.grid, map, run.weight))
+        ++rows_of_cell[row.cell];
+    const std::vector<MapTile> tiles = tiles_of(rows_of_cell, 300);
+    ASSERT_GT(tiles.size(), 5U);
+    std::vector<MapLayer> tiled = layers_of(tiles[0]);
+    for (std::size_t t = 1; t < tiles.size(); ++t) {
+      const auto next = layers_of(tiles[t]);
+      for (std::size_t i = 0; i < tiled.size(); ++i) append(tiled[i], next[i]);
+    }
+    const std::vector<MapLayer> whole = layers_of({});
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+      EXPECT_EQ(tiled[i].cell, whole[i].cell);
+      for (std::size_t b = 0; b < whole[i].bands.size(); ++b)
+        for (std::size_t k = 0; k < whole[i].cell.size(); ++k)
+          expect_value(tiled[i].bands[b].value[k], whole[i].bands[b].value[k]);
+    }
+  }
+}
+
 TEST(OnGrid, TellsZeroFromNodata) {
   HandMade made = random_runs(1, 1, false, 0, 1);
   Passage p;

@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "base/random.hpp"
@@ -67,17 +70,51 @@ TEST(EventReach, OfAStraightSlideIsExact) {
   }
 }
 
+// The toe is where the deposit ends, not where the longest way ends.
+TEST(EventReach, TakesTheFarthestBlockAsToe) {
+  RunFile run;
+  for (int block = 0; block < 2; ++block) add_box(run, {2, 2, 2}, {0, 0, 0});
+  const std::vector<Vec3> round = {
+      {10, 0, 95}, {20, 0, 95}, {20, 10, 95}, {10, 10, 95}, {10, 0, 95}};
+  for (int k = 0; k < 5; ++k)
+    add_frame(run, k, {standing(round[k]), standing({10 + 8.0 * k, 0, 90})});
+  const EventReach event = event_reach(run, bent_trn(), {});
+  EXPECT_GT(event.blocks[0].reach.path, event.blocks[1].reach.path);
+  EXPECT_EQ(event.toe_block, 1);
+}
+
 // A way that flattens and then drops again: the angle at its end hides that a flatter energy line
 // would have been needed before.
 TEST(AngleProfile, SaysWhereItIsNotMonotone) {
   const std::vector<Vec3> falling = {{0, 0, 100}, {50, 0, 60}, {150, 0, 40}};
-  EXPECT_TRUE(angle_profile(falling, 5, 1e-3).monotone);
+  EXPECT_TRUE(angle_profile(falling, 5, 0).monotone);
   const std::vector<Vec3> stepped = {{0, 0, 100}, {50, 0, 60}, {150, 0, 50}, {200, 0, 0}};
-  const AngleProfile profile = angle_profile(stepped, 5, 1e-3);
+  const AngleProfile profile = angle_profile(stepped, 5, 24.9);
   EXPECT_FALSE(profile.monotone);
   EXPECT_DOUBLE_EQ(profile.smallest, std::atan(50.0 / 150));
   EXPECT_DOUBLE_EQ(profile.smallest_at, 150);
   EXPECT_DOUBLE_EQ(profile.angle.back(), std::atan(100.0 / 200));
+  // the line from the start to the end runs at 100 - 150 / 2 = 25 over the ground at 50
+  EXPECT_DOUBLE_EQ(profile.missing_head, 25);
+  EXPECT_TRUE(angle_profile(stepped, 5, 25.1).monotone);
+}
+
+// lechtal_kotdam's expected path (data/SOURCES.md) is not monotone, the other three sites' are.
+TEST(AngleProfile, OfTheSharedSitesPaths) {
+  const std::string folder = std::string(TALUS_SHARED_DIR) + "/data/scenarios/";
+  const std::map<std::string, bool> is_monotone = {{"gschnitz_gar", true},
+                                                   {"lechtal_kotcliff", true},
+                                                   {"lechtal_kotdam", false},
+                                                   {"salisbury_crags", true}};
+  for (const auto& [site, expected] : is_monotone) {
+    std::ifstream file(folder + site + ".json");
+    if (!file) GTEST_SKIP() << folder << " is absent";
+    std::vector<Vec3> points;
+    const nlohmann::json scenario = nlohmann::json::parse(file);
+    for (const auto& p : scenario["path"]["points"]) points.emplace_back(p[0], p[1], p[2]);
+    const AngleProfile profile = angle_profile(points, 0.1 * horizontal_length(points), 0.5);
+    EXPECT_EQ(profile.monotone, expected) << site << ": " << profile.missing_head << " m";
+  }
 }
 
 // Intersections of the line z = 100 - d tan(angle) with the way, by hand.

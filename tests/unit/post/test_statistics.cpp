@@ -20,6 +20,23 @@ std::vector<WeightedValue> random_sample(Random& random, int n, bool whole_weigh
   return sample;
 }
 
+struct RunValue {
+  double value = 0;
+  double weight = 1;
+  int run = 0;
+};
+
+void sort_descending(std::vector<RunValue>& values) {
+  std::sort(values.begin(), values.end(),
+            [](const RunValue& a, const RunValue& b) { return a.value > b.value; });
+}
+
+std::vector<RunWeight> weights_of(const std::vector<RunValue>& values) {
+  std::vector<RunWeight> weights;
+  for (const RunValue& v : values) weights.push_back({v.run, v.weight});
+  return weights;
+}
+
 // P(Binomial(n, p) <= k) by the plain recursion, in long double.
 long double binomial_cdf(int n, long double p, int k) {
   long double pmf = std::pow(1 - p, static_cast<long double>(n)), sum = 0;
@@ -116,29 +133,41 @@ TEST(BoundRank, OfTheMedianIsSymmetric) {
     EXPECT_EQ(lower_bound_rank(n, 0.5), n + 1 - upper_bound_rank(n, 0.5));
 }
 
-// With runs of one value each, all percentiles of all resamples can be listed and sorted.
-TEST(BootstrapUpperPercentile, EqualsTheListOfAllResamples) {
+// All percentiles of all resamples, listed and sorted; with equal and with different weights.
+TEST(BootstrapUpperPlaces, EqualTheListOfAllResamples) {
   Random random(3);
   const RunResamples resamples = resample_runs(12, 99, 5);
-  std::vector<RunValue> values;
-  for (int run = 0; run < 12; ++run)
-    for (std::uint64_t i = 0; i < 1 + random.below(3); ++i)
-      values.push_back({std::floor(random.uniform(0, 9)), 1.0 + random.below(3), run});
-  std::sort(values.begin(), values.end(), [](auto& a, auto& b) { return a.value > b.value; });
-  for (const double p : {0.5, 0.9, 0.95}) {
-    std::vector<double> expected;
-    for (int b = 0; b < 99; ++b) {
-      std::vector<WeightedValue> sample;
-      for (const RunValue& v : values)
-        sample.push_back({v.value, v.weight * resamples.of_run(v.run)[b]});
-      sort_values(sample);
-      const double value = weighted_percentile(sample, p);
-      if (!std::isnan(value)) expected.push_back(value);
+  const std::vector<double> levels = {0.95, 0.9, 0.5};
+  for (const int n_weights : {1, 3}) {
+    std::vector<RunValue> values;
+    for (int run = 0; run < 12; ++run)
+      for (std::uint64_t i = 0; i < 1 + random.below(3); ++i)
+        values.push_back(
+            {std::floor(random.uniform(0, 9)), 0.7 * (1.0 + random.below(n_weights)), run});
+    sort_descending(values);
+    const std::vector<int> places = bootstrap_upper_places(weights_of(values), resamples, levels);
+    for (std::size_t level = 0; level < levels.size(); ++level) {
+      std::vector<double> expected;
+      for (int b = 0; b < 99; ++b) {
+        std::vector<WeightedValue> sample;
+        for (const RunValue& v : values)
+          sample.push_back({v.value, v.weight * resamples.of_run(v.run)[b]});
+        sort_values(sample);
+        const double value = weighted_percentile(sample, levels[level]);
+        if (!std::isnan(value)) expected.push_back(value);
+      }
+      std::sort(expected.begin(), expected.end());
+      const auto rank = static_cast<std::size_t>(std::ceil(0.95 * expected.size() - 1e-9));
+      EXPECT_EQ(values[places[level]].value, expected[rank - 1]);
     }
-    std::sort(expected.begin(), expected.end());
-    const auto rank = static_cast<std::size_t>(std::ceil(0.95 * expected.size() - 1e-9));
-    EXPECT_EQ(bootstrap_upper_percentile(values, resamples, p), expected[rank - 1]);
   }
+}
+
+TEST(BootstrapUpperPlaces, AreNoneWithoutWeight) {
+  const RunResamples resamples = resample_runs(3, 20, 1);
+  const std::vector<RunWeight> weightless = {{0, 0}, {1, 0}};
+  EXPECT_EQ(bootstrap_upper_places({}, resamples, std::vector{0.9, 0.5}), (std::vector{-1, -1}));
+  EXPECT_EQ(bootstrap_upper_places(weightless, resamples, std::vector{0.9}), std::vector{-1});
 }
 
 TEST(ResampleRuns, DrawsAsManyRunsAsThereAreAndRepeatsItself) {
@@ -154,7 +183,7 @@ TEST(ResampleRuns, DrawsAsManyRunsAsThereAreAndRepeatsItself) {
 
 // 40 runs with 25 blocks each that share their run's factor: the bound must cover the true
 // percentile about as often as it says, where blocks taken as independent would not.
-TEST(BootstrapUpperPercentile, CoversThePercentileOfRunsWhoseBlocksGoTogether) {
+TEST(BootstrapUpperPlaces, CoverThePercentileOfRunsWhoseBlocksGoTogether) {
   Random random(11);
   const RunResamples resamples = resample_runs(40, 200, 1);
   const auto draw = [&random](double factor) { return factor + 0.1 * random.normal(); };
@@ -170,8 +199,9 @@ TEST(BootstrapUpperPercentile, CoversThePercentileOfRunsWhoseBlocksGoTogether) {
       const double factor = random.uniform();
       for (int i = 0; i < 25; ++i) values.push_back({draw(factor), 1, run});
     }
-    std::sort(values.begin(), values.end(), [](auto& a, auto& b) { return a.value > b.value; });
-    covered += bootstrap_upper_percentile(values, resamples, 0.9) >= truth;
+    sort_descending(values);
+    const int place = bootstrap_upper_places(weights_of(values), resamples, std::vector{0.9})[0];
+    covered += values[place].value >= truth;
     covered_as_if_independent += values[1000 - upper_bound_rank(1000, 0.9)].value >= truth;
   }
   EXPECT_GE(covered, 300 * 0.88);

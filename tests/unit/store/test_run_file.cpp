@@ -148,6 +148,32 @@ TEST(RunFile, ReadsBackWhatWasWritten) {
   EXPECT_EQ(back.checkpoint, run.checkpoint);
 }
 
+TEST(RunFile, IsReadInParts) {
+  const TemporaryFile file("parts.h5");
+  const RunFile run = sample(50, 70);
+  talus::write_run_file(file.path, run);
+  const RunFile head = talus::read_run_head(file.path);
+  EXPECT_EQ(head.info.site, run.info.site);
+  EXPECT_EQ(head.info.trn_sha256, run.info.trn_sha256);
+  EXPECT_TRUE(head.info.config.empty());
+  EXPECT_EQ(head.grid.n_cols, run.grid.n_cols);
+  EXPECT_EQ(n_blocks(head), 0);
+
+  const RunFile last = talus::read_run_file(
+      file.path, {.only_last_frame = true, .only_faults = true, .words = false});
+  EXPECT_TRUE(last.info.plan.empty());
+  EXPECT_EQ(last.health[2].unconverged, 5);
+  EXPECT_EQ(last.health[2].friction, 0);
+  ASSERT_EQ(n_frames(last.frames), 1);
+  EXPECT_EQ(last.frames.time[0], run.frames.time[49]);
+  for (int b = 0; b < 2; ++b) {
+    const auto found = frame_block(last, 0, b), expected = frame_block(run, 49, b);
+    EXPECT_EQ(found.position, expected.position);
+    EXPECT_EQ(found.attitude.coeffs(), expected.attitude.coeffs());
+    EXPECT_EQ(found.spin, expected.spin);
+  }
+}
+
 TEST(RunFile, HoldsARunWithoutRows) {
   const TemporaryFile file("empty.h5");
   RunFile run = sample(0, 0);

@@ -46,8 +46,9 @@ Scene triangulate(const ContourMap& map) {
 }
 
 MendingPoints mend(const Scene& scene) {
-  return talus::mend_flat_triangles(
-      scene.mesh, talus::find_flat_triangles(scene.mesh, scene.measured), {scene.interval, 0});
+  TriangleMesh mesh = scene.mesh;
+  return talus::mend_flat_triangles(mesh, talus::find_flat_triangles(scene.mesh, scene.measured),
+                                    {scene.interval, 0});
 }
 
 // A cone of slope 1/2 with contours every 10 m, its top at 55 m, five metres above the last
@@ -167,10 +168,11 @@ MendedScene mend_ragged_rings() {
   MendedScene scene;
   scene.before = triangulation.mesh();
   scene.flat_before = talus::find_flat_triangles(scene.before, measured);
-  const MendingPoints mended = talus::mend_flat_triangles(scene.before, scene.flat_before, {10, 0});
+  scene.after = scene.before;
+  const MendingPoints mended = talus::mend_flat_triangles(scene.after, scene.flat_before, {10, 0});
   triangulation.fix_edges(mended.border);
   triangulation.add(mended.points);
-  scene.after = triangulation.mesh();
+  triangulation.refresh(scene.after);
   scene.flat_after = talus::find_flat_triangles(scene.after, measured);
   return scene;
 }

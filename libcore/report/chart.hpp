@@ -1,0 +1,32 @@
+// libcore/report/chart.hpp
+// Line charts as SVG that stands in a page: axes with round numbers, a legend, no script.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace talus {
+
+/// One line; gaps where y is NaN (or not above 0 on a logarithmic axis).
+struct ChartSeries {
+  std::string name;    ///< in the legend; empty: none
+  std::string colour;  ///< CSS
+  std::vector<double> x, y;
+  double width = 1.8;  ///< of the stroke [px]
+};
+
+struct Chart {
+  std::string title, x_label, y_label;
+  std::vector<ChartSeries> series;
+  bool log_y = false;
+};
+
+/// Round numbers (1, 2 or 5 times a power of ten apart) that cover [low, high] with about `n`
+/// steps.
+[[nodiscard]] std::vector<double> round_ticks(double low, double high, int n);
+
+/// 640 x 300 units; as wide as its place in the page.
+[[nodiscard]] std::string chart_svg(const Chart& chart);
+
+}  // namespace talus

@@ -1,0 +1,98 @@
+#include "report/encode.hpp"
+
+#include <array>
+#include <bit>
+
+namespace talus {
+namespace {
+
+template <class T>
+std::string little_endian(const std::vector<T>& values) {
+  std::string bytes;
+  bytes.reserve(4 * values.size());
+  for (const T value : values) {
+    const auto bits = std::bit_cast<std::uint32_t>(value);
+    for (int k = 0; k < 4; ++k) bytes += static_cast<char>(bits >> (8 * k) & 255u);
+  }
+  return bytes;
+}
+
+}  // namespace
+
+std::string escaped(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '&') {
+      out += "&amp;";
+    } else if (c == '<') {
+      out += "&lt;";
+    } else if (c == '>') {
+      out += "&gt;";
+    } else if (c == '"') {
+      out += "&quot;";
+    } else if (static_cast<unsigned char>(c) >= 32 || c == '\n' || c == '\t') {
+      out += c;
+    }
+  }
+  return out;
+}
+
+std::string base64(std::string_view bytes) {
+  static constexpr std::string_view letters =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  out.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t n = std::min<std::size_t>(3, bytes.size() - i);
+    std::uint32_t bits = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      bits = bits << 8 | (k < n ? static_cast<unsigned char>(bytes[i + k]) : 0u);
+    for (std::size_t k = 0; k < 4; ++k) out += k <= n ? letters[bits >> (18 - 6 * k) & 63u] : '=';
+  }
+  return out;
+}
+
+std::string base64(const std::vector<float>& values) { return base64(little_endian(values)); }
+std::string base64(const std::vector<std::uint32_t>& values) {
+  return base64(little_endian(values));
+}
+
+std::string data_address(const std::string& media_type, std::string_view bytes) {
+  return "data:" + media_type + ";base64," + base64(bytes);
+}
+
+std::string json_string(std::string_view text) {
+  static constexpr std::string_view hex = "0123456789abcdef";
+  std::string out = "\"";
+  for (const char c : text) {
+    const auto u = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') {
+      out += std::string("\\") + c;
+    } else if (u < 32 || c == '<') {  // "<" could end the script element
+      out += std::string("\\u00") + hex[u >> 4] + hex[u & 15];
+    } else {
+      out += c;
+    }
+  }
+  return out + "\"";
+}
+
+std::string html_table(const std::vector<std::string>& headings,
+                       const std::vector<std::vector<std::string>>& rows,
+                       const std::vector<bool>& is_number) {
+  const auto cell = [&is_number](const char* tag, std::size_t column, const std::string& content) {
+    const bool right = column < is_number.size() && is_number[column];
+    return std::string("<") + tag + (right ? " class=\"n\">" : ">") + content + "</" + tag + ">";
+  };
+  std::string out = "<div class=\"wide\"><table>\n<thead><tr>";
+  for (std::size_t c = 0; c < headings.size(); ++c) out += cell("th", c, headings[c]);
+  out += "</tr></thead>\n<tbody>\n";
+  for (const auto& row : rows) {
+    out += "<tr>";
+    for (std::size_t c = 0; c < row.size(); ++c) out += cell("td", c, row[c]);
+    out += "</tr>\n";
+  }
+  return out + "</tbody></table></div>\n";
+}
+
+}  // namespace talus

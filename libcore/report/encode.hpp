@@ -1,0 +1,34 @@
+// libcore/report/encode.hpp
+// Text and numbers as the parts of a self-contained page: escaped, base64, data addresses.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace talus {
+
+/// `text` with & < > " as entities: safe as HTML or XML text and in quoted attributes. Control
+/// characters that XML 1.0 forbids are left out.
+[[nodiscard]] std::string escaped(std::string_view text);
+
+/// Base64 with padding (RFC 4648).
+[[nodiscard]] std::string base64(std::string_view bytes);
+/// Numbers as little-endian bytes in base64, in single precision.
+[[nodiscard]] std::string base64(const std::vector<float>& values);
+[[nodiscard]] std::string base64(const std::vector<std::uint32_t>& values);
+
+/// "data:TYPE;base64,..." of a file's content.
+[[nodiscard]] std::string data_address(const std::string& media_type, std::string_view bytes);
+
+/// A JSON string in its quotes that may also stand inside an HTML script element.
+[[nodiscard]] std::string json_string(std::string_view text);
+
+/// A table with a line of headings; cells are HTML already. Columns of numbers are set right
+/// (`is_number`, one a column; empty: none).
+[[nodiscard]] std::string html_table(const std::vector<std::string>& headings,
+                                     const std::vector<std::vector<std::string>>& rows,
+                                     const std::vector<bool>& is_number = {});
+
+}  // namespace talus

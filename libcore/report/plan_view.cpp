@@ -1,0 +1,121 @@
+#include "report/plan_view.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "base/text.hpp"
+#include "post/deposit.hpp"
+#include "post/runout.hpp"
+#include "report/encode.hpp"
+
+namespace talus {
+namespace {
+
+// Metres of the drawing: x to the east, y to the south, zero at the north-west node.
+struct Place {
+  const Trn& trn;
+  [[nodiscard]] Vec2 of(double x, double y) const { return {x - trn.node0.x(), trn.node0.y() - y}; }
+};
+
+std::string number(double value) { return text(std::round(value * 100) / 100); }
+
+std::string path_of(const std::vector<Vec2>& points, const Place& place, bool closed) {
+  std::string out;
+  for (const Vec2& p : points) {
+    const Vec2 at = place.of(p.x(), p.y());
+    out += (out.empty() ? "M" : "L") + number(at.x()) + " " + number(at.y());
+  }
+  return out + (closed ? "Z" : "");
+}
+
+std::string shape(const std::string& css_class, const std::string& d, const std::string& title) {
+  return "<path class=\"" + css_class + "\" d=\"" + d + "\">" +
+         (title.empty() ? "" : "<title>" + escaped(title) + "</title>") + "</path>\n";
+}
+
+std::vector<Vec2> plan_of(const std::vector<Vec3>& points) {
+  std::vector<Vec2> plan;
+  for (const Vec3& p : points) plan.emplace_back(p.head<2>());
+  return plan;
+}
+
+// A round length of about a quarter of the width.
+std::string scale_and_north(const PlanWindow& w) {
+  const double width = w.high.x() - w.low.x(), unit = width / 100;
+  double length = std::pow(10, std::floor(std::log10(width / 4)));
+  for (const double factor : {5.0, 2.0})
+    if (factor * length <= width / 4) {
+      length *= factor;
+      break;
+    }
+  const double x = w.low.x() + 3 * unit, y = w.high.y() - 3 * unit;
+  const double north_x = w.high.x() - 5 * unit, north_y = w.low.y() + 10 * unit;
+  return "<g font-size=\"" + number(2.6 * unit) + "\" class=\"marks\">" + "<path d=\"M" +
+         number(x) + " " + number(y - unit) + "v" + number(unit) + "h" + number(length) + "v" +
+         number(-unit) + "\" fill=\"none\" stroke=\"#000\" stroke-width=\"" + number(0.35 * unit) +
+         "\"/><text x=\"" + number(x + length + unit) + "\" y=\"" + number(y) + "\">" +
+         text(length) + " m</text><path d=\"M" + number(north_x) + " " + number(north_y) + "l" +
+         number(1.6 * unit) + " " + number(0.8 * unit) + "l" + number(-1.6 * unit) + " " +
+         number(-6 * unit) + "l" + number(-1.6 * unit) + " " + number(6 * unit) +
+         "z\"/><text text-anchor=\"middle\" x=\"" + number(north_x) + "\" y=\"" +
+         number(north_y - 6 * unit) + "\">N</text></g>\n";
+}
+
+std::string blocks_of(const RunFile& run, const Trn& trn) {
+  const Place place{trn};
+  std::string starts, paths, ends;
+  for (int b = 0; b < n_blocks(run); ++b) {
+    const std::string name =
+        "block " + std::to_string(b) + ", " + text(run.blocks.volume[b], 4) + " m3";
+    starts += shape("start", path_of(footprint(run, b, first_pose(run, b)), place, true), name);
+    if (n_frames(run.frames) == 0) continue;
+    const TimedPath way = simplified(block_path(run, b), 0.25);
+    paths += shape("way", path_of(plan_of(way.point), place, false), name);
+    ends += shape("end", path_of(footprint(run, b, last_pose(run, b)), place, true), name);
+  }
+  return starts + paths + ends;
+}
+
+}  // namespace
+
+PlanWindow plan_window(const RunFile& run, const Trn& trn) {
+  const double infinite = std::numeric_limits<double>::infinity();
+  PlanWindow w{Vec2::Constant(infinite), Vec2::Constant(-infinite)};
+  const auto add = [&w](const Vec2& p) {
+    w.low = w.low.cwiseMin(p);
+    w.high = w.high.cwiseMax(p);
+  };
+  const std::vector<double>& p = run.frames.position;
+  for (std::size_t i = 0; i + 2 < p.size(); i += 3) add({p[i], p[i + 1]});
+  for (const RecordLine& line : run.lines)
+    for (const Vec3& point : line.points) add(point.head<2>());
+  const Vec2 south_west(trn.node0.x(), trn.node0.y() - (trn.n_rows - 1) * trn.cell_size);
+  const Vec2 north_east(trn.node0.x() + (trn.n_cols - 1) * trn.cell_size, trn.node0.y());
+  if (!(w.low.x() <= w.high.x())) return {south_west, north_east};
+  const double margin = std::max(0.25 * (w.high - w.low).maxCoeff(), 4 * trn.cell_size);
+  return {(w.low.array() - margin).matrix().cwiseMax(south_west),
+          (w.high.array() + margin).matrix().cwiseMin(north_east)};
+}
+
+std::string plan_view_svg(const RunFile& run, const Trn& trn, std::string_view hillshade_png) {
+  const PlanWindow map = plan_window(run, trn);
+  const Place place{trn};  // north is up here, and down in the drawing
+  const PlanWindow w{place.of(map.low.x(), map.high.y()), place.of(map.high.x(), map.low.y())};
+  const double cell = trn.cell_size;
+  std::string out = "<svg class=\"plan\" viewBox=\"" + number(w.low.x()) + " " + number(w.low.y()) +
+                    " " + number(w.high.x() - w.low.x()) + " " + number(w.high.y() - w.low.y()) +
+                    "\" role=\"img\" aria-label=\"map of the run\">\n<image x=\"" +
+                    number(-cell / 2) + "\" y=\"" + number(-cell / 2) + "\" width=\"" +
+                    number(trn.n_cols * cell) + "\" height=\"" + number(trn.n_rows * cell) +
+                    "\" preserveAspectRatio=\"none\" href=\"" +
+                    data_address("image/png", hillshade_png) + "\"/>\n";
+  out += blocks_of(run, trn);
+  for (const RecordLine& line : run.lines)
+    out += shape("fence", path_of(plan_of(line.points), place, false), "fence " + line.name);
+  return out + scale_and_north(w) + "</svg>\n";
+}
+
+}  // namespace talus

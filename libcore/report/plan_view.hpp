@@ -1,0 +1,26 @@
+// libcore/report/plan_view.hpp
+// A map of a run as SVG over the hillshade: where the mass started, which way each block took,
+// where it came to rest, lines of fences. Scale bar and north arrow.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "store/run_file.hpp"
+#include "terrain/trn.hpp"
+
+namespace talus {
+
+/// Part of a map, local coordinates [m].
+struct PlanWindow {
+  Vec2 low = Vec2::Zero(), high = Vec2::Zero();
+};
+/// All frames and lines of a run and a quarter more on each side, within the terrain; all of the
+/// terrain for a run without frames and lines.
+[[nodiscard]] PlanWindow plan_window(const RunFile& run, const Trn& trn);
+
+/// `hillshade_png`: a pixel a node of `trn`. Throws nothing; a run without frames shows no paths.
+[[nodiscard]] std::string plan_view_svg(const RunFile& run, const Trn& trn,
+                                        std::string_view hillshade_png);
+
+}  // namespace talus

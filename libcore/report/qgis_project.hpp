@@ -1,0 +1,33 @@
+// libcore/report/qgis_project.hpp
+// A QGIS project (3.22 and later): layers in groups with their styles, and a print layout.
+// in:    layers by their paths relative to the project
+// out:   the XML of a .qgs
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace talus {
+
+struct QgisLayer {
+  enum Kind { raster, hillshade, point, line, polygon };
+  std::string group, name;  ///< groups stand in the order of their first layer, top first
+  std::string source;       ///< relative to the project: "maps/reach.tif", "a.gpkg|layername=b"
+  Kind kind = raster;
+  std::string style;    ///< QML of the layer; not used for a hillshade
+  bool visible = true;  ///< when the project is opened
+};
+
+struct QgisProject {
+  std::string title;
+  std::string crs_wkt, crs_authid;        ///< "EPSG:31287"; either may be empty
+  std::array<double, 4> extent{};         ///< x_min, y_min, x_max, y_max of the layout's map [m]
+  std::vector<std::string> layout_lines;  ///< below the layout's title: what the map rests on
+  std::vector<QgisLayer> layers;          ///< top to bottom
+};
+
+/// Throws nothing; text is escaped. The layout takes the date when it is printed.
+[[nodiscard]] std::string qgis_project_xml(const QgisProject& project);
+
+}  // namespace talus

@@ -1,0 +1,61 @@
+#include "report/styles_gdal.hpp"
+
+#include <gdal_priv.h>
+#include <ogrsf_frmts.h>
+
+#include <map>
+#include <memory>
+
+#include "base/error.hpp"
+
+namespace talus {
+namespace {
+
+StyledLayer::Shape shape_of(OGRwkbGeometryType type) {
+  switch (wkbFlatten(type)) {
+    case wkbPoint:
+    case wkbMultiPoint:
+      return StyledLayer::point;
+    case wkbLineString:
+    case wkbMultiLineString:
+      return StyledLayer::line;
+    case wkbPolygon:
+    case wkbMultiPolygon:
+      return StyledLayer::polygon;
+    default:
+      return StyledLayer::none;
+  }
+}
+
+// Table of QGIS: f_table_name -> styleQML.
+std::map<std::string, std::string> styles_of(GDALDataset& dataset) {
+  std::map<std::string, std::string> styles;
+  OGRLayer* const table = dataset.GetLayerByName("layer_styles");
+  if (table == nullptr) return styles;
+  for (const auto& row : table) {
+    const int name = row->GetFieldIndex("f_table_name"), qml = row->GetFieldIndex("styleQML");
+    if (name >= 0 && qml >= 0) styles[row->GetFieldAsString(name)] = row->GetFieldAsString(qml);
+  }
+  return styles;
+}
+
+}  // namespace
+
+std::vector<StyledLayer> styled_layers(const std::string& path) {
+  GDALAllRegister();
+  const std::unique_ptr<GDALDataset> dataset(
+      GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY));
+  if (!dataset) throw InputError({path}, "cannot be read as a GeoPackage");
+  const auto styles = styles_of(*dataset);
+  std::vector<StyledLayer> layers;
+  for (OGRLayer* layer : dataset->GetLayers()) {
+    StyledLayer found{layer->GetName(), shape_of(layer->GetGeomType()), ""};
+    if (found.shape == StyledLayer::none) continue;
+    if (const auto style = styles.find(found.name); style != styles.end())
+      found.qml = style->second;
+    layers.push_back(std::move(found));
+  }
+  return layers;
+}
+
+}  // namespace talus

@@ -1,0 +1,19 @@
+// libcore/report/styles_gdal.hpp
+// The layers of a GeoPackage and the styles that it holds for them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace talus {
+
+struct StyledLayer {
+  std::string name;
+  enum Shape { none, point, line, polygon } shape = none;
+  std::string qml;  ///< its default style; empty: none
+};
+
+/// Layers with a geometry, in the order of the file. Throws InputError when it cannot be read.
+[[nodiscard]] std::vector<StyledLayer> styled_layers(const std::string& path);
+
+}  // namespace talus

@@ -1,0 +1,12 @@
+# Runs -> what reaches each fence of the site, what it holds and changes.
+# in: [fence.*], FENCE_FLAGS (e.g. --code onr)   out: $(OUT)/fence.gpkg, .json, .csv, and with runs without the fences
+#     $(OUT)/change.tif, .qml, .png; nothing for a site without fences
+$(eval $(call remember,fence,$(EVALUATE_FLAGS) $(FENCE_FLAGS)))
+ifneq ($(SITE_FENCES),)
+fence_files := $(addprefix $(OUT)/,fence.gpkg fence.json fence.csv $(if $(without_files),change.tif change.qml change.png))
+$(eval $(call together,$(fence_files)))
+$(OUT)/fence.gpkg: $(run_files) $(without_files) $(OUT)/blocks.h5 $(STAGES)/fence.txt $(STAGES)/runs.flags $(STAGES)/fence.flags
+	$(BIN)talus-fence site.toml $(run_files) $(addprefix --without ,$(without_files)) $(if $(without_files),--change $(OUT)/change.tif) --trn $(OUT)/bed.tif -o $(OUT)/fence.gpkg \
+	  --json $(OUT)/fence.json --csv $(OUT)/fence.csv $(EVALUATE_FLAGS) $(FENCE_FLAGS) --overwrite $(DB)
+endif
+fence: $(fence_files) ## runs -> what the fences meet and hold

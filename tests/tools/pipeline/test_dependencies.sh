@@ -1,0 +1,51 @@
+# A stage is repeated when what it reads has changed, and not else.
+. "$source_dir/tests/tools/pipeline/common.sh"
+site slope
+made slope -j2
+
+# would GOAL...: the tools that make would start now
+would() {
+  made slope -n "$@"
+  tools=$(sed -n 's/^talus-\([a-z]*\) .*/\1/p' out | sort | uniq -c | awk '{ printf "%s%s*%d", sep, $2, $1; sep = " " }')
+}
+would_be() { [ "$tools" = "$1" ] || fail "$2: make would start: $tools, expected $1"; }
+
+echo '# a remark' >>slope/site.toml
+would
+would_be "report*1" "a comment in the site file"
+
+sed -i 's/^height_m = 8/height_m = 7/' slope/site.toml
+would
+would_be "dda*2 fence*1 maps*1 report*1 runout*1" "another fence"
+sed -i 's/^height_m = 7/height_m = 8/' slope/site.toml
+made slope -j2
+
+would RUNS=3
+would_be "dda*4 fence*1 maps*1 report*1 runout*1" "two more seeds"
+would RUNS=2 CASES='low high' CASE_low='--set ground.slope.friction_deg=20'
+would_be "dda*8 fence*1 maps*1 report*1 runout*1" "two cases of two seeds"
+would
+would_be "" "nothing changed"
+
+would FENCE_FLAGS='--code onr'
+would_be "" "a dry run remembers no options"
+made slope -j2 FENCE_FLAGS='--code onr'
+prints "talus-fence site.toml"
+if grep -q talus-maps out; then fail "another design code made the maps again"; fi
+made slope
+
+sed -i 's/^depth_m = 5/depth_m = 4.5/' slope/site.toml
+would
+would_be "blocks*1 dda*2 fence*1 maps*1 report*1 runout*1" "another depth"
+sed -i 's/^depth_m = 4.5/depth_m = 5/' slope/site.toml
+
+touch slope/contours.gpkg
+would
+would_be "blocks*1 dda*2 fence*1 maps*1 report*1 runout*1 tin*1 trn*1" "newer contours"
+
+sed -i 's/^friction_deg = 25/friction_deg = 250/' slope/site.toml
+code=0
+make -C slope BIN= >out 2>err || code=$?
+[ $code -eq 2 ] || fail "make ended with $code for a site file that cannot be used"
+says "friction_deg is 250"
+says "hint: give degrees"

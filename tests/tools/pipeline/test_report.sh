@@ -1,0 +1,63 @@
+# The report is one file that asks for nothing from elsewhere; the project names files that exist.
+. "$source_dir/tests/tools/pipeline/common.sh"
+command -v python3 >/dev/null || skip "needs python3"
+site slope
+sed -i 's/^name = "designed"/name = "<b>\&\\" name"/' slope/site.toml
+made slope -j2
+python3 - slope/out <<'END' || fail "see above"
+import html.parser, os, re, sys, zipfile
+import xml.etree.ElementTree as xml
+out = sys.argv[1]
+text = open(f"{out}/report.html", encoding="utf-8").read()
+
+class Page(html.parser.HTMLParser):
+    void = {"meta", "link", "img", "br", "input", "image", "path"}
+    def __init__(self):
+        super().__init__()
+        self.open, self.ids, self.links, self.errors = [], set(), [], []
+    def handle_starttag(self, tag, attributes):
+        values = dict(attributes)
+        if tag not in self.void: self.open.append(tag)
+        self.ids.add(values.get("id"))
+        self.links += [v for k, v in attributes if k in ("src", "href")]
+    def handle_startendtag(self, tag, attributes):
+        self.handle_starttag(tag, attributes)
+        if tag not in self.void: self.open.pop()
+    def handle_endtag(self, tag):
+        if tag in self.void: return
+        if not self.open or self.open.pop() != tag: self.errors.append(tag)
+
+page = Page()
+page.feed(text)
+assert not page.errors and not page.open, f"tags that do not close: {page.errors} {page.open}"
+for section in "result maps animation runout fences curves health assumed plan provenance viewer scene".split():
+    assert section in page.ids, f"no {section}"
+for link in page.links:
+    assert link.startswith(("data:", "#")), f"not in the file: {link[:80]}"
+    if link.startswith("#"): assert link[1:] in page.ids, link
+assert "<b>&\"" not in text, "the site's name is markup"
+assert "&lt;b&gt;&amp;&quot; name" in text
+assert len(re.findall(r'src="data:image/png', text)) == 11, "ten maps and the change by the fence"
+assert "Health: pass" in text and "talus-tin contours.gpkg" in text
+
+archive = zipfile.ZipFile(f"{out}/site.qgz")
+assert archive.testzip() is None
+project = xml.fromstring(archive.read(archive.namelist()[0]))
+sources = [e.text for e in project.iter("datasource")]
+assert len(sources) > 15, sources
+for source in sources:
+    assert source.startswith("./"), source
+    assert os.path.exists(f"{out}/{source.split('|')[0]}"), source
+groups = [g.get("name") for g in project.find("layer-tree-group").findall("layer-tree-group")]
+assert groups == ["Fences", "Paths", "Source", "Hazard", "Terrain"], groups
+assert project.find("Layouts/Layout") is not None
+END
+
+rm slope/out/runs/run_1.h5
+expect 1 talus-report slope/site.toml --dir slope/out -o report.html --no-db
+says "holds 0 of the 1 runs that runout.json is made from"
+rm slope/out/runout.json
+expect 1 talus-report slope/site.toml --dir slope/out -o report.html --no-db
+says "runout.json: there is no such file"
+says "hint: run talus-runout first"
+nothing_left report.html

@@ -1,0 +1,52 @@
+// tools/report_parts.hpp
+// What a report is made from, and its sections as HTML.
+// in:    the results in a site's folder, as the tools wrote them
+// out:   text of a page
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene/site.hpp"
+#include "store/run_file.hpp"
+#include "store/runs.hpp"
+#include "terrain/trn.hpp"
+#include "tool.hpp"
+
+namespace talus {
+
+/// A limit over all runs.
+struct LimitOverRuns {
+  std::string name;
+  double worst = 0, limit = 0;
+  int n_failed = 0;
+};
+
+struct MapPicture {
+  std::string name, png;
+};
+
+/// Everything that the sections show; JSON is null and text empty where a file is missing.
+struct ReportData {
+  explicit ReportData(const Site& of_site) : site(of_site) {}
+
+  const Site& site;
+  Json tin, trn, blocks, runout, fence;  ///< reports of the tools
+  Trn terrain, bed;                      ///< before the slide; what the blocks slide on
+  std::string hillshade_png, mobility_svg, stereonet_svg, sizes_svg, curves_csv, change_png;
+  std::vector<MapPicture> maps;
+  std::vector<RunFile> runs;  ///< info and health, in the order of their seeds; frames left out
+  RunFile shown;              ///< the run of the animation, whole
+  std::vector<LimitOverRuns> limits;
+  std::vector<RunRecord> steps;  ///< each behind those whose outputs it read
+  std::string run_id, version;
+};
+
+/// The page. `script` is the viewer's, `style` its CSS.
+[[nodiscard]] std::string report_page(const ReportData& data, const std::string& script,
+                                      const std::string& style);
+
+/// `command` with the tool's folder left out, so that the place of the programs does not matter.
+[[nodiscard]] std::string bare_command(const std::string& command);
+
+}  // namespace talus

@@ -1,0 +1,306 @@
+// tools/talus_report.cpp
+// The results of a site as one HTML file and as a QGIS project. Page: docs/tools/talus-report.md
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <set>
+
+#include "base/sha256.hpp"
+#include "base/text.hpp"
+#include "build_info.hpp"
+#include "io/crs_gdal.hpp"
+#include "io/raster_gdal.hpp"
+#include "io/style.hpp"
+#include "report/plan_view.hpp"
+#include "report/qgis_project.hpp"
+#include "report/styles_gdal.hpp"
+#include "report/zip.hpp"
+#include "report_parts.hpp"
+#include "shipped_data.hpp"
+#include "site_options.hpp"
+#include "tool.hpp"
+
+namespace {
+
+using namespace talus;  // NOLINT: a program of its own
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string dir, out, qgis;
+};
+
+std::string content_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// The files of a site's folder; what is read is named in the registry.
+class Folder {
+ public:
+  Folder(Tool& tool, fs::path path) : tool_(tool), path_(std::move(path)) {}
+
+  [[nodiscard]] fs::path path(const std::string& name) const { return path_ / name; }
+  [[nodiscard]] bool has(const std::string& name) const { return fs::exists(path(name)); }
+  /// "" when there is none.
+  [[nodiscard]] std::string text(const std::string& name) const {
+    if (!has(name)) return "";
+    tool_.read_also("result", path(name).string());
+    return content_of(path(name));
+  }
+  /// Null when there is none. Throws InputError for another content.
+  [[nodiscard]] Json json(const std::string& name) const {
+    const std::string content = text(name);
+    if (content.empty()) return nullptr;
+    Json json = Json::parse(content, nullptr, false);
+    if (json.is_discarded())
+      throw InputError({path(name).string()}, "is not JSON", "make it again");
+    return json;
+  }
+  std::string required(const std::string& name, const std::string& tool) const {
+    if (!has(name))
+      throw InputError({path(name).string()}, "there is no such file",
+                       "run " + tool + " first, or make in the site's folder");
+    return path(name).string();
+  }
+
+ private:
+  Tool& tool_;
+  fs::path path_;
+};
+
+// --- runs ----------------------------------------------------------------------------------------
+
+// The files of runs/ whose run was evaluated: RUNOUT.json names them, others are left from before.
+std::vector<fs::path> evaluated_runs(const Folder& folder, const Json& runout) {
+  std::set<std::string> ids;
+  for (const Json& run : runout.at("runs")) ids.insert(run.at("run_id").get<std::string>());
+  std::vector<std::pair<std::int64_t, fs::path>> found;
+  for (const auto& entry : fs::directory_iterator(folder.required("runs", "talus-dda"))) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with("run_") || !name.ends_with(".h5")) continue;  // staged ones are hidden
+    const RunInfo info =
+        read_run_file(entry.path().string(), {false, false, false, false, false}).info;
+    if (ids.count(info.run_id) > 0) found.emplace_back(info.seed, entry.path());
+  }
+  if (found.size() != ids.size())
+    throw InputError({folder.path("runs").string()},
+                     "holds " + std::to_string(found.size()) + " of the " +
+                         std::to_string(ids.size()) + " runs that runout.json is made from",
+                     "make the run-out again");
+  std::sort(found.begin(), found.end());
+  std::vector<fs::path> files;
+  for (const auto& [seed, path] : found) files.push_back(path);
+  return files;
+}
+
+// The run whose event came farthest along the path; the first of them.
+std::string farthest_run(const Json& runout) {
+  std::string id;
+  double farthest = -1;
+  for (const Json& run : runout.at("runs")) {
+    const Json& length = run.at("event").at("L_path_m");
+    if (!id.empty() && !(length.is_number() && length.get<double>() > farthest)) continue;
+    id = run.at("run_id").get<std::string>();
+    farthest = length.is_number() ? length.get<double>() : -1;
+  }
+  return id;
+}
+
+void read_runs(Tool& tool, const Folder& folder, ReportData& data) {
+  const std::string shown = farthest_run(data.runout);
+  const std::vector<fs::path> files = evaluated_runs(folder, data.runout);
+  const ProgressFunction progress = tool.progress();
+  for (const fs::path& path : files) {
+    progress(static_cast<double>(data.runs.size()) / static_cast<double>(files.size()));
+    tool.read_also("run", path.string());
+    RunFile run = read_run_file(path.string(), {false, false, false, true, false});
+    if (run.info.run_id == shown)
+      data.shown = read_run_file(path.string(), {true, false, true, true, false});
+    data.runs.push_back(std::move(run));
+  }
+}
+
+// --- registry ------------------------------------------------------------------------------------
+
+// The run that wrote a file with this content, of those before row `before`; none: id 0.
+RunRecord writer_of(const std::string& db, const std::string& sha256, std::int64_t before) {
+  for (const std::int64_t id : runs_that_wrote(db, sha256))
+    if (id < before) return read_run(db, std::to_string(id));
+  return {};
+}
+
+// Limits of all runs, the worst value of each.
+void add_limits(const RunRecord& record, std::vector<LimitOverRuns>& limits) {
+  for (const RunCheck& check : record.checks) {
+    auto at = std::find_if(limits.begin(), limits.end(),
+                           [&check](const LimitOverRuns& l) { return l.name == check.name; });
+    if (at == limits.end()) at = limits.insert(at, {check.name, check.value, check.limit, 0});
+    at->worst = std::max(at->worst, check.value);
+    if (!check.pass) ++at->n_failed;
+  }
+}
+
+// Depth first, so that each step stands behind those whose outputs it reads.
+void add_steps(const std::string& db, const std::string& sha256, std::int64_t before,
+               std::set<std::int64_t>& seen, std::vector<RunRecord>& steps) {
+  if (sha256.empty()) return;
+  const RunRecord record = writer_of(db, sha256, before);
+  if (record.id == 0 || !seen.insert(record.id).second) return;
+  for (const RunArtifact& input : record.inputs)
+    add_steps(db, input.sha256, record.id, seen, steps);
+  steps.push_back(record);
+}
+
+void read_registry(const std::string& db, const Folder& folder, ReportData& data) {
+  if (!fs::exists(db)) return;
+  constexpr std::int64_t latest = std::numeric_limits<std::int64_t>::max();
+  for (const fs::path& path : evaluated_runs(folder, data.runout))
+    add_limits(writer_of(db, sha256_of_file(path.string()), latest), data.limits);
+  std::set<std::int64_t> seen;
+  for (const char* name : {"runout.gpkg", "maps/velocity.tif", "fence.gpkg"})
+    if (folder.has(name))
+      add_steps(db, sha256_of_file(folder.path(name).string()), latest, seen, data.steps);
+}
+
+// --- the page ------------------------------------------------------------------------------------
+
+ReportData read_data(Tool& tool, const Site& site, const Folder& folder) {
+  ReportData data(site);
+  data.version = build_version;
+  data.terrain = read_trn(folder.required("trn.tif", "talus-trn"));
+  data.bed = folder.has("bed.tif") ? read_trn(folder.path("bed.tif").string()) : data.terrain;
+  folder.required("runout.json", "talus-runout");
+  data.tin = folder.json("tin.json");
+  data.trn = folder.json("trn.json");
+  data.blocks = folder.json("blocks.json");
+  data.runout = folder.json("runout.json");
+  data.fence = folder.json("fence.json");
+  data.hillshade_png = folder.text("hillshade.png");
+  data.mobility_svg = folder.text("runout.svg");
+  data.stereonet_svg = folder.text("stereonet.svg");
+  data.sizes_svg = folder.text("sizes.svg");
+  data.curves_csv = folder.text("curves.csv");
+  data.change_png = folder.text("change.png");
+  if (folder.has("maps")) {
+    std::vector<fs::path> pictures;
+    for (const auto& entry : fs::directory_iterator(folder.path("maps")))
+      if (entry.path().extension() == ".png" && entry.path().filename().string()[0] != '.')
+        pictures.push_back(entry.path());
+    std::sort(pictures.begin(), pictures.end());
+    for (const fs::path& path : pictures)
+      data.maps.push_back({path.stem().string(), folder.text("maps/" + path.filename().string())});
+  }
+  read_runs(tool, folder, data);
+  read_registry(tool.registry(), folder, data);
+  data.run_id = tool.run_id();
+  return data;
+}
+
+// --- the QGIS project ----------------------------------------------------------------------------
+
+// Of layers that bring none: an outline that covers nothing.
+std::string plain_style() {
+  return vector_qml({SymbolKind::polygon, "", {{"", "", {42, 87, 184, 60}}}, 0.5});
+}
+
+// Where the project lies, paths in it begin.
+std::string relative_to(const std::string& project, const fs::path& path) {
+  const fs::path folder = fs::absolute(fs::path(project)).parent_path();
+  return fs::absolute(path).lexically_normal().lexically_relative(folder.lexically_normal());
+}
+
+void add_package(QgisProject& project, const Options& o, const Folder& folder,
+                 const std::string& file, const std::string& group,
+                 const std::set<std::string>& hidden) {
+  if (!folder.has(file)) return;
+  static constexpr QgisLayer::Kind kinds[] = {QgisLayer::raster, QgisLayer::point, QgisLayer::line,
+                                              QgisLayer::polygon};
+  for (const StyledLayer& layer : styled_layers(folder.path(file).string())) {
+    std::string name = layer.name;
+    std::replace(name.begin(), name.end(), '_', ' ');
+    project.layers.push_back({group, name,
+                              relative_to(o.qgis, folder.path(file)) + "|layername=" + layer.name,
+                              kinds[layer.shape], layer.qml.empty() ? plain_style() : layer.qml,
+                              hidden.count(layer.name) == 0});
+  }
+}
+
+void add_maps(QgisProject& project, const Options& o, const Folder& folder) {
+  for (const char* name :
+       {"velocity", "ke_total", "ke_translational", "pass_height_top", "pass_height_centroid",
+        "reach", "exceedance", "deposit", "arrival", "energy_line"}) {
+    const std::string base = std::string("maps/") + name;
+    if (!folder.has(base + ".tif")) continue;
+    project.layers.push_back({"Hazard", name, relative_to(o.qgis, folder.path(base + ".tif")),
+                              QgisLayer::raster, folder.text(base + ".qml"),
+                              std::string(name) == "velocity"});
+  }
+}
+
+QgisProject project_of(const ReportData& data, const Options& o, const Folder& folder) {
+  const Trn& trn = data.terrain;
+  QgisProject project;
+  project.title = data.site.info.name + ": rockslide hazard";
+  project.crs_wkt = trn.crs_wkt;
+  if (const std::string name = crs_name(trn.crs_wkt); name.starts_with("EPSG:"))
+    project.crs_authid = name.substr(0, name.find(' '));
+  const PlanWindow window = plan_window(data.shown, trn);
+  const Vec2 origin = trn.origin.head<2>(), low = window.low + origin, high = window.high + origin;
+  project.extent = {low.x(), low.y(), high.x(), high.y()};
+  const auto tag = [&data](const char* name) {
+    const Json& tags = data.runout.at("tags");
+    return tags.contains(name) ? tags[name].get<std::string>() : std::string();
+  };
+  project.layout_lines = {
+      "run id " + data.run_id + ", Talus " + data.version + ", CRS " + crs_name(trn.crs_wkt),
+      tag("DENOMINATOR"), "health: " + tag("HEALTH")};
+  if (!tag("REMARK").empty()) project.layout_lines.push_back(tag("REMARK"));
+
+  add_package(project, o, folder, "fence.gpkg", "Fences", {"fence_posts"});
+  if (folder.has("change.tif"))
+    project.layers.push_back({"Fences", "change by the fence",
+                              relative_to(o.qgis, folder.path("change.tif")), QgisLayer::raster,
+                              folder.text("change.qml"), false});
+  add_package(project, o, folder, "runout.gpkg", "Paths", {"path_points", "paths", "envelope"});
+  add_package(project, o, folder, "blocks.gpkg", "Source", {"blocks"});
+  add_maps(project, o, folder);
+  project.layers.push_back({"Terrain", "hillshade", relative_to(o.qgis, folder.path("trn.tif")),
+                            QgisLayer::hillshade, "", true});
+  return project;
+}
+
+void run_tool(Tool& tool, const Options& o, const Site& site) {
+  const Folder folder(tool, o.dir);
+  const ReportData data = read_data(tool, site, folder);
+  std::string qgs;
+  if (!o.qgis.empty()) qgs = qgis_project_xml(project_of(data, o, folder));
+  tool.write_text(o.out, report_page(data, shipped_data("viewer.js"), shipped_data("report.css")));
+  if (!o.qgis.empty())
+    tool.write_text(o.qgis, zip_archive({{fs::path(o.qgis).stem().string() + ".qgs", qgs}}));
+  tool.result({{"run_id", data.run_id},
+               {"report", o.out},
+               {"qgis", o.qgis},
+               {"n_runs", data.runs.size()},
+               {"n_maps", data.maps.size()},
+               {"n_steps", data.steps.size()}},
+              "report of " + std::to_string(data.runs.size()) +
+                  (data.runs.size() == 1 ? " run" : " runs") + " in " + o.out +
+                  (o.qgis.empty() ? "" : ", QGIS project in " + o.qgis));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options o;
+  Tool tool("talus-report", "The results of a site as one HTML file and as a QGIS project.");
+  SiteOptions site(tool);
+  tool.app().add_option("--dir", o.dir, "folder with the results of the site")->required();
+  tool.output("-o,--out", o.out, "report to write (HTML, one file)")->required();
+  tool.output("--qgis", o.qgis, "project to write (QGZ), with paths relative to it");
+  tool.footer(
+      "Example:\n  talus-report site.toml --dir out -o out/report.html --qgis out/site.qgz");
+  return tool.run(argc, argv, [&] { run_tool(tool, o, site.load()); });
+}

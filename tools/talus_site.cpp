@@ -1,0 +1,196 @@
+// tools/talus_site.cpp
+// Parts the site file into what each stage reads, so that make repeats a stage only when its own
+// settings have changed. Page: docs/tools/talus-site.md
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <sstream>
+
+#include "base/sha256.hpp"
+#include "base/text.hpp"
+#include "site_options.hpp"
+#include "tool.hpp"
+
+namespace {
+
+using namespace talus;  // NOLINT: a program of its own
+namespace fs = std::filesystem;
+
+// Sections and keys that a stage reads. An entry is "section", "section.key" or, for a key that the
+// stage does not read, "-section.key"; a section stands for all of its names ("joints" for
+// [joints.J1]).
+struct Stage {
+  const char* name;
+  std::vector<std::string> reads;
+};
+
+const std::array<Stage, 5>& stages() {
+  static const std::array<Stage, 5> list = {{
+      {"tin",
+       {"terrain.contours", "terrain.layer", "terrain.elevation_field", "terrain.breaklines",
+        "terrain.spots", "terrain.boundary", "terrain.flat"}},
+      {"trn", {"terrain.dem", "terrain.cell_size_m", "terrain.window_m"}},
+      {"blocks", {"site.crs", "source", "joints", "blocks", "material"}},
+      {"run",
+       {"site.name", "site.crs", "material", "joints", "ground", "solver", "fence", "base_motion",
+        "output", "-solver.seed", "-solver.n_runs", "-output.folder", "-output.min_passages",
+        "-output.checkpoint_interval_s"}},
+      {"fence", {"site.name", "site.crs", "fence"}},
+  }};
+  return list;
+}
+
+// "joints" for "joints.J1"
+std::string kind_of(const std::string& section) { return section.substr(0, section.find('.')); }
+
+bool is_read(const Stage& stage, const EffectiveValue& value) {
+  const auto has = [&stage](const std::string& entry) {
+    return std::find(stage.reads.begin(), stage.reads.end(), entry) != stage.reads.end();
+  };
+  const std::string kind = kind_of(value.section), key = kind + "." + value.key;
+  return (has(kind) || has(key)) && !has("-" + key);
+}
+
+// Text of a TOML string without its quotes.
+std::string unquoted(const std::string& toml) {
+  return toml.size() >= 2 && (toml[0] == '\'' || toml[0] == '"') ? toml.substr(1, toml.size() - 2)
+                                                                 : toml;
+}
+
+// Keys whose value is the name of a file.
+bool names_a_file(const std::string& section, const std::string& key) {
+  static const std::set<std::string> keys = {"contours", "breaklines", "spots", "boundary",
+                                             "dem",      "raster",     "file"};
+  if (section == "site" || section == "solver" || section == "output") return false;
+  return keys.count(key) > 0 || (key.size() > 5 && key.ends_with("_file"));
+}
+
+std::string file_named(const Site& site, const EffectiveValue& value) {
+  if (value.value.empty() || !names_a_file(value.section, value.key)) return "";
+  const std::string path = resolved(site, unquoted(value.value));
+  return path.rfind("/vsi", 0) == 0 ? "" : path;
+}
+
+// What a stage reads, a line a value; files by their content.
+std::string settings_of(const Site& site, const Stage& stage) {
+  std::string out = "# what the stage " + std::string(stage.name) + " reads of the site file\n";
+  for (const EffectiveValue& value : effective_values(site)) {
+    if (value.value.empty() || !is_read(stage, value)) continue;
+    out += value.section + "." + value.key + " = " + value.value;
+    const std::string file = file_named(site, value);
+    if (!file.empty())
+      out += "  # sha256 " + (fs::is_regular_file(file) ? sha256_of_file(file) : "none");
+    out += "\n";
+  }
+  return out;
+}
+
+// --- variables for make ------------------------------------------------------------------------
+
+// A word in a recipe: quoted for the shell, with make's own sign doubled.
+std::string shell_word(const std::string& word) {
+  std::string out = "'";
+  for (const char c : word) out += c == '\'' ? "'\\''" : c == '$' ? "$$" : std::string(1, c);
+  return out + "'";
+}
+
+// The name of a file as a prerequisite.
+std::string make_word(const std::string& path) {
+  std::string out;
+  for (const char c : path)
+    out += c == ' ' || c == '#' || c == ':' || c == '%' ? std::string("\\") + c
+           : c == '$'                                   ? "$$"
+                                                        : std::string(1, c);
+  return out;
+}
+
+std::string joined(const std::vector<double>& numbers) {
+  std::string out;
+  for (const double number : numbers) out += (out.empty() ? "" : ",") + text(number);
+  return out;
+}
+
+std::string tin_flags(const Site& site) {
+  const TerrainSettings& t = site.terrain;
+  std::string out;
+  const auto add = [&out](const char* option, const std::string& value) {
+    if (!value.empty()) out += std::string(" ") + option + " " + shell_word(value);
+  };
+  add("--layer", t.layer);
+  add("--elevation-field", t.elevation_field);
+  add("--breaklines", resolved(site, t.breaklines));
+  add("--spots", resolved(site, t.spots));
+  add("--boundary", resolved(site, t.boundary));
+  add("--flat", t.flat);
+  return out;
+}
+
+std::string trn_flags(const Site& site) {
+  const TerrainSettings& t = site.terrain;
+  std::string out;
+  if (!std::isnan(t.cell_size_m)) out += " --cell-size-m " + text(t.cell_size_m);
+  if (!t.window_m.empty()) out += " --window " + joined(t.window_m);
+  return out;
+}
+
+std::string make_variables(const Site& site) {
+  std::string fences, files;
+  for (const FenceSettings& fence : site.fences) fences += " " + fence.name;
+  std::set<std::string> seen;
+  for (const EffectiveValue& value : effective_values(site))
+    if (const std::string file = file_named(site, value); !file.empty() && seen.insert(file).second)
+      files += " " + make_word(file);
+  const bool any_active = std::any_of(site.fences.begin(), site.fences.end(),
+                                      [](const FenceSettings& fence) { return fence.active; });
+  std::string out = "# written by talus-site from " + site.file + "\n";
+  const auto line = [&out](const char* name, const std::string& value) {
+    out += std::string(name) + " :=" + (value.empty() || value[0] == ' ' ? "" : " ") + value + "\n";
+  };
+  line("SITE_NAME", site.info.name);
+  line("SITE_CONTOURS", make_word(resolved(site, site.terrain.contours)));
+  line("SITE_DEM", make_word(resolved(site, site.terrain.dem)));
+  line("SITE_TIN_FLAGS", tin_flags(site));
+  line("SITE_TRN_FLAGS", trn_flags(site));
+  line("SITE_FILES", files);
+  line("SITE_RUNS", std::to_string(site.solver.n_runs));
+  line("SITE_SEED", std::to_string(site.solver.seed));
+  line("SITE_FENCES", fences);
+  line("SITE_FENCES_STAND", any_active ? "yes" : "");
+  return out;
+}
+
+// --- the whole ---------------------------------------------------------------------------------
+
+std::string content_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// A file that holds this already keeps its time, so that make sees no change.
+void write_if_changed(Tool& tool, const fs::path& path, const std::string& content) {
+  if (fs::exists(path) && content_of(path) == content) return;
+  tool.write_text(path.string(), content);
+  tool.detail("changed: " + path.string());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::string folder;
+  Tool tool("talus-site", "Parts the site file into what each stage of the pipeline reads.");
+  SiteOptions site_options(tool);
+  tool.output_folder("-o,--out", folder, "folder for a file a stage, and site.mk")->required();
+  tool.footer("Example:\n  talus-site site.toml -o out/stages --overwrite --no-db");
+  return tool.run(argc, argv, [&] {
+    const Site& site = site_options.load();
+    // Always written; staged first, so that it comes in place last: its time says when the site
+    // file was last looked at.
+    tool.write_text((fs::path(folder) / "site.mk").string(), make_variables(site));
+    for (const Stage& stage : stages())
+      write_if_changed(tool, fs::path(folder) / (std::string(stage.name) + ".txt"),
+                       settings_of(site, stage));
+  });
+}
