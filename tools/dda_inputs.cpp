@@ -6,6 +6,8 @@
 
 #include "base/sha256.hpp"
 #include "base/text.hpp"
+#include "dda/site_fence.hpp"
+#include "dda/start_overlaps.hpp"
 #include "io/blocks_hdf5.hpp"
 #include "io/class_raster_gdal.hpp"
 #include "io/crs_gdal.hpp"
@@ -207,7 +209,81 @@ std::vector<std::uint8_t> ground_classes(Tool& tool, const Site& site, const Trn
   return classes;
 }
 
+// --- fences ------------------------------------------------------------------------------------
+
+void add_lines(Tool& tool, const Site& site, const FenceSettings& fence, DdaInputs& inputs) {
+  const Where where{site.file, fence.line_number, "fence." + fence.name};
+  for (RecordLine& line : fence_lines(tool, site, inputs.parts.trn, fence)) {
+    line.standing = fence.active && site.solver.law == "talus";
+    if (line.standing)
+      inputs.parts.fences.push_back(standing_fence(
+          fence, inputs.parts.trn, static_cast<int>(inputs.lines.size()), line.points, where));
+    inputs.lines.push_back(std::move(line));
+  }
+}
+
+// "panel 2 of fence upper", from the number of a panel among those of all fences.
+std::string panel_name(const DdaInputs& inputs, int panel) {
+  for (const StandingFence& fence : inputs.parts.fences) {
+    const int n = static_cast<int>(fence.posts.size()) - 1;
+    if (panel < n)
+      return "panel " + std::to_string(panel) + " of fence " +
+             inputs.lines[static_cast<std::size_t>(fence.line)].name;
+    panel -= n;
+  }
+  return "a fence";
+}
+
+std::string text_of(const StartOverlap& start, const DdaInputs& inputs) {
+  const BlockOverlap& o = start.overlap;
+  const int n = n_blocks(inputs.parts.blocks);
+  const Vec3 at = o.point + inputs.origin;
+  return "block " + std::to_string(o.block_a) + " and " +
+         (o.block_b < n ? "block " + std::to_string(o.block_b)
+                        : panel_name(inputs, o.block_b - n)) +
+         " by " + text(o.depth, 3) + " m at " + text(at.x(), 9) + ", " + text(at.y(), 9) + ", " +
+         text(at.z(), 6);
+}
+
 }  // namespace
+
+void check_overlaps(Tool& tool, const Site& site, DdaInputs& inputs, const DdaFiles& files,
+                    bool among_blocks) {
+  BlockSet& blocks = inputs.parts.blocks;
+  const std::vector<StartOverlap> found =
+      start_overlaps(blocks, inputs.parts.fences, among_blocks, overlap_tolerance);
+  if (found.empty()) return;
+  const auto too_deep =
+      std::find_if(found.begin(), found.end(), [](const StartOverlap& o) { return !o.is_small; });
+  const std::string finding =
+      std::to_string(found.size()) +
+      (found.size() == 1 ? " pair overlaps: " : " pairs overlap, the most ") +
+      text_of(found.front(), inputs);
+  if (too_deep != found.end())
+    throw InputError(
+        {files.blocks},
+        too_deep == found.begin() ? finding : finding + "; " + text_of(*too_deep, inputs),
+        too_deep->overlap.block_b >= n_blocks(blocks)
+            ? "move the fence of " + site.file + " off the blocks"
+            : "blocks may overlap by " + text(too_deep->limit, 3) +
+                  " m, a twentieth of their thickness, to be moved apart by --settle");
+  if (!files.settle)
+    throw InputError({files.blocks}, finding,
+                     "--settle moves blocks apart that overlap as little as this");
+  const MovedApart moved = move_apart(blocks, overlap_tolerance);
+  if (!moved.done)
+    throw InputError({files.blocks}, finding + "; they could not be moved apart",
+                     "they stand too closely packed: build the block set anew");
+  tool.info(finding + ": moved apart, by " + text(moved.farthest, 3) + " m at most");
+  check_depth(tool, blocks, inputs.parts.trn, files);
+  const std::vector<StartOverlap> left =
+      start_overlaps(blocks, inputs.parts.fences, among_blocks, 2 * overlap_tolerance);
+  if (!left.empty())
+    throw InputError({files.blocks},
+                     "after they were moved apart and lifted onto the ground, " +
+                         text_of(left.front(), inputs) + " overlap",
+                     "build the block set anew");
+}
 
 DdaInputs read_dda_inputs(Tool& tool, const Site& site, const DdaFiles& files) {
   DdaInputs inputs;
@@ -226,9 +302,7 @@ DdaInputs read_dda_inputs(Tool& tool, const Site& site, const DdaFiles& files) {
     tool.read_also("base_motion", resolved(site, site.base_motion.file));
   parts.blocks = read_checked_blocks(tool, parts.trn, inputs.trn_digest, files);
   parts.cell_class = ground_classes(tool, site, parts.trn);
-  for (const FenceSettings& fence : site.fences)
-    for (RecordLine& line : fence_lines(tool, site, parts.trn, fence))
-      inputs.lines.push_back(std::move(line));
+  for (const FenceSettings& fence : site.fences) add_lines(tool, site, fence, inputs);
   return inputs;
 }
 

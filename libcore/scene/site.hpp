@@ -103,6 +103,7 @@ struct GroundSettings {
 /// [solver]
 struct SolverSettings {
   std::string law = "talus";
+  std::string terrain_model = "trn";  ///< or "blocky": the slope as fixed polyhedral blocks
   double duration_s = 60;
   double time_step_s = not_given;  ///< not given: chosen by the solver
   double min_time_step_s = not_given, max_time_step_s = not_given;
@@ -127,11 +128,11 @@ struct FenceSettings {
   std::vector<Vec3> line;  ///< map x, y of at least two points; or line_file
   std::string line_file, line_layer;
   double height_m = 5;
-  double capacity_kj = not_given;
+  double capacity_kj = not_given;       ///< of a panel; not given: rigid
+  double max_deflection_m = not_given;  ///< where it is used up; not given: half the height
   double post_spacing_m = 10;
   bool active = true;
   double cor = 0.1, friction_deg = 30;
-  double normal_stiffness_n_m = not_given;
 };
 
 /// [output]

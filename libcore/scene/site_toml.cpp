@@ -155,6 +155,7 @@ template <> const std::vector<Key<SolverSettings>>& keys() {
   using S = SolverSettings;
   static const std::vector<Key<S>> table = {
       {"law", &S::law, "contact law", any, "talus|paper"},
+      {"terrain_model", &S::terrain_model, "slope as TRN, or as one fixed block a triangle, to compare with", any, "trn|blocky"},
       {"duration_s", &S::duration_s, "time simulated", positive},
       {"time_step_s", &S::time_step_s, "time step; chosen by the solver when not given", {0, 1, true, false}},
       {"min_time_step_s", &S::min_time_step_s, "smallest time step", {0, 1, true, false}},
@@ -182,12 +183,12 @@ template <> const std::vector<Key<FenceSettings>>& keys() {
       {"line_file", &S::line_file, "vector file with the fence line"},
       {"line_layer", &S::line_layer, "its layer"},
       {"height_m", &S::height_m, "height above the ground", positive},
-      {"capacity_kj", &S::capacity_kj, "energy that it holds", positive},
+      {"capacity_kj", &S::capacity_kj, "energy that a panel takes before it breaks; rigid when not given", positive},
+      {"max_deflection_m", &S::max_deflection_m, "deflection at which one block has used up the capacity; half the height when not given", positive},
       {"post_spacing_m", &S::post_spacing_m, "distance of posts", positive},
       {"active", &S::active, "whether it stands in the run"},
-      {"cor", &S::cor, "coefficient of restitution", share},
-      {"friction_deg", &S::friction_deg, "friction angle", angle_below_90, "", friction_hint},
-      {"normal_stiffness_n_m", &S::normal_stiffness_n_m, "stiffness of a contact", positive}};
+      {"cor", &S::cor, "coefficient of restitution of a rigid fence", share},
+      {"friction_deg", &S::friction_deg, "friction angle", angle_below_90, "", friction_hint}};
   return table;
 }
 template <> const std::vector<Key<OutputSettings>>& keys() {

@@ -68,6 +68,7 @@ void close_interval(Runner& runner) {
   row.impact = state.ledger.impact;
   row.contact = state.ledger.contact;
   row.base = state.ledger.base;
+  row.fence = state.ledger.fence;
   row.removed = state.ledger.removed;
   runner.file.health.push_back(row);
   HealthRow next;
@@ -226,6 +227,8 @@ void update_file(Runner& runner, bool with_checkpoint) {
     file.passages = sorted(runner.passages.table);
   }
   file.crossings = sorted(runner.crossings);
+  file.fence_hits = runner.state.fence.hits;
+  file.panels = panel_rows(runner.scene.fixed, runner.state.fence);
   file.info.time = runner.state.time;
   file.phase = runner.state.phase;
   file.checkpoint.clear();

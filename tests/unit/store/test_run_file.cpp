@@ -89,6 +89,15 @@ RunFile sample(int n_frames, int n_rows) {
   run.phase = {talus::Phase::asleep, talus::Phase::left_domain};
   run.blocks.weight = {1, 0.25};
   run.lines[0].standing = true;
+  talus::FenceHit hit;
+  hit.block = 1;
+  hit.panel = 1;
+  hit.velocity = {3, 2, 1};
+  hit.energy_after = 7;
+  run.fence_hits.push_back(hit);
+  run.panels = {{0, 0, std::numeric_limits<double>::infinity(), 0, 0,
+                 std::numeric_limits<double>::infinity(), -1},
+                {0, 1, 5e5, 5e5, -1.5, 3.25, 1}};
   return run;
 }
 
@@ -118,6 +127,13 @@ TEST(RunFile, ReadsBackWhatWasWritten) {
   EXPECT_EQ(back.phase, run.phase);
   EXPECT_EQ(back.blocks.weight, run.blocks.weight);
   EXPECT_TRUE(back.lines[0].standing);
+  ASSERT_EQ(back.fence_hits.size(), 1u);
+  EXPECT_EQ(back.fence_hits[0].velocity, Vec3(3, 2, 1));
+  EXPECT_EQ(back.fence_hits[0].energy_after, 7);
+  ASSERT_EQ(back.panels.size(), 2u);
+  EXPECT_TRUE(std::isinf(back.panels[0].capacity));
+  EXPECT_EQ(back.panels[1].broken_at, 3.25);
+  EXPECT_EQ(back.panels[1].broken_by, 1);
   EXPECT_EQ(back.grid.corner, run.grid.corner);
   EXPECT_EQ(back.grid.n_cols, 30);
   ASSERT_EQ(back.lines.size(), 1u);
@@ -163,6 +179,8 @@ TEST(RunFile, HoldsARunWithoutRows) {
   RunFile run = sample(0, 0);
   run.crossings.clear();
   run.lines.clear();
+  run.panels.clear();
+  run.fence_hits.clear();
   run.health.clear();
   run.checkpoint.clear();
   run.grid = {};
