@@ -315,8 +315,6 @@ void check_blocks_apart(Tool& tool, const Options& o, const ScenePlan& plan, int
 }
 
 void note_lines(Tool& tool, const Site& site) {
-  for (const std::string& key : keys_without_effect(site))
-    tool.warn(where_of(site, key).text() + ": " + key + " has no effect in this version");
   if (!site.fences.empty())
     tool.warn("fences stop nothing in this version: what crosses their lines is recorded");
 }

@@ -64,15 +64,6 @@ Scene on_plane(const Settings& settings, const SlopeFrame& frame, const GroundCl
   return scene_of(plane_trn(frame, cell_size, reach, through), ground, {body}, settings);
 }
 
-Body body_of(Polyhedron shape, const Vec3& velocity = Vec3::Zero(),
-             const Vec3& spin = Vec3::Zero()) {
-  Body body;
-  body.parts = {std::move(shape)};
-  body.velocity = velocity;
-  body.spin = spin;
-  return body;
-}
-
 Polyhedron cube_on(const SlopeFrame& frame, double side, const Vec3& base = Vec3::Zero()) {
   const double h = side / 2;
   return box_in(frame, base, Vec3(-h, -h, 0), Vec3(h, h, side));

@@ -111,22 +111,4 @@ Scene make_site_scene(const Site& site, const ScenePlan& plan, SceneParts parts)
   return scene;
 }
 
-std::vector<std::string> keys_without_effect(const Site& site) {
-  std::vector<std::string> keys;
-  const auto ends_with = [](const std::string& text, const std::string& end) {
-    return text.size() >= end.size() &&
-           text.compare(text.size() - end.size(), end.size(), end) == 0;
-  };
-  for (const auto& [key, source] : site.sources) {
-    if (source.kind == ValueSource::from_default) continue;
-    const bool in_ground = key.rfind("ground.", 0) == 0;
-    const bool unused = (in_ground && (ends_with(key, ".cor_tangential") ||
-                                       ends_with(key, ".rolling_resistance"))) ||
-                        key == "solver.damping_1_s" || key == "solver.impact_speed_m_s" ||
-                        key == "solver.rest_speed_m_s" || key == "solver.rest_time_s";
-    if (unused) keys.push_back(key);
-  }
-  return keys;
-}
-
 }  // namespace talus

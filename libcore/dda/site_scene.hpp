@@ -30,7 +30,4 @@ struct SceneParts {
 /// block material that the site file does not know, and what check_scene() refuses.
 [[nodiscard]] Scene make_site_scene(const Site& site, const ScenePlan& plan, SceneParts parts);
 
-/// Keys of the site file that were given and that law talus or paper make no use of.
-[[nodiscard]] std::vector<std::string> keys_without_effect(const Site& site);
-
 }  // namespace talus

@@ -73,6 +73,7 @@ template <> const std::vector<Key<TerrainSettings>>& keys() {
       {"spots", &S::spots, "spot heights for talus-tin"},
       {"boundary", &S::boundary, "boundary polygon for talus-tin"},
       {"dem", &S::dem, "elevation raster for talus-trn instead of contours"},
+      {"ground_raster", &S::ground_raster, "raster of ground classes, whole numbers; [ground.*] raster_values says which is which"},
       {"flat", &S::flat, "what happens to flat triangles", any, "fill|keep"},
       {"cell_size_m", &S::cell_size_m, "cell size of the TRN", positive},
       {"window_m", &S::window_m, "xmin, ymin, xmax, ymax of the TRN, map coordinates", any, "", "", 4, 4}};
@@ -143,12 +144,11 @@ template <> const std::vector<Key<GroundSettings>>& keys() {
       {"cohesion_pa", &S::cohesion_pa, "cohesion on the ground", not_negative},
       {"tension_pa", &S::tension_pa, "tensile strength on the ground", not_negative},
       {"cor", &S::cor, "coefficient of restitution along the normal", share},
-      {"cor_tangential", &S::cor_tangential, "share of the tangential velocity that an impact leaves", share},
-      {"rolling_resistance", &S::rolling_resistance, "lever arm of rolling resistance over the block's radius", share},
       {"polygon", &S::polygon, "corners of the area, map x, y", any, "", "", 3},
       {"polygon_file", &S::polygon_file, "vector file with the area"},
       {"polygon_layer", &S::polygon_layer, "its layer"},
-      {"polygon_where", &S::polygon_where, "attribute filter, e.g. type = 'scree'"}};
+      {"polygon_where", &S::polygon_where, "attribute filter, e.g. type = 'scree'"},
+      {"raster_values", &S::raster_values, "values of [terrain] ground_raster that stand for this ground", any, "", "whole numbers, as the raster has them", 1}};
   return table;
 }
 template <> const std::vector<Key<SolverSettings>>& keys() {
@@ -163,11 +163,7 @@ template <> const std::vector<Key<SolverSettings>>& keys() {
       {"normal_stiffness_n_m", &S::normal_stiffness_n_m, "penalty stiffness of a contact", positive},
       {"shear_stiffness_ratio", &S::shear_stiffness_ratio, "shear over normal stiffness", {0, 10, true, false}},
       {"cor", &S::cor, "coefficient of restitution everywhere", share},
-      {"impact_speed_m_s", &S::impact_speed_m_s, "slower approaches do not bounce", not_negative},
       {"strain", &S::strain, "strain degrees of freedom", any, "auto|on|off"},
-      {"damping_1_s", &S::damping_1_s, "mass-proportional damping", not_negative},
-      {"rest_speed_m_s", &S::rest_speed_m_s, "slower blocks are at rest", positive},
-      {"rest_time_s", &S::rest_time_s, "after this long below rest_speed_m_s", not_negative},
       {"max_passes", &S::max_passes, "passes of the contact iteration in one step", {1, 10000}},
       {"seed", &S::seed, "seed of the run", not_negative},
       {"n_runs", &S::n_runs, "runs with seeds counted up", {1, 1000000}},

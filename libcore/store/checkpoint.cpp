@@ -14,7 +14,7 @@ namespace talus {
 // say that a list has to be looked at again.
 
 static_assert(sizeof(Motion) == 112 && sizeof(EnergyLedger) == 40 && sizeof(RunCounters) == 64);
-static_assert(sizeof(ContactMemory) == 128 && sizeof(HealthRow) == 168);
+static_assert(sizeof(ContactMemory) == 128 && sizeof(HealthRow) == 176);
 static_assert(sizeof(State) == 8 + 11 * 24 + sizeof(EnergyLedger) + sizeof(RunCounters) +
                                    sizeof(PairState) + sizeof(PlacedHulls));
 static_assert(sizeof(PairState) == 272 && sizeof(PlacedHulls) == 192 && sizeof(ListedPair) == 88);
@@ -102,7 +102,7 @@ void fields(Fields<Archive>& archive, FrameSampler& sampler) {
 }
 template <class Archive>
 void fields(Fields<Archive>& archive, HealthRow& row) {
-  archive(row.time, row.shortest_dt, row.steps, row.substeps, row.passes, row.impacts,
+  archive(row.time, row.shortest_dt, row.steps, row.substeps, row.passes, row.flips, row.impacts,
           row.unconverged, row.left_domain, row.fell_through, row.not_finite, row.deep,
           row.largest_penetration, row.translation, row.rotation, row.potential, row.elastic,
           row.friction, row.impact, row.contact, row.base, row.removed);
@@ -115,7 +115,7 @@ void fields(Fields<Archive>& archive, Checkpoint& checkpoint) {
 
 namespace {
 
-constexpr std::uint64_t format = 0x31306b6365686374;  // "tcheck01"
+constexpr std::uint64_t format = 0x32306b6365686374;  // "tcheck02"
 constexpr std::size_t digest_length = 64;
 
 std::string digest_of(std::span<const std::uint8_t> bytes) {

@@ -66,7 +66,7 @@ void append(RunFrames& frames, const Frame& frame, bool with_strain);
 struct HealthRow {
   double time = 0;         ///< [s]
   double shortest_dt = 0;  ///< of a step with contact search; 0 when there was none [s]
-  std::int64_t steps = 0, substeps = 0, passes = 0, impacts = 0, unconverged = 0;
+  std::int64_t steps = 0, substeps = 0, passes = 0, flips = 0, impacts = 0, unconverged = 0;
   std::int64_t left_domain = 0;  ///< blocks that have left the known terrain
   std::int64_t fell_through = 0, not_finite = 0, deep = 0;  ///< steps so far with such a block
   double largest_penetration = 0;                           ///< [m]

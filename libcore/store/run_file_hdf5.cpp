@@ -134,6 +134,9 @@ void health_columns(Visit&& column) {
       "passes", "1", "iterations of the contact law in the interval",
       [](HealthRow & h) -> auto& { return h.passes; });
   column(
+      "flips", "1", "contacts that opened, closed, or changed between stick and slip",
+      [](HealthRow & h) -> auto& { return h.flips; });
+  column(
       "impacts", "1", "impacts in the interval", [](HealthRow & h) -> auto& { return h.impacts; });
   column(
       "unconverged", "1", "block steps accepted without convergence in the interval",

@@ -43,6 +43,7 @@ void add_to_interval(HealthRow& row, const StepReport& report) {
   ++row.steps;
   row.substeps += report.substeps;
   row.passes += report.passes;
+  row.flips += report.n_flips;
   row.impacts += report.n_impacts;
   row.unconverged += report.n_unconverged;
   row.fell_through += has(report.flags, StepFlag::fell_through) ? 1 : 0;

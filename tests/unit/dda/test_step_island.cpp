@@ -14,15 +14,6 @@ using namespace talus::cases;
 
 constexpr double degree = std::numbers::pi / 180;
 
-Body body_of(Polyhedron shape, const Vec3& velocity = Vec3::Zero(),
-             const Vec3& spin = Vec3::Zero()) {
-  Body body;
-  body.parts = {std::move(shape)};
-  body.velocity = velocity;
-  body.spin = spin;
-  return body;
-}
-
 GroundClass rough(double phi_deg, double restitution = 0) {
   GroundClass ground;
   ground.friction = std::tan(phi_deg * degree);
