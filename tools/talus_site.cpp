@@ -35,9 +35,9 @@ const std::array<Stage, 5>& stages() {
       {"trn", {"terrain.dem", "terrain.cell_size_m", "terrain.window_m"}},
       {"blocks", {"site.crs", "source", "joints", "blocks", "material"}},
       {"run",
-       {"site.name", "site.crs", "material", "joints", "ground", "solver", "fence", "base_motion",
-        "output", "-solver.seed", "-solver.n_runs", "-output.folder", "-output.min_passages",
-        "-output.checkpoint_interval_s"}},
+       {"site.name", "site.crs", "terrain.ground_raster", "material", "joints", "ground", "solver",
+        "fence", "base_motion", "output", "-solver.seed", "-solver.n_runs", "-output.folder",
+        "-output.min_passages", "-output.checkpoint_interval_s"}},
       {"fence", {"site.name", "site.crs", "fence"}},
   }};
   return list;
@@ -62,8 +62,8 @@ std::string unquoted(const std::string& toml) {
 
 // Keys whose value is the name of a file.
 bool names_a_file(const std::string& section, const std::string& key) {
-  static const std::set<std::string> keys = {"contours", "breaklines", "spots", "boundary",
-                                             "dem",      "raster",     "file"};
+  static const std::set<std::string> keys = {"contours", "breaklines", "spots",         "boundary",
+                                             "dem",      "raster",     "ground_raster", "file"};
   if (section == "site" || section == "solver" || section == "output") return false;
   return keys.count(key) > 0 || (key.size() > 5 && key.ends_with("_file"));
 }
