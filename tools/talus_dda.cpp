@@ -346,6 +346,13 @@ void check_blocks_apart(Tool& tool, const Options& o, const ScenePlan& plan, int
   tool.warn(finding + " move as if each were alone: contacts between them are not computed");
 }
 
+// Also the half of one that a killed run left. One that cannot be removed does no harm.
+void remove_checkpoints(const Options& o) {
+  std::error_code error;
+  fs::remove(part_of(o), error);
+  fs::remove(part_of(o) + ".new", error);
+}
+
 void note_lines(Tool& tool, const Site& site) {
   const bool any_stands = std::any_of(site.fences.begin(), site.fences.end(),
                                       [](const FenceSettings& fence) { return fence.active; });
@@ -395,6 +402,6 @@ int main(int argc, char** argv) {
     is_written = true;
   });
   // the run is in place: what it could have been resumed from is of no more use
-  if (is_written && (code == 0 || code == 3)) fs::remove(part_of(o));
+  if (is_written && (code == 0 || code == 3)) remove_checkpoints(o);
   return code;
 }

@@ -32,8 +32,8 @@ for pause in 0 0.1 0.3; do
   says "a run that was stopped left behind"
   expect 0 run_dda -o killed.h5 $slow --resume
   cmp whole.h5 killed.h5 || fail "the resumed run differs from the whole one"
-  rm -f killed.h5 killed.h5.part.new
-  nothing_left killed.h5.part
+  rm -f killed.h5
+  nothing_left killed.h5.part killed.h5.part.new
 done
 
 # interrupted: exit 130 after a checkpoint
