@@ -6,50 +6,15 @@
 #include <numbers>
 #include <utility>
 
+#include "dda/case_run.hpp"
 #include "dda/cases.hpp"
 #include "dda/displacement.hpp"
-#include "dda/rotation.hpp"
-#include "dda/step.hpp"
 
 namespace talus::cases {
 namespace {
 
 constexpr double g = 10;
 constexpr double degree = std::numbers::pi / 180;
-
-/// A scene on its way.
-struct Run {
-  Scene scene;
-  State state;
-  Work work;
-  CaseResult result;
-
-  explicit Run(Scene s) : scene(std::move(s)), state(start(scene)), work(make_work(scene)) {}
-
-  StepReport advance() {
-    const StepReport report = step(scene, state, work);
-    ++result.steps;
-    result.passes += report.passes;
-    result.unconverged += report.n_unconverged;
-    result.largest_penetration = std::max(result.largest_penetration, report.largest_penetration);
-    result.flags = result.flags | report.flags;
-    return report;
-  }
-  void advance_to(double time) {
-    const long n = std::lround((time - state.time) / scene.settings.dt);
-    for (long i = 0; i < n; ++i) advance();
-  }
-  [[nodiscard]] Motion motion() const { return motion_at(scene, state, 0, state.time); }
-  [[nodiscard]] Vec3 spin(const Motion& m) const {
-    return angular_velocity(m.pose.attitude, m.angular_momentum, scene.blocks.inertia[0]);
-  }
-  CaseResult finish(double value, double expected, double error) {
-    result.value = value;
-    result.expected = expected;
-    result.error = error;
-    return result;
-  }
-};
 
 GroundClass ground_of(double friction_deg, double restitution = 0) {
   GroundClass ground;
