@@ -6,5 +6,5 @@ file(MAKE_DIRECTORY ${folder})
 file(READ ${DOC} text LIMIT 1000)
 string(REGEX MATCH "^#[^\n]*\n\n([^\n]*)" found "${text}")
 string(REGEX REPLACE "[.`]" "" purpose "${CMAKE_MATCH_1}")
-execute_process(COMMAND ${HELP2MAN} --no-info --no-discard-stderr --section=1 --name=${purpose}
+execute_process(COMMAND ${HELP2MAN} --no-info --no-discard-stderr --section=1 "--name=${purpose}"
                         --manual=Talus --output=${PAGE} ${TOOL} COMMAND_ERROR_IS_FATAL ANY)
