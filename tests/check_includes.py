@@ -6,7 +6,7 @@ import re
 import sys
 
 MODULES = ["base", "geometry", "terrain", "blocks", "scene", "contact", "dda", "io", "store", "post",
-           "report"]
+           "report", "verify"]
 LIBRARY_HEADERS = {
     "cgal": re.compile(r"^(CGAL|boost)/"),
     "gdal": re.compile(r"^(gdal|ogr|cpl_|proj)"),

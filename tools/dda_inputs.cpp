@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "base/sha256.hpp"
 #include "base/text.hpp"
+#include "dda/site_fence.hpp"
+#include "dda/start_overlaps.hpp"
 #include "io/blocks_hdf5.hpp"
+#include "io/class_raster_gdal.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/raster_gdal.hpp"
 #include "io/vectors_gdal.hpp"
@@ -121,34 +125,165 @@ GroundArea ground_area(Tool& tool, const Site& site, const Trn& trn, int index) 
   return area;
 }
 
-// One class needs no map of classes.
-std::vector<std::uint8_t> ground_classes(Tool& tool, const Site& site, const Trn& trn) {
-  const int n = static_cast<int>(site.grounds.size());
-  if (n == 1) return {};
-  if (n > 255)
-    throw InputError({site.file}, std::to_string(n) + " sections [ground.*], expected up to 255");
-  std::vector<GroundArea> areas;
+bool has_area(const GroundSettings& ground) {
+  return !ground.polygon.empty() || !ground.polygon_file.empty();
+}
+
+// The section that says neither where by a polygon nor by values of the raster.
+int ground_elsewhere(const Site& site) {
   int elsewhere = -1;
-  for (int i = 0; i < n; ++i) {
-    const GroundSettings& ground = site.grounds[static_cast<std::size_t>(i)];
-    const bool has_area = !ground.polygon.empty() || !ground.polygon_file.empty();
-    if (!has_area && elsewhere >= 0)
+  for (std::size_t i = 0; i < site.grounds.size(); ++i) {
+    const GroundSettings& ground = site.grounds[i];
+    if (has_area(ground) || !ground.raster_values.empty()) continue;
+    if (elsewhere >= 0)
       throw InputError({site.file, ground.line},
                        "[ground." + ground.name + "] has no polygon, and neither has [ground." +
                            site.grounds[static_cast<std::size_t>(elsewhere)].name + "]",
-                       "one section holds elsewhere, the others need a polygon");
-    if (has_area)
-      areas.push_back(ground_area(tool, site, trn, i));
-    else
-      elsewhere = i;
+                       "one section holds elsewhere, the others need a polygon or raster_values");
+    elsewhere = static_cast<int>(i);
   }
+  return elsewhere;
+}
+
+// Which class a value of the raster stands for.
+std::map<std::int32_t, int> classes_of_values(const Site& site) {
+  std::map<std::int32_t, int> class_of;
+  for (std::size_t i = 0; i < site.grounds.size(); ++i) {
+    const GroundSettings& ground = site.grounds[i];
+    const Where where = where_of(site, "ground." + ground.name + ".raster_values");
+    if (!ground.raster_values.empty() && site.terrain.ground_raster.empty())
+      throw InputError(where, "raster_values stand here, and there is no raster",
+                       "name it: [terrain] ground_raster");
+    for (const double value : ground.raster_values) {
+      if (value != std::floor(value) || std::abs(value) > 2e9)
+        throw InputError(where, "raster_values holds " + text(value) + ", expected whole numbers");
+      if (!class_of.emplace(static_cast<std::int32_t>(value), static_cast<int>(i)).second)
+        throw InputError(where, "the raster's value " + text(value) + " stands for two grounds");
+    }
+  }
+  return class_of;
+}
+
+// Classes of the cells by the raster; where it is unknown, and without a raster, `elsewhere`.
+std::vector<std::uint8_t> raster_classes(Tool& tool, const Site& site, const Trn& trn,
+                                         int elsewhere) {
+  const std::map<std::int32_t, int> class_of = classes_of_values(site);
+  const auto n_cells =
+      static_cast<std::size_t>(trn.n_rows - 1) * static_cast<std::size_t>(trn.n_cols - 1);
+  std::vector<std::uint8_t> classes(n_cells, static_cast<std::uint8_t>(elsewhere));
+  if (site.terrain.ground_raster.empty()) return classes;
+  const std::string path = resolved(site, site.terrain.ground_raster);
+  tool.read_also("ground_raster", path);
+  const std::vector<std::int32_t> values = read_cell_classes(path, trn);
+  for (std::size_t cell = 0; cell < n_cells; ++cell) {
+    if (values[cell] == no_class) continue;
+    const auto found = class_of.find(values[cell]);
+    if (found == class_of.end())
+      throw InputError({path},
+                       "holds the value " + std::to_string(values[cell]) +
+                           " below the terrain, which no [ground.*] names",
+                       "add it to raster_values of a section [ground.*]");
+    classes[cell] = static_cast<std::uint8_t>(found->second);
+  }
+  return classes;
+}
+
+// One class needs no map of classes. Polygons win over the raster.
+std::vector<std::uint8_t> ground_classes(Tool& tool, const Site& site, const Trn& trn) {
+  const int n = static_cast<int>(site.grounds.size());
+  if (n == 1 && site.terrain.ground_raster.empty()) return {};
+  if (n > 255)
+    throw InputError({site.file}, std::to_string(n) + " sections [ground.*], expected up to 255");
+  const int elsewhere = ground_elsewhere(site);
   if (elsewhere < 0)
-    throw InputError({site.file}, "no section [ground.*] holds outside the polygons",
-                     "add one without polygon");
-  return classify_cells(trn, areas, elsewhere);
+    throw InputError({site.file},
+                     "no section [ground.*] holds outside the polygons and where the raster says "
+                     "nothing",
+                     "add one without polygon and raster_values");
+  std::vector<GroundArea> areas;
+  for (int i = 0; i < n; ++i)
+    if (has_area(site.grounds[static_cast<std::size_t>(i)]))
+      areas.push_back(ground_area(tool, site, trn, i));
+  std::vector<std::uint8_t> classes = raster_classes(tool, site, trn, elsewhere);
+  paint_areas(trn, areas, classes);
+  return classes;
+}
+
+// --- fences ------------------------------------------------------------------------------------
+
+void add_lines(Tool& tool, const Site& site, const FenceSettings& fence, DdaInputs& inputs) {
+  const Where where{site.file, fence.line_number, "fence." + fence.name};
+  for (RecordLine& line : fence_lines(tool, site, inputs.parts.trn, fence)) {
+    line.standing = fence.active && site.solver.law == "talus";
+    if (line.standing)
+      inputs.parts.fences.push_back(standing_fence(
+          fence, inputs.parts.trn, static_cast<int>(inputs.lines.size()), line.points, where));
+    inputs.lines.push_back(std::move(line));
+  }
+}
+
+// "panel 2 of fence upper", from the number of a panel among those of all fences.
+std::string panel_name(const DdaInputs& inputs, int panel) {
+  for (const StandingFence& fence : inputs.parts.fences) {
+    const int n = static_cast<int>(fence.posts.size()) - 1;
+    if (panel < n)
+      return "panel " + std::to_string(panel) + " of fence " +
+             inputs.lines[static_cast<std::size_t>(fence.line)].name;
+    panel -= n;
+  }
+  return "a fence";
+}
+
+std::string text_of(const StartOverlap& start, const DdaInputs& inputs) {
+  const BlockOverlap& o = start.overlap;
+  const int n = n_blocks(inputs.parts.blocks);
+  const Vec3 at = o.point + inputs.origin;
+  return "block " + std::to_string(o.block_a) + " and " +
+         (o.block_b < n ? "block " + std::to_string(o.block_b)
+                        : panel_name(inputs, o.block_b - n)) +
+         " by " + text(o.depth, 3) + " m at " + text(at.x(), 9) + ", " + text(at.y(), 9) + ", " +
+         text(at.z(), 6);
 }
 
 }  // namespace
+
+void check_overlaps(Tool& tool, const Site& site, DdaInputs& inputs, const DdaFiles& files,
+                    bool among_blocks) {
+  BlockSet& blocks = inputs.parts.blocks;
+  const std::vector<StartOverlap> found =
+      start_overlaps(blocks, inputs.parts.fences, among_blocks, overlap_tolerance);
+  if (found.empty()) return;
+  const auto too_deep =
+      std::find_if(found.begin(), found.end(), [](const StartOverlap& o) { return !o.is_small; });
+  const std::string finding =
+      std::to_string(found.size()) +
+      (found.size() == 1 ? " pair overlaps: " : " pairs overlap, the most ") +
+      text_of(found.front(), inputs);
+  if (too_deep != found.end())
+    throw InputError(
+        {files.blocks},
+        too_deep == found.begin() ? finding : finding + "; " + text_of(*too_deep, inputs),
+        too_deep->overlap.block_b >= n_blocks(blocks)
+            ? "move the fence of " + site.file + " off the blocks"
+            : "blocks may overlap by " + text(too_deep->limit, 3) +
+                  " m, a twentieth of their thickness, to be moved apart by --settle");
+  if (!files.settle)
+    throw InputError({files.blocks}, finding,
+                     "--settle moves blocks apart that overlap as little as this");
+  const MovedApart moved = move_apart(blocks, overlap_tolerance);
+  if (!moved.done)
+    throw InputError({files.blocks}, finding + "; they could not be moved apart",
+                     "they stand too closely packed: build the block set anew");
+  tool.info(finding + ": moved apart, by " + text(moved.farthest, 3) + " m at most");
+  check_depth(tool, blocks, inputs.parts.trn, files);
+  const std::vector<StartOverlap> left =
+      start_overlaps(blocks, inputs.parts.fences, among_blocks, 2 * overlap_tolerance);
+  if (!left.empty())
+    throw InputError({files.blocks},
+                     "after they were moved apart and lifted onto the ground, " +
+                         text_of(left.front(), inputs) + " overlap",
+                     "build the block set anew");
+}
 
 DdaInputs read_dda_inputs(Tool& tool, const Site& site, const DdaFiles& files) {
   DdaInputs inputs;
@@ -167,9 +302,7 @@ DdaInputs read_dda_inputs(Tool& tool, const Site& site, const DdaFiles& files) {
     tool.read_also("base_motion", resolved(site, site.base_motion.file));
   parts.blocks = read_checked_blocks(tool, parts.trn, inputs.trn_digest, files);
   parts.cell_class = ground_classes(tool, site, parts.trn);
-  for (const FenceSettings& fence : site.fences)
-    for (RecordLine& line : fence_lines(tool, site, parts.trn, fence))
-      inputs.lines.push_back(std::move(line));
+  for (const FenceSettings& fence : site.fences) add_lines(tool, site, fence, inputs);
   return inputs;
 }
 

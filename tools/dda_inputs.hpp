@@ -16,7 +16,7 @@ namespace talus {
 
 struct DdaFiles {
   std::string trn, blocks;
-  bool settle = false;  ///< lift blocks that stand in the ground
+  bool settle = false;  ///< lift blocks that stand in the ground, move small overlaps apart
 };
 
 struct DdaInputs {
@@ -27,9 +27,16 @@ struct DdaInputs {
   std::string trn_sha256, trn_digest;
 };
 
+/// Throws InputError for blocks that overlap one another (`among_blocks`) or a fence by more than a
+/// millimetre: how many, and of the deepest which two, how deep and where. With files.settle blocks
+/// that overlap by up to a twentieth of their thickness are moved apart.
+void check_overlaps(Tool& tool, const Site& site, DdaInputs& inputs, const DdaFiles& files,
+                    bool among_blocks);
+
 /// Reads TRN, blocks, ground classes, base motion and fences. Throws InputError for blocks of
 /// another CRS, off the terrain or in the ground (unless files.settle), ground without a class, and
-/// a base motion that ends early. Warns of a TRN that the blocks were not made for.
+/// a base motion that ends early. Fences that are active stand, with law talus. Warns of a TRN that
+/// the blocks were not made for.
 [[nodiscard]] DdaInputs read_dda_inputs(Tool& tool, const Site& site, const DdaFiles& files);
 
 }  // namespace talus

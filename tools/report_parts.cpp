@@ -159,11 +159,11 @@ constexpr MapText map_texts[] = {
      "smallest angle from a block's start to the cell along its path [deg]"}};
 
 std::string map_section(const ReportData& data) {
-  std::string out = figure(
-      plan_view_svg(data.shown, data.terrain, data.hillshade_png),
-      "<span class=\"key\"><i class=\"start\"></i>start<i class=\"way\"></i>ways of the "
-      "centroids<i class=\"end\"></i>end<i class=\"fence\"></i>fence line</span>. Run of seed " +
-          std::to_string(data.shown.info.seed) + "; north is up.");
+  std::string out =
+      figure(plan_view_svg(data.shown, data.terrain, data.hillshade_png),
+             "<span class=\"key\"><i class=\"start\"></i>start<i class=\"way\"></i>ways of the "
+             "centroids<i class=\"end\"></i>end<i class=\"fence\"></i>fence line</span>. Run " +
+                 escaped(data.shown_name) + "; north is up.");
   out += paragraph(
       "Every cell counts a block once, with its largest value over all steps of the "
       "solver. Denominator: " +
@@ -401,7 +401,8 @@ std::string limit_table(const ReportData& data) {
 
 std::string counter_table(const ReportData& data) {
   std::vector<std::vector<std::string>> rows;
-  for (const RunFile& run : data.runs) {
+  for (std::size_t i = 0; i < data.runs.size(); ++i) {
+    const RunFile& run = data.runs[i];
     HealthRow sum;
     double shortest = 0;
     for (const HealthRow& row : run.health) {
@@ -415,16 +416,16 @@ std::string counter_table(const ReportData& data) {
       if (row.shortest_dt > 0 && (shortest == 0 || row.shortest_dt < shortest))
         shortest = row.shortest_dt;
     }
-    rows.push_back({std::to_string(run.info.seed), escaped(run.info.status),
+    rows.push_back({escaped(data.run_names[i]), escaped(run.info.status),
                     text(run.info.time, 4) + " of " + text(run.info.duration, 4),
                     std::to_string(sum.steps), text(shortest, 3), std::to_string(sum.impacts),
                     std::to_string(sum.unconverged), text(sum.largest_penetration, 3),
                     std::to_string(sum.left_domain)});
   }
-  return html_table({"seed", "status", "time [s]", "steps", "shortest step [s]", "impacts",
+  return html_table({"run", "status", "time [s]", "steps", "shortest step [s]", "impacts",
                      "steps of a block accepted unconverged", "largest penetration [m]",
                      "blocks that left the terrain"},
-                    rows, {true, false, true, true, true, true, true, true, true});
+                    rows, {false, false, true, true, true, true, true, true, true});
 }
 
 Chart health_chart(const ReportData& data, const std::string& title, const std::string& unit,
@@ -477,12 +478,12 @@ std::string health_section(const ReportData& data) {
   out += data.limits.empty()
              ? note("The registry holds no record of these runs: limits cannot be shown.")
              : limit_table(data);
-  for (const RunFile& run : data.runs)
-    if (!run.info.reason.empty())
-      out += note("Seed " + std::to_string(run.info.seed) + ": " + escaped(run.info.reason) + ".");
+  for (std::size_t i = 0; i < data.runs.size(); ++i)
+    if (const RunFile& run = data.runs[i]; !run.info.reason.empty())
+      out += note("Run " + escaped(data.run_names[i]) + ": " + escaped(run.info.reason) + ".");
   out += counter_table(data) + "<div class=\"charts\">\n";
   out += figure(chart_svg(energy_chart(data.shown)),
-                "Run of seed " + std::to_string(data.shown.info.seed) +
+                "Run " + escaped(data.shown_name) +
                     ": the sum of what moves and what was spent lies on what has fallen.");
   out += figure(chart_svg(health_chart(data, "Largest penetration in the interval", "m",
                                        &HealthRow::largest_penetration, true)),
@@ -616,7 +617,7 @@ std::string viewer_section(const ReportData& data) {
   if (data.shown.frames.time.empty()) return "";
   return section(
       "animation", "Animation",
-      paragraph("Run of seed " + std::to_string(data.shown.info.seed) +
+      paragraph("Run " + escaped(data.shown_name) +
                 (data.runs.size() > 1 ? ", the one of the farthest run-out." : ".") +
                 " Drag to turn, right-drag or shift-drag to move, wheel to zoom, click a block.") +
           "<div id=\"viewer\"><p class=\"viewer-none\">The animation needs JavaScript; all results "

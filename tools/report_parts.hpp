@@ -35,8 +35,10 @@ struct ReportData {
   Trn terrain, bed;                      ///< before the slide; what the blocks slide on
   std::string hillshade_png, mobility_svg, stereonet_svg, sizes_svg, curves_csv, change_png;
   std::vector<MapPicture> maps;
-  std::vector<RunFile> runs;  ///< info and health, in the order of their seeds; frames left out
-  RunFile shown;              ///< the run of the animation, whole
+  std::vector<RunFile> runs;  ///< info and health, by seed and name; frames left out    (n_runs)
+  std::vector<std::string> run_names;  ///< "1", or "CASE_1"                            (n_runs)
+  RunFile shown;                       ///< the run of the animation, whole
+  std::string shown_name;
   std::vector<LimitOverRuns> limits;
   std::vector<RunRecord> steps;  ///< each behind those whose outputs it read
   std::string run_id, version;

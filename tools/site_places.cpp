@@ -1,6 +1,7 @@
 #include "site_places.hpp"
 
 #include "base/error.hpp"
+#include "dda/site_fence.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/vectors_gdal.hpp"
 
@@ -41,6 +42,7 @@ std::vector<RecordLine> fence_lines(Tool& tool, const Site& site, const Trn& trn
   if (found.empty()) throw InputError(where, "has no line", "give line or line_file");
   std::vector<RecordLine> lines;
   for (std::size_t i = 0; i < found.size(); ++i) {
+    if (fence.active) check_feet(fence, trn, found[i], where);
     std::vector<Vec2> corners;
     for (const Vec3& point : found[i]) corners.push_back(point.head<2>());
     lines.push_back(record_line(fence.name + (found.size() > 1 ? "." + std::to_string(i + 1) : ""),

@@ -1,6 +1,7 @@
 // tools/talus_dda.cpp
 // Moves blocks by three-dimensional discontinuous deformation analysis. Page:
 // docs/tools/talus-dda.md
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <ctime>
@@ -40,7 +41,9 @@ void declare(Tool& tool, SiteOptions& site, Options& o) {
   tool.flag("--resume", o.resume, "go on from the checkpoint of a run that was stopped, if any");
   tool.flag("--independent", o.independent,
             "move each block as if it were alone: rocks that fall one by one");
-  tool.flag("--settle", o.files.settle, "lift blocks that start below the ground onto it");
+  tool.flag("--settle", o.files.settle,
+            "lift blocks that start below the ground onto it, and move blocks apart that overlap a "
+            "little");
   tool.option("--passages-by", o.passages_by,
               "a cell is passed while the footprint or only the centroid is over it")
       ->check(CLI::IsMember({"footprint", "centroid"}));
@@ -240,6 +243,24 @@ Vec3 mean_displacement(const RunFile& file) {
   return sum / mass;
 }
 
+// Panels that stood, and those that broke, when and by which block.
+Json fences_on(const Runner& runner) {
+  Json list = Json::array();
+  for (const PanelRow& row : runner.file.panels) {
+    Json panel = {{"fence", runner.file.lines[static_cast<std::size_t>(row.line)].name},
+                  {"panel", row.panel},
+                  {"work_kj", row.work / 1e3},
+                  {"deflection_m", row.deflection},
+                  {"broken", row.broken_by >= 0}};
+    if (row.broken_by >= 0) {
+      panel["broken_at_s"] = row.broken_at;
+      panel["broken_by_block"] = row.broken_by;
+    }
+    list.push_back(std::move(panel));
+  }
+  return list;
+}
+
 Json report_on(const Runner& runner, const ScenePlan& plan, double cpu_s) {
   const RunFile& file = runner.file;
   const RunCounters& counters = runner.state.counters;
@@ -257,6 +278,8 @@ Json report_on(const Runner& runner, const ScenePlan& plan, double cpu_s) {
                {"left_domain", counters.left_domain},
                {"n_passages", file.passages.size()},
                {"n_crossings", file.crossings.size()},
+               {"n_fence_hits", file.fence_hits.size()},
+               {"fences", fences_on(runner)},
                {"n_frames", n_frames(file.frames)},
                {"largest_speed_m_s", largest_speed(file)},
                {"mean_displacement_m", {moved.x(), moved.y(), moved.z()}},
@@ -271,6 +294,15 @@ Json report_on(const Runner& runner, const ScenePlan& plan, double cpu_s) {
   return json;
 }
 
+std::string fence_summary(const Json& report) {
+  const Json& panels = report["fences"];
+  if (panels.empty()) return "";
+  const auto n_broken = std::count_if(panels.begin(), panels.end(),
+                                      [](const Json& p) { return p["broken"].get<bool>(); });
+  return ", " + report["n_fence_hits"].dump() + " hits on fences, " + std::to_string(n_broken) +
+         " of " + std::to_string(panels.size()) + " panels broken";
+}
+
 std::string summary_of(const Json& report) {
   const auto number = [&report](const char* key) { return text(report[key].get<double>(), 4); };
   const Json& moved = report["mean_displacement_m"];
@@ -279,7 +311,7 @@ std::string summary_of(const Json& report) {
          report["steps"].dump() + " steps: centre of mass moved " + text(horizontal, 4) +
          " m and fell " + text(-moved[2].get<double>(), 4) + " m, largest speed " +
          number("largest_speed_m_s") + " m/s, " + report["n_passages"].dump() + " passages, " +
-         report["n_crossings"].dump() + " crossings";
+         report["n_crossings"].dump() + " crossings" + fence_summary(report);
 }
 
 void record_health(Tool& tool, Runner& runner) {
@@ -314,11 +346,20 @@ void check_blocks_apart(Tool& tool, const Options& o, const ScenePlan& plan, int
   tool.warn(finding + " move as if each were alone: contacts between them are not computed");
 }
 
+// Also the half of one that a killed run left. One that cannot be removed does no harm.
+void remove_checkpoints(const Options& o) {
+  std::error_code error;
+  fs::remove(part_of(o), error);
+  fs::remove(part_of(o) + ".new", error);
+}
+
 void note_lines(Tool& tool, const Site& site) {
-  for (const std::string& key : keys_without_effect(site))
-    tool.warn(where_of(site, key).text() + ": " + key + " has no effect in this version");
-  if (!site.fences.empty())
-    tool.warn("fences stop nothing in this version: what crosses their lines is recorded");
+  const bool any_stands = std::any_of(site.fences.begin(), site.fences.end(),
+                                      [](const FenceSettings& fence) { return fence.active; });
+  if (any_stands && site.solver.law == "paper")
+    tool.warn("fences stop nothing with law paper: what crosses their lines is recorded");
+  for (const UnusualValue& value : unusual_values(site))
+    tool.warn(where_of(site, value.key).text() + ": " + value.key + " " + value.finding);
 }
 
 }  // namespace
@@ -343,6 +384,7 @@ int main(int argc, char** argv) {
       return;
     }
     check_blocks_apart(tool, o, plan, n_blocks(inputs.parts.blocks));
+    check_overlaps(tool, site, inputs, o.files, plan.block_contacts);
     tool.detail(as_text(plan));
     RunFile file = new_file(site, inputs, plan, o);
     const BlockSet blocks = inputs.parts.blocks;
@@ -360,6 +402,6 @@ int main(int argc, char** argv) {
     is_written = true;
   });
   // the run is in place: what it could have been resumed from is of no more use
-  if (is_written && (code == 0 || code == 3)) fs::remove(part_of(o));
+  if (is_written && (code == 0 || code == 3)) remove_checkpoints(o);
   return code;
 }

@@ -117,8 +117,11 @@ void read_runs(Tool& tool, const Folder& folder, ReportData& data) {
     progress(static_cast<double>(data.runs.size()) / static_cast<double>(files.size()));
     tool.read_also("run", path.string());
     RunFile run = read_run_file(path.string(), {false, false, false, true, false});
-    if (run.info.run_id == shown)
+    data.run_names.push_back(path.stem().string().substr(4));  // without "run_"
+    if (run.info.run_id == shown) {
       data.shown = read_run_file(path.string(), {true, false, true, true, false});
+      data.shown_name = data.run_names.back();
+    }
     data.runs.push_back(std::move(run));
   }
 }

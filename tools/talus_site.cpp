@@ -3,6 +3,8 @@
 // settings have changed. Page: docs/tools/talus-site.md
 #include <algorithm>
 #include <array>
+#include <cctype>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -35,9 +37,9 @@ const std::array<Stage, 5>& stages() {
       {"trn", {"terrain.dem", "terrain.cell_size_m", "terrain.window_m"}},
       {"blocks", {"site.crs", "source", "joints", "blocks", "material"}},
       {"run",
-       {"site.name", "site.crs", "material", "joints", "ground", "solver", "fence", "base_motion",
-        "output", "-solver.seed", "-solver.n_runs", "-output.folder", "-output.min_passages",
-        "-output.checkpoint_interval_s"}},
+       {"site.name", "site.crs", "terrain.ground_raster", "material", "joints", "ground", "solver",
+        "fence", "base_motion", "output", "-solver.seed", "-solver.n_runs", "-output.folder",
+        "-output.min_passages", "-output.checkpoint_interval_s"}},
       {"fence", {"site.name", "site.crs", "fence"}},
   }};
   return list;
@@ -62,8 +64,8 @@ std::string unquoted(const std::string& toml) {
 
 // Keys whose value is the name of a file.
 bool names_a_file(const std::string& section, const std::string& key) {
-  static const std::set<std::string> keys = {"contours", "breaklines", "spots", "boundary",
-                                             "dem",      "raster",     "file"};
+  static const std::set<std::string> keys = {"contours", "breaklines", "spots",         "boundary",
+                                             "dem",      "raster",     "ground_raster", "file"};
   if (section == "site" || section == "solver" || section == "output") return false;
   return keys.count(key) > 0 || (key.size() > 5 && key.ends_with("_file"));
 }
@@ -91,19 +93,33 @@ std::string settings_of(const Site& site, const Stage& stage) {
 // --- variables for make ------------------------------------------------------------------------
 
 // A word in a recipe: quoted for the shell, with make's own sign doubled.
-std::string shell_word(const std::string& word) {
+std::string shell_word(const std::string& word, const Site& site) {
   std::string out = "'";
-  for (const char c : word) out += c == '\'' ? "'\\''" : c == '$' ? "$$" : std::string(1, c);
+  for (const char c : word) {
+    if (std::iscntrl(static_cast<unsigned char>(c)) != 0)
+      throw InputError({site.file}, "\"" + word + "\" holds a line break or control character",
+                       "take it out: the value stands in a makefile");
+    out += c == '\'' ? "'\\''" : c == '$' ? "$$" : std::string(1, c);
+  }
   return out + "'";
 }
 
+// A name that stands in rules and recipes: whatever means something to make or to the shell is
+// refused, so that a site file can name things but not give orders.
+const std::string& plain_name(const std::string& name, const Where& where) {
+  for (const char c : name)
+    if (static_cast<unsigned char>(c) < 0x80 && std::isalnum(static_cast<unsigned char>(c)) == 0 &&
+        std::strchr("_-+=,./@ #:%", c) == nullptr)
+      throw InputError(where, "the name " + name + " cannot stand in a makefile",
+                       "use letters, digits, blanks and _-+=,./@#:%");
+  return name;
+}
+
 // The name of a file as a prerequisite.
-std::string make_word(const std::string& path) {
+std::string make_word(const std::string& path, const Site& site) {
   std::string out;
-  for (const char c : path)
-    out += c == ' ' || c == '#' || c == ':' || c == '%' ? std::string("\\") + c
-           : c == '$'                                   ? "$$"
-                                                        : std::string(1, c);
+  for (const char c : plain_name(path, {site.file}))
+    out += c == ' ' || c == '#' || c == ':' || c == '%' ? std::string("\\") + c : std::string(1, c);
   return out;
 }
 
@@ -116,8 +132,8 @@ std::string joined(const std::vector<double>& numbers) {
 std::string tin_flags(const Site& site) {
   const TerrainSettings& t = site.terrain;
   std::string out;
-  const auto add = [&out](const char* option, const std::string& value) {
-    if (!value.empty()) out += std::string(" ") + option + " " + shell_word(value);
+  const auto add = [&out, &site](const char* option, const std::string& value) {
+    if (!value.empty()) out += std::string(" ") + option + " " + shell_word(value, site);
   };
   add("--layer", t.layer);
   add("--elevation-field", t.elevation_field);
@@ -138,20 +154,25 @@ std::string trn_flags(const Site& site) {
 
 std::string make_variables(const Site& site) {
   std::string fences, files;
-  for (const FenceSettings& fence : site.fences) fences += " " + fence.name;
+  for (const FenceSettings& fence : site.fences) {
+    if (fence.name.find_first_of(" #%") != std::string::npos)
+      throw InputError(where_of(site, "fence." + fence.name),
+                       "the fence's name " + fence.name + " cannot stand in a makefile",
+                       "use letters, digits and _-+=,./@:");
+    fences += " " + plain_name(fence.name, where_of(site, "fence." + fence.name));
+  }
   std::set<std::string> seen;
   for (const EffectiveValue& value : effective_values(site))
     if (const std::string file = file_named(site, value); !file.empty() && seen.insert(file).second)
-      files += " " + make_word(file);
+      files += " " + make_word(file, site);
   const bool any_active = std::any_of(site.fences.begin(), site.fences.end(),
                                       [](const FenceSettings& fence) { return fence.active; });
-  std::string out = "# written by talus-site from " + site.file + "\n";
+  std::string out = "# written by talus-site from the site file\n";
   const auto line = [&out](const char* name, const std::string& value) {
     out += std::string(name) + " :=" + (value.empty() || value[0] == ' ' ? "" : " ") + value + "\n";
   };
-  line("SITE_NAME", site.info.name);
-  line("SITE_CONTOURS", make_word(resolved(site, site.terrain.contours)));
-  line("SITE_DEM", make_word(resolved(site, site.terrain.dem)));
+  line("SITE_CONTOURS", make_word(resolved(site, site.terrain.contours), site));
+  line("SITE_DEM", make_word(resolved(site, site.terrain.dem), site));
   line("SITE_TIN_FLAGS", tin_flags(site));
   line("SITE_TRN_FLAGS", trn_flags(site));
   line("SITE_FILES", files);

@@ -440,7 +440,16 @@ struct Tool::Impl {
                        [](const RunCheck& check) { return check.pass; });
   }
 
-  int fail(int code, const std::string& what, const std::string& hint) {
+  // Names outputs as the user did, not by where they were written for now.
+  std::string with_final_names(std::string words) const {
+    for (const Staged& file : staged)
+      for (std::size_t at; (at = words.find(file.temporary)) != std::string::npos;)
+        words.replace(at, file.temporary.size(), file.path);
+    return words;
+  }
+
+  int fail(int code, std::string what, const std::string& hint) {
+    what = with_final_names(std::move(what));
     remove_staged();
     event("error", what);
     print(name + ": " + what);
@@ -611,6 +620,7 @@ int Tool::run(int argc, char** argv, const std::function<void()>& body) {
   std::signal(SIGINT, request_stop);
   std::signal(SIGTERM, request_stop);
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes is an error of the write, as a full disk
 
   int code = impl.guarded([&] {
     if (impl.print_config) {

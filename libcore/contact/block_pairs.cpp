@@ -147,7 +147,11 @@ void relist(const Hulls& hulls, const PlacedHulls& placed, const PairMotion& mot
   if (!state.in_frame)
     for (int p = 0; p < n_parts(hulls); ++p)
       work.fixed_parts.push_back(motion.fixed[hulls.body[p]]);
-  find_overlaps(work.boxes, hulls.body, work.fixed_parts, work.overlaps, work.close);
+  work.group_of_part.clear();
+  if (!motion.group.empty())
+    for (const int body : hulls.body) work.group_of_part.push_back(motion.group[body]);
+  find_overlaps(work.boxes, motion.group.empty() ? hulls.body : work.group_of_part,
+                work.fixed_parts, work.overlaps, work.close);
   merge_list(state, work);
 }
 

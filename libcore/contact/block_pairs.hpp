@@ -36,6 +36,7 @@ struct PairMotion {
   std::span<const double> turn;  ///< bound on motion by turning [m]; empty: none    (n_bodies)
   std::span<const std::uint8_t> awake;  ///< 0: needs no contacts of its own; empty: all (n_bodies)
   std::span<const std::uint8_t> fixed;  ///< 1: never moves; empty: none (n_bodies)
+  std::span<const int> group = {};  ///< bodies of one group do not meet; empty: all meet (n_bodies)
 };
 
 /// When a listed pair must be looked at again.
@@ -99,6 +100,7 @@ struct PairWork {
   std::vector<int> bearing, dropped;
   std::vector<int> support_begin, supports;
   std::vector<std::uint8_t> fixed_parts;
+  std::vector<int> group_of_part;
 };
 
 /// All contacts between blocks at the placed poses with gap <= margin + motion of the coming step,

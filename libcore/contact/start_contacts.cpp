@@ -90,14 +90,16 @@ std::vector<BlockOverlap> block_overlaps(const Hulls& hulls, const PlacedHulls& 
     const auto known = std::find_if(overlaps.begin(), overlaps.end(), [&](const BlockOverlap& o) {
       return o.block_a == block_a && o.block_b == block_b;
     });
-    BlockOverlap& sum =
-        known != overlaps.end()
-            ? *known
-            : overlaps.emplace_back(BlockOverlap{block_a, block_b, 0, 0, Vec3::Zero()});
+    BlockOverlap& sum = known != overlaps.end()
+                            ? *known
+                            : overlaps.emplace_back(
+                                  BlockOverlap{block_a, block_b, 0, 0, Vec3::Zero(), Vec3::Zero()});
     sum.point =
         (sum.volume * sum.point + common.volume * common.centroid) / (sum.volume + common.volume);
     sum.volume += common.volume;
-    sum.depth = std::max(sum.depth, -axis.separation);
+    if (-axis.separation <= sum.depth) continue;
+    sum.depth = -axis.separation;
+    sum.normal = axis.normal;
   }
   std::stable_sort(overlaps.begin(), overlaps.end(),
                    [](const BlockOverlap& p, const BlockOverlap& q) { return p.depth > q.depth; });

@@ -30,9 +30,10 @@ struct JointContact {
 /// Two blocks that overlap; block_a < block_b.
 struct BlockOverlap {
   int block_a = 0, block_b = 0;
-  double depth = 0;           ///< least motion that parts the deepest pair of their parts [m]
-  double volume = 0;          ///< common volume [m3]
-  Vec3 point = Vec3::Zero();  ///< centroid of the common volume [m]
+  double depth = 0;            ///< least motion that parts the deepest pair of their parts [m]
+  double volume = 0;           ///< common volume [m3]
+  Vec3 point = Vec3::Zero();   ///< centroid of the common volume [m]
+  Vec3 normal = Vec3::Zero();  ///< of the deepest pair of parts, unit, from B to A
 };
 
 /// All pairs of blocks that overlap by more than `tolerance` [m], deepest first.

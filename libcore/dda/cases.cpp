@@ -82,6 +82,14 @@ Polyhedron moved(Polyhedron body, const Mat3& turn, const Vec3& pivot, const Vec
   return body;
 }
 
+Body body_of(Polyhedron shape, const Vec3& velocity, const Vec3& spin) {
+  Body body;
+  body.parts = {std::move(shape)};
+  body.velocity = velocity;
+  body.spin = spin;
+  return body;
+}
+
 Scene scene_of(Trn trn, const GroundClass& ground, const std::vector<Body>& bodies,
                const Settings& settings, const Material& material) {
   Scene scene;

@@ -45,6 +45,10 @@ struct SlopeFrame {
 [[nodiscard]] Polyhedron moved(Polyhedron body, const Mat3& turn, const Vec3& pivot,
                                const Vec3& shift = Vec3::Zero());
 
+/// A convex body in motion.
+[[nodiscard]] Body body_of(Polyhedron shape, const Vec3& velocity = Vec3::Zero(),
+                           const Vec3& spin = Vec3::Zero());
+
 /// Scene of bodies on one ground; g = 10 m/s2 downwards as in the paper.
 [[nodiscard]] Scene scene_of(Trn trn, const GroundClass& ground, const std::vector<Body>& bodies,
                              const Settings& settings, const Material& material = {});

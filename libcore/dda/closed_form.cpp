@@ -6,50 +6,15 @@
 #include <numbers>
 #include <utility>
 
+#include "dda/case_run.hpp"
 #include "dda/cases.hpp"
 #include "dda/displacement.hpp"
-#include "dda/rotation.hpp"
-#include "dda/step.hpp"
 
 namespace talus::cases {
 namespace {
 
 constexpr double g = 10;
 constexpr double degree = std::numbers::pi / 180;
-
-/// A scene on its way.
-struct Run {
-  Scene scene;
-  State state;
-  Work work;
-  CaseResult result;
-
-  explicit Run(Scene s) : scene(std::move(s)), state(start(scene)), work(make_work(scene)) {}
-
-  StepReport advance() {
-    const StepReport report = step(scene, state, work);
-    ++result.steps;
-    result.passes += report.passes;
-    result.unconverged += report.n_unconverged;
-    result.largest_penetration = std::max(result.largest_penetration, report.largest_penetration);
-    result.flags = result.flags | report.flags;
-    return report;
-  }
-  void advance_to(double time) {
-    const long n = std::lround((time - state.time) / scene.settings.dt);
-    for (long i = 0; i < n; ++i) advance();
-  }
-  [[nodiscard]] Motion motion() const { return motion_at(scene, state, 0, state.time); }
-  [[nodiscard]] Vec3 spin(const Motion& m) const {
-    return angular_velocity(m.pose.attitude, m.angular_momentum, scene.blocks.inertia[0]);
-  }
-  CaseResult finish(double value, double expected, double error) {
-    result.value = value;
-    result.expected = expected;
-    result.error = error;
-    return result;
-  }
-};
 
 GroundClass ground_of(double friction_deg, double restitution = 0) {
   GroundClass ground;
@@ -62,15 +27,6 @@ Scene on_plane(const Settings& settings, const SlopeFrame& frame, const GroundCl
                const Body& body, double reach, double cell_size = 0.5,
                const Vec3& through = Vec3::Zero()) {
   return scene_of(plane_trn(frame, cell_size, reach, through), ground, {body}, settings);
-}
-
-Body body_of(Polyhedron shape, const Vec3& velocity = Vec3::Zero(),
-             const Vec3& spin = Vec3::Zero()) {
-  Body body;
-  body.parts = {std::move(shape)};
-  body.velocity = velocity;
-  body.spin = spin;
-  return body;
 }
 
 Polyhedron cube_on(const SlopeFrame& frame, double side, const Vec3& base = Vec3::Zero()) {

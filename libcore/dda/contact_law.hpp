@@ -4,7 +4,8 @@
 //
 // Law talus works with impulses over a step. Normal: p_n = max(0, -D_n (v_n + b)), where b holds
 // the overlap at the start of the step, so that a resting contact of stiffness k_n presses with k_n
-// times its overlap, and one that just closes takes the approach away and no more. Tangent: the
+// times its overlap, and one that just closes takes the approach away and no more; where the other
+// side gives way at a force (a panel of a fence), p_n stays at that limit. Tangent: the
 // trial -D_t (v_t + s / tau) is the impulse while it stays below tan(phi) p_n + c A_c h, else the
 // contact slips with tan(phi) p_n along the mean of the slip directions at the step's start and
 // end: second order in the step, which the end direction alone is not (it errs by 1e-3 on an
@@ -30,7 +31,9 @@ namespace talus {
 inline void evaluate(const Vec3& w, double held_cap, ContactRow& row) {
   const Vec3& n = row.normal;
   const double speed_n = n.dot(w);
-  const double p_n = -row.normal_damping * (speed_n + row.bias);
+  const double pressed = -row.normal_damping * (speed_n + row.bias);
+  const double p_n = std::min(pressed, row.normal_limit);
+  row.gives_way = pressed >= row.normal_limit;
   if (p_n <= -row.tension_impulse) {
     row.state = ContactState::open;
     row.impulse.setZero();
@@ -55,15 +58,16 @@ inline void evaluate(const Vec3& w, double held_cap, ContactRow& row) {
 /// the bound follows the normal impulse, which makes the derivative unsymmetric.
 [[nodiscard]] inline Mat3 tangent(const ContactRow& row, bool coupled) {
   const Vec3& n = row.normal;
+  const double normal_damping = row.gives_way ? 0 : row.normal_damping;
   Mat3 A;
   if (row.state == ContactState::stick) {
-    A = (row.normal_damping - row.shear_damping) * n * n.transpose();
+    A = (normal_damping - row.shear_damping) * n * n.transpose();
     A.diagonal().array() += row.shear_damping;
     return A;
   }
   // the end direction turns with the trial only sideways: its derivative is side side^T / speed
-  A = (coupled ? Vec3(row.normal_damping * (n - row.friction * row.direction))
-               : Vec3(row.normal_damping * n)) *
+  A = (coupled ? Vec3(normal_damping * (n - row.friction * row.direction))
+               : Vec3(normal_damping * n)) *
       n.transpose();
   if (row.cap <= 0) return A;
   const Vec3 end = (1 / row.trial_speed) * row.trial, side = n.cross(end);

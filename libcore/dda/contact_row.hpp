@@ -7,6 +7,9 @@
 
 namespace talus {
 
+/// Normal impulse that no contact reaches; its square is finite.
+inline constexpr double no_normal_limit = 1e150;
+
 /// A contact made ready for the contact law; velocities are those of block A's point relative to
 /// B's.
 struct ContactRow {
@@ -22,20 +25,22 @@ struct ContactRow {
   double friction = 0;             ///< tan(phi) [-]
   double cohesion_impulse = 0;     ///< c A_c h [N s]
   double tension_impulse = 0;      ///< t A_c h [N s]
-  Vec3 free_move = Vec3::Zero();   ///< displacement of the point without contact, local axes [m]
-  double speed_start = 0;          ///< normal velocity at the start of the step [m/s]
-  double gap_start = 0;            ///< gap + offset at the start of the step [m]
-  double offset = 0;               ///< see ContactMemory [m]
-  double bond_area = 0;            ///< [m2]
-  int contact = 0;                 ///< index into Work::contacts
-  int memory = -1;                 ///< index into the block's memory, -1: new
-  bool waits_for_impact = false;   ///< approaches too fast for the step: presses nothing until hit
+  double normal_limit = no_normal_limit;  ///< a normal impulse does not grow beyond it [N s]
+  Vec3 free_move = Vec3::Zero();  ///< displacement of the point without contact, local axes [m]
+  double speed_start = 0;         ///< normal velocity at the start of the step [m/s]
+  double gap_start = 0;           ///< gap + offset at the start of the step [m]
+  double offset = 0;              ///< see ContactMemory [m]
+  double bond_area = 0;           ///< [m2]
+  int contact = 0;                ///< index into Work::contacts
+  int memory = -1;                ///< index into the block's memory, -1: new
+  bool waits_for_impact = false;  ///< approaches too fast for the step: presses nothing until hit
   // set by solve_contacts: the law at its last evaluation
   Vec3 trial = Vec3::Zero();      ///< v_t + s / tau [m/s]
   Vec3 direction = Vec3::Zero();  ///< of slip in the middle of the step, unit; while slipping
   double trial_speed = 0;         ///< |trial| [m/s]
   double cap = 0;                 ///< bound of the tangential impulse [N s]
   double held_cap = 0;            ///< friction bound while it is held [N s]
+  bool gives_way = false;         ///< the normal impulse is at its limit
   Vec3 impulse = Vec3::Zero();    ///< on A, body axes [N s]
   ContactState state = ContactState::open;
 };

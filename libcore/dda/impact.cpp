@@ -54,10 +54,15 @@ Vec6 limited(const BlockSystem<6>& system, const Vec6& before) {
 
 ImpactResult apply_impact(const Scene& scene, int b, double touch, double resting_speed,
                           Motion& motion, Work& work) {
-  const auto i = static_cast<std::size_t>(b);
-  ImpactResult result;
   (void)find_contacts(scene.ground, scene.blocks.shapes, b, motion.pose, Mat3::Identity(), touch,
                       work.world_vertices, work.contacts);
+  return apply_impact(scene, b, resting_speed, motion, work);
+}
+
+ImpactResult apply_impact(const Scene& scene, int b, double resting_speed, Motion& motion,
+                          Work& work) {
+  const auto i = static_cast<std::size_t>(b);
+  ImpactResult result;
   const Mat3 R = motion.pose.attitude.toRotationMatrix();
   const Vec3& inertia = scene.blocks.inertia[i];
   Vec6 before;

@@ -26,4 +26,8 @@ struct ImpactResult {
 ImpactResult apply_impact(const Scene& scene, int b, double touch, double resting_speed,
                           Motion& motion, Work& work);
 
+/// The same for the contacts that stand in `work.contacts`.
+ImpactResult apply_impact(const Scene& scene, int b, double resting_speed, Motion& motion,
+                          Work& work);
+
 }  // namespace talus

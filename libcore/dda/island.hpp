@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "contact/contact.hpp"
+#include "dda/contact_row.hpp"
 #include "dda/displacement.hpp"
 
 namespace talus {
@@ -38,6 +39,7 @@ struct IslandRow {  // clang-format off
   double friction = 0;          ///< tan(phi) [-]
   double cohesion_impulse = 0;  ///< c A_c h [N s]
   double tension_impulse = 0;   ///< t A_c h [N s]
+  double normal_limit = no_normal_limit;  ///< the other side gives way at this normal impulse [N s]
   // in: those of the last step, scaled to this one's length; out: the solution
   Vec3 impulse = Vec3::Zero();  ///< on A; B gets the opposite [N s]
   ContactState state = ContactState::open;  ///< in: inherited; a new contact is `open`

@@ -6,49 +6,83 @@
 namespace talus {
 namespace {
 
-constexpr double largest_turn = 0.06;  // |omega| h of one substep of order 4 [rad]
+constexpr double largest_turn = 0.5;      // |omega| h of one part [rad]
+constexpr double spin_tolerance = 1e-13;  // of the last term of a part
+constexpr int most_terms = 18;
 
-/// Spin split into turns about the body axes; carries attitude and body momentum along.
-struct SplitSpin {
-  Quat q;
-  Vec3 momentum;  // body axes
-  Vec3 per_inertia;
+/// Power series in s = t / h of the spin in body axes and of the attitude, from Euler's equations
+/// omega_i' = kappa_i omega_j omega_k and q' = q (0, omega) / 2. Of a rigid body |kappa| <= 1
+/// (its moments keep the triangle inequality), so that |omega| h alone says how fast it converges.
+struct SpinSeries {
+  double omega[3][most_terms + 1], q[4][most_terms + 1];
+  int last = 0;  // order reached
 
-  // Turn about body axis K by h Pi_K / I_K: exact for the part of the energy in that axis.
-  template <int K>
-  void turn(double h) {
-    constexpr int I = (K + 1) % 3, J = (K + 2) % 3;
-    const double half = 0.5 * h * momentum[K] * per_inertia[K];
-    const double s = std::sin(half), c = std::cos(half);
-    const double sin2 = 2 * s * c, cos2 = 1 - 2 * s * s;
-    const double pi = momentum[I], pj = momentum[J];
-    momentum[I] = cos2 * pi + sin2 * pj;
-    momentum[J] = cos2 * pj - sin2 * pi;
-    auto& v = q.coeffs();  // x y z w; q <- q * (c, s e_K)
-    const double w = v[3], k = v[K], i = v[I], j = v[J];
-    v[3] = c * w - s * k;
-    v[K] = c * k + s * w;
-    v[I] = c * i + s * j;
-    v[J] = c * j - s * i;
+  // Terms up to the first two in a row that no longer count.
+  SpinSeries(const Quat& attitude, const Vec3& spin, const Vec3& kappa, double h) {
+    for (int i = 0; i < 3; ++i) omega[i][0] = h * spin[i];
+    for (int i = 0; i < 4; ++i) q[i][0] = attitude.coeffs()[i];
+    double before = 1;
+    for (last = 1; last <= most_terms; ++last) {
+      const double size = add_term(last - 1, kappa);
+      if (std::max(size, before) < spin_tolerance) return;
+      before = size;
+    }
+    last = most_terms;
   }
 
-  void order2(double h) {
-    turn<0>(h / 2);
-    turn<1>(h / 2);
-    turn<2>(h);
-    turn<1>(h / 2);
-    turn<0>(h / 2);
+  // Term k + 1 from those up to k; its size.
+  double add_term(int k, const Vec3& kappa) {
+    double w[3] = {}, c[4] = {};
+    for (int j = 0; j <= k; ++j) {
+      const int i = k - j;
+      const double wx = omega[0][i], wy = omega[1][i], wz = omega[2][i];
+      const double x = q[0][j], y = q[1][j], z = q[2][j], r = q[3][j];
+      w[0] += omega[1][j] * wz;
+      w[1] += omega[2][j] * wx;
+      w[2] += omega[0][j] * wy;
+      c[0] += r * wx + y * wz - z * wy;
+      c[1] += r * wy + z * wx - x * wz;
+      c[2] += r * wz + x * wy - y * wx;
+      c[3] -= x * wx + y * wy + z * wz;
+    }
+    const double per_order = 1.0 / (k + 1);
+    double size = 0;
+    for (int i = 0; i < 3; ++i) {
+      omega[i][k + 1] = per_order * kappa[i] * w[i];
+      size = std::max(size, std::abs(omega[i][k + 1]));
+    }
+    for (int i = 0; i < 4; ++i) {
+      q[i][k + 1] = 0.5 * per_order * c[i];
+      size = std::max(size, std::abs(q[i][k + 1]));
+    }
+    return size;
   }
 
-  void order4(double h) {  // Suzuki 1990: p, p, 1 - 4p, p, p
-    static const double p = 1 / (4 - std::cbrt(4.0));
-    order2(p * h);
-    order2(p * h);
-    order2((1 - 4 * p) * h);
-    order2(p * h);
-    order2(p * h);
+  // Attitude at s; by Horner's scheme.
+  [[nodiscard]] Quat at(double s) const {
+    Quat sum;
+    for (int i = 0; i < 4; ++i) {
+      double value = q[i][last];
+      for (int k = last - 1; k >= 0; --k) value = value * s + q[i][k];
+      sum.coeffs()[i] = value;
+    }
+    return sum.normalized();
+  }
+
+  // Largest s <= 1 at which the last term is small, by halving.
+  [[nodiscard]] double reach() const {
+    double size = 0, s = 1;
+    for (const double* of : {omega[0], omega[1], omega[2], q[0], q[1], q[2], q[3]})
+      size = std::max(size, std::abs(of[last]));
+    while (s > 1e-3 && size > spin_tolerance) size = std::ldexp(size, -last), s /= 2;
+    return s;
   }
 };
+
+Vec3 euler_factors(const Vec3& inertia, const Vec3& per_inertia) {
+  return Vec3(inertia.y() - inertia.z(), inertia.z() - inertia.x(), inertia.x() - inertia.y())
+      .cwiseProduct(per_inertia);
+}
 
 bool is_axis_of_symmetry(const Vec3& inertia, int k) {
   const double a = inertia[(k + 1) % 3], b = inertia[(k + 2) % 3];
@@ -83,19 +117,42 @@ Quat free_rotation(const Quat& attitude, const Vec3& L, const Vec3& inertia, dou
   if (L.isZero(0) || h == 0) return attitude;
   for (int k = 0; k < 3; ++k)
     if (is_axis_of_symmetry(inertia, k)) return symmetric_rotation(attitude, L, inertia, k, h);
-  SplitSpin spin{attitude, attitude.conjugate() * L, inertia.cwiseInverse()};
-  double left = h;
-  while (left > 0) {
-    const double speed = spin.momentum.cwiseProduct(spin.per_inertia).norm();
-    const double n = std::ceil(speed * left / largest_turn);
+  const Vec3 per_inertia = inertia.cwiseInverse(), kappa = euler_factors(inertia, per_inertia);
+  Quat q = attitude;
+  for (double left = h; left > 0;) {
+    const Vec3 spin = (q.conjugate() * L).cwiseProduct(per_inertia);  // L is kept exactly
+    const double n = std::ceil(spin.norm() * left / largest_turn);
     const double part = n > 1 ? left / n : left;
-    if (speed * part < 1e-3)  // order 2 errs by turn^3 / 12 < 1e-10 rad
-      spin.order2(part);
-    else
-      spin.order4(part);
-    left = n > 1 ? left - part : 0;
+    const SpinSeries series(q, spin, kappa, part);
+    const double share = series.reach();
+    q = series.at(share);
+    left = n > 1 || share < 1 ? left - share * part : 0;
   }
-  return spin.q.normalized();
+  return q;
+}
+
+void add_free_rotations(std::vector<Quat>& attitudes, const Vec3& L, const Vec3& inertia,
+                        double stride, int n) {
+  const Quat from = attitudes.back();
+  const bool has_series = !L.isZero(0) && !is_axis_of_symmetry(inertia, 0) &&
+                          !is_axis_of_symmetry(inertia, 1) && !is_axis_of_symmetry(inertia, 2);
+  if (has_series) {
+    const Vec3 per_inertia = inertia.cwiseInverse();
+    const Vec3 spin = (from.conjugate() * L).cwiseProduct(per_inertia);
+    const SpinSeries series(from, spin, euler_factors(inertia, per_inertia), n * stride);
+    if (series.reach() == 1) {
+      for (int k = 1; k <= n; ++k) attitudes.push_back(series.at(static_cast<double>(k) / n));
+      return;
+    }
+  }
+  for (int k = 1; k <= n; ++k)
+    attitudes.push_back(free_rotation(attitudes.back(), L, inertia, stride));
+}
+
+double fastest_spin(const Quat& attitude, const Vec3& L, const Vec3& inertia) {
+  const double twice_energy = (attitude.conjugate() * L).cwiseAbs2().cwiseQuotient(inertia).sum();
+  const double low = 1 / inertia.maxCoeff(), high = 1 / inertia.minCoeff();
+  return std::sqrt(std::max(0.0, twice_energy * (low + high) - L.squaredNorm() * low * high));
 }
 
 }  // namespace talus

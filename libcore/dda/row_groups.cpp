@@ -63,6 +63,8 @@ const IslandRow nothing;
   g.friction = Two{p.friction, q.friction};
   g.cohesion = Two{p.cohesion_impulse, q.cohesion_impulse};
   g.tension = Two{p.tension_impulse, q.tension_impulse};
+  g.normal_limit = Two{p.normal_limit, q.normal_limit};
+  g.normal_stiffness = g.normal_damping;
   g.state = Two{static_cast<double>(p.state), static_cast<double>(q.state)};
   g.slip_stiffness = g.used_stiffness = g.trial_speed = zero;
 }
@@ -144,6 +146,9 @@ template <int Dof>
   Two v_n, p_n, cap, trial[3], speed_sq;
   dot(g.normal, w, v_n);
   p_n = -g.normal_damping * (v_n + g.bias);
+  const Mask below_limit = p_n < g.normal_limit;
+  p_n = below_limit ? p_n : g.normal_limit;
+  g.normal_stiffness = below_limit ? g.normal_damping : zero;
   Mask closed;
   press(g, p_n, evaluation, closed, cap);
   if ((closed[0] | closed[1]) == 0) {
@@ -226,8 +231,8 @@ void add_exact_slip(const RowGroup& g, int lane, Eigen::Matrix<double, Dof, Dof>
   const auto q_n = generalised<Dof>(arm, n);
   rest += generalised<Dof>(arm, across) * generalised<Dof>(arm, by_trial).transpose();
   if (p_n > 0)
-    rest -=
-        g.friction[lane] * g.normal_damping[lane] * generalised<Dof>(arm, bound) * q_n.transpose();
+    rest -= g.friction[lane] * g.normal_stiffness[lane] * generalised<Dof>(arm, bound) *
+            q_n.transpose();
 }
 
 // The stiffness across the slip, s a a^T with a = n x t / |t|, t the tangential impulse.
@@ -287,14 +292,15 @@ template <int Dof>
   for (RowGroup& g : groups) {
     Two w[3], q[Dof];
     velocity_at<Dof>(g.arm, u, w);
-    const Two state_before = g.state;
+    const Two state_before = g.state, stiffness_before = g.normal_stiffness;
     apply_law(w, evaluation, g);
     generalised_lanes<Dof>(g.arm, g.impulse, q);
     for (int k = 0; k < Dof; ++k) total[k] += q[k];
     const Two difference = g.slip_stiffness - g.used_stiffness;
     const Two off = difference > zero ? difference : -difference;
     const Two moved = off > slack * g.used_stiffness ? one : zero;
-    changed |= any((g.state != state_before ? one : zero) + moved);
+    changed |= any((g.state != state_before ? one : zero) + moved +
+                   (g.normal_stiffness != stiffness_before ? one : zero));
   }
   for (int k = 0; k < Dof; ++k) f[k] = sum(total[k]);
   return changed;
@@ -311,7 +317,7 @@ template <int Dof>
     if (!any(g.state)) continue;
     closed = true;
     const Two k_t = g.state == stick_lanes ? g.shear_damping : zero;
-    const Two k_n = (g.state != open_lanes ? g.normal_damping : zero) - k_t;
+    const Two k_n = (g.state != open_lanes ? g.normal_stiffness : zero) - k_t;
     Two q[Dof];
     if (any(k_t)) add_stick<Dof>(k_t, g.arm, total);
     if (any(k_n)) {

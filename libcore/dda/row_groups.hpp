@@ -24,12 +24,13 @@ using Two __attribute__((vector_size(16), may_alias)) = double;
 /// contact, and contacts that wait for their impact, have no stiffness.
 struct RowGroup {
   Two normal[3], arm[3], shear_velocity[3], slip_start[3];
-  Two bias, normal_damping, shear_damping, friction, cohesion, tension;
+  Two bias, normal_damping, shear_damping, friction, cohesion, tension, normal_limit;
   Two impulse[3];
-  Two state;           ///< ContactState
-  Two slip_stiffness;  ///< of a slipping contact across its direction [kg]
-  Two trial_speed;     ///< of a slipping contact, v_t + s / tau [m/s]
-  Two used_stiffness;  ///< slip_stiffness when the tangent was last summed [kg]
+  Two state;             ///< ContactState
+  Two normal_stiffness;  ///< normal_damping; 0 while the normal impulse is at its limit [kg]
+  Two slip_stiffness;    ///< of a slipping contact across its direction [kg]
+  Two trial_speed;       ///< of a slipping contact, v_t + s / tau [m/s]
+  Two used_stiffness;    ///< slip_stiffness when the tangent was last summed [kg]
 };
 
 /// Rows [row_begin, row_end) of the pair fill groups [begin[p], begin[p + 1]).

@@ -11,6 +11,8 @@
 #include "contact/hulls.hpp"
 #include "contact/pose.hpp"
 #include "contact/shapes.hpp"
+#include "dda/fixed_bodies.hpp"
+#include "dda/joint_classes.hpp"
 
 namespace talus {
 
@@ -31,7 +33,8 @@ struct Settings {
   bool static_start = true;     ///< law talus: blocks at rest start in equilibrium with the ground
   bool flight = true;           ///< law talus: skip the search while nothing can be hit
   bool block_contacts = true;   ///< law talus: blocks touch each other; off, each moves as if alone
-  bool sleep = true;            ///< law talus: blocks that stick and stand still are left out
+  bool trn_contacts = true;  ///< law talus: blocks touch the TRN; off, fixed bodies are the slope
+  bool sleep = true;         ///< law talus: blocks that stick and stand still are left out
 };
 
 /// A force on a material point of a block, constant in local axes.
@@ -60,13 +63,16 @@ struct Blocks {  // clang-format off
   std::vector<Vec3> spin;             ///< at the start, local axes [rad/s]            (n_blocks)
   std::vector<Vec6> initial_stress;   ///< sx sy sz tyz tzx txy, body axes; may be empty [Pa]
   Shapes shapes;                      ///< surfaces, as the search of the ground reads them
-  Hulls hulls;                        ///< convex parts, as the search of other blocks reads them
+  Hulls hulls;                        ///< convex parts, as the search of other blocks reads them;
+                                      ///< after the blocks, those of the fixed bodies
 };  // clang-format on
 
 struct Scene {
   Ground ground;
-  GroundClass joint;  ///< contacts between blocks; cohesion and tension are not used
+  GroundClass joint;    ///< contacts between blocks where `joints` says nothing else
+  JointClasses joints;  ///< by joint set and by block
   Blocks blocks;
+  FixedBodies fixed;                 ///< law talus: fences, blocky slope
   Vec3 gravity = Vec3(0, 0, -9.81);  ///< [m/s2]
   std::vector<PointLoad> loads;      ///< sorted by block
   BaseMotion base;                   ///< empty: the ground stands still
@@ -76,5 +82,10 @@ struct Scene {
 [[nodiscard]] inline int n_blocks(const Scene& scene) {
   return static_cast<int>(scene.blocks.mass.size());
 }
+[[nodiscard]] inline int n_fixed(const Scene& scene) {
+  return static_cast<int>(scene.fixed.pose.size());
+}
+/// Is body `b` of Blocks::hulls a fixed one?
+[[nodiscard]] inline bool is_fixed(const Scene& scene, int b) { return b >= n_blocks(scene); }
 
 }  // namespace talus

@@ -7,6 +7,8 @@
 
 #include "base/error.hpp"
 #include "base/random.hpp"
+#include "base/text.hpp"
+#include "dda/blocky_slope.hpp"
 #include "dda/make_scene.hpp"
 
 namespace talus {
@@ -26,24 +28,49 @@ GroundClass ground_class(const GroundSettings& ground, const SolverSettings& sol
   return made;
 }
 
-// Contacts between blocks: the smallest friction and restitution of the materials there are.
-GroundClass joint_class(const Site& site, const BlockSet& blocks) {
+GroundClass rock_class(const MaterialSettings& material, const SolverSettings& solver) {
   GroundClass made;
-  double friction = 89, cor = 1;
-  for (const MaterialSettings& material : site.materials) {
-    const auto& names = blocks.material_names;
-    if (std::find(names.begin(), names.end(), material.name) == names.end()) continue;
-    friction = std::min(friction, material.friction_deg);
-    cor = std::min(cor, std::isnan(site.solver.cor) ? material.cor : site.solver.cor);
-  }
-  made.friction = std::tan(friction * degree);
-  made.restitution = cor;
+  made.friction = std::tan(material.friction_deg * degree);
+  made.cohesion = material.cohesion_pa;
+  made.tension = material.tension_pa;
+  made.restitution = std::isnan(solver.cor) ? material.cor : solver.cor;
   return made;
 }
 
-// Materials in the order of the block set's names.
-std::vector<Material> materials_of(const Site& site, const BlockSet& blocks) {
+// A joint set's faces; the parts of a section with several sets are named NAME_1, NAME_2, ...
+const JointSettings* joints_of(const Site& site, const std::string& set) {
+  for (const JointSettings& joints : site.joints)
+    if (joints.name == set || (joints.n_sets > 1 && set.rfind('_') != std::string::npos &&
+                               joints.name == set.substr(0, set.rfind('_'))))
+      return &joints;
+  return nullptr;
+}
+
+JointClasses joint_classes(const Site& site, const BlockSet& blocks,
+                           const std::vector<GroundClass>& rock) {
+  JointClasses classes;
+  for (const int material : blocks.material)
+    classes.of_block.push_back(rock[static_cast<std::size_t>(material)]);
+  for (const std::string& set : blocks.joint_set_names) {
+    GroundClass& made = classes.of_set.emplace_back();
+    made.friction = -1;
+    const JointSettings* joints = joints_of(site, set);
+    if (joints == nullptr) continue;
+    if (!std::isnan(joints->friction_deg)) made.friction = std::tan(joints->friction_deg * degree);
+    made.cohesion = joints->cohesion_pa;
+    made.tension = joints->tension_pa;
+  }
+  return classes;
+}
+
+/// Materials in the order of the block set's names: what blocks weigh, and what their faces do.
+struct Rock {
   std::vector<Material> materials;
+  std::vector<GroundClass> classes;
+};
+
+Rock rock_of(const Site& site, const BlockSet& blocks) {
+  Rock rock;
   for (const std::string& name : blocks.material_names) {
     const auto found = std::find_if(site.materials.begin(), site.materials.end(),
                                     [&name](const auto& m) { return m.name == name; });
@@ -51,9 +78,10 @@ std::vector<Material> materials_of(const Site& site, const BlockSet& blocks) {
       throw InputError({site.file},
                        "the blocks are of material " + name + ", which the site file does not have",
                        "add [material." + name + "], or cut the blocks again");
-    materials.push_back({found->density_kg_m3, found->young_modulus_pa, found->poisson_ratio});
+    rock.materials.push_back({found->density_kg_m3, found->young_modulus_pa, found->poisson_ratio});
+    rock.classes.push_back(rock_class(*found, site.solver));
   }
-  return materials;
+  return rock;
 }
 
 Settings settings_of(const SolverSettings& solver, const ScenePlan& plan) {
@@ -101,32 +129,43 @@ Scene make_site_scene(const Site& site, const ScenePlan& plan, SceneParts parts)
     scene.ground.classes.push_back(ground_class(ground, solver, friction_shift, cor_shift));
   }
   scene.ground.cell_class = std::move(parts.cell_class);
-  scene.joint = joint_class(site, parts.blocks);
+  const Rock rock = rock_of(site, parts.blocks);
+  scene.joints = joint_classes(site, parts.blocks, rock.classes);
   scene.gravity = {0, 0, -solver.gravity_m_s2};
   scene.settings = settings_of(solver, plan);
   scene.base = {std::move(parts.base.time), std::move(parts.base.acceleration)};
-  add_blocks(scene, parts.blocks, materials_of(site, parts.blocks));
+  add_blocks(scene, parts.blocks, rock.materials);
   add_jitter(scene.blocks, solver.start_jitter_m_s, seed);
+  if (solver.terrain_model == "blocky") {
+    if (solver.law == "paper")
+      throw InputError(where_of(site, "solver.terrain_model"),
+                       "is blocky with law paper, which computes contacts with the TRN only",
+                       "take law talus");
+    add_blocky_slope(scene, blocky_depth(scene));
+  }
+  for (const StandingFence& fence : parts.fences) add_fence(scene, fence);
   check_scene(scene);
   return scene;
 }
 
-std::vector<std::string> keys_without_effect(const Site& site) {
-  std::vector<std::string> keys;
-  const auto ends_with = [](const std::string& text, const std::string& end) {
-    return text.size() >= end.size() &&
-           text.compare(text.size() - end.size(), end.size(), end) == 0;
+std::vector<UnusualValue> unusual_values(const Site& site) {
+  std::vector<UnusualValue> found;
+  const auto look = [&](const std::string& key, double value, double low, double high,
+                        const std::string& unit, const std::string& usual) {
+    if (value >= low && value <= high) return;
+    if (std::isnan(value)) return;
+    found.push_back({key, "is " + text(value, 4) + " " + unit + "; " + usual});
   };
-  for (const auto& [key, source] : site.sources) {
-    if (source.kind == ValueSource::from_default) continue;
-    const bool in_ground = key.rfind("ground.", 0) == 0;
-    const bool unused = (in_ground && (ends_with(key, ".cor_tangential") ||
-                                       ends_with(key, ".rolling_resistance"))) ||
-                        key == "solver.damping_1_s" || key == "solver.impact_speed_m_s" ||
-                        key == "solver.rest_speed_m_s" || key == "solver.rest_time_s";
-    if (unused) keys.push_back(key);
+  for (const MaterialSettings& m : site.materials) {
+    const std::string key = "material." + m.name + ".";
+    look(key + "density_kg_m3", m.density_kg_m3, 1500, 3500, "kg/m3",
+         "rock has 2000 to 3200 kg/m3");
+    look(key + "young_modulus_pa", m.young_modulus_pa, 1e8, 2e11, "Pa",
+         "rock has 1e9 to 1e11 Pa, weathered rock from 1e8");
   }
-  return keys;
+  look("solver.normal_stiffness_n_m", site.solver.normal_stiffness_n_m, 1e6, 1e14, "N/m",
+       "contacts of blocks have 1e8 to 1e12 N/m; law talus chooses it when it is not given");
+  return found;
 }
 
 }  // namespace talus

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "blocks/block_set.hpp"
+#include "dda/fence.hpp"
 #include "dda/scene.hpp"
 #include "scene/base_motion.hpp"
 #include "scene/plan.hpp"
@@ -19,6 +20,7 @@ struct SceneParts {
   std::vector<std::uint8_t> cell_class;  ///< index into [ground.*]; empty: one class   (n_cells)
   BlockSet blocks;                       ///< in the TRN's local coordinates
   AccelerationRecord base;
+  std::vector<StandingFence> fences;  ///< that stand in the run
 };
 
 /// The effective time step: [solver] time_step_s, else 5 ms for law talus and 0.1 ms for law paper,
@@ -27,10 +29,16 @@ struct SceneParts {
 
 /// The scene with the settings of the site and the decisions of the plan. Scatter of friction and
 /// restitution and the jitter of the start are drawn from [solver] seed. Throws InputError for a
-/// block material that the site file does not know, and what check_scene() refuses.
+/// block material that the site file does not know, a blocky slope with law paper, and what
+/// check_scene() refuses.
 [[nodiscard]] Scene make_site_scene(const Site& site, const ScenePlan& plan, SceneParts parts);
 
-/// Keys of the site file that were given and that law talus or paper make no use of.
-[[nodiscard]] std::vector<std::string> keys_without_effect(const Site& site);
+/// A value of the site file that can be computed with but is far from what rock and its models
+/// have.
+struct UnusualValue {
+  std::string key;      ///< "material.rock.density_kg_m3"
+  std::string finding;  ///< "is 260 kg/m3; rock has 2000 to 3200"
+};
+[[nodiscard]] std::vector<UnusualValue> unusual_values(const Site& site);
 
 }  // namespace talus

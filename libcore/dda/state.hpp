@@ -35,6 +35,7 @@ struct EnergyLedger {
   double impact = 0;    ///< dissipated by the restitution law
   double contact = 0;   ///< dissipated or stored by normal contact and strain damping
   double base = 0;      ///< put in by base motion and point loads
+  double fence = 0;     ///< taken by panels of fences that gave way
   double removed = 0;   ///< kinetic energy of blocks stopped at the domain's edge
 };
 
@@ -66,6 +67,8 @@ struct State {  // clang-format off
                                                    ///< blocks of higher number       (n_blocks)
   PairState pairs;                          ///< close pairs of blocks and their axes
   PlacedHulls placed;                       ///< where the pairs were searched last
+  std::vector<BlockBond> bonds;             ///< sorted by block_a, block_b            (n_bonds)
+  FenceState fence;                         ///< what the panels of fences have met
   EnergyLedger ledger;
   RunCounters counters;
 };  // clang-format on

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "dda/displacement.hpp"
+#include "dda/fence.hpp"
 #include "dda/flight.hpp"
 #include "dda/rotation.hpp"
 #include "dda/step_island.hpp"
@@ -49,14 +50,15 @@ void put_to_sleep(const Scene& scene, size_t b, State& state) {
   state.motion[b].angular_momentum.setZero();
 }
 
-// Whether block b shares its island with others.
-bool in_company(const IslandGroups& groups, int b) {
-  const auto k = static_cast<size_t>(groups.island_of[static_cast<size_t>(b)]);
-  return groups.block_begin[k + 1] - groups.block_begin[k] > 1;
-}
-
 bool does_not_move(Phase phase) {
   return phase == Phase::asleep || phase == Phase::left_domain || phase == Phase::stopped;
+}
+
+// Whether block b shares its island with others, or may touch a fixed body.
+bool in_company(const State& state, const IslandStepWork& w, int b) {
+  const auto i = static_cast<size_t>(b), k = static_cast<size_t>(w.groups.island_of[i]);
+  return w.groups.block_begin[k + 1] - w.groups.block_begin[k] > 1 ||
+         (w.near_fixed[i] != 0 && !does_not_move(state.phase[i]));
 }
 
 bool spins(const Scene& scene, size_t b) { return !scene.blocks.spin[b].isZero(0); }
@@ -85,6 +87,8 @@ State start(const Scene& scene) {
   state.still_steps.assign(n, 0);
   state.rebound.assign(n, Vec3::Zero());
   state.memory.resize(n);
+  state.fence = start_fence(scene);
+  state.bonds = start_bonds(scene);
   if (scene.settings.strains) {
     state.strain.assign(n, Vec6::Zero());
     state.strain_rate.assign(n, Vec6::Zero());
@@ -96,7 +100,8 @@ State start(const Scene& scene) {
     state.motion[b].angular_momentum = angular_momentum(
         scene.blocks.rest[b].attitude, scene.blocks.spin[b], scene.blocks.inertia[b]);
   }
-  if (scene.settings.law == Law::talus && scene.settings.static_start) {
+  if (scene.settings.law == Law::talus && scene.settings.static_start &&
+      scene.settings.trn_contacts) {
     Work work = make_work(scene);
     for (size_t b = 0; b < n; ++b)
       if (!spins(scene, b)) settle_block(scene, static_cast<int>(b), state, work);
@@ -124,11 +129,12 @@ StepReport step(const Scene& scene, State& state, Work& work) {
       scene.settings.sleep && scene.settings.law == Law::talus && scene.base.time.empty();
   work.segments.clear();
   const bool islands =
-      n_blocks(scene) > 1 && scene.settings.law == Law::talus && scene.settings.block_contacts;
+      scene.settings.law == Law::talus &&
+      ((n_blocks(scene) > 1 && scene.settings.block_contacts) || n_fixed(scene) > 0);
   if (islands) form_islands(scene, state, work);
   for (int b = 0; b < n_blocks(scene); ++b) {
     const auto i = static_cast<size_t>(b);
-    if (islands && in_company(work.islands.groups, b)) {
+    if (islands && in_company(state, work.islands, b)) {
       const int k = work.islands.groups.island_of[i];
       if (work.islands.groups.local_index[i] > 0) continue;
       advance_island(scene, k, t_end, state, work, report);

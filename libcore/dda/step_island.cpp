@@ -6,6 +6,7 @@
 #include <span>
 
 #include "contact/search.hpp"
+#include "dda/fence.hpp"
 #include "dda/flight.hpp"
 #include "dda/rotation.hpp"
 #include "dda/step.hpp"
@@ -37,6 +38,8 @@ constexpr double linear_tolerance = 3e-2;  // of conjugate gradients in a Newton
 constexpr double most_turn = 0.5;          // in a substep [rad]
 constexpr double most_travel = 0.5;        // relative to a neighbour in a substep, of the thickness
 constexpr double most_substeps = 64;       // for these two reasons
+constexpr int most_cuts = 24;              // of a substep where a panel of a fence breaks
+constexpr double held = 1e100;             // strength of an intact bond while the forces are sought
 
 Vec3 spin_of(const Motion& m, const Vec3& inertia) {
   return angular_velocity(m.pose.attitude, m.angular_momentum, inertia);
@@ -56,10 +59,11 @@ void find_pairs(const Scene& scene, double h, State& state, Work& work) {
     margin = std::max(margin, search_margin(numbers_of(scene, b), h));
   PairSettings settings;
   settings.margin = margin;
+  settings.with_areas = !state.bonds.empty();
   settings.graze_m = scene.gravity.norm() * h * h / stiffest_in_island;
   place_hulls(blocks.hulls, w.poses, {}, w.moving, state.placed);
-  (void)find_pair_contacts(blocks.hulls, state.placed, {w.step, w.turn, w.awake, {}}, settings,
-                           state.pairs, w.pairs);
+  (void)find_pair_contacts(blocks.hulls, state.placed, {w.step, w.turn, w.awake, w.fixed, w.group},
+                           settings, state.pairs, w.pairs);
 }
 
 void set_motion_ahead(const Scene& scene, int b, const Motion& m, double h, IslandStepWork& w) {
@@ -69,13 +73,41 @@ void set_motion_ahead(const Scene& scene, int b, const Motion& m, double h, Isla
   w.turn[i] = h * scene.blocks.shapes.radius[i] * spin_of(m, scene.blocks.inertia[i]).norm();
 }
 
+// Fixed bodies where they are now: they step nowhere and need no contacts of their own. Panels of
+// fences that gave way have moved since they were placed last.
+void place_fixed(const Scene& scene, const State& state, IslandStepWork& w) {
+  const int n = n_blocks(scene), n_bodies = n + n_fixed(scene);
+  if (n == n_bodies) return;
+  w.fixed.assign(static_cast<size_t>(n_bodies), 0);
+  w.group.clear();
+  for (int b = n; b < n_bodies; ++b) {
+    const auto i = static_cast<size_t>(b);
+    w.poses[i] = fixed_pose(scene, state, b);
+    w.step[i].setZero();
+    w.turn[i] = 0;
+    w.moving[i] = !state.placed.turned.empty() && state.placed.position[i] != w.poses[i].position;
+    w.awake[i] = 0;
+    w.fixed[i] = 1;
+  }
+  if (scene.settings.block_contacts) return;
+  w.group.assign(static_cast<size_t>(n_bodies), 0);
+  for (int b = n; b < n_bodies; ++b) w.group[static_cast<size_t>(b)] = 1;
+}
+
 // Pairs of blocks within reach; true when one of them was asleep and now is not.
-bool join_pairs(State& state, IslandStepWork& w) {
+bool join_pairs(const Scene& scene, State& state, IslandStepWork& w) {
   bool woken = false;
   w.joined.clear();
   w.joined_manifold.clear();
   for (size_t j = 0; j < w.pairs.manifolds.size(); ++j) {
     const PairManifold& m = w.pairs.manifolds[j];
+    if (is_fixed(scene, m.block_b)) {
+      if (!takes_part(state, m.block_a) || !stands(scene, state, m.block_b)) continue;
+      w.joined.emplace_back(m.block_a, -1);
+      w.joined_manifold.push_back(static_cast<int>(j));
+      w.near_fixed[static_cast<size_t>(m.block_a)] = 1;
+      continue;
+    }
     if (!takes_part(state, m.block_a) || !takes_part(state, m.block_b)) continue;
     w.joined.emplace_back(m.block_a, m.block_b);
     w.joined_manifold.push_back(static_cast<int>(j));
@@ -116,6 +148,7 @@ struct AdvanceIsland {
   IslandStepWork& w;
   int outsider = -1;  // block that the last attempt found off the known ground
   int halvings = 0;
+  int cuts = 0;  // of the substep at the time when a panel is used up
 
   [[nodiscard]] size_t block(size_t k) const { return static_cast<size_t>(w.members[k]); }
   Motion& motion(size_t k) { return state.motion[block(k)]; }
@@ -144,6 +177,7 @@ struct AdvanceIsland {
       set_motion_ahead(scene, w.members[k], motion(k), h, w);
     }
     w.awake = w.moving;
+    place_fixed(scene, state, w);
     find_pairs(scene, h, state, work);
     for (const int b : w.members) w.moving[static_cast<size_t>(b)] = 0;
     w.pairs_of_step = false;
@@ -157,15 +191,17 @@ struct AdvanceIsland {
   void take_pairs(int k) {
     const auto at = static_cast<size_t>(k);
     w.island_manifolds.clear();
-    for (int p = w.groups.pair_begin[at]; p < w.groups.pair_begin[at + 1]; ++p)
-      w.island_manifolds.push_back(
-          w.joined_manifold[static_cast<size_t>(w.groups.pairs[static_cast<size_t>(p)])]);
+    for (int p = w.groups.pair_begin[at]; p < w.groups.pair_begin[at + 1]; ++p) {
+      const int m = w.joined_manifold[static_cast<size_t>(w.groups.pairs[static_cast<size_t>(p)])];
+      if (in_island(w.pairs.manifolds[static_cast<size_t>(m)])) w.island_manifolds.push_back(m);
+    }
     set_stiffness();
   }
 
   [[nodiscard]] bool in_island(const PairManifold& m) const {
     return w.place[static_cast<size_t>(m.block_a)] >= 0 &&
-           w.place[static_cast<size_t>(m.block_b)] >= 0;
+           (is_fixed(scene, m.block_b) ? stands(scene, state, m.block_b)
+                                       : w.place[static_cast<size_t>(m.block_b)] >= 0);
   }
   [[nodiscard]] size_t place(int b) const {
     return static_cast<size_t>(w.place[static_cast<size_t>(b)]);
@@ -179,6 +215,7 @@ struct AdvanceIsland {
     for (const BlockNumbers& c : w.numbers) w.bearing.push_back(c.mass);
     for (const int i : w.island_manifolds) {
       const PairManifold& m = w.pairs.manifolds[static_cast<size_t>(i)];
+      if (is_fixed(scene, m.block_b)) continue;
       double &a = w.bearing[place(m.block_a)], &b = w.bearing[place(m.block_b)];
       a = std::max(a, numbers(m.block_b).mass);
       b = std::max(b, numbers(m.block_a).mass);
@@ -196,7 +233,9 @@ struct AdvanceIsland {
     for (const int i : w.island_manifolds) {
       const PairManifold& m = w.pairs.manifolds[static_cast<size_t>(i)];
       const auto a = static_cast<size_t>(m.block_a), b = static_cast<size_t>(m.block_b);
-      const double thickness = std::min(numbers(m.block_a).thickness, numbers(m.block_b).thickness);
+      double thickness = numbers(m.block_a).thickness;
+      if (!is_fixed(scene, m.block_b))
+        thickness = std::min(thickness, numbers(m.block_b).thickness);
       part = std::max(part, (w.step[a] - w.step[b]).norm() / (most_travel * thickness));
     }
     return part > 1 ? h / std::min(std::ceil(part), most_substeps) : h;
@@ -255,9 +294,11 @@ struct AdvanceIsland {
     out.friction = row.friction;
     out.cohesion_impulse = row.cohesion_impulse;
     out.tension_impulse = row.tension_impulse;
+    out.normal_limit = row.normal_limit;
     const double h = w.substeps.front().h;
     contact.approach = std::min(row.speed_start, row.normal.dot(row.free_move) / h);
-    contact.waits = row.memory < 0 && contact.approach < -numbers(contact.a).resting_speed;
+    contact.waits = row.memory < 0 && !contact.never_waits &&
+                    contact.approach < -numbers(contact.a).resting_speed;
     out.waits_for_impact = contact.waits;
     if (row.memory >= 0) {
       const ContactMemory& m =
@@ -274,6 +315,7 @@ struct AdvanceIsland {
   bool add_ground(size_t k) {
     const Substep& s = w.substeps[k];
     const int b = w.members[k];
+    if (!scene.settings.trn_contacts) return true;
     const SearchResult near =
         find_contacts(scene.ground, scene.blocks.shapes, b, s.free.pose, Mat3::Identity(),
                       search_margin(w.numbers[k], s.h), work.world_vertices, work.contacts);
@@ -296,6 +338,8 @@ struct AdvanceIsland {
       out.a = b;
       out.touch = w.numbers[k].touch;
       out.restitution = ground.restitution;
+      out.ground_class = contact.ground_class;
+      if (row.bond_area > 0) hold(ground, w.numbers[k].recovery_time, row, out);
       push(row, out);
     }
     return true;
@@ -317,12 +361,56 @@ struct AdvanceIsland {
     return p;
   }
 
-  // The memory that a contact continues, -1: none.
-  [[nodiscard]] int memory_of(int a, const ContactKey& key, const Vec3& normal) const {
-    const std::vector<ContactMemory>& memory = state.memory[static_cast<size_t>(a)];
-    for (size_t m = 0; m < memory.size(); ++m)
-      if (memory[m].key == key && memory[m].normal.dot(normal) > 0.5) return static_cast<int>(m);
-    return -1;
+  // The memories that the points of a manifold continue, -1: none. First those of the same
+  // features; then, where features changed, those that the pair leaves without a successor, so that
+  // a face that rests on another keeps its support and its friction while corners pass edges.
+  void match_memories(const PairManifold& m) {
+    const std::vector<ContactMemory>& memory = state.memory[static_cast<size_t>(m.block_a)];
+    w.continued.assign(static_cast<size_t>(m.point_end - m.point_begin), -1);
+    w.claimed.assign(memory.size(), 0);
+    const auto claim = [&](const auto& continues, double least_cosine) {
+      for (size_t p = 0; p < w.continued.size(); ++p)
+        for (size_t i = 0; i < memory.size() && w.continued[p] < 0; ++i) {
+          if (w.claimed[i] != 0 || memory[i].key.body_b != m.block_b ||
+              memory[i].normal.dot(m.normal) <= least_cosine ||
+              !continues(w.pairs.points[static_cast<size_t>(m.point_begin) + p].key, memory[i].key))
+            continue;
+          w.continued[p] = static_cast<int>(i);
+          w.claimed[i] = 1;
+        }
+    };
+    claim(
+        [](const ContactKey& now, const ContactKey& then) {
+          return now.mode == then.mode && now.feature_a == then.feature_a &&
+                 now.feature_b == then.feature_b;
+        },
+        0.5);
+    claim([](const ContactKey&, const ContactKey&) { return true; }, 0.99);
+  }
+
+  [[nodiscard]] int continued(const PairManifold& m, int p) const {
+    return w.continued[static_cast<size_t>(p - m.point_begin)];
+  }
+
+  // Holds a contact of a bond without limit; break_bonds() compares what it carries.
+  static void hold(const GroundClass& face, double recovery_time, ContactRow& row,
+                   IslandContact& contact) {
+    row.cohesion_impulse = held;
+    row.tension_impulse = face.tension > 0 ? held : 0;
+    row.bias = (row.gap_start + row.offset) / recovery_time;
+    contact.never_waits = true;
+  }
+
+  // The share of a contact in the bond of its blocks, if there is one. Where the faces were when
+  // the bond was new, it carries nothing.
+  void bond(const PairManifold& m, const PairPoint& point, double recovery_time, ContactRow& row,
+            IslandContact& contact) const {
+    contact.bond = find_bond(state.bonds, m.block_a, m.block_b);
+    if (contact.bond < 0) return;
+    const BlockBond& of_blocks = state.bonds[static_cast<size_t>(contact.bond)];
+    row.bond_area = m.area > 0 ? of_blocks.area * point.area / m.area : 0;
+    if (row.memory < 0) row.offset = -row.gap_start;
+    hold(of_blocks.face, recovery_time, row, contact);
   }
 
   // The deepest that contacts of the pair are pressed in [m]. As much of the overlap of a new one
@@ -343,7 +431,7 @@ struct AdvanceIsland {
                     R.transpose() * normal);
   }
 
-  void add_point(const PairManifold& m, const PairPoint& point) {
+  void add_point(const PairManifold& m, const PairPoint& point, int memory) {
     const size_t ka = place(m.block_a), kb = place(m.block_b);
     const Substep& sa = w.substeps[ka];
     const BlockNumbers &ca = w.numbers[ka], &cb = w.numbers[kb];
@@ -360,7 +448,8 @@ struct AdvanceIsland {
     contact.key = point.key;
     contact.key.body_b = m.block_b;
     contact.touch = pair_touch_ratio * std::min(ca.radius, cb.radius);
-    contact.restitution = scene.joint.restitution;
+    const GroundClass faces = pair_class(scene, m);
+    contact.restitution = faces.restitution;
     ContactRow row;
     row.normal = n;
     row.point = arm;
@@ -372,10 +461,9 @@ struct AdvanceIsland {
     const Vec3 tangent = slip - row.speed_start * n;
     const double slip_speed = tangent.norm();
     if (slip_speed > 0) row.slip_start = tangent / slip_speed;
-    row.friction = scene.joint.friction;
+    row.friction = faces.friction;
 
     const double approach = std::min(row.speed_start, n.dot(row.free_move) / sa.h);
-    const int memory = memory_of(m.block_a, contact.key, n);
     if (memory >= 0 && !(row.gap_start > contact.touch && approach < -ca.resting_speed))
       inherit(state.memory[static_cast<size_t>(m.block_a)][static_cast<size_t>(memory)], memory,
               Mat3::Identity(), contact.touch, row);
@@ -386,7 +474,89 @@ struct AdvanceIsland {
     c.touch = contact.touch;
     c.stiffness = std::max(ca.stiffness, cb.stiffness) * (ca.mass / std::min(ca.mass, cb.mass));
     set_law(scene, c, sa.h, {Wa.normal + Wb.normal, Wa.tangent + Wb.tangent}, approach, row);
+    bond(m, point, c.recovery_time, row, contact);
     push(row, contact);
+  }
+
+  // A point on a fixed body: for the solver, on the ground. `n_closing`: points of the manifold
+  // that close within the substep; they share the force with which a panel of a fence gives way.
+  void add_fixed_point(const PairManifold& m, const PairPoint& point, int memory, int n_closing) {
+    const size_t k = place(m.block_a);
+    const Substep& s = w.substeps[k];
+    const Vec3& n = m.normal;
+    const PointPath path = path_of(k, point.point_b + point.gap * n);
+    BlockNumbers c = w.numbers[k];
+    c.touch = pair_touch_ratio * c.radius;
+
+    IslandContact contact;
+    contact.a = m.block_a;
+    contact.fixed = m.block_b;
+    contact.key = point.key;
+    contact.key.body_b = m.block_b;
+    contact.touch = c.touch;
+    contact.restitution = fixed_class(scene, m.block_b).restitution;
+    ContactRow row;
+    row.normal = n;
+    row.point = (path.start + path.end) / 2;
+    row.drift = path.spin_end.cross(path.end - row.point);
+    row.free_move = path.moved;
+    row.gap_start = point.gap;
+    row.speed_start = n.dot(path.velocity);
+    const Vec3 tangent = path.velocity - row.speed_start * n;
+    const double slip_speed = tangent.norm();
+    if (slip_speed > 0) row.slip_start = tangent / slip_speed;
+    row.friction = fixed_class(scene, m.block_b).friction;
+
+    const double approach = std::min(row.speed_start, n.dot(row.free_move) / s.h);
+    const FencePanel* panel = giving_way(scene, m.block_b, n);
+    if (memory >= 0 &&
+        (panel != nullptr || !(row.gap_start > contact.touch && approach < -c.resting_speed)))
+      inherit(state.memory[static_cast<size_t>(m.block_a)][static_cast<size_t>(memory)], memory,
+              Mat3::Identity(), contact.touch, row);
+    else
+      row.offset = std::max(0.0, -row.gap_start);
+    set_law(scene, c, s.h, mobility_at(k, row.point, n), approach, row);
+    if (panel != nullptr) {
+      row.normal_limit = panel->force * s.h / n_closing;
+      contact.never_waits = true;
+    }
+    push(row, contact);
+  }
+
+  void add_fixed_points(const PairManifold& m) {
+    const size_t k = place(m.block_a);
+    int n_closing = 0;
+    for (int p = m.point_begin; p < m.point_end; ++p) {
+      const PairPoint& point = w.pairs.points[static_cast<size_t>(p)];
+      const PointPath path = path_of(k, point.point_b + point.gap * m.normal);
+      n_closing += point.gap + m.normal.dot(path.moved) <= 0;
+    }
+    for (int p = m.point_begin; p < m.point_end; ++p)
+      add_fixed_point(m, w.pairs.points[static_cast<size_t>(p)], continued(m, p),
+                      std::max(n_closing, 1));
+  }
+
+  // Whether block a touched body b in the last step.
+  [[nodiscard]] bool knows_body(int a, int b) const {
+    const std::vector<ContactMemory>& memory = state.memory[static_cast<size_t>(a)];
+    return std::any_of(memory.begin(), memory.end(),
+                       [b](const ContactMemory& m) { return m.key.body_b == b; });
+  }
+
+  // Time at which a block first touches a panel that gives way, h + 1: none does within the
+  // substep. Its force acts from there on.
+  [[nodiscard]] double first_touch(double h) const {
+    double first = h + 1;
+    for (const IslandContact& contact : w.contacts) {
+      const ContactRow& row = contact.row;
+      const double v = row.speed_start, g = row.gap_start;
+      if (row.normal_limit >= no_normal_limit || g <= contact.touch ||
+          contact.gap_free > -contact.touch || knows_body(contact.a, contact.fixed))
+        continue;
+      const double a = 2 * (contact.gap_free - g - v * h) / (h * h);
+      first = std::min(first, 2 * g / (std::sqrt(std::max(0.0, v * v - 2 * a * g)) - v));
+    }
+    return first;
   }
 
   // Bodies, and all contacts of the island, over h from t. False: a member left the ground.
@@ -402,8 +572,13 @@ struct AdvanceIsland {
     for (const int i : w.island_manifolds) {
       const PairManifold& m = w.pairs.manifolds[static_cast<size_t>(i)];
       open_pair(w.place[static_cast<size_t>(m.block_a)], w.place[static_cast<size_t>(m.block_b)]);
+      match_memories(m);
+      if (is_fixed(scene, m.block_b)) {
+        add_fixed_points(m);
+        continue;
+      }
       for (int p = m.point_begin; p < m.point_end; ++p)
-        add_point(m, w.pairs.points[static_cast<size_t>(p)]);
+        add_point(m, w.pairs.points[static_cast<size_t>(p)], continued(m, p));
     }
     return true;
   }
@@ -629,23 +804,131 @@ struct AdvanceIsland {
     for (size_t k = 0; k < w.members.size(); ++k) w.displacement[k] = (h - w.time[k]) * change(k);
   }
 
-  // Energy that contacts took, by kind; what an impulse does to velocities, less what it does to
-  // heights by acting before or after the middle of the substep.
+  // Way of the points of contact `r` that its impulse works on, over h: what an impulse does to
+  // velocities, less what it does to heights by acting before or after the middle of the substep.
+  [[nodiscard]] Vec3 way_of_impulse(size_t r, double h) const {
+    const IslandContact& contact = w.contacts[r];
+    Vec3 way = (contact.row.free_move + h / 2 * changed(r)) / h;
+    const size_t ka = place(contact.a);
+    way -= (h / 2 - w.time[ka]) * w.substeps[ka].free_acceleration;
+    if (contact.b >= 0) {
+      const size_t kb = place(contact.b);
+      way += (h / 2 - w.time[kb]) * w.substeps[kb].free_acceleration;
+    }
+    return way;
+  }
+
+  // Energy that contacts took, by kind; push_panels() adds that of panels that give way.
   void account(size_t r, double h) {
     const IslandContact& contact = w.contacts[r];
     const IslandRow& row = w.island.rows[r];
-    const Vec3 path = contact.row.free_move + h / 2 * changed(r);
     const double p_n = row.normal.dot(row.impulse);
     const Vec3 p_t = row.impulse - p_n * row.normal;
-    Vec3 lever = path / h;
-    const size_t ka = place(contact.a);
-    lever -= (h / 2 - w.time[ka]) * w.substeps[ka].free_acceleration;
-    if (contact.b >= 0) {
-      const size_t kb = place(contact.b);
-      lever += (h / 2 - w.time[kb]) * w.substeps[kb].free_acceleration;
+    const Vec3 way = way_of_impulse(r, h);
+    if (!gives_way(r))
+      (contact.hit ? state.ledger.impact : state.ledger.contact) -= p_n * row.normal.dot(way);
+    state.ledger.friction -= p_t.dot(way);
+  }
+
+  // Presses on a panel of a fence that gives way.
+  [[nodiscard]] bool gives_way(size_t r) const {
+    const IslandRow& row = w.island.rows[r];
+    return row.normal_limit < no_normal_limit && row.state != ContactState::open;
+  }
+
+  // Displacement of the points of contact `r` over the substep.
+  [[nodiscard]] Vec3 path_of_contact(size_t r) const {
+    return w.contacts[r].row.free_move +
+           relative(r, [&](size_t k) -> const Vec6& { return w.displacement[k]; });
+  }
+
+  // What the blocks do to the panels that give way.
+  void find_pushes(double h) {
+    w.pushes.clear();
+    for (size_t r = 0; r < w.contacts.size(); ++r) {
+      if (!gives_way(r)) continue;
+      const IslandContact& contact = w.contacts[r];
+      const IslandRow& row = w.island.rows[r];
+      const FencePanel& panel = *giving_way(scene, contact.fixed, row.normal);
+      const double p_n = row.normal.dot(row.impulse), cosine = row.normal.dot(panel.normal);
+      PanelPush push;
+      push.block = contact.a;
+      push.panel = panel_number(scene, contact.fixed);
+      push.work = -p_n * row.normal.dot(way_of_impulse(r, h));
+      push.power = -p_n / h * contact.row.speed_start;
+      const double gap_end = contact.row.gap_start + row.normal.dot(path_of_contact(r));
+      if (p_n >= (1 - 1e-12) * row.normal_limit) push.shift = std::min(0.0, gap_end) * cosine;
+      const auto f = static_cast<size_t>(contact.fixed);
+      push.to = push.shift + panel.normal.dot(w.poses[f].position -
+                                              scene.fixed.pose[f - first_fixed()].position);
+      add_push(push, w.pushes);
     }
-    (contact.hit ? state.ledger.impact : state.ledger.contact) -= p_n * row.normal.dot(lever);
-    state.ledger.friction -= p_t.dot(lever);
+  }
+  [[nodiscard]] size_t first_fixed() const { return static_cast<size_t>(n_blocks(scene)); }
+
+  // First touches, and what the touched panels left to their blocks.
+  void note_touched_panels(double t) {
+    for (size_t r = 0; r < w.contacts.size(); ++r) {
+      const IslandContact& contact = w.contacts[r];
+      if (contact.fixed < 0 || contact.waits || w.island.rows[r].state == ContactState::open ||
+          panel_number(scene, contact.fixed) < 0)
+        continue;
+      const size_t k = place(contact.a);
+      const Motion& before = w.substeps[k].start;
+      note_hit(scene, contact.a, contact.fixed, before.pose.position + contact.row.point,
+               t + contact.hit_time, before, motion(k), state.fence);
+    }
+  }
+
+  // Bonds that carry more than they hold are gone, and true: the substep is computed without them.
+  bool break_bonds(double h) {
+    w.bond_loads.clear();
+    for (size_t r = 0; r < w.contacts.size(); ++r) {
+      const IslandContact& contact = w.contacts[r];
+      const ContactRow& row = contact.row;
+      if (row.bond_area == 0 || contact.hit || w.island.rows[r].state == ContactState::open)
+        continue;
+      const double per_h = 1 / (h * numbers(contact.a).recovery_time);
+      const Vec3 path = path_of_contact(r);
+      const double along = row.normal.dot(path);
+      const double N = -per_h * row.normal_damping * (row.gap_start + row.offset + along);
+      const Vec3 shear = -per_h * row.shear_damping * (row.shear + path - along * row.normal);
+      add_load(N, shear, row.bond_area, bond_class(contact), load_of(contact));
+    }
+    bool broken = false;
+    for (const BondLoad& load : w.bond_loads) {
+      if (!breaks(load)) continue;
+      break_bond(load.bond);
+      broken = true;
+    }
+    return broken;
+  }
+
+  // Bonds are numbered as in the state; after them come those of the blocks with the ground.
+  [[nodiscard]] int bond_of(const IslandContact& contact) const {
+    return contact.bond >= 0 ? contact.bond : static_cast<int>(state.bonds.size()) + contact.a;
+  }
+  [[nodiscard]] const GroundClass& bond_class(const IslandContact& contact) const {
+    return contact.bond >= 0 ? state.bonds[static_cast<size_t>(contact.bond)].face
+                             : scene.ground.classes[static_cast<size_t>(contact.ground_class)];
+  }
+  void break_bond(int bond) {
+    const int n = static_cast<int>(state.bonds.size());
+    if (bond < n) {
+      state.bonds[static_cast<size_t>(bond)].area = 0;
+      return;
+    }
+    for (ContactMemory& memory : state.memory[static_cast<size_t>(bond - n)])
+      if (memory.key.body_b < 0) memory.bond_area = 0;
+  }
+
+  BondLoad& load_of(const IslandContact& contact) {
+    const int bond = bond_of(contact);
+    for (BondLoad& load : w.bond_loads)
+      if (load.bond == bond) return load;
+    BondLoad& load = w.bond_loads.emplace_back();
+    load.bond = bond;
+    return load;
   }
 
   // What the contacts keep for the next step, and the work they did.
@@ -659,8 +942,7 @@ struct AdvanceIsland {
       if (contact.waits || solved.state == ContactState::open) continue;
       account(r, h);
       const ContactRow& row = contact.row;
-      const Vec3 path =
-          row.free_move + relative(r, [&](size_t k) -> const Vec6& { return w.displacement[k]; });
+      const Vec3 path = path_of_contact(r);
       const double along = row.normal.dot(path);
       ++report.n_closed;
       note_penetration(report, -(row.gap_start + along), numbers(contact.a).thickness);
@@ -670,11 +952,11 @@ struct AdvanceIsland {
       ContactMemory memory;
       memory.key = contact.key;
       memory.normal = row.normal;
-      memory.offset = std::max(0.0, row.offset - relax);
+      memory.offset = contact.bond >= 0 ? row.offset : std::max(0.0, row.offset - relax);
       memory.gap_end = row.gap_start + row.offset + along - (row.offset - memory.offset);
       memory.normal_force = p_n / h;
       memory.state = static_cast<std::uint8_t>(solved.state);
-      memory.bond_area = row.bond_area;
+      memory.bond_area = contact.bond >= 0 ? 0 : row.bond_area;  // of the ground
       const double k_t = row.shear_damping / (numbers(contact.a).recovery_time * h);
       memory.shear = solved.state == ContactState::slip
                          ? Vec3(p_t / (-h * k_t))
@@ -743,6 +1025,10 @@ struct AdvanceIsland {
 
   Attempt attempt(double t, double& h) {
     if (!assemble(t, h)) return Attempt::left;
+    if (const double touch = first_touch(h); touch < h) {
+      h = touch;
+      return Attempt::shorter;
+    }
     if (!solve(h)) {
       if (halvings < most_halvings) {
         h /= 2;
@@ -754,8 +1040,18 @@ struct AdvanceIsland {
       report.flags = report.flags | StepFlag::unconverged;
     }
     set_displacements(h);
+    if (break_bonds(h)) return Attempt::shorter;
+    find_pushes(h);
+    const double used_up = time_to_first_break(scene, state.fence, w.pushes, h);
+    if (used_up < h && cuts < most_cuts) {
+      h = used_up;
+      ++cuts;
+      return Attempt::shorter;
+    }
     remember(h);
     finish(t, h);
+    note_touched_panels(t);
+    push_panels(scene, w.pushes, t + h, state);
     return Attempt::done;
   }
 
@@ -791,7 +1087,7 @@ struct AdvanceIsland {
       else
         search_pairs(t_end - t);
       double h = longest_substep(t_end - t);
-      halvings = 0;
+      halvings = cuts = 0;
       Attempt outcome = Attempt::shorter;
       while (outcome == Attempt::shorter) outcome = attempt(t, h);
       t = state.local_time[block(0)];
@@ -808,7 +1104,8 @@ struct AdvanceIsland {
 void form_islands(const Scene& scene, State& state, Work& work) {
   IslandStepWork& w = work.islands;
   const int n = n_blocks(scene);
-  const auto size = static_cast<size_t>(n);
+  const auto size = static_cast<size_t>(n + n_fixed(scene));
+  w.near_fixed.assign(static_cast<size_t>(n), scene.settings.trn_contacts ? 0 : 1);
   w.poses.resize(size);
   w.step.resize(size);
   w.turn.resize(size);
@@ -819,15 +1116,16 @@ void form_islands(const Scene& scene, State& state, Work& work) {
     set_motion_ahead(scene, b, motion_at(scene, state, b, state.time), scene.settings.dt, w);
     w.awake[i] = takes_part(state, b) && state.phase[i] != Phase::asleep;
   }
+  place_fixed(scene, state, w);
   do find_pairs(scene, scene.settings.dt, state, work);
-  while (join_pairs(state, w));
+  while (join_pairs(scene, state, w));
   find_islands(n, w.joined, {}, w.groups);
   w.moving.assign(size, 0);
   w.place.assign(size, -1);
   w.pairs_of_step = true;
   for (const auto& [a, b] : w.joined)
     for (const int i : {a, b})
-      if (state.phase[static_cast<size_t>(i)] == Phase::flight)
+      if (i >= 0 && state.phase[static_cast<size_t>(i)] == Phase::flight)
         end_flight_now(scene, i, state, work);
 }
 

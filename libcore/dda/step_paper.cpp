@@ -9,6 +9,7 @@
 #include "dda/newton.hpp"
 #include "dda/rotation.hpp"
 #include "dda/step.hpp"
+#include "dda/substep.hpp"
 
 namespace talus {
 namespace {
@@ -211,7 +212,9 @@ void remember(const OpenClose<Dof>& solved, State& state, Work& work, int b, Ste
     if (!sticks)
       state.ledger.friction += row.held_cap * (moved - along * row.normal).dot(row.slip_start);
   }
-  std::swap(state.memory[static_cast<size_t>(b)], work.memory_next);
+  std::vector<ContactMemory>& memory = state.memory[static_cast<size_t>(b)];
+  report.n_flips += count_flips(work.rows, memory);
+  std::swap(memory, work.memory_next);
 }
 
 // Eq. (28), v_a = COR v_b, on the normal component of the centroid's velocity, once a collision:

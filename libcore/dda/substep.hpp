@@ -4,6 +4,9 @@
 // theory 1.7, 1.8 (law of a contact over a step), 1.10 (correction about the free motion)
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "dda/newton.hpp"
 #include "dda/report.hpp"
 #include "dda/scene.hpp"
@@ -48,6 +51,11 @@ void set_ground_law(const Scene& scene, const BlockNumbers& c, const Substep& s,
 /// Rows of `work.contacts`, contacts of block b with the ground, in the body axes of s.R.
 void make_rows(const Scene& scene, int b, const BlockNumbers& c, const Substep& s,
                const State& state, Work& work);
+
+/// Contacts whose state a substep changed: opened, closed, or from stick to slip or back. `before`
+/// is the memory that `rows` started from.
+[[nodiscard]] int count_flips(std::span<const ContactRow> rows,
+                              const std::vector<ContactMemory>& before);
 
 /// Residual at which the contact forces of a lone block count as found [m/s].
 [[nodiscard]] double newton_tolerance(const BlockNumbers& c, const Substep& s);

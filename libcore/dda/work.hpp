@@ -30,16 +30,20 @@ struct Segment {
 struct IslandContact {
   ContactRow row;
   ContactKey key;
-  int a = 0, b = -1;       ///< blocks; b = -1: the ground
-  double gap_free = 0;     ///< gap at the end of the substep without contact forces [m]
-  double approach = 0;     ///< normal velocity without contact forces, < 0 closing [m/s]
-  double touch = 0;        ///< it touches below this gap [m]
-  double restitution = 0;  ///< of the two surfaces [-]
-  bool waits = false;      ///< approaches too fast to press without being hit
-  bool hit = false;        ///< hit within the substep
-  double hit_time = 0;     ///< from the start of the substep [s]
-  double hit_speed = 0;    ///< normal velocity just before, < 0 [m/s]
-  double target = 0;       ///< normal velocity at the end of the substep [m/s]
+  int a = 0, b = -1;         ///< blocks; b = -1: the ground, or a fixed body
+  int fixed = -1;            ///< fixed body (as body of Blocks::hulls), -1: none
+  int ground_class = 0;      ///< where b and fixed are -1
+  int bond = -1;             ///< index into State::bonds; row.bond_area is its share, -1: none
+  bool never_waits = false;  ///< bonded, or on a panel that gives way: takes no hit
+  double gap_free = 0;       ///< gap at the end of the substep without contact forces [m]
+  double approach = 0;       ///< normal velocity without contact forces, < 0 closing [m/s]
+  double touch = 0;          ///< it touches below this gap [m]
+  double restitution = 0;    ///< of the two surfaces [-]
+  bool waits = false;        ///< approaches too fast to press without being hit
+  bool hit = false;          ///< hit within the substep
+  double hit_time = 0;       ///< from the start of the substep [s]
+  double hit_speed = 0;      ///< normal velocity just before, < 0 [m/s]
+  double target = 0;         ///< normal velocity at the end of the substep [m/s]
 };
 
 /// How a body turns over a substep without contact.
@@ -51,12 +55,16 @@ struct FreeTurn {
 /// What the step of islands recomputes.
 struct IslandStepWork {  // clang-format off
   // form_islands
-  std::vector<Pose> poses;                  ///< at the start of the step or substep     (n_blocks)
-  std::vector<Vec3> step;                   ///< displacement ahead [m]                  (n_blocks)
-  std::vector<double> turn;                 ///< path of turning ahead [m]               (n_blocks)
-  std::vector<std::uint8_t> moving, awake;  ///<                                         (n_blocks)
+  // blocks, then fixed bodies
+  std::vector<Pose> poses;                  ///< at the start of the step or substep     (n_bodies)
+  std::vector<Vec3> step;                   ///< displacement ahead [m]                  (n_bodies)
+  std::vector<double> turn;                 ///< path of turning ahead [m]               (n_bodies)
+  std::vector<std::uint8_t> moving, awake;  ///<                                         (n_bodies)
+  std::vector<std::uint8_t> fixed;          ///< 1: never moves; empty: none is          (n_bodies)
+  std::vector<int> group;                   ///< no contacts within; empty: all meet     (n_bodies)
   PairWork pairs;
   std::vector<std::pair<int, int>> joined;  ///< blocks within reach of each other
+  std::vector<std::uint8_t> near_fixed;     ///< 1: within reach of a fixed body         (n_blocks)
   std::vector<int> joined_manifold;         ///< of each                                 (n_joined)
   bool pairs_of_step = false;               ///< `pairs` are still those of form_islands
   IslandGroups groups;
@@ -65,8 +73,12 @@ struct IslandStepWork {  // clang-format off
   std::vector<BlockNumbers> numbers;        ///<                                         (n_members)
   std::vector<double> bearing;              ///< mass of the heaviest block touched [kg] (n_members)
   std::vector<Substep> substeps;            ///<                                         (n_members)
+  std::vector<int> place;                   ///< of a body in `members`, -1: not in it   (n_bodies)
+  std::vector<int> continued;               ///< memory that a manifold's point continues
+  std::vector<std::uint8_t> claimed;        ///< 1: a memory that is continued
+  std::vector<BondLoad> bond_loads;         ///< of this substep, by bond
+  std::vector<PanelPush> pushes;            ///< on panels of fences, in this substep
   std::vector<FreeTurn> turns;              ///<                                         (n_members)
-  std::vector<int> place;                   ///< of a block in `members`, -1: not in it  (n_blocks)
   std::vector<IslandContact> contacts;      ///< in the order of island.rows
   Island<6> island;
   IslandWork<6> solver;

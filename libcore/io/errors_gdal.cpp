@@ -3,6 +3,9 @@
 #include <cpl_conv.h>
 #include <cpl_error.h>
 #include <gdal.h>
+#include <ogr_spatialref.h>
+
+#include "base/error.hpp"
 
 namespace talus {
 namespace {
@@ -10,6 +13,15 @@ namespace {
 void CPL_STDCALL collect(CPLErr severity, CPLErrorNum, const char* message) {
   static_cast<GdalErrors*>(CPLGetErrorHandlerUserData())
       ->note(severity == CE_Failure || severity == CE_Fatal, message);
+}
+
+// Without it coordinate systems are read by halves, and outputs differ from those of other
+// machines.
+void check_proj_database() {
+  const GdalErrors quiet;
+  if (OGRSpatialReference().importFromEPSG(4326) != OGRERR_NONE)
+    throw InputError({"proj.db"}, "PROJ's database of coordinate systems cannot be found or read",
+                     "install the package proj-data, or set PROJ_LIB to the folder that holds it");
 }
 
 }  // namespace
@@ -35,6 +47,7 @@ void GdalErrors::note(bool is_failure, const char* message) {
 void register_gdal_drivers() {
   static const bool once = [] {
     GDALAllRegister();
+    check_proj_database();
     if (CPLGetConfigOption("GDAL_CACHEMAX", nullptr) == nullptr) GDALSetCacheMax64(128 << 20);
     return true;
   }();

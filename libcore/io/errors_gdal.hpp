@@ -24,7 +24,8 @@ class GdalErrors {
 };
 
 /// All drivers, once. GDAL's cache of blocks gets 128 MB unless GDAL_CACHEMAX says otherwise: its
-/// default is a twentieth of the machine, which a pass over a large raster would fill.
+/// default is a twentieth of the machine, which a pass over a large raster would fill. Throws
+/// InputError when PROJ finds no proj.db.
 void register_gdal_drivers();
 
 }  // namespace talus

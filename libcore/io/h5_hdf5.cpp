@@ -8,9 +8,11 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <stdexcept>
 
 #include "base/error.hpp"
+#include "base/sha256.hpp"
 
 namespace talus {
 namespace {
@@ -86,6 +88,35 @@ std::size_t product(const Shape& shape) {
 // Building a file in memory fails for want of memory or by a slip of ours only.
 void require(bool success, const std::string& what) {
   if (!success) throw std::runtime_error("HDF5: " + what + " failed");
+}
+
+// The seal stands behind the HDF5 file, where HDF5 does not look: the library itself does not
+// survive every file that was damaged (reading beyond a chunk's memory, for one).
+const std::string seal_mark = "talus-sha256 ";
+constexpr std::size_t seal_length = 13 + 64;
+
+std::string seal_of(const void* bytes, std::size_t n_bytes) {
+  Sha256 digest;
+  digest.add(bytes, n_bytes);
+  return seal_mark + digest.hex();
+}
+
+// Whether the file ends with the seal of what comes before.
+bool is_sealed(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (!in || error || size < seal_length) return false;
+  Sha256 digest;
+  std::vector<char> piece(1 << 20);
+  for (std::uintmax_t left = size - seal_length; left > 0;) {
+    const auto n = static_cast<std::size_t>(std::min<std::uintmax_t>(left, piece.size()));
+    if (!in.read(piece.data(), static_cast<std::streamsize>(n))) return false;
+    digest.add(piece.data(), n);
+    left -= n;
+  }
+  std::string seal(seal_length, ' ');
+  return in.read(seal.data(), seal_length) && seal == seal_mark + digest.hex();
 }
 
 }  // namespace
@@ -238,6 +269,8 @@ std::vector<unsigned char> H5Writer::image() {
   require(size > 0, "taking the file");
   std::vector<unsigned char> bytes(static_cast<std::size_t>(size));
   require(H5Fget_file_image(impl_->file, bytes.data(), bytes.size()) == size, "taking the file");
+  const std::string seal = seal_of(bytes.data(), bytes.size());
+  bytes.insert(bytes.end(), seal.begin(), seal.end());
   return bytes;
 }
 
@@ -250,7 +283,7 @@ struct H5Reader::Impl {
 
   explicit Impl(const std::string& name) : path(name), file(open(name)) {
     if (!file.valid())
-      throw InputError({path}, "is not an HDF5 file, or it is damaged",
+      throw InputError({path}, "is not an HDF5 file that Talus wrote, or it is damaged",
                        "make it again with the tool that wrote it");
     std::error_code error;
     most_bytes = 65536 + 1100 * static_cast<std::size_t>(std::filesystem::file_size(path, error));
@@ -259,6 +292,7 @@ struct H5Reader::Impl {
   static Id open(const std::string& name) {
     silence();
     if (!std::filesystem::exists(name)) throw InputError({name}, "there is no such file");
+    if (!is_sealed(name)) return {H5I_INVALID_HID, H5Fclose};
     return {H5Fopen(name.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose};
   }
 
@@ -301,6 +335,16 @@ struct H5Reader::Impl {
     const Id type(H5Dget_type(id), H5Tclose);
     if (H5Tget_class(type) != (integer ? H5T_INTEGER : H5T_FLOAT))
       fail(name, integer ? "does not hold integers" : "does not hold numbers");
+  }
+
+  // An array that is stored in one piece is read without further checks by the library: its piece
+  // must be there.
+  void check_storage(const std::string& name, hid_t id, const Shape& shape) const {
+    const Id type(H5Dget_type(id), H5Tclose), list(H5Dget_create_plist(id), H5Pclose);
+    std::size_t bytes = H5Tget_size(type);
+    for (const std::size_t extent : shape) bytes *= extent;
+    if (H5Pget_layout(list) != H5D_CHUNKED && H5Dget_storage_size(id) != bytes)
+      fail(name, "is not as long as it claims");
   }
 
   [[nodiscard]] Id attribute(const std::string& object, const std::string& name) const {
@@ -363,6 +407,7 @@ std::vector<T> H5Reader::array(const std::string& path, std::size_t columns) con
   impl_->check_class(path, set, std::is_integral_v<T>);
   const Shape shape = impl_->shape_of(path, set);
   std::vector<T> values(shape[0] * impl_->check(path, shape, columns, sizeof(T)));
+  impl_->check_storage(path, set, shape);
   if (!values.empty() &&
       H5Dread(set, native_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
     impl_->fail(path, "cannot be read: its content is damaged");
@@ -376,6 +421,7 @@ std::vector<T> H5Reader::rows(const std::string& path, std::size_t columns, std:
   impl_->check_class(path, set, std::is_integral_v<T>);
   const Shape shape = impl_->shape_of(path, set);
   const std::size_t row = impl_->check(path, shape, columns, sizeof(T));
+  impl_->check_storage(path, set, shape);
   if (first > shape[0] || n > shape[0] - first) impl_->fail(path, "has fewer rows than asked for");
   std::vector<T> values(n * row);
   if (values.empty()) return values;
@@ -414,6 +460,7 @@ std::vector<std::string> H5Reader::texts(const std::string& path) const {
   const std::size_t length = impl_->text_length(path, type);
   const Shape shape = impl_->shape_of(path, set);
   impl_->check(path, shape, 1, length);
+  impl_->check_storage(path, set, shape);
   std::vector<char> bytes(shape[0] * length);
   if (!bytes.empty() && H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data()) < 0)
     impl_->fail(path, "cannot be read: its content is damaged");

@@ -1,4 +1,6 @@
 #include <cmath>
+#include <map>
+#include <string>
 
 #include "io/mesh_builder.hpp"
 
@@ -32,6 +34,7 @@ Vec3 point_of(const std::vector<std::string_view>& words, const Where& where) {
 Mesh parse_obj(const std::string& bytes, const std::string& path) {
   MeshBuilder builder;
   TextReader reader(bytes, path);
+  std::map<std::string, int> objects;  // line of each
   for (std::string_view line; reader.next_line(line);) {
     const auto words = words_of(line.substr(0, line.find('#')));
     if (words.empty()) continue;
@@ -44,7 +47,13 @@ Mesh parse_obj(const std::string& bytes, const std::string& path) {
         loop.push_back(vertex_of(words[k], builder.n_file_vertices(), where));
       builder.add_polygon(loop, where);
     } else if (words[0] == "o" || words[0] == "g") {
-      builder.start_object(words.size() > 1 ? std::string(words[1]) : "");
+      const std::string name = words.size() > 1 ? std::string(words[1]) : "";
+      if (words[0] == "o" && !name.empty() && !objects.emplace(name, where.line).second)
+        throw InputError(where,
+                         "object " + name + " stands here a second time, first in line " +
+                             std::to_string(objects[name]),
+                         "give each block a name of its own, or remove the copy");
+      builder.start_object(name);
     }
   }
   return builder.finished(path);

@@ -190,7 +190,12 @@ Verdict observed_verdict(const FenceArrival& arrival, const Fence& fence, double
   return Verdict::pierced;
 }
 
+// Whether the block touched the fence: as recorded, else as near as frames show.
 bool came_near(const RunFile& file, int block, const Fence& fence, double contact) {
+  if (!file.panels.empty())
+    return std::any_of(file.fence_hits.begin(), file.fence_hits.end(), [&](const FenceHit& hit) {
+      return hit.block == block && file.lines[hit.line].name == fence.name;
+    });
   for (int k = 0; k < n_frames(file.frames); ++k) {
     const FrameBlock at = frame_block(file, k, block);
     for (int v = file.blocks.vertex_begin[block]; v < file.blocks.vertex_begin[block + 1]; ++v) {

@@ -10,7 +10,8 @@
 namespace talus {
 namespace {
 
-constexpr double width = 640, height = 300, left = 66, right = 14, top = 34, bottom = 44;
+constexpr double width = 640, height = 300, left = 66, right = 14, bottom = 44;
+constexpr double legend_top = 25, legend_line = 13;  // of its first line, and from line to line
 
 struct Range {
   double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -32,14 +33,15 @@ std::string px(double value) { return text(std::round(value * 10) / 10); }
 // Where values lie on the page; a logarithmic axis holds logarithms.
 struct Frame {
   Range x, y;
-  bool log_y = false;
+  double top = 0;  ///< of the axes, below the legend [px]
+  bool log_x = false, log_y = false;
 
-  [[nodiscard]] bool is_drawn(double value_y) const {
-    return std::isfinite(value_y) && (!log_y || value_y > 0);
+  [[nodiscard]] bool is_drawn(double value_x, double value_y) const {
+    return std::isfinite(value_x) && std::isfinite(value_y) && (!log_x || value_x > 0) &&
+           (!log_y || value_y > 0);
   }
-  [[nodiscard]] double scaled(double value_y) const {
-    return log_y ? std::log10(value_y) : value_y;
-  }
+  [[nodiscard]] double scaled_x(double value) const { return log_x ? std::log10(value) : value; }
+  [[nodiscard]] double scaled(double value) const { return log_y ? std::log10(value) : value; }
   [[nodiscard]] double at_x(double value) const {
     return left + (value - x.low) / (x.high - x.low) * (width - left - right);
   }
@@ -48,13 +50,32 @@ struct Frame {
   }
 };
 
+// Where an entry of the legend begins.
+struct LegendPlace {
+  double x = left, y = legend_top;
+};
+
+// The place of each line's entry; the last is where another one would stand.
+std::vector<LegendPlace> legend_places(const Chart& chart) {
+  std::vector<LegendPlace> places = {{}};
+  for (const ChartSeries& line : chart.series) {
+    LegendPlace& at = places.back();
+    const double wide = line.name.empty() ? 0 : 36 + 6.3 * static_cast<double>(line.name.size());
+    if (at.x > left && at.x + wide > width) at = {left, at.y + legend_line};
+    places.push_back({at.x + wide, at.y});
+  }
+  return places;
+}
+
 Frame frame_of(const Chart& chart) {
   Frame frame;
+  frame.top = legend_places(chart).back().y + 9;
+  frame.log_x = chart.log_x;
   frame.log_y = chart.log_y;
   for (const ChartSeries& line : chart.series)
     for (std::size_t i = 0; i < line.x.size(); ++i) {
-      if (!std::isfinite(line.x[i]) || !frame.is_drawn(line.y[i])) continue;
-      frame.x.add(line.x[i]);
+      if (!frame.is_drawn(line.x[i], line.y[i])) continue;
+      frame.x.add(frame.scaled_x(line.x[i]));
       frame.y.add(frame.scaled(line.y[i]));
     }
   if (frame.x.is_empty()) frame.x = {0, 1}, frame.y = {0, 1};
@@ -63,6 +84,7 @@ Frame frame_of(const Chart& chart) {
   const double least = std::max(1e-12, 1e-9 * std::abs(frame.y.high));
   if (frame.y.high - frame.y.low < least) frame.y.high = frame.y.low + (chart.log_y ? 1 : least);
   if (chart.log_y) frame.y = {std::floor(frame.y.low), std::ceil(frame.y.high)};
+  if (chart.log_x) frame.x = {std::floor(frame.x.low), std::ceil(frame.x.high)};
   return frame;
 }
 
@@ -71,23 +93,31 @@ std::string label(double x, double y, const char* anchor, const std::string& wor
          "</text>\n";
 }
 
+// On a logarithmic axis: powers of ten.
+std::vector<double> ticks_of(const Range& range, int n, bool is_log) {
+  std::vector<double> ticks = round_ticks(range.low, range.high, n);
+  if (is_log) std::erase_if(ticks, [](double tick) { return tick != std::floor(tick); });
+  return ticks;
+}
+
 std::string axes(const Chart& chart, const Frame& frame) {
+  const auto words = [](double tick, bool is_log) {
+    return is_log ? text(std::pow(10, tick), 3) : tick_text(tick);
+  };
   std::string out;
-  for (const double tick : round_ticks(frame.x.low, frame.x.high, 6)) {
+  for (const double tick : ticks_of(frame.x, 6, chart.log_x)) {
     const std::string x = px(frame.at_x(tick));
-    out += "<path class=\"grid\" d=\"M" + x + " " + px(top) + "V" + px(height - bottom) + "\"/>\n";
-    out += label(frame.at_x(tick), height - bottom + 16, "middle", tick_text(tick));
+    out += "<path class=\"grid\" d=\"M" + x + " " + px(frame.top) + "V" + px(height - bottom) +
+           "\"/>\n";
+    out += label(frame.at_x(tick), height - bottom + 16, "middle", words(tick, chart.log_x));
   }
-  std::vector<double> ticks = round_ticks(frame.y.low, frame.y.high, 5);
-  if (chart.log_y) std::erase_if(ticks, [](double tick) { return tick != std::floor(tick); });
-  for (const double tick : ticks) {
+  for (const double tick : ticks_of(frame.y, 5, chart.log_y)) {
     const std::string y = px(frame.at_y(tick));
     out += "<path class=\"grid\" d=\"M" + px(left) + " " + y + "H" + px(width - right) + "\"/>\n";
-    out += label(left - 6, frame.at_y(tick) + 4, "end",
-                 chart.log_y ? text(std::pow(10, tick), 3) : tick_text(tick));
+    out += label(left - 6, frame.at_y(tick) + 4, "end", words(tick, chart.log_y));
   }
   out += label((left + width - right) / 2, height - 8, "middle", escaped(chart.x_label));
-  out += "<text transform=\"translate(14 " + px((top + height - bottom) / 2) +
+  out += "<text transform=\"translate(14 " + px((frame.top + height - bottom) / 2) +
          ") rotate(-90)\" text-anchor=\"middle\">" + escaped(chart.y_label) + "</text>\n";
   return out;
 }
@@ -96,12 +126,12 @@ std::string line_path(const ChartSeries& line, const Frame& frame) {
   std::string path, last;
   bool pen_down = false;
   for (std::size_t i = 0; i < line.x.size(); ++i) {
-    if (!std::isfinite(line.x[i]) || !frame.is_drawn(line.y[i])) {
+    if (!frame.is_drawn(line.x[i], line.y[i])) {
       pen_down = false;
       continue;
     }
     const std::string point =
-        px(frame.at_x(line.x[i])) + " " + px(frame.at_y(frame.scaled(line.y[i])));
+        px(frame.at_x(frame.scaled_x(line.x[i]))) + " " + px(frame.at_y(frame.scaled(line.y[i])));
     if (pen_down && point == last) continue;
     path += (pen_down ? "L" : "M") + point;
     last = point;
@@ -111,14 +141,25 @@ std::string line_path(const ChartSeries& line, const Frame& frame) {
          text(line.width) + "\"/>\n";
 }
 
-std::string legend(const Chart& chart) {
+std::string circles(const ChartSeries& line, const Frame& frame) {
   std::string out;
-  double x = left;
-  for (const ChartSeries& line : chart.series) {
+  for (std::size_t i = 0; i < line.x.size(); ++i)
+    if (frame.is_drawn(line.x[i], line.y[i]))
+      out += "<circle cx=\"" + px(frame.at_x(frame.scaled_x(line.x[i]))) + "\" cy=\"" +
+             px(frame.at_y(frame.scaled(line.y[i]))) + "\" r=\"" + text(line.marker) +
+             "\" fill=\"none\" stroke=\"" + line.colour + "\"/>\n";
+  return out;
+}
+
+std::string legend(const Chart& chart) {
+  const std::vector<LegendPlace> places = legend_places(chart);
+  std::string out;
+  for (std::size_t i = 0; i < chart.series.size(); ++i) {
+    const ChartSeries& line = chart.series[i];
     if (line.name.empty()) continue;
-    out += "<path d=\"M" + px(x) + " 25h16\" stroke=\"" + line.colour +
-           "\" stroke-width=\"3\"/>\n" + label(x + 21, 29, "start", escaped(line.name));
-    x += 36 + 6.3 * static_cast<double>(line.name.size());
+    const auto [x, y] = places[i];
+    out += "<path d=\"M" + px(x) + " " + px(y) + "h16\" stroke=\"" + line.colour +
+           "\" stroke-width=\"3\"/>\n" + label(x + 21, y + 4, "start", escaped(line.name));
   }
   return out;
 }
@@ -143,8 +184,22 @@ std::string chart_svg(const Chart& chart) {
                     escaped(chart.title) + "\">\n<text class=\"title\" x=\"" + px(left) +
                     "\" y=\"14\">" + escaped(chart.title) + "</text>\n";
   out += axes(chart, frame) + legend(chart);
-  for (const ChartSeries& line : chart.series) out += line_path(line, frame);
+  for (const ChartSeries& line : chart.series) {
+    if (line.width > 0) out += line_path(line, frame);
+    if (line.marker > 0) out += circles(line, frame);
+  }
   return out + "</svg>\n";
+}
+
+std::string chart_file(const Chart& chart) {
+  std::string svg = chart_svg(chart);
+  const std::string head = "<svg ",
+                    styles =
+                        "<style>text{font:11px sans-serif;fill:#222}.title{font-size:13px}"
+                        ".grid{stroke:#ddd;fill:none}</style>\n"
+                        "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
+  svg.insert(svg.find(">\n") + 2, styles);
+  return head + "xmlns=\"http://www.w3.org/2000/svg\" " + svg.substr(head.size());
 }
 
 }  // namespace talus

@@ -21,12 +21,9 @@ std::vector<double> crossings_at(const GroundArea& area, double y) {
 
 }  // namespace
 
-std::vector<std::uint8_t> classify_cells(const Trn& trn, const std::vector<GroundArea>& areas,
-                                         int elsewhere) {
+void paint_areas(const Trn& trn, const std::vector<GroundArea>& areas,
+                 std::vector<std::uint8_t>& classes) {
   const int n_rows = trn.n_rows - 1, n_cols = trn.n_cols - 1;
-  std::vector<std::uint8_t> classes(
-      static_cast<std::size_t>(n_rows) * static_cast<std::size_t>(n_cols),
-      static_cast<std::uint8_t>(elsewhere));
   for (const GroundArea& area : areas)
     for (int row = 0; row < n_rows; ++row) {
       const double y = trn.node0.y() - (row + 0.5) * trn.cell_size;
@@ -41,6 +38,14 @@ std::vector<std::uint8_t> classify_cells(const Trn& trn, const std::vector<Groun
                   static_cast<std::uint8_t>(area.ground_class));
       }
     }
+}
+
+std::vector<std::uint8_t> classify_cells(const Trn& trn, const std::vector<GroundArea>& areas,
+                                         int elsewhere) {
+  std::vector<std::uint8_t> classes(
+      static_cast<std::size_t>(trn.n_rows - 1) * static_cast<std::size_t>(trn.n_cols - 1),
+      static_cast<std::uint8_t>(elsewhere));
+  paint_areas(trn, areas, classes);
   return classes;
 }
 

@@ -15,8 +15,12 @@ struct GroundArea {
   std::vector<std::vector<Vec2>> rings;  ///< without the first point at the end [m]
 };
 
-/// Class of every cell of `trn`: that of the last area whose inside holds the cell's centre, else
-/// `elsewhere`.                                                                     (n_cells)
+/// Gives the cells of `trn` whose centre lies inside an area the class of the last such area.
+/// `classes` holds the others'.                                                     (n_cells)
+void paint_areas(const Trn& trn, const std::vector<GroundArea>& areas,
+                 std::vector<std::uint8_t>& classes);
+
+/// The same, with `elsewhere` for the others.                                       (n_cells)
 [[nodiscard]] std::vector<std::uint8_t> classify_cells(const Trn& trn,
                                                        const std::vector<GroundArea>& areas,
                                                        int elsewhere);

@@ -75,7 +75,17 @@ PlanFacts plan_facts(const Site& site, const BlockSet& blocks, const Trn& trn,
   const FeatureCounts counts = feature_counts(trn);
   facts.n_features = counts.vertices + counts.edges;
   for (const std::uint8_t byte : flags) facts.n_convex_features += std::popcount(byte);
+  for (const JointSettings& joints : site.joints) {
+    if (facts.n_blocks < 2) break;
+    if (!std::isnan(joints.friction_deg))
+      facts.largest_friction_deg = std::max(facts.largest_friction_deg, joints.friction_deg);
+    facts.largest_cohesion =
+        std::max({facts.largest_cohesion, joints.cohesion_pa, joints.tension_pa});
+  }
   facts.n_fences = static_cast<int>(site.fences.size());
+  for (const FenceSettings& fence : site.fences)
+    facts.n_standing += fence.active && site.solver.law == "talus";
+  facts.blocky = site.solver.terrain_model == "blocky";
   facts.has_base_motion = !site.base_motion.file.empty() || site.base_motion.amplitude_m_s2 > 0;
   facts.stress_wanted = site.output.strain;
   facts.strain = site.solver.strain;
@@ -129,6 +139,11 @@ ScenePlan make_plan(const PlanFacts& facts, bool full) {
                        facts.passages ? "[output] passages" : "[output] passages is false"});
   plan.crossings = add({"crossings", facts.n_fences > 0, "one row a block and line of [fence.*]",
                         number(facts.n_fences, "fence")});
+  add({"standing fences", facts.n_standing > 0,
+       "panels as fixed bodies where a fence is active, law talus",
+       number(facts.n_standing, "fence")});
+  add({"blocky slope", facts.blocky, "one fixed block a triangle, [solver] terrain_model",
+       facts.blocky ? "slower than the TRN: to compare with" : "the TRN is the slope"});
   add({"strains in frames", facts.stress_wanted && plan.strains,
        "stored where asked for and computed",
        facts.stress_wanted ? "[output] strain" : "not asked for"});

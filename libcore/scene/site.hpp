@@ -29,6 +29,7 @@ struct SiteInfo {
 /// [terrain]: what talus-tin and talus-trn are called with.
 struct TerrainSettings {
   std::string contours, layer, elevation_field, breaklines, spots, boundary, dem;
+  std::string ground_raster;  ///< classes of ground, whole numbers
   std::string flat = "fill";
   double cell_size_m = not_given;
   std::vector<double> window_m;  ///< xmin, ymin, xmax, ymax in map coordinates
@@ -86,34 +87,31 @@ struct MaterialSettings {
   double cor = 0.3;  ///< coefficient of restitution between blocks
 };
 
-/// [ground.NAME]: what blocks slide on; `polygon_file` says where, one section without it holds
-/// elsewhere.
+/// [ground.NAME]: what blocks slide on; a polygon or `raster_values` say where, one section without
+/// both holds elsewhere.
 struct GroundSettings {
   std::string name;
   int line = 0;
   double friction_deg = 30;
   double cohesion_pa = 0, tension_pa = 0;
-  double cor = 0.3;               ///< along the normal
-  double cor_tangential = 1;      ///< share of the tangential velocity kept by an impact
-  double rolling_resistance = 0;  ///< lever arm over block radius
+  double cor = 0.3;  ///< along the normal
   std::vector<Vec3> polygon;
   std::string polygon_file, polygon_layer, polygon_where;
+  std::vector<double> raster_values;  ///< of TerrainSettings::ground_raster, whole numbers
 };
 
 /// [solver]
 struct SolverSettings {
   std::string law = "talus";
+  std::string terrain_model = "trn";  ///< or "blocky": the slope as fixed polyhedral blocks
   double duration_s = 60;
   double time_step_s = not_given;  ///< not given: chosen by the solver
   double min_time_step_s = not_given, max_time_step_s = not_given;
   double gravity_m_s2 = 9.80665;
   double normal_stiffness_n_m = not_given;
-  double shear_stiffness_ratio = 0.4;   ///< k_s / k_n
-  double cor = not_given;               ///< overrides those of materials and ground
-  double impact_speed_m_s = not_given;  ///< slower approaches do not bounce
+  double shear_stiffness_ratio = 0.4;  ///< k_s / k_n
+  double cor = not_given;              ///< overrides those of materials and ground
   std::string strain = "auto";
-  double damping_1_s = 0;  ///< mass-proportional
-  double rest_speed_m_s = 0.01, rest_time_s = 2;
   std::int64_t max_passes = 50;
   std::int64_t seed = 1, n_runs = 1;
   double start_jitter_m_s = 0;
@@ -130,11 +128,11 @@ struct FenceSettings {
   std::vector<Vec3> line;  ///< map x, y of at least two points; or line_file
   std::string line_file, line_layer;
   double height_m = 5;
-  double capacity_kj = not_given;
+  double capacity_kj = not_given;       ///< of a panel; not given: rigid
+  double max_deflection_m = not_given;  ///< where it is used up; not given: half the height
   double post_spacing_m = 10;
   bool active = true;
   double cor = 0.1, friction_deg = 30;
-  double normal_stiffness_n_m = not_given;
 };
 
 /// [output]

@@ -73,6 +73,7 @@ template <> const std::vector<Key<TerrainSettings>>& keys() {
       {"spots", &S::spots, "spot heights for talus-tin"},
       {"boundary", &S::boundary, "boundary polygon for talus-tin"},
       {"dem", &S::dem, "elevation raster for talus-trn instead of contours"},
+      {"ground_raster", &S::ground_raster, "raster of ground classes, whole numbers; [ground.*] raster_values says which is which"},
       {"flat", &S::flat, "what happens to flat triangles", any, "fill|keep"},
       {"cell_size_m", &S::cell_size_m, "cell size of the TRN", positive},
       {"window_m", &S::window_m, "xmin, ymin, xmax, ymax of the TRN, map coordinates", any, "", "", 4, 4}};
@@ -143,18 +144,18 @@ template <> const std::vector<Key<GroundSettings>>& keys() {
       {"cohesion_pa", &S::cohesion_pa, "cohesion on the ground", not_negative},
       {"tension_pa", &S::tension_pa, "tensile strength on the ground", not_negative},
       {"cor", &S::cor, "coefficient of restitution along the normal", share},
-      {"cor_tangential", &S::cor_tangential, "share of the tangential velocity that an impact leaves", share},
-      {"rolling_resistance", &S::rolling_resistance, "lever arm of rolling resistance over the block's radius", share},
       {"polygon", &S::polygon, "corners of the area, map x, y", any, "", "", 3},
       {"polygon_file", &S::polygon_file, "vector file with the area"},
       {"polygon_layer", &S::polygon_layer, "its layer"},
-      {"polygon_where", &S::polygon_where, "attribute filter, e.g. type = 'scree'"}};
+      {"polygon_where", &S::polygon_where, "attribute filter, e.g. type = 'scree'"},
+      {"raster_values", &S::raster_values, "values of [terrain] ground_raster that stand for this ground", any, "", "whole numbers, as the raster has them", 1}};
   return table;
 }
 template <> const std::vector<Key<SolverSettings>>& keys() {
   using S = SolverSettings;
   static const std::vector<Key<S>> table = {
       {"law", &S::law, "contact law", any, "talus|paper"},
+      {"terrain_model", &S::terrain_model, "slope as TRN, or as one fixed block a triangle, to compare with", any, "trn|blocky"},
       {"duration_s", &S::duration_s, "time simulated", positive},
       {"time_step_s", &S::time_step_s, "time step; chosen by the solver when not given", {0, 1, true, false}},
       {"min_time_step_s", &S::min_time_step_s, "smallest time step", {0, 1, true, false}},
@@ -163,11 +164,7 @@ template <> const std::vector<Key<SolverSettings>>& keys() {
       {"normal_stiffness_n_m", &S::normal_stiffness_n_m, "penalty stiffness of a contact", positive},
       {"shear_stiffness_ratio", &S::shear_stiffness_ratio, "shear over normal stiffness", {0, 10, true, false}},
       {"cor", &S::cor, "coefficient of restitution everywhere", share},
-      {"impact_speed_m_s", &S::impact_speed_m_s, "slower approaches do not bounce", not_negative},
       {"strain", &S::strain, "strain degrees of freedom", any, "auto|on|off"},
-      {"damping_1_s", &S::damping_1_s, "mass-proportional damping", not_negative},
-      {"rest_speed_m_s", &S::rest_speed_m_s, "slower blocks are at rest", positive},
-      {"rest_time_s", &S::rest_time_s, "after this long below rest_speed_m_s", not_negative},
       {"max_passes", &S::max_passes, "passes of the contact iteration in one step", {1, 10000}},
       {"seed", &S::seed, "seed of the run", not_negative},
       {"n_runs", &S::n_runs, "runs with seeds counted up", {1, 1000000}},
@@ -186,12 +183,12 @@ template <> const std::vector<Key<FenceSettings>>& keys() {
       {"line_file", &S::line_file, "vector file with the fence line"},
       {"line_layer", &S::line_layer, "its layer"},
       {"height_m", &S::height_m, "height above the ground", positive},
-      {"capacity_kj", &S::capacity_kj, "energy that it holds", positive},
+      {"capacity_kj", &S::capacity_kj, "energy that a panel takes before it breaks; rigid when not given", positive},
+      {"max_deflection_m", &S::max_deflection_m, "deflection at which one block has used up the capacity; half the height when not given", positive},
       {"post_spacing_m", &S::post_spacing_m, "distance of posts", positive},
       {"active", &S::active, "whether it stands in the run"},
-      {"cor", &S::cor, "coefficient of restitution", share},
-      {"friction_deg", &S::friction_deg, "friction angle", angle_below_90, "", friction_hint},
-      {"normal_stiffness_n_m", &S::normal_stiffness_n_m, "stiffness of a contact", positive}};
+      {"cor", &S::cor, "coefficient of restitution of a rigid fence", share},
+      {"friction_deg", &S::friction_deg, "friction angle", angle_below_90, "", friction_hint}};
   return table;
 }
 template <> const std::vector<Key<OutputSettings>>& keys() {

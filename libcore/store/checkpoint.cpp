@@ -13,10 +13,11 @@ namespace talus {
 // A field added to one of these structs and forgotten here would be lost on --resume: the sizes
 // say that a list has to be looked at again.
 
-static_assert(sizeof(Motion) == 112 && sizeof(EnergyLedger) == 40 && sizeof(RunCounters) == 64);
-static_assert(sizeof(ContactMemory) == 128 && sizeof(HealthRow) == 168);
-static_assert(sizeof(State) == 8 + 11 * 24 + sizeof(EnergyLedger) + sizeof(RunCounters) +
-                                   sizeof(PairState) + sizeof(PlacedHulls));
+static_assert(sizeof(Motion) == 112 && sizeof(EnergyLedger) == 48 && sizeof(RunCounters) == 64);
+static_assert(sizeof(ContactMemory) == 128 && sizeof(HealthRow) == 184);
+static_assert(sizeof(State) == 8 + 12 * 24 + sizeof(EnergyLedger) + sizeof(RunCounters) +
+                                   sizeof(PairState) + sizeof(PlacedHulls) + sizeof(FenceState));
+static_assert(sizeof(FenceState) == 5 * 24 && sizeof(FenceHit) == 104 && sizeof(BlockBond) == 48);
 static_assert(sizeof(PairState) == 272 && sizeof(PlacedHulls) == 192 && sizeof(ListedPair) == 88);
 static_assert(sizeof(PairWatch) == 16 && sizeof(HeldPoint) == 24);
 
@@ -26,7 +27,23 @@ void fields(Fields<Archive>& archive, Motion& motion) {
 }
 template <class Archive>
 void fields(Fields<Archive>& archive, EnergyLedger& ledger) {
-  archive(ledger.friction, ledger.impact, ledger.contact, ledger.base, ledger.removed);
+  archive(ledger.friction, ledger.impact, ledger.contact, ledger.base, ledger.fence,
+          ledger.removed);
+}
+template <class Archive>
+void fields(Fields<Archive>& archive, BlockBond& bond) {
+  archive(bond.block_a, bond.block_b, bond.area, bond.face.friction, bond.face.cohesion,
+          bond.face.tension, bond.face.restitution);
+}
+template <class Archive>
+void fields(Fields<Archive>& archive, FenceHit& hit) {
+  archive(hit.block, hit.line, hit.panel, hit.time, hit.chainage, hit.velocity,
+          hit.translational_energy, hit.rotational_energy, hit.energy_after, hit.work,
+          hit.top_height, hit.bottom_height);
+}
+template <class Archive>
+void fields(Fields<Archive>& archive, FenceState& fence) {
+  archive(fence.deflection, fence.work, fence.broken_at, fence.broken_by, fence.hits);
 }
 template <class Archive>
 void fields(Fields<Archive>& archive, RunCounters& counters) {
@@ -76,7 +93,8 @@ template <class Archive>
 void fields(Fields<Archive>& archive, State& state) {
   archive(state.time, state.motion, state.local_time, state.flight_end, state.phase,
           state.acceleration, state.spin_rate, state.rebound, state.still_steps, state.strain,
-          state.strain_rate, state.memory, state.pairs, state.placed, state.ledger, state.counters);
+          state.strain_rate, state.memory, state.pairs, state.placed, state.bonds, state.fence,
+          state.ledger, state.counters);
 }
 template <class Archive>
 void fields(Fields<Archive>& archive, PassageValues& values) {
@@ -102,10 +120,10 @@ void fields(Fields<Archive>& archive, FrameSampler& sampler) {
 }
 template <class Archive>
 void fields(Fields<Archive>& archive, HealthRow& row) {
-  archive(row.time, row.shortest_dt, row.steps, row.substeps, row.passes, row.impacts,
+  archive(row.time, row.shortest_dt, row.steps, row.substeps, row.passes, row.flips, row.impacts,
           row.unconverged, row.left_domain, row.fell_through, row.not_finite, row.deep,
           row.largest_penetration, row.translation, row.rotation, row.potential, row.elastic,
-          row.friction, row.impact, row.contact, row.base, row.removed);
+          row.friction, row.impact, row.contact, row.base, row.fence, row.removed);
 }
 template <class Archive>
 void fields(Fields<Archive>& archive, Checkpoint& checkpoint) {
@@ -115,7 +133,7 @@ void fields(Fields<Archive>& archive, Checkpoint& checkpoint) {
 
 namespace {
 
-constexpr std::uint64_t format = 0x31306b6365686374;  // "tcheck01"
+constexpr std::uint64_t format = 0x32306b6365686374;  // "tcheck02"
 constexpr std::size_t digest_length = 64;
 
 std::string digest_of(std::span<const std::uint8_t> bytes) {

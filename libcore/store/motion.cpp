@@ -4,9 +4,15 @@
 #include <cmath>
 
 namespace talus {
+namespace {
+
+constexpr int strides_at_once = 3;
+
+}  // namespace
 
 double flight_turn(const Segment& segment, const Vec3& inertia) {
-  return segment.start.angular_momentum.norm() / inertia.minCoeff() *
+  const Motion& start = segment.start;
+  return fastest_spin(start.pose.attitude, start.angular_momentum, inertia) *
          (segment.t_end - segment.t_start);
 }
 
@@ -40,7 +46,7 @@ Motion SegmentMotion::in_flight(double elapsed) {
   const Vec3& L = start.angular_momentum;
   const double strides = elapsed / stride_, whole = std::floor(strides + 1e-12);
   while (static_cast<double>(attitudes_.size()) <= whole)
-    attitudes_.push_back(free_rotation(attitudes_.back(), L, *inertia_, stride_));
+    add_free_rotations(attitudes_, L, *inertia_, stride_, strides_at_once);
   Motion motion;
   motion.pose.attitude = attitudes_[static_cast<std::size_t>(whole)];
   if (strides - whole > 1e-12)

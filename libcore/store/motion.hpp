@@ -15,8 +15,7 @@ namespace talus {
 /// A flight is followed in strides in which its spin turns by less than this [rad].
 inline constexpr double flight_stride = 0.25;
 
-/// From above, by how much a body with principal moments `inertia` turns in a flight [rad]: omega
-/// is I^-1 L, at most |L| / I_min.
+/// From above, by how much a body with principal moments `inertia` turns in a flight [rad].
 [[nodiscard]] double flight_turn(const Segment& segment, const Vec3& inertia);
 
 /// Follows one segment after the other; what a flight's spin takes to compute is kept for as long

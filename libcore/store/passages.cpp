@@ -217,8 +217,14 @@ void find_covered(const PassageRecorder& recorder, const Vec2& at, PassageTracke
   });
 }
 
-Footprint footprint_of(const Scene& scene, int block, const Motion& motion) {
-  return {plan(motion), extents_of(scene.blocks.shapes, block, motion.pose.attitude)};
+// The end of a piece is asked for again as its cells and as the start of the next.
+Footprint footprint_of(PassageRecorder& recorder, const Scene& scene, int block,
+                       const Motion& motion) {
+  LastExtents& last = recorder.last_extents[block];
+  const Quat& attitude = motion.pose.attitude;
+  if (last.attitude.coeffs() != attitude.coeffs())
+    last = {attitude, extents_of(scene.blocks.shapes, block, attitude)};
+  return {plan(motion), last.extents};
 }
 
 // --- recording ---------------------------------------------------------------------------------
@@ -237,10 +243,14 @@ Passage arrival(int block, const PassageTracker& tracker, double time, double z,
 
 void flush(PassageTable& table, int block, const PassageTracker& tracker) {
   const Motion& motion = tracker.last.motion;
-  Passage row = arrival(block, tracker, tracker.last_time, motion.pose.position.z(), tracker.path,
-                        motion.velocity);
-  row.largest = tracker.pending;
   for (const int cell : tracker.covered) {
+    if (Passage* known = table.earlier(block, cell, static_cast<float>(tracker.last_time))) {
+      known->largest.raise(tracker.pending);
+      continue;
+    }
+    Passage row = arrival(block, tracker, tracker.last_time, motion.pose.position.z(), tracker.path,
+                          motion.velocity);
+    row.largest = tracker.pending;
     row.cell = cell;
     table.raise(row);
   }
@@ -253,7 +263,8 @@ void settle(PassageRecorder& recorder, const Scene& scene, const Piece& piece) {
   if (recorder.by_centroid)
     find_covered(recorder, at, tracker);
   else
-    find_covered(recorder.grid, footprint_of(scene, piece.block, piece.b.motion), tracker);
+    find_covered(recorder.grid, footprint_of(recorder, scene, piece.block, piece.b.motion),
+                 tracker);
   tracker.pending = values_between(scene, piece, 1, 1);
 }
 
@@ -264,12 +275,18 @@ void record_sweep(PassageRecorder& recorder, const Scene& scene, const Piece& pi
   const PassageTracker& tracker = recorder.trackers[piece.block];
   const Vec3 way = b.pose.position - a.pose.position;
   const auto visit = [&](int cell, double s_in, double s_out) {
+    const double time = piece.t_start + s_in * piece.duration;
+    const PassageValues values =
+        s_in <= 0 && s_out >= 1 ? whole : values_between(scene, piece, s_in, s_out);
+    if (Passage* known = recorder.table.earlier(piece.block, cell, static_cast<float>(time))) {
+      known->largest.raise(values);
+      return;
+    }
     const double z = a.pose.position.z() + s_in * way.z() - piece.sag * s_in * (1 - s_in);
-    Passage row = arrival(piece.block, tracker, piece.t_start + s_in * piece.duration, z,
-                          tracker.path + s_in * way.head<2>().norm(),
+    Passage row = arrival(piece.block, tracker, time, z, tracker.path + s_in * way.head<2>().norm(),
                           a.velocity + s_in * (b.velocity - a.velocity));
     row.cell = cell;
-    row.largest = s_in <= 0 && s_out >= 1 ? whole : values_between(scene, piece, s_in, s_out);
+    row.largest = values;
     recorder.table.raise(row);
   };
   if (recorder.by_centroid) {
@@ -278,8 +295,8 @@ void record_sweep(PassageRecorder& recorder, const Scene& scene, const Piece& pi
     });
     return;
   }
-  Footprint start = footprint_of(scene, piece.block, a);
-  Footprint end = footprint_of(scene, piece.block, b);
+  Footprint start = footprint_of(recorder, scene, piece.block, a);
+  Footprint end = footprint_of(recorder, scene, piece.block, b);
   widen(start.extents, piece.sagitta);
   widen(end.extents, piece.sagitta);
   sweep(recorder.grid, start, end, visit);
@@ -306,7 +323,7 @@ void record_piece(PassageRecorder& recorder, const Scene& scene, const Piece& pi
 }
 
 // From above, by how much a block turns in a segment [rad]. In flight the rate of omega is at most
-// |L| |omega| / I_min: a vertex's acceleration by turning is below 2 r (|L| / I_min)^2.
+// |omega|^2 (Euler's equations): a vertex's acceleration by turning is below 2 r |omega|^2.
 double turn_of(const Segment& segment, const Vec3& inertia) {
   return segment.flight ? flight_turn(segment, inertia)
                         : turn_bound(segment.start.pose.attitude, segment.end.pose.attitude);
@@ -336,6 +353,21 @@ void grow(PassageTable& table) {
     while (table.slots[slot] != 0) slot = (slot + 1) & mask;
     table.slots[slot] = static_cast<std::uint32_t>(row + 1);
   }
+}
+
+// The slot that holds a block and cell, or the empty one where they would go.
+std::size_t slot_of(const PassageTable& table, std::int32_t block, std::int32_t cell) {
+  const std::size_t mask = table.slots.size() - 1;
+  std::size_t slot = hash_of(block, cell) & mask;
+  for (; table.slots[slot] != 0; slot = (slot + 1) & mask) {
+    const Passage& row = table.rows[table.slots[slot] - 1];
+    if (row.block == block && row.cell == cell) break;
+  }
+  return slot;
+}
+
+Passage* row_at(PassageTable& table, std::size_t slot) {
+  return table.slots[slot] == 0 ? nullptr : &table.rows[table.slots[slot] - 1];
 }
 
 float larger(float a, float b) { return a >= b || std::isnan(b) ? a : b; }
@@ -381,13 +413,17 @@ void PassageValues::raise(const PassageValues& other) {
   top_height = larger(top_height, other.top_height);
 }
 
+Passage* PassageTable::earlier(std::int32_t block, std::int32_t cell, float time) {
+  if (slots.empty()) return nullptr;
+  Passage* row = row_at(*this, slot_of(*this, block, cell));
+  return row && row->first_time <= time ? row : nullptr;
+}
+
 void PassageTable::raise(const Passage& visit) {
   if (4 * (rows.size() + 1) > 3 * slots.size()) grow(*this);
-  const std::size_t mask = slots.size() - 1;
-  std::size_t slot = hash_of(visit.block, visit.cell) & mask;
-  for (; slots[slot] != 0; slot = (slot + 1) & mask) {
-    Passage& row = rows[slots[slot] - 1];
-    if (row.block != visit.block || row.cell != visit.cell) continue;
+  const std::size_t slot = slot_of(*this, visit.block, visit.cell);
+  if (Passage* known = row_at(*this, slot)) {
+    Passage& row = *known;
     PassageValues largest = row.largest;
     largest.raise(visit.largest);
     if (visit.first_time < row.first_time) row = visit;
@@ -423,6 +459,7 @@ PassageRecorder start_passages(const Scene& scene, const PassageGrid& grid, bool
   recorder.frame.node0 = grid.corner;
   recorder.by_centroid = by_centroid;
   recorder.trackers.resize(static_cast<std::size_t>(n_blocks(scene)));
+  recorder.last_extents.resize(static_cast<std::size_t>(n_blocks(scene)));
   return recorder;
 }
 

@@ -61,6 +61,8 @@ struct PassageTable {
   std::vector<Passage> rows;         ///< in the order of the first visit
   std::vector<std::uint32_t> slots;  ///< row + 1, 0 empty; a power of two
 
+  /// The row of a block and cell that the block came over at `time` or before, else null.
+  [[nodiscard]] Passage* earlier(std::int32_t block, std::int32_t cell, float time);
   /// A block over a cell: its values raise those of earlier visits, its arrival counts if it is the
   /// first.
   void raise(const Passage& visit);
@@ -95,12 +97,19 @@ struct PassageTracker {
   PassageValues pending;     ///< largest since the set was found, not yet in the table
 };
 
+/// The extents of a block at the attitude for which they were asked last; recomputed at will.
+struct LastExtents {
+  Quat attitude = Quat(0, 0, 0, 0);
+  Extents extents;
+};
+
 struct PassageRecorder {
   PassageGrid grid;
   Trn frame;                 ///< the grid as walk_cells() reads it: nodes without elevations
   bool by_centroid = false;  ///< count a cell only while the centroid is over it
   PassageTable table;
-  std::vector<PassageTracker> trackers;  ///<                                      (n_blocks)
+  std::vector<PassageTracker> trackers;   ///<                                      (n_blocks)
+  std::vector<LastExtents> last_extents;  ///<                                     (n_blocks)
 };
 
 /// The grid of the TRN's own cells, or of cells of `cell_size` from the same north-west corner that

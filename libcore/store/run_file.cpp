@@ -17,6 +17,14 @@ void append(RunFrames& frames, const Frame& frame, bool with_strain) {
   }
 }
 
+std::vector<PanelRow> panel_rows(const FixedBodies& fixed, const FenceState& fence) {
+  std::vector<PanelRow> rows;
+  for (std::size_t p = 0; p < fixed.panels.size(); ++p)
+    rows.push_back({fixed.panels[p].line, fixed.panels[p].number, fixed.panels[p].capacity,
+                    fence.work[p], fence.deflection[p], fence.broken_at[p], fence.broken_by[p]});
+  return rows;
+}
+
 FrameBlock frame_block(const RunFile& run, int k, int b) {
   const std::size_t i =
       static_cast<std::size_t>(k) * run.blocks.mass.size() + static_cast<std::size_t>(b);

@@ -66,13 +66,25 @@ void append(RunFrames& frames, const Frame& frame, bool with_strain);
 struct HealthRow {
   double time = 0;         ///< [s]
   double shortest_dt = 0;  ///< of a step with contact search; 0 when there was none [s]
-  std::int64_t steps = 0, substeps = 0, passes = 0, impacts = 0, unconverged = 0;
+  std::int64_t steps = 0, substeps = 0, passes = 0, flips = 0, impacts = 0, unconverged = 0;
   std::int64_t left_domain = 0;  ///< blocks that have left the known terrain
   std::int64_t fell_through = 0, not_finite = 0, deep = 0;  ///< steps so far with such a block
   double largest_penetration = 0;                           ///< [m]
-  double translation = 0, rotation = 0, potential = 0, elastic = 0;     ///< at `time` [J]
-  double friction = 0, impact = 0, contact = 0, base = 0, removed = 0;  ///< since the start [J]
+  double translation = 0, rotation = 0, potential = 0, elastic = 0;   ///< at `time` [J]
+  double friction = 0, impact = 0, contact = 0, base = 0, fence = 0;  ///< since the start [J]
+  double removed = 0;                                                 ///< since the start [J]
 };
+
+/// A panel of a fence that stood, as it was at the end.
+struct PanelRow {
+  std::int32_t line = 0, panel = 0;  ///< panel: number in its line, from 0
+  double capacity = 0;               ///< infinite: rigid [J]
+  double work = 0;                   ///< taken from blocks [J]
+  double deflection = 0;             ///< to the left of the line, lasting [m]
+  double broken_at = 0;              ///< infinite: stands [s]
+  std::int32_t broken_by = -1;       ///< block, -1: stands
+};
+[[nodiscard]] std::vector<PanelRow> panel_rows(const FixedBodies& fixed, const FenceState& fence);
 
 /// Everything that a run file holds.
 struct RunFile {
@@ -83,7 +95,9 @@ struct RunFile {
   bool passages_by_centroid = false;
   std::vector<Passage> passages;  ///< by block, then cell
   std::vector<RecordLine> lines;
-  std::vector<Crossing> crossings;  ///< by line, then block
+  std::vector<Crossing> crossings;   ///< by line, then block
+  std::vector<FenceHit> fence_hits;  ///< by time, step by step
+  std::vector<PanelRow> panels;      ///< of the fences that stood, by line
   std::vector<HealthRow> health;
   std::vector<Phase> phase;  ///< at info.time; empty: not known               (n_blocks)
   std::vector<std::uint8_t> checkpoint;  ///< store/checkpoint.hpp; empty when the run is done

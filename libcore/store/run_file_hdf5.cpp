@@ -119,6 +119,72 @@ void crossing_columns(Visit&& column) {
 }
 
 template <class Visit>
+void hit_columns(Visit&& column) {
+  column(
+      "block", "1", "index of the block", [](FenceHit & h) -> auto& { return h.block; });
+  column(
+      "line", "1", "index of the fence's line", [](FenceHit & h) -> auto& { return h.line; });
+  column(
+      "panel", "1", "panel of the fence, from 0 at its first point",
+      [](FenceHit & h) -> auto& { return h.panel; });
+  column(
+      "time_s", "s", "of the first touch", [](FenceHit & h) -> auto& { return h.time; });
+  column(
+      "chainage_m", "m", "where, horizontally from the line's first point",
+      [](FenceHit & h) -> auto& { return h.chainage; });
+  column(
+      "velocity_x_m_s", "m/s", "velocity before, x",
+      [](FenceHit & h) -> auto& { return h.velocity.x(); });
+  column(
+      "velocity_y_m_s", "m/s", "velocity before, y",
+      [](FenceHit & h) -> auto& { return h.velocity.y(); });
+  column(
+      "velocity_z_m_s", "m/s", "velocity before, z",
+      [](FenceHit & h) -> auto& { return h.velocity.z(); });
+  column(
+      "translational_energy_j", "J", "kinetic energy of translation before",
+      [](FenceHit & h) -> auto& { return h.translational_energy; });
+  column(
+      "rotational_energy_j", "J", "kinetic energy of rotation before",
+      [](FenceHit & h) -> auto& { return h.rotational_energy; });
+  column(
+      "energy_after_j", "J", "kinetic energy with spin when block and panel last touched",
+      [](FenceHit & h) -> auto& { return h.energy_after; });
+  column(
+      "work_j", "J", "energy that the panel took from the block by giving way; 0: it was rigid",
+      [](FenceHit & h) -> auto& { return h.work; });
+  column(
+      "top_height_m", "m", "highest vertex above the panel's base",
+      [](FenceHit & h) -> auto& { return h.top_height; });
+  column(
+      "bottom_height_m", "m", "lowest vertex above the panel's base",
+      [](FenceHit & h) -> auto& { return h.bottom_height; });
+}
+
+template <class Visit>
+void panel_columns(Visit&& column) {
+  column(
+      "line", "1", "index of the fence's line", [](PanelRow & p) -> auto& { return p.line; });
+  column(
+      "panel", "1", "panel of the fence, from 0 at its first point",
+      [](PanelRow & p) -> auto& { return p.panel; });
+  column(
+      "capacity_j", "J", "energy that it takes before it breaks; infinite: rigid",
+      [](PanelRow & p) -> auto& { return p.capacity; });
+  column(
+      "work_j", "J", "energy taken from blocks", [](PanelRow & p) -> auto& { return p.work; });
+  column(
+      "deflection_m", "m", "lasting, to the left of the line",
+      [](PanelRow & p) -> auto& { return p.deflection; });
+  column(
+      "broken_at_s", "s", "when it broke; infinite: it stands",
+      [](PanelRow & p) -> auto& { return p.broken_at; });
+  column(
+      "broken_by", "1", "block that broke it; -1: it stands",
+      [](PanelRow & p) -> auto& { return p.broken_by; });
+}
+
+template <class Visit>
 void health_columns(Visit&& column) {
   column(
       "time_s", "s", "end of the interval", [](HealthRow & h) -> auto& { return h.time; });
@@ -133,6 +199,9 @@ void health_columns(Visit&& column) {
   column(
       "passes", "1", "iterations of the contact law in the interval",
       [](HealthRow & h) -> auto& { return h.passes; });
+  column(
+      "flips", "1", "contacts that opened, closed, or changed between stick and slip",
+      [](HealthRow & h) -> auto& { return h.flips; });
   column(
       "impacts", "1", "impacts in the interval", [](HealthRow & h) -> auto& { return h.impacts; });
   column(
@@ -174,6 +243,9 @@ void health_columns(Visit&& column) {
   column(
       "base_work_j", "J", "put in by base motion and point loads since the start",
       [](HealthRow & h) -> auto& { return h.base; });
+  column(
+      "fence_loss_j", "J", "taken by panels of fences that gave way since the start",
+      [](HealthRow & h) -> auto& { return h.fence; });
   column(
       "removed_energy_j", "J", "kinetic energy of blocks stopped at the edge since the start",
       [](HealthRow & h) -> auto& { return h.removed; });
@@ -511,13 +583,40 @@ void read_crossings(const H5Reader& file, const std::string& path, RunFile& run)
   }
 }
 
+// Only in runs with fences that stood.
+void write_fences(H5Writer& file, const RunFile& run) {
+  if (run.panels.empty()) return;
+  write_table(file, "fence_panels", "one row per panel of the fences that stood, at the end",
+              run.panels, [](auto&& column) { panel_columns(column); });
+  write_table(file, "fence_hits", "one row per block and panel that it touched", run.fence_hits,
+              [](auto&& column) { hit_columns(column); });
+}
+
+void read_fences(const H5Reader& file, const std::string& path, RunFile& run) {
+  if (!file.has("fence_panels")) return;
+  run.panels =
+      read_table<PanelRow>(file, "fence_panels", [](auto&& column) { panel_columns(column); });
+  run.fence_hits =
+      read_table<FenceHit>(file, "fence_hits", [](auto&& column) { hit_columns(column); });
+  const auto is_known = [&](int line, int panel) {
+    return line >= 0 && line < static_cast<int>(run.lines.size()) && panel >= 0 &&
+           panel + 1 < static_cast<int>(run.lines[line].points.size());
+  };
+  for (const PanelRow& row : run.panels)
+    if (!is_known(row.line, row.panel) || row.broken_by >= n_blocks(run))
+      throw InputError({path, 0, "fence_panels"}, "a row names a panel that does not exist");
+  for (const FenceHit& row : run.fence_hits)
+    if (!is_known(row.line, row.panel) || row.block < 0 || row.block >= n_blocks(run))
+      throw InputError({path, 0, "fence_hits"}, "a row names a block or panel that does not exist");
+}
+
 void write_phases(H5Writer& file, const RunFile& run) {
   std::vector<std::uint8_t> phases;
   for (const Phase phase : run.phase) phases.push_back(static_cast<std::uint8_t>(phase));
   if (!phases.empty())
     file.array<std::uint8_t>("blocks/phase", phases, {phases.size()}, "1",
                              "at the end: 0 near the ground, 1 in flight, 2 asleep, 3 left the "
-                             "terrain");
+                             "terrain, 4 stopped for want of finite numbers");
 }
 
 std::vector<Phase> read_phases(const H5Reader& file, std::size_t n_blocks,
@@ -525,7 +624,7 @@ std::vector<Phase> read_phases(const H5Reader& file, std::size_t n_blocks,
   std::vector<Phase> phases;
   if (!file.has("blocks/phase")) return phases;
   for (const std::uint8_t phase : file.array<std::uint8_t>("blocks/phase", 1)) {
-    if (phase > static_cast<std::uint8_t>(Phase::left_domain))
+    if (phase > static_cast<std::uint8_t>(Phase::stopped))
       throw InputError({path, 0, "blocks/phase"}, "holds an unknown phase");
     phases.push_back(static_cast<Phase>(phase));
   }
@@ -549,7 +648,10 @@ RunFile read_run_file(const std::string& path, const RunParts& parts) {
   if (parts.frames)
     run.frames = read_frames(file, run.blocks.mass.size(), path, parts.only_last_frame);
   if (parts.passages && file.has("passages")) read_passages(file, path, run);
-  if (parts.crossings) read_crossings(file, path, run);
+  if (parts.crossings) {
+    read_crossings(file, path, run);
+    read_fences(file, path, run);
+  }
   if (parts.health) {
     std::set<std::string> wanted;
     if (parts.only_faults)
@@ -579,6 +681,7 @@ void write_run_file(const std::string& path, const RunFile& run) {
   write_frames(file, run);
   if (run.grid.n_rows > 0) write_passages(file, run);
   write_crossings(file, run);
+  write_fences(file, run);
   write_table(file, "health", "how the computation went, interval by interval", run.health,
               [](auto&& column) { health_columns(column); });
   if (!run.checkpoint.empty())

@@ -43,6 +43,7 @@ void add_to_interval(HealthRow& row, const StepReport& report) {
   ++row.steps;
   row.substeps += report.substeps;
   row.passes += report.passes;
+  row.flips += report.n_flips;
   row.impacts += report.n_impacts;
   row.unconverged += report.n_unconverged;
   row.fell_through += has(report.flags, StepFlag::fell_through) ? 1 : 0;
@@ -67,6 +68,7 @@ void close_interval(Runner& runner) {
   row.impact = state.ledger.impact;
   row.contact = state.ledger.contact;
   row.base = state.ledger.base;
+  row.fence = state.ledger.fence;
   row.removed = state.ledger.removed;
   runner.file.health.push_back(row);
   HealthRow next;
@@ -225,6 +227,8 @@ void update_file(Runner& runner, bool with_checkpoint) {
     file.passages = sorted(runner.passages.table);
   }
   file.crossings = sorted(runner.crossings);
+  file.fence_hits = runner.state.fence.hits;
+  file.panels = panel_rows(runner.scene.fixed, runner.state.fence);
   file.info.time = runner.state.time;
   file.phase = runner.state.phase;
   file.checkpoint.clear();

@@ -46,12 +46,13 @@ void sliding_block(benchmark::State& bench) {
 }
 BENCHMARK(sliding_block)->Arg(6)->Arg(12);
 
+// Argument 0: as with --plan=full, nothing sleeps.
 void sticking_block(benchmark::State& bench) {
   Settings settings;
-  settings.sleep = false;
-  run_steps(bench, sliding_scene(settings, 35, 0.5, 60), 800);
+  settings.sleep = bench.range(0) != 0;
+  run_steps(bench, sliding_scene(settings, 35, 0.5, 60), 100000);
 }
-BENCHMARK(sticking_block);
+BENCHMARK(sticking_block)->Arg(0)->Arg(1);
 
 // From 2,240 triangles to 516,652: the same cell size, more of them around.
 void sliding_block_on_terrain(benchmark::State& bench) {
@@ -72,15 +73,18 @@ void ground_set_up(benchmark::State& bench) {
 }
 BENCHMARK(ground_set_up)->Arg(509)->Unit(benchmark::kMillisecond);
 
+// Argument 0: as with --plan=full, the search is made in every step.
 void flying_block(benchmark::State& bench) {
   const SlopeFrame flat = slope_frame(0, 0);
   Body body;
   body.parts = {box_in(flat, Vec3(0, 0, 600), Vec3(-1, -1.5, -2.5), Vec3(1, 1.5, 2.5))};
   body.spin = Vec3(0.02, 5, 0.01);
-  const Scene scene = scene_of(plane_trn(flat, 5, 100), {}, {body}, {});
+  Settings settings;
+  settings.flight = bench.range(0) != 0;
+  const Scene scene = scene_of(plane_trn(flat, 5, 100), {}, {body}, settings);
   run_steps(bench, scene, 1600);
 }
-BENCHMARK(flying_block);
+BENCHMARK(flying_block)->Arg(1)->Arg(0);
 
 // Whole cases: the counter `error` stands beside the time.
 void case_sliding(benchmark::State& bench) {

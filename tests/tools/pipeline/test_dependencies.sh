@@ -1,5 +1,10 @@
 # A stage is repeated when what it reads has changed, and not else.
 . "$source_dir/tests/tools/pipeline/common.sh"
+# Sections of which stages read single keys: none may be forgotten.
+for key in $(sed -n '/^### \[terrain\]/,/^### /s/^| `\([a-z_0-9]*\)`.*/\1/p' "$source_dir/docs/site-file.md"); do
+  grep -q "\"terrain.$key\"" "$source_dir/tools/talus_site.cpp" || fail "no stage of talus-site reads terrain.$key"
+done
+
 site slope
 made slope -j2
 
@@ -34,10 +39,10 @@ prints "talus-fence site.toml"
 if grep -q talus-maps out; then fail "another design code made the maps again"; fi
 made slope
 
-sed -i 's/^depth_m = 5/depth_m = 4.5/' slope/site.toml
+sed -i 's/^plane_dip_deg = 33/plane_dip_deg = 32/' slope/site.toml
 would
-would_be "blocks*1 dda*2 fence*1 maps*1 report*1 runout*1" "another depth"
-sed -i 's/^depth_m = 4.5/depth_m = 5/' slope/site.toml
+would_be "blocks*1 dda*2 fence*1 maps*1 report*1 runout*1" "another failure plane"
+sed -i 's/^plane_dip_deg = 32/plane_dip_deg = 33/' slope/site.toml
 
 touch slope/contours.gpkg
 would

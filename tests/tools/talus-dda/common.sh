@@ -34,6 +34,7 @@ height_above_ground_m = 0.5
 spin_rad_s = [0.3, 1, 0.2]
 [fence.low]
 line = [[500060, 5000010], [500060, 5000090]]
+active = false
 [solver]
 duration_s = 8
 max_lost_share = 1

@@ -86,4 +86,3 @@ nothing_left run.h5
 expect 0 talus-dda site.toml --trn slope.tif --blocks blocks.h5 -o together.h5 --no-db --duration-s 0.1
 expect 0 run_dda -o alone.h5 --duration-s 0.1
 says "warning: 3 blocks move as if each were alone"
-says "warning: fences stop nothing in this version"

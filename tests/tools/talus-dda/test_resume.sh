@@ -32,8 +32,8 @@ for pause in 0 0.1 0.3; do
   says "a run that was stopped left behind"
   expect 0 run_dda -o killed.h5 $slow --resume
   cmp whole.h5 killed.h5 || fail "the resumed run differs from the whole one"
-  rm -f killed.h5 killed.h5.part.new
-  nothing_left killed.h5.part
+  rm -f killed.h5
+  nothing_left killed.h5.part killed.h5.part.new
 done
 
 # interrupted: exit 130 after a checkpoint
@@ -53,7 +53,7 @@ cp stopped.h5.part other.h5.part
 expect 0 run_dda -o other.h5 $slow --resume --overwrite --set ground.ground.friction_deg=21
 expect 0 run_dda -o direct.h5 $slow --set ground.ground.friction_deg=21
 cmp other.h5 direct.h5 || fail "--resume --overwrite went on from a run of other settings"
-nothing_left other.h5.part
+[ ! -e other.h5.part ] || fail "other.h5.part was left behind"
 expect 0 run_dda -o stopped.h5 $slow --resume
 cmp whole.h5 stopped.h5 || fail "the run resumed after SIGTERM differs from the whole one"
 

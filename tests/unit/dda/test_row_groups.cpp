@@ -42,6 +42,7 @@ IslandRow random_row(talus::Random& random) {
   row.friction = random.uniform() < 0.2 ? 0 : random.uniform(0.05, 1);
   if (random.uniform() < 0.3) row.cohesion_impulse = random.uniform();
   if (random.uniform() < 0.3) row.tension_impulse = random.uniform();
+  if (random.uniform() < 0.3) row.normal_limit = random.uniform();
   row.waits_for_impact = random.uniform() < 0.1;
   return row;
 }
@@ -58,6 +59,7 @@ ContactRow as_contact_row(const IslandRow& row) {
   out.friction = row.friction;
   out.cohesion_impulse = row.cohesion_impulse;
   out.tension_impulse = row.tension_impulse;
+  out.normal_limit = row.normal_limit;
   return out;
 }
 

@@ -34,15 +34,6 @@ using namespace talus::cases;
 
 constexpr double degree = std::numbers::pi / 180;
 
-Body body_of(Polyhedron shape, const Vec3& velocity = Vec3::Zero(),
-             const Vec3& spin = Vec3::Zero()) {
-  Body body;
-  body.parts = {std::move(shape)};
-  body.velocity = velocity;
-  body.spin = spin;
-  return body;
-}
-
 double bumps(double x, double y) {
   return 2 * std::sin(0.35 * x) * std::cos(0.27 * y) +
          0.3 * std::sin(1.7 * x + 0.4) * std::sin(1.3 * y) - 0.4 * x;
@@ -179,44 +170,76 @@ double weight_carried(const State& state) {
   return N;
 }
 
-// Mode 3: a beam across two ridges rests on them by its edges alone.
-TEST(Step, BeamRestsOnRidgesByItsEdges) {
-  const auto ridges = [](double x, double) { return -0.5 * std::abs(std::abs(x) - 1); };
-  const Body beam = body_of(box(Vec3(-1.8, -0.3, 0), Vec3(1.9, 0.35, 0.4)));
+// A body laid onto ground of that shape stays, and contacts of one mode carry its whole weight.
+void expect_rests_by(ContactMode mode, const Body& body, double (*ground_shape)(double, double)) {
   GroundClass ground;
   ground.friction = 0.5;
   Settings settings;
   settings.sleep = false;
-  const Scene scene = scene_of(make_trn(ridges, 0.5, 6), ground, {beam}, settings);
+  const Scene scene = scene_of(make_trn(ground_shape, 0.5, 6), ground, {body}, settings);
   State state = start(scene);
   Work work = make_work(scene);
   const Vec3 from = state.motion[0].pose.position;
   for (int i = 0; i < 1000; ++i) step(scene, state, work);
   EXPECT_LT((state.motion[0].pose.position - from).norm(), 1e-6);
   EXPECT_NEAR(weight_carried(state) / (scene.blocks.mass[0] * 10), 1, 1e-6);
-  for (const ContactMemory& memory : state.memory[0])
-    EXPECT_EQ(memory.key.mode, ContactMode::edge_edge);
+  for (const ContactMemory& memory : state.memory[0]) EXPECT_EQ(memory.key.mode, mode);
+}
+
+// Mode 3: a beam across two ridges rests on them by its edges alone.
+TEST(Step, BeamRestsOnRidgesByItsEdges) {
+  expect_rests_by(ContactMode::edge_edge, body_of(box(Vec3(-1.8, -0.3, 0), Vec3(1.9, 0.35, 0.4))),
+                  [](double x, double) { return -0.5 * std::abs(std::abs(x) - 1); });
 }
 
 // Mode 2: a plate on four peaks rests on them by its face alone.
 TEST(Step, PlateRestsOnPeaksByItsFace) {
-  const auto peaks = [](double x, double y) {
-    return -0.6 * std::max(std::abs(std::abs(x) - 1), std::abs(std::abs(y) - 1));
-  };
-  const Body plate = body_of(box(Vec3(-1.7, -1.6, 0), Vec3(1.6, 1.7, 0.2)));
+  expect_rests_by(ContactMode::face_vertex, body_of(box(Vec3(-1.7, -1.6, 0), Vec3(1.6, 1.7, 0.2))),
+                  [](double x, double y) {
+                    return -0.6 * std::max(std::abs(std::abs(x) - 1), std::abs(std::abs(y) - 1));
+                  });
+}
+
+// The four corners of a cube that lands without a bounce close once and then keep their state.
+TEST(Step, FlipsCountChangesOfState) {
+  const Body cube = body_of(box(Vec3(-0.5, -0.5, 0.01), Vec3(0.5, 0.5, 1.01)));
   GroundClass ground;
   ground.friction = 0.5;
   Settings settings;
   settings.sleep = false;
-  const Scene scene = scene_of(make_trn(peaks, 0.5, 6), ground, {plate}, settings);
+  const Scene scene = scene_of(plane_trn(slope_frame(0, 0), 1, 5), ground, {cube}, settings);
   State state = start(scene);
   Work work = make_work(scene);
-  const Vec3 from = state.motion[0].pose.position;
-  for (int i = 0; i < 1000; ++i) step(scene, state, work);
-  EXPECT_LT((state.motion[0].pose.position - from).norm(), 1e-6);
-  EXPECT_NEAR(weight_carried(state) / (scene.blocks.mass[0] * 10), 1, 1e-6);
-  for (const ContactMemory& memory : state.memory[0])
-    EXPECT_EQ(memory.key.mode, ContactMode::face_vertex);
+  int landing = 0, after = 0;
+  for (int i = 0; i < 200; ++i) (i < 100 ? landing : after) += step(scene, state, work).n_flips;
+  EXPECT_EQ(landing, 4);
+  EXPECT_EQ(after, 0);
+}
+
+// --plan=full searches in every step, keeps sleepers awake and computes strains. The first two are
+// no approximation where a block slides: the bits are the same. Strains are those of its weight.
+TEST(Step, TheFullPlanAgrees) {
+  const SlopeFrame frame = slope_frame(30, 37);
+  const Body cube = body_of(box_in(frame, Vec3::Zero(), Vec3(-0.5, -0.5, 0), Vec3(0.5, 0.5, 1)));
+  GroundClass ground;
+  ground.friction = std::tan(20 * degree);
+  const auto slide = [&](const Settings& settings) {
+    const Scene scene = scene_of(plane_trn(frame, 0.5, 20), ground, {cube}, settings);
+    State state = start(scene);
+    Work work = make_work(scene);
+    for (int i = 0; i < 200; ++i) step(scene, state, work);
+    return state.motion[0];
+  };
+  Settings all_but_strains;
+  all_but_strains.flight = all_but_strains.sleep = false;
+  Settings all = all_but_strains;
+  all.strains = true;
+  const Motion planned = slide({}), searched = slide(all_but_strains), full = slide(all);
+  EXPECT_EQ(planned.pose.position, searched.pose.position);
+  EXPECT_EQ(planned.pose.attitude.coeffs(), searched.pose.attitude.coeffs());
+  EXPECT_EQ(planned.velocity, searched.velocity);
+  EXPECT_GT(planned.velocity.norm(), 1.5);
+  EXPECT_LT((planned.pose.position - full.pose.position).norm(), 1e-5 * planned.velocity.norm());
 }
 
 TEST(Step, BlockThatLeavesIsStoppedAndCounted) {

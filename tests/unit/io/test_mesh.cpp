@@ -225,7 +225,7 @@ TEST(Mesh, ObjectsOfLooseFacesAreClosed) {
   std::string objects;
   size_t n = 0;
   for (const Polyhedron& cube : eight_cubes()) {
-    objects += "o cube\n";
+    objects += "o cube" + text(n) + "\n";
     for (int f = 0; f < 6; ++f) {
       for (const int v : face(cube, f))
         objects += "v " + text(cube.vertices[v].x()) + " " + text(cube.vertices[v].y()) + " " +

@@ -4,6 +4,7 @@
 
 #include "base/error.hpp"
 #include "dda/cases.hpp"
+#include "dda/fence.hpp"
 #include "dda/step.hpp"
 #include "store/checkpoint.hpp"
 #include "store/runner.hpp"
@@ -99,6 +100,42 @@ void expect_same_rows(const RunFile& a, const RunFile& b) {
     EXPECT_EQ(a.crossings[i].position, b.crossings[i].position);
     EXPECT_EQ(a.crossings[i].spin, b.crossings[i].spin);
     EXPECT_EQ(a.crossings[i].n_crossings, b.crossings[i].n_crossings);
+  }
+}
+
+// A fence that stands across the way of the boxes, and gives way.
+Scene fenced_scene() {
+  Scene scene = bouncing_scene();
+  StandingFence fence;
+  for (const double y : {-30.0, -10.0, 10.0, 30.0})
+    fence.posts.emplace_back(-10, y, elevation_at(scene.ground.trn, -10, y));
+  fence.depth = {1, 1, 1};
+  fence.height = 4;
+  fence.capacity = 2e5;
+  fence.deflection = 2;
+  add_fence(scene, fence);
+  return scene;
+}
+
+TEST(Runner, ResumesWhatFencesHaveMet) {
+  const Scene scene = fenced_scene();
+  const RunFile whole = computed(scene, options(0.1));
+  ASSERT_GE(whole.fence_hits.size(), 2u);
+  ASSERT_EQ(whole.panels.size(), 3u);
+  double work = 0;
+  for (const PanelRow& panel : whole.panels) work += panel.work;
+  EXPECT_GT(work, 1e4);
+  EXPECT_NEAR(whole.health.back().fence, work, 1e-9 * work);
+  const RunFile resumed = computed(scene, options(0.1), {100, 190, 230});
+  EXPECT_EQ(whole.frames.position, resumed.frames.position);
+  ASSERT_EQ(whole.fence_hits.size(), resumed.fence_hits.size());
+  for (std::size_t i = 0; i < whole.fence_hits.size(); ++i) {
+    EXPECT_EQ(whole.fence_hits[i].time, resumed.fence_hits[i].time);
+    EXPECT_EQ(whole.fence_hits[i].work, resumed.fence_hits[i].work);
+  }
+  for (std::size_t p = 0; p < whole.panels.size(); ++p) {
+    EXPECT_EQ(whole.panels[p].deflection, resumed.panels[p].deflection);
+    EXPECT_EQ(whole.panels[p].broken_by, resumed.panels[p].broken_by);
   }
 }
 

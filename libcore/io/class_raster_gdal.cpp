@@ -1,0 +1,115 @@
+#include "io/class_raster_gdal.hpp"
+
+#include <gdal_priv.h>
+
+#include <array>
+#include <cmath>
+#include <memory>
+
+#include "base/text.hpp"
+#include "io/crs_gdal.hpp"
+#include "io/errors_gdal.hpp"
+
+namespace talus {
+namespace {
+
+using std::size_t;
+
+struct CloseDataset {
+  void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
+};
+using Dataset = std::unique_ptr<GDALDataset, CloseDataset>;
+
+Dataset open_classes(const std::string& path, const Trn& trn) {
+  register_gdal_drivers();
+  GdalErrors errors;
+  Dataset dataset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR));
+  if (!dataset)
+    throw InputError({path}, "cannot be opened as a raster: " + errors.failure(),
+                     "gdalinfo " + path + " shows what GDAL makes of it");
+  if (dataset->GetRasterCount() != 1)
+    throw InputError(
+        {path},
+        "the raster has " + std::to_string(dataset->GetRasterCount()) + " bands, expected one",
+        "gdal_translate -b 1 " + path + " one_band.tif");
+  const std::string crs = wkt_of(dataset->GetSpatialRef());
+  if (!crs.empty() && !trn.crs_wkt.empty() && !same_crs(crs, trn.crs_wkt))
+    throw InputError(
+        {path},
+        "the classes are in " + crs_name(crs) + ", the terrain is in " + crs_name(trn.crs_wkt),
+        "gdalwarp -r near -t_srs <that of the terrain> " + path + " classes.tif");
+  return dataset;
+}
+
+std::array<double, 6> place_of(GDALDataset& dataset, const std::string& path) {
+  std::array<double, 6> g{};
+  if (dataset.GetGeoTransform(g.data()) != CE_None)
+    throw InputError({path}, "the raster has no place on the map (no geotransform)",
+                     "gdal_translate -a_ullr XMIN YMAX XMAX YMIN " + path + " placed.tif");
+  if (g[2] != 0 || g[4] != 0 || !(g[1] > 0) || !(g[5] < 0))
+    throw InputError({path}, "the raster is rotated or upside down, expected north-up",
+                     "gdalwarp -r near " + path + " north_up.tif");
+  return g;
+}
+
+/// One row of pixels at a time, as the terrain's rows come to them.
+struct PixelRows {
+  std::string path;
+  GDALRasterBand& band;
+  int row = -1;
+  std::vector<double> value;
+  std::vector<unsigned char> known;
+
+  void read(int wanted) {
+    if (wanted == row) return;
+    const GdalErrors errors;
+    const int n = band.GetXSize();
+    value.resize(static_cast<size_t>(n));
+    known.assign(static_cast<size_t>(n), 255);
+    CPLErr status =
+        band.RasterIO(GF_Read, 0, wanted, n, 1, value.data(), n, 1, GDT_Float64, 0, 0, nullptr);
+    if (status == CE_None && band.GetMaskFlags() != GMF_ALL_VALID)
+      status = band.GetMaskBand()->RasterIO(GF_Read, 0, wanted, n, 1, known.data(), n, 1, GDT_Byte,
+                                            0, 0, nullptr);
+    if (status != CE_None || errors.failed())
+      throw InputError({path},
+                       "reading row " + std::to_string(wanted) + " failed: " + errors.failure(),
+                       "the file is damaged or cut short: fetch it again");
+    row = wanted;
+  }
+
+  [[nodiscard]] std::int32_t at(int col) const {
+    const double v = value[static_cast<size_t>(col)];
+    if (known[static_cast<size_t>(col)] == 0 || std::isnan(v)) return no_class;
+    if (v != std::floor(v) || std::abs(v) > 2e9)
+      throw InputError({path, 0, "row " + std::to_string(row) + ", column " + std::to_string(col)},
+                       "the value is " + text(v) + ", expected a whole number that names a class");
+    return static_cast<std::int32_t>(v);
+  }
+};
+
+}  // namespace
+
+std::vector<std::int32_t> read_cell_classes(const std::string& path, const Trn& trn) {
+  const Dataset dataset = open_classes(path, trn);
+  const std::array<double, 6> g = place_of(*dataset, path);
+  PixelRows rows{path, *dataset->GetRasterBand(1), -1, {}, {}};
+  const int n_rows = trn.n_rows - 1, n_cols = trn.n_cols - 1;
+  std::vector<std::int32_t> classes(static_cast<size_t>(n_rows) * static_cast<size_t>(n_cols),
+                                    no_class);
+  const Vec2 corner = trn.origin.head<2>() + trn.node0;
+  for (int r = 0; r < n_rows; ++r) {
+    const double south = std::floor((corner.y() - (r + 0.5) * trn.cell_size - g[3]) / g[5]);
+    if (!(south >= 0 && south < dataset->GetRasterYSize())) continue;
+    rows.read(static_cast<int>(south));
+    for (int c = 0; c < n_cols; ++c) {
+      const double east = std::floor((corner.x() + (c + 0.5) * trn.cell_size - g[0]) / g[1]);
+      if (!(east >= 0 && east < dataset->GetRasterXSize())) continue;
+      classes[static_cast<size_t>(r) * static_cast<size_t>(n_cols) + static_cast<size_t>(c)] =
+          rows.at(static_cast<int>(east));
+    }
+  }
+  return classes;
+}
+
+}  // namespace talus

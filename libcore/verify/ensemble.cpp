@@ -1,0 +1,162 @@
+#include "verify/ensemble.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <ctime>
+#include <numbers>
+#include <sstream>
+
+#include "base/error.hpp"
+#include "base/random.hpp"
+#include "dda/case_run.hpp"
+#include "dda/cases.hpp"
+#include "io/mesh.hpp"
+
+namespace talus {
+namespace {
+
+using std::size_t;
+
+// Mean, 90 % quantile and standard deviation of `values`, weighted.
+std::array<double, 3> quantities_of(const std::vector<double>& values,
+                                    const std::vector<double>& weights) {
+  double total = 0, mean = 0, square = 0;
+  for (size_t i = 0; i < values.size(); ++i) {
+    total += weights[i];
+    mean += weights[i] * values[i];
+  }
+  mean /= total;
+  std::vector<size_t> order(values.size());
+  for (size_t i = 0; i < order.size(); ++i) {
+    order[i] = i;
+    square += weights[i] * (values[i] - mean) * (values[i] - mean);
+  }
+  std::sort(order.begin(), order.end(),
+            [&values](size_t a, size_t b) { return values[a] < values[b]; });
+  double below = 0, p90 = 0;
+  for (const size_t i : order) {
+    p90 = values[i];
+    below += weights[i];
+    if (below >= 0.9 * total) break;
+  }
+  return {mean, p90, std::sqrt(square / total)};
+}
+
+std::array<double, 3> answer_of(const cases::Run& run, const Progress& progress) {
+  std::vector<double> values;
+  for (int b = 0; b < n_blocks(run.scene); ++b)
+    values.push_back(progress(run.scene.blocks.rest[static_cast<size_t>(b)].position,
+                              run.motion(b).pose.position));
+  return quantities_of(values, run.scene.blocks.mass);
+}
+
+void add(const cases::CaseResult& one, cases::CaseResult& sums) {
+  sums.steps += one.steps;
+  sums.passes += one.passes;
+  sums.unconverged += one.unconverged;
+  sums.largest_penetration = std::max(sums.largest_penetration, one.largest_penetration);
+  sums.flags = sums.flags | one.flags;
+}
+
+}  // namespace
+
+EnsembleResult run_ensemble(const std::function<Scene(std::uint64_t seed)>& scene, int n_runs,
+                            double duration, const Progress& progress) {
+  EnsembleResult out;
+  out.n_runs = n_runs;
+  std::vector<std::array<double, 3>> answers;
+  const std::clock_t cpu_begin = std::clock();
+  const auto wall_begin = std::chrono::steady_clock::now();
+  for (int seed = 1; seed <= n_runs; ++seed) {
+    cases::Run run(scene(static_cast<std::uint64_t>(seed)));
+    run.advance_to(duration);
+    answers.push_back(answer_of(run, progress));
+    add(run.result, out.sums);
+    out.settings = run.scene.settings;
+    out.n_blocks = n_blocks(run.scene);
+  }
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - wall_begin;
+  out.cpu = static_cast<double>(std::clock() - cpu_begin) / CLOCKS_PER_SEC / n_runs;
+  out.wall = wall.count() / n_runs;
+  for (size_t q = 0; q < out.mean.size(); ++q) {
+    double square = 0;
+    for (const auto& answer : answers) out.mean[q] += answer[q] / n_runs;
+    for (const auto& answer : answers)
+      square += (answer[q] - out.mean[q]) * (answer[q] - out.mean[q]);
+    if (n_runs > 1) out.standard_error[q] = std::sqrt(square / (n_runs - 1) / n_runs);
+  }
+  return out;
+}
+
+EnsembleReference reference_of(const EnsembleResult& finest, const EnsembleResult& next) {
+  EnsembleReference out;
+  out.mean = finest.mean;
+  for (size_t q = 0; q < out.mean.size(); ++q)
+    out.band[q] = std::hypot(finest.standard_error[q], finest.mean[q] - next.mean[q]);
+  return out;
+}
+
+std::vector<VerifyRow> rows_of(const std::string& case_name, Quantity quantity,
+                               const std::vector<EnsembleResult>& results,
+                               const EnsembleReference& reference) {
+  const auto q = static_cast<size_t>(quantity);
+  std::vector<VerifyRow> rows;
+  for (const EnsembleResult& result : results) {
+    VerifyRow row;
+    row.case_name = case_name;
+    row.method = result.method;
+    row.law = result.settings.law == Law::talus ? "talus" : "paper";
+    row.strains = result.settings.strains;
+    row.dof = result.n_blocks * (row.strains ? 12 : 6);
+    row.dt = result.settings.dt;
+    row.normal_stiffness = result.settings.normal_stiffness;
+    row.steps = result.sums.steps / result.n_runs;
+    row.error = std::abs(result.mean[q] - reference.mean[q]);
+    row.norm = "m, mean of " + std::to_string(result.n_runs) + " runs";
+    row.cpu = result.cpu;
+    row.wall = result.wall;
+    row.iterations = result.sums.passes / result.n_runs;
+    row.unconverged = result.sums.unconverged;
+    row.largest_penetration = result.sums.largest_penetration;
+    row.flags = result.sums.flags;
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+SlideData read_slide(const std::string& grid, const std::string& obj) {
+  SlideData data;
+  std::istringstream in(grid);
+  std::string key;
+  double x0 = 0, y0 = 0, unknown = 0;
+  Trn& trn = data.trn;
+  in >> key >> trn.n_cols >> key >> trn.n_rows >> key >> x0 >> key >> y0 >> key >> trn.cell_size >>
+      key >> unknown;
+  if (!in) throw InputError({"terrain of the slide"}, "is not an ESRI ASCII grid");
+  trn.node0 = Vec2(x0, y0 + (trn.n_rows - 1) * trn.cell_size);
+  trn.elevation.resize(static_cast<size_t>(trn.n_cols) * static_cast<size_t>(trn.n_rows));
+  for (double& z : trn.elevation) in >> z;
+  if (!in) throw InputError({"terrain of the slide"}, "ends early");
+  for (MeshBody& mesh : bodies_of(parse_obj(obj, "blocks of the slide"))) {
+    Body body;
+    body.parts = {std::move(mesh.surface)};
+    data.bodies.push_back(std::move(body));
+  }
+  return data;
+}
+
+Scene slide_scene(const SlideData& data, const Settings& settings, std::uint64_t seed) {
+  std::vector<Body> bodies = data.bodies;
+  Random random(seed);
+  for (Body& body : bodies)
+    if (seed != 0)
+      body.velocity =
+          1e-3 * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+  GroundClass ground;
+  ground.friction = std::tan(25 * std::numbers::pi / 180);
+  ground.restitution = 0.7;
+  return cases::scene_of(data.trn, ground, bodies, settings, {2500, 5e10, 0.25});
+}
+
+}  // namespace talus

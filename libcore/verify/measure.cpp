@@ -1,0 +1,163 @@
+#include "verify/measure.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <ctime>
+#include <limits>
+#include <map>
+
+#include "base/text.hpp"
+
+namespace talus {
+namespace {
+
+constexpr double least_drawn = 1e-16;
+
+double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+double drawn(double error) { return std::max(error, least_drawn); }
+
+// Smallest CPU time of law talus at an error of at most `error`; infinite where there is none.
+double cheapest(const std::vector<VerifyRow>& rows, double error) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const VerifyRow& row : rows)
+    if (row.law == "talus" && row.error <= error) least = std::min(least, row.cpu);
+  return least;
+}
+
+}  // namespace
+
+std::string text_of(StepFlag flags) {
+  const std::pair<StepFlag, const char*> names[] = {{StepFlag::unconverged, "unconverged"},
+                                                    {StepFlag::not_finite, "not_finite"},
+                                                    {StepFlag::left_domain, "left_domain"},
+                                                    {StepFlag::fell_through, "fell_through"},
+                                                    {StepFlag::deep, "deep"}};
+  std::string out;
+  for (const auto& [flag, name] : names)
+    if (has(flags, flag)) out += (out.empty() ? "" : "+") + std::string(name);
+  return out.empty() ? "none" : out;
+}
+
+VerifyRow measure(const VerifyCase& c, const Method& method, double dt, double least_cpu) {
+  Settings settings = method.settings;
+  settings.dt = dt;
+  std::vector<double> cpu, wall;
+  cases::CaseResult result;
+  double spent = 0;
+  while (cpu.empty() || (spent < least_cpu && cpu.size() < 15)) {
+    const auto begin = std::chrono::steady_clock::now();
+    const double start = processor_seconds();
+    result = c.run(settings);
+    cpu.push_back(processor_seconds() - start);
+    wall.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+    spent += cpu.back();
+  }
+  VerifyRow row;
+  row.case_name = c.name;
+  row.method = method.name;
+  row.law = settings.law == Law::talus ? "talus" : "paper";
+  row.strains = settings.strains || c.has_strains;
+  row.dof = c.n_blocks * (row.strains ? 12 : 6);
+  row.dt = dt;
+  row.normal_stiffness = settings.normal_stiffness;
+  row.steps = result.steps;
+  row.error = std::isfinite(result.error) ? result.error : std::nan("");
+  row.norm = c.norm;
+  row.cpu = median(cpu);
+  row.wall = median(wall);
+  row.iterations = result.passes;
+  row.unconverged = result.unconverged;
+  row.largest_penetration = result.largest_penetration;
+  row.flags = result.flags;
+  return row;
+}
+
+std::string csv_of(const std::vector<VerifyRow>& rows, const std::string& machine,
+                   const std::string& commit) {
+  std::string out =
+      "case,law,dof,dt_s,normal_stiffness_n_m,steps,error,error_norm,cpu_time_s,wall_time_s,"
+      "iterations,unconverged,largest_penetration_m,flags,machine,commit\n";
+  const auto quoted = [](const std::string& words) { return "\"" + words + "\""; };
+  for (const VerifyRow& row : rows)
+    out += row.case_name + "," + row.law + "," + std::to_string(row.dof) + "," + text(row.dt) +
+           "," + text(row.normal_stiffness) + "," + std::to_string(row.steps) + "," +
+           text(row.error, 6) + "," + quoted(row.norm) + "," + text(row.cpu, 4) + "," +
+           text(row.wall, 4) + "," + std::to_string(row.iterations) + "," +
+           std::to_string(row.unconverged) + "," + text(row.largest_penetration, 4) + "," +
+           text_of(row.flags) + "," + quoted(machine) + "," + commit + "\n";
+  return out;
+}
+
+std::vector<std::size_t> pareto_front(const std::vector<VerifyRow>& rows) {
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (std::isfinite(rows[i].error)) order.push_back(i);
+  std::sort(order.begin(), order.end(), [&rows](std::size_t a, std::size_t b) {
+    return std::pair(rows[a].cpu, rows[a].error) < std::pair(rows[b].cpu, rows[b].error);
+  });
+  std::vector<std::size_t> front;
+  for (const std::size_t i : order)
+    if (front.empty() || rows[i].error < rows[front.back()].error) front.push_back(i);
+  return front;
+}
+
+LawComparison compare_laws(const std::vector<VerifyRow>& rows) {
+  LawComparison out;
+  for (const std::size_t i : pareto_front(rows)) out.is_on_front |= rows[i].law == "talus";
+  std::vector<VerifyRow> paper;
+  for (const VerifyRow& row : rows)
+    if (row.law == "paper" && row.error <= useful_error) paper.push_back(row);
+  const std::vector<std::size_t> front = pareto_front(paper);
+  if (front.empty()) return out;
+  out.is_compared = true;
+  out.least_ratio = std::numeric_limits<double>::infinity();
+  for (const std::size_t i : front) {  // the last has the smallest error
+    out.ratio_at_best = paper[i].cpu / cheapest(rows, paper[i].error);
+    out.least_ratio = std::min(out.least_ratio, out.ratio_at_best);
+  }
+  return out;
+}
+
+Chart work_precision_chart(const std::string& title, const std::vector<VerifyRow>& rows,
+                           const std::vector<PeerPoint>& peers) {
+  Chart chart;
+  chart.title = title;
+  chart.x_label = "CPU time of the whole case [s]";
+  chart.y_label = "error";
+  chart.log_x = chart.log_y = true;
+  const std::vector<std::string> colours = {"#c1272d", "#e08a3c", "#8c5a2b", "#b04ba0",
+                                            "#0057a8", "#4aa3df", "#2f7d4f"};
+  for (const VerifyRow& row : rows) {
+    auto line = std::find_if(chart.series.begin(), chart.series.end(),
+                             [&row](const ChartSeries& s) { return s.name == row.method; });
+    if (line == chart.series.end()) {
+      chart.series.push_back({row.method, colours[chart.series.size() % colours.size()], {}, {}});
+      line = chart.series.end() - 1;
+      line->marker = 2.5;
+    }
+    line->x.push_back(row.cpu);
+    line->y.push_back(drawn(row.error));
+  }
+  ChartSeries front{"Pareto front", "#222", {}, {}, 0, 5.5};
+  for (const std::size_t i : pareto_front(rows)) {
+    front.x.push_back(rows[i].cpu);
+    front.y.push_back(drawn(rows[i].error));
+  }
+  chart.series.push_back(front);
+  ChartSeries others{"other engines", "#999", {}, {}, 0, 2};
+  for (const PeerPoint& peer : peers) {
+    others.x.push_back(peer.cpu);
+    others.y.push_back(drawn(peer.error));
+  }
+  if (!peers.empty()) chart.series.push_back(others);
+  return chart;
+}
+
+}  // namespace talus

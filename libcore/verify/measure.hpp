@@ -1,0 +1,74 @@
+// libcore/verify/measure.hpp
+// Error beside run time: what one run of a case gave, the Pareto front of several, and how law
+// talus stands to law paper.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "report/chart.hpp"
+#include "verify/verify_cases.hpp"
+
+namespace talus {
+
+/// One line of the table of a study.
+struct VerifyRow {
+  std::string case_name;
+  std::string method;           ///< in the legend; not in the table
+  std::string law;              ///< "talus" or "paper"
+  int dof = 6;                  ///< unknowns, all blocks
+  double dt = 0;                ///< [s]
+  double normal_stiffness = 0;  ///< [N/m]; 0: chosen by law talus
+  bool strains = false;
+  long steps = 0;
+  double error = 0;  ///< NaN where the run did not give a finite one
+  std::string norm;  ///< what the error is, with its unit
+  double cpu = 0;    ///< of the whole case with set-up, median [s]
+  double wall = 0;   ///< [s]
+  long iterations = 0, unconverged = 0;
+  double largest_penetration = 0;  ///< [m]
+  StepFlag flags = StepFlag::none;
+};
+
+/// Names of the bits, joined by "+"; "none".
+[[nodiscard]] std::string text_of(StepFlag flags);
+
+/// Runs `c` once, and again until `least_cpu` seconds of processor time or 15 runs are spent.
+[[nodiscard]] VerifyRow measure(const VerifyCase& c, const Method& method, double dt,
+                                double least_cpu);
+
+/// The table, one line a row, with `machine` and `commit` in each.
+[[nodiscard]] std::string csv_of(const std::vector<VerifyRow>& rows, const std::string& machine,
+                                 const std::string& commit);
+
+/// Indices of the rows that no other row beats in both error and CPU time, by CPU time. Rows whose
+/// error is not finite are none.
+[[nodiscard]] std::vector<std::size_t> pareto_front(const std::vector<VerifyRow>& rows);
+
+/// How the two laws stand to each other on one case.
+struct LawComparison {
+  bool is_on_front = false;  ///< a row of law talus is on the front of both
+  bool is_compared = false;  ///< law paper has an error below `useful_error`
+  double least_ratio =
+      0;  ///< CPU time of paper over talus at equal error, least over paper's front
+  double ratio_at_best = 0;  ///< the same at paper's smallest error
+};
+/// An answer that errs by more is none: rows of law paper above it are not compared.
+inline constexpr double useful_error = 0.1;
+/// `rows`: of one case. Where law talus never reaches an error of law paper, the ratios are 0.
+[[nodiscard]] LawComparison compare_laws(const std::vector<VerifyRow>& rows);
+
+/// Error of another program on the same case, for the diagram.
+struct PeerPoint {
+  std::string name;
+  double cpu = 0;    ///< [s]
+  double error = 0;  ///< in the norm of the case
+};
+
+/// Error against CPU time, both logarithmic; a curve a method, the front marked. Errors below 1e-16
+/// are drawn there.
+[[nodiscard]] Chart work_precision_chart(const std::string& title,
+                                         const std::vector<VerifyRow>& rows,
+                                         const std::vector<PeerPoint>& peers);
+
+}  // namespace talus

@@ -1,0 +1,130 @@
+#include "verify/peers.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <sstream>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+
+namespace talus {
+namespace {
+
+using Record = std::map<std::string, std::string>;
+
+// Which rows of which table are a case of ours.
+struct PeerTable {
+  const char* case_name;
+  const char* file;
+  const char* error_column;
+  std::vector<std::pair<std::string, std::string>> only;  // column, value
+};
+
+const std::vector<PeerTable>& peer_tables() {
+  static const std::vector<PeerTable> tables = {
+      {"slide_20", "sliding.csv", "relerr", {}},
+      {"oblique", "oblique.csv", "relerr", {}},
+      {"rolling", "rolling.csv", "worst_abs_err_deg", {}},
+      {"bounce_face", "bounce.csv", "maxrelerr3", {{"shape", "cube"}, {"cor", "0.7"}}},
+      {"free_spin", "free_rotation.csv", "att_deg", {}},
+  };
+  return tables;
+}
+
+std::vector<std::string> fields_of(const std::string& line) {
+  std::vector<std::string> fields;
+  std::istringstream in(line.substr(0, line.find_last_not_of("\r") + 1));
+  for (std::string field; std::getline(in, field, ',');) fields.push_back(field);
+  return fields;
+}
+
+std::vector<Record> read_table(const std::string& path) {
+  std::ifstream file(path);
+  std::string line;
+  if (!std::getline(file, line))
+    throw InputError({path}, "cannot be read, expected a table of other engines",
+                     "give the folder that holds it to --peers");
+  const std::vector<std::string> names = fields_of(line);
+  std::vector<Record> records;
+  while (std::getline(file, line)) {
+    const std::vector<std::string> fields = fields_of(line);
+    Record record;
+    for (std::size_t i = 0; i < names.size(); ++i)  // a run that failed may have fewer fields
+      record[names[i]] = i < fields.size() ? fields[i] : "";
+    records.push_back(std::move(record));
+  }
+  return records;
+}
+
+const std::string& field(const Record& record, const std::string& name, const std::string& path) {
+  const auto at = record.find(name);
+  if (at == record.end()) throw InputError({path}, "has no column " + name);
+  return at->second;
+}
+
+// NaN for what is no number: the engine failed there.
+double number(const Record& record, const std::string& name, const std::string& path) {
+  double value = 0;
+  return parse_double(field(record, name, path), value) ? value : std::nan("");
+}
+
+std::string name_of(const Record& record, const std::string& path) {
+  const std::string tag = field(record, "tag", path);
+  return field(record, "engine", path) + " " + field(record, "mode", path) +
+         (tag == "-" ? "" : " " + tag);
+}
+
+}  // namespace
+
+std::vector<PeerPoint> read_peers(const std::string& folder, const std::string& case_name) {
+  std::vector<PeerPoint> points;
+  for (const PeerTable& table : peer_tables()) {
+    if (case_name != table.case_name) continue;
+    const std::string path = folder + "/" + table.file;
+    for (const Record& record : read_table(path)) {
+      const bool is_ours = std::all_of(
+          table.only.begin(), table.only.end(),
+          [&](const auto& wanted) { return field(record, wanted.first, path) == wanted.second; });
+      const double error = std::abs(number(record, table.error_column, path));
+      const double cpu = number(record, "cpu", path);
+      if (is_ours && std::isfinite(error) && std::isfinite(cpu))
+        points.push_back({name_of(record, path), cpu, error});
+    }
+  }
+  return points;
+}
+
+std::vector<PeerSlide> read_peer_slides(const std::string& folder) {
+  const std::string path = folder + "/slide39_seeds.csv";
+  std::map<std::string, std::pair<PeerSlide, int>> sums;
+  for (const Record& record : read_table(path)) {
+    const std::string name = name_of(record, path) + ", dt " + field(record, "dt", path);
+    auto& [slide, n] = sums[name];
+    slide.name = name;
+    slide.centre += number(record, "cs", path);
+    slide.cpu += number(record, "cpu", path);
+    ++n;
+  }
+  std::vector<PeerSlide> slides;
+  for (auto& [name, sum] : sums)
+    slides.push_back({name, sum.first.centre / sum.second, sum.first.cpu / sum.second});
+  return slides;
+}
+
+double peer_ratio(const std::vector<VerifyRow>& rows, const std::vector<PeerPoint>& peers) {
+  double least = std::nan("");
+  for (const PeerPoint& peer : peers) {
+    if (!(peer.error <= useful_error)) continue;
+    double cheapest = std::numeric_limits<double>::infinity();
+    for (const VerifyRow& row : rows)
+      if (row.law == "talus" && row.error <= peer.error) cheapest = std::min(cheapest, row.cpu);
+    const double ratio = peer.cpu / cheapest;
+    if (!(ratio >= least)) least = ratio;
+  }
+  return least;
+}
+
+}  // namespace talus

@@ -1,0 +1,290 @@
+#include "verify/verify_cases.hpp"
+
+#include <algorithm>
+
+#include "base/text.hpp"
+#include "dda/block_cases.hpp"
+
+namespace talus {
+namespace {
+
+using namespace cases;
+
+// k_n of the paper's benchmarks, and the ratio k_s / k_n of Shi's code.
+constexpr double paper_stiffness = 5e10, paper_shear_ratio = 0.4;
+
+CaseResult worst_rolling_angle(const Settings& settings) {
+  CaseResult worst;
+  for (int n = 3; n <= 12; ++n) {
+    CaseResult one = rolling_angle(settings, n);
+    one.steps += worst.steps;
+    one.passes += worst.passes;
+    one.unconverged += worst.unconverged;
+    one.flags = one.flags | worst.flags;
+    if (one.error < worst.error) {
+      one.value = worst.value;
+      one.expected = worst.expected;
+      one.error = worst.error;
+    }
+    worst = one;
+  }
+  return worst;
+}
+
+VerifyCase slide_case(const std::string& name, double friction_deg, double bound) {
+  return {
+      .name = name,
+      .claim = "a cube slides down 30 degrees at friction " + text(friction_deg) + " degrees, 4 s",
+      .reference = "closed form (26)",
+      .norm = "relative",
+      .test = "LawTalus.SlidesAsInClosedForm",
+      .bound = bound,
+      .run = [=](const Settings& s) { return sliding(s, friction_deg, 37, 4); }};
+}
+
+VerifyCase bounce_case(const std::string& name, double restitution, Landing landing) {
+  return {
+      .name = name,
+      .claim = "three rebounds from 5 m at COR " + text(restitution) + " have the heights e^2k h",
+      .reference = "closed form",
+      .norm = "relative, largest of three",
+      .test = "LawTalus.BouncesToTheHeightAskedFor",
+      .bound = 1e-5,
+      .run = [=](const Settings& s) { return bounce(s, restitution, landing); },
+      .varies_strains = false};
+}
+
+std::vector<VerifyCase> single_block_cases() {
+  return {
+      {.name = "parabola",
+       .claim = "a thrown block flies the parabola, 1 s",
+       .reference = "closed form (25)",
+       .norm = "m",
+       .test = "LawTalus.ParabolaIsExact",
+       .bound = 1e-12,
+       .run = parabola},
+      slide_case("slide_0", 0, 1e-6),
+      slide_case("slide_20", 20, 1e-6),
+      slide_case("slide_29", 29, 1e-5),
+      {.name = "stick",
+       .claim = "a cube at friction 30.1 degrees does not creep on 30 degrees, 3 s",
+       .reference = "rest",
+       .norm = "m",
+       .test = "LawTalus.SticksAboveTheDipAndSlidesBelow",
+       .bound = 1e-8,
+       .run =
+           [](const Settings& s) {
+             Settings awake = s;
+             awake.sleep = false;
+             return sliding(awake, 30.1, 37, 4);
+           }},
+      {.name = "oblique",
+       .claim = "a cube at 10 m/s across the dip turns down it, 2 s",
+       .reference = "integrated closed form",
+       .norm = "share of the path",
+       .test = "LawTalus.SlidesObliquely",
+       .bound = 1e-5,
+       .run = [](const Settings& s) { return oblique_slide(s, 37); }},
+      {.name = "rolling",
+       .claim = "prisms of 3 to 12 sides start to roll at 180 / n degrees",
+       .reference = "closed form (27)",
+       .norm = "degrees, worst of ten",
+       .test = "LawTalusDefault.PrismStartsToRollAtTheCriticalAngle",
+       .bound = 0.003,
+       .run = worst_rolling_angle,
+       .shortest_dt = 1e-3,
+       .varies_strains = false},
+      {.name = "sustained_rolling",
+       .claim = "a prism of 12 sides rolls on at the steady speed of plastic edge impacts",
+       .reference = "closed form (theory 4)",
+       .norm = "relative",
+       .test = "LawTalus.PrismRollsOnAtTheSteadySpeed",
+       .bound = 0.01,
+       .run = [](const Settings& s) { return sustained_rolling(s, 12); },
+       .laws = CaseLaws::talus_only,
+       .varies_strains = false},
+      bounce_case("bounce_face", 0.7, Landing::face),
+      bounce_case("bounce_edge", 0.7, Landing::edge),
+      bounce_case("bounce_corner", 0.7, Landing::corner),
+      bounce_case("bounce_elastic", 1, Landing::corner),
+      {.name = "corner_impulse",
+       .claim = "a cube that lands on one corner takes (1 + e)(-v_n) / (n^T W n)",
+       .reference = "closed form",
+       .norm = "relative",
+       .test = "LawTalus.CornerImpulseIsExact",
+       .bound = 1e-6,
+       .run = [](const Settings& s) { return corner_impulse(s, 0.7); },
+       .laws = CaseLaws::talus_only,
+       .varies_strains = false},
+      {.name = "free_spin",
+       .claim = "a box spins about its middle axis in flight, 20 s",
+       .reference = "Euler's equations by Runge-Kutta, 200,000 steps",
+       .norm = "degrees",
+       .test = "LawTalusDefault.SpinsFreelyAndTumblesInFlight",
+       .bound = 0.01,
+       .run = [](const Settings& s) { return free_spin(s, 20); },
+       .varies_strains = false},
+      {.name = "wedge",
+       .claim = "a wedge slides along the line of its two planes, friction 20 degrees",
+       .reference = "closed form",
+       .norm = "relative",
+       .test = "LawTalus.WedgeSlidesAsInClosedForm",
+       .bound = 1e-4,
+       .run = [](const Settings& s) { return wedge(s, 20); }},
+      {.name = "wedge_critical",
+       .claim = "the wedge holds from 33.357 degrees of friction",
+       .reference = "closed form",
+       .norm = "degrees",
+       .test = "LawTalusDefault.WedgeStopsSlidingAtTheCriticalFriction",
+       .bound = 0.05,
+       .run = wedge_critical,
+       .shortest_dt = 1e-3,
+       .varies_strains = false},
+      {.name = "toppling",
+       .claim = "a column topples from 26.565 degrees",
+       .reference = "closed form",
+       .norm = "degrees",
+       .test = "LawTalusDefault.ColumnTopplesOrSlidesAtTheRightAngle",
+       .bound = 0.05,
+       .run = toppling_angle,
+       .shortest_dt = 1e-3,
+       .varies_strains = false},
+      {.name = "rocking",
+       .claim = "a rocking column hits the ground after 0.48909 s",
+       .reference = "integrated closed form",
+       .norm = "relative",
+       .test = "LawTalus.ColumnRocksAndLosesWhatHousnerSays",
+       .bound = 1e-3,
+       .run = rocking_time,
+       .laws = CaseLaws::talus_only,
+       .varies_strains = false},
+      {.name = "shaken",
+       .claim = "a block on a shaken slope slides 3.19694 m in 10 s",
+       .reference = "Newmark's sliding block",
+       .norm = "relative",
+       .test = "LawTalus.ShakenBlockSlidesAsNewmarkSays",
+       .bound = 5e-3,
+       .run = shaken_block,
+       .shortest_dt = 1e-4},
+      {.name = "energy_line",
+       .claim = "a block stops where the line of its friction angle meets the ground",
+       .reference = "H / tan(phi), without the friction of the curve (1e-3)",
+       .norm = "relative",
+       .test = "LawTalusDefault.EnergyLineHasTheSlopeOfFriction",
+       .bound = 5e-3,
+       .run = energy_line,
+       .laws = CaseLaws::talus_only,
+       .shortest_dt = 1e-3,
+       .varies_strains = false},
+      {.name = "own_weight",
+       .claim = "a cube of 10 m at rest carries the stress of its own weight",
+       .reference = "rho g h / 2",
+       .norm = "relative",
+       .test = "LawTalus.OwnWeightStressesTheBlock",
+       .bound = 1e-3,
+       .run = own_weight,
+       .has_strains = true},
+      {.name = "ghost",
+       .claim = "a cube at 20 m/s feels no edge of the cells of a plane of 17 degrees",
+       .reference = "closed form",
+       .norm = "m",
+       .test = "LawTalus.NothingToCollideWithOnAPlane",
+       .bound = 1e-6,
+       .run = [](const Settings& s) { return ghost_collisions(s, 17); },
+       .varies_strains = false},
+  };
+}
+
+std::vector<VerifyCase> block_cases() {
+  const auto of_blocks = [](int n, VerifyCase c) {
+    c.laws = CaseLaws::talus_only;
+    c.n_blocks = n;
+    c.varies_strains = false;
+    c.shortest_dt = 1e-3;
+    return c;
+  };
+  return {
+      of_blocks(3, {.name = "tower_slide",
+                    .claim = "three cubes on a slope slide as one",
+                    .reference = "closed form",
+                    .norm = "relative",
+                    .test = "StepIsland.TowerSlidesAsOne",
+                    .bound = 2e-3,
+                    .run = tower_slide}),
+      of_blocks(2, {.name = "head_on",
+                    .claim = "cubes that meet face to face at COR 0.5 part with half their speed",
+                    .reference = "closed form",
+                    .norm = "relative",
+                    .test = "StepIsland.HeadOnCollisionHasItsRestitution",
+                    .bound = 4e-5,
+                    .run = [](const Settings& s) { return head_on(s, 0.5); }}),
+      of_blocks(10, {.name = "stack_10",
+                     .claim = "a stack of ten cubes stands still, 4 s",
+                     .reference = "rest",
+                     .norm = "m",
+                     .test = "StepIsland/Stack.StandsStill",
+                     .bound = 1e-6,
+                     .run = [](const Settings& s) { return stack_stands(s, 10, 5); }}),
+      of_blocks(5, {.name = "large_on_small",
+                    .claim = "a cube of 10 m rests on four of 0.1 m, 2 s",
+                    .reference = "rest",
+                    .norm = "m",
+                    .test = "StepIsland.LargeBlockRestsOnSmallOnes",
+                    .bound = 1e-3,
+                    .run = large_on_small}),
+  };
+}
+
+Method law_talus(double stiffness, bool strains, std::vector<double> dt) {
+  Method method{"talus", {}, std::move(dt)};
+  method.settings.normal_stiffness = stiffness;
+  method.settings.strains = strains;
+  if (stiffness > 0) method.name += ", k_n " + text(stiffness, 2);
+  if (strains) method.name += ", strains";
+  return method;
+}
+
+Method law_paper(double stiffness, bool strains, std::vector<double> dt) {
+  Method method = law_talus(stiffness, strains, std::move(dt));
+  method.name.replace(0, 5, "paper");
+  method.settings.law = Law::paper;
+  method.settings.shear_ratio = paper_shear_ratio;
+  return method;
+}
+
+}  // namespace
+
+const std::vector<VerifyCase>& verify_cases() {
+  static const std::vector<VerifyCase> list = [] {
+    std::vector<VerifyCase> all = single_block_cases();
+    for (VerifyCase& c : block_cases()) all.push_back(std::move(c));
+    return all;
+  }();
+  return list;
+}
+
+std::vector<Method> methods_of(const VerifyCase& c, bool full) {
+  std::vector<Method> methods;
+  const double default_dt = Settings{}.dt;
+  if (full) {
+    methods.push_back(law_talus(0, false, {5e-2, 2e-2, 1e-2, default_dt, 2e-3, 1e-3, 2e-4}));
+    if (c.n_blocks == 1)
+      for (const double stiffness : {1e8, 5e10})
+        methods.push_back(law_talus(stiffness, false, {1e-2, default_dt, 1e-3}));
+    if (c.varies_strains) methods.push_back(law_talus(0, true, {1e-2, default_dt, 1e-3}));
+  } else {
+    methods.push_back(law_talus(0, false, {1e-2, default_dt}));
+  }
+  if (c.laws == CaseLaws::both) {
+    const std::vector<double> dt =
+        full ? std::vector<double>{1e-2, 3e-3, 1e-3, 3e-4, 1e-4} : std::vector<double>{1e-2, 1e-3};
+    methods.push_back(law_paper(paper_stiffness, false, dt));
+    if (full) methods.push_back(law_paper(5e8, false, dt));
+    if (full && c.varies_strains) methods.push_back(law_paper(paper_stiffness, true, dt));
+  }
+  for (Method& method : methods)
+    std::erase_if(method.dt, [&c](double dt) { return dt < c.shortest_dt; });
+  return methods;
+}
+
+}  // namespace talus

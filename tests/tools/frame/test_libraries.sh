@@ -1,0 +1,24 @@
+# Each executable is linked with the libraries that it uses and with no other (beside C and C++).
+command -v readelf >/dev/null || skip "readelf is not installed"
+
+# needs TOOL LIBRARY...: exactly these, sorted
+needs() {
+  tool=$1
+  shift
+  found=$(readelf -d "$(command -v "$tool")" | sed -n 's/.*NEEDED.*\[lib\(.*\)\.so.*/\1/p' |
+    grep -vxE 'stdc\+\+|m|gcc_s|c|asan|ubsan|ld-.*' | sort | tr '\n' ' ')
+  [ "$found" = "$(printf '%s ' "$@")" ] || fail "$tool is linked with $found, expected $*"
+}
+
+needs talus-runs sqlite3
+needs talus-site sqlite3 tomlplusplus
+needs talus-trn gdal sqlite3
+needs talus-tin gdal gmp sqlite3
+needs talus-maps gdal hdf5_serial sqlite3
+needs talus-runout gdal hdf5_serial sqlite3
+needs talus-fence gdal hdf5_serial sqlite3 tomlplusplus
+needs talus-report gdal hdf5_serial sqlite3 tomlplusplus
+needs talus-dda gdal hdf5_serial sqlite3 tomlplusplus
+needs talus-verify gdal hdf5_serial sqlite3 tomlplusplus
+needs talus-blocks gdal gmp hdf5_serial sqlite3 tomlplusplus
+exit 0

@@ -1,0 +1,30 @@
+# A site file from elsewhere cannot make the pipeline run a command: what make or the shell would
+# take for one is quoted or refused.
+. "$source_dir/tests/tools/pipeline/common.sh"
+# refused SECTION KEY VALUE: talus-site ends with 1 and names the cause; nothing was run
+refused() {
+  site evil
+  printf '[site]\nname = "a"\ncrs = "EPSG:32633"\n[%s]\n%s = %s\n' "$1" "$2" "$3" >evil/site.toml
+  expect 1 talus-site evil/site.toml -o evil/stages --no-db
+  says "$4"
+  nothing_left evil/stages/site.mk evil/hurt
+  rm -rf evil
+}
+refused terrain contours '"a;touch hurt.gpkg"' "cannot stand in a makefile"
+refused terrain contours '"$(shell touch hurt)"' "cannot stand in a makefile"
+refused terrain layer '"a\nall: ; touch hurt"' "line break or control character"
+refused 'fence."x;touch hurt"' line '[[0, 0], [1, 1]]' "cannot stand in a makefile"
+refused 'fence."$(shell touch hurt)"' line '[[0, 0], [1, 1]]' "cannot stand in a makefile"
+
+# a name and a layer may hold what they like, and files blanks and letters of any alphabet
+site odd
+mv odd/contours.gpkg "odd/Höhen linien #1.gpkg"
+sed -i -e "s/^name = .*/name = \"\$(shell touch hurt)'\"/" -e 's/^contours = .*/contours = "Höhen linien #1.gpkg"/' odd/site.toml
+made odd terrain
+[ -s odd/out/trn.tif ] || fail "no terrain"
+printf '[terrain]\nlayer = "$(shell touch hurt)'"'"';touch hurt"\n' >layer.toml
+expect 0 talus-site layer.toml -o stages --no-db
+printf 'include stages/site.mk\nall: ; @echo $(SITE_TIN_FLAGS)\n' >Makefile
+expect 0 make
+prints '--layer $(shell touch hurt)'"'"';touch hurt'
+nothing_left hurt odd/hurt

@@ -1,0 +1,30 @@
+# The quick study: every case within its bound, the files complete, names checked.
+expect 0 talus-verify --list
+prints "slide_20: "
+prints "slide39: "
+
+expect 0 talus-verify -o v --no-db
+prints '| `bounce_face` |'
+prints "Uncertainty of the reference"
+n=$(head -1 v/verify.csv | tr ',' '\n' | wc -l)
+[ "$n" -eq 16 ] || fail "verify.csv has $n columns"
+for law in talus paper; do
+  grep -q "^slide_20,$law," v/verify.csv || fail "slide_20 was not run with law $law"
+done
+grep -q "^slide39_centre,talus,234," v/verify.csv || fail "the slide has no 39 x 6 unknowns"
+grep -q "Pareto front" v/oblique.svg || fail "no front in oblique.svg"
+[ "$(grep -c '</svg>' v/*.svg | grep -vc ':1$')" -eq 0 ] || fail "a diagram is not whole"
+nothing_left
+
+expect 0 talus-verify parabola -o one --no-db --json
+prints '"holds": true'
+[ "$(cut -d, -f1 one/verify.csv | sort -u | wc -l)" -eq 2 ] || fail "more than the case asked for"
+
+expect 1 talus-verify parabel -o two --no-db
+says "did you mean parabola?"
+expect 1 talus-verify parabola --no-db
+says "give -o DIR"
+expect 1 talus-verify oblique -o three --peers nowhere --no-db
+says "nowhere/oblique.csv"
+expect 2 talus-verify --quick --full -o four --no-db
+exit 0

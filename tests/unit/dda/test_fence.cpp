@@ -1,0 +1,187 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "dda/cases.hpp"
+#include "dda/fence.hpp"
+#include "dda/step.hpp"
+
+namespace {
+
+using namespace talus;
+using namespace talus::cases;
+
+constexpr double degree = std::numbers::pi / 180;
+constexpr double cube_mass = 2500;
+
+Body cube_at(const Vec3& low, const Vec3& velocity) {
+  Body body;
+  body.parts = {box(low, low + Vec3::Ones())};
+  body.velocity = velocity;
+  return body;
+}
+
+// Fence of two panels along x = 5, y from -10 to 10 on a smooth plane, to be hit along +x.
+StandingFence fence_across(double capacity, double deflection, double restitution = 0) {
+  StandingFence fence;
+  fence.posts = {Vec3(5, -10, 0), Vec3(5, 0, 0), Vec3(5, 10, 0)};
+  fence.depth = {0.5, 0.5};
+  fence.height = 4;
+  fence.capacity = capacity;
+  fence.deflection = deflection;
+  fence.contact.restitution = restitution;
+  return fence;
+}
+
+Scene smooth_plane(const std::vector<Body>& bodies, const StandingFence& fence) {
+  Scene scene = scene_of(plane_trn(slope_frame(0, 0), 1, 40), {}, bodies, {});
+  add_fence(scene, fence);
+  return scene;
+}
+
+State run(const Scene& scene, double time) {
+  State state = start(scene);
+  Work work = make_work(scene);
+  while (state.time < time - 1e-9) step(scene, state, work);
+  return state;
+}
+
+double kinetic(const Scene& scene, const State& state) {
+  const Energies e = energies(scene, state);
+  return e.translation + e.rotation;
+}
+
+double energy_of(double speed) { return 0.5 * cube_mass * speed * speed; }
+
+// The block stops where force times way is its energy, after m v / F.
+TEST(Fence, TakesTheEnergyOfABlockOverItsDeflection) {
+  const double energy = energy_of(10), capacity = 2 * energy, deflection = 3;
+  const Scene scene =
+      smooth_plane({cube_at(Vec3(0, -5.5, 0), Vec3(10, 0, 0))}, fence_across(capacity, deflection));
+  const double force = capacity / deflection;
+  const double stopped = 3.9 / 10 + cube_mass * 10 / force;
+  const State before = run(scene, stopped - 0.01), after = run(scene, stopped + 0.1);
+  EXPECT_GT(before.motion[0].velocity.x(), 0.05);
+  EXPECT_LT(after.motion[0].velocity.norm(), 0.05);  // 1e-5 of its energy
+  EXPECT_NEAR(after.fence.work[0], energy, 1e-5 * energy);
+  EXPECT_NEAR(-after.fence.deflection[0], energy / force, 1e-3);
+  EXPECT_EQ(after.fence.work[1], 0);
+  EXPECT_EQ(after.fence.broken_by[0], -1);
+  ASSERT_EQ(after.fence.hits.size(), 1u);
+  const FenceHit& hit = after.fence.hits[0];
+  EXPECT_EQ(hit.panel, 0);
+  EXPECT_NEAR(hit.time, 0.39, 1e-6);
+  EXPECT_NEAR(hit.chainage, 5, 0.6);
+  EXPECT_NEAR(hit.translational_energy, energy, 1e-6 * energy);
+  EXPECT_NEAR(hit.energy_after, 0, 1e-4 * energy);
+  EXPECT_NEAR(hit.top_height, 1, 1e-3);
+  EXPECT_NEAR(hit.bottom_height, 0, 1e-3);
+}
+
+class FenceCapacity : public testing::TestWithParam<double> {};
+INSTANTIATE_TEST_SUITE_P(Fence, FenceCapacity, testing::Values(0.5, 1 - 1e-4, 1 + 1e-4, 1.5, 10));
+
+// A block with less energy is stopped, one with more goes on with the rest.
+TEST_P(FenceCapacity, HoldsExactly) {
+  const double energy = energy_of(12), capacity = energy / GetParam();
+  const Scene scene =
+      smooth_plane({cube_at(Vec3(0, 2, 0), Vec3(12, 0, 0))}, fence_across(capacity, 2));
+  const State state = run(scene, 1.5);
+  const double left = std::max(0.0, energy - capacity);
+  EXPECT_NEAR(kinetic(scene, state), left, 1e-5 * energy);
+  EXPECT_NEAR(state.fence.work[1], energy - left, 1e-5 * energy);
+  EXPECT_EQ(state.fence.broken_by[1], GetParam() > 1 ? 0 : -1);
+  EXPECT_NEAR(state.ledger.fence, energy - left, 1e-5 * energy);
+  EXPECT_EQ(state.counters.unconverged, 0);
+}
+
+// Two blocks that one panel holds one by one break it together.
+TEST(Fence, HitsAtTheSameTimeAddUp) {
+  const double energy = energy_of(10), capacity = 1.5 * energy;
+  const Scene scene = smooth_plane(
+      {cube_at(Vec3(0, -8, 0), Vec3(10, 0, 0)), cube_at(Vec3(0, -3, 0), Vec3(10, 0, 0))},
+      fence_across(capacity, 2));
+  const State state = run(scene, 1.5);
+  EXPECT_GE(state.fence.broken_by[0], 0);
+  EXPECT_NEAR(state.fence.work[0], capacity, 1e-6 * capacity);
+  EXPECT_NEAR(kinetic(scene, state), 2 * energy - capacity, 1e-4 * energy);
+  ASSERT_EQ(state.fence.hits.size(), 2u);
+  EXPECT_NEAR(state.fence.hits[0].work + state.fence.hits[1].work, capacity, 1e-6 * capacity);
+}
+
+// What a broken panel no longer stops: the second block passes with all its energy.
+TEST(Fence, LetsThroughWhatComesAfterItBroke) {
+  const double energy = energy_of(10);
+  const Scene scene = smooth_plane(
+      {cube_at(Vec3(0, -8, 0), Vec3(10, 0, 0)), cube_at(Vec3(-12, -4, 0), Vec3(10, 0, 0))},
+      fence_across(0.5 * energy, 2));
+  const State state = run(scene, 3);
+  EXPECT_EQ(state.fence.broken_by[0], 0);
+  EXPECT_NEAR(state.motion[1].velocity.x(), 10, 1e-6);
+  EXPECT_EQ(state.fence.hits.size(), 1u);
+}
+
+TEST(Fence, RigidPanelThrowsBackByItsRestitution) {
+  const Scene scene = smooth_plane({cube_at(Vec3(0, -5.5, 0), Vec3(10, 0, 0))},
+                                   fence_across(FencePanel::no_limit, 0, 0.4));
+  const State state = run(scene, 1);
+  EXPECT_NEAR(state.motion[0].velocity.x(), -4, 1e-6);
+  EXPECT_EQ(state.fence.deflection[0], 0);
+  ASSERT_EQ(state.fence.hits.size(), 1u);
+  EXPECT_NEAR(state.fence.hits[0].energy_after, 0.16 * energy_of(10), 1e-6 * energy_of(10));
+  EXPECT_NEAR(state.ledger.impact, 0.84 * energy_of(10), 1e-6 * energy_of(10));
+}
+
+// Beside the fence nothing stands.
+TEST(Fence, DoesNotReachBeyondItsEnds) {
+  const Scene scene = smooth_plane({cube_at(Vec3(0, 10.5, 0), Vec3(10, 0, 0))},
+                                   fence_across(FencePanel::no_limit, 0));
+  const State state = run(scene, 1);
+  EXPECT_NEAR(state.motion[0].velocity.x(), 10, 1e-9);
+  EXPECT_TRUE(state.fence.hits.empty());
+}
+
+// A rotated block that is thrown at a panel: all energy is accounted for.
+TEST(Fence, ClosesTheEnergyBalanceOfATumblingBlock) {
+  GroundClass ground;
+  ground.friction = std::tan(30 * degree);
+  ground.restitution = 0.3;
+  Body body = cube_at(Vec3(0, -5.5, 2), Vec3(15, 1, 2));
+  body.parts[0] =
+      moved(body.parts[0], Eigen::AngleAxisd(0.5, Vec3(1, 2, 3).normalized()).toRotationMatrix(),
+            Vec3(0.5, -5, 2.5));
+  body.spin = Vec3(1, -3, 2);
+  Scene scene = scene_of(plane_trn(slope_frame(0, 0), 1, 40), ground, {body}, {});
+  StandingFence fence = fence_across(energy_of(10), 2);
+  fence.contact.friction = std::tan(20 * degree);
+  add_fence(scene, fence);
+  const State before = start(scene);
+  const Energies e = energies(scene, before);
+  const State state = run(scene, 3);
+  const Energies end = energies(scene, state);
+  const double lost =
+      e.translation + e.rotation + e.potential - (end.translation + end.rotation + end.potential);
+  const EnergyLedger& l = state.ledger;
+  EXPECT_GT(l.fence, 0.1 * energy_of(10));
+  EXPECT_NEAR(l.fence + l.friction + l.impact + l.contact, lost, 2e-3 * lost);
+}
+
+// A block on a fixed slab is a block on the ground.
+TEST(FixedBodies, BearAndRubAsTheGroundDoes) {
+  const SlopeFrame frame = slope_frame(25, 30);
+  Body body;
+  body.parts = {box_in(frame, Vec3::Zero(), Vec3(-0.5, -0.5, 0), Vec3(0.5, 0.5, 1))};
+  GroundClass rough;
+  rough.friction = std::tan(15 * degree);
+  Scene scene = scene_of(plane_trn(slope_frame(0, 0), 1, 40, Vec3(0, 0, -60)), rough, {body}, {});
+  scene.fixed.classes = {rough};
+  add_fixed_body(scene, box_in(frame, Vec3::Zero(), Vec3(-10, -5, -3), Vec3(20, 5, 0)), 0);
+  const State state = run(scene, 2);
+  const double a = 10 * (std::sin(25 * degree) - std::tan(15 * degree) * std::cos(25 * degree));
+  const Vec3 moved = state.motion[0].pose.position - scene.blocks.rest[0].position;
+  EXPECT_NEAR(frame.dip.dot(moved), 2 * a, 1e-3 * 2 * a);
+  EXPECT_NEAR(frame.strike.dot(moved), 0, 1e-6);
+}
+
+}  // namespace

@@ -1,0 +1,98 @@
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <fstream>
+#include <numbers>
+
+#include "dda/cases.hpp"
+#include "store/runner.hpp"
+
+// Many runs in one process, and one run of many frames: memory stays within the bound that the page
+// of talus-dda states, and the health figures do not drift.
+namespace {
+
+using namespace talus;
+using namespace talus::cases;
+
+// Nine cubes in a loose stack that collapses on a rough plane of 20 degrees: islands form and part.
+Scene falling_stack(double friction_deg) {
+  const SlopeFrame frame = slope_frame(20, 0);
+  std::vector<Body> bodies;
+  for (int i = 0; i < 9; ++i) {
+    Body body;
+    const Vec3 low(1.05 * (i % 3), 0.3 * (i / 3), 0.05 + 1.1 * (i / 3));  // in the slope's axes
+    body.parts.push_back(box_in(frame, Vec3::Zero(), low, low + Vec3::Ones()));
+    body.spin = {0.2, 0.1 * i, 0};
+    bodies.push_back(body);
+  }
+  GroundClass ground;
+  ground.friction = std::tan(friction_deg * std::numbers::pi / 180);
+  ground.restitution = 0.4;
+  return scene_of(plane_trn(frame, 2, 400), ground, bodies, Settings{});
+}
+
+RunFile run_of(const Scene& scene, const RunOptions& options) {
+  RunFile file;
+  file.blocks.mass = scene.blocks.mass;
+  Runner runner = begin_run(scene, options, {}, std::move(file));
+  while (!is_over(runner)) advance(runner);
+  finish(runner);
+  update_file(runner, false);
+  return std::move(runner.file);
+}
+
+double resident_mb() {
+  std::ifstream statm("/proc/self/statm");
+  double size = 0, resident = 0;
+  statm >> size >> resident;
+  return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1 << 20);
+}
+
+TEST(Soak, ManyRunsInOneProcessDoNotGrow) {
+  const Scene scene = falling_stack(25);
+  RunOptions options;
+  options.duration = 2;
+  options.frame_interval = 0.05;
+  const RunFile first = run_of(scene, options);
+  ASSERT_GT(first.health.back().impacts + first.health.back().substeps, 0);
+  constexpr int n_warm = 20, n_runs = 300;
+  double warm_mb = 0;
+  for (int run = 1; run <= n_runs; ++run) {
+    const RunFile file = run_of(scene, options);
+    ASSERT_EQ(file.frames.position, first.frames.position) << "run " << run;
+    ASSERT_EQ(file.health.back().friction, first.health.back().friction) << "run " << run;
+    if (run == n_warm) warm_mb = resident_mb();
+  }
+  EXPECT_LT(resident_mb() - warm_mb, 1);
+}
+
+TEST(Soak, OneRunOfManyFramesStaysWithinItsBound) {
+  const Scene scene = falling_stack(15);  // slides to the end
+  RunOptions options;
+  options.duration = 20;
+  options.frame_interval = 0.001;
+  options.passages = false;
+  const double before_mb = resident_mb();
+  const RunFile file = run_of(scene, options);
+  const double n_frames = options.duration / options.frame_interval + 1;
+  // 64 bytes a block and frame; twice that while an array doubles its room, and 16 MB for the rest
+  const double stored_mb = n_frames * n_blocks(scene) * 64 / (1 << 20);
+  EXPECT_GT(stored_mb, 10);
+  EXPECT_LT(resident_mb() - before_mb, 2 * stored_mb + 16);
+  for (const HealthRow& row : file.health) {
+    EXPECT_EQ(row.fell_through, 0);
+    EXPECT_EQ(row.not_finite, 0);
+  }
+  const HealthRow& last = file.health.back();
+  const HealthRow& start = file.health.front();
+  const double fallen = start.potential - last.potential;
+  const auto energy = [](const HealthRow& row) {
+    return row.translation + row.rotation + row.potential + row.elastic + row.friction +
+           row.impact + row.contact + row.removed - row.base;
+  };
+  ASSERT_GT(fallen, 0);
+  EXPECT_LT(std::abs(energy(last) - energy(start)) / fallen, 1e-3);
+}
+
+}  // namespace

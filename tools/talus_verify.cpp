@@ -1,0 +1,257 @@
+// tools/talus_verify.cpp
+// Error against run time for cases with a known answer and for a slide. Page:
+// docs/tools/talus-verify.md
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include "base/text.hpp"
+#include "build_info.hpp"
+#include "shipped_data.hpp"
+#include "tool.hpp"
+#include "verify/ensemble.hpp"
+#include "verify/peers.hpp"
+#include "verify/stability.hpp"
+#include "verify/summary.hpp"
+#include "verify_site.hpp"
+
+namespace {
+
+using namespace talus;  // NOLINT: a program of its own
+
+struct Options {
+  std::vector<std::string> cases;
+  std::string out, peers;
+  SiteStudyOptions site;
+  bool quick = false, full = false, list = false, stability = false;
+};
+
+constexpr const char* slide_name = "slide39";
+
+void declare(Tool& tool, Options& o) {
+  tool.app().add_option("cases", o.cases, "names of cases; all when none is given");
+  tool.output_folder("-o,--out", o.out, "folder for the table, the diagrams and the summary");
+  CLI::Option* quick =
+      tool.flag("--quick", o.quick, "few settings, under a minute; what is done by default");
+  tool.flag("--full", o.full, "the whole study")->excludes(quick);
+  tool.input("--site", o.site.site, "site file: find the cheapest settings for this scene instead");
+  tool.input("--trn", o.site.files.trn, "with --site: terrain");
+  tool.input("--blocks", o.site.files.blocks, "with --site: block set");
+  tool.option("--tolerance", o.site.tolerance, "with --site: share of the answer, or per cent");
+  tool.option("--quantity", o.site.quantity, "with --site: what must be right")
+      ->check(CLI::IsMember(quantity_names));
+  tool.option("--runs", o.site.n_runs, "with --site: runs a setting")->check(CLI::Range(2, 1000));
+  tool.flag("--stability", o.stability, "the stability chart too");
+  tool.flag("--list", o.list, "print the cases and end");
+  tool.app().add_option("--peers", o.peers,
+                        "folder with tables of other engines, to draw and compare with");
+  tool.footer("Example:\n  talus-verify slide_20 bounce_face -o verify --full");
+}
+
+// --- what is run -------------------------------------------------------------------------------
+
+std::string list_of_cases() {
+  std::string out;
+  for (const VerifyCase& c : verify_cases()) out += c.name + ": " + c.claim + "\n";
+  return out + slide_name +
+         ": 39 blocks slide down a bent slope, 20 s; error against its own limit";
+}
+
+void check_names(const Options& o) {
+  std::vector<std::string> known = {slide_name};
+  for (const VerifyCase& c : verify_cases()) known.push_back(c.name);
+  for (const std::string& name : o.cases) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    const std::string near = nearest_name(name, known);
+    throw InputError({"", 0, "cases"}, name + " is not a case",
+                     near.empty() ? "--list prints the cases" : "did you mean " + near + "?");
+  }
+}
+
+bool is_wanted(const Options& o, const std::string& name) {
+  return o.cases.empty() || std::find(o.cases.begin(), o.cases.end(), name) != o.cases.end();
+}
+
+std::string machine_name() {
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);)
+    if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 2);
+  return "unknown";
+}
+
+CaseOutcome run_case(const VerifyCase& c, const Options& o) {
+  CaseOutcome out{&c, {}, std::nan("")};
+  const double least_cpu = o.full ? 0.3 : 0.02;
+  for (const Method& method : methods_of(c, o.full))
+    for (const double dt : method.dt) out.rows.push_back(measure(c, method, dt, least_cpu));
+  return out;
+}
+
+// --- the slide ---------------------------------------------------------------------------------
+
+struct SlideOutcome {
+  std::vector<EnsembleResult> results;
+  EnsembleReference reference;
+};
+
+// Longest step first; the last is the reference.
+SlideOutcome run_slide(const Options& o) {
+  const SlideData data = read_slide(shipped_data("terrain_F.asc"), shipped_data("blocks_39.obj"));
+  const std::vector<double> ladder = o.full
+                                         ? std::vector<double>{5e-2, 2e-2, 1e-2, 5e-3, 2e-3, 1e-3}
+                                         : std::vector<double>{2e-2, 1e-2};
+  SlideOutcome out;
+  for (const double dt : ladder) {
+    Settings settings;
+    settings.dt = dt;
+    const auto scene = [&](std::uint64_t seed) { return slide_scene(data, settings, seed); };
+    out.results.push_back(run_ensemble(scene, o.full ? 8 : 1, o.full ? 20 : 4,
+                                       [](const Vec3&, const Vec3& now) { return 320 - now.y(); }));
+    out.results.back().method = "talus";
+  }
+  out.reference = reference_of(out.results.back(), out.results[out.results.size() - 2]);
+  return out;
+}
+
+std::string slide_table(const SlideOutcome& slide) {
+  std::string table =
+      "| dt [s] | centre [m] | nine tenths stay before [m] | spread [m] | CPU s a run | steps "
+      "accepted unconverged |\n|---|---|---|---|---|---|\n";
+  for (const EnsembleResult& result : slide.results) {
+    table += "| " + text(result.settings.dt);
+    for (std::size_t q = 0; q < result.mean.size(); ++q)
+      table += " | " + text(result.mean[q], 5) + " ± " + text(result.standard_error[q], 2);
+    table += " | " + text(result.cpu, 3) + " | " + std::to_string(result.sums.unconverged) + " |\n";
+  }
+  return table + "\nUncertainty of the reference (last line): centre " +
+         text(slide.reference.band[0], 2) + " m, nine tenths " + text(slide.reference.band[1], 2) +
+         " m, spread " + text(slide.reference.band[2], 2) + " m.\n";
+}
+
+std::vector<PeerPoint> slide_peers(const Options& o, const EnsembleReference& reference) {
+  std::vector<PeerPoint> points;
+  if (o.peers.empty()) return points;
+  for (const PeerSlide& peer : read_peer_slides(o.peers))
+    points.push_back({peer.name, peer.cpu, std::abs(peer.centre - reference.mean[0])});
+  return points;
+}
+
+// --- the result --------------------------------------------------------------------------------
+
+Json as_json(const CaseOutcome& outcome) {
+  const VerifyRow* own = default_row(outcome.rows);
+  const LawComparison laws = compare_laws(outcome.rows);
+  Json json = {{"case", outcome.about->name},
+               {"claim", outcome.about->claim},
+               {"error", own ? own->error : std::nan("")},
+               {"bound", outcome.about->bound},
+               {"holds", holds(outcome)},
+               {"talus_on_front", laws.is_on_front}};
+  if (laws.is_compared)
+    json["cpu_ratio_paper_over_talus"] = {{"least", laws.least_ratio},
+                                          {"at_papers_best_error", laws.ratio_at_best}};
+  return json;
+}
+
+// Runs a case, writes its diagram, holds its error against its bound.
+CaseOutcome study_case(Tool& tool, const Options& o, const VerifyCase& c) {
+  CaseOutcome outcome = run_case(c, o);
+  std::vector<PeerPoint> peers;
+  if (!o.peers.empty()) {
+    peers = read_peers(o.peers, c.name);
+    outcome.peer_ratio = peer_ratio(outcome.rows, peers);
+  }
+  tool.write_text(
+      o.out + "/" + c.name + ".svg",
+      chart_file(work_precision_chart(c.name + ", error: " + c.norm, outcome.rows, peers)));
+  const VerifyRow* own = default_row(outcome.rows);
+  tool.check(c.name, own ? own->error : std::nan(""), c.bound, holds(outcome));
+  return outcome;
+}
+
+// Adds the rows of its three quantities; returns its table.
+std::string study_slide(Tool& tool, const Options& o, std::vector<VerifyRow>& rows) {
+  const SlideOutcome slide = run_slide(o);
+  for (std::size_t q = 0; q < quantity_names.size(); ++q) {
+    const std::vector<VerifyRow> own =
+        rows_of(std::string(slide_name) + "_" + quantity_names[q], static_cast<Quantity>(q),
+                slide.results, slide.reference);
+    rows.insert(rows.end(), own.begin(), own.end());
+    if (q > 0) continue;
+    const std::string title =
+        "slide39, error of the mean place [m], known to " + text(slide.reference.band[0], 2) + " m";
+    tool.write_text(o.out + "/slide39.svg",
+                    chart_file(work_precision_chart(title, own, slide_peers(o, slide.reference))));
+  }
+  return slide_table(slide);
+}
+
+// Writes the chart; returns how many corners came out how.
+std::string study_stability(Tool& tool, const Options& o) {
+  std::vector<StabilityRow> rows;
+  int count[4] = {0, 0, 0, 0};
+  for (const Corner& corner : stability_corners()) {
+    rows.push_back(run_corner(corner));
+    ++count[static_cast<int>(rows.back().outcome)];
+  }
+  tool.write_text(o.out + "/stability.csv", stability_csv(rows));
+  tool.write_text(o.out + "/stability.svg", stability_svg(rows));
+  std::string line = std::to_string(rows.size()) + " corners:";
+  for (const Outcome outcome :
+       {Outcome::right, Outcome::inexact, Outcome::refused, Outcome::broken})
+    line += " " + std::to_string(count[static_cast<int>(outcome)]) + " " + text_of(outcome);
+  const int n_broken = count[static_cast<int>(Outcome::broken)];
+  tool.check("broken corners", n_broken, 0, n_broken == 0);
+  return line + "\n";
+}
+
+void run(Tool& tool, const Options& o) {
+  const ProgressFunction progress = tool.progress();
+  std::vector<CaseOutcome> outcomes;
+  std::vector<VerifyRow> rows;
+  Json list = Json::array();
+  double done = 0;
+  for (const VerifyCase& c : verify_cases()) {
+    progress(++done / static_cast<double>(verify_cases().size() + 1));
+    if (!is_wanted(o, c.name)) continue;
+    outcomes.push_back(study_case(tool, o, c));
+    list.push_back(as_json(outcomes.back()));
+    const std::vector<VerifyRow>& own = outcomes.back().rows;
+    rows.insert(rows.end(), own.begin(), own.end());
+  }
+  std::string summary = "Commit " + std::string(build_commit) + ", " + machine_name() +
+                        (o.full ? ", full study.\n\n" : ", quick study.\n\n") +
+                        summary_table(outcomes);
+  if (is_wanted(o, slide_name)) summary += "\n" + study_slide(tool, o, rows);
+  if (o.stability) summary += "\n" + study_stability(tool, o);
+  tool.write_text(o.out + "/verify.csv", csv_of(rows, machine_name(), build_commit));
+  tool.write_text(o.out + "/summary.md", summary);
+  tool.result({{"commit", build_commit}, {"cases", list}}, summary);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options o;
+  Tool tool("talus-verify",
+            "Error against run time for cases with a known answer and for a slide.");
+  declare(tool, o);
+  return tool.run(argc, argv, [&] {
+    if (o.list) {
+      tool.result({{"cases", list_of_cases()}}, list_of_cases());
+      return;
+    }
+    if (o.out.empty())
+      throw InputError({"", 0, "--out"}, "no folder is named", "give -o DIR, or --list");
+    if (!o.site.site.empty()) {
+      if (o.site.files.trn.empty() || o.site.files.blocks.empty())
+        throw InputError({"", 0, "--site"}, "needs a terrain and blocks",
+                         "give --trn TRN.tif and --blocks BLOCKS.h5");
+      const std::string table = study_site(tool, o.site, o.out);
+      tool.result({{"table", table}}, table);
+      return;
+    }
+    check_names(o);
+    run(tool, o);
+  });
+}

@@ -1,0 +1,132 @@
+#include "verify_site.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/text.hpp"
+#include "build_info.hpp"
+#include "terrain/trn_flags.hpp"
+#include "verify/ensemble.hpp"
+
+namespace talus {
+namespace {
+
+double tolerance_of(const std::string& words) {
+  const bool is_percent = !words.empty() && words.back() == '%';
+  double value = 0;
+  const bool is_number = parse_double(words.substr(0, words.size() - (is_percent ? 1 : 0)), value);
+  if (!is_number || !(value > 0))
+    throw InputError({"", 0, "--tolerance"}, "is " + words + ", expected a share above 0",
+                     "e.g. 1% or 0.01");
+  return is_percent ? value / 100 : value;
+}
+
+Quantity quantity_of(const std::string& name) {
+  const auto at = std::find(quantity_names.begin(), quantity_names.end(), name);
+  return static_cast<Quantity>(at - quantity_names.begin());
+}
+
+// One setting to try. A stiffness of NaN is left to the law.
+struct Candidate {
+  std::string method;
+  double dt = 0, normal_stiffness = not_given;
+  bool strains = false;
+};
+
+// From the longest step to the reference, which is the last; the next finer of its kind before it.
+std::vector<Candidate> candidates() {
+  std::vector<Candidate> list;
+  for (const double stiffness : {1e8, 5e10})
+    for (const double dt : {2e-2, 1e-2})
+      list.push_back({"k_n " + text(stiffness, 2), dt, stiffness, false});
+  for (const double dt : {2e-2, 1e-2}) list.push_back({"strains", dt, not_given, true});
+  for (const double dt : {5e-2, 2e-2, 1e-2, 5e-3, 2e-3, 1e-3})
+    list.push_back({"defaults", dt, not_given, false});
+  return list;
+}
+
+EnsembleResult run_candidate(const Site& site, const DdaInputs& inputs, const Candidate& c,
+                             int n_runs) {
+  Site changed = site;
+  changed.solver.law = "talus";
+  changed.solver.time_step_s = c.dt;
+  changed.solver.min_time_step_s = changed.solver.max_time_step_s = not_given;
+  changed.solver.normal_stiffness_n_m = c.normal_stiffness;
+  changed.solver.strain = c.strains ? "on" : "off";
+  if (changed.solver.start_jitter_m_s == 0) changed.solver.start_jitter_m_s = 1e-3;
+  const Trn& trn = inputs.parts.trn;
+  const ScenePlan plan =
+      make_plan(plan_facts(changed, inputs.parts.blocks, trn, ground_flags(trn)), false);
+  const auto scene = [&](std::uint64_t seed) {
+    changed.solver.seed = static_cast<std::int64_t>(seed);
+    return make_site_scene(changed, plan, inputs.parts);
+  };
+  EnsembleResult result =
+      run_ensemble(scene, n_runs, site.solver.duration_s,
+                   [](const Vec3& from, const Vec3& now) { return (now - from).head<2>().norm(); });
+  result.method = c.method;
+  return result;
+}
+
+std::string fragment_of(const Candidate& c, const SiteStudyOptions& o) {
+  std::string toml = "# Cheapest settings whose " + o.quantity + " stays within " + o.tolerance +
+                     " of the refined answer (talus-verify, commit " + build_commit + ").\n";
+  toml += "[solver]\ntime_step_s = " + text(c.dt) + "\nstrain = \"" + (c.strains ? "on" : "off") +
+          "\"\n";
+  return toml + (std::isnan(c.normal_stiffness)
+                     ? "# normal_stiffness_n_m is left to law talus: do not give it\n"
+                     : "normal_stiffness_n_m = " + text(c.normal_stiffness) + "\n");
+}
+
+std::string table_of(const std::vector<Candidate>& list, const std::vector<EnsembleResult>& results,
+                     std::size_t q, double reference) {
+  std::string table =
+      "| Settings | dt [s] | " + std::string(quantity_names[q]) +
+      " [m] | off the reference | CPU s a run | unconverged |\n|---|---|---|---|---|---|\n";
+  for (std::size_t i = 0; i < list.size(); ++i)
+    table += "| " + list[i].method + " | " + text(list[i].dt) + " | " +
+             text(results[i].mean[q], 5) + " ± " + text(results[i].standard_error[q], 2) + " | " +
+             text(100 * (results[i].mean[q] / reference - 1), 2) + " % | " +
+             text(results[i].cpu, 3) + " | " + std::to_string(results[i].sums.unconverged) + " |\n";
+  return table;
+}
+
+}  // namespace
+
+std::string study_site(Tool& tool, const SiteStudyOptions& o, const std::string& out) {
+  const double tolerance = tolerance_of(o.tolerance);
+  const auto q = static_cast<std::size_t>(quantity_of(o.quantity));
+  const Site site = read_site(o.site);
+  const DdaInputs inputs = read_dda_inputs(tool, site, o.files);
+  const std::vector<Candidate> list = candidates();
+  std::vector<EnsembleResult> results;
+  const ProgressFunction progress = tool.progress();
+  for (const Candidate& c : list) {
+    results.push_back(run_candidate(site, inputs, c, o.n_runs));
+    progress(static_cast<double>(results.size()) / static_cast<double>(list.size()));
+  }
+  const EnsembleReference reference = reference_of(results.back(), results[results.size() - 2]);
+  std::size_t best = list.size() - 1;
+  for (std::size_t i = 0; i < list.size(); ++i)
+    if (std::abs(results[i].mean[q] - reference.mean[q]) <= tolerance * reference.mean[q] &&
+        results[i].cpu < results[best].cpu)
+      best = i;
+  const std::vector<VerifyRow> rows =
+      rows_of("site_" + o.quantity, static_cast<Quantity>(q), results, reference);
+  tool.write_text(out + "/site.csv", csv_of(rows, "", build_commit));
+  tool.write_text(out + "/site.svg",
+                  chart_file(work_precision_chart("error of " + o.quantity + " [m], known to " +
+                                                      text(reference.band[q], 2) + " m",
+                                                  rows, {})));
+  tool.write_text(out + "/solver.toml", fragment_of(list[best], o));
+  if (reference.band[q] > tolerance * reference.mean[q])
+    tool.warn("the refined answer itself is known to " + text(reference.band[q], 2) +
+              " m only, more than " + o.tolerance +
+              " of it: give more --runs or a wider tolerance");
+  return table_of(list, results, q, reference.mean[q]) + "\nReference " +
+         text(reference.mean[q], 5) + " ± " + text(reference.band[q], 2) + " m; cheapest within " +
+         o.tolerance + ": " + list[best].method + ", dt " + text(list[best].dt) + " s, " +
+         text(results[best].cpu, 3) + " CPU s a run.\n";
+}
+
+}  // namespace talus

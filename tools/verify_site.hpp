@@ -1,0 +1,24 @@
+// tools/verify_site.hpp
+// Which time step, stiffness and strain setting a user's own scene needs: the cheapest whose answer
+// stays within a tolerance of the refined one.
+#pragma once
+
+#include <string>
+
+#include "dda_inputs.hpp"
+
+namespace talus {
+
+struct SiteStudyOptions {
+  std::string site;  ///< site file; empty: no such study
+  DdaFiles files;
+  std::string tolerance = "1%";     ///< share, or per cent with the sign
+  std::string quantity = "centre";  ///< centre, p90 or spread
+  int n_runs = 4;
+};
+
+/// Runs the ladder of settings, writes DIR/site.csv, site.svg and solver.toml; returns the table.
+/// Throws InputError for a tolerance that is no share above 0 and for what talus-dda refuses.
+[[nodiscard]] std::string study_site(Tool& tool, const SiteStudyOptions& o, const std::string& out);
+
+}  // namespace talus
