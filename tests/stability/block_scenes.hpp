@@ -18,14 +18,7 @@ namespace talus::stability {
 
 inline constexpr double degree = std::numbers::pi / 180;
 
-inline Body body_of(Polyhedron shape, const Vec3& velocity = Vec3::Zero(),
-                    const Vec3& spin = Vec3::Zero()) {
-  Body body;
-  body.parts = {std::move(shape)};
-  body.velocity = velocity;
-  body.spin = spin;
-  return body;
-}
+using cases::body_of;
 
 inline GroundClass rough(double phi_deg, double restitution = 0) {
   GroundClass ground;
