@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <span>
 
 #include "contact/search.hpp"
@@ -412,6 +413,17 @@ struct AdvanceIsland {
     hold(of_blocks.face, recovery_time, row, contact);
   }
 
+  // The deepest that contacts of the pair are pressed in [m]. As much of the overlap of a new one
+  // is no surprise: where corners of two faces only change places, what they bear must not be
+  // dropped.
+  [[nodiscard]] double compression_of(const PairManifold& m, const Vec3& normal) const {
+    double deepest = 0;
+    for (const ContactMemory& c : state.memory[static_cast<size_t>(m.block_a)])
+      if (c.key.body_b == m.block_b && c.normal.dot(normal) > 0.5)
+        deepest = std::max(deepest, -c.gap_end);
+    return deepest;
+  }
+
   // Mobility of a contact's point relative to the other side's.
   [[nodiscard]] Mobility mobility_at(size_t k, const Vec3& arm, const Vec3& normal) const {
     const Mat3& R = w.substeps[k].R;
@@ -456,7 +468,7 @@ struct AdvanceIsland {
       inherit(state.memory[static_cast<size_t>(m.block_a)][static_cast<size_t>(memory)], memory,
               Mat3::Identity(), contact.touch, row);
     else
-      row.offset = std::max(0.0, -row.gap_start);
+      row.offset = std::max(0.0, -row.gap_start - compression_of(m, n));
     const Mobility Wa = mobility_at(ka, arm, n), Wb = mobility_at(kb, arm_b, n);
     BlockNumbers c = ca;
     c.touch = contact.touch;
@@ -701,7 +713,9 @@ struct AdvanceIsland {
     const double by_gravity = scene.gravity.norm() * h;
     settings.tolerance = small_tolerance * by_gravity;
     if (!is_small()) {
-      settings.tolerance = std::max(island_tolerance * by_gravity, hit_tolerance * fastest_hit());
+      const double by_motion = std::clamp(motion_tolerance * fastest(), rest_tolerance * by_gravity,
+                                          island_tolerance * by_gravity);
+      settings.tolerance = std::max(by_motion, hit_tolerance * fastest_hit());
       settings.linear_tolerance = linear_tolerance;
     }
     const IslandResult solved = solve_island(w.island, settings, w.solver);
@@ -741,9 +755,15 @@ struct AdvanceIsland {
     return converged;
   }
 
+  [[nodiscard]] bool is_closed() const {
+    return std::none_of(w.contacts.begin(), w.contacts.end(),
+                        [](const IslandContact& contact) { return contact.b < 0; });
+  }
+
   // When each member's velocity changes, on the mean over the expected impulses: a contact that
   // presses all along acts in the middle of the substep, a hit at its time. Lever arms count from
-  // where the members are then, so that angular momentum is kept.
+  // where the members are then, so that angular momentum is kept. An island that touches nothing
+  // else takes one time for all: different ones would move its centre of mass.
   void set_times(double h) {
     w.weight.assign(w.members.size(), 0);
     w.time.assign(w.members.size(), 0);
@@ -756,6 +776,12 @@ struct AdvanceIsland {
         w.weight[place(b)] += p;
         w.time[place(b)] += p * t;
       }
+    }
+    if (is_closed()) {
+      const double weight = std::accumulate(w.weight.begin(), w.weight.end(), 0.0);
+      const double time = std::accumulate(w.time.begin(), w.time.end(), 0.0);
+      std::fill(w.weight.begin(), w.weight.end(), weight);
+      std::fill(w.time.begin(), w.time.end(), time);
     }
     for (size_t k = 0; k < w.members.size(); ++k) {
       w.time[k] = w.weight[k] > 0 ? w.time[k] / w.weight[k] : h / 2;

@@ -1,0 +1,176 @@
+// tests/stability/block_scenes.hpp
+// Scenes of many blocks and what is measured of them: piles, walls, arches on a plane; energy,
+// momentum and the farthest way a block went.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "dda/cases.hpp"
+#include "dda/step.hpp"
+
+namespace talus::stability {
+
+inline constexpr double degree = std::numbers::pi / 180;
+
+inline Body body_of(Polyhedron shape, const Vec3& velocity = Vec3::Zero(),
+                    const Vec3& spin = Vec3::Zero()) {
+  Body body;
+  body.parts = {std::move(shape)};
+  body.velocity = velocity;
+  body.spin = spin;
+  return body;
+}
+
+inline GroundClass rough(double phi_deg, double restitution = 0) {
+  GroundClass ground;
+  ground.friction = std::tan(phi_deg * degree);
+  ground.restitution = restitution;
+  return ground;
+}
+
+/// Blocks on the plane of `frame`; `joint_phi_deg` between them, `ground_phi_deg` below.
+inline Scene on_plane(const cases::SlopeFrame& frame, const std::vector<Body>& bodies,
+                      double joint_phi_deg, double ground_phi_deg, const Settings& settings = {},
+                      double cell_size = 1, double reach = 20) {
+  Scene scene = cases::scene_of(cases::plane_trn(frame, cell_size, reach), rough(ground_phi_deg),
+                                bodies, settings);
+  scene.joint = rough(joint_phi_deg);
+  return scene;
+}
+
+/// n unit cubes one on the other on a slope.
+inline std::vector<Body> pile_of(int n, const cases::SlopeFrame& frame) {
+  std::vector<Body> bodies;
+  for (int i = 0; i < n; ++i)
+    bodies.push_back(
+        body_of(cases::box_in(frame, Vec3::Zero(), Vec3(-0.5, -0.5, i), Vec3(0.5, 0.5, i + 1))));
+  return bodies;
+}
+
+/// Half a circle of n equal stones between two radii, its ends on the plane z = 0.
+inline std::vector<Body> arch_of(int n, double inner, double outer, double depth) {
+  std::vector<Body> bodies;
+  const std::vector<std::vector<int>> faces = {{0, 1, 2, 3}, {7, 6, 5, 4}, {0, 4, 5, 1},
+                                               {1, 5, 6, 2}, {2, 6, 7, 3}, {3, 7, 4, 0}};
+  for (int i = 0; i < n; ++i) {
+    std::vector<Vec3> v;
+    for (const double y : {-depth / 2, depth / 2})
+      for (const auto& [radius, k] :
+           {std::pair{inner, i}, {outer, i}, {outer, i + 1}, {inner, i + 1}}) {
+        const double angle = std::numbers::pi * k / n;
+        const double z = k == 0 || k == n ? 0 : std::sin(angle);
+        v.emplace_back(radius * std::cos(angle), y, radius * z);
+      }
+    bodies.push_back(body_of(cases::polyhedron(v, faces)));
+  }
+  return bodies;
+}
+
+/// Running bond of stones of 1 x `thickness` x 0.5 m; every second course begins and ends with half
+/// a one.
+inline std::vector<Body> wall_of(int n_courses, int n_long, double thickness) {
+  std::vector<Body> bodies;
+  for (int row = 0; row < n_courses; ++row) {
+    const double z = 0.5 * row, shift = row % 2 == 0 ? 0.0 : 0.5;
+    for (int i = 0; i < n_long + (row % 2); ++i) {
+      const double low = std::max(0.0, i - shift), high = std::min(1.0 * n_long, i + 1 - shift);
+      bodies.push_back(body_of(box(Vec3(low, 0, z), Vec3(high, thickness, z + 0.5))));
+    }
+  }
+  return bodies;
+}
+
+inline void run(const Scene& scene, double time, State& state, Work& work) {
+  const int n = static_cast<int>(std::lround(time / scene.settings.dt));
+  for (int i = 0; i < n; ++i) step(scene, state, work);
+}
+
+inline void run(const Scene& scene, double time, State& state) {
+  Work work = make_work(scene);
+  run(scene, time, state, work);
+}
+
+inline std::vector<Vec3> places(const Scene& scene, const State& state) {
+  std::vector<Vec3> out;
+  for (int b = 0; b < n_blocks(scene); ++b)
+    out.push_back(motion_at(scene, state, b, state.time).pose.position);
+  return out;
+}
+
+/// The farthest that a block is from where it was [m].
+inline double farthest(const std::vector<Vec3>& before, const std::vector<Vec3>& after) {
+  double most = 0;
+  for (std::size_t b = 0; b < before.size(); ++b)
+    most = std::max(most, (after[b] - before[b]).norm());
+  return most;
+}
+
+/// Kinetic and potential energy [J].
+inline double mechanical_energy(const Scene& scene, const State& state) {
+  const Energies e = energies(scene, state);
+  return e.translation + e.rotation + e.potential;
+}
+
+/// Momentum and angular momentum about the local zero, less what gravity did since time 0.
+inline Vec6 momentum(const Scene& scene, const State& state) {
+  Vec6 sum = Vec6::Zero();
+  for (int b = 0; b < n_blocks(scene); ++b) {
+    const Motion m = motion_at(scene, state, b, state.time);
+    const Vec3 p =
+        scene.blocks.mass[static_cast<std::size_t>(b)] * (m.velocity - state.time * scene.gravity);
+    const Vec3 x = m.pose.position - 0.5 * state.time * state.time * scene.gravity;
+    sum.head<3>() += p;
+    sum.tail<3>() += m.angular_momentum + x.cross(p);
+  }
+  return sum;
+}
+
+/// Twelve blocks thrown on a slope of 10 degrees in a heap.
+inline Scene heap(const Settings& settings) {
+  std::vector<Body> bodies;
+  for (int i = 0; i < 12; ++i) {
+    const Mat3 turn = Eigen::AngleAxisd(0.5 + i, Vec3(1, i, 2).normalized()).toRotationMatrix();
+    const int layer = i / 4;
+    bodies.push_back(
+        body_of(cases::moved(box(Vec3(-0.6, -0.4, -0.3), Vec3(0.6, 0.4, 0.3)), turn, Vec3::Zero(),
+                             1.7 * Vec3(i % 2, i / 2 % 2, layer) + Vec3::UnitZ()),
+                Vec3(0.5, 0, -3)));
+  }
+  Scene scene = on_plane(cases::slope_frame(10, 0), bodies, 25, 25, settings, 1, 60);
+  scene.joint.restitution = scene.ground.classes[0].restitution = 0.3;
+  return scene;
+}
+
+/// The heap stays finite and above the ground and loses energy. No step gains more than 5 % of the
+/// kinetic energy at the start, 0.1 % with the stiffness and the steps that talus would choose.
+inline void expect_bounded(double stiffness, double dt, double duration) {
+  Settings settings;
+  settings.dt = dt;
+  settings.normal_stiffness = stiffness;
+  const Scene scene = heap(settings);
+  State state = start(scene);
+  Work work = make_work(scene);
+  const double first = mechanical_energy(scene, state);
+  const double kinetic = first - energies(scene, state).potential;
+  double last = first, gain = 0;
+  StepFlag flags = StepFlag::none;
+  while (state.time < duration) {
+    flags = flags | step(scene, state, work).flags;
+    const double now = mechanical_energy(scene, state);
+    gain = std::max(gain, now - last);
+    last = now;
+  }
+  EXPECT_FALSE(has(flags, StepFlag::not_finite)) << stiffness << ' ' << dt;
+  EXPECT_FALSE(has(flags, StepFlag::fell_through)) << stiffness << ' ' << dt;
+  EXPECT_LT(last, first) << stiffness << ' ' << dt;
+  EXPECT_LT(gain, (stiffness > 0 || dt > 1e-2 ? 0.05 : 1e-3) * kinetic) << stiffness << ' ' << dt;
+  EXPECT_LT(state.counters.unconverged, 1 + state.counters.substeps / 1000);
+}
+
+}  // namespace talus::stability
