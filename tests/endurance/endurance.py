@@ -365,7 +365,7 @@ def part_memory(bench):
     """Little address space (ulimit -v), from what loading takes upwards: done, or a clear error."""
     def sizes(job):
         least = loads_at_mb(bench, job)
-        for more in bench.times((16, 64), (16, 24, 32, 40, 48, 56, 64, 80, 96, 128, 192, 256, 384)):
+        for more in bench.times((16, 64), (2, 4, 8, 12, 16, 24, 32, 40, 48, 64, 96, 128, 256)):
             yield f"{least + more} MB", {"preexec_fn": limited(resource.RLIMIT_AS, least + more << 20)}
     sweep(bench, "little memory (ulimit -v)", bench.jobs, sizes)
 
