@@ -81,7 +81,7 @@ std::string machine_name() {
 
 CaseOutcome run_case(const VerifyCase& c, const Options& o) {
   CaseOutcome out{&c, {}, std::nan("")};
-  const double least_cpu = o.full ? 0.3 : 0.02;
+  const double least_cpu = o.full ? 0.1 : 0.02;
   for (const Method& method : methods_of(c, o.full))
     for (const double dt : method.dt) out.rows.push_back(measure(c, method, dt, least_cpu));
   return out;

@@ -393,7 +393,11 @@ struct Tool::Impl {
     timespec now{};
     clock_gettime(CLOCK_REALTIME, &now);
     const timespec times[2] = {now, now};
-    for (const Staged& file : in_order_of_commit()) {
+    const std::vector<Staged> files = in_order_of_commit();
+    for (const Staged& file : files)
+      if (fs::exists(file.temporary)) record.outputs.push_back(described_output(file));
+    if (registered && !files.empty()) record_outputs(registry_path(), record);
+    for (const Staged& file : files) {
       if (!fs::exists(file.temporary)) continue;
       utimensat(AT_FDCWD, file.temporary.c_str(), times, 0);
       sync_path(file.temporary, O_RDONLY);
@@ -401,7 +405,6 @@ struct Tool::Impl {
       if (fs::exists(statistics)) rename_over(statistics, file.path + ".aux.xml");
       rename_over(file.temporary, file.path);
       sync_path(folder_of(file.path).string(), O_RDONLY | O_DIRECTORY);
-      record.outputs.push_back(described("output", file.path));
     }
     staged.clear();
   }
@@ -410,6 +413,13 @@ struct Tool::Impl {
     std::error_code error;
     fs::rename(from, to, error);
     if (error) throw InputError({to}, "cannot be put in place: " + error.message());
+  }
+
+  // An output by its final name, while it still has its temporary one.
+  RunArtifact described_output(const Staged& file) const {
+    RunArtifact artifact = described("output", file.temporary);
+    artifact.path = absolute(file.path);
+    return artifact;
   }
 
   void remove_staged() {

@@ -204,6 +204,18 @@ std::int64_t start_run(const std::string& db, const RunRecord& run) {
   });
 }
 
+void record_outputs(const std::string& db, const RunRecord& run) {
+  with_registry(db, [&] {
+    SQLite::Database database = open_to_write(db);
+    SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
+    insert(database, "UPDATE run SET content_id = ? WHERE id = ?", run.content_id, run.id);
+    insert(database, "DELETE FROM run_input WHERE run_id = ?", run.id);  // the body may add some
+    insert_files(database, "run_input", run.id, run.inputs);
+    insert_files(database, "run_output", run.id, run.outputs);
+    transaction.commit();
+  });
+}
+
 void finish_run(const std::string& db, const RunRecord& run) {
   with_registry(db, [&] {
     SQLite::Database database = open_to_write(db);
@@ -213,7 +225,8 @@ void finish_run(const std::string& db, const RunRecord& run) {
            "wall_time_s = ?, peak_memory_kb = ? WHERE id = ?",
            run.content_id, run.ended, run.status, run.exit_code, run.cpu_time_s, run.wall_time_s,
            run.peak_memory_kb, run.id);
-    insert(database, "DELETE FROM run_input WHERE run_id = ?", run.id);  // the body may add some
+    insert(database, "DELETE FROM run_input WHERE run_id = ?", run.id);  // there may be more now
+    insert(database, "DELETE FROM run_output WHERE run_id = ?", run.id);
     insert_files(database, "run_input", run.id, run.inputs);
     insert_files(database, "run_output", run.id, run.outputs);
     for (const RunMetric& metric : run.metrics)

@@ -1,0 +1,636 @@
+#!/usr/bin/env python3
+"""What happens to the tools when a machine fails them: kills, signals, full disks, odd names, damaged
+inputs, little memory. Every fault comes from outside (signals, mounts, limits of the process), none
+from hooks in the tools. Prints a row a fault: what, times tried, survived, lost.
+
+  endurance.py --bin DIR[:DIR] --source DIR --work DIR [--long] [--only PART,...] [--rows FILE]
+
+A try is survived when no output stands half-made under its final name, the registry is whole, and
+the next run gives the bytes of the run that nothing happened to. Each part is a function part_*.
+"""
+import argparse
+import filecmp
+import os
+import random
+import re
+import resource
+import shutil
+import signal
+import sqlite3
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+SIMULATED_S = "1"
+HOLD_NAMES = ("site.mk", "tin.json", "trn.json", "blocks.json", "runout.json", "fence.json")
+NAMES_OF_LEFTOVERS = (".part-", ".h5.part")
+
+
+class Job:
+    """One tool on inputs made before; `words` are arguments, outputs named relative to the folder."""
+
+    def __init__(self, name, words, again=("--overwrite",)):
+        self.name, self.words, self.again = name, words, list(again)
+
+
+class Bench:
+    """The inputs, the jobs, and the folder of the outputs that nothing happened to."""
+
+    def __init__(self, args):
+        self.args, self.rows, self.random = args, [], random.Random(args.seed)
+        self.work = Path(args.work).resolve()
+        self.whole = self.work / "whole"
+        self.environment = dict(os.environ, PATH=args.bin + ":" + os.environ["PATH"])
+        self.environment.pop("MAKEFLAGS", None)
+        self.wall_s = {}
+        self.jobs = []
+
+    # --- running -------------------------------------------------------------------------------
+    def start(self, words, folder, **more):
+        return subprocess.Popen(words, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                start_new_session=True, text=True, errors="replace",
+                                env=dict(self.environment, **more.pop("env", {})), **more)
+
+    def run(self, words, folder, **more):
+        process = self.start(words, folder, **more)
+        out, err = process.communicate()
+        return process.returncode, out, err
+
+    def must(self, words, folder, **more):
+        code, out, err = self.run(words, folder, **more)
+        if code != 0:
+            sys.exit(f"{' '.join(map(str, words))}: exit code {code}\n{out}{err}")
+        return out
+
+    # --- the scene -----------------------------------------------------------------------------
+    def prepare(self):
+        shutil.rmtree(self.work, ignore_errors=True)
+        site = self.work / "site"
+        site.mkdir(parents=True)
+        designed = Path(self.args.source) / "sample_sites/designed"
+        shutil.copy(designed / "contours.gpkg", site)
+        text = (designed / "site.toml").read_text()
+        (site / "site.toml").write_text(
+            text.replace("duration_s = 20", f"duration_s = {SIMULATED_S}")
+                .replace("[output]", "[output]\ncheckpoint_interval_s = 0.02")
+            + ("" if "[output]" in text else "\n[output]\ncheckpoint_interval_s = 0.02\n"))
+        made = site / "made"
+        toml, grid = str(site / "site.toml"), str(made / "bed.tif")
+        window = ["--cell-size-m", "8", "--window", "500000,5200000,500224,5200320"]
+        self.jobs = [
+            Job("talus-site", [toml, "-o", "."]),
+            Job("talus-tin", [str(site / "contours.gpkg"), "-o", "tin.ply", "--report", "tin.json",
+                              "--elevation-field", "elevation_m"]),
+            Job("talus-trn", [str(made / "tin.ply"), "-o", "trn.tif", "--report", "trn.json",
+                              "--hillshade", "hillshade.png", *window]),
+            Job("talus-blocks", [toml, "--trn", str(made / "trn.tif"), "-o", "blocks.h5", "--trn-out",
+                                 "bed.tif", "--report", "blocks.json", "--footprints", "blocks.gpkg"]),
+            Job("talus-dda", [toml, "--trn", grid, "--blocks", str(made / "blocks.h5"),
+                              "-o", "run.h5", "--xdmf", "run.xmf"], ["--overwrite", "--resume"]),
+            Job("talus-runout", [str(made / "run.h5"), "--trn", grid, "-o", "runout.gpkg", "--json",
+                                 "runout.json", "--csv", "runout.csv", "--svg", "runout.svg",
+                                 "--allow-unfinished"]),
+            Job("talus-maps", [str(made / "run.h5"), "--trn", grid, "-o", ".", "--png",
+                               "--allow-unfinished"]),
+            Job("talus-fence", [toml, str(made / "run.h5"), "--trn", grid, "-o", "fence.gpkg",
+                                "--json", "fence.json", "--csv", "fence.csv", "--allow-unfinished"]),
+        ]
+        made.mkdir()
+        for job in self.jobs:
+            folder = self.fresh(self.whole / job.name)
+            begin = time.monotonic()
+            self.must([job.name, *job.words], folder)
+            self.wall_s[job.name] = time.monotonic() - begin
+            for file in outputs_of(folder):
+                shutil.copy(folder / file, made)
+
+    def fresh(self, folder):
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir(parents=True)
+        return folder
+
+    # --- verdicts ------------------------------------------------------------------------------
+    def half_made(self, job_name, folder, names=False):
+        """Files under a final name that are not those of the undisturbed run; with `names`, those
+        that hold the names of inputs may differ."""
+        whole = self.whole / job_name
+        may_differ = HOLD_NAMES if names else ()
+        return [str(f) for f in outputs_of(folder)
+                if not (whole / f).exists() or
+                (f not in may_differ and not filecmp.cmp(whole / f, folder / f, shallow=False))]
+
+    def after_fault(self, job, folder):
+        """What is wrong after a fault and after the run that follows it; empty: survived."""
+        wrong = self.half_made(job.name, folder)
+        if wrong:
+            return f"half-made: {wrong}"
+        bad_registry = fault_of_registry(folder / "runs.sqlite")
+        if bad_registry:
+            return f"registry: {bad_registry}"
+        code, _, err = self.run([job.name, *job.words, *job.again], folder)
+        if code != 0:
+            return f"the next run ends with {code}: {err}"
+        return self.not_whole(job.name, folder)
+
+    def not_whole(self, job_name, folder, names=False):
+        there, wanted = outputs_of(folder), outputs_of(self.whole / job_name)
+        if there != wanted:
+            return f"outputs {sorted(set(there) ^ set(wanted))} are missing or left over"
+        left = [str(f) for f in folder.rglob("*") if any(n in f.name for n in NAMES_OF_LEFTOVERS)]
+        if left:
+            return f"left behind: {left}"
+        differing = self.half_made(job_name, folder, names)
+        return f"other bytes: {differing}" if differing else ""
+
+    def row(self, fault, tried, losses, note=""):
+        self.rows.append((fault, tried, tried - len(losses), len(losses), note))
+        print(f"{fault}: {tried} tried, {len(losses)} lost {note}", flush=True)
+        for loss in losses[:5]:
+            print("  LOST " + loss, flush=True)
+
+    def times(self, short, long):
+        return long if self.args.long else short
+
+
+def outputs_of(folder):
+    """Relative names of the files that stand under a final name, without the registry."""
+    return sorted(str(f.relative_to(folder)) for f in folder.rglob("*")
+                  if f.is_file() and not f.name.startswith((".", "runs.sqlite"))
+                  and ".part" not in f.name)
+
+
+def fault_of_registry(path):
+    if not path.exists():
+        return ""
+    try:
+        with sqlite3.connect(path) as db:
+            verdict = db.execute("PRAGMA integrity_check").fetchone()[0]
+            dangling = db.execute("PRAGMA foreign_key_check").fetchall()
+        return "" if verdict == "ok" and not dangling else f"{verdict} {dangling}"
+    except sqlite3.DatabaseError as error:
+        return str(error)
+
+
+# --- the parts -------------------------------------------------------------------------------------
+
+def interrupted_tries(bench, job, n, number):
+    """n tries of sending a signal at a random moment: (tried, losses, exit codes)."""
+    tried, losses, codes = 0, [], []
+    longest = bench.wall_s[job.name]
+    for attempt in range(4 * n):
+        if tried == n:
+            break
+        folder = bench.fresh(bench.work / "tries" / job.name)
+        process = bench.start([job.name, *job.words], folder)
+        time.sleep(bench.random.uniform(0, longest))
+        if process.poll() is not None:
+            longest *= 0.8
+            process.communicate()
+            continue
+        os.killpg(process.pid, number)
+        process.communicate()
+        tried += 1
+        codes.append(process.returncode)
+        wrong = bench.after_fault(job, folder)
+        if wrong:
+            losses.append(f"{job.name}, try {attempt}: {wrong}")
+    return tried, losses, codes
+
+
+def part_kill(bench):
+    """kill -9 at random moments, tool by tool; then the pipeline, twice in a row."""
+    for job in bench.jobs:
+        tried, losses, _ = interrupted_tries(bench, job, bench.times(2, 25), signal.SIGKILL)
+        bench.row(f"kill -9, {job.name}", tried, losses)
+    kill_resumed_run(bench)
+    kill_pipeline(bench)
+
+
+def kill_resumed_run(bench):
+    """A slide of touching blocks that is killed again and again, each time going on where it was."""
+    job = next(j for j in bench.jobs if j.name == "talus-dda")
+    losses, kills, n_resumed = [], 0, 0
+    for _ in range(bench.times(2, 12)):
+        folder = bench.fresh(bench.work / "tries/resumed")
+        pause = bench.wall_s[job.name] / 3
+        while True:
+            process = bench.start([job.name, *job.words, *job.again], folder)
+            time.sleep(bench.random.uniform(0.3, 1) * pause)
+            if process.poll() is not None:
+                process.communicate()
+                break
+            os.killpg(process.pid, signal.SIGKILL)
+            process.communicate()
+            kills += 1
+            n_resumed += (folder / "run.h5.part").exists()
+            pause *= 1.1  # so that it comes to an end
+        wrong = bench.not_whole(job.name, folder) if process.returncode == 0 else process.returncode
+        if wrong:
+            losses.append(f"resumed slide: {wrong}")
+    bench.row("kill -9, one slide several times, --resume", kills, losses,
+              f"{bench.times(2, 12)} slides of 39 blocks in contact, {n_resumed} times from a checkpoint")
+
+
+def pipeline_folder(bench, name):
+    folder = bench.fresh(bench.work / name)
+    for file in ("contours.gpkg", "site.toml"):
+        shutil.copy(bench.work / "site" / file, folder)
+    (folder / "Makefile").write_text(f"include {bench.args.source}/pipelines/site.mk\n")
+    return folder
+
+
+def make(*words):
+    return ["make", "BIN=", "EVALUATE_FLAGS=--allow-unfinished", *words]
+
+
+def kill_pipeline(bench):
+    if shutil.which("make") is None:
+        return bench.row("kill -9, pipeline", 0, [], "no make here")
+    reference = pipeline_folder(bench, "whole/pipeline")
+    begin = time.monotonic()
+    bench.must(make(), reference)
+    wall_s, kills, losses = time.monotonic() - begin, 0, []
+    for _ in range(bench.times(1, 10)):
+        folder = pipeline_folder(bench, "tries/pipeline")
+        pause = wall_s / 4
+        while True:
+            process = bench.start(make("-j2"), folder)
+            time.sleep(bench.random.uniform(0.1, 1) * pause)
+            if process.poll() is not None:
+                out, err = process.communicate()
+                break
+            os.killpg(process.pid, signal.SIGKILL)
+            process.communicate()
+            kills += 1
+            pause *= 1.1
+            bad = fault_of_registry(folder / "out/runs.sqlite")
+            if bad:
+                losses.append(f"pipeline: registry: {bad}")
+        if process.returncode != 0:
+            losses.append(f"pipeline ends with {process.returncode}: {err[-500:]}")
+            continue
+        there, wanted = outputs_of(folder / "out"), outputs_of(reference / "out")
+        if there != wanted:
+            losses.append(f"pipeline: {sorted(set(there) ^ set(wanted))}")
+        differing = [f for f in there if not filecmp.cmp(folder / "out" / f, reference / "out" / f,
+                                                         shallow=False)]
+        if differing:
+            losses.append(f"pipeline: other bytes: {differing}")
+    bench.row("kill -9, whole pipeline (make -j2)", kills, losses)
+
+
+def part_signal(bench):
+    """SIGINT and SIGTERM: exit code 130 (before a tool listens: death by the signal), resumable."""
+    for number in (signal.SIGINT, signal.SIGTERM):
+        tried_all, losses_all, early = 0, [], 0
+        for job in bench.jobs:
+            tried, losses, codes = interrupted_tries(bench, job, bench.times(1, 6), number)
+            for code in codes:
+                if code == -number:
+                    early += 1
+                elif code not in (130, 0):
+                    losses.append(f"{job.name}: exit code {code}")
+            tried_all += tried
+            losses_all += losses
+        bench.row(f"{signal.Signals(number).name}, all tools", tried_all, losses_all,
+                  f"{early} while the program was still being loaded")
+
+
+def limited(limit, value):
+    def set_limit():
+        resource.setrlimit(limit, (value, value))
+    return set_limit
+
+
+def refused(bench, job, folder, **more):
+    """Runs a job that cannot succeed: (exit code, what is wrong; empty: a clear error)."""
+    code, _, err = bench.run([job.name, *job.words], folder, **more)
+    if code == 0:
+        return code, bench.not_whole(job.name, folder)
+    if code != 1:
+        return code, f"exit code {code}: {err}"
+    return code, "" if f"{job.name}: " in err else f"no error is told: {err}"
+
+
+def sweep(bench, fault, jobs, settings):
+    """Each job under each setting, (label, keyword arguments of Popen) each; then undisturbed."""
+    tried, losses, failed = 0, [], 0
+    for job in jobs:
+        for label, more in settings(job):
+            folder = bench.fresh(bench.work / "tries" / job.name)
+            code, wrong = refused(bench, job, folder, **more)
+            wrong = wrong or bench.after_fault(job, folder)
+            tried += 1
+            failed += code != 0
+            if wrong:
+                losses.append(f"{job.name}, {label}: {wrong}")
+    bench.row(fault, tried, losses, f"{failed} ended with an error")
+
+
+def part_limit(bench):
+    """Limits of the process: size of files, number of open files, missing proj.db."""
+    def sizes(job):
+        largest = max((bench.whole / job.name / f).stat().st_size
+                      for f in outputs_of(bench.whole / job.name))
+        for size in sorted({0, 4096, 65536, largest // 2, largest - 1}):
+            if size < largest:
+                yield f"files up to {size} bytes", {"preexec_fn": limited(resource.RLIMIT_FSIZE, size)}
+
+    def files(job):
+        for n in bench.times((8, 16), (4, 5, 6, 7, 8, 9, 10, 12, 14, 16, 20)):
+            yield f"{n} open files", {"preexec_fn": limited(resource.RLIMIT_NOFILE, n)}
+
+    def no_proj(job):
+        empty = bench.work / "empty"
+        empty.mkdir(exist_ok=True)
+        yield "no proj.db", {"env": {"PROJ_LIB": str(empty), "PROJ_DATA": str(empty)}}
+
+    sweep(bench, "limit of file sizes (ulimit -f)", bench.jobs, sizes)
+    sweep(bench, "limit of open files (ulimit -n)", bench.jobs, files)
+    sweep(bench, "no proj.db", bench.jobs, no_proj)
+
+
+def loads_at_mb(bench, job):
+    """Address space in which the tool and its libraries are loaded: --version works."""
+    for mb in range(32, 4096, 16):
+        code, _, _ = bench.run([job.name, "--version"], bench.work,
+                               preexec_fn=limited(resource.RLIMIT_AS, mb << 20))
+        if code == 0:
+            return mb
+    sys.exit(f"{job.name} cannot be loaded")
+
+
+def part_memory(bench):
+    """Little address space (ulimit -v), from what loading takes upwards: done, or a clear error."""
+    def sizes(job):
+        least = loads_at_mb(bench, job)
+        for more in bench.times((16, 64), (16, 24, 32, 40, 48, 56, 64, 80, 96, 128, 192, 256, 384)):
+            yield f"{least + more} MB", {"preexec_fn": limited(resource.RLIMIT_AS, least + more << 20)}
+    sweep(bench, "little memory (ulimit -v)", bench.jobs, sizes)
+
+
+def part_disk(bench):
+    """A full disk: tmpfs of all sizes up to what is needed, then made larger. A read-only folder."""
+    if os.environ.get("TALUS_OWN_MOUNTS") != "1":
+        enter_own_mounts(bench)
+        return
+    disk = bench.fresh(bench.work / "disk")
+    tried, losses = 0, []
+    for job in bench.jobs:
+        whole = bench.whole / job.name
+        needed = sum((whole / f).stat().st_size for f in outputs_of(whole)) // 1024 + 400
+        n = bench.times(3, 25)
+        for k in range(n):
+            mount("-t", "tmpfs", "-o", f"size={max(4, needed * k // n)}k", "none", disk)
+            code, wrong = refused(bench, job, disk)
+            mount("-o", "remount,size=256m", disk)
+            wrong = wrong or bench.after_fault(job, disk)
+            subprocess.run(["umount", "-l", disk], check=True)
+            tried += 1
+            if wrong:
+                losses.append(f"{job.name}, {max(4, needed * k // n)} KB: {wrong}")
+    bench.row("full disk (tmpfs)", tried, losses)
+    tried, losses = 0, []
+    for job in bench.jobs:
+        mount("-t", "tmpfs", "none", disk)
+        mount("-o", "remount,ro", disk)
+        code, wrong = refused(bench, job, disk)
+        if code != 1:
+            wrong = wrong or f"exit code {code}"
+        mount("-o", "remount,rw", disk)
+        wrong = wrong or bench.after_fault(job, disk)
+        subprocess.run(["umount", "-l", disk], check=True)
+        tried += 1
+        if wrong:
+            losses.append(f"{job.name}: {wrong}")
+    bench.row("read-only folder", tried, losses)
+
+
+def mount(*words):
+    subprocess.run(["mount", *words], check=True)
+
+
+def enter_own_mounts(bench):
+    """Repeats this part in a mount namespace of its own, where tmpfs may be mounted."""
+    own = ["unshare", "-m"] if os.geteuid() == 0 else ["unshare", "-rm"]
+    rows = bench.work / "disk.rows"
+    if subprocess.run([*own, "true"], capture_output=True).returncode != 0:
+        bench.row("full disk (tmpfs)", 0, [], "no mount namespace here")
+        return
+    words = [*own, sys.executable, __file__, "--bin", bench.args.bin, "--source", bench.args.source,
+             "--work", str(bench.work / "mounts"), "--only", "disk", "--rows", str(rows),
+             "--seed", str(bench.args.seed)] + (["--long"] if bench.args.long else [])
+    subprocess.run(words, env=dict(os.environ, TALUS_OWN_MOUNTS="1"))
+    for line in rows.read_text().splitlines():
+        fault, tried, survived, lost, note = line.split("\t")
+        bench.rows.append((fault, int(tried), int(survived), int(lost), note))
+
+
+ODD_NAMES = ["two words", "it's a \"quote\"", "Hänge über Tal", "a\nnew line", "$(touch hurt)",
+             "a;touch hurt", "-q", "100% #1 [x]*?", "ß" * 60]
+
+
+def part_names(bench):
+    """Odd names of folders, inputs and outputs: the same bytes, and nothing else is done."""
+    tried, losses = 0, []
+    for name in ODD_NAMES[:bench.times(5, len(ODD_NAMES))]:
+        for job in bench.jobs:
+            folder = bench.fresh(bench.work / "tries" / name)
+            words = []
+            for word in job.words:  # inputs are read from the odd folder, too
+                if word.startswith("/"):
+                    own = folder / "in" / Path(word).name
+                    own.parent.mkdir(exist_ok=True)
+                    shutil.copy(word, own)
+                    if word.endswith(".toml"):
+                        shutil.copy(bench.work / "site/contours.gpkg", own.parent)
+                    word = str(own)
+                words.append(word)
+            out = bench.fresh(folder / "out")
+            code, _, err = bench.run([job.name, *words], out)
+            if code == 1 and job.name == "talus-site" and "cannot stand in a makefile" in err:
+                wrong = ""
+            else:
+                wrong = f"exit code {code}: {err}" if code else bench.not_whole(job.name, out, names=True)
+            wrong = wrong or fault_of_registry(out / "runs.sqlite")
+            code, _, err = bench.run(["talus-runs", "list", "--db", str(out / "runs.sqlite")], out)
+            if code != 0:
+                wrong = wrong or f"talus-runs list: {err}"
+            if list(bench.work.rglob("hurt")):
+                wrong = "a name was carried out as a command"
+            tried += 1
+            if wrong:
+                losses.append(f"{job.name} in {name!r}: {wrong}")
+            shutil.rmtree(folder)
+    bench.row("odd names of files and folders", tried, losses)
+
+
+def part_sources(bench):
+    """Inputs cut short or with bytes changed: done or refused, never a crash or a hang."""
+    tried, losses, refusals = 0, [], 0
+    for job in bench.jobs:
+        inputs = [w for w in job.words if w.startswith("/")]
+        for k in range(bench.times(2, 30)):
+            folder = bench.fresh(bench.work / "tries/damaged")
+            victim = bench.random.choice(inputs)
+            damaged = folder / "in" / Path(victim).name
+            damaged.parent.mkdir()
+            bytes_ = bytearray(Path(victim).read_bytes())
+            if k % 2 == 0:
+                bytes_ = bytes_[:bench.random.randrange(len(bytes_))]
+            else:
+                for _ in range(bench.random.choice((1, 8, 64))):
+                    bytes_[bench.random.randrange(len(bytes_))] = bench.random.randrange(256)
+            damaged.write_bytes(bytes_)
+            if victim.endswith(".toml"):
+                shutil.copy(bench.work / "site/contours.gpkg", damaged.parent)
+            words = [str(damaged) if w == victim else w for w in job.words]
+            limit = limited(resource.RLIMIT_AS, 4 << 30)
+            process = bench.start([job.name, *words, "--no-db"], bench.fresh(folder / "out"),
+                                  preexec_fn=limit)
+            try:
+                _, err = process.communicate(timeout=120)
+            except subprocess.TimeoutExpired:
+                os.killpg(process.pid, signal.SIGKILL)
+                process.communicate()
+                losses.append(f"{job.name}: no end with damaged {victim}")
+                continue
+            tried += 1
+            refusals += process.returncode == 1
+            if process.returncode not in (0, 1, 3):
+                keep = bench.work / f"lost_{job.name}_{k}{Path(victim).suffix}"
+                keep.write_bytes(bytes_)
+                losses.append(f"{job.name}: exit code {process.returncode} with {keep}: {err[-300:]}")
+            elif process.returncode == 1 and outputs_of(folder / "out"):
+                losses.append(f"{job.name}: outputs of a refused input")
+    bench.row("damaged inputs", tried, losses, f"{refusals} refused")
+    lying_sources(bench)
+
+
+LIES = {
+    "rows.asc": "ncols 100000\nnrows 100000\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2\n3 4\n",
+    "huge.vrt": '<VRTDataset rasterXSize="2000000000" rasterYSize="2000000000"><GeoTransform>0,1,0,0,0,-1'
+                '</GeoTransform><VRTRasterBand dataType="Float64" band="1"/></VRTDataset>',
+    "large.vrt": '<VRTDataset rasterXSize="60000" rasterYSize="60000"><GeoTransform>0,1,0,0,0,-1'
+                 '</GeoTransform><VRTRasterBand dataType="Float64" band="1"/></VRTDataset>',
+    "count.ply": "ply\nformat binary_little_endian 1.0\nelement vertex 4000000000\nproperty double x\n"
+                 "property double y\nproperty double z\nelement face 4000000000\n"
+                 "property list uchar int vertex_indices\nend_header\n",
+}
+
+
+def lying_sources(bench):
+    """Small files that claim to be huge: refused, within 4 GB of address space."""
+    losses = []
+    for name, content in LIES.items():
+        folder = bench.fresh(bench.work / "tries/lies")
+        (folder / name).write_text(content)
+        job = Job("talus-trn", [name, "-o", "trn.tif", "--crs", "EPSG:32633", "--no-db"])
+        code, _, err = bench.run([job.name, *job.words], folder,
+                                 preexec_fn=limited(resource.RLIMIT_AS, 4 << 30))
+        if code != 1 or (folder / "trn.tif").exists():
+            losses.append(f"{name}: exit code {code}: {err}")
+    bench.row("inputs that lie about their size", len(LIES), losses)
+
+
+def part_registry(bench):
+    """Two writers of one registry: every run has its row."""
+    folder = bench.fresh(bench.work / "registry")
+    (folder / "in.txt").write_text("hello")
+    n = bench.times(40, 5000)
+    loop = (f'i=0; while [ $i -lt {n} ]; do i=$((i+1)); frame-probe in.txt -o $0.txt --db shared.sqlite'
+            ' -q --overwrite || echo $i >>failed; done')
+    writers = [bench.start(["sh", "-c", loop, name], folder) for name in ("a", "b")]
+    errors = [w.communicate()[1] for w in writers]
+    with sqlite3.connect(folder / "shared.sqlite") as db:
+        done = db.execute("SELECT count(*) FROM run WHERE status = 'done'").fetchone()[0]
+        linked = db.execute("SELECT count(*) FROM run_output").fetchone()[0]
+    losses = [f"{2 * n - done} rows, {2 * n - linked} outputs are missing: {errors}"] * (
+        max(2 * n - done, 2 * n - linked))
+    if (folder / "failed").exists() or fault_of_registry(folder / "shared.sqlite"):
+        losses.append(f"turned away, or registry broken: {errors}")
+    bench.row("two writers of one registry", 2 * n, losses)
+
+
+def part_same(bench):
+    """Determinism: repeated, with other numbers of threads, in another place, by another build."""
+    variants = [("again, 1 thread", {"GDAL_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}, None),
+                ("2 threads", {"GDAL_NUM_THREADS": "2", "OMP_NUM_THREADS": "2"}, None),
+                ("locale and time zone", {"LC_ALL": "de_DE.UTF-8", "TZ": "Asia/Tokyo"}, None)]
+    if bench.args.other_bin:
+        variants.append(("another build", {}, bench.args.other_bin))
+    for label, environment, other in variants:
+        losses = []
+        for job in bench.jobs:
+            if other:
+                environment = {"PATH": other + ":" + os.environ["PATH"]}
+            folder = bench.fresh(bench.work / "tries" / "a folder elsewhere")
+            code, _, err = bench.run([job.name, *job.words], folder, env=environment)
+            wrong = f"exit code {code}: {err}" if code else bench.not_whole(job.name, folder)
+            if wrong:
+                losses.append(f"{job.name}: {wrong}")
+        bench.row(f"same bytes: {label}", len(bench.jobs), losses)
+    same_tables_at_other_frames(bench)
+
+
+def same_tables_at_other_frames(bench):
+    """Maps and fence tables do not depend on the interval of frames."""
+    dda = next(j for j in bench.jobs if j.name == "talus-dda")
+    losses = []
+    intervals = ("0.02", "0.37")
+    for interval in intervals:
+        folder = bench.fresh(bench.work / f"frames_{interval}")
+        bench.must([dda.name, *dda.words, "--frame-interval-s", interval], folder)
+        grid = bench.work / "site/made/bed.tif"
+        bench.must(["talus-maps", "run.h5", "--trn", grid, "-o", "maps", "--png",
+                    "--allow-unfinished"], folder)
+        bench.must(["talus-fence", bench.work / "site/site.toml", "run.h5", "--trn", grid, "-o",
+                    "fence.gpkg", "--csv", "fence.csv", "--allow-unfinished"], folder)
+    one, two = (bench.work / f"frames_{i}" for i in intervals)
+    for file in outputs_of(one):
+        if file.endswith((".png", ".qml", ".csv")) and without_ids(one / file) != without_ids(two / file):
+            losses.append(f"{file} depends on the interval of frames")
+    losses += [f"{f.name}: pixels depend on the interval of frames" for f in sorted((one / "maps").glob("*.tif"))
+               if pixels(bench, f) != pixels(bench, two / "maps" / f.name)]
+    bench.row("same maps and tables: another frame interval", len(outputs_of(one)), losses)
+
+
+def without_ids(file):
+    """Bytes of a file without run ids: another interval of frames is another run."""
+    return re.sub(rb"\b[0-9a-f]{16}\b", b"ID", file.read_bytes())
+
+
+def pixels(bench, file):
+    """Checksums of all bands, or nothing where GDAL's programs are missing."""
+    if shutil.which("gdalinfo") is None:
+        return ""
+    return [line for line in bench.must(["gdalinfo", "-checksum", file], file.parent).splitlines()
+            if "Checksum" in line]
+
+
+PARTS = {name[5:]: value for name, value in list(globals().items()) if name.startswith("part_")}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("--bin", required=True, help="folders of the tools and of frame-probe")
+    parser.add_argument("--other-bin", help="the tools of another build, for the same bytes")
+    parser.add_argument("--source", required=True, help="the repository")
+    parser.add_argument("--work", required=True, help="scratch folder, emptied")
+    parser.add_argument("--long", action="store_true", help="hundreds of tries instead of a few")
+    parser.add_argument("--only", default=",".join(PARTS), help="of " + ",".join(PARTS))
+    parser.add_argument("--rows", help="file to write the table to, tab-separated")
+    parser.add_argument("--seed", type=int, default=1)
+    args = parser.parse_args()
+    bench = Bench(args)
+    bench.prepare()
+    for name in args.only.split(","):
+        PARTS[name](bench)
+    if args.rows:
+        Path(args.rows).write_text("".join("\t".join(map(str, row)) + "\n" for row in bench.rows))
+    return 1 if any(row[3] for row in bench.rows) else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

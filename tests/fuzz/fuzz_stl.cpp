@@ -1,0 +1,10 @@
+// tests/fuzz/fuzz_stl.cpp
+// Mesh files: STL, up to the bodies that blocks are made of.
+#include "fuzz.hpp"
+#include "io/mesh.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  return talus::accepts_or_refuses([&] {
+    static_cast<void>(talus::bodies_of(talus::parse_stl(talus::text_of(data, size), "fuzz.stl")));
+  });
+}

@@ -1,0 +1,22 @@
+#!/bin/sh
+# Fuzzes every parser under address and undefined sanitizers (clang, libFuzzer).
+#   sh tests/fuzz/run.sh [SECONDS] [PARSER...]     default: 600 seconds each, all parsers
+# New inputs go to build/fuzz/corpus; one that crashes to build/fuzz/crash-*, and the exit code is 1.
+# Worth keeping: ./fuzz_X -merge=1 tests/fuzz/corpus/X build/fuzz/corpus/X
+set -eu
+cd "$(dirname "$0")/../.."
+seconds=${1:-600}
+[ $# -eq 0 ] || shift
+parsers=${*:-$(ls tests/fuzz/corpus)}
+cmake --preset fuzz >/dev/null
+# shellcheck disable=SC2046,SC2086
+cmake --build --preset fuzz --target $(printf 'fuzz_%s ' $parsers)
+failed=0
+for parser in $parsers; do
+  mkdir -p "build/fuzz/corpus/$parser"
+  "build/fuzz/tests/fuzz/fuzz_$parser" -max_total_time="$seconds" -timeout=20 -rss_limit_mb=2048 \
+    -artifact_prefix="build/fuzz/crash-$parser-" -print_final_stats=1 -verbosity=0 \
+    "build/fuzz/corpus/$parser" "tests/fuzz/corpus/$parser" || failed=1
+  echo "fuzz_$parser: done"
+done
+exit $failed
