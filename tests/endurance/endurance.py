@@ -423,7 +423,7 @@ def enter_own_mounts(bench):
              "--seed", str(bench.args.seed)] + (["--long"] if bench.args.long else [])
     subprocess.run(words, env=dict(os.environ, TALUS_OWN_MOUNTS="1"))
     for line in rows.read_text().splitlines():
-        fault, tried, survived, lost, note = line.split("\t")
+        fault, tried, survived, lost, note, _ = line.split("\t")
         bench.rows.append((fault, int(tried), int(survived), int(lost), note))
 
 
@@ -628,7 +628,9 @@ def main():
     for name in args.only.split(","):
         PARTS[name](bench)
     if args.rows:
-        Path(args.rows).write_text("".join("\t".join(map(str, row)) + "\n" for row in bench.rows))
+        commit = re.search(r"\((.*)\)", bench.must(["talus-runs", "--version"], bench.work)).group(1)
+        Path(args.rows).write_text(
+            "".join("\t".join(map(str, (*row, commit))) + "\n" for row in bench.rows))
     return 1 if any(row[3] for row in bench.rows) else 0
 
 
