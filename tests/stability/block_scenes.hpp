@@ -18,15 +18,6 @@ namespace talus::stability {
 
 inline constexpr double degree = std::numbers::pi / 180;
 
-inline Body body_of(Polyhedron shape, const Vec3& velocity = Vec3::Zero(),
-                    const Vec3& spin = Vec3::Zero()) {
-  Body body;
-  body.parts = {std::move(shape)};
-  body.velocity = velocity;
-  body.spin = spin;
-  return body;
-}
-
 inline GroundClass rough(double phi_deg, double restitution = 0) {
   GroundClass ground;
   ground.friction = std::tan(phi_deg * degree);
@@ -48,8 +39,8 @@ inline Scene on_plane(const cases::SlopeFrame& frame, const std::vector<Body>& b
 inline std::vector<Body> pile_of(int n, const cases::SlopeFrame& frame) {
   std::vector<Body> bodies;
   for (int i = 0; i < n; ++i)
-    bodies.push_back(
-        body_of(cases::box_in(frame, Vec3::Zero(), Vec3(-0.5, -0.5, i), Vec3(0.5, 0.5, i + 1))));
+    bodies.push_back(cases::body_of(
+        cases::box_in(frame, Vec3::Zero(), Vec3(-0.5, -0.5, i), Vec3(0.5, 0.5, i + 1))));
   return bodies;
 }
 
@@ -67,7 +58,7 @@ inline std::vector<Body> arch_of(int n, double inner, double outer, double depth
         const double z = k == 0 || k == n ? 0 : std::sin(angle);
         v.emplace_back(radius * std::cos(angle), y, radius * z);
       }
-    bodies.push_back(body_of(cases::polyhedron(v, faces)));
+    bodies.push_back(cases::body_of(cases::polyhedron(v, faces)));
   }
   return bodies;
 }
@@ -80,7 +71,7 @@ inline std::vector<Body> wall_of(int n_courses, int n_long, double thickness) {
     const double z = 0.5 * row, shift = row % 2 == 0 ? 0.0 : 0.5;
     for (int i = 0; i < n_long + (row % 2); ++i) {
       const double low = std::max(0.0, i - shift), high = std::min(1.0 * n_long, i + 1 - shift);
-      bodies.push_back(body_of(box(Vec3(low, 0, z), Vec3(high, thickness, z + 0.5))));
+      bodies.push_back(cases::body_of(box(Vec3(low, 0, z), Vec3(high, thickness, z + 0.5))));
     }
   }
   return bodies;
@@ -137,10 +128,10 @@ inline Scene heap(const Settings& settings) {
   for (int i = 0; i < 12; ++i) {
     const Mat3 turn = Eigen::AngleAxisd(0.5 + i, Vec3(1, i, 2).normalized()).toRotationMatrix();
     const int layer = i / 4;
-    bodies.push_back(
-        body_of(cases::moved(box(Vec3(-0.6, -0.4, -0.3), Vec3(0.6, 0.4, 0.3)), turn, Vec3::Zero(),
-                             1.7 * Vec3(i % 2, i / 2 % 2, layer) + Vec3::UnitZ()),
-                Vec3(0.5, 0, -3)));
+    bodies.push_back(cases::body_of(
+        cases::moved(box(Vec3(-0.6, -0.4, -0.3), Vec3(0.6, 0.4, 0.3)), turn, Vec3::Zero(),
+                     1.7 * Vec3(i % 2, i / 2 % 2, layer) + Vec3::UnitZ()),
+        Vec3(0.5, 0, -3)));
   }
   Scene scene = on_plane(cases::slope_frame(10, 0), bodies, 25, 25, settings, 1, 60);
   scene.joint.restitution = scene.ground.classes[0].restitution = 0.3;

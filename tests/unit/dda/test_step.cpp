@@ -65,6 +65,28 @@ TEST(Step, DoesNotAllocate) {
   }
 }
 
+// Blocks that meet on rough ground: once the buffers have grown to the run, it asks for nothing.
+TEST(Step, IslandsDoNotAllocateAfterWarmUp) {
+  Scene scene = rough_scene({});
+  std::vector<Body> bodies;
+  for (int i = 0; i < 10; ++i)
+    bodies.push_back(body_of(
+        moved(box(Vec3(-0.6, -0.4, -0.3), Vec3(0.6, 0.4, 0.3)),
+              Eigen::AngleAxisd(i, Vec3(1, i, 2).normalized()).toRotationMatrix(), Vec3::Zero(),
+              Vec3(-40 + 1.7 * (i % 2), 3 + 1.7 * (i / 2 % 2), bumps(-40, 3) + 4 + 1.7 * (i / 4))),
+        Vec3(2, 0, 0)));
+  scene = scene_of(scene.ground.trn, scene.joint, bodies, {});
+  const State first = start(scene);
+  State state = first;
+  Work work = make_work(scene);
+  for (int warm_up = 0; warm_up < 6; ++warm_up, state = first)
+    for (int i = 0; i < 800; ++i) step(scene, state, work);
+  const long before = n_allocations;
+  for (int i = 0; i < 800; ++i) step(scene, state, work);
+  EXPECT_EQ(n_allocations, before);
+  EXPECT_GT(state.counters.impacts, 50);
+}
+
 TEST(Step, IsTheSameToTheBitWhenRepeated) {
   const Scene scene = rough_scene({});
   Motion last[2];
