@@ -87,7 +87,7 @@ std::string fence_verdict(const Json& fence) {
   const Json design = at(fence, {"design", "whole"});
   const std::string name = "fence " + words(at(fence, {"name"}));
   if (number(at(fence, {"whole", "n"})) == "0")
-    return "<div class=\"verdict\"><b>" + name + "</b>: nothing arrived.</div>\n";
+    return "<div class=\"verdict\"><b>" + name + "</b>: nothing crossed its line.</div>\n";
   const bool pass = at(design, {"pass"}).is_boolean() && at(design, {"pass"}).get<bool>();
   std::string out = std::string("<div class=\"verdict ") + (pass ? "pass" : "fail") + "\"><b>" +
                     name + (pass ? " meets " : " does not meet ") +

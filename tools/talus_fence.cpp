@@ -137,8 +137,8 @@ RunWhole whole_of(const RunFile& run, int index, const std::vector<FenceCase>& c
     RunAtFence at;
     at.standing = run.lines[line].standing;
     at.arrivals = arrivals(run, line, cases[i].fence, index);
-    at.verdicts = verdicts_of(run, index, at.arrivals, cases[i].fence, out.free_border, at.standing,
-                              contact_m);
+    at.verdicts = verdicts_of(run, index, line, at.arrivals, cases[i].fence, out.free_border,
+                              at.standing, contact_m);
     out.at_fence.push_back(std::move(at));
   }
   return out;
@@ -642,7 +642,7 @@ std::string summary_of(const FenceCase& c, std::size_t index, const FenceResult&
                     std::to_string(group.n()) + (group.n() == 1 ? " run:" : " runs:");
   for (const auto& [verdict, n] : count) out += " " + std::to_string(n) + " " + text(verdict) + ",";
   out.back() = ';';
-  if (r.whole.n == 0) return out + " nothing arrived";
+  if (r.whole.n == 0) return out + " nothing crossed its line";
   out += " largest energy " + text(r.whole.energy.largest / 1e3, 4) + " kJ, highest top " +
          text(r.whole.top.largest, 3) + " m; ";
   if (!r.design.enough)

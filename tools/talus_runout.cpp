@@ -332,9 +332,10 @@ Json balance_json(const Balance& b) {
 
 Json energy_json(const EnergyShares& s) {
   if (!(s.put_in > 0)) return {};
-  return {{"put_in_kj", s.put_in / 1e3}, {"friction", s.friction},      {"impact", s.impact},
-          {"contact", s.contact},        {"removed", s.removed},        {"kinetic_left", s.kinetic},
-          {"elastic_left", s.elastic},   {"unaccounted", s.unaccounted}};
+  return {
+      {"put_in_kj", s.put_in / 1e3}, {"friction", s.friction},    {"impact", s.impact},
+      {"contact", s.contact},        {"fence", s.fence},          {"removed", s.removed},
+      {"kinetic_left", s.kinetic},   {"elastic_left", s.elastic}, {"unaccounted", s.unaccounted}};
 }
 
 Json run_json(const RunMember& member, const RunResult& r, double friction_deg) {

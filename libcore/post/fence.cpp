@@ -190,12 +190,7 @@ Verdict observed_verdict(const FenceArrival& arrival, const Fence& fence, double
   return Verdict::pierced;
 }
 
-// Whether the block touched the fence: as recorded, else as near as frames show.
 bool came_near(const RunFile& file, int block, const Fence& fence, double contact) {
-  if (!file.panels.empty())
-    return std::any_of(file.fence_hits.begin(), file.fence_hits.end(), [&](const FenceHit& hit) {
-      return hit.block == block && file.lines[hit.line].name == fence.name;
-    });
   for (int k = 0; k < n_frames(file.frames); ++k) {
     const FrameBlock at = frame_block(file, k, block);
     for (int v = file.blocks.vertex_begin[block]; v < file.blocks.vertex_begin[block + 1]; ++v) {
@@ -206,7 +201,32 @@ bool came_near(const RunFile& file, int block, const Fence& fence, double contac
   return false;
 }
 
-std::vector<BlockVerdict> verdicts_of(const RunFile& file, int run,
+std::vector<FenceTouch> touches(const RunFile& file, int line) {
+  constexpr double never = std::numeric_limits<double>::infinity();
+  std::vector<FenceTouch> out(static_cast<std::size_t>(n_blocks(file)), FenceTouch{false, never});
+  for (const FenceHit& hit : file.fence_hits) {
+    if (hit.line != line) continue;
+    FenceTouch& touch = out[static_cast<std::size_t>(hit.block)];
+    touch.touched = true;
+    for (const PanelRow& panel : file.panels)
+      if (panel.line == line && panel.panel == hit.panel)
+        touch.broken_at = std::min(touch.broken_at, panel.broken_at);
+  }
+  return out;
+}
+
+Verdict touched_verdict(const FenceTouch& touch, const FenceArrival* arrival, const Fence& fence,
+                        double free_border) {
+  if (arrival == nullptr) return touch.touched ? Verdict::stopped : Verdict::not_reached;
+  if (arrival->beside) return touch.touched ? Verdict::stopped : bypass(*arrival);
+  if (arrival->top < 0) return Verdict::underpassed;
+  if (arrival->bottom > fence.height) return Verdict::overtopped;
+  // without a touch it came through where a panel was broken before
+  if (!touch.touched || touch.broken_at <= arrival->time) return Verdict::pierced;
+  return arrival->top > fence.height - free_border ? Verdict::free_border : Verdict::stopped;
+}
+
+std::vector<BlockVerdict> verdicts_of(const RunFile& file, int run, int line,
                                       const std::vector<FenceArrival>& of_run, const Fence& fence,
                                       double free_border, bool standing, double contact) {
   std::vector<BlockVerdict> out;
@@ -219,8 +239,16 @@ std::vector<BlockVerdict> verdicts_of(const RunFile& file, int run,
                          : expected_verdict(of_run[i], fence, free_border);
   }
   if (!standing) return out;
-  for (BlockVerdict& v : out)
-    if (v.arrival < 0 && came_near(file, v.block, fence, contact)) v.verdict = Verdict::stopped;
+  const bool has_hits = std::any_of(file.panels.begin(), file.panels.end(),
+                                    [line](const PanelRow& panel) { return panel.line == line; });
+  const std::vector<FenceTouch> touch = touches(file, line);
+  for (BlockVerdict& v : out) {
+    const FenceArrival* const arrival = v.arrival < 0 ? nullptr : &of_run[v.arrival];
+    if (has_hits)
+      v.verdict = touched_verdict(touch[v.block], arrival, fence, free_border);
+    else if (arrival == nullptr && came_near(file, v.block, fence, contact))
+      v.verdict = Verdict::stopped;
+  }
   return out;
 }
 

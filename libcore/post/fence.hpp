@@ -85,13 +85,28 @@ struct FenceArrival {
                                        double free_border);
 [[nodiscard]] bool came_near(const RunFile& file, int block, const Fence& fence, double contact);
 
-/// A verdict for each block of a run, exactly one.
+/// What a standing fence did to a block that touched it, from the run's record of hits.
+struct FenceTouch {
+  bool touched = false;
+  double broken_at = 0;  ///< first break of a panel that it touched; infinite: they stand [s]
+};
+/// Of each block, at one line                                                        (n_blocks)
+[[nodiscard]] std::vector<FenceTouch> touches(const RunFile& file, int line);
+
+/// With the record of hits: a block that touched a panel which stood when its centroid crossed the
+/// line, and did not go over it, hangs in the fence: stopped. `arrival`: null when it did not
+/// cross.
+[[nodiscard]] Verdict touched_verdict(const FenceTouch& touch, const FenceArrival* arrival,
+                                      const Fence& fence, double free_border);
+
+/// A verdict for each block of a run, exactly one. Where the run recorded panels at `line`, hits
+/// say who touched the fence; else nearness in frames does (came_near).
 struct BlockVerdict {
   int run = 0, block = 0;
   Verdict verdict = Verdict::not_reached;
   int arrival = -1;  ///< index among the run's arrivals, -1 none
 };
-[[nodiscard]] std::vector<BlockVerdict> verdicts_of(const RunFile& file, int run,
+[[nodiscard]] std::vector<BlockVerdict> verdicts_of(const RunFile& file, int run, int line,
                                                     const std::vector<FenceArrival>& arrivals,
                                                     const Fence& fence, double free_border,
                                                     bool standing, double contact);

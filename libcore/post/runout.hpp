@@ -120,6 +120,7 @@ struct CurveRow {
 struct EnergyShares {
   double put_in = 0;  ///< loss of potential energy + kinetic energy at the start + input [J]
   double friction = 0, impact = 0, contact = 0, removed = 0, kinetic = 0, elastic = 0;
+  double fence = 0;  ///< taken by panels of fences that gave way
   double unaccounted = 0;
 };
 /// Zero everywhere when the run has no health record or nothing was put in.

@@ -62,7 +62,7 @@ Verdict verdict_of_single(double chainage, double height, double edge, double en
   add_crossing(run, chainage, height, edge, energy);
   const Fence fence = straight_fence();
   const auto list = arrivals(run, 0, fence, 0);
-  return verdicts_of(run, 0, list, fence, 0.5, false, 0.1).at(0).verdict;
+  return verdicts_of(run, 0, 0, list, fence, 0.5, false, 0.1).at(0).verdict;
 }
 
 }  // namespace
@@ -111,7 +111,7 @@ TEST(Verdicts, AreExactlyOneABlock) {
   const Fence fence = straight_fence();
   const auto list = arrivals(run, 0, fence, 0);
   std::map<Verdict, int> count;
-  for (const BlockVerdict& v : verdicts_of(run, 0, list, fence, 0.5, false, 0.1)) {
+  for (const BlockVerdict& v : verdicts_of(run, 0, 0, list, fence, 0.5, false, 0.1)) {
     ++count[v.verdict];
     EXPECT_EQ(v.verdict == Verdict::not_reached, v.arrival < 0);
   }
@@ -146,7 +146,7 @@ TEST(ObservedVerdict, TellsStoppedFromNotReached) {
   add_frame(run, 1,
             {standing({18.95, 20, 101}), standing({12, 30, 101}), standing({40, 15, 101}),
              standing({40, 15, 101})});
-  const auto list = verdicts_of(run, 0, arrivals(run, 0, fence, 0), fence, 0.5, true, 0.1);
+  const auto list = verdicts_of(run, 0, 0, arrivals(run, 0, fence, 0), fence, 0.5, true, 0.1);
   EXPECT_EQ(list[0].verdict, Verdict::stopped);
   EXPECT_EQ(list[1].verdict, Verdict::not_reached);
   EXPECT_EQ(list[2].verdict, Verdict::pierced);
@@ -199,6 +199,52 @@ TEST(Summarise, AddsUpTheHitsOfOneSecond) {
   EXPECT_EQ(s.window_hits, 3);
   EXPECT_EQ(s.most_in_a_run, 5);
   EXPECT_EQ(s.runs_hit_twice, 1);
+}
+
+// With the record of hits: who touched a panel that stood is held, even when the panel gave way so
+// far that the centroid crossed the line; who broke it, or came later through the gap, pierced it.
+TEST(TouchedVerdict, FollowsTheRecordOfHits) {
+  constexpr double never = std::numeric_limits<double>::infinity();
+  const Fence fence = straight_fence();
+  FenceArrival through;
+  through.time = 4;
+  through.bottom = 0;
+  through.top = 1;
+  const auto verdict = [&](bool touched, double broken_at, const FenceArrival* arrival) {
+    return touched_verdict({touched, broken_at}, arrival, fence, 0.5);
+  };
+  EXPECT_EQ(verdict(false, never, nullptr), Verdict::not_reached);
+  EXPECT_EQ(verdict(true, never, nullptr), Verdict::stopped);
+  EXPECT_EQ(verdict(true, never, &through), Verdict::stopped);
+  EXPECT_EQ(verdict(true, 3.9, &through), Verdict::pierced);
+  EXPECT_EQ(verdict(true, 4.1, &through), Verdict::stopped);
+  EXPECT_EQ(verdict(false, never, &through), Verdict::pierced);
+  through.top = fence.height - 0.1;
+  EXPECT_EQ(verdict(true, never, &through), Verdict::free_border);
+  through.top = fence.height + 3;
+  through.bottom = fence.height + 1;
+  EXPECT_EQ(verdict(true, never, &through), Verdict::overtopped);
+  through.beside = true;
+  EXPECT_NE(verdict(false, never, &through), Verdict::stopped);
+  EXPECT_EQ(verdict(true, never, &through), Verdict::stopped);
+}
+
+TEST(Touches, TakeTheFirstBreakOfThePanelsOfTheirLine) {
+  RunFile run;
+  for (int block = 0; block < 3; ++block) add_box(run, {1, 1, 1}, {0, 0, 0});
+  constexpr double never = std::numeric_limits<double>::infinity();
+  run.panels = {{0, 0, 1e5, 0, 0, never, -1}, {0, 1, 1e5, 1e5, 1, 5, 1}, {1, 0, 1e5, 0, 0, 2, 0}};
+  FenceHit hit;
+  run.fence_hits.assign(3, hit);
+  run.fence_hits[1].block = 1;
+  run.fence_hits[1].panel = 1;
+  run.fence_hits[2].block = 2;
+  run.fence_hits[2].line = 1;
+  const std::vector<FenceTouch> touch = touches(run, 0);
+  EXPECT_TRUE(touch[0].touched);
+  EXPECT_EQ(touch[0].broken_at, never);
+  EXPECT_EQ(touch[1].broken_at, 5);
+  EXPECT_FALSE(touch[2].touched);
 }
 
 // On a slope of 0.5 that falls to the east, filled to 4 m: a triangle of 4 m by 8 m behind a fence

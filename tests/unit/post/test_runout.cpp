@@ -186,13 +186,15 @@ TEST(EnergyShares, SumToOne) {
   end.potential = 200;
   end.friction = 500;
   end.impact = 200;
-  end.contact = 60;
+  end.contact = 40;
+  end.fence = 20;
   end.translation = 30;
   end.rotation = 10;
   run.health = {start, end};
   const EnergyShares s = energy_shares(run);
   EXPECT_DOUBLE_EQ(s.put_in, 800);
   EXPECT_DOUBLE_EQ(s.friction, 0.625);
+  EXPECT_DOUBLE_EQ(s.fence, 0.025);
   EXPECT_NEAR(s.unaccounted, 0, 1e-15);
 }
 
