@@ -120,7 +120,8 @@ std::string slide_table(const SlideOutcome& slide) {
   for (const EnsembleResult& result : slide.results) {
     table += "| " + text(result.settings.dt);
     for (std::size_t q = 0; q < result.mean.size(); ++q)
-      table += " | " + text(result.mean[q], 5) + " ± " + text(result.standard_error[q], 2);
+      table += " | " + text(result.mean[q], 5) +
+               (result.n_runs > 1 ? " ± " + text(result.standard_error[q], 2) : "");
     table += " | " + text(result.cpu, 3) + " | " + std::to_string(result.sums.unconverged) + " |\n";
   }
   return table + "\nUncertainty of the reference (last line): centre " +

@@ -11,6 +11,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     hash.add(data, size);
     const std::string digest = hash.hex();
     bytes.insert(bytes.end(), digest.begin(), digest.end());
-    static_cast<void>(talus::unpack(bytes, 2, 100, "fuzz.h5"));
+    constexpr int n_blocks = 2, n_cells = 1 << 20;  // of the corpus, or more
+    static_cast<void>(talus::unpack(bytes, n_blocks, n_cells, "fuzz.h5"));
   });
 }

@@ -1,0 +1,33 @@
+# Settings for a site's own scene: three boxes on a slope.
+. "$source_dir/tests/tools/talus-dda/common.sh"
+make_terrain
+make_site
+sed -e 's/^height_above_ground_m.*//' -e 's/^spin_rad_s.*//' -e 's/^duration_s.*/duration_s = 1/' site.toml >flat.toml
+mv flat.toml site.toml
+make_blocks
+
+study() { talus-verify --site site.toml --trn slope.tif --blocks blocks.h5 --runs 2 --no-db "$@"; }
+expect 0 study -o s --tolerance 5%
+prints "cheapest within 5%"
+cp out s/out
+grep -qx '\[solver\]' s/solver.toml || fail "solver.toml has no [solver]"
+grep -qE '^time_step_s = 0\.' s/solver.toml || fail "solver.toml names no step"
+grep -q '^site_centre,talus,18,' s/site.csv || fail "site.csv does not hold three rigid blocks"
+grep -q "</svg>" s/site.svg || fail "no diagram"
+# the settings found are read by talus-dda: they replace the site's own section
+sed '/^\[solver\]/,$d' site.toml >found.toml
+cat s/solver.toml >>found.toml
+expect 0 talus-dda found.toml --trn slope.tif --blocks blocks.h5 --plan --no-db
+
+# the reference is what talus-dda gives with the short step, but for the start of 1 mm/s
+mean=$(sed -n 's/^Reference \([0-9.]*\) .*/\1/p' s/out)
+talus-dda site.toml --trn slope.tif --blocks blocks.h5 -o run.h5 --time-step-s 1e-3 --json --no-db >run.json
+east=$(sed -n '/mean_displacement_m/{n;p;}' run.json | tr -d ' ,')
+awk -v m="$mean" -v e="$east" 'BEGIN { exit !(e > 0.1 && m > 0.97 * e && m < 1.03 * e) }' ||
+  fail "the reference is $mean m, talus-dda moves the blocks $east m"
+
+expect 1 study -o bad --tolerance much
+says "expected a share above 0"
+expect 1 talus-verify --site site.toml -o bad --no-db
+says "needs a terrain and blocks"
+exit 0
