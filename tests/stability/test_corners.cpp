@@ -2,9 +2,18 @@
 // as right as the chart in docs/verification.md says.
 #include <gtest/gtest.h>
 
+#include <ostream>
 #include <string>
 
 #include "verify/stability.hpp"
+
+namespace talus {
+
+void PrintTo(const Corner& corner, std::ostream* out) {
+  *out << corner.axis << ' ' << corner.value << ' ' << corner.unit;
+}
+
+}  // namespace talus
 
 namespace {
 
