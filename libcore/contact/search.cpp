@@ -14,6 +14,7 @@ using std::size_t;
 // A block's face and a ridge count as parallel below this sine; ten times what ground_flags calls
 // flat.
 constexpr double nearly_parallel = 1e-3;
+constexpr double same_wall = 1e-9;  // of the block's size: a node on a wall belongs to both parts
 
 /// A triangle, and across which of its edges the next one lies.
 struct Neighbour {
@@ -111,6 +112,15 @@ std::array<Vec3, 6> node_ring(const Trn& trn, int row, int col) {
           node_point(trn, row + 1, col),     node_point(trn, row + 1, col + 1)};
 }
 
+// Whether X lies across a wall of part p, where another part of the body begins.
+bool is_across_wall(const Shapes& shapes, int p, const Vec3& X, double same) {
+  const auto begin = shapes.walls.begin();
+  return std::any_of(
+      begin + shapes.wall_begin[static_cast<size_t>(p)],
+      begin + shapes.wall_begin[static_cast<size_t>(p) + 1],
+      [&](const ShapeWall& wall) { return wall.normal.dot(X) > wall.offset + same; });
+}
+
 void find_mode_2(const FeatureSearch& s, int row, int col, std::vector<Contact>& contacts) {
   const Trn& trn = s.ground.trn;
   const Vec3 node = node_point(trn, row, col);
@@ -128,6 +138,7 @@ void find_mode_2(const FeatureSearch& s, int row, int col, std::vector<Contact>&
       if (d > gap) gap = d, nearest = f;
     }
     if (nearest < 0 || gap > s.margin) continue;
+    if (is_across_wall(s.shapes, p, X, same_wall * radius)) continue;
     const Vec3 outward = s.to_local * s.shapes.faces[static_cast<size_t>(nearest)].normal;
     if (!vertex_may_enter(node, node_ring(trn, row, col), outward, 1e-12 * trn.cell_size)) continue;
     Contact contact;

@@ -16,7 +16,8 @@ constexpr double none = -infinity;
 constexpr double parallel_sin_sq = 3.0458649045213493e-4;  // sin^2 1 deg: edges that make no axis
 constexpr double keep_ratio = 0.1;   // another face must be better by this part of |separation|
 constexpr double face_ratio = 1e-3;  // ... and of the thickness; edges too
-constexpr double same_axis_ratio = 2e-2;     // ... in the same direction
+constexpr double same_axis_ratio = 2e-2;  // ... in the same direction
+constexpr double seam_ratio = 5e-3;  // overlap across a covered face that the covering part bears
 constexpr double longest_hold_ratio = 0.02;  // of the smaller radius, and at most longest_hold
 constexpr double longest_hold = 0.05;        // [m]
 
@@ -149,17 +150,22 @@ bool has_pieces(const Hulls& hulls, int part) {
 }
 
 // Faces inside a body, and faces that would meet one, stop nothing: their axes are taken out.
-void remove_internal(const Parts& parts, AxisScratch& scratch) {
-  if (!has_pieces(parts.hulls, parts.a) && !has_pieces(parts.hulls, parts.b)) return;
+// Returns the largest separation along them.
+double remove_internal(const Parts& parts, AxisScratch& scratch) {
+  double largest = none;
+  if (!has_pieces(parts.hulls, parts.a) && !has_pieces(parts.hulls, parts.b)) return largest;
   const auto hidden = [&](int part, int face) {
     return parts.hulls.internal[parts.hulls.face_begin[part] + face] != 0;
   };
   for_each_face(parts, scratch, [&](const FaceAxis& axis) {
     const int other = axis.part == parts.a ? parts.b : parts.a;
-    if (hidden(axis.part, axis.face) ||
-        hidden(other, incident_face(parts.hulls, parts.placed, other, outward(parts, axis))))
-      (axis.part == parts.a ? scratch.face_a : scratch.face_b)[axis.face] = none;
+    if (!hidden(axis.part, axis.face) &&
+        !hidden(other, incident_face(parts.hulls, parts.placed, other, outward(parts, axis))))
+      return;
+    largest = std::max(largest, axis.separation);
+    (axis.part == parts.a ? scratch.face_a : scratch.face_b)[axis.face] = none;
   });
+  return largest;
 }
 
 FaceAxis best_face(const Parts& parts, const AxisScratch& scratch) {
@@ -320,12 +326,17 @@ AxisChoice find_axis(const Hulls& hulls, const PlacedHulls& placed, int part_a, 
     return apart;
   }
 
-  remove_internal(parts, scratch);
+  const double hidden = remove_internal(parts, scratch);
   const double thickness = std::min(hulls.thickness[part_a], hulls.thickness[part_b]);
+  const double seam = std::max(seam_ratio * thickness, margin);
   const FaceAxis best = best_face(parts, scratch);
   // what edges need above the best face: half as much when an edge pair was chosen last
   const double edge_bar = face_ratio * thickness * (last.kind == AxisKind::edges ? 0.5 : 1);
   AxisChoice choice;
+  if (hidden >= -seam && hidden > std::max(best.separation, edges.separation)) {
+    apart.axis = {};
+    return apart;
+  }
   if (edges.separation > best.separation + edge_bar) {
     choice = edge_choice(parts, scratch, edges, best.separation, edge_bar);
   } else if (best.separation > none) {
@@ -339,7 +350,8 @@ AxisChoice find_axis(const Hulls& hulls, const PlacedHulls& placed, int part_a, 
   choice.touches = true;
   const double radius =
       std::min(hulls.radius[hulls.body[part_a]], hulls.radius[hulls.body[part_b]]);
-  choice.hold = std::clamp(choice.hold, 0.0, std::min(longest_hold, longest_hold_ratio * radius));
+  choice.hold = std::clamp(std::min(choice.hold, -seam - hidden), 0.0,
+                           std::min(longest_hold, longest_hold_ratio * radius));
   return choice;
 }
 
