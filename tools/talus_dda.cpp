@@ -335,15 +335,10 @@ void write_outputs(Tool& tool, Runner& runner, const Options& o) {
 }
 
 // A slide whose blocks pass through each other must not look like a result.
-void check_blocks_apart(Tool& tool, const Options& o, const ScenePlan& plan, int n) {
-  if (n < 2 || plan.block_contacts) return;
-  const std::string finding = std::to_string(n) + " blocks";
-  if (!o.independent)
-    throw InputError(
-        {o.files.blocks},
-        finding + ", and law paper computes no contacts between blocks, expected one",
-        "take law talus, or --independent, which moves each block as if it were alone");
-  tool.warn(finding + " move as if each were alone: contacts between them are not computed");
+void warn_of_blocks_apart(Tool& tool, const ScenePlan& plan, int n) {
+  if (n > 1 && !plan.block_contacts)
+    tool.warn(std::to_string(n) +
+              " blocks move as if each were alone: contacts between them are not computed");
 }
 
 // Also the half of one that a killed run left. One that cannot be removed does no harm.
@@ -383,7 +378,7 @@ int main(int argc, char** argv) {
       tool.result({{"plan", as_json(plan)}}, as_text(plan));
       return;
     }
-    check_blocks_apart(tool, o, plan, n_blocks(inputs.parts.blocks));
+    warn_of_blocks_apart(tool, plan, n_blocks(inputs.parts.blocks));
     check_overlaps(tool, site, inputs, o.files, plan.block_contacts);
     tool.detail(as_text(plan));
     RunFile file = new_file(site, inputs, plan, o);

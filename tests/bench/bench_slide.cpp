@@ -36,7 +36,7 @@ double mechanical_energy(const Scene& scene, const State& state) {
 }
 
 // The scene as the peers have it; a start velocity of 1 mm/s from `seed`, 0: at rest.
-Scene slide(const std::string& folder, int blocks, double dt, std::uint64_t seed) {
+Scene slide(const std::string& folder, int blocks, double dt, std::uint64_t seed, Law law) {
   std::vector<Body> bodies = read_blocks(folder + "/blocks_" + std::to_string(blocks) + ".obj");
   Random random(seed);
   for (Body& body : bodies)
@@ -48,18 +48,20 @@ Scene slide(const std::string& folder, int blocks, double dt, std::uint64_t seed
   ground.restitution = 0.7;
   Settings settings;
   settings.dt = dt;
+  settings.law = law;
+  if (law == Law::paper) settings.normal_stiffness = 5e10;
   return cases::scene_of(read_grid(folder + "/terrain_F.asc"), ground, bodies, settings,
                          {2500, 5e10, 0.25});
 }
 
 // Arguments: blocks, time step [1e-4 s], seed, duration [0.1 s].
-void Slide(benchmark::State& run) {
+void slide_by(benchmark::State& run, Law law) {
   const char* peers = std::getenv("TALUS_PEERS_DIR");
   if (peers == nullptr) return run.SkipWithError("TALUS_PEERS_DIR is not set");
   const double dt = 1e-4 * static_cast<double>(run.range(1));
   const double duration = 0.1 * static_cast<double>(run.range(3));
-  const Scene scene =
-      slide(peers, static_cast<int>(run.range(0)), dt, static_cast<std::uint64_t>(run.range(2)));
+  const Scene scene = slide(peers, static_cast<int>(run.range(0)), dt,
+                            static_cast<std::uint64_t>(run.range(2)), law);
   for (auto _ : run) {
     State state = start(scene);
     Work work = make_work(scene);
@@ -88,6 +90,9 @@ void Slide(benchmark::State& run) {
     run.counters["balance"] = (lost - l.friction - l.impact - l.contact - l.removed) / lost;
   }
 }
+void Slide(benchmark::State& run) { slide_by(run, Law::talus); }
+void SlidePaper(benchmark::State& run) { slide_by(run, Law::paper); }
+
 BENCHMARK(Slide)
     ->Name("Slide39")
     ->ArgsProduct({{39}, {10, 50, 100, 200, 300}, {0, 1, 2, 3, 4, 5, 6, 7, 8}, {200}})
@@ -96,6 +101,11 @@ BENCHMARK(Slide)
 BENCHMARK(Slide)
     ->Name("SlideDense")
     ->ArgsProduct({{39, 390, 3900}, {10, 50, 100}, {0}, {1, 5}})
+    ->Unit(benchmark::kSecond)
+    ->Iterations(1);
+BENCHMARK(SlidePaper)
+    ->Name("Slide39Paper")
+    ->ArgsProduct({{39}, {1, 2, 5, 10, 50}, {0, 1, 2}, {5, 200}})
     ->Unit(benchmark::kSecond)
     ->Iterations(1);
 
