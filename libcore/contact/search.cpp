@@ -98,7 +98,8 @@ struct FeatureSearch {
   int b;
   const Pose& pose;
   double margin;
-  Mat3 to_local;  // body to local axes
+  Mat3 to_local;   // body to local axes
+  Vec3 low, high;  // box of the block, local axes
 
   [[nodiscard]] Vec3 to_body(const Vec3& x) const {
     return to_local.transpose() * (x - pose.position);
@@ -196,25 +197,27 @@ void find_mode_3(const FeatureSearch& s, int row, int col, EdgeKind kind,
   const TrnEdge edge = trn_edge(trn, row, col, kind);
   const Vec3 end_a = node_point(trn, edge.a.row, edge.a.col);
   const Vec3 end_b = node_point(trn, edge.b.row, edge.b.col);
+  if ((end_a.cwiseMax(end_b) - s.low).minCoeff() < -s.margin ||
+      (s.high - end_a.cwiseMin(end_b)).minCoeff() < -s.margin)
+    return;
   const Vec3 Q = s.to_body(end_a);
   const Vec3 f = s.to_local.transpose() * (end_b - end_a);
   const double radius = s.shapes.radius[static_cast<size_t>(s.b)] + s.margin;
   const double nearest = std::clamp(-Q.dot(f) / f.squaredNorm(), 0.0, 1.0);
   if ((Q + nearest * f).squaredNorm() > radius * radius) return;
-  const Vec3 left = s.to_local.transpose() * triangle_plane(trn, edge.left).normal;
-  const Vec3 right = s.to_local.transpose() * triangle_plane(trn, edge.right).normal;
+  const GaussArc ridge = gauss_arc(s.to_local.transpose() * triangle_plane(trn, edge.left).normal,
+                                   s.to_local.transpose() * triangle_plane(trn, edge.right).normal);
   const double deepest = s.shapes.thickness[static_cast<size_t>(s.b)] / 2;
   const std::span<const Vec3> body = vertices_of(s.shapes, s.b);
   const std::span<const ShapeEdge> edges = edges_of(s.shapes, s.b);
   for (size_t i = 0; i < edges.size(); ++i) {
-    if (!edges_may_touch(edges[i].normal_left, edges[i].normal_right, left, right, nearly_parallel))
-      continue;
+    if (!edges_may_touch(edges[i].arc, ridge, nearly_parallel)) continue;
     const Vec3& P = body[static_cast<size_t>(edges[i].a)];
     const Vec3 e = body[static_cast<size_t>(edges[i].b)] - P;
     const LinePair at = nearest_on_lines(P, e, Q, f);
     if (at.parallel || at.s < 0 || at.s > 1 || at.t < 0 || at.t > 1) continue;
     Vec3 normal = e.cross(f).normalized();
-    if (normal.dot(left + right) < 0) normal = -normal;
+    if (normal.dot(ridge.left + ridge.right) < 0) normal = -normal;
     const Vec3 a = P + at.s * e;
     const double gap = normal.dot(a - (Q + at.t * f));
     if (gap > s.margin || gap < -deepest) continue;
@@ -273,7 +276,7 @@ SearchResult find_contacts(const Ground& ground, const Shapes& shapes, int b, co
   if (near.reach == Reach::above) return {near.reach, low.z() - near.ground.high};
   if (near.reach == Reach::off_ground) return {near.reach, 0};
   find_mode_1(ground, shapes, b, near.ground.high, margin, vertices, contacts);
-  find_features({ground, shapes, b, pose, margin, R}, near.cells, contacts);
+  find_features({ground, shapes, b, pose, margin, R, low, high}, near.cells, contacts);
   return {near.reach, 0};
 }
 

@@ -48,48 +48,51 @@ void normal_dots(const Parts& parts, int part, const Vec3& direction, double* ro
 struct BestEdges {
   double separation = none;
   double second = none;
+  double elsewhere = none;  // of those in other directions than the best face
   int a = -1, b = -1;
   Vec3 normal = Vec3::Zero();
 };
 
-// Unit normal of two edges, from B to A; zero when they are parallel within a degree.
-Vec3 edge_normal(const Parts& parts, const HullEdge& edge_b, const Vec3& along_a,
-                 const Vec3& along_b) {
+// A normal to two edges, from B to A, as long as their cross product; zero when they are parallel
+// within a degree.
+Vec3 edge_cross(const Parts& parts, const HullEdge& edge_b, const Vec3& along_a,
+                const Vec3& along_b) {
   const Vec3 cross = along_a.cross(along_b);
-  const double length_sq = cross.squaredNorm();
-  if (!(length_sq > parallel_sin_sq * along_a.squaredNorm() * along_b.squaredNorm()))
+  if (!(cross.squaredNorm() > parallel_sin_sq * along_a.squaredNorm() * along_b.squaredNorm()))
     return Vec3::Zero();
   const int first = parts.hulls.face_begin[parts.b];
   const Vec3 outward = normal_at(parts.placed, first + edge_b.arc_left) +
                        normal_at(parts.placed, first + edge_b.arc_right);
-  const double scale = 1 / std::sqrt(length_sq);
-  return cross.dot(outward) > 0 ? Vec3(scale * cross) : Vec3(-scale * cross);
+  return cross.dot(outward) > 0 ? cross : Vec3(-cross);
 }
 
-double edge_separation(const Parts& parts, const HullEdge& edge_a, const HullEdge& edge_b,
-                       const Vec3& normal) {
-  return normal.dot(parts.placed.vertices[slot(parts.hulls, parts.a, edge_a.a)] -
-                    parts.placed.vertices[slot(parts.hulls, parts.b, edge_b.a)]);
-}
-
-void consider_edges(const Parts& parts, int e_a, int e_b, const Vec3& along_a, BestEdges& best) {
+void consider_edges(const Parts& parts, int e_a, int e_b, const Vec3& along_a,
+                    const Vec3& best_face, BestEdges& best) {
   const Hulls& hulls = parts.hulls;
   const HullEdge& edge_a = hulls.edges[hulls.edge_begin[parts.a] + e_a];
   const HullEdge& edge_b = hulls.edges[hulls.edge_begin[parts.b] + e_b];
-  const Vec3 normal = edge_normal(parts, edge_b, along_a, edge_direction(parts, parts.b, edge_b));
-  if (normal.isZero(0)) return;
-  const double separation = edge_separation(parts, edge_a, edge_b, normal);
+  const Vec3 cross = edge_cross(parts, edge_b, along_a, edge_direction(parts, parts.b, edge_b));
+  const double length_sq = cross.squaredNorm();
+  if (length_sq == 0) return;
+  const double along = cross.dot(parts.placed.vertices[slot(hulls, parts.a, edge_a.a)] -
+                                 parts.placed.vertices[slot(hulls, parts.b, edge_b.a)]);
+  const double least = std::min(best.second, best.elsewhere);  // few get past this
+  if (along < 0 && least < 0 && along * along > least * least * length_sq) return;
+  const double scale = 1 / std::sqrt(length_sq), separation = scale * along;
+  const Vec3 normal = scale * cross;
+  if (separation > best.elsewhere && normal.dot(best_face) < same_axis_cos)
+    best.elsewhere = separation;
   if (separation <= best.separation) {
     best.second = std::max(best.second, separation);
     return;
   }
-  best = {separation, best.separation, e_a, e_b, normal};
+  best = {separation, best.separation, best.elsewhere, e_a, e_b, normal};
 }
 
 // All pairs of active edges whose Gauss arcs cross (theory 2.2). Along an edge, left x right of its
 // arc points as the edge does, so the arcs' cross products are the edges' directions, and the test
 // needs only the products of edge directions with the other part's normals.
-BestEdges find_edges(const Parts& parts, AxisScratch& scratch) {
+BestEdges find_edges(const Parts& parts, const Vec3& best_face, AxisScratch& scratch) {
   const Hulls& hulls = parts.hulls;
   const std::size_t width_a = hulls.face_begin[parts.a + 1] - hulls.face_begin[parts.a];
   const std::size_t width_b = hulls.face_begin[parts.b + 1] - hulls.face_begin[parts.b];
@@ -113,7 +116,7 @@ BestEdges find_edges(const Parts& parts, AxisScratch& scratch) {
       if (left * row[edges_b[k].arc_right] >= 0) continue;
       const double right = column[edges_a[i].arc_right];
       if (column[edges_a[i].arc_left] * right >= 0 || left * right >= 0) continue;
-      consider_edges(parts, i, k, along_a, best);
+      consider_edges(parts, i, k, along_a, best_face, best);
     }
   }
   return best;
@@ -238,7 +241,7 @@ AxisChoice face_choice(const Parts& parts, const AxisScratch& scratch, const Fac
   choice.separation = face.separation;
   choice.other_face = best_other_face(parts, scratch, choice.normal);
   choice.hold = std::min(face.separation + keep_bonus(face, thickness) - choice.other_face,
-                         best_separation + edge_bar - edges.separation) /
+                         best_separation + edge_bar - edges.elsewhere) /
                 2;
   if (edges.separation > choice.separation) {
     choice.better_edges = {AxisKind::edges, edges.a, edges.b};
@@ -313,9 +316,10 @@ AxisChoice find_axis(const Hulls& hulls, const PlacedHulls& placed, int part_a, 
   const Parts parts{hulls, placed, part_a, part_b};
   face_separations(hulls, placed, part_a, part_b, scratch.face_a);
   face_separations(hulls, placed, part_b, part_a, scratch.face_b);
-  AxisChoice apart = apart_choice(parts, best_face(parts, scratch));
+  const FaceAxis farthest = best_face(parts, scratch);
+  AxisChoice apart = apart_choice(parts, farthest);
   if (apart.separation > margin) return apart;
-  const BestEdges edges = find_edges(parts, scratch);
+  const BestEdges edges = find_edges(parts, to_a(parts, farthest), scratch);
   if (edges.separation > margin && edges.separation > apart.separation) {
     apart.axis = {AxisKind::edges, edges.a, edges.b};
     apart.separation = edges.separation;
@@ -370,8 +374,10 @@ Vec3 axis_normal(const Hulls& hulls, const PlacedHulls& placed, int part_a, int 
   const Parts parts{hulls, placed, part_a, part_b};
   const HullEdge& edge_a = hulls.edges[hulls.edge_begin[part_a] + axis.feature_a];
   const HullEdge& edge_b = hulls.edges[hulls.edge_begin[part_b] + axis.feature_b];
-  return edge_normal(parts, edge_b, edge_direction(parts, part_a, edge_a),
-                     edge_direction(parts, part_b, edge_b));
+  const Vec3 cross = edge_cross(parts, edge_b, edge_direction(parts, part_a, edge_a),
+                                edge_direction(parts, part_b, edge_b));
+  const double length_sq = cross.squaredNorm();
+  return length_sq == 0 ? cross : Vec3(1 / std::sqrt(length_sq) * cross);
 }
 
 }  // namespace talus

@@ -46,7 +46,8 @@ void add_edges(Shapes& shapes, const Polyhedron& shell, std::span<const int> ver
             .normalized();
     const Vec3 left = to_body * face_normal(shell, edge.left);
     const Vec3 right = to_body * face_normal(shell, edge.right);
-    if (left.cross(right).dot(along) > flattest_edge) shapes.edges.push_back({a, b, left, right});
+    if (left.cross(right).dot(along) > flattest_edge)
+      shapes.edges.push_back({a, b, gauss_arc(left, right)});
   }
   shapes.edge_begin.push_back(static_cast<int>(shapes.edges.size()));
 }

@@ -8,14 +8,15 @@
 #include <vector>
 
 #include "base/types.hpp"
+#include "contact/entrance.hpp"
 #include "geometry/polyhedron.hpp"
 
 namespace talus {
 
-/// A convex edge of a block's shell with the outward normals of the two faces that meet at it.
+/// A convex edge of a block's shell.
 struct ShapeEdge {
-  int a = 0, b = 0;                ///< vertices, counted from the block's first
-  Vec3 normal_left, normal_right;  ///< unit, body axes
+  int a = 0, b = 0;  ///< vertices, counted from the block's first
+  GaussArc arc;      ///< in body axes
 };
 
 /// A face of a convex part.

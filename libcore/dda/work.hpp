@@ -46,10 +46,11 @@ struct IslandContact {
   double target = 0;         ///< normal velocity at the end of the substep [m/s]
 };
 
-/// How a body turns over a substep without contact.
+/// How a body turns over a substep without contact, and how hard it is to turn.
 struct FreeTurn {
   Mat3 by;                    ///< from start to end, local axes
   Vec3 spin_start, spin_end;  ///< local axes [rad/s]
+  Mat3 per_inertia;           ///< inverse of the inertia at the end, local axes [1/(kg m2)]
 };
 
 /// What the step of islands recomputes.
@@ -75,7 +76,7 @@ struct IslandStepWork {  // clang-format off
   std::vector<Substep> substeps;            ///<                                         (n_members)
   std::vector<int> place;                   ///< of a body in `members`, -1: not in it   (n_bodies)
   std::vector<int> continued;               ///< memory that a manifold's point continues
-  std::vector<std::uint8_t> claimed;        ///< 1: a memory that is continued
+  std::vector<int> unclaimed;               ///< memories of the pair that no point continues yet
   std::vector<BondLoad> bond_loads;         ///< of this substep, by bond
   std::vector<PanelPush> pushes;            ///< on panels of fences, in this substep
   std::vector<FreeTurn> turns;              ///<                                         (n_members)
