@@ -126,8 +126,8 @@ double depth_in_part(const Shapes& shapes, int p, const Vec3& X, const ShapeEdge
        f < shapes.face_begin[static_cast<size_t>(p) + 1]; ++f) {
     const ShapeFace& face = shapes.faces[static_cast<size_t>(f)];
     const double inside = face.offset - face.normal.dot(X);
-    const bool at_edge = face.normal.dot(edge.normal_left) > same_cos ||
-                         face.normal.dot(edge.normal_right) > same_cos;
+    const bool at_edge =
+        face.normal.dot(edge.arc.left) > same_cos || face.normal.dot(edge.arc.right) > same_cos;
     if (!at_edge || inside < -same) depth = std::min(depth, inside);
   }
   return depth;
