@@ -139,7 +139,7 @@ void advance_talus(const Scene& scene, State& state, Work& work, StepReport& rep
       continue;
     }
     if (does_not_move(state.phase[i])) continue;
-    if (state.phase[i] == Phase::flight && state.flight_end[i] >= t_end) {
+    if (state.phase[i] == Phase::flight && state.flight_end[i] >= t_end && scene.settings.flight) {
       ++state.counters.flight_skips;
       continue;
     }
