@@ -273,7 +273,7 @@ TEST(Step, SearchedFlightsAreTheSameToTheBit) {
   State sa = start(a), sb = start(b);
   Work wa = make_work(a), wb = make_work(b);
   for (int i = 0; i < 2000; ++i) step(a, sa, wa), step(b, sb, wb);
-  EXPECT_GT(sa.counters.flight_skips, 200);
+  EXPECT_GT(sa.counters.flight_skips, 100);
   EXPECT_EQ(sb.counters.flight_skips, 0);
   EXPECT_GT(sa.counters.impacts, 5);
   EXPECT_EQ(sa.counters.impacts, sb.counters.impacts);
