@@ -337,17 +337,12 @@ void write_outputs(Tool& tool, Runner& runner, const Options& o) {
 }
 
 // A slide whose blocks pass through each other must not look like a result.
-void check_blocks_apart(Tool& tool, const Options& o, const ScenePlan& plan, DdaInputs& inputs) {
+void warn_of_blocks_apart(Tool& tool, const ScenePlan& plan, DdaInputs& inputs) {
   const int n = n_blocks(inputs.parts.blocks);
   if (n < 2 || plan.block_contacts) return;
-  const std::string finding = std::to_string(n) + " blocks";
-  if (!o.independent)
-    throw InputError(
-        {o.files.blocks},
-        finding + ", and law paper computes no contacts between blocks, expected one",
-        "take law talus, or --independent, which moves each block as if it were alone");
-  inputs.warnings.push_back(finding +
-                            " move as if each were alone: contacts between them are not computed");
+  inputs.warnings.push_back(std::to_string(n) +
+                            " blocks move as if each were alone: contacts "
+                            "between them are not computed");
   tool.warn(inputs.warnings.back());
 }
 
@@ -396,7 +391,7 @@ int main(int argc, char** argv) {
       tool.result({{"plan", as_json(plan)}}, as_text(plan));
       return;
     }
-    check_blocks_apart(tool, o, plan, inputs);
+    warn_of_blocks_apart(tool, plan, inputs);
     check_overlaps(tool, site, inputs, o.files, plan.block_contacts);
     tool.detail(as_text(plan));
     RunFile file = new_file(site, inputs, plan, o);

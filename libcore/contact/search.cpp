@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "contact/entrance.hpp"
 
@@ -105,13 +106,6 @@ struct FeatureSearch {
   }
 };
 
-// The six neighbours of an inner node of the network.
-std::array<Vec3, 6> node_ring(const Trn& trn, int row, int col) {
-  return {node_point(trn, row, col + 1),     node_point(trn, row - 1, col),
-          node_point(trn, row - 1, col - 1), node_point(trn, row, col - 1),
-          node_point(trn, row + 1, col),     node_point(trn, row + 1, col + 1)};
-}
-
 // Whether X lies across a wall of part p, where another part of the body begins.
 bool is_across_wall(const Shapes& shapes, int p, const Vec3& X, double same) {
   const auto begin = shapes.walls.begin();
@@ -119,6 +113,48 @@ bool is_across_wall(const Shapes& shapes, int p, const Vec3& X, double same) {
       begin + shapes.wall_begin[static_cast<size_t>(p)],
       begin + shapes.wall_begin[static_cast<size_t>(p) + 1],
       [&](const ShapeWall& wall) { return wall.normal.dot(X) > wall.offset + same; });
+}
+
+// How far X lies in part p: to the nearest face that does not meet in `edge`; negative outside of
+// the part, also across a wall of it [m].
+double depth_in_part(const Shapes& shapes, int p, const Vec3& X, const ShapeEdge& edge,
+                     double same) {
+  constexpr double same_cos = 1 - 1e-9;
+  if (is_across_wall(shapes, p, X, same)) return -1;
+  double depth = std::numeric_limits<double>::infinity();
+  for (int f = shapes.face_begin[static_cast<size_t>(p)];
+       f < shapes.face_begin[static_cast<size_t>(p) + 1]; ++f) {
+    const ShapeFace& face = shapes.faces[static_cast<size_t>(f)];
+    const double inside = face.offset - face.normal.dot(X);
+    const bool at_edge =
+        face.normal.dot(edge.arc.left) > same_cos || face.normal.dot(edge.arc.right) > same_cos;
+    if (!at_edge || inside < -same) depth = std::min(depth, inside);
+  }
+  return depth;
+}
+
+// Whether an edge of the block, at A, and one of the ground, at X (both in body axes), overlap by
+// `depth` where they cross: X lies in the block, which no other face leads out of sooner, and A not
+// high above the ground (behind a sharp ridge it may be a little). Far from the edges the planes
+// beside them end, and a pair that reads as deep may lie in the open.
+bool edges_overlap(const FeatureSearch& s, const ShapeEdge& edge, const Vec3& A, const Vec3& X,
+                   double depth) {
+  const Trn& trn = s.ground.trn;
+  const Vec3 a = s.pose.position + s.to_local * A;
+  if (!contains(trn, a.x(), a.y())) return false;
+  if (!(a.z() - elevation_at(trn, locate(trn, a.x(), a.y())) < 2 * depth)) return false;
+  const double same = same_wall * s.shapes.radius[static_cast<size_t>(s.b)];
+  for (int p = s.shapes.part_begin[static_cast<size_t>(s.b)];
+       p < s.shapes.part_begin[static_cast<size_t>(s.b) + 1]; ++p)
+    if (depth_in_part(s.shapes, p, X, edge, same) >= depth) return true;
+  return false;
+}
+
+// The six neighbours of an inner node of the network.
+std::array<Vec3, 6> node_ring(const Trn& trn, int row, int col) {
+  return {node_point(trn, row, col + 1),     node_point(trn, row - 1, col),
+          node_point(trn, row - 1, col - 1), node_point(trn, row, col - 1),
+          node_point(trn, row + 1, col),     node_point(trn, row + 1, col + 1)};
 }
 
 void find_mode_2(const FeatureSearch& s, int row, int col, std::vector<Contact>& contacts) {
@@ -185,6 +221,7 @@ void find_mode_3(const FeatureSearch& s, int row, int col, EdgeKind kind,
     const Vec3 a = P + at.s * e;
     const double gap = normal.dot(a - (Q + at.t * f));
     if (gap > s.margin || gap < -deepest) continue;
+    if (gap < -s.margin && !edges_overlap(s, edges[i], a, Q + at.t * f, -gap)) continue;
     Contact contact;
     contact.key = {ContactMode::edge_edge, -1, static_cast<int>(i),
                    4 * static_cast<int>(node_index(trn, row, col)) + static_cast<int>(kind)};

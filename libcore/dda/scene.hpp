@@ -33,7 +33,7 @@ struct Settings {
   bool post_adjustment = true;  ///< law paper: restitution by (28); off, that of the springs
   bool static_start = true;     ///< law talus: blocks at rest start in equilibrium with the ground
   bool flight = true;           ///< law talus: no search while nothing can be hit; same motion
-  bool block_contacts = true;   ///< law talus: blocks touch each other; off, each moves as if alone
+  bool block_contacts = true;   ///< blocks touch each other; off, each moves as if alone
   bool trn_contacts = true;  ///< law talus: blocks touch the TRN; off, fixed bodies are the slope
   bool sleep = true;         ///< law talus: blocks that stick and stand still are left out
 };

@@ -29,9 +29,11 @@ double mechanical_energy(const Scene& scene, const State& state) {
 }
 
 // Arguments: blocks, time step [1e-4 s], seed, duration [0.1 s].
-void Slide(benchmark::State& run) {
+void slide_by(benchmark::State& run, Law law) {
   if (bench::peers_folder().empty()) return run.SkipWithError("TALUS_PEERS_DIR is not set");
   Settings settings;
+  settings.law = law;
+  if (law == Law::paper) settings.normal_stiffness = 5e10;
   settings.dt = 1e-4 * static_cast<double>(run.range(1));
   const double duration = 0.1 * static_cast<double>(run.range(3));
   const Scene scene = slide_scene(bench::read_peers_slide(run.range(0)), settings,
@@ -64,6 +66,9 @@ void Slide(benchmark::State& run) {
     run.counters["balance"] = (lost - l.friction - l.impact - l.contact - l.removed) / lost;
   }
 }
+void Slide(benchmark::State& run) { slide_by(run, Law::talus); }
+void SlidePaper(benchmark::State& run) { slide_by(run, Law::paper); }
+
 BENCHMARK(Slide)
     ->Name("Slide39")
     ->ArgsProduct({{39}, {10, 50, 100, 200, 300}, {0, 1, 2, 3, 4, 5, 6, 7, 8}, {200}})
@@ -72,6 +77,11 @@ BENCHMARK(Slide)
 BENCHMARK(Slide)
     ->Name("SlideDense")
     ->ArgsProduct({{39, 390, 3900}, {10, 50, 100}, {0}, {1, 5}})
+    ->Unit(benchmark::kSecond)
+    ->Iterations(1);
+BENCHMARK(SlidePaper)
+    ->Name("Slide39Paper")
+    ->ArgsProduct({{39}, {1, 2, 5, 10, 50}, {0, 1, 2}, {5, 200}})
     ->Unit(benchmark::kSecond)
     ->Iterations(1);
 

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "bent_body.hpp"
 #include "contact/search.hpp"
 
@@ -48,6 +50,37 @@ TEST(FindContacts, APeakUnderTheWallTouchesTheBody) {
   add_shape(shapes, body.parts, body.shell, Vec3::Zero(), Mat3::Identity(), face_internal);
   EXPECT_NEAR(depth_below_ground(ground, shapes, 0, {Vec3(0, 0, -1e-3), Quat::Identity()}), 1e-3,
               1e-12);
+}
+
+// A box leans with one face on the flank of a fin whose crest it overlaps by 5 cm. The edges of its
+// next face cross the crest as well, where they read as a metre deep: that is not the way out.
+TEST(FindContacts, EdgesAreInContactOnlyAlongTheShortestWayOut) {
+  Trn trn;
+  trn.n_rows = trn.n_cols = 17;
+  trn.cell_size = 0.5;
+  trn.node0 = Vec2(-4, 4);
+  trn.elevation.assign(17 * 17, -9.0);
+  for (int col = 0; col < 17; ++col) {
+    trn.elevation[7 * 17 + col] = -0.6;  // north of the crest, which is at y = 0
+    trn.elevation[8 * 17 + col] = 0;
+    trn.elevation[9 * 17 + col] = -0.5;
+  }
+  const Ground ground = make_ground(trn, {});
+  const Polyhedron cube = box(Vec3::Constant(-1.7), Vec3::Constant(1.7));
+  Shapes shapes;
+  add_shape(shapes, std::span(&cube, 1), cube, Vec3::Zero(), Mat3::Identity(), face_internal);
+  const Quat turned(Eigen::AngleAxisd(std::numbers::pi / 4, Vec3::UnitX()));
+  const Pose pose{turned * Vec3(0.013, 0.7, 1.65), turned};  // the crest 5 cm inside of one face
+  std::vector<Vec3> vertices;
+  std::vector<Contact> contacts;
+  find_contacts(ground, shapes, 0, pose, Mat3::Identity(), 1e-3, vertices, contacts);
+  int n_crest = 0;
+  for (const Contact& c : contacts) {
+    EXPECT_NEAR(c.gap, -0.05, 1e-9);
+    EXPECT_LT((c.normal - Vec3(0, -1, 1).normalized()).norm(), 1e-9);
+    n_crest += c.key.mode == ContactMode::edge_edge && std::abs(c.point_b.y()) < 1e-9;
+  }
+  EXPECT_EQ(n_crest, 2);
 }
 
 }  // namespace
