@@ -124,18 +124,6 @@ bool join_pairs(const Scene& scene, State& state, IslandStepWork& w) {
   return woken;
 }
 
-void end_flight_now(const Scene& scene, int b, State& state, Work& work) {
-  const auto i = static_cast<size_t>(b);
-  const double t = state.local_time[i];
-  const Motion end = motion_at(scene, state, b, state.time);
-  if (state.time > t) add_segment(b, true, t, state.time - t, state.motion[i], end, work);
-  state.motion[i] = end;
-  state.acceleration[i] = scene.gravity;
-  state.spin_rate[i].setZero();
-  state.local_time[i] = state.time;
-  state.phase[i] = Phase::near_ground;
-}
-
 /// Outcome of one attempt at a substep.
 enum class Attempt { done, shorter, left };
 
@@ -792,6 +780,7 @@ struct AdvanceIsland {
       settings.tolerance = std::max(by_motion, hit_tolerance * fastest_hit());
       settings.linear_tolerance = linear_tolerance;
     }
+    settings.tolerance *= scene.settings.tolerance_factor;
     const IslandResult solved = solve_island(w.island, settings, w.solver);
     report.passes += solved.passes;
     return solved.converged;
@@ -1211,7 +1200,7 @@ void form_islands(const Scene& scene, State& state, Work& work) {
   for (const auto& [a, b] : w.joined)
     for (const int i : {a, b})
       if (i >= 0 && state.phase[static_cast<size_t>(i)] == Phase::flight)
-        end_flight_now(scene, i, state, work);
+        end_flight(scene, i, state.time, state, work);
 }
 
 void advance_island(const Scene& scene, int k, double t_end, State& state, Work& work,
