@@ -26,6 +26,8 @@ std::vector<Vec3> local_points(Tool& tool, const Site& site, const Trn& ground,
 std::vector<RecordLine> fence_lines(Tool& tool, const Site& site, const Trn& trn,
                                     const FenceSettings& fence) {
   const Where where{site.file, fence.line_number, "fence." + fence.name};
+  if (!fence.line.empty() && !fence.line_file.empty())
+    throw InputError(where, "has both line and line_file", "say where the fence is, once");
   std::vector<std::vector<Vec3>> found;
   if (!fence.line.empty())
     found.push_back(local_points(tool, site, trn, fence.line, "fence." + fence.name + ".line"));

@@ -92,12 +92,16 @@ Gathered gather(talus::RunInputs& runs, const Options& o) {
   return out;
 }
 
+// `progress` is told the share of the layers that are made.
 std::vector<MapLayer> passage_layers(const talus::CellRows& cells, const Gathered& g,
-                                     const talus::MapSettings& settings) {
+                                     const talus::MapSettings& settings,
+                                     const talus::ProgressFunction& progress) {
   std::vector<MapLayer> layers{
       talus::reach_layer(cells, g.map.grid.cell_size, g.released, settings)};
-  for (const talus::MapQuantity quantity : talus::map_quantities)
+  for (const talus::MapQuantity quantity : talus::map_quantities) {
+    progress(static_cast<double>(layers.size()) / (1.0 + std::size(talus::map_quantities)));
     layers.push_back(talus::quantity_layer(cells, quantity, g.released, settings));
+  }
   layers.push_back(talus::exceedance_layer(cells, g.released));
   layers.push_back(talus::arrival_layer(cells));
   layers.push_back(talus::energy_line_layer(cells));
@@ -105,7 +109,7 @@ std::vector<MapLayer> passage_layers(const talus::CellRows& cells, const Gathere
 }
 
 // Tile by tile, each from its own reading of the runs where there is more than one.
-std::vector<MapLayer> layers_of(talus::RunInputs& runs, Gathered& g, const Options& o) {
+std::vector<MapLayer> layers_of(Tool& tool, talus::RunInputs& runs, Gathered& g, const Options& o) {
   const talus::RunParts only_passages{
       .frames = false, .crossings = false, .health = false, .checkpoint = false, .words = false};
   std::vector<MapLayer> layers;
@@ -119,7 +123,7 @@ std::vector<MapLayer> layers_of(talus::RunInputs& runs, Gathered& g, const Optio
       });
     const talus::CellRows cells = talus::group_by_cell(std::move(g.rows), g.rows_of_cell.size());
     g.rows.clear();
-    std::vector<MapLayer> next = passage_layers(cells, g, o.settings);
+    std::vector<MapLayer> next = passage_layers(cells, g, o.settings, tool.progress());
     if (layers.empty()) {
       layers = std::move(next);
       continue;
@@ -135,7 +139,7 @@ void run_tool(Tool& tool, Options& o, talus::RunInputs& runs) {
   Gathered gathered = gather(runs, o);
   const std::uint64_t n_rows = gathered.n_rows;
   const talus::PassageGrid grid = gathered.map.grid;
-  const auto layers = layers_of(runs, gathered, o);
+  const auto layers = layers_of(tool, runs, gathered, o);
   const std::size_t n_touched = layers[0].cell.size();
   if (n_rows == 0) tool.warn("no block passed any cell: the maps are empty");
   runs.warn_of_ends();
@@ -146,7 +150,9 @@ void run_tool(Tool& tool, Options& o, talus::RunInputs& runs) {
   if (!remark.empty()) tags.emplace_back("REMARK", remark);
   const talus::MapFrame frame = talus::map_frame(trn, grid, o.png, layers[0].cell);
   Json files = Json::array();
+  const talus::ProgressFunction progress = tool.progress();
   for (const MapLayer& layer : layers) {
+    progress(static_cast<double>(files.size()) / static_cast<double>(layers.size()));
     const std::string path = (std::filesystem::path(o.folder) / (layer.name + ".tif")).string();
     const std::string shown = talus::write_map(
         tool, frame, path, layer, talus::map_style(layer, remark), tags, o.creation_options);

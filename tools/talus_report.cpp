@@ -109,12 +109,11 @@ std::string farthest_run(const Json& runout) {
   return id;
 }
 
-void read_runs(Tool& tool, const Folder& folder, ReportData& data) {
+void read_runs(Tool& tool, const std::vector<fs::path>& files, const ProgressFunction& progress,
+               ReportData& data) {
   const std::string shown = farthest_run(data.runout);
-  const std::vector<fs::path> files = evaluated_runs(folder, data.runout);
-  const ProgressFunction progress = tool.progress();
   for (const fs::path& path : files) {
-    progress(static_cast<double>(data.runs.size()) / static_cast<double>(files.size()));
+    progress(0.5 * static_cast<double>(data.runs.size()) / static_cast<double>(files.size()));
     tool.read_also("run", path.string());
     RunFile run = read_run_file(path.string(), {false, false, false, true, false});
     data.run_names.push_back(path.stem().string().substr(4));  // without "run_"
@@ -157,11 +156,14 @@ void add_steps(const std::string& db, const std::string& sha256, std::int64_t be
   steps.push_back(record);
 }
 
-void read_registry(const std::string& db, const Folder& folder, ReportData& data) {
+void read_registry(const std::string& db, const Folder& folder, const std::vector<fs::path>& files,
+                   const ProgressFunction& progress, ReportData& data) {
   if (!fs::exists(db)) return;
   constexpr std::int64_t latest = std::numeric_limits<std::int64_t>::max();
-  for (const fs::path& path : evaluated_runs(folder, data.runout))
-    add_limits(writer_of(db, sha256_of_file(path.string()), latest), data.limits);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    progress(0.5 + 0.4 * static_cast<double>(i) / static_cast<double>(files.size()));
+    add_limits(writer_of(db, sha256_of_file(files[i].string()), latest), data.limits);
+  }
   std::set<std::int64_t> seen;
   for (const char* name : {"runout.gpkg", "maps/velocity.tif", "fence.gpkg"})
     if (folder.has(name))
@@ -170,7 +172,8 @@ void read_registry(const std::string& db, const Folder& folder, ReportData& data
 
 // --- the page ------------------------------------------------------------------------------------
 
-ReportData read_data(Tool& tool, const Site& site, const Folder& folder) {
+ReportData read_data(Tool& tool, const Site& site, const Folder& folder,
+                     const ProgressFunction& progress) {
   ReportData data(site);
   data.version = build_version;
   data.terrain = read_trn(folder.required("trn.tif", "talus-trn"));
@@ -196,8 +199,9 @@ ReportData read_data(Tool& tool, const Site& site, const Folder& folder) {
     for (const fs::path& path : pictures)
       data.maps.push_back({path.stem().string(), folder.text("maps/" + path.filename().string())});
   }
-  read_runs(tool, folder, data);
-  read_registry(tool.registry(), folder, data);
+  const std::vector<fs::path> files = evaluated_runs(folder, data.runout);
+  read_runs(tool, files, progress, data);
+  read_registry(tool.registry(), folder, files, progress, data);
   data.run_id = tool.run_id();
   return data;
 }
@@ -277,7 +281,9 @@ QgisProject project_of(const ReportData& data, const Options& o, const Folder& f
 
 void run_tool(Tool& tool, const Options& o, const Site& site) {
   const Folder folder(tool, o.dir);
-  const ReportData data = read_data(tool, site, folder);
+  const ProgressFunction progress = tool.progress();
+  const ReportData data = read_data(tool, site, folder, progress);
+  progress(0.9);
   std::string qgs;
   if (!o.qgis.empty()) qgs = qgis_project_xml(project_of(data, o, folder));
   tool.write_text(o.out, report_page(data, shipped_data("viewer.js"), shipped_data("report.css")));

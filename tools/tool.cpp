@@ -569,6 +569,7 @@ void Tool::read_also(const std::string& role, const std::string& path) {
 }
 
 ProgressFunction Tool::progress() {
+  impl_->progress_line.restart();
   return [this](double share) {
     if (stop_requested) throw Interrupted();
     if (impl_->on_terminal && !impl_->quiet) impl_->progress_line.show(share);

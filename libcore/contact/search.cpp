@@ -15,6 +15,7 @@ using std::size_t;
 // A block's face and a ridge count as parallel below this sine; ten times what ground_flags calls
 // flat.
 constexpr double nearly_parallel = 1e-3;
+constexpr double doubtful = 0.1;    // of the deepest overlap: deeper pairs of edges are looked into
 constexpr double same_wall = 1e-9;  // of the block's size: a node on a wall belongs to both parts
 
 /// A triangle, and across which of its edges the next one lies.
@@ -221,7 +222,7 @@ void find_mode_3(const FeatureSearch& s, int row, int col, EdgeKind kind,
     const Vec3 a = P + at.s * e;
     const double gap = normal.dot(a - (Q + at.t * f));
     if (gap > s.margin || gap < -deepest) continue;
-    if (gap < -s.margin && !edges_overlap(s, edges[i], a, Q + at.t * f, -gap)) continue;
+    if (gap < -doubtful * deepest && !edges_overlap(s, edges[i], a, Q + at.t * f, -gap)) continue;
     Contact contact;
     contact.key = {ContactMode::edge_edge, -1, static_cast<int>(i),
                    4 * static_cast<int>(node_index(trn, row, col)) + static_cast<int>(kind)};

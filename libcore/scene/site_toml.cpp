@@ -180,7 +180,7 @@ template <> const std::vector<Key<FenceSettings>>& keys() {
   using S = FenceSettings;
   static const std::vector<Key<S>> table = {
       {"line", &S::line, "points of the fence, map x, y", any, "", "a fence needs two points", 2},
-      {"line_file", &S::line_file, "vector file with the fence line"},
+      {"line_file", &S::line_file, "vector file with the fence line, instead of line"},
       {"line_layer", &S::line_layer, "its layer"},
       {"height_m", &S::height_m, "height above the ground", positive},
       {"capacity_kj", &S::capacity_kj, "energy that a panel takes before it breaks; rigid when not given", positive},
