@@ -53,7 +53,9 @@ std::vector<Entrance> entrances(const Polyhedron& A, const Polyhedron& B) {
   for (const PolyhedronEdge& a : edges(A))
     for (const PolyhedronEdge& b : edges(B)) {
       const Vec3 b1 = face_normal(B, b.left), b2 = face_normal(B, b.right);
-      if (!edges_may_touch(face_normal(A, a.left), face_normal(A, a.right), b1, b2, 0)) continue;
+      if (!edges_may_touch(face_normal(A, a.left), face_normal(A, a.right), b1, b2,
+                           edge_along(b1, b2), 0))
+        continue;
       const Vec3& p = A.vertices[static_cast<std::size_t>(a.a)];
       const Vec3& q = B.vertices[static_cast<std::size_t>(b.a)];
       Vec3 n = (A.vertices[static_cast<std::size_t>(a.b)] - p)
