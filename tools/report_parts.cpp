@@ -85,11 +85,24 @@ bool all_pass(const ReportData& data) {
 
 // --- what came out -------------------------------------------------------------------------------
 
+// "1 stopped, 56 not reached"
+std::string verdict_counts(const Json& fence) {
+  std::string out;
+  const Json verdicts = at(fence, {"verdicts"});
+  if (verdicts.is_object())
+    for (const auto& [name, v] : verdicts.items())
+      if (number(at(v, {"n"})) != "0")
+        out += (out.empty() ? "" : ", ") + number(at(v, {"n"})) + " " + escaped(name);
+  std::replace(out.begin(), out.end(), '_', ' ');
+  return out;
+}
+
 std::string fence_verdict(const Json& fence) {
   const Json design = at(fence, {"design", "whole"});
   const std::string name = "fence " + words(at(fence, {"name"}));
   if (number(at(fence, {"whole", "n"})) == "0")
-    return "<div class=\"verdict\"><b>" + name + "</b>: nothing crossed its line.</div>\n";
+    return "<div class=\"verdict\"><b>" + name + "</b>: no centroid crossed its line (" +
+           verdict_counts(fence) + ").</div>\n";
   const bool pass = at(design, {"pass"}).is_boolean() && at(design, {"pass"}).get<bool>();
   std::string out = std::string("<div class=\"verdict ") + (pass ? "pass" : "fail") + "\"><b>" +
                     name + (pass ? " meets " : " does not meet ") +

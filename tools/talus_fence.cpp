@@ -642,7 +642,7 @@ std::string summary_of(const FenceCase& c, std::size_t index, const FenceResult&
                     std::to_string(group.n()) + (group.n() == 1 ? " run:" : " runs:");
   for (const auto& [verdict, n] : count) out += " " + std::to_string(n) + " " + text(verdict) + ",";
   out.back() = ';';
-  if (r.whole.n == 0) return out + " nothing crossed its line";
+  if (r.whole.n == 0) return out + " no centroid crossed its line";
   out += " largest energy " + text(r.whole.energy.largest / 1e3, 4) + " kJ, highest top " +
          text(r.whole.top.largest, 3) + " m; ";
   if (!r.design.enough)
