@@ -12,6 +12,7 @@ import json
 import statistics
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 RELATIONS = ("corominas_rockfall_all", "corominas_slide_all", "mitchell_length", "mitchell_hl")
@@ -19,9 +20,10 @@ RELATIONS = ("corominas_rockfall_all", "corominas_slide_all", "mitchell_length",
 
 def runout(tools, folder):
     runs = sorted(folder.glob("runs/run_*.h5")) or sorted(folder.glob("run_*.h5"))
-    done = subprocess.run([tools / "talus-runout", *runs, "--trn", folder / "bed.tif", "-o",
-                           folder / "mobility.gpkg", "--json", "--allow-unfinished", "--no-db", "--overwrite", "-q"],
-                          capture_output=True, text=True)
+    with tempfile.TemporaryDirectory() as scratch:
+        done = subprocess.run([tools / "talus-runout", *runs, "--trn", folder / "bed.tif", "-o",
+                               scratch + "/runout.gpkg", "--json", "--allow-unfinished", "--no-db", "-q"],
+                              capture_output=True, text=True)
     if done.returncode != 0:
         sys.exit(done.stderr)
     return json.loads(done.stdout)

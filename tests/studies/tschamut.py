@@ -134,8 +134,9 @@ COLOURS = ("#222222", "#c1272d", "#0057a8")
 
 
 def steps(values, x_of, y_of):
-    """Points of an empirical distribution function."""
-    points, ordered = [], sorted(values)
+    """Points of an empirical distribution function, at most 200 steps."""
+    n = min(len(values), 200)
+    points, ordered = [], sorted(values)[:: len(values) // n]
     for k, x in enumerate(ordered):
         points += [(x_of(x), y_of(k / len(ordered))), (x_of(x), y_of((k + 1) / len(ordered)))]
     return " ".join(f"{x:.1f},{y:.1f}" for x, y in points)
@@ -153,6 +154,8 @@ def panel(left, title, lists, ticks):
                 f'<text x="{x_of(tick):.1f}" y="298" text-anchor="middle">{tick}</text>')
     for share in (0, 0.5, 1):
         out += f'<text x="{left - 6}" y="{y_of(share) + 4:.1f}" text-anchor="end">{share}</text>'
+    out += (f'<text x="{left - 34}" y="160" transform="rotate(-90 {left - 34} 160)" '
+            'text-anchor="middle">share below</text>')
     for values, colour in zip(lists, COLOURS):
         out += f'<polyline points="{steps(values, x_of, y_of)}" fill="none" stroke="{colour}" stroke-width="1.8"/>'
     return out
@@ -166,7 +169,7 @@ def picture(cases):
         out += (f'<path d="M{50 + 240 * k} 18h20" stroke="{COLOURS[k]}" stroke-width="2"/>'
                 f'<text x="{75 + 240 * k}" y="22">{words}</text>')
     for k, (q, ticks) in enumerate(zip(QUANTITIES, ([0, 50, 100, 150, 200], [15, 20, 25, 30, 35, 40]))):
-        out += panel(50 + 370 * k, q, [values[q] for _, _, values, _ in cases], ticks)
+        out += panel(60 + 365 * k, q, [values[q] for _, _, values, _ in cases], ticks)
     return out + "</svg>\n"
 
 
