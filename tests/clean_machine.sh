@@ -1,8 +1,8 @@
 #!/bin/sh
 # clean_machine.sh [FOLDER]: runs both commands of README.md in a bare Debian 12 made by debootstrap
 # in FOLDER (default: a temporary one), installs the Debian package in a second bare one, FOLDER.deb, and
-# computes a site there, and prints how long each took. Needs root, debootstrap and the package source
-# that this machine uses. Not part of the normal tests.
+# computes a site there, and prints how long each took, by the clock and of the processors. Needs root,
+# debootstrap and the package source that this machine uses. Not part of the normal tests.
 set -eu
 cd "$(dirname "$0")/.."
 checkout=$PWD
@@ -18,11 +18,18 @@ bare() {  # a bare system in $1
   mount -t proc proc "$1/proc"
 }
 trap 'umount "$root/proc" "$root.deb/proc" 2>/dev/null || true' EXIT
+used() {  # sets `seconds`: processor time of all that has ended so far
+  times >"$root/times"
+  seconds=$(awk 'NR == 2 { gsub(/[ms]/, " "); print int($1 * 60 + $2 + $3 * 60 + $4) }' "$root/times")
+}
 # timed ROOT COMMAND
 timed() {
   before=$(date +%s)
+  used
+  used_before=$seconds
   chroot "$1" sh -c "$2" >"$1/log" 2>&1 || { tail -n 40 "$1/log" >&2; echo "FAILED: $2" >&2; exit 1; }
-  echo "$2: $(($(date +%s) - before)) s"
+  used
+  echo "$2: $(($(date +%s) - before)) s, $((seconds - used_before)) s of processor time"
 }
 bare "$root"
 rm -rf "$root/talus"

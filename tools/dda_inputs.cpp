@@ -66,7 +66,8 @@ void check_place(const BlockSet& blocks, const Trn& trn, const DdaFiles& files) 
   }
 }
 
-void check_depth(Tool& tool, BlockSet& blocks, const Trn& trn, const DdaFiles& files) {
+void check_depth(Tool& tool, BlockSet& blocks, const Trn& trn, const DdaFiles& files,
+                 std::vector<std::string>& warnings) {
   const std::vector<double> depths = depths_below_ground(trn, blocks);
   const auto is_deep = [](double depth) { return depth > depth_tolerance; };
   const auto n = std::count_if(depths.begin(), depths.end(), is_deep);
@@ -83,10 +84,11 @@ void check_depth(Tool& tool, BlockSet& blocks, const Trn& trn, const DdaFiles& f
   for (std::size_t b = 0; b < depths.size(); ++b)
     if (is_deep(depths[b])) lift_block(blocks, static_cast<int>(b), depths[b]);
   tool.info(finding + ": lifted onto it");
+  warnings.push_back(finding + ": lifted onto it");
 }
 
 BlockSet read_checked_blocks(Tool& tool, const Trn& trn, const std::string& digest,
-                             const DdaFiles& files) {
+                             const DdaFiles& files, std::vector<std::string>& warnings) {
   BlockSet blocks = read_blocks(files.blocks);
   if (n_blocks(blocks) == 0)
     throw InputError({files.blocks}, "there is no block in it", "nothing would move");
@@ -94,9 +96,11 @@ BlockSet read_checked_blocks(Tool& tool, const Trn& trn, const std::string& dige
   move_to_origin(blocks, trn.origin);
   check_place(blocks, trn, files);
   const std::vector<std::string>& known = blocks.ground_digests;
-  if (!known.empty() && std::find(known.begin(), known.end(), digest) == known.end())
+  if (!known.empty() && std::find(known.begin(), known.end(), digest) == known.end()) {
     tool.warn(files.trn + " is not the terrain that " + files.blocks + " was made for");
-  check_depth(tool, blocks, trn, files);
+    warnings.push_back("the terrain is not the one that the blocks were made for");
+  }
+  check_depth(tool, blocks, trn, files, warnings);
   return blocks;
 }
 
@@ -274,8 +278,10 @@ void check_overlaps(Tool& tool, const Site& site, DdaInputs& inputs, const DdaFi
   if (!moved.done)
     throw InputError({files.blocks}, finding + "; they could not be moved apart",
                      "they stand too closely packed: build the block set anew");
-  tool.info(finding + ": moved apart, by " + text(moved.farthest, 3) + " m at most");
-  check_depth(tool, blocks, inputs.parts.trn, files);
+  const std::string outcome = ": moved apart, by " + text(moved.farthest, 3) + " m at most";
+  tool.info(finding + outcome);
+  inputs.warnings.push_back(finding + outcome);
+  check_depth(tool, blocks, inputs.parts.trn, files, inputs.warnings);
   const std::vector<StartOverlap> left =
       start_overlaps(blocks, inputs.parts.fences, among_blocks, 2 * overlap_tolerance);
   if (!left.empty())
@@ -300,7 +306,7 @@ DdaInputs read_dda_inputs(Tool& tool, const Site& site, const DdaFiles& files) {
   parts.base = base_motion(site, site.solver.duration_s);
   if (!site.base_motion.file.empty())
     tool.read_also("base_motion", resolved(site, site.base_motion.file));
-  parts.blocks = read_checked_blocks(tool, parts.trn, inputs.trn_digest, files);
+  parts.blocks = read_checked_blocks(tool, parts.trn, inputs.trn_digest, files, inputs.warnings);
   parts.cell_class = ground_classes(tool, site, parts.trn);
   for (const FenceSettings& fence : site.fences) add_lines(tool, site, fence, inputs);
   return inputs;

@@ -25,6 +25,7 @@ struct DdaInputs {
   std::string crs_wkt;
   Vec3 origin = Vec3::Zero();  ///< of the TRN: everything is relative to it
   std::string trn_sha256, trn_digest;
+  std::vector<std::string> warnings;  ///< for the run file: without paths, which may change
 };
 
 /// Throws InputError for blocks that overlap one another (`among_blocks`) or a fence by more than a

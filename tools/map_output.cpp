@@ -17,7 +17,8 @@ MapRaster raster_of(const MapFrame& frame, const MapLayer& layer) {
     std::vector<float> value = on_grid(layer, band, frame.known.size(), MapRaster::nodata);
     for (std::size_t i = 0; i < value.size(); ++i)
       if (!frame.known[i] && value[i] == 0) value[i] = MapRaster::nodata;
-    raster.bands.push_back({band.name, band.unit, band.description, std::move(value)});
+    raster.bands.push_back(
+        {band.name, band.unit, band.description, std::move(value), band.overview});
   }
   return raster;
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <numbers>
+#include <set>
 
 #include "base/text.hpp"
 #include "post/csv.hpp"
@@ -225,10 +227,25 @@ std::string mobility_table(const Json& mobility) {
       {false, false, true, true, true, false});
 }
 
+// What H/L of the centre of mass is compared with: tan(phi) of the ground, as the runs had it.
+std::string friction_paragraph(const ReportData& data) {
+  std::set<std::string> grounds;
+  for (const RunFile& run : data.runs)
+    for (const GroundSettings& ground : parse_site(run.info.config, run.info.run_id).grounds)
+      grounds.insert(escaped(ground.name) + ": tan " + text(ground.friction_deg, 4) +
+                     "&deg; = " + text(std::tan(ground.friction_deg * std::numbers::pi / 180), 3));
+  std::string list;
+  for (const std::string& ground : grounds) list += (list.empty() ? "" : "; ") + ground;
+  return paragraph(
+      "A mass that only slides has H/L of its centre of mass equal to the tangent of "
+      "the ground's friction angle (" +
+      list + "); a hollow that holds it back, rolling and impacts move it away from that.");
+}
+
 std::string runout_section(const ReportData& data) {
   if (data.runout.is_null()) return "";
   const Json balance = at(data.runout, {"balance"});
-  std::string out = spread_table(at(data.runout, {"spread_over_runs"}));
+  std::string out = spread_table(at(data.runout, {"spread_over_runs"})) + friction_paragraph(data);
   out +=
       paragraph("Volume: released " + number(at(balance, {"released_m3"})) + " m&sup3; = at rest " +
                 number(at(balance, {"deposited_m3"})) + " + still moving " +

@@ -127,6 +127,8 @@ RunFile new_file(const Site& site, const DdaInputs& inputs, const ScenePlan& pla
   info.seed = site.solver.seed;
   info.config = print_config(site);
   info.plan = as_json(plan).dump(1);
+  for (const std::string& line : inputs.warnings)
+    info.warnings += (info.warnings.empty() ? "" : "\n") + line;
   return file;
 }
 
@@ -335,15 +337,13 @@ void write_outputs(Tool& tool, Runner& runner, const Options& o) {
 }
 
 // A slide whose blocks pass through each other must not look like a result.
-void check_blocks_apart(Tool& tool, const Options& o, const ScenePlan& plan, int n) {
+void warn_of_blocks_apart(Tool& tool, const ScenePlan& plan, DdaInputs& inputs) {
+  const int n = n_blocks(inputs.parts.blocks);
   if (n < 2 || plan.block_contacts) return;
-  const std::string finding = std::to_string(n) + " blocks";
-  if (!o.independent)
-    throw InputError(
-        {o.files.blocks},
-        finding + ", and law paper computes no contacts between blocks, expected one",
-        "take law talus, or --independent, which moves each block as if it were alone");
-  tool.warn(finding + " move as if each were alone: contacts between them are not computed");
+  inputs.warnings.push_back(std::to_string(n) +
+                            " blocks move as if each were alone: contacts "
+                            "between them are not computed");
+  tool.warn(inputs.warnings.back());
 }
 
 // Also the half of one that a killed run left. One that cannot be removed does no harm.
@@ -353,13 +353,20 @@ void remove_checkpoints(const Options& o) {
   fs::remove(part_of(o) + ".new", error);
 }
 
-void note_lines(Tool& tool, const Site& site) {
+// What is odd about the settings, for the user now and for the run file.
+std::vector<std::string> warn_of_settings(Tool& tool, const Site& site) {
+  std::vector<std::string> warnings;
   const bool any_stands = std::any_of(site.fences.begin(), site.fences.end(),
                                       [](const FenceSettings& fence) { return fence.active; });
-  if (any_stands && site.solver.law == "paper")
-    tool.warn("fences stop nothing with law paper: what crosses their lines is recorded");
-  for (const UnusualValue& value : unusual_values(site))
-    tool.warn(where_of(site, value.key).text() + ": " + value.key + " " + value.finding);
+  if (any_stands && site.solver.law == "paper") {
+    warnings.push_back("fences stop nothing with law paper: what crosses their lines is recorded");
+    tool.warn(warnings.back());
+  }
+  for (const UnusualValue& value : unusual_values(site)) {
+    warnings.push_back(value.key + " " + value.finding);
+    tool.warn(where_of(site, value.key).text() + ": " + warnings.back());
+  }
+  return warnings;
 }
 
 }  // namespace
@@ -376,14 +383,15 @@ int main(int argc, char** argv) {
     if (o.out.empty() && o.plan != "show")
       throw InputError({"", 0, "--out"}, "no output is named", "give -o RUN.h5");
     if (!o.out.empty()) check_leftover(tool, o);
-    note_lines(tool, site);
+    const std::vector<std::string> odd = warn_of_settings(tool, site);
     DdaInputs inputs = read_dda_inputs(tool, site, o.files);
+    inputs.warnings.insert(inputs.warnings.begin(), odd.begin(), odd.end());
     const ScenePlan plan = plan_of(site, inputs, o);
     if (o.plan == "show") {
       tool.result({{"plan", as_json(plan)}}, as_text(plan));
       return;
     }
-    check_blocks_apart(tool, o, plan, n_blocks(inputs.parts.blocks));
+    warn_of_blocks_apart(tool, plan, inputs);
     check_overlaps(tool, site, inputs, o.files, plan.block_contacts);
     tool.detail(as_text(plan));
     RunFile file = new_file(site, inputs, plan, o);

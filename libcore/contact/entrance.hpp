@@ -21,27 +21,29 @@ namespace talus {
   return true;
 }
 
-/// Direction of an edge between two faces with outward normals n1 and n2, unit.
-[[nodiscard]] inline Vec3 edge_along(const Vec3& n1, const Vec3& n2) {
-  return n2.cross(n1).normalized();
+/// A convex edge on the sphere of normals: the arc between the outward unit normals of its faces.
+/// Flat edges have no arc.
+struct GaussArc {
+  Vec3 left, right;
+  Vec3 along;  ///< unit, normal to both
+};
+
+[[nodiscard]] inline GaussArc gauss_arc(const Vec3& left, const Vec3& right) {
+  return {left, right, right.cross(left).normalized()};
 }
 
-/// E-E: edges of A and B, each between two faces with outward normals a1, a2 and b1, b2. True when
-/// the arc a1-a2 crosses the arc of the negatives of b1, b2 on the sphere of normals, or an end of
+/// E-E: edges of A and B. True when the arc of A crosses the negative of the arc of B, or an end of
 /// one arc lies within `tolerance` (sine of an angle) of the other: a face that rests on an edge of
-/// the other body touches it through two of its own edges, and is never parallel to rounding. Flat
-/// edges have no arc, concave ones a reversed one: leave both out.
-/// `along_b` = edge_along(b1, b2), which a search over the edges of A computes once.
-[[nodiscard]] inline bool edges_may_touch(const Vec3& a1, const Vec3& a2, const Vec3& b1,
-                                          const Vec3& b2, const Vec3& along_b, double tolerance) {
+/// the other body touches it through two of its own edges, and is never parallel to rounding.
+/// Concave edges have a reversed arc: leave them out.
+[[nodiscard]] inline bool edges_may_touch(const GaussArc& arc_a, const GaussArc& arc_b,
+                                          double tolerance) {
+  const double c = -arc_b.left.dot(arc_a.along), d = -arc_b.right.dot(arc_a.along);
+  const double a = arc_a.left.dot(arc_b.along), b = arc_a.right.dot(arc_b.along);
   const auto crosses = [&](double s, double t) {
     return std::min(s, t) <= tolerance && std::max(s, t) >= -tolerance;
   };
-  const double a = a1.dot(along_b), b = a2.dot(along_b);
-  if (!crosses(a, b)) return false;
-  const Vec3 along_a = edge_along(a1, a2);
-  const double c = -b1.dot(along_a), d = -b2.dot(along_a);
-  return crosses(c, d) && (c - d) * (b - a) > 0;
+  return crosses(c, d) && crosses(a, b) && (c - d) * (b - a) > 0;
 }
 
 /// The points of two lines that are nearest to each other: p + s e, q + t f.

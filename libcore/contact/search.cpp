@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "contact/entrance.hpp"
 
@@ -14,6 +15,7 @@ using std::size_t;
 // A block's face and a ridge count as parallel below this sine; ten times what ground_flags calls
 // flat.
 constexpr double nearly_parallel = 1e-3;
+constexpr double same_wall = 1e-9;  // of the block's size: a node on a wall belongs to both parts
 
 /// A triangle, and across which of its edges the next one lies.
 struct Neighbour {
@@ -104,12 +106,57 @@ struct FeatureSearch {
   int b;
   const Pose& pose;
   double margin;
-  Mat3 to_local;  // body to local axes
+  Mat3 to_local;   // body to local axes
+  Vec3 low, high;  // box of the block, local axes
 
   [[nodiscard]] Vec3 to_body(const Vec3& x) const {
     return to_local.transpose() * (x - pose.position);
   }
 };
+
+// Whether X lies across a wall of part p, where another part of the body begins.
+bool is_across_wall(const Shapes& shapes, int p, const Vec3& X, double same) {
+  const auto begin = shapes.walls.begin();
+  return std::any_of(
+      begin + shapes.wall_begin[static_cast<size_t>(p)],
+      begin + shapes.wall_begin[static_cast<size_t>(p) + 1],
+      [&](const ShapeWall& wall) { return wall.normal.dot(X) > wall.offset + same; });
+}
+
+// How far X lies in part p: to the nearest face that does not meet in `edge`; negative outside of
+// the part, also across a wall of it [m].
+double depth_in_part(const Shapes& shapes, int p, const Vec3& X, const ShapeEdge& edge,
+                     double same) {
+  constexpr double same_cos = 1 - 1e-9;
+  if (is_across_wall(shapes, p, X, same)) return -1;
+  double depth = std::numeric_limits<double>::infinity();
+  for (int f = shapes.face_begin[static_cast<size_t>(p)];
+       f < shapes.face_begin[static_cast<size_t>(p) + 1]; ++f) {
+    const ShapeFace& face = shapes.faces[static_cast<size_t>(f)];
+    const double inside = face.offset - face.normal.dot(X);
+    const bool at_edge =
+        face.normal.dot(edge.arc.left) > same_cos || face.normal.dot(edge.arc.right) > same_cos;
+    if (!at_edge || inside < -same) depth = std::min(depth, inside);
+  }
+  return depth;
+}
+
+// Whether an edge of the block, at A, and one of the ground, at X (both in body axes), overlap by
+// `depth` where they cross: X lies in the block, which no other face leads out of sooner, and A not
+// high above the ground (behind a sharp ridge it may be a little). Far from the edges the planes
+// beside them end, and a pair that reads as deep may lie in the open.
+bool edges_overlap(const FeatureSearch& s, const ShapeEdge& edge, const Vec3& A, const Vec3& X,
+                   double depth) {
+  const Trn& trn = s.ground.trn;
+  const Vec3 a = s.pose.position + s.to_local * A;
+  if (!contains(trn, a.x(), a.y())) return false;
+  if (!(a.z() - elevation_at(trn, locate(trn, a.x(), a.y())) < 2 * depth)) return false;
+  const double same = same_wall * s.shapes.radius[static_cast<size_t>(s.b)];
+  for (int p = s.shapes.part_begin[static_cast<size_t>(s.b)];
+       p < s.shapes.part_begin[static_cast<size_t>(s.b) + 1]; ++p)
+    if (depth_in_part(s.shapes, p, X, edge, same) >= depth) return true;
+  return false;
+}
 
 // The six neighbours of an inner node of the network.
 std::array<Vec3, 6> node_ring(const Trn& trn, int row, int col) {
@@ -135,6 +182,7 @@ void find_mode_2(const FeatureSearch& s, int row, int col, std::vector<Contact>&
       if (d > gap) gap = d, nearest = f;
     }
     if (nearest < 0 || gap > s.margin) continue;
+    if (is_across_wall(s.shapes, p, X, same_wall * radius)) continue;
     const Vec3 outward = s.to_local * s.shapes.faces[static_cast<size_t>(nearest)].normal;
     if (!vertex_may_enter(node, node_ring(trn, row, col), outward, 1e-12 * trn.cell_size)) continue;
     Contact contact;
@@ -157,30 +205,31 @@ void find_mode_3(const FeatureSearch& s, int row, int col, EdgeKind kind,
   const TrnEdge edge = trn_edge(trn, row, col, kind);
   const Vec3 end_a = node_point(trn, edge.a.row, edge.a.col);
   const Vec3 end_b = node_point(trn, edge.b.row, edge.b.col);
+  if ((end_a.cwiseMax(end_b) - s.low).minCoeff() < -s.margin ||
+      (s.high - end_a.cwiseMin(end_b)).minCoeff() < -s.margin)
+    return;
   const Vec3 Q = s.to_body(end_a);
   const Vec3 f = s.to_local.transpose() * (end_b - end_a);
   const double radius = s.shapes.radius[static_cast<size_t>(s.b)] + s.margin;
   const double nearest = std::clamp(-Q.dot(f) / f.squaredNorm(), 0.0, 1.0);
   if ((Q + nearest * f).squaredNorm() > radius * radius) return;
-  const Vec3 left = s.to_local.transpose() * triangle_plane(trn, edge.left).normal;
-  const Vec3 right = s.to_local.transpose() * triangle_plane(trn, edge.right).normal;
-  const Vec3 along = edge_along(left, right);
+  const GaussArc ridge = gauss_arc(s.to_local.transpose() * triangle_plane(trn, edge.left).normal,
+                                   s.to_local.transpose() * triangle_plane(trn, edge.right).normal);
   const double deepest = s.shapes.thickness[static_cast<size_t>(s.b)] / 2;
   const std::span<const Vec3> body = vertices_of(s.shapes, s.b);
   const std::span<const ShapeEdge> edges = edges_of(s.shapes, s.b);
   for (size_t i = 0; i < edges.size(); ++i) {
-    if (!edges_may_touch(edges[i].normal_left, edges[i].normal_right, left, right, along,
-                         nearly_parallel))
-      continue;
+    if (!edges_may_touch(edges[i].arc, ridge, nearly_parallel)) continue;
     const Vec3& P = body[static_cast<size_t>(edges[i].a)];
     const Vec3 e = body[static_cast<size_t>(edges[i].b)] - P;
     const LinePair at = nearest_on_lines(P, e, Q, f);
     if (at.parallel || at.s < 0 || at.s > 1 || at.t < 0 || at.t > 1) continue;
     Vec3 normal = e.cross(f).normalized();
-    if (normal.dot(left + right) < 0) normal = -normal;
+    if (normal.dot(ridge.left + ridge.right) < 0) normal = -normal;
     const Vec3 a = P + at.s * e;
     const double gap = normal.dot(a - (Q + at.t * f));
     if (gap > s.margin || gap < -deepest) continue;
+    if (gap < -s.margin && !edges_overlap(s, edges[i], a, Q + at.t * f, -gap)) continue;
     Contact contact;
     contact.key = {ContactMode::edge_edge, -1, static_cast<int>(i),
                    4 * static_cast<int>(node_index(trn, row, col)) + static_cast<int>(kind)};
@@ -232,7 +281,7 @@ SearchResult find_contacts(const Ground& ground, const Shapes& shapes, int b, co
   if (near.reach == Reach::above) return {near.reach, low.z() - near.ground.high};
   if (near.reach == Reach::off_ground) return {near.reach, 0};
   find_mode_1(ground, shapes, b, near.ground.high, margin, vertices, contacts);
-  find_features({ground, shapes, b, pose, margin, R}, near.cells, contacts);
+  find_features({ground, shapes, b, pose, margin, R, low, high}, near.cells, contacts);
   return {near.reach, 0};
 }
 

@@ -16,7 +16,8 @@ constexpr double none = -infinity;
 constexpr double parallel_sin_sq = 3.0458649045213493e-4;  // sin^2 1 deg: edges that make no axis
 constexpr double keep_ratio = 0.1;   // another face must be better by this part of |separation|
 constexpr double face_ratio = 1e-3;  // ... and of the thickness; edges too
-constexpr double same_axis_ratio = 2e-2;     // ... in the same direction
+constexpr double same_axis_ratio = 2e-2;  // ... in the same direction
+constexpr double seam_ratio = 5e-3;  // overlap across a covered face that the covering part bears
 constexpr double longest_hold_ratio = 0.02;  // of the smaller radius, and at most longest_hold
 constexpr double longest_hold = 0.05;        // [m]
 
@@ -47,48 +48,51 @@ void normal_dots(const Parts& parts, int part, const Vec3& direction, double* ro
 struct BestEdges {
   double separation = none;
   double second = none;
+  double elsewhere = none;  // of those in other directions than the best face
   int a = -1, b = -1;
   Vec3 normal = Vec3::Zero();
 };
 
-// Unit normal of two edges, from B to A; zero when they are parallel within a degree.
-Vec3 edge_normal(const Parts& parts, const HullEdge& edge_b, const Vec3& along_a,
-                 const Vec3& along_b) {
+// A normal to two edges, from B to A, as long as their cross product; zero when they are parallel
+// within a degree.
+Vec3 edge_cross(const Parts& parts, const HullEdge& edge_b, const Vec3& along_a,
+                const Vec3& along_b) {
   const Vec3 cross = along_a.cross(along_b);
-  const double length_sq = cross.squaredNorm();
-  if (!(length_sq > parallel_sin_sq * along_a.squaredNorm() * along_b.squaredNorm()))
+  if (!(cross.squaredNorm() > parallel_sin_sq * along_a.squaredNorm() * along_b.squaredNorm()))
     return Vec3::Zero();
   const int first = parts.hulls.face_begin[parts.b];
   const Vec3 outward = normal_at(parts.placed, first + edge_b.arc_left) +
                        normal_at(parts.placed, first + edge_b.arc_right);
-  const double scale = 1 / std::sqrt(length_sq);
-  return cross.dot(outward) > 0 ? Vec3(scale * cross) : Vec3(-scale * cross);
+  return cross.dot(outward) > 0 ? cross : Vec3(-cross);
 }
 
-double edge_separation(const Parts& parts, const HullEdge& edge_a, const HullEdge& edge_b,
-                       const Vec3& normal) {
-  return normal.dot(parts.placed.vertices[slot(parts.hulls, parts.a, edge_a.a)] -
-                    parts.placed.vertices[slot(parts.hulls, parts.b, edge_b.a)]);
-}
-
-void consider_edges(const Parts& parts, int e_a, int e_b, const Vec3& along_a, BestEdges& best) {
+void consider_edges(const Parts& parts, int e_a, int e_b, const Vec3& along_a,
+                    const Vec3& best_face, BestEdges& best) {
   const Hulls& hulls = parts.hulls;
   const HullEdge& edge_a = hulls.edges[hulls.edge_begin[parts.a] + e_a];
   const HullEdge& edge_b = hulls.edges[hulls.edge_begin[parts.b] + e_b];
-  const Vec3 normal = edge_normal(parts, edge_b, along_a, edge_direction(parts, parts.b, edge_b));
-  if (normal.isZero(0)) return;
-  const double separation = edge_separation(parts, edge_a, edge_b, normal);
+  const Vec3 cross = edge_cross(parts, edge_b, along_a, edge_direction(parts, parts.b, edge_b));
+  const double length_sq = cross.squaredNorm();
+  if (length_sq == 0) return;
+  const double along = cross.dot(parts.placed.vertices[slot(hulls, parts.a, edge_a.a)] -
+                                 parts.placed.vertices[slot(hulls, parts.b, edge_b.a)]);
+  const double least = std::min(best.second, best.elsewhere);  // few get past this
+  if (along < 0 && least < 0 && along * along > least * least * length_sq) return;
+  const double scale = 1 / std::sqrt(length_sq), separation = scale * along;
+  const Vec3 normal = scale * cross;
+  if (separation > best.elsewhere && normal.dot(best_face) < same_axis_cos)
+    best.elsewhere = separation;
   if (separation <= best.separation) {
     best.second = std::max(best.second, separation);
     return;
   }
-  best = {separation, best.separation, e_a, e_b, normal};
+  best = {separation, best.separation, best.elsewhere, e_a, e_b, normal};
 }
 
 // All pairs of active edges whose Gauss arcs cross (theory 2.2). Along an edge, left x right of its
 // arc points as the edge does, so the arcs' cross products are the edges' directions, and the test
 // needs only the products of edge directions with the other part's normals.
-BestEdges find_edges(const Parts& parts, AxisScratch& scratch) {
+BestEdges find_edges(const Parts& parts, const Vec3& best_face, AxisScratch& scratch) {
   const Hulls& hulls = parts.hulls;
   const std::size_t width_a = hulls.face_begin[parts.a + 1] - hulls.face_begin[parts.a];
   const std::size_t width_b = hulls.face_begin[parts.b + 1] - hulls.face_begin[parts.b];
@@ -112,7 +116,7 @@ BestEdges find_edges(const Parts& parts, AxisScratch& scratch) {
       if (left * row[edges_b[k].arc_right] >= 0) continue;
       const double right = column[edges_a[i].arc_right];
       if (column[edges_a[i].arc_left] * right >= 0 || left * right >= 0) continue;
-      consider_edges(parts, i, k, along_a, best);
+      consider_edges(parts, i, k, along_a, best_face, best);
     }
   }
   return best;
@@ -146,17 +150,22 @@ bool has_pieces(const Hulls& hulls, int part) {
 }
 
 // Faces inside a body, and faces that would meet one, stop nothing: their axes are taken out.
-void remove_internal(const Parts& parts, AxisScratch& scratch) {
-  if (!has_pieces(parts.hulls, parts.a) && !has_pieces(parts.hulls, parts.b)) return;
+// Returns the largest separation along them.
+double remove_internal(const Parts& parts, AxisScratch& scratch) {
+  double largest = none;
+  if (!has_pieces(parts.hulls, parts.a) && !has_pieces(parts.hulls, parts.b)) return largest;
   const auto hidden = [&](int part, int face) {
     return parts.hulls.internal[parts.hulls.face_begin[part] + face] != 0;
   };
   for_each_face(parts, scratch, [&](const FaceAxis& axis) {
     const int other = axis.part == parts.a ? parts.b : parts.a;
-    if (hidden(axis.part, axis.face) ||
-        hidden(other, incident_face(parts.hulls, parts.placed, other, outward(parts, axis))))
-      (axis.part == parts.a ? scratch.face_a : scratch.face_b)[axis.face] = none;
+    if (!hidden(axis.part, axis.face) &&
+        !hidden(other, incident_face(parts.hulls, parts.placed, other, outward(parts, axis))))
+      return;
+    largest = std::max(largest, axis.separation);
+    (axis.part == parts.a ? scratch.face_a : scratch.face_b)[axis.face] = none;
   });
+  return largest;
 }
 
 FaceAxis best_face(const Parts& parts, const AxisScratch& scratch) {
@@ -232,7 +241,7 @@ AxisChoice face_choice(const Parts& parts, const AxisScratch& scratch, const Fac
   choice.separation = face.separation;
   choice.other_face = best_other_face(parts, scratch, choice.normal);
   choice.hold = std::min(face.separation + keep_bonus(face, thickness) - choice.other_face,
-                         best_separation + edge_bar - edges.separation) /
+                         best_separation + edge_bar - edges.elsewhere) /
                 2;
   if (edges.separation > choice.separation) {
     choice.better_edges = {AxisKind::edges, edges.a, edges.b};
@@ -307,21 +316,27 @@ AxisChoice find_axis(const Hulls& hulls, const PlacedHulls& placed, int part_a, 
   const Parts parts{hulls, placed, part_a, part_b};
   face_separations(hulls, placed, part_a, part_b, scratch.face_a);
   face_separations(hulls, placed, part_b, part_a, scratch.face_b);
-  AxisChoice apart = apart_choice(parts, best_face(parts, scratch));
+  const FaceAxis farthest = best_face(parts, scratch);
+  AxisChoice apart = apart_choice(parts, farthest);
   if (apart.separation > margin) return apart;
-  const BestEdges edges = find_edges(parts, scratch);
+  const BestEdges edges = find_edges(parts, to_a(parts, farthest), scratch);
   if (edges.separation > margin && edges.separation > apart.separation) {
     apart.axis = {AxisKind::edges, edges.a, edges.b};
     apart.separation = edges.separation;
     return apart;
   }
 
-  remove_internal(parts, scratch);
+  const double hidden = remove_internal(parts, scratch);
   const double thickness = std::min(hulls.thickness[part_a], hulls.thickness[part_b]);
+  const double seam = std::max(seam_ratio * thickness, margin);
   const FaceAxis best = best_face(parts, scratch);
   // what edges need above the best face: half as much when an edge pair was chosen last
   const double edge_bar = face_ratio * thickness * (last.kind == AxisKind::edges ? 0.5 : 1);
   AxisChoice choice;
+  if (hidden >= -seam && hidden > std::max(best.separation, edges.separation)) {
+    apart.axis = {};
+    return apart;
+  }
   if (edges.separation > best.separation + edge_bar) {
     choice = edge_choice(parts, scratch, edges, best.separation, edge_bar);
   } else if (best.separation > none) {
@@ -335,7 +350,8 @@ AxisChoice find_axis(const Hulls& hulls, const PlacedHulls& placed, int part_a, 
   choice.touches = true;
   const double radius =
       std::min(hulls.radius[hulls.body[part_a]], hulls.radius[hulls.body[part_b]]);
-  choice.hold = std::clamp(choice.hold, 0.0, std::min(longest_hold, longest_hold_ratio * radius));
+  choice.hold = std::clamp(std::min(choice.hold, -seam - hidden), 0.0,
+                           std::min(longest_hold, longest_hold_ratio * radius));
   return choice;
 }
 
@@ -358,8 +374,10 @@ Vec3 axis_normal(const Hulls& hulls, const PlacedHulls& placed, int part_a, int 
   const Parts parts{hulls, placed, part_a, part_b};
   const HullEdge& edge_a = hulls.edges[hulls.edge_begin[part_a] + axis.feature_a];
   const HullEdge& edge_b = hulls.edges[hulls.edge_begin[part_b] + axis.feature_b];
-  return edge_normal(parts, edge_b, edge_direction(parts, part_a, edge_a),
-                     edge_direction(parts, part_b, edge_b));
+  const Vec3 cross = edge_cross(parts, edge_b, edge_direction(parts, part_a, edge_a),
+                                edge_direction(parts, part_b, edge_b));
+  const double length_sq = cross.squaredNorm();
+  return length_sq == 0 ? cross : Vec3(1 / std::sqrt(length_sq) * cross);
 }
 
 }  // namespace talus

@@ -12,9 +12,14 @@ constexpr double flattest_edge = 1e-6;  // opening angle below which an edge cou
 void add_part(Shapes& shapes, const Polyhedron& part, std::span<const int> vertex_of,
               std::span<const Vec3> body_vertices, const Mat3& to_body, int internal_tag) {
   for (int f = 0; f < n_faces(part); ++f) {
-    if (part.face_tag[static_cast<std::size_t>(f)] == internal_tag) continue;
+    const Vec3 normal = to_body * face_normal(part, f);
+    if (part.face_tag[static_cast<std::size_t>(f)] == internal_tag) {
+      const int corner = vertex_of[static_cast<std::size_t>(face(part, f)[0])];
+      shapes.walls.push_back({normal, normal.dot(body_vertices[static_cast<std::size_t>(corner)])});
+      continue;
+    }
     ShapeFace face_data;
-    face_data.normal = to_body * face_normal(part, f);
+    face_data.normal = normal;
     face_data.area = face_area(part, f);
     face_data.vertex_begin = static_cast<int>(shapes.face_vertices.size());
     for (const int v : face(part, f))
@@ -27,6 +32,7 @@ void add_part(Shapes& shapes, const Polyhedron& part, std::span<const int> verte
     shapes.faces.push_back(face_data);
   }
   shapes.face_begin.push_back(static_cast<int>(shapes.faces.size()));
+  shapes.wall_begin.push_back(static_cast<int>(shapes.walls.size()));
 }
 
 void add_edges(Shapes& shapes, const Polyhedron& shell, std::span<const int> vertex_of,
@@ -40,7 +46,8 @@ void add_edges(Shapes& shapes, const Polyhedron& shell, std::span<const int> ver
             .normalized();
     const Vec3 left = to_body * face_normal(shell, edge.left);
     const Vec3 right = to_body * face_normal(shell, edge.right);
-    if (left.cross(right).dot(along) > flattest_edge) shapes.edges.push_back({a, b, left, right});
+    if (left.cross(right).dot(along) > flattest_edge)
+      shapes.edges.push_back({a, b, gauss_arc(left, right)});
   }
   shapes.edge_begin.push_back(static_cast<int>(shapes.edges.size()));
 }

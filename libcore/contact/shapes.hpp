@@ -8,14 +8,15 @@
 #include <vector>
 
 #include "base/types.hpp"
+#include "contact/entrance.hpp"
 #include "geometry/polyhedron.hpp"
 
 namespace talus {
 
-/// A convex edge of a block's shell with the outward normals of the two faces that meet at it.
+/// A convex edge of a block's shell.
 struct ShapeEdge {
-  int a = 0, b = 0;                ///< vertices, counted from the block's first
-  Vec3 normal_left, normal_right;  ///< unit, body axes
+  int a = 0, b = 0;  ///< vertices, counted from the block's first
+  GaussArc arc;      ///< in body axes
 };
 
 /// A face of a convex part.
@@ -26,12 +27,20 @@ struct ShapeFace {
   int vertex_begin = 0, vertex_end = 0;  ///< its corners in Shapes::face_vertices
 };
 
+/// Plane of a face between two parts of a body, seen from the part.
+struct ShapeWall {
+  Vec3 normal;        ///< unit outward, body axes
+  double offset = 0;  ///< normal . X of the plane [m]
+};
+
 struct Shapes {  // clang-format off
   std::vector<int> vertex_begin{0};  ///< vertices of block b: [b], [b + 1)             (n_blocks + 1)
   std::vector<Vec3> vertices;        ///< body axes [m]                                 (n_vertices)
   std::vector<int> part_begin{0};    ///< convex parts of block b                       (n_blocks + 1)
   std::vector<int> face_begin{0};    ///< faces of part p                               (n_parts + 1)
   std::vector<ShapeFace> faces;      ///< those between two parts of a body left out    (n_faces)
+  std::vector<int> wall_begin{0};    ///< walls of part p                               (n_parts + 1)
+  std::vector<ShapeWall> walls;      ///< the faces left out                            (n_walls)
   std::vector<int> face_vertices;    ///< counted from the block's first vertex
   std::vector<int> edge_begin{0};    ///< convex edges of block b                       (n_blocks + 1)
   std::vector<ShapeEdge> edges;      ///< flat and concave ones cannot touch            (n_edges)

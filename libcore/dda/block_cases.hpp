@@ -1,6 +1,5 @@
 // libcore/dda/block_cases.hpp
-// Cases of several blocks with a closed form; as closed_form.hpp, for law talus alone: law paper
-// computes no contacts between blocks.
+// Cases of several blocks with a closed form; as closed_form.hpp.
 #pragma once
 
 #include "dda/closed_form.hpp"

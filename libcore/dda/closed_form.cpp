@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <functional>
 #include <numbers>
 #include <utility>
@@ -43,6 +44,79 @@ double bisect(double low, double high, int n, const std::function<bool(double)>&
   return (low + high) / 2;
 }
 
+// `compute()`, its CPU time noted as not the engine's.
+template <class Compute>
+auto timed_reference(CaseResult& result, const Compute& compute) {
+  const std::clock_t begin = std::clock();
+  const auto value = compute();
+  result.reference_cpu += static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+  return value;
+}
+
+struct Path2 {
+  Vec2 end = Vec2::Zero();  // down the dip, along the strike [m]
+  double length = 0;        // [m]
+};
+
+// From 10 m/s along the strike of 30 degrees, friction 20 degrees, after `time`:
+// dv/dt = g sin(30) dip - mu g cos(30) v / |v|, by the classic Runge-Kutta method.
+Path2 integrated_oblique_slide(double time) {
+  const double drive = g * std::sin(30 * degree);
+  const double brake = g * std::cos(30 * degree) * std::tan(20 * degree);
+  const auto rate = [&](const Vec2& v) { return Vec2(Vec2(drive, 0) - brake * v.normalized()); };
+  Path2 path;
+  Vec2 v(0, 10);
+  constexpr int n = 20000;
+  const double h = time / n;
+  for (int i = 0; i < n; ++i) {
+    const Vec2 k1 = rate(v), k2 = rate(v + h / 2 * k1), k3 = rate(v + h / 2 * k2),
+               k4 = rate(v + h * k3);
+    path.end += h * v + h * h / 6 * (k1 + k2 + k3);
+    path.length += h * v.norm();
+    v += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
+  }
+  return path;
+}
+
+// Spin in body axes and attitude of a free body, from an attitude of 1, after `time`: Euler's
+// equations by the classic Runge-Kutta method.
+using State7 = Eigen::Matrix<double, 7, 1>;
+State7 integrated_free_spin(const Vec3& inertia, const Vec3& spin, double time) {
+  const auto rate = [&](const State7& s) {
+    const Vec3 w = s.head<3>();
+    State7 r;
+    r.head<3>() = (inertia.cwiseProduct(w).cross(w)).cwiseQuotient(inertia);
+    const Quat q(s[3], s[4], s[5], s[6]), dq = q * Quat(0, w.x() / 2, w.y() / 2, w.z() / 2);
+    r.tail<4>() << dq.w(), dq.x(), dq.y(), dq.z();
+    return r;
+  };
+  State7 s;
+  s << spin, 1, 0, 0, 0;
+  constexpr int n = 200000;
+  const double h = time / n;
+  for (int i = 0; i < n; ++i) {
+    const State7 k1 = rate(s), k2 = rate(s + h / 2 * k1), k3 = rate(s + h / 2 * k2),
+                 k4 = rate(s + h * k3);
+    s += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
+  }
+  return s;
+}
+
+// Time in which the column falls from half its slenderness to upright:
+// (theta - alpha)'' = p^2 sin(theta - alpha), p^2 = 3 g / (4 R), by velocity Verlet.
+double integrated_rocking_time() {
+  const double alpha = std::atan(0.25), R = std::hypot(0.25, 1.0), p_sq = 3 * g / (4 * R);
+  double theta = alpha / 2, rate = 0, t = 0;
+  const double step_s = 1e-6;
+  while (theta > 0) {
+    rate -= step_s / 2 * p_sq * std::sin(alpha - theta);
+    theta += step_s * rate;
+    rate -= step_s / 2 * p_sq * std::sin(alpha - theta);
+    t += step_s;
+  }
+  return t;
+}
+
 }  // namespace
 
 CaseResult parabola(const Settings& settings) {
@@ -82,24 +156,11 @@ CaseResult oblique_slide(const Settings& settings, double azimuth_deg) {
       on_plane(settings, frame, ground_of(20), body_of(cube_on(frame, 1), 10 * frame.strike), 40));
   const Vec3 from = run.motion().pose.position;
   run.advance_to(2);
-  // dv/dt = g sin(30) dip - mu g cos(30) v / |v|, by the classic Runge-Kutta method
-  const double drive = g * std::sin(30 * degree);
-  const double brake = g * std::cos(30 * degree) * std::tan(20 * degree);
-  const auto rate = [&](const Vec2& v) { return Vec2(Vec2(drive, 0) - brake * v.normalized()); };
-  Vec2 v(0, 10), x(0, 0);
-  double path = 0;
-  constexpr int n = 20000;
-  const double h = run.state.time / n;
-  for (int i = 0; i < n; ++i) {
-    const Vec2 k1 = rate(v), k2 = rate(v + h / 2 * k1), k3 = rate(v + h / 2 * k2),
-               k4 = rate(v + h * k3);
-    x += h * v + h * h / 6 * (k1 + k2 + k3);
-    path += h * v.norm();
-    v += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
-  }
+  const Path2 path =
+      timed_reference(run.result, [&] { return integrated_oblique_slide(run.state.time); });
   const Vec3 moved = run.motion().pose.position - from;
   const Vec2 in_plane(moved.dot(frame.dip), moved.dot(frame.strike));
-  return run.finish(in_plane.y(), x.y(), (in_plane - x).norm() / path);
+  return run.finish(in_plane.y(), path.end.y(), (in_plane - path.end).norm() / path.length);
 }
 
 CaseResult rolling_angle(const Settings& settings, int n_sides) {
@@ -236,25 +297,8 @@ CaseResult free_spin(const Settings& settings, double duration_s) {
   Run run(thrown_box(settings, duration_s));
   const Vec3 inertia = run.scene.blocks.inertia[0], L = run.motion().angular_momentum;
   run.advance_to(duration_s);
-  // Euler's equations in body axes and the attitude, by the classic Runge-Kutta method
-  using State7 = Eigen::Matrix<double, 7, 1>;
-  const auto rate = [&](const State7& s) {
-    const Vec3 w = s.head<3>();
-    State7 r;
-    r.head<3>() = (inertia.cwiseProduct(w).cross(w)).cwiseQuotient(inertia);
-    const Quat q(s[3], s[4], s[5], s[6]), dq = q * Quat(0, w.x() / 2, w.y() / 2, w.z() / 2);
-    r.tail<4>() << dq.w(), dq.x(), dq.y(), dq.z();
-    return r;
-  };
-  State7 s;
-  s << throw_spin, 1, 0, 0, 0;
-  constexpr int n = 200000;
-  const double h = run.state.time / n;
-  for (int i = 0; i < n; ++i) {
-    const State7 k1 = rate(s), k2 = rate(s + h / 2 * k1), k3 = rate(s + h / 2 * k2),
-                 k4 = rate(s + h * k3);
-    s += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
-  }
+  const State7 s = timed_reference(
+      run.result, [&] { return integrated_free_spin(inertia, throw_spin, run.state.time); });
   const Quat truth = Quat(s[3], s[4], s[5], s[6]).normalized();
   const double error = run.motion().pose.attitude.angularDistance(truth) / degree;
   run.result.largest_penetration = (run.motion().angular_momentum - L).norm() / L.norm();
@@ -413,17 +457,8 @@ Rocking rock(const Settings& settings) {
 
 CaseResult rocking_time(const Settings& settings) {
   const Rocking rocking = rock(settings);
-  // (theta - alpha)'' = p^2 sin(theta - alpha), p^2 = 3 g / (4 R), from theta = alpha / 2 to 0
-  const double alpha = std::atan(0.25), R = std::hypot(0.25, 1.0), p_sq = 3 * g / (4 * R);
-  double theta = alpha / 2, rate = 0, t = 0;
-  const double step_s = 1e-6;
-  while (theta > 0) {
-    rate -= step_s / 2 * p_sq * std::sin(alpha - theta);
-    theta += step_s * rate;
-    rate -= step_s / 2 * p_sq * std::sin(alpha - theta);
-    t += step_s;
-  }
   CaseResult result = rocking.result;
+  const double t = timed_reference(result, integrated_rocking_time);
   result.value = rocking.time;
   result.expected = t;
   result.error = std::abs(rocking.time / t - 1);

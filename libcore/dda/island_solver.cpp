@@ -61,6 +61,11 @@ struct Solve {
     for (auto* vectors : {&work.residual, &work.step, &work.from, &work.best}) vectors->resize(n);
     work.speed.resize(n);
     work.moves.resize(n);
+    work.per_impulse.resize(n);
+    for (size_t i = 0; i < n; ++i) {
+      work.per_impulse[i] = island.mass[i].diagonal().cwiseInverse();
+      work.per_impulse[i].template tail<Dof - 3>() *= island.radius[i];
+    }
     work.pair_impulse.resize(n_pairs);
     activate_all();
     direct = n_bodies(island) <= settings.direct_bodies;
@@ -99,9 +104,7 @@ struct Solve {
   [[nodiscard]] double residual_speed() {
     double largest = 0;
     for (size_t i = 0; i < island.mass.size(); ++i) {
-      const Vec speed = work.residual[i].cwiseAbs().cwiseQuotient(island.mass[i].diagonal());
-      const double turning = speed.template tail<Dof - 3>().maxCoeff() * island.radius[i];
-      work.speed[i] = std::max(speed.template head<3>().maxCoeff(), turning);
+      work.speed[i] = work.residual[i].cwiseAbs().cwiseProduct(work.per_impulse[i]).maxCoeff();
       if (!(work.speed[i] <= largest)) largest = work.speed[i];  // NaN stays
       if (std::isnan(largest)) return largest;
     }

@@ -43,7 +43,9 @@ struct IslandWork {
   RowGroups rows;
   std::vector<double> limit;  ///< of D_n and D_t [kg]                                  (n_pairs)
   std::vector<Vec> residual;  ///< M (v - v_free) - sum B^T p                           (n_bodies)
-  std::vector<double> speed;  ///< of the residual [m/s]                                (n_bodies)
+  std::vector<Vec>
+      per_impulse;            ///< speed of a body's points per impulse [1/kg, 1/(kg m)] (n_bodies)
+  std::vector<double> speed;  ///< of the residual [m/s]                             (n_bodies)
   std::vector<std::uint8_t> moves;  ///< residual above the tolerance                   (n_bodies)
   std::vector<Vec> pair_impulse;    ///< sum B^T p of a pair, about A                    (n_pairs)
   std::vector<Vec> step;  ///< of Newton                                            (n_bodies)

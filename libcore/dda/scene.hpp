@@ -28,11 +28,12 @@ struct Settings {
   double dt = 0.005;            ///< time step, > 0; law talus shortens it where it must [s]
   double normal_stiffness = 0;  ///< k_n, > 0; 0 lets law talus choose [N/m]
   double shear_ratio = 1;       ///< k_s / k_n [-]
+  double tolerance_factor = 1;  ///< law talus: on the residual at which forces count as found [-]
   int max_passes = 40;          ///< Newton or open-close iterations before a step is repeated
   bool post_adjustment = true;  ///< law paper: restitution by (28); off, that of the springs
   bool static_start = true;     ///< law talus: blocks at rest start in equilibrium with the ground
-  bool flight = true;           ///< law talus: skip the search while nothing can be hit
-  bool block_contacts = true;   ///< law talus: blocks touch each other; off, each moves as if alone
+  bool flight = true;           ///< law talus: no search while nothing can be hit; same motion
+  bool block_contacts = true;   ///< blocks touch each other; off, each moves as if alone
   bool trn_contacts = true;  ///< law talus: blocks touch the TRN; off, fixed bodies are the slope
   bool sleep = true;         ///< law talus: blocks that stick and stand still are left out
 };

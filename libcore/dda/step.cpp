@@ -122,15 +122,12 @@ Work make_work(const Scene& scene) {
   return work;
 }
 
-StepReport step(const Scene& scene, State& state, Work& work) {
-  StepReport report;
+namespace {
+
+void advance_talus(const Scene& scene, State& state, Work& work, StepReport& report) {
   const double t_end = state.time + scene.settings.dt;
-  const bool may_sleep =
-      scene.settings.sleep && scene.settings.law == Law::talus && scene.base.time.empty();
-  work.segments.clear();
-  const bool islands =
-      scene.settings.law == Law::talus &&
-      ((n_blocks(scene) > 1 && scene.settings.block_contacts) || n_fixed(scene) > 0);
+  const bool may_sleep = scene.settings.sleep && scene.base.time.empty();
+  const bool islands = (n_blocks(scene) > 1 && scene.settings.block_contacts) || n_fixed(scene) > 0;
   if (islands) form_islands(scene, state, work);
   for (int b = 0; b < n_blocks(scene); ++b) {
     const auto i = static_cast<size_t>(b);
@@ -142,19 +139,54 @@ StepReport step(const Scene& scene, State& state, Work& work) {
       continue;
     }
     if (does_not_move(state.phase[i])) continue;
-    if (state.phase[i] == Phase::flight && state.flight_end[i] >= t_end) {
+    if (state.phase[i] == Phase::flight && state.flight_end[i] >= t_end && scene.settings.flight) {
       ++state.counters.flight_skips;
       continue;
     }
     const Motion before = state.motion[i];
-    if (scene.settings.law == Law::paper)
-      advance_block_paper(scene, b, state, work, report);
-    else
-      advance_block_talus(scene, b, t_end, state, work, report);
+    advance_block_talus(scene, b, t_end, state, work, report);
     if (!is_finite(state.motion[i])) stop_at(before, i, state, report);
     if (may_sleep && state.phase[i] == Phase::near_ground) put_to_sleep(scene, i, state);
   }
-  state.time = t_end;
+}
+
+// Members and pairs of blocks of the island that block b is the first of.
+void gather_island(const Scene& scene, int b, Work& work) {
+  const IslandStepWork& w = work.islands;
+  const auto k = static_cast<size_t>(w.groups.island_of[static_cast<size_t>(b)]);
+  work.members.assign(w.groups.blocks.begin() + w.groups.block_begin[k],
+                      w.groups.blocks.begin() + w.groups.block_begin[k + 1]);
+  for (int p = w.groups.pair_begin[k]; p < w.groups.pair_begin[k + 1]; ++p) {
+    const int m = w.joined_manifold[static_cast<size_t>(w.groups.pairs[static_cast<size_t>(p)])];
+    if (!is_fixed(scene, w.pairs.manifolds[static_cast<size_t>(m)].block_b))
+      work.manifolds.push_back(m);
+  }
+}
+
+void advance_paper(const Scene& scene, State& state, Work& work, StepReport& report) {
+  const bool islands = n_blocks(scene) > 1 && scene.settings.block_contacts;
+  if (islands) form_islands(scene, state, work);
+  for (int b = 0; b < n_blocks(scene); ++b) {
+    const auto i = static_cast<size_t>(b);
+    if (does_not_move(state.phase[i])) continue;
+    if (islands && work.islands.groups.local_index[i] > 0) continue;
+    work.members.assign(1, b);
+    work.manifolds.clear();
+    if (islands) gather_island(scene, b, work);
+    advance_island_paper(scene, work.members, work.manifolds, state, work, report);
+  }
+}
+
+}  // namespace
+
+StepReport step(const Scene& scene, State& state, Work& work) {
+  StepReport report;
+  work.segments.clear();
+  if (scene.settings.law == Law::paper)
+    advance_paper(scene, state, work, report);
+  else
+    advance_talus(scene, state, work, report);
+  state.time += scene.settings.dt;
   ++state.counters.steps;
   state.counters.substeps += report.substeps;
   state.counters.impacts += report.n_impacts;

@@ -124,18 +124,6 @@ bool join_pairs(const Scene& scene, State& state, IslandStepWork& w) {
   return woken;
 }
 
-void end_flight_now(const Scene& scene, int b, State& state, Work& work) {
-  const auto i = static_cast<size_t>(b);
-  const double t = state.local_time[i];
-  const Motion end = motion_at(scene, state, b, state.time);
-  if (state.time > t) add_segment(b, true, t, state.time - t, state.motion[i], end, work);
-  state.motion[i] = end;
-  state.acceleration[i] = scene.gravity;
-  state.spin_rate[i].setZero();
-  state.local_time[i] = state.time;
-  state.phase[i] = Phase::near_ground;
-}
-
 /// Outcome of one attempt at a substep.
 enum class Attempt { done, shorter, left };
 
@@ -257,7 +245,8 @@ struct AdvanceIsland {
     const BlockNumbers& c = w.numbers[k];
     const Substep& s = w.substeps[k];
     const FreeTurn turn = {s.R * s.start.pose.attitude.conjugate().toRotationMatrix(),
-                           spin_of(s.start, c.inertia), s.R * s.spin_free};
+                           spin_of(s.start, c.inertia), s.R * s.spin_free,
+                           s.R * c.inertia.cwiseInverse().asDiagonal() * s.R.transpose()};
     Vec6 free, guess;
     free << s.free.velocity, turn.spin_end;
     guess << s.start.velocity + h * state.acceleration[block(k)],
@@ -367,17 +356,21 @@ struct AdvanceIsland {
   void match_memories(const PairManifold& m) {
     const std::vector<ContactMemory>& memory = state.memory[static_cast<size_t>(m.block_a)];
     w.continued.assign(static_cast<size_t>(m.point_end - m.point_begin), -1);
-    w.claimed.assign(memory.size(), 0);
+    w.unclaimed.clear();
+    for (size_t i = 0; i < memory.size(); ++i)
+      if (memory[i].key.body_b == m.block_b) w.unclaimed.push_back(static_cast<int>(i));
     const auto claim = [&](const auto& continues, double least_cosine) {
-      for (size_t p = 0; p < w.continued.size(); ++p)
-        for (size_t i = 0; i < memory.size() && w.continued[p] < 0; ++i) {
-          if (w.claimed[i] != 0 || memory[i].key.body_b != m.block_b ||
-              memory[i].normal.dot(m.normal) <= least_cosine ||
-              !continues(w.pairs.points[static_cast<size_t>(m.point_begin) + p].key, memory[i].key))
-            continue;
-          w.continued[p] = static_cast<int>(i);
-          w.claimed[i] = 1;
-        }
+      for (size_t p = 0; p < w.continued.size() && !w.unclaimed.empty(); ++p) {
+        if (w.continued[p] >= 0) continue;
+        const ContactKey& key = w.pairs.points[static_cast<size_t>(m.point_begin) + p].key;
+        const auto found = std::find_if(w.unclaimed.begin(), w.unclaimed.end(), [&](int i) {
+          const ContactMemory& then = memory[static_cast<size_t>(i)];
+          return then.normal.dot(m.normal) > least_cosine && continues(key, then.key);
+        });
+        if (found == w.unclaimed.end()) continue;
+        w.continued[p] = *found;
+        w.unclaimed.erase(found);
+      }
     };
     claim(
         [](const ContactKey& now, const ContactKey& then) {
@@ -424,11 +417,14 @@ struct AdvanceIsland {
     return deepest;
   }
 
-  // Mobility of a contact's point relative to the other side's.
+  // Mobility of a contact's point relative to the other side's, as mobility() with local axes.
   [[nodiscard]] Mobility mobility_at(size_t k, const Vec3& arm, const Vec3& normal) const {
-    const Mat3& R = w.substeps[k].R;
-    return mobility(w.numbers[k].mass, w.numbers[k].inertia, R.transpose() * arm,
-                    R.transpose() * normal);
+    const Mat3& per_inertia = w.turns[k].per_inertia;
+    const Vec3 turn = arm.cross(normal);
+    const double along = 1 / w.numbers[k].mass + turn.dot(per_inertia * turn);
+    const double all = 3 / w.numbers[k].mass + per_inertia.trace() * arm.squaredNorm() -
+                       arm.dot(per_inertia * arm);
+    return {along, std::max(along, all - along)};
   }
 
   void add_point(const PairManifold& m, const PairPoint& point, int memory) {
@@ -559,6 +555,71 @@ struct AdvanceIsland {
     return first;
   }
 
+  /// Motion of two blocks along the normal of their manifold, without contact forces.
+  struct PairMotionFree {
+    Vec3 turn_a, turn_b, spin_a, spin_b, at_a, at_b;
+    double moved, speed;
+
+    // Gap at the end of the substep.
+    [[nodiscard]] double gap_end(const PairPoint& point) const {
+      return point.gap + moved + turn_a.dot(point.point_b - at_a) -
+             turn_b.dot(point.point_b - at_b);
+    }
+    // The smaller of the speeds at the start and on the mean.
+    [[nodiscard]] double approach(const PairPoint& point, double h) const {
+      const double start =
+          speed + spin_a.dot(point.point_b - at_a) - spin_b.dot(point.point_b - at_b);
+      return std::min(start, (gap_end(point) - point.gap) / h);
+    }
+  };
+  [[nodiscard]] PairMotionFree free_motion(const PairManifold& m) const {
+    const size_t ka = place(m.block_a), kb = place(m.block_b);
+    const Substep &a = w.substeps[ka], &b = w.substeps[kb];
+    const FreeTurn &turn_a = w.turns[ka], &turn_b = w.turns[kb];
+    const Vec3& n = m.normal;
+    PairMotionFree out;
+    out.turn_a = turn_a.by.transpose() * n - n;
+    out.turn_b = turn_b.by.transpose() * n - n;
+    out.spin_a = n.cross(turn_a.spin_start);
+    out.spin_b = n.cross(turn_b.spin_start);
+    out.at_a = a.start.pose.position;
+    out.at_b = b.start.pose.position;
+    out.moved = n.dot((a.free.pose.position - out.at_a) - (b.free.pose.position - out.at_b));
+    out.speed = n.dot(a.start.velocity - b.start.velocity);
+    return out;
+  }
+
+  // The gap above which a new contact stays open: the island's other contacts push no point
+  // farther within the substep, gravity's share four times over and twice the fastest hit.
+  [[nodiscard]] double farthest_closing(double h) const {
+    double hit = 0;
+    for (const IslandContact& contact : w.contacts)
+      if (contact.waits) hit = std::max(hit, -contact.approach);
+    for (const int i : w.island_manifolds) {
+      const PairManifold& m = w.pairs.manifolds[static_cast<size_t>(i)];
+      if (is_fixed(scene, m.block_b)) continue;
+      const PairMotionFree free = free_motion(m);
+      for (int p = m.point_begin; p < m.point_end; ++p) {
+        const PairPoint& point = w.pairs.points[static_cast<size_t>(p)];
+        const double speed = -free.approach(point, h);
+        if (speed > numbers(m.block_a).resting_speed && free.gap_end(point) < h * speed)
+          hit = std::max(hit, speed);
+      }
+    }
+    return 4 * scene.gravity.norm() * h * h + 2 * h * hit;
+  }
+
+  void add_points(const PairManifold& m, double farthest) {
+    const PairMotionFree free = free_motion(m);
+    const bool bonded = find_bond(state.bonds, m.block_a, m.block_b) >= 0;
+    for (int p = m.point_begin; p < m.point_end; ++p) {
+      const PairPoint& point = w.pairs.points[static_cast<size_t>(p)];
+      const int memory = continued(m, p);
+      if (memory < 0 && !bonded && std::min(point.gap, free.gap_end(point)) > farthest) continue;
+      add_point(m, point, memory);
+    }
+  }
+
   // Bodies, and all contacts of the island, over h from t. False: a member left the ground.
   bool assemble(double t, double h) {
     clear_island();
@@ -569,16 +630,17 @@ struct AdvanceIsland {
     }
     for (size_t k = 0; k < w.members.size(); ++k)
       if (!add_ground(k)) return false;
+    const double farthest = farthest_closing(h);
     for (const int i : w.island_manifolds) {
       const PairManifold& m = w.pairs.manifolds[static_cast<size_t>(i)];
       open_pair(w.place[static_cast<size_t>(m.block_a)], w.place[static_cast<size_t>(m.block_b)]);
       match_memories(m);
-      if (is_fixed(scene, m.block_b)) {
+      if (is_fixed(scene, m.block_b))
         add_fixed_points(m);
-        continue;
-      }
-      for (int p = m.point_begin; p < m.point_end; ++p)
-        add_point(m, w.pairs.points[static_cast<size_t>(p)], continued(m, p));
+      else
+        add_points(m, farthest);
+      if (w.island.pairs.back().row_begin == w.island.pairs.back().row_end)
+        w.island.pairs.pop_back();
     }
     return true;
   }
@@ -718,6 +780,7 @@ struct AdvanceIsland {
       settings.tolerance = std::max(by_motion, hit_tolerance * fastest_hit());
       settings.linear_tolerance = linear_tolerance;
     }
+    settings.tolerance *= scene.settings.tolerance_factor;
     const IslandResult solved = solve_island(w.island, settings, w.solver);
     report.passes += solved.passes;
     return solved.converged;
@@ -765,6 +828,17 @@ struct AdvanceIsland {
   // where the members are then, so that angular momentum is kept. An island that touches nothing
   // else takes one time for all: different ones would move its centre of mass.
   void set_times(double h) {
+    w.time.assign(w.members.size(), h / 2);
+    const bool any_hit = std::any_of(w.contacts.begin(), w.contacts.end(),
+                                     [](const IslandContact& contact) { return contact.hit; });
+    if (any_hit) find_mean_times(h);
+    for (size_t k = 0; k < w.members.size(); ++k)
+      w.island.position[k] =
+          w.substeps[k].free.pose.position - (h - w.time[k]) * w.substeps[k].free.velocity;
+    if (any_hit) shift_arms(h);
+  }
+
+  void find_mean_times(double h) {
     w.weight.assign(w.members.size(), 0);
     w.time.assign(w.members.size(), 0);
     for (size_t r = 0; r < w.contacts.size(); ++r) {
@@ -783,11 +857,11 @@ struct AdvanceIsland {
       std::fill(w.weight.begin(), w.weight.end(), weight);
       std::fill(w.time.begin(), w.time.end(), time);
     }
-    for (size_t k = 0; k < w.members.size(); ++k) {
+    for (size_t k = 0; k < w.members.size(); ++k)
       w.time[k] = w.weight[k] > 0 ? w.time[k] / w.weight[k] : h / 2;
-      w.island.position[k] =
-          w.substeps[k].free.pose.position - (h - w.time[k]) * w.substeps[k].free.velocity;
-    }
+  }
+
+  void shift_arms(double h) {
     for (size_t r = 0; r < w.contacts.size(); ++r) {
       const IslandContact& contact = w.contacts[r];
       if (contact.b < 0) continue;
@@ -1126,7 +1200,7 @@ void form_islands(const Scene& scene, State& state, Work& work) {
   for (const auto& [a, b] : w.joined)
     for (const int i : {a, b})
       if (i >= 0 && state.phase[static_cast<size_t>(i)] == Phase::flight)
-        end_flight_now(scene, i, state, work);
+        end_flight(scene, i, state.time, state, work);
 }
 
 void advance_island(const Scene& scene, int k, double t_end, State& state, Work& work,

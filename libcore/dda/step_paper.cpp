@@ -1,11 +1,13 @@
 #include "dda/step_paper.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <utility>
 
 #include "contact/search.hpp"
 #include "dda/displacement.hpp"
+#include "dda/joint_classes.hpp"
 #include "dda/newton.hpp"
 #include "dda/rotation.hpp"
 #include "dda/step.hpp"
@@ -16,18 +18,8 @@ namespace {
 
 using std::size_t;
 
-constexpr int most_passes = 6;  // of Shi's open-close iteration
-
-/// The block's part of Eq. (3) without contacts, in local axes.
-template <int Dof>
-struct Equations {
-  using Vec = Eigen::Matrix<double, Dof, 1>;
-  using Mat = Eigen::Matrix<double, Dof, Dof>;
-  Mat K;
-  Vec F;
-  Vec velocity;  // at the start of the step
-  Mat3 R;        // body to local axes at the start
-};
+constexpr int most_passes = 6;        // of Shi's open-close iteration
+constexpr double offset_speed = 0.3;  // at which overlap that a contact appears with is pressed out
 
 Mat3 strain_tensor(const Vec6& e) {
   return (Mat3() << e[0], e[5] / 2, e[4] / 2, e[5] / 2, e[1], e[3] / 2, e[4] / 2, e[3] / 2, e[2])
@@ -45,12 +37,12 @@ Eigen::Matrix<double, 3, Dof> displacement(const Vec3& arm) {
 
 // Inertia, elasticity, initial stress and loads: theory 1.5 and 1.8.
 template <int Dof>
-Equations<Dof> equations(const Scene& scene, int b, const State& state) {
+BlockEquations<Dof> equations(const Scene& scene, int b, const State& state) {
   const auto i = static_cast<size_t>(b);
   const Blocks& blocks = scene.blocks;
   const double dt = scene.settings.dt, volume = blocks.volume[i];
   const Motion& m = state.motion[i];
-  Equations<Dof> eq;
+  BlockEquations<Dof> eq;
   eq.R = m.pose.attitude.toRotationMatrix();
   const Mat3 S = eq.R * blocks.second_moment[i].asDiagonal() * eq.R.transpose();
   const Mat12 M12 = mass_matrix(blocks.mass[i] / volume, volume, S);
@@ -62,7 +54,7 @@ Equations<Dof> equations(const Scene& scene, int b, const State& state) {
       blocks.mass[i] * free_acceleration(scene, b, state.time, state.time + dt);
   for (const PointLoad& load : scene.loads) {
     if (load.block != b) continue;
-    const typename Equations<Dof>::Vec full =
+    const typename BlockEquations<Dof>::Vec full =
         displacement<Dof>(eq.R * load.point).transpose() * load.force;
     eq.F.template tail<Dof - 3>() += full.template tail<Dof - 3>();
   }
@@ -103,214 +95,374 @@ ContactState judge(const ContactRow& row, const Spring& spring, double k_n, doub
 }
 
 template <int Dof>
+OpenCloseWork<Dof>& work_of(Work& work) {
+  if constexpr (Dof == 6)
+    return work.paper_rigid;
+  else
+    return work.paper_strained;
+}
+
+/// The blocks of an island over one step: Eq. (3) and the contacts among them and with the ground.
+template <int Dof>
 struct OpenClose {
+  using Vec = typename BlockEquations<Dof>::Vec;
+  using Mat = typename BlockEquations<Dof>::Mat;
   const Scene& scene;
+  State& state;
   Work& work;
-  Equations<Dof> eq;
+  StepReport& report;
+  OpenCloseWork<Dof>& w;
+  std::span<const int> members;    // ascending
+  std::span<const int> manifolds;  // sorted by block A, then B
   double k_n, k_s;
-  typename Equations<Dof>::Vec D;
 
-  Eigen::Matrix<double, 3, Dof> T(const ContactRow& row) const {
-    return displacement<Dof>(row.point);
+  static Eigen::Matrix<double, 3, Dof> T(const Vec3& arm) { return displacement<Dof>(arm); }
+
+  // Movement of A's point relative to B's.
+  [[nodiscard]] Vec3 moved(size_t r) const {
+    const PaperSides& sides = w.sides[r];
+    const Vec3 of_a = T(w.rows[r].point) * w.D[static_cast<size_t>(sides.a)];
+    if (sides.b < 0) return of_a;
+    return of_a - T(sides.arm_b) * w.D[static_cast<size_t>(sides.b)];
   }
 
-  // (17), (20), (24) of the closed contacts, then (3).
-  void solve() {
-    typename Equations<Dof>::Mat K = eq.K;
-    typename Equations<Dof>::Vec F = eq.F;
-    for (const ContactRow& row : work.rows) {
-      if (row.state == ContactState::open) continue;
-      const auto T_a = T(row);
-      const Vec3& n = row.normal;
-      const typename Equations<Dof>::Vec G = -T_a.transpose() * n;  // (12)-(14) in one
-      K += k_n * G * G.transpose();                                 // (17a)
-      F += k_n * row.gap_start * G;                                 // (17b), d_0 = -gap
-      if (row.state == ContactState::stick) {
-        const Mat3 N = Mat3::Identity() - n * n.transpose();
-        K += k_s * T_a.transpose() * N * T_a;    // (20a)
-        F -= k_s * T_a.transpose() * row.shear;  // (20b)
-      } else {
-        F -= row.held_cap * T_a.transpose() * row.slip_start;  // (24)
-      }
+  // (17), (20), (24) of a closed contact: its stiffness as seen by the relative movement, and the
+  // force on A.
+  void contact_terms(const ContactRow& row, Mat3& stiffness, Vec3& force) const {
+    const Vec3& n = row.normal;
+    const Mat3 nn = n * n.transpose();
+    stiffness = k_n * nn;                             // (17a)
+    force = -k_n * (row.gap_start + row.offset) * n;  // (17b), d_0 = -gap
+    if (row.state == ContactState::stick) {
+      stiffness += k_s * (Mat3::Identity() - nn);  // (20a)
+      force -= k_s * row.shear;                    // (20b)
+    } else {
+      force -= row.held_cap * row.slip_start;  // (24)
     }
-    D = K.ldlt().solve(F);
   }
+
+  // (3) with all closed contacts.
+  void solve() {
+    BlockLu<Dof>& lu = w.lu;
+    w.edges.clear();
+    for (size_t r = 0; r < w.rows.size(); ++r)
+      if (w.sides[r].b >= 0 && (w.edges.empty() || w.edges.back() != edge_of(r)))
+        w.edges.push_back(edge_of(r));
+    analyse_pattern(static_cast<int>(members.size()), w.edges, lu.pattern);
+    clear_matrix(lu);
+    const auto diagonal = [&](int k) -> Mat& {
+      return lu.diagonal[static_cast<size_t>(lu.pattern.place[static_cast<size_t>(k)])];
+    };
+    for (size_t k = 0; k < members.size(); ++k) {
+      diagonal(static_cast<int>(k)) = w.equations[k].K;
+      w.D[k] = w.equations[k].F;
+    }
+    for (size_t r = 0; r < w.rows.size(); ++r) {
+      if (w.rows[r].state == ContactState::open) continue;
+      Mat3 stiffness;
+      Vec3 force;
+      contact_terms(w.rows[r], stiffness, force);
+      const PaperSides& sides = w.sides[r];
+      const auto T_a = T(w.rows[r].point);
+      diagonal(sides.a) += T_a.transpose() * stiffness * T_a;
+      w.D[static_cast<size_t>(sides.a)] += T_a.transpose() * force;
+      if (sides.b < 0) continue;
+      const auto T_b = T(sides.arm_b);
+      diagonal(sides.b) += T_b.transpose() * stiffness * T_b;
+      w.D[static_cast<size_t>(sides.b)] -= T_b.transpose() * force;
+      const Mat ab = -T_a.transpose() * stiffness * T_b;
+      add_blocks<Dof>(lu, sides.a, sides.b, ab, ab.transpose());
+    }
+    factor(lu);
+    talus::solve<Dof>(lu, w.D, w.D);
+  }
+  [[nodiscard]] std::pair<int, int> edge_of(size_t r) const { return {w.sides[r].a, w.sides[r].b}; }
 
   // The patterns of Fig. 8 at the solution; number of contacts that switched.
   int set_states() {
     int switched = 0;
-    for (ContactRow& row : work.rows) {
-      const Vec3 moved = T(row) * D;
+    for (size_t r = 0; r < w.rows.size(); ++r) {
+      ContactRow& row = w.rows[r];
+      const Vec3 way = moved(r);
       const Vec3& n = row.normal;
       Spring spring;
-      spring.gap = row.gap_start + n.dot(moved);
-      spring.shear = row.shear + moved - n.dot(moved) * n;
+      spring.gap = row.gap_start + row.offset + n.dot(way);
+      spring.shear = row.shear + way - n.dot(way) * n;
       spring.direction = row.slip_start;
-      const ContactState state = judge(row, spring, k_n, k_s, row.state);
-      switched += state != row.state;
-      row.state = state;
+      const ContactState judged = judge(row, spring, k_n, k_s, row.state);
+      switched += judged != row.state;
+      row.state = judged;
       const double slip = spring.shear.norm();
       if (slip > 0) row.slip_start = spring.shear / slip;
       row.held_cap = row.friction * std::max(0.0, -k_n * spring.gap);
-      if (state == ContactState::stick) row.held_cap += row.cohesion_impulse;
+      if (judged == ContactState::stick) row.held_cap += row.cohesion_impulse;
     }
     return switched;
   }
-};
 
-void make_rows(const Scene& scene, const State& state, int b, const Mat3& R, Work& work) {
-  const std::vector<ContactMemory>& memory = state.memory[static_cast<size_t>(b)];
-  work.rows.clear();
-  for (size_t i = 0; i < work.contacts.size(); ++i) {
-    const Contact& contact = work.contacts[i];
-    const GroundClass& ground = scene.ground.classes[static_cast<size_t>(contact.ground_class)];
-    ContactRow row;
-    row.contact = static_cast<int>(i);
-    row.normal = contact.normal;
-    row.point = R * contact.point_a;
-    row.gap_start = contact.gap;
-    row.friction = ground.friction;
-    row.state = contact.gap < 0 ? ContactState::stick : ContactState::open;
+  // What a contact starts from: the memory of the same features, if there is one.
+  void start_row(const GroundClass& face, const ContactKey& key, ContactRow& row,
+                 const PaperSides& sides) {
+    const std::vector<ContactMemory>& memory =
+        state.memory[static_cast<size_t>(members[static_cast<size_t>(sides.a)])];
+    row.friction = face.friction;
+    row.state = row.gap_start < 0 || sides.bond >= 0 ? ContactState::stick : ContactState::open;
+    row.offset = std::max(0.0, -row.gap_start);
     for (size_t m = 0; m < memory.size(); ++m) {
-      if (!(memory[m].key == contact.key)) continue;
+      if (!(memory[m].key == key)) continue;
       row.memory = static_cast<int>(m);
-      row.shear = memory[m].shear - contact.normal.dot(memory[m].shear) * contact.normal;
+      row.shear = memory[m].shear - row.normal.dot(memory[m].shear) * row.normal;
       row.slip_start = memory[m].slip_direction;
-      row.held_cap = ground.friction * memory[m].normal_force;
+      row.offset = memory[m].offset;
+      row.held_cap = face.friction * memory[m].normal_force;
       row.state = static_cast<ContactState>(memory[m].state);
-      row.bond_area = memory[m].bond_area;
+      if (sides.bond < 0) row.bond_area = memory[m].bond_area;
     }
-    row.cohesion_impulse = ground.cohesion * row.bond_area;  // here forces: nothing is times dt
-    row.tension_impulse = ground.tension * row.bond_area;
-    work.rows.push_back(row);
+    row.cohesion_impulse = face.cohesion * row.bond_area;  // here forces: nothing is times dt
+    row.tension_impulse = face.tension * row.bond_area;
+    w.rows.push_back(row);
+    w.sides.push_back(sides);
+    w.keys.push_back(key);
   }
-}
 
-// What closed contacts keep: a sticking one its spring, a slipping one its direction.
-template <int Dof>
-void remember(const OpenClose<Dof>& solved, State& state, Work& work, int b, StepReport& report) {
-  work.memory_next.clear();
-  for (const ContactRow& row : work.rows) {
-    if (row.state == ContactState::open) continue;
-    const Vec3 moved = solved.T(row) * solved.D;
-    const double along = row.normal.dot(moved);
-    ContactMemory memory;
-    memory.key = work.contacts[static_cast<size_t>(row.contact)].key;
-    memory.normal = row.normal;
-    memory.gap_end = row.gap_start + along;
-    memory.normal_force = std::max(0.0, -solved.k_n * memory.gap_end);
-    memory.slip_direction = row.slip_start;
+  void add_ground(size_t k) {
+    const int b = members[k];
+    const auto i = static_cast<size_t>(b);
+    const double dt = scene.settings.dt, radius = scene.blocks.shapes.radius[i];
+    const Vec& velocity = w.equations[k].velocity;
+    const double reach =
+        1.5 * dt *
+            (velocity.template head<3>().norm() + velocity.template segment<3>(3).norm() * radius +
+             scene.gravity.norm() * dt) +
+        1e-9 * radius;
+    Mat3 stretch = Mat3::Identity();
+    if constexpr (Dof == 12) stretch += strain_tensor(state.strain[i]);
+    const SearchResult near =
+        find_contacts(scene.ground, scene.blocks.shapes, b, state.motion[i].pose, stretch, reach,
+                      work.world_vertices, work.contacts);
+    if (near.reach == Reach::below) report.flags = report.flags | StepFlag::fell_through;
+    for (const Contact& contact : work.contacts) {
+      ContactRow row;
+      row.normal = contact.normal;
+      row.point = w.equations[k].R * contact.point_a;
+      row.gap_start = contact.gap;
+      PaperSides sides;
+      sides.a = static_cast<int>(k);
+      sides.ground_class = contact.ground_class;
+      start_row(scene.ground.classes[static_cast<size_t>(contact.ground_class)], contact.key, row,
+                sides);
+    }
+  }
+
+  [[nodiscard]] size_t place_of(int block) const {
+    return static_cast<size_t>(work.islands.groups.local_index[static_cast<size_t>(block)]);
+  }
+  [[nodiscard]] const Vec3& position(int block) const {
+    return state.motion[static_cast<size_t>(block)].pose.position;
+  }
+
+  void add_pair(const PairManifold& m) {
+    PaperSides sides;
+    sides.a = static_cast<int>(place_of(m.block_a));
+    sides.b = static_cast<int>(place_of(m.block_b));
+    sides.bond = find_bond(state.bonds, m.block_a, m.block_b);
+    const GroundClass face =
+        sides.bond >= 0 ? state.bonds[static_cast<size_t>(sides.bond)].face : pair_class(scene, m);
+    for (int p = m.point_begin; p < m.point_end; ++p) {
+      const PairPoint& point = work.islands.pairs.points[static_cast<size_t>(p)];
+      ContactRow row;
+      row.normal = m.normal;
+      row.point = point.point_b + point.gap * m.normal - position(m.block_a);
+      sides.arm_b = point.point_b - position(m.block_b);
+      row.gap_start = point.gap;
+      if (sides.bond >= 0 && m.area > 0)
+        row.bond_area = state.bonds[static_cast<size_t>(sides.bond)].area * point.area / m.area;
+      ContactKey key = point.key;
+      key.body_b = m.block_b;
+      start_row(face, key, row, sides);
+    }
+  }
+
+  // Equations, then contacts member by member: with the ground, then with later members.
+  void assemble() {
+    w.equations.clear();
+    w.rows.clear();
+    w.sides.clear();
+    w.keys.clear();
+    w.row_begin.clear();
+    w.D.resize(members.size());
+    for (const int b : members) w.equations.push_back(equations<Dof>(scene, b, state));
+    auto next = manifolds.begin();
+    for (size_t k = 0; k < members.size(); ++k) {
+      w.row_begin.push_back(w.rows.size());
+      add_ground(k);
+      for (; next != manifolds.end(); ++next) {
+        const PairManifold& m = work.islands.pairs.manifolds[static_cast<size_t>(*next)];
+        if (m.block_a != members[k]) break;
+        add_pair(m);
+      }
+    }
+    w.row_begin.push_back(w.rows.size());
+  }
+
+  void iterate() {
+    int passes = 0, switched = 1;
+    while (switched > 0 && passes < most_passes) {
+      solve();
+      switched = set_states();
+      ++passes;
+    }
+    if (switched > 0) ++report.n_unconverged, report.flags = report.flags | StepFlag::unconverged;
+    report.passes += passes;
+  }
+
+  // What a closed contact keeps: a sticking one its spring, a slipping one its direction.
+  void remember_row(size_t r) {
+    const ContactRow& row = w.rows[r];
+    const PaperSides& sides = w.sides[r];
     const bool sticks = row.state == ContactState::stick;
-    if (sticks) memory.shear = row.shear + moved - along * row.normal;
-    memory.bond_area = sticks ? row.bond_area : 0;
+    if (sides.bond >= 0 && !sticks) state.bonds[static_cast<size_t>(sides.bond)].area = 0;
+    if (row.state == ContactState::open) return;
+    const Vec3 way = moved(r);
+    const double along = row.normal.dot(way);
+    ContactMemory memory;
+    memory.key = w.keys[r];
+    memory.normal = row.normal;
+    memory.gap_end = row.gap_start + row.offset + along;
+    memory.offset = std::max(0.0, row.offset - offset_speed * scene.settings.dt);
+    memory.normal_force = std::max(0.0, -k_n * memory.gap_end);
+    memory.slip_direction = row.slip_start;
+    if (sticks) memory.shear = row.shear + way - along * row.normal;
+    memory.bond_area = sticks && sides.bond < 0 ? row.bond_area : 0;
     memory.state = static_cast<std::uint8_t>(row.state);
     work.memory_next.push_back(memory);
     ++report.n_closed;
-    note_penetration(report, -memory.gap_end,
-                     solved.scene.blocks.shapes.thickness[static_cast<size_t>(b)]);
+    const int block = members[static_cast<size_t>(sides.a)];
+    note_penetration(report, -(row.gap_start + along),
+                     scene.blocks.shapes.thickness[static_cast<size_t>(block)]);
     state.ledger.contact -= memory.normal_force * along;
     if (!sticks)
-      state.ledger.friction += row.held_cap * (moved - along * row.normal).dot(row.slip_start);
+      state.ledger.friction += row.held_cap * (way - along * row.normal).dot(row.slip_start);
   }
-  std::vector<ContactMemory>& memory = state.memory[static_cast<size_t>(b)];
-  report.n_flips += count_flips(work.rows, memory);
-  std::swap(memory, work.memory_next);
-}
 
-// Eq. (28), v_a = COR v_b, on the normal component of the centroid's velocity, once a collision:
-// v_b is kept when a free block first closes a contact, v_a set when its last contact opens again.
-void post_adjust(const Scene& scene, int b, bool was_free, const Vec3& velocity_before,
-                 const Work& work, State& state) {
-  const auto i = static_cast<size_t>(b);
-  const bool is_free = state.memory[i].empty();
-  if (was_free && !is_free) {
-    Vec3 normal = Vec3::Zero();
-    for (const ContactMemory& memory : state.memory[i]) normal += memory.normal;
-    normal.normalize();
-    const double speed = -normal.dot(velocity_before);
-    const double restitution =
-        scene.ground.classes[static_cast<size_t>(work.contacts.front().ground_class)].restitution;
-    const double resting = 2 * scene.gravity.norm() * scene.settings.dt;
-    state.rebound[i] = speed > resting ? Vec3(restitution * speed * normal) : Vec3(Vec3::Zero());
+  void remember() {
+    for (size_t k = 0; k < members.size(); ++k) {
+      std::vector<ContactMemory>& memory = state.memory[static_cast<size_t>(members[k])];
+      work.memory_next.clear();
+      for (size_t r = w.row_begin[k]; r < w.row_begin[k + 1]; ++r) remember_row(r);
+      report.n_flips += count_flips(
+          std::span(w.rows).subspan(w.row_begin[k], w.row_begin[k + 1] - w.row_begin[k]), memory);
+      std::swap(memory, work.memory_next);
+    }
   }
-  if (was_free || !is_free || state.rebound[i].isZero(0)) return;
-  const double wanted = state.rebound[i].norm();
-  const Vec3 normal = state.rebound[i] / wanted;
-  Vec3& v = state.motion[i].velocity;
-  const Vec3 adjusted = v + (wanted - normal.dot(v)) * normal;
-  state.ledger.impact += 0.5 * scene.blocks.mass[i] * (v.squaredNorm() - adjusted.squaredNorm());
-  v = adjusted;
-  state.rebound[i].setZero();
-}
+
+  [[nodiscard]] bool touches_nothing(size_t k) const {
+    return std::none_of(w.sides.begin(), w.sides.end(), [&](const PaperSides& sides) {
+      return sides.a == static_cast<int>(k) || sides.b == static_cast<int>(k);
+    });
+  }
+
+  // Newmark with beta = 1/2, gamma = 1: v' = 2 D / dt - v.
+  void move(size_t k) {
+    const int b = members[k];
+    const auto i = static_cast<size_t>(b);
+    const double dt = scene.settings.dt;
+    const Motion before = state.motion[i];
+    const Vec& D = w.D[k];
+    const Vec velocity = 2 / dt * D - w.equations[k].velocity;
+    Motion& m = state.motion[i];
+    m.pose.position += D.template head<3>();
+    m.pose.attitude = (rotation_by(D.template segment<3>(3)) * m.pose.attitude).normalized();
+    m.velocity = velocity.template head<3>();
+    m.angular_momentum =
+        angular_momentum(m.pose.attitude, velocity.template segment<3>(3), scene.blocks.inertia[i]);
+    if constexpr (Dof == 12) {
+      const Mat3& R = w.equations[k].R;
+      state.strain[i] += strain_vector(R.transpose() * strain_tensor(D.template tail<6>()) * R);
+      state.strain_rate[i] =
+          strain_vector(R.transpose() * strain_tensor(velocity.template tail<6>()) * R);
+    }
+    ++report.substeps;
+    state.local_time[i] = state.time + dt;
+    if (!is_finite(m)) return stop_at(before, i, state, report);
+    Segment segment;
+    segment.block = b;
+    segment.flight = touches_nothing(k);
+    segment.t_start = state.time;
+    segment.t_end = state.time + dt;
+    segment.start = before;
+    segment.end = m;
+    segment.acceleration =
+        2 / (dt * dt) * (m.pose.position - before.pose.position - dt * before.velocity);
+    work.segments.push_back(segment);
+  }
+
+  void run() {
+    assemble();
+    iterate();
+    const auto first = static_cast<size_t>(members.front());
+    const bool was_free = state.memory[first].empty();
+    const Vec3 velocity_before = state.motion[first].velocity;
+    remember();
+    for (size_t k = 0; k < members.size(); ++k) move(k);
+    if (scene.settings.post_adjustment && (n_blocks(scene) == 1 || !scene.settings.block_contacts))
+      post_adjust(was_free, velocity_before);
+    for (const int b : members)
+      if (left_ground(scene, position(b))) stop_outside(scene, b, state, report);
+  }
+
+  // Eq. (28), v_a = COR v_b, on the normal component of the centroid's velocity, once a collision:
+  // v_b is kept when a free block first closes a contact, v_a set when its last contact opens
+  // again.
+  void post_adjust(bool was_free, const Vec3& velocity_before) {
+    const auto i = static_cast<size_t>(members.front());
+    const bool is_free = state.memory[i].empty();
+    if (was_free && !is_free) {
+      Vec3 normal = Vec3::Zero();
+      for (const ContactMemory& memory : state.memory[i]) normal += memory.normal;
+      normal.normalize();
+      const double speed = -normal.dot(velocity_before);
+      const double restitution =
+          scene.ground.classes[static_cast<size_t>(w.sides.front().ground_class)].restitution;
+      const double resting = 2 * scene.gravity.norm() * scene.settings.dt;
+      state.rebound[i] = speed > resting ? Vec3(restitution * speed * normal) : Vec3(Vec3::Zero());
+    }
+    if (was_free || !is_free || state.rebound[i].isZero(0)) return;
+    const double wanted = state.rebound[i].norm();
+    const Vec3 normal = state.rebound[i] / wanted;
+    Vec3& v = state.motion[i].velocity;
+    const Vec3 adjusted = v + (wanted - normal.dot(v)) * normal;
+    state.ledger.impact += 0.5 * scene.blocks.mass[i] * (v.squaredNorm() - adjusted.squaredNorm());
+    v = adjusted;
+    state.rebound[i].setZero();
+  }
+};
 
 template <int Dof>
-void advance(const Scene& scene, int b, State& state, Work& work, StepReport& report) {
-  const auto i = static_cast<size_t>(b);
-  const double dt = scene.settings.dt, radius = scene.blocks.shapes.radius[i];
-  const Motion before = state.motion[i];
-  OpenClose<Dof> solver{scene,
-                        work,
-                        equations<Dof>(scene, b, state),
-                        scene.settings.normal_stiffness,
-                        scene.settings.normal_stiffness * scene.settings.shear_ratio,
-                        {}};
-  const double spin = solver.eq.velocity.template segment<3>(3).norm();
-  const double ctol =
-      1.5 * dt * (before.velocity.norm() + spin * radius + scene.gravity.norm() * dt) +
-      1e-9 * radius;
-  Mat3 stretch = Mat3::Identity();
-  if constexpr (Dof == 12) stretch += strain_tensor(state.strain[i]);
-  const SearchResult near = find_contacts(scene.ground, scene.blocks.shapes, b, before.pose,
-                                          stretch, ctol, work.world_vertices, work.contacts);
-  if (near.reach == Reach::below) report.flags = report.flags | StepFlag::fell_through;
-  make_rows(scene, state, b, solver.eq.R, work);
-  int passes = 0, switched = 1;
-  while (switched > 0 && passes < most_passes) {
-    solver.solve();
-    switched = solver.set_states();
-    ++passes;
-  }
-  if (switched > 0) ++report.n_unconverged, report.flags = report.flags | StepFlag::unconverged;
-  report.passes += passes;
-  ++report.substeps;
-  const bool was_free = state.memory[i].empty();
-  remember(solver, state, work, b, report);
-
-  const auto& D = solver.D;
-  const typename Equations<Dof>::Vec velocity = 2 / dt * D - solver.eq.velocity;
-  Motion& m = state.motion[i];
-  m.pose.position += D.template head<3>();
-  m.pose.attitude = (rotation_by(D.template segment<3>(3)) * m.pose.attitude).normalized();
-  m.velocity = velocity.template head<3>();
-  m.angular_momentum =
-      angular_momentum(m.pose.attitude, velocity.template segment<3>(3), scene.blocks.inertia[i]);
-  if constexpr (Dof == 12) {
-    const Mat3& R = solver.eq.R;
-    state.strain[i] += strain_vector(R.transpose() * strain_tensor(D.template tail<6>()) * R);
-    state.strain_rate[i] =
-        strain_vector(R.transpose() * strain_tensor(velocity.template tail<6>()) * R);
-  }
-  if (scene.settings.post_adjustment) post_adjust(scene, b, was_free, before.velocity, work, state);
-  Segment segment;
-  segment.block = b;
-  segment.flight = work.rows.empty();
-  segment.t_start = state.time;
-  segment.t_end = state.time + dt;
-  segment.start = before;
-  segment.end = m;
-  segment.acceleration =
-      2 / (dt * dt) * (m.pose.position - before.pose.position - dt * before.velocity);
-  work.segments.push_back(segment);
-  state.local_time[i] = state.time + dt;
+void advance(const Scene& scene, std::span<const int> members, std::span<const int> manifolds,
+             State& state, Work& work, StepReport& report) {
+  const double k_n = scene.settings.normal_stiffness;
+  OpenClose<Dof>{scene,
+                 state,
+                 work,
+                 report,
+                 work_of<Dof>(work),
+                 members,
+                 manifolds,
+                 k_n,
+                 k_n * scene.settings.shear_ratio}
+      .run();
 }
 
 }  // namespace
 
-void advance_block_paper(const Scene& scene, int b, State& state, Work& work, StepReport& report) {
+void advance_island_paper(const Scene& scene, std::span<const int> members,
+                          std::span<const int> manifolds, State& state, Work& work,
+                          StepReport& report) {
   if (scene.settings.strains)
-    advance<12>(scene, b, state, work, report);
+    advance<12>(scene, members, manifolds, state, work, report);
   else
-    advance<6>(scene, b, state, work, report);
+    advance<6>(scene, members, manifolds, state, work, report);
 }
 
 }  // namespace talus

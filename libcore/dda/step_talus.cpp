@@ -54,7 +54,7 @@ BlockSystem<Dof> make_system(const Scene& scene, int b, const BlockNumbers& c, c
     system.velocity.template head<6>() << v_start + s.h * (s.R.transpose() * state.acceleration[i]),
         spin_start + s.h * state.spin_rate[i];
   }
-  system.tolerance = newton_tolerance(c, s);
+  system.tolerance = scene.settings.tolerance_factor * newton_tolerance(c, s);
   return system;
 }
 
@@ -155,13 +155,12 @@ struct Advance {
   BlockNumbers c;
   Contact foreseen = {};     // the one that an attempt found about to hit
   bool is_foreseen = false;  // not yet tried
+  bool may_fly = true;       // off for the rest of a step in which a flight met the ground
 
   [[nodiscard]] size_t i() const { return static_cast<size_t>(b); }
   Motion& motion() { return state.motion[i()]; }
 
-  bool free_fall_only() const {
-    return scene.settings.flight && scene.base.time.empty() && scene.loads.empty();
-  }
+  bool free_fall_only() const { return may_fly && scene.base.time.empty() && scene.loads.empty(); }
 
   void finish(const Substep& s, const Motion& end, double t, double t_next) {
     add_segment(b, state.memory[i()].empty(), t, s.h, s.start, end, work);
@@ -287,18 +286,27 @@ struct Advance {
     return true;
   }
 
+  // With Settings::flight off the ground is searched though nothing can be hit: a flight that
+  // touches it all the same ends where the step begins.
+  bool touches_in_flight(double t_end) {
+    const double h = t_end - state.time;
+    const Pose pose = motion_at(scene, state, b, t_end).pose;
+    (void)find_contacts(scene.ground, scene.blocks.shapes, b, pose, stretch_of(state, b),
+                        search_margin(c, h), work.world_vertices, work.contacts);
+    return std::any_of(work.contacts.begin(), work.contacts.end(),
+                       [](const Contact& contact) { return contact.gap < 0; });
+  }
+
   // True when the flight ends within the step; the block is then at its end.
-  bool end_flight(double t_end) {
-    if (state.flight_end[i()] >= t_end) return false;
-    const double t = state.local_time[i()], h = state.flight_end[i()] - t;
-    const Motion end = fly(motion(), c.inertia, scene.gravity, h);
-    add_segment(b, true, t, h, motion(), end, work);
-    motion() = end;
-    state.acceleration[i()] = scene.gravity;
-    state.spin_rate[i()].setZero();
-    state.local_time[i()] = state.flight_end[i()];
-    state.phase[i()] = Phase::near_ground;
-    return true;
+  bool flight_ends(double t_end) {
+    const double t = std::max(state.time, state.local_time[i()]);
+    if (state.flight_end[i()] < t_end) {
+      end_flight(scene, b, state.flight_end[i()], state, work);
+    } else if (!scene.settings.flight && touches_in_flight(t_end)) {
+      end_flight(scene, b, t, state, work);
+      may_fly = false;
+    }
+    return state.phase[i()] != Phase::flight;
   }
 
   double spin_speed() {
@@ -320,7 +328,7 @@ struct Advance {
   void run(double t_end) {
     int events = 0;
     while (state.local_time[i()] < t_end) {
-      if (state.phase[i()] == Phase::flight && !end_flight(t_end)) return;
+      if (state.phase[i()] == Phase::flight && !flight_ends(t_end)) return;
       const double t = state.local_time[i()];
       double h = std::min(t_end - t, longest_substep());
       Attempt outcome = Attempt::shorter;

@@ -245,6 +245,20 @@ void add_segment(int b, bool flight, double t, double h, const Motion& start, co
   work.segments.push_back(segment);
 }
 
+void end_flight(const Scene& scene, int b, double t, State& state, Work& work) {
+  const auto i = static_cast<size_t>(b);
+  const double h = t - state.local_time[i];
+  if (h > 0) {
+    const Motion end = fly(state.motion[i], scene.blocks.inertia[i], scene.gravity, h);
+    add_segment(b, true, state.local_time[i], h, state.motion[i], end, work);
+    state.motion[i] = end;
+  }
+  state.acceleration[i] = scene.gravity;
+  state.spin_rate[i].setZero();
+  state.local_time[i] = t;
+  state.phase[i] = Phase::near_ground;
+}
+
 bool left_ground(const Scene& scene, const Vec3& x) {
   return std::isnan(elevation_at(scene.ground.trn, x.x(), x.y()));
 }

@@ -63,6 +63,9 @@ void make_rows(const Scene& scene, int b, const BlockNumbers& c, const Substep& 
 void add_segment(int b, bool flight, double t, double h, const Motion& start, const Motion& end,
                  Work& work);
 
+/// Ends the flight of block b at `t`, not before its local time: its motion is then that at `t`.
+void end_flight(const Scene& scene, int b, double t, State& state, Work& work);
+
 [[nodiscard]] bool left_ground(const Scene& scene, const Vec3& x);
 
 /// Stops block b where it left the known terrain, and counts it.

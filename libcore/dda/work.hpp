@@ -7,6 +7,7 @@
 
 #include "contact/block_pairs.hpp"
 #include "contact/contact.hpp"
+#include "dda/block_lu.hpp"
 #include "dda/contact_row.hpp"
 #include "dda/island_groups.hpp"
 #include "dda/island_solver.hpp"
@@ -46,10 +47,11 @@ struct IslandContact {
   double target = 0;         ///< normal velocity at the end of the substep [m/s]
 };
 
-/// How a body turns over a substep without contact.
+/// How a body turns over a substep without contact, and how hard it is to turn.
 struct FreeTurn {
   Mat3 by;                    ///< from start to end, local axes
   Vec3 spin_start, spin_end;  ///< local axes [rad/s]
+  Mat3 per_inertia;           ///< inverse of the inertia at the end, local axes [1/(kg m2)]
 };
 
 /// What the step of islands recomputes.
@@ -75,7 +77,7 @@ struct IslandStepWork {  // clang-format off
   std::vector<Substep> substeps;            ///<                                         (n_members)
   std::vector<int> place;                   ///< of a body in `members`, -1: not in it   (n_bodies)
   std::vector<int> continued;               ///< memory that a manifold's point continues
-  std::vector<std::uint8_t> claimed;        ///< 1: a memory that is continued
+  std::vector<int> unclaimed;               ///< memories of the pair that no point continues yet
   std::vector<BondLoad> bond_loads;         ///< of this substep, by bond
   std::vector<PanelPush> pushes;            ///< on panels of fences, in this substep
   std::vector<FreeTurn> turns;              ///<                                         (n_members)
@@ -85,6 +87,39 @@ struct IslandStepWork {  // clang-format off
   std::vector<int> island_manifolds;        ///< of the island at hand
   std::vector<double> weight, time;         ///< impulses expected [N s]; mean time of theirs [s] (n_members)
   std::vector<Vec6> displacement;           ///< by contact over the substep             (n_members)
+};  // clang-format on
+
+/// The block's part of Eq. (3) without contacts, in local axes: law paper.
+template <int Dof>
+struct BlockEquations {
+  using Vec = Eigen::Matrix<double, Dof, 1>;
+  using Mat = Eigen::Matrix<double, Dof, Dof>;
+  Mat K;
+  Vec F;
+  Vec velocity;  ///< at the start of the step
+  Mat3 R;        ///< body to local axes at the start
+};
+
+/// Between what a contact of law paper acts; its row's point is the arm of A.
+struct PaperSides {
+  int a = 0, b = -1;          ///< members of the island; b = -1: the ground
+  Vec3 arm_b = Vec3::Zero();  ///< from the centroid of B, local axes [m]
+  int ground_class = 0;       ///< where b is -1
+  int bond = -1;              ///< index into State::bonds, -1: none
+};
+
+/// What an island's step by law paper recomputes.
+template <int Dof>
+struct OpenCloseWork {  // clang-format off
+  using Vec = Eigen::Matrix<double, Dof, 1>;
+  std::vector<BlockEquations<Dof>> equations;  ///<                                      (n_members)
+  std::vector<ContactRow> rows;                ///< grouped by A
+  std::vector<PaperSides> sides;               ///< of each row
+  std::vector<ContactKey> keys;                ///< of each row
+  std::vector<std::size_t> row_begin;          ///<                                  (n_members + 1)
+  std::vector<std::pair<int, int>> edges;      ///< members that share contacts
+  BlockLu<Dof> lu;
+  std::vector<Vec> D;                          ///< right-hand side, then solution       (n_members)
 };  // clang-format on
 
 struct Work {  // clang-format off
@@ -97,6 +132,9 @@ struct Work {  // clang-format off
   // advance_block: the motion of this step, block by block, in order of time
   std::vector<Segment> segments;
   IslandStepWork islands;
+  OpenCloseWork<6> paper_rigid;
+  OpenCloseWork<12> paper_strained;
+  std::vector<int> members, manifolds;       ///< of the island at hand, law paper
 };  // clang-format on
 
 }  // namespace talus

@@ -68,24 +68,6 @@ Dataset to_dataset(const MapRaster& raster) {
   return dataset;
 }
 
-// Each cell of the overview holds the largest of the cells below its area.
-std::vector<float> largest_of(const std::vector<float>& value, int n_cols, int n_rows,
-                              int overview_cols, int overview_rows) {
-  std::vector<float> overview(static_cast<std::size_t>(overview_cols) * overview_rows,
-                              MapRaster::nodata);
-  for (int r = 0; r < n_rows; ++r)
-    for (int c = 0; c < n_cols; ++c) {
-      const auto row =
-          static_cast<std::size_t>(static_cast<std::int64_t>(r) * overview_rows / n_rows);
-      const auto col =
-          static_cast<std::size_t>(static_cast<std::int64_t>(c) * overview_cols / n_cols);
-      float& cell = overview[row * static_cast<std::size_t>(overview_cols) + col];
-      cell = std::max(cell, value[static_cast<std::size_t>(r) * static_cast<std::size_t>(n_cols) +
-                                  static_cast<std::size_t>(c)]);
-    }
-  return overview;
-}
-
 void add_overviews(GDALDataset& dataset, const MapRaster& raster) {
   std::vector<int> factors;
   for (int factor = 2; std::max(raster.n_cols, raster.n_rows) * 2 / factor > tile_size; factor *= 2)
@@ -97,8 +79,9 @@ void add_overviews(GDALDataset& dataset, const MapRaster& raster) {
     GDALRasterBand& band = *dataset.GetRasterBand(static_cast<int>(b) + 1);
     for (int i = 0; i < band.GetOverviewCount(); ++i) {
       GDALRasterBand& overview = *band.GetOverview(i);
-      write_cells(overview, largest_of(raster.bands[b].value, raster.n_cols, raster.n_rows,
-                                       overview.GetXSize(), overview.GetYSize()));
+      write_cells(overview, overview_of(raster.bands[b].value, raster.n_rows, raster.n_cols,
+                                        overview.GetYSize(), overview.GetXSize(), MapRaster::nodata,
+                                        raster.bands[b].overview));
     }
   }
 }

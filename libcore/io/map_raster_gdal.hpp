@@ -1,7 +1,7 @@
 // libcore/io/map_raster_gdal.hpp
 // Results as rasters: cloud-optimised GeoTIFF with bands that say what they hold, and pictures.
 // in:    bands of cells from north to south, west to east
-// out:   COG (deflate, overviews that keep the largest value), PNG
+// out:   COG (deflate, overviews without averaging), PNG
 #pragma once
 
 #include <array>
@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/types.hpp"
+#include "io/overview.hpp"
 
 namespace talus {
 
@@ -20,6 +21,7 @@ struct MapRasterBand {
   std::string unit;          ///< "kJ", "m", "m/s", "deg", "1", ...
   std::string long_name;     ///< definition, one sentence
   std::vector<float> value;  ///< `nodata` where there is none                  (n_rows x n_cols)
+  OverviewValue overview = OverviewValue::largest;
 };
 
 struct MapRaster {
@@ -32,8 +34,8 @@ struct MapRaster {
   std::vector<std::pair<std::string, std::string>> tags;  ///< of the whole file, e.g. RUN_ID
 };
 
-/// Writes a COG, byte by byte the same for the same raster and options. Overviews take the largest
-/// of their cells, so that a fast block is not averaged away when zooming out.
+/// Writes a COG, byte by byte the same for the same raster and options. Overviews take one
+/// of the values below, so that a fast block is not averaged away when zooming out.
 /// `creation_options`: the COG driver's NAME=VALUE; they win over COMPRESS=DEFLATE and the like.
 /// Throws InputError when it cannot be written whole.
 void write_map_raster(const std::string& path, const MapRaster& raster,

@@ -45,13 +45,15 @@ MapLayer change_layer(const GroundSums& with, const GroundSums& without, double 
        "volume of the blocks at rest over the cell / cell area, mean over the runs: with "
        "the fences minus without",
        true,
-       {}},
+       {},
+       OverviewValue::farthest_from_zero},
       {"velocity_max_change",
        "m/s",
        "largest centroid speed of any block over the cell (0: none came): with the "
        "fences minus without",
        true,
-       {}}};
+       {},
+       OverviewValue::farthest_from_zero}};
   for (const std::uint32_t cell : cells_of(with, without)) {
     layer.cell.push_back(cell);
     const double volume = volume_at(with, cell) - volume_at(without, cell);

@@ -464,6 +464,7 @@ MapLayer arrival_layer(const CellRows& cells) {
   MapBand out = band("first_arrival", "s",
                      "earliest time after the run's start at which any block came over the cell",
                      cells.cell.size());
+  out.overview = OverviewValue::smallest;
   for (std::size_t i = 0; i < cells.cell.size(); ++i)
     for (const MapRow& row : rows_of(cells, i))
       out.value[i] = std::fmin(out.value[i], row.first_time);
@@ -477,6 +478,7 @@ MapLayer energy_line_layer(const CellRows& cells) {
                      "smallest over blocks of atan(drop of the centroid since its start / "
                      "horizontal length of its path) when the block came over the cell",
                      cells.cell.size());
+  out.overview = OverviewValue::smallest;
   for (std::size_t i = 0; i < cells.cell.size(); ++i)
     for (const MapRow& row : rows_of(cells, i))
       out.value[i] = std::fmin(out.value[i], static_cast<float>(row.travel_angle * degrees));

@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "io/overview.hpp"
 #include "store/passages.hpp"
 
 namespace talus {
@@ -90,6 +91,7 @@ struct MapBand {
   std::string name, unit, description;
   bool zero_elsewhere = false;  ///< cells that nothing touched hold 0 (else nodata)
   std::vector<float> value;     ///<                                                (n_touched)
+  OverviewValue overview = OverviewValue::largest;  ///< in the file
 };
 
 /// Bands that share a file.

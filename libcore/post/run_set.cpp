@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <numeric>
+#include <set>
+#include <sstream>
 
 #include "base/error.hpp"
 #include "base/text.hpp"
@@ -91,6 +93,15 @@ std::vector<int> order_by_id(const std::vector<RunMember>& runs) {
   return order;
 }
 
+std::vector<std::string> warnings_of(const std::vector<RunMember>& runs) {
+  std::set<std::string> lines;
+  for (const RunMember& run : runs) {
+    std::istringstream text(run.info.warnings);
+    for (std::string line; std::getline(text, line);) lines.insert(line);
+  }
+  return {lines.begin(), lines.end()};
+}
+
 std::vector<std::pair<std::string, std::string>> tags_of(const std::vector<RunMember>& runs) {
   const auto n_unfinished = std::count_if(
       runs.begin(), runs.end(), [](const RunMember& run) { return run.info.status != "done"; });
@@ -120,6 +131,10 @@ std::vector<std::pair<std::string, std::string>> tags_of(const std::vector<RunMe
   tags.emplace_back("HEALTH_LEFT_DOMAIN", std::to_string(sum_of(runs, &RunMember::left_domain)));
   tags.emplace_back("HEALTH_FELL_THROUGH", std::to_string(sum_of(runs, &RunMember::fell_through)));
   tags.emplace_back("HEALTH_NOT_FINITE", std::to_string(sum_of(runs, &RunMember::not_finite)));
+  const std::vector<std::string> warnings = warnings_of(runs);
+  std::string words;
+  for (const std::string& line : warnings) words += (words.empty() ? "" : "; ") + line;
+  if (!words.empty()) tags.emplace_back("WARNINGS", words);
   return tags;
 }
 

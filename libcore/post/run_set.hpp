@@ -42,8 +42,11 @@ void check_member(const RunMember& run, const RunMember& first, const RunSetOpti
 /// Order by run id. Throws InputError naming both files when the same run is given twice.
 [[nodiscard]] std::vector<int> order_by_id(const std::vector<RunMember>& runs);
 
-/// Tags N_RUNS, N_UNFINISHED, DENOMINATOR, VERSION, SITE, HEALTH and HEALTH_*, the same in whatever
-/// order the runs come.
+/// What the runs were warned of, each once, sorted.
+[[nodiscard]] std::vector<std::string> warnings_of(const std::vector<RunMember>& runs);
+
+/// Tags N_RUNS, N_UNFINISHED, DENOMINATOR, VERSION, SITE, HEALTH, HEALTH_* and, where there are
+/// any, WARNINGS; the same in whatever order the runs come.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> tags_of(
     const std::vector<RunMember>& runs);
 

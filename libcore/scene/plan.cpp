@@ -97,9 +97,9 @@ PlanFacts plan_facts(const Site& site, const BlockSet& blocks, const Trn& trn,
 namespace {
 
 PlanItem block_contacts(const PlanFacts& facts) {
-  const bool on = facts.n_blocks > 1 && facts.law == "talus" && !facts.independent;
+  const bool on = facts.n_blocks > 1 && !facts.independent;
   const std::string count = number(facts.n_blocks, "block");
-  return {"contacts between blocks", on, "law talus, two blocks or more, not --independent",
+  return {"contacts between blocks", on, "two blocks or more, not --independent",
           on || facts.n_blocks < 2 ? count : count + ", each moves as if it were alone"};
 }
 

@@ -35,6 +35,7 @@ struct RunInfo {
   double time = 0;                 ///< reached [s]
   std::string config;              ///< effective settings, TOML
   std::string plan;                ///< what was computed and what left out, JSON
+  std::string warnings;            ///< a line each, of inputs and settings; no paths
 };
 
 /// The blocks as they are drawn and weighed.

@@ -337,6 +337,8 @@ void write_info(H5Writer& file, const RunFile& run) {
   file.attribute("", "time_s", info.time);
   file.text("config", info.config, "effective settings as TOML, each with its origin");
   file.text("plan", info.plan, "what was computed and what was left out, JSON");
+  if (!info.warnings.empty())
+    file.text("warnings", info.warnings, "what inputs and settings were warned of, a line each");
 }
 
 RunInfo read_info(const H5Reader& file, const std::string& path) {
@@ -363,6 +365,7 @@ RunInfo read_info(const H5Reader& file, const std::string& path) {
   info.seed = file.attribute_integer("", "seed");
   info.status = file.attribute_text("", "status");
   info.reason = file.attribute_text("", "reason");
+  if (file.has("warnings")) info.warnings = file.text("warnings");
   info.duration = file.attribute_number("", "duration_s");
   info.time = file.attribute_number("", "time_s");
   return info;

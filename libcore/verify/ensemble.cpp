@@ -111,6 +111,7 @@ std::vector<VerifyRow> rows_of(const std::string& case_name, Quantity quantity,
     row.dof = result.n_blocks * (row.strains ? 12 : 6);
     row.dt = result.settings.dt;
     row.normal_stiffness = result.settings.normal_stiffness;
+    row.tolerance_factor = result.settings.tolerance_factor;
     row.steps = result.sums.steps / result.n_runs;
     row.error = std::abs(result.mean[q] - reference.mean[q]);
     row.norm = "m, mean of " + std::to_string(result.n_runs) + " runs";

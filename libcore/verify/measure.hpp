@@ -20,11 +20,12 @@ struct VerifyRow {
   double dt = 0;                ///< [s]
   double normal_stiffness = 0;  ///< [N/m]; 0: chosen by law talus
   bool strains = false;
+  double tolerance_factor = 1;  ///< Settings::tolerance_factor
   long steps = 0;
   double error = 0;  ///< NaN where the run did not give a finite one
   std::string norm;  ///< what the error is, with its unit
-  double cpu = 0;    ///< of the whole case with set-up, median [s]
-  double wall = 0;   ///< [s]
+  double cpu = 0;    ///< of the case with set-up, without its integrated reference, median [s]
+  double wall = 0;   ///< with the reference [s]
   long iterations = 0, unconverged = 0;
   double largest_penetration = 0;  ///< [m]
   StepFlag flags = StepFlag::none;

@@ -50,8 +50,7 @@ VerifyCase bounce_case(const std::string& name, double restitution, Landing land
       .norm = "relative, largest of three",
       .test = "LawTalus.BouncesToTheHeightAskedFor",
       .bound = 1e-5,
-      .run = [=](const Settings& s) { return bounce(s, restitution, landing); },
-      .varies_strains = false};
+      .run = [=](const Settings& s) { return bounce(s, restitution, landing); }};
 }
 
 std::vector<VerifyCase> single_block_cases() {
@@ -96,8 +95,7 @@ std::vector<VerifyCase> single_block_cases() {
        .test = "LawTalusDefault.PrismStartsToRollAtTheCriticalAngle",
        .bound = 0.003,
        .run = worst_rolling_angle,
-       .shortest_dt = 1e-3,
-       .varies_strains = false},
+       .shortest_dt = 1e-3},
       {.name = "sustained_rolling",
        .claim = "a prism of 12 sides rolls on at the steady speed of plastic edge impacts",
        .reference = "closed form (theory 4)",
@@ -105,8 +103,7 @@ std::vector<VerifyCase> single_block_cases() {
        .test = "LawTalus.PrismRollsOnAtTheSteadySpeed",
        .bound = 0.01,
        .run = [](const Settings& s) { return sustained_rolling(s, 12); },
-       .laws = CaseLaws::talus_only,
-       .varies_strains = false},
+       .laws = CaseLaws::talus_only},
       bounce_case("bounce_face", 0.7, Landing::face),
       bounce_case("bounce_edge", 0.7, Landing::edge),
       bounce_case("bounce_corner", 0.7, Landing::corner),
@@ -119,24 +116,21 @@ std::vector<VerifyCase> single_block_cases() {
        .test = "LawTalus.CornerImpulseIsExact",
        .bound = 1e-6,
        .run = [](const Settings& s) { return corner_impulse(s, 0.7); },
-       .laws = CaseLaws::talus_only,
-       .varies_strains = false},
+       .laws = CaseLaws::talus_only},
       {.name = "free_spin",
        .claim = "a box spins about its middle axis in flight, 20 s",
        .reference = "Euler's equations by Runge-Kutta, 200,000 steps",
        .norm = "degrees",
        .test = "LawTalusDefault.SpinsFreelyAndTumblesInFlight",
        .bound = 0.01,
-       .run = [](const Settings& s) { return free_spin(s, 20); },
-       .varies_strains = false},
+       .run = [](const Settings& s) { return free_spin(s, 20); }},
       {.name = "tumbling",
        .claim = "the box that spins about its middle axis flies the parabola, 10 s",
        .reference = "closed form (25)",
        .norm = "m",
        .test = "LawTalus.TumblingBlockFliesTheParabola",
        .bound = 1e-12,
-       .run = [](const Settings& s) { return tumbling_flight(s, 10); },
-       .varies_strains = false},
+       .run = [](const Settings& s) { return tumbling_flight(s, 10); }},
       {.name = "wedge",
        .claim = "a wedge slides along the line of its two planes, friction 20 degrees",
        .reference = "closed form",
@@ -151,8 +145,7 @@ std::vector<VerifyCase> single_block_cases() {
        .test = "LawTalusDefault.WedgeStopsSlidingAtTheCriticalFriction",
        .bound = 0.05,
        .run = wedge_critical,
-       .shortest_dt = 1e-3,
-       .varies_strains = false},
+       .shortest_dt = 1e-3},
       {.name = "toppling",
        .claim = "a column topples from 26.565 degrees",
        .reference = "closed form",
@@ -160,8 +153,7 @@ std::vector<VerifyCase> single_block_cases() {
        .test = "LawTalusDefault.ColumnTopplesOrSlidesAtTheRightAngle",
        .bound = 0.05,
        .run = toppling_angle,
-       .shortest_dt = 1e-3,
-       .varies_strains = false},
+       .shortest_dt = 1e-3},
       {.name = "rocking",
        .claim = "a rocking column hits the ground after 0.48909 s",
        .reference = "integrated closed form",
@@ -169,8 +161,7 @@ std::vector<VerifyCase> single_block_cases() {
        .test = "LawTalus.ColumnRocksAndLosesWhatHousnerSays",
        .bound = 1e-3,
        .run = rocking_time,
-       .laws = CaseLaws::talus_only,
-       .varies_strains = false},
+       .laws = CaseLaws::talus_only},
       {.name = "shaken",
        .claim = "a block on a shaken slope slides 3.19694 m in 10 s",
        .reference = "Newmark's sliding block",
@@ -187,8 +178,7 @@ std::vector<VerifyCase> single_block_cases() {
        .bound = 5e-3,
        .run = energy_line,
        .laws = CaseLaws::talus_only,
-       .shortest_dt = 1e-3,
-       .varies_strains = false},
+       .shortest_dt = 1e-3},
       {.name = "own_weight",
        .claim = "a cube of 10 m at rest carries the stress of its own weight",
        .reference = "rho g h / 2",
@@ -203,8 +193,7 @@ std::vector<VerifyCase> single_block_cases() {
        .norm = "m",
        .test = "LawTalus.NothingToCollideWithOnAPlane",
        .bound = 1e-6,
-       .run = [](const Settings& s) { return ghost_collisions(s, 17); },
-       .varies_strains = false},
+       .run = [](const Settings& s) { return ghost_collisions(s, 17); }},
   };
 }
 
@@ -212,7 +201,6 @@ std::vector<VerifyCase> block_cases() {
   const auto of_blocks = [](int n, VerifyCase c) {
     c.laws = CaseLaws::talus_only;
     c.n_blocks = n;
-    c.varies_strains = false;
     c.shortest_dt = 1e-3;
     return c;
   };
@@ -248,21 +236,47 @@ std::vector<VerifyCase> block_cases() {
   };
 }
 
-Method law_talus(double stiffness, bool strains, std::vector<double> dt) {
+// What a method changes of the settings of its law.
+struct Change {
+  double stiffness = 0;
+  bool strains = false;
+  double tolerance = 1;
+};
+
+Method law_talus(const Change& change, std::vector<double> dt) {
   Method method{"talus", {}, std::move(dt)};
-  method.settings.normal_stiffness = stiffness;
-  method.settings.strains = strains;
-  if (stiffness > 0) method.name += ", k_n " + text(stiffness, 2);
-  if (strains) method.name += ", strains";
+  method.settings.normal_stiffness = change.stiffness;
+  method.settings.strains = change.strains;
+  method.settings.tolerance_factor = change.tolerance;
+  if (change.stiffness > 0) method.name += ", k_n " + text(change.stiffness, 2);
+  if (change.strains) method.name += ", strains";
+  if (change.tolerance != 1) method.name += ", tolerance x " + text(change.tolerance, 2);
   return method;
 }
 
-Method law_paper(double stiffness, bool strains, std::vector<double> dt) {
-  Method method = law_talus(stiffness, strains, std::move(dt));
+Method law_paper(const Change& change, std::vector<double> dt) {
+  Method method = law_talus(change, std::move(dt));
   method.name.replace(0, 5, "paper");
   method.settings.law = Law::paper;
   method.settings.shear_ratio = paper_shear_ratio;
   return method;
+}
+
+// Stiffness and solver tolerance matter to all cases; in islands strains are not computed.
+void add_full_study(const VerifyCase& c, std::vector<Method>& methods) {
+  const double default_dt = Settings{}.dt;
+  const std::vector<double> few = {1e-2, default_dt, 1e-3};
+  const bool strains = c.n_blocks == 1 && !c.has_strains;
+  methods.push_back(law_talus({}, {5e-2, 2e-2, 1e-2, default_dt, 2e-3, 1e-3, 2e-4}));
+  for (const double stiffness : {1e8, 5e10}) methods.push_back(law_talus({stiffness}, few));
+  for (const double tolerance : {1e4, 1e2, 1e-2})
+    methods.push_back(law_talus({0, false, tolerance}, few));
+  if (strains) methods.push_back(law_talus({0, true}, few));
+  if (c.laws != CaseLaws::both) return;
+  const std::vector<double> dt = {1e-2, 3e-3, 1e-3, 3e-4, 1e-4};
+  for (const double stiffness : {paper_stiffness, 5e8})
+    methods.push_back(law_paper({stiffness}, dt));
+  if (strains) methods.push_back(law_paper({paper_stiffness, true}, dt));
 }
 
 }  // namespace
@@ -278,22 +292,11 @@ const std::vector<VerifyCase>& verify_cases() {
 
 std::vector<Method> methods_of(const VerifyCase& c, bool full) {
   std::vector<Method> methods;
-  const double default_dt = Settings{}.dt;
   if (full) {
-    methods.push_back(law_talus(0, false, {5e-2, 2e-2, 1e-2, default_dt, 2e-3, 1e-3, 2e-4}));
-    if (c.n_blocks == 1)
-      for (const double stiffness : {1e8, 5e10})
-        methods.push_back(law_talus(stiffness, false, {1e-2, default_dt, 1e-3}));
-    if (c.varies_strains) methods.push_back(law_talus(0, true, {1e-2, default_dt, 1e-3}));
+    add_full_study(c, methods);
   } else {
-    methods.push_back(law_talus(0, false, {1e-2, default_dt}));
-  }
-  if (c.laws == CaseLaws::both) {
-    const std::vector<double> dt =
-        full ? std::vector<double>{1e-2, 3e-3, 1e-3, 3e-4, 1e-4} : std::vector<double>{1e-2, 1e-3};
-    methods.push_back(law_paper(paper_stiffness, false, dt));
-    if (full) methods.push_back(law_paper(5e8, false, dt));
-    if (full && c.varies_strains) methods.push_back(law_paper(paper_stiffness, true, dt));
+    methods.push_back(law_talus({}, {1e-2, Settings{}.dt}));
+    if (c.laws == CaseLaws::both) methods.push_back(law_paper({paper_stiffness}, {1e-2, 1e-3}));
   }
   for (Method& method : methods)
     std::erase_if(method.dt, [&c](double dt) { return dt < c.shortest_dt; });

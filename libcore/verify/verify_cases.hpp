@@ -24,15 +24,14 @@ struct VerifyCase {
   std::function<cases::CaseResult(const Settings&)> run;
   CaseLaws laws = CaseLaws::both;
   int n_blocks = 1;
-  double shortest_dt = 0;      ///< no shorter step is tried: the case takes long [s]
-  bool has_strains = false;    ///< runs with strains whatever the settings say
-  bool varies_strains = true;  ///< also run with strains on
+  double shortest_dt = 0;    ///< no shorter step is tried: the case takes long [s]
+  bool has_strains = false;  ///< runs with strains whatever the settings say
 };
 
 /// All cases in the order of the report.
 [[nodiscard]] const std::vector<VerifyCase>& verify_cases();
 
-/// One way of running a case: law, stiffness, strains, and a ladder of time steps.
+/// One way of running a case: law, stiffness, strains, solver tolerance, a ladder of time steps.
 struct Method {
   std::string name;  ///< in the legend
   Settings settings;

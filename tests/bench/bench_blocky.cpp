@@ -4,8 +4,6 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
 #include "dda/blocky_slope.hpp"
 #include "dda/step.hpp"
@@ -31,17 +29,11 @@ Trn larger(const Trn& trn, int rows, int cols) {
 
 // Arguments: 0 TRN, 1 blocky; 0 the paper's size, 1 ten times larger.
 void Slope(benchmark::State& run) {
-  const char* peers = std::getenv("TALUS_PEERS_DIR");
-  if (peers == nullptr) return run.SkipWithError("TALUS_PEERS_DIR is not set");
-  const std::string folder = peers;
-  Trn trn = bench::read_grid(folder + "/terrain_F.asc");
-  if (run.range(1) == 1) trn = larger(trn, 44, 32);
-  GroundClass ground;
-  ground.friction = std::tan(25 * std::numbers::pi / 180);
-  ground.restitution = 0.7;
-  Settings settings;
-  Scene scene = cases::scene_of(trn, ground, bench::read_blocks(folder + "/blocks_39.obj"),
-                                settings, {2500, 5e10, 0.25});
+  if (bench::peers_folder().empty()) return run.SkipWithError("TALUS_PEERS_DIR is not set");
+  SlideData slide = bench::read_peers_slide(39);
+  if (run.range(1) == 1) slide.trn = larger(slide.trn, 44, 32);
+  const Settings settings;
+  Scene scene = slide_scene(slide, settings, 0);
   if (run.range(0) == 1) add_blocky_slope(scene, blocky_depth(scene));
   double way = 0, unconverged = 0, steps = 0;
   for (auto _ : run) {

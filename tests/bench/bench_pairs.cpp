@@ -1,75 +1,39 @@
 // tests/bench/bench_pairs.cpp
 // Cost of contact detection between blocks: one pair apart, held, searched; and a whole step for
 // the peers' scenes of 39, 390 and 3,900 blocks in place (blocks_*.obj in the folder named by the
-// environment variable TALUS_PEERS_DIR, else ../shared/peers beside the working folder).
+// environment variable TALUS_PEERS_DIR).
 #include <benchmark/benchmark.h>
 
-#include <cstdlib>
-#include <fstream>
-#include <map>
 #include <random>
 #include <span>
-#include <sstream>
-#include <string>
 #include <vector>
 
 #include "contact/block_pairs.hpp"
 #include "geometry/polyhedron.hpp"
+#include "slide_scene.hpp"
 
 namespace {
 
 using namespace talus;
 
-struct Scene {
+struct PairScene {
   Hulls hulls;
   std::vector<Pose> rest;
 };
 
-void add_block(Scene& scene, const Polyhedron& block) {
+void add_block(PairScene& scene, const Polyhedron& block) {
   Pose pose;
   pose.position = moments(block).centroid;
   add_hulls(scene.hulls, std::span(&block, 1), pose.position, Mat3::Identity());
   scene.rest.push_back(pose);
 }
 
-// Blocks of an OBJ file, one `o` each.
-Scene read_blocks(const std::string& path) {
-  Scene scene;
-  std::ifstream file(path);
-  std::vector<Vec3> vertices;
-  Polyhedron block;
-  std::map<int, int> local;
-  const auto finish = [&] {
-    if (n_faces(block) > 0) add_block(scene, block);
-    block = {};
-    local.clear();
-  };
-  for (std::string line; std::getline(file, line);) {
-    std::istringstream words(line);
-    std::string key;
-    words >> key;
-    if (key == "o") finish();
-    if (key == "v") {
-      Vec3 v;
-      words >> v.x() >> v.y() >> v.z();
-      vertices.push_back(v);
-    }
-    if (key != "f") continue;
-    std::vector<int> loop;
-    for (int i; words >> i;) {
-      const auto [entry, is_new] = local.try_emplace(i, static_cast<int>(block.vertices.size()));
-      if (is_new) block.vertices.push_back(vertices[i - 1]);
-      loop.push_back(entry->second);
-    }
-    add_face(block, loop, 0);
-  }
-  finish();
+// The peers' N blocks; none where TALUS_PEERS_DIR is not set.
+PairScene read_scene(std::int64_t n) {
+  PairScene scene;
+  if (bench::peers_folder().empty()) return scene;
+  for (const Body& body : bench::read_peers_slide(n).bodies) add_block(scene, body.parts.front());
   return scene;
-}
-
-std::string peers_folder() {
-  const char* folder = std::getenv("TALUS_PEERS_DIR");
-  return folder != nullptr ? folder : "../shared/peers";
 }
 
 // All slide down the 40 degree slope at 5 m/s, and each goes to and fro about that at jitter_m_s.
@@ -80,7 +44,7 @@ struct Walk {
   Vec3 slide;
 };
 
-Walk start_walk(const Scene& scene, double dt, double jitter_m_s) {
+Walk start_walk(const PairScene& scene, double dt, double jitter_m_s) {
   std::mt19937_64 random(1);
   std::normal_distribution<double> normal;
   Walk walk{scene.rest, {}, {}, {}, dt * Vec3(0, -3.83, -3.21)};
@@ -100,8 +64,7 @@ void walk_on(Walk& walk, bool forth) {
 
 // One step: placing and pair contacts.
 void step_of_scene(benchmark::State& bench, bool use_cache, double dt) {
-  const Scene scene =
-      read_blocks(peers_folder() + "/blocks_" + std::to_string(bench.range(0)) + ".obj");
+  const PairScene scene = read_scene(bench.range(0));
   if (scene.rest.empty()) {
     bench.SkipWithError("no blocks: set TALUS_PEERS_DIR");
     return;
@@ -141,8 +104,7 @@ BENCHMARK(SceneStepSmall)->Arg(39)->Unit(benchmark::kMicrosecond);
 BENCHMARK(SceneStepNoCache)->Arg(39)->Arg(390)->Arg(3900)->Unit(benchmark::kMicrosecond);
 
 void Place(benchmark::State& bench) {
-  const Scene scene =
-      read_blocks(peers_folder() + "/blocks_" + std::to_string(bench.range(0)) + ".obj");
+  const PairScene scene = read_scene(bench.range(0));
   if (scene.rest.empty()) {
     bench.SkipWithError("no blocks: set TALUS_PEERS_DIR");
     return;
@@ -154,8 +116,7 @@ BENCHMARK(Place)->Arg(39)->Arg(3900)->Unit(benchmark::kMicrosecond);
 
 // The same scene at rest from the first step on: list and axes made from nothing.
 void FirstStep(benchmark::State& bench) {
-  const Scene scene =
-      read_blocks(peers_folder() + "/blocks_" + std::to_string(bench.range(0)) + ".obj");
+  const PairScene scene = read_scene(bench.range(0));
   if (scene.rest.empty()) {
     bench.SkipWithError("no blocks: set TALUS_PEERS_DIR");
     return;
@@ -173,8 +134,8 @@ void FirstStep(benchmark::State& bench) {
 BENCHMARK(FirstStep)->Arg(39)->Arg(3900)->Unit(benchmark::kMicrosecond);
 
 // Two cubes, one above the other and turned by 0.3 rad; `gap` between them.
-Scene two_cubes(double gap) {
-  Scene scene;
+PairScene two_cubes(double gap) {
+  PairScene scene;
   add_block(scene, box(Vec3(-1, -1, -1), Vec3(1, 1, 1)));
   add_block(scene, box(Vec3(-1, -1, 1 + gap), Vec3(1, 1, 3 + gap)));
   scene.rest[1].attitude = Quat(Eigen::AngleAxisd(0.3, Vec3::UnitZ()));
@@ -185,7 +146,7 @@ Scene two_cubes(double gap) {
 enum class Repeat { places, features, axis };
 
 void pair_cost(benchmark::State& bench, double gap, Repeat repeat) {
-  const Scene scene = two_cubes(gap);
+  const PairScene scene = two_cubes(gap);
   PlacedHulls placed;
   place_hulls(scene.hulls, scene.rest, {}, {}, placed);
   AxisScratch axis;
@@ -218,7 +179,7 @@ void pair_cost(benchmark::State& bench, double gap, Repeat repeat) {
 void BallsSearched(benchmark::State& bench) {
   std::mt19937_64 random(2);
   std::normal_distribution<double> normal;
-  Scene scene;
+  PairScene scene;
   for (const double x : {0.0, 1.98}) {
     Polyhedron ball = box(Vec3(-1, -1, -1), Vec3(1, 1, 1));
     for (int k = 0; k < 60; ++k)

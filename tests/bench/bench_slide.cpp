@@ -4,20 +4,13 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
-#include <cmath>
-#include <cstdlib>
-#include <numbers>
-#include <string>
 
-#include "base/random.hpp"
-#include "dda/cases.hpp"
 #include "dda/step.hpp"
 #include "slide_scene.hpp"
 
 namespace {
 
 using namespace talus;
-using bench::read_blocks, bench::read_grid;
 
 Vec3 mean_position(const Scene& scene, const State& state) {
   Vec3 sum = Vec3::Zero();
@@ -35,37 +28,22 @@ double mechanical_energy(const Scene& scene, const State& state) {
   return e.translation + e.rotation + e.potential;
 }
 
-// The scene as the peers have it; a start velocity of 1 mm/s from `seed`, 0: at rest.
-Scene slide(const std::string& folder, int blocks, double dt, std::uint64_t seed) {
-  std::vector<Body> bodies = read_blocks(folder + "/blocks_" + std::to_string(blocks) + ".obj");
-  Random random(seed);
-  for (Body& body : bodies)
-    if (seed != 0)
-      body.velocity =
-          1e-3 * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
-  GroundClass ground;
-  ground.friction = std::tan(25 * std::numbers::pi / 180);
-  ground.restitution = 0.7;
-  Settings settings;
-  settings.dt = dt;
-  return cases::scene_of(read_grid(folder + "/terrain_F.asc"), ground, bodies, settings,
-                         {2500, 5e10, 0.25});
-}
-
 // Arguments: blocks, time step [1e-4 s], seed, duration [0.1 s].
-void Slide(benchmark::State& run) {
-  const char* peers = std::getenv("TALUS_PEERS_DIR");
-  if (peers == nullptr) return run.SkipWithError("TALUS_PEERS_DIR is not set");
-  const double dt = 1e-4 * static_cast<double>(run.range(1));
+void slide_by(benchmark::State& run, Law law) {
+  if (bench::peers_folder().empty()) return run.SkipWithError("TALUS_PEERS_DIR is not set");
+  Settings settings;
+  settings.law = law;
+  if (law == Law::paper) settings.normal_stiffness = 5e10;
+  settings.dt = 1e-4 * static_cast<double>(run.range(1));
   const double duration = 0.1 * static_cast<double>(run.range(3));
-  const Scene scene =
-      slide(peers, static_cast<int>(run.range(0)), dt, static_cast<std::uint64_t>(run.range(2)));
+  const Scene scene = slide_scene(bench::read_peers_slide(run.range(0)), settings,
+                                  static_cast<std::uint64_t>(run.range(2)));
   for (auto _ : run) {
     State state = start(scene);
     Work work = make_work(scene);
     const double before = mechanical_energy(scene, state);
     double deepest = 0, depth = 0, closed = 0;
-    while (state.time < duration - dt / 2) {
+    while (state.time < duration - settings.dt / 2) {
       const StepReport report = step(scene, state, work);
       deepest = std::max(deepest, report.largest_penetration);
       depth += report.sum_penetration;
@@ -88,6 +66,9 @@ void Slide(benchmark::State& run) {
     run.counters["balance"] = (lost - l.friction - l.impact - l.contact - l.removed) / lost;
   }
 }
+void Slide(benchmark::State& run) { slide_by(run, Law::talus); }
+void SlidePaper(benchmark::State& run) { slide_by(run, Law::paper); }
+
 BENCHMARK(Slide)
     ->Name("Slide39")
     ->ArgsProduct({{39}, {10, 50, 100, 200, 300}, {0, 1, 2, 3, 4, 5, 6, 7, 8}, {200}})
@@ -96,6 +77,11 @@ BENCHMARK(Slide)
 BENCHMARK(Slide)
     ->Name("SlideDense")
     ->ArgsProduct({{39, 390, 3900}, {10, 50, 100}, {0}, {1, 5}})
+    ->Unit(benchmark::kSecond)
+    ->Iterations(1);
+BENCHMARK(SlidePaper)
+    ->Name("Slide39Paper")
+    ->ArgsProduct({{39}, {1, 2, 5, 10, 50}, {0, 1, 2}, {5, 200}})
     ->Unit(benchmark::kSecond)
     ->Iterations(1);
 

@@ -4,11 +4,13 @@ inputs, little memory. Every fault comes from outside (signals, mounts, limits o
 from hooks in the tools. Prints a row a fault: what, times tried, survived, lost.
 
   endurance.py --bin DIR[:DIR] --source DIR --work DIR [--long] [--only PART,...] [--rows FILE]
+               [--other LABEL=DIR[:DIR]]...
 
 A try is survived when no output stands half-made under its final name, the registry is whole, and
 the next run gives the bytes of the run that nothing happened to. Each part is a function part_*.
 """
 import argparse
+import errno
 import filecmp
 import os
 import random
@@ -351,6 +353,29 @@ def part_limit(bench):
     sweep(bench, "no proj.db", bench.jobs, no_proj)
 
 
+def part_write(bench):
+    """One write that fails, or all from one on, at a random place: tests/endurance/failing_write.c."""
+    source = Path(__file__).with_name("failing_write.c")
+    library, report = bench.work / "failing_write.so", bench.work / "n_writes"
+    if shutil.which("cc") is None:
+        return bench.row("a write that fails", 0, [], "no C compiler here")
+    subprocess.run(["cc", "-shared", "-fPIC", "-O1", "-o", library, source, "-ldl"], check=True)
+
+    def places(job):
+        preload = {"LD_PRELOAD": str(library)}
+        bench.must([job.name, *job.words], bench.fresh(bench.work / "tries" / job.name),
+                   env={**preload, "FAIL_REPORT": str(report)})
+        n_writes = int(report.read_text())
+        for k in range(bench.times(2, 30)):
+            after = bench.random.randrange(n_writes)
+            count, number = k % 2, errno.EIO if k % 4 < 2 else errno.ENOSPC
+            yield (f"{'one' if count else 'all'} from write {after} of {n_writes}, errno {number}",
+                   {"env": {**preload, "FAIL_AFTER": str(after), "FAIL_COUNT": str(count),
+                            "FAIL_ERRNO": str(number)}})
+
+    sweep(bench, "a write that fails", bench.jobs, places)
+
+
 def loads_at_mb(bench, job):
     """Address space in which the tool and its libraries are loaded: --version works."""
     for mb in range(32, 4096, 16):
@@ -368,6 +393,31 @@ def part_memory(bench):
         for more in bench.times((16, 64), (2, 4, 8, 12, 16, 24, 32, 40, 48, 64, 96, 128, 256)):
             yield f"{least + more} MB", {"preexec_fn": limited(resource.RLIMIT_AS, least + more << 20)}
     sweep(bench, "little memory (ulimit -v)", bench.jobs, sizes)
+    stated_memory(bench)
+
+
+# What the pages state for these inputs, rounded up, beyond what loading takes [MB].
+SMALL_SCENE_MB = 16
+LARGE_NODES = (1400, 2000)
+GDAL_CACHE_MB = 128
+
+
+def stated_memory(bench):
+    """Each tool does its work within what its page says, as a limit of the address space."""
+    losses, tried = [], 0
+    site = bench.work / "site"
+    large = Job("talus-trn", [str(site / "made/tin.ply"), "-o", "large.tif", "--cell-size-m", "0.16",
+                              "--window", "500000,5200000,500224,5200320"])
+    large_mb = SMALL_SCENE_MB + GDAL_CACHE_MB + 8 * LARGE_NODES[0] * LARGE_NODES[1] // (1 << 20)
+    for job, more in [*((job, SMALL_SCENE_MB) for job in bench.jobs), (large, large_mb)]:
+        limit = loads_at_mb(bench, job) + more
+        folder = bench.fresh(bench.work / "tries" / job.name)
+        code, _, err = bench.run([job.name, *job.words], folder,
+                                 preexec_fn=limited(resource.RLIMIT_AS, limit << 20))
+        tried += 1
+        if code != 0:
+            losses.append(f"{job.name} within {limit} MB: exit code {code}: {err}")
+    bench.row("memory as stated on the pages (ulimit -v)", tried, losses)
 
 
 def part_disk(bench):
@@ -558,8 +608,7 @@ def part_same(bench):
     variants = [("again, 1 thread", {"GDAL_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}, None),
                 ("2 threads", {"GDAL_NUM_THREADS": "2", "OMP_NUM_THREADS": "2"}, None),
                 ("locale and time zone", {"LC_ALL": "de_DE.UTF-8", "TZ": "Asia/Tokyo"}, None)]
-    if bench.args.other_bin:
-        variants.append(("another build", {}, bench.args.other_bin))
+    variants += [(label, {}, bin) for label, bin in (o.split("=", 1) for o in bench.args.other)]
     for label, environment, other in variants:
         losses = []
         for job in bench.jobs:
@@ -615,7 +664,8 @@ PARTS = {name[5:]: value for name, value in list(globals().items()) if name.star
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("--bin", required=True, help="folders of the tools and of frame-probe")
-    parser.add_argument("--other-bin", help="the tools of another build, for the same bytes")
+    parser.add_argument("--other", action="append", default=[], metavar="LABEL=DIR[:DIR]",
+                        help="the tools of another build, for the same bytes")
     parser.add_argument("--source", required=True, help="the repository")
     parser.add_argument("--work", required=True, help="scratch folder, emptied")
     parser.add_argument("--long", action="store_true", help="hundreds of tries instead of a few")

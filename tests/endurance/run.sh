@@ -1,23 +1,35 @@
 #!/bin/sh
 # All faults against all tools, and the table of docs/verification.md.
 #   sh tests/endurance/run.sh          the short form, as among the tests
-#   sh tests/endurance/run.sh long     hundreds of kills, 10,000 registered runs, presets dev and
-#                                      release against each other; writes the table with the commit
-#   sh tests/endurance/run.sh long PART,...   of kill,signal,limit,memory,disk,names,sources,registry,same
+#   sh tests/endurance/run.sh long     hundreds of kills, 10,000 registered runs, the release tools
+#                                      against those of preset dev and of a build in another folder;
+#                                      writes the table with the commit
+#   sh tests/endurance/run.sh long PART,...
+#                                      of kill,signal,limit,memory,write,disk,names,sources,registry,same
 set -eu
 cd "$(dirname "$0")/../.."
 build() {
   cmake --preset "$1" >/dev/null
   cmake --build --preset "$1" --target tools/all frame-probe
 }
-bins() { echo "$PWD/build/$1/tools:$PWD/build/$1/tests"; }
+bins() { echo "$1/tools:$1/tests"; }
 build dev
 if [ "${1:-short}" = short ]; then
-  exec python3 tests/endurance/endurance.py --bin "$(bins dev)" --source "$PWD" --work build/endurance
+  exec python3 tests/endurance/endurance.py --bin "$(bins "$PWD/build/dev")" --source "$PWD" --work build/endurance
 fi
 build release
+
+set -- --long --rows build/endurance.rows ${2:+--only "$2"}
+case ",${5:-same}," in *,same,*)
+  elsewhere=$PWD/build/elsewhere  # the same commit, cloned and built in another folder
+  rm -rf "$elsewhere"
+  git clone -q . "$elsewhere"
+  (cd "$elsewhere" && build release)
+  set -- "$@" --other "release and dev=$(bins "$PWD/build/dev")" \
+    --other "a build in another folder=$(bins "$elsewhere/build/release")" ;;
+esac
 result=0
-python3 -u tests/endurance/endurance.py --bin "$(bins release)" --other-bin "$(bins dev)" --source "$PWD" \
-  --work build/endurance --long --rows build/endurance.rows ${2:+--only "$2"} || result=1
+python3 -u tests/endurance/endurance.py --bin "$(bins "$PWD/build/release")" --source "$PWD" \
+  --work build/endurance "$@" || result=1
 python3 tests/endurance/write_table.py build/endurance.rows docs/verification.md
 exit $result

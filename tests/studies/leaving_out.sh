@@ -1,6 +1,7 @@
 #!/bin/sh
 # What leaving out saves: six scenes with the scene's own plan, with --plan=full, and with all but
 # strains; CPU seconds (median of three runs) and how far the mean displacements lie from the plan's.
+# Then single items, kept and left out, where a scene shows them.
 #   sh tests/studies/leaving_out.sh [BIN]      BIN: folder of the executables
 set -eu
 cd "$(dirname "$0")/../.."
@@ -33,6 +34,9 @@ scene cohesive 4 'density_kg_m3 = 2600' 'friction_deg = 20\ncohesion_pa = 1e5\nc
 scene fence 8 'density_kg_m3 = 2600' 'friction_deg = 20\ncor = 0.4' \
   "$(box a 500020 2 0.5)\n[fence.low]\nline = [[500060, 5000010], [500060, 5000090]]\nheight_m = 4\n"
 
+scene apart 6 'density_kg_m3 = 2600' 'friction_deg = 25\ncor = 0.6' \
+  "$(box a 500020 1 3 && box b 500050 1 3 && box c 500080 1 3)"
+
 sed 's/^duration_s.*/duration_s = 4/' "$site/site.toml" >slide.toml
 talus-tin "$site/contours.gpkg" -o slide.ply --elevation-field elevation_m -q --no-db
 talus-trn slide.ply -o full.tif --cell-size-m 8 --window 500000,5200000,500224,5200320 -q --no-db
@@ -53,6 +57,10 @@ for name in lone slide stack soft cohesive fence; do
   run $name full --plan=full
   run $name rigid "--plan=full --set solver.strain=off"
 done
+run lone bare "--set output.passages=false"
+run lone shaken "--set base_motion.amplitude_m_s2=1e-300 --set base_motion.frequency_hz=1"
+run apart plan ""
+run apart alone --independent
 python3 - <<'END'
 import json, statistics
 print("| Scene | CPU s | full | ratio | all but strains | ratio | m apart, full | m apart, all but strains "
@@ -68,4 +76,12 @@ for name in ["lone", "slide", "stack", "soft", "cohesive", "fence"]:
     print(f"| {name} | {cpu['plan']:.3f} | {cpu['full']:.3f} | {cpu['full'] / cpu['plan']:.2f} | {cpu['rigid']:.3f} | "
           f"{cpu['rigid'] / cpu['plan']:.2f} | {apart['full']:.1e} | {apart['rigid']:.1e} | {length:.2f} | "
           f"{'kept' if kept else 'left out'} |")
+print("\n| Item | Scene | CPU s, kept | left out | ratio | m apart |\n|---|---|---|---|---|---|")
+for item, scene, kept, left in (("passages", "lone", "plan", "bare"), ("contacts of blocks", "apart", "plan", "alone"),
+                                ("base motion", "lone", "shaken", "plan")):
+    reports = [[json.load(open(f"{scene}.{p}.{i}")) for i in (1, 2, 3)] for p in (kept, left)]
+    cpu = [statistics.median(r["cpu_time_s"] for r in list) for list in reports]
+    moved = [list[0]["mean_displacement_m"] for list in reports]
+    apart = sum((x - y) ** 2 for x, y in zip(*moved)) ** 0.5
+    print(f"| {item} | {scene} | {cpu[0]:.3f} | {cpu[1]:.3f} | {cpu[0] / cpu[1]:.2f} | {apart:.1e} |")
 END

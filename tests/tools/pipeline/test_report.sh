@@ -38,6 +38,7 @@ for link in page.links:
 assert "<b>&\"" not in text, "the site's name is markup"
 assert "&lt;b&gt;&amp;&quot; name" in text
 assert len(re.findall(r'src="data:image/png', text)) == 11, "ten maps and the change by the fence"
+assert "tan 25&deg; = 0.466" in text, "no friction beside H/L of the centre of mass"
 assert "Health: pass" in text and "talus-tin contours.gpkg" in text
 
 archive = zipfile.ZipFile(f"{out}/site.qgz")

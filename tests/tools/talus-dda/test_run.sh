@@ -10,6 +10,16 @@ prints '"n_frames": 81'
 prints '"left_domain": 0'
 nothing_left run.h5.part
 
+# what was warned of stays with the run, and goes on its maps
+expect 0 run_dda -o fast.h5 --duration-s 1 --set material.rock.density_kg_m3=120
+says "warning: 3 blocks move as if each were alone"
+h5dump -d /warnings fast.h5 >kept
+grep -q "3 blocks move as if each were alone" kept || fail "the run file does not hold the warning"
+expect 0 talus-maps fast.h5 --trn slope.tif -o maps --no-db -q
+gdalinfo maps/reach.tif >info
+grep -q "WARNINGS=.*3 blocks move as if each were alone" info || fail "the maps do not say what was warned of"
+grep -q "WARNINGS=.*$PWD" info && fail "a warning on a map holds a path"
+
 # the same bytes again
 expect 0 run_dda -o again.h5 -q
 cmp run.h5 again.h5 || fail "two runs of the same inputs differ"

@@ -11,6 +11,7 @@ for name in reach velocity ke_translational ke_total pass_height_centroid pass_h
   done
   grep -q 'colorrampshader' "maps/$name.qml" || fail "maps/$name.qml is no style"
 done
+grep -q WARNINGS= info && fail "a warning where there was none"
 grep -q 'value="30".*10 - 30 kJ (low)' maps/ke_total.qml || fail 'no class break at 30 kJ'
 grep -q 'value="300".*(medium)' maps/ke_total.qml || fail 'no class break at 300 kJ'
 grep -q 'alpha="0" label="0"' maps/reach.qml || fail 'zero is not transparent'

@@ -6,6 +6,7 @@
 #include <new>
 #include <tuple>
 
+#include "bent_body.hpp"
 #include "contact/block_pairs.hpp"
 #include "convex_bodies.hpp"
 
@@ -324,6 +325,32 @@ TEST(BlockPairs, LedgeIsAWall) {
   bool wall = false;
   for (const PairManifold& m : work.manifolds) wall |= m.block_a == 1 && m.normal.x() > 0.99;
   EXPECT_TRUE(wall);
+}
+
+// A wedge that fills the room under a steep bed meets the part above it. The other part touches it
+// along the wall between the parts only, and has no contact of its own with it, however deep the
+// two reach along all other axes.
+TEST(BlockPairs, APartThatMeetsABlockAcrossAWallOnlyStopsNothing) {
+  const Vec2 wedge[] = {{0, 0}, {1, -3}, {1, 3}};
+  const int tags[] = {1, 1, 1};
+  for (const double depth : {0.0, 1e-6, 1e-3}) {
+    Bodies bodies;
+    add(bodies, bent_body(3).parts, {});
+    const Vec3 inward = Vec3(-3, 0, 1).normalized();
+    add(bodies, prism(wedge, tags), {depth * inward, Quat::Identity()});
+    place(bodies);
+    PairSettings settings;
+    settings.margin = 1e-4;
+    PairState state;
+    PairWork work;
+    find_pair_contacts(bodies.hulls, bodies.placed, {}, settings, state, work);
+    ASSERT_FALSE(work.points.empty());
+    for (const PairManifold& m : work.manifolds) {
+      EXPECT_NEAR(std::abs(m.normal.dot(inward)), 1, 1e-9);
+      for (int p = m.point_begin; p < m.point_end; ++p)
+        EXPECT_NEAR(work.points[p].gap, -depth, 1e-9) << "overlap " << depth;
+    }
+  }
 }
 
 TEST(BlockPairs, DegenerateShapesGiveFiniteContacts) {

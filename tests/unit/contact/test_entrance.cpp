@@ -52,17 +52,16 @@ std::vector<Entrance> entrances(const Polyhedron& A, const Polyhedron& B) {
   vertex_face(B, A, -1);
   for (const PolyhedronEdge& a : edges(A))
     for (const PolyhedronEdge& b : edges(B)) {
-      const Vec3 b1 = face_normal(B, b.left), b2 = face_normal(B, b.right);
-      if (!edges_may_touch(face_normal(A, a.left), face_normal(A, a.right), b1, b2,
-                           edge_along(b1, b2), 0))
-        continue;
+      const GaussArc arc_a = gauss_arc(face_normal(A, a.left), face_normal(A, a.right));
+      const GaussArc arc_b = gauss_arc(face_normal(B, b.left), face_normal(B, b.right));
+      if (!edges_may_touch(arc_a, arc_b, 0)) continue;
       const Vec3& p = A.vertices[static_cast<std::size_t>(a.a)];
       const Vec3& q = B.vertices[static_cast<std::size_t>(b.a)];
       Vec3 n = (A.vertices[static_cast<std::size_t>(a.b)] - p)
                    .cross(B.vertices[static_cast<std::size_t>(b.b)] - q);
       const double area = n.norm();
       n /= area;
-      if (n.dot(b1 + b2) < 0) n = -n;
+      if (n.dot(arc_b.left + arc_b.right) < 0) n = -n;
       found.push_back({n, area, n.dot(p - q)});
     }
   return found;

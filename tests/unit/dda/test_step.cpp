@@ -148,9 +148,10 @@ TEST(Step, SegmentsAreParabolasEndToEnd) {
 
 // In between, a free body keeps its angular momentum to the bit and its parabola to rounding.
 TEST(Step, FlightAndStepwiseMotionAgree) {
-  Settings stepwise;
-  stepwise.flight = false;
-  const Scene a = rough_scene({}), b = rough_scene(stepwise);
+  const Scene a = rough_scene({});
+  Scene b = a;
+  b.base.time = {0, 1e9};  // ground that might move, and does not: followed step by step
+  b.base.acceleration = {Vec3::Zero(), Vec3::Zero()};
   State sa = start(a), sb = start(b);
   Work wa = make_work(a), wb = make_work(b);
   for (int i = 0; i < 60; ++i) step(a, sa, wa), step(b, sb, wb);  // before the first hit
@@ -262,6 +263,40 @@ TEST(Step, TheFullPlanAgrees) {
   EXPECT_EQ(planned.velocity, searched.velocity);
   EXPECT_GT(planned.velocity.norm(), 1.5);
   EXPECT_LT((planned.pose.position - full.pose.position).norm(), 1e-5 * planned.velocity.norm());
+}
+
+// What is left out of a bouncing block's path, the search while nothing can be hit, changes no bit.
+TEST(Step, SearchedFlightsAreTheSameToTheBit) {
+  Settings searched;
+  searched.flight = searched.sleep = false;
+  const Scene a = rough_scene({}), b = rough_scene(searched);
+  State sa = start(a), sb = start(b);
+  Work wa = make_work(a), wb = make_work(b);
+  for (int i = 0; i < 2000; ++i) step(a, sa, wa), step(b, sb, wb);
+  EXPECT_GT(sa.counters.flight_skips, 100);
+  EXPECT_EQ(sb.counters.flight_skips, 0);
+  EXPECT_GT(sa.counters.impacts, 5);
+  EXPECT_EQ(sa.counters.impacts, sb.counters.impacts);
+  const Motion ma = motion_at(a, sa, 0, sa.time), mb = motion_at(b, sb, 0, sb.time);
+  EXPECT_EQ(ma.pose.position, mb.pose.position);
+  EXPECT_EQ(ma.pose.attitude.coeffs(), mb.pose.attitude.coeffs());
+  EXPECT_EQ(ma.velocity, mb.velocity);
+}
+
+// A flight that is believed to be free and is not: the search of the full plan finds the ground.
+TEST(Step, SearchedFlightEndsAtTheGround) {
+  Settings searched;
+  searched.flight = false;
+  const Scene scene = rough_scene(searched);
+  State state = start(scene);
+  Work work = make_work(scene);
+  while (state.phase[0] != Phase::flight) step(scene, state, work);
+  state.flight_end[0] = 1e3;
+  for (int i = 0; i < 2000 && state.phase[0] == Phase::flight; ++i) step(scene, state, work);
+  EXPECT_EQ(state.phase[0], Phase::near_ground);
+  const double depth =
+      depth_below_ground(scene.ground, scene.blocks.shapes, 0, state.motion[0].pose);
+  EXPECT_LT(depth, 0.05);
 }
 
 TEST(Step, BlockThatLeavesIsStoppedAndCounted) {

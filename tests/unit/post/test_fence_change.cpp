@@ -37,6 +37,8 @@ TEST(FenceChange, IsWithMinusWithoutARun) {
   for (const int col : {1, 2}) add_run(with, grid, run_to(col), 0.05);
   for (const int col : {2, 2}) add_run(without, grid, run_to(col), 0.05);
   const MapLayer layer = change_layer(with, without, grid.cell_size);
+  for (const MapBand& band : layer.bands)
+    EXPECT_EQ(band.overview, OverviewValue::farthest_from_zero) << band.name;
   std::map<std::uint32_t, float> thickness;
   for (std::size_t i = 0; i < layer.cell.size(); ++i)
     thickness[layer.cell[i]] = layer.bands[0].value[i];

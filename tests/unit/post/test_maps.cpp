@@ -273,6 +273,7 @@ TEST(ArrivalAndEnergyLine, TakeTheSmallestOverBlocksAndSkipTheUnknown) {
     made.runs[run].passages = {p};
   }
   EXPECT_EQ(arrival_layer(made.cells()).bands[0].value[0], 2.5F);
+  EXPECT_EQ(arrival_layer(made.cells()).bands[0].overview, OverviewValue::smallest);
   EXPECT_FLOAT_EQ(energy_line_layer(made.cells()).bands[0].value[0],
                   static_cast<float>(0.5 * 180 / std::numbers::pi));
 }

@@ -149,6 +149,17 @@ TEST(Runner, RowsDoNotDependOnTheFrameIntervalToTheBit) {
   EXPECT_EQ(n_frames(fine.frames), 110);  // 109 of them regular, and the end
 }
 
+TEST(Runner, FramesAreTheSameToTheBitWithoutPassages) {
+  const Scene scene = bouncing_scene();
+  RunOptions bare = options(0.1);
+  bare.passages = false;
+  const RunFile all = computed(scene, options(0.1)), few = computed(scene, bare);
+  ASSERT_GT(n_frames(all.frames), 30);
+  EXPECT_EQ(all.frames.position, few.frames.position);
+  EXPECT_EQ(all.frames.velocity, few.frames.velocity);
+  EXPECT_EQ(few.passages.size(), 0u);
+}
+
 TEST(Runner, ResumedAnywhereGoesOnToTheSameBits) {
   const Scene scene = bouncing_scene();
   const RunFile whole = computed(scene, options(0.1));
