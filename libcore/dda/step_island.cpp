@@ -22,6 +22,7 @@ constexpr double stiffest_in_island = 1;
 // ... and where it is small enough to be factored, so that a tower hardly sags.
 constexpr double stiffest_in_small_island = 30;
 constexpr size_t small_island = 8;
+constexpr size_t small_tree = 64;  // the same where blocks hang together without a ring: a column
 constexpr double pair_touch_ratio = 1e-6;     // a pair touches when its gap is below this part of r
 constexpr int most_halvings = 4;              // of a substep that does not converge
 constexpr double hit_stiffness = 30;          // D of a hit over the mass that it feels
@@ -136,11 +137,21 @@ struct AdvanceIsland {
   IslandStepWork& w;
   int outsider = -1;  // block that the last attempt found off the known ground
   int halvings = 0;
+  bool small = false;
   int cuts = 0;  // of the substep at the time when a panel is used up
 
   [[nodiscard]] size_t block(size_t k) const { return static_cast<size_t>(w.members[k]); }
   Motion& motion(size_t k) { return state.motion[block(k)]; }
-  [[nodiscard]] bool is_small() const { return w.members.size() <= small_island; }
+  // Whether the matrix is cheap to factor. Needs island_manifolds.
+  [[nodiscard]] bool is_small() const { return small; }
+  void see_size() {
+    const auto n_pairs =
+        std::count_if(w.island_manifolds.begin(), w.island_manifolds.end(), [this](int i) {
+          return !is_fixed(scene, w.pairs.manifolds[static_cast<size_t>(i)].block_b);
+        });
+    const size_t n = w.members.size();
+    small = n <= small_island || (n <= small_tree && static_cast<size_t>(n_pairs) < n);
+  }
   [[nodiscard]] double stiffness_ratio() const {
     return is_small() ? stiffest_in_small_island : stiffest_in_island;
   }
@@ -150,7 +161,7 @@ struct AdvanceIsland {
     w.numbers.clear();
     for (size_t k = 0; k < w.members.size(); ++k) {
       w.place[block(k)] = static_cast<int>(k);
-      w.numbers.push_back(numbers_of(scene, w.members[k], stiffness_ratio()));
+      w.numbers.push_back(numbers_of(scene, w.members[k]));
     }
   }
 
@@ -199,6 +210,7 @@ struct AdvanceIsland {
   // A small block may bear a large one: its contacts are as stiff as the heaviest block that it
   // touches asks for.
   void set_stiffness() {
+    see_size();
     w.bearing.clear();
     for (const BlockNumbers& c : w.numbers) w.bearing.push_back(c.mass);
     for (const int i : w.island_manifolds) {
@@ -774,6 +786,7 @@ struct AdvanceIsland {
     settings.continues = continues;
     const double by_gravity = scene.gravity.norm() * h;
     settings.tolerance = small_tolerance * by_gravity;
+    settings.direct_bodies = is_small() ? static_cast<int>(w.members.size()) : 0;
     if (!is_small()) {
       const double by_motion = std::clamp(motion_tolerance * fastest(), rest_tolerance * by_gravity,
                                           island_tolerance * by_gravity);

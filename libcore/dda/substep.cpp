@@ -77,14 +77,14 @@ double clearance_at_start(const Scene& scene, const Contact& contact, const Subs
 
 }  // namespace
 
-BlockNumbers numbers_of(const Scene& scene, int b, double stiffness_ratio) {
+BlockNumbers numbers_of(const Scene& scene, int b) {
   const auto i = static_cast<size_t>(b);
   const double g = scene.gravity.norm(), dt = scene.settings.dt;
   const double radius = scene.blocks.shapes.radius[i];
   return {scene.blocks.mass[i],
           radius,
           scene.blocks.shapes.thickness[i],
-          stiffness_ratio * scene.blocks.mass[i] / (dt * dt),
+          stiffest_lone * scene.blocks.mass[i] / (dt * dt),
           recovery_steps * dt,
           touch_ratio * radius,
           std::max(2 * g * dt, 1e-6),

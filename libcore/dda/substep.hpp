@@ -21,9 +21,8 @@ inline constexpr double stiffest_lone = 400;
 inline constexpr int most_events = 40;  ///< impacts in a step before bouncing is given up
 inline constexpr int most_tries = 24;   ///< substeps repeated to find an event or to converge
 
-/// `stiffness_ratio` is k_n dt^2 / m of the stiffest contact.
-[[nodiscard]] BlockNumbers numbers_of(const Scene& scene, int b,
-                                      double stiffness_ratio = stiffest_lone);
+/// With the stiffness of a lone block.
+[[nodiscard]] BlockNumbers numbers_of(const Scene& scene, int b);
 
 /// Gap up to which a contact may come to press within a substep of `h` though the free motion keeps
 /// it open [m].
