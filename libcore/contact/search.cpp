@@ -27,6 +27,14 @@ struct Neighbour {
 constexpr Neighbour neighbours[2][3] = {{{0, -1, 1, 1, 1}, {1, 0, 1, 0, 0}, {0, 0, 1, 1, 0}},
                                         {{-1, 0, 0, 1, 1}, {0, 1, 0, 0, 0}, {0, 0, 0, 0, 1}}};
 
+// Signed distance from a plane. Component by component: as an expression of vectors the plane would
+// go through memory in pieces that do not fit, which stalls.
+double distance_above(const TrianglePlane& plane, const Vec3& x) {
+  return plane.normal.x() * (x.x() - plane.point.x()) +
+         plane.normal.y() * (x.y() - plane.point.y()) +
+         plane.normal.z() * (x.z() - plane.point.z());
+}
+
 void add_plane(const TrianglePlane& plane, const Ground& ground, int triangle, int b, int v,
                const Vec3& X, const Vec3& x, double gap, std::vector<Contact>& contacts) {
   contacts.push_back({{ContactMode::vertex_face, -1, v, -1},
@@ -45,12 +53,12 @@ void add_valley_planes(const Ground& ground, const GridPoint& at, const Triangle
                        int v, const Vec3& X, const Vec3& x, double margin,
                        std::vector<Contact>& contacts) {
   const Trn& trn = ground.trn;
-  const bool odd = at.south < at.east;
+  const bool odd = is_upper(at);
   const double near_cells = 4 * margin / trn.cell_size;
-  const double distance[2][3] = {{at.east, 1 - at.south, (at.south - at.east) * 0.7071},
-                                 {at.south, 1 - at.east, (at.east - at.south) * 0.7071}};
+  const double distance[3] = {odd ? at.south : at.east, 1 - (odd ? at.east : at.south),
+                              std::abs(at.south - at.east) * 0.7071};
   for (int k = 0; k < 3; ++k) {
-    if (distance[odd][k] > near_cells) continue;
+    if (distance[k] > near_cells) continue;
     const Neighbour& n = neighbours[odd][k];
     const Cell cell{at.cell.row + n.d_row, at.cell.col + n.d_col};
     if (cell.row < 0 || cell.col < 0 || cell.row > trn.n_rows - 2 || cell.col > trn.n_cols - 2)
@@ -58,10 +66,10 @@ void add_valley_planes(const Ground& ground, const GridPoint& at, const Triangle
     const int triangle = first_triangle(trn, cell) + n.odd;
     const TrianglePlane plane = triangle_plane(trn, triangle);
     const Vec3 corner = node_point(trn, at.cell.row + n.corner_row, at.cell.col + n.corner_col);
-    const double above = plane.normal.dot(corner - plane.point);
+    const double above = distance_above(plane, corner);
     if (!(above > 1e-9 * trn.cell_size)) continue;  // flat or a ridge
     if (own.normal.dot(plane.normal) > 1 - 1e-12) continue;
-    const double gap = plane.normal.dot(x - plane.point);
+    const double gap = distance_above(plane, x);
     if (gap < margin) add_plane(plane, ground, triangle, b, v, X, x, gap, contacts);
   }
 }
@@ -84,7 +92,7 @@ void find_mode_1(const Ground& ground, const Shapes& shapes, int b, double highe
     const GridPoint at = locate(trn, x.x(), x.y());
     if (is_far_above(trn, at, x.z(), margin)) continue;
     const TrianglePlane plane = plane_at(trn, at);
-    const double gap = plane.normal.dot(x - plane.point);
+    const double gap = distance_above(plane, x);
     if (!(gap < margin)) continue;  // also when the triangle is not ground
     const int id = static_cast<int>(v);
     add_plane(plane, ground, triangle_of(trn, at), b, id, body[v], x, gap, contacts);
@@ -241,9 +249,6 @@ void find_features(const FeatureSearch& s, const CellRange& cells, std::vector<C
   const Trn& trn = s.ground.trn;
   for (int row = cells.row_first; row <= cells.row_last + 1; ++row) {
     const std::uint8_t* flags = s.ground.flags.data() + node_index(trn, row, 0);
-    unsigned any = 0;
-    for (int col = cells.col_first; col <= cells.col_last + 1; ++col) any |= flags[col];
-    if (any == 0) continue;
     for (int col = cells.col_first; col <= cells.col_last + 1; ++col) {
       const std::uint8_t flag = flags[col];
       if (flag == 0) continue;

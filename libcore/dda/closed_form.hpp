@@ -54,6 +54,9 @@ CaseResult corner_impulse(const Settings& settings, double restitution);
 /// [deg]; `largest_penetration` holds the relative change of the angular momentum.
 CaseResult free_spin(const Settings& settings, double duration_s);
 
+/// The same box in the same flight: largest departure of its centroid from the parabola [m].
+CaseResult tumbling_flight(const Settings& settings, double duration_s);
+
 /// Double-face wedge 40/130 and 60/220 (dip/dip direction): relative error of the acceleration
 /// along the line of intersection, plunge 37.058 degrees.
 CaseResult wedge(const Settings& settings, double friction_deg);

@@ -57,7 +57,10 @@ Vec<Dof> residual(const BlockSystem<Dof>& system, std::span<ContactRow> rows, bo
     if (row.waits_for_impact) continue;
     const Vec3 w = point_velocity<Dof>(system.velocity, row.point) + row.drift;
     evaluate(w, lagged ? row.held_cap : -1.0, row);
-    if (row.state != ContactState::open) r -= generalised<Dof>(row.point, row.impulse);
+    if (row.state == ContactState::open) continue;
+    r.template head<3>() -= row.impulse;  // part by part: whole, it would be put together in memory
+    r.template segment<3>(3) -= row.point.cross(row.impulse);
+    if constexpr (Dof == 12) r.template tail<6>() -= strain_load(row.point, row.impulse);
   }
   return r;
 }

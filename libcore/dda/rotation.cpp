@@ -13,67 +13,69 @@ constexpr int most_terms = 18;
 /// Power series in s = t / h of the spin in body axes and of the attitude, from Euler's equations
 /// omega_i' = kappa_i omega_j omega_k and q' = q (0, omega) / 2. Of a rigid body |kappa| <= 1
 /// (its moments keep the triangle inequality), so that |omega| h alone says how fast it converges.
+///
+/// The convolutions are what a flight costs. Each coefficient is kept in the orders of components
+/// that their products ask for, so that a term of all of them is four multiplications of lanes:
+/// q (0, omega) = left1 right1 + left2 right2 - left3 right3, and right3 right2 for omega'.
 struct SpinSeries {
-  double omega[3][most_terms + 1], q[4][most_terms + 1];
-  int last = 0;  // order reached
+  using Lanes = Eigen::Array4d;
+  Lanes q[most_terms + 1];                                                       // x, y, z, w
+  Lanes left1[most_terms + 1], left2[most_terms + 1], left3[most_terms + 1];     // of q
+  Lanes right1[most_terms + 1], right2[most_terms + 1], right3[most_terms + 1];  // of omega
+  int last = 0;                                                                  // order reached
 
   // Terms up to the first two in a row that no longer count.
   SpinSeries(const Quat& attitude, const Vec3& spin, const Vec3& kappa, double h) {
-    for (int i = 0; i < 3; ++i) omega[i][0] = h * spin[i];
-    for (int i = 0; i < 4; ++i) q[i][0] = attitude.coeffs()[i];
+    const Lanes factor(kappa.x(), kappa.y(), kappa.z(), 0);
+    set_spin(0, Lanes(h * spin.x(), h * spin.y(), h * spin.z(), 0));
+    set_attitude(0, attitude.coeffs().array());
     double before = 1;
     for (last = 1; last <= most_terms; ++last) {
-      const double size = add_term(last - 1, kappa);
+      const double size = add_term(last - 1, factor);
       if (std::max(size, before) < spin_tolerance) return;
       before = size;
     }
     last = most_terms;
   }
 
+  void set_spin(int k, const Lanes& w) {
+    right1[k] = Lanes(w[0], w[1], w[2], w[0]);
+    right2[k] = Lanes(w[2], w[0], w[1], w[1]);
+    right3[k] = Lanes(w[1], w[2], w[0], w[2]);
+  }
+  void set_attitude(int k, const Lanes& c) {
+    q[k] = c;
+    left1[k] = Lanes(c[3], c[3], c[3], -c[0]);
+    left2[k] = Lanes(c[1], c[2], c[0], -c[1]);
+    left3[k] = Lanes(c[2], c[0], c[1], c[2]);
+  }
+
   // Term k + 1 from those up to k; its size.
-  double add_term(int k, const Vec3& kappa) {
-    double w[3] = {}, c[4] = {};
+  double add_term(int k, const Lanes& kappa) {
+    Lanes w = Lanes::Zero(), c = Lanes::Zero();
     for (int j = 0; j <= k; ++j) {
       const int i = k - j;
-      const double wx = omega[0][i], wy = omega[1][i], wz = omega[2][i];
-      const double x = q[0][j], y = q[1][j], z = q[2][j], r = q[3][j];
-      w[0] += omega[1][j] * wz;
-      w[1] += omega[2][j] * wx;
-      w[2] += omega[0][j] * wy;
-      c[0] += r * wx + y * wz - z * wy;
-      c[1] += r * wy + z * wx - x * wz;
-      c[2] += r * wz + x * wy - y * wx;
-      c[3] -= x * wx + y * wy + z * wz;
+      w += right3[j] * right2[i];
+      c += left1[j] * right1[i] + left2[j] * right2[i] - left3[j] * right3[i];
     }
     const double per_order = 1.0 / (k + 1);
-    double size = 0;
-    for (int i = 0; i < 3; ++i) {
-      omega[i][k + 1] = per_order * kappa[i] * w[i];
-      size = std::max(size, std::abs(omega[i][k + 1]));
-    }
-    for (int i = 0; i < 4; ++i) {
-      q[i][k + 1] = 0.5 * per_order * c[i];
-      size = std::max(size, std::abs(q[i][k + 1]));
-    }
-    return size;
+    set_spin(k + 1, per_order * kappa * w);
+    set_attitude(k + 1, 0.5 * per_order * c);
+    return size_of(k + 1);
   }
+
+  [[nodiscard]] double size_of(int k) const { return right1[k].abs().max(q[k].abs()).maxCoeff(); }
 
   // Attitude at s; by Horner's scheme.
   [[nodiscard]] Quat at(double s) const {
-    Quat sum;
-    for (int i = 0; i < 4; ++i) {
-      double value = q[i][last];
-      for (int k = last - 1; k >= 0; --k) value = value * s + q[i][k];
-      sum.coeffs()[i] = value;
-    }
-    return sum.normalized();
+    Lanes sum = q[last];
+    for (int k = last - 1; k >= 0; --k) sum = sum * s + q[k];
+    return Quat(Eigen::Vector4d(sum.matrix())).normalized();
   }
 
   // Largest s <= 1 at which the last term is small, by halving.
   [[nodiscard]] double reach() const {
-    double size = 0, s = 1;
-    for (const double* of : {omega[0], omega[1], omega[2], q[0], q[1], q[2], q[3]})
-      size = std::max(size, std::abs(of[last]));
+    double size = size_of(last), s = 1;
     while (s > 1e-3 && size > spin_tolerance) size = std::ldexp(size, -last), s /= 2;
     return s;
   }

@@ -121,18 +121,19 @@ void remember(const BlockNumbers& c, const Substep& s, const Solved<Dof>& solved
     const double along = row.normal.dot(moved);
     state.ledger.contact -= p_n * along * per_h;
     state.ledger.friction -= p_t.dot(moved) * per_h;
-    ContactMemory& memory = work.memory_next.emplace_back();
-    memory.key = contact.key;
-    memory.normal = contact.normal;
-    memory.offset = std::max(0.0, row.offset - relax);
-    memory.gap_end = row.gap_start + row.offset + along - (row.offset - memory.offset);
-    memory.normal_force = p_n * per_h;
-    memory.state = static_cast<std::uint8_t>(row.state);
-    const bool slips = row.state == ContactState::slip;
-    memory.bond_area = row.bond_area;
-    const Vec3 shear = slips ? Vec3((-c.recovery_time / row.shear_damping) * p_t)
-                             : Vec3(row.shear + moved - along * row.normal);
-    memory.shear = s.R * shear;
+    const double offset = std::max(0.0, row.offset - relax);
+    const Vec3 shear = row.state == ContactState::slip
+                           ? Vec3((-c.recovery_time / row.shear_damping) * p_t)
+                           : Vec3(row.shear + moved - along * row.normal);
+    work.memory_next.push_back(
+        {.key = contact.key,
+         .normal = contact.normal,
+         .shear = s.R * shear,
+         .offset = offset,
+         .gap_end = row.gap_start + row.offset + along - (row.offset - offset),
+         .normal_force = p_n * per_h,
+         .bond_area = row.bond_area,
+         .state = static_cast<std::uint8_t>(row.state)});
     ++report.n_closed;
     note_penetration(report, -(row.gap_start + along), c.thickness);
   }

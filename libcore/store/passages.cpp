@@ -56,8 +56,8 @@ PassageInstant instant_of(const Scene& scene, int block, const Motion& motion) {
   instant.motion = motion;
   const Vec3 up = motion.pose.attitude.toRotationMatrix().row(2);
   const std::span<const Vec3> vertices = vertices_of(scene.blocks.shapes, block);
-  const auto is_lower = [&up](const Vec3& a, const Vec3& b) { return up.dot(a) < up.dot(b); };
-  instant.top = up.dot(*std::max_element(vertices.begin(), vertices.end(), is_lower));
+  instant.top = up.dot(vertices.front());
+  for (const Vec3& vertex : vertices) instant.top = std::max(instant.top, up.dot(vertex));
   instant.spin_energy = rotational_energy(motion, scene.blocks.inertia[block]);
   return instant;
 }
@@ -89,15 +89,17 @@ PassageValues values_between(const Scene& scene, const Piece& piece, double s_in
   const double mass = scene.blocks.mass[piece.block];
   const Motion &a = piece.a.motion, &b = piece.b.motion;
   PassageValues values;
+  double fastest_sq = 0;
   for (const double s : {s_in, s_out}) {  // |v(s)|^2 is convex: largest at an end
     const double speed_sq = (a.velocity + s * (b.velocity - a.velocity)).squaredNorm();
     const double spin = piece.a.spin_energy + s * (piece.b.spin_energy - piece.a.spin_energy);
     const double translation = 0.5 * mass * speed_sq;
-    values.speed = std::max(values.speed, static_cast<float>(std::sqrt(speed_sq)));
+    fastest_sq = std::max(fastest_sq, speed_sq);
     values.translational_energy =
         std::max(values.translational_energy, static_cast<float>(translation));
     values.total_energy = std::max(values.total_energy, static_cast<float>(translation + spin));
   }
+  values.speed = static_cast<float>(std::sqrt(fastest_sq));
   const Heights heights = largest_heights(
       scene.ground.trn, {a.pose.position, b.pose.position, piece.a.top, piece.b.top, piece.sag},
       s_in, s_out);
@@ -148,12 +150,12 @@ int cell_index(const PassageGrid& grid, int row, int col) { return row * grid.n_
 struct Share {
   double in = 0, out = 1;
   void keep_positive(const AxisArray& value, const AxisArray& rate) {
+    const AxisArray zero = -value / rate;
     for (int k = 0; k < n_footprint_axes; ++k) {
-      const double zero = -value[k] / rate[k];
       if (rate[k] > 0)
-        in = std::max(in, zero);
+        in = std::max(in, zero[k]);
       else if (rate[k] < 0)
-        out = std::min(out, zero);
+        out = std::min(out, zero[k]);
       else if (!(value[k] > 0))
         out = -1;
     }
@@ -186,6 +188,7 @@ void sweep(const PassageGrid& grid, const Footprint& a, const Footprint& b, Visi
     const AxisArray centre = axes.project(cell_centre(grid, row, col));
     Share share;
     share.keep_positive(high - centre + half, high_rate);
+    if (!(share.in < share.out)) return;
     share.keep_positive(centre + half - low, -low_rate);
     if (share.in < share.out) visit(cell_index(grid, row, col), share.in, share.out);
   });
@@ -381,18 +384,17 @@ void raise_over_triangle(const Trn& trn, const HeightPath& path, double s0, doub
                          Heights& largest) {
   const Vec3 change = path.to - path.from;
   const Vec3 middle = path.from + 0.5 * (s0 + s1) * change;
-  const int triangle = triangle_at(trn, middle.x(), middle.y());
-  const Vec2 gradient = triangle_gradient(trn, triangle);
-  const Cell cell = cell_of_triangle(trn, triangle);
-  const Vec3 off = path.from - node_point(trn, cell.row, cell.col);
+  const GridPoint at = locate(trn, middle.x(), middle.y());
+  const Vec2 gradient = triangle_gradient(trn, at.cell, is_upper(at));
+  const Vec3 off = path.from - node_point(trn, at.cell.row, at.cell.col);
   const double start = off.z() - gradient.dot(off.head<2>());
   const double rate = change.z() - gradient.dot(change.head<2>());
   const double top_rate = path.top_to - path.top_from;
   const auto height = [&](double s) { return start + rate * s - path.sag * s * (1 - s); };
   const auto try_at = [&](double s) {
-    const double at = height(s);
-    raise(largest.centroid, at);
-    raise(largest.top, at + path.top_from + top_rate * s);
+    const double above = height(s);
+    raise(largest.centroid, above);
+    raise(largest.top, above + path.top_from + top_rate * s);
   };
   try_at(s0);
   try_at(s1);

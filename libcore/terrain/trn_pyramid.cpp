@@ -22,12 +22,16 @@ bool holds(const ElevationRange& range, const ElevationRange& other) {
          (other.all_known || !range.all_known);
 }
 
-// Corners of the cells of `range`, one by one.
+// Corners of the cells of `range`, one by one. Summed up in registers: `found` might be part of
+// what the elevations point to, as far as the compiler knows.
 void include_nodes(const Trn& trn, const CellRange& range, ElevationRange& found) {
-  for (int row = range.row_first; row <= range.row_last + 1; ++row) {
-    const double* z = trn.elevation.data() + node_index(trn, row, 0);
-    for (int col = range.col_first; col <= range.col_last + 1; ++col) include(found, z[col]);
-  }
+  ElevationRange own = found;
+  const double* z = trn.elevation.data() + node_index(trn, range.row_first, range.col_first);
+  const int n_rows = range.row_last - range.row_first + 2;
+  const int n_cols = range.col_last - range.col_first + 2;
+  for (int row = 0; row < n_rows; ++row, z += trn.n_cols)
+    for (int col = 0; col < n_cols; ++col) include(own, z[col]);
+  found = own;
 }
 
 CellRange intersection(const CellRange& a, const CellRange& b) {

@@ -105,6 +105,10 @@ TEST(LawTalusDefault, SpinsFreelyAndTumblesInFlight) {
   EXPECT_LT(spin.largest_penetration, 1e-12);  // relative change of the angular momentum
 }
 
+TEST_P(LawTalus, TumblingBlockFliesTheParabola) {
+  EXPECT_LT(tumbling_flight(settings, 10).error, 1e-12);
+}
+
 TEST(LawTalusDefault, PrismStartsToRollAtTheCriticalAngle) {
   for (int n = 3; n <= 12; ++n) {
     EXPECT_LT(rolling_angle(with_dt(1e-2), n).error, 0.01) << n;
