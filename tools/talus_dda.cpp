@@ -362,6 +362,14 @@ std::vector<std::string> warn_of_settings(Tool& tool, const Site& site) {
     warnings.push_back("fences stop nothing with law paper: what crosses their lines is recorded");
     tool.warn(warnings.back());
   }
+  const SolverSettings& solver = site.solver;
+  if (solver.seed != SolverSettings{}.seed && solver.start_jitter_m_s == 0 &&
+      solver.friction_scatter_deg == 0 && solver.cor_scatter == 0) {
+    warnings.push_back(
+        "the seed draws nothing: start_jitter_m_s, friction_scatter_deg and cor_scatter are 0, so "
+        "other seeds give the same run");
+    tool.warn(warnings.back());
+  }
   for (const UnusualValue& value : unusual_values(site)) {
     warnings.push_back(value.key + " " + value.finding);
     tool.warn(where_of(site, value.key).text() + ": " + warnings.back());

@@ -8,6 +8,9 @@ source_dir=$(cd "$(dirname "$0")/../.." && pwd)
 bin=$(cd "${1:-$source_dir/build/release/tools}" && pwd)
 data=$source_dir/../shared/data
 [ -d "$data" ] || { echo "skipped: $data is not there"; exit 0; }
+for tool in site tin trn blocks dda; do
+  [ -x "$bin/talus-$tool" ] || { echo "build $bin/talus-$tool first" >&2; exit 1; }
+done
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 

@@ -29,6 +29,9 @@ cmp run.h5 again.h5 || fail "two runs of the same inputs differ"
 expect 0 run_dda -o jitter.h5 -q --seed 2 --set solver.start_jitter_m_s=0.01
 cmp -s run.h5 jitter.h5 && fail "jitter changes nothing"
 
+expect 0 run_dda -o seeded.h5 --seed 3 --duration-s 0.1
+says "the seed draws nothing"
+
 # an existing output stays
 expect 1 run_dda -o run.h5
 says "exists already"
