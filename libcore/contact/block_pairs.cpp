@@ -353,7 +353,7 @@ bool is_grazing(const Hulls& hulls, const PlacedHulls& placed, const PairSetting
     face_separations(hulls, placed, part, other, work.axis.face_a);
     for (int f = 0; f < hulls.n_faces[part]; ++f) {
       const int slot = hulls.face_begin[part] + f;
-      if (work.axis.face_a[f] < least || hulls.internal[slot] != 0) continue;
+      if (work.axis.face_a[f] < least || hulls.cover[slot] == FaceCover::all) continue;
       const Vec3 outward = normal_at(placed, slot);
       const Vec3 to_a = part == m.part_b ? outward : Vec3(-outward);
       if (to_a.dot(m.normal) >= same_axis_cos) continue;

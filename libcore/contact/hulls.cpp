@@ -27,7 +27,8 @@ struct DraftFace {
   std::vector<Vec3> corners;
   double area = 0;
   int tag = 0;
-  bool internal = false;
+  bool internal = false;  // covered by other parts, or said to stop nothing
+  bool partly = false;    // covered in part: what is bare of it stops, whatever the tag
 };
 
 struct DraftPart {
@@ -83,8 +84,11 @@ double covered_area(const std::vector<DraftPart>& parts, std::size_t own, const 
 
 void mark_internal_faces(std::vector<DraftPart>& parts, double same) {
   for (std::size_t p = 0; p < parts.size(); ++p)
-    for (DraftFace& face : parts[p].faces)
-      if (covered_area(parts, p, face, same) >= (1 - cover_ratio) * face.area) face.internal = true;
+    for (DraftFace& face : parts[p].faces) {
+      const double covered = covered_area(parts, p, face, same);
+      face.partly = covered > cover_ratio * face.area && covered < (1 - cover_ratio) * face.area;
+      face.internal = !face.partly && (face.internal || covered > 0.5 * face.area);
+    }
 }
 
 bool contains(const DraftFace& face, const Vec3& point, double same) {
@@ -149,12 +153,16 @@ void add_vertices(Hulls& hulls, const DraftPart& part) {
   hulls.vertex_begin.push_back(static_cast<int>(hulls.vertices.size()));
 }
 
-void add_normal(Hulls& hulls, const Vec3& normal, int joint_set, bool internal) {
+FaceCover cover_of(const DraftFace& face) {
+  return face.internal ? FaceCover::all : face.partly ? FaceCover::part : FaceCover::none;
+}
+
+void add_normal(Hulls& hulls, const Vec3& normal, int joint_set, FaceCover cover) {
   hulls.nx.push_back(normal.x());
   hulls.ny.push_back(normal.y());
   hulls.nz.push_back(normal.z());
   hulls.joint_set.push_back(joint_set);
-  hulls.internal.push_back(internal ? 1 : 0);
+  hulls.cover.push_back(cover);
   hulls.loop_begin.push_back(static_cast<int>(hulls.loop_vertices.size()));
 }
 
@@ -168,7 +176,7 @@ void add_faces(Hulls& hulls, const DraftPart& part,
       hulls.loop_vertices.push_back(from);
       hulls.loop_edges.push_back(edge_of.at(std::minmax(from, to)));
     }
-    add_normal(hulls, part.faces[f].normal, part.faces[f].tag, part.faces[f].internal);
+    add_normal(hulls, part.faces[f].normal, part.faces[f].tag, cover_of(part.faces[f]));
   }
   hulls.n_faces.push_back(static_cast<int>(part.faces.size()));
 }
@@ -179,7 +187,7 @@ int normal_index(Hulls& hulls, const Vec3& normal) {
   for (int f = first; f < end; ++f)
     if ((Vec3(hulls.nx[f], hulls.ny[f], hulls.nz[f]) - normal).norm() < flat_angle)
       return f - first;
-  add_normal(hulls, normal, face_internal, true);
+  add_normal(hulls, normal, face_internal, FaceCover::all);
   return end - first;
 }
 
@@ -225,7 +233,8 @@ void add_part(Hulls& hulls, const std::vector<DraftPart>& parts, const DraftPart
   hulls.edge_begin.push_back(static_cast<int>(hulls.edges.size()));
   hulls.n_normals.push_back(static_cast<int>(hulls.nx.size()) - hulls.face_begin.back());
   while (hulls.nx.size() % 4 != 0)
-    add_normal(hulls, Vec3(hulls.nx.back(), hulls.ny.back(), hulls.nz.back()), face_internal, true);
+    add_normal(hulls, Vec3(hulls.nx.back(), hulls.ny.back(), hulls.nz.back()), face_internal,
+               FaceCover::all);
   hulls.face_begin.push_back(static_cast<int>(hulls.nx.size()));
 }
 

@@ -15,6 +15,9 @@
 
 namespace talus {
 
+/// How much of a face lies against other parts of its body.
+enum class FaceCover : std::uint8_t { none, part, all };
+
 /// An edge of a convex part. Faces, normals and vertices count from the part's first.
 struct HullEdge {
   int a = 0, b = 0;                 ///< vertices, a -> b as face `left` runs through it
@@ -48,7 +51,7 @@ struct Hulls {  // clang-format off
   std::vector<int> loop_vertices;     ///< corners, counter-clockwise from outside
   std::vector<int> loop_edges;        ///< edge from corner k to the next
   std::vector<int> joint_set;         ///< FaceOrigin or joint set                       (n_face_slots)
-  std::vector<std::uint8_t> internal; ///< 1: hidden between two parts of the body       (n_face_slots)
+  std::vector<FaceCover> cover;       ///< by other parts of the body                    (n_face_slots)
   // edges
   std::vector<HullEdge> edges;        ///<                                               (n_edges)
 };  // clang-format on

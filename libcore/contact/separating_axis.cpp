@@ -17,7 +17,9 @@ constexpr double parallel_sin_sq = 3.0458649045213493e-4;  // sin^2 1 deg: edges
 constexpr double keep_ratio = 0.1;   // another face must be better by this part of |separation|
 constexpr double face_ratio = 1e-3;  // ... and of the thickness; edges too
 constexpr double same_axis_ratio = 2e-2;  // ... in the same direction
-constexpr double seam_ratio = 5e-3;  // overlap across a covered face that the covering part bears
+// Overlap across a covered face is borne by the covering part up to this part of the thickness, and
+// up to this part of the overlap along the best other axis.
+constexpr double seam_ratio = 5e-3, seam_share = 0.25;
 constexpr double longest_hold_ratio = 0.02;  // of the smaller radius, and at most longest_hold
 constexpr double longest_hold = 0.05;        // [m]
 
@@ -149,21 +151,28 @@ bool has_pieces(const Hulls& hulls, int part) {
   return hulls.part_begin[body + 1] - hulls.part_begin[body] > 1;
 }
 
+// Largest separation along faces that other parts of the body cover, and along bare ones.
+struct Covered {
+  double all = none, part = none, bare = none;
+};
+
 // Faces inside a body, and faces that would meet one, stop nothing: their axes are taken out.
-// Returns the largest separation along them.
-double remove_internal(const Parts& parts, AxisScratch& scratch) {
-  double largest = none;
+Covered remove_internal(const Parts& parts, AxisScratch& scratch) {
+  Covered largest;
   if (!has_pieces(parts.hulls, parts.a) && !has_pieces(parts.hulls, parts.b)) return largest;
-  const auto hidden = [&](int part, int face) {
-    return parts.hulls.internal[parts.hulls.face_begin[part] + face] != 0;
+  const auto cover_of = [&](int part, int face) {
+    return parts.hulls.cover[parts.hulls.face_begin[part] + face];
   };
   for_each_face(parts, scratch, [&](const FaceAxis& axis) {
     const int other = axis.part == parts.a ? parts.b : parts.a;
-    if (!hidden(axis.part, axis.face) &&
-        !hidden(other, incident_face(parts.hulls, parts.placed, other, outward(parts, axis))))
-      return;
-    largest = std::max(largest, axis.separation);
-    (axis.part == parts.a ? scratch.face_a : scratch.face_b)[axis.face] = none;
+    const int met = incident_face(parts.hulls, parts.placed, other, outward(parts, axis));
+    const FaceCover cover = std::max(cover_of(axis.part, axis.face), cover_of(other, met));
+    double& sum = cover == FaceCover::all    ? largest.all
+                  : cover == FaceCover::part ? largest.part
+                                             : largest.bare;
+    sum = std::max(sum, axis.separation);
+    if (cover == FaceCover::all)
+      (axis.part == parts.a ? scratch.face_a : scratch.face_b)[axis.face] = none;
   });
   return largest;
 }
@@ -326,14 +335,19 @@ AxisChoice find_axis(const Hulls& hulls, const PlacedHulls& placed, int part_a, 
     return apart;
   }
 
-  const double hidden = remove_internal(parts, scratch);
+  const Covered covered = remove_internal(parts, scratch);
   const double thickness = std::min(hulls.thickness[part_a], hulls.thickness[part_b]);
   const double seam = std::max(seam_ratio * thickness, margin);
   const FaceAxis best = best_face(parts, scratch);
   // what edges need above the best face: half as much when an edge pair was chosen last
   const double edge_bar = face_ratio * thickness * (last.kind == AxisKind::edges ? 0.5 : 1);
   AxisChoice choice;
-  if (hidden >= -seam && hidden > std::max(best.separation, edges.separation)) {
+  const double open = std::max(best.separation, edges.separation);
+  const bool all_bears =
+      covered.all > open && (covered.all >= -seam || covered.all > seam_share * open);
+  const bool part_bears =
+      covered.part > std::max(covered.bare, edges.separation) && covered.part >= -seam;
+  if (all_bears || part_bears) {
     apart.axis = {};
     return apart;
   }
@@ -350,7 +364,9 @@ AxisChoice find_axis(const Hulls& hulls, const PlacedHulls& placed, int part_a, 
   choice.touches = true;
   const double radius =
       std::min(hulls.radius[hulls.body[part_a]], hulls.radius[hulls.body[part_b]]);
-  choice.hold = std::clamp(std::min(choice.hold, -seam - hidden), 0.0,
+  const double to_seam = std::min(-seam - std::max(covered.all, covered.part),
+                                  (seam_share * open - covered.all) / (1 + seam_share));
+  choice.hold = std::clamp(std::min(choice.hold, to_seam), 0.0,
                            std::min(longest_hold, longest_hold_ratio * radius));
   return choice;
 }

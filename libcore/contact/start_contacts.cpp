@@ -44,7 +44,7 @@ void add_joint_contacts(const Hulls& hulls, const PlacedHulls& placed, int part_
   for (int i = 0; i < hulls.n_faces[part_a]; ++i)
     for (int k = 0; k < hulls.n_faces[part_b]; ++k) {
       const int face_a = hulls.face_begin[part_a] + i, face_b = hulls.face_begin[part_b] + k;
-      if (hulls.internal[face_a] != 0 || hulls.internal[face_b] != 0) continue;
+      if (hulls.cover[face_a] == FaceCover::all || hulls.cover[face_b] == FaceCover::all) continue;
       const Vec3 normal_a = normal_at(placed, face_a), normal_b = normal_at(placed, face_b);
       if (normal_a.dot(normal_b) > -opposed) continue;
       const FaceOverlap common = face_overlap(corners_of(hulls, placed, part_a, face_a), normal_a,

@@ -13,7 +13,8 @@ using namespace talus::test;
 
 int n_internal(const Hulls& hulls, int p) {
   int n = 0;
-  for (int f = 0; f < hulls.n_faces[p]; ++f) n += hulls.internal[hulls.face_begin[p] + f];
+  for (int f = 0; f < hulls.n_faces[p]; ++f)
+    n += hulls.cover[hulls.face_begin[p] + f] == FaceCover::all;
   return n;
 }
 

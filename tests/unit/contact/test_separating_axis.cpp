@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "bent_body.hpp"
 #include "contact/separating_axis.hpp"
 #include "convex_bodies.hpp"
 
@@ -121,6 +122,30 @@ TEST(FindAxis, IdenticalBodiesInTheSamePlaceOverlapByTheirThickness) {
   EXPECT_TRUE(choice.normal.allFinite());
   EXPECT_NEAR(choice.separation, brute_separation(bodies.hulls, bodies.placed, 0, 1),
               2e-3 * bodies.hulls.thickness[0]);
+}
+
+// A step of two parts: of the tall part's side, only what the low part leaves bare stops a body,
+// though the cutting named all of it a face in the rock.
+TEST(FindAxis, BareRestOfACoveredFaceStops) {
+  const Vec2 tall[] = {{0, 0}, {1, 0}, {1, 2}, {0, 2}}, low[] = {{1, 0}, {2, 0}, {2, 1}, {1, 1}};
+  const int tall_tags[] = {0, face_internal, 0, 0}, low_tags[] = {0, 0, 0, face_internal};
+  const std::vector<Polyhedron> step = {prism(tall, tall_tags), prism(low, low_tags)};
+  Bodies bodies;
+  add(bodies, step, {});
+  add(bodies, box(Vec3(0.95, -0.5, 1.2), Vec3(1.95, 0.5, 1.8)), {});
+  place(bodies);
+  const Hulls& hulls = bodies.hulls;
+  const auto n_with = [&](int part, FaceCover cover) {
+    return std::count(hulls.cover.begin() + hulls.face_begin[part],
+                      hulls.cover.begin() + hulls.face_begin[part] + hulls.n_faces[part], cover);
+  };
+  EXPECT_EQ(n_with(0, FaceCover::part), 1);
+  EXPECT_EQ(n_with(1, FaceCover::all), 1);
+  AxisScratch scratch;
+  const AxisChoice choice = find_axis(hulls, bodies.placed, 0, 2, 0, {}, scratch);
+  EXPECT_TRUE(choice.touches);
+  EXPECT_NEAR(choice.separation, -0.05, 1e-12);
+  EXPECT_LT((choice.normal - Vec3(-1, 0, 0)).norm(), 1e-12);
 }
 
 }  // namespace
