@@ -434,6 +434,7 @@ struct OpenClose {
     const Vec3 adjusted = v + (wanted - normal.dot(v)) * normal;
     state.ledger.impact += 0.5 * scene.blocks.mass[i] * (v.squaredNorm() - adjusted.squaredNorm());
     v = adjusted;
+    if (state.phase[i] != Phase::stopped) work.segments.back().end = state.motion[i];
     state.rebound[i].setZero();
   }
 };

@@ -8,6 +8,7 @@ set -eu
 cd "$(dirname "$0")/../.."
 runs=${1:-2} out=${2:-$(mktemp -d)}
 [ $# -gt 2 ] && shift 2 && sites=$* || sites='salisbury_crags gschnitz_gar lechtal_kotcliff lechtal_kotdam'
+mkdir -p "$out"
 scenarios=../shared/data/scenarios
 [ -d "$scenarios" ] || { echo "skipped: no ../shared/data"; exit 0; }
 # coarse SITE: spacings of the sliding joints, and of the others
