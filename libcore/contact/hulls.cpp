@@ -10,8 +10,8 @@
 
 #include "base/error.hpp"
 #include "blocks/block_set.hpp"
-#include "contact/face_overlap.hpp"
 #include "contact/lanes.hpp"
+#include "geometry/face_overlap.hpp"
 
 namespace talus {
 namespace {
@@ -27,7 +27,7 @@ struct DraftFace {
   std::vector<Vec3> corners;
   double area = 0;
   int tag = 0;
-  bool internal = false;  // covered by other parts, or said to stop nothing
+  bool internal = false;  // covered by other parts; of a body in one piece, said to stop nothing
   bool partly = false;    // covered in part: what is bare of it stops, whatever the tag
 };
 
@@ -87,7 +87,7 @@ void mark_internal_faces(std::vector<DraftPart>& parts, double same) {
     for (DraftFace& face : parts[p].faces) {
       const double covered = covered_area(parts, p, face, same);
       face.partly = covered > cover_ratio * face.area && covered < (1 - cover_ratio) * face.area;
-      face.internal = !face.partly && (face.internal || covered > 0.5 * face.area);
+      face.internal = !face.partly && covered > 0.5 * face.area;
     }
 }
 
