@@ -355,6 +355,9 @@ std::vector<Polyhedron> made_convex_parts(const ConvexTask& task, const Trn& bed
   std::vector<Polyhedron> bodies;
   for (Part& part : parts)
     if (n_faces(part.body) > 0) bodies.push_back(std::move(part.body));
+  if (bodies.size() == 1)  // the bed took the rest
+    std::replace(bodies[0].face_tag.begin(), bodies[0].face_tag.end(), int{face_internal},
+                 int{face_failure});
   if (!bodies.empty() && !hang_together(bodies, 1e3 * options.tolerance_m)) return {};
   return bodies;
 }

@@ -154,7 +154,8 @@ TEST(Hulls, PartThatIsNotConvexIsRefused) {
   EXPECT_THROW(add(bodies, open, {}), InputError);
 }
 
-// Parts of a body that were told to meet but do not: the bare faces are its surface.
+// Parts of a body that were told to meet but do not, and a part without any other: the bare faces
+// are the body's surface.
 TEST(Hulls, FaceInTheRockThatNothingCoversIsBare) {
   Polyhedron one = box(Vec3(-1, 0, 0), Vec3(0, 1, 1)), other = box(Vec3(2, 0, 0), Vec3(3, 1, 1));
   for (int f = 0; f < n_faces(one); ++f)
@@ -162,8 +163,11 @@ TEST(Hulls, FaceInTheRockThatNothingCoversIsBare) {
   Bodies bodies;
   const std::vector<Polyhedron> parts = {one, other};
   add(bodies, parts, {});
-  EXPECT_EQ(n_internal(bodies.hulls, 0), 0);
-  EXPECT_EQ(bodies.hulls.n_active_edges[0], 12);
+  add(bodies, one, {});
+  for (const int p : {0, 2}) {
+    EXPECT_EQ(n_internal(bodies.hulls, p), 0);
+    EXPECT_EQ(bodies.hulls.n_active_edges[p], 12);
+  }
 }
 
 }  // namespace
