@@ -87,6 +87,12 @@ double find_features(const Hulls& hulls, const PlacedHulls& placed, int part_a, 
                      const PairAxis& axis, int incident, bool with_areas, ClipScratch& scratch,
                      std::vector<HeldPoint>& held);
 
+/// Appends the contact of `near_edges` (see AxisChoice) to the features held[begin, end) of a face
+/// axis, unless it is among them, or the edges do not cross seen along the face's normal.
+void add_near_edges(const Hulls& hulls, const PlacedHulls& placed, int part_a, int part_b,
+                    const PairAxis& axis, const PairAxis& near_edges, std::size_t begin,
+                    std::vector<HeldPoint>& held);
+
 /// Smallest gap over the features `held` of a face axis [m]; infinity without any.
 [[nodiscard]] double deepest_gap(const Hulls& hulls, const PlacedHulls& placed, int part_a,
                                  int part_b, const PairAxis& axis, int incident,

@@ -268,6 +268,9 @@ AxisChoice face_choice(const Parts& parts, const AxisScratch& scratch, const Fac
     choice.passed_over = edges.separation > best.separation
                              ? PairAxis{AxisKind::edges, edges.a, edges.b}
                              : name_of(parts, best);
+  if (edges.normal.dot(choice.normal) >= same_axis_cos &&
+      edges.separation >= face.separation - keep_bonus(face, thickness))
+    choice.near_edges = {AxisKind::edges, edges.a, edges.b};
   return choice;
 }
 

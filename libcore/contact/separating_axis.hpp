@@ -41,6 +41,7 @@ struct AxisChoice {
   double hold = 0;             ///< relative motion within which the same axis stays chosen [m]
   PairAxis passed_over;        ///< the axis of the largest separation, where a face was preferred
   double largest = 0;          ///< along it [m]
+  PairAxis near_edges;         ///< edges that meet nearly where the chosen face does, if any
 };
 
 /// Arrays that find_axis fills anew; kept to spare allocation.
