@@ -205,8 +205,56 @@ def part_kill(bench):
     for job in bench.jobs:
         tried, losses, _ = interrupted_tries(bench, job, bench.times(2, 25), signal.SIGKILL)
         bench.row(f"kill -9, {job.name}", tried, losses)
+    kill_when_placed(bench)
     kill_resumed_run(bench)
     kill_pipeline(bench)
+
+
+def preloaded(bench, name):
+    """The library of tests/endurance/NAME.c as an environment; None where there is no C compiler."""
+    if shutil.which("cc") is None:
+        return None
+    library = bench.work / f"{name}.so"
+    source = Path(__file__).with_name(f"{name}.c")
+    subprocess.run(["cc", "-shared", "-fPIC", "-O1", "-o", library, source, "-ldl"], check=True)
+    return {"LD_PRELOAD": str(library)}
+
+
+def record_in(folder):
+    """What the registry knows of the newest run, without times: its id, files, metrics, checks."""
+    with sqlite3.connect(folder / "runs.sqlite") as db:
+        run, content_id = db.execute("SELECT id, content_id FROM run ORDER BY id DESC").fetchone()
+        rows = [content_id]
+        for table in ("run_input", "run_output"):
+            rows += db.execute(f"SELECT role, sha256 FROM {table} JOIN artifact ON artifact.id = "
+                               "artifact_id WHERE run_id = ? ORDER BY role, sha256", (run,)).fetchall()
+        for details in ("name, value, unit FROM metric", 'name, value, "limit", pass FROM "check"'):
+            rows += db.execute(f"SELECT {details} WHERE run_id = ? ORDER BY name", (run,)).fetchall()
+    return rows
+
+
+def kill_when_placed(bench):
+    """kill -9 between an output's coming in place and the end of the run: what stands there has its
+    whole record, down to the limits of the run's health."""
+    fault, preload = "kill -9 right after an output stands", preloaded(bench, "kill_when_placed")
+    if preload is None:
+        return bench.row(fault, 0, [], "no C compiler here")
+    tried, losses = 0, []
+    for job in bench.jobs:
+        whole = bench.whole / job.name
+        placed = outputs_of(whole)
+        for file in placed if bench.args.long else bench.random.sample(placed, 1):
+            folder = bench.fresh(bench.work / "tries" / job.name)
+            code, _, err = bench.run([job.name, *job.words], folder,
+                                     env={**preload, "KILL_WHEN_PLACED": Path(file).name})
+            wrong = "" if code == -signal.SIGKILL else f"exit code {code}: {err}"
+            if not wrong and record_in(folder) != record_in(whole):
+                wrong = f"the record is {record_in(folder)}, whole: {record_in(whole)}"
+            wrong = wrong or bench.after_fault(job, folder)
+            tried += 1
+            if wrong:
+                losses.append(f"{job.name}, {file}: {wrong}")
+    bench.row(fault, tried, losses, "with the whole record of the run")
 
 
 def kill_resumed_run(bench):
@@ -355,14 +403,11 @@ def part_limit(bench):
 
 def part_write(bench):
     """One write that fails, or all from one on, at a random place: tests/endurance/failing_write.c."""
-    source = Path(__file__).with_name("failing_write.c")
-    library, report = bench.work / "failing_write.so", bench.work / "n_writes"
-    if shutil.which("cc") is None:
+    preload, report = preloaded(bench, "failing_write"), bench.work / "n_writes"
+    if preload is None:
         return bench.row("a write that fails", 0, [], "no C compiler here")
-    subprocess.run(["cc", "-shared", "-fPIC", "-O1", "-o", library, source, "-ldl"], check=True)
 
     def places(job):
-        preload = {"LD_PRELOAD": str(library)}
         bench.must([job.name, *job.words], bench.fresh(bench.work / "tries" / job.name),
                    env={**preload, "FAIL_REPORT": str(report)})
         n_writes = int(report.read_text())
