@@ -470,36 +470,36 @@ def part_disk(bench):
     if os.environ.get("TALUS_OWN_MOUNTS") != "1":
         enter_own_mounts(bench)
         return
-    disk = bench.fresh(bench.work / "disk")
     tried, losses = 0, []
     for job in bench.jobs:
         whole = bench.whole / job.name
         needed = sum((whole / f).stat().st_size for f in outputs_of(whole)) // 1024 + 400
         n = bench.times(2, 25)
-        for k in range(n):
-            mount("-t", "tmpfs", "-o", f"size={max(4, needed * k // n)}k", "none", disk)
-            code, wrong = refused(bench, job, disk)
-            mount("-o", "remount,size=256m", disk)
-            wrong = wrong or bench.after_fault(job, disk)
-            subprocess.run(["umount", "-l", disk], check=True)
+        for kb in (max(4, needed * k // n) for k in range(n)):
+            _, wrong = on_a_disk(bench, job, f"size={kb}k", "size=256m")
             tried += 1
             if wrong:
-                losses.append(f"{job.name}, {max(4, needed * k // n)} KB: {wrong}")
+                losses.append(f"{job.name}, {kb} KB: {wrong}")
     bench.row("full disk (tmpfs)", tried, losses)
-    tried, losses = 0, []
+    losses = []
     for job in bench.jobs:
-        mount("-t", "tmpfs", "none", disk)
-        mount("-o", "remount,ro", disk)
-        code, wrong = refused(bench, job, disk)
-        if code != 1:
-            wrong = wrong or f"exit code {code}"
-        mount("-o", "remount,rw", disk)
-        wrong = wrong or bench.after_fault(job, disk)
-        subprocess.run(["umount", "-l", disk], check=True)
-        tried += 1
+        code, wrong = on_a_disk(bench, job, "ro", "rw")
+        wrong = wrong or ("" if code == 1 else f"exit code {code}")
         if wrong:
             losses.append(f"{job.name}: {wrong}")
-    bench.row("read-only folder", tried, losses)
+    bench.row("read-only folder", len(bench.jobs), losses)
+
+
+def on_a_disk(bench, job, fault, mended):
+    """A job on a tmpfs mounted with the option `fault`, again with `mended`: (exit code of the
+    first, what is wrong)."""
+    disk = bench.fresh(bench.work / "disk")
+    mount("-t", "tmpfs", "-o", fault, "none", disk)
+    code, wrong = refused(bench, job, disk)
+    mount("-o", "remount," + mended, disk)
+    wrong = wrong or bench.after_fault(job, disk)
+    subprocess.run(["umount", "-l", disk], check=True)
+    return code, wrong
 
 
 def mount(*words):
