@@ -12,6 +12,8 @@ the next run gives the bytes of the run that nothing happened to. Each part is a
 import argparse
 import errno
 import filecmp
+import json
+import math
 import os
 import random
 import re
@@ -441,28 +443,99 @@ def part_memory(bench):
     stated_memory(bench)
 
 
-# What the pages state for these inputs, rounded up, beyond what loading takes [MB].
+# What the pages state beyond what loading takes: of the small scene in all, GDAL's cache [MB]; of a run
+# of many frames, bytes a block and frame; of the registry, bytes a run listed.
 SMALL_SCENE_MB = 16
-LARGE_NODES = (1400, 2000)
 GDAL_CACHE_MB = 128
+LARGE_NODES = (1400, 2000)
+MANY_FRAMES, FRAME_INTERVAL_S = 10001, 0.002
+BYTES_A_BLOCK_AND_FRAME = {"talus-dda": 300, "talus-runout": 80, "talus-fence": 80, "talus-report": 150}
+MANY_RUNS, BYTES_A_RUN = 10000, 4096
+MANY_CONTOURS, POINTS_A_CONTOUR, BYTES_A_POINT = 200, 1000, 210
 
 
 def stated_memory(bench):
     """Each tool does its work within what its page says, as a limit of the address space."""
     losses, tried = [], 0
-    site = bench.work / "site"
-    large = Job("talus-trn", [str(site / "made/tin.ply"), "-o", "large.tif", "--cell-size-m", "0.16",
-                              "--window", "500000,5200000,500224,5200320"])
-    large_mb = SMALL_SCENE_MB + GDAL_CACHE_MB + 8 * LARGE_NODES[0] * LARGE_NODES[1] // (1 << 20)
-    for job, more in [*((job, SMALL_SCENE_MB) for job in bench.jobs), (large, large_mb)]:
-        limit = loads_at_mb(bench, job) + more
+    for job, mb in stated_limits(bench):
+        limit = loads_at_mb(bench, job) + mb
         folder = bench.fresh(bench.work / "tries" / job.name)
         code, _, err = bench.run([job.name, *job.words], folder,
                                  preexec_fn=limited(resource.RLIMIT_AS, limit << 20))
         tried += 1
         if code != 0:
             losses.append(f"{job.name} within {limit} MB: exit code {code}: {err}")
+        elif job.name == "talus-dda":
+            shutil.copy(folder / "run.h5", bench.fresh(bench.work / "many/runs") / "run_1.h5")
+        elif job.name == "talus-runout":
+            shutil.copy(folder / "runout.json", bench.work / "many")
     bench.row("memory as stated on the pages (ulimit -v)", tried, losses)
+
+
+def stated_limits(bench):
+    """Jobs, each with the memory [MB] that its page states beyond what loading takes."""
+    for job in bench.jobs:
+        yield job, SMALL_SCENE_MB
+    made, toml = bench.work / "site/made", str(bench.work / "site/site.toml")
+    large = ["--cell-size-m", "0.16", "--window", "500000,5200000,500224,5200320"]
+    yield (Job("talus-trn", [str(made / "tin.ply"), "-o", "large.tif", *large]),
+           SMALL_SCENE_MB + GDAL_CACHE_MB + mb_of(8, LARGE_NODES[0] * LARGE_NODES[1]))
+    contours = cone(bench.work / "cone")
+    yield (Job("talus-tin", [str(contours), "-o", "tin.ply", "--flat", "keep", "--elevation-field", "z"]),
+           SMALL_SCENE_MB + mb_of(BYTES_A_POINT, MANY_CONTOURS * POINTS_A_CONTOUR))
+    with sqlite3.connect(bench.work / "many.sqlite") as db:
+        many_runs(bench.whole / "talus-dda/runs.sqlite", db)
+    yield (Job("talus-runs", ["list", "--db", str(bench.work / "many.sqlite")]),
+           SMALL_SCENE_MB + mb_of(BYTES_A_RUN, MANY_RUNS))
+    # each reads what those before it have made
+    many = bench.work / "many"
+    trn, run = ["--trn", str(made / "bed.tif")], str(many / "runs/run_1.h5")
+    jobs = [Job("talus-dda", [toml, *trn, "--blocks", str(made / "blocks.h5"), "-o", "run.h5",
+                              "--independent", "--frame-interval-s", str(FRAME_INTERVAL_S), "--set",
+                              f"solver.duration_s={(MANY_FRAMES - 1) * FRAME_INTERVAL_S}"]),
+            Job("talus-runout", [run, *trn, "-o", "runout.gpkg", "--json", "runout.json",
+                                 "--allow-unfinished"]),
+            Job("talus-fence", [toml, run, *trn, "-o", "fence.gpkg", "--json", "fence.json",
+                                "--allow-unfinished"]),
+            Job("talus-report", [toml, "--dir", str(many), "-o", "report.html"])]
+    n_blocks = json.loads((made / "blocks.json").read_text())["n_blocks"]
+    bench.fresh(many)
+    for file in ("bed.tif", "trn.tif"):
+        shutil.copy(made / file, many)
+    for job in jobs:
+        yield job, SMALL_SCENE_MB + mb_of(BYTES_A_BLOCK_AND_FRAME[job.name], n_blocks * MANY_FRAMES)
+
+
+def mb_of(n_bytes, n):
+    return -(-n_bytes * n // (1 << 20))
+
+
+def cone(name):
+    """Contours of a cone, a metre apart, as a file that GDAL reads line by line."""
+    ring = [2 * math.pi * k / POINTS_A_CONTOUR for k in range(POINTS_A_CONTOUR)] + [0]
+    with open(name.with_suffix(".geojsonl"), "w") as file:
+        for radius in range(2, MANY_CONTOURS + 2):
+            points = [[round(5e5 + radius * math.cos(a), 3), round(5.2e6 + radius * math.sin(a), 3)]
+                      for a in ring]
+            json.dump({"type": "Feature", "properties": {"z": 500 - radius},
+                       "geometry": {"type": "LineString", "coordinates": points}}, file)
+            file.write("\n")
+    layer = name.with_suffix(".vrt")  # says the CRS, which the format cannot
+    layer.write_text(f'<OGRVRTDataSource><OGRVRTLayer name="{name.name}"><SrcDataSource relativeToVRT="1">'
+                     f"{name.name}.geojsonl</SrcDataSource><LayerSRS>EPSG:32633</LayerSRS></OGRVRTLayer>"
+                     "</OGRVRTDataSource>")
+    return layer
+
+
+def many_runs(registry, db):
+    """A registry of MANY_RUNS rows, all those of the newest run of another one."""
+    with sqlite3.connect(registry) as source:
+        source.backup(db)
+    columns = [row[1] for row in db.execute("PRAGMA table_info(run)") if row[1] != "id"]
+    row = db.execute(f"SELECT {', '.join(columns)} FROM run ORDER BY id DESC").fetchone()
+    db.execute("DELETE FROM run")
+    db.executemany(f"INSERT INTO run ({', '.join(columns)}) VALUES ({', '.join('?' * len(columns))})",
+                   [row] * MANY_RUNS)
 
 
 def part_disk(bench):
