@@ -49,6 +49,7 @@ class Bench:
         self.environment.pop("MAKEFLAGS", None)
         self.wall_s = {}
         self.jobs = []
+        self.is_sanitized = False
 
     # --- running -------------------------------------------------------------------------------
     def start(self, words, folder, **more):
@@ -101,6 +102,8 @@ class Bench:
                                 "--json", "fence.json", "--csv", "fence.csv", "--allow-unfinished"]),
         ]
         made.mkdir()
+        limit = memory_limit(self, 4096)
+        self.is_sanitized = self.run([self.jobs[0].name, "--version"], site, **limit)[0] != 0
         for job in self.jobs:
             folder = self.fresh(self.whole / job.name)
             begin = time.monotonic()
@@ -355,6 +358,11 @@ def limited(limit, value):
     return set_limit
 
 
+def memory_limit(bench, mb):
+    """Keyword arguments of Popen; no limit for sanitized tools, which need all of the address space."""
+    return {} if bench.is_sanitized else {"preexec_fn": limited(resource.RLIMIT_AS, mb << 20)}
+
+
 def refused(bench, job, folder, **more):
     """Runs a job that cannot succeed: (exit code, what is wrong; empty: a clear error)."""
     code, _, err = bench.run([job.name, *job.words], folder, **more)
@@ -426,8 +434,7 @@ def part_write(bench):
 def loads_at_mb(bench, job):
     """Address space in which the tool and its libraries are loaded: --version works."""
     for mb in range(32, 4096, 16):
-        code, _, _ = bench.run([job.name, "--version"], bench.work,
-                               preexec_fn=limited(resource.RLIMIT_AS, mb << 20))
+        code, _, _ = bench.run([job.name, "--version"], bench.work, **memory_limit(bench, mb))
         if code == 0:
             return mb
     sys.exit(f"{job.name} cannot be loaded")
@@ -435,10 +442,13 @@ def loads_at_mb(bench, job):
 
 def part_memory(bench):
     """Little address space (ulimit -v), from what loading takes upwards: done, or a clear error."""
+    if bench.is_sanitized:
+        return bench.row("little memory (ulimit -v)", 0, [], "not with sanitized tools")
+
     def sizes(job):
         least = loads_at_mb(bench, job)
         for more in bench.times((16, 64), (2, 4, 8, 12, 16, 24, 32, 40, 48, 64, 96, 128, 256)):
-            yield f"{least + more} MB", {"preexec_fn": limited(resource.RLIMIT_AS, least + more << 20)}
+            yield f"{least + more} MB", memory_limit(bench, least + more)
     sweep(bench, "little memory (ulimit -v)", bench.jobs, sizes)
     stated_memory(bench)
 
@@ -460,8 +470,7 @@ def stated_memory(bench):
     for job, mb in stated_limits(bench):
         limit = loads_at_mb(bench, job) + mb
         folder = bench.fresh(bench.work / "tries" / job.name)
-        code, _, err = bench.run([job.name, *job.words], folder,
-                                 preexec_fn=limited(resource.RLIMIT_AS, limit << 20))
+        code, _, err = bench.run([job.name, *job.words], folder, **memory_limit(bench, limit))
         tried += 1
         if code != 0:
             losses.append(f"{job.name} within {limit} MB: exit code {code}: {err}")
@@ -480,6 +489,7 @@ def stated_limits(bench):
     large = ["--cell-size-m", "0.16", "--window", "500000,5200000,500224,5200320"]
     yield (Job("talus-trn", [str(made / "tin.ply"), "-o", "large.tif", *large]),
            SMALL_SCENE_MB + GDAL_CACHE_MB + mb_of(8, LARGE_NODES[0] * LARGE_NODES[1]))
+    yield Job("talus-verify", ["slide_20", "slide39", "-o", "."]), SMALL_SCENE_MB
     contours = cone(bench.work / "cone")
     yield (Job("talus-tin", [str(contours), "-o", "tin.ply", "--flat", "keep", "--elevation-field", "z"]),
            SMALL_SCENE_MB + mb_of(BYTES_A_POINT, MANY_CONTOURS * POINTS_A_CONTOUR))
@@ -654,9 +664,8 @@ def part_sources(bench):
             if victim.endswith(".toml"):
                 shutil.copy(bench.work / "site/contours.gpkg", damaged.parent)
             words = [str(damaged) if w == victim else w for w in job.words]
-            limit = limited(resource.RLIMIT_AS, 4 << 30)
             process = bench.start([job.name, *words, "--no-db"], bench.fresh(folder / "out"),
-                                  preexec_fn=limit)
+                                  **memory_limit(bench, 4096))
             try:
                 _, err = process.communicate(timeout=120)
             except subprocess.TimeoutExpired:
@@ -695,8 +704,7 @@ def lying_sources(bench):
         folder = bench.fresh(bench.work / "tries/lies")
         (folder / name).write_text(content)
         job = Job("talus-trn", [name, "-o", "trn.tif", "--crs", "EPSG:32633", "--no-db"])
-        code, _, err = bench.run([job.name, *job.words], folder,
-                                 preexec_fn=limited(resource.RLIMIT_AS, 4 << 30))
+        code, _, err = bench.run([job.name, *job.words], folder, **memory_limit(bench, 4096))
         if code != 1 or (folder / "trn.tif").exists():
             losses.append(f"{name}: exit code {code}: {err}")
     bench.row("inputs that lie about their size", len(LIES), losses)
