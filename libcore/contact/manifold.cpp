@@ -9,7 +9,7 @@ namespace talus {
 namespace {
 
 constexpr double on_side_ratio = 1e-6;  // of the thickness: nearer than this lies on a side
-constexpr double depth_ratio = 0.1;     // a face may miss this part of the depth of edges
+constexpr double depth_ratio = 0.1;     // a preferred face may miss this part of the depth
 
 // The face that clips (reference) and the face that is clipped (incident), and who they belong to.
 struct FacePair {
@@ -366,19 +366,19 @@ ContactSearch search_contact(const Hulls& hulls, const PlacedHulls& placed, int 
   found.incident = incident_of(hulls, placed, part_a, part_b, choice.axis);
   found.area = find_features(hulls, placed, part_a, part_b, choice.axis, found.incident, with_areas,
                              clip_scratch, held);
-  if (choice.better_edges.kind == AxisKind::none) return found;
-  const double deep_enough =
-      choice.edge_separation + depth_ratio * std::abs(choice.edge_separation);
+  if (choice.passed_over.kind == AxisKind::none) return found;
+  const double deep_enough = choice.largest + depth_ratio * std::abs(choice.largest);
   if (deepest_gap(hulls, placed, part_a, part_b, choice.axis, found.incident,
                   std::span(held).subspan(begin)) <= deep_enough)
     return found;
   held.resize(begin);
-  choice.axis = choice.better_edges;
+  choice.axis = choice.passed_over;
   choice.normal = axis_normal(hulls, placed, part_a, part_b, choice.axis);
-  choice.separation = choice.edge_separation;
+  choice.separation = choice.largest;
   choice.hold = 0;
-  found.area =
-      find_features(hulls, placed, part_a, part_b, choice.axis, -1, with_areas, clip_scratch, held);
+  found.incident = incident_of(hulls, placed, part_a, part_b, choice.axis);
+  found.area = find_features(hulls, placed, part_a, part_b, choice.axis, found.incident, with_areas,
+                             clip_scratch, held);
   return found;
 }
 
