@@ -341,8 +341,13 @@ struct Tool::Impl {
     registered = true;
   }
 
+  // The body may name further inputs until it asks for the id, or ends.
+  void complete_content_id() {
+    if (record.content_id.empty()) record.content_id = content_id();
+  }
+
   void finish_record(int exit_code) {
-    if (!registered) return;
+    complete_content_id();
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     const auto seconds = [](const timeval& t) {
@@ -396,7 +401,10 @@ struct Tool::Impl {
     const std::vector<Staged> files = in_order_of_commit();
     for (const Staged& file : files)
       if (fs::exists(file.temporary)) record.outputs.push_back(described_output(file));
-    if (registered && !files.empty()) record_outputs(registry_path(), record);
+    if (registered && !files.empty()) {
+      complete_content_id();
+      record_results(registry_path(), record);
+    }
     for (const Staged& file : files) {
       if (!fs::exists(file.temporary)) continue;
       utimensat(AT_FDCWD, file.temporary.c_str(), times, 0);
@@ -614,7 +622,7 @@ bool Tool::overwrite() const { return impl_->overwrite; }
 std::string Tool::registry() const { return impl_->registry_path(); }
 
 std::string Tool::run_id() {
-  if (impl_->record.content_id.empty()) impl_->record.content_id = impl_->content_id();
+  impl_->complete_content_id();
   return impl_->record.content_id;
 }
 
@@ -641,11 +649,10 @@ int Tool::run(int argc, char** argv, const std::function<void()>& body) {
     impl.begin_record(argc, argv);
     impl.check_files();
     impl.register_run();
-    impl.record.content_id.clear();  // the body may name further inputs before it asks for it
+    impl.record.content_id.clear();  // the body may name further inputs
     return impl.work_and_commit(body);
   });
   if (impl.registered) {
-    if (impl.record.content_id.empty()) impl.record.content_id = impl.content_id();
     const int recorded =
         impl.guarded([&] { return impl.finish_record(code), static_cast<int>(done); });
     if (recorded != done && code == done) {

@@ -31,7 +31,8 @@ struct ConvexOptions {
                                      const ConvexOptions& options);
 
 /// One, two or up to four convex bodies that keep at least 1 - max_loss of the volume; empty when
-/// that cannot be done. Two bodies meet in a vertical plane and do not overlap.
+/// that cannot be done, or would leave bodies that do not hang together. Two bodies meet in a
+/// vertical plane and do not overlap.
 [[nodiscard]] std::vector<Polyhedron> made_convex_parts(const ConvexTask& task, const Trn& bed,
                                                         const ConvexOptions& options);
 

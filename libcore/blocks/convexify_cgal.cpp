@@ -9,6 +9,7 @@
 #include "blocks/convexify.hpp"
 #include "blocks/cut.hpp"
 #include "blocks/solid.hpp"
+#include "geometry/face_overlap.hpp"
 
 namespace talus {
 namespace {
@@ -234,6 +235,44 @@ ConvexTask part_of(const ConvexTask& task, const Plane& plane, double tolerance)
   return part;
 }
 
+std::vector<Vec3> corners_of(const Polyhedron& body, int f) {
+  std::vector<Vec3> corners;
+  for (const int v : face(body, f)) corners.push_back(body.vertices[v]);
+  return corners;
+}
+
+// Do two bodies share a part of a face where the block was divided?
+bool meet(const Polyhedron& one, const Polyhedron& other, double tolerance) {
+  for (int f = 0; f < n_faces(one); ++f) {
+    if (one.face_tag[f] != face_internal) continue;
+    const Vec3 normal = face_normal(one, f), centre = face_centroid(one, f);
+    for (int g = 0; g < n_faces(other); ++g) {
+      if (other.face_tag[g] != face_internal || face_normal(other, g).dot(normal) > -1 + 1e-9 ||
+          std::abs(normal.dot(face_centroid(other, g) - centre)) > tolerance)
+        continue;
+      const double least = 1e-6 * std::min(face_area(one, f), face_area(other, g));
+      if (face_overlap(corners_of(one, f), normal, corners_of(other, g)).area > least) return true;
+    }
+  }
+  return false;
+}
+
+// Where the bed rises between the parts of a block, each may have been cut off from the others.
+bool hang_together(const std::vector<Polyhedron>& bodies, double tolerance) {
+  std::vector<bool> reached(bodies.size(), false);
+  std::vector<size_t> next = {0};
+  for (size_t n_reached = 0; !next.empty();) {
+    const size_t at = next.back();
+    next.pop_back();
+    if (reached[at]) continue;
+    reached[at] = true;
+    if (++n_reached == bodies.size()) return true;
+    for (size_t k = 0; k < bodies.size(); ++k)
+      if (!reached[k] && meet(bodies[at], bodies[k], tolerance)) next.push_back(k);
+  }
+  return false;
+}
+
 }  // namespace
 
 Polyhedron made_convex(const ConvexTask& task, const Trn& bed, const ConvexOptions& options) {
@@ -316,6 +355,10 @@ std::vector<Polyhedron> made_convex_parts(const ConvexTask& task, const Trn& bed
   std::vector<Polyhedron> bodies;
   for (Part& part : parts)
     if (n_faces(part.body) > 0) bodies.push_back(std::move(part.body));
+  if (bodies.size() == 1)  // the bed took the rest
+    std::replace(bodies[0].face_tag.begin(), bodies[0].face_tag.end(), int{face_internal},
+                 int{face_failure});
+  if (!bodies.empty() && !hang_together(bodies, 1e3 * options.tolerance_m)) return {};
   return bodies;
 }
 

@@ -57,8 +57,10 @@ void follow_motion(const Hulls& hulls, const PlacedHulls& placed, const PairMoti
   if (state.travel.empty()) return;
   const Vec3 frame = mean_position(hulls, placed, state.in_frame);
   for (int b = 0; b < n_bodies(hulls); ++b) {
-    state.travel[b] += (placed.position[b] - state.last_at[b] - (frame - state.last_frame)).norm();
+    state.travel[b] += (placed.position[b] - state.last_at[b] - (frame - state.last_frame)).norm() +
+                       placed.turned[b] - state.last_turned[b];
     state.last_at[b] = placed.position[b];
+    state.last_turned[b] = placed.turned[b];
   }
   state.last_frame = frame;
 }
@@ -186,6 +188,7 @@ void search_all(const Search& s, const PairWatch& watch, double margin, ListedPa
       s.settings.with_areas, s.work.axis, s.work.clip, s.work.next_held);
   pair.held_end = static_cast<int>(s.work.next_held.size());
   pair.axis = found.choice.axis;
+  pair.near_edges = found.choice.near_edges;
   pair.touches = found.choice.touches;
   pair.incident = found.incident;
   pair.area = found.area;
@@ -201,6 +204,8 @@ bool search_features(const Search& s, const PairWatch& watch, ListedPair& pair) 
   pair.incident = incident_of(s.hulls, s.placed, watch.part_a, watch.part_b, pair.axis);
   pair.area = find_features(s.hulls, s.placed, watch.part_a, watch.part_b, pair.axis, pair.incident,
                             s.settings.with_areas, s.work.clip, s.work.next_held);
+  add_near_edges(s.hulls, s.placed, watch.part_a, watch.part_b, pair.axis, pair.near_edges,
+                 static_cast<std::size_t>(pair.held_begin), s.work.next_held);
   pair.held_end = static_cast<int>(s.work.next_held.size());
   return pair.held_end > pair.held_begin;
 }

@@ -49,6 +49,7 @@ struct PairWatch {
 struct ListedPair {
   PairAxis axis;                ///< kind none: not searched yet
   bool touches = false;         ///< along that axis; else it separates the parts
+  PairAxis near_edges;          ///< see AxisChoice
   int incident = -1;            ///< incident_face of a face axis
   double hold = -1;             ///< < 0: search; touching: see AxisChoice; apart: separation [m]
   double other_face = 0;        ///< bound on AxisChoice::other_face [m]

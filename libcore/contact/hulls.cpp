@@ -10,8 +10,8 @@
 
 #include "base/error.hpp"
 #include "blocks/block_set.hpp"
-#include "contact/face_overlap.hpp"
 #include "contact/lanes.hpp"
+#include "geometry/face_overlap.hpp"
 
 namespace talus {
 namespace {
@@ -27,8 +27,8 @@ struct DraftFace {
   std::vector<Vec3> corners;
   double area = 0;
   int tag = 0;
-  bool internal = false;  // covered by other parts, or said to stop nothing
-  bool partly = false;    // covered in part: what is bare of it stops, whatever the tag
+  bool internal = false;  // covered by other parts, or by a body that stands beside this one
+  bool partly = false;    // covered in part: what is bare of it stops
 };
 
 struct DraftPart {
@@ -38,7 +38,8 @@ struct DraftPart {
   std::vector<PolyhedronEdge> edges;
 };
 
-DraftPart draft_part(const Polyhedron& part, const Vec3& centroid, const Mat3& to_body) {
+DraftPart draft_part(const Polyhedron& part, const Vec3& centroid, const Mat3& to_body,
+                     bool stands_among_others) {
   DraftPart draft;
   for (const Vec3& v : part.vertices) draft.vertices.push_back(to_body * (v - centroid));
   for (int f = 0; f < n_faces(part); ++f) {
@@ -47,7 +48,7 @@ DraftPart draft_part(const Polyhedron& part, const Vec3& centroid, const Mat3& t
     out.centre = to_body * (face_centroid(part, f) - centroid);
     out.area = face_area(part, f);
     out.tag = part.face_tag[f];
-    out.internal = out.tag == face_internal;
+    out.internal = stands_among_others && out.tag == face_internal;
     for (const int v : face(part, f)) out.corners.push_back(draft.vertices[v]);
     draft.faces.push_back(std::move(out));
     draft.loops.emplace_back(face(part, f).begin(), face(part, f).end());
@@ -87,7 +88,7 @@ void mark_internal_faces(std::vector<DraftPart>& parts, double same) {
     for (DraftFace& face : parts[p].faces) {
       const double covered = covered_area(parts, p, face, same);
       face.partly = covered > cover_ratio * face.area && covered < (1 - cover_ratio) * face.area;
-      face.internal = !face.partly && (face.internal || covered > 0.5 * face.area);
+      face.internal = !face.partly && covered > 0.5 * face.area;
     }
 }
 
@@ -281,12 +282,12 @@ void resize(const Hulls& hulls, PlacedHulls& placed) {
 }  // namespace
 
 void add_hulls(Hulls& hulls, std::span<const Polyhedron> parts, const Vec3& centroid,
-               const Mat3& to_body) {
+               const Mat3& to_body, bool stands_among_others) {
   std::vector<DraftPart> drafts;
   double radius = 0;
   for (const Polyhedron& part : parts) {
     check_part(part);
-    drafts.push_back(draft_part(part, centroid, to_body));
+    drafts.push_back(draft_part(part, centroid, to_body, stands_among_others));
     for (const Vec3& v : drafts.back().vertices) radius = std::max(radius, v.norm());
   }
   const double same = same_ratio * radius;

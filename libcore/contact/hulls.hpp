@@ -64,11 +64,13 @@ struct Hulls {  // clang-format off
 /// Adds a body given by its convex parts in local coordinates; `to_body` rotates local into body
 /// axes. face_tag is kept as the joint set.
 ///
-/// Faces that other parts of the body cover are internal: they stop nothing. Edges where the body's
-/// surface is flat or concave are inactive: they make no edge-edge contact (theory 2.2). Throws
-/// InputError (without a place) when a part is not closed and convex within 1e-6 of its size.
+/// Faces that other parts of the body cover are internal: they stop nothing. So are those tagged
+/// face_internal of a body that `stands_among_others` for good, as a block of a fixed slope does.
+/// Edges where the body's surface is flat or concave are inactive: they make no edge-edge contact
+/// (theory 2.2). Throws InputError (without a place) when a part is not closed and convex within
+/// 1e-6 of its size.
 void add_hulls(Hulls& hulls, std::span<const Polyhedron> parts, const Vec3& centroid,
-               const Mat3& to_body);
+               const Mat3& to_body, bool stands_among_others = false);
 
 /// Hulls of all blocks of a block set, in their order; `rest[b]` is the pose as cut.
 struct BlockSet;

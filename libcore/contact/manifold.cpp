@@ -9,7 +9,7 @@ namespace talus {
 namespace {
 
 constexpr double on_side_ratio = 1e-6;  // of the thickness: nearer than this lies on a side
-constexpr double depth_ratio = 0.1;     // a face may miss this part of the depth of edges
+constexpr double depth_ratio = 0.1;     // a preferred face may miss this part of the depth
 
 // The face that clips (reference) and the face that is clipped (incident), and who they belong to.
 struct FacePair {
@@ -323,16 +323,34 @@ void add_edge_point(const Hulls& hulls, const PlacedHulls& placed, int part_a, i
   points.push_back({held.key, crossing_on_b(a, along_a, b, along_b), gap, held.area});
 }
 
+ContactKey key_of_edges(const Hulls& hulls, int part_a, int part_b, const PairAxis& axis) {
+  return {ContactMode::edge_edge, hulls.body[part_b], body_edge(hulls, part_a, axis.feature_a),
+          body_edge(hulls, part_b, axis.feature_b)};
+}
+
+struct Segment {
+  Vec3 start, end;
+};
+
+Segment segment_of(const Hulls& hulls, const PlacedHulls& placed, int part, int edge) {
+  const HullEdge& e = hulls.edges[hulls.edge_begin[part] + edge];
+  const Vec3* vertices = &placed.vertices[hulls.vertex_begin[part]];
+  return {vertices[e.a], vertices[e.b]};
+}
+
+// Do the ends of a segment lie on both sides of the line of another, seen along `normal`?
+bool is_parted(const Segment& segment, const Segment& line, const Vec3& normal) {
+  const Vec3 across = normal.cross(line.end - line.start);
+  return across.dot(segment.start - line.start) * across.dot(segment.end - line.start) < 0;
+}
+
 }  // namespace
 
 double find_features(const Hulls& hulls, const PlacedHulls& placed, int part_a, int part_b,
                      const PairAxis& axis, int incident, bool with_areas, ClipScratch& scratch,
                      std::vector<HeldPoint>& held) {
   if (axis.kind == AxisKind::edges) {
-    held.push_back(
-        {{ContactMode::edge_edge, hulls.body[part_b], body_edge(hulls, part_a, axis.feature_a),
-          body_edge(hulls, part_b, axis.feature_b)},
-         0});
+    held.push_back({key_of_edges(hulls, part_a, part_b, axis), 0});
     return 0;
   }
   const FacePair pair = face_pair(hulls, part_a, part_b, axis, incident);
@@ -354,6 +372,22 @@ double deepest_gap(const Hulls& hulls, const PlacedHulls& placed, int part_a, in
   return deepest;
 }
 
+void add_near_edges(const Hulls& hulls, const PlacedHulls& placed, int part_a, int part_b,
+                    const PairAxis& axis, const PairAxis& near_edges, std::size_t begin,
+                    std::vector<HeldPoint>& held) {
+  if (near_edges.kind == AxisKind::none) return;
+  const ContactKey key = key_of_edges(hulls, part_a, part_b, near_edges);
+  const auto same = [&](const HeldPoint& h) {
+    return h.key.mode == key.mode && h.key.feature_a == key.feature_a &&
+           h.key.feature_b == key.feature_b;
+  };
+  if (std::any_of(held.begin() + static_cast<std::ptrdiff_t>(begin), held.end(), same)) return;
+  const Vec3 normal = axis_normal(hulls, placed, part_a, part_b, axis);
+  const Segment a = segment_of(hulls, placed, part_a, near_edges.feature_a);
+  const Segment b = segment_of(hulls, placed, part_b, near_edges.feature_b);
+  if (is_parted(a, b, normal) && is_parted(b, a, normal)) held.push_back({key, 0});
+}
+
 ContactSearch search_contact(const Hulls& hulls, const PlacedHulls& placed, int part_a, int part_b,
                              double margin, const PairAxis& last, bool with_areas,
                              AxisScratch& axis_scratch, ClipScratch& clip_scratch,
@@ -366,19 +400,21 @@ ContactSearch search_contact(const Hulls& hulls, const PlacedHulls& placed, int 
   found.incident = incident_of(hulls, placed, part_a, part_b, choice.axis);
   found.area = find_features(hulls, placed, part_a, part_b, choice.axis, found.incident, with_areas,
                              clip_scratch, held);
-  if (choice.better_edges.kind == AxisKind::none) return found;
-  const double deep_enough =
-      choice.edge_separation + depth_ratio * std::abs(choice.edge_separation);
+  add_near_edges(hulls, placed, part_a, part_b, choice.axis, choice.near_edges, begin, held);
+  if (choice.passed_over.kind == AxisKind::none) return found;
+  const double deep_enough = choice.largest + depth_ratio * std::abs(choice.largest);
   if (deepest_gap(hulls, placed, part_a, part_b, choice.axis, found.incident,
                   std::span(held).subspan(begin)) <= deep_enough)
     return found;
   held.resize(begin);
-  choice.axis = choice.better_edges;
+  choice.axis = choice.passed_over;
+  choice.near_edges = {};
   choice.normal = axis_normal(hulls, placed, part_a, part_b, choice.axis);
-  choice.separation = choice.edge_separation;
+  choice.separation = choice.largest;
   choice.hold = 0;
-  found.area =
-      find_features(hulls, placed, part_a, part_b, choice.axis, -1, with_areas, clip_scratch, held);
+  found.incident = incident_of(hulls, placed, part_a, part_b, choice.axis);
+  found.area = find_features(hulls, placed, part_a, part_b, choice.axis, found.incident, with_areas,
+                             clip_scratch, held);
   return found;
 }
 

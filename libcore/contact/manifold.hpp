@@ -87,6 +87,12 @@ double find_features(const Hulls& hulls, const PlacedHulls& placed, int part_a, 
                      const PairAxis& axis, int incident, bool with_areas, ClipScratch& scratch,
                      std::vector<HeldPoint>& held);
 
+/// Appends the contact of `near_edges` (see AxisChoice) to the features held[begin, end) of a face
+/// axis, unless it is among them, or the edges do not cross seen along the face's normal.
+void add_near_edges(const Hulls& hulls, const PlacedHulls& placed, int part_a, int part_b,
+                    const PairAxis& axis, const PairAxis& near_edges, std::size_t begin,
+                    std::vector<HeldPoint>& held);
+
 /// Smallest gap over the features `held` of a face axis [m]; infinity without any.
 [[nodiscard]] double deepest_gap(const Hulls& hulls, const PlacedHulls& placed, int part_a,
                                  int part_b, const PairAxis& axis, int incident,
@@ -99,9 +105,10 @@ struct ContactSearch {
   double area = 0;    ///< of the clipped polygon [m2]
 };
 
-/// find_axis, then find_features, which are appended to `held`. Where find_axis passed over a pair
-/// of edges for a face in nearly the same direction, but that face meets nothing as deep, the edges
-/// are used after all, for one step.
+/// find_axis, then find_features, which are appended to `held`. Where find_axis preferred a face to
+/// the axis of the largest separation, but what lies above that face is not as deep, the latter is
+/// used after all, for one step: of two faces of a block that are nearly one plane, the other block
+/// may press on the one that it did not press on before.
 [[nodiscard]] ContactSearch search_contact(const Hulls& hulls, const PlacedHulls& placed,
                                            int part_a, int part_b, double margin,
                                            const PairAxis& last, bool with_areas,

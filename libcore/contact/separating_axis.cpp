@@ -91,16 +91,20 @@ void consider_edges(const Parts& parts, int e_a, int e_b, const Vec3& along_a,
   best = {separation, best.separation, best.elsewhere, e_a, e_b, normal};
 }
 
-// All pairs of active edges whose Gauss arcs cross (theory 2.2). Along an edge, left x right of its
+// All pairs of active edges whose Gauss arcs cross (theory 2.2); with `inner` also those of the
+// other edges, at which a part alone ends but its body does not. Along an edge, left x right of its
 // arc points as the edge does, so the arcs' cross products are the edges' directions, and the test
 // needs only the products of edge directions with the other part's normals.
-BestEdges find_edges(const Parts& parts, const Vec3& best_face, AxisScratch& scratch) {
+BestEdges find_edges(const Parts& parts, const Vec3& best_face, bool inner, AxisScratch& scratch) {
   const Hulls& hulls = parts.hulls;
   const std::size_t width_a = hulls.face_begin[parts.a + 1] - hulls.face_begin[parts.a];
   const std::size_t width_b = hulls.face_begin[parts.b + 1] - hulls.face_begin[parts.b];
   const HullEdge* edges_a = hulls.edges.data() + hulls.edge_begin[parts.a];
   const HullEdge* edges_b = hulls.edges.data() + hulls.edge_begin[parts.b];
-  const int n_a = hulls.n_active_edges[parts.a], n_b = hulls.n_active_edges[parts.b];
+  const auto n_edges = [&](int part) {
+    return inner ? hulls.edge_begin[part + 1] - hulls.edge_begin[part] : hulls.n_active_edges[part];
+  };
+  const int n_a = n_edges(parts.a), n_b = n_edges(parts.b);
   if (scratch.dots_a.size() < width_b) scratch.dots_a.resize(width_b);
   if (scratch.dots_b.size() < n_b * width_a) scratch.dots_b.resize(n_b * width_a);
   double* const row = scratch.dots_a.data();
@@ -241,8 +245,15 @@ AxisChoice apart_choice(const Parts& parts, const FaceAxis& face) {
   return choice;
 }
 
+AxisChoice apart_choice(const BestEdges& edges) {
+  AxisChoice choice;
+  choice.axis = {AxisKind::edges, edges.a, edges.b};
+  choice.separation = edges.separation;
+  return choice;
+}
+
 AxisChoice face_choice(const Parts& parts, const AxisScratch& scratch, const FaceAxis& face,
-                       double best_separation, double edge_bar, const BestEdges& edges,
+                       const FaceAxis& best, double edge_bar, const BestEdges& edges,
                        double thickness) {
   AxisChoice choice;
   choice.axis = name_of(parts, face);
@@ -250,12 +261,16 @@ AxisChoice face_choice(const Parts& parts, const AxisScratch& scratch, const Fac
   choice.separation = face.separation;
   choice.other_face = best_other_face(parts, scratch, choice.normal);
   choice.hold = std::min(face.separation + keep_bonus(face, thickness) - choice.other_face,
-                         best_separation + edge_bar - edges.elsewhere) /
+                         best.separation + edge_bar - edges.elsewhere) /
                 2;
-  if (edges.separation > choice.separation) {
-    choice.better_edges = {AxisKind::edges, edges.a, edges.b};
-    choice.edge_separation = edges.separation;
-  }
+  choice.largest = std::max(best.separation, edges.separation);
+  if (choice.largest > choice.separation)
+    choice.passed_over = edges.separation > best.separation
+                             ? PairAxis{AxisKind::edges, edges.a, edges.b}
+                             : name_of(parts, best);
+  if (edges.normal.dot(choice.normal) >= same_axis_cos &&
+      edges.separation >= face.separation - keep_bonus(face, thickness))
+    choice.near_edges = {AxisKind::edges, edges.a, edges.b};
   return choice;
 }
 
@@ -328,14 +343,10 @@ AxisChoice find_axis(const Hulls& hulls, const PlacedHulls& placed, int part_a, 
   const FaceAxis farthest = best_face(parts, scratch);
   AxisChoice apart = apart_choice(parts, farthest);
   if (apart.separation > margin) return apart;
-  const BestEdges edges = find_edges(parts, to_a(parts, farthest), scratch);
-  if (edges.separation > margin && edges.separation > apart.separation) {
-    apart.axis = {AxisKind::edges, edges.a, edges.b};
-    apart.separation = edges.separation;
-    return apart;
-  }
+  const BestEdges edges = find_edges(parts, to_a(parts, farthest), false, scratch);
+  if (edges.separation > margin && edges.separation > apart.separation) return apart_choice(edges);
 
-  const Covered covered = remove_internal(parts, scratch);
+  Covered covered = remove_internal(parts, scratch);
   const double thickness = std::min(hulls.thickness[part_a], hulls.thickness[part_b]);
   const double seam = std::max(seam_ratio * thickness, margin);
   const FaceAxis best = best_face(parts, scratch);
@@ -343,6 +354,11 @@ AxisChoice find_axis(const Hulls& hulls, const PlacedHulls& placed, int part_a, 
   const double edge_bar = face_ratio * thickness * (last.kind == AxisKind::edges ? 0.5 : 1);
   AxisChoice choice;
   const double open = std::max(best.separation, edges.separation);
+  if (std::max(covered.all, covered.part) > open) {
+    const BestEdges inner = find_edges(parts, to_a(parts, farthest), true, scratch);
+    if (inner.separation > margin) return apart_choice(inner);
+    covered.all = std::max(covered.all, inner.separation);
+  }
   const bool all_bears =
       covered.all > open && (covered.all >= -seam || covered.all > seam_share * open);
   const bool part_bears =
@@ -356,7 +372,7 @@ AxisChoice find_axis(const Hulls& hulls, const PlacedHulls& placed, int part_a, 
   } else if (best.separation > none) {
     const FaceAxis face =
         settled_face(parts, scratch, best, last_face(parts, scratch, last), thickness);
-    choice = face_choice(parts, scratch, face, best.separation, edge_bar, edges, thickness);
+    choice = face_choice(parts, scratch, face, best, edge_bar, edges, thickness);
   } else {
     apart.axis = {};
     return apart;

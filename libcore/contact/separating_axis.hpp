@@ -39,8 +39,9 @@ struct AxisChoice {
   double separation = 0;       ///< along the axis [m]
   double other_face = 0;       ///< largest along face normals that are other directions [m]
   double hold = 0;             ///< relative motion within which the same axis stays chosen [m]
-  PairAxis better_edges;       ///< the edges passed over for a face that is a little worse
-  double edge_separation = 0;  ///< along them [m]
+  PairAxis passed_over;        ///< the axis of the largest separation, where a face was preferred
+  double largest = 0;          ///< along it [m]
+  PairAxis near_edges;         ///< edges that meet nearly where the chosen face does, if any
 };
 
 /// Arrays that find_axis fills anew; kept to spare allocation.

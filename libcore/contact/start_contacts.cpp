@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 
-#include "contact/face_overlap.hpp"
 #include "contact/neighbours.hpp"
 #include "contact/separating_axis.hpp"
+#include "geometry/face_overlap.hpp"
 
 namespace talus {
 namespace {

@@ -11,13 +11,6 @@ namespace {
 constexpr double g = 10;
 constexpr double degree = std::numbers::pi / 180;
 
-GroundClass friction_of(double angle_deg, double restitution = 0) {
-  GroundClass ground;
-  ground.friction = std::tan(angle_deg * degree);
-  ground.restitution = restitution;
-  return ground;
-}
-
 std::vector<Vec3> places(const Run& run) {
   std::vector<Vec3> out;
   for (int b = 0; b < n_blocks(run.scene); ++b) out.push_back(run.motion(b).pose.position);
@@ -39,12 +32,12 @@ Scene tower(int n, double dip_deg, double friction_deg, const Settings& settings
   for (int i = 0; i < n; ++i)
     bodies.push_back(
         body_of(box_in(frame, Vec3::Zero(), Vec3(-0.5, -0.5, i), Vec3(0.5, 0.5, i + 1))));
-  return scene_of(plane_trn(frame, 1, 20), friction_of(friction_deg), bodies, settings);
+  return scene_of(plane_trn(frame, 1, 20), ground_of(friction_deg), bodies, settings);
 }
 
 CaseResult tower_slide(const Settings& settings) {
   Scene scene = tower(3, 15, 10, settings);
-  scene.joint = friction_of(40);
+  scene.joint = ground_of(40);
   Run run(std::move(scene));
   const std::vector<Vec3> before = places(run);
   run.advance_to(1);
@@ -64,7 +57,7 @@ CaseResult head_on(const Settings& settings, double restitution) {
   const auto body = [&](double x, double speed) {
     return body_of(moved(cube, Mat3::Identity(), Vec3::Zero(), Vec3(x, 0, 200)), Vec3(speed, 0, 0));
   };
-  Run run(scene_of(plane_trn(slope_frame(0, 0), 5, 100), friction_of(0, restitution),
+  Run run(scene_of(plane_trn(slope_frame(0, 0), 5, 100), ground_of(0, restitution),
                    {body(-3, 4), body(3, -4)}, settings));
   run.advance_to(1);
   const double value = run.motion(1).velocity.x() - run.motion(0).velocity.x();
@@ -91,7 +84,7 @@ CaseResult large_on_small(const Settings& settings) {
   for (const double x : {-4.0, 4.0})
     for (const double y : {-4.0, 4.0})
       bodies.push_back(body_of(box(Vec3(x - 0.05, y - 0.05, 0), Vec3(x + 0.05, y + 0.05, 0.1))));
-  Run run(scene_of(plane_trn(slope_frame(0, 0), 2, 40), friction_of(30), bodies, settings));
+  Run run(scene_of(plane_trn(slope_frame(0, 0), 2, 40), ground_of(30), bodies, settings));
   run.advance_to(2);
   std::vector<Vec3> rest;
   for (const Pose& pose : run.scene.blocks.rest) rest.push_back(pose.position);

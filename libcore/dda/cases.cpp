@@ -82,6 +82,13 @@ Polyhedron moved(Polyhedron body, const Mat3& turn, const Vec3& pivot, const Vec
   return body;
 }
 
+GroundClass ground_of(double friction_deg, double restitution) {
+  GroundClass ground;
+  ground.friction = std::tan(friction_deg * (std::numbers::pi / 180));
+  ground.restitution = restitution;
+  return ground;
+}
+
 Body body_of(Polyhedron shape, const Vec3& velocity, const Vec3& spin) {
   Body body;
   body.parts = {std::move(shape)};

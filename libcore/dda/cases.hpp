@@ -45,6 +45,9 @@ struct SlopeFrame {
 [[nodiscard]] Polyhedron moved(Polyhedron body, const Mat3& turn, const Vec3& pivot,
                                const Vec3& shift = Vec3::Zero());
 
+/// Bare ground: no cohesion, no damping.
+[[nodiscard]] GroundClass ground_of(double friction_deg, double restitution = 0);
+
 /// A convex body in motion.
 [[nodiscard]] Body body_of(Polyhedron shape, const Vec3& velocity = Vec3::Zero(),
                            const Vec3& spin = Vec3::Zero());

@@ -17,13 +17,6 @@ namespace {
 constexpr double g = 10;
 constexpr double degree = std::numbers::pi / 180;
 
-GroundClass ground_of(double friction_deg, double restitution = 0) {
-  GroundClass ground;
-  ground.friction = std::tan(friction_deg * degree);
-  ground.restitution = restitution;
-  return ground;
-}
-
 Scene on_plane(const Settings& settings, const SlopeFrame& frame, const GroundClass& ground,
                const Body& body, double reach, double cell_size = 0.5,
                const Vec3& through = Vec3::Zero()) {

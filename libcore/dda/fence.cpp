@@ -106,7 +106,7 @@ void wake_sleepers_at(const Scene& scene, int panel, State& state) {
 int add_fixed_body(Scene& scene, const Polyhedron& body, int contact_class, int panel) {
   TALUS_ASSERT(n_bodies(scene.blocks.hulls) == n_blocks(scene) + n_fixed(scene));
   const Vec3 centroid = moments(body).centroid;
-  add_hulls(scene.blocks.hulls, std::span(&body, 1), centroid, Mat3::Identity());
+  add_hulls(scene.blocks.hulls, std::span(&body, 1), centroid, Mat3::Identity(), true);
   scene.fixed.pose.push_back({centroid, Quat::Identity()});
   scene.fixed.contact_class.push_back(contact_class);
   scene.fixed.panel.push_back(panel);

@@ -18,7 +18,7 @@ static_assert(sizeof(ContactMemory) == 128 && sizeof(HealthRow) == 184);
 static_assert(sizeof(State) == 8 + 12 * 24 + sizeof(EnergyLedger) + sizeof(RunCounters) +
                                    sizeof(PairState) + sizeof(PlacedHulls) + sizeof(FenceState));
 static_assert(sizeof(FenceState) == 5 * 24 && sizeof(FenceHit) == 104 && sizeof(BlockBond) == 48);
-static_assert(sizeof(PairState) == 272 && sizeof(PlacedHulls) == 192 && sizeof(ListedPair) == 88);
+static_assert(sizeof(PairState) == 272 && sizeof(PlacedHulls) == 192 && sizeof(ListedPair) == 96);
 static_assert(sizeof(PairWatch) == 16 && sizeof(HeldPoint) == 24);
 
 template <class Archive>
@@ -70,9 +70,10 @@ void fields(Fields<Archive>& archive, PairWatch& watch) {
 }
 template <class Archive>
 void fields(Fields<Archive>& archive, ListedPair& pair) {
-  archive(pair.axis.kind, pair.axis.feature_a, pair.axis.feature_b, pair.touches, pair.incident,
-          pair.hold, pair.other_face, pair.between, pair.turned, pair.area, pair.held_begin,
-          pair.held_end);
+  for (auto* axis : {&pair.axis, &pair.near_edges})
+    archive(axis->kind, axis->feature_a, axis->feature_b);
+  archive(pair.touches, pair.incident, pair.hold, pair.other_face, pair.between, pair.turned,
+          pair.area, pair.held_begin, pair.held_end);
 }
 template <class Archive>
 void fields(Fields<Archive>& archive, HeldPoint& point) {
@@ -133,7 +134,7 @@ void fields(Fields<Archive>& archive, Checkpoint& checkpoint) {
 
 namespace {
 
-constexpr std::uint64_t format = 0x32306b6365686374;  // "tcheck02"
+constexpr std::uint64_t format = 0x33306b6365686374;  // "tcheck03"
 constexpr std::size_t digest_length = 64;
 
 std::string digest_of(std::span<const std::uint8_t> bytes) {

@@ -69,13 +69,12 @@ struct RunRecord {
 /// does not exist. Throws InputError when `db` cannot be written or is not a registry.
 [[nodiscard]] std::int64_t start_run(const std::string& db, const RunRecord& run);
 
-/// Records the outputs (and inputs found late) of a run that still goes on, before the last of them
-/// is put in place: who finds that file finds its ancestry, though the run be killed the next
-/// moment.
-void record_outputs(const std::string& db, const RunRecord& run);
+/// Records what a run that still goes on has come to, before the first output is put in place:
+/// content id, inputs named since, outputs, metrics, events, checks. Who finds an output finds its
+/// ancestry and its health, though the run be killed the next moment.
+void record_results(const std::string& db, const RunRecord& run);
 
-/// Completes the row `run.id`: outcome, times, inputs named since, outputs, metrics, events,
-/// checks.
+/// Completes the row `run.id`: outcome, times, and all that record_results writes.
 void finish_run(const std::string& db, const RunRecord& run);
 
 /// All runs without their details, in the order of their rows. Throws InputError when `db` does not

@@ -123,6 +123,24 @@ void insert_files(SQLite::Database& database, const char* table, std::int64_t ru
   }
 }
 
+// Everything that a run tells of itself but its outcome; what was recorded of it before goes.
+void replace_results(SQLite::Database& database, const RunRecord& run) {
+  insert(database, "UPDATE run SET content_id = ? WHERE id = ?", run.content_id, run.id);
+  for (const char* table : {"run_input", "run_output", "metric", "event", "\"check\""})
+    insert(database, (std::string("DELETE FROM ") + table + " WHERE run_id = ?").c_str(), run.id);
+  insert_files(database, "run_input", run.id, run.inputs);
+  insert_files(database, "run_output", run.id, run.outputs);
+  for (const RunMetric& metric : run.metrics)
+    insert(database, "INSERT INTO metric VALUES (?, ?, ?, ?)", run.id, metric.name, metric.value,
+           metric.unit);
+  for (const RunEvent& event : run.events)
+    insert(database, "INSERT INTO event VALUES (?, ?, ?, ?)", run.id, event.time_s, event.level,
+           event.text);
+  for (const RunCheck& check : run.checks)
+    insert(database, "INSERT INTO \"check\" VALUES (?, ?, ?, ?, ?)", run.id, check.name,
+           check.value, check.limit, check.pass ? 1 : 0);
+}
+
 constexpr const char* run_columns =
     "SELECT id, content_id, tool, version, git_commit, command_line, folder, host, cpu, "
     "process_id, "
@@ -204,14 +222,11 @@ std::int64_t start_run(const std::string& db, const RunRecord& run) {
   });
 }
 
-void record_outputs(const std::string& db, const RunRecord& run) {
+void record_results(const std::string& db, const RunRecord& run) {
   with_registry(db, [&] {
     SQLite::Database database = open_to_write(db);
     SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
-    insert(database, "UPDATE run SET content_id = ? WHERE id = ?", run.content_id, run.id);
-    insert(database, "DELETE FROM run_input WHERE run_id = ?", run.id);  // the body may add some
-    insert_files(database, "run_input", run.id, run.inputs);
-    insert_files(database, "run_output", run.id, run.outputs);
+    replace_results(database, run);
     transaction.commit();
   });
 }
@@ -220,24 +235,12 @@ void finish_run(const std::string& db, const RunRecord& run) {
   with_registry(db, [&] {
     SQLite::Database database = open_to_write(db);
     SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
+    replace_results(database, run);
     insert(database,
-           "UPDATE run SET content_id = ?, ended = ?, status = ?, exit_code = ?, cpu_time_s = ?, "
-           "wall_time_s = ?, peak_memory_kb = ? WHERE id = ?",
-           run.content_id, run.ended, run.status, run.exit_code, run.cpu_time_s, run.wall_time_s,
+           "UPDATE run SET ended = ?, status = ?, exit_code = ?, cpu_time_s = ?, wall_time_s = ?, "
+           "peak_memory_kb = ? WHERE id = ?",
+           run.ended, run.status, run.exit_code, run.cpu_time_s, run.wall_time_s,
            run.peak_memory_kb, run.id);
-    insert(database, "DELETE FROM run_input WHERE run_id = ?", run.id);  // there may be more now
-    insert(database, "DELETE FROM run_output WHERE run_id = ?", run.id);
-    insert_files(database, "run_input", run.id, run.inputs);
-    insert_files(database, "run_output", run.id, run.outputs);
-    for (const RunMetric& metric : run.metrics)
-      insert(database, "INSERT INTO metric VALUES (?, ?, ?, ?)", run.id, metric.name, metric.value,
-             metric.unit);
-    for (const RunEvent& event : run.events)
-      insert(database, "INSERT INTO event VALUES (?, ?, ?, ?)", run.id, event.time_s, event.level,
-             event.text);
-    for (const RunCheck& check : run.checks)
-      insert(database, "INSERT INTO \"check\" VALUES (?, ?, ?, ?, ?)", run.id, check.name,
-             check.value, check.limit, check.pass ? 1 : 0);
     transaction.commit();
   });
 }

@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
-#include <numbers>
 #include <sstream>
 
 #include "base/error.hpp"
@@ -154,9 +153,7 @@ Scene slide_scene(const SlideData& data, const Settings& settings, std::uint64_t
     if (seed != 0)
       body.velocity =
           1e-3 * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
-  GroundClass ground;
-  ground.friction = std::tan(25 * std::numbers::pi / 180);
-  ground.restitution = 0.7;
+  const GroundClass ground = cases::ground_of(25, 0.7);
   return cases::scene_of(data.trn, ground, bodies, settings, {2500, 5e10, 0.25});
 }
 

@@ -78,8 +78,7 @@ Seen slide(const SlideSpec& spec) {
   const SlopeFrame frame = slope_frame(spec.dip_deg, 37);
   const double h = spec.side / 2, down = g * std::sin(spec.dip_deg * degree);
   const Body body = body_of(box_in(frame, spec.offset, Vec3(-h, -h, 0), Vec3(h, h, spec.side)));
-  GroundClass ground;
-  ground.friction = std::tan(spec.friction_deg * degree);
+  const GroundClass ground = ground_of(spec.friction_deg);
   Run run(scene_of(plane_trn(frame, spec.side / 2, 12 * spec.side, spec.offset), ground, {body},
                    spec.settings, spec.material));
   const Vec3 from = run.motion().pose.position;
@@ -167,9 +166,7 @@ Seen throw_body(const ThrowSpec& spec) {
   const Vec3 at(0.13, 0.21, 2 * radius + highest_near(trn, 0.13, 0.21, radius));
   const Body body = body_of(moved(box(-spec.edges / 2, spec.edges / 2), turn, Vec3::Zero(), at),
                             spec.velocity, spec.spin);
-  GroundClass ground;
-  ground.restitution = spec.restitution;
-  ground.friction = std::tan(spec.friction_deg * degree);
+  const GroundClass ground = ground_of(spec.friction_deg, spec.restitution);
   Run run(scene_of(trn, ground, {body}, {}));
   return watch(run, 2);
 }
@@ -235,8 +232,7 @@ Seen on_feet(double ratio) {
     for (const double y : {-out, out})
       bodies.push_back(body_of(
           box(Vec3(x - small / 2, y - small / 2, 0), Vec3(x + small / 2, y + small / 2, small))));
-  GroundClass ground;
-  ground.friction = std::tan(30 * degree);
+  const GroundClass ground = ground_of(30);
   Run run(scene_of(plane_trn(slope_frame(0, 0), 1, 2 + 3 * large), ground, bodies, {}));
   Seen seen = watch(run, 1);
   for (int b = 0; b < n_blocks(run.scene); ++b)

@@ -2,18 +2,10 @@
 # All maps of 1,000 runs of one rock each on gschnitz_gar beside the simulation of these runs, in CPU
 # seconds (maps: the middle of three). Rocks of 0.6 m3 start at points drawn in the release polygon.
 # bash tests/bench/maps_of_runs.sh [FOLDER OF THE EXECUTABLES [RUNS]], data in ../shared/data
-set -euo pipefail
-source_dir=$(cd "$(dirname "$0")/../.." && pwd)
-bin=$(cd "${1:-$source_dir/build/release/tools}" && pwd)
+. "$(dirname "$0")/common.sh"
 n=${2:-1000}
-data=$source_dir/../shared/data
-[ -d "$data" ] || { echo "skipped: $data is not there"; exit 0; }
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
 TIMEFORMAT='%U %S'
 
-make -s -C "$source_dir/sample_sites/gschnitz_gar" terrain BIN="$bin/" OUT="$work" >/dev/null 2>&1
-cd "$work"
 # place SEED: a point of the release polygon, between its four corners
 place() {
   awk -v seed="$1" 'BEGIN {

@@ -3,19 +3,8 @@
 # gschnitz_gar, each as if alone, until they rest or leave the terrain; with all outputs written,
 # without passages, and with everything that the plan would leave out.
 # bash tests/bench/trajectories.sh [FOLDER OF THE EXECUTABLES], data in ../shared/data
-set -euo pipefail
-source_dir=$(cd "$(dirname "$0")/../.." && pwd)
-bin=$(cd "${1:-$source_dir/build/release/tools}" && pwd)
-data=$source_dir/../shared/data
-[ -d "$data" ] || { echo "skipped: $data is not there"; exit 0; }
-for tool in site tin trn blocks dda; do
-  [ -x "$bin/talus-$tool" ] || { echo "build $bin/talus-$tool first" >&2; exit 1; }
-done
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-
-make -s -C "$source_dir/sample_sites/gschnitz_gar" terrain BIN="$bin/" OUT="$work"
-cat >"$work/site.toml" <<END
+. "$(dirname "$0")/common.sh"
+cat >site.toml <<END
 [site]
 name = "gschnitz_gar"
 crs = "EPSG:31287"
@@ -38,7 +27,6 @@ max_lost_share = 1
 [output]
 frame_interval_s = 10
 END
-cd "$work"
 "$bin/talus-blocks" site.toml --trn trn.tif -o blocks.h5 --no-db -q
 
 # run NAME OPTIONS...: the middle of three runs by CPU time

@@ -12,6 +12,8 @@ the next run gives the bytes of the run that nothing happened to. Each part is a
 import argparse
 import errno
 import filecmp
+import json
+import math
 import os
 import random
 import re
@@ -47,6 +49,7 @@ class Bench:
         self.environment.pop("MAKEFLAGS", None)
         self.wall_s = {}
         self.jobs = []
+        self.is_sanitized = False
 
     # --- running -------------------------------------------------------------------------------
     def start(self, words, folder, **more):
@@ -99,6 +102,8 @@ class Bench:
                                 "--json", "fence.json", "--csv", "fence.csv", "--allow-unfinished"]),
         ]
         made.mkdir()
+        limit = memory_limit(self, 4096)
+        self.is_sanitized = self.run([self.jobs[0].name, "--version"], site, **limit)[0] != 0
         for job in self.jobs:
             folder = self.fresh(self.whole / job.name)
             begin = time.monotonic()
@@ -205,8 +210,56 @@ def part_kill(bench):
     for job in bench.jobs:
         tried, losses, _ = interrupted_tries(bench, job, bench.times(2, 25), signal.SIGKILL)
         bench.row(f"kill -9, {job.name}", tried, losses)
+    kill_when_placed(bench)
     kill_resumed_run(bench)
     kill_pipeline(bench)
+
+
+def preloaded(bench, name):
+    """The library of tests/endurance/NAME.c as an environment; None where there is no C compiler."""
+    if shutil.which("cc") is None:
+        return None
+    library = bench.work / f"{name}.so"
+    source = Path(__file__).with_name(f"{name}.c")
+    subprocess.run(["cc", "-shared", "-fPIC", "-O1", "-o", library, source, "-ldl"], check=True)
+    return {"LD_PRELOAD": str(library)}
+
+
+def record_in(folder):
+    """What the registry knows of the newest run, without times: its id, files, metrics, checks."""
+    with sqlite3.connect(folder / "runs.sqlite") as db:
+        run, content_id = db.execute("SELECT id, content_id FROM run ORDER BY id DESC").fetchone()
+        rows = [content_id]
+        for table in ("run_input", "run_output"):
+            rows += db.execute(f"SELECT role, sha256 FROM {table} JOIN artifact ON artifact.id = "
+                               "artifact_id WHERE run_id = ? ORDER BY role, sha256", (run,)).fetchall()
+        for details in ("name, value, unit FROM metric", 'name, value, "limit", pass FROM "check"'):
+            rows += db.execute(f"SELECT {details} WHERE run_id = ? ORDER BY name", (run,)).fetchall()
+    return rows
+
+
+def kill_when_placed(bench):
+    """kill -9 between an output's coming in place and the end of the run: what stands there has its
+    whole record, down to the limits of the run's health."""
+    fault, preload = "kill -9 right after an output stands", preloaded(bench, "kill_when_placed")
+    if preload is None:
+        return bench.row(fault, 0, [], "no C compiler here")
+    tried, losses = 0, []
+    for job in bench.jobs:
+        whole = bench.whole / job.name
+        placed = outputs_of(whole)
+        for file in placed if bench.args.long else bench.random.sample(placed, 1):
+            folder = bench.fresh(bench.work / "tries" / job.name)
+            code, _, err = bench.run([job.name, *job.words], folder,
+                                     env={**preload, "KILL_WHEN_PLACED": Path(file).name})
+            wrong = "" if code == -signal.SIGKILL else f"exit code {code}: {err}"
+            if not wrong and record_in(folder) != record_in(whole):
+                wrong = f"the record is {record_in(folder)}, whole: {record_in(whole)}"
+            wrong = wrong or bench.after_fault(job, folder)
+            tried += 1
+            if wrong:
+                losses.append(f"{job.name}, {file}: {wrong}")
+    bench.row(fault, tried, losses, "with the whole record of the run")
 
 
 def kill_resumed_run(bench):
@@ -305,6 +358,11 @@ def limited(limit, value):
     return set_limit
 
 
+def memory_limit(bench, mb):
+    """Keyword arguments of Popen; no limit for sanitized tools, which need all of the address space."""
+    return {} if bench.is_sanitized else {"preexec_fn": limited(resource.RLIMIT_AS, mb << 20)}
+
+
 def refused(bench, job, folder, **more):
     """Runs a job that cannot succeed: (exit code, what is wrong; empty: a clear error)."""
     code, _, err = bench.run([job.name, *job.words], folder, **more)
@@ -355,14 +413,11 @@ def part_limit(bench):
 
 def part_write(bench):
     """One write that fails, or all from one on, at a random place: tests/endurance/failing_write.c."""
-    source = Path(__file__).with_name("failing_write.c")
-    library, report = bench.work / "failing_write.so", bench.work / "n_writes"
-    if shutil.which("cc") is None:
+    preload, report = preloaded(bench, "failing_write"), bench.work / "n_writes"
+    if preload is None:
         return bench.row("a write that fails", 0, [], "no C compiler here")
-    subprocess.run(["cc", "-shared", "-fPIC", "-O1", "-o", library, source, "-ldl"], check=True)
 
     def places(job):
-        preload = {"LD_PRELOAD": str(library)}
         bench.must([job.name, *job.words], bench.fresh(bench.work / "tries" / job.name),
                    env={**preload, "FAIL_REPORT": str(report)})
         n_writes = int(report.read_text())
@@ -379,8 +434,7 @@ def part_write(bench):
 def loads_at_mb(bench, job):
     """Address space in which the tool and its libraries are loaded: --version works."""
     for mb in range(32, 4096, 16):
-        code, _, _ = bench.run([job.name, "--version"], bench.work,
-                               preexec_fn=limited(resource.RLIMIT_AS, mb << 20))
+        code, _, _ = bench.run([job.name, "--version"], bench.work, **memory_limit(bench, mb))
         if code == 0:
             return mb
     sys.exit(f"{job.name} cannot be loaded")
@@ -388,36 +442,110 @@ def loads_at_mb(bench, job):
 
 def part_memory(bench):
     """Little address space (ulimit -v), from what loading takes upwards: done, or a clear error."""
+    if bench.is_sanitized:
+        return bench.row("little memory (ulimit -v)", 0, [], "not with sanitized tools")
+
     def sizes(job):
         least = loads_at_mb(bench, job)
         for more in bench.times((16, 64), (2, 4, 8, 12, 16, 24, 32, 40, 48, 64, 96, 128, 256)):
-            yield f"{least + more} MB", {"preexec_fn": limited(resource.RLIMIT_AS, least + more << 20)}
+            yield f"{least + more} MB", memory_limit(bench, least + more)
     sweep(bench, "little memory (ulimit -v)", bench.jobs, sizes)
     stated_memory(bench)
 
 
-# What the pages state for these inputs, rounded up, beyond what loading takes [MB].
+# What the pages state beyond what loading takes: of the small scene in all, GDAL's cache [MB]; of a run
+# of many frames, bytes a block and frame; of the registry, bytes a run listed.
 SMALL_SCENE_MB = 16
-LARGE_NODES = (1400, 2000)
 GDAL_CACHE_MB = 128
+LARGE_NODES = (1400, 2000)
+MANY_FRAMES, FRAME_INTERVAL_S = 10001, 0.002
+BYTES_A_BLOCK_AND_FRAME = {"talus-dda": 300, "talus-runout": 80, "talus-fence": 80, "talus-report": 150}
+MANY_RUNS, BYTES_A_RUN = 10000, 4096
+MANY_CONTOURS, POINTS_A_CONTOUR, BYTES_A_POINT = 200, 1000, 210
 
 
 def stated_memory(bench):
     """Each tool does its work within what its page says, as a limit of the address space."""
     losses, tried = [], 0
-    site = bench.work / "site"
-    large = Job("talus-trn", [str(site / "made/tin.ply"), "-o", "large.tif", "--cell-size-m", "0.16",
-                              "--window", "500000,5200000,500224,5200320"])
-    large_mb = SMALL_SCENE_MB + GDAL_CACHE_MB + 8 * LARGE_NODES[0] * LARGE_NODES[1] // (1 << 20)
-    for job, more in [*((job, SMALL_SCENE_MB) for job in bench.jobs), (large, large_mb)]:
-        limit = loads_at_mb(bench, job) + more
+    for job, mb in stated_limits(bench):
+        limit = loads_at_mb(bench, job) + mb
         folder = bench.fresh(bench.work / "tries" / job.name)
-        code, _, err = bench.run([job.name, *job.words], folder,
-                                 preexec_fn=limited(resource.RLIMIT_AS, limit << 20))
+        code, _, err = bench.run([job.name, *job.words], folder, **memory_limit(bench, limit))
         tried += 1
         if code != 0:
             losses.append(f"{job.name} within {limit} MB: exit code {code}: {err}")
+        elif job.name == "talus-dda":
+            shutil.copy(folder / "run.h5", bench.fresh(bench.work / "many/runs") / "run_1.h5")
+        elif job.name == "talus-runout":
+            shutil.copy(folder / "runout.json", bench.work / "many")
     bench.row("memory as stated on the pages (ulimit -v)", tried, losses)
+
+
+def stated_limits(bench):
+    """Jobs, each with the memory [MB] that its page states beyond what loading takes."""
+    for job in bench.jobs:
+        yield job, SMALL_SCENE_MB
+    made, toml = bench.work / "site/made", str(bench.work / "site/site.toml")
+    large = ["--cell-size-m", "0.16", "--window", "500000,5200000,500224,5200320"]
+    yield (Job("talus-trn", [str(made / "tin.ply"), "-o", "large.tif", *large]),
+           SMALL_SCENE_MB + GDAL_CACHE_MB + mb_of(8, LARGE_NODES[0] * LARGE_NODES[1]))
+    yield Job("talus-verify", ["slide_20", "slide39", "-o", "."]), SMALL_SCENE_MB
+    contours = cone(bench.work / "cone")
+    yield (Job("talus-tin", [str(contours), "-o", "tin.ply", "--flat", "keep", "--elevation-field", "z"]),
+           SMALL_SCENE_MB + mb_of(BYTES_A_POINT, MANY_CONTOURS * POINTS_A_CONTOUR))
+    with sqlite3.connect(bench.work / "many.sqlite") as db:
+        many_runs(bench.whole / "talus-dda/runs.sqlite", db)
+    yield (Job("talus-runs", ["list", "--db", str(bench.work / "many.sqlite")]),
+           SMALL_SCENE_MB + mb_of(BYTES_A_RUN, MANY_RUNS))
+    # each reads what those before it have made
+    many = bench.work / "many"
+    trn, run = ["--trn", str(made / "bed.tif")], str(many / "runs/run_1.h5")
+    jobs = [Job("talus-dda", [toml, *trn, "--blocks", str(made / "blocks.h5"), "-o", "run.h5",
+                              "--independent", "--frame-interval-s", str(FRAME_INTERVAL_S), "--set",
+                              f"solver.duration_s={(MANY_FRAMES - 1) * FRAME_INTERVAL_S}"]),
+            Job("talus-runout", [run, *trn, "-o", "runout.gpkg", "--json", "runout.json",
+                                 "--allow-unfinished"]),
+            Job("talus-fence", [toml, run, *trn, "-o", "fence.gpkg", "--json", "fence.json",
+                                "--allow-unfinished"]),
+            Job("talus-report", [toml, "--dir", str(many), "-o", "report.html"])]
+    n_blocks = json.loads((made / "blocks.json").read_text())["n_blocks"]
+    bench.fresh(many)
+    for file in ("bed.tif", "trn.tif"):
+        shutil.copy(made / file, many)
+    for job in jobs:
+        yield job, SMALL_SCENE_MB + mb_of(BYTES_A_BLOCK_AND_FRAME[job.name], n_blocks * MANY_FRAMES)
+
+
+def mb_of(n_bytes, n):
+    return -(-n_bytes * n // (1 << 20))
+
+
+def cone(name):
+    """Contours of a cone, a metre apart, as a file that GDAL reads line by line."""
+    ring = [2 * math.pi * k / POINTS_A_CONTOUR for k in range(POINTS_A_CONTOUR)] + [0]
+    with open(name.with_suffix(".geojsonl"), "w") as file:
+        for radius in range(2, MANY_CONTOURS + 2):
+            points = [[round(5e5 + radius * math.cos(a), 3), round(5.2e6 + radius * math.sin(a), 3)]
+                      for a in ring]
+            json.dump({"type": "Feature", "properties": {"z": 500 - radius},
+                       "geometry": {"type": "LineString", "coordinates": points}}, file)
+            file.write("\n")
+    layer = name.with_suffix(".vrt")  # says the CRS, which the format cannot
+    layer.write_text(f'<OGRVRTDataSource><OGRVRTLayer name="{name.name}"><SrcDataSource relativeToVRT="1">'
+                     f"{name.name}.geojsonl</SrcDataSource><LayerSRS>EPSG:32633</LayerSRS></OGRVRTLayer>"
+                     "</OGRVRTDataSource>")
+    return layer
+
+
+def many_runs(registry, db):
+    """A registry of MANY_RUNS rows, all those of the newest run of another one."""
+    with sqlite3.connect(registry) as source:
+        source.backup(db)
+    columns = [row[1] for row in db.execute("PRAGMA table_info(run)") if row[1] != "id"]
+    row = db.execute(f"SELECT {', '.join(columns)} FROM run ORDER BY id DESC").fetchone()
+    db.execute("DELETE FROM run")
+    db.executemany(f"INSERT INTO run ({', '.join(columns)}) VALUES ({', '.join('?' * len(columns))})",
+                   [row] * MANY_RUNS)
 
 
 def part_disk(bench):
@@ -425,36 +553,36 @@ def part_disk(bench):
     if os.environ.get("TALUS_OWN_MOUNTS") != "1":
         enter_own_mounts(bench)
         return
-    disk = bench.fresh(bench.work / "disk")
     tried, losses = 0, []
     for job in bench.jobs:
         whole = bench.whole / job.name
         needed = sum((whole / f).stat().st_size for f in outputs_of(whole)) // 1024 + 400
         n = bench.times(2, 25)
-        for k in range(n):
-            mount("-t", "tmpfs", "-o", f"size={max(4, needed * k // n)}k", "none", disk)
-            code, wrong = refused(bench, job, disk)
-            mount("-o", "remount,size=256m", disk)
-            wrong = wrong or bench.after_fault(job, disk)
-            subprocess.run(["umount", "-l", disk], check=True)
+        for kb in (max(4, needed * k // n) for k in range(n)):
+            _, wrong = on_a_disk(bench, job, f"size={kb}k", "size=256m")
             tried += 1
             if wrong:
-                losses.append(f"{job.name}, {max(4, needed * k // n)} KB: {wrong}")
+                losses.append(f"{job.name}, {kb} KB: {wrong}")
     bench.row("full disk (tmpfs)", tried, losses)
-    tried, losses = 0, []
+    losses = []
     for job in bench.jobs:
-        mount("-t", "tmpfs", "none", disk)
-        mount("-o", "remount,ro", disk)
-        code, wrong = refused(bench, job, disk)
-        if code != 1:
-            wrong = wrong or f"exit code {code}"
-        mount("-o", "remount,rw", disk)
-        wrong = wrong or bench.after_fault(job, disk)
-        subprocess.run(["umount", "-l", disk], check=True)
-        tried += 1
+        code, wrong = on_a_disk(bench, job, "ro", "rw")
+        wrong = wrong or ("" if code == 1 else f"exit code {code}")
         if wrong:
             losses.append(f"{job.name}: {wrong}")
-    bench.row("read-only folder", tried, losses)
+    bench.row("read-only folder", len(bench.jobs), losses)
+
+
+def on_a_disk(bench, job, fault, mended):
+    """A job on a tmpfs mounted with the option `fault`, again with `mended`: (exit code of the
+    first, what is wrong)."""
+    disk = bench.fresh(bench.work / "disk")
+    mount("-t", "tmpfs", "-o", fault, "none", disk)
+    code, wrong = refused(bench, job, disk)
+    mount("-o", "remount," + mended, disk)
+    wrong = wrong or bench.after_fault(job, disk)
+    subprocess.run(["umount", "-l", disk], check=True)
+    return code, wrong
 
 
 def mount(*words):
@@ -536,9 +664,8 @@ def part_sources(bench):
             if victim.endswith(".toml"):
                 shutil.copy(bench.work / "site/contours.gpkg", damaged.parent)
             words = [str(damaged) if w == victim else w for w in job.words]
-            limit = limited(resource.RLIMIT_AS, 4 << 30)
             process = bench.start([job.name, *words, "--no-db"], bench.fresh(folder / "out"),
-                                  preexec_fn=limit)
+                                  **memory_limit(bench, 4096))
             try:
                 _, err = process.communicate(timeout=120)
             except subprocess.TimeoutExpired:
@@ -577,8 +704,7 @@ def lying_sources(bench):
         folder = bench.fresh(bench.work / "tries/lies")
         (folder / name).write_text(content)
         job = Job("talus-trn", [name, "-o", "trn.tif", "--crs", "EPSG:32633", "--no-db"])
-        code, _, err = bench.run([job.name, *job.words], folder,
-                                 preexec_fn=limited(resource.RLIMIT_AS, 4 << 30))
+        code, _, err = bench.run([job.name, *job.words], folder, **memory_limit(bench, 4096))
         if code != 1 or (folder / "trn.tif").exists():
             losses.append(f"{name}: exit code {code}: {err}")
     bench.row("inputs that lie about their size", len(LIES), losses)

@@ -11,11 +11,14 @@ parsers=${*:-$(ls tests/fuzz/corpus)}
 cmake --preset fuzz >/dev/null
 # shellcheck disable=SC2046,SC2086
 cmake --build --preset fuzz --target $(printf 'fuzz_%s ' $parsers)
+# words of the site file, which chance would not find
+sed -n -e 's/^| `\([a-z_0-9]*\)`.*/"\1 = "/p' -e 's/^### \(\[[a-z_]*\).*/"\1"/p' docs/site-file.md >build/fuzz/site.dict
 failed=0
 for parser in $parsers; do
   mkdir -p "build/fuzz/corpus/$parser"
   "build/fuzz/tests/fuzz/fuzz_$parser" -max_total_time="$seconds" -timeout=20 -rss_limit_mb=2048 \
     -artifact_prefix="build/fuzz/crash-$parser-" -print_final_stats=1 -verbosity=0 \
+    $([ "$parser" != site ] || echo -dict=build/fuzz/site.dict) \
     "build/fuzz/corpus/$parser" "tests/fuzz/corpus/$parser" || failed=1
   echo "fuzz_$parser: done"
 done

@@ -90,8 +90,7 @@ Figure sliding_figure() {
   const SlopeFrame frame = slope_frame(30, 37);
   bool first = true;
   for (const double friction : {0.0, 10.0, 20.0, 25.0, 30.0}) {
-    GroundClass ground;
-    ground.friction = std::tan(friction * degree);
+    const GroundClass ground = ground_of(friction);
     const double a =
         std::max(0.0, g * (std::sin(30 * degree) - ground.friction * std::cos(30 * degree)));
     figure.curves.push_back({first ? "closed form (26)" : "", grey,

@@ -121,6 +121,27 @@ TEST(BlockPairs, FindsEveryOverlapWhateverIsCached) {
   EXPECT_LT(n_searched, n_listed / 4);
 }
 
+// A bar that turns on the spot meets a block that does not move.
+TEST(BlockPairs, FindsWhatOnlyTurningBringsTogether) {
+  Bodies bodies;
+  add(bodies, box(Vec3(-5, -0.1, -0.1), Vec3(5, 0.1, 0.1)), {});
+  add(bodies, box(Vec3(-1, -1, -1), Vec3(1, 1, 1)), {Vec3(4, 2.5, 0), Quat::Identity()});
+  PairState state;
+  PairWork work;
+  int n_meetings = 0;
+  for (int step = 0; step < 500; ++step) {
+    bodies.poses[0].attitude = Quat(Eigen::AngleAxisd(1e-3 * step, Vec3::UnitZ()));
+    place(bodies);
+    (void)find_pair_contacts(bodies.hulls, bodies.placed, {}, {}, state, work);
+    double deepest = 0;
+    for (const PairPoint& p : work.points) deepest = std::min(deepest, p.gap);
+    const double brute = brute_separation(bodies.hulls, bodies.placed, 0, 1);
+    n_meetings += brute < 0;
+    ASSERT_LE(deepest, std::min(0.0, 0.5 * brute)) << "after " << step << " mrad";
+  }
+  EXPECT_GT(n_meetings, 20);
+}
+
 // The caches may delay a change of features by a thousandth of a thickness of motion; apart from
 // that the contacts are the same.
 TEST(BlockPairs, CachesDoNotChangeTheContacts) {

@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "base/error.hpp"
-#include "contact/face_overlap.hpp"
+#include "blocks/block_set.hpp"
 #include "convex_bodies.hpp"
 
 namespace {
@@ -154,14 +154,20 @@ TEST(Hulls, PartThatIsNotConvexIsRefused) {
   EXPECT_THROW(add(bodies, open, {}), InputError);
 }
 
-TEST(FaceOverlap, ShiftedSquaresHaveTheRectangleInCommon) {
-  const std::vector<Vec3> one = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
-  std::vector<Vec3> other = {{0.3, 0.6, 1e-3}, {0.3, 1.6, 0}, {1.3, 1.6, 0}, {1.3, 0.6, 0}};
-  const FaceOverlap common = face_overlap(one, Vec3::UnitZ(), other);
-  EXPECT_NEAR(common.area, 0.7 * 0.4, 1e-15);
-  EXPECT_LT((common.centre - Vec3(0.65, 0.8, 0)).norm(), 1e-15);
-  for (Vec3& p : other) p.x() += 1;
-  EXPECT_EQ(face_overlap(one, Vec3::UnitZ(), other).area, 0);
+// Parts of a body that were told to meet but do not, and a part without any other: the bare faces
+// are the body's surface.
+TEST(Hulls, FaceInTheRockThatNothingCoversIsBare) {
+  Polyhedron one = box(Vec3(-1, 0, 0), Vec3(0, 1, 1)), other = box(Vec3(2, 0, 0), Vec3(3, 1, 1));
+  for (int f = 0; f < n_faces(one); ++f)
+    if (face_normal(one, f).x() > 0.5) one.face_tag[static_cast<std::size_t>(f)] = face_internal;
+  Bodies bodies;
+  const std::vector<Polyhedron> parts = {one, other};
+  add(bodies, parts, {});
+  add(bodies, one, {});
+  for (const int p : {0, 2}) {
+    EXPECT_EQ(n_internal(bodies.hulls, p), 0);
+    EXPECT_EQ(bodies.hulls.n_active_edges[p], 12);
+  }
 }
 
 }  // namespace

@@ -2,12 +2,13 @@
 #include <rapidcheck/gtest.h>
 
 #include <map>
+#include <numbers>
 #include <set>
 #include <tuple>
 
-#include "contact/face_overlap.hpp"
 #include "contact/manifold.hpp"
 #include "convex_bodies.hpp"
+#include "geometry/face_overlap.hpp"
 
 namespace {
 
@@ -312,6 +313,31 @@ TEST(Manifold, LargeBlockOnSmallCubeTouchesTheWholeCube) {
     EXPECT_EQ(p.key.mode, ContactMode::face_vertex);
     EXPECT_NEAR(p.gap, -1e-6, 1e-12);
   }
+}
+
+// A block on a bench whose top is bent by 0.2 degrees, moved over from the other side of the bend:
+// the face that it pressed on before is in nearly the same direction, but no longer below it.
+TEST(Manifold, FaceOnTheOtherSideOfASlightBendTakesOver) {
+  const double slope = std::tan(0.2 * std::numbers::pi / 180), depth = 1e-3;
+  Polyhedron bench = box(Vec3(-4, -2, -2), Vec3(4, 2, 1));
+  for (const double side : {-1.0, 1.0})
+    bench = clip_convex(bench, {Vec3(side * slope, 0, 1).normalized(), 0}, 0, 1e-9);
+  Bodies bodies;
+  add(bodies, bench, {});
+  add(bodies, box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5)),
+      {Vec3(1, 0, 0.5 - 0.5 * slope - depth), Quat::Identity()});
+  place(bodies);
+  PairAxis last;
+  for (int f = 0; f < bodies.hulls.n_faces[0]; ++f) {
+    const Vec3 normal = normal_at(bodies.placed, bodies.hulls.face_begin[0] + f);
+    if (normal.z() > 0.9 && normal.x() < 0) last = {AxisKind::face_a, f, -1};
+  }
+  ASSERT_EQ(last.kind, AxisKind::face_a);
+  const Manifold m = contact(bodies, 0, last);
+  ASSERT_FALSE(m.points.empty());
+  double deepest = 0;
+  for (const PairPoint& p : m.points) deepest = std::min(deepest, p.gap);
+  EXPECT_NEAR(deepest, -depth, 1e-5);
 }
 
 // The gap and the place of held features stay exact while the bodies move.

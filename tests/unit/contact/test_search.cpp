@@ -10,20 +10,29 @@ namespace {
 using namespace talus;
 using namespace talus::test;
 
-// A peak that touches the steep bed of one part lies in the other part's prolongation beyond the
-// wall between them: it touches the body, and is not deep inside it.
-TEST(FindContacts, APeakBeyondTheWallBetweenTwoPartsIsNotInsideThePart) {
+// A peak of height `top` at (x, 0) that stands out of ground far below, on half-metre cells.
+Ground peak(double x, double top) {
   Trn trn;
   trn.n_rows = trn.n_cols = 9;
   trn.cell_size = 0.5;
-  trn.node0 = Vec2(-1.5, 2);
+  trn.node0 = Vec2(x - 2, 2);
   trn.elevation.assign(81, -9.0);
-  trn.elevation[4 * 9 + 4] = 0.5;  // at x = 0.5, y = 0
-  const Ground ground = make_ground(trn, {});
+  trn.elevation[4 * 9 + 4] = top;
+  return make_ground(trn, {});
+}
 
+Shapes bent_shapes() {
   const BentBody body = bent_body(1);
   Shapes shapes;
   add_shape(shapes, body.parts, body.shell, Vec3::Zero(), Mat3::Identity(), face_internal);
+  return shapes;
+}
+
+// A peak that touches the steep bed of one part lies in the other part's prolongation beyond the
+// wall between them: it touches the body, and is not deep inside it.
+TEST(FindContacts, APeakBeyondTheWallBetweenTwoPartsIsNotInsideThePart) {
+  const Ground ground = peak(0.5, 0.5);
+  const Shapes shapes = bent_shapes();
   std::vector<Vec3> vertices;
   std::vector<Contact> contacts;
   for (const double depth : {0.0, 1e-3}) {
@@ -38,18 +47,8 @@ TEST(FindContacts, APeakBeyondTheWallBetweenTwoPartsIsNotInsideThePart) {
 
 // On the wall itself both parts see the peak, one or the other by rounding alone would not do.
 TEST(FindContacts, APeakUnderTheWallTouchesTheBody) {
-  Trn trn;
-  trn.n_rows = trn.n_cols = 9;
-  trn.cell_size = 0.5;
-  trn.node0 = Vec2(-2, 2);
-  trn.elevation.assign(81, -9.0);
-  trn.elevation[4 * 9 + 4] = 0;  // at x = 0, y = 0
-  const Ground ground = make_ground(trn, {});
-  const BentBody body = bent_body(1);
-  Shapes shapes;
-  add_shape(shapes, body.parts, body.shell, Vec3::Zero(), Mat3::Identity(), face_internal);
-  EXPECT_NEAR(depth_below_ground(ground, shapes, 0, {Vec3(0, 0, -1e-3), Quat::Identity()}), 1e-3,
-              1e-12);
+  const Pose pose{Vec3(0, 0, -1e-3), Quat::Identity()};
+  EXPECT_NEAR(depth_below_ground(peak(0, 0), bent_shapes(), 0, pose), 1e-3, 1e-12);
 }
 
 // A box leans with one face on the flank of a fin whose crest it overlaps by 5 cm. The edges of its

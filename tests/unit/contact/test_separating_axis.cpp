@@ -148,4 +148,27 @@ TEST(FindAxis, BareRestOfACoveredFaceStops) {
   EXPECT_LT((choice.normal - Vec3(-1, 0, 0)).norm(), 1e-12);
 }
 
+// A bar across the flat seam of two boxes: what keeps it apart from the part on the far side is an
+// edge of the seam, which is no edge of the body.
+TEST(FindAxis, EdgeOfASeamKeepsAPartApart) {
+  Bodies bodies;
+  const std::vector<Polyhedron> step = {box(Vec3(-1, -5, 0), Vec3(0, 5, 1)),
+                                        box(Vec3(0, -5, 0), Vec3(0.1, 5, 1))};
+  add(bodies, step, {});
+  const Vec3 up = Vec3(1, 0, 1).normalized(), along = Vec3(1, 0, -1).normalized();
+  Mat3 turn;
+  turn.col(0) = along;
+  turn.col(1) = (up + Vec3::UnitY()).normalized();
+  turn.col(2) = turn.col(0).cross(turn.col(1));
+  const double height = 0.5, half = 0.2;
+  add(bodies, box(Vec3(-2, -half, -half), Vec3(2, half, half)),
+      {Vec3(0, 0, 1) + height * up + 0.8 * along, Quat(turn)});
+  place(bodies);
+  AxisScratch scratch;
+  const AxisChoice choice = find_axis(bodies.hulls, bodies.placed, 0, 2, 0.01, {}, scratch);
+  EXPECT_FALSE(choice.touches);
+  EXPECT_EQ(choice.axis.kind, AxisKind::edges);
+  EXPECT_NEAR(choice.separation, height - half * std::sqrt(2.0), 1e-12);
+}
+
 }  // namespace

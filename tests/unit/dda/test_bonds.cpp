@@ -21,8 +21,7 @@ Scene cube_on_slab(double dip_deg, const GroundClass& set) {
   slab.parts = {box_in(frame, Vec3::Zero(), Vec3(-3, -3, 0), Vec3(3, 3, 0.5))};
   cube.parts = {box_in(frame, Vec3::Zero(), Vec3(-0.5, -0.5, 0.5), Vec3(0.5, 0.5, 1.5))};
   for (Body* body : {&slab, &cube}) body->parts[0].face_tag.assign(6, 0);
-  GroundClass rough;
-  rough.friction = std::tan(85 * degree);
+  const GroundClass rough = ground_of(85);
   Settings settings;
   settings.sleep = false;
   Scene scene = scene_of(plane_trn(frame, 1, 30), rough, {slab, cube}, settings);
@@ -67,8 +66,7 @@ INSTANTIATE_TEST_SUITE_P(Bonds, Bond,
 
 // Holds 0.05 degrees below the computed angle, and fails 0.05 degrees above it.
 TEST_P(Bond, HoldsExactlyToItsLimit) {
-  GroundClass set;
-  set.friction = std::tan(GetParam().phi_deg * degree);
+  GroundClass set = ground_of(GetParam().phi_deg);
   set.cohesion = GetParam().cohesion;
   set.tension = GetParam().cohesion;
   const double angle = failure_angle_deg(set.friction, set.cohesion);
@@ -83,8 +81,7 @@ TEST_P(Bond, HoldsExactlyToItsLimit) {
 
 // Brittle: what broke slides with the friction of the joint alone.
 TEST(Bonds, LeaveTheFrictionOfTheJointBehind) {
-  GroundClass set;
-  set.friction = std::tan(15 * degree);
+  GroundClass set = ground_of(15);
   set.cohesion = 1000;
   const double dip = failure_angle_deg(set.friction, set.cohesion) + 2;
   const Scene scene = cube_on_slab(dip, set);
@@ -122,9 +119,7 @@ TEST(Bonds, HangByTheirTensileStrength) {
 
 // Faces of two sets: each pair of faces has its own friction.
 TEST(JointClasses, FrictionIsThatOfTheFacesThatTouch) {
-  GroundClass smooth, rough;
-  smooth.friction = std::tan(10 * degree);
-  rough.friction = std::tan(40 * degree);
+  const GroundClass smooth = ground_of(10), rough = ground_of(40);
   for (const bool slides : {false, true}) {
     Scene scene = cube_on_slab(25, slides ? smooth : rough);
     scene.joints.of_set.push_back(slides ? rough : smooth);  // of no face

@@ -6,6 +6,7 @@
 
 #include "dda/contact_law.hpp"
 #include "dda/island_solver.hpp"
+#include "unit/dda/as_contact_row.hpp"
 #include "unit/dda/island_scenes.hpp"
 
 namespace {
@@ -21,21 +22,7 @@ using talus::IslandWork;
 using talus::Mat3;
 using talus::Vec3;
 using talus::scenes::LawOfScene;
-
-ContactRow as_contact_row(const IslandRow& row) {
-  ContactRow out;
-  out.normal = row.normal;
-  out.point = row.arm;
-  out.shear_velocity = row.shear_velocity;
-  out.slip_start = row.slip_start;
-  out.bias = row.bias;
-  out.normal_damping = row.normal_damping;
-  out.shear_damping = row.shear_damping;
-  out.friction = row.friction;
-  out.cohesion_impulse = row.cohesion_impulse;
-  out.tension_impulse = row.tension_impulse;
-  return out;
-}
+using talus::test::as_contact_row;
 
 /// The same island as one dense system: row c of the map is w_c = B_c v (theory 1.6).
 template <int Dof>

@@ -30,12 +30,7 @@ Scene tumbling(const Settings& settings, const GroundClass& ground, int n = 3) {
   return scene_of(make_trn(bumps, 1, 90), ground, bodies, settings);
 }
 
-GroundClass rough() {
-  GroundClass ground;
-  ground.friction = std::tan(30 * degree);
-  ground.restitution = 0.4;
-  return ground;
-}
+GroundClass rough() { return ground_of(30, 0.4); }
 
 State run(const Scene& scene, int n_steps) {
   State state = start(scene);

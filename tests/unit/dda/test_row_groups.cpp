@@ -6,6 +6,7 @@
 #include "dda/contact_law.hpp"
 #include "dda/newton.hpp"
 #include "dda/row_groups.hpp"
+#include "unit/dda/as_contact_row.hpp"
 
 namespace {
 
@@ -15,6 +16,7 @@ using talus::ContactState;
 using talus::Evaluation;
 using talus::IslandRow;
 using talus::Vec3;
+using talus::test::as_contact_row;
 using Vec6 = Eigen::Matrix<double, 6, 1>;
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 
@@ -45,22 +47,6 @@ IslandRow random_row(talus::Random& random) {
   if (random.uniform() < 0.3) row.normal_limit = random.uniform();
   row.waits_for_impact = random.uniform() < 0.1;
   return row;
-}
-
-ContactRow as_contact_row(const IslandRow& row) {
-  ContactRow out;
-  out.normal = row.normal;
-  out.point = row.arm;
-  out.shear_velocity = row.shear_velocity;
-  out.slip_start = row.slip_start;
-  out.bias = row.bias;
-  out.normal_damping = row.normal_damping;
-  out.shear_damping = row.shear_damping;
-  out.friction = row.friction;
-  out.cohesion_impulse = row.cohesion_impulse;
-  out.tension_impulse = row.tension_impulse;
-  out.normal_limit = row.normal_limit;
-  return out;
 }
 
 struct Evaluated {

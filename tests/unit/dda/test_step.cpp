@@ -274,8 +274,7 @@ TEST(Step, FlipsCountChangesOfState) {
 TEST(Step, TheFullPlanAgrees) {
   const SlopeFrame frame = slope_frame(30, 37);
   const Body cube = body_of(box_in(frame, Vec3::Zero(), Vec3(-0.5, -0.5, 0), Vec3(0.5, 0.5, 1)));
-  GroundClass ground;
-  ground.friction = std::tan(20 * degree);
+  const GroundClass ground = ground_of(20);
   const auto slide = [&](const Settings& settings) {
     const Scene scene = scene_of(plane_trn(frame, 0.5, 20), ground, {cube}, settings);
     State state = start(scene);
@@ -395,8 +394,7 @@ TEST(Step, BondHoldsToItsStrengthAndBreaksForGood) {
 
 TEST(Step, SleepingBlockStaysWhereItWouldStayAwake) {
   const SlopeFrame frame = slope_frame(20, 20);
-  GroundClass ground;
-  ground.friction = std::tan(35 * degree);
+  const GroundClass ground = ground_of(35);
   const Body cube = body_of(box_in(frame, Vec3::Zero(), Vec3(-0.5, -0.5, 0), Vec3(0.5, 0.5, 1)));
   Vec3 end[2];
   for (const bool sleep : {false, true}) {

@@ -32,9 +32,7 @@ Scene bouncing_scene() {
   }
   Settings settings;
   settings.dt = 0.01;
-  GroundClass ground;
-  ground.friction = std::tan(25 * std::numbers::pi / 180);
-  ground.restitution = 0.5;
+  const GroundClass ground = ground_of(25, 0.5);
   return scene_of(make_trn(height, 2, 80), ground, bodies, settings);
 }
 

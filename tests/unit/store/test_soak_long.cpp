@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <fstream>
-#include <numbers>
 
 #include "dda/cases.hpp"
 #include "store/runner.hpp"
@@ -26,9 +25,7 @@ Scene falling_stack(double friction_deg) {
     body.spin = {0.2, 0.1 * i, 0};
     bodies.push_back(body);
   }
-  GroundClass ground;
-  ground.friction = std::tan(friction_deg * std::numbers::pi / 180);
-  ground.restitution = 0.4;
+  const GroundClass ground = ground_of(friction_deg, 0.4);
   return scene_of(plane_trn(frame, 2, 400), ground, bodies, Settings{});
 }
 

@@ -1,4 +1,4 @@
-#include "contact/face_overlap.hpp"
+#include "geometry/face_overlap.hpp"
 
 #include <Eigen/Geometry>
 #include <vector>
