@@ -19,14 +19,17 @@ using std::size_t;
 
 constexpr size_t expected_contacts = 16;  // of a block, before a buffer has to grow
 
-// Integral of the base acceleration, linear between samples and zero outside them, up to t.
-Vec3 base_velocity(const BaseMotion& base, double t) {
+// Integral of the base acceleration, linear between samples and zero outside them.
+Vec3 base_impulse(const BaseMotion& base, double from, double to) {
+  const auto next = std::upper_bound(base.time.begin(), base.time.end(), from);
   Vec3 sum = Vec3::Zero();
-  for (size_t k = 1; k < base.time.size() && base.time[k - 1] < t; ++k) {
-    const double t0 = base.time[k - 1], t1 = base.time[k], end = std::min(t, t1);
-    const Vec3 at_end = base.acceleration[k - 1] +
-                        (end - t0) / (t1 - t0) * (base.acceleration[k] - base.acceleration[k - 1]);
-    sum += (end - t0) / 2 * (base.acceleration[k - 1] + at_end);
+  for (auto k = static_cast<size_t>(std::max<std::ptrdiff_t>(1, next - base.time.begin()));
+       k < base.time.size() && base.time[k - 1] < to; ++k) {
+    const double t0 = base.time[k - 1], length = base.time[k] - t0;
+    const double begin = std::max(from, t0), end = std::min(to, base.time[k]);
+    const double middle = ((begin - t0) + (end - t0)) / (2 * length);
+    sum += (end - begin) *
+           (base.acceleration[k - 1] + middle * (base.acceleration[k] - base.acceleration[k - 1]));
   }
   return sum;
 }
@@ -67,9 +70,7 @@ bool spins(const Scene& scene, size_t b) { return !scene.blocks.spin[b].isZero(0
 
 Vec3 free_acceleration(const Scene& scene, int b, double t_start, double t_end) {
   Vec3 a = scene.gravity;
-  if (!scene.base.time.empty())
-    a -=
-        (base_velocity(scene.base, t_end) - base_velocity(scene.base, t_start)) / (t_end - t_start);
+  if (!scene.base.time.empty()) a -= base_impulse(scene.base, t_start, t_end) / (t_end - t_start);
   for (const PointLoad& load : scene.loads)
     if (load.block == b) a += load.force / scene.blocks.mass[static_cast<size_t>(b)];
   return a;

@@ -69,6 +69,7 @@ std::vector<VerifyCase> single_block_cases() {
       slide_case("slide_20", 20, 1e-6),
       slide_case("slide_25", 25, 1e-6),
       slide_case("slide_29", 29, 1e-5),
+      slide_case("slide_29.9", 29.9, 1e-3),
       {.name = "stick",
        .claim = "a cube at friction 30.1 degrees does not creep on 30 degrees, 3 s",
        .reference = "rest",
@@ -154,6 +155,14 @@ std::vector<VerifyCase> single_block_cases() {
        .bound = 0.05,
        .run = toppling_angle,
        .shortest_dt = 1e-3},
+      {.name = "column_slides",
+       .claim = "the same column at friction 20 degrees slides from 20 degrees",
+       .reference = "closed form",
+       .norm = "degrees",
+       .test = "LawTalusDefault.ColumnTopplesOrSlidesAtTheRightAngle",
+       .bound = 0.05,
+       .run = sliding_angle,
+       .shortest_dt = 1e-3},
       {.name = "rocking",
        .claim = "a rocking column hits the ground after 0.48909 s",
        .reference = "integrated closed form",
@@ -161,6 +170,14 @@ std::vector<VerifyCase> single_block_cases() {
        .test = "LawTalus.ColumnRocksAndLosesWhatHousnerSays",
        .bound = 1e-3,
        .run = rocking_time,
+       .laws = CaseLaws::talus_only},
+      {.name = "rocking_ratio",
+       .claim = "that hit leaves it 0.91176 of its spin",
+       .reference = "Housner's closed form",
+       .norm = "relative",
+       .test = "LawTalus.ColumnRocksAndLosesWhatHousnerSays",
+       .bound = 1e-3,
+       .run = rocking_ratio,
        .laws = CaseLaws::talus_only},
       {.name = "shaken",
        .claim = "a block on a shaken slope slides 3.19694 m in 10 s",
@@ -187,6 +204,15 @@ std::vector<VerifyCase> single_block_cases() {
        .bound = 1e-3,
        .run = own_weight,
        .has_strains = true},
+      {.name = "elastic_cor",
+       .claim = "a cube of E = 1e12 Pa that loses nothing else rebounds at the speed of its fall",
+       .reference = "COR 1 (Fig. 12b)",
+       .norm = "1 - COR",
+       .test = "LawTalus.ElasticBlockReboundsWhole",
+       .bound = 1e-5,
+       .run = [](const Settings& s) { return elastic_restitution(s, 1e12); },
+       .has_strains = true,
+       .paper_dt = {1e-4, 1e-5, 1e-6}},
       {.name = "ghost",
        .claim = "a cube at 20 m/s feels no edge of the cells of a plane of 17 degrees",
        .reference = "closed form",
@@ -298,6 +324,8 @@ std::vector<Method> methods_of(const VerifyCase& c, bool full) {
     methods.push_back(law_talus({}, {1e-2, Settings{}.dt}));
     if (c.laws == CaseLaws::both) methods.push_back(law_paper({paper_stiffness}, {1e-2, 1e-3}));
   }
+  for (Method& method : methods)
+    if (method.settings.law == Law::paper && !c.paper_dt.empty()) method.dt = c.paper_dt;
   for (Method& method : methods)
     std::erase_if(method.dt, [&c](double dt) { return dt < c.shortest_dt; });
   return methods;

@@ -99,6 +99,12 @@ TEST_P(LawTalus, NothingToCollideWithOnAPlane) {
 
 TEST_P(LawTalus, OwnWeightStressesTheBlock) { EXPECT_LT(own_weight(settings).error, 1e-3); }
 
+// Row 15; law paper, which has to resolve the hit: LawPaper.ElasticRestitutionTendsToOne.
+TEST_P(LawTalus, ElasticBlockReboundsWhole) {
+  for (const double young : {1e8, 1e10, 1e12})
+    EXPECT_LT(elastic_restitution(settings, young).error, 1e-5) << young;
+}
+
 TEST(LawTalusDefault, SpinsFreelyAndTumblesInFlight) {
   const CaseResult spin = free_spin(with_dt(2e-3), 10);
   EXPECT_LT(spin.error, 0.01);

@@ -9,10 +9,6 @@
 #include "base/sha256.hpp"
 #include "io/blocks_hdf5.hpp"
 
-// The library itself does not free everything after a damaged file.
-extern "C" const char* __lsan_default_suppressions();
-extern "C" const char* __lsan_default_suppressions() { return "leak:libhdf5"; }
-
 namespace {
 
 using namespace talus;

@@ -1,0 +1,74 @@
+#!/usr/bin/env python3
+"""Table of the closed forms in docs/verification.md, from a table of talus-verify.
+
+    talus-verify CASES -o DIR --full
+    python3 tests/studies/rows_table.py DIR/verify.csv
+
+A line a case: error and CPU time of both laws at three time steps each, at the defaults of law
+talus and at k_n = 5e10 N/m of law paper.
+"""
+import csv
+import sys
+
+ROWS = [
+    (1, ["parabola"]),
+    (2, ["slide_0", "slide_5", "slide_10", "slide_15", "slide_20", "slide_25", "slide_29"]),
+    (3, ["stick", "slide_29.9"]),
+    (4, ["rolling"]),
+    (5, ["sustained_rolling"]),
+    (6, ["bounce_face", "bounce_edge", "bounce_corner", "bounce_soft", "bounce_elastic"]),
+    (7, ["free_spin"]),
+    (8, ["wedge", "wedge_critical"]),
+    (9, ["toppling", "column_slides"]),
+    (10, ["rocking", "rocking_ratio"]),
+    (11, ["shaken"]),
+    (12, ["corner_impulse"]),
+    (13, ["energy_line"]),
+    (14, ["own_weight"]),
+    (15, ["elastic_cor"]),
+    (16, ["oblique"]),
+    (17, ["tumbling"]),
+]
+PAPER_STIFFNESS = 5e10
+
+
+def text(number):
+    return "0" if float(number) == 0 else f"{float(number):.1e}".replace("e-0", "e-").replace("e+00", "")
+
+
+def chosen(lines, law):
+    """Of one case and law: steps, longest first, at its usual stiffness and without strains."""
+    lines = [x for x in lines if x["law"] == law and float(x["solver_tolerance"]) == 1]
+    wanted = PAPER_STIFFNESS if law == "paper" else 0
+    lines = [x for x in lines if float(x["normal_stiffness_n_m"]) == wanted]
+    if not lines:
+        return []
+    dof = min(int(x["dof"]) for x in lines)
+    lines = [x for x in lines if int(x["dof"]) == dof]
+    return sorted(lines, key=lambda x: -float(x["dt_s"]))
+
+
+def cell(lines, dt):
+    for x in lines:
+        if abs(float(x["dt_s"]) - dt) < 1e-9:
+            return f"{text(x['error'])} ({1e3 * float(x['cpu_time_s']):.3g})"
+    return "-"
+
+
+def main():
+    with open(sys.argv[1], newline="", encoding="utf-8") as file:
+        lines = list(csv.DictReader(file))
+    print("| Row | Case | Error is | talus, 1e-2 | talus, 5e-3 | talus, 1e-3 | paper, 1e-2 | paper, 1e-3 | paper, 1e-4 |")
+    print("|---|---|---|---|---|---|---|---|---|")
+    for row, names in ROWS:
+        for name in names:
+            case = [x for x in lines if x["case"] == name]
+            if not case:
+                sys.exit(f"{sys.argv[1]} has no case {name}")
+            talus, paper = chosen(case, "talus"), chosen(case, "paper")
+            cells = [cell(talus, dt) for dt in (1e-2, 5e-3, 1e-3)]
+            cells += [cell(paper, dt) for dt in (1e-2, 1e-3, 1e-4)]
+            print(f"| {row} | `{name}` | {case[0]['error_norm']} | " + " | ".join(cells) + " |")
+
+
+main()
