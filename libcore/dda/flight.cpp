@@ -46,6 +46,44 @@ double time_on_grid(const Trn& trn, const Vec3& x, const Vec3& v, const Vec3& a)
                    first_zero(north - x.y(), -v.y(), -a.y())});
 }
 
+// A ball about the centroid that holds the block, at the start of a part of its flight.
+struct Ball {
+  Vec3 x, v, a;
+  double radius;
+};
+
+CellRange cells_passed(const Trn& trn, const Ball& ball, double T) {
+  const Range x = range_of(ball.x.x(), ball.v.x(), ball.a.x(), T);
+  const Range y = range_of(ball.x.y(), ball.v.y(), ball.a.y(), T);
+  return cells_near(trn, Vec3(x.low, y.low, 0), Vec3(x.high, y.high, 0), ball.radius);
+}
+
+// Time until the ball reaches the plane of the triangle, 0 when it does so already or when the
+// triangle is not ground; `longest` when not before that.
+double time_to_plane(const Trn& trn, const Cell& cell, bool upper, const Ball& ball,
+                     double longest) {
+  const Vec2 gradient = triangle_gradient(trn, cell, upper);
+  const Vec3 up(-gradient.x(), -gradient.y(), 1);  // times the cosine of the slope: the normal
+  const double gap = up.dot(ball.x - node_point(trn, cell.row, cell.col)) -
+                     ball.radius * std::sqrt(1 + gradient.squaredNorm());
+  if (!(gap > 0)) return 0;
+  const double rate = up.dot(ball.v), bend = up.dot(ball.a);
+  const bool stays = bend <= 0 && gap + longest * (rate + longest / 2 * bend) > 0;
+  return stays ? longest : std::min(longest, first_zero(gap, rate, bend));
+}
+
+// Where the ball touches the ground, it reaches the plane of a triangle in one of the cells below.
+double time_to_touch(const Trn& trn, const CellRange& cells, const Ball& ball, double longest) {
+  double first = longest;
+  for (int row = cells.row_first; row <= cells.row_last; ++row)
+    for (int col = cells.col_first; col <= cells.col_last; ++col)
+      for (const bool upper : {false, true}) {
+        first = time_to_plane(trn, {row, col}, upper, ball, first);
+        if (first == 0) return 0;
+      }
+  return first;
+}
+
 }  // namespace
 
 Motion fly(const Motion& motion, const Vec3& inertia, const Vec3& a, double h) {
@@ -58,19 +96,29 @@ Motion fly(const Motion& motion, const Vec3& inertia, const Vec3& a, double h) {
 
 double free_time(const Ground& ground, double radius, const Vec3& x, const Vec3& v, const Vec3& a,
                  double limit) {
-  double T = std::min(limit, time_on_grid(ground.trn, x, v, a));
-  double safe = 0;
-  for (int i = 0; i < 10 && T > safe; ++i, T /= 2) {
-    const Range rx = range_of(x.x(), v.x(), a.x(), T), ry = range_of(x.y(), v.y(), a.y(), T);
-    const CellRange cells =
-        cells_near(ground.trn, Vec3(rx.low, ry.low, 0), Vec3(rx.high, ry.high, 0), radius);
-    if (cells.empty()) return safe;
-    const double top = elevation_range(ground.trn, ground.pyramid, cells).high;
-    const double clearance = x.z() - radius - top;
-    if (!(clearance > 0)) continue;
-    safe = std::max(safe, std::min(T, first_zero(clearance, v.z(), a.z())));
+  const double end = std::min(limit, time_on_grid(ground.trn, x, v, a));
+  const double speed = v.head<2>().norm() + end * a.head<2>().norm();
+  const double one_cell = ground.trn.cell_size / (speed + 1e-300);
+  double t = 0, T = one_cell;
+  while (t < end) {
+    T = std::min(T, end - t);
+    const Ball ball{x + t * (v + t / 2 * a), v + t * a, a, radius};
+    const CellRange cells = cells_passed(ground.trn, ball, T);
+    if (cells.empty()) return t;
+    const ElevationRange range = elevation_range(ground.trn, ground.pyramid, cells);
+    const double lowest = range_of(ball.x.z(), ball.v.z(), a.z(), T).low - radius;
+    if (range.all_known && lowest > range.high) {  // far above: look farther ahead
+      t += T;
+      T *= 2;
+    } else if (T > one_cell) {
+      T = one_cell;
+    } else {
+      const double touch = time_to_touch(ground.trn, cells, ball, T);
+      if (touch < T) return t + touch;
+      t += T;
+    }
   }
-  return safe;
+  return end;
 }
 
 }  // namespace talus

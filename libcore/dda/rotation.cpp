@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dda/free_spin.hpp"
+
 namespace talus {
 namespace {
 
@@ -104,6 +106,11 @@ Quat symmetric_rotation(const Quat& attitude, const Vec3& L, const Vec3& inertia
 
 }  // namespace
 
+bool has_two_equal_moments(const Vec3& inertia) {
+  return is_axis_of_symmetry(inertia, 0) || is_axis_of_symmetry(inertia, 1) ||
+         is_axis_of_symmetry(inertia, 2);
+}
+
 Quat rotation_by(const Vec3& r) {
   const double angle_sq = r.squaredNorm();
   if (angle_sq < 1e-8) {  // series: relative error below 1e-20
@@ -119,6 +126,12 @@ Quat free_rotation(const Quat& attitude, const Vec3& L, const Vec3& inertia, dou
   if (L.isZero(0) || h == 0) return attitude;
   for (int k = 0; k < 3; ++k)
     if (is_axis_of_symmetry(inertia, k)) return symmetric_rotation(attitude, L, inertia, k, h);
+  const Vec3 spin = (attitude.conjugate() * L).cwiseQuotient(inertia);
+  if (spin.norm() * h > largest_turn) return attitude_after(free_spin(attitude, L, inertia), h);
+  return series_rotation(attitude, L, inertia, h);
+}
+
+Quat series_rotation(const Quat& attitude, const Vec3& L, const Vec3& inertia, double h) {
   const Vec3 per_inertia = inertia.cwiseInverse(), kappa = euler_factors(inertia, per_inertia);
   Quat q = attitude;
   for (double left = h; left > 0;) {
@@ -131,24 +144,6 @@ Quat free_rotation(const Quat& attitude, const Vec3& L, const Vec3& inertia, dou
     left = n > 1 || share < 1 ? left - share * part : 0;
   }
   return q;
-}
-
-void add_free_rotations(std::vector<Quat>& attitudes, const Vec3& L, const Vec3& inertia,
-                        double stride, int n) {
-  const Quat from = attitudes.back();
-  const bool has_series = !L.isZero(0) && !is_axis_of_symmetry(inertia, 0) &&
-                          !is_axis_of_symmetry(inertia, 1) && !is_axis_of_symmetry(inertia, 2);
-  if (has_series) {
-    const Vec3 per_inertia = inertia.cwiseInverse();
-    const Vec3 spin = (from.conjugate() * L).cwiseProduct(per_inertia);
-    const SpinSeries series(from, spin, euler_factors(inertia, per_inertia), n * stride);
-    if (series.reach() == 1) {
-      for (int k = 1; k <= n; ++k) attitudes.push_back(series.at(static_cast<double>(k) / n));
-      return;
-    }
-  }
-  for (int k = 1; k <= n; ++k)
-    attitudes.push_back(free_rotation(attitudes.back(), L, inertia, stride));
 }
 
 double fastest_spin(const Quat& attitude, const Vec3& L, const Vec3& inertia) {

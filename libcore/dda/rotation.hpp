@@ -3,8 +3,6 @@
 // theory 1.9 (no volume growth), 1.10 (angular momentum kept to rounding)
 #pragma once
 
-#include <vector>
-
 #include "contact/pose.hpp"
 
 namespace talus {
@@ -14,16 +12,19 @@ namespace talus {
 
 /// Attitude of a body that spins freely for `h` seconds with angular momentum `L` [kg m2/s].
 ///
-/// `inertia` holds the principal moments, axes = body axes. Power series of Euler's equations in
-/// parts of |omega| h <= 0.5, cut where a term falls below 1e-13; L is a constant of the call. A
-/// body with two moments equal to 1e-9: exact.
+/// `inertia` holds the principal moments, axes = body axes; L is a constant of the call. Up to half
+/// a radian series_rotation(), beyond it the closed form of dda/free_spin.hpp; a body with two
+/// equal moments: exact.
 [[nodiscard]] Quat free_rotation(const Quat& attitude, const Vec3& L, const Vec3& inertia,
                                  double h);
 
-/// Appends the attitudes after one, two, ... `n` times `stride` seconds of the same free spin from
-/// the last of `attitudes`; cheaper than one call of free_rotation() for each.
-void add_free_rotations(std::vector<Quat>& attitudes, const Vec3& L, const Vec3& inertia,
-                        double stride, int n);
+/// The same by the power series of Euler's equations in parts of |omega| h <= 0.5, cut where a term
+/// falls below 1e-13: takes the longer the more it turns, and any body.
+[[nodiscard]] Quat series_rotation(const Quat& attitude, const Vec3& L, const Vec3& inertia,
+                                   double h);
+
+/// Whether two principal moments are equal but for the rounding of coordinates.
+[[nodiscard]] bool has_two_equal_moments(const Vec3& inertia);
 
 /// Fastest that a freely spinning body ever turns [rad/s]: of all motions with its energy and
 /// momentum, |omega|^2 <= 2 E (1 / I_min + 1 / I_max) - L^2 / (I_min I_max).

@@ -203,8 +203,7 @@ struct Advance {
                       search_margin(c, h), work.world_vertices, work.contacts);
     if (near.reach == Reach::off_ground) return Attempt::left;
     if (work.contacts.empty()) {
-      if (near.reach == Reach::above && free_fall_only() && begin_flight(t, h))
-        return Attempt::flight;
+      if (free_fall_only() && begin_flight(t, h)) return Attempt::flight;
       report.n_flips += static_cast<int>(state.memory[i()].size());
       state.memory[i()].clear();
       relax_strain(h);
@@ -273,7 +272,7 @@ struct Advance {
   }
 
   bool begin_flight(double t, double h) {
-    constexpr double longest_turn = 60;  // [rad]: bounds what motion_at() costs
+    constexpr double longest_turn = 60;  // [rad]: bounds what motion_at() costs near the flip
     const double longest = std::min(1e3, longest_turn / (spin_speed() + 1e-300));
     const double safe = free_time(scene.ground, c.radius, motion().pose.position, motion().velocity,
                                   scene.gravity, longest);

@@ -1,14 +1,8 @@
 #include "store/motion.hpp"
 
-#include <algorithm>
-#include <cmath>
+#include "dda/rotation.hpp"
 
 namespace talus {
-namespace {
-
-constexpr int strides_at_once = 3;
-
-}  // namespace
 
 double flight_turn(const Segment& segment, const Vec3& inertia) {
   const Motion& start = segment.start;
@@ -19,10 +13,7 @@ double flight_turn(const Segment& segment, const Vec3& inertia) {
 void SegmentMotion::follow(const Segment& segment, const Vec3& inertia) {
   segment_ = &segment;
   inertia_ = &inertia;
-  if (!segment.flight) return;
-  attitudes_.assign(1, segment.start.pose.attitude);
-  const double n = std::max(1.0, std::ceil(flight_turn(segment, inertia) / flight_stride));
-  stride_ = (segment.t_end - segment.t_start) / n;
+  has_spin_ = false;
 }
 
 Motion SegmentMotion::at(double t) {
@@ -43,19 +34,14 @@ Motion SegmentMotion::at(double t) {
 
 Motion SegmentMotion::in_flight(double elapsed) {
   const Motion& start = segment_->start;
-  const Vec3& L = start.angular_momentum;
-  const double strides = elapsed / stride_, whole = std::floor(strides + 1e-12);
-  while (static_cast<double>(attitudes_.size()) <= whole)
-    add_free_rotations(attitudes_, L, *inertia_, stride_, strides_at_once);
+  if (!has_spin_) spin_ = free_spin(start.pose.attitude, start.angular_momentum, *inertia_);
+  has_spin_ = true;
   Motion motion;
-  motion.pose.attitude = attitudes_[static_cast<std::size_t>(whole)];
-  if (strides - whole > 1e-12)
-    motion.pose.attitude =
-        free_rotation(motion.pose.attitude, L, *inertia_, (strides - whole) * stride_);
+  motion.pose.attitude = attitude_after(spin_, elapsed);
   motion.pose.position = start.pose.position + elapsed * start.velocity +
                          0.5 * elapsed * elapsed * segment_->acceleration;
   motion.velocity = start.velocity + elapsed * segment_->acceleration;
-  motion.angular_momentum = L;
+  motion.angular_momentum = start.angular_momentum;
   return motion;
 }
 

@@ -4,27 +4,23 @@
 // out:   motion, energies; the same numbers for frames, passages and crossings
 #pragma once
 
-#include <vector>
-
+#include "dda/free_spin.hpp"
 #include "dda/rotation.hpp"
 #include "dda/scene.hpp"
 #include "dda/work.hpp"
 
 namespace talus {
 
-/// A flight is followed in strides in which its spin turns by less than this [rad].
-inline constexpr double flight_stride = 0.25;
-
 /// From above, by how much a body with principal moments `inertia` turns in a flight [rad].
 [[nodiscard]] double flight_turn(const Segment& segment, const Vec3& inertia);
 
-/// Follows one segment after the other; what a flight's spin takes to compute is kept for as long
-/// as the segment is followed, and the buffer for the next one.
+/// Follows one segment after the other; the closed form of a flight's spin is made once a segment,
+/// when it is first asked for.
 ///
-/// A flight is followed exactly in translation, and in strides in spin, whose bits do not depend on
-/// the times asked for. Between two steps with contact the centroid keeps the segment's
-/// acceleration, the attitude turns evenly (slerp), velocity and angular momentum go linearly. At
-/// both ends the solver's own bits come back.
+/// A flight is followed exactly, in translation and in spin. Between two steps with contact the
+/// centroid keeps the segment's acceleration, the attitude turns evenly (slerp), velocity and
+/// angular momentum go linearly. At both ends the solver's own bits come back; in between they do
+/// not depend on what else was asked for.
 class SegmentMotion {
  public:
   /// `segment` and `inertia` must outlive the calls of at().
@@ -37,8 +33,8 @@ class SegmentMotion {
   [[nodiscard]] Motion in_flight(double elapsed);
   const Segment* segment_ = nullptr;
   const Vec3* inertia_ = nullptr;
-  double stride_ = 0;            // of the spin [s]
-  std::vector<Quat> attitudes_;  // after 0, 1, 2 ... strides, as far as they were needed
+  FreeSpin spin_;
+  bool has_spin_ = false;
 };
 
 /// SegmentMotion at one time.

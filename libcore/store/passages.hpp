@@ -103,13 +103,21 @@ struct LastExtents {
   Extents extents;
 };
 
+/// A block between two pieces of its flight.
+struct FlightInstant {
+  bool known = false;
+  PassageInstant instant;
+  Vec2 low = Vec2::Zero(), high = Vec2::Zero();  ///< box around its footprint [m]
+};
+
 struct PassageRecorder {
   PassageGrid grid;
   Trn frame;                 ///< the grid as walk_cells() reads it: nodes without elevations
   bool by_centroid = false;  ///< count a cell only while the centroid is over it
   PassageTable table;
-  std::vector<PassageTracker> trackers;   ///<                                      (n_blocks)
-  std::vector<LastExtents> last_extents;  ///<                                     (n_blocks)
+  std::vector<PassageTracker> trackers;        ///<                                      (n_blocks)
+  std::vector<LastExtents> last_extents;       ///<                                     (n_blocks)
+  std::vector<FlightInstant> flight_instants;  ///< of the flight at hand      (n_pieces + 1)
 };
 
 /// The grid of the TRN's own cells, or of cells of `cell_size` from the same north-west corner that

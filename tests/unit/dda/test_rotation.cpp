@@ -2,8 +2,9 @@
 
 #include <cmath>
 #include <numbers>
-#include <vector>
 
+#include "base/random.hpp"
+#include "dda/free_spin.hpp"
 #include "dda/rotation.hpp"
 
 namespace {
@@ -71,27 +72,76 @@ TEST(FreeRotation, StepsDoNotMatter) {
   for (const double dt : {4.0, 0.4, 0.01}) EXPECT_LT(attitude_error_deg(dt, 4), 1e-7) << dt;
 }
 
-// Plates, needles and rods near the flip: many attitudes at once are those of single calls, and no
-// spin on the way is faster than the bound.
-TEST(FreeRotation, StridesAgreeAndTheFastestSpinBounds) {
+// Plates, needles and rods near the flip: no spin on the way is faster than the bound.
+TEST(FreeRotation, FastestSpinBounds) {
   for (const Vec3& sides : {Vec3(1, 2, 3), Vec3(0.01, 1, 1.2), Vec3(1, 0.02, 0.013)})
     for (const Vec3& omega : {Vec3(0.01, 5, 0.02), Vec3(3, -4, 5), Vec3(40, 1, 2)}) {
       const Vec3 I = box_inertia(sides.x(), sides.y(), sides.z()), L = I.cwiseProduct(omega);
       const double bound = talus::fastest_spin(Quat::Identity(), L, I);
-      const double stride = 0.25 / bound;
-      std::vector<Quat> attitudes{Quat::Identity()};
-      for (int i = 0; i < 60; ++i) talus::add_free_rotations(attitudes, L, I, stride, 3);
-      ASSERT_EQ(attitudes.size(), 181u);
-      for (const int k : {1, 2, 3, 20}) {  // near the flip, rounding grows tenfold in 2.3 rad
-        const Quat once = talus::free_rotation(Quat::Identity(), L, I, k * stride);
-        EXPECT_LT(once.angularDistance(attitudes[static_cast<std::size_t>(k)]), 1e-9);
-      }
+      const talus::FreeSpin spin = talus::free_spin(Quat::Identity(), L, I);
       double fastest = 0;
-      for (const Quat& q : attitudes)
+      for (int k = 0; k <= 180; ++k) {
+        const Quat q = talus::attitude_after(spin, k * 0.25 / bound);
         fastest = std::max(fastest, talus::angular_velocity(q, L, I).norm());
+      }
       EXPECT_LE(fastest, bound * (1 + 1e-9));
       EXPECT_GT(fastest, 0.5 * omega.norm());
     }
+}
+
+double apart(const Quat& a, const Quat& b) {  // of either sign
+  return std::min((a.coeffs() - b.coeffs()).norm(), (a.coeffs() + b.coeffs()).norm());
+}
+
+// Bodies of any shape that spin about any axis, among them some about a principal axis but for
+// 1e-8, and some with moments that differ by 1e-6: the closed form is the series.
+TEST(FreeSpin, ClosedFormIsTheSeries) {
+  talus::Random random(11, "free spin");
+  const auto size = [&] { return std::exp(random.uniform(-2, 2)); };
+  const auto share = [&] { return random.uniform(-1, 1); };
+  int n_kinds[5] = {};
+  for (int trial = 0; trial < 3000; ++trial) {
+    const Vec3 sides = trial % 4 == 1 ? Vec3(1, 1 + std::pow(10, random.uniform(-6, -1)), 2)
+                                      : Vec3(size(), size(), size());
+    const Vec3 I = box_inertia(sides.x(), sides.y(), sides.z());
+    const Quat attitude = Quat(share(), share(), share(), share()).normalized();
+    Vec3 omega(share(), share(), share());
+    if (trial % 3 == 1)
+      for (int k = 0; k < 3; ++k)
+        if (k != trial / 3 % 3) omega[k] *= std::pow(10, random.uniform(-8, 0));
+    const Vec3 L = attitude * I.cwiseProduct(omega).eval();  // omega in body axes
+    const talus::FreeSpin spin = talus::free_spin(attitude, L, I);
+    ++n_kinds[static_cast<int>(spin.kind)];
+    EXPECT_LT(apart(talus::attitude_after(spin, 0), attitude), 1e-12) << trial;
+    const double t = random.uniform(0, 6) / omega.norm();
+    const double error =
+        apart(talus::attitude_after(spin, t), talus::series_rotation(attitude, L, I, t));
+    EXPECT_LT(error, 1e-9) << trial;  // near the flip, rounding grows tenfold in 2.3 rad
+  }
+  EXPECT_GT(n_kinds[static_cast<int>(talus::FreeSpin::Kind::elliptic)], 2500);
+  EXPECT_GT(n_kinds[static_cast<int>(talus::FreeSpin::Kind::series)], 10);
+}
+
+// Far from the flip the closed form keeps its digits however far the body turns: half of the time
+// twice is the whole of it, after 2,000 turns.
+TEST(FreeSpin, TimeDoesNotMatter) {
+  const Vec3 I = box_inertia(1, 2, 3), L = I.cwiseProduct(Vec3(3, -1, 5));
+  const talus::FreeSpin spin = talus::free_spin(Quat::Identity(), L, I);
+  const double t = 2000;
+  const Quat half = talus::attitude_after(spin, t / 2);
+  const Quat twice = talus::attitude_after(talus::free_spin(half, L, I), t / 2);
+  EXPECT_LT(apart(twice, talus::attitude_after(spin, t)), 1e-10);
+}
+
+TEST(FreeSpin, StillAndAboutAnAxis) {
+  const Vec3 I = box_inertia(1, 2, 3);
+  const talus::FreeSpin still = talus::free_spin(Quat(0.6, 0, 0.8, 0), Vec3::Zero(), I);
+  EXPECT_EQ(talus::attitude_after(still, 5).coeffs(), Quat(0.6, 0, 0.8, 0).coeffs());
+  for (int k = 0; k < 3; ++k) {
+    const talus::FreeSpin spin = talus::free_spin(Quat::Identity(), 7 * I[k] * Vec3::Unit(k), I);
+    const Quat truth(Eigen::AngleAxisd(7 * 0.9, Vec3::Unit(k)));
+    EXPECT_LT(apart(talus::attitude_after(spin, 0.9), truth), 1e-13) << k;
+  }
 }
 
 // The classic DDA update keeps omega: the attitude is then wrong by tens of degrees at every dt.

@@ -162,29 +162,59 @@ TEST(Step, FlightAndStepwiseMotionAgree) {
   EXPECT_EQ(ma.angular_momentum, mb.angular_momentum);
 }
 
-TEST(FreeTime, NothingIsBelowTheBallBeforeIt) {
+// The deepest that a ball reaches below the ground, over points of its surface [m].
+double ball_below(const Trn& trn, const Vec3& centre, double radius) {
+  double below = -1e300;
+  for (int i = 0; i < 12; ++i)
+    for (int j = 0; j < 24; ++j) {
+      const double polar = i * std::numbers::pi / 24, around = j * std::numbers::pi / 12;
+      const Vec3 at = centre + radius * Vec3(std::sin(polar) * std::cos(around),
+                                             std::sin(polar) * std::sin(around), -std::cos(polar));
+      if (contains(trn, at.x(), at.y()))
+        below = std::max(below, elevation_at(trn, at.x(), at.y()) - at.z());
+    }
+  return below;
+}
+
+// And not much of the time until the ball touches is left out: what the planes of triangles reach
+// beyond their sides.
+TEST(FreeTime, NothingIsInTheBallBeforeIt) {
   const Ground ground = make_ground(make_trn(bumps, 1, 60), {});
   Random random(5, "free time");
   int flights = 0;
+  double sum = 0, sum_until_touch = 0;
   for (int trial = 0; trial < 300; ++trial) {
     const double x = random.uniform(-40, 40), y = random.uniform(-40, 40), radius = 0.5;
-    const Vec3 from(x, y, bumps(x, y) + random.uniform(1, 20));
+    const Vec3 from(x, y, bumps(x, y) + random.uniform(0.3, 20));
     const Vec3 v(random.uniform(-15, 15), random.uniform(-15, 15), random.uniform(-10, 10));
     const Vec3 a(0, 0, -10);
     const double T = free_time(ground, radius, from, v, a, 100);
-    flights += T > 0;
-    for (int k = 0; k <= 100; ++k) {
-      const double t = T * k / 100;
-      const Vec3 at = from + t * v + t * t / 2 * a;
-      for (int corner = 0; corner < 4; ++corner) {
-        const double px = at.x() + (corner & 1 ? radius : -radius) * 0.7;
-        const double py = at.y() + (corner & 2 ? radius : -radius) * 0.7;
-        if (!contains(ground.trn, px, py)) continue;
-        EXPECT_GT(at.z() - radius, elevation_at(ground.trn, px, py) - 1e-9);
-      }
-    }
+    const auto centre = [&](double t) { return Vec3(from + t * v + t * t / 2 * a); };
+    if (T == 0) continue;
+    ++flights;
+    for (int k = 0; k <= 100; ++k)
+      EXPECT_LT(ball_below(ground.trn, centre(T * k / 100), radius), 1e-9) << trial << ", " << k;
+    double touch = T;
+    while (ball_below(ground.trn, centre(touch), radius) < 0 &&
+           contains(ground.trn, centre(touch).x(), centre(touch).y()))
+      touch += 0.01;
+    sum += T;
+    sum_until_touch += touch;
   }
-  EXPECT_GT(flights, 100);
+  EXPECT_GT(flights, 200);
+  EXPECT_GT(sum, 0.8 * sum_until_touch);
+}
+
+TEST(FreeTime, EndsAtUnknownGround) {
+  Trn trn = make_trn([](double, double) { return 0.0; }, 1, 20);
+  for (double x : {7.0, 8.0}) {
+    const GridPoint at = locate(trn, x, 0.5);
+    trn.elevation[node_index(trn, at.cell.row, at.cell.col)] = std::nan("");
+  }
+  const Ground ground = make_ground(std::move(trn), {});
+  const double T = free_time(ground, 0.5, {0, 0.5, 3}, {10, 0, 10}, {0, 0, -10}, 100);
+  EXPECT_GT(T, 0.4);  // on its way there
+  EXPECT_LT(T, 0.75);
 }
 
 double weight_carried(const State& state) {
