@@ -87,8 +87,8 @@ double find_features(const Hulls& hulls, const PlacedHulls& placed, int part_a, 
                      const PairAxis& axis, int incident, bool with_areas, ClipScratch& scratch,
                      std::vector<HeldPoint>& held);
 
-/// Appends the contact of `near_edges` (see AxisChoice) to the features held[begin, end) of an axis,
-/// unless it is among them, or the edges do not cross seen along `normal`.
+/// Appends the contact of `near_edges` (see AxisChoice) to the features held[begin, end) of an
+/// axis, unless it is among them, or the edges do not cross seen along `normal`.
 void add_near_edges(const Hulls& hulls, const PlacedHulls& placed, int part_a, int part_b,
                     const PairAxis& near_edges, const Vec3& normal, std::size_t begin,
                     std::vector<HeldPoint>& held);
