@@ -179,13 +179,24 @@ double pair_margin(const Search& s, int a, int b) {
   return s.settings.margin + turn + (s.motion.step[a] - s.motion.step[b]).norm();
 }
 
+std::span<const HeldPoint> held_before(const Search& s, const ListedPair& pair) {
+  if (!pair.touches) return {};
+  return std::span(s.state.held)
+      .subspan(static_cast<std::size_t>(pair.held_begin),
+               static_cast<std::size_t>(pair.held_end - pair.held_begin));
+}
+
 // Searches axis and features of a pair.
 void search_all(const Search& s, const PairWatch& watch, double margin, ListedPair& pair) {
   ++s.report.n_searched;
+  const std::span<const HeldPoint> before = held_before(s, pair);
   pair.held_begin = static_cast<int>(s.work.next_held.size());
   const ContactSearch found = search_contact(
       s.hulls, s.placed, watch.part_a, watch.part_b, margin, pair.touches ? pair.axis : PairAxis{},
       s.settings.with_areas, s.work.axis, s.work.clip, s.work.next_held);
+  if (found.choice.touches)
+    keep_edges(s.hulls, s.placed, watch.part_a, watch.part_b, before, found.choice.normal,
+               static_cast<std::size_t>(pair.held_begin), s.work.next_held);
   pair.held_end = static_cast<int>(s.work.next_held.size());
   pair.axis = found.choice.axis;
   pair.near_edges = found.choice.near_edges;
@@ -200,12 +211,17 @@ void search_all(const Search& s, const PairWatch& watch, double margin, ListedPa
 // Searches the features of a pair that touches along a known axis; false when none meet.
 bool search_features(const Search& s, const PairWatch& watch, ListedPair& pair) {
   ++s.report.n_clipped;
+  const std::span<const HeldPoint> before = held_before(s, pair);
+  const auto begin = s.work.next_held.size();
   pair.held_begin = static_cast<int>(s.work.next_held.size());
   pair.incident = incident_of(s.hulls, s.placed, watch.part_a, watch.part_b, pair.axis);
   pair.area = find_features(s.hulls, s.placed, watch.part_a, watch.part_b, pair.axis, pair.incident,
                             s.settings.with_areas, s.work.clip, s.work.next_held);
-  add_near_edges(s.hulls, s.placed, watch.part_a, watch.part_b, pair.axis, pair.near_edges,
-                 static_cast<std::size_t>(pair.held_begin), s.work.next_held);
+  const Vec3 normal = axis_normal(s.hulls, s.placed, watch.part_a, watch.part_b, pair.axis);
+  add_near_edges(s.hulls, s.placed, watch.part_a, watch.part_b, pair.near_edges, normal, begin,
+                 s.work.next_held);
+  keep_edges(s.hulls, s.placed, watch.part_a, watch.part_b, before, normal, begin,
+             s.work.next_held);
   pair.held_end = static_cast<int>(s.work.next_held.size());
   return pair.held_end > pair.held_begin;
 }

@@ -338,10 +338,34 @@ Segment segment_of(const Hulls& hulls, const PlacedHulls& placed, int part, int 
   return {vertices[e.a], vertices[e.b]};
 }
 
+// The point of a segment that the line of another meets, seen along `normal`.
+Vec3 met_by(const Segment& segment, const Segment& line, const Vec3& normal) {
+  const Vec3 across = normal.cross(line.end - line.start);
+  const double d_start = across.dot(segment.start - line.start);
+  const double d_end = across.dot(segment.end - line.start);
+  const double t = d_start == d_end ? 0.5 : std::clamp(d_start / (d_start - d_end), 0.0, 1.0);
+  return segment.start + t * (segment.end - segment.start);
+}
+
 // Do the ends of a segment lie on both sides of the line of another, seen along `normal`?
 bool is_parted(const Segment& segment, const Segment& line, const Vec3& normal) {
   const Vec3 across = normal.cross(line.end - line.start);
   return across.dot(segment.start - line.start) * across.dot(segment.end - line.start) < 0;
+}
+
+// Edges that cross seen along `normal`, which need not be at right angles to them.
+void add_crossing(const Hulls& hulls, const PlacedHulls& placed, int part_a, int part_b,
+                  const Vec3& normal, double margin, const HeldPoint& held,
+                  std::vector<PairPoint>& points) {
+  const auto segment = [&](int part, int edge_of_body) {
+    return segment_of(
+        hulls, placed, part,
+        edge_of_body + hulls.body_edge_begin[hulls.body[part]] - hulls.edge_begin[part]);
+  };
+  const Segment a = segment(part_a, held.key.feature_a), b = segment(part_b, held.key.feature_b);
+  const Vec3 on_b = met_by(b, a, normal);
+  const double gap = normal.dot(met_by(a, b, normal) - on_b);
+  if (gap <= margin) points.push_back({held.key, on_b, gap, held.area});
 }
 
 }  // namespace
@@ -373,7 +397,7 @@ double deepest_gap(const Hulls& hulls, const PlacedHulls& placed, int part_a, in
 }
 
 void add_near_edges(const Hulls& hulls, const PlacedHulls& placed, int part_a, int part_b,
-                    const PairAxis& axis, const PairAxis& near_edges, std::size_t begin,
+                    const PairAxis& near_edges, const Vec3& normal, std::size_t begin,
                     std::vector<HeldPoint>& held) {
   if (near_edges.kind == AxisKind::none) return;
   const ContactKey key = key_of_edges(hulls, part_a, part_b, near_edges);
@@ -382,10 +406,27 @@ void add_near_edges(const Hulls& hulls, const PlacedHulls& placed, int part_a, i
            h.key.feature_b == key.feature_b;
   };
   if (std::any_of(held.begin() + static_cast<std::ptrdiff_t>(begin), held.end(), same)) return;
-  const Vec3 normal = axis_normal(hulls, placed, part_a, part_b, axis);
   const Segment a = segment_of(hulls, placed, part_a, near_edges.feature_a);
   const Segment b = segment_of(hulls, placed, part_b, near_edges.feature_b);
   if (is_parted(a, b, normal) && is_parted(b, a, normal)) held.push_back({key, 0});
+}
+
+void keep_edges(const Hulls& hulls, const PlacedHulls& placed, int part_a, int part_b,
+                std::span<const HeldPoint> before, const Vec3& normal, std::size_t begin,
+                std::vector<HeldPoint>& held) {
+  const auto edge_of_part = [&](int part, int edge_of_body) {
+    const int edge =
+        edge_of_body + hulls.body_edge_begin[hulls.body[part]] - hulls.edge_begin[part];
+    return edge < hulls.edge_begin[part + 1] - hulls.edge_begin[part] ? edge : -1;
+  };
+  for (const HeldPoint& h : before) {
+    if (h.key.mode != ContactMode::edge_edge) continue;
+    const PairAxis edges{AxisKind::edges, edge_of_part(part_a, h.key.feature_a),
+                         edge_of_part(part_b, h.key.feature_b)};
+    if (edges.feature_a < 0 || edges.feature_b < 0) continue;
+    if (axis_normal(hulls, placed, part_a, part_b, edges).dot(normal) >= same_axis_cos)
+      add_near_edges(hulls, placed, part_a, part_b, edges, normal, begin, held);
+  }
 }
 
 ContactSearch search_contact(const Hulls& hulls, const PlacedHulls& placed, int part_a, int part_b,
@@ -400,7 +441,7 @@ ContactSearch search_contact(const Hulls& hulls, const PlacedHulls& placed, int 
   found.incident = incident_of(hulls, placed, part_a, part_b, choice.axis);
   found.area = find_features(hulls, placed, part_a, part_b, choice.axis, found.incident, with_areas,
                              clip_scratch, held);
-  add_near_edges(hulls, placed, part_a, part_b, choice.axis, choice.near_edges, begin, held);
+  add_near_edges(hulls, placed, part_a, part_b, choice.near_edges, choice.normal, begin, held);
   if (choice.passed_over.kind == AxisKind::none) return found;
   const double deep_enough = choice.largest + depth_ratio * std::abs(choice.largest);
   if (deepest_gap(hulls, placed, part_a, part_b, choice.axis, found.incident,
@@ -437,6 +478,8 @@ bool add_manifold(const Hulls& hulls, const PlacedHulls& placed, int part_a, int
   int face_a = axis.feature_a, face_b = axis.feature_b;
   if (axis.kind == AxisKind::edges) {
     add_edge_point(hulls, placed, part_a, part_b, axis, normal, margin, held[0], points);
+    for (const HeldPoint& other : held.subspan(1))
+      add_crossing(hulls, placed, part_a, part_b, normal, margin, other, points);
     face_a = hulls.edges[hulls.edge_begin[part_a] + axis.feature_a].left;
     face_b = hulls.edges[hulls.edge_begin[part_b] + axis.feature_b].left;
   } else {

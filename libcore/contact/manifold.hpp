@@ -87,11 +87,17 @@ double find_features(const Hulls& hulls, const PlacedHulls& placed, int part_a, 
                      const PairAxis& axis, int incident, bool with_areas, ClipScratch& scratch,
                      std::vector<HeldPoint>& held);
 
-/// Appends the contact of `near_edges` (see AxisChoice) to the features held[begin, end) of a face
-/// axis, unless it is among them, or the edges do not cross seen along the face's normal.
+/// Appends the contact of `near_edges` (see AxisChoice) to the features held[begin, end) of an
+/// axis, unless it is among them, or the edges do not cross seen along `normal`.
 void add_near_edges(const Hulls& hulls, const PlacedHulls& placed, int part_a, int part_b,
-                    const PairAxis& axis, const PairAxis& near_edges, std::size_t begin,
+                    const PairAxis& near_edges, const Vec3& normal, std::size_t begin,
                     std::vector<HeldPoint>& held);
+
+/// The same for those of the features `before` that are edges of the two parts at right angles to
+/// `normal` within 2 degrees: blocks that rock on two edges keep both.
+void keep_edges(const Hulls& hulls, const PlacedHulls& placed, int part_a, int part_b,
+                std::span<const HeldPoint> before, const Vec3& normal, std::size_t begin,
+                std::vector<HeldPoint>& held);
 
 /// Smallest gap over the features `held` of a face axis [m]; infinity without any.
 [[nodiscard]] double deepest_gap(const Hulls& hulls, const PlacedHulls& placed, int part_a,

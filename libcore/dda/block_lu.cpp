@@ -51,7 +51,7 @@ void eliminate(int gone, std::vector<std::vector<int>>& neighbours, std::vector<
                    std::back_inserter(merged));
     erase_value(merged, gone);
     erase_value(merged, i);
-    std::swap(own, merged);
+    own.assign(merged.begin(), merged.end());  // swapped, the arrays would never all have grown
   }
 }
 
