@@ -142,6 +142,32 @@ TEST(BlockPairs, FindsWhatOnlyTurningBringsTogether) {
   EXPECT_GT(n_meetings, 20);
 }
 
+// A plate that rocks on a ridge: the axis is that of the ridge and now of one side of the plate,
+// now of the other. Both sides bear.
+TEST(BlockPairs, RockingOnTwoEdgesKeepsBoth) {
+  const double tilt = 1e-3, depth = 2e-3;
+  Polyhedron ridge = box(Vec3(-2, -5, -2), Vec3(2, 5, 1));
+  for (const double side : {-1.0, 1.0})
+    ridge = clip_convex(ridge, {Vec3(side, 0, 1).normalized(), 0}, 0, 1e-9);
+  Bodies bodies;
+  add(bodies, ridge, {});
+  add(bodies, box(Vec3(-1, -0.5, 0), Vec3(1, 0.5, 0.1)), {});
+  PairState state;
+  PairWork work;
+  for (const double side : {1.0, -1.0, 1.0}) {
+    bodies.poses[1] = {Vec3(0.1, 0, -depth), Quat(Eigen::AngleAxisd(side * tilt, Vec3::UnitX()))};
+    place(bodies);
+    const bool first = state.pairs.empty();
+    (void)find_pair_contacts(bodies.hulls, bodies.placed, {}, {}, state, work);
+    ASSERT_EQ(work.points.size(), first ? 1u : 2u);
+    if (first) continue;
+    std::vector<double> gaps = {work.points[0].gap, work.points[1].gap};
+    std::sort(gaps.begin(), gaps.end());
+    EXPECT_NEAR(gaps[0], -depth - 0.5 * tilt, 1e-8);
+    EXPECT_NEAR(gaps[1], -depth + 0.5 * tilt, 1e-8);
+  }
+}
+
 // The caches may delay a change of features by a thousandth of a thickness of motion; apart from
 // that the contacts are the same.
 TEST(BlockPairs, CachesDoNotChangeTheContacts) {
