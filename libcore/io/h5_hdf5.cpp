@@ -108,7 +108,7 @@ bool is_sealed(const std::string& path) {
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   if (!in || error || size < seal_length) return false;
   Sha256 digest;
-  std::vector<char> piece(1 << 20);
+  std::vector<char> piece(std::min<std::uintmax_t>(size, 1 << 20));
   for (std::uintmax_t left = size - seal_length; left > 0;) {
     const auto n = static_cast<std::size_t>(std::min<std::uintmax_t>(left, piece.size()));
     if (!in.read(piece.data(), static_cast<std::streamsize>(n))) return false;
