@@ -2,10 +2,10 @@
 """Table of the closed forms in docs/verification.md, from a table of talus-verify.
 
     talus-verify CASES -o DIR --full
-    python3 tests/studies/rows_table.py DIR/verify.csv
+    python3 tests/studies/rows_table.py DIR/verify.csv...
 
-A line a case: error and CPU time of both laws at three time steps each, at the defaults of law
-talus and at k_n = 5e10 N/m of law paper.
+A line a case: error, and in brackets the CPU time in ms, of both laws at three time steps each, at
+the defaults of law talus and at k_n = 5e10 N/m of law paper.
 """
 import csv
 import sys
@@ -33,7 +33,9 @@ PAPER_STIFFNESS = 5e10
 
 
 def text(number):
-    return "0" if float(number) == 0 else f"{float(number):.1e}".replace("e-0", "e-").replace("e+00", "")
+    if float(number) == 0:
+        return "0"
+    return f"{float(number):.1e}".replace("e-0", "e-").replace("e+0", "e").replace("e0", "")
 
 
 def chosen(lines, law):
@@ -56,15 +58,17 @@ def cell(lines, dt):
 
 
 def main():
-    with open(sys.argv[1], newline="", encoding="utf-8") as file:
-        lines = list(csv.DictReader(file))
-    print("| Row | Case | Error is | talus, 1e-2 | talus, 5e-3 | talus, 1e-3 | paper, 1e-2 | paper, 1e-3 | paper, 1e-4 |")
+    lines = []
+    for name in sys.argv[1:]:
+        with open(name, newline="", encoding="utf-8") as file:
+            lines += csv.DictReader(file)
+    print("| Row | Case | Error is | talus, 1e-2 | 5e-3 | 1e-3 | paper, 1e-2 | 1e-3 | 1e-4 |")
     print("|---|---|---|---|---|---|---|---|---|")
     for row, names in ROWS:
         for name in names:
             case = [x for x in lines if x["case"] == name]
             if not case:
-                sys.exit(f"{sys.argv[1]} has no case {name}")
+                sys.exit(f"no table has the case {name}")
             talus, paper = chosen(case, "talus"), chosen(case, "paper")
             cells = [cell(talus, dt) for dt in (1e-2, 5e-3, 1e-3)]
             cells += [cell(paper, dt) for dt in (1e-2, 1e-3, 1e-4)]
