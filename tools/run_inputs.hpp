@@ -22,8 +22,9 @@ class RunInputs {
 
   /// Checks that all files belong together (run_set.hpp), then reads them one by one in the order
   /// of their run ids, and hands each over with its place in `members`. So results do not depend on
-  /// the order of the command line, and no more than one run is held. Throws InputError;
-  /// Interrupted between two files.
+  /// the order of the command line. No more than one run is held, except where of each only its
+  /// last frame is wanted: then all, up to 200 MB of files. Throws InputError; Interrupted between
+  /// two files.
   void read(const std::vector<std::string>& files, const RunParts& parts,
             const std::function<void(RunFile&, int)>& take);
   void read(const RunParts& parts, const std::function<void(RunFile&, int)>& take) {
