@@ -179,8 +179,10 @@ double pair_margin(const Search& s, int a, int b) {
   return s.settings.margin + turn + (s.motion.step[a] - s.motion.step[b]).norm();
 }
 
+// The features that a pair had in the last step; none once a search for new ones failed, since its
+// range then counts from the new list.
 std::span<const HeldPoint> held_before(const Search& s, const ListedPair& pair) {
-  if (!pair.touches) return {};
+  if (!pair.touches || pair.held_begin == pair.held_end) return {};
   return std::span(s.state.held)
       .subspan(static_cast<std::size_t>(pair.held_begin),
                static_cast<std::size_t>(pair.held_end - pair.held_begin));
