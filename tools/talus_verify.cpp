@@ -9,6 +9,7 @@
 #include "build_info.hpp"
 #include "shipped_data.hpp"
 #include "tool.hpp"
+#include "verify/claims.hpp"
 #include "verify/ensemble.hpp"
 #include "verify/peers.hpp"
 #include "verify/stability.hpp"
@@ -41,6 +42,7 @@ void declare(Tool& tool, Options& o) {
   tool.option("--quantity", o.site.quantity, "with --site: what must be right")
       ->check(CLI::IsMember(quantity_names));
   tool.option("--runs", o.site.n_runs, "with --site: runs a setting")->check(CLI::Range(2, 1000));
+  tool.flag("--paper", o.site.with_paper, "with --site: law paper too, for comparison");
   tool.flag("--stability", o.stability, "the stability chart too");
   tool.flag("--list", o.list, "print the cases and end");
   tool.app().add_option("--peers", o.peers,
@@ -80,7 +82,7 @@ std::string machine_name() {
 }
 
 CaseOutcome run_case(const VerifyCase& c, const Options& o) {
-  CaseOutcome out{&c, {}, std::nan("")};
+  CaseOutcome out{&c, {}};
   const double least_cpu = o.full ? 0.1 : 0.02;
   for (const Method& method : methods_of(c, o.full))
     for (const double dt : method.dt) out.rows.push_back(measure(c, method, dt, least_cpu));
@@ -92,10 +94,11 @@ CaseOutcome run_case(const VerifyCase& c, const Options& o) {
 struct SlideOutcome {
   std::vector<EnsembleResult> results;
   EnsembleReference reference;
+  double way = 0;  ///< of the centre, reference [m]
 };
 
 // The settings of the slide: others first, then the defaults from the longest step to the
-// reference, which is the last.
+// reference, which is the last. Law paper with the stiffness of the paper, and with a softer one.
 std::vector<Method> slide_methods(bool full) {
   const std::vector<double> ladder = full ? std::vector<double>{5e-2, 2e-2, 1e-2, 5e-3, 2e-3, 1e-3}
                                           : std::vector<double>{2e-2, 1e-2};
@@ -105,11 +108,21 @@ std::vector<Method> slide_methods(bool full) {
   soft.settings.normal_stiffness = 1e8;
   loose.settings.tolerance_factor = 100;
   tight.settings.tolerance_factor = 0.01;
+  Method paper{"paper, k_n 5e10", {}, {1e-3}}, paper_soft{"paper, k_n 5e8", {}, {1e-3, 2e-4}};
+  paper.settings.law = paper_soft.settings.law = Law::paper;
+  paper.settings.normal_stiffness = 5e10;
+  paper_soft.settings.normal_stiffness = 5e8;
   std::vector<Method> methods;
-  if (full) methods = {soft, loose, tight};
+  if (full) {
+    paper.dt = {5e-3, 1e-3, 5e-4, 2e-4, 1e-4};
+    methods = {soft, loose, tight, paper_soft};
+  }
+  methods.push_back(paper);
   methods.push_back({"talus", {}, ladder});
   return methods;
 }
+
+double down_the_slope(const Vec3&, const Vec3& now) { return 320 - now.y(); }
 
 SlideOutcome run_slide(const Options& o) {
   const SlideData data = read_slide(shipped_data("terrain_F.asc"), shipped_data("blocks_39.obj"));
@@ -119,12 +132,12 @@ SlideOutcome run_slide(const Options& o) {
       Settings settings = method.settings;
       settings.dt = dt;
       const auto scene = [&](std::uint64_t seed) { return slide_scene(data, settings, seed); };
-      out.results.push_back(
-          run_ensemble(scene, o.full ? 8 : 1, o.full ? 20 : 4,
-                       [](const Vec3&, const Vec3& now) { return 320 - now.y(); }));
+      out.results.push_back(run_ensemble(scene, o.full ? 8 : 1, o.full ? 20 : 4, down_the_slope));
       out.results.back().method = method.name;
     }
   out.reference = reference_of(out.results.back(), out.results[out.results.size() - 2]);
+  const auto at_rest = [&data](std::uint64_t) { return slide_scene(data, {}, 0); };
+  out.way = out.reference.mean[0] - run_ensemble(at_rest, 1, 0, down_the_slope).mean[0];
   return out;
 }
 
@@ -171,13 +184,12 @@ Json as_json(const CaseOutcome& outcome) {
 }
 
 // Runs a case, writes its diagram, holds its error against its bound.
-CaseOutcome study_case(Tool& tool, const Options& o, const VerifyCase& c) {
+CaseOutcome study_case(Tool& tool, const Options& o, const VerifyCase& c,
+                       std::vector<MeasuredCase>& measured) {
   CaseOutcome outcome = run_case(c, o);
   std::vector<PeerPoint> peers;
-  if (!o.peers.empty()) {
-    peers = read_peers(o.peers, c.name);
-    outcome.peer_ratio = peer_ratio(outcome.rows, peers);
-  }
+  if (!o.peers.empty()) peers = read_peers(o.peers, c.name);
+  measured.push_back({c.name, outcome.rows, peers});
   tool.write_text(
       o.out + "/" + c.name + ".svg",
       chart_file(work_precision_chart(c.name + ", error: " + c.norm, outcome.rows, peers)));
@@ -187,18 +199,22 @@ CaseOutcome study_case(Tool& tool, const Options& o, const VerifyCase& c) {
 }
 
 // Adds the rows of its three quantities; returns its table.
-std::string study_slide(Tool& tool, const Options& o, std::vector<VerifyRow>& rows) {
+std::string study_slide(Tool& tool, const Options& o, std::vector<VerifyRow>& rows,
+                        std::vector<MeasuredCase>& measured) {
   const SlideOutcome slide = run_slide(o);
   for (std::size_t q = 0; q < quantity_names.size(); ++q) {
+    const std::string name = std::string(slide_name) + "_" + quantity_names[q];
     const std::vector<VerifyRow> own =
-        rows_of(std::string(slide_name) + "_" + quantity_names[q], static_cast<Quantity>(q),
-                slide.results, slide.reference);
+        rows_of(name, static_cast<Quantity>(q), slide.results, slide.reference);
     rows.insert(rows.end(), own.begin(), own.end());
-    if (q > 0) continue;
-    const std::string title =
-        "slide39, error of the mean place [m], known to " + text(slide.reference.band[0], 2) + " m";
-    tool.write_text(o.out + "/slide39.svg",
-                    chart_file(work_precision_chart(title, own, slide_peers(o, slide.reference))));
+    const double band = slide.reference.band[q];
+    std::vector<PeerPoint> peers;
+    if (q == 0) peers = slide_peers(o, slide.reference);
+    const std::string title = "slide39, error of the " + std::string(quantity_names[q]) + " [m]";
+    Chart chart = work_precision_chart(title, own, peers);
+    add_band(chart, band);
+    tool.write_text(o.out + "/" + name + ".svg", chart_file(chart));
+    measured.push_back({name, own, peers, useful_error * slide.way, band});
   }
   return slide_table(slide);
 }
@@ -225,13 +241,14 @@ std::string study_stability(Tool& tool, const Options& o) {
 void run(Tool& tool, const Options& o) {
   const ProgressFunction progress = tool.progress();
   std::vector<CaseOutcome> outcomes;
+  std::vector<MeasuredCase> measured;
   std::vector<VerifyRow> rows;
   Json list = Json::array();
   double done = 0;
   for (const VerifyCase& c : verify_cases()) {
     progress(++done / static_cast<double>(verify_cases().size() + 1));
     if (!is_wanted(o, c.name)) continue;
-    outcomes.push_back(study_case(tool, o, c));
+    outcomes.push_back(study_case(tool, o, c, measured));
     list.push_back(as_json(outcomes.back()));
     const std::vector<VerifyRow>& own = outcomes.back().rows;
     rows.insert(rows.end(), own.begin(), own.end());
@@ -239,7 +256,11 @@ void run(Tool& tool, const Options& o) {
   std::string summary = "Commit " + std::string(build_commit) + ", " + machine_name() +
                         (o.full ? ", full study.\n\n" : ", quick study.\n\n") +
                         summary_table(outcomes);
-  if (is_wanted(o, slide_name)) summary += "\n" + study_slide(tool, o, rows);
+  if (is_wanted(o, slide_name)) summary += "\n" + study_slide(tool, o, rows, measured);
+  summary +=
+      "\nCPU time at equal error, law talus with its defaults (for the slide: errors within "
+      "the reference's uncertainty count as equal):\n\n" +
+      claims_table(measured);
   if (o.stability) summary += "\n" + study_stability(tool, o);
   tool.write_text(o.out + "/verify.csv", csv_of(rows, machine_name(), build_commit));
   tool.write_text(o.out + "/summary.md", summary);

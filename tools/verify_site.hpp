@@ -15,6 +15,7 @@ struct SiteStudyOptions {
   std::string tolerance = "1%";     ///< share, or per cent with the sign
   std::string quantity = "centre";  ///< centre, p90 or spread
   int n_runs = 4;
+  bool with_paper = false;  ///< law paper in the table too; never the cheapest
 };
 
 /// Runs the ladder of settings, writes DIR/site.csv, site.svg and solver.toml; returns the table.

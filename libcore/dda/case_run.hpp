@@ -1,11 +1,13 @@
 // libcore/dda/case_run.hpp
-// Moves the scene of a case on and counts what its steps report.
+// Moves the scene of a case on and counts what its steps report; finds where something begins.
 // in:    a Scene
 // out:   a CaseResult, complete once finish() has its error
 #pragma once
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
+#include <numbers>
 #include <utility>
 
 #include "dda/closed_form.hpp"
@@ -13,6 +15,9 @@
 #include "dda/step.hpp"
 
 namespace talus::cases {
+
+inline constexpr double g = 10;  // [m/s2]
+inline constexpr double degree = std::numbers::pi / 180;
 
 /// A scene on its way, and the sums that a case reports of it.
 struct Run {
@@ -49,5 +54,33 @@ struct Run {
     return result;
   }
 };
+
+/// Counts what `one` took to `total`; value, expected and error stay.
+inline void add_counts(const CaseResult& one, CaseResult& total) {
+  total.steps += one.steps;
+  total.passes += one.passes;
+  total.unconverged += one.unconverged;
+  total.largest_penetration = std::max(total.largest_penetration, one.largest_penetration);
+  total.flags = total.flags | one.flags;
+}
+
+/// Where `happens(x)` turns from false to true between low and high, after n halvings.
+template <class Happens>
+double bisect(double low, double high, int n, const Happens& happens) {
+  for (int i = 0; i < n; ++i) {
+    const double middle = (low + high) / 2;
+    (happens(middle) ? high : low) = middle;
+  }
+  return (low + high) / 2;
+}
+
+/// `compute()`, its CPU time noted as not the engine's.
+template <class Compute>
+auto timed_reference(CaseResult& result, const Compute& compute) {
+  const std::clock_t begin = std::clock();
+  const auto value = compute();
+  result.reference_cpu += static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+  return value;
+}
 
 }  // namespace talus::cases

@@ -97,6 +97,24 @@ Body body_of(Polyhedron shape, const Vec3& velocity, const Vec3& spin) {
   return body;
 }
 
+std::vector<Body> arch_of(int n, double inner, double outer, double depth) {
+  std::vector<Body> bodies;
+  const std::vector<std::vector<int>> faces = {{0, 1, 2, 3}, {7, 6, 5, 4}, {0, 4, 5, 1},
+                                               {1, 5, 6, 2}, {2, 6, 7, 3}, {3, 7, 4, 0}};
+  for (int i = 0; i < n; ++i) {
+    std::vector<Vec3> v;
+    for (const double y : {-depth / 2, depth / 2})
+      for (const auto& [radius, k] :
+           {std::pair{inner, i}, {outer, i}, {outer, i + 1}, {inner, i + 1}}) {
+        const double angle = std::numbers::pi * k / n;
+        const double z = k == 0 || k == n ? 0 : std::sin(angle);
+        v.emplace_back(radius * std::cos(angle), y, radius * z);
+      }
+    bodies.push_back(body_of(polyhedron(v, faces)));
+  }
+  return bodies;
+}
+
 Scene scene_of(Trn trn, const GroundClass& ground, const std::vector<Body>& bodies,
                const Settings& settings, const Material& material) {
   Scene scene;

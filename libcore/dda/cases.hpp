@@ -52,6 +52,10 @@ struct SlopeFrame {
 [[nodiscard]] Body body_of(Polyhedron shape, const Vec3& velocity = Vec3::Zero(),
                            const Vec3& spin = Vec3::Zero());
 
+/// Half a circle of n equal stones between two radii, its ends on the plane z = 0, `depth` long in
+/// y.
+[[nodiscard]] std::vector<Body> arch_of(int n, double inner, double outer, double depth);
+
 /// Scene of bodies on one ground; g = 10 m/s2 downwards as in the paper.
 [[nodiscard]] Scene scene_of(Trn trn, const GroundClass& ground, const std::vector<Body>& bodies,
                              const Settings& settings, const Material& material = {});

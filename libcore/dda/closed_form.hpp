@@ -68,6 +68,10 @@ CaseResult toppling_angle(const Settings& settings);
 /// The same column with friction 20 degrees: angle at which it slides [deg].
 CaseResult sliding_angle(const Settings& settings);
 
+/// Cube bonded to its slope, friction 20 degrees, cohesion and tension 0.3 rho g h: angle at which
+/// the bond fails, sin(a) - tan(20) cos(a) = 0.3, 36.374 degrees: error by bisection [deg].
+CaseResult bond_angle(const Settings& settings);
+
 /// Rocking column 0.5 m x 2 m let go at half its slenderness angle: relative error of the time of
 /// the first impact, 0.48909 s, or of the ratio of the spins after and before it, 1 - 1.5 sin^2
 /// alpha.

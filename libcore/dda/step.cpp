@@ -101,11 +101,12 @@ State start(const Scene& scene) {
     state.motion[b].angular_momentum = angular_momentum(
         scene.blocks.rest[b].attitude, scene.blocks.spin[b], scene.blocks.inertia[b]);
   }
-  if (scene.settings.law == Law::talus && scene.settings.static_start &&
-      scene.settings.trn_contacts) {
+  const bool is_paper = scene.settings.law == Law::paper;
+  if (scene.settings.trn_contacts && (is_paper || scene.settings.static_start)) {
     Work work = make_work(scene);
     for (size_t b = 0; b < n; ++b)
-      if (!spins(scene, b)) settle_block(scene, static_cast<int>(b), state, work);
+      if (!spins(scene, b))
+        (is_paper ? bond_block : settle_block)(scene, static_cast<int>(b), state, work);
   }
   return state;
 }

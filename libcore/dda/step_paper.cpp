@@ -217,6 +217,7 @@ struct OpenClose {
       row.held_cap = face.friction * memory[m].normal_force;
       row.state = static_cast<ContactState>(memory[m].state);
       if (sides.bond < 0) row.bond_area = memory[m].bond_area;
+      if (row.bond_area > 0) row.state = ContactState::stick;  // a bond that has failed has no area
     }
     row.cohesion_impulse = face.cohesion * row.bond_area;  // here forces: nothing is times dt
     row.tension_impulse = face.tension * row.bond_area;

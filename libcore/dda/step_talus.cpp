@@ -440,6 +440,12 @@ void advance_block_talus(const Scene& scene, int b, double t_end, State& state, 
     advance.run<6>(t_end);
 }
 
+void bond_block(const Scene& scene, int b, State& state, Work& work) {
+  const auto i = static_cast<size_t>(b);
+  if (touches_at_rest(scene, b, state.motion[i], work))
+    bond_faces(scene, b, state.motion[i].pose, work, state.memory[i]);
+}
+
 void settle_block(const Scene& scene, int b, State& state, Work& work) {
   const auto i = static_cast<size_t>(b);
   const Motion rest = state.motion[i];

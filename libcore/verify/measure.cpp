@@ -23,11 +23,12 @@ double median(std::vector<double> values) {
 
 double drawn(double error) { return std::max(error, least_drawn); }
 
-// Smallest CPU time of law talus at an error of at most `error`; infinite where there is none.
+// Smallest CPU time of law talus, defaults but for the step, at an error of at most `error`;
+// infinite where there is none.
 double cheapest(const std::vector<VerifyRow>& rows, double error) {
   double least = std::numeric_limits<double>::infinity();
   for (const VerifyRow& row : rows)
-    if (row.law == "talus" && row.error <= error) least = std::min(least, row.cpu);
+    if (is_default(row) && row.error <= error) least = std::min(least, row.cpu);
   return least;
 }
 
@@ -69,7 +70,10 @@ VerifyRow measure(const VerifyCase& c, const Method& method, double dt, double l
   row.normal_stiffness = settings.normal_stiffness;
   row.tolerance_factor = settings.tolerance_factor;
   row.steps = result.steps;
-  row.error = std::isfinite(result.error) ? result.error : std::nan("");
+  const bool is_lost = has(result.flags, StepFlag::fell_through) ||
+                       has(result.flags, StepFlag::left_domain) ||
+                       has(result.flags, StepFlag::not_finite);
+  row.error = is_lost || !std::isfinite(result.error) ? std::nan("") : result.error;
   row.norm = c.norm;
   row.cpu = median(cpu);
   row.wall = median(wall);
@@ -110,12 +114,14 @@ std::vector<std::size_t> pareto_front(const std::vector<VerifyRow>& rows) {
   return front;
 }
 
-LawComparison compare_laws(const std::vector<VerifyRow>& rows) {
+LawComparison compare_laws(const std::vector<VerifyRow>& rows, double worst) {
   LawComparison out;
-  for (const std::size_t i : pareto_front(rows)) out.is_on_front |= rows[i].law == "talus";
-  std::vector<VerifyRow> paper;
-  for (const VerifyRow& row : rows)
-    if (row.law == "paper" && row.error <= useful_error) paper.push_back(row);
+  std::vector<VerifyRow> paper, both;
+  for (const VerifyRow& row : rows) {
+    if (row.law == "paper" && row.error <= worst) paper.push_back(row);
+    if (row.law == "paper" || is_default(row)) both.push_back(row);
+  }
+  for (const std::size_t i : pareto_front(both)) out.is_on_front |= both[i].law == "talus";
   const std::vector<std::size_t> front = pareto_front(paper);
   if (front.empty()) return out;
   out.is_compared = true;
@@ -125,6 +131,11 @@ LawComparison compare_laws(const std::vector<VerifyRow>& rows) {
     out.least_ratio = std::min(out.least_ratio, out.ratio_at_best);
   }
   return out;
+}
+
+std::string ratio_text(double ratio) {
+  if (std::isnan(ratio)) return "-";
+  return ratio >= 10 ? std::to_string(std::llround(ratio)) : text(ratio, 2);
 }
 
 Chart work_precision_chart(const std::string& title, const std::vector<VerifyRow>& rows,
@@ -160,6 +171,14 @@ Chart work_precision_chart(const std::string& title, const std::vector<VerifyRow
   }
   if (!peers.empty()) chart.series.push_back(others);
   return chart;
+}
+
+void add_band(Chart& chart, double known_to) {
+  double first = std::numeric_limits<double>::infinity(), last = 0;
+  for (const ChartSeries& line : chart.series)
+    for (const double x : line.x) first = std::min(first, x), last = std::max(last, x);
+  chart.series.push_back(
+      {"uncertainty of the reference", "#000", {first, last}, {drawn(known_to), drawn(known_to)}});
 }
 
 }  // namespace talus

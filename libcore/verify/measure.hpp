@@ -22,7 +22,7 @@ struct VerifyRow {
   bool strains = false;
   double tolerance_factor = 1;  ///< Settings::tolerance_factor
   long steps = 0;
-  double error = 0;  ///< NaN where the run did not give a finite one
+  double error = 0;  ///< NaN where the run gave none: not finite, or a block was lost
   std::string norm;  ///< what the error is, with its unit
   double cpu = 0;    ///< of the case with set-up, without its integrated reference, median [s]
   double wall = 0;   ///< with the reference [s]
@@ -46,18 +46,26 @@ struct VerifyRow {
 /// error is not finite are none.
 [[nodiscard]] std::vector<std::size_t> pareto_front(const std::vector<VerifyRow>& rows);
 
-/// How the two laws stand to each other on one case.
+/// Whether it is one of law talus with its default settings, whatever the step.
+[[nodiscard]] inline bool is_default(const VerifyRow& row) { return row.method == "talus"; }
+
+/// How law talus with its default settings, whatever the step, stands to law paper on one case.
 struct LawComparison {
   bool is_on_front = false;  ///< a row of law talus is on the front of both
-  bool is_compared = false;  ///< law paper has an error below `useful_error`
+  bool is_compared = false;  ///< law paper has an error that is an answer
   double least_ratio =
       0;  ///< CPU time of paper over talus at equal error, least over paper's front
   double ratio_at_best = 0;  ///< the same at paper's smallest error
 };
-/// An answer that errs by more is none: rows of law paper above it are not compared.
+/// An answer that errs by more is none.
 inline constexpr double useful_error = 0.1;
-/// `rows`: of one case. Where law talus never reaches an error of law paper, the ratios are 0.
-[[nodiscard]] LawComparison compare_laws(const std::vector<VerifyRow>& rows);
+/// `rows`: of one case; those of law paper that err by more than `worst` are not compared. Where
+/// law talus never reaches an error of law paper, the ratios are 0.
+[[nodiscard]] LawComparison compare_laws(const std::vector<VerifyRow>& rows,
+                                         double worst = useful_error);
+
+/// A ratio of CPU times as the tables show it; "-" for NaN.
+[[nodiscard]] std::string ratio_text(double ratio);
 
 /// Error of another program on the same case, for the diagram.
 struct PeerPoint {
@@ -71,5 +79,8 @@ struct PeerPoint {
 [[nodiscard]] Chart work_precision_chart(const std::string& title,
                                          const std::vector<VerifyRow>& rows,
                                          const std::vector<PeerPoint>& peers);
+
+/// Draws how far the reference itself is known: errors below mean nothing.
+void add_band(Chart& chart, double known_to);
 
 }  // namespace talus

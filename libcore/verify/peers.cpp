@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <limits>
 #include <map>
 #include <sstream>
 
@@ -112,19 +111,6 @@ std::vector<PeerSlide> read_peer_slides(const std::string& folder) {
   for (auto& [name, sum] : sums)
     slides.push_back({name, sum.first.centre / sum.second, sum.first.cpu / sum.second});
   return slides;
-}
-
-double peer_ratio(const std::vector<VerifyRow>& rows, const std::vector<PeerPoint>& peers) {
-  double least = std::nan("");
-  for (const PeerPoint& peer : peers) {
-    if (!(peer.error <= useful_error)) continue;
-    double cheapest = std::numeric_limits<double>::infinity();
-    for (const VerifyRow& row : rows)
-      if (row.law == "talus" && row.error <= peer.error) cheapest = std::min(cheapest, row.cpu);
-    const double ratio = peer.cpu / cheapest;
-    if (!(ratio >= least)) least = ratio;
-  }
-  return least;
 }
 
 }  // namespace talus

@@ -25,10 +25,4 @@ struct PeerSlide {
 };
 [[nodiscard]] std::vector<PeerSlide> read_peer_slides(const std::string& folder);
 
-/// How law talus stands to other engines: CPU time of theirs over its own at equal error, the least
-/// over the front of their runs that err by at most `useful_error`. NaN without such a run, 0 where
-/// talus never gets as close.
-[[nodiscard]] double peer_ratio(const std::vector<VerifyRow>& rows,
-                                const std::vector<PeerPoint>& peers);
-
 }  // namespace talus

@@ -7,11 +7,6 @@
 namespace talus {
 namespace {
 
-std::string ratio_text(double ratio) {
-  if (std::isnan(ratio)) return "-";
-  return ratio >= 10 ? std::to_string(std::llround(ratio)) : text(ratio, 2);
-}
-
 // Law paper's smallest error and what it cost.
 const VerifyRow* best_of_paper(const std::vector<VerifyRow>& rows) {
   const VerifyRow* best = nullptr;
@@ -25,16 +20,12 @@ std::string line_of(const CaseOutcome& outcome) {
   const VerifyCase& c = *outcome.about;
   const VerifyRow* own = default_row(outcome.rows);
   const VerifyRow* paper = best_of_paper(outcome.rows);
-  const LawComparison laws = compare_laws(outcome.rows);
   std::string line =
       "| `" + c.name + "` | " + c.claim + " | " + c.reference + " | " + c.norm + " | ";
   line += own ? text(own->error, 2) + " | " + text(c.bound, 2) + " | " + text(1e3 * own->cpu, 3)
               : "not run | " + text(c.bound, 2) + " | -";
   line += paper ? " | " + text(paper->error, 2) + " | " + text(1e3 * paper->cpu, 3) : " | - | -";
-  line += laws.is_compared
-              ? " | " + ratio_text(laws.ratio_at_best) + " | " + ratio_text(laws.least_ratio)
-              : " | - | -";
-  return line + " | " + ratio_text(outcome.peer_ratio) + " | `" + c.test + "` |\n";
+  return line + " | `" + c.test + "` |\n";
 }
 
 }  // namespace
@@ -53,8 +44,7 @@ bool holds(const CaseOutcome& outcome) {
 std::string summary_table(const std::vector<CaseOutcome>& outcomes) {
   std::string table =
       "| Case | Claim | Against | Error is | Error, default | Bound | CPU ms | Law paper: smallest "
-      "error | CPU ms | paper / talus at that error | least over paper's front | other engines / "
-      "talus, least | Test |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+      "error | CPU ms | Test |\n|---|---|---|---|---|---|---|---|---|---|\n";
   for (const CaseOutcome& outcome : outcomes) table += line_of(outcome);
   return table;
 }

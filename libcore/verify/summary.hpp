@@ -13,7 +13,6 @@ namespace talus {
 struct CaseOutcome {
   const VerifyCase* about = nullptr;
   std::vector<VerifyRow> rows;
-  double peer_ratio = 0;  ///< peer_ratio(); NaN without tables of other engines
 };
 
 /// The row of law talus with its defaults (step, stiffness, strains left out unless the case has

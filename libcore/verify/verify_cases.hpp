@@ -24,7 +24,6 @@ struct VerifyCase {
   std::function<cases::CaseResult(const Settings&)> run;
   CaseLaws laws = CaseLaws::both;
   int n_blocks = 1;
-  double shortest_dt = 0;             ///< no shorter step is tried: the case takes long [s]
   bool has_strains = false;           ///< runs with strains whatever the settings say
   std::vector<double> paper_dt = {};  ///< steps of law paper; empty: those of all cases [s]
 };

@@ -1,6 +1,6 @@
 // tests/stability/block_scenes.hpp
-// Scenes of many blocks and what is measured of them: piles, walls, arches on a plane; energy,
-// momentum and the farthest way a block went.
+// Scenes of many blocks and what is measured of them: walls and heaps on a plane; energy and the
+// farthest way a block went.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -33,34 +33,6 @@ inline Scene on_plane(const cases::SlopeFrame& frame, const std::vector<Body>& b
                                 bodies, settings);
   scene.joint = rough(joint_phi_deg);
   return scene;
-}
-
-/// n unit cubes one on the other on a slope.
-inline std::vector<Body> pile_of(int n, const cases::SlopeFrame& frame) {
-  std::vector<Body> bodies;
-  for (int i = 0; i < n; ++i)
-    bodies.push_back(cases::body_of(
-        cases::box_in(frame, Vec3::Zero(), Vec3(-0.5, -0.5, i), Vec3(0.5, 0.5, i + 1))));
-  return bodies;
-}
-
-/// Half a circle of n equal stones between two radii, its ends on the plane z = 0.
-inline std::vector<Body> arch_of(int n, double inner, double outer, double depth) {
-  std::vector<Body> bodies;
-  const std::vector<std::vector<int>> faces = {{0, 1, 2, 3}, {7, 6, 5, 4}, {0, 4, 5, 1},
-                                               {1, 5, 6, 2}, {2, 6, 7, 3}, {3, 7, 4, 0}};
-  for (int i = 0; i < n; ++i) {
-    std::vector<Vec3> v;
-    for (const double y : {-depth / 2, depth / 2})
-      for (const auto& [radius, k] :
-           {std::pair{inner, i}, {outer, i}, {outer, i + 1}, {inner, i + 1}}) {
-        const double angle = std::numbers::pi * k / n;
-        const double z = k == 0 || k == n ? 0 : std::sin(angle);
-        v.emplace_back(radius * std::cos(angle), y, radius * z);
-      }
-    bodies.push_back(cases::body_of(cases::polyhedron(v, faces)));
-  }
-  return bodies;
 }
 
 /// Running bond of stones of 1 x `thickness` x 0.5 m; every second course begins and ends with half
@@ -106,20 +78,6 @@ inline double farthest(const std::vector<Vec3>& before, const std::vector<Vec3>&
 inline double mechanical_energy(const Scene& scene, const State& state) {
   const Energies e = energies(scene, state);
   return e.translation + e.rotation + e.potential;
-}
-
-/// Momentum and angular momentum about the local zero, less what gravity did since time 0.
-inline Vec6 momentum(const Scene& scene, const State& state) {
-  Vec6 sum = Vec6::Zero();
-  for (int b = 0; b < n_blocks(scene); ++b) {
-    const Motion m = motion_at(scene, state, b, state.time);
-    const Vec3 p =
-        scene.blocks.mass[static_cast<std::size_t>(b)] * (m.velocity - state.time * scene.gravity);
-    const Vec3 x = m.pose.position - 0.5 * state.time * state.time * scene.gravity;
-    sum.head<3>() += p;
-    sum.tail<3>() += m.angular_momentum + x.cross(p);
-  }
-  return sum;
 }
 
 /// Twelve blocks thrown on a slope of 10 degrees in a heap.

@@ -1,6 +1,7 @@
 // The long form of stability/test_many_blocks.cpp: minutes of standing still.
 #include <gtest/gtest.h>
 
+#include "dda/block_cases.hpp"
 #include "stability/block_scenes.hpp"
 
 namespace {
@@ -17,8 +18,7 @@ Settings awake() {
 
 // Beyond the overlap that its weight presses it into within the first 5 s, nothing moves for 60 s.
 TEST(ManyBlocksLong, PileOfTenStandsForAMinute) {
-  const SlopeFrame frame = slope_frame(0, 30);
-  const Scene scene = on_plane(frame, pile_of(10, frame), 30, 30, awake());
+  const Scene scene = tower(10, 0, 30, awake());
   State state = start(scene);
   Work work = make_work(scene);
   run(scene, 5, state, work);

@@ -5,6 +5,7 @@
 
 #include "dda/block_cases.hpp"
 #include "dda/cases.hpp"
+#include "dda/closed_form.hpp"
 #include "dda/step.hpp"
 
 namespace {
@@ -71,6 +72,13 @@ TEST(LawPaper, ColumnPressesWithItsWeight) {
                 1e-3 * sunk)
         << b;
   }
+}
+
+// The weight comes on all at once, so the bond has to bear twice what the slope asks for:
+// sin(a) - tan(20) cos(a) = 0.3 / 2.
+TEST(LawPaper, BondBearsALoadPutOnAtOnce) {
+  const double expected = 20 + std::asin(0.15 * std::cos(20 * degree)) / degree;
+  EXPECT_NEAR(bond_angle(paper(1e-2, 5e10)).value, expected, 0.1);
 }
 
 // The error is that of the start: without overlap, so that the column first drops into its

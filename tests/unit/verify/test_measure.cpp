@@ -3,8 +3,8 @@
 #include <cmath>
 #include <set>
 
+#include "verify/claims.hpp"
 #include "verify/measure.hpp"
-#include "verify/peers.hpp"
 #include "verify/summary.hpp"
 
 namespace {
@@ -41,11 +41,51 @@ TEST(CompareLaws, TakesCpuTimeAtEqualError) {
   EXPECT_FALSE(compare_laws({row("talus", 1, 0.5), row("paper", 1, 0.5)}).is_compared);
 }
 
+MeasuredCase measured_with(std::vector<PeerPoint> peers) {
+  MeasuredCase out{"slide_20", {row("talus", 1, 1e-6), row("talus", 0.5, 1e-2)}, std::move(peers)};
+  out.rows[0].dt = Settings{}.dt;
+  out.rows[1].dt = 2e-2;
+  return out;
+}
+
 TEST(PeerRatio, IsTheLeastOverUsefulRuns) {
-  const std::vector<VerifyRow> rows = {row("talus", 1, 1e-6), row("talus", 0.5, 1e-2)};
-  EXPECT_DOUBLE_EQ(peer_ratio(rows, {{"a", 4, 1e-4}, {"b", 3, 2e-2}, {"c", 1e-9, 0.5}}), 4);
-  EXPECT_DOUBLE_EQ(peer_ratio(rows, {{"a", 4, 1e-9}}), 0);
-  EXPECT_TRUE(std::isnan(peer_ratio(rows, {})));
+  const MeasuredCase three = measured_with({{"a", 4, 1e-4}, {"b", 3, 2e-2}, {"c", 1e-9, 0.5}});
+  EXPECT_DOUBLE_EQ(peer_ratio(three, false), 4);
+  EXPECT_DOUBLE_EQ(peer_ratio(three, true), 3);
+  EXPECT_DOUBLE_EQ(peer_ratio(measured_with({{"a", 4, 1e-9}}), false), 0);
+  EXPECT_TRUE(std::isnan(peer_ratio(measured_with({}), false)));
+}
+
+TEST(PeerRatio, LeavesOtherSettingsOut) {
+  MeasuredCase one = measured_with({{"a", 4, 1e-4}});
+  one.rows.push_back(row("talus", 1e-3, 1e-9));
+  one.rows.back().method = "talus, k_n 1e+08";
+  EXPECT_DOUBLE_EQ(peer_ratio(one, false), 4);
+}
+
+TEST(Claims, SayWhatHolds) {
+  MeasuredCase one = measured_with({{"a", 4, 1e-4}});
+  one.rows.push_back(row("paper", 12, 1e-4));  // 12 times at its smallest error, 2 at 0.05
+  one.rows.push_back(row("paper", 1, 0.05));
+  EXPECT_NE(claims_table({one}).find("| `slide_20` | yes | 12 | 2 | 10 | at its smallest error | "
+                                     "a: 0.0001 (4e+03) | 4 | 4 | holds |"),
+            std::string::npos)
+      << claims_table({one});
+  one.name = "wedge";  // nothing asked of it
+  EXPECT_NE(claims_table({one}).find("| 12 | 2 | - | - |"), std::string::npos);
+  one.name = "bounce_face";
+  EXPECT_NE(claims_table({one}).find("| 12 | 2 | 50 | no |"), std::string::npos);
+}
+
+// Two errors below what the reference is known to are the same.
+TEST(Claims, CountErrorsBelowTheReferencesOwnAsEqual) {
+  MeasuredCase slide{"slide39_centre", {row("talus", 1, 0.3), row("talus", 9, 0.1)}, {}};
+  slide.rows.push_back(row("paper", 100, 0.2));
+  EXPECT_NE(claims_table({slide}).find("| - | - | - | - |"), std::string::npos);  // no answer
+  slide.worst = 9;
+  EXPECT_NE(claims_table({slide}).find("| 11 | 11 | 50 | no |"), std::string::npos);
+  slide.known_to = 0.4;
+  EXPECT_NE(claims_table({slide}).find("| 100 | 100 | 50 | holds |"), std::string::npos);
 }
 
 TEST(VerifyCsv, HasTheColumnsAndFlags) {
@@ -81,7 +121,7 @@ TEST(VerifyCases, AreNamedOnceAndEachHasItsDefaultStep) {
 // The whole way of one case: measured, on the front, below its bound, drawn, in the table.
 TEST(Measure, GivesErrorBesideTime) {
   const VerifyCase& c = verify_cases().front();
-  CaseOutcome outcome{&c, {}, std::nan("")};
+  CaseOutcome outcome{&c, {}};
   for (const Method& method : methods_of(c, false))
     for (const double dt : method.dt) outcome.rows.push_back(measure(c, method, dt, 0));
   EXPECT_TRUE(holds(outcome));
