@@ -99,6 +99,7 @@ struct SlideOutcome {
 
 // The settings of the slide: others first, then the defaults from the longest step to the
 // reference, which is the last. Law paper with the stiffness of the paper, and with a softer one.
+// It is off by metres, so three runs tell enough of it where law talus gets eight.
 std::vector<Method> slide_methods(bool full) {
   const std::vector<double> ladder = full ? std::vector<double>{5e-2, 2e-2, 1e-2, 5e-3, 2e-3, 1e-3}
                                           : std::vector<double>{2e-2, 1e-2};
@@ -108,13 +109,13 @@ std::vector<Method> slide_methods(bool full) {
   soft.settings.normal_stiffness = 1e8;
   loose.settings.tolerance_factor = 100;
   tight.settings.tolerance_factor = 0.01;
-  Method paper{"paper, k_n 5e10", {}, {1e-3}}, paper_soft{"paper, k_n 5e8", {}, {1e-3, 2e-4}};
+  Method paper{"paper, k_n 5e10", {}, {1e-3}}, paper_soft{"paper, k_n 5e8", {}, {1e-3}};
   paper.settings.law = paper_soft.settings.law = Law::paper;
   paper.settings.normal_stiffness = 5e10;
   paper_soft.settings.normal_stiffness = 5e8;
   std::vector<Method> methods;
   if (full) {
-    paper.dt = {5e-3, 1e-3, 5e-4, 2e-4, 1e-4};
+    paper.dt = {1e-3, 2e-4, 1e-4};
     methods = {soft, loose, tight, paper_soft};
   }
   methods.push_back(paper);
@@ -132,7 +133,8 @@ SlideOutcome run_slide(const Options& o) {
       Settings settings = method.settings;
       settings.dt = dt;
       const auto scene = [&](std::uint64_t seed) { return slide_scene(data, settings, seed); };
-      out.results.push_back(run_ensemble(scene, o.full ? 8 : 1, o.full ? 20 : 4, down_the_slope));
+      const int n_runs = !o.full ? 1 : settings.law == Law::paper ? 3 : 8;
+      out.results.push_back(run_ensemble(scene, n_runs, o.full ? 20 : 4, down_the_slope));
       out.results.back().method = method.name;
     }
   out.reference = reference_of(out.results.back(), out.results[out.results.size() - 2]);

@@ -144,7 +144,8 @@ std::vector<VerifyCase> single_block_cases() {
        .norm = "degrees",
        .test = "LawTalusDefault.WedgeStopsSlidingAtTheCriticalFriction",
        .bound = 0.05,
-       .run = wedge_critical},
+       .run = wedge_critical,
+       .shortest_strained_dt = 5e-3},
       {.name = "toppling",
        .claim = "a column topples from 26.565 degrees",
        .reference = "closed form",
@@ -354,7 +355,10 @@ void add_full_study(const VerifyCase& c, std::vector<Method>& methods) {
   for (const double stiffness : {1e8, 5e10}) methods.push_back(law_talus({stiffness}, few));
   for (const double tolerance : {1e4, 1e2, 1e-2})
     methods.push_back(law_talus({0, false, tolerance}, few));
-  if (is_alone && !c.has_strains) methods.push_back(law_talus({0, true}, few));
+  if (is_alone && !c.has_strains) {
+    methods.push_back(law_talus({0, true}, few));
+    std::erase_if(methods.back().dt, [&c](double dt) { return dt < c.shortest_strained_dt; });
+  }
   if (c.laws != CaseLaws::both) return;
   const std::vector<double> dt = {1e-2, 3e-3, 1e-3, 3e-4, 1e-4};
   for (const double stiffness : {paper_stiffness, 5e8})

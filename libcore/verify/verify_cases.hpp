@@ -24,6 +24,7 @@ struct VerifyCase {
   std::function<cases::CaseResult(const Settings&)> run;
   CaseLaws laws = CaseLaws::both;
   int n_blocks = 1;
+  double shortest_strained_dt = 0;    ///< law talus with strains: shorter steps take minutes [s]
   bool has_strains = false;           ///< runs with strains whatever the settings say
   std::vector<double> paper_dt = {};  ///< steps of law paper; empty: those of all cases [s]
 };
