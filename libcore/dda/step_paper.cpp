@@ -208,15 +208,21 @@ struct OpenClose {
     row.friction = face.friction;
     row.state = row.gap_start < 0 || sides.bond >= 0 ? ContactState::stick : ContactState::open;
     row.offset = std::max(0.0, -row.gap_start);
+    // a vertex in a valley has a contact on either side of it, both with the vertex's key
+    double nearest = -1;
     for (size_t m = 0; m < memory.size(); ++m) {
-      if (!(memory[m].key == key)) continue;
+      if (!(memory[m].key == key) || memory[m].normal.dot(row.normal) <= nearest) continue;
+      nearest = memory[m].normal.dot(row.normal);
       row.memory = static_cast<int>(m);
-      row.shear = memory[m].shear - row.normal.dot(memory[m].shear) * row.normal;
-      row.slip_start = memory[m].slip_direction;
-      row.offset = memory[m].offset;
-      row.held_cap = face.friction * memory[m].normal_force;
-      row.state = static_cast<ContactState>(memory[m].state);
-      if (sides.bond < 0) row.bond_area = memory[m].bond_area;
+    }
+    if (row.memory >= 0) {
+      const ContactMemory& last = memory[static_cast<size_t>(row.memory)];
+      row.shear = last.shear - row.normal.dot(last.shear) * row.normal;
+      row.slip_start = last.slip_direction;
+      row.offset = last.offset;
+      row.held_cap = face.friction * last.normal_force;
+      row.state = static_cast<ContactState>(last.state);
+      if (sides.bond < 0) row.bond_area = last.bond_area;
       if (row.bond_area > 0) row.state = ContactState::stick;  // a bond that has failed has no area
     }
     row.cohesion_impulse = face.cohesion * row.bond_area;  // here forces: nothing is times dt

@@ -32,6 +32,11 @@ TEST(LawPaper, SlidesNearTheClosedForm) {  // Fig. 10
             5e-3);  // creep [m]: it does not quite stick
 }
 
+// Keel in a valley: its vertices touch both planes, each with the friction of its own normal force.
+TEST(LawPaper, WedgeSlidesNearTheClosedForm) {
+  EXPECT_LT(wedge(law_paper(1e-4, 5e10), 20).error, 1e-3);
+}
+
 TEST(LawPaper, PrismStartsToRollNearTheCriticalAngle) {  // Fig. 11, (27)
   for (const int n : {3, 6, 12}) EXPECT_LT(rolling_angle(law_paper(1e-3, 1e9), n).error, 0.5) << n;
 }
