@@ -5,6 +5,7 @@
 #include <map>
 #include <numbers>
 
+#include "base/grouped_text.hpp"
 #include "base/sha256.hpp"
 #include "base/text.hpp"
 #include "io/geopackage_gdal.hpp"
@@ -500,16 +501,17 @@ std::vector<VectorField> part_fields(std::vector<VectorField> fields) {
 
 VectorLayer field_layer(const std::vector<FenceCase>& cases,
                         const std::vector<FenceResult>& results, const Vec3& origin) {
-  VectorLayer layer{"fence_fields",
-                    "fields of the fences",
-                    GeometryType::line_zm,
-                    part_fields({{"fence", FieldType::text}, {"field", FieldType::integer}}),
-                    {},
-                    vector_qml({SymbolKind::line,
-                                "pass",
-                                {{"1", "meets the code", {51, 160, 44, 255}},
-                                 {"0", "does not, or too few arrivals", {227, 26, 28, 255}}},
-                                1.2})};
+  VectorLayer layer{
+      "fence_fields",
+      "fields of the fences",
+      GeometryType::line_zm,
+      part_fields({{"fence", FieldType::text}, {"field", FieldType::integer}}),
+      {},
+      vector_qml({SymbolKind::line,
+                  "pass",
+                  {{"1", "meets the code", {51, 160, 44, 255}},
+                   {"0", "does not meet it, or too few arrivals", {227, 26, 28, 255}}},
+                  1.2})};
   for (const char* name : {"storage_m3", "required_capacity_kj", "required_height_m"})
     layer.fields.push_back({name, FieldType::real});
   for (const char* name : {"smallest_class", "governs"})
@@ -641,15 +643,17 @@ std::string summary_of(const FenceCase& c, std::size_t index, const FenceResult&
   std::string out = "fence " + c.line.name + ": " + std::to_string(total) + " blocks of " +
                     std::to_string(group.n()) + (group.n() == 1 ? " run:" : " runs:");
   for (const auto& [verdict, n] : count) out += " " + std::to_string(n) + " " + text(verdict) + ",";
+  std::replace(out.begin() + static_cast<std::ptrdiff_t>(out.find(':')), out.end(), '_', ' ');
   out.back() = ';';
   if (r.whole.n == 0) return out + " no centroid crossed its line";
-  out += " largest energy " + text(r.whole.energy.largest / 1e3, 4) + " kJ, highest top " +
+  out += " largest energy " + grouped_text(r.whole.energy.largest / 1e3, 4) + " kJ, highest top " +
          text(r.whole.top.largest, 3) + " m; ";
   if (!r.design.enough)
     return out + "design check not possible: " + std::to_string(r.whole.n) + " arrivals, needs " +
            std::to_string(r.design.n_needed);
-  return out + "needs " + text(r.design.required_capacity / 1e3, 4) + " kJ (class " +
-         r.design.smallest_class + ") and " + text(r.design.required_height, 3) + " m: " +
+  return out + "needs " + grouped_text(r.design.required_capacity / 1e3, 4) +
+         " kJ (class: " + r.design.smallest_class + ") and a height of " +
+         text(r.design.required_height, 3) + " m: " +
          (r.design.pass ? "meets the code"
                         : "does not meet the code, " + r.design.governs + " governs");
 }

@@ -472,11 +472,12 @@ std::string summary_of(const Ordered& all) {
       text(e.path, 5) + " m along the path (" + text(e.chord, 5) + " m straight), angle of reach " +
       text(e.path_angle() * degrees, 4) + " deg (" + text(e.chord_angle() * degrees, 4) + " deg)";
   if (!first.event.profile.monotone)
-    out += "\nthe angle is not monotone along the path: the smallest, " +
-           text(first.event.profile.smallest * degrees, 4) + " deg, lies " +
+    out += "\nenergy line: seen from the toe block's start the angle is smallest, " +
+           text(first.event.profile.smallest * degrees, 4) + " deg, at " +
            text(first.event.profile.smallest_at, 4) +
-           " m from the toe block's start, where a steeper energy line ends " +
-           text(first.event.profile.missing_head, 3) + " m below the ground";
+           " m, not at the toe: a straight line from start to toe runs up to " +
+           text(first.event.profile.missing_head, 3) +
+           " m below the ground, so an energy line of that angle stops short of the toe";
   out += "\nvolume: released " + text(all.balance.released, 6) + " m3 = deposited " +
          text(all.balance.deposited, 6) + " + moving " + text(all.balance.moving, 6) + " + left " +
          text(all.balance.left, 6);
