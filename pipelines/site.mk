@@ -27,7 +27,7 @@ clean: ## remove everything that was made
 help_files := $(addprefix $(PIPELINES),site.mk trn.mk blocks.mk dda.mk runout.mk maps.mk fence.mk report.mk new_site.mk) \
   $(filter-out $(PIPELINES)%,$(MAKEFILE_LIST))
 help: ## this list
-	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  \1: \2/p' $(help_files)
+	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  \1: \2/p' $(help_files)$(if $(wildcard manifest.sha256),, | grep -v '^  data:')
 	@echo 'Several runs side by side: make RUNS=50 -j4. One input, other results: make OUT=out2 ...'
 
 include $(PIPELINES)new_site.mk

@@ -329,6 +329,26 @@ std::string arrival_table(const Json& whole) {
                     table, {false, true, true, true, true, true, true});
 }
 
+// Energies and heights of the centroids that came over the line, and what the fence holds.
+std::string arrivals(const Json& fence) {
+  const Json whole = at(fence, {"whole"});
+  const std::string held =
+      "Volume held: " + number(at(fence, {"retained_m3"})) +
+      " m&sup3;, storage behind the fence: " + number(at(fence, {"storage_m3"})) + " m&sup3;.";
+  if (number(at(whole, {"n"})) == "0")
+    return paragraph(
+        "No centroid came over the line, so the runs with the fence hold no energy and height of "
+        "an "
+        "arrival. What would come to the line, the runs without the fence say" +
+        std::string(at(fence, {"comparison"}).is_null() ? " (WITHOUT=yes). " : ": see below. ") +
+        held);
+  return arrival_table(whole) +
+         paragraph(
+             "Most centroids over the line in a run: " + number(at(whole, {"most_hits_in_a_run"})) +
+             "; within one second up to " + number(at(whole, {"hits_in_that_second"})) + " with " +
+             number(at(whole, {"energy_in_one_second_kj"})) + " kJ together. " + held);
+}
+
 std::string field_table(const Json& fields) {
   std::vector<std::vector<std::string>> rows;
   if (fields.is_array())
@@ -371,13 +391,7 @@ std::string fence_section(const ReportData& data) {
   for (const Json& fence : data.fence["fences"]) {
     out += "<h3>" + words(at(fence, {"name"})) + ": " + number(at(fence, {"length_m"})) +
            " m long, " + number(at(fence, {"height_m"})) + " m high</h3>\n" + fence_verdict(fence);
-    out += verdict_table(at(fence, {"verdicts"})) + arrival_table(at(fence, {"whole"}));
-    out += paragraph(
-        "Most hits in a run: " + number(at(fence, {"whole", "most_hits_in_a_run"})) +
-        "; within one second up to " + number(at(fence, {"whole", "hits_in_that_second"})) +
-        " with " + number(at(fence, {"whole", "energy_in_one_second_kj"})) +
-        " kJ together. Volume held: " + number(at(fence, {"retained_m3"})) +
-        " m&sup3;, storage behind the fence: " + number(at(fence, {"storage_m3"})) + " m&sup3;.");
+    out += verdict_table(at(fence, {"verdicts"})) + arrivals(fence);
     out += folded("Each field between two posts", field_table(at(fence, {"fields"})));
     if (!at(fence, {"comparison"}).is_null())
       out += "<h3>With and without</h3>\n" + comparison_table(at(fence, {"comparison"}));

@@ -501,22 +501,23 @@ std::vector<VectorField> part_fields(std::vector<VectorField> fields) {
 
 VectorLayer field_layer(const std::vector<FenceCase>& cases,
                         const std::vector<FenceResult>& results, const Vec3& origin) {
-  VectorLayer layer{
-      "fence_fields",
-      "fields of the fences",
-      GeometryType::line_zm,
-      part_fields({{"fence", FieldType::text}, {"field", FieldType::integer}}),
-      {},
-      vector_qml({SymbolKind::line,
-                  "pass",
-                  {{"1", "meets the code", {51, 160, 44, 255}},
-                   {"0", "does not meet it, or too few arrivals", {227, 26, 28, 255}}},
-                  1.2})};
+  VectorLayer layer{"fence_fields",
+                    "fields of the fences",
+                    GeometryType::line_zm,
+                    part_fields({{"fence", FieldType::text}, {"field", FieldType::integer}}),
+                    {},
+                    vector_qml({SymbolKind::line,
+                                "verdict",
+                                {{"meets", "meets the code", {51, 160, 44, 255}},
+                                 {"does not meet", "does not meet it", {227, 26, 28, 255}},
+                                 {"too few arrivals", "too few arrivals", {120, 120, 120, 255}}},
+                                1.2})};
   for (const char* name : {"storage_m3", "required_capacity_kj", "required_height_m"})
     layer.fields.push_back({name, FieldType::real});
   for (const char* name : {"smallest_class", "governs"})
     layer.fields.push_back({name, FieldType::text});
   layer.fields.push_back({"pass", FieldType::integer});
+  layer.fields.push_back({"verdict", FieldType::text});
   for (std::size_t i = 0; i < cases.size(); ++i)
     for (std::size_t f = 0; f < results[i].fields.size(); ++f) {
       const FieldResult& r = results[i].fields[f];
@@ -529,7 +530,10 @@ VectorLayer field_layer(const std::vector<FenceCase>& cases,
       feature.values.insert(feature.values.end(),
                             {r.storage, r.design.required_capacity / 1e3, r.design.required_height,
                              r.design.smallest_class, r.design.governs,
-                             static_cast<std::int64_t>(r.design.pass ? 1 : 0)});
+                             static_cast<std::int64_t>(r.design.pass ? 1 : 0),
+                             std::string(!r.design.enough ? "too few arrivals"
+                                         : r.design.pass  ? "meets"
+                                                          : "does not meet")});
       layer.features.push_back(std::move(feature));
     }
   return layer;
