@@ -256,9 +256,8 @@ struct AdvanceIsland {
   void add_member(size_t k, double h) {
     const BlockNumbers& c = w.numbers[k];
     const Substep& s = w.substeps[k];
-    const FreeTurn turn = {s.R * s.start.pose.attitude.conjugate().toRotationMatrix(),
-                           spin_of(s.start, c.inertia), s.R * s.spin_free,
-                           s.R * c.inertia.cwiseInverse().asDiagonal() * s.R.transpose()};
+    const FreeTurn turn = {s.R * s.R_start.transpose(), s.R_start * s.spin_start, s.R * s.spin_free,
+                           s.R * c.per_inertia.asDiagonal() * s.R.transpose()};
     Vec6 free, guess;
     free << s.free.velocity, turn.spin_end;
     guess << s.start.velocity + h * state.acceleration[block(k)],
@@ -329,8 +328,8 @@ struct AdvanceIsland {
     if (work.rows.empty()) return true;
     open_pair(static_cast<int>(k), -1);
     for (ContactRow& row : work.rows) {
-      for (Vec3* v :
-           {&row.normal, &row.point, &row.drift, &row.shear, &row.shear_velocity, &row.slip_start})
+      for (Vec3* v : {&row.normal, &row.point, &row.drift, &row.shear, &row.shear_velocity,
+                      &row.slip_start, &row.free_move})
         *v = s.R * *v;
       const Contact& contact = work.contacts[static_cast<size_t>(row.contact)];
       const GroundClass& ground = scene.ground.classes[static_cast<size_t>(contact.ground_class)];
@@ -1087,7 +1086,7 @@ struct AdvanceIsland {
       const Substep& s = w.substeps[k];
       const Motion end = end_of(k);
       add_path(k, end, t, h);
-      set_rates(scene, w.members[k], s.start, end, h, state);
+      set_rates(w.members[k], w.numbers[k], s, end, state);
       const Vec3 external = s.free_acceleration - scene.gravity;
       if (!external.isZero(0))
         state.ledger.base +=
