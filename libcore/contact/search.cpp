@@ -84,14 +84,16 @@ bool is_far_above(const Trn& trn, const GridPoint& at, double z, double margin) 
   return height > 0 && height * height > 1.0001 * margin * margin * (1 + gradient.squaredNorm());
 }
 
+// `all_on_grid`: no vertex lies off it.
 void find_mode_1(const Ground& ground, const Shapes& shapes, int b, double highest, double margin,
-                 const std::vector<Vec3>& vertices, std::vector<Contact>& contacts) {
+                 bool all_on_grid, const std::vector<Vec3>& vertices,
+                 std::vector<Contact>& contacts) {
   const std::span<const Vec3> body = vertices_of(shapes, b);
   const Trn& trn = ground.trn;
   const double near_cells = 4 * margin / trn.cell_size;
   for (size_t v = 0; v < vertices.size(); ++v) {
     const Vec3& x = vertices[v];
-    if (x.z() > highest + margin || !contains(trn, x.x(), x.y())) continue;
+    if (x.z() > highest + margin || !(all_on_grid || contains(trn, x.x(), x.y()))) continue;
     const GridPoint at = locate(trn, x.x(), x.y());
     if (is_far_above(trn, at, x.z(), margin)) continue;
     const TrianglePlane plane = plane_at(trn, at);
@@ -303,7 +305,9 @@ SearchResult find_contacts(const Ground& ground, const Shapes& shapes, int b, co
   const NearCells near = find_near_cells(ground.trn, ground.pyramid, low, high, margin);
   if (near.reach == Reach::above) return {near.reach, low.z() - near.ground.high};
   if (near.reach == Reach::off_ground) return {near.reach, 0};
-  find_mode_1(ground, shapes, b, near.ground.high, margin, vertices, contacts);
+  const bool all_on_grid =
+      contains(ground.trn, low.x(), low.y()) && contains(ground.trn, high.x(), high.y());
+  find_mode_1(ground, shapes, b, near.ground.high, margin, all_on_grid, vertices, contacts);
   find_features({ground, shapes, b, pose, margin, R, low, high}, near.cells, contacts);
   return {near.reach, 0};
 }

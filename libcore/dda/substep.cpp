@@ -35,11 +35,12 @@ Vec3 load_torque(const Scene& scene, int b, const Quat& attitude) {
 int row_of(const ContactMemory& memory, const Work& work) {
   int best = -1;
   double nearest = 0.5;  // never over more than 60 degrees
-  for (size_t i = 0; i < work.rows.size(); ++i) {
-    const Contact& contact = work.contacts[static_cast<size_t>(work.rows[i].contact)];
+  for (size_t i = 0; i < work.contacts.size(); ++i) {
+    const Contact& contact = work.contacts[i];
     if (contact.key.feature_a != memory.key.feature_a || !(contact.key == memory.key)) continue;
     const double cosine = contact.normal.dot(memory.normal);
     if (cosine > nearest) nearest = cosine, best = static_cast<int>(i);
+    if (cosine > parallel) break;
   }
   return best;
 }
