@@ -8,14 +8,14 @@ say() { echo "new-site: $1" >&2; exit "$2"; }
 
 [ -n "$name" ] && [ -n "$ground" ] && [ -n "$source" ] ||
   say "give a folder, the ground and the release polygon: make new-site NAME=../my_slope DEM=dem.tif SOURCE=release.gpkg" 2
-[ ! -e "$name" ] || say "$name exists already" 1
-for file in "$ground" "$source"; do [ -f "$file" ] || say "$file: there is no such file" 1; done
+[ ! -e "$name" ] || say "$(realpath "$name") exists already: choose another NAME, or move it away" 1
+for file in "$ground" "$source"; do [ -f "$file" ] || say "$file: there is no such file, seen from $PWD: give its whole path" 1; done
 
 # A raster or a vector file? What GDAL opens as a raster is taken as an elevation model.
 if gdalinfo "$ground" >/dev/null 2>&1; then key=dem
 elif ogrinfo -so "$ground" >/dev/null 2>&1; then key=contours
-else say "$ground: neither an elevation raster nor a vector file" 1; fi
-ogrinfo -so "$source" >/dev/null 2>&1 || say "$source: not a vector file" 1
+else say "$ground: neither an elevation raster nor a vector file that GDAL can read (gdalinfo, ogrinfo)" 1; fi
+ogrinfo -so "$source" >/dev/null 2>&1 || say "$source: not a vector file that GDAL can read (ogrinfo)" 1
 
 part=$(mktemp -d "$(dirname "$name")/.new-site.XXXXXX")
 trap 'rm -rf "$part"' EXIT
@@ -84,4 +84,5 @@ END
 chmod 755 "$part"
 mv -T "$part" "$name"
 trap - EXIT
+name=$(realpath "$name")
 echo "$name is made: edit $name/site.toml (source, joints, friction), then make -C $name"

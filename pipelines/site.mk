@@ -23,8 +23,11 @@ all: report ## everything, up to the report
 clean: ## remove everything that was made
 	rm -rf $(OUT)
 
+# The goals in the order of the pipeline, and those that the site's Makefile adds.
+help_files := $(addprefix $(PIPELINES),site.mk trn.mk blocks.mk dda.mk runout.mk maps.mk fence.mk report.mk new_site.mk) \
+  $(filter-out $(PIPELINES)%,$(MAKEFILE_LIST))
 help: ## this list
-	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  \1: \2/p' $(sort $(MAKEFILE_LIST) $(wildcard $(PIPELINES)*.mk))
+	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  \1: \2/p' $(help_files)$(if $(wildcard manifest.sha256),, | grep -v '^  data:')
 	@echo 'Several runs side by side: make RUNS=50 -j4. One input, other results: make OUT=out2 ...'
 
 include $(PIPELINES)new_site.mk
@@ -87,5 +90,5 @@ data: ## check the site's data against manifest.sha256
 $(OUT)/data.ok: manifest.sha256 $(wildcard $(shell cut -c67- manifest.sha256)) | $(OUT)
 	@sha256sum --check --quiet manifest.sha256 || { echo "The data of this site are missing or differ: see README.md." >&2; exit 1; }
 	@touch $@
-$(OUT)/tin.ply $(OUT)/trn.tif: | $(OUT)/data.ok
+$(STAGES)/site.mk $(OUT)/tin.ply $(OUT)/trn.tif: | $(OUT)/data.ok
 endif

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <set>
 
+#include "base/grouped_text.hpp"
 #include "base/text.hpp"
 #include "post/csv.hpp"
 #include "report/chart.hpp"
@@ -28,21 +29,11 @@ Json at(const Json& json, std::initializer_list<const char*> keys) {
   return *here;
 }
 
-// "12,430" where text() gives 1.243e+04; very large and very small numbers keep their power of ten.
-std::string plain(double value, int digits) {
-  const double size = std::abs(value);
-  if (!(size >= 1e4 && size < 1e9)) return text(value, digits);
-  const double unit = std::pow(10, std::floor(std::log10(size)) + 1 - digits);
-  std::string out = std::to_string(std::llround(std::round(size / unit) * unit));
-  for (std::size_t place = out.size(); place > 3; place -= 3) out.insert(place - 3, ",");
-  return (value < 0 ? "-" : "") + out;
-}
-
 std::string number(const Json& value, int digits = 4) {
   if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
   if (!value.is_number()) return "&ndash;";
   if (value.is_number_integer()) digits = 9;
-  return plain(value.get<double>(), digits);
+  return grouped_text(value.get<double>(), digits);
 }
 
 std::string percent(const Json& value) {
@@ -85,14 +76,15 @@ bool all_pass(const ReportData& data) {
 
 // --- what came out -------------------------------------------------------------------------------
 
-// "1 stopped, 56 not reached"
+// "1 stopped, 56 did not reach it"
 std::string verdict_counts(const Json& fence) {
   std::string out;
   const Json verdicts = at(fence, {"verdicts"});
   if (verdicts.is_object())
     for (const auto& [name, v] : verdicts.items())
       if (number(at(v, {"n"})) != "0")
-        out += (out.empty() ? "" : ", ") + number(at(v, {"n"})) + " " + escaped(name);
+        out += (out.empty() ? "" : ", ") + number(at(v, {"n"})) + " " +
+               (name == "not_reached" ? "did not reach it" : escaped(name));
   std::replace(out.begin(), out.end(), '_', ' ');
   return out;
 }
@@ -101,14 +93,14 @@ std::string fence_verdict(const Json& fence) {
   const Json design = at(fence, {"design", "whole"});
   const std::string name = "fence " + words(at(fence, {"name"}));
   if (number(at(fence, {"whole", "n"})) == "0")
-    return "<div class=\"verdict\"><b>" + name + "</b>: no centroid crossed its line (" +
+    return "<div class=\"verdict\"><b>" + name + "</b>: no block's centroid crossed its line (" +
            verdict_counts(fence) + ").</div>\n";
   const bool pass = at(design, {"pass"}).is_boolean() && at(design, {"pass"}).get<bool>();
   std::string out = std::string("<div class=\"verdict ") + (pass ? "pass" : "fail") + "\"><b>" +
                     name + (pass ? " meets " : " does not meet ") +
                     escaped(fs::path(words(at(fence, {"design", "code"}))).stem().string()) +
-                    "</b>: needs " + number(at(design, {"required_capacity_kj"})) + " kJ (class " +
-                    words(at(design, {"smallest_class"})) + ") and a height of " +
+                    "</b>: needs " + number(at(design, {"required_capacity_kj"})) +
+                    " kJ (class: " + words(at(design, {"smallest_class"})) + ") and a height of " +
                     number(at(design, {"required_height_m"}), 3) + " m; it is " +
                     number(at(fence, {"height_m"}), 3) + " m high";
   const Json capacity = at(fence, {"capacity_kj"});
@@ -123,19 +115,23 @@ std::string fence_verdict(const Json& fence) {
 std::string summary(const ReportData& data) {
   const Json& r = data.runout;
   const auto mean = [&r](const char* key) { return at(r, {"spread_over_runs", key, "mean"}); };
-  double fastest = 0;
+  double fastest = 0, way = 0;  // of any block; of the centre of mass, mean of the runs
   if (at(r, {"runs"}).is_array())
-    for (const Json& run : r["runs"])
+    for (const Json& run : r["runs"]) {
       if (at(run, {"max_speed_m_s"}).is_number())
         fastest = std::max(fastest, run["max_speed_m_s"].get<double>());
+      if (const Json length = at(run, {"centre_of_mass", "L_path_m"}); length.is_number())
+        way += length.get<double>() / static_cast<double>(r["runs"].size());
+    }
   const std::size_t n = data.runs.size();
   std::string out = "<div class=\"facts\">\n";
   out += fact(std::to_string(n), n == 1 ? "run" : "runs");
   out += fact(number(at(data.blocks, {"n_blocks"})), "blocks");
   out += fact(number(at(data.blocks, {"volume_m3"})) + " m&sup3;", "released rock");
-  out += fact(number(mean("H_m")) + " m", "H, drop of the event");
-  out += fact(number(mean("L_path_m")) + " m", "L, run-out along the path");
+  out += fact(number(mean("H_m")) + " m", "H, drop from the top to the farthest block");
+  out += fact(number(mean("L_path_m")) + " m", "L, run-out of the farthest block along its path");
   out += fact(number(mean("reach_angle_path_deg"), 3) + "&deg;", "angle of reach, atan(H/L)");
+  out += fact(grouped_text(way, 3) + " m", "way of the centre of mass of all blocks, in plan");
   out += fact(text(fastest, 3) + " m/s", "largest speed of a block");
   out += fact(number(at(r, {"swept_area_m2"})) + " m&sup2;", "swept area");
   out += "</div>\n";
@@ -173,6 +169,26 @@ constexpr MapText map_texts[] = {
     {"energy_line", "Energy line",
      "smallest angle from a block's start to the cell along its path [deg]"}};
 
+// What stands between `name="` and the next quote.
+std::string attribute(const std::string& xml, const std::string& name) {
+  const std::size_t begin = xml.find(" " + name + "=\"");
+  if (begin == std::string::npos) return "";
+  const std::size_t first = begin + name.size() + 3;
+  return xml.substr(first, xml.find('"', first) - first);
+}
+
+// The classes of a style in the page's own letters: those of a picture shrink with it.
+std::string legend_of(const std::string& qml) {
+  std::string out;
+  for (std::size_t i = qml.find("<item "); i != std::string::npos; i = qml.find("<item ", i + 1)) {
+    const std::string item = qml.substr(i, qml.find("/>", i) - i);
+    if (attribute(item, "alpha") == "0") continue;
+    out += "<span><i style=\"background:" + attribute(item, "color") + "\"></i>" +
+           attribute(item, "label") + "</span> ";
+  }
+  return out.empty() ? "" : "<span class=\"legend\">" + out + "</span>";
+}
+
 std::string map_section(const ReportData& data) {
   std::string out =
       figure(plan_view_svg(data.shown, data.terrain, data.hillshade_png),
@@ -180,11 +196,11 @@ std::string map_section(const ReportData& data) {
              "centroids<i class=\"end\"></i>end<i class=\"fence\"></i>fence line</span>. Run " +
                  escaped(data.shown_name) + "; north is up.");
   out += paragraph(
-      "Every cell counts a block once, with its largest value over all steps of the "
-      "solver. Denominator: " +
+      "Every cell counts a block once, with its largest value over all steps of the solver. Shares "
+      "are parts of a sum over blocks, not over tons: " +
       words(at(data.runout, {"tags", "DENOMINATOR"})) +
-      ". With few passages percentiles are not shown but maxima; the legend says "
-      "which.");
+      ". With few passages the maps show largest values, else the 95th percentile: the heading of "
+      "the picture's legend says which (_max or _p95).");
   out += "<div class=\"maps\">\n";
   for (const MapText& map : map_texts) {
     const auto found = std::find_if(data.maps.begin(), data.maps.end(),
@@ -193,7 +209,7 @@ std::string map_section(const ReportData& data) {
     out += figure("<img loading=\"lazy\" alt=\"" + std::string(map.title) + "\" src=\"" +
                       data_address("image/png", found->png) + "\">",
                   "<b>" + std::string(map.title) + "</b>: " + map.caption + ". <code>maps/" +
-                      map.name + ".tif</code>");
+                      map.name + ".tif</code>" + legend_of(found->qml));
   }
   return section("maps", "Maps", out + "</div>\n");
 }
@@ -208,15 +224,19 @@ std::string spread_table(const Json& spread) {
       {"reach_angle_path_deg", "angle of reach, path [deg]"},
       {"reach_angle_chord_deg", "angle of reach, straight [deg]"},
       {"H_cm_over_L_cm", "H/L of the centre of mass [1]"}};
+  // One run has no spread: its value stands alone.
+  const bool one = number(at(spread, {"H_m", "n"})) == "1";
+  std::vector<std::string> headings = {"quantity", "mean", "min", "p50", "p95", "max"};
+  if (one) headings = {"quantity", "value"};
   std::vector<std::vector<std::string>> table;
   for (const auto& [key, name] : rows) {
     std::vector<std::string> row = {name};
-    for (const char* column : {"mean", "min", "p50", "p95", "max"})
-      row.push_back(number(at(spread, {key, column})));
+    for (std::size_t c = 1; c < headings.size(); ++c)
+      row.push_back(number(at(spread, {key, one ? "mean" : headings[c].c_str()})));
     table.push_back(row);
   }
-  return html_table({"quantity", "mean", "min", "p50", "p95", "max"}, table,
-                    {false, true, true, true, true, true});
+  return html_table(headings, table, {false, true, true, true, true, true}) +
+         (one ? "" : note("Over the runs; p50: half of them lie below, p95: 95 in 100 lie below."));
 }
 
 std::string mobility_table(const Json& mobility) {
@@ -232,7 +252,7 @@ std::string mobility_table(const Json& mobility) {
                       number(at(first, {"exceedance_probability"}), 2),
                       words(at(relation, {"source"})) +
                           (from_memory.is_boolean() && from_memory.get<bool>()
-                               ? " <b>(numbers from memory: check before use)</b>"
+                               ? " <b>(not checked against the print: check before use)</b>"
                                : "")});
     }
   return html_table(
@@ -309,6 +329,26 @@ std::string arrival_table(const Json& whole) {
                     table, {false, true, true, true, true, true, true});
 }
 
+// Energies and heights of the centroids that came over the line, and what the fence holds.
+std::string arrivals(const Json& fence) {
+  const Json whole = at(fence, {"whole"});
+  const std::string held =
+      "Volume held: " + number(at(fence, {"retained_m3"})) +
+      " m&sup3;, storage behind the fence: " + number(at(fence, {"storage_m3"})) + " m&sup3;.";
+  if (number(at(whole, {"n"})) == "0")
+    return paragraph(
+        "No centroid came over the line, so the runs with the fence hold no energy and height of "
+        "an "
+        "arrival. What would come to the line, the runs without the fence say" +
+        std::string(at(fence, {"comparison"}).is_null() ? " (WITHOUT=yes). " : ": see below. ") +
+        held);
+  return arrival_table(whole) +
+         paragraph(
+             "Most centroids over the line in a run: " + number(at(whole, {"most_hits_in_a_run"})) +
+             "; within one second up to " + number(at(whole, {"hits_in_that_second"})) + " with " +
+             number(at(whole, {"energy_in_one_second_kj"})) + " kJ together. " + held);
+}
+
 std::string field_table(const Json& fields) {
   std::vector<std::vector<std::string>> rows;
   if (fields.is_array())
@@ -351,13 +391,7 @@ std::string fence_section(const ReportData& data) {
   for (const Json& fence : data.fence["fences"]) {
     out += "<h3>" + words(at(fence, {"name"})) + ": " + number(at(fence, {"length_m"})) +
            " m long, " + number(at(fence, {"height_m"})) + " m high</h3>\n" + fence_verdict(fence);
-    out += verdict_table(at(fence, {"verdicts"})) + arrival_table(at(fence, {"whole"}));
-    out += paragraph(
-        "Most hits in a run: " + number(at(fence, {"whole", "most_hits_in_a_run"})) +
-        "; within one second up to " + number(at(fence, {"whole", "hits_in_that_second"})) +
-        " with " + number(at(fence, {"whole", "energy_in_one_second_kj"})) +
-        " kJ together. Volume held: " + number(at(fence, {"retained_m3"})) +
-        " m&sup3;, storage behind the fence: " + number(at(fence, {"storage_m3"})) + " m&sup3;.");
+    out += verdict_table(at(fence, {"verdicts"})) + arrivals(fence);
     out += folded("Each field between two posts", field_table(at(fence, {"fields"})));
     if (!at(fence, {"comparison"}).is_null())
       out += "<h3>With and without</h3>\n" + comparison_table(at(fence, {"comparison"}));
@@ -368,7 +402,9 @@ std::string fence_section(const ReportData& data) {
       std::string list;
       for (const Json& name : guessed) list += (list.empty() ? "" : ", ") + words(name);
       out += note(
-          "Of the design code these numbers are from memory and have to be checked: " + list + ".");
+          "These numbers of the design code have not been checked against its print; check "
+          "them before use: " +
+          list + ".");
     }
   }
   if (!data.change_png.empty())
@@ -520,7 +556,8 @@ std::string health_section(const ReportData& data) {
                 "");
   out += figure(chart_svg(health_chart(data, "Shortest time step in the interval", "s",
                                        &HealthRow::shortest_dt, true)),
-                "Gaps: no step with a search for contacts.");
+                "A step ends at an impact, so steps may be very short without anything being "
+                "wrong. Gaps: no step with a search for contacts.");
   return section("health", "Health certificate", out + "</div>\n");
 }
 
@@ -671,8 +708,12 @@ std::string page_script(const ReportData& data, const std::string& viewer) {
            "JSON.parse(document.getElementById('scene').textContent));\n</script>\n";
   }
   return out +
-         "<script>\ndocument.getElementById('written').textContent = ', file written ' + "
-         "document.lastModified;\naddEventListener('beforeprint', () => "
+         "<script>\nconst changed = new Date(document.lastModified), two = (n) => "
+         "String(n).padStart(2, '0');\ndocument.getElementById('written').textContent = "
+         "`, file written ${changed.getFullYear()}-${two(changed.getMonth() + 1)}-"
+         "${two(changed.getDate())} "
+         "${two(changed.getHours())}:${two(changed.getMinutes())}`;\naddEventListener('beforeprint'"
+         ", () => "
          "document.querySelectorAll('details').forEach((d) => { d.open = true; }));\n</script>\n";
 }
 

@@ -23,7 +23,7 @@ struct LimitOverRuns {
 };
 
 struct MapPicture {
-  std::string name, png;
+  std::string name, png, qml;  ///< of maps/NAME.*; qml may be empty
 };
 
 /// Everything that the sections show; JSON is null and text empty where a file is missing.

@@ -14,8 +14,10 @@ std::vector<Vec3> local_points(Tool& tool, const Site& site, const Trn& ground,
     const std::string crs = crs_from_user(user_crs, "site.crs");
     if (!crs.empty() && !same_crs(crs, ground.crs_wkt)) {
       if (!reproject(crs, ground.crs_wkt, points))
-        throw InputError(where_of(site, key), "cannot be reprojected from " + crs_name(crs) +
-                                                  " to " + crs_name(ground.crs_wkt));
+        throw InputError(
+            where_of(site, key),
+            "cannot be reprojected from " + crs_name(crs) + " to " + crs_name(ground.crs_wkt),
+            "check crs of [site]: it is that of the coordinates in the site file");
       tool.info(key + ": reprojected from " + crs_name(crs));
     }
   }

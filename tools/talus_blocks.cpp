@@ -6,6 +6,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "base/grouped_text.hpp"
 #include "base/sha256.hpp"
 #include "base/text.hpp"
 #include "blocks/assemble.hpp"
@@ -19,6 +20,7 @@
 #include "io/raster_gdal.hpp"
 #include "io/vectors_gdal.hpp"
 #include "scene/joint_plan.hpp"
+#include "site_crs.hpp"
 #include "site_options.hpp"
 #include "terrain/trn_digest.hpp"
 #include "tool.hpp"
@@ -381,7 +383,7 @@ Json report_on(Tool& tool, const Options& o, const Work& work) {
 }
 
 std::string summary_of(const Json& report) {
-  const auto number = [](const Json& value) { return text(value.get<double>(), 4); };
+  const auto number = [](const Json& value) { return grouped_text(value.get<double>(), 4); };
   const Json& sizes = report["sizes"];
   std::string lines = std::to_string(report["n_blocks"].get<int>()) + " blocks, " +
                       number(report["volume_m3"]) + " m3; V10 " + number(sizes["v10_m3"]) +
@@ -391,8 +393,8 @@ std::string summary_of(const Json& report) {
   if (!report.contains("cut")) return lines;
   const Json& cut = report["cut"];
   lines += "\nmass " + number(cut["prism_volume_m3"]) + " m3, " + number(cut["mean_depth_m"]) +
-           " m deep on average, in " + std::to_string(cut["n_pieces"].get<int>()) + " pieces; " +
-           std::to_string(cut["n_slivers_merged"].get<int>()) + " slivers (" +
+           " m deep on average (vertically), in " + std::to_string(cut["n_pieces"].get<int>()) +
+           " pieces; " + std::to_string(cut["n_slivers_merged"].get<int>()) + " slivers (" +
            number(cut["slivers_merged_m3"]) + " m3) given to a neighbour";
   if (!cut["exact"].get<bool>())
     lines += "\nmade convex: volume " + text(100 * cut["convexified_change"].get<double>(), 3) +
@@ -494,6 +496,7 @@ int main(int argc, char** argv) {
   return tool.run(argc, argv, [&] {
     Work work;
     work.site = site.load();
+    check_site_crs(work.site);
     work.ground = read_trn(o.trn);
     check_ground(work, o.trn);
     work.blocks.origin = work.ground.origin;

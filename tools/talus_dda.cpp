@@ -12,6 +12,7 @@
 #include "build_info.hpp"
 #include "dda/site_scene.hpp"
 #include "dda_inputs.hpp"
+#include "site_crs.hpp"
 #include "site_options.hpp"
 #include "store/runner.hpp"
 #include "store/xdmf_hdf5.hpp"
@@ -388,6 +389,7 @@ int main(int argc, char** argv) {
   const int code = tool.run(argc, argv, [&] {
     const double cpu_start = processor_seconds();
     const Site& site = site_options.load();
+    check_site_crs(site);
     if (o.out.empty() && o.plan != "show")
       throw InputError({"", 0, "--out"}, "no output is named", "give -o RUN.h5");
     if (!o.out.empty()) check_leftover(tool, o);

@@ -5,6 +5,7 @@
 #include <map>
 #include <numbers>
 
+#include "base/grouped_text.hpp"
 #include "base/sha256.hpp"
 #include "base/text.hpp"
 #include "io/geopackage_gdal.hpp"
@@ -506,15 +507,17 @@ VectorLayer field_layer(const std::vector<FenceCase>& cases,
                     part_fields({{"fence", FieldType::text}, {"field", FieldType::integer}}),
                     {},
                     vector_qml({SymbolKind::line,
-                                "pass",
-                                {{"1", "meets the code", {51, 160, 44, 255}},
-                                 {"0", "does not, or too few arrivals", {227, 26, 28, 255}}},
+                                "verdict",
+                                {{"meets", "meets the code", {51, 160, 44, 255}},
+                                 {"does not meet", "does not meet it", {227, 26, 28, 255}},
+                                 {"too few arrivals", "too few arrivals", {120, 120, 120, 255}}},
                                 1.2})};
   for (const char* name : {"storage_m3", "required_capacity_kj", "required_height_m"})
     layer.fields.push_back({name, FieldType::real});
   for (const char* name : {"smallest_class", "governs"})
     layer.fields.push_back({name, FieldType::text});
   layer.fields.push_back({"pass", FieldType::integer});
+  layer.fields.push_back({"verdict", FieldType::text});
   for (std::size_t i = 0; i < cases.size(); ++i)
     for (std::size_t f = 0; f < results[i].fields.size(); ++f) {
       const FieldResult& r = results[i].fields[f];
@@ -527,7 +530,10 @@ VectorLayer field_layer(const std::vector<FenceCase>& cases,
       feature.values.insert(feature.values.end(),
                             {r.storage, r.design.required_capacity / 1e3, r.design.required_height,
                              r.design.smallest_class, r.design.governs,
-                             static_cast<std::int64_t>(r.design.pass ? 1 : 0)});
+                             static_cast<std::int64_t>(r.design.pass ? 1 : 0),
+                             std::string(!r.design.enough ? "too few arrivals"
+                                         : r.design.pass  ? "meets"
+                                                          : "does not meet")});
       layer.features.push_back(std::move(feature));
     }
   return layer;
@@ -641,15 +647,17 @@ std::string summary_of(const FenceCase& c, std::size_t index, const FenceResult&
   std::string out = "fence " + c.line.name + ": " + std::to_string(total) + " blocks of " +
                     std::to_string(group.n()) + (group.n() == 1 ? " run:" : " runs:");
   for (const auto& [verdict, n] : count) out += " " + std::to_string(n) + " " + text(verdict) + ",";
+  std::replace(out.begin() + static_cast<std::ptrdiff_t>(out.find(':')), out.end(), '_', ' ');
   out.back() = ';';
   if (r.whole.n == 0) return out + " no centroid crossed its line";
-  out += " largest energy " + text(r.whole.energy.largest / 1e3, 4) + " kJ, highest top " +
+  out += " largest energy " + grouped_text(r.whole.energy.largest / 1e3, 4) + " kJ, highest top " +
          text(r.whole.top.largest, 3) + " m; ";
   if (!r.design.enough)
     return out + "design check not possible: " + std::to_string(r.whole.n) + " arrivals, needs " +
            std::to_string(r.design.n_needed);
-  return out + "needs " + text(r.design.required_capacity / 1e3, 4) + " kJ (class " +
-         r.design.smallest_class + ") and " + text(r.design.required_height, 3) + " m: " +
+  return out + "needs " + grouped_text(r.design.required_capacity / 1e3, 4) +
+         " kJ (class: " + r.design.smallest_class + ") and a height of " +
+         text(r.design.required_height, 3) + " m: " +
          (r.design.pass ? "meets the code"
                         : "does not meet the code, " + r.design.governs + " governs");
 }

@@ -173,7 +173,7 @@ void run_tool(Tool& tool, Options& o, talus::RunInputs& runs) {
               std::to_string(layers.size()) + " maps of " + std::to_string(runs.members.size()) +
                   (runs.members.size() == 1 ? " run" : " runs") + ", " + std::to_string(n_rows) +
                   " passages over " + std::to_string(n_touched) + " cells of " +
-                  talus::text(grid.cell_size) + " m, in " + o.folder);
+                  talus::text(grid.cell_size, 4) + " m, in " + o.folder);
 }
 
 }  // namespace

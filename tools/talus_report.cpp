@@ -197,7 +197,8 @@ ReportData read_data(Tool& tool, const Site& site, const Folder& folder,
         pictures.push_back(entry.path());
     std::sort(pictures.begin(), pictures.end());
     for (const fs::path& path : pictures)
-      data.maps.push_back({path.stem().string(), folder.text("maps/" + path.filename().string())});
+      data.maps.push_back({path.stem().string(), folder.text("maps/" + path.filename().string()),
+                           folder.text("maps/" + path.stem().string() + ".qml")});
   }
   const std::vector<fs::path> files = evaluated_runs(folder, data.runout);
   read_runs(tool, files, progress, data);

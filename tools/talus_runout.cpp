@@ -464,19 +464,45 @@ void write_thickness(Tool& tool, const Options& o, const Ordered& all, const Trn
             map_style(layer, remark), tags);
 }
 
+// "101.4 to 103.3": smallest and largest of the runs.
+template <class Value>
+std::string range_of(const Runs& runs, int digits, const Value& value) {
+  double low = value(*runs[0].second), high = low;
+  for (const auto& run : runs) {
+    low = std::min(low, value(*run.second));
+    high = std::max(high, value(*run.second));
+  }
+  return text(low, digits) + " to " + text(high, digits);
+}
+
+std::string reach_of_runs(const Runs& runs) {
+  const auto height = [](const RunResult& r) { return r.event.event.height; };
+  const auto path = [](const RunResult& r) { return r.event.event.path; };
+  const auto angle = [](const RunResult& r) { return r.event.event.path_angle() * degrees; };
+  return "run-out of " + std::to_string(runs.size()) + " runs: H " + range_of(runs, 5, height) +
+         " m, L " + range_of(runs, 5, path) + " m along the path, angle of reach " +
+         range_of(runs, 4, angle) + " deg";
+}
+
+std::string reach_of_run(const std::string& run_id, const EventReach& reach) {
+  const ReachLine& e = reach.event;
+  const std::string out = "run-out of run " + run_id + ": H " + text(e.height, 5) + " m, L " +
+                          text(e.path, 5) + " m along the path (" + text(e.chord, 5) +
+                          " m straight), angle of reach " + text(e.path_angle() * degrees, 4) +
+                          " deg (" + text(e.chord_angle() * degrees, 4) + " deg)";
+  if (reach.profile.monotone) return out;
+  return out + "\nenergy line: seen from the toe block's start the angle is smallest, " +
+         text(reach.profile.smallest * degrees, 4) + " deg, at " +
+         text(reach.profile.smallest_at, 4) +
+         " m, not at the toe: a straight line from start to toe runs up to " +
+         text(reach.profile.missing_head, 3) +
+         " m below the ground, so an energy line of that angle stops short of the toe";
+}
+
 std::string summary_of(const Ordered& all) {
-  const RunResult& first = *all.runs[0].second;
-  const ReachLine& e = first.event.event;
-  std::string out =
-      "run-out of run " + all.runs[0].first->info.run_id + ": H " + text(e.height, 5) + " m, L " +
-      text(e.path, 5) + " m along the path (" + text(e.chord, 5) + " m straight), angle of reach " +
-      text(e.path_angle() * degrees, 4) + " deg (" + text(e.chord_angle() * degrees, 4) + " deg)";
-  if (!first.event.profile.monotone)
-    out += "\nthe angle is not monotone along the path: the smallest, " +
-           text(first.event.profile.smallest * degrees, 4) + " deg, lies " +
-           text(first.event.profile.smallest_at, 4) +
-           " m from the toe block's start, where a steeper energy line ends " +
-           text(first.event.profile.missing_head, 3) + " m below the ground";
+  std::string out = all.runs.size() > 1
+                        ? reach_of_runs(all.runs)
+                        : reach_of_run(all.runs[0].first->info.run_id, all.runs[0].second->event);
   out += "\nvolume: released " + text(all.balance.released, 6) + " m3 = deposited " +
          text(all.balance.deposited, 6) + " + moving " + text(all.balance.moving, 6) + " + left " +
          text(all.balance.left, 6);

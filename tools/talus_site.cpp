@@ -76,6 +76,17 @@ std::string file_named(const Site& site, const EffectiveValue& value) {
   return path.rfind("/vsi", 0) == 0 ? "" : path;
 }
 
+// A file that is missing stops make here, once, and not in the middle of the pipeline.
+void check_files(const Site& site) {
+  for (const EffectiveValue& value : effective_values(site)) {
+    const std::string file = file_named(site, value);
+    if (!file.empty() && !fs::exists(file))
+      throw InputError(where_of(site, value.section + "." + value.key),
+                       value.key + " of [" + value.section + "]: there is no file " + file,
+                       "names are relative to the folder of the site file");
+  }
+}
+
 // What a stage reads, a line a value; files by their content.
 std::string settings_of(const Site& site, const Stage& stage) {
   std::string out = "# what the stage " + std::string(stage.name) + " reads of the site file\n";
@@ -207,9 +218,11 @@ int main(int argc, char** argv) {
   tool.footer("Example:\n  talus-site site.toml -o out/stages --overwrite --no-db");
   return tool.run(argc, argv, [&] {
     const Site& site = site_options.load();
+    const std::string variables = make_variables(site);
+    check_files(site);
     // Always written; staged first, so that it comes in place last: its time says when the site
     // file was last looked at.
-    tool.write_text((fs::path(folder) / "site.mk").string(), make_variables(site));
+    tool.write_text((fs::path(folder) / "site.mk").string(), variables);
     for (const Stage& stage : stages())
       write_if_changed(tool, fs::path(folder) / (std::string(stage.name) + ".txt"),
                        settings_of(site, stage));

@@ -5,6 +5,7 @@
 
 #include "base/text.hpp"
 #include "blocks/joint_sets.hpp"
+#include "terrain/extent_text.hpp"
 
 namespace talus {
 namespace {
@@ -53,19 +54,14 @@ std::string place_text(const Vec2& local, const Vec3& origin) {
 
 // Nodes of the TRN inside the area; throws when they are too few or unknown.
 std::vector<int> nodes_inside(const Trn& ground, const Area& area, const Where& where) {
-  const Vec2 far(ground.node0.x() + (ground.n_cols - 1) * ground.cell_size,
-                 ground.node0.y() - (ground.n_rows - 1) * ground.cell_size);
   for (const auto& ring : area.rings)
     for (const Vec2& p : ring)
       if (!contains(ground, p.x(), p.y()))
         throw InputError(where,
                          "the source area reaches outside the terrain at " +
-                             place_text(p, ground.origin) + "; the terrain covers x " +
-                             text(ground.node0.x() + ground.origin.x(), 10) + " to " +
-                             text(far.x() + ground.origin.x(), 10) + ", y " +
-                             text(far.y() + ground.origin.y(), 10) + " to " +
-                             text(ground.node0.y() + ground.origin.y(), 10),
-                         "make the TRN larger, or check the coordinate system of the source");
+                             place_text(p, ground.origin) + "; " + extent_text(ground),
+                         "move the source or make the terrain larger; if it lies far away, check "
+                         "the order (x east, y north) and the coordinate system of its points");
   std::vector<int> nodes;
   for (int r = 0; r < ground.n_rows; ++r)
     for (int c = 0; c < ground.n_cols; ++c) {

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "contact/entrance.hpp"
@@ -50,13 +52,13 @@ void add_plane(const TrianglePlane& plane, const Ground& ground, int triangle, i
 // The planes on the other side of valley lines near the vertex. There the ground is the higher of
 // the two planes, so both half-spaces hold; at a ridge or a flat edge only the own plane does.
 void add_valley_planes(const Ground& ground, const GridPoint& at, const TrianglePlane& own, int b,
-                       int v, const Vec3& X, const Vec3& x, double margin,
+                       int v, const Vec3& X, const Vec3& x, double margin, double near_cells,
                        std::vector<Contact>& contacts) {
   const Trn& trn = ground.trn;
   const bool odd = is_upper(at);
-  const double near_cells = 4 * margin / trn.cell_size;
   const double distance[3] = {odd ? at.south : at.east, 1 - (odd ? at.east : at.south),
                               std::abs(at.south - at.east) * 0.7071};
+  if (std::min({distance[0], distance[1], distance[2]}) > near_cells) return;
   for (int k = 0; k < 3; ++k) {
     if (distance[k] > near_cells) continue;
     const Neighbour& n = neighbours[odd][k];
@@ -82,13 +84,16 @@ bool is_far_above(const Trn& trn, const GridPoint& at, double z, double margin) 
   return height > 0 && height * height > 1.0001 * margin * margin * (1 + gradient.squaredNorm());
 }
 
+// `all_on_grid`: no vertex lies off it.
 void find_mode_1(const Ground& ground, const Shapes& shapes, int b, double highest, double margin,
-                 const std::vector<Vec3>& vertices, std::vector<Contact>& contacts) {
+                 bool all_on_grid, const std::vector<Vec3>& vertices,
+                 std::vector<Contact>& contacts) {
   const std::span<const Vec3> body = vertices_of(shapes, b);
   const Trn& trn = ground.trn;
+  const double near_cells = 4 * margin / trn.cell_size;
   for (size_t v = 0; v < vertices.size(); ++v) {
     const Vec3& x = vertices[v];
-    if (x.z() > highest + margin || !contains(trn, x.x(), x.y())) continue;
+    if (x.z() > highest + margin || !(all_on_grid || contains(trn, x.x(), x.y()))) continue;
     const GridPoint at = locate(trn, x.x(), x.y());
     if (is_far_above(trn, at, x.z(), margin)) continue;
     const TrianglePlane plane = plane_at(trn, at);
@@ -96,7 +101,7 @@ void find_mode_1(const Ground& ground, const Shapes& shapes, int b, double highe
     if (!(gap < margin)) continue;  // also when the triangle is not ground
     const int id = static_cast<int>(v);
     add_plane(plane, ground, triangle_of(trn, at), b, id, body[v], x, gap, contacts);
-    add_valley_planes(ground, at, plane, b, id, body[v], x, margin, contacts);
+    add_valley_planes(ground, at, plane, b, id, body[v], x, margin, near_cells, contacts);
   }
 }
 
@@ -244,10 +249,29 @@ void find_mode_3(const FeatureSearch& s, int row, int col, EdgeKind kind,
   }
 }
 
+// Whether one of the `n` flags from `begin` on is set: eight are read at a time while there are
+// eight, and those behind the n-th left out.
+bool any_set(const std::vector<std::uint8_t>& flags, size_t begin, size_t n) {
+  size_t k = 0;
+  for (; k < n && begin + k + 8 <= flags.size(); k += 8) {
+    std::uint64_t eight = 0;
+    std::memcpy(&eight, flags.data() + begin + k, 8);
+    if constexpr (std::endian::native == std::endian::big) eight = __builtin_bswap64(eight);
+    if (n - k < 8) eight &= (std::uint64_t{1} << 8 * (n - k)) - 1;
+    if (eight != 0) return true;
+  }
+  for (; k < n; ++k)
+    if (flags[begin + k] != 0) return true;
+  return false;
+}
+
 // Modes 2 and 3 at the nodes of the candidate cells; nearly all flags are 0.
 void find_features(const FeatureSearch& s, const CellRange& cells, std::vector<Contact>& contacts) {
   const Trn& trn = s.ground.trn;
   for (int row = cells.row_first; row <= cells.row_last + 1; ++row) {
+    const size_t first = node_index(trn, row, cells.col_first);
+    if (!any_set(s.ground.flags, first, static_cast<size_t>(cells.col_last - cells.col_first + 2)))
+      continue;
     const std::uint8_t* flags = s.ground.flags.data() + node_index(trn, row, 0);
     for (int col = cells.col_first; col <= cells.col_last + 1; ++col) {
       const std::uint8_t flag = flags[col];
@@ -281,7 +305,9 @@ SearchResult find_contacts(const Ground& ground, const Shapes& shapes, int b, co
   const NearCells near = find_near_cells(ground.trn, ground.pyramid, low, high, margin);
   if (near.reach == Reach::above) return {near.reach, low.z() - near.ground.high};
   if (near.reach == Reach::off_ground) return {near.reach, 0};
-  find_mode_1(ground, shapes, b, near.ground.high, margin, vertices, contacts);
+  const bool all_on_grid =
+      contains(ground.trn, low.x(), low.y()) && contains(ground.trn, high.x(), high.y());
+  find_mode_1(ground, shapes, b, near.ground.high, margin, all_on_grid, vertices, contacts);
   find_features({ground, shapes, b, pose, margin, R, low, high}, near.cells, contacts);
   return {near.reach, 0};
 }

@@ -78,6 +78,10 @@ inline void evaluate(const Vec3& w, double held_cap, ContactRow& row) {
   }
   const Vec3 &d = row.direction, &start = row.slip_start;
   const double threshold = row.cap / row.shear_damping, share = 1 - threshold / row.trial_speed;
+  if (along > 1 - 1e-12) {  // straight on: what follows, with d = start = end
+    A += (row.cap / ((1 + share) * row.trial_speed)) * side * side.transpose();
+    return A;
+  }
   const double scale = row.cap / slip_sum(row, end, share).norm();
   const double side_scale = scale / row.trial_speed;
   const Vec3 start_change =

@@ -26,7 +26,7 @@ struct ContactRow {
   double cohesion_impulse = 0;     ///< c A_c h [N s]
   double tension_impulse = 0;      ///< t A_c h [N s]
   double normal_limit = no_normal_limit;  ///< a normal impulse does not grow beyond it [N s]
-  Vec3 free_move = Vec3::Zero();  ///< displacement of the point without contact, local axes [m]
+  Vec3 free_move = Vec3::Zero();  ///< displacement of the point without contact, body axes [m]
   double speed_start = 0;         ///< normal velocity at the start of the step [m/s]
   double gap_start = 0;           ///< gap + offset at the start of the step [m]
   double offset = 0;              ///< see ContactMemory [m]

@@ -14,8 +14,8 @@ constexpr double stiffness_ratio = 1e7;
 
 void make_impact_rows(const Scene& scene, int b, double resting_speed, const Mat3& to_body,
                       const Vec6& velocity, Work& work) {
-  const double mass = scene.blocks.mass[static_cast<std::size_t>(b)];
-  const Vec3& inertia = scene.blocks.inertia[static_cast<std::size_t>(b)];
+  const double per_mass = 1 / scene.blocks.mass[static_cast<std::size_t>(b)];
+  const Vec3 per_inertia = scene.blocks.inertia[static_cast<std::size_t>(b)].cwiseInverse();
   work.rows.clear();
   for (std::size_t i = 0; i < work.contacts.size(); ++i) {
     const Contact& contact = work.contacts[i];
@@ -31,7 +31,7 @@ void make_impact_rows(const Scene& scene, int b, double resting_speed, const Mat
     const double slip_speed = tangent.norm();
     row.slip_start = slip_speed > 0 ? Vec3(tangent / slip_speed) : Vec3(Vec3::Zero());
     row.bias = row.speed_start < -resting_speed ? ground.restitution * row.speed_start : 0.0;
-    const Mobility W = mobility(mass, inertia, row.point, row.normal);
+    const Mobility W = mobility(per_mass, per_inertia, row.point, row.normal);
     row.normal_damping = stiffness_ratio / W.normal;
     row.shear_damping = stiffness_ratio / W.tangent;
     row.friction = ground.friction;

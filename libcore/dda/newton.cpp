@@ -76,27 +76,34 @@ Mat<Dof> derivative(const BlockSystem<Dof>& system, std::span<const ContactRow> 
   return H;
 }
 
-// x with H x = b, by elimination with row pivoting; H is a few rows and regular (M is in it).
+// Column k of the elimination, with row pivoting. Column by column, and with sizes that the
+// compiler knows, so that it can take two rows at a time.
+template <int Dof, int k>
+void eliminate(Mat<Dof>& H, Vec<Dof>& b) {
+  int pivot = k;
+  for (int i = k + 1; i < Dof; ++i)
+    if (std::abs(H(i, k)) > std::abs(H(pivot, k))) pivot = i;
+  if (pivot != k) {
+    H.row(k).swap(H.row(pivot));
+    std::swap(b[k], b[pivot]);
+  }
+  constexpr int below = Dof - 1 - k;
+  if constexpr (below > 0) {
+    const Eigen::Matrix<double, below, 1> factor =
+        H.template block<below, 1>(k + 1, k) * (1 / H(k, k));
+    for (int j = k + 1; j < Dof; ++j) H.template block<below, 1>(k + 1, j) -= H(k, j) * factor;
+    b.template tail<below>() -= b[k] * factor;
+  }
+}
+
+// x with H x = b, by elimination; H is a few rows and regular (M is in it).
 template <int Dof>
 Vec<Dof> solve_dense(Mat<Dof> H, Vec<Dof> b) {
-  for (int k = 0; k < Dof; ++k) {
-    int pivot = k;
-    for (int i = k + 1; i < Dof; ++i)
-      if (std::abs(H(i, k)) > std::abs(H(pivot, k))) pivot = i;
-    if (pivot != k) {
-      for (int j = k; j < Dof; ++j) std::swap(H(k, j), H(pivot, j));
-      std::swap(b[k], b[pivot]);
-    }
-    const double inverse = 1 / H(k, k);
-    for (int i = k + 1; i < Dof; ++i) {
-      const double factor = H(i, k) * inverse;
-      for (int j = k + 1; j < Dof; ++j) H(i, j) -= factor * H(k, j);
-      b[i] -= factor * b[k];
-    }
-  }
+  [&]<int... k>(std::integer_sequence<int, k...>) { (eliminate<Dof, k>(H, b), ...); }
+  (std::make_integer_sequence<int, Dof>());
   for (int k = Dof - 1; k >= 0; --k) {
-    for (int j = k + 1; j < Dof; ++j) b[k] -= H(k, j) * b[j];
     b[k] /= H(k, k);
+    for (int i = 0; i < k; ++i) b[i] -= H(i, k) * b[k];
   }
   return b;
 }

@@ -63,11 +63,11 @@ template <int Dof>
 struct Mobility {
   double normal, tangent;  ///< [1/kg]
 };
-[[nodiscard]] inline Mobility mobility(double mass, const Vec3& inertia, const Vec3& X,
+[[nodiscard]] inline Mobility mobility(double per_mass, const Vec3& per_inertia, const Vec3& X,
                                        const Vec3& n) {
-  const Vec3 per_inertia = inertia.cwiseInverse(), sq = X.cwiseAbs2(), turn = X.cross(n);
-  const double normal = 1 / mass + turn.cwiseAbs2().dot(per_inertia);
-  const double all = 3 / mass + per_inertia.dot(Vec3::Constant(sq.sum()) - sq);
+  const Vec3 sq = X.cwiseAbs2(), turn = X.cross(n);
+  const double normal = per_mass + turn.cwiseAbs2().dot(per_inertia);
+  const double all = 3 * per_mass + per_inertia.dot(Vec3::Constant(sq.sum()) - sq);
   return {normal, std::max(normal, all - normal)};
 }
 

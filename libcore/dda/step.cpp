@@ -39,13 +39,15 @@ void put_to_sleep(const Scene& scene, size_t b, State& state) {
   constexpr double still = 1e-6;  // [m/s]
   constexpr int long_enough = 100;
   const Motion& m = state.motion[b];
-  const double spin = m.angular_momentum.norm() / scene.blocks.inertia[b].minCoeff();
   const std::vector<ContactMemory>& memory = state.memory[b];
-  const bool sticks = std::all_of(memory.begin(), memory.end(), [](const ContactMemory& c) {
+  const auto sticks = [](const ContactMemory& c) {
     return c.state == static_cast<std::uint8_t>(ContactState::stick);
-  });
-  const bool rests =
-      sticks && !memory.empty() && m.velocity.norm() + spin * scene.blocks.shapes.radius[b] < still;
+  };
+  bool rests = !memory.empty() && std::all_of(memory.begin(), memory.end(), sticks);
+  if (rests) {
+    const double spin = m.angular_momentum.norm() / scene.blocks.inertia[b].minCoeff();
+    rests = m.velocity.norm() + spin * scene.blocks.shapes.radius[b] < still;
+  }
   state.still_steps[b] = rests ? state.still_steps[b] + 1 : 0;
   if (state.still_steps[b] < long_enough) return;
   state.phase[b] = Phase::asleep;

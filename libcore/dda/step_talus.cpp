@@ -24,15 +24,13 @@ BlockSystem<Dof> make_system(const Scene& scene, int b, const BlockNumbers& c, c
   const auto i = static_cast<size_t>(b);
   BlockSystem<Dof> system;
   const Vec3 v_free = s.R.transpose() * s.free.velocity;
-  const Vec3 v_start = s.R.transpose() * s.start.velocity;
-  const Vec3 spin_start =
-      (s.start.pose.attitude.conjugate() * s.start.angular_momentum).cwiseQuotient(c.inertia);
+  const Vec3 v_guess = s.R.transpose() * (s.start.velocity + s.h * state.acceleration[i]);
+  const Vec3 spin_guess = s.spin_start + s.h * state.spin_rate[i];
   if constexpr (Dof == 6) {
     system.mass.setZero();
     system.mass.diagonal() << Vec3::Constant(c.mass), c.inertia;
     system.free_velocity << v_free, s.spin_free;
-    system.velocity << v_start + s.h * (s.R.transpose() * state.acceleration[i]),
-        spin_start + s.h * state.spin_rate[i];
+    system.velocity << v_guess, spin_guess;
   } else {
     const Blocks& blocks = scene.blocks;
     const double volume = blocks.volume[i];
@@ -51,8 +49,7 @@ BlockSystem<Dof> make_system(const Scene& scene, int b, const BlockNumbers& c, c
     system.mass.template bottomRightCorner<6, 6>() += s.h * c.recovery_time * volume * C;
     system.free_velocity = system.mass.ldlt().solve(momentum);
     system.velocity = system.free_velocity;
-    system.velocity.template head<6>() << v_start + s.h * (s.R.transpose() * state.acceleration[i]),
-        spin_start + s.h * state.spin_rate[i];
+    system.velocity.template head<6>() << v_guess, spin_guess;
   }
   system.tolerance = scene.settings.tolerance_factor * newton_tolerance(c, s);
   return system;
@@ -73,9 +70,7 @@ struct Solved {
 template <int Dof>
 Solved<Dof> solved_motion(const BlockNumbers& c, const Substep& s, const BlockSystem<Dof>& system) {
   Solved<Dof> out;
-  out.change = system.velocity;
-  out.change.template head<3>() -= s.R.transpose() * s.free.velocity;
-  out.change.template segment<3>(3) -= s.spin_free;
+  out.change = system.velocity - system.free_velocity;
   if constexpr (Dof == 12) out.change.template tail<6>().setZero();
   const Vec3 dv = s.R * out.change.template head<3>();
   const Vec3 dw = s.R * out.change.template segment<3>(3);
@@ -115,7 +110,7 @@ void remember(const BlockNumbers& c, const Substep& s, const Solved<Dof>& solved
   for (ContactRow& row : work.rows) {
     if (row.waits_for_impact || row.state == ContactState::open) continue;
     const Contact& contact = work.contacts[static_cast<size_t>(row.contact)];
-    const Vec3 moved = s.R.transpose() * row.free_move + solved.moved(row.point, s.h);
+    const Vec3 moved = row.free_move + solved.moved(row.point, s.h);
     const double p_n = row.normal.dot(row.impulse);
     const Vec3 p_t = row.impulse - p_n * row.normal;
     const double along = row.normal.dot(moved);
@@ -164,7 +159,7 @@ struct Advance {
 
   void finish(const Substep& s, const Motion& end, double t, double t_next) {
     add_segment(b, state.memory[i()].empty(), t, s.h, s.start, end, work);
-    set_rates(scene, b, s.start, end, s.h, state);
+    set_rates(b, c, s, end, state);
     const Vec3 external = s.free_acceleration - scene.gravity;
     if (!external.isZero(0))
       state.ledger.base += c.mass * external.dot(end.pose.position - s.start.pose.position);
@@ -310,7 +305,7 @@ struct Advance {
 
   double spin_speed() {
     const Vec3 body = motion().pose.attitude.conjugate() * motion().angular_momentum;
-    return body.cwiseQuotient(c.inertia).norm();
+    return body.cwiseProduct(c.per_inertia).norm();
   }
 
   // Near the ground a substep moves no point farther than half a cell and turns the block by at

@@ -35,11 +35,12 @@ Vec3 load_torque(const Scene& scene, int b, const Quat& attitude) {
 int row_of(const ContactMemory& memory, const Work& work) {
   int best = -1;
   double nearest = 0.5;  // never over more than 60 degrees
-  for (size_t i = 0; i < work.rows.size(); ++i) {
-    const Contact& contact = work.contacts[static_cast<size_t>(work.rows[i].contact)];
+  for (size_t i = 0; i < work.contacts.size(); ++i) {
+    const Contact& contact = work.contacts[i];
     if (contact.key.feature_a != memory.key.feature_a || !(contact.key == memory.key)) continue;
     const double cosine = contact.normal.dot(memory.normal);
     if (cosine > nearest) nearest = cosine, best = static_cast<int>(i);
+    if (cosine > parallel) break;
   }
   return best;
 }
@@ -59,7 +60,7 @@ void forget_last_step(ContactRow& row) {
 // How fast the contact would close without contact forces: at the start of the substep, or on the
 // mean over it where the spin turns the point round.
 double approach(const ContactRow& row, const Substep& s) {
-  return std::min(row.speed_start, row.normal.dot(s.R.transpose() * row.free_move) / s.h);
+  return std::min(row.speed_start, row.normal.dot(row.free_move) / s.h);
 }
 
 // Gap of a vertex to the ground below it when the substep begins. A vertex may stand behind the
@@ -89,7 +90,9 @@ BlockNumbers numbers_of(const Scene& scene, int b) {
           touch_ratio * radius,
           std::max(2 * g * dt, 1e-6),
           g,
-          scene.blocks.inertia[i]};
+          scene.blocks.inertia[i],
+          1 / scene.blocks.mass[i],
+          scene.blocks.inertia[i].cwiseInverse()};
 }
 
 double search_margin(const BlockNumbers& c, double h) {
@@ -106,7 +109,9 @@ Substep predict(const Scene& scene, int b, const BlockNumbers& c, const Motion& 
   if (!scene.loads.empty())
     s.free.angular_momentum += h * load_torque(scene, b, start.pose.attitude);
   s.R = s.free.pose.attitude.toRotationMatrix();
-  s.spin_free = (s.R.transpose() * s.free.angular_momentum).cwiseQuotient(c.inertia);
+  s.R_start = start.pose.attitude.toRotationMatrix();
+  s.spin_start = (s.R_start.transpose() * start.angular_momentum).cwiseProduct(c.per_inertia);
+  s.spin_free = (s.R.transpose() * s.free.angular_momentum).cwiseProduct(c.per_inertia);
   return s;
 }
 
@@ -142,27 +147,28 @@ void set_law(const Scene& scene, const BlockNumbers& c, double h, const Mobility
              double approach, ContactRow& row) {
   const double x = row.gap_start + row.offset;
   const double asked = scene.settings.normal_stiffness;
-  const double per_mass = c.stiffness / c.mass;
+  const double per_mass = c.stiffness * c.per_mass;
   const double k_n = std::min(asked > 0 ? asked : c.stiffness, per_mass / W.normal);
   const double k_s = std::min(scene.settings.shear_ratio * k_n, per_mass / W.tangent);
   row.normal_damping = k_n * h * c.recovery_time;
   row.shear_damping = k_s * h * c.recovery_time;
-  row.shear_velocity = (1 / c.recovery_time) * row.shear;
-  row.bias = x < 0 ? x / c.recovery_time : x / h;
+  const double per_recovery = 1 / c.recovery_time;
+  row.shear_velocity = per_recovery * row.shear;
+  row.bias = x < 0 ? x * per_recovery : x / h;
   row.waits_for_impact = row.memory < 0 && row.gap_start > c.touch && approach < -c.resting_speed;
 }
 
 void set_ground_law(const Scene& scene, const BlockNumbers& c, const Substep& s, ContactRow& row) {
-  set_law(scene, c, s.h, mobility(c.mass, c.inertia, row.point, row.normal), approach(row, s), row);
+  set_law(scene, c, s.h, mobility(c.per_mass, c.per_inertia, row.point, row.normal),
+          approach(row, s), row);
 }
 
 void make_rows(const Scene& scene, int b, const BlockNumbers& c, const Substep& s,
                const State& state, Work& work) {
   const Mat3 to_body = s.R.transpose();
-  const Mat3 R_start = s.start.pose.attitude.toRotationMatrix();
-  const Mat3 from_start = to_body * R_start;  // body axes at the start to those at the end
-  const Vec3 spin_start = (R_start.transpose() * s.start.angular_momentum).cwiseQuotient(c.inertia);
-  const Vec3 moved = s.free.pose.position - s.start.pose.position;
+  const Mat3 from_start = to_body * s.R_start;  // body axes at the start to those at the end
+  const Vec3 moved = to_body * (s.free.pose.position - s.start.pose.position);
+  const Vec3 velocity_start = to_body * s.start.velocity, spin_start = from_start * s.spin_start;
   work.rows.resize(work.contacts.size());
   for (size_t i = 0; i < work.contacts.size(); ++i) {
     const Contact& contact = work.contacts[i];
@@ -170,19 +176,19 @@ void make_rows(const Scene& scene, int b, const BlockNumbers& c, const Substep& 
     ContactRow& row = work.rows[i];
     forget_last_step(row);
     row.contact = static_cast<int>(i);
-    row.normal = to_body * contact.normal;
+    const bool same_plane = i > 0 && contact.normal == work.contacts[i - 1].normal;
+    row.normal = same_plane ? work.rows[i - 1].normal : Vec3(to_body * contact.normal);
     const Vec3& X = contact.point_a;
     const Vec3 lever_start = from_start * X;
     row.point = (X + lever_start) / 2;
     row.drift = s.spin_free.cross(X - row.point);
-    row.free_move = moved + s.R * (X - lever_start);
-    row.gap_start = contact.gap - contact.normal.dot(row.free_move);
-    const Vec3 w = s.start.velocity + R_start * spin_start.cross(X);
-    row.speed_start = contact.normal.dot(w);
-    const Vec3 slip = w - row.speed_start * contact.normal;
+    row.free_move = moved + (X - lever_start);
+    row.gap_start = contact.gap - row.normal.dot(row.free_move);
+    const Vec3 w = velocity_start + spin_start.cross(lever_start);
+    row.speed_start = row.normal.dot(w);
+    const Vec3 slip = w - row.speed_start * row.normal;
     const double slip_speed = slip.norm();
-    row.slip_start =
-        slip_speed > 0 ? Vec3(to_body * ((1 / slip_speed) * slip)) : Vec3(Vec3::Zero());
+    row.slip_start = slip_speed > 0 ? Vec3((1 / slip_speed) * slip) : Vec3(Vec3::Zero());
     row.friction = ground.friction;
   }
   const std::vector<ContactMemory>& memory = state.memory[static_cast<size_t>(b)];
@@ -195,15 +201,14 @@ void make_rows(const Scene& scene, int b, const BlockNumbers& c, const Substep& 
     inherit(memory[m], static_cast<int>(m), to_body, c.touch, row);
   }
   for (ContactRow& row : work.rows) {
+    const Contact& contact = work.contacts[static_cast<size_t>(row.contact)];
     if (row.memory < 0) {
-      const Contact& contact = work.contacts[static_cast<size_t>(row.contact)];
       if (row.gap_start <= c.touch && contact.gap < -c.touch && approach(row, s) < -c.resting_speed)
         row.gap_start = std::max(row.gap_start, clearance_at_start(scene, contact, s));
       row.offset = std::max(0.0, -row.gap_start);
     }
     set_ground_law(scene, c, s, row);
-    const GroundClass& ground = scene.ground.classes[static_cast<size_t>(
-        work.contacts[static_cast<size_t>(row.contact)].ground_class)];
+    const GroundClass& ground = scene.ground.classes[static_cast<size_t>(contact.ground_class)];
     row.cohesion_impulse = ground.cohesion * row.bond_area * s.h;
     row.tension_impulse = ground.tension * row.bond_area * s.h;
   }
@@ -277,19 +282,16 @@ void stop_outside(const Scene& scene, int b, State& state, StepReport& report) {
   report.flags = report.flags | StepFlag::left_domain;
 }
 
-void set_rates(const Scene& scene, int b, const Motion& start, const Motion& end, double h,
-               State& state) {
+void set_rates(int b, const BlockNumbers& c, const Substep& s, const Motion& end, State& state) {
   const auto i = static_cast<size_t>(b);
-  const Vec3& inertia = scene.blocks.inertia[i];
   // a running mean: what comes and goes at the solver's tolerance is not carried on
   constexpr double share = 0.5;
-  const double per_h = share / h;
+  const double per_h = share / s.h;
   state.acceleration[i] =
-      (1 - share) * state.acceleration[i] + per_h * (end.velocity - start.velocity);
-  const Vec3 before =
-      (start.pose.attitude.conjugate() * start.angular_momentum).cwiseQuotient(inertia);
-  const Vec3 after = (end.pose.attitude.conjugate() * end.angular_momentum).cwiseQuotient(inertia);
-  state.spin_rate[i] = (1 - share) * state.spin_rate[i] + per_h * (after - before);
+      (1 - share) * state.acceleration[i] + per_h * (end.velocity - s.start.velocity);
+  const Vec3 spin_end =
+      (end.pose.attitude.conjugate() * end.angular_momentum).cwiseProduct(c.per_inertia);
+  state.spin_rate[i] = (1 - share) * state.spin_rate[i] + per_h * (spin_end - s.spin_start);
 }
 
 bool is_finite(const Motion& m) {

@@ -76,7 +76,6 @@ void stop_outside(const Scene& scene, int b, State& state, StepReport& report);
 void stop_at(const Motion& last_good, std::size_t b, State& state, StepReport& report);
 
 /// Keeps the accelerations of the substep, the first guess of the next.
-void set_rates(const Scene& scene, int b, const Motion& start, const Motion& end, double h,
-               State& state);
+void set_rates(int b, const BlockNumbers& c, const Substep& s, const Motion& end, State& state);
 
 }  // namespace talus

@@ -15,15 +15,19 @@ struct BlockNumbers {
   double resting_speed = 0;  ///< below this approach there is no impact [m/s]
   double gravity = 0;        ///< [m/s2]
   Vec3 inertia = Vec3::Zero();
+  double per_mass = 0;              ///< [1/kg]
+  Vec3 per_inertia = Vec3::Zero();  ///< [1/(kg m2)]
 };
 
 /// A substep of `h`: where the block would be without contact.
 struct Substep {
   double h = 0;
   Vec3 free_acceleration = Vec3::Zero();
-  Motion start, free;             ///< free: at the end of the substep without contact
-  Mat3 R = Mat3::Identity();      ///< free attitude, body to local axes
-  Vec3 spin_free = Vec3::Zero();  ///< body axes [rad/s]
+  Motion start, free;               ///< free: at the end of the substep without contact
+  Mat3 R = Mat3::Identity();        ///< free attitude, body to local axes
+  Mat3 R_start = Mat3::Identity();  ///< attitude at the start, body to local axes
+  Vec3 spin_start = Vec3::Zero();   ///< body axes of the start [rad/s]
+  Vec3 spin_free = Vec3::Zero();    ///< body axes [rad/s]
 };
 
 }  // namespace talus

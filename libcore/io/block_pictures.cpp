@@ -8,6 +8,7 @@
 #include <numeric>
 #include <sstream>
 
+#include "base/grouped_text.hpp"
 #include "base/text.hpp"
 
 namespace talus {
@@ -159,8 +160,8 @@ std::string size_curve_svg(std::vector<double> volumes) {
     const double volume = volume_quantile(volumes, share);
     out << "<circle cx=\"" << number(x(volume)) << "\" cy=\"" << number(y(share))
         << "\" r=\"4\" fill=\"" << colours[1] << "\"/><text x=\"" << number(x(volume) + 8)
-        << "\" y=\"" << number(y(share) + 14) << "\">V" << share * 100 << " = " << text(volume, 3)
-        << " m³</text>\n";
+        << "\" y=\"" << number(y(share) + 14) << "\">V" << share * 100 << " = "
+        << grouped_text(volume, 3) << " m³</text>\n";
   }
   out << "<text x=\"320\" y=\"384\" text-anchor=\"middle\">block volume [m³], " << volumes.size()
       << " blocks</text>\n<text x=\"70\" y=\"28\">share of the volume in smaller blocks</text>\n"

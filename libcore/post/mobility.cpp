@@ -159,7 +159,7 @@ std::string mobility_svg(const std::vector<MobilityRelation>& relations,
     out += line(580, at - 4, 604, at - 4,
                 "stroke=\"" + colour + "\" stroke-width=\"2\"" +
                     (r.from_memory ? " stroke-dasharray=\"5 4\"" : ""));
-    out += label(610, at, "start", r.id + (r.from_memory ? " (from memory)" : ""));
+    out += label(610, at, "start", r.id + (r.from_memory ? " (unchecked)" : ""));
     ++n_lines;
   }
   for (const MobilityEvent& event : events) {

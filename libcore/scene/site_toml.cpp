@@ -711,7 +711,8 @@ Site parse_site(const std::string& text, const std::string& path) {
     root = toml::parse(text, path);
   } catch (const toml::parse_error& error) {
     throw InputError({path, static_cast<int>(error.source().begin.line)},
-                     std::string(error.description()), "the file must be TOML: key = value");
+                     std::string(error.description()),
+                     "the file must be TOML: key = value, text in quotes, decimals with a point");
   }
   check_groups(root, path);
   for_each_group(site, GroupReader{site, root});

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "terrain/trn_pyramid.hpp"
@@ -535,108 +536,7 @@ struct FlightRecord {
   }
 };
 
-std::size_t hash_of(std::int32_t block, std::int32_t cell) {
-  std::uint64_t key = static_cast<std::uint64_t>(static_cast<std::uint32_t>(block)) << 32 |
-                      static_cast<std::uint32_t>(cell);
-  key = (key ^ (key >> 29)) * 0xbf58476d1ce4e5b9ULL;  // mixing of splitmix64
-  return static_cast<std::size_t>(key ^ (key >> 32));
-}
-
-void grow(PassageTable& table) {
-  table.slots.assign(std::max<std::size_t>(64, 2 * table.slots.size()), 0);
-  const std::size_t mask = table.slots.size() - 1;
-  for (std::size_t row = 0; row < table.rows.size(); ++row) {
-    std::size_t slot = hash_of(table.rows[row].block, table.rows[row].cell) & mask;
-    while (table.slots[slot] != 0) slot = (slot + 1) & mask;
-    table.slots[slot] = static_cast<std::uint32_t>(row + 1);
-  }
-}
-
-// The slot that holds a block and cell, or the empty one where they would go.
-std::size_t slot_of(const PassageTable& table, std::int32_t block, std::int32_t cell) {
-  const std::size_t mask = table.slots.size() - 1;
-  std::size_t slot = hash_of(block, cell) & mask;
-  for (; table.slots[slot] != 0; slot = (slot + 1) & mask) {
-    const Passage& row = table.rows[table.slots[slot] - 1];
-    if (row.block == block && row.cell == cell) break;
-  }
-  return slot;
-}
-
-Passage* row_at(PassageTable& table, std::size_t slot) {
-  return table.slots[slot] == 0 ? nullptr : &table.rows[table.slots[slot] - 1];
-}
-
-float larger(float a, float b) { return a >= b || std::isnan(b) ? a : b; }
-
-void raise(double& largest, double height) {
-  if (!(height <= largest) && !std::isnan(height)) largest = height;
-}
-
-// Heights above the plane of one triangle between s0 and s1, where the path stays over it.
-void raise_over_triangle(const Trn& trn, const HeightPath& path, double s0, double s1,
-                         Heights& largest) {
-  const Vec3 change = path.to - path.from;
-  const Vec3 middle = path.from + 0.5 * (s0 + s1) * change;
-  const GridPoint at = locate(trn, middle.x(), middle.y());
-  const Vec2 gradient = triangle_gradient(trn, at.cell, is_upper(at));
-  const Vec3 off = path.from - node_point(trn, at.cell.row, at.cell.col);
-  const double start = off.z() - gradient.dot(off.head<2>());
-  const double rate = change.z() - gradient.dot(change.head<2>());
-  const double top_rate = path.top_to - path.top_from;
-  const auto height = [&](double s) { return start + rate * s - path.sag * s * (1 - s); };
-  const auto try_at = [&](double s) {
-    const double above = height(s);
-    raise(largest.centroid, above);
-    raise(largest.top, above + path.top_from + top_rate * s);
-  };
-  try_at(s0);
-  try_at(s1);
-  if (path.sag >= 0) return;
-  for (const double r : {rate, rate + top_rate}) {  // h'(s) = r - sag + 2 sag s vanishes
-    const double s = (path.sag - r) / (2 * path.sag);
-    if (s > s0 && s < s1) try_at(s);
-  }
-}
-
 }  // namespace
-
-void PassageValues::raise(const PassageValues& other) {
-  speed = larger(speed, other.speed);
-  translational_energy = larger(translational_energy, other.translational_energy);
-  total_energy = larger(total_energy, other.total_energy);
-  centroid_height = larger(centroid_height, other.centroid_height);
-  top_height = larger(top_height, other.top_height);
-}
-
-Passage* PassageTable::earlier(std::int32_t block, std::int32_t cell, float time) {
-  if (slots.empty()) return nullptr;
-  Passage* row = row_at(*this, slot_of(*this, block, cell));
-  return row && row->first_time <= time ? row : nullptr;
-}
-
-void PassageTable::raise(const Passage& visit) {
-  if (4 * (rows.size() + 1) > 3 * slots.size()) grow(*this);
-  const std::size_t slot = slot_of(*this, visit.block, visit.cell);
-  if (Passage* known = row_at(*this, slot)) {
-    Passage& row = *known;
-    PassageValues largest = row.largest;
-    largest.raise(visit.largest);
-    if (visit.first_time < row.first_time) row = visit;
-    row.largest = largest;
-    return;
-  }
-  rows.push_back(visit);
-  slots[slot] = static_cast<std::uint32_t>(rows.size());
-}
-
-std::vector<Passage> sorted(const PassageTable& table) {
-  std::vector<Passage> rows = table.rows;
-  std::sort(rows.begin(), rows.end(), [](const Passage& a, const Passage& b) {
-    return a.block != b.block ? a.block < b.block : a.cell < b.cell;
-  });
-  return rows;
-}
 
 PassageGrid passage_grid(const Trn& trn, double cell_size) {
   if (!(cell_size > 0)) return {trn.node0, trn.cell_size, trn.n_rows - 1, trn.n_cols - 1};
@@ -707,37 +607,6 @@ void record_passages(PassageRecorder& recorder, const Scene& scene, SegmentMotio
 void flush_passages(PassageRecorder& recorder) {
   for (std::size_t block = 0; block < recorder.trackers.size(); ++block)
     flush(recorder.table, static_cast<int>(block), recorder.trackers[block]);
-}
-
-Heights largest_heights(const Trn& trn, const HeightPath& path, double s_in, double s_out) {
-  const Vec2 change = (path.to - path.from).head<2>();
-  const Vec2 a = path.from.head<2>() + s_in * change, b = path.from.head<2>() + s_out * change;
-  Heights largest;
-  if (contains(trn, a.x(), a.y()) && contains(trn, b.x(), b.y()) &&
-      triangle_at(trn, a.x(), a.y()) == triangle_at(trn, b.x(), b.y())) {
-    raise_over_triangle(trn, path, s_in, s_out, largest);
-    return largest;
-  }
-  walk_cells(trn, a, b, [&](const CellPart& part) {
-    const auto off_diagonal = [&](double t) {  // > 0 south-west of the cell's diagonal
-      const Vec2 at = a + t * (b - a);
-      return (trn.node0.y() - at.y()) / trn.cell_size - part.cell.row -
-             ((at.x() - trn.node0.x()) / trn.cell_size - part.cell.col);
-    };
-    const double d_in = off_diagonal(part.t_in), d_out = off_diagonal(part.t_out);
-    const auto add = [&](double t0, double t1) {
-      const double range = s_out - s_in;
-      raise_over_triangle(trn, path, s_in + t0 * range, s_in + t1 * range, largest);
-    };
-    if (d_in * d_out < 0) {
-      const double t = part.t_in + d_in / (d_in - d_out) * (part.t_out - part.t_in);
-      add(part.t_in, t);
-      add(t, part.t_out);
-    } else {
-      add(part.t_in, part.t_out);
-    }
-  });
-  return largest;
 }
 
 }  // namespace talus

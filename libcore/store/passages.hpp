@@ -13,14 +13,13 @@
 // between are then found in closed form.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <limits>
 #include <vector>
 
 #include "dda/scene.hpp"
 #include "dda/work.hpp"
 #include "store/motion.hpp"
+#include "store/passage_table.hpp"
+#include "store/path_heights.hpp"
 #include "terrain/trn.hpp"
 
 namespace talus {
@@ -31,45 +30,6 @@ struct PassageGrid {
   double cell_size = 0;        ///< > 0 [m]
   int n_rows = 0, n_cols = 0;  ///< cells
 };
-
-/// The largest values of a block while it was over a cell. Floats: a maximum of rounded numbers is
-/// the rounded maximum, so rounding early changes nothing.
-struct PassageValues {
-  static constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
-  float speed = 0;                  ///< of the centroid [m/s]
-  float translational_energy = 0;   ///< [J]
-  float total_energy = 0;           ///< translation and rotation at the same moment [J]
-  float centroid_height = unknown;  ///< above the ground below it; NaN: no known ground [m]
-  float top_height = unknown;  ///< of the highest vertex above the ground below the centroid [m]
-
-  void raise(const PassageValues& other);  ///< element-wise maximum; NaN gives way
-};
-
-struct Passage {
-  std::int32_t block = 0;
-  std::int32_t cell = 0;  ///< index in the grid
-  PassageValues largest;
-  float first_time = 0;  ///< when the block came over the cell [s]
-  /// Then: from its centroid's start, below the horizontal, atan(drop / length of its path in plan)
-  /// [rad]; NaN before it has moved in plan.
-  float travel_angle = PassageValues::unknown;
-  float heading = PassageValues::unknown;  ///< then, from x to y [rad]; NaN: it stood in plan
-};
-
-/// Rows with an index over (block, cell): open addressing, grown by doubling.
-struct PassageTable {
-  std::vector<Passage> rows;         ///< in the order of the first visit
-  std::vector<std::uint32_t> slots;  ///< row + 1, 0 empty; a power of two
-
-  /// The row of a block and cell that the block came over at `time` or before, else null.
-  [[nodiscard]] Passage* earlier(std::int32_t block, std::int32_t cell, float time);
-  /// A block over a cell: its values raise those of earlier visits, its arrival counts if it is the
-  /// first.
-  void raise(const Passage& visit);
-};
-
-/// Rows in the order of block, then cell: what is written.
-[[nodiscard]] std::vector<Passage> sorted(const PassageTable& table);
 
 inline constexpr int n_footprint_axes = 8;
 using AxisArray = Eigen::Array<double, n_footprint_axes, 1>;
@@ -135,20 +95,5 @@ void record_start(PassageRecorder& recorder, const Scene& scene, int block, cons
 void record_passages(PassageRecorder& recorder, const Scene& scene, SegmentMotion& motion);
 /// Writes what is pending into the table; further segments may follow.
 void flush_passages(PassageRecorder& recorder);
-
-/// The way of a block's centroid and of its top above it: straight in plan, z(s) = from + (to -
-/// from) s - sag s (1 - s) with sag = a_z h^2 / 2, s from 0 to 1.
-struct HeightPath {
-  Vec3 from, to;                    ///< centroid [m]
-  double top_from = 0, top_to = 0;  ///< highest vertex above the centroid, linear in s [m]
-  double sag = 0;                   ///< [m]
-};
-struct Heights {
-  double centroid = PassageValues::unknown, top = PassageValues::unknown;  ///< [m]
-};
-/// Greatest heights above the ground below the centroid for s from s_in to s_out. Exact for the
-/// TRN's triangles. NaN where no ground is known below the path.
-[[nodiscard]] Heights largest_heights(const Trn& trn, const HeightPath& path, double s_in,
-                                      double s_out);
 
 }  // namespace talus

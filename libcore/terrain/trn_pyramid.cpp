@@ -5,12 +5,6 @@
 namespace talus {
 namespace {
 
-void include(ElevationRange& range, double z) {
-  range.low = z < range.low ? z : range.low;  // false for NaN
-  range.high = z > range.high ? z : range.high;
-  range.all_known &= !std::isnan(z);
-}
-
 void include(ElevationRange& range, const ElevationRange& other) {
   range.low = std::min(range.low, other.low);
   range.high = std::max(range.high, other.high);
@@ -23,15 +17,20 @@ bool holds(const ElevationRange& range, const ElevationRange& other) {
 }
 
 // Corners of the cells of `range`, one by one. Summed up in registers: `found` might be part of
-// what the elevations point to, as far as the compiler knows.
+// what the elevations point to, as far as the compiler knows. One unknown elevation makes the sum
+// of all of them NaN: cheaper than a test of each.
 void include_nodes(const Trn& trn, const CellRange& range, ElevationRange& found) {
-  ElevationRange own = found;
+  double low = found.low, high = found.high, sum = 0;
   const double* z = trn.elevation.data() + node_index(trn, range.row_first, range.col_first);
   const int n_rows = range.row_last - range.row_first + 2;
   const int n_cols = range.col_last - range.col_first + 2;
   for (int row = 0; row < n_rows; ++row, z += trn.n_cols)
-    for (int col = 0; col < n_cols; ++col) include(own, z[col]);
-  found = own;
+    for (int col = 0; col < n_cols; ++col) {
+      low = z[col] < low ? z[col] : low;  // false for NaN
+      high = z[col] > high ? z[col] : high;
+      sum += z[col];
+    }
+  found = {low, high, found.all_known && !std::isnan(sum)};
 }
 
 CellRange intersection(const CellRange& a, const CellRange& b) {

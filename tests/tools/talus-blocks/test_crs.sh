@@ -17,3 +17,9 @@ holds "($a / $b - 1) ^ 2 < 0.01"
 sed 's/EPSG:32633/EPSG:31468/' site.toml >other.toml
 expect 1 talus-blocks other.toml --trn trn.tif -o other.h5 --no-db
 says "reaches outside the terrain"
+
+sed 's/EPSG:32633/EPGS:32633/' site.toml >misspelt.toml
+expect 1 talus-blocks misspelt.toml --trn trn.tif -o misspelt.h5 --no-db
+says "misspelt.toml:$(grep -n '^crs' site.toml | cut -d: -f1): crs: \"EPGS:32633\" is not a CRS"
+says "hint: write EPSG:code"
+nothing_left misspelt.h5

@@ -19,6 +19,8 @@ nothing_left f.gpkg
 expect 0 talus-fence site.toml run_0.h5 run_1.h5 run_2.h5 --trn slope.tif -o f.gpkg --json f.json
 says '3 arrivals are too few'
 grep -q '"enough_arrivals": false' f.json || fail 'three arrivals are enough?'
+ogrinfo -q -al f.gpkg fence_fields >fields
+grep -q 'verdict (String) = too few arrivals' fields || fail 'a field of three arrivals is judged'
 printf 'key,value,unit,mark,source\nformula,din,,m,\n' >code.csv
 expect 1 talus-fence site.toml run_0.h5 --trn slope.tif -o g.gpkg --code code.csv
 says 'expected uni or onr'

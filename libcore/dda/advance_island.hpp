@@ -1,0 +1,171 @@
+// libcore/dda/advance_island.hpp
+// What moves one island of blocks over a step, for step_island.cpp and the sources that share it:
+// island_pairs.cpp     which blocks meet, and how long a substep may be
+// island_assembly.cpp  bodies and contacts of a substep, made ready for solve_island()
+// island_impacts.cpp   contact impulses, hits and their times included
+// step_island.cpp      what a substep leaves: bonds, panels, memory, motion; and the loop over them
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+#include "dda/newton.hpp"
+#include "dda/step_island.hpp"
+#include "dda/substep.hpp"
+
+namespace talus {
+
+/// Whether block b still moves or may be moved.
+[[nodiscard]] inline bool takes_part(const State& state, int b) {
+  const Phase phase = state.phase[static_cast<std::size_t>(b)];
+  return phase != Phase::left_domain && phase != Phase::stopped;
+}
+
+/// Everything that advances one island; a struct so that its parts share what they all need.
+struct AdvanceIsland {
+  using size_t = std::size_t;
+  enum class Attempt { done, shorter, left };  ///< at a substep
+
+  const Scene& scene;
+  State& state;
+  Work& work;
+  StepReport& report;
+  IslandStepWork& w;
+  int outsider = -1;   ///< block that the last attempt found off the known ground
+  int halvings = 0;    ///< of the substep because it did not converge
+  bool small = false;  ///< the island's matrix is cheap to factor
+  int cuts = 0;        ///< of the substep at the time when a panel is used up
+
+  [[nodiscard]] size_t block(size_t k) const { return static_cast<size_t>(w.members[k]); }
+  Motion& motion(size_t k) { return state.motion[block(k)]; }
+  [[nodiscard]] size_t place(int b) const {
+    return static_cast<size_t>(w.place[static_cast<size_t>(b)]);
+  }
+  [[nodiscard]] const BlockNumbers& numbers(int b) const { return w.numbers[place(b)]; }
+  // Change of a member's velocity by contact.
+  [[nodiscard]] Vec6 change(size_t k) const {
+    return w.island.velocity[k] - w.island.free_velocity[k];
+  }
+  // Relative motion of the points of contact `r`, `of` being a motion of members.
+  template <class Of>
+  [[nodiscard]] Vec3 relative(size_t r, Of&& of) const {
+    const IslandContact& contact = w.contacts[r];
+    const Vec3& arm = w.island.rows[r].arm;
+    const size_t ka = place(contact.a);
+    Vec3 v = point_velocity<6>(of(ka), arm);
+    if (contact.b >= 0) {
+      const size_t kb = place(contact.b);
+      v -= point_velocity<6>(of(kb), arm + w.island.position[ka] - w.island.position[kb]);
+    }
+    return v;
+  }
+  [[nodiscard]] Vec3 changed(size_t r) const {
+    return relative(r, [&](size_t k) { return change(k); });
+  }
+  // Presses on a panel of a fence that gives way.
+  [[nodiscard]] bool gives_way(size_t r) const {
+    const IslandRow& row = w.island.rows[r];
+    return row.normal_limit < no_normal_limit && row.state != ContactState::open;
+  }
+  // Displacement of the points of contact `r` over the substep.
+  [[nodiscard]] Vec3 path_of_contact(size_t r) const {
+    return w.contacts[r].row.free_move +
+           relative(r, [&](size_t k) -> const Vec6& { return w.displacement[k]; });
+  }
+  [[nodiscard]] size_t first_fixed() const { return static_cast<size_t>(n_blocks(scene)); }
+
+  // island_pairs.cpp
+  [[nodiscard]] bool in_island(const PairManifold& m) const;
+  void see_size();
+  void search_pairs(double h);
+  void take_pairs(int k);
+  void set_stiffness();
+  [[nodiscard]] double longest_substep(double h) const;
+
+  // island_assembly.cpp
+  // Lever arms, path and start velocity of a body's material point.
+  struct PointPath {
+    Vec3 start, end, moved, velocity, spin_end;
+  };
+  /// Motion of two blocks along the normal of their manifold, without contact forces.
+  struct PairMotionFree {
+    Vec3 turn_a, turn_b, spin_a, spin_b, at_a, at_b;
+    double moved, speed;
+
+    // Gap at the end of the substep.
+    [[nodiscard]] double gap_end(const PairPoint& point) const {
+      return point.gap + moved + turn_a.dot(point.point_b - at_a) -
+             turn_b.dot(point.point_b - at_b);
+    }
+    // The smaller of the speeds at the start and on the mean.
+    [[nodiscard]] double approach(const PairPoint& point, double h) const {
+      const double start =
+          speed + spin_a.dot(point.point_b - at_a) - spin_b.dot(point.point_b - at_b);
+      return std::min(start, (gap_end(point) - point.gap) / h);
+    }
+  };
+  void clear_island();
+  void add_member(size_t k, double h);
+  void open_pair(int a, int b);
+  void push(const ContactRow& row, IslandContact contact);
+  bool add_ground(size_t k);
+  [[nodiscard]] PointPath path_of(size_t k, const Vec3& x) const;
+  void match_memories(const PairManifold& m);
+  [[nodiscard]] int continued(const PairManifold& m, int p) const;
+  static void hold(const GroundClass& face, double recovery_time, ContactRow& row,
+                   IslandContact& contact);
+  void bond(const PairManifold& m, const PairPoint& point, double recovery_time, ContactRow& row,
+            IslandContact& contact) const;
+  [[nodiscard]] double compression_of(const PairManifold& m, const Vec3& normal) const;
+  [[nodiscard]] Mobility mobility_at(size_t k, const Vec3& arm, const Vec3& normal) const;
+  void add_point(const PairManifold& m, const PairPoint& point, int memory);
+  void add_fixed_point(const PairManifold& m, const PairPoint& point, int memory, int n_closing);
+  void add_fixed_points(const PairManifold& m);
+  [[nodiscard]] bool knows_body(int a, int b) const;
+  [[nodiscard]] double first_touch(double h) const;
+  [[nodiscard]] PairMotionFree free_motion(const PairManifold& m) const;
+  [[nodiscard]] double farthest_closing(double h) const;
+  void add_points(const PairManifold& m, double farthest);
+  bool assemble(double t, double h);
+
+  // island_impacts.cpp
+  void make_hit(size_t r, double gap_end, double h);
+  int find_hits(double h, bool free);
+  double correct_hits();
+  [[nodiscard]] double hit_energy() const;
+  [[nodiscard]] double work_on_velocities() const;
+  [[nodiscard]] double fastest() const;
+  [[nodiscard]] double fastest_hit() const;
+  bool solve_once(double h, bool continues);
+  void forgo_rebound();
+  bool solve(double h);
+  [[nodiscard]] bool is_closed() const;
+  void set_times(double h);
+  void find_mean_times(double h);
+  void shift_arms(double h);
+  void set_displacements(double h);
+
+  // step_island.cpp
+  void gather(std::span<const int> blocks);
+  void release();
+  [[nodiscard]] Vec3 way_of_impulse(size_t r, double h) const;
+  void account(size_t r, double h);
+  void find_pushes(double h);
+  void note_touched_panels(double t);
+  bool break_bonds(double h);
+  [[nodiscard]] int bond_of(const IslandContact& contact) const;
+  [[nodiscard]] const GroundClass& bond_class(const IslandContact& contact) const;
+  void break_bond(int bond);
+  BondLoad& load_of(const IslandContact& contact);
+  void remember(double h);
+  [[nodiscard]] Motion end_of(size_t k) const;
+  void add_path(size_t k, const Motion& end, double t, double h);
+  void finish(double t, double h);
+  void forget_rates(int b);
+  Attempt attempt(double t, double& h);
+  void stop_outsiders(double t_end);
+  void run(int island, std::span<const int> blocks, double t_end);
+};
+
+}  // namespace talus

@@ -1,0 +1,412 @@
+#include <algorithm>
+#include <cmath>
+
+#include "contact/search.hpp"
+#include "dda/advance_island.hpp"
+#include "dda/fence.hpp"
+
+namespace talus {
+namespace {
+
+using std::size_t;
+
+constexpr double pair_touch_ratio = 1e-6;  // a pair touches when its gap is below this part of r
+constexpr double held = 1e100;             // strength of an intact bond while the forces are sought
+
+}  // namespace
+
+void AdvanceIsland::clear_island() {
+  w.contacts.clear();
+  w.turns.clear();
+  w.island.mass.clear();
+  w.island.free_velocity.clear();
+  w.island.velocity.clear();
+  w.island.position.clear();
+  w.island.radius.clear();
+  w.island.pairs.clear();
+  w.island.rows.clear();
+}
+
+void AdvanceIsland::add_member(size_t k, double h) {
+  const BlockNumbers& c = w.numbers[k];
+  const Substep& s = w.substeps[k];
+  const FreeTurn turn = {s.R * s.R_start.transpose(), s.R_start * s.spin_start, s.R * s.spin_free,
+                         s.R * c.per_inertia.asDiagonal() * s.R.transpose()};
+  Vec6 free, guess;
+  free << s.free.velocity, turn.spin_end;
+  guess << s.start.velocity + h * state.acceleration[block(k)],
+      turn.spin_start + h * (s.R * state.spin_rate[block(k)]);
+  w.turns.push_back(turn);
+  Mat6 M = Mat6::Zero();
+  M.topLeftCorner<3, 3>().diagonal().setConstant(c.mass);
+  M.bottomRightCorner<3, 3>() = s.R * c.inertia.asDiagonal() * s.R.transpose();
+  w.island.mass.push_back(M);
+  w.island.free_velocity.push_back(free);
+  w.island.velocity.push_back(guess);
+  w.island.position.push_back((s.start.pose.position + s.free.pose.position) / 2);
+  w.island.radius.push_back(c.radius);
+}
+
+void AdvanceIsland::open_pair(int a, int b) {
+  const int at = static_cast<int>(w.island.rows.size());
+  w.island.pairs.push_back({a, b, at, at});
+}
+
+// A contact, and its row for the solver, from a row in local axes.
+void AdvanceIsland::push(const ContactRow& row, IslandContact contact) {
+  contact.row = row;
+  contact.gap_free = row.gap_start + row.normal.dot(row.free_move);
+  IslandRow out;
+  out.normal = row.normal;
+  out.arm = row.point;
+  const double along = row.normal.dot(row.drift);
+  out.shear_velocity = row.shear_velocity + (row.drift - along * row.normal);
+  out.slip_start = row.slip_start;
+  out.bias = row.bias + along;
+  out.normal_damping = row.normal_damping;
+  out.shear_damping = row.shear_damping;
+  out.friction = row.friction;
+  out.cohesion_impulse = row.cohesion_impulse;
+  out.tension_impulse = row.tension_impulse;
+  out.normal_limit = row.normal_limit;
+  const double h = w.substeps.front().h;
+  contact.approach = std::min(row.speed_start, row.normal.dot(row.free_move) / h);
+  contact.waits = row.memory < 0 && !contact.never_waits &&
+                  contact.approach < -numbers(contact.a).resting_speed;
+  out.waits_for_impact = contact.waits;
+  if (row.memory >= 0) {
+    const ContactMemory& m =
+        state.memory[static_cast<size_t>(contact.a)][static_cast<size_t>(row.memory)];
+    out.impulse = h * m.normal_force * row.normal;
+    out.state = static_cast<ContactState>(m.state);
+  }
+  w.contacts.push_back(contact);
+  w.island.rows.push_back(out);
+  w.island.pairs.back().row_end = static_cast<int>(w.island.rows.size());
+}
+
+// Contacts of a member with the ground. False when it is off the known ground.
+bool AdvanceIsland::add_ground(size_t k) {
+  const Substep& s = w.substeps[k];
+  const int b = w.members[k];
+  if (!scene.settings.trn_contacts) return true;
+  const SearchResult near =
+      find_contacts(scene.ground, scene.blocks.shapes, b, s.free.pose, Mat3::Identity(),
+                    search_margin(w.numbers[k], s.h), work.world_vertices, work.contacts);
+  if (near.reach == Reach::off_ground) {
+    outsider = b;
+    return false;
+  }
+  if (near.reach == Reach::below) report.flags = report.flags | StepFlag::fell_through;
+  make_rows(scene, b, w.numbers[k], s, state, work);
+  if (work.rows.empty()) return true;
+  open_pair(static_cast<int>(k), -1);
+  for (ContactRow& row : work.rows) {
+    for (Vec3* v : {&row.normal, &row.point, &row.drift, &row.shear, &row.shear_velocity,
+                    &row.slip_start, &row.free_move})
+      *v = s.R * *v;
+    const Contact& contact = work.contacts[static_cast<size_t>(row.contact)];
+    const GroundClass& ground = scene.ground.classes[static_cast<size_t>(contact.ground_class)];
+    IslandContact out;
+    out.key = contact.key;
+    out.a = b;
+    out.touch = w.numbers[k].touch;
+    out.restitution = ground.restitution;
+    out.ground_class = contact.ground_class;
+    if (row.bond_area > 0) hold(ground, w.numbers[k].recovery_time, row, out);
+    push(row, out);
+  }
+  return true;
+}
+
+AdvanceIsland::PointPath AdvanceIsland::path_of(size_t k, const Vec3& x) const {
+  const Substep& s = w.substeps[k];
+  const FreeTurn& turn = w.turns[k];
+  PointPath p;
+  p.start = x - s.start.pose.position;
+  p.end = turn.by * p.start;
+  p.moved = s.free.pose.position - s.start.pose.position + p.end - p.start;
+  p.velocity = s.start.velocity + turn.spin_start.cross(p.start);
+  p.spin_end = turn.spin_end;
+  return p;
+}
+
+// The memories that the points of a manifold continue, -1: none. First those of the same
+// features; then, where features changed, those that the pair leaves without a successor, so that
+// a face that rests on another keeps its support and its friction while corners pass edges.
+void AdvanceIsland::match_memories(const PairManifold& m) {
+  const std::vector<ContactMemory>& memory = state.memory[static_cast<size_t>(m.block_a)];
+  w.continued.assign(static_cast<size_t>(m.point_end - m.point_begin), -1);
+  w.unclaimed.clear();
+  for (size_t i = 0; i < memory.size(); ++i)
+    if (memory[i].key.body_b == m.block_b) w.unclaimed.push_back(static_cast<int>(i));
+  const auto claim = [&](const auto& continues, double least_cosine) {
+    for (size_t p = 0; p < w.continued.size() && !w.unclaimed.empty(); ++p) {
+      if (w.continued[p] >= 0) continue;
+      const ContactKey& key = w.pairs.points[static_cast<size_t>(m.point_begin) + p].key;
+      const auto found = std::find_if(w.unclaimed.begin(), w.unclaimed.end(), [&](int i) {
+        const ContactMemory& then = memory[static_cast<size_t>(i)];
+        return then.normal.dot(m.normal) > least_cosine && continues(key, then.key);
+      });
+      if (found == w.unclaimed.end()) continue;
+      w.continued[p] = *found;
+      w.unclaimed.erase(found);
+    }
+  };
+  claim(
+      [](const ContactKey& now, const ContactKey& then) {
+        return now.mode == then.mode && now.feature_a == then.feature_a &&
+               now.feature_b == then.feature_b;
+      },
+      0.5);
+  claim([](const ContactKey&, const ContactKey&) { return true; }, 0.99);
+}
+
+int AdvanceIsland::continued(const PairManifold& m, int p) const {
+  return w.continued[static_cast<size_t>(p - m.point_begin)];
+}
+
+// Holds a contact of a bond without limit; break_bonds() compares what it carries.
+void AdvanceIsland::hold(const GroundClass& face, double recovery_time, ContactRow& row,
+                         IslandContact& contact) {
+  row.cohesion_impulse = held;
+  row.tension_impulse = face.tension > 0 ? held : 0;
+  row.bias = (row.gap_start + row.offset) / recovery_time;
+  contact.never_waits = true;
+}
+
+// The share of a contact in the bond of its blocks, if there is one. Where the faces were when
+// the bond was new, it carries nothing.
+void AdvanceIsland::bond(const PairManifold& m, const PairPoint& point, double recovery_time,
+                         ContactRow& row, IslandContact& contact) const {
+  contact.bond = find_bond(state.bonds, m.block_a, m.block_b);
+  if (contact.bond < 0) return;
+  const BlockBond& of_blocks = state.bonds[static_cast<size_t>(contact.bond)];
+  row.bond_area = m.area > 0 ? of_blocks.area * point.area / m.area : 0;
+  if (row.memory < 0) row.offset = -row.gap_start;
+  hold(of_blocks.face, recovery_time, row, contact);
+}
+
+// The deepest that contacts of the pair are pressed in [m]. As much of the overlap of a new one
+// is no surprise: where corners of two faces only change places, what they bear must not be
+// dropped.
+double AdvanceIsland::compression_of(const PairManifold& m, const Vec3& normal) const {
+  double deepest = 0;
+  for (const ContactMemory& c : state.memory[static_cast<size_t>(m.block_a)])
+    if (c.key.body_b == m.block_b && c.normal.dot(normal) > 0.5)
+      deepest = std::max(deepest, -c.gap_end);
+  return deepest;
+}
+
+// Mobility of a contact's point relative to the other side's, as mobility() with local axes.
+Mobility AdvanceIsland::mobility_at(size_t k, const Vec3& arm, const Vec3& normal) const {
+  const Mat3& per_inertia = w.turns[k].per_inertia;
+  const Vec3 turn = arm.cross(normal);
+  const double along = 1 / w.numbers[k].mass + turn.dot(per_inertia * turn);
+  const double all =
+      3 / w.numbers[k].mass + per_inertia.trace() * arm.squaredNorm() - arm.dot(per_inertia * arm);
+  return {along, std::max(along, all - along)};
+}
+
+void AdvanceIsland::add_point(const PairManifold& m, const PairPoint& point, int memory) {
+  const size_t ka = place(m.block_a), kb = place(m.block_b);
+  const Substep& sa = w.substeps[ka];
+  const BlockNumbers &ca = w.numbers[ka], &cb = w.numbers[kb];
+  const Vec3& n = m.normal;
+  const PointPath pa = path_of(ka, point.point_b + point.gap * n);
+  const PointPath pb = path_of(kb, point.point_b);
+  const Vec3 shift = w.island.position[ka] - w.island.position[kb];  // of B's arms from A's
+  const Vec3 arm = (pa.start + pa.end + pb.start + pb.end) / 4 - shift / 2;
+  const Vec3 arm_b = arm + shift;
+
+  IslandContact contact;
+  contact.a = m.block_a;
+  contact.b = m.block_b;
+  contact.key = point.key;
+  contact.key.body_b = m.block_b;
+  contact.touch = pair_touch_ratio * std::min(ca.radius, cb.radius);
+  const GroundClass faces = pair_class(scene, m);
+  contact.restitution = faces.restitution;
+  ContactRow row;
+  row.normal = n;
+  row.point = arm;
+  row.drift = pa.spin_end.cross(pa.end - arm) - pb.spin_end.cross(pb.end - arm_b);
+  row.free_move = pa.moved - pb.moved;
+  row.gap_start = point.gap;
+  const Vec3 slip = pa.velocity - pb.velocity;
+  row.speed_start = n.dot(slip);
+  const Vec3 tangent = slip - row.speed_start * n;
+  const double slip_speed = tangent.norm();
+  if (slip_speed > 0) row.slip_start = tangent / slip_speed;
+  row.friction = faces.friction;
+
+  const double approach = std::min(row.speed_start, n.dot(row.free_move) / sa.h);
+  if (memory >= 0 && !(row.gap_start > contact.touch && approach < -ca.resting_speed))
+    inherit(state.memory[static_cast<size_t>(m.block_a)][static_cast<size_t>(memory)], memory,
+            Mat3::Identity(), contact.touch, row);
+  else
+    row.offset = std::max(0.0, -row.gap_start - compression_of(m, n));
+  const Mobility Wa = mobility_at(ka, arm, n), Wb = mobility_at(kb, arm_b, n);
+  BlockNumbers c = ca;
+  c.touch = contact.touch;
+  c.stiffness = std::max(ca.stiffness, cb.stiffness) * (ca.mass / std::min(ca.mass, cb.mass));
+  set_law(scene, c, sa.h, {Wa.normal + Wb.normal, Wa.tangent + Wb.tangent}, approach, row);
+  bond(m, point, c.recovery_time, row, contact);
+  push(row, contact);
+}
+
+// A point on a fixed body: for the solver, on the ground. `n_closing`: points of the manifold
+// that close within the substep; they share the force with which a panel of a fence gives way.
+void AdvanceIsland::add_fixed_point(const PairManifold& m, const PairPoint& point, int memory,
+                                    int n_closing) {
+  const size_t k = place(m.block_a);
+  const Substep& s = w.substeps[k];
+  const Vec3& n = m.normal;
+  const PointPath path = path_of(k, point.point_b + point.gap * n);
+  BlockNumbers c = w.numbers[k];
+  c.touch = pair_touch_ratio * c.radius;
+
+  IslandContact contact;
+  contact.a = m.block_a;
+  contact.fixed = m.block_b;
+  contact.key = point.key;
+  contact.key.body_b = m.block_b;
+  contact.touch = c.touch;
+  contact.restitution = fixed_class(scene, m.block_b).restitution;
+  ContactRow row;
+  row.normal = n;
+  row.point = (path.start + path.end) / 2;
+  row.drift = path.spin_end.cross(path.end - row.point);
+  row.free_move = path.moved;
+  row.gap_start = point.gap;
+  row.speed_start = n.dot(path.velocity);
+  const Vec3 tangent = path.velocity - row.speed_start * n;
+  const double slip_speed = tangent.norm();
+  if (slip_speed > 0) row.slip_start = tangent / slip_speed;
+  row.friction = fixed_class(scene, m.block_b).friction;
+
+  const double approach = std::min(row.speed_start, n.dot(row.free_move) / s.h);
+  const FencePanel* panel = giving_way(scene, m.block_b, n);
+  if (memory >= 0 &&
+      (panel != nullptr || !(row.gap_start > contact.touch && approach < -c.resting_speed)))
+    inherit(state.memory[static_cast<size_t>(m.block_a)][static_cast<size_t>(memory)], memory,
+            Mat3::Identity(), contact.touch, row);
+  else
+    row.offset = std::max(0.0, -row.gap_start);
+  set_law(scene, c, s.h, mobility_at(k, row.point, n), approach, row);
+  if (panel != nullptr) {
+    row.normal_limit = panel->force * s.h / n_closing;
+    contact.never_waits = true;
+  }
+  push(row, contact);
+}
+
+void AdvanceIsland::add_fixed_points(const PairManifold& m) {
+  const size_t k = place(m.block_a);
+  int n_closing = 0;
+  for (int p = m.point_begin; p < m.point_end; ++p) {
+    const PairPoint& point = w.pairs.points[static_cast<size_t>(p)];
+    const PointPath path = path_of(k, point.point_b + point.gap * m.normal);
+    n_closing += point.gap + m.normal.dot(path.moved) <= 0;
+  }
+  for (int p = m.point_begin; p < m.point_end; ++p)
+    add_fixed_point(m, w.pairs.points[static_cast<size_t>(p)], continued(m, p),
+                    std::max(n_closing, 1));
+}
+
+// Whether block a touched body b in the last step.
+bool AdvanceIsland::knows_body(int a, int b) const {
+  const std::vector<ContactMemory>& memory = state.memory[static_cast<size_t>(a)];
+  return std::any_of(memory.begin(), memory.end(),
+                     [b](const ContactMemory& m) { return m.key.body_b == b; });
+}
+
+// Time at which a block first touches a panel that gives way, h + 1: none does within the
+// substep. Its force acts from there on.
+double AdvanceIsland::first_touch(double h) const {
+  double first = h + 1;
+  for (const IslandContact& contact : w.contacts) {
+    const ContactRow& row = contact.row;
+    const double v = row.speed_start, g = row.gap_start;
+    if (row.normal_limit >= no_normal_limit || g <= contact.touch ||
+        contact.gap_free > -contact.touch || knows_body(contact.a, contact.fixed))
+      continue;
+    const double a = 2 * (contact.gap_free - g - v * h) / (h * h);
+    first = std::min(first, 2 * g / (std::sqrt(std::max(0.0, v * v - 2 * a * g)) - v));
+  }
+  return first;
+}
+
+AdvanceIsland::PairMotionFree AdvanceIsland::free_motion(const PairManifold& m) const {
+  const size_t ka = place(m.block_a), kb = place(m.block_b);
+  const Substep &a = w.substeps[ka], &b = w.substeps[kb];
+  const FreeTurn &turn_a = w.turns[ka], &turn_b = w.turns[kb];
+  const Vec3& n = m.normal;
+  PairMotionFree out;
+  out.turn_a = turn_a.by.transpose() * n - n;
+  out.turn_b = turn_b.by.transpose() * n - n;
+  out.spin_a = n.cross(turn_a.spin_start);
+  out.spin_b = n.cross(turn_b.spin_start);
+  out.at_a = a.start.pose.position;
+  out.at_b = b.start.pose.position;
+  out.moved = n.dot((a.free.pose.position - out.at_a) - (b.free.pose.position - out.at_b));
+  out.speed = n.dot(a.start.velocity - b.start.velocity);
+  return out;
+}
+
+// The gap above which a new contact stays open: the island's other contacts push no point
+// farther within the substep, gravity's share four times over and twice the fastest hit.
+double AdvanceIsland::farthest_closing(double h) const {
+  double hit = 0;
+  for (const IslandContact& contact : w.contacts)
+    if (contact.waits) hit = std::max(hit, -contact.approach);
+  for (const int i : w.island_manifolds) {
+    const PairManifold& m = w.pairs.manifolds[static_cast<size_t>(i)];
+    if (is_fixed(scene, m.block_b)) continue;
+    const PairMotionFree free = free_motion(m);
+    for (int p = m.point_begin; p < m.point_end; ++p) {
+      const PairPoint& point = w.pairs.points[static_cast<size_t>(p)];
+      const double speed = -free.approach(point, h);
+      if (speed > numbers(m.block_a).resting_speed && free.gap_end(point) < h * speed)
+        hit = std::max(hit, speed);
+    }
+  }
+  return 4 * scene.gravity.norm() * h * h + 2 * h * hit;
+}
+
+void AdvanceIsland::add_points(const PairManifold& m, double farthest) {
+  const PairMotionFree free = free_motion(m);
+  const bool bonded = find_bond(state.bonds, m.block_a, m.block_b) >= 0;
+  for (int p = m.point_begin; p < m.point_end; ++p) {
+    const PairPoint& point = w.pairs.points[static_cast<size_t>(p)];
+    const int memory = continued(m, p);
+    if (memory < 0 && !bonded && std::min(point.gap, free.gap_end(point)) > farthest) continue;
+    add_point(m, point, memory);
+  }
+}
+
+// Bodies, and all contacts of the island, over h from t. False: a member left the ground.
+bool AdvanceIsland::assemble(double t, double h) {
+  clear_island();
+  w.substeps.resize(w.members.size());
+  for (size_t k = 0; k < w.members.size(); ++k) {
+    w.substeps[k] = predict(scene, w.members[k], w.numbers[k], motion(k), t, h);
+    add_member(k, h);
+  }
+  for (size_t k = 0; k < w.members.size(); ++k)
+    if (!add_ground(k)) return false;
+  const double farthest = farthest_closing(h);
+  for (const int i : w.island_manifolds) {
+    const PairManifold& m = w.pairs.manifolds[static_cast<size_t>(i)];
+    open_pair(w.place[static_cast<size_t>(m.block_a)], w.place[static_cast<size_t>(m.block_b)]);
+    match_memories(m);
+    if (is_fixed(scene, m.block_b))
+      add_fixed_points(m);
+    else
+      add_points(m, farthest);
+    if (w.island.pairs.back().row_begin == w.island.pairs.back().row_end) w.island.pairs.pop_back();
+  }
+  return true;
+}
+
+}  // namespace talus

@@ -1,0 +1,238 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "dda/advance_island.hpp"
+
+namespace talus {
+namespace {
+
+using std::size_t;
+
+constexpr double hit_stiffness = 30;          // D of a hit over the mass that it feels
+constexpr double hit_share = 0.7;             // first guess of its impulse, of that of a lone hit
+constexpr double hit_tolerance = 1e-2;        // of its rebound, of the speed that it came with
+constexpr double small_hit_tolerance = 1e-9;  // the same in an island that is factored
+constexpr int most_hit_rounds = 8;            // solutions until all hits are found and rebound
+constexpr double island_tolerance = 1e-2;     // of contact forces, of what gravity does in the step
+constexpr double motion_tolerance = 1e-3;  // ... but not above this part of the fastest speed ...
+constexpr double rest_tolerance = 1e-6;    // ... nor below this, of what gravity does
+constexpr double small_tolerance = 1e-8;   // the same in an island that is factored
+constexpr double gain_rounding = 1e-6;     // of the energy of hits: not a gain
+constexpr double linear_tolerance = 3e-2;  // of conjugate gradients in a Newton step
+
+}  // namespace
+
+// Makes contact `r`, which waits, a hit: from its gaps at both ends of the step without it.
+void AdvanceIsland::make_hit(size_t r, double gap_end, double h) {
+  IslandContact& contact = w.contacts[r];
+  IslandRow& row = w.island.rows[r];
+  const double v = contact.row.speed_start, g = contact.row.gap_start;
+  const double a = 2 * (gap_end - g - v * h) / (h * h);
+  const double a_free = 2 * (contact.gap_free - g - v * h) / (h * h);
+  if (g > 0)
+    contact.hit_time = std::min(h, 2 * g / (std::sqrt(std::max(0.0, v * v - 2 * a * g)) - v));
+  const double rest = h - contact.hit_time;
+  contact.hit_speed = g > 0 ? v + a * contact.hit_time : contact.approach;
+  contact.target =
+      std::max(0.0, -contact.restitution * contact.hit_speed + std::min(0.0, a_free) * rest);
+  contact.waits = false;
+  contact.hit = true;
+  const size_t ka = place(contact.a);
+  Mobility W = mobility_at(ka, contact.row.point, row.normal);
+  if (contact.b >= 0) {
+    const size_t kb = place(contact.b);
+    const Vec3 arm_b = contact.row.point + w.island.position[ka] - w.island.position[kb];
+    const Mobility Wb = mobility_at(kb, arm_b, row.normal);
+    W.normal += Wb.normal;
+    W.tangent += Wb.tangent;
+  }
+  row.normal_damping = hit_stiffness / W.normal;
+  row.shear_damping = hit_stiffness / W.tangent;
+  row.shear_velocity.setZero();
+  row.slip_start.setZero();  // friction against the end velocity never gains energy
+  row.waits_for_impact = false;
+  const double change_alone = std::max(0.0, contact.target - (v + a_free * h));
+  row.state = ContactState::slip;
+  row.impulse = change_alone / W.normal * hit_share * row.normal;
+  row.bias = -contact.target - change_alone / hit_stiffness;
+}
+
+// Contacts that wait and are hit by the motion `of` the members: how many.
+int AdvanceIsland::find_hits(double h, bool free) {
+  int n = 0;
+  for (size_t r = 0; r < w.contacts.size(); ++r) {
+    const IslandContact& contact = w.contacts[r];
+    if (!contact.waits) continue;
+    const double by_contact = free ? 0.0 : h / 2 * contact.row.normal.dot(changed(r));
+    const double gap_end = contact.gap_free + by_contact;
+    if (gap_end > contact.touch) continue;
+    make_hit(r, gap_end, h);
+    ++n;
+  }
+  return n;
+}
+
+// Moves the targets of the hits by what finite stiffness left: the largest error, of the speed.
+double AdvanceIsland::correct_hits() {
+  double worst = 0;
+  for (size_t r = 0; r < w.contacts.size(); ++r) {
+    const IslandContact& contact = w.contacts[r];
+    IslandRow& row = w.island.rows[r];
+    const double p_n = row.normal.dot(row.impulse);
+    if (!contact.hit || p_n <= 0) continue;
+    const double reached = -row.bias - p_n / row.normal_damping;
+    worst = std::max(worst, std::abs(reached - contact.target) / -contact.hit_speed);
+    row.bias = -contact.target - p_n / row.normal_damping;
+  }
+  return worst;
+}
+
+// Impulses of the hits times the speeds that they came with.
+double AdvanceIsland::hit_energy() const {
+  double sum = 0;
+  for (size_t r = 0; r < w.contacts.size(); ++r)
+    if (w.contacts[r].hit)
+      sum -= w.contacts[r].hit_speed * w.island.rows[r].normal.dot(w.island.rows[r].impulse);
+  return sum;
+}
+
+// Work of all contact impulses on the velocities; > 0 would be a gain by restitution.
+double AdvanceIsland::work_on_velocities() const {
+  double sum = 0;
+  for (size_t r = 0; r < w.contacts.size(); ++r) {
+    const Vec3& p = w.island.rows[r].impulse;
+    if (p.isZero(0)) continue;
+    sum += p.dot(relative(r, [&](size_t k) -> Vec6 {
+      return (w.island.velocity[k] + w.island.free_velocity[k]) / 2;
+    }));
+  }
+  return sum;
+}
+
+double AdvanceIsland::fastest() const {
+  double speed = 0;
+  for (size_t k = 0; k < w.members.size(); ++k)
+    speed = std::max(speed, w.substeps[k].start.velocity.norm());
+  return speed;
+}
+
+// Speed of the fastest hit.
+double AdvanceIsland::fastest_hit() const {
+  double fastest = 0;
+  for (const IslandContact& contact : w.contacts)
+    if (contact.hit) fastest = std::max(fastest, -contact.hit_speed);
+  return fastest;
+}
+
+bool AdvanceIsland::solve_once(double h, bool continues) {
+  IslandSettings settings;
+  settings.continues = continues;
+  const double by_gravity = scene.gravity.norm() * h;
+  settings.tolerance = small_tolerance * by_gravity;
+  settings.direct_bodies = small ? static_cast<int>(w.members.size()) : 0;
+  if (!small) {
+    const double by_motion = std::clamp(motion_tolerance * fastest(), rest_tolerance * by_gravity,
+                                        island_tolerance * by_gravity);
+    settings.tolerance = std::max(by_motion, hit_tolerance * fastest_hit());
+    settings.linear_tolerance = linear_tolerance;
+  }
+  settings.tolerance *= scene.settings.tolerance_factor;
+  const IslandResult solved = solve_island(w.island, settings, w.solver);
+  report.passes += solved.passes;
+  return solved.converged;
+}
+
+// Takes the rebound from the hits: what a set of them did to the energy was a gain.
+void AdvanceIsland::forgo_rebound() {
+  for (size_t r = 0; r < w.contacts.size(); ++r) {
+    if (!w.contacts[r].hit) continue;
+    IslandRow& row = w.island.rows[r];
+    w.contacts[r].target = 0;
+    row.bias = -row.normal.dot(row.impulse) / row.normal_damping;
+  }
+}
+
+// Impulses of the substep, hits included.
+bool AdvanceIsland::solve(double h) {
+  int hits = find_hits(h, true);
+  set_times(h);
+  bool converged = solve_once(h, false);
+  for (int round = 0; round < most_hit_rounds && converged; ++round) {
+    const int more = find_hits(h, false);
+    hits += more;
+    if (hits == 0) return true;
+    const double error = correct_hits();
+    if (more > 0) set_times(h);
+    if (more == 0 && error <= (small ? small_hit_tolerance : hit_tolerance)) break;
+    converged = solve_once(h, true);
+  }
+  report.n_impacts += hits;
+  if (converged && work_on_velocities() > gain_rounding * hit_energy()) {
+    forgo_rebound();
+    converged = solve_once(h, true);
+  }
+  return converged;
+}
+
+bool AdvanceIsland::is_closed() const {
+  return std::none_of(w.contacts.begin(), w.contacts.end(),
+                      [](const IslandContact& contact) { return contact.b < 0; });
+}
+
+// When each member's velocity changes, on the mean over the expected impulses: a contact that
+// presses all along acts in the middle of the substep, a hit at its time. Lever arms count from
+// where the members are then, so that angular momentum is kept. An island that touches nothing
+// else takes one time for all: different ones would move its centre of mass.
+void AdvanceIsland::set_times(double h) {
+  w.time.assign(w.members.size(), h / 2);
+  const bool any_hit = std::any_of(w.contacts.begin(), w.contacts.end(),
+                                   [](const IslandContact& contact) { return contact.hit; });
+  if (any_hit) find_mean_times(h);
+  for (size_t k = 0; k < w.members.size(); ++k)
+    w.island.position[k] =
+        w.substeps[k].free.pose.position - (h - w.time[k]) * w.substeps[k].free.velocity;
+  if (any_hit) shift_arms(h);
+}
+
+void AdvanceIsland::find_mean_times(double h) {
+  w.weight.assign(w.members.size(), 0);
+  w.time.assign(w.members.size(), 0);
+  for (size_t r = 0; r < w.contacts.size(); ++r) {
+    const IslandContact& contact = w.contacts[r];
+    const double p = w.island.rows[r].impulse.norm();
+    const double t = contact.hit ? contact.hit_time : h / 2;
+    for (const int b : {contact.a, contact.b}) {
+      if (b < 0) continue;
+      w.weight[place(b)] += p;
+      w.time[place(b)] += p * t;
+    }
+  }
+  if (is_closed()) {
+    const double weight = std::accumulate(w.weight.begin(), w.weight.end(), 0.0);
+    const double time = std::accumulate(w.time.begin(), w.time.end(), 0.0);
+    std::fill(w.weight.begin(), w.weight.end(), weight);
+    std::fill(w.time.begin(), w.time.end(), time);
+  }
+  for (size_t k = 0; k < w.members.size(); ++k)
+    w.time[k] = w.weight[k] > 0 ? w.time[k] / w.weight[k] : h / 2;
+}
+
+void AdvanceIsland::shift_arms(double h) {
+  for (size_t r = 0; r < w.contacts.size(); ++r) {
+    const IslandContact& contact = w.contacts[r];
+    if (contact.b < 0) continue;
+    const size_t ka = place(contact.a), kb = place(contact.b);
+    w.island.rows[r].arm =
+        contact.row.point + ((w.time[kb] - h / 2) * w.substeps[kb].free.velocity -
+                             (w.time[ka] - h / 2) * w.substeps[ka].free.velocity) /
+                                2;
+  }
+}
+
+void AdvanceIsland::set_displacements(double h) {
+  w.displacement.resize(w.members.size());
+  for (size_t k = 0; k < w.members.size(); ++k) w.displacement[k] = (h - w.time[k]) * change(k);
+}
+
+}  // namespace talus

@@ -1,0 +1,239 @@
+#include <algorithm>
+#include <cmath>
+
+#include "dda/advance_island.hpp"
+#include "dda/fence.hpp"
+#include "dda/rotation.hpp"
+#include "dda/step.hpp"
+
+namespace talus {
+namespace {
+
+using std::size_t;
+
+// k_n dt^2 / m of a contact in an island: bounds the condition of its matrix ...
+constexpr double stiffest_in_island = 1;
+// ... and where it is small enough to be factored, so that a tower hardly sags.
+constexpr double stiffest_in_small_island = 30;
+constexpr size_t small_island = 8;
+constexpr size_t small_tree = 64;    // the same where blocks hang together without a ring: a column
+constexpr double most_turn = 0.5;    // in a substep [rad]
+constexpr double most_travel = 0.5;  // relative to a neighbour in a substep, of the thickness
+constexpr double most_substeps = 64;  // for these two reasons
+
+Vec3 spin_of(const Motion& m, const Vec3& inertia) {
+  return angular_velocity(m.pose.attitude, m.angular_momentum, inertia);
+}
+
+// Contacts between the blocks marked in work.islands.moving, and of those with others, over `h`.
+void find_pairs(const Scene& scene, double h, State& state, Work& work) {
+  IslandStepWork& w = work.islands;
+  const Blocks& blocks = scene.blocks;
+  double margin = 0;
+  for (int b = 0; b < n_blocks(scene); ++b)
+    margin = std::max(margin, search_margin(numbers_of(scene, b), h));
+  PairSettings settings;
+  settings.margin = margin;
+  settings.with_areas = !state.bonds.empty();
+  settings.graze_m = scene.gravity.norm() * h * h / stiffest_in_island;
+  place_hulls(blocks.hulls, w.poses, {}, w.moving, state.placed);
+  (void)find_pair_contacts(blocks.hulls, state.placed, {w.step, w.turn, w.awake, w.fixed, w.group},
+                           settings, state.pairs, w.pairs);
+}
+
+void set_motion_ahead(const Scene& scene, int b, const Motion& m, double h, IslandStepWork& w) {
+  const auto i = static_cast<size_t>(b);
+  w.poses[i] = m.pose;
+  w.step[i] = h * m.velocity;
+  w.turn[i] = h * scene.blocks.shapes.radius[i] * spin_of(m, scene.blocks.inertia[i]).norm();
+}
+
+// Fixed bodies where they are now: they step nowhere and need no contacts of their own. Panels of
+// fences that gave way have moved since they were placed last.
+void place_fixed(const Scene& scene, const State& state, IslandStepWork& w) {
+  const int n = n_blocks(scene), n_bodies = n + n_fixed(scene);
+  if (n == n_bodies) return;
+  w.fixed.assign(static_cast<size_t>(n_bodies), 0);
+  w.group.clear();
+  for (int b = n; b < n_bodies; ++b) {
+    const auto i = static_cast<size_t>(b);
+    w.poses[i] = fixed_pose(scene, state, b);
+    w.step[i].setZero();
+    w.turn[i] = 0;
+    w.moving[i] = !state.placed.turned.empty() && state.placed.position[i] != w.poses[i].position;
+    w.awake[i] = 0;
+    w.fixed[i] = 1;
+  }
+  if (scene.settings.block_contacts) return;
+  w.group.assign(static_cast<size_t>(n_bodies), 0);
+  for (int b = n; b < n_bodies; ++b) w.group[static_cast<size_t>(b)] = 1;
+}
+
+// Pairs of blocks within reach; true when one of them was asleep and now is not.
+bool join_pairs(const Scene& scene, State& state, IslandStepWork& w) {
+  bool woken = false;
+  w.joined.clear();
+  w.joined_manifold.clear();
+  for (size_t j = 0; j < w.pairs.manifolds.size(); ++j) {
+    const PairManifold& m = w.pairs.manifolds[j];
+    if (is_fixed(scene, m.block_b)) {
+      if (!takes_part(state, m.block_a) || !stands(scene, state, m.block_b)) continue;
+      w.joined.emplace_back(m.block_a, -1);
+      w.joined_manifold.push_back(static_cast<int>(j));
+      w.near_fixed[static_cast<size_t>(m.block_a)] = 1;
+      continue;
+    }
+    if (!takes_part(state, m.block_a) || !takes_part(state, m.block_b)) continue;
+    w.joined.emplace_back(m.block_a, m.block_b);
+    w.joined_manifold.push_back(static_cast<int>(j));
+    for (const int b : {m.block_a, m.block_b}) {
+      const auto i = static_cast<size_t>(b);
+      if (state.phase[i] != Phase::asleep) continue;
+      state.phase[i] = Phase::near_ground;
+      state.still_steps[i] = 0;
+      state.local_time[i] = state.time;
+      w.awake[i] = 1;
+      woken = true;
+    }
+  }
+  return woken;
+}
+
+}  // namespace
+
+bool AdvanceIsland::in_island(const PairManifold& m) const {
+  return w.place[static_cast<size_t>(m.block_a)] >= 0 &&
+         (is_fixed(scene, m.block_b) ? stands(scene, state, m.block_b)
+                                     : w.place[static_cast<size_t>(m.block_b)] >= 0);
+}
+
+void AdvanceIsland::see_size() {
+  const auto n_pairs =
+      std::count_if(w.island_manifolds.begin(), w.island_manifolds.end(), [this](int i) {
+        return !is_fixed(scene, w.pairs.manifolds[static_cast<size_t>(i)].block_b);
+      });
+  const size_t n = w.members.size();
+  small = n <= small_island || (n <= small_tree && static_cast<size_t>(n_pairs) < n);
+}
+
+// The pairs at the poses of now, for at most `h` ahead.
+void AdvanceIsland::search_pairs(double h) {
+  for (size_t k = 0; k < w.members.size(); ++k) {
+    w.moving[block(k)] = 1;
+    set_motion_ahead(scene, w.members[k], motion(k), h, w);
+  }
+  w.awake = w.moving;
+  place_fixed(scene, state, w);
+  find_pairs(scene, h, state, work);
+  for (const int b : w.members) w.moving[static_cast<size_t>(b)] = 0;
+  w.pairs_of_step = false;
+  w.island_manifolds.clear();
+  for (size_t m = 0; m < w.pairs.manifolds.size(); ++m)
+    if (in_island(w.pairs.manifolds[m])) w.island_manifolds.push_back(static_cast<int>(m));
+  set_stiffness();
+}
+
+// The pairs that form_islands found, those of island `k`.
+void AdvanceIsland::take_pairs(int k) {
+  const auto at = static_cast<size_t>(k);
+  w.island_manifolds.clear();
+  for (int p = w.groups.pair_begin[at]; p < w.groups.pair_begin[at + 1]; ++p) {
+    const int m = w.joined_manifold[static_cast<size_t>(w.groups.pairs[static_cast<size_t>(p)])];
+    if (in_island(w.pairs.manifolds[static_cast<size_t>(m)])) w.island_manifolds.push_back(m);
+  }
+  set_stiffness();
+}
+
+// A small block may bear a large one: its contacts are as stiff as the heaviest block that it
+// touches asks for.
+void AdvanceIsland::set_stiffness() {
+  see_size();
+  w.bearing.clear();
+  for (const BlockNumbers& c : w.numbers) w.bearing.push_back(c.mass);
+  for (const int i : w.island_manifolds) {
+    const PairManifold& m = w.pairs.manifolds[static_cast<size_t>(i)];
+    if (is_fixed(scene, m.block_b)) continue;
+    double &a = w.bearing[place(m.block_a)], &b = w.bearing[place(m.block_b)];
+    a = std::max(a, numbers(m.block_b).mass);
+    b = std::max(b, numbers(m.block_a).mass);
+  }
+  const double dt = scene.settings.dt;
+  const double ratio = small ? stiffest_in_small_island : stiffest_in_island;
+  for (size_t k = 0; k < w.members.size(); ++k)
+    w.numbers[k].stiffness = ratio * w.bearing[k] / (dt * dt);
+}
+
+// The longest substep over which the contacts found at its start still describe the motion.
+double AdvanceIsland::longest_substep(double h) const {
+  double part = 0;
+  for (size_t k = 0; k < w.members.size(); ++k)
+    part = std::max(part, w.turn[block(k)] / (most_turn * w.numbers[k].radius));
+  for (const int i : w.island_manifolds) {
+    const PairManifold& m = w.pairs.manifolds[static_cast<size_t>(i)];
+    const auto a = static_cast<size_t>(m.block_a), b = static_cast<size_t>(m.block_b);
+    double thickness = numbers(m.block_a).thickness;
+    if (!is_fixed(scene, m.block_b)) thickness = std::min(thickness, numbers(m.block_b).thickness);
+    part = std::max(part, (w.step[a] - w.step[b]).norm() / (most_travel * thickness));
+  }
+  return part > 1 ? h / std::min(std::ceil(part), most_substeps) : h;
+}
+
+void form_islands(const Scene& scene, State& state, Work& work) {
+  IslandStepWork& w = work.islands;
+  const int n = n_blocks(scene);
+  const auto size = static_cast<size_t>(n + n_fixed(scene));
+  w.near_fixed.assign(static_cast<size_t>(n), scene.settings.trn_contacts ? 0 : 1);
+  w.poses.resize(size);
+  w.step.resize(size);
+  w.turn.resize(size);
+  w.moving.assign(size, 1);
+  w.awake.resize(size);
+  for (int b = 0; b < n; ++b) {
+    const auto i = static_cast<size_t>(b);
+    set_motion_ahead(scene, b, motion_at(scene, state, b, state.time), scene.settings.dt, w);
+    w.awake[i] = takes_part(state, b) && state.phase[i] != Phase::asleep;
+  }
+  place_fixed(scene, state, w);
+  do find_pairs(scene, scene.settings.dt, state, work);
+  while (join_pairs(scene, state, w));
+  find_islands(n, w.joined, {}, w.groups);
+  w.moving.assign(size, 0);
+  w.place.assign(size, -1);
+  w.pairs_of_step = true;
+  for (const auto& [a, b] : w.joined)
+    for (const int i : {a, b})
+      if (i >= 0 && state.phase[static_cast<size_t>(i)] == Phase::flight)
+        end_flight(scene, i, state.time, state, work);
+}
+
+void put_island_to_sleep(const Scene& scene, int k, State& state, const Work& work) {
+  constexpr double still = 1e-6;  // [m/s]
+  constexpr int long_enough = 100;
+  const IslandGroups& groups = work.islands.groups;
+  const auto at = static_cast<size_t>(k);
+  const std::span<const int> blocks(
+      groups.blocks.data() + groups.block_begin[at],
+      static_cast<size_t>(groups.block_begin[at + 1] - groups.block_begin[at]));
+  bool rests = true;
+  int steps = long_enough;
+  for (const int b : blocks) {
+    const auto i = static_cast<size_t>(b);
+    if (!takes_part(state, b)) continue;
+    const Motion& m = state.motion[i];
+    const double spin = m.angular_momentum.norm() / scene.blocks.inertia[i].minCoeff();
+    rests &= m.velocity.norm() + spin * scene.blocks.shapes.radius[i] < still;
+    for (const ContactMemory& c : state.memory[i])
+      rests &= c.state == static_cast<std::uint8_t>(ContactState::stick);
+    steps = std::min(steps, ++state.still_steps[i]);
+  }
+  for (const int b : blocks) {
+    const auto i = static_cast<size_t>(b);
+    if (!rests) state.still_steps[i] = 0;
+    if (!rests || steps < long_enough || !takes_part(state, b)) continue;
+    state.phase[i] = Phase::asleep;
+    state.motion[i].velocity.setZero();
+    state.motion[i].angular_momentum.setZero();
+  }
+}
+
+}  // namespace talus

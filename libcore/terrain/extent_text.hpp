@@ -1,0 +1,14 @@
+// libcore/terrain/extent_text.hpp
+// Where a terrain lies, in the words of messages.
+#pragma once
+
+#include <string>
+
+#include "terrain/trn.hpp"
+
+namespace talus {
+
+/// "the terrain covers x 248363 to 249217, y 351036 to 351760": its nodes in map coordinates [m].
+[[nodiscard]] std::string extent_text(const Trn& trn);
+
+}  // namespace talus

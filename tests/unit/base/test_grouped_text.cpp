@@ -1,0 +1,21 @@
+#include <gtest/gtest.h>
+
+#include "base/grouped_text.hpp"
+#include "base/text.hpp"
+
+namespace {
+
+TEST(GroupedText, HasNoPowerOfTenWhereDigitsCanBeRead) {
+  EXPECT_EQ(talus::grouped_text(12432.7, 4), "12,430");
+  EXPECT_EQ(talus::grouped_text(55773.6, 4), "55,770");
+  EXPECT_EQ(talus::grouped_text(-1234567, 3), "-1,230,000");
+  EXPECT_EQ(talus::grouped_text(2524, 3), "2,520");
+  EXPECT_EQ(talus::grouped_text(99999, 4), "100,000");
+}
+
+TEST(GroupedText, IsThatOfTextElsewhere) {
+  for (const double value : {0.0, 0.00123456, 1234.0, 9.99e9, -3.14159})
+    EXPECT_EQ(talus::grouped_text(value, 4), talus::text(value, 4));
+}
+
+}  // namespace
