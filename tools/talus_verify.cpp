@@ -213,7 +213,8 @@ std::string study_slide(Tool& tool, const Options& o, std::vector<VerifyRow>& ro
     std::vector<PeerPoint> peers;
     if (q == 0) peers = slide_peers(o, slide.reference);
     const std::string title = "slide39, error of the " + std::string(quantity_names[q]) + " [m]";
-    Chart chart = work_precision_chart(title, own, peers);
+    // the last is the reference, which has no error
+    Chart chart = work_precision_chart(title, {own.begin(), own.end() - 1}, peers);
     add_band(chart, band);
     tool.write_text(o.out + "/" + name + ".svg", chart_file(chart));
     measured.push_back({name, own, peers, useful_error * slide.way, band});
