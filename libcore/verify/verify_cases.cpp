@@ -102,8 +102,7 @@ std::vector<VerifyCase> single_block_cases() {
        .norm = "relative",
        .test = "LawTalus.PrismRollsOnAtTheSteadySpeed",
        .bound = 0.01,
-       .run = [](const Settings& s) { return sustained_rolling(s, 12); },
-       .laws = CaseLaws::talus_only},
+       .run = [](const Settings& s) { return sustained_rolling(s, 12); }},
       bounce_case("bounce_face", 0.7, Landing::face),
       bounce_case("bounce_edge", 0.7, Landing::edge),
       bounce_case("bounce_corner", 0.7, Landing::corner),
@@ -115,8 +114,7 @@ std::vector<VerifyCase> single_block_cases() {
        .norm = "relative",
        .test = "LawTalus.CornerImpulseIsExact",
        .bound = 1e-6,
-       .run = [](const Settings& s) { return corner_impulse(s, 0.7); },
-       .laws = CaseLaws::talus_only},
+       .run = [](const Settings& s) { return corner_impulse(s, 0.7); }},
       {.name = "free_spin",
        .claim = "a box spins about its middle axis in flight, 20 s",
        .reference = "Euler's equations by Runge-Kutta, 200,000 steps",
@@ -173,16 +171,14 @@ std::vector<VerifyCase> single_block_cases() {
        .norm = "relative",
        .test = "LawTalus.ColumnRocksAndLosesWhatHousnerSays",
        .bound = 1e-3,
-       .run = rocking_time,
-       .laws = CaseLaws::talus_only},
+       .run = rocking_time},
       {.name = "rocking_ratio",
        .claim = "that hit leaves it 0.91176 of its spin",
        .reference = "Housner's closed form",
        .norm = "relative",
        .test = "LawTalus.ColumnRocksAndLosesWhatHousnerSays",
        .bound = 1e-3,
-       .run = rocking_ratio,
-       .laws = CaseLaws::talus_only},
+       .run = rocking_ratio},
       {.name = "shaken",
        .claim = "a block on a shaken slope slides 3.19694 m in 10 s",
        .reference = "Newmark's sliding block",
@@ -196,8 +192,7 @@ std::vector<VerifyCase> single_block_cases() {
        .norm = "relative",
        .test = "LawTalusDefault.EnergyLineHasTheSlopeOfFriction",
        .bound = 5e-3,
-       .run = energy_line,
-       .laws = CaseLaws::talus_only},
+       .run = energy_line},
       {.name = "own_weight",
        .claim = "a cube of 10 m at rest carries the stress of its own weight",
        .reference = "rho g h / 2",
@@ -359,7 +354,6 @@ void add_full_study(const VerifyCase& c, std::vector<Method>& methods) {
     methods.push_back(law_talus({0, true}, few));
     std::erase_if(methods.back().dt, [&c](double dt) { return dt < c.shortest_strained_dt; });
   }
-  if (c.laws != CaseLaws::both) return;
   const std::vector<double> dt = {1e-2, 3e-3, 1e-3, 3e-4, 1e-4};
   for (const double stiffness : {paper_stiffness, 5e8})
     methods.push_back(law_paper({stiffness}, dt));
@@ -385,7 +379,7 @@ std::vector<Method> methods_of(const VerifyCase& c, bool full) {
     add_full_study(c, methods);
   } else {
     methods.push_back(law_talus({}, {1e-2, Settings{}.dt}));
-    if (c.laws == CaseLaws::both) methods.push_back(law_paper({paper_stiffness}, {1e-2, 1e-3}));
+    methods.push_back(law_paper({paper_stiffness}, {1e-2, 1e-3}));
   }
   for (Method& method : methods)
     if (method.settings.law == Law::paper && !c.paper_dt.empty()) method.dt = c.paper_dt;

@@ -11,9 +11,6 @@
 
 namespace talus {
 
-/// Which of the two laws a case can be run with.
-enum class CaseLaws { both, talus_only };
-
 struct VerifyCase {
   std::string name;       ///< as given on the command line and in file names
   std::string claim;      ///< one sentence
@@ -22,7 +19,6 @@ struct VerifyCase {
   std::string test;       ///< test that bounds it
   double bound = 0;       ///< law talus at the default step must stay below, unit of `norm`
   std::function<cases::CaseResult(const Settings&)> run;
-  CaseLaws laws = CaseLaws::both;
   int n_blocks = 1;
   double shortest_strained_dt = 0;    ///< law talus with strains: shorter steps take minutes [s]
   bool has_strains = false;           ///< runs with strains whatever the settings say
