@@ -1,0 +1,19 @@
+#include "scene/site.hpp"
+
+#include <filesystem>
+
+namespace talus {
+
+Where where_of(const Site& site, const std::string& key) {
+  const auto found = site.sources.find(key);
+  if (found == site.sources.end()) return {site.file};
+  if (found->second.kind == ValueSource::from_cli) return {"", 0, "command line"};
+  return {site.file, found->second.line};
+}
+
+std::string resolved(const Site& site, const std::string& path) {
+  const bool is_whole = path.empty() || path[0] == '/' || site.folder.empty();
+  return is_whole ? path : (std::filesystem::path(site.folder) / path).lexically_normal().string();
+}
+
+}  // namespace talus
