@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""Checks the rules of inclusion: modules of libcore include one way, in their fixed order, and the
-headers of a library stay in the sources that carry its name."""
+"""Checks the rules of inclusion: modules of libcore include one way, in their fixed order; the
+headers of a library stay in the sources that carry its name, also in tools; and a plain file includes
+no header of a source that needs a library, so that plain targets link alone."""
 import pathlib
 import re
 import sys
@@ -18,10 +19,16 @@ FOREIGN = re.compile(r"^(CLI/|nlohmann/|gtest/|rapidcheck)")
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
 
 
+def library_of(path):
+    """Name of the library that a file of libcore needs, by its suffix; empty for a plain one."""
+    word = path.stem.rsplit("_", 1)[-1]
+    return word if word in LIBRARY_HEADERS else ""
+
+
 def problems_of(root):
     for path in sorted((root / "libcore").rglob("*.[ch]pp")):
         module = path.relative_to(root / "libcore").parts[0]
-        suffix = path.stem.rsplit("_", 1)[-1] if path.suffix == ".cpp" else ""
+        suffix = library_of(path)
         for bracket, header in INCLUDE.findall(path.read_text()):
             where = f"{path.relative_to(root)} includes {header}"
             if bracket == '"':
@@ -32,12 +39,18 @@ def problems_of(root):
                     yield f"{where}: {module} stands above {target}, includes go upwards only"
                 elif not (root / "libcore" / header).exists():
                     yield f"{where}: no such header"
+                elif suffix == "" and library_of(pathlib.Path(header)):
+                    yield f"{where}: a plain file may not include what needs a library"
                 continue
             if FOREIGN.match(header):
                 yield f"{where}: belongs to tools or tests"
             for library, pattern in LIBRARY_HEADERS.items():
-                if pattern.match(header) and suffix != library:
+                if pattern.match(header) and (suffix != library or path.suffix != ".cpp"):
                     yield f"{where}: only sources named *_{library}.cpp may"
+    for path in sorted((root / "tools").glob("*.[ch]pp")):
+        for bracket, header in INCLUDE.findall(path.read_text()):
+            if bracket == "<" and any(pattern.match(header) for pattern in LIBRARY_HEADERS.values()):
+                yield f"{path.relative_to(root)} includes {header}: tools use libraries through libcore only"
 
 
 def main():

@@ -5,9 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "blocks/block_set.hpp"
 #include "dda/site_scene.hpp"
-#include "scene/plan.hpp"
 #include "scene/site.hpp"
 #include "store/crossings.hpp"
 #include "tool.hpp"

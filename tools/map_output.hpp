@@ -10,6 +10,7 @@
 
 #include "io/map_raster_gdal.hpp"
 #include "post/map_picture.hpp"
+#include "post/maps.hpp"
 #include "tool.hpp"
 
 namespace talus {

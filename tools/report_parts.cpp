@@ -445,7 +445,7 @@ std::string curve_section(const ReportData& data) {
        {std::array{"max_speed_m_s", "Fastest block", "m/s"},
         std::array{"mean_speed_m_s", "Mean speed of the mass", "m/s"},
         std::array{"front_m", "Front: way of the block farthest ahead", "m"},
-        std::array{"translation_kj", "Kinetic energy of translation", "kJ"}})
+        std::array{"translational_energy_kj", "Kinetic energy of translation", "kJ"}})
     out += figure(chart_svg(curve_chart(table, column, title, unit)), "");
   out += "</div>\n" + note("A line a run. <code>curves.csv</code>");
   return section("curves", "Over time", out);

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <ctime>
 #include <filesystem>
 
+#include "base/processor_time.hpp"
 #include "base/sha256.hpp"
 #include "base/text.hpp"
 #include "build_info.hpp"
@@ -87,16 +87,19 @@ std::string run_id_of(const Site& site, const DdaInputs& inputs, const Options& 
   const auto add = [&hash](const std::string& words) { hash.add(words.c_str(), words.size() + 1); };
   add(build_version);
   for (const EffectiveValue& entry : effective_values(site))
-    if (entry.key != "checkpoint_interval_s" && entry.key != "folder")
+    if (entry.key != "checkpoint_interval_s")
       add(entry.section + "." + entry.key + "=" + entry.value);
   add(inputs.trn_digest);
+  add(inputs.parts.blocks.content_hash);
   for (const Vec3& vertex : inputs.parts.blocks.vertices) hash.add(vertex.data(), sizeof vertex);
   for (const std::uint8_t c : inputs.parts.cell_class) hash.add(&c, 1);
+  for (const double time : inputs.parts.base.time) hash.add(&time, sizeof time);
   for (const Vec3& a : inputs.parts.base.acceleration) hash.add(a.data(), sizeof a);
   for (const RecordLine& line : inputs.lines)
     for (const Vec3& point : line.points) hash.add(point.data(), sizeof point);
   add(o.passages_by);
   add(o.plan);
+  add(o.independent ? "independent" : "together");
   return hash.hex().substr(0, 16);
 }
 
@@ -165,8 +168,6 @@ Runner runner_of(Tool& tool, const Scene& scene, const RunOptions& options,
   tool.info("goes on at " + text(runner.state.time, 6) + " s");
   return runner;
 }
-
-double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 // Writes checkpoints at intervals, more rarely where writing one takes long.
 class Checkpoints {

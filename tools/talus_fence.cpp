@@ -119,7 +119,9 @@ RunWhole whole_of(const RunFile& run, int index, const std::vector<FenceCase>& c
                   const Options& o, const DesignCode& code, const RunInputs& inputs, const Trn& trn,
                   const std::string& site_file) {
   RunWhole out;
-  const EventReach event = event_reach(run, trn, {0.5, inputs.rest_speed_m_s});
+  ReachSettings reach;
+  reach.rest_speed = inputs.rest_speed_m_s;
+  const EventReach event = event_reach(run, trn, reach);
   out.event = event.event;
   out.centre = event.centre_of_mass;
   out.volume = run.blocks.volume;
@@ -164,29 +166,27 @@ struct RunGroup {
 
 // --- numbers ------------------------------------------------------------------------------------
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
-
 Json quantity_json(const QuantitySummary& q, double scale) {
-  Json json = {{"max", number(q.largest * scale)}};
-  constexpr std::array names = {"p50", "p90", "p95", "p99"};
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    json[names[k]] = number(q.percentile[k].value * scale);
-    json[std::string(names[k]) + "_hi"] = number(q.percentile[k].upper * scale);
+  Json json = {{"max", number_or_null(q.largest * scale)}};
+  for (std::size_t k = 0; k < percentile_levels.size(); ++k) {
+    const std::string name = percentile_levels[k].name;
+    json[name] = number_or_null(q.percentile[k].value * scale);
+    json[name + "_hi"] = number_or_null(q.percentile[k].upper * scale);
   }
   return json;
 }
 
 Json part_json(const FencePartSummary& p) {
   return {{"n", p.n},
-          {"per_run", number(p.per_run)},
+          {"per_run", number_or_null(p.per_run)},
           {"n_eff", p.n_eff},
           {"energy_kj", quantity_json(p.energy, 1e-3)},
           {"translational_energy_kj", quantity_json(p.translation, 1e-3)},
           {"top_height_m", quantity_json(p.top, 1)},
           {"speed_m_s", quantity_json(p.speed, 1)},
-          {"mean_angle_to_normal_deg", number(p.mean_angle * degrees)},
+          {"mean_angle_to_normal_deg", number_or_null(p.mean_angle * degrees)},
           {"most_hits_in_a_run", p.most_in_a_run},
-          {"runs_hit_twice", number(p.runs_hit_twice)},
+          {"runs_hit_twice", number_or_null(p.runs_hit_twice)},
           {"energy_in_one_second_kj", p.window_energy / 1e3},
           {"hits_in_that_second", p.window_hits}};
 }
@@ -214,14 +214,15 @@ Json share_json(const RunGroup& group, std::size_t fence, Verdict verdict, std::
     total += whole.back();
     weight += parts.back().weight;
   }
-  Json json = {{"n", n}, {"share", number(weight / total)}, {"low", nullptr}, {"high", nullptr}};
-  if (!single && group.n() < 10) return json;
+  Json json = {
+      {"n", n}, {"share", number_or_null(weight / total)}, {"low", nullptr}, {"high", nullptr}};
+  if (!single && group.n() < least_runs_to_resample) return json;
   Interval interval;
   if (single) {
     interval =
         wilson_interval(std::clamp(weight / total, 0.0, 1.0), effective_size(total, total_sq));
   } else {
-    const RunResamples resamples = resample_runs(group.n(), 400, seed);
+    const RunResamples resamples = resample_runs(group.n(), fence_resamples, seed);
     interval = bootstrap_share(parts, resampled_sums(resamples, whole), resamples);
   }
   json["low"] = interval.low;
@@ -256,16 +257,16 @@ DesignInput design_input(const Options& o, const RunGroup& group, double mean_bl
 Json design_json(const DesignResult& r) {
   return {{"enough_arrivals", r.enough},
           {"arrivals_needed", r.n_needed},
-          {"design_energy_kj", number(r.design_energy / 1e3)},
-          {"required_capacity_kj", number(r.required_capacity / 1e3)},
+          {"design_energy_kj", number_or_null(r.design_energy / 1e3)},
+          {"required_capacity_kj", number_or_null(r.required_capacity / 1e3)},
           {"smallest_class", r.smallest_class},
-          {"design_height_m", number(r.design_height)},
-          {"free_border_m", number(r.free_border)},
-          {"required_height_m", number(r.required_height)},
-          {"energy_use", number(r.energy_use)},
-          {"height_use", number(r.height_use)},
-          {"required_distance_m", number(r.required_distance)},
-          {"distance_use", number(r.distance_use)},
+          {"design_height_m", number_or_null(r.design_height)},
+          {"free_border_m", number_or_null(r.free_border)},
+          {"required_height_m", number_or_null(r.required_height)},
+          {"energy_use", number_or_null(r.energy_use)},
+          {"height_use", number_or_null(r.height_use)},
+          {"required_distance_m", number_or_null(r.required_distance)},
+          {"distance_use", number_or_null(r.distance_use)},
           {"governs", r.governs},
           {"pass", r.pass}};
 }
@@ -407,10 +408,10 @@ Json fence_json(const FenceCase& c, std::size_t index, const FenceResult& r, con
   return {{"name", c.line.name},
           {"length_m", length(c.fence)},
           {"height_m", c.fence.height},
-          {"capacity_kj", number(c.fence.capacity / 1e3)},
+          {"capacity_kj", number_or_null(c.fence.capacity / 1e3)},
           {"standing", standing},
           {"free_border_m", group.runs[0].free_border},
-          {"freeboard_left_m", number(c.fence.height - top_p95)},
+          {"height_left_m", number_or_null(c.fence.height - top_p95)},
           {"verdicts", shares},
           {"whole", part_json(r.whole)},
           {"storage_m3", r.storage},
@@ -445,16 +446,16 @@ Json side_json(const RunGroup& group, std::size_t fence) {
     centre += run.centre.path / group.n();
   }
   sort_values(energy);
-  return {
-      {"n_runs", group.n()},
-      {"blocks_behind_the_line", n},
-      {"share_behind_the_line", number(weight / total)},
-      {"volume_behind_the_line_m3_per_run", volume / group.n()},
-      {"energy_at_the_line_kj_p50", number(weighted_percentile(energy, 0.5))},
-      {"energy_at_the_line_kj_max", number(energy.empty() ? std::nan("") : energy.back().value)},
-      {"mean_L_path_m", number(length)},
-      {"mean_reach_angle_path_deg", number(angle)},
-      {"mean_centre_of_mass_L_path_m", number(centre)}};
+  return {{"n_runs", group.n()},
+          {"blocks_behind_the_line", n},
+          {"share_behind_the_line", number_or_null(weight / total)},
+          {"volume_behind_the_line_m3_per_run", volume / group.n()},
+          {"energy_at_the_line_kj_p50", number_or_null(weighted_percentile(energy, 0.5))},
+          {"energy_at_the_line_kj_max",
+           number_or_null(energy.empty() ? std::nan("") : energy.back().value)},
+          {"mean_L_path_m", number_or_null(length)},
+          {"mean_reach_angle_path_deg", number_or_null(angle)},
+          {"mean_centre_of_mass_L_path_m", number_or_null(centre)}};
 }
 
 Json comparison_json(const RunGroup& with, const RunGroup& without, std::size_t fence) {
@@ -672,23 +673,23 @@ Json change_json(const GroundSums& with, const GroundSums& without) {
           {"less_m3_per_run", change.less}};
 }
 
-void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& inputs) {
-  const Site& site = site_options.load();
-  const Code code = read_code(o.code);
-  if (!o.change.empty() && o.without.empty())
-    throw InputError({"", 0, "--change"}, "has nothing to compare with",
-                     "give runs without the fences by --without");
-  if (o.code != "uni" && o.code != "onr") tool.read_also("code", o.code);
-  const Trn& trn = inputs.trn();
-  const std::vector<FenceCase> cases = cases_of(tool, site, trn);
-  std::vector<RunWhole> runs;
+// The runs with the fences and those without, and where their blocks came to rest.
+struct FenceRuns {
+  RunGroup with, without;
   GroundSums ground_with, ground_without;
-  PassageGrid grid = passage_grid(trn, 0);
+  PassageGrid grid;
+};
+
+FenceRuns read_runs(const std::vector<FenceCase>& cases, const Options& o, const DesignCode& code,
+                    RunInputs& inputs, const Trn& trn, const std::string& site_file) {
+  FenceRuns out;
+  out.grid = passage_grid(trn, 0);
+  std::vector<RunWhole> runs;
   const auto take = [&](RunFile& run, int index) {
-    if (run.grid.n_rows > 0) grid = run.grid;
-    add_run(runs.size() < inputs.files.size() ? ground_with : ground_without, grid, run,
+    if (run.grid.n_rows > 0) out.grid = run.grid;
+    add_run(runs.size() < inputs.files.size() ? out.ground_with : out.ground_without, out.grid, run,
             inputs.rest_speed_m_s);
-    runs.push_back(whole_of(run, index, cases, o, code.code, inputs, trn, site.file));
+    runs.push_back(whole_of(run, index, cases, o, code, inputs, trn, site_file));
   };
   const RunParts parts{.checkpoint = false};
   inputs.read(parts, take);
@@ -698,50 +699,73 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& inpu
     return RunGroup{{inputs.members.begin() + first, inputs.members.begin() + last},
                     {runs.begin() + first, runs.begin() + last}};
   };
-  const RunGroup with = split(0, n_with), without = split(n_with, runs.size());
+  out.with = split(0, n_with);
+  out.without = split(n_with, runs.size());
+  return out;
+}
+
+// What a reader of the verdicts at fence i must know.
+void warn_of(Tool& tool, const FenceCase& fence, std::size_t i, const FenceResult& result,
+             const FenceRuns& runs) {
+  const std::string name = "fence " + fence.line.name;
+  if (runs.without.n() > 0 && !runs.with.runs[0].at_fence[i].standing)
+    tool.warn(name + " did not stand in the runs compared with --without");
+  if (std::isnan(fence.fence.capacity))
+    tool.warn(name + " has no capacity_kj: no block counts as piercing it");
+  if (result.whole.n > 0 && !result.design.enough)
+    tool.warn(name + ": " + std::to_string(result.whole.n) +
+              " arrivals are too few for the percentiles of the code, which need " +
+              std::to_string(result.design.n_needed) +
+              ": the largest values stand in for them, and nothing passes");
+}
+
+std::vector<std::pair<std::string, std::string>> output_tags(Tool& tool, const RunInputs& inputs) {
+  auto tags = tags_of(inputs.members);
+  tags.insert(tags.begin(), {"RUN_ID", tool.run_id()});
+  const std::string remark = inputs.remark();
+  if (!remark.empty()) tags.emplace_back("REMARK", remark);
+  return tags;
+}
+
+void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& inputs) {
+  const Site& site = site_options.load();
+  const Code code = read_code(o.code);
+  if (!o.change.empty() && o.without.empty())
+    throw InputError({"", 0, "--change"}, "has nothing to compare with",
+                     "give runs without the fences by --without");
+  if (o.code != "uni" && o.code != "onr") tool.read_also("code", o.code);
+  const Trn& trn = inputs.trn();
+  const std::vector<FenceCase> cases = cases_of(tool, site, trn);
+  const FenceRuns runs = read_runs(cases, o, code.code, inputs, trn, site.file);
 
   std::vector<FenceResult> results;
   Json fences = Json::array();
   std::string summary;
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    results.push_back(evaluate(cases[i], i, with, code, o, trn));
-    Json json = fence_json(cases[i], i, results[i], with, code, o);
-    if (without.n() > 0) {
-      json["comparison"] = comparison_json(with, without, i);
-      if (!with.runs[0].at_fence[i].standing)
-        tool.warn("fence " + cases[i].line.name +
-                  " did not stand in the runs compared with --without");
-    }
-    fences.push_back(json);
-    if (std::isnan(cases[i].fence.capacity))
-      tool.warn("fence " + cases[i].line.name +
-                " has no capacity_kj: no block counts as piercing it");
-    summary += (i > 0 ? "\n" : "") + summary_of(cases[i], i, results[i], with);
-    if (results[i].whole.n > 0 && !results[i].design.enough)
-      tool.warn("fence " + cases[i].line.name + ": " + std::to_string(results[i].whole.n) +
-                " arrivals are too few for the percentiles of the code, which need " +
-                std::to_string(results[i].design.n_needed) +
-                ": the largest values stand in for them, and nothing passes");
+    results.push_back(evaluate(cases[i], i, runs.with, code, o, trn));
+    fences.push_back(fence_json(cases[i], i, results[i], runs.with, code, o));
+    if (runs.without.n() > 0)
+      fences.back()["comparison"] = comparison_json(runs.with, runs.without, i);
+    warn_of(tool, cases[i], i, results[i], runs);
+    summary += (i > 0 ? "\n" : "") + summary_of(cases[i], i, results[i], runs.with);
   }
   inputs.warn_of_ends();
-  auto tags = tags_of(inputs.members);
-  tags.insert(tags.begin(), {"RUN_ID", tool.run_id()});
-  const std::string remark = inputs.remark();
-  if (!remark.empty()) tags.emplace_back("REMARK", remark);
+  const auto tags = output_tags(tool, inputs);
   if (!o.change.empty()) {
-    const MapLayer layer = change_layer(ground_with, ground_without, grid.cell_size);
-    write_map(tool, map_frame(trn, grid, true, layer.cell), o.change, layer,
-              change_style(layer, remark), tags);
+    const MapLayer layer = change_layer(runs.ground_with, runs.ground_without, runs.grid.cell_size);
+    write_map(tool, map_frame(trn, runs.grid, true, layer.cell), o.change, layer,
+              change_style(layer, inputs.remark()), tags);
   }
   write_geopackage(tool.stage(o.out), trn.crs_wkt,
                    {field_layer(cases, results, trn.origin), post_layer(cases, results, trn.origin),
-                    arrival_layer_of(cases, with, trn.origin)},
+                    arrival_layer_of(cases, runs.with, trn.origin)},
                    tags);
-  if (!o.csv.empty()) tool.write_text(o.csv, verdict_csv(cases, with));
+  if (!o.csv.empty()) tool.write_text(o.csv, verdict_csv(cases, runs.with));
   Json tag_list;
   for (const auto& [key, value] : tags) tag_list[key] = value;
   Json result = {{"run_id", tool.run_id()}, {"tags", tag_list}, {"fences", fences}};
-  if (without.n() > 0) result["deposit_change"] = change_json(ground_with, ground_without);
+  if (runs.without.n() > 0)
+    result["deposit_change"] = change_json(runs.ground_with, runs.ground_without);
   tool.result(result, summary);
 }
 

@@ -163,7 +163,7 @@ VectorLayer path_layer(const Runs& runs, const MapPlace& map, double tolerance) 
       GeometryType::line_zm,
       {{"run_id", FieldType::text},
        {"block", FieldType::integer},
-       {"length_m", FieldType::real},
+       {"path_length_m", FieldType::real},
        {"max_speed_m_s", FieldType::real},
        {"duration_s", FieldType::real}},
       {},
@@ -213,8 +213,8 @@ VectorLayer streamline_layer(const Runs& runs, const MapPlace& map) {
                      {"L_chord_m", FieldType::real},
                      {"reach_angle_path_deg", FieldType::real},
                      {"reach_angle_chord_deg", FieldType::real},
-                     {"angle_monotone", FieldType::integer},
-                     {"smallest_angle_deg", FieldType::real}},
+                     {"angle_monotone_along_path", FieldType::integer},
+                     {"smallest_angle_along_path_deg", FieldType::real}},
                     {},
                     vector_qml({SymbolKind::line, "", {{"", "", {200, 30, 30, 255}}}, 0.8})};
   for (const auto& [member, r] : runs) {
@@ -299,8 +299,9 @@ std::string block_csv(const Runs& runs) {
 }
 
 std::string curve_csv(const Runs& runs, const MapPlace& map) {
-  std::string out = csv_line({"run_id", "time_s", "x_m", "y_m", "z_m", "mean_speed_m_s",
-                              "max_speed_m_s", "front_m", "translation_kj", "rotation_kj"});
+  std::string out =
+      csv_line({"run_id", "time_s", "x_m", "y_m", "z_m", "mean_speed_m_s", "max_speed_m_s",
+                "front_m", "translational_energy_kj", "rotational_energy_kj"});
   for (const auto& [member, r] : runs)
     for (const CurveRow& row : r->curves) {
       const Vec3 at = map(row.centre_of_mass);
@@ -312,15 +313,12 @@ std::string curve_csv(const Runs& runs, const MapPlace& map) {
   return out;
 }
 
-// NaN becomes null.
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
-
 Json line_json(const ReachLine& line) {
-  return {{"H_m", number(line.height)},
-          {"L_path_m", number(line.path)},
-          {"L_chord_m", number(line.chord)},
-          {"reach_angle_path_deg", number(line.path_angle() * degrees)},
-          {"reach_angle_chord_deg", number(line.chord_angle() * degrees)}};
+  return {{"H_m", number_or_null(line.height)},
+          {"L_path_m", number_or_null(line.path)},
+          {"L_chord_m", number_or_null(line.chord)},
+          {"reach_angle_path_deg", number_or_null(line.path_angle() * degrees)},
+          {"reach_angle_chord_deg", number_or_null(line.chord_angle() * degrees)}};
 }
 
 Json balance_json(const Balance& b) {
@@ -341,8 +339,8 @@ Json energy_json(const EnergyShares& s) {
 Json run_json(const RunMember& member, const RunResult& r, double friction_deg) {
   const EventReach& e = r.event;
   Json centre = line_json(e.centre_of_mass);
-  centre["H_over_L"] = number(e.centre_of_mass.height / e.centre_of_mass.path);
-  centre["atan_sum_mH_over_sum_mL_deg"] = number(e.sum_angle * degrees);
+  centre["H_over_L"] = number_or_null(e.centre_of_mass.height / e.centre_of_mass.path);
+  centre["atan_sum_mH_over_sum_mL_deg"] = number_or_null(e.sum_angle * degrees);
   if (std::isfinite(friction_deg)) centre["tan_friction"] = std::tan(friction_deg / degrees);
   double max_speed = 0;
   for (const BlockReach& b : e.blocks) max_speed = std::max(max_speed, b.max_speed);
@@ -353,9 +351,9 @@ Json run_json(const RunMember& member, const RunResult& r, double friction_deg) 
           {"toe_block", e.toe_block},
           {"toe_is_deposited", e.toe_deposited},
           {"angle_monotone_along_path", e.profile.monotone},
-          {"missing_head_m", number(e.profile.missing_head)},
-          {"smallest_angle_along_path_deg", number(e.profile.smallest * degrees)},
-          {"smallest_angle_at_m", number(e.profile.smallest_at)},
+          {"missing_head_m", number_or_null(e.profile.missing_head)},
+          {"smallest_angle_along_path_deg", number_or_null(e.profile.smallest * degrees)},
+          {"smallest_angle_at_m", number_or_null(e.profile.smallest_at)},
           {"centre_of_mass", centre},
           {"max_speed_m_s", max_speed},
           {"balance", balance_json(r.balance)},
@@ -409,10 +407,10 @@ Json mobility_json(const std::vector<MobilityRelation>& relations,
     for (const MobilityEvent& event : events) {
       const MobilityRow row = compare(relation, event);
       rows.push_back({{"run_id", event.name},
-                      {"L_expected_m", number(row.length)},
-                      {"L_on_lower_line_m", number(row.length_upper)},
-                      {"L_over_expected", number(row.ratio)},
-                      {"exceedance_probability", number(row.exceedance)}});
+                      {"L_expected_m", number_or_null(row.length)},
+                      {"L_on_lower_line_m", number_or_null(row.length_upper)},
+                      {"L_over_expected", number_or_null(row.ratio)},
+                      {"exceedance_probability", number_or_null(row.exceedance)}});
     }
     list.push_back({{"relation", relation.id},
                     {"group", relation.group},

@@ -38,8 +38,8 @@ const std::array<Stage, 5>& stages() {
       {"blocks", {"site.crs", "source", "joints", "blocks", "material"}},
       {"run",
        {"site.name", "site.crs", "terrain.ground_raster", "material", "joints", "ground", "solver",
-        "fence", "base_motion", "output", "-solver.seed", "-solver.n_runs", "-output.folder",
-        "-output.min_passages", "-output.checkpoint_interval_s"}},
+        "fence", "base_motion", "output", "-solver.seed", "-solver.n_runs",
+        "-output.checkpoint_interval_s"}},
       {"fence", {"site.name", "site.crs", "fence"}},
   }};
   return list;

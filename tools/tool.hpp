@@ -18,6 +18,11 @@ namespace talus {
 
 using Json = nlohmann::ordered_json;
 
+/// null for NaN and infinity, which JSON does not have.
+[[nodiscard]] inline Json number_or_null(double value) {
+  return std::isfinite(value) ? Json(value) : Json();
+}
+
 /// One effective setting and where it came from: "default", "cli", or a place in the site file.
 struct ConfigValue {
   std::string key;

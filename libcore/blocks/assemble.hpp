@@ -27,20 +27,20 @@ struct AssembleOptions {
 
 /// What became of the mass.
 struct AssembleReport {
-  int n_cells = 0;   ///< convex cells after cutting
-  int n_pieces = 0;  ///< bodies of rock between joints, before slivers were merged
-  int n_merged = 0;  ///< slivers given to a neighbour
-  double merged_volume = 0;
-  int n_dropped = 0;  ///< slivers without a neighbour, left out
-  double dropped_volume = 0;
-  int n_rings_parted = 0;       ///< ring-shaped blocks cut open, so that each is like a ball
-  int n_divided = 0;            ///< blocks made of two to four convex parts for the same reason
-  int n_kept_exact = 0;         ///< blocks that would have lost too much by being made convex
-  int n_below_limits = 0;       ///< blocks that are slivers as they now are
-  int n_short_edged = 0;        ///< blocks with edges below the limit for convex parts
-  double cut_volume = 0;        ///< of all cells [m3]
-  double block_volume = 0;      ///< of all blocks [m3]
-  double gained = 0, lost = 0;  ///< by being made convex, summed over the blocks [m3]
+  int n_cells = 0;            ///< convex cells after cutting
+  int n_pieces = 0;           ///< bodies of rock between joints, before slivers were merged
+  int n_merged = 0;           ///< slivers given to a neighbour
+  double merged_volume = 0;   ///< of them [m3]
+  int n_dropped = 0;          ///< slivers without a neighbour, left out
+  double dropped_volume = 0;  ///< of them [m3]
+  int n_rings_parted = 0;     ///< ring-shaped blocks cut open, so that each is like a ball
+  int n_divided = 0;          ///< blocks made of two to four convex parts: one would lose too much
+  int n_kept_exact = 0;       ///< blocks that would have lost too much by being made convex
+  int n_below_limits = 0;     ///< blocks that are slivers as they now are
+  int n_short_edged = 0;      ///< blocks with edges below the limit for convex parts
+  double cut_volume = 0;      ///< of all cells [m3]
+  double block_volume = 0;    ///< of all blocks [m3]
+  double gained = 0, lost = 0;       ///< by being made convex, summed over the blocks [m3]
   std::vector<double> exact_volume;  ///< of each block as cut (n_blocks) [m3]
 };
 

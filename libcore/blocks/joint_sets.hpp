@@ -1,9 +1,11 @@
 // libcore/blocks/joint_sets.hpp
 // Joint sets: from dip, dip direction, spacing and scatter to the planes that cut the mass, and
-// from measured orientations to sets. in:    the geologist's convention: dip 0-90 below the
-// horizontal, dip direction clockwise from north out:   planes in a ball around the mass, the same
-// for the same seed refs:  Fisher 1953 (scatter); Scheidegger 1965 (mean of axes); Hall 1988
-// (coverage by discs)
+// from measured orientations to sets.
+//
+// in:    the geologist's convention: dip 0-90 below the horizontal, dip direction clockwise from
+//        north
+// out:   planes in a ball around the mass, the same for the same seed
+// refs:  Fisher 1953 (scatter); Scheidegger 1965 (mean of axes); Hall 1988 (coverage by discs)
 #pragma once
 
 #include <string>

@@ -26,17 +26,15 @@ struct ContactKey {
   bool operator==(const ContactKey&) const = default;
 };
 
-/// A candidate contact at the pose for which it was searched. The normal points from B to A.
+/// A candidate contact of a block, A, with the ground, B, at the pose for which it was searched.
 struct Contact {
   ContactKey key;
   int block_a = 0;
-  int block_b = -1;  ///< -1: the ground, which adds to no matrix but A's
   int ground_class = 0;
   Vec3 normal = Vec3::Zero();   ///< unit, local axes, from B to A
   Vec3 point_a = Vec3::Zero();  ///< contact point of A, body axes of A [m]
-  Vec3 point_b =
-      Vec3::Zero();  ///< contact point of B, body axes of B; of the ground, local axes [m]
-  double gap = 0;    ///< n . (a - b), > 0 open [m]. The paper's d_n is -gap.
+  Vec3 point_b = Vec3::Zero();  ///< contact point of the ground, local axes [m]
+  double gap = 0;               ///< n . (a - b), > 0 open [m]. The paper's d_n is -gap.
 };
 
 /// What is carried from step to step for a contact that pressed or may press again.

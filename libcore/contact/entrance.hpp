@@ -46,6 +46,9 @@ struct GaussArc {
   return crosses(c, d) && crosses(a, b) && (c - d) * (b - a) > 0;
 }
 
+/// sin^2 of 1 degree: directions nearer than that count as parallel.
+inline constexpr double parallel_sin_sq = 3.0458649045213493e-4;
+
 /// The points of two lines that are nearest to each other: p + s e, q + t f.
 struct LinePair {
   double s = 0, t = 0;
@@ -55,8 +58,7 @@ struct LinePair {
                                                const Vec3& f) {
   const double ee = e.squaredNorm(), ff = f.squaredNorm(), ef = e.dot(f);
   const double cross_sq = ee * ff - ef * ef;
-  constexpr double sin_sq = 3.046e-4;  // of 1 degree
-  if (!(cross_sq > sin_sq * ee * ff)) return {0, 0, true};
+  if (!(cross_sq > parallel_sin_sq * ee * ff)) return {0, 0, true};
   const Vec3 d = q - p;
   const double de = d.dot(e), df = d.dot(f);
   return {(de * ff - df * ef) / cross_sq, (de * ef - df * ee) / cross_sq, false};

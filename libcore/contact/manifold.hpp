@@ -36,21 +36,6 @@ struct PairManifold {
   Vec3 normal;                           ///< unit, local axes, from B to A
 };
 
-/// A point of a manifold as a contact of the solver: both points in body axes.
-[[nodiscard]] inline Contact as_contact(const PairManifold& manifold, const PairPoint& point,
-                                        const Pose& pose_a, const Pose& pose_b) {
-  Contact contact;
-  contact.key = point.key;
-  contact.block_a = manifold.block_a;
-  contact.block_b = manifold.block_b;
-  contact.normal = manifold.normal;
-  contact.point_a =
-      pose_a.attitude.conjugate() * (point.point_b + point.gap * manifold.normal - pose_a.position);
-  contact.point_b = pose_b.attitude.conjugate() * (point.point_b - pose_b.position);
-  contact.gap = point.gap;
-  return contact;
-}
-
 /// The features of a contact, without their places: what stays while the parts hardly move.
 struct HeldPoint {
   ContactKey key;

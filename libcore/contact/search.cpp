@@ -41,7 +41,6 @@ void add_plane(const TrianglePlane& plane, const Ground& ground, int triangle, i
                const Vec3& X, const Vec3& x, double gap, std::vector<Contact>& contacts) {
   contacts.push_back({{ContactMode::vertex_face, -1, v, -1},
                       b,
-                      -1,
                       class_of(ground, triangle),
                       plane.normal,
                       X,

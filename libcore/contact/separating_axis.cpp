@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "contact/entrance.hpp"
 #include "contact/lanes.hpp"
 
 namespace talus {
@@ -13,7 +14,6 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double none = -infinity;
-constexpr double parallel_sin_sq = 3.0458649045213493e-4;  // sin^2 1 deg: edges that make no axis
 constexpr double keep_ratio = 0.1;   // another face must be better by this part of |separation|
 constexpr double face_ratio = 1e-3;  // ... and of the thickness; edges too
 constexpr double same_axis_ratio = 2e-2;  // ... in the same direction

@@ -123,7 +123,7 @@ CaseResult pile_topples(const Settings& settings) {
       run.advance();
       moved = largest_distance(before, places(run));
     }
-    add_counts(run.result, total);
+    add_counts(run.counted(), total);
     return moved >= 0.5;
   });
   total.error = std::abs(total.value - total.expected);

@@ -6,10 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <numbers>
 #include <utility>
 
+#include "base/processor_time.hpp"
 #include "dda/closed_form.hpp"
 #include "dda/rotation.hpp"
 #include "dda/step.hpp"
@@ -22,6 +22,7 @@ inline constexpr double degree = std::numbers::pi / 180;
 /// A scene on its way, and the sums that a case reports of it.
 struct Run {
   Scene scene;
+  double begin = processor_seconds();  ///< before the start, after the set-up of the scene [s]
   State state;
   Work work;
   CaseResult result;
@@ -47,11 +48,18 @@ struct Run {
   [[nodiscard]] Vec3 spin(const Motion& m) const {
     return angular_velocity(m.pose.attitude, m.angular_momentum, scene.blocks.inertia[0]);
   }
-  CaseResult finish(double value, double expected, double error) {
-    result.value = value;
-    result.expected = expected;
-    result.error = error;
-    return result;
+  /// What it has taken so far.
+  [[nodiscard]] CaseResult counted() const {
+    CaseResult counts = result;
+    counts.cpu = processor_seconds() - begin - counts.reference_cpu;
+    return counts;
+  }
+  [[nodiscard]] CaseResult finish(double value, double expected, double error) const {
+    CaseResult outcome = counted();
+    outcome.value = value;
+    outcome.expected = expected;
+    outcome.error = error;
+    return outcome;
   }
 };
 
@@ -60,6 +68,8 @@ inline void add_counts(const CaseResult& one, CaseResult& total) {
   total.steps += one.steps;
   total.passes += one.passes;
   total.unconverged += one.unconverged;
+  total.cpu += one.cpu;
+  total.reference_cpu += one.reference_cpu;
   total.largest_penetration = std::max(total.largest_penetration, one.largest_penetration);
   total.flags = total.flags | one.flags;
 }
@@ -77,9 +87,9 @@ double bisect(double low, double high, int n, const Happens& happens) {
 /// `compute()`, its CPU time noted as not the engine's.
 template <class Compute>
 auto timed_reference(CaseResult& result, const Compute& compute) {
-  const std::clock_t begin = std::clock();
+  const double begin = processor_seconds();
   const auto value = compute();
-  result.reference_cpu += static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+  result.reference_cpu += processor_seconds() - begin;
   return value;
 }
 

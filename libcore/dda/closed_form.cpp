@@ -147,7 +147,7 @@ CaseResult rolling_angle(const Settings& settings, int n_sides) {
       run.advance();
       rolled = run.motion().pose.attitude.angularDistance(from) > 90 / n_sides * degree;
     }
-    add_counts(run.result, total);
+    add_counts(run.counted(), total);
     return rolled;
   };
   total.expected = expected;
@@ -374,7 +374,7 @@ CaseResult wedge_critical(const Settings& settings) {
   total.value = bisect(33, 34, 12, [&](double friction_deg) {
     Run run = wedge_run(settings, friction_deg);
     run.advance_to(1);
-    add_counts(run.result, total);
+    add_counts(run.counted(), total);
     return run.motion().velocity.dot(w.line) < 1e-5;
   });
   total.error = std::abs(total.value - total.expected);
@@ -394,7 +394,7 @@ CaseResult column_angle(const Settings& settings, double friction_deg, double lo
         body_of(box_in(frame, Vec3::Zero(), Vec3(-0.25, -0.25, 0), Vec3(0.25, 0.25, 1)));
     Run run(on_plane(settings, frame, ground_of(friction_deg), body, 10));
     const bool done = does(frame, run);
-    add_counts(run.result, total);
+    add_counts(run.counted(), total);
     return done;
   });
   total.error = std::abs(total.value - expected);
@@ -436,7 +436,7 @@ CaseResult bond_angle(const Settings& settings) {
     const SlopeFrame frame = slope_frame(dip, 20);
     Run run(on_plane(settings, frame, ground, body_of(cube_on(frame, 1)), 10));
     run.advance_to(1);
-    add_counts(run.result, total);
+    add_counts(run.counted(), total);
     const double a = g * (std::sin(dip * degree) - friction * std::cos(dip * degree));
     // once broken it slides by friction alone
     return run.motion().velocity.dot(frame.dip) > 0.99 * a;
@@ -467,7 +467,7 @@ Rocking rock_on_springs(Run& run) {
     after_2 = spin;
   }
   rocking.after = 2 * after_1 - after_2;
-  rocking.result = run.result;
+  rocking.result = run.counted();
   return rocking;
 }
 
@@ -490,7 +490,7 @@ Rocking rock(const Settings& settings) {
         rocking.time = segments[k].t_start, rocking.before = before, rocking.after = after;
     }
   }
-  rocking.result = run.result;
+  rocking.result = run.counted();
   return rocking;
 }
 

@@ -18,6 +18,7 @@ struct CaseResult {
   long passes = 0;      ///< Newton or open-close iterations
   long unconverged = 0;
   double largest_penetration = 0;  ///< [m]
+  double cpu = 0;                  ///< of the start and the steps, not of the scene's set-up [s]
   double reference_cpu = 0;        ///< spent on `expected` where it is integrated [s]
   StepFlag flags = StepFlag::none;
 };

@@ -26,6 +26,12 @@ using Mat3x12 = Eigen::Matrix<double, 3, 12>;
 /// Hooke's law for (e_x e_y e_z g_yz g_zx g_xy) -> (s_x s_y s_z t_yz t_zx t_xy) [Pa].
 [[nodiscard]] Mat6 elastic_matrix(double young, double poisson);
 
+/// The six strains as a symmetric tensor [-].
+[[nodiscard]] inline Mat3 strain_tensor(const Eigen::Matrix<double, 6, 1>& e) {
+  return (Mat3() << e[0], e[5] / 2, e[4] / 2, e[5] / 2, e[1], e[3] / 2, e[4] / 2, e[3] / 2, e[2])
+      .finished();
+}
+
 /// Strain rows of T^T f: what a force at `arm` does to the six strains [N m].
 [[nodiscard]] Eigen::Matrix<double, 6, 1> strain_load(const Vec3& arm, const Vec3& force);
 

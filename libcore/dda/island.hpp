@@ -17,7 +17,6 @@
 
 #include "contact/contact.hpp"
 #include "dda/contact_row.hpp"
-#include "dda/displacement.hpp"
 
 namespace talus {
 
@@ -25,8 +24,8 @@ namespace talus {
 ///
 /// A known part of the point's velocity (ContactRow::drift) goes into bias and shear_velocity.
 /// A bond that breaks within the step makes the law jump, and a step with a jump may have no
-/// solution: give an intact bond without limit (1e9 m g h, say), compare its impulse with the
-/// limits afterwards and solve again without the bonds that were exceeded.
+/// solution: give an intact bond without limit (`held` of island_assembly.cpp), compare its impulse
+/// with the limits afterwards and solve again without the bonds that were exceeded.
 struct IslandRow {  // clang-format off
   // filled by the caller; vectors in local axes
   Vec3 normal = Vec3::Zero();          ///< unit, from B to A

@@ -13,6 +13,40 @@ using std::size_t;
 constexpr double pair_touch_ratio = 1e-6;  // a pair touches when its gap is below this part of r
 constexpr double held = 1e100;             // strength of an intact bond while the forces are sought
 
+// What a point has of its features and of the surfaces that meet in it.
+IslandContact contact_of(const PairManifold& m, const PairPoint& point, double touch,
+                         const GroundClass& faces) {
+  IslandContact contact;
+  contact.a = m.block_a;
+  contact.key = point.key;
+  contact.key.body_b = m.block_b;
+  contact.touch = touch;
+  contact.restitution = faces.restitution;
+  return contact;
+}
+
+// The row of a point that moves by `moved` relative to the other side within the substep, and with
+// `slip` at its start.
+ContactRow row_of(const Vec3& normal, double gap, const Vec3& arm, const Vec3& drift,
+                  const Vec3& moved, const Vec3& slip, const GroundClass& faces) {
+  ContactRow row;
+  row.normal = normal;
+  row.point = arm;
+  row.drift = drift;
+  row.free_move = moved;
+  row.gap_start = gap;
+  row.speed_start = normal.dot(slip);
+  const Vec3 tangent = slip - row.speed_start * normal;
+  const double slip_speed = tangent.norm();
+  if (slip_speed > 0) row.slip_start = tangent / slip_speed;
+  row.friction = faces.friction;
+  return row;
+}
+
+double approach_of(const ContactRow& row, double h) {
+  return std::min(row.speed_start, row.normal.dot(row.free_move) / h);
+}
+
 }  // namespace
 
 void AdvanceIsland::clear_island() {
@@ -218,29 +252,15 @@ void AdvanceIsland::add_point(const PairManifold& m, const PairPoint& point, int
   const Vec3 shift = w.island.position[ka] - w.island.position[kb];  // of B's arms from A's
   const Vec3 arm = (pa.start + pa.end + pb.start + pb.end) / 4 - shift / 2;
   const Vec3 arm_b = arm + shift;
-
-  IslandContact contact;
-  contact.a = m.block_a;
-  contact.b = m.block_b;
-  contact.key = point.key;
-  contact.key.body_b = m.block_b;
-  contact.touch = pair_touch_ratio * std::min(ca.radius, cb.radius);
+  const Vec3 drift = pa.spin_end.cross(pa.end - arm) - pb.spin_end.cross(pb.end - arm_b);
   const GroundClass faces = pair_class(scene, m);
-  contact.restitution = faces.restitution;
-  ContactRow row;
-  row.normal = n;
-  row.point = arm;
-  row.drift = pa.spin_end.cross(pa.end - arm) - pb.spin_end.cross(pb.end - arm_b);
-  row.free_move = pa.moved - pb.moved;
-  row.gap_start = point.gap;
-  const Vec3 slip = pa.velocity - pb.velocity;
-  row.speed_start = n.dot(slip);
-  const Vec3 tangent = slip - row.speed_start * n;
-  const double slip_speed = tangent.norm();
-  if (slip_speed > 0) row.slip_start = tangent / slip_speed;
-  row.friction = faces.friction;
+  IslandContact contact =
+      contact_of(m, point, pair_touch_ratio * std::min(ca.radius, cb.radius), faces);
+  contact.b = m.block_b;
+  ContactRow row =
+      row_of(n, point.gap, arm, drift, pa.moved - pb.moved, pa.velocity - pb.velocity, faces);
 
-  const double approach = std::min(row.speed_start, n.dot(row.free_move) / sa.h);
+  const double approach = approach_of(row, sa.h);
   if (memory >= 0 && !(row.gap_start > contact.touch && approach < -ca.resting_speed))
     inherit(state.memory[static_cast<size_t>(m.block_a)][static_cast<size_t>(memory)], memory,
             Mat3::Identity(), contact.touch, row);
@@ -263,29 +283,16 @@ void AdvanceIsland::add_fixed_point(const PairManifold& m, const PairPoint& poin
   const Substep& s = w.substeps[k];
   const Vec3& n = m.normal;
   const PointPath path = path_of(k, point.point_b + point.gap * n);
+  const Vec3 arm = (path.start + path.end) / 2;
   BlockNumbers c = w.numbers[k];
   c.touch = pair_touch_ratio * c.radius;
-
-  IslandContact contact;
-  contact.a = m.block_a;
+  const GroundClass& faces = fixed_class(scene, m.block_b);
+  IslandContact contact = contact_of(m, point, c.touch, faces);
   contact.fixed = m.block_b;
-  contact.key = point.key;
-  contact.key.body_b = m.block_b;
-  contact.touch = c.touch;
-  contact.restitution = fixed_class(scene, m.block_b).restitution;
-  ContactRow row;
-  row.normal = n;
-  row.point = (path.start + path.end) / 2;
-  row.drift = path.spin_end.cross(path.end - row.point);
-  row.free_move = path.moved;
-  row.gap_start = point.gap;
-  row.speed_start = n.dot(path.velocity);
-  const Vec3 tangent = path.velocity - row.speed_start * n;
-  const double slip_speed = tangent.norm();
-  if (slip_speed > 0) row.slip_start = tangent / slip_speed;
-  row.friction = fixed_class(scene, m.block_b).friction;
+  ContactRow row = row_of(n, point.gap, arm, path.spin_end.cross(path.end - arm), path.moved,
+                          path.velocity, faces);
 
-  const double approach = std::min(row.speed_start, n.dot(row.free_move) / s.h);
+  const double approach = approach_of(row, s.h);
   const FencePanel* panel = giving_way(scene, m.block_b, n);
   if (memory >= 0 &&
       (panel != nullptr || !(row.gap_start > contact.touch && approach < -c.resting_speed)))

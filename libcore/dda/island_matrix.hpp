@@ -64,7 +64,7 @@ struct IslandMatrix {  // clang-format off
   std::vector<int> active_coupled;         ///< coupled pairs with an active body
   std::vector<std::uint8_t> is_active, was_active;  ///<                                (n_bodies)
   // update_diagonals
-  std::vector<Packed<Dof>> own;       ///< M + contacts with the ground                 (n_bodies)
+  std::vector<Packed<Dof>> own;       ///< M + contacts with the ground [kg .. kg m2]   (n_bodies)
   std::vector<Packed<Dof>> diagonal;  ///< diagonal block of K                          (n_bodies)
   std::vector<Packed<Dof>> inverse;   ///< of the diagonal block                        (n_bodies)
   // solvers

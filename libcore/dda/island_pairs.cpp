@@ -207,32 +207,23 @@ void form_islands(const Scene& scene, State& state, Work& work) {
 }
 
 void put_island_to_sleep(const Scene& scene, int k, State& state, const Work& work) {
-  constexpr double still = 1e-6;  // [m/s]
-  constexpr int long_enough = 100;
   const IslandGroups& groups = work.islands.groups;
   const auto at = static_cast<size_t>(k);
   const std::span<const int> blocks(
       groups.blocks.data() + groups.block_begin[at],
       static_cast<size_t>(groups.block_begin[at + 1] - groups.block_begin[at]));
   bool rests = true;
-  int steps = long_enough;
+  int steps = steps_before_sleep;
   for (const int b : blocks) {
     const auto i = static_cast<size_t>(b);
     if (!takes_part(state, b)) continue;
-    const Motion& m = state.motion[i];
-    const double spin = m.angular_momentum.norm() / scene.blocks.inertia[i].minCoeff();
-    rests &= m.velocity.norm() + spin * scene.blocks.shapes.radius[i] < still;
-    for (const ContactMemory& c : state.memory[i])
-      rests &= c.state == static_cast<std::uint8_t>(ContactState::stick);
+    rests = rests && stands_still(scene, state, i);
     steps = std::min(steps, ++state.still_steps[i]);
   }
   for (const int b : blocks) {
     const auto i = static_cast<size_t>(b);
     if (!rests) state.still_steps[i] = 0;
-    if (!rests || steps < long_enough || !takes_part(state, b)) continue;
-    state.phase[i] = Phase::asleep;
-    state.motion[i].velocity.setZero();
-    state.motion[i].angular_momentum.setZero();
+    if (rests && steps >= steps_before_sleep && takes_part(state, b)) fall_asleep(state, i);
   }
 }
 

@@ -29,7 +29,7 @@ struct Settings {
   double normal_stiffness = 0;  ///< k_n, > 0; 0 lets law talus choose [N/m]
   double shear_ratio = 1;       ///< k_s / k_n [-]
   double tolerance_factor = 1;  ///< law talus: on the residual at which forces count as found [-]
-  int max_passes = 40;          ///< Newton or open-close iterations before a step is repeated
+  int max_passes = 40;          ///< law talus, a lone block: of Newton, before a step is repeated
   bool post_adjustment = true;  ///< law paper: restitution by (28); off, that of the springs
   bool static_start = true;     ///< law talus: blocks at rest start in equilibrium with the ground
   bool flight = true;           ///< law talus: no search while nothing can be hit; same motion

@@ -37,7 +37,7 @@ struct SceneParts {
 /// have.
 struct UnusualValue {
   std::string key;      ///< "material.rock.density_kg_m3"
-  std::string finding;  ///< "is 260 kg/m3; rock has 2000 to 3200"
+  std::string finding;  ///< "is 260 kg/m3; rock has ..."
 };
 [[nodiscard]] std::vector<UnusualValue> unusual_values(const Site& site);
 

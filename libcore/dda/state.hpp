@@ -29,7 +29,8 @@ struct Motion {
   Vec3 angular_momentum = Vec3::Zero();  ///< about the centroid, local axes [kg m2/s]
 };
 
-/// Sums since the start over all blocks, all in joule; what each adds is >= 0 except `numeric`.
+/// Sums since the start over all blocks, all in joule; what each adds is >= 0 except `contact` and
+/// `base`.
 struct EnergyLedger {
   double friction = 0;  ///< dissipated by sliding
   double impact = 0;    ///< dissipated by the restitution law

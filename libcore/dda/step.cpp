@@ -36,23 +36,9 @@ Vec3 base_impulse(const BaseMotion& base, double from, double to) {
 
 // A block that sticks with all its contacts and stands still is left out until something wakes it.
 void put_to_sleep(const Scene& scene, size_t b, State& state) {
-  constexpr double still = 1e-6;  // [m/s]
-  constexpr int long_enough = 100;
-  const Motion& m = state.motion[b];
-  const std::vector<ContactMemory>& memory = state.memory[b];
-  const auto sticks = [](const ContactMemory& c) {
-    return c.state == static_cast<std::uint8_t>(ContactState::stick);
-  };
-  bool rests = !memory.empty() && std::all_of(memory.begin(), memory.end(), sticks);
-  if (rests) {
-    const double spin = m.angular_momentum.norm() / scene.blocks.inertia[b].minCoeff();
-    rests = m.velocity.norm() + spin * scene.blocks.shapes.radius[b] < still;
-  }
+  const bool rests = !state.memory[b].empty() && stands_still(scene, state, b);
   state.still_steps[b] = rests ? state.still_steps[b] + 1 : 0;
-  if (state.still_steps[b] < long_enough) return;
-  state.phase[b] = Phase::asleep;
-  state.motion[b].velocity.setZero();
-  state.motion[b].angular_momentum.setZero();
+  if (state.still_steps[b] >= steps_before_sleep) fall_asleep(state, b);
 }
 
 bool does_not_move(Phase phase) {

@@ -146,8 +146,7 @@ BondLoad& AdvanceIsland::load_of(const IslandContact& contact) {
 
 // What the contacts keep for the next step, and the work they did.
 void AdvanceIsland::remember(double h) {
-  const double gravity = scene.gravity.norm();
-  const double relax = std::min(0.3, 0.25 * gravity * h) * h;
+  const double relax = offset_relaxed(scene.gravity.norm(), h);
   for (const int b : w.members) state.memory[static_cast<size_t>(b)].clear();
   for (size_t r = 0; r < w.contacts.size(); ++r) {
     const IslandContact& contact = w.contacts[r];

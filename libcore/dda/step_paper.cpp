@@ -21,10 +21,6 @@ using std::size_t;
 constexpr int most_passes = 6;        // of Shi's open-close iteration
 constexpr double offset_speed = 0.3;  // at which overlap that a contact appears with is pressed out
 
-Mat3 strain_tensor(const Vec6& e) {
-  return (Mat3() << e[0], e[5] / 2, e[4] / 2, e[5] / 2, e[1], e[3] / 2, e[4] / 2, e[3] / 2, e[2])
-      .finished();
-}
 Vec6 strain_vector(const Mat3& E) {
   return (Vec6() << E(0, 0), E(1, 1), E(2, 2), 2 * E(1, 2), 2 * E(0, 2), 2 * E(0, 1)).finished();
 }

@@ -105,7 +105,7 @@ double first_hit(const BlockNumbers& c, const Substep& s, const Solved<Dof>& sol
 template <int Dof>
 void remember(const BlockNumbers& c, const Substep& s, const Solved<Dof>& solved, State& state,
               Work& work, int b, StepReport& report) {
-  const double relax = std::min(0.3, 0.25 * c.gravity * s.h) * s.h, per_h = 1 / s.h;
+  const double relax = offset_relaxed(c.gravity, s.h), per_h = 1 / s.h;
   work.memory_next.clear();
   for (ContactRow& row : work.rows) {
     if (row.waits_for_impact || row.state == ContactState::open) continue;

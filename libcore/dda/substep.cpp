@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "contact/search.hpp"
+#include "dda/displacement.hpp"
 #include "dda/flight.hpp"
 #include "dda/rotation.hpp"
 #include "dda/step.hpp"
@@ -116,12 +116,8 @@ Substep predict(const Scene& scene, int b, const BlockNumbers& c, const Motion& 
 }
 
 Mat3 stretch_of(const State& state, int b) {
-  Mat3 U = Mat3::Identity();
-  if (state.strain.empty()) return U;
-  const Vec6& e = state.strain[static_cast<size_t>(b)];
-  U += (Mat3() << e[0], e[5] / 2, e[4] / 2, e[5] / 2, e[1], e[3] / 2, e[4] / 2, e[3] / 2, e[2])
-           .finished();
-  return U;
+  if (state.strain.empty()) return Mat3::Identity();
+  return Mat3::Identity() + strain_tensor(state.strain[static_cast<size_t>(b)]);
 }
 
 void inherit(const ContactMemory& memory, int index, const Mat3& to_row, double touch,
@@ -262,6 +258,23 @@ void end_flight(const Scene& scene, int b, double t, State& state, Work& work) {
   state.spin_rate[i].setZero();
   state.local_time[i] = t;
   state.phase[i] = Phase::near_ground;
+}
+
+bool stands_still(const Scene& scene, const State& state, size_t b) {
+  constexpr double still = 1e-6;  // [m/s]
+  const Motion& m = state.motion[b];
+  const auto sticks = [](const ContactMemory& c) {
+    return c.state == static_cast<std::uint8_t>(ContactState::stick);
+  };
+  if (!std::all_of(state.memory[b].begin(), state.memory[b].end(), sticks)) return false;
+  const double spin = m.angular_momentum.norm() / scene.blocks.inertia[b].minCoeff();
+  return m.velocity.norm() + spin * scene.blocks.shapes.radius[b] < still;
+}
+
+void fall_asleep(State& state, size_t b) {
+  state.phase[b] = Phase::asleep;
+  state.motion[b].velocity.setZero();
+  state.motion[b].angular_momentum.setZero();
 }
 
 bool left_ground(const Scene& scene, const Vec3& x) {

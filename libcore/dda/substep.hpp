@@ -4,6 +4,8 @@
 // theory 1.7, 1.8 (law of a contact over a step), 1.10 (correction about the free motion)
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -64,6 +66,18 @@ void add_segment(int b, bool flight, double t, double h, const Motion& start, co
 
 /// Ends the flight of block b at `t`, not before its local time: its motion is then that at `t`.
 void end_flight(const Scene& scene, int b, double t, State& state, Work& work);
+
+/// What an overlap that presses nothing loses in `h`: slower than gravity, so nothing hops [m].
+[[nodiscard]] inline double offset_relaxed(double gravity, double h) {
+  return std::min(0.3, 0.25 * gravity * h) * h;
+}
+
+/// Steps that a block, or all of an island, must rest before it is left out.
+inline constexpr int steps_before_sleep = 100;
+/// Whether no point of block b moves and all its contacts stick. Without contacts it does not rest
+/// alone, but may in an island.
+[[nodiscard]] bool stands_still(const Scene& scene, const State& state, std::size_t b);
+void fall_asleep(State& state, std::size_t b);
 
 [[nodiscard]] bool left_ground(const Scene& scene, const Vec3& x);
 

@@ -78,7 +78,7 @@ struct IslandStepWork {  // clang-format off
   std::vector<int> place;                   ///< of a body in `members`, -1: not in it   (n_bodies)
   std::vector<int> continued;               ///< memory that a manifold's point continues
   std::vector<int> unclaimed;               ///< memories of the pair that no point continues yet
-  std::vector<BondLoad> bond_loads;         ///< of this substep, by bond
+  std::vector<BondLoad> bond_loads;         ///< of this substep, by bond           (n_loaded)
   std::vector<PanelPush> pushes;            ///< on panels of fences, in this substep
   std::vector<FreeTurn> turns;              ///<                                         (n_members)
   std::vector<IslandContact> contacts;      ///< in the order of island.rows
@@ -125,7 +125,7 @@ struct OpenCloseWork {  // clang-format off
 struct Work {  // clang-format off
   // find_contacts: candidates of the block at hand
   std::vector<Vec3> world_vertices;          ///< at the predicted pose [m]
-  std::vector<Contact> contacts;             ///<
+  std::vector<Contact> contacts;             ///< of the block at hand             (n_candidates)
   // make_rows, solve_contacts
   std::vector<ContactRow> rows;              ///< of the block at hand
   std::vector<ContactMemory> memory_next;    ///< becomes the block's memory

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "base/error.hpp"
+#include "geometry/convex_outline.hpp"
 #include "io/errors_gdal.hpp"
 
 namespace talus {
@@ -43,7 +44,7 @@ std::vector<Vec2> footprint(const BlockSet& set, int b) {
   std::vector<Vec2> points;
   for (int v = set.block_vertex_begin[b]; v < set.block_vertex_begin[b + 1]; ++v)
     points.emplace_back(set.vertices[v].head<2>() + set.origin.head<2>());
-  return plan_outline(std::move(points));
+  return convex_outline(std::move(points));
 }
 
 void add_fields(OGRLayer& layer) {
@@ -113,28 +114,6 @@ void add_style(GDALDataset& dataset, const std::string& path, const GdalErrors& 
 }
 
 }  // namespace
-
-std::vector<Vec2> plan_outline(std::vector<Vec2> points) {
-  std::sort(points.begin(), points.end(), [](const Vec2& a, const Vec2& b) {
-    return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
-  });
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-  if (points.size() < 3) return points;
-  std::vector<Vec2> hull;
-  const auto add = [&hull](const Vec2& p, std::size_t base) {
-    const auto turns_left = [&] {
-      const Vec2 &a = hull[hull.size() - 2], &b = hull.back();
-      return (b.x() - a.x()) * (p.y() - b.y()) - (b.y() - a.y()) * (p.x() - b.x()) > 0;
-    };
-    while (hull.size() >= base + 2 && !turns_left()) hull.pop_back();
-    hull.push_back(p);
-  };
-  for (const Vec2& p : points) add(p, 0);
-  const std::size_t lower = hull.size() - 1;
-  for (auto it = points.rbegin() + 1; it != points.rend(); ++it) add(*it, lower);
-  hull.pop_back();
-  return hull;
-}
 
 void write_footprints(const std::string& path, const BlockSet& set,
                       const std::vector<std::vector<Vec2>>& source_rings,

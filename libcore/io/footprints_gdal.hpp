@@ -16,7 +16,4 @@ void write_footprints(const std::string& path, const BlockSet& set,
                       const std::vector<std::vector<Vec2>>& source_rings,
                       const std::map<std::string, std::string>& tags = {});
 
-/// Convex hull of points in the plane, counter-clockwise (monotone chain).
-[[nodiscard]] std::vector<Vec2> plan_outline(std::vector<Vec2> points);
-
 }  // namespace talus

@@ -103,7 +103,7 @@ CPLStringList cog_options(const MapRaster& raster, const std::vector<std::string
   for (const std::string& option : given) {
     const auto equal = option.find('=');
     if (equal == std::string::npos)
-      throw InputError({"", 0, "-co"}, option + " is not NAME=VALUE", "e.g. -co COMPRESS=ZSTD");
+      throw InputError({"", 0, "--co"}, option + " is not NAME=VALUE", "e.g. --co COMPRESS=ZSTD");
     options.SetNameValue(option.substr(0, equal).c_str(), option.substr(equal + 1).c_str());
   }
   return options;

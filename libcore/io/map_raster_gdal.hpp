@@ -4,8 +4,6 @@
 // out:   COG (deflate, overviews without averaging), PNG
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <map>
 #include <string>
 #include <utility>
@@ -13,6 +11,7 @@
 
 #include "base/types.hpp"
 #include "io/overview.hpp"
+#include "io/picture.hpp"
 
 namespace talus {
 
@@ -40,12 +39,6 @@ struct MapRaster {
 /// Throws InputError when it cannot be written whole.
 void write_map_raster(const std::string& path, const MapRaster& raster,
                       const std::vector<std::string>& creation_options = {});
-
-/// A picture, 8 bits a channel.
-struct Picture {
-  int n_rows = 0, n_cols = 0;
-  std::vector<std::array<std::uint8_t, 4>> pixel;  ///< red green blue alpha      (n_rows x n_cols)
-};
 
 /// Writes a PNG. Throws InputError when it cannot be written whole.
 void write_png(const std::string& path, const Picture& picture);

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "geometry/convex_outline.hpp"
+
 namespace talus {
 namespace {
 
@@ -78,10 +80,6 @@ void add_triangle(std::map<std::uint32_t, double>& volume, const PassageGrid& gr
 Pose frame_pose(const RunFile& run, int frame, int block) {
   const FrameBlock at = frame_block(run, frame, block);
   return {at.position, at.attitude};
-}
-
-double cross(const Vec2& o, const Vec2& a, const Vec2& b) {
-  return (a.x() - o.x()) * (b.y() - o.y()) - (a.y() - o.y()) * (b.x() - o.x());
 }
 
 }  // namespace
@@ -160,22 +158,7 @@ std::vector<Vec2> footprint(const RunFile& run, int block, const Pose& pose) {
   std::vector<Vec2> points;
   for (int v = run.blocks.vertex_begin[block]; v < run.blocks.vertex_begin[block + 1]; ++v)
     points.push_back(place(pose, run.blocks.vertices[v]).head<2>());
-  std::sort(points.begin(), points.end(), [](const Vec2& a, const Vec2& b) {
-    return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
-  });
-  // Andrew's monotone chain: lower side, then upper side.
-  std::vector<Vec2> hull;
-  for (int side = 0; side < 2; ++side) {
-    const std::size_t begin = hull.size();
-    for (const Vec2& p : points) {
-      while (hull.size() >= begin + 2 && cross(hull[hull.size() - 2], hull.back(), p) <= 0)
-        hull.pop_back();
-      hull.push_back(p);
-    }
-    hull.pop_back();  // first point of the other side
-    std::reverse(points.begin(), points.end());
-  }
-  return hull;
+  return convex_outline(std::move(points));
 }
 
 void add_volume(std::map<std::uint32_t, double>& volume, const PassageGrid& grid,

@@ -11,9 +11,6 @@ namespace talus {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-constexpr std::array percentile_levels = {0.5, 0.9, 0.95, 0.99};
-constexpr int n_resamples = 400;
-constexpr int min_runs = 10;  // for a bound by bootstrap
 
 int field_at(const Fence& fence, double chainage) {
   const auto after = std::upper_bound(fence.chainage.begin(), fence.chainage.end(), chainage);
@@ -71,7 +68,8 @@ std::vector<int> bootstrap_bounds(const std::vector<const FenceArrival*>& ascend
   std::vector<RunWeight> descending;
   for (auto a = ascending.rbegin(); a != ascending.rend(); ++a)
     descending.push_back({(*a)->run, (*a)->weight});
-  const std::vector<double> levels(percentile_levels.rbegin(), percentile_levels.rend());
+  std::vector<double> levels;
+  for (std::size_t k = percentile_levels.size(); k-- > 0;) levels.push_back(percentile_levels[k].p);
   std::vector<int> places = bootstrap_upper_places(descending, resamples, levels);
   std::reverse(places.begin(), places.end());
   for (int& place : places)
@@ -92,12 +90,12 @@ QuantitySummary summary_of(const std::vector<FenceArrival>& arrivals, double n_e
   for (const FenceArrival* a : ascending) values.push_back({quantity(*a), a->weight});
   QuantitySummary summary;
   summary.largest = values.empty() ? none : values.back().value;
-  const bool by_runs = bounds.runs_repeat && bounds.n_runs_here >= min_runs;
+  const bool by_runs = bounds.runs_repeat && bounds.n_runs_here >= least_runs_to_resample;
   std::vector<int> places;
   if (by_runs) places = bootstrap_bounds(ascending, *bounds.resamples);
   const int n = static_cast<int>(n_eff + 1e-9);
   for (std::size_t k = 0; k < percentile_levels.size(); ++k) {
-    const double p = percentile_levels[k];
+    const double p = percentile_levels[k].p;
     BoundedPercentile& out = summary.percentile[k];
     out = {weighted_percentile(values, p), none};
     if (n < smallest_sample(p)) continue;
@@ -283,8 +281,8 @@ FencePartSummary summarise(const std::vector<FenceArrival>& given, int n_runs, s
   }
   summary.runs_hit_twice = static_cast<double>(n_twice) / n_runs;
   RunResamples resamples;
-  if (bounds.runs_repeat && bounds.n_runs_here >= min_runs)
-    resamples = resample_runs(n_runs, n_resamples, seed);
+  if (bounds.runs_repeat && bounds.n_runs_here >= least_runs_to_resample)
+    resamples = resample_runs(n_runs, fence_resamples, seed);
   bounds.resamples = &resamples;
   const auto of = [&](double (*quantity)(const FenceArrival&)) {
     return summary_of(sorted, summary.n_eff, bounds, quantity);

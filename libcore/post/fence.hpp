@@ -69,6 +69,9 @@ struct FenceArrival {
   [[nodiscard]] double energy() const { return translation + rotation; }
 };
 
+/// Resamples of the runs for a bound at a fence.
+inline constexpr int fence_resamples = 400;
+
 /// All crossings of one line of a run. `run` is what the arrivals carry.
 [[nodiscard]] std::vector<FenceArrival> arrivals(const RunFile& file, int line, const Fence& fence,
                                                  int run);
@@ -122,15 +125,16 @@ struct QuantitySummary {
 };
 
 struct FencePartSummary {
-  int n = 0;           ///< arrivals over all runs
-  double per_run = 0;  ///< arrivals a run
-  double n_eff = 0;
-  QuantitySummary energy, translation, top, speed;
-  double mean_angle = 0;      ///< to the normal [rad]
-  int most_in_a_run = 0;      ///< hits of one run: the multi-hit check
-  double runs_hit_twice = 0;  ///< share of runs with two hits or more
-  double window_energy = 0;   ///< largest sum of energies within one second, any run [J]
-  int window_hits = 0;        ///< of that second
+  int n = 0;                            ///< arrivals over all runs
+  double per_run = 0;                   ///< arrivals a run
+  double n_eff = 0;                     ///< Kish's effective number of arrivals [-]
+  QuantitySummary energy, translation;  ///< kinetic with spin, without [J]
+  QuantitySummary top, speed;           ///< height of the top above the base [m], [m/s]
+  double mean_angle = 0;                ///< to the normal [rad]
+  int most_in_a_run = 0;                ///< hits of one run: the multi-hit check
+  double runs_hit_twice = 0;            ///< share of runs with two hits or more
+  double window_energy = 0;             ///< largest sum of energies within one second, any run [J]
+  int window_hits = 0;                  ///< of that second
 };
 /// `n_runs`: all of them, also those without an arrival. Bounds by ranks when no run has two
 /// arrivals here, else by the bootstrap over runs (seeded).

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "base/error.hpp"
-#include "base/text.hpp"
 #include "post/statistics.hpp"
 
 namespace talus {
@@ -17,9 +16,8 @@ double factor(const DesignCode& code, const std::string& key) { return code.fact
 
 // The percentile of a quantity that a code asks for, the largest value when it is not one of ours.
 double percentile(const QuantitySummary& quantity, double p) {
-  constexpr std::array levels = {0.5, 0.9, 0.95, 0.99};
-  for (std::size_t k = 0; k < levels.size(); ++k)
-    if (std::abs(levels[k] - p) < 1e-9) return quantity.percentile[k].value;
+  for (std::size_t k = 0; k < percentile_levels.size(); ++k)
+    if (std::abs(percentile_levels[k].p - p) < 1e-9) return quantity.percentile[k].value;
   return quantity.largest;
 }
 

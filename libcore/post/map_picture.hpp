@@ -5,9 +5,9 @@
 
 #include <vector>
 
-#include "io/map_raster_gdal.hpp"
+#include "io/picture.hpp"
 #include "io/style.hpp"
-#include "post/maps.hpp"
+#include "store/passages.hpp"
 #include "terrain/trn.hpp"
 
 namespace talus {

@@ -15,13 +15,6 @@ namespace {
 constexpr float none = std::numeric_limits<float>::quiet_NaN();
 constexpr double degrees = 180 / std::numbers::pi;
 
-struct Percentile {
-  double p;
-  const char* name;
-};
-constexpr std::array<Percentile, 4> percentiles = {
-    {{0.5, "p50"}, {0.9, "p90"}, {0.95, "p95"}, {0.99, "p99"}}};
-
 // How a quantity is read from a passage, and what its bands say.
 struct QuantityText {
   MapQuantity quantity;
@@ -44,7 +37,7 @@ constexpr std::array<QuantityText, 5> quantity_texts = {{
      "is over the cell"},
     {MapQuantity::top_height, &PassageValues::top_height, 1, "pass_height_top",
      "Passing height of the top", "m",
-     "largest vertical height of a block's highest vertex above the ground below that vertex "
+     "largest vertical height of a block's highest vertex above the ground below its centroid "
      "while any part of the block is over the cell"},
 }};
 
@@ -191,27 +184,27 @@ struct CellSample {
 // Upper 95 % bounds of the percentiles; NaN where the sample gives none. Passages of different runs
 // are independent, and ranks bound them exactly; blocks of one run are not, and the runs are
 // resampled.
-std::array<double, percentiles.size()> upper_bounds(const CellSample& sample,
-                                                    std::span<BoundRanks> ranks,
-                                                    LazyResamples& resamples,
-                                                    const MapSettings& settings) {
-  std::array<double, percentiles.size()> bounds;
+std::array<double, percentile_levels.size()> upper_bounds(const CellSample& sample,
+                                                          std::span<BoundRanks> ranks,
+                                                          LazyResamples& resamples) {
+  std::array<double, percentile_levels.size()> bounds;
   bounds.fill(none);
   const int n = static_cast<int>(sample.n_eff + 1e-9);
   std::size_t n_bounded = 0;  // the lower percentiles need fewer
-  while (n_bounded < bounds.size() && n >= smallest_sample(percentiles[n_bounded].p)) ++n_bounded;
+  while (n_bounded < bounds.size() && n >= smallest_sample(percentile_levels[n_bounded].p))
+    ++n_bounded;
   if (!sample.runs_repeat) {
     for (std::size_t k = 0; k < n_bounded; ++k)
       bounds[k] = sample.percentile(static_cast<double>(ranks[k].of(n)) / n);
     return bounds;
   }
-  if (sample.n_runs < settings.min_runs || n_bounded == 0) return bounds;
+  if (sample.n_runs < least_runs_to_resample || n_bounded == 0) return bounds;
   std::vector<RunWeight> descending;
   descending.reserve(sample.items.size());
   for (auto item = sample.items.rbegin(); item != sample.items.rend(); ++item)
     descending.push_back({item->run, item->weight});
   std::vector<double> levels;
-  for (std::size_t k = n_bounded; k-- > 0;) levels.push_back(percentiles[k].p);
+  for (std::size_t k = n_bounded; k-- > 0;) levels.push_back(percentile_levels[k].p);
   const std::vector<int> places = bootstrap_upper_places(descending, resamples.get(), levels);
   for (std::size_t k = 0; k < n_bounded; ++k) {
     const int place = places[n_bounded - 1 - k];
@@ -233,11 +226,11 @@ MapLayer empty_quantity_layer(const QuantityText& text, const CellRows& cells) {
     layer.bands.push_back(band(prefix + "_" + name, text.unit, description, cells.cell.size()));
   };
   add("mean", "weighted mean over blocks of the " + what);
-  for (const Percentile& p : percentiles)
+  for (const PercentileLevel& p : percentile_levels)
     add(p.name, std::string("weighted ") + p.name + " over blocks of the " + what +
                     "; nodata where too few blocks passed for it");
   add("max", "maximum over blocks of the " + what);
-  for (const Percentile& p : percentiles)
+  for (const PercentileLevel& p : percentile_levels)
     add(std::string(p.name) + "_hi",
         std::string("upper 95 % confidence bound of ") + p.name +
             "; by ranks where no run passed twice, else by the bootstrap over runs; nodata where "
@@ -253,7 +246,8 @@ class ReachBounds {
       : resamples_(static_cast<int>(released.weight.size()), settings),
         single_blocks_(std::all_of(released.n_blocks.begin(), released.n_blocks.end(),
                                    [](int count) { return count <= 1; })),
-        exist_(single_blocks_ || static_cast<int>(released.weight.size()) >= settings.min_runs) {
+        exist_(single_blocks_ ||
+               static_cast<int>(released.weight.size()) >= least_runs_to_resample) {
     double total_sq = 0;
     for (const double w : released.weight) total_sq += w * w;
     n_eff_ = effective_size(sum(released.weight), total_sq);
@@ -384,9 +378,9 @@ MapLayer quantity_layer(const CellRows& cells, MapQuantity quantity, const Relea
                         const MapSettings& settings) {
   const QuantityText& text = text_of(quantity);
   MapLayer layer = empty_quantity_layer(text, cells);
-  constexpr std::size_t n_p = percentiles.size();
+  constexpr std::size_t n_p = percentile_levels.size();
   std::vector<BoundRanks> ranks;
-  for (const Percentile& p : percentiles) ranks.emplace_back(p.p);
+  for (const PercentileLevel& p : percentile_levels) ranks.emplace_back(p.p);
   LazyResamples resamples(n_runs(released), settings);
   CellSample sample;
   for (std::size_t i = 0; i < cells.cell.size(); ++i) {
@@ -397,9 +391,9 @@ MapLayer quantity_layer(const CellRows& cells, MapQuantity quantity, const Relea
     };
     put(0, sample.mean);
     put(1 + n_p, sample.items.back().value);
-    const auto bounds = upper_bounds(sample, ranks, resamples, settings);
+    const auto bounds = upper_bounds(sample, ranks, resamples);
     for (std::size_t k = 0; k < n_p; ++k) {
-      const double p = percentiles[k].p;
+      const double p = percentile_levels[k].p;
       const int needed = settings.min_passages > 0 ? settings.min_passages : smallest_sample(p);
       if (sample.n_eff + 1e-9 >= needed) put(1 + k, sample.percentile(p));
       put(2 + n_p + k, bounds[k]);

@@ -82,7 +82,6 @@ struct Released {
 struct MapSettings {
   int min_passages = 0;    ///< for any percentile; 0: Wilks (5, 29, 59, 299 for p50 to p99)
   int n_resamples = 200;   ///< of the runs
-  int min_runs = 10;       ///< in a cell, for a bound by bootstrap
   std::uint64_t seed = 1;  ///< of the bootstrap
 };
 

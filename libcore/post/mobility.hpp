@@ -13,7 +13,10 @@ namespace talus {
 
 enum class MobilityKind { hl_power, length, angle };
 
-/// One row of the data file; see the remarks in it for the formulae.
+/// One row of the data file. V in m3, H and L in m:
+/// hl_power: log10(H/L) = a + b log10 V, the lower 95 % line less by `lower`;
+/// length: log10 L = a + b log10(V / 1e6) + c log10 H, and d more on confined paths;
+/// angle: atan(H/L) = a degrees. sd: residual standard deviation of the left side.
 struct MobilityRelation {
   std::string id, group, path;
   MobilityKind kind = MobilityKind::hl_power;

@@ -221,26 +221,6 @@ AngleProfile angle_profile(std::span<const Vec3> points, double from, double tol
   return profile;
 }
 
-EnergyLineStop energy_line_stop(std::span<const Vec3> points, double angle) {
-  EnergyLineStop stop{none, none};
-  double distance = 0, head = 0;
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    const double step = plan_distance(points[i - 1], points[i]);
-    // Height of the energy line above the way: it starts at 0 and may be 0 along the whole way.
-    const double next = points[0].z() - (distance + step) * std::tan(angle) - points[i].z();
-    if ((head > 0) != (next > 0) && head != next && i > 1) {
-      const double at = distance + step * head / (head - next);
-      if (head > 0 && std::isnan(stop.first)) stop.first = at;
-      if (head > 0) stop.last = at;
-    } else if (i == 1 && next < 0) {
-      stop.first = stop.last = 0;
-    }
-    distance += step;
-    head = next;
-  }
-  return stop;
-}
-
 EventReach event_reach(const RunFile& run, const Trn& trn, const ReachSettings& settings) {
   EventReach event;
   double drop = 0, length = 0;

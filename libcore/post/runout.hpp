@@ -65,14 +65,6 @@ struct AngleProfile {
 [[nodiscard]] AngleProfile angle_profile(std::span<const Vec3> points, double from,
                                          double tolerance);
 
-/// Where an energy line of `angle` from the way's start comes down to the way: the first and the
-/// last time, as horizontal distances [m]; NaN when it clears the whole way, 0 when it is steeper
-/// than the way from the start. They differ where the profile is not monotone.
-struct EnergyLineStop {
-  double first = 0, last = 0;
-};
-[[nodiscard]] EnergyLineStop energy_line_stop(std::span<const Vec3> points, double angle);
-
 struct BlockReach {
   int block = 0;
   Fate fate = Fate::deposited;

@@ -140,11 +140,6 @@ int upper_bound_rank(int n, double p, double confidence) {
   return k > n ? 0 : k;
 }
 
-int lower_bound_rank(int n, double p, double confidence) {
-  const int mirrored = upper_bound_rank(n, 1 - p, confidence);
-  return mirrored == 0 ? 0 : n + 1 - mirrored;
-}
-
 int smallest_sample(double p, double confidence) {
   return static_cast<int>(std::ceil(std::log1p(-confidence) / std::log(p) * (1 - rounding)));
 }

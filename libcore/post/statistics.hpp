@@ -5,11 +5,23 @@
 // Every result depends on the values alone, not on their order in the input.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace talus {
+
+/// The percentiles that maps and tables give.
+struct PercentileLevel {
+  double p;
+  const char* name;
+};
+inline constexpr std::array<PercentileLevel, 4> percentile_levels = {
+    {{0.5, "p50"}, {0.9, "p90"}, {0.95, "p95"}, {0.99, "p99"}}};
+
+/// Fewer runs give no bound by the bootstrap over runs.
+inline constexpr int least_runs_to_resample = 10;
 
 struct WeightedValue {
   double value = 0;
@@ -40,9 +52,6 @@ struct Interval {
 /// with at least `confidence`, whatever the distribution: the smallest k with P(Binomial(n, p) <=
 /// k - 1) >= confidence. 0 when n is too small for any (Wilks: p = 0.95 needs 59, 0.99 needs 299).
 [[nodiscard]] int upper_bound_rank(int n, double p, double confidence = 0.95);
-
-/// The mirror image: the largest k whose order statistic is a lower bound; 0 when there is none.
-[[nodiscard]] int lower_bound_rank(int n, double p, double confidence = 0.95);
 
 /// The smallest n for which upper_bound_rank() exists: ceil(log(1 - confidence) / log p).
 [[nodiscard]] int smallest_sample(double p, double confidence = 0.95);

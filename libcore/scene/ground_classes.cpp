@@ -40,13 +40,4 @@ void paint_areas(const Trn& trn, const std::vector<GroundArea>& areas,
     }
 }
 
-std::vector<std::uint8_t> classify_cells(const Trn& trn, const std::vector<GroundArea>& areas,
-                                         int elsewhere) {
-  std::vector<std::uint8_t> classes(
-      static_cast<std::size_t>(trn.n_rows - 1) * static_cast<std::size_t>(trn.n_cols - 1),
-      static_cast<std::uint8_t>(elsewhere));
-  paint_areas(trn, areas, classes);
-  return classes;
-}
-
 }  // namespace talus

@@ -20,9 +20,4 @@ struct GroundArea {
 void paint_areas(const Trn& trn, const std::vector<GroundArea>& areas,
                  std::vector<std::uint8_t>& classes);
 
-/// The same, with `elsewhere` for the others.                                       (n_cells)
-[[nodiscard]] std::vector<std::uint8_t> classify_cells(const Trn& trn,
-                                                       const std::vector<GroundArea>& areas,
-                                                       int elsewhere);
-
 }  // namespace talus

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "base/text.hpp"
-#include "terrain/trn_flags.hpp"
 
 namespace talus {
 namespace {

@@ -1,7 +1,7 @@
 // libcore/scene/site.hpp
 // The site file as plain structs: one struct a section, one field a key, its default beside it.
 // Every tool reads the whole file and takes its own sections. A new key is a field here and a row
-// in the table of site_toml.cpp; docs/formats.md is printed from that table.
+// in the table of site_toml.cpp; docs/site-file.md holds that table, and a test compares them.
 //
 // A field named like its key, unit included. NaN, an empty text and an empty list mean "not given".
 #pragma once
@@ -49,8 +49,8 @@ struct SourceSettings {
   std::string material;  ///< of the blocks; the only one when there is one
   std::int64_t seed = 1;
   std::int64_t max_blocks = 20000;
-  double min_block_volume_m3 = not_given;    ///< not given: 1e-3 of the mean joint cell
-  double min_block_thickness_m = not_given;  ///< not given: 0.05 of the smallest spacing
+  double min_block_volume_m3 = not_given;    ///< not given: 1e-2 of the mean joint cell
+  double min_block_thickness_m = not_given;  ///< see docs/site-file.md
   double min_block_edge_m = not_given;  ///< not given: 1e-3 of the cube root of the block's volume
   double max_block_aspect = 50;
   double max_convex_loss = 0.05;  ///< share of a block's volume; above it the block stays exact
@@ -137,11 +137,9 @@ struct FenceSettings {
 
 /// [output]
 struct OutputSettings {
-  std::string folder;
   double frame_interval_s = 0.1;
   double checkpoint_interval_s = 60;  ///< of wall time
   double cell_size_m = not_given;
-  std::int64_t min_passages = 59;
   bool passages = true, strain = false;
 };
 

@@ -96,8 +96,8 @@ template <> const std::vector<Key<SourceSettings>>& keys() {
       {"material", &S::material, "material of the cut blocks"},
       {"seed", &S::seed, "seed of joint positions and orientations", not_negative},
       {"max_blocks", &S::max_blocks, "more expected blocks than this are refused before cutting", {1, 10000000}},
-      {"min_block_volume_m3", &S::min_block_volume_m3, "smaller blocks are merged into a neighbour", not_negative},
-      {"min_block_thickness_m", &S::min_block_thickness_m, "thinner blocks are merged into a neighbour", not_negative},
+      {"min_block_volume_m3", &S::min_block_volume_m3, "smaller blocks are merged into a neighbour; not given: 1e-2 of the mean joint cell", not_negative},
+      {"min_block_thickness_m", &S::min_block_thickness_m, "thinner blocks are merged into a neighbour; not given: 0.05 of the smallest spacing, or of the cube root of the mass if that is less", not_negative},
       {"min_block_edge_m", &S::min_block_edge_m, "shorter edges of convex blocks are removed, one of their ends stays", not_negative},
       {"max_block_aspect", &S::max_block_aspect, "blocks with a larger ratio of longest to shortest axis are merged into a neighbour", at_least_1},
       {"max_convex_loss", &S::max_convex_loss, "blocks that would lose a larger share by being made convex stay a union of convex parts; 1: never", share}};
@@ -165,7 +165,7 @@ template <> const std::vector<Key<SolverSettings>>& keys() {
       {"shear_stiffness_ratio", &S::shear_stiffness_ratio, "shear over normal stiffness", {0, 10, true, false}},
       {"cor", &S::cor, "coefficient of restitution everywhere", share},
       {"strain", &S::strain, "strain degrees of freedom", any, "auto|on|off"},
-      {"max_passes", &S::max_passes, "passes of the contact iteration in one step", {1, 10000}},
+      {"max_passes", &S::max_passes, "passes of the contact iteration of a lone block in one step, law talus", {1, 10000}},
       {"seed", &S::seed, "seed of the run", not_negative},
       {"n_runs", &S::n_runs, "runs with seeds counted up", {1, 1000000}},
       {"start_jitter_m_s", &S::start_jitter_m_s, "random velocity at the start", not_negative},
@@ -194,11 +194,9 @@ template <> const std::vector<Key<FenceSettings>>& keys() {
 template <> const std::vector<Key<OutputSettings>>& keys() {
   using S = OutputSettings;
   static const std::vector<Key<S>> table = {
-      {"folder", &S::folder, "where results go"},
       {"frame_interval_s", &S::frame_interval_s, "simulated time between frames", positive},
       {"checkpoint_interval_s", &S::checkpoint_interval_s, "wall time between checkpoints", positive},
       {"cell_size_m", &S::cell_size_m, "cell size of maps; that of the TRN when not given", positive},
-      {"min_passages", &S::min_passages, "fewer passages give no percentile", at_least_1},
       {"passages", &S::passages, "record passages of cells"},
       {"strain", &S::strain, "record strains"}};
   return table;

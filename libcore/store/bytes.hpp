@@ -14,7 +14,6 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "base/types.hpp"
 #include "contact/pose.hpp"
 
 namespace talus {

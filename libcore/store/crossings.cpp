@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "dda/rotation.hpp"
 #include "store/motion.hpp"
 #include "terrain/extent_text.hpp"
 

@@ -1,5 +1,7 @@
 #include "store/frames.hpp"
 
+#include "dda/rotation.hpp"
+
 namespace talus {
 namespace {
 

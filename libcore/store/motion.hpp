@@ -5,7 +5,6 @@
 #pragma once
 
 #include "dda/free_spin.hpp"
-#include "dda/rotation.hpp"
 #include "dda/scene.hpp"
 #include "dda/work.hpp"
 

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "blocks/block_set.hpp"
-#include "dda/report.hpp"
 #include "dda/scene.hpp"
 #include "dda/state.hpp"
 #include "dda/work.hpp"

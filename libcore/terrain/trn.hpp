@@ -73,7 +73,9 @@ struct FeatureCounts {
 /// v_a = m n, e_a = (n - 1) m + (m - 1) n + (m - 1)(n - 1), f_a = 2 (m - 1)(n - 1).
 [[nodiscard]] FeatureCounts feature_counts(const Trn& trn);
 
-/// Eq. (4): discrete contact combinations of two bodies, N = (v_a + e_a + f_a)(v_b + e_b + f_b).
+/// Eq. (4): discrete contact combinations of two bodies, N = (v_a + e_a + f_a)(v_b + e_b + f_b):
+/// what a search that looks at all of them would look at; the tests hold the paper's figures
+/// against it.
 [[nodiscard]] std::int64_t contact_combinations(const FeatureCounts& a, const FeatureCounts& b);
 
 /// Throws InputError naming `file` unless the grid has at least 2 x 2 nodes, a positive finite cell

@@ -50,14 +50,6 @@ std::array<double, 3> answer_of(const cases::Run& run, const Progress& progress)
   return quantities_of(values, run.scene.blocks.mass);
 }
 
-void add(const cases::CaseResult& one, cases::CaseResult& sums) {
-  sums.steps += one.steps;
-  sums.passes += one.passes;
-  sums.unconverged += one.unconverged;
-  sums.largest_penetration = std::max(sums.largest_penetration, one.largest_penetration);
-  sums.flags = sums.flags | one.flags;
-}
-
 }  // namespace
 
 EnsembleResult run_ensemble(const std::function<Scene(std::uint64_t seed)>& scene, int n_runs,
@@ -65,18 +57,17 @@ EnsembleResult run_ensemble(const std::function<Scene(std::uint64_t seed)>& scen
   EnsembleResult out;
   out.n_runs = n_runs;
   std::vector<std::array<double, 3>> answers;
-  const std::clock_t cpu_begin = std::clock();
   const auto wall_begin = std::chrono::steady_clock::now();
   for (int seed = 1; seed <= n_runs; ++seed) {
     cases::Run run(scene(static_cast<std::uint64_t>(seed)));
     run.advance_to(duration);
     answers.push_back(answer_of(run, progress));
-    add(run.result, out.sums);
+    cases::add_counts(run.counted(), out.sums);
     out.settings = run.scene.settings;
     out.n_blocks = n_blocks(run.scene);
   }
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - wall_begin;
-  out.cpu = static_cast<double>(std::clock() - cpu_begin) / CLOCKS_PER_SEC / n_runs;
+  out.cpu = out.sums.cpu / n_runs;
   out.wall = wall.count() / n_runs;
   for (size_t q = 0; q < out.mean.size(); ++q) {
     double square = 0;

@@ -28,8 +28,9 @@ struct EnsembleResult {
   int n_blocks = 0, n_runs = 0;
   std::array<double, 3> mean{};            ///< [m]
   std::array<double, 3> standard_error{};  ///< of the mean, from the scatter of the runs [m]
-  double cpu = 0, wall = 0;                ///< of one run, mean [s]
-  cases::CaseResult sums;                  ///< steps, passes, unconverged: of all runs
+  double cpu = 0;          ///< of one run from its start, without the set-up of the scene, mean [s]
+  double wall = 0;         ///< with it [s]
+  cases::CaseResult sums;  ///< steps, passes, unconverged: of all runs
 };
 
 /// Runs the scene of each seed 1..n_runs for `duration` [s].

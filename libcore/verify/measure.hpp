@@ -24,10 +24,11 @@ struct VerifyRow {
   long steps = 0;
   double error = 0;  ///< NaN where the run gave none: not finite, or a block was lost
   std::string norm;  ///< what the error is, with its unit
-  double cpu = 0;    ///< of the case with set-up, without its integrated reference, median [s]
-  double wall = 0;   ///< with the reference [s]
+  double cpu = 0;    ///< of the start and all steps, median [s]
+  double wall = 0;   ///< with the scene's set-up and an integrated reference [s]
   long iterations = 0, unconverged = 0;
   double largest_penetration = 0;  ///< [m]
+  double set_up_cpu = 0;           ///< of the scene: terrain, flags, hulls [s]
   StepFlag flags = StepFlag::none;
 };
 

@@ -2,8 +2,10 @@
 // TALUS_PEERS_DIR=... bench_slide; counters: mean position s (down the slope) and x, the largest
 // penetration, steps accepted unconverged, and the error of the energy balance over the fall.
 #include <benchmark/benchmark.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <fstream>
 
 #include "dda/step.hpp"
 #include "slide_scene.hpp"
@@ -28,6 +30,13 @@ double mechanical_energy(const Scene& scene, const State& state) {
   return e.translation + e.rotation + e.potential;
 }
 
+// Memory of the process that is in use [kB].
+double resident_kb() {
+  long pages = 0, resident = 0;
+  std::ifstream("/proc/self/statm") >> pages >> resident;
+  return static_cast<double>(resident * sysconf(_SC_PAGESIZE)) / 1024;
+}
+
 // Arguments: blocks, time step [1e-4 s], seed, duration [0.1 s].
 void slide_by(benchmark::State& run, Law law) {
   if (bench::peers_folder().empty()) return run.SkipWithError("TALUS_PEERS_DIR is not set");
@@ -36,6 +45,7 @@ void slide_by(benchmark::State& run, Law law) {
   if (law == Law::paper) settings.normal_stiffness = 5e10;
   settings.dt = 1e-4 * static_cast<double>(run.range(1));
   const double duration = 0.1 * static_cast<double>(run.range(3));
+  const double before_kb = resident_kb();  // means something for the first scene of a process
   const Scene scene = slide_scene(bench::read_peers_slide(run.range(0)), settings,
                                   static_cast<std::uint64_t>(run.range(2)));
   for (auto _ : run) {
@@ -60,6 +70,7 @@ void slide_by(benchmark::State& run, Law law) {
     run.counters["passes"] = static_cast<double>(state.counters.passes);
     run.counters["impacts"] = static_cast<double>(state.counters.impacts);
     run.counters["substeps"] = static_cast<double>(state.counters.substeps);
+    run.counters["kb_a_block"] = (resident_kb() - before_kb) / n_blocks(scene);
     run.counters["asleep"] =
         static_cast<double>(std::count(state.phase.begin(), state.phase.end(), Phase::asleep));
     run.counters["unconverged"] = static_cast<double>(state.counters.unconverged);

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/text.hpp"
 #include "dda/cases.hpp"
 #include "dda/step.hpp"
 
@@ -115,6 +116,9 @@ inline void expect_bounded(double stiffness, double dt, double duration) {
     gain = std::max(gain, now - last);
     last = now;
   }
+  // for docs/verification.md: --gtest_output=json
+  testing::Test::RecordProperty("gain_k" + text(stiffness, 3) + "_dt" + text(dt, 3),
+                                text(gain / kinetic, 2));
   EXPECT_FALSE(has(flags, StepFlag::not_finite)) << stiffness << ' ' << dt;
   EXPECT_FALSE(has(flags, StepFlag::fell_through)) << stiffness << ' ' << dt;
   EXPECT_LT(last, first) << stiffness << ' ' << dt;

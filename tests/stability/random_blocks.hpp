@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/random.hpp"
+#include "base/text.hpp"
 #include "contact/search.hpp"
 #include "dda/cases.hpp"
 #include "dda/rotation.hpp"
@@ -147,6 +148,11 @@ inline Outcome run_random_blocks(const Trn& trn, int n, double duration_s, std::
 }
 
 inline void expect_sound(const Outcome& out, int n) {
+  // for docs/verification.md: --gtest_output=json
+  testing::Test::RecordProperty("deepest_over_tolerance", text(out.deepest, 3));
+  testing::Test::RecordProperty("left_terrain", out.left);
+  testing::Test::RecordProperty("unconverged_substeps", static_cast<int>(out.unconverged));
+  testing::Test::RecordProperty("substeps", static_cast<int>(out.substeps));
   EXPECT_EQ(out.not_finite, 0);
   EXPECT_EQ(out.too_deep, 0) << "deepest " << out.deepest << " of what is allowed";
   EXPECT_EQ(out.gained, 0);

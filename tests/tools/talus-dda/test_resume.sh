@@ -49,6 +49,8 @@ wait $run_id || code=$?
 # only with the same settings
 expect 1 run_dda -o stopped.h5 $slow --resume --set ground.ground.friction_deg=21
 says "belongs to a run of other inputs or settings"
+expect 1 talus-dda site.toml --trn slope.tif --blocks blocks.h5 --no-db -o stopped.h5 $slow --resume
+says "belongs to a run of other inputs or settings"  # blocks that touch each other are another run
 cp stopped.h5.part other.h5.part
 expect 0 run_dda -o other.h5 $slow --resume --overwrite --set ground.ground.friction_deg=21
 expect 0 run_dda -o direct.h5 $slow --set ground.ground.friction_deg=21

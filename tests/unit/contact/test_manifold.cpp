@@ -210,29 +210,6 @@ TEST(Manifold, AreaAndItsCentreAreThoseOfTheFacesIntersection) {
   EXPECT_GT(n, 500);
 }
 
-// The solver's contact: the gap must follow from the two body points, and both stay on their
-// bodies.
-TEST(Manifold, ContactsOfTheSolverHoldBodyPoints) {
-  Random random(26);
-  Bodies bodies = cube_on_cube(0.3, 0.2, 0.4, 1e-4);
-  const Quat turn = attitude(random);
-  for (Pose& pose : bodies.poses) {
-    pose.position = turn * pose.position + Vec3(500, -300, 200);
-    pose.attitude = turn * pose.attitude;
-  }
-  place(bodies);
-  const Manifold m = contact(bodies, 0);
-  ASSERT_FALSE(m.points.empty());
-  for (const PairPoint& p : m.points) {
-    const Contact c = as_contact(m.manifolds[0], p, bodies.poses[0], bodies.poses[1]);
-    const Vec3 a = talus::place(bodies.poses[0], c.point_a),
-               b = talus::place(bodies.poses[1], c.point_b);
-    EXPECT_NEAR(c.normal.dot(a - b), p.gap, 1e-12);
-    EXPECT_NEAR(c.point_a.z(), 1, 1e-12);
-    EXPECT_NEAR(c.point_b.z(), -1, 1e-12);
-  }
-}
-
 // The reference may be either face: keys and places must not tell which.
 TEST(Manifold, KeysSurviveAFlipOfTheReferenceFace) {
   Random random(23);

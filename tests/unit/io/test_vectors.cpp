@@ -77,11 +77,6 @@ TEST(ReadVectors, WhatIsNotThereIsNamed) {
       std::string::npos);
 }
 
-TEST(PlanOutline, IsTheConvexHull) {
-  const auto hull = plan_outline({{0, 0}, {2, 0}, {1, 0}, {2, 2}, {1, 1}, {0, 2}, {0, 0}});
-  EXPECT_EQ(hull.size(), 4u);
-}
-
 TEST(WriteFootprints, ReadBackAndTheSameBytesEveryTime) {
   BlockSet set;
   set.origin = Vec3(500000, 5200000, 100);

@@ -117,17 +117,6 @@ TEST(AngleProfile, OfTheSharedSitesPaths) {
   }
 }
 
-// Intersections of the line z = 100 - d tan(angle) with the way, by hand.
-TEST(EnergyLineStop, FindsFirstAndLastMeeting) {
-  const std::vector<Vec3> stepped = {
-      {0, 0, 100}, {50, 0, 60}, {150, 0, 60}, {200, 0, 0}, {300, 0, 0}};
-  const EnergyLineStop stop = energy_line_stop(stepped, std::atan(0.4));
-  EXPECT_NEAR(stop.first, 100, 1e-9);
-  EXPECT_NEAR(stop.last, 250, 1e-9);
-  EXPECT_DOUBLE_EQ(energy_line_stop(stepped, 45 * deg).first, 0);
-  EXPECT_TRUE(std::isnan(energy_line_stop(stepped, 5 * deg).first));
-}
-
 TEST(Simplified, LeavesNoPointFartherThanTheTolerance) {
   Random random(5);
   std::vector<Vec3> points;

@@ -128,11 +128,6 @@ TEST(BoundRank, IsTheSmallestThatTheBinomialDistributionAllows) {
     }
 }
 
-TEST(BoundRank, OfTheMedianIsSymmetric) {
-  for (const int n : {5, 20, 101})
-    EXPECT_EQ(lower_bound_rank(n, 0.5), n + 1 - upper_bound_rank(n, 0.5));
-}
-
 // All percentiles of all resamples, listed and sorted; with equal and with different weights.
 TEST(BootstrapUpperPlaces, EqualTheListOfAllResamples) {
   Random random(3);

@@ -29,6 +29,14 @@ bool is_inside(const std::vector<Vec2>& ring, const Vec2& point) {
   return std::abs(angle) > 3;
 }
 
+std::vector<std::uint8_t> painted(const Trn& trn, const std::vector<talus::GroundArea>& areas,
+                                  std::uint8_t elsewhere) {
+  std::vector<std::uint8_t> classes(static_cast<std::size_t>((trn.n_rows - 1) * (trn.n_cols - 1)),
+                                    elsewhere);
+  talus::paint_areas(trn, areas, classes);
+  return classes;
+}
+
 TEST(GroundClasses, HoldForCellsWhoseCentreLiesInside) {
   talus::Random random(1, "classes");
   const Trn trn = grid(21, 31, 2.5);
@@ -39,7 +47,7 @@ TEST(GroundClasses, HoldForCellsWhoseCentreLiesInside) {
       const double angle = 2 * 3.14159265 * i / 9;
       ring.push_back(middle + random.uniform(3, 25) * Vec2(std::cos(angle), std::sin(angle)));
     }
-    const auto classes = talus::classify_cells(trn, {{3, {ring}}}, 1);
+    const auto classes = painted(trn, {{3, {ring}}}, 1);
     for (int row = 0; row < 20; ++row)
       for (int col = 0; col < 30; ++col) {
         const Vec2 centre = trn.node0 + 2.5 * Vec2(col + 0.5, -row - 0.5);
@@ -57,8 +65,7 @@ TEST(GroundClasses, OfLaterAreasWinAndHolesAreHoles) {
     return std::vector<Vec2>{corner + Vec2(low, low), corner + Vec2(high, low),
                              corner + Vec2(high, high), corner + Vec2(low, high)};
   };
-  const auto classes =
-      talus::classify_cells(trn, {{1, {square(1, 9), square(4, 6)}}, {2, {square(8, 10)}}}, 0);
+  const auto classes = painted(trn, {{1, {square(1, 9), square(4, 6)}}, {2, {square(8, 10)}}}, 0);
   const auto at = [&](int x, int y) { return classes[static_cast<std::size_t>((9 - y) * 10 + x)]; };
   EXPECT_EQ(at(0, 0), 0);
   EXPECT_EQ(at(1, 1), 1);
