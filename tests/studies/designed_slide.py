@@ -51,7 +51,7 @@ def main():
               f"{statistics.mean(of('centre_of_mass', 'H_over_L')):.3f} | {spread(of('event', 'reach_angle_path_deg'), 2)} | "
               f"{spread(of('event', 'reach_angle_chord_deg'), 2)} | {spread(of('event', 'L_path_m'), 1)} | "
               f"{result['tags']['HEALTH']} | {statistics.median(cpu):.2f} |", flush=True)
-    with open(out / "talus_0.005/runout/curves.csv", newline="", encoding="utf-8") as file:
+    with open(out / "talus_0.005/curves.csv", newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     first = [row for row in rows if row["run_id"] == rows[0]["run_id"]]
     print("\nmean speed [m/s]: " + ", ".join(f"{float(row['mean_speed_m_s']):.1f} at {float(row['time_s']):.0f} s"

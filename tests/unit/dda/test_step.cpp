@@ -33,8 +33,6 @@ namespace {
 using namespace talus;
 using namespace talus::cases;
 
-constexpr double degree = std::numbers::pi / 180;
-
 double bumps(double x, double y) {
   return 2 * std::sin(0.35 * x) * std::cos(0.27 * y) +
          0.3 * std::sin(1.7 * x + 0.4) * std::sin(1.3 * y) - 0.4 * x;

@@ -284,7 +284,7 @@ TEST(MapGrid, RefusesSizesThatWouldHaveToBeResampled) {
   EXPECT_EQ(map_grid(recorded, 6, "").grid.n_cols, 4);
   EXPECT_EQ(map_grid(recorded, std::nan(""), "").factor, 1);
   for (const double size : {1.0, 3.0, -2.0, 5.9})
-    EXPECT_THROW(map_grid(recorded, size, "--x"), InputError);
+    EXPECT_THROW((void)map_grid(recorded, size, "--x"), InputError);
 }
 
 TEST(MapTiles, CoverAllCellsWithNoMoreRowsThanAllowed) {
