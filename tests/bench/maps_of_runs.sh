@@ -1,6 +1,6 @@
 #!/bin/bash
 # All maps of 1,000 runs of one rock each on gschnitz_gar beside the simulation of these runs, in CPU
-# seconds (maps: the middle of three). Rocks of 0.6 m3 start at points drawn in the release polygon.
+# seconds (maps: the middle of three). Rocks of 0.3 m3 start at points drawn in the release polygon.
 # bash tests/bench/maps_of_runs.sh [FOLDER OF THE EXECUTABLES [RUNS]], data in ../shared/data
 . "$(dirname "$0")/common.sh"
 n=${2:-1000}

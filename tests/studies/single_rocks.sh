@@ -1,7 +1,8 @@
 #!/bin/sh
 # single_rocks.sh [OUT [SITE...]]: rockfall instead of a slide on the sample sites whose data stand beside
-# the checkout: about a hundred rocks of 0.6 m3 on a grid over the release polygon, each as if alone,
-# contours to maps and fence, and each site beside what its scenario expects. Results stay in OUT/SITE.
+# the checkout: rocks of 0.3 m3 on a grid over the release polygon, a hundred to its area in plan, each as
+# if alone, contours to maps and fence, and each site beside what its scenario expects. Results stay in
+# OUT/SITE. A run that breaks a limit of its health is evaluated all the same, and the line says so.
 # BIN: folder of the executables with a slash at its end. Needs python3-gdal and python3-numpy.
 set -eu
 cd "$(dirname "$0")/../.."
@@ -34,7 +35,9 @@ duration_s = 80
 max_lost_share = 1
 END
   sed "s|\.\./\.\./\.\./shared|$shared|; s|\.\./\.\./pipelines|$PWD/pipelines|" "sample_sites/$site/Makefile" >"$out/$site/Makefile"
-  make -C "$out/$site" OUT=out WITHOUT=no DDA_FLAGS=--independent EVALUATE_FLAGS=--allow-unfinished \
-    maps runout fence >"$out/$site/log" 2>&1 || { tail "$out/$site/log" >&2; exit 1; }
+  evaluate() { make -k -C "$out/$site" OUT=out WITHOUT=no DDA_FLAGS=--independent EVALUATE_FLAGS=--allow-unfinished "$@"; }
+  # a run that breaks a limit of its health keeps its file, and make takes it as made the second time
+  evaluate runs >"$out/$site/log" 2>&1 || true
+  evaluate maps runout fence >>"$out/$site/log" 2>&1 || { tail "$out/$site/log" >&2; exit 1; }
   /usr/bin/python3 tests/studies/expected_path.py "$shared/data/scenarios/$site.json" "$out/$site/out"
 done

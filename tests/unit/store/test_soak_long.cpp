@@ -15,11 +15,11 @@ namespace {
 using namespace talus;
 using namespace talus::cases;
 
-// Nine cubes in a loose stack that collapses on a rough plane of 20 degrees: islands form and part.
-Scene falling_stack(double friction_deg) {
+// Cubes in a loose stack that collapses on a rough plane of 20 degrees: islands form and part.
+Scene falling_stack(int n_cubes, double friction_deg) {
   const SlopeFrame frame = slope_frame(20, 0);
   std::vector<Body> bodies;
-  for (int i = 0; i < 9; ++i) {
+  for (int i = 0; i < n_cubes; ++i) {
     Body body;
     const Vec3 low(1.05 * (i % 3), 0.3 * (i / 3), 0.05 + 1.1 * (i / 3));  // in the slope's axes
     body.parts.push_back(box_in(frame, Vec3::Zero(), low, low + Vec3::Ones()));
@@ -60,21 +60,28 @@ void expect_sound(const RunFile& file) {
   }
 }
 
-// 64 bytes a block and frame; twice that while an array doubles its room, and 16 MB for the rest.
+long n_impacts(const RunFile& file) {
+  long n = 0;
+  for (const HealthRow& row : file.health) n += row.impacts;
+  return n;
+}
+
+// 64 bytes a block and frame and 200 a frame; twice that while an array doubles its room, and 16 MB
+// for the rest.
 double allowed_mb(const Scene& scene, const RunOptions& options) {
   const double n_frames = options.duration / options.frame_interval + 1;
-  const double stored_mb = n_frames * n_blocks(scene) * 64 / (1 << 20);
+  const double stored_mb = n_frames * (n_blocks(scene) * 64 + 200) / (1 << 20);
   EXPECT_GT(stored_mb, 10);
   return 2 * stored_mb + 16;
 }
 
 TEST(Soak, ManyRunsInOneProcessDoNotGrow) {
-  const Scene scene = falling_stack(25);
+  const Scene scene = falling_stack(4, 25);
   RunOptions options;
   options.duration = 2;
   options.frame_interval = 0.05;
   const RunFile first = run_of(scene, options);
-  ASSERT_GT(first.health.back().impacts + first.health.back().substeps, 0);
+  ASSERT_GT(n_impacts(first), 0);
   constexpr int n_warm = 100, n_runs = 18000;  // of two seconds each
   double warm_mb = 0;
   for (int run = 1; run <= n_runs; ++run) {
@@ -87,7 +94,7 @@ TEST(Soak, ManyRunsInOneProcessDoNotGrow) {
 }
 
 TEST(Soak, OneRunOfManyFramesStaysWithinItsBound) {
-  const Scene scene = falling_stack(15);  // slides to the end
+  const Scene scene = falling_stack(9, 15);  // slides to the end
   RunOptions options;
   options.duration = 20;
   options.frame_interval = 0.001;
@@ -103,8 +110,9 @@ TEST(Soak, OneRunOfManyFramesStaysWithinItsBound) {
   EXPECT_LT(std::abs(energy(last) - energy(start)) / fallen, 1e-3);
 }
 
-// Three spinning cubes that lose nothing bounce where they are. What each of the 10,000s of hits is
-// off by adds up to no more than a hundredth of the energy, and the balance knows all of it.
+// Three spinning cubes that lose nothing bounce where they are. A hit is off by the compliance of
+// the impact solver, 5e-7 of the energy (bounce_elastic of talus-verify); what it takes or gives
+// stands in the balance.
 TEST(Soak, TenHoursOfBouncingDoNotDrift) {
   const SlopeFrame frame = slope_frame(0, 0);
   std::vector<Body> bodies;
@@ -124,12 +132,13 @@ TEST(Soak, TenHoursOfBouncingDoNotDrift) {
   EXPECT_LT(resident_mb() - before_mb, allowed_mb(scene, options));
   expect_sound(file);
   const HealthRow &start = file.health.front(), &last = file.health.back();
-  EXPECT_GT(last.impacts, 10000);
+  const auto n_hits = static_cast<double>(n_impacts(file));
+  EXPECT_GT(n_hits, 30000);
   EXPECT_EQ(last.unconverged, 0);
   EXPECT_EQ(last.left_domain, 0);
   const double fall = 20 * 2500 * 3;  // of all cubes, from 2 m [J]
   EXPECT_LT(std::abs(energy(last) - energy(start)), 1e-6 * fall);
-  EXPECT_LT(std::abs(last.impact + last.contact), 0.01 * fall);
+  EXPECT_LT(std::abs(last.impact + last.contact), 1e-6 * n_hits * fall / 3);
 }
 
 }  // namespace
