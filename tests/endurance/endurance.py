@@ -667,7 +667,8 @@ def part_sources(bench):
             process = bench.start([job.name, *words, "--no-db"], bench.fresh(folder / "out"),
                                   **memory_limit(bench, 4096))
             try:
-                _, err = process.communicate(timeout=120)
+                # what is cut from a site file may leave a longer run; sanitized tools are slow at it
+                _, err = process.communicate(timeout=1200 if bench.is_sanitized else 120)
             except subprocess.TimeoutExpired:
                 os.killpg(process.pid, signal.SIGKILL)
                 process.communicate()
