@@ -107,7 +107,10 @@ BestEdges find_edges(const Parts& parts, const Vec3& best_face, bool inner, Axis
   const int n_a = n_edges(parts.a), n_b = n_edges(parts.b);
   if (scratch.dots_a.size() < width_b) scratch.dots_a.resize(width_b);
   if (scratch.dots_b.size() < n_b * width_a) scratch.dots_b.resize(n_b * width_a);
+  const auto most = static_cast<std::size_t>(n_b);
+  if (scratch.crossing.size() < most) scratch.crossing.resize(most);
   double* const row = scratch.dots_a.data();
+  int* const crossing = scratch.crossing.data();
   for (int e = 0; e < n_b; ++e)
     normal_dots(parts, parts.a, edge_direction(parts, parts.b, edges_b[e]),
                 scratch.dots_b.data() + e * width_a);
@@ -116,14 +119,21 @@ BestEdges find_edges(const Parts& parts, const Vec3& best_face, bool inner, Axis
   for (int i = 0; i < n_a; ++i) {
     const Vec3 along_a = edge_direction(parts, parts.a, edges_a[i]);
     normal_dots(parts, parts.b, along_a, row);
-    const double* column = scratch.dots_b.data();
-    for (int k = 0; k < n_b; ++k, column += width_a) {
-      const double left = row[edges_b[k].arc_left];
-      if (left * row[edges_b[k].arc_right] >= 0) continue;
-      const double right = column[edges_a[i].arc_right];
-      if (column[edges_a[i].arc_left] * right >= 0 || left * right >= 0) continue;
-      consider_edges(parts, i, k, along_a, best_face, best);
+    int n = 0, n_both = 0;  // without branches: their outcome would be a guess
+    for (int k = 0; k < n_b; ++k) {
+      crossing[n] = k;
+      n += row[edges_b[k].arc_left] * row[edges_b[k].arc_right] < 0;
     }
+    const int arc_left = edges_a[i].arc_left, arc_right = edges_a[i].arc_right;
+    for (int m = 0; m < n; ++m) {
+      const int k = crossing[m];
+      const double* column = scratch.dots_b.data() + k * width_a;
+      const double right = column[arc_right];
+      crossing[n_both] = k;
+      n_both += (column[arc_left] * right < 0) & (row[edges_b[k].arc_left] * right < 0);
+    }
+    for (int m = 0; m < n_both; ++m)
+      consider_edges(parts, i, crossing[m], along_a, best_face, best);
   }
   return best;
 }

@@ -48,6 +48,7 @@ struct AxisChoice {
 struct AxisScratch {
   std::vector<double> face_a, face_b;  ///< separation along the faces of A, of B [m]
   std::vector<double> dots_a, dots_b;  ///< edge directions times the other part's normals
+  std::vector<int> crossing;           ///< edges of B whose arcs cross that of an edge of A
 };
 
 /// Separation of `vertex_part` from each face of `face_part` (negative: overlap) into

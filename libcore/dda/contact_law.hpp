@@ -27,8 +27,8 @@ namespace talus {
 }
 
 /// Evaluates the law for the point's velocity `w` and keeps what it found in `row`. Body axes
-/// throughout. `held_cap` < 0: the bound follows the normal impulse, otherwise it is held.
-inline void evaluate(const Vec3& w, double held_cap, ContactRow& row) {
+/// throughout.
+inline void evaluate(const Vec3& w, ContactRow& row) {
   const Vec3& n = row.normal;
   const double speed_n = n.dot(w);
   const double pressed = -row.normal_damping * (speed_n + row.bias);
@@ -39,7 +39,7 @@ inline void evaluate(const Vec3& w, double held_cap, ContactRow& row) {
     row.impulse.setZero();
     return;
   }
-  row.cap = held_cap < 0 ? row.friction * std::max(p_n, 0.0) + row.cohesion_impulse : held_cap;
+  row.cap = row.friction * std::max(p_n, 0.0) + row.cohesion_impulse;
   row.trial = w - speed_n * n + row.shear_velocity;
   row.trial_speed = row.trial.norm();
   const double trial_impulse = row.shear_damping * row.trial_speed;
@@ -54,9 +54,9 @@ inline void evaluate(const Vec3& w, double held_cap, ContactRow& row) {
   row.impulse = p_n * n - row.cap * row.direction;
 }
 
-/// -d impulse / d velocity [kg] where the law was evaluated; not for an open contact. `coupled`:
-/// the bound follows the normal impulse, which makes the derivative unsymmetric.
-[[nodiscard]] inline Mat3 tangent(const ContactRow& row, bool coupled) {
+/// -d impulse / d velocity [kg] where the law was evaluated; not for an open contact. Unsymmetric
+/// where it slips, since the bound follows the normal impulse.
+[[nodiscard]] inline Mat3 tangent(const ContactRow& row) {
   const Vec3& n = row.normal;
   const double normal_damping = row.gives_way ? 0 : row.normal_damping;
   Mat3 A;
@@ -66,9 +66,7 @@ inline void evaluate(const Vec3& w, double held_cap, ContactRow& row) {
     return A;
   }
   // the end direction turns with the trial only sideways: its derivative is side side^T / speed
-  A = (coupled ? Vec3(normal_damping * (n - row.friction * row.direction))
-               : Vec3(normal_damping * n)) *
-      n.transpose();
+  A = Vec3(normal_damping * (n - row.friction * row.direction)) * n.transpose();
   if (row.cap <= 0) return A;
   const Vec3 end = (1 / row.trial_speed) * row.trial, side = n.cross(end);
   const double along = row.slip_start.dot(end);

@@ -5,8 +5,6 @@ namespace {
 
 using std::size_t;
 
-constexpr int rings = 2;  // of neighbours that move along with bodies that have not settled
-
 template <int Dof>
 Eigen::Matrix<double, Dof, Dof> shift_matrix(const Vec3& shift) {
   Eigen::Matrix<double, Dof, Dof> X = Eigen::Matrix<double, Dof, Dof>::Identity();
@@ -121,14 +119,10 @@ template <int Dof>
 void choose_active(const Island<Dof>& island, std::span<const std::uint8_t> moves,
                    IslandMatrix<Dof>& matrix) {
   matrix.is_active.assign(moves.begin(), moves.end());
-  for (int ring = 0; ring < rings; ++ring) {
-    matrix.was_active = matrix.is_active;
-    for (const int p : matrix.coupled) {
-      const BodyPair& pair = island.pairs[static_cast<size_t>(p)];
-      const auto a = static_cast<size_t>(pair.a), b = static_cast<size_t>(pair.b);
-      if (matrix.was_active[a] || matrix.was_active[b])
-        matrix.is_active[a] = matrix.is_active[b] = 1;
-    }
+  for (const int p : matrix.coupled) {
+    const BodyPair& pair = island.pairs[static_cast<size_t>(p)];
+    const auto a = static_cast<size_t>(pair.a), b = static_cast<size_t>(pair.b);
+    if (moves[a] || moves[b]) matrix.is_active[a] = matrix.is_active[b] = 1;
   }
   matrix.active.clear();
   for (size_t i = 0; i < moves.size(); ++i)

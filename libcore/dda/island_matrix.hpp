@@ -62,7 +62,7 @@ struct IslandMatrix {  // clang-format off
   // choose_active
   std::vector<int> active;         ///< bodies that the linear solution moves, ascending (n_active)
   std::vector<int> active_coupled;         ///< coupled pairs with an active body
-  std::vector<std::uint8_t> is_active, was_active;  ///<                                (n_bodies)
+  std::vector<std::uint8_t> is_active;     ///<                                        (n_bodies)
   // update_diagonals
   std::vector<Packed<Dof>> own;       ///< M + contacts with the ground [kg .. kg m2]   (n_bodies)
   std::vector<Packed<Dof>> diagonal;  ///< diagonal block of K                          (n_bodies)
@@ -86,8 +86,8 @@ void update_tangents(const Island<Dof>& island, Tangent tangent, RowGroups& rows
 template <int Dof>
 void update_diagonals(const Island<Dof>& island, IslandMatrix<Dof>& matrix);
 
-/// Makes those bodies active that have `moves` != 0, and their neighbours over two pressing
-/// contacts; the others stand while the linear solution moves these.
+/// Makes those bodies active that have `moves` != 0, and their neighbours over a pressing
+/// contact; the others stand while the linear solution moves these.
 template <int Dof>
 void choose_active(const Island<Dof>& island, std::span<const std::uint8_t> moves,
                    IslandMatrix<Dof>& matrix);

@@ -17,8 +17,7 @@ constexpr double first_ratio = 1;  // D / m at which stiffening starts
 constexpr double ratio_growth = 4;
 constexpr double soft_tolerance = 1e-3;  // of a stage before the last, relative to its start
 constexpr int all_every = 4;             // every so many linear solutions move all bodies
-constexpr size_t least = 8;              // ... of at least 64
-constexpr size_t few = 8;                // the neighbourhood alone where fewer than 1 in 8 move
+constexpr size_t few = 4;                // the neighbourhood alone where fewer than 1 in 4 move
 constexpr double hopeless = 1e5;  // growth of the residual at which coupled steps are given up
 
 /// One solve; a struct so that its parts share what they all need.
@@ -135,7 +134,7 @@ struct Solve {
       work.moves[i] = !(work.speed[i] <= tolerance);
       n += work.moves[i];
     }
-    return ++n_linear % all_every != 0 && few * std::max(n, least) < work.moves.size();
+    return ++n_linear % all_every != 0 && few * n < work.moves.size();
   }
 
   // K step = -residual.

@@ -55,8 +55,8 @@ struct IslandWork {
 
 /// Solves the island: sets velocity, impulse and state of the rows.
 ///
-/// The first step keeps the inherited states, bounds friction by the last step's normal impulses
-/// and lets new contacts stick. Steps follow with the law at the iterate, from the fourth on with a
+/// The first step keeps the inherited states and bounds friction by the last step's normal
+/// impulses. Steps follow with the law at the iterate, from the fourth on with a
 /// line search: with the exact derivative where the matrix is factored, with a symmetric one for
 /// conjugate gradients, which move only the bodies that have not settled and their neighbours.
 /// Where that has not settled after a third of `max_passes`, the island is solved with softer

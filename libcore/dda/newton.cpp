@@ -44,10 +44,9 @@ void add_tangent(const Vec3& X, const Mat3& A, Mat<Dof>& H) {
   }
 }
 
-// Momentum that is missing at the system's velocity. `lagged`: friction bounds are the rows' held
-// ones.
+// Momentum that is missing at the system's velocity.
 template <int Dof>
-Vec<Dof> residual(const BlockSystem<Dof>& system, std::span<ContactRow> rows, bool lagged) {
+Vec<Dof> residual(const BlockSystem<Dof>& system, std::span<ContactRow> rows) {
   Vec<Dof> r;
   if constexpr (Dof == 6)
     r = system.mass.diagonal().cwiseProduct(system.velocity - system.free_velocity);
@@ -56,7 +55,7 @@ Vec<Dof> residual(const BlockSystem<Dof>& system, std::span<ContactRow> rows, bo
   for (ContactRow& row : rows) {
     if (row.waits_for_impact) continue;
     const Vec3 w = point_velocity<Dof>(system.velocity, row.point) + row.drift;
-    evaluate(w, lagged ? row.held_cap : -1.0, row);
+    evaluate(w, row);
     if (row.state == ContactState::open) continue;
     r.template head<3>() -= row.impulse;  // part by part: whole, it would be put together in memory
     r.template segment<3>(3) -= row.point.cross(row.impulse);
@@ -67,11 +66,11 @@ Vec<Dof> residual(const BlockSystem<Dof>& system, std::span<ContactRow> rows, bo
 
 // Derivative of the residual where it was last evaluated.
 template <int Dof>
-Mat<Dof> derivative(const BlockSystem<Dof>& system, std::span<const ContactRow> rows, bool lagged) {
+Mat<Dof> derivative(const BlockSystem<Dof>& system, std::span<const ContactRow> rows) {
   Mat<Dof> H = system.mass;
   for (const ContactRow& row : rows) {
     if (row.waits_for_impact || row.state == ContactState::open) continue;
-    add_tangent<Dof>(row.point, tangent(row, !lagged), H);
+    add_tangent<Dof>(row.point, tangent(row), H);
   }
   return H;
 }
@@ -118,55 +117,59 @@ bool is_small(const BlockSystem<Dof>& s, const Vec<Dof>& r) {
   return true;
 }
 
-double cap_of(const ContactRow& row) {
-  return row.friction * std::max(row.impulse.dot(row.normal), 0.0) + row.cohesion_impulse;
+// The residual as an energy, twice: what line searches bring down.
+template <int Dof>
+double size_of(const BlockSystem<Dof>& s, const Vec<Dof>& r) {
+  return r.cwiseAbs2().cwiseQuotient(s.mass.diagonal()).sum();
 }
 
-// Newton with the bound held: the step is shortened until the residual's work along it changes sign
-// no more, which for this convex problem always makes progress.
+// Newton steps until the residual is small or has the size `goal`; from the seventh on they are
+// shortened until it falls.
 template <int Dof>
-int solve_held(BlockSystem<Dof>& system, std::span<ContactRow> rows, int max_passes,
-               bool& settled) {
-  int passes = 1;
-  Vec<Dof> r = residual(system, rows, true);
-  settled = is_small(system, r);
-  while (!settled && passes < max_passes) {
-    const Vec<Dof> step = solve_dense<Dof>(derivative<Dof>(system, rows, true), -r);
-    const Vec<Dof> from = system.velocity;
-    const double slope = std::abs(r.dot(step));
-    double fraction = 1;
-    for (int i = 0; i < 8; ++i, fraction /= 2) {
-      system.velocity = from + fraction * step;
-      r = residual(system, rows, true);
-      ++passes;
-      if (r.dot(step) <= 0.5 * slope) break;
-    }
-    settled = is_small(system, r);
-  }
-  return passes;
-}
-
-template <int Dof>
-NewtonResult solve_lagged(BlockSystem<Dof>& system, std::span<ContactRow> rows, int max_passes) {
+NewtonResult solve_coupled(BlockSystem<Dof>& system, std::span<ContactRow> rows, int max_passes,
+                           double goal) {
+  constexpr int free_steps = 6, most_halvings = 9;
+  constexpr double least_gain = 0.1;  // of what the step promises
   NewtonResult result;
-  for (ContactRow& row : rows) row.held_cap = cap_of(row);
-  double relax = 1;
-  while (result.passes < max_passes) {
-    bool settled = false;
-    result.passes += solve_held(system, rows, max_passes - result.passes, settled);
-    double change = 0;
-    for (ContactRow& row : rows) {
-      const double next = cap_of(row);
-      change = std::max(change, std::abs(next - row.held_cap));
-      row.held_cap += relax * (next - row.held_cap);
+  Vec<Dof> r = residual(system, rows);
+  ++result.passes;
+  for (int steps = 0;; ++steps) {
+    const double size = size_of(system, r);
+    result.converged = is_small(system, r) || size <= goal;
+    if (result.converged || result.passes >= max_passes) return result;
+    const Vec<Dof> step = solve_dense<Dof>(derivative<Dof>(system, rows), -r),
+                   from = system.velocity;
+    double fraction = 1;
+    for (int i = 0;; ++i, fraction /= 2) {
+      system.velocity = from + fraction * step;
+      r = residual(system, rows);
+      ++result.passes;
+      if (steps < free_steps || i == most_halvings) break;
+      if (size_of(system, r) < (1 - least_gain * fraction) * size) break;
     }
-    if (settled && change <= system.tolerance * system.mass(0, 0)) {
-      result.converged = true;
-      return result;
-    }
-    relax = std::max(0.3, 0.9 * relax);
   }
-  return result;
+}
+
+// From the free motion with contacts that are soft, then with ever stiffer ones, each from where
+// the last left off.
+template <int Dof>
+NewtonResult solve_stiffening(BlockSystem<Dof>& system, std::span<ContactRow> rows,
+                              int max_passes) {
+  constexpr double softest = 1.0 / 1024, growth = 4;  // of the stiffness
+  constexpr double soft_goal = 1e-6;  // of the size at a stage's start, before the last stage
+  const auto scale = [&](double factor) {
+    for (ContactRow& row : rows) row.normal_damping *= factor, row.shear_damping *= factor;
+  };
+  NewtonResult result;
+  system.velocity = system.free_velocity;
+  scale(softest);  // powers of two: the last stage has the rows' own numbers
+  for (double share = softest;; share *= growth, scale(growth)) {
+    const double goal = share < 1 ? soft_goal * size_of(system, residual(system, rows)) : 0;
+    const NewtonResult stage = solve_coupled(system, rows, max_passes, goal);
+    result.passes += stage.passes;
+    result.converged = stage.converged;
+    if (share >= 1) return result;
+  }
 }
 
 // Gauss-Seidel over the contacts, each given the impulse that its own law asks for: slow, but it
@@ -214,23 +217,13 @@ NewtonResult solve_sweeps(BlockSystem<Dof>& system, std::span<ContactRow> rows) 
 
 template <int Dof>
 NewtonResult solve_contacts(BlockSystem<Dof>& system, std::span<ContactRow> rows, int max_passes) {
-  NewtonResult result;
-  const int coupled_passes = std::max(8, max_passes / 3);
-  while (result.passes < coupled_passes) {
-    const Vec<Dof> r = residual(system, rows, false);
-    ++result.passes;
-    if (is_small(system, r)) {
-      result.converged = true;
-      return result;
-    }
-    system.velocity -= solve_dense<Dof>(derivative<Dof>(system, rows, false), r);
-  }
-  if (!system.velocity.allFinite()) system.velocity = system.free_velocity;
-  const NewtonResult lagged = solve_lagged(system, rows, max_passes);
-  result.passes += lagged.passes;
-  if (lagged.converged) return {true, result.passes};
-  const NewtonResult sweeps = solve_sweeps(system, rows);
-  return {sweeps.converged, result.passes + sweeps.passes};
+  NewtonResult result = solve_coupled(system, rows, max_passes, 0);
+  const auto go_on = [&](const NewtonResult& next) {
+    result = {next.converged, result.passes + next.passes};
+  };
+  if (!result.converged) go_on(solve_stiffening(system, rows, max_passes));
+  if (!result.converged) go_on(solve_sweeps(system, rows));
+  return result;
 }
 
 template NewtonResult solve_contacts<6>(BlockSystem<6>&, std::span<ContactRow>, int);

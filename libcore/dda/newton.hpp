@@ -31,9 +31,9 @@ struct NewtonResult {
 
 /// Solves M (v - v_free) = sum J^T p(J v); sets `impulse` and `state` of the rows.
 ///
-/// Full Newton steps with the friction bound coupled to the normal impulse; if that has not settled
-/// after a third of `max_passes`, the bound is held while a convex problem is solved with a line
-/// search, and then renewed. What is still open after that goes to Gauss-Seidel sweeps.
+/// Newton with the friction bound coupled to the normal impulse: whole steps at first, then with a
+/// line search. What has not settled after `max_passes` is solved with softer contacts and then
+/// with ever stiffer ones; what is still open after that goes to Gauss-Seidel sweeps.
 template <int Dof>
 NewtonResult solve_contacts(BlockSystem<Dof>& system, std::span<ContactRow> rows, int max_passes);
 

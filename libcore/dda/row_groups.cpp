@@ -111,12 +111,15 @@ template <int Dof>
   if (evaluation == Evaluation::coupled) {
     friction_bound(g, p_n, cap);
   } else {
-    Two last_p_n;
+    Two last_p_n, last_cap, cap_now;
     dot(g.normal, g.impulse, last_p_n);
-    friction_bound(g, last_p_n, cap);
-    const auto slips = (g.state == slip_lanes) | ((g.friction + g.cohesion) <= zero);
-    cap = slips ? cap : unbounded + zero;
-    closed = (p_n >= -g.tension) | (g.state != open_lanes);  // what just touches may be pushed
+    friction_bound(g, last_p_n, last_cap);
+    friction_bound(g, p_n, cap_now);
+    const Mask is_new = g.state == open_lanes;
+    const Mask slips = (g.state == slip_lanes) | ((g.friction + g.cohesion) <= zero);
+    cap = is_new ? cap_now : slips ? last_cap : unbounded + zero;
+    // what just touches may be pushed; what would pull more than it pressed has parted
+    closed = (p_n >= -g.tension) | (~is_new & (p_n >= -last_p_n));
   }
 }
 

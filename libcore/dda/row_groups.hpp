@@ -40,8 +40,8 @@ struct RowGroups {
 };
 
 /// How contacts are evaluated: with the states they came with and friction bounded by the last
-/// step's normal impulses (a bound from the predicted overlap has no limit; a new contact sticks);
-/// or with the law.
+/// step's normal impulses (a bound from the predicted overlap has no limit), a new contact and one
+/// that would pull more than it pressed by the law; or all with the law.
 enum class Evaluation : std::uint8_t { inherited, coupled };
 
 /// Packs the rows; those stiffer than `limit[p]` (D_n or D_t) are lowered to it. Returns how many.

@@ -396,11 +396,13 @@ bool touches_at_rest(const Scene& scene, int b, const Motion& motion, Work& work
 // Static iteration: steps from rest, each ending at rest, until the block moves no more. friction <
 // 0: that of the ground. False when it keeps moving or the forces do not converge.
 bool settle(const Scene& scene, int b, double friction, bool from_touch, State& state, Work& work) {
+  constexpr int least_passes = 4;
   BlockNumbers c = numbers_of(scene, b);
   const double h = scene.settings.dt;
   c.recovery_time = h / 2;  // from rest, this lands in equilibrium at once as k grows
   Motion& motion = state.motion[static_cast<size_t>(b)];
   StepReport report;
+  double moved_before = 0;
   for (int pass = 0; pass < 40; ++pass) {
     const Substep s = predict(scene, b, c, motion, 0, h);
     (void)find_contacts(scene.ground, scene.blocks.shapes, b, s.free.pose, stretch_of(state, b),
@@ -420,6 +422,8 @@ bool settle(const Scene& scene, int b, double friction, bool from_touch, State& 
                          c.radius * solved.end.pose.attitude.angularDistance(motion.pose.attitude);
     motion.pose = solved.end.pose;
     if (moved < 1e-14 * c.radius + 1e-15 * motion.pose.position.norm()) return true;
+    if (pass >= least_passes && moved > 0.9 * moved_before) return false;  // it accelerates
+    moved_before = moved;
   }
   return false;
 }

@@ -144,7 +144,7 @@ Chart work_precision_chart(const std::string& title, const std::vector<VerifyRow
                            const std::vector<PeerPoint>& peers) {
   Chart chart;
   chart.title = title;
-  chart.x_label = "CPU time of the case, set-up included [s]";
+  chart.x_label = "CPU time of the start and all steps [s]";
   chart.y_label = "error";
   chart.log_x = chart.log_y = true;
   const std::vector<std::string> colours = {"#c1272d", "#e08a3c", "#8c5a2b", "#b04ba0", "#0057a8",

@@ -38,9 +38,9 @@ run() {
       --independent --json "$@" 2>/dev/null |
       awk -v name="$name" -F '[:,]' '
         /"n_blocks"/ { n = $2 } /"cpu_time_s"/ { cpu = $2 } /"block_steps"/ { steps = $2 }
-        /"left_domain"/ { left = $2 } /"impacts"/ { impacts = $2 }
-        END { printf "%-28s %.3f CPU s, %4.0f trajectories a CPU second (%d; %d left the terrain), %d block steps, %d impacts\n",
-                     name, cpu, n / cpu, n, left, steps, impacts }'
+        /"left_domain"/ { left = $2 } /"impacts"/ { impacts = $2 } /"n_passages"/ { passages = $2 }
+        END { printf "%-28s %.3f CPU s, %4.0f trajectories a CPU second (%d; %d left the terrain), %d block steps, %d impacts, %d passages\n",
+                     name, cpu, n / cpu, n, left, steps, impacts, passages }'
   done | sort | sed -n 2p
 }
 run "all outputs"

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/random.hpp"
+#include "dda/displacement.hpp"
 #include "dda/island.hpp"
 
 namespace talus::scenes {

@@ -64,11 +64,11 @@ Eigen::VectorXd stacked(const std::vector<Eigen::Matrix<double, Dof, 1>>& v) {
 /// p = law(w + W p) of one contact: Newton, and where that cycles a relaxed iteration.
 Vec3 local_impulse(ContactRow row, const Vec3& w, const Mat3& W, Vec3 p) {
   for (int k = 0; k < 300; ++k) {
-    talus::evaluate(w + W * p, -1, row);
+    talus::evaluate(w + W * p, row);
     const Vec3 error = p - row.impulse;
     if (error.norm() <= 1e-14 * (1 + p.norm())) break;
     Mat3 J = Mat3::Identity();
-    if (row.state != ContactState::open) J += talus::tangent(row, true) * W;
+    if (row.state != ContactState::open) J += talus::tangent(row) * W;
     p -= k < 20 ? Vec3(J.partialPivLu().solve(error)) : Vec3(0.2 * error);
   }
   return p;
@@ -109,7 +109,7 @@ double dense_error(const Island<Dof>& island) {
     const auto at = 3 * static_cast<Eigen::Index>(c);
     ContactRow row = as_contact_row(island.rows[c]);
     p.segment(at, 3) = island.rows[c].impulse;
-    talus::evaluate(w.segment(at, 3), -1, row);
+    talus::evaluate(w.segment(at, 3), row);
     error = std::max(error, (row.impulse - island.rows[c].impulse).norm() / row.normal_damping);
   }
   const Eigen::VectorXd balance =

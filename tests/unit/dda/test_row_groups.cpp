@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <functional>
 
 #include "base/random.hpp"
 #include "dda/contact_law.hpp"
@@ -86,7 +87,7 @@ TEST(EvaluatePair, GivesTheImpulsesOfTheContactLaw) {
     for (std::size_t r = 0; r < rows.size(); ++r) {
       ContactRow expected = as_contact_row(rows[r]);
       if (!rows[r].waits_for_impact)
-        talus::evaluate(talus::point_velocity<6>(u, rows[r].arm), -1, expected);
+        talus::evaluate(talus::point_velocity<6>(u, rows[r].arm), expected);
       EXPECT_LT((e.rows[r].impulse - expected.impulse).norm(), 1e-14);
       EXPECT_EQ(e.rows[r].state, expected.state);
       f += talus::generalised<6>(rows[r].arm, expected.impulse);
@@ -136,7 +137,8 @@ TEST(SumTangents, IsTheDerivativeOfTheImpulse) {
 }
 
 // First iteration: a bound from the predicted overlap would have no limit.
-TEST(EvaluatePair, BoundsInheritedFrictionByTheLastImpulse) {
+// The row that slips at an impulse of 2 and is pressed with 5 now, or as `change` makes it.
+Vec6 inherited_impulse(const std::function<void(IslandRow&)>& change) {
   IslandRow row;
   row.normal = Vec3::UnitZ();
   row.bias = -5;
@@ -144,19 +146,33 @@ TEST(EvaluatePair, BoundsInheritedFrictionByTheLastImpulse) {
   row.friction = 0.5;
   row.impulse = Vec3(0, 0, 2);
   row.state = ContactState::slip;
+  change(row);
   const std::vector<BodyPair> pairs = {{0, -1, 0, 1}};
-  const std::vector<double> limit = {1e300};
+  talus::RowGroups groups;
+  (void)talus::pack_rows(pairs, std::vector<IslandRow>{row}, std::vector<double>{1e300}, groups);
   Vec6 u = Vec6::Zero(), f;
   u[0] = 10;
-  talus::RowGroups groups;
-  (void)talus::pack_rows(pairs, std::vector<IslandRow>{row}, limit, groups);
   talus::evaluate_pair<6>(groups.groups, u, Evaluation::inherited, 0, f);
-  EXPECT_EQ(f[0], -1);  // 0.5 x 2, not 0.5 x 5
+  return f;
+}
+
+TEST(EvaluatePair, BoundsInheritedFrictionByTheLastImpulse) {
+  const Vec6 slips = inherited_impulse([](IslandRow&) {});
+  EXPECT_EQ(slips[0], -1);  // 0.5 x 2, not 0.5 x 5
+  EXPECT_EQ(slips[2], 5);
+  const Vec6 sticks = inherited_impulse([](IslandRow& row) { row.state = ContactState::stick; });
+  EXPECT_EQ(sticks[0], -10);
+}
+
+TEST(EvaluatePair, TakesNewContactsByTheLaw) {
+  const Vec6 f = inherited_impulse([](IslandRow& row) { row.state = ContactState::open; });
+  EXPECT_EQ(f[0], -2.5);
   EXPECT_EQ(f[2], 5);
-  row.state = ContactState::open;  // newly closed: sticks
-  (void)talus::pack_rows(pairs, std::vector<IslandRow>{row}, limit, groups);
-  talus::evaluate_pair<6>(groups.groups, u, Evaluation::inherited, 0, f);
-  EXPECT_EQ(f[0], -10);
+}
+
+TEST(EvaluatePair, KeepsAnInheritedContactUntilItWouldPullMoreThanItPressed) {
+  EXPECT_EQ(inherited_impulse([](IslandRow& row) { row.bias = 1.5; })[2], -1.5);
+  EXPECT_TRUE(inherited_impulse([](IslandRow& row) { row.bias = 2.5; }).isZero(0));
 }
 
 }  // namespace
