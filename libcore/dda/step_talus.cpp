@@ -393,10 +393,11 @@ bool touches_at_rest(const Scene& scene, int b, const Motion& motion, Work& work
          });
 }
 
-// Static iteration: steps from rest, each ending at rest, until the block moves no more. friction <
-// 0: that of the ground. False when it keeps moving or the forces do not converge.
-bool settle(const Scene& scene, int b, double friction, bool from_touch, State& state, Work& work) {
-  constexpr int least_passes = 4;
+// Static iteration: steps from rest, each ending at rest, until the block moves by less than
+// `still` of its radius. friction < 0: that of the ground. False when it keeps moving or the forces
+// do not converge.
+bool settle(const Scene& scene, int b, double friction, bool from_touch, double still, State& state,
+            Work& work) {
   BlockNumbers c = numbers_of(scene, b);
   const double h = scene.settings.dt;
   c.recovery_time = h / 2;  // from rest, this lands in equilibrium at once as k grows
@@ -421,8 +422,8 @@ bool settle(const Scene& scene, int b, double friction, bool from_touch, State& 
     const double moved = (solved.end.pose.position - motion.pose.position).norm() +
                          c.radius * solved.end.pose.attitude.angularDistance(motion.pose.attitude);
     motion.pose = solved.end.pose;
-    if (moved < 1e-14 * c.radius + 1e-15 * motion.pose.position.norm()) return true;
-    if (pass >= least_passes && moved > 0.9 * moved_before) return false;  // it accelerates
+    if (moved < still * c.radius + 1e-15 * motion.pose.position.norm()) return true;
+    if (pass > 4 && moved > 0.9 * moved_before) return false;  // it accelerates
     moved_before = moved;
   }
   return false;
@@ -450,10 +451,12 @@ void settle_block(const Scene& scene, int b, State& state, Work& work) {
   const Motion rest = state.motion[i];
   const EnergyLedger ledger = state.ledger;
   constexpr double sticking = 57;  // tan(89 degrees)
+  constexpr double nearly_still = 1e-9, still = 1e-14;
   if (touches_at_rest(scene, b, rest, work)) {
     state.motion[i].velocity.setZero();
     bond_faces(scene, b, rest.pose, work, state.memory[i]);
-    if (!settle(scene, b, sticking, true, state, work)) {  // it topples: from where it is
+    if (!settle(scene, b, sticking, true, nearly_still, state,
+                work)) {  // it topples: from where it is
       state.motion[i].pose = rest.pose;
       state.memory[i].clear();
     } else if (!rest.velocity.isZero(0)) {  // it moves along the ground: only the overlap is kept
@@ -461,7 +464,7 @@ void settle_block(const Scene& scene, int b, State& state, Work& work) {
     } else {
       const Motion stuck = state.motion[i];
       const std::vector<ContactMemory> memory = state.memory[i];
-      if (!settle(scene, b, -1, false, state, work)) {  // it slides: from where it stuck
+      if (!settle(scene, b, -1, false, still, state, work)) {  // it slides: from where it stuck
         state.motion[i] = stuck;
         state.memory[i] = memory;
       }
