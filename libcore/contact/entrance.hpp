@@ -64,4 +64,18 @@ struct LinePair {
   return {(de * ff - df * ef) / cross_sq, (de * ef - df * ee) / cross_sq, false};
 }
 
+/// Where two lines that are not parallel cross when seen along `view`; not finite when they never
+/// do.
+[[nodiscard]] inline LinePair crossing_seen_along(const Vec3& view, const Vec3& p, const Vec3& e,
+                                                  const Vec3& q, const Vec3& f) {
+  const Vec3 d = q - p, across = e.cross(f);
+  const double per = 1 / view.dot(across);
+  return {view.dot(d.cross(f)) * per, view.dot(d.cross(e)) * per, false};
+}
+
+/// Whether a pair of points lies between the ends of both lines.
+[[nodiscard]] inline bool is_within(const LinePair& at) {
+  return at.s >= 0 && at.s <= 1 && at.t >= 0 && at.t <= 1;
+}
+
 }  // namespace talus

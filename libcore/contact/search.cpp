@@ -170,6 +170,36 @@ std::array<Vec3, 6> node_ring(const Trn& trn, int row, int col) {
           node_point(trn, row + 1, col),     node_point(trn, row + 1, col + 1)};
 }
 
+/// The face through which a node of the ground is in a part, and its distance from it.
+struct EnteredFace {
+  int face = -1;  // -1: none
+  double gap = -std::numeric_limits<double>::infinity();
+};
+
+// A node of the ground, at X in body axes, enters through the nearest face of part p. Where the
+// ground beside the node is higher than that face's plane, it came in through the nearest face that
+// bounds it; but not from deep behind, where other features touch first.
+EnteredFace entered_face(const FeatureSearch& s, int p, const Vec3& node,
+                         const std::array<Vec3, 6>& ring, const Vec3& X) {
+  const auto first = s.shapes.faces.begin() + s.shapes.face_begin[static_cast<size_t>(p)];
+  const auto last = s.shapes.faces.begin() + s.shapes.face_begin[static_cast<size_t>(p) + 1];
+  const auto gap_of = [&X](const ShapeFace& face) { return face.normal.dot(X) - face.offset; };
+  const auto may_enter = [&](const ShapeFace& face) {
+    return vertex_may_enter(node, ring, s.to_local * face.normal, 1e-12 * s.ground.trn.cell_size);
+  };
+  EnteredFace nearest;
+  for (auto face = first; face != last; ++face)
+    if (const double gap = gap_of(*face); gap > nearest.gap)
+      nearest = {static_cast<int>(face - s.shapes.faces.begin()), gap};
+  if (nearest.face < 0 || nearest.gap > s.margin) return {};
+  if (may_enter(s.shapes.faces[static_cast<size_t>(nearest.face)])) return nearest;
+  EnteredFace entered{-1, -doubtful * s.shapes.thickness[static_cast<size_t>(s.b)] / 2};
+  for (auto face = first; face != last; ++face)
+    if (const double gap = gap_of(*face); gap > entered.gap && may_enter(*face))
+      entered = {static_cast<int>(face - s.shapes.faces.begin()), gap};
+  return entered;
+}
+
 void find_mode_2(const FeatureSearch& s, int row, int col, std::vector<Contact>& contacts) {
   const Trn& trn = s.ground.trn;
   const Vec3 node = node_point(trn, row, col);
@@ -178,27 +208,19 @@ void find_mode_2(const FeatureSearch& s, int row, int col, std::vector<Contact>&
   if (X.squaredNorm() > radius * radius) return;
   for (int p = s.shapes.part_begin[static_cast<size_t>(s.b)];
        p < s.shapes.part_begin[static_cast<size_t>(s.b) + 1]; ++p) {
-    int nearest = -1;
-    double gap = -2 * radius;
-    for (int f = s.shapes.face_begin[static_cast<size_t>(p)];
-         f < s.shapes.face_begin[static_cast<size_t>(p) + 1]; ++f) {
-      const ShapeFace& face = s.shapes.faces[static_cast<size_t>(f)];
-      const double d = face.normal.dot(X) - face.offset;
-      if (d > gap) gap = d, nearest = f;
-    }
-    if (nearest < 0 || gap > s.margin) continue;
     if (is_across_wall(s.shapes, p, X, same_wall * radius)) continue;
-    const Vec3 outward = s.to_local * s.shapes.faces[static_cast<size_t>(nearest)].normal;
-    if (!vertex_may_enter(node, node_ring(trn, row, col), outward, 1e-12 * trn.cell_size)) continue;
+    const EnteredFace entered = entered_face(s, p, node, node_ring(trn, row, col), X);
+    if (entered.face < 0) continue;
+    const ShapeFace& face = s.shapes.faces[static_cast<size_t>(entered.face)];
     Contact contact;
-    contact.key = {ContactMode::face_vertex, -1, nearest,
+    contact.key = {ContactMode::face_vertex, -1, entered.face,
                    static_cast<int>(node_index(trn, row, col))};
     contact.block_a = s.b;
     contact.ground_class = class_of(s.ground, first_triangle(trn, {std::min(row, trn.n_rows - 2),
                                                                    std::min(col, trn.n_cols - 2)}));
-    contact.normal = -outward;
-    contact.gap = gap;
-    contact.point_a = X - gap * s.shapes.faces[static_cast<size_t>(nearest)].normal;
+    contact.normal = -(s.to_local * face.normal);
+    contact.gap = entered.gap;
+    contact.point_a = X - entered.gap * face.normal;
     contact.point_b = node;
     contacts.push_back(contact);
   }
@@ -221,16 +243,22 @@ void find_mode_3(const FeatureSearch& s, int row, int col, EdgeKind kind,
   const GaussArc ridge = gauss_arc(s.to_local.transpose() * triangle_plane(trn, edge.left).normal,
                                    s.to_local.transpose() * triangle_plane(trn, edge.right).normal);
   const double deepest = s.shapes.thickness[static_cast<size_t>(s.b)] / 2;
+  const Vec3 up = s.to_local.transpose() * Vec3::UnitZ();
   const std::span<const Vec3> body = vertices_of(s.shapes, s.b);
   const std::span<const ShapeEdge> edges = edges_of(s.shapes, s.b);
   for (size_t i = 0; i < edges.size(); ++i) {
     if (!edges_may_touch(edges[i].arc, ridge, nearly_parallel)) continue;
     const Vec3& P = body[static_cast<size_t>(edges[i].a)];
     const Vec3 e = body[static_cast<size_t>(edges[i].b)] - P;
-    const LinePair at = nearest_on_lines(P, e, Q, f);
-    if (at.parallel || at.s < 0 || at.s > 1 || at.t < 0 || at.t > 1) continue;
-    Vec3 normal = e.cross(f).normalized();
+    LinePair at = nearest_on_lines(P, e, Q, f);
+    if (at.parallel) continue;
+    Vec3 normal = e.cross(f);
     if (normal.dot(ridge.left + ridge.right) < 0) normal = -normal;
+    // Where they overlap the nearest points may lie a little beyond an end, and the edges yet be
+    // above each other.
+    if (!is_within(at) && normal.dot(P - Q) < 0) at = crossing_seen_along(up, P, e, Q, f);
+    if (!is_within(at)) continue;
+    normal.normalize();
     const Vec3 a = P + at.s * e;
     const double gap = normal.dot(a - (Q + at.t * f));
     if (gap > s.margin || gap < -deepest) continue;
