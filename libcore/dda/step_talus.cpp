@@ -398,13 +398,15 @@ bool touches_at_rest(const Scene& scene, int b, const Motion& motion, Work& work
 // do not converge.
 bool settle(const Scene& scene, int b, double friction, bool from_touch, double still, State& state,
             Work& work) {
+  constexpr int most_passes = 40, first_passes = 5;  // those before the way settles down
+  constexpr double accelerates = 0.9;                // of the pass before: it comes to no end
   BlockNumbers c = numbers_of(scene, b);
   const double h = scene.settings.dt;
   c.recovery_time = h / 2;  // from rest, this lands in equilibrium at once as k grows
   Motion& motion = state.motion[static_cast<size_t>(b)];
   StepReport report;
   double moved_before = 0;
-  for (int pass = 0; pass < 40; ++pass) {
+  for (int pass = 0; pass < most_passes; ++pass) {
     const Substep s = predict(scene, b, c, motion, 0, h);
     (void)find_contacts(scene.ground, scene.blocks.shapes, b, s.free.pose, stretch_of(state, b),
                         search_margin(c, h), work.world_vertices, work.contacts);
@@ -423,7 +425,7 @@ bool settle(const Scene& scene, int b, double friction, bool from_touch, double 
                          c.radius * solved.end.pose.attitude.angularDistance(motion.pose.attitude);
     motion.pose = solved.end.pose;
     if (moved < still * c.radius + 1e-15 * motion.pose.position.norm()) return true;
-    if (pass > 4 && moved > 0.9 * moved_before) return false;  // it accelerates
+    if (pass >= first_passes && moved > accelerates * moved_before) return false;
     moved_before = moved;
   }
   return false;
@@ -455,8 +457,8 @@ void settle_block(const Scene& scene, int b, State& state, Work& work) {
   if (touches_at_rest(scene, b, rest, work)) {
     state.motion[i].velocity.setZero();
     bond_faces(scene, b, rest.pose, work, state.memory[i]);
-    if (!settle(scene, b, sticking, true, nearly_still, state,
-                work)) {  // it topples: from where it is
+    const bool sticks = settle(scene, b, sticking, true, nearly_still, state, work);
+    if (!sticks) {  // it topples: from where it is
       state.motion[i].pose = rest.pose;
       state.memory[i].clear();
     } else if (!rest.velocity.isZero(0)) {  // it moves along the ground: only the overlap is kept
