@@ -17,7 +17,8 @@ using std::size_t;
 // A block's face and a ridge count as parallel below this sine; ten times what ground_flags calls
 // flat.
 constexpr double nearly_parallel = 1e-3;
-constexpr double doubtful = 0.1;    // of the deepest overlap: deeper pairs of edges are looked into
+constexpr double doubtful = 0.1;    // of the deepest overlap: deeper features are looked into
+constexpr double explained = 2;     // of its depth: so near to another overlap it is part of that
 constexpr double same_wall = 1e-9;  // of the block's size: a node on a wall belongs to both parts
 
 /// A triangle, and across which of its edges the next one lies.
@@ -111,11 +112,27 @@ struct FeatureSearch {
   int b;
   const Pose& pose;
   double margin;
-  Mat3 to_local;   // body to local axes
-  Vec3 low, high;  // box of the block, local axes
+  Mat3 to_local;      // body to local axes
+  Vec3 low, high;     // box of the block, local axes
+  int n_put_off = 0;  // deep overlaps that another feature may explain better
+  int n_sure = -1;    // second search, for these: the contacts found in the first
 
   [[nodiscard]] Vec3 to_body(const Vec3& x) const {
     return to_local.transpose() * (x - pose.position);
+  }
+
+  // Whether a contact at x is taken. A deep one in doubt is put off to the second search, and left
+  // out there when an overlap was found near it: the features have come in by that one.
+  [[nodiscard]] bool takes(const Vec3& x, double gap, bool in_doubt,
+                           const std::vector<Contact>& contacts) {
+    if (n_sure < 0) {
+      n_put_off += in_doubt;
+      return !in_doubt;
+    }
+    return in_doubt &&
+           std::none_of(contacts.begin(), contacts.begin() + n_sure, [&](const Contact& other) {
+             return other.gap < 0 && (other.point_b - x).norm() < -explained * gap;
+           });
   }
 };
 
@@ -146,21 +163,26 @@ double depth_in_part(const Shapes& shapes, int p, const Vec3& X, const ShapeEdge
   return depth;
 }
 
-// Whether an edge of the block, at A, and one of the ground, at X (both in body axes), overlap by
-// `depth` where they cross: X lies in the block, which no other face leads out of sooner, and A not
-// high above the ground (behind a sharp ridge it may be a little). Far from the edges the planes
-// beside them end, and a pair that reads as deep may lie in the open.
-bool edges_overlap(const FeatureSearch& s, const ShapeEdge& edge, const Vec3& A, const Vec3& X,
-                   double depth) {
+/// What is known of two edges that read as deep: far from the edges the planes beside them end, and
+/// such a pair may lie in the open.
+enum class DeepEdges { apart, in_doubt, overlap };
+
+// An edge of the block, at A, and one of the ground, at X (both in body axes), that read as `depth`
+// deep. They overlap where X lies in the block and A not high above the ground (behind a sharp
+// ridge it may be a little); in doubt where another face leads out of the block sooner.
+DeepEdges deep_edges(const FeatureSearch& s, const ShapeEdge& edge, const Vec3& A, const Vec3& X,
+                     double depth) {
   const Trn& trn = s.ground.trn;
   const Vec3 a = s.pose.position + s.to_local * A;
-  if (!contains(trn, a.x(), a.y())) return false;
-  if (!(a.z() - elevation_at(trn, locate(trn, a.x(), a.y())) < 2 * depth)) return false;
+  if (!contains(trn, a.x(), a.y())) return DeepEdges::apart;
+  if (!(a.z() - elevation_at(trn, locate(trn, a.x(), a.y())) < 2 * depth)) return DeepEdges::apart;
   const double same = same_wall * s.shapes.radius[static_cast<size_t>(s.b)];
+  double inside = -1;
   for (int p = s.shapes.part_begin[static_cast<size_t>(s.b)];
        p < s.shapes.part_begin[static_cast<size_t>(s.b) + 1]; ++p)
-    if (depth_in_part(s.shapes, p, X, edge, same) >= depth) return true;
-  return false;
+    inside = std::max(inside, depth_in_part(s.shapes, p, X, edge, same));
+  if (inside >= depth) return DeepEdges::overlap;
+  return inside > 0 ? DeepEdges::in_doubt : DeepEdges::apart;
 }
 
 // The six neighbours of an inner node of the network.
@@ -174,43 +196,50 @@ std::array<Vec3, 6> node_ring(const Trn& trn, int row, int col) {
 struct EnteredFace {
   int face = -1;  // -1: none
   double gap = -std::numeric_limits<double>::infinity();
+  bool is_nearest = true;
 };
 
 // A node of the ground, at X in body axes, enters through the nearest face of part p. Where the
-// ground beside the node is higher than that face's plane, it came in through the nearest face that
-// bounds it; but not from deep behind, where other features touch first.
+// ground beside the node is higher than that face's plane, it came in from below, through the face
+// beneath it.
 EnteredFace entered_face(const FeatureSearch& s, int p, const Vec3& node,
                          const std::array<Vec3, 6>& ring, const Vec3& X) {
-  const auto first = s.shapes.faces.begin() + s.shapes.face_begin[static_cast<size_t>(p)];
-  const auto last = s.shapes.faces.begin() + s.shapes.face_begin[static_cast<size_t>(p) + 1];
-  const auto gap_of = [&X](const ShapeFace& face) { return face.normal.dot(X) - face.offset; };
-  const auto may_enter = [&](const ShapeFace& face) {
-    return vertex_may_enter(node, ring, s.to_local * face.normal, 1e-12 * s.ground.trn.cell_size);
-  };
-  EnteredFace nearest;
-  for (auto face = first; face != last; ++face)
-    if (const double gap = gap_of(*face); gap > nearest.gap)
-      nearest = {static_cast<int>(face - s.shapes.faces.begin()), gap};
+  const Vec3 up = s.to_local.transpose() * Vec3::UnitZ();
+  EnteredFace nearest, beneath;
+  beneath.is_nearest = false;
+  double height = std::numeric_limits<double>::infinity();  // above the lowest face so far
+  for (int f = s.shapes.face_begin[static_cast<size_t>(p)];
+       f < s.shapes.face_begin[static_cast<size_t>(p) + 1]; ++f) {
+    const ShapeFace& face = s.shapes.faces[static_cast<size_t>(f)];
+    const double gap = face.normal.dot(X) - face.offset, slope = face.normal.dot(up);
+    if (gap > nearest.gap) nearest.face = f, nearest.gap = gap;
+    if (slope < 0 && gap > slope * height)
+      beneath.face = f, beneath.gap = gap, height = gap / slope;
+  }
   if (nearest.face < 0 || nearest.gap > s.margin) return {};
-  if (may_enter(s.shapes.faces[static_cast<size_t>(nearest.face)])) return nearest;
-  EnteredFace entered{-1, -doubtful * s.shapes.thickness[static_cast<size_t>(s.b)] / 2};
-  for (auto face = first; face != last; ++face)
-    if (const double gap = gap_of(*face); gap > entered.gap && may_enter(*face))
-      entered = {static_cast<int>(face - s.shapes.faces.begin()), gap};
-  return entered;
+  for (const EnteredFace& entered : {nearest, beneath})
+    if (entered.face >= 0 &&
+        vertex_may_enter(node, ring,
+                         s.to_local * s.shapes.faces[static_cast<size_t>(entered.face)].normal,
+                         1e-12 * s.ground.trn.cell_size))
+      return entered;
+  return {};
 }
 
-void find_mode_2(const FeatureSearch& s, int row, int col, std::vector<Contact>& contacts) {
+void find_mode_2(FeatureSearch& s, int row, int col, std::vector<Contact>& contacts) {
   const Trn& trn = s.ground.trn;
   const Vec3 node = node_point(trn, row, col);
   const Vec3 X = s.to_body(node);
   const double radius = s.shapes.radius[static_cast<size_t>(s.b)] + s.margin;
   if (X.squaredNorm() > radius * radius) return;
+  const double deepest = s.shapes.thickness[static_cast<size_t>(s.b)] / 2;
   for (int p = s.shapes.part_begin[static_cast<size_t>(s.b)];
        p < s.shapes.part_begin[static_cast<size_t>(s.b) + 1]; ++p) {
     if (is_across_wall(s.shapes, p, X, same_wall * radius)) continue;
     const EnteredFace entered = entered_face(s, p, node, node_ring(trn, row, col), X);
     if (entered.face < 0) continue;
+    const bool in_doubt = !entered.is_nearest && entered.gap < -doubtful * deepest;
+    if (!s.takes(node, entered.gap, in_doubt, contacts)) continue;
     const ShapeFace& face = s.shapes.faces[static_cast<size_t>(entered.face)];
     Contact contact;
     contact.key = {ContactMode::face_vertex, -1, entered.face,
@@ -226,7 +255,7 @@ void find_mode_2(const FeatureSearch& s, int row, int col, std::vector<Contact>&
   }
 }
 
-void find_mode_3(const FeatureSearch& s, int row, int col, EdgeKind kind,
+void find_mode_3(FeatureSearch& s, int row, int col, EdgeKind kind,
                  std::vector<Contact>& contacts) {
   const Trn& trn = s.ground.trn;
   const TrnEdge edge = trn_edge(trn, row, col, kind);
@@ -262,7 +291,12 @@ void find_mode_3(const FeatureSearch& s, int row, int col, EdgeKind kind,
     const Vec3 a = P + at.s * e;
     const double gap = normal.dot(a - (Q + at.t * f));
     if (gap > s.margin || gap < -deepest) continue;
-    if (gap < -doubtful * deepest && !edges_overlap(s, edges[i], a, Q + at.t * f, -gap)) continue;
+    DeepEdges deep = DeepEdges::overlap;
+    if (gap < -doubtful * deepest) deep = deep_edges(s, edges[i], a, Q + at.t * f, -gap);
+    if (deep == DeepEdges::apart) continue;
+    if (deep == DeepEdges::in_doubt && !is_within(crossing_seen_along(up, P, e, Q, f))) continue;
+    const Vec3 x = end_a + at.t * (end_b - end_a);
+    if (!s.takes(x, gap, deep == DeepEdges::in_doubt, contacts)) continue;
     Contact contact;
     contact.key = {ContactMode::edge_edge, -1, static_cast<int>(i),
                    4 * static_cast<int>(node_index(trn, row, col)) + static_cast<int>(kind)};
@@ -271,7 +305,7 @@ void find_mode_3(const FeatureSearch& s, int row, int col, EdgeKind kind,
     contact.normal = s.to_local * normal;
     contact.gap = gap;
     contact.point_a = a;
-    contact.point_b = end_a + at.t * (end_b - end_a);
+    contact.point_b = x;
     contacts.push_back(contact);
   }
 }
@@ -293,7 +327,7 @@ bool any_set(const std::vector<std::uint8_t>& flags, size_t begin, size_t n) {
 }
 
 // Modes 2 and 3 at the nodes of the candidate cells; nearly all flags are 0.
-void find_features(const FeatureSearch& s, const CellRange& cells, std::vector<Contact>& contacts) {
+void find_features(FeatureSearch& s, const CellRange& cells, std::vector<Contact>& contacts) {
   const Trn& trn = s.ground.trn;
   for (int row = cells.row_first; row <= cells.row_last + 1; ++row) {
     const size_t first = node_index(trn, row, cells.col_first);
@@ -335,7 +369,12 @@ SearchResult find_contacts(const Ground& ground, const Shapes& shapes, int b, co
   const bool all_on_grid =
       contains(ground.trn, low.x(), low.y()) && contains(ground.trn, high.x(), high.y());
   find_mode_1(ground, shapes, b, near.ground.high, margin, all_on_grid, vertices, contacts);
-  find_features({ground, shapes, b, pose, margin, R, low, high}, near.cells, contacts);
+  FeatureSearch search{ground, shapes, b, pose, margin, R, low, high};
+  find_features(search, near.cells, contacts);
+  if (search.n_put_off > 0) {
+    search.n_sure = static_cast<int>(contacts.size());
+    find_features(search, near.cells, contacts);
+  }
   return {near.reach, 0};
 }
 

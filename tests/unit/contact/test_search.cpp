@@ -1,11 +1,11 @@
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <numbers>
 
 #include "bent_body.hpp"
 #include "contact/search.hpp"
 #include "convex_bodies.hpp"
+#include "ground_overlap.hpp"
 
 namespace {
 
@@ -98,83 +98,44 @@ Trn rough_ground(Random& random, double cell, double roughness) {
   return trn;
 }
 
-constexpr double outside = std::numeric_limits<double>::infinity();
-
-// Height of a convex body's lower side at (x, y): the highest of the planes that bound it from
-// below.
-double lower_side(const Polyhedron& body, double x, double y) {
-  double low = -outside, high = outside;
-  for (int f = 0; f < n_faces(body); ++f) {
-    const Vec3 n = face_normal(body, f), c = face_centroid(body, f);
-    if (std::abs(n.z()) < 1e-9) continue;
-    const double z = c.z() - (n.x() * (x - c.x()) + n.y() * (y - c.y())) / n.z();
-    if (n.z() < 0)
-      low = std::max(low, z);
-    else
-      high = std::min(high, z);
-  }
-  return low <= high + 1e-9 ? low : outside;
-}
-
-// The largest vertical overlap of the body with the ground, negative: the smallest clearance. Both
-// surfaces are piecewise linear, so it stands at a vertex of one or where their edges cross in
-// plan.
-double vertical_overlap(const Trn& trn, const Polyhedron& body) {
-  const std::vector<PolyhedronEdge> body_edges = edges(body);
-  double overlap = -outside, reach = trn.cell_size;
-  for (const Vec3& v : body.vertices) {
-    overlap = std::max(overlap, elevation_at(trn, locate(trn, v.x(), v.y())) - v.z());
-    reach = std::max(reach, v.norm() + 2 * trn.cell_size);
-  }
-  for (int row = 1; row < trn.n_rows - 1; ++row)
-    for (int col = 1; col < trn.n_cols - 1; ++col) {
-      const Vec3 node = node_point(trn, row, col);
-      if (node.head<2>().norm() > reach) continue;
-      overlap = std::max(overlap, node.z() - lower_side(body, node.x(), node.y()));
-      for (const EdgeKind kind : {EdgeKind::east, EdgeKind::south, EdgeKind::diagonal}) {
-        const TrnEdge edge = trn_edge(trn, row, col, kind);
-        const Vec3 f = node_point(trn, edge.b.row, edge.b.col) - node;
-        for (const PolyhedronEdge& of_body : body_edges) {
-          const Vec3& p = body.vertices[static_cast<std::size_t>(of_body.a)];
-          const Vec3 e = body.vertices[static_cast<std::size_t>(of_body.b)] - p, d = node - p;
-          const double cross = e.x() * f.y() - e.y() * f.x();
-          if (std::abs(cross) < 1e-9) continue;
-          const double s = (d.x() * f.y() - d.y() * f.x()) / cross;
-          const double t = (d.x() * e.y() - d.y() * e.x()) / cross;
-          if (s < 0 || s > 1 || t < 0 || t > 1) continue;
-          overlap = std::max(overlap, (node + t * f).z() - (p + s * e).z());
-        }
-      }
-    }
-  return overlap;
-}
-
-// A block that is lowered onto rough ground until it overlaps by a few per cent of its size is in
-// contact about as deep there, whichever features meet: corners, nodes, edges with ridges.
-TEST(FindContacts, SeesEveryOverlapWithRoughGround) {
+// A block that is lowered onto rough ground until it overlaps by `wanted` is in contact about as
+// deep there, whichever features meet: corners, nodes, edges with ridges. How often it is not.
+double share_unseen(std::initializer_list<double> wanted) {
+  constexpr int n_trials = 3000;
   Random random(5);
   std::vector<Vec3> vertices;
   std::vector<Contact> contacts;
   int n_unseen = 0;
-  for (int trial = 0; trial < 3000; ++trial) {
+  for (int trial = 0; trial < n_trials; ++trial) {
     const Trn trn = rough_ground(random, 2, 1);
     Polyhedron body = convex_body(random, Vec3::Constant(5), 5);
     const Quat turned = attitude(random);
     for (Vec3& v : body.vertices) v = turned * v;
-    const double overlap = vertical_overlap(trn, body);
+    const double overlap = vertical_overlap(trn, body).height;
     const Ground ground = make_ground(trn, {});
     Shapes shapes;
     add_shape(shapes, std::span(&body, 1), body, Vec3::Zero(), Mat3::Identity(), face_internal);
-    for (const double wanted : {0.1, 0.3}) {
-      const Pose pose{Vec3(0, 0, overlap - wanted), Quat::Identity()};
+    for (const double w : wanted) {
+      const Pose pose{Vec3(0, 0, overlap - w), Quat::Identity()};
       find_contacts(ground, shapes, 0, pose, Mat3::Identity(), 1e-3, vertices, contacts);
       double seen = 0;
       for (const Contact& c : contacts)
         seen = std::max(seen, -c.gap / std::max(0.05, std::abs(c.normal.z())));
-      n_unseen += seen < 0.2 * wanted;
+      n_unseen += seen < 0.2 * w;
     }
   }
-  EXPECT_EQ(n_unseen, 0);
+  return n_unseen / (n_trials * static_cast<double>(wanted.size()));
+}
+
+TEST(FindContacts, SeesEveryOverlapOfAFewPerCentWithRoughGround) {
+  EXPECT_EQ(share_unseen({0.1, 0.3}), 0);
+}
+
+// Deeper, other features than the deepest in height may lead out sooner.
+TEST(FindContacts, SeesNearlyEveryDeepOverlapWithRoughGround) {
+  const double share = share_unseen({0.5, 1, 2});
+  RecordProperty("share_unseen", std::to_string(share));
+  EXPECT_LT(share, 4e-3);
 }
 
 }  // namespace
