@@ -199,11 +199,10 @@ struct EnteredFace {
   bool is_nearest = true;
 };
 
-// A node of the ground, at X in body axes, enters through the nearest face of part p. Where the
-// ground beside the node is higher than that face's plane, it came in from below, through the face
-// beneath it.
-EnteredFace entered_face(const FeatureSearch& s, int p, const Vec3& node,
-                         const std::array<Vec3, 6>& ring, const Vec3& X) {
+// Node (row, col) of the ground, at X in body axes, enters through the nearest face of part p.
+// Where the ground beside the node is higher than that face's plane, it came in from below, through
+// the face beneath it.
+EnteredFace entered_face(const FeatureSearch& s, int p, int row, int col, const Vec3& X) {
   const Vec3 up = s.to_local.transpose() * Vec3::UnitZ();
   EnteredFace nearest, beneath;
   beneath.is_nearest = false;
@@ -217,12 +216,14 @@ EnteredFace entered_face(const FeatureSearch& s, int p, const Vec3& node,
       beneath.face = f, beneath.gap = gap, height = gap / slope;
   }
   if (nearest.face < 0 || nearest.gap > s.margin) return {};
-  for (const EnteredFace& entered : {nearest, beneath})
-    if (entered.face >= 0 &&
-        vertex_may_enter(node, ring,
-                         s.to_local * s.shapes.faces[static_cast<size_t>(entered.face)].normal,
-                         1e-12 * s.ground.trn.cell_size))
+  const Trn& trn = s.ground.trn;
+  const std::array<Vec3, 6> ring = node_ring(trn, row, col);
+  for (const EnteredFace& entered : {nearest, beneath}) {
+    if (entered.face < 0) continue;
+    const Vec3 outward = s.to_local * s.shapes.faces[static_cast<size_t>(entered.face)].normal;
+    if (vertex_may_enter(node_point(trn, row, col), ring, outward, 1e-12 * trn.cell_size))
       return entered;
+  }
   return {};
 }
 
@@ -236,7 +237,7 @@ void find_mode_2(FeatureSearch& s, int row, int col, std::vector<Contact>& conta
   for (int p = s.shapes.part_begin[static_cast<size_t>(s.b)];
        p < s.shapes.part_begin[static_cast<size_t>(s.b) + 1]; ++p) {
     if (is_across_wall(s.shapes, p, X, same_wall * radius)) continue;
-    const EnteredFace entered = entered_face(s, p, node, node_ring(trn, row, col), X);
+    const EnteredFace entered = entered_face(s, p, row, col, X);
     if (entered.face < 0) continue;
     const bool in_doubt = !entered.is_nearest && entered.gap < -doubtful * deepest;
     if (!s.takes(node, entered.gap, in_doubt, contacts)) continue;
