@@ -163,26 +163,21 @@ double depth_in_part(const Shapes& shapes, int p, const Vec3& X, const ShapeEdge
   return depth;
 }
 
-/// What is known of two edges that read as deep: far from the edges the planes beside them end, and
-/// such a pair may lie in the open.
-enum class DeepEdges { apart, in_doubt, overlap };
-
-// An edge of the block, at A, and one of the ground, at X (both in body axes), that read as `depth`
-// deep. They overlap where X lies in the block and A not high above the ground (behind a sharp
-// ridge it may be a little); in doubt where another face leads out of the block sooner.
-DeepEdges deep_edges(const FeatureSearch& s, const ShapeEdge& edge, const Vec3& A, const Vec3& X,
-                     double depth) {
+// Whether an edge of the block, at A, and one of the ground, at X (both in body axes), that read as
+// `depth` deep overlap by that: X lies in the block, which no other face leads out of sooner, and A
+// not high above the ground (behind a sharp ridge it may be a little). Far from the edges the
+// planes beside them end, and such a pair may lie in the open.
+bool edges_overlap(const FeatureSearch& s, const ShapeEdge& edge, const Vec3& A, const Vec3& X,
+                   double depth) {
   const Trn& trn = s.ground.trn;
   const Vec3 a = s.pose.position + s.to_local * A;
-  if (!contains(trn, a.x(), a.y())) return DeepEdges::apart;
-  if (!(a.z() - elevation_at(trn, locate(trn, a.x(), a.y())) < 2 * depth)) return DeepEdges::apart;
+  if (!contains(trn, a.x(), a.y())) return false;
+  if (!(a.z() - elevation_at(trn, locate(trn, a.x(), a.y())) < 2 * depth)) return false;
   const double same = same_wall * s.shapes.radius[static_cast<size_t>(s.b)];
-  double inside = -1;
   for (int p = s.shapes.part_begin[static_cast<size_t>(s.b)];
        p < s.shapes.part_begin[static_cast<size_t>(s.b) + 1]; ++p)
-    inside = std::max(inside, depth_in_part(s.shapes, p, X, edge, same));
-  if (inside >= depth) return DeepEdges::overlap;
-  return inside > 0 ? DeepEdges::in_doubt : DeepEdges::apart;
+    if (depth_in_part(s.shapes, p, X, edge, same) >= depth) return true;
+  return false;
 }
 
 // The six neighbours of an inner node of the network.
@@ -284,20 +279,21 @@ void find_mode_3(FeatureSearch& s, int row, int col, EdgeKind kind,
     if (at.parallel) continue;
     Vec3 normal = e.cross(f);
     if (normal.dot(ridge.left + ridge.right) < 0) normal = -normal;
-    // Where they overlap the nearest points may lie a little beyond an end, and the edges yet be
-    // above each other.
-    if (!is_within(at) && normal.dot(P - Q) < 0) at = crossing_seen_along(up, P, e, Q, f);
+    // Of edges that overlap the nearest points may lie a little beyond an end. Where they cross in
+    // plan, the block's is below the ground, however deep.
+    const bool overlap = normal.dot(P - Q) < 0;
+    const LinePair crossing = overlap ? crossing_seen_along(up, P, e, Q, f) : at;
+    if (!is_within(at)) at = crossing;
     if (!is_within(at)) continue;
     normal.normalize();
-    const Vec3 a = P + at.s * e;
-    const double gap = normal.dot(a - (Q + at.t * f));
-    if (gap > s.margin || gap < -deepest) continue;
-    DeepEdges deep = DeepEdges::overlap;
-    if (gap < -doubtful * deepest) deep = deep_edges(s, edges[i], a, Q + at.t * f, -gap);
-    if (deep == DeepEdges::apart) continue;
-    if (deep == DeepEdges::in_doubt && !is_within(crossing_seen_along(up, P, e, Q, f))) continue;
+    const Vec3 a = P + at.s * e, X = Q + at.t * f;
+    const double gap = normal.dot(a - X);
+    if (gap > s.margin) continue;
+    const bool in_doubt =
+        gap < -doubtful * deepest && (gap < -deepest || !edges_overlap(s, edges[i], a, X, -gap));
+    if (in_doubt && !is_within(crossing)) continue;
     const Vec3 x = end_a + at.t * (end_b - end_a);
-    if (!s.takes(x, gap, deep == DeepEdges::in_doubt, contacts)) continue;
+    if (!s.takes(x, gap, in_doubt, contacts)) continue;
     Contact contact;
     contact.key = {ContactMode::edge_edge, -1, static_cast<int>(i),
                    4 * static_cast<int>(node_index(trn, row, col)) + static_cast<int>(kind)};

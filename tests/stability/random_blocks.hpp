@@ -26,9 +26,7 @@ inline constexpr double depth_tolerance = 0.02, least_depth_m = 5e-3;
 /// What was seen.
 struct Outcome {
   int not_finite = 0, too_deep = 0, gained = 0;
-  /// Plates and needles that were too deep at some time: a ridge that has gone right through them
-  /// is not seen.
-  std::set<int> thin_too_deep;
+  std::set<int> thin_too_deep;  ///< plates and needles that were too deep at some time
   int left = 0, still_there = 0;
   double deepest = 0;  ///< over its tolerance [-]
   double balance = 0;  ///< of all energies over what was lost [-]
@@ -132,7 +130,8 @@ inline void watch(const Scene& scene, const std::vector<Body>& bodies, const Sta
     }
     const double now = energy_of(scene, m, b);
     out.gained += !(now <= energy[i] + 0.05 + 1e-4 * 0.5 * m.velocity.squaredNorm());
-    energy[i] = std::min(energy[i], now);
+    // out of an overlap a block is lifted again
+    energy[i] = std::min(energy[i], now + scene.gravity.norm() * std::max(0.0, depth));
   }
 }
 
@@ -177,7 +176,7 @@ inline void expect_sound(const Outcome& out, int n) {
   testing::Test::RecordProperty("substeps", static_cast<int>(out.substeps));
   EXPECT_EQ(out.not_finite, 0);
   testing::Test::RecordProperty("thin_too_deep", static_cast<int>(out.thin_too_deep.size()));
-  EXPECT_LE(static_cast<int>(out.thin_too_deep.size()), 1 + n / 200);
+  EXPECT_LE(static_cast<int>(out.thin_too_deep.size()), n / 1000);
   EXPECT_EQ(out.too_deep, 0) << "deepest " << out.deepest << " of what is allowed";
   EXPECT_EQ(out.gained, 0);
   EXPECT_FALSE(has(out.flags, StepFlag::fell_through));
