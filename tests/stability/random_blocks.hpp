@@ -28,8 +28,8 @@ struct Outcome {
   int not_finite = 0, too_deep = 0, gained = 0;
   std::set<int> thin_too_deep;  ///< plates and needles that were too deep at some time
   int left = 0, still_there = 0;
-  double deepest = 0;  ///< over its tolerance [-]
-  double balance = 0;  ///< of all energies over what was lost [-]
+  double deepest = 0, deepest_thin = 0;  ///< over the tolerance [-]
+  double balance = 0;                    ///< of all energies over what was lost [-]
   long unconverged = 0, substeps = 0;
   StepFlag flags = StepFlag::none;
 };
@@ -124,6 +124,7 @@ inline void watch(const Scene& scene, const std::vector<Body>& bodies, const Sta
     const double allowed = std::max(least_depth_m, depth_tolerance * scene.blocks.shapes.radius[i]);
     if (scene.blocks.shapes.thickness[i] < scene.blocks.shapes.radius[i] / 20) {
       if (!(depth <= allowed)) out.thin_too_deep.insert(b);
+      out.deepest_thin = std::max(out.deepest_thin, depth / allowed);
     } else {
       out.too_deep += !(depth <= allowed);
       out.deepest = std::max(out.deepest, depth / allowed);
@@ -175,6 +176,8 @@ inline void expect_sound(const Outcome& out, int n) {
   testing::Test::RecordProperty("unconverged_substeps", static_cast<int>(out.unconverged));
   testing::Test::RecordProperty("substeps", static_cast<int>(out.substeps));
   EXPECT_EQ(out.not_finite, 0);
+  testing::Test::RecordProperty("deepest_thin_over_tolerance", text(out.deepest_thin, 3));
+  EXPECT_LT(out.deepest_thin, 2);
   testing::Test::RecordProperty("thin_too_deep", static_cast<int>(out.thin_too_deep.size()));
   EXPECT_LE(static_cast<int>(out.thin_too_deep.size()), n / 1000);
   EXPECT_EQ(out.too_deep, 0) << "deepest " << out.deepest << " of what is allowed";
