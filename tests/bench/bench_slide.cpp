@@ -82,7 +82,7 @@ void SlidePaper(benchmark::State& run) { slide_by(run, Law::paper); }
 
 BENCHMARK(Slide)
     ->Name("Slide39")
-    ->ArgsProduct({{39}, {10, 50, 100, 200, 300}, {0, 1, 2, 3, 4, 5, 6, 7, 8}, {200}})
+    ->ArgsProduct({{39}, {1, 10, 50, 100, 200, 300}, {0, 1, 2, 3, 4, 5, 6, 7, 8}, {200}})
     ->Unit(benchmark::kSecond)
     ->Iterations(1);
 BENCHMARK(Slide)
