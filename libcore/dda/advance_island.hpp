@@ -36,8 +36,11 @@ struct AdvanceIsland {
   int halvings = 0;    ///< of the substep because it did not converge
   bool small = false;  ///< the island's matrix is cheap to factor
   int cuts = 0;        ///< of the substep at the time when a panel is used up
+  int lone_hits = 0;   ///< for each of which a substep ended within the step
 
   [[nodiscard]] size_t block(size_t k) const { return static_cast<size_t>(w.members[k]); }
+  // One block near fixed bodies: it is hit at the end of a substep, so by one body after the other.
+  [[nodiscard]] bool is_lone() const { return w.members.size() == 1; }
   Motion& motion(size_t k) { return state.motion[block(k)]; }
   [[nodiscard]] size_t place(int b) const {
     return static_cast<size_t>(w.place[static_cast<size_t>(b)]);
@@ -139,6 +142,7 @@ struct AdvanceIsland {
   [[nodiscard]] double fastest_hit() const;
   bool solve_once(double h, bool continues);
   void forgo_rebound();
+  [[nodiscard]] double first_hit(double h) const;
   bool solve(double h);
   [[nodiscard]] bool is_closed() const;
   void set_times(double h);

@@ -10,6 +10,9 @@ namespace {
 using std::size_t;
 
 constexpr double hit_stiffness = 30;          // D of a hit over the mass that it feels
+constexpr double hit_at_start = 1e-6;         // of the substep: a lone block's hit is at its start
+constexpr double hit_at_end = 1 - 1e-6;       // ... or at its end
+constexpr int most_lone_hits = 100;           // of a block in a step, before they come together
 constexpr double hit_share = 0.7;             // first guess of its impulse, of that of a lone hit
 constexpr double hit_tolerance = 1e-2;        // of its rebound, of the speed that it came with
 constexpr double small_hit_tolerance = 1e-9;  // the same in an island that is factored
@@ -32,6 +35,7 @@ void AdvanceIsland::make_hit(size_t r, double gap_end, double h) {
   const double a_free = 2 * (contact.gap_free - g - v * h) / (h * h);
   if (g > 0)
     contact.hit_time = std::min(h, 2 * g / (std::sqrt(std::max(0.0, v * v - 2 * a * g)) - v));
+  if (is_lone() && contact.hit_time > hit_at_end * h) contact.hit_time = h;
   const double rest = h - contact.hit_time;
   contact.hit_speed = g > 0 ? v + a * contact.hit_time : contact.approach;
   contact.target =
@@ -60,11 +64,12 @@ void AdvanceIsland::make_hit(size_t r, double gap_end, double h) {
 
 // Contacts that wait and are hit by the motion `of` the members: how many.
 int AdvanceIsland::find_hits(double h, bool free) {
+  const double moved_for = is_lone() && !free ? h - w.time[0] : h / 2;
   int n = 0;
   for (size_t r = 0; r < w.contacts.size(); ++r) {
     const IslandContact& contact = w.contacts[r];
     if (!contact.waits) continue;
-    const double by_contact = free ? 0.0 : h / 2 * contact.row.normal.dot(changed(r));
+    const double by_contact = free ? 0.0 : moved_for * contact.row.normal.dot(changed(r));
     const double gap_end = contact.gap_free + by_contact;
     if (gap_end > contact.touch) continue;
     make_hit(r, gap_end, h);
@@ -153,15 +158,26 @@ void AdvanceIsland::forgo_rebound() {
   }
 }
 
-// Impulses of the substep, hits included.
+// Where the substep of a lone block has to end, since it is hit on the way; h + 1: nowhere.
+double AdvanceIsland::first_hit(double h) const {
+  double first = h + 1;
+  if (!is_lone() || lone_hits >= most_lone_hits) return first;
+  for (const IslandContact& contact : w.contacts)
+    if (contact.hit && contact.hit_time > hit_at_start * h && contact.hit_time < h)
+      first = std::min(first, contact.hit_time);
+  return first;
+}
+
+// Impulses of the substep, hits included; gives up where first_hit() says that it ends sooner.
 bool AdvanceIsland::solve(double h) {
   int hits = find_hits(h, true);
+  if (first_hit(h) < h) return true;
   set_times(h);
   bool converged = solve_once(h, false);
   for (int round = 0; round < most_hit_rounds && converged; ++round) {
     const int more = find_hits(h, false);
     hits += more;
-    if (hits == 0) return true;
+    if (hits == 0 || first_hit(h) < h) return true;
     const double error = correct_hits();
     if (more > 0) set_times(h);
     if (more == 0 && error <= (small ? small_hit_tolerance : hit_tolerance)) break;

@@ -191,19 +191,20 @@ Motion AdvanceIsland::end_of(size_t k) const {
 
 // The path of a member: in one piece, or up to its hit and on from there.
 void AdvanceIsland::add_path(size_t k, const Motion& end, double t, double h) {
+  constexpr double rounding = 1e-12;
   const Substep& s = w.substeps[k];
   const double hit = w.time[k];
-  if (std::abs(hit - h / 2) < 1e-3 * h || hit <= 0 || hit >= h) {
+  if (std::abs(hit - h / 2) < 1e-3 * h) {
     add_segment(w.members[k], false, t, h, s.start, end, work);
     return;
   }
-  const Vec3& inertia = w.numbers[k].inertia;
-  const Motion before = fly(s.start, inertia, s.free_acceleration, hit);
+  const Motion before = fly(s.start, w.numbers[k].inertia, s.free_acceleration, hit);
   Motion after = before;
   after.velocity = end.velocity - (h - hit) * s.free_acceleration;
   after.angular_momentum = end.angular_momentum;
-  add_segment(w.members[k], false, t, hit, s.start, before, work);
-  add_segment(w.members[k], false, t + hit, h - hit, after, end, work);
+  if (hit > rounding * h) add_segment(w.members[k], false, t, hit, s.start, before, work);
+  if (hit < (1 - rounding) * h)
+    add_segment(w.members[k], false, t + hit, h - hit, after, end, work);
 }
 
 void AdvanceIsland::finish(double t, double h) {
@@ -240,7 +241,13 @@ AdvanceIsland::Attempt AdvanceIsland::attempt(double t, double& h) {
     h = touch;
     return Attempt::shorter;
   }
-  if (!solve(h)) {
+  const bool converged = solve(h);
+  if (const double hit = first_hit(h); hit < h) {
+    h = hit;
+    ++lone_hits;
+    return Attempt::shorter;
+  }
+  if (!converged) {
     if (halvings < most_halvings) {
       h /= 2;
       ++halvings;

@@ -133,6 +133,52 @@ TEST(Fence, RigidPanelThrowsBackByItsRestitution) {
   EXPECT_NEAR(state.ledger.impact, 0.84 * energy_of(10), 1e-6 * energy_of(10));
 }
 
+// A cube falls along a fence onto the slope, which throws it at the fence within the same step.
+struct Throw {
+  double dt, bounce, room;
+};
+class FenceThrow : public testing::TestWithParam<Throw> {};
+INSTANTIATE_TEST_SUITE_P(Fence, FenceThrow,
+                         testing::Values(Throw{0.02, 0.985, 0.05}, Throw{0.05, 0.96, 0.3}));
+
+TEST_P(FenceThrow, IsMetWithinTheStep) {
+  const auto [dt, bounce, room] = GetParam();
+  const double speed = 10 * bounce, half_thickness = 0.1;
+  const SlopeFrame slope = slope_frame(45, 0);
+  const double x = 5 - half_thickness - room - 1.5 / std::numbers::sqrt2;  // of its lowest face
+  const Vec3 base(x, 3, 5 * bounce * bounce - x);
+  Body cube;
+  cube.parts = {box_in(slope, base, Vec3(-0.5, -0.5, 0), Vec3(0.5, 0.5, 1))};
+  StandingFence fence = fence_across(FencePanel::no_limit, 0, 0.4);
+  for (Vec3& post : fence.posts) post.z() = -5;
+  Settings settings;
+  settings.dt = dt;
+  Scene scene = scene_of(plane_trn(slope, 1, 40), ground_of(0, 1), {cube}, settings);
+  add_fence(scene, fence);
+  State state = start(scene);
+  Work work = make_work(scene);
+  double deepest = 0;
+  while (state.time < 1 - 1e-9)
+    deepest = std::max(deepest, step(scene, state, work).largest_penetration);
+  EXPECT_LT(deepest, 1e-6);
+  ASSERT_EQ(state.fence.hits.size(), 1u);
+  const FenceHit& hit = state.fence.hits[0];
+  EXPECT_NEAR(hit.time, bounce + room / speed, 1e-6);
+  EXPECT_NEAR(hit.velocity.x(), speed, 1e-4);
+  EXPECT_NEAR(state.motion[0].velocity.x(), -0.4 * speed, 1e-4);
+  // the recorded path is the path: each piece begins where the last one ended
+  for (std::size_t i = 1; i < work.segments.size(); ++i)
+    EXPECT_LT(
+        (work.segments[i].start.pose.position - work.segments[i - 1].end.pose.position).norm(),
+        1e-9);
+  for (const Segment& segment : work.segments) {
+    const double h = segment.t_end - segment.t_start;
+    const Vec3 end =
+        segment.start.pose.position + h * (segment.start.velocity + h / 2 * segment.acceleration);
+    EXPECT_LT((end - segment.end.pose.position).norm(), 1e-9);
+  }
+}
+
 // Beside the fence nothing stands.
 TEST(Fence, DoesNotReachBeyondItsEnds) {
   const Scene scene = smooth_plane({cube_at(Vec3(0, 10.5, 0), Vec3(10, 0, 0))},
