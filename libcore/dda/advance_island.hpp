@@ -133,7 +133,7 @@ struct AdvanceIsland {
   bool assemble(double t, double h);
 
   // island_impacts.cpp
-  void make_hit(size_t r, double gap_end, double h);
+  void make_hit(size_t r, double gap_end, double speed_end, double h);
   int find_hits(double h, bool free);
   double correct_hits();
   [[nodiscard]] double hit_energy() const;

@@ -107,9 +107,9 @@ void AdvanceIsland::push(const ContactRow& row, IslandContact contact) {
   contact.approach = std::min(row.speed_start, row.normal.dot(row.free_move) / h);
   // what comes from so far that it must be fast, wherever another hit throws it, waits too
   const double resting_speed = numbers(contact.a).resting_speed;
-  contact.waits = row.memory < 0 && !contact.never_waits &&
-                  (contact.approach < -resting_speed ||
-                   (is_lone() && row.gap_start > contact.touch + h * resting_speed));
+  contact.waits =
+      row.memory < 0 && !contact.never_waits &&
+      (contact.approach < -resting_speed || row.gap_start > contact.touch + h * resting_speed);
   out.waits_for_impact = contact.waits;
   if (row.memory >= 0) {
     const ContactMemory& m =

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "dda/advance_island.hpp"
@@ -26,8 +27,10 @@ constexpr double linear_tolerance = 3e-2;  // of conjugate gradients in a Newton
 
 }  // namespace
 
-// Makes contact `r`, which waits, a hit: from its gaps at both ends of the step without it.
-void AdvanceIsland::make_hit(size_t r, double gap_end, double h) {
+// Makes contact `r`, which waits, a hit: from its gaps at both ends of the step without it, and its
+// speed at the end. Between them the speed is taken as linear; a block that another hit threw goes
+// on as fast as it was thrown, so that the speed at the end bounds what this hit can return.
+void AdvanceIsland::make_hit(size_t r, double gap_end, double speed_end, double h) {
   IslandContact& contact = w.contacts[r];
   IslandRow& row = w.island.rows[r];
   const double v = contact.row.speed_start, g = contact.row.gap_start;
@@ -36,10 +39,11 @@ void AdvanceIsland::make_hit(size_t r, double gap_end, double h) {
   if (g > 0)
     contact.hit_time = std::min(h, 2 * g / (std::sqrt(std::max(0.0, v * v - 2 * a * g)) - v));
   if (is_lone() && contact.hit_time > hit_at_end * h) contact.hit_time = h;
-  const double rest = h - contact.hit_time;
-  contact.hit_speed = g > 0 ? v + a * contact.hit_time : contact.approach;
-  contact.target =
-      std::max(0.0, -contact.restitution * contact.hit_speed + std::min(0.0, a_free) * rest);
+  const double rest = h - contact.hit_time, resting_speed = numbers(contact.a).resting_speed;
+  const double speed = std::max(g > 0 ? v + a * contact.hit_time : contact.approach, speed_end);
+  const double returned = speed < -resting_speed ? -contact.restitution * speed : 0;
+  contact.hit_speed = std::min(speed, -resting_speed);
+  contact.target = std::max(0.0, returned + std::min(0.0, a_free) * rest);
   contact.waits = false;
   contact.hit = true;
   const size_t ka = place(contact.a);
@@ -62,17 +66,22 @@ void AdvanceIsland::make_hit(size_t r, double gap_end, double h) {
   row.bias = -contact.target - change_alone / hit_stiffness;
 }
 
-// Contacts that wait and are hit by the motion `of` the members: how many.
+// Contacts that wait and are hit, by the free motion or by that with the impulses found so far:
+// how many.
 int AdvanceIsland::find_hits(double h, bool free) {
-  const double moved_for = is_lone() && !free ? h - w.time[0] : h / 2;
   int n = 0;
   for (size_t r = 0; r < w.contacts.size(); ++r) {
     const IslandContact& contact = w.contacts[r];
     if (!contact.waits) continue;
-    const double by_contact = free ? 0.0 : moved_for * contact.row.normal.dot(changed(r));
-    const double gap_end = contact.gap_free + by_contact;
+    const Vec3& normal = contact.row.normal;
+    double gap_end = contact.gap_free, speed_end = -std::numeric_limits<double>::infinity();
+    if (!free) {
+      gap_end +=
+          normal.dot(relative(r, [&](size_t k) -> Vec6 { return (h - w.time[k]) * change(k); }));
+      speed_end = normal.dot(relative(r, [&](size_t k) { return w.island.velocity[k]; }));
+    }
     if (gap_end > contact.touch) continue;
-    make_hit(r, gap_end, h);
+    make_hit(r, gap_end, speed_end, h);
     ++n;
   }
   return n;

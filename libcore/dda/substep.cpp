@@ -22,6 +22,9 @@ constexpr double touch_ratio = 1e-8;
 // step. That is left unpressed up to this many times the touching gap, a hundredth of the radius:
 // a needle that spins on its tip would otherwise sink in by it step after step.
 constexpr double most_by_turning = 1e-2 / touch_ratio;
+// A contact whose stiffness grows by more than this from step to step has changed its law, with the
+// size of its island or its neighbours; less is its block's turning.
+constexpr double most_stiffening = 1.5;
 constexpr double parallel = 1 - 1e-12, no_limit = std::numeric_limits<double>::infinity();
 
 Vec3 load_torque(const Scene& scene, int b, const Quat& attitude) {
@@ -49,12 +52,19 @@ int row_of(const ContactMemory& memory, const Work& work) {
 // as it was while the row waits. Cheaper than a whole new row.
 void forget_last_step(ContactRow& row) {
   row.shear.setZero();
-  row.offset = row.bond_area = 0;
+  row.offset = row.last_stiffness = row.bond_area = 0;
   row.normal_limit = no_normal_limit;
   row.memory = -1;
   row.cap = row.held_cap = 0;
   row.impulse.setZero();
   row.state = ContactState::open;
+}
+
+// Where a contact becomes stiffer by 1 / `share`, its springs keep their forces: what they were
+// pressed in beyond that presses nothing from now on. Else they would throw the block.
+void keep_force(double share, ContactRow& row) {
+  row.offset += (1 - share) * std::max(0.0, -(row.gap_start + row.offset));
+  row.shear *= share;
 }
 
 // How fast the contact would close without contact forces: at the start of the substep, or on the
@@ -123,6 +133,7 @@ Mat3 stretch_of(const State& state, int b) {
 void inherit(const ContactMemory& memory, int index, const Mat3& to_row, double touch,
              ContactRow& row) {
   row.memory = index;
+  row.last_stiffness = memory.stiffness;
   row.bond_area = memory.bond_area;
   row.offset = std::min(memory.offset, std::max(0.0, -row.gap_start));
   const double jump = memory.gap_end - (row.gap_start + row.offset);
@@ -141,11 +152,13 @@ void inherit(const ContactMemory& memory, int index, const Mat3& to_row, double 
 
 void set_law(const Scene& scene, const BlockNumbers& c, double h, const Mobility& W,
              double approach, ContactRow& row) {
-  const double x = row.gap_start + row.offset;
   const double asked = scene.settings.normal_stiffness;
   const double per_mass = c.stiffness * c.per_mass;
   const double k_n = std::min(asked > 0 ? asked : c.stiffness, per_mass / W.normal);
   const double k_s = std::min(scene.settings.shear_ratio * k_n, per_mass / W.tangent);
+  if (row.last_stiffness > 0 && k_n > most_stiffening * row.last_stiffness)
+    keep_force(row.last_stiffness / k_n, row);
+  const double x = row.gap_start + row.offset;
   row.normal_damping = k_n * h * c.recovery_time;
   row.shear_damping = k_s * h * c.recovery_time;
   const double per_recovery = 1 / c.recovery_time;

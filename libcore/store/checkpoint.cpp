@@ -14,7 +14,7 @@ namespace talus {
 // say that a list has to be looked at again.
 
 static_assert(sizeof(Motion) == 112 && sizeof(EnergyLedger) == 48 && sizeof(RunCounters) == 64);
-static_assert(sizeof(ContactMemory) == 128 && sizeof(HealthRow) == 184);
+static_assert(sizeof(ContactMemory) == 136 && sizeof(HealthRow) == 184);
 static_assert(sizeof(State) == 8 + 12 * 24 + sizeof(EnergyLedger) + sizeof(RunCounters) +
                                    sizeof(PairState) + sizeof(PlacedHulls) + sizeof(FenceState));
 static_assert(sizeof(FenceState) == 5 * 24 && sizeof(FenceHit) == 104 && sizeof(BlockBond) == 48);
@@ -54,7 +54,7 @@ template <class Archive>
 void fields(Fields<Archive>& archive, ContactMemory& memory) {
   archive(memory.key.mode, memory.key.body_b, memory.key.feature_a, memory.key.feature_b,
           memory.normal, memory.shear, memory.slip_direction, memory.offset, memory.gap_end,
-          memory.normal_force, memory.bond_area, memory.state);
+          memory.normal_force, memory.stiffness, memory.bond_area, memory.state);
 }
 template <class Archive>
 void fields(Fields<Archive>& archive, Mat3& value) {
