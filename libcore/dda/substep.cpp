@@ -22,9 +22,9 @@ constexpr double touch_ratio = 1e-8;
 // step. That is left unpressed up to this many times the touching gap, a hundredth of the radius:
 // a needle that spins on its tip would otherwise sink in by it step after step.
 constexpr double most_by_turning = 1e-2 / touch_ratio;
-// A contact whose stiffness grows by more than this from step to step has changed its law, with the
-// size of its island or its neighbours; less is its block's turning.
-constexpr double most_stiffening = 1.5;
+// A contact whose stiffness changes by more than this factor from step to step has another law,
+// with the size of its island or its neighbours; less is its block's turning.
+constexpr double same_law = 1.5;
 constexpr double parallel = 1 - 1e-12, no_limit = std::numeric_limits<double>::infinity();
 
 Vec3 load_torque(const Scene& scene, int b, const Quat& attitude) {
@@ -60,10 +60,12 @@ void forget_last_step(ContactRow& row) {
   row.state = ContactState::open;
 }
 
-// Where a contact becomes stiffer by 1 / `share`, its springs keep their forces: what they were
-// pressed in beyond that presses nothing from now on. Else they would throw the block.
+// Where the stiffness of a contact is not what it was, its springs keep their forces: `share` is
+// the old over the new. What they were pressed in beyond that would throw the block; it presses
+// nothing from now on, and again when the contact is as soft as before.
 void keep_force(double share, ContactRow& row) {
-  row.offset += (1 - share) * std::max(0.0, -(row.gap_start + row.offset));
+  const double pressed_in = std::max(0.0, -(row.gap_start + row.offset));
+  row.offset = std::max(0.0, row.offset + (1 - share) * pressed_in);
   row.shear *= share;
 }
 
@@ -156,8 +158,9 @@ void set_law(const Scene& scene, const BlockNumbers& c, double h, const Mobility
   const double per_mass = c.stiffness * c.per_mass;
   const double k_n = std::min(asked > 0 ? asked : c.stiffness, per_mass / W.normal);
   const double k_s = std::min(scene.settings.shear_ratio * k_n, per_mass / W.tangent);
-  if (row.last_stiffness > 0 && k_n > most_stiffening * row.last_stiffness)
-    keep_force(row.last_stiffness / k_n, row);
+  if (const double last = row.last_stiffness;
+      last > 0 && (k_n > same_law * last || last > same_law * k_n))
+    keep_force(last / k_n, row);
   const double x = row.gap_start + row.offset;
   row.normal_damping = k_n * h * c.recovery_time;
   row.shear_damping = k_s * h * c.recovery_time;

@@ -145,29 +145,39 @@ TEST(StepIsland, EnergyNeverRises) {
 }
 
 // An island that falls apart has stiffer contacts, a growing one softer: what a contact is pressed
-// in must not throw the block when its stiffness grows.
+// in must not throw the block when its stiffness grows, nor go on growing when it changes to and
+// fro.
 TEST(StepIsland, ContactThatBecomesStifferKeepsItsForces) {
   const double h = 0.01, soft = 1e5, pressed_in = 1e-3, sheared = 4e-4;
   const Scene scene = scene_of(plane_trn(slope_frame(0, 0), 1, 10), ground_of(30),
                                {body_of(box(Vec3::Zero(), Vec3::Ones()))}, {});
   for (const double ratio : {1.0, 1.2, 30.0, 400.0}) {
     BlockNumbers c = numbers_of(scene, 0);
-    c.stiffness = ratio * soft;
     ContactMemory memory;
     memory.normal = Vec3::UnitZ();
     memory.shear = sheared * Vec3::UnitX();
     memory.gap_end = -pressed_in;
     memory.stiffness = soft;
-    ContactRow row;
-    row.normal = Vec3::UnitZ();
-    row.gap_start = -pressed_in;
-    inherit(memory, 0, Mat3::Identity(), c.touch, row);
-    set_law(scene, c, h, {c.per_mass, c.per_mass}, 0, row);
-    const double kept = ratio < 1.5 ? ratio : 1;  // small changes come with the block's turning
-    EXPECT_NEAR(-row.bias * row.normal_damping / h, kept * soft * pressed_in, 1e-9 * soft);
-    EXPECT_NEAR(row.shear_velocity.x() * row.shear_damping / h,
-                kept * soft * scene.settings.shear_ratio * sheared, 1e-9 * soft);
-    EXPECT_NEAR(row.normal_damping, ratio * soft * h * c.recovery_time, 1e-9 * row.normal_damping);
+    for (const double stiffness : {ratio * soft, soft, ratio * soft, soft}) {
+      ContactRow row;
+      row.normal = Vec3::UnitZ();
+      row.gap_start = -pressed_in;
+      inherit(memory, 0, Mat3::Identity(), c.touch, row);
+      c.stiffness = stiffness;
+      set_law(scene, c, h, {c.per_mass, c.per_mass}, 0, row);
+      const double kept = ratio < 1.5 ? stiffness : soft;  // less: its block's turning
+      EXPECT_NEAR(-row.bias * row.normal_damping / h, kept * pressed_in, 1e-9 * soft);
+      EXPECT_NEAR(row.shear_velocity.x() * row.shear_damping / h,
+                  kept * scene.settings.shear_ratio * sheared, 1e-9 * soft);
+      EXPECT_NEAR(row.normal_damping, stiffness * h * c.recovery_time, 1e-9 * row.normal_damping);
+      if (stiffness == soft) {
+        EXPECT_NEAR(row.offset, 0, 1e-15);
+      }
+      memory.offset = row.offset;
+      memory.gap_end = row.gap_start + row.offset;
+      memory.shear = row.shear;
+      memory.stiffness = stiffness;
+    }
   }
 }
 
