@@ -46,7 +46,7 @@ struct ContactMemory {
   double offset = 0;        ///< overlap that presses nothing, >= 0; relaxed with time [m]
   double gap_end = 0;       ///< gap + offset at the end of the last step [m]
   double normal_force = 0;  ///< N of the last step, >= 0 [N]
-  double stiffness = 0;     ///< k_n of the last step; 0: not known, as with law paper [N/m]
+  double stiffness = 0;     ///< k_n of the last step; 0: of a bond, or of law paper [N/m]
   double bond_area = 0;     ///< A_c, share of bonded area; 0 once the bond is broken [m2]
   std::uint8_t state = 0;   ///< ContactState of the last step
 };

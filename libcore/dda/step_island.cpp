@@ -167,7 +167,8 @@ void AdvanceIsland::remember(double h) {
     memory.offset = contact.bond >= 0 ? row.offset : std::max(0.0, row.offset - relax);
     memory.gap_end = row.gap_start + row.offset + along - (row.offset - memory.offset);
     memory.normal_force = p_n / h;
-    memory.stiffness = row.normal_damping / (numbers(contact.a).recovery_time * h);
+    if (contact.bond < 0 && row.bond_area == 0)
+      memory.stiffness = row.normal_damping / (numbers(contact.a).recovery_time * h);
     memory.state = static_cast<std::uint8_t>(solved.state);
     memory.bond_area = contact.bond >= 0 ? 0 : row.bond_area;  // of the ground
     const double k_t = row.shear_damping / (numbers(contact.a).recovery_time * h);

@@ -127,7 +127,7 @@ void remember(const BlockNumbers& c, const Substep& s, const Solved<Dof>& solved
          .offset = offset,
          .gap_end = row.gap_start + row.offset + along - (row.offset - offset),
          .normal_force = p_n * per_h,
-         .stiffness = row.normal_damping * per_h / c.recovery_time,
+         .stiffness = row.bond_area > 0 ? 0 : row.normal_damping * per_h / c.recovery_time,
          .bond_area = row.bond_area,
          .state = static_cast<std::uint8_t>(row.state)});
     ++report.n_closed;

@@ -80,6 +80,23 @@ TEST_P(Bond, HoldsExactlyToItsLimit) {
 }
 
 // Brittle: what broke slides with the friction of the joint alone.
+// What keeps the forces of a contact whose stiffness changes is an offset. On a bond it would stay,
+// and pull when the load is gone: bonds have none.
+TEST(Bonds, KeepTheirZeroWhateverTheirStiffness) {
+  GroundClass set = ground_of(20);
+  set.cohesion = set.tension = 5000;
+  const State state = run(cube_on_slab(20, set), 0.1);
+  int n_bonded = 0, n_free = 0;
+  for (const std::vector<ContactMemory>& of_block : state.memory)
+    for (const ContactMemory& memory : of_block) {
+      const bool bonded = memory.key.body_b >= 0;
+      (bonded ? n_bonded : n_free) += 1;
+      EXPECT_EQ(memory.stiffness > 0, !bonded);
+    }
+  EXPECT_GE(n_bonded, 3);
+  EXPECT_GE(n_free, 3);
+}
+
 TEST(Bonds, LeaveTheFrictionOfTheJointBehind) {
   GroundClass set = ground_of(15);
   set.cohesion = 1000;
