@@ -63,8 +63,9 @@ struct AdvanceIsland {
     }
     return v;
   }
+  // Change of the relative velocity at contact `r` by all contacts.
   [[nodiscard]] Vec3 changed(size_t r) const {
-    return relative(r, [&](size_t k) { return change(k); });
+    return relative(r, [&](size_t k) -> const Vec6& { return w.change[k]; });
   }
   // Presses on a panel of a fence that gives way.
   [[nodiscard]] bool gives_way(size_t r) const {
@@ -73,7 +74,7 @@ struct AdvanceIsland {
   }
   // Displacement of the points of contact `r` over the substep.
   [[nodiscard]] Vec3 path_of_contact(size_t r) const {
-    return w.contacts[r].row.free_move +
+    return w.contacts[r].free_move +
            relative(r, [&](size_t k) -> const Vec6& { return w.displacement[k]; });
   }
   [[nodiscard]] size_t first_fixed() const { return static_cast<size_t>(n_blocks(scene)); }
@@ -102,33 +103,39 @@ struct AdvanceIsland {
              turn_b.dot(point.point_b - at_b);
     }
     // The smaller of the speeds at the start and on the mean.
-    [[nodiscard]] double approach(const PairPoint& point, double h) const {
+    [[nodiscard]] double approach(const PairPoint& point, double gap_end, double h) const {
       const double start =
           speed + spin_a.dot(point.point_b - at_a) - spin_b.dot(point.point_b - at_b);
-      return std::min(start, (gap_end(point) - point.gap) / h);
+      return std::min(start, (gap_end - point.gap) / h);
     }
+  };
+  struct Meeting {
+    size_t ka, kb;         ///< members
+    Vec3 shift;            ///< of B's arms from A's [m]
+    GroundClass faces;     ///< class of the contacts
+    int bond;              ///< index into State::bonds, -1: none
+    BlockNumbers numbers;  ///< of A, with the pair's stiffness and touching gap
   };
   void clear_island();
   void add_member(size_t k, double h);
   void open_pair(int a, int b);
-  void push(const ContactRow& row, IslandContact contact);
+  IslandContact& push(int a, const ContactKey& key, double touch, double restitution,
+                      bool never_waits, const ContactRow& row);
   bool add_ground(size_t k);
   [[nodiscard]] PointPath path_of(size_t k, const Vec3& x) const;
   void match_memories(const PairManifold& m);
   [[nodiscard]] int continued(const PairManifold& m, int p) const;
-  static void hold(const GroundClass& face, double recovery_time, ContactRow& row,
-                   IslandContact& contact);
-  void bond(const PairManifold& m, const PairPoint& point, double recovery_time, ContactRow& row,
-            IslandContact& contact) const;
+  static void hold(const GroundClass& face, double recovery_time, ContactRow& row);
   [[nodiscard]] double compression_of(const PairManifold& m, const Vec3& normal) const;
   [[nodiscard]] Mobility mobility_at(size_t k, const Vec3& arm, const Vec3& normal) const;
-  void add_point(const PairManifold& m, const PairPoint& point, int memory);
+  [[nodiscard]] Meeting meeting_of(const PairManifold& m) const;
+  void add_point(const PairManifold& m, const Meeting& meeting, const PairPoint& point, int memory);
   void add_fixed_point(const PairManifold& m, const PairPoint& point, int memory, int n_closing);
   void add_fixed_points(const PairManifold& m);
   [[nodiscard]] bool knows_body(int a, int b) const;
   [[nodiscard]] double first_touch(double h) const;
   [[nodiscard]] PairMotionFree free_motion(const PairManifold& m) const;
-  [[nodiscard]] double farthest_closing(double h) const;
+  [[nodiscard]] double farthest_closing(double h);
   void add_points(const PairManifold& m, double farthest);
   bool assemble(double t, double h);
 

@@ -13,23 +13,10 @@ using std::size_t;
 constexpr double pair_touch_ratio = 1e-6;  // a pair touches when its gap is below this part of r
 constexpr double held = 1e100;             // strength of an intact bond while the forces are sought
 
-// What a point has of its features and of the surfaces that meet in it.
-IslandContact contact_of(const PairManifold& m, const PairPoint& point, double touch,
-                         const GroundClass& faces) {
-  IslandContact contact;
-  contact.a = m.block_a;
-  contact.key = point.key;
-  contact.key.body_b = m.block_b;
-  contact.touch = touch;
-  contact.restitution = faces.restitution;
-  return contact;
-}
-
-// The row of a point that moves by `moved` relative to the other side within the substep, and with
-// `slip` at its start.
-ContactRow row_of(const Vec3& normal, double gap, const Vec3& arm, const Vec3& drift,
-                  const Vec3& moved, const Vec3& slip, const GroundClass& faces) {
-  ContactRow row;
+// Sets what the motion of the points says of a contact: they move by `moved` relative to each other
+// within the substep without contact forces, and with `slip` at its start.
+void set_motion(const Vec3& normal, double gap, const Vec3& arm, const Vec3& drift,
+                const Vec3& moved, const Vec3& slip, ContactRow& row) {
   row.normal = normal;
   row.point = arm;
   row.drift = drift;
@@ -38,9 +25,7 @@ ContactRow row_of(const Vec3& normal, double gap, const Vec3& arm, const Vec3& d
   row.speed_start = normal.dot(slip);
   const Vec3 tangent = slip - row.speed_start * normal;
   const double slip_speed = tangent.norm();
-  if (slip_speed > 0) row.slip_start = tangent / slip_speed;
-  row.friction = faces.friction;
-  return row;
+  row.slip_start = slip_speed > 0 ? Vec3(tangent / slip_speed) : Vec3(Vec3::Zero());
 }
 
 double approach_of(const ContactRow& row, double h) {
@@ -86,14 +71,35 @@ void AdvanceIsland::open_pair(int a, int b) {
   w.island.pairs.push_back({a, b, at, at});
 }
 
-// A contact, and its row for the solver, from a row in local axes.
-void AdvanceIsland::push(const ContactRow& row, IslandContact contact) {
-  contact.row = row;
-  contact.gap_free = row.gap_start + row.normal.dot(row.free_move);
-  IslandRow out;
+// Adds a contact of block a, given by its row in local axes, and its row for the solver.
+IslandContact& AdvanceIsland::push(int a, const ContactKey& key, double touch, double restitution,
+                                   bool never_waits, const ContactRow& row) {
+  const double h = w.substeps.front().h;
+  const double along_path = row.normal.dot(row.free_move);
+  IslandContact& contact = w.contacts.emplace_back();
+  contact.key = key;
+  contact.a = a;
+  contact.touch = touch;
+  contact.restitution = restitution;
+  contact.never_waits = never_waits;
+  contact.arm = row.point;
+  contact.free_move = row.free_move;
+  contact.shear = row.shear;
+  contact.speed_start = row.speed_start;
+  contact.gap_start = row.gap_start;
+  contact.gap_free = row.gap_start + along_path;
+  contact.approach = std::min(row.speed_start, along_path / h);
+  contact.offset = row.offset;
+  contact.bond_area = row.bond_area;
+  // what comes from so far that it must be fast, wherever another hit throws it, waits too
+  const double resting_speed = numbers(a).resting_speed;
+  contact.waits = row.memory < 0 && !never_waits &&
+                  (contact.approach < -resting_speed || row.gap_start > touch + h * resting_speed);
+
+  IslandRow& out = w.island.rows.emplace_back();
+  const double along = row.normal.dot(row.drift);
   out.normal = row.normal;
   out.arm = row.point;
-  const double along = row.normal.dot(row.drift);
   out.shear_velocity = row.shear_velocity + (row.drift - along * row.normal);
   out.slip_start = row.slip_start;
   out.bias = row.bias + along;
@@ -103,23 +109,14 @@ void AdvanceIsland::push(const ContactRow& row, IslandContact contact) {
   out.cohesion_impulse = row.cohesion_impulse;
   out.tension_impulse = row.tension_impulse;
   out.normal_limit = row.normal_limit;
-  const double h = w.substeps.front().h;
-  contact.approach = std::min(row.speed_start, row.normal.dot(row.free_move) / h);
-  // what comes from so far that it must be fast, wherever another hit throws it, waits too
-  const double resting_speed = numbers(contact.a).resting_speed;
-  contact.waits =
-      row.memory < 0 && !contact.never_waits &&
-      (contact.approach < -resting_speed || row.gap_start > contact.touch + h * resting_speed);
   out.waits_for_impact = contact.waits;
   if (row.memory >= 0) {
-    const ContactMemory& m =
-        state.memory[static_cast<size_t>(contact.a)][static_cast<size_t>(row.memory)];
+    const ContactMemory& m = state.memory[static_cast<size_t>(a)][static_cast<size_t>(row.memory)];
     out.impulse = h * m.normal_force * row.normal;
     out.state = static_cast<ContactState>(m.state);
   }
-  w.contacts.push_back(contact);
-  w.island.rows.push_back(out);
   w.island.pairs.back().row_end = static_cast<int>(w.island.rows.size());
+  return contact;
 }
 
 // Contacts of a member with the ground. False when it is off the known ground.
@@ -144,14 +141,9 @@ bool AdvanceIsland::add_ground(size_t k) {
       *v = s.R * *v;
     const Contact& contact = work.contacts[static_cast<size_t>(row.contact)];
     const GroundClass& ground = scene.ground.classes[static_cast<size_t>(contact.ground_class)];
-    IslandContact out;
-    out.key = contact.key;
-    out.a = b;
-    out.touch = w.numbers[k].touch;
-    out.restitution = ground.restitution;
-    out.ground_class = contact.ground_class;
-    if (row.bond_area > 0) hold(ground, w.numbers[k].recovery_time, row, out);
-    push(row, out);
+    if (row.bond_area > 0) hold(ground, w.numbers[k].recovery_time, row);
+    push(b, contact.key, w.numbers[k].touch, ground.restitution, row.bond_area > 0, row)
+        .ground_class = contact.ground_class;
   }
   return true;
 }
@@ -183,7 +175,7 @@ void AdvanceIsland::match_memories(const PairManifold& m) {
       const ContactKey& key = w.pairs.points[static_cast<size_t>(m.point_begin) + p].key;
       const auto found = std::find_if(w.unclaimed.begin(), w.unclaimed.end(), [&](int i) {
         const ContactMemory& then = memory[static_cast<size_t>(i)];
-        return then.normal.dot(m.normal) > least_cosine && continues(key, then.key);
+        return continues(key, then.key) && then.normal.dot(m.normal) > least_cosine;
       });
       if (found == w.unclaimed.end()) continue;
       w.continued[p] = *found;
@@ -204,24 +196,10 @@ int AdvanceIsland::continued(const PairManifold& m, int p) const {
 }
 
 // Holds a contact of a bond without limit; break_bonds() compares what it carries.
-void AdvanceIsland::hold(const GroundClass& face, double recovery_time, ContactRow& row,
-                         IslandContact& contact) {
+void AdvanceIsland::hold(const GroundClass& face, double recovery_time, ContactRow& row) {
   row.cohesion_impulse = held;
   row.tension_impulse = face.tension > 0 ? held : 0;
   row.bias = (row.gap_start + row.offset) / recovery_time;
-  contact.never_waits = true;
-}
-
-// The share of a contact in the bond of its blocks, if there is one. Where the faces were when
-// the bond was new, it carries nothing.
-void AdvanceIsland::bond(const PairManifold& m, const PairPoint& point, double recovery_time,
-                         ContactRow& row, IslandContact& contact) const {
-  contact.bond = find_bond(state.bonds, m.block_a, m.block_b);
-  if (contact.bond < 0) return;
-  const BlockBond& of_blocks = state.bonds[static_cast<size_t>(contact.bond)];
-  row.bond_area = m.area > 0 ? of_blocks.area * point.area / m.area : 0;
-  if (row.memory < 0) row.offset = -row.gap_start;
-  hold(of_blocks.face, recovery_time, row, contact);
 }
 
 // The deepest that contacts of the pair are pressed in [m]. As much of the overlap of a new one
@@ -245,37 +223,58 @@ Mobility AdvanceIsland::mobility_at(size_t k, const Vec3& arm, const Vec3& norma
   return {along, std::max(along, all - along)};
 }
 
-void AdvanceIsland::add_point(const PairManifold& m, const PairPoint& point, int memory) {
+// What the contacts of a manifold of two blocks have in common.
+AdvanceIsland::Meeting AdvanceIsland::meeting_of(const PairManifold& m) const {
   const size_t ka = place(m.block_a), kb = place(m.block_b);
-  const Substep& sa = w.substeps[ka];
   const BlockNumbers &ca = w.numbers[ka], &cb = w.numbers[kb];
+  Meeting meeting{ka,
+                  kb,
+                  w.island.position[ka] - w.island.position[kb],
+                  pair_class(scene, m),
+                  find_bond(state.bonds, m.block_a, m.block_b),
+                  ca};
+  meeting.numbers.touch = pair_touch_ratio * std::min(ca.radius, cb.radius);
+  meeting.numbers.stiffness =
+      std::max(ca.stiffness, cb.stiffness) * (ca.mass / std::min(ca.mass, cb.mass));
+  return meeting;
+}
+
+void AdvanceIsland::add_point(const PairManifold& m, const Meeting& meeting, const PairPoint& point,
+                              int memory) {
+  const size_t ka = meeting.ka, kb = meeting.kb;
+  const BlockNumbers& c = meeting.numbers;
+  const double h = w.substeps[ka].h;
   const Vec3& n = m.normal;
   const PointPath pa = path_of(ka, point.point_b + point.gap * n);
   const PointPath pb = path_of(kb, point.point_b);
-  const Vec3 shift = w.island.position[ka] - w.island.position[kb];  // of B's arms from A's
-  const Vec3 arm = (pa.start + pa.end + pb.start + pb.end) / 4 - shift / 2;
-  const Vec3 arm_b = arm + shift;
+  const Vec3 arm = (pa.start + pa.end + pb.start + pb.end) / 4 - meeting.shift / 2;
+  const Vec3 arm_b = arm + meeting.shift;
   const Vec3 drift = pa.spin_end.cross(pa.end - arm) - pb.spin_end.cross(pb.end - arm_b);
-  const GroundClass faces = pair_class(scene, m);
-  IslandContact contact =
-      contact_of(m, point, pair_touch_ratio * std::min(ca.radius, cb.radius), faces);
-  contact.b = m.block_b;
-  ContactRow row =
-      row_of(n, point.gap, arm, drift, pa.moved - pb.moved, pa.velocity - pb.velocity, faces);
+  ContactRow& row = w.row;
+  forget_last_step(row);
+  row.friction = meeting.faces.friction;
+  set_motion(n, point.gap, arm, drift, pa.moved - pb.moved, pa.velocity - pb.velocity, row);
 
-  const double approach = approach_of(row, sa.h);
-  if (memory >= 0 && !(row.gap_start > contact.touch && approach < -ca.resting_speed))
+  const double approach = approach_of(row, h);
+  if (memory >= 0 && !(row.gap_start > c.touch && approach < -c.resting_speed))
     inherit(state.memory[static_cast<size_t>(m.block_a)][static_cast<size_t>(memory)], memory,
-            Mat3::Identity(), contact.touch, row);
+            Mat3::Identity(), c.touch, row);
   else
     row.offset = std::max(0.0, -row.gap_start - compression_of(m, n));
   const Mobility Wa = mobility_at(ka, arm, n), Wb = mobility_at(kb, arm_b, n);
-  BlockNumbers c = ca;
-  c.touch = contact.touch;
-  c.stiffness = std::max(ca.stiffness, cb.stiffness) * (ca.mass / std::min(ca.mass, cb.mass));
-  set_law(scene, c, sa.h, {Wa.normal + Wb.normal, Wa.tangent + Wb.tangent}, approach, row);
-  bond(m, point, c.recovery_time, row, contact);
-  push(row, contact);
+  set_law(scene, c, h, {Wa.normal + Wb.normal, Wa.tangent + Wb.tangent}, approach, row);
+  const bool bonded = meeting.bond >= 0;
+  if (bonded) {  // where the faces were when the bond was new, it carries nothing
+    const BlockBond& bond = state.bonds[static_cast<size_t>(meeting.bond)];
+    row.bond_area = m.area > 0 ? bond.area * point.area / m.area : 0;
+    if (row.memory < 0) row.offset = -row.gap_start;
+    hold(bond.face, c.recovery_time, row);
+  }
+  IslandContact& contact =
+      push(m.block_a, point.key, c.touch, meeting.faces.restitution, bonded, row);
+  contact.key.body_b = m.block_b;
+  contact.b = m.block_b;
+  contact.bond = meeting.bond;
 }
 
 // A point on a fixed body: for the solver, on the ground. `n_closing`: points of the manifold
@@ -290,25 +289,26 @@ void AdvanceIsland::add_fixed_point(const PairManifold& m, const PairPoint& poin
   BlockNumbers c = w.numbers[k];
   c.touch = pair_touch_ratio * c.radius;
   const GroundClass& faces = fixed_class(scene, m.block_b);
-  IslandContact contact = contact_of(m, point, c.touch, faces);
-  contact.fixed = m.block_b;
-  ContactRow row = row_of(n, point.gap, arm, path.spin_end.cross(path.end - arm), path.moved,
-                          path.velocity, faces);
+  ContactRow& row = w.row;
+  forget_last_step(row);
+  row.friction = faces.friction;
+  set_motion(n, point.gap, arm, path.spin_end.cross(path.end - arm), path.moved, path.velocity,
+             row);
 
   const double approach = approach_of(row, s.h);
   const FencePanel* panel = giving_way(scene, m.block_b, n);
   if (memory >= 0 &&
-      (panel != nullptr || !(row.gap_start > contact.touch && approach < -c.resting_speed)))
+      (panel != nullptr || !(row.gap_start > c.touch && approach < -c.resting_speed)))
     inherit(state.memory[static_cast<size_t>(m.block_a)][static_cast<size_t>(memory)], memory,
-            Mat3::Identity(), contact.touch, row);
+            Mat3::Identity(), c.touch, row);
   else
     row.offset = std::max(0.0, -row.gap_start);
   set_law(scene, c, s.h, mobility_at(k, row.point, n), approach, row);
-  if (panel != nullptr) {
-    row.normal_limit = panel->force * s.h / n_closing;
-    contact.never_waits = true;
-  }
-  push(row, contact);
+  if (panel != nullptr) row.normal_limit = panel->force * s.h / n_closing;
+  IslandContact& contact =
+      push(m.block_a, point.key, c.touch, faces.restitution, panel != nullptr, row);
+  contact.key.body_b = m.block_b;
+  contact.fixed = m.block_b;
 }
 
 void AdvanceIsland::add_fixed_points(const PairManifold& m) {
@@ -335,10 +335,11 @@ bool AdvanceIsland::knows_body(int a, int b) const {
 // substep. Its force acts from there on.
 double AdvanceIsland::first_touch(double h) const {
   double first = h + 1;
-  for (const IslandContact& contact : w.contacts) {
-    const ContactRow& row = contact.row;
-    const double v = row.speed_start, g = row.gap_start;
-    if (row.normal_limit >= no_normal_limit || g <= contact.touch ||
+  if (scene.fixed.panels.empty()) return first;
+  for (size_t r = 0; r < w.contacts.size(); ++r) {
+    const IslandContact& contact = w.contacts[r];
+    const double v = contact.speed_start, g = contact.gap_start;
+    if (w.island.rows[r].normal_limit >= no_normal_limit || g <= contact.touch ||
         contact.gap_free > -contact.touch || knows_body(contact.a, contact.fixed))
       continue;
     const double a = 2 * (contact.gap_free - g - v * h) / (h * h);
@@ -365,33 +366,37 @@ AdvanceIsland::PairMotionFree AdvanceIsland::free_motion(const PairManifold& m) 
 }
 
 // The gap above which a new contact stays open: the island's other contacts push no point
-// farther within the substep, gravity's share four times over and twice the fastest hit.
-double AdvanceIsland::farthest_closing(double h) const {
+// farther within the substep, gravity's share four times over and twice the fastest hit. Fills
+// w.gap_end.
+double AdvanceIsland::farthest_closing(double h) {
   double hit = 0;
   for (const IslandContact& contact : w.contacts)
     if (contact.waits) hit = std::max(hit, -contact.approach);
+  w.gap_end.resize(w.pairs.points.size());
   for (const int i : w.island_manifolds) {
     const PairManifold& m = w.pairs.manifolds[static_cast<size_t>(i)];
     if (is_fixed(scene, m.block_b)) continue;
     const PairMotionFree free = free_motion(m);
+    const double resting_speed = numbers(m.block_a).resting_speed;
     for (int p = m.point_begin; p < m.point_end; ++p) {
       const PairPoint& point = w.pairs.points[static_cast<size_t>(p)];
-      const double speed = -free.approach(point, h);
-      if (speed > numbers(m.block_a).resting_speed && free.gap_end(point) < h * speed)
-        hit = std::max(hit, speed);
+      const double gap_end = free.gap_end(point);
+      w.gap_end[static_cast<size_t>(p)] = gap_end;
+      const double speed = -free.approach(point, gap_end, h);
+      if (speed > resting_speed && gap_end < h * speed) hit = std::max(hit, speed);
     }
   }
   return 4 * scene.gravity.norm() * h * h + 2 * h * hit;
 }
 
 void AdvanceIsland::add_points(const PairManifold& m, double farthest) {
-  const PairMotionFree free = free_motion(m);
-  const bool bonded = find_bond(state.bonds, m.block_a, m.block_b) >= 0;
+  const Meeting meeting = meeting_of(m);
   for (int p = m.point_begin; p < m.point_end; ++p) {
     const PairPoint& point = w.pairs.points[static_cast<size_t>(p)];
     const int memory = continued(m, p);
-    if (memory < 0 && !bonded && std::min(point.gap, free.gap_end(point)) > farthest) continue;
-    add_point(m, point, memory);
+    const double nearest = std::min(point.gap, w.gap_end[static_cast<size_t>(p)]);
+    if (memory < 0 && meeting.bond < 0 && nearest > farthest) continue;
+    add_point(m, meeting, point, memory);
   }
 }
 

@@ -33,7 +33,7 @@ constexpr double linear_tolerance = 3e-2;  // of conjugate gradients in a Newton
 void AdvanceIsland::make_hit(size_t r, double gap_end, double speed_end, double h) {
   IslandContact& contact = w.contacts[r];
   IslandRow& row = w.island.rows[r];
-  const double v = contact.row.speed_start, g = contact.row.gap_start;
+  const double v = contact.speed_start, g = contact.gap_start;
   const double a = 2 * (gap_end - g - v * h) / (h * h);
   const double a_free = 2 * (contact.gap_free - g - v * h) / (h * h);
   if (g > 0)
@@ -47,10 +47,10 @@ void AdvanceIsland::make_hit(size_t r, double gap_end, double speed_end, double 
   contact.waits = false;
   contact.hit = true;
   const size_t ka = place(contact.a);
-  Mobility W = mobility_at(ka, contact.row.point, row.normal);
+  Mobility W = mobility_at(ka, contact.arm, row.normal);
   if (contact.b >= 0) {
     const size_t kb = place(contact.b);
-    const Vec3 arm_b = contact.row.point + w.island.position[ka] - w.island.position[kb];
+    const Vec3 arm_b = contact.arm + w.island.position[ka] - w.island.position[kb];
     const Mobility Wb = mobility_at(kb, arm_b, row.normal);
     W.normal += Wb.normal;
     W.tangent += Wb.tangent;
@@ -73,7 +73,7 @@ int AdvanceIsland::find_hits(double h, bool free) {
   for (size_t r = 0; r < w.contacts.size(); ++r) {
     const IslandContact& contact = w.contacts[r];
     if (!contact.waits) continue;
-    const Vec3& normal = contact.row.normal;
+    const Vec3& normal = w.island.rows[r].normal;
     double gap_end = contact.gap_free, speed_end = -std::numeric_limits<double>::infinity();
     if (!free) {
       gap_end +=
@@ -248,16 +248,19 @@ void AdvanceIsland::shift_arms(double h) {
     const IslandContact& contact = w.contacts[r];
     if (contact.b < 0) continue;
     const size_t ka = place(contact.a), kb = place(contact.b);
-    w.island.rows[r].arm =
-        contact.row.point + ((w.time[kb] - h / 2) * w.substeps[kb].free.velocity -
-                             (w.time[ka] - h / 2) * w.substeps[ka].free.velocity) /
-                                2;
+    w.island.rows[r].arm = contact.arm + ((w.time[kb] - h / 2) * w.substeps[kb].free.velocity -
+                                          (w.time[ka] - h / 2) * w.substeps[ka].free.velocity) /
+                                             2;
   }
 }
 
 void AdvanceIsland::set_displacements(double h) {
+  w.change.resize(w.members.size());
   w.displacement.resize(w.members.size());
-  for (size_t k = 0; k < w.members.size(); ++k) w.displacement[k] = (h - w.time[k]) * change(k);
+  for (size_t k = 0; k < w.members.size(); ++k) {
+    w.change[k] = change(k);
+    w.displacement[k] = (h - w.time[k]) * w.change[k];
+  }
 }
 
 }  // namespace talus

@@ -33,7 +33,7 @@ void AdvanceIsland::release() {
 // velocities, less what it does to heights by acting before or after the middle of the substep.
 Vec3 AdvanceIsland::way_of_impulse(size_t r, double h) const {
   const IslandContact& contact = w.contacts[r];
-  Vec3 way = (contact.row.free_move + h / 2 * changed(r)) / h;
+  Vec3 way = (contact.free_move + h / 2 * changed(r)) / h;
   const size_t ka = place(contact.a);
   way -= (h / 2 - w.time[ka]) * w.substeps[ka].free_acceleration;
   if (contact.b >= 0) {
@@ -68,8 +68,8 @@ void AdvanceIsland::find_pushes(double h) {
     push.block = contact.a;
     push.panel = panel_number(scene, contact.fixed);
     push.work = -p_n * row.normal.dot(way_of_impulse(r, h));
-    push.power = -p_n / h * contact.row.speed_start;
-    const double gap_end = contact.row.gap_start + row.normal.dot(path_of_contact(r));
+    push.power = -p_n / h * contact.speed_start;
+    const double gap_end = contact.gap_start + row.normal.dot(path_of_contact(r));
     if (p_n >= (1 - 1e-12) * row.normal_limit) push.shift = std::min(0.0, gap_end) * cosine;
     const auto f = static_cast<size_t>(contact.fixed);
     push.to = push.shift +
@@ -87,7 +87,7 @@ void AdvanceIsland::note_touched_panels(double t) {
       continue;
     const size_t k = place(contact.a);
     const Motion& before = w.substeps[k].start;
-    note_hit(scene, contact.a, contact.fixed, before.pose.position + contact.row.point,
+    note_hit(scene, contact.a, contact.fixed, before.pose.position + contact.arm,
              t + contact.hit_time, before, motion(k), state.fence);
   }
 }
@@ -97,14 +97,14 @@ bool AdvanceIsland::break_bonds(double h) {
   w.bond_loads.clear();
   for (size_t r = 0; r < w.contacts.size(); ++r) {
     const IslandContact& contact = w.contacts[r];
-    const ContactRow& row = contact.row;
-    if (row.bond_area == 0 || contact.hit || w.island.rows[r].state == ContactState::open) continue;
+    const IslandRow& row = w.island.rows[r];
+    if (contact.bond_area == 0 || contact.hit || row.state == ContactState::open) continue;
     const double per_h = 1 / (h * numbers(contact.a).recovery_time);
     const Vec3 path = path_of_contact(r);
     const double along = row.normal.dot(path);
-    const double N = -per_h * row.normal_damping * (row.gap_start + row.offset + along);
-    const Vec3 shear = -per_h * row.shear_damping * (row.shear + path - along * row.normal);
-    add_load(N, shear, row.bond_area, bond_class(contact), load_of(contact));
+    const double N = -per_h * row.normal_damping * (contact.gap_start + contact.offset + along);
+    const Vec3 shear = -per_h * row.shear_damping * (contact.shear + path - along * row.normal);
+    add_load(N, shear, contact.bond_area, bond_class(contact), load_of(contact));
   }
   bool broken = false;
   for (const BondLoad& load : w.bond_loads) {
@@ -153,28 +153,28 @@ void AdvanceIsland::remember(double h) {
     const IslandRow& solved = w.island.rows[r];
     if (contact.waits || solved.state == ContactState::open) continue;
     account(r, h);
-    const ContactRow& row = contact.row;
     const Vec3 path = path_of_contact(r);
-    const double along = row.normal.dot(path);
+    const double along = solved.normal.dot(path);
     ++report.n_closed;
-    note_penetration(report, -(row.gap_start + along), numbers(contact.a).thickness);
+    note_penetration(report, -(contact.gap_start + along), numbers(contact.a).thickness);
     if (contact.hit) continue;
-    const double p_n = row.normal.dot(solved.impulse);
-    const Vec3 p_t = solved.impulse - p_n * row.normal;
-    ContactMemory memory;
+    const double p_n = solved.normal.dot(solved.impulse);
+    const Vec3 p_t = solved.impulse - p_n * solved.normal;
+    ContactMemory& memory = state.memory[static_cast<size_t>(contact.a)].emplace_back();
     memory.key = contact.key;
-    memory.normal = row.normal;
-    memory.offset = contact.bond >= 0 ? row.offset : std::max(0.0, row.offset - relax);
-    memory.gap_end = row.gap_start + row.offset + along - (row.offset - memory.offset);
+    memory.normal = solved.normal;
+    memory.offset = contact.bond >= 0 ? contact.offset : std::max(0.0, contact.offset - relax);
+    memory.gap_end = contact.gap_start + contact.offset + along - (contact.offset - memory.offset);
     memory.normal_force = p_n / h;
-    if (contact.bond < 0 && row.bond_area == 0)
-      memory.stiffness = row.normal_damping / (numbers(contact.a).recovery_time * h);
+    const double recovery_time = numbers(contact.a).recovery_time;
+    if (contact.bond < 0 && contact.bond_area == 0)
+      memory.stiffness = solved.normal_damping / (recovery_time * h);
     memory.state = static_cast<std::uint8_t>(solved.state);
-    memory.bond_area = contact.bond >= 0 ? 0 : row.bond_area;  // of the ground
-    const double k_t = row.shear_damping / (numbers(contact.a).recovery_time * h);
-    memory.shear = solved.state == ContactState::slip ? Vec3(p_t / (-h * k_t))
-                                                      : Vec3(row.shear + path - along * row.normal);
-    state.memory[static_cast<size_t>(contact.a)].push_back(memory);
+    memory.bond_area = contact.bond >= 0 ? 0 : contact.bond_area;  // of the ground
+    const double k_t = solved.shear_damping / (recovery_time * h);
+    memory.shear = solved.state == ContactState::slip
+                       ? Vec3(p_t / (-h * k_t))
+                       : Vec3(contact.shear + path - along * solved.normal);
   }
 }
 

@@ -48,18 +48,6 @@ int row_of(const ContactMemory& memory, const Work& work) {
   return best;
 }
 
-// Resets what a row is not given anew in every step: memory, bond, and what solve_contacts leaves
-// as it was while the row waits. Cheaper than a whole new row.
-void forget_last_step(ContactRow& row) {
-  row.shear.setZero();
-  row.offset = row.last_stiffness = row.bond_area = 0;
-  row.normal_limit = no_normal_limit;
-  row.memory = -1;
-  row.cap = row.held_cap = 0;
-  row.impulse.setZero();
-  row.state = ContactState::open;
-}
-
 // Where the stiffness of a contact is not what it was, its springs keep their forces: `share` is
 // the old over the new. What they were pressed in beyond that would throw the block; it presses
 // nothing from now on, and again when the contact is as soft as before.
@@ -125,6 +113,17 @@ Substep predict(const Scene& scene, int b, const BlockNumbers& c, const Motion& 
   s.spin_start = (s.R_start.transpose() * start.angular_momentum).cwiseProduct(c.per_inertia);
   s.spin_free = (s.R.transpose() * s.free.angular_momentum).cwiseProduct(c.per_inertia);
   return s;
+}
+
+void forget_last_step(ContactRow& row) {
+  row.shear.setZero();
+  row.offset = row.last_stiffness = row.bond_area = 0;
+  row.cohesion_impulse = row.tension_impulse = 0;
+  row.normal_limit = no_normal_limit;
+  row.memory = -1;
+  row.cap = row.held_cap = 0;
+  row.impulse.setZero();
+  row.state = ContactState::open;
 }
 
 Mat3 stretch_of(const State& state, int b) {

@@ -27,24 +27,30 @@ struct Segment {
   Vec3 acceleration = Vec3::Zero();  ///< of the centroid, constant over the segment [m/s2]
 };
 
-/// A contact of an island; its row is in local axes.
+/// A contact of an island, besides its IslandRow; vectors in local axes.
 struct IslandContact {
-  ContactRow row;
   ContactKey key;
-  int a = 0, b = -1;         ///< blocks; b = -1: the ground, or a fixed body
-  int fixed = -1;            ///< fixed body (as body of Blocks::hulls), -1: none
-  int ground_class = 0;      ///< where b and fixed are -1
-  int bond = -1;             ///< index into State::bonds; row.bond_area is its share, -1: none
-  bool never_waits = false;  ///< bonded, or on a panel that gives way: takes no hit
-  double gap_free = 0;       ///< gap at the end of the substep without contact forces [m]
-  double approach = 0;       ///< normal velocity without contact forces, < 0 closing [m/s]
-  double touch = 0;          ///< it touches below this gap [m]
-  double restitution = 0;    ///< of the two surfaces [-]
-  bool waits = false;        ///< approaches too fast to press without being hit
-  bool hit = false;          ///< hit within the substep
-  double hit_time = 0;       ///< from the start of the substep [s]
-  double hit_speed = 0;      ///< normal velocity just before, < 0 [m/s]
-  double target = 0;         ///< normal velocity at the end of the substep [m/s]
+  int a = 0, b = -1;              ///< blocks; b = -1: the ground, or a fixed body
+  int fixed = -1;                 ///< fixed body (as body of Blocks::hulls), -1: none
+  int ground_class = 0;           ///< where b and fixed are -1
+  int bond = -1;                  ///< index into State::bonds, -1: none
+  bool never_waits = false;       ///< bonded, or on a panel that gives way: takes no hit
+  bool waits = false;             ///< approaches too fast to press without being hit
+  bool hit = false;               ///< hit within the substep
+  Vec3 arm = Vec3::Zero();        ///< from the centroid of A, both in the middle of the substep [m]
+  Vec3 free_move = Vec3::Zero();  ///< of A's point relative to B's without contact forces [m]
+  Vec3 shear = Vec3::Zero();      ///< s_n [m]
+  double speed_start = 0;         ///< normal velocity at the start of the substep [m/s]
+  double gap_start = 0;           ///< at the start of the substep [m]
+  double gap_free = 0;            ///< at its end without contact forces [m]
+  double approach = 0;            ///< normal velocity without contact forces, < 0 closing [m/s]
+  double offset = 0;              ///< see ContactMemory [m]
+  double bond_area = 0;           ///< share of its bond, of blocks or with the ground [m2]
+  double touch = 0;               ///< it touches below this gap [m]
+  double restitution = 0;         ///< of the two surfaces [-]
+  double hit_time = 0;            ///< from the start of the substep [s]
+  double hit_speed = 0;           ///< normal velocity just before, < 0 [m/s]
+  double target = 0;              ///< normal velocity at the end of the substep [m/s]
 };
 
 /// How a body turns over a substep without contact, and how hard it is to turn.
@@ -76,16 +82,19 @@ struct IslandStepWork {  // clang-format off
   std::vector<double> bearing;              ///< mass of the heaviest block touched [kg] (n_members)
   std::vector<Substep> substeps;            ///<                                         (n_members)
   std::vector<int> place;                   ///< of a body in `members`, -1: not in it   (n_bodies)
+  std::vector<double> gap_end;              ///< without contact forces [m]         (n_points of `pairs`)
   std::vector<int> continued;               ///< memory that a manifold's point continues
   std::vector<int> unclaimed;               ///< memories of the pair that no point continues yet
   std::vector<BondLoad> bond_loads;         ///< of this substep, by bond           (n_loaded)
   std::vector<PanelPush> pushes;            ///< on panels of fences, in this substep
   std::vector<FreeTurn> turns;              ///<                                         (n_members)
+  ContactRow row;                           ///< of the contact that is made at the moment
   std::vector<IslandContact> contacts;      ///< in the order of island.rows
   Island<6> island;
   IslandWork<6> solver;
   std::vector<int> island_manifolds;        ///< of the island at hand
   std::vector<double> weight, time;         ///< impulses expected [N s]; mean time of theirs [s] (n_members)
+  std::vector<Vec6> change;                 ///< of velocity by contact                  (n_members)
   std::vector<Vec6> displacement;           ///< by contact over the substep             (n_members)
 };  // clang-format on
 
