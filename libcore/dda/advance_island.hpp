@@ -67,6 +67,10 @@ struct AdvanceIsland {
   [[nodiscard]] Vec3 changed(size_t r) const {
     return relative(r, [&](size_t k) -> const Vec6& { return w.change[k]; });
   }
+  // The next solution cannot go on from what the last one made of contact `r`.
+  void note_change(size_t r) {
+    w.island.pairs[static_cast<size_t>(w.contacts[r].pair)].changed = true;
+  }
   // Presses on a panel of a fence that gives way.
   [[nodiscard]] bool gives_way(size_t r) const {
     const IslandRow& row = w.island.rows[r];
@@ -126,7 +130,6 @@ struct AdvanceIsland {
   void match_memories(const PairManifold& m);
   [[nodiscard]] int continued(const PairManifold& m, int p) const;
   static void hold(const GroundClass& face, double recovery_time, ContactRow& row);
-  [[nodiscard]] double compression_of(const PairManifold& m, const Vec3& normal) const;
   [[nodiscard]] Mobility mobility_at(size_t k, const Vec3& arm, const Vec3& normal) const;
   [[nodiscard]] Meeting meeting_of(const PairManifold& m) const;
   void add_point(const PairManifold& m, const Meeting& meeting, const PairPoint& point, int memory);

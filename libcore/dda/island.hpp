@@ -51,6 +51,7 @@ struct BodyPair {
   int b = -1;         ///< body of the island, != a; -1: the ground
   int row_begin = 0;  ///< rows [row_begin, row_end)
   int row_end = 0;
+  bool changed = true;  ///< rows or centroids are not those of the solution that is continued
 };
 
 /// One island over one step. Dof is 6 (rigid) or 12. Velocity: of the centroid, spin, and for 12

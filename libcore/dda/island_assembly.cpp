@@ -68,7 +68,7 @@ void AdvanceIsland::add_member(size_t k, double h) {
 
 void AdvanceIsland::open_pair(int a, int b) {
   const int at = static_cast<int>(w.island.rows.size());
-  w.island.pairs.push_back({a, b, at, at});
+  w.island.pairs.push_back({a, b, at, at, true});
 }
 
 // Adds a contact of block a, given by its row in local axes, and its row for the solver.
@@ -79,6 +79,7 @@ IslandContact& AdvanceIsland::push(int a, const ContactKey& key, double touch, d
   IslandContact& contact = w.contacts.emplace_back();
   contact.key = key;
   contact.a = a;
+  contact.pair = static_cast<int>(w.island.pairs.size()) - 1;
   contact.touch = touch;
   contact.restitution = restitution;
   contact.never_waits = never_waits;
@@ -202,17 +203,6 @@ void AdvanceIsland::hold(const GroundClass& face, double recovery_time, ContactR
   row.bias = (row.gap_start + row.offset) / recovery_time;
 }
 
-// The deepest that contacts of the pair are pressed in [m]. As much of the overlap of a new one
-// is no surprise: where corners of two faces only change places, what they bear must not be
-// dropped.
-double AdvanceIsland::compression_of(const PairManifold& m, const Vec3& normal) const {
-  double deepest = 0;
-  for (const ContactMemory& c : state.memory[static_cast<size_t>(m.block_a)])
-    if (c.key.body_b == m.block_b && c.normal.dot(normal) > 0.5)
-      deepest = std::max(deepest, -c.gap_end);
-  return deepest;
-}
-
 // Mobility of a contact's point relative to the other side's, as mobility() with local axes.
 Mobility AdvanceIsland::mobility_at(size_t k, const Vec3& arm, const Vec3& normal) const {
   const Mat3& per_inertia = w.turns[k].per_inertia;
@@ -260,7 +250,7 @@ void AdvanceIsland::add_point(const PairManifold& m, const Meeting& meeting, con
     inherit(state.memory[static_cast<size_t>(m.block_a)][static_cast<size_t>(memory)], memory,
             Mat3::Identity(), c.touch, row);
   else
-    row.offset = std::max(0.0, -row.gap_start - compression_of(m, n));
+    take_on_load(state.memory[static_cast<size_t>(m.block_a)], m.block_b, row);
   const Mobility Wa = mobility_at(ka, arm, n), Wb = mobility_at(kb, arm_b, n);
   set_law(scene, c, h, {Wa.normal + Wb.normal, Wa.tangent + Wb.tangent}, approach, row);
   const bool bonded = meeting.bond >= 0;

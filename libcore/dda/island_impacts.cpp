@@ -64,6 +64,7 @@ void AdvanceIsland::make_hit(size_t r, double gap_end, double speed_end, double 
   row.state = ContactState::slip;
   row.impulse = change_alone / W.normal * hit_share * row.normal;
   row.bias = -contact.target - change_alone / hit_stiffness;
+  note_change(r);
 }
 
 // Contacts that wait and are hit, by the free motion or by that with the impulses found so far:
@@ -98,6 +99,7 @@ double AdvanceIsland::correct_hits() {
     const double reached = -row.bias - p_n / row.normal_damping;
     worst = std::max(worst, std::abs(reached - contact.target) / -contact.hit_speed);
     row.bias = -contact.target - p_n / row.normal_damping;
+    note_change(r);
   }
   return worst;
 }
@@ -153,6 +155,7 @@ bool AdvanceIsland::solve_once(double h, bool continues) {
   }
   settings.tolerance *= scene.settings.tolerance_factor;
   const IslandResult solved = solve_island(w.island, settings, w.solver);
+  for (BodyPair& pair : w.island.pairs) pair.changed = false;
   report.passes += solved.passes;
   return solved.converged;
 }
@@ -164,6 +167,7 @@ void AdvanceIsland::forgo_rebound() {
     IslandRow& row = w.island.rows[r];
     w.contacts[r].target = 0;
     row.bias = -row.normal.dot(row.impulse) / row.normal_damping;
+    note_change(r);
   }
 }
 
@@ -210,6 +214,8 @@ bool AdvanceIsland::is_closed() const {
 // where the members are then, so that angular momentum is kept. An island that touches nothing
 // else takes one time for all: different ones would move its centre of mass.
 void AdvanceIsland::set_times(double h) {
+  w.last_time.swap(w.time);
+  w.last_time.resize(w.members.size());
   w.time.assign(w.members.size(), h / 2);
   const bool any_hit = std::any_of(w.contacts.begin(), w.contacts.end(),
                                    [](const IslandContact& contact) { return contact.hit; });
@@ -251,6 +257,7 @@ void AdvanceIsland::shift_arms(double h) {
     w.island.rows[r].arm = contact.arm + ((w.time[kb] - h / 2) * w.substeps[kb].free.velocity -
                                           (w.time[ka] - h / 2) * w.substeps[ka].free.velocity) /
                                              2;
+    if (w.time[ka] != w.last_time[ka] || w.time[kb] != w.last_time[kb]) note_change(r);
   }
 }
 

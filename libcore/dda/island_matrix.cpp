@@ -51,17 +51,19 @@ void add_carried<6>(const Packed<6>& W, const Vec3& shift, Packed<6>& D) {
 }  // namespace
 
 template <int Dof>
-void prepare_matrix(const Island<Dof>& island, IslandMatrix<Dof>& matrix) {
+void prepare_matrix(const Island<Dof>& island, bool only_changed, IslandMatrix<Dof>& matrix) {
   const size_t n = island.mass.size(), n_pairs = island.pairs.size();
   matrix.shift.resize(n_pairs);
+  matrix.pair_changed.resize(n_pairs);
   for (size_t p = 0; p < n_pairs; ++p) {
     const BodyPair& pair = island.pairs[p];
+    if (only_changed && !pair.changed) continue;
+    matrix.pair_changed[p] = 1;
     matrix.shift[p] = pair.b < 0 ? Vec3(Vec3::Zero())
                                  : Vec3(island.position[static_cast<size_t>(pair.a)] -
                                         island.position[static_cast<size_t>(pair.b)]);
   }
-  matrix.pair_changed.assign(n_pairs, 1);
-  matrix.body_changed.assign(n, 1);
+  if (!only_changed) matrix.body_changed.assign(n, 1);
   matrix.pair.resize(n_pairs);
   matrix.pair_closed.resize(n_pairs);
   for (auto* blocks : {&matrix.own, &matrix.diagonal, &matrix.inverse}) blocks->resize(n);
@@ -245,7 +247,7 @@ void solve_direct(const Island<Dof>& island, IslandMatrix<Dof>& matrix,
 }
 
 #define TALUS_INSTANTIATE(Dof)                                                                     \
-  template void prepare_matrix<Dof>(const Island<Dof>&, IslandMatrix<Dof>&);                       \
+  template void prepare_matrix<Dof>(const Island<Dof>&, bool, IslandMatrix<Dof>&);                 \
   template void update_tangents<Dof>(const Island<Dof>&, Tangent, RowGroups&, IslandMatrix<Dof>&); \
   template void update_diagonals<Dof>(const Island<Dof>&, IslandMatrix<Dof>&);                     \
   template void choose_active<Dof>(const Island<Dof>&, std::span<const std::uint8_t>,              \

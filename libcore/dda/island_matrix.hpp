@@ -73,9 +73,9 @@ struct IslandMatrix {  // clang-format off
   BlockLu<Dof> lu;
 };  // clang-format on
 
-/// Sizes and constants of a step; everything counts as changed.
+/// Sizes and constants of a step; everything counts as changed, or what BodyPair::changed says.
 template <int Dof>
-void prepare_matrix(const Island<Dof>& island, IslandMatrix<Dof>& matrix);
+void prepare_matrix(const Island<Dof>& island, bool only_changed, IslandMatrix<Dof>& matrix);
 
 /// Brings pairs marked as changed up to date with the rows' states.
 template <int Dof>

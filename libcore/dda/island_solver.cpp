@@ -16,8 +16,8 @@ constexpr double slack = 0.5;      // of a slip stiffness before its tangent is 
 constexpr double first_ratio = 1;  // D / m at which stiffening starts
 constexpr double ratio_growth = 4;
 constexpr double soft_tolerance = 1e-3;  // of a stage before the last, relative to its start
-constexpr int all_every = 4;             // every so many linear solutions move all bodies
-constexpr size_t few = 4;                // the neighbourhood alone where fewer than 1 in 4 move
+constexpr int all_every = 8;             // every so many linear solutions move all bodies
+constexpr size_t few = 2;                // the neighbourhood alone where fewer than half move
 constexpr double hopeless = 1e5;  // growth of the residual at which coupled steps are given up
 
 /// One solve; a struct so that its parts share what they all need.
@@ -32,16 +32,17 @@ struct Solve {
   double best_residual = std::numeric_limits<double>::infinity();
   bool direct = false;
   bool tracking = true;
-  double stiffness_ratio = 0;
   int n_linear = 0;  // linear solutions by conjugate gradients
 
   // Packs the rows, and sets the tolerance above the rounding of the stiffest impulse.
   void prepare() {
     const size_t n = island.mass.size(), n_pairs = island.pairs.size();
+    const bool only_changed = settings.continues && work.as_packed;
     work.limit.resize(n_pairs);
-    double floor = 0;
+    if (!only_changed) work.rounding = work.stiffness_ratio = 0;
     for (size_t p = 0; p < n_pairs; ++p) {
       const BodyPair& pair = island.pairs[p];
+      if (only_changed && !pair.changed) continue;
       const double mass = reduced_mass(island, pair);
       work.limit[p] = settings.stiffest * mass;
       const double free_speed =
@@ -50,13 +51,16 @@ struct Solve {
         const IslandRow& row = island.rows[static_cast<size_t>(r)];
         const double stiffness =
             std::min(std::max(row.normal_damping, row.shear_damping), work.limit[p]);
-        stiffness_ratio = std::max(stiffness_ratio, stiffness / mass);
-        floor = std::max(floor, stiffness / mass * (std::abs(row.bias) + free_speed));
+        work.stiffness_ratio = std::max(work.stiffness_ratio, stiffness / mass);
+        work.rounding =
+            std::max(work.rounding, 8 * std::numeric_limits<double>::epsilon() *
+                                        (stiffness / mass) * (std::abs(row.bias) + free_speed));
       }
     }
-    tolerance = std::max(settings.tolerance, 8 * std::numeric_limits<double>::epsilon() * floor);
-    result.n_lowered = pack_rows(island.pairs, island.rows, work.limit, work.rows);
-    prepare_matrix(island, work.matrix);
+    tolerance = std::max(settings.tolerance, work.rounding);
+    result.n_lowered = pack_rows(island.pairs, island.rows, work.limit, only_changed, work.rows);
+    prepare_matrix(island, only_changed, work.matrix);
+    work.as_packed = true;
     for (auto* vectors : {&work.residual, &work.step, &work.from, &work.best}) vectors->resize(n);
     work.speed.resize(n);
     work.moves.resize(n);
@@ -200,7 +204,8 @@ struct Solve {
   double soften(double ratio) {
     for (size_t p = 0; p < work.limit.size(); ++p)
       work.limit[p] = ratio * reduced_mass(island, island.pairs[p]);
-    (void)pack_rows(island.pairs, island.rows, work.limit, work.rows);
+    (void)pack_rows(island.pairs, island.rows, work.limit, false, work.rows);
+    work.as_packed = false;
     work.matrix.pair_changed.assign(island.pairs.size(), 1);
     activate_all();
     return evaluate(Evaluation::coupled);
@@ -213,7 +218,7 @@ struct Solve {
     std::copy(island.free_velocity.begin(), island.free_velocity.end(), island.velocity.begin());
     direct = n_bodies(island) <= settings.direct_fallback;
     for (double ratio = first_ratio;; ratio *= ratio_growth) {
-      tracking = ratio >= stiffness_ratio;
+      tracking = ratio >= work.stiffness_ratio;
       double residual = soften(std::min(ratio, settings.stiffest));
       const double goal = tracking ? tolerance : tolerance + soft_tolerance * residual;
       for (int steps = 0; residual > goal && result.passes < settings.max_passes; ++steps)
@@ -229,13 +234,16 @@ struct Solve {
   }
 
   // v -= M^-1 residual: not more than the tolerance, and what the bodies exchange adds up to
-  // nothing whatever the tolerance.
+  // nothing whatever the tolerance. A solution that continues starts from where this one was found:
+  // a stiff contact makes many tolerances of that one.
   void keep_momentum() {
+    work.found = island.velocity;
     for (size_t i = 0; i < island.mass.size(); ++i)
       island.velocity[i] -= solve_mass<Dof>(island.mass[i], work.residual[i]);
   }
 
   void run() {
+    if (settings.continues) island.velocity = work.found;
     prepare();
     result.converged = solve_coupled(settings.max_passes / 3) || solve_stiffening();
     if (!result.converged) {

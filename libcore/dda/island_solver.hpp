@@ -21,8 +21,8 @@ struct IslandSettings {
   /// Largest D_n and D_t over the reduced mass of the pair; stiffer rows are lowered to it. Beyond,
   /// the mass is lost in the rounding of the matrix.
   double stiffest = 1e8;
-  /// The rows' impulses and states are those of an earlier solution, hardly changed since: no step
-  /// with friction bounds that are held.
+  /// Goes on from the last solution of the same IslandWork, to which only what BodyPair::changed
+  /// says is not the same: no step with friction bounds that are held.
   bool continues = false;
 };
 
@@ -32,7 +32,7 @@ struct IslandResult {
   int passes = 0;             ///< evaluations of all contacts
   int linear_iterations = 0;  ///< of conjugate gradients, summed
   int factorisations = 0;
-  int n_lowered = 0;  ///< rows stiffer than IslandSettings::stiffest
+  int n_lowered = 0;  ///< rows stiffer than IslandSettings::stiffest, of pairs that changed
 };
 
 /// Scratch of solve_island; reused from call to call, it stops allocating.
@@ -51,6 +51,11 @@ struct IslandWork {
   std::vector<Vec> step;  ///< of Newton                                            (n_bodies)
   std::vector<Vec> from;  ///< velocity before the step                             (n_bodies)
   std::vector<Vec> best;  ///< velocity with the smallest residual so far           (n_bodies)
+  // of the last solution, for one that continues it
+  std::vector<Vec> found;  ///< velocity before momentum was kept                       (n_bodies)
+  double rounding = 0;     ///< of the stiffest impulse, as a velocity [m/s]
+  double stiffness_ratio = 0;  ///< largest D / m
+  bool as_packed = false;      ///< `rows` are those of the island, none softened
 };
 
 /// Solves the island: sets velocity, impulse and state of the rows.

@@ -252,14 +252,17 @@ template <int Dof>
 }  // namespace
 
 int pack_rows(std::span<const BodyPair> pairs, std::span<const IslandRow> rows,
-              std::span<const double> limit, RowGroups& out) {
+              std::span<const double> limit, bool only_changed, RowGroups& out) {
   int n_lowered = 0;
-  out.begin.assign(1, 0);
-  for (const BodyPair& pair : pairs)
-    out.begin.push_back(out.begin.back() + (pair.row_end - pair.row_begin + width - 1) / width);
-  out.groups.resize(static_cast<size_t>(out.begin.back()));
-  size_t group = 0;
+  if (!only_changed) {
+    out.begin.assign(1, 0);
+    for (const BodyPair& pair : pairs)
+      out.begin.push_back(out.begin.back() + (pair.row_end - pair.row_begin + width - 1) / width);
+    out.groups.resize(static_cast<size_t>(out.begin.back()));
+  }
   for (size_t p = 0; p < pairs.size(); ++p) {
+    if (only_changed && !pairs[p].changed) continue;
+    auto group = static_cast<size_t>(out.begin[p]);
     const auto row_or_nothing = [&](int r) -> const IslandRow& {
       if (r >= pairs[p].row_end) return nothing;
       const IslandRow& row = rows[static_cast<size_t>(r)];

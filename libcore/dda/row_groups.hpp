@@ -45,8 +45,10 @@ struct RowGroups {
 enum class Evaluation : std::uint8_t { inherited, coupled };
 
 /// Packs the rows; those stiffer than `limit[p]` (D_n or D_t) are lowered to it. Returns how many.
+/// With `only_changed` the rest of `out` stays as it is: pairs and numbers of their rows are those
+/// of the last call.
 int pack_rows(std::span<const BodyPair> pairs, std::span<const IslandRow> rows,
-              std::span<const double> limit, RowGroups& out);
+              std::span<const double> limit, bool only_changed, RowGroups& out);
 
 /// Impulses and states back to the rows.
 void unpack_rows(std::span<const BodyPair> pairs, const RowGroups& groups,

@@ -151,6 +151,17 @@ void inherit(const ContactMemory& memory, int index, const Mat3& to_row, double 
                              : Vec3(Vec3::Zero());
 }
 
+void take_on_load(std::span<const ContactMemory> memory, int body_b, ContactRow& row) {
+  double deepest = 0;
+  for (const ContactMemory& c : memory) {
+    if (c.key.body_b != body_b || -c.gap_end <= deepest || c.normal.dot(row.normal) <= 0.5)
+      continue;
+    deepest = -c.gap_end;
+    row.last_stiffness = c.stiffness;
+  }
+  row.offset = std::max(0.0, -row.gap_start - deepest);
+}
+
 void set_law(const Scene& scene, const BlockNumbers& c, double h, const Mobility& W,
              double approach, ContactRow& row) {
   const double asked = scene.settings.normal_stiffness;

@@ -46,6 +46,13 @@ void forget_last_step(ContactRow& row);
 void inherit(const ContactMemory& memory, int index, const Mat3& to_row, double touch,
              ContactRow& row);
 
+/// What the row of a new contact with body `body_b` takes over from those that press it already,
+/// the `memory` of A. As much of its overlap as the deepest of them is pressed in is no surprise:
+/// where corners of two faces only change places, what they bear must not be dropped. The stiffness
+/// of that one is the new one's last, so that where the stiffness changes in the same step it takes
+/// on the force and not the depth.
+void take_on_load(std::span<const ContactMemory> memory, int body_b, ContactRow& row);
+
 /// Stiffness, bias and whether the row waits for its impact. `approach`: normal velocity without
 /// contact forces, < 0 closing [m/s].
 void set_law(const Scene& scene, const BlockNumbers& c, double h, const Mobility& W,

@@ -31,6 +31,7 @@ struct Segment {
 struct IslandContact {
   ContactKey key;
   int a = 0, b = -1;              ///< blocks; b = -1: the ground, or a fixed body
+  int pair = 0;                   ///< index into the island's pairs
   int fixed = -1;                 ///< fixed body (as body of Blocks::hulls), -1: none
   int ground_class = 0;           ///< where b and fixed are -1
   int bond = -1;                  ///< index into State::bonds, -1: none
@@ -94,6 +95,7 @@ struct IslandStepWork {  // clang-format off
   IslandWork<6> solver;
   std::vector<int> island_manifolds;        ///< of the island at hand
   std::vector<double> weight, time;         ///< impulses expected [N s]; mean time of theirs [s] (n_members)
+  std::vector<double> last_time;            ///< `time` before it was set last [s]       (n_members)
   std::vector<Vec6> change;                 ///< of velocity by contact                  (n_members)
   std::vector<Vec6> displacement;           ///< by contact over the substep             (n_members)
 };  // clang-format on

@@ -62,7 +62,7 @@ Evaluated evaluate(const std::vector<IslandRow>& rows, const Vec6& u) {
   e.rows = rows;
   e.pairs = {{0, -1, 0, static_cast<int>(rows.size())}};
   const std::vector<double> limit = {1e300};
-  EXPECT_EQ(talus::pack_rows(e.pairs, e.rows, limit, e.groups), 0);
+  EXPECT_EQ(talus::pack_rows(e.pairs, e.rows, limit, false, e.groups), 0);
   talus::evaluate_pair<6>(e.groups.groups, u, Evaluation::coupled, 0, e.f);
   talus::unpack_rows(e.pairs, e.groups, e.rows);
   return e;
@@ -149,7 +149,8 @@ Vec6 inherited_impulse(const std::function<void(IslandRow&)>& change) {
   change(row);
   const std::vector<BodyPair> pairs = {{0, -1, 0, 1}};
   talus::RowGroups groups;
-  (void)talus::pack_rows(pairs, std::vector<IslandRow>{row}, std::vector<double>{1e300}, groups);
+  (void)talus::pack_rows(pairs, std::vector<IslandRow>{row}, std::vector<double>{1e300}, false,
+                         groups);
   Vec6 u = Vec6::Zero(), f;
   u[0] = 10;
   talus::evaluate_pair<6>(groups.groups, u, Evaluation::inherited, 0, f);

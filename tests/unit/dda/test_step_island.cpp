@@ -181,6 +181,38 @@ TEST(StepIsland, ContactThatBecomesStifferKeepsItsForces) {
   }
 }
 
+// Where corners change places while the stiffness grows, the new one takes on what the pair bears;
+// with the pair's depth instead it threw the blocks.
+TEST(StepIsland, NewContactTakesOnTheForceOfItsPair) {
+  const double h = 0.01, soft = 1e5, pressed_in = 1e-3, deep = 5e-3;
+  const Scene scene = scene_of(plane_trn(slope_frame(0, 0), 1, 10), ground_of(30),
+                               {body_of(box(Vec3::Zero(), Vec3::Ones()))}, {});
+  std::vector<ContactMemory> memory(3);
+  const double gaps[] = {-pressed_in, -2 * pressed_in, -pressed_in / 2};
+  for (std::size_t i = 0; i < memory.size(); ++i) {
+    memory[i].key.body_b = i == 1 ? 8 : 7;  // the deepest presses another body
+    memory[i].normal = Vec3::UnitZ();
+    memory[i].gap_end = gaps[i];
+    memory[i].stiffness = soft;
+  }
+  for (const double ratio : {1.0, 30.0, 400.0}) {
+    BlockNumbers c = numbers_of(scene, 0);
+    c.stiffness = ratio * soft;
+    ContactRow row;
+    row.normal = Vec3::UnitZ();
+    row.gap_start = -deep;
+    take_on_load(memory, 7, row);
+    EXPECT_DOUBLE_EQ(row.offset, deep - pressed_in);
+    set_law(scene, c, h, {c.per_mass, c.per_mass}, 0, row);
+    EXPECT_NEAR(-row.bias * row.normal_damping / h, soft * pressed_in, 1e-9 * soft);
+  }
+  ContactRow alone;  // presses nothing where the pair bears nothing
+  alone.normal = Vec3::UnitZ();
+  alone.gap_start = -deep;
+  take_on_load(memory, 9, alone);
+  EXPECT_DOUBLE_EQ(alone.offset, deep);
+}
+
 TEST(StepIsland, LargeBlockRestsOnSmallOnes) { EXPECT_LT(large_on_small({}).error, 1e-3); }
 
 }  // namespace
