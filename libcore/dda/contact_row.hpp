@@ -31,6 +31,7 @@ struct ContactRow {
   double gap_start = 0;           ///< gap + offset at the start of the step [m]
   double offset = 0;              ///< see ContactMemory [m]
   double last_stiffness = 0;      ///< ContactMemory::stiffness, 0: new [N/m]
+  double last_force = 0;          ///< ContactMemory::normal_force [N]
   double bond_area = 0;           ///< [m2]
   int contact = 0;                ///< index into Work::contacts
   int memory = -1;                ///< index into the block's memory, -1: new

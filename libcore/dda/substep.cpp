@@ -48,12 +48,15 @@ int row_of(const ContactMemory& memory, const Work& work) {
   return best;
 }
 
-// Where the stiffness of a contact is not what it was, its springs keep their forces: `share` is
-// the old over the new. What they were pressed in beyond that would throw the block; it presses
-// nothing from now on, and again when the contact is as soft as before.
-void keep_force(double share, ContactRow& row) {
+// Where the stiffness of a contact is not what it was, its springs keep their forces, and bear no
+// more than they did: much of what presses overlap out is taken up by damping. What they were
+// pressed in beyond that would throw the block; it presses nothing from now on, and again when the
+// contact is as soft as before.
+void keep_force(double k_n, ContactRow& row) {
+  const double share = row.last_stiffness / k_n;
   const double pressed_in = std::max(0.0, -(row.gap_start + row.offset));
-  row.offset = std::max(0.0, row.offset + (1 - share) * pressed_in);
+  const double bears = std::min(share * pressed_in, std::max(0.0, row.last_force) / k_n);
+  row.offset = std::max(0.0, row.offset + pressed_in - bears);
   row.shear *= share;
 }
 
@@ -117,7 +120,7 @@ Substep predict(const Scene& scene, int b, const BlockNumbers& c, const Motion& 
 
 void forget_last_step(ContactRow& row) {
   row.shear.setZero();
-  row.offset = row.last_stiffness = row.bond_area = 0;
+  row.offset = row.last_stiffness = row.last_force = row.bond_area = 0;
   row.cohesion_impulse = row.tension_impulse = 0;
   row.normal_limit = no_normal_limit;
   row.memory = -1;
@@ -135,6 +138,7 @@ void inherit(const ContactMemory& memory, int index, const Mat3& to_row, double 
              ContactRow& row) {
   row.memory = index;
   row.last_stiffness = memory.stiffness;
+  row.last_force = memory.normal_force;
   row.bond_area = memory.bond_area;
   row.offset = std::min(memory.offset, std::max(0.0, -row.gap_start));
   const double jump = memory.gap_end - (row.gap_start + row.offset);
@@ -158,6 +162,7 @@ void take_on_load(std::span<const ContactMemory> memory, int body_b, ContactRow&
       continue;
     deepest = -c.gap_end;
     row.last_stiffness = c.stiffness;
+    row.last_force = c.normal_force;
   }
   row.offset = std::max(0.0, -row.gap_start - deepest);
 }
@@ -170,7 +175,7 @@ void set_law(const Scene& scene, const BlockNumbers& c, double h, const Mobility
   const double k_s = std::min(scene.settings.shear_ratio * k_n, per_mass / W.tangent);
   if (const double last = row.last_stiffness;
       last > 0 && (k_n > same_law * last || last > same_law * k_n))
-    keep_force(last / k_n, row);
+    keep_force(k_n, row);
   const double x = row.gap_start + row.offset;
   row.normal_damping = k_n * h * c.recovery_time;
   row.shear_damping = k_s * h * c.recovery_time;

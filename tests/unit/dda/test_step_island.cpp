@@ -158,6 +158,7 @@ TEST(StepIsland, ContactThatBecomesStifferKeepsItsForces) {
     memory.shear = sheared * Vec3::UnitX();
     memory.gap_end = -pressed_in;
     memory.stiffness = soft;
+    memory.normal_force = soft * pressed_in;
     for (const double stiffness : {ratio * soft, soft, ratio * soft, soft}) {
       ContactRow row;
       row.normal = Vec3::UnitZ();
@@ -181,6 +182,28 @@ TEST(StepIsland, ContactThatBecomesStifferKeepsItsForces) {
   }
 }
 
+// What presses a block out is mostly taken up by damping: where a contact becomes softer, it bears
+// what it bore and not what its spring alone would. Else blocks were thrown.
+TEST(StepIsland, ContactThatBecomesSofterBearsNoMore) {
+  const double h = 0.01, soft = 1e5, pressed_in = 1e-3, deep = 5e-2, bore = 0.2;
+  const Scene scene = scene_of(plane_trn(slope_frame(0, 0), 1, 10), ground_of(30),
+                               {body_of(box(Vec3::Zero(), Vec3::Ones()))}, {});
+  BlockNumbers c = numbers_of(scene, 0);
+  c.stiffness = soft;
+  ContactMemory memory;
+  memory.normal = Vec3::UnitZ();
+  memory.gap_end = -pressed_in;
+  memory.offset = deep - pressed_in;
+  memory.stiffness = 30 * soft;
+  memory.normal_force = bore * 30 * soft * pressed_in;
+  ContactRow row;
+  row.normal = Vec3::UnitZ();
+  row.gap_start = -deep;
+  inherit(memory, 0, Mat3::Identity(), c.touch, row);
+  set_law(scene, c, h, {c.per_mass, c.per_mass}, 0, row);
+  EXPECT_NEAR(-row.bias * row.normal_damping / h, memory.normal_force, 1e-9 * soft);
+}
+
 // Where corners change places while the stiffness grows, the new one takes on what the pair bears;
 // with the pair's depth instead it threw the blocks.
 TEST(StepIsland, NewContactTakesOnTheForceOfItsPair) {
@@ -194,6 +217,7 @@ TEST(StepIsland, NewContactTakesOnTheForceOfItsPair) {
     memory[i].normal = Vec3::UnitZ();
     memory[i].gap_end = gaps[i];
     memory[i].stiffness = soft;
+    memory[i].normal_force = -soft * gaps[i];
   }
   for (const double ratio : {1.0, 30.0, 400.0}) {
     BlockNumbers c = numbers_of(scene, 0);
