@@ -48,14 +48,15 @@ int row_of(const ContactMemory& memory, const Work& work) {
   return best;
 }
 
-// Where the stiffness of a contact is not what it was, its springs keep their forces, and bear no
-// more than they did: much of what presses overlap out is taken up by damping. What they were
-// pressed in beyond that would throw the block; it presses nothing from now on, and again when the
-// contact is as soft as before.
+// Where the stiffness of a contact is not what it was, its springs keep their forces. What they
+// were pressed in beyond that would throw the block; it presses nothing from now on, and again when
+// the contact is as soft as before. A contact that becomes softer bears no more than it bore, since
+// what presses overlap out of a stiff one is mostly taken up by damping.
 void keep_force(double k_n, ContactRow& row) {
   const double share = row.last_stiffness / k_n;
   const double pressed_in = std::max(0.0, -(row.gap_start + row.offset));
-  const double bears = std::min(share * pressed_in, std::max(0.0, row.last_force) / k_n);
+  const double bears = share > 1 ? std::clamp(row.last_force / k_n, pressed_in, share * pressed_in)
+                                 : share * pressed_in;
   row.offset = std::max(0.0, row.offset + pressed_in - bears);
   row.shear *= share;
 }
