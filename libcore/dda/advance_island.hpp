@@ -113,6 +113,7 @@ struct AdvanceIsland {
       return std::min(start, (gap_end - point.gap) / h);
     }
   };
+  /// What the contacts of a manifold of two blocks have in common.
   struct Meeting {
     size_t ka, kb;         ///< members
     Vec3 shift;            ///< of B's arms from A's [m]

@@ -213,7 +213,6 @@ Mobility AdvanceIsland::mobility_at(size_t k, const Vec3& arm, const Vec3& norma
   return {along, std::max(along, all - along)};
 }
 
-// What the contacts of a manifold of two blocks have in common.
 AdvanceIsland::Meeting AdvanceIsland::meeting_of(const PairManifold& m) const {
   const size_t ka = place(m.block_a), kb = place(m.block_b);
   const BlockNumbers &ca = w.numbers[ka], &cb = w.numbers[kb];
