@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/make_room.hpp"
+
 namespace talus {
 namespace {
 
@@ -292,6 +294,7 @@ void add_face_points(const Hulls& hulls, const PlacedHulls& placed, const FacePa
     const Place p = place_of(face, h.key);
     if (!(p.height <= margin)) continue;
     const double back = pair.reference_is_a ? 0 : p.height;  // B's point, when A is incident
+    make_room(points);
     PairPoint& point = points.emplace_back();
     point.key = h.key;
     point.point_b.x() = p.x - back * face.n.x();
@@ -320,6 +323,7 @@ void add_edge_point(const Hulls& hulls, const PlacedHulls& placed, int part_a, i
   if (!(gap <= margin)) return;
   const Vec3 along_a = placed.vertices[hulls.vertex_begin[part_a] + edge_a.b] - a;
   const Vec3 along_b = placed.vertices[hulls.vertex_begin[part_b] + edge_b.b] - b;
+  make_room(points);
   points.push_back({held.key, crossing_on_b(a, along_a, b, along_b), gap, held.area});
 }
 
@@ -365,7 +369,9 @@ void add_crossing(const Hulls& hulls, const PlacedHulls& placed, int part_a, int
   const Segment a = segment(part_a, held.key.feature_a), b = segment(part_b, held.key.feature_b);
   const Vec3 on_b = met_by(b, a, normal);
   const double gap = normal.dot(met_by(a, b, normal) - on_b);
-  if (gap <= margin) points.push_back({held.key, on_b, gap, held.area});
+  if (gap > margin) return;
+  make_room(points);
+  points.push_back({held.key, on_b, gap, held.area});
 }
 
 }  // namespace

@@ -35,6 +35,7 @@ struct AdvanceIsland {
   int outsider = -1;   ///< block that the last attempt found off the known ground
   int halvings = 0;    ///< of the substep because it did not converge
   bool small = false;  ///< the island's matrix is cheap to factor
+  double reach = 0;    ///< of gravity: gaps wider than that are left out of the substep
   int cuts = 0;        ///< of the substep at the time when a panel is used up
   int lone_hits = 0;   ///< for each of which a substep ended within the step
 
@@ -140,12 +141,14 @@ struct AdvanceIsland {
   [[nodiscard]] double first_touch(double h) const;
   [[nodiscard]] PairMotionFree free_motion(const PairManifold& m) const;
   [[nodiscard]] double farthest_closing(double h);
-  void add_points(const PairManifold& m, double farthest);
+  void add_points(int manifold, double farthest);
+  [[nodiscard]] bool closes_left_out() const;
   bool assemble(double t, double h);
 
   // island_impacts.cpp
   void make_hit(size_t r, double gap_end, double speed_end, double h);
   int find_hits(double h, bool free);
+  [[nodiscard]] double overshoot_of_hits() const;
   double correct_hits();
   [[nodiscard]] double hit_energy() const;
   [[nodiscard]] double work_on_velocities() const;

@@ -1,6 +1,8 @@
 #include "dda/block_lu.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <iterator>
 
 namespace talus {
@@ -89,6 +91,32 @@ int entry_of(const BlockPattern& pattern, int row_place, int column_place) {
   return static_cast<int>(std::lower_bound(begin, end, row_place) - pattern.row.begin());
 }
 
+// By columns, which are contiguous: the pivot of row k is the largest entry left in that row.
+template <int Dof>
+void invert(Eigen::Matrix<double, Dof, Dof>& matrix) {
+  std::array<int, Dof> swapped;
+  for (int k = 0; k < Dof; ++k) {
+    int pivot = k;
+    for (int j = k + 1; j < Dof; ++j)
+      if (std::abs(matrix(k, j)) > std::abs(matrix(k, pivot))) pivot = j;
+    swapped[static_cast<size_t>(k)] = pivot;
+    if (pivot != k) matrix.col(k).swap(matrix.col(pivot));
+    const double per_pivot = 1 / matrix(k, k);
+    matrix(k, k) = 1;
+    matrix.col(k) *= per_pivot;
+    for (int j = 0; j < Dof; ++j) {
+      if (j == k) continue;
+      const double factor = matrix(k, j);
+      matrix(k, j) = 0;
+      matrix.col(j) -= factor * matrix.col(k);
+    }
+  }
+  for (int k = Dof; k-- > 0;) {
+    const int pivot = swapped[static_cast<size_t>(k)];
+    if (pivot != k) matrix.row(k).swap(matrix.row(pivot));
+  }
+}
+
 template <int Dof>
 void clear_matrix(BlockLu<Dof>& matrix) {
   using Mat = typename BlockLu<Dof>::Mat;
@@ -133,17 +161,15 @@ void subtract_column(BlockLu<Dof>& matrix, int begin, int end) {
 
 template <int Dof>
 void factor(BlockLu<Dof>& matrix) {
-  using Mat = typename BlockLu<Dof>::Mat;
   const BlockPattern& pattern = matrix.pattern;
-  matrix.pivots.resize(static_cast<size_t>(pattern.n));
-  for (size_t j = 0; j < matrix.pivots.size(); ++j) {
-    matrix.pivots[j].compute(matrix.diagonal[j]);
+  matrix.inverse.resize(static_cast<size_t>(pattern.n));
+  for (size_t j = 0; j < matrix.inverse.size(); ++j) {
+    matrix.inverse[j] = matrix.diagonal[j];
+    invert<Dof>(matrix.inverse[j]);
     const int begin = pattern.column_begin[j], end = pattern.column_begin[j + 1];
-    if (begin == end) continue;
-    const Mat inverse = matrix.pivots[j].inverse();
     for (int e = begin; e < end; ++e) {
-      Mat& lower = matrix.lower[static_cast<size_t>(e)];
-      lower = lower.lazyProduct(inverse).eval();
+      auto& lower = matrix.lower[static_cast<size_t>(e)];
+      lower = lower.lazyProduct(matrix.inverse[j]).eval();
     }
     subtract_column(matrix, begin, end);
   }
@@ -167,11 +193,13 @@ void solve(BlockLu<Dof>& factored, std::span<const Eigen::Matrix<double, Dof, 1>
       const auto ee = static_cast<size_t>(e);
       y[j].noalias() -= factored.upper[ee].lazyProduct(y[static_cast<size_t>(pattern.row[ee])]);
     }
-    y[j] = factored.pivots[j].solve(y[j]).eval();
+    y[j] = factored.inverse[j].lazyProduct(y[j]).eval();
     x[static_cast<size_t>(pattern.order[j])] = y[j];
   }
 }
 
+template void invert<6>(Eigen::Matrix<double, 6, 6>&);
+template void invert<12>(Eigen::Matrix<double, 12, 12>&);
 template void clear_matrix<6>(BlockLu<6>&);
 template void clear_matrix<12>(BlockLu<12>&);
 template void add_blocks<6>(BlockLu<6>&, int, int, const Eigen::Matrix<double, 6, 6>&,

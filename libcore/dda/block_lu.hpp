@@ -5,7 +5,7 @@
 // stays.
 #pragma once
 
-#include <Eigen/LU>
+#include <Eigen/Core>
 #include <span>
 #include <utility>
 #include <vector>
@@ -30,6 +30,11 @@ void analyse_pattern(int n, std::span<const std::pair<int, int>> edges, BlockPat
 /// Index into BlockPattern::row of entry (row_place, column_place), row_place > column_place.
 [[nodiscard]] int entry_of(const BlockPattern& pattern, int row_place, int column_place);
 
+/// Inverse of a small dense matrix in place, by Gauss-Jordan elimination with partial pivoting. A
+/// singular or not finite matrix gives one that is not finite.
+template <int Dof>
+void invert(Eigen::Matrix<double, Dof, Dof>& matrix);
+
 template <int Dof>
 struct BlockLu {  // clang-format off
   using Vec = Eigen::Matrix<double, Dof, 1>;
@@ -40,7 +45,7 @@ struct BlockLu {  // clang-format off
   std::vector<Mat> lower;     ///< (row, column) as pattern.row                          (n_entries)
   std::vector<Mat> upper;     ///< (column, row): its mirror                             (n_entries)
   // factor
-  std::vector<Eigen::PartialPivLU<Mat>> pivots;  ///< of the diagonal blocks             (n)
+  std::vector<Mat> inverse;   ///< of the diagonal blocks of U                           (n)
   std::vector<Vec> scratch;   ///<                                                       (n)
 };  // clang-format on
 

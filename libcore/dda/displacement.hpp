@@ -11,6 +11,7 @@
 
 namespace talus {
 
+using Vec6 = Eigen::Matrix<double, 6, 1>;
 using Vec12 = Eigen::Matrix<double, 12, 1>;
 using Mat12 = Eigen::Matrix<double, 12, 12>;
 using Mat6 = Eigen::Matrix<double, 6, 6>;
@@ -27,7 +28,7 @@ using Mat3x12 = Eigen::Matrix<double, 3, 12>;
 [[nodiscard]] Mat6 elastic_matrix(double young, double poisson);
 
 /// The six strains as a symmetric tensor [-].
-[[nodiscard]] inline Mat3 strain_tensor(const Eigen::Matrix<double, 6, 1>& e) {
+[[nodiscard]] inline Mat3 strain_tensor(const Vec6& e) {
   return (Mat3() << e[0], e[5] / 2, e[4] / 2, e[5] / 2, e[1], e[3] / 2, e[4] / 2, e[3] / 2, e[2])
       .finished();
 }

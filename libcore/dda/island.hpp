@@ -11,12 +11,12 @@
 // so that a pair costs one tangent W = sum T(r_A)^T K T(r_A) instead of three blocks.
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <vector>
 
 #include "contact/contact.hpp"
 #include "dda/contact_row.hpp"
+#include "dda/displacement.hpp"
 
 namespace talus {
 
@@ -54,50 +54,38 @@ struct BodyPair {
   bool changed = true;  ///< rows or centroids are not those of the solution that is continued
 };
 
-/// One island over one step. Dof is 6 (rigid) or 12. Velocity: of the centroid, spin, and for 12
-/// the strain rates, in local axes; `mass` is the matrix that belongs to it.
-template <int Dof>
+/// One island over one step. Bodies are rigid. Velocity: of the centroid, and spin, in
+/// local axes; `mass` is the matrix that belongs to it.
 struct Island {  // clang-format off
-  using Vec = Eigen::Matrix<double, Dof, 1>;
-  using Mat = Eigen::Matrix<double, Dof, Dof>;
-  std::vector<Mat> mass;           ///< M: for 6 diag(m, m, m, inertia), for 12 with the
-                                   ///< damping of the strains                          (n_bodies)
-  std::vector<Vec> free_velocity;  ///< without contact [m/s, rad/s, 1/s]               (n_bodies)
-  std::vector<Vec> velocity;       ///< in: first guess; out: at the end of the step    (n_bodies)
+  std::vector<Mat6> mass;          ///< M = diag(m, m, m, inertia)                      (n_bodies)
+  std::vector<Vec6> free_velocity; ///< without contact [m/s, rad/s]                    (n_bodies)
+  std::vector<Vec6> velocity;      ///< in: first guess; out: at the end of the step    (n_bodies)
   std::vector<Vec3> position;      ///< centroids [m]                                   (n_bodies)
   std::vector<double> radius;      ///< turns spin into velocity [m]                    (n_bodies)
   std::vector<BodyPair> pairs;     ///< a pair may appear more than once                (n_pairs)
   std::vector<IslandRow> rows;     ///< grouped by pair                                 (n_rows)
 };  // clang-format on
 
-template <int Dof>
-[[nodiscard]] int n_bodies(const Island<Dof>& island) {
+[[nodiscard]] inline int n_bodies(const Island& island) {
   return static_cast<int>(island.mass.size());
 }
 
 /// M v and M^-1 p of one body.
-template <int Dof>
-[[nodiscard]] inline Eigen::Matrix<double, Dof, 1> times_mass(
-    const Eigen::Matrix<double, Dof, Dof>& M, const Eigen::Matrix<double, Dof, 1>& v) {
-  if constexpr (Dof == 12) return M * v;
-  Eigen::Matrix<double, Dof, 1> p;
-  p.template head<3>() = M(0, 0) * v.template head<3>();
-  p.template segment<3>(3) = M.template block<3, 3>(3, 3).lazyProduct(v.template segment<3>(3));
+[[nodiscard]] inline Vec6 times_mass(const Mat6& M, const Vec6& v) {
+  Vec6 p;
+  p.head<3>() = M(0, 0) * v.head<3>();
+  p.segment<3>(3) = M.block<3, 3>(3, 3).lazyProduct(v.segment<3>(3));
   return p;
 }
-template <int Dof>
-[[nodiscard]] inline Eigen::Matrix<double, Dof, 1> solve_mass(
-    const Eigen::Matrix<double, Dof, Dof>& M, const Eigen::Matrix<double, Dof, 1>& p) {
-  if constexpr (Dof == 12) return M.llt().solve(p);
-  Eigen::Matrix<double, Dof, 1> v;
-  v.template head<3>() = p.template head<3>() / M(0, 0);
-  v.template segment<3>(3) = M.template block<3, 3>(3, 3).inverse() * p.template segment<3>(3);
+[[nodiscard]] inline Vec6 solve_mass(const Mat6& M, const Vec6& p) {
+  Vec6 v;
+  v.head<3>() = p.head<3>() / M(0, 0);
+  v.segment<3>(3) = M.block<3, 3>(3, 3).inverse() * p.segment<3>(3);
   return v;
 }
 
 /// m_a m_b / (m_a + m_b); m_a on the ground [kg].
-template <int Dof>
-[[nodiscard]] double reduced_mass(const Island<Dof>& island, const BodyPair& pair) {
+[[nodiscard]] inline double reduced_mass(const Island& island, const BodyPair& pair) {
   const double m_a = island.mass[static_cast<std::size_t>(pair.a)](0, 0);
   if (pair.b < 0) return m_a;
   const double m_b = island.mass[static_cast<std::size_t>(pair.b)](0, 0);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/make_room.hpp"
 #include "contact/search.hpp"
 #include "dda/advance_island.hpp"
 #include "dda/fence.hpp"
@@ -37,6 +38,7 @@ double approach_of(const ContactRow& row, double h) {
 void AdvanceIsland::clear_island() {
   w.contacts.clear();
   w.turns.clear();
+  w.left_out.clear();
   w.island.mass.clear();
   w.island.free_velocity.clear();
   w.island.velocity.clear();
@@ -76,6 +78,7 @@ IslandContact& AdvanceIsland::push(int a, const ContactKey& key, double touch, d
                                    bool never_waits, const ContactRow& row) {
   const double h = w.substeps.front().h;
   const double along_path = row.normal.dot(row.free_move);
+  make_room(w.contacts);
   IslandContact& contact = w.contacts.emplace_back();
   contact.key = key;
   contact.a = a;
@@ -97,6 +100,7 @@ IslandContact& AdvanceIsland::push(int a, const ContactKey& key, double touch, d
   contact.waits = row.memory < 0 && !never_waits &&
                   (contact.approach < -resting_speed || row.gap_start > touch + h * resting_speed);
 
+  make_room(w.island.rows);
   IslandRow& out = w.island.rows.emplace_back();
   const double along = row.normal.dot(row.drift);
   out.normal = row.normal;
@@ -354,8 +358,8 @@ AdvanceIsland::PairMotionFree AdvanceIsland::free_motion(const PairManifold& m) 
   return out;
 }
 
-// The gap above which a new contact stays open: the island's other contacts push no point
-// farther within the substep, gravity's share four times over and twice the fastest hit. Fills
+// The gap above which a new contact is left out: what gravity does in the substep, `reach` times
+// over, and twice the fastest hit; closes_left_out() sees whether one closed all the same. Fills
 // w.gap_end.
 double AdvanceIsland::farthest_closing(double h) {
   double hit = 0;
@@ -375,18 +379,37 @@ double AdvanceIsland::farthest_closing(double h) {
       if (speed > resting_speed && gap_end < h * speed) hit = std::max(hit, speed);
     }
   }
-  return 4 * scene.gravity.norm() * h * h + 2 * h * hit;
+  return reach * scene.gravity.norm() * h * h + 2 * h * hit;
 }
 
-void AdvanceIsland::add_points(const PairManifold& m, double farthest) {
+void AdvanceIsland::add_points(int manifold, double farthest) {
+  const PairManifold& m = w.pairs.manifolds[static_cast<size_t>(manifold)];
   const Meeting meeting = meeting_of(m);
   for (int p = m.point_begin; p < m.point_end; ++p) {
     const PairPoint& point = w.pairs.points[static_cast<size_t>(p)];
     const int memory = continued(m, p);
     const double nearest = std::min(point.gap, w.gap_end[static_cast<size_t>(p)]);
-    if (memory < 0 && meeting.bond < 0 && nearest > farthest) continue;
-    add_point(m, meeting, point, memory);
+    if (memory < 0 && meeting.bond < 0 && nearest > farthest)
+      w.left_out.push_back({manifold, p});
+    else
+      add_point(m, meeting, point, memory);
   }
+}
+
+// Whether a contact that was left out closes by the displacements found without it.
+bool AdvanceIsland::closes_left_out() const {
+  return std::any_of(w.left_out.begin(), w.left_out.end(), [&](const LeftOutPoint& left) {
+    const PairManifold& m = w.pairs.manifolds[static_cast<size_t>(left.manifold)];
+    const Vec3& x = w.pairs.points[static_cast<size_t>(left.point)].point_b;
+    const auto along = [&](int b) {
+      const size_t k = place(b);
+      return m.normal.dot(point_velocity<6>(w.displacement[k], x - w.island.position[k]));
+    };
+    const double touch =
+        pair_touch_ratio * std::min(numbers(m.block_a).radius, numbers(m.block_b).radius);
+    return w.gap_end[static_cast<size_t>(left.point)] + along(m.block_a) - along(m.block_b) <
+           -touch;
+  });
 }
 
 // Bodies, and all contacts of the island, over h from t. False: a member left the ground.
@@ -407,7 +430,7 @@ bool AdvanceIsland::assemble(double t, double h) {
     if (is_fixed(scene, m.block_b))
       add_fixed_points(m);
     else
-      add_points(m, farthest);
+      add_points(i, farthest);
     if (w.island.pairs.back().row_begin == w.island.pairs.back().row_end) w.island.pairs.pop_back();
   }
   return true;

@@ -88,18 +88,44 @@ int AdvanceIsland::find_hits(double h, bool free) {
   return n;
 }
 
+// The part of the last change of the impulses expected of the hits that would have been too much:
+// each round leaves about the same share of the error, so that two of them show where it goes
+// (Anderson's acceleration over one round). 0 while the hits are not those of the round before.
+double AdvanceIsland::overshoot_of_hits() const {
+  const auto same = [](const ExpectedHit& a, const ExpectedHit& b) { return a.row == b.row; };
+  if (!std::ranges::equal(w.hits, w.last_hits, same)) return 0;
+  double along = 0, length_sq = 0;
+  for (size_t i = 0; i < w.hits.size(); ++i) {
+    const double per_damping = 1 / w.island.rows[w.hits[i].row].normal_damping;
+    const double difference = w.hits[i].error - w.last_hits[i].error;
+    along += per_damping * w.hits[i].error * difference;
+    length_sq += per_damping * difference * difference;
+  }
+  return length_sq > 0 ? std::clamp(along / length_sq, -1.0, 0.5) : 0;
+}
+
 // Moves the targets of the hits by what finite stiffness left: the largest error, of the speed.
 double AdvanceIsland::correct_hits() {
   double worst = 0;
+  w.hits.swap(w.last_hits);
+  w.hits.clear();
   for (size_t r = 0; r < w.contacts.size(); ++r) {
     const IslandContact& contact = w.contacts[r];
-    IslandRow& row = w.island.rows[r];
+    const IslandRow& row = w.island.rows[r];
     const double p_n = row.normal.dot(row.impulse);
     if (!contact.hit || p_n <= 0) continue;
-    const double reached = -row.bias - p_n / row.normal_damping;
-    worst = std::max(worst, std::abs(reached - contact.target) / -contact.hit_speed);
-    row.bias = -contact.target - p_n / row.normal_damping;
-    note_change(r);
+    const double expected = -row.normal_damping * (row.bias + contact.target);
+    w.hits.push_back({r, p_n, p_n - expected});
+    worst = std::max(worst, std::abs(p_n - expected) / row.normal_damping / -contact.hit_speed);
+  }
+  const double overshoot = overshoot_of_hits();
+  for (size_t i = 0; i < w.hits.size(); ++i) {
+    IslandRow& row = w.island.rows[w.hits[i].row];
+    double expected = w.hits[i].impulse;
+    if (overshoot != 0)
+      expected = std::max(0.0, expected - overshoot * (expected - w.last_hits[i].impulse));
+    row.bias = -w.contacts[w.hits[i].row].target - expected / row.normal_damping;
+    note_change(w.hits[i].row);
   }
   return worst;
 }
@@ -185,6 +211,7 @@ double AdvanceIsland::first_hit(double h) const {
 bool AdvanceIsland::solve(double h) {
   int hits = find_hits(h, true);
   if (first_hit(h) < h) return true;
+  w.hits.clear();
   set_times(h);
   bool converged = solve_once(h, false);
   for (int round = 0; round < most_hit_rounds && converged; ++round) {

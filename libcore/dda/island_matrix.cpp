@@ -5,24 +5,10 @@ namespace {
 
 using std::size_t;
 
-template <int Dof>
-Eigen::Matrix<double, Dof, Dof> shift_matrix(const Vec3& shift) {
-  Eigen::Matrix<double, Dof, Dof> X = Eigen::Matrix<double, Dof, Dof>::Identity();
-  X.template topRows<3>() = displacement_matrix(shift).template leftCols<Dof>();
-  return X;
-}
-
 // D += X^T W X, what the pair adds to the diagonal block of B.
-template <int Dof>
-void add_carried(const Packed<Dof>& W, const Vec3& shift, Packed<Dof>& D) {
-  const Eigen::Matrix<double, Dof, Dof> X = shift_matrix<Dof>(shift);
-  add(packed<Dof>(X.transpose() * unpacked(W) * X), D);
-}
-
-// For rigid bodies X = [I, -S; 0, I] with S = [shift]x: W = [K, .; L, C] becomes
+// X = [I, -S; 0, I] with S = [shift]x: W = [K, .; L, C] becomes
 // [K, .; L' = L + S K, C' = C - L S + S L'^T].
-template <>
-void add_carried<6>(const Packed<6>& W, const Vec3& shift, Packed<6>& D) {
+void add_carried(const Packed<6>& W, const Vec3& shift, Packed<6>& D) {
   const double x = shift.x(), y = shift.y(), z = shift.z();
   const double K[3][3] = {
       {W(0, 0), W(1, 0), W(2, 0)}, {W(1, 0), W(1, 1), W(2, 1)}, {W(2, 0), W(2, 1), W(2, 2)}};
@@ -50,8 +36,7 @@ void add_carried<6>(const Packed<6>& W, const Vec3& shift, Packed<6>& D) {
 
 }  // namespace
 
-template <int Dof>
-void prepare_matrix(const Island<Dof>& island, bool only_changed, IslandMatrix<Dof>& matrix) {
+void prepare_matrix(const Island& island, bool only_changed, IslandMatrix& matrix) {
   const size_t n = island.mass.size(), n_pairs = island.pairs.size();
   matrix.shift.resize(n_pairs);
   matrix.pair_changed.resize(n_pairs);
@@ -66,27 +51,31 @@ void prepare_matrix(const Island<Dof>& island, bool only_changed, IslandMatrix<D
   if (!only_changed) matrix.body_changed.assign(n, 1);
   matrix.pair.resize(n_pairs);
   matrix.pair_closed.resize(n_pairs);
-  for (auto* blocks : {&matrix.own, &matrix.diagonal, &matrix.inverse}) blocks->resize(n);
+  for (auto* blocks : {&matrix.own, &matrix.diagonal}) blocks->resize(n);
+  for (auto* blocks : {&matrix.single_own, &matrix.inverse}) blocks->resize(n);
   for (auto* vectors :
-       {&matrix.residual, &matrix.preconditioned, &matrix.direction, &matrix.product})
+       {&matrix.residual, &matrix.preconditioned, &matrix.direction, &matrix.product, &matrix.sum})
     vectors->resize(n);
 }
 
-template <int Dof>
-void update_tangents(const Island<Dof>& island, Tangent tangent, RowGroups& rows,
-                     IslandMatrix<Dof>& matrix) {
+void update_tangents(const Island& island, Tangent tangent, RowGroups& rows, IslandMatrix& matrix) {
   const size_t n_pairs = island.pairs.size();
   if (tangent != matrix.tangent) matrix.pair_changed.assign(n_pairs, 1);
   matrix.tangent = tangent;
   const bool exact = tangent == Tangent::exact;
-  if (exact) matrix.rest.resize(n_pairs);
+  if (exact)
+    matrix.rest.resize(n_pairs);
+  else
+    matrix.coupling.resize(n_pairs);
   matrix.coupled.clear();
   for (size_t p = 0; p < n_pairs; ++p) {
     const BodyPair& pair = island.pairs[p];
     if (matrix.pair_changed[p]) {
       if (exact) matrix.rest[p].setZero();
       matrix.pair_closed[p] =
-          sum_tangents<Dof>(groups_of(rows, p), matrix.pair[p], exact ? &matrix.rest[p] : nullptr);
+          sum_tangents(groups_of(rows, p), matrix.pair[p], exact ? &matrix.rest[p] : nullptr);
+      if (!exact && pair.b >= 0)
+        matrix.coupling[p] = {single(matrix.pair[p]), single(matrix.shift[p])};
       matrix.pair_changed[p] = 0;
       matrix.body_changed[static_cast<size_t>(pair.a)] = 1;
       if (pair.b >= 0) matrix.body_changed[static_cast<size_t>(pair.b)] = 1;
@@ -95,10 +84,9 @@ void update_tangents(const Island<Dof>& island, Tangent tangent, RowGroups& rows
   }
 }
 
-template <int Dof>
-[[gnu::flatten]] void update_diagonals(const Island<Dof>& island, IslandMatrix<Dof>& matrix) {
+[[gnu::flatten]] void update_diagonals(const Island& island, IslandMatrix& matrix) {
   for (size_t i = 0; i < island.mass.size(); ++i)
-    if (matrix.body_changed[i]) matrix.own[i] = matrix.diagonal[i] = packed<Dof>(island.mass[i]);
+    if (matrix.body_changed[i]) matrix.own[i] = matrix.diagonal[i] = packed<6>(island.mass[i]);
   for (size_t p = 0; p < island.pairs.size(); ++p) {
     if (!matrix.pair_closed[p]) continue;
     const BodyPair& pair = island.pairs[p];
@@ -108,18 +96,18 @@ template <int Dof>
       if (pair.b < 0) add(matrix.pair[p], matrix.own[a]);
     }
     if (pair.b >= 0 && matrix.body_changed[static_cast<size_t>(pair.b)])
-      add_carried<Dof>(matrix.pair[p], matrix.shift[p],
-                       matrix.diagonal[static_cast<size_t>(pair.b)]);
+      add_carried(matrix.pair[p], matrix.shift[p], matrix.diagonal[static_cast<size_t>(pair.b)]);
   }
   for (size_t i = 0; i < island.mass.size(); ++i) {
-    if (matrix.body_changed[i]) matrix.inverse[i] = inverse(matrix.diagonal[i]);
+    if (!matrix.body_changed[i]) continue;
+    matrix.single_own[i] = single(matrix.own[i]);
+    matrix.inverse[i] = single(inverse(matrix.diagonal[i]));
     matrix.body_changed[i] = 0;
   }
 }
 
-template <int Dof>
-void choose_active(const Island<Dof>& island, std::span<const std::uint8_t> moves,
-                   IslandMatrix<Dof>& matrix) {
+void choose_active(const Island& island, std::span<const std::uint8_t> moves,
+                   IslandMatrix& matrix) {
   matrix.is_active.assign(moves.begin(), moves.end());
   for (const int p : matrix.coupled) {
     const BodyPair& pair = island.pairs[static_cast<size_t>(p)];
@@ -138,102 +126,103 @@ void choose_active(const Island<Dof>& island, std::span<const std::uint8_t> move
   }
 }
 
-template <int Dof>
-[[gnu::flatten]] void multiply(const Island<Dof>& island, const IslandMatrix<Dof>& matrix,
-                               std::span<const Eigen::Matrix<double, Dof, 1>> x,
-                               std::span<Eigen::Matrix<double, Dof, 1>> y) {
+[[gnu::flatten]] void multiply(const Island& island, const IslandMatrix& matrix,
+                               std::span<const SingleVector> x, std::span<SingleVector> y) {
   for (const int body : matrix.active) {
     const auto i = static_cast<size_t>(body);
-    y[i] = product(matrix.own[i], x[i]);
+    y[i] = product(matrix.single_own[i], x[i]);
   }
   for (const int p : matrix.active_coupled) {
     const auto k = static_cast<size_t>(p);
     const auto a = static_cast<size_t>(island.pairs[k].a);
     const auto b = static_cast<size_t>(island.pairs[k].b);
-    const Eigen::Matrix<double, Dof, 1> f =
-        product<Dof>(matrix.pair[k], relative_motion<Dof>(x[a], x[b], matrix.shift[k]));
-    y[a] += f;
-    y[b] -= carried_to_b<Dof>(f, matrix.shift[k]);
+    const SingleCoupling& pair = matrix.coupling[k];
+    SingleVector u = x[a] - x[b];  // relative_motion()
+    u.linear -= cross(x[b].angular, pair.shift);
+    SingleVector f = product(pair.W, u);
+    y[a] = y[a] + f;
+    f.angular += cross(pair.shift, f.linear);  // carried_to_b()
+    y[b] = y[b] - f;
   }
 }
 
-template <int Dof>
-[[gnu::flatten]] LinearResult solve_conjugate_gradients(
-    const Island<Dof>& island, IslandMatrix<Dof>& matrix,
-    std::span<const Eigen::Matrix<double, Dof, 1>> b, double tolerance, int max_iterations,
-    std::span<Eigen::Matrix<double, Dof, 1>> x) {
+[[gnu::flatten]] LinearResult solve_conjugate_gradients(const Island& island, IslandMatrix& matrix,
+                                                        std::span<const Vec6> b, double tolerance,
+                                                        int max_iterations, std::span<Vec6> x) {
   auto& r = matrix.residual;
   auto& z = matrix.preconditioned;
   auto& p = matrix.direction;
   auto& q = matrix.product;
-  for (auto& v : x) v.setZero();
-  for (auto& v : p) v.setZero();  // bodies that are not active stand
+  auto& sum = matrix.sum;
+  for (auto& v : p) v = {};  // bodies that are not active stand
+  for (auto& v : sum) v = {};
   double rz = 0;
   for (const int body : matrix.active) {
     const auto i = static_cast<size_t>(body);
-    r[i] = b[i];
+    r[i] = single(b[i]);
     p[i] = product(matrix.inverse[i], r[i]);
-    rz += r[i].dot(p[i]);
+    rz += dot(r[i], p[i]);
   }
   const double goal = tolerance * tolerance * rz;
   LinearResult result;
   while (rz > goal && result.iterations < max_iterations) {
     ++result.iterations;
-    multiply<Dof>(island, matrix, p, q);
+    multiply(island, matrix, p, q);
     double curvature = 0;
     for (const int body : matrix.active)
-      curvature += p[static_cast<size_t>(body)].dot(q[static_cast<size_t>(body)]);
-    if (!(curvature > 0)) return result;
-    const double step = rz / curvature;
+      curvature += dot(p[static_cast<size_t>(body)], q[static_cast<size_t>(body)]);
+    if (!(curvature > 0)) break;
+    const auto step = static_cast<float>(rz / curvature);
     double rz_next = 0;
     for (const int body : matrix.active) {
       const auto i = static_cast<size_t>(body);
-      x[i] += step * p[i];
-      r[i] -= step * q[i];
+      sum[i] = sum[i] + step * p[i];
+      r[i] = r[i] - step * q[i];
       z[i] = product(matrix.inverse[i], r[i]);
-      rz_next += r[i].dot(z[i]);
+      rz_next += dot(r[i], z[i]);
     }
-    const double ratio = rz_next / rz;
+    const auto ratio = static_cast<float>(rz_next / rz);
     rz = rz_next;
     for (const int body : matrix.active) {
       const auto i = static_cast<size_t>(body);
       p[i] = z[i] + ratio * p[i];
     }
   }
+  for (size_t i = 0; i < x.size(); ++i) x[i] = in_double(sum[i]);
   result.converged = rz <= goal;
   return result;
 }
 
 namespace {
 
-template <int Dof>
-void sum_blocks(const Island<Dof>& island, IslandMatrix<Dof>& matrix) {
-  using Mat = typename IslandMatrix<Dof>::Mat;
-  BlockLu<Dof>& lu = matrix.lu;
-  const auto diagonal_of = [&](int body) -> Mat& {
+void sum_blocks(const Island& island, IslandMatrix& matrix) {
+  BlockLu<6>& lu = matrix.lu;
+  const auto diagonal_of = [&](int body) -> Mat6& {
     return lu.diagonal[static_cast<size_t>(lu.pattern.place[static_cast<size_t>(body)])];
   };
   for (int i = 0; i < n_bodies(island); ++i) diagonal_of(i) = island.mass[static_cast<size_t>(i)];
   for (size_t p = 0; p < island.pairs.size(); ++p) {
     if (!matrix.pair_closed[p]) continue;
     const BodyPair& pair = island.pairs[p];
-    Mat W = unpacked(matrix.pair[p]);
+    Mat6 W = unpacked(matrix.pair[p]);
     if (matrix.tangent == Tangent::exact) W += matrix.rest[p];
     diagonal_of(pair.a) += W;
     if (pair.b < 0) continue;
-    const Mat X = shift_matrix<Dof>(matrix.shift[p]);
-    const Mat WX = W.lazyProduct(X), XtW = X.transpose().lazyProduct(W);
-    diagonal_of(pair.b) += X.transpose().lazyProduct(WX);
-    add_blocks<Dof>(lu, pair.a, pair.b, -WX, -XtW);
+    // X = [I, T; 0, I]
+    const Mat3 T = displacement_matrix(matrix.shift[p]).middleCols<3>(3);
+    Mat6 XtW = W;
+    XtW.bottomRows<3>() += T.transpose().lazyProduct(W.topRows<3>());
+    W.rightCols<3>() += W.leftCols<3>().lazyProduct(T);  // W X
+    add_blocks<6>(lu, pair.a, pair.b, -W, -XtW);
+    W.bottomRows<3>() += T.transpose().lazyProduct(W.topRows<3>());
+    diagonal_of(pair.b) += W;
   }
 }
 
 }  // namespace
 
-template <int Dof>
-void solve_direct(const Island<Dof>& island, IslandMatrix<Dof>& matrix,
-                  std::span<const Eigen::Matrix<double, Dof, 1>> b,
-                  std::span<Eigen::Matrix<double, Dof, 1>> x) {
+void solve_direct(const Island& island, IslandMatrix& matrix, std::span<const Vec6> b,
+                  std::span<Vec6> x) {
   matrix.edges.clear();
   for (const int p : matrix.coupled) {
     const BodyPair& pair = island.pairs[static_cast<size_t>(p)];
@@ -243,27 +232,7 @@ void solve_direct(const Island<Dof>& island, IslandMatrix<Dof>& matrix,
   clear_matrix(matrix.lu);
   sum_blocks(island, matrix);
   factor(matrix.lu);
-  solve<Dof>(matrix.lu, b, x);
+  solve<6>(matrix.lu, b, x);
 }
-
-#define TALUS_INSTANTIATE(Dof)                                                                     \
-  template void prepare_matrix<Dof>(const Island<Dof>&, bool, IslandMatrix<Dof>&);                 \
-  template void update_tangents<Dof>(const Island<Dof>&, Tangent, RowGroups&, IslandMatrix<Dof>&); \
-  template void update_diagonals<Dof>(const Island<Dof>&, IslandMatrix<Dof>&);                     \
-  template void choose_active<Dof>(const Island<Dof>&, std::span<const std::uint8_t>,              \
-                                   IslandMatrix<Dof>&);                                            \
-  template void multiply<Dof>(const Island<Dof>&, const IslandMatrix<Dof>&,                        \
-                              std::span<const Eigen::Matrix<double, Dof, 1>>,                      \
-                              std::span<Eigen::Matrix<double, Dof, 1>>);                           \
-  template LinearResult solve_conjugate_gradients<Dof>(                                            \
-      const Island<Dof>&, IslandMatrix<Dof>&, std::span<const Eigen::Matrix<double, Dof, 1>>,      \
-      double, int, std::span<Eigen::Matrix<double, Dof, 1>>);                                      \
-  template void solve_direct<Dof>(const Island<Dof>&, IslandMatrix<Dof>&,                          \
-                                  std::span<const Eigen::Matrix<double, Dof, 1>>,                  \
-                                  std::span<Eigen::Matrix<double, Dof, 1>>);
-
-TALUS_INSTANTIATE(6)
-TALUS_INSTANTIATE(12)
-#undef TALUS_INSTANTIATE
 
 }  // namespace talus

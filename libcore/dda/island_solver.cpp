@@ -21,12 +21,10 @@ constexpr size_t few = 2;                // the neighbourhood alone where fewer 
 constexpr double hopeless = 1e5;  // growth of the residual at which coupled steps are given up
 
 /// One solve; a struct so that its parts share what they all need.
-template <int Dof>
 struct Solve {
-  using Vec = Eigen::Matrix<double, Dof, 1>;
-  Island<Dof>& island;
+  Island& island;
   const IslandSettings& settings;
-  IslandWork<Dof>& work;
+  IslandWork& work;
   IslandResult result;
   double tolerance = 0;
   double best_residual = std::numeric_limits<double>::infinity();
@@ -45,8 +43,7 @@ struct Solve {
       if (only_changed && !pair.changed) continue;
       const double mass = reduced_mass(island, pair);
       work.limit[p] = settings.stiffest * mass;
-      const double free_speed =
-          island.free_velocity[static_cast<size_t>(pair.a)].template head<3>().norm();
+      const double free_speed = island.free_velocity[static_cast<size_t>(pair.a)].head<3>().norm();
       for (int r = pair.row_begin; r < pair.row_end; ++r) {
         const IslandRow& row = island.rows[static_cast<size_t>(r)];
         const double stiffness =
@@ -67,7 +64,7 @@ struct Solve {
     work.per_impulse.resize(n);
     for (size_t i = 0; i < n; ++i) {
       work.per_impulse[i] = island.mass[i].diagonal().cwiseInverse();
-      work.per_impulse[i].template tail<Dof - 3>() *= island.radius[i];
+      work.per_impulse[i].tail<3>() *= island.radius[i];
     }
     work.pair_impulse.resize(n_pairs);
     activate_all();
@@ -91,15 +88,15 @@ struct Solve {
     const bool active_b = pair.b >= 0 && active[b];
     if (!active[a] && !active_b) return;
     const Vec3& shift = work.matrix.shift[p];
-    const Vec u = pair.b < 0 ? island.velocity[a]
-                             : relative_motion<Dof>(island.velocity[a], island.velocity[b], shift);
-    Vec f;
-    if (evaluate_pair<Dof>(groups_of(work.rows, p), u, evaluation, direct ? 0 : slack, f))
+    const Vec6 u = pair.b < 0 ? island.velocity[a]
+                              : relative_motion(island.velocity[a], island.velocity[b], shift);
+    Vec6 f;
+    if (evaluate_pair(groups_of(work.rows, p), u, evaluation, direct ? 0 : slack, f))
       work.matrix.pair_changed[p] = 1;
-    const Vec change = f - work.pair_impulse[p];
+    const Vec6 change = f - work.pair_impulse[p];
     work.pair_impulse[p] = f;
     work.residual[a] -= active[a] ? f : change;
-    if (pair.b >= 0) work.residual[b] += carried_to_b<Dof>(active_b ? f : change, shift);
+    if (pair.b >= 0) work.residual[b] += carried_to_b(active_b ? f : change, shift);
   }
 
   // The largest residual as a velocity: impulse over mass, angular impulse over inertia times
@@ -118,8 +115,7 @@ struct Solve {
     ++result.passes;
     for (const int body : work.matrix.active) {
       const auto i = static_cast<size_t>(body);
-      work.residual[i] =
-          times_mass<Dof>(island.mass[i], island.velocity[i] - island.free_velocity[i]);
+      work.residual[i] = times_mass(island.mass[i], island.velocity[i] - island.free_velocity[i]);
     }
     for (size_t p = 0; p < island.pairs.size(); ++p) evaluate_contacts(p, evaluation);
     result.residual = residual_speed();
@@ -144,24 +140,24 @@ struct Solve {
   // K step = -residual.
   void find_step() {
     update_tangents(island, direct ? Tangent::exact : Tangent::symmetric, work.rows, work.matrix);
-    for (Vec& r : work.residual) r = -r;
+    for (Vec6& r : work.residual) r = -r;
     if (direct) {
       activate_all();
       ++result.factorisations;
-      solve_direct<Dof>(island, work.matrix, work.residual, work.step);
+      solve_direct(island, work.matrix, work.residual, work.step);
     } else {
       update_diagonals(island, work.matrix);
       if (few_move())
-        choose_active<Dof>(island, work.moves, work.matrix);
+        choose_active(island, work.moves, work.matrix);
       else
         activate_all();
-      const LinearResult linear = solve_conjugate_gradients<Dof>(
-          island, work.matrix, work.residual, settings.linear_tolerance,
-          settings.max_linear_iterations, work.step);
+      const LinearResult linear =
+          solve_conjugate_gradients(island, work.matrix, work.residual, settings.linear_tolerance,
+                                    settings.max_linear_iterations, work.step);
       result.linear_iterations += linear.iterations;
       direct = !linear.converged && n_bodies(island) <= settings.direct_fallback;
     }
-    for (Vec& r : work.residual) r = -r;
+    for (Vec6& r : work.residual) r = -r;
   }
 
   [[nodiscard]] double slope() const {
@@ -229,7 +225,7 @@ struct Solve {
   }
 
   void restore(double residual) {
-    const std::vector<Vec>& good = std::isfinite(residual) ? work.best : island.free_velocity;
+    const std::vector<Vec6>& good = std::isfinite(residual) ? work.best : island.free_velocity;
     std::copy(good.begin(), good.end(), island.velocity.begin());
   }
 
@@ -239,7 +235,7 @@ struct Solve {
   void keep_momentum() {
     work.found = island.velocity;
     for (size_t i = 0; i < island.mass.size(); ++i)
-      island.velocity[i] -= solve_mass<Dof>(island.mass[i], work.residual[i]);
+      island.velocity[i] -= solve_mass(island.mass[i], work.residual[i]);
   }
 
   void run() {
@@ -257,15 +253,10 @@ struct Solve {
 
 }  // namespace
 
-template <int Dof>
-IslandResult solve_island(Island<Dof>& island, const IslandSettings& settings,
-                          IslandWork<Dof>& work) {
-  Solve<Dof> solve{island, settings, work, {}};
+IslandResult solve_island(Island& island, const IslandSettings& settings, IslandWork& work) {
+  Solve solve{island, settings, work, {}};
   solve.run();
   return solve.result;
 }
-
-template IslandResult solve_island<6>(Island<6>&, const IslandSettings&, IslandWork<6>&);
-template IslandResult solve_island<12>(Island<12>&, const IslandSettings&, IslandWork<12>&);
 
 }  // namespace talus

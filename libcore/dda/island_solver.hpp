@@ -36,24 +36,22 @@ struct IslandResult {
 };
 
 /// Scratch of solve_island; reused from call to call, it stops allocating.
-template <int Dof>
 struct IslandWork {
-  using Vec = Eigen::Matrix<double, Dof, 1>;
-  IslandMatrix<Dof> matrix;
+  IslandMatrix matrix;
   RowGroups rows;
-  std::vector<double> limit;  ///< of D_n and D_t [kg]                                  (n_pairs)
-  std::vector<Vec> residual;  ///< M (v - v_free) - sum B^T p                           (n_bodies)
-  std::vector<Vec>
+  std::vector<double> limit;   ///< of D_n and D_t [kg]                                  (n_pairs)
+  std::vector<Vec6> residual;  ///< M (v - v_free) - sum B^T p                           (n_bodies)
+  std::vector<Vec6>
       per_impulse;            ///< speed of a body's points per impulse [1/kg, 1/(kg m)] (n_bodies)
   std::vector<double> speed;  ///< of the residual [m/s]                             (n_bodies)
   std::vector<std::uint8_t> moves;  ///< residual above the tolerance                   (n_bodies)
-  std::vector<Vec> pair_impulse;    ///< sum B^T p of a pair, about A                    (n_pairs)
-  std::vector<Vec> step;  ///< of Newton                                            (n_bodies)
-  std::vector<Vec> from;  ///< velocity before the step                             (n_bodies)
-  std::vector<Vec> best;  ///< velocity with the smallest residual so far           (n_bodies)
+  std::vector<Vec6> pair_impulse;   ///< sum B^T p of a pair, about A                    (n_pairs)
+  std::vector<Vec6> step;  ///< of Newton                                            (n_bodies)
+  std::vector<Vec6> from;  ///< velocity before the step                             (n_bodies)
+  std::vector<Vec6> best;  ///< velocity with the smallest residual so far           (n_bodies)
   // of the last solution, for one that continues it
-  std::vector<Vec> found;  ///< velocity before momentum was kept                       (n_bodies)
-  double rounding = 0;     ///< of the stiffest impulse, as a velocity [m/s]
+  std::vector<Vec6> found;  ///< velocity before momentum was kept                       (n_bodies)
+  double rounding = 0;      ///< of the stiffest impulse, as a velocity [m/s]
   double stiffness_ratio = 0;  ///< largest D / m
   bool as_packed = false;      ///< `rows` are those of the island, none softened
 };
@@ -70,8 +68,6 @@ struct IslandWork {
 ///
 /// Not finite input, or no convergence: `converged` is false and the velocities are those of the
 /// smallest residual found.
-template <int Dof>
-IslandResult solve_island(Island<Dof>& island, const IslandSettings& settings,
-                          IslandWork<Dof>& work);
+IslandResult solve_island(Island& island, const IslandSettings& settings, IslandWork& work);
 
 }  // namespace talus

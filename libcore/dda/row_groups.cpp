@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/make_room.hpp"
 #include "dda/newton.hpp"
 
 namespace talus {
@@ -70,34 +71,19 @@ const IslandRow nothing;
 }
 
 // Velocity of the contact points.
-template <int Dof>
-[[gnu::always_inline]] inline void velocity_at(const Two (&r)[3],
-                                               const Eigen::Matrix<double, Dof, 1>& u,
-                                               Two (&w)[3]) {
+[[gnu::always_inline]] inline void velocity_at(const Two (&r)[3], const Vec6& u, Two (&w)[3]) {
   w[0] = u[0] + (u[4] * r[2] - u[5] * r[1]);
   w[1] = u[1] + (u[5] * r[0] - u[3] * r[2]);
   w[2] = u[2] + (u[3] * r[1] - u[4] * r[0]);
-  if constexpr (Dof == 12) {
-    w[0] += u[6] * r[0] + 0.5 * (u[10] * r[2] + u[11] * r[1]);
-    w[1] += u[7] * r[1] + 0.5 * (u[9] * r[2] + u[11] * r[0]);
-    w[2] += u[8] * r[2] + 0.5 * (u[9] * r[1] + u[10] * r[0]);
-  }
 }
 
 // T(r)^T p.
-template <int Dof>
 [[gnu::always_inline]] inline void generalised_lanes(const Two (&r)[3], const Two (&p)[3],
-                                                     Two (&q)[Dof]) {
+                                                     Two (&q)[6]) {
   for (int k = 0; k < 3; ++k) q[k] = p[k];
   q[3] = r[1] * p[2] - r[2] * p[1];
   q[4] = r[2] * p[0] - r[0] * p[2];
   q[5] = r[0] * p[1] - r[1] * p[0];
-  if constexpr (Dof == 12) {
-    for (int k = 0; k < 3; ++k) q[6 + k] = r[k] * p[k];
-    q[9] = 0.5 * (r[2] * p[1] + r[1] * p[2]);
-    q[10] = 0.5 * (r[2] * p[0] + r[0] * p[2]);
-    q[11] = 0.5 * (r[1] * p[0] + r[0] * p[1]);
-  }
 }
 
 [[gnu::always_inline]] inline void friction_bound(const RowGroup& g, const Two& p_n, Two& cap) {
@@ -173,39 +159,28 @@ template <int Dof>
 }
 
 // sum += k q q^T, lower triangle.
-template <int Dof>
-[[gnu::always_inline]] inline void add_outer(const Two& k, const Two (&q)[Dof],
-                                             Two (&out)[Packed<Dof>::size]) {
-#pragma GCC unroll 12
-  for (int i = 0; i < Dof; ++i) {
+[[gnu::always_inline]] inline void add_outer(const Two& k, const Two (&q)[6],
+                                             Two (&out)[Packed<6>::size]) {
+#pragma GCC unroll 6
+  for (int i = 0; i < 6; ++i) {
     const Two kq = k * q[i];
-#pragma GCC unroll 12
-    for (int j = 0; j <= i; ++j) out[Packed<Dof>::at(i, j)] += kq * q[j];
+#pragma GCC unroll 6
+    for (int j = 0; j <= i; ++j) out[Packed<6>::at(i, j)] += kq * q[j];
   }
 }
 
 // Stick: k (T^T T). Rigid: T^T T = [I, -S; S, |r|^2 I - r r^T] with S = [r]x.
-template <int Dof>
 [[gnu::always_inline]] inline void add_stick(const Two& k, const Two (&r)[3],
-                                             Two (&out)[Packed<Dof>::size]) {
-  if constexpr (Dof == 6) {
-    using P = Packed<6>;
-    const Two x = k * r[0], y = k * r[1], z = k * r[2];
-    const Two xx = x * r[0], yy = y * r[1], zz = z * r[2];
-    for (int i = 0; i < 3; ++i) out[P::at(i, i)] += k;
-    out[P::at(3, 1)] -= z, out[P::at(3, 2)] += y;
-    out[P::at(4, 0)] += z, out[P::at(4, 2)] -= x;
-    out[P::at(5, 0)] -= y, out[P::at(5, 1)] += x;
-    out[P::at(3, 3)] += yy + zz, out[P::at(4, 4)] += xx + zz, out[P::at(5, 5)] += xx + yy;
-    out[P::at(4, 3)] -= x * r[1], out[P::at(5, 3)] -= x * r[2], out[P::at(5, 4)] -= y * r[2];
-  } else {
-    for (int axis = 0; axis < 3; ++axis) {
-      Two unit[3] = {zero, zero, zero}, q[Dof];
-      unit[axis] = one;
-      generalised_lanes<Dof>(r, unit, q);
-      add_outer<Dof>(k, q, out);
-    }
-  }
+                                             Two (&out)[Packed<6>::size]) {
+  using P = Packed<6>;
+  const Two x = k * r[0], y = k * r[1], z = k * r[2];
+  const Two xx = x * r[0], yy = y * r[1], zz = z * r[2];
+  for (int i = 0; i < 3; ++i) out[P::at(i, i)] += k;
+  out[P::at(3, 1)] -= z, out[P::at(3, 2)] += y;
+  out[P::at(4, 0)] += z, out[P::at(4, 2)] -= x;
+  out[P::at(5, 0)] -= y, out[P::at(5, 1)] += x;
+  out[P::at(3, 3)] += yy + zz, out[P::at(4, 4)] += xx + zz, out[P::at(5, 5)] += xx + yy;
+  out[P::at(4, 3)] -= x * r[1], out[P::at(5, 3)] -= x * r[2], out[P::at(5, 4)] -= y * r[2];
 }
 
 Vec3 lane_of(const Two (&v)[3], int lane) { return {v[0][lane], v[1][lane], v[2][lane]}; }
@@ -213,8 +188,7 @@ Vec3 lane_of(const Two (&v)[3], int lane) { return {v[0][lane], v[1][lane], v[2]
 // A slipping contact's exact tangent besides k_n n n^T. Its direction e turns with the end
 // direction and with the share of the start direction (see add_slip), which grows with the trial
 // speed and falls with the friction bound; the bound itself changes by -tan(phi) k_n n^T.
-template <int Dof>
-void add_exact_slip(const RowGroup& g, int lane, Eigen::Matrix<double, Dof, Dof>& rest) {
+void add_exact_slip(const RowGroup& g, int lane, Mat6& rest) {
   const Vec3 n = lane_of(g.normal, lane), arm = lane_of(g.arm, lane);
   const Vec3 impulse = lane_of(g.impulse, lane), start = lane_of(g.slip_start, lane);
   const double p_n = n.dot(impulse), speed = g.trial_speed[lane];
@@ -231,22 +205,21 @@ void add_exact_slip(const RowGroup& g, int lane, Eigen::Matrix<double, Dof, Dof>
     by_trial = g.slip_stiffness[lane] * n.cross(end) + cap / speed * turn * threshold * end;
     bound -= turn * threshold * across;
   }
-  const auto q_n = generalised<Dof>(arm, n);
-  rest += generalised<Dof>(arm, across) * generalised<Dof>(arm, by_trial).transpose();
+  const auto q_n = generalised<6>(arm, n);
+  rest += generalised<6>(arm, across) * generalised<6>(arm, by_trial).transpose();
   if (p_n > 0)
-    rest -= g.friction[lane] * g.normal_stiffness[lane] * generalised<Dof>(arm, bound) *
-            q_n.transpose();
+    rest -=
+        g.friction[lane] * g.normal_stiffness[lane] * generalised<6>(arm, bound) * q_n.transpose();
 }
 
 // The stiffness across the slip, s a a^T with a = n x t / |t|, t the tangential impulse.
-template <int Dof>
-[[gnu::always_inline]] inline void add_across(const RowGroup& g, Two (&out)[Packed<Dof>::size]) {
-  Two across[3], q[Dof], length_sq;
+[[gnu::always_inline]] inline void add_across(const RowGroup& g, Two (&out)[Packed<6>::size]) {
+  Two across[3], q[6], length_sq;
   cross(g.normal, g.impulse, across);
   dot(across, across, length_sq);
   const Two k = g.slip_stiffness / (length_sq > zero ? length_sq : one);
-  generalised_lanes<Dof>(g.arm, across, q);
-  add_outer<Dof>(k, q, out);
+  generalised_lanes(g.arm, across, q);
+  add_outer(k, q, out);
 }
 
 }  // namespace
@@ -258,6 +231,7 @@ int pack_rows(std::span<const BodyPair> pairs, std::span<const IslandRow> rows,
     out.begin.assign(1, 0);
     for (const BodyPair& pair : pairs)
       out.begin.push_back(out.begin.back() + (pair.row_end - pair.row_begin + width - 1) / width);
+    make_new_room(out.groups, static_cast<size_t>(out.begin.back()));
     out.groups.resize(static_cast<size_t>(out.begin.back()));
   }
   for (size_t p = 0; p < pairs.size(); ++p) {
@@ -288,34 +262,30 @@ void unpack_rows(std::span<const BodyPair> pairs, const RowGroups& groups,
     }
 }
 
-template <int Dof>
-[[gnu::flatten]] bool evaluate_pair(std::span<RowGroup> groups,
-                                    const Eigen::Matrix<double, Dof, 1>& u, Evaluation evaluation,
-                                    double slack, Eigen::Matrix<double, Dof, 1>& f) {
-  Two total[Dof];
+[[gnu::flatten]] bool evaluate_pair(std::span<RowGroup> groups, const Vec6& u,
+                                    Evaluation evaluation, double slack, Vec6& f) {
+  Two total[6];
   for (Two& t : total) t = zero;
   bool changed = false;
   for (RowGroup& g : groups) {
-    Two w[3], q[Dof];
-    velocity_at<Dof>(g.arm, u, w);
+    Two w[3], q[6];
+    velocity_at(g.arm, u, w);
     const Two state_before = g.state, stiffness_before = g.normal_stiffness;
     apply_law(w, evaluation, g);
-    generalised_lanes<Dof>(g.arm, g.impulse, q);
-    for (int k = 0; k < Dof; ++k) total[k] += q[k];
+    generalised_lanes(g.arm, g.impulse, q);
+    for (int k = 0; k < 6; ++k) total[k] += q[k];
     const Two difference = g.slip_stiffness - g.used_stiffness;
     const Two off = difference > zero ? difference : -difference;
     const Two moved = off > slack * g.used_stiffness ? one : zero;
     changed |= any((g.state != state_before ? one : zero) + moved +
                    (g.normal_stiffness != stiffness_before ? one : zero));
   }
-  for (int k = 0; k < Dof; ++k) f[k] = sum(total[k]);
+  for (int k = 0; k < 6; ++k) f[k] = sum(total[k]);
   return changed;
 }
 
-template <int Dof>
-[[gnu::flatten]] bool sum_tangents(std::span<RowGroup> groups, Packed<Dof>& W,
-                                   Eigen::Matrix<double, Dof, Dof>* rest) {
-  Two total[Packed<Dof>::size];
+[[gnu::flatten]] bool sum_tangents(std::span<RowGroup> groups, Packed<6>& W, Mat6* rest) {
+  Two total[Packed<6>::size];
   for (Two& t : total) t = zero;
   bool closed = false;
   for (RowGroup& g : groups) {
@@ -324,25 +294,18 @@ template <int Dof>
     closed = true;
     const Two k_t = g.state == stick_lanes ? g.shear_damping : zero;
     const Two k_n = (g.state != open_lanes ? g.normal_stiffness : zero) - k_t;
-    Two q[Dof];
-    if (any(k_t)) add_stick<Dof>(k_t, g.arm, total);
+    Two q[6];
+    if (any(k_t)) add_stick(k_t, g.arm, total);
     if (any(k_n)) {
-      generalised_lanes<Dof>(g.arm, g.normal, q);
-      add_outer<Dof>(k_n, q, total);
+      generalised_lanes(g.arm, g.normal, q);
+      add_outer(k_n, q, total);
     }
-    if (!rest && any(g.slip_stiffness)) add_across<Dof>(g, total);
+    if (!rest && any(g.slip_stiffness)) add_across(g, total);
     for (int lane = 0; rest && lane < width; ++lane)
-      if (g.slip_stiffness[lane] > 0) add_exact_slip<Dof>(g, lane, *rest);
+      if (g.slip_stiffness[lane] > 0) add_exact_slip(g, lane, *rest);
   }
-  for (int k = 0; k < Packed<Dof>::size; ++k) W.value[static_cast<size_t>(k)] = sum(total[k]);
+  for (int k = 0; k < Packed<6>::size; ++k) W.value[static_cast<size_t>(k)] = sum(total[k]);
   return closed;
 }
-
-template bool evaluate_pair<6>(std::span<RowGroup>, const Eigen::Matrix<double, 6, 1>&, Evaluation,
-                               double, Eigen::Matrix<double, 6, 1>&);
-template bool evaluate_pair<12>(std::span<RowGroup>, const Eigen::Matrix<double, 12, 1>&,
-                                Evaluation, double, Eigen::Matrix<double, 12, 1>&);
-template bool sum_tangents<6>(std::span<RowGroup>, Packed<6>&, Eigen::Matrix<double, 6, 6>*);
-template bool sum_tangents<12>(std::span<RowGroup>, Packed<12>&, Eigen::Matrix<double, 12, 12>*);
 
 }  // namespace talus

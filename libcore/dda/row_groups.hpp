@@ -57,14 +57,11 @@ void unpack_rows(std::span<const BodyPair> pairs, const RowGroups& groups,
 /// Impulses of a pair's contacts at the relative motion u; `f` is their sum as a generalised
 /// impulse on A about its centroid. True when a tangent changed: a state, or a slip stiffness by
 /// more than `slack` of what the tangent was summed with.
-template <int Dof>
-bool evaluate_pair(std::span<RowGroup> groups, const Eigen::Matrix<double, Dof, 1>& u,
-                   Evaluation evaluation, double slack, Eigen::Matrix<double, Dof, 1>& f);
+bool evaluate_pair(std::span<RowGroup> groups, const Vec6& u, Evaluation evaluation, double slack,
+                   Vec6& f);
 
 /// W = sum T^T K T of a pair, symmetric; and with `rest`, what the exact derivative has instead of
 /// the stiffness across the slip. False when no contact presses.
-template <int Dof>
-bool sum_tangents(std::span<RowGroup> groups, Packed<Dof>& W,
-                  Eigen::Matrix<double, Dof, Dof>* rest);
+bool sum_tangents(std::span<RowGroup> groups, Packed<6>& W, Mat6* rest);
 
 }  // namespace talus

@@ -11,12 +11,11 @@
 #include "contact/hulls.hpp"
 #include "contact/pose.hpp"
 #include "contact/shapes.hpp"
+#include "dda/displacement.hpp"
 #include "dda/fixed_bodies.hpp"
 #include "dda/joint_classes.hpp"
 
 namespace talus {
-
-using Vec6 = Eigen::Matrix<double, 6, 1>;
 
 /// `paper`: penalty springs, open-close iteration, fixed step. `talus`: docs/theory.md.
 enum class Law { talus, paper };

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/make_room.hpp"
 #include "dda/advance_island.hpp"
 #include "dda/fence.hpp"
 #include "dda/flight.hpp"
@@ -11,8 +12,10 @@ namespace {
 
 using std::size_t;
 
-constexpr int most_halvings = 4;  // of a substep that does not converge
-constexpr int most_cuts = 24;     // of a substep where a panel of a fence breaks
+constexpr int most_halvings = 4;      // of a substep that does not converge
+constexpr int most_cuts = 24;         // of a substep where a panel of a fence breaks
+constexpr double first_reach = 0.25;  // gaps looked at, in what gravity does in the substep
+constexpr double reach_growth = 8;    // where one that was left out closes
 
 }  // namespace
 
@@ -160,7 +163,9 @@ void AdvanceIsland::remember(double h) {
     if (contact.hit) continue;
     const double p_n = solved.normal.dot(solved.impulse);
     const Vec3 p_t = solved.impulse - p_n * solved.normal;
-    ContactMemory& memory = state.memory[static_cast<size_t>(contact.a)].emplace_back();
+    std::vector<ContactMemory>& memories = state.memory[static_cast<size_t>(contact.a)];
+    make_room(memories);
+    ContactMemory& memory = memories.emplace_back();
     memory.key = contact.key;
     memory.normal = solved.normal;
     memory.offset = contact.bond >= 0 ? contact.offset : std::max(0.0, contact.offset - relax);
@@ -260,6 +265,10 @@ AdvanceIsland::Attempt AdvanceIsland::attempt(double t, double& h) {
     report.flags = report.flags | StepFlag::unconverged;
   }
   set_displacements(h);
+  if (converged && closes_left_out()) {
+    reach *= reach_growth;
+    return Attempt::shorter;
+  }
   if (break_bonds(h)) return Attempt::shorter;
   find_pushes(h);
   const double used_up = time_to_first_break(scene, state.fence, w.pushes, h);
@@ -308,6 +317,7 @@ void AdvanceIsland::run(int island, std::span<const int> blocks, double t_end) {
       search_pairs(t_end - t);
     double h = longest_substep(t_end - t);
     halvings = cuts = 0;
+    reach = first_reach;
     Attempt outcome = Attempt::shorter;
     while (outcome == Attempt::shorter) outcome = attempt(t, h);
     t = state.local_time[block(0)];

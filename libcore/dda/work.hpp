@@ -61,6 +61,18 @@ struct FreeTurn {
   Mat3 per_inertia;           ///< inverse of the inertia at the end, local axes [1/(kg m2)]
 };
 
+/// A point of contact too far apart to close within the substep.
+struct LeftOutPoint {
+  int manifold = 0, point = 0;
+};
+
+/// A hit in a round of solutions.
+struct ExpectedHit {
+  std::size_t row = 0;  ///< index into island.rows
+  double impulse = 0;   ///< along the normal [N s]
+  double error = 0;     ///< by which that differs from the one expected [N s]
+};
+
 /// What the step of islands recomputes.
 struct IslandStepWork {  // clang-format off
   // form_islands
@@ -84,6 +96,7 @@ struct IslandStepWork {  // clang-format off
   std::vector<Substep> substeps;            ///<                                         (n_members)
   std::vector<int> place;                   ///< of a body in `members`, -1: not in it   (n_bodies)
   std::vector<double> gap_end;              ///< without contact forces [m]         (n_points of `pairs`)
+  std::vector<LeftOutPoint> left_out;       ///< points of `pairs` that are no contacts of the substep
   std::vector<int> continued;               ///< memory that a manifold's point continues
   std::vector<int> unclaimed;               ///< memories of the pair that no point continues yet
   std::vector<BondLoad> bond_loads;         ///< of this substep, by bond           (n_loaded)
@@ -91,9 +104,10 @@ struct IslandStepWork {  // clang-format off
   std::vector<FreeTurn> turns;              ///<                                         (n_members)
   ContactRow row;                           ///< of the contact that is made at the moment
   std::vector<IslandContact> contacts;      ///< in the order of island.rows
-  Island<6> island;
-  IslandWork<6> solver;
+  Island island;
+  IslandWork solver;
   std::vector<int> island_manifolds;        ///< of the island at hand
+  std::vector<ExpectedHit> hits, last_hits; ///< of this round of solutions and the one before
   std::vector<double> weight, time;         ///< impulses expected [N s]; mean time of theirs [s] (n_members)
   std::vector<double> last_time;            ///< `time` before it was set last [s]       (n_members)
   std::vector<Vec6> change;                 ///< of velocity by contact                  (n_members)

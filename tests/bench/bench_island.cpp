@@ -17,10 +17,10 @@ using talus::scenes::LawOfScene;
 
 constexpr double loose = 1e-2;  // tolerance of the slide, relative to g h
 
-void solve_steps(benchmark::State& state, const Island<6>& start, const LawOfScene& law,
+void solve_steps(benchmark::State& state, const Island& start, const LawOfScene& law,
                  double noise) {
-  Island<6> island = start;
-  IslandWork<6> work;
+  Island island = start;
+  IslandWork work;
   IslandSettings settings;
   settings.tolerance = loose * law.gravity * law.step;
   talus::Random random(1, "noise");
@@ -51,18 +51,18 @@ double noise_of(const benchmark::State& state) {
 
 void solve_stack_50(benchmark::State& state) {
   const LawOfScene law;
-  solve_steps(state, talus::scenes::stack<6>(50, law), law, noise_of(state));
+  solve_steps(state, talus::scenes::stack(50, law), law, noise_of(state));
 }
 
 void solve_wall_400(benchmark::State& state) {
   const LawOfScene law;
-  solve_steps(state, talus::scenes::wall<6>(20, 20, law), law, noise_of(state));
+  solve_steps(state, talus::scenes::wall(20, 20, law), law, noise_of(state));
 }
 
 void solve_pile(benchmark::State& state, int n_x, int n_y, int n_z) {
   const LawOfScene law;
   talus::Random random(1, "pile");
-  solve_steps(state, talus::scenes::pile<6>({n_x, n_y, n_z}, law, random), law, noise_of(state));
+  solve_steps(state, talus::scenes::pile({n_x, n_y, n_z}, law, random), law, noise_of(state));
 }
 
 BENCHMARK(solve_stack_50)->Arg(3)->Arg(300)->Unit(benchmark::kMicrosecond);
@@ -74,14 +74,14 @@ BENCHMARK_CAPTURE(solve_pile, 3900, 26, 25, 6)->Arg(3)->Arg(300)->Unit(benchmark
 
 /// A solved pile of 390 blocks and its scratch, for the parts.
 struct Parts {
-  Island<6> island;
-  IslandWork<6> work;
+  Island island;
+  IslandWork work;
 };
 
 Parts solved_pile() {
   const LawOfScene law;
   talus::Random random(1, "pile");
-  Parts parts{talus::scenes::pile<6>({13, 10, 3}, law, random), {}};
+  Parts parts{talus::scenes::pile({13, 10, 3}, law, random), {}};
   IslandSettings settings;
   settings.tolerance = loose * law.gravity * law.step;
   (void)solve_island(parts.island, settings, parts.work);
@@ -96,13 +96,13 @@ void count_per(benchmark::State& state, const char* name, std::size_t n) {
 
 void evaluate_rows(benchmark::State& state) {
   Parts parts = solved_pile();
-  Eigen::Matrix<double, 6, 1> f;
+  Vec6 f;
   for (auto _ : state)
     for (std::size_t p = 0; p < parts.island.pairs.size(); ++p) {
       const auto a = static_cast<std::size_t>(parts.island.pairs[p].a);
-      benchmark::DoNotOptimize(talus::evaluate_pair<6>(groups_of(parts.work.rows, p),
-                                                       parts.island.velocity[a],
-                                                       talus::Evaluation::coupled, 0.1, f));
+      benchmark::DoNotOptimize(talus::evaluate_pair(groups_of(parts.work.rows, p),
+                                                    parts.island.velocity[a],
+                                                    talus::Evaluation::coupled, 0.1, f));
     }
   count_per(state, "per_row", parts.island.rows.size());
 }
@@ -112,7 +112,7 @@ void assemble_rows(benchmark::State& state) {
   talus::Packed<6> W;
   for (auto _ : state)
     for (std::size_t p = 0; p < parts.island.pairs.size(); ++p)
-      benchmark::DoNotOptimize(talus::sum_tangents<6>(groups_of(parts.work.rows, p), W, nullptr));
+      benchmark::DoNotOptimize(talus::sum_tangents(groups_of(parts.work.rows, p), W, nullptr));
   count_per(state, "per_row", parts.island.rows.size());
 }
 
@@ -128,7 +128,7 @@ void update_diagonals_of_all(benchmark::State& state) {
 void multiply_matrix(benchmark::State& state) {
   Parts parts = solved_pile();
   auto& matrix = parts.work.matrix;
-  for (auto _ : state) talus::multiply<6>(parts.island, matrix, parts.work.step, matrix.product);
+  for (auto _ : state) talus::multiply(parts.island, matrix, matrix.direction, matrix.product);
   count_per(state, "per_pair", matrix.coupled.size());
 }
 

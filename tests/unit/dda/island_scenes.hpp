@@ -25,21 +25,13 @@ struct Box {
   double density = 2500;
 };
 
-template <int Dof>
-int add_box(const Box& box, const LawOfScene& law, Island<Dof>& island) {
+inline int add_box(const Box& box, const LawOfScene& law, Island& island) {
   const Vec3& h = box.half;
   const double mass = box.density * 8 * h.prod();
-  typename Island<Dof>::Mat M = Island<Dof>::Mat::Zero();
-  if constexpr (Dof == 12) {
-    const Vec3 S = 8 * h.prod() / 3 * h.cwiseProduct(h);
-    M = mass_matrix(box.density, 8 * h.prod(), S.asDiagonal());
-    M.template bottomRightCorner<6, 6>() +=
-        law.step * law.step * 8 * h.prod() * elastic_matrix(1e7, 0.25);
-  } else {
-    const double x = h.x() * h.x(), y = h.y() * h.y(), z = h.z() * h.z();
-    M.diagonal() << Vec3::Constant(mass), mass / 3 * Vec3(y + z, x + z, x + y);
-  }
-  typename Island<Dof>::Vec v = Island<Dof>::Vec::Zero();
+  Mat6 M = Mat6::Zero();
+  const double x = h.x() * h.x(), y = h.y() * h.y(), z = h.z() * h.z();
+  M.diagonal() << Vec3::Constant(mass), mass / 3 * Vec3(y + z, x + z, x + y);
+  Vec6 v = Vec6::Zero();
   island.velocity.push_back(v);
   v[2] = -law.gravity * law.step;
   island.mass.push_back(M);
@@ -50,9 +42,8 @@ int add_box(const Box& box, const LawOfScene& law, Island<Dof>& island) {
 }
 
 /// Adds the contacts of bodies a and b (-1: ground) at `points`; overlap >= 0 presses [m].
-template <int Dof>
-void add_contacts(int a, int b, const Vec3& normal, const std::vector<Vec3>& points, double overlap,
-                  const LawOfScene& law, Island<Dof>& island) {
+inline void add_contacts(int a, int b, const Vec3& normal, const std::vector<Vec3>& points,
+                         double overlap, const LawOfScene& law, Island& island) {
   const double m_a = island.mass[static_cast<std::size_t>(a)](0, 0);
   const double m_b = b < 0 ? 0 : island.mass[static_cast<std::size_t>(b)](0, 0);
   BodyPair pair{a, b, static_cast<int>(island.rows.size()), 0};
@@ -76,37 +67,34 @@ inline std::vector<Vec3> rectangle(const Vec3& centre, const Vec3& u, const Vec3
 }
 
 /// n unit cubes one on the other on the ground.
-template <int Dof>
-Island<Dof> stack(int n, const LawOfScene& law) {
-  Island<Dof> island;
+inline Island stack(int n, const LawOfScene& law) {
+  Island island;
   const Vec3 u(0.5, 0, 0), v(0, 0.5, 0), up(0, 0, 1);
   for (int i = 0; i < n; ++i) {
-    add_box<Dof>({Vec3(0, 0, i + 0.5), Vec3::Constant(0.5)}, law, island);
-    add_contacts<Dof>(i, i - 1, up, rectangle(Vec3(0, 0, i), u, v), 0, law, island);
+    add_box({Vec3(0, 0, i + 0.5), Vec3::Constant(0.5)}, law, island);
+    add_contacts(i, i - 1, up, rectangle(Vec3(0, 0, i), u, v), 0, law, island);
   }
   return island;
 }
 
 /// Wall in stretcher bond of 1 x 0.5 x 0.5 m blocks, `courses` high and `n` long.
-template <int Dof>
-Island<Dof> wall(int courses, int n, const LawOfScene& law) {
-  Island<Dof> island;
+inline Island wall(int courses, int n, const LawOfScene& law) {
+  Island island;
   const Vec3 up(0, 0, 1), v(0, 0.25, 0);
   for (int i = 0; i < courses; ++i)
     for (int j = 0; j < n; ++j) {
       const double x = j + 0.5 * (i % 2), z = 0.5 * i;
-      const int a = add_box<Dof>({Vec3(x, 0, z + 0.25), Vec3(0.5, 0.25, 0.25)}, law, island);
+      const int a = add_box({Vec3(x, 0, z + 0.25), Vec3(0.5, 0.25, 0.25)}, law, island);
       if (j > 0)
-        add_contacts<Dof>(a, a - 1, Vec3(1, 0, 0),
-                          rectangle(Vec3(x - 0.5, 0, z + 0.25), v, Vec3(0, 0, 0.25)), 0, law,
-                          island);
+        add_contacts(a, a - 1, Vec3(1, 0, 0),
+                     rectangle(Vec3(x - 0.5, 0, z + 0.25), v, Vec3(0, 0, 0.25)), 0, law, island);
       if (i == 0)
-        add_contacts<Dof>(a, -1, up, rectangle(Vec3(x, 0, z), Vec3(0.5, 0, 0), v), 0, law, island);
+        add_contacts(a, -1, up, rectangle(Vec3(x, 0, z), Vec3(0.5, 0, 0), v), 0, law, island);
       for (int k = -1; i > 0 && k <= 1; k += 2) {
         const int below = (i - 1) * n + j + (i % 2 ? (k + 1) / 2 : (k - 1) / 2);
         if (below < (i - 1) * n || below >= i * n) continue;
-        add_contacts<Dof>(a, below, up, rectangle(Vec3(x + 0.25 * k, 0, z), Vec3(0.25, 0, 0), v), 0,
-                          law, island);
+        add_contacts(a, below, up, rectangle(Vec3(x + 0.25 * k, 0, z), Vec3(0.25, 0, 0), v), 0, law,
+                     island);
       }
     }
   return island;
@@ -114,9 +102,8 @@ Island<Dof> wall(int courses, int n, const LawOfScene& law) {
 
 /// Unit cubes on an n_x by n_y by n_z grid, each with contacts to its neighbours and the lowest to
 /// the ground: normals, gaps and velocities at random, so that contacts stick, slide and open.
-template <int Dof>
-Island<Dof> pile(const std::array<int, 3>& n, const LawOfScene& law, Random& random) {
-  Island<Dof> island;
+inline Island pile(const std::array<int, 3>& n, const LawOfScene& law, Random& random) {
+  Island island;
   const auto spread = [&](double width) {
     Vec3 out;
     for (int k = 0; k < 3; ++k) out[k] = random.uniform(-width / 2, width / 2);
@@ -126,10 +113,10 @@ Island<Dof> pile(const std::array<int, 3>& n, const LawOfScene& law, Random& ran
   for (int i = 0; i < n[0] * n[1] * n[2]; ++i) {
     const std::array<int, 3> at = {i / stride[0], i / stride[1] % n[1], i % n[2]};
     const Vec3 centre(at[0], at[1], at[2] + 0.5);
-    add_box<Dof>({centre, Vec3::Constant(0.5), 2500 * (0.5 + random.uniform())}, law, island);
+    add_box({centre, Vec3::Constant(0.5), 2500 * (0.5 + random.uniform())}, law, island);
     auto& free = island.free_velocity.back();
-    free.template head<3>() += law.gravity * law.step * spread(4);
-    free.template segment<3>(3) += law.gravity * law.step * spread(4);
+    free.head<3>() += law.gravity * law.step * spread(4);
+    free.segment<3>(3) += law.gravity * law.step * spread(4);
     for (int axis = 0; axis < 3; ++axis) {
       const bool ground = at[static_cast<std::size_t>(axis)] == 0;
       if (ground && axis < 2) continue;
@@ -138,24 +125,23 @@ Island<Dof> pile(const std::array<int, 3>& n, const LawOfScene& law, Random& ran
       const int b = ground ? -1 : i - stride[static_cast<std::size_t>(axis)];
       const double overlap =
           (random.uniform() - 0.3) * law.gravity * law.step * law.step / law.stiffness_ratio;
-      add_contacts<Dof>(i, b, normal, rectangle(centre - 0.5 * Vec3::Unit(axis), u, v), overlap,
-                        law, island);
+      add_contacts(i, b, normal, rectangle(centre - 0.5 * Vec3::Unit(axis), u, v), overlap, law,
+                   island);
     }
   }
   return island;
 }
 
 /// A cube of 10 m on four cubes of 0.1 m; `density` is that of the large one.
-template <int Dof>
-Island<Dof> block_on_feet(double density, const LawOfScene& law) {
-  Island<Dof> island;
+inline Island block_on_feet(double density, const LawOfScene& law) {
+  Island island;
   const Vec3 up(0, 0, 1), u(0.05, 0, 0), v(0, 0.05, 0);
-  add_box<Dof>({Vec3(0, 0, 5.1), Vec3::Constant(5), density}, law, island);
+  add_box({Vec3(0, 0, 5.1), Vec3::Constant(5), density}, law, island);
   for (const double x : {-4.0, 4.0})
     for (const double y : {-4.0, 4.0}) {
-      const int foot = add_box<Dof>({Vec3(x, y, 0.05), Vec3::Constant(0.05)}, law, island);
-      add_contacts<Dof>(0, foot, up, rectangle(Vec3(x, y, 0.1), u, v), 0, law, island);
-      add_contacts<Dof>(foot, -1, up, rectangle(Vec3(x, y, 0), u, v), 0, law, island);
+      const int foot = add_box({Vec3(x, y, 0.05), Vec3::Constant(0.05)}, law, island);
+      add_contacts(0, foot, up, rectangle(Vec3(x, y, 0.1), u, v), 0, law, island);
+      add_contacts(foot, -1, up, rectangle(Vec3(x, y, 0), u, v), 0, law, island);
     }
   return island;
 }

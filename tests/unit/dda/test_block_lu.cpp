@@ -5,6 +5,7 @@
 #include "base/random.hpp"
 #include "dda/block_lu.hpp"
 #include "dda/packed_matrix.hpp"
+#include "dda/single_matrix.hpp"
 
 namespace {
 
@@ -61,6 +62,24 @@ TEST(BlockLu, SolvesUnsymmetricSystemsAsDenseEliminationDoes) {
   expect_dense_solution<12>(2);
 }
 
+// Rows of random matrices in another order, one of them scaled far down: no pivot on the diagonal
+// is any good.
+TEST(BlockLu, InvertsWhereTheDiagonalIsZero) {
+  talus::Random random(3, "invert");
+  for (int round = 0; round < 50; ++round) {
+    Eigen::Matrix<double, 6, 6> A = random_block<6>(random), B;
+    A.diagonal().setZero();
+    A.row(2) *= 1e-8;
+    B = A;
+    talus::invert<6>(B);
+    const Eigen::Matrix<double, 6, 6> expected = A.fullPivLu().inverse();
+    EXPECT_LT((B - expected).norm(), 1e-10 * expected.norm());
+  }
+  Eigen::Matrix<double, 6, 6> singular = Eigen::Matrix<double, 6, 6>::Zero();
+  talus::invert<6>(singular);
+  EXPECT_FALSE(singular.allFinite());
+}
+
 // A chain has no fill whatever the numbering of its links.
 TEST(BlockLu, OrdersAChainWithoutFill) {
   talus::BlockPattern pattern;
@@ -82,6 +101,27 @@ TEST(Packed, InverseAndProductAreThoseOfTheFullMatrix) {
         1e-13);
     const Eigen::Matrix<double, 6, 1> x = A.col(0);
     EXPECT_LT((talus::product<6>(P, x) - S * x).norm(), 1e-14);
+  }
+}
+
+TEST(SingleMatrix, ProductsAreThoseOfDoubles) {
+  using talus::Vec3;
+  talus::Random random(6, "single");
+  constexpr double rounding = 1e-6;
+  for (int round = 0; round < 50; ++round) {
+    const auto A = random_block<6>(random);
+    const Eigen::Matrix<double, 6, 6> S = A * A.transpose();
+    const talus::Vec6 x = A.col(0), y = A.col(1);
+    const Vec3 u = x.head<3>(), v = x.tail<3>();
+    const talus::SingleVector single_x = talus::single(x);
+    EXPECT_LT(
+        (talus::in_double(product(talus::single(talus::packed<6>(S)), single_x)) - S * x).norm(),
+        rounding * S.norm() * x.norm());
+    EXPECT_NEAR(dot(single_x, talus::single(y)), x.dot(y), rounding * x.norm() * y.norm());
+    const talus::Four across = talus::cross(single_x.linear, single_x.angular);
+    EXPECT_LT((Vec3(across[0], across[1], across[2]) - u.cross(v)).norm(),
+              rounding * u.norm() * v.norm());
+    EXPECT_EQ(across[3], 0);
   }
 }
 

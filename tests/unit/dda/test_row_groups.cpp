@@ -16,10 +16,10 @@ using talus::ContactRow;
 using talus::ContactState;
 using talus::Evaluation;
 using talus::IslandRow;
+using talus::Mat6;
 using talus::Vec3;
+using talus::Vec6;
 using talus::test::as_contact_row;
-using Vec6 = Eigen::Matrix<double, 6, 1>;
-using Mat6 = Eigen::Matrix<double, 6, 6>;
 
 Vec3 random_vector(talus::Random& random) {
   Vec3 v;
@@ -63,7 +63,7 @@ Evaluated evaluate(const std::vector<IslandRow>& rows, const Vec6& u) {
   e.pairs = {{0, -1, 0, static_cast<int>(rows.size())}};
   const std::vector<double> limit = {1e300};
   EXPECT_EQ(talus::pack_rows(e.pairs, e.rows, limit, false, e.groups), 0);
-  talus::evaluate_pair<6>(e.groups.groups, u, Evaluation::coupled, 0, e.f);
+  talus::evaluate_pair(e.groups.groups, u, Evaluation::coupled, 0, e.f);
   talus::unpack_rows(e.pairs, e.groups, e.rows);
   return e;
 }
@@ -111,7 +111,7 @@ TEST(SumTangents, IsTheDerivativeOfTheImpulse) {
     Evaluated e = evaluate(rows, u);
     talus::Packed<6> W;
     Mat6 rest = Mat6::Zero();
-    talus::sum_tangents<6>(e.groups.groups, W, &rest);
+    talus::sum_tangents(e.groups.groups, W, &rest);
     const Mat6 exact = talus::unpacked(W) + rest;
     const double h = 1e-6;
     bool smooth = true;
@@ -125,7 +125,7 @@ TEST(SumTangents, IsTheDerivativeOfTheImpulse) {
       }
     }
     talus::Packed<6> symmetric;
-    talus::sum_tangents<6>(e.groups.groups, symmetric, nullptr);
+    talus::sum_tangents(e.groups.groups, symmetric, nullptr);
     const Mat6 S = talus::unpacked(symmetric);
     EXPECT_GE(Eigen::SelfAdjointEigenSolver<Mat6>(S).eigenvalues().minCoeff(), -1e-13 * S.norm());
     bool slips = false;
@@ -153,7 +153,7 @@ Vec6 inherited_impulse(const std::function<void(IslandRow&)>& change) {
                          groups);
   Vec6 u = Vec6::Zero(), f;
   u[0] = 10;
-  talus::evaluate_pair<6>(groups.groups, u, Evaluation::inherited, 0, f);
+  talus::evaluate_pair(groups.groups, u, Evaluation::inherited, 0, f);
   return f;
 }
 

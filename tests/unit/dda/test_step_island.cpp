@@ -237,6 +237,25 @@ TEST(StepIsland, NewContactTakesOnTheForceOfItsPair) {
   EXPECT_DOUBLE_EQ(alone.offset, deep);
 }
 
+// A block is pushed at another over a gap that neither would close without the push: it is too wide
+// for a contact to be made in advance, and closes within the step all the same.
+TEST(StepIsland, ContactThatTheOthersCloseIsFoundWithinTheStep) {
+  Settings settings;
+  const double gravity_path = 10 * settings.dt * settings.dt, gap = 0.5 * gravity_path;
+  Scene scene = scene_of(
+      plane_trn(slope_frame(0, 0), 1, 10), ground_of(0),
+      {body_of(box(Vec3(-2, 0, 0), Vec3(-1, 1, 1))), body_of(box(Vec3(-1, 0, 0), Vec3(0, 1, 1))),
+       body_of(box(Vec3(gap, 0, 0), Vec3(1 + gap, 1, 1)))},
+      settings);
+  scene.loads.push_back({0, Vec3::Zero(), Vec3(3 * 10 * scene.blocks.mass[0], 0, 0)});
+  State state = start(scene);
+  Work work = make_work(scene);
+  step(scene, state, work);
+  EXPECT_GT(state.motion[2].velocity.x(), 0);
+  const double gap_end = state.motion[2].pose.position.x() - state.motion[1].pose.position.x() - 1;
+  EXPECT_GT(gap_end, -0.1 * gravity_path);
+}
+
 TEST(StepIsland, LargeBlockRestsOnSmallOnes) { EXPECT_LT(large_on_small({}).error, 1e-3); }
 
 }  // namespace
