@@ -96,7 +96,7 @@ void count_per(benchmark::State& state, const char* name, std::size_t n) {
 
 void evaluate_rows(benchmark::State& state) {
   Parts parts = solved_pile();
-  Vec6 f;
+  talus::Vec6 f;
   for (auto _ : state)
     for (std::size_t p = 0; p < parts.island.pairs.size(); ++p) {
       const auto a = static_cast<std::size_t>(parts.island.pairs[p].a);
