@@ -140,8 +140,8 @@ struct AdvanceIsland {
   [[nodiscard]] bool knows_body(int a, int b) const;
   [[nodiscard]] double first_touch(double h) const;
   [[nodiscard]] PairMotionFree free_motion(const PairManifold& m) const;
-  [[nodiscard]] double farthest_closing(double h);
-  void add_points(int manifold, double farthest);
+  void look_ahead(double h);
+  void add_points(int manifold, double h);
   [[nodiscard]] bool closes_left_out() const;
   bool assemble(double t, double h);
 

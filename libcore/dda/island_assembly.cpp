@@ -358,13 +358,15 @@ AdvanceIsland::PairMotionFree AdvanceIsland::free_motion(const PairManifold& m) 
   return out;
 }
 
-// The gap above which a new contact is left out: what gravity does in the substep, `reach` times
-// over, and twice the fastest hit; closes_left_out() sees whether one closed all the same. Fills
-// w.gap_end.
-double AdvanceIsland::farthest_closing(double h) {
-  double hit = 0;
+// Gaps at the end of the substep without contact forces, w.gap_end, and how fast each member may be
+// thrown by the fastest of its own hits, w.thrown.
+void AdvanceIsland::look_ahead(double h) {
+  w.thrown.assign(w.members.size(), 0);
+  const auto note_hit = [&](int b, double speed) {
+    if (b >= 0) w.thrown[place(b)] = std::max(w.thrown[place(b)], speed);
+  };
   for (const IslandContact& contact : w.contacts)
-    if (contact.waits) hit = std::max(hit, -contact.approach);
+    if (contact.waits) note_hit(contact.a, -contact.approach);
   w.gap_end.resize(w.pairs.points.size());
   for (const int i : w.island_manifolds) {
     const PairManifold& m = w.pairs.manifolds[static_cast<size_t>(i)];
@@ -376,15 +378,21 @@ double AdvanceIsland::farthest_closing(double h) {
       const double gap_end = free.gap_end(point);
       w.gap_end[static_cast<size_t>(p)] = gap_end;
       const double speed = -free.approach(point, gap_end, h);
-      if (speed > resting_speed && gap_end < h * speed) hit = std::max(hit, speed);
+      if (!(speed > resting_speed && gap_end < h * speed)) continue;
+      note_hit(m.block_a, speed);
+      note_hit(m.block_b, speed);
     }
   }
-  return reach * scene.gravity.norm() * h * h + 2 * h * hit;
 }
 
-void AdvanceIsland::add_points(int manifold, double farthest) {
+// Contacts of two blocks. A new one is left out where its gap is wider than what gravity does in
+// the substep, `reach` times over, and twice what hits throw the two; closes_left_out() sees
+// whether it closed all the same.
+void AdvanceIsland::add_points(int manifold, double h) {
   const PairManifold& m = w.pairs.manifolds[static_cast<size_t>(manifold)];
   const Meeting meeting = meeting_of(m);
+  const double farthest = reach * scene.gravity.norm() * h * h +
+                          2 * h * std::max(w.thrown[meeting.ka], w.thrown[meeting.kb]);
   for (int p = m.point_begin; p < m.point_end; ++p) {
     const PairPoint& point = w.pairs.points[static_cast<size_t>(p)];
     const int memory = continued(m, p);
@@ -422,7 +430,7 @@ bool AdvanceIsland::assemble(double t, double h) {
   }
   for (size_t k = 0; k < w.members.size(); ++k)
     if (!add_ground(k)) return false;
-  const double farthest = farthest_closing(h);
+  look_ahead(h);
   for (const int i : w.island_manifolds) {
     const PairManifold& m = w.pairs.manifolds[static_cast<size_t>(i)];
     open_pair(w.place[static_cast<size_t>(m.block_a)], w.place[static_cast<size_t>(m.block_b)]);
@@ -430,7 +438,7 @@ bool AdvanceIsland::assemble(double t, double h) {
     if (is_fixed(scene, m.block_b))
       add_fixed_points(m);
     else
-      add_points(i, farthest);
+      add_points(i, h);
     if (w.island.pairs.back().row_begin == w.island.pairs.back().row_end) w.island.pairs.pop_back();
   }
   return true;

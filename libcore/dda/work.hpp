@@ -96,6 +96,7 @@ struct IslandStepWork {  // clang-format off
   std::vector<Substep> substeps;            ///<                                         (n_members)
   std::vector<int> place;                   ///< of a body in `members`, -1: not in it   (n_bodies)
   std::vector<double> gap_end;              ///< without contact forces [m]         (n_points of `pairs`)
+  std::vector<double> thrown;               ///< by hits, about [m/s]                    (n_members)
   std::vector<LeftOutPoint> left_out;       ///< points of `pairs` that are no contacts of the substep
   std::vector<int> continued;               ///< memory that a manifold's point continues
   std::vector<int> unclaimed;               ///< memories of the pair that no point continues yet
