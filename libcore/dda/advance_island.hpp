@@ -32,12 +32,12 @@ struct AdvanceIsland {
   Work& work;
   StepReport& report;
   IslandStepWork& w;
-  int outsider = -1;   ///< block that the last attempt found off the known ground
-  int halvings = 0;    ///< of the substep because it did not converge
-  bool small = false;  ///< the island's matrix is cheap to factor
-  double reach = 0;    ///< of gravity: gaps wider than that are left out of the substep
-  int cuts = 0;        ///< of the substep at the time when a panel is used up
-  int lone_hits = 0;   ///< for each of which a substep ended within the step
+  int outsider = -1;       ///< block that the last attempt found off the known ground
+  int halvings = 0;        ///< of the substep because it did not converge
+  bool small = false;      ///< the island's matrix is cheap to factor
+  bool takes_all = false;  ///< one of the contacts left out of the substep closed without them
+  int cuts = 0;            ///< of the substep at the time when a panel is used up
+  int lone_hits = 0;       ///< for each of which a substep ended within the step
 
   [[nodiscard]] size_t block(size_t k) const { return static_cast<size_t>(w.members[k]); }
   // One block near fixed bodies: it is hit at the end of a substep, so by one body after the other.

@@ -12,6 +12,7 @@ namespace {
 using std::size_t;
 
 constexpr double pair_touch_ratio = 1e-6;  // a pair touches when its gap is below this part of r
+constexpr double reach_by_gravity = 0.25;  // of a contact: times g h^2
 constexpr double held = 1e100;             // strength of an intact bond while the forces are sought
 
 // Sets what the motion of the points says of a contact: they move by `moved` relative to each other
@@ -385,19 +386,19 @@ void AdvanceIsland::look_ahead(double h) {
   }
 }
 
-// Contacts of two blocks. A new one is left out where its gap is wider than what gravity does in
-// the substep, `reach` times over, and twice what hits throw the two; closes_left_out() sees
-// whether it closed all the same.
+// Contacts of two blocks. A new one is left out where its gap is wider than a quarter of what
+// gravity does in the substep and twice what hits throw the two; closes_left_out() sees whether it
+// closed all the same, and then the substep is made again with all.
 void AdvanceIsland::add_points(int manifold, double h) {
   const PairManifold& m = w.pairs.manifolds[static_cast<size_t>(manifold)];
   const Meeting meeting = meeting_of(m);
-  const double farthest = reach * scene.gravity.norm() * h * h +
+  const double farthest = reach_by_gravity * scene.gravity.norm() * h * h +
                           2 * h * std::max(w.thrown[meeting.ka], w.thrown[meeting.kb]);
   for (int p = m.point_begin; p < m.point_end; ++p) {
     const PairPoint& point = w.pairs.points[static_cast<size_t>(p)];
     const int memory = continued(m, p);
     const double nearest = std::min(point.gap, w.gap_end[static_cast<size_t>(p)]);
-    if (memory < 0 && meeting.bond < 0 && nearest > farthest)
+    if (memory < 0 && meeting.bond < 0 && nearest > farthest && !takes_all)
       w.left_out.push_back({manifold, p});
     else
       add_point(m, meeting, point, memory);

@@ -12,10 +12,8 @@ namespace {
 
 using std::size_t;
 
-constexpr int most_halvings = 4;      // of a substep that does not converge
-constexpr int most_cuts = 24;         // of a substep where a panel of a fence breaks
-constexpr double first_reach = 0.25;  // gaps looked at, in what gravity does in the substep
-constexpr double reach_growth = 8;    // where one that was left out closes
+constexpr int most_halvings = 4;  // of a substep that does not converge
+constexpr int most_cuts = 24;     // of a substep where a panel of a fence breaks
 
 }  // namespace
 
@@ -265,8 +263,8 @@ AdvanceIsland::Attempt AdvanceIsland::attempt(double t, double& h) {
     report.flags = report.flags | StepFlag::unconverged;
   }
   set_displacements(h);
-  if (converged && closes_left_out()) {
-    reach *= reach_growth;
+  if (converged && !takes_all && closes_left_out()) {
+    takes_all = true;
     return Attempt::shorter;
   }
   if (break_bonds(h)) return Attempt::shorter;
@@ -317,7 +315,7 @@ void AdvanceIsland::run(int island, std::span<const int> blocks, double t_end) {
       search_pairs(t_end - t);
     double h = longest_substep(t_end - t);
     halvings = cuts = 0;
-    reach = first_reach;
+    takes_all = false;
     Attempt outcome = Attempt::shorter;
     while (outcome == Attempt::shorter) outcome = attempt(t, h);
     t = state.local_time[block(0)];
