@@ -11,8 +11,6 @@ namespace talus {
 
 template <int N>
 struct Packed {
-  using Vec = Eigen::Matrix<double, N, 1>;
-  using Mat = Eigen::Matrix<double, N, N>;
   static constexpr int size = N * (N + 1) / 2;
   std::array<double, size> value{};
 
@@ -42,36 +40,6 @@ template <int N>
 inline void add(const Packed<N>& b, Packed<N>& a) {
 #pragma GCC unroll 1
   for (std::size_t k = 0; k < a.value.size(); ++k) a.value[k] += b.value[k];
-}
-
-/// a += k q q^T.
-template <int N>
-[[gnu::always_inline]] inline void add_outer(double k, const Eigen::Matrix<double, N, 1>& q,
-                                             Packed<N>& a) {
-#pragma GCC unroll 12
-  for (int i = 0; i < N; ++i) {
-    const double kq = k * q[i];
-#pragma GCC unroll 12
-    for (int j = 0; j <= i; ++j) a(i, j) += kq * q[j];
-  }
-}
-
-/// a x.
-template <int N>
-[[gnu::always_inline]] inline Eigen::Matrix<double, N, 1> product(
-    const Packed<N>& a, const Eigen::Matrix<double, N, 1>& x) {
-  Eigen::Matrix<double, N, 1> y;
-#pragma GCC unroll 12
-  for (int i = 0; i < N; ++i) {
-    double sum = a(i, i) * x[i];
-#pragma GCC unroll 12
-    for (int j = 0; j < i; ++j) {
-      sum += a(i, j) * x[j];
-      y[j] += a(i, j) * x[i];
-    }
-    y[i] = sum;
-  }
-  return y;
 }
 
 /// Inverse of a positive definite matrix, by A = L D L^T.

@@ -89,7 +89,7 @@ TEST(BlockLu, OrdersAChainWithoutFill) {
   EXPECT_EQ(pattern.row.size(), edges.size());
 }
 
-TEST(Packed, InverseAndProductAreThoseOfTheFullMatrix) {
+TEST(Packed, InverseIsThatOfTheFullMatrix) {
   talus::Random random(5, "packed");
   for (int round = 0; round < 50; ++round) {
     const auto A = random_block<6>(random);
@@ -99,8 +99,6 @@ TEST(Packed, InverseAndProductAreThoseOfTheFullMatrix) {
     EXPECT_LT(
         (talus::unpacked(talus::inverse(P)) * S - Eigen::Matrix<double, 6, 6>::Identity()).norm(),
         1e-13);
-    const Eigen::Matrix<double, 6, 1> x = A.col(0);
-    EXPECT_LT((talus::product<6>(P, x) - S * x).norm(), 1e-14);
   }
 }
 
