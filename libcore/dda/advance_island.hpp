@@ -37,6 +37,7 @@ struct AdvanceIsland {
   bool small = false;      ///< the island's matrix is cheap to factor
   bool takes_all = false;  ///< one of the contacts left out of the substep closed without them
   int cuts = 0;            ///< of the substep at the time when a panel is used up
+  int n_hits = 0;          ///< in the last attempt at a substep
   int lone_hits = 0;       ///< for each of which a substep ended within the step
 
   [[nodiscard]] size_t block(size_t k) const { return static_cast<size_t>(w.members[k]); }

@@ -54,10 +54,10 @@ struct BodyPair {
   bool changed = true;  ///< rows or centroids are not those of the solution that is continued
 };
 
-/// One island over one step. Bodies are rigid. Velocity: of the centroid, and spin, in
-/// local axes; `mass` is the matrix that belongs to it.
+/// One island of rigid bodies over one step. Velocity: of the centroid, and spin, in local axes;
+/// `mass` is the matrix that belongs to it.
 struct Island {  // clang-format off
-  std::vector<Mat6> mass;          ///< M = diag(m, m, m, inertia)                      (n_bodies)
+  std::vector<Mat6> mass;          ///< M = m and the inertia in local axes [kg, kg m2] (n_bodies)
   std::vector<Vec6> free_velocity; ///< without contact [m/s, rad/s]                    (n_bodies)
   std::vector<Vec6> velocity;      ///< in: first guess; out: at the end of the step    (n_bodies)
   std::vector<Vec3> position;      ///< centroids [m]                                   (n_bodies)

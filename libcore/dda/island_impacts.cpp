@@ -88,9 +88,10 @@ int AdvanceIsland::find_hits(double h, bool free) {
   return n;
 }
 
-// The part of the last change of the impulses expected of the hits that would have been too much:
-// each round leaves about the same share of the error, so that two of them show where it goes
-// (Anderson's acceleration over one round). 0 while the hits are not those of the round before.
+// The part of the last change of the impulses expected of the hits that was too much, negative: by
+// which it was too little. Each round leaves about the same share of the error, so that two of them
+// show where it goes (Anderson's acceleration over one round). 0 while the hits are not those of
+// the round before.
 double AdvanceIsland::overshoot_of_hits() const {
   const auto same = [](const ExpectedHit& a, const ExpectedHit& b) { return a.row == b.row; };
   if (!std::ranges::equal(w.hits, w.last_hits, same)) return 0;
@@ -209,21 +210,20 @@ double AdvanceIsland::first_hit(double h) const {
 
 // Impulses of the substep, hits included; gives up where first_hit() says that it ends sooner.
 bool AdvanceIsland::solve(double h) {
-  int hits = find_hits(h, true);
+  n_hits = find_hits(h, true);
   if (first_hit(h) < h) return true;
   w.hits.clear();
   set_times(h);
   bool converged = solve_once(h, false);
   for (int round = 0; round < most_hit_rounds && converged; ++round) {
     const int more = find_hits(h, false);
-    hits += more;
-    if (hits == 0 || first_hit(h) < h) return true;
+    n_hits += more;
+    if (n_hits == 0 || first_hit(h) < h) return true;
     const double error = correct_hits();
     if (more > 0) set_times(h);
     if (more == 0 && error <= (small ? small_hit_tolerance : hit_tolerance)) break;
     converged = solve_once(h, true);
   }
-  report.n_impacts += hits;
   if (converged && work_on_velocities() > gain_rounding * hit_energy()) {
     forgo_rebound();
     converged = solve_once(h, true);

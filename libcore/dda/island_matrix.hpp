@@ -43,8 +43,8 @@ enum class Tangent : std::uint8_t { symmetric, exact };
 
 /// What conjugate gradients take of a pair of two bodies.
 struct SingleCoupling {
-  SingleMatrix W;
-  Four shift;
+  SingleMatrix W;  ///< IslandMatrix::pair
+  Four shift;      ///< IslandMatrix::shift [m]
 };
 
 struct IslandMatrix {  // clang-format off
@@ -54,15 +54,15 @@ struct IslandMatrix {  // clang-format off
   std::vector<std::uint8_t> body_changed;  ///< a pair of the body changed since        (n_bodies)
   // update_tangents
   Tangent tangent = Tangent::symmetric;    ///< what `pair` and `rest` hold
-  std::vector<Packed<6>> pair;   ///< W of pair p, its symmetric part                 (n_pairs)
+  std::vector<Packed<6>> pair;     ///< W of pair p, its symmetric part                 (n_pairs)
   std::vector<Mat6> rest;          ///< exact: what W has besides                     (n_pairs or 0)
+  std::vector<SingleCoupling> coupling;    ///< symmetric: the same, of two bodies (n_pairs or 0)
   std::vector<std::uint8_t> pair_closed;   ///< W != 0                                  (n_pairs)
   std::vector<int> coupled;        ///< pairs of two bodies with W != 0                 (n_coupled)
   // choose_active
   std::vector<int> active;         ///< bodies that the linear solution moves, ascending (n_active)
   std::vector<int> active_coupled;         ///< coupled pairs with an active body
   std::vector<std::uint8_t> is_active;     ///<                                        (n_bodies)
-  std::vector<SingleCoupling> coupling;    ///< symmetric: of two bodies                (n_pairs)
   // update_diagonals
   std::vector<Packed<6>> own;      ///< M + contacts with the ground [kg .. kg m2]      (n_bodies)
   std::vector<Packed<6>> diagonal; ///< diagonal block of K                             (n_bodies)

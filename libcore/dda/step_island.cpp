@@ -275,6 +275,7 @@ AdvanceIsland::Attempt AdvanceIsland::attempt(double t, double& h) {
     ++cuts;
     return Attempt::shorter;
   }
+  report.n_impacts += n_hits;
   remember(h);
   finish(t, h);
   note_touched_panels(t);
