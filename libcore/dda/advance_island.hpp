@@ -150,8 +150,10 @@ struct AdvanceIsland {
   void make_hit(size_t r, double gap_end, double speed_end, double h);
   int find_hits(double h, bool free);
   [[nodiscard]] double overshoot_of_hits() const;
+  [[nodiscard]] double hits_in_turn(const BodyPair& pair) const;
+  void set_targets();
   double correct_hits();
-  [[nodiscard]] double hit_energy() const;
+  [[nodiscard]] double loss_in_turn() const;
   [[nodiscard]] double work_on_velocities() const;
   [[nodiscard]] double fastest() const;
   [[nodiscard]] double fastest_hit() const;

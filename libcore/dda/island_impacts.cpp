@@ -23,6 +23,7 @@ constexpr double motion_tolerance = 1e-3;  // ... but not above this part of the
 constexpr double rest_tolerance = 1e-6;    // ... nor below this, of what gravity does
 constexpr double small_tolerance = 1e-8;   // the same in an island that is factored
 constexpr double gain_rounding = 1e-6;     // of the energy of hits: not a gain
+constexpr double least_loss = 0.9;         // of what hits one after the other would lose
 constexpr double linear_tolerance = 3e-2;  // of conjugate gradients in a Newton step
 
 }  // namespace
@@ -43,7 +44,9 @@ void AdvanceIsland::make_hit(size_t r, double gap_end, double speed_end, double 
   const double speed = std::max(g > 0 ? v + a * contact.hit_time : contact.approach, speed_end);
   const double returned = speed < -resting_speed ? -contact.restitution * speed : 0;
   contact.hit_speed = std::min(speed, -resting_speed);
-  contact.target = std::max(0.0, returned + std::min(0.0, a_free) * rest);
+  contact.rebound = returned;
+  contact.fall = std::min(0.0, a_free) * rest;
+  contact.target = std::max(0.0, returned + contact.fall);
   contact.waits = false;
   contact.hit = true;
   const size_t ka = place(contact.a);
@@ -105,9 +108,59 @@ double AdvanceIsland::overshoot_of_hits() const {
   return length_sq > 0 ? std::clamp(along / length_sq, -1.0, 0.5) : 0;
 }
 
+// How many times the impulses of a pair are those that would turn its hits round on its two bodies
+// alone, >= 1: what else presses on the bodies has them hit each other so many times in turn.
+double AdvanceIsland::hits_in_turn(const BodyPair& pair) const {
+  const auto ka = static_cast<size_t>(pair.a), kb = static_cast<size_t>(std::max(pair.b, 0));
+  Vec6 impulse = Vec6::Zero();
+  for (int r = pair.row_begin; r < pair.row_end; ++r) {
+    const IslandRow& row = w.island.rows[static_cast<size_t>(r)];
+    impulse += generalised<6>(row.arm, row.impulse);
+  }
+  const auto change_by = [&](size_t k, const Vec6& p) {
+    Vec6 v;
+    v << p.head<3>() / w.numbers[k].mass, w.turns[k].per_inertia * p.tail<3>();
+    return v;
+  };
+  const Vec6 alone_a = change_by(ka, impulse);
+  Vec6 alone_b = Vec6::Zero();
+  if (pair.b >= 0)
+    alone_b = change_by(kb, -carried_to_b(impulse, w.island.position[ka] - w.island.position[kb]));
+  double alone = 0, found = 0;
+  for (int i = pair.row_begin; i < pair.row_end; ++i) {
+    const auto r = static_cast<size_t>(i);
+    const IslandContact& contact = w.contacts[r];
+    if (!contact.hit) continue;
+    const IslandRow& row = w.island.rows[r];
+    const double p_n = row.normal.dot(row.impulse);
+    const auto along = [&](auto&& of) { return row.normal.dot(relative(r, of)); };
+    const double free = along([&](size_t k) { return w.island.free_velocity[k]; });
+    const double end = along([&](size_t k) { return w.island.velocity[k]; });
+    alone += p_n * along([&](size_t k) { return k == ka ? alone_a : alone_b; });
+    found += p_n * (end - std::min(free, contact.hit_speed + contact.fall));
+  }
+  return found > 0 ? std::max(1.0, alone / found) : std::numeric_limits<double>::infinity();
+}
+
+// Targets of the hits: where others press on a pair, it hits and rebounds several times in turn,
+// each time with its restitution.
+void AdvanceIsland::set_targets() {
+  for (const BodyPair& pair : w.island.pairs) {
+    double times = 0;
+    for (int i = pair.row_begin; i < pair.row_end; ++i) {
+      IslandContact& contact = w.contacts[static_cast<size_t>(i)];
+      if (!contact.hit || contact.rebound == 0) continue;
+      if (times == 0) times = hits_in_turn(pair);
+      const double returned = contact.rebound * std::pow(contact.restitution, times - 1);
+      contact.target = std::max(0.0, returned + contact.fall);
+    }
+  }
+}
+
 // Moves the targets of the hits by what finite stiffness left: the largest error, of the speed.
 double AdvanceIsland::correct_hits() {
   double worst = 0;
+  set_targets();
   w.hits.swap(w.last_hits);
   w.hits.clear();
   for (size_t r = 0; r < w.contacts.size(); ++r) {
@@ -131,16 +184,20 @@ double AdvanceIsland::correct_hits() {
   return worst;
 }
 
-// Impulses of the hits times the speeds that they came with.
-double AdvanceIsland::hit_energy() const {
+// What the impulses of the hits take out at least: a hit alone that comes at speed u and returns
+// e u takes out (1 - e) / 2 of its impulse times u, and so does each of several in turn.
+double AdvanceIsland::loss_in_turn() const {
   double sum = 0;
-  for (size_t r = 0; r < w.contacts.size(); ++r)
-    if (w.contacts[r].hit)
-      sum -= w.contacts[r].hit_speed * w.island.rows[r].normal.dot(w.island.rows[r].impulse);
+  for (size_t r = 0; r < w.contacts.size(); ++r) {
+    const IslandContact& contact = w.contacts[r];
+    if (!contact.hit) continue;
+    const double share = least_loss * (1 - contact.restitution) / 2 - gain_rounding;
+    sum -= share * contact.hit_speed * w.island.rows[r].normal.dot(w.island.rows[r].impulse);
+  }
   return sum;
 }
 
-// Work of all contact impulses on the velocities; > 0 would be a gain by restitution.
+// Work of all contact impulses on the velocities: what the substep loses is its negative.
 double AdvanceIsland::work_on_velocities() const {
   double sum = 0;
   for (size_t r = 0; r < w.contacts.size(); ++r) {
@@ -187,7 +244,7 @@ bool AdvanceIsland::solve_once(double h, bool continues) {
   return solved.converged;
 }
 
-// Takes the rebound from the hits: what a set of them did to the energy was a gain.
+// Takes the rebound from the hits: all at once they lost less than they would in turn.
 void AdvanceIsland::forgo_rebound() {
   for (size_t r = 0; r < w.contacts.size(); ++r) {
     if (!w.contacts[r].hit) continue;
@@ -224,7 +281,7 @@ bool AdvanceIsland::solve(double h) {
     if (more == 0 && error <= (small ? small_hit_tolerance : hit_tolerance)) break;
     converged = solve_once(h, true);
   }
-  if (converged && work_on_velocities() > gain_rounding * hit_energy()) {
+  if (converged && work_on_velocities() > -loss_in_turn()) {
     forgo_rebound();
     converged = solve_once(h, true);
   }

@@ -51,6 +51,8 @@ struct IslandContact {
   double restitution = 0;         ///< of the two surfaces [-]
   double hit_time = 0;            ///< from the start of the substep [s]
   double hit_speed = 0;           ///< normal velocity just before, < 0 [m/s]
+  double rebound = 0;             ///< normal velocity that the hit alone gives back [m/s]
+  double fall = 0;                ///< what gravity makes of that up to the end, <= 0 [m/s]
   double target = 0;              ///< normal velocity at the end of the substep [m/s]
 };
 
