@@ -244,13 +244,16 @@ bool AdvanceIsland::solve_once(double h, bool continues) {
   return solved.converged;
 }
 
-// Takes the rebound from the hits: all at once they lost less than they would in turn.
+// Takes the rebound from the hits: all at once they lost less than they would in turn. What they
+// then need of their impulses is expected to be what stopped them.
 void AdvanceIsland::forgo_rebound() {
   for (size_t r = 0; r < w.contacts.size(); ++r) {
-    if (!w.contacts[r].hit) continue;
+    IslandContact& contact = w.contacts[r];
+    if (!contact.hit) continue;
     IslandRow& row = w.island.rows[r];
-    w.contacts[r].target = 0;
-    row.bias = -row.normal.dot(row.impulse) / row.normal_damping;
+    const double stopped = contact.hit_speed / (contact.hit_speed - contact.target);
+    row.bias = -stopped * row.normal.dot(row.impulse) / row.normal_damping;
+    contact.target = 0;
     note_change(r);
   }
 }
