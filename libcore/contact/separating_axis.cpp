@@ -353,7 +353,7 @@ AxisChoice find_axis(const Hulls& hulls, const PlacedHulls& placed, int part_a, 
   const FaceAxis farthest = best_face(parts, scratch);
   AxisChoice apart = apart_choice(parts, farthest);
   if (apart.separation > margin) return apart;
-  const BestEdges edges = find_edges(parts, to_a(parts, farthest), false, scratch);
+  BestEdges edges = find_edges(parts, to_a(parts, farthest), false, scratch);
   if (edges.separation > margin && edges.separation > apart.separation) return apart_choice(edges);
 
   Covered covered = remove_internal(parts, scratch);
@@ -363,11 +363,17 @@ AxisChoice find_axis(const Hulls& hulls, const PlacedHulls& placed, int part_a, 
   // what edges need above the best face: half as much when an edge pair was chosen last
   const double edge_bar = face_ratio * thickness * (last.kind == AxisKind::edges ? 0.5 : 1);
   AxisChoice choice;
-  const double open = std::max(best.separation, edges.separation);
-  if (std::max(covered.all, covered.part) > open) {
+  double open = std::max(best.separation, edges.separation);
+  const bool covered_above = std::max(covered.all, covered.part) > open;
+  if (covered_above || (open < -seam && (has_pieces(hulls, part_a) || has_pieces(hulls, part_b)))) {
     const BestEdges inner = find_edges(parts, to_a(parts, farthest), true, scratch);
     if (inner.separation > margin) return apart_choice(inner);
-    covered.all = std::max(covered.all, inner.separation);
+    if (covered_above) {
+      covered.all = std::max(covered.all, inner.separation);
+    } else if (inner.separation > open) {  // an edge that is covered where it was judged, bare here
+      edges = inner;
+      open = inner.separation;
+    }
   }
   const bool all_bears =
       covered.all > open && (covered.all >= -seam || covered.all > seam_share * open);

@@ -148,27 +148,47 @@ TEST(FindAxis, BareRestOfACoveredFaceStops) {
   EXPECT_LT((choice.normal - Vec3(-1, 0, 0)).norm(), 1e-12);
 }
 
-// A bar across the flat seam of two boxes: what keeps it apart from the part on the far side is an
-// edge of the seam, which is no edge of the body.
-TEST(FindAxis, EdgeOfASeamKeepsAPartApart) {
+// A box of two parts, the second one set against the first for `covered` to both sides of y = 0,
+// tops flush; and a bar at y = `across` that leans on the edge between the tops, which is none of
+// the body's where they meet. Its own lower edge is `gap` above that one.
+Bodies bar_over_a_seam(double covered, double across, double gap) {
   Bodies bodies;
   const std::vector<Polyhedron> step = {box(Vec3(-1, -5, 0), Vec3(0, 5, 1)),
-                                        box(Vec3(0, -5, 0), Vec3(0.1, 5, 1))};
+                                        box(Vec3(0, -covered, 0), Vec3(0.1, covered, 1))};
   add(bodies, step, {});
   const Vec3 up = Vec3(1, 0, 1).normalized(), along = Vec3(1, 0, -1).normalized();
   Mat3 turn;
   turn.col(0) = along;
   turn.col(1) = (up + Vec3::UnitY()).normalized();
   turn.col(2) = turn.col(0).cross(turn.col(1));
-  const double height = 0.5, half = 0.2;
+  const double half = 0.2, height = gap + half * std::sqrt(2.0);
   add(bodies, box(Vec3(-2, -half, -half), Vec3(2, half, half)),
-      {Vec3(0, 0, 1) + height * up + 0.8 * along, Quat(turn)});
+      {Vec3(0, across, 1) + height * up + 0.8 * along, Quat(turn)});
   place(bodies);
+  return bodies;
+}
+
+// What keeps the bar apart from the part on the far side is an edge of the seam.
+TEST(FindAxis, EdgeOfASeamKeepsAPartApart) {
+  const double gap = 0.5 - 0.2 * std::sqrt(2.0);
+  const Bodies bodies = bar_over_a_seam(5, 0, gap);
   AxisScratch scratch;
   const AxisChoice choice = find_axis(bodies.hulls, bodies.placed, 0, 2, 0.01, {}, scratch);
   EXPECT_FALSE(choice.touches);
   EXPECT_EQ(choice.axis.kind, AxisKind::edges);
-  EXPECT_NEAR(choice.separation, height - half * std::sqrt(2.0), 1e-12);
+  EXPECT_NEAR(choice.separation, gap, 1e-12);
+}
+
+// The edge is covered in its middle and bare at its ends: there it keeps a bar apart, and bears it.
+TEST(FindAxis, EdgeCoveredInItsMiddleBearsAtItsEnds) {
+  for (const double gap : {0.2, 0.005, -0.01}) {
+    const Bodies bodies = bar_over_a_seam(2, 3, gap);
+    AxisScratch scratch;
+    const AxisChoice choice = find_axis(bodies.hulls, bodies.placed, 0, 2, 0.01, {}, scratch);
+    EXPECT_EQ(choice.touches, gap < 0.01);
+    EXPECT_EQ(choice.axis.kind, AxisKind::edges);
+    EXPECT_NEAR(choice.separation, gap, 1e-12);
+  }
 }
 
 }  // namespace
