@@ -150,8 +150,11 @@ struct AdvanceIsland {
   void make_hit(size_t r, double gap_end, double speed_end, double h);
   int find_hits(double h, bool free);
   [[nodiscard]] double overshoot_of_hits() const;
-  [[nodiscard]] double hits_in_turn(const BodyPair& pair) const;
-  void set_targets();
+  [[nodiscard]] Vec6 change_by(size_t k, const Vec6& p) const;
+  void sum_hits();
+  [[nodiscard]] Vec6 change_apart(size_t k, const HitSum& own, double h) const;
+  [[nodiscard]] double hits_in_turn(const BodyPair& pair, double h) const;
+  void set_targets(double h);
   double correct_hits();
   [[nodiscard]] double loss_in_turn() const;
   [[nodiscard]] double work_on_velocities() const;

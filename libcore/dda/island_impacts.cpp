@@ -24,6 +24,7 @@ constexpr double rest_tolerance = 1e-6;    // ... nor below this, of what gravit
 constexpr double small_tolerance = 1e-8;   // the same in an island that is factored
 constexpr double gain_rounding = 1e-6;     // of the energy of hits: not a gain
 constexpr double least_loss = 0.9;         // of what hits one after the other would lose
+constexpr double others_rounding = 1e-9;   // of a member's hits: there are no others
 constexpr double linear_tolerance = 3e-2;  // of conjugate gradients in a Newton step
 
 }  // namespace
@@ -108,24 +109,65 @@ double AdvanceIsland::overshoot_of_hits() const {
   return length_sq > 0 ? std::clamp(along / length_sq, -1.0, 0.5) : 0;
 }
 
+// What the impulses `p` about member k's centroid alone do to its velocity.
+Vec6 AdvanceIsland::change_by(size_t k, const Vec6& p) const {
+  Vec6 v;
+  v << p.head<3>() / w.numbers[k].mass, w.turns[k].per_inertia * p.tail<3>();
+  return v;
+}
+
+void AdvanceIsland::sum_hits() {
+  w.hit_sums.assign(w.members.size(), {});
+  for (size_t r = 0; r < w.contacts.size(); ++r) {
+    const IslandContact& contact = w.contacts[r];
+    if (!contact.hit) continue;
+    const IslandRow& row = w.island.rows[r];
+    const Vec6 impulse = generalised<6>(row.arm, row.impulse);
+    const double p_n = row.normal.dot(row.impulse);
+    const size_t ka = place(contact.a);
+    w.hit_sums[ka].add(impulse, p_n, contact.hit_time);
+    if (contact.b < 0) continue;
+    const size_t kb = place(contact.b);
+    const Vec3 shift = w.island.position[ka] - w.island.position[kb];
+    w.hit_sums[kb].add(-carried_to_b(impulse, shift), p_n, contact.hit_time);
+  }
+}
+
+// What hits with others do to member k's velocity, as far as its hits of a pair, `own`, do not
+// follow on them in turn: they all do when they are at one time, and the less the later or the
+// earlier the others are; what comes at an end of the substep is another matter.
+Vec6 AdvanceIsland::change_apart(size_t k, const HitSum& own, double h) const {
+  const HitSum& all = w.hit_sums[k];
+  const double others = all.normal - own.normal;
+  if (!(others > others_rounding * all.normal) || !(own.normal > 0)) return Vec6::Zero();
+  const double time = own.moment / own.normal, other_time = (all.moment - own.moment) / others;
+  const double share = other_time < time ? other_time / time
+                       : time < h        ? (h - other_time) / (h - time)
+                                         : 1;
+  return (1 - std::clamp(share, 0.0, 1.0)) * change_by(k, all.impulse - own.impulse);
+}
+
 // How many times the impulses of a pair are those that would turn its hits round on its two bodies
 // alone, >= 1: what else presses on the bodies has them hit each other so many times in turn.
-double AdvanceIsland::hits_in_turn(const BodyPair& pair) const {
+double AdvanceIsland::hits_in_turn(const BodyPair& pair, double h) const {
   const auto ka = static_cast<size_t>(pair.a), kb = static_cast<size_t>(std::max(pair.b, 0));
   Vec6 impulse = Vec6::Zero();
-  for (int r = pair.row_begin; r < pair.row_end; ++r) {
-    const IslandRow& row = w.island.rows[static_cast<size_t>(r)];
-    impulse += generalised<6>(row.arm, row.impulse);
+  HitSum own;
+  for (int i = pair.row_begin; i < pair.row_end; ++i) {
+    const auto r = static_cast<size_t>(i);
+    const IslandRow& row = w.island.rows[r];
+    const Vec6 p = generalised<6>(row.arm, row.impulse);
+    impulse += p;
+    if (w.contacts[r].hit) own.add(p, row.normal.dot(row.impulse), w.contacts[r].hit_time);
   }
-  const auto change_by = [&](size_t k, const Vec6& p) {
-    Vec6 v;
-    v << p.head<3>() / w.numbers[k].mass, w.turns[k].per_inertia * p.tail<3>();
-    return v;
-  };
-  const Vec6 alone_a = change_by(ka, impulse);
-  Vec6 alone_b = Vec6::Zero();
-  if (pair.b >= 0)
-    alone_b = change_by(kb, -carried_to_b(impulse, w.island.position[ka] - w.island.position[kb]));
+  const Vec6 alone_a = change_by(ka, impulse), apart_a = change_apart(ka, own, h);
+  Vec6 alone_b = Vec6::Zero(), apart_b = Vec6::Zero();
+  if (pair.b >= 0) {
+    const Vec3 shift = w.island.position[ka] - w.island.position[kb];
+    alone_b = change_by(kb, -carried_to_b(impulse, shift));
+    own.impulse = -carried_to_b(own.impulse, shift);
+    apart_b = change_apart(kb, own, h);
+  }
   double alone = 0, found = 0;
   for (int i = pair.row_begin; i < pair.row_end; ++i) {
     const auto r = static_cast<size_t>(i);
@@ -136,21 +178,23 @@ double AdvanceIsland::hits_in_turn(const BodyPair& pair) const {
     const auto along = [&](auto&& of) { return row.normal.dot(relative(r, of)); };
     const double free = along([&](size_t k) { return w.island.free_velocity[k]; });
     const double end = along([&](size_t k) { return w.island.velocity[k]; });
+    const double apart = along([&](size_t k) { return k == ka ? apart_a : apart_b; });
     alone += p_n * along([&](size_t k) { return k == ka ? alone_a : alone_b; });
-    found += p_n * (end - std::min(free, contact.hit_speed + contact.fall));
+    found += p_n * (end - std::min(0.0, apart) - std::min(free, contact.hit_speed + contact.fall));
   }
   return found > 0 ? std::max(1.0, alone / found) : std::numeric_limits<double>::infinity();
 }
 
 // Targets of the hits: where others press on a pair, it hits and rebounds several times in turn,
 // each time with its restitution.
-void AdvanceIsland::set_targets() {
+void AdvanceIsland::set_targets(double h) {
+  sum_hits();
   for (const BodyPair& pair : w.island.pairs) {
     double times = 0;
     for (int i = pair.row_begin; i < pair.row_end; ++i) {
       IslandContact& contact = w.contacts[static_cast<size_t>(i)];
       if (!contact.hit || contact.rebound == 0) continue;
-      if (times == 0) times = hits_in_turn(pair);
+      if (times == 0) times = hits_in_turn(pair, h);
       const double returned = contact.rebound * std::pow(contact.restitution, times - 1);
       contact.target = std::max(0.0, returned + contact.fall);
     }
@@ -160,7 +204,6 @@ void AdvanceIsland::set_targets() {
 // Moves the targets of the hits by what finite stiffness left: the largest error, of the speed.
 double AdvanceIsland::correct_hits() {
   double worst = 0;
-  set_targets();
   w.hits.swap(w.last_hits);
   w.hits.clear();
   for (size_t r = 0; r < w.contacts.size(); ++r) {
@@ -256,6 +299,7 @@ void AdvanceIsland::forgo_rebound() {
     contact.target = 0;
     note_change(r);
   }
+  w.hits.clear();
 }
 
 // Where the substep of a lone block has to end, since it is hit on the way; h + 1: nowhere.
@@ -274,19 +318,22 @@ bool AdvanceIsland::solve(double h) {
   if (first_hit(h) < h) return true;
   w.hits.clear();
   set_times(h);
+  const double tolerance = small ? small_hit_tolerance : hit_tolerance;
   bool converged = solve_once(h, false);
   for (int round = 0; round < most_hit_rounds && converged; ++round) {
     const int more = find_hits(h, false);
     n_hits += more;
     if (n_hits == 0 || first_hit(h) < h) return true;
+    set_targets(h);
     const double error = correct_hits();
     if (more > 0) set_times(h);
-    if (more == 0 && error <= (small ? small_hit_tolerance : hit_tolerance)) break;
+    if (more == 0 && error <= tolerance) break;
     converged = solve_once(h, true);
   }
   if (converged && work_on_velocities() > -loss_in_turn()) {
     forgo_rebound();
     converged = solve_once(h, true);
+    if (converged && correct_hits() > tolerance) converged = solve_once(h, true);
   }
   return converged;
 }

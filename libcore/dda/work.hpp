@@ -75,6 +75,20 @@ struct ExpectedHit {
   double error = 0;     ///< by which that differs from the one expected [N s]
 };
 
+/// Impulses of hits on a body: their sum about its centroid, of their normal parts, and of these
+/// times the times at which they act.
+struct HitSum {
+  Vec6 impulse = Vec6::Zero();  ///< [N s, N m s]
+  double normal = 0;            ///< [N s]
+  double moment = 0;            ///< [N s2]
+
+  void add(const Vec6& p, double p_n, double time) {
+    impulse += p;
+    normal += p_n;
+    moment += p_n * time;
+  }
+};
+
 /// What the step of islands recomputes.
 struct IslandStepWork {  // clang-format off
   // form_islands
@@ -110,6 +124,7 @@ struct IslandStepWork {  // clang-format off
   Island island;
   IslandWork solver;
   std::vector<int> island_manifolds;        ///< of the island at hand
+  std::vector<HitSum> hit_sums;             ///<                                         (n_members)
   std::vector<ExpectedHit> hits, last_hits; ///< of this round of solutions and the one before
   std::vector<double> weight, time;         ///< impulses expected [N s]; mean time of theirs [s] (n_members)
   std::vector<double> last_time;            ///< `time` before it was set last [s]       (n_members)

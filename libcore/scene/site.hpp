@@ -105,7 +105,7 @@ struct SolverSettings {
   std::string law = "talus";
   std::string terrain_model = "trn";  ///< or "blocky": the slope as fixed polyhedral blocks
   double duration_s = 60;
-  double time_step_s = not_given;  ///< not given: chosen by the solver
+  double time_step_s = not_given;  ///< not given: time_step() says
   double min_time_step_s = not_given, max_time_step_s = not_given;
   double gravity_m_s2 = 9.80665;
   double normal_stiffness_n_m = not_given;
