@@ -116,14 +116,15 @@ Vec6 AdvanceIsland::change_by(size_t k, const Vec6& p) const {
   return v;
 }
 
+// The hits of each member, of each only what it needs by itself, not what it passes on.
 void AdvanceIsland::sum_hits() {
   w.hit_sums.assign(w.members.size(), {});
   for (size_t r = 0; r < w.contacts.size(); ++r) {
     const IslandContact& contact = w.contacts[r];
     if (!contact.hit) continue;
     const IslandRow& row = w.island.rows[r];
-    const Vec6 impulse = generalised<6>(row.arm, row.impulse);
-    const double p_n = row.normal.dot(row.impulse);
+    const Vec6 impulse = generalised<6>(row.arm, row.impulse) / contact.in_turn;
+    const double p_n = row.normal.dot(row.impulse) / contact.in_turn;
     const size_t ka = place(contact.a);
     w.hit_sums[ka].add(impulse, p_n, contact.hit_time);
     if (contact.b < 0) continue;
@@ -134,17 +135,17 @@ void AdvanceIsland::sum_hits() {
 }
 
 // What hits with others do to member k's velocity, as far as its hits of a pair, `own`, do not
-// follow on them in turn: they all do when they are at one time, and the less the later or the
-// earlier the others are; what comes at an end of the substep is another matter.
+// follow on them in turn. They do when as much of the substep is left after the later of both as
+// lay between them: so long the bodies take to meet again.
 Vec6 AdvanceIsland::change_apart(size_t k, const HitSum& own, double h) const {
   const HitSum& all = w.hit_sums[k];
   const double others = all.normal - own.normal;
   if (!(others > others_rounding * all.normal) || !(own.normal > 0)) return Vec6::Zero();
   const double time = own.moment / own.normal, other_time = (all.moment - own.moment) / others;
-  const double share = other_time < time ? other_time / time
-                       : time < h        ? (h - other_time) / (h - time)
-                                         : 1;
-  return (1 - std::clamp(share, 0.0, 1.0)) * change_by(k, all.impulse - own.impulse);
+  const double between = std::abs(time - other_time);
+  const double left = std::max(0.0, h - std::max(time, other_time));
+  if (left >= between) return Vec6::Zero();
+  return (1 - left / between) * change_by(k, all.impulse - own.impulse);
 }
 
 // How many times the impulses of a pair are those that would turn its hits round on its two bodies
@@ -158,7 +159,9 @@ double AdvanceIsland::hits_in_turn(const BodyPair& pair, double h) const {
     const IslandRow& row = w.island.rows[r];
     const Vec6 p = generalised<6>(row.arm, row.impulse);
     impulse += p;
-    if (w.contacts[r].hit) own.add(p, row.normal.dot(row.impulse), w.contacts[r].hit_time);
+    const IslandContact& contact = w.contacts[r];
+    if (contact.hit)
+      own.add(p / contact.in_turn, row.normal.dot(row.impulse) / contact.in_turn, contact.hit_time);
   }
   const Vec6 alone_a = change_by(ka, impulse), apart_a = change_apart(ka, own, h);
   Vec6 alone_b = Vec6::Zero(), apart_b = Vec6::Zero();
@@ -195,6 +198,7 @@ void AdvanceIsland::set_targets(double h) {
       IslandContact& contact = w.contacts[static_cast<size_t>(i)];
       if (!contact.hit || contact.rebound == 0) continue;
       if (times == 0) times = hits_in_turn(pair, h);
+      contact.in_turn = times;
       const double returned = contact.rebound * std::pow(contact.restitution, times - 1);
       contact.target = std::max(0.0, returned + contact.fall);
     }

@@ -54,6 +54,7 @@ struct IslandContact {
   double rebound = 0;             ///< normal velocity that the hit alone gives back [m/s]
   double fall = 0;                ///< what gravity makes of that up to the end, <= 0 [m/s]
   double target = 0;              ///< normal velocity at the end of the substep [m/s]
+  double in_turn = 1;             ///< how many times its pair hits in turn, see hits_in_turn()
 };
 
 /// How a body turns over a substep without contact, and how hard it is to turn.
