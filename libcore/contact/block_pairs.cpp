@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "base/make_room.hpp"
-
 namespace talus {
 namespace {
 
@@ -127,8 +125,6 @@ void box_parts(const Hulls& hulls, const PlacedHulls& placed, const PairState& s
 void merge_list(PairState& state, PairWork& work) {
   work.next_watch.clear();
   work.next_pairs.clear();
-  make_new_room(work.next_watch, work.close.size());
-  make_new_room(work.next_pairs, work.close.size());
   std::size_t old = 0;
   for (const std::array<int, 2>& close : work.close) {
     const int a = close[0], b = close[1];

@@ -368,7 +368,6 @@ void AdvanceIsland::look_ahead(double h) {
   };
   for (const IslandContact& contact : w.contacts)
     if (contact.waits) note_hit(contact.a, -contact.approach);
-  make_new_room(w.gap_end, w.pairs.points.size());
   w.gap_end.resize(w.pairs.points.size());
   for (const int i : w.island_manifolds) {
     const PairManifold& m = w.pairs.manifolds[static_cast<size_t>(i)];

@@ -108,7 +108,7 @@ Work make_work(const Scene& scene) {
   work.contacts.reserve(8 * (most_vertices + expected_contacts));
   work.rows.reserve(8 * (most_vertices + expected_contacts));
   work.memory_next.reserve(expected_contacts);
-  work.segments.reserve(2 * static_cast<size_t>(n_blocks(scene)) + 64);
+  work.segments.reserve(8 * static_cast<size_t>(n_blocks(scene)) + 64);
   return work;
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/text.hpp"
 #include "dda/block_cases.hpp"
 #include "dda/cases.hpp"
 #include "dda/rotation.hpp"
@@ -314,8 +315,10 @@ TEST(StepIsland, ColumnLosesWhatItsHitsWouldLoseInTurn) {
         State state = start(scene);
         const double before = kinetic(scene, state);
         run(scene, 0.6, state);
-        EXPECT_NEAR(kinetic(scene, state) / before, expected, 0.12)
-            << n << ' ' << largest_gap << ' ' << dt;
+        const std::string which = std::to_string(n) + ' ' + text(largest_gap) + ' ' + text(dt);
+        const double kept = kinetic(scene, state) / before;
+        EXPECT_LT(kept, expected + 0.1) << which;
+        EXPECT_GT(kept, expected - 0.12) << which;  // a step may forgo its rebound
       }
     }
 }
