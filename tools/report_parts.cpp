@@ -7,9 +7,9 @@
 #include <numbers>
 #include <set>
 
+#include "base/csv.hpp"
 #include "base/grouped_text.hpp"
 #include "base/text.hpp"
-#include "post/csv.hpp"
 #include "report/chart.hpp"
 #include "report/encode.hpp"
 #include "report/plan_view.hpp"
@@ -41,7 +41,7 @@ std::string percent(const Json& value) {
 }
 
 std::string words(const Json& value) {
-  return value.is_string() ? escaped(value.get<std::string>()) : "";
+  return value.is_string() ? xml_escaped(value.get<std::string>()) : "";
 }
 
 std::string section(const std::string& id, const std::string& title, const std::string& content) {
@@ -84,7 +84,7 @@ std::string verdict_counts(const Json& fence) {
     for (const auto& [name, v] : verdicts.items())
       if (number(at(v, {"n"})) != "0")
         out += (out.empty() ? "" : ", ") + number(at(v, {"n"})) + " " +
-               (name == "not_reached" ? "did not reach it" : escaped(name));
+               (name == "not_reached" ? "did not reach it" : xml_escaped(name));
   std::replace(out.begin(), out.end(), '_', ' ');
   return out;
 }
@@ -98,7 +98,7 @@ std::string fence_verdict(const Json& fence) {
   const bool pass = at(design, {"pass"}).is_boolean() && at(design, {"pass"}).get<bool>();
   std::string out = std::string("<div class=\"verdict ") + (pass ? "pass" : "fail") + "\"><b>" +
                     name + (pass ? " meets " : " does not meet ") +
-                    escaped(fs::path(words(at(fence, {"design", "code"}))).stem().string()) +
+                    xml_escaped(fs::path(words(at(fence, {"design", "code"}))).stem().string()) +
                     "</b>: needs " + number(at(design, {"required_capacity_kj"})) +
                     " kJ (class: " + words(at(design, {"smallest_class"})) + ") and a height of " +
                     number(at(design, {"required_height_m"}), 3) + " m; it is " +
@@ -194,7 +194,7 @@ std::string map_section(const ReportData& data) {
       figure(plan_view_svg(data.shown, data.terrain, data.hillshade_png),
              "<span class=\"key\"><i class=\"start\"></i>start<i class=\"way\"></i>ways of the "
              "centroids<i class=\"end\"></i>end<i class=\"fence\"></i>fence line</span>. Run " +
-                 escaped(data.shown_name) + "; north is up.");
+                 xml_escaped(data.shown_name) + "; north is up.");
   out += paragraph(
       "Every cell counts a block once, with its largest value over all steps of the solver. Shares "
       "are parts of a sum over blocks, not over tons: " +
@@ -265,7 +265,7 @@ std::string friction_paragraph(const ReportData& data) {
   std::set<std::string> grounds;
   for (const RunFile& run : data.runs)
     for (const GroundSettings& ground : parse_site(run.info.config, run.info.run_id).grounds)
-      grounds.insert(escaped(ground.name) + ": tan " + text(ground.friction_deg, 4) +
+      grounds.insert(xml_escaped(ground.name) + ": tan " + text(ground.friction_deg, 4) +
                      "&deg; = " + text(std::tan(ground.friction_deg * std::numbers::pi / 180), 3));
   std::string list;
   for (const std::string& ground : grounds) list += (list.empty() ? "" : "; ") + ground;
@@ -457,7 +457,7 @@ std::string limit_table(const ReportData& data) {
   std::vector<std::vector<std::string>> rows;
   for (const LimitOverRuns& limit : data.limits) {
     const bool pass = limit.n_failed == 0;
-    rows.push_back({escaped(limit.name), text(limit.worst, 4), text(limit.limit, 4),
+    rows.push_back({xml_escaped(limit.name), text(limit.worst, 4), text(limit.limit, 4),
                     std::to_string(limit.n_failed) + " of " + std::to_string(data.runs.size()),
                     pass ? "<b class=\"pass\">pass</b>" : "<b class=\"fail\">fail</b>"});
   }
@@ -482,7 +482,7 @@ std::string counter_table(const ReportData& data) {
       if (row.shortest_dt > 0 && (shortest == 0 || row.shortest_dt < shortest))
         shortest = row.shortest_dt;
     }
-    rows.push_back({escaped(data.run_names[i]), escaped(run.info.status),
+    rows.push_back({xml_escaped(data.run_names[i]), xml_escaped(run.info.status),
                     text(run.info.time, 4) + " of " + text(run.info.duration, 4),
                     std::to_string(sum.steps), text(shortest, 3), std::to_string(sum.impacts),
                     std::to_string(sum.unconverged), text(sum.largest_penetration, 3),
@@ -546,10 +546,11 @@ std::string health_section(const ReportData& data) {
              : limit_table(data);
   for (std::size_t i = 0; i < data.runs.size(); ++i)
     if (const RunFile& run = data.runs[i]; !run.info.reason.empty())
-      out += note("Run " + escaped(data.run_names[i]) + ": " + escaped(run.info.reason) + ".");
+      out +=
+          note("Run " + xml_escaped(data.run_names[i]) + ": " + xml_escaped(run.info.reason) + ".");
   out += counter_table(data) + "<div class=\"charts\">\n";
   out += figure(chart_svg(energy_chart(data.shown)),
-                "Run " + escaped(data.shown_name) +
+                "Run " + xml_escaped(data.shown_name) +
                     ": the sum of what moves and what was spent lies on what has fallen.");
   out += figure(chart_svg(health_chart(data, "Largest penetration in the interval", "m",
                                        &HealthRow::largest_penetration, true)),
@@ -578,8 +579,8 @@ std::string settings_table(const Site& site, bool defaults) {
   std::vector<std::vector<std::string>> rows;
   for (const EffectiveValue& value : effective_values(site)) {
     if (value.value.empty() || (value.source == "default") != defaults) continue;
-    rows.push_back({"<code>" + escaped(value.section + "." + value.key) + "</code>",
-                    "<code>" + escaped(value.value) + "</code>"});
+    rows.push_back({"<code>" + xml_escaped(value.section + "." + value.key) + "</code>",
+                    "<code>" + xml_escaped(value.value) + "</code>"});
   }
   return html_table({"key", "value"}, rows);
 }
@@ -651,7 +652,7 @@ std::string shown_path(const Site& site, const std::string& path) {
 std::string file_list(const Site& site, const std::vector<RunArtifact>& files) {
   std::vector<std::string> lines;
   for (const RunArtifact& file : files)
-    lines.push_back("<code>" + escaped(shown_path(site, file.path)) + "</code> <code>" +
+    lines.push_back("<code>" + xml_escaped(shown_path(site, file.path)) + "</code> <code>" +
                     (file.sha256.empty() ? "not hashed" : file.sha256.substr(0, 12)) + "</code>");
   std::sort(lines.begin(), lines.end());
   std::string out;
@@ -662,9 +663,9 @@ std::string file_list(const Site& site, const std::vector<RunArtifact>& files) {
 std::string provenance_section(const ReportData& data) {
   std::vector<std::vector<std::string>> rows;
   for (const RunRecord& step : data.steps)
-    rows.push_back({"<code>" + escaped(bare_command(step.command_line)) + "</code>",
-                    escaped(step.version + " (" + step.git_commit + ")"),
-                    "<code>" + escaped(step.content_id) + "</code>",
+    rows.push_back({"<code>" + xml_escaped(bare_command(step.command_line)) + "</code>",
+                    xml_escaped(step.version + " (" + step.git_commit + ")"),
+                    "<code>" + xml_escaped(step.content_id) + "</code>",
                     file_list(data.site, step.inputs), file_list(data.site, step.outputs)});
   std::string out =
       rows.empty()
@@ -684,7 +685,7 @@ std::string viewer_section(const ReportData& data) {
   if (data.shown.frames.time.empty()) return "";
   return section(
       "animation", "Animation",
-      paragraph("Run " + escaped(data.shown_name) +
+      paragraph("Run " + xml_escaped(data.shown_name) +
                 (data.runs.size() > 1 ? ", the one of the farthest run-out." : ".") +
                 " Drag to turn, right-drag or shift-drag to move, wheel to zoom, click a block.") +
           "<div id=\"viewer\"><p class=\"viewer-none\">The animation needs JavaScript; all results "
@@ -722,12 +723,12 @@ std::string page_head(const ReportData& data, const std::string& style) {
   std::string out =
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta "
       "name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
-      escaped(info.name) +
+      xml_escaped(info.name) +
       ": rockslide hazard</title>\n<link rel=\"icon\" "
       "href=\"data:,\">\n<style>\n" +
-      style + "</style>\n</head>\n<body>\n<header>\n<h1>" + escaped(info.name) + "</h1>\n";
-  if (!info.description.empty()) out += paragraph(escaped(info.description));
-  out += "<p class=\"soft\">Rockslide hazard report by Talus " + escaped(data.version) +
+      style + "</style>\n</head>\n<body>\n<header>\n<h1>" + xml_escaped(info.name) + "</h1>\n";
+  if (!info.description.empty()) out += paragraph(xml_escaped(info.description));
+  out += "<p class=\"soft\">Rockslide hazard report by Talus " + xml_escaped(data.version) +
          ", run id " + "<code>" + data.run_id + "</code>, " + words(at(data.trn, {"grid", "crs"})) +
          "<span id=\"written\"></span></p>\n<nav>";
   for (const auto& [id, title] : {std::pair{"result", "Result"},

@@ -2,11 +2,11 @@
 // The blocks of a site: the source cut by its joints, or bodies from meshes and shapes. Page:
 // docs/tools/talus-blocks.md
 #include <cmath>
-#include <fstream>
 #include <numbers>
-#include <sstream>
 
 #include "base/grouped_text.hpp"
+#include "base/percentile.hpp"
+#include "base/read_file.hpp"
 #include "base/sha256.hpp"
 #include "base/text.hpp"
 #include "blocks/assemble.hpp"
@@ -52,14 +52,6 @@ void declare(Tool& tool, Options& o) {
   tool.footer(
       "Example:\n  talus-blocks site.toml --trn slope.tif -o blocks.h5 --trn-out bed.tif "
       "--footprints blocks.gpkg --report blocks.json");
-}
-
-std::string file_text(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream content;
-  if (file) content << file.rdbuf();
-  if (!file) throw InputError({path}, "cannot be read");
-  return content.str();
 }
 
 // What the run works on, filled step by step.
@@ -164,7 +156,7 @@ void plan_joints(Tool& tool, Work& work) {
     if (section.measured_file.empty()) continue;
     const std::string path = resolved(work.site, section.measured_file);
     tool.read_also("joints." + section.name, path);
-    measured.back() = parse_orientations(file_text(path), path);
+    measured.back() = parse_orientations(read_file(path), path);
   }
   work.sets = plan_joint_sets(work.site, measured);
   std::vector<JointSet> sets;
@@ -279,9 +271,11 @@ Json joints_json(const Work& work) {
   return rows;
 }
 
-double quantile(std::vector<double> values, double share) {
-  std::sort(values.begin(), values.end());
-  return values[static_cast<size_t>(share * static_cast<double>(values.size() - 1) + 0.5)];
+double quantile(const std::vector<double>& values, double share) {
+  std::vector<WeightedValue> sorted;
+  for (const double value : values) sorted.push_back({value});
+  sort_values(sorted);
+  return weighted_percentile(sorted, share);
 }
 
 Json sizes_json(const BlockSet& set) {

@@ -348,6 +348,16 @@ void warn_of_blocks_apart(Tool& tool, const ScenePlan& plan, DdaInputs& inputs) 
   tool.warn(inputs.warnings.back());
 }
 
+// Whoever asks for stress must not read it off blocks that have none.
+void warn_of_rigid_blocks(Tool& tool, const Site& site, const ScenePlan& plan, DdaInputs& inputs) {
+  const bool asked_for = site.output.strain || site.solver.strain == "on";
+  if (!asked_for || site.solver.law != "talus" || !plan.block_contacts) return;
+  inputs.warnings.push_back(
+      "strains are asked for: law talus computes blocks that touch each other rigid, their strains "
+      "stay as they were");
+  tool.warn(inputs.warnings.back());
+}
+
 // Also the half of one that a killed run left. One that cannot be removed does no harm.
 void remove_checkpoints(const Options& o) {
   std::error_code error;
@@ -403,6 +413,7 @@ int main(int argc, char** argv) {
       return;
     }
     warn_of_blocks_apart(tool, plan, inputs);
+    warn_of_rigid_blocks(tool, site, plan, inputs);
     check_overlaps(tool, site, inputs, o.files, plan.block_contacts);
     tool.detail(as_text(plan));
     RunFile file = new_file(site, inputs, plan, o);

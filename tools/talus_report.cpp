@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <set>
 
+#include "base/read_file.hpp"
 #include "base/sha256.hpp"
 #include "base/text.hpp"
 #include "build_info.hpp"
@@ -32,11 +31,6 @@ struct Options {
   std::string dir, out, qgis;
 };
 
-std::string content_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 // The files of a site's folder; what is read is named in the registry.
 class Folder {
  public:
@@ -48,7 +42,7 @@ class Folder {
   [[nodiscard]] std::string text(const std::string& name) const {
     if (!has(name)) return "";
     tool_.read_also("result", path(name).string());
-    return content_of(path(name));
+    return read_file(path(name).string());
   }
   /// Null when there is none. Throws InputError for another content.
   [[nodiscard]] Json json(const std::string& name) const {

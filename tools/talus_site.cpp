@@ -6,11 +6,9 @@
 #include <cctype>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <set>
-#include <sstream>
 
+#include "base/read_file.hpp"
 #include "base/sha256.hpp"
 #include "base/text.hpp"
 #include "site_options.hpp"
@@ -196,14 +194,9 @@ std::string make_variables(const Site& site) {
 
 // --- the whole ---------------------------------------------------------------------------------
 
-std::string content_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 // A file that holds this already keeps its time, so that make sees no change.
 void write_if_changed(Tool& tool, const fs::path& path, const std::string& content) {
-  if (fs::exists(path) && content_of(path) == content) return;
+  if (fs::exists(path) && read_file(path.string()) == content) return;
   tool.write_text(path.string(), content);
   tool.detail("changed: " + path.string());
 }

@@ -3,7 +3,6 @@
 // docs/tools/talus-verify.md
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
 #include "base/text.hpp"
 #include "build_info.hpp"
@@ -71,13 +70,6 @@ void check_names(const Options& o) {
 
 bool is_wanted(const Options& o, const std::string& name) {
   return o.cases.empty() || std::find(o.cases.begin(), o.cases.end(), name) != o.cases.end();
-}
-
-std::string machine_name() {
-  std::ifstream info("/proc/cpuinfo");
-  for (std::string line; std::getline(info, line);)
-    if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 2);
-  return "unknown";
 }
 
 CaseOutcome run_case(const VerifyCase& c, const Options& o) {
@@ -263,7 +255,7 @@ void run(Tool& tool, const Options& o) {
     const std::vector<VerifyRow>& own = outcomes.back().rows;
     rows.insert(rows.end(), own.begin(), own.end());
   }
-  std::string summary = "Commit " + std::string(build_commit) + ", " + machine_name() +
+  std::string summary = "Commit " + std::string(build_commit) + ", " + processor_name() +
                         (o.full ? ", full study.\n\n" : ", quick study.\n\n") +
                         summary_table(outcomes);
   if (is_wanted(o, slide_name)) summary += "\n" + study_slide(tool, o, rows, measured);
@@ -272,7 +264,7 @@ void run(Tool& tool, const Options& o) {
       "the reference's uncertainty count as equal):\n\n" +
       claims_table(measured);
   if (o.stability) summary += "\n" + study_stability(tool, o);
-  tool.write_text(o.out + "/verify.csv", csv_of(rows, machine_name(), build_commit));
+  tool.write_text(o.out + "/verify.csv", csv_of(rows, processor_name(), build_commit));
   tool.write_text(o.out + "/summary.md", summary);
   tool.result({{"commit", build_commit}, {"cases", list}}, summary);
 }

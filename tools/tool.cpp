@@ -50,13 +50,6 @@ std::string host_name() {
   return gethostname(buffer, sizeof buffer - 1) == 0 ? buffer : "unknown";
 }
 
-std::string processor_name() {
-  std::ifstream cpuinfo("/proc/cpuinfo");
-  for (std::string line; std::getline(cpuinfo, line);)
-    if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 2);
-  return "unknown";
-}
-
 std::string shell_quoted(const std::string& word) {
   const auto is_plain = [](unsigned char c) {
     return std::isalnum(c) || std::strchr("_-+=:,./@%", c);
@@ -136,6 +129,13 @@ class ProgressLine {
 };
 
 }  // namespace
+
+std::string processor_name() {
+  std::ifstream cpuinfo("/proc/cpuinfo");
+  for (std::string line; std::getline(cpuinfo, line);)
+    if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 2);
+  return "unknown";
+}
 
 struct Tool::Impl {
   struct Output {

@@ -18,6 +18,9 @@ namespace talus {
 
 using Json = nlohmann::ordered_json;
 
+/// Model of the processor, "unknown" where /proc/cpuinfo does not say.
+[[nodiscard]] std::string processor_name();
+
 /// null for NaN and infinity, which JSON does not have.
 [[nodiscard]] inline Json number_or_null(double value) {
   return std::isfinite(value) ? Json(value) : Json();

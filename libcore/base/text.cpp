@@ -70,4 +70,22 @@ std::string lower(std::string_view text) {
   return lowered;
 }
 
+std::string xml_escaped(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '&') {
+      out += "&amp;";
+    } else if (c == '<') {
+      out += "&lt;";
+    } else if (c == '>') {
+      out += "&gt;";
+    } else if (c == '"') {
+      out += "&quot;";
+    } else if (static_cast<unsigned char>(c) >= 32 || c == '\n' || c == '\t') {
+      out += c;
+    }
+  }
+  return out;
+}
+
 }  // namespace talus

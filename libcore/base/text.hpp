@@ -1,5 +1,6 @@
 // libcore/base/text.hpp
-// Numbers as text, the same for every locale, and the nearest known name for a misspelt one.
+// Numbers as text, the same for every locale, and the nearest known name for a misspelt one; text
+// in XML.
 #pragma once
 
 #include <string>
@@ -24,5 +25,9 @@ namespace talus {
 
 /// Lower case of the ASCII letters; other bytes as they are.
 [[nodiscard]] std::string lower(std::string_view text);
+
+/// `text` with & < > " as entities: safe as HTML or XML text and in quoted attributes. Control
+/// characters that XML 1.0 forbids are left out.
+[[nodiscard]] std::string xml_escaped(std::string_view text);
 
 }  // namespace talus

@@ -55,10 +55,11 @@ struct BlockSet {  // clang-format off
   std::vector<Vec3> velocity;                ///< at the start [m/s]                  (n_blocks)
   std::vector<Vec3> spin;                    ///< at the start, world axes [rad/s]    (n_blocks)
 
-  // first contacts: bodies that share a joint face before anything moves; a < b, sorted
+  // bodies that share a joint face as cut, for reports; a < b, sorted. Bonds act on the faces that
+  // start_bonds() finds where the blocks are.
   std::vector<std::array<int, 2>> pair_blocks;  ///< a, b                             (n_pairs)
   std::vector<int> pair_joint_set;              ///< joint set of the shared face     (n_pairs)
-  std::vector<double> pair_area;                ///< shared area, where cohesion acts [m2]  (n_pairs)
+  std::vector<double> pair_area;                ///< shared area [m2]  (n_pairs)
   std::vector<Vec3> pair_normal;                ///< unit, from a to b                (n_pairs)
   std::vector<Vec3> pair_point;                 ///< centre of the shared face [m]    (n_pairs)
 };  // clang-format on

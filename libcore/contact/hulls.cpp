@@ -232,7 +232,6 @@ void add_part(Hulls& hulls, const std::vector<DraftPart>& parts, const DraftPart
   }
   hulls.n_active_edges.push_back(static_cast<int>(middle - arcs.begin()));
   hulls.edge_begin.push_back(static_cast<int>(hulls.edges.size()));
-  hulls.n_normals.push_back(static_cast<int>(hulls.nx.size()) - hulls.face_begin.back());
   while (hulls.nx.size() % 4 != 0)
     add_normal(hulls, Vec3(hulls.nx.back(), hulls.ny.back(), hulls.nz.back()), face_internal,
                FaceCover::all);

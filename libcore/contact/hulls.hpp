@@ -37,8 +37,7 @@ struct Hulls {  // clang-format off
   std::vector<double> thickness;      ///< smallest width over the face normals [m]      (n_parts)
   std::vector<int> vertex_begin{0};   ///< vertices of part p: [p], [p + 1)              (n_parts + 1)
   std::vector<int> face_begin{0};     ///< face slots of part p, a multiple of 4         (n_parts + 1)
-  std::vector<int> n_faces;           ///< own faces; they come first                    (n_parts)
-  std::vector<int> n_normals;         ///< own faces, then faces of other parts that an arc needs (n_parts)
+  std::vector<int> n_faces;           ///< own faces; after them those of other parts that an arc needs (n_parts)
   std::vector<int> edge_begin{0};     ///< edges of part p                               (n_parts + 1)
   std::vector<int> n_active_edges;    ///< convex edges of the body's surface; they come first (n_parts)
   // vertices

@@ -375,14 +375,4 @@ SearchResult find_contacts(const Ground& ground, const Shapes& shapes, int b, co
   return {near.reach, 0};
 }
 
-double depth_below_ground(const Ground& ground, const Shapes& shapes, int b, const Pose& pose) {
-  std::vector<Vec3> vertices;
-  std::vector<Contact> contacts;
-  (void)find_contacts(ground, shapes, b, pose, Mat3::Identity(), 0, vertices, contacts);
-  double depth = 0;
-  for (const Contact& contact : contacts)
-    if (contact.key.mode != ContactMode::edge_edge) depth = std::max(depth, -contact.gap);
-  return depth;
-}
-
 }  // namespace talus

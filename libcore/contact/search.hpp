@@ -32,9 +32,4 @@ SearchResult find_contacts(const Ground& ground, const Shapes& shapes, int b, co
                            const Mat3& stretch, double margin, std::vector<Vec3>& vertices,
                            std::vector<Contact>& contacts);
 
-/// How far block b reaches below the ground at a pose: its deepest vertex, or the deepest convex
-/// node inside it, 0 when nothing does [m]. Brute force over the candidate cells, for checks.
-[[nodiscard]] double depth_below_ground(const Ground& ground, const Shapes& shapes, int b,
-                                        const Pose& pose);
-
 }  // namespace talus

@@ -37,7 +37,7 @@ Vec3 edge_direction(const Parts& parts, int part, const HullEdge& edge) {
          parts.placed.vertices[slot(parts.hulls, part, edge.a)];
 }
 
-// direction . normal for all normals of `part` into row[0, n_normals), padded.
+// direction . normal for all normals of `part` into its row, padded.
 void normal_dots(const Parts& parts, int part, const Vec3& direction, double* row) {
   const PlacedHulls& placed = parts.placed;
   const int begin = parts.hulls.face_begin[part], end = parts.hulls.face_begin[part + 1];

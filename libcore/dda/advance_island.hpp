@@ -3,6 +3,7 @@
 // island_pairs.cpp     which blocks meet, and how long a substep may be
 // island_assembly.cpp  bodies and contacts of a substep, made ready for solve_island()
 // island_impacts.cpp   contact impulses, hits and their times included
+// island_rebounds.cpp  what hits that follow on each other in turn leave of their rebound
 // step_island.cpp      what a substep leaves: bonds, panels, memory, motion; and the loop over them
 #pragma once
 
@@ -150,18 +151,10 @@ struct AdvanceIsland {
   void make_hit(size_t r, double gap_end, double speed_end, double h);
   int find_hits(double h, bool free);
   [[nodiscard]] double overshoot_of_hits() const;
-  [[nodiscard]] Vec6 change_by(size_t k, const Vec6& p) const;
-  void sum_hits();
-  [[nodiscard]] Vec6 change_apart(size_t k, const HitSum& own, double h) const;
-  [[nodiscard]] double hits_in_turn(const BodyPair& pair, double h) const;
-  void set_targets(double h);
   double correct_hits();
-  [[nodiscard]] double loss_in_turn() const;
-  [[nodiscard]] double work_on_velocities() const;
   [[nodiscard]] double fastest() const;
   [[nodiscard]] double fastest_hit() const;
   bool solve_once(double h, bool continues);
-  void forgo_rebound();
   [[nodiscard]] double first_hit(double h) const;
   bool solve(double h);
   [[nodiscard]] bool is_closed() const;
@@ -169,6 +162,16 @@ struct AdvanceIsland {
   void find_mean_times(double h);
   void shift_arms(double h);
   void set_displacements(double h);
+
+  // island_rebounds.cpp
+  [[nodiscard]] Vec6 change_by(size_t k, const Vec6& p) const;
+  void sum_hits();
+  [[nodiscard]] Vec6 change_apart(size_t k, const HitSum& own, double h) const;
+  [[nodiscard]] double hits_in_turn(const BodyPair& pair, double h) const;
+  void set_targets(double h);
+  [[nodiscard]] double loss_in_turn() const;
+  [[nodiscard]] double work_on_velocities() const;
+  void forgo_rebound();
 
   // step_island.cpp
   void gather(std::span<const int> blocks);

@@ -28,7 +28,7 @@ struct ContactRow {
   double normal_limit = no_normal_limit;  ///< a normal impulse does not grow beyond it [N s]
   Vec3 free_move = Vec3::Zero();  ///< displacement of the point without contact, body axes [m]
   double speed_start = 0;         ///< normal velocity at the start of the step [m/s]
-  double gap_start = 0;           ///< gap + offset at the start of the step [m]
+  double gap_start = 0;           ///< gap at the start of the step, without `offset` [m]
   double offset = 0;              ///< see ContactMemory [m]
   double last_stiffness = 0;      ///< ContactMemory::stiffness, 0: new [N/m]
   double last_force = 0;          ///< ContactMemory::normal_force [N]

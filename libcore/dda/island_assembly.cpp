@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/make_room.hpp"
 #include "contact/search.hpp"
@@ -86,7 +87,6 @@ IslandContact& AdvanceIsland::push(int a, const ContactKey& key, double touch, d
   contact.pair = static_cast<int>(w.island.pairs.size()) - 1;
   contact.touch = touch;
   contact.restitution = restitution;
-  contact.never_waits = never_waits;
   contact.arm = row.point;
   contact.free_move = row.free_move;
   contact.shear = row.shear;
@@ -391,17 +391,20 @@ void AdvanceIsland::look_ahead(double h) {
 // closed all the same, and then the substep is made again with all.
 void AdvanceIsland::add_points(int manifold, double h) {
   const PairManifold& m = w.pairs.manifolds[static_cast<size_t>(manifold)];
-  const Meeting meeting = meeting_of(m);
   const double farthest = reach_by_gravity * scene.gravity.norm() * h * h +
-                          2 * h * std::max(w.thrown[meeting.ka], w.thrown[meeting.kb]);
+                          2 * h * std::max(w.thrown[place(m.block_a)], w.thrown[place(m.block_b)]);
+  const bool may_wait = !takes_all && find_bond(state.bonds, m.block_a, m.block_b) < 0;
+  std::optional<Meeting> meeting;  // most manifolds of a dense mass need none
   for (int p = m.point_begin; p < m.point_end; ++p) {
     const PairPoint& point = w.pairs.points[static_cast<size_t>(p)];
     const int memory = continued(m, p);
     const double nearest = std::min(point.gap, w.gap_end[static_cast<size_t>(p)]);
-    if (memory < 0 && meeting.bond < 0 && nearest > farthest && !takes_all)
+    if (may_wait && memory < 0 && nearest > farthest) {
       w.left_out.push_back({manifold, p});
-    else
-      add_point(m, meeting, point, memory);
+      continue;
+    }
+    if (!meeting) meeting = meeting_of(m);
+    add_point(m, *meeting, point, memory);
   }
 }
 

@@ -91,7 +91,7 @@ void check_scene(const Scene& scene) {
     if (!(g.cohesion >= 0 && g.tension >= 0))
       throw InputError({}, "cohesion or tensile strength is negative");
   }
-  const BaseMotion& base = scene.base;
+  const AccelerationRecord& base = scene.base;
   if (base.time.size() != base.acceleration.size())
     throw InputError({}, "base motion has " + std::to_string(base.time.size()) + " times and " +
                              std::to_string(base.acceleration.size()) + " accelerations");

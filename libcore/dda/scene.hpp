@@ -14,21 +14,23 @@
 #include "dda/displacement.hpp"
 #include "dda/fixed_bodies.hpp"
 #include "dda/joint_classes.hpp"
+#include "scene/acceleration_record.hpp"
 
 namespace talus {
 
 /// `paper`: penalty springs, open-close iteration, fixed step. `talus`: docs/theory.md.
 enum class Law { talus, paper };
 
-/// How a run is computed. The defaults of law talus serve every scene.
+/// How a run is computed. The defaults of law talus serve every scene; those that a site file may
+/// change are its defaults too (SolverSettings).
 struct Settings {
   Law law = Law::talus;
   bool strains = false;         ///< 12 degrees of freedom a block instead of 6
   double dt = 0.005;            ///< time step, > 0; law talus shortens it where it must [s]
   double normal_stiffness = 0;  ///< k_n, > 0; 0 lets law talus choose [N/m]
-  double shear_ratio = 1;       ///< k_s / k_n [-]
+  double shear_ratio = 0.4;     ///< k_s / k_n [-]
   double tolerance_factor = 1;  ///< law talus: on the residual at which forces count as found [-]
-  int max_passes = 40;          ///< law talus, a lone block: of Newton, before a step is repeated
+  int max_passes = 50;          ///< law talus, a lone block: of Newton, before a step is repeated
   bool post_adjustment = true;  ///< law paper: restitution by (28); off, that of the springs
   bool static_start = true;     ///< law talus: blocks at rest start in equilibrium with the ground
   bool flight = true;           ///< law talus: no search while nothing can be hit; same motion
@@ -42,12 +44,6 @@ struct PointLoad {
   int block = 0;
   Vec3 point = Vec3::Zero();  ///< body axes [m]
   Vec3 force = Vec3::Zero();  ///< local axes [N]
-};
-
-/// Acceleration of the ground, linear between samples; the scene is computed in the ground's frame.
-struct BaseMotion {
-  std::vector<double> time;        ///< increasing [s]                        (n_samples)
-  std::vector<Vec3> acceleration;  ///< of the ground, local axes [m/s2]      (n_samples)
 };
 
 /// Bodies at rest. Body axes: origin at the centroid, axes along the principal axes of inertia.
@@ -75,7 +71,7 @@ struct Scene {
   FixedBodies fixed;                 ///< law talus: fences, blocky slope
   Vec3 gravity = Vec3(0, 0, -9.81);  ///< [m/s2]
   std::vector<PointLoad> loads;      ///< sorted by block
-  BaseMotion base;                   ///< empty: the ground stands still
+  AccelerationRecord base;           ///< empty: the ground stands still
   Settings settings;
 };
 

@@ -84,21 +84,6 @@ Rock rock_of(const Site& site, const BlockSet& blocks) {
   return rock;
 }
 
-Settings settings_of(const SolverSettings& solver, const ScenePlan& plan) {
-  Settings settings;
-  settings.law = solver.law == "paper" ? Law::paper : Law::talus;
-  settings.strains = plan.strains;
-  settings.dt = time_step(solver);
-  settings.normal_stiffness =
-      std::isnan(solver.normal_stiffness_n_m) ? 0 : solver.normal_stiffness_n_m;
-  settings.shear_ratio = solver.shear_stiffness_ratio;
-  settings.max_passes = static_cast<int>(solver.max_passes);
-  settings.flight = plan.flight;
-  settings.block_contacts = plan.block_contacts;
-  settings.sleep = plan.sleep;
-  return settings;
-}
-
 void add_jitter(Blocks& blocks, double size, std::uint64_t seed) {
   if (size == 0) return;
   Random random(seed, "start jitter");
@@ -114,6 +99,21 @@ double time_step(const SolverSettings& solver) {
   if (!std::isnan(solver.min_time_step_s)) dt = std::max(dt, solver.min_time_step_s);
   if (!std::isnan(solver.max_time_step_s)) dt = std::min(dt, solver.max_time_step_s);
   return dt;
+}
+
+Settings settings_of(const SolverSettings& solver, const ScenePlan& plan) {
+  Settings settings;
+  settings.law = solver.law == "paper" ? Law::paper : Law::talus;
+  settings.strains = plan.strains;
+  settings.dt = time_step(solver);
+  settings.normal_stiffness =
+      std::isnan(solver.normal_stiffness_n_m) ? 0 : solver.normal_stiffness_n_m;
+  settings.shear_ratio = solver.shear_stiffness_ratio;
+  settings.max_passes = static_cast<int>(solver.max_passes);
+  settings.flight = plan.flight;
+  settings.block_contacts = plan.block_contacts;
+  settings.sleep = plan.sleep;
+  return settings;
 }
 
 Scene make_site_scene(const Site& site, const ScenePlan& plan, SceneParts parts) {
@@ -133,7 +133,7 @@ Scene make_site_scene(const Site& site, const ScenePlan& plan, SceneParts parts)
   scene.joints = joint_classes(site, parts.blocks, rock.classes);
   scene.gravity = {0, 0, -solver.gravity_m_s2};
   scene.settings = settings_of(solver, plan);
-  scene.base = {std::move(parts.base.time), std::move(parts.base.acceleration)};
+  scene.base = std::move(parts.base);
   add_blocks(scene, parts.blocks, rock.materials);
   add_jitter(scene.blocks, solver.start_jitter_m_s, seed);
   if (solver.terrain_model == "blocky") {

@@ -27,6 +27,10 @@ struct SceneParts {
 /// within min_time_step_s and max_time_step_s [s].
 [[nodiscard]] double time_step(const SolverSettings& solver);
 
+/// How a site's run is computed: its solver's settings with the decisions of the plan. Without any
+/// it is Settings{}.
+[[nodiscard]] Settings settings_of(const SolverSettings& solver, const ScenePlan& plan);
+
 /// The scene with the settings of the site and the decisions of the plan. Scatter of friction and
 /// restitution and the jitter of the start are drawn from [solver] seed. Throws InputError for a
 /// block material that the site file does not know, a blocky slope with law paper, and what

@@ -20,7 +20,7 @@ using std::size_t;
 constexpr size_t expected_contacts = 16;  // of a block, before a buffer has to grow
 
 // Integral of the base acceleration, linear between samples and zero outside them.
-Vec3 base_impulse(const BaseMotion& base, double from, double to) {
+Vec3 base_impulse(const AccelerationRecord& base, double from, double to) {
   const auto next = std::upper_bound(base.time.begin(), base.time.end(), from);
   Vec3 sum = Vec3::Zero();
   for (auto k = static_cast<size_t>(std::max<std::ptrdiff_t>(1, next - base.time.begin()));

@@ -59,6 +59,7 @@ void AdvanceIsland::account(size_t r, double h) {
 // What the blocks do to the panels that give way.
 void AdvanceIsland::find_pushes(double h) {
   w.pushes.clear();
+  if (scene.fixed.panels.empty()) return;
   for (size_t r = 0; r < w.contacts.size(); ++r) {
     if (!gives_way(r)) continue;
     const IslandContact& contact = w.contacts[r];
@@ -81,6 +82,7 @@ void AdvanceIsland::find_pushes(double h) {
 
 // First touches, and what the touched panels left to their blocks.
 void AdvanceIsland::note_touched_panels(double t) {
+  if (scene.fixed.panels.empty()) return;
   for (size_t r = 0; r < w.contacts.size(); ++r) {
     const IslandContact& contact = w.contacts[r];
     if (contact.fixed < 0 || contact.waits || w.island.rows[r].state == ContactState::open ||

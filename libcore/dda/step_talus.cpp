@@ -202,7 +202,7 @@ struct Advance {
       if (free_fall_only() && begin_flight(t, h)) return Attempt::flight;
       report.n_flips += static_cast<int>(state.memory[i()].size());
       state.memory[i()].clear();
-      relax_strain(h);
+      relax_strain();
       finish(s, s.free, t, t + h);
       return Attempt::done;
     }
@@ -261,7 +261,7 @@ struct Advance {
   }
 
   // Off the ground nothing strains the block: quasi-static.
-  void relax_strain(double) {
+  void relax_strain() {
     if (state.strain.empty()) return;
     state.strain[i()].setZero();
     state.strain_rate[i()].setZero();
@@ -277,7 +277,7 @@ struct Advance {
     state.flight_end[i()] = t + safe;
     report.n_flips += static_cast<int>(state.memory[i()].size());
     state.memory[i()].clear();
-    relax_strain(h);
+    relax_strain();
     return true;
   }
 

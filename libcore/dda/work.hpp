@@ -35,7 +35,6 @@ struct IslandContact {
   int fixed = -1;                 ///< fixed body (as body of Blocks::hulls), -1: none
   int ground_class = 0;           ///< where b and fixed are -1
   int bond = -1;                  ///< index into State::bonds, -1: none
-  bool never_waits = false;       ///< bonded, or on a panel that gives way: takes no hit
   bool waits = false;             ///< approaches too fast to press without being hit
   bool hit = false;               ///< hit within the substep
   Vec3 arm = Vec3::Zero();        ///< from the centroid of A, both in the middle of the substep [m]

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "base/grouped_text.hpp"
+#include "base/percentile.hpp"
 #include "base/text.hpp"
 
 namespace talus {
@@ -19,22 +20,6 @@ constexpr std::array<const char*, 6> colours = {"#1b6ca8", "#c8553d", "#3f8f4f",
 constexpr double radius = 200, middle = 240;
 
 std::string number(double value) { return text(std::round(value * 100) / 100); }
-
-// The text of a user in XML.
-std::string escaped(const std::string& raw) {
-  std::string out;
-  for (const char c : raw) {
-    if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '&')
-      out += "&amp;";
-    else
-      out += c;
-  }
-  return out;
-}
 
 // Lower hemisphere, equal area: a direction at angle t from straight down lies at
 // sqrt(2) R sin(t / 2) from the middle, towards its azimuth.
@@ -100,7 +85,7 @@ std::string stereonet_svg(const std::vector<NetSet>& sets, const Vec3& slope_nor
           << "\" r=\"2.5\" fill=\"" << colour << "\" fill-opacity=\"0.6\"/>\n";
     }
     out << "<rect x=\"460\" y=\"" << line - 10 << "\" width=\"12\" height=\"12\" fill=\"" << colour
-        << "\"/><text x=\"480\" y=\"" << line << "\">" << escaped(sets[s].name) << "  "
+        << "\"/><text x=\"480\" y=\"" << line << "\">" << xml_escaped(sets[s].name) << "  "
         << attitude_text(sets[s].mean) << "  (" << sets[s].poles.size() << " poles)</text>\n";
     line += 22;
   }
@@ -115,13 +100,9 @@ std::string stereonet_svg(const std::vector<NetSet>& sets, const Vec3& slope_nor
 }
 
 double volume_quantile(const std::vector<double>& sorted, double share) {
-  const double total = std::accumulate(sorted.begin(), sorted.end(), 0.0);
-  double sum = 0;
-  for (const double v : sorted) {
-    sum += v;
-    if (sum >= share * total) return v;
-  }
-  return sorted.back();
+  std::vector<WeightedValue> volumes;
+  for (const double v : sorted) volumes.push_back({v, v});
+  return weighted_percentile(volumes, share);
 }
 
 std::string size_curve_svg(std::vector<double> volumes) {

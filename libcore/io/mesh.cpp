@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <numeric>
 #include <sstream>
 #include <tuple>
 
 #include "base/error.hpp"
+#include "base/read_file.hpp"
 #include "base/text.hpp"
 #include "io/mesh_builder.hpp"
 
@@ -139,16 +139,13 @@ std::vector<MeshBody> bodies_of(const Mesh& mesh) {
 }
 
 std::vector<MeshBody> read_mesh(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream content;
-  if (file) content << file.rdbuf();
-  if (!file || content.str().empty())
-    throw InputError({path}, "cannot be read, or is empty", "give an OBJ, PLY, OFF or STL file");
+  const std::string content = read_file(path, "give an OBJ, PLY, OFF or STL file");
+  if (content.empty()) throw InputError({path}, "is empty", "give an OBJ, PLY, OFF or STL file");
   const std::string extension = lower(std::filesystem::path(path).extension().string());
-  if (extension == ".obj") return bodies_of(parse_obj(content.str(), path));
-  if (extension == ".ply") return bodies_of(parse_ply(content.str(), path));
-  if (extension == ".off") return bodies_of(parse_off(content.str(), path));
-  if (extension == ".stl") return bodies_of(parse_stl(content.str(), path));
+  if (extension == ".obj") return bodies_of(parse_obj(content, path));
+  if (extension == ".ply") return bodies_of(parse_ply(content, path));
+  if (extension == ".off") return bodies_of(parse_off(content, path));
+  if (extension == ".stl") return bodies_of(parse_stl(content, path));
   throw InputError(
       {path}, "the format \"" + extension + "\" is not known, expected .obj, .ply, .off or .stl",
       "convert the mesh, or rename the file");

@@ -10,25 +10,8 @@ namespace {
 constexpr const char* document_type =
     "<!DOCTYPE qgis PUBLIC 'http://mrcc.com/qgis.dtd' 'SYSTEM'>\n";
 
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '"')
-      out += "&quot;";
-    else
-      out += c;
-  }
-  return out;
-}
-
 std::string attribute(const std::string& name, const std::string& value) {
-  return " " + name + "=\"" + escaped(value) + "\"";
+  return " " + name + "=\"" + xml_escaped(value) + "\"";
 }
 
 std::string hex_colour(const Colour& colour) {
@@ -126,7 +109,7 @@ std::string raster_qml(const RasterStyle& style) {
       "    <brightnesscontrast brightness=\"0\" contrast=\"0\" gamma=\"1\"/>\n"
       "    <huesaturation saturation=\"0\" grayscaleMode=\"0\"/>\n"
       "    <rasterresampler maxOversampling=\"2\"/>\n  </pipe>\n  <blendMode>0</blendMode>\n";
-  out += "  <layerTitle>" + escaped(style.title) + "</layerTitle>\n</qgis>\n";
+  out += "  <layerTitle>" + xml_escaped(style.title) + "</layerTitle>\n</qgis>\n";
   return out;
 }
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "post/csv.hpp"
+#include "base/csv.hpp"
 #include "post/fence.hpp"
 
 namespace talus {

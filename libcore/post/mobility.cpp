@@ -104,7 +104,6 @@ std::vector<MobilityRelation> mobility_relations(const CsvTable& table) {
     r.d = r.kind == MobilityKind::length ? needed(table, row, "d") : none;
     r.lower = table.number(row, "lower");
     r.n = table.number(row, "n");
-    r.r2 = table.number(row, "r2");
     r.sd = table.number(row, "sd");
     r.from_memory = table.at(row, "mark") == "m";
     r.source = table.at(row, "source");

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "post/csv.hpp"
+#include "base/csv.hpp"
 
 namespace talus {
 
@@ -22,7 +22,7 @@ struct MobilityRelation {
   MobilityKind kind = MobilityKind::hl_power;
   double a = 0, b = 0, c = 0, d = 0;  ///< NaN where the kind has none
   double lower = 0;                   ///< NaN: no lower line
-  double n = 0, r2 = 0, sd = 0;       ///< NaN: not known
+  double n = 0, sd = 0;               ///< NaN: not known
   bool from_memory = false;           ///< mark m: to be checked before it is relied on
   std::string source;
 };

@@ -206,7 +206,6 @@ AngleProfile angle_profile(std::span<const Vec3> points, double from, double tol
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (i > 0) distance += plan_distance(points[i - 1], points[i]);
     const double angle = angle_of(points[0].z() - points[i].z(), distance);
-    profile.distance.push_back(distance);
     profile.angle.push_back(angle);
     if (std::isnan(angle) || distance < from) continue;
     if (angle >= profile.smallest) {  // false for the first: comparison with NaN fails

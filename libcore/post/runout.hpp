@@ -50,10 +50,9 @@ struct ReachLine {
 /// again: then the angle at the end is not the smallest one, an energy line of some angles would
 /// have stopped the mass higher up, and Eq. (29) at the toe hides that.
 struct AngleProfile {
-  std::vector<double> distance;  ///< horizontal, from the start [m]                 (n_points)
-  std::vector<double> angle;     ///< [rad]; NaN at the start                        (n_points)
-  double smallest = 0;           ///< the energy line that clears the whole way [rad]
-  double smallest_at = 0;        ///< its distance [m]
+  std::vector<double> angle;  ///< [rad]; NaN at the start                        (n_points)
+  double smallest = 0;        ///< the energy line that clears the whole way [rad]
+  double smallest_at = 0;     ///< its horizontal distance from the start [m]
   /// How far an energy line from the start to a later point runs below the ground at an earlier
   /// one, at most: the head that a mass on that line lacks to come by there [m].
   double missing_head = 0;

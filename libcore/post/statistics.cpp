@@ -92,24 +92,6 @@ std::vector<int> places_of(std::span<const RunWeight> descending, const RunResam
 
 }  // namespace
 
-double weighted_percentile(std::span<const WeightedValue> sorted, double p) {
-  double total = 0;
-  for (const WeightedValue& v : sorted) total += v.weight;
-  if (!(total > 0)) return none;
-  double sum = 0;
-  for (const WeightedValue& v : sorted) {
-    sum += v.weight;
-    if (v.weight > 0 && sum >= p * total * (1 - rounding)) return v.value;
-  }
-  return sorted.back().value;
-}
-
-void sort_values(std::span<WeightedValue> values) {
-  std::sort(values.begin(), values.end(), [](const WeightedValue& a, const WeightedValue& b) {
-    return a.value != b.value ? a.value < b.value : a.weight < b.weight;
-  });
-}
-
 double effective_size(double sum_of_weights, double sum_of_squared_weights) {
   if (!(sum_of_squared_weights > 0)) return 0;
   return sum_of_weights * sum_of_weights / sum_of_squared_weights;

@@ -10,6 +10,8 @@
 #include <span>
 #include <vector>
 
+#include "base/percentile.hpp"
+
 namespace talus {
 
 /// The percentiles that maps and tables give.
@@ -22,20 +24,6 @@ inline constexpr std::array<PercentileLevel, 4> percentile_levels = {
 
 /// Fewer runs give no bound by the bootstrap over runs.
 inline constexpr int least_runs_to_resample = 10;
-
-struct WeightedValue {
-  double value = 0;
-  double weight = 1;  ///< >= 0
-};
-
-/// The p-percentile, 0 <= p <= 1: the smallest value that at least the share p of the weight does
-/// not exceed (inverse of the distribution function; for equal weights the value of rank
-/// ceil(p n)). It is always one of the values. `sorted` ascends by value; NaN when it is empty or
-/// has no weight.
-[[nodiscard]] double weighted_percentile(std::span<const WeightedValue> sorted, double p);
-
-/// Ascending by value, equal ones by weight: the order that weighted_percentile() takes.
-void sort_values(std::span<WeightedValue> values);
 
 /// Kish's effective sample size (sum w)^2 / sum w^2; 0 for no weight.
 [[nodiscard]] double effective_size(double sum_of_weights, double sum_of_squared_weights);

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "base/text.hpp"
-#include "report/encode.hpp"
 
 namespace talus {
 namespace {
@@ -116,9 +115,9 @@ std::string axes(const Chart& chart, const Frame& frame) {
     out += "<path class=\"grid\" d=\"M" + px(left) + " " + y + "H" + px(width - right) + "\"/>\n";
     out += label(left - 6, frame.at_y(tick) + 4, "end", words(tick, chart.log_y));
   }
-  out += label((left + width - right) / 2, height - 8, "middle", escaped(chart.x_label));
+  out += label((left + width - right) / 2, height - 8, "middle", xml_escaped(chart.x_label));
   out += "<text transform=\"translate(14 " + px((frame.top + height - bottom) / 2) +
-         ") rotate(-90)\" text-anchor=\"middle\">" + escaped(chart.y_label) + "</text>\n";
+         ") rotate(-90)\" text-anchor=\"middle\">" + xml_escaped(chart.y_label) + "</text>\n";
   return out;
 }
 
@@ -159,7 +158,7 @@ std::string legend(const Chart& chart) {
     if (line.name.empty()) continue;
     const auto [x, y] = places[i];
     out += "<path d=\"M" + px(x) + " " + px(y) + "h16\" stroke=\"" + line.colour +
-           "\" stroke-width=\"3\"/>\n" + label(x + 21, y + 4, "start", escaped(line.name));
+           "\" stroke-width=\"3\"/>\n" + label(x + 21, y + 4, "start", xml_escaped(line.name));
   }
   return out;
 }
@@ -181,8 +180,8 @@ std::vector<double> round_ticks(double low, double high, int n) {
 std::string chart_svg(const Chart& chart) {
   const Frame frame = frame_of(chart);
   std::string out = "<svg class=\"chart\" viewBox=\"0 0 640 300\" role=\"img\" aria-label=\"" +
-                    escaped(chart.title) + "\">\n<text class=\"title\" x=\"" + px(left) +
-                    "\" y=\"14\">" + escaped(chart.title) + "</text>\n";
+                    xml_escaped(chart.title) + "\">\n<text class=\"title\" x=\"" + px(left) +
+                    "\" y=\"14\">" + xml_escaped(chart.title) + "</text>\n";
   out += axes(chart, frame) + legend(chart);
   for (const ChartSeries& line : chart.series) {
     if (line.width > 0) out += line_path(line, frame);

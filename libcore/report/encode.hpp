@@ -1,5 +1,5 @@
 // libcore/report/encode.hpp
-// Text and numbers as the parts of a self-contained page: escaped, base64, data addresses.
+// Text and numbers as the parts of a self-contained page: base64, data addresses.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,6 @@
 #include <vector>
 
 namespace talus {
-
-/// `text` with & < > " as entities: safe as HTML or XML text and in quoted attributes. Control
-/// characters that XML 1.0 forbids are left out.
-[[nodiscard]] std::string escaped(std::string_view text);
 
 /// Base64 with padding (RFC 4648).
 [[nodiscard]] std::string base64(std::string_view bytes);

@@ -33,7 +33,7 @@ std::string path_of(const std::vector<Vec2>& points, const Place& place, bool cl
 
 std::string shape(const std::string& css_class, const std::string& d, const std::string& title) {
   return "<path class=\"" + css_class + "\" d=\"" + d + "\">" +
-         (title.empty() ? "" : "<title>" + escaped(title) + "</title>") + "</path>\n";
+         (title.empty() ? "" : "<title>" + xml_escaped(title) + "</title>") + "</path>\n";
 }
 
 std::vector<Vec2> plan_of(const std::vector<Vec3>& points) {

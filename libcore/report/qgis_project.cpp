@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "base/text.hpp"
-#include "report/encode.hpp"
 
 namespace talus {
 namespace {
@@ -20,8 +19,8 @@ bool is_vector(const QgisLayer& layer) { return layer.kind >= QgisLayer::point; 
 
 std::string crs_xml(const QgisProject& project) {
   if (project.crs_wkt.empty()) return "<spatialrefsys/>";
-  return "<spatialrefsys><wkt>" + escaped(project.crs_wkt) + "</wkt><authid>" +
-         escaped(project.crs_authid) + "</authid></spatialrefsys>";
+  return "<spatialrefsys><wkt>" + xml_escaped(project.crs_wkt) + "</wkt><authid>" +
+         xml_escaped(project.crs_authid) + "</authid></spatialrefsys>";
 }
 
 // --- the tree of layers --------------------------------------------------------------------------
@@ -33,14 +32,14 @@ std::string layer_tree(const QgisProject& project) {
       groups.push_back(layer.group);
   std::string out = "<layer-tree-group>\n";
   for (const std::string& group : groups) {
-    out += "<layer-tree-group name=\"" + escaped(group) +
+    out += "<layer-tree-group name=\"" + xml_escaped(group) +
            "\" checked=\"Qt::Checked\" expanded=\"1\">\n";
     for (std::size_t i = 0; i < project.layers.size(); ++i) {
       const QgisLayer& layer = project.layers[i];
       if (layer.group != group) continue;
-      out += "<layer-tree-layer id=\"" + id_of(project, i) + "\" name=\"" + escaped(layer.name) +
-             "\" source=\"./" + escaped(layer.source) + "\" providerKey=\"" +
-             (is_vector(layer) ? "ogr" : "gdal") + "\" checked=\"" +
+      out += "<layer-tree-layer id=\"" + id_of(project, i) + "\" name=\"" +
+             xml_escaped(layer.name) + "\" source=\"./" + xml_escaped(layer.source) +
+             "\" providerKey=\"" + (is_vector(layer) ? "ogr" : "gdal") + "\" checked=\"" +
              (layer.visible ? "Qt::Checked" : "Qt::Unchecked") + "\" expanded=\"" +
              (layer.visible ? "1" : "0") + "\"/>\n";
     }
@@ -75,8 +74,8 @@ std::string layer_xml(const QgisProject& project, std::size_t i) {
                                            geometry[layer.kind] + "\" "
                                      : std::string("<maplayer type=\"raster\" ");
   out += "styleCategories=\"AllStyleCategories\" hasScaleBasedVisibilityFlag=\"0\">\n<id>" +
-         id_of(project, i) + "</id>\n<datasource>./" + escaped(layer.source) +
-         "</datasource>\n<layername>" + escaped(layer.name) + "</layername>\n<srs>" +
+         id_of(project, i) + "</id>\n<datasource>./" + xml_escaped(layer.source) +
+         "</datasource>\n<layername>" + xml_escaped(layer.name) + "</layername>\n<srs>" +
          crs_xml(project) + "</srs>\n<provider" +
          (is_vector(layer) ? " encoding=\"UTF-8\">ogr" : ">gdal") + "</provider>\n";
   return out + style_of(layer) + "</maplayer>\n";
@@ -112,7 +111,7 @@ std::string label_item(const std::string& uuid, double x, double y, double width
   return item(65641, uuid, x, y, width, height,
               "frame=\"false\" background=\"false\" htmlState=\"0\" halign=\"1\" valign=\"32\" "
               "marginX=\"0\" marginY=\"0\" labelText=\"" +
-                  escaped(words) + "\"",
+                  xml_escaped(words) + "\"",
               "<LabelFont description=\"Sans Serif," + text(size_pt) + ",-1,5," +
                   (bold ? "75" : "50") +
                   ",0,0,0,0,0\" style=\"\"/>\n<FontColor red=\"0\" green=\"0\" blue=\"0\" "
@@ -203,9 +202,9 @@ std::string qgis_project_xml(const QgisProject& project) {
   std::string out =
       "<!DOCTYPE qgis PUBLIC 'http://mrcc.com/qgis.dtd' 'SYSTEM'>\n"
       "<qgis version=\"3.22.16\" projectname=\"" +
-      escaped(project.title) + "\">\n<homePath path=\"\"/>\n<title>" + escaped(project.title) +
-      "</title>\n<projectCrs>" + crs_xml(project) + "</projectCrs>\n" + layer_tree(project) +
-      "<mapcanvas name=\"theMapCanvas\"><units>meters</units><extent><xmin>" +
+      xml_escaped(project.title) + "\">\n<homePath path=\"\"/>\n<title>" +
+      xml_escaped(project.title) + "</title>\n<projectCrs>" + crs_xml(project) + "</projectCrs>\n" +
+      layer_tree(project) + "<mapcanvas name=\"theMapCanvas\"><units>meters</units><extent><xmin>" +
       text(project.extent[0]) + "</xmin><ymin>" + text(project.extent[1]) + "</ymin><xmax>" +
       text(project.extent[2]) + "</xmax><ymax>" + text(project.extent[3]) +
       "</ymax></extent><destinationsrs>" + crs_xml(project) +

@@ -1,48 +1,14 @@
 #include "scene/base_motion.hpp"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <fstream>
 #include <numbers>
-#include <string_view>
 
+#include "base/csv.hpp"
 #include "base/error.hpp"
 #include "base/text.hpp"
 
 namespace talus {
 namespace {
-
-std::vector<std::string_view> split(std::string_view line) {
-  std::vector<std::string_view> words;
-  for (;;) {
-    const std::size_t comma = line.find(',');
-    std::string_view word = line.substr(0, comma);
-    while (!word.empty() && std::isspace(static_cast<unsigned char>(word.front())))
-      word.remove_prefix(1);
-    while (!word.empty() && std::isspace(static_cast<unsigned char>(word.back())))
-      word.remove_suffix(1);
-    words.push_back(word);
-    if (comma == std::string_view::npos) return words;
-    line.remove_prefix(comma + 1);
-  }
-}
-
-constexpr std::array<const char*, 4> columns = {"time_s", "ax_m_s2", "ay_m_s2", "az_m_s2"};
-
-// Where each of `columns` stands in the first line.
-std::array<std::size_t, 4> find_columns(const std::string& line, const Where& where) {
-  const std::vector<std::string_view> names = split(line);
-  std::array<std::size_t, 4> places{};
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    const auto found = std::find(names.begin(), names.end(), columns[i]);
-    if (found == names.end())
-      throw InputError(where, std::string("there is no column ") + columns[i],
-                       "the first line has to be time_s,ax_m_s2,ay_m_s2,az_m_s2");
-    places[i] = static_cast<std::size_t>(found - names.begin());
-  }
-  return places;
-}
 
 AccelerationRecord harmonic(const BaseMotionSettings& settings, double duration) {
   const double end =
@@ -68,30 +34,21 @@ AccelerationRecord harmonic(const BaseMotionSettings& settings, double duration)
 }  // namespace
 
 AccelerationRecord read_acceleration_csv(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) throw InputError({path}, "cannot be opened");
+  const CsvTable table = read_csv(path);
   AccelerationRecord record;
-  std::array<std::size_t, 4> places{};
-  bool has_names = false;
-  int line_number = 0;
-  for (std::string line; std::getline(file, line);) {
-    const Where where{path, ++line_number};
-    if (line.empty() || line[0] == '#' || line == "\r") continue;
-    if (!has_names) {
-      places = find_columns(line, where);
-      has_names = true;
-      continue;
-    }
-    const std::vector<std::string_view> words = split(line);
-    std::array<double, 4> values{};
-    for (std::size_t i = 0; i < 4; ++i)
-      if (places[i] >= words.size() || !parse_double(words[places[i]], values[i]))
-        throw InputError(where, std::string("has no number for ") + columns[i]);
-    if (!record.time.empty() && !(values[0] > record.time.back()))
-      throw InputError(where, "time_s is " + text(values[0]) + ", expected above " +
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    const Where where{path, table.line[row]};
+    const auto value = [&](const char* column) {
+      const double number = table.number(row, column);
+      if (std::isnan(number)) throw InputError(where, std::string("has no number for ") + column);
+      return number;
+    };
+    const double time = value("time_s");
+    if (!record.time.empty() && !(time > record.time.back()))
+      throw InputError(where, "time_s is " + text(time) + ", expected above " +
                                   text(record.time.back()) + " of the line before");
-    record.time.push_back(values[0]);
-    record.acceleration.emplace_back(values[1], values[2], values[3]);
+    record.time.push_back(time);
+    record.acceleration.emplace_back(value("ax_m_s2"), value("ay_m_s2"), value("az_m_s2"));
   }
   if (record.time.size() < 2)
     throw InputError(

@@ -4,18 +4,11 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
-#include "base/types.hpp"
+#include "scene/acceleration_record.hpp"
 #include "scene/site.hpp"
 
 namespace talus {
-
-/// Acceleration of the ground, linear between samples.
-struct AccelerationRecord {
-  std::vector<double> time;        ///< increasing [s]                    (n_samples)
-  std::vector<Vec3> acceleration;  ///< x east, y north, z up [m/s2]      (n_samples)
-};
 
 /// Reads columns time_s, ax_m_s2, ay_m_s2, az_m_s2, named in the first line in any order and
 /// separated by commas; lines that start with # are left out. Throws InputError with the line for

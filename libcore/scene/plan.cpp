@@ -46,6 +46,8 @@ PlanItem strains(const PlanFacts& facts, bool full) {
   } else {
     item.on = facts.largest_weight_strain > strain_that_matters;
   }
+  if (item.on && facts.law == "talus" && facts.n_blocks > 1 && !facts.independent)
+    item.reason += "; blocks that touch each other are computed rigid";
   return item;
 }
 

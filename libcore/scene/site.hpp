@@ -44,7 +44,7 @@ struct SourceSettings {
   double plane_dip_deg = not_given, plane_dip_direction_deg = not_given;
   std::vector<double> plane_point_m;  ///< map x, y, z
   std::string raster;
-  double slbl_curvature_m = 0;  ///< each node may lie this far below the mean of its neighbours
+  double slbl_curvature_m = 0;  ///< below the mean of the highest and lowest of four neighbours
   double slbl_max_depth_m = not_given;
   std::string material;  ///< of the blocks; the only one when there is one
   std::int64_t seed = 1;

@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <set>
-#include <sstream>
 #include <utility>
 #include <variant>
 
+#include "base/read_file.hpp"
 #include "base/text.hpp"
 #include "scene/site.hpp"
 
@@ -91,7 +90,7 @@ template <> const std::vector<Key<SourceSettings>>& keys() {
       {"plane_dip_direction_deg", &S::plane_dip_direction_deg, "dip direction of a failure plane", azimuth, "", dip_hint},
       {"plane_point_m", &S::plane_point_m, "map x, y, z of a point of the plane", any, "", "", 3, 3},
       {"raster", &S::raster, "elevations of the failure surface"},
-      {"slbl_curvature_m", &S::slbl_curvature_m, "SLBL: how far a node may lie below the mean of two opposite neighbours", not_negative},
+      {"slbl_curvature_m", &S::slbl_curvature_m, "SLBL: how far a node may lie below the mean of its highest and lowest of four neighbours", not_negative},
       {"slbl_max_depth_m", &S::slbl_max_depth_m, "SLBL: largest depth", positive},
       {"material", &S::material, "material of the cut blocks"},
       {"seed", &S::seed, "seed of joint positions and orientations", not_negative},
@@ -169,8 +168,8 @@ template <> const std::vector<Key<SolverSettings>>& keys() {
       {"seed", &S::seed, "seed of the run", not_negative},
       {"n_runs", &S::n_runs, "runs with seeds counted up", {1, 1000000}},
       {"start_jitter_m_s", &S::start_jitter_m_s, "random velocity at the start", not_negative},
-      {"friction_scatter_deg", &S::friction_scatter_deg, "standard deviation of friction between runs", {0, 45}},
-      {"cor_scatter", &S::cor_scatter, "standard deviation of restitution between runs", share},
+      {"friction_scatter_deg", &S::friction_scatter_deg, "standard deviation of the ground's friction between runs", {0, 45}},
+      {"cor_scatter", &S::cor_scatter, "standard deviation of the ground's restitution between runs", share},
       {"max_penetration_m", &S::max_penetration_m, "deeper makes the run fail", positive},
       {"max_energy_gain", &S::max_energy_gain, "share of the fall energy; more makes the run fail", not_negative},
       {"max_lost_share", &S::max_lost_share, "share of blocks that may leave the terrain", share}};
@@ -720,12 +719,7 @@ Site parse_site(const std::string& text, const std::string& path) {
 }
 
 Site read_site(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream content;
-  if (file) content << file.rdbuf();
-  if (!file || (content.fail() && file.peek() != EOF))
-    throw InputError({path}, "cannot be read", "give the path of a site.toml");
-  return parse_site(content.str(), path);
+  return parse_site(read_file(path, "give the path of a site.toml"), path);
 }
 
 void override_value(Site& site, const std::string& key, const std::string& value) {

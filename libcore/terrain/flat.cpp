@@ -263,7 +263,6 @@ MendingPoints mend_flat_triangles(TriangleMesh& mesh, const std::vector<std::uin
   };
   const PlateSolution plate = solve_plate(
       pose_problem(mesh, lattice, part, between, mending.contour_interval), height_of, progress);
-  mended.n_unknowns = static_cast<int>(plate.height.size());
   mended.n_regions = plate.n_regions;
   mended.n_unsolved = plate.n_unsolved;
   const std::vector<float> distance = distance_to_points(lattice, mesh.points, between);

@@ -40,7 +40,6 @@ struct MendingPoints {
   std::vector<Vec3> points;                ///< to be added to the triangulation [m]
   std::vector<std::array<int, 2>> border;  ///< edges to be fixed before, so that all else stays
   double spacing = 0;                      ///< of the lattice used [m]
-  int n_unknowns = 0;                      ///< lattice nodes solved for
   int n_regions = 0;                       ///< groups of nodes solved by themselves
   int n_unsolved = 0;                      ///< nodes left as they were because nothing holds them
   double largest_change = 0;               ///< of a node against the triangles [m]

@@ -5,12 +5,15 @@
 #include <cmath>
 #include <ctime>
 #include <sstream>
+#include <utility>
 
 #include "base/error.hpp"
+#include "base/percentile.hpp"
+#include "base/processor_time.hpp"
 #include "base/random.hpp"
-#include "dda/case_run.hpp"
-#include "dda/cases.hpp"
 #include "io/mesh.hpp"
+#include "verify/case_run.hpp"
+#include "verify/cases.hpp"
 
 namespace talus {
 namespace {
@@ -26,19 +29,13 @@ std::array<double, 3> quantities_of(const std::vector<double>& values,
     mean += weights[i] * values[i];
   }
   mean /= total;
-  std::vector<size_t> order(values.size());
-  for (size_t i = 0; i < order.size(); ++i) {
-    order[i] = i;
+  std::vector<WeightedValue> sorted;
+  for (size_t i = 0; i < values.size(); ++i) {
     square += weights[i] * (values[i] - mean) * (values[i] - mean);
+    sorted.push_back({values[i], weights[i]});
   }
-  std::sort(order.begin(), order.end(),
-            [&values](size_t a, size_t b) { return values[a] < values[b]; });
-  double below = 0, p90 = 0;
-  for (const size_t i : order) {
-    p90 = values[i];
-    below += weights[i];
-    if (below >= 0.9 * total) break;
-  }
+  sort_values(sorted);
+  const double p90 = weighted_percentile(sorted, 0.9);
   return {mean, p90, std::sqrt(square / total)};
 }
 
@@ -59,7 +56,10 @@ EnsembleResult run_ensemble(const std::function<Scene(std::uint64_t seed)>& scen
   std::vector<std::array<double, 3>> answers;
   const auto wall_begin = std::chrono::steady_clock::now();
   for (int seed = 1; seed <= n_runs; ++seed) {
-    cases::Run run(scene(static_cast<std::uint64_t>(seed)));
+    const double begin = processor_seconds();
+    Scene started = scene(static_cast<std::uint64_t>(seed));
+    out.set_up_cpu += (processor_seconds() - begin) / n_runs;
+    cases::Run run(std::move(started));
     run.advance_to(duration);
     answers.push_back(answer_of(run, progress));
     cases::add_counts(run.counted(), out.sums);
@@ -102,12 +102,14 @@ std::vector<VerifyRow> rows_of(const std::string& case_name, Quantity quantity,
     row.dt = result.settings.dt;
     row.normal_stiffness = result.settings.normal_stiffness;
     row.tolerance_factor = result.settings.tolerance_factor;
-    row.steps = result.sums.steps / result.n_runs;
+    row.runs = result.n_runs;
+    row.steps = result.sums.steps;
     row.error = std::abs(result.mean[q] - reference.mean[q]);
-    row.norm = "m, mean of " + std::to_string(result.n_runs) + " runs";
+    row.norm = "m";
     row.cpu = result.cpu;
+    row.set_up_cpu = result.set_up_cpu;
     row.wall = result.wall;
-    row.iterations = result.sums.passes / result.n_runs;
+    row.iterations = result.sums.passes;
     row.unconverged = result.sums.unconverged;
     row.largest_penetration = result.sums.largest_penetration;
     row.flags = result.sums.flags;

@@ -29,7 +29,8 @@ struct EnsembleResult {
   std::array<double, 3> mean{};            ///< [m]
   std::array<double, 3> standard_error{};  ///< of the mean, from the scatter of the runs [m]
   double cpu = 0;          ///< of one run from its start, without the set-up of the scene, mean [s]
-  double wall = 0;         ///< with it [s]
+  double set_up_cpu = 0;   ///< of one scene, mean [s]
+  double wall = 0;         ///< of one run with it, mean [s]
   cases::CaseResult sums;  ///< steps, passes, unconverged: of all runs
 };
 

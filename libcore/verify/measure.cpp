@@ -90,7 +90,7 @@ std::string csv_of(const std::vector<VerifyRow>& rows, const std::string& machin
   std::string out =
       "case,law,dof,dt_s,normal_stiffness_n_m,steps,error,error_norm,cpu_time_s,wall_time_s,"
       "iterations,unconverged,largest_penetration_m,flags,machine,commit,solver_tolerance,set_up_"
-      "cpu_time_s\n";
+      "cpu_time_s,runs\n";
   const auto quoted = [](const std::string& words) { return "\"" + words + "\""; };
   for (const VerifyRow& row : rows)
     out += row.case_name + "," + row.law + "," + std::to_string(row.dof) + "," + text(row.dt) +
@@ -99,7 +99,8 @@ std::string csv_of(const std::vector<VerifyRow>& rows, const std::string& machin
            text(row.wall, 4) + "," + std::to_string(row.iterations) + "," +
            std::to_string(row.unconverged) + "," + text(row.largest_penetration, 4) + "," +
            text_of(row.flags) + "," + quoted(machine) + "," + commit + "," +
-           text(row.tolerance_factor) + "," + text(row.set_up_cpu, 4) + "\n";
+           text(row.tolerance_factor) + "," + text(row.set_up_cpu, 4) + "," +
+           std::to_string(row.runs) + "\n";
   return out;
 }
 

@@ -21,11 +21,12 @@ struct VerifyRow {
   double normal_stiffness = 0;  ///< [N/m]; 0: chosen by law talus
   bool strains = false;
   double tolerance_factor = 1;  ///< Settings::tolerance_factor
-  long steps = 0;
-  double error = 0;  ///< NaN where the run gave none: not finite, or a block was lost
-  std::string norm;  ///< what the error is, with its unit
-  double cpu = 0;    ///< of the start and all steps, median [s]
-  double wall = 0;   ///< with the scene's set-up and an integrated reference [s]
+  int runs = 1;                 ///< that the error is the mean of
+  long steps = 0;               ///< of all runs, as iterations and unconverged
+  double error = 0;             ///< NaN where the run gave none: not finite, or a block was lost
+  std::string norm;             ///< what the error is, with its unit
+  double cpu = 0;   ///< of a run, start and all steps: median, of an ensemble the mean [s]
+  double wall = 0;  ///< with the scene's set-up and an integrated reference [s]
   long iterations = 0, unconverged = 0;
   double largest_penetration = 0;  ///< [m]
   double set_up_cpu = 0;           ///< of the scene: terrain, flags, hulls [s]

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
-#include <sstream>
 
+#include "base/csv.hpp"
 #include "base/error.hpp"
+#include "base/read_file.hpp"
 #include "base/text.hpp"
 
 namespace talus {
@@ -33,28 +33,15 @@ const std::vector<PeerTable>& peer_tables() {
   return tables;
 }
 
-std::vector<std::string> fields_of(const std::string& line) {
-  std::vector<std::string> fields;
-  std::istringstream in(line.substr(0, line.find_last_not_of("\r") + 1));
-  for (std::string field; std::getline(in, field, ',');) fields.push_back(field);
-  return fields;
-}
-
 std::vector<Record> read_table(const std::string& path) {
-  std::ifstream file(path);
-  std::string line;
-  if (!std::getline(file, line))
-    throw InputError({path}, "cannot be read, expected a table of other engines",
-                     "give the folder that holds it to --peers");
-  const std::vector<std::string> names = fields_of(line);
-  std::vector<Record> records;
-  while (std::getline(file, line)) {
-    const std::vector<std::string> fields = fields_of(line);
-    Record record;
-    for (std::size_t i = 0; i < names.size(); ++i)  // a run that failed may have fewer fields
-      record[names[i]] = i < fields.size() ? fields[i] : "";
-    records.push_back(std::move(record));
-  }
+  const std::string content =
+      read_file(path, "give the folder of other engines' tables to --peers");
+  const bool fill_short_rows = true;  // of runs that failed
+  const CsvTable table = parse_csv(content, path, fill_short_rows);
+  std::vector<Record> records(table.rows.size());
+  for (std::size_t r = 0; r < records.size(); ++r)
+    for (std::size_t i = 0; i < table.names.size(); ++i)
+      records[r][table.names[i]] = table.rows[r][i];
   return records;
 }
 

@@ -6,11 +6,10 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
-#include "dda/block_cases.hpp"
-#include "dda/case_run.hpp"
-#include "dda/cases.hpp"
 #include "dda/report.hpp"
-#include "report/encode.hpp"
+#include "verify/block_cases.hpp"
+#include "verify/case_run.hpp"
+#include "verify/cases.hpp"
 
 namespace talus {
 namespace {
@@ -354,13 +353,13 @@ std::string stability_svg(const std::vector<StabilityRow>& rows) {
               "\" width=\"70\" height=\"20\" fill=\"" + colour_of(row.outcome) + "\"/><text x=\"" +
               std::to_string(x + 35) + "\" y=\"" + std::to_string(y + 14) +
               "\" text-anchor=\"middle\">" +
-              escaped(text(corner.value, 4) + (corner.unit == "1" ? "" : " " + corner.unit)) +
+              xml_escaped(text(corner.value, 4) + (corner.unit == "1" ? "" : " " + corner.unit)) +
               "</text>\n";
   }
   std::string names;
   for (std::size_t i = 0; i < axes.size(); ++i)
     names += "<text x=\"250\" y=\"" + std::to_string(54 + 22 * static_cast<int>(i)) +
-             "\" text-anchor=\"end\">" + escaped(axes[i]) + "</text>\n";
+             "\" text-anchor=\"end\">" + xml_escaped(axes[i]) + "</text>\n";
   std::string legend;
   int x = 260;
   for (const Outcome outcome :

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "base/text.hpp"
-#include "dda/block_cases.hpp"
-#include "dda/case_run.hpp"
+#include "verify/block_cases.hpp"
+#include "verify/case_run.hpp"
 
 namespace talus {
 namespace {
@@ -12,7 +12,7 @@ namespace {
 using namespace cases;
 
 // k_n of the paper's benchmarks, and the ratio k_s / k_n of Shi's code.
-constexpr double paper_stiffness = 5e10, paper_shear_ratio = 0.4;
+constexpr double paper_stiffness = 5e10;
 
 CaseResult worst_rolling_angle(const Settings& settings) {
   CaseResult worst;
@@ -333,7 +333,6 @@ Method law_paper(const Change& change, std::vector<double> dt) {
   Method method = law_talus(change, std::move(dt));
   method.name.replace(0, 5, "paper");
   method.settings.law = Law::paper;
-  method.settings.shear_ratio = paper_shear_ratio;
   return method;
 }
 

@@ -1,13 +1,13 @@
 // libcore/verify/verify_cases.hpp
-// The cases that talus-verify runs: those of dda/closed_form.hpp and dda/block_cases.hpp, with what
-// each claims, what it is compared with, and over which settings it is worth running.
+// The cases that talus-verify runs: those of verify/closed_form.hpp and verify/block_cases.hpp,
+// with what each claims, what it is compared with, and over which settings it is worth running.
 #pragma once
 
 #include <functional>
 #include <string>
 #include <vector>
 
-#include "dda/closed_form.hpp"
+#include "verify/closed_form.hpp"
 
 namespace talus {
 

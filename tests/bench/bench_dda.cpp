@@ -7,9 +7,9 @@
 #include <numbers>
 #include <utility>
 
-#include "dda/cases.hpp"
-#include "dda/closed_form.hpp"
 #include "dda/step.hpp"
+#include "verify/cases.hpp"
+#include "verify/closed_form.hpp"
 
 namespace {
 

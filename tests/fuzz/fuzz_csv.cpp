@@ -1,7 +1,7 @@
 // tests/fuzz/fuzz_csv.cpp
 // Tables: classes of barriers, points of comparison.
+#include "base/csv.hpp"
 #include "fuzz.hpp"
-#include "post/csv.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   return talus::accepts_or_refuses([&] {

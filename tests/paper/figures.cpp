@@ -8,10 +8,10 @@
 #include <iostream>
 #include <numbers>
 
-#include "dda/cases.hpp"
-#include "dda/closed_form.hpp"
 #include "dda/step.hpp"
 #include "paper/plot.hpp"
+#include "verify/cases.hpp"
+#include "verify/closed_form.hpp"
 
 namespace {
 
@@ -26,7 +26,6 @@ Settings law_paper(double dt, double normal_stiffness) {
   settings.law = Law::paper;
   settings.dt = dt;
   settings.normal_stiffness = normal_stiffness;
-  settings.shear_ratio = 0.4;
   return settings;
 }
 

@@ -3,7 +3,7 @@
 // tightly.
 #include <gtest/gtest.h>
 
-#include "dda/closed_form.hpp"
+#include "verify/closed_form.hpp"
 
 namespace {
 
@@ -15,7 +15,6 @@ Settings law_paper(double dt, double normal_stiffness) {
   settings.law = Law::paper;
   settings.dt = dt;
   settings.normal_stiffness = normal_stiffness;
-  settings.shear_ratio = 0.4;  // k_n / 2.5, as Shi's code has it
   return settings;
 }
 

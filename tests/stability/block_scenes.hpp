@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "base/text.hpp"
-#include "dda/cases.hpp"
 #include "dda/step.hpp"
+#include "verify/cases.hpp"
 
 namespace talus::stability {
 

@@ -5,8 +5,8 @@
 
 #include <thread>
 
-#include "dda/block_cases.hpp"
 #include "stability/block_scenes.hpp"
+#include "verify/block_cases.hpp"
 
 namespace {
 

@@ -28,7 +28,7 @@ says "no output is named"
 printf 'time_s,ax_m_s2,ay_m_s2,az_m_s2\n0,0,0,0\n5,1,0,0\n' >short.csv
 refuses "the base motion ends at 5 s, the run lasts 8 s" --set base_motion.file=short.csv
 printf 'time_s,ax_m_s2,ay_m_s2\n0,0,0\n9,1,0\n' >column.csv
-refuses "there is no column az_m_s2" --set base_motion.file=column.csv
+refuses "has no column az_m_s2" --set base_motion.file=column.csv
 printf 'time_s,ax_m_s2,ay_m_s2,az_m_s2\n0,0,0,0\n5,1,0,x\n' >word.csv
 refuses "word.csv:3: has no number for az_m_s2" --set base_motion.file=word.csv
 printf 'time_s,ax_m_s2,ay_m_s2,az_m_s2\n0,0,0,0\n5,1,0,0\n5,1,0,0\n' >still.csv

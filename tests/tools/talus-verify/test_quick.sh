@@ -7,7 +7,7 @@ expect 0 talus-verify -o v --no-db
 prints '| `bounce_face` |'
 prints "Uncertainty of the reference"
 n=$(head -1 v/verify.csv | tr ',' '\n' | wc -l)
-[ "$n" -eq 18 ] || fail "verify.csv has $n columns"
+[ "$n" -eq 19 ] || fail "verify.csv has $n columns"
 for law in talus paper; do
   grep -q "^slide_20,$law," v/verify.csv || fail "slide_20 was not run with law $law"
 done

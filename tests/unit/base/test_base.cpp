@@ -111,3 +111,8 @@ TEST(Random, DistributionsHaveTheirMoments) {
   EXPECT_NEAR(uniform / n, 3, 5 * std::sqrt(1.0 / 3 / n));
   EXPECT_NEAR(n_low / double(n), 0.3, 5 * std::sqrt(0.21 / n));
 }
+
+TEST(XmlEscaped, NothingOfTheTextIsMarkup) {
+  EXPECT_EQ(xml_escaped("<a href=\"x\">&</a>"), "&lt;a href=&quot;x&quot;&gt;&amp;&lt;/a&gt;");
+  EXPECT_EQ(xml_escaped(std::string("a\0b\001c\nd", 7)), "abc\nd");
+}

@@ -6,6 +6,7 @@
 #include "contact/search.hpp"
 #include "convex_bodies.hpp"
 #include "ground_overlap.hpp"
+#include "unit/contact/depth_below_ground.hpp"
 
 namespace {
 

@@ -4,8 +4,8 @@
 #include <numbers>
 
 #include "dda/blocky_slope.hpp"
-#include "dda/cases.hpp"
 #include "dda/step.hpp"
+#include "verify/cases.hpp"
 
 namespace {
 

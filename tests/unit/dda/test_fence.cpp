@@ -3,9 +3,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "dda/cases.hpp"
 #include "dda/fence.hpp"
 #include "dda/step.hpp"
+#include "verify/cases.hpp"
 
 namespace {
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "dda/cases.hpp"
 #include "dda/fence.hpp"
 #include "dda/step.hpp"
+#include "verify/cases.hpp"
 
 namespace {
 

@@ -1,8 +1,8 @@
 // The long form of stability/test_many_blocks.cpp: minutes of standing still.
 #include <gtest/gtest.h>
 
-#include "dda/block_cases.hpp"
 #include "stability/block_scenes.hpp"
+#include "verify/block_cases.hpp"
 
 namespace {
 

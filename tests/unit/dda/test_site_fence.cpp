@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "dda/cases.hpp"
 #include "dda/site_fence.hpp"
+#include "verify/cases.hpp"
 
 namespace {
 

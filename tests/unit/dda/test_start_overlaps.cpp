@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "dda/cases.hpp"
 #include "dda/start_overlaps.hpp"
+#include "verify/cases.hpp"
 
 namespace {
 

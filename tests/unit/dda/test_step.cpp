@@ -7,11 +7,12 @@
 
 #include "base/random.hpp"
 #include "contact/search.hpp"
-#include "dda/cases.hpp"
-#include "dda/closed_form.hpp"
 #include "dda/flight.hpp"
 #include "dda/rotation.hpp"
 #include "dda/step.hpp"
+#include "unit/contact/depth_below_ground.hpp"
+#include "verify/cases.hpp"
+#include "verify/closed_form.hpp"
 
 namespace {
 

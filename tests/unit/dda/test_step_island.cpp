@@ -4,11 +4,11 @@
 #include <numbers>
 
 #include "base/text.hpp"
-#include "dda/block_cases.hpp"
-#include "dda/cases.hpp"
 #include "dda/rotation.hpp"
 #include "dda/step.hpp"
 #include "dda/substep.hpp"
+#include "verify/block_cases.hpp"
+#include "verify/cases.hpp"
 
 namespace {
 

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "dda/block_cases.hpp"
-#include "dda/cases.hpp"
-#include "dda/closed_form.hpp"
 #include "dda/step.hpp"
+#include "verify/block_cases.hpp"
+#include "verify/cases.hpp"
+#include "verify/closed_form.hpp"
 
 namespace {
 

@@ -64,16 +64,3 @@ TEST(Mobility, OfAnEventWithoutLengthSaysNothing) {
   for (const MobilityRelation& r : shipped())
     EXPECT_TRUE(std::isnan(compare(r, {"", 10, 5, 0, false}).length));
 }
-
-TEST(Csv, ReadsQuotesAndRefusesRaggedRowsWithTheLine) {
-  const CsvTable table = parse_csv("# remark\na,b\n\"x, \"\"y\"\"\",2\n", "f.csv");
-  EXPECT_EQ(table.at(0, "a"), "x, \"y\"");
-  EXPECT_EQ(table.number(0, "b"), 2);
-  EXPECT_EQ(csv_line({"x, \"y\"", "2", ""}), "\"x, \"\"y\"\"\",2,\n");
-  try {
-    static_cast<void>(parse_csv("a,b\n1,2\n3\n", "f.csv"));
-    FAIL();
-  } catch (const InputError& e) {
-    EXPECT_NE(std::string(e.what()).find("f.csv:3"), std::string::npos) << e.what();
-  }
-}

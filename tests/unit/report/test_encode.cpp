@@ -19,11 +19,6 @@ TEST(Base64, NumbersAreLittleEndianAndSingle) {
   EXPECT_EQ(base64(std::vector<std::uint32_t>{1}), "AQAAAA==");
 }
 
-TEST(Escaped, NothingOfTheTextIsMarkup) {
-  EXPECT_EQ(escaped("<a href=\"x\">&</a>"), "&lt;a href=&quot;x&quot;&gt;&amp;&lt;/a&gt;");
-  EXPECT_EQ(escaped(std::string("a\0b\001c\nd", 7)), "abc\nd");
-}
-
 // A fence called "</script>" must not end the script element that its name stands in.
 TEST(JsonString, CannotEndAScriptElement) {
   EXPECT_EQ(json_string("</script>\"\\\n"), "\"\\u003c/script>\\\"\\\\\\u000a\"");

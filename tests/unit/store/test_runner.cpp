@@ -3,11 +3,11 @@
 #include <numbers>
 
 #include "base/error.hpp"
-#include "dda/cases.hpp"
 #include "dda/fence.hpp"
 #include "dda/step.hpp"
 #include "store/checkpoint.hpp"
 #include "store/runner.hpp"
+#include "verify/cases.hpp"
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "base/error.hpp"
-#include "dda/cases.hpp"
+#include "verify/cases.hpp"
 #include "verify/ensemble.hpp"
 
 namespace {
@@ -24,8 +24,9 @@ Scene three_cubes(std::uint64_t) {
 TEST(Ensemble, MeansAreThoseOfTheClosedForm) {
   const EnsembleResult one = run_ensemble(
       three_cubes, 2, 1, [](const Vec3& from, const Vec3& now) { return (now - from).norm(); });
-  EXPECT_NEAR(one.mean[0], 2.5, 1e-6);
-  EXPECT_NEAR(one.mean[1], 2.5, 1e-6);
+  constexpr double settled = 1.2e-6;  // by the static start: the weight over k_n and k_s [m]
+  EXPECT_NEAR(one.mean[0], 2.5, settled);
+  EXPECT_NEAR(one.mean[1], 2.5, settled);
   EXPECT_NEAR(one.mean[2], 0, 1e-6);
   EXPECT_NEAR(one.standard_error[0], 0, 1e-12);  // every seed is the same scene
   EXPECT_EQ(one.n_blocks, 3);

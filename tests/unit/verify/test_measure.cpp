@@ -96,9 +96,9 @@ TEST(VerifyCsv, HasTheColumnsAndFlags) {
   EXPECT_EQ(csv.substr(0, csv.find('\n')),
             "case,law,dof,dt_s,normal_stiffness_n_m,steps,error,error_norm,cpu_time_s,wall_time_s,"
             "iterations,unconverged,largest_penetration_m,flags,machine,commit,solver_tolerance,"
-            "set_up_cpu_time_s");
+            "set_up_cpu_time_s,runs");
   EXPECT_NE(csv.find("unconverged+deep"), std::string::npos);
-  EXPECT_NE(csv.find("\"machine\",abc,1,0\n"), std::string::npos);
+  EXPECT_NE(csv.find("\"machine\",abc,1,0,1\n"), std::string::npos);
 }
 
 TEST(VerifyCases, AreNamedOnceAndEachHasItsDefaultStep) {

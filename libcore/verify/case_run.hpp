@@ -1,4 +1,4 @@
-// libcore/dda/case_run.hpp
+// libcore/verify/case_run.hpp
 // Moves the scene of a case on and counts what its steps report; finds where something begins.
 // in:    a Scene
 // out:   a CaseResult, complete once finish() has its error
@@ -10,9 +10,9 @@
 #include <utility>
 
 #include "base/processor_time.hpp"
-#include "dda/closed_form.hpp"
 #include "dda/rotation.hpp"
 #include "dda/step.hpp"
+#include "verify/closed_form.hpp"
 
 namespace talus::cases {
 

@@ -1,4 +1,4 @@
-#include "dda/closed_form.hpp"
+#include "verify/closed_form.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,9 +6,9 @@
 #include <numbers>
 #include <utility>
 
-#include "dda/case_run.hpp"
-#include "dda/cases.hpp"
 #include "dda/displacement.hpp"
+#include "verify/case_run.hpp"
+#include "verify/cases.hpp"
 
 namespace talus::cases {
 namespace {
@@ -304,7 +304,7 @@ CaseResult free_spin(const Settings& settings, double duration_s) {
       run.result, [&] { return integrated_free_spin(inertia, throw_spin, run.state.time); });
   const Quat truth = Quat(s[3], s[4], s[5], s[6]).normalized();
   const double error = run.motion().pose.attitude.angularDistance(truth) / degree;
-  run.result.largest_penetration = (run.motion().angular_momentum - L).norm() / L.norm();
+  run.result.momentum_change = (run.motion().angular_momentum - L).norm() / L.norm();
   return run.finish(error, 0, error);
 }
 

@@ -1,4 +1,4 @@
-// libcore/dda/closed_form.hpp
+// libcore/verify/closed_form.hpp
 // Cases with a closed form (or an independent integration): each runs the engine with the settings
 // given and returns its error. The tests bound them; talus-verify draws them against run time.
 // theory 4; g = 10 m/s2 throughout
@@ -18,6 +18,7 @@ struct CaseResult {
   long passes = 0;      ///< Newton or open-close iterations
   long unconverged = 0;
   double largest_penetration = 0;  ///< [m]
+  double momentum_change = 0;      ///< of the angular momentum, relative [-]; free_spin() alone
   double cpu = 0;                  ///< of the start and the steps, not of the scene's set-up [s]
   double reference_cpu = 0;        ///< spent on `expected` where it is integrated [s]
   StepFlag flags = StepFlag::none;
@@ -52,7 +53,7 @@ CaseResult bounce(const Settings& settings, double restitution, Landing landing)
 CaseResult corner_impulse(const Settings& settings, double restitution);
 
 /// 2 x 3 x 5 m box spinning about its middle axis for `duration_s` in flight: error of the attitude
-/// [deg]; `largest_penetration` holds the relative change of the angular momentum.
+/// [deg].
 CaseResult free_spin(const Settings& settings, double duration_s);
 
 /// The same box in the same flight: largest departure of its centroid from the parabola [m].

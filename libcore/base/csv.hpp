@@ -1,4 +1,4 @@
-// libcore/post/csv.hpp
+// libcore/base/csv.hpp
 // Small data files of ours: comma-separated values with a line of names, '#' lines are remarks.
 #pragma once
 
@@ -20,9 +20,12 @@ struct CsvTable {
   [[nodiscard]] double number(std::size_t row, const std::string& name) const;
 };
 
-/// Values with a comma stand in double quotes; a double quote in them is doubled. Throws InputError
-/// with the line for a row of another length, an open quote, or a table without a row.
-[[nodiscard]] CsvTable parse_csv(const std::string& text, const std::string& file);
+/// Values with a comma stand in double quotes; a double quote in them is doubled; blanks around a
+/// value are none of it. Throws InputError
+/// with the line for a row of another length, an open quote, or a table without a row; with
+/// `fill_short_rows` a row that ends early has empty values.
+[[nodiscard]] CsvTable parse_csv(const std::string& text, const std::string& file,
+                                 bool fill_short_rows = false);
 /// Throws InputError when the file cannot be read, or as parse_csv().
 [[nodiscard]] CsvTable read_csv(const std::string& path);
 

@@ -1,4 +1,4 @@
-#include "dda/cases.hpp"
+#include "verify/cases.hpp"
 
 #include <Eigen/Geometry>
 #include <cmath>

@@ -1,4 +1,4 @@
-// libcore/dda/cases.hpp
+// libcore/verify/cases.hpp
 // Building blocks of scenes with a closed form: planes at any dip and azimuth, V-shaped valleys,
 // profiles, prisms and boxes placed on them. Used by the tests and by talus-verify.
 #pragma once

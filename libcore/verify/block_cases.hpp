@@ -1,9 +1,9 @@
-// libcore/dda/block_cases.hpp
+// libcore/verify/block_cases.hpp
 // Cases of several blocks with a closed form; as closed_form.hpp. Where blocks should stand, a way
 // of more than 0.1 m before they are watched counts too.
 #pragma once
 
-#include "dda/closed_form.hpp"
+#include "verify/closed_form.hpp"
 
 namespace talus::cases {
 

@@ -1,15 +1,27 @@
-#include "post/csv.hpp"
+#include "base/csv.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <limits>
 #include <sstream>
 
 #include "base/error.hpp"
+#include "base/read_file.hpp"
 #include "base/text.hpp"
 
 namespace talus {
 namespace {
+
+[[noreturn]] void throw_without_column(const CsvTable& table, const std::string& name) {
+  std::string columns;
+  for (const std::string& known : table.names) columns += (columns.empty() ? "" : ", ") + known;
+  throw InputError({table.file}, "has no column " + name, "its columns are " + columns);
+}
+
+std::string trimmed(const std::string& word) {
+  const std::size_t first = word.find_first_not_of(" \t");
+  if (first == std::string::npos) return "";
+  return word.substr(first, word.find_last_not_of(" \t") - first + 1);
+}
 
 std::vector<std::string> split(const std::string& line, const Where& where) {
   std::vector<std::string> values(1);
@@ -26,6 +38,7 @@ std::vector<std::string> split(const std::string& line, const Where& where) {
       values.back() += c;
   }
   if (quoted) throw InputError(where, "a quote is not closed", "end the value with \"");
+  for (std::string& value : values) value = trimmed(value);
   return values;
 }
 
@@ -33,7 +46,7 @@ std::vector<std::string> split(const std::string& line, const Where& where) {
 
 const std::string& CsvTable::at(std::size_t row, const std::string& name) const {
   const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) throw InputError({file}, "has no column " + name);
+  if (found == names.end()) throw_without_column(*this, name);
   return rows[row][static_cast<std::size_t>(found - names.begin())];
 }
 
@@ -46,7 +59,7 @@ double CsvTable::number(std::size_t row, const std::string& name) const {
   return value;
 }
 
-CsvTable parse_csv(const std::string& content, const std::string& file) {
+CsvTable parse_csv(const std::string& content, const std::string& file, bool fill_short_rows) {
   CsvTable table;
   table.file = file;
   std::istringstream stream(content);
@@ -60,6 +73,7 @@ CsvTable parse_csv(const std::string& content, const std::string& file) {
       table.names = std::move(values);
       continue;
     }
+    if (fill_short_rows && values.size() < table.names.size()) values.resize(table.names.size());
     if (values.size() != table.names.size())
       throw InputError({file, number}, "has " + std::to_string(values.size()) +
                                            " values, expected " +
@@ -71,13 +85,7 @@ CsvTable parse_csv(const std::string& content, const std::string& file) {
   return table;
 }
 
-CsvTable read_csv(const std::string& path) {
-  std::ifstream stream(path, std::ios::binary);
-  std::ostringstream content;
-  if (stream) content << stream.rdbuf();
-  if (!stream) throw InputError({path}, "cannot be read");
-  return parse_csv(content.str(), path);
-}
+CsvTable read_csv(const std::string& path) { return parse_csv(read_file(path), path); }
 
 std::string csv_line(const std::vector<std::string>& values) {
   std::string line;

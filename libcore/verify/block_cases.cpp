@@ -1,11 +1,11 @@
-#include "dda/block_cases.hpp"
+#include "verify/block_cases.hpp"
 
 #include <Eigen/Geometry>
 #include <utility>
 
 #include "base/random.hpp"
-#include "dda/case_run.hpp"
-#include "dda/cases.hpp"
+#include "verify/case_run.hpp"
+#include "verify/cases.hpp"
 
 namespace talus::cases {
 namespace {

@@ -1,7 +1,7 @@
 // The wave along a row of dominoes, by the engine and by angles alone.
-#include "dda/block_cases.hpp"
-#include "dda/case_run.hpp"
-#include "dda/cases.hpp"
+#include "verify/block_cases.hpp"
+#include "verify/case_run.hpp"
+#include "verify/cases.hpp"
 
 namespace talus::cases {
 namespace {

@@ -1,0 +1,22 @@
+#include "base/read_file.hpp"
+
+#include <array>
+#include <fstream>
+
+#include "base/error.hpp"
+
+namespace talus {
+
+std::string read_file(const std::string& path, const std::string& hint) {
+  std::ifstream file(path, std::ios::binary);
+  std::string content;
+  std::array<char, 1 << 16> buffer;
+  do {
+    file.read(buffer.data(), buffer.size());
+    content.append(buffer.data(), static_cast<std::size_t>(file.gcount()));
+  } while (file);
+  if (!file.eof()) throw InputError({path}, "cannot be read", hint);
+  return content;
+}
+
+}  // namespace talus

@@ -1,0 +1,11 @@
+// libcore/base/read_file.hpp
+#pragma once
+
+#include <string>
+
+namespace talus {
+
+/// The bytes of a file. Throws InputError with `hint` when it cannot be read to its end.
+[[nodiscard]] std::string read_file(const std::string& path, const std::string& hint = "");
+
+}  // namespace talus
