@@ -29,7 +29,8 @@ RunInputs::RunInputs(Tool& tool) : tool_(tool) {
   tool.inputs("run", files, "runs written by talus-dda (HDF5), in any order");
   tool.input("--trn", trn_file, "terrain of the runs (GeoTIFF of talus-trn)")->required();
   tool.option("--rest-speed-m-s", rest_speed_m_s,
-              "blocks slower than this at the end count as deposited [m/s]");
+              "blocks slower than this at the end count as deposited [m/s]")
+      ->check(number_between(0, 1000));
   tool.flag("--allow-unfinished", allow_unfinished,
             "take runs that have not ended or have failed; every output is marked");
 }

@@ -35,7 +35,8 @@ struct Options {
 void declare(Tool& tool, Options& o) {
   tool.output_folder("-o,--out", o.folder, "folder for the maps")->required();
   tool.option("--cell-size-m", o.cell_size_m,
-              "cell of the maps, a whole multiple of the recorded one [m]; nan: as recorded");
+              "cell of the maps, a whole multiple of the recorded one [m]; nan: as recorded")
+      ->check(talus::number_between(0, 1e6, true));
   tool.option("--min-passages", o.settings.min_passages,
               "passages that a percentile needs; 0: 5, 29, 59, 299 for p50, p90, p95, p99")
       ->check(CLI::Range(0, 1000000000));
@@ -45,7 +46,7 @@ void declare(Tool& tool, Options& o) {
   tool.flag("--png", o.png, "a picture of each map over hillshade beside it");
   tool.option("--memory-mb", o.memory_mb,
               "for rows of passages [MB]; more of them are taken in several readings of the runs")
-      ->check(CLI::PositiveNumber);
+      ->check(talus::number_between(1, 1e7));
   tool.option("--co", o.creation_options, "creation option of the COGs, NAME=VALUE");
   tool.footer("Example:\n  talus-maps run_1.h5 run_2.h5 --trn slope.tif -o maps --png");
 }

@@ -39,9 +39,10 @@ void declare(Tool& tool, Options& o) {
   tool.input("--mobility", o.mobility, "relations to compare with (CSV) [share/mobility.csv]");
   tool.option("--path-tolerance-m", o.tolerance_m,
               "no point of a block's way lies farther from its simplified path [m]")
-      ->check(CLI::Range(1e-6, 1e6));
+      ->check(number_between(1e-6, 1e6));
   tool.option("--friction-deg", o.friction_deg,
-              "angle of friction, shown beside H_cm/L_cm [deg]; nan: not shown");
+              "angle of friction, shown beside H_cm/L_cm [deg]; nan: not shown")
+      ->check(number_between(0, 89, true));
   tool.flag("--confined", o.confined, "the path is laterally confined (for the relations)");
   tool.footer("Example:\n  talus-runout run.h5 --trn slope.tif -o runout.gpkg --json runout.json");
 }
@@ -507,6 +508,20 @@ std::string summary_of(const Ordered& all) {
   return out;
 }
 
+// The extent of a mass that stays where it is must not look like a run-out.
+void warn_of_standing_mass(Tool& tool, const Runs& runs) {
+  constexpr double hardly = 0.01;  // of L
+  const auto stands = [](const auto& run) {
+    const EventReach& event = run.second->event;
+    return !(event.centre_of_mass.path > hardly * event.event.path);
+  };
+  const auto n = std::count_if(runs.begin(), runs.end(), stands);
+  if (n == 0) return;
+  tool.warn(std::to_string(n) + " of " + std::to_string(runs.size()) +
+            " runs: the centre of mass moved less than 1 % of L; H, L and the angle of reach are "
+            "the extent of a mass that stands, no run-out");
+}
+
 void run_tool(Tool& tool, Options& o, RunInputs& inputs) {
   const std::vector<MobilityRelation> relations = mobility_relations(
       o.mobility.empty() ? parse_csv(shipped_data("mobility.csv"), "share/mobility.csv")
@@ -518,6 +533,7 @@ void run_tool(Tool& tool, Options& o, RunInputs& inputs) {
   const std::string remark = inputs.remark();
   if (!remark.empty()) tags.emplace_back("REMARK", remark);
   inputs.warn_of_ends();
+  warn_of_standing_mass(tool, all.runs);
 
   const MapPlace map{trn.origin};
   double area = 0;

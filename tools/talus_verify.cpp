@@ -284,6 +284,9 @@ int main(int argc, char** argv) {
     if (o.out.empty())
       throw InputError({"", 0, "--out"}, "no folder is named", "give -o DIR, or --list");
     if (!o.site.site.empty()) {
+      if (!o.cases.empty() || o.quick || o.full || o.stability)
+        throw InputError({"", 0, "--site"}, "looks at the scene of a site file alone",
+                         "leave out --quick, --full, --stability and the names of cases");
       if (o.site.files.trn.empty() || o.site.files.blocks.empty())
         throw InputError({"", 0, "--site"}, "needs a terrain and blocks",
                          "give --trn TRN.tif and --blocks BLOCKS.h5");

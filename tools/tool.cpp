@@ -130,6 +130,17 @@ class ProgressLine {
 
 }  // namespace
 
+std::function<std::string(const std::string&)> number_between(double low, double high,
+                                                              bool or_nan) {
+  return [=](const std::string& word) -> std::string {
+    double value = 0;
+    if (or_nan && word == "nan") return {};
+    if (parse_double(word, value) && value >= low && value <= high) return {};
+    return word + " is out of range, expected a number from " + text(low) + " to " + text(high) +
+           (or_nan ? ", or nan" : "");
+  };
+}
+
 std::string processor_name() {
   std::ifstream cpuinfo("/proc/cpuinfo");
   for (std::string line; std::getline(cpuinfo, line);)

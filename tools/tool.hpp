@@ -18,6 +18,10 @@ namespace talus {
 
 using Json = nlohmann::ordered_json;
 
+/// For CLI::Option::check(): a finite number from `low` to `high`, or "nan" where `or_nan`.
+[[nodiscard]] std::function<std::string(const std::string&)> number_between(double low, double high,
+                                                                            bool or_nan = false);
+
 /// Model of the processor, "unknown" where /proc/cpuinfo does not say.
 [[nodiscard]] std::string processor_name();
 

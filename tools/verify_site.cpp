@@ -48,6 +48,17 @@ std::vector<Candidate> candidates(bool with_paper) {
   return list;
 }
 
+// As the health of a run of talus-dda, but for its energy.
+bool breaks_health(const cases::Run& run, const SolverSettings& limits) {
+  const StepFlag flags = run.result.flags;
+  if (has(flags, StepFlag::not_finite) || has(flags, StepFlag::fell_through)) return true;
+  const auto n_left = static_cast<double>(run.state.counters.left_domain);
+  if (n_left > limits.max_lost_share * n_blocks(run.scene)) return true;
+  return std::isnan(limits.max_penetration_m)
+             ? has(flags, StepFlag::deep)
+             : run.result.largest_penetration > limits.max_penetration_m;
+}
+
 EnsembleResult run_candidate(const Site& site, const DdaInputs& inputs, const Candidate& c,
                              int n_runs) {
   Site changed = site;
@@ -66,7 +77,8 @@ EnsembleResult run_candidate(const Site& site, const DdaInputs& inputs, const Ca
   };
   EnsembleResult result =
       run_ensemble(scene, n_runs, site.solver.duration_s,
-                   [](const Vec3& from, const Vec3& now) { return (now - from).head<2>().norm(); });
+                   [](const Vec3& from, const Vec3& now) { return (now - from).head<2>().norm(); },
+                   [&](const cases::Run& run) { return breaks_health(run, site.solver); });
   result.method = c.method;
   return result;
 }
@@ -74,7 +86,7 @@ EnsembleResult run_candidate(const Site& site, const DdaInputs& inputs, const Ca
 std::string fragment_of(const Candidate& c, const SiteStudyOptions& o) {
   std::string toml = "# Cheapest settings whose " + o.quantity + " stays within " + o.tolerance +
                      " of the refined answer (talus-verify, commit " + build_commit + ").\n";
-  toml += "[solver]\ntime_step_s = " + text(c.dt) + "\nstrain = \"" + (c.strains ? "on" : "off") +
+  toml += "# In place of these keys of the site file's [solver]:\n[solver]\ntime_step_s = " + text(c.dt) + "\nstrain = \"" + (c.strains ? "on" : "off") +
           "\"\n";
   return toml + (std::isnan(c.normal_stiffness)
                      ? "# normal_stiffness_n_m is left to law talus: do not give it\n"
@@ -85,12 +97,15 @@ std::string table_of(const std::vector<Candidate>& list, const std::vector<Ensem
                      std::size_t q, double reference) {
   std::string table =
       "| Settings | dt [s] | " + std::string(quantity_names[q]) +
-      " [m] | off the reference | CPU s a run | unconverged |\n|---|---|---|---|---|---|\n";
+      " [m] | off the reference | CPU s a run | unconverged | health broken |\n"
+      "|---|---|---|---|---|---|---|\n";
   for (std::size_t i = 0; i < list.size(); ++i)
     table += "| " + list[i].method + " | " + text(list[i].dt) + " | " +
              text(results[i].mean[q], 5) + " ± " + text(results[i].standard_error[q], 2) + " | " +
              text(100 * (results[i].mean[q] / reference - 1), 2) + " % | " +
-             text(results[i].cpu, 3) + " | " + std::to_string(results[i].sums.unconverged) + " |\n";
+             text(results[i].cpu, 3) + " | " + std::to_string(results[i].sums.unconverged) + " | " +
+             std::to_string(results[i].n_broken) + " of " + std::to_string(results[i].n_runs) +
+             " |\n";
   return table;
 }
 
@@ -111,7 +126,7 @@ std::string study_site(Tool& tool, const SiteStudyOptions& o, const std::string&
   const EnsembleReference reference = reference_of(results.back(), results[results.size() - 2]);
   std::size_t best = list.size() - 1;
   for (std::size_t i = 0; i < list.size(); ++i)
-    if (!list[i].is_paper &&
+    if (!list[i].is_paper && results[i].n_broken == 0 &&
         std::abs(results[i].mean[q] - reference.mean[q]) <= tolerance * reference.mean[q] &&
         results[i].cpu < results[best].cpu)
       best = i;
@@ -123,6 +138,10 @@ std::string study_site(Tool& tool, const SiteStudyOptions& o, const std::string&
                                                       text(reference.band[q], 2) + " m",
                                                   rows, {})));
   tool.write_text(out + "/solver.toml", fragment_of(list[best], o));
+  if (results[best].n_broken > 0)
+    tool.warn(
+        "no setting within the tolerance has runs that all keep their limits of health: look at "
+        "max_penetration_m and max_lost_share, or at the scene");
   if (reference.band[q] > tolerance * reference.mean[q])
     tool.warn("the refined answer itself is known to " + text(reference.band[q], 2) +
               " m only, more than " + o.tolerance +

@@ -71,9 +71,20 @@ std::string grid_lines(const Axis& x, const Axis& y) {
   return out;
 }
 
+constexpr std::array colours = {"#1b6ca8", "#c8553d", "#3a7d44", "#8d5fa8",
+                                "#b8860b", "#4a7c86", "#a23b72", "#666666"};
+
+// Of the n-th line: no two are alike. Those of relations from memory are dashed.
+std::string stroke_of(const MobilityRelation& r, std::size_t n, const std::string& width) {
+  const bool again = n >= colours.size();
+  const std::string dashes = r.from_memory ? (again ? "9 3 2 3" : "5 4") : (again ? "2 3" : "");
+  return std::string("stroke=\"") + colours[n % colours.size()] + "\" stroke-width=\"" + width +
+         "\"" + (dashes.empty() ? "" : " stroke-dasharray=\"" + dashes + "\"");
+}
+
 // The part of a relation's line inside the axes.
 std::string relation_line(const MobilityRelation& r, const Axis& x, const Axis& y,
-                          const std::string& colour) {
+                          const std::string& stroke) {
   double from = x.low, to = x.high;
   for (const double limit : {y.low, y.high}) {
     const double meets = (limit - r.a) / r.b;
@@ -83,9 +94,7 @@ std::string relation_line(const MobilityRelation& r, const Axis& x, const Axis& 
     if (r.b < 0 ? !is_above : is_above) to = std::min(to, meets);
   }
   if (!(from < to)) return "";
-  return line(x.at(from), y.at(r.a + r.b * from), x.at(to), y.at(r.a + r.b * to),
-              "stroke=\"" + colour + "\" stroke-width=\"1.5\"" +
-                  (r.from_memory ? " stroke-dasharray=\"5 4\"" : ""));
+  return line(x.at(from), y.at(r.a + r.b * from), x.at(to), y.at(r.a + r.b * to), stroke);
 }
 
 }  // namespace
@@ -141,8 +150,6 @@ MobilityRow compare(const MobilityRelation& r, const MobilityEvent& event) {
 
 std::string mobility_svg(const std::vector<MobilityRelation>& relations,
                          const std::vector<MobilityEvent>& events) {
-  constexpr std::array colours = {"#1b6ca8", "#c8553d", "#3a7d44", "#8d5fa8",
-                                  "#b8860b", "#4a7c86", "#a23b72", "#666666"};
   const Axis x{0, 9, 60, 560}, y{std::log10(0.05), std::log10(2.5), 430, 40};
   std::string out =
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 900 480\" width=\"900\" "
@@ -152,12 +159,9 @@ std::string mobility_svg(const std::vector<MobilityRelation>& relations,
   std::size_t n_lines = 0;
   for (const MobilityRelation& r : relations) {
     if (r.kind != MobilityKind::hl_power) continue;
-    const std::string colour = colours[n_lines % colours.size()];
     const double at = 52 + 20 * static_cast<double>(n_lines);
-    out += relation_line(r, x, y, colour);
-    out += line(580, at - 4, 604, at - 4,
-                "stroke=\"" + colour + "\" stroke-width=\"2\"" +
-                    (r.from_memory ? " stroke-dasharray=\"5 4\"" : ""));
+    out += relation_line(r, x, y, stroke_of(r, n_lines, "1.5"));
+    out += line(580, at - 4, 604, at - 4, stroke_of(r, n_lines, "2"));
     out += label(610, at, "start", r.id + (r.from_memory ? " (unchecked)" : ""));
     ++n_lines;
   }

@@ -50,7 +50,7 @@ std::array<double, 3> answer_of(const cases::Run& run, const Progress& progress)
 }  // namespace
 
 EnsembleResult run_ensemble(const std::function<Scene(std::uint64_t seed)>& scene, int n_runs,
-                            double duration, const Progress& progress) {
+                            double duration, const Progress& progress, const Breaks& breaks) {
   EnsembleResult out;
   out.n_runs = n_runs;
   std::vector<std::array<double, 3>> answers;
@@ -62,6 +62,7 @@ EnsembleResult run_ensemble(const std::function<Scene(std::uint64_t seed)>& scen
     cases::Run run(std::move(started));
     run.advance_to(duration);
     answers.push_back(answer_of(run, progress));
+    out.n_broken += breaks && breaks(run) ? 1 : 0;
     cases::add_counts(run.counted(), out.sums);
     out.settings = run.scene.settings;
     out.n_blocks = n_blocks(run.scene);

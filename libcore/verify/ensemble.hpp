@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "blocks/block_set.hpp"
+#include "verify/case_run.hpp"
 #include "verify/measure.hpp"
 
 namespace talus {
@@ -26,6 +27,7 @@ struct EnsembleResult {
   Settings settings;
   std::string method;
   int n_blocks = 0, n_runs = 0;
+  int n_broken = 0;  ///< runs that broke a limit, where run_ensemble() was given any
   std::array<double, 3> mean{};            ///< [m]
   std::array<double, 3> standard_error{};  ///< of the mean, from the scatter of the runs [m]
   double cpu = 0;          ///< of one run from its start, without the set-up of the scene, mean [s]
@@ -34,9 +36,13 @@ struct EnsembleResult {
   cases::CaseResult sums;  ///< steps, passes, unconverged: of all runs
 };
 
+/// Whether a run that has ended broke a limit.
+using Breaks = std::function<bool(const cases::Run&)>;
+
 /// Runs the scene of each seed 1..n_runs for `duration` [s].
 [[nodiscard]] EnsembleResult run_ensemble(const std::function<Scene(std::uint64_t seed)>& scene,
-                                          int n_runs, double duration, const Progress& progress);
+                                          int n_runs, double duration, const Progress& progress,
+                                          const Breaks& breaks = {});
 
 /// A reference from the finest setting: its means, and how far they can be trusted.
 struct EnsembleReference {

@@ -30,7 +30,7 @@ refuses "the base motion ends at 5 s, the run lasts 8 s" --set base_motion.file=
 printf 'time_s,ax_m_s2,ay_m_s2\n0,0,0\n9,1,0\n' >column.csv
 refuses "has no column az_m_s2" --set base_motion.file=column.csv
 printf 'time_s,ax_m_s2,ay_m_s2,az_m_s2\n0,0,0,0\n5,1,0,x\n' >word.csv
-refuses "word.csv:3: has no number for az_m_s2" --set base_motion.file=word.csv
+refuses 'az_m_s2 is "x", expected a number' --set base_motion.file=word.csv
 printf 'time_s,ax_m_s2,ay_m_s2,az_m_s2\n0,0,0,0\n5,1,0,0\n5,1,0,0\n' >still.csv
 refuses "time_s is 5, expected above 5" --set base_motion.file=still.csv
 

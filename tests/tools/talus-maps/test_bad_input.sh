@@ -37,3 +37,9 @@ expect 1 talus-maps missing.h5 --trn slope.tif -o maps
 says 'no such file'
 expect 2 talus-maps run_0.h5 --trn slope.tif -o maps --resamples 3
 expect 2 talus-maps --trn slope.tif -o maps
+
+for value in "--rest-speed-m-s nan" "--cell-size-m -8" "--memory-mb 0"; do
+  expect 2 talus-maps run_0.h5 --trn slope.tif -o refused $value
+  says 'out of range'
+done
+nothing_left refused

@@ -8,7 +8,10 @@ nothing_left r.gpkg
 printf 'id,kind\nx,wrong\n' >bad.csv
 expect 1 talus-runout run_0.h5 --trn slope.tif -o r.gpkg --mobility bad.csv
 says 'bad.csv'
-expect 2 talus-runout run_0.h5 --trn slope.tif -o r.gpkg --path-tolerance-m -1
+for value in "--path-tolerance-m -1" "--path-tolerance-m nan" "--friction-deg 95" "--friction-deg -5" "--rest-speed-m-s nan" "--rest-speed-m-s -1"; do
+  expect 2 talus-runout run_0.h5 --trn slope.tif -o r.gpkg $value
+  says 'out of range'
+done
 nothing_left r.gpkg
 expect 0 talus-runout half/run_0.h5 --trn slope.tif -o r.gpkg --allow-unfinished
 ogrinfo r.gpkg | grep -q 'UNFINISHED OR FAILED' || fail 'the layers are not marked'

@@ -26,6 +26,15 @@ east=$(sed -n '/mean_displacement_m/{n;p;}' run.json | tr -d ' ,')
 awk -v m="$mean" -v e="$east" 'BEGIN { exit !(e > 0.1 && m > 0.97 * e && m < 1.03 * e) }' ||
   fail "the reference is $mean m, talus-dda moves the blocks $east m"
 
+# a setting whose runs break a limit of their health is not recommended, however cheap
+sed 's/^\[solver\]/[solver]\nmax_penetration_m = 1e-6/' site.toml >limited.toml
+expect 0 talus-verify --site limited.toml --trn slope.tif --blocks blocks.h5 --runs 2 --no-db -o limited --tolerance 100%
+prints "| 2 of 2 |"
+step=$(sed -n 's/^time_step_s = //p' limited/solver.toml)
+awk -v h="$step" 'BEGIN { exit !(h > 0 && h < 0.01) }' || fail "steps of $step s are recommended"
+
+expect 1 study -o bad --quick
+says "looks at the scene of a site file alone"
 expect 1 study -o bad --tolerance much
 says "expected a share above 0"
 expect 1 talus-verify --site site.toml -o bad --no-db

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "base/error.hpp"
 #include "post/mobility.hpp"
@@ -58,6 +59,20 @@ TEST(Mobility, FixedAngleIsALine) {
   const auto list = shipped();
   EXPECT_NEAR(compare(named(list, "cone_method"), {"", 1, 100, 100, false}).length,
               100 / std::tan(33 * std::numbers::pi / 180), 1e-9);
+}
+
+TEST(Mobility, NoTwoLinesOfTheChartLookAlike) {
+  const std::string svg = mobility_svg(shipped(), {});
+  const std::string legend = "<line x1=\"580\"";
+  std::set<std::string> strokes;
+  std::size_t n = 0;
+  for (std::size_t at = svg.find(legend); at != std::string::npos; at = svg.find(legend, at + 1)) {
+    const std::size_t stroke = svg.find("stroke=", at);
+    strokes.insert(svg.substr(stroke, svg.find("/>", stroke) - stroke));
+    ++n;
+  }
+  EXPECT_GT(n, 8U);
+  EXPECT_EQ(strokes.size(), n);
 }
 
 TEST(Mobility, OfAnEventWithoutLengthSaysNothing) {
