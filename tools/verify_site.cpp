@@ -75,10 +75,10 @@ EnsembleResult run_candidate(const Site& site, const DdaInputs& inputs, const Ca
     changed.solver.seed = static_cast<std::int64_t>(seed);
     return make_site_scene(changed, plan, inputs.parts);
   };
-  EnsembleResult result =
-      run_ensemble(scene, n_runs, site.solver.duration_s,
-                   [](const Vec3& from, const Vec3& now) { return (now - from).head<2>().norm(); },
-                   [&](const cases::Run& run) { return breaks_health(run, site.solver); });
+  EnsembleResult result = run_ensemble(
+      scene, n_runs, site.solver.duration_s,
+      [](const Vec3& from, const Vec3& now) { return (now - from).head<2>().norm(); },
+      [&](const cases::Run& run) { return breaks_health(run, site.solver); });
   result.method = c.method;
   return result;
 }
@@ -86,8 +86,8 @@ EnsembleResult run_candidate(const Site& site, const DdaInputs& inputs, const Ca
 std::string fragment_of(const Candidate& c, const SiteStudyOptions& o) {
   std::string toml = "# Cheapest settings whose " + o.quantity + " stays within " + o.tolerance +
                      " of the refined answer (talus-verify, commit " + build_commit + ").\n";
-  toml += "# In place of these keys of the site file's [solver]:\n[solver]\ntime_step_s = " + text(c.dt) + "\nstrain = \"" + (c.strains ? "on" : "off") +
-          "\"\n";
+  toml += "# In place of these keys of the site file's [solver]:\n[solver]\ntime_step_s = " +
+          text(c.dt) + "\nstrain = \"" + (c.strains ? "on" : "off") + "\"\n";
   return toml + (std::isnan(c.normal_stiffness)
                      ? "# normal_stiffness_n_m is left to law talus: do not give it\n"
                      : "normal_stiffness_n_m = " + text(c.normal_stiffness) + "\n");
@@ -95,10 +95,9 @@ std::string fragment_of(const Candidate& c, const SiteStudyOptions& o) {
 
 std::string table_of(const std::vector<Candidate>& list, const std::vector<EnsembleResult>& results,
                      std::size_t q, double reference) {
-  std::string table =
-      "| Settings | dt [s] | " + std::string(quantity_names[q]) +
-      " [m] | off the reference | CPU s a run | unconverged | health broken |\n"
-      "|---|---|---|---|---|---|---|\n";
+  std::string table = "| Settings | dt [s] | " + std::string(quantity_names[q]) +
+                      " [m] | off the reference | CPU s a run | unconverged | health broken |\n"
+                      "|---|---|---|---|---|---|---|\n";
   for (std::size_t i = 0; i < list.size(); ++i)
     table += "| " + list[i].method + " | " + text(list[i].dt) + " | " +
              text(results[i].mean[q], 5) + " ± " + text(results[i].standard_error[q], 2) + " | " +

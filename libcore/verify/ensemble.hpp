@@ -27,8 +27,8 @@ struct EnsembleResult {
   Settings settings;
   std::string method;
   int n_blocks = 0, n_runs = 0;
-  int n_broken = 0;  ///< runs that broke a limit, where run_ensemble() was given any
-  std::array<double, 3> mean{};            ///< [m]
+  int n_broken = 0;              ///< runs that broke a limit, where run_ensemble() was given any
+  std::array<double, 3> mean{};  ///< [m]
   std::array<double, 3> standard_error{};  ///< of the mean, from the scatter of the runs [m]
   double cpu = 0;          ///< of one run from its start, without the set-up of the scene, mean [s]
   double set_up_cpu = 0;   ///< of one scene, mean [s]
