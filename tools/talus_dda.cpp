@@ -112,7 +112,7 @@ RunOptions run_options(const Site& site, const ScenePlan& plan, const Options& o
   options.passage_cell_size = site.output.cell_size_m;
   options.strain = site.output.strain && plan.strains;
   options.limits = {site.solver.max_penetration_m, site.solver.max_energy_gain,
-                    site.solver.max_lost_share};
+                    site.solver.max_lost_share, site.solver.max_unconverged_share};
   return options;
 }
 

@@ -66,10 +66,6 @@ struct AdvanceIsland {
     }
     return v;
   }
-  // Change of the relative velocity at contact `r` by all contacts.
-  [[nodiscard]] Vec3 changed(size_t r) const {
-    return relative(r, [&](size_t k) -> const Vec6& { return w.change[k]; });
-  }
   // The next solution cannot go on from what the last one made of contact `r`.
   void note_change(size_t r) {
     w.island.pairs[static_cast<size_t>(w.contacts[r].pair)].changed = true;

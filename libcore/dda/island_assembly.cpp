@@ -31,6 +31,12 @@ void set_motion(const Vec3& normal, double gap, const Vec3& arm, const Vec3& dri
   row.slip_start = slip_speed > 0 ? Vec3(tangent / slip_speed) : Vec3(Vec3::Zero());
 }
 
+// Whether block b is wholly below the ground under its centroid.
+bool is_below_ground(const Scene& scene, int b, const Vec3& centroid) {
+  const double radius = scene.blocks.shapes.radius[static_cast<size_t>(b)];
+  return centroid.z() + radius < elevation_at(scene.ground.trn, centroid.x(), centroid.y());
+}
+
 double approach_of(const ContactRow& row, double h) {
   return std::min(row.speed_start, row.normal.dot(row.free_move) / h);
 }
@@ -129,7 +135,11 @@ IslandContact& AdvanceIsland::push(int a, const ContactKey& key, double touch, d
 bool AdvanceIsland::add_ground(size_t k) {
   const Substep& s = w.substeps[k];
   const int b = w.members[k];
-  if (!scene.settings.trn_contacts) return true;
+  if (!scene.settings.trn_contacts) {
+    if (is_below_ground(scene, b, s.free.pose.position))
+      report.flags = report.flags | StepFlag::fell_through;
+    return true;
+  }
   const SearchResult near =
       find_contacts(scene.ground, scene.blocks.shapes, b, s.free.pose, Mat3::Identity(),
                     search_margin(w.numbers[k], s.h), work.world_vertices, work.contacts);

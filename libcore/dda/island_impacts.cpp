@@ -260,11 +260,9 @@ void AdvanceIsland::shift_arms(double h) {
 }
 
 void AdvanceIsland::set_displacements(double h) {
-  w.change.resize(w.members.size());
   w.displacement.resize(w.members.size());
   for (size_t k = 0; k < w.members.size(); ++k) {
-    w.change[k] = change(k);
-    w.displacement[k] = (h - w.time[k]) * w.change[k];
+    w.displacement[k] = (h - w.time[k]) * change(k);
   }
 }
 

@@ -28,20 +28,21 @@ inline constexpr double deep_share = 0.1;
 
 struct StepReport {
   StepFlag flags = StepFlag::none;
-  int passes = 0;         ///< iterations, summed over blocks and substeps
-  int substeps = 0;       ///< block steps with contact search
-  int n_closed = 0;       ///< contacts that press at the end of the step
-  int n_flips = 0;        ///< contacts that opened, closed, or went from stick to slip or back
-  int n_impacts = 0;      ///< impact events
+  int passes = 0;     ///< iterations, summed over blocks and substeps
+  int substeps = 0;   ///< block steps with contact search
+  int n_closed = 0;   ///< contacts that press at the end of the step
+  int n_flips = 0;    ///< contacts that opened, closed, or went from stick to slip or back; not in
+                      ///< islands of law talus
+  int n_impacts = 0;  ///< impact events
   int n_unconverged = 0;  ///< block steps accepted without convergence
-  double largest_penetration = 0;  ///< over contacts that press, at the end of the step [m]
-  double sum_penetration = 0;      ///< over the same contacts [m]
-  double shortest_dt = 0;          ///< shortest substep; 0 when no block searched contact [s]
+  double largest_penetration =
+      0;                       ///< over all contacts, pressing or not, at the end of the step [m]
+  double sum_penetration = 0;  ///< over contacts that press [m]
+  double shortest_dt = 0;      ///< shortest substep; 0 when no block searched contact [s]
 };
 
-/// Takes an overlap of a contact that presses into the report.
-inline void note_penetration(StepReport& report, double overlap, double thickness) {
-  report.sum_penetration += std::max(overlap, 0.0);
+/// Takes the overlap of a contact into the report.
+inline void note_overlap(StepReport& report, double overlap, double thickness) {
   if (overlap > report.largest_penetration) report.largest_penetration = overlap;
   if (overlap > deep_share * thickness) report.flags = report.flags | StepFlag::deep;
 }

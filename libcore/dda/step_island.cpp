@@ -30,16 +30,18 @@ void AdvanceIsland::release() {
   for (const int b : w.members) w.place[static_cast<size_t>(b)] = -1;
 }
 
-// Way of the points of contact `r` that its impulse works on, over h: what an impulse does to
-// velocities, less what it does to heights by acting before or after the middle of the substep.
+// Way per time of the points of contact `r` that its impulse works on, over h: their mean velocity
+// without and with contacts, less what gravity does to a change of velocity in the rest of the
+// substep.
 Vec3 AdvanceIsland::way_of_impulse(size_t r, double h) const {
   const IslandContact& contact = w.contacts[r];
-  Vec3 way = (contact.free_move + h / 2 * changed(r)) / h;
+  Vec3 way = relative(
+      r, [&](size_t k) -> Vec6 { return (w.island.velocity[k] + w.island.free_velocity[k]) / 2; });
   const size_t ka = place(contact.a);
-  way -= (h / 2 - w.time[ka]) * w.substeps[ka].free_acceleration;
+  way -= (h - w.time[ka]) * w.substeps[ka].free_acceleration;
   if (contact.b >= 0) {
     const size_t kb = place(contact.b);
-    way += (h / 2 - w.time[kb]) * w.substeps[kb].free_acceleration;
+    way += (h - w.time[kb]) * w.substeps[kb].free_acceleration;
   }
   return way;
 }
@@ -154,12 +156,16 @@ void AdvanceIsland::remember(double h) {
   for (size_t r = 0; r < w.contacts.size(); ++r) {
     const IslandContact& contact = w.contacts[r];
     const IslandRow& solved = w.island.rows[r];
-    if (contact.waits || solved.state == ContactState::open) continue;
-    account(r, h);
     const Vec3 path = path_of_contact(r);
     const double along = solved.normal.dot(path);
+    const double overlap = -(contact.gap_start + along);
+    const double thickness = numbers(contact.a).thickness;
+    note_overlap(report, overlap,
+                 contact.b < 0 ? thickness : std::min(thickness, numbers(contact.b).thickness));
+    if (contact.waits || solved.state == ContactState::open) continue;
+    account(r, h);
     ++report.n_closed;
-    note_penetration(report, -(contact.gap_start + along), numbers(contact.a).thickness);
+    report.sum_penetration += std::max(overlap, 0.0);
     if (contact.hit) continue;
     const double p_n = solved.normal.dot(solved.impulse);
     const Vec3 p_t = solved.impulse - p_n * solved.normal;

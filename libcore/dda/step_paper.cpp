@@ -325,9 +325,11 @@ struct OpenClose {
     const PaperSides& sides = w.sides[r];
     const bool sticks = row.state == ContactState::stick;
     if (sides.bond >= 0 && !sticks) state.bonds[static_cast<size_t>(sides.bond)].area = 0;
-    if (row.state == ContactState::open) return;
     const Vec3 way = moved(r);
-    const double along = row.normal.dot(way);
+    const double along = row.normal.dot(way), overlap = -(row.gap_start + along);
+    const int block = members[static_cast<size_t>(sides.a)];
+    note_overlap(report, overlap, scene.blocks.shapes.thickness[static_cast<size_t>(block)]);
+    if (row.state == ContactState::open) return;
     ContactMemory memory;
     memory.key = w.keys[r];
     memory.normal = row.normal;
@@ -340,9 +342,7 @@ struct OpenClose {
     memory.state = static_cast<std::uint8_t>(row.state);
     work.memory_next.push_back(memory);
     ++report.n_closed;
-    const int block = members[static_cast<size_t>(sides.a)];
-    note_penetration(report, -(row.gap_start + along),
-                     scene.blocks.shapes.thickness[static_cast<size_t>(block)]);
+    report.sum_penetration += std::max(overlap, 0.0);
     state.ledger.contact -= memory.normal_force * along;
     if (!sticks)
       state.ledger.friction += row.held_cap * (way - along * row.normal).dot(row.slip_start);
@@ -374,6 +374,8 @@ struct OpenClose {
     const Vec& D = w.D[k];
     const Vec velocity = 2 / dt * D - w.equations[k].velocity;
     Motion& m = state.motion[i];
+    const Vec3 external = free_acceleration(scene, b, state.time, state.time + dt) - scene.gravity;
+    state.ledger.base += scene.blocks.mass[i] * external.dot(D.template head<3>());
     m.pose.position += D.template head<3>();
     m.pose.attitude = (rotation_by(D.template segment<3>(3)) * m.pose.attitude).normalized();
     m.velocity = velocity.template head<3>();

@@ -108,9 +108,11 @@ void remember(const BlockNumbers& c, const Substep& s, const Solved<Dof>& solved
   const double relax = offset_relaxed(c.gravity, s.h), per_h = 1 / s.h;
   work.memory_next.clear();
   for (ContactRow& row : work.rows) {
-    if (row.waits_for_impact || row.state == ContactState::open) continue;
     const Contact& contact = work.contacts[static_cast<size_t>(row.contact)];
     const Vec3 moved = row.free_move + solved.moved(row.point, s.h);
+    const double overlap = -(row.gap_start + row.normal.dot(moved));
+    note_overlap(report, overlap, c.thickness);
+    if (row.waits_for_impact || row.state == ContactState::open) continue;
     const double p_n = row.normal.dot(row.impulse);
     const Vec3 p_t = row.impulse - p_n * row.normal;
     const double along = row.normal.dot(moved);
@@ -131,7 +133,7 @@ void remember(const BlockNumbers& c, const Substep& s, const Solved<Dof>& solved
          .bond_area = row.bond_area,
          .state = static_cast<std::uint8_t>(row.state)});
     ++report.n_closed;
-    note_penetration(report, -(row.gap_start + along), c.thickness);
+    report.sum_penetration += std::max(overlap, 0.0);
   }
   std::vector<ContactMemory>& memory = state.memory[static_cast<size_t>(b)];
   report.n_flips += count_flips(work.rows, memory);

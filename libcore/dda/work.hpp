@@ -128,7 +128,6 @@ struct IslandStepWork {  // clang-format off
   std::vector<ExpectedHit> hits, last_hits; ///< of this round of solutions and the one before
   std::vector<double> weight, time;         ///< impulses expected [N s]; mean time of theirs [s] (n_members)
   std::vector<double> last_time;            ///< `time` before it was set last [s]       (n_members)
-  std::vector<Vec6> change;                 ///< of velocity by contact                  (n_members)
   std::vector<Vec6> displacement;           ///< by contact over the substep             (n_members)
 };  // clang-format on
 

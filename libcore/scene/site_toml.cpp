@@ -172,7 +172,8 @@ template <> const std::vector<Key<SolverSettings>>& keys() {
       {"cor_scatter", &S::cor_scatter, "standard deviation of the ground's restitution between runs", share},
       {"max_penetration_m", &S::max_penetration_m, "deeper makes the run fail", positive},
       {"max_energy_gain", &S::max_energy_gain, "share of the fall energy; more makes the run fail", not_negative},
-      {"max_lost_share", &S::max_lost_share, "share of blocks that may leave the terrain", share}};
+      {"max_lost_share", &S::max_lost_share, "share of blocks that may leave the terrain", share},
+      {"max_unconverged_share", &S::max_unconverged_share, "share of the steps that may be accepted unconverged", share}};
   return table;
 }
 template <> const std::vector<Key<FenceSettings>>& keys() {

@@ -217,7 +217,7 @@ void health_columns(Visit&& column) {
       "not_finite", "1", "steps so far in which a block was stopped for want of a finite number",
       [](HealthRow & h) -> auto& { return h.not_finite; });
   column(
-      "largest_penetration_m", "m", "largest penetration of a pressing contact in the interval",
+      "largest_penetration_m", "m", "largest overlap of a contact in the interval, pressing or not",
       [](HealthRow & h) -> auto& { return h.largest_penetration; });
   column(
       "translational_energy_j", "J", "kinetic energy of translation, all blocks",

@@ -22,8 +22,9 @@ namespace talus {
 /// Limits of a run's health; what breaks one fails the run.
 struct RunLimits {
   double max_penetration = std::numeric_limits<double>::quiet_NaN();  ///< NaN: none [m]
-  double max_energy_gain = 0.01;  ///< mechanical energy gained, share of the fall energy [-]
-  double max_lost_share = 0;      ///< blocks that left the terrain, share of all [-]
+  double max_energy_gain = 0.01;       ///< mechanical energy gained, share of the fall energy [-]
+  double max_lost_share = 0;           ///< blocks that left the terrain, share of all [-]
+  double max_unconverged_share = 0.1;  ///< accepted without convergence, share of the steps [-]
 };
 
 struct RunOptions {

@@ -3,6 +3,8 @@
 // tightly.
 #include <gtest/gtest.h>
 
+#include "dda/step.hpp"
+#include "verify/cases.hpp"
 #include "verify/closed_form.hpp"
 
 namespace {
@@ -57,6 +59,21 @@ TEST(LawPaper, ElasticRestitutionTendsToOne) {
   }
   EXPECT_GT(last, 0.99);
   EXPECT_LT(elastic_restitution(law_paper(1e-6, 1e11), 1e8).value, 0.85);
+}
+
+// What a shaken ground does to a block is put in, not gained.
+TEST(LawPaper, WorkOfTheBaseMotionIsBooked) {
+  using namespace cases;
+  const SlopeFrame flat = slope_frame(0, 0);
+  const Body cube = body_of(box_in(flat, Vec3::Zero(), Vec3(-0.5, -0.5, 0), Vec3(0.5, 0.5, 1)));
+  Scene scene = scene_of(plane_trn(flat, 1, 20), GroundClass{}, {cube}, law_paper(1e-3, 5e8));
+  scene.base = {{0, 10}, {Vec3(-5, 0, 0), Vec3(-5, 0, 0)}};
+  State state = start(scene);
+  Work work = make_work(scene);
+  while (state.time < 0.5) step(scene, state, work);
+  const double way = state.motion[0].pose.position.x() - scene.blocks.rest[0].position.x();
+  EXPECT_NEAR(way, 5 * 0.5 * 0.5 / 2, 0.02);
+  EXPECT_NEAR(state.ledger.base, scene.blocks.mass[0] * 5 * way, 1e-6 * state.ledger.base);
 }
 
 TEST(LawPaper, OwnWeightStressesTheBlock) {

@@ -65,6 +65,23 @@ TEST(ManyBlocks, AnyStiffnessAndStepIsBounded) {
   for (const double stiffness : {0.0, 1e6, 1e14}) expect_bounded(stiffness, 1e-3, 2, 1);
 }
 
+// What heaps lose is what friction, impacts and contacts took, to a half per cent of what they had.
+TEST(ManyBlocks, EnergyBalanceCloses) {
+  for (int number = 0; number < 10; ++number) {
+    const Scene scene = heap({}, number);
+    State state = start(scene);
+    const Energies e = energies(scene, state);
+    const double before = mechanical_energy(scene, state);
+    run(scene, 2, state);
+    const EnergyLedger& l = state.ledger;
+    const double taken = l.friction + l.impact + l.contact;
+    EXPECT_GT(l.impact, 0.05 * (e.translation + e.rotation));
+    EXPECT_NEAR(before - mechanical_energy(scene, state), taken,
+                5e-3 * (e.translation + e.rotation))
+        << number;
+  }
+}
+
 void expect_same_bits(const State& a, const State& b) {
   ASSERT_EQ(a.motion.size(), b.motion.size());
   for (std::size_t i = 0; i < a.motion.size(); ++i) {

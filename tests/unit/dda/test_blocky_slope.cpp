@@ -76,6 +76,22 @@ TEST(BlockySlope, BearsAStack) {
   EXPECT_EQ(state.counters.unconverged, 0);
 }
 
+// Contacts that are far too soft let a cube through: it is seen.
+TEST(BlockySlope, SaysThatABlockFellThrough) {
+  Body body;
+  body.parts = {box(Vec3(0.1, 0.2, 0), Vec3(1.1, 1.2, 1))};
+  Settings soft;
+  soft.normal_stiffness = 100;
+  const Scene scene =
+      blocky(scene_of(plane_trn(slope_frame(0, 0), 1, 10), rough(20), {body}, soft));
+  State state = start(scene);
+  Work work = make_work(scene);
+  StepFlag flags = StepFlag::none;
+  while (state.time < 2) flags = flags | step(scene, state, work).flags;
+  EXPECT_LT(state.motion[0].pose.position.z(), -2);
+  EXPECT_TRUE(has(flags, StepFlag::fell_through));
+}
+
 TEST(BlockySlope, LeavesOutUnknownGround) {
   Body body;
   body.parts = {box(Vec3(-0.5, -0.5, 0), Vec3(0.5, 0.5, 1))};

@@ -121,6 +121,19 @@ TEST(StepIsland, HeadOnCollisionHasItsRestitution) {
 }
 
 // A heap thrown on the ground: kinetic and potential energy together never rise.
+// A new overlap presses nothing, and is an overlap all the same.
+TEST(StepIsland, OverlapThatPressesNothingIsReported) {
+  const double depth = 0.04;
+  std::vector<Body> bodies = {body_of(box(Vec3(0, 0, 50), Vec3(1, 1, 51))),
+                              body_of(box(Vec3(0, 0, 51 - depth), Vec3(1, 1, 52)))};
+  const Scene scene = scene_of(plane_trn(slope_frame(0, 0), 1, 30), rough(30, 0.4), bodies, {});
+  State state = start(scene);
+  Work work = make_work(scene);
+  const StepReport report = step(scene, state, work);
+  EXPECT_NEAR(report.largest_penetration, depth, 1e-3);
+  EXPECT_LT((state.motion[0].velocity - state.motion[1].velocity).norm(), 1e-9);
+}
+
 TEST(StepIsland, EnergyNeverRises) {
   std::vector<Body> bodies;
   for (int i = 0; i < 6; ++i) {

@@ -201,4 +201,21 @@ TEST(Runner, ABrokenLimitFailsTheRun) {
   EXPECT_EQ(n_broken, 1);
 }
 
+TEST(Runner, UnconvergedStepsAreLimited) {
+  const Scene scene = bouncing_scene();
+  RunOptions wanted = options(0.1);
+  wanted.limits.max_unconverged_share = 0.01;
+  Runner runner = begin_run(scene, wanted, lines(), blocks_of(scene));
+  for (int i = 0; i < 100; ++i) advance(runner);
+  const auto broken = [&] {
+    std::vector<std::string> names;
+    for (const HealthCheck& check : health_checks(runner))
+      if (!check.pass) names.push_back(check.name);
+    return names;
+  };
+  EXPECT_TRUE(broken().empty());
+  runner.state.counters.unconverged = 2;
+  EXPECT_EQ(broken(), std::vector<std::string>{"steps accepted unconverged, share"});
+}
+
 }  // namespace
