@@ -545,13 +545,14 @@ Json fence_json(const FenceCase& c, std::size_t index, const FenceResult& r, con
 // --- with and without ---------------------------------------------------------------------------
 
 Json side_json(const RunGroup& group, std::size_t fence) {
-  double weight = 0, total = 0, volume = 0, n = 0;
+  double weight = 0, weight_sq = 0, total = 0, volume = 0, n = 0;
   double length = 0, angle = 0, centre = 0;
   std::vector<WeightedValue> energy;
   for (const RunWhole& run : group.runs) {
     for (const double w : run.weight) total += w;
     for (const FenceArrival& a : passed(run.at_fence[fence])) {
       weight += a.weight;
+      weight_sq += a.weight * a.weight;
       volume += a.volume;
       n += 1;
       energy.push_back({a.energy() / 1e3, a.weight});
@@ -561,11 +562,13 @@ Json side_json(const RunGroup& group, std::size_t fence) {
     centre += run.centre.path / group.n();
   }
   sort_values(energy);
+  const bool enough = effective_size(weight, weight_sq) + 1e-9 >= smallest_sample(0.5);
   return {{"n_runs", group.n()},
           {"blocks_behind_the_line", n},
           {"share_behind_the_line", number_or_null(weight / total)},
           {"volume_behind_the_line_m3_per_run", volume / group.n()},
-          {"energy_at_the_line_kj_p50", number_or_null(weighted_percentile(energy, 0.5))},
+          {"energy_at_the_line_kj_p50",
+           number_or_null(enough ? weighted_percentile(energy, 0.5) : std::nan(""))},
           {"energy_at_the_line_kj_max",
            number_or_null(energy.empty() ? std::nan("") : energy.back().value)},
           {"mean_L_path_m", number_or_null(length)},

@@ -3,13 +3,15 @@
 // straight down a plane (30 degrees, cells of 2 m), recorded by the recorder itself.
 //   run-probe DIR N_RUNS [site=NAME] [version=V] [status=running|failed] [standing=1] [empty=1]
 //             [blocks=N] [step=H] [frames=DT] [seed=K] [height=H] [capacity=KJ|none]
-//             [hits=stopped|held|broken|pile]
+//             [hits=stopped|held|broken|pile] [moving=1]
 // Box b of run r (edge 1 m, 2600 kg) starts at rest at x = 11, y = 10 + 6 b and slides with
 // a = 3 m/s2 along the slope for 4 s (24 m), then brakes evenly to rest within 2 s (12 m more); its
 // speed is that of run 0 times 1 + 0.01 r. Written: DIR/slope.tif, DIR/run_<r>.h5, DIR/site.toml.
 // hits: what a standing fence recorded. Each block that crosses the line touches it with the motion
 // of the crossing; then it does not cross (stopped), crosses 0.1 s later with half the energy in a
 // panel pushed 100 m (held) or in a broken one (broken), or nothing touches or crosses (pile).
+// moving: at the end, all of them.
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -185,6 +187,10 @@ RunFile make_run(const Words& words, int r, const std::string& trn_sha256) {
   if (words.contains("hits")) record_hits(run, words.at("hits"));
   run.health = {health_at(scene, 0, 0), health_at(scene, 8, 18 * scale)};
   run.phase.assign(run.blocks.mass.size(), Phase::asleep);
+  if (words.contains("moving")) {
+    std::fill(run.phase.begin(), run.phase.end(), Phase::near_ground);
+    std::fill(run.frames.velocity.end() - 3 * n_blocks(run), run.frames.velocity.end(), 1.0F);
+  }
   return run;
 }
 

@@ -1,5 +1,5 @@
 # A fence that stood: arrivals are first touches, with what blocks had before, not what the fence left.
-mkdir stopped broken held pile rigid without many
+mkdir stopped broken held pile rigid without many moving
 run-probe stopped 80 standing=1 hits=stopped
 expect 0 talus-fence stopped/site.toml stopped/run_*.h5 --trn stopped/slope.tif -o f.gpkg --json f.json --csv f.csv
 prints '80 stopped; 80 first touches of the fence: largest energy'
@@ -66,3 +66,10 @@ w = f['design']['whole']
 assert f['free_border_m'] == w['free_border_m'] == 1.5
 assert abs(w['required_height_m'] - w['design_height_m'] - 1.5) < 1e-9
 PY
+
+# Who still moves when the run ends may pass yet.
+run-probe moving 1 standing=1 hits=stopped blocks=2 moving=1
+expect 0 talus-fence moving/site.toml moving/run_0.h5 --without without/run_0.h5 --trn moving/slope.tif -o v.gpkg --json v.json
+says '2 of the blocks that it stopped were still moving'
+grep -q '"stopped_but_moving": 2' v.json || fail 'nothing says that they move'
+! grep -q '"energy_at_the_line_kj_p50": [0-9]' v.json || fail 'a median of two blocks'
