@@ -93,18 +93,21 @@ std::string fence_verdict(const Json& fence) {
   const Json design = at(fence, {"design", "whole"});
   const std::string name = "fence " + words(at(fence, {"name"}));
   if (number(at(fence, {"whole", "n"})) == "0")
-    return "<div class=\"verdict\"><b>" + name + "</b>: no block's centroid crossed its line (" +
+    return "<div class=\"verdict\"><b>" + name + "</b>: nothing came to it (" +
            verdict_counts(fence) + ").</div>\n";
-  const bool pass = at(design, {"pass"}).is_boolean() && at(design, {"pass"}).get<bool>();
-  std::string out = std::string("<div class=\"verdict ") + (pass ? "pass" : "fail") + "\"><b>" +
-                    name + (pass ? " meets " : " does not meet ") +
+  std::string kind = "fail", outcome = " does not meet ";
+  if (words(at(design, {"verdict"})) == "meets") kind = "pass", outcome = " meets ";
+  if (words(at(design, {"verdict"})) == "energy not checked")
+    kind = "", outcome = " is high enough, its energy is not checked, by ";
+  std::string out = "<div class=\"verdict " + kind + "\"><b>" + name + outcome +
                     xml_escaped(fs::path(words(at(fence, {"design", "code"}))).stem().string()) +
                     "</b>: needs " + number(at(design, {"required_capacity_kj"})) +
                     " kJ (class: " + words(at(design, {"smallest_class"})) + ") and a height of " +
                     number(at(design, {"required_height_m"}), 3) + " m; it is " +
                     number(at(fence, {"height_m"}), 3) + " m high";
   const Json capacity = at(fence, {"capacity_kj"});
-  out += capacity.is_number() ? ", holds " + number(capacity) + " kJ" : ", has no capacity given";
+  out += capacity.is_number() ? ", holds " + number(capacity) + " kJ"
+                              : ", has no capacity given: its energy is not checked";
   if (!number(at(design, {"enough_arrivals"})).starts_with("y"))
     out += ". Too few arrivals (" + number(at(fence, {"whole", "n"})) + " of " +
            number(at(design, {"arrivals_needed"})) +
@@ -329,22 +332,22 @@ std::string arrival_table(const Json& whole) {
                     table, {false, true, true, true, true, true, true});
 }
 
-// Energies and heights of the centroids that came over the line, and what the fence holds.
+// What came to the fence, and what it holds.
 std::string arrivals(const Json& fence) {
-  const Json whole = at(fence, {"whole"});
+  const Json whole = at(fence, {"whole"}), kept = at(fence, {"kept_from_passing_m3"});
   const std::string held =
-      "Volume held: " + number(at(fence, {"retained_m3"})) +
-      " m&sup3;, storage behind the fence: " + number(at(fence, {"storage_m3"})) + " m&sup3;.";
-  if (number(at(whole, {"n"})) == "0")
-    return paragraph(
-        "No centroid came over the line, so the runs with the fence hold no energy and height of "
-        "an "
-        "arrival. What would come to the line, the runs without the fence say" +
-        std::string(at(fence, {"comparison"}).is_null() ? " (WITHOUT=yes). " : ": see below. ") +
-        held);
+      "Volume that the fence stopped: " + number(at(fence, {"retained_m3"})) + " m&sup3;" +
+      (kept.is_number()
+           ? ", kept from passing, as the runs without it say: " + number(kept) + " m&sup3;"
+           : std::string()) +
+      ", storage behind the fence: " + number(at(fence, {"storage_m3"})) + " m&sup3;.";
+  if (number(at(whole, {"n"})) == "0") return paragraph("Nothing came to the fence. " + held);
   return arrival_table(whole) +
          paragraph(
-             "Most centroids over the line in a run: " + number(at(whole, {"most_hits_in_a_run"})) +
+             "Arrivals: " + number(at(fence, {"arrivals", "first_touches"})) +
+             " first touches of the fence, with what the block had before, and " +
+             number(at(fence, {"arrivals", "crossings"})) +
+             " crossings of its line. Most in a run: " + number(at(whole, {"most_hits_in_a_run"})) +
              "; within one second up to " + number(at(whole, {"hits_in_that_second"})) + " with " +
              number(at(whole, {"energy_in_one_second_kj"})) + " kJ together. " + held);
 }

@@ -2,6 +2,7 @@
 // What fences would meet, what they hold and what they change. Page: docs/tools/talus-fence.md
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <numbers>
 
@@ -33,12 +34,12 @@ struct Options {
   std::string out, json, csv, change, code = "uni";
   std::vector<std::string> without;
   DesignInput design;
-  double free_border_m = std::nan(""), bulking = 1.3;
+  double bulking = 1.3;
   std::uint64_t seed = 1;
 };
 
 void declare(Tool& tool, Options& o) {
-  o.design = {std::nan(""), 0, 0, 2, false, std::nan(""), std::nan("")};
+  o.design.block_volume = o.design.deflection = o.design.distance_to_object = std::nan("");
   tool.output("-o,--out", o.out, "fields, posts and arrivals (GeoPackage)")->required();
   tool.json_output(o.json, "verdicts, statistics, design check, comparison (JSON)");
   tool.output("--csv", o.csv, "one row a block and fence: its verdict (CSV)");
@@ -51,11 +52,15 @@ void declare(Tool& tool, Options& o) {
       ->check(CLI::Range(1, 3));
   tool.flag("--service-level", o.design.service_level, "UNI: check the service energy level (SEL)");
   tool.option("--design-block-m3", o.design.block_volume,
-              "volume of the design block [m3]; nan: 95th percentile of the released blocks");
-  tool.option("--deflection-m", o.design.deflection, "largest deflection of the barrier [m]");
+              "volume of the design block [m3]; nan: 95th percentile of the released blocks")
+      ->check(CLI::PositiveNumber);
+  tool.option("--deflection-m", o.design.deflection, "largest deflection of the barrier [m]")
+      ->check(CLI::NonNegativeNumber);
   tool.option("--object-distance-m", o.design.distance_to_object,
-              "distance from the fence to the object behind it [m]");
-  tool.option("--free-border-m", o.free_border_m, "f_min [m]; nan: that of the code");
+              "distance from the fence to the object behind it [m]")
+      ->check(CLI::PositiveNumber);
+  tool.option("--free-border-m", o.design.free_border, "f_min [m]; nan: that of the code")
+      ->check(CLI::NonNegativeNumber);
   tool.option("--bulking", o.bulking, "volume of piled blocks over that of their rock")
       ->check(CLI::Range(1.0, 3.0));
   tool.option("--seed", o.seed, "of the bootstrap over runs");
@@ -68,16 +73,18 @@ void declare(Tool& tool, Options& o) {
 
 /// A run at one fence.
 struct RunAtFence {
-  std::vector<FenceArrival> arrivals;
-  std::vector<BlockVerdict> verdicts;
+  std::vector<FenceArrival> arrivals;   // what comes at the fence
+  std::vector<FenceArrival> crossings;  // of its line
+  std::vector<BlockVerdict> verdicts;   // at [block]
   bool standing = false;
+  int n_unsettled = 0;  // blocks that the standing fence stopped and that move at the end
 };
 
 /// A run as a whole, for the comparison.
 struct RunWhole {
   std::vector<double> volume, weight;
   double density = 0;
-  double free_border = 0;  // by the size of its blocks [m]
+  double block_size = 0;  // mean of the cube roots of the volumes [m]
   ReachLine event, centre;
   std::vector<RunAtFence> at_fence;  // of each fence
 };
@@ -96,6 +103,37 @@ std::vector<FenceCase> cases_of(Tool& tool, const Site& site, const Trn& trn) {
   if (cases.empty())
     throw InputError({site.file}, "has no section [fence.*]", "add one with its line and height");
   return cases;
+}
+
+// Throws InputError unless the fence that stood in a run is built as that of the site file; its
+// posts are the line's points (find_line).
+void check_same_fence(const RunFile& run, const FenceSettings& expected, const std::string& file,
+                      const std::string& site_file) {
+  const Site site = parse_site(run.info.config, file);
+  const auto stood =
+      std::find_if(site.fences.begin(), site.fences.end(),
+                   [&](const FenceSettings& fence) { return fence.name == expected.name; });
+  if (stood == site.fences.end()) return;  // the run does not say how it was built
+  using Key = std::pair<const char*, double FenceSettings::*>;
+  static constexpr std::array<Key, 5> keys = {
+      {{"height_m", &FenceSettings::height_m},
+       {"capacity_kj", &FenceSettings::capacity_kj},
+       {"max_deflection_m", &FenceSettings::max_deflection_m},
+       {"friction_deg", &FenceSettings::friction_deg},
+       {"cor", &FenceSettings::cor}}};
+  for (const auto& [key, value] : keys) {
+    const auto words = [](double x) { return std::isnan(x) ? "not given" : text(x); };
+    const std::string found = words((*stood).*value), wanted = words(expected.*value);
+    if (found == wanted) continue;
+    const std::string name = "fence." + expected.name + "." + key;
+    throw InputError({file},
+                     "was computed with a fence whose " + name + " is " + found + ", expected " +
+                         wanted + " as in " + site_file,
+                     std::isnan((*stood).*value)
+                         ? "run talus-dda again with the fence as it is now"
+                         : "run talus-dda again with the fence as it is now, or give --set " +
+                               name + "=" + found + " to judge the one that stood");
+  }
 }
 
 // The line of the run that belongs to a fence; it must be the one of the site file.
@@ -132,16 +170,22 @@ RunWhole whole_of(const RunFile& run, int index, const std::vector<FenceCase>& c
     volume += run.blocks.volume[b];
   }
   out.density = mass / volume;
-  double size = 0;
-  for (const double v : run.blocks.volume) size += std::cbrt(v) / n_blocks(run);
-  out.free_border = std::isnan(o.free_border_m) ? free_border(code, size) : o.free_border_m;
+  for (const double v : run.blocks.volume) out.block_size += std::cbrt(v) / n_blocks(run);
+  const double f_min =
+      std::isnan(o.design.free_border) ? free_border(code, out.block_size) : o.design.free_border;
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    const int line = find_line(run, cases[i], inputs.members[index].file, site_file);
+    const std::string& file = inputs.members[index].file;
+    const int line = find_line(run, cases[i], file, site_file);
     RunAtFence at;
     at.standing = run.lines[line].standing;
+    if (at.standing) check_same_fence(run, cases[i].settings, file, site_file);
     at.arrivals = arrivals(run, line, cases[i].fence, index);
-    at.verdicts = verdicts_of(run, index, line, at.arrivals, cases[i].fence, out.free_border,
-                              at.standing, contact_m);
+    at.crossings = line_crossings(run, line, cases[i].fence, index);
+    at.verdicts =
+        verdicts_of(run, index, line, at.arrivals, cases[i].fence, f_min, at.standing, contact_m);
+    for (const BlockVerdict& v : at.verdicts)
+      at.n_unsettled += at.standing && v.verdict == Verdict::stopped &&
+                        fate_of(run, v.block, inputs.rest_speed_m_s) == Fate::moving;
     out.at_fence.push_back(std::move(at));
   }
   return out;
@@ -162,7 +206,29 @@ struct RunGroup {
     return out;
   }
   [[nodiscard]] int n() const { return static_cast<int>(runs.size()); }
+  [[nodiscard]] int n_unsettled(std::size_t fence) const {
+    int sum = 0;
+    for (const RunWhole& run : runs) sum += run.at_fence[fence].n_unsettled;
+    return sum;
+  }
 };
+
+// What a standing fence lets through and what comes to its line when it does not stand are two
+// samples.
+void check_one_kind(const RunGroup& group, const std::vector<FenceCase>& cases) {
+  for (std::size_t i = 0; i < cases.size(); ++i)
+    for (int r = 1; r < group.n(); ++r) {
+      const bool here = group.runs[r].at_fence[i].standing;
+      if (here == group.runs[0].at_fence[i].standing) continue;
+      const std::string name = cases[i].line.name;
+      throw InputError({group.members[r].file},
+                       "fence " + name + (here ? " stood" : " did not stand") +
+                           " in this run, expected " + (here ? "none" : "it standing") + " as in " +
+                           group.members[0].file,
+                       "evaluate runs with the fence and runs without it apart, or name those "
+                       "without it after --without");
+    }
+}
 
 // --- numbers ------------------------------------------------------------------------------------
 
@@ -192,11 +258,11 @@ Json part_json(const FencePartSummary& p) {
 }
 
 // Share of a verdict with its 95 % interval: Wilson for single-block runs, bootstrap over runs
-// else.
+// else. A share of none or all has no spread to resample: Wilson with the number of runs.
 Json share_json(const RunGroup& group, std::size_t fence, Verdict verdict, std::uint64_t seed) {
   std::vector<RunWeight> parts;
   std::vector<double> whole;
-  double n = 0, weight = 0, total = 0, total_sq = 0;
+  double n = 0, n_all = 0, weight = 0, total = 0, total_sq = 0, of_runs_sq = 0;
   bool single = true;
   for (int r = 0; r < group.n(); ++r) {
     const RunWhole& run = group.runs[r];
@@ -206,21 +272,25 @@ Json share_json(const RunGroup& group, std::size_t fence, Verdict verdict, std::
       const double w = run.weight[v.block];
       whole.back() += w;
       total_sq += w * w;
+      n_all += 1;
       if (v.verdict != verdict) continue;
       parts.back().weight += w;
       n += 1;
     }
     single = single && run.weight.size() <= 1;
     total += whole.back();
+    of_runs_sq += whole.back() * whole.back();
     weight += parts.back().weight;
   }
   Json json = {
       {"n", n}, {"share", number_or_null(weight / total)}, {"low", nullptr}, {"high", nullptr}};
   if (!single && group.n() < least_runs_to_resample) return json;
+  const double share = std::clamp(weight / total, 0.0, 1.0);
   Interval interval;
   if (single) {
-    interval =
-        wilson_interval(std::clamp(weight / total, 0.0, 1.0), effective_size(total, total_sq));
+    interval = wilson_interval(share, effective_size(total, total_sq));
+  } else if (n == 0 || n == n_all) {
+    interval = wilson_interval(n == 0 ? 0 : 1, effective_size(total, of_runs_sq));
   } else {
     const RunResamples resamples = resample_runs(group.n(), fence_resamples, seed);
     interval = bootstrap_share(parts, resampled_sums(resamples, whole), resamples);
@@ -230,18 +300,9 @@ Json share_json(const RunGroup& group, std::size_t fence, Verdict verdict, std::
   return json;
 }
 
-double mean_size(const std::vector<FenceArrival>& arrivals, const RunGroup& group) {
-  double sum = 0, n = 0;
-  for (const FenceArrival& a : arrivals) sum += std::cbrt(a.volume), n += 1;
-  if (n == 0)
-    for (const RunWhole& run : group.runs)
-      for (const double v : run.volume) sum += std::cbrt(v), n += 1;
-  return n > 0 ? sum / n : 0;
-}
-
-DesignInput design_input(const Options& o, const RunGroup& group, double mean_block_size) {
+DesignInput design_input(const Options& o, const RunGroup& group) {
   DesignInput input = o.design;
-  input.mean_block_size = mean_block_size;
+  for (const RunWhole& run : group.runs) input.mean_block_size += run.block_size / group.n();
   input.density = group.runs[0].density;
   if (std::isnan(input.block_volume)) {
     std::vector<WeightedValue> volumes;
@@ -254,8 +315,14 @@ DesignInput design_input(const Options& o, const RunGroup& group, double mean_bl
   return input;
 }
 
+// null: nothing fails, but the energy could not be checked
+Json pass_of(const DesignResult& r) {
+  if (r.verdict == DesignVerdict::energy_unknown) return nullptr;
+  return r.verdict == DesignVerdict::meets;
+}
+
 Json design_json(const DesignResult& r) {
-  return {{"enough_arrivals", r.enough},
+  return {{"enough_arrivals", r.verdict != DesignVerdict::too_few},
           {"arrivals_needed", r.n_needed},
           {"design_energy_kj", number_or_null(r.design_energy / 1e3)},
           {"required_capacity_kj", number_or_null(r.required_capacity / 1e3)},
@@ -268,8 +335,16 @@ Json design_json(const DesignResult& r) {
           {"required_distance_m", number_or_null(r.required_distance)},
           {"distance_use", number_or_null(r.distance_use)},
           {"governs", r.governs},
-          {"pass", r.pass}};
+          {"verdict", text(r.verdict)},
+          {"pass", pass_of(r)}};
 }
+
+// The runs with the fences and those without, and where their blocks came to rest.
+struct FenceRuns {
+  RunGroup with, without;
+  GroundSums ground_with, ground_without;
+  PassageGrid grid;
+};
 
 // --- one fence ----------------------------------------------------------------------------------
 
@@ -285,6 +360,9 @@ Code read_code(const std::string& name) {
   Code out;
   out.classes = barrier_classes(
       parse_csv(shipped_data("codes/barrier_classes.csv"), "share/codes/barrier_classes.csv"));
+  if (!shipped && !std::filesystem::exists(name))
+    throw InputError({"", 0, "--code"}, "is \"" + name + "\", which is no file",
+                     "give uni, onr, or a data file like those of share/codes/");
   if (shipped) {
     Sha256 hash;
     hash.add(shipped_data(file).data(), shipped_data(file).size());
@@ -294,6 +372,16 @@ Code read_code(const std::string& name) {
     out.code = design_code(read_csv(name));
     out.sha256 = sha256_of_file(name);
   }
+  return out;
+}
+
+// Crossings of blocks that passed a fence for good; one that hangs in a panel has not.
+std::vector<FenceArrival> passed(const RunAtFence& at) {
+  std::vector<FenceArrival> out;
+  for (const FenceArrival& crossing : at.crossings)
+    if (crossing.passed_for_good &&
+        !(at.standing && at.verdicts[crossing.block].verdict == Verdict::stopped))
+      out.push_back(crossing);
   return out;
 }
 
@@ -310,6 +398,7 @@ struct FenceResult {
   FencePartSummary whole;
   DesignResult design;
   double storage = 0, retained = 0;  // [m3]; retained a run, as it lies
+  double kept = std::nan("");        // from passing, a run, by the comparison, as it lies [m3]
   int side = 0;
 };
 
@@ -319,6 +408,15 @@ std::vector<FenceArrival> only(const std::vector<FenceArrival>& list, int FenceA
   for (const FenceArrival& a : list)
     if (a.*member == value) out.push_back(a);
   return out;
+}
+
+// Rock behind the line of a fence, a run: blocks that crossed it for good and that the fence does
+// not hold [m3].
+double volume_behind(const RunGroup& group, std::size_t fence) {
+  double volume = 0;
+  for (const RunWhole& run : group.runs)
+    for (const FenceArrival& crossing : passed(run.at_fence[fence])) volume += crossing.volume;
+  return volume / group.n();
 }
 
 // Rock volume that the fence would hold, a run, in the run where it is largest.
@@ -333,8 +431,9 @@ double retained_volume(const RunGroup& group, std::size_t fence) {
   return largest;
 }
 
-FenceResult evaluate(const FenceCase& c, std::size_t index, const RunGroup& group, const Code& code,
+FenceResult evaluate(const FenceCase& c, std::size_t index, const FenceRuns& runs, const Code& code,
                      const Options& o, const Trn& trn) {
+  const RunGroup& group = runs.with;
   FenceResult r;
   int towards_left = 0;
   for (const FenceArrival& a : group.arrivals_at(index)) {
@@ -343,7 +442,7 @@ FenceResult evaluate(const FenceCase& c, std::size_t index, const RunGroup& grou
     towards_left += a.direction;
   }
   r.side = towards_left != 0 ? (towards_left > 0 ? -1 : 1) : uphill_side(c.fence, trn);
-  const DesignInput input = design_input(o, group, mean_size(r.arrivals, group));
+  const DesignInput input = design_input(o, group);
   r.whole = summarise(r.arrivals, group.n(), o.seed);
   r.design = check_design(code.code, code.classes, input, r.whole, c.fence);
   const double reach = 50 * c.fence.height;
@@ -358,11 +457,15 @@ FenceResult evaluate(const FenceCase& c, std::size_t index, const RunGroup& grou
   for (int p = 0; p <= n_fields(c.fence); ++p)
     r.posts.push_back(summarise(only(r.arrivals, &FenceArrival::post, p), group.n(), o.seed));
   r.retained = o.bulking * retained_volume(group, index);
+  if (runs.without.n() > 0)
+    r.kept = o.bulking * (volume_behind(runs.without, index) - volume_behind(group, index));
   return r;
 }
 
 // What the numbers do not know, in plain words.
-Json notes_of(const FenceCase& c, const FenceResult& r, bool standing) {
+Json notes_of(const FenceCase& c, std::size_t index, const FenceResult& r, const RunGroup& group,
+              const DesignCode& code) {
+  const bool standing = group.runs[0].at_fence[index].standing;
   Json notes = Json::array();
   notes.push_back(standing
                       ? "The runs were computed with the fence standing: verdicts are observed."
@@ -376,12 +479,20 @@ Json notes_of(const FenceCase& c, const FenceResult& r, bool standing) {
     notes.push_back("Up to " + std::to_string(r.whole.window_hits) +
                     " blocks come within one "
                     "second: the sum of their energies stands beside the single-block check.");
-  if (r.retained > 0.5 * r.storage)
+  if (std::fmax(r.retained, r.kept) > 0.5 * r.storage)
     notes.push_back(
         "The retained volume fills more than half of the storage wedge: the fence is "
         "then loaded by a deposit, for which no barrier class is tested.");
   if (std::isnan(c.fence.capacity))
-    notes.push_back("The fence has no capacity_kj: no block counts as piercing it.");
+    notes.push_back(standing ? "The fence has no capacity_kj: it stood rigid, and the design check "
+                               "leaves its energy open."
+                             : "The fence has no capacity_kj: no block counts as piercing it, and "
+                               "the design check leaves its energy open.");
+  if (const int n = group.n_unsettled(index); n > 0)
+    notes.push_back(std::to_string(n) +
+                    " of the blocks that the fence stopped were still moving when their run ended: "
+                    "they may pass it yet.");
+  for (const std::string& remark : build_remarks(code, c.fence)) notes.push_back(remark);
   return notes;
 }
 
@@ -404,18 +515,23 @@ Json fence_json(const FenceCase& c, std::size_t index, const FenceResult& r, con
     json["chainage_m"] = c.fence.chainage[p];
     posts.push_back(json);
   }
+  const auto n_touches =
+      std::count_if(r.arrivals.begin(), r.arrivals.end(), [](auto& a) { return a.by_touch; });
   const double top_p95 = r.whole.top.percentile[2].value;
   return {{"name", c.line.name},
           {"length_m", length(c.fence)},
           {"height_m", c.fence.height},
           {"capacity_kj", number_or_null(c.fence.capacity / 1e3)},
           {"standing", standing},
-          {"free_border_m", group.runs[0].free_border},
+          {"free_border_m", r.design.free_border},
           {"height_left_m", number_or_null(c.fence.height - top_p95)},
           {"verdicts", shares},
+          {"arrivals", {{"first_touches", n_touches}, {"crossings", r.whole.n - n_touches}}},
           {"whole", part_json(r.whole)},
           {"storage_m3", r.storage},
           {"retained_m3", r.retained},
+          {"kept_from_passing_m3", number_or_null(r.kept)},
+          {"stopped_but_moving", group.n_unsettled(index)},
           {"design",
            {{"code", code.code.file},
             {"sha256", code.sha256},
@@ -423,20 +539,20 @@ Json fence_json(const FenceCase& c, std::size_t index, const FenceResult& r, con
             {"whole", design_json(r.design)}}},
           {"fields", fields},
           {"posts", posts},
-          {"notes", notes_of(c, r, standing)}};
+          {"notes", notes_of(c, index, r, group, code.code)}};
 }
 
 // --- with and without ---------------------------------------------------------------------------
 
 Json side_json(const RunGroup& group, std::size_t fence) {
-  double weight = 0, total = 0, volume = 0, n = 0;
+  double weight = 0, weight_sq = 0, total = 0, volume = 0, n = 0;
   double length = 0, angle = 0, centre = 0;
   std::vector<WeightedValue> energy;
   for (const RunWhole& run : group.runs) {
     for (const double w : run.weight) total += w;
-    for (const FenceArrival& a : run.at_fence[fence].arrivals) {
-      if (!a.passed_for_good) continue;
+    for (const FenceArrival& a : passed(run.at_fence[fence])) {
       weight += a.weight;
+      weight_sq += a.weight * a.weight;
       volume += a.volume;
       n += 1;
       energy.push_back({a.energy() / 1e3, a.weight});
@@ -446,11 +562,13 @@ Json side_json(const RunGroup& group, std::size_t fence) {
     centre += run.centre.path / group.n();
   }
   sort_values(energy);
+  const bool enough = effective_size(weight, weight_sq) + 1e-9 >= smallest_sample(0.5);
   return {{"n_runs", group.n()},
           {"blocks_behind_the_line", n},
           {"share_behind_the_line", number_or_null(weight / total)},
           {"volume_behind_the_line_m3_per_run", volume / group.n()},
-          {"energy_at_the_line_kj_p50", number_or_null(weighted_percentile(energy, 0.5))},
+          {"energy_at_the_line_kj_p50",
+           number_or_null(enough ? weighted_percentile(energy, 0.5) : std::nan(""))},
           {"energy_at_the_line_kj_max",
            number_or_null(energy.empty() ? std::nan("") : energy.back().value)},
           {"mean_L_path_m", number_or_null(length)},
@@ -500,19 +618,28 @@ std::vector<VectorField> part_fields(std::vector<VectorField> fields) {
   return fields;
 }
 
+FieldValue pass_field(const DesignResult& design) {
+  const Json pass = pass_of(design);
+  if (pass.is_null()) return {};
+  return static_cast<std::int64_t>(pass.get<bool>() ? 1 : 0);
+}
+
 VectorLayer field_layer(const std::vector<FenceCase>& cases,
                         const std::vector<FenceResult>& results, const Vec3& origin) {
-  VectorLayer layer{"fence_fields",
-                    "fields of the fences",
-                    GeometryType::line_zm,
-                    part_fields({{"fence", FieldType::text}, {"field", FieldType::integer}}),
-                    {},
-                    vector_qml({SymbolKind::line,
-                                "verdict",
-                                {{"meets", "meets the code", {51, 160, 44, 255}},
-                                 {"does not meet", "does not meet it", {227, 26, 28, 255}},
-                                 {"too few arrivals", "too few arrivals", {120, 120, 120, 255}}},
-                                1.2})};
+  VectorLayer layer{
+      "fence_fields",
+      "fields of the fences",
+      GeometryType::line_zm,
+      part_fields({{"fence", FieldType::text}, {"field", FieldType::integer}}),
+      {},
+      vector_qml(
+          {SymbolKind::line,
+           "verdict",
+           {{"meets", "meets the code", {51, 160, 44, 255}},
+            {"does not meet", "does not meet it", {227, 26, 28, 255}},
+            {"energy not checked", "no capacity given: energy not checked", {253, 191, 111, 255}},
+            {"too few arrivals", "too few arrivals", {120, 120, 120, 255}}},
+           1.2})};
   for (const char* name : {"storage_m3", "required_capacity_kj", "required_height_m"})
     layer.fields.push_back({name, FieldType::real});
   for (const char* name : {"smallest_class", "governs"})
@@ -530,11 +657,8 @@ VectorLayer field_layer(const std::vector<FenceCase>& cases,
       add_part(feature.values, r.part);
       feature.values.insert(feature.values.end(),
                             {r.storage, r.design.required_capacity / 1e3, r.design.required_height,
-                             r.design.smallest_class, r.design.governs,
-                             static_cast<std::int64_t>(r.design.pass ? 1 : 0),
-                             std::string(!r.design.enough ? "too few arrivals"
-                                         : r.design.pass  ? "meets"
-                                                          : "does not meet")});
+                             r.design.smallest_class, r.design.governs, pass_field(r.design),
+                             std::string(text(r.design.verdict))});
       layer.features.push_back(std::move(feature));
     }
   return layer;
@@ -559,7 +683,7 @@ VectorLayer post_layer(const std::vector<FenceCase>& cases, const std::vector<Fe
   return layer;
 }
 
-// Place of an arrival on the line, its height that of the centroid.
+// Place of an arrival on the line, its height that of the centroid, or by touch half way up.
 Vec3 place_of(const FenceArrival& a, const Fence& fence) {
   const int field = std::clamp(
       static_cast<int>(std::upper_bound(fence.chainage.begin(), fence.chainage.end(), a.chainage) -
@@ -569,9 +693,11 @@ Vec3 place_of(const FenceArrival& a, const Fence& fence) {
   const double s =
       (a.chainage - fence.chainage[field]) / (fence.chainage[field + 1] - fence.chainage[field]);
   Vec3 at = fence.post[field] + s * (fence.post[field + 1] - fence.post[field]);
-  at.z() = base_at(fence, a.chainage) + a.centroid;
+  at.z() = base_at(fence, a.chainage) + (a.by_touch ? 0.5 * (a.top + a.bottom) : a.centroid);
   return at;
 }
+
+const char* recorded_at(const FenceArrival& a) { return a.by_touch ? "first touch" : "crossing"; }
 
 VectorLayer arrival_layer_of(const std::vector<FenceCase>& cases, const RunGroup& group,
                              const Vec3& origin) {
@@ -581,7 +707,8 @@ VectorLayer arrival_layer_of(const std::vector<FenceCase>& cases, const RunGroup
                     {{"fence", FieldType::text},
                      {"run_id", FieldType::text},
                      {"block", FieldType::integer},
-                     {"verdict", FieldType::text}},
+                     {"verdict", FieldType::text},
+                     {"recorded_at", FieldType::text}},
                     {},
                     vector_qml(verdict_style(SymbolKind::point, 2))};
   for (const char* name : {"time_s", "chainage_m", "speed_m_s", "angle_to_normal_deg", "spin_rad_s",
@@ -599,6 +726,7 @@ VectorLayer arrival_layer_of(const std::vector<FenceCase>& cases, const RunGroup
                     group.members[r].info.run_id,
                     static_cast<std::int64_t>(a.block),
                     std::string(text(v.verdict)),
+                    std::string(recorded_at(a)),
                     a.time,
                     a.chainage,
                     a.speed,
@@ -618,7 +746,7 @@ VectorLayer arrival_layer_of(const std::vector<FenceCase>& cases, const RunGroup
 std::string verdict_csv(const std::vector<FenceCase>& cases, const RunGroup& group) {
   std::string out =
       csv_line({"fence", "run_id", "block", "verdict", "weight", "volume_m3", "chainage_m",
-                "time_s", "energy_kj", "top_height_m", "bottom_height_m"});
+                "time_s", "energy_kj", "top_height_m", "bottom_height_m", "recorded_at"});
   for (std::size_t i = 0; i < cases.size(); ++i)
     for (int r = 0; r < group.n(); ++r)
       for (const BlockVerdict& v : group.runs[r].at_fence[i].verdicts) {
@@ -632,10 +760,26 @@ std::string verdict_csv(const std::vector<FenceCase>& cases, const RunGroup& gro
           const FenceArrival& a = group.runs[r].at_fence[i].arrivals[v.arrival];
           for (const double value : {a.chainage, a.time, a.energy() / 1e3, a.top, a.bottom})
             row.push_back(text(value, 7));
+          row.emplace_back(recorded_at(a));
         }
-        row.resize(11);
+        row.resize(12);
         out += csv_line(row);
       }
+  return out;
+}
+
+// "63 first touches of the fence, 2 crossings of its line"
+std::string arrivals_text(const FenceResult& r) {
+  int n_touches = 0;
+  for (const FenceArrival& a : r.arrivals) n_touches += a.by_touch;
+  const int n_crossings = r.whole.n - n_touches;
+  std::string out;
+  if (n_touches > 0)
+    out = std::to_string(n_touches) + (n_touches == 1 ? " first touch" : " first touches") +
+          " of the fence";
+  if (n_crossings > 0)
+    out += (out.empty() ? "" : ", ") + std::to_string(n_crossings) +
+           (n_crossings == 1 ? " crossing" : " crossings") + " of its line";
   return out;
 }
 
@@ -650,17 +794,20 @@ std::string summary_of(const FenceCase& c, std::size_t index, const FenceResult&
   for (const auto& [verdict, n] : count) out += " " + std::to_string(n) + " " + text(verdict) + ",";
   std::replace(out.begin() + static_cast<std::ptrdiff_t>(out.find(':')), out.end(), '_', ' ');
   out.back() = ';';
-  if (r.whole.n == 0) return out + " no centroid crossed its line";
-  out += " largest energy " + grouped_text(r.whole.energy.largest / 1e3, 4) + " kJ, highest top " +
+  if (r.whole.n == 0) return out + " nothing came to it";
+  out += " " + arrivals_text(r) + ": largest energy " +
+         grouped_text(r.whole.energy.largest / 1e3, 4) + " kJ, highest top " +
          text(r.whole.top.largest, 3) + " m; ";
-  if (!r.design.enough)
+  if (r.design.verdict == DesignVerdict::too_few)
     return out + "design check not possible: " + std::to_string(r.whole.n) + " arrivals, needs " +
            std::to_string(r.design.n_needed);
-  return out + "needs " + grouped_text(r.design.required_capacity / 1e3, 4) +
+  out += "needs " + grouped_text(r.design.required_capacity / 1e3, 4) +
          " kJ (class: " + r.design.smallest_class + ") and a height of " +
-         text(r.design.required_height, 3) + " m: " +
-         (r.design.pass ? "meets the code"
-                        : "does not meet the code, " + r.design.governs + " governs");
+         text(r.design.required_height, 3) + " m: ";
+  if (r.design.verdict == DesignVerdict::meets) return out + "meets the code";
+  if (r.design.verdict == DesignVerdict::energy_unknown)
+    return out + "high enough; no capacity given: energy not checked";
+  return out + "does not meet the code, " + r.design.governs + " governs";
 }
 
 // --- the whole ----------------------------------------------------------------------------------
@@ -672,13 +819,6 @@ Json change_json(const GroundSums& with, const GroundSums& without) {
           {"more_m3_per_run", change.more},
           {"less_m3_per_run", change.less}};
 }
-
-// The runs with the fences and those without, and where their blocks came to rest.
-struct FenceRuns {
-  RunGroup with, without;
-  GroundSums ground_with, ground_without;
-  PassageGrid grid;
-};
 
 FenceRuns read_runs(const std::vector<FenceCase>& cases, const Options& o, const DesignCode& code,
                     RunInputs& inputs, const Trn& trn, const std::string& site_file) {
@@ -701,6 +841,7 @@ FenceRuns read_runs(const std::vector<FenceCase>& cases, const Options& o, const
   };
   out.with = split(0, n_with);
   out.without = split(n_with, runs.size());
+  for (const RunGroup* group : {&out.with, &out.without}) check_one_kind(*group, cases);
   return out;
 }
 
@@ -710,19 +851,29 @@ void warn_of(Tool& tool, const FenceCase& fence, std::size_t i, const FenceResul
   const std::string name = "fence " + fence.line.name;
   if (runs.without.n() > 0 && !runs.with.runs[0].at_fence[i].standing)
     tool.warn(name + " did not stand in the runs compared with --without");
+  if (runs.without.n() > 0 && runs.without.runs[0].at_fence[i].standing)
+    tool.warn(name + " stood in the runs of --without as well");
   if (std::isnan(fence.fence.capacity))
-    tool.warn(name + " has no capacity_kj: no block counts as piercing it");
-  if (result.whole.n > 0 && !result.design.enough)
+    tool.warn(name + " has no capacity_kj: the design check leaves its energy open");
+  if (const int n = runs.with.n_unsettled(i); n > 0)
+    tool.warn(name + ": " + std::to_string(n) +
+              " of the blocks that it stopped were still moving when their run ended; give "
+              "talus-dda a longer --duration-s");
+  if (result.whole.n > 0 && result.design.verdict == DesignVerdict::too_few)
     tool.warn(name + ": " + std::to_string(result.whole.n) +
               " arrivals are too few for the percentiles of the code, which need " +
               std::to_string(result.design.n_needed) +
               ": the largest values stand in for them, and nothing passes");
 }
 
-std::vector<std::pair<std::string, std::string>> output_tags(Tool& tool, const RunInputs& inputs) {
-  auto tags = tags_of(inputs.members);
+std::vector<std::pair<std::string, std::string>> output_tags(Tool& tool, const FenceRuns& runs,
+                                                             const std::string& remark) {
+  auto tags = tags_of(runs.with.members);
   tags.insert(tags.begin(), {"RUN_ID", tool.run_id()});
-  const std::string remark = inputs.remark();
+  if (runs.without.n() > 0)
+    for (const auto& [name, value] : tags_of(runs.without.members))
+      if (name == "N_RUNS" || name == "DENOMINATOR" || name == "HEALTH")
+        tags.emplace_back(name + "_WITHOUT", value);
   if (!remark.empty()) tags.emplace_back("REMARK", remark);
   return tags;
 }
@@ -742,7 +893,7 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& inpu
   Json fences = Json::array();
   std::string summary;
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    results.push_back(evaluate(cases[i], i, runs.with, code, o, trn));
+    results.push_back(evaluate(cases[i], i, runs, code, o, trn));
     fences.push_back(fence_json(cases[i], i, results[i], runs.with, code, o));
     if (runs.without.n() > 0)
       fences.back()["comparison"] = comparison_json(runs.with, runs.without, i);
@@ -750,11 +901,12 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& inpu
     summary += (i > 0 ? "\n" : "") + summary_of(cases[i], i, results[i], runs.with);
   }
   inputs.warn_of_ends();
-  const auto tags = output_tags(tool, inputs);
+  const std::string remark = inputs.remark();
+  const auto tags = output_tags(tool, runs, remark);
   if (!o.change.empty()) {
     const MapLayer layer = change_layer(runs.ground_with, runs.ground_without, runs.grid.cell_size);
     write_map(tool, map_frame(trn, runs.grid, true, layer.cell), o.change, layer,
-              change_style(layer, inputs.remark()), tags);
+              change_style(layer, remark), tags);
   }
   write_geopackage(tool.stage(o.out), trn.crs_wkt,
                    {field_layer(cases, results, trn.origin), post_layer(cases, results, trn.origin),

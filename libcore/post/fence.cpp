@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "base/text.hpp"
 #include "post/statistics.hpp"
@@ -27,6 +28,12 @@ Vec2 along(const Fence& fence, int field) {
   return (fence.post[field + 1] - fence.post[field]).head<2>().normalized();
 }
 
+// Horizontal, to the left of the line.
+Vec2 normal_of(const Fence& fence, int field) {
+  const Vec2 tangent = along(fence, field);
+  return {-tangent.y(), tangent.x()};
+}
+
 // Angle between the horizontal velocity and the normal of the field, 0 to 90 degrees.
 double angle_to_normal(const Vec3& velocity, const Vec2& tangent) {
   const double parallel = std::abs(velocity.head<2>().dot(tangent));
@@ -47,12 +54,60 @@ double distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
   return (p - a - s * u).norm();
 }
 
-double distance_to(const Fence& fence, const Vec2& p) {
-  double nearest = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < n_fields(fence); ++i)
-    nearest = std::min(
-        nearest, distance_to_segment(p, fence.post[i].head<2>(), fence.post[i + 1].head<2>()));
+double distance_to(const Fence& fence, int field, const Vec2& p) {
+  return distance_to_segment(p, fence.post[field].head<2>(), fence.post[field + 1].head<2>());
+}
+
+int nearest_field(const Fence& fence, const Vec2& p) {
+  int nearest = 0;
+  for (int i = 1; i < n_fields(fence); ++i)
+    if (distance_to(fence, i, p) < distance_to(fence, nearest, p)) nearest = i;
   return nearest;
+}
+
+double distance_to(const Fence& fence, const Vec2& p) {
+  return distance_to(fence, nearest_field(fence, p), p);
+}
+
+// The block as it was before it touched the panel, as far as the run recorded it.
+FenceArrival arrival_of(const FenceHit& hit, const RunFile& file, const Fence& fence, int run) {
+  FenceArrival a;
+  a.run = run;
+  a.block = hit.block;
+  a.weight = weight_of(file, hit.block);
+  a.time = hit.time;
+  a.chainage = hit.chainage;
+  a.by_touch = true;
+  a.direction = hit.velocity.head<2>().dot(normal_of(fence, hit.panel)) < 0 ? -1 : 1;
+  a.field = hit.panel;
+  a.post = nearest_post(fence, hit.chainage);
+  a.angle = angle_to_normal(hit.velocity, along(fence, hit.panel));
+  a.speed = hit.velocity.norm();
+  a.translation = hit.translational_energy;
+  a.rotation = hit.rotational_energy;
+  a.spin = a.centroid = none;
+  a.top = hit.top_height;
+  a.bottom = hit.bottom_height;
+  a.volume = file.blocks.volume[hit.block];
+  return a;
+}
+
+// Panels that a block may hang in: that nearest to where it lies at the end, and those that it
+// touched. Does one of them stand that was pushed as far as the block lies beyond the line?
+bool is_held(const RunFile& file, int line, const Fence& fence, int block, int direction) {
+  const Vec2 at = last_pose(file, block).position.head<2>();
+  const int field = nearest_field(fence, at);
+  const double beyond = direction * (at - fence.post[field].head<2>()).dot(normal_of(fence, field));
+  const auto touched = [&](int panel) {
+    return std::any_of(file.fence_hits.begin(), file.fence_hits.end(), [&](const FenceHit& hit) {
+      return hit.block == block && hit.line == line && hit.panel == panel;
+    });
+  };
+  return std::any_of(file.panels.begin(), file.panels.end(), [&](const PanelRow& panel) {
+    return panel.line == line && std::isinf(panel.broken_at) &&
+           beyond <= std::max(0.0, direction * panel.deflection) &&
+           (panel.panel == field || touched(panel.panel));
+  });
 }
 
 struct Bounds {
@@ -97,8 +152,9 @@ QuantitySummary summary_of(const std::vector<FenceArrival>& arrivals, double n_e
   for (std::size_t k = 0; k < percentile_levels.size(); ++k) {
     const double p = percentile_levels[k].p;
     BoundedPercentile& out = summary.percentile[k];
-    out = {weighted_percentile(values, p), none};
+    out = {none, none};
     if (n < smallest_sample(p)) continue;
+    out.value = weighted_percentile(values, p);
     if (!bounds.runs_repeat)
       out.upper = weighted_percentile(values, static_cast<double>(upper_bound_rank(n, p)) / n);
     else if (by_runs && places[k] >= 0)
@@ -139,7 +195,8 @@ double base_at(const Fence& fence, double chainage) {
   return fence.post[field].z() + s * (fence.post[field + 1].z() - fence.post[field].z());
 }
 
-std::vector<FenceArrival> arrivals(const RunFile& file, int line, const Fence& fence, int run) {
+std::vector<FenceArrival> line_crossings(const RunFile& file, int line, const Fence& fence,
+                                         int run) {
   std::vector<FenceArrival> out;
   for (const Crossing& c : file.crossings) {
     if (c.line != line) continue;
@@ -167,6 +224,22 @@ std::vector<FenceArrival> arrivals(const RunFile& file, int line, const Fence& f
     a.passed_for_good = c.beside || c.n_crossings % 2 == 1;
     out.push_back(a);
   }
+  return out;
+}
+
+std::vector<FenceArrival> arrivals(const RunFile& file, int line, const Fence& fence, int run) {
+  std::map<int, FenceArrival> of_block;
+  for (const FenceArrival& crossing : line_crossings(file, line, fence, run))
+    of_block[crossing.block] = crossing;
+  std::map<int, const FenceHit*> first;
+  for (const FenceHit& hit : file.fence_hits) {
+    if (hit.line != line) continue;
+    const FenceHit*& known = first[hit.block];
+    if (known == nullptr || hit.time < known->time) known = &hit;
+  }
+  for (const auto& [block, hit] : first) of_block[block] = arrival_of(*hit, file, fence, run);
+  std::vector<FenceArrival> out;
+  for (const auto& [block, arrival] : of_block) out.push_back(arrival);
   return out;
 }
 
@@ -199,29 +272,35 @@ bool came_near(const RunFile& file, int block, const Fence& fence, double contac
   return false;
 }
 
-std::vector<FenceTouch> touches(const RunFile& file, int line) {
-  constexpr double never = std::numeric_limits<double>::infinity();
-  std::vector<FenceTouch> out(static_cast<std::size_t>(n_blocks(file)), FenceTouch{false, never});
+std::vector<FenceTouch> touches(const RunFile& file, int line, const Fence& fence,
+                                const std::vector<FenceArrival>& crossings) {
+  std::vector<FenceTouch> out(static_cast<std::size_t>(n_blocks(file)));
   for (const FenceHit& hit : file.fence_hits) {
-    if (hit.line != line) continue;
     FenceTouch& touch = out[static_cast<std::size_t>(hit.block)];
-    touch.touched = true;
+    if (hit.line == line) touch.time = std::min(touch.time, hit.time);
+  }
+  for (const FenceArrival& crossing : crossings) {
+    if (crossing.beside) continue;
+    FenceTouch& touch = out[static_cast<std::size_t>(crossing.block)];
     for (const PanelRow& panel : file.panels)
-      if (panel.line == line && panel.panel == hit.panel)
-        touch.broken_at = std::min(touch.broken_at, panel.broken_at);
+      if (panel.line == line && panel.panel == crossing.field) touch.gap_since = panel.broken_at;
+    touch.held = is_held(file, line, fence, crossing.block, crossing.direction);
   }
   return out;
 }
 
-Verdict touched_verdict(const FenceTouch& touch, const FenceArrival* arrival, const Fence& fence,
+Verdict touched_verdict(const FenceTouch& touch, const FenceArrival* crossing, const Fence& fence,
                         double free_border) {
-  if (arrival == nullptr) return touch.touched ? Verdict::stopped : Verdict::not_reached;
-  if (arrival->beside) return touch.touched ? Verdict::stopped : bypass(*arrival);
-  if (arrival->top < 0) return Verdict::underpassed;
-  if (arrival->bottom > fence.height) return Verdict::overtopped;
+  const bool touched = touch.time < FenceTouch::never;
+  if (crossing == nullptr) return touched ? Verdict::stopped : Verdict::not_reached;
+  if (crossing->beside)
+    return touched && crossing->time < touch.time ? Verdict::stopped : bypass(*crossing);
+  if (crossing->top < 0) return Verdict::underpassed;
+  if (crossing->bottom > fence.height) return Verdict::overtopped;
+  if (touch.held) return Verdict::stopped;
   // without a touch it came through where a panel was broken before
-  if (!touch.touched || touch.broken_at <= arrival->time) return Verdict::pierced;
-  return arrival->top > fence.height - free_border ? Verdict::free_border : Verdict::stopped;
+  if (!touched || touch.gap_since <= crossing->time) return Verdict::pierced;
+  return crossing->top > fence.height - free_border ? Verdict::free_border : Verdict::pierced;
 }
 
 std::vector<BlockVerdict> verdicts_of(const RunFile& file, int run, int line,
@@ -230,21 +309,22 @@ std::vector<BlockVerdict> verdicts_of(const RunFile& file, int run, int line,
   std::vector<BlockVerdict> out;
   for (int block = 0; block < n_blocks(file); ++block)
     out.push_back({run, block, Verdict::not_reached, -1});
-  for (std::size_t i = 0; i < of_run.size(); ++i) {
-    BlockVerdict& v = out[of_run[i].block];
-    v.arrival = static_cast<int>(i);
-    v.verdict = standing ? observed_verdict(of_run[i], fence, free_border)
-                         : expected_verdict(of_run[i], fence, free_border);
-  }
-  if (!standing) return out;
+  for (std::size_t i = 0; i < of_run.size(); ++i)
+    out[of_run[i].block].arrival = static_cast<int>(i);
+  const std::vector<FenceArrival> crossings = line_crossings(file, line, fence, run);
+  std::vector<const FenceArrival*> crossing_of(out.size(), nullptr);
+  for (const FenceArrival& crossing : crossings) crossing_of[crossing.block] = &crossing;
   const bool has_hits = std::any_of(file.panels.begin(), file.panels.end(),
                                     [line](const PanelRow& panel) { return panel.line == line; });
-  const std::vector<FenceTouch> touch = touches(file, line);
+  const std::vector<FenceTouch> touch = touches(file, line, fence, crossings);
   for (BlockVerdict& v : out) {
-    const FenceArrival* const arrival = v.arrival < 0 ? nullptr : &of_run[v.arrival];
-    if (has_hits)
-      v.verdict = touched_verdict(touch[v.block], arrival, fence, free_border);
-    else if (arrival == nullptr && came_near(file, v.block, fence, contact))
+    const FenceArrival* const crossing = crossing_of[v.block];
+    if (standing && has_hits)
+      v.verdict = touched_verdict(touch[v.block], crossing, fence, free_border);
+    else if (crossing != nullptr)
+      v.verdict = standing ? observed_verdict(*crossing, fence, free_border)
+                           : expected_verdict(*crossing, fence, free_border);
+    else if (standing && came_near(file, v.block, fence, contact))
       v.verdict = Verdict::stopped;
   }
   return out;
@@ -297,7 +377,7 @@ FencePartSummary summarise(const std::vector<FenceArrival>& given, int n_runs, s
 int uphill_side(const Fence& fence, const Trn& trn) {
   double higher_on_the_left = 0;
   for (int field = 0; field < n_fields(fence); ++field) {
-    const Vec2 tangent = along(fence, field), left(-tangent.y(), tangent.x());
+    const Vec2 left = normal_of(fence, field);
     const Vec2 middle = 0.5 * (fence.post[field] + fence.post[field + 1]).head<2>();
     const Vec2 a = middle + fence.height * left, b = middle - fence.height * left;
     const double rise = elevation_at(trn, a.x(), a.y()) - elevation_at(trn, b.x(), b.y());
@@ -309,8 +389,7 @@ int uphill_side(const Fence& fence, const Trn& trn) {
 
 double storage(const Fence& fence, int field, int side, const Trn& trn, double reach) {
   const Vec2 a = fence.post[field].head<2>(), b = fence.post[field + 1].head<2>();
-  const Vec2 tangent = along(fence, field);
-  const Vec2 uphill = side * Vec2(-tangent.y(), tangent.x());
+  const Vec2 uphill = side * normal_of(fence, field);
   const double step = 0.25 * trn.cell_size;
   const int n_across = std::max(1, static_cast<int>(std::ceil((b - a).norm() / step)));
   const double width = (b - a).norm() / n_across;

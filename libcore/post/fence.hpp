@@ -1,12 +1,13 @@
 // libcore/post/fence.hpp
 // What fences would meet and what becomes of each block at them.
 // in:    crossings of the fences' lines, recorded where nothing stops the blocks, or with the fence
-//        standing; the terrain
+//        standing, then with what touched its panels; the terrain
 // out:   one verdict a block, statistics of each field and post, storage behind the fence
 // Definitions: docs/formats.md#fence
 #pragma once
 
 #include <array>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -50,29 +51,36 @@ inline constexpr std::array verdicts = {
     Verdict::bypassed_left, Verdict::bypassed_right, Verdict::underpassed, Verdict::not_reached};
 [[nodiscard]] const char* text(Verdict verdict);
 
-/// Heights of a crossing above the fence's own base, and what else its verdict needs.
+/// A block at a fence: as it crossed the line, or as it first touched a panel. Heights are above
+/// the fence's own base.
 struct FenceArrival {
   int run = 0, block = 0;
   double weight = 1;
   double time = 0;            ///< [s]
   double chainage = 0;        ///< [m]
+  bool by_touch = false;      ///< what it had before the first touch; else at the crossing
   bool beside = false;        ///< beyond an end
   int direction = 0;          ///< +1 to the left of the line seen from its first point, -1 right
   int field = -1, post = -1;  ///< of the chainage; nearest post; -1 beside
   double speed = 0;           ///< [m/s]
   double angle = 0;           ///< between the horizontal velocity and the field's normal [rad]
-  double spin = 0;            ///< [rad/s]
+  double spin = 0;            ///< NaN by touch [rad/s]
   double translation = 0, rotation = 0;      ///< [J]
-  double centroid = 0, top = 0, bottom = 0;  ///< heights above the base [m]
+  double centroid = 0, top = 0, bottom = 0;  ///< heights above the base; centroid NaN by touch [m]
   double volume = 0;                         ///< [m3]
-  bool passed_for_good = false;  ///< ended on the far side: crossed an odd number of times
+  bool passed_for_good = false;  ///< a crossing that ended on the far side: an odd number of times
   [[nodiscard]] double energy() const { return translation + rotation; }
 };
 
 /// Resamples of the runs for a bound at a fence.
 inline constexpr int fence_resamples = 400;
 
-/// All crossings of one line of a run. `run` is what the arrivals carry.
+/// All crossings of one line of a run, by block. `run` is what the arrivals carry.
+[[nodiscard]] std::vector<FenceArrival> line_crossings(const RunFile& file, int line,
+                                                       const Fence& fence, int run);
+
+/// What comes at a fence: a block that touched panels as it was before the first touch, when the
+/// fence had taken nothing from it yet; any other as it crossed the line. By block, one each.
 [[nodiscard]] std::vector<FenceArrival> arrivals(const RunFile& file, int line, const Fence& fence,
                                                  int run);
 
@@ -88,18 +96,23 @@ inline constexpr int fence_resamples = 400;
                                        double free_border);
 [[nodiscard]] bool came_near(const RunFile& file, int block, const Fence& fence, double contact);
 
-/// What a standing fence did to a block that touched it, from the run's record of hits.
+/// What the record of a standing fence says of a block.
 struct FenceTouch {
-  bool touched = false;
-  double broken_at = 0;  ///< first break of a panel that it touched; infinite: they stand [s]
+  static constexpr double never = std::numeric_limits<double>::infinity();
+  double time = never;       ///< of its first touch [s]
+  double gap_since = never;  ///< when the panel broke where its centroid crossed the line [s]
+  bool held = false;  ///< crossed, but lies at the end no farther beyond the line than a panel that
+                      ///< stands, there or where the block touched it, was pushed
 };
-/// Of each block, at one line                                                        (n_blocks)
-[[nodiscard]] std::vector<FenceTouch> touches(const RunFile& file, int line);
+/// Of each block, at one line; `crossings` of that line                               (n_blocks)
+[[nodiscard]] std::vector<FenceTouch> touches(const RunFile& file, int line, const Fence& fence,
+                                              const std::vector<FenceArrival>& crossings);
 
-/// With the record of hits: a block that touched a panel which stood when its centroid crossed the
-/// line, and did not go over it, hangs in the fence: stopped. `arrival`: null when it did not
-/// cross.
-[[nodiscard]] Verdict touched_verdict(const FenceTouch& touch, const FenceArrival* arrival,
+/// With the record of hits: a block is stopped that touched a panel and did not cross, or crossed
+/// in a panel that gave way and still holds it. `crossing`: null when it did not cross. Passing
+/// beside an end counts when it comes after the touch; before it, the block came to the fence round
+/// a wing that is turned uphill.
+[[nodiscard]] Verdict touched_verdict(const FenceTouch& touch, const FenceArrival* crossing,
                                       const Fence& fence, double free_border);
 
 /// A verdict for each block of a run, exactly one. Where the run recorded panels at `line`, hits
@@ -107,14 +120,15 @@ struct FenceTouch {
 struct BlockVerdict {
   int run = 0, block = 0;
   Verdict verdict = Verdict::not_reached;
-  int arrival = -1;  ///< index among the run's arrivals, -1 none
+  int arrival = -1;  ///< index among the run's arrivals(), -1 none
 };
 [[nodiscard]] std::vector<BlockVerdict> verdicts_of(const RunFile& file, int run, int line,
                                                     const std::vector<FenceArrival>& arrivals,
                                                     const Fence& fence, double free_border,
                                                     bool standing, double contact);
 
-/// A percentile with what bounds it; NaN where the sample gives none.
+/// A percentile with what bounds it; NaN where the sample gives none: below the least number of
+/// effective arrivals (smallest_sample).
 struct BoundedPercentile {
   double value = 0, upper = 0;  ///< 95 % upper bound
 };

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "base/text.hpp"
 #include "post/statistics.hpp"
 
 namespace talus {
@@ -14,11 +15,16 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 double factor(const DesignCode& code, const std::string& key) { return code.factor.at(key); }
 
-// The percentile of a quantity that a code asks for, the largest value when it is not one of ours.
-double percentile(const QuantitySummary& quantity, double p) {
+// Index of a percentile among those of a summary, -1: it is none of them.
+int level_of(double p) {
   for (std::size_t k = 0; k < percentile_levels.size(); ++k)
-    if (std::abs(percentile_levels[k].p - p) < 1e-9) return quantity.percentile[k].value;
-  return quantity.largest;
+    if (std::abs(percentile_levels[k].p - p) < 1e-9) return static_cast<int>(k);
+  return -1;
+}
+
+double percentile(const QuantitySummary& quantity, double p) {
+  TALUS_ASSERT(level_of(p) >= 0);
+  return quantity.percentile[level_of(p)].value;
 }
 
 struct Demand {
@@ -78,19 +84,40 @@ std::vector<std::string> needed_keys(DesignFormula formula) {
           "f_min_m",           "f_min_share_of_block", "deflection_factor"};
 }
 
-void find_what_governs(DesignResult& result) {
+void check_percentiles(const DesignCode& code) {
+  std::string levels;
+  for (const PercentileLevel& level : percentile_levels)
+    levels += (levels.empty() ? "" : ", ") + text(level.p);
+  for (const auto& [key, value] : code.factor)
+    if (key.ends_with("_percentile") && level_of(value) < 0)
+      throw InputError({code.file}, key + " is " + text(value) + ", expected one of " + levels,
+                       "these are the percentiles that are computed; write 0.95 for 95 %");
+}
+
+void judge(DesignResult& result, bool enough) {
   const std::array<std::pair<double, const char*>, 3> uses = {{{result.energy_use, "energy"},
                                                                {result.height_use, "height"},
                                                                {result.distance_use, "distance"}}};
   double largest = -1;
-  result.pass = result.enough;
   for (const auto& [use, name] : uses) {
-    if (std::isnan(use)) continue;
-    if (use > 1) result.pass = false;
-    if (use <= largest) continue;
+    if (std::isnan(use) || use <= largest) continue;
     largest = use;
     result.governs = name;
   }
+  const bool energy_known = !std::isnan(result.energy_use);
+  if (!enough)
+    result.verdict = DesignVerdict::too_few;
+  else if (largest > 1)
+    result.verdict = DesignVerdict::does_not_meet;
+  else
+    result.verdict = energy_known ? DesignVerdict::meets : DesignVerdict::energy_unknown;
+  if (!energy_known && !(largest > 1)) result.governs.clear();
+}
+
+// f_min as given, or that of the code.
+double free_border_of(const DesignCode& code, const DesignInput& input) {
+  return std::isnan(input.free_border) ? free_border(code, input.mean_block_size)
+                                       : input.free_border;
 }
 
 }  // namespace
@@ -105,7 +132,8 @@ DesignCode design_code(const CsvTable& table) {
       const std::string& name = table.at(row, "value");
       if (name != "uni" && name != "onr")
         throw InputError({table.file, table.line[row]},
-                         "formula is \"" + name + "\", expected uni or onr");
+                         "formula is \"" + name + "\", expected uni or onr",
+                         "the formula is one of those that talus-fence knows");
       code.formula = name == "uni" ? DesignFormula::uni : DesignFormula::onr;
       has_formula = true;
       continue;
@@ -113,11 +141,20 @@ DesignCode design_code(const CsvTable& table) {
     code.factor[key] = table.number(row, "value");
     if (table.at(row, "mark") == "m") code.from_memory.push_back(key);
   }
-  if (!has_formula) throw InputError({table.file}, "names no formula, expected uni or onr");
+  if (!has_formula)
+    throw InputError({table.file}, "names no formula, expected uni or onr",
+                     "take a copy of a file of share/codes/ and change its numbers");
   for (const std::string& key : needed_keys(code.formula))
     if (!code.factor.contains(key) || !(code.factor[key] >= 0))
-      throw InputError({table.file}, "gives no value for " + key);
+      throw InputError({table.file}, "gives no value for " + key,
+                       "take a copy of a file of share/codes/ and change its numbers");
+  check_percentiles(code);
   return code;
+}
+
+const char* text(DesignVerdict verdict) {
+  constexpr std::array names = {"meets", "does not meet", "energy not checked", "too few arrivals"};
+  return names[static_cast<std::size_t>(verdict)];
 }
 
 std::vector<BarrierClass> barrier_classes(const CsvTable& table) {
@@ -137,17 +174,17 @@ DesignResult check_design(const DesignCode& code, const std::vector<BarrierClass
                           const Fence& fence) {
   DesignResult result;
   if (part.n == 0) {
-    result = {false, 0, none, none, none, none, none, "", none, none, none, none, "", false};
-    result.free_border = free_border(code, input.mean_block_size);
+    result = {
+        DesignVerdict::too_few, 0, none, none, none, none, none, "", none, none, none, none, ""};
+    result.free_border = free_border_of(code, input);
     return result;
   }
   const Demand demand = demand_of(code, input, part);
   result.n_needed = demand.n_needed;
-  result.enough = part.n_eff + 1e-9 >= demand.n_needed;
   result.design_energy = demand.energy;
   result.required_capacity = demand.energy * demand.barrier_factor;
   result.design_height = demand.height;
-  result.free_border = free_border(code, input.mean_block_size);
+  result.free_border = free_border_of(code, input);
   result.required_height = demand.height + result.free_border;
   result.smallest_class = "above all";
   for (const BarrierClass& c : classes) {
@@ -160,8 +197,23 @@ DesignResult check_design(const DesignCode& code, const std::vector<BarrierClass
   result.height_use = result.required_height / fence.height;
   result.required_distance = required_distance(code, input.deflection);
   result.distance_use = result.required_distance / input.distance_to_object;
-  find_what_governs(result);
+  judge(result, part.n_eff + 1e-9 >= demand.n_needed);
   return result;
+}
+
+std::vector<std::string> build_remarks(const DesignCode& code, const Fence& fence) {
+  std::vector<std::string> remarks;
+  const auto longest = code.factor.find("row_length_max_m"),
+             fewest = code.factor.find("fields_min");
+  if (longest != code.factor.end() && length(fence) > longest->second)
+    remarks.push_back("The fence is " + text(length(fence), 4) +
+                      " m long: the code asks for rows of " + text(longest->second) +
+                      " m at most, or for anchors in between.");
+  if (fewest != code.factor.end() && n_fields(fence) < fewest->second)
+    remarks.push_back("The fence has " + std::to_string(n_fields(fence)) +
+                      (n_fields(fence) == 1 ? " field" : " fields") + ": the code asks for " +
+                      text(fewest->second) + " at least.");
+  return remarks;
 }
 
 }  // namespace talus

@@ -5,6 +5,7 @@
 // out:   design energy and height, smallest class and height that meet them, what governs
 #pragma once
 
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -25,7 +26,8 @@ struct DesignCode {
   std::map<std::string, double> factor;
   std::vector<std::string> from_memory;  ///< keys marked m
 };
-/// Throws InputError for an unknown formula or a key that the formula needs and the file lacks.
+/// Throws InputError for an unknown formula, a key that the formula needs and the file lacks, and a
+/// percentile that is none of percentile_levels.
 [[nodiscard]] DesignCode design_code(const CsvTable& table);
 
 struct BarrierClass {
@@ -42,12 +44,21 @@ struct DesignInput {
   bool service_level = false;     ///< UNI: check against SEL instead of MEL
   double deflection = 0;          ///< d_MEL of the barrier [m]; NaN: not known
   double distance_to_object = 0;  ///< horizontal, from the fence downhill [m]; NaN: not known
+  double free_border = std::numeric_limits<double>::quiet_NaN();  ///< f_min [m]; NaN: of the code
 };
+
+enum class DesignVerdict {
+  meets,           ///< energy and height hold, and the distance where it is known
+  does_not_meet,   ///< one of them does not
+  energy_unknown,  ///< the fence has no capacity; all else holds
+  too_few,         ///< arrivals for the percentiles that the code asks for
+};
+[[nodiscard]] const char* text(DesignVerdict verdict);
 
 /// NaN where the sample or the input does not say.
 struct DesignResult {
-  bool enough = false;           ///< arrivals for the percentiles that the code asks for
-  int n_needed = 0;              ///< arrivals that they need
+  DesignVerdict verdict = DesignVerdict::too_few;
+  int n_needed = 0;              ///< arrivals that the code's percentiles need
   double design_energy = 0;      ///< E_d [J]
   double required_capacity = 0;  ///< E_d with the factor on the barrier [J]
   double design_height = 0;      ///< [m]
@@ -57,11 +68,10 @@ struct DesignResult {
   double energy_use = 0;         ///< required over given capacity [-]
   double height_use = 0;         ///< required over given height [-]
   double required_distance = 0, distance_use = 0;
-  std::string governs;  ///< "energy", "height" or "distance"
-  bool pass = false;    ///< all that could be checked holds
+  std::string governs;  ///< "energy", "height" or "distance"; empty while the energy is unknown
 };
-/// When there are too few arrivals the largest values stand in for the percentiles, `enough` is
-/// false, and nothing passes.
+/// When there are too few arrivals the largest values stand in for the percentiles, and the verdict
+/// says so.
 [[nodiscard]] DesignResult check_design(const DesignCode& code,
                                         const std::vector<BarrierClass>& classes,
                                         const DesignInput& input, const FencePartSummary& part,
@@ -69,5 +79,8 @@ struct DesignResult {
 
 /// f_min of the code [m].
 [[nodiscard]] double free_border(const DesignCode& code, double mean_block_size);
+
+/// What the code says of the fence's build, where it is not so: a sentence each.
+[[nodiscard]] std::vector<std::string> build_remarks(const DesignCode& code, const Fence& fence);
 
 }  // namespace talus

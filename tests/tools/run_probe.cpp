@@ -2,14 +2,21 @@
 // Runs with known answers for the tests of the tools that evaluate runs: single boxes that slide
 // straight down a plane (30 degrees, cells of 2 m), recorded by the recorder itself.
 //   run-probe DIR N_RUNS [site=NAME] [version=V] [status=running|failed] [standing=1] [empty=1]
-//             [blocks=N] [step=H] [frames=DT] [seed=K]
+//             [blocks=N] [step=H] [frames=DT] [seed=K] [height=H] [capacity=KJ|none]
+//             [hits=stopped|held|broken|pile] [moving=1]
 // Box b of run r (edge 1 m, 2600 kg) starts at rest at x = 11, y = 10 + 6 b and slides with
 // a = 3 m/s2 along the slope for 4 s (24 m), then brakes evenly to rest within 2 s (12 m more); its
 // speed is that of run 0 times 1 + 0.01 r. Written: DIR/slope.tif, DIR/run_<r>.h5, DIR/site.toml.
+// hits: what a standing fence recorded. Each block that crosses the line touches it with the motion
+// of the crossing; then it does not cross (stopped), crosses 0.1 s later with half the energy in a
+// panel pushed 100 m (held) or in a broken one (broken), or nothing touches or crosses (pile).
+// moving: at the end, all of them.
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
+#include <limits>
 #include <map>
 #include <numbers>
 
@@ -95,6 +102,46 @@ HealthRow health_at(const Scene& scene, double time, double drop) {
   return row;
 }
 
+std::string site_text(const Words& words) {
+  const std::string capacity = word(words, "capacity", "250");
+  return "[site]\nname = \"probe\"\n\n[fence.check]\n"
+         "line = [[250030, 350004], [250030, 350020]]\n"
+         "height_m = " +
+         word(words, "height", "3") + "\n" +
+         (capacity == "none" ? "" : "capacity_kj = " + capacity + "\n") +
+         "post_spacing_m = 8\nactive = false\n";
+}
+
+void record_hits(RunFile& run, const std::string& kind) {
+  constexpr double never = std::numeric_limits<double>::infinity();
+  std::vector<Crossing> later;
+  for (Crossing c : run.crossings) {
+    if (c.beside) {
+      later.push_back(c);
+      continue;
+    }
+    if (kind == "pile") continue;
+    FenceHit hit;
+    hit.block = c.block;
+    hit.panel = c.segment;
+    hit.time = c.time;
+    hit.chainage = c.chainage;
+    hit.velocity = c.velocity;
+    hit.translational_energy = c.translational_energy;
+    hit.rotational_energy = c.rotational_energy;
+    hit.top_height = c.top_height;
+    hit.bottom_height = c.bottom_height;
+    run.fence_hits.push_back(hit);
+    c.time += 0.1;
+    c.translational_energy *= 0.5;
+    if (kind != "stopped") later.push_back(c);
+  }
+  run.crossings = later;
+  const double pushed = kind == "held" ? -100 : 0;  // to the right: eastwards
+  for (int panel = 0; panel < 2; ++panel)
+    run.panels.push_back({0, panel, 250e3, 0, pushed, kind == "broken" ? 0 : never, -1});
+}
+
 RunFile make_run(const Words& words, int r, const std::string& trn_sha256) {
   const Scene scene = make_scene(static_cast<int>(number(words, "blocks", 1)));
   const double step = number(words, "step", 0.01), interval = number(words, "frames", 0.1);
@@ -135,16 +182,16 @@ RunFile make_run(const Words& words, int r, const std::string& trn_sha256) {
   if (number(words, "empty", 0) == 0) run.passages = sorted(passages.table);
   run.lines = crossings.lines;
   run.lines[0].standing = number(words, "standing", 0) != 0;
+  run.info.config = site_text(words);
   run.crossings = sorted(crossings);
+  if (words.contains("hits")) record_hits(run, words.at("hits"));
   run.health = {health_at(scene, 0, 0), health_at(scene, 8, 18 * scale)};
   run.phase.assign(run.blocks.mass.size(), Phase::asleep);
+  if (words.contains("moving")) {
+    std::fill(run.phase.begin(), run.phase.end(), Phase::near_ground);
+    std::fill(run.frames.velocity.end() - 3 * n_blocks(run), run.frames.velocity.end(), 1.0F);
+  }
   return run;
-}
-
-void write_site(const std::string& path) {
-  std::ofstream(path) << "[site]\nname = \"probe\"\n\n[fence.check]\n"
-                         "line = [[250030, 350004], [250030, 350020]]\n"
-                         "height_m = 3\ncapacity_kj = 250\npost_spacing_m = 8\nactive = false\n";
 }
 
 }  // namespace
@@ -160,7 +207,7 @@ int main(int argc, char** argv) {
   const Scene scene = make_scene(1);
   Trn trn = scene.ground.trn;
   write_trn(folder + "/slope.tif", trn);
-  write_site(folder + "/site.toml");
+  std::ofstream(folder + "/site.toml") << site_text(words);
   const std::string digest = sha256_of_file(folder + "/slope.tif");
   for (int r = 0; r < std::atoi(argv[2]); ++r)
     write_run_file(folder + "/run_" + std::to_string(r) + ".h5", make_run(words, r, digest));

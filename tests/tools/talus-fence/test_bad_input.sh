@@ -26,3 +26,35 @@ expect 1 talus-fence site.toml run_0.h5 --trn slope.tif -o g.gpkg --code code.cs
 says 'expected uni or onr'
 expect 2 talus-fence site.toml run_0.h5 --trn slope.tif -o g.gpkg --consequence-class 7
 nothing_left g.gpkg
+# Another fence than the one that stood, and runs with and without it in one sample.
+mkdir with
+run-probe with 2 standing=1 seed=1
+sed 's/height_m = 3/height_m = 5/' with/site.toml >higher.toml
+expect 1 talus-fence higher.toml with/run_0.h5 --trn with/slope.tif -o g.gpkg
+says 'with/run_0.h5: was computed with a fence whose fence.check.height_m is 3, expected 5 as in higher.toml'
+says 'hint: '
+expect 0 talus-fence higher.toml run_0.h5 --trn slope.tif -o virtual.gpkg
+sed '/capacity_kj/d' with/site.toml >rigid.toml
+expect 1 talus-fence rigid.toml with/run_0.h5 --trn with/slope.tif -o g.gpkg
+says 'capacity_kj is 250, expected not given'
+expect 1 talus-fence site.toml run_0.h5 with/run_0.h5 --trn slope.tif -o g.gpkg
+says 'with/run_0.h5: fence check stood in this run, expected none as in run_0.h5'
+# Values without sense, and design codes.
+for option in --design-block-m3=-1 --design-block-m3=0 --object-distance-m=-5 --deflection-m=-1 --free-border-m=-0.5; do
+  expect 2 talus-fence site.toml run_0.h5 --trn slope.tif -o g.gpkg $option
+done
+expect 1 talus-fence site.toml run_0.h5 --trn slope.tif -o g.gpkg --code foo
+says 'hint: give uni, onr, or a data file'
+sed '/gamma_risk/d' "$source_dir/share/codes/uni_11211-4.csv" >code.csv
+expect 1 talus-fence site.toml run_0.h5 --trn slope.tif -o g.gpkg --code code.csv
+says 'gives no value for gamma_risk'
+says 'hint: '
+for level in 95 0.97 -0.5; do
+  sed "s/^height_percentile,0.95/height_percentile,$level/" "$source_dir/share/codes/uni_11211-4.csv" >code.csv
+  expect 1 talus-fence site.toml run_0.h5 --trn slope.tif -o g.gpkg --code code.csv
+  says 'height_percentile'
+done
+nothing_left g.gpkg
+run-probe with 1 seed=2 status=running
+expect 0 talus-fence site.toml run_0.h5 --without with/run_0.h5 --trn slope.tif -o c.gpkg --change c.tif --allow-unfinished
+[ "$(grep -c 'unfinished or failed' err)" = 1 ] || fail 'unfinished runs are not said once'

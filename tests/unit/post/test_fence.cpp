@@ -57,6 +57,19 @@ void add_crossing(RunFile& run, double chainage, double height, double edge, dou
   run.crossings.push_back(c);
 }
 
+// A touch of a panel by a block that comes at 10 m/s, 1 m high.
+void add_touch(RunFile& run, int block, int panel, double chainage, double time, double energy) {
+  FenceHit hit;
+  hit.block = block;
+  hit.panel = panel;
+  hit.chainage = chainage;
+  hit.time = time;
+  hit.velocity = {10, 0, 0};
+  hit.translational_energy = energy;
+  hit.top_height = 1;
+  run.fence_hits.push_back(hit);
+}
+
 Verdict verdict_of_single(double chainage, double height, double edge, double energy) {
   RunFile run;
   add_crossing(run, chainage, height, edge, energy);
@@ -183,7 +196,8 @@ TEST(Summarise, GivesPercentilesWithBoundsOfIndependentRuns) {
   EXPECT_EQ(s.energy.largest, energies.back());
   EXPECT_EQ(s.energy.percentile[2].value, energies[113]);  // rank ceil(0.95 * 120) = 114
   EXPECT_EQ(s.energy.percentile[2].upper, energies[upper_bound_rank(120, 0.95) - 1]);
-  EXPECT_TRUE(std::isnan(s.energy.percentile[3].upper));  // 120 < 299
+  EXPECT_TRUE(std::isnan(s.energy.percentile[3].value));  // 120 < 299
+  EXPECT_TRUE(std::isnan(s.energy.percentile[3].upper));
   EXPECT_EQ(s.most_in_a_run, 1);
   EXPECT_EQ(s.runs_hit_twice, 0);
 }
@@ -201,50 +215,102 @@ TEST(Summarise, AddsUpTheHitsOfOneSecond) {
   EXPECT_EQ(s.runs_hit_twice, 1);
 }
 
-// With the record of hits: who touched a panel that stood is held, even when the panel gave way so
-// far that the centroid crossed the line; who broke it, or came later through the gap, pierced it.
+// Before the first touch the fence has taken nothing; the crossing is what a panel that gives way
+// has left.
+TEST(Arrivals, OfAStandingFenceAreFirstTouches) {
+  RunFile run;
+  add_crossing(run, 12, 1, 1, 20e3, 3.5);  // touched, then crossed in the bulge
+  add_crossing(run, 25, 1, 1, 70e3);       // through a gap
+  add_box(run, {1, 1, 1}, {0, 0, 0});      // touched, did not cross
+  add_touch(run, 0, 1, 12, 3, 50e3);
+  add_touch(run, 0, 0, 8, 2, 100e3);
+  add_touch(run, 2, 2, 21, 4, 80e3);
+  const Fence fence = straight_fence();
+  const auto list = arrivals(run, 0, fence, 0);
+  ASSERT_EQ(list.size(), 3U);
+  EXPECT_EQ(list[0].energy(), 100e3);
+  EXPECT_EQ(list[0].time, 2);
+  EXPECT_EQ(list[0].field, 0);
+  EXPECT_EQ(list[0].post, 1);
+  EXPECT_EQ(list[0].direction, -1);
+  EXPECT_NEAR(list[0].speed, 10, 1e-12);
+  EXPECT_TRUE(list[0].by_touch);
+  EXPECT_EQ(list[1].energy(), 70e3);
+  EXPECT_FALSE(list[1].by_touch);
+  EXPECT_EQ(list[2].energy(), 80e3);
+  EXPECT_EQ(line_crossings(run, 0, fence, 0).size(), 2U);
+}
+
 TEST(TouchedVerdict, FollowsTheRecordOfHits) {
-  constexpr double never = std::numeric_limits<double>::infinity();
+  constexpr double never = FenceTouch::never;
   const Fence fence = straight_fence();
   FenceArrival through;
   through.time = 4;
   through.bottom = 0;
   through.top = 1;
-  const auto verdict = [&](bool touched, double broken_at, const FenceArrival* arrival) {
-    return touched_verdict({touched, broken_at}, arrival, fence, 0.5);
+  const auto verdict = [&](double touched, double gap_since, bool held,
+                           const FenceArrival* crossing) {
+    return touched_verdict({touched, gap_since, held}, crossing, fence, 0.5);
   };
-  EXPECT_EQ(verdict(false, never, nullptr), Verdict::not_reached);
-  EXPECT_EQ(verdict(true, never, nullptr), Verdict::stopped);
-  EXPECT_EQ(verdict(true, never, &through), Verdict::stopped);
-  EXPECT_EQ(verdict(true, 3.9, &through), Verdict::pierced);
-  EXPECT_EQ(verdict(true, 4.1, &through), Verdict::stopped);
-  EXPECT_EQ(verdict(false, never, &through), Verdict::pierced);
+  EXPECT_EQ(verdict(never, never, false, nullptr), Verdict::not_reached);
+  EXPECT_EQ(verdict(3, never, false, nullptr), Verdict::stopped);
+  EXPECT_EQ(verdict(3, never, true, &through), Verdict::stopped);
+  EXPECT_EQ(verdict(3, 3.9, false, &through), Verdict::pierced);
+  EXPECT_EQ(verdict(3, 4.1, false, &through), Verdict::pierced);  // it broke under the block
+  EXPECT_EQ(verdict(never, never, false, &through), Verdict::pierced);
+  EXPECT_EQ(verdict(3, never, false, &through), Verdict::pierced);  // between two panels
   through.top = fence.height - 0.1;
-  EXPECT_EQ(verdict(true, never, &through), Verdict::free_border);
+  EXPECT_EQ(verdict(3, never, false, &through), Verdict::free_border);
+  EXPECT_EQ(verdict(3, never, true, &through), Verdict::stopped);
   through.top = fence.height + 3;
   through.bottom = fence.height + 1;
-  EXPECT_EQ(verdict(true, never, &through), Verdict::overtopped);
-  through.beside = true;
-  EXPECT_NE(verdict(false, never, &through), Verdict::stopped);
-  EXPECT_EQ(verdict(true, never, &through), Verdict::stopped);
+  EXPECT_EQ(verdict(3, never, false, &through), Verdict::overtopped);
 }
 
-TEST(Touches, TakeTheFirstBreakOfThePanelsOfTheirLine) {
+// A block that slides along the fence and round its end has passed it; one that comes round a wing
+// turned uphill has not.
+TEST(TouchedVerdict, TellsWhoPassesTheEndFromWhoComesRoundIt) {
+  const Fence fence = straight_fence();
+  FenceArrival beside;
+  beside.time = 4;
+  beside.beside = true;
+  beside.chainage = 33;
+  beside.direction = -1;
+  const auto verdict = [&](double touched) {
+    return touched_verdict({touched, FenceTouch::never, false}, &beside, fence, 0.5);
+  };
+  EXPECT_EQ(verdict(3), Verdict::bypassed_left);
+  EXPECT_EQ(verdict(FenceTouch::never), Verdict::bypassed_left);
+  EXPECT_EQ(verdict(5), Verdict::stopped);
+}
+
+// Panels 0 to 2 of 10 m; 0 stands, pushed 3 m to the right, 1 broke at 5 s, 2 stands unmoved.
+TEST(Touches, KnowWhoHangsInAPanelThatGaveWay) {
   RunFile run;
-  for (int block = 0; block < 3; ++block) add_box(run, {1, 1, 1}, {0, 0, 0});
-  constexpr double never = std::numeric_limits<double>::infinity();
-  run.panels = {{0, 0, 1e5, 0, 0, never, -1}, {0, 1, 1e5, 1e5, 1, 5, 1}, {1, 0, 1e5, 0, 0, 2, 0}};
-  FenceHit hit;
-  run.fence_hits.assign(3, hit);
-  run.fence_hits[1].block = 1;
-  run.fence_hits[1].panel = 1;
-  run.fence_hits[2].block = 2;
-  run.fence_hits[2].line = 1;
-  const std::vector<FenceTouch> touch = touches(run, 0);
-  EXPECT_TRUE(touch[0].touched);
-  EXPECT_EQ(touch[0].broken_at, never);
-  EXPECT_EQ(touch[1].broken_at, 5);
-  EXPECT_FALSE(touch[2].touched);
+  const auto add = [&run](double chainage, double end_x, double end_y) {
+    add_crossing(run, chainage, 1, 1, 1e3, 4);
+    run.blocks.rest.back().position = {end_x, end_y, 100};
+  };
+  add(5, 22.5, 15);   // in the bulge
+  add(5, 60, 15);     // far below it
+  add(15, 21, 25);    // lies where the panel broke
+  add(11, 21, 20.5);  // before the broken panel, but it hangs in panel 0
+  add(25, 20.5, 35);  // behind the panel that did not move
+  add_touch(run, 0, 0, 5, 3, 1e3);
+  add_touch(run, 1, 0, 5, 3, 1e3);
+  add_touch(run, 3, 0, 9, 3, 1e3);
+  run.panels = {{0, 0, 1e5, 0, -3, FenceTouch::never, -1},
+                {0, 1, 1e5, 1e5, -4, 5, 1},
+                {0, 2, 1e5, 0, 0, FenceTouch::never, -1},
+                {1, 0, 1e5, 0, 0, 2, 0}};
+  const Fence fence = straight_fence();
+  const auto touch = touches(run, 0, fence, line_crossings(run, 0, fence, 0));
+  EXPECT_EQ(touch[0].time, 3);
+  EXPECT_EQ(touch[2].time, FenceTouch::never);
+  EXPECT_EQ(touch[0].gap_since, FenceTouch::never);
+  EXPECT_EQ(touch[2].gap_since, 5);
+  const std::vector<bool> held = {true, false, false, true, false};
+  for (int block = 0; block < 5; ++block) EXPECT_EQ(touch[block].held, held[block]) << block;
 }
 
 // On a slope of 0.5 that falls to the east, filled to 4 m: a triangle of 4 m by 8 m behind a fence
@@ -275,8 +341,31 @@ TEST(DesignCode, OfUniMultipliesSpeedPercentileAndDesignMass) {
   EXPECT_EQ(r.smallest_class, "4");  // 1,096 kJ: MEL 1,500
   EXPECT_NEAR(r.required_height, 2 * 1.21 + 0.5, 1e-12);
   EXPECT_EQ(r.governs, "energy");
-  EXPECT_FALSE(r.pass);
-  EXPECT_TRUE(r.enough);
+  EXPECT_EQ(r.verdict, DesignVerdict::does_not_meet);
+}
+
+// Without a capacity the energy stays open, whatever else holds; a height that fails, fails.
+TEST(CheckDesign, LeavesTheEnergyOfAFenceWithoutCapacityOpen) {
+  const DesignCode code = design_code(read_csv(TALUS_SOURCE_DIR "/share/codes/uni_11211-4.csv"));
+  FencePartSummary part;
+  part.n = 100;
+  part.n_eff = 100;
+  part.speed.percentile[2].value = 20;
+  part.top.percentile[2].value = 2;
+  DesignInput input{1, 0.8, 2700, 2, false, NAN, NAN};
+  Fence fence = straight_fence();
+  fence.capacity = NAN;
+  DesignResult r = check_design(code, {}, input, part, fence);
+  EXPECT_EQ(r.verdict, DesignVerdict::energy_unknown);
+  EXPECT_EQ(r.governs, "");
+  input.free_border = 3;
+  r = check_design(code, {}, input, part, fence);
+  EXPECT_NEAR(r.required_height, 2 * 1.21 + 3, 1e-12);
+  EXPECT_EQ(r.free_border, 3);
+  EXPECT_EQ(r.verdict, DesignVerdict::does_not_meet);
+  fence.capacity = 2e6;
+  input.free_border = NAN;
+  EXPECT_EQ(check_design(code, {}, input, part, fence).verdict, DesignVerdict::meets);
 }
 
 TEST(DesignCode, OfOnrTakesFactorsOfItsConsequenceClassAndTheDeflectionRule) {
@@ -292,7 +381,7 @@ TEST(DesignCode, OfOnrTakesFactorsOfItsConsequenceClassAndTheDeflectionRule) {
   EXPECT_NEAR(r.required_height, 1.3 * 2, 1e-12);
   EXPECT_DOUBLE_EQ(r.required_distance, 5);  // d + 1 > 1.2 d
   EXPECT_EQ(r.governs, "distance");
-  EXPECT_FALSE(r.pass);
+  EXPECT_EQ(r.verdict, DesignVerdict::does_not_meet);
 }
 
 TEST(CheckDesign, WithTooFewArrivalsTakesTheLargestAndPassesNothing) {
@@ -304,10 +393,38 @@ TEST(CheckDesign, WithTooFewArrivalsTakesTheLargestAndPassesNothing) {
   part.top.largest = 1;
   const DesignResult r =
       check_design(code, {}, {1, 0.8, 2700, 1, false, NAN, NAN}, part, straight_fence());
-  EXPECT_FALSE(r.enough);
+  EXPECT_EQ(r.verdict, DesignVerdict::too_few);
   EXPECT_EQ(r.n_needed, 299);
   EXPECT_NEAR(r.design_energy, 10e3, 1e-9);
-  EXPECT_FALSE(r.pass);
+}
+
+TEST(BuildRemarks, SayWhereRowsAreLongerOrHaveFewerFieldsThanTheCodeAsksFor) {
+  const DesignCode onr = design_code(read_csv(TALUS_SOURCE_DIR "/share/codes/onr_24810.csv"));
+  const DesignCode uni = design_code(read_csv(TALUS_SOURCE_DIR "/share/codes/uni_11211-4.csv"));
+  EXPECT_TRUE(build_remarks(onr, straight_fence()).empty());  // 30 m in 3 fields
+  const Fence one_long_field = fence_along({{20, 1}, {20, 57}}, flat(), 60);
+  EXPECT_EQ(build_remarks(onr, one_long_field).size(), 1U);
+  const Trn wide = plane_trn(0, 2, 40, 60);
+  EXPECT_EQ(build_remarks(onr, fence_along({{20, 1}, {20, 80}}, wide, 40)).size(), 2U);
+  EXPECT_TRUE(build_remarks(uni, one_long_field).empty());
+}
+
+// Only percentiles that are computed can be asked for.
+TEST(DesignCode, RefusesOtherPercentiles) {
+  std::string text;
+  for (const char* key :
+       {"energy_percentile", "gamma_energy_cc1", "gamma_energy_cc2", "gamma_energy_cc3",
+        "gamma_height_cc1", "gamma_height_cc2", "gamma_height_cc3", "f_min_m",
+        "f_min_share_of_block", "deflection_factor"})
+    text += std::string(key) + ",0.99,1,m,\n";
+  const auto code_with = [&text](const std::string& percentile) {
+    return design_code(parse_csv("key,value,unit,mark,source\nformula,onr,,v,\n" + text +
+                                     "height_percentile," + percentile + ",1,m,\n",
+                                 "x.csv"));
+  };
+  EXPECT_NO_THROW(static_cast<void>(code_with("0.95")));
+  for (const char* wrong : {"95", "0.97", "0", "1", "-0.5"})
+    EXPECT_THROW(static_cast<void>(code_with(wrong)), InputError);
 }
 
 TEST(DesignCode, RefusesAFileWithoutAFactor) {
