@@ -37,16 +37,17 @@ class SiteOptions {
         help + " [" + key + "]");
   }
 
-  /// Throws InputError (read_site, override_value).
+  /// Throws InputError (read_site), UsageError (--set).
   const Site& load() {
     if (site_) return *site_;
     Site site = read_site(file_);
     for (const std::string& word : overrides_) {
       const std::size_t equals = word.find('=');
       if (equals == std::string::npos)
-        throw InputError({"", 0, "--set"}, "\"" + word + "\" is not section.key=value",
+        throw UsageError({"", 0, "--set"}, "\"" + word + "\" is not section.key=value",
                          "e.g. --set source.depth_m=12");
-      override_value(site, word.substr(0, equals), word.substr(equals + 1));
+      from_command_line(
+          [&] { override_value(site, word.substr(0, equals), word.substr(equals + 1)); });
     }
     site_ = std::make_unique<Site>(std::move(site));
     return *site_;

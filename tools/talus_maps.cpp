@@ -47,7 +47,8 @@ void declare(Tool& tool, Options& o) {
   tool.option("--memory-mb", o.memory_mb,
               "for rows of passages [MB]; more of them are taken in several readings of the runs")
       ->check(talus::number_between(1, 1e7));
-  tool.option("--co", o.creation_options, "creation option of the COGs, NAME=VALUE");
+  tool.option("--co", o.creation_options, "creation option of the COGs, NAME=VALUE")
+      ->check(talus::check_creation_option);
   tool.footer("Example:\n  talus-maps run_1.h5 run_2.h5 --trn slope.tif -o maps --png");
 }
 

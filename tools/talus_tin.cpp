@@ -19,6 +19,7 @@ using talus::InputError;
 using talus::Json;
 using talus::text;
 using talus::Tool;
+using talus::UsageError;
 
 struct Options {
   talus::ContourSources sources;
@@ -51,14 +52,18 @@ void declare(Tool& tool, Options& o) {
   tool.input("contours", s.contours.path, "contour lines (any vector source that GDAL reads)");
   tool.output("-o,--out", o.out, "TIN to write (binary PLY)")->required();
   tool.option("--layer", s.contours.layer, "layer of the contours; empty: the only one with lines");
-  tool.option("--elevation-field", s.elevation_field,
+  tool.option("--elevation-field", s.contours.elevation_field,
               "field with the elevation; Z: the geometries' own; empty: found by itself");
   tool.option("--elevation-unit-m", s.elevation_unit_m, "metres in one unit of elevation")
       ->check(check_positive);
   tool.input("--breaklines", s.breaklines.path, "lines with heights where the slope breaks");
   tool.option("--breaklines-layer", s.breaklines.layer, "their layer");
+  tool.option("--breaklines-elevation-field", s.breaklines.elevation_field,
+              "field with their elevation, or Z; empty: found by itself");
   tool.input("--spots", s.spots.path, "spot heights (points)");
   tool.option("--spots-layer", s.spots.layer, "their layer");
+  tool.option("--spots-elevation-field", s.spots.elevation_field,
+              "field with their elevation, or Z; empty: found by itself");
   tool.input("--boundary", s.boundary.path, "polygons: triangles with their centre outside go");
   tool.option("--boundary-layer", s.boundary.layer, "their layer");
   tool.option("--crs", o.crs, "CRS of contours that have none; none: local metres");
@@ -82,14 +87,16 @@ void declare(Tool& tool, Options& o) {
 
 void check_together(const Options& o) {
   if ((o.hold_out_every > 0) == !o.hold_out.empty()) return;
-  throw InputError({"", 0, o.hold_out.empty() ? "--hold-out-every" : "--hold-out"},
+  throw UsageError({"", 0, o.hold_out.empty() ? "--hold-out-every" : "--hold-out"},
                    "--hold-out-every and --hold-out go together, only one is given");
 }
 
 ContourMap read_map(Tool& tool, Options& o, talus::ContourReading& reading) {
   o.sources.crs_given = !o.crs.empty();
-  if (!o.crs.empty()) o.sources.crs = talus::crs_from_user(o.crs, "--crs");
-  if (!o.t_srs.empty()) o.sources.t_srs = talus::crs_from_user(o.t_srs, "--t-srs");
+  talus::from_command_line([&] {
+    if (!o.crs.empty()) o.sources.crs = talus::crs_from_user(o.crs, "--crs");
+    if (!o.t_srs.empty()) o.sources.t_srs = talus::crs_from_user(o.t_srs, "--t-srs");
+  });
   ContourMap map = talus::read_contours(o.sources, reading);
   talus::check_heights(map);
   tool.info("elevation from " + reading.elevation_from + " of layer " + reading.layer);

@@ -7,11 +7,12 @@
 #include <optional>
 
 #include "base/text.hpp"
+#include "io/contours_gdal.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/hillshade_gdal.hpp"
-#include "io/points_gdal.hpp"
 #include "io/raster_gdal.hpp"
 #include "io/tin_ply.hpp"
+#include "terrain/elevation.hpp"
 #include "terrain/grid_tin.hpp"
 #include "terrain/trn_quality.hpp"
 #include "tool.hpp"
@@ -31,8 +32,8 @@ constexpr double far = std::numeric_limits<double>::infinity();
 constexpr MapWindow everywhere{-far, -far, far, far};
 
 struct Options {
-  std::string source, out, window_text, t_srs, crs, like, reference, reference_points, report,
-      hillshade;
+  std::string source, out, window_text, t_srs, crs, like, reference, report, hillshade;
+  talus::LayerChoice reference_points;
   double cell_size_m = 0;
   std::vector<std::string> creation_options;
   MapWindow window = everywhere;
@@ -73,13 +74,17 @@ void declare(Tool& tool, Options& o) {
   tool.option("--t-srs", o.t_srs, "reproject a DEM to this CRS, e.g. EPSG:32632 (bilinear)");
   tool.option("--crs", o.crs, "CRS of a source that has none; none: local metres");
   tool.input("--reference", o.reference, "better known DEM to hold the terrain against");
-  tool.input("--reference-points", o.reference_points,
+  tool.input("--reference-points", o.reference_points.path,
              "points with a height to hold the terrain against (any vector source)");
+  tool.option("--reference-points-layer", o.reference_points.layer, "their layer");
+  tool.option("--reference-points-elevation-field", o.reference_points.elevation_field,
+              "field with their elevation, or Z; empty: found by itself");
   tool.output("--report", o.report, "errors, slopes, coverage (JSON)");
   tool.output("--hillshade", o.hillshade, "picture of the terrain (PNG)");
   tool.app()
       .add_option("--co", o.creation_options, "creation option of the GeoTIFF, NAME=VALUE")
-      ->allow_extra_args(false);
+      ->allow_extra_args(false)
+      ->check(talus::check_creation_option);
   tool.footer(
       "Example:\n  talus-trn slope.ply -o slope.tif --cell-size-m 5 --report slope.json\n"
       "  talus-trn dem.tif -o slope.tif --window 248400,351100,249200,351700");
@@ -132,20 +137,53 @@ void check_frame(const GridFrame& frame, const MapWindow& data, const Options& o
                    "choose a smaller cell or a larger window");
 }
 
+void check_tin(const talus::Tin& tin, const std::string& path) {
+  for (const talus::Vec3& point : tin.points) {
+    const talus::Vec3 place = point + tin.origin;
+    if (std::abs(place.z()) > talus::highest_elevation)
+      throw InputError({path}, "the elevation at x " + text(place.x(), 10) + ", y " +
+                                   text(place.y(), 10) + " is " + text(place.z(), 10) +
+                                   " m, expected at most " + text(talus::highest_elevation) +
+                                   " m either way");
+  }
+}
+
+// The CRS of the TIN, or the one that the user gives for a TIN without; empty: local metres.
+std::string crs_of_tin(const talus::Tin& tin, const MapWindow& data, const Options& o) {
+  std::string crs;
+  if (!tin.crs_wkt.empty())
+    crs = talus::crs_from_user(tin.crs_wkt, o.source + ": comment crs of the PLY header");
+  if (!o.crs.empty()) {
+    const std::string given =
+        talus::from_command_line([&] { return talus::crs_from_user(o.crs, "--crs"); });
+    if (!crs.empty() && !talus::same_crs(crs, given))
+      throw InputError({o.source}, "the CRS is " + talus::crs_name(crs) + ", not " + o.crs,
+                       "leave --crs away");
+    crs = given;
+  }
+  if (crs.empty()) return crs;
+  const talus::Vec2 middle(0.5 * (data.x_min + data.x_max), 0.5 * (data.y_min + data.y_max));
+  const talus::CrsProblem problem = talus::find_crs_problem(crs, middle);
+  if (!problem.finding.empty())
+    throw InputError({o.source}, problem.finding,
+                     "a TIN is not reprojected: make it from the contours with talus-tin --t-srs " +
+                         (problem.mend_to.empty() ? "EPSG:code" : problem.mend_to));
+  return crs;
+}
+
 Trn trn_of_tin(Tool& tool, const Options& o) {
   if (!o.t_srs.empty())
     throw InputError(
         {o.source}, "a TIN is not reprojected",
         "reproject the contours (ogr2ogr -t_srs " + o.t_srs + ") and make the TIN again");
   const talus::Tin tin = talus::read_tin(o.source);
-  std::string crs = tin.crs_wkt;
-  if (!o.crs.empty()) {
-    crs = talus::crs_from_user(o.crs, "--crs");
-    if (!tin.crs_wkt.empty() && !talus::same_crs(tin.crs_wkt, crs))
-      throw InputError({o.source}, "the CRS is " + talus::crs_name(tin.crs_wkt) + ", not " + o.crs);
-  }
+  check_tin(tin, o.source);
   const MapWindow data = talus::extent(tin);
-  const double size = o.cell_size_m > 0 ? o.cell_size_m : talus::natural_cell_size(tin);
+  const std::string crs = crs_of_tin(tin, data, o);
+  const double natural_size = talus::natural_cell_size(tin);
+  if (natural_size <= 0)
+    throw InputError({o.source}, "no triangle has an area in plan, expected a surface");
+  const double size = o.cell_size_m > 0 ? o.cell_size_m : natural_size;
   const MapWindow common = talus::intersection(o.window, data);
   GridFrame frame;
   if (!o.like.empty())
@@ -160,8 +198,10 @@ Trn trn_of_tin(Tool& tool, const Options& o) {
 Trn trn_of_dem(Tool& tool, const Options& o) {
   talus::DemOptions options;
   options.crs_given = !o.crs.empty();
-  if (options.crs_given) options.crs = talus::crs_from_user(o.crs, "--crs");
-  if (!o.t_srs.empty()) options.t_srs = talus::crs_from_user(o.t_srs, "--t-srs");
+  talus::from_command_line([&] {
+    if (options.crs_given) options.crs = talus::crs_from_user(o.crs, "--crs");
+    if (!o.t_srs.empty()) options.t_srs = talus::crs_from_user(o.t_srs, "--t-srs");
+  });
   const DemFile dem(o.source, options);
   const GridFrame frame = o.like.empty() ? talus::frame_on_dem(dem.frame(), o.cell_size_m, o.window)
                                          : frame_like(o, dem.crs_wkt());
@@ -202,12 +242,13 @@ talus::ErrorStatistics errors_against_dem(const Trn& trn, const std::string& pat
   return errors.statistics();
 }
 
-talus::ErrorStatistics errors_against_points(Tool& tool, const Trn& trn, const std::string& path) {
-  const talus::MapPoints truth = talus::read_points(path, trn.crs_wkt);
-  if (!truth.source_crs.empty())
-    tool.info(path + ": reprojected from " + talus::crs_name(truth.source_crs));
+talus::ErrorStatistics errors_against_points(Tool& tool, const Trn& trn,
+                                             const talus::LayerChoice& choice) {
+  std::vector<std::string> notes;
+  const std::vector<talus::Vec3> truth = talus::read_points(choice, trn.crs_wkt, notes);
+  for (const std::string& note : notes) tool.info(note);
   talus::ErrorCollector errors;
-  for (const talus::Vec3& point : truth.points)
+  for (const talus::Vec3& point : truth)
     errors.add(trn, point.x() - trn.origin.x(), point.y() - trn.origin.y(), point.z());
   return errors.statistics();
 }
@@ -303,9 +344,9 @@ Json report_on(Tool& tool, const Options& o, const Trn& trn) {
                  {"slope", as_json(slopes)}};
   if (!o.reference.empty())
     add_errors(tool, errors_against_dem(trn, o.reference), "reference", o.reference, trn, report);
-  if (!o.reference_points.empty())
+  if (!o.reference_points.path.empty())
     add_errors(tool, errors_against_points(tool, trn, o.reference_points), "reference_points",
-               o.reference_points, trn, report);
+               o.reference_points.path, trn, report);
   tool.metric("covered_share", report["grid"]["covered_share"].get<double>(), "1");
   if (slopes.n_cells_steep > 0)
     tool.warn(std::to_string(slopes.n_cells_steep) +

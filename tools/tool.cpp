@@ -63,7 +63,10 @@ std::string shell_quoted(const std::string& word) {
 bool is_virtual(const std::string& path) { return path.rfind("/vsi", 0) == 0; }
 
 std::string absolute(const std::string& path) {
-  return is_virtual(path) ? path : fs::weakly_canonical(fs::absolute(path)).string();
+  if (is_virtual(path)) return path;
+  std::error_code error;  // a pipe behind /dev/stdout has no name of its own
+  const fs::path canonical = fs::weakly_canonical(fs::absolute(path), error);
+  return (error ? fs::absolute(path) : canonical).string();
 }
 
 fs::path folder_of(const fs::path& path) {
@@ -139,6 +142,11 @@ std::function<std::string(const std::string&)> number_between(double low, double
     return word + " is out of range, expected a number from " + text(low) + " to " + text(high) +
            (or_nan ? ", or nan" : "");
   };
+}
+
+std::string check_creation_option(const std::string& word) {
+  if (word.find('=') != std::string::npos) return {};
+  return word + " has no value, expected NAME=VALUE, e.g. COMPRESS=ZSTD";
 }
 
 std::string processor_name() {
@@ -281,12 +289,22 @@ struct Tool::Impl {
     }
     for (const RunArtifact& file : record.inputs)
       if (file.path == absolute(path.string()))
-        throw InputError({path.string()}, "is both an input and an output", "name another output");
+        throw UsageError({path.string()}, "is both an input and an output", "name another output");
     if (fs::is_directory(path))
       throw InputError({path.string()}, "is a folder, expected a file name to write");
+    if (fs::exists(path) && !fs::is_regular_file(path))
+      throw InputError({path.string()}, "is no regular file, expected a file name to write",
+                       "outputs are written beside it and renamed when they are whole");
     check_folder(folder_of(path));
     if (fs::exists(path) && !overwrite)
       throw InputError({path.string()}, "exists already", "give --overwrite to replace it");
+  }
+
+  // An output left empty on the command line is no output left away.
+  void check_names() const {
+    for (const Output& output : outputs)
+      if (output.option->count() > 0 && output.path->empty() && output.option != json_option)
+        throw CLI::ValidationError(output.option->get_name(), "the name is empty");
   }
 
   void check_files() {
@@ -296,11 +314,16 @@ struct Tool::Impl {
           add_input(option->get_lnames().empty() ? option->get_name() : option->get_lnames()[0],
                     path);
     std::vector<std::string> seen;
+    if (!db.empty()) seen.push_back(absolute(db));
     for (const Output& output : outputs) {
       check_output(output);
       if (output.path->empty()) continue;
       if (std::find(seen.begin(), seen.end(), absolute(*output.path)) != seen.end())
-        throw InputError({*output.path}, "is named for two outputs", "give each its own name");
+        throw UsageError({*output.path},
+                         !db.empty() && absolute(*output.path) == absolute(db)
+                             ? "is named for an output and for the run registry"
+                             : "is named for two outputs",
+                         "give each its own name");
       seen.push_back(absolute(*output.path));
     }
   }
@@ -403,8 +426,29 @@ struct Tool::Impl {
     return files;
   }
 
+  // A path without its last extension, be it the final or the temporary one.
+  static std::string without_extension(const Staged& file, const std::string& path) {
+    return path.substr(0, path.size() - fs::path(file.path).extension().string().size());
+  }
+
+  // What GDAL puts beside a temporary file (NAME.tif.aux.xml, NAME.tfw, NAME.gpkg-journal): the
+  // endings that follow the name that they share.
+  std::vector<std::string> endings_beside(const Staged& file) const {
+    const std::string begin = without_extension(file, file.temporary);
+    std::vector<std::string> endings;
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(folder_of(begin), error)) {
+      const std::string path = (folder_of(begin) / entry.path().filename()).string();
+      const bool is_output = std::any_of(staged.begin(), staged.end(),
+                                         [&](const Staged& s) { return s.temporary == path; });
+      if (is_output || !path.starts_with(begin) || path.size() == begin.size()) continue;
+      if (path[begin.size()] == '.' || path[begin.size()] == '-')
+        endings.push_back(path.substr(begin.size()));
+    }
+    return endings;
+  }
+
   // All outputs of a run bear the same time, so that make sees none as older than another.
-  // GDAL puts what a format cannot hold into NAME.aux.xml beside it.
   void commit_outputs() {
     timespec now{};
     clock_gettime(CLOCK_REALTIME, &now);
@@ -420,8 +464,9 @@ struct Tool::Impl {
       if (!fs::exists(file.temporary)) continue;
       utimensat(AT_FDCWD, file.temporary.c_str(), times, 0);
       sync_path(file.temporary, O_RDONLY);
-      const std::string statistics = file.temporary + ".aux.xml";
-      if (fs::exists(statistics)) rename_over(statistics, file.path + ".aux.xml");
+      for (const std::string& ending : endings_beside(file))
+        rename_over(without_extension(file, file.temporary) + ending,
+                    without_extension(file, file.path) + ending);
       rename_over(file.temporary, file.path);
       sync_path(folder_of(file.path).string(), O_RDONLY | O_DIRECTORY);
     }
@@ -444,9 +489,9 @@ struct Tool::Impl {
   void remove_staged() {
     std::error_code error;
     for (const Staged& file : staged) {
-      for (const char* suffix :
-           {"", ".aux.xml", "-journal", "-wal", "-shm", ".ovr.tmp", ".msk.ovr.tmp"})
-        fs::remove_all(file.temporary + suffix, error);
+      fs::remove_all(file.temporary, error);
+      for (const std::string& ending : endings_beside(file))
+        fs::remove_all(without_extension(file, file.temporary) + ending, error);
     }
     staged.clear();
   }
@@ -489,6 +534,8 @@ struct Tool::Impl {
   int guarded(const std::function<int()>& work) {
     try {
       return work();
+    } catch (const UsageError& error) {
+      return fail(usage_wrong, error.what(), error.hint());
     } catch (const InputError& error) {
       return fail(input_unusable, error.what(), error.hint());
     } catch (const NumericsError& error) {
@@ -641,6 +688,7 @@ int Tool::run(int argc, char** argv, const std::function<void()>& body) {
   Impl& impl = *impl_;
   try {
     impl.app.parse(arguments_of(argc, argv, impl.app));
+    impl.check_names();
   } catch (const CLI::Success& wanted) {  // --help, --version
     return impl.app.exit(wanted);
   } catch (const CLI::ParseError& error) {

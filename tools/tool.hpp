@@ -30,6 +30,25 @@ using Json = nlohmann::ordered_json;
   return std::isfinite(value) ? Json(value) : Json();
 }
 
+/// The command line is wrong, whatever the files hold (exit code 2).
+class UsageError : public InputError {
+ public:
+  using InputError::InputError;
+};
+
+/// What `read` makes of words of the command line; an InputError of it becomes a UsageError.
+template <class Read>
+auto from_command_line(const Read& read) {
+  try {
+    return read();
+  } catch (const InputError& error) {
+    throw UsageError({}, error.what(), error.hint());
+  }
+}
+
+/// For CLI::Option::check(): a creation option of GDAL.
+[[nodiscard]] std::string check_creation_option(const std::string& word);
+
 /// One effective setting and where it came from: "default", "cli", or a place in the site file.
 struct ConfigValue {
   std::string key;

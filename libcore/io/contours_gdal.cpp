@@ -14,6 +14,8 @@
 #include "base/text.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/errors_gdal.hpp"
+#include "terrain/elevation.hpp"
+#include "terrain/tin_mesh.hpp"
 
 namespace talus {
 namespace {
@@ -31,13 +33,29 @@ const char* plural(Shape shape) {
   return shape == Shape::line ? "lines" : shape == Shape::point ? "points" : "polygons";
 }
 
+// What a source is read for: its shape, what its parts are called, how its options begin.
+struct Role {
+  Shape shape;
+  const char* name;
+  const char* options;
+};
+constexpr Role contours_role{Shape::line, "contours", "--"};
+constexpr Role breaklines_role{Shape::line, "breaklines", "--breaklines-"};
+constexpr Role spots_role{Shape::point, "spot heights", "--spots-"};
+constexpr Role boundary_role{Shape::polygon, "boundary", "--boundary-"};
+constexpr Role reference_role{Shape::point, "points", "--reference-points-"};
+
 // --- layers --------------------------------------------------------------------------------------
 
 struct Source {
   GDALDatasetUniquePtr dataset;
   OGRLayer* layer = nullptr;
+  Role role;
   bool is_drawing = false;  // DXF: one layer holds all sorts of things
   std::string name;         // of the layer, for messages
+  // for_each_part
+  std::int64_t n_features = 0;
+  std::int64_t n_ignored = 0;  // parts of a drawing that have another shape
 };
 
 GDALDatasetUniquePtr open_vectors(const std::string& path) {
@@ -106,8 +124,8 @@ void choose_by_name(const LayerChoice& choice, Source& source) {
                                       "\"; there are: " + list_of_layers(*source.dataset));
 }
 
-void choose_by_shape(const LayerChoice& choice, Shape shape, const std::string& option,
-                     Source& source) {
+void choose_by_shape(const LayerChoice& choice, Source& source) {
+  const Shape shape = source.role.shape;
   std::vector<OGRLayer*> fitting;
   for (OGRLayer* layer : source.dataset->GetLayers())
     if (holds(*layer, shape)) fitting.push_back(layer);
@@ -117,17 +135,18 @@ void choose_by_shape(const LayerChoice& choice, Shape shape, const std::string& 
     throw InputError({choice.path},
                      std::to_string(fitting.size()) + " layers hold " + plural(shape) +
                          ", expected one; the layers are: " + list_of_layers(*source.dataset),
-                     "choose with " + option);
+                     "choose with " + std::string(source.role.options) + "layer");
   source.layer = fitting.front();
   source.name = source.layer->GetName();
 }
 
-Source open_layer(const LayerChoice& choice, Shape shape, const std::string& option) {
+Source open_layer(const LayerChoice& choice, const Role& role) {
   Source source;
+  source.role = role;
   source.dataset = open_vectors(choice.path);
   source.is_drawing = std::string(source.dataset->GetDriverName()) == "DXF";
   if (choice.layer.empty())
-    choose_by_shape(choice, shape, option, source);
+    choose_by_shape(choice, source);
   else
     choose_by_name(choice, source);
   return source;
@@ -141,13 +160,13 @@ Where where_of(const LayerChoice& choice, const Source& source, const OGRFeature
 
 // Calls visit(geometry, feature) for every simple part of the wanted shape. Counts features without
 // geometry and refuses them at the end: a truncated file reads without complaint. Other shapes are
-// refused too, but in a drawing, where they are counted into `n_ignored`.
-void for_each_part(const LayerChoice& choice, Source& source, Shape shape, std::int64_t& n_ignored,
-                   std::int64_t& n_features,
+// refused too, but in a drawing, where they are counted.
+void for_each_part(const LayerChoice& choice, Source& source,
                    const std::function<void(const OGRGeometry&, const OGRFeature&)>& visit) {
   const GdalErrors errors;
+  const Shape shape = source.role.shape;
   std::int64_t n_null = 0;
-  n_features = 0;
+  source.n_features = source.n_ignored = 0;
   const std::function<void(const OGRGeometry&, const OGRFeature&)> descend =
       [&](const OGRGeometry& geometry, const OGRFeature& feature) {
         const OGRwkbGeometryType type = wkbFlatten(geometry.getGeometryType());
@@ -156,7 +175,7 @@ void for_each_part(const LayerChoice& choice, Source& source, Shape shape, std::
         } else if (fits(type, shape)) {
           visit(geometry, feature);
         } else if (source.is_drawing) {
-          ++n_ignored;
+          ++source.n_ignored;
         } else {
           throw InputError(where_of(choice, source, feature), std::string("the geometry is ") +
                                                                   geometry.getGeometryName() +
@@ -165,7 +184,7 @@ void for_each_part(const LayerChoice& choice, Source& source, Shape shape, std::
       };
   source.layer->ResetReading();
   for (const auto& feature : *source.layer) {
-    ++n_features;
+    ++source.n_features;
     const OGRGeometry* geometry = feature->GetGeometryRef();
     if (geometry == nullptr || geometry->IsEmpty()) {
       ++n_null;
@@ -175,11 +194,11 @@ void for_each_part(const LayerChoice& choice, Source& source, Shape shape, std::
     descend(*linear, *feature);
   }
   const Where where{choice.path, 0, "layer " + source.name};
-  if (n_features == 0)
+  if (source.n_features == 0)
     throw InputError(where, "the layer is empty, expected " + std::string(plural(shape)));
   if (n_null > 0)
     throw InputError(where,
-                     std::to_string(n_null) + " of " + std::to_string(n_features) +
+                     std::to_string(n_null) + " of " + std::to_string(source.n_features) +
                          " features have no geometry, expected none: is the file truncated?",
                      "copy the file anew; features that are meant to be empty must be deleted");
   if (errors.failed()) throw InputError(where, "reading failed: " + errors.failure());
@@ -197,6 +216,7 @@ void check_finite(const Vec3& point, const Where& where) {
 struct ElevationField {
   int index = -1;  // -1: Z
   std::string name;
+  std::string option;  // that names it
 };
 
 std::string list_of_fields(const OGRFeatureDefn& definition) {
@@ -206,16 +226,20 @@ std::string list_of_fields(const OGRFeatureDefn& definition) {
   return names.empty() ? "none" : names;
 }
 
-ElevationField field_by_user(const LayerChoice& choice, const Source& source,
-                             const std::string& name) {
+std::string field_option(const Source& source) {
+  return std::string(source.role.options) + "elevation-field";
+}
+
+ElevationField field_by_user(const LayerChoice& choice, const Source& source) {
   OGRFeatureDefn& definition = *source.layer->GetLayerDefn();
+  const std::string &name = choice.elevation_field, option = field_option(source);
   const int index = definition.GetFieldIndex(name.c_str());
-  if (index >= 0) return {index, definition.GetFieldDefn(index)->GetNameRef()};
-  if (lower(name) == "z") return {-1, "Z"};
+  if (index >= 0) return {index, definition.GetFieldDefn(index)->GetNameRef(), option};
+  if (lower(name) == "z") return {-1, "Z", option};
   throw InputError(
       {choice.path, 0, "layer " + source.name},
       "there is no field \"" + name + "\"; the fields are: " + list_of_fields(definition),
-      "choose one with --elevation-field, or Z for the geometries' own Z");
+      "choose one with " + option + ", or Z for the geometries' own Z");
 }
 
 std::optional<ElevationField> field_by_name(const Source& source) {
@@ -223,13 +247,20 @@ std::optional<ElevationField> field_by_name(const Source& source) {
   for (const char* name : elevation_names)
     for (int i = 0; i < definition.GetFieldCount(); ++i)
       if (lower(definition.GetFieldDefn(i)->GetNameRef()) == name)
-        return ElevationField{i, definition.GetFieldDefn(i)->GetNameRef()};
+        return ElevationField{i, definition.GetFieldDefn(i)->GetNameRef(), field_option(source)};
   return std::nullopt;
+}
+
+std::optional<ElevationField> find_field(const LayerChoice& choice, const Source& source) {
+  if (choice.elevation_field.empty()) return field_by_name(source);
+  return field_by_user(choice, source);
 }
 
 double field_value(const OGRFeature& feature, const ElevationField& field, const Where& where) {
   if (!feature.IsFieldSetAndNotNull(field.index))
-    throw InputError(where, "the field " + field.name + " is empty, expected an elevation");
+    throw InputError(
+        where, "the field " + field.name + " is empty, expected an elevation",
+        "choose another field with " + field.option + ", or Z for the geometries' own Z");
   const OGRFieldType type = feature.GetFieldDefnRef(field.index)->GetType();
   double value = 0;
   if (type == OFTInteger || type == OFTInteger64 || type == OFTReal) {
@@ -239,7 +270,7 @@ double field_value(const OGRFeature& feature, const ElevationField& field, const
     if (!parse_double(words, value))
       throw InputError(where,
                        "the field " + field.name + " says \"" + words + "\", expected an elevation",
-                       "choose another field with --elevation-field, or mend the text");
+                       "choose another field with " + field.option + ", or mend the text");
   }
   if (!std::isfinite(value))
     throw InputError(where,
@@ -258,21 +289,28 @@ void check_unit_in_name(const std::string& name, double unit_m, const Where& whe
 
 // --- lines ---------------------------------------------------------------------------------------
 
-// Lines with map coordinates as they stand in the source.
+// Lines with map coordinates as they stand in the source; a point is a line of one point.
 struct RawLines {
   Polylines lines;
   bool has_z = true;             // of every line
   std::vector<double> by_field;  // elevation of each line in the field looked at
 };
 
-void append_line(const OGRLineString& line, std::int64_t feature, const Where& where,
-                 RawLines& raw) {
-  for (int i = 0; i < line.getNumPoints(); ++i) {
-    const Vec3 point(line.getX(i), line.getY(i), line.Is3D() ? line.getZ(i) : 0);
+void append_part(const OGRGeometry& part, std::int64_t feature, const Where& where, RawLines& raw) {
+  const bool has_z = part.Is3D() != 0;
+  const auto add = [&](double x, double y, double z) {
+    const Vec3 point(x, y, has_z ? z : 0);
     check_finite(point, where);
     raw.lines.points.push_back(point);
+  };
+  if (wkbFlatten(part.getGeometryType()) == wkbPoint) {
+    const OGRPoint& point = *part.toPoint();
+    add(point.getX(), point.getY(), point.getZ());
+  } else {
+    const OGRLineString& line = *part.toLineString();
+    for (int i = 0; i < line.getNumPoints(); ++i) add(line.getX(i), line.getY(i), line.getZ(i));
   }
-  raw.has_z = raw.has_z && line.Is3D() != 0;
+  raw.has_z = raw.has_z && has_z;
   raw.lines.begin.push_back(static_cast<int>(raw.lines.points.size()));
   raw.lines.feature.push_back(feature);
 }
@@ -319,39 +357,51 @@ void check_same_elevation(const RawLines& raw, const std::string& field, const W
   }
 }
 
-std::string elevation_hint(const Source& source) {
-  const std::string drawing =
-      source.is_drawing ? "; a 2-D drawing has none: draw 3-D polylines" : "";
-  return "name the field with --elevation-field; the fields are: " +
-         list_of_fields(*source.layer->GetLayerDefn()) + drawing;
+std::string elevation_hint(const Source& source, bool has_z) {
+  return "name the field with " + field_option(source) +
+         "; the fields are: " + list_of_fields(*source.layer->GetLayerDefn()) +
+         (has_z               ? "; or Z where 0 m is meant"
+          : source.is_drawing ? "; a 2-D drawing has none: draw 3-D polylines"
+                              : "");
+}
+
+// Whether the heights stand in the field rather than in Z: the user says so, or Z tells nothing.
+// Contours stand at several heights; a lake or a single spot at one, but not with all Z at 0.
+// Refuses parts that have neither.
+bool stand_in_field(const LayerChoice& choice, const Source& source, const RawLines& raw,
+                    const HeightRange& z, const std::optional<ElevationField>& field) {
+  const bool by_user = !choice.elevation_field.empty();
+  const bool all_zero = z.low == 0 && z.high - z.low <= same_height_m;
+  const bool one_height_will_do = source.role.name != contours_role.name && !all_zero;
+  const bool z_tells = raw.has_z && (one_height_will_do || z.high - z.low > same_height_m);
+  if (field && field->index >= 0 && (by_user || !z_tells)) return true;
+  if (!raw.has_z || (all_zero && !by_user))
+    throw InputError({choice.path, 0, "layer " + source.name},
+                     std::string("the ") + source.role.name +
+                         " have no elevation: " + (raw.has_z ? "all Z are 0" : "they are 2-D") +
+                         (by_user ? "" : " and no field has a known name"),
+                     elevation_hint(source, raw.has_z));
+  return false;
 }
 
 // Reads the contours and gives each line one height.
 Polylines read_contour_lines(const ContourSources& sources, Source& source,
                              ContourReading& reading) {
   const LayerChoice& choice = sources.contours;
-  const bool by_user = !sources.elevation_field.empty();
-  const std::optional<ElevationField> field =
-      by_user ? field_by_user(choice, source, sources.elevation_field) : field_by_name(source);
+  const std::optional<ElevationField> field = find_field(choice, source);
   const bool reads_field = field && field->index >= 0;
   RawLines raw;
-  for_each_part(choice, source, Shape::line, reading.n_ignored, reading.n_features,
-                [&](const OGRGeometry& part, const OGRFeature& feature) {
-                  const Where where = where_of(choice, source, feature);
-                  append_line(*part.toLineString(), feature.GetFID(), where, raw);
-                  if (reads_field) raw.by_field.push_back(field_value(feature, *field, where));
-                });
+  for_each_part(choice, source, [&](const OGRGeometry& part, const OGRFeature& feature) {
+    const Where where = where_of(choice, source, feature);
+    append_part(part, feature.GetFID(), where, raw);
+    if (reads_field) raw.by_field.push_back(field_value(feature, *field, where));
+  });
+  reading.n_features = source.n_features;
+  reading.n_ignored += source.n_ignored;
   const Where where{choice.path, 0, "layer " + source.name};
   if (raw.lines.points.empty()) throw InputError(where, "there is no line, expected contours");
   const HeightRange z = heights_of(raw.lines);
-  const bool z_tells = raw.has_z && z.high - z.low > same_height_m;
-  const bool take_field = reads_field && (by_user || !z_tells);
-  if (!take_field && (!raw.has_z || (!z_tells && !by_user && z.low == 0)))
-    throw InputError(where,
-                     "the contours have no elevation: " +
-                         std::string(raw.has_z ? "all Z are 0" : "they are 2-D") +
-                         " and no field has a known name",
-                     elevation_hint(source));
+  const bool take_field = stand_in_field(choice, source, raw, z, field);
   if (take_field) {
     check_unit_in_name(field->name, sources.elevation_unit_m, where);
     set_heights(raw.by_field, raw.lines);
@@ -372,11 +422,18 @@ Polylines read_contour_lines(const ContourSources& sources, Source& source,
 
 // --- reference systems ---------------------------------------------------------------------------
 
-std::string crs_of_contours(const ContourSources& sources, const Source& source) {
-  const std::string own = wkt_of(source.layer->GetSpatialRef());
+std::string crs_of_contours(const ContourSources& sources, const Source& source,
+                            const std::vector<Vec3>& points) {
+  const std::string named = wkt_of(source.layer->GetSpatialRef());
+  const bool no_degrees = is_beyond_degrees(named, points);
+  const std::string own = no_degrees ? std::string() : named;
   const std::string& path = sources.contours.path;
   if (own.empty() && !sources.crs_given)
-    throw InputError({path}, "there is no CRS, expected a projected one in metres",
+    throw InputError({path},
+                     no_degrees ? "the CRS is " + crs_name(named) +
+                                      " (a GeoJSON without crs says so), but the coordinates are "
+                                      "no degrees"
+                                : "there is no CRS, expected a projected one in metres",
                      "name it with --crs EPSG:code, or --crs none for local metres");
   if (!own.empty() && sources.crs_given && !same_crs(own, sources.crs))
     throw InputError({path}, "the CRS is " + crs_name(own) + ", not " + crs_name(sources.crs),
@@ -403,97 +460,87 @@ void bring_to(const std::string& from, const std::string& to, const std::string&
 
 // The CRS of an additional source, reprojected with a note.
 void bring_to_map(const LayerChoice& choice, const Source& source, const std::string& map_crs,
-                  std::vector<Vec3>& points, ContourReading& reading) {
+                  std::vector<Vec3>& points, std::vector<std::string>& notes) {
   const std::string own = wkt_of(source.layer->GetSpatialRef());
-  if (own.empty() != map_crs.empty())
-    reading.notes.push_back(choice.path + ": taken to be in the CRS of the contours");
-  if (own.empty() || map_crs.empty() || same_crs(own, map_crs)) return;
+  const bool no_degrees = is_beyond_degrees(own, points);
+  if (no_degrees || own.empty() != map_crs.empty())
+    notes.push_back(choice.path + ": taken to be in the CRS of the map" +
+                    (no_degrees ? ": its coordinates are no degrees" : ""));
+  if (no_degrees || own.empty() || map_crs.empty() || same_crs(own, map_crs)) return;
   bring_to(own, map_crs, choice.path, points);
-  reading.notes.push_back(choice.path + ": reprojected from " + crs_name(own) + " to " +
-                          crs_name(map_crs));
+  notes.push_back(choice.path + ": reprojected from " + crs_name(own) + " to " + crs_name(map_crs));
 }
 
 // --- breaklines, spot heights, boundary ----------------------------------------------------------
 
-// The height of a feature without Z, from a field of a known name.
-std::optional<double> height_in_field(const std::optional<ElevationField>& field,
-                                      const OGRFeature& feature, const Where& where) {
-  if (!field) return std::nullopt;
-  return field_value(feature, *field, where);
+// Heights in metres, whatever their unit was.
+void scale_heights(double unit_m, const std::string& path, std::vector<Vec3>& points) {
+  for (Vec3& point : points) {
+    point.z() *= unit_m;
+    if (std::abs(point.z()) > highest_elevation)
+      throw InputError({path},
+                       "the elevation at x " + text(point.x(), 10) + ", y " + text(point.y(), 10) +
+                           " is " + text(point.z(), 10) + " m, expected at most " +
+                           text(highest_elevation) + " m either way",
+                       "feet need --elevation-unit-m 0.3048; choose another field where this one "
+                       "holds no elevations");
+  }
 }
 
-Polylines read_breaklines(const LayerChoice& choice, const std::string& map_crs, double unit_m,
-                          ContourReading& reading) {
-  Source source = open_layer(choice, Shape::line, "--breaklines-layer");
-  const std::optional<ElevationField> field = field_by_name(source);
+// The value of the field for each part, in the order of the parts.
+std::vector<double> read_field(const LayerChoice& choice, Source& source,
+                               const ElevationField& field) {
+  std::vector<double> values;
+  for_each_part(choice, source, [&](const OGRGeometry&, const OGRFeature& feature) {
+    values.push_back(field_value(feature, field, where_of(choice, source, feature)));
+  });
+  return values;
+}
+
+// Breaklines, or points as lines of one point, with their heights [m].
+Polylines read_measured(const LayerChoice& choice, const Role& role, const std::string& map_crs,
+                        double unit_m, std::vector<std::string>& notes) {
+  Source source = open_layer(choice, role);
+  const std::optional<ElevationField> field = find_field(choice, source);
   RawLines raw;
-  std::int64_t n_features = 0;
-  for_each_part(choice, source, Shape::line, reading.n_ignored, n_features,
-                [&](const OGRGeometry& part, const OGRFeature& feature) {
-                  const Where where = where_of(choice, source, feature);
-                  append_line(*part.toLineString(), feature.GetFID(), where, raw);
-                  if (part.Is3D()) return;
-                  const std::optional<double> height = height_in_field(field, feature, where);
-                  if (!height)
-                    throw InputError(where, "the breakline has no elevation (2-D), expected Z");
-                  const auto begin = raw.lines.begin.end()[-2];
-                  for (std::size_t i = static_cast<std::size_t>(begin); i < raw.lines.points.size();
-                       ++i)
-                    raw.lines.points[i].z() = *height;
-                });
-  bring_to_map(choice, source, map_crs, raw.lines.points, reading);
-  for (Vec3& point : raw.lines.points) point.z() *= unit_m;
+  for_each_part(choice, source, [&](const OGRGeometry& part, const OGRFeature& feature) {
+    append_part(part, feature.GetFID(), where_of(choice, source, feature), raw);
+  });
+  const Where where{choice.path, 0, "layer " + source.name};
+  if (raw.lines.points.empty()) throw InputError(where, std::string("there are no ") + role.name);
+  if (stand_in_field(choice, source, raw, heights_of(raw.lines), field)) {
+    check_unit_in_name(field->name, unit_m, where);
+    set_heights(read_field(choice, source, *field), raw.lines);
+    notes.push_back(choice.path + ": elevation from field " + field->name);
+  }
+  bring_to_map(choice, source, map_crs, raw.lines.points, notes);
+  scale_heights(unit_m, choice.path, raw.lines.points);
   return std::move(raw.lines);
 }
 
-std::vector<Vec3> read_spots(const LayerChoice& choice, const std::string& map_crs, double unit_m,
-                             ContourReading& reading) {
-  Source source = open_layer(choice, Shape::point, "--spots-layer");
-  const std::optional<ElevationField> field = field_by_name(source);
-  std::vector<Vec3> spots;
-  std::int64_t n_features = 0;
-  for_each_part(choice, source, Shape::point, reading.n_ignored, n_features,
-                [&](const OGRGeometry& part, const OGRFeature& feature) {
-                  const Where where = where_of(choice, source, feature);
-                  const OGRPoint& point = *part.toPoint();
-                  Vec3 spot(point.getX(), point.getY(), point.Is3D() ? point.getZ() : 0);
-                  if (!point.Is3D()) {
-                    const std::optional<double> height = height_in_field(field, feature, where);
-                    if (!height)
-                      throw InputError(
-                          where, "the spot height has no elevation, expected Z or a field",
-                          "the fields are: " + list_of_fields(*source.layer->GetLayerDefn()));
-                    spot.z() = *height;
-                  }
-                  check_finite(spot, where);
-                  spots.push_back(spot);
-                });
-  bring_to_map(choice, source, map_crs, spots, reading);
-  for (Vec3& spot : spots) spot.z() *= unit_m;
-  return spots;
-}
-
-std::vector<std::vector<Vec2>> read_boundary(const LayerChoice& choice, const std::string& map_crs,
-                                             ContourReading& reading) {
-  Source source = open_layer(choice, Shape::polygon, "--boundary-layer");
+std::vector<BoundaryRing> read_boundary(const LayerChoice& choice, const std::string& map_crs,
+                                        std::vector<std::string>& notes) {
+  Source source = open_layer(choice, boundary_role);
   std::vector<Vec3> points;
+  std::vector<BoundaryRing> rings;
   std::vector<std::size_t> begin;
-  std::int64_t n_features = 0;
-  for_each_part(choice, source, Shape::polygon, reading.n_ignored, n_features,
-                [&](const OGRGeometry& part, const OGRFeature& feature) {
-                  for (const OGRLinearRing* ring : *part.toPolygon()) {
-                    begin.push_back(points.size());
-                    for (int i = 0; i + 1 < ring->getNumPoints(); ++i) {
-                      points.emplace_back(ring->getX(i), ring->getY(i), 0);
-                      check_finite(points.back(), where_of(choice, source, feature));
-                    }
-                  }
-                });
-  bring_to_map(choice, source, map_crs, points, reading);
+  int n_polygons = 0;
+  for_each_part(choice, source, [&](const OGRGeometry& part, const OGRFeature& feature) {
+    for (const OGRLinearRing* ring : *part.toPolygon()) {
+      begin.push_back(points.size());
+      rings.push_back({n_polygons, {}});
+      for (int i = 0; i + 1 < ring->getNumPoints(); ++i) {
+        points.emplace_back(ring->getX(i), ring->getY(i), 0);
+        check_finite(points.back(), where_of(choice, source, feature));
+      }
+    }
+    ++n_polygons;
+  });
+  bring_to_map(choice, source, map_crs, points, notes);
   begin.push_back(points.size());
-  std::vector<std::vector<Vec2>> rings(begin.size() - 1);
   for (std::size_t r = 0; r < rings.size(); ++r)
-    for (std::size_t i = begin[r]; i < begin[r + 1]; ++i) rings[r].push_back(points[i].head<2>());
+    for (std::size_t i = begin[r]; i < begin[r + 1]; ++i)
+      rings[r].points.push_back(points[i].head<2>());
   return rings;
 }
 
@@ -523,8 +570,8 @@ void make_relative(ContourMap& map) {
   map.origin = Vec3(std::floor(low.x() / 100) * 100, std::floor(low.y() / 100) * 100, 0);
   for (std::vector<Vec3>* points : {&map.contours.points, &map.breaklines.points, &map.spots})
     for (Vec3& p : *points) p -= map.origin;
-  for (std::vector<Vec2>& ring : map.boundary)
-    for (Vec2& p : ring) p -= map.origin.head<2>();
+  for (BoundaryRing& ring : map.boundary)
+    for (Vec2& p : ring.points) p -= map.origin.head<2>();
 }
 
 }  // namespace
@@ -532,9 +579,9 @@ void make_relative(ContourMap& map) {
 ContourMap read_contours(const ContourSources& sources, ContourReading& reading) {
   ContourMap map;
   map.source = sources.contours.path;
-  Source source = open_layer(sources.contours, Shape::line, "--layer");
-  const std::string own_crs = crs_of_contours(sources, source);
+  Source source = open_layer(sources.contours, contours_role);
   map.contours = read_contour_lines(sources, source, reading);
+  const std::string own_crs = crs_of_contours(sources, source, map.contours.points);
   map.crs_wkt = sources.t_srs.empty() ? own_crs : sources.t_srs;
   if (!sources.t_srs.empty()) {
     if (own_crs.empty())
@@ -542,21 +589,29 @@ ContourMap read_contours(const ContourSources& sources, ContourReading& reading)
     bring_to(own_crs, sources.t_srs, map.source, map.contours.points);
   }
   check_crs(map.crs_wkt, map.source, map.contours.points.front());
-  for (Vec3& point : map.contours.points) point.z() *= sources.elevation_unit_m;
+  scale_heights(sources.elevation_unit_m, map.source, map.contours.points);
   const HeightRange heights = heights_of(map.contours);
   if (!sources.breaklines.path.empty()) {
-    map.breaklines =
-        read_breaklines(sources.breaklines, map.crs_wkt, sources.elevation_unit_m, reading);
+    map.breaklines = read_measured(sources.breaklines, breaklines_role, map.crs_wkt,
+                                   sources.elevation_unit_m, reading.notes);
     check_units(map.breaklines.points, heights, sources.breaklines.path);
   }
   if (!sources.spots.path.empty()) {
-    map.spots = read_spots(sources.spots, map.crs_wkt, sources.elevation_unit_m, reading);
+    map.spots = read_measured(sources.spots, spots_role, map.crs_wkt, sources.elevation_unit_m,
+                              reading.notes)
+                    .points;
     check_units(map.spots, heights, sources.spots.path);
   }
   if (!sources.boundary.path.empty())
-    map.boundary = read_boundary(sources.boundary, map.crs_wkt, reading);
+    map.boundary = read_boundary(sources.boundary, map.crs_wkt, reading.notes);
   make_relative(map);
+  check_boundary(map, sources.boundary.path);
   return map;
+}
+
+std::vector<Vec3> read_points(const LayerChoice& choice, const std::string& crs_wkt,
+                              std::vector<std::string>& notes) {
+  return read_measured(choice, reference_role, crs_wkt, 1, notes).points;
 }
 
 void write_points(const std::string& path, const std::string& layer, const std::string& crs_wkt,

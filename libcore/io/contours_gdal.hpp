@@ -16,15 +16,15 @@ namespace talus {
 struct LayerChoice {
   std::string path;
   std::string layer;
+  std::string elevation_field;  ///< empty: Z where it tells heights apart, else a field by name
 };
 
 struct ContourSources {
   LayerChoice contours, breaklines, spots, boundary;  ///< all but contours may have an empty path
-  std::string elevation_field;  ///< empty: Z where it tells heights apart, else a field by name
-  double elevation_unit_m = 1;  ///< metres in one unit of all elevations read
-  bool crs_given = false;       ///< `crs` stands for the CRS of contours that have none
-  std::string crs;              ///< WKT; empty: local metres
-  std::string t_srs;            ///< WKT to reproject to; empty: the CRS of the contours
+  double elevation_unit_m = 1;                        ///< metres in one unit of all elevations read
+  bool crs_given = false;  ///< `crs` stands for the CRS of contours that have none
+  std::string crs;         ///< WKT; empty: local metres
+  std::string t_srs;       ///< WKT to reproject to; empty: the CRS of the contours
 };
 
 /// What was found while reading; `notes` are sentences for the user.
@@ -32,7 +32,7 @@ struct ContourReading {
   std::string layer;            ///< of the contours
   std::string elevation_from;   ///< "Z" or "field ELEV"
   std::int64_t n_features = 0;  ///< of the contours
-  std::int64_t n_ignored = 0;   ///< features of a drawing that are no lines
+  std::int64_t n_ignored = 0;   ///< parts of the drawing of the contours that are no lines
   std::vector<std::string> notes;
 };
 
@@ -40,6 +40,12 @@ struct ContourReading {
 /// and puts the origin at the lower left corner, floored to 100 m (z: 0). Throws InputError where
 /// anything is missing or cannot be true: see docs/tools/talus-tin.md.
 [[nodiscard]] ContourMap read_contours(const ContourSources& sources, ContourReading& reading);
+
+/// Points with a height in map coordinates, in `crs_wkt` [m]: what a terrain is held against. What
+/// was found goes to `notes`; a missing CRS, of the source or in `crs_wkt`, means the same one.
+/// Throws InputError as read_contours does for spot heights.
+[[nodiscard]] std::vector<Vec3> read_points(const LayerChoice& choice, const std::string& crs_wkt,
+                                            std::vector<std::string>& notes);
 
 /// Writes points as a GeoPackage with one 3-D layer. `points` relative to `origin` [m].
 /// Throws InputError when the file cannot be written.

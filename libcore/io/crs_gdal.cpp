@@ -3,8 +3,11 @@
 #include <cpl_conv.h>
 #include <ogr_spatialref.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numbers>
+#include <string_view>
 
 #include "base/error.hpp"
 #include "base/text.hpp"
@@ -45,13 +48,24 @@ std::string unit_text(double metres, const char* name) {
   return std::string(name ? name : "unknown units") + " of " + text(metres, 10) + " m";
 }
 
+// Any variant, spherical (web maps) or not, whatever the system is called; the transverse and the
+// oblique one begin with other words.
+bool is_mercator(const OGRSpatialReference& srs) {
+  const char* const method = srs.GetAttrValue("PROJECTION");
+  return method != nullptr && std::string_view(method).starts_with("Mercator");
+}
+
+// What a GeoPackage calls the reference of a layer that has none.
+bool is_undefined(const OGRSpatialReference& srs) {
+  const char* const name = srs.GetName();
+  return name != nullptr && std::string_view(name).starts_with("Undefined ");
+}
+
 std::string describe_problem(const OGRSpatialReference& srs) {
-  const std::string code = authority(srs);
   if (srs.IsGeographic()) return "in degrees";
   if (srs.IsGeocentric()) return "measured from the centre of the Earth";
   if (!srs.IsProjected() && !srs.IsLocal()) return "neither projected nor local";
-  if (code == "EPSG:3857" || code == "EPSG:3785" || code == "EPSG:900913")
-    return "whose metres are stretched by 1 / cos(latitude)";
+  if (is_mercator(srs)) return "whose metres are stretched by 1 / cos(latitude)";
   const char* name = nullptr;
   const double unit = srs.GetLinearUnits(&name);
   if (std::abs(unit - 1) > 1e-9) return "in " + unit_text(unit, name);
@@ -64,7 +78,7 @@ std::string describe_problem(const OGRSpatialReference& srs) {
 }  // namespace
 
 std::string wkt_of(const OGRSpatialReference* srs) {
-  if (!srs || srs->IsEmpty()) return {};
+  if (!srs || srs->IsEmpty() || is_undefined(*srs)) return {};
   if (srs->IsLocal() && std::abs(srs->GetLinearUnits() - 1) < 1e-9) return {};
   char* wkt = nullptr;
   const char* const options[] = {"FORMAT=WKT2_2019", nullptr};
@@ -72,6 +86,17 @@ std::string wkt_of(const OGRSpatialReference* srs) {
   std::string copied(wkt ? wkt : "");
   CPLFree(wkt);
   return copied;
+}
+
+bool is_beyond_degrees(const std::string& crs_wkt, const std::vector<Vec3>& points) {
+  if (crs_wkt.empty()) return false;
+  const GdalErrors errors;
+  const OGRSpatialReference srs = parse(crs_wkt);
+  if (!srs.IsGeographic()) return false;
+  const double turn = 2 * std::numbers::pi / srs.GetAngularUnits();
+  return std::any_of(points.begin(), points.end(), [turn](const Vec3& p) {
+    return std::abs(p.x()) > turn || std::abs(p.y()) > turn / 4 + 1e-9;
+  });
 }
 
 bool reproject(const std::string& from, const std::string& to, std::vector<Vec3>& points) {

@@ -11,8 +11,8 @@ class OGRSpatialReference;
 
 namespace talus {
 
-/// WKT2:2019; empty for a null or empty reference, and for a local one in metres: it names no place
-/// (GeoTIFF makes one up, "unnamed", for a raster without a CRS).
+/// WKT2:2019; empty for a null or empty reference, one called undefined (GeoPackage), and a local
+/// one in metres: it names no place (GeoTIFF makes one up, "unnamed", for a raster without a CRS).
 [[nodiscard]] std::string wkt_of(const OGRSpatialReference* srs);
 
 /// WKT2:2019 of what a user writes: "EPSG:31287", a PROJ string, WKT, the name of a file. "none"
@@ -26,6 +26,11 @@ namespace talus {
 /// Whether both describe the same system; two empty ones do.
 [[nodiscard]] bool same_crs(const std::string& a, const std::string& b);
 
+/// Whether points cannot stand in the geographic system that their file names: a latitude above 90
+/// degrees or a longitude above 360. A GeoJSON without `crs` says degrees whatever it holds. False
+/// for other systems.
+[[nodiscard]] bool is_beyond_degrees(const std::string& crs_wkt, const std::vector<Vec3>& points);
+
 /// Takes points from one CRS to another, x (east, longitude) first; heights stay as they are. False
 /// when a point cannot be taken there; `points` are then spoilt.
 [[nodiscard]] bool reproject(const std::string& from, const std::string& to,
@@ -37,7 +42,7 @@ struct CrsProblem {
   std::string mend_to;  ///< UTM zone of the place, "EPSG:32632"; empty when it cannot be told
 };
 
-/// Geographic, geocentric and spherical Mercator systems, feet in plan or in height have a problem;
+/// Geographic, geocentric and Mercator systems, feet in plan or in height have a problem;
 /// projected and local systems in metres have none. `place` is any point of the data in this CRS,
 /// x (east, longitude) first.
 [[nodiscard]] CrsProblem find_crs_problem(const std::string& crs_wkt, const Vec2& place);

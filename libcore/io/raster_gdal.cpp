@@ -13,14 +13,14 @@
 #include "base/text.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/errors_gdal.hpp"
+#include "terrain/elevation.hpp"
 #include "terrain/resample.hpp"
 
 namespace talus {
 namespace {
 
 constexpr double nodata_written = -9999;
-constexpr double highest_elevation = 12'000;  // [m], either way; the Earth keeps within
-constexpr double lattice_tolerance = 1e-3;    // of a cell, at the far end of the raster
+constexpr double lattice_tolerance = 1e-3;  // of a cell, at the far end of the raster
 constexpr int rows_at_once = 256;
 
 struct CloseDataset {
@@ -335,7 +335,9 @@ void write_trn(const std::string& path, const Trn& trn, const TrnFileOptions& op
   dataset.reset();  // the last bytes are written here
   if (status != CE_None || errors.failed())
     throw InputError({path}, "cannot be written: " + errors.failure(),
-                     "is the disk full, or its quota used up?");
+                     options.creation_options.empty()
+                         ? "is the disk full, or its quota used up?"
+                         : "do the creation options fit 64-bit floats? Or is the disk full?");
 }
 
 }  // namespace talus

@@ -89,12 +89,19 @@ void check_finite(const std::vector<std::vector<Vec3>>& shapes, const Where& whe
 }
 
 void take_to(const std::string& crs_wkt, const Where& where, VectorShapes& found) {
-  for (auto& shape : found.shapes)
+  for (auto& shape : found.shapes) {
+    if (is_beyond_degrees(found.source_crs, shape))
+      throw InputError(
+          where,
+          "the CRS is " + crs_name(found.source_crs) +
+              " (a GeoJSON without crs says so), but the coordinates are no degrees",
+          "name the CRS in the file: ogr2ogr -a_srs EPSG:code named.gpkg " + where.file);
     if (!reproject(found.source_crs, crs_wkt, shape))
       throw InputError(
           where,
           "cannot be reprojected from " + crs_name(found.source_crs) + " to " + crs_name(crs_wkt),
           "check the CRS of the file");
+  }
 }
 
 }  // namespace

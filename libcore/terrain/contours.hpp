@@ -26,15 +26,22 @@ struct Polylines {
   [[nodiscard]] int n_lines() const { return static_cast<int>(begin.size()) - 1; }
 };
 
-/// All that a map may hold. Rings are closed without repeating their first point.
+/// A ring of a boundary polygon, closed without repeating its first point. Inside a polygon is what
+/// an odd number of its rings encloses: a ring in a ring is a hole.
+struct BoundaryRing {
+  int polygon = 0;           ///< rings of one polygon stand one after the other
+  std::vector<Vec2> points;  ///< relative to the map's origin [m]
+};
+
+/// All that a map may hold.
 struct ContourMap {
-  std::string source;                       ///< file of the contours, for messages
-  std::string crs_wkt;                      ///< projected, metres; empty when unknown
-  Vec3 origin = Vec3::Zero();               ///< map coordinates of the local zero [m]
-  Polylines contours;                       ///< each line at one height
-  Polylines breaklines;                     ///< height by point
-  std::vector<Vec3> spots;                  ///< spot heights, relative to `origin` [m]
-  std::vector<std::vector<Vec2>> boundary;  ///< rings, even-odd, relative to `origin` [m]
+  std::string source;                  ///< file of the contours, for messages
+  std::string crs_wkt;                 ///< projected, metres; empty when unknown
+  Vec3 origin = Vec3::Zero();          ///< map coordinates of the local zero [m]
+  Polylines contours;                  ///< each line at one height
+  Polylines breaklines;                ///< height by point
+  std::vector<Vec3> spots;             ///< spot heights, relative to `origin` [m]
+  std::vector<BoundaryRing> boundary;  ///< polygons, which may overlap; none: no boundary
 };
 
 /// What cleaning found and mended.

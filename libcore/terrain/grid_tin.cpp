@@ -103,6 +103,7 @@ double natural_cell_size(const Tin& tin) {
   for (const auto& triangle : tin.triangles)
     area += 0.5 * area_twice(corner(tin, triangle, 0), corner(tin, triangle, 1),
                              corner(tin, triangle, 2));
+  if (!(area > 0)) return 0;
   const double distance = std::sqrt(area / static_cast<double>(tin.points.size()));
   const double power = std::pow(10, std::floor(std::log10(distance)));
   for (const double step : {5.0, 2.0})

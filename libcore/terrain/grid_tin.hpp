@@ -14,7 +14,7 @@ namespace talus {
 [[nodiscard]] MapWindow extent(const Tin& tin);
 
 /// A cell size near the mean distance of the TIN's points, sqrt(area / n_points), taken down to 1,
-/// 2 or 5 times a power of ten [m].
+/// 2 or 5 times a power of ten [m]; 0 when no triangle has an area in plan.
 [[nodiscard]] double natural_cell_size(const Tin& tin);
 
 /// Elevation of the TIN at the nodes of `frame`, at [r * n_cols + c] [m], NaN outside of it.

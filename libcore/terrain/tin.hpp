@@ -13,7 +13,7 @@ namespace talus {
 /// Points and triangles, counter-clockwise seen from above.
 struct Tin {
   Vec3 origin = Vec3::Zero();                 ///< map coordinates of the local zero [m]
-  std::string crs_wkt;                        ///< projected, metres; empty when unknown
+  std::string crs_wkt;                        ///< or the EPSG:code of a PLY; empty when unknown
   std::vector<Vec3> points;                   ///< relative to `origin` [m]          (n_points)
   std::vector<std::array<int, 3>> triangles;  ///< indices into `points`           (n_triangles)
 };

@@ -1,10 +1,17 @@
 #include "terrain/tin_mesh.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <map>
+#include <span>
 #include <utility>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "geometry/segment_meetings.hpp"
 
 namespace talus {
 namespace {
@@ -13,32 +20,36 @@ std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 struct RingEdge {
   Vec2 a = Vec2::Zero(), b = Vec2::Zero();
+  int polygon = 0;
 };
 
 // Edges of all rings in bands of y, so that a point is tested against those beside it only.
 class RingBands {
  public:
-  explicit RingBands(const std::vector<std::vector<Vec2>>& rings) {
+  explicit RingBands(const std::vector<BoundaryRing>& rings) {
     std::size_t n = 0;
-    for (const auto& ring : rings) {
+    for (const auto& [polygon, ring] : rings) {
       n += ring.size();
       for (const Vec2& p : ring) low_ = std::min(low_, p.y()), high_ = std::max(high_, p.y());
     }
     bands_.resize(std::max<std::size_t>(n / 4, 1));
-    for (const auto& ring : rings)
+    for (const auto& [polygon, ring] : rings)
       for (std::size_t i = 0; i < ring.size(); ++i) {
-        const RingEdge edge{ring[i], ring[(i + 1) % ring.size()]};
+        const RingEdge edge{ring[i], ring[(i + 1) % ring.size()], polygon};
         const auto [bottom, top] = std::minmax(edge.a.y(), edge.b.y());
         for (std::size_t band = band_of(bottom); band <= band_of(top); ++band)
           bands_[band].push_back(edge);
       }
   }
 
-  // Even-odd rule along a ray to the east.
+  // Even-odd rule along a ray to the east, for one polygon after the other.
   [[nodiscard]] bool contains(const Vec2& p) const {
     if (!(p.y() >= low_ && p.y() <= high_)) return false;
     bool inside = false;
-    for (const auto& [a, b] : bands_[band_of(p.y())]) {
+    int current = 0;
+    for (const auto& [a, b, polygon] : bands_[band_of(p.y())]) {
+      if (inside && polygon != current) return true;
+      current = polygon;
       if ((a.y() > p.y()) == (b.y() > p.y())) continue;
       if (p.x() < a.x() + (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y())) inside = !inside;
     }
@@ -57,9 +68,52 @@ class RingBands {
   std::vector<std::vector<RingEdge>> bands_;
 };
 
+// The edges of one polygon, between points that differ.
+struct PolygonEdges {
+  std::vector<Vec2> points;
+  std::vector<std::array<int, 2>> edges;
+};
+
+PolygonEdges edges_of(std::span<const BoundaryRing> rings) {
+  PolygonEdges found;
+  std::map<std::pair<double, double>, int> number;
+  const auto number_of = [&](const Vec2& p) {
+    const auto [at, is_new] =
+        number.try_emplace({p.x(), p.y()}, static_cast<int>(found.points.size()));
+    if (is_new) found.points.push_back(p);
+    return at->second;
+  };
+  for (const auto& [polygon, ring] : rings)
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const int a = number_of(ring[i]), b = number_of(ring[(i + 1) % ring.size()]);
+      if (a != b) found.edges.push_back({a, b});
+    }
+  return found;
+}
+
 }  // namespace
 
-void cut_to_rings(const std::vector<std::vector<Vec2>>& rings, TriangleMesh& mesh) {
+void check_boundary(const ContourMap& map, const std::string& source) {
+  const std::span<const BoundaryRing> rings(map.boundary);
+  for (std::size_t begin = 0, end = 0; begin < rings.size(); begin = end) {
+    while (end < rings.size() && rings[end].polygon == rings[begin].polygon) ++end;
+    const auto [points, edges] = edges_of(rings.subspan(begin, end - begin));
+    const SegmentMeetings meetings = find_segment_meetings(points, edges);
+    if (meetings.crossings.empty()) continue;
+    const auto [first, second] = meetings.crossings.front();
+    const Vec2 a = points[index(edges[index(first)][0])], b = points[index(edges[index(first)][1])];
+    const double share = crossing_share(a, b, points[index(edges[index(second)][0])],
+                                        points[index(edges[index(second)][1])]);
+    const Vec2 place = a + share * (b - a) + map.origin.head<2>();
+    throw InputError({source},
+                     "polygon " + std::to_string(rings[begin].polygon + 1) +
+                         " of the boundary crosses itself at x " + text(place.x(), 10) + ", y " +
+                         text(place.y(), 10),
+                     "mend the polygon at this place, or let ogr2ogr -makevalid do it");
+  }
+}
+
+void cut_to_rings(const std::vector<BoundaryRing>& rings, TriangleMesh& mesh) {
   if (rings.empty()) return;
   const RingBands bands(rings);
   const bool has_neighbors = !mesh.neighbors.empty();

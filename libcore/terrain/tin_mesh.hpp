@@ -2,6 +2,7 @@
 // From a triangulation to a TIN: cut to a boundary, points that no triangle uses left out.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "terrain/contours.hpp"
@@ -10,9 +11,13 @@
 
 namespace talus {
 
-/// Drops the triangles whose centroid lies outside of the rings (even-odd rule: a ring in a ring is
-/// a hole). Without rings nothing is dropped.
-void cut_to_rings(const std::vector<std::vector<Vec2>>& rings, TriangleMesh& mesh);
+/// Throws InputError naming `source`, with the place in map coordinates, where the edges of a
+/// boundary polygon cross each other. They may touch; polygons may overlap.
+void check_boundary(const ContourMap& map, const std::string& source);
+
+/// Drops the triangles whose centroid lies in none of the polygons. Without rings nothing is
+/// dropped.
+void cut_to_rings(const std::vector<BoundaryRing>& rings, TriangleMesh& mesh);
 
 /// The mesh as a TIN in the map's place, without points that stand in no triangle. Uses up the
 /// mesh.

@@ -16,10 +16,17 @@ expect 0 frame-probe in.txt -o out.txt -overwrite -q
 
 expect 1 frame-probe absent.txt -o new.txt
 says "frame-probe: absent.txt: there is no such file"
-expect 1 frame-probe in.txt -o in.txt --overwrite
+expect 2 frame-probe in.txt -o in.txt --overwrite
 says "is both an input and an output"
-expect 1 frame-probe in.txt -o new.txt --second new.txt
+expect 2 frame-probe in.txt -o new.txt --second new.txt
 says "is named for two outputs"
+expect 2 frame-probe in.txt -o new.txt --db new.txt
+says "is named for an output and for the run registry"
+expect 2 frame-probe in.txt -o ""
+says "the name is empty"
+frame-probe in.txt -o /dev/stdout 2>err | cat >piped
+says "/dev/stdout: is no regular file"
+[ ! -s piped ] || fail "something was written into a pipe"
 expect 1 frame-probe in.txt -o no/such/folder/new.txt
 says "there is no such folder"
 expect 1 frame-probe in.txt -o new.txt --mode refuse

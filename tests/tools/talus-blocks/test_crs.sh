@@ -14,6 +14,22 @@ says "degrees.gpkg: reprojected from EPSG:4326"
 a=$(value here.json prism_volume_m3) b=$(value there.json prism_volume_m3)
 holds "($a / $b - 1) ^ 2 < 0.01"
 
+# a GeoPackage without CRS calls it undefined: it is taken to be the terrain's
+cp area.gpkg undefined.gpkg
+for table in gpkg_geometry_columns gpkg_contents; do
+  ogrinfo -q undefined.gpkg -sql "UPDATE $table SET srs_id = 0" >/dev/null
+done
+sed 's/^polygon = .*/polygon_file = "undefined.gpkg"/' site.toml >undefined.toml
+expect 0 talus-blocks undefined.toml --trn trn.tif -o undefined.h5 --no-db --report undefined.json
+[ "$(value undefined.json prism_volume_m3)" = "$a" ] || fail "another volume without a CRS"
+# a GeoJSON without crs says degrees whatever it holds
+printf '{"type":"FeatureCollection","features":[{"type":"Feature","properties":{},"geometry":{"type":"Polygon","coordinates":[[[500012,5200012],[500034,5200012],[500034,5200034],[500012,5200012]]]}}]}' >metres.geojson
+sed 's/^polygon = .*/polygon_file = "metres.geojson"/' site.toml >metres.toml
+expect 1 talus-blocks metres.toml --trn trn.tif -o metres.h5 --no-db
+says "but the coordinates are no degrees"
+says "hint: name the CRS in the file: ogr2ogr -a_srs EPSG:code named.gpkg metres.geojson"
+nothing_left metres.h5
+
 sed 's/EPSG:32633/EPSG:31468/' site.toml >other.toml
 expect 1 talus-blocks other.toml --trn trn.tif -o other.h5 --no-db
 says "reaches outside the terrain"

@@ -2,15 +2,16 @@
 . "$source_dir/tests/tools/talus-dda/common.sh"
 make_inputs
 
-# refuses TEXT OPTIONS...: exit 1, the text, no output
+# refuses TEXT OPTIONS...: exit 1 (or $fault), the text, no output
 refuses() {
   wanted=$1
   shift
-  expect 1 run_dda -o run.h5 "$@"
+  expect "${fault:-1}" run_dda -o run.h5 "$@"
   says "$wanted"
   nothing_left run.h5 run.h5.part
 }
 
+fault=2  # values on the command line
 refuses "friction_deg is 90, expected 0 to below 90" --set ground.ground.friction_deg=90
 refuses "friction_deg is 95, expected 0 to below 90" --set ground.ground.friction_deg=95
 refuses "cor is 1.5, expected 0 to 1" --set ground.ground.cor=1.5
@@ -20,6 +21,7 @@ refuses "time_step_s is -1" --time-step-s -1
 refuses "duration_s is 0" --duration-s 0
 refuses "density_kg_m3 is 0" --set material.rock.density_kg_m3=0
 refuses "law" --law newton
+fault=1
 expect 2 run_dda -o run.h5 --no-such-option
 expect 1 run_dda
 says "no output is named"

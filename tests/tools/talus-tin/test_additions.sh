@@ -31,7 +31,47 @@ expect 0 talus-tin map.geojson -o ridge.ply --breaklines ridge.geojson --report 
 [ "$(value ridge.json breaklines_and_spots_on_contours)" -ge 4 ] || fail "the ridge meets no contour"
 lines "0:500000,5200000;500100,5200000" | sed 's/"ELEV":0/"NAME":1/' >flat_ridge.geojson
 expect 1 talus-tin map.geojson -o bad.ply --breaklines flat_ridge.geojson
-says "the breakline has no elevation (2-D), expected Z"
+says "the breaklines have no elevation: they are 2-D and no field has a known name"
+says "hint: name the field with --breaklines-elevation-field"
+
+# a Z of 0 everywhere is no height: a field holds it, or nothing does; Z that tells heights stays
+spots() { # spots FIELD HEIGHT Z: one spot height on the summit, one beside it
+  printf '{"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"EPSG:32632"}},"features":['
+  printf '{"type":"Feature","properties":{"%s":%s},"geometry":{"type":"Point","coordinates":[500000,5200000,%s]}},' "$@"
+  printf '{"type":"Feature","properties":{"%s":%s},"geometry":{"type":"Point","coordinates":[500003,5200000,%s]}}]}' "$@"
+}
+spots ELEV 138 138 >level_spots.geojson
+spots ELEV 138 0 >zero_spots.geojson
+spots ELEV null 138 >null_spots.geojson
+spots hoehe_nn 138 0 >named_spots.geojson
+expect 0 talus-tin map.geojson -o level_spots.ply --spots level_spots.geojson
+data level_spots.ply >expected
+for spots in zero_spots.geojson null_spots.geojson "named_spots.geojson --spots-elevation-field hoehe_nn"; do
+  expect 0 talus-tin map.geojson -o spots.ply --spots $spots --overwrite
+  data spots.ply >found
+  cmp -s expected found || fail "--spots $spots gives another terrain"
+done
+says "named_spots.geojson: elevation from field hoehe_nn"
+expect 1 talus-tin map.geojson -o bad.ply --spots named_spots.geojson
+says "the spot heights have no elevation: all Z are 0 and no field has a known name"
+says "hint: name the field with --spots-elevation-field; the fields are: hoehe_nn; or Z where 0 m is meant"
+lines "138:500000,5200000;500010,5200000" | sed 's/\(\[5000[01]0,5200000\)\]/\1,0]/g' >zero_ridge.geojson
+lines "0:500000,5200000;500010,5200000" | sed 's/\(\[5000[01]0,5200000\)\]/\1,138]/g' >ridge_z.geojson
+expect 0 talus-tin map.geojson -o ridge_z.ply --breaklines ridge_z.geojson
+expect 0 talus-tin map.geojson -o zero_ridge.ply --breaklines zero_ridge.geojson
+says "zero_ridge.geojson: elevation from field ELEV"
+data ridge_z.ply >expected
+data zero_ridge.ply >found
+cmp -s expected found || fail "a breakline with Z 0 and a field gives another terrain"
+
+# the same for points that a terrain is held against; their layer can be named
+ogr2ogr -q -nln heights two_layers.gpkg named_spots.geojson
+ogr2ogr -q -nln others -update two_layers.gpkg spot.geojson
+expect 1 talus-trn spots.ply -o bad.tif --reference-points two_layers.gpkg
+says "hint: choose with --reference-points-layer"
+expect 0 talus-trn spots.ply -o spots.tif --window 499990,5199990,500010,5200010 --cell-size-m 1 --report spots_trn.json \
+  --reference-points two_layers.gpkg --reference-points-layer heights --reference-points-elevation-field hoehe_nn
+[ "$(value spots_trn.json largest_m)" = 0.0 ] || fail "the spot heights are off by $(value spots_trn.json largest_m) m"
 
 # the boundary cuts; a hole stays a hole; elsewhere leaves nothing
 polygon() { printf '{"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"EPSG:32632"}},"features":[{"type":"Feature","properties":{},"geometry":{"type":"Polygon","coordinates":[%s]}}]}' "$1"; }
@@ -39,6 +79,13 @@ polygon '[[499900,5199900],[500000,5199900],[500000,5200100],[499900,5200100],[4
 expect 0 talus-tin map.geojson -o west.ply --boundary west.geojson --report west.json
 awk -v a="$(value plain.json area_m2)" -v b="$(value west.json area_m2)" 'BEGIN { exit !(b > 0.45 * a && b < 0.55 * a) }' ||
   fail "the western half has $(value west.json area_m2) m2 of $(value plain.json area_m2)"
+square() { printf '[[[499900,5199900],[%s,5199900],[%s,5200100],[499900,5200100],[499900,5199900]]]' "$1" "$1"; }
+polygon "]$(square 500000),$(square 499950)[" | sed 's/"Polygon","coordinates":\[\]/"MultiPolygon","coordinates":[/; s/\[\]}/]}/' >overlap.geojson
+expect 0 talus-tin map.geojson -o overlap.ply --boundary overlap.geojson
+cmp -s west.ply overlap.ply || fail "where polygons of a boundary overlap is a hole"
+polygon '[[499900,5199900],[500100,5200100],[500100,5199900],[499900,5200100],[499900,5199900]]' >bow.geojson
+expect 1 talus-tin map.geojson -o bad.ply --boundary bow.geojson
+says "bow.geojson: polygon 1 of the boundary crosses itself at x 500000, y 5200000"
 polygon '[[1,1],[2,1],[2,2],[1,1]]' >elsewhere.geojson
 expect 1 talus-tin map.geojson -o bad.ply --boundary elsewhere.geojson
 says "the boundary and the contours share no ground"

@@ -61,6 +61,11 @@ expect 0 talus-tin feet.gpkg -o feet.ply --elevation-unit-m 0.3048 --report feet
 awk -v v="$(value feet.json interval_m)" 'BEGIN { exit !((v - 3.048) ^ 2 < 1e-18) }' ||
   fail "interval $(value feet.json interval_m), expected 3.048"
 
+# no ground is that high
+sed 's/"ELEV":1\([0-3]\)0/"ELEV":13\1000/; s/,1\([0-3]\)0\]/,13\1000]/g' map.geojson >high.geojson
+refused "is 130000 m, expected at most 12000 m either way" talus-tin high.geojson
+expect 0 talus-tin high.geojson -o millimetres.ply --elevation-unit-m 0.001
+
 # a truncated shapefile reads without complaint: its null geometries are counted
 ogr2ogr -q whole.shp map.geojson
 head -c 1200 whole.shp >cut.shp

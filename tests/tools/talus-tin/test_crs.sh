@@ -22,6 +22,33 @@ cone 3857 >mercator.geojson
 expect 1 talus-tin mercator.geojson -o bad.ply
 says "EPSG:3857"
 nothing_left bad.ply
+ogr2ogr -q -a_srs ESRI:102100 web.gpkg mercator.geojson
+expect 1 talus-tin web.gpkg -o bad.ply
+says "stretched by 1 / cos(latitude)"
+
+# a GeoPackage without CRS calls it undefined; a GeoJSON without crs says degrees whatever it holds
+for undefined in 0 -1; do
+  ogr2ogr -q "undefined$undefined.gpkg" map.geojson
+  ogrinfo -q "undefined$undefined.gpkg" -sql "UPDATE gpkg_geometry_columns SET srs_id = $undefined" >/dev/null
+  ogrinfo -q "undefined$undefined.gpkg" -sql "UPDATE gpkg_contents SET srs_id = $undefined" >/dev/null
+done
+cone "" >without.geojson
+for source in undefined0.gpkg undefined-1.gpkg without.geojson; do
+  expect 1 talus-tin $source -o bad.ply
+  says "hint: name it with --crs EPSG:code, or --crs none for local metres"
+  expect 0 talus-tin $source -o named.ply --crs EPSG:32632 --overwrite
+  data utm.ply >expected
+  data named.ply >found
+  cmp -s expected found || fail "$source with --crs gives other triangles"
+  grep -qa '^comment crs EPSG:32632' named.ply || fail "the CRS given for $source does not stand in the file"
+  expect 0 talus-tin $source -o named.ply --crs none --overwrite
+  expect 0 talus-tin $source -o named.ply --crs EPSG:32632 --t-srs EPSG:25833 --overwrite
+done
+expect 1 talus-tin without.geojson -o bad.ply
+says "(a GeoJSON without crs says so), but the coordinates are no degrees"
+printf '{"type":"FeatureCollection","features":[{"type":"Feature","properties":{},"geometry":{"type":"Point","coordinates":[500000,5200000,138]}}]}' >spot.geojson
+expect 0 talus-tin map.geojson -o spot.ply --spots spot.geojson
+says "spot.geojson: taken to be in the CRS of the map: its coordinates are no degrees"
 
 # no CRS
 ogr2ogr -q none.shp map.geojson
@@ -35,6 +62,6 @@ expect 0 talus-tin none.shp -o local.ply --crs none
 if grep -qa '^comment crs' local.ply; then fail "local metres have a CRS in the file"; fi
 expect 1 talus-tin map.geojson -o bad.ply --crs EPSG:31287
 says "the CRS is EPSG:32632 (WGS 84 / UTM zone 32N), not EPSG:31287"
-expect 1 talus-tin map.geojson -o bad.ply --crs EPSG:nonsense
+expect 2 talus-tin map.geojson -o bad.ply --crs EPSG:nonsense
 says "is not a CRS"
 nothing_left bad.ply

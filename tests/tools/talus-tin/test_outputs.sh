@@ -25,7 +25,7 @@ ogrinfo -al -so points.gpkg | grep -q "Feature Count: 25" || fail "expected the 
 expect 0 talus-trn held.ply -o held.tif --cell-size-m 2 --reference-points points.gpkg
 prints "RMSE"
 expect 2 talus-tin map.geojson -o bad.ply --hold-out-every 1 --hold-out p.gpkg
-expect 1 talus-tin map.geojson -o bad.ply --hold-out-every 2
+expect 2 talus-tin map.geojson -o bad.ply --hold-out-every 2
 says "go together"
 expect 1 talus-tin map.geojson -o bad.ply --hold-out-every 2 --hold-out nowhere/p.gpkg
 

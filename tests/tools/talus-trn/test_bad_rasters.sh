@@ -28,7 +28,8 @@ refused "US survey foot" talus-trn feet.tif $out
 says "--t-srs EPSG:32610"
 gdal_translate -q -a_srs EPSG:3857 good.asc mercator.tif
 refused "stretched by 1 / cos(latitude)" talus-trn mercator.tif $out
-refused "is not a CRS" talus-trn good.asc $out --crs EPSG:nonsense
+expect 2 talus-trn good.asc $out --crs EPSG:nonsense
+says "is not a CRS"
 refused "the CRS is EPSG:32632" talus-trn good.tif $out --crs EPSG:31287
 refused "no CRS to reproject from" talus-trn good.asc $out --crs none --t-srs EPSG:32632
 gdal_translate -q -of VRT good.tif feet_high.vrt
@@ -88,7 +89,12 @@ refused "expected at most 268435456" talus-trn good.tif $out --cell-size-m 0.000
 gdal_translate -q -of VRT good.tif lying.vrt
 sed -i 's/rasterXSize="3" rasterYSize="3"/rasterXSize="300000" rasterYSize="400000"/' lying.vrt
 refused "300000 x 400000 nodes, expected at most" talus-trn lying.vrt $out
-refused "no value, expected NAME=VALUE" talus-trn good.tif $out --co COMPRESS
+expect 2 talus-trn good.tif $out --co COMPRESS
+says "no value, expected NAME=VALUE"
+refused "hint: do the creation options fit 64-bit floats?" talus-trn good.tif $out --co COMPRESS=JPEG
+expect 0 talus-trn good.tif -o world.tif --co TFW=YES
+nothing_left
+[ -s world.tfw ] || fail "the world file is not beside its raster"
 for words in 1,2,3 1,2,3,x 5,5,5,9 1,2,3,4,5; do
   expect 2 talus-trn good.tif $out --window $words
   nothing_left bad.tif
@@ -97,7 +103,7 @@ for size in 0 -1 nan inf ten; do
   expect 2 talus-trn good.tif $out --cell-size-m $size
 done
 expect 1 talus-trn good.tif -o nowhere/bad.tif
-expect 1 talus-trn good.tif -o good.tif --overwrite
+expect 2 talus-trn good.tif -o good.tif --overwrite
 says "good.tif"
 cmp -s good.tif good.tif || fail "the input is gone"
 

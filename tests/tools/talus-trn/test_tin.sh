@@ -48,19 +48,56 @@ expect 0 talus-trn plane.ply -o points.tif --cell-size-m 4 --reference-points de
 says "reprojected from EPSG:4326"
 prints "covers 80 %"
 awk -F: '/"mae_m"/ { exit !($2 + 0 > 2.9 && $2 + 0 < 3.6) }' points.report.json || fail "$(grep mae_m points.report.json)"
-for type in '{"type":"Point","coordinates":[500010,5200010]}' \
-  '{"type":"LineString","coordinates":[[500010,5200010,1],[500020,5200010,1]]}' null; do
-  printf '{"type":"FeatureCollection","features":[{"type":"Feature","properties":{},"geometry":%s}]}' "$type" >bad.geojson
+bad_points() { # bad_points GEOMETRY WORDS
+  printf '{"type":"FeatureCollection","features":[{"type":"Feature","properties":{},"geometry":%s}]}' "$1" >bad.geojson
   expect 1 talus-trn plane.ply -o off.tif --reference-points bad.geojson
-  says "feature 0"
+  says "$2"
   nothing_left off.tif
-done
+}
+bad_points '{"type":"Point","coordinates":[500010,5200010]}' "the points have no elevation: they are 2-D"
+bad_points '{"type":"LineString","coordinates":[[500010,5200010,1],[500020,5200010,1]]}' "feature 0: the geometry is LINESTRING"
+bad_points null "1 of 1 features have no geometry"
 
 # what does not fit is refused
 expect 1 talus-trn plane.ply -o off.tif --t-srs EPSG:31287
 says "a TIN is not reprojected"
 expect 1 talus-trn plane.ply -o off.tif --crs EPSG:31287
 says "the CRS is EPSG:32632"
+
+# coordinates that are no metres, by the TIN's header or by --crs; a header may hold the code alone
+LC_ALL=C sed '/^comment crs/d' plane.ply >local.ply
+header() { # header FILE COMMENT: the TIN without CRS with one comment more
+  LC_ALL=C sed "s/^format binary_little_endian 1.0$/&\\ncomment $2/" local.ply >"$1"
+}
+for epsg in 4326 2263 3857; do
+  header "$epsg.ply" "crs EPSG:$epsg"
+  for source in "$epsg.ply" "local.ply --crs EPSG:$epsg"; do
+    expect 1 talus-trn $source -o off.tif
+    says "the CRS is EPSG:$epsg"
+    says "hint: a TIN is not reprojected: make it from the contours with talus-tin --t-srs EPSG:"
+    nothing_left off.tif
+  done
+done
+header code.ply "crs EPSG:32632"
+expect 0 talus-trn code.ply -o code.tif --cell-size-m 4
+gdalinfo code.tif | grep -qF 'ID["EPSG",32632]' || fail "the CRS named by its code was lost"
+header nonsense.ply "crs EPSG:nonsense"
+expect 1 talus-trn nonsense.ply -o off.tif
+says "nonsense.ply: comment crs of the PLY header: \"EPSG:nonsense\" is not a CRS"
+
+# a TIN that is no ground: no area in plan, higher than the Earth
+triangle() { # triangle BYTES: bytes x, y and two of z for each of the three corners
+  printf 'ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty uchar x\nproperty uchar y\nproperty ushort z\n'
+  printf 'element face 1\nproperty list uchar uchar vertex_indices\nend_header\n'
+  printf "$1\003\000\001\002"
+}
+triangle '\000\000\000\000\012\000\000\000\024\000\000\000' >line.ply
+expect 1 talus-trn line.ply -o off.tif
+says "no triangle has an area in plan"
+triangle '\000\000\377\177\012\000\377\177\000\012\377\177' >high.ply
+expect 1 talus-trn high.ply -o off.tif
+says "is 32767 m, expected at most 12000 m either way"
+nothing_left off.tif
 head -c 500 plane.ply >cut.ply
 expect 1 talus-trn cut.ply -o off.tif
 says "cut.ply"

@@ -32,6 +32,44 @@ TEST(Crs, DegreesFeetAndStretchedMetresAreNot) {
   EXPECT_TRUE(says(find_crs_problem("", {0, 0}), "there is no CRS"));
 }
 
+// Mercator is known by its method, not by the code of the system; the transverse one is fit.
+TEST(Crs, MercatorIsFoundWhateverItIsCalled) {
+  for (const char* crs :
+       {"ESRI:102100", "EPSG:3395", "+proj=webmerc +datum=WGS84",
+        "+proj=merc +lat_ts=47 +ellps=GRS80",
+        "+proj=merc +a=6378137 +b=6378137 +lat_ts=0 +k=1 +units=m +nadgrids=@null +no_defs",
+        "PROJCS[\"Web\",GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS "
+        "84\",6378137,298.257223563]],"
+        "PRIMEM[\"Greenwich\",0],UNIT[\"degree\",0.0174532925199433]],PROJECTION[\"Mercator_1SP\"],"
+        "PARAMETER[\"central_meridian\",0],PARAMETER[\"scale_factor\",1],UNIT[\"metre\",1]]"})
+    EXPECT_NE(find_crs_problem(crs_from_user(crs, "--crs"), {1.2e6, 5.9e6})
+                  .finding.find("stretched by 1 / cos(latitude)"),
+              std::string::npos)
+        << crs;
+  for (const char* crs : {"EPSG:3078", "EPSG:32632"})  // oblique, transverse
+    EXPECT_EQ(find_crs_problem(crs_from_user(crs, "--crs"), {5e5, 5e6}).finding, "") << crs;
+}
+
+// A GeoPackage calls the reference of a layer without one "undefined".
+TEST(Crs, AnUndefinedReferenceIsNone) {
+  EXPECT_EQ(
+      crs_from_user("GEOGCRS[\"Undefined geographic SRS\",DATUM[\"unknown\",ELLIPSOID["
+                    "\"unknown\",6378137,298.257223563]],CS[ellipsoidal,2],AXIS[\"latitude\","
+                    "north],AXIS[\"longitude\",east],ANGLEUNIT[\"degree\",0.0174532925199433]]",
+                    "--crs"),
+      "");
+  EXPECT_EQ(crs_from_user("LOCAL_CS[\"Undefined Cartesian SRS\"]", "--crs"), "");
+}
+
+TEST(Crs, MetresAreBeyondDegrees) {
+  const std::string degrees = crs_from_user("EPSG:4326", "--crs");
+  EXPECT_FALSE(talus::is_beyond_degrees(degrees, {{11, 47, 0}, {360, -90, 3000}}));
+  EXPECT_TRUE(talus::is_beyond_degrees(degrees, {{11, 47, 0}, {11, 91, 0}}));
+  EXPECT_TRUE(talus::is_beyond_degrees(degrees, {{500000, 47, 0}}));
+  EXPECT_FALSE(talus::is_beyond_degrees(crs_from_user("EPSG:32632", "--crs"), {{500000, 5e6, 0}}));
+  EXPECT_FALSE(talus::is_beyond_degrees("", {{500000, 5e6, 0}}));
+}
+
 // The zone of the place, north and south, is the way out; longitude comes first.
 TEST(Crs, TheUtmZoneOfThePlaceIsOffered) {
   const std::string degrees = crs_from_user("EPSG:4326", "--crs");

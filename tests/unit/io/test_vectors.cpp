@@ -62,6 +62,22 @@ TEST(ReadVectors, OtherCoordinateSystemsAreReprojected) {
   EXPECT_NEAR(found.shapes[0][0].y(), 0.9996 * 5207247, 1);  // meridian arc to 47 N
 }
 
+// A GeoJSON without `crs` says degrees, whatever it holds.
+TEST(ReadVectors, MetresThatAreCalledDegreesAreRefused) {
+  const std::string path =
+      scratch("metres.geojson",
+              R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":{},)"
+              R"("geometry":{"type":"Point","coordinates":[500000,5200000]}}]})");
+  try {
+    static_cast<void>(
+        read_vectors({path, "", "", VectorKind::points}, crs_from_user("EPSG:32633", "test")));
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("the coordinates are no degrees"), std::string::npos);
+    EXPECT_NE(error.hint().find("ogr2ogr -a_srs EPSG:code"), std::string::npos);
+  }
+}
+
 TEST(ReadVectors, WhatIsNotThereIsNamed) {
   const std::string path = scratch("p.geojson", geojson(R"({"type":"Point","coordinates":[1,2]})"));
   EXPECT_NE(refusal({path, "roads", "", VectorKind::points}).find("there is no layer roads"),

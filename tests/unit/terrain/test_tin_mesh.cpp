@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/error.hpp"
 #include "terrain/tin_mesh.hpp"
 
 namespace {
@@ -42,7 +43,7 @@ TEST(Boundary, KeepsTheRingWithoutItsHole) {
   TriangleMesh mesh = raster_mesh();
   const std::vector<Vec2> outer = {{2, 2}, {12, 2}, {12, 8}, {2, 8}};
   const std::vector<Vec2> hole = {{5, 4}, {5, 6}, {9, 6}, {9, 4}};
-  talus::cut_to_rings({outer, hole}, mesh);
+  talus::cut_to_rings({{0, outer}, {0, hole}}, mesh);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (const int other : mesh.neighbors[t])
       EXPECT_LT(other, static_cast<int>(mesh.triangles.size()));
@@ -57,9 +58,36 @@ TEST(Boundary, KeepsTheRingWithoutItsHole) {
   for (const Vec3& p : tin.points) EXPECT_EQ(p.z(), p.x() + p.y());
 }
 
+TEST(Boundary, OverlappingPolygonsAreUnited) {
+  TriangleMesh mesh = raster_mesh();
+  talus::cut_to_rings({{0, {{2, 2}, {10, 2}, {10, 8}, {2, 8}}},
+                       {0, {{3, 3}, {3, 5}, {5, 5}, {5, 3}}},
+                       {1, {{4, 4}, {12, 4}, {12, 10}, {4, 10}}}},
+                      mesh);
+  // two rectangles of 8 x 6 that share 6 x 4, and what of the hole the second one leaves
+  EXPECT_NEAR(area_of(talus::to_tin(mesh, {})), 48 + 48 - 24 - 3, 1e-12);
+}
+
+TEST(Boundary, APolygonThatCrossesItselfIsRefusedWithThePlace) {
+  ContourMap map;
+  map.origin = Vec3(500000, 5200000, 0);
+  map.boundary = {{0, {{0, 0}, {9, 0}, {9, 9}}}, {1, {{0, 0}, {10, 10}, {10, 0}, {0, 10}}}};
+  try {
+    talus::check_boundary(map, "b.gpkg");
+    FAIL() << "accepted";
+  } catch (const talus::InputError& error) {
+    EXPECT_STREQ(error.what(),
+                 "b.gpkg: polygon 2 of the boundary crosses itself at x 500005, y 5200005");
+  }
+  map.boundary = {{0, {{0, 0}, {10, 0}, {10, 10}, {0, 10}}},  // a hole that touches its ring
+                  {0, {{0, 5}, {5, 2}, {5, 8}}},
+                  {1, {{5, 5}, {15, 5}, {15, 15}, {5, 15}}}};
+  EXPECT_NO_THROW(talus::check_boundary(map, "b.gpkg"));
+}
+
 TEST(Boundary, ARingElsewhereLeavesNothing) {
   TriangleMesh mesh = raster_mesh();
-  talus::cut_to_rings({{{50, 50}, {60, 50}, {60, 60}}}, mesh);
+  talus::cut_to_rings({{0, {{50, 50}, {60, 50}, {60, 60}}}}, mesh);
   EXPECT_TRUE(mesh.triangles.empty());
 }
 
