@@ -721,7 +721,7 @@ void warn_of(Tool& tool, const FenceCase& fence, std::size_t i, const FenceResul
 
 std::vector<std::pair<std::string, std::string>> output_tags(Tool& tool, const RunInputs& inputs) {
   auto tags = tags_of(inputs.members);
-  tags.insert(tags.begin(), {"RUN_ID", tool.run_id()});
+  tags.insert(tags.begin(), {{"RUN_ID", tool.run_id()}, {"RUN_SET", inputs.run_set()}});
   const std::string remark = inputs.remark();
   if (!remark.empty()) tags.emplace_back("REMARK", remark);
   return tags;
