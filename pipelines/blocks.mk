@@ -5,7 +5,7 @@ $(eval $(call remember,blocks,$(BLOCKS_FLAGS)))
 block_files := $(addprefix $(OUT)/,blocks.h5 bed.tif blocks.json blocks.gpkg stereonet.svg sizes.svg)
 blocks: $(block_files) ## source and joints -> blocks and their bed
 $(eval $(call together,$(block_files)))
-$(OUT)/blocks.h5: $(OUT)/trn.tif $(STAGES)/blocks.txt $(STAGES)/blocks.flags
+$(OUT)/blocks.h5: $(OUT)/trn.tif $(STAGES)/blocks.txt $(STAGES)/blocks.flags $(call named_in,$(BLOCKS_FLAGS))
 	$(BIN)talus-blocks site.toml --trn $(OUT)/trn.tif -o $(OUT)/blocks.h5 --trn-out $(OUT)/bed.tif \
 	  --report $(OUT)/blocks.json --footprints $(OUT)/blocks.gpkg --stereonet $(OUT)/stereonet.svg \
 	  --size-curve $(OUT)/sizes.svg $(BLOCKS_FLAGS) --overwrite $(DB)

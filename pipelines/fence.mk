@@ -5,7 +5,7 @@ $(eval $(call remember,fence,$(EVALUATE_FLAGS) $(FENCE_FLAGS)))
 ifneq ($(SITE_FENCES),)
 fence_files := $(addprefix $(OUT)/,fence.gpkg fence.json fence.csv $(if $(without_files),change.tif change.qml change.png))
 $(eval $(call together,$(fence_files)))
-$(OUT)/fence.gpkg: $(run_files) $(without_files) $(OUT)/blocks.h5 $(STAGES)/fence.txt $(STAGES)/runs.flags $(STAGES)/fence.flags
+$(OUT)/fence.gpkg: $(run_files) $(without_files) $(OUT)/blocks.h5 $(STAGES)/fence.txt $(STAGES)/runs.flags $(STAGES)/fence.flags $(call named_in,$(FENCE_FLAGS))
 	$(BIN)talus-fence site.toml $(run_files) $(addprefix --without ,$(without_files)) $(if $(without_files),--change $(OUT)/change.tif) --trn $(OUT)/bed.tif -o $(OUT)/fence.gpkg \
 	  --json $(OUT)/fence.json --csv $(OUT)/fence.csv $(EVALUATE_FLAGS) $(FENCE_FLAGS) --overwrite $(DB)
 endif

@@ -1,4 +1,12 @@
 # A new site beside this one: make new-site NAME=folder DEM=elevations-or-contours SOURCE=release-polygon
+# The name goes by the environment and holds no order, neither for make nor for the shell.
+ifneq ($(and $(filter new-site,$(MAKECMDGOALS)),$(findstring $$,$(value NAME))),)
+$(error NAME is $(value NAME), expected letters (a to z), digits, _ and -)
+endif
 .PHONY: new-site
 new-site: ## NAME=... DEM=... SOURCE=...: a folder for another slope, beside this one
-	@sh $(PIPELINES)new_site.sh "$(if $(findstring /,$(NAME)),$(NAME),$(NAME:%=../%))" "$(DEM)" "$(SOURCE)" $(PIPELINES)
+	@sh "$$pipelines/new_site.sh" "$$new_name" "$$new_ground" "$$new_source" "$$pipelines"
+new-site: export new_name = $(if $(NAME),$(if $(findstring /,$(NAME)),,../)$(NAME))
+new-site: export new_ground = $(DEM)
+new-site: export new_source = $(SOURCE)
+new-site: export pipelines = $(PIPELINES:%/=%)

@@ -8,6 +8,10 @@ say() { echo "new-site: $1" >&2; exit "$2"; }
 
 [ -n "$name" ] && [ -n "$ground" ] && [ -n "$source" ] ||
   say "give a folder, the ground and the release polygon: make new-site NAME=../my_slope DEM=dem.tif SOURCE=release.gpkg" 2
+case $(basename "$name") in
+  *[!A-Za-z0-9_-]*) say "NAME is $name, expected letters (a to z), digits, _ and -" 2 ;;
+esac
+[ -d "$(dirname "$name")" ] || say "$(dirname "$name"): there is no such folder to make $(basename "$name") in" 1
 [ ! -e "$name" ] || say "$(realpath "$name") exists already: choose another NAME, or move it away" 1
 for file in "$ground" "$source"; do [ -f "$file" ] || say "$file: there is no such file, seen from $PWD: give its whole path" 1; done
 

@@ -4,6 +4,6 @@ $(eval $(call remember,runout,$(EVALUATE_FLAGS) $(RUNOUT_FLAGS)))
 runout_files := $(addprefix $(OUT)/,runout.gpkg runout.json runout.csv runout.svg curves.csv thickness.tif)
 runout: $(runout_files) ## runs -> deposit, paths, angle of reach
 $(eval $(call together,$(runout_files)))
-$(OUT)/runout.gpkg: $(run_files) $(OUT)/blocks.h5 $(STAGES)/runs.flags $(STAGES)/runout.flags
+$(OUT)/runout.gpkg: $(run_files) $(OUT)/blocks.h5 $(STAGES)/runs.flags $(STAGES)/runout.flags $(call named_in,$(RUNOUT_FLAGS))
 	$(BIN)talus-runout $(run_files) --trn $(OUT)/bed.tif -o $(OUT)/runout.gpkg --json $(OUT)/runout.json --csv $(OUT)/runout.csv \
 	  --svg $(OUT)/runout.svg --curves $(OUT)/curves.csv --thickness $(OUT)/thickness.tif $(EVALUATE_FLAGS) $(RUNOUT_FLAGS) --overwrite $(DB)

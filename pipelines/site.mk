@@ -14,6 +14,8 @@ BIN ?= $(firstword $(wildcard $(PIPELINES)../build/release/tools/ $(PIPELINES)..
 STAGES := $(OUT)/stages
 DB := --db $(OUT)/runs.sqlite
 
+include $(PIPELINES)variables.mk
+
 .DEFAULT_GOAL := all
 .SUFFIXES:
 .PHONY: all terrain blocks runs runout maps fence report clean help
@@ -21,7 +23,7 @@ DB := --db $(OUT)/runs.sqlite
 all: report ## everything, up to the report
 
 clean: ## remove everything that was made
-	rm -rf $(OUT)
+	rm -rf '$(OUT)'
 
 # The goals in the order of the pipeline, and those that the site's Makefile adds.
 help_files := $(addprefix $(PIPELINES),site.mk trn.mk blocks.mk dda.mk runout.mk maps.mk fence.mk report.mk new_site.mk) \
@@ -54,6 +56,10 @@ endif
 endif
 $(STAGES)/$1.flags: ;
 endef
+
+# named_in(FLAGS): files that options name (--like FILE, --like=FILE), to depend on; not folders, nor
+# what lies in OUT.
+named_in = $(filter-out $(OUT)/%,$(foreach name,$(wildcard $(foreach word,$1,$(lastword $(subst =, ,$(word))))),$(if $(wildcard $(name)/.),,$(subst :,\:,$(name)))))
 
 # together(FILES): what one run of a tool writes, the first file last and all with the same time. Rules
 # name the first; the others come with it. One that is missing beside it makes the tool run again.

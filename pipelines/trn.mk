@@ -5,6 +5,6 @@ ground_source := $(if $(CONTOURS),$(OUT)/tin.ply,$(DEM))
 trn_files := $(addprefix $(OUT)/,trn.tif trn.json hillshade.png)
 terrain: $(trn_files) ## contours or elevation model -> terrain
 $(eval $(call together,$(trn_files)))
-$(OUT)/trn.tif: $(ground_source) $(STAGES)/trn.txt $(STAGES)/trn.flags | $(OUT)
+$(OUT)/trn.tif: $(ground_source) $(STAGES)/trn.txt $(STAGES)/trn.flags $(call named_in,$(TRN_FLAGS)) | $(OUT)
 	$(BIN)talus-trn $(ground_source) -o $(OUT)/trn.tif --report $(OUT)/trn.json --hillshade $(OUT)/hillshade.png \
 	  $(SITE_TRN_FLAGS) $(TRN_FLAGS) --overwrite $(DB)

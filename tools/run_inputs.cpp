@@ -109,6 +109,12 @@ void RunInputs::warn_of_ends() const {
                "talus-dda a longer --duration-s ([solver] duration_s)");
 }
 
+std::string RunInputs::run_set() const {
+  std::vector<std::string> ids;
+  for (std::size_t i = 0; i < files.size(); ++i) ids.push_back(members[i].info.run_id);
+  return run_set_id(std::move(ids));
+}
+
 std::string RunInputs::remark() const {
   const auto n = std::count_if(members.begin(), members.end(), [](const RunMember& member) {
     return member.info.status != "done";

@@ -34,6 +34,9 @@ class RunInputs {
   /// Reads all members once more, in the same order.
   void read_again(const RunParts& parts, const std::function<void(RunFile&, int)>& take);
 
+  /// Digest of the ids of the runs named by RUN.h5..., for the tag RUN_SET (run_set_id).
+  [[nodiscard]] std::string run_set() const;
+
   /// Warns of unfinished runs; "" when all are whole, else what pictures and legends say.
   [[nodiscard]] std::string remark() const;
 

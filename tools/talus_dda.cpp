@@ -417,6 +417,7 @@ int main(int argc, char** argv) {
     check_overlaps(tool, site, inputs, o.files, plan.block_contacts);
     tool.detail(as_text(plan));
     RunFile file = new_file(site, inputs, plan, o);
+    tool.set_run_id(file.info.run_id);
     const BlockSet blocks = inputs.parts.blocks;
     const Scene scene = make_site_scene(site, plan, std::move(inputs.parts));
     file.blocks = run_blocks(scene, blocks);

@@ -147,7 +147,7 @@ void run_tool(Tool& tool, Options& o, talus::RunInputs& runs) {
   runs.warn_of_ends();
 
   auto tags = talus::tags_of(runs.members);
-  tags.insert(tags.begin(), {"RUN_ID", tool.run_id()});
+  tags.insert(tags.begin(), {{"RUN_ID", tool.run_id()}, {"RUN_SET", runs.run_set()}});
   const std::string remark = runs.remark();
   if (!remark.empty()) tags.emplace_back("REMARK", remark);
   const talus::MapFrame frame = talus::map_frame(trn, grid, o.png, layers[0].cell);

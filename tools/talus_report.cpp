@@ -6,7 +6,6 @@
 #include <limits>
 #include <set>
 
-#include "base/read_file.hpp"
 #include "base/sha256.hpp"
 #include "base/text.hpp"
 #include "build_info.hpp"
@@ -17,6 +16,7 @@
 #include "report/qgis_project.hpp"
 #include "report/styles_gdal.hpp"
 #include "report/zip.hpp"
+#include "report_folder.hpp"
 #include "report_parts.hpp"
 #include "shipped_data.hpp"
 #include "site_options.hpp"
@@ -31,46 +31,12 @@ struct Options {
   std::string dir, out, qgis;
 };
 
-// The files of a site's folder; what is read is named in the registry.
-class Folder {
- public:
-  Folder(Tool& tool, fs::path path) : tool_(tool), path_(std::move(path)) {}
-
-  [[nodiscard]] fs::path path(const std::string& name) const { return path_ / name; }
-  [[nodiscard]] bool has(const std::string& name) const { return fs::exists(path(name)); }
-  /// "" when there is none.
-  [[nodiscard]] std::string text(const std::string& name) const {
-    if (!has(name)) return "";
-    tool_.read_also("result", path(name).string());
-    return read_file(path(name).string());
-  }
-  /// Null when there is none. Throws InputError for another content.
-  [[nodiscard]] Json json(const std::string& name) const {
-    const std::string content = text(name);
-    if (content.empty()) return nullptr;
-    Json json = Json::parse(content, nullptr, false);
-    if (json.is_discarded())
-      throw InputError({path(name).string()}, "is not JSON", "make it again");
-    return json;
-  }
-  std::string required(const std::string& name, const std::string& tool) const {
-    if (!has(name))
-      throw InputError({path(name).string()}, "there is no such file",
-                       "run " + tool + " first, or make in the site's folder");
-    return path(name).string();
-  }
-
- private:
-  Tool& tool_;
-  fs::path path_;
-};
-
 // --- runs ----------------------------------------------------------------------------------------
 
 // The files of runs/ whose run was evaluated: RUNOUT.json names them, others are left from before.
-std::vector<fs::path> evaluated_runs(const Folder& folder, const Json& runout) {
-  std::set<std::string> ids;
-  for (const Json& run : runout.at("runs")) ids.insert(run.at("run_id").get<std::string>());
+std::vector<fs::path> evaluated_runs(const ResultFolder& folder, const Json& runout) {
+  const std::vector<std::string> listed = ids_of(runout);
+  const std::set<std::string> ids(listed.begin(), listed.end());
   std::vector<std::pair<std::int64_t, fs::path>> found;
   for (const auto& entry : fs::directory_iterator(folder.required("runs", "talus-dda"))) {
     const std::string name = entry.path().filename().string();
@@ -95,7 +61,7 @@ std::string farthest_run(const Json& runout) {
   std::string id;
   double farthest = -1;
   for (const Json& run : runout.at("runs")) {
-    const Json& length = run.at("event").at("L_path_m");
+    const Json length = run.at("event").value("L_path_m", Json());
     if (!id.empty() && !(length.is_number() && length.get<double>() > farthest)) continue;
     id = run.at("run_id").get<std::string>();
     farthest = length.is_number() ? length.get<double>() : -1;
@@ -103,13 +69,14 @@ std::string farthest_run(const Json& runout) {
   return id;
 }
 
-void read_runs(Tool& tool, const std::vector<fs::path>& files, const ProgressFunction& progress,
-               ReportData& data) {
+void read_runs(Tool& tool, const ResultFolder& folder, const std::vector<fs::path>& files,
+               const ProgressFunction& progress, ReportData& data) {
   const std::string shown = farthest_run(data.runout);
   for (const fs::path& path : files) {
     progress(0.5 * static_cast<double>(data.runs.size()) / static_cast<double>(files.size()));
     tool.read_also("run", path.string());
     RunFile run = read_run_file(path.string(), {false, false, false, true, false});
+    check_site_of(run, path.string(), data.site, folder);
     data.run_names.push_back(path.stem().string().substr(4));  // without "run_"
     if (run.info.run_id == shown) {
       data.shown = read_run_file(path.string(), {true, false, true, true, false});
@@ -150,8 +117,9 @@ void add_steps(const std::string& db, const std::string& sha256, std::int64_t be
   steps.push_back(record);
 }
 
-void read_registry(const std::string& db, const Folder& folder, const std::vector<fs::path>& files,
-                   const ProgressFunction& progress, ReportData& data) {
+void read_registry(const std::string& db, const ResultFolder& folder,
+                   const std::vector<fs::path>& files, const ProgressFunction& progress,
+                   ReportData& data) {
   if (!fs::exists(db)) return;
   constexpr std::int64_t latest = std::numeric_limits<std::int64_t>::max();
   for (std::size_t i = 0; i < files.size(); ++i) {
@@ -166,17 +134,17 @@ void read_registry(const std::string& db, const Folder& folder, const std::vecto
 
 // --- the page ------------------------------------------------------------------------------------
 
-ReportData read_data(Tool& tool, const Site& site, const Folder& folder,
+ReportData read_data(Tool& tool, const Site& site, ResultFolder& folder,
                      const ProgressFunction& progress) {
   ReportData data(site);
   data.version = build_version;
   data.terrain = read_trn(folder.required("trn.tif", "talus-trn"));
-  data.bed = folder.has("bed.tif") ? read_trn(folder.path("bed.tif").string()) : data.terrain;
   folder.required("runout.json", "talus-runout");
+  data.runout = read_runout(folder);
+  leave_out_others(folder, site, data.runout);
   data.tin = folder.json("tin.json");
   data.trn = folder.json("trn.json");
   data.blocks = folder.json("blocks.json");
-  data.runout = folder.json("runout.json");
   data.fence = folder.json("fence.json");
   data.hillshade_png = folder.text("hillshade.png");
   data.mobility_svg = folder.text("runout.svg");
@@ -188,14 +156,16 @@ ReportData read_data(Tool& tool, const Site& site, const Folder& folder,
     std::vector<fs::path> pictures;
     for (const auto& entry : fs::directory_iterator(folder.path("maps")))
       if (entry.path().extension() == ".png" && entry.path().filename().string()[0] != '.')
-        pictures.push_back(entry.path());
+        if (folder.has("maps/" + entry.path().filename().string()))
+          pictures.push_back(entry.path());
     std::sort(pictures.begin(), pictures.end());
     for (const fs::path& path : pictures)
       data.maps.push_back({path.stem().string(), folder.text("maps/" + path.filename().string()),
                            folder.text("maps/" + path.stem().string() + ".qml")});
   }
   const std::vector<fs::path> files = evaluated_runs(folder, data.runout);
-  read_runs(tool, files, progress, data);
+  read_runs(tool, folder, files, progress, data);
+  data.bed = read_trn(ground_of(data.runs[0].info, folder));
   read_registry(tool.registry(), folder, files, progress, data);
   data.run_id = tool.run_id();
   return data;
@@ -214,7 +184,7 @@ std::string relative_to(const std::string& project, const fs::path& path) {
   return fs::absolute(path).lexically_normal().lexically_relative(folder.lexically_normal());
 }
 
-void add_package(QgisProject& project, const Options& o, const Folder& folder,
+void add_package(QgisProject& project, const Options& o, const ResultFolder& folder,
                  const std::string& file, const std::string& group,
                  const std::set<std::string>& hidden) {
   if (!folder.has(file)) return;
@@ -230,7 +200,7 @@ void add_package(QgisProject& project, const Options& o, const Folder& folder,
   }
 }
 
-void add_maps(QgisProject& project, const Options& o, const Folder& folder) {
+void add_maps(QgisProject& project, const Options& o, const ResultFolder& folder) {
   for (const char* name :
        {"velocity", "ke_total", "ke_translational", "pass_height_top", "pass_height_centroid",
         "reach", "exceedance", "deposit", "arrival", "energy_line"}) {
@@ -242,7 +212,7 @@ void add_maps(QgisProject& project, const Options& o, const Folder& folder) {
   }
 }
 
-QgisProject project_of(const ReportData& data, const Options& o, const Folder& folder) {
+QgisProject project_of(const ReportData& data, const Options& o, const ResultFolder& folder) {
   const Trn& trn = data.terrain;
   QgisProject project;
   project.title = data.site.info.name + ": rockslide hazard";
@@ -252,9 +222,8 @@ QgisProject project_of(const ReportData& data, const Options& o, const Folder& f
   const PlanWindow window = plan_window(data.shown, trn);
   const Vec2 origin = trn.origin.head<2>(), low = window.low + origin, high = window.high + origin;
   project.extent = {low.x(), low.y(), high.x(), high.y()};
-  const auto tag = [&data](const char* name) {
-    const Json& tags = data.runout.at("tags");
-    return tags.contains(name) ? tags[name].get<std::string>() : std::string();
+  const auto tag = [&data](const std::string& name) {
+    return text_at(data.runout, ("/tags/" + name).c_str());
   };
   project.layout_lines = {
       "run id " + data.run_id + ", Talus " + data.version + ", CRS " + crs_name(trn.crs_wkt),
@@ -275,7 +244,7 @@ QgisProject project_of(const ReportData& data, const Options& o, const Folder& f
 }
 
 void run_tool(Tool& tool, const Options& o, const Site& site) {
-  const Folder folder(tool, o.dir);
+  ResultFolder folder(tool, o.dir);
   const ProgressFunction progress = tool.progress();
   const ReportData data = read_data(tool, site, folder, progress);
   progress(0.9);

@@ -529,7 +529,7 @@ void run_tool(Tool& tool, Options& o, RunInputs& inputs) {
   const Trn& trn = inputs.trn();
   const Ordered all = read_runs(inputs, o, trn);
   auto tags = tags_of(inputs.members);
-  tags.insert(tags.begin(), {"RUN_ID", tool.run_id()});
+  tags.insert(tags.begin(), {{"RUN_ID", tool.run_id()}, {"RUN_SET", inputs.run_set()}});
   const std::string remark = inputs.remark();
   if (!remark.empty()) tags.emplace_back("REMARK", remark);
   inputs.warn_of_ends();

@@ -2,7 +2,6 @@
 // Parts the site file into what each stage reads, so that make repeats a stage only when its own
 // settings have changed. Page: docs/tools/talus-site.md
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cstring>
 #include <filesystem>
@@ -12,47 +11,13 @@
 #include "base/sha256.hpp"
 #include "base/text.hpp"
 #include "site_options.hpp"
+#include "site_stages.hpp"
 #include "tool.hpp"
 
 namespace {
 
 using namespace talus;  // NOLINT: a program of its own
 namespace fs = std::filesystem;
-
-// Sections and keys that a stage reads. An entry is "section", "section.key" or, for a key that the
-// stage does not read, "-section.key"; a section stands for all of its names ("joints" for
-// [joints.J1]).
-struct Stage {
-  const char* name;
-  std::vector<std::string> reads;
-};
-
-const std::array<Stage, 5>& stages() {
-  static const std::array<Stage, 5> list = {{
-      {"tin",
-       {"terrain.contours", "terrain.layer", "terrain.elevation_field", "terrain.breaklines",
-        "terrain.spots", "terrain.boundary", "terrain.flat"}},
-      {"trn", {"terrain.dem", "terrain.cell_size_m", "terrain.window_m"}},
-      {"blocks", {"site.crs", "source", "joints", "blocks", "material"}},
-      {"run",
-       {"site.name", "site.crs", "terrain.ground_raster", "material", "joints", "ground", "solver",
-        "fence", "base_motion", "output", "-solver.seed", "-solver.n_runs",
-        "-output.checkpoint_interval_s"}},
-      {"fence", {"site.name", "site.crs", "fence"}},
-  }};
-  return list;
-}
-
-// "joints" for "joints.J1"
-std::string kind_of(const std::string& section) { return section.substr(0, section.find('.')); }
-
-bool is_read(const Stage& stage, const EffectiveValue& value) {
-  const auto has = [&stage](const std::string& entry) {
-    return std::find(stage.reads.begin(), stage.reads.end(), entry) != stage.reads.end();
-  };
-  const std::string kind = kind_of(value.section), key = kind + "." + value.key;
-  return (has(kind) || has(key)) && !has("-" + key);
-}
 
 // Text of a TOML string without its quotes.
 std::string unquoted(const std::string& toml) {
@@ -86,14 +51,16 @@ void check_files(const Site& site) {
 }
 
 // What a stage reads, a line a value; files by their content.
-std::string settings_of(const Site& site, const Stage& stage) {
-  std::string out = "# what the stage " + std::string(stage.name) + " reads of the site file\n";
+std::string settings_of(const Site& site, const std::string& stage) {
+  std::string out = "# what the stage " + stage + " reads of the site file\n";
   for (const EffectiveValue& value : effective_values(site)) {
-    if (value.value.empty() || !is_read(stage, value)) continue;
+    if (value.value.empty() || !stage_reads(stage, value)) continue;
     out += value.section + "." + value.key + " = " + value.value;
     const std::string file = file_named(site, value);
     if (!file.empty())
       out += "  # sha256 " + (fs::is_regular_file(file) ? sha256_of_file(file) : "none");
+    for (const std::string& member : sidecars_of(file))
+      if (fs::is_regular_file(member)) out += " " + sha256_of_file(member);
     out += "\n";
   }
   return out;
@@ -129,6 +96,16 @@ std::string make_word(const std::string& path, const Site& site) {
   std::string out;
   for (const char c : plain_name(path, {site.file}))
     out += c == ' ' || c == '#' || c == ':' || c == '%' ? std::string("\\") + c : std::string(1, c);
+  return out;
+}
+
+// Files beside it as prerequisites, also one that comes later.
+std::string sidecar_words(const std::string& path, const Site& site) {
+  std::string out;
+  for (const std::string& member : sidecars_of(path)) {
+    const std::string word = make_word(member, site);
+    out += fs::exists(member) ? " " + word : " $(if $(wildcard " + word + ")," + word + ")";
+  }
   return out;
 }
 
@@ -173,7 +150,7 @@ std::string make_variables(const Site& site) {
   std::set<std::string> seen;
   for (const EffectiveValue& value : effective_values(site))
     if (const std::string file = file_named(site, value); !file.empty() && seen.insert(file).second)
-      files += " " + make_word(file, site);
+      files += " " + make_word(file, site) + sidecar_words(file, site);
   const bool any_active = std::any_of(site.fences.begin(), site.fences.end(),
                                       [](const FenceSettings& fence) { return fence.active; });
   std::string out = "# written by talus-site from the site file\n";
@@ -216,8 +193,7 @@ int main(int argc, char** argv) {
     // Always written; staged first, so that it comes in place last: its time says when the site
     // file was last looked at.
     tool.write_text((fs::path(folder) / "site.mk").string(), variables);
-    for (const Stage& stage : stages())
-      write_if_changed(tool, fs::path(folder) / (std::string(stage.name) + ".txt"),
-                       settings_of(site, stage));
+    for (const std::string& stage : stage_names())
+      write_if_changed(tool, fs::path(folder) / (stage + ".txt"), settings_of(site, stage));
   });
 }

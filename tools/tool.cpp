@@ -156,6 +156,14 @@ std::string processor_name() {
   return "unknown";
 }
 
+std::vector<std::string> sidecars_of(const std::string& path) {
+  std::vector<std::string> files;
+  if (lower(fs::path(path).extension().string()) != ".shp") return files;
+  for (const char* extension : {".shx", ".dbf", ".prj", ".cpg"})
+    files.push_back(fs::path(path).replace_extension(extension).string());
+  return files;
+}
+
 struct Tool::Impl {
   struct Output {
     CLI::Option* option;
@@ -262,10 +270,8 @@ struct Tool::Impl {
     if (!is_virtual(path) && !fs::exists(path))
       throw InputError({path}, "there is no such file", "check the path given for " + role);
     record.inputs.push_back(described(role, path));
-    if (lower(fs::path(path).extension().string()) != ".shp") return;
-    for (const char* extension : {".shx", ".dbf", ".prj", ".cpg"})  // a shapefile is several files
-      if (const fs::path member = fs::path(path).replace_extension(extension); fs::exists(member))
-        record.inputs.push_back(described(role, member.string()));
+    for (const std::string& member : sidecars_of(path))
+      if (fs::exists(member)) record.inputs.push_back(described(role, member));
   }
 
   void check_folder(const fs::path& folder) const {
@@ -683,6 +689,8 @@ std::string Tool::run_id() {
   impl_->complete_content_id();
   return impl_->record.content_id;
 }
+
+void Tool::set_run_id(const std::string& id) { impl_->record.content_id = id; }
 
 int Tool::run(int argc, char** argv, const std::function<void()>& body) {
   Impl& impl = *impl_;

@@ -25,6 +25,10 @@ using Json = nlohmann::ordered_json;
 /// Model of the processor, "unknown" where /proc/cpuinfo does not say.
 [[nodiscard]] std::string processor_name();
 
+/// Files that a format keeps beside the named one, whether or not they are there: of a Shapefile
+/// its index, attributes, CRS and encoding; of others none.
+[[nodiscard]] std::vector<std::string> sidecars_of(const std::string& path);
+
 /// null for NaN and infinity, which JSON does not have.
 [[nodiscard]] inline Json number_or_null(double value) {
   return std::isfinite(value) ? Json(value) : Json();
@@ -119,6 +123,8 @@ class Tool {
   /// Digest of tool, version, options and input contents (16 digits); it stands in outputs' tags.
   /// Inputs named by read_also() count when they were named before the first call.
   [[nodiscard]] std::string run_id();
+  /// Where equal results need another digest (of runs that may be resumed): the id instead of it.
+  void set_run_id(const std::string& id);
 
   /// Parse, check, run `body`, put the outputs in place, record; returns the exit code.
   int run(int argc, char** argv, const std::function<void()>& body);

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "base/error.hpp"
+#include "base/sha256.hpp"
 #include "base/text.hpp"
 #include "post/deposit.hpp"
 
@@ -91,6 +92,13 @@ std::vector<int> order_by_id(const std::vector<RunMember>& runs) {
                        "name each run once; give runs different seeds");
   }
   return order;
+}
+
+std::string run_set_id(std::vector<std::string> run_ids) {
+  std::sort(run_ids.begin(), run_ids.end());
+  Sha256 hash;
+  for (const std::string& id : run_ids) hash.add(id.c_str(), id.size() + 1);
+  return hash.hex().substr(0, 16);
 }
 
 std::vector<std::string> warnings_of(const std::vector<RunMember>& runs) {

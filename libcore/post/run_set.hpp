@@ -42,6 +42,9 @@ void check_member(const RunMember& run, const RunMember& first, const RunSetOpti
 /// Order by run id. Throws InputError naming both files when the same run is given twice.
 [[nodiscard]] std::vector<int> order_by_id(const std::vector<RunMember>& runs);
 
+/// Digest of the runs' ids in whatever order (16 digits): equal for evaluations of the same runs.
+[[nodiscard]] std::string run_set_id(std::vector<std::string> run_ids);
+
 /// What the runs were warned of, each once, sorted.
 [[nodiscard]] std::vector<std::string> warnings_of(const std::vector<RunMember>& runs);
 

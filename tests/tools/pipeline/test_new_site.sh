@@ -9,12 +9,15 @@ cat >source.geojson <<'END'
  "coordinates": [[[500092, 5200260], [500140, 5200260], [500140, 5200300], [500092, 5200300], [500092, 5200260]]]}}]}
 END
 new() { sh "$source_dir/pipelines/new_site.sh" "$@"; }
-expect 0 new "a slope" dem.tif source.geojson "$source_dir/pipelines"
-prints "a slope is made"
-expect 0 make -C "a slope" BIN= blocks
-[ -s "a slope/out/blocks.h5" ] || fail "no blocks"
-expect 1 new "a slope" dem.tif source.geojson
-says "a slope exists already"
+mkdir "my slopes"
+expect 0 new "my slopes/a_slope" dem.tif source.geojson "$source_dir/pipelines"
+prints "my slopes/a_slope is made"
+expect 0 make -C "my slopes/a_slope" BIN= blocks
+[ -s "my slopes/a_slope/out/blocks.h5" ] || fail "no blocks"
+expect 1 new "my slopes/a_slope" dem.tif source.geojson
+says "a_slope exists already"
+expect 1 new absent/other dem.tif source.geojson
+says "absent: there is no such folder"
 expect 2 new other dem.tif
 says "give a folder, the ground and the release polygon"
 expect 1 new other absent.tif source.geojson
@@ -24,3 +27,14 @@ says "dem.tif: not a vector file"
 expect 0 new contours "$source_dir/sample_sites/designed/contours.gpkg" source.geojson "$source_dir/pipelines"
 grep -q '^contours = ' contours/site.toml || fail "the contour map was not taken as one"
 nothing_left other
+
+# by make: a name that make or the shell would part or run is refused before anything runs
+site here
+made here new-site NAME=there-2 DEM="$PWD/dem.tif" SOURCE="$PWD/source.geojson"
+[ -s there-2/site.toml ] || fail "no site beside this one"
+for name in "ns 2" "ns'2" 'ns"2' 'ns$$(touch hurt)' 'ns$(shell touch hurt)' 'ns`touch hurt`' 'ns;touch hurt'; do
+  expect 2 make -C here BIN= new-site NAME="$name" DEM="$PWD/dem.tif" SOURCE="$PWD/source.geojson"
+  says "expected letters (a to z), digits, _ and -"
+  [ "$(echo *ns*)" = "*ns*" ] || fail "made for the name $name: $(echo *ns*)"
+  nothing_left hurt here/hurt
+done

@@ -20,6 +20,12 @@ gdalinfo maps/reach.tif >info
 grep -q "WARNINGS=.*3 blocks move as if each were alone" info || fail "the maps do not say what was warned of"
 grep -q "WARNINGS=.*$PWD" info && fail "a warning on a map holds a path"
 
+# the id that it bears finds it in the registry
+expect 0 talus-dda site.toml --trn slope.tif --blocks blocks.h5 -o registered.h5 --duration-s 0.1 --independent --db runs.sqlite --json
+id=$(sed -n 's/.*"run_id": "\(.*\)".*/\1/p' out)
+expect 0 talus-runs show "$id"
+prints "registered.h5"
+
 # the same bytes again
 expect 0 run_dda -o again.h5 -q
 cmp run.h5 again.h5 || fail "two runs of the same inputs differ"

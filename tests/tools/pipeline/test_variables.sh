@@ -1,0 +1,28 @@
+# Variables that make is given are looked at before anything runs: what was found, what is expected.
+. "$source_dir/tests/tools/pipeline/common.sh"
+site "a slope"
+mkdir "a slope/2" "a slope/out"
+# refused TEXT ARGUMENTS...
+refused() {
+  text=$1
+  shift
+  expect 2 make -C "a slope" BIN= "$@"
+  says "$text"
+  nothing_left "a slope/out/stages"
+  [ -d "a slope/2" ] && [ -d "a slope/out" ] || fail "a folder was removed by make $*"
+}
+for goal in clean all; do
+  refused "OUT is 'out 2', expected the name of a folder without blanks" OUT="out 2" $goal
+  refused "OUT is '', expected the name of a folder" OUT= $goal
+  refused "OUT is out;rm, expected the name of a folder without ;" OUT="out;rm" $goal
+done
+for runs in abc 0 -2 1.5 "1 2" ""; do refused "RUNS is '$runs', expected a whole number, 1 or more" RUNS="$runs"; done
+for seed in abc -2; do refused "SEED is '$seed', expected a whole number, 0 or more" SEED="$seed"; done
+refused "WITHOUT is 'maybe', expected yes or no" WITHOUT=maybe
+refused "CASES names 'a_b', expected a name without _" CASES=a_b CASE_a_b='--set ground.slope.friction_deg=20'
+
+made "a slope" -n RUNS="10 " SEED=0 WITHOUT=no CASES=a
+prints "runs/run_a_9.h5"
+made "a slope" terrain
+made "a slope" clean
+nothing_left "a slope/out"
