@@ -161,7 +161,7 @@ void plan_joints(Tool& tool, Work& work) {
   work.sets = plan_joint_sets(work.site, measured);
   std::vector<JointSet> sets;
   for (const PlannedSet& planned : work.sets) sets.push_back(planned.set);
-  work.expected = expected_cells(sets, work.mass.volume);
+  work.expected = expected_cells(sets, measure_mass(work.ground, work.mass.bed));
   const auto most = static_cast<double>(work.site.source.max_blocks);
   if (work.expected > most)
     throw InputError(where_of(work.site, "source.max_blocks"),
@@ -205,7 +205,7 @@ void cut(Tool& tool, const Options& o, Work& work) {
   find_mass(tool, work);
   plan_joints(tool, work);
   draw_all_joints(work);
-  work.limits = plan_limits(work.site, work.sets, work.mass.volume);
+  work.limits = plan_limits(work.site, work.sets, work.mass.volume, work.expected);
   work.limits.exact = o.exact;
   for (const PlannedSet& planned : work.sets)
     work.blocks.joint_set_names.push_back(planned.set.name);

@@ -1,10 +1,10 @@
 #include "blocks/source.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
 #include "base/text.hpp"
-#include "blocks/joint_sets.hpp"
 #include "terrain/extent_text.hpp"
 
 namespace talus {
@@ -224,6 +224,20 @@ double prism_volume(const Trn& ground, const Trn& bed) {
       if (std::isfinite(upper_right)) sum += upper_right;
     }
   return sum * ground.cell_size * ground.cell_size / 6;
+}
+
+MassMeasure measure_mass(const Trn& ground, const Trn& bed) {
+  MassMeasure mass;
+  mass.volume = prism_volume(ground, bed);
+  for (int t = 0; t < n_triangles(ground); ++t) {
+    const auto above = triangle_corners(ground, t), below = triangle_corners(bed, t);
+    if (!is_known(ground, t) || above == below) continue;
+    for (const auto& corners : {above, below}) {
+      mass.vertices.insert(mass.vertices.end(), corners.begin(), corners.end());
+      mass.area_vectors.push_back((corners[1] - corners[0]).cross(corners[2] - corners[0]) / 2);
+    }
+  }
+  return mass;
 }
 
 SourceMass find_source(const Trn& ground, const Area& area, const SourceOptions& options,

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "blocks/joint_sets.hpp"
 #include "terrain/trn.hpp"
 
 namespace talus {
@@ -58,6 +59,9 @@ struct SourceMass {
 /// the ground everywhere, raster without data there.
 [[nodiscard]] SourceMass find_source(const Trn& ground, const Area& area,
                                      const SourceOptions& options, const Where& where);
+
+/// Surface and volume of the mass between ground and bed.
+[[nodiscard]] MassMeasure measure_mass(const Trn& ground, const Trn& bed);
 
 /// Sum over the triangles of area times mean depth: exact for linear surfaces [m3].
 [[nodiscard]] double prism_volume(const Trn& ground, const Trn& bed);

@@ -184,19 +184,15 @@ SourceOptions plan_source(const Site& site, const Vec3& origin) {
 }
 
 AssembleOptions plan_limits(const Site& site, const std::vector<PlannedSet>& sets,
-                            double mass_volume) {
+                            double mass_volume, double expected_cells) {
   AssembleOptions options;
   // Where the joints stand wider than the mass is large, the mass itself is the measure.
   double smallest = std::cbrt(mass_volume);
-  std::vector<JointSet> joint_sets;
-  for (const PlannedSet& planned : sets) {
-    smallest = std::min(smallest, planned.set.mean_spacing);
-    joint_sets.push_back(planned.set);
-  }
+  for (const PlannedSet& planned : sets) smallest = std::min(smallest, planned.set.mean_spacing);
   const SourceSettings& source = site.source;
   options.min_volume = !std::isnan(source.min_block_volume_m3)
                            ? source.min_block_volume_m3
-                           : 0.01 * mass_volume / expected_cells(joint_sets, mass_volume);
+                           : 0.01 * mass_volume / expected_cells;
   options.min_thickness =
       !std::isnan(source.min_block_thickness_m) ? source.min_block_thickness_m : 0.05 * smallest;
   if (!std::isnan(source.min_block_edge_m)) options.min_edge = source.min_block_edge_m;

@@ -95,7 +95,7 @@ template <> const std::vector<Key<SourceSettings>>& keys() {
       {"material", &S::material, "material of the cut blocks"},
       {"seed", &S::seed, "seed of joint positions and orientations", not_negative},
       {"max_blocks", &S::max_blocks, "more expected blocks than this are refused before cutting", {1, 10000000}},
-      {"min_block_volume_m3", &S::min_block_volume_m3, "smaller blocks are merged into a neighbour; not given: 1e-2 of the mean joint cell", not_negative},
+      {"min_block_volume_m3", &S::min_block_volume_m3, "smaller blocks are merged into a neighbour; not given: 1e-2 of the mean joint cell in the mass", not_negative},
       {"min_block_thickness_m", &S::min_block_thickness_m, "thinner blocks are merged into a neighbour; not given: 0.05 of the smallest spacing, or of the cube root of the mass if that is less", not_negative},
       {"min_block_edge_m", &S::min_block_edge_m, "shorter edges of convex blocks are removed, one of their ends stays", not_negative},
       {"max_block_aspect", &S::max_block_aspect, "blocks with a larger ratio of longest to shortest axis are merged into a neighbour", at_least_1},

@@ -52,6 +52,13 @@ TEST(PlanJointSets, MissingAndContradictingKeysAreNamed) {
             "s.toml:3: dip is 95, expected 0 to 90");
 }
 
+// A sliver is a hundredth of the mean joint cell in the mass, whatever the number of sets.
+TEST(PlanLimits, FollowTheExpectedCells) {
+  const Site site = parse_site("[source]\ndepth_m = 5\n", "s.toml");
+  EXPECT_DOUBLE_EQ(plan_limits(site, {}, 1000, 1).min_volume, 10);
+  EXPECT_DOUBLE_EQ(plan_limits(site, {}, 1000, 50).min_volume, 0.2);
+}
+
 TEST(ParseOrientations, ReadsPairsAndNamesBadLines) {
   EXPECT_EQ(parse_orientations("# c\n10 80\n\n 20,70 # x\r\n30;60\n", "f").size(), 3u);
   const auto refused = [](const std::string& text) -> std::string {
