@@ -2,6 +2,7 @@
 // The blocks of a site: the source cut by its joints, or bodies from meshes and shapes. Page:
 // docs/tools/talus-blocks.md
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 
 #include "base/grouped_text.hpp"
@@ -90,11 +91,8 @@ Area read_area(Tool& tool, const Work& work) {
     for (const Vec3& p : local) area.rings.back().emplace_back(p.head<2>());
   };
   if (!source.polygon.empty()) {
-    std::vector<Vec3> ring =
-        local_points({tool, work.site, work.ground}, source.polygon, "source.polygon");
-    if (ring.size() > 3 && ring.front().head<2>() == ring.back().head<2>()) ring.pop_back();
-    add_ring(ring);
-    return area;
+    add_ring(local_points({tool, work.site, work.ground}, source.polygon, "source.polygon"));
+    return without_repeated_corners(area);
   }
   const std::string path = resolved(work.site, source.polygon_file);
   tool.read_also("source.polygon_file", path);
@@ -106,7 +104,7 @@ Area read_area(Tool& tool, const Work& work) {
     for (Vec3& p : ring) p -= work.ground.origin;
     add_ring(ring);
   }
-  return area;
+  return without_repeated_corners(area);
 }
 
 Where where_of_area(const Work& work) {
@@ -431,14 +429,20 @@ void write_pictures(Tool& tool, const Options& o, const Work& work) {
   if (!o.size_curve.empty()) tool.write_text(o.size_curve, size_curve_svg(work.blocks.volume));
 }
 
+std::string obj_name(int block) {
+  std::string number = std::to_string(block);
+  number.insert(0, 6 - std::min<size_t>(6, number.size()), '0');
+  return "block_" + number;
+}
+
 void write_objs(Tool& tool, const Options& o, const BlockSet& set) {
-  for (int b = 0; b < n_blocks(set); ++b) {
-    std::string number = std::to_string(b);
-    number.insert(0, 6 - std::min<size_t>(6, number.size()), '0');
-    const std::string name = "block_" + number;
-    tool.write_text(o.obj_folder + "/" + name + ".obj",
-                    obj_text(block_shell(set, b), name, set.origin));
-  }
+  const auto path = [&](int b) { return o.obj_folder + "/" + obj_name(b) + ".obj"; };
+  for (int b = 0; b < n_blocks(set); ++b)
+    tool.write_text(path(b), obj_text(block_shell(set, b), obj_name(b), set.origin));
+  // Those of an earlier run with more blocks do not belong to these.
+  if (!tool.overwrite()) return;
+  int old = n_blocks(set);
+  while (std::filesystem::remove(path(old))) ++old;
 }
 
 void write_all(Tool& tool, const Options& o, const Work& work, const Json& report) {

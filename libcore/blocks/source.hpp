@@ -23,6 +23,9 @@ struct Area {
   std::vector<std::vector<Vec2>> rings;  ///< local x, y [m]
 };
 
+/// The area with corners that follow themselves in a ring (also as last and first) taken once.
+[[nodiscard]] Area without_repeated_corners(Area area);
+
 /// Inside or on the border.
 [[nodiscard]] bool contains(const Area& area, const Vec2& point);
 [[nodiscard]] double area_of(const Area& area);  ///< rings taken with even-odd sign [m2]
@@ -50,7 +53,8 @@ struct SourceMass {
   double volume = 0;                     ///< sum of the prisms, exact [m3]
   double polygon_area = 0;               ///< [m2]
   double max_depth = 0, mean_depth = 0;  ///< vertical, at the lowered nodes [m]
-  int n_above_ground = 0;  ///< nodes inside where the failure surface lies above the ground
+  double slbl_unsettled = 0;  ///< base level: how much deeper it would still go, 0 = settled [m]
+  int n_above_ground = 0;     ///< nodes inside where the failure surface lies above the ground
 };
 
 /// Lowers the ground inside `area` to the failure surface.
