@@ -67,8 +67,12 @@ struct Work {
   AssembleReport cut;
   BlockSet blocks;
   double expected = 0;
+  // A site of bodies from elsewhere may have [source] for max_blocks alone.
   [[nodiscard]] bool has_source() const {
-    return std::find(site.sections.begin(), site.sections.end(), "source") != site.sections.end();
+    const bool is_given =
+        std::find(site.sections.begin(), site.sections.end(), "source") != site.sections.end();
+    const bool has_area = !site.source.polygon.empty() || !site.source.polygon_file.empty();
+    return is_given && (has_area || site.blocks.empty() || !site.joints.empty());
   }
   // The source polygon may also only say where bodies are released from.
   [[nodiscard]] bool is_cut() const {

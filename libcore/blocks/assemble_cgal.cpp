@@ -8,6 +8,7 @@
 #include "blocks/assemble.hpp"
 #include "blocks/convexify.hpp"
 #include "blocks/shell.hpp"
+#include "blocks/solid.hpp"
 
 namespace talus {
 namespace {
@@ -171,16 +172,6 @@ int face_origin(int made_by, const std::vector<Joint>& joints) {
 // Tags of a polyhedron from CutFace or joint to FaceOrigin or joint set.
 void name_faces(Polyhedron& body, const std::vector<Joint>& joints) {
   for (int& tag : body.face_tag) tag = face_origin(tag, joints);
-}
-
-// Of two convex bodies.
-double common_volume(const Polyhedron& one, const Polyhedron& other) {
-  Polyhedron common = one;
-  for (int f = 0; f < n_faces(other) && n_faces(common) > 0; ++f) {
-    const Plane plane = plane_through(face_centroid(other, f), face_normal(other, f));
-    if (plane.normal.squaredNorm() > 0) common = clip_convex(common, plane, face_internal, 0);
-  }
-  return n_faces(common) > 0 ? moments(common).volume : 0;
 }
 
 class Assembler {

@@ -148,9 +148,12 @@ std::vector<Joint> draw_joints(const JointSet& set, int index, const Vec3& centr
   };
   // Scattered planes may start outside the ball and still cross it, hence twice the radius.
   const double reach = set.fisher_k > 0 ? 2 * radius : radius;
-  for (double along = set.offset; along < reach; along += draw_spacing(set, random))
+  // From a plane far away the way to the ball is not walked joint by joint.
+  const double offset =
+      std::abs(set.offset) > reach ? std::fmod(set.offset, set.mean_spacing) : set.offset;
+  for (double along = offset; along < reach; along += draw_spacing(set, random))
     if (along > -reach) add(along);
-  for (double along = set.offset - draw_spacing(set, random); along > -reach;
+  for (double along = offset - draw_spacing(set, random); along > -reach;
        along -= draw_spacing(set, random))
     if (along < reach) add(along);
   return joints;

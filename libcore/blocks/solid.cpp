@@ -215,6 +215,15 @@ Polyhedron in_standard_order(const Polyhedron& body) {
   return ordered;
 }
 
+double common_volume(const Polyhedron& one, const Polyhedron& other) {
+  Polyhedron common = one;
+  for (int f = 0; f < n_faces(other) && n_faces(common) > 0; ++f) {
+    const Plane plane = plane_through(face_centroid(other, f), face_normal(other, f));
+    if (plane.normal.squaredNorm() > 0) common = clip_convex(common, plane, face_internal, 0);
+  }
+  return n_faces(common) > 0 ? moments(common).volume : 0;
+}
+
 double unevenness(const Polyhedron& body, int f) {
   const Plane plane = plane_through(face_centroid(body, f), face_normal(body, f));
   double largest = 0;

@@ -30,6 +30,9 @@ namespace talus {
 /// none. Exact for the coordinates as they stand.
 [[nodiscard]] std::optional<std::pair<int, int>> find_self_intersection(const Polyhedron& surface);
 
+/// Of two convex bodies [m3].
+[[nodiscard]] double common_volume(const Polyhedron& one, const Polyhedron& other);
+
 /// Smallest convex body around the points, in standard order; without faces when they are flat. Its
 /// faces are triangles; exact predicates.
 [[nodiscard]] Polyhedron convex_hull(const std::vector<Vec3>& points, int tag);

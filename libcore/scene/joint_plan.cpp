@@ -91,6 +91,17 @@ void plan_measured(const Site& site, int index, const std::vector<Vec3>& poles,
   }
 }
 
+// Names of sets tell their joints and faces apart; those of a measured section are made up.
+void check_names(const Site& site, const std::vector<PlannedSet>& sets) {
+  for (size_t i = 0; i < sets.size(); ++i)
+    for (size_t j = 0; j < i; ++j)
+      if (sets[i].set.name == sets[j].set.name)
+        throw InputError({site.file, site.joints[sets[i].section].line},
+                         "two joint sets are called " + sets[i].set.name +
+                             ": one is made by [joints." + site.joints[sets[j].section].name + "]",
+                         "rename a section; n_sets above 1 makes NAME_1, NAME_2 and so on");
+}
+
 }  // namespace
 
 std::vector<Vec3> parse_orientations(const std::string& text, const std::string& file) {
@@ -146,6 +157,7 @@ std::vector<PlannedSet> plan_joint_sets(const Site& site,
     planned.set.dip_direction = section.dip_direction_deg * degree;
     sets.push_back(std::move(planned));
   }
+  check_names(site, sets);
   return sets;
 }
 

@@ -97,6 +97,15 @@ TEST(DrawJoints, FixedSpacingAndOffsetAreExact) {
   EXPECT_EQ(x, (std::vector<double>{3, 7, 11, 15}));
 }
 
+TEST(DrawJoints, APlaneFarAwayIsOneOfTheSameSet) {
+  JointSet set = joint_set(90, 90, 4);
+  set.offset = 4e12 + 3;
+  std::vector<double> x;
+  for (const Joint& joint : draw_joints(set, 0, {10, 0, 0}, 9, 1)) x.push_back(joint.plane.offset);
+  std::sort(x.begin(), x.end());
+  EXPECT_EQ(x, (std::vector<double>{5, 9, 13, 17}));
+}
+
 // Share of a plane that the discs of the Boolean model cover, by random points.
 TEST(DrawJoints, DiscsLeaveTheAskedShareOpen) {
   for (const double persistence : {0.2, 0.6, 0.9}) {
