@@ -87,7 +87,8 @@ void check_apart(const PlacedContext& context, const std::string& path,
   std::vector<Box> boxes;
   for (const Body& body : bodies) boxes.push_back(box_of(body));
   int n_overlapping = 0;
-  std::string first;
+  double largest = 0;  // share of the smaller body
+  std::string worst;
   for (size_t a = 0; a < bodies.size(); ++a)
     for (size_t b = 0; b < bodies.size(); ++b) {
       if (a == b || (boxes[a].low.array() >= boxes[b].high.array()).any() ||
@@ -103,12 +104,15 @@ void check_apart(const PlacedContext& context, const std::string& path,
           if (a < b) shared += common_volume(part, other);
         }
       // Faces that touch share what rounding of their coordinates leaves.
-      if (shared <= 1e-6 * std::min(volume_of(bodies[a]), volume_of(bodies[b]))) continue;
-      if (++n_overlapping == 1) first = names[a] + " and " + names[b];
+      const double share = shared / std::min(volume_of(bodies[a]), volume_of(bodies[b]));
+      if (share <= 1e-6) continue;
+      ++n_overlapping;
+      if (share > largest) largest = share, worst = names[a] + " and " + names[b];
     }
   if (n_overlapping > 0)
     context.tool.warn(path + ": " + std::to_string(n_overlapping) +
-                      " pairs of bodies overlap, the first " + first);
+                      " pairs of bodies overlap, most of all " + worst + ": " +
+                      text(100 * largest, 3) + " % of the smaller one");
 }
 
 // The bodies of a mesh file, as they stand in it.

@@ -89,6 +89,15 @@ size_t best_plane(const std::vector<Patch>& patches, double tolerance) {
   return best;
 }
 
+// Planes that nearly coincide double corners or leave out a face; the corners span the cell.
+Polyhedron clip_soundly(const Polyhedron& cell, const Plane& plane, double tolerance) {
+  Polyhedron kept = clip_convex(cell, plane, face_internal, tolerance);
+  if (n_faces(kept) == 0) return kept;
+  const SurfaceFault fault = check_surface(kept).fault;
+  if (fault == SurfaceFault::none || fault == SurfaceFault::flat) return kept;
+  return convex_hull(kept.vertices, face_internal);
+}
+
 // Cuts `cell` by the planes of the patches in it; what lies inside all of them is a part. A patch
 // whose plane has cut is used up, so every branch of the tree ends.
 void grow(const Polyhedron& cell, std::vector<Patch> patches, double tolerance,
@@ -115,7 +124,7 @@ void grow(const Polyhedron& cell, std::vector<Patch> patches, double tolerance,
     if (!outside.empty())
       open.push_back(
           {clip_convex(branch.cell, flipped(plane), face_internal, tolerance), std::move(outside)});
-    Polyhedron inner = clip_convex(branch.cell, plane, face_internal, tolerance);
+    Polyhedron inner = clip_soundly(branch.cell, plane, tolerance);
     if (!inside.empty())
       open.push_back({std::move(inner), std::move(inside)});
     else if (n_faces(inner) > 0)
@@ -259,10 +268,6 @@ std::vector<Polyhedron> convex_parts(const Polyhedron& body, const Where& where)
   std::vector<Polyhedron> parts;
   grow(box(body.vertices[0] - 2 * room, body.vertices[0] + 2 * room, face_internal),
        std::move(patches), tolerance, parts);
-  // Planes that nearly coincide double corners or leave out a face; the corners span the part.
-  for (Polyhedron& part : parts)
-    if (check_surface(part).fault != SurfaceFault::none)
-      part = convex_hull(part.vertices, face_internal);
   const double volume = moments(body).volume;
   std::erase_if(parts, [&](const Polyhedron& part) {
     return check_surface(part).fault != SurfaceFault::none || moments(part).volume < 1e-12 * volume;

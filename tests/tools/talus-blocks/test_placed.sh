@@ -92,7 +92,7 @@ printf '%s\n' 'o one' "$cube" 'f 1 4 3 2' 'f 5 6 7 8' "$sides" 'o two' "$inner" 
   'f 9 12 11 10' 'f 13 14 15 16' 'f 9 10 14 13' 'f 10 11 15 14' 'f 11 12 16 15' 'f 12 9 13 16' >nested.obj
 placed 'file = "nested.obj"' 'position_m = [500020, 5200020]'
 expect 0 blocks --overwrite
-says '1 pairs of bodies overlap, the first one and two'
+says '1 pairs of bodies overlap, most of all one and two: 100 % of the smaller one'
 awk '$1 == "v" { printf "v %.2f %.2f %.2f\n", $2 + 500020, $3 + 5200020, $4 + 20; next } { print }' cube.obj >deep.obj
 placed 'file = "deep.obj"' 'in_place = true'
 expect 0 blocks --overwrite
