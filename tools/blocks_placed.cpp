@@ -1,6 +1,8 @@
 #include "blocks_placed.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "base/text.hpp"
@@ -54,11 +56,72 @@ Polyhedron shape_of(const PlacedContext& context, const PlacedSettings& section,
   return std::isnan(section.volume_m3) ? body : scaled_to(std::move(body), section.volume_m3);
 }
 
+double volume_of(const Body& body) {
+  double sum = 0;
+  for (const Polyhedron& part : body.parts) sum += moments(part).volume;
+  return sum;
+}
+
+bool is_inside(const Vec3& point, const Polyhedron& convex) {
+  for (int f = 0; f < n_faces(convex); ++f)
+    if (face_normal(convex, f).dot(point - convex.vertices[face(convex, f)[0]]) > 0) return false;
+  return true;
+}
+
+struct Box {
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+};
+Box box_of(const Body& body) {
+  Box box;
+  for (const Polyhedron& part : body.parts)
+    for (const Vec3& v : part.vertices)
+      box.low = box.low.cwiseMin(v), box.high = box.high.cwiseMax(v);
+  return box;
+}
+
+// Bodies of a file that stand in each other: an inside-out one in another is a cavity, which bodies
+// cannot have; the rest is a warning.
+void check_apart(const PlacedContext& context, const std::string& path,
+                 const std::vector<Body>& bodies, const std::vector<std::string>& names,
+                 const std::vector<bool>& were_turned) {
+  std::vector<Box> boxes;
+  for (const Body& body : bodies) boxes.push_back(box_of(body));
+  int n_overlapping = 0;
+  double largest = 0;  // share of the smaller body
+  std::string worst;
+  for (size_t a = 0; a < bodies.size(); ++a)
+    for (size_t b = 0; b < bodies.size(); ++b) {
+      if (a == b || (boxes[a].low.array() >= boxes[b].high.array()).any() ||
+          (boxes[b].low.array() >= boxes[a].high.array()).any())
+        continue;
+      double shared = 0;
+      for (const Polyhedron& part : bodies[a].parts)
+        for (const Polyhedron& other : bodies[b].parts) {
+          if (were_turned[a] && is_inside(part.vertices[0], other))
+            throw InputError({path, 0, names[a]},
+                             "is inside-out and stands in " + names[b] + ": a cavity",
+                             "bodies are solid: remove the inner surface");
+          if (a < b) shared += common_volume(part, other);
+        }
+      // Faces that touch share what rounding of their coordinates leaves.
+      const double share = shared / std::min(volume_of(bodies[a]), volume_of(bodies[b]));
+      if (share <= 1e-6) continue;
+      ++n_overlapping;
+      if (share > largest) largest = share, worst = names[a] + " and " + names[b];
+    }
+  if (n_overlapping > 0)
+    context.tool.warn(path + ": " + std::to_string(n_overlapping) +
+                      " pairs of bodies overlap, most of all " + worst + ": " +
+                      text(100 * largest, 3) + " % of the smaller one");
+}
+
 // The bodies of a mesh file, as they stand in it.
 std::vector<Body> mesh_bodies(const PlacedContext& context, const PlacedSettings& section) {
   const std::string path = resolved(context.site, section.file);
   context.tool.read_also("blocks." + section.name, path);
   std::vector<Body> bodies;
+  std::vector<std::string> names;
+  std::vector<bool> were_turned;
   for (const MeshBody& mesh : read_mesh(path)) {
     Polyhedron surface = mesh.surface;
     for (Vec3& v : surface.vertices) {
@@ -70,15 +133,14 @@ std::vector<Body> mesh_bodies(const PlacedContext& context, const PlacedSettings
         mesh.name.empty() ? "body " + std::to_string(bodies.size() + 1) : mesh.name;
     bool was_turned = false;
     bodies.push_back(make_solid(surface, {path, 0, name}, was_turned));
-    if (was_turned) context.tool.warn(path + ": " + name + " was inside-out and has been turned");
+    names.push_back(name);
+    were_turned.push_back(was_turned);
   }
+  check_apart(context, path, bodies, names, were_turned);
+  for (size_t b = 0; b < bodies.size(); ++b)
+    if (were_turned[b])
+      context.tool.warn(path + ": " + names[b] + " was inside-out and has been turned");
   return bodies;
-}
-
-double volume_of(const Body& body) {
-  double sum = 0;
-  for (const Polyhedron& part : body.parts) sum += moments(part).volume;
-  return sum;
 }
 
 // Centre of mass of all bodies together to the origin.
@@ -104,7 +166,25 @@ void scale_to_volume(std::vector<Body>& bodies, double volume) {
   }
 }
 
+// `n_places` release points, before they are made.
+void check_number(const PlacedContext& context, const PlacedSettings& section, double n_places,
+                  double n_at_each) {
+  const auto most = static_cast<double>(context.site.source.max_blocks);
+  if (n_places * n_at_each <= most) return;
+  throw InputError(where_of_section(context, section),
+                   "would release about " + text(std::round(n_places * n_at_each)) +
+                       " bodies, expected at most " + text(most),
+                   "widen release_spacing_m, lower n_per_point, or set source.max_blocks to what "
+                   "your machine can take");
+}
+
 // --- positions ---------------------------------------------------------------------------------
+
+double length_of(const std::vector<Vec2>& line) {
+  double sum = 0;
+  for (size_t k = 0; k + 1 < line.size(); ++k) sum += (line[k + 1] - line[k]).norm();
+  return sum;
+}
 
 std::vector<Vec3> release_from_file(const PlacedContext& context, const PlacedSettings& section) {
   const std::string path = resolved(context.site, section.release_file);
@@ -119,7 +199,10 @@ std::vector<Vec3> release_from_file(const PlacedContext& context, const PlacedSe
   for (const auto& shape : found.shapes) {
     std::vector<Vec2> line;
     for (const Vec3& v : shape) line.push_back(v.head<2>() - context.ground.origin.head<2>());
-    if (along_lines) line = points_along(line, section.release_spacing_m);
+    if (along_lines) {
+      check_number(context, section, length_of(line) / section.release_spacing_m, 1);
+      line = points_along(line, section.release_spacing_m);
+    }
     for (const Vec2& p : line) positions.emplace_back(p.x(), p.y(), NAN);
   }
   return positions;
@@ -136,6 +219,10 @@ std::vector<Vec3> positions_of(const PlacedContext& context, const PlacedSetting
                        "release_grid needs the polygon of [source]", "add [source] with a polygon");
     if (std::isnan(section.release_spacing_m))
       throw InputError(where_of_section(context, section), "release_grid needs release_spacing_m");
+    check_number(context, section,
+                 sloping_area(context.ground, *context.source_area) /
+                     (section.release_spacing_m * section.release_spacing_m),
+                 1);
     for (const Vec2& p :
          points_over(context.ground, *context.source_area, section.release_spacing_m))
       positions.emplace_back(p.x(), p.y(), NAN);
@@ -178,6 +265,13 @@ void put(const PlacedContext& context, const PlacedSettings& section, const Mat3
   }
 }
 
+bool is_below(const Body& body, const Trn& ground) {
+  for (const Polyhedron& part : body.parts)
+    for (const Vec3& v : part.vertices)
+      if (!(v.z() < elevation_at(ground, v.x(), v.y()))) return false;
+  return true;
+}
+
 void add_section(const PlacedContext& context, const PlacedSettings& section, BlockSet& set) {
   if (section.file.empty() == section.shape.empty())
     throw InputError(
@@ -198,11 +292,18 @@ void add_section(const PlacedContext& context, const PlacedSettings& section, Bl
   if (section.in_place) {
     if (section.file.empty())
       throw InputError(where_of_section(context, section), "in_place needs a mesh file");
-    for (const Body& body : meshes)
+    int n_below = 0;
+    for (const Body& body : meshes) {
       if (std::isnan(clearance(body, context.ground)))
         throw InputError(where_of_section(context, section),
                          "the mesh does not lie over known ground",
                          "in_place takes map coordinates; without it, give position_m");
+      n_below += is_below(body, context.ground);
+    }
+    if (n_below > 0)
+      context.tool.warn("blocks." + section.name + ": " + std::to_string(n_below) +
+                        " bodies lie wholly below the ground: check the datum of their heights, "
+                        "or give the terrain lowered to their bed");
     add(meshes);
     return;
   }
@@ -216,7 +317,11 @@ void add_section(const PlacedContext& context, const PlacedSettings& section, Bl
                       "--independent), or set n_per_point to 1");
   const Mat3 fixed =
       rotation(section.yaw_deg * degree, section.pitch_deg * degree, section.roll_deg * degree);
-  for (const Vec3& position : positions_of(context, section))
+  const std::vector<Vec3> positions = positions_of(context, section);
+  check_number(context, section, static_cast<double>(positions.size()),
+               static_cast<double>(section.n_per_point) *
+                   static_cast<double>(std::max<size_t>(1, meshes.size())));
+  for (const Vec3& position : positions)
     for (std::int64_t copy = 0; copy < section.n_per_point; ++copy) {
       std::vector<Body> bodies = meshes;
       if (bodies.empty()) {

@@ -2,6 +2,7 @@
 // The blocks of a site: the source cut by its joints, or bodies from meshes and shapes. Page:
 // docs/tools/talus-blocks.md
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 
 #include "base/grouped_text.hpp"
@@ -66,8 +67,12 @@ struct Work {
   AssembleReport cut;
   BlockSet blocks;
   double expected = 0;
+  // A site of bodies from elsewhere may have [source] for max_blocks alone.
   [[nodiscard]] bool has_source() const {
-    return std::find(site.sections.begin(), site.sections.end(), "source") != site.sections.end();
+    const bool is_given =
+        std::find(site.sections.begin(), site.sections.end(), "source") != site.sections.end();
+    const bool has_area = !site.source.polygon.empty() || !site.source.polygon_file.empty();
+    return is_given && (has_area || site.blocks.empty() || !site.joints.empty());
   }
   // The source polygon may also only say where bodies are released from.
   [[nodiscard]] bool is_cut() const {
@@ -90,11 +95,8 @@ Area read_area(Tool& tool, const Work& work) {
     for (const Vec3& p : local) area.rings.back().emplace_back(p.head<2>());
   };
   if (!source.polygon.empty()) {
-    std::vector<Vec3> ring =
-        local_points({tool, work.site, work.ground}, source.polygon, "source.polygon");
-    if (ring.size() > 3 && ring.front().head<2>() == ring.back().head<2>()) ring.pop_back();
-    add_ring(ring);
-    return area;
+    add_ring(local_points({tool, work.site, work.ground}, source.polygon, "source.polygon"));
+    return without_repeated_corners(area);
   }
   const std::string path = resolved(work.site, source.polygon_file);
   tool.read_also("source.polygon_file", path);
@@ -106,7 +108,7 @@ Area read_area(Tool& tool, const Work& work) {
     for (Vec3& p : ring) p -= work.ground.origin;
     add_ring(ring);
   }
-  return area;
+  return without_repeated_corners(area);
 }
 
 Where where_of_area(const Work& work) {
@@ -161,7 +163,7 @@ void plan_joints(Tool& tool, Work& work) {
   work.sets = plan_joint_sets(work.site, measured);
   std::vector<JointSet> sets;
   for (const PlannedSet& planned : work.sets) sets.push_back(planned.set);
-  work.expected = expected_cells(sets, work.mass.volume);
+  work.expected = expected_cells(sets, measure_mass(work.ground, work.mass.bed));
   const auto most = static_cast<double>(work.site.source.max_blocks);
   if (work.expected > most)
     throw InputError(where_of(work.site, "source.max_blocks"),
@@ -205,7 +207,7 @@ void cut(Tool& tool, const Options& o, Work& work) {
   find_mass(tool, work);
   plan_joints(tool, work);
   draw_all_joints(work);
-  work.limits = plan_limits(work.site, work.sets, work.mass.volume);
+  work.limits = plan_limits(work.site, work.sets, work.mass.volume, work.expected);
   work.limits.exact = o.exact;
   for (const PlannedSet& planned : work.sets)
     work.blocks.joint_set_names.push_back(planned.set.name);
@@ -431,14 +433,20 @@ void write_pictures(Tool& tool, const Options& o, const Work& work) {
   if (!o.size_curve.empty()) tool.write_text(o.size_curve, size_curve_svg(work.blocks.volume));
 }
 
+std::string obj_name(int block) {
+  std::string number = std::to_string(block);
+  number.insert(0, 6 - std::min<size_t>(6, number.size()), '0');
+  return "block_" + number;
+}
+
 void write_objs(Tool& tool, const Options& o, const BlockSet& set) {
-  for (int b = 0; b < n_blocks(set); ++b) {
-    std::string number = std::to_string(b);
-    number.insert(0, 6 - std::min<size_t>(6, number.size()), '0');
-    const std::string name = "block_" + number;
-    tool.write_text(o.obj_folder + "/" + name + ".obj",
-                    obj_text(block_shell(set, b), name, set.origin));
-  }
+  const auto path = [&](int b) { return o.obj_folder + "/" + obj_name(b) + ".obj"; };
+  for (int b = 0; b < n_blocks(set); ++b)
+    tool.write_text(path(b), obj_text(block_shell(set, b), obj_name(b), set.origin));
+  // Those of an earlier run with more blocks do not belong to these.
+  if (!tool.overwrite()) return;
+  int old = n_blocks(set);
+  while (std::filesystem::remove(path(old))) ++old;
 }
 
 void write_all(Tool& tool, const Options& o, const Work& work, const Json& report) {

@@ -8,6 +8,7 @@
 #include "blocks/assemble.hpp"
 #include "blocks/convexify.hpp"
 #include "blocks/shell.hpp"
+#include "blocks/solid.hpp"
 
 namespace talus {
 namespace {
@@ -139,7 +140,7 @@ std::vector<int> merge_slivers(const std::vector<Piece>& pieces, const Contacts&
       continue;
     }
     ++report.n_merged;
-    report.merged_volume += sum[p].volume;
+    report.merged_volume += pieces[p].sum.volume;  // what it took in has been counted
     parent[p] = best;
     sum[best] = joined(sum[best], sum[p]);
     for (const auto& [q, area] : area_with[p]) {
@@ -207,36 +208,78 @@ class Assembler {
       if (owner[p] >= 0) members[owner[p]].push_back(p);
       if (owner[p] == p) in_leaf[pieces[p].leaf].push_back(p);
     }
-    block_of_cell_.assign(complex_.cell_leaf.size(), -1);
+    std::vector<Draft> drafts;
     for (int p = 0; p < static_cast<int>(pieces.size()); ++p) {
       if (progress) progress(static_cast<double>(p) / static_cast<double>(pieces.size()));
-      if (owner[p] != p) continue;
-      add_block(pieces, p, members[p], in_leaf[pieces[p].leaf], set, report);
+      if (owner[p] == p) drafts.push_back(draft(pieces, p, members[p], in_leaf[pieces[p].leaf]));
     }
+    if (!options_.exact) keep_clear_of_exact(drafts);
+    block_of_cell_.assign(complex_.cell_leaf.size(), -1);
+    for (Draft& block : drafts) add_block(block, set, report);
     add_pairs(set);
     return report;
   }
 
  private:
-  void add_block(const std::vector<Piece>& pieces, int main, const std::vector<int>& members,
-                 const std::vector<int>& in_same_leaf, BlockSet& set, AssembleReport& report) {
+  // A block to be: the rock that it is made of, and its convex bodies; none: it stays exact.
+  struct Draft {
+    int leaf = 0;
+    std::vector<int> cells;
+    double volume = 0;
+    std::vector<Polyhedron> parts;
+  };
+
+  Draft draft(const std::vector<Piece>& pieces, int main, const std::vector<int>& members,
+              const std::vector<int>& in_same_leaf) const {
     Moments exact = pieces[members[0]].sum;
-    std::vector<int> cells = pieces[members[0]].cells;
+    Draft block;
+    block.leaf = pieces[main].leaf;
+    block.cells = pieces[members[0]].cells;
     for (size_t k = 1; k < members.size(); ++k) {
       const Piece& piece = pieces[members[k]];
       exact = joined(exact, piece.sum);
-      cells.insert(cells.end(), piece.cells.begin(), piece.cells.end());
+      block.cells.insert(block.cells.end(), piece.cells.begin(), piece.cells.end());
     }
-    if (!options_.exact) {
-      Body body;
-      body.parts = convex_bodies(pieces, main, in_same_leaf, exact.volume);
-      if (!body.parts.empty()) {
-        append(body, cells, exact.volume, set, report);
-        return;
+    block.volume = exact.volume;
+    if (!options_.exact) block.parts = convex_bodies(pieces, main, in_same_leaf, exact.volume);
+    return block;
+  }
+
+  // Convex blocks keep apart by their rooms, but a block that stays exact may hold rock in the room
+  // of another: slivers of that joint cell, or what reaches past the middle between blocks of one
+  // joint cell. A convex block that stands in such rock stays exact too.
+  void keep_clear_of_exact(std::vector<Draft>& drafts) const {
+    std::vector<std::vector<int>> in_leaf(complex_.leaves.size());
+    std::vector<int> exact;
+    for (int b = 0; b < static_cast<int>(drafts.size()); ++b) {
+      in_leaf[drafts[b].leaf].push_back(b);
+      if (drafts[b].parts.empty()) exact.push_back(b);
+    }
+    while (!exact.empty()) {
+      const Draft& block = drafts[exact.back()];
+      exact.pop_back();
+      std::map<int, double> shared;
+      for (const int cell : block.cells)
+        for (const int other : in_leaf[complex_.cell_leaf[cell]])
+          for (const Polyhedron& part : drafts[other].parts)
+            shared[other] += common_volume(part, cells_[cell]);
+      for (const auto& [other, volume] : shared) {
+        if (volume <= 1e-9 * std::min(block.volume, drafts[other].volume)) continue;
+        drafts[other].parts.clear();
+        exact.push_back(other);
       }
-      ++report.n_kept_exact;
     }
-    const auto groups = without_rings(cells);
+  }
+
+  void add_block(Draft& block, BlockSet& set, AssembleReport& report) {
+    if (!block.parts.empty()) {
+      Body body;
+      body.parts = std::move(block.parts);
+      append(body, block.cells, block.volume, set, report);
+      return;
+    }
+    if (!options_.exact) ++report.n_kept_exact;
+    const auto groups = without_rings(block.cells);
     report.n_rings_parted += static_cast<int>(groups.size()) - 1;
     for (const auto& group : groups) {
       const Body body = exact_body(group);

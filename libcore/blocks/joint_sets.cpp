@@ -148,24 +148,51 @@ std::vector<Joint> draw_joints(const JointSet& set, int index, const Vec3& centr
   };
   // Scattered planes may start outside the ball and still cross it, hence twice the radius.
   const double reach = set.fisher_k > 0 ? 2 * radius : radius;
-  for (double along = set.offset; along < reach; along += draw_spacing(set, random))
+  // From a plane far away the way to the ball is not walked joint by joint.
+  const double offset =
+      std::abs(set.offset) > reach ? std::fmod(set.offset, set.mean_spacing) : set.offset;
+  for (double along = offset; along < reach; along += draw_spacing(set, random))
     if (along > -reach) add(along);
-  for (double along = set.offset - draw_spacing(set, random); along > -reach;
+  for (double along = offset - draw_spacing(set, random); along > -reach;
        along -= draw_spacing(set, random))
     if (along < reach) add(along);
   return joints;
 }
 
-double expected_cells(const std::vector<JointSet>& sets, double volume) {
-  double density = 0;
-  const size_t n = sets.size();
-  const auto normal = [&](size_t i) { return pole(sets[i].dip, sets[i].dip_direction); };
+double expected_cells(const std::vector<JointSet>& sets, const MassMeasure& mass) {
+  // Along a direction: half of what all faces show is what is seen, as each line enters and leaves.
+  const auto area_along = [&](const Vec3& direction) {
+    double shown = 0;
+    for (const Vec3& area : mass.area_vectors) shown += std::abs(area.dot(direction));
+    return shown / 2;
+  };
+  const auto width_along = [&](const Vec3& direction) {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const Vec3& v : mass.vertices)
+      low = std::min(low, direction.dot(v)), high = std::max(high, direction.dot(v));
+    return std::max(0.0, high - low);
+  };
+  double points = 0, prisms = 0, slabs = 0;
+  std::vector<Vec3> normals;
+  std::vector<double> spacings;
+  for (const JointSet& set : sets) {
+    const Vec3 normal = pole(set.dip, set.dip_direction);
+    const double n_joints = width_along(normal) / set.mean_spacing;
+    if (n_joints < 1) continue;
+    slabs += n_joints;
+    normals.push_back(normal);
+    spacings.push_back(set.mean_spacing);
+  }
+  const size_t n = normals.size();
   for (size_t i = 0; i < n; ++i)
-    for (size_t j = i + 1; j < n; ++j)
+    for (size_t j = i + 1; j < n; ++j) {
+      prisms += area_along(normals[i].cross(normals[j])) / (spacings[i] * spacings[j]);
       for (size_t k = j + 1; k < n; ++k)
-        density += std::abs(normal(i).dot(normal(j).cross(normal(k)))) /
-                   (sets[i].mean_spacing * sets[j].mean_spacing * sets[k].mean_spacing);
-  return std::max(1.0, density * volume);
+        points += std::abs(normals[i].dot(normals[j].cross(normals[k]))) /
+                  (spacings[i] * spacings[j] * spacings[k]);
+    }
+  points *= mass.volume;
+  return std::max(1.0, points > 0 ? points : prisms > 0 ? prisms : slabs);
 }
 
 std::vector<PoleGroup> group_poles(const std::vector<Vec3>& poles, int n_groups) {

@@ -68,10 +68,21 @@ struct Attitude {
 [[nodiscard]] std::vector<Joint> draw_joints(const JointSet& set, int index, const Vec3& centre,
                                              double radius, std::uint64_t seed);
 
-/// Mean number of joint cells in a volume: the density of points where three planes meet,
-/// sum over triples of |n1 . (n2 x n3)| / (s1 s2 s3); 1 at least. Takes every joint as
-/// through-going.
-[[nodiscard]] double expected_cells(const std::vector<JointSet>& sets, double volume);
+/// What the number of joint cells in a mass hangs on.
+struct MassMeasure {
+  double volume = 0;               ///< [m3]
+  std::vector<Vec3> vertices;      ///< of its surface [m]
+  std::vector<Vec3> area_vectors;  ///< of the faces of its surface [m2]
+};
+
+/// Mean number of joint cells in a mass, taking every joint as through-going; 1 at least. Sets of
+/// which less than one joint is expected to cross the mass are left out. Of the others, with
+/// spacings s and normals n, what there is of the first kind is counted:
+/// - points where joints of three sets meet: volume times |n1 . (n2 x n3)| / (s1 s2 s3),
+/// - prisms of two sets: area of the mass seen along them times |n1 x n2| / (s1 s2),
+/// - slabs of one set: width of the mass along its normal over s,
+/// summed over all sets that make them. Cells cut off at the surface of the mass come on top.
+[[nodiscard]] double expected_cells(const std::vector<JointSet>& sets, const MassMeasure& mass);
 
 /// A set found among measured poles.
 struct PoleGroup {

@@ -28,6 +28,16 @@ void add_grid_crossings(const Trn& trn, const Vec3& a, const Vec3& b, std::vecto
   cross_family(from.x() - from.y(), to.x() - to.y());  // the diagonals, south = east
 }
 
+// Calls visit(corners) for the triangles whose middle lies in the area.
+template <class Visit>
+void for_each_triangle(const Trn& ground, const Area& area, Visit visit) {
+  for (int t = 0; t < n_triangles(ground); ++t) {
+    const auto p = triangle_corners(ground, t);
+    const Vec3 middle = (p[0] + p[1] + p[2]) / 3;
+    if (is_known(ground, t) && contains(area, Vec2(middle.x(), middle.y()))) visit(p);
+  }
+}
+
 // Lowest z of a convex body above or below (x, y); infinity when it is not there.
 double lower_side(const Polyhedron& body, const Vec2& p) {
   double low = -std::numeric_limits<double>::infinity(), high = -low;
@@ -64,10 +74,7 @@ std::vector<Vec2> points_over(const Trn& ground, const Area& area, double spacin
   // R2 sequence: steps by the plastic number fill the unit square evenly.
   constexpr double step_u = 0.7548776662466927, step_v = 0.5698402909980532;
   double u = 0.5, v = 0.5;
-  for (int t = 0; t < n_triangles(ground); ++t) {
-    const auto p = triangle_corners(ground, t);
-    const Vec3 middle = (p[0] + p[1] + p[2]) / 3;
-    if (!is_known(ground, t) || !contains(area, Vec2(middle.x(), middle.y()))) continue;
+  for_each_triangle(ground, area, [&](const std::array<Vec3, 3>& p) {
     sum += triangle_area(p);
     for (; sum >= spacing * spacing; sum -= spacing * spacing) {
       u = std::fmod(u + step_u, 1), v = std::fmod(v + step_v, 1);
@@ -76,8 +83,14 @@ std::vector<Vec2> points_over(const Trn& ground, const Area& area, double spacin
       const Vec3 at = p[0] + a * (p[1] - p[0]) + b * (p[2] - p[0]);
       points.emplace_back(at.x(), at.y());
     }
-  }
+  });
   return points;
+}
+
+double sloping_area(const Trn& ground, const Area& area) {
+  double sum = 0;
+  for_each_triangle(ground, area, [&](const std::array<Vec3, 3>& p) { sum += triangle_area(p); });
+  return sum;
 }
 
 double clearance(const Polyhedron& convex, const Trn& ground) {

@@ -15,9 +15,12 @@ namespace talus {
 [[nodiscard]] std::vector<Vec2> points_along(const std::vector<Vec2>& line, double spacing);
 
 /// One point for every spacing^2 of sloping ground in the area: triangle after triangle, a point
-/// wherever the summed true area passes a multiple, placed in the triangle by a regular sequence.
-/// Triangles whose middle lies in the area count.
+/// wherever the summed true area passes a multiple, placed in the triangle by the R2 sequence:
+/// even, but no grid. Triangles whose middle lies in the area count.
 [[nodiscard]] std::vector<Vec2> points_over(const Trn& ground, const Area& area, double spacing);
+
+/// True area of those triangles [m2].
+[[nodiscard]] double sloping_area(const Trn& ground, const Area& area);
 
 /// Smallest vertical distance of the body's lower side above the ground, exact for the triangles of
 /// the TRN: at the body's vertices, at nodes below it, and where edges cross in plan. Negative when

@@ -27,7 +27,7 @@ struct Patch {
   Plane plane;
 };
 
-// Convex faces stay whole; others become triangles.
+// Convex faces stay whole, others become triangles. Faces are flat (with_flat_faces).
 void add_patches(const Polyhedron& body, int f, std::vector<Patch>& patches) {
   const Plane plane = plane_through(face_centroid(body, f), face_normal(body, f));
   if (plane.normal.squaredNorm() == 0) return;
@@ -89,26 +89,47 @@ size_t best_plane(const std::vector<Patch>& patches, double tolerance) {
   return best;
 }
 
-// Cuts `cell` by the planes of the patches in it; what lies inside all of them is a part.
+// Planes that nearly coincide double corners or leave out a face; the corners span the cell.
+Polyhedron clip_soundly(const Polyhedron& cell, const Plane& plane, double tolerance) {
+  Polyhedron kept = clip_convex(cell, plane, face_internal, tolerance);
+  if (n_faces(kept) == 0) return kept;
+  const SurfaceFault fault = check_surface(kept).fault;
+  if (fault == SurfaceFault::none || fault == SurfaceFault::flat) return kept;
+  return convex_hull(kept.vertices, face_internal);
+}
+
+// Cuts `cell` by the planes of the patches in it; what lies inside all of them is a part. A patch
+// whose plane has cut is used up, so every branch of the tree ends.
 void grow(const Polyhedron& cell, std::vector<Patch> patches, double tolerance,
           std::vector<Polyhedron>& parts) {
-  if (n_faces(cell) == 0) return;
-  const Plane plane = patches[best_plane(patches, tolerance)].plane;
-  std::vector<Patch> inside, outside;
-  for (Patch& patch : patches) {
-    Halves halves = split(patch.loop, plane, tolerance);
-    if (!halves.inside.empty()) inside.push_back({std::move(halves.inside), patch.plane});
-    if (!halves.outside.empty()) outside.push_back({std::move(halves.outside), patch.plane});
+  struct Branch {
+    Polyhedron cell;
+    std::vector<Patch> patches;
+  };
+  std::vector<Branch> open = {{cell, std::move(patches)}};
+  while (!open.empty()) {
+    Branch branch = std::move(open.back());
+    open.pop_back();
+    if (n_faces(branch.cell) == 0) continue;
+    const size_t cutting = best_plane(branch.patches, tolerance);
+    const Plane plane = branch.patches[cutting].plane;
+    std::vector<Patch> inside, outside;
+    for (size_t p = 0; p < branch.patches.size(); ++p) {
+      if (p == cutting) continue;
+      const Patch& patch = branch.patches[p];
+      Halves halves = split(patch.loop, plane, tolerance);
+      if (!halves.inside.empty()) inside.push_back({std::move(halves.inside), patch.plane});
+      if (!halves.outside.empty()) outside.push_back({std::move(halves.outside), patch.plane});
+    }
+    if (!outside.empty())
+      open.push_back(
+          {clip_convex(branch.cell, flipped(plane), face_internal, tolerance), std::move(outside)});
+    Polyhedron inner = clip_soundly(branch.cell, plane, tolerance);
+    if (!inside.empty())
+      open.push_back({std::move(inner), std::move(inside)});
+    else if (n_faces(inner) > 0)
+      parts.push_back(std::move(inner));
   }
-  const Polyhedron inner = clip_convex(cell, plane, face_internal, tolerance);
-  if (inside.empty()) {
-    if (n_faces(inner) > 0) parts.push_back(inner);
-  } else {
-    grow(inner, std::move(inside), tolerance, parts);
-  }
-  if (!outside.empty())
-    grow(clip_convex(cell, flipped(plane), face_internal, tolerance), std::move(outside), tolerance,
-         parts);
 }
 
 // --- joining parts ------------------------------------------------------------------------------
@@ -201,6 +222,36 @@ Polyhedron in_standard_order(const Polyhedron& body) {
   std::sort(faces.begin(), faces.end());
   for (const auto& [loop, tag] : faces) add_face(ordered, loop, tag);
   return ordered;
+}
+
+double common_volume(const Polyhedron& one, const Polyhedron& other) {
+  Polyhedron common = one;
+  for (int f = 0; f < n_faces(other) && n_faces(common) > 0; ++f) {
+    const Plane plane = plane_through(face_centroid(other, f), face_normal(other, f));
+    if (plane.normal.squaredNorm() > 0) common = clip_convex(common, plane, face_internal, 0);
+  }
+  return n_faces(common) > 0 ? moments(common).volume : 0;
+}
+
+double unevenness(const Polyhedron& body, int f) {
+  const Plane plane = plane_through(face_centroid(body, f), face_normal(body, f));
+  double largest = 0;
+  for (const int v : face(body, f))
+    largest = std::max(largest, std::abs(distance(plane, body.vertices[v])));
+  return largest;
+}
+
+Polyhedron with_flat_faces(const Polyhedron& body, double tolerance) {
+  Polyhedron flat;
+  flat.vertices = body.vertices;
+  for (int f = 0; f < n_faces(body); ++f) {
+    if (unevenness(body, f) <= tolerance)
+      add_face(flat, face(body, f), body.face_tag[f]);
+    else
+      for (const auto& triangle : triangles_of_face(body, f))
+        add_face(flat, triangle, body.face_tag[f]);
+  }
+  return flat;
 }
 
 std::vector<Polyhedron> convex_parts(const Polyhedron& body, const Where& where) {

@@ -73,6 +73,20 @@ std::string text_of(const Vec3& p) {
   return "(" + text(p.x(), 7) + ", " + text(p.y(), 7) + ", " + text(p.z(), 7) + ")";
 }
 
+// The convex hull, when it holds no more besides the body than the unevenness of the body's faces
+// leaves open; else without faces.
+Polyhedron hull_if_as_even(const Polyhedron& body, double tolerance) {
+  double largest = 0, area = 0;
+  for (int f = 0; f < n_faces(body); ++f) {
+    largest = std::max(largest, unevenness(body, f));
+    area += face_area(body, f);
+  }
+  if (largest <= tolerance) return {};
+  Polyhedron hull = convex_hull(body.vertices, face_terrain);
+  const double more = moments(hull).volume - moments(body).volume;
+  return more <= largest * area ? hull : Polyhedron{};
+}
+
 }  // namespace
 
 std::optional<std::pair<int, int>> find_self_intersection(const Polyhedron& surface) {
@@ -152,11 +166,17 @@ Body make_solid(const Polyhedron& surface, const Where& where, bool& was_turned)
                      "repair it with a mesh editor");
   std::fill(body.face_tag.begin(), body.face_tag.end(), face_terrain);
   body = with_joined_faces(body);
+  const double size = size_of(body);
   Body solid;
-  if (is_convex(body, 1e-7 * size_of(body))) {
+  if (is_convex(body, 1e-7 * size)) {
     solid.parts.push_back(std::move(body));
     return solid;
   }
+  if (Polyhedron hull = hull_if_as_even(body, 1e-9 * size); n_faces(hull) > 0) {
+    solid.parts.push_back(std::move(hull));
+    return solid;
+  }
+  body = with_flat_faces(body, 1e-9 * size);
   solid.parts = convex_parts(body, where);
   if (solid.parts.size() > 1) solid.shell = std::move(body);
   return solid;

@@ -1,10 +1,10 @@
 #include "blocks/source.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
 #include "base/text.hpp"
-#include "blocks/joint_sets.hpp"
 #include "terrain/extent_text.hpp"
 
 namespace talus {
@@ -50,6 +50,21 @@ bool collide(const Segment& s, const Segment& t) {
 
 std::string place_text(const Vec2& local, const Vec3& origin) {
   return "(" + text(local.x() + origin.x(), 10) + ", " + text(local.y() + origin.y(), 10) + ")";
+}
+
+InputError crossing(const Segment& s, const Segment& t, const Vec3& origin, const Where& where) {
+  const auto ends = [&](const Segment& side) {
+    return place_text(side.a, origin) + " and " + place_text(side.b, origin);
+  };
+  if (s.ring == t.ring)
+    return {where,
+            "the source area crosses itself between " + ends(s) + ", where " +
+                place_text(t.a, origin) + " - " + place_text(t.b, origin) + " meets it",
+            "put the corners in order around the area"};
+  return {where,
+          "two outlines of the source area meet: the side between " + ends(s) +
+              " and that between " + ends(t),
+          "dissolve areas that share a side into one; a hole must not touch the outline"};
 }
 
 // Nodes of the TRN inside the area; throws when they are too few or unknown.
@@ -118,13 +133,15 @@ double plane_elevation(const SourceOptions& options, const Vec2& p) {
 // Sloping local base level: a node goes down to the mean of its highest and lowest of four
 // neighbours minus C, sweep by sweep, until none moves by more than a micrometre. Along a profile
 // this is a parabola with a second derivative of 2 C / cell^2. Neighbours of a node exist: the
-// source keeps a cell away from the edge of the terrain.
-void lower_to_base_level(const Trn& ground, const std::vector<int>& nodes,
-                         const SourceOptions& options, std::vector<double>& z) {
+// source keeps a cell away from the edge of the terrain. Returns how far the nodes would still go
+// when they have not come to rest, from the last moves, which shrink by a constant ratio.
+double lower_to_base_level(const Trn& ground, const std::vector<int>& nodes,
+                           const SourceOptions& options, std::vector<double>& z) {
   constexpr int max_sweeps = 20000;
   const int row = ground.n_cols;
+  double largest_move = 0, move_before = 0;
   for (int sweep = 0; sweep < max_sweeps; ++sweep) {
-    double largest_move = 0;
+    move_before = largest_move, largest_move = 0;
     for (const int node : nodes) {
       const auto [low, high] =
           std::minmax({z[node - 1], z[node + 1], z[node - row], z[node + row]});
@@ -134,8 +151,9 @@ void lower_to_base_level(const Trn& ground, const std::vector<int>& nodes,
       largest_move = std::max(largest_move, z[node] - base);
       z[node] = base;
     }
-    if (largest_move < 1e-6) return;
+    if (largest_move < 1e-6) return 0;
   }
+  return largest_move * largest_move / std::max(move_before - largest_move, 1e-12);
 }
 
 double surface_at(const Trn& ground, int node, const SourceOptions& options, const Where& where) {
@@ -160,6 +178,14 @@ double surface_at(const Trn& ground, int node, const SourceOptions& options, con
 }
 
 }  // namespace
+
+Area without_repeated_corners(Area area) {
+  for (auto& ring : area.rings) {
+    ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
+    while (ring.size() > 1 && ring.front() == ring.back()) ring.pop_back();
+  }
+  return area;
+}
 
 bool contains(const Area& area, const Vec2& point) {
   bool inside = false;
@@ -201,13 +227,7 @@ void check_area(const Area& area, const Vec3& origin, const Where& where) {
   for (size_t i = 0; i < segments.size(); ++i)
     for (size_t j = i + 1; j < segments.size(); ++j)
       if (collide(segments[i], segments[j]))
-        throw InputError(where,
-                         "the source area crosses itself between " +
-                             place_text(segments[i].a, origin) + " and " +
-                             place_text(segments[i].b, origin) + ", where " +
-                             place_text(segments[j].a, origin) + " - " +
-                             place_text(segments[j].b, origin) + " meets it",
-                         "put the corners in order around the area");
+        throw crossing(segments[i], segments[j], origin, where);
 }
 
 double prism_volume(const Trn& ground, const Trn& bed) {
@@ -226,6 +246,20 @@ double prism_volume(const Trn& ground, const Trn& bed) {
   return sum * ground.cell_size * ground.cell_size / 6;
 }
 
+MassMeasure measure_mass(const Trn& ground, const Trn& bed) {
+  MassMeasure mass;
+  mass.volume = prism_volume(ground, bed);
+  for (int t = 0; t < n_triangles(ground); ++t) {
+    const auto above = triangle_corners(ground, t), below = triangle_corners(bed, t);
+    if (!is_known(ground, t) || above == below) continue;
+    for (const auto& corners : {above, below}) {
+      mass.vertices.insert(mass.vertices.end(), corners.begin(), corners.end());
+      mass.area_vectors.push_back((corners[1] - corners[0]).cross(corners[2] - corners[0]) / 2);
+    }
+  }
+  return mass;
+}
+
 SourceMass find_source(const Trn& ground, const Area& area, const SourceOptions& options,
                        const Where& where) {
   check_area(area, ground.origin, where);
@@ -240,7 +274,7 @@ SourceMass find_source(const Trn& ground, const Area& area, const SourceOptions&
     mass.bed.elevation[node] = std::min(z, ground.elevation[node]);
   }
   if (options.kind == FailureSurface::slbl)
-    lower_to_base_level(ground, inside, options, mass.bed.elevation);
+    mass.slbl_unsettled = lower_to_base_level(ground, inside, options, mass.bed.elevation);
   double sum = 0;
   for (const int node : inside) {
     const double depth = ground.elevation[node] - mass.bed.elevation[node];

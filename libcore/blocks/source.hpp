@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "blocks/joint_sets.hpp"
 #include "terrain/trn.hpp"
 
 namespace talus {
@@ -21,6 +22,9 @@ namespace talus {
 struct Area {
   std::vector<std::vector<Vec2>> rings;  ///< local x, y [m]
 };
+
+/// The area with corners that follow themselves in a ring (also as last and first) taken once.
+[[nodiscard]] Area without_repeated_corners(Area area);
 
 /// Inside or on the border.
 [[nodiscard]] bool contains(const Area& area, const Vec2& point);
@@ -49,7 +53,8 @@ struct SourceMass {
   double volume = 0;                     ///< sum of the prisms, exact [m3]
   double polygon_area = 0;               ///< [m2]
   double max_depth = 0, mean_depth = 0;  ///< vertical, at the lowered nodes [m]
-  int n_above_ground = 0;  ///< nodes inside where the failure surface lies above the ground
+  double slbl_unsettled = 0;  ///< base level: how much deeper it would still go, 0 = settled [m]
+  int n_above_ground = 0;     ///< nodes inside where the failure surface lies above the ground
 };
 
 /// Lowers the ground inside `area` to the failure surface.
@@ -58,6 +63,9 @@ struct SourceMass {
 /// the ground everywhere, raster without data there.
 [[nodiscard]] SourceMass find_source(const Trn& ground, const Area& area,
                                      const SourceOptions& options, const Where& where);
+
+/// Surface and volume of the mass between ground and bed.
+[[nodiscard]] MassMeasure measure_mass(const Trn& ground, const Trn& bed);
 
 /// Sum over the triangles of area times mean depth: exact for linear surfaces [m3].
 [[nodiscard]] double prism_volume(const Trn& ground, const Trn& bed);

@@ -91,6 +91,17 @@ void plan_measured(const Site& site, int index, const std::vector<Vec3>& poles,
   }
 }
 
+// Names of sets tell their joints and faces apart; those of a measured section are made up.
+void check_names(const Site& site, const std::vector<PlannedSet>& sets) {
+  for (size_t i = 0; i < sets.size(); ++i)
+    for (size_t j = 0; j < i; ++j)
+      if (sets[i].set.name == sets[j].set.name)
+        throw InputError({site.file, site.joints[sets[i].section].line},
+                         "two joint sets are called " + sets[i].set.name +
+                             ": one is made by [joints." + site.joints[sets[j].section].name + "]",
+                         "rename a section; n_sets above 1 makes NAME_1, NAME_2 and so on");
+}
+
 }  // namespace
 
 std::vector<Vec3> parse_orientations(const std::string& text, const std::string& file) {
@@ -146,6 +157,7 @@ std::vector<PlannedSet> plan_joint_sets(const Site& site,
     planned.set.dip_direction = section.dip_direction_deg * degree;
     sets.push_back(std::move(planned));
   }
+  check_names(site, sets);
   return sets;
 }
 
@@ -184,19 +196,15 @@ SourceOptions plan_source(const Site& site, const Vec3& origin) {
 }
 
 AssembleOptions plan_limits(const Site& site, const std::vector<PlannedSet>& sets,
-                            double mass_volume) {
+                            double mass_volume, double expected_cells) {
   AssembleOptions options;
   // Where the joints stand wider than the mass is large, the mass itself is the measure.
   double smallest = std::cbrt(mass_volume);
-  std::vector<JointSet> joint_sets;
-  for (const PlannedSet& planned : sets) {
-    smallest = std::min(smallest, planned.set.mean_spacing);
-    joint_sets.push_back(planned.set);
-  }
+  for (const PlannedSet& planned : sets) smallest = std::min(smallest, planned.set.mean_spacing);
   const SourceSettings& source = site.source;
   options.min_volume = !std::isnan(source.min_block_volume_m3)
                            ? source.min_block_volume_m3
-                           : 0.01 * mass_volume / expected_cells(joint_sets, mass_volume);
+                           : 0.01 * mass_volume / expected_cells;
   options.min_thickness =
       !std::isnan(source.min_block_thickness_m) ? source.min_block_thickness_m : 0.05 * smallest;
   if (!std::isnan(source.min_block_edge_m)) options.min_edge = source.min_block_edge_m;

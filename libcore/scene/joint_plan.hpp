@@ -34,9 +34,10 @@ struct PlannedSet {
 /// what its kind needs is not given.
 [[nodiscard]] SourceOptions plan_source(const Site& site, const Vec3& origin);
 
-/// Limits of slivers with their defaults filled in, from the joint sets and the volume of the mass.
+/// Limits of slivers with their defaults filled in, from the joint sets, the volume of the mass and
+/// the number of joint cells expected in it.
 [[nodiscard]] AssembleOptions plan_limits(const Site& site, const std::vector<PlannedSet>& sets,
-                                          double mass_volume);
+                                          double mass_volume, double expected_cells);
 
 /// Index of the material of that name; the only one when the name is empty.
 [[nodiscard]] int material_index(const Site& site, const std::string& name);

@@ -73,3 +73,27 @@ says "is neither a text STL (solid ...) nor a binary one"
 printf '%s\n' '[site]' >site.toml
 expect 1 blocks --overwrite
 says "there is neither [source] nor [blocks.*]"
+
+# a hollow body is refused, bodies that stand in each other and below the ground are said to
+inner='v 0.25 0.25 0.25
+v 0.75 0.25 0.25
+v 0.75 0.75 0.25
+v 0.25 0.75 0.25
+v 0.25 0.25 0.75
+v 0.75 0.25 0.75
+v 0.75 0.75 0.75
+v 0.25 0.75 0.75'
+printf '%s\n' 'o shell' "$cube" 'f 1 4 3 2' 'f 5 6 7 8' "$sides" 'o hole' "$inner" \
+  'f 10 11 12 9' 'f 16 15 14 13' 'f 13 14 10 9' 'f 14 15 11 10' 'f 15 16 12 11' 'f 16 13 9 12' >hollow.obj
+placed 'file = "hollow.obj"' 'position_m = [500020, 5200020]'
+expect 1 blocks --overwrite
+says 'hole: is inside-out and stands in shell: a cavity'
+printf '%s\n' 'o one' "$cube" 'f 1 4 3 2' 'f 5 6 7 8' "$sides" 'o two' "$inner" \
+  'f 9 12 11 10' 'f 13 14 15 16' 'f 9 10 14 13' 'f 10 11 15 14' 'f 11 12 16 15' 'f 12 9 13 16' >nested.obj
+placed 'file = "nested.obj"' 'position_m = [500020, 5200020]'
+expect 0 blocks --overwrite
+says '1 pairs of bodies overlap, most of all one and two: 100 % of the smaller one'
+awk '$1 == "v" { printf "v %.2f %.2f %.2f\n", $2 + 500020, $3 + 5200020, $4 + 20; next } { print }' cube.obj >deep.obj
+placed 'file = "deep.obj"' 'in_place = true'
+expect 0 blocks --overwrite
+says '1 bodies lie wholly below the ground'

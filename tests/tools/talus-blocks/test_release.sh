@@ -15,3 +15,14 @@ printf '%s\n' '[site]' 'crs = "EPSG:32633"' '[source]' \
 expect 0 blocks --report r.json --overwrite
 # 400 m2 in plan at about 40 degrees are 522 m2: one body for every 4 m2
 holds "$(value r.json n_blocks) > 125 && $(value r.json n_blocks) < 136"
+
+# more bodies than max_blocks are refused before they are made, the limit can be set without a polygon
+expect 1 blocks --overwrite --set blocks.wall.release_spacing_m=1e-7
+says 'would release about'
+printf '%s\n' '[site]' 'crs = "EPSG:32633"' '[blocks.edge]' 'shape = "eota"' 'volume_m3 = 0.1' \
+  'release_file = "line.gpkg"' 'release_spacing_m = 5' 'n_per_point = 5' >site.toml
+expect 1 blocks --overwrite --set blocks.edge.release_spacing_m=1e-7
+says 'would release about'
+expect 1 blocks --overwrite --set source.max_blocks=24
+says 'would release about 25 bodies, expected at most 24'
+expect 0 blocks --overwrite --set source.max_blocks=25

@@ -97,6 +97,15 @@ TEST(DrawJoints, FixedSpacingAndOffsetAreExact) {
   EXPECT_EQ(x, (std::vector<double>{3, 7, 11, 15}));
 }
 
+TEST(DrawJoints, APlaneFarAwayIsOneOfTheSameSet) {
+  JointSet set = joint_set(90, 90, 4);
+  set.offset = 4e12 + 3;
+  std::vector<double> x;
+  for (const Joint& joint : draw_joints(set, 0, {10, 0, 0}, 9, 1)) x.push_back(joint.plane.offset);
+  std::sort(x.begin(), x.end());
+  EXPECT_EQ(x, (std::vector<double>{5, 9, 13, 17}));
+}
+
 // Share of a plane that the discs of the Boolean model cover, by random points.
 TEST(DrawJoints, DiscsLeaveTheAskedShareOpen) {
   for (const double persistence : {0.2, 0.6, 0.9}) {
@@ -121,24 +130,39 @@ TEST(DrawJoints, DiscsLeaveTheAskedShareOpen) {
   }
 }
 
-// Against the number of joint cells in a large box, counted by cutting it.
-TEST(ExpectedCells, IsTheDensityOfTheArrangement) {
-  const std::vector<JointSet> sets = {joint_set(30, 90, 3, "a"), joint_set(80, 20, 4, "b"),
+// Against the number of joint cells in a box, counted by cutting it.
+TEST(ExpectedCells, IsThatOfTheArrangement) {
+  const std::vector<JointSet> four = {joint_set(30, 90, 3, "a"), joint_set(80, 20, 4, "b"),
                                       joint_set(70, 200, 5, "c"), joint_set(50, 300, 6, "d")};
-  std::vector<Polyhedron> cells = {box(Vec3::Constant(-20), Vec3::Constant(20))};
-  for (const Joint& joint : draw_all(sets, Vec3(0.3, 0.1, 0.2), 40)) {
-    std::vector<Polyhedron> next;
-    for (const Polyhedron& cell : cells)
-      for (const Plane& plane : {joint.plane, flipped(joint.plane)}) {
-        Polyhedron half = clip_convex(cell, plane, 0, 1e-9);
-        if (n_faces(half) > 0) next.push_back(std::move(half));
-      }
-    cells = std::move(next);
+  std::vector<JointSet> wide = four;
+  for (const size_t s : {2, 3}) wide[s].mean_spacing = 1000, wide[s].offset = 500;
+  struct Case {
+    std::vector<JointSet> sets;
+    Vec3 half;       // of the box [m]
+    double largest;  // cells to those expected: what is cut off at the sides comes on top
+  };
+  for (const auto& [sets, half, largest] :
+       std::vector<Case>{{four, Vec3::Constant(20), 1.6},
+                         {{four[0]}, {20, 30, 40}, 1.1},
+                         {{four[0], four[1]}, {20, 30, 40}, 1.3},
+                         {wide, {20, 30, 40}, 1.3}}) {
+    std::vector<Polyhedron> cells = {box(-half, half)};
+    MassMeasure mass{moments(cells[0]).volume, cells[0].vertices, {}};
+    for (int f = 0; f < 6; ++f) mass.area_vectors.push_back(face_area_vector(cells[0], f));
+    for (const Joint& joint : draw_all(sets, Vec3(0.3, 0.1, 0.2), 90)) {
+      std::vector<Polyhedron> next;
+      for (const Polyhedron& cell : cells)
+        for (const Plane& plane : {joint.plane, flipped(joint.plane)}) {
+          Polyhedron half_cell = clip_convex(cell, plane, 0, 1e-9);
+          if (n_faces(half_cell) > 0) next.push_back(std::move(half_cell));
+        }
+      cells = std::move(next);
+    }
+    const double expected = expected_cells(sets, mass);
+    EXPECT_GT(static_cast<double>(cells.size()), expected);
+    EXPECT_LT(static_cast<double>(cells.size()), largest * expected);
   }
-  const double expected = expected_cells(sets, 40.0 * 40 * 40);
-  EXPECT_GT(static_cast<double>(cells.size()), expected);  // those cut off at the sides come on top
-  EXPECT_LT(static_cast<double>(cells.size()), 1.6 * expected);
-  EXPECT_EQ(expected_cells({sets[0], sets[1]}, 1e9), 1);
+  EXPECT_EQ(expected_cells({}, {}), 1);
 }
 
 TEST(GroupPoles, FindsTheSetsThatWereMixed) {

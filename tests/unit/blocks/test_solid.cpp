@@ -103,6 +103,37 @@ TEST(MakeSolid, NonConvexBodiesBecomeConvexPartsOfTheSameVolume) {
   }
 }
 
+// Coordinates of files are rounded, so polygons are not quite flat. A convex body stays one, others
+// are taken apart into parts that fill them.
+TEST(MakeSolid, TakesPolygonsThatAreNotQuiteFlat) {
+  Random random(5);
+  const auto turned_and_rounded = [&random](Polyhedron body, double step) {
+    const Mat3 turn = random_rotation(random);
+    for (Vec3& v : body.vertices) v = step * ((turn * v) / step).array().round().matrix();
+    return body;
+  };
+  for (int trial = 0; trial < 40; ++trial) {
+    SCOPED_TRACE("trial " + std::to_string(trial));
+    const double step = std::pow(10, -2 - trial % 5);
+    bool was_turned = false;
+    for (const Polyhedron& body : {box({0, 0, 0}, {2, 2, 2}), prism(7, 2, 3)}) {
+      const Body whole = make_solid(turned_and_rounded(body, step), {}, was_turned);
+      ASSERT_EQ(whole.parts.size(), 1u);
+      EXPECT_EQ(check_surface(whole.parts[0]).fault, SurfaceFault::none);
+      EXPECT_TRUE(is_convex(whole.parts[0], 1e-6));
+      EXPECT_NEAR(moments(whole.parts[0]).volume, moments(body).volume, 20 * step);
+    }
+    const Body angle = make_solid(
+        turned_and_rounded(extruded({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}, 1), step), {},
+        was_turned);
+    double sum = 0;
+    for (const Polyhedron& part : angle.parts) sum += moments(part).volume;
+    EXPECT_NEAR(sum, moments(angle.shell).volume, 1e-6 * sum);
+    EXPECT_NEAR(sum, 3, 20 * step);
+    EXPECT_GT(angle.parts.size(), 1u);
+  }
+}
+
 TEST(MakeSolid, RefusesWhatIsNoSolidAndSaysWhere) {
   Polyhedron open = box({0, 0, 0}, {1, 1, 1});
   open.face_begin.pop_back(), open.face_tag.pop_back(), open.face_vertices.resize(20);

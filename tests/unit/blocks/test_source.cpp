@@ -52,6 +52,21 @@ TEST(Area, OutlinesThatCrossThemselvesAreRefused) {
             std::string::npos);
 }
 
+TEST(Area, RepeatedCornersAreTakenOnce) {
+  Area area{{{{0, 0}, {0, 0}, {10, 0}, {10, 10}, {10, 10}, {10, 10}, {0, 10}, {0, 0}, {0, 0}}}};
+  EXPECT_NE(refusal([&] { check_area(area, Vec3::Zero(), {}); }), "accepted");
+  area = without_repeated_corners(area);
+  EXPECT_EQ(area.rings[0].size(), 4u);
+  EXPECT_EQ(refusal([&] { check_area(area, Vec3::Zero(), {}); }), "accepted");
+}
+
+TEST(Area, OutlinesThatMeetAreToldFromOneThatCrossesItself) {
+  Area area = rectangle(0, 0, 10, 10);
+  area.rings.push_back(rectangle(10, 0, 20, 10).rings[0]);
+  EXPECT_NE(refusal([&] { check_area(area, Vec3::Zero(), {}); }).find("two outlines of the source"),
+            std::string::npos);
+}
+
 // A vertical depth over k x m nodes: the rim runs out over one cell, so each node stands for a
 // cell.
 TEST(FindSource, VerticalDepthIsNodesTimesCellTimesDepth) {
@@ -110,6 +125,25 @@ TEST(FindSource, SlopingLocalBaseLevelIsAParabolaAlongAProfile) {
   options.slbl_max_depth = 3;
   EXPECT_NEAR(find_source(ground, rectangle(1, 1, n - 2, 5 * n - 2), options, {}).max_depth, 3,
               1e-9);
+}
+
+// A long profile takes more sweeps than are made; what is missing is told to within a factor of
+// two.
+TEST(FindSource, ABaseLevelThatHasNotSettledSaysHowFar) {
+  const int n = 401;
+  const Trn ground = grid(5, n, 1, [](double x, double) { return 100 * x; });
+  SourceOptions options;
+  options.kind = FailureSurface::slbl;
+  options.slbl_curvature = 0.001;
+  const SourceMass mass = find_source(ground, rectangle(1, 1, n - 2, 3), options, {});
+  double missing = 0;
+  for (int c = 1; c + 1 < n; ++c) {
+    const double profile = 100 * c - 0.001 * c * (n - 1 - c);
+    missing = std::max(missing, mass.bed.elevation[node_index(ground, 2, c)] - profile);
+  }
+  EXPECT_GT(missing, 1);
+  EXPECT_GT(mass.slbl_unsettled, missing / 2);
+  EXPECT_LT(mass.slbl_unsettled, missing * 2);
 }
 
 TEST(FindSource, RefusesWhatCannotBeMeant) {

@@ -50,6 +50,16 @@ TEST(PlanJointSets, MissingAndContradictingKeysAreNamed) {
             std::string::npos);
   EXPECT_EQ(refusal("[joints.a]\nspacing_m = 1\nmeasured = [[10, 95]]\n"),
             "s.toml:3: dip is 95, expected 0 to 90");
+  EXPECT_EQ(refusal("[joints.m]\nspacing_m = 1\nmeasured = [[10, 80], [100, 80]]\nn_sets = 2\n"
+                    "[joints.m_1]\ndip_deg = 4\ndip_direction_deg = 1\nspacing_m = 1\n"),
+            "s.toml:5: two joint sets are called m_1: one is made by [joints.m]");
+}
+
+// A sliver is a hundredth of the mean joint cell in the mass, whatever the number of sets.
+TEST(PlanLimits, FollowTheExpectedCells) {
+  const Site site = parse_site("[source]\ndepth_m = 5\n", "s.toml");
+  EXPECT_DOUBLE_EQ(plan_limits(site, {}, 1000, 1).min_volume, 10);
+  EXPECT_DOUBLE_EQ(plan_limits(site, {}, 1000, 50).min_volume, 0.2);
 }
 
 TEST(ParseOrientations, ReadsPairsAndNamesBadLines) {
