@@ -42,9 +42,10 @@ void declare(Tool& tool, SiteOptions& site, Options& o) {
   tool.flag("--resume", o.resume, "go on from the checkpoint of a run that was stopped, if any");
   tool.flag("--independent", o.independent,
             "move each block as if it were alone: rocks that fall one by one");
-  tool.flag("--settle", o.files.settle,
-            "lift blocks that start below the ground onto it, and move blocks apart that overlap a "
-            "little");
+  tool.flag(
+      "--settle", o.files.settle,
+      "lift blocks that start below the ground onto it with what lies on them, and move blocks "
+      "apart that overlap a little");
   tool.option("--passages-by", o.passages_by,
               "a cell is passed while the footprint or only the centroid is over it")
       ->check(CLI::IsMember({"footprint", "centroid"}));
@@ -414,7 +415,7 @@ int main(int argc, char** argv) {
     }
     warn_of_blocks_apart(tool, plan, inputs);
     warn_of_rigid_blocks(tool, site, plan, inputs);
-    check_overlaps(tool, site, inputs, o.files, plan.block_contacts);
+    check_start(tool, site, inputs, o.files, plan.block_contacts);
     tool.detail(as_text(plan));
     RunFile file = new_file(site, inputs, plan, o);
     const BlockSet blocks = inputs.parts.blocks;
