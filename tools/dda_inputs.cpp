@@ -6,6 +6,7 @@
 
 #include "base/sha256.hpp"
 #include "base/text.hpp"
+#include "blocks/least_size.hpp"
 #include "dda/site_fence.hpp"
 #include "dda/start_overlaps.hpp"
 #include "io/blocks_hdf5.hpp"
@@ -78,6 +79,15 @@ std::string depth_finding(const BlockSet& blocks, const Trn& trn) {
          std::to_string(deepest - depths.begin()) + " by " + text(*deepest, 4) + " m, the most";
 }
 
+void check_size(const BlockSet& blocks, const DdaFiles& files) {
+  const auto smallest = std::min_element(blocks.volume.begin(), blocks.volume.end());
+  if (*smallest >= least_volume) return;
+  throw InputError({files.blocks, 0, "block " + std::to_string(smallest - blocks.volume.begin())},
+                   "has " + text(*smallest, 3) + " m3, expected " + text(least_volume) +
+                       " (a cube of 1 mm) or more: contacts of smaller blocks are not resolved",
+                   "check the units that the blocks were made in, or leave it out");
+}
+
 void check_depth(const BlockSet& blocks, const Trn& trn, const DdaFiles& files) {
   if (files.settle) return;
   const std::string finding = depth_finding(blocks, trn);
@@ -92,6 +102,7 @@ BlockSet read_checked_blocks(Tool& tool, const Trn& trn, const std::string& dige
   BlockSet blocks = read_blocks(files.blocks);
   if (n_blocks(blocks) == 0)
     throw InputError({files.blocks}, "there is no block in it", "nothing would move");
+  check_size(blocks, files);
   check_crs(blocks, trn, files);
   move_to_origin(blocks, trn.origin);
   check_place(blocks, trn, files);
