@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/text.hpp"
+#include "blocks/least_size.hpp"
 #include "blocks/placement.hpp"
 #include "blocks/shapes.hpp"
 #include "blocks/solid.hpp"
@@ -53,7 +54,14 @@ Polyhedron shape_of(const PlacedContext& context, const PlacedSettings& section,
   if (n_faces(body) == 0 || check_surface(body).fault != SurfaceFault::none)
     throw InputError(where_of_section(context, section), "the " + section.shape + " has no volume",
                      "choose a larger size, or more points");
-  return std::isnan(section.volume_m3) ? body : scaled_to(std::move(body), section.volume_m3);
+  if (!std::isnan(section.volume_m3)) body = scaled_to(std::move(body), section.volume_m3);
+  const double volume = moments(body).volume;
+  if (!(volume >= least_volume))
+    throw InputError(where_of_section(context, section),
+                     "the " + section.shape + " has " + text(volume, 3) + " m3, expected " +
+                         text(least_volume) + " (a cube of 1 mm) or more",
+                     "size_m is in metres");
+  return body;
 }
 
 double volume_of(const Body& body) {

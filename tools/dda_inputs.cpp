@@ -6,6 +6,7 @@
 
 #include "base/sha256.hpp"
 #include "base/text.hpp"
+#include "blocks/least_size.hpp"
 #include "dda/site_fence.hpp"
 #include "dda/start_overlaps.hpp"
 #include "io/blocks_hdf5.hpp"
@@ -66,25 +67,34 @@ void check_place(const BlockSet& blocks, const Trn& trn, const DdaFiles& files) 
   }
 }
 
-void check_depth(Tool& tool, BlockSet& blocks, const Trn& trn, const DdaFiles& files,
-                 std::vector<std::string>& warnings) {
+// How many blocks start below the ground, and the deepest; empty when none does.
+std::string depth_finding(const BlockSet& blocks, const Trn& trn) {
   const std::vector<double> depths = depths_below_ground(trn, blocks);
-  const auto is_deep = [](double depth) { return depth > depth_tolerance; };
-  const auto n = std::count_if(depths.begin(), depths.end(), is_deep);
-  if (n == 0) return;
+  const auto n = std::count_if(depths.begin(), depths.end(),
+                               [](double depth) { return depth > depth_tolerance; });
+  if (n == 0) return "";
   const auto deepest = std::max_element(depths.begin(), depths.end());
-  const std::string finding =
-      std::to_string(n) + " of " + std::to_string(depths.size()) +
-      (n == 1 ? " blocks starts" : " blocks start") + " below the ground, block " +
-      std::to_string(deepest - depths.begin()) + " by " + text(*deepest, 4) + " m, the most";
-  if (!files.settle)
+  return std::to_string(n) + " of " + std::to_string(depths.size()) +
+         (n == 1 ? " blocks starts" : " blocks start") + " below the ground, block " +
+         std::to_string(deepest - depths.begin()) + " by " + text(*deepest, 4) + " m, the most";
+}
+
+void check_size(const BlockSet& blocks, const DdaFiles& files) {
+  const auto smallest = std::min_element(blocks.volume.begin(), blocks.volume.end());
+  if (*smallest >= least_volume) return;
+  throw InputError({files.blocks, 0, "block " + std::to_string(smallest - blocks.volume.begin())},
+                   "has " + text(*smallest, 3) + " m3, expected " + text(least_volume) +
+                       " (a cube of 1 mm) or more: contacts of smaller blocks are not resolved",
+                   "check the units that the blocks were made in, or leave it out");
+}
+
+void check_depth(const BlockSet& blocks, const Trn& trn, const DdaFiles& files) {
+  if (files.settle) return;
+  const std::string finding = depth_finding(blocks, trn);
+  if (!finding.empty())
     throw InputError({files.blocks}, finding,
                      "blocks cut out of a slope slide on the bed that talus-blocks --trn-out "
                      "writes; --settle lifts blocks onto the ground");
-  for (std::size_t b = 0; b < depths.size(); ++b)
-    if (is_deep(depths[b])) lift_block(blocks, static_cast<int>(b), depths[b]);
-  tool.info(finding + ": lifted onto it");
-  warnings.push_back(finding + ": lifted onto it");
 }
 
 BlockSet read_checked_blocks(Tool& tool, const Trn& trn, const std::string& digest,
@@ -92,6 +102,7 @@ BlockSet read_checked_blocks(Tool& tool, const Trn& trn, const std::string& dige
   BlockSet blocks = read_blocks(files.blocks);
   if (n_blocks(blocks) == 0)
     throw InputError({files.blocks}, "there is no block in it", "nothing would move");
+  check_size(blocks, files);
   check_crs(blocks, trn, files);
   move_to_origin(blocks, trn.origin);
   check_place(blocks, trn, files);
@@ -100,7 +111,7 @@ BlockSet read_checked_blocks(Tool& tool, const Trn& trn, const std::string& dige
     tool.warn(files.trn + " is not the terrain that " + files.blocks + " was made for");
     warnings.push_back("the terrain is not the one that the blocks were made for");
   }
-  check_depth(tool, blocks, trn, files, warnings);
+  check_depth(blocks, trn, files);
   return blocks;
 }
 
@@ -249,14 +260,11 @@ std::string text_of(const StartOverlap& start, const DdaInputs& inputs) {
          text(at.z(), 6);
 }
 
-}  // namespace
-
-void check_overlaps(Tool& tool, const Site& site, DdaInputs& inputs, const DdaFiles& files,
-                    bool among_blocks) {
-  BlockSet& blocks = inputs.parts.blocks;
-  const std::vector<StartOverlap> found =
-      start_overlaps(blocks, inputs.parts.fences, among_blocks, overlap_tolerance);
-  if (found.empty()) return;
+// What the pairs that overlap say of themselves; empty when there is none. Throws for those that
+// are not to be moved apart.
+std::string overlap_finding(const Site& site, const DdaInputs& inputs, const DdaFiles& files,
+                            const std::vector<StartOverlap>& found) {
+  if (found.empty()) return "";
   const auto too_deep =
       std::find_if(found.begin(), found.end(), [](const StartOverlap& o) { return !o.is_small; });
   const std::string finding =
@@ -267,28 +275,49 @@ void check_overlaps(Tool& tool, const Site& site, DdaInputs& inputs, const DdaFi
     throw InputError(
         {files.blocks},
         too_deep == found.begin() ? finding : finding + "; " + text_of(*too_deep, inputs),
-        too_deep->overlap.block_b >= n_blocks(blocks)
+        too_deep->overlap.block_b >= n_blocks(inputs.parts.blocks)
             ? "move the fence of " + site.file + " off the blocks"
             : "blocks may overlap by " + text(too_deep->limit, 3) +
                   " m, a twentieth of their thickness, to be moved apart by --settle");
   if (!files.settle)
     throw InputError({files.blocks}, finding,
                      "--settle moves blocks apart that overlap as little as this");
-  const MovedApart moved = move_apart(blocks, overlap_tolerance);
-  if (!moved.done)
-    throw InputError({files.blocks}, finding + "; they could not be moved apart",
-                     "they stand too closely packed: build the block set anew");
-  const std::string outcome = ": moved apart, by " + text(moved.farthest, 3) + " m at most";
-  tool.info(finding + outcome);
-  inputs.warnings.push_back(finding + outcome);
-  check_depth(tool, blocks, inputs.parts.trn, files, inputs.warnings);
+  return finding;
+}
+
+// Moving may bring blocks into a fence, and so may blocks that stand too closely not come apart.
+void check_settled(const Settled& settled, const DdaInputs& inputs, const DdaFiles& files,
+                   bool among_blocks) {
   const std::vector<StartOverlap> left =
-      start_overlaps(blocks, inputs.parts.fences, among_blocks, 2 * overlap_tolerance);
-  if (!left.empty())
-    throw InputError({files.blocks},
-                     "after they were moved apart and lifted onto the ground, " +
-                         text_of(left.front(), inputs) + " overlap",
-                     "build the block set anew");
+      start_overlaps(inputs.parts.blocks, inputs.parts.fences, among_blocks, overlap_tolerance);
+  if (settled.done && left.empty()) return;
+  throw InputError({files.blocks},
+                   "the blocks were lifted onto the ground and moved apart " +
+                       std::to_string(settled.rounds) + " times, and still " +
+                       (left.empty() ? "they overlap" : text_of(left.front(), inputs) + " overlap"),
+                   "they stand too closely packed: build the block set anew");
+}
+
+}  // namespace
+
+void check_start(Tool& tool, const Site& site, DdaInputs& inputs, const DdaFiles& files,
+                 bool among_blocks) {
+  BlockSet& blocks = inputs.parts.blocks;
+  const std::string deep = depth_finding(blocks, inputs.parts.trn);
+  const std::string overlap =
+      overlap_finding(site, inputs, files,
+                      start_overlaps(blocks, inputs.parts.fences, among_blocks, overlap_tolerance));
+  if (!files.settle) return;
+  const Settled settled = settle(blocks, inputs.parts.trn, among_blocks, settled_tolerance);
+  check_settled(settled, inputs, files, among_blocks);
+  const std::string way = ", by " + text(settled.farthest, 3) + " m at most";
+  const auto say = [&](const std::string& finding, const std::string& outcome) {
+    if (finding.empty()) return;
+    tool.info(finding + outcome + way);
+    inputs.warnings.push_back(finding + outcome + way);
+  };
+  say(deep, ": lifted onto it");
+  say(overlap, ": moved apart");
 }
 
 DdaInputs read_dda_inputs(Tool& tool, const Site& site, const DdaFiles& files) {

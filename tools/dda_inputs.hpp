@@ -28,9 +28,10 @@ struct DdaInputs {
 
 /// Throws InputError for blocks that overlap one another (`among_blocks`) or a fence by more than a
 /// millimetre: how many, and of the deepest which two, how deep and where. With files.settle blocks
-/// that overlap by up to a twentieth of their thickness are moved apart.
-void check_overlaps(Tool& tool, const Site& site, DdaInputs& inputs, const DdaFiles& files,
-                    bool among_blocks);
+/// in the ground are lifted onto it, and those that overlap by up to a twentieth of their thickness
+/// are moved apart.
+void check_start(Tool& tool, const Site& site, DdaInputs& inputs, const DdaFiles& files,
+                 bool among_blocks);
 
 /// Reads TRN, blocks, ground classes, base motion and fences. Throws InputError for blocks of
 /// another CRS, off the terrain or in the ground (unless files.settle), ground without a class, and

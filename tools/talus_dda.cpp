@@ -42,9 +42,10 @@ void declare(Tool& tool, SiteOptions& site, Options& o) {
   tool.flag("--resume", o.resume, "go on from the checkpoint of a run that was stopped, if any");
   tool.flag("--independent", o.independent,
             "move each block as if it were alone: rocks that fall one by one");
-  tool.flag("--settle", o.files.settle,
-            "lift blocks that start below the ground onto it, and move blocks apart that overlap a "
-            "little");
+  tool.flag(
+      "--settle", o.files.settle,
+      "lift blocks that start below the ground onto it with what lies on them, and move blocks "
+      "apart that overlap a little");
   tool.option("--passages-by", o.passages_by,
               "a cell is passed while the footprint or only the centroid is over it")
       ->check(CLI::IsMember({"footprint", "centroid"}));
@@ -138,6 +139,15 @@ RunFile new_file(const Site& site, const DdaInputs& inputs, const ScenePlan& pla
 
 std::string part_of(const Options& o) { return o.out + ".part"; }
 
+// Where the numbers of the XDMF file go.
+fs::path xdmf_data_of(const Options& o) { return fs::path(o.xdmf).replace_extension(".xdmf.h5"); }
+
+// The checkpoint takes the place of what a stopped run left, and is removed at the end.
+void check_outputs_beside(Tool& tool, const Options& o) {
+  for (const char* end : {"", ".new"}) tool.write_also(part_of(o) + end, true);
+  if (!o.xdmf.empty()) tool.write_also(xdmf_data_of(o).string());
+}
+
 void check_leftover(Tool& tool, const Options& o) {
   if (!fs::exists(part_of(o)) || o.resume || tool.overwrite()) return;
   throw InputError({part_of(o)}, "is what a run that was stopped left behind",
@@ -228,9 +238,14 @@ void compute(Tool& tool, Runner& runner, const std::string& part, double interva
 
 // --- the result --------------------------------------------------------------------------------
 
+// Of all moments where passages are recorded, else of those of the frames.
 double largest_speed(const RunFile& file) {
   float largest = 0;
   for (const Passage& row : file.passages) largest = std::max(largest, row.largest.speed);
+  if (!file.passages.empty()) return largest;
+  const std::vector<float>& v = file.frames.velocity;
+  for (std::size_t i = 0; i + 2 < v.size(); i += 3)
+    largest = std::max(largest, std::hypot(v[i], v[i + 1], v[i + 2]));
   return largest;
 }
 
@@ -307,6 +322,15 @@ std::string fence_summary(const Json& report) {
          " of " + std::to_string(panels.size()) + " panels broken";
 }
 
+// What a user must not miss, where there is any.
+std::string trouble_summary(const Json& report) {
+  const auto said = [&report](const char* key, const std::string& what) {
+    return report[key].get<std::int64_t>() == 0 ? "" : ", " + report[key].dump() + what;
+  };
+  return said("left_domain", " left the terrain") +
+         said("unconverged", " steps of a block accepted unconverged");
+}
+
 std::string summary_of(const Json& report) {
   const auto number = [&report](const char* key) { return text(report[key].get<double>(), 4); };
   const Json& moved = report["mean_displacement_m"];
@@ -315,12 +339,25 @@ std::string summary_of(const Json& report) {
          report["steps"].dump() + " steps: centre of mass moved " + text(horizontal, 4) +
          " m and fell " + text(-moved[2].get<double>(), 4) + " m, largest speed " +
          number("largest_speed_m_s") + " m/s, " + report["n_passages"].dump() + " passages, " +
-         report["n_crossings"].dump() + " crossings" + fence_summary(report);
+         report["n_crossings"].dump() + " crossings" + fence_summary(report) +
+         trouble_summary(report);
+}
+
+// The way out of a broken limit, by what its name says.
+std::string health_hint(const std::string& check) {
+  const auto is_of = [&check](const char* word) { return check.find(word) != std::string::npos; };
+  if (is_of("penetration"))
+    return "take a smaller time_step_s, or give max_penetration_m if that depth will do";
+  if (is_of("left the terrain"))
+    return "take a larger terrain, or give max_lost_share if blocks may leave it";
+  if (is_of("energy gained") || is_of("not finite") || is_of("below the ground"))
+    return "take a smaller time_step_s";
+  return "";
 }
 
 void record_health(Tool& tool, Runner& runner) {
   for (const HealthCheck& check : health_checks(runner)) {
-    tool.check(check.name, check.value, check.limit, check.pass);
+    tool.check(check.name, check.value, check.limit, check.pass, health_hint(check.name));
     if (check.pass) continue;
     runner.file.info.status = "failed";
     runner.file.info.reason += (runner.file.info.reason.empty() ? "" : "; ") + check.name + " is " +
@@ -334,7 +371,7 @@ void write_outputs(Tool& tool, Runner& runner, const Options& o) {
   update_file(runner, false);
   write_run_file(tool.stage(o.out), runner.file);
   if (o.xdmf.empty()) return;
-  const fs::path data = fs::path(o.xdmf).replace_extension(".xdmf.h5");
+  const fs::path data = xdmf_data_of(o);
   write_xdmf(tool.stage(o.xdmf), tool.stage(data.string()), data.filename().string(), runner.file);
 }
 
@@ -365,9 +402,41 @@ void remove_checkpoints(const Options& o) {
   fs::remove(part_of(o) + ".new", error);
 }
 
+// Steps are all of one length, so a run ends with the one nearest to the duration.
+double duration_reached(const SolverSettings& solver) {
+  const double dt = time_step(solver);
+  return std::ceil(solver.duration_s / dt - 0.5) * dt;
+}
+
+void check_times(const Site& site) {
+  const SolverSettings& solver = site.solver;
+  if (solver.min_time_step_s > solver.max_time_step_s)  // false where one is not given
+    throw InputError(where_of(site, "solver.min_time_step_s"),
+                     "min_time_step_s is " + text(solver.min_time_step_s) +
+                         ", above max_time_step_s, " + text(solver.max_time_step_s));
+  if (solver.duration_s < time_step(solver))
+    throw InputError(where_of(site, "solver.duration_s"),
+                     "duration_s is " + text(solver.duration_s) + ", less than a time step of " +
+                         text(time_step(solver)) + " s",
+                     "give a longer duration or a shorter time_step_s");
+  constexpr double most_frames = 1e7;
+  const double n_frames = solver.duration_s / site.output.frame_interval_s;
+  if (n_frames > most_frames)
+    throw InputError(where_of(site, "output.frame_interval_s"),
+                     "gives " + text(n_frames, 3) + " frames, expected up to " + text(most_frames),
+                     "give a longer frame_interval_s");
+}
+
 // What is odd about the settings, for the user now and for the run file.
 std::vector<std::string> warn_of_settings(Tool& tool, const Site& site) {
   std::vector<std::string> warnings;
+  const double reached = duration_reached(site.solver);
+  if (std::abs(reached - site.solver.duration_s) > 1e-6 * time_step(site.solver)) {
+    warnings.push_back("the run lasts " + text(reached, 6) + " s, not " +
+                       text(site.solver.duration_s, 6) + " s: it is whole steps of " +
+                       text(time_step(site.solver), 6) + " s");
+    tool.warn(warnings.back());
+  }
   const bool any_stands = std::any_of(site.fences.begin(), site.fences.end(),
                                       [](const FenceSettings& fence) { return fence.active; });
   if (any_stands && site.solver.law == "paper") {
@@ -403,7 +472,11 @@ int main(int argc, char** argv) {
     check_site_crs(site);
     if (o.out.empty() && o.plan != "show")
       throw InputError({"", 0, "--out"}, "no output is named", "give -o RUN.h5");
-    if (!o.out.empty()) check_leftover(tool, o);
+    if (!o.out.empty()) {
+      check_outputs_beside(tool, o);
+      check_leftover(tool, o);
+    }
+    check_times(site);
     const std::vector<std::string> odd = warn_of_settings(tool, site);
     DdaInputs inputs = read_dda_inputs(tool, site, o.files);
     inputs.warnings.insert(inputs.warnings.begin(), odd.begin(), odd.end());
@@ -414,7 +487,7 @@ int main(int argc, char** argv) {
     }
     warn_of_blocks_apart(tool, plan, inputs);
     warn_of_rigid_blocks(tool, site, plan, inputs);
-    check_overlaps(tool, site, inputs, o.files, plan.block_contacts);
+    check_start(tool, site, inputs, o.files, plan.block_contacts);
     tool.detail(as_text(plan));
     RunFile file = new_file(site, inputs, plan, o);
     tool.set_run_id(file.info.run_id);

@@ -190,6 +190,7 @@ struct Tool::Impl {
   std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
   std::vector<Staged> staged;
   RunRecord record;
+  std::vector<std::string> check_hints;  // of record.checks
   Json result;
   std::string summary;
   bool registered = false;
@@ -293,6 +294,12 @@ struct Tool::Impl {
       check_folder(path);
       return;
     }
+    check_output_file(path);
+    if (fs::exists(path) && !overwrite)
+      throw InputError({path.string()}, "exists already", "give --overwrite to replace it");
+  }
+
+  void check_output_file(const fs::path& path) const {
     for (const RunArtifact& file : record.inputs)
       if (file.path == absolute(path.string()))
         throw UsageError({path.string()}, "is both an input and an output", "name another output");
@@ -302,8 +309,6 @@ struct Tool::Impl {
       throw InputError({path.string()}, "is no regular file, expected a file name to write",
                        "outputs are written beside it and renamed when they are whole");
     check_folder(folder_of(path));
-    if (fs::exists(path) && !overwrite)
-      throw InputError({path.string()}, "exists already", "give --overwrite to replace it");
   }
 
   // An output left empty on the command line is no output left away.
@@ -562,10 +567,13 @@ struct Tool::Impl {
     if (stop_requested) throw Interrupted();
     commit_outputs();
     print_result();
-    for (const RunCheck& check : record.checks)
-      if (!check.pass)
-        print(name + ": health: " + check.name + " is " + text(check.value, 6) + ", limit " +
-              text(check.limit, 6));
+    for (std::size_t i = 0; i < record.checks.size(); ++i) {
+      const RunCheck& check = record.checks[i];
+      if (check.pass) continue;
+      print(name + ": health: " + check.name + " is " + text(check.value, 6) + ", limit " +
+            text(check.limit, 6));
+      if (!check_hints[i].empty()) print("  hint: " + check_hints[i]);
+    }
     return all_checks_pass() ? done : numbers_failed;
   }
 };
@@ -622,6 +630,15 @@ void Tool::more_config(std::function<std::vector<ConfigValue>()> settings) {
   impl_->more_config = std::move(settings);
 }
 
+void Tool::write_also(const std::string& path, bool may_exist) {
+  impl_->check_output_file(path);
+  for (const Impl::Output& output : impl_->outputs)
+    if (!output.path->empty() && absolute(*output.path) == absolute(path))
+      throw InputError({path}, "is named for two outputs", "give each its own name");
+  if (fs::exists(path) && !may_exist && !impl_->overwrite)
+    throw InputError({path}, "exists already", "give --overwrite to replace it");
+}
+
 std::string Tool::stage(const std::string& path) {
   if (fs::exists(path) && !impl_->overwrite)
     throw InputError({path}, "exists already", "give --overwrite to replace it");
@@ -667,8 +684,10 @@ void Tool::metric(const std::string& name, double value, const std::string& unit
   impl_->record.metrics.push_back({name, value, unit});
 }
 
-void Tool::check(const std::string& name, double value, double limit, bool pass) {
+void Tool::check(const std::string& name, double value, double limit, bool pass,
+                 const std::string& hint) {
   impl_->record.checks.push_back({name, value, limit, pass});
+  impl_->check_hints.push_back(hint);
 }
 
 void Tool::result(Json result, const std::string& summary) {

@@ -99,6 +99,9 @@ class Tool {
   void more_config(std::function<std::vector<ConfigValue>()> settings);
 
   // --- use, inside the body ----------------------------------------------------------------------
+  /// A file that will be written and has no option of its own, as one beside an output: checked
+  /// like an output, before long work. `may_exist`: it is replaced without --overwrite.
+  void write_also(const std::string& path, bool may_exist = false);
   /// Where to write `path` for now: a hidden name in the same folder with the same extension. All
   /// staged files are synced and renamed when the body has returned, removed when it has thrown.
   /// Sidecars (styles, statistics) are staged like any other file.
@@ -114,8 +117,10 @@ class Tool {
   void detail(const std::string& text);    ///< to stderr, with -v
   void warn(const std::string& text);      ///< as info(); kept in the registry and in result()
   void metric(const std::string& name, double value, const std::string& unit);
-  /// A limit of the run's health; a failed one makes the exit code 3 once the outputs are in place.
-  void check(const std::string& name, double value, double limit, bool pass);
+  /// A limit of the run's health; a failed one makes the exit code 3 once the outputs are in place,
+  /// and is said with `hint`, the way out.
+  void check(const std::string& name, double value, double limit, bool pass,
+             const std::string& hint = "");
   /// What --json prints; without --json `summary` goes to stdout, not with -q.
   void result(Json result, const std::string& summary);
   [[nodiscard]] bool overwrite() const;

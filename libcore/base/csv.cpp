@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <sstream>
+#include <string_view>
 
 #include "base/error.hpp"
 #include "base/read_file.hpp"
@@ -62,7 +63,8 @@ double CsvTable::number(std::size_t row, const std::string& name) const {
 CsvTable parse_csv(const std::string& content, const std::string& file, bool fill_short_rows) {
   CsvTable table;
   table.file = file;
-  std::istringstream stream(content);
+  constexpr std::string_view mark = "\xEF\xBB\xBF";  // that spreadsheet programs begin UTF-8 with
+  std::istringstream stream(content.rfind(mark, 0) == 0 ? content.substr(mark.size()) : content);
   int number = 0;
   for (std::string line; std::getline(stream, line);) {
     ++number;

@@ -77,7 +77,7 @@ void check_scene(const Scene& scene) {
     throw InputError({}, "time step is " + text(s.dt) + " s, expected above 0");
   if (s.law == Law::paper && !(s.normal_stiffness > 0))
     throw InputError({}, "law paper needs a normal stiffness above 0 N/m",
-                     "the paper takes k_n = E = 5e10");
+                     "give [solver] normal_stiffness_n_m; the paper takes k_n = E = 5e10");
   if (!(s.normal_stiffness >= 0))
     throw InputError({}, "normal stiffness is " + text(s.normal_stiffness) + " N/m, expected >= 0");
   if (!(s.shear_ratio > 0))

@@ -1,14 +1,19 @@
 #include "dda/start_overlaps.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+
+#include "scene/start_depth.hpp"
 
 namespace talus {
 namespace {
 
 using std::size_t;
 
-constexpr int most_rounds = 200;
+constexpr int most_rounds = 1000;
+/// A pair whose normal rises by more than this (60 degrees from the vertical) lies on each other.
+constexpr double least_rise = 0.5;
 
 std::vector<Pose> poses_of(const BlockSet& blocks) {
   std::vector<Pose> poses;
@@ -23,11 +28,24 @@ double thickness_of(const Hulls& hulls, int body) {
                            hulls.thickness.begin() + hulls.part_begin[i + 1]);
 }
 
-void move_block(BlockSet& blocks, int block, const Vec3& way) {
-  const auto b = static_cast<size_t>(block);
-  for (int v = blocks.block_vertex_begin[b]; v < blocks.block_vertex_begin[b + 1]; ++v)
-    blocks.vertices[static_cast<size_t>(v)] += way;
-  blocks.centroid[b] += way;
+// Adds what parts one pair: z is how far a block is lifted, by whatever lifts it most. `risen` is
+// how far the blocks were lifted so far [m]. The upper block is also lifted off a steep face where
+// that face's own rise made the overlap: so what is wedged between others goes with its neighbours.
+void add_ways(const BlockOverlap& overlap, const std::vector<double>& risen,
+              std::vector<Vec3>& ways) {
+  const bool a_is_upper = overlap.normal.z() > 0;
+  const auto upper = static_cast<size_t>(a_is_upper ? overlap.block_a : overlap.block_b);
+  const auto lower = static_cast<size_t>(a_is_upper ? overlap.block_b : overlap.block_a);
+  const double rise = std::abs(overlap.normal.z());
+  const double lift = overlap.depth / rise;
+  if (rise > least_rise || lift <= risen[lower] - risen[upper] + settled_tolerance) {
+    ways[upper].z() = std::max(ways[upper].z(), lift);
+    return;
+  }
+  const Vec2 from_lower = (a_is_upper ? 1 : -1) * overlap.normal.head<2>();
+  const Vec2 half = overlap.depth / 2 / from_lower.squaredNorm() * from_lower;
+  ways[upper].head<2>() += half;
+  ways[lower].head<2>() -= half;
 }
 
 }  // namespace
@@ -58,20 +76,30 @@ std::vector<StartOverlap> start_overlaps(const BlockSet& blocks,
   return found;
 }
 
-MovedApart move_apart(BlockSet& blocks, double tolerance) {
-  MovedApart result;
+Settled settle(BlockSet& blocks, const Trn& trn, bool among_blocks, double tolerance) {
+  Settled result;
   const std::vector<Vec3> start = blocks.centroid;
   std::vector<Pose> poses = poses_of(blocks);
   const Hulls hulls = make_hulls(blocks, poses);
   PlacedHulls placed;
   for (; result.rounds < most_rounds && !result.done; ++result.rounds) {
-    poses = poses_of(blocks);
-    place_hulls(hulls, poses, {}, {}, placed);
-    const std::vector<BlockOverlap> overlaps = block_overlaps(hulls, placed, tolerance);
-    result.done = overlaps.empty();
-    for (const BlockOverlap& overlap : overlaps) {
-      move_block(blocks, overlap.block_a, overlap.depth / 2 * overlap.normal);
-      move_block(blocks, overlap.block_b, -overlap.depth / 2 * overlap.normal);
+    std::vector<Vec3> ways(start.size(), Vec3::Zero());
+    std::vector<double> risen(start.size());
+    for (size_t b = 0; b < start.size(); ++b) risen[b] = blocks.centroid[b].z() - start[b].z();
+    const std::vector<double> depths = depths_below_ground(trn, blocks);
+    for (size_t b = 0; b < ways.size(); ++b)
+      if (depths[b] > tolerance) ways[b].z() = depths[b];
+    if (among_blocks) {
+      poses = poses_of(blocks);
+      place_hulls(hulls, poses, {}, {}, placed);
+      for (const BlockOverlap& overlap : block_overlaps(hulls, placed, tolerance))
+        add_ways(overlap, risen, ways);
+    }
+    result.done = true;
+    for (size_t b = 0; b < ways.size(); ++b) {
+      if (ways[b].isZero(0)) continue;
+      result.done = false;
+      move_block(blocks, static_cast<int>(b), ways[b]);
     }
   }
   for (size_t b = 0; b < start.size(); ++b)

@@ -10,10 +10,12 @@
 namespace talus {
 namespace {
 
+constexpr double samples_per_period = 64, most_samples = 1e7;
+
 AccelerationRecord harmonic(const BaseMotionSettings& settings, double duration) {
   const double end =
       std::isnan(settings.duration_s) ? duration : settings.start_s + settings.duration_s;
-  const double step = 1 / (64 * settings.frequency_hz);
+  const double step = 1 / (samples_per_period * settings.frequency_hz);
   const double azimuth = settings.direction_deg * std::numbers::pi / 180;
   const Vec3 direction(std::sin(azimuth), std::cos(azimuth), 0);
   AccelerationRecord record{{0}, {Vec3::Zero()}};
@@ -25,7 +27,7 @@ AccelerationRecord harmonic(const BaseMotionSettings& settings, double duration)
   add(settings.start_s, 0);
   for (int i = 1; settings.start_s + i * step <= end; ++i)
     add(settings.start_s + i * step,
-        settings.amplitude_m_s2 * std::sin(2 * std::numbers::pi * i / 64.0));
+        settings.amplitude_m_s2 * std::sin(2 * std::numbers::pi * i / samples_per_period));
   add(end + step, 0);
   add(duration + 2 * step, 0);  // stands still afterwards
   return record;
@@ -58,10 +60,23 @@ AccelerationRecord read_acceleration_csv(const std::string& path) {
 
 AccelerationRecord base_motion(const Site& site, double duration) {
   const BaseMotionSettings& settings = site.base_motion;
+  if (!settings.file.empty() && settings.amplitude_m_s2 > 0)
+    throw InputError(where_of(site, "base_motion.amplitude_m_s2"),
+                     "the base motion has both a file and an amplitude",
+                     "take the file, or a harmonic motion");
+  if (settings.amplitude_m_s2 == 0 && !std::isnan(settings.frequency_hz))
+    throw InputError(where_of(site, "base_motion.frequency_hz"),
+                     "a harmonic motion has no amplitude", "give amplitude_m_s2");
   if (settings.file.empty() && settings.amplitude_m_s2 == 0) return {};
   if (settings.file.empty() && std::isnan(settings.frequency_hz))
     throw InputError(where_of(site, "base_motion.amplitude_m_s2"),
                      "a harmonic motion has no frequency", "give frequency_hz");
+  const double n_samples = samples_per_period * settings.frequency_hz * duration;
+  if (n_samples > most_samples)  // false without a frequency
+    throw InputError(
+        where_of(site, "base_motion.frequency_hz"),
+        "gives " + text(n_samples, 3) + " samples, expected up to " + text(most_samples),
+        "give a lower frequency_hz or a shorter run");
   AccelerationRecord record = settings.file.empty()
                                   ? harmonic(settings, duration)
                                   : read_acceleration_csv(resolved(site, settings.file));

@@ -17,7 +17,8 @@ namespace talus {
 
 /// The record that [base_motion] asks for, times `scale`; empty when it asks for none. A harmonic
 /// motion a sin(2 pi f (t - start)) is sampled 64 times a period. Throws InputError when the record
-/// ends before `duration` [s] or starts after 0.
+/// ends before `duration` [s] or starts after 0, for both a file and an amplitude, a frequency
+/// without amplitude or the reverse, and for more than 1e7 samples.
 [[nodiscard]] AccelerationRecord base_motion(const Site& site, double duration);
 
 }  // namespace talus

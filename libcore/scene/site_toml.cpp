@@ -515,6 +515,19 @@ void for_each_group(SiteType& site, Visit&& visit) {
   visit("output", site.output);
 }
 
+// Of the sections that there are in `group`, with it: "ground.scree".
+struct SectionNames {
+  const std::string& group;
+  Texts& names;
+  template <class Section>
+  void operator()(const char*, const Section&) const {}
+  template <class Section>
+  void operator()(const char* candidate, const std::vector<Section>& sections) const {
+    if (group != candidate) return;
+    for (const Section& section : sections) names.push_back(group + "." + section.name);
+  }
+};
+
 Texts group_names() {
   Texts names;
   Site site;
@@ -741,9 +754,13 @@ void override_value(Site& site, const std::string& key, const std::string& value
                             node ? *node : static_cast<const toml::node&>(plain),
                             is_done};
   for_each_group(site, overrider);
-  if (!is_done)
+  if (!is_done) {
+    Texts known;
+    for_each_group(site, SectionNames{group, known});
     throw InputError({"", 0, "command line"}, "no section [" + key.substr(0, last) + "]",
-                     did_you_mean(group, group_names()));
+                     known.empty() ? did_you_mean(group, group_names())
+                                   : did_you_mean(key.substr(0, last), known));
+  }
   check_names(site);
 }
 

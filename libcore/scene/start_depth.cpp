@@ -90,11 +90,11 @@ std::vector<double> depths_below_ground(const Trn& trn, const BlockSet& blocks) 
   return depths;
 }
 
-void lift_block(BlockSet& blocks, int b, double height) {
+void move_block(BlockSet& blocks, int b, const Vec3& way) {
   const auto i = static_cast<std::size_t>(b);
   for (int v = blocks.block_vertex_begin[i]; v < blocks.block_vertex_begin[i + 1]; ++v)
-    blocks.vertices[static_cast<std::size_t>(v)].z() += height;
-  blocks.centroid[i].z() += height;
+    blocks.vertices[static_cast<std::size_t>(v)] += way;
+  blocks.centroid[i] += way;
 }
 
 }  // namespace talus

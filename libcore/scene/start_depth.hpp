@@ -15,7 +15,7 @@ namespace talus {
 /// -infinity where no ground is known below.                                       (n_blocks)
 [[nodiscard]] std::vector<double> depths_below_ground(const Trn& trn, const BlockSet& blocks);
 
-/// Moves block b along z, with all that the set holds of it.
-void lift_block(BlockSet& blocks, int b, double height);
+/// Moves block b by `way` [m], with all that the set holds of it.
+void move_block(BlockSet& blocks, int b, const Vec3& way);
 
 }  // namespace talus

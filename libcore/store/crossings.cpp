@@ -141,6 +141,15 @@ std::vector<Vec3> posts_on_ground(const Trn& trn, const std::vector<Vec2>& corne
   if (corners.size() < 2)
     throw InputError(where, "the line has " + std::to_string(corners.size()) + " point" +
                                 (corners.size() == 1 ? "" : "s") + ", expected two or more");
+  double length = 0;
+  for (std::size_t i = 0; i + 1 < corners.size(); ++i)
+    length += (corners[i + 1] - corners[i]).norm();
+  constexpr double most_posts = 1e5;
+  if (!(length / spacing <= most_posts))
+    throw InputError(where,
+                     "posts every " + text(spacing) + " m are " + text(length / spacing, 3) +
+                         " posts, expected up to " + text(most_posts),
+                     "give a larger post_spacing_m");
   std::vector<Vec3> posts;
   const auto add = [&](const Vec2& at) {
     const double z = elevation_at(trn, at.x(), at.y());

@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "base/error.hpp"
+#include "base/text.hpp"
 #include "terrain/trn_pyramid.hpp"
 #include "terrain/trn_walk.hpp"
 
@@ -543,6 +545,14 @@ PassageGrid passage_grid(const Trn& trn, double cell_size) {
   const auto n_cells = [&](int n_trn_cells) {  // a whole number of cells, but for rounding
     return static_cast<int>(std::ceil(n_trn_cells * trn.cell_size / cell_size - 1e-9));
   };
+  const double along_trn = trn.cell_size / cell_size;
+  const double n = along_trn * (trn.n_rows - 1) * along_trn * (trn.n_cols - 1);
+  constexpr double most_cells = 1e8;
+  if (n > most_cells)
+    throw InputError({"", 0, "output.cell_size_m"},
+                     "cells of " + text(cell_size) + " m are " + text(n, 3) +
+                         " cells on this terrain, expected up to " + text(most_cells),
+                     "give a larger cell_size_m");
   return {trn.node0, cell_size, n_cells(trn.n_rows - 1), n_cells(trn.n_cols - 1)};
 }
 

@@ -81,7 +81,7 @@ struct PassageRecorder {
 };
 
 /// The grid of the TRN's own cells, or of cells of `cell_size` from the same north-west corner that
-/// covers it (NaN: the TRN's).
+/// covers it (NaN: the TRN's). Throws InputError for more than 1e8 cells.
 [[nodiscard]] PassageGrid passage_grid(const Trn& trn, double cell_size);
 
 /// Empty table; the blocks' start is their first passage.

@@ -27,6 +27,24 @@ says '--settle moves blocks apart'
 expect 0 dda -o run.h5 --settle
 says 'moved apart, by 0.015 m at most'
 
+# one upon the other by 0.03 m and by 3 mm on the flat: the lower one stays, the upper one rises
+for gap in 0.97 0.997; do
+  cat >stack.toml <<END
+[blocks.a]
+shape = "box"
+size_m = [1, 1, 1]
+position_m = [[500120, 5000030]]
+[blocks.b]
+shape = "box"
+size_m = [1, 1, 1]
+position_m = [[500120, 5000030]]
+height_above_ground_m = $gap
+END
+  talus-blocks stack.toml --trn slope.tif -o stack.h5 -q --no-db --overwrite
+  expect 0 talus-dda stack.toml --trn slope.tif --blocks stack.h5 -o stack_run.h5 --no-db --duration-s 0.5 --settle --overwrite
+  says "moved apart, by 0.0"
+done
+
 # far from rock: a warning with the usual range
 expect 0 dda -o light.h5 --settle --set material.rock.density_kg_m3=260
 says 'material.rock.density_kg_m3 is 260 kg/m3; rock has 2000 to 3200 kg/m3'

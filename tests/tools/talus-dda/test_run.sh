@@ -43,11 +43,35 @@ expect 1 run_dda -o run.h5
 says "exists already"
 expect 0 run_dda -o run.h5 --overwrite -q --duration-s 1
 
+# the speed is known without passages; who looks at the summary sees what went wrong
+expect 0 run_dda -o still.h5 --set output.passages=false --duration-s 2
+grep -q "largest speed [1-9]" out || fail "no speed without passages"
+grep -q "unconverged\|left the terrain" out && fail "trouble is said where there is none"
+expect 0 run_dda -o gone.h5 --duration-s 20 --set ground.ground.friction_deg=0
+grep -q "3 left the terrain" out || fail "the summary does not say that blocks left the terrain"
+expect 3 run_dda -o lost.h5 --duration-s 20 --set ground.ground.friction_deg=0 --set solver.max_lost_share=0
+says "hint: take a larger terrain, or give max_lost_share"
+
 # ParaView
 expect 0 run_dda -o x.h5 --xdmf x.xmf -q --duration-s 1
 [ "$(grep -c '<Time Value' x.xmf)" -eq 11 ] || fail "not one grid a frame in x.xmf"
 grep -q 'x.xdmf.h5:/frame_10/points' x.xmf || fail "x.xmf does not name its data"
 [ -s x.xdmf.h5 ] || fail "no data beside x.xmf"
+
+# the data beside it is an output like any other, and so is the checkpoint
+expect 1 run_dda -o q.xdmf.h5 --xdmf q.xmf
+says "q.xdmf.h5: is named for two outputs"
+cp blocks.h5 b.xdmf.h5
+expect 1 talus-dda site.toml --trn slope.tif --blocks b.xdmf.h5 --no-db -o y.h5 --xdmf b.xmf --overwrite
+says "b.xdmf.h5: is both an input and an output"
+rm x.xmf
+expect 1 run_dda -o y.h5 --xdmf x.xmf --duration-s 1e6
+says "x.xdmf.h5: exists already"
+cp blocks.h5 z.h5.part
+expect 1 talus-dda site.toml --trn slope.tif --blocks z.h5.part --no-db -o z.h5 --overwrite --duration-s 0.1
+says "z.h5.part: is both an input and an output"
+cmp blocks.h5 z.h5.part || fail "an input is gone"
+rm z.h5.part
 
 # the plan: printed without a run, and as JSON
 expect 0 run_dda --plan

@@ -40,6 +40,14 @@ TEST(Csv, SaysWhereItIsNoTable) {
   EXPECT_NE(finding_of("a\n\"1\n", "a").find("a quote is not closed"), std::string::npos);
 }
 
+TEST(Csv, MayBeginWithAByteOrderMark) {
+  EXPECT_EQ(parse_csv("\xEF\xBB\xBF"
+                      "a,b\n1,2\n",
+                      "t.csv")
+                .number(0, "a"),
+            1);
+}
+
 TEST(Csv, FillsShortRowsWhereTold) {
   const CsvTable table = parse_csv("a,b\n1\n", "t.csv", true);
   EXPECT_EQ(table.number(0, "a"), 1);

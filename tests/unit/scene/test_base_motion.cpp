@@ -65,6 +65,20 @@ TEST(BaseMotion, OfASiteIsHarmonicAndCoversTheRun) {
   }
 }
 
+TEST(BaseMotion, IsSaidOnceWholeAndWithFewSamples) {
+  talus::Site site;
+  site.base_motion.frequency_hz = 1;
+  EXPECT_THROW((void)talus::base_motion(site, 10), talus::InputError);  // no amplitude
+  site.base_motion.amplitude_m_s2 = 2;
+  EXPECT_NO_THROW((void)talus::base_motion(site, 10));
+  site.base_motion.frequency_hz = 1e6;
+  EXPECT_THROW((void)talus::base_motion(site, 10), talus::InputError);
+  const Csv csv("time_s,ax_m_s2,ay_m_s2,az_m_s2\n0,0,0,0\n50,1,0,0\n");
+  site.base_motion.frequency_hz = 1;
+  site.base_motion.file = csv.path;
+  EXPECT_THROW((void)talus::base_motion(site, 10), talus::InputError);  // both
+}
+
 TEST(BaseMotion, ThatEndsBeforeTheRunIsRefused) {
   const Csv csv("time_s,ax_m_s2,ay_m_s2,az_m_s2\n0,0,0,0\n5,1,0,0\n");
   talus::Site site;

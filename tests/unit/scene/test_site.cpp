@@ -118,6 +118,12 @@ TEST(Site, TheCommandLineOverridesTheFile) {
   EXPECT_EQ(site.solver.law, "paper");
   EXPECT_THROW(talus::override_value(site, "solver.lawn", "paper"), InputError);
   EXPECT_THROW(talus::override_value(site, "joints.J9.dip_deg", "3"), InputError);
+  try {
+    talus::override_value(site, "joints.J22.dip_deg", "3");
+    ADD_FAILURE() << "joints.J22 is known";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.hint(), "did you mean joints.J2?");
+  }
   EXPECT_THROW(talus::override_value(site, "solver.duration_s", "soon"), InputError);
   EXPECT_THROW(talus::override_value(site, "duration_s", "3"), InputError);
   EXPECT_THROW(talus::override_value(site, "source.depth_m", "1\nseed = 3"), InputError);

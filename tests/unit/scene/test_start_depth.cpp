@@ -93,7 +93,7 @@ TEST(StartDepth, OfALiftedBlockIsZero) {
     BlockSet set = set_of(box(random, {9, 8, 0.2}, {3, 2, 1.5}));
     const double depth = talus::depths_below_ground(trn, set)[0];
     ASSERT_GT(depth, 0);
-    talus::lift_block(set, 0, depth);
+    talus::move_block(set, 0, {0, 0, depth});
     EXPECT_NEAR(talus::depths_below_ground(trn, set)[0], 0, 1e-12);
     EXPECT_NEAR(set.centroid[0].z(), 0.2 + depth, 1e-12);
   }

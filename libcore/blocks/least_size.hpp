@@ -1,0 +1,11 @@
+// libcore/blocks/least_size.hpp
+// The smallest blocks that are made and moved.
+#pragma once
+
+namespace talus {
+
+/// Volume of a cube of 1 mm [m3]. Positions are kept, and overlaps at the start left alone, to that
+/// length: the contacts of smaller blocks are not resolved. Sizes from 1 cm are checked.
+inline constexpr double least_volume = 1e-9;
+
+}  // namespace talus
