@@ -867,14 +867,14 @@ void warn_of(Tool& tool, const FenceCase& fence, std::size_t i, const FenceResul
 }
 
 std::vector<std::pair<std::string, std::string>> output_tags(Tool& tool, const RunInputs& inputs,
-                                                             const FenceRuns& runs) {
+                                                             const FenceRuns& runs,
+                                                             const std::string& remark) {
   auto tags = tags_of(runs.with.members);
   tags.insert(tags.begin(), {{"RUN_ID", tool.run_id()}, {"RUN_SET", inputs.run_set()}});
   if (runs.without.n() > 0)
     for (const auto& [name, value] : tags_of(runs.without.members))
       if (name == "N_RUNS" || name == "DENOMINATOR" || name == "HEALTH")
         tags.emplace_back(name + "_WITHOUT", value);
-  const std::string remark = inputs.remark();
   if (!remark.empty()) tags.emplace_back("REMARK", remark);
   return tags;
 }
@@ -903,7 +903,7 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& inpu
   }
   inputs.warn_of_ends();
   const std::string remark = inputs.remark();
-  const auto tags = output_tags(tool, inputs, runs);
+  const auto tags = output_tags(tool, inputs, runs, remark);
   if (!o.change.empty()) {
     const MapLayer layer = change_layer(runs.ground_with, runs.ground_without, runs.grid.cell_size);
     write_map(tool, map_frame(trn, runs.grid, true, layer.cell), o.change, layer,

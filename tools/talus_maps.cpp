@@ -46,7 +46,7 @@ void declare(Tool& tool, Options& o) {
   tool.flag("--png", o.png, "a picture of each map over hillshade beside it");
   tool.option("--memory-mb", o.memory_mb,
               "for rows of passages [MB]; more of them are taken in several readings of the runs")
-      ->check(talus::number_between(1, 1e7));
+      ->check(talus::number_between(1e-3, 1e7));
   tool.option("--co", o.creation_options, "creation option of the COGs, NAME=VALUE")
       ->check(talus::check_creation_option);
   tool.footer("Example:\n  talus-maps run_1.h5 run_2.h5 --trn slope.tif -o maps --png");

@@ -43,7 +43,9 @@ refuses "gives 5.12e+08 samples, expected up to 1e+07" --set base_motion.frequen
 
 # what is said of settings that do not go together
 refuses "give [solver] normal_stiffness_n_m" --law paper --duration-s 1
+fault=2
 refuses "did you mean ground.ground?" --set ground.grund.cor=1
+fault=1
 refuses "a harmonic motion has no amplitude" --set base_motion.frequency_hz=2
 
 # base motion

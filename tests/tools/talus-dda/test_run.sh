@@ -62,13 +62,13 @@ grep -q 'x.xdmf.h5:/frame_10/points' x.xmf || fail "x.xmf does not name its data
 expect 1 run_dda -o q.xdmf.h5 --xdmf q.xmf
 says "q.xdmf.h5: is named for two outputs"
 cp blocks.h5 b.xdmf.h5
-expect 1 talus-dda site.toml --trn slope.tif --blocks b.xdmf.h5 --no-db -o y.h5 --xdmf b.xmf --overwrite
+expect 2 talus-dda site.toml --trn slope.tif --blocks b.xdmf.h5 --no-db -o y.h5 --xdmf b.xmf --overwrite
 says "b.xdmf.h5: is both an input and an output"
 rm x.xmf
 expect 1 run_dda -o y.h5 --xdmf x.xmf --duration-s 1e6
 says "x.xdmf.h5: exists already"
 cp blocks.h5 z.h5.part
-expect 1 talus-dda site.toml --trn slope.tif --blocks z.h5.part --no-db -o z.h5 --overwrite --duration-s 0.1
+expect 2 talus-dda site.toml --trn slope.tif --blocks z.h5.part --no-db -o z.h5 --overwrite --duration-s 0.1
 says "z.h5.part: is both an input and an output"
 cmp blocks.h5 z.h5.part || fail "an input is gone"
 rm z.h5.part
