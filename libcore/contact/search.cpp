@@ -14,9 +14,11 @@ namespace {
 
 using std::size_t;
 
-// A block's face and a ridge count as parallel below this sine; ten times what ground_flags calls
-// flat.
-constexpr double nearly_parallel = 1e-3;
+// Bounds of the sine below which a block's face and a ridge count as parallel: the margin over the
+// block's radius, by which a face that rests on a ridge may be pressed in farther at one end than
+// at the other. The lower one is ten times what ground_flags calls flat.
+constexpr double least_parallel = 1e-3;
+constexpr double most_parallel = 0.03;
 constexpr double doubtful = 0.1;    // of the deepest overlap: deeper features are looked into
 constexpr double explained = 2;     // of its depth: so near to another overlap it is part of that
 constexpr double same_wall = 1e-9;  // of the block's size: a node on a wall belongs to both parts
@@ -112,10 +114,11 @@ struct FeatureSearch {
   int b;
   const Pose& pose;
   double margin;
-  Mat3 to_local;      // body to local axes
-  Vec3 low, high;     // box of the block, local axes
-  int n_put_off = 0;  // deep overlaps that another feature may explain better
-  int n_sure = -1;    // second search, for these: the contacts found in the first
+  double nearly_parallel;  // sine
+  Mat3 to_local;           // body to local axes
+  Vec3 low, high;          // box of the block, local axes
+  int n_put_off = 0;       // deep overlaps that another feature may explain better
+  int n_sure = -1;         // second search, for these: the contacts found in the first
 
   [[nodiscard]] Vec3 to_body(const Vec3& x) const {
     return to_local.transpose() * (x - pose.position);
@@ -216,7 +219,8 @@ EnteredFace entered_face(const FeatureSearch& s, int p, int row, int col, const 
   for (const EnteredFace& entered : {nearest, beneath}) {
     if (entered.face < 0) continue;
     const Vec3 outward = s.to_local * s.shapes.faces[static_cast<size_t>(entered.face)].normal;
-    if (vertex_may_enter(node_point(trn, row, col), ring, outward, 1e-12 * trn.cell_size))
+    if (vertex_may_enter(node_point(trn, row, col), ring, outward,
+                         s.nearly_parallel * trn.cell_size))
       return entered;
   }
   return {};
@@ -272,7 +276,7 @@ void find_mode_3(FeatureSearch& s, int row, int col, EdgeKind kind,
   const std::span<const Vec3> body = vertices_of(s.shapes, s.b);
   const std::span<const ShapeEdge> edges = edges_of(s.shapes, s.b);
   for (size_t i = 0; i < edges.size(); ++i) {
-    if (!edges_may_touch(edges[i].arc, ridge, nearly_parallel)) continue;
+    if (!edges_may_touch(edges[i].arc, ridge, s.nearly_parallel)) continue;
     const Vec3& P = body[static_cast<size_t>(edges[i].a)];
     const Vec3 e = body[static_cast<size_t>(edges[i].b)] - P;
     LinePair at = nearest_on_lines(P, e, Q, f);
@@ -366,7 +370,9 @@ SearchResult find_contacts(const Ground& ground, const Shapes& shapes, int b, co
   const bool all_on_grid =
       contains(ground.trn, low.x(), low.y()) && contains(ground.trn, high.x(), high.y());
   find_mode_1(ground, shapes, b, near.ground.high, margin, all_on_grid, vertices, contacts);
-  FeatureSearch search{ground, shapes, b, pose, margin, R, low, high};
+  const double nearly_parallel =
+      std::clamp(margin / shapes.radius[static_cast<size_t>(b)], least_parallel, most_parallel);
+  FeatureSearch search{ground, shapes, b, pose, margin, nearly_parallel, R, low, high};
   find_features(search, near.cells, contacts);
   if (search.n_put_off > 0) {
     search.n_sure = static_cast<int>(contacts.size());

@@ -63,8 +63,11 @@ void AdvanceIsland::add_member(size_t k, double h) {
                          s.R * c.per_inertia.asDiagonal() * s.R.transpose()};
   Vec6 free, guess;
   free << s.free.velocity, turn.spin_end;
-  guess << s.start.velocity + h * state.acceleration[block(k)],
-      turn.spin_start + h * (s.R * state.spin_rate[block(k)]);
+  if (state.acceleration[block(k)] == scene.gravity)  // nothing pressed it
+    guess = free;
+  else
+    guess << s.start.velocity + h * state.acceleration[block(k)],
+        turn.spin_start + h * (s.R * state.spin_rate[block(k)]);
   w.turns.push_back(turn);
   Mat6 M = Mat6::Zero();
   M.topLeftCorner<3, 3>().diagonal().setConstant(c.mass);

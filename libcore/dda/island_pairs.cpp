@@ -212,19 +212,15 @@ void put_island_to_sleep(const Scene& scene, int k, State& state, const Work& wo
   const std::span<const int> blocks(
       groups.blocks.data() + groups.block_begin[at],
       static_cast<size_t>(groups.block_begin[at + 1] - groups.block_begin[at]));
-  bool rests = true;
   int steps = steps_before_sleep;
   for (const int b : blocks) {
-    const auto i = static_cast<size_t>(b);
     if (!takes_part(state, b)) continue;
-    rests = rests && stands_still(scene, state, i);
-    steps = std::min(steps, ++state.still_steps[i]);
+    watch_rest(scene, static_cast<size_t>(b), state);
+    steps = std::min(steps, state.still_steps[static_cast<size_t>(b)]);
   }
-  for (const int b : blocks) {
-    const auto i = static_cast<size_t>(b);
-    if (!rests) state.still_steps[i] = 0;
-    if (rests && steps >= steps_before_sleep && takes_part(state, b)) fall_asleep(state, i);
-  }
+  if (steps < steps_before_sleep) return;
+  for (const int b : blocks)
+    if (takes_part(state, b)) fall_asleep(scene, static_cast<size_t>(b), state);
 }
 
 }  // namespace talus

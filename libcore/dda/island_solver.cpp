@@ -30,7 +30,8 @@ struct Solve {
   double best_residual = std::numeric_limits<double>::infinity();
   bool direct = false;
   bool tracking = true;
-  int n_linear = 0;  // linear solutions by conjugate gradients
+  bool inherits = false;  // a row comes with a state: the first evaluation is not the law's
+  int n_linear = 0;       // linear solutions by conjugate gradients
 
   // Packs the rows, and sets the tolerance above the rounding of the stiffest impulse.
   void prepare() {
@@ -46,6 +47,7 @@ struct Solve {
       const double free_speed = island.free_velocity[static_cast<size_t>(pair.a)].head<3>().norm();
       for (int r = pair.row_begin; r < pair.row_end; ++r) {
         const IslandRow& row = island.rows[static_cast<size_t>(r)];
+        inherits |= row.state != ContactState::open;
         const double stiffness =
             std::min(std::max(row.normal_damping, row.shear_damping), work.limit[p]);
         work.stiffness_ratio = std::max(work.stiffness_ratio, stiffness / mass);
@@ -187,7 +189,7 @@ struct Solve {
   bool solve_coupled(int max_passes) {
     const double at_start =
         evaluate(settings.continues ? Evaluation::coupled : Evaluation::inherited);
-    if (settings.continues && at_start <= tolerance) return true;
+    if ((settings.continues || !inherits) && at_start <= tolerance) return true;
     for (int steps = 0; result.passes < max_passes; ++steps) {
       const double residual = advance(steps >= free_steps);
       if (residual <= tolerance) return true;

@@ -59,12 +59,13 @@ struct IslandWork {
 /// Solves the island: sets velocity, impulse and state of the rows.
 ///
 /// The first step keeps the inherited states and bounds friction by the last step's normal
-/// impulses. Steps follow with the law at the iterate, from the fourth on with a
-/// line search: with the exact derivative where the matrix is factored, with a symmetric one for
-/// conjugate gradients, which move only the bodies that have not settled and their neighbours.
-/// Where that has not settled after a third of `max_passes`, the island is solved with softer
-/// contacts first and then with ever stiffer ones. At last the velocities are made those that the
-/// impulses give, so that momentum and angular momentum are kept to rounding.
+/// impulses; where none is inherited and the first guess is right, there is no step. Steps follow
+/// with the law at the iterate, from the fourth on with a line search: with the exact derivative
+/// where the matrix is factored, with a symmetric one for conjugate gradients, which move only the
+/// bodies that have not settled and their neighbours. Where that has not settled after a third of
+/// `max_passes`, the island is solved with softer contacts first and then with ever stiffer ones.
+/// At last the velocities are made those that the impulses give, so that momentum and angular
+/// momentum are kept to rounding.
 ///
 /// Not finite input, or no convergence: `converged` is false and the velocities are those of the
 /// smallest residual found.

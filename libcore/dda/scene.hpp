@@ -36,7 +36,7 @@ struct Settings {
   bool flight = true;           ///< law talus: no search while nothing can be hit; same motion
   bool block_contacts = true;   ///< blocks touch each other; off, each moves as if alone
   bool trn_contacts = true;  ///< law talus: blocks touch the TRN; off, fixed bodies are the slope
-  bool sleep = true;         ///< law talus: blocks that stick and stand still are left out
+  bool sleep = true;         ///< law talus: blocks at rest are left out
 };
 
 /// A force on a material point of a block, constant in local axes.

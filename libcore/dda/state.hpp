@@ -17,7 +17,7 @@ namespace talus {
 enum class Phase : std::uint8_t {
   near_ground,  ///< contact is searched in every step
   flight,       ///< free until flight_end; its motion below is that at `local_time`
-  asleep,       ///< sticks and stands still
+  asleep,       ///< at rest
   left_domain,  ///< left the known terrain: stopped where it left, and counted
   stopped,      ///< its numbers failed: stopped at its last good state, and flagged
 };
@@ -61,7 +61,8 @@ struct State {  // clang-format off
   std::vector<Vec3> acceleration;           ///< of the last step, by contact too [m/s2]  (n_blocks)
   std::vector<Vec3> spin_rate;              ///< angular acceleration, body axes [rad/s2] (n_blocks)
   std::vector<Vec3> rebound;                ///< law paper: v_a of the hit under way, (28) [m/s] (n_blocks)
-  std::vector<int> still_steps;             ///< steps in a row at rest              (n_blocks)
+  std::vector<Pose> still_pose;             ///< that a block has stayed near        (n_blocks)
+  std::vector<int> still_steps;             ///< for so many steps                   (n_blocks)
   std::vector<Vec6> strain;                 ///< body axes; empty for rigid blocks [-]    (n_blocks)
   std::vector<Vec6> strain_rate;            ///< body axes; empty for rigid blocks [1/s]  (n_blocks)
   std::vector<std::vector<ContactMemory>> memory;  ///< contacts of block b with the ground and

@@ -34,11 +34,11 @@ Vec3 base_impulse(const AccelerationRecord& base, double from, double to) {
   return sum;
 }
 
-// A block that sticks with all its contacts and stands still is left out until something wakes it.
+// A block that something bears and that stays in place is left out until something wakes it.
 void put_to_sleep(const Scene& scene, size_t b, State& state) {
-  const bool rests = !state.memory[b].empty() && stands_still(scene, state, b);
-  state.still_steps[b] = rests ? state.still_steps[b] + 1 : 0;
-  if (state.still_steps[b] >= steps_before_sleep) fall_asleep(state, b);
+  watch_rest(scene, b, state);
+  if (state.still_steps[b] >= steps_before_sleep && !state.memory[b].empty())
+    fall_asleep(scene, b, state);
 }
 
 bool does_not_move(Phase phase) {
@@ -73,6 +73,7 @@ State start(const Scene& scene) {
   state.phase.assign(n, Phase::near_ground);
   state.acceleration.assign(n, Vec3::Zero());
   state.spin_rate.assign(n, Vec3::Zero());
+  state.still_pose = scene.blocks.rest;
   state.still_steps.assign(n, 0);
   state.rebound.assign(n, Vec3::Zero());
   state.memory.resize(n);
@@ -136,7 +137,7 @@ void advance_talus(const Scene& scene, State& state, Work& work, StepReport& rep
     const Motion before = state.motion[i];
     advance_block_talus(scene, b, t_end, state, work, report);
     if (!is_finite(state.motion[i])) stop_at(before, i, state, report);
-    if (may_sleep && state.phase[i] == Phase::near_ground) put_to_sleep(scene, i, state);
+    if (may_sleep && !does_not_move(state.phase[i])) put_to_sleep(scene, i, state);
   }
 }
 

@@ -153,6 +153,7 @@ BondLoad& AdvanceIsland::load_of(const IslandContact& contact) {
 void AdvanceIsland::remember(double h) {
   const double relax = offset_relaxed(scene.gravity.norm(), h);
   for (const int b : w.members) state.memory[static_cast<size_t>(b)].clear();
+  w.pressed.assign(w.members.size(), 0);
   for (size_t r = 0; r < w.contacts.size(); ++r) {
     const IslandContact& contact = w.contacts[r];
     const IslandRow& solved = w.island.rows[r];
@@ -163,6 +164,8 @@ void AdvanceIsland::remember(double h) {
     note_overlap(report, overlap,
                  contact.b < 0 ? thickness : std::min(thickness, numbers(contact.b).thickness));
     if (contact.waits || solved.state == ContactState::open) continue;
+    for (const int b : {contact.a, contact.b})
+      if (b >= 0) w.pressed[place(b)] = 1;
     account(r, h);
     ++report.n_closed;
     report.sum_penetration += std::max(overlap, 0.0);
@@ -225,7 +228,10 @@ void AdvanceIsland::finish(double t, double h) {
     const Substep& s = w.substeps[k];
     const Motion end = end_of(k);
     add_path(k, end, t, h);
-    set_rates(w.members[k], w.numbers[k], s, end, state);
+    if (w.pressed[k])
+      set_rates(w.members[k], w.numbers[k], s, end, state);
+    else
+      forget_rates(w.members[k]);
     const Vec3 external = s.free_acceleration - scene.gravity;
     if (!external.isZero(0))
       state.ledger.base +=
@@ -241,7 +247,7 @@ void AdvanceIsland::finish(double t, double h) {
   report.shortest_dt = report.shortest_dt > 0 ? std::min(report.shortest_dt, h) : h;
 }
 
-// After a hit the last accelerations say nothing about the next.
+// After a hit the last accelerations say nothing about the next, and what nothing presses falls.
 void AdvanceIsland::forget_rates(int b) {
   if (b < 0) return;
   state.acceleration[static_cast<size_t>(b)] = scene.gravity;

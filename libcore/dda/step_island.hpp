@@ -23,7 +23,7 @@ void form_islands(const Scene& scene, State& state, Work& work);
 void advance_island(const Scene& scene, int k, double t_end, State& state, Work& work,
                     StepReport& report);
 
-/// Puts the blocks of island `k` to sleep when all stick and have stood still long enough.
+/// Puts the blocks of island `k` to sleep when all have stayed in place long enough.
 void put_island_to_sleep(const Scene& scene, int k, State& state, const Work& work);
 
 }  // namespace talus

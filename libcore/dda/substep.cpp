@@ -292,19 +292,28 @@ void end_flight(const Scene& scene, int b, double t, State& state, Work& work) {
   state.phase[i] = Phase::near_ground;
 }
 
-bool stands_still(const Scene& scene, const State& state, size_t b) {
-  constexpr double still = 1e-6;  // [m/s]
-  const Motion& m = state.motion[b];
-  const auto sticks = [](const ContactMemory& c) {
-    return c.state == static_cast<std::uint8_t>(ContactState::stick);
-  };
-  if (!std::all_of(state.memory[b].begin(), state.memory[b].end(), sticks)) return false;
-  const double spin = m.angular_momentum.norm() / scene.blocks.inertia[b].minCoeff();
-  return m.velocity.norm() + spin * scene.blocks.shapes.radius[b] < still;
+void watch_rest(const Scene& scene, size_t b, State& state) {
+  constexpr double part_of_thickness = 1e-3;
+  const Pose &now = state.motion[b].pose, &then = state.still_pose[b];
+  const double dt = scene.settings.dt;
+  const double resolved = std::min(scene.gravity.norm() * dt * dt,
+                                   part_of_thickness * scene.blocks.shapes.thickness[b]);
+  const double turn = 2 * (now.attitude.coeffs() - then.attitude.coeffs()).norm();
+  const double way = (now.position - then.position).norm() + turn * scene.blocks.shapes.radius[b];
+  ++state.still_steps[b];
+  if (way <= resolved) return;
+  state.still_pose[b] = now;
+  state.still_steps[b] = 0;
 }
 
-void fall_asleep(State& state, size_t b) {
+double kinetic_energy(const Scene& scene, size_t b, const Motion& m) {
+  const Vec3 spin = angular_velocity(m.pose.attitude, m.angular_momentum, scene.blocks.inertia[b]);
+  return 0.5 * scene.blocks.mass[b] * m.velocity.squaredNorm() + 0.5 * spin.dot(m.angular_momentum);
+}
+
+void fall_asleep(const Scene& scene, size_t b, State& state) {
   state.phase[b] = Phase::asleep;
+  state.ledger.contact += kinetic_energy(scene, b, state.motion[b]);
   state.motion[b].velocity.setZero();
   state.motion[b].angular_momentum.setZero();
 }
@@ -316,9 +325,7 @@ bool left_ground(const Scene& scene, const Vec3& x) {
 void stop_outside(const Scene& scene, int b, State& state, StepReport& report) {
   const auto i = static_cast<size_t>(b);
   Motion& m = state.motion[i];
-  const Vec3 spin = angular_velocity(m.pose.attitude, m.angular_momentum, scene.blocks.inertia[i]);
-  state.ledger.removed +=
-      0.5 * scene.blocks.mass[i] * m.velocity.squaredNorm() + 0.5 * spin.dot(m.angular_momentum);
+  state.ledger.removed += kinetic_energy(scene, i, m);
   m.velocity.setZero();
   m.angular_momentum.setZero();
   state.phase[i] = Phase::left_domain;

@@ -83,12 +83,16 @@ void end_flight(const Scene& scene, int b, double t, State& state, Work& work);
   return std::min(0.3, 0.25 * gravity * h) * h;
 }
 
-/// Steps that a block, or all of an island, must rest before it is left out.
-inline constexpr int steps_before_sleep = 100;
-/// Whether no point of block b moves and all its contacts stick. Without contacts it does not rest
-/// alone, but may in an island.
-[[nodiscard]] bool stands_still(const Scene& scene, const State& state, std::size_t b);
-void fall_asleep(State& state, std::size_t b);
+/// Steps that a block, or all of an island, must stay in place before it is left out.
+inline constexpr int steps_before_sleep = 200;
+/// Counts the steps for which no point of block b has gone farther than contacts resolve: g dt^2,
+/// by which its weight presses a block of an island in, or a thousandth of its thickness.
+void watch_rest(const Scene& scene, std::size_t b, State& state);
+/// Block b is left out until something wakes it; what it still moved by is booked as lost in
+/// contacts.
+void fall_asleep(const Scene& scene, std::size_t b, State& state);
+/// Kinetic energy of block b in motion `m` [J].
+[[nodiscard]] double kinetic_energy(const Scene& scene, std::size_t b, const Motion& m);
 
 [[nodiscard]] bool left_ground(const Scene& scene, const Vec3& x);
 

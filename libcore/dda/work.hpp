@@ -129,6 +129,7 @@ struct IslandStepWork {  // clang-format off
   std::vector<double> weight, time;         ///< impulses expected [N s]; mean time of theirs [s] (n_members)
   std::vector<double> last_time;            ///< `time` before it was set last [s]       (n_members)
   std::vector<Vec6> displacement;           ///< by contact over the substep             (n_members)
+  std::vector<std::uint8_t> pressed;        ///< 1: by a contact, in the substep         (n_members)
 };  // clang-format on
 
 /// The block's part of Eq. (3) without contacts, in local axes: law paper.

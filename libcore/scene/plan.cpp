@@ -134,7 +134,7 @@ ScenePlan make_plan(const PlanFacts& facts, bool full) {
                      full                    ? "the full plan searches in every step"
                      : facts.has_base_motion ? "the base motion bends the paths"
                                              : "bounds of the ground below the path"});
-  plan.sleep = add({"sleep", !full, "blocks that stick and stand still are left out until touched",
+  plan.sleep = add({"sleep", !full, "blocks at rest are left out until touched",
                     full ? "the full plan keeps them in every step" : "found step by step"});
   plan.passages = add({"passages", facts.passages, "one row a block and cell, for maps",
                        facts.passages ? "[output] passages" : "[output] passages is false"});

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "bent_body.hpp"
@@ -52,6 +54,61 @@ TEST(FindContacts, APeakBeyondTheWallBetweenTwoPartsIsNotInsideThePart) {
 TEST(FindContacts, APeakUnderTheWallTouchesTheBody) {
   const Pose pose{Vec3(0, 0, -1e-3), Quat::Identity()};
   EXPECT_NEAR(depth_below_ground(peak(0, 0), bent_shapes(), 0, pose), 1e-3, 1e-12);
+}
+
+// A crest of height 0 along y = 0 from x = -end to x = end, over ground far below.
+Ground crest(double end) {
+  Trn trn;
+  trn.n_rows = trn.n_cols = 9;
+  trn.cell_size = 0.5;
+  trn.node0 = Vec2(-2, 2);
+  trn.elevation.assign(81, -9.0);
+  for (int col = 0; col < 9; ++col)
+    if (std::abs(-2 + 0.5 * col) <= end) trn.elevation[4 * 9 + static_cast<std::size_t>(col)] = 0;
+  return make_ground(trn, {});
+}
+
+// Places along x at which a box, pressed into the crest and tilted along it, is touched in `mode`.
+std::vector<double> touched_at(const Ground& ground, double half_length, double tilt, double depth,
+                               double margin, ContactMode mode) {
+  const Polyhedron body = box(Vec3(-half_length, -1, 0), Vec3(half_length, 1, 1));
+  Shapes shapes;
+  add_shape(shapes, std::span(&body, 1), body, Vec3::Zero(), Mat3::Identity(), face_internal);
+  const Pose pose{Vec3(0, 0, -depth), Quat(Eigen::AngleAxisd(tilt, Vec3::UnitY()))};
+  std::vector<Vec3> vertices;
+  std::vector<Contact> contacts;
+  find_contacts(ground, shapes, 0, pose, Mat3::Identity(), margin, vertices, contacts);
+  std::vector<double> places;
+  for (const Contact& c : contacts)
+    if (c.key.mode == mode) places.push_back(c.point_b.x());
+  std::ranges::sort(places);
+  return places;
+}
+
+// A face on a crest is never parallel to it by rounding. It rests on both ends, whichever is the
+// deeper one: else the two take turns from step to step and the body sinks in.
+TEST(FindContacts, AFaceRestsOnBothEndsOfACrest) {
+  const Ground ground = crest(1);
+  for (const double tilt : {-4e-4, 0.0, 4e-4}) {
+    const std::vector<double> places =
+        touched_at(ground, 1.5, tilt, 2e-3, 1e-2, ContactMode::face_vertex);
+    ASSERT_EQ(places.size(), 2U) << tilt;
+    EXPECT_NEAR(places[0], -1, 1e-12);
+    EXPECT_NEAR(places[1], 1, 1e-12);
+  }
+}
+
+// A long crest bears a shorter face through two edges of the block, also when its overlap is larger
+// at one of them: at large steps that is what tilts the face.
+TEST(FindContacts, AFaceRestsOnALongCrestByItsEdges) {
+  const Ground ground = crest(2);
+  for (const double tilt : {-3e-3, 0.0, 3e-3}) {
+    const std::vector<double> places =
+        touched_at(ground, 0.8, tilt, 6e-3, 8e-3, ContactMode::edge_edge);
+    ASSERT_EQ(places.size(), 2U) << tilt;
+    EXPECT_NEAR(places[0], -0.8, 1e-3);
+    EXPECT_NEAR(places[1], 0.8, 1e-3);
+  }
 }
 
 // A box leans with one face on the flank of a fin whose crest it overlaps by 5 cm. The edges of its

@@ -345,6 +345,25 @@ TEST(SolveIsland, NeverHidesWhatItCannotSolve) {
   EXPECT_TRUE(solve_island(island, IslandSettings{.tolerance = 1e-9}, work).converged);
 }
 
+// Two bodies that fall side by side, a centimetre apart: the free motion is the solution, and
+// neither evaluated twice nor factored.
+TEST(SolveIsland, TakesTheFreeMotionOfBodiesThatDoNotTouch) {
+  const LawOfScene law;
+  Island island;
+  const int a = talus::scenes::add_box({Vec3(0, 0, 5), Vec3(1, 1, 1)}, law, island);
+  const int b = talus::scenes::add_box({Vec3(2.01, 0, 5), Vec3(1, 1, 1)}, law, island);
+  talus::scenes::add_contacts(a, b, -Vec3::UnitX(), {Vec3(1, 0, 5)}, -0.01, law, island);
+  island.velocity = island.free_velocity;
+  IslandWork work;
+  const IslandResult result = solve_island(island, IslandSettings{.tolerance = 1e-12}, work);
+  EXPECT_TRUE(result.converged);
+  EXPECT_EQ(result.passes, 1);
+  EXPECT_EQ(result.factorisations, 0);
+  for (const int body : {a, b})
+    EXPECT_EQ(island.velocity[static_cast<std::size_t>(body)],
+              island.free_velocity[static_cast<std::size_t>(body)]);
+}
+
 TEST(SolveIsland, GivesTheSameBitsWithNewAndUsedScratch) {
   talus::Random random(71, "bits");
   const LawOfScene law;

@@ -10,6 +10,7 @@
 #include "dda/flight.hpp"
 #include "dda/rotation.hpp"
 #include "dda/step.hpp"
+#include "dda/substep.hpp"
 #include "unit/contact/depth_below_ground.hpp"
 #include "verify/cases.hpp"
 #include "verify/closed_form.hpp"
@@ -300,9 +301,9 @@ TEST(Step, TheFullPlanAgrees) {
 
 // What is left out of a bouncing block's path, the search while nothing can be hit, changes no bit.
 TEST(Step, SearchedFlightsAreTheSameToTheBit) {
-  Settings searched;
-  searched.flight = searched.sleep = false;
-  const Scene a = rough_scene({}), b = rough_scene(searched);
+  Settings planned, searched;
+  planned.sleep = searched.sleep = searched.flight = false;
+  const Scene a = rough_scene(planned), b = rough_scene(searched);
   State sa = start(a), sb = start(b);
   Work wa = make_work(a), wb = make_work(b);
   for (int i = 0; i < 2000; ++i) step(a, sa, wa), step(b, sb, wb);
@@ -384,6 +385,51 @@ TEST(Step, SleepingBlockStaysWhereItWouldStayAwake) {
     end[sleep] = state.motion[0].pose.position;
   }
   EXPECT_LT((end[0] - end[1]).norm(), 1e-12);
+}
+
+Scene cube_at_rest(const Settings& settings) {
+  const Body cube = body_of(box(Vec3(-0.5, -0.5, 0), Vec3(0.5, 0.5, 1)));
+  return scene_of(plane_trn(slope_frame(0, 0), 0.5, 10), ground_of(30), {cube}, settings);
+}
+
+// 1 m thick, 5 ms: it stays while no point goes farther than g dt^2 = 0.25 mm.
+TEST(WatchRest, CountsStepsWithinWhatContactsResolve) {
+  const Scene scene = cube_at_rest({});
+  State state = start(scene);
+  Pose& pose = state.motion[0].pose;
+  const Pose from = pose;
+  for (int i = 0; i < 10; ++i) {
+    pose.position.x() = from.position.x() + (i % 2 == 0 ? 2.4e-4 : -2.4e-4);
+    watch_rest(scene, 0, state);
+  }
+  EXPECT_EQ(state.still_steps[0], 10);
+  for (int i = 0; i < 10; ++i) {  // what creeps on in one direction does not stay
+    pose.position.x() = from.position.x() + 1e-4 * i;
+    watch_rest(scene, 0, state);
+    EXPECT_LT(state.still_steps[0], 14);
+  }
+  state.still_steps[0] = 5;
+  pose.attitude = rotation_by(Vec3(0, 0, 4e-4)) * pose.attitude;  // corners are 0.87 m off
+  watch_rest(scene, 0, state);
+  EXPECT_EQ(state.still_steps[0], 0);
+}
+
+// A block that something shakes by micrometres for good is at rest; what it still moves by is lost,
+// and said to be.
+TEST(Step, BlockThatIsShakenByMicrometresFallsAsleep) {
+  const Scene scene = cube_at_rest({});
+  State state = start(scene);
+  Work work = make_work(scene);
+  for (int i = 0; i <= steps_before_sleep && state.phase[0] != Phase::asleep; ++i) {
+    state.motion[0].velocity.x() += i % 2 == 0 ? 1e-3 : -1e-3;
+    step(scene, state, work);
+  }
+  EXPECT_EQ(state.phase[0], Phase::asleep);
+  EXPECT_EQ(state.motion[0].velocity.norm(), 0);
+  State moving = start(scene);
+  moving.motion[0].velocity = Vec3(0, 2, 0);
+  fall_asleep(scene, 0, moving);
+  EXPECT_NEAR(moving.ledger.contact, 2 * scene.blocks.mass[0], 1e-9 * scene.blocks.mass[0]);
 }
 
 // A push on the centroid equal to the weight on a frictionless plane: a = F / m.
