@@ -2,7 +2,7 @@
 // What fences would meet and what becomes of each block at them.
 // in:    crossings of the fences' lines, recorded where nothing stops the blocks, or with the fence
 //        standing, then with what touched its panels; the terrain
-// out:   one verdict a block, statistics of each field and post, storage behind the fence
+// out:   one verdict a block, storage behind the fence
 // Definitions: docs/formats.md#fence
 #pragma once
 
@@ -72,8 +72,9 @@ struct FenceArrival {
   [[nodiscard]] double energy() const { return translation + rotation; }
 };
 
-/// Resamples of the runs for a bound at a fence.
-inline constexpr int fence_resamples = 400;
+/// Where an arrival is drawn: on the line, at the height of its centroid, or by touch half way up
+/// the block, local [m]. Beyond an end the line goes on straight.
+[[nodiscard]] Vec3 place_of(const FenceArrival& arrival, const Fence& fence);
 
 /// All crossings of one line of a run, by block. `run` is what the arrivals carry.
 [[nodiscard]] std::vector<FenceArrival> line_crossings(const RunFile& file, int line,
@@ -126,34 +127,6 @@ struct BlockVerdict {
                                                     const std::vector<FenceArrival>& arrivals,
                                                     const Fence& fence, double free_border,
                                                     bool standing, double contact);
-
-/// A percentile with what bounds it; NaN where the sample gives none: below the least number of
-/// effective arrivals (smallest_sample).
-struct BoundedPercentile {
-  double value = 0, upper = 0;  ///< 95 % upper bound
-};
-/// Of one quantity over arrivals: the largest value, and percentiles 50, 90, 95, 99.
-struct QuantitySummary {
-  double largest = 0;
-  std::array<BoundedPercentile, 4> percentile{};
-};
-
-struct FencePartSummary {
-  int n = 0;                            ///< arrivals over all runs
-  double per_run = 0;                   ///< arrivals a run
-  double n_eff = 0;                     ///< Kish's effective number of arrivals [-]
-  QuantitySummary energy, translation;  ///< kinetic with spin, without [J]
-  QuantitySummary top, speed;           ///< height of the top above the base [m], [m/s]
-  double mean_angle = 0;                ///< to the normal [rad]
-  int most_in_a_run = 0;                ///< hits of one run: the multi-hit check
-  double runs_hit_twice = 0;            ///< share of runs with two hits or more
-  double window_energy = 0;             ///< largest sum of energies within one second, any run [J]
-  int window_hits = 0;                  ///< of that second
-};
-/// `n_runs`: all of them, also those without an arrival. Bounds by ranks when no run has two
-/// arrivals here, else by the bootstrap over runs (seeded).
-[[nodiscard]] FencePartSummary summarise(const std::vector<FenceArrival>& arrivals, int n_runs,
-                                         std::uint64_t seed);
 
 /// The side of a fence on which the ground lies higher, at its height from the line: from where
 /// blocks come when none has. +1 left, -1 right.

@@ -169,6 +169,11 @@ double free_border(const DesignCode& code, double mean_block_size) {
   return std::max(factor(code, "f_min_m"), factor(code, "f_min_share_of_block") * mean_block_size);
 }
 
+std::optional<bool> passes(const DesignResult& result) {
+  if (result.verdict == DesignVerdict::energy_unknown) return std::nullopt;
+  return result.verdict == DesignVerdict::meets;
+}
+
 DesignResult check_design(const DesignCode& code, const std::vector<BarrierClass>& classes,
                           const DesignInput& input, const FencePartSummary& part,
                           const Fence& fence) {

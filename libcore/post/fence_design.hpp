@@ -7,11 +7,12 @@
 
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/csv.hpp"
-#include "post/fence.hpp"
+#include "post/fence_summary.hpp"
 
 namespace talus {
 
@@ -70,6 +71,9 @@ struct DesignResult {
   double required_distance = 0, distance_use = 0;
   std::string governs;  ///< "energy", "height" or "distance"; empty while the energy is unknown
 };
+/// Empty: nothing fails, but the energy could not be checked.
+[[nodiscard]] std::optional<bool> passes(const DesignResult& result);
+
 /// When there are too few arrivals the largest values stand in for the percentiles, and the verdict
 /// says so.
 [[nodiscard]] DesignResult check_design(const DesignCode& code,

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
+#include <span>
 
 #include "base/error.hpp"
-#include "base/text.hpp"
+#include "post/share_interval.hpp"
 #include "post/statistics.hpp"
 
 namespace talus {
@@ -48,49 +50,6 @@ const QuantityText& text_of(MapQuantity quantity) {
 
 std::span<const MapRow> rows_of(const CellRows& cells, std::size_t i) {
   return std::span(cells.rows).subspan(cells.begin[i], cells.begin[i + 1] - cells.begin[i]);
-}
-
-// The largest values of both; what belongs to the arrival comes from the earlier one.
-void take_earlier(MapRow& row, const MapRow& other) {
-  row.largest.raise(other.largest);
-  if (other.first_time >= row.first_time) return;
-  row.first_time = other.first_time;
-  row.travel_angle = other.travel_angle;
-  row.heading = other.heading;
-}
-
-// Rows of the same block and cell become one.
-void merge_equal_cells(std::vector<MapRow>& rows) {
-  std::stable_sort(rows.begin(), rows.end(), [](const MapRow& a, const MapRow& b) {
-    return a.block != b.block ? a.block < b.block : a.cell < b.cell;
-  });
-  std::size_t n = 0;
-  for (const MapRow& row : rows) {
-    if (n > 0 && rows[n - 1].block == row.block && rows[n - 1].cell == row.cell)
-      take_earlier(rows[n - 1], row);
-    else
-      rows[n++] = row;
-  }
-  rows.resize(n);
-}
-
-MapRow map_row(const Passage& passage, std::uint32_t cell, float weight) {
-  return {cell,
-          0,
-          passage.block,
-          weight,
-          passage.largest,
-          passage.first_time,
-          passage.travel_angle,
-          passage.heading};
-}
-
-std::uint32_t map_cell(const Passage& passage, const PassageGrid& recorded, const MapGrid& map) {
-  if (map.factor == 1) return static_cast<std::uint32_t>(passage.cell);
-  const int row = passage.cell / recorded.n_cols / map.factor;
-  const int col = passage.cell % recorded.n_cols / map.factor;
-  return static_cast<std::uint32_t>(row) * static_cast<std::uint32_t>(map.grid.n_cols) +
-         static_cast<std::uint32_t>(col);
 }
 
 int n_runs(const Released& released) { return static_cast<int>(released.weight.size()); }
@@ -238,40 +197,21 @@ MapLayer empty_quantity_layer(const QuantityText& text, const CellRows& cells) {
   return layer;
 }
 
-// Bounds of the share of released weight that came over a cell: Wilson where every run released a
-// single block, else the bootstrap over runs.
-class ReachBounds {
- public:
-  ReachBounds(const Released& released, const MapSettings& settings)
-      : resamples_(static_cast<int>(released.weight.size()), settings),
-        single_blocks_(std::all_of(released.n_blocks.begin(), released.n_blocks.end(),
-                                   [](int count) { return count <= 1; })),
-        exist_(single_blocks_ ||
-               static_cast<int>(released.weight.size()) >= least_runs_to_resample) {
-    double total_sq = 0;
-    for (const double w : released.weight) total_sq += w * w;
-    n_eff_ = effective_size(sum(released.weight), total_sq);
-    if (exist_ && !single_blocks_) whole_ = resampled_sums(resamples_.get(), released.weight);
-  }
+// What the intervals of reach_probability rest on.
+ShareBasis reach_basis(const Released& released, const MapSettings& settings) {
+  const bool single_blocks = std::all_of(released.n_blocks.begin(), released.n_blocks.end(),
+                                         [](int count) { return count <= 1; });
+  return share_basis(released.weight, single_blocks, settings.n_resamples, settings.seed);
+}
 
-  Interval of(std::span<const MapRow> rows, double share) {
-    if (!exist_) return {none, none};
-    if (single_blocks_) return wilson_interval(share, n_eff_);
-    parts_.clear();
-    for (const MapRow& row : rows) {
-      if (parts_.empty() || parts_.back().run != row.run) parts_.push_back({row.run, 0});
-      parts_.back().weight += row.weight;
-    }
-    return bootstrap_share(parts_, whole_, resamples_.get());
+// Weight of each run that came; `rows` by run.
+void weigh_runs(std::span<const MapRow> rows, std::vector<RunWeight>& parts) {
+  parts.clear();
+  for (const MapRow& row : rows) {
+    if (parts.empty() || parts.back().run != row.run) parts.push_back({row.run, 0});
+    parts.back().weight += row.weight;
   }
-
- private:
-  LazyResamples resamples_;
-  bool single_blocks_, exist_;
-  double n_eff_ = 0;
-  std::vector<double> whole_;  // released weight of each resample
-  std::vector<RunWeight> parts_;
-};
+}
 
 // Width of a cell seen across a heading, in cell sizes; the mean over all directions for a block
 // that stood.
@@ -302,77 +242,6 @@ std::vector<MapBand> empty_reach_bands(std::size_t n) {
 }
 
 }  // namespace
-
-MapGrid map_grid(const PassageGrid& recorded, double cell_size, const std::string& item) {
-  if (std::isnan(cell_size) || cell_size == 0) return {recorded, 1};
-  const double ratio = cell_size / recorded.cell_size;
-  const double factor = std::round(ratio);
-  if (!(factor >= 1) || std::abs(ratio - factor) > 1e-9 * factor || factor > 1e6)
-    throw InputError({"", 0, item},
-                     "is " + text(cell_size) + ", expected a whole multiple of " +
-                         text(recorded.cell_size) + ", the cells the passages were recorded on",
-                     "other sizes would have to be resampled; set [output] cell_size_m = " +
-                         text(cell_size) + " in the site file and run talus-dda again");
-  const int k = static_cast<int>(factor);
-  MapGrid map{recorded, k};
-  map.grid.cell_size = recorded.cell_size * k;
-  map.grid.n_rows = (recorded.n_rows + k - 1) / k;
-  map.grid.n_cols = (recorded.n_cols + k - 1) / k;
-  return map;
-}
-
-std::vector<MapRow> map_rows(std::span<const Passage> passages, const PassageGrid& recorded,
-                             const MapGrid& map, std::span<const double> weight,
-                             const MapTile& tile) {
-  std::vector<MapRow> rows;
-  rows.reserve(tile.first == 0 ? passages.size() : 0);
-  for (const Passage& passage : passages) {
-    const std::uint32_t cell = map_cell(passage, recorded, map);
-    if (cell < tile.first || cell >= tile.end) continue;
-    rows.push_back(
-        map_row(passage, cell, weight.empty() ? 1 : static_cast<float>(weight[passage.block])));
-  }
-  if (map.factor > 1) merge_equal_cells(rows);
-  return rows;
-}
-
-std::vector<MapTile> tiles_of(std::span<const std::uint32_t> rows_of_cell, std::uint64_t most) {
-  std::vector<MapTile> tiles{{0, 0}};
-  std::uint64_t n = 0;
-  for (const std::uint32_t rows : rows_of_cell) {
-    if (n + rows > most && tiles.back().end > tiles.back().first) {
-      tiles.push_back({tiles.back().end, tiles.back().end});
-      n = 0;
-    }
-    n += rows;
-    ++tiles.back().end;
-  }
-  return tiles;
-}
-
-CellRows group_by_cell(std::vector<std::vector<MapRow>> runs, std::size_t n_cells) {
-  // Counting sort: it keeps the order of runs and blocks within a cell.
-  std::vector<std::uint64_t> place(n_cells + 1, 0);
-  for (const auto& rows : runs)
-    for (const MapRow& row : rows) ++place[row.cell + 1];
-  CellRows cells;
-  for (std::size_t cell = 0; cell < n_cells; ++cell) {
-    if (place[cell + 1] > 0) {
-      cells.cell.push_back(static_cast<std::uint32_t>(cell));
-      cells.begin.push_back(cells.begin.back() + place[cell + 1]);
-    }
-    place[cell + 1] += place[cell];
-  }
-  cells.rows.resize(cells.begin.back());
-  for (std::size_t run = 0; run < runs.size(); ++run) {
-    for (MapRow& row : runs[run]) {
-      row.run = static_cast<std::int32_t>(run);
-      cells.rows[place[row.cell]++] = row;
-    }
-    std::vector<MapRow>().swap(runs[run]);
-  }
-  return cells;
-}
 
 MapLayer quantity_layer(const CellRows& cells, MapQuantity quantity, const Released& released,
                         const MapSettings& settings) {
@@ -407,7 +276,8 @@ MapLayer reach_layer(const CellRows& cells, double cell_size, const Released& re
   const std::size_t n = cells.cell.size();
   MapLayer layer{"reach", "Reach", cells.cell, empty_reach_bands(n)};
   const double total = sum(released.weight);
-  ReachBounds bounds(released, settings);
+  const ShareBasis basis = reach_basis(released, settings);
+  std::vector<RunWeight> parts;
   for (std::size_t i = 0; i < n; ++i) {
     const auto rows = rows_of(cells, i);
     double w = 0, w_sq = 0, per_m = 0;
@@ -419,7 +289,8 @@ MapLayer reach_layer(const CellRows& cells, double cell_size, const Released& re
       per_m += 1 / (width_across(rows[k].heading) * cell_size);
     }
     const double share = total > 0 ? std::min(1.0, w / total) : 0;
-    const Interval interval = bounds.of(rows, share);
+    weigh_runs(rows, parts);
+    const Interval interval = share_interval(basis, parts, share);
     const std::array values = {static_cast<double>(rows.size()),
                                share,
                                interval.low,

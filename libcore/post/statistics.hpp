@@ -21,6 +21,8 @@ struct PercentileLevel {
 };
 inline constexpr std::array<PercentileLevel, 4> percentile_levels = {
     {{0.5, "p50"}, {0.9, "p90"}, {0.95, "p95"}, {0.99, "p99"}}};
+inline constexpr std::size_t place_of_p95 = 2;  ///< in percentile_levels
+static_assert(percentile_levels[place_of_p95].p == 0.95);
 
 /// Fewer runs give no bound by the bootstrap over runs.
 inline constexpr int least_runs_to_resample = 10;

@@ -9,6 +9,7 @@
 #include "base/random.hpp"
 #include "post/fence.hpp"
 #include "post/fence_design.hpp"
+#include "post/fence_summary.hpp"
 #include "post/statistics.hpp"
 #include "run_maker.hpp"
 
