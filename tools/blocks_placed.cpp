@@ -7,6 +7,7 @@
 
 #include "base/text.hpp"
 #include "blocks/least_size.hpp"
+#include "blocks/part_faces.hpp"
 #include "blocks/placement.hpp"
 #include "blocks/shapes.hpp"
 #include "blocks/solid.hpp"
@@ -130,17 +131,28 @@ std::vector<Body> mesh_bodies(const PlacedContext& context, const PlacedSettings
   std::vector<Body> bodies;
   std::vector<std::string> names;
   std::vector<bool> were_turned;
-  for (const MeshBody& mesh : read_mesh(path)) {
-    Polyhedron surface = mesh.surface;
+  std::vector<MeshBody> meshes = read_mesh(path);
+  for (const std::string& doubt : doubts_about(meshes)) context.tool.warn(path + ": " + doubt);
+  const auto put_in_frame = [&](Polyhedron& surface) {
     for (Vec3& v : surface.vertices) {
       if (section.y_up) v = Vec3(v.x(), -v.z(), v.y());
       v *= section.scale;
       if (section.in_place) v -= context.ground.origin;
     }
+  };
+  for (MeshBody& mesh : meshes) {
+    put_in_frame(mesh.surface);
+    for (Polyhedron& part : mesh.parts) put_in_frame(part);
     const std::string name =
         mesh.name.empty() ? "body " + std::to_string(bodies.size() + 1) : mesh.name;
+    const Where where{path, 0, name};
     bool was_turned = false;
-    bodies.push_back(make_solid(surface, {path, 0, name}, was_turned));
+    bodies.push_back(mesh.parts.empty() ? make_solid(mesh.surface, where, was_turned)
+                                        : make_solid_of_parts(mesh.parts, where, was_turned));
+    if (!mesh.parts.empty() && !hang_together(bodies.back().parts))
+      context.tool.warn(path + ": " + name +
+                        " has parts that do not lie against the others; all of them move as one "
+                        "body");
     names.push_back(name);
     were_turned.push_back(was_turned);
   }

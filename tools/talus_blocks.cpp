@@ -442,7 +442,7 @@ std::string obj_name(int block) {
 void write_objs(Tool& tool, const Options& o, const BlockSet& set) {
   const auto path = [&](int b) { return o.obj_folder + "/" + obj_name(b) + ".obj"; };
   for (int b = 0; b < n_blocks(set); ++b)
-    tool.write_text(path(b), obj_text(block_shell(set, b), obj_name(b), set.origin));
+    tool.write_text(path(b), obj_text(block_surfaces(set, b), obj_name(b), set.origin));
   // Those of an earlier run with more blocks do not belong to these.
   if (!tool.overwrite()) return;
   int old = n_blocks(set);

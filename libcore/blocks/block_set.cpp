@@ -166,6 +166,15 @@ Polyhedron convex_part(const BlockSet& set, int p) {
                        set.part_begin[p], set.part_begin[p + 1]);
 }
 
+std::vector<Polyhedron> block_surfaces(const BlockSet& set, int b) {
+  Polyhedron shell = block_shell(set, b);
+  if (check_surface(shell).n_shells == 1) return {std::move(shell)};
+  std::vector<Polyhedron> parts;
+  for (int p = set.convex_part_begin[b]; p < set.convex_part_begin[b + 1]; ++p)
+    parts.push_back(convex_part(set, p));
+  return parts;
+}
+
 std::string broken_promise(const BlockSet& set) {
   std::string broken = broken_size(set);
   if (broken.empty()) broken = broken_index(set);

@@ -87,6 +87,11 @@ void add_body(BlockSet& set, const Body& body);
 [[nodiscard]] Polyhedron block_shell(const BlockSet& set, int b);
 [[nodiscard]] Polyhedron convex_part(const BlockSet& set, int p);
 
+/// What block b looks like from outside: its shell where that is one connected surface, as of
+/// blocks that were kept exact; else its convex parts, since nothing but that they stand together
+/// says that they are one body.
+[[nodiscard]] std::vector<Polyhedron> block_surfaces(const BlockSet& set, int b);
+
 /// Names the first promise of this header that `set` breaks (sizes, indices, order, finite numbers,
 /// closed shells); empty when it keeps all.
 [[nodiscard]] std::string broken_promise(const BlockSet& set);

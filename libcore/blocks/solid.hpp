@@ -49,4 +49,10 @@ namespace talus {
 /// is turned, and `was_turned` says so.
 [[nodiscard]] Body make_solid(const Polyhedron& surface, const Where& where, bool& was_turned);
 
+/// The same of surfaces that are the convex parts of one body, kept as they are. Refuses also parts
+/// that are not convex, and parts that overlap by more than 1e-6 of the body's volume, which would
+/// count twice. Faces that other parts cover are face_internal.
+[[nodiscard]] Body make_solid_of_parts(const std::vector<Polyhedron>& parts, const Where& where,
+                                       bool& was_turned);
+
 }  // namespace talus

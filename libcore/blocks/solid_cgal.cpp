@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "base/text.hpp"
+#include "blocks/part_faces.hpp"
 #include "blocks/solid.hpp"
 #include "geometry/triangulate.hpp"
 
@@ -137,8 +138,10 @@ Polyhedron convex_hull(const std::vector<Vec3>& points, int tag) {
   return in_standard_order(hull);  // the hull's own order follows addresses in memory
 }
 
-Body make_solid(const Polyhedron& surface, const Where& where, bool& was_turned) {
-  was_turned = false;
+namespace {
+
+// A closed surface that does not cut through itself, outward, with faces of one plane joined.
+Polyhedron sound_surface(const Polyhedron& surface, const Where& where, bool& was_turned) {
   Polyhedron body = surface;
   for (const Vec3& v : body.vertices)
     if (!v.allFinite()) throw InputError(where, "a coordinate is not finite");
@@ -165,20 +168,54 @@ Body make_solid(const Polyhedron& surface, const Where& where, bool& was_turned)
                          text_of(face_centroid(body, crossing->first)),
                      "repair it with a mesh editor");
   std::fill(body.face_tag.begin(), body.face_tag.end(), face_terrain);
-  body = with_joined_faces(body);
+  return with_joined_faces(body);
+}
+
+// A surface that is convex to how well it is known; else without faces.
+Polyhedron convex_surface(const Polyhedron& body) {
   const double size = size_of(body);
+  return is_convex(body, 1e-7 * size) ? body : hull_if_as_even(body, 1e-9 * size);
+}
+
+}  // namespace
+
+Body make_solid(const Polyhedron& surface, const Where& where, bool& was_turned) {
+  was_turned = false;
+  Polyhedron body = sound_surface(surface, where, was_turned);
   Body solid;
-  if (is_convex(body, 1e-7 * size)) {
-    solid.parts.push_back(std::move(body));
+  if (Polyhedron convex = convex_surface(body); n_faces(convex) > 0) {
+    solid.parts.push_back(std::move(convex));
     return solid;
   }
-  if (Polyhedron hull = hull_if_as_even(body, 1e-9 * size); n_faces(hull) > 0) {
-    solid.parts.push_back(std::move(hull));
-    return solid;
-  }
-  body = with_flat_faces(body, 1e-9 * size);
+  body = with_flat_faces(body, 1e-9 * size_of(body));
   solid.parts = convex_parts(body, where);
   if (solid.parts.size() > 1) solid.shell = std::move(body);
+  return solid;
+}
+
+Body make_solid_of_parts(const std::vector<Polyhedron>& parts, const Where& where,
+                         bool& was_turned) {
+  was_turned = false;
+  Body solid;
+  for (size_t p = 0; p < parts.size(); ++p) {
+    const Where here{where.file, where.line, where.item + ", part " + std::to_string(p)};
+    const Polyhedron surface = sound_surface(parts[p], here, was_turned);
+    Polyhedron convex = convex_surface(surface);
+    if (check_surface(surface).n_shells != 1 || n_faces(convex) == 0)
+      throw InputError(here, "a part is not one convex body",
+                       "give convex parts, or the closed surface of the whole alone: it is then "
+                       "taken apart here");
+    solid.parts.push_back(std::move(convex));
+  }
+  double volume = 0;
+  for (const Polyhedron& part : solid.parts) volume += moments(part).volume;
+  const double shared = shared_volume(solid.parts);
+  if (!(shared <= 1e-6 * volume))
+    throw InputError(where,
+                     "the parts of the body overlap by " + text(shared, 3) + " m3 of " +
+                         text(volume, 4) + " m3, which would count twice",
+                     "parts may touch only; give the closed surface of the whole alone");
+  name_covered_faces(solid.parts);
   return solid;
 }
 

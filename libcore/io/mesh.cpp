@@ -33,10 +33,17 @@ void MeshBuilder::add_polygon(const std::vector<std::int64_t>& file_vertices, co
   if (loop.size() < 3)
     throw InputError(where, "a face has fewer than three different vertices",
                      "remove degenerate faces with a mesh editor");
-  add_face(mesh_.surface, loop, static_cast<int>(mesh_.names.size()) - 1);
+  add_face(mesh_.surface, loop, static_cast<int>(mesh_.groups.size()) - 1);
 }
 
-void MeshBuilder::start_object(const std::string& name) { mesh_.names.push_back(name); }
+void MeshBuilder::start_object(const std::string& name) {
+  mesh_.object_names.push_back(name);
+  start_group(name);
+}
+
+void MeshBuilder::start_group(const std::string& name, int part) {
+  mesh_.groups.push_back({name, static_cast<int>(mesh_.object_names.size()), part});
+}
 
 Mesh MeshBuilder::finished(const std::string& path) {
   if (n_faces(mesh_.surface) == 0) throw InputError({path}, "holds no face");
@@ -55,7 +62,7 @@ Polyhedron joined_faces(const Mesh& mesh, const std::vector<int>& numbers, Joini
   std::vector<int> loop;
   for (const int f : numbers) {
     loop.clear();
-    const int object = mesh.surface.face_tag[f];
+    const int object = mesh.surface.face_tag[f];  // the run of faces under one name
     for (const int v : face(mesh.surface, f)) {
       const Vec3& p = mesh.surface.vertices[v];
       const int scope = joining == Joining::none             ? v
@@ -114,18 +121,48 @@ bool is_closed(const Polyhedron& surface) {
   return fault == SurfaceFault::none || fault == SurfaceFault::inside_out;
 }
 
+const MeshGroup& group_of(const Mesh& mesh, int f) { return mesh.groups[mesh.surface.face_tag[f]]; }
+
+// The faces of one part as a surface, whatever else has vertices at the same places.
+Polyhedron part_surface(const Mesh& mesh, const std::vector<int>& numbers) {
+  Polyhedron part = joined_faces(mesh, numbers, Joining::none);
+  if (!is_closed(part)) part = joined_faces(mesh, numbers, Joining::everywhere);
+  std::fill(part.face_tag.begin(), part.face_tag.end(), 0);
+  return part;
+}
+
+// Objects that are given by their parts, by their first faces; the other faces are `left`.
+std::map<int, MeshBody> bodies_of_parts(const Mesh& mesh, std::vector<int>& left) {
+  std::map<int, std::map<int, std::vector<int>>> faces_of_part;  // by object
+  for (int f = 0; f < n_faces(mesh.surface); ++f) {
+    const MeshGroup& group = group_of(mesh, f);
+    (group.part < 0 ? left : faces_of_part[group.object][group.part]).push_back(f);
+  }
+  std::map<int, MeshBody> body_of_first_face;
+  for (const auto& [object, parts] : faces_of_part) {
+    MeshBody body{mesh.object_names[object - 1], {}, {}, object};
+    int first_face = n_faces(mesh.surface);
+    for (const auto& [part, numbers] : parts) {
+      body.parts.push_back(part_surface(mesh, numbers));
+      first_face = std::min(first_face, numbers[0]);
+    }
+    body_of_first_face.emplace(first_face, std::move(body));
+  }
+  return body_of_first_face;
+}
+
 }  // namespace
 
 std::vector<MeshBody> bodies_of(const Mesh& mesh) {
-  std::map<int, MeshBody> body_of_first_face;
-  std::vector<int> left(n_faces(mesh.surface));
-  std::iota(left.begin(), left.end(), 0);
+  std::vector<int> left;
+  std::map<int, MeshBody> body_of_first_face = bodies_of_parts(mesh, left);
   for (const Joining joining : {Joining::none, Joining::within_objects, Joining::everywhere}) {
     const Polyhedron faces = joined_faces(mesh, left, joining);
     left.clear();
     for (const std::vector<int>& group : connected_faces(faces)) {
       const int first_face = faces.face_tag[group[0]];
-      MeshBody body{mesh.names[mesh.surface.face_tag[first_face]], surface_of(faces, group)};
+      const MeshGroup& named = group_of(mesh, first_face);
+      MeshBody body{named.name, surface_of(faces, group), {}, named.object};
       if (joining == Joining::everywhere || is_closed(body.surface))
         body_of_first_face.emplace(first_face, std::move(body));
       else
@@ -151,16 +188,65 @@ std::vector<MeshBody> read_mesh(const std::string& path) {
       "convert the mesh, or rename the file");
 }
 
-std::string obj_text(const Polyhedron& body, const std::string& name, const Vec3& shift) {
+namespace {
+
+// "rock" of "rock_part_3"; empty for other names.
+std::string object_of_part(const std::string& name) {
+  const std::size_t end = name.find_last_not_of("0123456789");
+  if (end == std::string::npos || end + 1 == name.size()) return {};
+  const std::string head = name.substr(0, end + 1), suffix = part_suffix;
+  return head.ends_with(suffix) ? head.substr(0, head.size() - suffix.size()) : std::string{};
+}
+
+}  // namespace
+
+std::vector<std::string> doubts_about(const std::vector<MeshBody>& bodies) {
+  std::map<int, std::vector<std::string>> names_in_object;
+  std::vector<std::string> named_like_parts, doubts;
+  for (const MeshBody& body : bodies) {
+    if (body.object > 0) names_in_object[body.object].push_back(body.name);
+    if (body.parts.empty() && !object_of_part(body.name).empty())
+      named_like_parts.push_back(body.name);
+  }
+  int n_objects = 0, largest = 0;
+  for (const auto& [object, names] : names_in_object) {
+    n_objects += names.size() > 1;
+    if (names.size() > 1 && (largest == 0 || names.size() > names_in_object[largest].size()))
+      largest = object;
+  }
+  if (n_objects > 0)
+    doubts.push_back(
+        std::to_string(n_objects) + (n_objects == 1 ? " object holds" : " objects hold") +
+        " several closed bodies, which move apart, most of all " + names_in_object[largest][0] +
+        ": " + std::to_string(names_in_object[largest].size()) +
+        "; convex parts of one body are groups NAME_part_0, NAME_part_1 ... of an "
+        "object NAME");
+  if (!named_like_parts.empty())
+    doubts.push_back(std::to_string(named_like_parts.size()) + " bodies are named like parts, as " +
+                     named_like_parts[0] +
+                     ", and move apart; parts of one body stand in an object \"o " +
+                     object_of_part(named_like_parts[0]) + "\"");
+  return doubts;
+}
+
+std::string obj_text(const std::vector<Polyhedron>& surfaces, const std::string& name,
+                     const Vec3& shift) {
+  TALUS_ASSERT(!surfaces.empty() && name.find_first_of(" \t\r\n#") == std::string::npos);
   std::ostringstream out;
   out << "o " << name << '\n';
-  for (const Vec3& v : body.vertices)
-    out << "v " << text(v.x() + shift.x()) << ' ' << text(v.y() + shift.y()) << ' '
-        << text(v.z() + shift.z()) << '\n';
-  for (int f = 0; f < n_faces(body); ++f) {
-    out << 'f';
-    for (const int v : face(body, f)) out << ' ' << v + 1;
-    out << '\n';
+  std::size_t n_before = 0;
+  for (std::size_t k = 0; k < surfaces.size(); ++k) {
+    if (surfaces.size() > 1) out << "g " << name << part_suffix << k << '\n';
+    for (const Vec3& v : surfaces[k].vertices)
+      out << "v " << text(v.x() + shift.x()) << ' ' << text(v.y() + shift.y()) << ' '
+          << text(v.z() + shift.z()) << '\n';
+    for (int f = 0; f < n_faces(surfaces[k]); ++f) {
+      out << 'f';
+      for (const int v : face(surfaces[k], f))
+        out << ' ' << n_before + static_cast<std::size_t>(v) + 1;
+      out << '\n';
+    }
+    n_before += surfaces[k].vertices.size();
   }
   return out.str();
 }

@@ -39,7 +39,7 @@ Mesh parse_text(const std::string& bytes, const std::string& path) {
     const auto words = words_of(line);
     if (words.empty()) continue;
     const Where where = reader.where_of_line();
-    if (words[0] == "solid") builder.start_object(words.size() > 1 ? std::string(words[1]) : "");
+    if (words[0] == "solid") builder.start_group(words.size() > 1 ? std::string(words[1]) : "");
     if (words[0] == "outer") n_corners = 0;
     if (words[0] == "vertex") {
       Vec3 p;

@@ -134,7 +134,8 @@ SlideData read_slide(const std::string& grid, const std::string& obj) {
   if (!in) throw InputError({"terrain of the slide"}, "ends early");
   for (MeshBody& mesh : bodies_of(parse_obj(obj, "blocks of the slide"))) {
     Body body;
-    body.parts = {std::move(mesh.surface)};
+    body.parts = std::move(mesh.parts);
+    if (body.parts.empty()) body.parts = {std::move(mesh.surface)};
     data.bodies.push_back(std::move(body));
   }
   return data;

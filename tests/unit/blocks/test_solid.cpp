@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "base/error.hpp"
+#include "blocks/part_faces.hpp"
 #include "blocks/placement.hpp"
 #include "blocks/shapes.hpp"
 #include "blocks/solid.hpp"
@@ -157,6 +158,70 @@ TEST(MakeSolid, RefusesWhatIsNoSolidAndSaysWhere) {
   Polyhedron strange = box({0, 0, 0}, {1, 1, 1});
   strange.vertices[0].x() = std::nan("");
   EXPECT_NE(refusal(strange).find("not finite"), std::string::npos);
+}
+
+// Parts stay the parts that they are; what lies between them is internal, also where a part stands
+// on a larger face.
+TEST(MakeSolid, GivenPartsAreKept) {
+  Polyhedron turned = box({0, 0, 1}, {1, 1, 2});
+  for (int f = 0; f < 6; ++f)
+    std::reverse(turned.face_vertices.begin() + 4 * f, turned.face_vertices.begin() + 4 * f + 4);
+  bool was_turned = false;
+  const Body body =
+      make_solid_of_parts({box({0, 0, 0}, {2, 1, 1}), turned}, {"m.obj", 0, "r"}, was_turned);
+  EXPECT_TRUE(was_turned);
+  ASSERT_EQ(body.parts.size(), 2u);
+  EXPECT_EQ(n_faces(body.shell), 0);
+  EXPECT_DOUBLE_EQ(moments(body.parts[0]).volume, 2);
+  EXPECT_DOUBLE_EQ(moments(body.parts[1]).volume, 1);
+  const auto n_internal = [](const Polyhedron& part) {
+    return std::count(part.face_tag.begin(), part.face_tag.end(), int{face_internal});
+  };
+  EXPECT_EQ(n_internal(body.parts[0]), 0);  // half of its top is bare
+  EXPECT_EQ(n_internal(body.parts[1]), 1);
+  EXPECT_TRUE(hang_together(body.parts));
+}
+
+TEST(MakeSolid, PartsThatAreNoneAreRefused) {
+  const auto refused = [](const std::vector<Polyhedron>& parts) -> std::string {
+    bool was_turned = false;
+    try {
+      static_cast<void>(make_solid_of_parts(parts, {"m.obj", 0, "r"}, was_turned));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  const Polyhedron cube = box({0, 0, 0}, {1, 1, 1});
+  EXPECT_EQ(refused({cube, extruded(star(4, 0.4), 1)}),
+            "m.obj: r, part 1: a part is not one convex body");
+  Polyhedron two = cube;
+  const Polyhedron other = box({3, 0, 0}, {4, 1, 1});
+  two.vertices.insert(two.vertices.end(), other.vertices.begin(), other.vertices.end());
+  for (int f = 0; f < 6; ++f) {
+    std::vector<int> loop;
+    for (const int v : face(other, f)) loop.push_back(v + 8);
+    add_face(two, loop, 0);
+  }
+  EXPECT_EQ(refused({two}), "m.obj: r, part 0: a part is not one convex body");
+  Polyhedron open = cube;
+  open.face_begin.pop_back(), open.face_tag.pop_back(), open.face_vertices.resize(20);
+  EXPECT_NE(refused({cube, open}).find("r, part 1: the mesh is open"), std::string::npos);
+  EXPECT_EQ(refused({cube, box({0.5, 0, 0}, {1.5, 1, 1})}),
+            "m.obj: r: the parts of the body overlap by 0.5 m3 of 2 m3, which would count twice");
+  EXPECT_EQ(refused({cube, cube}),
+            "m.obj: r: the parts of the body overlap by 1 m3 of 2 m3, which would count twice");
+  EXPECT_EQ(refused({cube, box({1 - 1e-9, 0, 0}, {2, 1, 1})}), "accepted");  // rounding
+}
+
+// Over faces, not over an edge or across a gap.
+TEST(PartFaces, PartsHangTogetherOverFaces) {
+  const Polyhedron cube = box({0, 0, 0}, {1, 1, 1});
+  EXPECT_TRUE(hang_together({cube}));
+  EXPECT_TRUE(hang_together({cube, box({2, 0, 0}, {3, 1, 1}), box({1, 0.5, 0}, {2, 1, 1})}));
+  EXPECT_FALSE(hang_together({cube, box({1, 1, 0}, {2, 2, 1})}));
+  EXPECT_FALSE(hang_together({cube, box({1.01, 0, 0}, {2, 1, 1})}));
+  EXPECT_DOUBLE_EQ(shared_volume({cube, box({0.5, 0.5, 0.5}, {2, 2, 2})}), 0.125);
 }
 
 TEST(Shapes, VolumesAreTheClosedForms) {

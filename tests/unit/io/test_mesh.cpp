@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "base/random.hpp"
 #include "base/text.hpp"
+#include "blocks/block_set.hpp"
 #include "io/mesh.hpp"
 
 namespace {
@@ -287,7 +288,9 @@ TEST(Mesh, FaultsSayWhere) {
 // The parsers take any bytes: they read them or refuse them.
 TEST(Mesh, MangledFilesNeverCrash) {
   Random random(5);
-  const auto all = samples();
+  auto all = samples();
+  all.push_back({"obj parts", parse_obj,
+                 obj_text({box({0, 0, 0}, {1, 1, 1}), box({1, 0, 0}, {2, 1, 1})}, "r", {0, 0, 0})});
   for (int trial = 0; trial < 7000; ++trial) {
     const Sample& sample = all[trial % all.size()];
     std::string bytes = sample.bytes;
@@ -309,8 +312,168 @@ TEST(Mesh, MangledFilesNeverCrash) {
 
 TEST(Mesh, ObjTextReadsBackTheSame) {
   const auto cube = bodies_of(parse_obj(obj_cube(), "cube"))[0];
-  const auto again = bodies_of(parse_obj(obj_text(cube.surface, "c", {0.1, 1e6, 0}), "again"))[0];
+  const auto again = bodies_of(parse_obj(obj_text({cube.surface}, "c", {0.1, 1e6, 0}), "again"))[0];
   EXPECT_EQ(again.surface.face_vertices, cube.surface.face_vertices);
   EXPECT_EQ(again.name, "c");
   EXPECT_EQ(again.surface.vertices[1].y(), 1e6 + 1);
+}
+
+// --- parts of one body -------------------------------------------------------------------------
+
+namespace {
+
+// A cube, an L of two boxes as a block that was divided, and the same L with a surface of its own.
+BlockSet three_blocks() {
+  BlockSet set;
+  set.origin = Vec3(500000, 5200000, 0);
+  set.material_names = {"rock"};
+  const Polyhedron foot = box({5, 0, 0}, {7, 1, 1}, face_terrain);
+  const Polyhedron leg = box({5, 1, 0}, {6, 2, 1}, face_terrain);
+  Body cube, divided, whole;
+  cube.parts = {box({0, 0, 0}, {1, 1, 1}, face_terrain)};
+  divided.parts = whole.parts = {foot, leg};
+  whole.shell.vertices = {{5, 0, 0}, {7, 0, 0}, {7, 1, 0}, {6, 1, 0}, {6, 2, 0}, {5, 2, 0}};
+  for (int v = 0; v < 6; ++v)
+    whole.shell.vertices.push_back(whole.shell.vertices[v] + Vec3::UnitZ());
+  add_face(whole.shell, std::array{5, 4, 3, 2, 1, 0}, face_terrain);
+  add_face(whole.shell, std::array{6, 7, 8, 9, 10, 11}, face_terrain);
+  for (int v = 0; v < 6; ++v)
+    add_face(whole.shell, std::array{v, (v + 1) % 6, (v + 1) % 6 + 6, v + 6}, face_terrain);
+  for (const Body& body : {cube, divided, whole}) add_body(set, body);
+  return set;
+}
+
+std::string words_of_refusal(const std::string& bytes) {
+  try {
+    static_cast<void>(parse_obj(bytes, "m"));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+// "f ..." of a tetrahedron on the last four vertices, which are written before.
+std::string tetrahedron(double x) {
+  const std::string at = text(x);
+  return "v " + at + " 0 0\nv " + text(x + 1) + " 0 0\nv " + at + " 1 0\nv " + at +
+         " 0 1\nf -4 -2 -3\nf -4 -3 -1\nf -4 -1 -2\nf -3 -2 -1\n";
+}
+
+}  // namespace
+
+// Blocks, OBJ, blocks: bodies, parts, places and names are those that were written.
+TEST(MeshParts, BlocksComeBackAsTheBodiesThatTheyWere) {
+  const BlockSet set = three_blocks();
+  ASSERT_EQ(broken_promise(set), "");
+  BlockSet again;
+  again.material_names = set.material_names;
+  for (int b = 0; b < n_blocks(set); ++b) {
+    const std::string name = "block_" + std::to_string(b);
+    const std::string obj = obj_text(block_surfaces(set, b), name, set.origin);
+    const std::vector<MeshBody> bodies = bodies_of(parse_obj(obj, "m"));
+    ASSERT_EQ(bodies.size(), 1u) << obj;
+    EXPECT_EQ(bodies[0].name, name);
+    EXPECT_TRUE(doubts_about(bodies).empty());
+    Body body;
+    body.parts = bodies[0].parts;
+    if (body.parts.empty()) body.parts = {bodies[0].surface};
+    for (Polyhedron& part : body.parts)
+      for (Vec3& v : part.vertices) v -= set.origin;
+    add_body(again, body);
+  }
+  EXPECT_EQ(again.volume, set.volume);
+  EXPECT_EQ(again.centroid, set.centroid);
+  ASSERT_EQ(again.convex_part_begin, (std::vector<int>{0, 1, 3, 4}));  // of the last its surface
+  for (const int p : {0, 1, 2}) {
+    EXPECT_EQ(convex_part(again, p).vertices, convex_part(set, p).vertices);
+    EXPECT_EQ(convex_part(again, p).face_vertices, convex_part(set, p).face_vertices);
+  }
+}
+
+// A block that is one surface is written as it always was, and one in parts by its groups.
+TEST(MeshParts, OnlyDividedBlocksHaveGroups) {
+  const BlockSet set = three_blocks();
+  const auto n_groups = [&](int b) {
+    const std::string obj = "\n" + obj_text(block_surfaces(set, b), "r", Vec3::Zero());
+    int n = 0;
+    for (size_t at = obj.find("\ng "); at != std::string::npos; at = obj.find("\ng ", at + 1)) ++n;
+    return n;
+  };
+  EXPECT_EQ(n_groups(0), 0);
+  EXPECT_EQ(n_groups(1), 2);
+  EXPECT_EQ(n_groups(2), 0);
+}
+
+// Parts come in the order of their numbers, a group may go on later and have other names too.
+TEST(MeshParts, OrderAndOtherNamesDoNotMatter) {
+  std::string obj = "o rock\ng rock_part_1 grey\n" + tetrahedron(1) + "o alone\n" + tetrahedron(5) +
+                    "o pair\ng x pair_part_0\n" + tetrahedron(9);
+  const std::string first = "g grey rock_part_0\n" + tetrahedron(0);
+  obj.insert(obj.find("o alone"), first.substr(0, first.rfind("f ")) + "g rock_part_2\n" +
+                                      tetrahedron(2) + "g rock_part_0\nf -7 -6 -5\n");
+  const auto bodies = bodies_of(parse_obj(obj, "m"));
+  ASSERT_EQ(bodies.size(), 3u);
+  EXPECT_EQ(bodies[0].name, "rock");
+  ASSERT_EQ(bodies[0].parts.size(), 3u);
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_EQ(check_surface(bodies[0].parts[k]).fault, SurfaceFault::none);
+    EXPECT_NEAR(moments(bodies[0].parts[k]).centroid.x(), k + 0.25, 1e-15);
+  }
+  EXPECT_EQ(bodies[1].name, "alone");
+  EXPECT_TRUE(bodies[1].parts.empty());
+  EXPECT_EQ(bodies[2].parts.size(), 1u);
+}
+
+// Parts of one body may share vertices, and loose faces are closed within their part.
+TEST(MeshParts, PartsMayShareVerticesOrRepeatThem) {
+  std::string obj = "o r\n";
+  for (const char* v : {"0 0 0", "1 0 0", "0 1 0", "0 0 1", "0 0 -1"})
+    obj += std::string("v ") + v + "\n";
+  obj += "g r_part_0\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+  obj += "g r_part_1\nf 1 2 3\nf 1 5 2\nf 1 3 5\nf 2 5 3\n";
+  const auto bodies = bodies_of(parse_obj(obj, "m"));
+  ASSERT_EQ(bodies.size(), 1u);
+  ASSERT_EQ(bodies[0].parts.size(), 2u);
+  for (const Polyhedron& part : bodies[0].parts) EXPECT_DOUBLE_EQ(moments(part).volume, 1.0 / 6);
+  obj.replace(obj.rfind("f 2 5 3"), 7, "v 1 0 0\nv 0 0 -1\nv 0 1 0\nf -3 -2 -1");
+  EXPECT_DOUBLE_EQ(moments(bodies_of(parse_obj(obj, "m"))[0].parts[1]).volume, 1.0 / 6);
+}
+
+TEST(MeshParts, WhatIsNoWholeSetOfPartsIsRefused) {
+  const std::string one = "o r\ng r_part_0\n" + tetrahedron(0);
+  EXPECT_EQ(words_of_refusal(one + "g base\n" + tetrahedron(2)),
+            "m:11: faces of object r stand here outside of its parts (line 2 begins one)");
+  EXPECT_EQ(words_of_refusal("o r\n" + tetrahedron(2) + "g r_part_0\n" + tetrahedron(0)),
+            "m:1: faces of object r stand here outside of its parts (line 10 begins one)");
+  EXPECT_EQ(words_of_refusal(one + "g r_part_01\n" + tetrahedron(2)),
+            "m:11: faces of object r stand here outside of its parts (line 2 begins one)");
+  EXPECT_EQ(words_of_refusal(one + "g r_part_2\n" + tetrahedron(2)),
+            "m:2: object r has parts up to number 2 and no face of number 1");
+  EXPECT_EQ(words_of_refusal(one + "g r_part_1\n"),
+            "m:2: object r has parts up to number 1 and no face of number 1");
+  EXPECT_EQ(words_of_refusal(one + "g r_part_1 r_part_2\n" + tetrahedron(2)),
+            "m:11: faces are said to belong to two parts of object r");
+  EXPECT_EQ(words_of_refusal(one + "o s\ng r_part_1\n" + tetrahedron(2)),
+            "m:12: group r_part_1 stands outside of object r, which begins in line 1");
+  EXPECT_EQ(words_of_refusal("g r_part_0\n" + tetrahedron(0) + "o r\n" + tetrahedron(2)),
+            "m:1: group r_part_0 stands outside of object r, which begins in line 10");
+}
+
+// Other groups read as ever; what may have been meant as one body is said.
+TEST(MeshParts, OtherGroupsStayBodiesOfTheirOwn) {
+  const auto doubts = [](const std::string& obj, size_t n) {
+    const auto bodies = bodies_of(parse_obj(obj, "m"));
+    EXPECT_EQ(bodies.size(), n);
+    for (const MeshBody& body : bodies) EXPECT_TRUE(body.parts.empty());
+    return doubts_about(bodies);
+  };
+  const std::string two = "g left\n" + tetrahedron(0) + "g right\n" + tetrahedron(2);
+  EXPECT_TRUE(doubts(two, 2).empty());
+  EXPECT_TRUE(doubts("o a\n" + tetrahedron(0) + "o b\ng left\n" + tetrahedron(2), 2).empty());
+  ASSERT_EQ(doubts("o a\n" + two, 2).size(), 1u);
+  EXPECT_NE(doubts("o a\n" + two, 2)[0].find("1 object holds several closed bodies"),
+            std::string::npos);
+  const auto lost = doubts("g r_part_0\n" + tetrahedron(0) + "g r_part_1\n" + tetrahedron(2), 2);
+  ASSERT_EQ(lost.size(), 1u);
+  EXPECT_NE(lost[0].find("2 bodies are named like parts, as r_part_0"), std::string::npos);
 }
