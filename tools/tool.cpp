@@ -450,9 +450,10 @@ struct Tool::Impl {
     std::error_code error;
     for (const auto& entry : fs::directory_iterator(folder_of(begin), error)) {
       const std::string path = (folder_of(begin) / entry.path().filename()).string();
+      if (!path.starts_with(begin) || path.size() == begin.size()) continue;
       const bool is_output = std::any_of(staged.begin(), staged.end(),
                                          [&](const Staged& s) { return s.temporary == path; });
-      if (is_output || !path.starts_with(begin) || path.size() == begin.size()) continue;
+      if (is_output) continue;
       if (path[begin.size()] == '.' || path[begin.size()] == '-')
         endings.push_back(path.substr(begin.size()));
     }
