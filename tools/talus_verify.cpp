@@ -119,7 +119,7 @@ std::vector<Method> slide_methods(bool full) {
 int slide_runs(const Method& method, bool full) {
   if (!full) return 1;
   if (method.settings.law == Law::paper) return 6;
-  return method.name == "talus" ? 32 : 8;
+  return method.name == "talus" ? 96 : 8;
 }
 
 double down_the_slope(const Vec3&, const Vec3& now) { return 320 - now.y(); }
