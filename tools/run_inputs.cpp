@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "base/sha256.hpp"
+#include "command_line.hpp"
 #include "post/deposit.hpp"
 
 namespace talus {

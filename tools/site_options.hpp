@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "command_line.hpp"
 #include "scene/site.hpp"
 #include "tool.hpp"
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/text.hpp"
+#include "command_line.hpp"
 #include "map_output.hpp"
 #include "post/deposit.hpp"
 #include "post/map_style.hpp"

@@ -16,8 +16,9 @@
 #include "report/qgis_project.hpp"
 #include "report/styles_gdal.hpp"
 #include "report/zip.hpp"
+#include "report_data.hpp"
 #include "report_folder.hpp"
-#include "report_parts.hpp"
+#include "report_page.hpp"
 #include "shipped_data.hpp"
 #include "site_options.hpp"
 #include "tool.hpp"
@@ -95,17 +96,6 @@ RunRecord writer_of(const std::string& db, const std::string& sha256, std::int64
   return {};
 }
 
-// Limits of all runs, the worst value of each.
-void add_limits(const RunRecord& record, std::vector<LimitOverRuns>& limits) {
-  for (const RunCheck& check : record.checks) {
-    auto at = std::find_if(limits.begin(), limits.end(),
-                           [&check](const LimitOverRuns& l) { return l.name == check.name; });
-    if (at == limits.end()) at = limits.insert(at, {check.name, check.value, check.limit, 0});
-    at->worst = std::max(at->worst, check.value);
-    if (!check.pass) ++at->n_failed;
-  }
-}
-
 // Depth first, so that each step stands behind those whose outputs it reads.
 void add_steps(const std::string& db, const std::string& sha256, std::int64_t before,
                std::set<std::int64_t>& seen, std::vector<RunRecord>& steps) {
@@ -124,7 +114,7 @@ void read_registry(const std::string& db, const ResultFolder& folder,
   constexpr std::int64_t latest = std::numeric_limits<std::int64_t>::max();
   for (std::size_t i = 0; i < files.size(); ++i) {
     progress(0.5 + 0.4 * static_cast<double>(i) / static_cast<double>(files.size()));
-    add_limits(writer_of(db, sha256_of_file(files[i].string()), latest), data.limits);
+    add_limits(writer_of(db, sha256_of_file(files[i].string()), latest).checks, data.limits);
   }
   std::set<std::int64_t> seen;
   for (const char* name : {"runout.gpkg", "maps/velocity.tif", "fence.gpkg"})

@@ -3,6 +3,7 @@
 // docs/tools/talus-runout.md
 #include <cmath>
 
+#include "command_line.hpp"
 #include "io/geopackage_gdal.hpp"
 #include "map_output.hpp"
 #include "post/map_style.hpp"

@@ -10,6 +10,7 @@
 #include "base/read_file.hpp"
 #include "base/sha256.hpp"
 #include "base/text.hpp"
+#include "file_paths.hpp"
 #include "site_options.hpp"
 #include "site_stages.hpp"
 #include "tool.hpp"

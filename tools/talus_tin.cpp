@@ -5,6 +5,7 @@
 #endif
 
 #include "base/text.hpp"
+#include "command_line.hpp"
 #include "io/contours_gdal.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/tin_ply.hpp"

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/text.hpp"
+#include "command_line.hpp"
 #include "io/contours_gdal.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/hillshade_gdal.hpp"

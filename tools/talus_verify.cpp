@@ -6,6 +6,7 @@
 
 #include "base/text.hpp"
 #include "build_info.hpp"
+#include "machine.hpp"
 #include "shipped_data.hpp"
 #include "tool.hpp"
 #include "verify/claims.hpp"

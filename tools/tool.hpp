@@ -5,6 +5,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -18,40 +19,10 @@ namespace talus {
 
 using Json = nlohmann::ordered_json;
 
-/// For CLI::Option::check(): a finite number from `low` to `high`, or "nan" where `or_nan`.
-[[nodiscard]] std::function<std::string(const std::string&)> number_between(double low, double high,
-                                                                            bool or_nan = false);
-
-/// Model of the processor, "unknown" where /proc/cpuinfo does not say.
-[[nodiscard]] std::string processor_name();
-
-/// Files that a format keeps beside the named one, whether or not they are there: of a Shapefile
-/// its index, attributes, CRS and encoding; of others none.
-[[nodiscard]] std::vector<std::string> sidecars_of(const std::string& path);
-
 /// null for NaN and infinity, which JSON does not have.
 [[nodiscard]] inline Json number_or_null(double value) {
   return std::isfinite(value) ? Json(value) : Json();
 }
-
-/// The command line is wrong, whatever the files hold (exit code 2).
-class UsageError : public InputError {
- public:
-  using InputError::InputError;
-};
-
-/// What `read` makes of words of the command line; an InputError of it becomes a UsageError.
-template <class Read>
-auto from_command_line(const Read& read) {
-  try {
-    return read();
-  } catch (const InputError& error) {
-    throw UsageError({}, error.what(), error.hint());
-  }
-}
-
-/// For CLI::Option::check(): a creation option of GDAL.
-[[nodiscard]] std::string check_creation_option(const std::string& word);
 
 /// One effective setting and where it came from: "default", "cli", or a place in the site file.
 struct ConfigValue {

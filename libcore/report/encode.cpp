@@ -59,22 +59,4 @@ std::string json_string(std::string_view text) {
   return out + "\"";
 }
 
-std::string html_table(const std::vector<std::string>& headings,
-                       const std::vector<std::vector<std::string>>& rows,
-                       const std::vector<bool>& is_number) {
-  const auto cell = [&is_number](const char* tag, std::size_t column, const std::string& content) {
-    const bool right = column < is_number.size() && is_number[column];
-    return std::string("<") + tag + (right ? " class=\"n\">" : ">") + content + "</" + tag + ">";
-  };
-  std::string out = "<div class=\"wide\"><table>\n<thead><tr>";
-  for (std::size_t c = 0; c < headings.size(); ++c) out += cell("th", c, headings[c]);
-  out += "</tr></thead>\n<tbody>\n";
-  for (const auto& row : rows) {
-    out += "<tr>";
-    for (std::size_t c = 0; c < row.size(); ++c) out += cell("td", c, row[c]);
-    out += "</tr>\n";
-  }
-  return out + "</tbody></table></div>\n";
-}
-
 }  // namespace talus

@@ -21,10 +21,4 @@ namespace talus {
 /// A JSON string in its quotes that may also stand inside an HTML script element.
 [[nodiscard]] std::string json_string(std::string_view text);
 
-/// A table with a line of headings; cells are HTML already. Columns of numbers are set right
-/// (`is_number`, one a column; empty: none).
-[[nodiscard]] std::string html_table(const std::vector<std::string>& headings,
-                                     const std::vector<std::vector<std::string>>& rows,
-                                     const std::vector<bool>& is_number = {});
-
 }  // namespace talus

@@ -1,12 +1,12 @@
-// tools/report_parts.hpp
-// What a report is made from, and its sections as HTML.
+// tools/report_data.hpp
+// What a report is made from.
 // in:    the results in a site's folder, as the tools wrote them
-// out:   text of a page
 #pragma once
 
 #include <string>
 #include <vector>
 
+#include "report/run_health.hpp"
 #include "scene/site.hpp"
 #include "store/run_file.hpp"
 #include "store/runs.hpp"
@@ -14,13 +14,6 @@
 #include "tool.hpp"
 
 namespace talus {
-
-/// A limit over all runs.
-struct LimitOverRuns {
-  std::string name;
-  double worst = 0, limit = 0;
-  int n_failed = 0;
-};
 
 struct MapPicture {
   std::string name, png, qml;  ///< of maps/NAME.*; qml may be empty
@@ -43,12 +36,5 @@ struct ReportData {
   std::vector<RunRecord> steps;  ///< each behind those whose outputs it read
   std::string run_id, version;
 };
-
-/// The page. `script` is the viewer's, `style` its CSS.
-[[nodiscard]] std::string report_page(const ReportData& data, const std::string& script,
-                                      const std::string& style);
-
-/// `command` with the tool's folder left out, so that the place of the programs does not matter.
-[[nodiscard]] std::string bare_command(const std::string& command);
 
 }  // namespace talus

@@ -1,0 +1,19 @@
+// libcore/report/provenance.hpp
+// From the first files to the results: the steps as a table of a page.
+// in:    runs of the registry
+// out:   HTML, the same wherever the programs and the site's folder lie
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "store/runs.hpp"
+
+namespace talus {
+
+/// A row a step: command, version, run id, files read and written with the beginning of their
+/// digests; paths below the folder of `site_file` are relative to it.
+[[nodiscard]] std::string provenance_table(const std::vector<RunRecord>& steps,
+                                           const std::string& site_file);
+
+}  // namespace talus

@@ -1,0 +1,26 @@
+// libcore/report/run_charts.hpp
+// How runs went over time, as charts: speeds and ways, health, where the energy went.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/csv.hpp"
+#include "report/chart.hpp"
+#include "store/run_file.hpp"
+
+namespace talus {
+
+/// A column of talus-runout's curves (curve_csv) against time, a line a run.
+[[nodiscard]] Chart curve_chart(const CsvTable& table, const std::string& column,
+                                const std::string& title, const std::string& unit);
+
+/// A field of the health against time, a line a run, on a logarithmic axis.
+[[nodiscard]] Chart health_chart(const std::vector<RunFile>& runs, const std::string& title,
+                                 const std::string& unit, double HealthRow::*field);
+
+/// Where the energy of a run is [MJ]: what moves and what was spent adds up to what the fall, the
+/// start and the motion of the base gave.
+[[nodiscard]] Chart energy_chart(const RunFile& run);
+
+}  // namespace talus

@@ -1,0 +1,66 @@
+#include "report/run_health.hpp"
+
+#include <algorithm>
+
+#include "base/text.hpp"
+#include "report/html.hpp"
+
+namespace talus {
+
+void add_limits(const std::vector<RunCheck>& checks, std::vector<LimitOverRuns>& limits) {
+  for (const RunCheck& check : checks) {
+    auto at = std::find_if(limits.begin(), limits.end(),
+                           [&check](const LimitOverRuns& l) { return l.name == check.name; });
+    if (at == limits.end()) at = limits.insert(at, {check.name, check.value, check.limit, 0});
+    at->worst = std::max(at->worst, check.value);
+    if (!check.pass) ++at->n_failed;
+  }
+}
+
+bool all_pass(const std::vector<RunFile>& runs, const std::vector<LimitOverRuns>& limits) {
+  return std::all_of(runs.begin(), runs.end(),
+                     [](const RunFile& run) { return run.info.status == "done"; }) &&
+         std::all_of(limits.begin(), limits.end(),
+                     [](const LimitOverRuns& limit) { return limit.n_failed == 0; });
+}
+
+std::string limit_table(const std::vector<LimitOverRuns>& limits, std::size_t n_runs) {
+  std::vector<std::vector<std::string>> rows;
+  for (const LimitOverRuns& limit : limits) {
+    const bool pass = limit.n_failed == 0;
+    rows.push_back({xml_escaped(limit.name), text(limit.worst, 4), text(limit.limit, 4),
+                    std::to_string(limit.n_failed) + " of " + std::to_string(n_runs),
+                    pass ? "<b class=\"pass\">pass</b>" : "<b class=\"fail\">fail</b>"});
+  }
+  return html_table({"limit", "worst value", "limit", "runs beyond it", ""}, rows,
+                    {false, true, true, true, false});
+}
+
+std::string counter_table(const std::vector<RunFile>& runs, const std::vector<std::string>& names) {
+  std::vector<std::vector<std::string>> rows;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const RunFile& run = runs[i];
+    HealthRow sum;
+    double shortest = 0;
+    for (const HealthRow& row : run.health) {
+      sum.steps += row.steps;
+      sum.impacts += row.impacts;
+      sum.unconverged += row.unconverged;
+      sum.left_domain = row.left_domain;
+      sum.largest_penetration = std::max(sum.largest_penetration, row.largest_penetration);
+      if (row.shortest_dt > 0 && (shortest == 0 || row.shortest_dt < shortest))
+        shortest = row.shortest_dt;
+    }
+    rows.push_back({xml_escaped(names[i]), xml_escaped(run.info.status),
+                    text(run.info.time, 4) + " of " + text(run.info.duration, 4),
+                    std::to_string(sum.steps), text(shortest, 3), std::to_string(sum.impacts),
+                    std::to_string(sum.unconverged), text(sum.largest_penetration, 3),
+                    std::to_string(sum.left_domain)});
+  }
+  return html_table({"run", "status", "time [s]", "steps", "shortest step [s]", "impacts",
+                     "steps of a block accepted unconverged", "largest penetration [m]",
+                     "blocks that left the terrain"},
+                    rows, {false, false, true, true, true, true, true, true, true});
+}
+
+}  // namespace talus

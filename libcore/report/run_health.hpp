@@ -1,0 +1,36 @@
+// libcore/report/run_health.hpp
+// Whether runs kept to their limits, and what went on inside of them, as tables of a page.
+// in:    checks of the registry, health of the run files
+// out:   HTML
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "store/run_file.hpp"
+#include "store/runs.hpp"
+
+namespace talus {
+
+/// A limit over all runs.
+struct LimitOverRuns {
+  std::string name;
+  double worst = 0, limit = 0;  ///< in the unit that the name ends in
+  int n_failed = 0;             ///< runs beyond it
+};
+
+/// Takes in the checks of one more run.
+void add_limits(const std::vector<RunCheck>& checks, std::vector<LimitOverRuns>& limits);
+
+/// All runs have finished, none beyond a limit.
+[[nodiscard]] bool all_pass(const std::vector<RunFile>& runs,
+                            const std::vector<LimitOverRuns>& limits);
+
+/// A row a limit.
+[[nodiscard]] std::string limit_table(const std::vector<LimitOverRuns>& limits, std::size_t n_runs);
+
+/// A row a run: how far it came, its steps, and what was not as it should be. `names`: one a run.
+[[nodiscard]] std::string counter_table(const std::vector<RunFile>& runs,
+                                        const std::vector<std::string>& names);
+
+}  // namespace talus

@@ -1,0 +1,38 @@
+#include <gtest/gtest.h>
+
+#include "report/run_health.hpp"
+
+using namespace talus;
+
+TEST(RunHealth, ALimitKeepsTheWorstOfItsRuns) {
+  std::vector<LimitOverRuns> limits;
+  add_limits({{"penetration_m", 0.1, 0.5, true}}, limits);
+  add_limits({{"penetration_m", 0.7, 0.5, false}, {"lost", 0, 0, true}}, limits);
+  add_limits({{"penetration_m", 0.2, 0.5, true}}, limits);
+  ASSERT_EQ(limits.size(), 2u);
+  EXPECT_EQ(limits[0].worst, 0.7);
+  EXPECT_EQ(limits[0].n_failed, 1);
+  EXPECT_EQ(limits[1].n_failed, 0);
+  EXPECT_NE(limit_table(limits, 3).find("<td class=\"n\">1 of 3</td>"), std::string::npos);
+}
+
+TEST(RunHealth, PassesWhenAllRunsAreDoneWithinTheirLimits) {
+  std::vector<RunFile> runs(2);
+  runs[0].info.status = runs[1].info.status = "done";
+  EXPECT_TRUE(all_pass(runs, {}));
+  EXPECT_FALSE(all_pass(runs, {{"penetration_m", 0.7, 0.5, 1}}));
+  runs[1].info.status = "running";
+  EXPECT_FALSE(all_pass(runs, {}));
+}
+
+// Steps add up over the intervals; the shortest one is that of the steps that searched contacts.
+TEST(RunHealth, CountersAreThoseOfTheWholeRun) {
+  RunFile run;
+  run.health.resize(3);
+  for (HealthRow& row : run.health) row.steps = 100;
+  run.health[0].shortest_dt = 0.002;
+  run.health[1].shortest_dt = 0.001;
+  const std::string table = counter_table({run}, {"CASE_1"});
+  EXPECT_NE(table.find("<td>CASE_1</td>"), std::string::npos);
+  EXPECT_NE(table.find("<td class=\"n\">300</td><td class=\"n\">0.001</td>"), std::string::npos);
+}

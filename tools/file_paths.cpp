@@ -1,0 +1,29 @@
+#include "file_paths.hpp"
+
+#include "base/text.hpp"
+
+namespace talus {
+namespace fs = std::filesystem;
+
+bool is_virtual(const std::string& path) { return path.rfind("/vsi", 0) == 0; }
+
+std::string absolute_path(const std::string& path) {
+  if (is_virtual(path)) return path;
+  std::error_code error;  // a pipe behind /dev/stdout has no name of its own
+  const fs::path canonical = fs::weakly_canonical(fs::absolute(path), error);
+  return (error ? fs::absolute(path) : canonical).string();
+}
+
+fs::path folder_of(const fs::path& path) {
+  return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
+std::vector<std::string> sidecars_of(const std::string& path) {
+  std::vector<std::string> files;
+  if (lower(fs::path(path).extension().string()) != ".shp") return files;
+  for (const char* extension : {".shx", ".dbf", ".prj", ".cpg"})
+    files.push_back(fs::path(path).replace_extension(extension).string());
+  return files;
+}
+
+}  // namespace talus

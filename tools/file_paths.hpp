@@ -1,0 +1,25 @@
+// tools/file_paths.hpp
+// Files as they are named on a command line: GDAL's virtual ones, those kept beside another, and
+// the one spelling of a path that two names can be compared by.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace talus {
+
+/// A virtual path of GDAL (/vsi...), which the file system does not know.
+[[nodiscard]] bool is_virtual(const std::string& path);
+
+/// Absolute and without links, as far as it exists; a virtual path as it is.
+[[nodiscard]] std::string absolute_path(const std::string& path);
+
+/// "." for a name alone.
+[[nodiscard]] std::filesystem::path folder_of(const std::filesystem::path& path);
+
+/// Files that a format keeps beside the named one, whether or not they are there: of a Shapefile
+/// its index, attributes, CRS and encoding; of others none.
+[[nodiscard]] std::vector<std::string> sidecars_of(const std::string& path);
+
+}  // namespace talus

@@ -1,0 +1,17 @@
+// tools/report_fences.hpp
+// What fences do, as a report says it: verdict, arrivals, fields, and the slide with and without.
+#pragma once
+
+#include <string>
+
+#include "report_data.hpp"
+
+namespace talus {
+
+/// Whether a fence meets its design code, and what it would need; `fence` of the fences' JSON.
+[[nodiscard]] std::string fence_verdict(const Json& fence);
+
+/// The chapter; empty without the fences' JSON.
+[[nodiscard]] std::string fence_section(const ReportData& data);
+
+}  // namespace talus

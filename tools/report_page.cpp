@@ -1,0 +1,69 @@
+#include "report_page.hpp"
+
+#include <utility>
+
+#include "base/text.hpp"
+#include "report/html.hpp"
+#include "report_basis.hpp"
+#include "report_course.hpp"
+#include "report_fences.hpp"
+#include "report_json.hpp"
+#include "report_maps.hpp"
+#include "report_result.hpp"
+#include "report_runout.hpp"
+#include "report_viewer.hpp"
+
+namespace talus {
+namespace {
+
+std::string page_head(const ReportData& data, const std::string& style) {
+  const SiteInfo& info = data.site.info;
+  std::string out =
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta "
+      "name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
+      xml_escaped(info.name) +
+      ": rockslide hazard</title>\n<link rel=\"icon\" "
+      "href=\"data:,\">\n<style>\n" +
+      style + "</style>\n</head>\n<body>\n<header>\n<h1>" + xml_escaped(info.name) + "</h1>\n";
+  if (!info.description.empty()) out += html_paragraph(xml_escaped(info.description));
+  out += "<p class=\"soft\">Rockslide hazard report by Talus " + xml_escaped(data.version) +
+         ", run id " + "<code>" + data.run_id + "</code>, " +
+         word_text(value_at(data.trn, {"grid", "crs"})) + "<span id=\"written\"></span></p>\n<nav>";
+  for (const auto& [id, title] : {std::pair{"result", "Result"},
+                                  {"maps", "Maps"},
+                                  {"animation", "Animation"},
+                                  {"runout", "Run-out"},
+                                  {"fences", "Fences"},
+                                  {"curves", "Over time"},
+                                  {"health", "Health"},
+                                  {"assumed", "Assumptions"},
+                                  {"plan", "Plan"},
+                                  {"provenance", "Provenance"}})
+    out += std::string("<a href=\"#") + id + "\">" + title + "</a>";
+  return out + "</nav>\n</header>\n<main>\n";
+}
+
+// Shows when the file was written, which its bytes do not tell, and opens what is folded for print.
+constexpr const char* page_script =
+    "<script>\n"
+    "const changed = new Date(document.lastModified), two = (n) => String(n).padStart(2, '0');\n"
+    "document.getElementById('written').textContent = `, file written ${changed.getFullYear()}-"
+    "${two(changed.getMonth() + 1)}-${two(changed.getDate())} "
+    "${two(changed.getHours())}:${two(changed.getMinutes())}`;\n"
+    "addEventListener('beforeprint', () => "
+    "document.querySelectorAll('details').forEach((d) => { d.open = true; }));\n"
+    "</script>\n";
+
+}  // namespace
+
+std::string report_page(const ReportData& data, const std::string& viewer,
+                        const std::string& style) {
+  return page_head(data, style) + result_section(data) + map_section(data) + viewer_section(data) +
+         runout_section(data) + fence_section(data) + curve_section(data) + health_section(data) +
+         assumption_section(data) + plan_section(data) + provenance_section(data) +
+         "</main>\n<footer>Talus is free software (GPL-3.0-or-later), without any warranty. A "
+         "model is not the slope: limits and assumptions stand in docs/limits.md.</footer>\n" +
+         viewer_script(data, viewer) + page_script + "</body>\n</html>\n";
+}
+
+}  // namespace talus

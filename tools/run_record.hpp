@@ -1,0 +1,24 @@
+// tools/run_record.hpp
+// What is recorded of a run, beside what the tool itself says of it: who, when, where, what with,
+// at which cost; and the id that equal runs share.
+#pragma once
+
+#include <string>
+
+#include "store/runs.hpp"
+
+namespace talus {
+
+/// A file with its digest; none of a folder and of GDAL's virtual paths.
+[[nodiscard]] RunArtifact artifact_of(const std::string& role, const std::string& path);
+
+/// Fills in what is known of a run of `tool` as it begins: program, command, folder, machine, time.
+void begin_record(const std::string& tool, const std::string& command_line, RunRecord& record);
+
+/// Digest of tool, version, settings and contents of the inputs (16 digits).
+[[nodiscard]] std::string content_id(const RunRecord& record);
+
+/// Fills in how the run ended and what it took. `wall_time_s`: since it began [s].
+void end_record(int exit_code, double wall_time_s, RunRecord& record);
+
+}  // namespace talus
