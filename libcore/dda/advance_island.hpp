@@ -53,6 +53,17 @@ struct AdvanceIsland {
   [[nodiscard]] Vec6 change(size_t k) const {
     return w.island.velocity[k] - w.island.free_velocity[k];
   }
+  // Displacement of a member by contact over the substep of `h`.
+  [[nodiscard]] Vec6 displacement_by_contact(size_t k, double h) const {
+    Vec6 displacement = (h - w.time[k]) * change(k);
+    displacement.head<3>() += support_path(k, h);
+    return displacement;
+  }
+  // ... and what of that its support alone makes: it acts until the first hit.
+  [[nodiscard]] Vec3 support_path(size_t k, double h) const {
+    const Support& support = w.support[k];
+    return support.until * (h - support.until / 2) * support.acceleration;
+  }
   // Relative motion of the points of contact `r`, `of` being a motion of members.
   template <class Of>
   [[nodiscard]] Vec3 relative(size_t r, Of&& of) const {
@@ -144,6 +155,9 @@ struct AdvanceIsland {
   bool assemble(double t, double h);
 
   // island_impacts.cpp
+  void bear_until_hit(double h);
+  template <class Of>
+  [[nodiscard]] double relative_along(size_t r, Of&& of) const;
   void make_hit(size_t r, double gap_end, double speed_end, double h);
   int find_hits(double h, bool free);
   [[nodiscard]] double overshoot_of_hits() const;
@@ -184,6 +198,7 @@ struct AdvanceIsland {
   void remember(double h);
   [[nodiscard]] Motion end_of(size_t k) const;
   void add_path(size_t k, const Motion& end, double t, double h);
+  void renew_support(size_t k, double h);
   void finish(double t, double h);
   void forget_rates(int b);
   Attempt attempt(double t, double& h);

@@ -24,7 +24,51 @@ constexpr double rest_tolerance = 1e-6;    // ... nor below this, of what gravit
 constexpr double small_tolerance = 1e-8;   // the same in an island that is factored
 constexpr double linear_tolerance = 3e-2;  // of conjugate gradients in a Newton step
 
+// When a gap of `g` > 0 that closes at `v` and is `gap_end` <= 0 after `h` is zero, its speed taken
+// as linear.
+double time_of_hit(double g, double v, double gap_end, double h) {
+  const double a = 2 * (gap_end - g - v * h) / (h * h);
+  return std::min(h, 2 * g / (std::sqrt(std::max(0.0, v * v - 2 * a * g)) - v));
+}
+
 }  // namespace
+
+// Component along the normal of contact `r` of how its bodies move relative to each other, `of`
+// being how their centroids move.
+template <class Of>
+double AdvanceIsland::relative_along(size_t r, Of&& of) const {
+  const IslandContact& contact = w.contacts[r];
+  Vec3 motion = of(place(contact.a));
+  if (contact.b >= 0) motion -= of(place(contact.b));
+  return w.island.rows[r].normal.dot(motion);
+}
+
+// The contacts of a substep are those at its end, and press as its end asks for. What bore a block
+// until it was hit need not be among them: it goes on as it was up to then. Without that, the hit
+// takes up what the old support had to bear: a block that slides round a bend is slowed down as if
+// it were ahead by half a step.
+void AdvanceIsland::bear_until_hit(double h) {
+  w.support.assign(w.members.size(), {});
+  const auto note_hit = [&](int b, double time) {
+    if (b < 0 || state.support[static_cast<size_t>(b)].isZero(0)) return;
+    double& until = w.support[place(b)].until;
+    until = until > 0 ? std::min(until, time) : time;
+  };
+  for (const IslandContact& contact : w.contacts) {
+    if (!contact.waits || contact.gap_start <= 0 || contact.gap_free > contact.touch) continue;
+    const double time = time_of_hit(contact.gap_start, contact.speed_start, contact.gap_free, h);
+    note_hit(contact.a, time);
+    note_hit(contact.b, time);
+  }
+  for (size_t k = 0; k < w.members.size(); ++k) {
+    Support& support = w.support[k];
+    const Vec3& acceleration = state.support[block(k)];
+    if (acceleration.dot(w.substeps[k].start.velocity) > 0) support.until = 0;  // it has left it
+    if (support.until == 0) continue;
+    support.acceleration = acceleration;
+    w.island.free_velocity[k].head<3>() += support.until * acceleration;
+  }
+}
 
 // Makes contact `r`, which waits, a hit: from its gaps at both ends of the step without it, and its
 // speed at the end. Between them the speed is taken as linear; a block that another hit threw goes
@@ -33,13 +77,17 @@ void AdvanceIsland::make_hit(size_t r, double gap_end, double speed_end, double 
   IslandContact& contact = w.contacts[r];
   IslandRow& row = w.island.rows[r];
   const double v = contact.speed_start, g = contact.gap_start;
-  const double a = 2 * (gap_end - g - v * h) / (h * h);
+  const double supported = relative_along(r, [&](size_t k) { return support_path(k, h); });
+  const double a = 2 * (gap_end - supported - g - v * h) / (h * h);
   const double a_free = 2 * (contact.gap_free - g - v * h) / (h * h);
-  if (g > 0)
-    contact.hit_time = std::min(h, 2 * g / (std::sqrt(std::max(0.0, v * v - 2 * a * g)) - v));
+  if (g > 0) contact.hit_time = time_of_hit(g, v, gap_end, h);
   if (is_lone() && contact.hit_time > hit_at_end * h) contact.hit_time = h;
   const double rest = h - contact.hit_time, resting_speed = numbers(contact.a).resting_speed;
-  const double speed = std::max(g > 0 ? v + a * contact.hit_time : contact.approach, speed_end);
+  const double borne = relative_along(r, [&](size_t k) -> Vec3 {
+    return std::min(contact.hit_time, w.support[k].until) * w.support[k].acceleration;
+  });
+  const double speed =
+      std::max(g > 0 ? v + a * contact.hit_time + borne : contact.approach, speed_end);
   const double returned = speed < -resting_speed ? -contact.restitution * speed : 0;
   contact.hit_speed = std::min(speed, -resting_speed);
   contact.rebound = returned;
@@ -77,9 +125,10 @@ int AdvanceIsland::find_hits(double h, bool free) {
     if (!contact.waits) continue;
     const Vec3& normal = w.island.rows[r].normal;
     double gap_end = contact.gap_free, speed_end = -std::numeric_limits<double>::infinity();
-    if (!free) {
-      gap_end +=
-          normal.dot(relative(r, [&](size_t k) -> Vec6 { return (h - w.time[k]) * change(k); }));
+    if (free) {
+      gap_end += relative_along(r, [&](size_t k) { return support_path(k, h); });
+    } else {
+      gap_end += normal.dot(relative(r, [&](size_t k) { return displacement_by_contact(k, h); }));
       speed_end = normal.dot(relative(r, [&](size_t k) { return w.island.velocity[k]; }));
     }
     if (gap_end > contact.touch) continue;
@@ -178,6 +227,7 @@ double AdvanceIsland::first_hit(double h) const {
 
 // Impulses of the substep, hits included; gives up where first_hit() says that it ends sooner.
 bool AdvanceIsland::solve(double h) {
+  bear_until_hit(h);
   n_hits = find_hits(h, true);
   if (first_hit(h) < h) return true;
   w.hits.clear();
@@ -262,7 +312,7 @@ void AdvanceIsland::shift_arms(double h) {
 void AdvanceIsland::set_displacements(double h) {
   w.displacement.resize(w.members.size());
   for (size_t k = 0; k < w.members.size(); ++k) {
-    w.displacement[k] = (h - w.time[k]) * change(k);
+    w.displacement[k] = displacement_by_contact(k, h);
   }
 }
 

@@ -60,6 +60,7 @@ struct State {  // clang-format off
   std::vector<Phase> phase;                 ///<                                     (n_blocks)
   std::vector<Vec3> acceleration;           ///< of the last step, by contact too [m/s2]  (n_blocks)
   std::vector<Vec3> spin_rate;              ///< angular acceleration, body axes [rad/s2] (n_blocks)
+  std::vector<Vec3> support;                ///< by the ground in the last substep, hits aside [m/s2] (n_blocks)
   std::vector<Vec3> rebound;                ///< law paper: v_a of the hit under way, (28) [m/s] (n_blocks)
   std::vector<Pose> still_pose;             ///< that a block has stayed near        (n_blocks)
   std::vector<int> still_steps;             ///< for so many steps                   (n_blocks)

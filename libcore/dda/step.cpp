@@ -73,6 +73,7 @@ State start(const Scene& scene) {
   state.phase.assign(n, Phase::near_ground);
   state.acceleration.assign(n, Vec3::Zero());
   state.spin_rate.assign(n, Vec3::Zero());
+  state.support.assign(n, Vec3::Zero());
   state.still_pose = scene.blocks.rest;
   state.still_steps.assign(n, 0);
   state.rebound.assign(n, Vec3::Zero());

@@ -154,6 +154,7 @@ void AdvanceIsland::remember(double h) {
   const double relax = offset_relaxed(scene.gravity.norm(), h);
   for (const int b : w.members) state.memory[static_cast<size_t>(b)].clear();
   w.pressed.assign(w.members.size(), 0);
+  w.ground_impulse.assign(w.members.size(), Vec3::Zero());
   for (size_t r = 0; r < w.contacts.size(); ++r) {
     const IslandContact& contact = w.contacts[r];
     const IslandRow& solved = w.island.rows[r];
@@ -170,6 +171,7 @@ void AdvanceIsland::remember(double h) {
     ++report.n_closed;
     report.sum_penetration += std::max(overlap, 0.0);
     if (contact.hit) continue;
+    if (contact.b < 0 && !gives_way(r)) w.ground_impulse[place(contact.a)] += solved.impulse;
     const double p_n = solved.normal.dot(solved.impulse);
     const Vec3 p_t = solved.impulse - p_n * solved.normal;
     std::vector<ContactMemory>& memories = state.memory[static_cast<size_t>(contact.a)];
@@ -197,7 +199,7 @@ Motion AdvanceIsland::end_of(size_t k) const {
   const Substep& s = w.substeps[k];
   const Vec6 dv = change(k);
   Motion end = s.free;
-  end.velocity += dv.head<3>();
+  end.velocity += dv.head<3>() + w.support[k].until * w.support[k].acceleration;
   end.pose.position += w.displacement[k].head<3>();
   end.pose.attitude =
       (rotation_by(w.displacement[k].tail<3>()) * s.free.pose.attitude).normalized();
@@ -223,11 +225,28 @@ void AdvanceIsland::add_path(size_t k, const Motion& end, double t, double h) {
     add_segment(w.members[k], false, t + hit, h - hit, after, end, work);
 }
 
+// How the ground bears a member from now on, and the work of what bore it until it was hit.
+void AdvanceIsland::renew_support(size_t k, double h) {
+  const Support& was = w.support[k];
+  const Substep& s = w.substeps[k];
+  const double mass = w.numbers[k].mass;
+  if (was.until > 0) {
+    const Vec3 total = s.free_acceleration + was.acceleration;
+    const Vec3 path = was.until * (s.start.velocity + was.until / 2 * total);
+    const double done = mass * was.acceleration.dot(path);
+    (done < 0 ? state.ledger.friction : state.ledger.contact) -= done;
+  }
+  Vec3 support = w.ground_impulse[k] / (mass * h);
+  if (!support.isZero(0)) support += was.until / h * was.acceleration;
+  set_support(scene, w.members[k], support, state);
+}
+
 void AdvanceIsland::finish(double t, double h) {
   for (size_t k = 0; k < w.members.size(); ++k) {
     const Substep& s = w.substeps[k];
     const Motion end = end_of(k);
     add_path(k, end, t, h);
+    renew_support(k, h);
     if (w.pressed[k])
       set_rates(w.members[k], w.numbers[k], s, end, state);
     else

@@ -163,6 +163,7 @@ struct Advance {
   void finish(const Substep& s, const Motion& end, double t, double t_next) {
     add_segment(b, state.memory[i()].empty(), t, s.h, s.start, end, work);
     set_rates(b, c, s, end, state);
+    set_support(scene, b, (end.velocity - s.free.velocity) / s.h, state);
     const Vec3 external = s.free_acceleration - scene.gravity;
     if (!external.isZero(0))
       state.ledger.base += c.mass * external.dot(end.pose.position - s.start.pose.position);
@@ -189,6 +190,7 @@ struct Advance {
     if (!hit.converged) ++report.n_unconverged;
     state.acceleration[i()] = scene.gravity;
     state.spin_rate[i()].setZero();
+    state.support[i()].setZero();
   }
 
   // Substep of h from t; h is shortened to the first impact or when the forces do not converge.
@@ -279,6 +281,7 @@ struct Advance {
     state.flight_end[i()] = t + safe;
     report.n_flips += static_cast<int>(state.memory[i()].size());
     state.memory[i()].clear();
+    state.support[i()].setZero();
     relax_strain();
     return true;
   }

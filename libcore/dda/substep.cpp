@@ -25,6 +25,10 @@ constexpr double most_by_turning = 1e-2 / touch_ratio;
 // A contact whose stiffness changes by more than this factor from step to step has another law,
 // with the size of its island or its neighbours; less is its block's turning.
 constexpr double same_law = 1.5;
+// Approaches slower than what gravity does in two steps have no rebound, but those faster than this
+// [m/s] have one as soon as one step of gravity does not explain them: without it, what rocks lose
+// by all their rebounds that are left out shortens a slide at large steps.
+constexpr double rebound_matters = 0.1;
 constexpr double parallel = 1 - 1e-12, no_limit = std::numeric_limits<double>::infinity();
 
 Vec3 load_torque(const Scene& scene, int b, const Quat& attitude) {
@@ -92,7 +96,7 @@ BlockNumbers numbers_of(const Scene& scene, int b) {
           stiffest_lone * scene.blocks.mass[i] / (dt * dt),
           recovery_steps * dt,
           touch_ratio * radius,
-          std::max(2 * g * dt, 1e-6),
+          std::max(std::clamp(rebound_matters, g * dt, 2 * g * dt), 1e-6),
           g,
           scene.blocks.inertia[i],
           1 / scene.blocks.mass[i],
@@ -344,6 +348,11 @@ void set_rates(int b, const BlockNumbers& c, const Substep& s, const Motion& end
   const Vec3 spin_end =
       (end.pose.attitude.conjugate() * end.angular_momentum).cwiseProduct(c.per_inertia);
   state.spin_rate[i] = (1 - share) * state.spin_rate[i] + per_h * (spin_end - s.spin_start);
+}
+
+void set_support(const Scene& scene, int b, const Vec3& acceleration, State& state) {
+  const double size = acceleration.norm(), g = scene.gravity.norm();
+  state.support[static_cast<size_t>(b)] = size > g ? Vec3(g / size * acceleration) : acceleration;
 }
 
 bool is_finite(const Motion& m) {

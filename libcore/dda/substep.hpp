@@ -107,4 +107,7 @@ void stop_at(const Motion& last_good, std::size_t b, State& state, StepReport& r
 /// Keeps the accelerations of the substep, the first guess of the next.
 void set_rates(int b, const BlockNumbers& c, const Substep& s, const Motion& end, State& state);
 
+/// Keeps by how much the ground accelerated block b [m/s2], up to what bears its weight.
+void set_support(const Scene& scene, int b, const Vec3& acceleration, State& state);
+
 }  // namespace talus

@@ -63,6 +63,12 @@ struct FreeTurn {
   Mat3 per_inertia;           ///< inverse of the inertia at the end, local axes [1/(kg m2)]
 };
 
+/// What bears a body until its first hit in a substep, as it did before.
+struct Support {
+  Vec3 acceleration = Vec3::Zero();  ///< of the body's centroid by the ground [m/s2]
+  double until = 0;                  ///< from the start of the substep, 0: nothing bears it [s]
+};
+
 /// A point of contact too far apart to close within the substep.
 struct LeftOutPoint {
   int manifold = 0, point = 0;
@@ -124,6 +130,8 @@ struct IslandStepWork {  // clang-format off
   Island island;
   IslandWork solver;
   std::vector<int> island_manifolds;        ///< of the island at hand
+  std::vector<Support> support;             ///<                                         (n_members)
+  std::vector<Vec3> ground_impulse;         ///< hits aside [N s]                        (n_members)
   std::vector<HitSum> hit_sums;             ///<                                         (n_members)
   std::vector<ExpectedHit> hits, last_hits; ///< of this round of solutions and the one before
   std::vector<double> weight, time;         ///< impulses expected [N s]; mean time of theirs [s] (n_members)

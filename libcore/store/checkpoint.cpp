@@ -15,7 +15,7 @@ namespace talus {
 
 static_assert(sizeof(Motion) == 112 && sizeof(EnergyLedger) == 48 && sizeof(RunCounters) == 64);
 static_assert(sizeof(ContactMemory) == 136 && sizeof(HealthRow) == 184);
-static_assert(sizeof(State) == 8 + 13 * 24 + sizeof(EnergyLedger) + sizeof(RunCounters) +
+static_assert(sizeof(State) == 8 + 14 * 24 + sizeof(EnergyLedger) + sizeof(RunCounters) +
                                    sizeof(PairState) + sizeof(PlacedHulls) + sizeof(FenceState));
 static_assert(sizeof(FenceState) == 5 * 24 && sizeof(FenceHit) == 104 && sizeof(BlockBond) == 48);
 static_assert(sizeof(PairState) == 272 && sizeof(PlacedHulls) == 192 && sizeof(ListedPair) == 96);
@@ -97,9 +97,9 @@ void fields(Fields<Archive>& archive, PlacedHulls& placed) {
 template <class Archive>
 void fields(Fields<Archive>& archive, State& state) {
   archive(state.time, state.motion, state.local_time, state.flight_end, state.phase,
-          state.acceleration, state.spin_rate, state.rebound, state.still_pose, state.still_steps,
-          state.strain, state.strain_rate, state.memory, state.pairs, state.placed, state.bonds,
-          state.fence, state.ledger, state.counters);
+          state.acceleration, state.spin_rate, state.support, state.rebound, state.still_pose,
+          state.still_steps, state.strain, state.strain_rate, state.memory, state.pairs,
+          state.placed, state.bonds, state.fence, state.ledger, state.counters);
 }
 template <class Archive>
 void fields(Fields<Archive>& archive, PassageValues& values) {
@@ -138,7 +138,7 @@ void fields(Fields<Archive>& archive, Checkpoint& checkpoint) {
 
 namespace {
 
-constexpr std::uint64_t format = 0x34306b6365686374;  // "tcheck04"
+constexpr std::uint64_t format = 0x35306b6365686374;  // "tcheck05"
 constexpr std::size_t digest_length = 64;
 
 std::string digest_of(std::span<const std::uint8_t> bytes) {
@@ -156,8 +156,8 @@ bool fits(const Checkpoint& checkpoint, std::size_t n_blocks, int n_cells) {
   const FrameSampler& sampler = checkpoint.sampler;
   if (!all_are(n_blocks, {state.motion.size(), state.local_time.size(), state.flight_end.size(),
                           state.phase.size(), state.acceleration.size(), state.spin_rate.size(),
-                          state.still_pose.size(), state.still_steps.size(), state.memory.size(),
-                          sampler.next.size(), sampler.latest.size()}))
+                          state.support.size(), state.still_pose.size(), state.still_steps.size(),
+                          state.memory.size(), sampler.next.size(), sampler.latest.size()}))
     return false;
   if (!checkpoint.trackers.empty() && checkpoint.trackers.size() != n_blocks) return false;
   for (const PassageTracker& tracker : checkpoint.trackers)

@@ -118,6 +118,7 @@ inline void expect_bounded(double stiffness, double dt, double duration, int n_h
   settings.dt = dt;
   settings.normal_stiffness = stiffness;
   double sum_of_gains = 0, largest_gain = 0;
+  std::int64_t unconverged = 0, substeps = 0;
   for (int number = 0; number < n_heaps; ++number) {
     const Scene scene = heap(settings, number);
     State state = start(scene);
@@ -140,8 +141,10 @@ inline void expect_bounded(double stiffness, double dt, double duration, int n_h
     EXPECT_FALSE(has(flags, StepFlag::fell_through)) << which;
     EXPECT_LT(last, first) << which;
     EXPECT_LT(gain, stiffness > 0 || dt > 1e-2 ? 0.05 : 1e-3) << which;
-    EXPECT_LT(state.counters.unconverged, 1 + state.counters.substeps / 1000) << which;
+    unconverged += state.counters.unconverged;
+    substeps += state.counters.substeps;
   }
+  EXPECT_LE(unconverged, substeps / 1000) << text(stiffness, 3) << ' ' << text(dt, 3);
   // for docs/verification.md: --gtest_output=json
   const std::string setting = "_k" + text(stiffness, 3) + "_dt" + text(dt, 3);
   testing::Test::RecordProperty("mean_gain" + setting, text(sum_of_gains / n_heaps, 2));

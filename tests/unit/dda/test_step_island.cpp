@@ -71,6 +71,57 @@ TEST(StepIsland, TowerHoldsWhereFrictionIsEnough) { EXPECT_LT(tower_holds({}).er
 
 TEST(StepIsland, TowerSlidesAsOne) { EXPECT_LT(tower_slide({}).error, 2e-3); }
 
+// Mean speed, from eight starts, of two boxes side by side that came down a slope of four fifths
+// and round a bend in nine planes onto flat ground, 100 m from where the slope ends.
+double speed_behind_a_bend(double dt) {
+  constexpr double cell = 8, past = 100;
+  constexpr int n_starts = 8;
+  const auto height = [](double x, double) {
+    const auto node = [](double k) {
+      return k <= 0 ? 25.6 - 6.4 * k : k >= 8 ? 0 : 0.4 * (8 - k) * (8 - k);
+    };
+    const double k = std::floor(x / cell), part = x / cell - k;
+    return (1 - part) * node(k) + part * node(k + 1);
+  };
+  const Vec3 down = Vec3(1, 0, -0.8).normalized(), up = Vec3(0.8, 0, 1).normalized();
+  double sum = 0;
+  for (int i = 0; i < n_starts; ++i) {
+    const double x = -34 + cell * i / n_starts;
+    std::vector<Body> bodies;
+    for (const double y : {-2.005, 2.005}) {
+      Polyhedron shape = box(Vec3(-2, -2, 0), Vec3(2, 2, 2));
+      for (Vec3& v : shape.vertices)
+        v = Vec3(x, y, height(x, y)) + v.x() * down + v.y() * Vec3::UnitY() + v.z() * up;
+      bodies.push_back(body_of(shape, 10 * down));
+    }
+    Settings settings;
+    settings.dt = dt;
+    const Scene scene = scene_of(make_trn(height, cell, 200), rough(15), bodies, settings);
+    State state = start(scene);
+    Work work = make_work(scene);
+    Motion last = state.motion[0];
+    while (state.motion[0].pose.position.x() < past && state.time < 30) {
+      last = state.motion[0];
+      step(scene, state, work);
+    }
+    const Motion& now = state.motion[0];
+    const double part =
+        (past - last.pose.position.x()) / (now.pose.position - last.pose.position).x();
+    sum += last.velocity.x() + part * (now.velocity - last.velocity).x();
+  }
+  return sum / n_starts;
+}
+
+// Before its first hit of a step a block is borne by what bore it in the step before. Left to fall
+// until then, blocks of an island came out of this bend slower by 1.7 % at 50 ms and by 0.6 % at 20
+// ms.
+TEST(StepIsland, BlocksThatSlideRoundABendAreBorneUntilTheyAreHit) {
+  const double exact = speed_behind_a_bend(1e-3);
+  EXPECT_NEAR(speed_behind_a_bend(1e-2), exact, 1e-3 * exact);
+  EXPECT_NEAR(speed_behind_a_bend(2e-2), exact, 1e-3 * exact);
+  EXPECT_NEAR(speed_behind_a_bend(5e-2), exact, 4e-3 * exact);
+}
+
 // Two tumbling boxes that fly into each other, far above the ground.
 Scene meeting(double restitution, double phi_deg) {
   std::vector<Body> bodies;

@@ -279,6 +279,7 @@ talus::Checkpoint sample_checkpoint() {
   state.phase = {talus::Phase::flight, talus::Phase::near_ground};
   state.acceleration.resize(2, Vec3::Ones());
   state.spin_rate.resize(2, Vec3::Zero());
+  state.support.resize(2, Vec3::Zero());
   state.still_pose.resize(2);
   state.still_steps = {0, 7};
   state.memory.resize(2);
