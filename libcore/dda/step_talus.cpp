@@ -41,6 +41,9 @@ BlockSystem<Dof> make_system(const Scene& scene, int b, const BlockNumbers& c, c
     system.mass = mass_matrix(c.mass / volume, volume, blocks.second_moment[i].asDiagonal());
     Vec12 v;
     v << v_free, s.spin_free, state.strain_rate[i];
+    // the angular momentum is that of the turning and of the straining together
+    v.segment<3>(3) -=
+        c.per_inertia.cwiseProduct(system.mass.template block<3, 6>(3, 6) * v.tail<6>());
     momentum = system.mass * v;
     momentum.template tail<6>() -= s.h * volume * stress;
     for (const PointLoad& load : scene.loads)
@@ -71,7 +74,11 @@ template <int Dof>
 Solved<Dof> solved_motion(const BlockNumbers& c, const Substep& s, const BlockSystem<Dof>& system) {
   Solved<Dof> out;
   out.change = system.velocity - system.free_velocity;
-  if constexpr (Dof == 12) out.change.template tail<6>().setZero();
+  if constexpr (Dof == 12) {  // where straining stops, what turned with it goes on turning
+    out.change.template segment<3>(3) += c.per_inertia.cwiseProduct(
+        system.mass.template block<3, 6>(3, 6) * out.change.template tail<6>());
+    out.change.template tail<6>().setZero();
+  }
   const Vec3 dv = s.R * out.change.template head<3>();
   const Vec3 dw = s.R * out.change.template segment<3>(3);
   out.end = s.free;
