@@ -29,6 +29,9 @@ constexpr double same_law = 1.5;
 // [m/s] have one as soon as one step of gravity does not explain them: without it, what rocks lose
 // by all their rebounds that are left out shortens a slide at large steps.
 constexpr double rebound_matters = 0.1;
+// Nor has one what the solver's tolerance may bring about: this part of what gravity does in a
+// step.
+constexpr double least_by_tolerance = 2e-2;
 constexpr double parallel = 1 - 1e-12, no_limit = std::numeric_limits<double>::infinity();
 
 Vec3 load_torque(const Scene& scene, int b, const Quat& attitude) {
@@ -36,6 +39,13 @@ Vec3 load_torque(const Scene& scene, int b, const Quat& attitude) {
   for (const PointLoad& load : scene.loads)
     if (load.block == b) torque += (attitude * load.point).cross(load.force);
   return torque;
+}
+
+// Below this approach there is no impact [m/s].
+double resting_speed(const Settings& settings, double g) {
+  const double by_gravity = g * settings.dt;
+  return std::max({std::clamp(rebound_matters, by_gravity, 2 * by_gravity),
+                   least_by_tolerance * settings.tolerance_factor * by_gravity, 1e-6});
 }
 
 // The row that a remembered contact continues: same features, nearest normal.
@@ -96,7 +106,7 @@ BlockNumbers numbers_of(const Scene& scene, int b) {
           stiffest_lone * scene.blocks.mass[i] / (dt * dt),
           recovery_steps * dt,
           touch_ratio * radius,
-          std::max(std::clamp(rebound_matters, g * dt, 2 * g * dt), 1e-6),
+          resting_speed(scene.settings, g),
           g,
           scene.blocks.inertia[i],
           1 / scene.blocks.mass[i],
