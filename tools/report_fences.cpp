@@ -134,7 +134,7 @@ std::string fence_verdict(const Json& fence) {
     kind = "", outcome = " is high enough, its energy is not checked, by ";
   std::string out =
       "<div class=\"verdict " + kind + "\"><b>" + name + outcome +
-      xml_escaped(fs::path(word_text(value_at(fence, {"design", "code"}))).stem().string()) +
+      fs::path(word_text(value_at(fence, {"design", "code"}))).stem().string() +
       "</b>: needs " + number_text(value_at(design, {"required_capacity_kj"})) +
       " kJ (class: " + word_text(value_at(design, {"smallest_class"})) + ") and a height of " +
       number_text(value_at(design, {"required_height_m"}), 3) + " m; it is " +

@@ -365,13 +365,13 @@ AxisChoice find_axis(const Hulls& hulls, const PlacedHulls& placed, int part_a, 
   AxisChoice choice;
   double open = std::max(best.separation, edges.separation);
   const bool covered_above = std::max(covered.all, covered.part) > open;
-  if (covered_above || (open < -seam && (has_pieces(hulls, part_a) || has_pieces(hulls, part_b)))) {
+  if (has_pieces(hulls, part_a) || has_pieces(hulls, part_b)) {
     const BestEdges inner = find_edges(parts, to_a(parts, farthest), true, scratch);
     if (inner.separation > margin) return apart_choice(inner);
     if (covered_above) {
       covered.all = std::max(covered.all, inner.separation);
-    } else if (inner.separation > open) {  // an edge that is covered where it was judged, bare here
-      edges = inner;
+    } else if (open < -seam && inner.separation > open) {
+      edges = inner;  // an edge that is covered where it was judged, bare here
       open = inner.separation;
     }
   }

@@ -65,9 +65,9 @@ const IslandRow nothing;
   g.cohesion = Two{p.cohesion_impulse, q.cohesion_impulse};
   g.tension = Two{p.tension_impulse, q.tension_impulse};
   g.normal_limit = Two{p.normal_limit, q.normal_limit};
-  g.normal_stiffness = g.normal_damping;
+  g.normal_tangent = g.normal_damping;
   g.state = Two{static_cast<double>(p.state), static_cast<double>(q.state)};
-  g.slip_stiffness = g.used_stiffness = g.trial_speed = zero;
+  g.slip_tangent = g.used_tangent = g.trial_speed = zero;
 }
 
 // Velocity of the contact points.
@@ -125,7 +125,7 @@ const IslandRow nothing;
   const Two per_length = 1 / length, force = slip ? cap * per_length : zero;
   const Two on_start = force * share * a;
   for (int k = 0; k < 3; ++k) g.impulse[k] -= force * trial[k] + on_start * g.slip_start[k];
-  g.slip_stiffness = a > zero ? (1 + share) * force * speed * per_length : force;
+  g.slip_tangent = a > zero ? (1 + share) * force * speed * per_length : force;
   g.trial_speed = speed;
 }
 
@@ -137,13 +137,13 @@ const IslandRow nothing;
   p_n = -g.normal_damping * (v_n + g.bias);
   const Mask below_limit = p_n < g.normal_limit;
   p_n = below_limit ? p_n : g.normal_limit;
-  g.normal_stiffness = below_limit ? g.normal_damping : zero;
+  g.normal_tangent = below_limit ? g.normal_damping : zero;
   Mask closed;
   press(g, p_n, evaluation, closed, cap);
   if ((closed[0] | closed[1]) == 0) {
     for (int k = 0; k < 3; ++k) g.impulse[k] = zero;
     g.state = open_lanes;
-    g.slip_stiffness = zero;
+    g.slip_tangent = zero;
     return;
   }
   for (int k = 0; k < 3; ++k) trial[k] = w[k] - v_n * g.normal[k] + g.shear_velocity[k];
@@ -153,7 +153,7 @@ const IslandRow nothing;
   const Two on_normal = closed ? p_n : zero, on_trial = stick ? g.shear_damping : zero;
   for (int k = 0; k < 3; ++k) g.impulse[k] = on_normal * g.normal[k] - on_trial * trial[k];
   g.state = stick ? stick_lanes : slip ? slip_lanes : open_lanes;
-  g.slip_stiffness = zero;
+  g.slip_tangent = zero;
   const Mask rubs = slip & (cap > zero);
   if ((rubs[0] | rubs[1]) != 0) add_slip(rubs, trial, speed_sq, cap, g);
 }
@@ -197,19 +197,19 @@ void add_exact_slip(const RowGroup& g, int lane, Mat6& rest) {
   const Vec3 e = friction / cap, across = n.cross(e);
   const double cosine = e.dot(start), threshold = cap / (g.shear_damping[lane] * speed);
   const double share = 1 - threshold;
-  Vec3 by_trial = g.slip_stiffness[lane] * across, bound = e;
+  Vec3 by_trial = g.slip_tangent[lane] * across, bound = e;
   if (cosine > 0) {
     const Vec3 end = ((1 + share) * e - share * cosine * start).normalized();
     const double c = end.dot(start), turn = -c * n.cross(start).dot(end) /
                                             (1 + share * (2 + share) * c * c);  // d angle / d share
-    by_trial = g.slip_stiffness[lane] * n.cross(end) + cap / speed * turn * threshold * end;
+    by_trial = g.slip_tangent[lane] * n.cross(end) + cap / speed * turn * threshold * end;
     bound -= turn * threshold * across;
   }
   const auto q_n = generalised<6>(arm, n);
   rest += generalised<6>(arm, across) * generalised<6>(arm, by_trial).transpose();
   if (p_n > 0)
     rest -=
-        g.friction[lane] * g.normal_stiffness[lane] * generalised<6>(arm, bound) * q_n.transpose();
+        g.friction[lane] * g.normal_tangent[lane] * generalised<6>(arm, bound) * q_n.transpose();
 }
 
 // The stiffness across the slip, s a a^T with a = n x t / |t|, t the tangential impulse.
@@ -217,7 +217,7 @@ void add_exact_slip(const RowGroup& g, int lane, Mat6& rest) {
   Two across[3], q[6], length_sq;
   cross(g.normal, g.impulse, across);
   dot(across, across, length_sq);
-  const Two k = g.slip_stiffness / (length_sq > zero ? length_sq : one);
+  const Two k = g.slip_tangent / (length_sq > zero ? length_sq : one);
   generalised_lanes(g.arm, across, q);
   add_outer(k, q, out);
 }
@@ -270,15 +270,15 @@ void unpack_rows(std::span<const BodyPair> pairs, const RowGroups& groups,
   for (RowGroup& g : groups) {
     Two w[3], q[6];
     velocity_at(g.arm, u, w);
-    const Two state_before = g.state, stiffness_before = g.normal_stiffness;
+    const Two state_before = g.state, tangent_before = g.normal_tangent;
     apply_law(w, evaluation, g);
     generalised_lanes(g.arm, g.impulse, q);
     for (int k = 0; k < 6; ++k) total[k] += q[k];
-    const Two difference = g.slip_stiffness - g.used_stiffness;
+    const Two difference = g.slip_tangent - g.used_tangent;
     const Two off = difference > zero ? difference : -difference;
-    const Two moved = off > slack * g.used_stiffness ? one : zero;
+    const Two moved = off > slack * g.used_tangent ? one : zero;
     changed |= any((g.state != state_before ? one : zero) + moved +
-                   (g.normal_stiffness != stiffness_before ? one : zero));
+                   (g.normal_tangent != tangent_before ? one : zero));
   }
   for (int k = 0; k < 6; ++k) f[k] = sum(total[k]);
   return changed;
@@ -289,20 +289,20 @@ void unpack_rows(std::span<const BodyPair> pairs, const RowGroups& groups,
   for (Two& t : total) t = zero;
   bool closed = false;
   for (RowGroup& g : groups) {
-    g.used_stiffness = g.slip_stiffness;
+    g.used_tangent = g.slip_tangent;
     if (!any(g.state)) continue;
     closed = true;
     const Two k_t = g.state == stick_lanes ? g.shear_damping : zero;
-    const Two k_n = (g.state != open_lanes ? g.normal_stiffness : zero) - k_t;
+    const Two k_n = (g.state != open_lanes ? g.normal_tangent : zero) - k_t;
     Two q[6];
     if (any(k_t)) add_stick(k_t, g.arm, total);
     if (any(k_n)) {
       generalised_lanes(g.arm, g.normal, q);
       add_outer(k_n, q, total);
     }
-    if (!rest && any(g.slip_stiffness)) add_across(g, total);
+    if (!rest && any(g.slip_tangent)) add_across(g, total);
     for (int lane = 0; rest && lane < width; ++lane)
-      if (g.slip_stiffness[lane] > 0) add_exact_slip(g, lane, *rest);
+      if (g.slip_tangent[lane] > 0) add_exact_slip(g, lane, *rest);
   }
   for (int k = 0; k < Packed<6>::size; ++k) W.value[static_cast<size_t>(k)] = sum(total[k]);
   return closed;

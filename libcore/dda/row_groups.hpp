@@ -27,10 +27,10 @@ struct RowGroup {
   Two bias, normal_damping, shear_damping, friction, cohesion, tension, normal_limit;
   Two impulse[3];
   Two state;             ///< ContactState
-  Two normal_stiffness;  ///< normal_damping; 0 while the normal impulse is at its limit [kg]
-  Two slip_stiffness;    ///< of a slipping contact across its direction [kg]
+  Two normal_tangent;  ///< normal_damping; 0 while the normal impulse is at its limit [kg]
+  Two slip_tangent;    ///< of a slipping contact across its direction [kg]
   Two trial_speed;       ///< of a slipping contact, v_t + s / tau [m/s]
-  Two used_stiffness;    ///< slip_stiffness when the tangent was last summed [kg]
+  Two used_tangent;    ///< slip_tangent when the tangent was last summed [kg]
 };
 
 /// Rows [row_begin, row_end) of the pair fill groups [begin[p], begin[p + 1]).

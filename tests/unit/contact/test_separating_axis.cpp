@@ -150,8 +150,8 @@ TEST(FindAxis, BareRestOfACoveredFaceStops) {
 
 // A box of two parts, the second one set against the first for `covered` to both sides of y = 0,
 // tops flush; and a bar at y = `across` that leans on the edge between the tops, which is none of
-// the body's where they meet. Its own lower edge is `gap` above that one.
-Bodies bar_over_a_seam(double covered, double across, double gap) {
+// the body's where they meet. Its own lower edge is `gap` above that one and goes on for `past`.
+Bodies bar_over_a_seam(double covered, double across, double gap, double past = 2.8) {
   Bodies bodies;
   const std::vector<Polyhedron> step = {box(Vec3(-1, -5, 0), Vec3(0, 5, 1)),
                                         box(Vec3(0, -covered, 0), Vec3(0.1, covered, 1))};
@@ -163,7 +163,7 @@ Bodies bar_over_a_seam(double covered, double across, double gap) {
   turn.col(2) = turn.col(0).cross(turn.col(1));
   const double half = 0.2, height = gap + half * std::sqrt(2.0);
   add(bodies, box(Vec3(-2, -half, -half), Vec3(2, half, half)),
-      {Vec3(0, across, 1) + height * up + 0.8 * along, Quat(turn)});
+      {Vec3(0, across, 1) + height * up + (past - 2) * along, Quat(turn)});
   place(bodies);
   return bodies;
 }
@@ -176,6 +176,17 @@ TEST(FindAxis, EdgeOfASeamKeepsAPartApart) {
   const AxisChoice choice = find_axis(bodies.hulls, bodies.placed, 0, 2, 0.01, {}, scratch);
   EXPECT_FALSE(choice.touches);
   EXPECT_EQ(choice.axis.kind, AxisKind::edges);
+  EXPECT_NEAR(choice.separation, gap, 1e-12);
+}
+
+// Also where its end dips below the top of that part by less than a seam is given. Taken for an
+// overlap with the top, it bore a block 5 cm away, which rattled for good.
+TEST(FindAxis, EdgeOfASeamKeepsAPartApartThatSeemsToOverlapByLittle) {
+  const double gap = 0.05, dip = 0.003;
+  const Bodies bodies = bar_over_a_seam(5, 0, gap, gap + dip * std::sqrt(2.0));
+  AxisScratch scratch;
+  const AxisChoice choice = find_axis(bodies.hulls, bodies.placed, 0, 2, 0.01, {}, scratch);
+  EXPECT_FALSE(choice.touches);
   EXPECT_NEAR(choice.separation, gap, 1e-12);
 }
 
