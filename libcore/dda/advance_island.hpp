@@ -55,14 +55,12 @@ struct AdvanceIsland {
   }
   // Displacement of a member by contact over the substep of `h`.
   [[nodiscard]] Vec6 displacement_by_contact(size_t k, double h) const {
-    Vec6 displacement = (h - w.time[k]) * change(k);
-    displacement.head<3>() += support_path(k, h);
-    return displacement;
+    return (h - w.time[k]) * change(k) + borne_path(k, h);
   }
-  // ... and what of that its support alone makes: it acts until the first hit.
-  [[nodiscard]] Vec3 support_path(size_t k, double h) const {
-    const Support& support = w.support[k];
-    return support.until * (h - support.until / 2) * support.acceleration;
+  // ... and what of that its support alone has made at `time`.
+  [[nodiscard]] Vec6 borne_path(size_t k, double time) const {
+    const double until = std::min(time, w.support[k].until);
+    return until * (time - until / 2) * w.support[k].acceleration;
   }
   // Relative motion of the points of contact `r`, `of` being a motion of members.
   template <class Of>
@@ -131,6 +129,8 @@ struct AdvanceIsland {
     int bond;              ///< index into State::bonds, -1: none
     BlockNumbers numbers;  ///< of A, with the pair's stiffness and touching gap
   };
+  [[nodiscard]] LostContacts lost_contacts(int b, const Substep& s,
+                                           std::span<const ContactRow> rows) const;
   void clear_island();
   void add_member(size_t k, double h);
   void open_pair(int a, int b);
@@ -156,8 +156,10 @@ struct AdvanceIsland {
 
   // island_impacts.cpp
   void bear_until_hit(double h);
-  template <class Of>
-  [[nodiscard]] double relative_along(size_t r, Of&& of) const;
+  void set_support_of(size_t k);
+  bool bear_by_opened();
+  [[nodiscard]] std::pair<double, double> support_power(size_t k) const;
+  [[nodiscard]] double time_until_it_drives(size_t k) const;
   void make_hit(size_t r, double gap_end, double speed_end, double h);
   int find_hits(double h, bool free);
   [[nodiscard]] double overshoot_of_hits() const;

@@ -43,7 +43,29 @@ double approach_of(const ContactRow& row, double h) {
 
 }  // namespace
 
+// The contacts of block b with the ground that no row of the substep continues: their features
+// crossed to another plane.
+LostContacts AdvanceIsland::lost_contacts(int b, const Substep& s,
+                                          std::span<const ContactRow> rows) const {
+  const std::vector<ContactMemory>& memory = state.memory[static_cast<size_t>(b)];
+  const std::span<const Vec3> vertices = vertices_of(scene.blocks.shapes, b);
+  LostContacts lost;
+  for (size_t i = 0; i < memory.size(); ++i) {
+    const ContactMemory& contact = memory[i];
+    if (contact.key.body_b >= 0) continue;
+    lost.all += contact.normal_force;
+    const auto continues = [i](const ContactRow& row) { return row.memory == static_cast<int>(i); };
+    if (std::any_of(rows.begin(), rows.end(), continues)) continue;
+    const bool is_vertex = contact.key.mode == ContactMode::vertex_face;
+    lost.add(contact.normal_force,
+             is_vertex ? Vec3(s.R_start * vertices[static_cast<size_t>(contact.key.feature_a)])
+                       : Vec3(Vec3::Zero()));
+  }
+  return lost;
+}
+
 void AdvanceIsland::clear_island() {
+  w.lost.clear();
   w.contacts.clear();
   w.turns.clear();
   w.left_out.clear();
@@ -128,6 +150,7 @@ IslandContact& AdvanceIsland::push(int a, const ContactKey& key, double touch, d
   if (row.memory >= 0) {
     const ContactMemory& m = state.memory[static_cast<size_t>(a)][static_cast<size_t>(row.memory)];
     out.impulse = h * m.normal_force * row.normal;
+    contact.bore = m.normal_force;
     out.state = static_cast<ContactState>(m.state);
   }
   w.island.pairs.back().row_end = static_cast<int>(w.island.rows.size());
@@ -138,6 +161,7 @@ IslandContact& AdvanceIsland::push(int a, const ContactKey& key, double touch, d
 bool AdvanceIsland::add_ground(size_t k) {
   const Substep& s = w.substeps[k];
   const int b = w.members[k];
+  w.lost.push_back({});
   if (!scene.settings.trn_contacts) {
     if (is_below_ground(scene, b, s.free.pose.position))
       report.flags = report.flags | StepFlag::fell_through;
@@ -152,6 +176,7 @@ bool AdvanceIsland::add_ground(size_t k) {
   }
   if (near.reach == Reach::below) report.flags = report.flags | StepFlag::fell_through;
   make_rows(scene, b, w.numbers[k], s, state, work);
+  w.lost.back() = lost_contacts(b, s, work.rows);
   if (work.rows.empty()) return true;
   open_pair(static_cast<int>(k), -1);
   for (ContactRow& row : work.rows) {

@@ -33,41 +33,74 @@ double time_of_hit(double g, double v, double gap_end, double h) {
 
 }  // namespace
 
-// Component along the normal of contact `r` of how its bodies move relative to each other, `of`
-// being how their centroids move.
-template <class Of>
-double AdvanceIsland::relative_along(size_t r, Of&& of) const {
-  const IslandContact& contact = w.contacts[r];
-  Vec3 motion = of(place(contact.a));
-  if (contact.b >= 0) motion -= of(place(contact.b));
-  return w.island.rows[r].normal.dot(motion);
-}
-
-// The contacts of a substep are those at its end, and press as its end asks for. What bore a block
-// until it was hit need not be among them: it goes on as it was up to then. Without that, the hit
-// takes up what the old support had to bear: a block that slides round a bend is slowed down as if
-// it were ahead by half a step.
+// The contacts of a substep are those at its end. Where a member's corner crosses to a plane that
+// it hits, what bore it until then is none of them: it goes on up to the hit. Without that the
+// member falls, and the new plane takes up what the old one should have borne, as if all bends came
+// half a step too soon. It ends where it would begin to drive the member.
 void AdvanceIsland::bear_until_hit(double h) {
-  w.support.assign(w.members.size(), {});
-  const auto note_hit = [&](int b, double time) {
-    if (b < 0 || state.support[static_cast<size_t>(b)].isZero(0)) return;
-    double& until = w.support[place(b)].until;
-    until = until > 0 ? std::min(until, time) : time;
-  };
+  w.support.assign(w.members.size(), {Vec6::Zero(), h});
+  w.is_hit.assign(w.members.size(), 0);
+  w.opened.assign(w.members.size(), 0);
   for (const IslandContact& contact : w.contacts) {
-    if (!contact.waits || contact.gap_start <= 0 || contact.gap_free > contact.touch) continue;
-    const double time = time_of_hit(contact.gap_start, contact.speed_start, contact.gap_free, h);
-    note_hit(contact.a, time);
-    note_hit(contact.b, time);
+    if (!contact.waits || contact.b >= 0 || contact.gap_free > contact.touch) continue;
+    double time = 0;
+    if (contact.gap_start > 0)
+      time = time_of_hit(contact.gap_start, contact.speed_start, contact.gap_free, h);
+    const size_t k = place(contact.a);
+    w.support[k].until = std::min(w.support[k].until, time);
+    w.is_hit[k] = 1;
   }
   for (size_t k = 0; k < w.members.size(); ++k) {
-    Support& support = w.support[k];
-    const Vec3& acceleration = state.support[block(k)];
-    if (acceleration.dot(w.substeps[k].start.velocity) > 0) support.until = 0;  // it has left it
-    if (support.until == 0) continue;
-    support.acceleration = acceleration;
-    w.island.free_velocity[k].head<3>() += support.until * acceleration;
+    if (!w.is_hit[k]) w.support[k].until = 0;
+    set_support_of(k);
   }
+}
+
+// Bears member k by the contacts that it lost.
+void AdvanceIsland::set_support_of(size_t k) {
+  Support& support = w.support[k];
+  const LostContacts& lost = w.lost[k];
+  if (support.until == 0 || lost.force == 0) return;
+  w.island.free_velocity[k] -= support.until * support.acceleration;
+  const Vec3 per_force = state.support[block(k)] / lost.all;
+  support.acceleration << lost.force * per_force,
+      w.turns[k].per_inertia * lost.arm.cross(w.numbers[k].mass * per_force);
+  support.until = std::min(support.until, time_until_it_drives(k));
+  w.island.free_velocity[k] += support.until * support.acceleration;
+}
+
+// Contacts with the ground that a hit opens pressed until then. True when there are any.
+bool AdvanceIsland::bear_by_opened() {
+  bool any = false;
+  for (size_t r = 0; r < w.contacts.size(); ++r) {
+    const IslandContact& contact = w.contacts[r];
+    if (contact.b >= 0 || contact.fixed >= 0 || contact.bore <= 0) continue;
+    const size_t k = place(contact.a);
+    if (w.support[k].until == 0 || w.island.rows[r].state != ContactState::open) continue;
+    w.lost[k].add(contact.bore, contact.arm);
+    w.opened[k] = 1;
+    any = true;
+  }
+  for (size_t k = 0; any && k < w.members.size(); ++k)
+    if (w.opened[k]) set_support_of(k);
+  return any;
+}
+
+// Power of what bears member k at the start of the substep, and how fast it rises [W, W/s].
+std::pair<double, double> AdvanceIsland::support_power(size_t k) const {
+  const Vec6& acceleration = w.support[k].acceleration;
+  Vec6 velocity, change = acceleration;
+  velocity << w.substeps[k].start.velocity, w.turns[k].spin_start;
+  change.head<3>() += w.substeps[k].free_acceleration;
+  const Vec6 force = w.island.mass[k] * acceleration;
+  return {force.dot(velocity), force.dot(change)};
+}
+
+// Until when what bears member k takes energy from it.
+double AdvanceIsland::time_until_it_drives(size_t k) const {
+  const auto [power, rise] = support_power(k);
+  if (power > 0) return 0;
+  return rise > 0 ? -power / rise : std::numeric_limits<double>::infinity();
 }
 
 // Makes contact `r`, which waits, a hit: from its gaps at both ends of the step without it, and its
@@ -77,15 +110,15 @@ void AdvanceIsland::make_hit(size_t r, double gap_end, double speed_end, double 
   IslandContact& contact = w.contacts[r];
   IslandRow& row = w.island.rows[r];
   const double v = contact.speed_start, g = contact.gap_start;
-  const double supported = relative_along(r, [&](size_t k) { return support_path(k, h); });
+  const double supported = row.normal.dot(relative(r, [&](size_t k) { return borne_path(k, h); }));
   const double a = 2 * (gap_end - supported - g - v * h) / (h * h);
   const double a_free = 2 * (contact.gap_free - g - v * h) / (h * h);
   if (g > 0) contact.hit_time = time_of_hit(g, v, gap_end, h);
   if (is_lone() && contact.hit_time > hit_at_end * h) contact.hit_time = h;
   const double rest = h - contact.hit_time, resting_speed = numbers(contact.a).resting_speed;
-  const double borne = relative_along(r, [&](size_t k) -> Vec3 {
+  const double borne = row.normal.dot(relative(r, [&](size_t k) -> Vec6 {
     return std::min(contact.hit_time, w.support[k].until) * w.support[k].acceleration;
-  });
+  }));
   const double speed =
       std::max(g > 0 ? v + a * contact.hit_time + borne : contact.approach, speed_end);
   const double returned = speed < -resting_speed ? -contact.restitution * speed : 0;
@@ -126,7 +159,7 @@ int AdvanceIsland::find_hits(double h, bool free) {
     const Vec3& normal = w.island.rows[r].normal;
     double gap_end = contact.gap_free, speed_end = -std::numeric_limits<double>::infinity();
     if (free) {
-      gap_end += relative_along(r, [&](size_t k) { return support_path(k, h); });
+      gap_end += normal.dot(relative(r, [&](size_t k) { return borne_path(k, h); }));
     } else {
       gap_end += normal.dot(relative(r, [&](size_t k) { return displacement_by_contact(k, h); }));
       speed_end = normal.dot(relative(r, [&](size_t k) { return w.island.velocity[k]; }));
@@ -235,6 +268,10 @@ bool AdvanceIsland::solve(double h) {
   const double tolerance = small ? small_hit_tolerance : hit_tolerance;
   bool converged = solve_once(h, false);
   for (int round = 0; round < most_hit_rounds && converged; ++round) {
+    if (round == 0 && bear_by_opened()) {
+      converged = solve_once(h, true);
+      if (!converged) break;
+    }
     const int more = find_hits(h, false);
     n_hits += more;
     if (n_hits == 0 || first_hit(h) < h) return true;
@@ -269,8 +306,9 @@ void AdvanceIsland::set_times(double h) {
                                    [](const IslandContact& contact) { return contact.hit; });
   if (any_hit) find_mean_times(h);
   for (size_t k = 0; k < w.members.size(); ++k)
-    w.island.position[k] =
-        w.substeps[k].free.pose.position - (h - w.time[k]) * w.substeps[k].free.velocity;
+    w.island.position[k] = w.substeps[k].free.pose.position -
+                           (h - w.time[k]) * w.substeps[k].free.velocity +
+                           borne_path(k, w.time[k]).head<3>();
   if (any_hit) shift_arms(h);
 }
 

@@ -26,10 +26,10 @@ struct RowGroup {
   Two normal[3], arm[3], shear_velocity[3], slip_start[3];
   Two bias, normal_damping, shear_damping, friction, cohesion, tension, normal_limit;
   Two impulse[3];
-  Two state;             ///< ContactState
+  Two state;           ///< ContactState
   Two normal_tangent;  ///< normal_damping; 0 while the normal impulse is at its limit [kg]
   Two slip_tangent;    ///< of a slipping contact across its direction [kg]
-  Two trial_speed;       ///< of a slipping contact, v_t + s / tau [m/s]
+  Two trial_speed;     ///< of a slipping contact, v_t + s / tau [m/s]
   Two used_tangent;    ///< slip_tangent when the tangent was last summed [kg]
 };
 

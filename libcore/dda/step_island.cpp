@@ -197,9 +197,9 @@ void AdvanceIsland::remember(double h) {
 // Motion of a member at the end of the substep: the free one, corrected (theory 1.8, 1.10).
 Motion AdvanceIsland::end_of(size_t k) const {
   const Substep& s = w.substeps[k];
-  const Vec6 dv = change(k);
+  const Vec6 dv = change(k) + w.support[k].until * w.support[k].acceleration;
   Motion end = s.free;
-  end.velocity += dv.head<3>() + w.support[k].until * w.support[k].acceleration;
+  end.velocity += dv.head<3>();
   end.pose.position += w.displacement[k].head<3>();
   end.pose.attitude =
       (rotation_by(w.displacement[k].tail<3>()) * s.free.pose.attitude).normalized();
@@ -216,9 +216,14 @@ void AdvanceIsland::add_path(size_t k, const Motion& end, double t, double h) {
     add_segment(w.members[k], false, t, h, s.start, end, work);
     return;
   }
-  const Motion before = fly(s.start, w.numbers[k].inertia, s.free_acceleration, hit);
+  const Support& support = w.support[k];
+  const double borne = std::min(hit, support.until);
+  Motion before = fly(s.start, w.numbers[k].inertia, s.free_acceleration, hit);
+  before.velocity += borne * support.acceleration.head<3>();
+  before.pose.position += borne_path(k, hit).head<3>();
   Motion after = before;
-  after.velocity = end.velocity - (h - hit) * s.free_acceleration;
+  after.velocity = end.velocity - (h - hit) * s.free_acceleration -
+                   (support.until - borne) * support.acceleration.head<3>();
   after.angular_momentum = end.angular_momentum;
   if (hit > rounding * h) add_segment(w.members[k], false, t, hit, s.start, before, work);
   if (hit < (1 - rounding) * h)
@@ -228,16 +233,12 @@ void AdvanceIsland::add_path(size_t k, const Motion& end, double t, double h) {
 // How the ground bears a member from now on, and the work of what bore it until it was hit.
 void AdvanceIsland::renew_support(size_t k, double h) {
   const Support& was = w.support[k];
-  const Substep& s = w.substeps[k];
-  const double mass = w.numbers[k].mass;
   if (was.until > 0) {
-    const Vec3 total = s.free_acceleration + was.acceleration;
-    const Vec3 path = was.until * (s.start.velocity + was.until / 2 * total);
-    const double done = mass * was.acceleration.dot(path);
-    (done < 0 ? state.ledger.friction : state.ledger.contact) -= done;
+    const auto [power, rise] = support_power(k);
+    state.ledger.friction -= was.until * (power + was.until / 2 * rise);
   }
-  Vec3 support = w.ground_impulse[k] / (mass * h);
-  if (!support.isZero(0)) support += was.until / h * was.acceleration;
+  Vec3 support = w.ground_impulse[k] / (w.numbers[k].mass * h);
+  if (!support.isZero(0)) support += was.until / h * was.acceleration.head<3>();
   set_support(scene, w.members[k], support, state);
 }
 

@@ -25,12 +25,12 @@ constexpr double most_by_turning = 1e-2 / touch_ratio;
 // A contact whose stiffness changes by more than this factor from step to step has another law,
 // with the size of its island or its neighbours; less is its block's turning.
 constexpr double same_law = 1.5;
-// Approaches slower than what gravity does in two steps have no rebound, but those faster than this
-// [m/s] have one as soon as one step of gravity does not explain them: without it, what rocks lose
-// by all their rebounds that are left out shortens a slide at large steps.
+// Hits slower than what gravity does in two steps have no rebound, but those faster than this [m/s]
+// have one as soon as gravity does not reach their speed in one step: without it, what rocks lose
+// by all the rebounds that are left out shortens a slide at large steps.
 constexpr double rebound_matters = 0.1;
-// Nor has one what the solver's tolerance may bring about: this part of what gravity does in a
-// step.
+// Nor has one what may be wrong with the forces of an island by a looser tolerance than the
+// default: this part of what gravity does in a step.
 constexpr double least_by_tolerance = 2e-2;
 constexpr double parallel = 1 - 1e-12, no_limit = std::numeric_limits<double>::infinity();
 

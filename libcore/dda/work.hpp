@@ -43,6 +43,7 @@ struct IslandContact {
   double speed_start = 0;         ///< normal velocity at the start of the substep [m/s]
   double gap_start = 0;           ///< at the start of the substep [m]
   double gap_free = 0;            ///< at its end without contact forces [m]
+  double bore = 0;                ///< normal force in the substep before [N]
   double approach = 0;            ///< normal velocity without contact forces, < 0 closing [m/s]
   double offset = 0;              ///< see ContactMemory [m]
   double bond_area = 0;           ///< share of its bond, of blocks or with the ground [m2]
@@ -63,10 +64,24 @@ struct FreeTurn {
   Mat3 per_inertia;           ///< inverse of the inertia at the end, local axes [1/(kg m2)]
 };
 
-/// What bears a body until its first hit in a substep, as it did before.
+/// Contacts that pressed on a body from the ground in the substep before, and those of them that do
+/// not press at the end of this one.
+struct LostContacts {
+  double all = 0;           ///< normal forces of all [N]
+  double force = 0;         ///< ... of those lost [N]
+  Vec3 arm = Vec3::Zero();  ///< sum of these times their arms from the centroid [N m]
+
+  void add(double normal_force, const Vec3& at) {
+    force += normal_force;
+    arm += normal_force * at;
+  }
+};
+
+/// What bears a body until the ground hits it in a substep and is none of the substep's contacts:
+/// acceleration and spin acceleration.
 struct Support {
-  Vec3 acceleration = Vec3::Zero();  ///< of the body's centroid by the ground [m/s2]
-  double until = 0;                  ///< from the start of the substep, 0: nothing bears it [s]
+  Vec6 acceleration = Vec6::Zero();  ///< [m/s2, rad/s2]
+  double until = 0;                  ///< from the start of the substep [s]
 };
 
 /// A point of contact too far apart to close within the substep.
@@ -131,6 +146,9 @@ struct IslandStepWork {  // clang-format off
   IslandWork solver;
   std::vector<int> island_manifolds;        ///< of the island at hand
   std::vector<Support> support;             ///<                                         (n_members)
+  std::vector<std::uint8_t> is_hit;         ///< 1: by the ground, in the substep        (n_members)
+  std::vector<std::uint8_t> opened;         ///< 1: a hit opened contacts with the ground (n_members)
+  std::vector<LostContacts> lost;           ///<                                         (n_members)
   std::vector<Vec3> ground_impulse;         ///< hits aside [N s]                        (n_members)
   std::vector<HitSum> hit_sums;             ///<                                         (n_members)
   std::vector<ExpectedHit> hits, last_hits; ///< of this round of solutions and the one before

@@ -141,6 +141,7 @@ inline void expect_bounded(double stiffness, double dt, double duration, int n_h
     EXPECT_FALSE(has(flags, StepFlag::fell_through)) << which;
     EXPECT_LT(last, first) << which;
     EXPECT_LT(gain, stiffness > 0 || dt > 1e-2 ? 0.05 : 1e-3) << which;
+    EXPECT_LE(state.counters.unconverged, 1 + state.counters.substeps / 1000) << which;
     unconverged += state.counters.unconverged;
     substeps += state.counters.substeps;
   }

@@ -73,12 +73,18 @@ TEST(Step, BlocksWithStrainsComeToRest) {
                                  {body_of(shape, Vec3(0.5, 0, 0))}, settings, {2500, 1e9, 0.25});
     State state = start(scene);
     Work work = make_work(scene);
-    double fastest = 0;
+    double fastest = 0, turned = 0;
     while (state.time < 22) {
       step(scene, state, work);
-      if (state.time > 20) fastest = std::max(fastest, state.motion[0].velocity.norm());
+      if (state.time < 20) continue;
+      const Motion& m = state.motion[0];
+      fastest = std::max(fastest, m.velocity.norm());
+      turned = std::max(turned, (m.angular_momentum.cwiseQuotient(scene.blocks.inertia[0])).norm());
     }
+    EXPECT_EQ(state.phase[0], Phase::near_ground) << k;
+    EXPECT_FALSE(state.memory[0].empty()) << k;
     EXPECT_LT(fastest, 1e-9) << k;
+    EXPECT_LT(turned, 1e-9) << k;
   }
 }
 
@@ -459,6 +465,28 @@ TEST(Step, BlockThatIsShakenByMicrometresFallsAsleep) {
 }
 
 // A push on the centroid equal to the weight on a frictionless plane: a = F / m.
+// Gravity makes 0.5 m/s in a step: what comes faster rebounds, what comes slower does not.
+TEST(Step, HitsFasterThanAStepOfGravityRebound) {
+  Settings settings;
+  settings.dt = 0.05;
+  const auto fastest_upwards = [&](double speed) {
+    const Scene scene =
+        scene_of(make_trn([](double, double) { return 0.0; }, 1, 20), ground_of(30, 0.7),
+                 {body_of(box(Vec3(-0.5, -0.5, 0.001), Vec3(0.5, 0.5, 1.001)), Vec3(0, 0, -speed))},
+                 settings);
+    State state = start(scene);
+    Work work = make_work(scene);
+    double fastest = 0;
+    while (state.time < 0.3) {
+      step(scene, state, work);
+      fastest = std::max(fastest, state.motion[0].velocity.z());
+    }
+    return fastest;
+  };
+  EXPECT_GT(fastest_upwards(0.75), 0.02);
+  EXPECT_LT(fastest_upwards(0.4), 1e-3);
+}
+
 TEST(Step, PointLoadPushesAndTurns) {
   const SlopeFrame flat = slope_frame(0, 0);
   const Body cube = body_of(box_in(flat, Vec3::Zero(), Vec3(-0.5, -0.5, 0), Vec3(0.5, 0.5, 0.1)));

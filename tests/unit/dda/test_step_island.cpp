@@ -112,14 +112,13 @@ double speed_behind_a_bend(double dt) {
   return sum / n_starts;
 }
 
-// Before its first hit of a step a block is borne by what bore it in the step before. Left to fall
-// until then, blocks of an island came out of this bend slower by 1.7 % at 50 ms and by 0.6 % at 20
-// ms.
+// Until the ground hits it within a step a block is borne by what bore it in the step before. Left
+// to fall until then, these came out of the bend slower by 1.7, 0.6 and 0.16 % at 50, 20 and 10 ms.
 TEST(StepIsland, BlocksThatSlideRoundABendAreBorneUntilTheyAreHit) {
   const double exact = speed_behind_a_bend(1e-3);
-  EXPECT_NEAR(speed_behind_a_bend(1e-2), exact, 1e-3 * exact);
-  EXPECT_NEAR(speed_behind_a_bend(2e-2), exact, 1e-3 * exact);
-  EXPECT_NEAR(speed_behind_a_bend(5e-2), exact, 4e-3 * exact);
+  EXPECT_NEAR(speed_behind_a_bend(1e-2), exact, 1.3e-3 * exact);
+  EXPECT_NEAR(speed_behind_a_bend(2e-2), exact, 3e-3 * exact);
+  EXPECT_NEAR(speed_behind_a_bend(5e-2), exact, 8e-3 * exact);
 }
 
 // Two tumbling boxes that fly into each other, far above the ground.

@@ -279,7 +279,7 @@ talus::Checkpoint sample_checkpoint() {
   state.phase = {talus::Phase::flight, talus::Phase::near_ground};
   state.acceleration.resize(2, Vec3::Ones());
   state.spin_rate.resize(2, Vec3::Zero());
-  state.support.resize(2, Vec3::Zero());
+  state.support = {Vec3(1, 2, 3), Vec3(4, 5, 6)};
   state.still_pose.resize(2);
   state.still_steps = {0, 7};
   state.memory.resize(2);
@@ -303,6 +303,7 @@ TEST(Checkpoint, ReadsBackToTheBit) {
   const talus::Checkpoint back = talus::unpack(bytes, 2, 8, "file");
   EXPECT_EQ(talus::pack(back), bytes);
   EXPECT_EQ(back.state.memory[1][2].normal_force, 1e-300);
+  EXPECT_EQ(back.state.support[1], Vec3(4, 5, 6));
   EXPECT_EQ(back.state.counters.impacts, 99);
   EXPECT_EQ(back.trackers[0].covered, (std::vector<int>{5, 6, 7}));
   EXPECT_EQ(back.interval.passes, 1234);
