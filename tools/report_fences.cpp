@@ -132,13 +132,12 @@ std::string fence_verdict(const Json& fence) {
   if (word_text(value_at(design, {"verdict"})) == "meets") kind = "pass", outcome = " meets ";
   if (word_text(value_at(design, {"verdict"})) == "energy not checked")
     kind = "", outcome = " is high enough, its energy is not checked, by ";
-  std::string out =
-      "<div class=\"verdict " + kind + "\"><b>" + name + outcome +
-      fs::path(word_text(value_at(fence, {"design", "code"}))).stem().string() +
-      "</b>: needs " + number_text(value_at(design, {"required_capacity_kj"})) +
-      " kJ (class: " + word_text(value_at(design, {"smallest_class"})) + ") and a height of " +
-      number_text(value_at(design, {"required_height_m"}), 3) + " m; it is " +
-      number_text(value_at(fence, {"height_m"}), 3) + " m high";
+  std::string out = "<div class=\"verdict " + kind + "\"><b>" + name + outcome +
+                    fs::path(word_text(value_at(fence, {"design", "code"}))).stem().string() +
+                    "</b>: needs " + number_text(value_at(design, {"required_capacity_kj"})) +
+                    " kJ (class: " + word_text(value_at(design, {"smallest_class"})) +
+                    ") and a height of " + number_text(value_at(design, {"required_height_m"}), 3) +
+                    " m; it is " + number_text(value_at(fence, {"height_m"}), 3) + " m high";
   const Json capacity = value_at(fence, {"capacity_kj"});
   out += capacity.is_number() ? ", holds " + number_text(capacity) + " kJ"
                               : ", has no capacity given: its energy is not checked";

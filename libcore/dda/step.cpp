@@ -109,7 +109,6 @@ Work make_work(const Scene& scene) {
   work.world_vertices.reserve(most_vertices);
   work.contacts.reserve(8 * (most_vertices + expected_contacts));
   work.rows.reserve(8 * (most_vertices + expected_contacts));
-  work.memory_next.reserve(expected_contacts);
   work.segments.reserve(8 * static_cast<size_t>(n_blocks(scene)) + 64);
   return work;
 }

@@ -320,7 +320,7 @@ struct OpenClose {
   }
 
   // What a closed contact keeps: a sticking one its spring, a slipping one its direction.
-  void remember_row(size_t r) {
+  void remember_row(size_t r, std::vector<ContactMemory>& memories) {
     const ContactRow& row = w.rows[r];
     const PaperSides& sides = w.sides[r];
     const bool sticks = row.state == ContactState::stick;
@@ -340,7 +340,7 @@ struct OpenClose {
     if (sticks) memory.shear = row.shear + way - along * row.normal;
     memory.bond_area = sticks && sides.bond < 0 ? row.bond_area : 0;
     memory.state = static_cast<std::uint8_t>(row.state);
-    work.memory_next.push_back(memory);
+    memories.push_back(memory);
     ++report.n_closed;
     report.sum_penetration += std::max(overlap, 0.0);
     state.ledger.contact -= memory.normal_force * along;
@@ -351,11 +351,10 @@ struct OpenClose {
   void remember() {
     for (size_t k = 0; k < members.size(); ++k) {
       std::vector<ContactMemory>& memory = state.memory[static_cast<size_t>(members[k])];
-      work.memory_next.clear();
-      for (size_t r = w.row_begin[k]; r < w.row_begin[k + 1]; ++r) remember_row(r);
       report.n_flips += count_flips(
           std::span(w.rows).subspan(w.row_begin[k], w.row_begin[k + 1] - w.row_begin[k]), memory);
-      std::swap(memory, work.memory_next);
+      memory.clear();
+      for (size_t r = w.row_begin[k]; r < w.row_begin[k + 1]; ++r) remember_row(r, memory);
     }
   }
 

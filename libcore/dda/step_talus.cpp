@@ -113,7 +113,9 @@ template <int Dof>
 void remember(const BlockNumbers& c, const Substep& s, const Solved<Dof>& solved, State& state,
               Work& work, int b, StepReport& report) {
   const double relax = offset_relaxed(c.gravity, s.h), per_h = 1 / s.h;
-  work.memory_next.clear();
+  std::vector<ContactMemory>& memory = state.memory[static_cast<size_t>(b)];
+  report.n_flips += count_flips(work.rows, memory);
+  memory.clear();
   for (ContactRow& row : work.rows) {
     const Contact& contact = work.contacts[static_cast<size_t>(row.contact)];
     const Vec3 moved = row.free_move + solved.moved(row.point, s.h);
@@ -129,7 +131,7 @@ void remember(const BlockNumbers& c, const Substep& s, const Solved<Dof>& solved
     const Vec3 shear = row.state == ContactState::slip
                            ? Vec3((-c.recovery_time / row.shear_damping) * p_t)
                            : Vec3(row.shear + moved - along * row.normal);
-    work.memory_next.push_back(
+    memory.push_back(
         {.key = contact.key,
          .normal = contact.normal,
          .shear = s.R * shear,
@@ -142,9 +144,6 @@ void remember(const BlockNumbers& c, const Substep& s, const Solved<Dof>& solved
     ++report.n_closed;
     report.sum_penetration += std::max(overlap, 0.0);
   }
-  std::vector<ContactMemory>& memory = state.memory[static_cast<size_t>(b)];
-  report.n_flips += count_flips(work.rows, memory);
-  std::swap(memory, work.memory_next);
 }
 
 /// Outcome of one attempt at a substep.

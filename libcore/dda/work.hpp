@@ -197,7 +197,6 @@ struct Work {  // clang-format off
   std::vector<Contact> contacts;             ///< of the block at hand             (n_candidates)
   // make_rows, solve_contacts
   std::vector<ContactRow> rows;              ///< of the block at hand
-  std::vector<ContactMemory> memory_next;    ///< becomes the block's memory
   // advance_block: the motion of this step, block by block, in order of time
   std::vector<Segment> segments;
   IslandStepWork islands;
