@@ -230,7 +230,8 @@ std::vector<Vec3> release_from_file(const PlacedContext& context, const PlacedSe
 
 std::vector<Vec3> positions_of(const PlacedContext& context, const PlacedSettings& section) {
   std::vector<Vec3> positions =
-      local_points(context, section.position_m, "blocks." + section.name + ".position_m");
+      local_points(context.tool, context.site, context.ground, section.position_m,
+                   "blocks." + section.name + ".position_m");
   if (!section.release_file.empty())
     for (const Vec3& p : release_from_file(context, section)) positions.push_back(p);
   if (section.release_grid) {
@@ -355,11 +356,6 @@ void add_section(const PlacedContext& context, const PlacedSettings& section, Bl
 }
 
 }  // namespace
-
-std::vector<Vec3> local_points(const PlacedContext& context, std::vector<Vec3> points,
-                               const std::string& key) {
-  return local_points(context.tool, context.site, context.ground, std::move(points), key);
-}
 
 void add_placed_blocks(const PlacedContext& context, BlockSet& set) {
   for (const PlacedSettings& section : context.site.blocks) add_section(context, section, set);

@@ -18,10 +18,6 @@ struct PlacedContext {
   const Area* source_area = nullptr;  ///< for release_grid; null when the site has no source
 };
 
-/// Points of the site file (map coordinates in the CRS of [site]) as local ones; z NaN stays NaN.
-[[nodiscard]] std::vector<Vec3> local_points(const PlacedContext& context, std::vector<Vec3> points,
-                                             const std::string& key);
-
 /// Adds the bodies of all [blocks.*] sections to `set`. Throws InputError.
 void add_placed_blocks(const PlacedContext& context, BlockSet& set);
 

@@ -1,0 +1,185 @@
+#include "blocks_cut.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "base/read_file.hpp"
+#include "base/text.hpp"
+#include "io/crs_gdal.hpp"
+#include "io/raster_gdal.hpp"
+#include "io/vectors_gdal.hpp"
+#include "site_places.hpp"
+
+namespace talus {
+namespace {
+
+// --- the source --------------------------------------------------------------------------------
+
+Area read_area(Tool& tool, const BlocksWork& work) {
+  const SourceSettings& source = work.site.source;
+  if (source.polygon.empty() == source.polygon_file.empty())
+    throw InputError({work.site.file},
+                     source.polygon.empty() ? "[source] has neither polygon nor polygon_file"
+                                            : "[source] has both polygon and polygon_file",
+                     "say where the source is, once");
+  Area area;
+  const auto add_ring = [&](const std::vector<Vec3>& local) {
+    area.rings.emplace_back();
+    for (const Vec3& p : local) area.rings.back().emplace_back(p.head<2>());
+  };
+  if (!source.polygon.empty()) {
+    add_ring(local_points(tool, work.site, work.ground, source.polygon, "source.polygon"));
+    return without_repeated_corners(area);
+  }
+  const std::string path = resolved(work.site, source.polygon_file);
+  tool.read_also("source.polygon_file", path);
+  const VectorShapes found =
+      read_vectors({path, source.polygon_layer, "", VectorKind::areas}, work.ground.crs_wkt);
+  if (!found.source_crs.empty())
+    tool.info(path + ": reprojected from " + crs_name(found.source_crs));
+  for (std::vector<Vec3> ring : found.shapes) {
+    for (Vec3& p : ring) p -= work.ground.origin;
+    add_ring(ring);
+  }
+  return without_repeated_corners(area);
+}
+
+Where where_of_area(const BlocksWork& work) {
+  return work.site.source.polygon.empty()
+             ? Where{resolved(work.site, work.site.source.polygon_file)}
+             : where_of(work.site, "source.polygon");
+}
+
+// Elevations of the failure raster at the nodes of the terrain.
+std::vector<double> read_failure_raster(Tool& tool, const BlocksWork& work) {
+  const std::string path = resolved(work.site, work.site.source.raster);
+  tool.read_also("source.raster", path);
+  DemOptions options;
+  options.crs_may_be_missing = true;
+  const DemFile raster(path, options);
+  if (!raster.crs_wkt().empty() && !work.ground.crs_wkt.empty() &&
+      !same_crs(raster.crs_wkt(), work.ground.crs_wkt))
+    throw InputError({path},
+                     "the CRS is " + crs_name(raster.crs_wkt()) + ", that of the terrain is " +
+                         crs_name(work.ground.crs_wkt),
+                     "a raster is never reprojected silently: gdalwarp -t_srs");
+  std::vector<double> z = read_dem(raster, frame_of(work.ground));
+  for (double& value : z) value -= work.ground.origin.z();
+  return z;
+}
+
+void find_mass(Tool& tool, BlocksWork& work) {
+  SourceOptions options = plan_source(work.site, work.ground.origin);
+  if (options.kind == FailureSurface::plane) {
+    const auto& p = work.site.source.plane_point_m;
+    options.plane_point = local_points(tool, work.site, work.ground, {Vec3(p[0], p[1], p[2])},
+                                       "source.plane_point_m")[0];
+  }
+  if (options.kind == FailureSurface::raster) options.raster = read_failure_raster(tool, work);
+  work.mass = find_source(work.ground, work.area, options, where_of_area(work));
+  if (work.mass.n_above_ground > 0)
+    tool.info("the failure surface lies above the ground at " +
+              std::to_string(work.mass.n_above_ground) + " nodes inside the source: no mass there");
+}
+
+// --- joints ------------------------------------------------------------------------------------
+
+void plan_joints(Tool& tool, BlocksWork& work) {
+  std::vector<std::vector<Vec3>> measured;
+  for (const JointSettings& section : work.site.joints) {
+    measured.emplace_back();
+    if (section.measured_file.empty()) continue;
+    const std::string path = resolved(work.site, section.measured_file);
+    tool.read_also("joints." + section.name, path);
+    measured.back() = parse_orientations(read_file(path), path);
+  }
+  work.sets = plan_joint_sets(work.site, measured);
+  std::vector<JointSet> sets;
+  for (const PlannedSet& planned : work.sets) sets.push_back(planned.set);
+  work.expected = expected_cells(sets, measure_mass(work.ground, work.mass.bed));
+  const auto most = static_cast<double>(work.site.source.max_blocks);
+  if (work.expected > most)
+    throw InputError(where_of(work.site, "source.max_blocks"),
+                     "the joints would cut " + text(work.mass.volume, 4) + " m3 into about " +
+                         text(std::round(work.expected)) + " blocks, expected at most " +
+                         text(most),
+                     "widen the spacings, or set source.max_blocks to what your machine can take");
+}
+
+// The ball around the mass, which the joints must cross.
+void draw_all_joints(BlocksWork& work) {
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (const int node : work.mass.nodes) {
+    const int r = node / work.ground.n_cols, c = node % work.ground.n_cols;
+    for (int dr = -1; dr <= 1; ++dr)
+      for (int dc = -1; dc <= 1; ++dc)
+        for (const Trn* trn : {&work.ground, &work.mass.bed}) {
+          const Vec3 p = node_point(*trn, r + dr, c + dc);
+          low = low.cwiseMin(p), high = high.cwiseMax(p);
+        }
+  }
+  const Vec3 centre = (low + high) / 2;
+  for (size_t s = 0; s < work.sets.size(); ++s)
+    for (Joint& joint :
+         draw_joints(work.sets[s].set, static_cast<int>(s), centre, (high - low).norm() / 2,
+                     static_cast<std::uint64_t>(work.site.source.seed)))
+      work.joints.push_back(std::move(joint));
+}
+
+std::string why_in_one_piece(const BlocksWork& work) {
+  if (work.sets.empty()) return "there are no [joints.*]";
+  if (work.joints.empty()) return "no joint crosses it: the spacings are wider than the mass";
+  const bool all_partial = std::none_of(work.joints.begin(), work.joints.end(),
+                                        [](const Joint& j) { return j.is_through; });
+  if (all_partial)
+    return "no joint is persistent enough to part it; see persistence and disc_diameter_m";
+  return "the joints that cross it leave no piece large enough to stand alone";
+}
+
+}  // namespace
+
+Area read_source_area(Tool& tool, const BlocksWork& work) {
+  Area area = read_area(tool, work);
+  check_area(area, work.ground.origin, where_of_area(work));
+  return area;
+}
+
+void cut_source(Tool& tool, bool exact, BlocksWork& work) {
+  find_mass(tool, work);
+  plan_joints(tool, work);
+  draw_all_joints(work);
+  work.limits = plan_limits(work.site, work.sets, work.mass.volume, work.expected);
+  work.limits.exact = exact;
+  for (const PlannedSet& planned : work.sets)
+    work.blocks.joint_set_names.push_back(planned.set.name);
+  const ProgressFunction progress = tool.progress();
+  const CellComplex complex = cut_mass(work.ground, work.mass.bed, work.joints,
+                                       [&](double share) { progress(0.5 * share); });
+  work.cut = assemble_blocks(complex, work.joints, work.mass.bed, work.limits, work.blocks,
+                             [&](double share) { progress(0.5 + 0.5 * share); });
+  if (complex.n_uncut > 0)
+    tool.warn(std::to_string(complex.n_uncut) + " cells could not be cut and stayed in one piece");
+  if (work.cut.n_dropped > 0)
+    tool.warn(std::to_string(work.cut.n_dropped) + " slivers without a neighbour were left out, " +
+              text(work.cut.dropped_volume, 3) + " m3 in all");
+  if (work.cut.n_below_limits > 0)
+    tool.warn(std::to_string(work.cut.n_below_limits) +
+              " blocks are below the limits for slivers after they were made convex");
+  if (work.cut.n_short_edged > 0)
+    tool.warn(std::to_string(work.cut.n_short_edged) +
+              " blocks keep edges that are shorter than min_block_edge_m: without them they would "
+              "lose too much of their volume");
+  if (n_blocks(work.blocks) == 1)
+    tool.warn("the mass stays in one piece: " + why_in_one_piece(work));
+  if (n_blocks(work.blocks) == 0)
+    throw InputError({work.site.file}, "no block is left",
+                     "min_block_volume_m3 or min_block_thickness_m leave out all of the mass");
+  const double error = std::abs(work.cut.cut_volume - work.mass.volume) / work.mass.volume;
+  tool.check("volume_error", error, 1e-9, error <= 1e-9);
+}
+
+}  // namespace talus
