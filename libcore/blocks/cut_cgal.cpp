@@ -11,6 +11,7 @@
 #include <unordered_map>
 
 #include "blocks/cut.hpp"
+#include "blocks/joint_cell_tree.hpp"
 
 namespace talus {
 namespace {
@@ -46,6 +47,7 @@ struct Piece {
   Dart dart;
   Vec3 low, high;
 };
+using Leaf = JointCell<Piece>;
 
 // --- the mass as sewn columns ------------------------------------------------------------------
 
@@ -381,117 +383,6 @@ class Cutter {
   int n_rim_ = 0;
 };
 
-// --- the tree of joint cells -------------------------------------------------------------------
-
-struct Leaf {
-  Polyhedron body;
-  std::vector<Piece> pieces;
-  std::vector<int> candidates;  // joints that may still cut it
-};
-
-class CellTree {
- public:
-  CellTree(Cutter& cutter, const std::vector<Joint>& joints, double tolerance,
-           const ProgressFunction& progress)
-      : cutter_(cutter), joints_(joints), tolerance_(tolerance), progress_(progress) {}
-
-  // Finished joint cells go to `leaves`, each with its pieces.
-  void grow(Leaf root, std::vector<Leaf>& leaves) {
-    std::vector<std::pair<Leaf, double>> open;  // with the share of the work that it stands for
-    open.emplace_back(std::move(root), 1.0);
-    double done = 0;
-    while (!open.empty()) {
-      auto [leaf, share] = std::move(open.back());
-      open.pop_back();
-      const int j = take_joint(leaf);
-      if (j < 0) {
-        leaves.push_back(std::move(leaf));
-        done += share;
-        if (progress_) progress_(std::min(done, 1.0));
-        continue;
-      }
-      auto [inner, outer] = divide(std::move(leaf), j);
-      for (Leaf* half : {&outer, &inner})
-        if (!half->pieces.empty())
-          open.emplace_back(std::move(*half), share / 2);
-        else
-          done += share / 2;
-    }
-  }
-
- private:
-  // The next joint that cuts the leaf, taken off its list: of the joints that are whole, the one in
-  // the middle of the list, so that the tree stays low. Joints that miss the leaf are dropped.
-  int take_joint(Leaf& leaf) {
-    std::erase_if(leaf.candidates, [&](int j) { return !crosses(leaf.body, joints_[j].plane); });
-    const auto take = [&](std::vector<int>::iterator at) {
-      const int j = *at;
-      leaf.candidates.erase(at);
-      return j;
-    };
-    const auto first_partial = std::find_if(leaf.candidates.begin(), leaf.candidates.end(),
-                                            [&](int j) { return !joints_[j].is_through; });
-    const auto n_through = first_partial - leaf.candidates.begin();
-    if (n_through > 0) return take(leaf.candidates.begin() + n_through / 2);
-    for (auto it = first_partial; it != leaf.candidates.end(); ++it)
-      if (separates(leaf, *it)) return take(it);
-    return -1;
-  }
-
-  bool crosses(const Polyhedron& body, const Plane& plane) const {
-    bool inside = false, outside = false;
-    for (const Vec3& v : body.vertices) {
-      const double side = distance(plane, v);
-      inside |= side < -tolerance_;
-      outside |= side > tolerance_;
-      if (inside && outside) return true;
-    }
-    return false;
-  }
-
-  // Whether an incomplete joint parts the rock of the leaf: everywhere it runs through it.
-  bool separates(const Leaf& leaf, int j) {
-    bool inside = false, outside = false;
-    for (const Piece& piece : leaf.pieces) {
-      const int sides = cutter_.sides_of(piece, j);
-      inside |= (sides & 1) != 0;
-      outside |= (sides & 2) != 0;
-      const bool is_crossed = sides == 3 || cutter_.has_wall_on(piece, j);
-      if (is_crossed && !cutter_.is_covered(piece, j)) return false;
-    }
-    return inside && outside;
-  }
-
-  std::pair<Leaf, Leaf> divide(Leaf leaf, int j) {
-    Leaf inner, outer;
-    inner.body = clip_convex(leaf.body, joints_[j].plane, j, tolerance_);
-    outer.body = clip_convex(leaf.body, flipped(joints_[j].plane), j, tolerance_);
-    for (const Piece& piece : leaf.pieces) {
-      const int sides = cutter_.sides_of(piece, j);
-      if (sides == 3) {
-        Piece below, above;
-        if (cutter_.cut(piece, j, below, above)) {
-          inner.pieces.push_back(below);
-          outer.pieces.push_back(above);
-        } else {
-          inner.pieces.push_back(piece);
-        }
-        continue;
-      }
-      cutter_.mark_faces_on(piece, j);
-      (sides == 2 ? outer : inner).pieces.push_back(piece);
-    }
-    inner.candidates = leaf.candidates;
-    outer.candidates = std::move(leaf.candidates);
-    return {std::move(inner), std::move(outer)};
-  }
-
-  Cutter& cutter_;
-  const std::vector<Joint>& joints_;
-  double tolerance_;
-  const ProgressFunction& progress_;
-};
-
 // --- export ------------------------------------------------------------------------------------
 
 // Numbers the darts of one piece face by face.
@@ -578,7 +469,7 @@ CellComplex cut_mass(const Trn& ground, const Trn& bed, const std::vector<Joint>
 
   Cutter cutter(lcc, joints, tolerance);
   std::vector<Leaf> leaves;
-  CellTree(cutter, joints, tolerance, progress).grow(std::move(root), leaves);
+  JointCellTree<Piece, Cutter>(cutter, joints, tolerance, progress).grow(std::move(root), leaves);
   return exported(lcc, leaves, cutter.n_uncut);
 }
 

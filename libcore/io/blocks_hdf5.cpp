@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "io/h5_hdf5.hpp"
+#include "io/write_bytes.hpp"
 
 namespace talus {
 namespace {

@@ -1,18 +1,16 @@
 #include "io/h5_hdf5.hpp"
 
-#include <fcntl.h>
 #include <hdf5.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <stdexcept>
+#include <system_error>
+#include <type_traits>
 
 #include "base/error.hpp"
-#include "base/sha256.hpp"
+#include "io/seal.hpp"
 
 namespace talus {
 namespace {
@@ -88,35 +86,6 @@ std::size_t product(const Shape& shape) {
 // Building a file in memory fails for want of memory or by a slip of ours only.
 void require(bool success, const std::string& what) {
   if (!success) throw std::runtime_error("HDF5: " + what + " failed");
-}
-
-// The seal stands behind the HDF5 file, where HDF5 does not look: the library itself does not
-// survive every file that was damaged (reading beyond a chunk's memory, for one).
-const std::string seal_mark = "talus-sha256 ";
-constexpr std::size_t seal_length = 13 + 64;
-
-std::string seal_of(const void* bytes, std::size_t n_bytes) {
-  Sha256 digest;
-  digest.add(bytes, n_bytes);
-  return seal_mark + digest.hex();
-}
-
-// Whether the file ends with the seal of what comes before.
-bool is_sealed(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::error_code error;
-  const std::uintmax_t size = std::filesystem::file_size(path, error);
-  if (!in || error || size < seal_length) return false;
-  Sha256 digest;
-  std::vector<char> piece(std::min<std::uintmax_t>(size, 1 << 20));
-  for (std::uintmax_t left = size - seal_length; left > 0;) {
-    const auto n = static_cast<std::size_t>(std::min<std::uintmax_t>(left, piece.size()));
-    if (!in.read(piece.data(), static_cast<std::streamsize>(n))) return false;
-    digest.add(piece.data(), n);
-    left -= n;
-  }
-  std::string seal(seal_length, ' ');
-  return in.read(seal.data(), seal_length) && seal == seal_mark + digest.hex();
 }
 
 }  // namespace
@@ -497,36 +466,6 @@ std::int64_t H5Reader::attribute_integer(const std::string& object, const std::s
 std::vector<double> H5Reader::attribute_numbers(const std::string& object,
                                                 const std::string& name) const {
   return impl_->numbers<double>(object, name);
-}
-
-// --- bytes to disk -----------------------------------------------------------------------------
-
-void write_bytes(const std::string& path, std::span<const unsigned char> bytes) {
-  const int descriptor = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  const auto remove = [&] {
-    std::error_code error;
-    if (std::filesystem::is_regular_file(path, error)) std::filesystem::remove(path, error);
-  };
-  const auto fail = [&](const char* what) {
-    const std::string reason = std::strerror(errno);
-    if (descriptor >= 0) {
-      close(descriptor);
-      remove();
-    }
-    throw InputError({path}, std::string(what) + ": " + reason,
-                     "make room, or name an output elsewhere");
-  };
-  if (descriptor < 0) fail("cannot be opened for writing");
-  for (std::size_t done = 0; done < bytes.size();) {
-    const ssize_t n = write(descriptor, bytes.data() + done, bytes.size() - done);
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) fail("cannot be written");
-    done += static_cast<std::size_t>(n);
-  }
-  if (fsync(descriptor) != 0 && errno != EINVAL) fail("cannot be synced to the disk");
-  if (close(descriptor) == 0) return;
-  remove();
-  throw InputError({path}, "cannot be closed after writing");
 }
 
 }  // namespace talus

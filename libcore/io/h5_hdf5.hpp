@@ -84,8 +84,4 @@ class H5Reader {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Writes bytes to `path`, synced to the disk. Throws InputError with the system's reason (disk
-/// full, file too large, no permission); what was written so far is removed.
-void write_bytes(const std::string& path, std::span<const unsigned char> bytes);
-
 }  // namespace talus

@@ -1,7 +1,7 @@
 // libcore/scene/site.hpp
 // The site file as plain structs: one struct a section, one field a key, its default beside it.
 // Every tool reads the whole file and takes its own sections. A new key is a field here and a row
-// in the table of site_toml.cpp; docs/site-file.md holds that table, and a test compares them.
+// in the table of site_keys.cpp; docs/site-file.md holds that table, and a test compares them.
 //
 // A field named like its key, unit included. NaN, an empty text and an empty list mean "not given".
 #pragma once

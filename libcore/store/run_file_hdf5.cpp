@@ -1,291 +1,19 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
-#include <set>
 #include <system_error>
 
 #include "base/error.hpp"
 #include "io/h5_hdf5.hpp"
+#include "io/write_bytes.hpp"
 #include "store/run_file.hpp"
+#include "store/run_file_tables_hdf5.hpp"
 
 namespace talus {
 namespace {
 
 const char* const format_name = "talus-run";
 constexpr std::int64_t format_version = 1;
-
-// --- rows and columns --------------------------------------------------------------------------
-// A table is stored column by column. One list of columns serves writing and reading: it calls
-// column(name, units, description, field) with a function that gives a row's field.
-
-template <class Visit>
-void passage_columns(Visit&& column) {
-  column(
-      "block", "1", "index of the block", [](Passage & p) -> auto& { return p.block; });
-  column(
-      "cell", "1", "row * n_cols + column of the cell, row 0 in the north, column 0 in the west",
-      [](Passage & p) -> auto& { return p.cell; });
-  column(
-      "speed_m_s", "m/s", "largest speed of the centroid",
-      [](Passage & p) -> auto& { return p.largest.speed; });
-  column(
-      "translational_energy_j", "J", "largest kinetic energy of translation",
-      [](Passage & p) -> auto& { return p.largest.translational_energy; });
-  column(
-      "total_energy_j", "J", "largest kinetic energy of translation and rotation together",
-      [](Passage & p) -> auto& { return p.largest.total_energy; });
-  column(
-      "centroid_height_m", "m",
-      "largest height of the centroid above the ground below it, vertical; NaN: no known ground",
-      [](Passage & p) -> auto& { return p.largest.centroid_height; });
-  column(
-      "top_height_m", "m",
-      "largest height of the highest vertex above the ground below the centroid, vertical",
-      [](Passage & p) -> auto& { return p.largest.top_height; });
-  column(
-      "first_time_s", "s", "when the block came over the cell",
-      [](Passage & p) -> auto& { return p.first_time; });
-  column(
-      "travel_angle_rad", "rad",
-      "then: atan(drop of the centroid since its start / length of its path in plan); NaN: it had "
-      "not moved in plan",
-      [](Passage & p) -> auto& { return p.travel_angle; });
-  column(
-      "heading_rad", "rad", "then: direction of the centroid, from x to y; NaN: it stood in plan",
-      [](Passage & p) -> auto& { return p.heading; });
-}
-
-template <class Visit>
-void crossing_columns(Visit&& column) {
-  column(
-      "block", "1", "index of the block", [](Crossing & c) -> auto& { return c.block; });
-  column(
-      "line", "1", "index of the line", [](Crossing & c) -> auto& { return c.line; });
-  column(
-      "segment", "1", "segment of the line, from 0",
-      [](Crossing & c) -> auto& { return c.segment; });
-  column(
-      "direction", "1", "+1 to the left of the line seen from its first point, -1 to the right",
-      [](Crossing & c) -> auto& { return c.direction; });
-  column(
-      "n_crossings", "1", "how often the line itself was crossed, returns included; 0: beside it",
-      [](Crossing & c) -> auto& { return c.n_crossings; });
-  column(
-      "time_s", "s", "when the centroid crossed", [](Crossing & c) -> auto& { return c.time; });
-  column(
-      "chainage_m", "m",
-      "where, horizontally from the line's first point; below 0 or above its length: beside it",
-      [](Crossing & c) -> auto& { return c.chainage; });
-  column(
-      "position_x_m", "m", "centroid, local x",
-      [](Crossing & c) -> auto& { return c.position.x(); });
-  column(
-      "position_y_m", "m", "centroid, local y",
-      [](Crossing & c) -> auto& { return c.position.y(); });
-  column(
-      "position_z_m", "m", "centroid, local z",
-      [](Crossing & c) -> auto& { return c.position.z(); });
-  column(
-      "velocity_x_m_s", "m/s", "velocity, x", [](Crossing & c) -> auto& { return c.velocity.x(); });
-  column(
-      "velocity_y_m_s", "m/s", "velocity, y", [](Crossing & c) -> auto& { return c.velocity.y(); });
-  column(
-      "velocity_z_m_s", "m/s", "velocity, z", [](Crossing & c) -> auto& { return c.velocity.z(); });
-  column(
-      "spin_x_rad_s", "rad/s", "angular velocity, x",
-      [](Crossing & c) -> auto& { return c.spin.x(); });
-  column(
-      "spin_y_rad_s", "rad/s", "angular velocity, y",
-      [](Crossing & c) -> auto& { return c.spin.y(); });
-  column(
-      "spin_z_rad_s", "rad/s", "angular velocity, z",
-      [](Crossing & c) -> auto& { return c.spin.z(); });
-  column(
-      "translational_energy_j", "J", "kinetic energy of translation",
-      [](Crossing & c) -> auto& { return c.translational_energy; });
-  column(
-      "rotational_energy_j", "J", "kinetic energy of rotation",
-      [](Crossing & c) -> auto& { return c.rotational_energy; });
-  column(
-      "centroid_height_m", "m", "centroid above the line's base",
-      [](Crossing & c) -> auto& { return c.centroid_height; });
-  column(
-      "top_height_m", "m", "highest vertex above the line's base",
-      [](Crossing & c) -> auto& { return c.top_height; });
-  column(
-      "bottom_height_m", "m", "lowest vertex above the line's base",
-      [](Crossing & c) -> auto& { return c.bottom_height; });
-}
-
-template <class Visit>
-void hit_columns(Visit&& column) {
-  column(
-      "block", "1", "index of the block", [](FenceHit & h) -> auto& { return h.block; });
-  column(
-      "line", "1", "index of the fence's line", [](FenceHit & h) -> auto& { return h.line; });
-  column(
-      "panel", "1", "panel of the fence, from 0 at its first point",
-      [](FenceHit & h) -> auto& { return h.panel; });
-  column(
-      "time_s", "s", "of the first touch", [](FenceHit & h) -> auto& { return h.time; });
-  column(
-      "chainage_m", "m", "where, horizontally from the line's first point",
-      [](FenceHit & h) -> auto& { return h.chainage; });
-  column(
-      "velocity_x_m_s", "m/s", "velocity before, x",
-      [](FenceHit & h) -> auto& { return h.velocity.x(); });
-  column(
-      "velocity_y_m_s", "m/s", "velocity before, y",
-      [](FenceHit & h) -> auto& { return h.velocity.y(); });
-  column(
-      "velocity_z_m_s", "m/s", "velocity before, z",
-      [](FenceHit & h) -> auto& { return h.velocity.z(); });
-  column(
-      "translational_energy_j", "J", "kinetic energy of translation before",
-      [](FenceHit & h) -> auto& { return h.translational_energy; });
-  column(
-      "rotational_energy_j", "J", "kinetic energy of rotation before",
-      [](FenceHit & h) -> auto& { return h.rotational_energy; });
-  column(
-      "energy_after_j", "J", "kinetic energy with spin when block and panel last touched",
-      [](FenceHit & h) -> auto& { return h.energy_after; });
-  column(
-      "work_j", "J", "energy that the panel took from the block by giving way; 0: it was rigid",
-      [](FenceHit & h) -> auto& { return h.work; });
-  column(
-      "top_height_m", "m", "highest vertex above the panel's base",
-      [](FenceHit & h) -> auto& { return h.top_height; });
-  column(
-      "bottom_height_m", "m", "lowest vertex above the panel's base",
-      [](FenceHit & h) -> auto& { return h.bottom_height; });
-}
-
-template <class Visit>
-void panel_columns(Visit&& column) {
-  column(
-      "line", "1", "index of the fence's line", [](PanelRow & p) -> auto& { return p.line; });
-  column(
-      "panel", "1", "panel of the fence, from 0 at its first point",
-      [](PanelRow & p) -> auto& { return p.panel; });
-  column(
-      "capacity_j", "J", "energy that it takes before it breaks; infinite: rigid",
-      [](PanelRow & p) -> auto& { return p.capacity; });
-  column(
-      "work_j", "J", "energy taken from blocks", [](PanelRow & p) -> auto& { return p.work; });
-  column(
-      "deflection_m", "m", "lasting, to the left of the line",
-      [](PanelRow & p) -> auto& { return p.deflection; });
-  column(
-      "broken_at_s", "s", "when it broke; infinite: it stands",
-      [](PanelRow & p) -> auto& { return p.broken_at; });
-  column(
-      "broken_by", "1", "block that broke it; -1: it stands",
-      [](PanelRow & p) -> auto& { return p.broken_by; });
-}
-
-template <class Visit>
-void health_columns(Visit&& column) {
-  column(
-      "time_s", "s", "end of the interval", [](HealthRow & h) -> auto& { return h.time; });
-  column(
-      "shortest_dt_s", "s", "shortest step with contact search; 0: none",
-      [](HealthRow & h) -> auto& { return h.shortest_dt; });
-  column(
-      "steps", "1", "steps in the interval", [](HealthRow & h) -> auto& { return h.steps; });
-  column(
-      "substeps", "1", "block steps with contact search in the interval",
-      [](HealthRow & h) -> auto& { return h.substeps; });
-  column(
-      "passes", "1", "iterations of the contact law in the interval",
-      [](HealthRow & h) -> auto& { return h.passes; });
-  column(
-      "flips", "1", "contacts that opened, closed, or changed between stick and slip",
-      [](HealthRow & h) -> auto& { return h.flips; });
-  column(
-      "impacts", "1", "impacts in the interval", [](HealthRow & h) -> auto& { return h.impacts; });
-  column(
-      "unconverged", "1", "block steps accepted without convergence in the interval",
-      [](HealthRow & h) -> auto& { return h.unconverged; });
-  column(
-      "left_domain", "1", "blocks that have left the known terrain",
-      [](HealthRow & h) -> auto& { return h.left_domain; });
-  column(
-      "fell_through", "1", "steps so far that ended with a block below the ground",
-      [](HealthRow & h) -> auto& { return h.fell_through; });
-  column(
-      "not_finite", "1", "steps so far in which a block was stopped for want of a finite number",
-      [](HealthRow & h) -> auto& { return h.not_finite; });
-  column(
-      "largest_penetration_m", "m", "largest overlap of a contact in the interval, pressing or not",
-      [](HealthRow & h) -> auto& { return h.largest_penetration; });
-  column(
-      "translational_energy_j", "J", "kinetic energy of translation, all blocks",
-      [](HealthRow & h) -> auto& { return h.translation; });
-  column(
-      "rotational_energy_j", "J", "kinetic energy of rotation, all blocks",
-      [](HealthRow & h) -> auto& { return h.rotation; });
-  column(
-      "potential_energy_j", "J", "potential energy above the local zero, all blocks",
-      [](HealthRow & h) -> auto& { return h.potential; });
-  column(
-      "elastic_energy_j", "J", "elastic energy, all blocks",
-      [](HealthRow & h) -> auto& { return h.elastic; });
-  column(
-      "friction_loss_j", "J", "dissipated by friction since the start",
-      [](HealthRow & h) -> auto& { return h.friction; });
-  column(
-      "impact_loss_j", "J", "dissipated by impacts since the start",
-      [](HealthRow & h) -> auto& { return h.impact; });
-  column(
-      "contact_loss_j", "J", "dissipated or stored by normal contact since the start",
-      [](HealthRow & h) -> auto& { return h.contact; });
-  column(
-      "base_work_j", "J", "put in by base motion and point loads since the start",
-      [](HealthRow & h) -> auto& { return h.base; });
-  column(
-      "fence_loss_j", "J", "taken by panels of fences that gave way since the start",
-      [](HealthRow & h) -> auto& { return h.fence; });
-  column(
-      "removed_energy_j", "J", "kinetic energy of blocks stopped at the edge since the start",
-      [](HealthRow & h) -> auto& { return h.removed; });
-}
-
-template <class Row, class Field>
-using FieldType = std::remove_cvref_t<std::invoke_result_t<Field, Row&>>;
-
-template <class Row, class Columns>
-void write_table(H5Writer& file, const std::string& group, const std::string& description,
-                 std::vector<Row> rows, Columns&& columns) {
-  file.group(group, description);
-  columns([&](const char* name, const char* units, const char* meaning, auto field) {
-    std::vector<FieldType<Row, decltype(field)>> values;
-    values.reserve(rows.size());
-    for (Row& row : rows) values.push_back(field(row));
-    file.array<FieldType<Row, decltype(field)>>(group + "/" + name, values, {values.size()}, units,
-                                                meaning);
-  });
-}
-
-// `wanted`: the columns to read; empty: all.
-template <class Row, class Columns>
-std::vector<Row> read_table(const H5Reader& file, const std::string& group, Columns&& columns,
-                            const std::set<std::string>& wanted = {}) {
-  std::vector<Row> rows;
-  bool is_first = true;
-  columns([&](const char* name, const char*, const char*, auto field) {
-    if (!wanted.empty() && !wanted.contains(name)) return;
-    const auto values = file.array<FieldType<Row, decltype(field)>>(group + "/" + name, 1);
-    if (is_first) rows.resize(values.size());
-    is_first = false;
-    if (values.size() != rows.size())
-      throw InputError({group + "/" + name}, "has " + std::to_string(values.size()) +
-                                                 " rows, the columns beside it have " +
-                                                 std::to_string(rows.size()));
-    for (std::size_t i = 0; i < rows.size(); ++i) field(rows[i]) = values[i];
-  });
-  return rows;
-}
 
 // --- arrays of small vectors -------------------------------------------------------------------
 
@@ -498,8 +226,7 @@ RunFrames read_frames(const H5Reader& file, std::size_t n_blocks, const std::str
 }
 
 void write_passages(H5Writer& file, const RunFile& run) {
-  write_table(file, "passages", "one row per block and cell that it passed", run.passages,
-              [](auto&& column) { passage_columns(column); });
+  write_passage_table(file, run.passages);
   const PassageGrid& grid = run.grid;
   const Vec2 corner = grid.corner + run.info.origin.head<2>();
   file.attribute("passages", "corner_map_m", std::span<const double>(corner.data(), 2));
@@ -532,8 +259,7 @@ PassageGrid read_grid(const H5Reader& file, const std::string& path) {
 void read_passages(const H5Reader& file, const std::string& path, RunFile& run) {
   run.grid = read_grid(file, path);
   run.passages_by_centroid = file.attribute_text("passages", "passes_by") == "centroid";
-  run.passages =
-      read_table<Passage>(file, "passages", [](auto&& column) { passage_columns(column); });
+  run.passages = read_passage_table(file);
   for (const Passage& row : run.passages)
     if (row.block < 0 || row.block >= n_blocks(run) || row.cell < 0 ||
         row.cell >= run.grid.n_rows * run.grid.n_cols)
@@ -543,8 +269,7 @@ void read_passages(const H5Reader& file, const std::string& path, RunFile& run) 
 }
 
 void write_crossings(H5Writer& file, const RunFile& run) {
-  write_table(file, "crossings", "one row per block and line that it crossed or passed beside",
-              run.crossings, [](auto&& column) { crossing_columns(column); });
+  write_crossing_table(file, run.crossings);
   std::vector<std::string> names;
   std::vector<Vec3> points;
   std::vector<int> begin{0}, standing;
@@ -574,8 +299,7 @@ void read_crossings(const H5Reader& file, const std::string& path, RunFile& run)
         record_line(names[l], {points.begin() + begin[l], points.begin() + begin[l + 1]}));
     run.lines.back().standing = standing[l] != 0;
   }
-  run.crossings =
-      read_table<Crossing>(file, "crossings", [](auto&& column) { crossing_columns(column); });
+  run.crossings = read_crossing_table(file);
   for (Crossing& row : run.crossings) {
     const bool known = row.block >= 0 && row.block < n_blocks(run) && row.line >= 0 &&
                        row.line < static_cast<int>(run.lines.size());
@@ -589,18 +313,14 @@ void read_crossings(const H5Reader& file, const std::string& path, RunFile& run)
 // Only in runs with fences that stood.
 void write_fences(H5Writer& file, const RunFile& run) {
   if (run.panels.empty()) return;
-  write_table(file, "fence_panels", "one row per panel of the fences that stood, at the end",
-              run.panels, [](auto&& column) { panel_columns(column); });
-  write_table(file, "fence_hits", "one row per block and panel that it touched", run.fence_hits,
-              [](auto&& column) { hit_columns(column); });
+  write_panel_table(file, run.panels);
+  write_hit_table(file, run.fence_hits);
 }
 
 void read_fences(const H5Reader& file, const std::string& path, RunFile& run) {
   if (!file.has("fence_panels")) return;
-  run.panels =
-      read_table<PanelRow>(file, "fence_panels", [](auto&& column) { panel_columns(column); });
-  run.fence_hits =
-      read_table<FenceHit>(file, "fence_hits", [](auto&& column) { hit_columns(column); });
+  run.panels = read_panel_table(file);
+  run.fence_hits = read_hit_table(file);
   const auto is_known = [&](int line, int panel) {
     return line >= 0 && line < static_cast<int>(run.lines.size()) && panel >= 0 &&
            panel + 1 < static_cast<int>(run.lines[line].points.size());
@@ -655,14 +375,7 @@ RunFile read_run_file(const std::string& path, const RunParts& parts) {
     read_crossings(file, path, run);
     read_fences(file, path, run);
   }
-  if (parts.health) {
-    std::set<std::string> wanted;
-    if (parts.only_faults)
-      wanted = {"unconverged", "left_domain", "fell_through", "not_finite",
-                "largest_penetration_m"};
-    run.health = read_table<HealthRow>(
-        file, "health", [](auto&& column) { health_columns(column); }, wanted);
-  }
+  if (parts.health) run.health = read_health_table(file, parts.only_faults);
   if (parts.checkpoint && file.has("checkpoint"))
     run.checkpoint = file.array<std::uint8_t>("checkpoint", 1);
   return run;
@@ -685,8 +398,7 @@ void write_run_file(const std::string& path, const RunFile& run) {
   if (run.grid.n_rows > 0) write_passages(file, run);
   write_crossings(file, run);
   write_fences(file, run);
-  write_table(file, "health", "how the computation went, interval by interval", run.health,
-              [](auto&& column) { health_columns(column); });
+  write_health_table(file, run.health);
   if (!run.checkpoint.empty())
     file.array<std::uint8_t>("checkpoint", run.checkpoint, {run.checkpoint.size()}, "1",
                              "state of the solver and the recorder, for talus-dda --resume");

@@ -2,6 +2,7 @@
 
 #include "base/text.hpp"
 #include "io/h5_hdf5.hpp"
+#include "io/write_bytes.hpp"
 
 namespace talus {
 namespace {

@@ -1,0 +1,43 @@
+#include "io/write_bytes.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <system_error>
+
+#include "base/error.hpp"
+
+namespace talus {
+
+void write_bytes(const std::string& path, std::span<const unsigned char> bytes) {
+  const int descriptor = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  const auto remove = [&] {
+    std::error_code error;
+    if (std::filesystem::is_regular_file(path, error)) std::filesystem::remove(path, error);
+  };
+  const auto fail = [&](const char* what) {
+    const std::string reason = std::strerror(errno);
+    if (descriptor >= 0) {
+      close(descriptor);
+      remove();
+    }
+    throw InputError({path}, std::string(what) + ": " + reason,
+                     "make room, or name an output elsewhere");
+  };
+  if (descriptor < 0) fail("cannot be opened for writing");
+  for (std::size_t done = 0; done < bytes.size();) {
+    const ssize_t n = write(descriptor, bytes.data() + done, bytes.size() - done);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) fail("cannot be written");
+    done += static_cast<std::size_t>(n);
+  }
+  if (fsync(descriptor) != 0 && errno != EINVAL) fail("cannot be synced to the disk");
+  if (close(descriptor) == 0) return;
+  remove();
+  throw InputError({path}, "cannot be closed after writing");
+}
+
+}  // namespace talus

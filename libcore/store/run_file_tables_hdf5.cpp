@@ -1,0 +1,334 @@
+#include "store/run_file_tables_hdf5.hpp"
+
+#include <set>
+#include <string>
+#include <type_traits>
+
+#include "base/error.hpp"
+
+namespace talus {
+namespace {
+
+// A table is stored column by column. One list of columns serves writing and reading: it calls
+// column(name, units, description, field) with a function that gives a row's field.
+
+template <class Visit>
+void passage_columns(Visit&& column) {
+  column(
+      "block", "1", "index of the block", [](Passage & p) -> auto& { return p.block; });
+  column(
+      "cell", "1", "row * n_cols + column of the cell, row 0 in the north, column 0 in the west",
+      [](Passage & p) -> auto& { return p.cell; });
+  column(
+      "speed_m_s", "m/s", "largest speed of the centroid",
+      [](Passage & p) -> auto& { return p.largest.speed; });
+  column(
+      "translational_energy_j", "J", "largest kinetic energy of translation",
+      [](Passage & p) -> auto& { return p.largest.translational_energy; });
+  column(
+      "total_energy_j", "J", "largest kinetic energy of translation and rotation together",
+      [](Passage & p) -> auto& { return p.largest.total_energy; });
+  column(
+      "centroid_height_m", "m",
+      "largest height of the centroid above the ground below it, vertical; NaN: no known ground",
+      [](Passage & p) -> auto& { return p.largest.centroid_height; });
+  column(
+      "top_height_m", "m",
+      "largest height of the highest vertex above the ground below the centroid, vertical",
+      [](Passage & p) -> auto& { return p.largest.top_height; });
+  column(
+      "first_time_s", "s", "when the block came over the cell",
+      [](Passage & p) -> auto& { return p.first_time; });
+  column(
+      "travel_angle_rad", "rad",
+      "then: atan(drop of the centroid since its start / length of its path in plan); NaN: it had "
+      "not moved in plan",
+      [](Passage & p) -> auto& { return p.travel_angle; });
+  column(
+      "heading_rad", "rad", "then: direction of the centroid, from x to y; NaN: it stood in plan",
+      [](Passage & p) -> auto& { return p.heading; });
+}
+
+template <class Visit>
+void crossing_columns(Visit&& column) {
+  column(
+      "block", "1", "index of the block", [](Crossing & c) -> auto& { return c.block; });
+  column(
+      "line", "1", "index of the line", [](Crossing & c) -> auto& { return c.line; });
+  column(
+      "segment", "1", "segment of the line, from 0",
+      [](Crossing & c) -> auto& { return c.segment; });
+  column(
+      "direction", "1", "+1 to the left of the line seen from its first point, -1 to the right",
+      [](Crossing & c) -> auto& { return c.direction; });
+  column(
+      "n_crossings", "1", "how often the line itself was crossed, returns included; 0: beside it",
+      [](Crossing & c) -> auto& { return c.n_crossings; });
+  column(
+      "time_s", "s", "when the centroid crossed", [](Crossing & c) -> auto& { return c.time; });
+  column(
+      "chainage_m", "m",
+      "where, horizontally from the line's first point; below 0 or above its length: beside it",
+      [](Crossing & c) -> auto& { return c.chainage; });
+  column(
+      "position_x_m", "m", "centroid, local x",
+      [](Crossing & c) -> auto& { return c.position.x(); });
+  column(
+      "position_y_m", "m", "centroid, local y",
+      [](Crossing & c) -> auto& { return c.position.y(); });
+  column(
+      "position_z_m", "m", "centroid, local z",
+      [](Crossing & c) -> auto& { return c.position.z(); });
+  column(
+      "velocity_x_m_s", "m/s", "velocity, x", [](Crossing & c) -> auto& { return c.velocity.x(); });
+  column(
+      "velocity_y_m_s", "m/s", "velocity, y", [](Crossing & c) -> auto& { return c.velocity.y(); });
+  column(
+      "velocity_z_m_s", "m/s", "velocity, z", [](Crossing & c) -> auto& { return c.velocity.z(); });
+  column(
+      "spin_x_rad_s", "rad/s", "angular velocity, x",
+      [](Crossing & c) -> auto& { return c.spin.x(); });
+  column(
+      "spin_y_rad_s", "rad/s", "angular velocity, y",
+      [](Crossing & c) -> auto& { return c.spin.y(); });
+  column(
+      "spin_z_rad_s", "rad/s", "angular velocity, z",
+      [](Crossing & c) -> auto& { return c.spin.z(); });
+  column(
+      "translational_energy_j", "J", "kinetic energy of translation",
+      [](Crossing & c) -> auto& { return c.translational_energy; });
+  column(
+      "rotational_energy_j", "J", "kinetic energy of rotation",
+      [](Crossing & c) -> auto& { return c.rotational_energy; });
+  column(
+      "centroid_height_m", "m", "centroid above the line's base",
+      [](Crossing & c) -> auto& { return c.centroid_height; });
+  column(
+      "top_height_m", "m", "highest vertex above the line's base",
+      [](Crossing & c) -> auto& { return c.top_height; });
+  column(
+      "bottom_height_m", "m", "lowest vertex above the line's base",
+      [](Crossing & c) -> auto& { return c.bottom_height; });
+}
+
+template <class Visit>
+void hit_columns(Visit&& column) {
+  column(
+      "block", "1", "index of the block", [](FenceHit & h) -> auto& { return h.block; });
+  column(
+      "line", "1", "index of the fence's line", [](FenceHit & h) -> auto& { return h.line; });
+  column(
+      "panel", "1", "panel of the fence, from 0 at its first point",
+      [](FenceHit & h) -> auto& { return h.panel; });
+  column(
+      "time_s", "s", "of the first touch", [](FenceHit & h) -> auto& { return h.time; });
+  column(
+      "chainage_m", "m", "where, horizontally from the line's first point",
+      [](FenceHit & h) -> auto& { return h.chainage; });
+  column(
+      "velocity_x_m_s", "m/s", "velocity before, x",
+      [](FenceHit & h) -> auto& { return h.velocity.x(); });
+  column(
+      "velocity_y_m_s", "m/s", "velocity before, y",
+      [](FenceHit & h) -> auto& { return h.velocity.y(); });
+  column(
+      "velocity_z_m_s", "m/s", "velocity before, z",
+      [](FenceHit & h) -> auto& { return h.velocity.z(); });
+  column(
+      "translational_energy_j", "J", "kinetic energy of translation before",
+      [](FenceHit & h) -> auto& { return h.translational_energy; });
+  column(
+      "rotational_energy_j", "J", "kinetic energy of rotation before",
+      [](FenceHit & h) -> auto& { return h.rotational_energy; });
+  column(
+      "energy_after_j", "J", "kinetic energy with spin when block and panel last touched",
+      [](FenceHit & h) -> auto& { return h.energy_after; });
+  column(
+      "work_j", "J", "energy that the panel took from the block by giving way; 0: it was rigid",
+      [](FenceHit & h) -> auto& { return h.work; });
+  column(
+      "top_height_m", "m", "highest vertex above the panel's base",
+      [](FenceHit & h) -> auto& { return h.top_height; });
+  column(
+      "bottom_height_m", "m", "lowest vertex above the panel's base",
+      [](FenceHit & h) -> auto& { return h.bottom_height; });
+}
+
+template <class Visit>
+void panel_columns(Visit&& column) {
+  column(
+      "line", "1", "index of the fence's line", [](PanelRow & p) -> auto& { return p.line; });
+  column(
+      "panel", "1", "panel of the fence, from 0 at its first point",
+      [](PanelRow & p) -> auto& { return p.panel; });
+  column(
+      "capacity_j", "J", "energy that it takes before it breaks; infinite: rigid",
+      [](PanelRow & p) -> auto& { return p.capacity; });
+  column(
+      "work_j", "J", "energy taken from blocks", [](PanelRow & p) -> auto& { return p.work; });
+  column(
+      "deflection_m", "m", "lasting, to the left of the line",
+      [](PanelRow & p) -> auto& { return p.deflection; });
+  column(
+      "broken_at_s", "s", "when it broke; infinite: it stands",
+      [](PanelRow & p) -> auto& { return p.broken_at; });
+  column(
+      "broken_by", "1", "block that broke it; -1: it stands",
+      [](PanelRow & p) -> auto& { return p.broken_by; });
+}
+
+template <class Visit>
+void health_columns(Visit&& column) {
+  column(
+      "time_s", "s", "end of the interval", [](HealthRow & h) -> auto& { return h.time; });
+  column(
+      "shortest_dt_s", "s", "shortest step with contact search; 0: none",
+      [](HealthRow & h) -> auto& { return h.shortest_dt; });
+  column(
+      "steps", "1", "steps in the interval", [](HealthRow & h) -> auto& { return h.steps; });
+  column(
+      "substeps", "1", "block steps with contact search in the interval",
+      [](HealthRow & h) -> auto& { return h.substeps; });
+  column(
+      "passes", "1", "iterations of the contact law in the interval",
+      [](HealthRow & h) -> auto& { return h.passes; });
+  column(
+      "flips", "1", "contacts that opened, closed, or changed between stick and slip",
+      [](HealthRow & h) -> auto& { return h.flips; });
+  column(
+      "impacts", "1", "impacts in the interval", [](HealthRow & h) -> auto& { return h.impacts; });
+  column(
+      "unconverged", "1", "block steps accepted without convergence in the interval",
+      [](HealthRow & h) -> auto& { return h.unconverged; });
+  column(
+      "left_domain", "1", "blocks that have left the known terrain",
+      [](HealthRow & h) -> auto& { return h.left_domain; });
+  column(
+      "fell_through", "1", "steps so far that ended with a block below the ground",
+      [](HealthRow & h) -> auto& { return h.fell_through; });
+  column(
+      "not_finite", "1", "steps so far in which a block was stopped for want of a finite number",
+      [](HealthRow & h) -> auto& { return h.not_finite; });
+  column(
+      "largest_penetration_m", "m", "largest overlap of a contact in the interval, pressing or not",
+      [](HealthRow & h) -> auto& { return h.largest_penetration; });
+  column(
+      "translational_energy_j", "J", "kinetic energy of translation, all blocks",
+      [](HealthRow & h) -> auto& { return h.translation; });
+  column(
+      "rotational_energy_j", "J", "kinetic energy of rotation, all blocks",
+      [](HealthRow & h) -> auto& { return h.rotation; });
+  column(
+      "potential_energy_j", "J", "potential energy above the local zero, all blocks",
+      [](HealthRow & h) -> auto& { return h.potential; });
+  column(
+      "elastic_energy_j", "J", "elastic energy, all blocks",
+      [](HealthRow & h) -> auto& { return h.elastic; });
+  column(
+      "friction_loss_j", "J", "dissipated by friction since the start",
+      [](HealthRow & h) -> auto& { return h.friction; });
+  column(
+      "impact_loss_j", "J", "dissipated by impacts since the start",
+      [](HealthRow & h) -> auto& { return h.impact; });
+  column(
+      "contact_loss_j", "J", "dissipated or stored by normal contact since the start",
+      [](HealthRow & h) -> auto& { return h.contact; });
+  column(
+      "base_work_j", "J", "put in by base motion and point loads since the start",
+      [](HealthRow & h) -> auto& { return h.base; });
+  column(
+      "fence_loss_j", "J", "taken by panels of fences that gave way since the start",
+      [](HealthRow & h) -> auto& { return h.fence; });
+  column(
+      "removed_energy_j", "J", "kinetic energy of blocks stopped at the edge since the start",
+      [](HealthRow & h) -> auto& { return h.removed; });
+}
+
+template <class Row, class Field>
+using FieldType = std::remove_cvref_t<std::invoke_result_t<Field, Row&>>;
+
+template <class Row, class Columns>
+void write_table(H5Writer& file, const std::string& group, const std::string& description,
+                 std::vector<Row> rows, Columns&& columns) {
+  file.group(group, description);
+  columns([&](const char* name, const char* units, const char* meaning, auto field) {
+    std::vector<FieldType<Row, decltype(field)>> values;
+    values.reserve(rows.size());
+    for (Row& row : rows) values.push_back(field(row));
+    file.array<FieldType<Row, decltype(field)>>(group + "/" + name, values, {values.size()}, units,
+                                                meaning);
+  });
+}
+
+// `wanted`: the columns to read; empty: all.
+template <class Row, class Columns>
+std::vector<Row> read_table(const H5Reader& file, const std::string& group, Columns&& columns,
+                            const std::set<std::string>& wanted = {}) {
+  std::vector<Row> rows;
+  bool is_first = true;
+  columns([&](const char* name, const char*, const char*, auto field) {
+    if (!wanted.empty() && !wanted.contains(name)) return;
+    const auto values = file.array<FieldType<Row, decltype(field)>>(group + "/" + name, 1);
+    if (is_first) rows.resize(values.size());
+    is_first = false;
+    if (values.size() != rows.size())
+      throw InputError({group + "/" + name}, "has " + std::to_string(values.size()) +
+                                                 " rows, the columns beside it have " +
+                                                 std::to_string(rows.size()));
+    for (std::size_t i = 0; i < rows.size(); ++i) field(rows[i]) = values[i];
+  });
+  return rows;
+}
+
+}  // namespace
+
+void write_passage_table(H5Writer& file, const std::vector<Passage>& rows) {
+  write_table(file, "passages", "one row per block and cell that it passed", rows,
+              [](auto&& column) { passage_columns(column); });
+}
+
+void write_crossing_table(H5Writer& file, const std::vector<Crossing>& rows) {
+  write_table(file, "crossings", "one row per block and line that it crossed or passed beside",
+              rows, [](auto&& column) { crossing_columns(column); });
+}
+
+void write_panel_table(H5Writer& file, const std::vector<PanelRow>& rows) {
+  write_table(file, "fence_panels", "one row per panel of the fences that stood, at the end", rows,
+              [](auto&& column) { panel_columns(column); });
+}
+
+void write_hit_table(H5Writer& file, const std::vector<FenceHit>& rows) {
+  write_table(file, "fence_hits", "one row per block and panel that it touched", rows,
+              [](auto&& column) { hit_columns(column); });
+}
+
+void write_health_table(H5Writer& file, const std::vector<HealthRow>& rows) {
+  write_table(file, "health", "how the computation went, interval by interval", rows,
+              [](auto&& column) { health_columns(column); });
+}
+
+std::vector<Passage> read_passage_table(const H5Reader& file) {
+  return read_table<Passage>(file, "passages", [](auto&& column) { passage_columns(column); });
+}
+
+std::vector<Crossing> read_crossing_table(const H5Reader& file) {
+  return read_table<Crossing>(file, "crossings", [](auto&& column) { crossing_columns(column); });
+}
+
+std::vector<PanelRow> read_panel_table(const H5Reader& file) {
+  return read_table<PanelRow>(file, "fence_panels", [](auto&& column) { panel_columns(column); });
+}
+
+std::vector<FenceHit> read_hit_table(const H5Reader& file) {
+  return read_table<FenceHit>(file, "fence_hits", [](auto&& column) { hit_columns(column); });
+}
+
+std::vector<HealthRow> read_health_table(const H5Reader& file, bool only_faults) {
+  std::set<std::string> wanted;
+  if (only_faults)
+    wanted = {"unconverged", "left_domain", "fell_through", "not_finite", "largest_penetration_m"};
+  return read_table<HealthRow>(
+      file, "health", [](auto&& column) { health_columns(column); }, wanted);
+}
+
+}  // namespace talus

@@ -1,0 +1,30 @@
+// libcore/store/run_file_tables_hdf5.hpp
+// The tables of a run file: passages, crossings, fence panels and hits, health. A row is a struct,
+// a column one of its fields, stored as an array with its unit. docs/formats.md#run
+//
+// Within the module: run_file_hdf5.cpp writes and reads what stands beside them and checks what
+// rows refer to.
+#pragma once
+
+#include <vector>
+
+#include "io/h5_hdf5.hpp"
+#include "store/run_file.hpp"
+
+namespace talus {
+
+void write_passage_table(H5Writer& file, const std::vector<Passage>& rows);
+void write_crossing_table(H5Writer& file, const std::vector<Crossing>& rows);
+void write_panel_table(H5Writer& file, const std::vector<PanelRow>& rows);
+void write_hit_table(H5Writer& file, const std::vector<FenceHit>& rows);
+void write_health_table(H5Writer& file, const std::vector<HealthRow>& rows);
+
+/// Each throws InputError for a column that is missing or not as long as the first.
+[[nodiscard]] std::vector<Passage> read_passage_table(const H5Reader& file);
+[[nodiscard]] std::vector<Crossing> read_crossing_table(const H5Reader& file);
+[[nodiscard]] std::vector<PanelRow> read_panel_table(const H5Reader& file);
+[[nodiscard]] std::vector<FenceHit> read_hit_table(const H5Reader& file);
+/// `only_faults`: as RunParts says; the other fields stay zero.
+[[nodiscard]] std::vector<HealthRow> read_health_table(const H5Reader& file, bool only_faults);
+
+}  // namespace talus
