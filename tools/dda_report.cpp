@@ -1,0 +1,148 @@
+#include "dda_report.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/text.hpp"
+
+namespace talus {
+namespace {
+
+// Of all moments where passages are recorded, else of those of the frames.
+double largest_speed(const RunFile& file) {
+  float largest = 0;
+  for (const Passage& row : file.passages) largest = std::max(largest, row.largest.speed);
+  if (!file.passages.empty()) return largest;
+  const std::vector<float>& v = file.frames.velocity;
+  for (std::size_t i = 0; i + 2 < v.size(); i += 3)
+    largest = std::max(largest, std::hypot(v[i], v[i + 1], v[i + 2]));
+  return largest;
+}
+
+// Mean displacement of the blocks by mass, from the first frame to the last.
+Vec3 mean_displacement(const RunFile& file) {
+  Vec3 sum = Vec3::Zero();
+  double mass = 0;
+  for (int b = 0; b < n_blocks(file); ++b) {
+    const double m = file.blocks.mass[static_cast<std::size_t>(b)];
+    sum += m * (frame_block(file, n_frames(file.frames) - 1, b).position -
+                frame_block(file, 0, b).position);
+    mass += m;
+  }
+  return sum / mass;
+}
+
+// Panels that stood, and those that broke, when and by which block.
+Json fences_on(const Runner& runner) {
+  Json list = Json::array();
+  for (const PanelRow& row : runner.file.panels) {
+    Json panel = {{"fence", runner.file.lines[static_cast<std::size_t>(row.line)].name},
+                  {"panel", row.panel},
+                  {"work_kj", row.work / 1e3},
+                  {"deflection_m", row.deflection},
+                  {"broken", row.broken_by >= 0}};
+    if (row.broken_by >= 0) {
+      panel["broken_at_s"] = row.broken_at;
+      panel["broken_by_block"] = row.broken_by;
+    }
+    list.push_back(std::move(panel));
+  }
+  return list;
+}
+
+std::string fence_summary(const Json& report) {
+  const Json& panels = report["fences"];
+  if (panels.empty()) return "";
+  const auto n_broken = std::count_if(panels.begin(), panels.end(),
+                                      [](const Json& p) { return p["broken"].get<bool>(); });
+  return ", " + report["n_fence_hits"].dump() + " hits on fences, " + std::to_string(n_broken) +
+         " of " + std::to_string(panels.size()) + " panels broken";
+}
+
+// What a user must not miss, where there is any.
+std::string trouble_summary(const Json& report) {
+  const auto said = [&report](const char* key, const std::string& what) {
+    return report[key].get<std::int64_t>() == 0 ? "" : ", " + report[key].dump() + what;
+  };
+  return said("left_domain", " left the terrain") +
+         said("unconverged", " steps of a block accepted unconverged");
+}
+
+// The way out of a broken limit, by what its name says.
+std::string health_hint(const std::string& check) {
+  const auto is_of = [&check](const char* word) { return check.find(word) != std::string::npos; };
+  if (is_of("penetration"))
+    return "take a smaller time_step_s, or give max_penetration_m if that depth will do";
+  if (is_of("left the terrain"))
+    return "take a larger terrain, or give max_lost_share if blocks may leave it";
+  if (is_of("energy gained") || is_of("not finite") || is_of("below the ground"))
+    return "take a smaller time_step_s";
+  return "";
+}
+
+}  // namespace
+
+Json plan_json(const ScenePlan& plan) {
+  Json list = Json::array();
+  for (const PlanItem& item : plan.items)
+    list.push_back(
+        {{"item", item.item}, {"on", item.on}, {"rule", item.rule}, {"reason", item.reason}});
+  return list;
+}
+
+Json run_report(const Runner& runner, const ScenePlan& plan, double cpu_s) {
+  const RunFile& file = runner.file;
+  const RunCounters& counters = runner.state.counters;
+  const Vec3 moved = mean_displacement(file);
+  Json json = {{"run_id", file.info.run_id},
+               {"status", file.info.status},
+               {"time_s", file.info.time},
+               {"n_blocks", n_blocks(file)},
+               {"steps", counters.steps},
+               {"block_steps", counters.substeps},
+               {"flight_skips", counters.flight_skips},
+               {"passes", counters.passes},
+               {"impacts", counters.impacts},
+               {"unconverged", counters.unconverged},
+               {"left_domain", counters.left_domain},
+               {"n_passages", file.passages.size()},
+               {"n_crossings", file.crossings.size()},
+               {"n_fence_hits", file.fence_hits.size()},
+               {"fences", fences_on(runner)},
+               {"n_frames", n_frames(file.frames)},
+               {"largest_speed_m_s", largest_speed(file)},
+               {"mean_displacement_m", {moved.x(), moved.y(), moved.z()}},
+               {"cpu_time_s", cpu_s}};
+  json["health"] = Json::array();
+  for (const HealthCheck& check : health_checks(runner))
+    json["health"].push_back({{"check", check.name},
+                              {"value", check.value},
+                              {"limit", check.limit},
+                              {"pass", check.pass}});
+  json["plan"] = plan_json(plan);
+  return json;
+}
+
+std::string run_summary(const Json& report) {
+  const auto number = [&report](const char* key) { return text(report[key].get<double>(), 4); };
+  const Json& moved = report["mean_displacement_m"];
+  const double horizontal = std::hypot(moved[0].get<double>(), moved[1].get<double>());
+  return report["n_blocks"].dump() + " blocks, " + number("time_s") + " s in " +
+         report["steps"].dump() + " steps: centre of mass moved " + text(horizontal, 4) +
+         " m and fell " + text(-moved[2].get<double>(), 4) + " m, largest speed " +
+         number("largest_speed_m_s") + " m/s, " + report["n_passages"].dump() + " passages, " +
+         report["n_crossings"].dump() + " crossings" + fence_summary(report) +
+         trouble_summary(report);
+}
+
+void record_health(Tool& tool, Runner& runner) {
+  for (const HealthCheck& check : health_checks(runner)) {
+    tool.check(check.name, check.value, check.limit, check.pass, health_hint(check.name));
+    if (check.pass) continue;
+    runner.file.info.status = "failed";
+    runner.file.info.reason += (runner.file.info.reason.empty() ? "" : "; ") + check.name + " is " +
+                               text(check.value, 6) + ", limit " + text(check.limit, 6);
+  }
+}
+
+}  // namespace talus

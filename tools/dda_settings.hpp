@@ -1,0 +1,25 @@
+// tools/dda_settings.hpp
+// What is odd about the settings of a run: refused, or said to the user.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "dda_inputs.hpp"
+#include "scene/plan.hpp"
+#include "scene/site.hpp"
+#include "tool.hpp"
+
+namespace talus {
+
+/// Throws InputError for time steps out of order, a duration below one step, or too many frames.
+void check_times(const Site& site);
+
+/// Warns of settings that do nothing, or that are unusual. Returns the warnings for the run file.
+[[nodiscard]] std::vector<std::string> warn_of_settings(Tool& tool, const Site& site);
+
+/// Warns of blocks that pass through each other, and of strains asked for that are not computed;
+/// adds to inputs.warnings.
+void warn_of_plan(Tool& tool, const Site& site, const ScenePlan& plan, DdaInputs& inputs);
+
+}  // namespace talus
