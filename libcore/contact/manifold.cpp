@@ -374,6 +374,18 @@ void add_crossing(const Hulls& hulls, const PlacedHulls& placed, int part_a, int
   points.push_back({held.key, on_b, gap, held.area});
 }
 
+// Edges that are chosen bear at one point, and a push beside it turns the blocks into each other
+// before another contact is known: where a face is nearly as good, its corners are contacts too.
+void prefer_near_face(const Hulls& hulls, const PlacedHulls& placed, int part_a, int part_b,
+                      AxisChoice& choice) {
+  if (choice.near_face.kind == AxisKind::none) return;
+  choice.passed_over = choice.near_edges = choice.axis;
+  choice.largest = choice.separation;
+  choice.axis = choice.near_face;
+  choice.normal = axis_normal(hulls, placed, part_a, part_b, choice.axis);
+  choice.separation = apart_along(hulls, placed, part_a, part_b, choice.normal);
+}
+
 }  // namespace
 
 double find_features(const Hulls& hulls, const PlacedHulls& placed, int part_a, int part_b,
@@ -443,6 +455,7 @@ ContactSearch search_contact(const Hulls& hulls, const PlacedHulls& placed, int 
   AxisChoice& choice = found.choice;
   choice = find_axis(hulls, placed, part_a, part_b, margin, last, axis_scratch);
   if (!choice.touches) return found;
+  prefer_near_face(hulls, placed, part_a, part_b, choice);
   const std::size_t begin = held.size();
   found.incident = incident_of(hulls, placed, part_a, part_b, choice.axis);
   found.area = find_features(hulls, placed, part_a, part_b, choice.axis, found.incident, with_areas,

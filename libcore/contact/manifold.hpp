@@ -96,10 +96,11 @@ struct ContactSearch {
   double area = 0;    ///< of the clipped polygon [m2]
 };
 
-/// find_axis, then find_features, which are appended to `held`. Where find_axis preferred a face to
-/// the axis of the largest separation, but what lies above that face is not as deep, the latter is
-/// used after all, for one step: of two faces of a block that are nearly one plane, the other block
-/// may press on the one that it did not press on before.
+/// find_axis, then find_features, which are appended to `held`. Edges with a face in nearly their
+/// direction are used as that face and its near edges. Where a face is preferred to the axis of the
+/// largest separation, but what lies above that face is not as deep, the latter is used after all,
+/// for one step: of two faces of a block that are nearly one plane, the other block may press on
+/// the one that it did not press on before.
 [[nodiscard]] ContactSearch search_contact(const Hulls& hulls, const PlacedHulls& placed,
                                            int part_a, int part_b, double margin,
                                            const PairAxis& last, bool with_areas,

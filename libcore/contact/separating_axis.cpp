@@ -285,13 +285,16 @@ AxisChoice face_choice(const Parts& parts, const AxisScratch& scratch, const Fac
 }
 
 AxisChoice edge_choice(const Parts& parts, const AxisScratch& scratch, const BestEdges& edges,
-                       double best_face_separation, double edge_bar) {
+                       const FaceAxis& best, double edge_bar, double near) {
   AxisChoice choice;
   choice.axis = {AxisKind::edges, edges.a, edges.b};
   choice.normal = edges.normal;
   choice.separation = edges.separation;
   choice.other_face = best_other_face(parts, scratch, edges.normal);
-  choice.hold = (edges.separation - std::max(best_face_separation + edge_bar, edges.second)) / 2;
+  choice.hold = (edges.separation - std::max(best.separation + edge_bar, edges.second)) / 2;
+  if (best.separation >= edges.separation - near &&
+      to_a(parts, best).dot(edges.normal) >= same_axis_cos)
+    choice.near_face = name_of(parts, best);
   return choice;
 }
 
@@ -384,7 +387,8 @@ AxisChoice find_axis(const Hulls& hulls, const PlacedHulls& placed, int part_a, 
     return apart;
   }
   if (edges.separation > best.separation + edge_bar) {
-    choice = edge_choice(parts, scratch, edges, best.separation, edge_bar);
+    const double near = same_axis_ratio * thickness * (last.kind == AxisKind::edges ? 0.5 : 1);
+    choice = edge_choice(parts, scratch, edges, best, edge_bar, near);
   } else if (best.separation > none) {
     const FaceAxis face =
         settled_face(parts, scratch, best, last_face(parts, scratch, last), thickness);

@@ -42,6 +42,7 @@ struct AxisChoice {
   PairAxis passed_over;        ///< the axis of the largest separation, where a face was preferred
   double largest = 0;          ///< along it [m]
   PairAxis near_edges;         ///< edges that meet nearly where the chosen face does, if any
+  PairAxis near_face;          ///< face in nearly the direction of the chosen edges, if any
 };
 
 /// Arrays that find_axis fills anew; kept to spare allocation.

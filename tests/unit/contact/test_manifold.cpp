@@ -317,6 +317,25 @@ TEST(Manifold, FaceOnTheOtherSideOfASlightBendTakesOver) {
   EXPECT_NEAR(deepest, -depth, 1e-5);
 }
 
+// An upright edge leans by half a degree over the upper edge of a cube. The edges overlap least,
+// and meet at one point; where the edge ends half a metre below, it stands in the cube's side as
+// well.
+TEST(Manifold, EdgesNearlyAlongAFaceBearWhereTheyEndToo) {
+  const double lean = 0.5 * std::numbers::pi / 180, depth = 5e-3;
+  Bodies bodies;
+  add(bodies, box(Vec3(-1, -0.5, -1), Vec3(0, 0.5, 0)), {});
+  const Quat turned(Eigen::AngleAxisd(-std::numbers::pi / 4, Vec3::UnitZ()));  // an edge faces -x
+  add(bodies, box(Vec3(0, 0, -0.5), Vec3(0.6, 0.6, 0.5)),
+      {Vec3(-depth, 0, 0), Quat(Eigen::AngleAxisd(-lean, Vec3::UnitY())) * turned});
+  place(bodies);
+  const Manifold m = contact(bodies, 0);
+  std::map<ContactMode, double> gaps;
+  for (const PairPoint& p : m.points) gaps[p.key.mode] = p.gap;
+  ASSERT_EQ(gaps.size(), 2u);
+  EXPECT_NEAR(gaps[ContactMode::edge_edge], -depth, 1e-6);
+  EXPECT_NEAR(gaps[ContactMode::face_vertex], -depth + 0.5 * std::sin(lean), 1e-9);
+}
+
 // The gap and the place of held features stay exact while the bodies move.
 RC_GTEST_PROP(Manifold, HeldFeaturesFollowTheBodiesExactly, ()) {
   Random random(*rc::gen::arbitrary<std::uint64_t>());
