@@ -8,6 +8,7 @@
 #pragma once
 
 #include <algorithm>
+#include <ranges>
 #include <span>
 #include <vector>
 
@@ -44,6 +45,14 @@ struct AdvanceIsland {
   [[nodiscard]] size_t block(size_t k) const { return static_cast<size_t>(w.members[k]); }
   // One block near fixed bodies: it is hit at the end of a substep, so by one body after the other.
   [[nodiscard]] bool is_lone() const { return w.members.size() == 1; }
+  // Row of contact `r` for the solver.
+  [[nodiscard]] RowIn<RowGroup> row(size_t r) const { return row_of(w.island, w.contacts[r].row); }
+  // Contacts of a pair of the island.
+  [[nodiscard]] auto contacts_of(size_t pair) const {
+    const BodyPair& of = w.island.pairs[pair];
+    const auto first = static_cast<size_t>(w.first_contact[pair]);
+    return std::views::iota(first, first + static_cast<size_t>(of.row_end - of.row_begin));
+  }
   Motion& motion(size_t k) { return state.motion[block(k)]; }
   [[nodiscard]] size_t place(int b) const {
     return static_cast<size_t>(w.place[static_cast<size_t>(b)]);
@@ -66,7 +75,7 @@ struct AdvanceIsland {
   template <class Of>
   [[nodiscard]] Vec3 relative(size_t r, Of&& of) const {
     const IslandContact& contact = w.contacts[r];
-    const Vec3& arm = w.island.rows[r].arm;
+    const Vec3 arm = row(r).arm();
     const size_t ka = place(contact.a);
     Vec3 v = point_velocity<6>(of(ka), arm);
     if (contact.b >= 0) {
@@ -79,10 +88,13 @@ struct AdvanceIsland {
   void note_change(size_t r) {
     w.island.pairs[static_cast<size_t>(w.contacts[r].pair)].changed = true;
   }
+  [[nodiscard]] Hit* hit_of(size_t r) const {
+    const int hit = w.contacts[r].hit;
+    return hit < 0 ? nullptr : &w.hits[static_cast<size_t>(hit)];
+  }
   // Presses on a panel of a fence that gives way.
   [[nodiscard]] bool gives_way(size_t r) const {
-    const IslandRow& row = w.island.rows[r];
-    return row.normal_limit < no_normal_limit && row.state != ContactState::open;
+    return row(r).normal_limit() < no_normal_limit && row(r).state() != ContactState::open;
   }
   // Displacement of the points of contact `r` over the substep.
   [[nodiscard]] Vec3 path_of_contact(size_t r) const {
@@ -133,7 +145,7 @@ struct AdvanceIsland {
                                            std::span<const ContactRow> rows) const;
   void clear_island();
   void add_member(size_t k, double h);
-  void open_pair(int a, int b);
+  void begin_pair(int a, int b);
   IslandContact& push(int a, const ContactKey& key, double touch, double restitution,
                       bool never_waits, const ContactRow& row);
   bool add_ground(size_t k);
@@ -161,6 +173,7 @@ struct AdvanceIsland {
   [[nodiscard]] std::pair<double, double> support_power(size_t k) const;
   [[nodiscard]] double time_until_it_drives(size_t k) const;
   void make_hit(size_t r, double gap_end, double speed_end, double h);
+  void note_hit_pair(size_t pair);
   int find_hits(double h, bool free);
   [[nodiscard]] double overshoot_of_hits() const;
   double correct_hits();
@@ -170,7 +183,7 @@ struct AdvanceIsland {
   [[nodiscard]] double first_hit(double h) const;
   bool solve(double h);
   [[nodiscard]] bool is_closed() const;
-  void set_times(double h);
+  void set_times(double h, bool first);
   void find_mean_times(double h);
   void shift_arms(double h);
   void set_displacements(double h);
@@ -179,7 +192,7 @@ struct AdvanceIsland {
   [[nodiscard]] Vec6 change_by(size_t k, const Vec6& p) const;
   void sum_hits();
   [[nodiscard]] Vec6 change_apart(size_t k, const HitSum& own, double h) const;
-  [[nodiscard]] double hits_in_turn(const BodyPair& pair, double h) const;
+  [[nodiscard]] double hits_in_turn(size_t pair, double h) const;
   void set_targets(double h);
   [[nodiscard]] double loss_in_turn() const;
   [[nodiscard]] double work_on_velocities() const;

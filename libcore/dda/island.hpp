@@ -12,6 +12,7 @@
 #pragma once
 
 #include <Eigen/LU>
+#include <span>
 #include <vector>
 
 #include "contact/contact.hpp"
@@ -27,7 +28,7 @@ namespace talus {
 /// solution: give an intact bond without limit (`held` of island_assembly.cpp), compare its impulse
 /// with the limits afterwards and solve again without the bonds that were exceeded.
 struct IslandRow {  // clang-format off
-  // filled by the caller; vectors in local axes
+  // vectors in local axes
   Vec3 normal = Vec3::Zero();          ///< unit, from B to A
   Vec3 arm = Vec3::Zero();             ///< contact point from the centroid of A [m]
   Vec3 shear_velocity = Vec3::Zero();  ///< s_n / tau, tangential, plus the tangential drift [m/s]
@@ -42,16 +43,69 @@ struct IslandRow {  // clang-format off
   // in: those of the last step, scaled to this one's length; out: the solution
   Vec3 impulse = Vec3::Zero();  ///< on A; B gets the opposite [N s]
   ContactState state = ContactState::open;  ///< in: inherited; a new contact is `open`
-  bool waits_for_impact = false;  ///< presses nothing
 };  // clang-format on
 
-/// Contacts of one pair of bodies, or of one body with the ground: consecutive rows.
+/// Two doubles, the compiler's vector type: a register of any x86-64, plain code elsewhere with the
+/// same bits. (Four at a time need AVX; without it the compiler takes them through memory.)
+using Two __attribute__((vector_size(16), may_alias)) = double;
+
+/// Two rows of one pair side by side; fields as in IslandRow, index = axis, then row. A lane
+/// without a contact is all zero but for the limit, and never presses.
+struct RowGroup {
+  Two normal[3], arm[3], shear_velocity[3], slip_start[3];
+  Two bias, normal_damping, shear_damping, friction, cohesion, tension, normal_limit;
+  Two impulse[3];
+  Two state;           ///< ContactState
+  Two normal_tangent;  ///< normal_damping; 0 while the normal impulse is at its limit [kg]
+  Two slip_tangent;    ///< of a slipping contact across its direction [kg]
+  Two trial_speed;     ///< of a slipping contact, v_t + s / tau [m/s]
+  Two used_tangent;    ///< slip_tangent when the tangent was last summed [kg]
+};
+
+/// A row in its group.
+template <class Group>
+class RowIn {
+ public:
+  RowIn(Group& group, int lane) : group_(group), lane_(lane) {}
+
+  [[nodiscard]] Vec3 vector(const Two (RowGroup::*field)[3]) const {
+    const auto& of = group_.*field;
+    return {of[0][lane_], of[1][lane_], of[2][lane_]};
+  }
+  [[nodiscard]] double value(Two RowGroup::*field) const { return (group_.*field)[lane_]; }
+  [[nodiscard]] Vec3 normal() const { return vector(&RowGroup::normal); }
+  [[nodiscard]] Vec3 arm() const { return vector(&RowGroup::arm); }
+  [[nodiscard]] Vec3 impulse() const { return vector(&RowGroup::impulse); }
+  [[nodiscard]] double normal_impulse() const { return normal().dot(impulse()); }
+  [[nodiscard]] double bias() const { return value(&RowGroup::bias); }
+  [[nodiscard]] double normal_damping() const { return value(&RowGroup::normal_damping); }
+  [[nodiscard]] double shear_damping() const { return value(&RowGroup::shear_damping); }
+  [[nodiscard]] double normal_limit() const { return value(&RowGroup::normal_limit); }
+  [[nodiscard]] ContactState state() const {
+    return static_cast<ContactState>(static_cast<int>(value(&RowGroup::state)));
+  }
+
+  void set_vector(Two (RowGroup::*field)[3], const Vec3& value) const {
+    for (int k = 0; k < 3; ++k) (group_.*field)[k][lane_] = value[k];
+  }
+  void set(Two RowGroup::*field, double value) const { (group_.*field)[lane_] = value; }
+  void set_state(ContactState state) const { set(&RowGroup::state, static_cast<double>(state)); }
+
+ private:
+  Group& group_;
+  int lane_;
+};
+
+/// Contacts of one pair of bodies, or of one body with the ground: consecutive rows, in groups of
+/// their own.
 struct BodyPair {
   int a = 0;          ///< body of the island
   int b = -1;         ///< body of the island, != a; -1: the ground
-  int row_begin = 0;  ///< rows [row_begin, row_end)
+  int row_begin = 0;  ///< rows [row_begin, row_end), even
   int row_end = 0;
-  bool changed = true;  ///< rows or centroids are not those of the solution that is continued
+  /// In, for a solution that continues the last one: rows, centroids or free motion of a body are
+  /// not those of that one. Out: false.
+  bool changed = true;
 };
 
 /// One island of rigid bodies over one step. Velocity: of the centroid, and spin, in local axes;
@@ -63,12 +117,31 @@ struct Island {  // clang-format off
   std::vector<Vec3> position;      ///< centroids [m]                                   (n_bodies)
   std::vector<double> radius;      ///< turns spin into velocity [m]                    (n_bodies)
   std::vector<BodyPair> pairs;     ///< a pair may appear more than once                (n_pairs)
-  std::vector<IslandRow> rows;     ///< grouped by pair                                 (n_rows)
+  std::vector<RowGroup> rows;      ///< row r is lane r % 2 of rows[r / 2]; pair by pair (n_groups)
 };  // clang-format on
 
 [[nodiscard]] inline int n_bodies(const Island& island) {
   return static_cast<int>(island.mass.size());
 }
+
+[[nodiscard]] inline RowIn<const RowGroup> row_of(const Island& island, int r) {
+  return {island.rows[static_cast<std::size_t>(r / 2)], r % 2};
+}
+[[nodiscard]] inline RowIn<RowGroup> row_of(Island& island, int r) {
+  return {island.rows[static_cast<std::size_t>(r / 2)], r % 2};
+}
+
+/// The groups of a pair.
+[[nodiscard]] inline std::span<RowGroup> groups_of(Island& island, const BodyPair& pair) {
+  const auto begin = static_cast<std::size_t>(pair.row_begin / 2);
+  return std::span(island.rows)
+      .subspan(begin, static_cast<std::size_t>(pair.row_end + 1) / 2 - begin);
+}
+
+/// Adds a pair without rows.
+void open_pair(int a, int b, Island& island);
+/// Adds a row to the last pair and returns its number.
+int add_row(const IslandRow& row, Island& island);
 
 /// M v and M^-1 p of one body.
 [[nodiscard]] inline Vec6 times_mass(const Mat6& M, const Vec6& v) {

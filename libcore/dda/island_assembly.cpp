@@ -76,6 +76,12 @@ void AdvanceIsland::clear_island() {
   w.island.radius.clear();
   w.island.pairs.clear();
   w.island.rows.clear();
+  w.first_contact.clear();
+  w.ground_pair.clear();
+  w.waiting.clear();
+  w.hits.clear();
+  w.hit_pairs.clear();
+  w.any_bond = false;
 }
 
 void AdvanceIsland::add_member(size_t k, double h) {
@@ -101,9 +107,9 @@ void AdvanceIsland::add_member(size_t k, double h) {
   w.island.radius.push_back(c.radius);
 }
 
-void AdvanceIsland::open_pair(int a, int b) {
-  const int at = static_cast<int>(w.island.rows.size());
-  w.island.pairs.push_back({a, b, at, at, true});
+void AdvanceIsland::begin_pair(int a, int b) {
+  open_pair(a, b, w.island);
+  w.first_contact.push_back(static_cast<int>(w.contacts.size()));
 }
 
 // Adds a contact of block a, given by its row in local axes, and its row for the solver.
@@ -132,28 +138,31 @@ IslandContact& AdvanceIsland::push(int a, const ContactKey& key, double touch, d
   contact.waits = row.memory < 0 && !never_waits &&
                   (contact.approach < -resting_speed || row.gap_start > touch + h * resting_speed);
 
-  make_room(w.island.rows);
-  IslandRow& out = w.island.rows.emplace_back();
-  const double along = row.normal.dot(row.drift);
+  if (contact.waits) w.waiting.push_back(w.contacts.size() - 1);
+  w.any_bond |= contact.bond_area != 0;
+
+  IslandRow out;
   out.normal = row.normal;
   out.arm = row.point;
-  out.shear_velocity = row.shear_velocity + (row.drift - along * row.normal);
-  out.slip_start = row.slip_start;
-  out.bias = row.bias + along;
-  out.normal_damping = row.normal_damping;
-  out.shear_damping = row.shear_damping;
   out.friction = row.friction;
-  out.cohesion_impulse = row.cohesion_impulse;
-  out.tension_impulse = row.tension_impulse;
   out.normal_limit = row.normal_limit;
-  out.waits_for_impact = contact.waits;
+  if (!contact.waits) {  // until it is hit it presses nothing
+    const double along = row.normal.dot(row.drift);
+    out.shear_velocity = row.shear_velocity + (row.drift - along * row.normal);
+    out.slip_start = row.slip_start;
+    out.bias = row.bias + along;
+    out.normal_damping = row.normal_damping;
+    out.shear_damping = row.shear_damping;
+    out.cohesion_impulse = row.cohesion_impulse;
+    out.tension_impulse = row.tension_impulse;
+  }
   if (row.memory >= 0) {
     const ContactMemory& m = state.memory[static_cast<size_t>(a)][static_cast<size_t>(row.memory)];
     out.impulse = h * m.normal_force * row.normal;
     contact.bore = m.normal_force;
     out.state = static_cast<ContactState>(m.state);
   }
-  w.island.pairs.back().row_end = static_cast<int>(w.island.rows.size());
+  contact.row = add_row(out, w.island);
   return contact;
 }
 
@@ -162,6 +171,7 @@ bool AdvanceIsland::add_ground(size_t k) {
   const Substep& s = w.substeps[k];
   const int b = w.members[k];
   w.lost.push_back({});
+  w.ground_pair.push_back(-1);
   if (!scene.settings.trn_contacts) {
     if (is_below_ground(scene, b, s.free.pose.position))
       report.flags = report.flags | StepFlag::fell_through;
@@ -178,7 +188,8 @@ bool AdvanceIsland::add_ground(size_t k) {
   make_rows(scene, b, w.numbers[k], s, state, work);
   w.lost.back() = lost_contacts(b, s, work.rows);
   if (work.rows.empty()) return true;
-  open_pair(static_cast<int>(k), -1);
+  w.ground_pair.back() = static_cast<int>(w.island.pairs.size());
+  begin_pair(static_cast<int>(k), -1);
   for (ContactRow& row : work.rows) {
     for (Vec3* v : {&row.normal, &row.point, &row.drift, &row.shear, &row.shear_velocity,
                     &row.slip_start, &row.free_move})
@@ -371,7 +382,7 @@ double AdvanceIsland::first_touch(double h) const {
   for (size_t r = 0; r < w.contacts.size(); ++r) {
     const IslandContact& contact = w.contacts[r];
     const double v = contact.speed_start, g = contact.gap_start;
-    if (w.island.rows[r].normal_limit >= no_normal_limit || g <= contact.touch ||
+    if (row(r).normal_limit() >= no_normal_limit || g <= contact.touch ||
         contact.gap_free > -contact.touch || knows_body(contact.a, contact.fixed))
       continue;
     const double a = 2 * (contact.gap_free - g - v * h) / (h * h);
@@ -404,8 +415,7 @@ void AdvanceIsland::look_ahead(double h) {
   const auto note_hit = [&](int b, double speed) {
     if (b >= 0) w.thrown[place(b)] = std::max(w.thrown[place(b)], speed);
   };
-  for (const IslandContact& contact : w.contacts)
-    if (contact.waits) note_hit(contact.a, -contact.approach);
+  for (const size_t r : w.waiting) note_hit(w.contacts[r].a, -w.contacts[r].approach);
   w.gap_end.resize(w.pairs.points.size());
   for (const int i : w.island_manifolds) {
     const PairManifold& m = w.pairs.manifolds[static_cast<size_t>(i)];
@@ -475,13 +485,16 @@ bool AdvanceIsland::assemble(double t, double h) {
   look_ahead(h);
   for (const int i : w.island_manifolds) {
     const PairManifold& m = w.pairs.manifolds[static_cast<size_t>(i)];
-    open_pair(w.place[static_cast<size_t>(m.block_a)], w.place[static_cast<size_t>(m.block_b)]);
+    begin_pair(w.place[static_cast<size_t>(m.block_a)], w.place[static_cast<size_t>(m.block_b)]);
     match_memories(m);
     if (is_fixed(scene, m.block_b))
       add_fixed_points(m);
     else
       add_points(i, h);
-    if (w.island.pairs.back().row_begin == w.island.pairs.back().row_end) w.island.pairs.pop_back();
+    if (w.island.pairs.back().row_begin == w.island.pairs.back().row_end) {
+      w.island.pairs.pop_back();
+      w.first_contact.pop_back();
+    }
   }
   return true;
 }

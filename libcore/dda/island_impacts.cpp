@@ -38,22 +38,21 @@ double time_of_hit(double g, double v, double gap_end, double h) {
 // member falls, and the new plane takes up what the old one should have borne, as if all bends came
 // half a step too soon. It ends where it would begin to drive the member.
 void AdvanceIsland::bear_until_hit(double h) {
-  w.support.assign(w.members.size(), {Vec6::Zero(), h});
-  w.is_hit.assign(w.members.size(), 0);
-  w.opened.assign(w.members.size(), 0);
-  for (const IslandContact& contact : w.contacts) {
-    if (!contact.waits || contact.b >= 0 || contact.gap_free > contact.touch) continue;
+  w.support.assign(w.members.size(), {});
+  w.hit_members.reset(w.members.size());
+  w.opened.reset(w.members.size());
+  for (const size_t r : w.waiting) {
+    const IslandContact& contact = w.contacts[r];
+    if (contact.b >= 0 || contact.gap_free > contact.touch) continue;
     double time = 0;
     if (contact.gap_start > 0)
       time = time_of_hit(contact.gap_start, contact.speed_start, contact.gap_free, h);
     const size_t k = place(contact.a);
+    if (!w.hit_members.contains(static_cast<int>(k))) w.support[k].until = h;
     w.support[k].until = std::min(w.support[k].until, time);
-    w.is_hit[k] = 1;
+    w.hit_members.add(static_cast<int>(k));
   }
-  for (size_t k = 0; k < w.members.size(); ++k) {
-    if (!w.is_hit[k]) w.support[k].until = 0;
-    set_support_of(k);
-  }
+  for (const int k : w.hit_members.items) set_support_of(static_cast<size_t>(k));
 }
 
 // Bears member k by the contacts that it lost.
@@ -71,19 +70,19 @@ void AdvanceIsland::set_support_of(size_t k) {
 
 // Contacts with the ground that a hit opens pressed until then. True when there are any.
 bool AdvanceIsland::bear_by_opened() {
-  bool any = false;
-  for (size_t r = 0; r < w.contacts.size(); ++r) {
-    const IslandContact& contact = w.contacts[r];
-    if (contact.b >= 0 || contact.fixed >= 0 || contact.bore <= 0) continue;
-    const size_t k = place(contact.a);
-    if (w.support[k].until == 0 || w.island.rows[r].state != ContactState::open) continue;
-    w.lost[k].add(contact.bore, contact.arm);
-    w.opened[k] = 1;
-    any = true;
+  for (const int member : w.hit_members.items) {
+    const auto k = static_cast<size_t>(member);
+    if (w.support[k].until == 0 || w.ground_pair[k] < 0) continue;
+    for (const size_t r : contacts_of(static_cast<size_t>(w.ground_pair[k]))) {
+      const IslandContact& contact = w.contacts[r];
+      if (contact.bore <= 0 || row(r).state() != ContactState::open) continue;
+      w.lost[k].add(contact.bore, contact.arm);
+      w.opened.add(member);
+      note_change(r);  // the free motion of its body
+    }
   }
-  for (size_t k = 0; any && k < w.members.size(); ++k)
-    if (w.opened[k]) set_support_of(k);
-  return any;
+  for (const int k : w.opened.items) set_support_of(static_cast<size_t>(k));
+  return !w.opened.items.empty();
 }
 
 // Power of what bears member k at the start of the substep, and how fast it rises [W, W/s].
@@ -108,55 +107,65 @@ double AdvanceIsland::time_until_it_drives(size_t k) const {
 // on as fast as it was thrown, so that the speed at the end bounds what this hit can return.
 void AdvanceIsland::make_hit(size_t r, double gap_end, double speed_end, double h) {
   IslandContact& contact = w.contacts[r];
-  IslandRow& row = w.island.rows[r];
+  const RowIn<RowGroup> of = row(r);
+  const Vec3 normal = of.normal();
+  note_hit_pair(static_cast<size_t>(contact.pair));
+  contact.waits = false;
+  contact.hit = static_cast<int>(w.hits.size());
+  Hit& hit = w.hits.emplace_back();
+  hit.contact = r;
   const double v = contact.speed_start, g = contact.gap_start;
-  const double supported = row.normal.dot(relative(r, [&](size_t k) { return borne_path(k, h); }));
+  const double supported = normal.dot(relative(r, [&](size_t k) { return borne_path(k, h); }));
   const double a = 2 * (gap_end - supported - g - v * h) / (h * h);
   const double a_free = 2 * (contact.gap_free - g - v * h) / (h * h);
-  if (g > 0) contact.hit_time = time_of_hit(g, v, gap_end, h);
-  if (is_lone() && contact.hit_time > hit_at_end * h) contact.hit_time = h;
-  const double rest = h - contact.hit_time, resting_speed = numbers(contact.a).resting_speed;
-  const double borne = row.normal.dot(relative(r, [&](size_t k) -> Vec6 {
-    return std::min(contact.hit_time, w.support[k].until) * w.support[k].acceleration;
+  if (g > 0) hit.time = time_of_hit(g, v, gap_end, h);
+  if (is_lone() && hit.time > hit_at_end * h) hit.time = h;
+  const double rest = h - hit.time, resting_speed = numbers(contact.a).resting_speed;
+  const double borne = normal.dot(relative(r, [&](size_t k) -> Vec6 {
+    return std::min(hit.time, w.support[k].until) * w.support[k].acceleration;
   }));
-  const double speed =
-      std::max(g > 0 ? v + a * contact.hit_time + borne : contact.approach, speed_end);
+  const double speed = std::max(g > 0 ? v + a * hit.time + borne : contact.approach, speed_end);
   const double returned = speed < -resting_speed ? -contact.restitution * speed : 0;
-  contact.hit_speed = std::min(speed, -resting_speed);
-  contact.rebound = returned;
-  contact.fall = std::min(0.0, a_free) * rest;
-  contact.target = std::max(0.0, returned + contact.fall);
-  contact.waits = false;
-  contact.hit = true;
+  hit.speed = std::min(speed, -resting_speed);
+  hit.rebound = returned;
+  hit.fall = std::min(0.0, a_free) * rest;
+  hit.target = std::max(0.0, returned + hit.fall);
   const size_t ka = place(contact.a);
-  Mobility W = mobility_at(ka, contact.arm, row.normal);
+  Mobility W = mobility_at(ka, contact.arm, normal);
   if (contact.b >= 0) {
     const size_t kb = place(contact.b);
     const Vec3 arm_b = contact.arm + w.island.position[ka] - w.island.position[kb];
-    const Mobility Wb = mobility_at(kb, arm_b, row.normal);
+    const Mobility Wb = mobility_at(kb, arm_b, normal);
     W.normal += Wb.normal;
     W.tangent += Wb.tangent;
   }
-  row.normal_damping = hit_stiffness / W.normal;
-  row.shear_damping = hit_stiffness / W.tangent;
-  row.shear_velocity.setZero();
-  row.slip_start.setZero();  // friction against the end velocity never gains energy
-  row.waits_for_impact = false;
-  const double change_alone = std::max(0.0, contact.target - (v + a_free * h));
-  row.state = ContactState::slip;
-  row.impulse = change_alone / W.normal * hit_share * row.normal;
-  row.bias = -contact.target - change_alone / hit_stiffness;
+  // no slip_start: friction against the end velocity never gains energy
+  of.set(&RowGroup::normal_damping, hit_stiffness / W.normal);
+  of.set(&RowGroup::shear_damping, hit_stiffness / W.tangent);
+  const double change_alone = std::max(0.0, hit.target - (v + a_free * h));
+  of.set_state(ContactState::slip);
+  of.set_vector(&RowGroup::impulse, change_alone / W.normal * hit_share * normal);
+  of.set(&RowGroup::bias, -hit.target - change_alone / hit_stiffness);
   note_change(r);
+}
+
+// `pair` has a hit, perhaps its first.
+void AdvanceIsland::note_hit_pair(size_t pair) {
+  for (const size_t r : contacts_of(pair))
+    if (w.contacts[r].hit >= 0) return;
+  w.hit_pairs.push_back(pair);
 }
 
 // Contacts that wait and are hit, by the free motion or by that with the impulses found so far:
 // how many.
 int AdvanceIsland::find_hits(double h, bool free) {
-  int n = 0;
-  for (size_t r = 0; r < w.contacts.size(); ++r) {
+  const auto moved_since = [&](int b) {  // by the last solution
+    return b >= 0 && w.solver.touched_bodies.contains(static_cast<int>(place(b)));
+  };
+  const auto is_hit = [&](size_t r) {
     const IslandContact& contact = w.contacts[r];
-    if (!contact.waits) continue;
-    const Vec3& normal = w.island.rows[r].normal;
+    if (!free && !moved_since(contact.a) && !moved_since(contact.b)) return false;
+    const Vec3 normal = row(r).normal();
     double gap_end = contact.gap_free, speed_end = -std::numeric_limits<double>::infinity();
     if (free) {
       gap_end += normal.dot(relative(r, [&](size_t k) { return borne_path(k, h); }));
@@ -164,11 +173,11 @@ int AdvanceIsland::find_hits(double h, bool free) {
       gap_end += normal.dot(relative(r, [&](size_t k) { return displacement_by_contact(k, h); }));
       speed_end = normal.dot(relative(r, [&](size_t k) { return w.island.velocity[k]; }));
     }
-    if (gap_end > contact.touch) continue;
+    if (gap_end > contact.touch) return false;
     make_hit(r, gap_end, speed_end, h);
-    ++n;
-  }
-  return n;
+    return true;
+  };
+  return static_cast<int>(std::erase_if(w.waiting, is_hit));
 }
 
 // The part of the last change of the impulses expected of the hits that was too much, negative: by
@@ -176,13 +185,13 @@ int AdvanceIsland::find_hits(double h, bool free) {
 // show where it goes (Anderson's acceleration over one round). 0 while the hits are not those of
 // the round before.
 double AdvanceIsland::overshoot_of_hits() const {
-  const auto same = [](const ExpectedHit& a, const ExpectedHit& b) { return a.row == b.row; };
-  if (!std::ranges::equal(w.hits, w.last_hits, same)) return 0;
+  const auto same = [](const ExpectedHit& a, const ExpectedHit& b) { return a.hit == b.hit; };
+  if (!std::ranges::equal(w.expected, w.last_expected, same)) return 0;
   double along = 0, length_sq = 0;
-  for (size_t i = 0; i < w.hits.size(); ++i) {
-    const double per_damping = 1 / w.island.rows[w.hits[i].row].normal_damping;
-    const double difference = w.hits[i].error - w.last_hits[i].error;
-    along += per_damping * w.hits[i].error * difference;
+  for (size_t i = 0; i < w.expected.size(); ++i) {
+    const double per_damping = 1 / row(w.hits[w.expected[i].hit].contact).normal_damping();
+    const double difference = w.expected[i].error - w.last_expected[i].error;
+    along += per_damping * w.expected[i].error * difference;
     length_sq += per_damping * difference * difference;
   }
   return length_sq > 0 ? std::clamp(along / length_sq, -1.0, 0.5) : 0;
@@ -191,25 +200,26 @@ double AdvanceIsland::overshoot_of_hits() const {
 // Moves the targets of the hits by what finite stiffness left: the largest error, of the speed.
 double AdvanceIsland::correct_hits() {
   double worst = 0;
-  w.hits.swap(w.last_hits);
-  w.hits.clear();
-  for (size_t r = 0; r < w.contacts.size(); ++r) {
-    const IslandContact& contact = w.contacts[r];
-    const IslandRow& row = w.island.rows[r];
-    const double p_n = row.normal.dot(row.impulse);
-    if (!contact.hit || p_n <= 0) continue;
-    const double expected = -row.normal_damping * (row.bias + contact.target);
-    w.hits.push_back({r, p_n, p_n - expected});
-    worst = std::max(worst, std::abs(p_n - expected) / row.normal_damping / -contact.hit_speed);
+  w.expected.swap(w.last_expected);
+  w.expected.clear();
+  for (size_t i = 0; i < w.hits.size(); ++i) {
+    const Hit& hit = w.hits[i];
+    const RowIn<RowGroup> of = row(hit.contact);
+    const double p_n = of.normal_impulse();
+    if (p_n <= 0) continue;
+    const double expected = -of.normal_damping() * (of.bias() + hit.target);
+    w.expected.push_back({i, p_n, p_n - expected});
+    worst = std::max(worst, std::abs(p_n - expected) / of.normal_damping() / -hit.speed);
   }
   const double overshoot = overshoot_of_hits();
-  for (size_t i = 0; i < w.hits.size(); ++i) {
-    IslandRow& row = w.island.rows[w.hits[i].row];
-    double expected = w.hits[i].impulse;
+  for (size_t i = 0; i < w.expected.size(); ++i) {
+    const Hit& hit = w.hits[w.expected[i].hit];
+    const RowIn<RowGroup> of = row(hit.contact);
+    double expected = w.expected[i].impulse;
     if (overshoot != 0)
-      expected = std::max(0.0, expected - overshoot * (expected - w.last_hits[i].impulse));
-    row.bias = -w.contacts[w.hits[i].row].target - expected / row.normal_damping;
-    note_change(w.hits[i].row);
+      expected = std::max(0.0, expected - overshoot * (expected - w.last_expected[i].impulse));
+    of.set(&RowGroup::bias, -hit.target - expected / of.normal_damping());
+    note_change(hit.contact);
   }
   return worst;
 }
@@ -224,8 +234,7 @@ double AdvanceIsland::fastest() const {
 // Speed of the fastest hit.
 double AdvanceIsland::fastest_hit() const {
   double fastest = 0;
-  for (const IslandContact& contact : w.contacts)
-    if (contact.hit) fastest = std::max(fastest, -contact.hit_speed);
+  for (const Hit& hit : w.hits) fastest = std::max(fastest, -hit.speed);
   return fastest;
 }
 
@@ -243,7 +252,6 @@ bool AdvanceIsland::solve_once(double h, bool continues) {
   }
   settings.tolerance *= scene.settings.tolerance_factor;
   const IslandResult solved = solve_island(w.island, settings, w.solver);
-  for (BodyPair& pair : w.island.pairs) pair.changed = false;
   report.passes += solved.passes;
   return solved.converged;
 }
@@ -252,9 +260,8 @@ bool AdvanceIsland::solve_once(double h, bool continues) {
 double AdvanceIsland::first_hit(double h) const {
   double first = h + 1;
   if (!is_lone() || lone_hits >= most_lone_hits) return first;
-  for (const IslandContact& contact : w.contacts)
-    if (contact.hit && contact.hit_time > hit_at_start * h && contact.hit_time < h)
-      first = std::min(first, contact.hit_time);
+  for (const Hit& hit : w.hits)
+    if (hit.time > hit_at_start * h && hit.time < h) first = std::min(first, hit.time);
   return first;
 }
 
@@ -263,8 +270,9 @@ bool AdvanceIsland::solve(double h) {
   bear_until_hit(h);
   n_hits = find_hits(h, true);
   if (first_hit(h) < h) return true;
-  w.hits.clear();
-  set_times(h);
+  w.expected.clear();
+  w.time.assign(w.members.size(), h / 2);
+  set_times(h, true);
   const double tolerance = small ? small_hit_tolerance : hit_tolerance;
   bool converged = solve_once(h, false);
   for (int round = 0; round < most_hit_rounds && converged; ++round) {
@@ -277,7 +285,7 @@ bool AdvanceIsland::solve(double h) {
     if (n_hits == 0 || first_hit(h) < h) return true;
     set_targets(h);
     const double error = correct_hits();
-    if (more > 0) set_times(h);
+    if (more > 0) set_times(h, false);
     if (more == 0 && error <= tolerance) break;
     converged = solve_once(h, true);
   }
@@ -290,60 +298,76 @@ bool AdvanceIsland::solve(double h) {
 }
 
 bool AdvanceIsland::is_closed() const {
-  return std::none_of(w.contacts.begin(), w.contacts.end(),
-                      [](const IslandContact& contact) { return contact.b < 0; });
+  return std::none_of(w.island.pairs.begin(), w.island.pairs.end(),
+                      [](const BodyPair& pair) { return pair.b < 0; });
 }
 
 // When each member's velocity changes, on the mean over the expected impulses: a contact that
 // presses all along acts in the middle of the substep, a hit at its time. Lever arms count from
 // where the members are then, so that angular momentum is kept. An island that touches nothing
-// else takes one time for all: different ones would move its centre of mass.
-void AdvanceIsland::set_times(double h) {
-  w.last_time.swap(w.time);
-  w.last_time.resize(w.members.size());
-  w.time.assign(w.members.size(), h / 2);
-  const bool any_hit = std::any_of(w.contacts.begin(), w.contacts.end(),
-                                   [](const IslandContact& contact) { return contact.hit; });
-  if (any_hit) find_mean_times(h);
-  for (size_t k = 0; k < w.members.size(); ++k)
+// else takes one time for all its impulses: different ones would move its centre of mass.
+void AdvanceIsland::set_times(double h, bool first) {
+  w.last_time = w.time;
+  if (!w.hits.empty()) find_mean_times(h);
+  bool any = false;
+  w.shifted.assign(w.members.size(), 0);
+  for (size_t k = 0; k < w.members.size(); ++k) {
+    w.shifted[k] = w.time[k] != w.last_time[k] || w.opened.contains(static_cast<int>(k));
+    any |= w.shifted[k] != 0;
+    if (!first && w.shifted[k] == 0) continue;
     w.island.position[k] = w.substeps[k].free.pose.position -
                            (h - w.time[k]) * w.substeps[k].free.velocity +
                            borne_path(k, w.time[k]).head<3>();
-  if (any_hit) shift_arms(h);
+  }
+  if (any) shift_arms(h);
 }
 
+// Times of the members that are hit; of the others they stay as they are.
 void AdvanceIsland::find_mean_times(double h) {
+  const bool closed = is_closed();
+  w.is_timed.assign(w.members.size(), closed);
   w.weight.assign(w.members.size(), 0);
-  w.time.assign(w.members.size(), 0);
-  for (size_t r = 0; r < w.contacts.size(); ++r) {
-    const IslandContact& contact = w.contacts[r];
-    const double p = w.island.rows[r].impulse.norm();
-    const double t = contact.hit ? contact.hit_time : h / 2;
-    for (const int b : {contact.a, contact.b}) {
+  w.delay.assign(w.members.size(), 0);
+  for (const Hit& hit : w.hits) {
+    const double delay = row(hit.contact).impulse().norm() * (hit.time - h / 2);
+    for (const int b : {w.contacts[hit.contact].a, w.contacts[hit.contact].b}) {
       if (b < 0) continue;
-      w.weight[place(b)] += p;
-      w.time[place(b)] += p * t;
+      w.is_timed[place(b)] = 1;
+      w.delay[place(b)] += delay;
     }
   }
-  if (is_closed()) {
+  const auto is_timed = [&](int k) { return k >= 0 && w.is_timed[static_cast<size_t>(k)] != 0; };
+  for (const BodyPair& pair : w.island.pairs) {
+    if (!is_timed(pair.a) && !is_timed(pair.b)) continue;
+    for (int r = pair.row_begin; r < pair.row_end; ++r) {
+      const double p = row_of(w.island, r).impulse().norm();
+      w.weight[static_cast<size_t>(pair.a)] += p;
+      if (pair.b >= 0) w.weight[static_cast<size_t>(pair.b)] += p;
+    }
+  }
+  if (closed) {
     const double weight = std::accumulate(w.weight.begin(), w.weight.end(), 0.0);
-    const double time = std::accumulate(w.time.begin(), w.time.end(), 0.0);
+    const double delay = std::accumulate(w.delay.begin(), w.delay.end(), 0.0);
     std::fill(w.weight.begin(), w.weight.end(), weight);
-    std::fill(w.time.begin(), w.time.end(), time);
+    std::fill(w.delay.begin(), w.delay.end(), delay);
   }
   for (size_t k = 0; k < w.members.size(); ++k)
-    w.time[k] = w.weight[k] > 0 ? w.time[k] / w.weight[k] : h / 2;
+    if (w.is_timed[k] != 0) w.time[k] = w.weight[k] > 0 ? h / 2 + w.delay[k] / w.weight[k] : h / 2;
 }
 
+// Lever arms between blocks of which one is shifted.
 void AdvanceIsland::shift_arms(double h) {
-  for (size_t r = 0; r < w.contacts.size(); ++r) {
-    const IslandContact& contact = w.contacts[r];
-    if (contact.b < 0) continue;
-    const size_t ka = place(contact.a), kb = place(contact.b);
-    w.island.rows[r].arm = contact.arm + ((w.time[kb] - h / 2) * w.substeps[kb].free.velocity -
-                                          (w.time[ka] - h / 2) * w.substeps[ka].free.velocity) /
-                                             2;
-    if (w.time[ka] != w.last_time[ka] || w.time[kb] != w.last_time[kb]) note_change(r);
+  for (size_t p = 0; p < w.island.pairs.size(); ++p) {
+    BodyPair& pair = w.island.pairs[p];
+    if (pair.b < 0) continue;
+    const auto ka = static_cast<size_t>(pair.a), kb = static_cast<size_t>(pair.b);
+    if (w.shifted[ka] == 0 && w.shifted[kb] == 0) continue;
+    pair.changed = true;
+    const Vec3 shift = ((w.time[kb] - h / 2) * w.substeps[kb].free.velocity -
+                        (w.time[ka] - h / 2) * w.substeps[ka].free.velocity) /
+                       2;
+    for (const size_t r : contacts_of(p))
+      row(r).set_vector(&RowGroup::arm, w.contacts[r].arm + shift);
   }
 }
 

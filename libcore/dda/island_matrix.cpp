@@ -1,5 +1,8 @@
 #include "dda/island_matrix.hpp"
 
+#include <algorithm>
+#include <numeric>
+
 namespace talus {
 namespace {
 
@@ -34,105 +37,178 @@ void add_carried(const Packed<6>& W, const Vec3& shift, Packed<6>& D) {
   D(5, 5) += W(5, 5) + (x * L[2][1] - y * L[2][0]) - (W(5, 0) * y - W(5, 1) * x);
 }
 
+// The pairs of each body, ascending.
+void list_pairs(const Island& island, IslandMatrix& matrix) {
+  matrix.pair_begin.assign(island.mass.size() + 1, 0);
+  const auto for_each = [&](auto&& use) {
+    for (size_t p = 0; p < island.pairs.size(); ++p)
+      for (const int body : {island.pairs[p].a, island.pairs[p].b})
+        if (body >= 0) use(static_cast<size_t>(body), static_cast<int>(p));
+  };
+  for_each([&](size_t i, int) { ++matrix.pair_begin[i]; });
+  std::exclusive_scan(matrix.pair_begin.begin(), matrix.pair_begin.end(), matrix.pair_begin.begin(),
+                      0);
+  matrix.pairs_of.resize(static_cast<size_t>(matrix.pair_begin.back()));
+  for_each(
+      [&](size_t i, int p) { matrix.pairs_of[static_cast<size_t>(matrix.pair_begin[i]++)] = p; });
+  std::shift_right(matrix.pair_begin.begin(), matrix.pair_begin.end(), 1);
+  matrix.pair_begin.front() = 0;
+}
+
+// Nothing is summed yet.
+void begin_sums(const Island& island, IslandMatrix& matrix) {
+  matrix.changed_pairs.fill();
+  matrix.pair_closed.assign(island.pairs.size(), 0);
+  matrix.changed_bodies.fill();
+  for (size_t i = 0; i < island.mass.size(); ++i)
+    matrix.own[i] = matrix.diagonal[i] = packed<6>(island.mass[i]);
+}
+
+void add_to_diagonals(const BodyPair& pair, const Packed<6>& W, const Vec3& shift,
+                      IslandMatrix& matrix) {
+  const auto a = static_cast<size_t>(pair.a), b = static_cast<size_t>(pair.b);
+  add(W, matrix.diagonal[a]);
+  matrix.changed_bodies.add(pair.a);
+  if (pair.b < 0) {
+    add(W, matrix.own[a]);
+    return;
+  }
+  add_carried(W, shift, matrix.diagonal[b]);
+  matrix.changed_bodies.add(pair.b);
+}
+
+void list_coupled(const Island& island, IslandMatrix& matrix) {
+  matrix.active.coupled.clear();
+  for (const int p : matrix.active.pairs)
+    if (matrix.pair_closed[static_cast<size_t>(p)] && island.pairs[static_cast<size_t>(p)].b >= 0)
+      matrix.active.coupled.push_back(p);
+}
+
+// What the active bodies have to do with.
+void read_active(const Island& island, IslandMatrix& matrix) {
+  ActiveBodies& active = matrix.active;
+  active.pairs.clear();
+  active.others.clear();
+  for (const int body : active.bodies.items)
+    for (const int p : pairs_of(matrix, static_cast<size_t>(body))) {
+      const BodyPair& pair = island.pairs[static_cast<size_t>(p)];
+      const int other = pair.a == body ? pair.b : pair.a;
+      const bool both = other >= 0 && active.bodies.contains(other);
+      if (both && other < body) continue;  // that one brings the pair
+      active.pairs.push_back(p);
+      if (other >= 0 && !both) active.others.add(other);
+    }
+  list_coupled(island, matrix);
+}
+
 }  // namespace
 
-void prepare_matrix(const Island& island, bool only_changed, IslandMatrix& matrix) {
-  const size_t n = island.mass.size(), n_pairs = island.pairs.size();
-  matrix.shift.resize(n_pairs);
-  matrix.pair_changed.resize(n_pairs);
-  for (size_t p = 0; p < n_pairs; ++p) {
-    const BodyPair& pair = island.pairs[p];
-    if (only_changed && !pair.changed) continue;
-    matrix.pair_changed[p] = 1;
-    matrix.shift[p] = pair.b < 0 ? Vec3(Vec3::Zero())
-                                 : Vec3(island.position[static_cast<size_t>(pair.a)] -
-                                        island.position[static_cast<size_t>(pair.b)]);
+void prepare_pair(const Island& island, size_t p, IslandMatrix& matrix) {
+  const BodyPair& pair = island.pairs[p];
+  matrix.changed_pairs.add(static_cast<int>(p));
+  if (matrix.tangent == Tangent::symmetric && matrix.pair_closed[p]) {
+    Packed<6> change;  // what it added at its shift before
+    subtract(matrix.pair[p], change);
+    add_to_diagonals(pair, change, matrix.shift[p], matrix);
+    matrix.pair_closed[p] = 0;
   }
-  if (!only_changed) matrix.body_changed.assign(n, 1);
+  matrix.shift[p] = pair.b < 0 ? Vec3(Vec3::Zero())
+                               : Vec3(island.position[static_cast<size_t>(pair.a)] -
+                                      island.position[static_cast<size_t>(pair.b)]);
+}
+
+void prepare_matrix(const Island& island, IslandMatrix& matrix) {
+  const size_t n = island.mass.size(), n_pairs = island.pairs.size();
+  list_pairs(island, matrix);
+  matrix.tangent = Tangent::none;
+  matrix.pair_closed.assign(n_pairs, 0);
+  matrix.shift.resize(n_pairs);
   matrix.pair.resize(n_pairs);
-  matrix.pair_closed.resize(n_pairs);
+  matrix.changed_pairs.reset(n_pairs);
+  for (size_t p = 0; p < n_pairs; ++p) prepare_pair(island, p, matrix);
+  matrix.changed_bodies.reset(n);
+  matrix.active.bodies.reset(n);
+  matrix.active.others.reset(n);
+  activate_all(island, matrix);
   for (auto* blocks : {&matrix.own, &matrix.diagonal}) blocks->resize(n);
   for (auto* blocks : {&matrix.single_own, &matrix.inverse}) blocks->resize(n);
   for (auto* vectors :
        {&matrix.residual, &matrix.preconditioned, &matrix.direction, &matrix.product, &matrix.sum})
-    vectors->resize(n);
+    vectors->assign(n, {});
 }
 
-void update_tangents(const Island& island, Tangent tangent, RowGroups& rows, IslandMatrix& matrix) {
-  const size_t n_pairs = island.pairs.size();
-  if (tangent != matrix.tangent) matrix.pair_changed.assign(n_pairs, 1);
+void update_tangents(Island& island, Tangent tangent, IslandMatrix& matrix) {
+  if (tangent != matrix.tangent) begin_sums(island, matrix);
   matrix.tangent = tangent;
   const bool exact = tangent == Tangent::exact;
   if (exact)
-    matrix.rest.resize(n_pairs);
+    matrix.rest.resize(island.pairs.size());
   else
-    matrix.coupling.resize(n_pairs);
-  matrix.coupled.clear();
-  for (size_t p = 0; p < n_pairs; ++p) {
+    matrix.coupling.resize(island.pairs.size());
+  for (const int changed : matrix.changed_pairs.items) {
+    const auto p = static_cast<size_t>(changed);
     const BodyPair& pair = island.pairs[p];
-    if (matrix.pair_changed[p]) {
-      if (exact) matrix.rest[p].setZero();
+    if (exact) {
+      matrix.rest[p].setZero();
       matrix.pair_closed[p] =
-          sum_tangents(groups_of(rows, p), matrix.pair[p], exact ? &matrix.rest[p] : nullptr);
-      if (!exact && pair.b >= 0)
-        matrix.coupling[p] = {single(matrix.pair[p]), single(matrix.shift[p])};
-      matrix.pair_changed[p] = 0;
-      matrix.body_changed[static_cast<size_t>(pair.a)] = 1;
-      if (pair.b >= 0) matrix.body_changed[static_cast<size_t>(pair.b)] = 1;
+          sum_tangents(groups_of(island, pair), matrix.pair[p], &matrix.rest[p]);
+      continue;
     }
-    if (pair.b >= 0 && matrix.pair_closed[p]) matrix.coupled.push_back(static_cast<int>(p));
+    Packed<6> change;
+    if (matrix.pair_closed[p]) subtract(matrix.pair[p], change);
+    matrix.pair_closed[p] = sum_tangents(groups_of(island, pair), matrix.pair[p], nullptr);
+    add(matrix.pair[p], change);
+    add_to_diagonals(pair, change, matrix.shift[p], matrix);
+    if (pair.b >= 0) matrix.coupling[p] = {single(matrix.pair[p]), single(matrix.shift[p])};
   }
+  matrix.changed_pairs.clear();
 }
 
-[[gnu::flatten]] void update_diagonals(const Island& island, IslandMatrix& matrix) {
-  for (size_t i = 0; i < island.mass.size(); ++i)
-    if (matrix.body_changed[i]) matrix.own[i] = matrix.diagonal[i] = packed<6>(island.mass[i]);
-  for (size_t p = 0; p < island.pairs.size(); ++p) {
-    if (!matrix.pair_closed[p]) continue;
-    const BodyPair& pair = island.pairs[p];
-    const auto a = static_cast<size_t>(pair.a);
-    if (matrix.body_changed[a]) {
-      add(matrix.pair[p], matrix.diagonal[a]);
-      if (pair.b < 0) add(matrix.pair[p], matrix.own[a]);
-    }
-    if (pair.b >= 0 && matrix.body_changed[static_cast<size_t>(pair.b)])
-      add_carried(matrix.pair[p], matrix.shift[p], matrix.diagonal[static_cast<size_t>(pair.b)]);
-  }
-  for (size_t i = 0; i < island.mass.size(); ++i) {
-    if (!matrix.body_changed[i]) continue;
+void invert_diagonals(IslandMatrix& matrix) {
+  for (const int body : matrix.changed_bodies.items) {
+    const auto i = static_cast<size_t>(body);
     matrix.single_own[i] = single(matrix.own[i]);
     matrix.inverse[i] = single(inverse(matrix.diagonal[i]));
-    matrix.body_changed[i] = 0;
   }
+  matrix.changed_bodies.clear();
 }
 
-void choose_active(const Island& island, std::span<const std::uint8_t> moves,
-                   IslandMatrix& matrix) {
-  matrix.is_active.assign(moves.begin(), moves.end());
-  for (const int p : matrix.coupled) {
-    const BodyPair& pair = island.pairs[static_cast<size_t>(p)];
-    const auto a = static_cast<size_t>(pair.a), b = static_cast<size_t>(pair.b);
-    if (moves[a] || moves[b]) matrix.is_active[a] = matrix.is_active[b] = 1;
+void activate(const Island& island, std::span<const int> bodies, IslandMatrix& matrix) {
+  matrix.active.bodies.clear();
+  for (const int body : bodies) matrix.active.bodies.add(body);
+  read_active(island, matrix);
+}
+
+void choose_active(const Island& island, std::span<const int> moving, IslandMatrix& matrix) {
+  IndexSet& bodies = matrix.active.bodies;
+  bodies.clear();
+  for (const int body : moving) {
+    bodies.add(body);
+    for (const int p : pairs_of(matrix, static_cast<size_t>(body))) {
+      const BodyPair& pair = island.pairs[static_cast<size_t>(p)];
+      if (!matrix.pair_closed[static_cast<size_t>(p)] || pair.b < 0) continue;
+      bodies.add(pair.a == body ? pair.b : pair.a);
+    }
   }
-  matrix.active.clear();
-  for (size_t i = 0; i < moves.size(); ++i)
-    if (matrix.is_active[i]) matrix.active.push_back(static_cast<int>(i));
-  matrix.active_coupled.clear();
-  for (const int p : matrix.coupled) {
-    const BodyPair& pair = island.pairs[static_cast<size_t>(p)];
-    if (matrix.is_active[static_cast<size_t>(pair.a)] ||
-        matrix.is_active[static_cast<size_t>(pair.b)])
-      matrix.active_coupled.push_back(p);
-  }
+  read_active(island, matrix);
+}
+
+void activate_all(const Island& island, IslandMatrix& matrix) {
+  ActiveBodies& active = matrix.active;
+  active.bodies.fill();
+  active.others.clear();
+  active.pairs.resize(island.pairs.size());
+  std::iota(active.pairs.begin(), active.pairs.end(), 0);
+  list_coupled(island, matrix);
 }
 
 [[gnu::flatten]] void multiply(const Island& island, const IslandMatrix& matrix,
                                std::span<const SingleVector> x, std::span<SingleVector> y) {
-  for (const int body : matrix.active) {
+  for (const int body : matrix.active.bodies.items) {
     const auto i = static_cast<size_t>(body);
     y[i] = product(matrix.single_own[i], x[i]);
   }
-  for (const int p : matrix.active_coupled) {
+  for (const int p : matrix.active.coupled) {
     const auto k = static_cast<size_t>(p);
     const auto a = static_cast<size_t>(island.pairs[k].a);
     const auto b = static_cast<size_t>(island.pairs[k].b);
@@ -154,12 +230,10 @@ void choose_active(const Island& island, std::span<const std::uint8_t> moves,
   auto& p = matrix.direction;
   auto& q = matrix.product;
   auto& sum = matrix.sum;
-  for (auto& v : p) v = {};  // bodies that are not active stand
-  for (auto& v : sum) v = {};
   double rz = 0;
-  for (const int body : matrix.active) {
+  for (const int body : matrix.active.bodies.items) {
     const auto i = static_cast<size_t>(body);
-    r[i] = single(b[i]);
+    r[i] = single(Vec6(-b[i]));
     p[i] = product(matrix.inverse[i], r[i]);
     rz += dot(r[i], p[i]);
   }
@@ -169,12 +243,12 @@ void choose_active(const Island& island, std::span<const std::uint8_t> moves,
     ++result.iterations;
     multiply(island, matrix, p, q);
     double curvature = 0;
-    for (const int body : matrix.active)
+    for (const int body : matrix.active.bodies.items)
       curvature += dot(p[static_cast<size_t>(body)], q[static_cast<size_t>(body)]);
     if (!(curvature > 0)) break;
     const auto step = static_cast<float>(rz / curvature);
     double rz_next = 0;
-    for (const int body : matrix.active) {
+    for (const int body : matrix.active.bodies.items) {
       const auto i = static_cast<size_t>(body);
       sum[i] = sum[i] + step * p[i];
       r[i] = r[i] - step * q[i];
@@ -183,12 +257,16 @@ void choose_active(const Island& island, std::span<const std::uint8_t> moves,
     }
     const auto ratio = static_cast<float>(rz_next / rz);
     rz = rz_next;
-    for (const int body : matrix.active) {
+    for (const int body : matrix.active.bodies.items) {
       const auto i = static_cast<size_t>(body);
       p[i] = z[i] + ratio * p[i];
     }
   }
-  for (size_t i = 0; i < x.size(); ++i) x[i] = in_double(sum[i]);
+  for (const int body : matrix.active.bodies.items) {
+    const auto i = static_cast<size_t>(body);
+    x[i] = in_double(sum[i]);
+    p[i] = sum[i] = {};  // a body that is not active next time stands
+  }
   result.converged = rz <= goal;
   return result;
 }
@@ -224,15 +302,15 @@ void sum_blocks(const Island& island, IslandMatrix& matrix) {
 void solve_direct(const Island& island, IslandMatrix& matrix, std::span<const Vec6> b,
                   std::span<Vec6> x) {
   matrix.edges.clear();
-  for (const int p : matrix.coupled) {
-    const BodyPair& pair = island.pairs[static_cast<size_t>(p)];
-    matrix.edges.emplace_back(pair.a, pair.b);
-  }
+  for (size_t p = 0; p < island.pairs.size(); ++p)
+    if (matrix.pair_closed[p] && island.pairs[p].b >= 0)
+      matrix.edges.emplace_back(island.pairs[p].a, island.pairs[p].b);
   analyse_pattern(n_bodies(island), matrix.edges, matrix.lu.pattern);
   clear_matrix(matrix.lu);
   sum_blocks(island, matrix);
   factor(matrix.lu);
   solve<6>(matrix.lu, b, x);
+  for (Vec6& step : x) step = -step;
 }
 
 }  // namespace talus

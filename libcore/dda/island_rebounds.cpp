@@ -28,18 +28,17 @@ Vec6 AdvanceIsland::change_by(size_t k, const Vec6& p) const {
 // The hits of each member, of each only what it needs by itself, not what it passes on.
 void AdvanceIsland::sum_hits() {
   w.hit_sums.assign(w.members.size(), {});
-  for (size_t r = 0; r < w.contacts.size(); ++r) {
-    const IslandContact& contact = w.contacts[r];
-    if (!contact.hit) continue;
-    const IslandRow& row = w.island.rows[r];
-    const Vec6 impulse = generalised<6>(row.arm, row.impulse) / contact.in_turn;
-    const double p_n = row.normal.dot(row.impulse) / contact.in_turn;
+  for (const Hit& hit : w.hits) {
+    const IslandContact& contact = w.contacts[hit.contact];
+    const RowIn<RowGroup> of = row(hit.contact);
+    const Vec6 impulse = generalised<6>(of.arm(), of.impulse()) / hit.in_turn;
+    const double p_n = of.normal_impulse() / hit.in_turn;
     const size_t ka = place(contact.a);
-    w.hit_sums[ka].add(impulse, p_n, contact.hit_time);
+    w.hit_sums[ka].add(impulse, p_n, hit.time);
     if (contact.b < 0) continue;
     const size_t kb = place(contact.b);
     const Vec3 shift = w.island.position[ka] - w.island.position[kb];
-    w.hit_sums[kb].add(-carried_to_b(impulse, shift), p_n, contact.hit_time);
+    w.hit_sums[kb].add(-carried_to_b(impulse, shift), p_n, hit.time);
   }
 }
 
@@ -59,18 +58,18 @@ Vec6 AdvanceIsland::change_apart(size_t k, const HitSum& own, double h) const {
 
 // How many times the impulses of a pair are those that would turn its hits round on its two bodies
 // alone, >= 1: what else presses on the bodies has them hit each other so many times in turn.
-double AdvanceIsland::hits_in_turn(const BodyPair& pair, double h) const {
+double AdvanceIsland::hits_in_turn(size_t p, double h) const {
+  const BodyPair& pair = w.island.pairs[p];
   const auto ka = static_cast<size_t>(pair.a), kb = static_cast<size_t>(std::max(pair.b, 0));
   Vec6 impulse = Vec6::Zero();
   HitSum own;
-  for (int i = pair.row_begin; i < pair.row_end; ++i) {
-    const auto r = static_cast<size_t>(i);
-    const IslandRow& row = w.island.rows[r];
-    const Vec6 p = generalised<6>(row.arm, row.impulse);
-    impulse += p;
-    const IslandContact& contact = w.contacts[r];
-    if (contact.hit)
-      own.add(p / contact.in_turn, row.normal.dot(row.impulse) / contact.in_turn, contact.hit_time);
+  for (const size_t r : contacts_of(p)) {
+    const RowIn<RowGroup> of = row(r);
+    const Vec6 of_row = generalised<6>(of.arm(), of.impulse());
+    impulse += of_row;
+    const Hit* hit = hit_of(r);
+    if (hit != nullptr)
+      own.add(of_row / hit->in_turn, of.normal_impulse() / hit->in_turn, hit->time);
   }
   const Vec6 alone_a = change_by(ka, impulse), apart_a = change_apart(ka, own, h);
   Vec6 alone_b = Vec6::Zero(), apart_b = Vec6::Zero();
@@ -81,18 +80,17 @@ double AdvanceIsland::hits_in_turn(const BodyPair& pair, double h) const {
     apart_b = change_apart(kb, own, h);
   }
   double alone = 0, found = 0;
-  for (int i = pair.row_begin; i < pair.row_end; ++i) {
-    const auto r = static_cast<size_t>(i);
-    const IslandContact& contact = w.contacts[r];
-    if (!contact.hit) continue;
-    const IslandRow& row = w.island.rows[r];
-    const double p_n = row.normal.dot(row.impulse);
-    const auto along = [&](auto&& of) { return row.normal.dot(relative(r, of)); };
+  for (const size_t r : contacts_of(p)) {
+    const Hit* hit = hit_of(r);
+    if (hit == nullptr) continue;
+    const Vec3 normal = row(r).normal();
+    const double p_n = row(r).normal_impulse();
+    const auto along = [&](auto&& of) { return normal.dot(relative(r, of)); };
     const double free = along([&](size_t k) { return w.island.free_velocity[k]; });
     const double end = along([&](size_t k) { return w.island.velocity[k]; });
     const double apart = along([&](size_t k) { return k == ka ? apart_a : apart_b; });
     alone += p_n * along([&](size_t k) { return k == ka ? alone_a : alone_b; });
-    found += p_n * (end - std::min(0.0, apart) - std::min(free, contact.hit_speed + contact.fall));
+    found += p_n * (end - std::min(0.0, apart) - std::min(free, hit->speed + hit->fall));
   }
   return found > 0 ? std::max(1.0, alone / found) : std::numeric_limits<double>::infinity();
 }
@@ -101,15 +99,15 @@ double AdvanceIsland::hits_in_turn(const BodyPair& pair, double h) const {
 // each time with its restitution.
 void AdvanceIsland::set_targets(double h) {
   sum_hits();
-  for (const BodyPair& pair : w.island.pairs) {
+  for (const size_t pair : w.hit_pairs) {
     double times = 0;
-    for (int i = pair.row_begin; i < pair.row_end; ++i) {
-      IslandContact& contact = w.contacts[static_cast<size_t>(i)];
-      if (!contact.hit || contact.rebound == 0) continue;
+    for (const size_t r : contacts_of(pair)) {
+      Hit* hit = hit_of(r);
+      if (hit == nullptr || hit->rebound == 0) continue;
       if (times == 0) times = hits_in_turn(pair, h);
-      contact.in_turn = times;
-      const double returned = contact.rebound * std::pow(contact.restitution, times - 1);
-      contact.target = std::max(0.0, returned + contact.fall);
+      hit->in_turn = times;
+      const double returned = hit->rebound * std::pow(w.contacts[r].restitution, times - 1);
+      hit->target = std::max(0.0, returned + hit->fall);
     }
   }
 }
@@ -118,11 +116,9 @@ void AdvanceIsland::set_targets(double h) {
 // e u takes out (1 - e) / 2 of its impulse times u, and so does each of several in turn.
 double AdvanceIsland::loss_in_turn() const {
   double sum = 0;
-  for (size_t r = 0; r < w.contacts.size(); ++r) {
-    const IslandContact& contact = w.contacts[r];
-    if (!contact.hit) continue;
-    const double share = least_loss * (1 - contact.restitution) / 2 - gain_rounding;
-    sum -= share * contact.hit_speed * w.island.rows[r].normal.dot(w.island.rows[r].impulse);
+  for (const Hit& hit : w.hits) {
+    const double share = least_loss * (1 - w.contacts[hit.contact].restitution) / 2 - gain_rounding;
+    sum -= share * hit.speed * row(hit.contact).normal_impulse();
   }
   return sum;
 }
@@ -130,29 +126,24 @@ double AdvanceIsland::loss_in_turn() const {
 // Work of all contact impulses on the velocities: what the substep loses is its negative.
 double AdvanceIsland::work_on_velocities() const {
   double sum = 0;
-  for (size_t r = 0; r < w.contacts.size(); ++r) {
-    const Vec3& p = w.island.rows[r].impulse;
-    if (p.isZero(0)) continue;
-    sum += p.dot(relative(r, [&](size_t k) -> Vec6 {
-      return (w.island.velocity[k] + w.island.free_velocity[k]) / 2;
-    }));
-  }
+  for (size_t k = 0; k < w.members.size(); ++k)
+    sum += times_mass(w.island.mass[k], change(k))
+               .dot(w.island.velocity[k] + w.island.free_velocity[k]) /
+           2;
   return sum;
 }
 
 // Takes the rebound from the hits: all at once they lost less than they would in turn. What they
 // then need of their impulses is expected to be what stopped them.
 void AdvanceIsland::forgo_rebound() {
-  for (size_t r = 0; r < w.contacts.size(); ++r) {
-    IslandContact& contact = w.contacts[r];
-    if (!contact.hit) continue;
-    IslandRow& row = w.island.rows[r];
-    const double stopped = contact.hit_speed / (contact.hit_speed - contact.target);
-    row.bias = -stopped * row.normal.dot(row.impulse) / row.normal_damping;
-    contact.target = 0;
-    note_change(r);
+  for (Hit& hit : w.hits) {
+    const RowIn<RowGroup> of = row(hit.contact);
+    const double stopped = hit.speed / (hit.speed - hit.target);
+    of.set(&RowGroup::bias, -stopped * of.normal_impulse() / of.normal_damping());
+    hit.target = 0;
+    note_change(hit.contact);
   }
-  w.hits.clear();
+  w.expected.clear();
 }
 
 }  // namespace talus

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace talus {
 namespace {
@@ -33,97 +32,134 @@ struct Solve {
   bool inherits = false;  // a row comes with a state: the first evaluation is not the law's
   int n_linear = 0;       // linear solutions by conjugate gradients
 
-  // Packs the rows, and sets the tolerance above the rounding of the stiffest impulse.
+  // Lowers the rows of pair `p` that are too stiff, and notes what tolerance they allow.
+  void prepare_pair(size_t p) {
+    const BodyPair& pair = island.pairs[p];
+    const double mass = reduced_mass(island, pair), limit = settings.stiffest * mass;
+    const double free_speed = island.free_velocity[static_cast<size_t>(pair.a)].head<3>().norm();
+    for (RowGroup& group : groups_of(island, pair))
+      for (int lane = 0; lane < 2; ++lane) {
+        inherits |= group.state[lane] != 0;
+        double stiffness = std::max(group.normal_damping[lane], group.shear_damping[lane]);
+        if (stiffness > limit) {
+          ++result.n_lowered;
+          group.normal_damping[lane] = std::min(group.normal_damping[lane], limit);
+          group.shear_damping[lane] = std::min(group.shear_damping[lane], limit);
+          stiffness = limit;
+        }
+        work.stiffness_ratio = std::max(work.stiffness_ratio, stiffness / mass);
+        work.rounding = std::max(work.rounding, 8 * std::numeric_limits<double>::epsilon() *
+                                                    (stiffness / mass) *
+                                                    (std::abs(group.bias[lane]) + free_speed));
+      }
+  }
+
   void prepare() {
     const size_t n = island.mass.size(), n_pairs = island.pairs.size();
-    const bool only_changed = settings.continues && work.as_packed;
-    work.limit.resize(n_pairs);
-    if (!only_changed) work.rounding = work.stiffness_ratio = 0;
-    for (size_t p = 0; p < n_pairs; ++p) {
-      const BodyPair& pair = island.pairs[p];
-      if (only_changed && !pair.changed) continue;
-      const double mass = reduced_mass(island, pair);
-      work.limit[p] = settings.stiffest * mass;
-      const double free_speed = island.free_velocity[static_cast<size_t>(pair.a)].head<3>().norm();
-      for (int r = pair.row_begin; r < pair.row_end; ++r) {
-        const IslandRow& row = island.rows[static_cast<size_t>(r)];
-        inherits |= row.state != ContactState::open;
-        const double stiffness =
-            std::min(std::max(row.normal_damping, row.shear_damping), work.limit[p]);
-        work.stiffness_ratio = std::max(work.stiffness_ratio, stiffness / mass);
-        work.rounding =
-            std::max(work.rounding, 8 * std::numeric_limits<double>::epsilon() *
-                                        (stiffness / mass) * (std::abs(row.bias) + free_speed));
-      }
-    }
-    tolerance = std::max(settings.tolerance, work.rounding);
-    result.n_lowered = pack_rows(island.pairs, island.rows, work.limit, only_changed, work.rows);
-    prepare_matrix(island, only_changed, work.matrix);
-    work.as_packed = true;
+    work.rounding = work.stiffness_ratio = 0;
+    for (size_t p = 0; p < n_pairs; ++p) prepare_pair(p);
+    prepare_matrix(island, work.matrix);
     for (auto* vectors : {&work.residual, &work.step, &work.from, &work.best}) vectors->resize(n);
+    work.at_best = false;
     work.speed.resize(n);
-    work.moves.resize(n);
     work.per_impulse.resize(n);
     for (size_t i = 0; i < n; ++i) {
       work.per_impulse[i] = island.mass[i].diagonal().cwiseInverse();
       work.per_impulse[i].tail<3>() *= island.radius[i];
     }
-    work.pair_impulse.resize(n_pairs);
-    activate_all();
-    direct = n_bodies(island) <= settings.direct_bodies;
+    work.pair_impulse.assign(n_pairs, Vec6::Zero());
+    work.touched_bodies.reset(n);
+    work.touched_pairs.reset(n_pairs);
+    work.velocity = island.velocity;
     for (size_t i = 0; i < n; ++i)
-      if (!island.velocity[i].allFinite()) island.velocity[i] = island.free_velocity[i];
+      if (!work.velocity[i].allFinite()) work.velocity[i] = island.free_velocity[i];
   }
 
-  void activate_all() {
-    work.matrix.is_active.assign(island.mass.size(), 1);
-    work.matrix.active.resize(island.mass.size());
-    std::iota(work.matrix.active.begin(), work.matrix.active.end(), 0);
-    work.matrix.active_coupled = work.matrix.coupled;
+  // Goes on where the last solution was found, with the pairs that changed since.
+  void prepare_changed() {
+    work.touched_bodies.clear();
+    work.touched_pairs.clear();
+    work.start.clear();
+    for (size_t p = 0; p < island.pairs.size(); ++p) {
+      const BodyPair& pair = island.pairs[p];
+      if (!pair.changed) continue;
+      prepare_pair(p);
+      talus::prepare_pair(island, p, work.matrix);
+      work.start.push_back(pair.a);
+      if (pair.b >= 0) work.start.push_back(pair.b);
+    }
+    activate(island, work.start, work.matrix);
   }
 
   // Contacts of an active body; what a body at rest had from them before is replaced.
   [[gnu::flatten]] void evaluate_contacts(size_t p, Evaluation evaluation) {
     const BodyPair& pair = island.pairs[p];
     const auto a = static_cast<size_t>(pair.a), b = static_cast<size_t>(pair.b);
-    const std::vector<std::uint8_t>& active = work.matrix.is_active;
-    const bool active_b = pair.b >= 0 && active[b];
-    if (!active[a] && !active_b) return;
+    const IndexSet& active = work.matrix.active.bodies;
     const Vec3& shift = work.matrix.shift[p];
-    const Vec6 u = pair.b < 0 ? island.velocity[a]
-                              : relative_motion(island.velocity[a], island.velocity[b], shift);
+    const Vec6 u =
+        pair.b < 0 ? work.velocity[a] : relative_motion(work.velocity[a], work.velocity[b], shift);
     Vec6 f;
-    if (evaluate_pair(groups_of(work.rows, p), u, evaluation, direct ? 0 : slack, f))
-      work.matrix.pair_changed[p] = 1;
+    if (evaluate_pair(groups_of(island, pair), u, evaluation, direct ? 0 : slack, f))
+      work.matrix.changed_pairs.add(static_cast<int>(p));
     const Vec6 change = f - work.pair_impulse[p];
     work.pair_impulse[p] = f;
-    work.residual[a] -= active[a] ? f : change;
-    if (pair.b >= 0) work.residual[b] += carried_to_b(active_b ? f : change, shift);
+    work.residual[a] -= active.contains(pair.a) ? f : change;
+    if (pair.b >= 0) work.residual[b] += carried_to_b(active.contains(pair.b) ? f : change, shift);
   }
 
-  // The largest residual as a velocity: impulse over mass, angular impulse over inertia times
-  // radius.
-  [[nodiscard]] double residual_speed() {
-    double largest = 0;
-    for (size_t i = 0; i < island.mass.size(); ++i) {
+  // The residual as a velocity: impulse over mass, angular impulse over inertia times radius.
+  void find_speeds(const IndexSet& bodies) {
+    for (const int body : bodies.items) {
+      const auto i = static_cast<size_t>(body);
       work.speed[i] = work.residual[i].cwiseAbs().cwiseProduct(work.per_impulse[i]).maxCoeff();
-      if (!(work.speed[i] <= largest)) largest = work.speed[i];  // NaN stays
+    }
+  }
+
+  static void add_to(IndexSet& set, const std::vector<int>& items) {
+    if (set.items.size() == set.has.size()) return;  // it has them all
+    for (const int i : items) set.add(i);
+  }
+
+  // The largest of all bodies; NaN where there is one.
+  [[nodiscard]] double residual_speed() const {
+    double largest = 0;
+    for (const double speed : work.speed) {
+      if (!(speed <= largest)) largest = speed;
       if (std::isnan(largest)) return largest;
     }
     return largest;
   }
 
+  // Keeps the velocities: all, or those that moved from where they were kept last.
+  void keep_best() {
+    if (!work.at_best)
+      work.best = work.velocity;
+    else
+      for (const int body : work.matrix.active.bodies.items)
+        work.best[static_cast<size_t>(body)] = work.velocity[static_cast<size_t>(body)];
+    work.at_best = true;
+  }
+
   [[gnu::flatten]] double evaluate(Evaluation evaluation) {
     ++result.passes;
-    for (const int body : work.matrix.active) {
+    const ActiveBodies& active = work.matrix.active;
+    for (const int body : active.bodies.items) {
       const auto i = static_cast<size_t>(body);
-      work.residual[i] = times_mass(island.mass[i], island.velocity[i] - island.free_velocity[i]);
+      work.residual[i] = times_mass(island.mass[i], work.velocity[i] - island.free_velocity[i]);
     }
-    for (size_t p = 0; p < island.pairs.size(); ++p) evaluate_contacts(p, evaluation);
+    for (const int p : active.pairs) evaluate_contacts(static_cast<size_t>(p), evaluation);
+    add_to(work.touched_pairs, active.pairs);
+    for (const IndexSet* bodies : {&active.bodies, &active.others}) {
+      find_speeds(*bodies);
+      add_to(work.touched_bodies, bodies->items);
+    }
     result.residual = residual_speed();
     if (tracking && evaluation == Evaluation::coupled && result.residual < best_residual) {
       best_residual = result.residual;
-      std::copy(island.velocity.begin(), island.velocity.end(), work.best.begin());
+      keep_best();
+    } else {
+      work.at_best = false;
     }
     return result.residual;
   }
@@ -131,40 +167,37 @@ struct Solve {
   // Do so few bodies move that their neighbourhood is worth a linear solution of its own? Not in
   // every step: a push that travels far needs them all.
   bool few_move() {
-    size_t n = 0;
-    for (size_t i = 0; i < work.moves.size(); ++i) {
-      work.moves[i] = !(work.speed[i] <= tolerance);
-      n += work.moves[i];
-    }
-    return ++n_linear % all_every != 0 && few * n < work.moves.size();
+    work.moving.clear();
+    for (size_t i = 0; i < work.speed.size(); ++i)
+      if (!(work.speed[i] <= tolerance)) work.moving.push_back(static_cast<int>(i));
+    return ++n_linear % all_every != 0 && few * work.moving.size() < work.speed.size();
   }
 
   // K step = -residual.
   void find_step() {
-    update_tangents(island, direct ? Tangent::exact : Tangent::symmetric, work.rows, work.matrix);
-    for (Vec6& r : work.residual) r = -r;
+    update_tangents(island, direct ? Tangent::exact : Tangent::symmetric, work.matrix);
     if (direct) {
-      activate_all();
+      activate_all(island, work.matrix);
       ++result.factorisations;
       solve_direct(island, work.matrix, work.residual, work.step);
-    } else {
-      update_diagonals(island, work.matrix);
-      if (few_move())
-        choose_active(island, work.moves, work.matrix);
-      else
-        activate_all();
-      const LinearResult linear =
-          solve_conjugate_gradients(island, work.matrix, work.residual, settings.linear_tolerance,
-                                    settings.max_linear_iterations, work.step);
-      result.linear_iterations += linear.iterations;
-      direct = !linear.converged && n_bodies(island) <= settings.direct_fallback;
+      return;
     }
-    for (Vec6& r : work.residual) r = -r;
+    invert_diagonals(work.matrix);
+    if (few_move())
+      choose_active(island, work.moving, work.matrix);
+    else
+      activate_all(island, work.matrix);
+    const LinearResult linear =
+        solve_conjugate_gradients(island, work.matrix, work.residual, settings.linear_tolerance,
+                                  settings.max_linear_iterations, work.step);
+    result.linear_iterations += linear.iterations;
+    direct = !linear.converged && n_bodies(island) <= settings.direct_fallback;
   }
 
   [[nodiscard]] double slope() const {
     double sum = 0;
-    for (size_t i = 0; i < work.step.size(); ++i) sum += work.residual[i].dot(work.step[i]);
+    for (const int body : work.matrix.active.bodies.items)
+      sum += work.residual[static_cast<size_t>(body)].dot(work.step[static_cast<size_t>(body)]);
     return sum;
   }
 
@@ -173,13 +206,17 @@ struct Solve {
   // start.
   double advance(bool search) {
     find_step();
+    const std::vector<int>& bodies = work.matrix.active.bodies.items;
     const double start_residual = result.residual;
     const double start_slope = std::abs(slope());
-    std::copy(island.velocity.begin(), island.velocity.end(), work.from.begin());
+    for (const int body : bodies)
+      work.from[static_cast<size_t>(body)] = work.velocity[static_cast<size_t>(body)];
     double fraction = 1;
     for (int i = 0;; ++i, fraction /= 2) {
-      for (size_t k = 0; k < work.step.size(); ++k)
-        island.velocity[k] = work.from[k] + fraction * work.step[k];
+      for (const int body : bodies) {
+        const auto k = static_cast<size_t>(body);
+        work.velocity[k] = work.from[k] + fraction * work.step[k];
+      }
       const double residual = evaluate(Evaluation::coupled);
       if (!search || i >= most_halvings || residual <= tolerance) return residual;
       if (direct ? residual < start_residual : slope() <= 0.5 * start_slope) return residual;
@@ -200,12 +237,18 @@ struct Solve {
 
   // The law with D_n and D_t at most `ratio` times the reduced mass.
   double soften(double ratio) {
-    for (size_t p = 0; p < work.limit.size(); ++p)
-      work.limit[p] = ratio * reduced_mass(island, island.pairs[p]);
-    (void)pack_rows(island.pairs, island.rows, work.limit, false, work.rows);
-    work.as_packed = false;
-    work.matrix.pair_changed.assign(island.pairs.size(), 1);
-    activate_all();
+    for (const BodyPair& pair : island.pairs) {
+      const double limit = ratio * reduced_mass(island, pair);
+      const Two most = {limit, limit};
+      for (int g = pair.row_begin / 2; 2 * g < pair.row_end; ++g) {
+        const auto [normal, shear] = work.damping[static_cast<size_t>(g)];
+        island.rows[static_cast<size_t>(g)].normal_damping = normal < most ? normal : most;
+        island.rows[static_cast<size_t>(g)].shear_damping = shear < most ? shear : most;
+      }
+    }
+    work.matrix.changed_pairs.fill();
+    activate_all(island, work.matrix);
+    work.at_best = false;
     return evaluate(Evaluation::coupled);
   }
 
@@ -213,7 +256,10 @@ struct Solve {
   // from there; factored, since slipping contacts that are stiff couple through their friction
   // bounds.
   bool solve_stiffening() {
-    std::copy(island.free_velocity.begin(), island.free_velocity.end(), island.velocity.begin());
+    work.velocity = island.free_velocity;
+    work.damping.clear();
+    for (const RowGroup& group : island.rows)
+      work.damping.push_back({group.normal_damping, group.shear_damping});
     direct = n_bodies(island) <= settings.direct_fallback;
     for (double ratio = first_ratio;; ratio *= ratio_growth) {
       tracking = ratio >= work.stiffness_ratio;
@@ -226,30 +272,33 @@ struct Solve {
     }
   }
 
-  void restore(double residual) {
-    const std::vector<Vec6>& good = std::isfinite(residual) ? work.best : island.free_velocity;
-    std::copy(good.begin(), good.end(), island.velocity.begin());
-  }
-
-  // v -= M^-1 residual: not more than the tolerance, and what the bodies exchange adds up to
-  // nothing whatever the tolerance. A solution that continues starts from where this one was found:
-  // a stiff contact makes many tolerances of that one.
+  // Velocities that are handed back: v - M^-1 residual, so that what the bodies exchange adds up to
+  // nothing whatever the tolerance. That moves them by no more than the tolerance, but a solution
+  // that continues starts from v: a stiff contact makes many tolerances of that move.
   void keep_momentum() {
-    work.found = island.velocity;
-    for (size_t i = 0; i < island.mass.size(); ++i)
-      island.velocity[i] -= solve_mass(island.mass[i], work.residual[i]);
+    for (const int body : work.touched_bodies.items) {
+      const auto i = static_cast<size_t>(body);
+      island.velocity[i] = work.velocity[i] - solve_mass(island.mass[i], work.residual[i]);
+    }
   }
 
   void run() {
-    if (settings.continues) island.velocity = work.found;
-    prepare();
+    if (settings.continues)
+      prepare_changed();
+    else
+      prepare();
+    tolerance = std::max(settings.tolerance, work.rounding);
+    direct = n_bodies(island) <= settings.direct_bodies;
     result.converged = solve_coupled(settings.max_passes / 3) || solve_stiffening();
-    if (!result.converged) {
-      restore(best_residual);
+    if (result.converged) {
+      keep_momentum();
+    } else {
+      work.velocity = std::isfinite(best_residual) ? work.best : island.free_velocity;
       result.residual = soften(settings.stiffest);
+      island.velocity = work.velocity;
     }
-    if (result.converged) keep_momentum();
-    unpack_rows(island.pairs, work.rows, island.rows);
+    for (const int p : work.touched_pairs.items)
+      island.pairs[static_cast<size_t>(p)].changed = false;
   }
 };
 

@@ -18,11 +18,12 @@ struct IslandSettings {
   int max_linear_iterations = 250;  ///< of conjugate gradients in one step
   int direct_bodies = 8;            ///< islands up to this size are factored
   int direct_fallback = 1500;       ///< up to this size where conjugate gradients stagnate
-  /// Largest D_n and D_t over the reduced mass of the pair; stiffer rows are lowered to it. Beyond,
-  /// the mass is lost in the rounding of the matrix.
+  /// Largest D_n and D_t over the reduced mass of the pair; stiffer rows of the island are lowered
+  /// to it. Beyond, the mass is lost in the rounding of the matrix.
   double stiffest = 1e8;
-  /// Goes on from the last solution of the same IslandWork, to which only what BodyPair::changed
-  /// says is not the same: no step with friction bounds that are held.
+  /// Goes on from the last solution of the same IslandWork, which converged, and to which only what
+  /// BodyPair::changed says is not the same: no step with friction bounds that are held. Costs go
+  /// with what changed.
   bool continues = false;
 };
 
@@ -35,26 +36,32 @@ struct IslandResult {
   int n_lowered = 0;  ///< rows stiffer than IslandSettings::stiffest, of pairs that changed
 };
 
-/// Scratch of solve_island; reused from call to call, it stops allocating.
-struct IslandWork {
-  IslandMatrix matrix;
-  RowGroups rows;
-  std::vector<double> limit;   ///< of D_n and D_t [kg]                                  (n_pairs)
-  std::vector<Vec6> residual;  ///< M (v - v_free) - sum B^T p                           (n_bodies)
-  std::vector<Vec6>
-      per_impulse;            ///< speed of a body's points per impulse [1/kg, 1/(kg m)] (n_bodies)
-  std::vector<double> speed;  ///< of the residual [m/s]                             (n_bodies)
-  std::vector<std::uint8_t> moves;  ///< residual above the tolerance                   (n_bodies)
-  std::vector<Vec6> pair_impulse;   ///< sum B^T p of a pair, about A                    (n_pairs)
-  std::vector<Vec6> step;  ///< of Newton                                            (n_bodies)
-  std::vector<Vec6> from;  ///< velocity before the step                             (n_bodies)
-  std::vector<Vec6> best;  ///< velocity with the smallest residual so far           (n_bodies)
-  // of the last solution, for one that continues it
-  std::vector<Vec6> found;  ///< velocity before momentum was kept                       (n_bodies)
-  double rounding = 0;      ///< of the stiffest impulse, as a velocity [m/s]
-  double stiffness_ratio = 0;  ///< largest D / m
-  bool as_packed = false;      ///< `rows` are those of the island, none softened
+/// D_n and D_t of two rows [kg].
+struct Damping {
+  Two normal, shear;
 };
+
+/// Scratch of solve_island; reused from call to call, it stops allocating.
+struct IslandWork {  // clang-format off
+  IslandMatrix matrix;
+  std::vector<Vec6> velocity;      ///< before momentum is kept; where a solution that continues
+                                   ///< this one starts                                 (n_bodies)
+  std::vector<Vec6> residual;      ///< M (v - v_free) - sum B^T p                       (n_bodies)
+  std::vector<Vec6> per_impulse;   ///< speed of a body's points per impulse [1/kg, 1/(kg m)]
+  std::vector<double> speed;       ///< of the residual [m/s]                            (n_bodies)
+  std::vector<int> moving;         ///< bodies whose residual is above the tolerance
+  std::vector<Vec6> pair_impulse;  ///< sum B^T p of a pair, about A                     (n_pairs)
+  std::vector<Vec6> step;          ///< of Newton                                        (n_bodies)
+  std::vector<Vec6> from;          ///< velocity before the step                         (n_bodies)
+  std::vector<Vec6> best;          ///< velocity with the smallest residual so far       (n_bodies)
+  bool at_best = false;            ///< `best` is `velocity`
+  std::vector<int> start;          ///< their bodies
+  IndexSet touched_bodies;         ///< whose residual this solution computed anew
+  IndexSet touched_pairs;          ///< that this solution evaluated
+  double rounding = 0;             ///< of the stiffest impulse, as a velocity [m/s]
+  double stiffness_ratio = 0;      ///< largest D / m
+  std::vector<Damping> damping;    ///< of the rows, while they are softer               (n_groups)
+};  // clang-format on
 
 /// Solves the island: sets velocity, impulse and state of the rows.
 ///

@@ -42,6 +42,12 @@ inline void add(const Packed<N>& b, Packed<N>& a) {
   for (std::size_t k = 0; k < a.value.size(); ++k) a.value[k] += b.value[k];
 }
 
+template <int N>
+inline void subtract(const Packed<N>& b, Packed<N>& a) {
+#pragma GCC unroll 1
+  for (std::size_t k = 0; k < a.value.size(); ++k) a.value[k] -= b.value[k];
+}
+
 /// Inverse of a positive definite matrix, by A = L D L^T.
 template <int N>
 [[nodiscard]] inline Packed<N> inverse(const Packed<N>& a) {

@@ -45,31 +45,6 @@ constexpr Two stick_lanes = {2, 2};
 
 [[gnu::always_inline]] inline double sum(const Two& x) { return x[0] + x[1]; }
 
-// The place of a contact that is missing or waits: it has no stiffness and never presses.
-const IslandRow nothing;
-
-[[gnu::always_inline]] inline void set_group(const IslandRow& p, const IslandRow& q, double limit,
-                                             RowGroup& g) {
-#pragma GCC unroll 3
-  for (int k = 0; k < 3; ++k) {
-    g.normal[k] = Two{p.normal[k], q.normal[k]};
-    g.arm[k] = Two{p.arm[k], q.arm[k]};
-    g.shear_velocity[k] = Two{p.shear_velocity[k], q.shear_velocity[k]};
-    g.slip_start[k] = Two{p.slip_start[k], q.slip_start[k]};
-    g.impulse[k] = Two{p.impulse[k], q.impulse[k]};
-  }
-  g.bias = Two{p.bias, q.bias};
-  g.normal_damping = Two{std::min(p.normal_damping, limit), std::min(q.normal_damping, limit)};
-  g.shear_damping = Two{std::min(p.shear_damping, limit), std::min(q.shear_damping, limit)};
-  g.friction = Two{p.friction, q.friction};
-  g.cohesion = Two{p.cohesion_impulse, q.cohesion_impulse};
-  g.tension = Two{p.tension_impulse, q.tension_impulse};
-  g.normal_limit = Two{p.normal_limit, q.normal_limit};
-  g.normal_tangent = g.normal_damping;
-  g.state = Two{static_cast<double>(p.state), static_cast<double>(q.state)};
-  g.slip_tangent = g.used_tangent = g.trial_speed = zero;
-}
-
 // Velocity of the contact points.
 [[gnu::always_inline]] inline void velocity_at(const Two (&r)[3], const Vec6& u, Two (&w)[3]) {
   w[0] = u[0] + (u[4] * r[2] - u[5] * r[1]);
@@ -223,44 +198,6 @@ void add_exact_slip(const RowGroup& g, int lane, Mat6& rest) {
 }
 
 }  // namespace
-
-int pack_rows(std::span<const BodyPair> pairs, std::span<const IslandRow> rows,
-              std::span<const double> limit, bool only_changed, RowGroups& out) {
-  int n_lowered = 0;
-  if (!only_changed) {
-    out.begin.assign(1, 0);
-    for (const BodyPair& pair : pairs)
-      out.begin.push_back(out.begin.back() + (pair.row_end - pair.row_begin + width - 1) / width);
-    make_new_room(out.groups, static_cast<size_t>(out.begin.back()));
-    out.groups.resize(static_cast<size_t>(out.begin.back()));
-  }
-  for (size_t p = 0; p < pairs.size(); ++p) {
-    if (only_changed && !pairs[p].changed) continue;
-    auto group = static_cast<size_t>(out.begin[p]);
-    const auto row_or_nothing = [&](int r) -> const IslandRow& {
-      if (r >= pairs[p].row_end) return nothing;
-      const IslandRow& row = rows[static_cast<size_t>(r)];
-      if (row.waits_for_impact) return nothing;
-      n_lowered += std::max(row.normal_damping, row.shear_damping) > limit[p];
-      return row;
-    };
-    for (int r = pairs[p].row_begin; r < pairs[p].row_end; r += width)
-      set_group(row_or_nothing(r), row_or_nothing(r + 1), limit[p], out.groups[group++]);
-  }
-  return n_lowered;
-}
-
-void unpack_rows(std::span<const BodyPair> pairs, const RowGroups& groups,
-                 std::span<IslandRow> rows) {
-  for (size_t p = 0; p < pairs.size(); ++p)
-    for (int r = pairs[p].row_begin; r < pairs[p].row_end; ++r) {
-      const int place = r - pairs[p].row_begin, lane = place % width;
-      const RowGroup& group = groups.groups[static_cast<size_t>(groups.begin[p] + place / width)];
-      IslandRow& row = rows[static_cast<size_t>(r)];
-      row.impulse = lane_of(group.impulse, lane);
-      row.state = static_cast<ContactState>(static_cast<int>(group.state[lane]));
-    }
-}
 
 [[gnu::flatten]] bool evaluate_pair(std::span<RowGroup> groups, const Vec6& u,
                                     Evaluation evaluation, double slack, Vec6& f) {

@@ -49,12 +49,12 @@ Vec3 AdvanceIsland::way_of_impulse(size_t r, double h) const {
 // Energy that contacts took, by kind; push_panels() adds that of panels that give way.
 void AdvanceIsland::account(size_t r, double h) {
   const IslandContact& contact = w.contacts[r];
-  const IslandRow& row = w.island.rows[r];
-  const double p_n = row.normal.dot(row.impulse);
-  const Vec3 p_t = row.impulse - p_n * row.normal;
+  const Vec3 normal = row(r).normal(), impulse = row(r).impulse();
+  const double p_n = normal.dot(impulse);
+  const Vec3 p_t = impulse - p_n * normal;
   const Vec3 way = way_of_impulse(r, h);
   if (!gives_way(r))
-    (contact.hit ? state.ledger.impact : state.ledger.contact) -= p_n * row.normal.dot(way);
+    (contact.hit >= 0 ? state.ledger.impact : state.ledger.contact) -= p_n * normal.dot(way);
   state.ledger.friction -= p_t.dot(way);
 }
 
@@ -65,16 +65,16 @@ void AdvanceIsland::find_pushes(double h) {
   for (size_t r = 0; r < w.contacts.size(); ++r) {
     if (!gives_way(r)) continue;
     const IslandContact& contact = w.contacts[r];
-    const IslandRow& row = w.island.rows[r];
-    const FencePanel& panel = *giving_way(scene, contact.fixed, row.normal);
-    const double p_n = row.normal.dot(row.impulse), cosine = row.normal.dot(panel.normal);
+    const Vec3 normal = row(r).normal();
+    const FencePanel& panel = *giving_way(scene, contact.fixed, normal);
+    const double p_n = row(r).normal_impulse(), cosine = normal.dot(panel.normal);
     PanelPush push;
     push.block = contact.a;
     push.panel = panel_number(scene, contact.fixed);
-    push.work = -p_n * row.normal.dot(way_of_impulse(r, h));
+    push.work = -p_n * normal.dot(way_of_impulse(r, h));
     push.power = -p_n / h * contact.speed_start;
-    const double gap_end = contact.gap_start + row.normal.dot(path_of_contact(r));
-    if (p_n >= (1 - 1e-12) * row.normal_limit) push.shift = std::min(0.0, gap_end) * cosine;
+    const double gap_end = contact.gap_start + normal.dot(path_of_contact(r));
+    if (p_n >= (1 - 1e-12) * row(r).normal_limit()) push.shift = std::min(0.0, gap_end) * cosine;
     const auto f = static_cast<size_t>(contact.fixed);
     push.to = push.shift +
               panel.normal.dot(w.poses[f].position - scene.fixed.pose[f - first_fixed()].position);
@@ -87,28 +87,29 @@ void AdvanceIsland::note_touched_panels(double t) {
   if (scene.fixed.panels.empty()) return;
   for (size_t r = 0; r < w.contacts.size(); ++r) {
     const IslandContact& contact = w.contacts[r];
-    if (contact.fixed < 0 || contact.waits || w.island.rows[r].state == ContactState::open ||
+    if (contact.fixed < 0 || contact.waits || row(r).state() == ContactState::open ||
         panel_number(scene, contact.fixed) < 0)
       continue;
     const size_t k = place(contact.a);
     const Motion& before = w.substeps[k].start;
     note_hit(scene, contact.a, contact.fixed, before.pose.position + contact.arm,
-             t + contact.hit_time, before, motion(k), state.fence);
+             contact.hit >= 0 ? t + hit_of(r)->time : t, before, motion(k), state.fence);
   }
 }
 
 // Bonds that carry more than they hold are gone, and true: the substep is computed without them.
 bool AdvanceIsland::break_bonds(double h) {
   w.bond_loads.clear();
+  if (!w.any_bond) return false;
   for (size_t r = 0; r < w.contacts.size(); ++r) {
     const IslandContact& contact = w.contacts[r];
-    const IslandRow& row = w.island.rows[r];
-    if (contact.bond_area == 0 || contact.hit || row.state == ContactState::open) continue;
+    const RowIn<RowGroup> of = row(r);
+    if (contact.bond_area == 0 || contact.hit >= 0 || of.state() == ContactState::open) continue;
     const double per_h = 1 / (h * numbers(contact.a).recovery_time);
     const Vec3 path = path_of_contact(r);
-    const double along = row.normal.dot(path);
-    const double N = -per_h * row.normal_damping * (contact.gap_start + contact.offset + along);
-    const Vec3 shear = -per_h * row.shear_damping * (contact.shear + path - along * row.normal);
+    const double along = of.normal().dot(path);
+    const double N = -per_h * of.normal_damping() * (contact.gap_start + contact.offset + along);
+    const Vec3 shear = -per_h * of.shear_damping() * (contact.shear + path - along * of.normal());
     add_load(N, shear, contact.bond_area, bond_class(contact), load_of(contact));
   }
   bool broken = false;
@@ -157,40 +158,41 @@ void AdvanceIsland::remember(double h) {
   w.ground_impulse.assign(w.members.size(), Vec3::Zero());
   for (size_t r = 0; r < w.contacts.size(); ++r) {
     const IslandContact& contact = w.contacts[r];
-    const IslandRow& solved = w.island.rows[r];
+    const RowIn<RowGroup> solved = row(r);
+    const Vec3 normal = solved.normal(), impulse = solved.impulse();
+    const ContactState stays = solved.state();
     const Vec3 path = path_of_contact(r);
-    const double along = solved.normal.dot(path);
+    const double along = normal.dot(path);
     const double overlap = -(contact.gap_start + along);
     const double thickness = numbers(contact.a).thickness;
     note_overlap(report, overlap,
                  contact.b < 0 ? thickness : std::min(thickness, numbers(contact.b).thickness));
-    if (contact.waits || solved.state == ContactState::open) continue;
+    if (contact.waits || stays == ContactState::open) continue;
     for (const int b : {contact.a, contact.b})
       if (b >= 0) w.pressed[place(b)] = 1;
     account(r, h);
     ++report.n_closed;
     report.sum_penetration += std::max(overlap, 0.0);
-    if (contact.hit) continue;
-    if (contact.b < 0 && !gives_way(r)) w.ground_impulse[place(contact.a)] += solved.impulse;
-    const double p_n = solved.normal.dot(solved.impulse);
-    const Vec3 p_t = solved.impulse - p_n * solved.normal;
+    if (contact.hit >= 0) continue;
+    if (contact.b < 0 && !gives_way(r)) w.ground_impulse[place(contact.a)] += impulse;
+    const double p_n = normal.dot(impulse);
+    const Vec3 p_t = impulse - p_n * normal;
     std::vector<ContactMemory>& memories = state.memory[static_cast<size_t>(contact.a)];
     make_room(memories);
     ContactMemory& memory = memories.emplace_back();
     memory.key = contact.key;
-    memory.normal = solved.normal;
+    memory.normal = normal;
     memory.offset = contact.bond >= 0 ? contact.offset : std::max(0.0, contact.offset - relax);
     memory.gap_end = contact.gap_start + contact.offset + along - (contact.offset - memory.offset);
     memory.normal_force = p_n / h;
     const double recovery_time = numbers(contact.a).recovery_time;
     if (contact.bond < 0 && contact.bond_area == 0)
-      memory.stiffness = solved.normal_damping / (recovery_time * h);
-    memory.state = static_cast<std::uint8_t>(solved.state);
+      memory.stiffness = solved.normal_damping() / (recovery_time * h);
+    memory.state = static_cast<std::uint8_t>(stays);
     memory.bond_area = contact.bond >= 0 ? 0 : contact.bond_area;  // of the ground
-    const double k_t = solved.shear_damping / (recovery_time * h);
-    memory.shear = solved.state == ContactState::slip
-                       ? Vec3(p_t / (-h * k_t))
-                       : Vec3(contact.shear + path - along * solved.normal);
+    const double k_t = solved.shear_damping() / (recovery_time * h);
+    memory.shear = stays == ContactState::slip ? Vec3(p_t / (-h * k_t))
+                                               : Vec3(contact.shear + path - along * normal);
   }
 }
 
@@ -261,9 +263,8 @@ void AdvanceIsland::finish(double t, double h) {
     state.local_time[block(k)] = t + h;
     ++report.substeps;
   }
-  for (const IslandContact& contact : w.contacts)
-    if (contact.hit)
-      for (const int b : {contact.a, contact.b}) forget_rates(b);
+  for (const Hit& hit : w.hits)
+    for (const int b : {w.contacts[hit.contact].a, w.contacts[hit.contact].b}) forget_rates(b);
   report.shortest_dt = report.shortest_dt > 0 ? std::min(report.shortest_dt, h) : h;
 }
 

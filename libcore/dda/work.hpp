@@ -27,16 +27,17 @@ struct Segment {
   Vec3 acceleration = Vec3::Zero();  ///< of the centroid, constant over the segment [m/s2]
 };
 
-/// A contact of an island, besides its IslandRow; vectors in local axes.
+/// A contact of an island, besides its row for the solver; vectors in local axes.
 struct IslandContact {
   ContactKey key;
   int a = 0, b = -1;              ///< blocks; b = -1: the ground, or a fixed body
   int pair = 0;                   ///< index into the island's pairs
+  int row = 0;                    ///< of the island
   int fixed = -1;                 ///< fixed body (as body of Blocks::hulls), -1: none
   int ground_class = 0;           ///< where b and fixed are -1
   int bond = -1;                  ///< index into State::bonds, -1: none
   bool waits = false;             ///< approaches too fast to press without being hit
-  bool hit = false;               ///< hit within the substep
+  int hit = -1;                   ///< index into IslandStepWork::hits, -1: not hit
   Vec3 arm = Vec3::Zero();        ///< from the centroid of A, both in the middle of the substep [m]
   Vec3 free_move = Vec3::Zero();  ///< of A's point relative to B's without contact forces [m]
   Vec3 shear = Vec3::Zero();      ///< s_n [m]
@@ -49,12 +50,17 @@ struct IslandContact {
   double bond_area = 0;           ///< share of its bond, of blocks or with the ground [m2]
   double touch = 0;               ///< it touches below this gap [m]
   double restitution = 0;         ///< of the two surfaces [-]
-  double hit_time = 0;            ///< from the start of the substep [s]
-  double hit_speed = 0;           ///< normal velocity just before, < 0 [m/s]
-  double rebound = 0;             ///< normal velocity that the hit alone gives back [m/s]
-  double fall = 0;                ///< what gravity makes of that up to the end, <= 0 [m/s]
-  double target = 0;              ///< normal velocity at the end of the substep [m/s]
-  double in_turn = 1;             ///< how many times its pair hits in turn, see hits_in_turn()
+};
+
+/// A contact that is hit within the substep.
+struct Hit {
+  std::size_t contact = 0;  ///< index into IslandStepWork::contacts
+  double time = 0;          ///< from the start of the substep [s]
+  double speed = 0;         ///< normal velocity just before, < 0 [m/s]
+  double rebound = 0;       ///< normal velocity that the hit alone gives back [m/s]
+  double fall = 0;          ///< what gravity makes of that up to the end, <= 0 [m/s]
+  double target = 0;        ///< normal velocity at the end of the substep [m/s]
+  double in_turn = 1;       ///< how many times its pair hits in turn, see hits_in_turn()
 };
 
 /// How a body turns over a substep without contact, and how hard it is to turn.
@@ -89,9 +95,9 @@ struct LeftOutPoint {
   int manifold = 0, point = 0;
 };
 
-/// A hit in a round of solutions.
+/// A hit that presses, in a round of solutions.
 struct ExpectedHit {
-  std::size_t row = 0;  ///< index into island.rows
+  std::size_t hit = 0;  ///< index into IslandStepWork::hits
   double impulse = 0;   ///< along the normal [N s]
   double error = 0;     ///< by which that differs from the one expected [N s]
 };
@@ -141,19 +147,28 @@ struct IslandStepWork {  // clang-format off
   std::vector<PanelPush> pushes;            ///< on panels of fences, in this substep
   std::vector<FreeTurn> turns;              ///<                                         (n_members)
   ContactRow row;                           ///< of the contact that is made at the moment
-  std::vector<IslandContact> contacts;      ///< in the order of island.rows
+  std::vector<IslandContact> contacts;      ///< in the order of the island's rows
+  std::vector<int> first_contact;           ///< of each pair of the island              (n_pairs)
   Island island;
   IslandWork solver;
   std::vector<int> island_manifolds;        ///< of the island at hand
   std::vector<Support> support;             ///<                                         (n_members)
-  std::vector<std::uint8_t> is_hit;         ///< 1: by the ground, in the substep        (n_members)
-  std::vector<std::uint8_t> opened;         ///< 1: a hit opened contacts with the ground (n_members)
+  std::vector<int> ground_pair;             ///< with the ground, -1: none               (n_members)
+  std::vector<std::size_t> waiting;         ///< contacts that wait for their hit
+  std::vector<Hit> hits;                    ///< in the order in which they were found
+  std::vector<std::size_t> hit_pairs;       ///< pairs of the island with a hit
+  IndexSet hit_members;                     ///< hit by the ground without contact forces
+  IndexSet opened;                          ///< members with contacts with the ground that a hit opened
+  bool any_bond = false;                    ///< a contact is part of a bond
   std::vector<LostContacts> lost;           ///<                                         (n_members)
   std::vector<Vec3> ground_impulse;         ///< hits aside [N s]                        (n_members)
   std::vector<HitSum> hit_sums;             ///<                                         (n_members)
-  std::vector<ExpectedHit> hits, last_hits; ///< of this round of solutions and the one before
-  std::vector<double> weight, time;         ///< impulses expected [N s]; mean time of theirs [s] (n_members)
+  std::vector<ExpectedHit> expected, last_expected;  ///< in this round of solutions and the one before
+  std::vector<double> time;                 ///< at which its velocity changes, on the mean [s] (n_members)
   std::vector<double> last_time;            ///< `time` before it was set last [s]       (n_members)
+  std::vector<double> weight, delay;        ///< impulses expected [N s]; times delays [N s2] (n_members)
+  std::vector<std::uint8_t> is_timed;       ///< 1: has a `time` of its own              (n_members)
+  std::vector<std::uint8_t> shifted;        ///< 1: `time`, or what bears it, changed    (n_members)
   std::vector<Vec6> displacement;           ///< by contact over the substep             (n_members)
   std::vector<std::uint8_t> pressed;        ///< 1: by a contact, in the substep         (n_members)
 };  // clang-format on

@@ -46,7 +46,7 @@ inline void add_contacts(int a, int b, const Vec3& normal, const std::vector<Vec
                          double overlap, const LawOfScene& law, Island& island) {
   const double m_a = island.mass[static_cast<std::size_t>(a)](0, 0);
   const double m_b = b < 0 ? 0 : island.mass[static_cast<std::size_t>(b)](0, 0);
-  BodyPair pair{a, b, static_cast<int>(island.rows.size()), 0};
+  open_pair(a, b, island);
   for (const Vec3& point : points) {
     IslandRow row;
     row.normal = normal.normalized();
@@ -55,10 +55,8 @@ inline void add_contacts(int a, int b, const Vec3& normal, const std::vector<Vec
     row.shear_damping = row.normal_damping;
     row.friction = law.friction;
     row.bias = -overlap / law.step;
-    island.rows.push_back(row);
+    add_row(row, island);
   }
-  pair.row_end = static_cast<int>(island.rows.size());
-  island.pairs.push_back(pair);
 }
 
 /// Corners of the rectangle centre +- u +- v.

@@ -11,7 +11,6 @@
 
 namespace {
 
-using talus::BodyPair;
 using talus::ContactRow;
 using talus::ContactState;
 using talus::Evaluation;
@@ -20,6 +19,8 @@ using talus::Mat6;
 using talus::Vec3;
 using talus::Vec6;
 using talus::test::as_contact_row;
+using talus::test::row_at;
+using talus::test::row_numbers;
 
 Vec3 random_vector(talus::Random& random) {
   Vec3 v;
@@ -32,7 +33,7 @@ Vec3 random_tangent(const Vec3& normal, talus::Random& random) {
   return v - normal.dot(v) * normal;
 }
 
-// Rows of all kinds: springs, bonds, no friction, no start direction, waiting.
+// Rows of all kinds: springs, bonds, no friction, no start direction.
 IslandRow random_row(talus::Random& random) {
   IslandRow row;
   row.normal = random_vector(random).normalized();
@@ -46,25 +47,27 @@ IslandRow random_row(talus::Random& random) {
   if (random.uniform() < 0.3) row.cohesion_impulse = random.uniform();
   if (random.uniform() < 0.3) row.tension_impulse = random.uniform();
   if (random.uniform() < 0.3) row.normal_limit = random.uniform();
-  row.waits_for_impact = random.uniform() < 0.1;
   return row;
+}
+
+talus::Island island_of(const std::vector<IslandRow>& rows) {
+  talus::Island island;
+  open_pair(0, -1, island);
+  for (const IslandRow& row : rows) add_row(row, island);
+  return island;
 }
 
 struct Evaluated {
   std::vector<IslandRow> rows;
-  std::vector<BodyPair> pairs;
-  talus::RowGroups groups;
+  talus::Island island;
   Vec6 f;
 };
 
 Evaluated evaluate(const std::vector<IslandRow>& rows, const Vec6& u) {
   Evaluated e;
-  e.rows = rows;
-  e.pairs = {{0, -1, 0, static_cast<int>(rows.size())}};
-  const std::vector<double> limit = {1e300};
-  EXPECT_EQ(talus::pack_rows(e.pairs, e.rows, limit, false, e.groups), 0);
-  talus::evaluate_pair(e.groups.groups, u, Evaluation::coupled, 0, e.f);
-  talus::unpack_rows(e.pairs, e.groups, e.rows);
+  e.island = island_of(rows);
+  talus::evaluate_pair(e.island.rows, u, Evaluation::coupled, 0, e.f);
+  for (const int r : row_numbers(e.island)) e.rows.push_back(row_at(e.island, r));
   return e;
 }
 
@@ -86,8 +89,7 @@ TEST(EvaluatePair, GivesTheImpulsesOfTheContactLaw) {
     Vec6 f = Vec6::Zero();
     for (std::size_t r = 0; r < rows.size(); ++r) {
       ContactRow expected = as_contact_row(rows[r]);
-      if (!rows[r].waits_for_impact)
-        talus::evaluate(talus::point_velocity<6>(u, rows[r].arm), expected);
+      talus::evaluate(talus::point_velocity<6>(u, rows[r].arm), expected);
       EXPECT_LT((e.rows[r].impulse - expected.impulse).norm(), 1e-14);
       EXPECT_EQ(e.rows[r].state, expected.state);
       f += talus::generalised<6>(rows[r].arm, expected.impulse);
@@ -111,7 +113,7 @@ TEST(SumTangents, IsTheDerivativeOfTheImpulse) {
     Evaluated e = evaluate(rows, u);
     talus::Packed<6> W;
     Mat6 rest = Mat6::Zero();
-    talus::sum_tangents(e.groups.groups, W, &rest);
+    talus::sum_tangents(e.island.rows, W, &rest);
     const Mat6 exact = talus::unpacked(W) + rest;
     const double h = 1e-6;
     bool smooth = true;
@@ -125,7 +127,7 @@ TEST(SumTangents, IsTheDerivativeOfTheImpulse) {
       }
     }
     talus::Packed<6> symmetric;
-    talus::sum_tangents(e.groups.groups, symmetric, nullptr);
+    talus::sum_tangents(e.island.rows, symmetric, nullptr);
     const Mat6 S = talus::unpacked(symmetric);
     EXPECT_GE(Eigen::SelfAdjointEigenSolver<Mat6>(S).eigenvalues().minCoeff(), -1e-13 * S.norm());
     bool slips = false;
@@ -147,13 +149,10 @@ Vec6 inherited_impulse(const std::function<void(IslandRow&)>& change) {
   row.impulse = Vec3(0, 0, 2);
   row.state = ContactState::slip;
   change(row);
-  const std::vector<BodyPair> pairs = {{0, -1, 0, 1}};
-  talus::RowGroups groups;
-  (void)talus::pack_rows(pairs, std::vector<IslandRow>{row}, std::vector<double>{1e300}, false,
-                         groups);
+  talus::Island island = island_of({row});
   Vec6 u = Vec6::Zero(), f;
   u[0] = 10;
-  talus::evaluate_pair(groups.groups, u, Evaluation::inherited, 0, f);
+  talus::evaluate_pair(island.rows, u, Evaluation::inherited, 0, f);
   return f;
 }
 

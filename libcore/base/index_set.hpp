@@ -1,0 +1,38 @@
+// A set of indices below a size, for work that goes with how many there are and not with the size.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+namespace talus {
+
+struct IndexSet {
+  std::vector<int> items;         ///< in the order in which they came
+  std::vector<std::uint8_t> has;  ///< 1: in the set                                       (size)
+
+  /// Makes it an empty set of indices below `size`.
+  void reset(std::size_t size) {
+    items.clear();
+    has.assign(size, 0);
+  }
+  void clear() {
+    for (const int i : items) has[static_cast<std::size_t>(i)] = 0;
+    items.clear();
+  }
+  /// All indices, ascending.
+  void fill() {
+    items.resize(has.size());
+    std::iota(items.begin(), items.end(), 0);
+    has.assign(has.size(), 1);
+  }
+  void add(int i) {
+    std::uint8_t& is_in = has[static_cast<std::size_t>(i)];
+    if (is_in == 0) items.push_back(i);
+    is_in = 1;
+  }
+  [[nodiscard]] bool contains(int i) const { return has[static_cast<std::size_t>(i)] != 0; }
+};
+
+}  // namespace talus
