@@ -39,8 +39,7 @@ double time_of_hit(double g, double v, double gap_end, double h) {
 // half a step too soon. It ends where it would begin to drive the member.
 void AdvanceIsland::bear_until_hit(double h) {
   w.support.assign(w.members.size(), {});
-  w.hit_members.reset(w.members.size());
-  w.opened.reset(w.members.size());
+  for (IndexSet* members : {&w.hit_members, &w.opened, &w.moved}) members->reset(w.members.size());
   for (const size_t r : w.waiting) {
     const IslandContact& contact = w.contacts[r];
     if (contact.b >= 0 || contact.gap_free > contact.touch) continue;
@@ -159,12 +158,10 @@ void AdvanceIsland::note_hit_pair(size_t pair) {
 // Contacts that wait and are hit, by the free motion or by that with the impulses found so far:
 // how many.
 int AdvanceIsland::find_hits(double h, bool free) {
-  const auto moved_since = [&](int b) {  // by the last solution
-    return b >= 0 && w.solver.touched_bodies.contains(static_cast<int>(place(b)));
-  };
+  const auto moved = [&](int b) { return b >= 0 && w.moved.contains(static_cast<int>(place(b))); };
   const auto is_hit = [&](size_t r) {
     const IslandContact& contact = w.contacts[r];
-    if (!free && !moved_since(contact.a) && !moved_since(contact.b)) return false;
+    if (!free && !moved(contact.a) && !moved(contact.b)) return false;
     const Vec3 normal = row(r).normal();
     double gap_end = contact.gap_free, speed_end = -std::numeric_limits<double>::infinity();
     if (free) {
@@ -177,7 +174,9 @@ int AdvanceIsland::find_hits(double h, bool free) {
     make_hit(r, gap_end, speed_end, h);
     return true;
   };
-  return static_cast<int>(std::erase_if(w.waiting, is_hit));
+  const auto n = static_cast<int>(std::erase_if(w.waiting, is_hit));
+  w.moved.clear();
+  return n;
 }
 
 // The part of the last change of the impulses expected of the hits that was too much, negative: by
@@ -253,6 +252,7 @@ bool AdvanceIsland::solve_once(double h, bool continues) {
   settings.tolerance *= scene.settings.tolerance_factor;
   const IslandResult solved = solve_island(w.island, settings, w.solver);
   report.passes += solved.passes;
+  for (const int k : w.solver.touched_bodies.items) w.moved.add(k);
   return solved.converged;
 }
 

@@ -159,6 +159,7 @@ struct IslandStepWork {  // clang-format off
   std::vector<std::size_t> hit_pairs;       ///< pairs of the island with a hit
   IndexSet hit_members;                     ///< hit by the ground without contact forces
   IndexSet opened;                          ///< members with contacts with the ground that a hit opened
+  IndexSet moved;                           ///< by solutions since hits were looked for last
   bool any_bond = false;                    ///< a contact is part of a bond
   std::vector<LostContacts> lost;           ///<                                         (n_members)
   std::vector<Vec3> ground_impulse;         ///< hits aside [N s]                        (n_members)
