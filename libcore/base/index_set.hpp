@@ -1,4 +1,5 @@
-// A set of indices below a size, for work that goes with how many there are and not with the size.
+// Indices: a set below a size, for work that goes with how many there are and not with the size,
+// and a run of consecutive ones.
 #pragma once
 
 #include <cstddef>
@@ -33,6 +34,23 @@ struct IndexSet {
     is_in = 1;
   }
   [[nodiscard]] bool contains(int i) const { return has[static_cast<std::size_t>(i)] != 0; }
+};
+
+/// first, first + 1, ..., last - 1, for a loop.
+struct IndexRange {
+  struct Place {
+    std::size_t at;
+    std::size_t operator*() const { return at; }
+    Place& operator++() {
+      ++at;
+      return *this;
+    }
+    bool operator==(const Place&) const = default;
+  };
+  std::size_t first = 0, last = 0;
+
+  [[nodiscard]] Place begin() const { return {first}; }
+  [[nodiscard]] Place end() const { return {last}; }
 };
 
 }  // namespace talus

@@ -8,10 +8,10 @@
 #pragma once
 
 #include <algorithm>
-#include <ranges>
 #include <span>
 #include <vector>
 
+#include "base/index_set.hpp"
 #include "dda/newton.hpp"
 #include "dda/step_island.hpp"
 #include "dda/substep.hpp"
@@ -48,10 +48,10 @@ struct AdvanceIsland {
   // Row of contact `r` for the solver.
   [[nodiscard]] RowIn<RowGroup> row(size_t r) const { return row_of(w.island, w.contacts[r].row); }
   // Contacts of a pair of the island.
-  [[nodiscard]] auto contacts_of(size_t pair) const {
+  [[nodiscard]] IndexRange contacts_of(size_t pair) const {
     const BodyPair& of = w.island.pairs[pair];
     const auto first = static_cast<size_t>(w.first_contact[pair]);
-    return std::views::iota(first, first + static_cast<size_t>(of.row_end - of.row_begin));
+    return {first, first + static_cast<size_t>(of.row_end - of.row_begin)};
   }
   Motion& motion(size_t k) { return state.motion[block(k)]; }
   [[nodiscard]] size_t place(int b) const {

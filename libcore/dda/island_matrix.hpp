@@ -97,11 +97,11 @@ void update_tangents(Island& island, Tangent tangent, IslandMatrix& matrix);
 /// Brings the inverse diagonal blocks of bodies with changed pairs up to date.
 void invert_diagonals(IslandMatrix& matrix);
 
-/// Makes `bodies` active, each once, and no others.
+/// Makes `bodies`, which may repeat, active and no others.
 void activate(const Island& island, std::span<const int> bodies, IslandMatrix& matrix);
 void activate_all(const Island& island, IslandMatrix& matrix);
 
-/// Makes those bodies active that are to move, each once, and their neighbours over a pressing
+/// Makes those bodies active that are to move, and their neighbours over a pressing
 /// contact.
 void choose_active(const Island& island, std::span<const int> moving, IslandMatrix& matrix);
 

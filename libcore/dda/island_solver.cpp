@@ -32,7 +32,8 @@ struct Solve {
   bool inherits = false;  // a row comes with a state: the first evaluation is not the law's
   int n_linear = 0;       // linear solutions by conjugate gradients
 
-  // Lowers the rows of pair `p` that are too stiff, and notes what tolerance they allow.
+  // Lowers the rows of pair `p` that are too stiff, and notes what tolerance they and the
+  // velocities allow: in a very short substep contacts press with little more than rounding.
   void prepare_pair(size_t p) {
     const BodyPair& pair = island.pairs[p];
     const double mass = reduced_mass(island, pair), limit = settings.stiffest * mass;
@@ -48,9 +49,9 @@ struct Solve {
           stiffness = limit;
         }
         work.stiffness_ratio = std::max(work.stiffness_ratio, stiffness / mass);
-        work.rounding = std::max(work.rounding, 8 * std::numeric_limits<double>::epsilon() *
-                                                    (stiffness / mass) *
-                                                    (std::abs(group.bias[lane]) + free_speed));
+        const double changed = stiffness / mass * (std::abs(group.bias[lane]) + free_speed);
+        work.rounding = std::max(
+            work.rounding, 8 * std::numeric_limits<double>::epsilon() * (changed + free_speed));
       }
   }
 

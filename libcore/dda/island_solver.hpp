@@ -28,9 +28,10 @@ struct IslandSettings {
 };
 
 struct IslandResult {
-  bool converged = false;     ///< residual <= tolerance, or below the rounding of the impulses
-  double residual = 0;        ///< at the velocities returned, NaN when there are none [m/s]
-  int passes = 0;             ///< evaluations of all contacts
+  bool converged =
+      false;            ///< residual <= tolerance, or below the rounding of velocities and impulses
+  double residual = 0;  ///< at the velocities returned, NaN when there are none [m/s]
+  int passes = 0;       ///< evaluations of all contacts
   int linear_iterations = 0;  ///< of conjugate gradients, summed
   int factorisations = 0;
   int n_lowered = 0;  ///< rows stiffer than IslandSettings::stiffest, of pairs that changed
@@ -58,7 +59,7 @@ struct IslandWork {  // clang-format off
   std::vector<int> start;          ///< their bodies
   IndexSet touched_bodies;         ///< whose residual this solution computed anew
   IndexSet touched_pairs;          ///< that this solution evaluated
-  double rounding = 0;             ///< of the stiffest impulse, as a velocity [m/s]
+  double rounding = 0;             ///< of velocities and of the stiffest impulse [m/s]
   double stiffness_ratio = 0;      ///< largest D / m
   std::vector<Damping> damping;    ///< of the rows, while they are softer               (n_groups)
 };  // clang-format on

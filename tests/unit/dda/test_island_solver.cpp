@@ -331,6 +331,20 @@ TEST(SolveIsland, StaysFiniteAndHonestOver20DecadesOfStiffness) {
   EXPECT_GT(n_converged, n / 2);
 }
 
+// In a substep of a few nanoseconds contacts hardly press, and the tolerance asked for is below the
+// rounding of the velocities.
+TEST(SolveIsland, IsNotAskedForMoreThanTheRoundingOfItsVelocities) {
+  talus::Random random(91, "rounding");
+  LawOfScene law;
+  law.stiffness_ratio = 1e-9;
+  for (int round = 0; round < 100; ++round) {
+    Island island = talus::scenes::stack(1, law);
+    for (int k = 0; k < 3; ++k) island.free_velocity[0][k] = random.uniform(-30, 30);
+    IslandWork work;
+    EXPECT_TRUE(solve_island(island, IslandSettings{.tolerance = 1e-20}, work).converged);
+  }
+}
+
 TEST(SolveIsland, NeverHidesWhatItCannotSolve) {
   LawOfScene law;
   Island island = talus::scenes::stack(4, law);
