@@ -242,8 +242,12 @@ void add_contacts(const Search& s, const PairWatch& watch, double moved, double 
   const std::span<const HeldPoint> held(s.work.next_held.data() + pair.held_begin,
                                         s.work.next_held.data() + pair.held_end);
   if (!add_manifold(s.hulls, s.placed, watch.part_a, watch.part_b, pair.axis, pair.incident, normal,
-                    pair.area, margin, held, s.work.manifolds, s.work.points))
+                    pair.area, margin, held, s.work.manifolds, s.work.points)) {
+    const int b = s.hulls.body[watch.part_b];
+    if (!s.motion.fixed.empty() && s.motion.fixed[b] != 0)
+      s.work.reaching.push_back(s.hulls.body[watch.part_a]);
     return;
+  }
   if (pair.other_face + moved >= -graze_height(s.hulls, s.settings, watch.part_a, watch.part_b))
     s.work.shallow.push_back(static_cast<int>(s.work.manifolds.size()) - 1);
 }
@@ -368,8 +372,9 @@ bool is_borne(const PairWork& work, int block, int other, const Vec3& direction)
   return false;
 }
 
-bool is_grazing(const Hulls& hulls, const PlacedHulls& placed, const PairSettings& settings,
-                const PairManifold& m, PairWork& work) {
+// A fixed body slides over nothing: what lies on it does not bear it.
+bool is_grazing(const Hulls& hulls, const PlacedHulls& placed, const PairMotion& motion,
+                const PairSettings& settings, const PairManifold& m, PairWork& work) {
   const double least = -graze_height(hulls, settings, m.part_a, m.part_b);
   for (const int part : {m.part_a, m.part_b}) {
     const int other = part == m.part_a ? m.part_b : m.part_a;
@@ -380,7 +385,8 @@ bool is_grazing(const Hulls& hulls, const PlacedHulls& placed, const PairSetting
       const Vec3 outward = normal_at(placed, slot);
       const Vec3 to_a = part == m.part_b ? outward : Vec3(-outward);
       if (to_a.dot(m.normal) >= same_axis_cos) continue;
-      if (is_borne(work, m.block_a, m.block_b, to_a) || is_borne(work, m.block_b, m.block_a, -to_a))
+      if (is_borne(work, m.block_a, m.block_b, to_a) ||
+          (!is_fixed(motion, m.block_b) && is_borne(work, m.block_b, m.block_a, -to_a)))
         return true;
     }
   }
@@ -409,13 +415,14 @@ void drop_manifolds(PairWork& work) {
   work.points.resize(static_cast<std::size_t>(n_points));
 }
 
-int drop_grazing(const Hulls& hulls, const PlacedHulls& placed, const PairSettings& settings,
-                 PairWork& work) {
+int drop_grazing(const Hulls& hulls, const PlacedHulls& placed, const PairMotion& motion,
+                 const PairSettings& settings, PairWork& work) {
   if (work.shallow.empty()) return 0;
   list_supports(hulls, settings, work);
   work.dropped.clear();
   for (const int m : work.shallow)
-    if (is_grazing(hulls, placed, settings, work.manifolds[m], work)) work.dropped.push_back(m);
+    if (is_grazing(hulls, placed, motion, settings, work.manifolds[m], work))
+      work.dropped.push_back(m);
   if (!work.dropped.empty()) drop_manifolds(work);
   return static_cast<int>(work.dropped.size());
 }
@@ -428,6 +435,7 @@ PairReport find_pair_contacts(const Hulls& hulls, const PlacedHulls& placed,
   PairReport report;
   work.manifolds.clear();
   work.points.clear();
+  work.reaching.clear();
   work.shallow.clear();
   follow_motion(hulls, placed, motion, settings, state, work);
   if (!list_is_good(hulls, placed, settings, state, work)) {
@@ -436,7 +444,7 @@ PairReport find_pair_contacts(const Hulls& hulls, const PlacedHulls& placed,
   }
   look_at_pairs({hulls, placed, motion, settings, state, work, report});
   report.n_listed = static_cast<int>(state.pairs.size());
-  report.n_grazing = drop_grazing(hulls, placed, settings, work);
+  report.n_grazing = drop_grazing(hulls, placed, motion, settings, work);
   return report;
 }
 

@@ -86,16 +86,20 @@ bool is_far_above(const Trn& trn, const GridPoint& at, double z, double margin) 
   return height > 0 && height * height > 1.0001 * margin * margin * (1 + gradient.squaredNorm());
 }
 
-// `all_on_grid`: no vertex lies off it.
+// Whether a vertex lies beyond the known ground.
+bool leans_out(const Trn& trn, const std::vector<Vec3>& vertices) {
+  return std::any_of(vertices.begin(), vertices.end(),
+                     [&](const Vec3& x) { return std::isnan(elevation_at(trn, x.x(), x.y())); });
+}
+
 void find_mode_1(const Ground& ground, const Shapes& shapes, int b, double highest, double margin,
-                 bool all_on_grid, const std::vector<Vec3>& vertices,
-                 std::vector<Contact>& contacts) {
+                 const std::vector<Vec3>& vertices, std::vector<Contact>& contacts) {
   const std::span<const Vec3> body = vertices_of(shapes, b);
   const Trn& trn = ground.trn;
   const double near_cells = 4 * margin / trn.cell_size;
   for (size_t v = 0; v < vertices.size(); ++v) {
     const Vec3& x = vertices[v];
-    if (x.z() > highest + margin || !(all_on_grid || contains(trn, x.x(), x.y()))) continue;
+    if (x.z() > highest + margin) continue;
     const GridPoint at = locate(trn, x.x(), x.y());
     if (is_far_above(trn, at, x.z(), margin)) continue;
     const TrianglePlane plane = plane_at(trn, at);
@@ -369,7 +373,9 @@ SearchResult find_contacts(const Ground& ground, const Shapes& shapes, int b, co
   if (near.reach == Reach::off_ground) return {near.reach, 0};
   const bool all_on_grid =
       contains(ground.trn, low.x(), low.y()) && contains(ground.trn, high.x(), high.y());
-  find_mode_1(ground, shapes, b, near.ground.high, margin, all_on_grid, vertices, contacts);
+  if (!(all_on_grid && near.ground.all_known) && leans_out(ground.trn, vertices))
+    return {Reach::off_ground, 0};
+  find_mode_1(ground, shapes, b, near.ground.high, margin, vertices, contacts);
   const double nearly_parallel =
       std::clamp(margin / shapes.radius[static_cast<size_t>(b)], least_parallel, most_parallel);
   FeatureSearch search{ground, shapes, b, pose, margin, nearly_parallel, R, low, high};

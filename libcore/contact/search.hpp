@@ -16,6 +16,8 @@ namespace talus {
 
 /// What the search found besides the contacts.
 struct SearchResult {
+  /// `off_ground` also when a vertex lies beyond the known ground and the block is not above it:
+  /// what would bear or stop it there is not known.
   Reach reach = Reach::off_ground;
   double clearance = 0;  ///< when above: lowest vertex over the highest candidate ground [m]
 };

@@ -19,7 +19,9 @@ constexpr size_t small_island = 8;
 constexpr size_t small_tree = 64;    // the same where blocks hang together without a ring: a column
 constexpr double most_turn = 0.5;    // in a substep [rad]
 constexpr double most_travel = 0.5;  // relative to a neighbour in a substep, of the thickness
-constexpr double most_substeps = 64;  // for these two reasons
+// Of a block alone near a fence any point, in a substep: so far in may be what no axis foresaw.
+constexpr double most_travel_alone = 0.1;
+constexpr double most_substeps = 64;  // for these reasons
 
 Vec3 spin_of(const Motion& m, const Vec3& inertia) {
   return angular_velocity(m.pose.attitude, m.angular_momentum, inertia);
@@ -166,6 +168,9 @@ void AdvanceIsland::set_stiffness() {
 // The longest substep over which the contacts found at its start still describe the motion.
 double AdvanceIsland::longest_substep(double h) const {
   double part = 0;
+  if (w.members.size() == 1 && n_fixed(scene) > 0 && w.near_fixed[block(0)] != 0)
+    part =
+        (w.step[block(0)].norm() + w.turn[block(0)]) / (most_travel_alone * w.numbers[0].thickness);
   for (size_t k = 0; k < w.members.size(); ++k)
     part = std::max(part, w.turn[block(k)] / (most_turn * w.numbers[k].radius));
   for (const int i : w.island_manifolds) {
@@ -200,10 +205,15 @@ void form_islands(const Scene& scene, State& state, Work& work) {
   w.moving.assign(size, 0);
   w.place.assign(size, -1);
   w.pairs_of_step = true;
-  for (const auto& [a, b] : w.joined)
-    for (const int i : {a, b})
-      if (i >= 0 && state.phase[static_cast<size_t>(i)] == Phase::flight)
-        end_flight(scene, i, state.time, state, work);
+  const auto end_flight_of = [&](int b) {
+    if (b >= 0 && state.phase[static_cast<size_t>(b)] == Phase::flight)
+      end_flight(scene, b, state.time, state, work);
+  };
+  for (const auto& [a, b] : w.joined) end_flight_of(a), end_flight_of(b);
+  for (const int b : w.pairs.reaching) {
+    w.near_fixed[static_cast<size_t>(b)] = 1;
+    end_flight_of(b);
+  }
 }
 
 void put_island_to_sleep(const Scene& scene, int k, State& state, const Work& work) {

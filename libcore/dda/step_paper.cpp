@@ -244,6 +244,7 @@ struct OpenClose {
         find_contacts(scene.ground, scene.blocks.shapes, b, state.motion[i].pose, stretch, reach,
                       work.world_vertices, work.contacts);
     if (near.reach == Reach::below) report.flags = report.flags | StepFlag::fell_through;
+    if (near.reach == Reach::off_ground) w.outsiders.push_back(b);
     for (const Contact& contact : work.contacts) {
       ContactRow row;
       row.normal = contact.normal;
@@ -293,6 +294,7 @@ struct OpenClose {
     w.sides.clear();
     w.keys.clear();
     w.row_begin.clear();
+    w.outsiders.clear();
     w.D.resize(members.size());
     for (const int b : members) w.equations.push_back(equations<Dof>(scene, b, state));
     auto next = manifolds.begin();
@@ -412,7 +414,9 @@ struct OpenClose {
     if (scene.settings.post_adjustment && (n_blocks(scene) == 1 || !scene.settings.block_contacts))
       post_adjust(was_free, velocity_before);
     for (const int b : members)
-      if (left_ground(scene, position(b))) stop_outside(scene, b, state, report);
+      if (left_ground(scene, position(b)) ||
+          std::binary_search(w.outsiders.begin(), w.outsiders.end(), b))
+        stop_outside(scene, b, state, report);
   }
 
   // Eq. (28), v_a = COR v_b, on the normal component of the centroid's velocity, once a collision:

@@ -203,6 +203,7 @@ struct OpenCloseWork {  // clang-format off
   std::vector<ContactKey> keys;                ///< of each row
   std::vector<std::size_t> row_begin;          ///<                                  (n_members + 1)
   std::vector<std::pair<int, int>> edges;      ///< members that share contacts
+  std::vector<int> outsiders;                  ///< members off the known ground, ascending
   BlockLu<Dof> lu;
   std::vector<Vec> D;                          ///< right-hand side, then solution       (n_members)
 };  // clang-format on

@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include "dda/fence.hpp"
 #include "dda/step.hpp"
@@ -177,6 +179,44 @@ TEST_P(FenceThrow, IsMetWithinTheStep) {
         segment.start.pose.position + h * (segment.start.velocity + h / 2 * segment.acceleration);
     EXPECT_LT((end - segment.end.pose.position).norm(), 1e-9);
   }
+}
+
+// Fast rocks that spin meet the top edge of a panel with any of their features, some of them where
+// cubes lean on the panel. No rock gets deeper in than it moves in a substep, a tenth of its
+// thickness.
+TEST(Fence, RocksThatMeetItsTopEdgeAreNotDeepInIt) {
+  std::mt19937_64 random(7);
+  const auto uniform = [&](double low, double high) {
+    return low + (high - low) * std::generate_canonical<double, 53>(random);
+  };
+  StandingFence fence = fence_across(FencePanel::no_limit, 0, 0.4);
+  fence.contact.friction = std::tan(20 * degree);
+  std::vector<Body> bodies;
+  for (const double y : {-8.0, -3.0, 2.0, 7.0})
+    bodies.push_back(cube_at(Vec3(3.9, y, 0), Vec3::Zero()));
+  for (int i = 0; i < 300; ++i) {
+    const double after = uniform(0.05, 0.15);
+    Body rock;
+    rock.velocity = Vec3(uniform(10, 25), uniform(-5, 5), uniform(-15, 5));
+    rock.spin = uniform(0, 50) * Vec3(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)).normalized();
+    const Quat attitude =
+        Quat(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)).normalized();
+    const Vec3 meets(4.6, uniform(-9, 9), 4 + uniform(-0.2, 0.5));
+    rock.parts = {moved(box(Vec3(-0.6, -0.5, -0.4), Vec3(0.6, 0.5, 0.4)),
+                        attitude.toRotationMatrix(), Vec3::Zero(), meets - after * rock.velocity)};
+    bodies.push_back(rock);
+  }
+  Settings settings;
+  settings.block_contacts = false;
+  Scene scene = scene_of(plane_trn(slope_frame(0, 0), 1, 40), ground_of(30, 0.3), bodies, settings);
+  add_fence(scene, fence);
+  State state = start(scene);
+  Work work = make_work(scene);
+  double deepest = 0;
+  while (state.time < 0.5 - 1e-9)
+    deepest = std::max(deepest, step(scene, state, work).largest_penetration);
+  EXPECT_GT(state.fence.hits.size(), 100u);
+  EXPECT_LT(deepest, 0.1 * 0.8);
 }
 
 // Beside the fence nothing stands.
