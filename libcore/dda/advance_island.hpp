@@ -39,6 +39,7 @@ struct AdvanceIsland {
   bool small = false;      ///< the island's matrix is cheap to factor
   bool takes_all = false;  ///< one of the contacts left out of the substep closed without them
   int cuts = 0;            ///< of the substep at the time when a panel is used up
+  int throws = 0;          ///< halvings of the substep because it threw a block into the ground
   int n_hits = 0;          ///< in the last attempt at a substep
   int lone_hits = 0;       ///< for each of which a substep ended within the step
 
@@ -212,6 +213,8 @@ struct AdvanceIsland {
   BondLoad& load_of(const IslandContact& contact);
   void remember(double h);
   [[nodiscard]] Motion end_of(size_t k) const;
+  [[nodiscard]] bool foresaw(size_t k, const Contact& contact, double least) const;
+  [[nodiscard]] bool throws_into_ground();
   void add_path(size_t k, const Motion& end, double t, double h);
   void renew_support(size_t k, double h);
   void finish(double t, double h);

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "base/make_room.hpp"
+#include "contact/search.hpp"
 #include "dda/advance_island.hpp"
 #include "dda/fence.hpp"
 #include "dda/flight.hpp"
@@ -14,6 +15,7 @@ using std::size_t;
 
 constexpr int most_halvings = 4;  // of a substep that does not converge
 constexpr int most_cuts = 24;     // of a substep where a panel of a fence breaks
+constexpr int most_throws = 4;    // halvings of a substep that throws a block into the ground
 
 }  // namespace
 
@@ -209,6 +211,33 @@ Motion AdvanceIsland::end_of(size_t k) const {
   return end;
 }
 
+// Whether a contact of the substep leads member k to this gap with the ground, but for `least`.
+bool AdvanceIsland::foresaw(size_t k, const Contact& contact, double least) const {
+  if (w.ground_pair[k] < 0) return false;
+  for (const size_t r : contacts_of(static_cast<size_t>(w.ground_pair[k]))) {
+    const double gap_end = w.contacts[r].gap_start + row(r).normal().dot(path_of_contact(r));
+    if (w.contacts[r].key == contact.key && gap_end < contact.gap + least) return true;
+  }
+  return false;
+}
+
+// Whether contacts throw a member so far that it gets into ground that was not looked for there.
+bool AdvanceIsland::throws_into_ground() {
+  constexpr double far = 0.05, deep = 0.02;  // of the thickness
+  if (!scene.settings.trn_contacts) return false;
+  for (size_t k = 0; k < w.members.size(); ++k) {
+    const BlockNumbers& c = w.numbers[k];
+    const Vec6& by = w.displacement[k];
+    if (by.head<3>().norm() + c.radius * by.tail<3>().norm() < far * c.thickness) continue;
+    (void)find_contacts(scene.ground, scene.blocks.shapes, w.members[k], end_of(k).pose,
+                        Mat3::Identity(), 0, work.world_vertices, work.contacts);
+    for (const Contact& contact : work.contacts)
+      if (contact.gap < -deep * c.thickness && !foresaw(k, contact, deep * c.thickness))
+        return true;
+  }
+  return false;
+}
+
 // The path of a member: in one piece, or up to its hit and on from there.
 void AdvanceIsland::add_path(size_t k, const Motion& end, double t, double h) {
   constexpr double rounding = 1e-12;
@@ -302,6 +331,11 @@ AdvanceIsland::Attempt AdvanceIsland::attempt(double t, double& h) {
     takes_all = true;
     return Attempt::shorter;
   }
+  if (throws < most_throws && throws_into_ground()) {
+    h /= 2;
+    ++throws;
+    return Attempt::shorter;
+  }
   if (break_bonds(h)) return Attempt::shorter;
   find_pushes(h);
   const double used_up = time_to_first_break(scene, state.fence, w.pushes, h);
@@ -350,7 +384,7 @@ void AdvanceIsland::run(int island, std::span<const int> blocks, double t_end) {
     else
       search_pairs(t_end - t);
     double h = longest_substep(t_end - t);
-    halvings = cuts = 0;
+    halvings = cuts = throws = 0;
     takes_all = false;
     Attempt outcome = Attempt::shorter;
     while (outcome == Attempt::shorter) outcome = attempt(t, h);
