@@ -39,7 +39,7 @@ struct AdvanceIsland {
   bool small = false;      ///< the island's matrix is cheap to factor
   bool takes_all = false;  ///< one of the contacts left out of the substep closed without them
   int cuts = 0;            ///< of the substep at the time when a panel is used up
-  int throws = 0;          ///< halvings of the substep because it threw a block into the ground
+  int deep_cuts = 0;       ///< substeps of the step cut because a block would end deep in another
   int n_hits = 0;          ///< in the last attempt at a substep
   int lone_hits = 0;       ///< for each of which a substep ended within the step
 
@@ -140,7 +140,7 @@ struct AdvanceIsland {
     Vec3 shift;            ///< of B's arms from A's [m]
     GroundClass faces;     ///< class of the contacts
     int bond;              ///< index into State::bonds, -1: none
-    BlockNumbers numbers;  ///< of A, with the pair's stiffness and touching gap
+    BlockNumbers numbers;  ///< of A, but sizes, stiffness and touching gap are the pair's
   };
   [[nodiscard]] LostContacts lost_contacts(int b, const Substep& s,
                                            std::span<const ContactRow> rows) const;
@@ -156,6 +156,8 @@ struct AdvanceIsland {
   static void hold(const GroundClass& face, double recovery_time, ContactRow& row);
   [[nodiscard]] Mobility mobility_at(size_t k, const Vec3& arm, const Vec3& normal) const;
   [[nodiscard]] Meeting meeting_of(const PairManifold& m) const;
+  void inherit_from(const PairManifold& m, const PairPoint& point, int memory,
+                    const BlockNumbers& c, ContactRow& row) const;
   void add_point(const PairManifold& m, const Meeting& meeting, const PairPoint& point, int memory);
   void add_fixed_point(const PairManifold& m, const PairPoint& point, int memory, int n_closing);
   void add_fixed_points(const PairManifold& m);
@@ -214,7 +216,7 @@ struct AdvanceIsland {
   void remember(double h);
   [[nodiscard]] Motion end_of(size_t k) const;
   [[nodiscard]] bool foresaw(size_t k, const Contact& contact, double least) const;
-  [[nodiscard]] bool throws_into_ground();
+  [[nodiscard]] double end_before_deep_overlap(double h);
   void add_path(size_t k, const Motion& end, double t, double h);
   void renew_support(size_t k, double h);
   void finish(double t, double h);

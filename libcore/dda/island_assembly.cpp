@@ -215,6 +215,16 @@ AdvanceIsland::PointPath AdvanceIsland::path_of(size_t k, const Vec3& x) const {
   return p;
 }
 
+namespace {
+
+// Of one pair of bodies, whatever the keys say of them.
+bool has_features(const ContactKey& now, const ContactKey& then) {
+  return now.mode == then.mode && now.feature_a == then.feature_a &&
+         now.feature_b == then.feature_b;
+}
+
+}  // namespace
+
 // The memories that the points of a manifold continue, -1: none. First those of the same
 // features; then, where features changed, those that the pair leaves without a successor, so that
 // a face that rests on another keeps its support and its friction while corners pass edges.
@@ -237,12 +247,7 @@ void AdvanceIsland::match_memories(const PairManifold& m) {
       w.unclaimed.erase(found);
     }
   };
-  claim(
-      [](const ContactKey& now, const ContactKey& then) {
-        return now.mode == then.mode && now.feature_a == then.feature_a &&
-               now.feature_b == then.feature_b;
-      },
-      0.5);
+  claim(has_features, 0.5);
   claim([](const ContactKey&, const ContactKey&) { return true; }, 0.99);
 }
 
@@ -276,10 +281,19 @@ AdvanceIsland::Meeting AdvanceIsland::meeting_of(const PairManifold& m) const {
                   pair_class(scene, m),
                   find_bond(state.bonds, m.block_a, m.block_b),
                   ca};
-  meeting.numbers.touch = pair_touch_ratio * std::min(ca.radius, cb.radius);
+  meeting.numbers.radius = std::min(ca.radius, cb.radius);
+  meeting.numbers.thickness = std::min(ca.thickness, cb.thickness);
+  meeting.numbers.touch = pair_touch_ratio * meeting.numbers.radius;
   meeting.numbers.stiffness =
       std::max(ca.stiffness, cb.stiffness) * (ca.mass / std::min(ca.mass, cb.mass));
   return meeting;
+}
+
+void AdvanceIsland::inherit_from(const PairManifold& m, const PairPoint& point, int memory,
+                                 const BlockNumbers& c, ContactRow& row) const {
+  const ContactMemory& then =
+      state.memory[static_cast<size_t>(m.block_a)][static_cast<size_t>(memory)];
+  inherit(then, memory, has_features(then.key, point.key), Mat3::Identity(), c, row);
 }
 
 void AdvanceIsland::add_point(const PairManifold& m, const Meeting& meeting, const PairPoint& point,
@@ -300,8 +314,7 @@ void AdvanceIsland::add_point(const PairManifold& m, const Meeting& meeting, con
 
   const double approach = approach_of(row, h);
   if (memory >= 0 && !(row.gap_start > c.touch && approach < -c.resting_speed))
-    inherit(state.memory[static_cast<size_t>(m.block_a)][static_cast<size_t>(memory)], memory,
-            Mat3::Identity(), c.touch, row);
+    inherit_from(m, point, memory, c, row);
   else
     take_on_load(state.memory[static_cast<size_t>(m.block_a)], m.block_b, row);
   const Mobility Wa = mobility_at(ka, arm, n), Wb = mobility_at(kb, arm_b, n);
@@ -342,8 +355,7 @@ void AdvanceIsland::add_fixed_point(const PairManifold& m, const PairPoint& poin
   const FencePanel* panel = giving_way(scene, m.block_b, n);
   if (memory >= 0 &&
       (panel != nullptr || !(row.gap_start > c.touch && approach < -c.resting_speed)))
-    inherit(state.memory[static_cast<size_t>(m.block_a)][static_cast<size_t>(memory)], memory,
-            Mat3::Identity(), c.touch, row);
+    inherit_from(m, point, memory, c, row);
   else
     row.offset = std::max(0.0, -row.gap_start);
   set_law(scene, c, s.h, mobility_at(k, row.point, n), approach, row);

@@ -13,9 +13,9 @@ namespace {
 
 using std::size_t;
 
-constexpr int most_halvings = 4;  // of a substep that does not converge
-constexpr int most_cuts = 24;     // of a substep where a panel of a fence breaks
-constexpr int most_throws = 4;    // halvings of a substep that throws a block into the ground
+constexpr int most_halvings = 4;   // of a substep that does not converge
+constexpr int most_cuts = 24;      // of a substep where a panel of a fence breaks
+constexpr int most_deep_cuts = 8;  // in a step, where a block would end deep in another
 
 }  // namespace
 
@@ -221,21 +221,45 @@ bool AdvanceIsland::foresaw(size_t k, const Contact& contact, double least) cons
   return false;
 }
 
-// Whether contacts throw a member so far that it gets into ground that was not looked for there.
-bool AdvanceIsland::throws_into_ground() {
-  constexpr double far = 0.05, deep = 0.02;  // of the thickness
-  if (!scene.settings.trn_contacts) return false;
+// When the substep has to end because a block would end deeper in another or in the ground than it
+// began, though it is hit there: it is thrown back by a later hit, or goes in after its hit because
+// of one. Or because one is thrown into ground that was not looked for there. Shortly after the
+// hit, then, or the one that threw it; h where nothing of that kind happens.
+double AdvanceIsland::end_before_deep_overlap(double h) {
+  constexpr double deep = 0.08;           // of the thickness: health allows a tenth
+  constexpr double deeper = deep / 4;     // of it, than at the start of the substep
+  constexpr double after_hit = 1.0 / 32;  // of h
+  double end = h;
+  for (const Hit& hit : w.hits) {
+    const IslandContact& of = w.contacts[hit.contact];
+    double thickness = numbers(of.a).thickness;
+    if (of.b >= 0) thickness = std::min(thickness, numbers(of.b).thickness);
+    const double gap_end =
+        of.gap_start + row(hit.contact).normal().dot(path_of_contact(hit.contact));
+    if (gap_end < std::min(-deep * thickness, of.gap_start - deeper * thickness))
+      end = std::min(end, hit.time + after_hit * h);
+  }
+  if (end < h) return end;
+  if (!scene.settings.trn_contacts) return h;
   for (size_t k = 0; k < w.members.size(); ++k) {
     const BlockNumbers& c = w.numbers[k];
     const Vec6& by = w.displacement[k];
-    if (by.head<3>().norm() + c.radius * by.tail<3>().norm() < far * c.thickness) continue;
+    if (by.head<3>().norm() + c.radius * by.tail<3>().norm() < deep * c.thickness) continue;
     (void)find_contacts(scene.ground, scene.blocks.shapes, w.members[k], end_of(k).pose,
                         Mat3::Identity(), 0, work.world_vertices, work.contacts);
-    for (const Contact& contact : work.contacts)
-      if (contact.gap < -deep * c.thickness && !foresaw(k, contact, deep * c.thickness))
-        return true;
+    const bool is_deep =
+        std::any_of(work.contacts.begin(), work.contacts.end(), [&](const Contact& contact) {
+          return contact.gap < -deep * c.thickness && !foresaw(k, contact, deep / 2 * c.thickness);
+        });
+    if (!is_deep) continue;
+    double first = h;
+    for (const Hit& hit : w.hits)
+      if (const IslandContact& of = w.contacts[hit.contact];
+          of.a == w.members[k] || of.b == w.members[k])
+        first = std::min(first, hit.time);
+    return first < h ? std::min(first + after_hit * h, h) : h / 2;
   }
-  return false;
+  return h;
 }
 
 // The path of a member: in one piece, or up to its hit and on from there.
@@ -331,11 +355,12 @@ AdvanceIsland::Attempt AdvanceIsland::attempt(double t, double& h) {
     takes_all = true;
     return Attempt::shorter;
   }
-  if (throws < most_throws && throws_into_ground()) {
-    h /= 2;
-    ++throws;
-    return Attempt::shorter;
-  }
+  if (deep_cuts < most_deep_cuts)
+    if (const double end = end_before_deep_overlap(h); end < h) {
+      h = end;
+      ++deep_cuts;
+      return Attempt::shorter;
+    }
   if (break_bonds(h)) return Attempt::shorter;
   find_pushes(h);
   const double used_up = time_to_first_break(scene, state.fence, w.pushes, h);
@@ -384,7 +409,7 @@ void AdvanceIsland::run(int island, std::span<const int> blocks, double t_end) {
     else
       search_pairs(t_end - t);
     double h = longest_substep(t_end - t);
-    halvings = cuts = throws = 0;
+    halvings = cuts = 0;
     takes_all = false;
     Attempt outcome = Attempt::shorter;
     while (outcome == Attempt::shorter) outcome = attempt(t, h);

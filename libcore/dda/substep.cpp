@@ -18,10 +18,11 @@ using std::size_t;
 constexpr double recovery_steps = 3;
 // A contact is touching when its gap is below this part of the block's radius.
 constexpr double touch_ratio = 1e-8;
-// Over the same plane a gap jumps only by what the block's turning bends the path of its point in a
-// step. That is left unpressed up to this many times the touching gap, a hundredth of the radius:
-// a needle that spins on its tip would otherwise sink in by it step after step.
-constexpr double most_by_turning = 1e-2 / touch_ratio;
+// Over one plane, and between the same features, a gap jumps only by what turning bends the paths
+// of their points in a step. That is left unpressed up to these parts of the radius and of the
+// thickness: a needle that spins on its tip would otherwise sink in by it step after step, and so
+// would an edge that slides along another one while both turn.
+constexpr double most_by_turning = 1e-2, most_of_thickness = 5e-2;
 // A contact whose stiffness changes by more than this factor from step to step has another law,
 // with the size of its island or its neighbours; less is its block's turning.
 constexpr double same_law = 1.5;
@@ -149,17 +150,19 @@ Mat3 stretch_of(const State& state, int b) {
   return Mat3::Identity() + strain_tensor(state.strain[static_cast<size_t>(b)]);
 }
 
-void inherit(const ContactMemory& memory, int index, const Mat3& to_row, double touch,
-             ContactRow& row) {
+void inherit(const ContactMemory& memory, int index, bool same_features, const Mat3& to_row,
+             const BlockNumbers& c, ContactRow& row) {
   row.memory = index;
   row.last_stiffness = memory.stiffness;
   row.last_force = memory.normal_force;
   row.bond_area = memory.bond_area;
   row.offset = std::min(memory.offset, std::max(0.0, -row.gap_start));
   const double jump = memory.gap_end - (row.gap_start + row.offset);
-  if (jump > touch) {
-    const bool same_plane = (to_row * memory.normal).dot(row.normal) > parallel;
-    const double limit = same_plane ? most_by_turning * touch : no_limit;
+  if (jump > c.touch) {
+    const bool by_turning = same_features || (to_row * memory.normal).dot(row.normal) > parallel;
+    const double limit = by_turning
+                             ? std::min(most_by_turning * c.radius, most_of_thickness * c.thickness)
+                             : no_limit;
     row.offset += std::min(
         {jump, std::max(0.0, -row.gap_start - row.offset), std::max(0.0, limit - row.offset)});
   }
@@ -240,7 +243,9 @@ void make_rows(const Scene& scene, int b, const BlockNumbers& c, const Substep& 
     ContactRow& row = work.rows[static_cast<size_t>(i)];
     // a plane that the contact only now runs into is met by an impact, not inherited
     if (row.gap_start > c.touch && approach(row, s) < -c.resting_speed) continue;
-    inherit(memory[m], static_cast<int>(m), to_body, c.touch, row);
+    const ContactKey& key = work.contacts[static_cast<size_t>(i)].key;
+    const bool same_features = key.mode != ContactMode::vertex_face && key == memory[m].key;
+    inherit(memory[m], static_cast<int>(m), same_features, to_body, c, row);
   }
   for (ContactRow& row : work.rows) {
     const Contact& contact = work.contacts[static_cast<size_t>(row.contact)];

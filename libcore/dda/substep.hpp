@@ -42,9 +42,10 @@ void forget_last_step(ContactRow& row);
 
 /// What a row inherits from memory `index`: the shear spring turned into the new tangent plane, and
 /// the overlap that presses nothing. Where what lies below changes plane the gap jumps; the jump
-/// does no work. `to_row` turns local into the row's axes.
-void inherit(const ContactMemory& memory, int index, const Mat3& to_row, double touch,
-             ContactRow& row);
+/// does no work. Over one plane, or where both features are those of before, it jumps only by what
+/// turning bends. `to_row` turns local into the row's axes.
+void inherit(const ContactMemory& memory, int index, bool same_features, const Mat3& to_row,
+             const BlockNumbers& c, ContactRow& row);
 
 /// What the row of a new contact with body `body_b` takes over from those that press it already,
 /// the `memory` of A. As much of its overlap as the deepest of them is pressed in is no surprise:

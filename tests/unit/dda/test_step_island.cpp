@@ -227,7 +227,7 @@ TEST(StepIsland, ContactThatBecomesStifferKeepsItsForces) {
       ContactRow row;
       row.normal = Vec3::UnitZ();
       row.gap_start = -pressed_in;
-      inherit(memory, 0, Mat3::Identity(), c.touch, row);
+      inherit(memory, 0, false, Mat3::Identity(), c, row);
       c.stiffness = stiffness;
       set_law(scene, c, h, {c.per_mass, c.per_mass}, 0, row);
       const double kept = ratio < 1.5 ? stiffness : soft;  // less: its block's turning
@@ -263,9 +263,48 @@ TEST(StepIsland, ContactThatBecomesSofterBearsNoMore) {
   ContactRow row;
   row.normal = Vec3::UnitZ();
   row.gap_start = -deep;
-  inherit(memory, 0, Mat3::Identity(), c.touch, row);
+  inherit(memory, 0, false, Mat3::Identity(), c, row);
   set_law(scene, c, h, {c.per_mass, c.per_mass}, 0, row);
   EXPECT_NEAR(-row.bias * row.normal_damping / h, memory.normal_force, 1e-9 * soft);
+}
+
+// Between the same features a gap jumps only by what turning bends: what goes beyond a part of the
+// size is pressed. Blocks that slid on each other's edges while they turned sank in by millimetres
+// a step, since each new millimetre pressed nothing. Other features are another matter.
+TEST(StepIsland, WhatTurningBendsIsPressedBeyondAPartOfTheSize) {
+  const Scene scene = scene_of(plane_trn(slope_frame(0, 0), 1, 10), ground_of(30),
+                               {body_of(box(Vec3::Zero(), Vec3(4, 4, 0.5)))}, {});
+  const BlockNumbers c = numbers_of(scene, 0);
+  for (const bool same_features : {true, false}) {
+    ContactMemory memory;
+    memory.normal = Vec3::UnitZ();
+    ContactRow row;
+    row.normal = Vec3(0.01, 0, 1).normalized();
+    for (int step = 0; step < 50; ++step) {
+      row.gap_start -= 2e-3;
+      inherit(memory, 0, same_features, Mat3::Identity(), c, row);
+      memory.offset = row.offset;
+      memory.gap_end = row.gap_start + row.offset;
+    }
+    EXPECT_NEAR(row.offset, same_features ? 0.05 * 0.5 : 0.1, 1e-12);
+  }
+}
+
+// A block is hit so hard within a step that it would end in the ground, which it was not near when
+// the step began.
+TEST(StepIsland, BlockThatIsThrownIntoTheGroundIsHitByItWithinTheStep) {
+  Settings settings;
+  Body upper = body_of(box(Vec3(-0.5, -0.5, 1.06), Vec3(0.5, 0.5, 2.06)), Vec3(0, 0, -60));
+  const Body lower = body_of(box(Vec3(-0.5, -0.5, 0.05), Vec3(0.5, 0.5, 1.05)));
+  const Scene scene =
+      scene_of(plane_trn(slope_frame(0, 0), 1, 10), rough(30), {lower, upper}, settings);
+  State state = start(scene);
+  Work work = make_work(scene);
+  double deepest = 0;
+  for (int i = 0; i < 20; ++i)
+    deepest = std::max(deepest, step(scene, state, work).largest_penetration);
+  EXPECT_LT(deepest, 0.08);  // of its thickness
+  EXPECT_EQ(state.counters.unconverged, 0);
 }
 
 // Where corners change places while the stiffness grows, the new one takes on what the pair bears;
@@ -352,12 +391,15 @@ double kept_hit_by_hit(std::vector<double> place, double restitution) {
 }
 
 // Cubes that fall on each other on level ground, touching or with gaps that a step leaps over, keep
-// about what they would keep hit by hit, whatever the step: a column of ten nearly nothing.
+// about what they would keep hit by hit, whatever the step: a column of ten nearly nothing. A step
+// may forgo its rebound, or leave out what its hits would lose in turn with those of the next one.
 TEST(StepIsland, ColumnLosesWhatItsHitsWouldLoseInTurn) {
   constexpr double fall = 10, restitution = 0.7;
   const Polyhedron cube = box(Vec3(-0.5, -0.5, 0), Vec3(0.5, 0.5, 1));
+  double sum = 0;
+  int n_columns = 0;
   for (const int n : {2, 3, 5, 10})
-    for (const double largest_gap : {0.0, 0.05, 0.3}) {
+    for (const double largest_gap : {0.0, 0.02, 0.05, 0.1, 0.2, 0.3}) {
       std::vector<double> place;
       std::vector<Body> bodies;
       for (int i = 0; i < n; ++i) {
@@ -368,7 +410,7 @@ TEST(StepIsland, ColumnLosesWhatItsHitsWouldLoseInTurn) {
                     Vec3(0, 0, -fall)));
       }
       const double expected = kept_hit_by_hit(place, restitution);
-      for (const double dt : {2e-4, 1e-3, 5e-3, 1e-2, 2e-2, 5e-2}) {
+      for (double dt = 1e-3; dt < 5.1e-2; dt *= 1.09) {
         Settings settings;
         settings.dt = dt;
         Scene scene =
@@ -380,10 +422,13 @@ TEST(StepIsland, ColumnLosesWhatItsHitsWouldLoseInTurn) {
         run(scene, 0.6, state);
         const std::string which = std::to_string(n) + ' ' + text(largest_gap) + ' ' + text(dt);
         const double kept = kinetic(scene, state) / before;
-        EXPECT_LT(kept, expected + 0.1) << which;
-        EXPECT_GT(kept, expected - 0.12) << which;  // a step may forgo its rebound
+        EXPECT_LT(kept, expected + 0.25) << which;
+        EXPECT_GT(kept, expected - 0.14) << which;
+        sum += (kept - expected) * (kept - expected);
+        ++n_columns;
       }
     }
+  EXPECT_LT(std::sqrt(sum / n_columns), 0.05);
 }
 
 TEST(StepIsland, LargeBlockRestsOnSmallOnes) { EXPECT_LT(large_on_small({}).error, 1e-3); }
