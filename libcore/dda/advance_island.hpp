@@ -39,7 +39,7 @@ struct AdvanceIsland {
   bool small = false;      ///< the island's matrix is cheap to factor
   bool takes_all = false;  ///< one of the contacts left out of the substep closed without them
   int cuts = 0;            ///< of the substep at the time when a panel is used up
-  int deep_cuts = 0;       ///< substeps of the step cut because a block would end deep in another
+  int deep_cuts = 0;       ///< substeps of the step cut because a block would end deep in something
   int n_hits = 0;          ///< in the last attempt at a substep
   int lone_hits = 0;       ///< for each of which a substep ended within the step
 
@@ -216,7 +216,9 @@ struct AdvanceIsland {
   void remember(double h);
   [[nodiscard]] Motion end_of(size_t k) const;
   [[nodiscard]] bool foresaw(size_t k, const Contact& contact, double least) const;
-  [[nodiscard]] double end_before_deep_overlap(double h);
+  [[nodiscard]] double thickness_of(const IslandContact& contact) const;
+  [[nodiscard]] double end_of_deepening_hit(double h) const;
+  [[nodiscard]] double end_of_throw_into_ground(double h);
   void add_path(size_t k, const Motion& end, double t, double h);
   void renew_support(size_t k, double h);
   void finish(double t, double h);

@@ -13,9 +13,12 @@ namespace {
 
 using std::size_t;
 
-constexpr int most_halvings = 4;   // of a substep that does not converge
-constexpr int most_cuts = 24;      // of a substep where a panel of a fence breaks
-constexpr int most_deep_cuts = 8;  // in a step, where a block would end deep in another
+constexpr int most_halvings = 4;        // of a substep that does not converge
+constexpr int most_cuts = 24;           // of a substep where a panel of a fence breaks
+constexpr int most_deep_cuts = 8;       // in a step, where a block would end deep in something
+constexpr double deep = 0.08;           // of the thickness: health allows a tenth
+constexpr double deeper = 0.02;         // of it, than at the start of the substep
+constexpr double after_hit = 1.0 / 32;  // of the substep
 
 }  // namespace
 
@@ -166,9 +169,7 @@ void AdvanceIsland::remember(double h) {
     const Vec3 path = path_of_contact(r);
     const double along = normal.dot(path);
     const double overlap = -(contact.gap_start + along);
-    const double thickness = numbers(contact.a).thickness;
-    note_overlap(report, overlap,
-                 contact.b < 0 ? thickness : std::min(thickness, numbers(contact.b).thickness));
+    note_overlap(report, overlap, thickness_of(contact));
     if (contact.waits || stays == ContactState::open) continue;
     for (const int b : {contact.a, contact.b})
       if (b >= 0) w.pressed[place(b)] = 1;
@@ -221,25 +222,30 @@ bool AdvanceIsland::foresaw(size_t k, const Contact& contact, double least) cons
   return false;
 }
 
-// When the substep has to end because a block would end deeper in another or in the ground than it
-// began, though it is hit there: it is thrown back by a later hit, or goes in after its hit because
-// of one. Or because one is thrown into ground that was not looked for there. Shortly after the
-// hit, then, or the one that threw it; h where nothing of that kind happens.
-double AdvanceIsland::end_before_deep_overlap(double h) {
-  constexpr double deep = 0.08;           // of the thickness: health allows a tenth
-  constexpr double deeper = deep / 4;     // of it, than at the start of the substep
-  constexpr double after_hit = 1.0 / 32;  // of h
+// Thickness of the thinner of the two blocks of a contact.
+double AdvanceIsland::thickness_of(const IslandContact& contact) const {
+  const double thickness = numbers(contact.a).thickness;
+  return contact.b < 0 ? thickness : std::min(thickness, numbers(contact.b).thickness);
+}
+
+// When the substep has to end so that no block ends deep where it is hit, since a later hit throws
+// it back or it goes in after its hit because of another: shortly after that hit. h: none does.
+double AdvanceIsland::end_of_deepening_hit(double h) const {
   double end = h;
   for (const Hit& hit : w.hits) {
     const IslandContact& of = w.contacts[hit.contact];
-    double thickness = numbers(of.a).thickness;
-    if (of.b >= 0) thickness = std::min(thickness, numbers(of.b).thickness);
     const double gap_end =
         of.gap_start + row(hit.contact).normal().dot(path_of_contact(hit.contact));
+    const double thickness = thickness_of(of);
     if (gap_end < std::min(-deep * thickness, of.gap_start - deeper * thickness))
       end = std::min(end, hit.time + after_hit * h);
   }
-  if (end < h) return end;
+  return end;
+}
+
+// The same for members that are thrown into ground that was not looked for where they end: shortly
+// after the first of their hits.
+double AdvanceIsland::end_of_throw_into_ground(double h) {
   if (!scene.settings.trn_contacts) return h;
   for (size_t k = 0; k < w.members.size(); ++k) {
     const BlockNumbers& c = w.numbers[k];
@@ -247,16 +253,15 @@ double AdvanceIsland::end_before_deep_overlap(double h) {
     if (by.head<3>().norm() + c.radius * by.tail<3>().norm() < deep * c.thickness) continue;
     (void)find_contacts(scene.ground, scene.blocks.shapes, w.members[k], end_of(k).pose,
                         Mat3::Identity(), 0, work.world_vertices, work.contacts);
-    const bool is_deep =
-        std::any_of(work.contacts.begin(), work.contacts.end(), [&](const Contact& contact) {
-          return contact.gap < -deep * c.thickness && !foresaw(k, contact, deep / 2 * c.thickness);
-        });
-    if (!is_deep) continue;
+    const auto is_unforeseen = [&](const Contact& contact) {
+      return contact.gap < -deep * c.thickness && !foresaw(k, contact, deep / 2 * c.thickness);
+    };
+    if (std::none_of(work.contacts.begin(), work.contacts.end(), is_unforeseen)) continue;
     double first = h;
-    for (const Hit& hit : w.hits)
-      if (const IslandContact& of = w.contacts[hit.contact];
-          of.a == w.members[k] || of.b == w.members[k])
-        first = std::min(first, hit.time);
+    for (const Hit& hit : w.hits) {
+      const IslandContact& of = w.contacts[hit.contact];
+      if (of.a == w.members[k] || of.b == w.members[k]) first = std::min(first, hit.time);
+    }
     return first < h ? std::min(first + after_hit * h, h) : h / 2;
   }
   return h;
@@ -356,7 +361,8 @@ AdvanceIsland::Attempt AdvanceIsland::attempt(double t, double& h) {
     return Attempt::shorter;
   }
   if (deep_cuts < most_deep_cuts)
-    if (const double end = end_before_deep_overlap(h); end < h) {
+    if (const double end = std::min(end_of_deepening_hit(h), end_of_throw_into_ground(h));
+        end < h) {
       h = end;
       ++deep_cuts;
       return Attempt::shorter;
