@@ -243,9 +243,8 @@ void add_contacts(const Search& s, const PairWatch& watch, double moved, double 
                                         s.work.next_held.data() + pair.held_end);
   if (!add_manifold(s.hulls, s.placed, watch.part_a, watch.part_b, pair.axis, pair.incident, normal,
                     pair.area, margin, held, s.work.manifolds, s.work.points)) {
-    const int b = s.hulls.body[watch.part_b];
-    if (!s.motion.fixed.empty() && s.motion.fixed[b] != 0)
-      s.work.reaching.push_back(s.hulls.body[watch.part_a]);
+    const int a = s.hulls.body[watch.part_a], b = s.hulls.body[watch.part_b];
+    if (is_fixed(s.motion, b)) s.work.reaching.push_back({a, b});
     return;
   }
   if (pair.other_face + moved >= -graze_height(s.hulls, s.settings, watch.part_a, watch.part_b))

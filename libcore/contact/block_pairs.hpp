@@ -87,9 +87,9 @@ struct PairReport {
 struct PairWork {
   std::vector<PairManifold> manifolds;  ///< sorted by part_a, part_b
   std::vector<PairPoint> points;        ///< manifold by manifold
-  /// Bodies that may reach a fixed one in the coming step, but no features of the two lie above
-  /// each other yet: along another axis they may meet all the same.
-  std::vector<int> reaching;
+  /// Bodies, each with a fixed one that it may reach in the coming step, though no features of the
+  /// two lie above each other yet: along another axis they may meet all the same.
+  std::vector<std::array<int, 2>> reaching;
   // scratch
   AxisScratch axis;
   ClipScratch clip;

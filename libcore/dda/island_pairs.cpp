@@ -210,7 +210,8 @@ void form_islands(const Scene& scene, State& state, Work& work) {
       end_flight(scene, b, state.time, state, work);
   };
   for (const auto& [a, b] : w.joined) end_flight_of(a), end_flight_of(b);
-  for (const int b : w.pairs.reaching) {
+  for (const auto& [b, fixed] : w.pairs.reaching) {
+    if (!stands(scene, state, fixed)) continue;
     w.near_fixed[static_cast<size_t>(b)] = 1;
     end_flight_of(b);
   }
