@@ -1,7 +1,7 @@
 #!/bin/sh
 # health_over_seeds.sh ROCKS SITES SEED...: how many runs break a limit of their health, on the sites that
-# single_rocks.sh left in ROCKS and real_sites.sh in SITES. A seed is that of the rocks' places on their
-# grid and of their orientations; of the masses' friction, scattered by 2 degrees, once about the site's
+# single_rocks.sh left in ROCKS and real_sites.sh in SITES. A seed is that of the rocks' shapes and
+# orientations; of the masses' friction, scattered by 2 degrees, once about the site's
 # angles and once about 18 degrees for rock and 20 for the ground, so that the masses go far and fast.
 # BIN: folder of the executables with a slash at its end.
 set -eu
