@@ -218,7 +218,7 @@ struct Advance {
     }
     make_rows(scene, b, c, s, state, work);
     for (const ContactRow& row : work.rows)
-      if (row.memory < 0 && row.gap_start <= c.touch && row.gap_start > -1e4 * c.touch &&
+      if (row.memory < 0 && row.gap_start <= c.touch && row.gap_start > -deep_share * c.thickness &&
           row.speed_start < -c.resting_speed) {
         foreseen = work.contacts[static_cast<size_t>(row.contact)];
         is_foreseen = true;
