@@ -96,7 +96,7 @@ void find_mode_1(const Ground& ground, const Shapes& shapes, int b, double highe
                  const std::vector<Vec3>& vertices, std::vector<Contact>& contacts) {
   const std::span<const Vec3> body = vertices_of(shapes, b);
   const Trn& trn = ground.trn;
-  const double near_cells = 4 * margin / trn.cell_size;
+  const double cells_per_gap = 4 / trn.cell_size;
   for (size_t v = 0; v < vertices.size(); ++v) {
     const Vec3& x = vertices[v];
     if (x.z() > highest + margin) continue;
@@ -107,6 +107,7 @@ void find_mode_1(const Ground& ground, const Shapes& shapes, int b, double highe
     if (!(gap < margin)) continue;  // also when the triangle is not ground
     const int id = static_cast<int>(v);
     add_plane(plane, ground, triangle_of(trn, at), b, id, body[v], x, gap, contacts);
+    const double near_cells = cells_per_gap * (margin + std::max(0.0, -gap));
     add_valley_planes(ground, at, plane, b, id, body[v], x, margin, near_cells, contacts);
   }
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "contact/past_ridge.hpp"
 #include "contact/search.hpp"
 #include "dda/displacement.hpp"
 #include "dda/flight.hpp"
@@ -180,12 +181,12 @@ struct Advance {
   }
 
   // The gap of edges over a substep is not quite linear: where the hit was foreseen, they may still
-  // be a little apart, or just not cross. Then the contact that was foreseen is taken; without it
-  // nothing would be hit, again and again.
+  // be a little apart, or just not cross. Then the contact that was foreseen is hit besides those
+  // that touch; without it nothing would be hit, again and again.
   void impact() {
     ImpactResult hit = apply_impact(scene, b, 2 * c.touch, c.resting_speed, motion(), work);
     if (!hit.hit && is_foreseen) {
-      work.contacts.assign(1, foreseen);
+      work.contacts.push_back(foreseen);
       hit = apply_impact(scene, b, c.resting_speed, motion(), work);
     }
     is_foreseen = false;
@@ -224,6 +225,10 @@ struct Advance {
         is_foreseen = true;
         return Attempt::impact;
       }
+    if (!last && goes_through_ridge(s)) {
+      h /= 2;
+      return Attempt::shorter;
+    }
     BlockSystem<Dof> system = make_system<Dof>(scene, b, c, s, state);
     const NewtonResult newton =
         solve_contacts(system, std::span(work.rows), scene.settings.max_passes);
@@ -252,6 +257,18 @@ struct Advance {
     }
     finish(s, solved.end, t, t + h);
     return hit <= s.h ? Attempt::impact : Attempt::done;
+  }
+
+  // Whether a vertex or an edge has gone through a ridge in a substep, so that the contacts at its
+  // end say nothing of that. No use to ask where hardly anything moved.
+  [[nodiscard]] bool goes_through_ridge(const Substep& s) {
+    constexpr double deep = 0.03, short_way = 0.01;  // of the thickness
+    if (s.h * top_speed() < short_way * c.thickness) return false;
+    for (const ContactRow& row : work.rows)
+      if (came_through_ridge(scene, c, s, work.contacts[static_cast<size_t>(row.contact)], row))
+        return true;
+    return depth_past_ridge(scene.ground, scene.blocks.shapes, b, work.world_vertices,
+                            work.contacts, deep * c.thickness) > 0;
   }
 
   // A bond that opened is gone; bonds that slip are gone when no other holds the block any more, so
@@ -320,14 +337,15 @@ struct Advance {
     return body.cwiseProduct(c.per_inertia).norm();
   }
 
+  // No point of the block is faster [m/s].
+  double top_speed() { return motion().velocity.norm() + spin_speed() * c.radius; }
+
   // Near the ground a substep moves no point farther than half a cell and turns the block by at
   // most half a radian; a needle that rolls at more than 100 radians a step is not followed any
   // closer.
   double longest_substep() {
-    const double spin = spin_speed();
-    const double speed = motion().velocity.norm() + spin * c.radius;
-    const double turn = std::max(0.5 / (spin + 1e-300), scene.settings.dt / 200);
-    return std::min(0.5 * scene.ground.trn.cell_size / (speed + 1e-300), turn);
+    const double turn = std::max(0.5 / (spin_speed() + 1e-300), scene.settings.dt / 200);
+    return std::min(0.5 * scene.ground.trn.cell_size / (top_speed() + 1e-300), turn);
   }
 
   template <int Dof>

@@ -134,6 +134,12 @@ Substep predict(const Scene& scene, int b, const BlockNumbers& c, const Motion& 
   return s;
 }
 
+bool came_through_ridge(const Scene& scene, const BlockNumbers& c, const Substep& s,
+                        const Contact& contact, const ContactRow& row) {
+  return row.memory < 0 && row.gap_start < -c.touch && contact.gap < -c.touch &&
+         row.speed_start > c.resting_speed && clearance_at_start(scene, contact, s) > c.touch;
+}
+
 void forget_last_step(ContactRow& row) {
   row.shear.setZero();
   row.offset = row.last_stiffness = row.last_force = row.bond_area = 0;

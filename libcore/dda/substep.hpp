@@ -65,6 +65,11 @@ void set_ground_law(const Scene& scene, const BlockNumbers& c, const Substep& s,
 void make_rows(const Scene& scene, int b, const BlockNumbers& c, const Substep& s,
                const State& state, Work& work);
 
+/// Whether a vertex that was above the ground when the substep began ends below another triangle
+/// and moves out of its plane: it went through the ridge between them, and would never be hit.
+[[nodiscard]] bool came_through_ridge(const Scene& scene, const BlockNumbers& c, const Substep& s,
+                                      const Contact& contact, const ContactRow& row);
+
 /// Contacts whose state a substep changed: opened, closed, or from stick to slip or back. `before`
 /// is the memory that `rows` started from.
 [[nodiscard]] int count_flips(std::span<const ContactRow> rows,
