@@ -139,6 +139,16 @@ void clip_by_reference(const Hulls& hulls, const PlacedHulls& placed, const Face
   }
 }
 
+// Whether a point of the frame lies in the reference face.
+bool is_in_reference(const std::vector<Vec2>& reference, double u, double v) {
+  for (std::size_t k = 0; k < reference.size(); ++k) {
+    const Vec2& start = reference[k];
+    const Vec2 along = reference[k + 1 == reference.size() ? 0 : k + 1] - start;
+    if (along.x() * (v - start.y()) < along.y() * (u - start.x())) return false;
+  }
+  return true;
+}
+
 // Numbers from the first of the body.
 int body_part(const Hulls& hulls, int part) { return part - hulls.part_begin[hulls.body[part]]; }
 int body_vertex(const Hulls& hulls, int part, int slot) {
@@ -174,6 +184,29 @@ ContactKey key_of(const Hulls& hulls, const FacePair& pair, const ClipCorner& co
   }
   if (pair.reference_is_a) return {mode, hulls.body[inc], ref_feature, inc_feature};
   return {mode, hulls.body[ref], inc_feature, ref_feature};
+}
+
+// Vertices beside the incident face that are in behind the reference face: a long body with many
+// faces may lean on it with both of its ends, which no face of its has in common. Borne by one end
+// in turn with the other, it would sink in.
+void add_vertices_behind(const Hulls& hulls, const PlacedHulls& placed, const FacePair& pair,
+                         const Frame& frame, const std::vector<Vec2>& reference,
+                         std::vector<HeldPoint>& held) {
+  const int part = pair.incident_part, n = n_corners(hulls, pair.incident_face);
+  const Vec3& normal = normal_at(placed, pair.reference_face);
+  for (int slot = hulls.vertex_begin[part]; slot < hulls.vertex_begin[part + 1]; ++slot) {
+    const Vec3 from = placed.vertices[slot] - frame.origin;
+    if (normal.dot(from) >= 0) continue;
+    bool of_face = false;
+    for (int i = 0; i < n; ++i) of_face |= corner_slot(hulls, part, pair.incident_face, i) == slot;
+    if (of_face || !is_in_reference(reference, frame.u.dot(from), frame.v.dot(from))) continue;
+    const int vertex = body_vertex(hulls, part, slot), face = body_part(hulls, pair.reference_part);
+    held.push_back(
+        {pair.reference_is_a
+             ? ContactKey{ContactMode::face_vertex, hulls.body[part], face, vertex}
+             : ContactKey{ContactMode::vertex_face, hulls.body[pair.reference_part], vertex, face},
+         0});
+  }
 }
 
 // Area of the polygon, and into `held` what belongs to each corner: half of the two triangles that
@@ -402,7 +435,9 @@ double find_features(const Hulls& hulls, const PlacedHulls& placed, int part_a, 
   clip_by_reference(hulls, placed, pair, frame, on_side, scratch);
   const std::size_t begin = held.size();
   for (const ClipCorner& corner : scratch.polygon) held.push_back({key_of(hulls, pair, corner), 0});
-  return with_areas ? share_area(scratch.polygon, held.data() + begin) : 0;
+  const double area = with_areas ? share_area(scratch.polygon, held.data() + begin) : 0;
+  add_vertices_behind(hulls, placed, pair, frame, scratch.reference, held);
+  return area;
 }
 
 double deepest_gap(const Hulls& hulls, const PlacedHulls& placed, int part_a, int part_b,
