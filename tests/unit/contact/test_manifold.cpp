@@ -292,6 +292,51 @@ TEST(Manifold, LargeBlockOnSmallCubeTouchesTheWholeCube) {
   }
 }
 
+// A rock that is in behind a wide face bears with every vertex that is, whichever of its faces it
+// lies on and whichever of the two bodies comes first.
+TEST(Manifold, EveryVertexBehindAWideFaceBears) {
+  Random random(27);
+  int n_beside = 0;  // not corners of the incident face
+  for (int run = 0; run < 200; ++run) {
+    const bool rock_first = run % 2;
+    const Polyhedron rock = convex_body(random, Vec3(1.5, 0.2, 0.2), 12);
+    const Polyhedron table = box(Vec3(-9, -9, -9), Vec3(9, 9, 0));
+    const Pose pose{Vec3::Zero(), attitude(random)};
+    Bodies bodies;
+    add(bodies, rock_first ? rock : table, rock_first ? pose : Pose{});
+    add(bodies, rock_first ? table : rock, rock_first ? Pose{} : pose);
+    place(bodies);
+    const int part = rock_first ? 0 : 1, first = bodies.hulls.vertex_begin[part];
+    const auto height = [&](int v) { return bodies.placed.vertices[first + v].z(); };
+    double lowest = height(0);
+    for (int v = 1; v < n_vertices(bodies.hulls, part); ++v) lowest = std::min(lowest, height(v));
+    bodies.poses[part].position.z() = -lowest - 0.03;
+    place(bodies);
+    const Manifold m = contact(bodies, 0);
+    ASSERT_EQ(m.choice.axis.kind, rock_first ? AxisKind::face_b : AxisKind::face_a);
+    const auto mode = rock_first ? ContactMode::vertex_face : ContactMode::face_vertex;
+    std::map<int, double> gaps;
+    for (const PairPoint& p : m.points) {
+      EXPECT_EQ(p.key.mode, mode);
+      EXPECT_TRUE(gaps.emplace(rock_first ? p.key.feature_a : p.key.feature_b, p.gap).second);
+    }
+    std::size_t n_behind = 0;
+    for (int v = 0; v < n_vertices(bodies.hulls, part); ++v) {
+      if (height(v) >= 0) continue;
+      ++n_behind;
+      ASSERT_EQ(gaps.count(v), 1u) << run;
+      EXPECT_NEAR(gaps[v], height(v), 1e-12);
+    }
+    EXPECT_EQ(gaps.size(), n_behind);
+    const int face = bodies.hulls.face_begin[part] + m.incident;
+    for (const auto& [v, gap] : gaps)
+      n_beside += std::count(bodies.hulls.loop_vertices.begin() + bodies.hulls.loop_begin[face],
+                             bodies.hulls.loop_vertices.begin() + bodies.hulls.loop_begin[face + 1],
+                             v) == 0;
+  }
+  EXPECT_GT(n_beside, 20);
+}
+
 // A block on a bench whose top is bent by 0.2 degrees, moved over from the other side of the bend:
 // the face that it pressed on before is in nearly the same direction, but no longer below it.
 TEST(Manifold, FaceOnTheOtherSideOfASlightBendTakesOver) {

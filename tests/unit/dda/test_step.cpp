@@ -12,6 +12,7 @@
 #include "dda/step.hpp"
 #include "dda/substep.hpp"
 #include "unit/contact/depth_below_ground.hpp"
+#include "unit/contact/ground_overlap.hpp"
 #include "verify/cases.hpp"
 #include "verify/closed_form.hpp"
 
@@ -414,6 +415,50 @@ TEST(Step, DeepPenetrationIsFlagged) {
     for (int i = 0; i < 1000; ++i) flags = flags | step(scene, state, work).flags;
     EXPECT_EQ(has(flags, StepFlag::deep), is_deep) << depth;
   }
+}
+
+// Slabs and rods that tumble down ground of ridges and valleys: within a step a corner or an edge
+// may go through a ridge, or slide into a valley. None is deep in the ground, neither by the
+// contacts nor by the overlap of the two surfaces.
+TEST(Step, ThinBlocksThatTumbleOverRidgesAreNotDeepInThem) {
+  Random random(7, "ridges");
+  const auto rough = [](double x, double y) {
+    return -x + 2.5 * std::sin(12.9898 * x) * std::cos(78.233 * y);
+  };
+  std::vector<Body> bodies;
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3 half = i % 2 ? Vec3(1, 0.75, 0.15) : Vec3(1.5, 0.2, 0.2);
+    const double x = random.uniform(-140, -60), y = random.uniform(-60, 60);
+    const auto number = [&] { return random.uniform(-1, 1); };
+    const Quat attitude = Quat(number(), number(), number(), number()).normalized();
+    Body body = body_of(
+        moved(box(-half, half), attitude.toRotationMatrix(), Vec3::Zero(), Vec3(x, y, 8 - x)),
+        Vec3(random.uniform(5, 25), random.uniform(-5, 5), random.uniform(-10, 0)));
+    body.spin = random.uniform(0, 15) * Vec3(number(), number(), number()).normalized();
+    bodies.push_back(body);
+  }
+  Settings settings;
+  settings.block_contacts = false;
+  const Scene scene = scene_of(make_trn(rough, 5, 150), ground_of(30, 0.5), bodies, settings);
+  State state = start(scene);
+  Work work = make_work(scene);
+  int n_deep = 0, n_steps = 0;
+  double deepest = 0;
+  while (state.time < 4) {
+    n_deep += has(step(scene, state, work).flags, StepFlag::deep);
+    if (++n_steps % 10 != 0) continue;
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+      if (state.phase[b] == Phase::flight) continue;
+      const Pose& pose = state.motion[b].pose;
+      const auto corners = vertices_of(scene.blocks.shapes, static_cast<int>(b));
+      Polyhedron shape = bodies[b].parts[0];
+      for (std::size_t v = 0; v < corners.size(); ++v)
+        shape.vertices[v] = pose.position + pose.attitude * corners[v];
+      deepest = std::max(deepest, test::vertical_overlap(scene.ground.trn, shape).height);
+    }
+  }
+  EXPECT_EQ(n_deep, 0);
+  EXPECT_LT(deepest, 0.01);
 }
 
 // Bonded face on a slope: fails where rho g h sin(th) = tan(phi) rho g h cos(th) + c.
