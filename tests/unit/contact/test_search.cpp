@@ -85,6 +85,37 @@ std::vector<double> touched_at(const Ground& ground, double half_length, double 
   return places;
 }
 
+// A corner that slides into a valley, pressed in by more than the margin on the side that it comes
+// from, touches the other side before it is over it: sought without a margin, it is found there
+// too.
+TEST(FindContacts, AVertexPressedInBesideAValleyTouchesItsOtherSide) {
+  Trn trn;
+  trn.n_rows = trn.n_cols = 9;
+  trn.cell_size = 0.5;
+  trn.node0 = Vec2(-2, 2);
+  for (int node = 0; node < 81; ++node) trn.elevation.push_back(std::abs(-1 + 0.25 * (node % 9)));
+  const Ground valley = make_ground(trn, {});
+  const Polyhedron body = box(Vec3(-0.5, -0.3, 0), Vec3(0.5, 0.3, 1));
+  Shapes shapes;
+  add_shape(shapes, std::span(&body, 1), body, Vec3::Zero(), Mat3::Identity(), face_internal);
+  // on its edge along y, 1e-5 m below the left side and touching the plane of the right one
+  const double pressed = 1e-5, beside = -pressed * std::sqrt(1.25);
+  const Quat turned(Eigen::AngleAxisd(0.8, Vec3::UnitY()));
+  const Vec3 corner = turned * Vec3(0.5, 0.3, 0);
+  const Pose pose{Vec3(beside, 0.1, beside / 2) - Vec3(corner.x(), 0, corner.z()), turned};
+  std::vector<Vec3> vertices;
+  std::vector<Contact> contacts;
+  find_contacts(valley, shapes, 0, pose, Mat3::Identity(), 1e-8, vertices, contacts);
+  int n_left = 0, n_right = 0;
+  for (const Contact& c : contacts) {
+    const bool is_left = c.normal.x() > 0;
+    (is_left ? n_left : n_right) += 1;
+    EXPECT_NEAR(c.gap, is_left ? -pressed : 0, 1e-12);
+  }
+  EXPECT_EQ(n_left, 2);
+  EXPECT_EQ(n_right, 2);
+}
+
 // A face on a crest is never parallel to it by rounding. It rests on both ends, whichever is the
 // deeper one: else the two take turns from step to step and the body sinks in.
 TEST(FindContacts, AFaceRestsOnBothEndsOfACrest) {
