@@ -93,7 +93,7 @@ struct SlideOutcome {
 // reference, which is the last. Law paper with the stiffness of the paper, and with a softer one.
 std::vector<Method> slide_methods(bool full) {
   const std::vector<double> ladder =
-      full ? std::vector<double>{1e-1, 5e-2, 3e-2, 2e-2, 1e-2, 5e-3, 2e-3, 1e-3}
+      full ? std::vector<double>{1e-1, 7e-2, 5e-2, 4e-2, 3e-2, 2e-2, 1e-2, 5e-3, 2e-3, 1e-3}
            : std::vector<double>{2e-2, 1e-2};
   Method soft{"talus, k_n 1e8", {}, {1e-2, 5e-3}},
       loose{"talus, tolerance x 100", {}, {1e-2, 5e-3}};
