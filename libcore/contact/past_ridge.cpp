@@ -51,18 +51,18 @@ double depth_past_ridge(const Ground& ground, const Shapes& shapes, int b,
     const int v = contact.key.feature_a;
     const Vec3& x = vertices[static_cast<size_t>(v)];
     const GridPoint at = locate(trn, x.x(), x.y());
-    const int own = triangle_of(trn, at);
-    const TrianglePlane plane = triangle_plane(trn, own);
     for (const OwnedEdge& owned : edges_of_triangle[is_upper(at)]) {
       const int row = at.cell.row + owned.d_row, col = at.cell.col + owned.d_col;
       if (!(ground.flags[node_index(trn, row, col)] & owned.flag)) continue;
+      const int own = triangle_of(trn, at);
       const TrnEdge ridge = trn_edge(trn, row, col, owned.kind);
       const TrianglePlane other = triangle_plane(trn, ridge.left == own ? ridge.right : ridge.left);
       if (-other.normal.dot(x - other.point) <= least) continue;  // it hardly crossed the ridge
       const double height =
           height_under(shapes, b, vertices, v, node_point(trn, ridge.a.row, ridge.a.col),
                        node_point(trn, ridge.b.row, ridge.b.col));
-      deepest = std::max(deepest, height * std::min(plane.normal.z(), other.normal.z()));
+      const double cosine = std::min(triangle_plane(trn, own).normal.z(), other.normal.z());
+      deepest = std::max(deepest, height * cosine);
     }
   }
   return deepest > std::max(least, 2 * reported) ? deepest : 0;

@@ -1,11 +1,12 @@
 #!/bin/sh
 # health_over_seeds.sh ROCKS SITES SEED...: how many runs break a limit of their health, on the sites that
 # single_rocks.sh left in ROCKS and real_sites.sh in SITES. A seed is that of the rocks' shapes and
-# orientations; of the masses' friction, scattered by 2 degrees, once about the site's
-# angles and once about 18 degrees for rock and 20 for the ground, so that the masses go far and fast.
+# orientations, as the site has them, as slabs of 2 x 1.5 x 0.3 m and as rods of 3 x 0.4 x 0.4 m; of the
+# masses' friction, scattered by 2 degrees, once about the site's angles and once about 18 degrees
+# for rock and 20 for the ground, so that the masses go far and fast.
 # BIN: folder of the executables with a slash at its end.
 set -eu
-[ $# -gt 2 ] || { sed -n '2,6s/^# //p' "$0"; exit 2; }
+[ $# -gt 2 ] || { sed -n '2,7s/^# //p' "$0"; exit 2; }
 root=$(cd "$(dirname "$0")/../.." && pwd)
 rocks=$(cd "$1" && pwd) sites=$(cd "$2" && pwd)
 shift 2
@@ -21,17 +22,21 @@ run() {
   grep -h 'health:\|error:' "$work/log" | sed "s/^talus-dda: /  seed $s: /"
 }
 for site in salisbury_crags gschnitz_gar lechtal_kotcliff lechtal_kotdam; do
-  for kind in rocks mass fast; do
-    failed=0
+  for kind in rocks slabs rods mass fast; do
+    failed=0 extra=
+    case $kind in
+      slabs) extra='--set blocks.rock.size_m=[2,1.5,0.3]' ;;
+      rods) extra='--set blocks.rock.size_m=[3,0.4,0.4]' ;;
+      fast) extra=$fast ;;
+    esac
     for s in "$@"; do
-      if [ $kind = rocks ]; then
+      # shellcheck disable=SC2086
+      if [ $kind = rocks ] || [ $kind = slabs ] || [ $kind = rods ]; then
         cd "$rocks/$site"
-        "${bin}talus-blocks" site.toml --set "blocks.rock.seed=$s" --trn out/trn.tif -o "$work/blocks.h5" --overwrite --no-db -q
+        "${bin}talus-blocks" site.toml --set "blocks.rock.seed=$s" $extra --trn out/trn.tif -o "$work/blocks.h5" --overwrite --no-db -q
         run --seed 1 --trn out/bed.tif --blocks "$work/blocks.h5" --independent
       else
         cd "$root/sample_sites/$site"
-        [ $kind = fast ] && extra=$fast || extra=
-        # shellcheck disable=SC2086
         run --seed "$s" --trn "$sites/$site/bed.tif" --blocks "$sites/$site/blocks.h5" --set solver.friction_scatter_deg=2 $extra
       fi
     done
