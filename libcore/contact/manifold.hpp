@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "contact/contact.hpp"
+#include "contact/face_clip.hpp"
 #include "contact/hulls.hpp"
 #include "contact/separating_axis.hpp"
 
@@ -42,21 +43,6 @@ struct HeldPoint {
   double area = 0;  ///< [m2]
 };
 
-/// A corner of the polygon that is being clipped, in the frame of the reference face.
-struct ClipCorner {
-  double u = 0, v = 0;                          ///< [m]
-  ContactMode mode = ContactMode::vertex_face;  ///< seen from the incident part
-  int incident = -1;   ///< corner of the incident loop, or its edge (mode edge_edge)
-  int reference = -1;  ///< corner of the reference loop, or its side (mode edge_edge)
-  int next_side = 0;   ///< what leads to the next corner: incident edge i, or reference side -1 - k
-};
-
-/// Arrays that find_features fills anew; kept to spare allocation.
-struct ClipScratch {
-  std::vector<ClipCorner> polygon, clipped;
-  std::vector<Vec2> reference;  ///< corners of the reference face in its frame [m]
-};
-
 /// incident_face of the face that names a face axis; -1 for edges.
 [[nodiscard]] int incident_of(const Hulls& hulls, const PlacedHulls& placed, int part_a, int part_b,
                               const PairAxis& axis);
@@ -65,9 +51,10 @@ struct ClipScratch {
 ///
 /// A face axis clips the incident face by the sides of the reference face: its corners inside are
 /// vertex-face contacts, corners of the reference face inside are face-vertex contacts, crossings
-/// of sides edge-edge contacts. Points within 1e-6 of the smaller thickness of a side count as on
-/// it. An axis of two edges gives those edges. Returns the area of the polygon [m2]; without
-/// `with_areas` areas are zero. `incident` (counted from the part's first) is for face axes only.
+/// of sides edge-edge contacts. Other vertices of the incident part that are in behind the
+/// reference face are vertex-face contacts too, without a share of the area. An axis of two edges
+/// gives those edges. Returns the area of the polygon [m2]; without `with_areas` areas are zero.
+/// `incident` (counted from the part's first) is for face axes only.
 double find_features(const Hulls& hulls, const PlacedHulls& placed, int part_a, int part_b,
                      const PairAxis& axis, int incident, bool with_areas, ClipScratch& scratch,
                      std::vector<HeldPoint>& held);
