@@ -7,6 +7,7 @@
 #include "dda/fence.hpp"
 #include "dda/flight.hpp"
 #include "dda/rotation.hpp"
+#include "dda/settle.hpp"
 #include "dda/step_island.hpp"
 #include "dda/step_paper.hpp"
 #include "dda/step_talus.hpp"

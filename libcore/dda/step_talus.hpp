@@ -15,12 +15,4 @@ namespace talus {
 void advance_block_talus(const Scene& scene, int b, double t_end, State& state, Work& work,
                          StepReport& report);
 
-/// Lets block b, which touches the ground at rest or slides along it, down into static equilibrium;
-/// a block that topples or does not touch stays where it is.
-void settle_block(const Scene& scene, int b, State& state, Work& work);
-
-/// Bonds the faces of block b that lie on cohesive ground at rest, as settle_block does, and leaves
-/// the block where it is.
-void bond_block(const Scene& scene, int b, State& state, Work& work);
-
 }  // namespace talus

@@ -1,0 +1,139 @@
+#include "dda/settle.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "contact/search.hpp"
+#include "dda/lone_substep.hpp"
+
+namespace talus {
+namespace {
+
+using std::size_t;
+
+// Bonds of the faces that lie on the ground with all their corners when the run begins: each corner
+// holds its share of the face's area (theory 1.7). Only where the ground has cohesion or tensile
+// strength. `work.contacts` are those that touch.
+void bond_faces(const Scene& scene, int b, const Pose& pose, const Work& work,
+                std::vector<ContactMemory>& memory) {
+  constexpr double parallel = 1 - 1e-6;
+  const Shapes& shapes = scene.blocks.shapes;
+  const auto touching = [&](int vertex, const Vec3& outward) -> const Contact* {
+    for (const Contact& c : work.contacts)
+      if (c.key.mode == ContactMode::vertex_face && c.key.feature_a == vertex &&
+          c.normal.dot(outward) < -parallel)
+        return &c;
+    return nullptr;
+  };
+  const int first_part = shapes.part_begin[static_cast<size_t>(b)];
+  const int last_part = shapes.part_begin[static_cast<size_t>(b) + 1];
+  for (int f = shapes.face_begin[static_cast<size_t>(first_part)];
+       f < shapes.face_begin[static_cast<size_t>(last_part)]; ++f) {
+    const ShapeFace& face = shapes.faces[static_cast<size_t>(f)];
+    const Vec3 outward = pose.attitude * face.normal;
+    const int n = face.vertex_end - face.vertex_begin;
+    int held = 0;
+    for (int k = face.vertex_begin; k < face.vertex_end; ++k)
+      held += touching(shapes.face_vertices[static_cast<size_t>(k)], outward) != nullptr;
+    if (held < n) continue;
+    for (int k = face.vertex_begin; k < face.vertex_end; ++k) {
+      const Contact& c = *touching(shapes.face_vertices[static_cast<size_t>(k)], outward);
+      const GroundClass& ground = scene.ground.classes[static_cast<size_t>(c.ground_class)];
+      if (ground.cohesion == 0 && ground.tension == 0) continue;
+      ContactMemory bond;
+      bond.key = c.key;
+      bond.normal = c.normal;
+      bond.gap_end = c.gap;
+      bond.bond_area = face.area / n;
+      memory.push_back(bond);
+    }
+  }
+}
+
+// Whether the block touches the ground and moves neither into it nor off it.
+bool touches_at_rest(const Scene& scene, int b, const Motion& motion, Work& work) {
+  const BlockNumbers c = numbers_of(scene, b);
+  (void)find_contacts(scene.ground, scene.blocks.shapes, b, motion.pose, Mat3::Identity(),
+                      1e3 * c.touch, work.world_vertices, work.contacts);
+  const double slow = 1e-6 * motion.velocity.norm();
+  return !work.contacts.empty() &&
+         std::all_of(work.contacts.begin(), work.contacts.end(), [&](const Contact& contact) {
+           return std::abs(contact.normal.dot(motion.velocity)) <= slow;
+         });
+}
+
+// Static iteration: steps from rest, each ending at rest, until the block moves by less than
+// `still` of its radius. friction < 0: that of the ground. False when it keeps moving or the forces
+// do not converge.
+bool settle(const Scene& scene, int b, double friction, bool from_touch, double still, State& state,
+            Work& work) {
+  constexpr int most_passes = 40, first_passes = 5;  // those before the way settles down
+  constexpr double accelerates = 0.9;                // of the pass before: it comes to no end
+  BlockNumbers c = numbers_of(scene, b);
+  const double h = scene.settings.dt;
+  c.recovery_time = h / 2;  // from rest, this lands in equilibrium at once as k grows
+  Motion& motion = state.motion[static_cast<size_t>(b)];
+  StepReport report;
+  double moved_before = 0;
+  for (int pass = 0; pass < most_passes; ++pass) {
+    const Substep s = predict(scene, b, c, motion, 0, h);
+    (void)find_contacts(scene.ground, scene.blocks.shapes, b, s.free.pose, stretch_of(state, b),
+                        search_margin(c, h), work.world_vertices, work.contacts);
+    make_rows(scene, b, c, s, state, work);
+    if (work.rows.empty()) return true;
+    for (ContactRow& row : work.rows) {
+      if (friction >= 0) row.friction = friction;
+      if (from_touch && pass == 0) row.offset = 0, set_ground_law(scene, c, s, row);
+    }
+    BlockSystem<6> system = make_system<6>(scene, b, c, s, state);
+    if (!solve_contacts(system, std::span(work.rows), scene.settings.max_passes).converged)
+      return false;
+    const Solved<6> solved = solved_motion(c, s, system);
+    remember(c, s, solved, state, work, b, report);
+    const double moved = (solved.end.pose.position - motion.pose.position).norm() +
+                         c.radius * solved.end.pose.attitude.angularDistance(motion.pose.attitude);
+    motion.pose = solved.end.pose;
+    if (moved < still * c.radius + 1e-15 * motion.pose.position.norm()) return true;
+    if (pass >= first_passes && moved > accelerates * moved_before) return false;
+    moved_before = moved;
+  }
+  return false;
+}
+
+}  // namespace
+
+void bond_block(const Scene& scene, int b, State& state, Work& work) {
+  const auto i = static_cast<size_t>(b);
+  if (touches_at_rest(scene, b, state.motion[i], work))
+    bond_faces(scene, b, state.motion[i].pose, work, state.memory[i]);
+}
+
+void settle_block(const Scene& scene, int b, State& state, Work& work) {
+  const auto i = static_cast<size_t>(b);
+  const Motion rest = state.motion[i];
+  const EnergyLedger ledger = state.ledger;
+  constexpr double sticking = 57;  // tan(89 degrees)
+  constexpr double nearly_still = 1e-9, still = 1e-14;
+  if (touches_at_rest(scene, b, rest, work)) {
+    state.motion[i].velocity.setZero();
+    bond_faces(scene, b, rest.pose, work, state.memory[i]);
+    const bool sticks = settle(scene, b, sticking, true, nearly_still, state, work);
+    if (!sticks) {  // it topples: from where it is
+      state.motion[i].pose = rest.pose;
+      state.memory[i].clear();
+    } else if (!rest.velocity.isZero(0)) {  // it moves along the ground: only the overlap is kept
+      for (ContactMemory& memory : state.memory[i]) memory.shear.setZero();
+    } else {
+      const Motion stuck = state.motion[i];
+      const std::vector<ContactMemory> memory = state.memory[i];
+      if (!settle(scene, b, -1, false, still, state, work)) {  // it slides: from where it stuck
+        state.motion[i] = stuck;
+        state.memory[i] = memory;
+      }
+    }
+  }
+  state.ledger = ledger;
+  state.motion[i].velocity = rest.velocity;
+}
+
+}  // namespace talus

@@ -1,0 +1,19 @@
+// libcore/dda/settle.hpp
+// Law talus: static start of one block, and the bonds of its faces on cohesive ground.
+#pragma once
+
+#include "dda/scene.hpp"
+#include "dda/state.hpp"
+#include "dda/work.hpp"
+
+namespace talus {
+
+/// Lets block b, which touches the ground at rest or slides along it, down into static equilibrium;
+/// a block that topples or does not touch stays where it is.
+void settle_block(const Scene& scene, int b, State& state, Work& work);
+
+/// Bonds the faces of block b that lie on cohesive ground at rest, as settle_block does, and leaves
+/// the block where it is.
+void bond_block(const Scene& scene, int b, State& state, Work& work);
+
+}  // namespace talus
