@@ -107,7 +107,7 @@ void find_mode_1(const Ground& ground, const Shapes& shapes, int b, double highe
     if (!(gap < margin)) continue;  // also when the triangle is not ground
     const int id = static_cast<int>(v);
     add_plane(plane, ground, triangle_of(trn, at), b, id, body[v], x, gap, contacts);
-    const double near_cells = cells_per_gap * (margin + std::max(0.0, -gap));
+    const double near_cells = cells_per_gap * std::max(margin, -gap);
     add_valley_planes(ground, at, plane, b, id, body[v], x, margin, near_cells, contacts);
   }
 }

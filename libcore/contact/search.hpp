@@ -25,7 +25,7 @@ struct SearchResult {
 /// Replaces `contacts` by those of block b at `pose` whose gap is below `margin`.
 ///
 /// Mode 1: the plane under each vertex, and beside a valley line the plane of the other side too,
-/// within 4 margins of it and 4 depths of the vertex, so that one in a valley leans on both. Modes
+/// within 4 margins of it or 4 depths of the vertex, so that one in a valley leans on both. Modes
 /// 2 and 3: convex nodes and edges only, by the entrance tests with the normals of the true
 /// neighbours. That leaves nothing to collide with on flat or concave ground; of deep ones that
 /// another face or edge may explain better, those that nothing else found explains. `stretch` = I +
