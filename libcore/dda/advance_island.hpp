@@ -156,7 +156,7 @@ struct AdvanceIsland {
   static void hold(const GroundClass& face, double recovery_time, ContactRow& row);
   [[nodiscard]] Mobility mobility_at(size_t k, const Vec3& arm, const Vec3& normal) const;
   [[nodiscard]] Meeting meeting_of(const PairManifold& m) const;
-  void inherit_from(const PairManifold& m, const PairPoint& point, int memory,
+  bool inherit_from(const PairManifold& m, const PairPoint& point, int memory, double approach,
                     const BlockNumbers& c, ContactRow& row) const;
   void add_point(const PairManifold& m, const Meeting& meeting, const PairPoint& point, int memory);
   void add_fixed_point(const PairManifold& m, const PairPoint& point, int memory, int n_closing);

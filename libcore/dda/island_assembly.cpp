@@ -289,11 +289,23 @@ AdvanceIsland::Meeting AdvanceIsland::meeting_of(const PairManifold& m) const {
   return meeting;
 }
 
-void AdvanceIsland::inherit_from(const PairManifold& m, const PairPoint& point, int memory,
-                                 const BlockNumbers& c, ContactRow& row) const {
+// Takes over what `memory` holds; false where it is not this contact's. What comes fast is met by a
+// hit: where it is still apart, and where other features are found far deeper than those of the
+// memory were, at the other end of the block perhaps.
+bool AdvanceIsland::inherit_from(const PairManifold& m, const PairPoint& point, int memory,
+                                 double approach, const BlockNumbers& c, ContactRow& row) const {
+  constexpr double far_deeper = 1e-2;  // of the radius
+  if (memory < 0) return false;
   const ContactMemory& then =
       state.memory[static_cast<size_t>(m.block_a)][static_cast<size_t>(memory)];
-  inherit(then, memory, has_features(then.key, point.key), Mat3::Identity(), c, row);
+  const bool same_features = has_features(then.key, point.key);
+  if (approach < -c.resting_speed) {
+    if (row.gap_start > c.touch) return false;
+    if (!same_features && then.gap_end - then.offset - row.gap_start > far_deeper * c.radius)
+      return false;
+  }
+  inherit(then, memory, same_features, Mat3::Identity(), c, row);
+  return true;
 }
 
 void AdvanceIsland::add_point(const PairManifold& m, const Meeting& meeting, const PairPoint& point,
@@ -313,9 +325,7 @@ void AdvanceIsland::add_point(const PairManifold& m, const Meeting& meeting, con
   set_motion(n, point.gap, arm, drift, pa.moved - pb.moved, pa.velocity - pb.velocity, row);
 
   const double approach = approach_of(row, h);
-  if (memory >= 0 && !(row.gap_start > c.touch && approach < -c.resting_speed))
-    inherit_from(m, point, memory, c, row);
-  else
+  if (!inherit_from(m, point, memory, approach, c, row))
     take_on_load(state.memory[static_cast<size_t>(m.block_a)], m.block_b, row);
   const Mobility Wa = mobility_at(ka, arm, n), Wb = mobility_at(kb, arm_b, n);
   set_law(scene, c, h, {Wa.normal + Wb.normal, Wa.tangent + Wb.tangent}, approach, row);
@@ -353,10 +363,8 @@ void AdvanceIsland::add_fixed_point(const PairManifold& m, const PairPoint& poin
 
   const double approach = approach_of(row, s.h);
   const FencePanel* panel = giving_way(scene, m.block_b, n);
-  if (memory >= 0 &&
-      (panel != nullptr || !(row.gap_start > c.touch && approach < -c.resting_speed)))
-    inherit_from(m, point, memory, c, row);
-  else
+  // a panel that gives way is pressed for many steps
+  if (!inherit_from(m, point, memory, panel != nullptr ? 0 : approach, c, row))
     row.offset = std::max(0.0, -row.gap_start);
   set_law(scene, c, s.h, mobility_at(k, row.point, n), approach, row);
   if (panel != nullptr) row.normal_limit = panel->force * s.h / n_closing;

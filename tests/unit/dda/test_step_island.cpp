@@ -456,6 +456,35 @@ TEST(StepIsland, BlockThatIsThrownBackAfterItsHitIsNotDeepAtTheEndOfTheStep) {
   }
 }
 
+// What one end of a block pressed does not count for the other end, which comes down within a step:
+// there the memory of the pair is only the next best. A corner that is found deep and fast beside
+// it is hit, and rebounds.
+TEST(StepIsland, OtherFeaturesFoundDeepAndFastAreHitWhateverThePairRemembers) {
+  const double speed = 10, restitution = 0.5, deep = 0.05;
+  const Mat3 on_corner = Quat::FromTwoVectors(Vec3::Ones(), Vec3::UnitZ()).toRotationMatrix();
+  const Body cube = body_of(moved(box(Vec3::Constant(-0.5), Vec3::Constant(0.5)), on_corner,
+                                  Vec3::Zero(), Vec3(0, 0, 25)));
+  const Body table = body_of(box(Vec3(-10, -10, 0), Vec3(10, 10, 20)));
+  const Scene scene =
+      scene_of(plane_trn(slope_frame(0, 0), 5, 50), ground_of(30, restitution), {cube, table}, {});
+  const auto speed_after = [&](double remembered) {
+    State state = start(scene);
+    Work work = make_work(scene);
+    state.motion[0].pose.position.z() = 20 + std::sqrt(0.75) - deep;
+    state.motion[0].velocity.z() = -speed;
+    ContactMemory memory;
+    memory.key = {ContactMode::edge_edge, 1, 0, 0};  // not what touches now
+    memory.normal = Vec3::UnitZ();
+    memory.gap_end = -remembered;
+    memory.normal_force = scene.blocks.mass[0];
+    state.memory[0].push_back(memory);
+    step(scene, state, work);
+    return state.motion[0].velocity.z();
+  };
+  EXPECT_NEAR(speed_after(1e-4), restitution * speed, 0.1);
+  EXPECT_LT(speed_after(deep), 0.8 * restitution * speed);  // as deep as then: it presses on
+}
+
 TEST(StepIsland, LargeBlockRestsOnSmallOnes) { EXPECT_LT(large_on_small({}).error, 1e-3); }
 
 }  // namespace
