@@ -290,17 +290,20 @@ AdvanceIsland::Meeting AdvanceIsland::meeting_of(const PairManifold& m) const {
 }
 
 // Takes over what `memory` holds; false where it is not this contact's. What comes fast is met by a
-// hit: where it is still apart, and where other features are found far deeper than those of the
-// memory were, at the other end of the block perhaps.
+// hit: where it is still apart; where a hit left the memory; and where other features are found far
+// deeper than those of the memory were, at the other end of the block perhaps.
 bool AdvanceIsland::inherit_from(const PairManifold& m, const PairPoint& point, int memory,
                                  double approach, const BlockNumbers& c, ContactRow& row) const {
   constexpr double far_deeper = 1e-2;  // of the radius
+  constexpr double far_in = 2e-2;      // of the thickness, in a substep
   if (memory < 0) return false;
   const ContactMemory& then =
       state.memory[static_cast<size_t>(m.block_a)][static_cast<size_t>(memory)];
   const bool same_features = has_features(then.key, point.key);
   if (approach < -c.resting_speed) {
     if (row.gap_start > c.touch) return false;
+    const bool is_of_hit = then.normal_force == 0;
+    if (is_of_hit && -approach * w.substeps.front().h > far_in * c.thickness) return false;
     if (!same_features && then.gap_end - then.offset - row.gap_start > far_deeper * c.radius)
       return false;
   }

@@ -155,8 +155,11 @@ BondLoad& AdvanceIsland::load_of(const IslandContact& contact) {
   return load;
 }
 
-// What the contacts keep for the next step, and the work they did.
+// What the contacts keep for the next step, and the work they did. Hits keep nothing, but where
+// they are found deep: edges that slide on each other while they turn are hit in every step, and
+// what the turning adds to the overlap has to be pressed out.
 void AdvanceIsland::remember(double h) {
+  constexpr double remembered_hit = 1e-2;  // of the thickness
   const double relax = offset_relaxed(scene.gravity.norm(), h);
   for (const int b : w.members) state.memory[static_cast<size_t>(b)].clear();
   w.pressed.assign(w.members.size(), 0);
@@ -176,8 +179,9 @@ void AdvanceIsland::remember(double h) {
     account(r, h);
     ++report.n_closed;
     report.sum_penetration += std::max(overlap, 0.0);
-    if (contact.hit >= 0) continue;
-    if (contact.b < 0 && !gives_way(r)) w.ground_impulse[place(contact.a)] += impulse;
+    const bool was_hit = contact.hit >= 0;
+    if (was_hit && (contact.b < 0 || overlap <= remembered_hit * thickness_of(contact))) continue;
+    if (!was_hit && contact.b < 0 && !gives_way(r)) w.ground_impulse[place(contact.a)] += impulse;
     const double p_n = normal.dot(impulse);
     const Vec3 p_t = impulse - p_n * normal;
     std::vector<ContactMemory>& memories = state.memory[static_cast<size_t>(contact.a)];
@@ -187,6 +191,7 @@ void AdvanceIsland::remember(double h) {
     memory.normal = normal;
     memory.offset = contact.bond >= 0 ? contact.offset : std::max(0.0, contact.offset - relax);
     memory.gap_end = contact.gap_start + contact.offset + along - (contact.offset - memory.offset);
+    if (was_hit) continue;  // it bears nothing
     memory.normal_force = p_n / h;
     const double recovery_time = numbers(contact.a).recovery_time;
     if (contact.bond < 0 && contact.bond_area == 0)
