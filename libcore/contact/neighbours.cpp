@@ -146,6 +146,27 @@ void sort_pairs(std::size_t n_boxes, OverlapScratch& scratch,
   }
 }
 
+// Where all that moves has one owner (blocks each as if alone), it can only meet what is fixed: the
+// box around all of that. Otherwise everything.
+Box reach_of(std::span<const Box> boxes, std::span<const int> owner,
+             std::span<const std::uint8_t> fixed) {
+  constexpr double far = std::numeric_limits<double>::infinity();
+  const Box everything{Vec3::Constant(-far), Vec3::Constant(far)};
+  if (fixed.empty()) return everything;
+  Box reach{Vec3::Constant(far), Vec3::Constant(-far)};
+  int owner_of_moving = -1;
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    if (fixed[i] != 0) {
+      reach.low = reach.low.cwiseMin(boxes[i].low);
+      reach.high = reach.high.cwiseMax(boxes[i].high);
+      continue;
+    }
+    if (owner_of_moving >= 0 && owner[i] != owner_of_moving) return everything;
+    owner_of_moving = owner[i];
+  }
+  return reach;
+}
+
 }  // namespace
 
 void find_overlaps(std::span<const Box> boxes, std::span<const int> owner,
@@ -157,12 +178,17 @@ void find_overlaps(std::span<const Box> boxes, std::span<const int> owner,
   scratch.found.clear();
   if (n < 2) return;
   Grids grids = grids_for(boxes);
+  const Box reach = reach_of(boxes, owner, fixed);
+  bool any_moves = fixed.empty();
   for (int i = 0; i < n; ++i) {
     TALUS_ASSERT(boxes[i].low.allFinite() && boxes[i].high.allFinite());
+    if (!overlap(boxes[i], reach)) continue;
+    any_moves |= !fixed.empty() && fixed[i] == 0;
     const int level = level_of(grids, boxes[i]);
     grids.used |= 1u << level;
     scratch.items.push_back({pack(level, cell_index(grids, boxes[i], level)), i});
   }
+  if (!any_moves) return;
   std::sort(scratch.items.begin(), scratch.items.end(), [](const auto& p, const auto& q) {
     return p.cell != q.cell ? p.cell < q.cell : p.box < q.box;
   });

@@ -38,7 +38,8 @@ struct OverlapScratch {
 /// Leaves out pairs with owner[i] == owner[j], and pairs where both are `fixed` (empty: none is).
 /// A box of size class k (largest side in (2^(k-1), 2^k] times the smallest) lies in one cell of
 /// the grid of its class, by its centre, and looks at the 27 cells around it in its and all coarser
-/// grids. Boxes must be finite.
+/// grids. Where all boxes that are not fixed have one owner, those beside all fixed ones are not
+/// looked at. Boxes must be finite.
 void find_overlaps(std::span<const Box> boxes, std::span<const int> owner,
                    std::span<const std::uint8_t> fixed, OverlapScratch& scratch,
                    std::vector<std::array<int, 2>>& pairs);
