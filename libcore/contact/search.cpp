@@ -119,14 +119,19 @@ struct FeatureSearch {
   int b;
   const Pose& pose;
   double margin;
-  double nearly_parallel;  // sine
-  Mat3 to_local;           // body to local axes
-  Vec3 low, high;          // box of the block, local axes
-  int n_put_off = 0;       // deep overlaps that another feature may explain better
-  int n_sure = -1;         // second search, for these: the contacts found in the first
+  double nearly_parallel;          // sine
+  Mat3 to_local;                   // body to local axes
+  Vec3 low, high;                  // box of the block, local axes
+  std::span<const Vec3> vertices;  // where they are, local axes
+  double strained;                 // bound on what strains move them by [m]
+  int n_put_off = 0;               // deep overlaps that another feature may explain better
+  int n_sure = -1;                 // second search, for these: the contacts found in the first
 
   [[nodiscard]] Vec3 to_body(const Vec3& x) const {
     return to_local.transpose() * (x - pose.position);
+  }
+  [[nodiscard]] double height(int vertex) const {
+    return vertices[static_cast<size_t>(vertex)].z();
   }
 
   // Whether a contact at x is taken. A deep one in doubt is put off to the second search, and left
@@ -277,10 +282,12 @@ void find_mode_3(FeatureSearch& s, int row, int col, EdgeKind kind,
   const GaussArc ridge = gauss_arc(s.to_local.transpose() * triangle_plane(trn, edge.left).normal,
                                    s.to_local.transpose() * triangle_plane(trn, edge.right).normal);
   const double deepest = s.shapes.thickness[static_cast<size_t>(s.b)] / 2;
+  const double above = std::max(end_a.z(), end_b.z()) + s.margin + s.strained;
   const Vec3 up = s.to_local.transpose() * Vec3::UnitZ();
   const std::span<const Vec3> body = vertices_of(s.shapes, s.b);
   const std::span<const ShapeEdge> edges = edges_of(s.shapes, s.b);
   for (size_t i = 0; i < edges.size(); ++i) {
+    if (s.height(edges[i].a) > above && s.height(edges[i].b) > above) continue;
     if (!edges_may_touch(edges[i].arc, ridge, s.nearly_parallel)) continue;
     const Vec3& P = body[static_cast<size_t>(edges[i].a)];
     const Vec3 e = body[static_cast<size_t>(edges[i].b)] - P;
@@ -379,7 +386,10 @@ SearchResult find_contacts(const Ground& ground, const Shapes& shapes, int b, co
   find_mode_1(ground, shapes, b, near.ground.high, margin, vertices, contacts);
   const double nearly_parallel =
       std::clamp(margin / shapes.radius[static_cast<size_t>(b)], least_parallel, most_parallel);
-  FeatureSearch search{ground, shapes, b, pose, margin, nearly_parallel, R, low, high};
+  const double strained =
+      (stretch - Mat3::Identity()).norm() * shapes.radius[static_cast<size_t>(b)];
+  FeatureSearch search{ground, shapes, b,    pose,     margin,  nearly_parallel,
+                       R,      low,    high, vertices, strained};
   find_features(search, near.cells, contacts);
   if (search.n_put_off > 0) {
     search.n_sure = static_cast<int>(contacts.size());

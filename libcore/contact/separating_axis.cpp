@@ -91,49 +91,82 @@ void consider_edges(const Parts& parts, int e_a, int e_b, const Vec3& along_a,
   best = {separation, best.separation, best.elsewhere, e_a, e_b, normal};
 }
 
-// All pairs of active edges whose Gauss arcs cross (theory 2.2); with `inner` also those of the
-// other edges, at which a part alone ends but its body does not. Along an edge, left x right of its
-// arc points as the edge does, so the arcs' cross products are the edges' directions, and the test
-// needs only the products of edge directions with the other part's normals.
-BestEdges find_edges(const Parts& parts, const Vec3& best_face, bool inner, AxisScratch& scratch) {
+// The edges of `part` at which the parts may be farther apart than `least`, in `found`: active
+// ones, with `inner` also those at which the part alone ends but its body does not.
+//
+// The separation along a normal of an edge's arc is at most the height that any point of the other
+// part has over the plane through the edge, and where that point is behind the planes of both faces
+// it is no higher over that one than over the higher of them. The centroid of the other body tells
+// so of most edges: those on the far side. `least` <= 0, and any edge where it is not finite.
+int near_edges(const Parts& parts, int part, bool inner, double least, AxisScratch& scratch,
+               std::vector<int>& found) {
+  const Hulls& hulls = parts.hulls;
+  const PlacedHulls& placed = parts.placed;
+  const HullEdge* edges = hulls.edges.data() + hulls.edge_begin[part];
+  const int n =
+      inner ? hulls.edge_begin[part + 1] - hulls.edge_begin[part] : hulls.n_active_edges[part];
+  const int begin = hulls.face_begin[part], n_normals = hulls.face_begin[part + 1] - begin;
+  if (found.size() < static_cast<std::size_t>(n)) found.resize(n);
+  if (scratch.heights.size() < static_cast<std::size_t>(n_normals))
+    scratch.heights.resize(n_normals);
+  double* const height = scratch.heights.data();
+  normal_dots(parts, part, placed.position[hulls.body[part == parts.a ? parts.b : parts.a]],
+              height);
+  for (int f = 0; f < n_normals; f += n_lanes)
+    lanes(height + f) = lanes(height + f) - lanes(&placed.offset[begin + f]);
+  int kept = 0;  // without branches: their outcome would be a guess
+  for (int e = 0; e < n; ++e) {
+    found[kept] = e;
+    kept += std::max(height[edges[e].left], height[edges[e].right]) >= least;
+  }
+  return kept;
+}
+
+// Pairs of edges whose Gauss arcs cross (theory 2.2), of those along which the parts may be farther
+// apart than `least`; see near_edges() for `inner`. Along an edge, left x right of its arc points
+// as the edge does, so the arcs' cross products are the edges' directions, and the test needs only
+// the products of edge directions with the other part's normals.
+BestEdges find_edges(const Parts& parts, const Vec3& best_face, bool inner, double least,
+                     AxisScratch& scratch) {
   const Hulls& hulls = parts.hulls;
   const std::size_t width_a = hulls.face_begin[parts.a + 1] - hulls.face_begin[parts.a];
   const std::size_t width_b = hulls.face_begin[parts.b + 1] - hulls.face_begin[parts.b];
   const HullEdge* edges_a = hulls.edges.data() + hulls.edge_begin[parts.a];
   const HullEdge* edges_b = hulls.edges.data() + hulls.edge_begin[parts.b];
-  const auto n_edges = [&](int part) {
-    return inner ? hulls.edge_begin[part + 1] - hulls.edge_begin[part] : hulls.n_active_edges[part];
-  };
-  const int n_a = n_edges(parts.a), n_b = n_edges(parts.b);
+  const int n_a = near_edges(parts, parts.a, inner, least, scratch, scratch.edges_a);
+  const int n_b = near_edges(parts, parts.b, inner, least, scratch, scratch.edges_b);
+  const int* const near_b = scratch.edges_b.data();
   if (scratch.dots_a.size() < width_b) scratch.dots_a.resize(width_b);
   if (scratch.dots_b.size() < n_b * width_a) scratch.dots_b.resize(n_b * width_a);
   const auto most = static_cast<std::size_t>(n_b);
   if (scratch.crossing.size() < most) scratch.crossing.resize(most);
   double* const row = scratch.dots_a.data();
   int* const crossing = scratch.crossing.data();
-  for (int e = 0; e < n_b; ++e)
-    normal_dots(parts, parts.a, edge_direction(parts, parts.b, edges_b[e]),
-                scratch.dots_b.data() + e * width_a);
+  for (int k = 0; k < n_b; ++k)
+    normal_dots(parts, parts.a, edge_direction(parts, parts.b, edges_b[near_b[k]]),
+                scratch.dots_b.data() + k * width_a);
 
   BestEdges best;
   for (int i = 0; i < n_a; ++i) {
-    const Vec3 along_a = edge_direction(parts, parts.a, edges_a[i]);
+    const int e_a = scratch.edges_a[static_cast<std::size_t>(i)];
+    const Vec3 along_a = edge_direction(parts, parts.a, edges_a[e_a]);
     normal_dots(parts, parts.b, along_a, row);
-    int n = 0, n_both = 0;  // without branches: their outcome would be a guess
+    int n = 0, n_both = 0;  // without branches, as above
     for (int k = 0; k < n_b; ++k) {
+      const HullEdge& edge_b = edges_b[near_b[k]];
       crossing[n] = k;
-      n += row[edges_b[k].arc_left] * row[edges_b[k].arc_right] < 0;
+      n += row[edge_b.arc_left] * row[edge_b.arc_right] < 0;
     }
-    const int arc_left = edges_a[i].arc_left, arc_right = edges_a[i].arc_right;
+    const int arc_left = edges_a[e_a].arc_left, arc_right = edges_a[e_a].arc_right;
     for (int m = 0; m < n; ++m) {
       const int k = crossing[m];
       const double* column = scratch.dots_b.data() + k * width_a;
       const double right = column[arc_right];
       crossing[n_both] = k;
-      n_both += (column[arc_left] * right < 0) & (row[edges_b[k].arc_left] * right < 0);
+      n_both += (column[arc_left] * right < 0) & (row[edges_b[near_b[k]].arc_left] * right < 0);
     }
     for (int m = 0; m < n_both; ++m)
-      consider_edges(parts, i, crossing[m], along_a, best_face, best);
+      consider_edges(parts, e_a, near_b[crossing[m]], along_a, best_face, best);
   }
   return best;
 }
@@ -211,6 +244,14 @@ double best_other_face(const Parts& parts, const AxisScratch& scratch, const Vec
 
 double keep_bonus(const FaceAxis& last, double thickness) {
   return std::max(keep_ratio * std::abs(last.separation), face_ratio * thickness);
+}
+
+// Edges with a separation below this change nothing: they are neither chosen nor noted beside the
+// best face, of separation `face`, nor do they shorten a hold of `longest`.
+double least_edges(double face, double thickness, double longest) {
+  constexpr double ample = 2;  // what a face may be below the best one, and edges below that
+  const double bonus = std::max(keep_ratio * std::abs(face), same_axis_ratio * thickness);
+  return std::min(0.0, face - 2 * longest - 2 * ample * bonus);
 }
 
 FaceAxis last_face(const Parts& parts, const AxisScratch& scratch, const PairAxis& last) {
@@ -356,11 +397,16 @@ AxisChoice find_axis(const Hulls& hulls, const PlacedHulls& placed, int part_a, 
   const FaceAxis farthest = best_face(parts, scratch);
   AxisChoice apart = apart_choice(parts, farthest);
   if (apart.separation > margin) return apart;
-  BestEdges edges = find_edges(parts, to_a(parts, farthest), false, scratch);
+  const double thickness = std::min(hulls.thickness[part_a], hulls.thickness[part_b]);
+  const double radius =
+      std::min(hulls.radius[hulls.body[part_a]], hulls.radius[hulls.body[part_b]]);
+  const double longest = std::min(longest_hold, longest_hold_ratio * radius);
+  const bool pieces = has_pieces(hulls, part_a) || has_pieces(hulls, part_b);
+  const double least = pieces ? none : least_edges(farthest.separation, thickness, longest);
+  BestEdges edges = find_edges(parts, to_a(parts, farthest), false, least, scratch);
   if (edges.separation > margin && edges.separation > apart.separation) return apart_choice(edges);
 
   Covered covered = remove_internal(parts, scratch);
-  const double thickness = std::min(hulls.thickness[part_a], hulls.thickness[part_b]);
   const double seam = std::max(seam_ratio * thickness, margin);
   const FaceAxis best = best_face(parts, scratch);
   // what edges need above the best face: half as much when an edge pair was chosen last
@@ -368,8 +414,8 @@ AxisChoice find_axis(const Hulls& hulls, const PlacedHulls& placed, int part_a, 
   AxisChoice choice;
   double open = std::max(best.separation, edges.separation);
   const bool covered_above = std::max(covered.all, covered.part) > open;
-  if (has_pieces(hulls, part_a) || has_pieces(hulls, part_b)) {
-    const BestEdges inner = find_edges(parts, to_a(parts, farthest), true, scratch);
+  if (pieces) {
+    const BestEdges inner = find_edges(parts, to_a(parts, farthest), true, none, scratch);
     if (inner.separation > margin) return apart_choice(inner);
     if (covered_above) {
       covered.all = std::max(covered.all, inner.separation);
@@ -398,12 +444,9 @@ AxisChoice find_axis(const Hulls& hulls, const PlacedHulls& placed, int part_a, 
     return apart;
   }
   choice.touches = true;
-  const double radius =
-      std::min(hulls.radius[hulls.body[part_a]], hulls.radius[hulls.body[part_b]]);
   const double to_seam = std::min(-seam - std::max(covered.all, covered.part),
                                   (seam_share * open - covered.all) / (1 + seam_share));
-  choice.hold = std::clamp(std::min(choice.hold, to_seam), 0.0,
-                           std::min(longest_hold, longest_hold_ratio * radius));
+  choice.hold = std::clamp(std::min(choice.hold, to_seam), 0.0, longest);
   return choice;
 }
 
