@@ -286,6 +286,7 @@ AdvanceIsland::Meeting AdvanceIsland::meeting_of(const PairManifold& m) const {
   meeting.numbers.touch = pair_touch_ratio * meeting.numbers.radius;
   meeting.numbers.stiffness =
       std::max(ca.stiffness, cb.stiffness) * (ca.mass / std::min(ca.mass, cb.mass));
+  if (meeting.bond >= 0) meeting.numbers.sag = 0;
   return meeting;
 }
 

@@ -15,6 +15,8 @@ using std::size_t;
 constexpr double stiffest_in_island = 1;
 // ... and where it is small enough to be factored, so that a tower hardly sags.
 constexpr double stiffest_in_small_island = 30;
+constexpr double bears_little = 3;  // stiffness of a contact that does: times that for its own mass
+constexpr double most_sag = 2;      // under load, before it is stiffer: times that of a block alone
 constexpr size_t small_island = 8;
 constexpr size_t small_tree = 64;    // the same where blocks hang together without a ring: a column
 constexpr double most_turn = 0.5;    // in a substep [rad]
@@ -146,8 +148,11 @@ void AdvanceIsland::take_pairs(int k) {
   set_stiffness();
 }
 
-// A small block may bear a large one: its contacts are as stiff as the heaviest block that it
-// touches asks for.
+// A small block may bear a large one: its contacts are up to as stiff as the heaviest block that it
+// touches asks for, those of a large island only as far as they bear as much. Stiff ones that do
+// not press a small block with forces that are far beyond its weight as soon as they close, and
+// solving an island with many of them takes tens of factorisations. In the first step nobody knows
+// what they bear.
 void AdvanceIsland::set_stiffness() {
   see_size();
   w.bearing.clear();
@@ -159,10 +164,15 @@ void AdvanceIsland::set_stiffness() {
     a = std::max(a, numbers(m.block_b).mass);
     b = std::max(b, numbers(m.block_a).mass);
   }
-  const double dt = scene.settings.dt;
-  const double ratio = small ? stiffest_in_small_island : stiffest_in_island;
-  for (size_t k = 0; k < w.members.size(); ++k)
-    w.numbers[k].stiffness = ratio * w.bearing[k] / (dt * dt);
+  const double per_mass = (small ? stiffest_in_small_island : stiffest_in_island) /
+                          (scene.settings.dt * scene.settings.dt);
+  const bool follows_load = !small && state.time > 0;
+  for (size_t k = 0; k < w.members.size(); ++k) {
+    BlockNumbers& c = w.numbers[k];
+    c.stiffness = per_mass * w.bearing[k];
+    c.least_stiffness = bears_little * per_mass * c.mass;
+    c.sag = follows_load ? most_sag * scene.gravity.norm() / per_mass : 0;
+  }
 }
 
 // The longest substep over which the contacts found at its start still describe the motion.

@@ -33,6 +33,10 @@ constexpr double rebound_matters = 0.1;
 // Nor has one what may be wrong with the forces of an island by a looser tolerance than the
 // default: this part of what gravity does in a step.
 constexpr double least_by_tolerance = 2e-2;
+// A contact that bears more than what is stiff enough for the heaviest block that touches there:
+// the overlap, as a part of the thickness and of BlockNumbers::sag, at which it becomes stiffer
+// still.
+constexpr double most_overlap = 5e-3, far_sag = 4;
 constexpr double parallel = 1 - 1e-12, no_limit = std::numeric_limits<double>::infinity();
 
 Vec3 load_torque(const Scene& scene, int b, const Quat& attitude) {
@@ -74,6 +78,14 @@ void keep_force(double k_n, ContactRow& row) {
                                  : share * pressed_in;
   row.offset = std::max(0.0, row.offset + pressed_in - bears);
   row.shear *= share;
+}
+
+// Stiffness with which a contact bears what it bore last at an overlap of `sag` or less. It changes
+// by leaps, at which forces are kept, and seldom.
+double stiffness_to_bear(const ContactRow& row, double sag) {
+  constexpr double ample = 2, too_much = 8;
+  const double needed = row.last_force / sag, last = row.last_stiffness;
+  return last >= needed && last <= too_much * needed ? last : ample * needed;
 }
 
 // How fast the contact would close without contact forces: at the start of the substep, or on the
@@ -195,8 +207,16 @@ void set_law(const Scene& scene, const BlockNumbers& c, double h, const Mobility
              double approach, ContactRow& row) {
   const double asked = scene.settings.normal_stiffness;
   const double per_mass = c.stiffness * c.per_mass;
-  const double k_n = std::min(asked > 0 ? asked : c.stiffness, per_mass / W.normal);
-  const double k_s = std::min(scene.settings.shear_ratio * k_n, per_mass / W.tangent);
+  const double stiffest = std::min(asked > 0 ? asked : c.stiffness, per_mass / W.normal);
+  double k_n = stiffest;
+  if (c.sag > 0 && row.bond_area == 0) {
+    const double least = std::min(stiffest, c.least_stiffness * c.per_mass / W.normal);
+    k_n = std::max(std::clamp(stiffness_to_bear(row, c.sag), least, stiffest),
+                   stiffness_to_bear(row, std::max(most_overlap * c.thickness, far_sag * c.sag)));
+    if (asked > 0) k_n = std::min(k_n, asked);
+  }
+  const double k_s =
+      std::min(scene.settings.shear_ratio * k_n, k_n / stiffest * per_mass / W.tangent);
   if (const double last = row.last_stiffness;
       last > 0 && (k_n > same_law * last || last > same_law * k_n))
     keep_force(k_n, row);
