@@ -296,15 +296,13 @@ AdvanceIsland::Meeting AdvanceIsland::meeting_of(const PairManifold& m) const {
 bool AdvanceIsland::inherit_from(const PairManifold& m, const PairPoint& point, int memory,
                                  double approach, const BlockNumbers& c, ContactRow& row) const {
   constexpr double far_deeper = 1e-2;  // of the radius
-  constexpr double far_in = 2e-2;      // of the thickness, in a substep
   if (memory < 0) return false;
   const ContactMemory& then =
       state.memory[static_cast<size_t>(m.block_a)][static_cast<size_t>(memory)];
   const bool same_features = has_features(then.key, point.key);
   if (approach < -c.resting_speed) {
     if (row.gap_start > c.touch) return false;
-    const bool is_of_hit = then.normal_force == 0;
-    if (is_of_hit && -approach * w.substeps.front().h > far_in * c.thickness) return false;
+    if (comes_back_fast(then, approach, w.substeps.front().h, c)) return false;
     if (!same_features && then.gap_end - then.offset - row.gap_start > far_deeper * c.radius)
       return false;
   }

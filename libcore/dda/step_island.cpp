@@ -155,9 +155,10 @@ BondLoad& AdvanceIsland::load_of(const IslandContact& contact) {
   return load;
 }
 
-// What the contacts keep for the next step, and the work they did. Hits keep nothing, but where two
-// blocks are found deep in each other: edges that slide on each other while they turn are hit in
-// every step, and what the turning adds to the overlap has to be pressed out.
+// What the contacts keep for the next step, and the work they did. Hits keep nothing, but where
+// blocks are found deep in each other or in the ground: edges that slide on each other while they
+// turn are hit in every step, and so are splinters that large blocks drive into the ground; what
+// that adds to the overlap has to be pressed out.
 void AdvanceIsland::remember(double h) {
   constexpr double remembered_hit = 1e-2;  // of the thickness
   const double relax = offset_relaxed(scene.gravity.norm(), h);
@@ -180,8 +181,9 @@ void AdvanceIsland::remember(double h) {
     ++report.n_closed;
     report.sum_penetration += std::max(overlap, 0.0);
     const bool was_hit = contact.hit >= 0;
-    if (was_hit && (contact.b < 0 || overlap <= remembered_hit * thickness_of(contact))) continue;
-    if (contact.b < 0 && !gives_way(r)) w.ground_impulse[place(contact.a)] += impulse;
+    if (was_hit && (contact.fixed >= 0 || overlap <= remembered_hit * thickness_of(contact)))
+      continue;
+    if (!was_hit && contact.b < 0 && !gives_way(r)) w.ground_impulse[place(contact.a)] += impulse;
     const double p_n = normal.dot(impulse);
     const Vec3 p_t = impulse - p_n * normal;
     std::vector<ContactMemory>& memories = state.memory[static_cast<size_t>(contact.a)];

@@ -36,7 +36,7 @@ constexpr double least_by_tolerance = 2e-2;
 // A contact that bears more than what is stiff enough for the heaviest block that touches there:
 // the overlap, as a part of the thickness and of BlockNumbers::sag, at which it becomes stiffer
 // still.
-constexpr double most_overlap = 5e-3, far_sag = 4;
+constexpr double most_overlap = 2e-2, far_sag = 4;
 constexpr double parallel = 1 - 1e-12, no_limit = std::numeric_limits<double>::infinity();
 
 Vec3 load_torque(const Scene& scene, int b, const Quat& attitude) {
@@ -163,6 +163,12 @@ void forget_last_step(ContactRow& row) {
   row.state = ContactState::open;
 }
 
+bool comes_back_fast(const ContactMemory& memory, double approach, double h,
+                     const BlockNumbers& c) {
+  constexpr double far_in = 2e-2;  // of the thickness, in a substep
+  return memory.normal_force == 0 && memory.bond_area == 0 && -approach * h > far_in * c.thickness;
+}
+
 Mat3 stretch_of(const State& state, int b) {
   if (state.strain.empty()) return Mat3::Identity();
   return Mat3::Identity() + strain_tensor(state.strain[static_cast<size_t>(b)]);
@@ -211,8 +217,10 @@ void set_law(const Scene& scene, const BlockNumbers& c, double h, const Mobility
   double k_n = stiffest;
   if (c.sag > 0 && row.bond_area == 0) {
     const double least = std::min(stiffest, c.least_stiffness * c.per_mass / W.normal);
-    k_n = std::max(std::clamp(stiffness_to_bear(row, c.sag), least, stiffest),
-                   stiffness_to_bear(row, std::max(most_overlap * c.thickness, far_sag * c.sag)));
+    k_n = std::clamp(stiffness_to_bear(row, c.sag), least, stiffest);
+    const double far = std::max(most_overlap * c.thickness, far_sag * c.sag);
+    if (row.last_force > far * stiffest || row.last_stiffness > same_law * stiffest)
+      k_n = std::max(k_n, stiffness_to_bear(row, far));
     if (asked > 0) k_n = std::min(k_n, asked);
   }
   const double k_s =
@@ -268,7 +276,10 @@ void make_rows(const Scene& scene, int b, const BlockNumbers& c, const Substep& 
     if (i < 0) continue;
     ContactRow& row = work.rows[static_cast<size_t>(i)];
     // a plane that the contact only now runs into is met by an impact, not inherited
-    if (row.gap_start > c.touch && approach(row, s) < -c.resting_speed) continue;
+    const double speed = approach(row, s);
+    if (speed < -c.resting_speed &&
+        (row.gap_start > c.touch || comes_back_fast(memory[m], speed, s.h, c)))
+      continue;
     const ContactKey& key = work.contacts[static_cast<size_t>(i)].key;
     const bool same_features = key.mode != ContactMode::vertex_face && key == memory[m].key;
     inherit(memory[m], static_cast<int>(m), same_features, to_body, c, row);

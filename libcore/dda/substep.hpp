@@ -47,6 +47,11 @@ void forget_last_step(ContactRow& row);
 void inherit(const ContactMemory& memory, int index, bool same_features, const Mat3& to_row,
              const BlockNumbers& c, ContactRow& row);
 
+/// Whether a contact that a hit left deep in its other side, and that bears nothing, approaches so
+/// fast again that it has to be hit anew: farther in than 2 % of the thickness in a substep of `h`.
+[[nodiscard]] bool comes_back_fast(const ContactMemory& memory, double approach, double h,
+                                   const BlockNumbers& c);
+
 /// What the row of a new contact with body `body_b` takes over from those that press it already,
 /// the `memory` of A. As much of its overlap as the deepest of them is pressed in is no surprise:
 /// where corners of two faces only change places, what they bear must not be dropped. The stiffness

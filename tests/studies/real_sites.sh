@@ -1,8 +1,9 @@
 #!/bin/sh
 # real_sites.sh [RUNS [OUT [SITE...]]]: the sample sites whose data stand beside the checkout, as slides of
 # touching blocks: contours to maps and fence, RUNS seeds with friction scattered by 2 degrees, joints set
-# coarser so that a site has some 60 blocks; then each beside what its scenario expects. Results stay in
-# OUT/SITE. A run that breaks a limit of its health is evaluated all the same, and the line says so.
+# coarser so that a site has some 60 blocks, or with SPACING=own as its site file has them, 259 to 888
+# blocks; then each beside what its scenario expects. Results stay in OUT/SITE. A run that breaks a limit
+# of its health is evaluated all the same, and the line says so.
 # BIN: folder of the executables with a slash at its end. Needs python3-gdal and python3-numpy.
 set -eu
 cd "$(dirname "$0")/../.."
@@ -13,6 +14,7 @@ scenarios=../shared/data/scenarios
 [ -d "$scenarios" ] || { echo "skipped: no ../shared/data"; exit 0; }
 # coarse SITE: spacings of the sliding joints, and of the others
 coarse() {
+  [ "${SPACING:-coarse}" = own ] && return
   case $1 in
     salisbury_crags) set -- 6 8 ;;
     gschnitz_gar) set -- 12 14 ;;

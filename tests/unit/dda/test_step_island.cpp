@@ -529,6 +529,93 @@ TEST(StepIsland, WhatDeepensADeepHitIsPressedOut) {
   EXPECT_NEAR(thrown.speed(), 0.5 * 20, 0.2);  // hit
 }
 
+// Between the least stiffness and what the heaviest neighbour asks for it is twice what bears the
+// last force at `sag`, stays while that is enough and not eight times too much, and goes on beyond
+// where the overlap would be above 2 % of the thickness. Bonds keep theirs.
+TEST(StepIsland, StiffnessFollowsWhatAContactBears) {
+  const Scene scene = tower(2, 0, 30, {});
+  BlockNumbers c = numbers_of(scene, 0);
+  c.least_stiffness = c.stiffness / 100;
+  c.sag = 1e-3;
+  const auto stiffness = [&](double force, double last, double bond_area = 0) {
+    ContactRow row;
+    forget_last_step(row);
+    row.last_force = force;
+    row.last_stiffness = last;
+    row.bond_area = bond_area;
+    set_law(scene, c, scene.settings.dt, {c.per_mass, c.per_mass}, 0, row);
+    return row.normal_damping / (scene.settings.dt * c.recovery_time);
+  };
+  const double k = c.stiffness / 10, force = k * c.sag / 2;
+  EXPECT_DOUBLE_EQ(stiffness(0, 0), c.least_stiffness);
+  EXPECT_DOUBLE_EQ(stiffness(force, 0), k);
+  EXPECT_DOUBLE_EQ(stiffness(1.9 * force, k), k);
+  EXPECT_DOUBLE_EQ(stiffness(0.3 * force, k), k);
+  EXPECT_DOUBLE_EQ(stiffness(2.1 * force, k), 2.1 * k);
+  EXPECT_DOUBLE_EQ(stiffness(0.2 * force, k), 0.2 * k);
+  EXPECT_DOUBLE_EQ(stiffness(100 * force, k), c.stiffness);
+  const double far = 0.02 * c.thickness, crushing = 10 * c.stiffness * far;
+  EXPECT_DOUBLE_EQ(stiffness(crushing, c.stiffness), 20 * c.stiffness);
+  EXPECT_DOUBLE_EQ(stiffness(crushing, c.stiffness, 1), c.stiffness);
+  c.sag = 0;
+  EXPECT_DOUBLE_EQ(stiffness(force, k), c.stiffness);
+}
+
+/// A cube with its corner in the ground, and a block on it: an island.
+struct CornerInGround {
+  explicit CornerInGround(double deep, double speed)
+      : scene(scene_of(
+            plane_trn(slope_frame(0, 0), 5, 50), ground_of(30, 0.5),
+            {body_of(moved(box(Vec3::Constant(-0.5), Vec3::Constant(0.5)),
+                           Quat::FromTwoVectors(Vec3::Ones(), Vec3::UnitZ()).toRotationMatrix(),
+                           Vec3::Zero(), Vec3(0, 0, 2))),
+             body_of(box(Vec3(-0.5, -0.5, 5), Vec3(0.5, 0.5, 6)))},
+            {})),
+        state(start(scene)),
+        work(make_work(scene)) {
+    place(deep, speed);
+  }
+  void place(double deep, double speed) {
+    state.motion[0].pose.position.z() = std::sqrt(0.75) - deep;
+    state.motion[1].pose.position.z() = 2 * std::sqrt(0.75) - deep + 0.5;
+    for (Motion& m : state.motion) m.velocity.z() = -speed;
+  }
+  [[nodiscard]] double depth() const { return std::sqrt(0.75) - state.motion[0].pose.position.z(); }
+  [[nodiscard]] const ContactMemory* of_ground() const {
+    for (const ContactMemory& memory : state.memory[0])
+      if (memory.key.body_b < 0) return &memory;
+    return nullptr;
+  }
+  void go() { step(scene, state, work); }
+
+  Scene scene;
+  State state;
+  Work work;
+};
+
+// So is a hit with the ground, of a block that others drive into it.
+TEST(StepIsland, WhatDeepensADeepHitWithTheGroundIsPressedOut) {
+  const double deep = 0.05;
+  CornerInGround shallow(1e-3, 1), corner(deep, 1);
+  shallow.go();
+  EXPECT_EQ(shallow.of_ground(), nullptr);
+  corner.go();
+  ASSERT_NE(corner.of_ground(), nullptr);
+  EXPECT_NEAR(corner.of_ground()->offset, deep, 1e-3);
+  CornerInGround forgotten = corner, thrown = corner;
+  for (int i = 0; i < 60; ++i)
+    for (CornerInGround* c : {&corner, &forgotten}) {
+      if (c == &forgotten) c->state.memory[0].clear();
+      c->place(c->depth() + 1.5e-3, 0.3);
+      c->go();
+    }
+  EXPECT_LT(corner.depth(), 0.06);
+  EXPECT_GT(forgotten.depth(), 0.08);
+  thrown.place(0.052, 20);
+  thrown.go();
+  EXPECT_GT(thrown.state.motion[0].velocity.z(), 5);  // hit
+}
+
 TEST(StepIsland, LargeBlockRestsOnSmallOnes) { EXPECT_LT(large_on_small({}).error, 1e-3); }
 
 }  // namespace
