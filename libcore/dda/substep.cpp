@@ -88,6 +88,17 @@ double stiffness_to_bear(const ContactRow& row, double sag) {
   return last >= needed && last <= too_much * needed ? last : ample * needed;
 }
 
+// From `least` for what bears little up to `stiffest`; beyond, where even that lets the overlap
+// grow far.
+double stiffness_by_load(const BlockNumbers& c, double least, double stiffest,
+                         const ContactRow& row) {
+  const double k = std::clamp(stiffness_to_bear(row, c.sag), std::min(least, stiffest), stiffest);
+  const double far = std::max(most_overlap * c.thickness, far_sag * c.sag);
+  const bool is_beyond =
+      row.last_force > far * stiffest || row.last_stiffness > same_law * stiffest;
+  return is_beyond ? std::max(k, stiffness_to_bear(row, far)) : k;
+}
+
 // How fast the contact would close without contact forces: at the start of the substep, or on the
 // mean over it where the spin turns the point round.
 double approach(const ContactRow& row, const Substep& s) {
@@ -216,11 +227,7 @@ void set_law(const Scene& scene, const BlockNumbers& c, double h, const Mobility
   const double stiffest = std::min(asked > 0 ? asked : c.stiffness, per_mass / W.normal);
   double k_n = stiffest;
   if (c.sag > 0 && row.bond_area == 0) {
-    const double least = std::min(stiffest, c.least_stiffness * c.per_mass / W.normal);
-    k_n = std::clamp(stiffness_to_bear(row, c.sag), least, stiffest);
-    const double far = std::max(most_overlap * c.thickness, far_sag * c.sag);
-    if (row.last_force > far * stiffest || row.last_stiffness > same_law * stiffest)
-      k_n = std::max(k_n, stiffness_to_bear(row, far));
+    k_n = stiffness_by_load(c, c.least_stiffness * c.per_mass / W.normal, stiffest, row);
     if (asked > 0) k_n = std::min(k_n, asked);
   }
   const double k_s =

@@ -456,16 +456,19 @@ TEST(StepIsland, BlockThatIsThrownBackAfterItsHitIsNotDeepAtTheEndOfTheStep) {
   }
 }
 
+// A cube of 1 m with a diagonal upright, its centre at height `z`.
+Body cube_on_a_corner(double z) {
+  const Mat3 turn = Quat::FromTwoVectors(Vec3::Ones(), Vec3::UnitZ()).toRotationMatrix();
+  return body_of(
+      moved(box(Vec3::Constant(-0.5), Vec3::Constant(0.5)), turn, Vec3::Zero(), Vec3(0, 0, z)));
+}
+
 // A cube of 1 m that stands with one corner `deep` in a table and moves down.
 struct CornerInTable {
   explicit CornerInTable(double deep, double speed)
-      : scene(scene_of(
-            plane_trn(slope_frame(0, 0), 5, 50), ground_of(30, 0.5),
-            {body_of(moved(box(Vec3::Constant(-0.5), Vec3::Constant(0.5)),
-                           Quat::FromTwoVectors(Vec3::Ones(), Vec3::UnitZ()).toRotationMatrix(),
-                           Vec3::Zero(), Vec3(0, 0, 25))),
-             body_of(box(Vec3(-10, -10, 0), Vec3(10, 10, 20)))},
-            {})),
+      : scene(scene_of(plane_trn(slope_frame(0, 0), 5, 50), ground_of(30, 0.5),
+                       {cube_on_a_corner(25), body_of(box(Vec3(-10, -10, 0), Vec3(10, 10, 20)))},
+                       {})),
         state(start(scene)),
         work(make_work(scene)) {
     place(deep, speed);
@@ -564,13 +567,9 @@ TEST(StepIsland, StiffnessFollowsWhatAContactBears) {
 /// A cube with its corner in the ground, and a block on it: an island.
 struct CornerInGround {
   explicit CornerInGround(double deep, double speed)
-      : scene(scene_of(
-            plane_trn(slope_frame(0, 0), 5, 50), ground_of(30, 0.5),
-            {body_of(moved(box(Vec3::Constant(-0.5), Vec3::Constant(0.5)),
-                           Quat::FromTwoVectors(Vec3::Ones(), Vec3::UnitZ()).toRotationMatrix(),
-                           Vec3::Zero(), Vec3(0, 0, 2))),
-             body_of(box(Vec3(-0.5, -0.5, 5), Vec3(0.5, 0.5, 6)))},
-            {})),
+      : scene(scene_of(plane_trn(slope_frame(0, 0), 5, 50), ground_of(30, 0.5),
+                       {cube_on_a_corner(2), body_of(box(Vec3(-0.5, -0.5, 5), Vec3(0.5, 0.5, 6)))},
+                       {})),
         state(start(scene)),
         work(make_work(scene)) {
     place(deep, speed);
