@@ -81,7 +81,7 @@ void keep_force(double k_n, ContactRow& row) {
 }
 
 // Stiffness with which a contact bears what it bore last at an overlap of `sag` or less. It changes
-// by leaps, at which forces are kept, and seldom.
+// by leaps, so that keep_force() sees them, and seldom.
 double stiffness_to_bear(const ContactRow& row, double sag) {
   constexpr double ample = 2, too_much = 8;
   const double needed = row.last_force / sag, last = row.last_stiffness;

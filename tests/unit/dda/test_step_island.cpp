@@ -463,14 +463,23 @@ Body cube_on_a_corner(double z) {
       moved(box(Vec3::Constant(-0.5), Vec3::Constant(0.5)), turn, Vec3::Zero(), Vec3(0, 0, z)));
 }
 
-// A cube of 1 m that stands with one corner `deep` in a table and moves down.
-struct CornerInTable {
-  explicit CornerInTable(double deep, double speed)
-      : scene(scene_of(plane_trn(slope_frame(0, 0), 5, 50), ground_of(30, 0.5),
-                       {cube_on_a_corner(25), body_of(box(Vec3(-10, -10, 0), Vec3(10, 10, 20)))},
-                       {})),
+// Blocks on level ground, and what steps them.
+struct OnLevelGround {
+  explicit OnLevelGround(const std::vector<Body>& bodies)
+      : scene(scene_of(plane_trn(slope_frame(0, 0), 5, 50), ground_of(30, 0.5), bodies, {})),
         state(start(scene)),
-        work(make_work(scene)) {
+        work(make_work(scene)) {}
+  void go() { step(scene, state, work); }
+
+  Scene scene;
+  State state;
+  Work work;
+};
+
+// A cube of 1 m that stands with one corner `deep` in a table and moves down.
+struct CornerInTable : OnLevelGround {
+  explicit CornerInTable(double deep, double speed)
+      : OnLevelGround({cube_on_a_corner(25), body_of(box(Vec3(-10, -10, 0), Vec3(10, 10, 20)))}) {
     place(deep, speed);
   }
   void place(double deep, double speed) {
@@ -481,11 +490,6 @@ struct CornerInTable {
     return 20 + std::sqrt(0.75) - state.motion[0].pose.position.z();
   }
   [[nodiscard]] double speed() const { return state.motion[0].velocity.z(); }
-  void go() { step(scene, state, work); }
-
-  Scene scene;
-  State state;
-  Work work;
 };
 
 // What one end of a block pressed does not count for the other end, which comes down within a step:
@@ -565,13 +569,9 @@ TEST(StepIsland, StiffnessFollowsWhatAContactBears) {
 }
 
 /// A cube with its corner in the ground, and a block on it: an island.
-struct CornerInGround {
+struct CornerInGround : OnLevelGround {
   explicit CornerInGround(double deep, double speed)
-      : scene(scene_of(plane_trn(slope_frame(0, 0), 5, 50), ground_of(30, 0.5),
-                       {cube_on_a_corner(2), body_of(box(Vec3(-0.5, -0.5, 5), Vec3(0.5, 0.5, 6)))},
-                       {})),
-        state(start(scene)),
-        work(make_work(scene)) {
+      : OnLevelGround({cube_on_a_corner(2), body_of(box(Vec3(-0.5, -0.5, 5), Vec3(0.5, 0.5, 6)))}) {
     place(deep, speed);
   }
   void place(double deep, double speed) {
@@ -585,11 +585,6 @@ struct CornerInGround {
       if (memory.key.body_b < 0) return &memory;
     return nullptr;
   }
-  void go() { step(scene, state, work); }
-
-  Scene scene;
-  State state;
-  Work work;
 };
 
 // So is a hit with the ground, of a block that others drive into it.
