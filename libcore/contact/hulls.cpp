@@ -123,11 +123,29 @@ bool has_normal(const std::vector<const DraftFace*>& faces, const Vec3& normal) 
   });
 }
 
+// Whether another part of the body has a face at `point`.
+bool is_shared(const std::vector<DraftPart>& parts, const DraftPart& own, const Vec3& point,
+               double same) {
+  return std::any_of(parts.begin(), parts.end(), [&](const DraftPart& part) {
+    return &part != &own &&
+           std::any_of(part.faces.begin(), part.faces.end(),
+                       [&](const DraftFace& face) { return contains(face, point, same); });
+  });
+}
+
 // The two surface normals of the body at the middle of a part's edge, in the order that turns about
-// the edge; no normals where the surface is flat, concave or hidden there.
-std::vector<Vec3> surface_arc(const std::vector<DraftPart>& parts, const Vec3& a, const Vec3& b,
-                              double same) {
+// the edge; no normals where the surface is flat, concave or hidden there. Where no other part is,
+// they are those of the part's own faces, however narrow these are.
+std::vector<Vec3> surface_arc(const std::vector<DraftPart>& parts, const DraftPart& own,
+                              const PolyhedronEdge& edge, double same) {
+  const Vec3 &a = own.vertices[edge.a], &b = own.vertices[edge.b];
   const Vec3 middle = (a + b) / 2, along = (b - a).normalized();
+  if (!is_shared(parts, own, middle, same)) {
+    const DraftFace &left = own.faces[edge.left], &right = own.faces[edge.right];
+    if (left.internal || right.internal || (left.normal - right.normal).norm() < flat_angle)
+      return {};
+    return {left.normal, right.normal};
+  }
   std::vector<const DraftFace*> found;
   for (const DraftPart& part : parts)
     for (const DraftFace& face : part.faces)
@@ -210,7 +228,7 @@ void add_part(Hulls& hulls, const std::vector<DraftPart>& parts, const DraftPart
   };
   std::vector<Arc> arcs;
   for (const PolyhedronEdge& edge : part.edges)
-    arcs.push_back({&edge, surface_arc(parts, part.vertices[edge.a], part.vertices[edge.b], same)});
+    arcs.push_back({&edge, surface_arc(parts, part, edge, same)});
   const auto middle = std::stable_partition(arcs.begin(), arcs.end(),
                                             [](const Arc& arc) { return !arc.normals.empty(); });
   std::map<std::pair<int, int>, int> edge_of;

@@ -39,6 +39,13 @@ inline Polyhedron convex_body(Random& random, const Vec3& half, int n_cuts) {
   return body;
 }
 
+/// A box whose lower edge along x is cut off by a face 0.04 mm wide.
+inline Polyhedron box_with_sliver(const Vec3& half) {
+  const Vec3 n = Vec3(0, 1, -1).normalized();
+  const double width = 4e-5;
+  return clip_convex(box(-half, half), {n, n.cwiseAbs().dot(half) - width / 2}, 0, 1e-9);
+}
+
 /// Hulls and poses of a few bodies, each of one part about its own origin.
 struct Bodies {
   Hulls hulls;

@@ -92,6 +92,15 @@ TEST(Hulls, TurningBoundsTheMotionOfEveryVertex) {
   }
 }
 
+// However narrow a face is, the edges on both sides of it are edges of the body: no tolerance of
+// lengths decides.
+TEST(Hulls, EdgesBesideASliverFaceAreActive) {
+  Bodies bodies;
+  add(bodies, box_with_sliver(Vec3(1, 2, 3)), {});
+  EXPECT_EQ(bodies.hulls.n_faces[0], 7);
+  EXPECT_EQ(bodies.hulls.n_active_edges[0], 15);
+}
+
 // Two boxes side by side: the faces between them are inside the body, the edges around the seam
 // flat.
 TEST(Hulls, SeamBetweenFlushPartsIsInactive) {

@@ -381,6 +381,49 @@ TEST(Manifold, EdgesNearlyAlongAFaceBearWhereTheyEndToo) {
   EXPECT_NEAR(gaps[ContactMode::face_vertex], -depth + 0.5 * std::sin(lean), 1e-9);
 }
 
+// Bars that cross on edges, of which one is cut off by a sliver of a face: they meet where they
+// would without it.
+TEST(Manifold, EdgesBesideASliverFaceMeet) {
+  const double deep = 5e-3, up = std::sqrt(0.5), lean = 0.4;
+  const Quat on_edge_x(Eigen::AngleAxisd(lean - std::numbers::pi / 4, Vec3::UnitX()));
+  const Quat on_edge_y(Eigen::AngleAxisd(std::numbers::pi / 4, Vec3::UnitY()));
+  Bodies bodies;
+  add(bodies, box_with_sliver(Vec3(3, 0.5, 0.5)),
+      {Vec3(0, 0, up * std::cos(lean) + up - deep), on_edge_x});
+  add(bodies, box(Vec3(-0.5, -3, -0.5), Vec3(0.5, 3, 0.5)), {Vec3::Zero(), on_edge_y});
+  place(bodies);
+  const Manifold m = contact(bodies, 0.02);
+  ASSERT_TRUE(m.choice.touches);
+  ASSERT_FALSE(m.points.empty());
+  EXPECT_NEAR(m.choice.normal.z(), 1, 1e-3);
+  for (const PairPoint& point : m.points) EXPECT_NEAR(point.gap, -deep, 1e-4);
+}
+
+// Whatever the shapes and poses: where parts overlap along all axes by more than a fiftieth of the
+// thickness, there is a contact that is in.
+TEST(Manifold, PartsThatOverlapHaveAContact) {
+  Random random(5);
+  int n_overlapping = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const auto half = [&] {
+      return Vec3(uniform(random, 0.1, 1), uniform(random, 0.1, 1), uniform(random, 0.1, 1));
+    };
+    Bodies bodies;
+    add(bodies, convex_body(random, half(), 5), {Vec3::Zero(), attitude(random)});
+    add(bodies, convex_body(random, half(), 5),
+        {uniform(random, 0.3, 1.5) * direction(random), attitude(random)});
+    place(bodies);
+    const Manifold m = contact(bodies, 0.02);
+    const double thickness = std::min(bodies.hulls.thickness[0], bodies.hulls.thickness[1]);
+    if (!m.choice.touches || m.choice.separation > -0.02 * thickness) continue;
+    ++n_overlapping;
+    const bool is_in = std::any_of(m.points.begin(), m.points.end(),
+                                   [](const PairPoint& point) { return point.gap < 0; });
+    EXPECT_TRUE(is_in) << i << " separation " << m.choice.separation;
+  }
+  EXPECT_GT(n_overlapping, 3000);
+}
+
 // The gap and the place of held features stay exact while the bodies move.
 RC_GTEST_PROP(Manifold, HeldFeaturesFollowTheBodiesExactly, ()) {
   Random random(*rc::gen::arbitrary<std::uint64_t>());
