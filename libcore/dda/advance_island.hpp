@@ -213,6 +213,7 @@ struct AdvanceIsland {
   [[nodiscard]] const GroundClass& bond_class(const IslandContact& contact) const;
   void break_bond(int bond);
   BondLoad& load_of(const IslandContact& contact);
+  [[nodiscard]] double share_pressed_out(const IslandContact& contact, double normal_force) const;
   void remember(double h);
   [[nodiscard]] Motion end_of(size_t k) const;
   [[nodiscard]] bool foresaw(size_t k, const Contact& contact, double least) const;

@@ -155,6 +155,19 @@ BondLoad& AdvanceIsland::load_of(const IslandContact& contact) {
   return load;
 }
 
+// Share of offset_relaxed() by which an overlap is pressed out. That is a speed, whatever it takes:
+// between blocks that are jammed the forces would grow without bound, and throw out what they hold.
+// So nothing is pressed out against several times the weight of the lighter block, unless it is
+// deep: health allows a tenth of the thickness.
+double AdvanceIsland::share_pressed_out(const IslandContact& contact, double normal_force) const {
+  constexpr double heavy = 3, most_overlap = 0.05;
+  double mass = numbers(contact.a).mass;
+  if (contact.b >= 0) mass = std::min(mass, numbers(contact.b).mass);
+  const double by_load = 2 - normal_force / (heavy * mass * scene.gravity.norm());
+  const double by_depth = contact.offset / (most_overlap * thickness_of(contact)) - 1;
+  return std::clamp(std::max(by_load, by_depth), 0.0, 1.0);
+}
+
 // What the contacts keep for the next step, and the work they did. Hits keep nothing, but where
 // blocks are found deep in each other or in the ground: edges that slide on each other while they
 // turn are hit in every step, and so are splinters that large blocks drive into the ground; what
@@ -191,7 +204,9 @@ void AdvanceIsland::remember(double h) {
     ContactMemory& memory = memories.emplace_back();
     memory.key = contact.key;
     memory.normal = normal;
-    memory.offset = contact.bond >= 0 ? contact.offset : std::max(0.0, contact.offset - relax);
+    const double pressed_out = (was_hit ? 1 : share_pressed_out(contact, p_n / h)) * relax;
+    memory.offset =
+        contact.bond >= 0 ? contact.offset : std::max(0.0, contact.offset - pressed_out);
     memory.gap_end = contact.gap_start + contact.offset + along - (contact.offset - memory.offset);
     if (was_hit) continue;  // it bears nothing
     memory.normal_force = p_n / h;

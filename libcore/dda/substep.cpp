@@ -226,7 +226,8 @@ void set_law(const Scene& scene, const BlockNumbers& c, double h, const Mobility
   const double per_mass = c.stiffness * c.per_mass;
   const double stiffest = std::min(asked > 0 ? asked : c.stiffness, per_mass / W.normal);
   double k_n = stiffest;
-  if (c.sag > 0 && row.bond_area == 0) {
+  const bool was_hit = row.memory >= 0 && row.last_stiffness == 0;  // nobody knows what it bears
+  if (c.sag > 0 && row.bond_area == 0 && !was_hit) {
     k_n = stiffness_by_load(c, c.least_stiffness * c.per_mass / W.normal, stiffest, row);
     if (asked > 0) k_n = std::min(k_n, asked);
   }
