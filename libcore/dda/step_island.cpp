@@ -163,7 +163,8 @@ double AdvanceIsland::share_pressed_out(const IslandContact& contact, double nor
   constexpr double heavy = 3, most_overlap = 0.05;
   double mass = numbers(contact.a).mass;
   if (contact.b >= 0) mass = std::min(mass, numbers(contact.b).mass);
-  const double by_load = 2 - normal_force / (heavy * mass * scene.gravity.norm());
+  const double weight = mass * scene.gravity.norm();
+  const double by_load = weight > 0 ? 2 - normal_force / (heavy * weight) : 0;
   const double by_depth = contact.offset / (most_overlap * thickness_of(contact)) - 1;
   return std::clamp(std::max(by_load, by_depth), 0.0, 1.0);
 }
