@@ -160,7 +160,7 @@ BondLoad& AdvanceIsland::load_of(const IslandContact& contact) {
 // So nothing is pressed out against several times the weight of the lighter block, unless it is
 // deep: health allows a tenth of the thickness.
 double AdvanceIsland::share_pressed_out(const IslandContact& contact, double normal_force) const {
-  constexpr double heavy = 3, most_overlap = 0.05;
+  constexpr double heavy = 3, most_overlap = 0.02;
   double mass = numbers(contact.a).mass;
   if (contact.b >= 0) mass = std::min(mass, numbers(contact.b).mass);
   const double weight = mass * scene.gravity.norm();
