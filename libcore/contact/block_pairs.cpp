@@ -241,10 +241,11 @@ void add_contacts(const Search& s, const PairWatch& watch, double moved, double 
                   const Vec3& normal, ListedPair& pair) {
   const std::span<const HeldPoint> held(s.work.next_held.data() + pair.held_begin,
                                         s.work.next_held.data() + pair.held_end);
-  if (!add_manifold(s.hulls, s.placed, watch.part_a, watch.part_b, pair.axis, pair.incident, normal,
-                    pair.area, margin, held, s.work.manifolds, s.work.points)) {
-    const int a = s.hulls.body[watch.part_a], b = s.hulls.body[watch.part_b];
-    if (is_fixed(s.motion, b)) s.work.reaching.push_back({a, b});
+  add_manifold(s.hulls, s.placed, watch.part_a, watch.part_b, pair.axis, pair.incident, normal,
+               pair.area, margin, held, s.work.manifolds, s.work.points);
+  if (!has_points(s.work.manifolds.back())) {
+    if (apart_along(s.hulls, s.placed, watch.part_a, watch.part_b, normal) > margin)
+      s.work.manifolds.pop_back();
     return;
   }
   if (pair.other_face + moved >= -graze_height(s.hulls, s.settings, watch.part_a, watch.part_b))
@@ -434,7 +435,6 @@ PairReport find_pair_contacts(const Hulls& hulls, const PlacedHulls& placed,
   PairReport report;
   work.manifolds.clear();
   work.points.clear();
-  work.reaching.clear();
   work.shallow.clear();
   follow_motion(hulls, placed, motion, settings, state, work);
   if (!list_is_good(hulls, placed, settings, state, work)) {

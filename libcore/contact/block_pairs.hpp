@@ -85,11 +85,10 @@ struct PairReport {
 };
 
 struct PairWork {
-  std::vector<PairManifold> manifolds;  ///< sorted by part_a, part_b
-  std::vector<PairPoint> points;        ///< manifold by manifold
-  /// Bodies, each with a fixed one that it may reach in the coming step, though no features of the
-  /// two lie above each other yet: along another axis they may meet all the same.
-  std::vector<std::array<int, 2>> reaching;
+  /// Sorted by part_a, part_b. Parts within the margin of which no features lie above each other
+  /// yet have a manifold without points: along another axis they may meet all the same.
+  std::vector<PairManifold> manifolds;
+  std::vector<PairPoint> points;  ///< manifold by manifold
   // scratch
   AxisScratch axis;
   ClipScratch clip;

@@ -392,7 +392,7 @@ int incident_of(const Hulls& hulls, const PlacedHulls& placed, int part_a, int p
   return -1;
 }
 
-bool add_manifold(const Hulls& hulls, const PlacedHulls& placed, int part_a, int part_b,
+void add_manifold(const Hulls& hulls, const PlacedHulls& placed, int part_a, int part_b,
                   const PairAxis& axis, int incident, const Vec3& normal, double area,
                   double margin, std::span<const HeldPoint> held,
                   std::vector<PairManifold>& manifolds, std::vector<PairPoint>& points) {
@@ -410,12 +410,10 @@ bool add_manifold(const Hulls& hulls, const PlacedHulls& placed, int part_a, int
     (axis.kind == AxisKind::face_a ? face_b : face_a) = incident;
   }
   const int end = static_cast<int>(points.size());
-  if (end == begin) return false;
   manifolds.push_back({hulls.body[part_a], hulls.body[part_b], part_a, part_b,
                        hulls.joint_set[hulls.face_begin[part_a] + face_a],
                        hulls.joint_set[hulls.face_begin[part_b] + face_b], begin, end, area,
                        normal});
-  return true;
 }
 
 }  // namespace talus

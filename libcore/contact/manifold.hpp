@@ -32,10 +32,12 @@ struct PairManifold {
   int block_a = 0, block_b = 0;
   int part_a = 0, part_b = 0;
   int joint_set_a = 0, joint_set_b = 0;  ///< of the faces in contact; of an edge, its left face
-  int point_begin = 0, point_end = 0;    ///< its points
+  int point_begin = 0, point_end = 0;    ///< its points; none: see PairWork
   double area = 0;                       ///< of the faces' overlap seen along the normal [m2]
   Vec3 normal;                           ///< unit, local axes, from B to A
 };
+
+[[nodiscard]] inline bool has_points(const PairManifold& m) { return m.point_end > m.point_begin; }
 
 /// The features of a contact, without their places: what stays while the parts hardly move.
 struct HeldPoint {
@@ -95,8 +97,8 @@ struct ContactSearch {
                                            std::vector<HeldPoint>& held);
 
 /// Appends the manifold of two parts along `axis` and those of its points `held` whose gap is at
-/// most `margin` [m], at the places where they are now. Nothing, and false, when there are none.
-bool add_manifold(const Hulls& hulls, const PlacedHulls& placed, int part_a, int part_b,
+/// most `margin` [m], if any, at the places where they are now.
+void add_manifold(const Hulls& hulls, const PlacedHulls& placed, int part_a, int part_b,
                   const PairAxis& axis, int incident, const Vec3& normal, double area,
                   double margin, std::span<const HeldPoint> held,
                   std::vector<PairManifold>& manifolds, std::vector<PairPoint>& points);

@@ -18,11 +18,10 @@ constexpr double stiffest_in_small_island = 30;
 constexpr double bears_little = 3;  // stiffness of a contact that does: times that for its own mass
 constexpr double most_sag = 2;      // under load, before it is stiffer: times that of a block alone
 constexpr size_t small_island = 8;
-constexpr size_t small_tree = 64;    // the same where blocks hang together without a ring: a column
-constexpr double most_turn = 0.5;    // in a substep [rad]
-constexpr double most_travel = 0.5;  // relative to a neighbour in a substep, of the thickness
-// Of a block alone near a fence any point, in a substep: so far in may be what no axis foresaw.
-constexpr double most_travel_alone = 0.1;
+constexpr size_t small_tree = 64;  // the same where blocks hang together without a ring: a column
+constexpr double most_turn = 0.5;  // in a substep [rad]
+// Relative to a neighbour in a substep, of the thickness: so far in may be what no axis foresaw.
+constexpr double most_travel = 0.1;
 constexpr double most_substeps = 64;  // for these reasons
 
 Vec3 spin_of(const Motion& m, const Vec3& inertia) {
@@ -49,7 +48,8 @@ void set_motion_ahead(const Scene& scene, int b, const Motion& m, double h, Isla
   const auto i = static_cast<size_t>(b);
   w.poses[i] = m.pose;
   w.step[i] = h * m.velocity;
-  w.turn[i] = h * scene.blocks.shapes.radius[i] * spin_of(m, scene.blocks.inertia[i]).norm();
+  w.rotation[i] = h * spin_of(m, scene.blocks.inertia[i]);
+  w.turn[i] = scene.blocks.shapes.radius[i] * w.rotation[i].norm();
 }
 
 // Fixed bodies where they are now: they step nowhere and need no contacts of their own. Panels of
@@ -63,6 +63,7 @@ void place_fixed(const Scene& scene, const State& state, IslandStepWork& w) {
     const auto i = static_cast<size_t>(b);
     w.poses[i] = fixed_pose(scene, state, b);
     w.step[i].setZero();
+    w.rotation[i].setZero();
     w.turn[i] = 0;
     w.moving[i] = !state.placed.turned.empty() && state.placed.position[i] != w.poses[i].position;
     w.awake[i] = 0;
@@ -114,7 +115,8 @@ bool AdvanceIsland::in_island(const PairManifold& m) const {
 void AdvanceIsland::see_size() {
   const auto n_pairs =
       std::count_if(w.island_manifolds.begin(), w.island_manifolds.end(), [this](int i) {
-        return !is_fixed(scene, w.pairs.manifolds[static_cast<size_t>(i)].block_b);
+        const PairManifold& m = w.pairs.manifolds[static_cast<size_t>(i)];
+        return !is_fixed(scene, m.block_b) && has_points(m);
       });
   const size_t n = w.members.size();
   small = n <= small_island || (n <= small_tree && static_cast<size_t>(n_pairs) < n);
@@ -159,7 +161,7 @@ void AdvanceIsland::set_stiffness() {
   for (const BlockNumbers& c : w.numbers) w.bearing.push_back(c.mass);
   for (const int i : w.island_manifolds) {
     const PairManifold& m = w.pairs.manifolds[static_cast<size_t>(i)];
-    if (is_fixed(scene, m.block_b)) continue;
+    if (is_fixed(scene, m.block_b) || !has_points(m)) continue;
     double &a = w.bearing[place(m.block_a)], &b = w.bearing[place(m.block_b)];
     a = std::max(a, numbers(m.block_b).mass);
     b = std::max(b, numbers(m.block_a).mass);
@@ -175,20 +177,26 @@ void AdvanceIsland::set_stiffness() {
   }
 }
 
+// The farthest that a point of the smaller body of a pair goes ahead, as the larger one sees it.
+double AdvanceIsland::travel_ahead(const PairManifold& m) const {
+  const auto a = static_cast<size_t>(m.block_a), b = static_cast<size_t>(m.block_b);
+  const std::vector<double>& radius = scene.blocks.hulls.radius;
+  const auto [small_one, other] = radius[b] < radius[a] ? std::pair(b, a) : std::pair(a, b);
+  const Vec3 arm = w.poses[small_one].position - w.poses[other].position;
+  const Vec3 step = w.step[small_one] - w.step[other] - w.rotation[other].cross(arm);
+  return step.norm() + (w.rotation[a] - w.rotation[b]).norm() * radius[small_one];
+}
+
 // The longest substep over which the contacts found at its start still describe the motion.
 double AdvanceIsland::longest_substep(double h) const {
   double part = 0;
-  if (w.members.size() == 1 && n_fixed(scene) > 0 && w.near_fixed[block(0)] != 0)
-    part =
-        (w.step[block(0)].norm() + w.turn[block(0)]) / (most_travel_alone * w.numbers[0].thickness);
   for (size_t k = 0; k < w.members.size(); ++k)
     part = std::max(part, w.turn[block(k)] / (most_turn * w.numbers[k].radius));
   for (const int i : w.island_manifolds) {
     const PairManifold& m = w.pairs.manifolds[static_cast<size_t>(i)];
-    const auto a = static_cast<size_t>(m.block_a), b = static_cast<size_t>(m.block_b);
     double thickness = numbers(m.block_a).thickness;
     if (!is_fixed(scene, m.block_b)) thickness = std::min(thickness, numbers(m.block_b).thickness);
-    part = std::max(part, (w.step[a] - w.step[b]).norm() / (most_travel * thickness));
+    part = std::max(part, travel_ahead(m) / (most_travel * thickness));
   }
   return part > 1 ? h / std::min(std::ceil(part), most_substeps) : h;
 }
@@ -200,6 +208,7 @@ void form_islands(const Scene& scene, State& state, Work& work) {
   w.near_fixed.assign(static_cast<size_t>(n), scene.settings.trn_contacts ? 0 : 1);
   w.poses.resize(size);
   w.step.resize(size);
+  w.rotation.resize(size);
   w.turn.resize(size);
   w.moving.assign(size, 1);
   w.awake.resize(size);
@@ -220,11 +229,6 @@ void form_islands(const Scene& scene, State& state, Work& work) {
       end_flight(scene, b, state.time, state, work);
   };
   for (const auto& [a, b] : w.joined) end_flight_of(a), end_flight_of(b);
-  for (const auto& [b, fixed] : w.pairs.reaching) {
-    if (!stands(scene, state, fixed)) continue;
-    w.near_fixed[static_cast<size_t>(b)] = 1;
-    end_flight_of(b);
-  }
 }
 
 void put_island_to_sleep(const Scene& scene, int k, State& state, const Work& work) {

@@ -122,6 +122,7 @@ struct IslandStepWork {  // clang-format off
   // blocks, then fixed bodies
   std::vector<Pose> poses;                  ///< at the start of the step or substep     (n_bodies)
   std::vector<Vec3> step;                   ///< displacement ahead [m]                  (n_bodies)
+  std::vector<Vec3> rotation;               ///< rotation vector ahead [rad]             (n_bodies)
   std::vector<double> turn;                 ///< path of turning ahead [m]               (n_bodies)
   std::vector<std::uint8_t> moving, awake;  ///<                                         (n_bodies)
   std::vector<std::uint8_t> fixed;          ///< 1: never moves; empty: none is          (n_bodies)
