@@ -108,13 +108,8 @@ void box_parts(const Hulls& hulls, const PlacedHulls& placed, const PairState& s
                std::vector<Box>& boxes) {
   boxes.resize(hulls.body.size());
   for (int p = 0; p < n_parts(hulls); ++p) {
-    const int first = hulls.vertex_begin[p], last = hulls.vertex_begin[p + 1];
     Box& box = boxes[p];
-    box = {placed.vertices[first], placed.vertices[first]};
-    for (int v = first + 1; v < last; ++v) {
-      box.low = box.low.cwiseMin(placed.vertices[v]);
-      box.high = box.high.cwiseMax(placed.vertices[v]);
-    }
+    box = box_of_part(hulls, placed, p);
     box.low += state.budget[hulls.body[p]].low;
     box.high += state.budget[hulls.body[p]].high;
   }

@@ -347,4 +347,14 @@ void place_hulls(const Hulls& hulls, std::span<const Pose> poses, std::span<cons
   }
 }
 
+Box box_of_part(const Hulls& hulls, const PlacedHulls& placed, int part) {
+  const int first = hulls.vertex_begin[part];
+  Box box{placed.vertices[first], placed.vertices[first]};
+  for (int v = first + 1; v < hulls.vertex_begin[part + 1]; ++v) {
+    box.low = box.low.cwiseMin(placed.vertices[v]);
+    box.high = box.high.cwiseMax(placed.vertices[v]);
+  }
+  return box;
+}
+
 }  // namespace talus

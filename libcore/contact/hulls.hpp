@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/types.hpp"
+#include "contact/neighbours.hpp"
 #include "contact/pose.hpp"
 #include "geometry/polyhedron.hpp"
 
@@ -92,6 +93,9 @@ struct PlacedHulls {  // clang-format off
 /// moves all). `stretch` is I + strain in body axes; empty for rigid bodies.
 void place_hulls(const Hulls& hulls, std::span<const Pose> poses, std::span<const Mat3> stretch,
                  std::span<const std::uint8_t> moving, PlacedHulls& placed);
+
+/// The smallest box with sides along the local axes around a part.
+[[nodiscard]] Box box_of_part(const Hulls& hulls, const PlacedHulls& placed, int part);
 
 [[nodiscard]] inline Vec3 normal_at(const PlacedHulls& placed, int slot) {
   return {placed.nx[slot], placed.ny[slot], placed.nz[slot]};

@@ -16,12 +16,7 @@ std::vector<std::array<int, 2>> close_parts(const Hulls& hulls, const PlacedHull
                                             double distance) {
   std::vector<Box> boxes;
   for (int p = 0; p < n_parts(hulls); ++p) {
-    const int first = hulls.vertex_begin[p];
-    Box box{placed.vertices[first], placed.vertices[first]};
-    for (int v = first; v < hulls.vertex_begin[p + 1]; ++v) {
-      box.low = box.low.cwiseMin(placed.vertices[v]);
-      box.high = box.high.cwiseMax(placed.vertices[v]);
-    }
+    Box box = box_of_part(hulls, placed, p);
     box.low.array() -= distance / 2;
     box.high.array() += distance / 2;
     boxes.push_back(box);

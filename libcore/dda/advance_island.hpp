@@ -110,7 +110,7 @@ struct AdvanceIsland {
   void search_pairs(double h);
   void take_pairs(int k);
   void set_stiffness();
-  [[nodiscard]] double travel_ahead(const PairManifold& m) const;
+  [[nodiscard]] double travel_ahead(const PairManifold& m, double enough) const;
   [[nodiscard]] double longest_substep(double h) const;
 
   // island_assembly.cpp

@@ -177,14 +177,38 @@ void AdvanceIsland::set_stiffness() {
   }
 }
 
-// The farthest that a point of the smaller body of a pair goes ahead, as the larger one sees it.
-double AdvanceIsland::travel_ahead(const PairManifold& m) const {
+// Bounds how far a point of either part of a pair goes ahead as the other body sees it: of all
+// points, and where that is more than `enough`, of those alone that may come to the other part.
+double AdvanceIsland::travel_ahead(const PairManifold& m, double enough) const {
   const auto a = static_cast<size_t>(m.block_a), b = static_cast<size_t>(m.block_b);
-  const std::vector<double>& radius = scene.blocks.hulls.radius;
-  const auto [small_one, other] = radius[b] < radius[a] ? std::pair(b, a) : std::pair(a, b);
-  const Vec3 arm = w.poses[small_one].position - w.poses[other].position;
-  const Vec3 step = w.step[small_one] - w.step[other] - w.rotation[other].cross(arm);
-  return step.norm() + (w.rotation[a] - w.rotation[b]).norm() * radius[small_one];
+  const Hulls& hulls = scene.blocks.hulls;
+  const auto travel_at = [&](const Vec3& x) {
+    return (w.step[a] - w.step[b] + w.rotation[a].cross(x - w.poses[a].position) -
+            w.rotation[b].cross(x - w.poses[b].position))
+        .norm();
+  };
+  const size_t smaller = hulls.radius[b] < hulls.radius[a] ? b : a;
+  double travel = travel_at(w.poses[smaller].position) +
+                  (w.rotation[a] - w.rotation[b]).norm() * hulls.radius[smaller];
+  if (travel <= enough) return travel;
+  const Box box_a = box_of_part(hulls, state.placed, m.part_a),
+            box_b = box_of_part(hulls, state.placed, m.part_b);
+  for (int pass = 0; pass < 2; ++pass) {  // what is known after the first makes the box smaller
+    const Vec3 around = Vec3::Constant(travel);
+    const Vec3 both_low = box_a.low.cwiseMax(box_b.low) - around,
+               both_high = box_a.high.cwiseMin(box_b.high) + around;
+    if ((both_low.array() > both_high.array()).any()) return 0;
+    const Vec3 low = both_low.cwiseMax(box_a.low.cwiseMin(box_b.low)),
+               high = both_high.cwiseMin(box_a.high.cwiseMax(box_b.high));
+    double farthest = 0;  // in one of the corners, since the motion is linear in place
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3 x((corner & 1) != 0 ? high.x() : low.x(), (corner & 2) != 0 ? high.y() : low.y(),
+                   (corner & 4) != 0 ? high.z() : low.z());
+      farthest = std::max(farthest, travel_at(x));
+    }
+    travel = std::min(travel, farthest);
+  }
+  return travel;
 }
 
 // The longest substep over which the contacts found at its start still describe the motion.
@@ -196,7 +220,8 @@ double AdvanceIsland::longest_substep(double h) const {
     const PairManifold& m = w.pairs.manifolds[static_cast<size_t>(i)];
     double thickness = numbers(m.block_a).thickness;
     if (!is_fixed(scene, m.block_b)) thickness = std::min(thickness, numbers(m.block_b).thickness);
-    part = std::max(part, travel_ahead(m) / (most_travel * thickness));
+    const double enough = most_travel * thickness;
+    part = std::max(part, travel_ahead(m, enough) / enough);
   }
   return part > 1 ? h / std::min(std::ceil(part), most_substeps) : h;
 }
