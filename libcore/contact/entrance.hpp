@@ -73,9 +73,10 @@ struct LinePair {
   return {view.dot(d.cross(f)) * per, view.dot(d.cross(e)) * per, false};
 }
 
-/// Whether a pair of points lies between the ends of both lines.
-[[nodiscard]] inline bool is_within(const LinePair& at) {
-  return at.s >= 0 && at.s <= 1 && at.t >= 0 && at.t <= 1;
+/// Whether a pair of points lies between the ends of both lines; `beyond`: or so far beyond an end
+/// of the second one, in its lengths.
+[[nodiscard]] inline bool is_within(const LinePair& at, double beyond = 0) {
+  return at.s >= 0 && at.s <= 1 && at.t >= -beyond && at.t <= 1 + beyond;
 }
 
 }  // namespace talus

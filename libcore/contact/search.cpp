@@ -21,6 +21,7 @@ constexpr double least_parallel = 1e-3;
 constexpr double most_parallel = 0.03;
 constexpr double doubtful = 0.1;    // of the deepest overlap: deeper features are looked into
 constexpr double explained = 2;     // of its depth: so near to another overlap it is part of that
+constexpr double at_node = 0.01;    // of half the thickness: so far beyond its ends a ridge bears
 constexpr double same_wall = 1e-9;  // of the block's size: a node on a wall belongs to both parts
 
 /// A triangle, and across which of its edges the next one lies.
@@ -299,15 +300,17 @@ void find_mode_3(FeatureSearch& s, int row, int col, EdgeKind kind,
     // plan, the block's is below the ground, however deep.
     const bool overlap = normal.dot(P - Q) < 0;
     const LinePair crossing = overlap ? crossing_seen_along(up, P, e, Q, f) : at;
-    if (!is_within(at)) at = crossing;
-    if (!is_within(at)) continue;
     normal.normalize();
+    // Ridges that meet at a node both bear an edge above it: by turns they would bear nothing.
+    const double beyond = std::clamp(normal.dot(Q - P), 0.0, at_node * deepest) / f.norm();
+    if (!is_within(at, beyond)) at = crossing;
+    if (!is_within(at, beyond)) continue;
     const Vec3 a = P + at.s * e, X = Q + at.t * f;
     const double gap = normal.dot(a - X);
     if (gap > s.margin) continue;
     const bool in_doubt =
         gap < -doubtful * deepest && (gap < -deepest || !edges_overlap(s, edges[i], a, X, -gap));
-    if (in_doubt && !is_within(crossing)) continue;
+    if (in_doubt && !is_within(crossing, beyond)) continue;
     const Vec3 x = end_a + at.t * (end_b - end_a);
     if (!s.takes(x, gap, in_doubt, contacts)) continue;
     Contact contact;

@@ -417,6 +417,17 @@ TEST(Step, DeepPenetrationIsFlagged) {
   }
 }
 
+// Block b of one part where it is now.
+Polyhedron placed_shape(const Scene& scene, const State& state, const std::vector<Body>& bodies,
+                        std::size_t b) {
+  const Pose& pose = state.motion[b].pose;
+  const auto corners = vertices_of(scene.blocks.shapes, static_cast<int>(b));
+  Polyhedron shape = bodies[b].parts[0];
+  for (std::size_t v = 0; v < corners.size(); ++v)
+    shape.vertices[v] = pose.position + pose.attitude * corners[v];
+  return shape;
+}
+
 // Slabs and rods that tumble down ground of ridges and valleys: within a step a corner or an edge
 // may go through a ridge, or slide into a valley. None is deep in the ground, neither by the
 // contacts nor by the overlap of the two surfaces.
@@ -449,16 +460,43 @@ TEST(Step, ThinBlocksThatTumbleOverRidgesAreNotDeepInThem) {
     if (++n_steps % 10 != 0) continue;
     for (std::size_t b = 0; b < bodies.size(); ++b) {
       if (state.phase[b] == Phase::flight) continue;
-      const Pose& pose = state.motion[b].pose;
-      const auto corners = vertices_of(scene.blocks.shapes, static_cast<int>(b));
-      Polyhedron shape = bodies[b].parts[0];
-      for (std::size_t v = 0; v < corners.size(); ++v)
-        shape.vertices[v] = pose.position + pose.attitude * corners[v];
+      const Polyhedron shape = placed_shape(scene, state, bodies, b);
       deepest = std::max(deepest, test::vertical_overlap(scene.ground.trn, shape).height);
     }
   }
   EXPECT_EQ(n_deep, 0);
   EXPECT_LT(deepest, 0.01);
+}
+
+// Rods that come to rest on steep ground, some of them with an edge on a node, over which the
+// ridges that meet there take turns. None is pressed into it.
+TEST(Step, BlocksThatLeanOnNodesDoNotSinkIntoThem) {
+  Random random(11, "nodes");
+  const auto rough = [](double x, double y) {
+    return -0.6 * x + 3.5 * std::sin(12.9898 * x) * std::cos(78.233 * y);
+  };
+  std::vector<Body> bodies;
+  for (int i = 0; i < 1000; ++i) {
+    const auto number = [&] { return random.uniform(-1, 1); };
+    const Vec3 half{random.uniform(1, 2), random.uniform(1, 2), random.uniform(2, 5)};
+    const Quat attitude = Quat{number(), number(), number(), number()}.normalized();
+    const double x = random.uniform(-120, 100), y = random.uniform(-130, 130);
+    bodies.push_back(body_of(moved(box(-half, half), attitude.toRotationMatrix(), Vec3::Zero(),
+                                   Vec3(x, y, 13 - 0.6 * x))));
+  }
+  Settings settings;
+  settings.block_contacts = false;
+  const Scene scene = scene_of(make_trn(rough, 5, 150), ground_of(32, 0.3), bodies, settings);
+  State state = start(scene);
+  Work work = make_work(scene);
+  while (state.time < 10) step(scene, state, work);
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    if (state.phase[b] == Phase::flight || state.phase[b] == Phase::left_domain) continue;
+    EXPECT_LT(
+        test::vertical_overlap(scene.ground.trn, placed_shape(scene, state, bodies, b)).height,
+        0.005)
+        << b;
+  }
 }
 
 // Bonded face on a slope: fails where rho g h sin(th) = tan(phi) rho g h cos(th) + c.
