@@ -1,6 +1,7 @@
 #include "dda/island_solver.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -92,21 +93,38 @@ struct Solve {
     activate(island, work.start, work.matrix);
   }
 
-  // Contacts of an active body; what a body at rest had from them before is replaced.
-  [[gnu::flatten]] void evaluate_contacts(size_t p, Evaluation evaluation) {
+  // Contacts of active bodies; what a body at rest had from them before is replaced.
+  [[gnu::flatten]] void evaluate_contacts(std::span<const int> pairs, Evaluation evaluation) {
+    std::array<PairEvaluation, 32> now;  // few enough to stay near
+    for (size_t begin = 0; begin < pairs.size(); begin += now.size()) {
+      const auto some = pairs.subspan(begin, std::min(now.size(), pairs.size() - begin));
+      for (size_t i = 0; i < some.size(); ++i) {
+        const auto p = static_cast<size_t>(some[i]);
+        const BodyPair& pair = island.pairs[p];
+        now[i].groups = groups_of(island, pair);
+        now[i].motion = work.velocity[static_cast<size_t>(pair.a)];
+        if (pair.b >= 0)
+          now[i].motion = relative_motion(
+              now[i].motion, work.velocity[static_cast<size_t>(pair.b)], work.matrix.shift[p]);
+      }
+      evaluate_pairs(std::span(now).first(some.size()), evaluation, direct ? 0 : slack);
+      for (size_t i = 0; i < some.size(); ++i) {
+        if (now[i].changed) work.matrix.changed_pairs.add(some[i]);
+        add_impulse(static_cast<size_t>(some[i]), now[i].impulse());
+      }
+    }
+  }
+
+  void add_impulse(size_t p, const Vec6& f) {
     const BodyPair& pair = island.pairs[p];
     const auto a = static_cast<size_t>(pair.a), b = static_cast<size_t>(pair.b);
     const IndexSet& active = work.matrix.active.bodies;
-    const Vec3& shift = work.matrix.shift[p];
-    const Vec6 u =
-        pair.b < 0 ? work.velocity[a] : relative_motion(work.velocity[a], work.velocity[b], shift);
-    Vec6 f;
-    if (evaluate_pair(groups_of(island, pair), u, evaluation, direct ? 0 : slack, f))
-      work.matrix.changed_pairs.add(static_cast<int>(p));
     const Vec6 change = f - work.pair_impulse[p];
     work.pair_impulse[p] = f;
     work.residual[a] -= active.contains(pair.a) ? f : change;
-    if (pair.b >= 0) work.residual[b] += carried_to_b(active.contains(pair.b) ? f : change, shift);
+    if (pair.b >= 0)
+      work.residual[b] +=
+          carried_to_b(active.contains(pair.b) ? f : change, work.matrix.shift[p]);
   }
 
   // The residual as a velocity: impulse over mass, angular impulse over inertia times radius.
@@ -149,7 +167,7 @@ struct Solve {
       const auto i = static_cast<size_t>(body);
       work.residual[i] = times_mass(island.mass[i], work.velocity[i] - island.free_velocity[i]);
     }
-    for (const int p : active.pairs) evaluate_contacts(static_cast<size_t>(p), evaluation);
+    evaluate_contacts(active.pairs, evaluation);
     add_to(work.touched_pairs, active.pairs);
     for (const IndexSet* bodies : {&active.bodies, &active.others}) {
       find_speeds(*bodies);

@@ -21,11 +21,34 @@ namespace talus {
 /// that would pull more than it pressed by the law; or all with the law.
 enum class Evaluation : std::uint8_t { inherited, coupled };
 
-/// Impulses of a pair's contacts at the relative motion u; `f` is their sum as a generalised
-/// impulse on A about its centroid. True when a tangent changed: a state, or a slip stiffness by
-/// more than `slack` of what the tangent was summed with.
-bool evaluate_pair(std::span<RowGroup> groups, const Vec6& u, Evaluation evaluation, double slack,
-                   Vec6& f);
+/// A pair to evaluate.
+struct PairEvaluation {
+  std::span<RowGroup> groups;
+  Vec6 motion;           ///< u
+  Two sum[6];            ///< out: of the impulses, as generalised ones on A about its centroid
+  bool changed = false;  ///< out: a tangent did
+
+  [[nodiscard]] Vec6 impulse() const {
+    Vec6 f;
+    for (int k = 0; k < 6; ++k) f[k] = sum[k][0] + sum[k][1];
+    return f;
+  }
+};
+
+/// Rows that are evaluated at a time, with the same bits: two anywhere, four where the processor has
+/// AVX2.
+enum class RowWidth : std::uint8_t { two = 2, four = 4 };
+[[nodiscard]] bool has_four_lanes();
+[[nodiscard]] inline RowWidth widest() {
+  return has_four_lanes() ? RowWidth::four : RowWidth::two;
+}
+
+/// Impulses of the pairs' contacts at their relative motions. A tangent counts as changed with a
+/// state, or with a slip stiffness by more than `slack` of what the tangent was summed with.
+void evaluate_pairs(std::span<PairEvaluation> pairs, Evaluation evaluation, double slack,
+                    RowWidth width = widest());
+/// The same where has_four_lanes() (row_groups_avx2.cpp).
+void evaluate_pairs_by_four(std::span<PairEvaluation> pairs, Evaluation evaluation, double slack);
 
 /// W = sum T^T K T of a pair, symmetric; and with `rest`, what the exact derivative has instead of
 /// the stiffness across the slip. False when no contact presses.

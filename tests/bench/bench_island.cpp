@@ -94,16 +94,21 @@ void count_per(benchmark::State& state, const char* name, std::size_t n) {
                                                      benchmark::Counter::kInvert);
 }
 
+// Argument: rows at a time.
 void evaluate_rows(benchmark::State& state) {
+  const auto width = static_cast<talus::RowWidth>(state.range(0));
+  if (width == talus::RowWidth::four && !talus::has_four_lanes())
+    return state.SkipWithError("no AVX2");
   Parts parts = solved_pile();
-  talus::Vec6 f;
-  for (auto _ : state)
-    for (std::size_t p = 0; p < parts.island.pairs.size(); ++p) {
-      const auto a = static_cast<std::size_t>(parts.island.pairs[p].a);
-      benchmark::DoNotOptimize(talus::evaluate_pair(groups_of(parts.island, parts.island.pairs[p]),
-                                                    parts.island.velocity[a],
-                                                    talus::Evaluation::coupled, 0.1, f));
-    }
+  std::vector<talus::PairEvaluation> pairs;
+  for (const talus::BodyPair& pair : parts.island.pairs) {
+    pairs.emplace_back().groups = groups_of(parts.island, pair);
+    pairs.back().motion = parts.island.velocity[static_cast<std::size_t>(pair.a)];
+  }
+  for (auto _ : state) {
+    talus::evaluate_pairs(pairs, talus::Evaluation::coupled, 0.1, width);
+    benchmark::DoNotOptimize(pairs.data());
+  }
   count_per(state, "per_row", 2 * parts.island.rows.size());
 }
 
@@ -142,7 +147,7 @@ void invert_6x6(benchmark::State& state) {
   count_per(state, "per_body", parts.work.matrix.diagonal.size());
 }
 
-BENCHMARK(evaluate_rows);
+BENCHMARK(evaluate_rows)->Arg(2)->Arg(4);
 BENCHMARK(assemble_rows);
 BENCHMARK(invert_all_diagonals);
 BENCHMARK(multiply_matrix);

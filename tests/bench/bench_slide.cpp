@@ -87,7 +87,7 @@ BENCHMARK(Slide)
     ->Iterations(1);
 BENCHMARK(Slide)
     ->Name("SlideDense")
-    ->ArgsProduct({{39, 390, 3900}, {10, 50, 100}, {0}, {1, 5}})
+    ->ArgsProduct({{39, 390, 3900}, {10, 50, 100, 200, 300}, {0}, {1, 5, 10, 30}})
     ->Unit(benchmark::kSecond)
     ->Iterations(1);
 BENCHMARK(SlidePaper)

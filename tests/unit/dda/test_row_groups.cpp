@@ -57,6 +57,15 @@ talus::Island island_of(const std::vector<IslandRow>& rows) {
   return island;
 }
 
+// Of the only pair of the island.
+Vec6 impulse_at(const Vec6& u, Evaluation evaluation, talus::Island& island) {
+  talus::PairEvaluation pair;
+  pair.groups = island.rows;
+  pair.motion = u;
+  talus::evaluate_pairs({&pair, 1}, evaluation, 0);
+  return pair.impulse();
+}
+
 struct Evaluated {
   std::vector<IslandRow> rows;
   talus::Island island;
@@ -66,7 +75,7 @@ struct Evaluated {
 Evaluated evaluate(const std::vector<IslandRow>& rows, const Vec6& u) {
   Evaluated e;
   e.island = island_of(rows);
-  talus::evaluate_pair(e.island.rows, u, Evaluation::coupled, 0, e.f);
+  e.f = impulse_at(u, Evaluation::coupled, e.island);
   for (const int r : row_numbers(e.island)) e.rows.push_back(row_at(e.island, r));
   return e;
 }
@@ -78,7 +87,7 @@ Vec6 random_velocity(talus::Random& random) {
 }
 
 // The law of contact_law.hpp, written apart for one block, at 5,000 contacts of all kinds.
-TEST(EvaluatePair, GivesTheImpulsesOfTheContactLaw) {
+TEST(EvaluatePairs, GivesTheImpulsesOfTheContactLaw) {
   talus::Random random(11, "law");
   int n_slip = 0, n_stick = 0, n_open = 0;
   for (int round = 0; round < 1000; ++round) {
@@ -100,6 +109,44 @@ TEST(EvaluatePair, GivesTheImpulsesOfTheContactLaw) {
     EXPECT_LT((e.f - f).norm(), 1e-13);
   }
   EXPECT_GT(std::min({n_open, n_slip, n_stick}), 500);
+}
+
+// Groups of other pairs share a register there.
+TEST(EvaluatePairs, HaveTheSameBitsFourRowsAtATime) {
+  if (!talus::has_four_lanes()) GTEST_SKIP() << "no AVX2";
+  talus::Random random(13, "width");
+  for (int round = 0; round < 500; ++round) {
+    std::vector<talus::Island> by_two(1 + random.below(5));
+    for (talus::Island& island : by_two) {
+      std::vector<IslandRow> rows(1 + random.below(7));
+      for (IslandRow& row : rows) row = random_row(random);
+      island = island_of(rows);
+    }
+    std::vector<talus::Island> by_four = by_two;
+    std::vector<talus::PairEvaluation> two(by_two.size()), four(by_two.size());
+    for (const Evaluation evaluation : {Evaluation::coupled, Evaluation::inherited}) {
+      for (std::size_t p = 0; p < two.size(); ++p) {
+        two[p].motion = four[p].motion = random_velocity(random);
+        two[p].groups = by_two[p].rows;
+        four[p].groups = by_four[p].rows;
+      }
+      talus::evaluate_pairs(two, evaluation, 0.5, talus::RowWidth::two);
+      talus::evaluate_pairs(four, evaluation, 0.5, talus::RowWidth::four);
+      for (std::size_t p = 0; p < two.size(); ++p) {
+        EXPECT_EQ(two[p].impulse(), four[p].impulse());
+        EXPECT_EQ(two[p].changed, four[p].changed);
+        for (const int r : row_numbers(by_two[p])) {
+          const auto a = row_of(by_two[p], r), b = row_of(by_four[p], r);
+          EXPECT_EQ(a.impulse(), b.impulse());
+          EXPECT_EQ(a.state(), b.state());
+          EXPECT_EQ(a.value(&talus::RowGroup::slip_tangent),
+                    b.value(&talus::RowGroup::slip_tangent));
+          EXPECT_EQ(a.value(&talus::RowGroup::normal_tangent),
+                    b.value(&talus::RowGroup::normal_tangent));
+        }
+      }
+    }
+  }
 }
 
 // The exact tangent is minus the derivative of the summed impulse (central differences); the
@@ -150,13 +197,12 @@ Vec6 inherited_impulse(const std::function<void(IslandRow&)>& change) {
   row.state = ContactState::slip;
   change(row);
   talus::Island island = island_of({row});
-  Vec6 u = Vec6::Zero(), f;
+  Vec6 u = Vec6::Zero();
   u[0] = 10;
-  talus::evaluate_pair(island.rows, u, Evaluation::inherited, 0, f);
-  return f;
+  return impulse_at(u, Evaluation::inherited, island);
 }
 
-TEST(EvaluatePair, BoundsInheritedFrictionByTheLastImpulse) {
+TEST(EvaluatePairs, BoundsInheritedFrictionByTheLastImpulse) {
   const Vec6 slips = inherited_impulse([](IslandRow&) {});
   EXPECT_EQ(slips[0], -1);  // 0.5 x 2, not 0.5 x 5
   EXPECT_EQ(slips[2], 5);
@@ -164,13 +210,13 @@ TEST(EvaluatePair, BoundsInheritedFrictionByTheLastImpulse) {
   EXPECT_EQ(sticks[0], -10);
 }
 
-TEST(EvaluatePair, TakesNewContactsByTheLaw) {
+TEST(EvaluatePairs, TakesNewContactsByTheLaw) {
   const Vec6 f = inherited_impulse([](IslandRow& row) { row.state = ContactState::open; });
   EXPECT_EQ(f[0], -2.5);
   EXPECT_EQ(f[2], 5);
 }
 
-TEST(EvaluatePair, KeepsAnInheritedContactUntilItWouldPullMoreThanItPressed) {
+TEST(EvaluatePairs, KeepsAnInheritedContactUntilItWouldPullMoreThanItPressed) {
   EXPECT_EQ(inherited_impulse([](IslandRow& row) { row.bias = 1.5; })[2], -1.5);
   EXPECT_TRUE(inherited_impulse([](IslandRow& row) { row.bias = 2.5; }).isZero(0));
 }
