@@ -41,9 +41,10 @@ struct GaussArc {
   const double c = -arc_b.left.dot(arc_a.along), d = -arc_b.right.dot(arc_a.along);
   const double a = arc_a.left.dot(arc_b.along), b = arc_a.right.dot(arc_b.along);
   const auto crosses = [&](double s, double t) {
-    return std::min(s, t) <= tolerance && std::max(s, t) >= -tolerance;
+    return (std::min(s, t) <= tolerance) & (std::max(s, t) >= -tolerance);
   };
-  return crosses(c, d) && crosses(a, b) && (c - d) * (b - a) > 0;
+  // without branches: which of many edges it is cannot be foreseen
+  return crosses(c, d) & crosses(a, b) & ((c - d) * (b - a) > 0);
 }
 
 /// sin^2 of 1 degree: directions nearer than that count as parallel.

@@ -23,6 +23,7 @@ constexpr double doubtful = 0.1;    // of the deepest overlap: deeper features a
 constexpr double explained = 2;     // of its depth: so near to another overlap it is part of that
 constexpr double at_node = 0.01;    // of half the thickness: so far beyond its ends a ridge bears
 constexpr double same_wall = 1e-9;  // of the block's size: a node on a wall belongs to both parts
+constexpr double blunt_cos = 0.1;   // of the normals beside a ridge: a normal between is along both
 
 /// A triangle, and across which of its edges the next one lies.
 struct Neighbour {
@@ -266,63 +267,131 @@ void find_mode_2(FeatureSearch& s, int row, int col, std::vector<Contact>& conta
   }
 }
 
+/// Vertices of a block above the planes on either side of a ridge by more than the margin, as bits.
+/// The ground at a ridge is what lies below both planes: an edge between two vertices above the
+/// same one is clear of it.
+struct AboveRidge {
+  static constexpr size_t most = 64;  // vertices; of a block with more nothing is known
+  std::uint64_t left = 0, right = 0;
+
+  [[nodiscard]] bool has(int a, int b) const {
+    return ((left >> a & left >> b) | (right >> a & right >> b)) & 1;
+  }
+  [[nodiscard]] bool has_all(size_t n_vertices) const {
+    if (n_vertices > most) return false;
+    const std::uint64_t all = ~std::uint64_t{0} >> (most - n_vertices);
+    return left == all || right == all;
+  }
+};
+
+AboveRidge above_ridge(const FeatureSearch& s, const Vec3& at, const Vec3& left,
+                       const Vec3& right) {
+  AboveRidge above;
+  if (s.vertices.size() > AboveRidge::most || left.dot(right) < blunt_cos) return above;
+  const double clear = 1.001 * s.margin + s.strained;
+  for (size_t v = 0; v < s.vertices.size(); ++v) {
+    const double x = s.vertices[v].x() - at.x(), y = s.vertices[v].y() - at.y(),
+                 z = s.vertices[v].z() - at.z();
+    const bool over_left = left.x() * x + left.y() * y + left.z() * z > clear;
+    const bool over_right = right.x() * x + right.y() * y + right.z() * z > clear;
+    above.left |= std::uint64_t{over_left} << v;
+    above.right |= std::uint64_t{over_right} << v;
+  }
+  return above;
+}
+
+/// An edge of the ground and what it meets blocks with.
+struct Ridge {
+  Vec3 end_a, end_b;          // local axes
+  Vec3 Q, f;                  // end_a and the way to end_b, body axes
+  GaussArc arc;               // body axes
+  int left = 0, feature = 0;  // triangle; as in the contact's key
+};
+
+// The contact of edge `i` of the block with a ridge whose arc it crosses, if they meet.
+void add_edge_contact(FeatureSearch& s, const Ridge& ridge, size_t i, double deepest,
+                      std::vector<Contact>& contacts) {
+  const std::span<const Vec3> body = vertices_of(s.shapes, s.b);
+  const ShapeEdge& edge = edges_of(s.shapes, s.b)[i];
+  const Vec3 &Q = ridge.Q, &f = ridge.f, &P = body[static_cast<size_t>(edge.a)];
+  const Vec3 e = body[static_cast<size_t>(edge.b)] - P;
+  LinePair at = nearest_on_lines(P, e, Q, f);
+  if (at.parallel) return;
+  Vec3 normal = e.cross(f);
+  if (normal.dot(ridge.arc.left + ridge.arc.right) < 0) normal = -normal;
+  // Of edges that overlap the nearest points may lie a little beyond an end. Where they cross in
+  // plan, the block's is below the ground, however deep.
+  const bool overlap = normal.dot(P - Q) < 0;
+  const Vec3 up = s.to_local.transpose() * Vec3::UnitZ();
+  const LinePair crossing = overlap ? crossing_seen_along(up, P, e, Q, f) : at;
+  normal.normalize();
+  // Ridges that meet at a node both bear an edge above it: by turns they would bear nothing.
+  const double beyond = std::clamp(normal.dot(Q - P), 0.0, at_node * deepest) / f.norm();
+  if (!is_within(at, beyond)) at = crossing;
+  if (!is_within(at, beyond)) return;
+  const Vec3 a = P + at.s * e, X = Q + at.t * f;
+  const double gap = normal.dot(a - X);
+  if (gap > s.margin) return;
+  const bool in_doubt =
+      gap < -doubtful * deepest && (gap < -deepest || !edges_overlap(s, edge, a, X, -gap));
+  if (in_doubt && !is_within(crossing, beyond)) return;
+  const Vec3 x = ridge.end_a + at.t * (ridge.end_b - ridge.end_a);
+  if (!s.takes(x, gap, in_doubt, contacts)) return;
+  Contact contact;
+  contact.key = {ContactMode::edge_edge, -1, static_cast<int>(i), ridge.feature};
+  contact.block_a = s.b;
+  contact.ground_class = class_of(s.ground, ridge.left);
+  contact.normal = s.to_local * normal;
+  contact.gap = gap;
+  contact.point_a = a;
+  contact.point_b = x;
+  contacts.push_back(contact);
+}
+
 void find_mode_3(FeatureSearch& s, int row, int col, EdgeKind kind,
                  std::vector<Contact>& contacts) {
   const Trn& trn = s.ground.trn;
   const TrnEdge edge = trn_edge(trn, row, col, kind);
-  const Vec3 end_a = node_point(trn, edge.a.row, edge.a.col);
-  const Vec3 end_b = node_point(trn, edge.b.row, edge.b.col);
+  Ridge ridge;
+  const Vec3& end_a = ridge.end_a = node_point(trn, edge.a.row, edge.a.col);
+  const Vec3& end_b = ridge.end_b = node_point(trn, edge.b.row, edge.b.col);
   if ((end_a.cwiseMax(end_b) - s.low).minCoeff() < -s.margin ||
       (s.high - end_a.cwiseMin(end_b)).minCoeff() < -s.margin)
     return;
-  const Vec3 Q = s.to_body(end_a);
-  const Vec3 f = s.to_local.transpose() * (end_b - end_a);
+  ridge.Q = s.to_body(end_a);
+  ridge.f = s.to_local.transpose() * (end_b - end_a);
   const double radius = s.shapes.radius[static_cast<size_t>(s.b)] + s.margin;
-  const double nearest = std::clamp(-Q.dot(f) / f.squaredNorm(), 0.0, 1.0);
-  if ((Q + nearest * f).squaredNorm() > radius * radius) return;
-  const GaussArc ridge = gauss_arc(s.to_local.transpose() * triangle_plane(trn, edge.left).normal,
-                                   s.to_local.transpose() * triangle_plane(trn, edge.right).normal);
+  const double nearest = std::clamp(-ridge.Q.dot(ridge.f) / ridge.f.squaredNorm(), 0.0, 1.0);
+  if ((ridge.Q + nearest * ridge.f).squaredNorm() > radius * radius) return;
+  const Vec3 left = triangle_plane(trn, edge.left).normal;
+  const Vec3 right = triangle_plane(trn, edge.right).normal;
+  const AboveRidge above_planes = above_ridge(s, end_a, left, right);
+  if (above_planes.has_all(s.vertices.size())) return;
+  ridge.arc = gauss_arc(s.to_local.transpose() * left, s.to_local.transpose() * right);
+  ridge.left = edge.left;
+  ridge.feature = 4 * static_cast<int>(node_index(trn, row, col)) + static_cast<int>(kind);
   const double deepest = s.shapes.thickness[static_cast<size_t>(s.b)] / 2;
   const double above = std::max(end_a.z(), end_b.z()) + s.margin + s.strained;
-  const Vec3 up = s.to_local.transpose() * Vec3::UnitZ();
-  const std::span<const Vec3> body = vertices_of(s.shapes, s.b);
   const std::span<const ShapeEdge> edges = edges_of(s.shapes, s.b);
-  for (size_t i = 0; i < edges.size(); ++i) {
-    if (s.height(edges[i].a) > above && s.height(edges[i].b) > above) continue;
-    if (!edges_may_touch(edges[i].arc, ridge, s.nearly_parallel)) continue;
-    const Vec3& P = body[static_cast<size_t>(edges[i].a)];
-    const Vec3 e = body[static_cast<size_t>(edges[i].b)] - P;
-    LinePair at = nearest_on_lines(P, e, Q, f);
-    if (at.parallel) continue;
-    Vec3 normal = e.cross(f);
-    if (normal.dot(ridge.left + ridge.right) < 0) normal = -normal;
-    // Of edges that overlap the nearest points may lie a little beyond an end. Where they cross in
-    // plan, the block's is below the ground, however deep.
-    const bool overlap = normal.dot(P - Q) < 0;
-    const LinePair crossing = overlap ? crossing_seen_along(up, P, e, Q, f) : at;
-    normal.normalize();
-    // Ridges that meet at a node both bear an edge above it: by turns they would bear nothing.
-    const double beyond = std::clamp(normal.dot(Q - P), 0.0, at_node * deepest) / f.norm();
-    if (!is_within(at, beyond)) at = crossing;
-    if (!is_within(at, beyond)) continue;
-    const Vec3 a = P + at.s * e, X = Q + at.t * f;
-    const double gap = normal.dot(a - X);
-    if (gap > s.margin) continue;
-    const bool in_doubt =
-        gap < -doubtful * deepest && (gap < -deepest || !edges_overlap(s, edges[i], a, X, -gap));
-    if (in_doubt && !is_within(crossing, beyond)) continue;
-    const Vec3 x = end_a + at.t * (end_b - end_a);
-    if (!s.takes(x, gap, in_doubt, contacts)) continue;
-    Contact contact;
-    contact.key = {ContactMode::edge_edge, -1, static_cast<int>(i),
-                   4 * static_cast<int>(node_index(trn, row, col)) + static_cast<int>(kind)};
-    contact.block_a = s.b;
-    contact.ground_class = class_of(s.ground, edge.left);
-    contact.normal = s.to_local * normal;
-    contact.gap = gap;
-    contact.point_a = a;
-    contact.point_b = x;
-    contacts.push_back(contact);
+  // by bits: few edges are left, and which of them is not to be foreseen
+  for (size_t begin = 0; begin < edges.size(); begin += 64) {
+    const std::span<const ShapeEdge> some =
+        edges.subspan(begin, std::min<size_t>(64, edges.size() - begin));
+    std::uint64_t near = 0, touching = 0;
+    for (size_t i = 0; i < some.size(); ++i) {
+      const bool is_high = (s.height(some[i].a) > above) & (s.height(some[i].b) > above);
+      const bool is_clear = is_high | above_planes.has(some[i].a, some[i].b);
+      near |= std::uint64_t{!is_clear} << i;
+    }
+    for (; near != 0; near &= near - 1) {
+      const int i = std::countr_zero(near);
+      touching |= std::uint64_t{edges_may_touch(some[static_cast<size_t>(i)].arc, ridge.arc,
+                                                s.nearly_parallel)}
+                  << i;
+    }
+    for (; touching != 0; touching &= touching - 1)
+      add_edge_contact(s, ridge, begin + static_cast<size_t>(std::countr_zero(touching)), deepest,
+                       contacts);
   }
 }
 
