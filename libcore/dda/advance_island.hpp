@@ -167,7 +167,7 @@ struct AdvanceIsland {
   [[nodiscard]] PairMotionFree free_motion(const PairManifold& m) const;
   void look_ahead(double h);
   void add_points(int manifold, double h);
-  [[nodiscard]] bool closes_left_out() const;
+  [[nodiscard]] bool closes_left_out();
   bool assemble(double t, double h);
 
   // island_impacts.cpp

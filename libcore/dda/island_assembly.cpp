@@ -82,6 +82,7 @@ void AdvanceIsland::clear_island() {
   w.hits.clear();
   w.hit_pairs.clear();
   w.any_bond = false;
+  w.touched_by = -1;
 }
 
 void AdvanceIsland::add_member(size_t k, double h) {
@@ -231,9 +232,15 @@ bool has_features(const ContactKey& now, const ContactKey& then) {
 void AdvanceIsland::match_memories(const PairManifold& m) {
   const std::vector<ContactMemory>& memory = state.memory[static_cast<size_t>(m.block_a)];
   w.continued.assign(static_cast<size_t>(m.point_end - m.point_begin), -1);
+  if (w.touched_by != m.block_a) {  // manifolds come block by block
+    w.touched_by = m.block_a;
+    w.touched.clear();
+    for (const ContactMemory& contact : memory) w.touched.push_back(contact.key.body_b);
+  }
   w.unclaimed.clear();
-  for (size_t i = 0; i < memory.size(); ++i)
-    if (memory[i].key.body_b == m.block_b) w.unclaimed.push_back(static_cast<int>(i));
+  for (size_t i = 0; i < w.touched.size(); ++i)
+    if (w.touched[i] == m.block_b) w.unclaimed.push_back(static_cast<int>(i));
+  if (w.unclaimed.empty()) return;
   const auto claim = [&](const auto& continues, double least_cosine) {
     for (size_t p = 0; p < w.continued.size() && !w.unclaimed.empty(); ++p) {
       if (w.continued[p] >= 0) continue;
@@ -479,9 +486,17 @@ void AdvanceIsland::add_points(int manifold, double h) {
 }
 
 // Whether a contact that was left out closes by the displacements found without it.
-bool AdvanceIsland::closes_left_out() const {
+bool AdvanceIsland::closes_left_out() {
+  w.farthest.clear();
+  for (size_t k = 0; k < w.members.size(); ++k) {
+    const double shift = (w.island.position[k] - w.substeps[k].start.pose.position).norm();
+    w.farthest.push_back(w.displacement[k].head<3>().norm() +
+                         (2 * w.numbers[k].radius + shift) * w.displacement[k].tail<3>().norm());
+  }
   return std::any_of(w.left_out.begin(), w.left_out.end(), [&](const LeftOutPoint& left) {
     const PairManifold& m = w.pairs.manifolds[static_cast<size_t>(left.manifold)];
+    const double gap_end = w.gap_end[static_cast<size_t>(left.point)];
+    if (gap_end > w.farthest[place(m.block_a)] + w.farthest[place(m.block_b)]) return false;
     const Vec3& x = w.pairs.points[static_cast<size_t>(left.point)].point_b;
     const auto along = [&](int b) {
       const size_t k = place(b);
@@ -489,8 +504,7 @@ bool AdvanceIsland::closes_left_out() const {
     };
     const double touch =
         pair_touch_ratio * std::min(numbers(m.block_a).radius, numbers(m.block_b).radius);
-    return w.gap_end[static_cast<size_t>(left.point)] + along(m.block_a) - along(m.block_b) <
-           -touch;
+    return gap_end + along(m.block_a) - along(m.block_b) < -touch;
   });
 }
 

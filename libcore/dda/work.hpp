@@ -142,6 +142,9 @@ struct IslandStepWork {  // clang-format off
   std::vector<double> gap_end;              ///< without contact forces [m]         (n_points of `pairs`)
   std::vector<double> thrown;               ///< by hits, about [m/s]                    (n_members)
   std::vector<LeftOutPoint> left_out;       ///< points of `pairs` that are no contacts of the substep
+  std::vector<double> farthest;             ///< that contact moves a point of it [m]    (n_members)
+  int touched_by = -1;                      ///< block whose memories `touched` is of
+  std::vector<int> touched;                 ///< body B of each memory
   std::vector<int> continued;               ///< memory that a manifold's point continues
   std::vector<int> unclaimed;               ///< memories of the pair that no point continues yet
   std::vector<BondLoad> bond_loads;         ///< of this substep, by bond           (n_loaded)
