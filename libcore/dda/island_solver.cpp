@@ -142,12 +142,8 @@ struct Solve {
 
   // The largest of all bodies; NaN where there is one.
   [[nodiscard]] double residual_speed() const {
-    double largest = 0;
-    for (const double speed : work.speed) {
-      if (!(speed <= largest)) largest = speed;
-      if (std::isnan(largest)) return largest;
-    }
-    return largest;
+    const auto n = static_cast<Eigen::Index>(work.speed.size());
+    return n == 0 ? 0 : Eigen::ArrayXd::Map(work.speed.data(), n).maxCoeff<Eigen::PropagateNaN>();
   }
 
   // Keeps the velocities: all, or those that moved from where they were kept last.
@@ -187,8 +183,17 @@ struct Solve {
   // every step: a push that travels far needs them all.
   bool few_move() {
     work.moving.clear();
-    for (size_t i = 0; i < work.speed.size(); ++i)
+    const auto note = [this](size_t i) {
       if (!(work.speed[i] <= tolerance)) work.moving.push_back(static_cast<int>(i));
+    };
+    // most bodies do not: eight of them are looked at together
+    size_t i = 0;
+    for (; i + 8 <= work.speed.size(); i += 8) {
+      const auto eight = Eigen::Array<double, 8, 1>::Map(&work.speed[i]);
+      if (eight.maxCoeff<Eigen::PropagateNaN>() <= tolerance) continue;
+      for (size_t k = i; k < i + 8; ++k) note(k);
+    }
+    for (; i < work.speed.size(); ++i) note(i);
     return ++n_linear % all_every != 0 && few * work.moving.size() < work.speed.size();
   }
 
