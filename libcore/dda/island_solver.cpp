@@ -104,8 +104,8 @@ struct Solve {
         now[i].groups = groups_of(island, pair);
         now[i].motion = work.velocity[static_cast<size_t>(pair.a)];
         if (pair.b >= 0)
-          now[i].motion = relative_motion(
-              now[i].motion, work.velocity[static_cast<size_t>(pair.b)], work.matrix.shift[p]);
+          now[i].motion = relative_motion(now[i].motion, work.velocity[static_cast<size_t>(pair.b)],
+                                          work.matrix.shift[p]);
       }
       evaluate_pairs(std::span(now).first(some.size()), evaluation, direct ? 0 : slack);
       for (size_t i = 0; i < some.size(); ++i) {
@@ -123,8 +123,7 @@ struct Solve {
     work.pair_impulse[p] = f;
     work.residual[a] -= active.contains(pair.a) ? f : change;
     if (pair.b >= 0)
-      work.residual[b] +=
-          carried_to_b(active.contains(pair.b) ? f : change, work.matrix.shift[p]);
+      work.residual[b] += carried_to_b(active.contains(pair.b) ? f : change, work.matrix.shift[p]);
   }
 
   // The residual as a velocity: impulse over mass, angular impulse over inertia times radius.

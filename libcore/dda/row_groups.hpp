@@ -35,13 +35,11 @@ struct PairEvaluation {
   }
 };
 
-/// Rows that are evaluated at a time, with the same bits: two anywhere, four where the processor has
-/// AVX2.
+/// Rows that are evaluated at a time, with the same bits: two anywhere, four where the processor
+/// has AVX2.
 enum class RowWidth : std::uint8_t { two = 2, four = 4 };
 [[nodiscard]] bool has_four_lanes();
-[[nodiscard]] inline RowWidth widest() {
-  return has_four_lanes() ? RowWidth::four : RowWidth::two;
-}
+[[nodiscard]] inline RowWidth widest() { return has_four_lanes() ? RowWidth::four : RowWidth::two; }
 
 /// Impulses of the pairs' contacts at their relative motions. A tangent counts as changed with a
 /// state, or with a slip stiffness by more than `slack` of what the tangent was summed with.

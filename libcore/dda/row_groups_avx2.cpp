@@ -17,8 +17,8 @@ bool has_four_lanes() {
   return has;
 }
 
-[[gnu::flatten]] void evaluate_pairs_by_four(std::span<PairEvaluation> pairs,
-                                             Evaluation evaluation, double slack) {
+[[gnu::flatten]] void evaluate_pairs_by_four(std::span<PairEvaluation> pairs, Evaluation evaluation,
+                                             double slack) {
   using FourDoubles __attribute__((vector_size(32), may_alias)) = double;
   evaluate_in_lanes<FourDoubles>(pairs, evaluation, slack);
 }

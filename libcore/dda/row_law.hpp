@@ -1,8 +1,8 @@
 // libcore/dda/row_law.hpp
-// The contact law over lanes, for row_groups.cpp and row_groups_avx2.cpp alone: V is a vector of two
-// or four doubles, that is the rows of one group or of two. Whatever the width, each row sees the
-// same operations in the same order, and so has the same bits. All of it is local to the file that
-// includes it, which compiles it for its own processor.
+// The contact law over lanes, for row_groups.cpp and row_groups_avx2.cpp alone: V is a vector of
+// two or four doubles, that is the rows of one group or of two. Whatever the width, each row sees
+// the same operations in the same order, and so has the same bits. All of it is local to the file
+// that includes it, which compiles it for its own processor.
 #pragma once
 
 #include <cmath>
@@ -266,7 +266,7 @@ template <class V>
       n_waiting = 0;
     }
   }
-  if constexpr (n_groups<V> > 1) {
+  if constexpr (n_groups < V >> 1) {
     const GroupOfPair last[1] = {waiting[0]};
     if (n_waiting > 0) evaluate_groups<Two>(last, evaluation, slack);
   }
