@@ -1,4 +1,6 @@
 // The wave along a row of dominoes, by the engine and by angles alone.
+#include <array>
+
 #include "verify/block_cases.hpp"
 #include "verify/case_run.hpp"
 #include "verify/cases.hpp"
@@ -28,8 +30,7 @@ struct DominoModel {
             std::sin(b) * x + std::cos(b) * z};
   }
 
-  void push(std::size_t i) {
-    const Gap at = gap(i);
+  void push(std::size_t i, const Gap& at) {
     if (at.value > 0) return;
     const double closing = at.by_this * rate[i] + at.by_next * rate[i + 1];
     const double mobility = at.by_this * at.by_this + at.by_next * at.by_next;
@@ -49,8 +50,10 @@ struct DominoModel {
       if (angle[i] <= 0) rate[i] = std::max(rate[i], 0.0);
       pushed[i] = 0;
     }
+    std::array<Gap, n_plates - 1> gaps;  // angles stay until the end
+    for (std::size_t i = 0; i < gaps.size(); ++i) gaps[i] = gap(i);
     for (int sweep = 0; sweep < 60; ++sweep)
-      for (std::size_t i = 0; i + 1 < n_plates; ++i) push(i);
+      for (std::size_t i = 0; i < gaps.size(); ++i) push(i, gaps[i]);
     for (std::size_t i = 0; i < n_plates; ++i) angle[i] = std::max(0.0, angle[i] + dt * rate[i]);
   }
 };
