@@ -40,11 +40,13 @@ struct GaussArc {
                                           double tolerance) {
   const double c = -arc_b.left.dot(arc_a.along), d = -arc_b.right.dot(arc_a.along);
   const double a = arc_a.left.dot(arc_b.along), b = arc_a.right.dot(arc_b.along);
+  // numbers instead of branches: which of many edges it is cannot be foreseen
   const auto crosses = [&](double s, double t) {
-    return (std::min(s, t) <= tolerance) & (std::max(s, t) >= -tolerance);
+    const int begins = std::min(s, t) <= tolerance, ends = std::max(s, t) >= -tolerance;
+    return begins & ends;
   };
-  // without branches: which of many edges it is cannot be foreseen
-  return crosses(c, d) & crosses(a, b) & ((c - d) * (b - a) > 0);
+  const int same_way = (c - d) * (b - a) > 0;
+  return (crosses(c, d) & crosses(a, b) & same_way) != 0;
 }
 
 /// sin^2 of 1 degree: directions nearer than that count as parallel.

@@ -379,8 +379,8 @@ void find_mode_3(FeatureSearch& s, int row, int col, EdgeKind kind,
         edges.subspan(begin, std::min<size_t>(64, edges.size() - begin));
     std::uint64_t near = 0, touching = 0;
     for (size_t i = 0; i < some.size(); ++i) {
-      const bool is_high = (s.height(some[i].a) > above) & (s.height(some[i].b) > above);
-      const bool is_clear = is_high | above_planes.has(some[i].a, some[i].b);
+      const int a_high = s.height(some[i].a) > above, b_high = s.height(some[i].b) > above;
+      const bool is_clear = ((a_high & b_high) | above_planes.has(some[i].a, some[i].b)) != 0;
       near |= std::uint64_t{!is_clear} << i;
     }
     for (; near != 0; near &= near - 1) {

@@ -12,7 +12,7 @@ namespace {
 
 using std::size_t;
 
-constexpr int width = 2;
+constexpr int n_lanes = 2;
 constexpr Two zero = {0, 0};
 constexpr Two one = {1, 1};
 constexpr Two open_lanes = zero;
@@ -122,7 +122,7 @@ void add_exact_slip(const RowGroup& g, int lane, Mat6& rest) {
       add_outer(k_n, q, total);
     }
     if (!rest && any(g.slip_tangent)) add_across(g, total);
-    for (int lane = 0; rest && lane < width; ++lane)
+    for (int lane = 0; rest && lane < n_lanes; ++lane)
       if (g.slip_tangent[lane] > 0) add_exact_slip(g, lane, *rest);
   }
   for (int k = 0; k < Packed<6>::size; ++k) W.value[static_cast<size_t>(k)] = sum(total[k]);
