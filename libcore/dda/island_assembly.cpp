@@ -487,6 +487,7 @@ void AdvanceIsland::add_points(int manifold, double h) {
 
 // Whether a contact that was left out closes by the displacements found without it.
 bool AdvanceIsland::closes_left_out() {
+  // Most are told by a bound: no point of a pair lies farther than two radii from a block's start.
   w.farthest.clear();
   for (size_t k = 0; k < w.members.size(); ++k) {
     const double shift = (w.island.position[k] - w.substeps[k].start.pose.position).norm();

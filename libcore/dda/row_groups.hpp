@@ -38,6 +38,7 @@ struct PairEvaluation {
 /// Rows that are evaluated at a time, with the same bits: two anywhere, four where the processor
 /// has AVX2.
 enum class RowWidth : std::uint8_t { two = 2, four = 4 };
+/// Whether this processor and this build can take four.
 [[nodiscard]] bool has_four_lanes();
 [[nodiscard]] inline RowWidth widest() { return has_four_lanes() ? RowWidth::four : RowWidth::two; }
 
