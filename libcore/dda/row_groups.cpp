@@ -1,9 +1,7 @@
 #include "dda/row_groups.hpp"
 
-#include <algorithm>
 #include <cmath>
 
-#include "base/make_room.hpp"
 #include "dda/newton.hpp"
 #include "dda/row_law.hpp"
 
