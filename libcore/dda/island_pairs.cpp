@@ -136,7 +136,6 @@ void AdvanceIsland::search_pairs(double h) {
   w.island_manifolds.clear();
   for (size_t m = 0; m < w.pairs.manifolds.size(); ++m)
     if (in_island(w.pairs.manifolds[m])) w.island_manifolds.push_back(static_cast<int>(m));
-  set_stiffness();
 }
 
 // The pairs that form_islands found, those of island `k`.
@@ -147,7 +146,6 @@ void AdvanceIsland::take_pairs(int k) {
     const int m = w.joined_manifold[static_cast<size_t>(w.groups.pairs[static_cast<size_t>(p)])];
     if (in_island(w.pairs.manifolds[static_cast<size_t>(m)])) w.island_manifolds.push_back(m);
   }
-  set_stiffness();
 }
 
 // A small block may bear a large one: its contacts are up to as stiff as the heaviest block that it
@@ -156,7 +154,6 @@ void AdvanceIsland::take_pairs(int k) {
 // solving an island with many of them takes tens of factorisations. In the first step nobody knows
 // what they bear.
 void AdvanceIsland::set_stiffness() {
-  see_size();
   w.bearing.clear();
   for (const BlockNumbers& c : w.numbers) w.bearing.push_back(c.mass);
   for (const int i : w.island_manifolds) {
@@ -223,7 +220,8 @@ double AdvanceIsland::longest_substep(double h) const {
     const double enough = most_travel * thickness;
     part = std::max(part, travel_ahead(m, enough) / enough);
   }
-  return part > 1 ? h / std::min(std::ceil(part), most_substeps) : h;
+  const double shortest = std::min(h, scene.settings.dt / most_substeps);
+  return part > 1 ? std::max(h / std::ceil(part), shortest) : h;
 }
 
 void form_islands(const Scene& scene, State& state, Work& work) {

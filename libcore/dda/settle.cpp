@@ -69,6 +69,8 @@ bool settle(const Scene& scene, int b, double friction, bool from_touch, double 
             Work& work) {
   constexpr int most_passes = 40, first_passes = 5;  // those before the way settles down
   constexpr double accelerates = 0.9;                // of the pass before: it comes to no end
+  constexpr double slides = 0.999;                   // the same where nothing sticks
+  constexpr double most_margin = 1e-2;  // of the radius: from rest nothing else comes near
   BlockNumbers c = numbers_of(scene, b);
   const double h = scene.settings.dt;
   c.recovery_time = h / 2;  // from rest, this lands in equilibrium at once as k grows
@@ -78,7 +80,8 @@ bool settle(const Scene& scene, int b, double friction, bool from_touch, double 
   for (int pass = 0; pass < most_passes; ++pass) {
     const Substep s = predict(scene, b, c, motion, 0, h);
     (void)find_contacts(scene.ground, scene.blocks.shapes, b, s.free.pose, stretch_of(state, b),
-                        search_margin(c, h), work.world_vertices, work.contacts);
+                        std::min(search_margin(c, h), most_margin * c.radius), work.world_vertices,
+                        work.contacts);
     make_rows(scene, b, c, s, state, work);
     if (work.rows.empty()) return true;
     for (ContactRow& row : work.rows) {
@@ -94,7 +97,11 @@ bool settle(const Scene& scene, int b, double friction, bool from_touch, double 
                          c.radius * solved.end.pose.attitude.angularDistance(motion.pose.attitude);
     motion.pose = solved.end.pose;
     if (moved < still * c.radius + 1e-15 * motion.pose.position.norm()) return true;
+    const bool sticks = std::any_of(work.rows.begin(), work.rows.end(), [](const ContactRow& row) {
+      return row.state == ContactState::stick;
+    });
     if (pass >= first_passes && moved > accelerates * moved_before) return false;
+    if (pass > 0 && !sticks && moved > slides * moved_before) return false;
     moved_before = moved;
   }
   return false;

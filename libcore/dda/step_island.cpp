@@ -19,6 +19,9 @@ constexpr int most_deep_cuts = 8;       // in a step, where a block would end de
 constexpr double deep = 0.08;           // of the thickness: health allows a tenth
 constexpr double deeper = 0.02;         // of it, than at the start of the substep
 constexpr double after_hit = 1.0 / 32;  // of the substep
+// Pairs are searched at most so many substeps like the last one ahead: those that are far apart
+// when a long step begins cost the most, and bear nothing yet.
+constexpr double substeps_ahead = 2;
 
 }  // namespace
 
@@ -431,13 +434,17 @@ void AdvanceIsland::stop_outsiders(double t_end) {
 
 void AdvanceIsland::run(int island, std::span<const int> blocks, double t_end) {
   gather(blocks);
-  double t = state.time;
+  double t = state.time, ahead = t_end - t;
   while (t < t_end && !w.members.empty()) {
-    if (w.pairs_of_step && t == state.time)
+    const bool begins = t == state.time;
+    if (w.pairs_of_step && begins)
       take_pairs(island);
     else
-      search_pairs(t_end - t);
-    double h = longest_substep(t_end - t);
+      search_pairs(ahead);
+    if (begins) see_size();
+    set_stiffness();
+    const double longest = longest_substep(ahead);
+    double h = longest;
     halvings = cuts = 0;
     takes_all = false;
     Attempt outcome = Attempt::shorter;
@@ -445,6 +452,7 @@ void AdvanceIsland::run(int island, std::span<const int> blocks, double t_end) {
     t = state.local_time[block(0)];
     if (t_end - t < 1e-9 * scene.settings.dt) t = t_end;
     stop_outsiders(t_end);
+    ahead = (t_end - t) / std::ceil((t_end - t) / (substeps_ahead * longest));
   }
   for (const int b : w.members) state.local_time[static_cast<size_t>(b)] = t_end;
   release();

@@ -47,6 +47,7 @@ struct Advance {
   Contact foreseen = {};     // the one that an attempt found about to hit
   bool is_foreseen = false;  // not yet tried
   bool may_fly = true;       // off for the rest of a step in which a flight met the ground
+  bool on_plane = false;     // it slides, and in the substep it cannot meet another plane
 
   [[nodiscard]] size_t i() const { return static_cast<size_t>(b); }
   Motion& motion() { return state.motion[i()]; }
@@ -91,9 +92,9 @@ struct Advance {
   Attempt attempt(double t, double& h, bool last) {
     const Substep s = predict(scene, b, c, motion(), t, h);
     const Mat3 stretch = stretch_of(state, b);
-    const SearchResult near =
-        find_contacts(scene.ground, scene.blocks.shapes, b, s.free.pose, stretch,
-                      search_margin(c, h), work.world_vertices, work.contacts);
+    const SearchResult near = find_contacts(
+        scene.ground, scene.blocks.shapes, b, s.free.pose, stretch,
+        on_plane ? margin_on_plane(h) : search_margin(c, h), work.world_vertices, work.contacts);
     if (near.reach == Reach::off_ground) return Attempt::left;
     if (work.contacts.empty()) {
       if (free_fall_only() && begin_flight(t, h)) return Attempt::flight;
@@ -226,12 +227,34 @@ struct Advance {
   // No point of the block is faster [m/s].
   double top_speed() { return motion().velocity.norm() + spin_speed() * c.radius; }
 
+  // What bears a block that slides changes its path by no more than about half of this.
+  double margin_on_plane(double h) const { return c.gravity * h * h + 1e-3 * c.radius; }
+
+  // Whether all ground that the block may come over in the next `h` lies in the plane below it.
+  bool is_plane_ahead(double h) {
+    const Trn& trn = scene.ground.trn;
+    const Vec3 &from = motion().pose.position, to = from + h * motion().velocity;
+    const double around = c.radius + margin_on_plane(h);
+    const Vec3 low = from.cwiseMin(to), high = from.cwiseMax(to);
+    if (!contains(trn, low.x() - around, low.y() - around) ||
+        !contains(trn, high.x() + around, high.y() + around))
+      return false;
+    return is_plane(trn, cells_near(trn, low, high, around), locate(trn, from.x(), from.y()));
+  }
+
   // Near the ground a substep moves no point farther than half a cell and turns the block by at
   // most half a radian; a needle that rolls at more than 100 radians a step is not followed any
-  // closer.
-  double longest_substep() {
-    const double turn = std::max(0.5 / (spin_speed() + 1e-300), scene.settings.dt / 200);
-    return std::min(0.5 * scene.ground.trn.cell_size / (top_speed() + 1e-300), turn);
+  // closer. A block that slides may go farther, up to `h`, where it cannot meet another plane.
+  double longest_substep(double h) {
+    constexpr double slides = 0.05;  // turns by no more [rad]
+    const double spin = spin_speed() + 1e-300;
+    const double by_turn = std::max(0.5 / spin, scene.settings.dt / 200);
+    const double by_way = 0.5 * scene.ground.trn.cell_size / (top_speed() + 1e-300);
+    on_plane = false;
+    if (!state.memory[i()].empty())
+      for (double longer = std::min(h, slides / spin); longer > by_way; longer /= 2)
+        if ((on_plane = is_plane_ahead(longer))) return longer;
+    return std::min(by_way, by_turn);
   }
 
   template <int Dof>
@@ -240,7 +263,7 @@ struct Advance {
     while (state.local_time[i()] < t_end) {
       if (state.phase[i()] == Phase::flight && !flight_ends(t_end)) return;
       const double t = state.local_time[i()];
-      double h = std::min(t_end - t, longest_substep());
+      double h = std::min(t_end - t, longest_substep(t_end - t));
       Attempt outcome = Attempt::shorter;
       for (int tries = 1; outcome == Attempt::shorter; ++tries)
         outcome = attempt<Dof>(t, h, tries >= most_tries);

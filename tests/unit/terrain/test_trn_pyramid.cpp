@@ -105,6 +105,26 @@ TEST(CellsNear, FloorKeepsABlockJustOffTheEdgeOff) {
   EXPECT_TRUE(talus::cells_near(trn, {std::nan(""), -20, 0}, {1, -10, 1}, 0.5).empty());
 }
 
+TEST(IsPlane, SeesEveryNodeThatIsOffAndEveryUnknownOne) {
+  Trn trn = talus_test::planar_trn(9, 11, 2.5, 0.31, -0.17);
+  const CellRange range{2, 5, 3, 8};  // nodes of rows 2 to 6, columns 3 to 9
+  for (const double x : {10.1, 14.9, 19.6}) {
+    const talus::GridPoint point = talus::locate(trn, x, -9.3);
+    EXPECT_TRUE(talus::is_plane(trn, range, point));
+    for (int r = 0; r < trn.n_rows; ++r)
+      for (int c = 0; c < trn.n_cols; ++c) {
+        const bool is_in = r >= 2 && r <= 6 && c >= 3 && c <= 9;
+        double& z = trn.elevation[talus::node_index(trn, r, c)];
+        for (const double off : {1e-5, -1e-5, std::nan("")}) {
+          const double was = z;
+          z += off;
+          EXPECT_EQ(talus::is_plane(trn, range, point), !is_in) << r << " " << c;
+          z = was;
+        }
+      }
+  }
+}
+
 TEST(FindNearCells, Equation7TellsAboveFromPossibleAndBelow) {
   talus::Random random(3, "eq7");
   Trn trn = talus_test::random_trn(random, 60, 60, 50, 0.1);
