@@ -35,17 +35,20 @@ struct GaussArc {
 /// E-E: edges of A and B. True when the arc of A crosses the negative of the arc of B, or an end of
 /// one arc lies within `tolerance` (sine of an angle) of the other: a face that rests on an edge of
 /// the other body touches it through two of its own edges, and is never parallel to rounding.
-/// Concave edges have a reversed arc: leave them out.
+/// Concave edges have a reversed arc: leave them out. `turned`: also true where it may become true
+/// once the bodies have turned towards each other by an angle of that chord.
 [[nodiscard]] inline bool edges_may_touch(const GaussArc& arc_a, const GaussArc& arc_b,
-                                          double tolerance) {
+                                          double tolerance, double turned = 0) {
   const double c = -arc_b.left.dot(arc_a.along), d = -arc_b.right.dot(arc_a.along);
   const double a = arc_a.left.dot(arc_b.along), b = arc_a.right.dot(arc_b.along);
   // numbers instead of branches: which of many edges it is cannot be foreseen
   const auto crosses = [&](double s, double t) {
-    const int begins = std::min(s, t) <= tolerance, ends = std::max(s, t) >= -tolerance;
+    const int begins = std::min(s, t) <= tolerance + turned,
+              ends = std::max(s, t) >= -(tolerance + turned);
     return begins & ends;
   };
-  const int same_way = (c - d) * (b - a) > 0;
+  // each difference is at most 2 and changes by at most 2 turned
+  const int same_way = (c - d) * (b - a) > -turned * (8 + 4 * turned);
   return (crosses(c, d) & crosses(a, b) & same_way) != 0;
 }
 

@@ -338,6 +338,7 @@ void place_hulls(const Hulls& hulls, std::span<const Pose> poses, std::span<cons
     if (!first && !moving.empty() && moving[b] == 0) continue;
     const Mat3 turn = poses[b].attitude.toRotationMatrix();
     const Mat3 axes = rigid ? turn : Mat3(turn * stretch[b]);
+    if (!first && axes == placed.axes[b] && poses[b].position == placed.position[b]) continue;
     if (!first) placed.turned[b] += hulls.radius[b] * (axes - placed.axes[b]).norm();
     const Mat3 normal_axes = rigid ? turn : Mat3(axes.inverse().transpose());
     placed.axes[b] = axes;

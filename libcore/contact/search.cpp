@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 #include "contact/entrance.hpp"
 
@@ -24,6 +25,9 @@ constexpr double explained = 2;     // of its depth: so near to another overlap 
 constexpr double at_node = 0.01;    // of half the thickness: so far beyond its ends a ridge bears
 constexpr double same_wall = 1e-9;  // of the block's size: a node on a wall belongs to both parts
 constexpr double blunt_cos = 0.1;   // of the normals beside a ridge: a normal between is along both
+constexpr double searches_ahead = 10;  // a list of features is to last for so many ...
+constexpr double least_skin = 5e-3, most_skin = 0.1;  // ... of the radius
+constexpr double short_lived = 5;                     // searches: such a list would not pay
 
 /// A triangle, and across which of its edges the next one lies.
 struct Neighbour {
@@ -114,6 +118,11 @@ void find_mode_1(const Ground& ground, const Shapes& shapes, int b, double highe
   }
 }
 
+// Sine below which a face of the block and a ridge count as parallel.
+double parallel_within(double margin, const Shapes& shapes, int b) {
+  return std::clamp(margin / shapes.radius[static_cast<size_t>(b)], least_parallel, most_parallel);
+}
+
 /// Candidate cells and the block in its own axes, for modes 2 and 3.
 struct FeatureSearch {
   const Ground& ground;
@@ -126,6 +135,8 @@ struct FeatureSearch {
   Vec3 low, high;                  // box of the block, local axes
   std::span<const Vec3> vertices;  // where they are, local axes
   double strained;                 // bound on what strains move them by [m]
+  double skin = 0;                 // by which the block may have moved, to make a list [m] ...
+  double turn = 0;                 // ... and may have turned, as a chord
   int n_put_off = 0;               // deep overlaps that another feature may explain better
   int n_sure = -1;                 // second search, for these: the contacts found in the first
 
@@ -284,21 +295,13 @@ struct AboveRidge {
   }
 };
 
-AboveRidge above_ridge(const FeatureSearch& s, const Vec3& at, const Vec3& left,
-                       const Vec3& right) {
-  AboveRidge above;
-  if (s.vertices.size() > AboveRidge::most || left.dot(right) < blunt_cos) return above;
-  const double clear = 1.001 * s.margin + s.strained;
-  for (size_t v = 0; v < s.vertices.size(); ++v) {
-    const double x = s.vertices[v].x() - at.x(), y = s.vertices[v].y() - at.y(),
-                 z = s.vertices[v].z() - at.z();
-    const bool over_left = left.x() * x + left.y() * y + left.z() * z > clear;
-    const bool over_right = right.x() * x + right.y() * y + right.z() * z > clear;
-    above.left |= std::uint64_t{over_left} << v;
-    above.right |= std::uint64_t{over_right} << v;
-  }
-  return above;
+// Whether a point is above the plane of `normal` through `at` by more than `clear`.
+bool is_above(const Vec3& normal, const Vec3& at, const Vec3& point, double clear) {
+  const double x = point.x() - at.x(), y = point.y() - at.y(), z = point.z() - at.z();
+  return normal.x() * x + normal.y() * y + normal.z() * z > clear;
 }
+
+constexpr std::uint64_t all_edges = ~std::uint64_t{0};
 
 /// An edge of the ground and what it meets blocks with.
 struct Ridge {
@@ -348,50 +351,144 @@ void add_edge_contact(FeatureSearch& s, const Ridge& ridge, size_t i, double dee
   contacts.push_back(contact);
 }
 
-void find_mode_3(FeatureSearch& s, int row, int col, EdgeKind kind,
-                 std::vector<Contact>& contacts) {
+/// A ridge that the block may touch, and what tells which of its edges cannot.
+struct NearRidge {
+  Ridge ridge;
+  Vec3 left, right;    // normals beside it, local axes
+  double clear = 0;    // farther above a plane beside it than that the block does not touch it [m]
+  double height = 0;   // nor above that, local axes [m]
+  bool blunt = false;  // planes beside it tell nothing
+
+  // Whether the block's edge between two vertices is above the same plane beside the ridge.
+  [[nodiscard]] bool is_below(const Vec3& a, const Vec3& b) const {
+    const Vec3& at = ridge.end_a;
+    const int left_of = is_above(left, at, a, clear) & is_above(left, at, b, clear);
+    const int right_of = is_above(right, at, a, clear) & is_above(right, at, b, clear);
+    return !blunt && (left_of | right_of) != 0;
+  }
+};
+
+// The ridge, unless the block is clear of it for its distance.
+bool come_near(const FeatureSearch& s, int row, int col, EdgeKind kind, NearRidge& near) {
   const Trn& trn = s.ground.trn;
   const TrnEdge edge = trn_edge(trn, row, col, kind);
-  Ridge ridge;
+  Ridge& ridge = near.ridge;
   const Vec3& end_a = ridge.end_a = node_point(trn, edge.a.row, edge.a.col);
   const Vec3& end_b = ridge.end_b = node_point(trn, edge.b.row, edge.b.col);
-  if ((end_a.cwiseMax(end_b) - s.low).minCoeff() < -s.margin ||
-      (s.high - end_a.cwiseMin(end_b)).minCoeff() < -s.margin)
-    return;
+  const double reach = s.margin + s.skin;
+  if ((end_a.cwiseMax(end_b) - s.low).minCoeff() < -reach ||
+      (s.high - end_a.cwiseMin(end_b)).minCoeff() < -reach)
+    return false;
   ridge.Q = s.to_body(end_a);
   ridge.f = s.to_local.transpose() * (end_b - end_a);
-  const double radius = s.shapes.radius[static_cast<size_t>(s.b)] + s.margin;
+  const double radius = s.shapes.radius[static_cast<size_t>(s.b)] + reach;
   const double nearest = std::clamp(-ridge.Q.dot(ridge.f) / ridge.f.squaredNorm(), 0.0, 1.0);
-  if ((ridge.Q + nearest * ridge.f).squaredNorm() > radius * radius) return;
-  const Vec3 left = triangle_plane(trn, edge.left).normal;
-  const Vec3 right = triangle_plane(trn, edge.right).normal;
-  const AboveRidge above_planes = above_ridge(s, end_a, left, right);
-  if (above_planes.has_all(s.vertices.size())) return;
-  ridge.arc = gauss_arc(s.to_local.transpose() * left, s.to_local.transpose() * right);
+  if ((ridge.Q + nearest * ridge.f).squaredNorm() > radius * radius) return false;
+  near.left = triangle_plane(trn, edge.left).normal;
+  near.right = triangle_plane(trn, edge.right).normal;
+  near.blunt = s.vertices.size() > AboveRidge::most || near.left.dot(near.right) < blunt_cos;
+  near.clear = 1.001 * s.margin + s.strained + s.skin;
+  near.height = std::max(end_a.z(), end_b.z()) + s.margin + s.strained + s.skin;
   ridge.left = edge.left;
   ridge.feature = 4 * static_cast<int>(node_index(trn, row, col)) + static_cast<int>(kind);
-  const double deepest = s.shapes.thickness[static_cast<size_t>(s.b)] / 2;
-  const double above = std::max(end_a.z(), end_b.z()) + s.margin + s.strained;
+  return true;
+}
+
+AboveRidge above_ridge(const FeatureSearch& s, const NearRidge& near) {
+  AboveRidge above;
+  if (near.blunt) return above;
+  for (size_t v = 0; v < s.vertices.size(); ++v) {
+    const Vec3 &x = s.vertices[v], &at = near.ridge.end_a;
+    above.left |= std::uint64_t{is_above(near.left, at, x, near.clear)} << v;
+    above.right |= std::uint64_t{is_above(near.right, at, x, near.clear)} << v;
+  }
+  return above;
+}
+
+void set_arc(const FeatureSearch& s, NearRidge& near) {
+  near.ridge.arc =
+      gauss_arc(s.to_local.transpose() * near.left, s.to_local.transpose() * near.right);
+}
+
+// Those of `near` edges of the block whose arcs allow a contact with the ridge, by bits.
+std::uint64_t touching_edges(const FeatureSearch& s, const GaussArc& ridge,
+                             std::span<const ShapeEdge> edges, std::uint64_t near) {
+  std::uint64_t touching = 0;
+  for (; near != 0; near &= near - 1) {
+    const int i = std::countr_zero(near);
+    touching |= std::uint64_t{edges_may_touch(edges[static_cast<size_t>(i)].arc, ridge,
+                                              s.nearly_parallel, s.turn)}
+                << i;
+  }
+  return touching;
+}
+
+// Of 64 edges of the block those that are near the ridge, by bits.
+std::uint64_t near_edges(const FeatureSearch& s, const NearRidge& ridge, const AboveRidge& above,
+                         std::span<const ShapeEdge> edges) {
+  std::uint64_t near = 0;
+  for (size_t i = 0; i < edges.size(); ++i) {
+    const int a_high = s.height(edges[i].a) > ridge.height,
+              b_high = s.height(edges[i].b) > ridge.height;
+    const bool is_clear = ((a_high & b_high) | above.has(edges[i].a, edges[i].b)) != 0;
+    near |= std::uint64_t{!is_clear} << i;
+  }
+  return near;
+}
+
+// The same of the few edges in `among`.
+std::uint64_t near_edges(const FeatureSearch& s, const NearRidge& ridge,
+                         std::span<const ShapeEdge> edges, std::uint64_t among) {
+  std::uint64_t near = 0;
+  for (; among != 0; among &= among - 1) {
+    const int i = std::countr_zero(among);
+    const ShapeEdge& edge = edges[static_cast<size_t>(i)];
+    const Vec3 &a = s.vertices[static_cast<size_t>(edge.a)],
+               &b = s.vertices[static_cast<size_t>(edge.b)];
+    const int is_high = (a.z() > ridge.height) & (b.z() > ridge.height);
+    near |= std::uint64_t{(is_high | ridge.is_below(a, b)) == 0} << i;
+  }
+  return near;
+}
+
+// Of the first 64 edges of the block those that may touch a ridge; `near` is it then.
+std::uint64_t list_edges(const FeatureSearch& s, int row, int col, EdgeKind kind) {
+  NearRidge near;
+  if (!come_near(s, row, col, kind, near)) return 0;
   const std::span<const ShapeEdge> edges = edges_of(s.shapes, s.b);
-  // by bits: few edges are left, and which of them is not to be foreseen
+  if (edges.size() > 64) return all_edges;
+  const std::uint64_t close = near_edges(s, near, above_ridge(s, near), edges);
+  if (close == 0) return 0;
+  set_arc(s, near);
+  return touching_edges(s, near.ridge.arc, edges, close);
+}
+
+// `among`: edges of the block that may touch the ridge, by bits, or all_edges.
+void find_mode_3(FeatureSearch& s, int row, int col, EdgeKind kind, std::uint64_t among,
+                 std::vector<Contact>& contacts) {
+  NearRidge near;
+  if (!come_near(s, row, col, kind, near)) return;
+  const double deepest = s.shapes.thickness[static_cast<size_t>(s.b)] / 2;
+  const std::span<const ShapeEdge> edges = edges_of(s.shapes, s.b);
+  const auto add = [&](size_t begin, std::span<const ShapeEdge> some, std::uint64_t close) {
+    std::uint64_t touching = touching_edges(s, near.ridge.arc, some, close);
+    for (; touching != 0; touching &= touching - 1)
+      add_edge_contact(s, near.ridge, begin + static_cast<size_t>(std::countr_zero(touching)),
+                       deepest, contacts);
+  };
+  if (among != all_edges) {
+    const std::uint64_t close = near_edges(s, near, edges, among);
+    if (close == 0) return;
+    set_arc(s, near);
+    return add(0, edges, close);
+  }
+  const AboveRidge above = above_ridge(s, near);
+  if (above.has_all(s.vertices.size())) return;
+  set_arc(s, near);
   for (size_t begin = 0; begin < edges.size(); begin += 64) {
     const std::span<const ShapeEdge> some =
         edges.subspan(begin, std::min<size_t>(64, edges.size() - begin));
-    std::uint64_t near = 0, touching = 0;
-    for (size_t i = 0; i < some.size(); ++i) {
-      const int a_high = s.height(some[i].a) > above, b_high = s.height(some[i].b) > above;
-      const bool is_clear = ((a_high & b_high) | above_planes.has(some[i].a, some[i].b)) != 0;
-      near |= std::uint64_t{!is_clear} << i;
-    }
-    for (; near != 0; near &= near - 1) {
-      const int i = std::countr_zero(near);
-      touching |= std::uint64_t{edges_may_touch(some[static_cast<size_t>(i)].arc, ridge.arc,
-                                                s.nearly_parallel)}
-                  << i;
-    }
-    for (; touching != 0; touching &= touching - 1)
-      add_edge_contact(s, ridge, begin + static_cast<size_t>(std::countr_zero(touching)), deepest,
-                       contacts);
+    add(begin, some, near_edges(s, near, above, some));
   }
 }
 
@@ -411,30 +508,111 @@ bool any_set(const std::vector<std::uint8_t>& flags, size_t begin, size_t n) {
   return false;
 }
 
-// Modes 2 and 3 at the nodes of the candidate cells; nearly all flags are 0.
-void find_features(FeatureSearch& s, const CellRange& cells, std::vector<Contact>& contacts) {
-  const Trn& trn = s.ground.trn;
+// Calls `look(row, col, flags)` for the nodes of the candidate cells that have some; nearly all
+// have none.
+template <class Look>
+void for_each_feature(const Ground& ground, const CellRange& cells, Look&& look) {
+  const Trn& trn = ground.trn;
   for (int row = cells.row_first; row <= cells.row_last + 1; ++row) {
     const size_t first = node_index(trn, row, cells.col_first);
-    if (!any_set(s.ground.flags, first, static_cast<size_t>(cells.col_last - cells.col_first + 2)))
+    if (!any_set(ground.flags, first, static_cast<size_t>(cells.col_last - cells.col_first + 2)))
       continue;
-    const std::uint8_t* flags = s.ground.flags.data() + node_index(trn, row, 0);
-    for (int col = cells.col_first; col <= cells.col_last + 1; ++col) {
-      const std::uint8_t flag = flags[col];
-      if (flag == 0) continue;
-      if (flag & trn_flag::convex_vertex) find_mode_2(s, row, col, contacts);
-      if (flag & trn_flag::convex_east) find_mode_3(s, row, col, EdgeKind::east, contacts);
-      if (flag & trn_flag::convex_south) find_mode_3(s, row, col, EdgeKind::south, contacts);
-      if (flag & trn_flag::convex_diagonal) find_mode_3(s, row, col, EdgeKind::diagonal, contacts);
+    const std::uint8_t* flags = ground.flags.data() + node_index(trn, row, 0);
+    for (int col = cells.col_first; col <= cells.col_last + 1; ++col)
+      if (flags[col] != 0) look(row, col, flags[col]);
+  }
+}
+
+constexpr std::pair<std::uint8_t, EdgeKind> convex_edges[] = {
+    {trn_flag::convex_east, EdgeKind::east},
+    {trn_flag::convex_south, EdgeKind::south},
+    {trn_flag::convex_diagonal, EdgeKind::diagonal}};
+
+// Modes 2 and 3 of what `flags` says of a node.
+void find_features_at(FeatureSearch& s, int row, int col, std::uint8_t flags, std::uint64_t among,
+                      std::vector<Contact>& contacts) {
+  if (flags & trn_flag::convex_vertex) find_mode_2(s, row, col, contacts);
+  for (const auto& [flag, kind] : convex_edges)
+    if (flags & flag) find_mode_3(s, row, col, kind, among, contacts);
+}
+
+// Modes 2 and 3 at the nodes of the candidate cells, or at those of the list among them.
+void find_features(FeatureSearch& s, const CellRange& cells, const NearFeatures* near,
+                   std::vector<Contact>& contacts) {
+  if (near == nullptr) {
+    for_each_feature(s.ground, cells, [&](int row, int col, std::uint8_t flags) {
+      find_features_at(s, row, col, flags, all_edges, contacts);
+    });
+    return;
+  }
+  for (const NearFeatures::Feature& f : near->features)
+    if (f.row >= cells.row_first && f.row <= cells.row_last + 1 && f.col >= cells.col_first &&
+        f.col <= cells.col_last + 1)
+      find_features_at(s, f.row, f.col, f.flag, f.edges, contacts);
+}
+
+// Bounds how far a point of the block is from where it was, and radius times the chord of its turn.
+double moved(const Pose& from, const Pose& to, double radius) {
+  return (to.position - from.position).norm() +
+         2 * radius * (to.attitude.coeffs() - from.attitude.coeffs()).norm();
+}
+
+// Lists what may touch the block of `s` within `near.skin` and `near.margin`.
+void list_features(const FeatureSearch& s, NearFeatures& near) {
+  FeatureSearch around = s;
+  around.margin = near.margin;
+  around.skin = near.skin;
+  around.turn = near.skin / s.shapes.radius[static_cast<size_t>(s.b)];
+  around.nearly_parallel = parallel_within(around.margin, s.shapes, s.b);
+  near.features.clear();
+  const double reach = near.margin + near.skin;
+  const double radius = s.shapes.radius[static_cast<size_t>(s.b)] + reach;
+  const auto list = [&](int row, int col, std::uint8_t flag, std::uint64_t touching) {
+    near.features.push_back({touching, row, col, flag});
+  };
+  for_each_feature(
+      s.ground, cells_near(s.ground.trn, s.low, s.high, reach),
+      [&](int row, int col, std::uint8_t flags) {
+        if (flags & trn_flag::convex_vertex &&
+            (node_point(s.ground.trn, row, col) - s.pose.position).squaredNorm() <= radius * radius)
+          list(row, col, trn_flag::convex_vertex, all_edges);
+        for (const auto& [flag, kind] : convex_edges) {
+          if (!(flags & flag)) continue;
+          const std::uint64_t touching = list_edges(around, row, col, kind);
+          if (touching != 0) list(row, col, flag, touching);
+        }
+      });
+}
+
+// Brings the list of the block of `s` up to date; false when none pays.
+bool keep_list(const FeatureSearch& s, const Mat3& stretch, NearFeatures& near) {
+  const double radius = s.shapes.radius[static_cast<size_t>(s.b)];
+  const double last = moved(near.last, s.pose, radius);
+  near.last = s.pose;
+  // twice: by strains the points move, and so does the bound on that
+  const double by_strain = 2 * radius * (stretch - near.stretch).norm();
+  if (s.margin <= near.margin && moved(near.listed, s.pose, radius) + by_strain <= near.skin)
+    return true;
+  near.skin = std::max(searches_ahead * last, least_skin * radius);
+  if (near.skin > most_skin * radius) {
+    near.skin = most_skin * radius;
+    if (last * short_lived > near.skin) {
+      near.skin = -1;
+      return false;
     }
   }
+  near.margin = std::max(near.margin, s.margin);
+  near.listed = s.pose;
+  near.stretch = stretch;
+  list_features(s, near);
+  return true;
 }
 
 }  // namespace
 
 SearchResult find_contacts(const Ground& ground, const Shapes& shapes, int b, const Pose& pose,
                            const Mat3& stretch, double margin, std::vector<Vec3>& vertices,
-                           std::vector<Contact>& contacts) {
+                           std::vector<Contact>& contacts, NearFeatures* near_features) {
   const std::span<const Vec3> body = vertices_of(shapes, b);
   contacts.clear();
   vertices.resize(body.size());
@@ -456,16 +634,16 @@ SearchResult find_contacts(const Ground& ground, const Shapes& shapes, int b, co
   if (!(all_on_grid && near.ground.all_known) && leans_out(ground.trn, vertices))
     return {Reach::off_ground, 0};
   find_mode_1(ground, shapes, b, near.ground.high, margin, vertices, contacts);
-  const double nearly_parallel =
-      std::clamp(margin / shapes.radius[static_cast<size_t>(b)], least_parallel, most_parallel);
   const double strained =
       (stretch - Mat3::Identity()).norm() * shapes.radius[static_cast<size_t>(b)];
-  FeatureSearch search{ground, shapes, b,    pose,     margin,  nearly_parallel,
+  FeatureSearch search{ground, shapes, b,    pose,     margin,  parallel_within(margin, shapes, b),
                        R,      low,    high, vertices, strained};
-  find_features(search, near.cells, contacts);
+  const bool has_list = near_features != nullptr && keep_list(search, stretch, *near_features);
+  const NearFeatures* list = has_list ? near_features : nullptr;
+  find_features(search, near.cells, list, contacts);
   if (search.n_put_off > 0) {
     search.n_sure = static_cast<int>(contacts.size());
-    find_features(search, near.cells, contacts);
+    find_features(search, near.cells, list, contacts);
   }
   return {near.reach, 0};
 }

@@ -180,7 +180,8 @@ bool AdvanceIsland::add_ground(size_t k) {
   }
   const SearchResult near =
       find_contacts(scene.ground, scene.blocks.shapes, b, s.free.pose, Mat3::Identity(),
-                    search_margin(w.numbers[k], s.h), work.world_vertices, work.contacts);
+                    search_margin(w.numbers[k], s.h), work.world_vertices, work.contacts,
+                    &work.near_ground[static_cast<size_t>(b)]);
   if (near.reach == Reach::off_ground) {
     outsider = b;
     return false;

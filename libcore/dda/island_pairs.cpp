@@ -28,15 +28,40 @@ Vec3 spin_of(const Motion& m, const Vec3& inertia) {
   return angular_velocity(m.pose.attitude, m.angular_momentum, inertia);
 }
 
+// So near do pairs come together in `h` besides their motion without contact [m].
+double pair_margin(const Scene& scene, double h) {
+  double margin = 0;
+  for (int b = 0; b < n_blocks(scene); ++b)
+    margin = std::max(margin, search_margin(numbers_of(scene, b), h));
+  return margin;
+}
+
+// Whether block b touches no fixed body within the step, seen from balls around them: told without
+// the attitude, which costs the most while a rock flies.
+bool is_far_from_fixed(const Scene& scene, const State& state, int b, double margin,
+                       const IslandStepWork& w) {
+  const auto i = static_cast<size_t>(b);
+  const Motion& m = state.motion[i];
+  const double h = scene.settings.dt;
+  const double t = state.phase[i] == Phase::flight ? state.time - state.local_time[i] : 0;
+  const Vec3 at = m.pose.position + t * (m.velocity + t / 2 * scene.gravity);
+  const double step = h * (m.velocity + t * scene.gravity).norm(),
+               turn = h * m.angular_momentum.norm() / scene.blocks.inertia[i].minCoeff();
+  const std::vector<double>& radius = scene.blocks.hulls.radius;
+  const double reach = margin + step + (1 + turn) * radius[i];
+  for (size_t f = static_cast<size_t>(n_blocks(scene)); f < radius.size(); ++f) {
+    const double apart = radius[f] + reach;
+    if ((w.poses[f].position - at).squaredNorm() <= apart * apart) return false;
+  }
+  return true;
+}
+
 // Contacts between the blocks marked in work.islands.moving, and of those with others, over `h`.
 void find_pairs(const Scene& scene, double h, State& state, Work& work) {
   IslandStepWork& w = work.islands;
   const Blocks& blocks = scene.blocks;
-  double margin = 0;
-  for (int b = 0; b < n_blocks(scene); ++b)
-    margin = std::max(margin, search_margin(numbers_of(scene, b), h));
   PairSettings settings;
-  settings.margin = margin;
+  settings.margin = pair_margin(scene, h);
   settings.with_areas = !state.bonds.empty();
   settings.graze_m = scene.gravity.norm() * h * h / stiffest_in_island;
   place_hulls(blocks.hulls, w.poses, {}, w.moving, state.placed);
@@ -235,12 +260,29 @@ void form_islands(const Scene& scene, State& state, Work& work) {
   w.turn.resize(size);
   w.moving.assign(size, 1);
   w.awake.resize(size);
+  place_fixed(scene, state, w);
+  // the full plan and blocks that meet each other follow all of them
+  const bool may_be_far = scene.settings.flight && scene.settings.trn_contacts &&
+                          (n == 1 || !scene.settings.block_contacts);
+  const bool none_placed = state.placed.turned.size() != size;
+  const double margin = pair_margin(scene, scene.settings.dt);
+  int n_near = 0;
   for (int b = 0; b < n; ++b) {
     const auto i = static_cast<size_t>(b);
-    set_motion_ahead(scene, b, motion_at(scene, state, b, state.time), scene.settings.dt, w);
-    w.awake[i] = takes_part(state, b) && state.phase[i] != Phase::asleep;
+    const bool moves = takes_part(state, b) && state.phase[i] != Phase::asleep;
+    const bool is_near = !may_be_far || (moves && !is_far_from_fixed(scene, state, b, margin, w));
+    n_near += is_near;
+    w.moving[i] = is_near || none_placed;
+    w.awake[i] = is_near && moves;
+    w.step[i].setZero();
+    w.turn[i] = 0;
+    if (w.moving[i] != 0)
+      set_motion_ahead(scene, b, motion_at(scene, state, b, state.time), scene.settings.dt, w);
   }
-  place_fixed(scene, state, w);
+  if (n_near == 0) {
+    find_islands(n, {}, {}, w.groups);
+    return;
+  }
   do find_pairs(scene, scene.settings.dt, state, work);
   while (join_pairs(scene, state, w));
   find_islands(n, w.joined, {}, w.groups);

@@ -108,6 +108,8 @@ Work make_work(const Scene& scene) {
   for (int b = 0; b < n_blocks(scene); ++b)
     most_vertices = std::max(most_vertices, vertices_of(scene.blocks.shapes, b).size());
   work.world_vertices.reserve(most_vertices);
+  work.near_ground.resize(static_cast<size_t>(n_blocks(scene)));
+  for (NearFeatures& near : work.near_ground) near.features.reserve(expected_contacts);
   work.contacts.reserve(8 * (most_vertices + expected_contacts));
   work.rows.reserve(8 * (most_vertices + expected_contacts));
   work.segments.reserve(8 * static_cast<size_t>(n_blocks(scene)) + 64);

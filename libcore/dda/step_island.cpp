@@ -278,7 +278,8 @@ double AdvanceIsland::end_of_throw_into_ground(double h) {
     const Vec6& by = w.displacement[k];
     if (by.head<3>().norm() + c.radius * by.tail<3>().norm() < deep * c.thickness) continue;
     (void)find_contacts(scene.ground, scene.blocks.shapes, w.members[k], end_of(k).pose,
-                        Mat3::Identity(), 0, work.world_vertices, work.contacts);
+                        Mat3::Identity(), 0, work.world_vertices, work.contacts,
+                        &work.near_ground[block(k)]);
     const auto is_unforeseen = [&](const Contact& contact) {
       return contact.gap < -deep * c.thickness && !foresaw(k, contact, deep / 2 * c.thickness);
     };

@@ -242,7 +242,7 @@ struct OpenClose {
     if constexpr (Dof == 12) stretch += strain_tensor(state.strain[i]);
     const SearchResult near =
         find_contacts(scene.ground, scene.blocks.shapes, b, state.motion[i].pose, stretch, reach,
-                      work.world_vertices, work.contacts);
+                      work.world_vertices, work.contacts, &work.near_ground[i]);
     if (near.reach == Reach::below) report.flags = report.flags | StepFlag::fell_through;
     if (near.reach == Reach::off_ground) w.outsiders.push_back(b);
     for (const Contact& contact : work.contacts) {

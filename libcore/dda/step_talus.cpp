@@ -92,9 +92,10 @@ struct Advance {
   Attempt attempt(double t, double& h, bool last) {
     const Substep s = predict(scene, b, c, motion(), t, h);
     const Mat3 stretch = stretch_of(state, b);
-    const SearchResult near = find_contacts(
-        scene.ground, scene.blocks.shapes, b, s.free.pose, stretch,
-        on_plane ? margin_on_plane(h) : search_margin(c, h), work.world_vertices, work.contacts);
+    const SearchResult near =
+        find_contacts(scene.ground, scene.blocks.shapes, b, s.free.pose, stretch,
+                      on_plane ? margin_on_plane(h) : search_margin(c, h), work.world_vertices,
+                      work.contacts, &work.near_ground[i()]);
     if (near.reach == Reach::off_ground) return Attempt::left;
     if (work.contacts.empty()) {
       if (free_fall_only() && begin_flight(t, h)) return Attempt::flight;

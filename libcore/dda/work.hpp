@@ -7,6 +7,7 @@
 
 #include "contact/block_pairs.hpp"
 #include "contact/contact.hpp"
+#include "contact/search.hpp"
 #include "dda/block_lu.hpp"
 #include "dda/contact_row.hpp"
 #include "dda/island_groups.hpp"
@@ -216,6 +217,7 @@ struct Work {  // clang-format off
   // find_contacts: candidates of the block at hand
   std::vector<Vec3> world_vertices;          ///< at the predicted pose [m]
   std::vector<Contact> contacts;             ///< of the block at hand             (n_candidates)
+  std::vector<NearFeatures> near_ground;     ///< what each block may touch there      (n_blocks)
   // make_rows, solve_contacts
   std::vector<ContactRow> rows;              ///< of the block at hand
   // advance_block: the motion of this step, block by block, in order of time

@@ -227,4 +227,57 @@ TEST(FindContacts, SeesNearlyEveryDeepOverlapWithRoughGround) {
   EXPECT_LT(share, 4e-3);
 }
 
+bool same_contacts(const std::vector<Contact>& a, const std::vector<Contact>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Contact& x, const Contact& y) {
+    return x.key == y.key && x.ground_class == y.ground_class && x.normal == y.normal &&
+           x.gap == y.gap && x.point_a == y.point_a && x.point_b == y.point_b;
+  });
+}
+
+// A block that wanders and turns over rough ground, now slowly, now fast, strained a little, with
+// margins that come and go: what earlier searches left changes no contact and no bit, and the slow
+// ones do live on it.
+TEST(FindContacts, AreTheSameToTheBitWithAListOfFeatures) {
+  Random random(11);
+  std::vector<Vec3> vertices;
+  std::vector<Contact> whole, listed;
+  int n_contacts = 0, n_edge_contacts = 0, n_large = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    const Ground ground = make_ground(rough_ground(random, 2, 1), {});
+    // many of every third have more edges than fit into 64 bits
+    Polyhedron body = convex_body(random, Vec3::Constant(5), trial % 3 == 0 ? 60 : 5);
+    Shapes shapes;
+    add_shape(shapes, std::span(&body, 1), body, Vec3::Zero(), Mat3::Identity(), face_internal);
+    n_large += edges_of(shapes, 0).size() > 64;
+    Pose pose{Vec3(0, 0, vertical_overlap(ground.trn, body).height - 0.2), Quat::Identity()};
+    NearFeatures near;
+    int n_lists = 0;
+    for (int k = 0; k < 60; ++k) {
+      const double fast = k % 20 == 19 ? 0.5 : std::pow(10, uniform(random, -5, -2));
+      pose.position +=
+          fast * Vec3(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -0.5, 0.5));
+      const Vec3 axis(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1));
+      pose.attitude =
+          (Quat(Eigen::AngleAxisd(0.2 * fast, axis.normalized())) * pose.attitude).normalized();
+      Mat3 stretch = Mat3::Identity();
+      if (trial % 2 != 0) stretch(0, 0) += uniform(random, 0, 1e-4);
+      const double margin = std::pow(10, uniform(random, -4, -1.5));
+      const Vec3 was = near.listed.position;
+      find_contacts(ground, shapes, 0, pose, stretch, margin, vertices, whole);
+      find_contacts(ground, shapes, 0, pose, stretch, margin, vertices, listed, &near);
+      ASSERT_TRUE(same_contacts(whole, listed)) << "trial " << trial << ", search " << k;
+      n_lists += near.listed.position != was;
+      n_contacts += static_cast<int>(whole.size());
+      n_edge_contacts +=
+          static_cast<int>(std::count_if(whole.begin(), whole.end(), [](const Contact& c) {
+            return c.key.mode == ContactMode::edge_edge;
+          }));
+    }
+    EXPECT_LT(n_lists, 30);
+  }
+  EXPECT_GT(n_large, 30);
+  EXPECT_GT(n_edge_contacts, 10000);
+  EXPECT_GT(n_contacts, n_edge_contacts);
+}
+
 }  // namespace

@@ -73,6 +73,32 @@ TEST(LeavingOut, AFenceThatNothingReaches) {
   expect_same_bits(a, sa, b, sb);
 }
 
+// Rocks that pass through each other, seen as balls until they come near a fence, then as they are:
+// against the full plan, which follows their turning in every step.
+TEST(LeavingOut, RocksAsBallsFarFromAFence) {
+  const auto scene_with = [](bool all) {
+    Settings settings;
+    settings.block_contacts = false;
+    settings.flight = !all;
+    Scene scene = tumbling(settings, rough());
+    StandingFence fence;
+    for (double y = -60; y <= 60; y += 10) {
+      fence.posts.push_back(Vec3(-25, y, bumps(-25, y)));
+      if (y < 60) fence.depth.push_back(0.5);
+    }
+    fence.height = 4;
+    add_fence(scene, fence);
+    return scene;
+  };
+  const Scene a = scene_with(false), b = scene_with(true);
+  const State sa = run(a, 1500), sb = run(b, 1500);
+  EXPECT_GE(sa.fence.hits.size(), 2U);
+  EXPECT_EQ(sa.fence.hits.size(), sb.fence.hits.size());
+  EXPECT_GT(sa.counters.flight_skips, 100);
+  EXPECT_EQ(sb.counters.flight_skips, 0);
+  expect_same_bits(a, sa, b, sb);
+}
+
 // A face bonded with no strength to speak of breaks in the first step.
 TEST(LeavingOut, CohesionOfNothing) {
   const SlopeFrame frame = slope_frame(30, 37);
