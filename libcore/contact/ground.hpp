@@ -37,4 +37,15 @@ struct Ground {
   return ground.cell_class.empty() ? 0 : ground.cell_class[static_cast<std::size_t>(triangle / 2)];
 }
 
+/// Whether all of the cells have the same class.
+[[nodiscard]] inline bool is_one_class(const Ground& ground, const CellRange& cells) {
+  if (ground.cell_class.empty()) return true;
+  const int first =
+      class_of(ground, first_triangle(ground.trn, {cells.row_first, cells.col_first}));
+  for (int row = cells.row_first; row <= cells.row_last; ++row)
+    for (int col = cells.col_first; col <= cells.col_last; ++col)
+      if (class_of(ground, first_triangle(ground.trn, {row, col})) != first) return false;
+  return true;
+}
+
 }  // namespace talus

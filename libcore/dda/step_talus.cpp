@@ -231,7 +231,8 @@ struct Advance {
   // What bears a block that slides changes its path by no more than about half of this.
   double margin_on_plane(double h) const { return c.gravity * h * h + 1e-3 * c.radius; }
 
-  // Whether all ground that the block may come over in the next `h` lies in the plane below it.
+  // Whether all ground that the block may come over in the next `h` lies in the plane below it and
+  // is of one kind.
   bool is_plane_ahead(double h) {
     const Trn& trn = scene.ground.trn;
     const Vec3 &from = motion().pose.position, to = from + h * motion().velocity;
@@ -240,12 +241,14 @@ struct Advance {
     if (!contains(trn, low.x() - around, low.y() - around) ||
         !contains(trn, high.x() + around, high.y() + around))
       return false;
-    return is_plane(trn, cells_near(trn, low, high, around), locate(trn, from.x(), from.y()));
+    const CellRange cells = cells_near(trn, low, high, around);
+    return is_plane(trn, cells, locate(trn, from.x(), from.y())) &&
+           is_one_class(scene.ground, cells);
   }
 
   // Near the ground a substep moves no point farther than half a cell and turns the block by at
   // most half a radian; a needle that rolls at more than 100 radians a step is not followed any
-  // closer. A block that slides may go farther, up to `h`, where it cannot meet another plane.
+  // closer. A block that slides may go farther, up to `h`, where it meets no other plane or ground.
   double longest_substep(double h) {
     constexpr double slides = 0.05;  // turns by no more [rad]
     const double spin = spin_speed() + 1e-300;

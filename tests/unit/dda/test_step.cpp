@@ -369,6 +369,30 @@ TEST(Step, SlidesFarInASubstepOnlyWhileThereIsOnePlaneAhead) {
   EXPECT_LT((coarse.pose.position - fine.pose.position).norm(), 0.05);
 }
 
+// The same on one plane that is rougher beyond x = 40: the block feels that where it comes there.
+TEST(Step, SlidesFarInASubstepOnlyOverGroundOfOneKind) {
+  const SlopeFrame frame = slope_frame(25, 0);
+  const auto slide = [&](double dt) {
+    Settings settings;
+    settings.dt = dt;
+    const Body cube = body_of(box_in(frame, Vec3::Zero(), Vec3(-0.5, -0.5, 0), Vec3(0.5, 0.5, 1)));
+    Scene scene = scene_of(plane_trn(frame, 1, 120), ground_of(10, 0), {cube}, settings);
+    scene.ground.classes.push_back(ground_of(35, 0));
+    const Trn& trn = scene.ground.trn;
+    for (int row = 0; row < trn.n_rows - 1; ++row)
+      for (int col = 0; col < trn.n_cols - 1; ++col)
+        scene.ground.cell_class.push_back(trn.node0.x() + col * trn.cell_size >= 40);
+    State state = start(scene);
+    Work work = make_work(scene);
+    while (state.time < 8 - dt / 2) step(scene, state, work);
+    return motion_at(scene, state, 0, state.time);
+  };
+  const Motion coarse = slide(0.2), fine = slide(0.005);
+  EXPECT_GT(fine.pose.position.x(), 60);
+  EXPECT_NEAR(coarse.pose.position.x(), fine.pose.position.x(), 0.3);
+  EXPECT_NEAR(coarse.velocity.norm(), fine.velocity.norm(), 0.15);
+}
+
 // What is left out of a bouncing block's path, the search while nothing can be hit, changes no bit.
 TEST(Step, SearchedFlightsAreTheSameToTheBit) {
   Settings planned, searched;
