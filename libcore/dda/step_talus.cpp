@@ -52,7 +52,8 @@ struct Advance {
   [[nodiscard]] size_t i() const { return static_cast<size_t>(b); }
   Motion& motion() { return state.motion[i()]; }
 
-  bool free_fall_only() const { return may_fly && scene.base.time.empty() && scene.loads.empty(); }
+  bool gravity_only() const { return scene.base.time.empty() && scene.loads.empty(); }
+  bool free_fall_only() const { return may_fly && gravity_only(); }
 
   void finish(const Substep& s, const Motion& end, double t, double t_next) {
     add_segment(b, state.memory[i()].empty(), t, s.h, s.start, end, work);
@@ -228,7 +229,8 @@ struct Advance {
   // No point of the block is faster [m/s].
   double top_speed() { return motion().velocity.norm() + spin_speed() * c.radius; }
 
-  // What bears a block that slides changes its path by no more than about half of this.
+  // Where gravity alone drives a block that slides, that and what bears it change its path by no
+  // more than about half of this.
   double margin_on_plane(double h) const { return c.gravity * h * h + 1e-3 * c.radius; }
 
   // Whether all ground that the block may come over in the next `h` lies in the plane below it and
@@ -255,7 +257,7 @@ struct Advance {
     const double by_turn = std::max(0.5 / spin, scene.settings.dt / 200);
     const double by_way = 0.5 * scene.ground.trn.cell_size / (top_speed() + 1e-300);
     on_plane = false;
-    if (!state.memory[i()].empty())
+    if (gravity_only() && !state.memory[i()].empty())
       for (double longer = std::min(h, slides / spin); longer > by_way; longer /= 2)
         if ((on_plane = is_plane_ahead(longer))) return longer;
     return std::min(by_way, by_turn);

@@ -369,6 +369,26 @@ TEST(Step, SlidesFarInASubstepOnlyWhileThereIsOnePlaneAhead) {
   EXPECT_LT((coarse.pose.position - fine.pose.position).norm(), 0.05);
 }
 
+// How far a load or a shaken base takes a block in the meantime is not bounded by gravity.
+TEST(Step, SlidesFarInASubstepOnlyUnderGravityAlone) {
+  const SlopeFrame frame = slope_frame(25, 0);
+  const auto substeps = [&](double share_of_weight) {
+    Settings settings;
+    settings.dt = 0.2;
+    const Body cube = body_of(box_in(frame, Vec3::Zero(), Vec3(-0.5, -0.5, 0), Vec3(0.5, 0.5, 1)),
+                              10 * frame.dip);
+    Scene scene = scene_of(plane_trn(frame, 1, 120), ground_of(10, 0), {cube}, settings);
+    if (share_of_weight > 0)
+      scene.loads = {{0, Vec3::Zero(), share_of_weight * scene.blocks.mass[0] * 10 * frame.dip}};
+    State state = start(scene);
+    Work work = make_work(scene);
+    step(scene, state, work);
+    return step(scene, state, work).substeps;
+  };
+  EXPECT_EQ(substeps(0), 1);
+  EXPECT_GE(substeps(1e-3), 4);
+}
+
 // The same on one plane that is rougher beyond x = 40: the block feels that where it comes there.
 TEST(Step, SlidesFarInASubstepOnlyOverGroundOfOneKind) {
   const SlopeFrame frame = slope_frame(25, 0);
