@@ -224,7 +224,6 @@ struct AdvanceIsland {
   void add_path(size_t k, const Motion& end, double t, double h);
   void renew_support(size_t k, double h);
   void finish(double t, double h);
-  void forget_rates(int b);
   Attempt attempt(double t, double& h);
   void stop_outsiders(double t_end);
   void run(int island, std::span<const int> blocks, double t_end);

@@ -62,49 +62,71 @@ bool touches_at_rest(const Scene& scene, int b, const Motion& motion, Work& work
          });
 }
 
+/// How a static iteration ends.
+enum class Settled : std::uint8_t {
+  rests,   ///< in equilibrium
+  slides,  ///< in the equilibrium of a block that slides off from rest, all contacts alike
+  moves    ///< neither, or the forces do not converge
+};
+
 // Static iteration: steps from rest, each ending at rest, until the block moves by less than
-// `still` of its radius. friction < 0: that of the ground. False when it keeps moving or the forces
-// do not converge.
-bool settle(const Scene& scene, int b, double friction, bool from_touch, double still, State& state,
-            Work& work) {
+// `still` of its radius, or by the same way as in the step before without turning. What slides is
+// put back by the way that it slid, and its acceleration is known. friction < 0: that of the
+// ground.
+Settled settle(const Scene& scene, int b, double friction, bool from_touch, double still,
+               State& state, Work& work) {
   constexpr int most_passes = 40, first_passes = 5;  // those before the way settles down
   constexpr double accelerates = 0.9;                // of the pass before: it comes to no end
-  constexpr double slides = 0.999;                   // the same where nothing sticks
+  // What slides goes on until the way changes by less than this, of the radius, or where that is as
+  // far as the solver's tolerance lets it come: by less than these, of the way and of the radius.
+  constexpr double slides = 1e-11, slides_about = 1e-8, of_way = 1e-5;
   constexpr double most_margin = 1e-2;  // of the radius: from rest nothing else comes near
   BlockNumbers c = numbers_of(scene, b);
   const double h = scene.settings.dt;
   c.recovery_time = h / 2;  // from rest, this lands in equilibrium at once as k grows
   Motion& motion = state.motion[static_cast<size_t>(b)];
   StepReport report;
-  double moved_before = 0;
+  const Vec3 begin = motion.pose.position;
+  Vec3 way_before = Vec3::Zero();
+  double change_before = 0;
   for (int pass = 0; pass < most_passes; ++pass) {
     const Substep s = predict(scene, b, c, motion, 0, h);
     (void)find_contacts(scene.ground, scene.blocks.shapes, b, s.free.pose, stretch_of(state, b),
                         std::min(search_margin(c, h), most_margin * c.radius), work.world_vertices,
                         work.contacts);
     make_rows(scene, b, c, s, state, work);
-    if (work.rows.empty()) return true;
+    if (work.rows.empty()) return Settled::rests;
     for (ContactRow& row : work.rows) {
       if (friction >= 0) row.friction = friction;
       if (from_touch && pass == 0) row.offset = 0, set_ground_law(scene, c, s, row);
     }
     BlockSystem<6> system = make_system<6>(scene, b, c, s, state);
     if (!solve_contacts(system, std::span(work.rows), scene.settings.max_passes).converged)
-      return false;
+      return Settled::moves;
     const Solved<6> solved = solved_motion(c, s, system);
     remember(c, s, solved, state, work, b, report);
-    const double moved = (solved.end.pose.position - motion.pose.position).norm() +
-                         c.radius * solved.end.pose.attitude.angularDistance(motion.pose.attitude);
+    const Vec3 way = solved.end.pose.position - motion.pose.position;
+    const double turn = c.radius * solved.end.pose.attitude.angularDistance(motion.pose.attitude);
     motion.pose = solved.end.pose;
-    if (moved < still * c.radius + 1e-15 * motion.pose.position.norm()) return true;
+    const double rounding = 1e-15 * motion.pose.position.norm();
+    if (way.norm() + turn < still * c.radius + rounding) return Settled::rests;
     const bool sticks = std::any_of(work.rows.begin(), work.rows.end(), [](const ContactRow& row) {
       return row.state == ContactState::stick;
     });
-    if (pass >= first_passes && moved > accelerates * moved_before) return false;
-    if (pass > 0 && !sticks && moved > slides * moved_before) return false;
-    moved_before = moved;
+    const double change = (sticks ? way.norm() : (way - way_before).norm()) + turn;
+    const bool comes_nearer = change < change_before / 2 && change > slides * c.radius + rounding;
+    if (!sticks && !comes_nearer &&
+        change < std::min(of_way * way.norm(), slides_about * c.radius) + rounding) {
+      const Vec3 along = way.normalized();
+      motion.pose.position -= along.dot(motion.pose.position - begin) * along;
+      state.acceleration[static_cast<size_t>(b)] = solved.end.velocity / h;
+      return Settled::slides;
+    }
+    if (pass >= first_passes && change > accelerates * change_before) return Settled::moves;
+    way_before = way;
+    change_before = change;
   }
-  return false;
+  return Settled::moves;
 }
 
 }  // namespace
@@ -124,17 +146,16 @@ void settle_block(const Scene& scene, int b, State& state, Work& work) {
   if (touches_at_rest(scene, b, rest, work)) {
     state.motion[i].velocity.setZero();
     bond_faces(scene, b, rest.pose, work, state.memory[i]);
-    const bool sticks = settle(scene, b, sticking, true, nearly_still, state, work);
-    if (!sticks) {  // it topples: from where it is
-      state.motion[i].pose = rest.pose;
+    if (settle(scene, b, sticking, true, nearly_still, state, work) != Settled::rests) {
+      state.motion[i].pose = rest.pose;  // it topples: from where it is
       state.memory[i].clear();
     } else if (!rest.velocity.isZero(0)) {  // it moves along the ground: only the overlap is kept
       for (ContactMemory& memory : state.memory[i]) memory.shear.setZero();
     } else {
       const Motion stuck = state.motion[i];
       const std::vector<ContactMemory> memory = state.memory[i];
-      if (!settle(scene, b, -1, false, still, state, work)) {  // it slides: from where it stuck
-        state.motion[i] = stuck;
+      if (settle(scene, b, -1, false, still, state, work) == Settled::moves) {
+        state.motion[i] = stuck;  // it slides, not always alike: from where it stuck
         state.memory[i] = memory;
       }
     }

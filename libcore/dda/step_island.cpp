@@ -336,9 +336,9 @@ void AdvanceIsland::finish(double t, double h) {
     add_path(k, end, t, h);
     renew_support(k, h);
     if (w.pressed[k])
-      set_rates(w.members[k], w.numbers[k], s, end, state);
+      set_rates(scene, w.members[k], w.numbers[k], s, end, state);
     else
-      forget_rates(w.members[k]);
+      forget_rates(scene, w.members[k], state);
     const Vec3 external = s.free_acceleration - scene.gravity;
     if (!external.isZero(0))
       state.ledger.base +=
@@ -349,15 +349,9 @@ void AdvanceIsland::finish(double t, double h) {
     ++report.substeps;
   }
   for (const Hit& hit : w.hits)
-    for (const int b : {w.contacts[hit.contact].a, w.contacts[hit.contact].b}) forget_rates(b);
+    for (const int b : {w.contacts[hit.contact].a, w.contacts[hit.contact].b})
+      if (b >= 0) forget_rates(scene, b, state);
   report.shortest_dt = report.shortest_dt > 0 ? std::min(report.shortest_dt, h) : h;
-}
-
-// After a hit the last accelerations say nothing about the next, and what nothing presses falls.
-void AdvanceIsland::forget_rates(int b) {
-  if (b < 0) return;
-  state.acceleration[static_cast<size_t>(b)] = scene.gravity;
-  state.spin_rate[static_cast<size_t>(b)].setZero();
 }
 
 AdvanceIsland::Attempt AdvanceIsland::attempt(double t, double& h) {

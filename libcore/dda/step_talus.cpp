@@ -57,7 +57,6 @@ struct Advance {
 
   void finish(const Substep& s, const Motion& end, double t, double t_next) {
     add_segment(b, state.memory[i()].empty(), t, s.h, s.start, end, work);
-    set_rates(b, c, s, end, state);
     set_support(scene, b, (end.velocity - s.free.velocity) / s.h, state);
     const Vec3 external = s.free_acceleration - scene.gravity;
     if (!external.isZero(0))
@@ -83,8 +82,7 @@ struct Advance {
     ++report.n_impacts;
     report.passes += hit.passes;
     if (!hit.converged) ++report.n_unconverged;
-    state.acceleration[i()] = scene.gravity;
-    state.spin_rate[i()].setZero();
+    forget_rates(scene, b, state);
     state.support[i()].setZero();
   }
 
@@ -104,6 +102,7 @@ struct Advance {
       state.memory[i()].clear();
       relax_strain();
       finish(s, s.free, t, t + h);
+      forget_rates(scene, b, state);
       return Attempt::done;
     }
     make_rows(scene, b, c, s, state, work);
@@ -145,6 +144,7 @@ struct Advance {
       state.strain_rate[i()] = system.velocity.template tail<6>();
     }
     finish(s, solved.end, t, t + h);
+    set_rates(scene, b, c, s, solved.end, state);
     return hit <= s.h ? Attempt::impact : Attempt::done;
   }
 

@@ -350,8 +350,7 @@ void end_flight(const Scene& scene, int b, double t, State& state, Work& work) {
     add_segment(b, true, state.local_time[i], h, state.motion[i], end, work);
     state.motion[i] = end;
   }
-  state.acceleration[i] = scene.gravity;
-  state.spin_rate[i].setZero();
+  forget_rates(scene, b, state);
   state.local_time[i] = t;
   state.phase[i] = Phase::near_ground;
 }
@@ -398,16 +397,23 @@ void stop_outside(const Scene& scene, int b, State& state, StepReport& report) {
   report.flags = report.flags | StepFlag::left_domain;
 }
 
-void set_rates(int b, const BlockNumbers& c, const Substep& s, const Motion& end, State& state) {
+void set_rates(const Scene& scene, int b, const BlockNumbers& c, const Substep& s,
+               const Motion& end, State& state) {
   const auto i = static_cast<size_t>(b);
-  // a running mean: what comes and goes at the solver's tolerance is not carried on
-  constexpr double share = 0.5;
+  // a running mean: what comes and goes at the solver's tolerance is not carried on; but it begins
+  // anew where nothing pressed the block before
+  const double share = state.acceleration[i] == scene.gravity ? 1 : 0.5;
   const double per_h = share / s.h;
   state.acceleration[i] =
       (1 - share) * state.acceleration[i] + per_h * (end.velocity - s.start.velocity);
   const Vec3 spin_end =
       (end.pose.attitude.conjugate() * end.angular_momentum).cwiseProduct(c.per_inertia);
   state.spin_rate[i] = (1 - share) * state.spin_rate[i] + per_h * (spin_end - s.spin_start);
+}
+
+void forget_rates(const Scene& scene, int b, State& state) {
+  state.acceleration[static_cast<size_t>(b)] = scene.gravity;
+  state.spin_rate[static_cast<size_t>(b)].setZero();
 }
 
 void set_support(const Scene& scene, int b, const Vec3& acceleration, State& state) {

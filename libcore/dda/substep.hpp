@@ -115,8 +115,12 @@ void stop_outside(const Scene& scene, int b, State& state, StepReport& report);
 /// Stops block b, whose numbers failed, at its last good state, and flags it.
 void stop_at(const Motion& last_good, std::size_t b, State& state, StepReport& report);
 
-/// Keeps the accelerations of the substep, the first guess of the next.
-void set_rates(int b, const BlockNumbers& c, const Substep& s, const Motion& end, State& state);
+/// Keeps the accelerations of the substep, the first guess of the next: their running mean since
+/// something presses the block.
+void set_rates(const Scene& scene, int b, const BlockNumbers& c, const Substep& s,
+               const Motion& end, State& state);
+/// After a hit the last accelerations say nothing about the next, and what nothing presses falls.
+void forget_rates(const Scene& scene, int b, State& state);
 
 /// Keeps by how much the ground accelerated block b [m/s2], up to what bears its weight.
 void set_support(const Scene& scene, int b, const Vec3& acceleration, State& state);

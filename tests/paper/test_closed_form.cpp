@@ -59,6 +59,17 @@ TEST_P(LawTalus, SlidesTheSameAcrossAnyDiagonal) {
     EXPECT_LT(sliding(settings, 20, azimuth, 1).error, 1e-6) << azimuth;
 }
 
+// The static start gives it the forces of a block that slides, and its acceleration.
+TEST(LawTalusDefault, WhatSlidesOffFromRestBeginsAsItGoesOn) {
+  for (const double dt : {5e-3, 0.05, 0.25})
+    for (const double friction_deg : {0, 10, 25}) {
+      const CaseResult result = sliding(with_dt(dt), friction_deg, 37, 4);
+      EXPECT_LT(result.error, 2e-9) << dt << " " << friction_deg;
+      EXPECT_LT(result.passes, 1.5 * result.steps) << dt << " " << friction_deg;
+    }
+  EXPECT_LT(wedge(with_dt(1e-2), 20).error, 1e-9);
+}
+
 TEST_P(LawTalus, SlidesObliquely) {
   EXPECT_LT(oblique_slide(settings, 0).error, 1e-5);
   EXPECT_LT(oblique_slide(settings, 37).error, 1e-5);
