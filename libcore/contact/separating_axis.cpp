@@ -55,27 +55,22 @@ struct BestEdges {
   Vec3 normal = Vec3::Zero();
 };
 
-// A normal to two edges, from B to A, as long as their cross product; zero when they are parallel
-// within a degree.
-Vec3 edge_cross(const Parts& parts, const HullEdge& edge_b, const Vec3& along_a,
-                const Vec3& along_b) {
-  const Vec3 cross = along_a.cross(along_b);
-  if (!(cross.squaredNorm() > parallel_sin_sq * along_a.squaredNorm() * along_b.squaredNorm()))
-    return Vec3::Zero();
-  const int first = parts.hulls.face_begin[parts.b];
-  const Vec3 outward = normal_at(parts.placed, first + edge_b.arc_left) +
-                       normal_at(parts.placed, first + edge_b.arc_right);
-  return cross.dot(outward) > 0 ? cross : Vec3(-cross);
+// Are two edges parallel within a degree, or is one of them without length? Of their cross product.
+bool are_parallel(const Vec3& along_a, const Vec3& along_b, const Vec3& cross) {
+  return !(cross.squaredNorm() > parallel_sin_sq * along_a.squaredNorm() * along_b.squaredNorm());
 }
 
-void consider_edges(const Parts& parts, int e_a, int e_b, const Vec3& along_a,
+// Two edges whose arcs cross; `points_to_a`: their cross product does.
+void consider_edges(const Parts& parts, int e_a, int e_b, const Vec3& along_a, bool points_to_a,
                     const Vec3& best_face, BestEdges& best) {
   const Hulls& hulls = parts.hulls;
   const HullEdge& edge_a = hulls.edges[hulls.edge_begin[parts.a] + e_a];
   const HullEdge& edge_b = hulls.edges[hulls.edge_begin[parts.b] + e_b];
-  const Vec3 cross = edge_cross(parts, edge_b, along_a, edge_direction(parts, parts.b, edge_b));
+  const Vec3 along_b = edge_direction(parts, parts.b, edge_b);
+  Vec3 cross = along_a.cross(along_b);
+  if (are_parallel(along_a, along_b, cross)) return;
+  if (!points_to_a) cross = -cross;
   const double length_sq = cross.squaredNorm();
-  if (length_sq == 0) return;
   const double along = cross.dot(parts.placed.vertices[slot(hulls, parts.a, edge_a.a)] -
                                  parts.placed.vertices[slot(hulls, parts.b, edge_b.a)]);
   const double least = std::min(best.second, best.elsewhere);  // few get past this
@@ -91,13 +86,34 @@ void consider_edges(const Parts& parts, int e_a, int e_b, const Vec3& along_a,
   best = {separation, best.separation, best.elsewhere, e_a, e_b, normal};
 }
 
+// The vertex of the other part that is nearest to the face of `part` along which they are farthest
+// apart.
+const Vec3& nearest_vertex(const Parts& parts, int part, const AxisScratch& scratch) {
+  const Hulls& hulls = parts.hulls;
+  const std::vector<double>& separation = part == parts.a ? scratch.face_a : scratch.face_b;
+  const auto first = separation.begin();
+  const auto face = std::max_element(first, first + hulls.n_faces[part]) - first;
+  const Vec3 normal = normal_at(parts.placed, hulls.face_begin[part] + static_cast<int>(face));
+  const int other = part == parts.a ? parts.b : parts.a;
+  int nearest = hulls.vertex_begin[other];
+  double lowest = infinity;
+  for (int v = nearest; v < hulls.vertex_begin[other + 1]; ++v) {
+    const double height = normal.dot(parts.placed.vertices[v]);
+    nearest = height < lowest ? v : nearest;
+    lowest = std::min(lowest, height);
+  }
+  return parts.placed.vertices[nearest];
+}
+
 // The edges of `part` at which the parts may be farther apart than `least`, in `found`: active
 // ones, with `inner` also those at which the part alone ends but its body does not.
 //
 // The separation along a normal of an edge's arc is at most the height that any point of the other
 // part has over the plane through the edge, and where that point is behind the planes of both faces
 // it is no higher over that one than over the higher of them. The centroid of the other body tells
-// so of most edges: those on the far side. `least` <= 0, and any edge where it is not finite.
+// so of the edges on the far side, its vertex that is nearest to the part's best face of most
+// others: it lies behind all faces beside that one. `least` <= 0, and any edge where it is not
+// finite.
 int near_edges(const Parts& parts, int part, bool inner, double least, AxisScratch& scratch,
                std::vector<int>& found) {
   const Hulls& hulls = parts.hulls;
@@ -107,17 +123,24 @@ int near_edges(const Parts& parts, int part, bool inner, double least, AxisScrat
       inner ? hulls.edge_begin[part + 1] - hulls.edge_begin[part] : hulls.n_active_edges[part];
   const int begin = hulls.face_begin[part], n_normals = hulls.face_begin[part + 1] - begin;
   if (found.size() < static_cast<std::size_t>(n)) found.resize(n);
-  if (scratch.heights.size() < static_cast<std::size_t>(n_normals))
-    scratch.heights.resize(n_normals);
-  double* const height = scratch.heights.data();
-  normal_dots(parts, part, placed.position[hulls.body[part == parts.a ? parts.b : parts.a]],
-              height);
-  for (int f = 0; f < n_normals; f += n_lanes)
-    lanes(height + f) = lanes(height + f) - lanes(&placed.offset[begin + f]);
+  if (scratch.heights.size() < 2 * static_cast<std::size_t>(n_normals))
+    scratch.heights.resize(2 * n_normals);
+  double* const of_centroid = scratch.heights.data();
+  double* const of_vertex = of_centroid + n_normals;
+  const int other = part == parts.a ? parts.b : parts.a;
+  normal_dots(parts, part, placed.position[hulls.body[other]], of_centroid);
+  normal_dots(parts, part, nearest_vertex(parts, part, scratch), of_vertex);
+  for (int f = 0; f < n_normals; f += n_lanes) {
+    const Lanes offset = lanes(&placed.offset[begin + f]);
+    lanes(of_centroid + f) = lanes(of_centroid + f) - offset;
+    lanes(of_vertex + f) = lanes(of_vertex + f) - offset;
+  }
   int kept = 0;  // without branches: their outcome would be a guess
   for (int e = 0; e < n; ++e) {
+    const int left = edges[e].left, right = edges[e].right;
     found[kept] = e;
-    kept += std::max(height[edges[e].left], height[edges[e].right]) >= least;
+    kept += std::min(std::max(of_centroid[left], of_centroid[right]),
+                     std::max(of_vertex[left], of_vertex[right])) >= least;
   }
   return kept;
 }
@@ -165,8 +188,10 @@ BestEdges find_edges(const Parts& parts, const Vec3& best_face, bool inner, doub
       crossing[n_both] = k;
       n_both += (column[arc_left] * right < 0) & (row[edges_b[near_b[k]].arc_left] * right < 0);
     }
-    for (int m = 0; m < n_both; ++m)
-      consider_edges(parts, e_a, near_b[crossing[m]], along_a, best_face, best);
+    for (int m = 0; m < n_both; ++m) {  // along_b is left x right of its arc
+      const int e_b = near_b[crossing[m]];
+      consider_edges(parts, e_a, e_b, along_a, row[edges_b[e_b].arc_right] > 0, best_face, best);
+    }
   }
   return best;
 }
@@ -469,10 +494,13 @@ Vec3 axis_normal(const Hulls& hulls, const PlacedHulls& placed, int part_a, int 
   const Parts parts{hulls, placed, part_a, part_b};
   const HullEdge& edge_a = hulls.edges[hulls.edge_begin[part_a] + axis.feature_a];
   const HullEdge& edge_b = hulls.edges[hulls.edge_begin[part_b] + axis.feature_b];
-  const Vec3 cross = edge_cross(parts, edge_b, edge_direction(parts, part_a, edge_a),
-                                edge_direction(parts, part_b, edge_b));
-  const double length_sq = cross.squaredNorm();
-  return length_sq == 0 ? cross : Vec3(1 / std::sqrt(length_sq) * cross);
+  const Vec3 along_a = edge_direction(parts, part_a, edge_a),
+             along_b = edge_direction(parts, part_b, edge_b), cross = along_a.cross(along_b);
+  if (are_parallel(along_a, along_b, cross)) return Vec3::Zero();
+  const int first = hulls.face_begin[part_b];
+  const Vec3 outward =
+      normal_at(placed, first + edge_b.arc_left) + normal_at(placed, first + edge_b.arc_right);
+  return (cross.dot(outward) > 0 ? 1 : -1) / cross.norm() * cross;
 }
 
 }  // namespace talus
