@@ -30,10 +30,11 @@ Vec3 spin_of(const Motion& m, const Vec3& inertia) {
 
 // So near do pairs come together in `h` besides their motion without contact [m].
 double pair_margin(const Scene& scene, double h) {
-  double margin = 0;
-  for (int b = 0; b < n_blocks(scene); ++b)
-    margin = std::max(margin, search_margin(numbers_of(scene, b), h));
-  return margin;
+  BlockNumbers largest;
+  largest.gravity = scene.gravity.norm();
+  for (const double radius : scene.blocks.shapes.radius)
+    largest.radius = std::max(largest.radius, radius);
+  return search_margin(largest, h);
 }
 
 // Whether block b touches no fixed body within the step, seen from balls around them: told without
