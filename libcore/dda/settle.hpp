@@ -8,8 +8,10 @@
 
 namespace talus {
 
-/// Lets block b, which touches the ground at rest or slides along it, down into static equilibrium;
-/// a block that topples or does not touch stays where it is.
+/// Lets block b, which touches the ground at rest or slides along it, down into static equilibrium,
+/// or into that of sliding where it slides off: its contacts press as they will while it slides,
+/// and State::acceleration is that of sliding. A block that topples or does not touch stays where
+/// it is. Other blocks are not looked at.
 void settle_block(const Scene& scene, int b, State& state, Work& work);
 
 /// Bonds the faces of block b that lie on cohesive ground at rest, as settle_block does, and leaves
