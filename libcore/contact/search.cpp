@@ -65,11 +65,9 @@ void add_valley_planes(const Ground& ground, const GridPoint& at, const Triangle
   }
 }
 
-// Whether the gap is above `margin` for sure, told from the height without a root: the gap is the
-// height over sqrt(1 + gradient^2).
-bool is_far_above(const Trn& trn, const GridPoint& at, double z, double margin) {
-  const double height = z - elevation_at(trn, at);
-  const Vec2 gradient = triangle_gradient(trn, at.cell, is_upper(at));
+// Whether the gap of a point at `height` above ground of this gradient is above `margin` for sure,
+// told without a root: the gap is the height over sqrt(1 + gradient^2).
+bool is_far_above(double height, const Vec2& gradient, double margin) {
   return height > 0 && height * height > 1.0001 * margin * margin * (1 + gradient.squaredNorm());
 }
 
@@ -88,8 +86,9 @@ void find_mode_1(const Ground& ground, const Shapes& shapes, int b, double highe
     const Vec3& x = vertices[v];
     if (x.z() > highest + margin) continue;
     const GridPoint at = locate(trn, x.x(), x.y());
-    if (is_far_above(trn, at, x.z(), margin)) continue;
-    const TrianglePlane plane = plane_at(trn, at);
+    const Vec2 gradient = triangle_gradient(trn, at.cell, is_upper(at));
+    if (is_far_above(x.z() - elevation_at(trn, at), gradient, margin)) continue;
+    const TrianglePlane plane = plane_of(node_point(trn, at.cell.row, at.cell.col), gradient);
     const double gap = distance_above(plane, x);
     if (!(gap < margin)) continue;  // also when the triangle is not ground
     const int id = static_cast<int>(v);

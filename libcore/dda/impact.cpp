@@ -5,6 +5,7 @@
 #include "contact/search.hpp"
 #include "dda/newton.hpp"
 #include "dda/rotation.hpp"
+#include "dda/substep.hpp"
 
 namespace talus {
 namespace {
@@ -16,37 +17,42 @@ void make_impact_rows(const Scene& scene, int b, double resting_speed, const Mat
                       const Vec6& velocity, Work& work) {
   const double per_mass = 1 / scene.blocks.mass[static_cast<std::size_t>(b)];
   const Vec3 per_inertia = scene.blocks.inertia[static_cast<std::size_t>(b)].cwiseInverse();
-  work.rows.clear();
+  work.rows.resize(work.contacts.size());
   for (std::size_t i = 0; i < work.contacts.size(); ++i) {
     const Contact& contact = work.contacts[i];
     const GroundClass& ground =
         scene.ground.classes[static_cast<std::size_t>(contact.ground_class)];
-    ContactRow row;
+    ContactRow& row = work.rows[i];
+    forget_last_step(row);
+    row.drift.setZero();
+    row.shear_velocity.setZero();
+    row.waits_for_impact = false;
     row.contact = static_cast<int>(i);
-    row.normal = to_body * contact.normal;
+    const bool same_plane = i > 0 && contact.normal == work.contacts[i - 1].normal;
+    row.normal = same_plane ? work.rows[i - 1].normal : Vec3(to_body * contact.normal);
     row.point = contact.point_a;
     const Vec3 w = point_velocity<6>(velocity, row.point);
     row.speed_start = row.normal.dot(w);
     const Vec3 tangent = w - row.speed_start * row.normal;
     const double slip_speed = tangent.norm();
-    row.slip_start = slip_speed > 0 ? Vec3(tangent / slip_speed) : Vec3(Vec3::Zero());
+    row.slip_start = slip_speed > 0 ? Vec3((1 / slip_speed) * tangent) : Vec3(Vec3::Zero());
     row.bias = row.speed_start < -resting_speed ? ground.restitution * row.speed_start : 0.0;
     const Mobility W = mobility(per_mass, per_inertia, row.point, row.normal);
     row.normal_damping = stiffness_ratio / W.normal;
     row.shear_damping = stiffness_ratio / W.tangent;
     row.friction = ground.friction;
-    work.rows.push_back(row);
   }
 }
 
 double kinetic_energy(const BlockSystem<6>& system, const Vec6& velocity) {
-  return 0.5 * velocity.dot(system.mass * velocity);
+  return 0.5 * velocity.dot(system.mass.diagonal().cwiseProduct(velocity));
 }
 
 // The part of the change of velocity that leaves the kinetic energy where it was.
 Vec6 limited(const BlockSystem<6>& system, const Vec6& before) {
   const Vec6 change = system.velocity - before;
-  const double slope = before.dot(system.mass * change), curve = 2 * kinetic_energy(system, change);
+  const double slope = before.dot(system.mass.diagonal().cwiseProduct(change)),
+               curve = 2 * kinetic_energy(system, change);
   return before + std::clamp(-2 * slope / curve, 0.0, 1.0) * change;
 }
 

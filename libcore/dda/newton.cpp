@@ -75,10 +75,10 @@ Mat<Dof> derivative(const BlockSystem<Dof>& system, std::span<const ContactRow> 
   return H;
 }
 
-// Column k of the elimination, with row pivoting. Column by column, and with sizes that the
-// compiler knows, so that it can take two rows at a time.
+// Column k of the elimination, with row pivoting, which leaves 1 / pivot on the diagonal. Column by
+// column, and with sizes that the compiler knows, so that it can take two rows at a time.
 template <int Dof, int k>
-void eliminate(Mat<Dof>& H, Vec<Dof>& b) {
+[[gnu::always_inline]] inline void eliminate(Mat<Dof>& H, Vec<Dof>& b) {
   int pivot = k;
   for (int i = k + 1; i < Dof; ++i)
     if (std::abs(H(i, k)) > std::abs(H(pivot, k))) pivot = i;
@@ -86,25 +86,30 @@ void eliminate(Mat<Dof>& H, Vec<Dof>& b) {
     H.row(k).swap(H.row(pivot));
     std::swap(b[k], b[pivot]);
   }
+  H(k, k) = 1 / H(k, k);
   constexpr int below = Dof - 1 - k;
   if constexpr (below > 0) {
-    const Eigen::Matrix<double, below, 1> factor =
-        H.template block<below, 1>(k + 1, k) * (1 / H(k, k));
+    const Eigen::Matrix<double, below, 1> factor = H.template block<below, 1>(k + 1, k) * H(k, k);
     for (int j = k + 1; j < Dof; ++j) H.template block<below, 1>(k + 1, j) -= H(k, j) * factor;
     b.template tail<below>() -= b[k] * factor;
   }
 }
 
-// x with H x = b, by elimination; H is a few rows and regular (M is in it).
+// What is left of b above row k, whose unknown is the last one not yet known.
+template <int Dof, int k>
+[[gnu::always_inline]] inline void substitute(const Mat<Dof>& H, Vec<Dof>& b) {
+  b[k] *= H(k, k);
+  if constexpr (k > 0) b.template head<k>() -= b[k] * H.template block<k, 1>(0, k);
+}
+
+// Makes b the x with H x = b, by elimination; H is a few rows and regular (M is in it).
 template <int Dof>
-Vec<Dof> solve_dense(Mat<Dof> H, Vec<Dof> b) {
-  [&]<int... k>(std::integer_sequence<int, k...>) { (eliminate<Dof, k>(H, b), ...); }
-  (std::make_integer_sequence<int, Dof>());
-  for (int k = Dof - 1; k >= 0; --k) {
-    b[k] /= H(k, k);
-    for (int i = 0; i < k; ++i) b[i] -= H(i, k) * b[k];
+void solve_dense(Mat<Dof>& H, Vec<Dof>& b) {
+  [&]<int... k>(std::integer_sequence<int, k...>) {
+    (eliminate<Dof, k>(H, b), ...);
+    (substitute<Dof, Dof - 1 - k>(H, b), ...);
   }
-  return b;
+  (std::make_integer_sequence<int, Dof>());
 }
 
 // The residual as a velocity of the block's points: impulse over mass; angular impulse over
@@ -134,11 +139,14 @@ NewtonResult solve_coupled(BlockSystem<Dof>& system, std::span<ContactRow> rows,
   Vec<Dof> r = residual(system, rows);
   ++result.passes;
   for (int steps = 0;; ++steps) {
-    const double size = size_of(system, r);
-    result.converged = is_small(system, r) || size <= goal;
+    const bool asks_size = goal > 0 || steps >= free_steps;
+    const double size = asks_size ? size_of(system, r) : 0;
+    result.converged = is_small(system, r) || (goal > 0 && size <= goal);
     if (result.converged || result.passes >= max_passes) return result;
-    const Vec<Dof> step = solve_dense<Dof>(derivative<Dof>(system, rows), -r),
-                   from = system.velocity;
+    const Vec<Dof> from = system.velocity;
+    Mat<Dof> H = derivative<Dof>(system, rows);
+    Vec<Dof> step = -r;
+    solve_dense<Dof>(H, step);
     double fraction = 1;
     for (int i = 0;; ++i, fraction /= 2) {
       system.velocity = from + fraction * step;

@@ -56,7 +56,8 @@ struct State {  // clang-format off
   double time = 0;                          ///< end of the last step [s]
   std::vector<Motion> motion;               ///<                                     (n_blocks)
   std::vector<double> local_time;           ///< time of `motion`; lags in flight [s] (n_blocks)
-  std::vector<double> flight_end;           ///< nothing can be hit before [s]       (n_blocks)
+  std::vector<double> flight_end;           ///< nothing can be hit before; of a block that does
+                                            ///< not fly: it can not before [s]      (n_blocks)
   std::vector<Phase> phase;                 ///<                                     (n_blocks)
   std::vector<Vec3> acceleration;           ///< of the last step, by contact too [m/s2]  (n_blocks)
   std::vector<Vec3> spin_rate;              ///< angular acceleration, body axes [rad/s2] (n_blocks)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "dda/displacement.hpp"
 #include "dda/fence.hpp"
@@ -53,6 +54,15 @@ bool in_company(const State& state, const IslandStepWork& w, int b) {
          (w.near_fixed[i] != 0 && !does_not_move(state.phase[i]));
 }
 
+// Whether the ball around block b at rest is far above all ground below it.
+bool is_above_ground(const Scene& scene, size_t b) {
+  const Vec3 &at = scene.blocks.rest[b].position,
+             around = Vec3::Constant(1.001 * scene.blocks.shapes.radius[b]);
+  const NearCells near =
+      find_near_cells(scene.ground.trn, scene.ground.pyramid, at - around, at + around, 0);
+  return near.reach == Reach::above;
+}
+
 bool spins(const Scene& scene, size_t b) { return !scene.blocks.spin[b].isZero(0); }
 
 }  // namespace
@@ -94,10 +104,12 @@ State start(const Scene& scene) {
   }
   const bool is_paper = scene.settings.law == Law::paper;
   if (scene.settings.trn_contacts && (is_paper || scene.settings.static_start)) {
-    Work work = make_work(scene);
-    for (size_t b = 0; b < n; ++b)
-      if (!spins(scene, b))
-        (is_paper ? bond_block : settle_block)(scene, static_cast<int>(b), state, work);
+    std::optional<Work> work;  // none where all blocks are above the ground
+    for (size_t b = 0; b < n; ++b) {
+      if (spins(scene, b) || is_above_ground(scene, b)) continue;
+      if (!work) work = make_work(scene);
+      (is_paper ? bond_block : settle_block)(scene, static_cast<int>(b), state, *work);
+    }
   }
   return state;
 }

@@ -67,23 +67,25 @@ struct Advance {
     ++report.substeps;
   }
 
-  // The gap of edges over a substep is not quite linear: where the hit was foreseen, they may still
-  // be a little apart, or just not cross. Then the contact that was foreseen is hit besides those
-  // that touch; without it nothing would be hit, again and again.
-  void impact() {
+  // True when the block is hit where it is. The gap of edges over a substep is not quite linear:
+  // where the hit was foreseen, they may still be a little apart, or just not cross. Then the
+  // contact that was foreseen is hit besides those that touch; without it nothing would be hit,
+  // again and again.
+  bool impact() {
     ImpactResult hit = apply_impact(scene, b, 2 * c.touch, c.resting_speed, motion(), work);
     if (!hit.hit && is_foreseen) {
       work.contacts.push_back(foreseen);
       hit = apply_impact(scene, b, c.resting_speed, motion(), work);
     }
     is_foreseen = false;
-    if (!hit.hit) return;
+    if (!hit.hit) return false;
     state.ledger.impact += hit.dissipated;
     ++report.n_impacts;
     report.passes += hit.passes;
     if (!hit.converged) ++report.n_unconverged;
     forget_rates(scene, b, state);
     state.support[i()].setZero();
+    return true;
   }
 
   // Substep of h from t; h is shortened to the first impact or when the forces do not converge.
@@ -97,7 +99,8 @@ struct Advance {
                       work.contacts, &work.near_ground[i()]);
     if (near.reach == Reach::off_ground) return Attempt::left;
     if (work.contacts.empty()) {
-      if (free_fall_only() && begin_flight(t, h)) return Attempt::flight;
+      const bool lifts_off = !state.memory[i()].empty();
+      if (lifts_off && free_fall_only() && begin_flight(t, 2 * h)) return Attempt::flight;
       report.n_flips += static_cast<int>(state.memory[i()].size());
       state.memory[i()].clear();
       relax_strain();
@@ -183,12 +186,28 @@ struct Advance {
     state.strain_rate[i()].setZero();
   }
 
-  bool begin_flight(double t, double h) {
+  // Time in which the block moves on by an eighth of a cell, so that what stands out of the ground
+  // there, and keeps it from flying, may be another thing.
+  double time_for_another_view() {
+    const double cell = scene.ground.trn.cell_size;
+    return cell / 8 / (top_speed() + std::sqrt(c.gravity * cell) + 1e-300);
+  }
+
+  // Flies on from t, where nothing can be hit for longer than `shortest`.
+  bool begin_flight(double t, double shortest) {
     constexpr double longest_turn = 60;  // [rad]: bounds what motion_at() costs near the flip
     const double longest = std::min(1e3, longest_turn / (spin_speed() + 1e-300));
-    const double safe = free_time(scene.ground, c.radius, motion().pose.position, motion().velocity,
-                                  scene.gravity, longest);
-    if (!(safe > 2 * h)) return false;
+    // where strains let go the vertices move
+    const bool is_rigid = state.strain.empty();
+    FlyingBody body =
+        flying_body(motion(), scene.blocks.inertia[i()], c.radius,
+                    is_rigid ? vertices_of(scene.blocks.shapes, b) : std::span<const Vec3>());
+    body.touch = 2 * c.touch;
+    const double safe = free_time(scene.ground, body, scene.gravity, longest);
+    if (!(safe > shortest)) {
+      state.flight_end[i()] = t + time_for_another_view();
+      return false;
+    }
     state.phase[i()] = Phase::flight;
     state.flight_end[i()] = t + safe;
     report.n_flips += static_cast<int>(state.memory[i()].size());
@@ -206,7 +225,7 @@ struct Advance {
     (void)find_contacts(scene.ground, scene.blocks.shapes, b, pose, stretch_of(state, b),
                         search_margin(c, h), work.world_vertices, work.contacts);
     return std::any_of(work.contacts.begin(), work.contacts.end(),
-                       [](const Contact& contact) { return contact.gap < 0; });
+                       [this](const Contact& contact) { return contact.gap < -2 * c.touch; });
   }
 
   // True when the flight ends within the step; the block is then at its end.
@@ -263,21 +282,47 @@ struct Advance {
     return std::min(by_way, by_turn);
   }
 
+  // Whether the block may be off the ground: after a hit, or when nothing bore it in the last step.
+  // Asked only now and then where it was not, since blocks that stay near rough ground ask in vain.
+  [[nodiscard]] bool may_take_off(double t, bool was_hit) const {
+    const bool asks = t == state.time && t >= state.flight_end[i()] && state.memory[i()].empty();
+    return (was_hit || asks) && free_fall_only();
+  }
+
+  // A block that nothing bears is not looked for on the ground before it may touch it: flights
+  // follow on each other, each ending nearer to the hit where the block spins, until it touches.
   template <int Dof>
   void run(double t_end) {
-    int events = 0;
+    constexpr int most_flights = 16;  // in a step
+    int events = 0, flights = 0;
+    bool was_hit = false;
+    const auto hit = [&] {
+      if (++events > most_events) c.resting_speed *= 2;
+    };
     while (state.local_time[i()] < t_end) {
-      if (state.phase[i()] == Phase::flight && !flight_ends(t_end)) return;
+      bool flew = false;
+      if (state.phase[i()] == Phase::flight) {
+        if (!flight_ends(t_end)) return;
+        flew = true;
+      }
       const double t = state.local_time[i()];
+      if ((flew || may_take_off(t, was_hit)) && may_fly && ++flights <= most_flights) {
+        // without spin a flight ends where the block touches
+        const bool touches = flew && motion().angular_momentum.isZero(0);
+        const double at_once = c.touch / (top_speed() + c.gravity * scene.settings.dt + 1e-300);
+        if (!touches && begin_flight(t, at_once)) continue;
+        was_hit = flew && impact();
+        if (was_hit) {
+          hit();
+          continue;
+        }
+      }
       double h = std::min(t_end - t, longest_substep(t_end - t));
       Attempt outcome = Attempt::shorter;
       for (int tries = 1; outcome == Attempt::shorter; ++tries)
         outcome = attempt<Dof>(t, h, tries >= most_tries);
       if (t_end - state.local_time[i()] < 1e-9 * scene.settings.dt) state.local_time[i()] = t_end;
-      if (outcome == Attempt::impact) {
-        if (++events > most_events) c.resting_speed *= 2;
-        impact();
-      }
+      was_hit = outcome == Attempt::impact && (hit(), impact());
       if (outcome == Attempt::left || left_ground(scene, motion().pose.position)) {
         stop_outside(scene, b, state, report);
         state.local_time[i()] = t_end;

@@ -174,13 +174,16 @@ void check_trn(const Trn& trn, const std::string& file);
   return !std::isnan(gradient.x()) && !std::isnan(gradient.y());
 }
 
+/// The plane through `point` that rises by `gradient`.
+[[nodiscard]] inline TrianglePlane plane_of(const Vec3& point, const Vec2& gradient) {
+  const double per_length = 1 / std::sqrt(1 + gradient.squaredNorm());
+  return {point, Vec3(-gradient.x() * per_length, -gradient.y() * per_length, per_length)};
+}
+
 /// Plane of a cell's lower left or upper right triangle; NaN in point or normal when it is not
 /// ground.
 [[nodiscard]] inline TrianglePlane triangle_plane(const Trn& trn, const Cell& cell, bool upper) {
-  const Vec2 gradient = triangle_gradient(trn, cell, upper);
-  const double per_length = 1 / std::sqrt(1 + gradient.squaredNorm());
-  return {node_point(trn, cell.row, cell.col),
-          Vec3(-gradient.x() * per_length, -gradient.y() * per_length, per_length)};
+  return plane_of(node_point(trn, cell.row, cell.col), triangle_gradient(trn, cell, upper));
 }
 
 /// The same by the triangle's index.

@@ -67,22 +67,40 @@ struct TrnPyramid {
           index(east, last_col)};
 }
 
-/// Whether all nodes of `range` lie in the plane of the triangle of `point`, to 1e-9 of the cell
-/// size in height; false when one is unknown.
-[[nodiscard]] inline bool is_plane(const Trn& trn, const CellRange& range, const GridPoint& point) {
+/// Whether `holds` for the height of every node of `range` above the plane of the triangle of
+/// `point` [m]; `holds` is false for NaN.
+template <class Holds>
+[[nodiscard]] bool all_nodes(const Trn& trn, const CellRange& range, const GridPoint& point,
+                             const Holds& holds) {
   const Vec2 gradient = triangle_gradient(trn, point.cell, is_upper(point));
   const double per_col = gradient.x() * trn.cell_size, per_row = -gradient.y() * trn.cell_size;
   const double at_point = trn.elevation[node_index(trn, point.cell.row, point.cell.col)];
-  const double flat = 1e-9 * trn.cell_size;
   for (int row = range.row_first; row <= range.row_last + 1; ++row) {
     const double* z = trn.elevation.data() + node_index(trn, row, 0);
     const double start = at_point + (row - point.cell.row) * per_row - point.cell.col * per_col;
-    bool in_plane = true;  // of the whole row, so that several nodes are looked at in one go
+    bool all = true;  // of the whole row, so that several nodes are looked at in one go
     for (int col = range.col_first; col <= range.col_last + 1; ++col)
-      in_plane &= std::abs(z[col] - (start + col * per_col)) <= flat;
-    if (!in_plane) return false;
+      all &= holds(z[col] - (start + col * per_col));
+    if (!all) return false;
   }
   return true;
+}
+
+/// So near to a plane a node lies in it, as a part of the cell size.
+inline constexpr double flat_ratio = 1e-9;
+
+/// Whether all nodes of `range` lie in the plane of the triangle of `point`; false when one is
+/// unknown.
+[[nodiscard]] inline bool is_plane(const Trn& trn, const CellRange& range, const GridPoint& point) {
+  const double flat = flat_ratio * trn.cell_size;
+  return all_nodes(trn, range, point, [flat](double height) { return std::abs(height) <= flat; });
+}
+
+/// Whether no node of `range` lies above the plane of the triangle of `point`; false when one is
+/// unknown.
+[[nodiscard]] inline bool is_below(const Trn& trn, const CellRange& range, const GridPoint& point) {
+  const double flat = flat_ratio * trn.cell_size;
+  return all_nodes(trn, range, point, [flat](double height) { return height <= flat; });
 }
 
 /// How a block stands to the ground of its candidate cells.

@@ -95,16 +95,22 @@ CaseResult bounce(const Settings& settings, double restitution, Landing landing)
   Run run(on_plane(settings, slope_frame(0, 0), ground_of(25, restitution), body, 10));
   double error = 0, expected = 5, height = 0;
   int found = 0;
+  // a piece of the path: does it lead over a top?
+  const auto look_at = [&](const Motion& start, double speed_end) {
+    const double up = start.velocity.z();
+    if (found == 3 || up <= 0 || speed_end > 0) return;
+    height = start.pose.position.z() - low + up * up / (2 * g);
+    expected *= restitution * restitution;
+    error = std::max(error, std::abs(height / expected - 1));
+    ++found;
+  };
   while (found < 3 && run.state.time < 9) {
     run.advance();
-    for (const Segment& segment : run.work.segments) {
-      const double up = segment.start.velocity.z(), z = segment.start.pose.position.z() - low;
-      if (found == 3 || up <= 0 || segment.end.velocity.z() > 0) continue;
-      height = z + up * up / (2 * g);
-      expected *= restitution * restitution;
-      error = std::max(error, std::abs(height / expected - 1));
-      ++found;
-    }
+    for (const Segment& segment : run.work.segments)
+      look_at(segment.start, segment.end.velocity.z());
+    if (found < 2 || run.state.phase[0] != Phase::flight) continue;
+    const Motion& start = run.state.motion[0];  // of the last flight, which need not come down
+    look_at(start, start.velocity.z() - g * (run.state.time - run.state.local_time[0]));
   }
   return run.finish(height, expected, found == 3 ? error : 1);
 }
@@ -160,8 +166,10 @@ CaseResult corner_impulse(const Settings& settings, double restitution) {
   while (run.state.time < 2) {
     run.advance();
     const auto& segments = run.work.segments;
-    for (std::size_t k = 1; k < segments.size(); ++k) {
-      const Motion &before = segments[k - 1].end, &after = segments[k].start;
+    for (std::size_t k = 0; k < segments.size(); ++k) {
+      // after the last one the block may be on its flight from the hit
+      const Motion &before = segments[k].end,
+                   &after = k + 1 < segments.size() ? segments[k + 1].start : run.state.motion[0];
       const double impulse = mass * (after.velocity - before.velocity).z();
       if (impulse < 0.1 * mass) continue;
       const double expected = impulse_on_corner(run, before, restitution);

@@ -226,7 +226,7 @@ TEST(FreeTime, NothingIsInTheBallBeforeIt) {
     const Vec3 from(x, y, bumps(x, y) + random.uniform(0.3, 20));
     const Vec3 v(random.uniform(-15, 15), random.uniform(-15, 15), random.uniform(-10, 10));
     const Vec3 a(0, 0, -10);
-    const double T = free_time(ground, radius, from, v, a, 100);
+    const double T = free_time(ground, {from, v, radius}, a, 100);
     const auto centre = [&](double t) { return Vec3(from + t * v + t * t / 2 * a); };
     if (T == 0) continue;
     ++flights;
@@ -243,6 +243,96 @@ TEST(FreeTime, NothingIsInTheBallBeforeIt) {
   EXPECT_GT(sum, 0.8 * sum_until_touch);
 }
 
+// Some motion of a block that may be anywhere over the bumps, low above them more often than not.
+Motion thrown_over_bumps(double least_height, Random& random) {
+  Motion m;
+  const double x = random.uniform(-40, 40), y = random.uniform(-40, 40);
+  m.pose.position = {x, y, bumps(x, y) + least_height + 3 * std::pow(random.uniform(0, 1), 3)};
+  m.pose.attitude = Quat(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1),
+                         random.uniform(-1, 1))
+                        .normalized();
+  m.velocity = {random.uniform(-15, 15), random.uniform(-15, 15), random.uniform(-5, 5)};
+  return m;
+}
+
+// The deepest gap of a block's contacts with the ground, 0: above it [m].
+double deepest(const Scene& scene, const Pose& pose) {
+  std::vector<Vec3> vertices;
+  std::vector<Contact> contacts;
+  (void)find_contacts(scene.ground, scene.blocks.shapes, 0, pose, Mat3::Identity(), 0, vertices,
+                      contacts);
+  double gap = 0;
+  for (const Contact& contact : contacts) gap = std::min(gap, contact.gap);
+  return gap;
+}
+
+// The vertices tell more than the ball, the more the less the block spins.
+TEST(FreeTime, NoPartOfABlockIsBelowTheGroundBeforeIt) {
+  const Scene scene = scene_of(make_trn(bumps, 1, 60), {},
+                               {body_of(box(Vec3(-0.5, -0.4, -0.2), Vec3(0.5, 0.4, 0.2)))}, {});
+  const Vec3 a(0, 0, -10), &inertia = scene.blocks.inertia[0];
+  const double radius = scene.blocks.shapes.radius[0];
+  Random random(6, "free time of a block");
+  for (const double fastest : {0.0, 1.0, 10.0}) {
+    double sum = 0, sum_of_ball = 0;
+    for (int trial = 0; trial < 400; ++trial) {
+      Motion m = thrown_over_bumps(0.2, random);
+      const Vec3 spin(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+      m.angular_momentum = angular_momentum(m.pose.attitude, fastest * spin, inertia);
+      if (deepest(scene, m.pose) < 0) continue;
+      const double T = free_time(
+          scene.ground, flying_body(m, inertia, radius, vertices_of(scene.blocks.shapes, 0)), a, 9);
+      const double of_ball = free_time(scene.ground, flying_body(m, inertia, radius, {}), a, 9);
+      EXPECT_GE(T, of_ball * (1 - 1e-9)) << trial;
+      for (int k = 1; k <= 20; ++k) {
+        const double t = T * k / 20;
+        EXPECT_GT(deepest(scene, fly(m, inertia, a, t).pose), -1e-8) << trial << ", " << t;
+      }
+      sum += T;
+      sum_of_ball += of_ball;
+    }
+    EXPECT_GT(sum, (fastest < 10 ? 1.05 : 1.02) * sum_of_ball) << fastest;
+  }
+}
+
+// Without spin it is known when the block lands on a plane: no search is needed on the way.
+TEST(FreeTime, IsExactWithoutSpinOnAPlane) {
+  const auto plane = [](double x, double y) { return 0.3 * x - 0.2 * y; };
+  const Scene scene = scene_of(make_trn(plane, 1, 60), {},
+                               {body_of(box(Vec3(-0.5, -0.4, -0.2), Vec3(0.5, 0.4, 0.2)))}, {});
+  Random random(7, "landing");
+  for (int trial = 0; trial < 100; ++trial) {
+    Motion m = thrown_over_bumps(0, random);
+    m.pose.position /= 2;  // far enough from the grid's edge
+    m.pose.position.z() = plane(m.pose.position.x(), m.pose.position.y()) + random.uniform(1, 3);
+    const FlyingBody body = flying_body(m, scene.blocks.inertia[0], scene.blocks.shapes.radius[0],
+                                        vertices_of(scene.blocks.shapes, 0));
+    const double T = free_time(scene.ground, body, {0, 0, -10}, 100);
+    Pose pose = m.pose;
+    pose.position += T * m.velocity - Vec3(0, 0, 5 * T * T);
+    EXPECT_GT(T, 0);
+    double lowest = 1;
+    for (const Vec3& X : body.vertices) {
+      const Vec3 x = place(pose, X);
+      lowest = std::min(lowest, x.z() - plane(x.x(), x.y()));
+    }
+    EXPECT_NEAR(lowest, 0, 1e-9) << trial;
+  }
+}
+
+TEST(Step, BlockThatBouncesIsHitWithoutASearchOnTheWay) {
+  GroundClass ground;
+  ground.restitution = 0.7;
+  const auto flat = [](double, double) { return 0.0; };
+  const Scene scene = scene_of(make_trn(flat, 1, 20), ground,
+                               {body_of(box(Vec3(-0.5, -0.5, 5), Vec3(0.5, 0.5, 6)))}, {});
+  State state = start(scene);
+  Work work = make_work(scene);
+  while (state.time < 3.7) step(scene, state, work);  // three hits, the fourth is at 4.07 s
+  EXPECT_EQ(state.counters.impacts, 3);
+  EXPECT_EQ(state.counters.substeps, 0);
+}
+
 TEST(FreeTime, EndsAtUnknownGround) {
   Trn trn = make_trn([](double, double) { return 0.0; }, 1, 20);
   for (double x : {7.0, 8.0}) {
@@ -250,7 +340,7 @@ TEST(FreeTime, EndsAtUnknownGround) {
     trn.elevation[node_index(trn, at.cell.row, at.cell.col)] = std::nan("");
   }
   const Ground ground = make_ground(std::move(trn), {});
-  const double T = free_time(ground, 0.5, {0, 0.5, 3}, {10, 0, 10}, {0, 0, -10}, 100);
+  const double T = free_time(ground, {{0, 0.5, 3}, {10, 0, 10}, 0.5}, {0, 0, -10}, 100);
   EXPECT_GT(T, 0.4);  // on its way there
   EXPECT_LT(T, 0.75);
 }
@@ -661,7 +751,8 @@ TEST(Step, HitsFasterThanAStepOfGravityRebound) {
     double highest = -1;
     while (state.time < 1) {
       step(scene, state, work);  // the first one hits
-      highest = std::max(highest, state.motion[0].pose.position.z() - 0.5);
+      const Motion now = motion_at(scene, state, 0, state.time);
+      highest = std::max(highest, now.pose.position.z() - 0.5);
     }
     return highest;
   };
