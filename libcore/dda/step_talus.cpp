@@ -296,7 +296,7 @@ struct Advance {
     constexpr int most_flights = 16;  // in a step
     int events = 0, flights = 0;
     bool was_hit = false;
-    const auto hit = [&] {
+    const auto count_event = [&] {
       if (++events > most_events) c.resting_speed *= 2;
     };
     while (state.local_time[i()] < t_end) {
@@ -313,7 +313,7 @@ struct Advance {
         if (!touches && begin_flight(t, at_once)) continue;
         was_hit = flew && impact();
         if (was_hit) {
-          hit();
+          count_event();
           continue;
         }
       }
@@ -322,7 +322,8 @@ struct Advance {
       for (int tries = 1; outcome == Attempt::shorter; ++tries)
         outcome = attempt<Dof>(t, h, tries >= most_tries);
       if (t_end - state.local_time[i()] < 1e-9 * scene.settings.dt) state.local_time[i()] = t_end;
-      was_hit = outcome == Attempt::impact && (hit(), impact());
+      if (outcome == Attempt::impact) count_event();
+      was_hit = outcome == Attempt::impact && impact();
       if (outcome == Attempt::left || left_ground(scene, motion().pose.position)) {
         stop_outside(scene, b, state, report);
         state.local_time[i()] = t_end;
