@@ -218,7 +218,8 @@ struct Advance {
   }
 
   // With Settings::flight off the ground is searched though nothing can be hit: a flight that
-  // touches it all the same ends where the step begins.
+  // touches it all the same ends where the step begins. So far below it as touching goes a vertex
+  // may be that leaves it.
   bool touches_in_flight(double t_end) {
     const double h = t_end - state.time;
     const Pose pose = motion_at(scene, state, b, t_end).pose;
