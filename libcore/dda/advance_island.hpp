@@ -75,12 +75,12 @@ struct AdvanceIsland {
   // Relative motion of the points of contact `r`, `of` being a motion of members.
   template <class Of>
   [[nodiscard]] Vec3 relative(size_t r, Of&& of) const {
-    const IslandContact& contact = w.contacts[r];
+    const BodyPair& pair = w.island.pairs[static_cast<size_t>(w.contacts[r].pair)];
     const Vec3 arm = row(r).arm();
-    const size_t ka = place(contact.a);
+    const auto ka = static_cast<size_t>(pair.a);
     Vec3 v = point_velocity<6>(of(ka), arm);
-    if (contact.b >= 0) {
-      const size_t kb = place(contact.b);
+    if (pair.b >= 0) {
+      const auto kb = static_cast<size_t>(pair.b);
       v -= point_velocity<6>(of(kb), arm + w.island.position[ka] - w.island.position[kb]);
     }
     return v;
@@ -215,6 +215,7 @@ struct AdvanceIsland {
   void break_bond(int bond);
   BondLoad& load_of(const IslandContact& contact);
   [[nodiscard]] double share_pressed_out(const IslandContact& contact, double normal_force) const;
+  void remember_contact(size_t r, const Vec3& path, double overlap, double h);
   void remember(double h);
   [[nodiscard]] Motion end_of(size_t k) const;
   [[nodiscard]] bool foresaw(size_t k, const Contact& contact, double least) const;

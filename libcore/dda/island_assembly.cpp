@@ -168,7 +168,7 @@ IslandContact& AdvanceIsland::push(int a, const ContactKey& key, double touch, d
 }
 
 // Contacts of a member with the ground. False when it is off the known ground.
-bool AdvanceIsland::add_ground(size_t k) {
+[[gnu::flatten]] bool AdvanceIsland::add_ground(size_t k) {
   const Substep& s = w.substeps[k];
   const int b = w.members[k];
   w.lost.push_back({});
@@ -329,8 +329,7 @@ void AdvanceIsland::add_point(const PairManifold& m, const Meeting& meeting, con
   const Vec3 arm = (pa.start + pa.end + pb.start + pb.end) / 4 - meeting.shift / 2;
   const Vec3 arm_b = arm + meeting.shift;
   const Vec3 drift = pa.spin_end.cross(pa.end - arm) - pb.spin_end.cross(pb.end - arm_b);
-  ContactRow& row = w.row;
-  forget_last_step(row);
+  ContactRow row;
   row.friction = meeting.faces.friction;
   set_motion(n, point.gap, arm, drift, pa.moved - pb.moved, pa.velocity - pb.velocity, row);
 
@@ -365,8 +364,7 @@ void AdvanceIsland::add_fixed_point(const PairManifold& m, const PairPoint& poin
   BlockNumbers c = w.numbers[k];
   c.touch = pair_touch_ratio * c.radius;
   const GroundClass& faces = fixed_class(scene, m.block_b);
-  ContactRow& row = w.row;
-  forget_last_step(row);
+  ContactRow row;
   row.friction = faces.friction;
   set_motion(n, point.gap, arm, path.spin_end.cross(path.end - arm), path.moved, path.velocity,
              row);
@@ -466,8 +464,9 @@ void AdvanceIsland::look_ahead(double h) {
 
 // Contacts of two blocks. A new one is left out where its gap is wider than a quarter of what
 // gravity does in the substep and twice what hits throw the two; closes_left_out() sees whether it
-// closed all the same, and then the substep is made again with all.
-void AdvanceIsland::add_points(int manifold, double h) {
+// closed all the same, and then the substep is made again with all. In one piece, as add_ground()
+// and remember(): a contact is many small functions, and their calls are a twentieth of a step.
+[[gnu::flatten]] void AdvanceIsland::add_points(int manifold, double h) {
   const PairManifold& m = w.pairs.manifolds[static_cast<size_t>(manifold)];
   const double farthest = reach_by_gravity * scene.gravity.norm() * h * h +
                           2 * h * std::max(w.thrown[place(m.block_a)], w.thrown[place(m.block_b)]);

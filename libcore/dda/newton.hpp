@@ -40,7 +40,8 @@ NewtonResult solve_contacts(BlockSystem<Dof>& system, std::span<ContactRow> rows
 /// Velocity of a body point by the generalised velocity, T(X) v.
 template <int Dof>
 [[nodiscard]] inline Vec3 point_velocity(const Eigen::Matrix<double, Dof, 1>& v, const Vec3& X) {
-  Vec3 w = v.template head<3>() + v.template segment<3>(3).cross(X);
+  Vec3 w(v[0] + (v[4] * X.z() - v[5] * X.y()), v[1] + (v[5] * X.x() - v[3] * X.z()),
+         v[2] + (v[3] * X.y() - v[4] * X.x()));
   if constexpr (Dof == 12) {
     w.x() += v[6] * X.x() + (v[10] * X.z() + v[11] * X.y()) / 2;
     w.y() += v[7] * X.y() + (v[9] * X.z() + v[11] * X.x()) / 2;

@@ -172,56 +172,64 @@ double AdvanceIsland::share_pressed_out(const IslandContact& contact, double nor
   return std::clamp(std::max(by_load, by_depth), 0.0, 1.0);
 }
 
-// What the contacts keep for the next step, and the work they did. Hits keep nothing, but where
-// blocks are found deep in each other or in the ground: edges that slide on each other while they
-// turn are hit in every step, and so are splinters that large blocks drive into the ground; what
-// that adds to the overlap has to be pressed out.
-void AdvanceIsland::remember(double h) {
+// What contact `r`, which pressed and ends with an overlap of `overlap`, keeps for the next step.
+// Hits keep nothing, but where blocks are found deep in each other or in the ground: edges that
+// slide on each other while they turn are hit in every step, and so are splinters that large blocks
+// drive into the ground; what that adds to the overlap has to be pressed out.
+void AdvanceIsland::remember_contact(size_t r, const Vec3& path, double overlap, double h) {
   constexpr double remembered_hit = 1e-2;  // of the thickness
-  const double relax = offset_relaxed(scene.gravity.norm(), h);
+  const IslandContact& contact = w.contacts[r];
+  const RowIn<RowGroup> solved = row(r);
+  const Vec3 normal = solved.normal(), impulse = solved.impulse();
+  const bool was_hit = contact.hit >= 0;
+  if (was_hit && (contact.fixed >= 0 || overlap <= remembered_hit * thickness_of(contact))) return;
+  const double p_n = normal.dot(impulse);
+  std::vector<ContactMemory>& memories = state.memory[static_cast<size_t>(contact.a)];
+  make_room(memories);
+  ContactMemory& memory = memories.emplace_back();
+  memory.key = contact.key;
+  memory.normal = normal;
+  memory.offset = contact.offset;
+  if (contact.bond < 0 && contact.offset > 0) {
+    const double relaxed = offset_relaxed(scene.gravity.norm(), h);
+    const double pressed_out = (was_hit ? 1 : share_pressed_out(contact, p_n / h)) * relaxed;
+    memory.offset = std::max(0.0, contact.offset - pressed_out);
+  }
+  const double along = normal.dot(path);
+  memory.gap_end = contact.gap_start + contact.offset + along - (contact.offset - memory.offset);
+  if (was_hit) return;  // it bears nothing
+  const ContactState stays = solved.state();
+  memory.normal_force = p_n / h;
+  const double per_time = numbers(contact.a).recovery_time * h;
+  if (contact.bond < 0 && contact.bond_area == 0)
+    memory.stiffness = solved.normal_damping() / per_time;
+  memory.state = static_cast<std::uint8_t>(stays);
+  memory.bond_area = contact.bond >= 0 ? 0 : contact.bond_area;  // of the ground
+  const double k_t = solved.shear_damping() / per_time;
+  memory.shear = stays == ContactState::slip ? Vec3((impulse - p_n * normal) / (-h * k_t))
+                                             : Vec3(contact.shear + path - along * normal);
+}
+
+// What the contacts keep for the next step, and the work they did.
+[[gnu::flatten]] void AdvanceIsland::remember(double h) {
   for (const int b : w.members) state.memory[static_cast<size_t>(b)].clear();
   w.pressed.assign(w.members.size(), 0);
   w.ground_impulse.assign(w.members.size(), Vec3::Zero());
   for (size_t r = 0; r < w.contacts.size(); ++r) {
     const IslandContact& contact = w.contacts[r];
-    const RowIn<RowGroup> solved = row(r);
-    const Vec3 normal = solved.normal(), impulse = solved.impulse();
-    const ContactState stays = solved.state();
     const Vec3 path = path_of_contact(r);
-    const double along = normal.dot(path);
-    const double overlap = -(contact.gap_start + along);
+    const double overlap = -(contact.gap_start + row(r).normal().dot(path));
     note_overlap(report, overlap, thickness_of(contact));
-    if (contact.waits || stays == ContactState::open) continue;
-    for (const int b : {contact.a, contact.b})
-      if (b >= 0) w.pressed[place(b)] = 1;
+    if (contact.waits || row(r).state() == ContactState::open) continue;
+    const BodyPair& pair = w.island.pairs[static_cast<size_t>(contact.pair)];
+    w.pressed[static_cast<size_t>(pair.a)] = 1;
+    if (pair.b >= 0) w.pressed[static_cast<size_t>(pair.b)] = 1;
     account(r, h);
     ++report.n_closed;
     report.sum_penetration += std::max(overlap, 0.0);
-    const bool was_hit = contact.hit >= 0;
-    if (was_hit && (contact.fixed >= 0 || overlap <= remembered_hit * thickness_of(contact)))
-      continue;
-    if (!was_hit && contact.b < 0 && !gives_way(r)) w.ground_impulse[place(contact.a)] += impulse;
-    const double p_n = normal.dot(impulse);
-    const Vec3 p_t = impulse - p_n * normal;
-    std::vector<ContactMemory>& memories = state.memory[static_cast<size_t>(contact.a)];
-    make_room(memories);
-    ContactMemory& memory = memories.emplace_back();
-    memory.key = contact.key;
-    memory.normal = normal;
-    const double pressed_out = (was_hit ? 1 : share_pressed_out(contact, p_n / h)) * relax;
-    memory.offset =
-        contact.bond >= 0 ? contact.offset : std::max(0.0, contact.offset - pressed_out);
-    memory.gap_end = contact.gap_start + contact.offset + along - (contact.offset - memory.offset);
-    if (was_hit) continue;  // it bears nothing
-    memory.normal_force = p_n / h;
-    const double recovery_time = numbers(contact.a).recovery_time;
-    if (contact.bond < 0 && contact.bond_area == 0)
-      memory.stiffness = solved.normal_damping() / (recovery_time * h);
-    memory.state = static_cast<std::uint8_t>(stays);
-    memory.bond_area = contact.bond >= 0 ? 0 : contact.bond_area;  // of the ground
-    const double k_t = solved.shear_damping() / (recovery_time * h);
-    memory.shear = stays == ContactState::slip ? Vec3(p_t / (-h * k_t))
-                                               : Vec3(contact.shear + path - along * normal);
+    if (contact.hit < 0 && contact.b < 0 && !gives_way(r))
+      w.ground_impulse[static_cast<size_t>(pair.a)] += row(r).impulse();
+    remember_contact(r, path, overlap, h);
   }
 }
 

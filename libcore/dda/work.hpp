@@ -151,7 +151,6 @@ struct IslandStepWork {  // clang-format off
   std::vector<BondLoad> bond_loads;         ///< of this substep, by bond           (n_loaded)
   std::vector<PanelPush> pushes;            ///< on panels of fences, in this substep
   std::vector<FreeTurn> turns;              ///<                                         (n_members)
-  ContactRow row;                           ///< of the contact that is made at the moment
   std::vector<IslandContact> contacts;      ///< in the order of the island's rows
   std::vector<int> first_contact;           ///< of each pair of the island              (n_pairs)
   Island island;
