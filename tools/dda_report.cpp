@@ -50,13 +50,28 @@ Json fences_on(const Runner& runner) {
   return list;
 }
 
+// When and by which block: of the first few.
+std::string broken_panels(const Json& panels) {
+  constexpr int most = 5;
+  std::string words;
+  int n = 0;
+  for (const Json& panel : panels) {
+    if (!panel["broken"].get<bool>()) continue;
+    if (n++ == most) return words + "; all with --json)";
+    words += (n == 1 ? " (" : "; ") + panel["fence"].get<std::string>() + " panel " +
+             panel["panel"].dump() + " at " + text(panel["broken_at_s"].get<double>(), 4) +
+             " s by block " + panel["broken_by_block"].dump();
+  }
+  return n == 0 ? words : words + ")";
+}
+
 std::string fence_summary(const Json& report) {
   const Json& panels = report["fences"];
   if (panels.empty()) return "";
   const auto n_broken = std::count_if(panels.begin(), panels.end(),
                                       [](const Json& p) { return p["broken"].get<bool>(); });
   return ", " + report["n_fence_hits"].dump() + " hits on fences, " + std::to_string(n_broken) +
-         " of " + std::to_string(panels.size()) + " panels broken";
+         " of " + std::to_string(panels.size()) + " panels broken" + broken_panels(panels);
 }
 
 // What a user must not miss, where there is any.

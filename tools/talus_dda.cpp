@@ -156,7 +156,15 @@ Runner runner_of(Tool& tool, const Scene& scene, const RunOptions& options,
     if (o.resume) tool.detail(part_of(o) + " does not exist: the run starts at its beginning");
     return from_start();
   }
-  RunFile part = read_run_file(part_of(o));
+  RunFile part;
+  try {
+    part = read_run_file(part_of(o));
+  } catch (const InputError& error) {
+    if (!tool.overwrite())
+      throw InputError({}, error.what(), "--overwrite starts again from the beginning");
+    tool.warn(std::string(error.what()) + ": the run starts at its beginning");
+    return from_start();
+  }
   if (part.info.run_id != file.info.run_id && tool.overwrite()) {
     tool.info(part_of(o) + " is of other inputs or settings: the run starts at its beginning");
     return from_start();
@@ -260,7 +268,7 @@ int main(int argc, char** argv) {
     const Site& site = site_options.load();
     check_site_crs(site);
     if (o.out.empty() && o.plan != "show")
-      throw InputError({"", 0, "--out"}, "no output is named", "give -o RUN.h5");
+      throw UsageError({"", 0, "--out"}, "no output is named", "give -o RUN.h5");
     if (!o.out.empty()) {
       check_outputs_beside(tool, o);
       check_leftover(tool, o);

@@ -6,6 +6,7 @@
 
 #include "base/text.hpp"
 #include "build_info.hpp"
+#include "command_line.hpp"
 #include "machine.hpp"
 #include "shipped_data.hpp"
 #include "tool.hpp"
@@ -34,14 +35,21 @@ void declare(Tool& tool, Options& o) {
   tool.output_folder("-o,--out", o.out, "folder for the table, the diagrams and the summary");
   CLI::Option* quick = tool.flag("--quick", o.quick, "few settings; what is done by default");
   tool.flag("--full", o.full, "the whole study")->excludes(quick);
-  tool.input("--site", o.site.site, "site file: find the cheapest settings for this scene instead");
-  tool.input("--trn", o.site.files.trn, "with --site: terrain");
-  tool.input("--blocks", o.site.files.blocks, "with --site: block set");
-  tool.option("--tolerance", o.site.tolerance, "with --site: share of the answer, or per cent");
+  CLI::Option* site = tool.input("--site", o.site.site,
+                                 "site file: find the cheapest settings for this scene instead");
+  tool.input("--trn", o.site.files.trn, "with --site: terrain")->needs(site);
+  tool.input("--blocks", o.site.files.blocks, "with --site: block set")->needs(site);
+  tool.flag("--settle", o.site.files.settle, "with --site: as in talus-dda")->needs(site);
+  tool.option("--tolerance", o.site.tolerance, "with --site: share of the answer, or per cent")
+      ->needs(site);
   tool.option("--quantity", o.site.quantity, "with --site: what must be right")
-      ->check(CLI::IsMember(quantity_names));
-  tool.option("--runs", o.site.n_runs, "with --site: runs a setting")->check(CLI::Range(2, 1000));
-  tool.flag("--paper", o.site.with_paper, "with --site: law paper too, for comparison");
+      ->check(CLI::IsMember(quantity_names))
+      ->needs(site);
+  tool.option("--runs", o.site.n_runs, "with --site: runs a setting")
+      ->check(CLI::Range(2, 1000))
+      ->needs(site);
+  tool.flag("--paper", o.site.with_paper, "with --site: law paper too, for comparison")
+      ->needs(site);
   tool.flag("--stability", o.stability, "the stability chart too");
   tool.flag("--list", o.list, "print the cases and end");
   tool.app().add_option("--peers", o.peers,
@@ -64,7 +72,7 @@ void check_names(const Options& o) {
   for (const std::string& name : o.cases) {
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
     const std::string near = nearest_name(name, known);
-    throw InputError({"", 0, "cases"}, name + " is not a case",
+    throw UsageError({"", 0, "cases"}, name + " is not a case",
                      near.empty() ? "--list prints the cases" : "did you mean " + near + "?");
   }
 }
@@ -283,13 +291,13 @@ int main(int argc, char** argv) {
       return;
     }
     if (o.out.empty())
-      throw InputError({"", 0, "--out"}, "no folder is named", "give -o DIR, or --list");
+      throw UsageError({"", 0, "--out"}, "no folder is named", "give -o DIR, or --list");
     if (!o.site.site.empty()) {
       if (!o.cases.empty() || o.quick || o.full || o.stability)
-        throw InputError({"", 0, "--site"}, "looks at the scene of a site file alone",
+        throw UsageError({"", 0, "--site"}, "looks at the scene of a site file alone",
                          "leave out --quick, --full, --stability and the names of cases");
       if (o.site.files.trn.empty() || o.site.files.blocks.empty())
-        throw InputError({"", 0, "--site"}, "needs a terrain and blocks",
+        throw UsageError({"", 0, "--site"}, "needs a terrain and blocks",
                          "give --trn TRN.tif and --blocks BLOCKS.h5");
       const std::string table = study_site(tool, o.site, o.out);
       tool.result({{"table", table}}, table);

@@ -56,6 +56,19 @@ Vec6 limited(const BlockSystem<6>& system, const Vec6& before) {
   return before + std::clamp(-2 * slope / curve, 0.0, 1.0) * change;
 }
 
+// What the contacts' stiffness leaves to be done: the change of velocity is too small by the part
+// of it that is missing where least is, so that no contact rebounds faster than it should.
+double missing_part(const Vec6& after, std::span<const ContactRow> rows, double resting_speed) {
+  constexpr double most = 100 / stiffness_ratio;  // beyond, contacts work against each other
+  double missing = most;
+  for (const ContactRow& row : rows) {
+    if (row.state == ContactState::open || row.speed_start >= -resting_speed) continue;
+    const double speed = row.normal.dot(point_velocity<6>(after, row.point));
+    missing = std::min(missing, (-row.bias - speed) / (speed - row.speed_start));
+  }
+  return missing < most ? std::max(0.0, missing) : 0;
+}
+
 }  // namespace
 
 ImpactResult apply_impact(const Scene& scene, int b, double touch, double resting_speed,
@@ -94,7 +107,9 @@ ImpactResult apply_impact(const Scene& scene, int b, double resting_speed, Motio
     if (result.dissipated >= -1e-7 * energy) break;
     for (ContactRow& row : work.rows) row.bias *= pass < 10 ? 0.7 : 0.0;
   }
-  if (result.dissipated < -1e-7 * energy) system.velocity = limited(system, before);
+  const double missing = missing_part(system.velocity, work.rows, resting_speed);
+  system.velocity += missing * (system.velocity - before);
+  if (kinetic_energy(system, system.velocity) > energy) system.velocity = limited(system, before);
   result.dissipated = energy - kinetic_energy(system, system.velocity);
   motion.velocity = R * system.velocity.head<3>();
   motion.angular_momentum = R * system.velocity.tail<3>().cwiseProduct(inertia).eval();

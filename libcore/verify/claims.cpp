@@ -23,6 +23,11 @@ std::string verdict_on_paper(const LawComparison& laws, double asked) {
   return laws.ratio_at_best >= asked ? "at its smallest error" : "no";
 }
 
+std::string verdict_on_peers(double at_default_step, double at_any) {
+  if (at_default_step >= 1) return "holds";
+  return at_any >= 1 ? "at other steps" : "no";
+}
+
 // Smallest error of the other engines and what it cost.
 std::string best_peer(const std::vector<PeerPoint>& peers) {
   const auto best =
@@ -43,9 +48,9 @@ std::string line_of(const MeasuredCase& given) {
               ? " | " + text(asked) + " | " + verdict_on_paper(laws, asked)
               : " | - | -";
   if (!is_asked_of_peers(measured)) return line + " | - | - | - | - |\n";
-  const double any = peer_ratio(measured, false);
+  const double any = peer_ratio(measured, false), at_default_step = peer_ratio(measured, true);
   return line + " | " + best_peer(given.peers) + " | " + ratio_text(any) + " | " +
-         ratio_text(peer_ratio(measured, true)) + " | " + (any >= 1 ? "holds" : "no") + " |\n";
+         ratio_text(at_default_step) + " | " + verdict_on_peers(at_default_step, any) + " |\n";
 }
 
 }  // namespace

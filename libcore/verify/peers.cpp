@@ -28,6 +28,8 @@ const std::vector<PeerTable>& peer_tables() {
       {"oblique", "oblique.csv", "relerr", {}},
       {"rolling", "rolling.csv", "worst_abs_err_deg", {}},
       {"bounce_face", "bounce.csv", "maxrelerr3", {{"shape", "cube"}, {"cor", "0.7"}}},
+      {"bounce_corner", "bounce.csv", "maxrelerr3", {{"shape", "tetra"}, {"cor", "0.7"}}},
+      {"bounce_elastic", "bounce.csv", "maxrelerr3", {{"cor", "1"}}},
       {"free_spin", "free_rotation.csv", "att_deg", {}},
   };
   return tables;

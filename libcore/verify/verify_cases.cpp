@@ -46,7 +46,7 @@ VerifyCase bounce_case(const std::string& name, double restitution, Landing land
       .reference = "closed form",
       .norm = "relative, largest of three",
       .test = "LawTalus.BouncesToTheHeightAskedFor",
-      .bound = 1e-5,
+      .bound = 1e-11,
       .run = [=](const Settings& s) { return bounce(s, restitution, landing); }};
 }
 
@@ -110,7 +110,7 @@ std::vector<VerifyCase> single_block_cases() {
        .reference = "closed form",
        .norm = "relative",
        .test = "LawTalus.CornerImpulseIsExact",
-       .bound = 1e-6,
+       .bound = 1e-8,
        .run = [](const Settings& s) { return corner_impulse(s, 0.7); }},
       {.name = "free_spin",
        .claim = "a box spins about its middle axis in flight, 20 s",
@@ -203,7 +203,7 @@ std::vector<VerifyCase> single_block_cases() {
        .reference = "COR 1 (Fig. 12b)",
        .norm = "1 - COR",
        .test = "LawTalus.ElasticBlockReboundsWhole",
-       .bound = 1e-5,
+       .bound = 1e-11,
        .run = [](const Settings& s) { return elastic_restitution(s, 1e12); },
        .has_strains = true,
        .paper_dt = {1e-4, 1e-5, 1e-6}},

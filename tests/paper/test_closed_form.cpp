@@ -78,13 +78,13 @@ TEST_P(LawTalus, SlidesObliquely) {
 TEST_P(LawTalus, BouncesToTheHeightAskedFor) {
   for (const double restitution : {0.3, 0.7, 1.0})
     for (const Landing landing : {Landing::face, Landing::edge, Landing::corner})
-      EXPECT_LT(bounce(settings, restitution, landing).error, 1e-5)
+      EXPECT_LT(bounce(settings, restitution, landing).error, 1e-11)
           << restitution << " " << static_cast<int>(landing);
 }
 
 TEST_P(LawTalus, CornerImpulseIsExact) {
-  EXPECT_LT(corner_impulse(settings, 0).error, 1e-6);
-  EXPECT_LT(corner_impulse(settings, 0.7).error, 1e-6);
+  EXPECT_LT(corner_impulse(settings, 0).error, 1e-8);
+  EXPECT_LT(corner_impulse(settings, 0.7).error, 1e-8);
 }
 
 TEST_P(LawTalus, WedgeSlidesAsInClosedForm) {
@@ -117,7 +117,7 @@ TEST_P(LawTalus, OwnWeightStressesTheBlock) { EXPECT_LT(own_weight(settings).err
 // Row 15; law paper, which has to resolve the hit: LawPaper.ElasticRestitutionTendsToOne.
 TEST_P(LawTalus, ElasticBlockReboundsWhole) {
   for (const double young : {1e8, 1e10, 1e12})
-    EXPECT_LT(elastic_restitution(settings, young).error, 1e-5) << young;
+    EXPECT_LT(elastic_restitution(settings, young).error, 1e-11) << young;
 }
 
 TEST(LawTalusDefault, SpinsFreelyAndTumblesInFlight) {

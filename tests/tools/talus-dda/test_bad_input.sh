@@ -23,7 +23,7 @@ refuses "density_kg_m3 is 0" --set material.rock.density_kg_m3=0
 refuses "law" --law newton
 fault=1
 expect 2 run_dda -o run.h5 --no-such-option
-expect 1 run_dda
+expect 2 run_dda
 says "no output is named"
 
 # times: a run is whole steps

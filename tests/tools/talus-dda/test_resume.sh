@@ -63,7 +63,9 @@ cmp whole.h5 stopped.h5 || fail "the run resumed after SIGTERM differs from the 
 printf 'not HDF5' >broken.h5.part
 expect 1 run_dda -o broken.h5 $slow --resume
 says "broken.h5.part"
-expect 0 run_dda -o broken.h5 $slow --overwrite
+says "--overwrite starts again from the beginning"
+expect 0 run_dda -o broken.h5 $slow --resume --overwrite
+cmp whole.h5 broken.h5 || fail "a run that started again after a damaged checkpoint differs"
 expect 0 run_dda -o fresh.h5 $slow --resume
 cmp whole.h5 fresh.h5 || fail "--resume without a checkpoint is not a run from the start"
 exit 0

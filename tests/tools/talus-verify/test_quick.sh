@@ -24,9 +24,9 @@ expect 0 talus-verify parabola -o one --no-db --json
 prints '"holds": true'
 [ "$(cut -d, -f1 one/verify.csv | sort -u | wc -l)" -eq 2 ] || fail "more than the case asked for"
 
-expect 1 talus-verify parabel -o two --no-db
+expect 2 talus-verify parabel -o two --no-db
 says "did you mean parabola?"
-expect 1 talus-verify parabola --no-db
+expect 2 talus-verify parabola --no-db
 says "give -o DIR"
 expect 1 talus-verify oblique -o three --peers nowhere --no-db
 says "nowhere/oblique.csv"
