@@ -141,7 +141,7 @@ std::string study_site(Tool& tool, const SiteStudyOptions& o, const std::string&
   }
   const EnsembleReference reference = reference_of(results.back(), results[results.size() - 2]);
   const auto cost = [&](std::size_t i) {
-    constexpr double worth_a_key = 1.1;  // times scatter by some per cent
+    constexpr double worth_a_key = 1.25;  // times scatter, most beside other jobs
     return results[i].cpu * (is_default(list[i]) ? 1 : worth_a_key);
   };
   std::size_t best = list.size() - 1;
