@@ -37,6 +37,16 @@ assert all(p['work_kj'] < 20 for p in weak['fences'] if not p['broken'])
 assert {p['broken_by_block'] for p in broken} == {0, 1, 2}
 assert weak['n_crossings'] == 3
 PY
+expect 0 talus-dda weak.toml --trn slope.tif --blocks blocks.h5 -o said.h5 --no-db --duration-s 12
+python3 - <<'PY' || fail 'the summary does not say which panels broke, when and by which block'
+import json
+broken = [p for p in json.load(open('weak.json'))['fences'] if p['broken']]
+said = open('out').read()
+for p in broken[:5]:
+    words = f"{p['fence']} panel {p['panel']} at {p['broken_at_s']:.4g} s by block {p['broken_by_block']}"
+    assert words in said, (words, said)
+assert ('all with --json' in said) == (len(broken) > 5), said
+PY
 
 # what does not stand
 refused() {  # LINE TEXT
