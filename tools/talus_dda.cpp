@@ -105,7 +105,7 @@ RunOptions run_options(const Site& site, const ScenePlan& plan, const Options& o
   options.passages = plan.passages;
   options.passages_by_centroid = o.passages_by == "centroid";
   options.passage_cell_size = site.output.cell_size_m;
-  options.strain = site.output.strain && plan.strains;
+  options.strain = plan.strains_in_frames;
   options.limits = {site.solver.max_penetration_m, site.solver.max_energy_gain,
                     site.solver.max_lost_share, site.solver.max_unconverged_share};
   return options;

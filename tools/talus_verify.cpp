@@ -12,6 +12,7 @@
 #include "tool.hpp"
 #include "verify/claims.hpp"
 #include "verify/ensemble.hpp"
+#include "verify/leaving_out.hpp"
 #include "verify/peers.hpp"
 #include "verify/stability.hpp"
 #include "verify/summary.hpp"
@@ -25,7 +26,7 @@ struct Options {
   std::vector<std::string> cases;
   std::string out, peers;
   SiteStudyOptions site;
-  bool quick = false, full = false, list = false, stability = false;
+  bool quick = false, full = false, list = false, stability = false, leaving_out = false;
 };
 
 constexpr const char* slide_name = "slide39";
@@ -51,6 +52,8 @@ void declare(Tool& tool, Options& o) {
   tool.flag("--paper", o.site.with_paper, "with --site: law paper too, for comparison")
       ->needs(site);
   tool.flag("--stability", o.stability, "the stability chart too");
+  tool.flag("--leaving-out", o.leaving_out,
+            "what the scene plan leaves out, and what it saves, too");
   tool.flag("--list", o.list, "print the cases and end");
   tool.app().add_option("--peers", o.peers,
                         "folder with tables of other engines, to draw and compare with");
@@ -133,8 +136,12 @@ int slide_runs(const Method& method, bool full) {
 
 double down_the_slope(const Vec3&, const Vec3& now) { return 320 - now.y(); }
 
+SlideData shipped_slide() {
+  return read_slide(shipped_data("terrain_F.asc"), shipped_data("blocks_39.obj"));
+}
+
 SlideOutcome run_slide(const Options& o) {
-  const SlideData data = read_slide(shipped_data("terrain_F.asc"), shipped_data("blocks_39.obj"));
+  const SlideData data = shipped_slide();
   SlideOutcome out;
   for (const Method& method : slide_methods(o.full))
     for (const double dt : method.dt) {
@@ -249,6 +256,18 @@ std::string study_stability(Tool& tool, const Options& o) {
   return line + "\n";
 }
 
+// Runs each scene with all kept and as its plan has it; returns the table.
+std::string study_leaving_out(Tool& tool, const Options& o) {
+  const SlideData slide = shipped_slide();
+  std::vector<OmissionRow> rows;
+  for (const Omission& omission : omissions(slide, o.full)) {
+    rows.push_back(compare(omission, o.full ? 5 : 1));
+    const OmissionRow& row = rows.back();
+    tool.check(omission.item + ", " + omission.scene, row.apart, row.limit, row.holds);
+  }
+  return omission_table(rows);
+}
+
 void run(Tool& tool, const Options& o) {
   const ProgressFunction progress = tool.progress();
   std::vector<CaseOutcome> outcomes;
@@ -273,6 +292,7 @@ void run(Tool& tool, const Options& o) {
       "the reference's uncertainty count as equal):\n\n" +
       claims_table(measured);
   if (o.stability) summary += "\n" + study_stability(tool, o);
+  if (o.leaving_out) summary += "\n" + study_leaving_out(tool, o);
   tool.write_text(o.out + "/verify.csv", csv_of(rows, processor_name(), build_commit));
   tool.write_text(o.out + "/summary.md", summary);
   tool.result({{"commit", build_commit}, {"cases", list}}, summary);
@@ -293,9 +313,10 @@ int main(int argc, char** argv) {
     if (o.out.empty())
       throw UsageError({"", 0, "--out"}, "no folder is named", "give -o DIR, or --list");
     if (!o.site.site.empty()) {
-      if (!o.cases.empty() || o.quick || o.full || o.stability)
+      if (!o.cases.empty() || o.quick || o.full || o.stability || o.leaving_out)
         throw UsageError({"", 0, "--site"}, "looks at the scene of a site file alone",
-                         "leave out --quick, --full, --stability and the names of cases");
+                         "leave out --quick, --full, --stability, --leaving-out and the names of "
+                         "cases");
       if (o.site.files.trn.empty() || o.site.files.blocks.empty())
         throw UsageError({"", 0, "--site"}, "needs a terrain and blocks",
                          "give --trn TRN.tif and --blocks BLOCKS.h5");

@@ -65,30 +65,34 @@ BlockSystem<Dof> make_system(const Scene& scene, int b, const BlockNumbers& c, c
 template <int Dof>
 struct Solved {
   Motion end;
-  Eigen::Matrix<double, Dof, 1> change;  // of velocity by contact, body axes
-  /// Displacement of a body point by contact, body axes.
+  Vec6 change;                   // of velocity by contact, body axes
+  Mat3 strained = Mat3::Zero();  // twice the mean strain rate, body axes
+  /// Displacement of a body point by contact and by straining, body axes.
   [[nodiscard]] Vec3 moved(const Vec3& X, double h) const {
-    return h / 2 * point_velocity<Dof>(change, X);
+    const Vec3 by_contact = point_velocity<6>(change, X);
+    if constexpr (Dof == 6) return h / 2 * by_contact;
+    return h / 2 * (by_contact + strained * X);
   }
 };
 
 template <int Dof>
 Solved<Dof> solved_motion(const BlockNumbers& c, const Substep& s, const BlockSystem<Dof>& system) {
   Solved<Dof> out;
-  out.change = system.velocity - system.free_velocity;
+  out.change = (system.velocity - system.free_velocity).template head<6>();
   if constexpr (Dof == 12) {  // where straining stops, what turned with it goes on turning
-    out.change.template segment<3>(3) += c.per_inertia.cwiseProduct(
-        system.mass.template block<3, 6>(3, 6) * out.change.template tail<6>());
-    out.change.template tail<6>().setZero();
+    const Vec6 strain_rate = system.velocity.template tail<6>();
+    out.change.template tail<3>() +=
+        c.per_inertia.cwiseProduct(system.mass.template block<3, 6>(3, 6) *
+                                   (strain_rate - system.free_velocity.template tail<6>()));
+    out.strained = s.straining + strain_tensor(strain_rate);
   }
   const Vec3 dv = s.R * out.change.template head<3>();
-  const Vec3 dw = s.R * out.change.template segment<3>(3);
+  const Vec3 dw = s.R * out.change.template tail<3>();
   out.end = s.free;
   out.end.velocity += dv;
   out.end.pose.position += s.h / 2 * dv;
   out.end.pose.attitude = (rotation_by(s.h / 2 * dw) * s.free.pose.attitude).normalized();
-  out.end.angular_momentum +=
-      s.R * out.change.template segment<3>(3).cwiseProduct(c.inertia).eval();
+  out.end.angular_momentum += s.R * out.change.template tail<3>().cwiseProduct(c.inertia).eval();
   return out;
 }
 

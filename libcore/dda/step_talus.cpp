@@ -91,7 +91,11 @@ struct Advance {
   // Substep of h from t; h is shortened to the first impact or when the forces do not converge.
   template <int Dof>
   Attempt attempt(double t, double& h, bool last) {
-    const Substep s = predict(scene, b, c, motion(), t, h);
+    Substep s = predict(scene, b, c, motion(), t, h);
+    if constexpr (Dof == 12) {
+      s.is_straining = true;
+      s.straining = strain_tensor(state.strain_rate[i()]);
+    }
     const Mat3 stretch = stretch_of(state, b);
     const SearchResult near =
         find_contacts(scene.ground, scene.blocks.shapes, b, s.free.pose, stretch,

@@ -102,7 +102,9 @@ double stiffness_by_load(const BlockNumbers& c, double least, double stiffest,
 // How fast the contact would close without contact forces: at the start of the substep, or on the
 // mean over it where the spin turns the point round.
 double approach(const ContactRow& row, const Substep& s) {
-  return std::min(row.speed_start, row.normal.dot(row.free_move) / s.h);
+  double mean = row.normal.dot(row.free_move) / s.h;
+  if (s.is_straining) mean += row.normal.dot(s.straining * row.point);
+  return std::min(row.speed_start, mean);
 }
 
 // Gap of a vertex to the ground below it when the substep begins. A vertex may stand behind the
@@ -271,7 +273,8 @@ void make_rows(const Scene& scene, int b, const BlockNumbers& c, const Substep& 
     row.drift = s.spin_free.cross(X - row.point);
     row.free_move = moved + (X - lever_start);
     row.gap_start = contact.gap - row.normal.dot(row.free_move);
-    const Vec3 w = velocity_start + spin_start.cross(lever_start);
+    Vec3 w = velocity_start + spin_start.cross(lever_start);
+    if (s.is_straining) w += s.straining * X;
     row.speed_start = row.normal.dot(w);
     const Vec3 slip = w - row.speed_start * row.normal;
     const double slip_speed = slip.norm();

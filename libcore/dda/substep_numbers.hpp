@@ -33,6 +33,8 @@ struct Substep {
   Mat3 R_start = Mat3::Identity();        ///< attitude at the start, body to local axes
   Vec3 spin_start = Vec3::Zero();         ///< body axes of the start [rad/s]
   Vec3 spin_free = Vec3::Zero();          ///< body axes [rad/s]
+  bool is_straining = false;              ///< its vertices move by `straining` besides
+  Mat3 straining = Mat3::Zero();          ///< strain rate at the start, body axes [1/s]
 };
 
 }  // namespace talus

@@ -9,6 +9,8 @@
 namespace talus {
 namespace {
 
+constexpr const char* full_asked_for = "the full plan was asked for";
+
 std::string number(std::int64_t n, const std::string& noun) {
   return std::to_string(n) + " " + noun + (n == 1 ? "" : "s");
 }
@@ -40,7 +42,7 @@ PlanItem strains(const PlanFacts& facts, bool full) {
     item.on = false;
     item.reason = "[solver] strain is off";
   } else if (full || facts.strain == "on" || facts.stress_wanted) {
-    item.reason = full                   ? "the full plan was asked for"
+    item.reason = full                   ? full_asked_for
                   : facts.strain == "on" ? "[solver] strain is on"
                                          : "[output] strain is asked for";
   } else {
@@ -97,11 +99,19 @@ PlanFacts plan_facts(const Site& site, const BlockSet& blocks, const Trn& trn,
 
 namespace {
 
-PlanItem block_contacts(const PlanFacts& facts) {
-  const bool on = facts.n_blocks > 1 && !facts.independent;
-  const std::string count = number(facts.n_blocks, "block");
-  return {"contacts between blocks", on, "two blocks or more, not --independent",
-          on || facts.n_blocks < 2 ? count : count + ", each moves as if it were alone"};
+// An item that the full plan keeps although nothing in the scene asks for it.
+PlanItem kept_by_full(bool full, PlanItem item) {
+  if (item.on || !full) return item;
+  item.on = true;
+  item.reason = full_asked_for;
+  return item;
+}
+
+PlanItem block_contacts(const PlanFacts& facts, bool full) {
+  const PlanItem item{"contacts between blocks", facts.n_blocks > 1 && !facts.independent,
+                      "two blocks or more, not --independent", number(facts.n_blocks, "block")};
+  if (!facts.independent) return kept_by_full(full, item);
+  return {item.item, false, item.rule, item.reason + ", each moves as if it were alone"};
 }
 
 }  // namespace
@@ -113,7 +123,7 @@ ScenePlan make_plan(const PlanFacts& facts, bool full) {
     return plan.items.back().on;
   };
   plan.strains = add(strains(facts, full));
-  plan.block_contacts = add(block_contacts(facts));
+  plan.block_contacts = add(block_contacts(facts, full));
   add({"shear terms", facts.largest_friction_deg > 0,
        "shear springs and sliding where something has friction",
        "largest friction angle " + text(facts.largest_friction_deg, 4) + " degrees"});
@@ -136,8 +146,9 @@ ScenePlan make_plan(const PlanFacts& facts, bool full) {
                                              : "bounds of the ground below the path"});
   plan.sleep = add({"sleep", !full, "blocks at rest are left out until touched",
                     full ? "the full plan keeps them in every step" : "found step by step"});
-  plan.passages = add({"passages", facts.passages, "one row a block and cell, for maps",
-                       facts.passages ? "[output] passages" : "[output] passages is false"});
+  plan.passages = add(
+      kept_by_full(full, {"passages", facts.passages, "one row a block and cell, for maps",
+                          facts.passages ? "[output] passages" : "[output] passages is false"}));
   plan.crossings = add({"crossings", facts.n_fences > 0, "one row a block and line of [fence.*]",
                         number(facts.n_fences, "fence")});
   add({"standing fences", facts.n_standing > 0,
@@ -145,9 +156,10 @@ ScenePlan make_plan(const PlanFacts& facts, bool full) {
        number(facts.n_standing, "fence")});
   add({"blocky slope", facts.blocky, "one fixed block a triangle, [solver] terrain_model",
        facts.blocky ? "slower than the TRN: to compare with" : "the TRN is the slope"});
-  add({"strains in frames", facts.stress_wanted && plan.strains,
-       "stored where asked for and computed",
-       facts.stress_wanted ? "[output] strain" : "not asked for"});
+  plan.strains_in_frames = add(kept_by_full(
+      full && plan.strains, {"strains in frames", facts.stress_wanted && plan.strains,
+                             "stored where asked for and computed",
+                             facts.stress_wanted ? "[output] strain" : "not asked for"}));
   return plan;
 }
 

@@ -60,6 +60,7 @@ struct ScenePlan {
   bool base_motion = false;
   bool passages = true;
   bool crossings = false;
+  bool strains_in_frames = false;
 };
 [[nodiscard]] ScenePlan make_plan(const PlanFacts& facts, bool full);
 

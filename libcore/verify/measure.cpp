@@ -141,6 +141,29 @@ std::string ratio_text(double ratio) {
   return ratio >= 10 ? std::to_string(std::llround(ratio)) : text(ratio, 2);
 }
 
+namespace {
+
+// Other engines, paler and smaller: a cloud of points each, of all its settings.
+void add_engines(const std::vector<PeerPoint>& peers, Chart& chart) {
+  const std::vector<std::string> colours = {"#e3a6a6", "#a6c8e3", "#a9d3b0", "#d9c58f",
+                                            "#c9b3de", "#b8b8b8", "#e0b48e"};
+  const std::size_t n_own = chart.series.size();
+  for (const PeerPoint& peer : peers) {
+    const std::string engine = peer.name.substr(0, peer.name.find_first_of(" ,"));
+    auto cloud = std::find_if(chart.series.begin(), chart.series.end(),
+                              [&engine](const ChartSeries& s) { return s.name == engine; });
+    if (cloud == chart.series.end()) {
+      const std::string& colour = colours[(chart.series.size() - n_own) % colours.size()];
+      chart.series.push_back({engine, colour, {}, {}, 0, 2});
+      cloud = chart.series.end() - 1;
+    }
+    cloud->x.push_back(peer.cpu);
+    cloud->y.push_back(drawn(peer.error));
+  }
+}
+
+}  // namespace
+
 Chart work_precision_chart(const std::string& title, const std::vector<VerifyRow>& rows,
                            const std::vector<PeerPoint>& peers) {
   Chart chart;
@@ -167,12 +190,7 @@ Chart work_precision_chart(const std::string& title, const std::vector<VerifyRow
     front.y.push_back(drawn(rows[i].error));
   }
   chart.series.push_back(front);
-  ChartSeries others{"other engines", "#999", {}, {}, 0, 2};
-  for (const PeerPoint& peer : peers) {
-    others.x.push_back(peer.cpu);
-    others.y.push_back(drawn(peer.error));
-  }
-  if (!peers.empty()) chart.series.push_back(others);
+  add_engines(peers, chart);
   return chart;
 }
 

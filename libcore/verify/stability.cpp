@@ -242,11 +242,12 @@ Seen on_feet(double ratio) {
   return seen;
 }
 
-// How far any cube of a stack moves sideways or down in 4 s from the start, over its side.
-Seen stack(int n) {
+// How far any cube of a stack moves in 4 s from the start, over its side.
+Seen stack(int n, double dip_deg, double friction_deg, double dt) {
   Settings awake;
   awake.sleep = false;
-  Run run(tower(n, 0, 30, awake));
+  awake.dt = dt;
+  Run run(tower(n, dip_deg, friction_deg, awake));
   Seen seen = watch(run, 4);
   for (int b = 0; b < n; ++b)
     seen.error = std::max(seen.error, (run.motion(b).pose.position -
@@ -256,12 +257,22 @@ Seen stack(int n) {
 }
 
 void add_blocks(std::vector<Corner>& corners) {
+  const double dt = Settings{}.dt;
+  const std::string norm = "movement over the side";
+  corners.push_back({"mass ratio", 1, "1", "cube at rest on its like", norm, 0.05,
+                     [dt] { return stack(2, 0, 30, dt); }});
   for (const double ratio : {64.0, 1e3, 1e5, 1e7})
     corners.push_back({"mass ratio", ratio, "1", "cube at rest on four lighter ones",
                        "movement over the small side", 0.05, [ratio] { return on_feet(ratio); }});
   for (const double n : {2.0, 5.0, 10.0, 20.0, 50.0})
-    corners.push_back({"stack of cubes", n, "1", "at rest, 4 s", "movement over the side", 0.05,
-                       [n] { return stack(static_cast<int>(n)); }});
+    corners.push_back({"stack of cubes", n, "1", "at rest, 4 s", norm, 0.05,
+                       [n, dt] { return stack(static_cast<int>(n), 0, 30, dt); }});
+  for (const double step : {1e-4, 1e-3, 1e-2, 5e-2}) {
+    corners.push_back({"time step, stack of ten", step, "s", "at rest, 4 s", norm, 0.05,
+                       [step] { return stack(10, 0, 30, step); }});
+    corners.push_back({"time step, three on 15 degrees", step, "s", "friction 15.5 degrees, 4 s",
+                       norm, 0.05, [step] { return stack(3, 15, 15.5, step); }});
+  }
 }
 
 const char* colour_of(Outcome outcome) {

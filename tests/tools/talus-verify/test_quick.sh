@@ -24,6 +24,10 @@ expect 0 talus-verify parabola -o one --no-db --json
 prints '"holds": true'
 [ "$(cut -d, -f1 one/verify.csv | sort -u | wc -l)" -eq 2 ] || fail "more than the case asked for"
 
+expect 0 talus-verify parabola --leaving-out -o left --no-db
+grep -q '^| sleep | stack of ten at rest' left/summary.md || fail "nothing said of sleep"
+! grep -q 'does not hold' left/summary.md || fail "leaving out changes an answer"
+
 expect 2 talus-verify parabel -o two --no-db
 says "did you mean parabola?"
 expect 2 talus-verify parabola --no-db

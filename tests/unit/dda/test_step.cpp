@@ -397,6 +397,29 @@ TEST(Step, FlipsCountChangesOfState) {
   EXPECT_EQ(after, 0);
 }
 
+// Its vertices rest on the ground while its centroid sinks: they are not about to hit it.
+TEST(Step, BlockThatSagsIsNotHitByTheGroundThatBearsIt) {
+  Material soft;
+  soft.young = 1e7;
+  Settings settings;
+  settings.strains = true;
+  const SlopeFrame frame = slope_frame(30, 37);
+  const Body cube = body_of(box_in(frame, Vec3::Zero(), Vec3(-2, -2, 0), Vec3(2, 2, 4)));
+  const Scene scene =
+      scene_of(plane_trn(frame, 2, 100), ground_of(20, 0.3), {cube}, settings, soft);
+  State state = start(scene);
+  Work work = make_work(scene);
+  double deepest = 0, strained = 0;
+  for (int i = 0; i < 200; ++i) {
+    deepest = std::max(deepest, step(scene, state, work).largest_penetration);
+    strained = std::max(strained, state.strain[0].norm());
+  }
+  EXPECT_GT(strained, 5e-3);
+  EXPECT_EQ(state.counters.substeps, 200);
+  EXPECT_EQ(state.counters.impacts, 0);
+  EXPECT_LT(deepest, 1e-5);
+}
+
 // --plan=full searches in every step, keeps sleepers awake and computes strains. The first two are
 // no approximation where a block slides: the bits are the same. Strains are those of its weight.
 TEST(Step, TheFullPlanAgrees) {

@@ -69,10 +69,17 @@ TEST(ScenePlan, ComputesStrainsWhereTheyMatterOrAreAskedFor) {
 }
 
 TEST(ScenePlan, FullKeepsEverythingThatCanBeLeftOut) {
-  const ScenePlan plan = make_plan(one_stiff_block(), true);
-  EXPECT_TRUE(plan.strains);
-  EXPECT_FALSE(plan.flight);
-  EXPECT_FALSE(plan.sleep);
+  PlanFacts facts = one_stiff_block();
+  facts.passages = false;
+  const ScenePlan own = make_plan(facts, false), full = make_plan(facts, true);
+  EXPECT_FALSE(own.strains || own.block_contacts || own.passages || own.strains_in_frames);
+  EXPECT_TRUE(full.strains && full.block_contacts && full.passages && full.strains_in_frames);
+  EXPECT_TRUE(own.flight && own.sleep);
+  EXPECT_FALSE(full.flight || full.sleep);
+  facts.strain = "off";  // said by the user, and kept
+  facts.independent = true;
+  const ScenePlan told = make_plan(facts, true);
+  EXPECT_FALSE(told.strains || told.block_contacts || told.strains_in_frames);
 }
 
 TEST(ScenePlan, GivesEachDecisionARuleAndAReason) {
