@@ -170,9 +170,9 @@ void cut_source(Tool& tool, bool exact, BlocksWork& work) {
     tool.warn(std::to_string(work.cut.n_below_limits) +
               " blocks are below the limits for slivers after they were made convex");
   if (work.cut.n_short_edged > 0)
-    tool.warn(std::to_string(work.cut.n_short_edged) +
-              " blocks keep edges that are shorter than min_block_edge_m: without them they would "
-              "lose too much of their volume");
+    tool.warn(counted(work.cut.n_short_edged, "block") +
+              " with edges of convex parts that are shorter than min_block_edge_m, between the "
+              "parts or outside: without them too much of the volume would be lost");
   if (n_blocks(work.blocks) == 1)
     tool.warn("the mass stays in one piece: " + why_in_one_piece(work));
   if (n_blocks(work.blocks) == 0)

@@ -153,7 +153,7 @@ Json blocks_json(const BlocksWork& work, const std::string& run_id) {
 std::string blocks_summary(const Json& report) {
   const auto number = [](const Json& value) { return grouped_text(value.get<double>(), 4); };
   const Json& sizes = report["sizes"];
-  std::string lines = std::to_string(report["n_blocks"].get<int>()) + " blocks, " +
+  std::string lines = counted(report["n_blocks"].get<int>(), "block") + ", " +
                       number(report["volume_m3"]) + " m3; V10 " + number(sizes["v10_m3"]) +
                       ", V50 " + number(sizes["v50_m3"]) + ", V90 " + number(sizes["v90_m3"]) +
                       ", largest " + number(sizes["largest_m3"]) + " m3; shortest edge " +
@@ -161,14 +161,13 @@ std::string blocks_summary(const Json& report) {
   if (!report.contains("cut")) return lines;
   const Json& cut = report["cut"];
   lines += "\nmass " + number(cut["prism_volume_m3"]) + " m3, " + number(cut["mean_depth_m"]) +
-           " m deep on average (vertically), in " + std::to_string(cut["n_pieces"].get<int>()) +
-           " pieces; " + std::to_string(cut["n_slivers_merged"].get<int>()) + " slivers (" +
+           " m deep on average (vertically), in " + counted(cut["n_pieces"].get<int>(), "piece") +
+           "; " + counted(cut["n_slivers_merged"].get<int>(), "sliver") + " (" +
            number(cut["slivers_merged_m3"]) + " m3) given to a neighbour";
   if (!cut["exact"].get<bool>())
     lines += "\nmade convex: volume " + text(100 * cut["convexified_change"].get<double>(), 3) +
-             " %, " + std::to_string(cut["n_divided"].get<int>()) +
-             " blocks as several convex parts, " + std::to_string(cut["n_kept_exact"].get<int>()) +
-             " kept exact";
+             " %, " + counted(cut["n_divided"].get<int>(), "block") + " as several convex parts, " +
+             std::to_string(cut["n_kept_exact"].get<int>()) + " kept exact";
   return lines;
 }
 

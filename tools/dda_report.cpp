@@ -70,8 +70,10 @@ std::string fence_summary(const Json& report) {
   if (panels.empty()) return "";
   const auto n_broken = std::count_if(panels.begin(), panels.end(),
                                       [](const Json& p) { return p["broken"].get<bool>(); });
-  return ", " + report["n_fence_hits"].dump() + " hits on fences, " + std::to_string(n_broken) +
-         " of " + std::to_string(panels.size()) + " panels broken" + broken_panels(panels);
+  return ", " + counted(report["n_fence_hits"].get<std::int64_t>(), "hit") + " on fences, " +
+         std::to_string(n_broken) + " of " +
+         counted(static_cast<std::int64_t>(panels.size()), "panel") + " broken" +
+         broken_panels(panels);
 }
 
 // What a user must not miss, where there is any.
@@ -142,12 +144,15 @@ std::string run_summary(const Json& report) {
   const auto number = [&report](const char* key) { return text(report[key].get<double>(), 4); };
   const Json& moved = report["mean_displacement_m"];
   const double horizontal = std::hypot(moved[0].get<double>(), moved[1].get<double>());
-  return report["n_blocks"].dump() + " blocks, " + number("time_s") + " s in " +
-         report["steps"].dump() + " steps: centre of mass moved " + text(horizontal, 4) +
-         " m and fell " + text(-moved[2].get<double>(), 4) + " m, largest speed " +
-         number("largest_speed_m_s") + " m/s, " + report["n_passages"].dump() + " passages, " +
-         report["n_crossings"].dump() + " crossings" + fence_summary(report) +
-         trouble_summary(report);
+  const auto count = [&report](const char* key, const char* noun) {
+    return counted(report[key].get<std::int64_t>(), noun);
+  };
+  const double fell = -moved[2].get<double>();
+  return count("n_blocks", "block") + ", " + number("time_s") + " s in " + count("steps", "step") +
+         ": centre of mass moved " + text(horizontal, 4) + " m and " +
+         (fell < 0 ? "rose " : "fell ") + text(std::abs(fell), 4) + " m, largest speed " +
+         number("largest_speed_m_s") + " m/s, " + count("n_passages", "passage") + ", " +
+         count("n_crossings", "crossing") + fence_summary(report) + trouble_summary(report);
 }
 
 void record_health(Tool& tool, Runner& runner) {

@@ -70,6 +70,12 @@ std::vector<std::string> warn_of_settings(Tool& tool, const Site& site) {
     warnings.push_back("fences stop nothing with law paper: what crosses their lines is recorded");
     tool.warn(warnings.back());
   }
+  for (const FenceSettings& fence : site.fences)
+    if (!std::isnan(fence.max_deflection_m) && std::isnan(fence.capacity_kj)) {
+      warnings.push_back("fence." + fence.name +
+                         ".max_deflection_m does nothing without capacity_kj: the fence is rigid");
+      tool.warn(warnings.back());
+    }
   const SolverSettings& solver = site.solver;
   if (solver.seed != SolverSettings{}.seed && solver.start_jitter_m_s == 0 &&
       solver.friction_scatter_deg == 0 && solver.cor_scatter == 0) {

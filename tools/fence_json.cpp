@@ -86,6 +86,18 @@ Json post_list(const Fence& fence, const FenceResult& result) {
   return posts;
 }
 
+Json broken_list(const FenceRunGroup& group, std::size_t fence) {
+  Json list = Json::array();
+  for (int r = 0; r < n_runs(group); ++r)
+    for (const PanelRow& panel : group.runs[r].at_fence[fence].broken)
+      list.push_back({{"run_id", group.members[r].info.run_id},
+                      {"panel", panel.panel},
+                      {"broken_at_s", panel.broken_at},
+                      {"broken_by_block", panel.broken_by},
+                      {"work_kj", panel.work / 1e3}});
+  return list;
+}
+
 Json ground_json(const FenceRunGroup& group, std::size_t fence) {
   const GroundBehind g = ground_behind(group, fence);
   return {{"n_runs", n_runs(group)},
@@ -124,6 +136,7 @@ Json fence_json(const FenceCase& fence_case, std::size_t index, const FenceResul
           {"retained_m3", r.retained},
           {"kept_from_passing_m3", number_or_null(r.kept)},
           {"stopped_but_moving", n_unsettled(group, index)},
+          {"broken_panels", broken_list(group, index)},
           {"design",
            {{"code", code.code.file},
             {"sha256", code.sha256},

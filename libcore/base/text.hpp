@@ -3,6 +3,7 @@
 // in XML.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,6 +15,9 @@ namespace talus {
 
 /// `value` with `digits` significant digits, without trailing zeros ("12.35").
 [[nodiscard]] std::string text(double value, int digits);
+
+/// "1 block", "2 blocks".
+[[nodiscard]] std::string counted(std::int64_t n, const std::string& noun);
 
 /// The whole of `text` as a finite double; false when it is anything else. Locale independent.
 [[nodiscard]] bool parse_double(std::string_view text, double& value);

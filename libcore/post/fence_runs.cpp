@@ -22,6 +22,10 @@ RunAtFence run_at_fence(const RunFile& run, int index, const Fence& fence, int l
   for (const BlockVerdict& v : at.verdicts)
     at.n_unsettled += at.standing && v.verdict == Verdict::stopped &&
                       fate_of(run, v.block, rest_speed) == Fate::moving;
+  for (const PanelRow& panel : run.panels)
+    if (panel.line == line && std::isfinite(panel.broken_at)) at.broken.push_back(panel);
+  std::stable_sort(at.broken.begin(), at.broken.end(),
+                   [](const PanelRow& a, const PanelRow& b) { return a.broken_at < b.broken_at; });
   return at;
 }
 

@@ -39,6 +39,7 @@ struct RunAtFence {
   std::vector<BlockVerdict> verdicts;   ///<                                         (n_blocks)
   bool standing = false;
   int n_unsettled = 0;  ///< blocks that the standing fence stopped and that move at the end
+  std::vector<PanelRow> broken;  ///< panels of the fence that broke, by time
 };
 /// Crossings of blocks that passed a fence for good; one that hangs in a panel has not.
 [[nodiscard]] std::vector<FenceArrival> passed_for_good(const RunAtFence& at);

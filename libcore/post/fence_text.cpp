@@ -56,6 +56,25 @@ std::string design_text(const FenceResult& r) {
   return out + "does not meet the code, " + design.governs + " governs";
 }
 
+// "Panels broke in 2 of 5 runs: panel 3 at 4.21 s by block 17, ..."; empty where none did.
+std::string broken_text(std::size_t index, const FenceRunGroup& group) {
+  constexpr int most = 5;
+  int n_with = 0, n = 0;
+  std::string list;
+  for (const FenceRun& run : group.runs) {
+    n_with += !run.at_fence[index].broken.empty();
+    for (const PanelRow& panel : run.at_fence[index].broken) {
+      if (++n > most) continue;
+      list += (n == 1 ? ": panel " : ", panel ") + std::to_string(panel.panel) + " at " +
+              text(panel.broken_at, 4) + " s by block " + std::to_string(panel.broken_by);
+    }
+  }
+  if (n == 0) return "";
+  if (n > most) list += " and " + std::to_string(n - most) + " more (JSON: broken_panels)";
+  return "Panels broke in " + std::to_string(n_with) + " of " + std::to_string(n_runs(group)) +
+         (n_runs(group) == 1 ? " run" : " runs") + list + ".";
+}
+
 }  // namespace
 
 const char* recorded_at(const FenceArrival& arrival) {
@@ -102,6 +121,8 @@ std::vector<std::string> fence_notes(const FenceCase& fence, std::size_t index,
     notes.push_back(std::to_string(n) +
                     " of the blocks that the fence stopped were still moving when their run ended: "
                     "they may pass it yet.");
+  if (std::string broken = broken_text(index, group); !broken.empty())
+    notes.push_back(std::move(broken));
   for (std::string& remark : build_remarks(code, fence.fence)) notes.push_back(std::move(remark));
   return notes;
 }

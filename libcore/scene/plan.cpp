@@ -11,10 +11,6 @@ namespace {
 
 constexpr const char* full_asked_for = "the full plan was asked for";
 
-std::string number(std::int64_t n, const std::string& noun) {
-  return std::to_string(n) + " " + noun + (n == 1 ? "" : "s");
-}
-
 double height_of(const BlockSet& blocks, std::size_t b) {
   double low = 1e300, high = -1e300;
   for (int v = blocks.block_vertex_begin[b]; v < blocks.block_vertex_begin[b + 1]; ++v) {
@@ -109,7 +105,7 @@ PlanItem kept_by_full(bool full, PlanItem item) {
 
 PlanItem block_contacts(const PlanFacts& facts, bool full) {
   const PlanItem item{"contacts between blocks", facts.n_blocks > 1 && !facts.independent,
-                      "two blocks or more, not --independent", number(facts.n_blocks, "block")};
+                      "two blocks or more, not --independent", counted(facts.n_blocks, "block")};
   if (!facts.independent) return kept_by_full(full, item);
   return {item.item, false, item.rule, item.reason + ", each moves as if it were alone"};
 }
@@ -136,7 +132,7 @@ ScenePlan make_plan(const PlanFacts& facts, bool full) {
            " stand out"});
   add({"terrain beyond the blocks' reach", true,
        "kept whole: a step looks only at the cells below a block, whatever the terrain's size",
-       number(facts.n_cells, "cell")});
+       counted(facts.n_cells, "cell")});
   plan.base_motion = add({"base motion", facts.has_base_motion, "where the site file has one",
                           facts.has_base_motion ? "[base_motion]" : "no [base_motion]"});
   plan.flight = add({"flight without search", !full && !facts.has_base_motion,
@@ -150,10 +146,10 @@ ScenePlan make_plan(const PlanFacts& facts, bool full) {
       kept_by_full(full, {"passages", facts.passages, "one row a block and cell, for maps",
                           facts.passages ? "[output] passages" : "[output] passages is false"}));
   plan.crossings = add({"crossings", facts.n_fences > 0, "one row a block and line of [fence.*]",
-                        number(facts.n_fences, "fence")});
+                        counted(facts.n_fences, "fence")});
   add({"standing fences", facts.n_standing > 0,
        "panels as fixed bodies where a fence is active, law talus",
-       number(facts.n_standing, "fence")});
+       counted(facts.n_standing, "fence")});
   add({"blocky slope", facts.blocky, "one fixed block a triangle, [solver] terrain_model",
        facts.blocky ? "slower than the TRN: to compare with" : "the TRN is the slope"});
   plan.strains_in_frames = add(kept_by_full(

@@ -354,9 +354,12 @@ Site parse_site(const std::string& text, const std::string& path) {
   try {
     root = toml::parse(text, path);
   } catch (const toml::parse_error& error) {
-    throw InputError({path, static_cast<int>(error.source().begin.line)},
-                     std::string(error.description()),
-                     "the file must be TOML: key = value, text in quotes, decimals with a point");
+    const std::string finding(error.description());
+    const bool is_twice = finding.find("redefine") != std::string::npos;
+    throw InputError(
+        {path, static_cast<int>(error.source().begin.line)}, finding,
+        is_twice ? "a section or key stands in the file twice: put its keys in one place"
+                 : "the file must be TOML: key = value, text in quotes, decimals with a point");
   }
   check_groups(root, path);
   for_each_group(site, GroupReader{site, root});

@@ -166,7 +166,11 @@ std::vector<Vec3> posts_on_ground(const Trn& trn, const std::vector<Vec2>& corne
   for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
     const Vec2 &a = corners[i], &b = corners[i + 1];
     if (!((b - a).norm() > 0))
-      throw InputError(where, "point " + std::to_string(i + 2) + " repeats the one before");
+      throw InputError(where,
+                       "point " + std::to_string(i + 2) + " repeats the one before, (" +
+                           text(b.x() + trn.origin.x(), 10) + ", " +
+                           text(b.y() + trn.origin.y(), 10) + ")",
+                       "leave out one of the two");
     const int n = std::max(1, static_cast<int>(std::ceil((b - a).norm() / spacing - 1e-9)));
     for (int k = 0; k < n; ++k) add(a + (b - a) * (static_cast<double>(k) / n));
   }

@@ -139,7 +139,8 @@ void record_hits(RunFile& run, const std::string& kind) {
   run.crossings = later;
   const double pushed = kind == "held" ? -100 : 0;  // to the right: eastwards
   for (int panel = 0; panel < 2; ++panel)
-    run.panels.push_back({0, panel, 250e3, 0, pushed, kind == "broken" ? 0 : never, -1});
+    run.panels.push_back(
+        {0, panel, 250e3, 0, pushed, kind == "broken" ? 0 : never, kind == "broken" ? 0 : -1});
 }
 
 RunFile make_run(const Words& words, int r, const std::string& trn_sha256) {

@@ -58,6 +58,18 @@ refuses 'az_m_s2 is "x", expected a number' --set base_motion.file=word.csv
 printf 'time_s,ax_m_s2,ay_m_s2,az_m_s2\n0,0,0,0\n5,1,0,0\n5,1,0,0\n' >still.csv
 refuses "time_s is 5, expected above 5" --set base_motion.file=still.csv
 
+# odd fences, a section given twice
+cp site.toml kept.toml
+printf '[fence.twice]\nline = [[500080, 5000010], [500080, 5000010], [500080, 5000090]]\n' >>site.toml
+refuses "point 2 repeats the one before, (500080, 5000010)"
+cp kept.toml site.toml
+printf '[fence.low]\nheight_m = 3\n' >>site.toml
+refuses "a section or key stands in the file twice"
+cp kept.toml site.toml
+expect 0 run_dda -o run.h5 --duration-s 0.1 --set fence.low.max_deflection_m=2
+says "fence.low.max_deflection_m does nothing without capacity_kj"
+rm run.h5
+
 # ground without a class, fence off the terrain
 printf '[ground.scree]\npolygon = [[500000, 5000000], [500050, 5000000], [500050, 5000050]]\n' >>site.toml
 expect 0 run_dda -o two.h5 -q --duration-s 0.5

@@ -7,6 +7,13 @@ prints '80 stopped; 80 first touches of the fence: largest energy'
 run-probe broken 80 standing=1 hits=broken
 expect 0 talus-fence broken/site.toml broken/run_*.h5 --trn broken/slope.tif -o g.gpkg --json g.json
 prints '80 pierced; 80 first touches'
+grep -q 'Panels broke in 80 of 80 runs: panel .* s by block ' g.json || fail 'nothing said of broken panels'
+grep -q 'more (JSON: broken_panels)' g.json || fail 'the first broken panels are not said to be the first'
+python3 -c "
+import json
+g, f = (json.load(open(n))['fences'][0]['broken_panels'] for n in ('g.json', 'f.json'))
+assert f == [] and len({p['run_id'] for p in g}) == 80 and all(p['broken_at_s'] < 1 for p in g), g[:2]
+" || fail 'broken panels'
 python3 - <<'PY' || fail 'energies are not those before the first touch'
 import json, math
 s = (30 - 11) / math.cos(math.pi / 6)
