@@ -5,8 +5,9 @@
 
 FOLDER holds runs/run_*.h5 (or run_*.h5) and bed.tif, as the pipeline leaves them. Prints the table of
 docs/verification.md: volume, H and L of the event (chord from the top of the source to the toe), of its
-centre of mass beside tan(friction), L over what each relation expects, and the chance that it is exceeded
-where the relation has a scatter. Relations from memory are left out.
+centre of mass beside tan(friction); then a line a relation: L over what it expects, and the chance that it
+is exceeded where the relation has a scatter, or "beyond" where L is above that of its lower 95 % line.
+Relations from memory and those of debris flows are left out.
 """
 import json
 import statistics
@@ -15,7 +16,9 @@ import sys
 import tempfile
 from pathlib import Path
 
-RELATIONS = ("corominas_rockfall_all", "corominas_slide_all", "mitchell_length", "mitchell_hl")
+RELATIONS = ("corominas_rockfall_all", "corominas_rockfall_unobstructed", "corominas_rockfall_obstructed",
+             "corominas_rockfall_deflected", "corominas_slide_all", "corominas_slide_unobstructed",
+             "corominas_slide_obstructed", "mitchell_length", "mitchell_hl")
 
 
 def runout(tools, folder):
@@ -34,28 +37,45 @@ def of(relation, key):
     return statistics.mean(values) if values else float("nan")
 
 
-def row(name, result, friction_deg):
+def event_row(name, result, friction_deg):
     event = [run["event"] for run in result["runs"]]
     mean = lambda pick: statistics.mean(pick(e) for e in event)
     words = [name, f"{len(event)}", f"{result['balance']['released_m3'] / len(event):.0f}",
              f"{mean(lambda e: e['H_m']):.0f}", f"{mean(lambda e: e['L_chord_m']):.0f}"]
     words.append(f"{mean(lambda e: e['H_m'] / e['L_chord_m']):.2f}")
     words.append(f"{statistics.mean(r['centre_of_mass']['H_over_L'] for r in result['runs']):.2f}, {friction_deg}")
-    for relation in result["mobility"]:
-        if relation["relation"] in RELATIONS:
-            chance = of(relation, "exceedance_probability")
-            words.append(f"{of(relation, 'L_over_expected'):.2f}" + ("" if chance != chance else f" ({100 * chance:.0f} %)"))
-    return "| " + " | ".join(words) + " |"
+    return words
+
+
+def relation_cell(result, name):
+    relation = next(r for r in result["mobility"] if r["relation"] == name)
+    chance, cell = of(relation, "exceedance_probability"), f"{of(relation, 'L_over_expected'):.2f}"
+    if chance == chance:
+        return f"{cell} ({100 * chance:.0f} %)"
+    expected = statistics.mean(run["event"]["L_chord_m"] for run in result["runs"])
+    return cell + (" beyond" if expected > of(relation, "L_on_lower_line_m") else "")
+
+
+def line(words):
+    print("| " + " | ".join(words) + " |")
 
 
 def main():
     tools = Path(sys.argv[1]).resolve()
-    print("| Event | runs | V m3 | H m | L m | H/L | H_cm/L_cm, friction deg | L over "
-          + " | over ".join(RELATIONS) + " |\n|" + "---|" * (7 + len(RELATIONS)))
+    results = {}
     for word in sys.argv[2:]:
         name, place = word.split("=", 1)
         folder, _, friction = place.partition(":")
-        print(row(name, runout(tools, Path(folder)), friction or "-"))
+        results[name] = (runout(tools, Path(folder)), friction or "-")
+    line(["Event", "runs", "V m3", "H m", "L m", "H/L", "H_cm/L_cm, friction deg"])
+    print("|" + "---|" * 7)
+    for name, (result, friction) in results.items():
+        line(event_row(name, result, friction))
+    print()
+    line(["L over", *results])
+    print("|" + "---|" * (1 + len(results)))
+    for relation in RELATIONS:
+        line([relation, *(relation_cell(result, relation) for result, _ in results.values())])
 
 
 if __name__ == "__main__":
