@@ -335,11 +335,6 @@ void add_items_of_files(std::vector<Omission>& out) {
                  }});
 }
 
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
-
 }  // namespace
 
 std::vector<Omission> omissions(const SlideData& slide, bool full) {

@@ -34,7 +34,7 @@ struct Omission {
 
 /// The plans of six scenes against the full plan, then items one by one. Chaotic scenes, where a
 /// last bit ends metres away, compare means of many starts within three standard errors. `full`:
-/// with the whole slide, half a minute.
+/// with the whole slide, half a minute. `slide` must outlive them.
 [[nodiscard]] std::vector<Omission> omissions(const SlideData& slide, bool full);
 
 /// Both runs of an omission, CPU times as medians.

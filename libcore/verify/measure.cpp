@@ -14,11 +14,6 @@ namespace {
 
 constexpr double least_drawn = 1e-16;
 
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
-
 double drawn(double error) { return std::max(error, least_drawn); }
 
 // Smallest CPU time of law talus, defaults but for the step, at an error of at most `error`;
@@ -31,6 +26,11 @@ double cheapest(const std::vector<VerifyRow>& rows, double error) {
 }
 
 }  // namespace
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
 
 std::string text_of(StepFlag flags) {
   const std::pair<StepFlag, const char*> names[] = {{StepFlag::unconverged, "unconverged"},

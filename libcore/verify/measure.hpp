@@ -33,6 +33,9 @@ struct VerifyRow {
   StepFlag flags = StepFlag::none;
 };
 
+/// The middle one, of an even number the upper of the two; at least one.
+[[nodiscard]] double median(std::vector<double> values);
+
 /// Names of the bits, joined by "+"; "none".
 [[nodiscard]] std::string text_of(StepFlag flags);
 
