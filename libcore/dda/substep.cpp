@@ -273,10 +273,11 @@ void make_rows(const Scene& scene, int b, const BlockNumbers& c, const Substep& 
     row.drift = s.spin_free.cross(X - row.point);
     row.free_move = moved + (X - lever_start);
     row.gap_start = contact.gap - row.normal.dot(row.free_move);
-    Vec3 w = velocity_start + spin_start.cross(lever_start);
-    if (s.is_straining) w += s.straining * X;
+    const Vec3 w = velocity_start + spin_start.cross(lever_start);
     row.speed_start = row.normal.dot(w);
     const Vec3 slip = w - row.speed_start * row.normal;
+    // not part of the slip: where a block all but sticks it would turn its direction round
+    if (s.is_straining) row.speed_start += row.normal.dot(s.straining * X);
     const double slip_speed = slip.norm();
     row.slip_start = slip_speed > 0 ? Vec3((1 / slip_speed) * slip) : Vec3(Vec3::Zero());
     row.friction = ground.friction;

@@ -420,6 +420,25 @@ TEST(Step, BlockThatSagsIsNotHitByTheGroundThatBearsIt) {
   EXPECT_LT(deepest, 1e-5);
 }
 
+// Near its critical friction a block that strains slips at some corners for a moment. With the slip
+// of its straining in the direction that friction has, one run in seven took thousands of passes.
+TEST(Step, BlockThatStrainsAndAllButSticksSettlesInFewPasses) {
+  Settings settings;
+  settings.strains = true;
+  settings.sleep = false;
+  const SlopeFrame frame = slope_frame(30, 37);
+  const Body cube = body_of(box_in(frame, Vec3::Zero(), Vec3(-0.5, -0.5, 0), Vec3(0.5, 0.5, 1)));
+  for (double friction_deg = 29.8; friction_deg < 30.5; friction_deg += 0.02) {
+    const Scene scene =
+        scene_of(plane_trn(frame, 0.5, 20), ground_of(friction_deg), {cube}, settings);
+    State state = start(scene);
+    Work work = make_work(scene);
+    for (int i = 0; i < 60; ++i) step(scene, state, work);
+    EXPECT_LT(state.counters.passes, 60 * 8) << friction_deg;
+    EXPECT_EQ(state.counters.cut_back, 0) << friction_deg;
+  }
+}
+
 // --plan=full searches in every step, keeps sleepers awake and computes strains. The first two are
 // no approximation where a block slides: the bits are the same. Strains are those of its weight.
 TEST(Step, TheFullPlanAgrees) {
