@@ -27,7 +27,9 @@ void warn_of_blocks_apart(Tool& tool, const ScenePlan& plan, DdaInputs& inputs) 
 // Whoever asks for stress must not read it off blocks that have none.
 void warn_of_rigid_blocks(Tool& tool, const Site& site, const ScenePlan& plan, DdaInputs& inputs) {
   const bool asked_for = site.output.strain || site.solver.strain == "on";
-  if (!asked_for || site.solver.law != "talus" || !plan.block_contacts) return;
+  if (!asked_for || site.solver.law != "talus" || !plan.block_contacts ||
+      n_blocks(inputs.parts.blocks) < 2)
+    return;
   inputs.warnings.push_back(
       "strains are asked for: law talus computes blocks that touch each other rigid, their strains "
       "stay as they were");

@@ -106,8 +106,9 @@ PlanItem kept_by_full(bool full, PlanItem item) {
 PlanItem block_contacts(const PlanFacts& facts, bool full) {
   const PlanItem item{"contacts between blocks", facts.n_blocks > 1 && !facts.independent,
                       "two blocks or more, not --independent", counted(facts.n_blocks, "block")};
-  if (!facts.independent) return kept_by_full(full, item);
-  return {item.item, false, item.rule, item.reason + ", each moves as if it were alone"};
+  if (facts.independent && facts.n_blocks > 1)
+    return {item.item, false, item.rule, item.reason + ", each moves as if it were alone"};
+  return kept_by_full(full && !facts.independent, item);
 }
 
 }  // namespace
