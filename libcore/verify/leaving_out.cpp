@@ -106,6 +106,8 @@ void note_ends(const Scene& scene, const State& state, OmissionRun& out) {
 using Shown = std::function<long(const State&)>;
 
 long impacts(const State& state) { return state.counters.impacts; }
+long skips(const State& state) { return state.counters.flight_skips; }
+long sleepers(const State& state) { return std::ranges::count(state.phase, Phase::asleep); }
 long anything(const State&) { return 1; }
 
 OmissionRun run_scene(Scene scene, double duration, const Shown& shown = anything) {
@@ -253,7 +255,7 @@ void add_items_of_blocks(std::vector<Omission>& out) {
   out.push_back({"sleep", "stack of ten at rest, 20 s", 1e-9, 0, [](bool kept) {
                    Settings settings;
                    settings.sleep = !kept;
-                   return run_scene(tower(10, 0, 30, settings), 20);
+                   return run_scene(tower(10, 0, 30, settings), 20, kept ? anything : sleepers);
                  }});
 }
 
@@ -283,7 +285,7 @@ void add_items_of_ground(std::vector<Omission>& out) {
   out.push_back({"flight without search", "three rocks, 6 s", 0, 0, [](bool kept) {
                    Settings settings;
                    settings.flight = !kept;
-                   return run_scene(rocks(3, settings), 6, impacts);
+                   return run_scene(rocks(3, settings), 6, kept ? impacts : skips);
                  }});
 }
 
@@ -292,7 +294,9 @@ void add_items_of_fences(std::vector<Omission>& out) {
       {"standing fences", "one rock and a fence that it does not reach, 4 s", 0, 0, [](bool kept) {
          Scene scene = rocks(1);
          if (kept) scene = fenced(std::move(scene), fence_at(80, -80, -60));
-         return run_scene(std::move(scene), 4, impacts);
+         const bool stands = n_fixed(scene) > 0;
+         return run_scene(std::move(scene), 4,
+                          [=](const State& state) { return stands == kept ? impacts(state) : 0; });
        }});
   out.push_back({"turning of rocks far from fences",
                  "three rocks, each as if alone, and a fence, 7 s", 0, 0, [](bool kept) {
@@ -300,8 +304,9 @@ void add_items_of_fences(std::vector<Omission>& out) {
                    settings.block_contacts = false;
                    settings.flight = !kept;
                    return run_scene(fenced(rocks(3, settings), fence_at(-25, -60, 60)), 7,
-                                    [](const State& state) {
-                                      return static_cast<long>(state.fence.hits.size());
+                                    [kept](const State& state) {
+                                      const auto hits = static_cast<long>(state.fence.hits.size());
+                                      return kept ? hits : std::min(hits, skips(state));
                                     });
                  }});
 }
