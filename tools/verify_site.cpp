@@ -40,7 +40,7 @@ bool is_default(const Candidate& c) {
   return std::isnan(c.normal_stiffness) && !c.strains && !c.is_paper;
 }
 
-// From the longest step to the reference, which is the last; the next finer of its kind before it.
+// The defaults last, from the longest step: their shortest ones give the reference.
 std::vector<Candidate> candidates(bool with_paper) {
   std::vector<Candidate> list;
   if (with_paper)
@@ -139,7 +139,7 @@ std::string study_site(Tool& tool, const SiteStudyOptions& o, const std::string&
     results.push_back(run_candidate(site, inputs, c, o.n_runs));
     progress(static_cast<double>(results.size()) / static_cast<double>(list.size()));
   }
-  const EnsembleReference reference = reference_of(results.back(), results[results.size() - 2]);
+  const EnsembleReference reference = reference_of(results);
   const auto cost = [&](std::size_t i) {
     constexpr double worth_a_key = 1.25;  // times scatter, most beside other jobs
     return results[i].cpu * (is_default(list[i]) ? 1 : worth_a_key);
@@ -153,9 +153,7 @@ std::string study_site(Tool& tool, const SiteStudyOptions& o, const std::string&
   const std::vector<VerifyRow> rows =
       rows_of("site_" + o.quantity, static_cast<Quantity>(q), results, reference);
   tool.write_text(out + "/site.csv", csv_of(rows, processor_name(), build_commit));
-  // the last is the reference, which has no error
-  Chart chart =
-      work_precision_chart("error of " + o.quantity + " [m]", {rows.begin(), rows.end() - 1}, {});
+  Chart chart = work_precision_chart("error of " + o.quantity + " [m]", rows, {});
   add_band(chart, reference.band[q]);
   tool.write_text(out + "/site.svg", chart_file(chart));
   tool.write_text(out + "/solver.toml", fragment_of(list[best], site, o));

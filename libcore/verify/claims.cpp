@@ -9,6 +9,25 @@
 namespace talus {
 namespace {
 
+// How many times less CPU time than law paper was asked for, of which cases: names begin so.
+struct Target {
+  const char* words;
+  double asked;
+  std::vector<std::string> begins;
+};
+
+const std::vector<Target>& targets() {
+  static const std::vector<Target> list = {{"Sliding", 10, {"slide_", "oblique"}},
+                                           {"Bounce", 50, {"bounce_"}},
+                                           {"The slide", 50, {"slide39"}}};
+  return list;
+}
+
+bool is_of(const Target& target, const std::string& case_name) {
+  return std::any_of(target.begins.begin(), target.begins.end(),
+                     [&](const std::string& with) { return case_name.rfind(with, 0) == 0; });
+}
+
 // Errors that the reference cannot tell apart made equal.
 MeasuredCase as_known(MeasuredCase measured) {
   for (VerifyRow& row : measured.rows) row.error = std::max(row.error, measured.known_to);
@@ -16,11 +35,20 @@ MeasuredCase as_known(MeasuredCase measured) {
   return measured;
 }
 
+LawComparison laws_of(const MeasuredCase& measured) {
+  return compare_laws(as_known(measured).rows, measured.worst);
+}
+
+bool has_paper(const MeasuredCase& measured) {
+  return std::any_of(measured.rows.begin(), measured.rows.end(),
+                     [](const VerifyRow& row) { return row.law == "paper"; });
+}
+
 bool is_asked_of_peers(const MeasuredCase& measured) { return !measured.peers.empty(); }
 
-std::string verdict_on_paper(const LawComparison& laws, double asked) {
-  if (laws.least_ratio >= asked) return "holds";
-  return laws.ratio_at_best >= asked ? "at its smallest error" : "no";
+std::string verdict_on_paper(double least, double at_best, double asked) {
+  if (least >= asked) return "holds";
+  return at_best >= asked ? "at its smallest error" : "no";
 }
 
 std::string verdict_on_peers(double at_default_step, double at_any) {
@@ -36,32 +64,77 @@ std::string best_peer(const std::vector<PeerPoint>& peers) {
   return best->name + ": " + text(best->error, 2) + " (" + text(1e3 * best->cpu, 3) + ")";
 }
 
-std::string line_of(const MeasuredCase& given) {
-  const MeasuredCase measured = as_known(given);
-  const LawComparison laws = compare_laws(measured.rows, measured.worst);
-  const double asked = asked_of_paper(measured.name);
-  std::string line = "| `" + measured.name + "` | " + (laws.is_on_front ? "yes" : "no");
+std::string line_of(const MeasuredCase& measured) {
+  const LawComparison laws = laws_of(measured);
+  const std::string& name = measured.about->name;
+  const double asked = asked_of_paper(name);
+  std::string line = "| `" + name + "` | " + (laws.is_on_front ? "yes" : "no");
   line += laws.is_compared
               ? " | " + ratio_text(laws.ratio_at_best) + " | " + ratio_text(laws.least_ratio)
               : " | - | -";
   line += asked > 0 && laws.is_compared
-              ? " | " + text(asked) + " | " + verdict_on_paper(laws, asked)
+              ? " | " + text(asked) + " | " +
+                    verdict_on_paper(laws.least_ratio, laws.ratio_at_best, asked)
               : " | - | -";
   if (!is_asked_of_peers(measured)) return line + " | - | - | - | - |\n";
   const double any = peer_ratio(measured, false), at_default_step = peer_ratio(measured, true);
-  return line + " | " + best_peer(given.peers) + " | " + ratio_text(any) + " | " +
+  return line + " | " + best_peer(measured.peers) + " | " + ratio_text(any) + " | " +
          ratio_text(at_default_step) + " | " + verdict_on_peers(at_default_step, any) + " |\n";
+}
+
+// The smallest of several ratios, and whose it is.
+struct Least {
+  double ratio = std::numeric_limits<double>::infinity();
+  std::string name;
+
+  void look_at(double other, const std::string& of) {
+    if (other < ratio) ratio = other, name = of;
+  }
+  [[nodiscard]] std::string words() const { return ratio_text(ratio) + " (`" + name + "`)"; }
+};
+
+std::string words_on(const Target& target, const std::vector<MeasuredCase>& cases) {
+  Least over_all, at_best;
+  for (const MeasuredCase& measured : cases) {
+    const std::string& name = measured.about->name;
+    if (!is_of(target, name)) continue;
+    const LawComparison laws = laws_of(measured);
+    if (!laws.is_compared) continue;
+    over_all.look_at(laws.least_ratio, name);
+    at_best.look_at(laws.ratio_at_best, name);
+  }
+  if (over_all.name.empty()) return "";
+  return "- " + std::string(target.words) + ": asked, " + text(target.asked) +
+         " times less CPU time than law paper at equal error. Least over all errors of law "
+         "paper: " +
+         over_all.words() + "; least at its smallest errors: " + at_best.words() + ". **" +
+         verdict_on_paper(over_all.ratio, at_best.ratio, target.asked) + "**\n";
+}
+
+std::string words_on_peers(const std::vector<MeasuredCase>& cases) {
+  std::string list;
+  for (const MeasuredCase& measured : cases) {
+    if (!is_asked_of_peers(measured)) continue;
+    const double any = peer_ratio(measured, false), at_default_step = peer_ratio(measured, true);
+    list += (list.empty() ? " `" : ", `") + measured.about->name + "` " +
+            verdict_on_peers(at_default_step, any);
+  }
+  if (list.empty()) return "";
+  return "- Other engines: asked, no more CPU time than the best of them at equal error, with one "
+         "default setting:" +
+         list + ".\n";
 }
 
 }  // namespace
 
 double asked_of_paper(const std::string& case_name) {
-  const auto begins = [&case_name](const char* with) { return case_name.rfind(with, 0) == 0; };
-  if (begins("bounce_") || begins("slide39")) return 50;
-  return begins("slide_") || begins("oblique") ? 10 : 0;
+  for (const Target& target : targets())
+    if (is_of(target, case_name)) return target.asked;
+  return 0;
 }
 
-double peer_ratio(const MeasuredCase& measured, bool default_step_only) {
+double peer_ratio(const MeasuredCase& given, bool default_step_only) {
+  const MeasuredCase measured = as_known(given);
   double least = std::nan("");
   for (const PeerPoint& peer : measured.peers) {
     if (!(peer.error <= measured.worst)) continue;
@@ -81,12 +154,22 @@ std::string claims_table(const std::vector<MeasuredCase>& cases) {
       "| Case | on the front of both laws | paper / talus at paper's smallest error | least over "
       "paper's front | asked | | other engines: smallest error (CPU ms) | other engines / talus, "
       "least | at the default step | asked: 1 |\n|---|---|---|---|---|---|---|---|---|---|\n";
-  for (const MeasuredCase& measured : cases) {
-    const bool has_paper = std::any_of(measured.rows.begin(), measured.rows.end(),
-                                       [](const VerifyRow& row) { return row.law == "paper"; });
-    if (has_paper || is_asked_of_peers(measured)) table += line_of(measured);
-  }
+  for (const MeasuredCase& measured : cases)
+    if (has_paper(measured) || is_asked_of_peers(measured)) table += line_of(measured);
   return table;
+}
+
+std::string claims_list(const std::vector<MeasuredCase>& cases) {
+  int n_compared = 0, n_on_front = 0;
+  for (const MeasuredCase& measured : cases)
+    if (has_paper(measured)) {
+      ++n_compared;
+      n_on_front += laws_of(measured).is_on_front ? 1 : 0;
+    }
+  std::string list = "- Law talus has a step on the Pareto front of both laws in " +
+                     std::to_string(n_on_front) + " of " + counted(n_compared, "case") + ".\n";
+  for (const Target& target : targets()) list += words_on(target, cases);
+  return list + words_on_peers(cases);
 }
 
 }  // namespace talus

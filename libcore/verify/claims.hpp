@@ -11,15 +11,6 @@
 
 namespace talus {
 
-/// All that is known of a case.
-struct MeasuredCase {
-  std::string name;
-  std::vector<VerifyRow> rows;
-  std::vector<PeerPoint> peers;  ///< empty: not measured with other engines
-  double worst = useful_error;   ///< larger errors are no answers
-  double known_to = 0;           ///< uncertainty of the reference: smaller errors count as this
-};
-
 /// Ratio to law paper that was asked for: 10 on sliding, 50 on bounce and the slide, else 0.
 [[nodiscard]] double asked_of_paper(const std::string& case_name);
 
@@ -30,5 +21,8 @@ struct MeasuredCase {
 
 /// A line a case that another law or engine was measured on.
 [[nodiscard]] std::string claims_table(const std::vector<MeasuredCase>& cases);
+
+/// What was asked for, case by case taken together: the least of each ratio, and whether it holds.
+[[nodiscard]] std::string claims_list(const std::vector<MeasuredCase>& cases);
 
 }  // namespace talus

@@ -80,11 +80,28 @@ EnsembleResult run_ensemble(const std::function<Scene(std::uint64_t seed)>& scen
   return out;
 }
 
-EnsembleReference reference_of(const EnsembleResult& finest, const EnsembleResult& next) {
+EnsembleReference reference_of(const std::vector<EnsembleResult>& results) {
+  const auto begin = std::find_if(results.rbegin(), results.rend(), [&](const EnsembleResult& r) {
+                       return r.method != results.back().method;
+                     }).base();
+  const auto n = std::min<std::ptrdiff_t>(3, results.end() - begin);
+  const std::vector<EnsembleResult> shortest(results.end() - n, results.end());
+  double mean_step = 0, square = 0;
+  for (const EnsembleResult& r : shortest) mean_step += r.settings.dt / static_cast<double>(n);
+  for (const EnsembleResult& r : shortest) square += std::pow(r.settings.dt - mean_step, 2);
   EnsembleReference out;
-  out.mean = finest.mean;
-  for (size_t q = 0; q < out.mean.size(); ++q)
-    out.band[q] = std::hypot(finest.standard_error[q], finest.mean[q] - next.mean[q]);
+  for (size_t q = 0; q < out.mean.size(); ++q) {
+    double variance = 0, off = 0;
+    for (const EnsembleResult& r : shortest) {
+      const double share =
+          1 / static_cast<double>(n) - mean_step * (r.settings.dt - mean_step) / square;
+      out.mean[q] += share * r.mean[q];
+      variance += std::pow(share * r.standard_error[q], 2);
+    }
+    for (size_t i = shortest.size() - 2; i < shortest.size(); ++i)
+      off = std::max(off, std::abs(shortest[i].mean[q] - out.mean[q]));
+    out.band[q] = std::hypot(std::sqrt(variance), off);
+  }
   return out;
 }
 

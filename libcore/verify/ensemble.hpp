@@ -44,14 +44,16 @@ using Breaks = std::function<bool(const cases::Run&)>;
                                           int n_runs, double duration, const Progress& progress,
                                           const Breaks& breaks = {});
 
-/// A reference from the finest setting: its means, and how far they can be trusted.
+/// What the answer tends to as the step does to nothing, and how far that can be trusted.
 struct EnsembleReference {
   std::array<double, 3> mean{};  ///< [m]
-  std::array<double, 3> band{};  ///< standard error and distance to the next finer, together [m]
+  std::array<double, 3> band{};  ///< its standard error and how far the two shortest steps are from
+                                 ///< it, together [m]
 };
-/// `finest` and the same with a longer step.
-[[nodiscard]] EnsembleReference reference_of(const EnsembleResult& finest,
-                                             const EnsembleResult& next);
+/// Extrapolates as Richardson does, errors taken as proportional to the step: the line of least
+/// squares through the means of the three shortest steps, at a step of nothing. `results` end with
+/// the settings to extrapolate (of one method, from the longest step), two steps at least.
+[[nodiscard]] EnsembleReference reference_of(const std::vector<EnsembleResult>& results);
 
 /// Rows of `case_name` for one quantity: error = distance to the reference [m].
 [[nodiscard]] std::vector<VerifyRow> rows_of(const std::string& case_name, Quantity quantity,

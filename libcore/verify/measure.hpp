@@ -33,6 +33,25 @@ struct VerifyRow {
   StepFlag flags = StepFlag::none;
 };
 
+/// Error of another program on the same case, for the diagram.
+struct PeerPoint {
+  std::string name;
+  double cpu = 0;    ///< [s]
+  double error = 0;  ///< in the norm of the case
+};
+
+/// An answer that errs by more is none.
+inline constexpr double useful_error = 0.1;
+
+/// A case and all that was measured of it.
+struct MeasuredCase {
+  const VerifyCase* about = nullptr;
+  std::vector<VerifyRow> rows;
+  std::vector<PeerPoint> peers;  ///< empty: not measured with other engines
+  double worst = useful_error;   ///< larger errors are no answers
+  double known_to = 0;           ///< uncertainty of the reference: smaller errors count as this
+};
+
 /// The middle one, of an even number the upper of the two; at least one.
 [[nodiscard]] double median(std::vector<double> values);
 
@@ -62,8 +81,6 @@ struct LawComparison {
       0;  ///< CPU time of paper over talus at equal error, least over paper's front
   double ratio_at_best = 0;  ///< the same at paper's smallest error
 };
-/// An answer that errs by more is none.
-inline constexpr double useful_error = 0.1;
 /// `rows`: of one case; those of law paper that err by more than `worst` are not compared. Where
 /// law talus never reaches an error of law paper, the ratios are 0.
 [[nodiscard]] LawComparison compare_laws(const std::vector<VerifyRow>& rows,
@@ -71,13 +88,6 @@ inline constexpr double useful_error = 0.1;
 
 /// A ratio of CPU times as the tables show it; "-" for NaN.
 [[nodiscard]] std::string ratio_text(double ratio);
-
-/// Error of another program on the same case, for the diagram.
-struct PeerPoint {
-  std::string name;
-  double cpu = 0;    ///< [s]
-  double error = 0;  ///< in the norm of the case
-};
 
 /// Error against CPU time, both logarithmic; a curve a method, the front marked. Errors below 1e-16
 /// are drawn there.

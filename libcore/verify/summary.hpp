@@ -1,5 +1,6 @@
 // libcore/verify/summary.hpp
-// The one table of all cases, as Markdown: claim, reference, error, bound, CPU time, test.
+// Tables of all cases, as Markdown: claim, reference, error, bound, CPU time, test; and errors at
+// several time steps.
 #pragma once
 
 #include <string>
@@ -9,20 +10,18 @@
 
 namespace talus {
 
-/// A case with all its rows.
-struct CaseOutcome {
-  const VerifyCase* about = nullptr;
-  std::vector<VerifyRow> rows;
-};
-
 /// The row of law talus with its defaults (step, stiffness, strains left out unless the case has
 /// them); null when it was not run.
 [[nodiscard]] const VerifyRow* default_row(const std::vector<VerifyRow>& rows);
 
 /// Whether the default row's error is below the case's bound.
-[[nodiscard]] bool holds(const CaseOutcome& outcome);
+[[nodiscard]] bool holds(const MeasuredCase& measured);
 
-/// A line a case.
-[[nodiscard]] std::string summary_table(const std::vector<CaseOutcome>& outcomes);
+/// A line a case: at the defaults, and law paper where it errs least.
+[[nodiscard]] std::string summary_table(const std::vector<MeasuredCase>& cases);
+
+/// A line a case: error and CPU time of both laws at several time steps each, law talus with its
+/// defaults, law paper with the stiffness of the paper.
+[[nodiscard]] std::string steps_table(const std::vector<MeasuredCase>& cases);
 
 }  // namespace talus

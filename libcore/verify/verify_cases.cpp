@@ -11,9 +11,6 @@ namespace {
 
 using namespace cases;
 
-// k_n of the paper's benchmarks, and the ratio k_s / k_n of Shi's code.
-constexpr double paper_stiffness = 5e10;
-
 CaseResult worst_rolling_angle(const Settings& settings) {
   CaseResult worst;
   for (int n = 3; n <= 12; ++n) {

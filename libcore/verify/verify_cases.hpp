@@ -11,6 +11,9 @@
 
 namespace talus {
 
+/// k_n of law paper where nothing else is said: that of the paper's benchmarks [N/m].
+inline constexpr double paper_stiffness = 5e10;
+
 struct VerifyCase {
   std::string name;       ///< as given on the command line and in file names
   std::string claim;      ///< one sentence

@@ -45,18 +45,47 @@ TEST(Ensemble, BlocksCountByTheirMass) {
   EXPECT_NEAR(one.mean[2], std::sqrt(square), 1e-12);
 }
 
+EnsembleResult result_of(const std::string& method, double dt, std::array<double, 3> mean,
+                         double standard_error) {
+  EnsembleResult out;
+  out.method = method;
+  out.settings.dt = dt;
+  out.mean = mean;
+  out.standard_error.fill(standard_error);
+  out.n_runs = 4;
+  return out;
+}
+
+// Means that err in proportion to the step are extrapolated to what they tend to.
+TEST(Ensemble, ReferenceIsWhatTheShortestStepsTendTo) {
+  const std::vector<EnsembleResult> results = {
+      result_of("other", 1e-3, {99, 99, 99}, 0), result_of("talus", 1e-1, {77, 77, 77}, 0),
+      result_of("talus", 5e-3, {10.5, 20, 2.5}, 0), result_of("talus", 2e-3, {10.2, 20, 2.8}, 0),
+      result_of("talus", 1e-3, {10.1, 20, 2.9}, 0)};
+  const EnsembleReference reference = reference_of(results);
+  EXPECT_NEAR(reference.mean[0], 10, 1e-12);
+  EXPECT_NEAR(reference.mean[1], 20, 1e-12);
+  EXPECT_NEAR(reference.mean[2], 3, 1e-12);
+  EXPECT_NEAR(reference.band[0], 0.2, 1e-12);  // how far the second shortest is from it
+  EXPECT_NEAR(reference.band[1], 0, 1e-12);
+  const auto rows = rows_of("slide", Quantity::spread, results, reference);
+  EXPECT_NEAR(rows.back().error, 0.1, 1e-12);
+}
+
+// The scatter of the means is carried to the reference: least squares over steps of 1, 2 and 5 ms,
+// and twice the one mean less the other where there are two.
 TEST(Ensemble, ReferenceKnowsHowFarToBeTrusted) {
-  EnsembleResult fine, coarse;
-  fine.mean = {10, 20, 3};
-  fine.standard_error = {0.3, 0.1, 0};
-  coarse.mean = {10.4, 20, 3.5};
-  coarse.n_runs = fine.n_runs = 4;
-  const EnsembleReference reference = reference_of(fine, coarse);
-  EXPECT_NEAR(reference.band[0], 0.5, 1e-12);
-  EXPECT_NEAR(reference.band[1], 0.1, 1e-12);
-  const auto rows = rows_of("slide", Quantity::spread, {coarse, fine}, reference);
-  EXPECT_NEAR(rows[0].error, 0.5, 1e-12);
-  EXPECT_NEAR(rows[1].error, 0, 1e-12);
+  const std::array<double, 3> same = {10, 20, 3};
+  const EnsembleReference of_three =
+      reference_of({result_of("talus", 5e-3, same, 0.1), result_of("talus", 2e-3, same, 0.1),
+                    result_of("talus", 1e-3, same, 0.1)});
+  const double mean = 8.0 / 3, square = 25 + 4 + 1 - 3 * mean * mean;
+  EXPECT_NEAR(of_three.band[0], 0.1 * std::sqrt(1.0 / 3 + mean * mean / square), 1e-12);
+  const EnsembleReference of_two = reference_of({result_of("paper", 4e-3, {1, 1, 1}, 0),
+                                                 result_of("talus", 2e-3, {10.4, 20, 3}, 0.1),
+                                                 result_of("talus", 1e-3, {10, 20, 3}, 0.1)});
+  EXPECT_NEAR(of_two.mean[0], 9.6, 1e-12);
+  EXPECT_NEAR(of_two.band[0], std::hypot(0.8, 0.1 * std::sqrt(5.0)), 1e-12);
 }
 
 TEST(ReadSlide, RefusesWhatIsNone) {

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <deque>
 #include <set>
 
 #include "verify/claims.hpp"
@@ -41,8 +42,16 @@ TEST(CompareLaws, TakesCpuTimeAtEqualError) {
   EXPECT_FALSE(compare_laws({row("talus", 1, 0.5), row("paper", 1, 0.5)}).is_compared);
 }
 
+// A case of that name about which nothing else is said.
+const VerifyCase* about(const std::string& name) {
+  static std::deque<VerifyCase> named;
+  named.emplace_back().name = name;
+  return &named.back();
+}
+
 MeasuredCase measured_with(std::vector<PeerPoint> peers) {
-  MeasuredCase out{"slide_20", {row("talus", 1, 1e-6), row("talus", 0.5, 1e-2)}, std::move(peers)};
+  MeasuredCase out{
+      about("slide_20"), {row("talus", 1, 1e-6), row("talus", 0.5, 1e-2)}, std::move(peers)};
   out.rows[0].dt = Settings{}.dt;
   out.rows[1].dt = 2e-2;
   return out;
@@ -71,15 +80,33 @@ TEST(Claims, SayWhatHolds) {
                                      "a: 0.0001 (4e+03) | 4 | 4 | holds |"),
             std::string::npos)
       << claims_table({one});
-  one.name = "wedge";  // nothing asked of it
+  one.about = about("wedge");  // nothing asked of it
   EXPECT_NE(claims_table({one}).find("| 12 | 2 | - | - |"), std::string::npos);
-  one.name = "bounce_face";
+  one.about = about("bounce_face");
   EXPECT_NE(claims_table({one}).find("| 12 | 2 | 50 | no |"), std::string::npos);
+}
+
+// Taken together, the least of each ratio counts, and what no other engine was measured on is not
+// spoken of.
+TEST(Claims, TakenTogetherAreTheLeastOfEach) {
+  MeasuredCase one = measured_with({}), other = measured_with({{"a", 4, 1e-4}});
+  one.rows.push_back(row("paper", 40, 1e-4));
+  other.about = about("oblique");
+  other.rows.push_back(row("paper", 12, 1e-4));
+  other.rows.push_back(row("paper", 1, 0.05));
+  const std::string list = claims_list({one, other});
+  EXPECT_NE(list.find("in 2 of 2 cases"), std::string::npos) << list;
+  EXPECT_NE(list.find("over all errors of law paper: 2 (`oblique`); least at its smallest errors: "
+                      "12 (`oblique`). **at its smallest error**"),
+            std::string::npos)
+      << list;
+  EXPECT_NE(list.find("one default setting: `oblique` holds.\n"), std::string::npos) << list;
+  EXPECT_EQ(list.find("Bounce"), std::string::npos);
 }
 
 // Two errors below what the reference is known to are the same.
 TEST(Claims, CountErrorsBelowTheReferencesOwnAsEqual) {
-  MeasuredCase slide{"slide39_centre", {row("talus", 1, 0.3), row("talus", 9, 0.1)}, {}};
+  MeasuredCase slide{about("slide39_centre"), {row("talus", 1, 0.3), row("talus", 9, 0.1)}, {}};
   slide.rows.push_back(row("paper", 100, 0.2));
   EXPECT_NE(claims_table({slide}).find("| - | - | - | - |"), std::string::npos);  // no answer
   slide.worst = 9;
@@ -122,7 +149,8 @@ TEST(VerifyCases, AreNamedOnceAndEachHasItsDefaultStep) {
 // The whole way of one case: measured, on the front, below its bound, drawn, in the table.
 TEST(Measure, GivesErrorBesideTime) {
   const VerifyCase& c = verify_cases().front();
-  CaseOutcome outcome{&c, {}};
+  MeasuredCase outcome;
+  outcome.about = &c;
   for (const Method& method : methods_of(c, false))
     for (const double dt : method.dt) outcome.rows.push_back(measure(c, method, dt, 0));
   EXPECT_TRUE(holds(outcome));
@@ -135,6 +163,23 @@ TEST(Measure, GivesErrorBesideTime) {
   EXPECT_EQ(svg.find("nan"), std::string::npos);
   EXPECT_NE(svg.find("Pareto front"), std::string::npos);
   EXPECT_NE(summary_table({outcome}).find("`" + c.test + "`"), std::string::npos);
+}
+
+// Law talus at its defaults alone, law paper with its usual stiffness alone; lost where it is.
+TEST(StepsTable, TakesTheUsualSettings) {
+  MeasuredCase one{about("slide_20"), {row("talus", 2e-3, 0.25)}, {}};
+  one.rows[0].dt = 5e-3;
+  one.rows.push_back(row("talus", 1e-3, 0.5));
+  one.rows.back().method = "talus, strains";
+  one.rows.back().dt = 5e-3;
+  for (const double stiffness : {5e8, paper_stiffness}) {
+    one.rows.push_back(row("paper", 1e-3, stiffness == paper_stiffness ? std::nan("") : 0.1));
+    one.rows.back().normal_stiffness = stiffness;
+    one.rows.back().dt = 1e-3;
+  }
+  EXPECT_NE(steps_table({one}).find("| - | - | 0.25 (2) | - | - | lost (1) | - |\n"),
+            std::string::npos)
+      << steps_table({one});
 }
 
 }  // namespace

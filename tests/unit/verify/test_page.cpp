@@ -1,0 +1,71 @@
+// The page of a study.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "base/read_file.hpp"
+#include "verify/page.hpp"
+
+namespace {
+
+using namespace talus;
+
+const std::string source = TALUS_SOURCE_DIR;
+
+bool contains(const std::string& whole, const std::string& part) {
+  return whole.find(part) != std::string::npos;
+}
+
+StabilityRow corner_of(Outcome outcome) {
+  StabilityRow row;
+  row.corner = {"speed", 200, "m/s", "a rock", "", 0, {}};
+  row.outcome = outcome;
+  return row;
+}
+
+TEST(StudyPage, SaysWhatWasRunAndNothingElse) {
+  Study study;
+  study.commit = "0123abc";
+  study.commit_date = "2026-11-25";
+  MeasuredCase measured;
+  measured.about = &verify_cases().front();
+  VerifyRow row;
+  row.method = row.law = "talus";
+  row.dt = Settings{}.dt;
+  measured.rows = {row};
+  study.cases = {measured};
+  std::string page = study_page(study, "diagrams/");
+  EXPECT_TRUE(contains(page, "Commit 0123abc of 2026-11-25"));
+  EXPECT_TRUE(contains(page, "1 of 1 case within their bounds"));
+  EXPECT_TRUE(contains(page, "(diagrams/" + measured.about->name + ".svg)"));
+  for (const char* part : {"## The slide", "## Stability chart", "## Leaving out"})
+    EXPECT_FALSE(contains(page, part)) << part;
+  study.cases[0].rows[0].error = 1;
+  study.corners = {corner_of(Outcome::right), corner_of(Outcome::broken),
+                   corner_of(Outcome::right)};
+  study.omissions.resize(2);
+  study.omissions[0].holds = true;
+  page = study_page(study, "");
+  EXPECT_TRUE(contains(page, "0 of 1 case within their bounds"));
+  EXPECT_TRUE(contains(page, "3 corners: 2 right, 0 inexact, 0 refused, 1 broken."));
+  EXPECT_TRUE(contains(page, "| speed | 200 m/s | a rock | **broken** | - | - |"));
+  EXPECT_TRUE(contains(page, "1 of 2 rows hold"));
+  EXPECT_TRUE(contains(page, "**does not hold**"));
+}
+
+// A test that a case names exists: TEST, TEST_F or TEST_P of that suite and name.
+TEST(VerifyCases, NameTestsThatExist) {
+  std::string sources;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(source + "/tests"))
+    if (entry.path().extension() == ".cpp") sources += read_file(entry.path().string());
+  std::vector<VerifyCase> all = verify_cases();
+  all.insert(all.end(), slide_claims().begin(), slide_claims().end());
+  for (const VerifyCase& c : all) {
+    const std::string name = c.test.substr(c.test.find('/') + 1);  // without its instantiation
+    const auto dot = name.find('.');
+    EXPECT_TRUE(contains(sources, "(" + name.substr(0, dot) + ", " + name.substr(dot + 1) + ")"))
+        << c.test;
+  }
+}
+
+}  // namespace
