@@ -82,32 +82,33 @@ std::string line_of(const MeasuredCase& measured) {
          ratio_text(at_default_step) + " | " + verdict_on_peers(at_default_step, any) + " |\n";
 }
 
-// The smallest of several ratios, and whose it is.
+// The smallest of several ratios, whose it is, and where law paper errs by how much.
 struct Least {
   double ratio = std::numeric_limits<double>::infinity();
-  std::string name;
+  std::string words;
 
-  void look_at(double other, const std::string& of) {
-    if (other < ratio) ratio = other, name = of;
+  void look_at(double other, const VerifyCase& of, double error) {
+    if (other >= ratio) return;
+    ratio = other;
+    words = ratio_text(other) + " (`" + of.name + "`, where it errs by " + text(error, 2) +
+            (of.norm == "m" ? " m)" : ")");
   }
-  [[nodiscard]] std::string words() const { return ratio_text(ratio) + " (`" + name + "`)"; }
 };
 
 std::string words_on(const Target& target, const std::vector<MeasuredCase>& cases) {
   Least over_all, at_best;
   for (const MeasuredCase& measured : cases) {
-    const std::string& name = measured.about->name;
-    if (!is_of(target, name)) continue;
+    if (!is_of(target, measured.about->name)) continue;
     const LawComparison laws = laws_of(measured);
     if (!laws.is_compared) continue;
-    over_all.look_at(laws.least_ratio, name);
-    at_best.look_at(laws.ratio_at_best, name);
+    over_all.look_at(laws.least_ratio, *measured.about, laws.least_at);
+    at_best.look_at(laws.ratio_at_best, *measured.about, laws.best_error);
   }
-  if (over_all.name.empty()) return "";
+  if (over_all.words.empty()) return "";
   return "- " + std::string(target.words) + ": asked, " + text(target.asked) +
          " times less CPU time than law paper at equal error. Least over all errors of law "
          "paper: " +
-         over_all.words() + "; least at its smallest errors: " + at_best.words() + ". **" +
+         over_all.words + "; least at its smallest errors: " + at_best.words + ". **" +
          verdict_on_paper(over_all.ratio, at_best.ratio, target.asked) + "**\n";
 }
 
@@ -117,7 +118,8 @@ std::string words_on_peers(const std::vector<MeasuredCase>& cases) {
     if (!is_asked_of_peers(measured)) continue;
     const double any = peer_ratio(measured, false), at_default_step = peer_ratio(measured, true);
     list += (list.empty() ? " `" : ", `") + measured.about->name + "` " +
-            verdict_on_peers(at_default_step, any);
+            verdict_on_peers(at_default_step, any) + " (" + ratio_text(at_default_step) +
+            " at the default step, " + ratio_text(any) + " at any)";
   }
   if (list.empty()) return "";
   return "- Other engines: asked, no more CPU time than the best of them at equal error, with one "

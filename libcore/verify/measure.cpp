@@ -130,8 +130,11 @@ LawComparison compare_laws(const std::vector<VerifyRow>& rows, double worst) {
   out.is_compared = true;
   out.least_ratio = std::numeric_limits<double>::infinity();
   for (const std::size_t i : front) {  // the last has the smallest error
+    out.best_error = paper[i].error;
     out.ratio_at_best = paper[i].cpu / cheapest(rows, paper[i].error);
-    out.least_ratio = std::min(out.least_ratio, out.ratio_at_best);
+    if (out.ratio_at_best >= out.least_ratio) continue;
+    out.least_ratio = out.ratio_at_best;
+    out.least_at = paper[i].error;
   }
   return out;
 }

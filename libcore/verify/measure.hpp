@@ -78,8 +78,10 @@ struct LawComparison {
   bool is_on_front = false;  ///< a row of law talus is on the front of both
   bool is_compared = false;  ///< law paper has an error that is an answer
   double least_ratio =
-      0;  ///< CPU time of paper over talus at equal error, least over paper's front
+      0;                ///< CPU time of paper over talus at equal error, least over paper's front
+  double least_at = 0;  ///< error of law paper there
   double ratio_at_best = 0;  ///< the same at paper's smallest error
+  double best_error = 0;     ///< that error
 };
 /// `rows`: of one case; those of law paper that err by more than `worst` are not compared. Where
 /// law talus never reaches an error of law paper, the ratios are 0.

@@ -45,7 +45,12 @@ std::string part_on_cases(const Study& study) {
          text(paper_stiffness, 2) +
          " N/m: error, in brackets CPU ms. *lost*: a block went through the ground or left it, or "
          "what was looked for did not happen, which is no answer.\n\n" +
-         steps_table(study.cases);
+         steps_table(study.cases) +
+         (study.full ? "\nThe same with law talus at its default step, one setting changed "
+                       "(`tolerance`: of the solver, on the residual at which contact forces count "
+                       "as found; blocks that touch each other have no strains):\n\n" +
+                           settings_table(study.cases)
+                     : "");
 }
 
 std::string part_on_claims(const Study& study) {

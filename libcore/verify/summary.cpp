@@ -1,6 +1,5 @@
 #include "verify/summary.hpp"
 
-#include <array>
 #include <cmath>
 
 #include "base/text.hpp"
@@ -29,19 +28,43 @@ std::string line_of(const MeasuredCase& measured) {
   return line + " | `" + c.test + "` |\n";
 }
 
-constexpr std::array talus_steps = {5e-2, 1e-2, 5e-3, 1e-3};
-constexpr std::array paper_steps = {1e-2, 1e-3, 1e-4};
+// One way of running a case, at one step.
+struct Column {
+  std::string head;
+  double dt = 0;
+  bool is_paper = false;
+  double stiffness = 0, tolerance_factor = 1;
+  bool strains = false;
+};
 
-// Law paper as its authors use it; strains only where the case asks for them.
-bool is_usual_paper(const VerifyRow& row, const VerifyCase& c) {
-  return row.law == "paper" && row.normal_stiffness == paper_stiffness &&
-         row.strains == c.has_strains;
+bool is_of(const VerifyRow& row, const Column& column, const VerifyCase& c) {
+  return row.dt == column.dt && (row.law == "paper") == column.is_paper &&
+         row.normal_stiffness == column.stiffness &&
+         row.tolerance_factor == column.tolerance_factor &&
+         row.strains == (column.strains || c.has_strains);
 }
 
-std::string cell_of(const VerifyRow* row) {
-  if (!row) return "-";
-  if (!std::isfinite(row->error)) return "lost (" + text(1e3 * row->cpu, 3) + ")";
-  return text(row->error, 2) + " (" + text(1e3 * row->cpu, 3) + ")";
+std::string cell_of(const MeasuredCase& measured, const Column& column) {
+  for (const VerifyRow& row : measured.rows)
+    if (is_of(row, column, *measured.about))
+      return (std::isfinite(row.error) ? text(row.error, 2) : "lost") + " (" +
+             text(1e3 * row.cpu, 3) + ")";
+  return "-";
+}
+
+std::string table_of(const std::vector<MeasuredCase>& cases, const std::vector<Column>& columns) {
+  std::string table = "| Case | Error is", rule = "|---|---";
+  for (const Column& column : columns) {
+    table += " | " + column.head;
+    rule += "|---";
+  }
+  table += " |\n" + rule + "|\n";
+  for (const MeasuredCase& measured : cases) {
+    table += "| `" + measured.about->name + "` | " + measured.about->norm;
+    for (const Column& column : columns) table += " | " + cell_of(measured, column);
+    table += " |\n";
+  }
+  return table;
 }
 
 }  // namespace
@@ -66,34 +89,23 @@ std::string summary_table(const std::vector<MeasuredCase>& cases) {
 }
 
 std::string steps_table(const std::vector<MeasuredCase>& cases) {
-  std::string head = "| Case | Error is", rule = "|---|---";
-  const auto add_steps = [&](const std::string& law, const auto& steps) {
-    std::string name = law + ", ";
-    for (const double dt : steps) {
-      head += " | " + name + text(dt) + " s";
-      rule += "|---";
-      name.clear();
-    }
-  };
-  add_steps("talus", talus_steps);
-  add_steps("paper", paper_steps);
-  std::string table = head + " |\n" + rule + "|\n";
-  for (const MeasuredCase& measured : cases) {
-    const VerifyCase& c = *measured.about;
-    table += "| `" + c.name + "` | " + c.norm;
-    const auto add_cells = [&](const auto& steps, const auto& is_wanted) {
-      for (const double dt : steps) {
-        const VerifyRow* found = nullptr;
-        for (const VerifyRow& row : measured.rows)
-          if (row.dt == dt && is_wanted(row)) found = &row;
-        table += " | " + cell_of(found);
-      }
-    };
-    add_cells(talus_steps, is_default);
-    add_cells(paper_steps, [&c](const VerifyRow& row) { return is_usual_paper(row, c); });
-    table += " |\n";
-  }
-  return table;
+  std::vector<Column> columns;
+  for (const double dt : {5e-2, 1e-2, 5e-3, 1e-3})
+    columns.push_back({"talus, " + text(dt) + " s", dt});
+  for (const double dt : {1e-2, 1e-3, 1e-4})
+    columns.push_back({"paper, " + text(dt) + " s", dt, true, paper_stiffness});
+  return table_of(cases, columns);
+}
+
+std::string settings_table(const std::vector<MeasuredCase>& cases) {
+  const double dt = Settings{}.dt;
+  std::vector<Column> columns = {{"default", dt}};
+  for (const double stiffness : {1e8, 5e10})
+    columns.push_back({"k_n " + text(stiffness) + " N/m", dt, false, stiffness});
+  for (const double factor : {1e-2, 1e2, 1e4})
+    columns.push_back({"tolerance x " + text(factor), dt, false, 0, factor});
+  columns.push_back({"strains", dt, false, 0, 1, true});
+  return table_of(cases, columns);
 }
 
 }  // namespace talus

@@ -1,6 +1,6 @@
 // libcore/verify/summary.hpp
 // Tables of all cases, as Markdown: claim, reference, error, bound, CPU time, test; and errors at
-// several time steps.
+// several time steps and settings.
 #pragma once
 
 #include <string>
@@ -23,5 +23,9 @@ namespace talus {
 /// A line a case: error and CPU time of both laws at several time steps each, law talus with its
 /// defaults, law paper with the stiffness of the paper.
 [[nodiscard]] std::string steps_table(const std::vector<MeasuredCase>& cases);
+
+/// The same of law talus at the default step, one setting changed: stiffness, tolerance of the
+/// solver, strains.
+[[nodiscard]] std::string settings_table(const std::vector<MeasuredCase>& cases);
 
 }  // namespace talus

@@ -96,11 +96,14 @@ TEST(Claims, TakenTogetherAreTheLeastOfEach) {
   other.rows.push_back(row("paper", 1, 0.05));
   const std::string list = claims_list({one, other});
   EXPECT_NE(list.find("in 2 of 2 cases"), std::string::npos) << list;
-  EXPECT_NE(list.find("over all errors of law paper: 2 (`oblique`); least at its smallest errors: "
-                      "12 (`oblique`). **at its smallest error**"),
+  EXPECT_NE(list.find("over all errors of law paper: 2 (`oblique`, where it errs by 0.05); least "
+                      "at its smallest errors: 12 (`oblique`, where it errs by 0.0001). **at its "
+                      "smallest error**"),
             std::string::npos)
       << list;
-  EXPECT_NE(list.find("one default setting: `oblique` holds.\n"), std::string::npos) << list;
+  EXPECT_NE(list.find("one default setting: `oblique` holds (4 at the default step, 4 at any).\n"),
+            std::string::npos)
+      << list;
   EXPECT_EQ(list.find("Bounce"), std::string::npos);
 }
 
@@ -166,20 +169,23 @@ TEST(Measure, GivesErrorBesideTime) {
 }
 
 // Law talus at its defaults alone, law paper with its usual stiffness alone; lost where it is.
-TEST(StepsTable, TakesTheUsualSettings) {
-  MeasuredCase one{about("slide_20"), {row("talus", 2e-3, 0.25)}, {}};
-  one.rows[0].dt = 5e-3;
-  one.rows.push_back(row("talus", 1e-3, 0.5));
-  one.rows.back().method = "talus, strains";
-  one.rows.back().dt = 5e-3;
-  for (const double stiffness : {5e8, paper_stiffness}) {
-    one.rows.push_back(row("paper", 1e-3, stiffness == paper_stiffness ? std::nan("") : 0.1));
-    one.rows.back().normal_stiffness = stiffness;
-    one.rows.back().dt = 1e-3;
-  }
-  EXPECT_NE(steps_table({one}).find("| - | - | 0.25 (2) | - | - | lost (1) | - |\n"),
-            std::string::npos)
-      << steps_table({one});
+TEST(SummaryTables, TakeTheUsualSettings) {
+  MeasuredCase one{about("slide_20"), {}, {}};
+  const auto add = [&one](const std::string& law, double dt, double cpu, double error) -> auto& {
+    one.rows.push_back(row(law, cpu, error));
+    one.rows.back().dt = dt;
+    return one.rows.back();
+  };
+  add("talus", 5e-3, 1e-3, 0.5).strains = true;
+  add("talus", 5e-3, 5e-3, 0.125).tolerance_factor = 100;
+  add("talus", 5e-3, 2e-3, 0.25);
+  add("paper", 1e-3, 1e-3, 0.1).normal_stiffness = 5e8;
+  add("paper", 1e-3, 3e-3, std::nan("")).normal_stiffness = paper_stiffness;
+  const std::string steps = steps_table({one}), settings = settings_table({one});
+  EXPECT_NE(steps.find("| - | - | 0.25 (2) | - | - | lost (3) | - |\n"), std::string::npos)
+      << steps;
+  EXPECT_NE(settings.find("| 0.25 (2) | - | - | - | 0.12 (5) | - | 0.5 (1) |\n"), std::string::npos)
+      << settings;
 }
 
 }  // namespace
