@@ -55,7 +55,8 @@ struct EnsembleReference {
 /// the settings to extrapolate (of one method, from the longest step), two steps at least.
 [[nodiscard]] EnsembleReference reference_of(const std::vector<EnsembleResult>& results);
 
-/// Rows of `case_name` for one quantity: error = distance to the reference [m].
+/// Rows of `case_name` for one quantity: error = distance to the reference [m], NaN
+/// where a block fell through the ground or has no place.
 [[nodiscard]] std::vector<VerifyRow> rows_of(const std::string& case_name, Quantity quantity,
                                              const std::vector<EnsembleResult>& results,
                                              const EnsembleReference& reference);

@@ -72,6 +72,14 @@ TEST(Ensemble, ReferenceIsWhatTheShortestStepsTendTo) {
   EXPECT_NEAR(rows.back().error, 0.1, 1e-12);
 }
 
+TEST(Ensemble, ASettingThatLosesABlockHasNoAnswer) {
+  EnsembleResult lost = result_of("paper", 1e-2, {10, 20, 3}, 0);
+  lost.sums.flags = StepFlag::fell_through;
+  const EnsembleReference reference = reference_of(
+      {result_of("talus", 2e-3, {10, 20, 3}, 0), result_of("talus", 1e-3, {10, 20, 3}, 0)});
+  EXPECT_TRUE(std::isnan(rows_of("slide", Quantity::centre, {lost}, reference)[0].error));
+}
+
 // The scatter of the means is carried to the reference: least squares over steps of 1, 2 and 5 ms,
 // and twice the one mean less the other where there are two.
 TEST(Ensemble, ReferenceKnowsHowFarToBeTrusted) {
