@@ -112,8 +112,8 @@ MeasuredCase study_case(Tool& tool, const Options& o, const VerifyCase& c) {
   return measured;
 }
 
-void study_slide_too(Tool& tool, const Options& o, Study& study) {
-  study.slide = study_slide(shipped_slide(), o.full);
+void study_slide_too(Tool& tool, const Options& o, const ProgressFunction& progress, Study& study) {
+  study.slide = study_slide(shipped_slide(), o.full, progress);
   const std::vector<PeerSlide> peers =
       o.peers.empty() ? std::vector<PeerSlide>{} : read_peer_slides(o.peers);
   for (const MeasuredCase& measured : measured_of(*study.slide, peers)) {
@@ -126,8 +126,20 @@ void study_slide_too(Tool& tool, const Options& o, Study& study) {
   }
 }
 
-void study_stability(Tool& tool, const Options& o, Study& study) {
-  for (const Corner& corner : stability_corners()) study.corners.push_back(run_corner(corner));
+void study_cases(Tool& tool, const Options& o, const ProgressFunction& progress, Study& study) {
+  double done = 0;
+  for (const VerifyCase& c : verify_cases()) {
+    progress(++done / static_cast<double>(verify_cases().size() + 1));
+    if (is_wanted(o, c.name)) study.cases.push_back(study_case(tool, o, c));
+  }
+}
+
+void study_stability(Tool& tool, const Options& o, const ProgressFunction& progress, Study& study) {
+  const std::vector<Corner> corners = stability_corners();
+  for (const Corner& corner : corners) {
+    progress(static_cast<double>(study.corners.size()) / static_cast<double>(corners.size()));
+    study.corners.push_back(run_corner(corner));
+  }
   tool.write_text(o.out + "/stability.csv", stability_csv(study.corners));
   tool.write_text(o.out + "/stability.svg", stability_svg(study.corners));
   const auto n_broken =
@@ -137,9 +149,12 @@ void study_stability(Tool& tool, const Options& o, Study& study) {
 }
 
 // Runs each scene with all kept and as its plan has it.
-void study_leaving_out(Tool& tool, const Options& o, Study& study) {
+void study_leaving_out(Tool& tool, const Options& o, const ProgressFunction& progress,
+                       Study& study) {
   const SlideData slide = shipped_slide();
-  for (const Omission& omission : omissions(slide, o.full)) {
+  const std::vector<Omission> list = omissions(slide, o.full);
+  for (const Omission& omission : list) {
+    progress(static_cast<double>(study.omissions.size()) / static_cast<double>(list.size()));
     const OmissionRow row = compare(omission, o.full ? 5 : 1);
     tool.check(omission.item + ", " + omission.scene, row.apart, row.limit, row.holds);
     study.omissions.push_back(row);
@@ -186,21 +201,20 @@ std::string write_page(Tool& tool, const Options& o, const Study& study) {
 }
 
 void run(Tool& tool, const Options& o) {
-  const ProgressFunction progress = tool.progress();
   Study study;
   study.commit = build_commit;
   study.commit_date = build_commit_date;
   study.machine = processor_name();
   study.command = command_of(o);
   study.full = o.full;
-  double done = 0;
-  for (const VerifyCase& c : verify_cases()) {
-    progress(++done / static_cast<double>(verify_cases().size() + 1));
-    if (is_wanted(o, c.name)) study.cases.push_back(study_case(tool, o, c));
-  }
-  if (is_wanted(o, slide_name)) study_slide_too(tool, o, study);
-  if (o.stability) study_stability(tool, o, study);
-  if (o.leaving_out) study_leaving_out(tool, o, study);
+  const ProgressFunction progress = tool.progress();
+  const auto part = [&progress](int which) {  // of four
+    return [=](double done) { progress((which + done) / 4); };
+  };
+  study_cases(tool, o, part(0), study);
+  if (is_wanted(o, slide_name)) study_slide_too(tool, o, part(1), study);
+  if (o.stability) study_stability(tool, o, part(2), study);
+  if (o.leaving_out) study_leaving_out(tool, o, part(3), study);
   std::vector<VerifyRow> rows;
   Json list = Json::array();
   for (const MeasuredCase& measured : study.cases) {

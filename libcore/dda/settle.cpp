@@ -69,20 +69,55 @@ enum class Settled : std::uint8_t {
   moves    ///< neither, or the forces do not converge
 };
 
+// The system of a step from rest that ends at rest, strains and all. Those have no inertia here:
+// they follow the forces at once, whatever the step, as the block's position does on stiff
+// contacts.
+template <int Dof>
+BlockSystem<Dof> static_system(const Scene& scene, int b, const BlockNumbers& c, const Substep& s,
+                               const State& state) {
+  BlockSystem<Dof> system = make_system<Dof>(scene, b, c, s, state);
+  if constexpr (Dof == 12) {
+    const auto i = static_cast<size_t>(b);
+    const Blocks& blocks = scene.blocks;
+    const Mat6 C = elastic_matrix(blocks.young[i], blocks.poisson[i]);
+    Vec6 rate = state.strain[i];
+    if (!blocks.initial_stress.empty()) rate += C.ldlt().solve(blocks.initial_stress[i]);
+    rate *= -1 / c.recovery_time;
+    system.mass.template topRightCorner<6, 6>().setZero();
+    system.mass.template bottomLeftCorner<6, 6>().setZero();
+    system.mass.template bottomRightCorner<6, 6>() = s.h * c.recovery_time * blocks.volume[i] * C;
+    system.free_velocity << s.R.transpose() * s.free.velocity, s.spin_free, rate;
+    system.velocity.template tail<6>() = rate;
+  }
+  return system;
+}
+
+constexpr double most_margin = 1e-2;  // of the radius: from rest nothing else comes near
+
+// Step of the static iteration [s]. Friction holds back what spreads by straining until the block
+// has slid farther than that, so where it hardly slides short steps come to no end: as long as a
+// free fall takes through the margin.
+template <int Dof>
+double static_step(const Settings& settings, const BlockNumbers& c) {
+  if (Dof == 6 || c.gravity == 0) return settings.dt;
+  return std::sqrt(2 * most_margin * c.radius / c.gravity);
+}
+
 // Static iteration: steps from rest, each ending at rest, until the block moves by less than
 // `still` of its radius, or by the same way as in the step before without turning. What slides is
 // put back by the way that it slid, and its acceleration is known. friction < 0: that of the
 // ground.
+template <int Dof>
 Settled settle(const Scene& scene, int b, double friction, bool from_touch, double still,
                State& state, Work& work) {
-  constexpr int most_passes = 40, first_passes = 5;  // those before the way settles down
-  constexpr double accelerates = 0.9;                // of the pass before: it comes to no end
+  // the first are those before the way settles down, which takes long where strains hold it
+  constexpr int most_passes = Dof == 12 ? 400 : 40, first_passes = Dof == 12 ? 100 : 5;
+  constexpr double accelerates = 0.9;  // of the pass before: it comes to no end
   // What slides goes on until the way changes by less than this, of the radius, or where that is as
   // far as the solver's tolerance lets it come: by less than these, of the way and of the radius.
   constexpr double slides = 1e-11, slides_about = 1e-8, of_way = 1e-5;
-  constexpr double most_margin = 1e-2;  // of the radius: from rest nothing else comes near
   BlockNumbers c = numbers_of(scene, b);
-  const double h = scene.settings.dt;
+  const double h = static_step<Dof>(scene.settings, c);
   c.recovery_time = h / 2;  // from rest, this lands in equilibrium at once as k grows
   Motion& motion = state.motion[static_cast<size_t>(b)];
   StepReport report;
@@ -100,13 +135,18 @@ Settled settle(const Scene& scene, int b, double friction, bool from_touch, doub
       if (friction >= 0) row.friction = friction;
       if (from_touch && pass == 0) row.offset = 0, set_ground_law(scene, c, s, row);
     }
-    BlockSystem<6> system = make_system<6>(scene, b, c, s, state);
+    BlockSystem<Dof> system = static_system<Dof>(scene, b, c, s, state);
     if (!solve_contacts(system, std::span(work.rows), scene.settings.max_passes).converged)
       return Settled::moves;
-    const Solved<6> solved = solved_motion(c, s, system);
+    const Solved<Dof> solved = solved_motion(c, s, system);
     remember(c, s, solved, state, work, b, report);
     const Vec3 way = solved.end.pose.position - motion.pose.position;
-    const double turn = c.radius * solved.end.pose.attitude.angularDistance(motion.pose.attitude);
+    double turn = c.radius * solved.end.pose.attitude.angularDistance(motion.pose.attitude);
+    if constexpr (Dof == 12) {
+      const Vec6 strained = c.recovery_time * system.velocity.template tail<6>();
+      state.strain[static_cast<size_t>(b)] += strained;
+      turn += c.radius * strained.norm();
+    }
     motion.pose = solved.end.pose;
     const double rounding = 1e-15 * motion.pose.position.norm();
     if (way.norm() + turn < still * c.radius + rounding) return Settled::rests;
@@ -137,31 +177,50 @@ void bond_block(const Scene& scene, int b, State& state, Work& work) {
     bond_faces(scene, b, state.motion[i].pose, work, state.memory[i]);
 }
 
-void settle_block(const Scene& scene, int b, State& state, Work& work) {
+namespace {
+
+template <int Dof>
+void settle_block_as(const Scene& scene, int b, State& state, Work& work) {
   const auto i = static_cast<size_t>(b);
   const Motion rest = state.motion[i];
   const EnergyLedger ledger = state.ledger;
   constexpr double sticking = 57;  // tan(89 degrees)
   constexpr double nearly_still = 1e-9, still = 1e-14;
+  const auto strain = [&] { return Dof == 12 ? state.strain[i] : Vec6::Zero().eval(); };
+  const auto set_strain = [&](const Vec6& value) {
+    if (Dof == 12) state.strain[i] = value;
+  };
   if (touches_at_rest(scene, b, rest, work)) {
     state.motion[i].velocity.setZero();
     bond_faces(scene, b, rest.pose, work, state.memory[i]);
-    if (settle(scene, b, sticking, true, nearly_still, state, work) != Settled::rests) {
+    if (settle<Dof>(scene, b, sticking, true, nearly_still, state, work) != Settled::rests) {
       state.motion[i].pose = rest.pose;  // it topples: from where it is
       state.memory[i].clear();
+      set_strain(Vec6::Zero());
     } else if (!rest.velocity.isZero(0)) {  // it moves along the ground: only the overlap is kept
       for (ContactMemory& memory : state.memory[i]) memory.shear.setZero();
     } else {
       const Motion stuck = state.motion[i];
+      const Vec6 stuck_strain = strain();
       const std::vector<ContactMemory> memory = state.memory[i];
-      if (settle(scene, b, -1, false, still, state, work) == Settled::moves) {
+      if (settle<Dof>(scene, b, -1, false, still, state, work) == Settled::moves) {
         state.motion[i] = stuck;  // it slides, not always alike: from where it stuck
         state.memory[i] = memory;
+        set_strain(stuck_strain);
       }
     }
   }
   state.ledger = ledger;
   state.motion[i].velocity = rest.velocity;
+}
+
+}  // namespace
+
+void settle_block(const Scene& scene, int b, State& state, Work& work) {
+  // blocks that touch each other are computed rigid, and which do is not known yet
+  const bool may_meet = scene.settings.block_contacts && n_blocks(scene) > 1;
+  const bool strains = scene.settings.strains && !may_meet;
+  (strains ? settle_block_as<12> : settle_block_as<6>)(scene, b, state, work);
 }
 
 }  // namespace talus

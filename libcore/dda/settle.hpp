@@ -10,7 +10,8 @@ namespace talus {
 
 /// Lets block b, which touches the ground at rest or slides along it, down into static equilibrium,
 /// or into that of sliding where it slides off: its contacts press as they will while it slides,
-/// and State::acceleration is that of sliding. A block that topples or does not touch stays where
+/// and State::acceleration is that of sliding. Strains, where they are computed and no other block
+/// can touch it, are those of that equilibrium. A block that topples or does not touch stays where
 /// it is. Other blocks are not looked at.
 void settle_block(const Scene& scene, int b, State& state, Work& work);
 

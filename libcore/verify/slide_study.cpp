@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <functional>
+#include <numeric>
 
 #include "base/text.hpp"
 
@@ -70,13 +71,20 @@ const std::array<VerifyCase, 3>& slide_claims() {
   return claims;
 }
 
-SlideStudy study_slide(const SlideData& data, bool full) {
+SlideStudy study_slide(const SlideData& data, bool full, const ProgressFunction& progress) {
   SlideStudy out;
-  for (const Method& method : slide_methods(full))
+  const std::vector<Method> methods = slide_methods(full);
+  const auto n_settings = static_cast<double>(
+      std::accumulate(methods.begin(), methods.end(), std::size_t{0},
+                      [](std::size_t n, const Method& m) { return n + m.dt.size(); }));
+  for (const Method& method : methods)
     for (const double dt : method.dt) {
       Settings settings = method.settings;
       settings.dt = dt;
-      const auto scene = [&](std::uint64_t seed) { return slide_scene(data, settings, seed); };
+      const auto scene = [&](std::uint64_t seed) {
+        if (progress) progress(static_cast<double>(out.results.size()) / n_settings);
+        return slide_scene(data, settings, seed);
+      };
       out.results.push_back(
           run_ensemble(scene, slide_runs(method, full), full ? 20 : 4, down_the_slope));
       out.results.back().method = method.name;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/progress.hpp"
 #include "verify/ensemble.hpp"
 #include "verify/peers.hpp"
 
@@ -23,9 +24,10 @@ struct SlideStudy {
   EnsembleReference reference;
   double way = 0;  ///< of the centre, reference [m]
 };
-/// `full`: 96 runs of 20 s a step at the defaults, 8 at other settings, 6 of law paper, ten
-/// minutes; else one of 4 s.
-[[nodiscard]] SlideStudy study_slide(const SlideData& data, bool full);
+/// `full`: 96 runs of 20 s a step at the defaults, 8 at other settings, 6 of law paper, a quarter
+/// of an hour; else one of 4 s. `progress` is called before every run.
+[[nodiscard]] SlideStudy study_slide(const SlideData& data, bool full,
+                                     const ProgressFunction& progress = {});
 
 /// The three quantities as cases; other engines have a centre alone.
 [[nodiscard]] std::vector<MeasuredCase> measured_of(const SlideStudy& study,
