@@ -102,6 +102,7 @@ void check_error(Tool& tool, const MeasuredCase& measured) {
 MeasuredCase study_case(Tool& tool, const Options& o, const VerifyCase& c) {
   MeasuredCase measured;
   measured.about = &c;
+  measured.worst = std::max(useful_error, c.bound);
   const double least_cpu = o.full ? 0.1 : 0.02;
   for (const Method& method : methods_of(c, o.full))
     for (const double dt : method.dt) measured.rows.push_back(measure(c, method, dt, least_cpu));
@@ -165,7 +166,7 @@ void study_leaving_out(Tool& tool, const Options& o, const ProgressFunction& pro
 
 Json as_json(const MeasuredCase& measured) {
   const VerifyRow* own = default_row(measured.rows);
-  const LawComparison laws = compare_laws(measured.rows, measured.worst);
+  const LawComparison laws = laws_of(measured);
   Json json = {{"case", measured.about->name},
                {"claim", measured.about->claim},
                {"error", own ? own->error : std::nan("")},
@@ -243,10 +244,11 @@ int main(int argc, char** argv) {
     if (o.out.empty())
       throw UsageError({"", 0, "--out"}, "no folder is named", "give -o DIR, or --list");
     if (!o.site.site.empty()) {
-      if (!o.cases.empty() || o.quick || o.full || o.stability || o.leaving_out)
+      if (!o.cases.empty() || o.quick || o.full || o.stability || o.leaving_out ||
+          !o.peers.empty() || !o.page.empty())
         throw UsageError({"", 0, "--site"}, "looks at the scene of a site file alone",
-                         "leave out --quick, --full, --stability, --leaving-out and the names of "
-                         "cases");
+                         "leave out --quick, --full, --stability, --leaving-out, --peers, --page "
+                         "and the names of cases");
       if (o.site.files.trn.empty() || o.site.files.blocks.empty())
         throw UsageError({"", 0, "--site"}, "needs a terrain and blocks",
                          "give --trn TRN.tif and --blocks BLOCKS.h5");

@@ -35,23 +35,25 @@ struct Candidate {
   bool strains = false, is_paper = false;
 };
 
+constexpr const char* default_method = "defaults";
+
 // All but the time step.
-bool is_default(const Candidate& c) {
-  return std::isnan(c.normal_stiffness) && !c.strains && !c.is_paper;
-}
+bool is_default(const Candidate& c) { return c.method == default_method; }
 
 // The defaults last, from the longest step: their shortest ones give the reference.
-std::vector<Candidate> candidates(bool with_paper) {
+// `strains`: what the scene's plan keeps.
+std::vector<Candidate> candidates(bool strains, bool with_paper) {
   std::vector<Candidate> list;
   if (with_paper)
     for (const double dt : {1e-3, 2e-4, 1e-4})
-      list.push_back({"law paper, k_n 5e10", dt, 5e10, false, true});
+      list.push_back({"law paper, k_n 5e10", dt, 5e10, strains, true});
   for (const double stiffness : {1e8, 5e10})
     for (const double dt : {2e-2, 1e-2})
-      list.push_back({"k_n " + text(stiffness, 2), dt, stiffness, false});
-  for (const double dt : {2e-2, 1e-2}) list.push_back({"strains", dt, not_given, true});
+      list.push_back({"k_n " + text(stiffness, 2), dt, stiffness, strains});
+  for (const double dt : {2e-2, 1e-2})
+    list.push_back({strains ? "without strains" : "strains", dt, not_given, !strains});
   for (const double dt : {5e-2, 2e-2, 1e-2, 5e-3, 2e-3, 1e-3})
-    list.push_back({"defaults", dt, not_given, false});
+    list.push_back({default_method, dt, not_given, strains});
   return list;
 }
 
@@ -132,7 +134,8 @@ std::string study_site(Tool& tool, const SiteStudyOptions& o, const std::string&
   const Site site = read_site(o.site);
   DdaInputs inputs = read_dda_inputs(tool, site, o.files);
   check_start(tool, site, inputs, o.files, plan_for(site, inputs.parts).block_contacts);
-  const std::vector<Candidate> list = candidates(o.with_paper);
+  const std::vector<Candidate> list =
+      candidates(plan_for(site, inputs.parts).strains, o.with_paper);
   std::vector<EnsembleResult> results;
   const ProgressFunction progress = tool.progress();
   for (const Candidate& c : list) {

@@ -1,7 +1,7 @@
 // libcore/scene/plan.hpp
 // The scene plan: what a run has to compute and what it can leave out, with the reason.
 // in:    the site file, the blocks, the terrain
-// out:   decisions; talus-dda --plan prints them, --plan=full keeps everything on
+// out:   decisions; talus-dda --plan prints them, --plan=full keeps on what a scene can do without
 #pragma once
 
 #include <cstdint>
@@ -50,7 +50,9 @@ inline constexpr double strain_that_matters = 1e-4;
 [[nodiscard]] PlanFacts plan_facts(const Site& site, const BlockSet& blocks, const Trn& trn,
                                    const std::vector<std::uint8_t>& flags);
 
-/// The decisions in a fixed order; with `full` everything that could be left out stays on.
+/// The decisions in a fixed order; with `full` what is left out to save time or space
+/// stays on: strains, contacts of a lone block, searches in flight, sleepers, passages. What the
+/// scene does not have (friction, cohesion, fences, base motion) stays out.
 struct ScenePlan {
   std::vector<PlanItem> items;
   bool strains = false;  ///< 12 degrees of freedom a block instead of 6
@@ -64,7 +66,7 @@ struct ScenePlan {
 };
 [[nodiscard]] ScenePlan make_plan(const PlanFacts& facts, bool full);
 
-/// A line an item: "off  strains (6 degrees of freedom): ...".
+/// A line an item: "off  strains: reason (rule)".
 [[nodiscard]] std::string as_text(const ScenePlan& plan);
 
 }  // namespace talus

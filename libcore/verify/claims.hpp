@@ -14,6 +14,9 @@ namespace talus {
 /// Ratio to law paper that was asked for: 10 on sliding, 50 on bounce and the slide, else 0.
 [[nodiscard]] double asked_of_paper(const std::string& case_name);
 
+/// How law talus stands to law paper, errors below what the reference is known to made equal.
+[[nodiscard]] LawComparison laws_of(const MeasuredCase& measured);
+
 /// CPU time of other engines over that of law talus at equal error, least over the front of their
 /// runs that err by at most `measured.worst`; NaN without such a run, 0 where talus never gets as
 /// close. Of law talus with its default settings and any step, or with the default step alone.

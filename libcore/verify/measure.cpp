@@ -16,16 +16,15 @@ constexpr double least_drawn = 1e-16;
 
 double drawn(double error) { return std::max(error, least_drawn); }
 
-// Smallest CPU time of law talus, defaults but for the step, at an error of at most `error`;
-// infinite where there is none.
+}  // namespace
+
 double cheapest(const std::vector<VerifyRow>& rows, double error) {
   double least = std::numeric_limits<double>::infinity();
   for (const VerifyRow& row : rows)
-    if (is_default(row) && row.error <= error) least = std::min(least, row.cpu);
+    if (is_default(row) && !has(row.flags, StepFlag::deep) && row.error <= error)
+      least = std::min(least, row.cpu);
   return least;
 }
-
-}  // namespace
 
 double median(std::vector<double> values) {
   std::sort(values.begin(), values.end());
@@ -122,7 +121,7 @@ LawComparison compare_laws(const std::vector<VerifyRow>& rows, double worst) {
   std::vector<VerifyRow> paper, both;
   for (const VerifyRow& row : rows) {
     if (row.law == "paper" && row.error <= worst) paper.push_back(row);
-    if (row.law == "paper" || is_default(row)) both.push_back(row);
+    if (row.error <= worst && (row.law == "paper" || is_default(row))) both.push_back(row);
   }
   for (const std::size_t i : pareto_front(both)) out.is_on_front |= both[i].law == "talus";
   const std::vector<std::size_t> front = pareto_front(paper);
@@ -141,7 +140,7 @@ LawComparison compare_laws(const std::vector<VerifyRow>& rows, double worst) {
 
 std::string ratio_text(double ratio) {
   if (std::isnan(ratio)) return "-";
-  return ratio >= 10 ? std::to_string(std::llround(ratio)) : text(ratio, 2);
+  return ratio >= 10 ? std::to_string(std::llround(ratio)) : text(ratio, 3);
 }
 
 namespace {
@@ -176,7 +175,9 @@ Chart work_precision_chart(const std::string& title, const std::vector<VerifyRow
   chart.log_x = chart.log_y = true;
   const std::vector<std::string> colours = {"#c1272d", "#e08a3c", "#8c5a2b", "#b04ba0", "#0057a8",
                                             "#4aa3df", "#2f7d4f", "#7fb13c", "#666666", "#d4b106"};
-  for (const VerifyRow& row : rows) {
+  std::vector<VerifyRow> ordered = rows;  // the defaults have the first colour
+  std::stable_partition(ordered.begin(), ordered.end(), is_default);
+  for (const VerifyRow& row : ordered) {
     auto line = std::find_if(chart.series.begin(), chart.series.end(),
                              [&row](const ChartSeries& s) { return s.name == row.method; });
     if (line == chart.series.end()) {

@@ -73,6 +73,11 @@ struct MeasuredCase {
 /// Whether it is one of law talus with its default settings, whatever the step.
 [[nodiscard]] inline bool is_default(const VerifyRow& row) { return row.method == "talus"; }
 
+/// Smallest CPU time of law talus, defaults but for the step, at an error of at most `error`;
+/// infinite where there is none. Runs whose contacts get so deep that their health is broken do not
+/// count.
+[[nodiscard]] double cheapest(const std::vector<VerifyRow>& rows, double error);
+
 /// How law talus with its default settings, whatever the step, stands to law paper on one case.
 struct LawComparison {
   bool is_on_front = false;  ///< a row of law talus is on the front of both
@@ -83,8 +88,8 @@ struct LawComparison {
   double ratio_at_best = 0;  ///< the same at paper's smallest error
   double best_error = 0;     ///< that error
 };
-/// `rows`: of one case; those of law paper that err by more than `worst` are not compared. Where
-/// law talus never reaches an error of law paper, the ratios are 0.
+/// `rows`: of one case; those that err by more than `worst` are not compared. Where law talus never
+/// reaches an error of law paper, the ratios are 0.
 [[nodiscard]] LawComparison compare_laws(const std::vector<VerifyRow>& rows,
                                          double worst = useful_error);
 

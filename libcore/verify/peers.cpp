@@ -25,6 +25,10 @@ struct PeerTable {
 const std::vector<PeerTable>& peer_tables() {
   static const std::vector<PeerTable> tables = {
       {"slide_20", "sliding.csv", "relerr", {}},
+      {"slide_0", "sliding_friction_angles.csv", "relerr", {{"phi", "0"}}},
+      {"slide_10", "sliding_friction_angles.csv", "relerr", {{"phi", "10"}}},
+      {"slide_25", "sliding_friction_angles.csv", "relerr", {{"phi", "25"}}},
+      {"slide_29.9", "sliding_friction_angles.csv", "relerr", {{"phi", "29.9"}}},
       {"oblique", "oblique.csv", "relerr", {}},
       {"rolling", "rolling.csv", "worst_abs_err_deg", {}},
       {"bounce_face", "bounce.csv", "maxrelerr3", {{"shape", "cube"}, {"cor", "0.7"}}},

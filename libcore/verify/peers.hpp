@@ -1,8 +1,8 @@
 // libcore/verify/peers.hpp
 // What other engines needed on the same cases, from tables measured elsewhere: for the diagrams and
 // one column of the summary.
-// in:    a folder with sliding.csv, oblique.csv, rolling.csv, bounce.csv, free_rotation.csv and
-//        slide39_seeds.csv
+// in:    a folder with sliding.csv, sliding_friction_angles.csv, oblique.csv, rolling.csv,
+//        bounce.csv, free_rotation.csv and slide39_seeds.csv
 #pragma once
 
 #include <string>

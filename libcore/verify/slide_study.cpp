@@ -63,7 +63,7 @@ const std::array<VerifyCase, 3>& slide_claims() {
       made[q].claim = std::string(what[q]) + " hardly hangs on the step";
       made[q].reference = "the shortest steps, extrapolated to none; means of many starts";
       made[q].norm = "m";
-      made[q].test = "SlideOf39Blocks.CentreAgreesBetweenOneAndTenMilliseconds";
+      made[q].test = "SlideOf39Blocks.AnswersAgreeBetweenOneAndTenMilliseconds";
       made[q].bound = 0.8;  // half a per cent of the way of the centre
     }
     return made;
@@ -102,7 +102,7 @@ std::vector<MeasuredCase> measured_of(const SlideStudy& study,
     MeasuredCase one;
     one.about = &slide_claims()[q];
     one.rows = rows_of(one.about->name, static_cast<Quantity>(q), study.results, study.reference);
-    one.worst = useful_error * study.way;
+    one.worst = useful_error * study.way;  // [m]
     one.known_to = study.reference.band[q];
     out.push_back(one);
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "base/error.hpp"
@@ -27,11 +28,47 @@ double total_energy(const Scene& scene, const State& state) {
          l.removed;
 }
 
-// Deepest vertex of a block below the ground, over its radius.
+// How deep a point is inside part p of a block, from the nearest face; 0 outside. Body axes.
+double inside_of(const Shapes& shapes, int p, const Vec3& X) {
+  double depth = std::numeric_limits<double>::infinity();
+  for (int f = shapes.face_begin[static_cast<std::size_t>(p)];
+       f < shapes.face_begin[static_cast<std::size_t>(p) + 1]; ++f) {
+    const ShapeFace& face = shapes.faces[static_cast<std::size_t>(f)];
+    depth = std::min(depth, face.offset - face.normal.dot(X));
+  }
+  return std::max(0.0, depth);
+}
+
+// Deepest point of the ground inside the block: peaks and ridges under its faces, which no vertex
+// sees. Looks at nodes and at points between them, a quarter of a cell apart or a twelfth of the
+// block.
+double ground_inside(const Run& run, int b, const Pose& pose) {
+  const Shapes& shapes = run.scene.blocks.shapes;
+  const Trn& trn = run.scene.ground.trn;
+  const double radius = shapes.radius[static_cast<std::size_t>(b)];
+  const double apart = trn.cell_size * std::max(0.25, std::ceil(radius / 6 / trn.cell_size));
+  const auto first = [&](double centre, double node) {
+    return node + std::ceil((centre - radius - node) / apart) * apart;
+  };
+  const Vec3& c = pose.position;
+  double deepest = 0;
+  for (double y = first(c.y(), trn.node0.y()); y <= c.y() + radius; y += apart)
+    for (double x = first(c.x(), trn.node0.x()); x <= c.x() + radius; x += apart) {
+      const double z = elevation_at(trn, x, y);
+      if (!(std::abs(z - c.z()) < radius)) continue;
+      const Vec3 X = pose.attitude.conjugate() * (Vec3(x, y, z) - c);
+      for (int p = shapes.part_begin[static_cast<std::size_t>(b)];
+           p < shapes.part_begin[static_cast<std::size_t>(b) + 1]; ++p)
+        deepest = std::max(deepest, inside_of(shapes, p, X));
+    }
+  return deepest;
+}
+
+// Deepest vertex of a block below the ground, or ground in the block, over its radius.
 double depth_of(const Run& run, int b) {
   const Shapes& shapes = run.scene.blocks.shapes;
   const Pose pose = run.motion(b).pose;
-  double deepest = 0;
+  double deepest = ground_inside(run, b, pose);
   for (const Vec3& vertex : vertices_of(shapes, b)) {
     const Vec3 at = pose.position + pose.attitude * vertex;
     const double ground = elevation_at(run.scene.ground.trn, at.x(), at.y());
@@ -55,6 +92,7 @@ Seen watch(Run& run, double duration) {
     const double now = total_energy(run.scene, run.state);
     const EnergyLedger& l = run.state.ledger;
     seen.finite = std::isfinite(now) && !has(run.result.flags, StepFlag::not_finite);
+    seen.left |= has(run.result.flags, StepFlag::left_domain);
     seen.gain = std::max(seen.gain, (now - start) / (scale + l.friction + l.impact));
     for (std::size_t b = 0; b < blocks.mass.size(); ++b)
       seen.depth = std::max(seen.depth, depth_of(run, static_cast<int>(b)));
@@ -226,7 +264,7 @@ void add_throws(std::vector<Corner>& corners) {
 Seen on_feet(double ratio) {
   const double small = 0.1, large = small * std::cbrt(ratio), at = large / 2;
   std::vector<Body> bodies = {body_of(box(Vec3(-at, -at, small), Vec3(at, at, small + large)))};
-  const double out = ratio > 30 ? at - small : small;  // feet of a light one stand apart
+  const double out = at - small;
   for (const double x : {-out, out})
     for (const double y : {-out, out})
       bodies.push_back(body_of(
@@ -307,7 +345,7 @@ std::string text_of(Outcome outcome) {
 
 Outcome judge(const Corner& corner, const Seen& seen) {
   if (!seen.refusal.empty()) return Outcome::refused;
-  if (!seen.finite || !(seen.gain <= gain_limit) || !(seen.depth <= deep_share))
+  if (!seen.finite || seen.left || !(seen.gain <= gain_limit) || !(seen.depth <= deep_share))
     return Outcome::broken;
   if (seen.depth <= depth_limit && (corner.norm.empty() || seen.error <= corner.tolerance))
     return Outcome::right;

@@ -24,9 +24,11 @@ enum class Outcome {
 struct Seen {
   double error = 0;  ///< in the corner's norm; 0 where it has no closed form
   bool finite = true;
-  double gain = 0;      ///< energy that the numbers added, largest, over the energy in play [-]
-  double depth = 0;     ///< deepest vertex below the ground over the block's radius [-]
+  double gain = 0;  ///< energy that the numbers added, largest, over the energy in play [-]
+  double depth =
+      0;  ///< deepest vertex below the ground, or ground in the block, over its radius [-]
   std::string refusal;  ///< message of the error that refused it; empty: it ran
+  bool left = false;    ///< a block left the terrain, so the rest was not seen
 };
 
 /// One place of the chart.

@@ -53,6 +53,7 @@ TEST(Judge, SeesWhatMustNotHappen) {
   EXPECT_EQ(judge(corner, {5e-4, true, 0, 0.05, ""}), Outcome::inexact);
   EXPECT_EQ(judge(corner, {5e-4, true, 0, 0.2, ""}), Outcome::broken);
   EXPECT_EQ(judge(corner, {std::nan(""), true, 0, 0, ""}), Outcome::broken);
+  EXPECT_EQ(judge(corner, {0, true, 0, 0, "", true}), Outcome::broken);
   EXPECT_EQ(judge(corner, {0, true, 0, 0, "no"}), Outcome::refused);
 }
 

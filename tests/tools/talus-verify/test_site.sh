@@ -44,7 +44,17 @@ talus-blocks close.toml --trn slope.tif -o close.h5 -q --no-db
 expect 1 talus-verify --site close.toml --trn slope.tif --blocks close.h5 --runs 2 --no-db -o close
 says "1 pair overlaps: block 0 and block 1 by"
 
+# where the plan keeps strains the reference has them, and going without them is one of the settings
+sed 's/^density_kg_m3 = 2600/&\nyoung_modulus_pa = 1e7/' site.toml >soft.toml
+grep -q '^young_modulus_pa = 1e7' soft.toml || fail "no soft site"
+expect 0 talus-verify --site soft.toml --trn slope.tif --blocks blocks.h5 --runs 2 --no-db -o soft --tolerance 5%
+grep -q '^site_centre,talus,36,0.001,0,' soft/site.csv || fail "the reference of soft blocks has no strains"
+grep -q '^site_centre,talus,18,0.01,0,' soft/site.csv || fail "soft blocks were not tried without strains"
+prints "| without strains |"
+
 expect 2 study -o bad --quick
+says "looks at the scene of a site file alone"
+expect 2 study -o bad --page page.md
 says "looks at the scene of a site file alone"
 expect 2 study -o bad --tolerance much
 says "expected a share above 0"
