@@ -80,9 +80,12 @@ BlockSystem<Dof> static_system(const Scene& scene, int b, const BlockNumbers& c,
     const auto i = static_cast<size_t>(b);
     const Blocks& blocks = scene.blocks;
     const Mat6 C = elastic_matrix(blocks.young[i], blocks.poisson[i]);
-    Vec6 rate = state.strain[i];
-    if (!blocks.initial_stress.empty()) rate += C.ldlt().solve(blocks.initial_stress[i]);
-    rate *= -1 / c.recovery_time;
+    Vec6 stress = C * state.strain[i];
+    if (!blocks.initial_stress.empty()) stress += blocks.initial_stress[i];
+    for (const PointLoad& load : scene.loads)
+      if (load.block == b)
+        stress -= strain_load(load.point, s.R.transpose() * load.force) / blocks.volume[i];
+    const Vec6 rate = C.ldlt().solve(stress) / -c.recovery_time;
     system.mass.template topRightCorner<6, 6>().setZero();
     system.mass.template bottomLeftCorner<6, 6>().setZero();
     system.mass.template bottomRightCorner<6, 6>() = s.h * c.recovery_time * blocks.volume[i] * C;
@@ -110,7 +113,7 @@ double static_step(const Settings& settings, const BlockNumbers& c) {
 template <int Dof>
 Settled settle(const Scene& scene, int b, double friction, bool from_touch, double still,
                State& state, Work& work) {
-  // the first are those before the way settles down, which takes long where strains hold it
+  // the first are those before the way settles down, which takes long where friction holds strains
   constexpr int most_passes = Dof == 12 ? 400 : 40, first_passes = Dof == 12 ? 100 : 5;
   constexpr double accelerates = 0.9;  // of the pass before: it comes to no end
   // What slides goes on until the way changes by less than this, of the radius, or where that is as
@@ -163,6 +166,9 @@ Settled settle(const Scene& scene, int b, double friction, bool from_touch, doub
       return Settled::slides;
     }
     if (pass >= first_passes && change > accelerates * change_before) return Settled::moves;
+    // so many passes would let it fall over or slide away
+    const double most_way = (friction >= 0 ? 0.1 : 0.5) * c.radius;
+    if (Dof == 12 && (motion.pose.position - begin).norm() > most_way) return Settled::moves;
     way_before = way;
     change_before = change;
   }

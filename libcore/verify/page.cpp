@@ -1,7 +1,6 @@
 #include "verify/page.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include "base/text.hpp"
 #include "scene/plan.hpp"
@@ -12,16 +11,12 @@ namespace talus {
 namespace {
 
 std::string head_of(const Study& study) {
-  return "# Verification\n"
-         "What is claimed, against what is known exactly, and what it costs. This page is written "
-         "by "
-         "`" +
+  return "# Verification\nWhat is claimed, against what is known exactly, and what it costs. This "
+         "page is written by `" +
          study.command +
          "`, all of it; change the program, not the page. What was measured by other means stands "
-         "in "
-         "[measurements](measurements.md), what was observed in the field beside what is simulated "
-         "in [validation](validation.md).\n\n"
-         "Commit " +
+         "in [measurements](measurements.md), what was observed in the field beside what is "
+         "simulated in [validation](validation.md).\n\nCommit " +
          study.commit + " of " + study.commit_date + ", " + study.machine + ", " +
          (study.full ? "full" : "quick") +
          " study. Times are processor time of the start and all steps of a case, one core; set-up "
@@ -34,12 +29,11 @@ std::string part_on_cases(const Study& study, const std::string& pictures) {
     n_run += default_row(measured.rows) ? 1 : 0;
     n_held += holds(measured) ? 1 : 0;
   }
-  return "\n## All cases\n"
-         "Law talus at its default settings and its default step of " +
+  return "\n## All cases\nLaw talus at its default settings and its default step of " +
          text(Settings{}.dt) +
          " s: one setting for all. Law paper where it errs least, of all its steps and "
-         "stiffnesses. `Verify/EachCase.IsWithinItsBound` holds every error below its bound "
-         "(of the slide: the test named), the test named looks at it more closely. " +
+         "stiffnesses. `Verify/EachCase.IsWithinItsBound` holds every error below its bound (of "
+         "the slide: the test named), the test named looks at it more closely. " +
          std::to_string(n_held) + " of " + counted(n_run, "case") + " within their bounds.\n\n" +
          summary_table(study.cases) +
          "\nThe same at several steps, law talus at its defaults, law paper at k_n = " +
@@ -56,30 +50,24 @@ std::string part_on_cases(const Study& study, const std::string& pictures) {
 }
 
 std::string part_on_claims(const Study& study) {
-  return "\n## CPU time at equal error\n"
-         "For each error of law paper on its own front, its CPU time over that of the cheapest "
-         "step "
-         "of law talus that errs no more, all else at its default; above 1 law talus takes less, "
-         "0: "
-         "it never gets as close. Errors of " +
+  return "\n## CPU time at equal error\nFor each error of law paper on its own front, its CPU time "
+         "over that of the cheapest step of law talus that errs no more, all else at its default; "
+         "above 1 law talus takes less, 0: it never gets as close. Errors of " +
          text(useful_error) +
          " and above (of the slide: that share of its way; of a case with a wider bound: that) are "
-         "no "
-         "answers and not compared, nor are steps of law talus at which contacts get deeper than a "
-         "tenth of a block (flag `deep`); errors "
-         "of the slide within the uncertainty of its reference count as equal to it. Other engines "
-         "were measured elsewhere, on another core: figures beside theirs are ratios of two "
-         "machines.\n\n" +
+         "no answers and not compared, nor are steps of law talus at which contacts get deeper "
+         "than a tenth of a block (flag `deep`); errors of the slide within the uncertainty of its "
+         "reference count as equal to it. Other engines were measured elsewhere, on another core: "
+         "figures beside theirs are ratios of two machines.\n\n" +
          (study.full ? "" : "A quick study has two steps a law: its ratios say little.\n\n") +
          claims_list(study.cases) + "\n" + claims_table(study.cases);
 }
 
 std::string part_on_diagrams(const Study& study, const std::string& pictures) {
   std::string part =
-      "\n## Work-precision diagrams\n"
-      "Error against CPU time, both logarithmic, a curve a method; black rings are on the Pareto "
-      "front of both laws, pale points are other engines. Errors below 1e-16 are drawn there.\n\n"
-      "| | |\n|---|---|\n";
+      "\n## Work-precision diagrams\nError against CPU time, both logarithmic, a curve a method; "
+      "black rings are on the Pareto front of both laws, pale points are other engines. Errors "
+      "below 1e-16 are drawn there.\n\n| | |\n|---|---|\n";
   for (std::size_t i = 0; i < study.cases.size(); ++i) {
     const std::string& name = study.cases[i].about->name;
     part += "| ![" + name + "](" + pictures + name + ".svg) ";
@@ -89,23 +77,19 @@ std::string part_on_diagrams(const Study& study, const std::string& pictures) {
 }
 
 std::string part_on_slide(const SlideStudy& slide) {
-  return "\n## The slide of 39 blocks\n"
-         "It has no closed form. Its starts differ by 1 mm/s; what is compared are means of many: "
-         "the mean place of the rock, the place that nine tenths of it stay before, and its "
-         "spread, "
-         "± standard error; never the toe of one run. The reference is the line through the means "
-         "of the three shortest steps, at a step of nothing (Richardson's extrapolation, first "
-         "order); its uncertainty is its standard error and the distance of the two shortest steps "
-         "from it, together.\n\n" +
+  return "\n## The slide of 39 blocks\nIt has no closed form. Its starts differ by 1 mm/s; what is "
+         "compared are means of many: the mean place of the rock, the place that nine tenths of it "
+         "stay before, and its spread, ± standard error; never the toe of one run. The reference "
+         "is the line through the means of the three shortest steps, at a step of nothing "
+         "(Richardson's extrapolation, first order); its uncertainty is its standard error and the "
+         "distance of the two shortest steps from it, together.\n\n" +
          slide_table(slide);
 }
 
 std::string part_on_corners(const Study& study, const std::string& pictures) {
   std::string part =
-      "\n## Stability chart\n"
-      "What is varied, over its range, all else at its default. *Right*: finite, the numbers add "
-      "no "
-      "more than " +
+      "\n## Stability chart\nWhat is varied, over its range, all else at its default. *Right*: "
+      "finite, the numbers add no more than " +
       text(100 * gain_limit) +
       " % to the energy in play, no vertex deeper in the ground and no ground deeper in the block "
       "than " +
@@ -116,8 +100,7 @@ std::string part_on_corners(const Study& study, const std::string& pictures) {
       std::string("stability chart](") + pictures + "stability.svg)\n\n" +
       corner_counts(study.corners) + " Numbers: [stability.csv](" + pictures +
       "stability.csv).\n\n| Varied | Value | Scene | It is | Error | Tolerance | Energy added / in "
-      "play | Depth / "
-      "radius |\n|---|---|---|---|---|---|---|---|\n";
+      "play | Depth / radius |\n|---|---|---|---|---|---|---|---|\n";
   for (const StabilityRow& row : study.corners) {
     const Corner& c = row.corner;
     const bool is_known = !c.norm.empty();
@@ -150,19 +133,16 @@ std::string table_of_rules() {
 std::string part_on_omissions(const Study& study) {
   const auto n_held = std::count_if(study.omissions.begin(), study.omissions.end(),
                                     [](const OmissionRow& row) { return row.holds; });
-  return "\n## Leaving out\n"
-         "What a scene does not need is left out by these rules; `talus-dda --plan` prints the "
-         "reason for a scene of your own.\n\n" +
+  return "\n## Leaving out\nWhat a scene does not need is left out by these rules; `talus-dda "
+         "--plan` prints the reason for a scene of your own.\n\n" +
          table_of_rules() +
          "\nScenes with an item kept and left out, CPU times of the start and all steps (medians, "
          "in turn), and how far the blocks end apart. The first rows are six scenes with the plan "
          "of `talus-dda` and with the full one (*all but strains*: both with the strains of the "
          "plan). Allowed: the same bits where nothing is approximated; 1e-9 m where blocks sleep "
-         "or "
-         "a strength of nothing has to break first; 1e-11 and 1e-12 m for a friction and a motion "
-         "of "
-         "nothing; 1e-5 of the way for edges of a plane, which bear a part of the weight when they "
-         "are looked at; a share of " +
+         "or a strength of nothing has to break first; 1e-11 and 1e-12 m for a friction and a "
+         "motion of nothing; 1e-5 of the way for edges of a plane, which bear a part of the weight "
+         "when they are looked at; a share of " +
          text(strain_that_matters) +
          " of the way for strains; where a last bit ends metres away, means of many starts within "
          "three standard errors. Each row is a test, `Plan/LeavingOut.ChangesNoMoreThanItMay`, the "

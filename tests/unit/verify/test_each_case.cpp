@@ -3,6 +3,7 @@
 
 #include <ostream>
 #include <string>
+#include <vector>
 
 #include "verify/verify_cases.hpp"
 
@@ -26,13 +27,32 @@ std::string name_of(const testing::TestParamInfo<VerifyCase>& info) {
 }
 INSTANTIATE_TEST_SUITE_P(Verify, EachCase, testing::ValuesIn(verify_cases()), name_of);
 
-TEST_P(EachCase, IsWithinItsBound) {
-  const cases::CaseResult result = GetParam().run({});
-  EXPECT_LT(result.error, GetParam().bound) << GetParam().norm;
+void expect_within_bound(const VerifyCase& c, const Settings& settings) {
+  const cases::CaseResult result = c.run(settings);
+  EXPECT_LT(result.error, c.bound) << c.norm;
   EXPECT_EQ(result.unconverged, 0);
   for (const StepFlag lost :
        {StepFlag::not_finite, StepFlag::left_domain, StepFlag::fell_through, StepFlag::deep})
     EXPECT_FALSE(has(result.flags, lost));
+}
+
+TEST_P(EachCase, IsWithinItsBound) { expect_within_bound(GetParam(), {}); }
+
+// Blocks that touch each other are computed rigid.
+class EachCaseOfOneBlock : public EachCase {};
+
+std::vector<VerifyCase> cases_of_one_block() {
+  std::vector<VerifyCase> list = verify_cases();
+  std::erase_if(list, [](const VerifyCase& c) { return c.n_blocks > 1; });
+  return list;
+}
+INSTANTIATE_TEST_SUITE_P(Verify, EachCaseOfOneBlock, testing::ValuesIn(cases_of_one_block()),
+                         name_of);
+
+TEST_P(EachCaseOfOneBlock, IsWithinItsBoundWithStrains) {
+  Settings settings;
+  settings.strains = true;
+  expect_within_bound(GetParam(), settings);
 }
 
 }  // namespace
