@@ -8,7 +8,7 @@ each alone, on the 5 m terrain that comes with the data. That terrain is interpo
 rolling blocks, so only distributions are compared. Two sets of parameters: from the literature, with
 nothing fitted; and the best of a grid over friction angle and COR, which is also fitted to one half of
 the runs and held against the other. Writes tschamut.csv (all settings), tschamut.svg (distributions)
-and prints the table of docs/verification.md.
+and prints the table of docs/validation.md.
 """
 import argparse
 import csv
@@ -18,7 +18,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-LITERATURE = (30.0, 0.30)  # friction [degrees], COR; docs/verification.md says from where
+LITERATURE = (30.0, 0.30)  # friction [degrees], COR; docs/validation.md says from where
 FRICTIONS_DEG = (15, 17.5, 20, 22.5, 25, 30, 35, 40)
 CORS = (0.05, 0.15, 0.3, 0.45)
 DENSITY_KG_M3 = 2650
