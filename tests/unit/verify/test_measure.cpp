@@ -42,6 +42,22 @@ TEST(CompareLaws, TakesCpuTimeAtEqualError) {
   EXPECT_FALSE(compare_laws({row("talus", 1, 0.5), row("paper", 1, 0.5)}).is_compared);
 }
 
+TEST(CompareLaws, FrontIsOfAnswersAlone) {
+  EXPECT_FALSE(compare_laws({row("talus", 10, 1e-2), row("paper", 1, 1e-3)}).is_on_front);
+  // the cheapest of all, but no answer
+  EXPECT_FALSE(compare_laws({row("talus", 0.1, 5), row("talus", 10, 1e-2), row("paper", 1, 1e-3)})
+                   .is_on_front);
+}
+
+// Runs whose contacts get too deep break their health: they are no answers.
+TEST(Cheapest, DoesNotCountDeepRuns) {
+  std::vector<VerifyRow> rows = {row("talus", 1, 1e-3), row("talus", 5, 1e-3)};
+  EXPECT_DOUBLE_EQ(cheapest(rows, 1e-3), 1);
+  rows[0].flags = StepFlag::deep;
+  EXPECT_DOUBLE_EQ(cheapest(rows, 1e-3), 5);
+  EXPECT_TRUE(std::isinf(cheapest(rows, 1e-4)));
+}
+
 // A case of that name about which nothing else is said.
 const VerifyCase* about(const std::string& name) {
   static std::deque<VerifyCase> named;
