@@ -267,8 +267,8 @@ struct NearRidge {
   // Whether the block's edge between two vertices is above one of the planes beside the ridge.
   [[nodiscard]] bool is_cleared_by(const Vec3& a, const Vec3& b) const {
     const Vec3& at = ridge.end_a;
-    const int left_of = is_above(left, at, a, clear) & is_above(left, at, b, clear);
-    const int right_of = is_above(right, at, a, clear) & is_above(right, at, b, clear);
+    const int left_of = int{is_above(left, at, a, clear)} & int{is_above(left, at, b, clear)};
+    const int right_of = int{is_above(right, at, a, clear)} & int{is_above(right, at, b, clear)};
     return !blunt && (left_of | right_of) != 0;
   }
 };
@@ -350,7 +350,7 @@ std::uint64_t near_edges(const FeatureSearch& s, const NearRidge& ridge,
     const ShapeEdge& edge = edges[static_cast<size_t>(i)];
     const Vec3 &a = s.vertices[static_cast<size_t>(edge.a)],
                &b = s.vertices[static_cast<size_t>(edge.b)];
-    const int is_high = (a.z() > ridge.height) & (b.z() > ridge.height);
+    const int is_high = int{a.z() > ridge.height} & int{b.z() > ridge.height};
     near |= std::uint64_t{(is_high | ridge.is_cleared_by(a, b)) == 0} << i;
   }
   return near;
