@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "contact/search.hpp"
 #include "dda/lone_substep.hpp"
@@ -106,6 +107,52 @@ double static_step(const Settings& settings, const BlockNumbers& c) {
   return std::sqrt(2 * most_margin * c.radius / c.gravity);
 }
 
+// A step of the static iteration.
+struct StaticPass {
+  Vec3 way = Vec3::Zero();       // of the centroid [m]
+  double turn = 0;               // by turning and straining, at the block's radius [m]
+  bool sticks = false;           // some contact does
+  Vec3 velocity = Vec3::Zero();  // that the step would have ended with [m/s]
+};
+
+// From rest for h, with the contacts that it meets; none where they do not converge. `work.rows` is
+// empty where it meets none. friction < 0: that of the ground.
+template <int Dof>
+std::optional<StaticPass> static_pass(const Scene& scene, int b, const BlockNumbers& c, double h,
+                                      double friction, bool from_touch, State& state, Work& work) {
+  const auto i = static_cast<size_t>(b);
+  Motion& motion = state.motion[i];
+  const Substep s = predict(scene, b, c, motion, 0, h);
+  (void)find_contacts(scene.ground, scene.blocks.shapes, b, s.free.pose, stretch_of(state, b),
+                      std::min(search_margin(c, h), most_margin * c.radius), work.world_vertices,
+                      work.contacts);
+  make_rows(scene, b, c, s, state, work);
+  if (work.rows.empty()) return StaticPass{};
+  for (ContactRow& row : work.rows) {
+    if (friction >= 0) row.friction = friction;
+    if (from_touch) row.offset = 0, set_ground_law(scene, c, s, row);
+  }
+  BlockSystem<Dof> system = static_system<Dof>(scene, b, c, s, state);
+  if (!solve_contacts(system, std::span(work.rows), scene.settings.max_passes).converged)
+    return std::nullopt;
+  const Solved<Dof> solved = solved_motion(c, s, system);
+  StepReport report;
+  remember(c, s, solved, state, work, b, report);
+  StaticPass pass;
+  pass.way = solved.end.pose.position - motion.pose.position;
+  pass.turn = c.radius * solved.end.pose.attitude.angularDistance(motion.pose.attitude);
+  if constexpr (Dof == 12) {
+    const Vec6 strained = c.recovery_time * system.velocity.template tail<6>();
+    state.strain[i] += strained;
+    pass.turn += c.radius * strained.norm();
+  }
+  pass.sticks = std::any_of(work.rows.begin(), work.rows.end(),
+                            [](const ContactRow& row) { return row.state == ContactState::stick; });
+  pass.velocity = solved.end.velocity;
+  motion.pose = solved.end.pose;
+  return pass;
+}
+
 // Static iteration: steps from rest, each ending at rest, until the block moves by less than
 // `still` of its radius, or by the same way as in the step before without turning. What slides is
 // put back by the way that it slid, and its acceleration is known. friction < 0: that of the
@@ -122,53 +169,31 @@ Settled settle(const Scene& scene, int b, double friction, bool from_touch, doub
   BlockNumbers c = numbers_of(scene, b);
   const double h = static_step<Dof>(scene.settings, c);
   c.recovery_time = h / 2;  // from rest, this lands in equilibrium at once as k grows
-  Motion& motion = state.motion[static_cast<size_t>(b)];
-  StepReport report;
-  const Vec3 begin = motion.pose.position;
+  Vec3& position = state.motion[static_cast<size_t>(b)].pose.position;
+  const Vec3 begin = position;
   Vec3 way_before = Vec3::Zero();
   double change_before = 0;
-  for (int pass = 0; pass < most_passes; ++pass) {
-    const Substep s = predict(scene, b, c, motion, 0, h);
-    (void)find_contacts(scene.ground, scene.blocks.shapes, b, s.free.pose, stretch_of(state, b),
-                        std::min(search_margin(c, h), most_margin * c.radius), work.world_vertices,
-                        work.contacts);
-    make_rows(scene, b, c, s, state, work);
+  for (int n = 0; n < most_passes; ++n) {
+    const std::optional<StaticPass> pass =
+        static_pass<Dof>(scene, b, c, h, friction, from_touch && n == 0, state, work);
+    if (!pass) return Settled::moves;
     if (work.rows.empty()) return Settled::rests;
-    for (ContactRow& row : work.rows) {
-      if (friction >= 0) row.friction = friction;
-      if (from_touch && pass == 0) row.offset = 0, set_ground_law(scene, c, s, row);
-    }
-    BlockSystem<Dof> system = static_system<Dof>(scene, b, c, s, state);
-    if (!solve_contacts(system, std::span(work.rows), scene.settings.max_passes).converged)
-      return Settled::moves;
-    const Solved<Dof> solved = solved_motion(c, s, system);
-    remember(c, s, solved, state, work, b, report);
-    const Vec3 way = solved.end.pose.position - motion.pose.position;
-    double turn = c.radius * solved.end.pose.attitude.angularDistance(motion.pose.attitude);
-    if constexpr (Dof == 12) {
-      const Vec6 strained = c.recovery_time * system.velocity.template tail<6>();
-      state.strain[static_cast<size_t>(b)] += strained;
-      turn += c.radius * strained.norm();
-    }
-    motion.pose = solved.end.pose;
-    const double rounding = 1e-15 * motion.pose.position.norm();
-    if (way.norm() + turn < still * c.radius + rounding) return Settled::rests;
-    const bool sticks = std::any_of(work.rows.begin(), work.rows.end(), [](const ContactRow& row) {
-      return row.state == ContactState::stick;
-    });
-    const double change = (sticks ? way.norm() : (way - way_before).norm()) + turn;
+    const Vec3& way = pass->way;
+    const double rounding = 1e-15 * position.norm();
+    if (way.norm() + pass->turn < still * c.radius + rounding) return Settled::rests;
+    const double change = (pass->sticks ? way.norm() : (way - way_before).norm()) + pass->turn;
     const bool comes_nearer = change < change_before / 2 && change > slides * c.radius + rounding;
-    if (!sticks && !comes_nearer &&
+    if (!pass->sticks && !comes_nearer &&
         change < std::min(of_way * way.norm(), slides_about * c.radius) + rounding) {
       const Vec3 along = way.normalized();
-      motion.pose.position -= along.dot(motion.pose.position - begin) * along;
-      state.acceleration[static_cast<size_t>(b)] = solved.end.velocity / h;
+      position -= along.dot(position - begin) * along;
+      state.acceleration[static_cast<size_t>(b)] = pass->velocity / h;
       return Settled::slides;
     }
-    if (pass >= first_passes && change > accelerates * change_before) return Settled::moves;
+    if (n >= first_passes && change > accelerates * change_before) return Settled::moves;
     // so many passes would let it fall over or slide away
     const double most_way = (friction >= 0 ? 0.1 : 0.5) * c.radius;
-    if (Dof == 12 && (motion.pose.position - begin).norm() > most_way) return Settled::moves;
+    if (Dof == 12 && (position - begin).norm() > most_way) return Settled::moves;
     way_before = way;
     change_before = change;
   }
