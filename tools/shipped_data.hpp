@@ -1,5 +1,6 @@
 // tools/shipped_data.hpp
-// Data files (of share/, of tools/report/) as they were when the tool was built.
+// Data files (of share/, of tools/report/, the page of talus-verify) as they were when the tool was
+// built.
 #pragma once
 
 #include <string>

@@ -86,7 +86,8 @@ bool is_wanted(const Options& o, const std::string& name) {
 // --- the study ---------------------------------------------------------------------------------
 
 SlideData shipped_slide() {
-  return read_slide(shipped_data("terrain_F.asc"), shipped_data("blocks_39.obj"));
+  return read_slide(shipped_data("tests/data/terrain_F.asc"),
+                    shipped_data("tests/data/blocks_39.obj"));
 }
 
 void draw(Tool& tool, const Options& o, const Chart& chart, const std::string& name) {
@@ -197,7 +198,8 @@ std::string write_page(Tool& tool, const Options& o, const Study& study) {
   const std::string page = o.page.empty() ? o.out + "/verification.md" : o.page;
   const fs::path diagrams = fs::absolute(o.out).lexically_normal().lexically_relative(
       fs::absolute(page).lexically_normal().parent_path());
-  tool.write_text(page, study_page(study, diagrams == "." ? "" : diagrams.string() + "/"));
+  tool.write_text(page, study_page(shipped_data("libcore/verify/page.md.in"), study,
+                                   diagrams == "." ? "" : diagrams.string() + "/"));
   return page;
 }
 
@@ -225,8 +227,8 @@ void run(Tool& tool, const Options& o) {
   tool.write_text(o.out + "/verify.csv", csv_of(rows, processor_name(), build_commit));
   const std::string page = write_page(tool, o, study);
   tool.result({{"commit", build_commit}, {"page", page}, {"cases", list}},
-              summary_table(study.cases) + "\n" + (o.full ? claims_list(study.cases) + "\n" : "") +
-                  page + "\n");
+              summary_table(study.cases) + "\n" +
+                  (o.full ? claims_by_group(study.cases) + "\n" : "") + page + "\n");
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // CPU time at equal error, law talus with its default settings against law paper and against other
-// engines: what was asked for and what was measured, as a table.
+// engines, as tables.
 // in:    the rows of each case, with any time step
 // out:   ratios of CPU time; above 1 law talus takes less
 #pragma once
@@ -10,9 +10,6 @@
 #include "verify/measure.hpp"
 
 namespace talus {
-
-/// Ratio to law paper that was asked for: 10 on sliding, 50 on bounce and the slide, else 0.
-[[nodiscard]] double asked_of_paper(const std::string& case_name);
 
 /// How law talus stands to law paper, errors below what the reference is known to made equal.
 [[nodiscard]] LawComparison laws_of(const MeasuredCase& measured);
@@ -25,7 +22,13 @@ namespace talus {
 /// A line a case that another law or engine was measured on.
 [[nodiscard]] std::string claims_table(const std::vector<MeasuredCase>& cases);
 
-/// What was asked for, case by case taken together: the least of each ratio, and whether it holds.
-[[nodiscard]] std::string claims_list(const std::vector<MeasuredCase>& cases);
+/// The least of each ratio over cases that belong together, and of which case it is.
+[[nodiscard]] std::string claims_by_group(const std::vector<MeasuredCase>& cases);
+
+/// Of the cases that law paper ran too: those with a step of law talus on the front of both.
+struct FrontCount {
+  int n_on_front = 0, n_compared = 0;
+};
+[[nodiscard]] FrontCount front_count(const std::vector<MeasuredCase>& cases);
 
 }  // namespace talus

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/template_text.hpp"
 #include "base/text.hpp"
 #include "scene/plan.hpp"
 #include "verify/claims.hpp"
@@ -10,109 +11,84 @@
 namespace talus {
 namespace {
 
-std::string head_of(const Study& study) {
-  return "# Verification\nWhat is claimed, against what is known exactly, and what it costs. This "
-         "page is written by `" +
-         study.command +
-         "`, all of it; change the program, not the page. What was measured by other means stands "
-         "in [measurements](measurements.md), what was observed in the field beside what is "
-         "simulated in [validation](validation.md).\n\nCommit " +
-         study.commit + " of " + study.commit_date + ", " + study.machine + ", " +
-         (study.full ? "full" : "quick") +
-         " study. Times are processor time of the start and all steps of a case, one core; set-up "
-         "of the scene and the integration of a reference are not in them.\n";
+using Values = std::map<std::string, std::string>;
+
+// Without its last newline: the template ends the line.
+std::string as_lines(std::string table) {
+  if (!table.empty() && table.back() == '\n') table.pop_back();
+  return table;
 }
 
-std::string part_on_cases(const Study& study, const std::string& pictures) {
+std::string number_of(std::ptrdiff_t n) { return std::to_string(n); }
+
+void add_head(Values& values, const Study& study) {
+  values["command"] = study.command;
+  values["commit"] = study.commit;
+  values["commit_date"] = study.commit_date;
+  values["machine"] = study.machine;
+  values["extent"] = study.full ? "full" : "quick";
+}
+
+void add_cases(Values& values, const Study& study) {
   long n_run = 0, n_held = 0;
   for (const MeasuredCase& measured : study.cases) {
     n_run += default_row(measured.rows) ? 1 : 0;
     n_held += holds(measured) ? 1 : 0;
   }
-  return "\n## All cases\nLaw talus at its default settings and its default step of " +
-         text(Settings{}.dt) +
-         " s: one setting for all. Law paper where it errs least, of all its steps and "
-         "stiffnesses. `Verify/EachCase.IsWithinItsBound` holds every error below its bound (of "
-         "the slide: the test named), the test named looks at it more closely. " +
-         std::to_string(n_held) + " of " + counted(n_run, "case") + " within their bounds.\n\n" +
-         summary_table(study.cases) +
-         "\nThe same at several steps, law talus at its defaults, law paper at k_n = " +
-         text(paper_stiffness, 2) +
-         " N/m: error, in brackets CPU ms. *lost*: a block went through the ground or left the "
-         "terrain (of the slide: went through), or what was looked for did not happen, which is no "
-         "answer. All rows: [verify.csv](" +
-         pictures + "verify.csv).\n\n" + steps_table(study.cases) +
-         (study.full ? "\nThe same with law talus at its default step, one setting changed "
-                       "(`tolerance`: of the solver, on the residual at which contact forces count "
-                       "as found; blocks that touch each other have no strains):\n\n" +
-                           settings_table(study.cases)
-                     : "");
+  values["default_step"] = text(Settings{}.dt);
+  values["n_held"] = number_of(n_held);
+  values["cases_run"] = counted(n_run, "case");
+  values["summary_table"] = as_lines(summary_table(study.cases));
+  values["paper_stiffness"] = text(paper_stiffness, 2);
+  values["steps_table"] = as_lines(steps_table(study.cases));
+  values["settings_table"] = as_lines(settings_table(study.cases));
 }
 
-std::string part_on_claims(const Study& study) {
-  return "\n## CPU time at equal error\nFor each error of law paper on its own front, its CPU time "
-         "over that of the cheapest step of law talus that errs no more, all else at its default; "
-         "above 1 law talus takes less, 0: it never gets as close. Errors of " +
-         text(useful_error) +
-         " and above (of the slide: that share of its way; of a case with a wider bound: that) are "
-         "no answers and not compared, nor are steps of law talus at which contacts get deeper "
-         "than a tenth of a block (flag `deep`); errors of the slide within the uncertainty of its "
-         "reference count as equal to it. Other engines were measured elsewhere, on another core: "
-         "figures beside theirs are ratios of two machines.\n\n" +
-         (study.full ? "" : "A quick study has two steps a law: its ratios say little.\n\n") +
-         claims_list(study.cases) + "\n" + claims_table(study.cases);
+void add_claims(Values& values, const Study& study) {
+  const FrontCount front = front_count(study.cases);
+  values["useful_error"] = text(useful_error);
+  values["n_on_front"] = number_of(front.n_on_front);
+  values["cases_compared"] = counted(front.n_compared, "case");
+  values["claims_by_group"] = as_lines(claims_by_group(study.cases));
+  values["claims_table"] = as_lines(claims_table(study.cases));
 }
 
-std::string part_on_diagrams(const Study& study, const std::string& pictures) {
-  std::string part =
-      "\n## Work-precision diagrams\nError against CPU time, both logarithmic, a curve a method; "
-      "black rings are on the Pareto front of both laws, pale points are other engines. Errors "
-      "below 1e-16 are drawn there.\n\n| | |\n|---|---|\n";
+// Two diagrams a row.
+std::string diagram_table(const Study& study, const std::string& pictures) {
+  std::string table = "| | |\n|---|---|\n";
   for (std::size_t i = 0; i < study.cases.size(); ++i) {
     const std::string& name = study.cases[i].about->name;
-    part += "| ![" + name + "](" + pictures + name + ".svg) ";
-    if (i % 2 == 1 || i + 1 == study.cases.size()) part += "|\n";
+    table += "| ![" + name + "](" + pictures + name + ".svg) ";
+    if (i % 2 == 1 || i + 1 == study.cases.size()) table += "|\n";
   }
-  return part;
+  return table;
 }
 
-std::string part_on_slide(const SlideStudy& slide) {
-  return "\n## The slide of 39 blocks\nIt has no closed form. Its starts differ by 1 mm/s; what is "
-         "compared are means of many: the mean place of the rock, the place that nine tenths of it "
-         "stay before, and its spread, ± standard error; never the toe of one run. The reference "
-         "is the line through the means of the three shortest steps, at a step of nothing "
-         "(Richardson's extrapolation, first order); its uncertainty is its standard error and the "
-         "distance of the two shortest steps from it, together.\n\n" +
-         slide_table(slide);
+std::string corner_line(const StabilityRow& row) {
+  const Corner& c = row.corner;
+  const bool is_known = !c.norm.empty();
+  return "| " + c.axis + " | " + text(c.value) + (c.unit == "1" ? "" : " " + c.unit) + " | " +
+         c.scene + " | " +
+         (row.outcome == Outcome::right ? "right" : "**" + text_of(row.outcome) + "**") +
+         (row.seen.refusal.empty() ? "" : ": " + row.seen.refusal) + " | " +
+         (is_known ? text(row.seen.error, 2) + " " + c.norm : "-") + " | " +
+         (is_known ? text(c.tolerance, 2) : "-") + " | " + text(row.seen.gain, 2) + " | " +
+         text(row.seen.depth, 2) + " |\n";
 }
 
-std::string part_on_corners(const Study& study, const std::string& pictures) {
-  std::string part =
-      "\n## Stability chart\nWhat is varied, over its range, all else at its default. *Right*: "
-      "finite, the numbers add no more than " +
-      text(100 * gain_limit) +
-      " % to the energy in play, no vertex deeper in the ground and no ground deeper in the block "
-      "than " +
-      text(100 * depth_limit) +
-      " % of the block's radius, and the answer within its tolerance; where no answer is known "
-      "(tolerance -) nothing more. *Inexact*: stable, outside the tolerance. *Refused*: with a "
-      "reason. *Broken*: none of these. Each corner is a test, `Stability/Corners.IsRight`.\n\n![" +
-      std::string("stability chart](") + pictures + "stability.svg)\n\n" +
-      corner_counts(study.corners) + " Numbers: [stability.csv](" + pictures +
-      "stability.csv).\n\n| Varied | Value | Scene | It is | Error | Tolerance | Energy added / in "
-      "play | Depth / radius |\n|---|---|---|---|---|---|---|---|\n";
-  for (const StabilityRow& row : study.corners) {
-    const Corner& c = row.corner;
-    const bool is_known = !c.norm.empty();
-    part += "| " + c.axis + " | " + text(c.value) + (c.unit == "1" ? "" : " " + c.unit) + " | " +
-            c.scene + " | " +
-            (row.outcome == Outcome::right ? "right" : "**" + text_of(row.outcome) + "**") +
-            (row.seen.refusal.empty() ? "" : ": " + row.seen.refusal) + " | " +
-            (is_known ? text(row.seen.error, 2) + " " + c.norm : "-") + " | " +
-            (is_known ? text(c.tolerance, 2) : "-") + " | " + text(row.seen.gain, 2) + " | " +
-            text(row.seen.depth, 2) + " |\n";
-  }
-  return part;
+std::string corner_table(const std::vector<StabilityRow>& corners) {
+  std::string table =
+      "| Varied | Value | Scene | It is | Error | Tolerance | Energy added / in play | Depth / "
+      "radius |\n|---|---|---|---|---|---|---|---|\n";
+  for (const StabilityRow& row : corners) table += corner_line(row);
+  return table;
+}
+
+void add_corners(Values& values, const Study& study) {
+  values["gain_limit"] = text(100 * gain_limit);
+  values["depth_limit"] = text(100 * depth_limit);
+  values["corner_counts"] = corner_counts(study.corners);
+  values["corner_table"] = as_lines(corner_table(study.corners));
 }
 
 // The rules of the scene plan as it prints them, and what the full plan does with a scene that has
@@ -130,26 +106,14 @@ std::string table_of_rules() {
   return table;
 }
 
-std::string part_on_omissions(const Study& study) {
+void add_omissions(Values& values, const Study& study) {
   const auto n_held = std::count_if(study.omissions.begin(), study.omissions.end(),
                                     [](const OmissionRow& row) { return row.holds; });
-  return "\n## Leaving out\nWhat a scene does not need is left out by these rules; `talus-dda "
-         "--plan` prints the reason for a scene of your own.\n\n" +
-         table_of_rules() +
-         "\nScenes with an item kept and left out, CPU times of the start and all steps (medians, "
-         "in turn), and how far the blocks end apart. The first rows are six scenes with the plan "
-         "of `talus-dda` and with the full one (*all but strains*: both with the strains of the "
-         "plan). Allowed: the same bits where nothing is approximated; 1e-9 m where blocks sleep "
-         "or a strength of nothing has to break first; 1e-11 and 1e-12 m for a friction and a "
-         "motion of nothing; 1e-5 of the way for edges of a plane, which bear a part of the weight "
-         "when they are looked at; a share of " +
-         text(strain_that_matters) +
-         " of the way for strains; where a last bit ends metres away, means of many starts within "
-         "three standard errors. Each row is a test, `Plan/LeavingOut.ChangesNoMoreThanItMay`, the "
-         "whole slide aside. " +
-         std::to_string(n_held) + " of " +
-         counted(static_cast<long>(study.omissions.size()), "row") + " hold.\n\n" +
-         omission_table(study.omissions);
+  values["rules_table"] = as_lines(table_of_rules());
+  values["strain_that_matters"] = text(strain_that_matters);
+  values["n_omissions_held"] = number_of(n_held);
+  values["omission_rows"] = counted(static_cast<long>(study.omissions.size()), "row");
+  values["omission_table"] = as_lines(omission_table(study.omissions));
 }
 
 }  // namespace
@@ -168,28 +132,23 @@ std::string corner_counts(const std::vector<StabilityRow>& corners) {
   return line + ".";
 }
 
-std::string study_page(const Study& study, const std::string& pictures) {
-  std::string page = head_of(study) + part_on_cases(study, pictures) + part_on_claims(study);
-  if (study.slide) page += part_on_slide(*study.slide);
-  page += part_on_diagrams(study, pictures);
-  if (!study.corners.empty()) page += part_on_corners(study, pictures);
-  if (!study.omissions.empty()) page += part_on_omissions(study);
-  return page + not_verified();
-}
-
-std::string not_verified() {
-  return R"(
-## What is not verified
-What is not modelled at all stands in [limits](limits.md). Of what is:
-- Strains of blocks that touch each other: computed rigid. Strains are compared with closed forms on lone blocks alone.
-- Fences that a slide fills: panels are checked with single blocks and a few at a time, not with what a mass does to a net.
-- Hits in turn within a step, far ends of long blocks, blocks thrown at others that were out of reach, and splinters: bounded by health checks over seeds, compared with nothing exact.
-- Thin plates over peaks: some are deeper in the ground than allowed for a time.
-- Steps above 0.05 s with several blocks: health flags what goes wrong, nothing refuses them.
-- Restitution of several blocks that hit at once: a rule (Newton's, lowered where hits follow in turn), compared with momentum and energy alone.
-- The slide's reference is that of law talus itself: where its steps agree may still be off by what all its steps have in common. Means of other rigid engines lie from 12 m short of it to 6 m beyond.
-- Corners of the stability chart without a tolerance: nothing exact is known of them.
-)";
+std::string study_page(const std::string& page_template, const Study& study,
+                       const std::string& pictures) {
+  TemplateMarks marks;
+  marks.parts = {{"full", study.full},
+                 {"quick", !study.full},
+                 {"slide", study.slide.has_value()},
+                 {"stability", !study.corners.empty()},
+                 {"leaving_out", !study.omissions.empty()}};
+  marks.values["pictures"] = pictures;
+  marks.values["diagrams"] = as_lines(diagram_table(study, pictures));
+  add_head(marks.values, study);
+  add_cases(marks.values, study);
+  add_claims(marks.values, study);
+  if (study.slide) marks.values["slide_table"] = as_lines(slide_table(*study.slide));
+  add_corners(marks.values, study);
+  add_omissions(marks.values, study);
+  return filled_template("page.md.in", page_template, marks);
 }
 
 }  // namespace talus

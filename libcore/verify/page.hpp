@@ -1,8 +1,8 @@
 // libcore/verify/page.hpp
 // The page of a study, docs/verification.md: what is claimed, against what, the error, the CPU
 // time, the test; diagrams, stability chart, what leaving out saves, and what is not verified.
-// in:    everything that was measured
-// out:   Markdown, nothing of it written by hand
+// in:    everything that was measured, and the page's text with marks (page.md.in)
+// out:   Markdown, each figure of it from what was measured
 #pragma once
 
 #include <optional>
@@ -29,10 +29,9 @@ struct Study {
 /// How many corners came out how: "89 corners: 85 right, ...".
 [[nodiscard]] std::string corner_counts(const std::vector<StabilityRow>& corners);
 
-/// `pictures`: where the diagrams stand, as seen from the page, with a slash at its end or empty.
-[[nodiscard]] std::string study_page(const Study& study, const std::string& pictures);
-
-/// The page's last part: what no case, corner or scene of the study shows.
-[[nodiscard]] std::string not_verified();
+/// `page_template`: content of page.md.in. `pictures`: where the diagrams are, as seen from the
+/// page, with a slash at its end or empty.
+[[nodiscard]] std::string study_page(const std::string& page_template, const Study& study,
+                                     const std::string& pictures);
 
 }  // namespace talus

@@ -3,7 +3,9 @@
 
 #include <filesystem>
 #include <regex>
+#include <sstream>
 
+#include "base/error.hpp"
 #include "base/read_file.hpp"
 #include "base/text.hpp"
 #include "verify/page.hpp"
@@ -13,6 +15,7 @@ namespace {
 using namespace talus;
 
 const std::string source = TALUS_SOURCE_DIR;
+const std::string page_template = read_file(source + "/libcore/verify/page.md.in");
 
 bool contains(const std::string& whole, const std::string& part) {
   return whole.find(part) != std::string::npos;
@@ -36,7 +39,7 @@ TEST(StudyPage, SaysWhatWasRunAndNothingElse) {
   row.dt = Settings{}.dt;
   measured.rows = {row};
   study.cases = {measured};
-  std::string page = study_page(study, "diagrams/");
+  std::string page = study_page(page_template, study, "diagrams/");
   EXPECT_TRUE(contains(page, "Commit 0123abc of 2026-11-25"));
   EXPECT_TRUE(contains(page, "1 of 1 case within their bounds"));
   EXPECT_TRUE(contains(page, "(diagrams/" + measured.about->name + ".svg)"));
@@ -47,12 +50,34 @@ TEST(StudyPage, SaysWhatWasRunAndNothingElse) {
                    corner_of(Outcome::right)};
   study.omissions.resize(2);
   study.omissions[0].holds = true;
-  page = study_page(study, "");
+  page = study_page(page_template, study, "");
   EXPECT_TRUE(contains(page, "0 of 1 case within their bounds"));
   EXPECT_TRUE(contains(page, "3 corners: 2 right, 0 inexact, 0 refused, 1 broken."));
   EXPECT_TRUE(contains(page, "| speed | 200 m/s | a rock | **broken** | - | - |"));
   EXPECT_TRUE(contains(page, "1 of 2 rows hold"));
   EXPECT_TRUE(contains(page, "**does not hold**"));
+}
+
+TEST(StudyPage, OfAQuickStudySaysThatItsRatiosSayLittle) {
+  Study study;
+  const std::string quick = study_page(page_template, study, "");
+  study.full = true;
+  const std::string full = study_page(page_template, study, "");
+  const std::string warning = "its ratios say little", settings = "one setting changed";
+  EXPECT_TRUE(contains(quick, warning) && !contains(quick, settings));
+  EXPECT_TRUE(contains(full, settings) && !contains(full, warning));
+}
+
+// No mark is left in the page, and each figure is on it: a template without its mark is refused.
+TEST(StudyPage, FillsEveryMark) {
+  Study study;
+  study.slide.emplace();
+  study.corners = {corner_of(Outcome::right)};
+  study.omissions.resize(1);
+  EXPECT_FALSE(contains(study_page(page_template, study, ""), "{{"));
+  std::string without = page_template;
+  without.erase(without.find("{{corner_table}}"), std::string("{{corner_table}}").size());
+  EXPECT_THROW((void)study_page(without, study, ""), InputError);
 }
 
 // Where one of these fails, the claims have changed since the page was made: make it anew with the
@@ -83,9 +108,22 @@ TEST_F(CommittedPage, HasEveryCornerAndOmissionAsItIsNow) {
   for (const Omission& omission : omissions(none, true))
     EXPECT_TRUE(contains(page, "| " + omission.item + " | " + omission.scene + " |"))
         << omission.item << ", " << omission.scene;
-  EXPECT_TRUE(contains(page, not_verified()));
   EXPECT_FALSE(contains(page, "**does not hold**"));
   EXPECT_FALSE(contains(page, "**broken**"));
+}
+
+// All prose of the template but what a full study leaves out.
+TEST_F(CommittedPage, HasTheProseOfTheTemplate) {
+  std::istringstream lines(page_template);
+  int n_compared = 0;
+  bool is_of_quick = false;
+  for (std::string line; std::getline(lines, line);) {
+    if (line == "{{#quick}}" || line == "{{/quick}}") is_of_quick = !is_of_quick;
+    if (is_of_quick || line.empty() || contains(line, "{{")) continue;
+    EXPECT_TRUE(contains(page, "\n" + line + "\n") || page.rfind(line + "\n", 0) == 0) << line;
+    ++n_compared;
+  }
+  EXPECT_GT(n_compared, 50);
 }
 
 TEST_F(CommittedPage, IsOfTheFullStudyOfACommit) {
