@@ -157,10 +157,10 @@ std::string crs_of_tin(const talus::Tin& tin, const MapWindow& data, const Optio
   if (!o.crs.empty()) {
     const std::string given =
         talus::from_command_line([&] { return talus::crs_from_user(o.crs, "--crs"); });
-    if (!crs.empty() && !talus::same_crs(crs, given))
+    if (!crs.empty() && !(talus::same_crs(crs, given) && talus::same_heights(crs, given)))
       throw InputError({o.source}, "the CRS is " + talus::crs_name(crs) + ", not " + o.crs,
                        "leave --crs away");
-    crs = given;
+    if (talus::height_crs(crs).empty()) crs = given;
   }
   if (crs.empty()) return crs;
   const talus::Vec2 middle(0.5 * (data.x_min + data.x_max), 0.5 * (data.y_min + data.y_max));
@@ -214,6 +214,16 @@ Trn trn_of_dem(Tool& tool, const Options& o) {
 
 // --- how good it is ------------------------------------------------------------------------------
 
+// The reference's heights must be in the terrain's system, where both say it.
+void check_heights_alike(const std::string& path, const std::string& crs, const Trn& trn) {
+  if (talus::same_heights(crs, trn.crs_wkt)) return;
+  throw InputError({path},
+                   "the heights are in " + talus::crs_name(talus::height_crs(crs)) +
+                       ", those of the terrain in " +
+                       talus::crs_name(talus::height_crs(trn.crs_wkt)),
+                   "bring both to one system of heights first");
+}
+
 // A reference DEM node by node, in strips.
 talus::ErrorStatistics errors_against_dem(const Trn& trn, const std::string& path) {
   talus::DemOptions options;
@@ -224,7 +234,9 @@ talus::ErrorStatistics errors_against_dem(const Trn& trn, const std::string& pat
         {path},
         "the CRS is " + talus::crs_name(dem.crs_wkt()) + ", that of the terrain is " +
             talus::crs_name(trn.crs_wkt),
-        "a DEM is never reprojected silently: talus-trn " + path + " -o reference.tif --t-srs CRS");
+        "a DEM is never reprojected silently: talus-trn " + path + " -o reference.tif --t-srs " +
+            talus::crs_code(trn.crs_wkt));
+  check_heights_alike(path, dem.crs_wkt(), trn);
   const GridFrame all = talus::part_covering(dem.frame(), talus::extent(talus::frame_of(trn)));
   talus::ErrorCollector errors;
   for (int row = 0; row < all.n_rows; row += 256) {
