@@ -206,8 +206,7 @@ std::string sentence_on(const Json& row) {
               : std::string()) +
          ", x " + number(row["at"][0], 10) + ", y " + number(row["at"][1], 10) +
          ": the contours beside it stand at " + number(beside[0], 8) +
-         (beside[0] == beside[1] ? "" : " to " + number(beside[1], 8)) +
-         " m; is its height right?";
+         (beside[0] == beside[1] ? "" : " to " + number(beside[1], 8)) + " m; is its height right?";
 }
 
 // Says which heights do not go with those around them.
@@ -229,8 +228,8 @@ talus::TriangleMesh make_mesh(Tool& tool, const Options& o, ContourMap& map, Jso
   const double interval = talus::contour_interval(map);
   talus::CleanLines clean = talus::clean_lines(map);
   const Features features{map.contours.feature, map.breaklines.feature};
-  const int n_lines = map.contours.n_lines() + map.breaklines.n_lines() +
-                      static_cast<int>(map.spots.size());
+  const int n_lines =
+      map.contours.n_lines() + map.breaklines.n_lines() + static_cast<int>(map.spots.size());
   talus::forget_lines(map);
   report["cleaning"] = as_json(clean.counts);
   const talus::MeasuredPoints measured{clean.n_contour_points,

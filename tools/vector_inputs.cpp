@@ -12,8 +12,8 @@ std::string noun_of(VectorKind kind) {
 }
 
 std::string sentence_on(const VectorShapes& found, const VectorQuery& query) {
-  std::string words = query.path + ": layer " + found.layer + ", " +
-                      counted(found.n_parts, noun_of(query.kind));
+  std::string words =
+      query.path + ": layer " + found.layer + ", " + counted(found.n_parts, noun_of(query.kind));
   if (query.kind == VectorKind::areas)
     words += " of " + grouped_text(found.area_m2, 6) + " m2 in all";
   if (found.n_united > 0)

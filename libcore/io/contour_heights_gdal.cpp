@@ -267,8 +267,7 @@ Polylines read_measured_lines(const LayerChoice& choice, OpenLayer& source, doub
   const Where where = where_of_layer(choice, source);
   if (raw.lines.points.empty())
     throw InputError(where, std::string("there are no ") + source.role.name);
-  const bool take_field =
-      stand_in_field(choice, source, raw, heights_of(raw.lines), field, false);
+  const bool take_field = stand_in_field(choice, source, raw, heights_of(raw.lines), field, false);
   if (take_field) {
     check_unit_in_name(field->name, unit_m, where);
     set_heights(read_field(choice, source, *field), raw.lines);

@@ -111,7 +111,10 @@ Polylines read_measured(const LayerChoice& choice, const LayerRole& role,
   OpenLayer source = open_layer(choice, role);
   Polylines lines = read_measured_lines(choice, source, unit_m, notes);
   bring_to_map(choice, source, map_crs, lines.points, notes);
-  check_heights_alike(wkt_of(source.layer->GetSpatialRef()), map_crs, choice.path);
+  const std::string own_crs = wkt_of(source.layer->GetSpatialRef());
+  check_heights_alike(own_crs, map_crs, choice.path);
+  const std::string assumed = assumed_heights(own_crs, map_crs);
+  if (!assumed.empty()) notes.push_back(choice.path + " and the map: both are " + assumed);
   scale_heights(unit_m, choice.path, lines.points);
   return lines;
 }

@@ -193,8 +193,13 @@ bool same_heights(const std::string& a, const std::string& b) {
   return is_same(parse(first), parse(second));
 }
 
-std::string with_heights_of(const std::string& other, const std::string& plan,
-                            const Where& where) {
+std::string assumed_heights(const std::string& a, const std::string& b) {
+  const std::string first = height_crs(a), second = height_crs(b);
+  if (first.empty() == second.empty()) return {};
+  return "taken to have heights in " + crs_name(first.empty() ? second : first);
+}
+
+std::string with_heights_of(const std::string& other, const std::string& plan, const Where& where) {
   const std::string heights = height_crs(other), wanted = height_crs(plan);
   if (!wanted.empty() && (heights.empty() || !same_heights(other, plan)))
     throw InputError(where,

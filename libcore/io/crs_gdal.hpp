@@ -40,6 +40,10 @@ namespace talus {
 /// Whether the heights may be compared: false when both say their system and it is not the same.
 [[nodiscard]] bool same_heights(const std::string& a, const std::string& b);
 
+/// "taken to have heights in EPSG:5773 (EGM96 height)" when one of the two says its system of
+/// heights and the other does not; empty when there is nothing to assume.
+[[nodiscard]] std::string assumed_heights(const std::string& a, const std::string& b);
+
 /// The system `plan` with the heights of `other`, where that says them: what something is in that
 /// was reprojected in plan. Throws InputError when `plan` says another system of heights.
 [[nodiscard]] std::string with_heights_of(const std::string& other, const std::string& plan,

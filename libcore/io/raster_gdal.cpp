@@ -45,6 +45,20 @@ Dataset open_raster(const std::string& path) {
   return dataset;
 }
 
+// The command that makes metres of heights in another unit; the system that they are in says the
+// unit too, so the copy is given the plan alone.
+std::string scale_command(double unit_m, const std::string& crs, const std::string& path) {
+  return "gdal_translate -ot Float64 -scale 0 10000 0 " + text(10000 * unit_m, 12) +
+         (height_crs(crs).empty() ? "" : " -a_srs " + crs_code(crs)) + " " + path + " metres.tif";
+}
+
+std::string to_metres(const std::string& unit, const std::string& crs, const std::string& path) {
+  const bool is_survey = unit.find("survey") != std::string::npos || unit == "us-ft";
+  const bool is_foot = unit.starts_with("f") || unit == "international foot";
+  if (is_survey) return ": " + scale_command(1200.0 / 3937, crs, path);
+  return is_foot ? ": " + scale_command(0.3048, crs, path) : std::string();
+}
+
 void check_band(GDALDataset& dataset, const std::string& path) {
   const int n_bands = dataset.GetRasterCount();
   if (n_bands != 1)
@@ -56,11 +70,8 @@ void check_band(GDALDataset& dataset, const std::string& path) {
   const std::string unit = lower(band.GetUnitType() ? band.GetUnitType() : "");
   for (const char* metre : {"", "m", "metre", "metres", "meter", "meters"})
     if (unit == metre) return;
-  throw InputError(
-      {path}, "the elevations are in \"" + unit + "\", expected metres",
-      "convert them first; for international feet: gdal_translate -ot Float64 -scale 0 "
-      "10000 0 3048 " +
-          path + " metres.tif, then set the band's unit to m");
+  throw InputError({path}, "the elevations are in \"" + unit + "\", expected metres",
+                   "convert them first" + to_metres(unit, wkt_of(dataset.GetSpatialRef()), path));
 }
 
 // The lattice of the cell centres; refuses what no TRN can stand on.
@@ -134,10 +145,7 @@ void check_crs(const std::string& crs, const std::string& path, const Vec2& plac
   const CrsProblem problem = find_crs_problem(crs, place);
   if (problem.finding.empty()) return;
   if (problem.height_unit_m != 1)
-    throw InputError({path}, problem.finding,
-                     "gdal_translate -ot Float64 -scale 0 10000 0 " +
-                         text(10000 * problem.height_unit_m, 12) + " -a_srs " + crs_code(crs) +
-                         " " + path + " metres.tif");
+    throw InputError({path}, problem.finding, scale_command(problem.height_unit_m, crs, path));
   const std::string to = problem.mend_to.empty() ? "EPSG:code" : problem.mend_to;
   throw InputError(
       {path}, problem.finding,
@@ -175,8 +183,8 @@ DemFile::DemFile(const std::string& path, const DemOptions& options)
       throw InputError({path}, "there is no CRS to reproject from", "name it with --crs EPSG:code");
     const std::string wanted = with_heights_of(impl_->crs, options.t_srs, {path});
     if (!same_crs(impl_->crs, options.t_srs)) {
-      impl_->warped = reproject(*dataset, path, horizontal_crs(impl_->crs),
-                                horizontal_crs(options.t_srs));
+      impl_->warped =
+          reproject(*dataset, path, horizontal_crs(impl_->crs), horizontal_crs(options.t_srs));
       dataset = impl_->warped.get();
       impl_->crs = wanted;
     }

@@ -23,8 +23,8 @@ struct DemOptions {
   bool crs_given = false;  ///< `crs` replaces a missing CRS, or one that says no heights; refused
                            ///< when the file has another one
   std::string crs;         ///< WKT; empty: local metres, no place on the map
-  std::string t_srs;  ///< WKT; not empty: reproject to it in plan (bilinear, at the file's
-                      ///< resolution); heights stay, and so does the system that they are in
+  std::string t_srs;       ///< WKT; not empty: reproject to it in plan (bilinear, at the file's
+                           ///< resolution); heights stay, and so does the system that they are in
   bool crs_may_be_missing = false;  ///< no CRS and none given means local metres
 };
 

@@ -119,9 +119,8 @@ double median(std::vector<double> values) {
 
 bool stands_off(const Candidate& candidate, double step) {
   const auto count = [&](double sign) {
-    return std::count_if(candidate.above.begin(), candidate.above.end(), [&](double above) {
-      return sign * above > contour_steps * step;
-    });
+    return std::count_if(candidate.above.begin(), candidate.above.end(),
+                         [&](double above) { return sign * above > contour_steps * step; });
   };
   return stands_off(count(1), count(-1), static_cast<std::int64_t>(candidate.above.size()));
 }
