@@ -62,12 +62,12 @@ std::vector<double> read_failure_raster(Tool& tool, const BlocksWork& work) {
   const DemFile raster(path, options);
   if (!raster.crs_wkt().empty() && !work.ground.crs_wkt.empty() &&
       !same_crs(raster.crs_wkt(), work.ground.crs_wkt))
-    throw InputError(
-        {path},
-        "the CRS is " + crs_name(raster.crs_wkt()) + ", that of the terrain is " +
-            crs_name(work.ground.crs_wkt),
-        "a raster is never reprojected silently: gdalwarp -r bilinear -novshift -t_srs " +
-            crs_code(work.ground.crs_wkt) + " " + path + " surface.tif");
+    throw InputError({path},
+                     "the CRS is " + crs_name(raster.crs_wkt()) + ", that of the terrain is " +
+                         crs_name(work.ground.crs_wkt),
+                     "a raster is never reprojected silently: gdalwarp -r bilinear -novshift "
+                     "-dstnodata -9999 -t_srs " +
+                         crs_code(work.ground.crs_wkt) + " " + path + " surface.tif");
   const std::string assumed = assumed_heights(raster.crs_wkt(), work.ground.crs_wkt);
   if (!assumed.empty()) tool.info(path + " and the terrain: both are " + assumed);
   if (!same_heights(raster.crs_wkt(), work.ground.crs_wkt))
