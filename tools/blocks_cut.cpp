@@ -11,8 +11,8 @@
 #include "base/text.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/raster_gdal.hpp"
-#include "io/vectors_gdal.hpp"
 #include "site_places.hpp"
+#include "vector_inputs.hpp"
 
 namespace talus {
 namespace {
@@ -37,10 +37,9 @@ Area read_area(Tool& tool, const BlocksWork& work) {
   }
   const std::string path = resolved(work.site, source.polygon_file);
   tool.read_also("source.polygon_file", path);
-  const VectorShapes found =
-      read_vectors({path, source.polygon_layer, "", VectorKind::areas}, work.ground.crs_wkt);
-  if (!found.source_crs.empty())
-    tool.info(path + ": reprojected from " + crs_name(found.source_crs));
+  const VectorShapes found = read_layer(
+      tool, "source", {path, source.polygon_layer, "", VectorKind::areas, "source.polygon_"},
+      work.ground.crs_wkt);
   for (std::vector<Vec3> ring : found.shapes) {
     for (Vec3& p : ring) p -= work.ground.origin;
     add_ring(ring);
@@ -66,7 +65,16 @@ std::vector<double> read_failure_raster(Tool& tool, const BlocksWork& work) {
     throw InputError({path},
                      "the CRS is " + crs_name(raster.crs_wkt()) + ", that of the terrain is " +
                          crs_name(work.ground.crs_wkt),
-                     "a raster is never reprojected silently: gdalwarp -t_srs");
+                     "a raster is never reprojected silently: gdalwarp -r bilinear -novshift "
+                     "-dstnodata -9999 -t_srs " +
+                         crs_code(work.ground.crs_wkt) + " " + path + " surface.tif");
+  const std::string assumed = assumed_heights(raster.crs_wkt(), work.ground.crs_wkt);
+  if (!assumed.empty()) tool.info(path + " and the terrain: both are " + assumed);
+  if (!same_heights(raster.crs_wkt(), work.ground.crs_wkt))
+    throw InputError({path},
+                     "the heights are in " + crs_name(height_crs(raster.crs_wkt())) +
+                         ", those of the terrain in " + crs_name(height_crs(work.ground.crs_wkt)),
+                     "bring both to one system of heights first");
   std::vector<double> z = read_dem(raster, frame_of(work.ground));
   for (double& value : z) value -= work.ground.origin.z();
   return z;

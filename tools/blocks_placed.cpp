@@ -13,9 +13,9 @@
 #include "blocks/solid.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/mesh.hpp"
-#include "io/vectors_gdal.hpp"
 #include "scene/joint_plan.hpp"
 #include "site_places.hpp"
+#include "vector_inputs.hpp"
 
 namespace talus {
 namespace {
@@ -210,11 +210,11 @@ std::vector<Vec3> release_from_file(const PlacedContext& context, const PlacedSe
   const std::string path = resolved(context.site, section.release_file);
   context.tool.read_also("blocks." + section.name + ".release", path);
   const bool along_lines = !std::isnan(section.release_spacing_m);
-  const VectorShapes found = read_vectors(
-      {path, section.release_layer, "", along_lines ? VectorKind::lines : VectorKind::points},
-      context.ground.crs_wkt);
-  if (!found.source_crs.empty())
-    context.tool.info(path + ": reprojected from " + crs_name(found.source_crs));
+  const std::string key = "blocks." + section.name + ".release_";
+  const VectorKind kind = along_lines ? VectorKind::lines : VectorKind::points;
+  const VectorShapes found =
+      read_layer(context.tool, "blocks." + section.name + ".release",
+                 {path, section.release_layer, "", kind, key}, context.ground.crs_wkt);
   std::vector<Vec3> positions;
   for (const auto& shape : found.shapes) {
     std::vector<Vec2> line;

@@ -9,15 +9,16 @@
 #include "blocks/least_size.hpp"
 #include "dda/site_fence.hpp"
 #include "dda/start_overlaps.hpp"
+#include "io/areas_gdal.hpp"
 #include "io/blocks_hdf5.hpp"
 #include "io/class_raster_gdal.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/raster_gdal.hpp"
-#include "io/vectors_gdal.hpp"
 #include "scene/ground_classes.hpp"
 #include "scene/start_depth.hpp"
 #include "site_places.hpp"
 #include "terrain/trn_digest.hpp"
+#include "vector_inputs.hpp"
 
 namespace talus {
 namespace {
@@ -36,8 +37,8 @@ void move_to_origin(BlockSet& blocks, const Vec3& origin) {
 }
 
 void check_crs(const BlockSet& blocks, const Trn& trn, const DdaFiles& files) {
-  if (blocks.crs_wkt.empty() || trn.crs_wkt.empty() || same_crs(blocks.crs_wkt, trn.crs_wkt))
-    return;
+  if (blocks.crs_wkt.empty() || trn.crs_wkt.empty()) return;
+  if (same_crs(blocks.crs_wkt, trn.crs_wkt) && same_heights(blocks.crs_wkt, trn.crs_wkt)) return;
   throw InputError({files.blocks},
                    "the blocks are in " + crs_name(blocks.crs_wkt) + ", the terrain " + files.trn +
                        " is in " + crs_name(trn.crs_wkt),
@@ -117,27 +118,41 @@ BlockSet read_checked_blocks(Tool& tool, const Trn& trn, const std::string& dige
 
 // --- ground classes ----------------------------------------------------------------------------
 
-GroundArea ground_area(Tool& tool, const Site& site, const Trn& trn, int index) {
+using Rings = std::vector<std::vector<Vec3>>;
+
+void check_corners(const std::vector<Vec3>& corners, const Where& where) {
+  std::vector<Vec2> plan;
+  for (const Vec3& corner : corners) plan.push_back(corner.head<2>());
+  check_polygon(plan, where);
+}
+
+// The area of a section: a polygon in the site file, polygons of a file, or both, which are painted
+// one after the other, so that a place in both is in the section.
+void add_ground_areas(Tool& tool, const Site& site, const Trn& trn, int index,
+                      std::vector<GroundArea>& areas) {
   const GroundSettings& ground = site.grounds[static_cast<std::size_t>(index)];
-  const std::string key = "ground." + ground.name + ".polygon";
-  GroundArea area{index, {}};
-  const auto add = [&area](const std::vector<Vec3>& ring) {
-    area.rings.emplace_back();
-    for (const Vec3& point : ring) area.rings.back().push_back(point.head<2>());
+  const std::string section = "ground." + ground.name;
+  const auto add = [&](const Rings& rings) {
+    areas.push_back({index, {}});
+    for (const std::vector<Vec3>& ring : rings) {
+      areas.back().rings.emplace_back();
+      for (const Vec3& point : ring) areas.back().rings.back().push_back(point.head<2>());
+    }
   };
-  if (!ground.polygon.empty()) add(local_points(tool, site, trn, ground.polygon, key));
-  if (ground.polygon_file.empty()) return area;
-  const std::string path = resolved(site, ground.polygon_file);
-  tool.read_also("ground." + ground.name, path);
-  VectorShapes shapes = read_vectors(
-      {path, ground.polygon_layer, ground.polygon_where, VectorKind::areas}, trn.crs_wkt);
-  if (!shapes.source_crs.empty())
-    tool.info(path + ": reprojected from " + crs_name(shapes.source_crs));
-  for (std::vector<Vec3>& ring : shapes.shapes) {
-    for (Vec3& point : ring) point -= trn.origin;
-    add(ring);
+  if (!ground.polygon.empty()) {
+    check_corners(ground.polygon, where_of(site, section + ".polygon"));
+    add({local_points(tool, site, trn, ground.polygon, section + ".polygon")});
   }
-  return area;
+  if (ground.polygon_file.empty()) return;
+  const std::string path = resolved(site, ground.polygon_file);
+  tool.read_also(section, path);
+  VectorShapes found = read_layer(
+      tool, section,
+      {path, ground.polygon_layer, ground.polygon_where, VectorKind::areas, section + ".polygon_"},
+      trn.crs_wkt);
+  for (std::vector<Vec3>& ring : found.shapes)
+    for (Vec3& point : ring) point -= trn.origin;
+  add(found.shapes);
 }
 
 bool has_area(const GroundSettings& ground) {
@@ -218,7 +233,7 @@ std::vector<std::uint8_t> ground_classes(Tool& tool, const Site& site, const Trn
   std::vector<GroundArea> areas;
   for (int i = 0; i < n; ++i)
     if (has_area(site.grounds[static_cast<std::size_t>(i)]))
-      areas.push_back(ground_area(tool, site, trn, i));
+      add_ground_areas(tool, site, trn, i, areas);
   std::vector<std::uint8_t> classes = raster_classes(tool, site, trn, elsewhere);
   paint_areas(trn, areas, classes);
   return classes;
@@ -226,9 +241,11 @@ std::vector<std::uint8_t> ground_classes(Tool& tool, const Site& site, const Trn
 
 // --- fences ------------------------------------------------------------------------------------
 
-void add_lines(Tool& tool, const Site& site, const FenceSettings& fence, DdaInputs& inputs) {
+void add_lines(Tool& tool, const Site& site, const FenceSettings& fence, DdaInputs& inputs,
+               std::vector<FenceLine>& known) {
   const Where where{site.file, fence.line_number, "fence." + fence.name};
   for (RecordLine& line : fence_lines(tool, site, inputs.parts.trn, fence)) {
+    known.push_back({&fence, line});
     line.standing = fence.active && site.solver.law == "talus";
     if (line.standing)
       inputs.parts.fences.push_back(standing_fence(
@@ -337,7 +354,9 @@ DdaInputs read_dda_inputs(Tool& tool, const Site& site, const DdaFiles& files) {
     tool.read_also("base_motion", resolved(site, site.base_motion.file));
   parts.blocks = read_checked_blocks(tool, parts.trn, inputs.trn_digest, files, inputs.warnings);
   parts.cell_class = ground_classes(tool, site, parts.trn);
-  for (const FenceSettings& fence : site.fences) add_lines(tool, site, fence, inputs);
+  std::vector<FenceLine> lines;
+  for (const FenceSettings& fence : site.fences) add_lines(tool, site, fence, inputs, lines);
+  check_fences_apart(tool, site, parts.trn, lines);
   return inputs;
 }
 

@@ -58,9 +58,13 @@ FenceCode read_fence_code(const std::string& name) {
 
 std::vector<FenceCase> fence_cases(Tool& tool, const Site& site, const Trn& trn) {
   std::vector<FenceCase> cases;
+  std::vector<FenceLine> lines;
   for (const FenceSettings& settings : site.fences)
-    for (const RecordLine& line : fence_lines(tool, site, trn, settings))
+    for (const RecordLine& line : fence_lines(tool, site, trn, settings)) {
+      lines.push_back({&settings, line});
       cases.push_back({settings, line, make_fence(line, settings)});
+    }
+  check_fences_apart(tool, site, trn, lines);
   if (cases.empty())
     throw InputError({site.file}, "has no section [fence.*]", "add one with its line and height");
   return cases;

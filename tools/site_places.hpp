@@ -23,4 +23,16 @@ namespace talus {
 [[nodiscard]] std::vector<RecordLine> fence_lines(Tool& tool, const Site& site, const Trn& trn,
                                                   const FenceSettings& fence);
 
+/// A line and the section that it belongs to.
+struct FenceLine {
+  const FenceSettings* fence = nullptr;
+  RecordLine line;
+};
+
+/// A fence that lies on another one all along is the same fence named twice, whichever end it
+/// begins at. Throws InputError with both names and the place for two lines of one section and for
+/// two active fences; warns of the rest, which count the same blocks.
+void check_fences_apart(Tool& tool, const Site& site, const Trn& trn,
+                        const std::vector<FenceLine>& lines);
+
 }  // namespace talus

@@ -99,7 +99,8 @@ int main(int argc, char** argv) {
     work.blocks.content_hash = hash_of(o, work);
     work.blocks.ground_digests = {trn_digest(work.ground)};
     if (work.is_cut()) work.blocks.ground_digests = {trn_digest(work.mass.bed)};
-    const Json report = blocks_json(work, tool.run_id());
+    Json report = blocks_json(work, tool.run_id());
+    if (!tool.layers_read().empty()) report["layers_read"] = tool.layers_read();
     record_metrics(tool, report);
     write_outputs(tool, o.files, work, report);
     tool.result(report, blocks_summary(report));

@@ -10,6 +10,7 @@
 #include "io/crs_gdal.hpp"
 #include "io/tin_ply.hpp"
 #include "terrain/flat.hpp"
+#include "terrain/outliers.hpp"
 #include "terrain/tin_mesh.hpp"
 #include "tool.hpp"
 
@@ -174,10 +175,61 @@ void mend(Tool& tool, const Options& o, const ContourMap& map,
     tool.warn(std::to_string(mended.n_unsolved) + " places were left flat: nothing holds them");
 }
 
+// Features of the lines of a map, which outlive the lines.
+struct Features {
+  std::vector<std::int64_t> contours, breaklines;
+};
+
+Json as_json(const talus::Outlier& outlier, const Features& features, const ContourMap& map) {
+  const auto line = static_cast<std::size_t>(outlier.line);
+  const std::size_t n_contours = features.contours.size();
+  const bool is_contour = line < n_contours;
+  const bool is_spot = line >= n_contours + features.breaklines.size();
+  const talus::Vec3 place = outlier.place + map.origin;
+  Json row = {{"kind", is_contour ? "contour" : is_spot ? "spot height" : "breakline"}};
+  if (!is_spot)
+    row["feature"] = is_contour ? features.contours[line] : features.breaklines[line - n_contours];
+  row["height_m"] = place.z();
+  row["at"] = {place.x(), place.y()};
+  row["contours_beside_m"] = {outlier.low + map.origin.z(), outlier.high + map.origin.z()};
+  return row;
+}
+
+std::string sentence_on(const Json& row) {
+  const auto number = [](const Json& value, int digits) {
+    return text(value.get<double>(), digits);
+  };
+  const Json& beside = row["contours_beside_m"];
+  return row["kind"].get<std::string>() + " at " + number(row["height_m"], 8) + " m" +
+         (row.contains("feature")
+              ? ", feature " + std::to_string(row["feature"].get<std::int64_t>())
+              : std::string()) +
+         ", x " + number(row["at"][0], 10) + ", y " + number(row["at"][1], 10) +
+         ": the contours beside it stand at " + number(beside[0], 8) +
+         (beside[0] == beside[1] ? "" : " to " + number(beside[1], 8)) + " m; is its height right?";
+}
+
+// Says which heights do not go with those around them.
+Json doubts(Tool& tool, const std::vector<talus::Outlier>& outliers, const Features& features,
+            const ContourMap& map) {
+  constexpr std::size_t most_said = 10;
+  Json rows = Json::array();
+  for (const talus::Outlier& outlier : outliers) rows.push_back(as_json(outlier, features, map));
+  for (std::size_t i = 0; i < std::min(rows.size(), most_said); ++i)
+    tool.warn(sentence_on(rows[i]));
+  if (rows.size() > most_said)
+    tool.warn(std::to_string(rows.size() - most_said) +
+              " more heights are in doubt; --report lists them all");
+  return rows;
+}
+
 // Triangles of the cleaned lines, mended as asked for. Frees what it no longer needs as it goes.
 talus::TriangleMesh make_mesh(Tool& tool, const Options& o, ContourMap& map, Json& report) {
   const double interval = talus::contour_interval(map);
   talus::CleanLines clean = talus::clean_lines(map);
+  const Features features{map.contours.feature, map.breaklines.feature};
+  const int n_lines =
+      map.contours.n_lines() + map.breaklines.n_lines() + static_cast<int>(map.spots.size());
   talus::forget_lines(map);
   report["cleaning"] = as_json(clean.counts);
   const talus::MeasuredPoints measured{clean.n_contour_points,
@@ -186,6 +238,9 @@ talus::TriangleMesh make_mesh(Tool& tool, const Options& o, ContourMap& map, Jso
   clean.segments = {};
   talus::TriangleMesh mesh;
   refresh_inside(map, triangulation, o, o.flat == "keep", mesh);
+  report["in_doubt"] = doubts(
+      tool, talus::find_outliers(mesh, {std::move(clean.line), measured.first, n_lines}, interval),
+      features, map);
   const std::vector<std::uint8_t> flat = find_flat_triangles(mesh, measured);
   const talus::AreaShare before = area_of(mesh, flat);
   report["flat"] = {{"mode", o.flat}, {"share_before", before.share()}};

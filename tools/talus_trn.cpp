@@ -157,10 +157,10 @@ std::string crs_of_tin(const talus::Tin& tin, const MapWindow& data, const Optio
   if (!o.crs.empty()) {
     const std::string given =
         talus::from_command_line([&] { return talus::crs_from_user(o.crs, "--crs"); });
-    if (!crs.empty() && !talus::same_crs(crs, given))
+    if (!crs.empty() && !(talus::same_crs(crs, given) && talus::same_heights(crs, given)))
       throw InputError({o.source}, "the CRS is " + talus::crs_name(crs) + ", not " + o.crs,
                        "leave --crs away");
-    crs = given;
+    if (talus::height_crs(crs).empty()) crs = given;
   }
   if (crs.empty()) return crs;
   const talus::Vec2 middle(0.5 * (data.x_min + data.x_max), 0.5 * (data.y_min + data.y_max));
@@ -214,17 +214,32 @@ Trn trn_of_dem(Tool& tool, const Options& o) {
 
 // --- how good it is ------------------------------------------------------------------------------
 
+// The reference's heights must be in the terrain's system, where both say it; where one does not,
+// that is said.
+void check_heights_alike(Tool& tool, const std::string& path, const std::string& crs,
+                         const Trn& trn) {
+  const std::string assumed = talus::assumed_heights(crs, trn.crs_wkt);
+  if (!assumed.empty()) tool.info(path + " and the terrain: both are " + assumed);
+  if (talus::same_heights(crs, trn.crs_wkt)) return;
+  throw InputError({path},
+                   "the heights are in " + talus::crs_name(talus::height_crs(crs)) +
+                       ", those of the terrain in " +
+                       talus::crs_name(talus::height_crs(trn.crs_wkt)),
+                   "bring both to one system of heights first");
+}
+
 // A reference DEM node by node, in strips.
-talus::ErrorStatistics errors_against_dem(const Trn& trn, const std::string& path) {
+talus::ErrorStatistics errors_against_dem(Tool& tool, const Trn& trn, const std::string& path) {
   talus::DemOptions options;
   options.crs_may_be_missing = true;
   const DemFile dem(path, options);
   if (!dem.crs_wkt().empty() && !talus::same_crs(dem.crs_wkt(), trn.crs_wkt))
-    throw InputError(
-        {path},
-        "the CRS is " + talus::crs_name(dem.crs_wkt()) + ", that of the terrain is " +
-            talus::crs_name(trn.crs_wkt),
-        "a DEM is never reprojected silently: talus-trn " + path + " -o reference.tif --t-srs CRS");
+    throw InputError({path},
+                     "the CRS is " + talus::crs_name(dem.crs_wkt()) + ", that of the terrain is " +
+                         talus::crs_name(trn.crs_wkt),
+                     "a DEM is never reprojected silently: talus-trn " + path +
+                         " -o reference.tif --t-srs " + talus::crs_code(trn.crs_wkt));
+  check_heights_alike(tool, path, dem.crs_wkt(), trn);
   const GridFrame all = talus::part_covering(dem.frame(), talus::extent(talus::frame_of(trn)));
   talus::ErrorCollector errors;
   for (int row = 0; row < all.n_rows; row += 256) {
@@ -244,8 +259,8 @@ talus::ErrorStatistics errors_against_dem(const Trn& trn, const std::string& pat
 }
 
 talus::ErrorStatistics errors_against_points(Tool& tool, const Trn& trn,
-                                             const talus::LayerChoice& choice) {
-  std::vector<std::string> notes;
+                                             const talus::LayerChoice& choice,
+                                             std::vector<std::string>& notes) {
   const std::vector<talus::Vec3> truth = talus::read_points(choice, trn.crs_wkt, notes);
   for (const std::string& note : notes) tool.info(note);
   talus::ErrorCollector errors;
@@ -344,10 +359,13 @@ Json report_on(Tool& tool, const Options& o, const Trn& trn) {
                  {"grid", as_json(trn, slopes)},
                  {"slope", as_json(slopes)}};
   if (!o.reference.empty())
-    add_errors(tool, errors_against_dem(trn, o.reference), "reference", o.reference, trn, report);
+    add_errors(tool, errors_against_dem(tool, trn, o.reference), "reference", o.reference, trn,
+               report);
+  std::vector<std::string> notes;
   if (!o.reference_points.path.empty())
-    add_errors(tool, errors_against_points(tool, trn, o.reference_points), "reference_points",
-               o.reference_points.path, trn, report);
+    add_errors(tool, errors_against_points(tool, trn, o.reference_points, notes),
+               "reference_points", o.reference_points.path, trn, report);
+  if (!notes.empty()) report["notes"] = notes;
   tool.metric("covered_share", report["grid"]["covered_share"].get<double>(), "1");
   if (slopes.n_cells_steep > 0)
     tool.warn(std::to_string(slopes.n_cells_steep) +

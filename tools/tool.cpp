@@ -36,6 +36,7 @@ struct Tool::Impl {
   RunRecord record;
   std::vector<std::string> check_hints;  // of record.checks
   Json result;
+  Json layers_read = Json::array();
   std::string summary;
   bool registered = false;
   bool on_terminal = isatty(STDERR_FILENO) == 1;
@@ -288,6 +289,10 @@ void Tool::warn(const std::string& text) {
   if (!impl_->options.quiet) impl_->print(impl_->name + ": warning: " + text);
 }
 
+void Tool::layer_read(Json entry) { impl_->layers_read.push_back(std::move(entry)); }
+
+const Json& Tool::layers_read() const { return impl_->layers_read; }
+
 void Tool::metric(const std::string& name, double value, const std::string& unit) {
   impl_->record.metrics.push_back({name, value, unit});
 }
@@ -300,6 +305,7 @@ void Tool::check(const std::string& name, double value, double limit, bool pass,
 
 void Tool::result(Json result, const std::string& summary) {
   impl_->result = std::move(result);
+  if (!impl_->layers_read.empty()) impl_->result["layers_read"] = impl_->layers_read;
   impl_->summary = summary;
   ToolOptions& options = impl_->options;
   if (options.json_option == nullptr) return;

@@ -87,6 +87,9 @@ class Tool {
   void info(const std::string& text);      ///< to stderr, not with -q
   void detail(const std::string& text);    ///< to stderr, with -v
   void warn(const std::string& text);      ///< as info(); kept in the registry and in result()
+  /// What was taken from a vector source: an entry of `layers_read` in what --json prints.
+  void layer_read(Json entry);
+  [[nodiscard]] const Json& layers_read() const;  ///< of layer_read(), in order
   void metric(const std::string& name, double value, const std::string& unit);
   /// A limit of the run's health; a failed one makes the exit code 3 once the outputs are in place,
   /// and is said with `hint`, the way out.

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double most_hanging = 0.25;  // of the height, above the ground
 constexpr double below_ground = 0.5;   // that panels reach into the ground [m]
+constexpr double same_place = 0.1;     // nearer lines cannot both be built [m]
 
 std::string place_text(const Trn& trn, const Vec2& at) {
   return text(at.x() + trn.origin.x(), 9) + ", " + text(at.y() + trn.origin.y(), 9);
@@ -45,6 +46,19 @@ Dip dip_between(const Trn& trn, const Vec3& a, const Vec3& b) {
   cross_lines(from.y(), to.y());
   cross_lines(from.x() - from.y(), to.x() - to.y());  // the diagonals of the cells
   return dip;
+}
+
+double distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
+  const Vec2 along = b - a;
+  const double length_sq = along.squaredNorm();
+  const double share = length_sq > 0 ? std::clamp((p - a).dot(along) / length_sq, 0.0, 1.0) : 0.0;
+  return (p - a - share * along).norm();
+}
+
+bool is_on(const Vec2& p, const std::vector<Vec3>& line) {
+  for (std::size_t i = 0; i + 1 < line.size(); ++i)
+    if (distance_to_segment(p, line[i].head<2>(), line[i + 1].head<2>()) <= same_place) return true;
+  return false;
 }
 
 void check_no_crossing(const Trn& trn, const std::vector<Vec3>& posts, const Where& where) {
@@ -115,6 +129,15 @@ void check_feet(const FenceSettings& fence, const Trn& trn, const std::vector<Ve
                          " lies " + text(above, 3) + " m above it",
                      "leave the elevation out, and the posts stand on the ground");
   }
+}
+
+bool lies_along(const std::vector<Vec3>& line, const std::vector<Vec3>& other) {
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+    const Vec2 a = line[i].head<2>(), b = line[i + 1].head<2>();
+    for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0})
+      if (!is_on(a + share * (b - a), other)) return false;
+  }
+  return true;
 }
 
 }  // namespace talus

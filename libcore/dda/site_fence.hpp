@@ -26,4 +26,8 @@ namespace talus {
 void check_feet(const FenceSettings& fence, const Trn& trn, const std::vector<Vec3>& points,
                 const Where& where);
 
+/// Whether a line lies within a tenth of a metre of another one all along, in plan; which end it
+/// begins at and how many points it has do not matter.
+[[nodiscard]] bool lies_along(const std::vector<Vec3>& line, const std::vector<Vec3>& other);
+
 }  // namespace talus

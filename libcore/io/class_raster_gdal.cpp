@@ -37,7 +37,8 @@ Dataset open_classes(const std::string& path, const Trn& trn) {
     throw InputError(
         {path},
         "the classes are in " + crs_name(crs) + ", the terrain is in " + crs_name(trn.crs_wkt),
-        "gdalwarp -r near -t_srs <that of the terrain> " + path + " classes.tif");
+        "gdalwarp -r near -novshift -ot Int32 -dstnodata -2147483648 -t_srs " +
+            crs_code(trn.crs_wkt) + " " + path + " classes.tif");
   return dataset;
 }
 

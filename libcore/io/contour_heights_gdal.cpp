@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "base/text.hpp"
+#include "terrain/elevation.hpp"
 
 namespace talus {
 namespace {
@@ -130,6 +131,26 @@ void set_heights(const std::vector<double>& heights, Polylines& lines) {
       lines.points[static_cast<std::size_t>(i)].z() = heights[l];
 }
 
+// What files write where they know no height is no height, whatever its unit.
+void check_known(const Polylines& lines, const LayerChoice& choice, const OpenLayer& source,
+                 const std::string& from) {
+  for (int l = 0; l < lines.n_lines(); ++l)
+    for (int i = lines.begin[static_cast<std::size_t>(l)];
+         i < lines.begin[static_cast<std::size_t>(l) + 1]; ++i) {
+      const Vec3& point = lines.points[static_cast<std::size_t>(i)];
+      if (!is_usual_nodata(point.z())) continue;
+      const std::string value = text(point.z());
+      throw InputError({choice.path, 0,
+                        "layer " + source.name + ", feature " +
+                            std::to_string(lines.feature[static_cast<std::size_t>(l)]) + " (" +
+                            text(point.x(), 10) + ", " + text(point.y(), 10) + ")"},
+                       "the elevation is " + value + ", which stands for an unknown one",
+                       from == "Z" ? "give the line its height, or take it out: ogr2ogr -where"
+                                   : "give it its height, or take such out: ogr2ogr -where \"" +
+                                         from + " <> " + value + "\" known.gpkg " + choice.path);
+    }
+}
+
 // Z and a field that both look like elevations must say the same: else one is in other units.
 void check_same_elevation(const RawLines& raw, const std::string& field, const Where& where) {
   for (std::size_t l = 0; l < raw.by_field.size(); ++l) {
@@ -230,6 +251,7 @@ Polylines read_contour_lines(const ContourSources& sources, OpenLayer& source,
           "give such lines as --breaklines, or choose a field with --elevation-field");
     if (reads_field) check_same_elevation(raw, field->name, where);
   }
+  check_known(raw.lines, choice, source, take_field ? field->name : "Z");
   reading.layer = source.name;
   reading.elevation_from = take_field ? "field " + field->name : "Z";
   return std::move(raw.lines);
@@ -245,11 +267,15 @@ Polylines read_measured_lines(const LayerChoice& choice, OpenLayer& source, doub
   const Where where = where_of_layer(choice, source);
   if (raw.lines.points.empty())
     throw InputError(where, std::string("there are no ") + source.role.name);
-  if (stand_in_field(choice, source, raw, heights_of(raw.lines), field, false)) {
+  const bool take_field = stand_in_field(choice, source, raw, heights_of(raw.lines), field, false);
+  if (take_field) {
     check_unit_in_name(field->name, unit_m, where);
     set_heights(read_field(choice, source, *field), raw.lines);
     notes.push_back(choice.path + ": elevation from field " + field->name);
   }
+  check_known(raw.lines, choice, source, take_field ? field->name : "Z");
+  notes.push_back(choice.path + ": layer " + source.name + ", " +
+                  counted(source.n_features, "feature"));
   return std::move(raw.lines);
 }
 

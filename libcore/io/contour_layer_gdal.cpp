@@ -38,18 +38,31 @@ bool fits(OGRwkbGeometryType type, LayerShape shape) {
   }
 }
 
-// Whether the layer is declared, or turns out at its first geometry, to hold the shape.
+// Whether the geometry is of the shape, or a collection with a part that is.
+bool has_part(const OGRGeometry& geometry, LayerShape shape) {
+  const OGRwkbGeometryType type = wkbFlatten(geometry.getGeometryType());
+  if (fits(type, shape)) return true;
+  if (type != wkbGeometryCollection) return false;
+  for (const OGRGeometry* part : *geometry.toGeometryCollection())
+    if (has_part(*part, shape)) return true;
+  return false;
+}
+
+// Whether the layer is declared to hold the shape. One that may hold anything is looked through: a
+// first feature of another shape says nothing of those behind it.
 bool holds(OGRLayer& layer, LayerShape shape) {
-  if (layer.GetGeomType() == wkbNone) return false;
-  if (wkbFlatten(layer.GetGeomType()) != wkbUnknown) return fits(layer.GetGeomType(), shape);
+  const OGRwkbGeometryType type = wkbFlatten(layer.GetGeomType());
+  if (type == wkbNone) return false;
+  if (type != wkbUnknown && type != wkbGeometryCollection) return fits(type, shape);
   layer.ResetReading();
+  bool found = false;
   for (const auto& feature : layer) {
     const OGRGeometry* geometry = feature->GetGeometryRef();
-    if (geometry == nullptr) continue;
-    layer.ResetReading();
-    return fits(geometry->getGeometryType(), shape);
+    found = geometry != nullptr && has_part(*geometry, shape);
+    if (found) break;
   }
-  return false;
+  layer.ResetReading();
+  return found;
 }
 
 std::string list_of_layers(GDALDataset& dataset) {
@@ -71,7 +84,8 @@ void choose_by_name(const LayerChoice& choice, OpenLayer& source) {
   if (source.layer != nullptr) return;
   if (source.is_drawing) {
     source.layer = source.dataset->GetLayer(0);
-    source.layer->SetAttributeFilter(("Layer = " + quoted(choice.layer)).c_str());
+    source.filter = "Layer = " + quoted(choice.layer);
+    source.layer->SetAttributeFilter(source.filter.c_str());
     if (source.layer->GetFeatureCount() > 0) return;
     throw InputError({choice.path}, "the drawing has nothing in a layer \"" + choice.layer + "\"",
                      "ogrinfo -al " + choice.path + " shows the layers as attribute Layer");
@@ -83,10 +97,11 @@ void choose_by_name(const LayerChoice& choice, OpenLayer& source) {
 void choose_by_shape(const LayerChoice& choice, OpenLayer& source) {
   const LayerShape shape = source.role.shape;
   std::vector<OGRLayer*> fitting;
-  for (OGRLayer* layer : source.dataset->GetLayers())
-    if (holds(*layer, shape)) fitting.push_back(layer);
-  if (fitting.empty() && source.dataset->GetLayerCount() == 1)
+  if (source.dataset->GetLayerCount() == 1)
     fitting.push_back(source.dataset->GetLayer(0));  // its features say what is wrong
+  else
+    for (OGRLayer* layer : source.dataset->GetLayers())
+      if (holds(*layer, shape)) fitting.push_back(layer);
   if (fitting.size() != 1)
     throw InputError({choice.path},
                      std::to_string(fitting.size()) + " layers hold " + plural(shape) +

@@ -1,5 +1,5 @@
 // libcore/io/contour_layer_gdal.hpp
-// The layer of a vector source that a contour map is read from, and its parts of one shape.
+// The layer of a vector source that is read, and its parts of one shape.
 // in:    a source and what it is read for
 // out:   the layer chosen by name or by shape; a call a part. Messages name file, layer and feature
 #pragma once
@@ -26,7 +26,7 @@ enum class LayerShape { line, point, polygon };
 struct LayerRole {
   LayerShape shape;
   const char* name;     ///< of its parts, for messages: "contours"
-  const char* options;  ///< how its options begin: "--breaklines-"
+  const char* options;  ///< how its options begin: "--breaklines-", "source.polygon_"
 };
 
 /// A source that is open at one of its layers.
@@ -36,6 +36,7 @@ struct OpenLayer {
   LayerRole role;
   bool is_drawing = false;  ///< DXF: one layer holds all sorts of things
   std::string name;         ///< of the layer, for messages
+  std::string filter;       ///< set already: the layer of a drawing; empty: none
   // for_each_part
   std::int64_t n_features = 0;
   std::int64_t n_ignored = 0;  ///< parts of a drawing that have another shape

@@ -40,10 +40,12 @@ std::string crs_of_contours(const ContourSources& sources, const OpenLayer& sour
                                       "no degrees"
                                 : "there is no CRS, expected a projected one in metres",
                      "name it with --crs EPSG:code, or --crs none for local metres");
-  if (!own.empty() && sources.crs_given && !same_crs(own, sources.crs))
+  if (!own.empty() && sources.crs_given &&
+      !(same_crs(own, sources.crs) && same_heights(own, sources.crs)))
     throw InputError({path}, "the CRS is " + crs_name(own) + ", not " + crs_name(sources.crs),
                      "leave --crs away; --t-srs reprojects");
-  return own.empty() ? sources.crs : own;
+  const bool user_says_heights = sources.crs_given && height_crs(own).empty();
+  return own.empty() || user_says_heights ? sources.crs : own;
 }
 
 void check_crs(const std::string& crs, const std::string& path, const Vec3& place) {
@@ -53,6 +55,16 @@ void check_crs(const std::string& crs, const std::string& path, const Vec3& plac
   throw InputError({path}, problem.finding,
                    "--t-srs " + (problem.mend_to.empty() ? "EPSG:code" : problem.mend_to) +
                        " reprojects; elevations in feet need --elevation-unit-m 0.3048");
+}
+
+// The system that the heights are in is held to the same as that of the map, where both say it.
+void check_heights_alike(const std::string& own, const std::string& map_crs,
+                         const std::string& path) {
+  if (same_heights(own, map_crs)) return;
+  throw InputError({path},
+                   "the heights are in " + crs_name(height_crs(own)) + ", those of the map in " +
+                       crs_name(height_crs(map_crs)),
+                   "bring them to one system first");
 }
 
 // Heights stay as they are.
@@ -99,6 +111,10 @@ Polylines read_measured(const LayerChoice& choice, const LayerRole& role,
   OpenLayer source = open_layer(choice, role);
   Polylines lines = read_measured_lines(choice, source, unit_m, notes);
   bring_to_map(choice, source, map_crs, lines.points, notes);
+  const std::string own_crs = wkt_of(source.layer->GetSpatialRef());
+  check_heights_alike(own_crs, map_crs, choice.path);
+  const std::string assumed = assumed_heights(own_crs, map_crs);
+  if (!assumed.empty()) notes.push_back(choice.path + " and the map: both are " + assumed);
   scale_heights(unit_m, choice.path, lines.points);
   return lines;
 }
@@ -121,6 +137,7 @@ std::vector<BoundaryRing> read_boundary(const LayerChoice& choice, const std::st
     }
     ++n_polygons;
   });
+  notes.push_back(choice.path + ": layer " + source.name + ", " + counted(n_polygons, "polygon"));
   bring_to_map(choice, source, map_crs, points, notes);
   begin.push_back(points.size());
   for (std::size_t r = 0; r < rings.size(); ++r)
@@ -167,12 +184,14 @@ ContourMap read_contours(const ContourSources& sources, ContourReading& reading)
   OpenLayer source = open_layer(sources.contours, contours_role);
   map.contours = read_contour_lines(sources, source, reading);
   const std::string own_crs = crs_of_contours(sources, source, map.contours.points);
-  map.crs_wkt = sources.t_srs.empty() ? own_crs : sources.t_srs;
+  map.crs_wkt = own_crs;
   if (!sources.t_srs.empty()) {
     if (own_crs.empty())
       throw InputError({map.source}, "local metres cannot be reprojected", "leave --t-srs away");
+    map.crs_wkt = with_heights_of(own_crs, sources.t_srs, {map.source});
     bring_to(own_crs, sources.t_srs, map.source, map.contours.points);
   }
+  if (sources.elevation_unit_m != 1) map.crs_wkt = horizontal_crs(map.crs_wkt);
   check_crs(map.crs_wkt, map.source, map.contours.points.front());
   scale_heights(sources.elevation_unit_m, map.source, map.contours.points);
   const HeightRange heights = heights_of(map.contours);

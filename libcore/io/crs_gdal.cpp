@@ -24,6 +24,33 @@ OGRSpatialReference parse(const std::string& wkt) {
   return srs;
 }
 
+std::string copied(char* wkt) {
+  std::string text(wkt ? wkt : "");
+  CPLFree(wkt);
+  return text;
+}
+
+std::string as_wkt(const OGRSpatialReference& srs) {
+  char* wkt = nullptr;
+  const char* const options[] = {"FORMAT=WKT2_2019", nullptr};
+  srs.exportToWkt(&wkt, options);
+  return copied(wkt);
+}
+
+// The system without heights: of a compound one its first half, of a spatial one the plane.
+OGRSpatialReference plan_of(const std::string& wkt) {
+  OGRSpatialReference srs = parse(wkt);
+  if (srs.IsCompound()) srs.StripVertical();
+  if (srs.GetAxesCount() == 3 && !srs.IsGeocentric()) srs.DemoteTo2D(nullptr);
+  return srs;
+}
+
+bool is_same(const OGRSpatialReference& a, const OGRSpatialReference& b) {
+  const char* const options[] = {"IGNORE_DATA_AXIS_TO_SRS_AXIS_MAPPING=YES",
+                                 "CRITERION=EQUIVALENT_EXCEPT_AXIS_ORDER_GEOGCRS", nullptr};
+  return a.IsSame(&b, options) != 0;
+}
+
 std::string authority(const OGRSpatialReference& srs) {
   const char* name = srs.GetAuthorityName(nullptr);
   const char* code = srs.GetAuthorityCode(nullptr);
@@ -80,12 +107,7 @@ std::string describe_problem(const OGRSpatialReference& srs) {
 std::string wkt_of(const OGRSpatialReference* srs) {
   if (!srs || srs->IsEmpty() || is_undefined(*srs)) return {};
   if (srs->IsLocal() && std::abs(srs->GetLinearUnits() - 1) < 1e-9) return {};
-  char* wkt = nullptr;
-  const char* const options[] = {"FORMAT=WKT2_2019", nullptr};
-  srs->exportToWkt(&wkt, options);
-  std::string copied(wkt ? wkt : "");
-  CPLFree(wkt);
-  return copied;
+  return as_wkt(*srs);
 }
 
 bool is_beyond_degrees(const std::string& crs_wkt, const std::vector<Vec3>& points) {
@@ -101,7 +123,7 @@ bool is_beyond_degrees(const std::string& crs_wkt, const std::vector<Vec3>& poin
 
 bool reproject(const std::string& from, const std::string& to, std::vector<Vec3>& points) {
   const GdalErrors errors;
-  const OGRSpatialReference source = parse(from), target = parse(to);
+  const OGRSpatialReference source = plan_of(from), target = plan_of(to);
   const std::unique_ptr<OGRCoordinateTransformation> transformation(
       OGRCreateCoordinateTransformation(&source, &target));
   if (!transformation) return false;
@@ -130,16 +152,70 @@ std::string crs_name(const std::string& crs_wkt) {
   return code.empty() ? std::string(name) : code + " (" + name + ")";
 }
 
+std::string crs_code(const std::string& crs_wkt) {
+  if (crs_wkt.empty()) return "CRS";
+  const GdalErrors errors;
+  const std::string code = authority(plan_of(crs_wkt));
+  return code.empty() ? "CRS" : code;
+}
+
 bool same_crs(const std::string& a, const std::string& b) {
   if (a == b) return true;
   if (a.empty() || b.empty()) return false;
   const GdalErrors errors;
-  const OGRSpatialReference first = parse(a), second = parse(b);
-  const char* const options[] = {"IGNORE_DATA_AXIS_TO_SRS_AXIS_MAPPING=YES",
-                                 "CRITERION=EQUIVALENT_EXCEPT_AXIS_ORDER_GEOGCRS", nullptr};
-  if (first.IsSame(&second, options)) return true;
+  const OGRSpatialReference first = plan_of(a), second = plan_of(b);
+  if (is_same(first, second)) return true;
   const std::string code = authority(first);
   return !code.empty() && code == authority(second);
+}
+
+std::string horizontal_crs(const std::string& crs_wkt) {
+  if (crs_wkt.empty()) return {};
+  const GdalErrors errors;
+  return as_wkt(plan_of(crs_wkt));
+}
+
+std::string height_crs(const std::string& crs_wkt) {
+  if (crs_wkt.empty()) return {};
+  const GdalErrors errors;
+  const OGRSpatialReference srs = parse(crs_wkt);
+  const OGR_SRSNode* const node = srs.IsCompound() ? srs.GetAttrNode("VERT_CS") : nullptr;
+  if (node == nullptr) return {};
+  char* wkt = nullptr;
+  node->exportToWkt(&wkt);
+  return as_wkt(parse(copied(wkt)));
+}
+
+bool same_heights(const std::string& a, const std::string& b) {
+  const std::string first = height_crs(a), second = height_crs(b);
+  if (first.empty() || second.empty() || first == second) return true;
+  const GdalErrors errors;
+  return is_same(parse(first), parse(second));
+}
+
+std::string assumed_heights(const std::string& a, const std::string& b) {
+  const std::string first = height_crs(a), second = height_crs(b);
+  if (first.empty() == second.empty()) return {};
+  return "taken to have heights in " + crs_name(first.empty() ? second : first);
+}
+
+std::string with_heights_of(const std::string& other, const std::string& plan, const Where& where) {
+  const std::string heights = height_crs(other), wanted = height_crs(plan);
+  if (!wanted.empty() && (heights.empty() || !same_heights(other, plan)))
+    throw InputError(where,
+                     (heights.empty() ? "does not say what system its heights are in"
+                                      : "its heights are in " + crs_name(heights)) +
+                         ", and " + crs_name(plan) + " would have them in " + crs_name(wanted),
+                     "--t-srs " + crs_code(plan) + " reprojects in plan, heights stay");
+  if (heights.empty() || !wanted.empty()) return plan;
+  const GdalErrors errors;
+  const OGRSpatialReference horizontal = parse(plan), vertical = parse(heights);
+  OGRSpatialReference both;
+  const std::string name =
+      std::string(horizontal.GetName()) + " + " + std::string(vertical.GetName());
+  if (both.SetCompoundCS(name.c_str(), &horizontal, &vertical) != OGRERR_NONE)
+    throw InputError(where, "cannot be in " + crs_name(plan) + " with " + crs_name(heights));
+  return as_wkt(both);
 }
 
 CrsProblem find_crs_problem(const std::string& crs_wkt, const Vec2& place) {
@@ -148,9 +224,11 @@ CrsProblem find_crs_problem(const std::string& crs_wkt, const Vec2& place) {
   const OGRSpatialReference srs = parse(crs_wkt);
   const std::string problem = describe_problem(srs);
   if (problem.empty()) return {};
+  const bool fit_in_plan = srs.IsCompound() && describe_problem(plan_of(crs_wkt)).empty();
+  const double height_unit_m = fit_in_plan ? srs.GetTargetLinearUnits("VERT_CS") : 1;
   return {
       "the CRS is " + crs_name(crs_wkt) + ", " + problem + ", expected a projected one in metres",
-      utm_zone(srs, place)};
+      fit_in_plan ? std::string() : utm_zone(plan_of(crs_wkt), place), height_unit_m};
 }
 
 }  // namespace talus

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/error.hpp"
 #include "base/types.hpp"
 
 class OGRSpatialReference;
@@ -23,15 +24,37 @@ namespace talus {
 /// "EPSG:31287 (MGI / Austria Lambert)", or the name alone, or "no CRS".
 [[nodiscard]] std::string crs_name(const std::string& crs_wkt);
 
-/// Whether both describe the same system; two empty ones do.
+/// What a command takes for the system in plan: "EPSG:31287", or CRS where it has no code.
+[[nodiscard]] std::string crs_code(const std::string& crs_wkt);
+
+/// Whether both describe the same system in plan, whatever system their heights are in; two empty
+/// ones do.
 [[nodiscard]] bool same_crs(const std::string& a, const std::string& b);
+
+/// The part of a system that places points in plan.
+[[nodiscard]] std::string horizontal_crs(const std::string& crs_wkt);
+
+/// WKT of the system that heights are in ("EGM96 height"); empty when it is not said.
+[[nodiscard]] std::string height_crs(const std::string& crs_wkt);
+
+/// Whether the heights may be compared: false when both say their system and it is not the same.
+[[nodiscard]] bool same_heights(const std::string& a, const std::string& b);
+
+/// "taken to have heights in EPSG:5773 (EGM96 height)" when one of the two says its system of
+/// heights and the other does not; empty when there is nothing to assume.
+[[nodiscard]] std::string assumed_heights(const std::string& a, const std::string& b);
+
+/// The system `plan` with the heights of `other`, where that says them: what something is in that
+/// was reprojected in plan. Throws InputError when `plan` says another system of heights.
+[[nodiscard]] std::string with_heights_of(const std::string& other, const std::string& plan,
+                                          const Where& where);
 
 /// Whether points cannot stand in the geographic system that their file names: a latitude above 90
 /// degrees or a longitude above 360. A GeoJSON without `crs` says degrees whatever it holds. False
 /// for other systems.
 [[nodiscard]] bool is_beyond_degrees(const std::string& crs_wkt, const std::vector<Vec3>& points);
 
-/// Takes points from one CRS to another, x (east, longitude) first; heights stay as they are. False
+/// Takes points from one CRS to another in plan, x (east, longitude) first; heights stay. False
 /// when a point cannot be taken there; `points` are then spoilt.
 [[nodiscard]] bool reproject(const std::string& from, const std::string& to,
                              std::vector<Vec3>& points);
@@ -40,6 +63,7 @@ namespace talus {
 struct CrsProblem {
   std::string finding;  ///< "the CRS is EPSG:4326 (WGS 84), in degrees, expected ..."; empty: none
   std::string mend_to;  ///< UTM zone of the place, "EPSG:32632"; empty when it cannot be told
+  double height_unit_m = 1;  ///< not 1: the system is fit in plan, its heights are not in metres
 };
 
 /// Geographic, geocentric and Mercator systems, feet in plan or in height have a problem;

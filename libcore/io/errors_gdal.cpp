@@ -12,7 +12,7 @@ namespace {
 
 void CPL_STDCALL collect(CPLErr severity, CPLErrorNum, const char* message) {
   static_cast<GdalErrors*>(CPLGetErrorHandlerUserData())
-      ->note(severity == CE_Failure || severity == CE_Fatal, message);
+      ->note(severity == CE_Failure || severity == CE_Fatal, severity == CE_Warning, message);
 }
 
 // Without it coordinate systems are read by halves, and outputs differ from those of other
@@ -36,12 +36,13 @@ GdalErrors::~GdalErrors() {
   CPLErrorReset();
 }
 
-void GdalErrors::note(bool is_failure, const char* message) {
-  if (!is_failure || failed()) return;
-  failure_ = message;
-  while (!failure_.empty() && (failure_.back() == '.' || failure_.back() == '\n'))
-    failure_.pop_back();
-  if (failure_.empty()) failure_ = "GDAL failed without saying why";
+void GdalErrors::note(bool is_failure, bool is_warning, const char* message) {
+  if (!is_failure && !is_warning) return;
+  std::string& kept = is_failure ? failure_ : warning_;
+  if (!kept.empty()) return;
+  kept = message;
+  while (!kept.empty() && (kept.back() == '.' || kept.back() == '\n')) kept.pop_back();
+  if (kept.empty()) kept = "GDAL complained without saying why";
 }
 
 void register_gdal_drivers() {

@@ -17,10 +17,12 @@ class GdalErrors {
   [[nodiscard]] bool failed() const { return !failure_.empty(); }
   /// The first failure, without a full stop at its end; empty when there was none.
   [[nodiscard]] const std::string& failure() const { return failure_; }
-  void note(bool is_failure, const char* message);  ///< called by GDAL
+  /// The first warning, likewise.
+  [[nodiscard]] const std::string& warning() const { return warning_; }
+  void note(bool is_failure, bool is_warning, const char* message);  ///< called by GDAL
 
  private:
-  std::string failure_;
+  std::string failure_, warning_;
 };
 
 /// All drivers, once. GDAL's cache of blocks gets 128 MB unless GDAL_CACHEMAX says otherwise: its

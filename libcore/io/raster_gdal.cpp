@@ -8,12 +8,15 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <set>
 #include <utility>
 
 #include "base/text.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/errors_gdal.hpp"
 #include "terrain/elevation.hpp"
+#include "terrain/lone_levels.hpp"
 #include "terrain/resample.hpp"
 
 namespace talus {
@@ -42,6 +45,20 @@ Dataset open_raster(const std::string& path) {
   return dataset;
 }
 
+// The command that makes metres of heights in another unit; the system that they are in says the
+// unit too, so the copy is given the plan alone.
+std::string scale_command(double unit_m, const std::string& crs, const std::string& path) {
+  return "gdal_translate -ot Float64 -scale 0 10000 0 " + text(10000 * unit_m, 12) +
+         (height_crs(crs).empty() ? "" : " -a_srs " + crs_code(crs)) + " " + path + " metres.tif";
+}
+
+std::string to_metres(const std::string& unit, const std::string& crs, const std::string& path) {
+  const bool is_survey = unit.find("survey") != std::string::npos || unit == "us-ft";
+  const bool is_foot = unit.starts_with("f") || unit == "international foot";
+  if (is_survey) return ": " + scale_command(1200.0 / 3937, crs, path);
+  return is_foot ? ": " + scale_command(0.3048, crs, path) : std::string();
+}
+
 void check_band(GDALDataset& dataset, const std::string& path) {
   const int n_bands = dataset.GetRasterCount();
   if (n_bands != 1)
@@ -53,11 +70,8 @@ void check_band(GDALDataset& dataset, const std::string& path) {
   const std::string unit = lower(band.GetUnitType() ? band.GetUnitType() : "");
   for (const char* metre : {"", "m", "metre", "metres", "meter", "meters"})
     if (unit == metre) return;
-  throw InputError(
-      {path}, "the elevations are in \"" + unit + "\", expected metres",
-      "convert them first; for international feet: gdal_translate -ot Float64 -scale 0 "
-      "10000 0 3048 " +
-          path + " metres.tif, then set the band's unit to m");
+  throw InputError({path}, "the elevations are in \"" + unit + "\", expected metres",
+                   "convert them first" + to_metres(unit, wkt_of(dataset.GetSpatialRef()), path));
 }
 
 // The lattice of the cell centres; refuses what no TRN can stand on.
@@ -90,15 +104,16 @@ GridFrame frame_of_raster(GDALDataset& dataset, const std::string& path) {
   return {n_rows, n_cols, width, {g[0] + 0.5 * width, g[3] - 0.5 * width}};
 }
 
-// The file's CRS, or the one that the user gives for a file without.
+// The file's CRS, or the one that the user gives for a file without. The user may also say what
+// system the heights of a file are in that names the plan alone.
 std::string effective_crs(GDALDataset& dataset, const std::string& path,
                           const DemOptions& options) {
   const std::string own = wkt_of(dataset.GetSpatialRef());
   if (!own.empty()) {
-    if (options.crs_given && !same_crs(own, options.crs))
+    if (options.crs_given && !(same_crs(own, options.crs) && same_heights(own, options.crs)))
       throw InputError({path}, "the CRS is " + crs_name(own) + ", not " + crs_name(options.crs),
                        "leave --crs away; --t-srs reprojects");
-    return own;
+    return options.crs_given && height_crs(own).empty() ? options.crs : own;
   }
   if (!options.crs_given && !options.crs_may_be_missing)
     throw InputError({path}, "there is no CRS, expected a projected one in metres",
@@ -107,7 +122,8 @@ std::string effective_crs(GDALDataset& dataset, const std::string& path,
 }
 
 // A virtual raster that reprojects what is read from it. Exact transformation (-et 0): the default
-// eighth of a cell is a metre of height on a steep slope.
+// eighth of a cell is a metre of height on a steep slope. Both systems are in plan alone: heights
+// stay as they are.
 Dataset reproject(GDALDataset& source, const std::string& path, const std::string& from,
                   const std::string& to) {
   CPLStringList words;
@@ -128,6 +144,8 @@ void check_crs(const std::string& crs, const std::string& path, const Vec2& plac
   if (crs.empty()) return;
   const CrsProblem problem = find_crs_problem(crs, place);
   if (problem.finding.empty()) return;
+  if (problem.height_unit_m != 1)
+    throw InputError({path}, problem.finding, scale_command(problem.height_unit_m, crs, path));
   const std::string to = problem.mend_to.empty() ? "EPSG:code" : problem.mend_to;
   throw InputError(
       {path}, problem.finding,
@@ -160,12 +178,16 @@ DemFile::DemFile(const std::string& path, const DemOptions& options)
   GDALDataset* dataset = impl_->source.get();
   check_band(*dataset, path);
   impl_->crs = effective_crs(*dataset, path, options);
-  if (!options.t_srs.empty() && !same_crs(impl_->crs, options.t_srs)) {
+  if (!options.t_srs.empty()) {
     if (impl_->crs.empty())
       throw InputError({path}, "there is no CRS to reproject from", "name it with --crs EPSG:code");
-    impl_->warped = reproject(*dataset, path, impl_->crs, options.t_srs);
-    dataset = impl_->warped.get();
-    impl_->crs = options.t_srs;
+    const std::string wanted = with_heights_of(impl_->crs, options.t_srs, {path});
+    if (!same_crs(impl_->crs, options.t_srs)) {
+      impl_->warped =
+          reproject(*dataset, path, horizontal_crs(impl_->crs), horizontal_crs(options.t_srs));
+      dataset = impl_->warped.get();
+      impl_->crs = wanted;
+    }
   }
   std::array<double, 6> g{};
   dataset->GetGeoTransform(g.data());
@@ -183,11 +205,14 @@ DemFile::~DemFile() = default;
 const std::string& DemFile::path() const { return impl_->path; }
 const GridFrame& DemFile::frame() const { return impl_->frame; }
 const std::string& DemFile::crs_wkt() const { return impl_->crs; }
+double DemFile::raw_of(double z) const { return (z - impl_->offset) / impl_->scale; }
+Where DemFile::where_of_cell(int row, int col) const {
+  return impl_->where(0, row, col, impl_->frame.n_cols);
+}
 
 void DemFile::Impl::check_value(double raw, const Where& place) const {
   const double z = raw * scale + offset;
-  const bool usual_nodata = raw == -9999 || raw == -32767 || raw == -32768;
-  if (std::abs(z) <= highest_elevation && !usual_nodata) return;
+  if (std::abs(z) <= highest_elevation && !is_usual_nodata(raw)) return;
   throw InputError(place,
                    "the elevation is " + text(z, 10) +
                        " m, which the file does not declare as "
@@ -224,21 +249,56 @@ void DemFile::read(int row, int n_rows, int col, int n_cols, double* elevation) 
   }
 }
 
-std::vector<double> read_dem(const DemFile& dem, const GridFrame& frame,
-                             const ProgressFunction& progress) {
-  RowResampler resampler(dem.frame(), frame);
-  const int first = resampler.first_row(), last = resampler.last_row();
-  if (first > last || resampler.n_cols() < 1) return resampler.take();
-  const auto n_cols = static_cast<std::size_t>(resampler.n_cols());
+namespace {
+
+// Calls visit(row) for each row of the DEM that `part` needs, in order.
+template <class Visit>
+void for_each_row(const DemFile& dem, const RowResampler& part, const ProgressFunction& progress,
+                  const Visit& visit) {
+  const int first = part.first_row(), last = part.last_row();
+  const auto n_cols = static_cast<std::size_t>(part.n_cols());
   std::vector<double> strip(rows_at_once * n_cols);
   for (int row = first, n_rows = 0; row <= last; row += n_rows) {
     // strips end where rows of tiles do, so that no tile is unpacked twice
     n_rows = std::min(rows_at_once - row % rows_at_once, last - row + 1);
-    dem.read(row, n_rows, resampler.first_col(), resampler.n_cols(), strip.data());
-    for (int i = 0; i < n_rows; ++i)
-      resampler.add_row(strip.data() + static_cast<std::size_t>(i) * n_cols);
+    dem.read(row, n_rows, part.first_col(), part.n_cols(), strip.data());
+    for (int i = 0; i < n_rows; ++i) visit(strip.data() + static_cast<std::size_t>(i) * n_cols);
     if (progress) progress(static_cast<double>(row + n_rows - first) / (last - first + 1));
   }
+}
+
+// Refuses an area of one value that stands far off the cells beside it.
+void refuse_lone_level(const DemFile& dem, const RowResampler& part,
+                       const std::set<double>& values) {
+  const double step = impossible_step(dem.frame().cell_size);
+  LoneLevels levels(part.n_cols(), step, values);
+  for_each_row(dem, part, {}, [&](const double* row) { levels.add_row(row); });
+  const std::optional<LoneLevel> found = levels.worst();
+  if (!found) return;
+  const int row = part.first_row() + found->row, col = part.first_col() + found->col;
+  throw InputError(dem.where_of_cell(row, col),
+                   "the elevation is " + text(found->value, 10) + " m in " +
+                       counted(found->n_cells, "cell") + " side by side, more than " +
+                       text(step, 6) + " m off " + std::to_string(found->n_far) + " of the " +
+                       std::to_string(found->n_beside) +
+                       " beside them, and the file does not declare it as nodata",
+                   "if it stands for nodata: gdal_translate -a_nodata " +
+                       text(dem.raw_of(found->value)) + " " + dem.path() + " declared.tif");
+}
+
+}  // namespace
+
+std::vector<double> read_dem(const DemFile& dem, const GridFrame& frame,
+                             const ProgressFunction& progress) {
+  RowResampler resampler(dem.frame(), frame);
+  if (resampler.first_row() > resampler.last_row() || resampler.n_cols() < 1)
+    return resampler.take();
+  StepFinder steps(resampler.n_cols(), impossible_step(dem.frame().cell_size));
+  for_each_row(dem, resampler, progress, [&](const double* row) {
+    steps.add_row(row);
+    resampler.add_row(row);
+  });
+  if (!steps.values().empty()) refuse_lone_level(dem, resampler, steps.values());
   return resampler.take();
 }
 

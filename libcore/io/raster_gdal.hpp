@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "base/error.hpp"
 #include "base/progress.hpp"
 #include "terrain/grid_frame.hpp"
 
@@ -19,9 +20,11 @@ namespace talus {
 
 /// What the user says about a DEM that the file does not, or not as wanted.
 struct DemOptions {
-  bool crs_given = false;  ///< `crs` replaces a missing CRS; refused when the file has another one
+  bool crs_given = false;  ///< `crs` replaces a missing CRS, or one that says no heights; refused
+                           ///< when the file has another one
   std::string crs;         ///< WKT; empty: local metres, no place on the map
-  std::string t_srs;       ///< WKT; not empty: reproject to it (bilinear, at the file's resolution)
+  std::string t_srs;       ///< WKT; not empty: reproject to it in plan (bilinear, at the file's
+                           ///< resolution); heights stay, and so does the system that they are in
   bool crs_may_be_missing = false;  ///< no CRS and none given means local metres
 };
 
@@ -40,6 +43,8 @@ class DemFile {
   [[nodiscard]] const std::string& path() const;
   [[nodiscard]] const GridFrame& frame() const;      ///< its cell centres
   [[nodiscard]] const std::string& crs_wkt() const;  ///< empty for local metres
+  [[nodiscard]] double raw_of(double z) const;       ///< what stands in the file for an elevation
+  [[nodiscard]] Where where_of_cell(int row, int col) const;  ///< with its place on the map
 
   /// Elevations of n_rows x n_cols nodes from (row, col) on, NaN = unknown [m]. Throws InputError
   /// with the place for a file that ends early and for values that are no elevations: infinite,
@@ -58,7 +63,8 @@ class DemFile {
 
 /// Elevations of `dem` on the nodes of `frame`, which is in the CRS of `dem`: area-weighted means
 /// where the cell grows, bilinear where it shrinks, copies where the nodes are the DEM's own
-/// (RowResampler). Reads the rows and columns that the frame needs, strip by strip.
+/// (RowResampler). Reads the rows and columns that the frame needs, strip by strip. Throws
+/// InputError for an area of one value that stands far off what is beside it (lone_levels.hpp).
 [[nodiscard]] std::vector<double> read_dem(const DemFile& dem, const GridFrame& frame,
                                            const ProgressFunction& progress = {});
 

@@ -5,40 +5,27 @@
 
 #include <cmath>
 #include <memory>
+#include <utility>
 
 #include "base/error.hpp"
+#include "io/areas_gdal.hpp"
+#include "io/contour_layer_gdal.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/errors_gdal.hpp"
 
 namespace talus {
 namespace {
 
-const char* name_of(VectorKind kind) {
-  switch (kind) {
+LayerRole role_of(const VectorQuery& query) {
+  switch (query.kind) {
     case VectorKind::points:
-      return "points";
+      return {LayerShape::point, "points", query.options.c_str()};
     case VectorKind::lines:
-      return "lines";
+      return {LayerShape::line, "lines", query.options.c_str()};
     case VectorKind::areas:
       break;
   }
-  return "polygons";
-}
-
-bool holds(OGRwkbGeometryType type, VectorKind kind) {
-  const OGRwkbGeometryType flat = wkbFlatten(type);
-  if (flat == wkbUnknown || flat == wkbGeometryCollection) return true;
-  switch (kind) {
-    case VectorKind::points:
-      return flat == wkbPoint || flat == wkbMultiPoint;
-    case VectorKind::lines:
-      return flat == wkbLineString || flat == wkbMultiLineString || flat == wkbCompoundCurve ||
-             flat == wkbMultiCurve;
-    case VectorKind::areas:
-      break;
-  }
-  return flat == wkbPolygon || flat == wkbMultiPolygon || flat == wkbCurvePolygon ||
-         flat == wkbMultiSurface;
+  return {LayerShape::polygon, "polygons", query.options.c_str()};
 }
 
 std::vector<Vec3> vertices_of(const OGRSimpleCurve& curve, bool is_ring) {
@@ -50,42 +37,104 @@ std::vector<Vec3> vertices_of(const OGRSimpleCurve& curve, bool is_ring) {
   return vertices;
 }
 
-// Adds the parts of one geometry; other kinds in a mixed layer are passed over.
-void add_shapes(const OGRGeometry& geometry, VectorKind kind,
-                std::vector<std::vector<Vec3>>& shapes) {
-  const OGRwkbGeometryType type = wkbFlatten(geometry.getGeometryType());
-  if (OGR_GT_IsSubClassOf(type, wkbGeometryCollection)) {
-    for (const OGRGeometry* part : *geometry.toGeometryCollection())
-      add_shapes(*part, kind, shapes);
-  } else if (type == wkbPoint && kind == VectorKind::points) {
-    const OGRPoint* point = geometry.toPoint();
-    shapes.push_back({{point->getX(), point->getY(), point->Is3D() ? point->getZ() : NAN}});
-  } else if (type == wkbLineString && kind == VectorKind::lines) {
-    shapes.push_back(vertices_of(*geometry.toLineString(), false));
-  } else if (type == wkbPolygon && kind == VectorKind::areas) {
-    for (const OGRLinearRing* ring : *geometry.toPolygon())
-      shapes.push_back(vertices_of(*ring, true));
-  }
-}
-
-OGRLayer* find_layer(GDALDataset& source, const VectorQuery& query) {
-  std::string names;
-  for (OGRLayer* layer : source.GetLayers()) {
-    names += (names.empty() ? "" : ", ") + std::string(layer->GetName());
-    if (query.layer.empty() ? holds(layer->GetGeomType(), query.kind)
-                            : query.layer == layer->GetName())
-      return layer;
-  }
-  const std::string wanted = query.layer.empty() ? std::string("no layer of ") + name_of(query.kind)
-                                                 : "there is no layer " + query.layer;
-  throw InputError({query.path}, wanted, names.empty() ? "" : "its layers: " + names);
-}
-
 void check_finite(const std::vector<std::vector<Vec3>>& shapes, const Where& where) {
   for (const auto& shape : shapes)
     for (const Vec3& v : shape)
       if (!std::isfinite(v.x()) || !std::isfinite(v.y()))
         throw InputError(where, "a coordinate is not finite");
+}
+
+using Rings = std::vector<std::vector<Vec3>>;
+
+// The outline and the holes.
+Rings rings_of(const OGRPolygon& polygon) {
+  Rings rings;
+  for (const OGRLinearRing* ring : polygon) rings.push_back(vertices_of(*ring, true));
+  return rings;
+}
+
+// What is read from a layer, polygons apart from the rest.
+struct Parts {
+  Rings shapes;
+  std::vector<std::unique_ptr<OGRPolygon>> polygons;
+  int n_passed_over = 0;
+};
+
+// Adds the parts of one geometry; other kinds in a mixed layer are counted.
+void add_parts(const OGRGeometry& geometry, VectorKind kind, const Where& where, Parts& parts) {
+  const OGRwkbGeometryType type = wkbFlatten(geometry.getGeometryType());
+  if (OGR_GT_IsSubClassOf(type, wkbGeometryCollection)) {
+    for (const OGRGeometry* part : *geometry.toGeometryCollection())
+      add_parts(*part, kind, where, parts);
+  } else if (type == wkbPoint && kind == VectorKind::points) {
+    const OGRPoint* point = geometry.toPoint();
+    parts.shapes.push_back({{point->getX(), point->getY(), point->Is3D() ? point->getZ() : NAN}});
+  } else if (type == wkbLineString && kind == VectorKind::lines) {
+    parts.shapes.push_back(vertices_of(*geometry.toLineString(), false));
+  } else if (type == wkbPolygon && kind == VectorKind::areas) {
+    check_finite(rings_of(*geometry.toPolygon()), where);
+    check_polygon(*geometry.toPolygon(), where);
+    parts.polygons.emplace_back(geometry.toPolygon()->clone());
+  } else {
+    ++parts.n_passed_over;
+  }
+}
+
+Parts read_parts(const VectorQuery& query, OpenLayer& source) {
+  const LayerChoice choice{query.path, query.layer, ""};
+  const Where where = where_of_layer(choice, source);
+  const GdalErrors errors;
+  if (!query.where.empty()) {
+    const std::string filter =
+        source.filter.empty() ? query.where : source.filter + " AND (" + query.where + ")";
+    if (source.layer->SetAttributeFilter(filter.c_str()) != OGRERR_NONE)
+      throw InputError(where,
+                       "the filter \"" + query.where + "\" cannot be used: " + errors.failure());
+  }
+  Parts parts;
+  int n_null = 0;
+  source.layer->ResetReading();
+  for (auto&& feature : *source.layer) {
+    const OGRGeometry* geometry = feature->GetGeometryRef();
+    if (!geometry || geometry->IsEmpty()) {
+      ++n_null;
+      continue;
+    }
+    const std::unique_ptr<OGRGeometry> straight(geometry->getLinearGeometry());
+    add_parts(*straight, query.kind, where_of_feature(choice, source, *feature), parts);
+  }
+  if (errors.failed()) throw InputError(where, "reading failed: " + errors.failure());
+  if (n_null > 0)
+    throw InputError(where, std::to_string(n_null) + " features have no geometry",
+                     "the file may be cut short; repair it first");
+  if (parts.shapes.empty() && parts.polygons.empty())
+    throw InputError(where, std::string("holds no ") + source.role.name);
+  return parts;
+}
+
+// Makes the polygons rings; for each ring, whether it is a hole.
+std::vector<bool> add_areas(Parts& parts, const Where& where, VectorShapes& found) {
+  const Uniting uniting = unite_polygons(parts.polygons, where);
+  found.n_united = uniting.n_united;
+  found.n_made = uniting.n_made;
+  std::vector<bool> is_hole;
+  for (const auto& polygon : parts.polygons) {
+    Rings rings = rings_of(*polygon);
+    for (std::size_t r = 0; r < rings.size(); ++r) {
+      is_hole.push_back(r > 0);
+      found.shapes.push_back(std::move(rings[r]));
+    }
+  }
+  return is_hole;
+}
+
+double area_of_ring(const std::vector<Vec3>& ring) {
+  double twice = 0;
+  for (std::size_t k = 1; k + 1 < ring.size(); ++k) {
+    const Vec2 a = (ring[k] - ring[0]).head<2>(), b = (ring[k + 1] - ring[0]).head<2>();
+    twice += a.x() * b.y() - a.y() * b.x();
+  }
+  return std::abs(twice) / 2;
 }
 
 void take_to(const std::string& crs_wkt, const Where& where, VectorShapes& found) {
@@ -107,42 +156,24 @@ void take_to(const std::string& crs_wkt, const Where& where, VectorShapes& found
 }  // namespace
 
 VectorShapes read_vectors(const VectorQuery& query, const std::string& crs_wkt) {
-  register_gdal_drivers();
-  const GdalErrors errors;
-  const std::unique_ptr<GDALDataset> source(
-      GDALDataset::Open(query.path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY));
-  if (!source)
-    throw InputError({query.path}, "cannot be read as vectors: " + errors.failure(),
-                     "give a file that ogrinfo can open");
-  OGRLayer* layer = find_layer(*source, query);
+  OpenLayer source = open_layer({query.path, query.layer, ""}, role_of(query));
+  const Where where{query.path, 0, "layer " + source.name};
+  Parts parts = read_parts(query, source);
   VectorShapes found;
-  found.layer = layer->GetName();
-  const Where where{query.path, 0, "layer " + found.layer};
-  if (!query.where.empty() && layer->SetAttributeFilter(query.where.c_str()) != OGRERR_NONE)
-    throw InputError(where,
-                     "the filter \"" + query.where + "\" cannot be used: " + errors.failure());
-  int n_null = 0;
-  for (auto&& feature : *layer) {
-    const OGRGeometry* geometry = feature->GetGeometryRef();
-    if (!geometry || geometry->IsEmpty()) {
-      ++n_null;
-      continue;
-    }
-    const std::unique_ptr<OGRGeometry> straight(geometry->getLinearGeometry());
-    add_shapes(*straight, query.kind, found.shapes);
-  }
-  if (errors.failed()) throw InputError(where, "reading failed: " + errors.failure());
-  if (n_null > 0)
-    throw InputError(where, std::to_string(n_null) + " features have no geometry",
-                     "the file may be cut short; repair it first");
-  if (found.shapes.empty()) throw InputError(where, std::string("holds no ") + name_of(query.kind));
+  found.layer = source.name;
+  found.n_passed_over = parts.n_passed_over;
+  found.n_parts = static_cast<int>(parts.shapes.size() + parts.polygons.size());
+  found.shapes = std::move(parts.shapes);
+  const std::vector<bool> is_hole = add_areas(parts, where, found);
   check_finite(found.shapes, where);
-  const std::string own = wkt_of(layer->GetSpatialRef());
+  const std::string own = wkt_of(source.layer->GetSpatialRef());
   if (!own.empty() && !crs_wkt.empty() && !same_crs(own, crs_wkt)) {
     found.source_crs = own;
     take_to(crs_wkt, where, found);
     check_finite(found.shapes, where);
   }
+  for (std::size_t r = 0; r < is_hole.size(); ++r)
+    found.area_m2 += (is_hole[r] ? -1 : 1) * area_of_ring(found.shapes[r]);
   return found;
 }
 

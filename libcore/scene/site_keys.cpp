@@ -52,7 +52,7 @@ template <> const std::vector<SiteKey<SourceSettings>>& keys_of() {
   static const std::vector<SiteKey<S>> table = {
       {"polygon", &S::polygon, "corners of the source area, map x, y", any, "", "", 3},
       {"polygon_file", &S::polygon_file, "vector file with the source area"},
-      {"polygon_layer", &S::polygon_layer, "its layer; the first polygon layer when not given"},
+      {"polygon_layer", &S::polygon_layer, "its layer; not needed where one layer alone holds polygons"},
       {"failure_surface", &S::failure_surface, "how the surface below the mass is given", any, "vertical_depth|normal_depth|plane|raster|slbl"},
       {"depth_m", &S::depth_m, "depth of the failure surface", positive},
       {"plane_dip_deg", &S::plane_dip_deg, "dip of a failure plane", {0, 90, false, true}, "", dip_hint},

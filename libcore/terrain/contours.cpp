@@ -24,6 +24,7 @@ struct Segment {
 struct Network {
   std::vector<Vec3> points;
   std::vector<Kind> kind;  // of each point
+  std::vector<int> line;   // of each point; spots count on from breaklines
   std::vector<Segment> segments;
 };
 
@@ -87,6 +88,7 @@ void gather_lines(const Polylines& lines, Kind kind, int first_line, Network& ne
     for (int i = 0; i < n; ++i) {
       network.points.push_back(lines.points[index(begin + i)]);
       network.kind.push_back(kind);
+      network.line.push_back(first_line + l);
       one_place &= plan(network.points.back()) == plan(lines.points[index(begin)]);
       if (i > 0) network.segments.push_back({first + i - 1, first + i, first_line + l});
     }
@@ -101,12 +103,15 @@ Network gather(const ContourMap& map, CleaningCounts& counts) {
       map.contours.points.size() + map.breaklines.points.size() + map.spots.size();
   network.points.reserve(n);
   network.kind.reserve(n);
+  network.line.reserve(n);
   network.segments.reserve(n);
   gather_lines(map.contours, Kind::contour, 0, network, counts);
   gather_lines(map.breaklines, Kind::breakline, map.contours.n_lines(), network, counts);
+  int line = map.contours.n_lines() + map.breaklines.n_lines();
   for (const Vec3& spot : map.spots) {
     network.points.push_back(spot);
     network.kind.push_back(Kind::spot);
+    network.line.push_back(line++);
   }
   return network;
 }
@@ -144,10 +149,12 @@ void join_equal_points(Network& network, HeightJudge& judge, CleaningCounts& cou
     if (joined_to[i] != static_cast<int>(i)) continue;
     network.points[n_kept] = network.points[i];
     network.kind[n_kept] = network.kind[i];
+    network.line[n_kept] = network.line[i];
     new_id[i] = static_cast<int>(n_kept++);
   }
   network.points.resize(n_kept);
   network.kind.resize(n_kept);
+  network.line.resize(n_kept);
   for (Segment& s : network.segments) {
     s.a = new_id[index(joined_to[index(s.a)])];
     s.b = new_id[index(joined_to[index(s.b)])];
@@ -233,6 +240,7 @@ class Splitter {
     const int point = static_cast<int>(network_.points.size());
     network_.points.emplace_back(place.x(), place.y(), second_rules ? height_t : height_s);
     network_.kind.push_back(std::min(kind_of(s), kind_of(t)));
+    network_.line.push_back(std::min(s.line, t.line));
     splits_.push_back({crossing.first, share, point});
     splits_.push_back({crossing.second, share_t, point});
   }
@@ -282,11 +290,13 @@ CleanLines contours_first(const Network& network, const CleaningCounts& counts) 
   clean.counts = counts;
   std::vector<int> new_id(network.points.size());
   clean.points.reserve(network.points.size());
+  clean.line.reserve(network.points.size());
   for (const bool contours : {true, false}) {
     for (std::size_t i = 0; i < network.points.size(); ++i) {
       if ((network.kind[i] == Kind::contour) != contours) continue;
       new_id[i] = static_cast<int>(clean.points.size());
       clean.points.push_back(network.points[i]);
+      clean.line.push_back(network.line[i]);
     }
     if (contours) clean.n_contour_points = static_cast<int>(clean.points.size());
   }

@@ -59,7 +59,8 @@ struct CleaningCounts {
 struct CleanLines {
   std::vector<Vec3> points;                  ///< distinct in x, y, relative to the origin [m]
   std::vector<std::array<int, 2>> segments;  ///< indices into `points`, each pair once
-  int n_contour_points = 0;                  ///< points from here on are of breaklines and spots
+  std::vector<int> line;     ///< of each point: contours, then breaklines, then spots (n_points)
+  int n_contour_points = 0;  ///< points from here on are of breaklines and spots
   CleaningCounts counts;
 };
 

@@ -10,7 +10,7 @@ ogr2ogr -q -f GPKG area.gpkg area.csv -oo GEOM_POSSIBLE_NAMES=wkt -a_srs EPSG:32
 ogr2ogr -q -f GPKG degrees.gpkg area.gpkg -t_srs EPSG:4326
 sed 's/^polygon = .*/polygon_file = "degrees.gpkg"/' site.toml >degrees.toml
 expect 0 talus-blocks degrees.toml --trn trn.tif -o there.h5 --no-db --report there.json
-says "degrees.gpkg: reprojected from EPSG:4326"
+says "degrees.gpkg: layer area, 1 polygon of 484 m2 in all; reprojected from EPSG:4326"
 a=$(value here.json prism_volume_m3) b=$(value there.json prism_volume_m3)
 holds "($a / $b - 1) ^ 2 < 0.01"
 

@@ -35,6 +35,19 @@ Trn flat() {
   return trn;
 }
 
+// Fences are the same whichever end they begin at and however many posts they have.
+TEST(LinesOfFences, LieAlongEachOtherWhateverTheirPoints) {
+  const std::vector<Vec3> line = {{0, 0, 1}, {10, 0, 2}, {20, 10, 3}};
+  const std::vector<Vec3> reversed = {{20, 10, 3}, {15, 5, 0}, {10, 0, 2}, {4, 0.05, 0}, {0, 0, 1}};
+  EXPECT_TRUE(lies_along(line, line));
+  EXPECT_TRUE(lies_along(reversed, line));
+  EXPECT_TRUE(lies_along(line, reversed));
+  EXPECT_TRUE(lies_along({{2, 0, 0}, {8, 0, 0}}, line));     // a part of it
+  EXPECT_FALSE(lies_along(line, {{2, 0, 0}, {8, 0, 0}}));    // and not the whole on the part
+  EXPECT_FALSE(lies_along({{0, 0, 0}, {20, 10, 0}}, line));  // ends alone
+  EXPECT_FALSE(lies_along({{0, 1, 0}, {10, 1, 0}}, line));   // a metre beside
+}
+
 TEST(StandingFence, KeepsCapacityAndDeflectionInSiUnits) {
   FenceSettings settings;
   settings.capacity_kj = 500;

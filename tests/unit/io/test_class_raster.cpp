@@ -52,6 +52,24 @@ TEST_F(ClassRaster, GivesTheValueUnderEachCellsCentre) {
           << row << " " << col;
 }
 
+// Classes have no heights: a terrain that says its system of heights takes a raster in its plan.
+// The hint for another plan changes no value.
+TEST_F(ClassRaster, FitsATerrainInTheSamePlan) {
+  Trn ground = terrain();
+  ground.crs_wkt = talus::crs_from_user("EPSG:31287+5773", "--crs");
+  const std::string path = write(10, {248005, 350995}, 1, 1, {1});
+  EXPECT_EQ(talus::read_cell_classes(path, ground)[0], 1);
+  try {
+    (void)talus::read_cell_classes(write(10, {248005, 350995}, 1, 1, {1}, "EPSG:32632"), ground);
+    FAIL() << "accepted";
+  } catch (const talus::InputError& error) {
+    EXPECT_NE(error.hint().find(
+                  "gdalwarp -r near -novshift -ot Int32 -dstnodata -2147483648 -t_srs EPSG:31287 "),
+              std::string::npos)
+        << error.hint();
+  }
+}
+
 TEST_F(ClassRaster, RefusesOtherSystemsAndFractions) {
   EXPECT_THROW((void)talus::read_cell_classes(write(10, {248005, 350995}, 1, 1, {1}, "EPSG:32632"),
                                               terrain()),

@@ -92,6 +92,49 @@ TEST(Crs, SameSystemsAreRecognisedHoweverTheyAreWritten) {
   EXPECT_EQ(talus::crs_name(utm), "EPSG:32632 (WGS 84 / UTM zone 32N)");
 }
 
+// UTM alone and UTM with EGM96 heights are one system in plan.
+TEST(Crs, SystemsAreComparedInPlan) {
+  const std::string utm = crs_from_user("EPSG:25832", "--crs");
+  const std::string egm96 = crs_from_user("EPSG:25832+5773", "--crs");
+  const std::string dhhn = crs_from_user("EPSG:25832+7837", "--crs");
+  EXPECT_TRUE(talus::same_crs(utm, egm96));
+  EXPECT_TRUE(talus::same_crs(egm96, dhhn));
+  EXPECT_TRUE(talus::same_crs(crs_from_user("EPSG:5972", "--crs"), utm));  // with NN2000 heights
+  EXPECT_TRUE(
+      talus::same_crs(crs_from_user("EPSG:4979", "--crs"), crs_from_user("EPSG:4326", "--crs")));
+  EXPECT_FALSE(talus::same_crs(egm96, crs_from_user("EPSG:25833+5773", "--crs")));
+  EXPECT_EQ(talus::crs_code(egm96), "EPSG:25832");
+  EXPECT_EQ(talus::height_crs(utm), "");
+  EXPECT_EQ(talus::crs_name(talus::height_crs(egm96)), "EPSG:5773 (EGM96 height)");
+  EXPECT_TRUE(talus::same_heights(utm, egm96));  // one of them does not say
+  EXPECT_TRUE(talus::same_heights(egm96, crs_from_user("EPSG:25833+5773", "--crs")));
+  EXPECT_FALSE(talus::same_heights(egm96, dhhn));
+}
+
+// What is reprojected in plan keeps its heights, and the system that they are in.
+TEST(Crs, HeightsAreCarriedOn) {
+  const std::string utm33 = crs_from_user("EPSG:25833", "--t-srs");
+  const std::string egm96 = crs_from_user("EPSG:25832+5773", "--crs");
+  const std::string carried = talus::with_heights_of(egm96, utm33, {});
+  EXPECT_TRUE(talus::same_crs(carried, utm33));
+  EXPECT_EQ(talus::crs_name(talus::height_crs(carried)), "EPSG:5773 (EGM96 height)");
+  EXPECT_EQ(talus::with_heights_of(utm33, utm33, {}), utm33);
+  const std::string dhhn = crs_from_user("EPSG:25833+7837", "--t-srs");
+  EXPECT_THROW(static_cast<void>(talus::with_heights_of(egm96, dhhn, {})), talus::InputError);
+  EXPECT_THROW(static_cast<void>(talus::with_heights_of(utm33, dhhn, {})), talus::InputError);
+  std::vector<Vec3> points = {{650'000, 5'200'000, 1234}};
+  ASSERT_TRUE(talus::reproject(egm96, utm33, points));
+  EXPECT_EQ(points[0].z(), 1234);
+}
+
+TEST(Crs, FeetOfHeightsAreNotMendedByReprojection) {
+  const talus::CrsProblem problem =
+      find_crs_problem(crs_from_user("EPSG:32632+6360", "--crs"), {5e5, 5e6});
+  EXPECT_NEAR(problem.height_unit_m, 0.3048006096, 1e-10);
+  EXPECT_EQ(problem.mend_to, "");
+  EXPECT_EQ(find_crs_problem(crs_from_user("EPSG:4326", "--crs"), {11, 47}).height_unit_m, 1);
+}
+
 TEST(Crs, WhatIsNoCrsIsRefused) {
   EXPECT_EQ(crs_from_user("none", "--crs"), "");
   for (const char* words : {"", "EPSG:nonsense", "somewhere", "EPSG:99999999"})

@@ -28,7 +28,7 @@ Trn random_trn(int n_rows, int n_cols) {
   talus::Random random(7, "raster");
   std::vector<double> z;
   for (int i = 0; i < n_rows * n_cols; ++i)
-    z.push_back(random.uniform() < 0.1 ? std::nan("") : random.uniform(-400, 4000));
+    z.push_back(random.uniform() < 0.1 ? std::nan("") : random.uniform(-90, 90));
   return talus::make_trn({n_rows, n_cols, 4.997678230579, {248362.7612662384, 351760.3630344}},
                          talus::crs_from_user("EPSG:31287", "--crs"), z);
 }

@@ -29,6 +29,38 @@ std::string geojson(const std::string& geometry, const std::string& crs = "EPSG:
          geometry + "}]}";
 }
 
+std::string rectangle(int x0, int y0, int x1, int y1) {
+  const auto point = [](int x, int y) {
+    return "[" + std::to_string(x) + "," + std::to_string(y) + "]";
+  };
+  return R"({"type":"Polygon","coordinates":[[)" + point(x0, y0) + "," + point(x1, y0) + "," +
+         point(x1, y1) + "," + point(x0, y1) + "," + point(x0, y0) + "]]}";
+}
+
+std::string square(int x0, int y0, int side) { return rectangle(x0, y0, x0 + side, y0 + side); }
+
+// A file of several features in local metres.
+std::string features(const std::string& name, const std::vector<std::string>& geometries) {
+  std::string text = R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":)"
+                     R"("urn:ogc:def:crs:EPSG::32633"}},"features":[)";
+  for (const std::string& geometry : geometries)
+    text += (text.back() == '[' ? "" : ",") +
+            (R"({"type":"Feature","properties":{},"geometry":)" + geometry + "}");
+  return scratch(name, text + "]}");
+}
+
+// A source with the layers "first" and "second", which may hold any geometry.
+std::string two_layers(const std::string& name, const std::string& first,
+                       const std::string& second) {
+  std::string text = "<OGRVRTDataSource>";
+  for (const auto& [layer, geometry] : {std::pair("first", first), std::pair("second", second)})
+    text += "<OGRVRTLayer name=\"" + std::string(layer) + "\"><SrcDataSource>" +
+            features(name + "_" + layer + ".geojson", {geometry}) +
+            "</SrcDataSource><SrcSQL>SELECT * FROM \"talus_vectors_" + name + "_" + layer +
+            "\"</SrcSQL><GeometryType>wkbUnknown</GeometryType></OGRVRTLayer>";
+  return scratch(name, text + "</OGRVRTDataSource>");
+}
+
 std::string refusal(const VectorQuery& query) {
   try {
     static_cast<void>(read_vectors(query, ""));
@@ -80,17 +112,106 @@ TEST(ReadVectors, MetresThatAreCalledDegreesAreRefused) {
 
 TEST(ReadVectors, WhatIsNotThereIsNamed) {
   const std::string path = scratch("p.geojson", geojson(R"({"type":"Point","coordinates":[1,2]})"));
-  EXPECT_NE(refusal({path, "roads", "", VectorKind::points}).find("there is no layer roads"),
+  EXPECT_NE(refusal({path, "roads", "", VectorKind::points}).find("there is no layer \"roads\""),
             std::string::npos);
-  EXPECT_NE(refusal({path, "", "", VectorKind::areas}).find("no layer of polygons"),
+  EXPECT_NE(refusal({path, "", "", VectorKind::areas}).find("holds no polygons"),
             std::string::npos);
   EXPECT_NE(refusal({path, "", "nonsense = ", VectorKind::points}).find("cannot be used"),
             std::string::npos);
   EXPECT_NE(refusal({path, "", "kind = 'b'", VectorKind::points}).find("holds no points"),
             std::string::npos);
-  EXPECT_NE(
-      refusal({scratch("broken.geojson", "{"), "", "", VectorKind::points}).find("cannot be read"),
-      std::string::npos);
+  EXPECT_NE(refusal({scratch("broken.geojson", "{"), "", "", VectorKind::points})
+                .find("cannot be opened"),
+            std::string::npos);
+}
+
+// --- which layer -------------------------------------------------------------------------------
+
+TEST(ReadVectors, LayersThatMayBeMeantAreListed) {
+  const std::string path = two_layers("several.vrt", square(0, 0, 9), square(20, 0, 3));
+  try {
+    static_cast<void>(read_vectors({path, "", "", VectorKind::areas, "source.polygon_"}, ""));
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("the layers are: first, second"), std::string::npos);
+    EXPECT_EQ(error.hint(), "choose with source.polygon_layer");
+  }
+  const VectorShapes found = read_vectors({path, "second", "", VectorKind::areas}, "");
+  EXPECT_EQ(found.layer, "second");
+  EXPECT_EQ(found.area_m2, 9);
+}
+
+TEST(ReadVectors, ALayerOfAnyGeometryHidesNoneBehindIt) {
+  const std::string line = R"({"type":"LineString","coordinates":[[0,0],[9,9]]})";
+  const VectorShapes behind =
+      read_vectors({two_layers("a.vrt", line, square(0, 0, 3)), "", "", VectorKind::areas}, "");
+  EXPECT_EQ(behind.layer, "second");
+  const std::string mixed =
+      R"({"type":"GeometryCollection","geometries":[)" + line + "," + square(0, 0, 2) + "]}";
+  const std::string path = two_layers("b.vrt", mixed, line);
+  const VectorShapes inside = read_vectors({path, "", "", VectorKind::areas}, "");
+  EXPECT_EQ(inside.layer, "first");
+  EXPECT_EQ(inside.area_m2, 4);
+  EXPECT_EQ(inside.n_passed_over, 1);
+  EXPECT_NE(refusal({path, "", "", VectorKind::lines}).find("2 layers hold lines"),
+            std::string::npos);
+}
+
+// --- polygons ----------------------------------------------------------------------------------
+
+TEST(ReadVectors, PolygonsThatOverlapAreOneArea) {
+  // a polygon twice, one in it, one that shares a side, one far away
+  const std::string path =
+      features("union.geojson", {square(0, 0, 10), square(0, 0, 10), square(2, 2, 3),
+                                 square(10, 0, 10), square(100, 100, 1)});
+  const VectorShapes found = read_vectors({path, "", "", VectorKind::areas}, "");
+  EXPECT_EQ(found.n_parts, 5);
+  EXPECT_EQ(found.n_united, 4);
+  EXPECT_EQ(found.n_made, 1);
+  EXPECT_EQ(found.shapes.size(), 2u);  // no ring within another one
+  EXPECT_DOUBLE_EQ(found.area_m2, 201);
+}
+
+TEST(ReadVectors, PolygonsThatCrossAreOneArea) {
+  const std::string path =
+      features("cross.geojson", {rectangle(0, 4, 10, 6), rectangle(4, 0, 6, 10)});
+  const VectorShapes found = read_vectors({path, "", "", VectorKind::areas}, "");
+  EXPECT_EQ(found.shapes.size(), 1u);
+  EXPECT_DOUBLE_EQ(found.area_m2, 36);
+}
+
+// A ring in one polygon is a hole, and four bars around a court leave one, too.
+TEST(ReadVectors, HolesOfPolygonsStay) {
+  const std::string holed = R"({"type":"Polygon","coordinates":[[[0,0],[9,0],[9,9],[0,9],[0,0]],)"
+                            R"([[3,3],[6,3],[6,6],[3,6],[3,3]]]})";
+  const VectorShapes one =
+      read_vectors({features("h.geojson", {holed}), "", "", VectorKind::areas}, "");
+  EXPECT_EQ(one.shapes.size(), 2u);
+  EXPECT_EQ(one.area_m2, 72);
+  EXPECT_EQ(one.n_united, 0);
+  const VectorShapes bars =
+      read_vectors({features("bars.geojson", {rectangle(0, 0, 9, 3), rectangle(0, 6, 9, 9),
+                                              rectangle(0, 0, 3, 9), rectangle(6, 0, 9, 9)}),
+                    "", "", VectorKind::areas},
+                   "");
+  EXPECT_EQ(bars.shapes.size(), 2u);
+  EXPECT_DOUBLE_EQ(bars.area_m2, 72);
+}
+
+TEST(ReadVectors, PolygonsThatCrossThemselvesAreRefusedWithThePlace) {
+  const std::string bow_tie =
+      R"({"type":"Polygon","coordinates":[[[0,0],[10,10],[10,0],[0,10],[0,0]]]})";
+  const std::string said =
+      refusal({features("bow.geojson", {square(20, 0, 1), bow_tie}), "", "", VectorKind::areas});
+  EXPECT_NE(said.find("feature 1: the polygon is not sound: Self-intersection"), std::string::npos)
+      << said;
+  EXPECT_NE(said.find("5 5"), std::string::npos) << said;
+  const std::string hole_outside =
+      R"({"type":"Polygon","coordinates":[[[0,0],[9,0],[9,9],[0,9],[0,0]],)"
+      R"([[30,3],[36,3],[36,6],[30,3]]]})";
+  EXPECT_NE(refusal({features("out.geojson", {hole_outside}), "", "", VectorKind::areas})
+                .find("Hole lies outside shell"),
+            std::string::npos);
 }
 
 TEST(WriteFootprints, ReadBackAndTheSameBytesEveryTime) {

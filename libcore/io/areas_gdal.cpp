@@ -1,0 +1,113 @@
+#include "io/areas_gdal.hpp"
+
+#include <ogrsf_frmts.h>
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "io/errors_gdal.hpp"
+
+namespace talus {
+namespace {
+
+using Polygons = std::vector<std::unique_ptr<OGRPolygon>>;
+
+// Groups of polygons that meet: each one names a member of its group, the first one itself.
+class Groups {
+ public:
+  explicit Groups(std::size_t n) : leader_(n) { std::iota(leader_.begin(), leader_.end(), 0); }
+
+  std::size_t leader(std::size_t i) {
+    while (leader_[i] != i) i = leader_[i] = leader_[leader_[i]];
+    return i;
+  }
+
+  void join(std::size_t a, std::size_t b) {
+    const auto [first, second] = std::minmax({leader(a), leader(b)});
+    leader_[second] = first;
+  }
+
+ private:
+  std::vector<std::size_t> leader_;
+};
+
+// Pairs are looked for from west to east, so that each polygon is held against those near it alone.
+Groups find_groups(const Polygons& polygons) {
+  const std::size_t n = polygons.size();
+  std::vector<OGREnvelope> box(n);
+  for (std::size_t i = 0; i < n; ++i) polygons[i]->getEnvelope(&box[i]);
+  std::vector<std::size_t> order(n);
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return box[a].MinX < box[b].MinX; });
+  Groups groups(n);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = i + 1; j < n && box[order[j]].MinX <= box[order[i]].MaxX; ++j) {
+      const std::size_t a = order[i], b = order[j];
+      if (!box[a].Intersects(box[b]) || groups.leader(a) == groups.leader(b)) continue;
+      if (polygons[a]->Intersects(polygons[b].get())) groups.join(a, b);
+    }
+  return groups;
+}
+
+// The polygons of one group as few as they can be.
+Polygons united(const Polygons& polygons, const std::vector<std::size_t>& members,
+                const Where& where) {
+  const GdalErrors errors;
+  OGRMultiPolygon all;
+  for (const std::size_t member : members) all.addGeometry(polygons[member].get());
+  const std::unique_ptr<OGRGeometry> sum(all.UnionCascaded());
+  Polygons found;
+  if (sum && wkbFlatten(sum->getGeometryType()) == wkbPolygon)
+    found.emplace_back(sum->toPolygon()->clone());
+  else if (sum && wkbFlatten(sum->getGeometryType()) == wkbMultiPolygon)
+    for (const OGRPolygon* polygon : *sum->toMultiPolygon()) found.emplace_back(polygon->clone());
+  if (found.empty())
+    throw InputError(where, "its polygons cannot be united: " + errors.failure(),
+                     "dissolve polygons that overlap into one");
+  return found;
+}
+
+void check(const OGRPolygon& polygon, const Where& where, const std::string& hint) {
+  const GdalErrors errors;
+  if (polygon.IsValid()) return;
+  const std::string reason = errors.warning().empty() ? errors.failure() : errors.warning();
+  throw InputError(where, "the polygon is not sound: " + (reason.empty() ? "no area" : reason),
+                   hint);
+}
+
+}  // namespace
+
+void check_polygon(const OGRPolygon& polygon, const Where& where) {
+  check(polygon, where, "mend it: ogr2ogr -makevalid mended.gpkg " + where.file);
+}
+
+void check_polygon(const std::vector<Vec2>& corners, const Where& where) {
+  OGRLinearRing ring;
+  for (const Vec2& corner : corners) ring.addPoint(corner.x(), corner.y());
+  ring.closeRings();
+  OGRPolygon polygon;
+  polygon.addRing(&ring);
+  check(polygon, where, "put the corners in order around the area");
+}
+
+Uniting unite_polygons(Polygons& polygons, const Where& where) {
+  Groups groups = find_groups(polygons);
+  std::vector<std::vector<std::size_t>> members(polygons.size());
+  for (std::size_t i = 0; i < polygons.size(); ++i) members[groups.leader(i)].push_back(i);
+  Uniting uniting;
+  Polygons apart;
+  for (std::size_t i = 0; i < polygons.size(); ++i) {
+    if (members[i].size() == 1) apart.push_back(std::move(polygons[i]));
+    if (members[i].size() < 2) continue;
+    Polygons made = united(polygons, members[i], where);
+    uniting.n_united += static_cast<int>(members[i].size());
+    uniting.n_made += static_cast<int>(made.size());
+    std::move(made.begin(), made.end(), std::back_inserter(apart));
+  }
+  polygons = std::move(apart);
+  return uniting;
+}
+
+}  // namespace talus

@@ -1,0 +1,188 @@
+#include "terrain/outliers.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "terrain/contours.hpp"
+
+namespace talus {
+namespace {
+
+constexpr double contour_steps = 1.5;  // off its neighbours: more than one label, with room
+constexpr double measured_steps = 2;   // beyond its neighbours
+constexpr double most_edges = 0.8;     // to contours of another height
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+// Calls visit(point, contour point) for the edges of triangles that end at the contour of another
+// line. Edges inside the map come twice, so that they weigh more than those of its rim.
+template <class Visit>
+void for_each_edge(const TriangleMesh& mesh, const LinesOfPoints& lines, const Visit& visit) {
+  const int n = static_cast<int>(lines.line.size());
+  for (const auto& corners : mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int a = corners[k], b = corners[(k + 1) % 3];
+      if (a >= n || b >= n || lines.line[index(a)] == lines.line[index(b)]) continue;
+      if (b < lines.n_contour_points) visit(a, b);
+      if (a < lines.n_contour_points) visit(b, a);
+    }
+}
+
+// The same for edges between two contours of different heights.
+template <class Visit>
+void for_each_step(const TriangleMesh& mesh, const LinesOfPoints& lines, const Visit& visit) {
+  for_each_edge(mesh, lines, [&](int point, int other) {
+    if (point >= lines.n_contour_points) return;
+    const double above = mesh.points[index(point)].z() - mesh.points[index(other)].z();
+    if (std::abs(above) > same_height_m) visit(point, other, above);
+  });
+}
+
+// --- contours ------------------------------------------------------------------------------------
+
+bool stands_off(std::int64_t n_above, std::int64_t n_below, std::int64_t n_edges) {
+  return static_cast<double>(std::max(n_above, n_below)) >=
+             most_edges * static_cast<double>(n_edges) &&
+         n_edges > 0;
+}
+
+// A contour that stands off by the map's interval, and all that its surroundings say of it.
+struct Candidate {
+  Outlier outlier{0, Vec3::Zero(), infinity, -infinity};
+  std::vector<double> above;    // by edge [m]
+  std::vector<int> neighbours;  // lines beside it; after gather_steps() each once
+  std::vector<double> steps;    // that its sound neighbours leave to sound contours beyond [m]
+  bool has_sound_neighbour = false;
+};
+
+// For each line its candidate, -1: none.
+std::vector<int> find_candidates(const TriangleMesh& mesh, const LinesOfPoints& lines,
+                                 double interval, std::vector<Candidate>& candidates) {
+  std::vector<std::int64_t> n_above(index(lines.n_lines)), n_below = n_above, n_edges = n_above;
+  for_each_step(mesh, lines, [&](int point, int, double above) {
+    const std::size_t line = index(lines.line[index(point)]);
+    n_above[line] += above > contour_steps * interval ? 1 : 0;
+    n_below[line] += above < -contour_steps * interval ? 1 : 0;
+    ++n_edges[line];
+  });
+  std::vector<int> candidate_of(index(lines.n_lines), -1);
+  for (int l = 0; l < lines.n_lines; ++l) {
+    if (!stands_off(n_above[index(l)], n_below[index(l)], n_edges[index(l)])) continue;
+    candidate_of[index(l)] = static_cast<int>(candidates.size());
+    candidates.emplace_back().outlier.line = l;
+  }
+  return candidate_of;
+}
+
+void gather_neighbours(const TriangleMesh& mesh, const LinesOfPoints& lines,
+                       const std::vector<int>& candidate_of, std::vector<Candidate>& candidates) {
+  for_each_step(mesh, lines, [&](int point, int other, double above) {
+    const int c = candidate_of[index(lines.line[index(point)])];
+    if (c < 0) return;
+    Candidate& candidate = candidates[index(c)];
+    const double z = mesh.points[index(other)].z();
+    if (candidate.above.empty()) candidate.outlier.place = mesh.points[index(point)];
+    candidate.outlier.low = std::min(candidate.outlier.low, z);
+    candidate.outlier.high = std::max(candidate.outlier.high, z);
+    candidate.above.push_back(above);
+    candidate.neighbours.push_back(lines.line[index(other)]);
+    candidate.has_sound_neighbour |= candidate_of[index(lines.line[index(other)])] < 0;
+  });
+}
+
+void gather_steps(const TriangleMesh& mesh, const LinesOfPoints& lines,
+                  const std::vector<int>& candidate_of, std::vector<Candidate>& candidates) {
+  std::vector<std::vector<int>> beside(index(lines.n_lines));  // candidates beside each line
+  for (std::size_t c = 0; c < candidates.size(); ++c) {
+    std::vector<int>& neighbours = candidates[c].neighbours;
+    std::sort(neighbours.begin(), neighbours.end());
+    neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
+    for (const int line : neighbours)
+      if (candidate_of[index(line)] < 0) beside[index(line)].push_back(static_cast<int>(c));
+  }
+  for_each_step(mesh, lines, [&](int point, int other, double above) {
+    if (candidate_of[index(lines.line[index(other)])] >= 0) return;
+    for (const int c : beside[index(lines.line[index(point)])])
+      candidates[index(c)].steps.push_back(std::abs(above));
+  });
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+bool stands_off(const Candidate& candidate, double step) {
+  const auto count = [&](double sign) {
+    return std::count_if(candidate.above.begin(), candidate.above.end(),
+                         [&](double above) { return sign * above > contour_steps * step; });
+  };
+  return stands_off(count(1), count(-1), static_cast<std::int64_t>(candidate.above.size()));
+}
+
+// The last contour at the rim stands off the wrong one beside it, too, and has no other neighbour.
+bool is_beside_culprit(const Candidate& candidate, const std::vector<int>& candidate_of,
+                       const std::vector<Candidate>& candidates) {
+  if (candidate.has_sound_neighbour) return false;
+  return std::any_of(candidate.neighbours.begin(), candidate.neighbours.end(), [&](int line) {
+    return candidates[index(candidate_of[index(line)])].has_sound_neighbour;
+  });
+}
+
+std::vector<Outlier> contour_outliers(const TriangleMesh& mesh, const LinesOfPoints& lines,
+                                      double interval) {
+  std::vector<Candidate> candidates;
+  const std::vector<int> candidate_of = find_candidates(mesh, lines, interval, candidates);
+  if (candidates.empty()) return {};
+  gather_neighbours(mesh, lines, candidate_of, candidates);
+  gather_steps(mesh, lines, candidate_of, candidates);
+  std::vector<Outlier> found;
+  for (const Candidate& candidate : candidates)
+    if (stands_off(candidate, std::max(interval, median(candidate.steps))) &&
+        !is_beside_culprit(candidate, candidate_of, candidates))
+      found.push_back(candidate.outlier);
+  return found;
+}
+
+// --- measured points -----------------------------------------------------------------------------
+
+std::vector<Outlier> measured_outliers(const TriangleMesh& mesh, const LinesOfPoints& lines,
+                                       double interval) {
+  const std::size_t first = index(lines.n_contour_points);
+  std::vector<double> low(lines.line.size() - first, infinity), high(low.size(), -infinity);
+  for_each_edge(mesh, lines, [&](int point, int contour) {
+    if (index(point) < first) return;
+    const double z = mesh.points[index(contour)].z();
+    low[index(point) - first] = std::min(low[index(point) - first], z);
+    high[index(point) - first] = std::max(high[index(point) - first], z);
+  });
+  std::vector<Outlier> found;
+  for (std::size_t i = 0; i < low.size(); ++i) {
+    const Vec3& point = mesh.points[first + i];
+    const double limit = measured_steps * std::max(interval, high[i] - low[i]);
+    if (!(point.z() > high[i] + limit || point.z() < low[i] - limit) || low[i] > high[i]) continue;
+    found.push_back({lines.line[first + i], point, low[i], high[i]});
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Outlier& a, const Outlier& b) { return a.line < b.line; });
+  const auto same = [](const Outlier& a, const Outlier& b) { return a.line == b.line; };
+  found.erase(std::unique(found.begin(), found.end(), same), found.end());
+  return found;
+}
+
+}  // namespace
+
+std::vector<Outlier> find_outliers(const TriangleMesh& mesh, const LinesOfPoints& lines,
+                                   double interval) {
+  std::vector<Outlier> found = contour_outliers(mesh, lines, interval);
+  const std::vector<Outlier> measured = measured_outliers(mesh, lines, interval);
+  found.insert(found.end(), measured.begin(), measured.end());
+  return found;
+}
+
+}  // namespace talus

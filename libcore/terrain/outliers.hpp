@@ -1,0 +1,40 @@
+// libcore/terrain/outliers.hpp
+// Lines and points of a contour map whose heights do not go with those around them: a wrong label,
+// a missing one read as 0, a spot height in other units.
+// in:    the triangulation of a map; which line each point is of
+// out:   lines and points in doubt, with what stands around them
+// method: docs/tools/talus-tin.md, "Heights in doubt"
+#pragma once
+
+#include <vector>
+
+#include "terrain/triangulate.hpp"
+
+namespace talus {
+
+/// Which line each point of a mesh is of: contours first, then breaklines and spot heights.
+struct LinesOfPoints {
+  std::vector<int> line;     ///< (n_points of the cleaned map)
+  int n_contour_points = 0;  ///< points from here on were measured
+  int n_lines = 0;
+};
+
+struct Outlier {
+  int line = 0;
+  Vec3 place = Vec3::Zero();  ///< one of its points [m]
+  double low = 0, high = 0;   ///< of the contours beside it [m]
+};
+
+/// Contours that stand above all contours beside them, or below them all, by more than one and a
+/// half steps. A step is `interval`, or what the contours beside leave between themselves and those
+/// beyond where that is more. "All" is four in five of the triangles' edges to contours of another
+/// height: the next piece of a broken line stands right and does not hide the fault.
+///
+/// Measured points that lie more than two steps above the highest contour beside them or below the
+/// lowest. A step is `interval`, or the difference of those two where that is more.
+///
+/// Ascending by line, each line once.
+[[nodiscard]] std::vector<Outlier> find_outliers(const TriangleMesh& mesh,
+                                                 const LinesOfPoints& lines, double interval);
+
+}  // namespace talus

@@ -1,0 +1,42 @@
+# What fills rims, gaps and cells without being declared is refused, and the hint's command mends it.
+command -v gdal_translate >/dev/null || skip "needs gdal-bin"
+grid() { # grid CONDITION VALUE: a slope from 1000 to 1100 m; cells where the condition holds get VALUE
+  awk -v value="$2" 'BEGIN {
+    print "ncols 41\nnrows 41\nxllcorner 650000\nyllcorner 5200000\ncellsize 5"
+    for (r = 0; r < 41; r++) {
+      line = ""
+      for (c = 0; c < 41; c++) line = line " " ('"$1"' ? value : 1000 + 2.5 * (40.5 - r))
+      print line
+    }
+  }' >grid.asc
+  gdal_translate -q -ot Float32 -a_srs EPSG:25832 grid.asc grid.tif
+}
+refused() { # refused VALUE CELLS
+  expect 1 talus-trn grid.tif -o bad.tif --no-db
+  says "the elevation is $1 m in $2 side by side"
+  says "hint: if it stands for nodata: gdal_translate -a_nodata $1 grid.tif declared.tif"
+  nothing_left bad.tif
+  rm -f declared.tif
+  $(sed -n 's/^ *hint: if it stands for nodata: //p' err) -q
+  expect 0 talus-trn declared.tif -o good.tif --overwrite --no-db
+}
+for value in 0 -999 -1 255 9999; do
+  grid 'r < 6 || c < 8' $value
+  refused $value "526 cells"
+  prints "68.7 % known, 1001.25 to 1086.25 m"
+done
+grid 'c == 20 || c == 21' 0
+refused 0 "82 cells"
+grid 'r == 12 && c == 30' 3000
+refused 3000 "1 cell"
+
+# also where the raster is reprojected, and where a window of it is taken
+grid 'r < 6 || c < 8' 0
+expect 1 talus-trn grid.tif -o bad.tif --no-db --t-srs EPSG:25833
+says "the elevation is 0 m in"
+expect 1 talus-trn grid.tif -o bad.tif --no-db --window 650000,5200000,650100,5200100
+expect 0 talus-trn grid.tif -o good.tif --overwrite --no-db --window 650050,5200000,650200,5200170
+
+# a cliff and a level below it are ground
+grid 'r > 30' 900
+expect 0 talus-trn grid.tif -o good.tif --overwrite --no-db

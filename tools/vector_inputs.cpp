@@ -1,0 +1,54 @@
+#include "vector_inputs.hpp"
+
+#include "base/grouped_text.hpp"
+#include "base/text.hpp"
+#include "io/crs_gdal.hpp"
+
+namespace talus {
+namespace {
+
+std::string noun_of(VectorKind kind) {
+  return kind == VectorKind::points ? "point" : kind == VectorKind::lines ? "line" : "polygon";
+}
+
+std::string sentence_on(const VectorShapes& found, const VectorQuery& query) {
+  std::string words =
+      query.path + ": layer " + found.layer + ", " + counted(found.n_parts, noun_of(query.kind));
+  if (query.kind == VectorKind::areas)
+    words += " of " + grouped_text(found.area_m2, 6) + " m2 in all";
+  if (found.n_united > 0)
+    words += "; " + std::to_string(found.n_united) + " that overlap or touch were united to " +
+             std::to_string(found.n_made);
+  if (!found.source_crs.empty()) words += "; reprojected from " + crs_name(found.source_crs);
+  return words;
+}
+
+Json entry_on(const VectorShapes& found, const std::string& role, const VectorQuery& query) {
+  Json entry = {{"input", role},
+                {"file", query.path},
+                {"layer", found.layer},
+                {"n_" + noun_of(query.kind) + "s", found.n_parts}};
+  if (query.kind == VectorKind::areas) {
+    entry["n_united"] = found.n_united;
+    entry["n_made_of_them"] = found.n_made;
+    entry["area_m2"] = found.area_m2;
+  }
+  entry["n_passed_over"] = found.n_passed_over;
+  return entry;
+}
+
+}  // namespace
+
+VectorShapes read_layer(Tool& tool, const std::string& role, const VectorQuery& query,
+                        const std::string& crs_wkt) {
+  VectorShapes found = read_vectors(query, crs_wkt);
+  tool.info(sentence_on(found, query));
+  if (found.n_passed_over > 0)
+    tool.warn(query.path + ": layer " + found.layer + " also holds " +
+              counted(found.n_passed_over, "part") + " that are no " + noun_of(query.kind) +
+              "s, passed over");
+  tool.layer_read(entry_on(found, role, query));
+  return found;
+}
+
+}  // namespace talus
