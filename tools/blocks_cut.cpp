@@ -98,6 +98,11 @@ void find_mass(Tool& tool, BlocksWork& work) {
   if (work.mass.n_above_ground > 0)
     tool.info("the failure surface lies above the ground at " +
               std::to_string(work.mass.n_above_ground) + " nodes inside the source: no mass there");
+  if (work.site.source.failure_surface == "plane" && work.at_foot.free_share < 0.5)
+    tool.warn("the failure plane comes out of the ground along " +
+              text(std::round(100 * work.at_foot.free_share)) +
+              " % of the foot of the source only; on the rest the mass leans on a step of up to " +
+              text(work.at_foot.largest_step, 2) + " m (talus-source lists planes that come out)");
 }
 
 // --- joints ------------------------------------------------------------------------------------
