@@ -1,9 +1,10 @@
 #!/bin/sh
-# new_site.sh NAME GROUND SOURCE [PIPELINES]: a folder NAME with site.toml, Makefile and README.md for
+# new_site.sh NAME GROUND SOURCE [PIPELINES [TOOLS]]: a folder NAME with site.toml, Makefile and README.md for
 # a slope: GROUND is an elevation model or a contour map, SOURCE a vector file with the release
-# polygon, both in a projected CRS. Nothing is copied; site.toml names the files where they are.
+# polygon, both in a projected CRS. Nothing is copied; site.toml names the files where they are. The
+# tools (folder TOOLS/, or on the search path) measure the slope, and joint sets are assumed to fit.
 set -eu
-name=${1:-} ground=${2:-} source=${3:-} pipelines=${4:-$(dirname "$0")}
+name=${1:-} ground=${2:-} source=${3:-} pipelines=${4:-$(dirname "$0")} tools=${5:-}
 say() { echo "new-site: $1" >&2; exit "$2"; }
 
 [ -n "$name" ] && [ -n "$ground" ] && [ -n "$source" ] ||
@@ -25,7 +26,10 @@ part=$(mktemp -d "$(dirname "$name")/.new-site.XXXXXX")
 trap 'rm -rf "$part"' EXIT
 seen_from_site() { realpath -m --relative-to="$name" "$1"; }
 
-cat >"$part/site.toml" <<END
+[ -z "$tools" ] || tools=$(realpath -m "$tools")/
+
+head_of_site() {
+  cat <<END
 # Everything here is assumed until somebody has measured it.
 # All keys with unit, default and range: docs/site-file.md
 [site]
@@ -37,10 +41,37 @@ $key = "$(seen_from_site "$ground")"
 
 [source]
 polygon_file = "$(seen_from_site "$source")"
-failure_surface = "normal_depth"
-depth_m = 5
+END
+}
+rest_of_site() {
+  cat <<END
 
-# Joint sets cut the mass into blocks: dip and dip direction from the field.
+[material.rock]
+density_kg_m3 = 2600
+friction_deg = 30
+cor = 0.3
+
+# What the mass slides and falls on; the failure surface needs a joint set that is steeper.
+[ground.slope]
+friction_deg = 28
+cor = 0.3
+
+[solver]
+duration_s = 60
+# friction_scatter_deg = 2    # lets runs of other seeds differ (make RUNS=10)
+
+# A fence, or any line to know the arrivals at:
+# [fence.road]
+# line = [[x, y], [x, y]]
+# height_m = 4
+END
+}
+# Where the slope could not be measured, or no plane can daylight.
+joints_for_no_slope() {
+  cat <<END
+
+# Joint sets cut the mass into blocks: dip, dip direction and spacing from the field.
+# These are ASSUMED, for no slope in particular.
 [joints.rear]
 dip_deg = 80
 dip_direction_deg = 0
@@ -50,28 +81,43 @@ spacing_m = 6
 dip_deg = 85
 dip_direction_deg = 90
 spacing_m = 6
-
-[material.rock]
-density_kg_m3 = 2600
-friction_deg = 30
-cor = 0.3
-
-[ground.slope]
-friction_deg = 28
-cor = 0.3
-
-[solver]
-duration_s = 30
-
-# A fence, or any line to know the arrivals at:
-# [fence.road]
-# line = [[x, y], [x, y]]
-# height_m = 4
 END
+}
+hollow() {
+  cat <<END
+# THE SLOPE WAS NOT MEASURED. Below is a hollow with a step at its foot: most of what lies in it
+# will stay. Give the joint sets of the slope, one of which dips out of it, and then
+# failure_surface = "daylighting".
+failure_surface = "normal_depth"
+depth_m = 5
+END
+}
+# The flags of a make that called this are not those of the makes here.
+measure_slope() {
+  unset MAKEFLAGS MFLAGS MAKELEVEL
+  make -s -C "$part" OUT=.slope BIN="$tools" terrain >/dev/null &&
+    "${tools}talus-source" "$part/site.toml" --trn "$part/.slope/trn.tif" \
+      --assume-joints "$part/.joints" --no-db >/dev/null
+}
+
 cat >"$part/Makefile" <<END
 # \`make help\` lists the targets, site.toml says what is computed.
 include $(seen_from_site "$pipelines")/site.mk
 END
+{ head_of_site; rest_of_site; } >"$part/site.toml"
+if ! "${tools}talus-source" --help >/dev/null 2>&1; then
+  echo "new-site: the tools are not built (sh pipelines/demo.sh): joint sets are not fitted to the slope" >&2
+elif ! measure_slope 2>"$part/.log"; then
+  sed '/^make/d' "$part/.log" >&2
+  echo "new-site: the slope could not be measured, for the reason above: joint sets are not fitted to it" >&2
+fi
+[ -s "$part/.joints" ] || hollow >"$part/.joints"
+grep -q '^\[joints' "$part/.joints" || joints_for_no_slope >>"$part/.joints"
+{ head_of_site; cat "$part/.joints"; rest_of_site; } >"$part/site.toml"
+[ ! -s "$part/.slope/trn.tif" ] ||
+  "${tools}talus-source" "$part/site.toml" --trn "$part/.slope/trn.tif" --no-db
+rm -rf "$part/.slope" "$part/.joints" "$part/.log"
+
 cat >"$part/README.md" <<END
 # $(basename "$name")
 
@@ -83,10 +129,12 @@ cat >"$part/README.md" <<END
 ## What is measured
 
 ## What is assumed
-- depth, joints, friction and restitution in \`site.toml\`: the template's, for no slope in particular
+- joints, friction and restitution in \`site.toml\`, and the failure surface that follows from them
 END
 chmod 755 "$part"
 mv -T "$part" "$name"
 trap - EXIT
 name=$(realpath "$name")
-echo "$name is made: edit $name/site.toml (source, joints, friction), then make -C $name"
+echo "$name is made: edit $name/site.toml (joints, friction), then make -C $name"
+grep -q '^failure_surface = "daylighting"' "$name/site.toml" ||
+  echo "new-site: WARNING: no failure surface of $name/site.toml daylights: most of the mass will stay, see [source] there" >&2

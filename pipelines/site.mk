@@ -26,7 +26,7 @@ clean: ## remove everything that was made
 	rm -rf '$(OUT)'
 
 # The goals in the order of the pipeline, and those that the site's Makefile adds.
-help_files := $(addprefix $(PIPELINES),site.mk trn.mk blocks.mk dda.mk runout.mk maps.mk fence.mk report.mk new_site.mk) \
+help_files := $(addprefix $(PIPELINES),site.mk trn.mk source.mk blocks.mk dda.mk runout.mk maps.mk fence.mk report.mk new_site.mk) \
   $(filter-out $(PIPELINES)%,$(MAKEFILE_LIST))
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  \1: \2/p' $(help_files)$(if $(wildcard manifest.sha256),, | grep -v '^  data:')
@@ -80,6 +80,7 @@ $(OUT) $(OUT)/runs $(OUT)/without:
 
 include $(PIPELINES)tin.mk
 include $(PIPELINES)trn.mk
+include $(PIPELINES)source.mk
 include $(PIPELINES)blocks.mk
 include $(PIPELINES)dda.mk
 include $(PIPELINES)runout.mk

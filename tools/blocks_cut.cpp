@@ -9,6 +9,7 @@
 
 #include "base/read_file.hpp"
 #include "base/text.hpp"
+#include "failure_plane_choice.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/raster_gdal.hpp"
 #include "site_places.hpp"
@@ -80,32 +81,41 @@ std::vector<double> read_failure_raster(Tool& tool, const BlocksWork& work) {
   return z;
 }
 
+SourceOptions daylighting_surface(Tool& tool, BlocksWork& work) {
+  find_planes(tool, work);
+  check_sliding_set(work.site, work.planes);
+  if (work.planes.best < 0) throw no_plane_daylights(work.site, work.planes);
+  const FailurePlane& plane = work.planes.planes[work.planes.best];
+  return source_on_plane(plane.attitude, plane.point);
+}
+
 void find_mass(Tool& tool, BlocksWork& work) {
   SourceOptions options = plan_source(work.site, work.ground.origin);
-  if (options.kind == FailureSurface::plane) {
+  if (work.site.source.failure_surface == "daylighting") {
+    options = daylighting_surface(tool, work);
+  } else if (options.kind == FailureSurface::plane) {
     const auto& p = work.site.source.plane_point_m;
     options.plane_point = local_points(tool, work.site, work.ground, {Vec3(p[0], p[1], p[2])},
                                        "source.plane_point_m")[0];
+    work.at_foot =
+        plane_at_foot(work.ground, work.area, {options.plane_dip, options.plane_dip_direction},
+                      options.plane_point);
   }
   if (options.kind == FailureSurface::raster) options.raster = read_failure_raster(tool, work);
   work.mass = find_source(work.ground, work.area, options, where_of_area(work));
   if (work.mass.n_above_ground > 0)
     tool.info("the failure surface lies above the ground at " +
               std::to_string(work.mass.n_above_ground) + " nodes inside the source: no mass there");
+  if (work.site.source.failure_surface == "plane" && work.at_foot.free_share < 0.5)
+    tool.warn("the failure plane comes out of the ground along " +
+              text(std::round(100 * work.at_foot.free_share)) +
+              " % of the foot of the source only; on the rest the mass leans on a step of up to " +
+              text(work.at_foot.largest_step, 2) + " m (talus-source lists planes that come out)");
 }
 
 // --- joints ------------------------------------------------------------------------------------
 
-void plan_joints(Tool& tool, BlocksWork& work) {
-  std::vector<std::vector<Vec3>> measured;
-  for (const JointSettings& section : work.site.joints) {
-    measured.emplace_back();
-    if (section.measured_file.empty()) continue;
-    const std::string path = resolved(work.site, section.measured_file);
-    tool.read_also("joints." + section.name, path);
-    measured.back() = parse_orientations(read_file(path), path);
-  }
-  work.sets = plan_joint_sets(work.site, measured);
+void check_expected(BlocksWork& work) {
   std::vector<JointSet> sets;
   for (const PlannedSet& planned : work.sets) sets.push_back(planned.set);
   work.expected = expected_cells(sets, measure_mass(work.ground, work.mass.bed));
@@ -156,9 +166,30 @@ Area read_source_area(Tool& tool, const BlocksWork& work) {
   return area;
 }
 
+void plan_sets(Tool& tool, BlocksWork& work) {
+  std::vector<std::vector<Vec3>> measured;
+  for (const JointSettings& section : work.site.joints) {
+    measured.emplace_back();
+    if (section.measured_file.empty()) continue;
+    const std::string path = resolved(work.site, section.measured_file);
+    tool.read_also("joints." + section.name, path);
+    measured.back() = parse_orientations(read_file(path), path);
+  }
+  work.sets = plan_joint_sets(work.site, measured);
+}
+
+void find_planes(Tool& tool, BlocksWork& work) {
+  std::vector<JointSet> sets;
+  for (const PlannedSet& planned : work.sets) sets.push_back(planned.set);
+  const double friction = friction_below(tool, work.site, work.ground, work.area);
+  work.planes = find_failure_planes(work.ground, work.area, sets, friction,
+                                    work.site.source.sliding_set, where_of_area(work));
+}
+
 void cut_source(Tool& tool, bool exact, BlocksWork& work) {
+  plan_sets(tool, work);
   find_mass(tool, work);
-  plan_joints(tool, work);
+  check_expected(work);
   draw_all_joints(work);
   work.limits = plan_limits(work.site, work.sets, work.mass.volume, work.expected);
   work.limits.exact = exact;

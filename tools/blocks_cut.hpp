@@ -12,6 +12,12 @@ namespace talus {
 /// note and checked (check_area). Throws InputError where the section names none or both.
 [[nodiscard]] Area read_source_area(Tool& tool, const BlocksWork& work);
 
+/// Reads [joints.*] with the files that it names into `work.sets`.
+void plan_sets(Tool& tool, BlocksWork& work);
+
+/// The planes of `work.sets` that a mass can leave on, into `work.planes`.
+void find_planes(Tool& tool, BlocksWork& work);
+
 /// Finds the mass, draws the joints and puts the blocks into `work.blocks`, as they are cut
 /// (`exact`) or made convex. Warns of what was left out or lies below the limits. Throws InputError
 /// for more blocks than source.max_blocks, and where none is left.

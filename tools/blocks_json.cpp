@@ -10,6 +10,7 @@
 #include "base/percentile.hpp"
 #include "base/text.hpp"
 #include "blocks/solid.hpp"
+#include "failure_plane_choice.hpp"
 #include "io/block_pictures.hpp"
 
 namespace talus {
@@ -119,6 +120,12 @@ Json cut_json(const BlocksWork& work) {
                {"convexified_change",
                 (cut.block_volume + cut.dropped_volume - cut.cut_volume) / cut.cut_volume}};
   const SourceSettings& source = work.site.source;
+  if (source.failure_surface == "daylighting")
+    rows["failure_planes"] = planes_json(work.planes, work.ground.origin);
+  if (source.failure_surface == "plane") {
+    rows["free_share_of_foot"] = work.at_foot.free_share;
+    rows["largest_step_at_foot_m"] = work.at_foot.largest_step;
+  }
   if (source.failure_surface == "slbl") {
     rows["slbl_curvature_m"] = source.slbl_curvature_m;
     if (!std::isnan(source.slbl_max_depth_m)) rows["slbl_max_depth_m"] = source.slbl_max_depth_m;
@@ -160,6 +167,7 @@ std::string blocks_summary(const Json& report) {
                       number(sizes["shortest_edge_m"]) + " m";
   if (!report.contains("cut")) return lines;
   const Json& cut = report["cut"];
+  if (cut.contains("failure_planes")) lines += "\n" + best_plane_text(cut["failure_planes"]);
   lines += "\nmass " + number(cut["prism_volume_m3"]) + " m3, " + number(cut["mean_depth_m"]) +
            " m deep on average (vertically), in " + counted(cut["n_pieces"].get<int>(), "piece") +
            "; " + counted(cut["n_slivers_merged"].get<int>(), "sliver") + " (" +

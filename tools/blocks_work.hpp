@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "blocks/assemble.hpp"
+#include "blocks/failure_plane.hpp"
 #include "blocks/source.hpp"
 #include "scene/joint_plan.hpp"
 #include "scene/site.hpp"
@@ -19,12 +20,14 @@ struct BlocksWork {
   Site site;
   Trn ground;                    ///< before the slide
   Area area;                     ///< polygon of [source]; empty without one
-  SourceMass mass;               ///< from here to `expected`: only where is_cut()
-  std::vector<PlannedSet> sets;  ///< of [joints.*]
-  std::vector<Joint> joints;     ///< drawn, all that cross the mass
-  AssembleOptions limits;        ///< of slivers and edges; whether blocks stay as they are cut
-  AssembleReport cut;            ///< what was made of the pieces
-  double expected = 0;           ///< number of blocks that the joints should cut
+  std::vector<PlannedSet> sets;  ///< of [joints.*]; from here to `expected`: only where is_cut()
+  FailurePlanes planes;          ///< of the sets: of a daylighting surface only
+  PlaneAtFoot at_foot;           ///< of a plane given by hand only
+  SourceMass mass;
+  std::vector<Joint> joints;  ///< drawn, all that cross the mass
+  AssembleOptions limits;     ///< of slivers and edges; whether blocks stay as they are cut
+  AssembleReport cut;         ///< what was made of the pieces
+  double expected = 0;        ///< number of blocks that the joints should cut
   BlockSet blocks;
 
   /// A site of bodies from elsewhere may have [source] for max_blocks alone.

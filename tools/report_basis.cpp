@@ -29,6 +29,22 @@ std::string settings_table(const Site& site, bool defaults) {
   return html_table({"key", "value"}, rows);
 }
 
+// The plane that a daylighting failure surface was found to be; empty for other surfaces.
+std::string failure_plane(const ReportData& data) {
+  const Json planes = value_at(data.blocks, {"cut", "failure_planes"});
+  for (const Json& plane : value_at(planes, {"sets"}))
+    if (value_at(plane, {"set"}) == value_at(planes, {"taken"}))
+      return "plane of joint set " + word_text(value_at(plane, {"set"})) + ": dip " +
+             number_text(value_at(plane, {"dip_deg"}), 3) + " degrees towards " +
+             number_text(value_at(plane, {"dip_direction_deg"}), 3) + ", " +
+             number_text(value_at(plane, {"above_friction_deg"}), 2) +
+             " degrees steeper than friction; comes out of the ground along " +
+             percent_text(value_at(plane, {"free_share_of_foot"})) +
+             " of the foot, steps before the rest up to " +
+             number_text(value_at(plane, {"largest_step_at_foot_m"}), 2) + " m";
+  return "";
+}
+
 std::string sureness(const ReportData& data) {
   const std::size_t n = data.runs.size();
   std::vector<std::vector<std::string>> rows;
@@ -52,6 +68,8 @@ std::string sureness(const ReportData& data) {
                                     " m; flat triangles " + percent_text(flat) + " of the area, " +
                                     percent_text(value_at(data.tin, {"flat", "share_after"})) +
                                     " after mending"});
+  if (const std::string plane = failure_plane(data); !plane.empty())
+    rows.push_back({"Failure surface", plane});
   if (const Json cut = value_at(data.blocks, {"cut"}); cut.is_object())
     rows.push_back({"Blocks", number_text(value_at(cut, {"n_slivers_merged"})) + " slivers (" +
                                   number_text(value_at(cut, {"slivers_merged_m3"})) +

@@ -51,11 +51,18 @@ void check_files(const Site& site) {
   }
 }
 
+// A daylighting failure surface depends on the friction of the ground, so on [ground.*] too.
+bool is_read(const Site& site, const std::string& stage, const EffectiveValue& value) {
+  if (stage_reads(stage, value)) return true;
+  const bool is_ground = value.section.starts_with("ground.") || value.key == "ground_raster";
+  return is_ground && stage == "blocks" && site.source.failure_surface == "daylighting";
+}
+
 // What a stage reads, a line a value; files by their content.
 std::string settings_of(const Site& site, const std::string& stage) {
   std::string out = "# what the stage " + stage + " reads of the site file\n";
   for (const EffectiveValue& value : effective_values(site)) {
-    if (value.value.empty() || !stage_reads(stage, value)) continue;
+    if (value.value.empty() || !is_read(site, stage, value)) continue;
     out += value.section + "." + value.key + " = " + value.value;
     const std::string file = file_named(site, value);
     if (!file.empty())

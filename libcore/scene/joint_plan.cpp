@@ -168,7 +168,7 @@ SourceOptions plan_source(const Site& site, const Vec3& origin) {
     if (!is_given)
       throw InputError(where_of(site, "source.failure_surface"),
                        "failure_surface = \"" + source.failure_surface + "\" needs " + key,
-                       std::string("add ") + key + " to [source]");
+                       std::string("add ") + key + (key[0] == '[' ? "" : " to [source]"));
   };
   if (source.failure_surface == "plane") {
     options.kind = FailureSurface::plane;
@@ -179,6 +179,9 @@ SourceOptions plan_source(const Site& site, const Vec3& origin) {
     options.plane_dip_direction = source.plane_dip_direction_deg * degree;
     options.plane_point =
         Vec3(source.plane_point_m[0], source.plane_point_m[1], source.plane_point_m[2]) - origin;
+  } else if (source.failure_surface == "daylighting") {
+    options.kind = FailureSurface::plane;
+    if (site.joints.empty()) need(false, "[joints.*]");
   } else if (source.failure_surface == "raster") {
     options.kind = FailureSurface::raster;
     need(!source.raster.empty(), "raster");

@@ -30,7 +30,8 @@ struct PlannedSet {
 [[nodiscard]] std::vector<PlannedSet> plan_joint_sets(
     const Site& site, const std::vector<std::vector<Vec3>>& orientations);
 
-/// Failure surface of [source], local to `origin`; the raster is left empty. Throws InputError when
+/// Failure surface of [source], local to `origin`; the raster is left empty, and so is the plane of
+/// a daylighting surface, which find_failure_planes() finds. Throws InputError when
 /// what its kind needs is not given.
 [[nodiscard]] SourceOptions plan_source(const Site& site, const Vec3& origin);
 

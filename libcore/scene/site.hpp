@@ -40,6 +40,7 @@ struct SourceSettings {
   std::vector<Vec3> polygon;  ///< map x, y; or polygon_file
   std::string polygon_file, polygon_layer;
   std::string failure_surface = "normal_depth";
+  std::string sliding_set;  ///< of a daylighting surface; not given: that of the largest mass
   double depth_m = not_given;
   double plane_dip_deg = not_given, plane_dip_direction_deg = not_given;
   std::vector<double> plane_point_m;  ///< map x, y, z

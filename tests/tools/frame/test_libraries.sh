@@ -25,4 +25,5 @@ needs talus-report gdal hdf5_serial sqlite3 tomlplusplus
 needs talus-dda gdal hdf5_serial sqlite3 tomlplusplus
 needs talus-verify gdal hdf5_serial sqlite3 tomlplusplus
 needs talus-blocks gdal gmp hdf5_serial sqlite3 tomlplusplus
+needs talus-source gdal gmp sqlite3 tomlplusplus
 exit 0

@@ -13,7 +13,7 @@ opens() {
   grep -vE '^(/proc/|/sys/|/dev/urandom$|\.$)' log | sed "s|^$work/||; s|^\./||" | sort -u >opened || true
 }
 
-for tool in site tin trn blocks dda maps runout fence report verify runs; do
+for tool in site source tin trn blocks dda maps runout fence report verify runs; do
   opens "talus-$tool" --version
   [ ! -s opened ] || fail "talus-$tool --version opened $(tr '\n' ' ' <opened)"
 done

@@ -12,7 +12,10 @@ new() { sh "$source_dir/pipelines/new_site.sh" "$@"; }
 mkdir "my slopes"
 expect 0 new "my slopes/a_slope" dem.tif source.geojson "$source_dir/pipelines"
 prints "my slopes/a_slope is made"
+prints "sliding (34 degrees towards 180): "
+grep -q '^failure_surface = "daylighting"' "my slopes/a_slope/site.toml" || fail "the surface does not daylight"
 expect 0 make -C "my slopes/a_slope" BIN= blocks
+prints "failure plane of set sliding: dips 34 degrees towards 180"
 [ -s "my slopes/a_slope/out/blocks.h5" ] || fail "no blocks"
 expect 1 new "my slopes/a_slope" dem.tif source.geojson
 says "a_slope exists already"
@@ -27,6 +30,26 @@ says "dem.tif: not a vector file"
 expect 0 new contours "$source_dir/sample_sites/designed/contours.gpkg" source.geojson "$source_dir/pipelines"
 grep -q '^contours = ' contours/site.toml || fail "the contour map was not taken as one"
 nothing_left other
+[ -z "$(find . -name '.new-site*' -o -name .slope -o -name .joints)" ] || fail "parts of new-site are left"
+
+# Where no plane can come out, where the slope cannot be measured, and without tools: said, and usable.
+awk 'BEGIN { print "ncols 40\nnrows 40\nxllcenter 500000\nyllcenter 5200000\ncellsize 5\nNODATA_value -9999"
+  for (r = 0; r < 40; r++) { for (c = 0; c < 40; c++) printf "%g ", 1.5 * (40 - r); print "" } }' >gentle.asc
+gdal_translate -q -ot Float64 -a_srs EPSG:32633 gentle.asc gentle.tif
+sed 's/5200260/5200060/g; s/5200300/5200100/g' source.geojson >gentle.geojson
+expect 0 new gentle gentle.tif gentle.geojson "$source_dir/pipelines"
+says "WARNING: no failure surface of $work/gentle/site.toml daylights"
+prints "the slope is no steeper than friction"
+grep -q 'NO PLANE DAYLIGHTS here: the slope dips 17 degrees' gentle/site.toml || fail "the site file does not warn"
+expect 0 make -C gentle BIN= blocks
+sed 's/50009/50909/g; s/50014/50914/g' source.geojson >far.geojson
+expect 0 new far dem.tif far.geojson "$source_dir/pipelines"
+says "reaches outside the terrain"
+says "the slope could not be measured, for the reason above"
+grep -q 'THE SLOPE WAS NOT MEASURED' far/site.toml || fail "the site file does not warn"
+expect 0 new built dem.tif source.geojson "$source_dir/pipelines" absent
+says "the tools are not built"
+grep -q 'THE SLOPE WAS NOT MEASURED' built/site.toml || fail "the site file does not warn"
 
 # by make: a name that make or the shell would part or run is refused before anything runs
 site here

@@ -1,0 +1,5 @@
+# Terrain and site file -> on which planes of its joint sets the mass could leave, on the terminal.
+# in: site.toml   out: $(OUT)/source.json
+.PHONY: source
+source: $(OUT)/trn.tif ## which planes of the joint sets daylight, before anything is cut
+	$(BIN)talus-source site.toml --trn $(OUT)/trn.tif -o $(OUT)/source.json --overwrite $(DB)

@@ -1,0 +1,41 @@
+# Which planes of the joint sets come out of the slope; sections for joints that nobody measured.
+. "$source_dir/tests/tools/talus-blocks/scene.sh"
+make_site '[ground.rock]'
+
+expect 0 talus-source site.toml --trn trn.tif -o source.json --no-db
+prints "slope: dips 40 degrees towards 180; friction of the ground 30 degrees"
+prints "sliding (35 degrees towards 180): "
+prints "5 degrees steeper than friction; comes out of the ground along 9"
+prints "rear (80 degrees towards 10): dips into the slope"
+prints "lateral (85 degrees towards 95): dips across the slope, 85 degrees off its fall line"
+[ "$(sed -n 's/.*"taken": "\(.*\)",/\1/p' source.json)" = sliding ] || fail "not the plane of sliding"
+
+# The volume is that which talus-blocks finds for it.
+expect 0 blocks --set source.failure_surface=daylighting --report blocks.json
+holds "$(value blocks.json prism_volume_m3) == $(value source.json volume_m3)"
+
+expect 0 talus-source site.toml --trn trn.tif --no-db --set ground.rock.friction_deg=39.5
+prints "sliding (35 degrees towards 180): is no steeper than the friction angle of 39.5 degrees"
+prints "the slope is no steeper than friction"
+
+# Sections for the site file: cut, they make about the blocks that were asked for.
+sed '/^failure_surface/,$d' site.toml >bare.toml
+printf '\n[ground.slope]\nfriction_deg = 28\n' >rest.toml
+cat bare.toml rest.toml >asked.toml
+expect 0 talus-source asked.toml --trn trn.tif --assume-joints joints.toml --blocks 40 --no-db
+prints "joint sets are assumed from the slope"
+grep -q '^dip_deg = 34$' joints.toml || fail "not halfway between 28 and 40 degrees"
+cat bare.toml joints.toml rest.toml >site.toml
+expect 0 blocks --report blocks.json --overwrite
+holds "$(value blocks.json n_blocks) >= 25 && $(value blocks.json n_blocks) <= 100"
+prints "failure plane of set sliding: dips 34 degrees towards 180, 6 degrees steeper than friction"
+
+sed 's/friction_deg = 28/friction_deg = 38/' asked.toml >rough.toml
+expect 0 talus-source rough.toml --trn trn.tif --assume-joints none.toml --no-db
+prints "no plane daylights at the foot of the source"
+grep -q '^failure_surface = "normal_depth"' none.toml || fail "no surface was given instead"
+grep -q 'NO PLANE DAYLIGHTS' none.toml || fail "the file does not warn"
+
+sed '/^polygon/d; /^\[source\]/d' asked.toml >nothing.toml
+expect 1 talus-source nothing.toml --trn trn.tif --no-db
+says "there is no [source] with a polygon"
