@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/text.hpp"
+#include "moved_json.hpp"
 
 namespace talus {
 namespace {
@@ -129,6 +130,7 @@ Json run_report(const Runner& runner, const ScenePlan& plan, double cpu_s) {
                {"n_frames", n_frames(file.frames)},
                {"largest_speed_m_s", largest_speed(file)},
                {"mean_displacement_m", {moved.x(), moved.y(), moved.z()}},
+               {"moved", moved_json(moved_of(displacements(file)))},
                {"cpu_time_s", cpu_s}};
   json["health"] = Json::array();
   for (const HealthCheck& check : health_checks(runner))
@@ -140,7 +142,7 @@ Json run_report(const Runner& runner, const ScenePlan& plan, double cpu_s) {
   return json;
 }
 
-std::string run_summary(const Json& report) {
+std::string run_summary(const Json& report, const RunFile& file) {
   const auto number = [&report](const char* key) { return text(report[key].get<double>(), 4); };
   const Json& moved = report["mean_displacement_m"];
   const double horizontal = std::hypot(moved[0].get<double>(), moved[1].get<double>());
@@ -150,9 +152,15 @@ std::string run_summary(const Json& report) {
   const double fell = -moved[2].get<double>();
   return count("n_blocks", "block") + ", " + number("time_s") + " s in " + count("steps", "step") +
          ": centre of mass moved " + text(horizontal, 4) + " m and " +
-         (fell < 0 ? "rose " : "fell ") + text(std::abs(fell), 4) + " m, largest speed " +
-         number("largest_speed_m_s") + " m/s, " + count("n_passages", "passage") + ", " +
-         count("n_crossings", "crossing") + fence_summary(report) + trouble_summary(report);
+         (fell < 0 ? "rose " : "fell ") + text(std::abs(fell), 4) + " m, " +
+         text(moved_of(displacements(file))) + "; largest speed " + number("largest_speed_m_s") +
+         " m/s, " + count("n_passages", "passage") + ", " + count("n_crossings", "crossing") +
+         fence_summary(report) + trouble_summary(report);
+}
+
+void warn_of_standing_mass(Tool& tool, const RunFile& file) {
+  const std::string words = standing_mass_warning(moved_of(displacements(file)));
+  if (!words.empty()) tool.warn(words);
 }
 
 void record_health(Tool& tool, Runner& runner) {

@@ -17,8 +17,11 @@ namespace talus {
 /// [s].
 [[nodiscard]] Json run_report(const Runner& runner, const ScenePlan& plan, double cpu_s);
 
-/// run_report() in one line.
-[[nodiscard]] std::string run_summary(const Json& report);
+/// run_report() of the run `file` in one line.
+[[nodiscard]] std::string run_summary(const Json& report, const RunFile& file);
+
+/// Warns when less than half of the mass moved.
+void warn_of_standing_mass(Tool& tool, const RunFile& file);
 
 /// Gives the health to the tool, and the run the status "failed" with the reason where a limit is
 /// broken.

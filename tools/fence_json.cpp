@@ -1,6 +1,7 @@
 #include "fence_json.hpp"
 
 #include <algorithm>
+#include <array>
 #include <numbers>
 
 #include "post/fence_text.hpp"
@@ -44,23 +45,46 @@ Json share_json(const VerdictShare& share) {
           {"high", number_or_null(share.interval.high)}};
 }
 
-Json design_json(const DesignResult& r) {
+Json step_list(const std::vector<DesignStep>& steps) {
+  Json list = Json::array();
+  for (const DesignStep& step : steps)
+    list.push_back({{"symbol", step.symbol},
+                    {"name", step.name},
+                    {"value", number_or_null(step.value)},
+                    {"unit", step.unit},
+                    {"source", step.source}});
+  return list;
+}
+
+// `with_steps`: the derivation, which the fields would only repeat.
+Json design_json(const DesignResult& r, bool with_steps) {
   const std::optional<bool> pass = passes(r);
-  return {{"enough_arrivals", r.verdict != DesignVerdict::too_few},
-          {"arrivals_needed", r.n_needed},
-          {"design_energy_kj", number_or_null(r.design_energy / 1e3)},
-          {"required_capacity_kj", number_or_null(r.required_capacity / 1e3)},
-          {"smallest_class", r.smallest_class},
-          {"design_height_m", number_or_null(r.design_height)},
-          {"free_border_m", number_or_null(r.free_border)},
-          {"required_height_m", number_or_null(r.required_height)},
-          {"energy_use", number_or_null(r.energy_use)},
-          {"height_use", number_or_null(r.height_use)},
-          {"required_distance_m", number_or_null(r.required_distance)},
-          {"distance_use", number_or_null(r.distance_use)},
-          {"governs", r.governs},
-          {"verdict", text(r.verdict)},
-          {"pass", pass ? Json(*pass) : Json()}};
+  Json json = {{"enough_arrivals", r.n_arrivals > 0 && r.verdict != DesignVerdict::too_few},
+               {"arrivals", r.n_arrivals},
+               {"arrivals_needed", r.n_needed},
+               {"design_energy_kj", number_or_null(r.design_energy / 1e3)},
+               {"required_capacity_kj", number_or_null(r.required_capacity / 1e3)},
+               {"smallest_class", r.smallest_class},
+               {"largest_class_kj", number_or_null(r.largest_class / 1e3)},
+               {"design_height_m", number_or_null(r.design_height)},
+               {"free_border_m", number_or_null(r.free_border)},
+               {"required_height_m", number_or_null(r.required_height)},
+               {"energy_use", number_or_null(r.energy_use)},
+               {"height_use", number_or_null(r.height_use)},
+               {"required_distance_m", number_or_null(r.required_distance)},
+               {"distance_use", number_or_null(r.distance_use)},
+               {"governs", r.governs},
+               {"verdict", text(r.verdict)},
+               {"text", text(r)},
+               {"pass", pass ? Json(*pass) : Json()}};
+  if (with_steps) json["derivation"] = step_list(r.steps);
+  return json;
+}
+
+const char* basis_name(DesignBasis basis) {
+  constexpr std::array names = {"line that stops nothing", "line without the fence",
+                                "first touches"};
+  return names[static_cast<std::size_t>(basis)];
 }
 
 Json field_list(const Fence& fence, const FenceResult& result) {
@@ -70,7 +94,7 @@ Json field_list(const Fence& fence, const FenceResult& result) {
     json["from_m"] = fence.chainage[f];
     json["to_m"] = fence.chainage[f + 1];
     json["storage_m3"] = result.fields[f].storage;
-    json["design"] = design_json(result.fields[f].design);
+    json["design"] = design_json(result.fields[f].design, false);
     fields.push_back(json);
   }
   return fields;
@@ -101,6 +125,7 @@ Json broken_list(const FenceRunGroup& group, std::size_t fence) {
 Json ground_json(const FenceRunGroup& group, std::size_t fence) {
   const GroundBehind g = ground_behind(group, fence);
   return {{"n_runs", n_runs(group)},
+          {"n_runs_moved", g.n_moved},
           {"blocks_behind_the_line", static_cast<double>(g.n)},
           {"share_behind_the_line", number_or_null(g.share)},
           {"volume_behind_the_line_m3_per_run", g.volume},
@@ -132,6 +157,7 @@ Json fence_json(const FenceCase& fence_case, std::size_t index, const FenceResul
           {"verdicts", shares},
           {"arrivals", {{"first_touches", n_touches}, {"crossings", r.whole.n - n_touches}}},
           {"whole", part_json(r.whole)},
+          {"at_open_line", r.basis == DesignBasis::first_touches ? Json() : part_json(r.at_basis)},
           {"storage_m3", r.storage},
           {"retained_m3", r.retained},
           {"kept_from_passing_m3", number_or_null(r.kept)},
@@ -141,7 +167,9 @@ Json fence_json(const FenceCase& fence_case, std::size_t index, const FenceResul
            {{"code", code.code.file},
             {"sha256", code.sha256},
             {"from_memory", code.code.from_memory},
-            {"whole", design_json(r.design)}}},
+            {"basis", basis_name(r.basis)},
+            {"basis_text", basis_text(r)},
+            {"whole", design_json(r.design, true)}}},
           {"fields", field_list(fence, r)},
           {"posts", post_list(fence, r)},
           {"notes", fence_notes(fence_case, index, r, group, code.code)}};
@@ -151,7 +179,7 @@ Json comparison_json(const FenceRunGroup& with, const FenceRunGroup& without, st
   const Json a = ground_json(with, index), b = ground_json(without, index);
   Json change;
   for (const auto& [key, value] : a.items())
-    if (key != "n_runs" && value.is_number() && b[key].is_number())
+    if (!key.starts_with("n_runs") && value.is_number() && b[key].is_number())
       change[key] = value.get<double>() - b[key].get<double>();
   return {{"with", a}, {"without", b}, {"with_minus_without", change}};
 }

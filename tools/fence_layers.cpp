@@ -50,28 +50,64 @@ FieldValue pass_field(const DesignResult& design) {
   return static_cast<std::int64_t>(*pass ? 1 : 0);
 }
 
+std::vector<VectorStyle::Class> verdict_classes() {
+  return {{"meets", "meets the code", {51, 160, 44, 255}},
+          {"does not meet", "does not meet it", {227, 26, 28, 255}},
+          {"energy not checked", "no capacity given: energy not checked", {253, 191, 111, 255}},
+          {"too few arrivals", "not judged: too few arrivals", {120, 120, 120, 255}},
+          {"first touches only", "not judged: first touches only", {120, 120, 120, 255}},
+          {"nothing came", "not judged: nothing came", {190, 190, 190, 255}}};
+}
+
+// The verdict of each fence as a whole: the one that terminal and report give.
+VectorLayer whole_layer(const std::vector<FenceCase>& fences,
+                        const std::vector<FenceResult>& results, const Vec3& origin) {
+  VectorLayer layer{"fences",
+                    "the fences with the verdict of their design check",
+                    GeometryType::line_zm,
+                    {{"fence", FieldType::text}, {"arrivals", FieldType::integer}},
+                    {},
+                    vector_qml({SymbolKind::line, "verdict", verdict_classes(), 1.4})};
+  for (const char* name : {"design_energy_kj", "required_capacity_kj", "required_height_m"})
+    layer.fields.push_back({name, FieldType::real});
+  for (const char* name : {"smallest_class", "basis", "verdict", "verdict_text"})
+    layer.fields.push_back({name, FieldType::text});
+  layer.fields.push_back({"pass", FieldType::integer});
+  for (std::size_t i = 0; i < fences.size(); ++i) {
+    const DesignResult& r = results[i].design;
+    VectorFeature feature;
+    for (const Vec3& post : fences[i].fence.post) feature.points.emplace_back(post + origin);
+    feature.measure = fences[i].fence.chainage;
+    feature.values = {fences[i].fence.name,
+                      static_cast<std::int64_t>(r.n_arrivals),
+                      r.design_energy / 1e3,
+                      r.required_capacity / 1e3,
+                      r.required_height,
+                      r.smallest_class,
+                      basis_text(results[i]),
+                      std::string(text(r.verdict)),
+                      text(r),
+                      pass_field(r)};
+    layer.features.push_back(std::move(feature));
+  }
+  return layer;
+}
+
 VectorLayer field_layer(const std::vector<FenceCase>& fences,
                         const std::vector<FenceResult>& results, const Vec3& origin) {
-  VectorLayer layer{
-      "fence_fields",
-      "fields of the fences",
-      GeometryType::line_zm,
-      part_fields({{"fence", FieldType::text}, {"field", FieldType::integer}}),
-      {},
-      vector_qml(
-          {SymbolKind::line,
-           "verdict",
-           {{"meets", "meets the code", {51, 160, 44, 255}},
-            {"does not meet", "does not meet it", {227, 26, 28, 255}},
-            {"energy not checked", "no capacity given: energy not checked", {253, 191, 111, 255}},
-            {"too few arrivals", "too few arrivals", {120, 120, 120, 255}}},
-           1.2})};
+  VectorLayer layer{"fence_fields",
+                    "fields of the fences, each judged by the arrivals at it alone",
+                    GeometryType::line_zm,
+                    part_fields({{"fence", FieldType::text}, {"field", FieldType::integer}}),
+                    {},
+                    vector_qml({SymbolKind::line, "verdict", verdict_classes(), 1.2})};
   for (const char* name : {"storage_m3", "required_capacity_kj", "required_height_m"})
     layer.fields.push_back({name, FieldType::real});
   for (const char* name : {"smallest_class", "governs"})
     layer.fields.push_back({name, FieldType::text});
   layer.fields.push_back({"pass", FieldType::integer});
-  layer.fields.push_back({"verdict", FieldType::text});
+  for (const char* name : {"verdict", "verdict_text"})
+    layer.fields.push_back({name, FieldType::text});
   for (std::size_t i = 0; i < fences.size(); ++i)
     for (std::size_t f = 0; f < results[i].fields.size(); ++f) {
       const FieldResult& r = results[i].fields[f];
@@ -84,7 +120,7 @@ VectorLayer field_layer(const std::vector<FenceCase>& fences,
       feature.values.insert(feature.values.end(),
                             {r.storage, r.design.required_capacity / 1e3, r.design.required_height,
                              r.design.smallest_class, r.design.governs, pass_field(r.design),
-                             std::string(text(r.design.verdict))});
+                             std::string(text(r.design.verdict)), text(r.design)});
       layer.features.push_back(std::move(feature));
     }
   return layer;
@@ -158,8 +194,8 @@ VectorLayer arrivals_layer(const std::vector<FenceCase>& fences, const FenceRunG
 std::vector<VectorLayer> fence_layers(const std::vector<FenceCase>& fences,
                                       const std::vector<FenceResult>& results,
                                       const FenceRunGroup& group, const Vec3& origin) {
-  return {field_layer(fences, results, origin), post_layer(fences, results, origin),
-          arrivals_layer(fences, group, origin)};
+  return {whole_layer(fences, results, origin), field_layer(fences, results, origin),
+          post_layer(fences, results, origin), arrivals_layer(fences, group, origin)};
 }
 
 }  // namespace talus

@@ -10,8 +10,8 @@
 
 namespace talus {
 
-/// fence_fields, fence_posts and fence_arrivals, in this order. `origin`: map coordinates of the
-/// local origin [m].
+/// fences, fence_fields, fence_posts and fence_arrivals, in this order. `origin`: map coordinates
+/// of the local origin [m].
 [[nodiscard]] std::vector<VectorLayer> fence_layers(const std::vector<FenceCase>& fences,
                                                     const std::vector<FenceResult>& results,
                                                     const FenceRunGroup& group, const Vec3& origin);

@@ -34,8 +34,8 @@ std::string health_section(const ReportData& data) {
              : limit_table(data.limits, data.runs.size());
   for (std::size_t i = 0; i < data.runs.size(); ++i)
     if (const RunFile& run = data.runs[i]; !run.info.reason.empty())
-      out += html_note("Run " + xml_escaped(data.run_names[i]) + ": " +
-                       xml_escaped(run.info.reason) + ".");
+      out += html_note("Run " + xml_escaped(data.run_names[i]) +
+                       " failed: " + xml_escaped(run.info.reason) + ".");
   out += counter_table(data.runs, data.run_names) + "<div class=\"charts\">\n";
   out += html_figure(chart_svg(energy_chart(data.shown)),
                      "Run " + xml_escaped(data.shown_name) +

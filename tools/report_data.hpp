@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "post/run_set.hpp"
 #include "report/run_health.hpp"
 #include "scene/site.hpp"
 #include "store/run_file.hpp"
@@ -30,11 +31,17 @@ struct ReportData {
   std::vector<MapPicture> maps;
   std::vector<RunFile> runs;  ///< info and health, by seed and name; frames left out    (n_runs)
   std::vector<std::string> run_names;  ///< "1", or "CASE_1"                            (n_runs)
+  RunFaults faults;                    ///< of these runs
   RunFile shown;                       ///< the run of the animation, whole
   std::string shown_name;
   std::vector<LimitOverRuns> limits;
   std::vector<RunRecord> steps;  ///< each behind those whose outputs it read
   std::string run_id, version;
 };
+
+/// "1 of 12 runs failed its numerical checks"; "" where nothing is wrong. What the fences rest on
+/// also counts runs that they are compared with.
+[[nodiscard]] std::string remark_of(const ReportData& data);
+[[nodiscard]] std::string fence_remark_of(const ReportData& data);
 
 }  // namespace talus

@@ -58,19 +58,49 @@ std::string arrival_table(const Json& whole) {
                     table, {false, true, true, true, true, true, true});
 }
 
+// From the design block and speed to what is needed, each number with its source.
+std::string derivation_table(const Json& steps) {
+  std::vector<std::vector<std::string>> rows;
+  if (steps.is_array())
+    for (const Json& step : steps)
+      rows.push_back(
+          {word_text(value_at(step, {"symbol"})), word_text(value_at(step, {"name"})),
+           number_text(value_at(step, {"value"})) + " " + word_text(value_at(step, {"unit"})),
+           word_text(value_at(step, {"source"}))});
+  if (rows.empty()) return "";
+  return "<h3>Derivation of the design values</h3>\n" +
+         html_table({"", "", "value", "from"}, rows, {false, false, true, false});
+}
+
+// The line that stops nothing beside the touches of the standing fence: which of them is for
+// design.
+std::string arrival_tables(const Json& fence) {
+  const Json open = value_at(fence, {"at_open_line"});
+  const Json basis = value_at(fence, {"design", "basis"});
+  const Json whole = value_at(fence, {"whole"});
+  const bool came = number_text(value_at(whole, {"n"})) != "0";
+  if (basis == "line that stops nothing") return came ? arrival_table(whole) : "";
+  std::string out;
+  if (open.is_object() && number_text(value_at(open, {"n"})) != "0")
+    out += "<h3>At its line without the fence: for design</h3>\n" + arrival_table(open);
+  if (came)
+    out += "<h3>First touches of the standing fence: not for design</h3>\n" + arrival_table(whole);
+  return out;
+}
+
 // What came to the fence, and what it holds.
 std::string arrivals(const Json& fence) {
   const Json whole = value_at(fence, {"whole"}), kept = value_at(fence, {"kept_from_passing_m3"});
   const std::string held =
-      "Volume that the fence stopped: " + number_text(value_at(fence, {"retained_m3"})) +
-      " m&sup3;" +
+      "Volumes as they lie, with the gaps between piled blocks: the fence stopped " +
+      number_text(value_at(fence, {"retained_m3"})) + " m&sup3;" +
       (kept.is_number()
-           ? ", kept from passing, as the runs without it say: " + number_text(kept) + " m&sup3;"
+           ? ", kept from passing, as the runs without it say, " + number_text(kept) + " m&sup3;"
            : std::string()) +
-      ", storage behind the fence: " + number_text(value_at(fence, {"storage_m3"})) + " m&sup3;.";
+      ", storage behind the fence " + number_text(value_at(fence, {"storage_m3"})) + " m&sup3;.";
   if (number_text(value_at(whole, {"n"})) == "0")
-    return html_paragraph("Nothing came to the fence. " + held);
-  return arrival_table(whole) +
+    return arrival_tables(fence) + html_paragraph("Nothing came to the fence. " + held);
+  return arrival_tables(fence) +
          html_paragraph(
              "Arrivals: " + number_text(value_at(fence, {"arrivals", "first_touches"})) +
              " first touches of the fence, with what the block had before, and " +
@@ -94,10 +124,10 @@ std::string field_table(const Json& fields) {
            number_text(value_at(f, {"design", "required_capacity_kj"})),
            number_text(value_at(f, {"design", "required_height_m"}), 3),
            word_text(value_at(f, {"design", "smallest_class"})),
-           word_text(value_at(f, {"design", "governs"}))});
+           word_text(value_at(f, {"design", "verdict"}))});
   return html_table(
       {"field [m]", "arrivals", "energy p95 [kJ]", "largest [kJ]", "top, largest [m]",
-       "storage [m&sup3;]", "capacity needed [kJ]", "height needed [m]", "class", "governs"},
+       "storage [m&sup3;]", "capacity needed [kJ]", "height needed [m]", "ETAG class", "verdict"},
       rows, {false, true, true, true, true, true, true, true});
 }
 
@@ -110,7 +140,7 @@ std::string comparison_table(const Json& comparison) {
       {"energy_at_the_line_kj_max", "energy at the line, largest [kJ]"},
       {"mean_L_path_m", "L along the path, mean [m]"},
       {"mean_reach_angle_path_deg", "angle of reach, mean [deg]"},
-      {"mean_centre_of_mass_L_path_m", "way of the centre of mass, mean [m]"}};
+      {"mean_centre_of_mass_L_path_m", "path of the centre of mass, mean [m]"}};
   std::vector<std::vector<std::string>> table;
   for (const auto& [key, name] : rows)
     table.push_back({name, number_text(value_at(comparison, {"with", key})),
@@ -124,27 +154,20 @@ std::string comparison_table(const Json& comparison) {
 
 std::string fence_verdict(const Json& fence) {
   const Json design = value_at(fence, {"design", "whole"});
-  const std::string name = "fence " + word_text(value_at(fence, {"name"}));
-  if (number_text(value_at(fence, {"whole", "n"})) == "0")
-    return "<div class=\"verdict\"><b>" + name + "</b>: nothing came to it (" +
-           verdict_counts(fence) + ").</div>\n";
-  std::string kind = "fail", outcome = " does not meet ";
-  if (word_text(value_at(design, {"verdict"})) == "meets") kind = "pass", outcome = " meets ";
-  if (word_text(value_at(design, {"verdict"})) == "energy not checked")
-    kind = "", outcome = " is high enough, its energy is not checked, by ";
-  std::string out = "<div class=\"verdict " + kind + "\"><b>" + name + outcome +
-                    fs::path(word_text(value_at(fence, {"design", "code"}))).stem().string() +
-                    "</b>: needs " + number_text(value_at(design, {"required_capacity_kj"})) +
-                    " kJ (class: " + word_text(value_at(design, {"smallest_class"})) +
-                    ") and a height of " + number_text(value_at(design, {"required_height_m"}), 3) +
-                    " m; it is " + number_text(value_at(fence, {"height_m"}), 3) + " m high";
+  const std::string verdict = word_text(value_at(design, {"verdict"}));
+  const std::string kind = verdict == "meets" ? " pass" : verdict == "does not meet" ? " fail" : "";
   const Json capacity = value_at(fence, {"capacity_kj"});
-  out += capacity.is_number() ? ", holds " + number_text(capacity) + " kJ"
-                              : ", has no capacity given: its energy is not checked";
-  if (!number_text(value_at(design, {"enough_arrivals"})).starts_with("y"))
-    out += ". Too few arrivals (" + number_text(value_at(fence, {"whole", "n"})) + " of " +
-           number_text(value_at(design, {"arrivals_needed"})) +
-           ") for the percentiles of the code: the largest values stand in for them";
+  std::string out = "<div class=\"verdict" + kind + "\"><b>fence " +
+                    word_text(value_at(fence, {"name"})) + ", " +
+                    fs::path(word_text(value_at(fence, {"design", "code"}))).stem().string() +
+                    "</b>: " + word_text(value_at(design, {"text"}));
+  if (verdict != "nothing came")
+    out += ". It is " + number_text(value_at(fence, {"height_m"}), 3) + " m high and " +
+           (capacity.is_number() ? "holds " + number_text(capacity) + " kJ"
+                                 : "has no capacity given") +
+           ". The check rests on " + word_text(value_at(fence, {"design", "basis_text"}));
+  if (number_text(value_at(fence, {"whole", "n"})) == "0")
+    out += ". In these runs nothing came to it (" + verdict_counts(fence) + ")";
   return out + ".</div>\n";
 }
 
@@ -155,6 +178,7 @@ std::string fence_section(const ReportData& data) {
     out += "<h3>" + word_text(value_at(fence, {"name"})) + ": " +
            number_text(value_at(fence, {"length_m"})) + " m long, " +
            number_text(value_at(fence, {"height_m"})) + " m high</h3>\n" + fence_verdict(fence);
+    out += derivation_table(value_at(fence, {"design", "whole", "derivation"}));
     out += verdict_table(value_at(fence, {"verdicts"})) + arrivals(fence);
     out += html_fold("Each field between two posts", field_table(value_at(fence, {"fields"})));
     if (!value_at(fence, {"comparison"}).is_null())

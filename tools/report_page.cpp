@@ -54,13 +54,38 @@ constexpr const char* page_script =
     "document.querySelectorAll('details').forEach((d) => { d.open = true; }));\n"
     "</script>\n";
 
+// The remark as a head that a browser repeats on every printed page, since the heading of a section
+// may stand pages before. On a screen the frame is not seen.
+std::string in_print_frame(const std::string& content, const std::string& remark) {
+  if (remark.empty()) return content;
+  return "<table class=\"print-frame\"><thead><tr><td><div class=\"banner\">" +
+         xml_escaped(remark) + "</div></td></tr></thead><tbody><tr><td>\n" + content +
+         "</td></tr></tbody></table>\n";
+}
+
 }  // namespace
+
+std::string remark_of(const ReportData& data) { return headline(data.faults); }
+
+std::string fence_remark_of(const ReportData& data) {
+  const Json remark = value_at(data.fence, {"tags", "REMARK"});
+  return remark.is_string() ? remark.get<std::string>() : remark_of(data);
+}
 
 std::string report_page(const ReportData& data, const std::string& viewer,
                         const std::string& style) {
-  return page_head(data, style) + result_section(data) + map_section(data) + viewer_section(data) +
-         runout_section(data) + fence_section(data) + curve_section(data) + health_section(data) +
-         assumption_section(data) + plan_section(data) + provenance_section(data) +
+  const std::string remark = remark_of(data), fence_remark = fence_remark_of(data);
+  std::string main;
+  for (const std::string& section : {map_section(data), viewer_section(data), runout_section(data)})
+    main += html_marked(section, xml_escaped(remark));
+  main += html_marked(fence_section(data), xml_escaped(fence_remark));
+  for (const std::string& section :
+       {curve_section(data), health_section(data), assumption_section(data), plan_section(data),
+        provenance_section(data)})
+    main += html_marked(section, xml_escaped(remark));
+  const std::string first = remark.empty() ? fence_remark : remark;
+  main = html_marked(result_section(data), xml_escaped(first)) + main;
+  return page_head(data, style) + in_print_frame(main, first) +
          "</main>\n<footer>Talus is free software (GPL-3.0-or-later), without any warranty. A "
          "model is not the slope: limits and assumptions stand in docs/limits.md.</footer>\n" +
          viewer_script(data, viewer) + page_script + "</body>\n</html>\n";

@@ -12,7 +12,17 @@
 namespace talus {
 namespace {
 
-std::string spread_table(const Json& spread) {
+// "Over the 17 of 36 runs that moved"
+std::string over_which(const Json& runout) {
+  const std::string n = number_text(value_at(runout, {"n_runs_moved"})),
+                    all = number_text(value_at(runout, {"n_runs"}));
+  return n == all ? "Over the runs" : "Over the " + n + " of " + all + " runs that moved";
+}
+
+std::string spread_table(const Json& runout) {
+  const Json spread = value_at(runout, {"spread_over_runs"});
+  if (number_text(value_at(runout, {"n_runs_moved"})) == "0")
+    return html_paragraph("No block moved in any run: there is no run-out.");
   static const std::pair<const char*, const char*> rows[] = {
       {"H_m", "H, drop from top to toe [m]"},
       {"L_path_m", "L along the path [m]"},
@@ -32,8 +42,11 @@ std::string spread_table(const Json& spread) {
     table.push_back(row);
   }
   return html_table(headings, table, {false, true, true, true, true, true}) +
-         (one ? ""
-              : html_note("Over the runs; p50: half of them lie below, p95: 95 in 100 lie below."));
+         (one ? (number_text(value_at(runout, {"n_runs"})) == "1"
+                     ? ""
+                     : html_note(over_which(runout) + "."))
+              : html_note(over_which(runout) +
+                          "; p50: half of them lie below, p95: 95 in 100 lie below."));
 }
 
 std::string mobility_table(const Json& mobility) {
@@ -73,13 +86,23 @@ std::string friction_paragraph(const ReportData& data) {
       list + "); a hollow that holds it back, rolling and impacts move it away from that.");
 }
 
+// Of the run of the animation, the farthest one.
+std::string energy_line_note(const ReportData& data) {
+  const Json runs = value_at(data.runout, {"runs"});
+  for (std::size_t i = 0; runs.is_array() && i < runs.size(); ++i) {
+    const std::string words = word_text(value_at(runs[i], {"energy_line"}));
+    if (runs[i].value("run_id", "") == data.shown.info.run_id && !words.empty())
+      return html_note("Run " + xml_escaped(data.shown_name) + ", " + words + ".");
+  }
+  return "";
+}
+
 }  // namespace
 
 std::string runout_section(const ReportData& data) {
   if (data.runout.is_null()) return "";
   const Json balance = value_at(data.runout, {"balance"});
-  std::string out =
-      spread_table(value_at(data.runout, {"spread_over_runs"})) + friction_paragraph(data);
+  std::string out = spread_table(data.runout) + energy_line_note(data) + friction_paragraph(data);
   out += html_paragraph(
       "Volume: released " + number_text(value_at(balance, {"released_m3"})) +
       " m&sup3; = at rest " + number_text(value_at(balance, {"deposited_m3"})) +
@@ -88,8 +111,8 @@ std::string runout_section(const ReportData& data) {
   if (number_text(value_at(balance, {"n_moving"})) != "0")
     out += html_note(
         number_text(value_at(balance, {"n_moving"})) +
-        " blocks still moved when the run ended: run-out is that of this moment. A longer "
-        "[solver] duration_s lets them come to rest.");
+        " blocks still moved when their run ended: L counts them where they were at that moment. "
+        "With a longer [solver] duration_s they come to rest.");
   if (!data.mobility_svg.empty())
     out += html_figure(html_svg(data.mobility_svg, "H over L against volume"),
                        "Each run beside published relations of H/L and volume.");

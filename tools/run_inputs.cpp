@@ -33,7 +33,7 @@ RunInputs::RunInputs(Tool& tool) : tool_(tool) {
               "blocks slower than this at the end count as deposited [m/s]")
       ->check(number_between(0, 1000));
   tool.flag("--allow-unfinished", allow_unfinished,
-            "take runs that have not ended or have failed; every output is marked");
+            "take runs that were interrupted before their end; every output is marked");
 }
 
 const Trn& RunInputs::trn() {
@@ -117,14 +117,15 @@ std::string RunInputs::run_set() const {
 }
 
 std::string RunInputs::remark() const {
-  const auto n = std::count_if(members.begin(), members.end(), [](const RunMember& member) {
-    return member.info.status != "done";
-  });
-  if (n == 0) return "";
-  const std::string words = std::to_string(n) + " of " + std::to_string(members.size()) +
-                            (members.size() == 1 ? " run" : " runs") + " unfinished or failed";
-  tool_.warn(words + ": every output says so");
-  return words;
+  const RunFaults faults = faults_of(members);
+  if (const std::string words = text(faults); !words.empty())
+    tool_.warn(words + ": every output says so");
+  return headline(faults);
+}
+
+void mark_layers(std::vector<VectorLayer>& layers, const std::string& remark) {
+  if (remark.empty()) return;
+  for (VectorLayer& layer : layers) layer.description += " (" + remark + ")";
 }
 
 }  // namespace talus

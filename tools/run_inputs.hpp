@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "io/geopackage_gdal.hpp"
 #include "io/raster_gdal.hpp"
 #include "post/run_set.hpp"
 #include "tool.hpp"
@@ -37,7 +38,8 @@ class RunInputs {
   /// Digest of the ids of the runs named by RUN.h5..., for the tag RUN_SET (run_set_id).
   [[nodiscard]] std::string run_set() const;
 
-  /// Warns of unfinished runs; "" when all are whole, else what pictures and legends say.
+  /// Warns of runs that failed or have not ended; "" when all are whole, else what pictures and
+  /// legends say.
   [[nodiscard]] std::string remark() const;
 
   /// Warns when blocks were still moving as their runs ended, or had left the known terrain:
@@ -59,5 +61,8 @@ class RunInputs {
   Trn trn_;
   bool has_trn_ = false;
 };
+
+/// The remark behind the description of each layer.
+void mark_layers(std::vector<VectorLayer>& layers, const std::string& remark);
 
 }  // namespace talus

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "moved_json.hpp"
+#include "post/runout_text.hpp"
+
 namespace talus {
 namespace {
 
@@ -53,11 +56,14 @@ Json run_json(const RunoutRun& r, double friction_deg) {
   return {{"run_id", r.member.info.run_id},
           {"seed", r.member.info.seed},
           {"status", r.member.info.status},
+          {"did_move", e.moved.any()},
+          {"moved", moved_json(e.moved)},
           {"event", line_json(e.event)},
-          {"toe_block", e.toe_block},
-          {"toe_is_deposited", e.toe_deposited},
-          {"angle_monotone_along_path", e.profile.monotone},
-          {"missing_head_m", number_or_null(e.profile.missing_head)},
+          {"toe_block", e.moved.any() ? Json(e.toe_block) : Json()},
+          {"toe_fate", e.moved.any() ? Json(text(e.toe_fate)) : Json()},
+          {"angle_monotone_along_path", e.moved.any() ? Json(e.profile.monotone) : Json()},
+          {"energy_line", energy_line_text(e.profile)},
+          {"missing_head_m", e.moved.any() ? Json(e.profile.missing_head) : Json()},
           {"smallest_angle_along_path_deg", number_or_null(e.profile.smallest * degrees)},
           {"smallest_angle_at_m", number_or_null(e.profile.smallest_at)},
           {"centre_of_mass", centre},

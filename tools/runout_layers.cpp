@@ -35,7 +35,8 @@ VectorLayer deposit_layer_of(const std::vector<RunoutRun>& runs, const MapPlace&
                      {"reach_angle_path_deg", FieldType::real},
                      {"reach_angle_chord_deg", FieldType::real},
                      {"max_speed_m_s", FieldType::real},
-                     {"max_energy_kj", FieldType::real}},
+                     {"max_energy_kj", FieldType::real},
+                     {"displacement_m", FieldType::real}},
                     {},
                     vector_qml({SymbolKind::polygon,
                                 "fate",
@@ -60,7 +61,8 @@ VectorLayer deposit_layer_of(const std::vector<RunoutRun>& runs, const MapPlace&
                   b.reach.path_angle() * degrees,
                   b.reach.chord_angle() * degrees,
                   b.max_speed,
-                  b.max_energy / 1e3};
+                  b.max_energy / 1e3,
+                  r.displacement[b.block]};
       layer.features.push_back(std::move(f));
     }
   return layer;
@@ -183,6 +185,59 @@ VectorLayer end_layer(const std::vector<RunoutRun>& runs, const MapPlace& map) {
   return layer;
 }
 
+VectorLayer run_layer(const std::vector<RunoutRun>& runs, const MapPlace& map) {
+  VectorLayer layer{"runs",
+                    "centre of mass at the end of each run, with how much of the mass moved",
+                    GeometryType::point_z,
+                    {{"run_id", FieldType::text},
+                     {"seed", FieldType::integer},
+                     {"status", FieldType::text},
+                     {"moved", FieldType::integer},
+                     {"share_moved_1_m", FieldType::real},
+                     {"share_moved_20_m", FieldType::real},
+                     {"displacement_p50_m", FieldType::real},
+                     {"displacement_p90_m", FieldType::real},
+                     {"displacement_p95_m", FieldType::real},
+                     {"displacement_max_m", FieldType::real},
+                     {"H_m", FieldType::real},
+                     {"L_path_m", FieldType::real},
+                     {"L_chord_m", FieldType::real},
+                     {"reach_angle_path_deg", FieldType::real},
+                     {"reach_angle_chord_deg", FieldType::real},
+                     {"toe_fate", FieldType::text}},
+                    {},
+                    vector_qml({SymbolKind::point,
+                                "status",
+                                {{"done", "centre of mass", {31, 78, 121, 255}},
+                                 {"failed", "run failed its checks", {200, 30, 30, 255}},
+                                 {"running", "run not finished", {120, 120, 120, 255}}},
+                                2})};
+  for (const RunoutRun& r : runs) {
+    const Moved& m = r.event.moved;
+    const ReachLine& e = r.event.event;
+    VectorFeature f;
+    f.points = {map(r.curves.empty() ? Vec3(Vec3::Zero()) : r.curves.back().centre_of_mass)};
+    f.values = {r.member.info.run_id,
+                whole(r.member.info.seed),
+                r.member.info.status,
+                whole(m.any() ? 1 : 0),
+                m.share,
+                m.share_far,
+                m.p50,
+                m.p90,
+                m.p95,
+                m.largest,
+                e.height,
+                e.path,
+                e.chord,
+                e.path_angle() * degrees,
+                e.chord_angle() * degrees,
+                m.any() ? FieldValue(std::string(text(r.event.toe_fate))) : FieldValue()};
+    layer.features.push_back(std::move(f));
+  }
+  return layer;
+}
+
 VectorLayer envelope_layer(const RunoutRuns& all, const MapPlace& map) {
   VectorLayer layer{"envelope",
                     "outline of all cells that any block of any run passed",
@@ -211,7 +266,8 @@ std::vector<VectorLayer> runout_layers(const RunoutRuns& all, const Vec3& origin
           path_layer(all.runs, map, tolerance),
           path_point_layer(all.runs, map),
           streamline_layer(all.runs, map),
-          end_layer(all.runs, map)};
+          end_layer(all.runs, map),
+          run_layer(all.runs, map)};
 }
 
 }  // namespace talus

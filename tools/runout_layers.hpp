@@ -10,8 +10,8 @@
 
 namespace talus {
 
-/// envelope, deposit, paths, path_points, streamline and reach_points, in this order. `origin`: map
-/// coordinates of the local origin [m]; `tolerance`: of the simplified paths [m].
+/// envelope, deposit, paths, path_points, streamline, reach_points and runs, in this order.
+/// `origin`: map coordinates of the local origin [m]; `tolerance`: of the simplified paths [m].
 [[nodiscard]] std::vector<VectorLayer> runout_layers(const RunoutRuns& all, const Vec3& origin,
                                                      double tolerance);
 

@@ -298,7 +298,8 @@ int main(int argc, char** argv) {
     for (const char* key : {"steps", "impacts", "unconverged", "left_domain", "largest_speed_m_s"})
       tool.metric(key, report[key].get<double>(),
                   std::string(key) == "largest_speed_m_s" ? "m/s" : "1");
-    tool.result(report, run_summary(report));
+    warn_of_standing_mass(tool, runner.file);
+    tool.result(report, run_summary(report, runner.file));
     is_written = true;
   });
   // the run is in place: what it could have been resumed from is of no more use

@@ -2,6 +2,7 @@
 // What fences would meet, what they hold and what they change. Page: docs/tools/talus-fence.md
 #include <cmath>
 
+#include "fault_json.hpp"
 #include "fence_inputs.hpp"
 #include "fence_json.hpp"
 #include "fence_layers.hpp"
@@ -36,7 +37,7 @@ void declare(Tool& tool, Options& o) {
       ->check(CLI::Range(1, 3));
   tool.flag("--service-level", design.service_level, "UNI: check the service energy level (SEL)");
   tool.option("--design-block-m3", design.block_volume,
-              "volume of the design block [m3]; nan: 95th percentile of the released blocks")
+              "volume of the design block [m3]; nan: 95th percentile of the blocks that arrive")
       ->check(CLI::PositiveNumber);
   tool.option("--deflection-m", design.deflection, "largest deflection of the barrier [m]")
       ->check(CLI::NonNegativeNumber);
@@ -68,11 +69,13 @@ void warn_of(Tool& tool, const FenceCase& fence, std::size_t i, const FenceResul
     tool.warn(name + ": " + std::to_string(n) +
               " of the blocks that it stopped were still moving when their run ended; give "
               "talus-dda a longer --duration-s");
-  if (result.whole.n > 0 && result.design.verdict == DesignVerdict::too_few)
-    tool.warn(name + ": " + std::to_string(result.whole.n) +
+  if (result.basis == DesignBasis::first_touches && result.at_basis.n > 0)
+    tool.warn(name + ": " + basis_note(result, fence.settings.name));
+  if (result.design.verdict == DesignVerdict::too_few)
+    tool.warn(name + ": " + std::to_string(result.at_basis.n) +
               " arrivals are too few for the percentiles of the code, which need " +
               std::to_string(result.design.n_needed) +
-              ": the largest values stand in for them, and nothing passes");
+              ": the largest values stand in for them, and nothing is judged");
 }
 
 MapTags output_tags(Tool& tool, const RunInputs& inputs, const FenceRuns& runs,
@@ -122,12 +125,14 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& inpu
   const std::string remark = inputs.remark();
   const MapTags tags = output_tags(tool, inputs, runs, remark);
   if (!o.change.empty()) write_change(tool, o.change, runs, trn, tags, remark);
-  write_geopackage(tool.stage(o.out), trn.crs_wkt,
-                   fence_layers(fences, results, runs.with, trn.origin), tags);
+  std::vector<VectorLayer> layers = fence_layers(fences, results, runs.with, trn.origin);
+  mark_layers(layers, remark);
+  write_geopackage(tool.stage(o.out), trn.crs_wkt, layers, tags);
   if (!o.csv.empty()) tool.write_text(o.csv, verdict_csv(fences, runs.with));
   Json tag_list;
   for (const auto& [key, value] : tags) tag_list[key] = value;
   Json result = {{"run_id", tool.run_id()}, {"tags", tag_list}, {"fences", fence_list}};
+  add_faults(result, faults_of(inputs.members));
   if (compared)
     result["deposit_change"] = deposit_change_json(runs.ground_with, runs.ground_without);
   tool.result(result, summary);

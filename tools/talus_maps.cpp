@@ -6,6 +6,7 @@
 
 #include "base/text.hpp"
 #include "command_line.hpp"
+#include "fault_json.hpp"
 #include "map_output.hpp"
 #include "post/deposit.hpp"
 #include "post/map_style.hpp"
@@ -167,16 +168,15 @@ void run_tool(Tool& tool, Options& o, talus::RunInputs& runs) {
   }
   tool.metric("passages", static_cast<double>(n_rows), "1");
   tool.metric("cells_touched", static_cast<double>(n_touched), "1");
-  tool.result({{"run_id", tool.run_id()},
-               {"n_runs", runs.members.size()},
-               {"n_passages", n_rows},
-               {"n_cells_touched", n_touched},
-               {"cell_size_m", grid.cell_size},
-               {"layers", files}},
-              std::to_string(layers.size()) + " maps of " + std::to_string(runs.members.size()) +
-                  (runs.members.size() == 1 ? " run" : " runs") + ", " + std::to_string(n_rows) +
-                  " passages over " + std::to_string(n_touched) + " cells of " +
-                  talus::text(grid.cell_size, 4) + " m, in " + o.folder);
+  Json result = {{"run_id", tool.run_id()},       {"n_runs", runs.members.size()},
+                 {"n_passages", n_rows},          {"n_cells_touched", n_touched},
+                 {"cell_size_m", grid.cell_size}, {"layers", files}};
+  talus::add_faults(result, talus::faults_of(runs.members));
+  tool.result(result, std::to_string(layers.size()) + " maps of " +
+                          std::to_string(runs.members.size()) +
+                          (runs.members.size() == 1 ? " run" : " runs") + ", " +
+                          std::to_string(n_rows) + " passages over " + std::to_string(n_touched) +
+                          " cells of " + talus::text(grid.cell_size, 4) + " m, in " + o.folder);
 }
 
 }  // namespace

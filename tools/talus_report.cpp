@@ -9,6 +9,7 @@
 #include "base/sha256.hpp"
 #include "base/text.hpp"
 #include "build_info.hpp"
+#include "fault_json.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/raster_gdal.hpp"
 #include "io/style.hpp"
@@ -73,6 +74,7 @@ std::string farthest_run(const Json& runout) {
 void read_runs(Tool& tool, const ResultFolder& folder, const std::vector<fs::path>& files,
                const ProgressFunction& progress, ReportData& data) {
   const std::string shown = farthest_run(data.runout);
+  std::vector<RunMember> members;
   for (const fs::path& path : files) {
     progress(0.5 * static_cast<double>(data.runs.size()) / static_cast<double>(files.size()));
     tool.read_also("run", path.string());
@@ -83,8 +85,12 @@ void read_runs(Tool& tool, const ResultFolder& folder, const std::vector<fs::pat
       data.shown = read_run_file(path.string(), {true, false, true, true, false});
       data.shown_name = data.run_names.back();
     }
+    members.push_back(member_of(path.string(), run));
     data.runs.push_back(std::move(run));
   }
+  data.faults = faults_of(members);
+  if (const std::string words = talus::text(data.faults); !words.empty())
+    tool.warn(words + ": every part of the report says so");
 }
 
 // --- registry ------------------------------------------------------------------------------------
@@ -205,7 +211,9 @@ void add_maps(QgisProject& project, const Options& o, const ResultFolder& folder
 QgisProject project_of(const ReportData& data, const Options& o, const ResultFolder& folder) {
   const Trn& trn = data.terrain;
   QgisProject project;
-  project.title = data.site.info.name + ": rockslide hazard";
+  project.remark = remark_of(data).empty() ? fence_remark_of(data) : remark_of(data);
+  project.title = data.site.info.name + ": rockslide hazard" +
+                  (project.remark.empty() ? "" : " (" + project.remark + ")");
   project.crs_wkt = trn.crs_wkt;
   if (const std::string name = crs_name(trn.crs_wkt); name.starts_with("EPSG:"))
     project.crs_authid = name.substr(0, name.find(' '));
@@ -218,14 +226,14 @@ QgisProject project_of(const ReportData& data, const Options& o, const ResultFol
   project.layout_lines = {
       "run id " + data.run_id + ", Talus " + data.version + ", CRS " + crs_name(trn.crs_wkt),
       tag("DENOMINATOR"), "health: " + tag("HEALTH")};
-  if (!tag("REMARK").empty()) project.layout_lines.push_back(tag("REMARK"));
 
-  add_package(project, o, folder, "fence.gpkg", "Fences", {"fence_posts"});
+  add_package(project, o, folder, "fence.gpkg", "Fences", {"fence_fields", "fence_posts"});
   if (folder.has("change.tif"))
     project.layers.push_back({"Fences", "change by the fence",
                               relative_to(o.qgis, folder.path("change.tif")), QgisLayer::raster,
                               folder.text("change.qml"), false});
-  add_package(project, o, folder, "runout.gpkg", "Paths", {"path_points", "paths", "envelope"});
+  add_package(project, o, folder, "runout.gpkg", "Paths",
+              {"path_points", "paths", "envelope", "runs"});
   add_package(project, o, folder, "blocks.gpkg", "Source", {"blocks"});
   add_maps(project, o, folder);
   project.layers.push_back({"Terrain", "hillshade", relative_to(o.qgis, folder.path("trn.tif")),
@@ -243,15 +251,15 @@ void run_tool(Tool& tool, const Options& o, const Site& site) {
   tool.write_text(o.out, report_page(data, shipped_data("viewer.js"), shipped_data("report.css")));
   if (!o.qgis.empty())
     tool.write_text(o.qgis, zip_archive({{fs::path(o.qgis).stem().string() + ".qgs", qgs}}));
-  tool.result({{"run_id", data.run_id},
-               {"report", o.out},
-               {"qgis", o.qgis},
-               {"n_runs", data.runs.size()},
-               {"n_maps", data.maps.size()},
-               {"n_steps", data.steps.size()}},
-              "report of " + std::to_string(data.runs.size()) +
-                  (data.runs.size() == 1 ? " run" : " runs") + " in " + o.out +
-                  (o.qgis.empty() ? "" : ", QGIS project in " + o.qgis));
+  Json result = {{"run_id", data.run_id},
+                 {"report", o.out},
+                 {"qgis", o.qgis},
+                 {"n_runs", data.runs.size()},
+                 {"n_maps", data.maps.size()},
+                 {"n_steps", data.steps.size()}};
+  add_faults(result, data.faults);
+  tool.result(result, "report of " + counted(static_cast<std::int64_t>(data.runs.size()), "run") +
+                          " in " + o.out + (o.qgis.empty() ? "" : ", QGIS project in " + o.qgis));
 }
 
 }  // namespace

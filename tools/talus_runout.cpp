@@ -4,8 +4,10 @@
 #include <cmath>
 
 #include "command_line.hpp"
+#include "fault_json.hpp"
 #include "io/geopackage_gdal.hpp"
 #include "map_output.hpp"
+#include "moved_json.hpp"
 #include "post/map_style.hpp"
 #include "post/mobility.hpp"
 #include "post/runout_text.hpp"
@@ -19,7 +21,7 @@ namespace {
 using namespace talus;  // NOLINT: a program of its own
 
 struct Options {
-  std::string out, json, csv, svg, curves, thickness, mobility;
+  std::string out, json, csv, run_table, svg, curves, thickness, mobility;
   double tolerance_m = 0.5, friction_deg = std::nan("");
   bool confined = false;
 };
@@ -28,6 +30,7 @@ void declare(Tool& tool, Options& o) {
   tool.output("-o,--out", o.out, "deposit, paths, streamlines, envelope (GeoPackage)")->required();
   tool.json_output(o.json, "run-out of the event, runs and relations (JSON)");
   tool.output("--csv", o.csv, "one row a block (CSV)");
+  tool.output("--run-table", o.run_table, "one row a run: what moved, H, L, angle of reach (CSV)");
   tool.output("--curves", o.curves, "speed, energy and centre of mass over time (CSV)");
   tool.output("--svg", o.svg, "where the event lies among the mobility relations (SVG)");
   tool.output("--thickness", o.thickness, "mean thickness of the deposit (GeoTIFF)");
@@ -57,8 +60,9 @@ RunoutRuns read_runs(RunInputs& inputs, const Options& o, const Trn& trn) {
 std::vector<MobilityEvent> events_of(const std::vector<RunoutRun>& runs, bool confined) {
   std::vector<MobilityEvent> events;
   for (const RunoutRun& r : runs)
-    events.push_back({r.member.info.run_id, r.balance.released, r.event.event.height,
-                      r.event.event.chord, confined});
+    if (r.event.moved.any())
+      events.push_back({r.member.info.run_id, r.balance.released, r.event.event.height,
+                        r.event.event.chord, confined});
   return events;
 }
 
@@ -70,13 +74,13 @@ void write_thickness(Tool& tool, const Options& o, const RunoutRuns& all, const 
             map_style(layer, remark), tags);
 }
 
-// The extent of a mass that stays where it is must not look like a run-out.
-void warn_of_standing_mass(Tool& tool, const std::vector<RunoutRun>& runs) {
-  const int n = n_standing(runs);
-  if (n == 0) return;
-  tool.warn(std::to_string(n) + " of " + std::to_string(runs.size()) +
-            " runs: the centre of mass moved less than 1 % of L; H, L and the angle of reach are "
-            "the extent of a mass that stands, no run-out");
+// Where little moved, the reach of a few blocks must not look like that of the volume.
+void warn_of_standing_mass(Tool& tool, const RunoutRuns& all) {
+  if (const std::string words = standing_runs(all.runs); !words.empty())
+    tool.warn(words + ": no run-out, left out of means and of H, L and the angle of reach");
+  if (const std::string words = standing_mass_warning(all.moved);
+      !words.empty() && n_moved(all.runs) > 0)
+    tool.warn(words);
 }
 
 void run_tool(Tool& tool, Options& o, RunInputs& inputs) {
@@ -90,12 +94,14 @@ void run_tool(Tool& tool, Options& o, RunInputs& inputs) {
   const std::string remark = inputs.remark();
   if (!remark.empty()) tags.emplace_back("REMARK", remark);
   inputs.warn_of_ends();
-  warn_of_standing_mass(tool, all.runs);
+  warn_of_standing_mass(tool, all);
 
-  write_geopackage(tool.stage(o.out), trn.crs_wkt, runout_layers(all, trn.origin, o.tolerance_m),
-                   tags);
+  std::vector<VectorLayer> layers = runout_layers(all, trn.origin, o.tolerance_m);
+  mark_layers(layers, remark);
+  write_geopackage(tool.stage(o.out), trn.crs_wkt, layers, tags);
   const std::vector<MobilityEvent> events = events_of(all.runs, o.confined);
   if (!o.csv.empty()) tool.write_text(o.csv, block_csv(all.runs));
+  if (!o.run_table.empty()) tool.write_text(o.run_table, run_csv(all.runs));
   if (!o.curves.empty()) tool.write_text(o.curves, curve_csv(all.runs, trn.origin));
   if (!o.svg.empty()) tool.write_text(o.svg, mobility_svg(relations, events));
   if (!o.thickness.empty()) write_thickness(tool, o, all, trn, tags, remark);
@@ -103,15 +109,19 @@ void run_tool(Tool& tool, Options& o, RunInputs& inputs) {
   Json runs = Json::array(), tag_list;
   for (const RunoutRun& r : all.runs) runs.push_back(run_json(r, o.friction_deg));
   for (const auto& [key, value] : tags) tag_list[key] = value;
-  tool.result({{"run_id", tool.run_id()},
-               {"tags", tag_list},
-               {"balance", balance_json(all.balance)},
-               {"swept_area_m2", swept_area(all)},
-               {"path_tolerance_m", o.tolerance_m},
-               {"spread_over_runs", spread_json(all.runs)},
-               {"runs", runs},
-               {"mobility", mobility_json(relations, events)}},
-              runout_summary(all));
+  Json result = {{"run_id", tool.run_id()},
+                 {"tags", tag_list},
+                 {"n_runs", all.runs.size()},
+                 {"n_runs_moved", n_moved(all.runs)},
+                 {"moved", moved_json(all.moved)},
+                 {"balance", balance_json(all.balance)},
+                 {"swept_area_m2", swept_area(all)},
+                 {"path_tolerance_m", o.tolerance_m},
+                 {"spread_over_runs", spread_json(all.runs)},
+                 {"runs", runs},
+                 {"mobility", mobility_json(relations, events)}};
+  add_faults(result, faults_of(inputs.members));
+  tool.result(result, runout_summary(all));
 }
 
 }  // namespace

@@ -109,7 +109,8 @@ std::string raster_qml(const RasterStyle& style) {
       "    <brightnesscontrast brightness=\"0\" contrast=\"0\" gamma=\"1\"/>\n"
       "    <huesaturation saturation=\"0\" grayscaleMode=\"0\"/>\n"
       "    <rasterresampler maxOversampling=\"2\"/>\n  </pipe>\n  <blendMode>0</blendMode>\n";
-  out += "  <layerTitle>" + xml_escaped(style.title) + "</layerTitle>\n</qgis>\n";
+  const std::string title = style.title + (style.remark.empty() ? "" : ", " + style.remark);
+  out += "  <layerTitle>" + xml_escaped(title) + "</layerTitle>\n</qgis>\n";
   return out;
 }
 

@@ -23,6 +23,7 @@ struct RasterStyle {
   int band = 1;                     ///< that is shown, from 1
   std::string title;                ///< of the legend, with the unit
   std::vector<StyleClass> classes;  ///< ascending; the last one's limit is infinite
+  std::string remark = {};          ///< that no picture may lack; empty: none
 };
 
 /// The colour of a value; transparent for NaN.

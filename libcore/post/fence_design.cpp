@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "base/error.hpp"
+#include "base/grouped_text.hpp"
 #include "base/text.hpp"
 #include "post/statistics.hpp"
 
@@ -30,41 +32,93 @@ double percentile(const QuantitySummary& quantity, double p) {
 struct Demand {
   double energy, barrier_factor, height;
   int n_needed;
+  std::vector<DesignStep> steps;
 };
+
+// A factor of the code, with where it stands.
+DesignStep factor_step(const DesignCode& code, const std::string& key, const char* symbol,
+                       const char* name) {
+  const auto source = code.source.find(key);
+  const bool guessed =
+      std::find(code.from_memory.begin(), code.from_memory.end(), key) != code.from_memory.end();
+  return {symbol, name, factor(code, key), "",
+          key +
+              (source == code.source.end() || source->second.empty() ? "" : ": " + source->second) +
+              (guessed ? " (not checked against the print)" : "")};
+}
+
+// What stands for a percentile of the arrivals: it, or the largest value where they are too few.
+DesignStep sample_step(const QuantitySummary& quantity, double p, const FencePartSummary& part,
+                       double scale, const char* symbol, const std::string& what,
+                       const char* unit) {
+  const std::string n = counted(part.n, "arrival");
+  if (part.n_eff + 1e-9 >= smallest_sample(p))
+    return {symbol, what + ", " + text(100 * p) + "th percentile", percentile(quantity, p) * scale,
+            unit, "of " + n};
+  return {symbol, what + ", largest", quantity.largest * scale, unit,
+          "of " + n + "; the " + text(100 * p) + "th percentile needs " +
+              std::to_string(smallest_sample(p))};
+}
 
 // E_d = 1/2 m_d v_d^2 gamma_r with v_d = v_p gamma_trajectory gamma_survey and m_d = V rho
 // gamma_volume gamma_density.
-Demand uni_demand(const DesignCode& code, const DesignInput& input, const FencePartSummary& part,
-                  bool enough_speed, bool enough_height) {
+Demand uni_demand(const DesignCode& code, const DesignInput& input, const FencePartSummary& part) {
   const double p_v = factor(code, "speed_percentile"), p_h = factor(code, "height_percentile");
   const double by_site = factor(code, "gamma_trajectory") * factor(code, "gamma_survey");
-  const double speed = (enough_speed ? percentile(part.speed, p_v) : part.speed.largest) * by_site;
+  const DesignStep speed = sample_step(part.speed, p_v, part, 1, "v_p", "speed", "m/s");
+  const DesignStep top = sample_step(part.top, p_h, part, 1, "h_p", "top above the base", "m");
   const double mass = input.block_volume * input.density * factor(code, "gamma_volume") *
                       factor(code, "gamma_density");
-  const double top = enough_height ? percentile(part.top, p_h) : part.top.largest;
-  return {0.5 * mass * speed * speed * factor(code, "gamma_risk"),
-          factor(code, input.service_level ? "gamma_energy_sel" : "gamma_energy_mel"),
-          top * by_site * factor(code, "gamma_height"),
-          std::max(smallest_sample(p_v), smallest_sample(p_h))};
+  const double v_d = speed.value * by_site;
+  const double energy = 0.5 * mass * v_d * v_d * factor(code, "gamma_risk");
+  const char* const level = input.service_level ? "gamma_energy_sel" : "gamma_energy_mel";
+  const double height = top.value * by_site * factor(code, "gamma_height");
+  Demand out{energy,
+             factor(code, level),
+             height,
+             std::max(smallest_sample(p_v), smallest_sample(p_h)),
+             {}};
+  out.steps = {{"V", "volume of the design block", input.block_volume, "m3", input.block_source},
+               {"rho", "density", input.density, "kg/m3", "mean of the blocks"},
+               factor_step(code, "gamma_volume", "g_V", "factor on the volume"),
+               factor_step(code, "gamma_density", "g_rho", "factor on the density"),
+               {"m_d", "design mass", mass / 1e3, "t", "V rho g_V g_rho"},
+               speed,
+               factor_step(code, "gamma_trajectory", "g_t", "factor on the trajectories"),
+               factor_step(code, "gamma_survey", "g_s", "factor on the survey"),
+               {"v_d", "design speed", v_d, "m/s", "v_p g_t g_s"},
+               factor_step(code, "gamma_risk", "g_R", "factor on the risk"),
+               {"E_d", "design energy", energy / 1e3, "kJ", "1/2 m_d v_d^2 g_R"},
+               factor_step(code, level, "g_E", "factor on the barrier"),
+               {"E_req", "capacity needed", energy * out.barrier_factor / 1e3, "kJ", "E_d g_E"},
+               top,
+               factor_step(code, "gamma_height", "g_h", "factor on the height"),
+               {"h_d", "design height", height, "m", "h_p g_t g_s g_h"}};
+  return out;
 }
 
-Demand onr_demand(const DesignCode& code, const DesignInput& input, const FencePartSummary& part,
-                  bool enough_energy, bool enough_height) {
+Demand onr_demand(const DesignCode& code, const DesignInput& input, const FencePartSummary& part) {
   const std::string consequence = "_cc" + std::to_string(input.consequence_class);
   const double p_e = factor(code, "energy_percentile"), p_h = factor(code, "height_percentile");
-  const double energy = enough_energy ? percentile(part.energy, p_e) : part.energy.largest;
-  const double top = enough_height ? percentile(part.top, p_h) : part.top.largest;
-  return {energy * factor(code, "gamma_energy" + consequence), 1,
-          top * factor(code, "gamma_height" + consequence),
-          std::max(smallest_sample(p_e), smallest_sample(p_h))};
+  const DesignStep energy = sample_step(part.energy, p_e, part, 1e-3, "E_k", "energy", "kJ");
+  const DesignStep top = sample_step(part.top, p_h, part, 1, "h_k", "top above the base", "m");
+  const double e_d = 1e3 * energy.value * factor(code, "gamma_energy" + consequence);
+  const double height = top.value * factor(code, "gamma_height" + consequence);
+  return {e_d,
+          1,
+          height,
+          std::max(smallest_sample(p_e), smallest_sample(p_h)),
+          {energy,
+           factor_step(code, "gamma_energy" + consequence, "g_E", "factor on the energy"),
+           {"E_d", "design energy, capacity needed", e_d / 1e3, "kJ", "E_k g_E"},
+           top,
+           factor_step(code, "gamma_height" + consequence, "g_h", "factor on the height"),
+           {"h_d", "design height", height, "m", "h_k g_h"}}};
 }
 
 Demand demand_of(const DesignCode& code, const DesignInput& input, const FencePartSummary& part) {
-  const auto enough = [&part](double p) { return part.n_eff + 1e-9 >= smallest_sample(p); };
-  const bool enough_height = enough(factor(code, "height_percentile"));
-  if (code.formula == DesignFormula::uni)
-    return uni_demand(code, input, part, enough(factor(code, "speed_percentile")), enough_height);
-  return onr_demand(code, input, part, enough(factor(code, "energy_percentile")), enough_height);
+  return code.formula == DesignFormula::uni ? uni_demand(code, input, part)
+                                            : onr_demand(code, input, part);
 }
 
 double required_distance(const DesignCode& code, double deflection) {
@@ -94,7 +148,7 @@ void check_percentiles(const DesignCode& code) {
                        "these are the percentiles that are computed; write 0.95 for 95 %");
 }
 
-void judge(DesignResult& result, bool enough) {
+void judge(DesignResult& result, bool enough, bool first_touches) {
   const std::array<std::pair<double, const char*>, 3> uses = {{{result.energy_use, "energy"},
                                                                {result.height_use, "height"},
                                                                {result.distance_use, "distance"}}};
@@ -109,9 +163,43 @@ void judge(DesignResult& result, bool enough) {
     result.verdict = DesignVerdict::too_few;
   else if (largest > 1)
     result.verdict = DesignVerdict::does_not_meet;
+  else if (!energy_known)
+    result.verdict = DesignVerdict::energy_unknown;
   else
-    result.verdict = energy_known ? DesignVerdict::meets : DesignVerdict::energy_unknown;
+    result.verdict = first_touches ? DesignVerdict::first_touches : DesignVerdict::meets;
   if (!energy_known && !(largest > 1)) result.governs.clear();
+}
+
+// The end of the derivation: what is needed beside what the fence has.
+void add_fence_steps(DesignResult& result, const DesignCode& code, const DesignInput& input,
+                     const Fence& fence) {
+  const bool given = !std::isnan(input.free_border);
+  result.steps.push_back({"f_min", "free border", result.free_border, "m",
+                          given ? "given (--free-border-m)"
+                                : "max(" + text(factor(code, "f_min_m")) + " m, " +
+                                      text(factor(code, "f_min_share_of_block")) +
+                                      " of the mean block size)"});
+  result.steps.push_back({"h_req", "height needed", result.required_height, "m", "h_d + f_min"});
+  result.steps.push_back(
+      {"E", "capacity of the fence", fence.capacity / 1e3, "kJ",
+       std::isnan(fence.capacity) ? "not given (capacity_kj)" : "capacity_kj of the site file"});
+  result.steps.push_back(
+      {"h", "height of the fence", fence.height, "m", "height_m of the site file"});
+  if (!std::isnan(result.required_distance))
+    result.steps.push_back({"D", "distance needed to what stands behind", result.required_distance,
+                            "m", "by the deflection (--deflection-m)"});
+}
+
+// "needs 1,315 kJ (class 4) and a height of 2.92 m"
+std::string needs(const DesignResult& r) {
+  const std::string largest = r.largest_class > 0 ? ": above the largest, " +
+                                                        grouped_text(r.largest_class / 1e3, 4) +
+                                                        " kJ; a net is no option"
+                                                  : "";
+  return "needs " + grouped_text(r.required_capacity / 1e3, 4) + " kJ (" +
+         (r.smallest_class == "none" ? "no ETAG class" + largest
+                                     : "ETAG class " + r.smallest_class) +
+         ") and a height of " + text(r.required_height, 3) + " m";
 }
 
 // f_min as given, or that of the code.
@@ -139,6 +227,7 @@ DesignCode design_code(const CsvTable& table) {
       continue;
     }
     code.factor[key] = table.number(row, "value");
+    code.source[key] = table.at(row, "source");
     if (table.at(row, "mark") == "m") code.from_memory.push_back(key);
   }
   if (!has_formula)
@@ -153,8 +242,31 @@ DesignCode design_code(const CsvTable& table) {
 }
 
 const char* text(DesignVerdict verdict) {
-  constexpr std::array names = {"meets", "does not meet", "energy not checked", "too few arrivals"};
+  constexpr std::array names = {
+      "meets",        "does not meet",     "energy not checked", "too few arrivals",
+      "nothing came", "first touches only"};
   return names[static_cast<std::size_t>(verdict)];
+}
+
+std::string text(const DesignResult& r) {
+  switch (r.verdict) {
+    case DesignVerdict::meets:
+      return "meets the code: " + needs(r);
+    case DesignVerdict::does_not_meet:
+      return "does not meet the code, " + r.governs + " governs: " + needs(r);
+    case DesignVerdict::energy_unknown:
+      return "high enough; no capacity given: energy not checked: " + needs(r);
+    case DesignVerdict::too_few:
+      return "not judged: too few arrivals, " + std::to_string(r.n_arrivals) + " of the " +
+             std::to_string(r.n_needed) + " that the code needs; by the largest of them it " +
+             needs(r);
+    case DesignVerdict::nothing_came:
+      return "not judged: nothing came to it";
+    case DesignVerdict::first_touches:
+      return "not judged: first touches of a standing fence are no design values; by them it " +
+             needs(r);
+  }
+  return "";
 }
 
 std::vector<BarrierClass> barrier_classes(const CsvTable& table) {
@@ -170,39 +282,44 @@ double free_border(const DesignCode& code, double mean_block_size) {
 }
 
 std::optional<bool> passes(const DesignResult& result) {
-  if (result.verdict == DesignVerdict::energy_unknown) return std::nullopt;
-  return result.verdict == DesignVerdict::meets;
+  if (result.verdict == DesignVerdict::meets) return true;
+  if (result.verdict == DesignVerdict::does_not_meet) return false;
+  return std::nullopt;
 }
 
 DesignResult check_design(const DesignCode& code, const std::vector<BarrierClass>& classes,
                           const DesignInput& input, const FencePartSummary& part,
                           const Fence& fence) {
   DesignResult result;
+  result.free_border = free_border_of(code, input);
   if (part.n == 0) {
-    result = {
-        DesignVerdict::too_few, 0, none, none, none, none, none, "", none, none, none, none, ""};
-    result.free_border = free_border_of(code, input);
+    for (double* value : {&result.design_energy, &result.required_capacity, &result.design_height,
+                          &result.required_height, &result.largest_class, &result.energy_use,
+                          &result.height_use, &result.required_distance, &result.distance_use})
+      *value = none;
     return result;
   }
-  const Demand demand = demand_of(code, input, part);
+  Demand demand = demand_of(code, input, part);
+  result.n_arrivals = part.n;
   result.n_needed = demand.n_needed;
   result.design_energy = demand.energy;
   result.required_capacity = demand.energy * demand.barrier_factor;
   result.design_height = demand.height;
-  result.free_border = free_border_of(code, input);
   result.required_height = demand.height + result.free_border;
-  result.smallest_class = "above all";
+  result.steps = std::move(demand.steps);
+  result.smallest_class = "none";
   for (const BarrierClass& c : classes) {
     const double level = input.service_level ? c.sel : c.mel;
-    if (!(level >= result.required_capacity)) continue;
-    result.smallest_class = c.name;
-    break;
+    if (level > result.largest_class) result.largest_class = level;
+    if (result.smallest_class == "none" && level >= result.required_capacity)
+      result.smallest_class = c.name;
   }
   result.energy_use = result.required_capacity / fence.capacity;
   result.height_use = result.required_height / fence.height;
   result.required_distance = required_distance(code, input.deflection);
   result.distance_use = result.required_distance / input.distance_to_object;
-  judge(result, part.n_eff + 1e-9 >= demand.n_needed);
+  judge(result, part.n_eff + 1e-9 >= demand.n_needed, input.first_touches);
+  add_fence_steps(result, code, input, fence);
   return result;
 }
 

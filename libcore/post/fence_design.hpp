@@ -2,7 +2,8 @@
 // The design check of a fence by a code whose factors stand in a data file, because codes are paid
 // for and change.
 // in:    share/codes/*.csv (key, value, unit, mark, source), the barrier classes, statistics
-// out:   design energy and height, smallest class and height that meet them, what governs
+// out:   design energy and height with their derivation, smallest class and height that meet them,
+//        what governs, the verdict and its words
 #pragma once
 
 #include <limits>
@@ -25,7 +26,8 @@ struct DesignCode {
   std::string file;
   DesignFormula formula = DesignFormula::uni;
   std::map<std::string, double> factor;
-  std::vector<std::string> from_memory;  ///< keys marked m
+  std::map<std::string, std::string> source;  ///< of each factor
+  std::vector<std::string> from_memory;       ///< keys marked m
 };
 /// Throws InputError for an unknown formula, a key that the formula needs and the file lacks, and a
 /// percentile that is none of percentile_levels.
@@ -46,6 +48,8 @@ struct DesignInput {
   double deflection = 0;          ///< d_MEL of the barrier [m]; NaN: not known
   double distance_to_object = 0;  ///< horizontal, from the fence downhill [m]; NaN: not known
   double free_border = std::numeric_limits<double>::quiet_NaN();  ///< f_min [m]; NaN: of the code
+  std::string block_source = "given";                             ///< where block_volume comes from
+  bool first_touches = false;  ///< arrivals are touches of a standing fence, not of an open line
 };
 
 enum class DesignVerdict {
@@ -53,25 +57,40 @@ enum class DesignVerdict {
   does_not_meet,   ///< one of them does not
   energy_unknown,  ///< the fence has no capacity; all else holds
   too_few,         ///< arrivals for the percentiles that the code asks for
+  nothing_came,
+  first_touches,  ///< all holds, but for touches of a standing fence, which are no design values
 };
 [[nodiscard]] const char* text(DesignVerdict verdict);
 
+/// A line of the derivation.
+struct DesignStep {
+  std::string symbol, name;
+  double value = 0;  ///< NaN: not known
+  std::string unit, source;
+};
+
 /// NaN where the sample or the input does not say.
 struct DesignResult {
-  DesignVerdict verdict = DesignVerdict::too_few;
+  DesignVerdict verdict = DesignVerdict::nothing_came;
+  int n_arrivals = 0;
   int n_needed = 0;              ///< arrivals that the code's percentiles need
   double design_energy = 0;      ///< E_d [J]
   double required_capacity = 0;  ///< E_d with the factor on the barrier [J]
   double design_height = 0;      ///< [m]
   double required_height = 0;    ///< with the free border [m]
   double free_border = 0;        ///< f_min [m]
-  std::string smallest_class;    ///< of barrier_classes; "above all" when none is enough
+  std::string smallest_class;    ///< of barrier_classes; "none" when no class is enough
+  double largest_class = 0;      ///< of all classes [J]
   double energy_use = 0;         ///< required over given capacity [-]
   double height_use = 0;         ///< required over given height [-]
   double required_distance = 0, distance_use = 0;
   std::string governs;  ///< "energy", "height" or "distance"; empty while the energy is unknown
+  std::vector<DesignStep> steps;
 };
-/// Empty: nothing fails, but the energy could not be checked.
+/// The verdict and what is needed, in the words of every output.
+[[nodiscard]] std::string text(const DesignResult& result);
+
+/// Empty: not judged, or nothing fails but the energy could not be checked.
 [[nodiscard]] std::optional<bool> passes(const DesignResult& result);
 
 /// When there are too few arrivals the largest values stand in for the percentiles, and the verdict

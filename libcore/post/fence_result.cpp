@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "base/text.hpp"
 #include "post/statistics.hpp"
 
 namespace talus {
@@ -42,20 +43,55 @@ double retained_volume(const FenceRunGroup& group, std::size_t fence) {
   return largest;
 }
 
-// What is given, and what the released blocks say of the rest.
-DesignInput design_input(const DesignInput& given, const FenceRunGroup& group) {
+// Arrivals at the line itself, not beside it.
+std::vector<FenceArrival> arrivals_on_line(const FenceRunGroup& group, std::size_t fence) {
+  std::vector<FenceArrival> out;
+  for (const FenceArrival& a : arrivals_at(group, fence))
+    if (!a.beside) out.push_back(a);
+  return out;
+}
+
+// The design block: the 95th percentile of the blocks that arrive, the largest of too few.
+void set_design_block(DesignInput& input, const std::vector<FenceArrival>& arrivals) {
+  constexpr double level = 0.95;
+  std::vector<WeightedValue> volumes;
+  double weight = 0, weight_sq = 0;
+  for (const FenceArrival& a : arrivals) {
+    volumes.push_back({a.volume, a.weight});
+    weight += a.weight;
+    weight_sq += a.weight * a.weight;
+  }
+  if (volumes.empty()) return;
+  sort_values(volumes);
+  const std::string n = counted(static_cast<std::int64_t>(arrivals.size()), "block");
+  const std::string arrive = arrivals.size() == 1 ? " that arrives" : " that arrive";
+  if (effective_size(weight, weight_sq) + 1e-9 >= smallest_sample(level)) {
+    input.block_volume = weighted_percentile(volumes, level);
+    input.block_source = "95th percentile of the " + n + arrive;
+    return;
+  }
+  input.block_volume = volumes.back().value;
+  input.block_source = "largest of the " + n + arrive + "; the 95th percentile needs " +
+                       std::to_string(smallest_sample(level));
+}
+
+// What is given, and what the blocks say of the rest.
+DesignInput design_input(const DesignInput& given, const FenceRunGroup& group,
+                         const std::vector<FenceArrival>& arrivals) {
   DesignInput input = given;
   for (const FenceRun& run : group.runs) input.mean_block_size += run.block_size / n_runs(group);
   input.density = group.runs[0].density;
-  if (std::isnan(input.block_volume)) {
-    std::vector<WeightedValue> volumes;
-    for (const FenceRun& run : group.runs)
-      for (std::size_t b = 0; b < run.volume.size(); ++b)
-        volumes.push_back({run.volume[b], run.weight[b]});
-    sort_values(volumes);
-    input.block_volume = weighted_percentile(volumes, 0.95);
-  }
+  if (std::isnan(input.block_volume))
+    set_design_block(input, arrivals);
+  else
+    input.block_source = "given (--design-block-m3)";
   return input;
+}
+
+DesignBasis basis_of(const FenceRuns& runs, std::size_t index) {
+  if (!stood(runs.with, index)) return DesignBasis::open_line;
+  return n_runs(runs.without) > 0 && !stood(runs.without, index) ? DesignBasis::without_fence
+                                                                 : DesignBasis::first_touches;
 }
 
 }  // namespace
@@ -67,29 +103,35 @@ FenceResult fence_result(const FenceCase& fence_case, std::size_t index, const F
   const Fence& fence = fence_case.fence;
   FenceResult r;
   int towards_left = 0;
-  for (const FenceArrival& a : arrivals_at(group, index)) {
-    if (a.beside) continue;
-    r.arrivals.push_back(a);
-    towards_left += a.direction;
-  }
+  r.arrivals = arrivals_on_line(group, index);
+  for (const FenceArrival& a : r.arrivals) towards_left += a.direction;
   r.side = towards_left != 0 ? (towards_left > 0 ? -1 : 1) : uphill_side(fence, trn);
-  const DesignInput input = design_input(settings.design, group);
-  const auto summary = [&](const std::vector<FenceArrival>& arrivals) {
-    return summarise(arrivals, n_runs(group), settings.seed);
+  r.basis = basis_of(runs, index);
+  const FenceRunGroup& design_group =
+      r.basis == DesignBasis::without_fence ? runs.without : runs.with;
+  r.n_basis_runs = n_runs(design_group);
+  const std::vector<FenceArrival> design_arrivals = arrivals_on_line(design_group, index);
+  DesignInput input = design_input(settings.design, group, design_arrivals);
+  input.first_touches = r.basis == DesignBasis::first_touches;
+  const auto summary = [&](const std::vector<FenceArrival>& arrivals, const FenceRunGroup& of) {
+    return summarise(arrivals, n_runs(of), settings.seed);
   };
-  r.whole = summary(r.arrivals);
-  r.design = check_design(code, classes, input, r.whole, fence);
+  r.whole = summary(r.arrivals, group);
+  r.at_basis = summary(design_arrivals, design_group);
+  r.design = check_design(code, classes, input, r.at_basis, fence);
   const double reach = 50 * fence.height;
   for (int f = 0; f < n_fields(fence); ++f) {
     FieldResult field;
-    field.part = summary(only(r.arrivals, &FenceArrival::field, f));
-    field.design = check_design(code, classes, input, field.part, fence);
+    field.part = summary(only(r.arrivals, &FenceArrival::field, f), group);
+    field.design =
+        check_design(code, classes, input,
+                     summary(only(design_arrivals, &FenceArrival::field, f), design_group), fence);
     field.storage = storage(fence, f, r.side, trn, reach);
     r.storage += field.storage;
     r.fields.push_back(std::move(field));
   }
   for (int p = 0; p <= n_fields(fence); ++p)
-    r.posts.push_back(summary(only(r.arrivals, &FenceArrival::post, p)));
+    r.posts.push_back(summary(only(r.arrivals, &FenceArrival::post, p), group));
   r.retained = settings.bulking * retained_volume(group, index);
   r.kept =
       n_runs(runs.without) > 0
@@ -153,10 +195,14 @@ GroundBehind ground_behind(const FenceRunGroup& group, std::size_t fence) {
       ++out.n;
       energy.push_back({a.energy(), a.weight});
     }
-    out.path += run.event.path / n;
-    out.path_angle_deg += run.event.path_angle() * degrees / n;
-    out.centre_of_mass_path += run.centre.path / n;
+    if (std::isnan(run.event.path)) continue;
+    ++out.n_moved;
+    out.path += run.event.path;
+    out.path_angle_deg += run.event.path_angle() * degrees;
+    out.centre_of_mass_path += run.centre.path;
   }
+  for (double* sum : {&out.path, &out.path_angle_deg, &out.centre_of_mass_path})
+    *sum = out.n_moved > 0 ? *sum / out.n_moved : none;
   sort_values(energy);
   out.share = weight / total;
   out.volume /= n;

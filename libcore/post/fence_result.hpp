@@ -14,9 +14,17 @@
 namespace talus {
 
 struct FenceResultSettings {
-  DesignInput design;      ///< block_volume NaN: 95th percentile of the released blocks
+  DesignInput design;      ///< block_volume NaN: 95th percentile of the blocks that arrive
   double bulking = 1.3;    ///< volume of piled blocks over that of their rock [-]
   std::uint64_t seed = 1;  ///< of the bootstrap over runs
+};
+
+/// Where the arrivals of the design check come from. Design values are those of a line that stops
+/// nothing: behind a standing fence rocks that it dammed hold back others.
+enum class DesignBasis {
+  open_line,      ///< the line of these runs, in which the fence did not stand
+  without_fence,  ///< its line in the runs compared with, in which it did not stand
+  first_touches,  ///< none of both: touches of the standing fence
 };
 
 struct FieldResult {
@@ -30,6 +38,9 @@ struct FenceResult {
   std::vector<FieldResult> fields;      ///<                                         (n_fields)
   std::vector<FencePartSummary> posts;  ///<                                         (n_posts)
   FencePartSummary whole;
+  DesignBasis basis = DesignBasis::open_line;
+  FencePartSummary at_basis;  ///< what the design check rests on: `whole`, or without the fence
+  int n_basis_runs = 0;
   DesignResult design;
   double storage = 0;   ///< of all fields [m3]
   double retained = 0;  ///< by the verdicts, as it lies, in the run where it is most [m3]
@@ -61,6 +72,7 @@ struct GroundBehind {
   double volume = 0;          ///< of their rock, a run [m3]
   double energy_p50 = 0;      ///< at the line [J]; NaN: too few blocks
   double energy_largest = 0;  ///< [J]
+  int n_moved = 0;            ///< runs in which a block moved: those that the means are over
   double path = 0;            ///< L of the event along the way, mean over runs [m]
   double path_angle_deg = 0;  ///< angle of reach along the way, mean over runs
   double centre_of_mass_path = 0;  ///< L_cm along the way, mean over runs [m]

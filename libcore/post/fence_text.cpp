@@ -42,18 +42,16 @@ std::string verdicts_text(const FenceCase& fence, std::size_t index, const Fence
   return out;
 }
 
+// "; design by 70 crossings of its line in 10 runs without the fence, largest energy 42,960 kJ:
+// does not meet the code, energy governs: needs ..."
 std::string design_text(const FenceResult& r) {
-  const DesignResult& design = r.design;
-  if (design.verdict == DesignVerdict::too_few)
-    return "design check not possible: " + std::to_string(r.whole.n) + " arrivals, needs " +
-           std::to_string(design.n_needed);
-  const std::string out = "needs " + grouped_text(design.required_capacity / 1e3, 4) +
-                          " kJ (class: " + design.smallest_class + ") and a height of " +
-                          text(design.required_height, 3) + " m: ";
-  if (design.verdict == DesignVerdict::meets) return out + "meets the code";
-  if (design.verdict == DesignVerdict::energy_unknown)
-    return out + "high enough; no capacity given: energy not checked";
-  return out + "does not meet the code, " + design.governs + " governs";
+  if (r.at_basis.n == 0) return "";
+  const bool is_other = r.basis == DesignBasis::without_fence;
+  return "; " +
+         (is_other ? "design by " + basis_text(r) + ", largest energy " +
+                         grouped_text(r.at_basis.energy.largest / 1e3, 4) + " kJ: "
+                   : std::string()) +
+         text(r.design);
 }
 
 // "Panels broke in 2 of 5 runs: panel 3 at 4.21 s by block 17, ..."; empty where none did.
@@ -81,13 +79,47 @@ const char* recorded_at(const FenceArrival& arrival) {
   return arrival.by_touch ? "first touch" : "crossing";
 }
 
+std::string basis_text(const FenceResult& r) {
+  const auto n = static_cast<std::int64_t>(r.at_basis.n);
+  const std::string runs = " in " + counted(r.n_basis_runs, "run");
+  switch (r.basis) {
+    case DesignBasis::open_line:
+      return counted(n, "crossing") + " of its line" + runs + ", in which it stops nothing";
+    case DesignBasis::without_fence:
+      return counted(n, "crossing") + " of its line" + runs + " without the fence";
+    case DesignBasis::first_touches:
+      break;
+  }
+  return std::to_string(n) + (n == 1 ? " first touch" : " first touches") +
+         " of the standing fence" + runs;
+}
+
+std::string basis_note(const FenceResult& r, const std::string& fence) {
+  const std::string rests = "The design check rests on " + basis_text(r);
+  switch (r.basis) {
+    case DesignBasis::open_line:
+      return rests + ".";
+    case DesignBasis::without_fence:
+      return rests +
+             ": these energies and heights are for design. First touches of the standing "
+             "fence are not: rocks that it stopped dam those behind them.";
+    case DesignBasis::first_touches:
+      break;
+  }
+  return rests +
+         ", which are no design values: rocks that it stopped dam those behind them, and a "
+         "line that stops nothing may see several times the energy. Compute runs without "
+         "the fence (make WITHOUT=yes; or talus-dda --set fence." +
+         fence + ".active=false) and give them by --without.";
+}
+
 std::string fence_summary(const FenceCase& fence, std::size_t index, const FenceResult& result,
                           const FenceRunGroup& group) {
   const std::string out = verdicts_text(fence, index, group);
-  if (result.whole.n == 0) return out + " nothing came to it";
+  if (result.whole.n == 0) return out + " nothing came to it" + design_text(result);
   return out + " " + arrivals_text(result) + ": largest energy " +
          grouped_text(result.whole.energy.largest / 1e3, 4) + " kJ, highest top " +
-         text(result.whole.top.largest, 3) + " m; " + design_text(result);
+         text(result.whole.top.largest, 3) + " m" + design_text(result);
 }
 
 std::vector<std::string> fence_notes(const FenceCase& fence, std::size_t index,
@@ -100,6 +132,7 @@ std::vector<std::string> fence_notes(const FenceCase& fence, std::size_t index,
                          : "The runs were computed without the fence: verdicts say what each block "
                            "would meet at the line; how blocks pile up, deflect or break the fence "
                            "one after the other was not modelled.");
+  if (result.at_basis.n > 0) notes.push_back(basis_note(result, fence.line.name));
   notes.emplace_back(
       "Barrier classes are tested with single blocks at mid-field; hits at posts, by "
       "several blocks at once or in a damaged field are not covered by them.");

@@ -14,6 +14,12 @@ namespace talus {
 /// Where an arrival's values are from: "first touch" or "crossing".
 [[nodiscard]] const char* recorded_at(const FenceArrival& arrival);
 
+/// What the design check rests on: "70 crossings of its line in 10 runs without the fence".
+[[nodiscard]] std::string basis_text(const FenceResult& result);
+
+/// Which energies are for design and which are not, and what to run when there are none.
+[[nodiscard]] std::string basis_note(const FenceResult& result, const std::string& fence);
+
 /// What became of the blocks at fence number `index`, what came to it, and what the design check
 /// says of it: one line.
 [[nodiscard]] std::string fence_summary(const FenceCase& fence, std::size_t index,

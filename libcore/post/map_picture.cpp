@@ -64,6 +64,7 @@ const std::map<char, const char*> strokes = {
     {'>', "004306"},
     {'=', "0242 0444"},
     {':', "2122 2425"},
+    {';', "2122 2516"},
     {'%', "0640 0011 3546"},
     {'_', "0646"},
     {'*', "0343 1135 3115"},
@@ -127,9 +128,8 @@ int text_width(const std::string& words, int height) {
   return width;
 }
 
-void draw_legend(Picture& picture, int col, const RasterStyle& style) {
+void draw_legend(Picture& picture, int row, int col, const RasterStyle& style) {
   const Colour black{0, 0, 0, 255};
-  int row = 12;
   draw_text(picture, row, col, letter_height, style.title, black);
   row += 2 * letter_height;
   for (const StyleClass& c : style.classes) {
@@ -138,6 +138,18 @@ void draw_legend(Picture& picture, int col, const RasterStyle& style) {
     draw_text(picture, row + 1, col + 34, letter_height, c.label, black);
     row += letter_height + 8;
   }
+}
+
+// A red strip across the picture with the remark in white, as large as its width allows.
+constexpr int strip_height = 34;  // [pixels]
+
+void draw_remark(Picture& picture, const std::string& remark) {
+  fill(picture, 0, 0, strip_height, picture.n_cols, {179, 32, 31, 255});
+  int height = 18;
+  while (height > 7 && text_width(remark, height) > picture.n_cols - 24) --height;
+  for (const int shift : {0, 1})  // twice, since one stroke is thin
+    draw_text(picture, (strip_height - height) / 2, 12 + shift, height, remark,
+              {255, 255, 255, 255});
 }
 
 int legend_width(const RasterStyle& style) {
@@ -207,7 +219,8 @@ Picture map_picture(const Shading& shading, const PassageGrid& grid,
   const int legend_rows = 40 + static_cast<int>(style.classes.size() + 1) * (letter_height + 8);
   Picture picture;
   picture.n_cols = shading.n_cols + legend_width(style);
-  picture.n_rows = std::max(shading.n_rows, legend_rows);
+  const int top = style.remark.empty() ? 0 : strip_height;
+  picture.n_rows = top + std::max(shading.n_rows, legend_rows);
   picture.pixel.assign(
       static_cast<std::size_t>(picture.n_rows) * static_cast<std::size_t>(picture.n_cols),
       Colour{255, 255, 255, 255});
@@ -218,9 +231,10 @@ Picture map_picture(const Shading& shading, const PassageGrid& grid,
       const auto row = static_cast<std::size_t>((r + 0.5) / shading.per_cell);
       const auto col = static_cast<std::size_t>((c + 0.5) / shading.per_cell);
       const float v = value[row * static_cast<std::size_t>(grid.n_cols) + col];
-      put(picture, r, c, over(*ground, v == nodata ? Colour{} : colour_of(style, v)));
+      put(picture, top + r, c, over(*ground, v == nodata ? Colour{} : colour_of(style, v)));
     }
-  draw_legend(picture, shading.n_cols + 16, style);
+  draw_legend(picture, top + 12, shading.n_cols + 16, style);
+  if (top > 0) draw_remark(picture, style.remark);
   return picture;
 }
 

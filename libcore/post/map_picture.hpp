@@ -24,7 +24,8 @@ struct Shading {
 };
 [[nodiscard]] Shading shading_of(const Trn& trn, const PassageGrid& grid);
 
-/// Each cell in the colour of its class laid over the ground at 75 %; the legend on the right.
+/// Each cell in the colour of its class laid over the ground at 75 %; the legend on the right, the
+/// style's remark in a red strip above.
 [[nodiscard]] Picture map_picture(const Shading& shading, const PassageGrid& grid,
                                   const std::vector<float>& value, float nodata,
                                   const RasterStyle& style);

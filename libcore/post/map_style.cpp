@@ -107,8 +107,8 @@ std::string intensity(const std::string& unit, double upper) {
 
 RasterStyle change_style(const MapLayer& layer, const std::string& remark) {
   const MapBand& band = layer.bands[0];
-  return {1, band.name + " [" + band.unit + "]" + (remark.empty() ? "" : ", " + remark),
-          change_classes({0.05, 0.25, 0.5, 1, 2, 4}, " " + band.unit)};
+  return {1, band.name + " [" + band.unit + "]",
+          change_classes({0.05, 0.25, 0.5, 1, 2, 4}, " " + band.unit), remark};
 }
 
 RasterStyle map_style(const MapLayer& layer, const std::string& remark) {
@@ -120,7 +120,8 @@ RasterStyle map_style(const MapLayer& layer, const std::string& remark) {
   const int index = shown_band(layer, at->band);
   const MapBand& band = layer.bands[index];
   style.band = index + 1;
-  style.title = band.name + " [" + band.unit + "]" + (remark.empty() ? "" : ", " + remark);
+  style.title = band.name + " [" + band.unit + "]";
+  style.remark = remark;
   const std::string unit = band.unit == "1" ? "" : " " + band.unit;
   if (at->zero_is_transparent) style.classes.push_back({0, {255, 255, 255, 0}, "0" + unit});
   std::string lower = at->zero_is_transparent ? "0" : "";

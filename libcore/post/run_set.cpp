@@ -1,9 +1,12 @@
 #include "post/run_set.hpp"
 
 #include <algorithm>
+#include <filesystem>
+#include <map>
 #include <numeric>
 #include <set>
 #include <sstream>
+#include <tuple>
 
 #include "base/error.hpp"
 #include "base/sha256.hpp"
@@ -13,11 +16,48 @@
 namespace talus {
 namespace {
 
-// "done", or why a run does not count as whole.
-std::string state_of(const RunInfo& info) {
-  if (info.status == "done") return "done";
-  if (info.status == "failed") return "failed: " + info.reason;
-  return info.status + " at " + text(info.time, 4) + " of " + text(info.duration, 4) + " s";
+bool has_ended(const RunInfo& info) { return info.status == "done" || info.status == "failed"; }
+
+// "5 of 8 s"
+std::string time_reached(const RunInfo& info) {
+  return text(info.time, 4) + " of " + text(info.duration, 4) + " s";
+}
+
+std::string fault_words(const RunInfo& info) {
+  if (info.status != "failed") return "at " + time_reached(info);
+  return info.time < info.duration ? info.reason + "; ended at " + time_reached(info) : info.reason;
+}
+
+// "1 of 12 runs failed its numerical checks"
+std::string count_words(std::size_t n, int n_runs, const char* one, const char* several) {
+  return std::to_string(n) + " of " + counted(n_runs, "run") + (n == 1 ? one : several);
+}
+
+// ": run_3 (...), run_7 (...) and 4 more"
+std::string first_few(const std::vector<RunFault>& faults) {
+  constexpr std::size_t most = 5;
+  std::string out;
+  for (std::size_t i = 0; i < std::min(most, faults.size()); ++i)
+    out += (i == 0 ? ": " : ", ") + faults[i].name + " (" + faults[i].words + ")";
+  return faults.size() <= most ? out
+                               : out + " and " + std::to_string(faults.size() - most) + " more";
+}
+
+std::string words_of(const RunFaults& faults, bool with_list) {
+  const auto kind = [&](const std::vector<RunFault>& list, const char* one, const char* several) {
+    return list.empty() ? ""
+                        : count_words(list.size(), faults.n_runs, one, several) +
+                              (with_list ? first_few(list) : "");
+  };
+  const std::string failed =
+      kind(faults.failed, " failed its numerical checks", " failed their numerical checks");
+  const std::string unfinished =
+      kind(faults.unfinished, " has not reached its end", " have not reached their end");
+  return failed + (failed.empty() || unfinished.empty() ? "" : "; ") + unfinished;
+}
+
+std::string file_name(const std::string& file) {
+  return std::filesystem::path(file).stem().string();
 }
 
 void check_same(const std::string& mine, const std::string& other, const char* what,
@@ -58,8 +98,10 @@ RunMember member_of(const std::string& file, const RunFile& run) {
 }
 
 void check_member(const RunMember& run, const RunMember& first, const RunSetOptions& options) {
-  if (run.info.status != "done" && !options.allow_unfinished)
-    throw InputError({run.file}, "the run is " + state_of(run.info) + ", expected a finished run",
+  if (!has_ended(run.info) && !options.allow_unfinished)
+    throw InputError({run.file},
+                     "the run is " + run.info.status + " at " + time_reached(run.info) +
+                         ", expected one that has ended",
                      "let talus-dda finish it (--resume), or give --allow-unfinished");
   if (!run.info.trn_sha256.empty() && run.info.trn_sha256 != options.trn_sha256)
     throw InputError({run.file},
@@ -94,6 +136,39 @@ std::vector<int> order_by_id(const std::vector<RunMember>& runs) {
   return order;
 }
 
+std::vector<std::string> names_of(const std::vector<RunMember>& runs) {
+  std::map<std::string, int> count;
+  for (const RunMember& run : runs) ++count[file_name(run.file)];
+  std::vector<std::string> names;
+  for (const RunMember& run : runs) {
+    const std::string name = file_name(run.file);
+    const auto folder = std::filesystem::absolute(run.file).parent_path().filename();
+    names.push_back(count[name] == 1 ? name : (folder / name).string());
+  }
+  return names;
+}
+
+RunFaults faults_of(const std::vector<RunMember>& runs) {
+  const std::vector<std::string> names = names_of(runs);
+  std::vector<std::size_t> order(runs.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return std::tie(runs[a].info.seed, names[a], runs[a].info.run_id) <
+           std::tie(runs[b].info.seed, names[b], runs[b].info.run_id);
+  });
+  RunFaults faults{static_cast<int>(runs.size()), {}, {}};
+  for (const std::size_t i : order) {
+    const RunInfo& info = runs[i].info;
+    if (info.status == "done") continue;
+    (info.status == "failed" ? faults.failed : faults.unfinished)
+        .push_back({names[i], info.run_id, fault_words(info)});
+  }
+  return faults;
+}
+
+std::string headline(const RunFaults& faults) { return words_of(faults, false); }
+std::string text(const RunFaults& faults) { return words_of(faults, true); }
+
 std::string run_set_id(std::vector<std::string> run_ids) {
   std::sort(run_ids.begin(), run_ids.end());
   Sha256 hash;
@@ -111,8 +186,7 @@ std::vector<std::string> warnings_of(const std::vector<RunMember>& runs) {
 }
 
 std::vector<std::pair<std::string, std::string>> tags_of(const std::vector<RunMember>& runs) {
-  const auto n_unfinished = std::count_if(
-      runs.begin(), runs.end(), [](const RunMember& run) { return run.info.status != "done"; });
+  const RunFaults faults = faults_of(runs);
   double weight = 0, penetration = 0;
   for (const int i : order_by_id(runs)) {
     weight += runs[i].weight;
@@ -121,7 +195,8 @@ std::vector<std::pair<std::string, std::string>> tags_of(const std::vector<RunMe
   const std::string n_runs = std::to_string(runs.size());
   std::vector<std::pair<std::string, std::string>> tags = {
       {"N_RUNS", n_runs},
-      {"N_UNFINISHED", std::to_string(n_unfinished)},
+      {"N_FAILED", std::to_string(faults.failed.size())},
+      {"N_UNFINISHED", std::to_string(faults.unfinished.size())},
       {"DENOMINATOR", "W = " + text(weight, 9) + ", the weight of all " +
                           std::to_string(sum_of(runs, &RunMember::n_blocks)) +
                           " blocks released in " + n_runs + (runs.size() == 1 ? " run" : " runs")}};
@@ -130,9 +205,8 @@ std::vector<std::pair<std::string, std::string>> tags_of(const std::vector<RunMe
     tags.emplace_back("VERSION", runs[0].info.version);
   }
   tags.emplace_back("N_MOVING_AT_END", std::to_string(sum_of(runs, &RunMember::n_moving)));
-  tags.emplace_back("HEALTH", n_unfinished == 0 ? "all runs finished within their limits"
-                                                : std::to_string(n_unfinished) + " of " + n_runs +
-                                                      " runs UNFINISHED OR FAILED");
+  const std::string wrong = text(faults);
+  tags.emplace_back("HEALTH", wrong.empty() ? "all runs finished within their limits" : wrong);
   tags.emplace_back("HEALTH_LARGEST_PENETRATION_M", text(penetration, 4));
   tags.emplace_back("HEALTH_UNCONVERGED_STEPS",
                     std::to_string(sum_of(runs, &RunMember::unconverged)));

@@ -34,7 +34,7 @@ struct RunSetOptions {
   std::string trn_file, trn_sha256;  ///< that the evaluation is given
 };
 
-/// Throws InputError unless `run` is finished (or unfinished ones are allowed), was computed on the
+/// Throws InputError unless `run` has ended (or unfinished ones are allowed), was computed on the
 /// terrain of `options`, and agrees with `first`, another run of the set, in site, terrain, blocks'
 /// origin, version of the program and grid of passages.
 void check_member(const RunMember& run, const RunMember& first, const RunSetOptions& options);
@@ -42,14 +42,35 @@ void check_member(const RunMember& run, const RunMember& first, const RunSetOpti
 /// Order by run id. Throws InputError naming both files when the same run is given twice.
 [[nodiscard]] std::vector<int> order_by_id(const std::vector<RunMember>& runs);
 
+/// The file's name without folder and ending; with the folder where two of the runs share it.
+[[nodiscard]] std::vector<std::string> names_of(const std::vector<RunMember>& runs);
+
+/// What keeps a run from being believed as it is.
+struct RunFault {
+  std::string name, run_id;
+  std::string words;  ///< the broken limits, or how far an unfinished run came
+};
+/// Those of a set: runs that broke a limit of their health, and runs that have not ended. A run
+/// that a broken limit stopped counts as failed. By seed, then by name.
+struct RunFaults {
+  int n_runs = 0;
+  std::vector<RunFault> failed, unfinished;
+};
+[[nodiscard]] RunFaults faults_of(const std::vector<RunMember>& runs);
+
+/// "1 of 12 runs failed its numerical checks"; "" where nothing is wrong.
+[[nodiscard]] std::string headline(const RunFaults& faults);
+/// The headline with the runs behind it, the first few of them; "" where nothing is wrong.
+[[nodiscard]] std::string text(const RunFaults& faults);
+
 /// Digest of the runs' ids in whatever order (16 digits): equal for evaluations of the same runs.
 [[nodiscard]] std::string run_set_id(std::vector<std::string> run_ids);
 
 /// What the runs were warned of, each once, sorted.
 [[nodiscard]] std::vector<std::string> warnings_of(const std::vector<RunMember>& runs);
 
-/// Tags N_RUNS, N_UNFINISHED, DENOMINATOR, VERSION, SITE, HEALTH, HEALTH_* and, where there are
-/// any, WARNINGS; the same in whatever order the runs come.
+/// Tags N_RUNS, N_FAILED, N_UNFINISHED, DENOMINATOR, VERSION, SITE, HEALTH, HEALTH_* and, where
+/// there are any, WARNINGS; the same in whatever order the runs come.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> tags_of(
     const std::vector<RunMember>& runs);
 

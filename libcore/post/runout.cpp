@@ -82,16 +82,15 @@ Vec3 outermost_point(const RunFile& run, int block, const std::vector<Vec3>& way
   return toe;
 }
 
-// Blocks at rest go before others; among them the one that lies farthest from the top. The length
-// of its way says less: a block that danced in a hollow has a long one.
-int find_toe_block(const EventReach& event, const RunFile& run, bool& deposited) {
-  deposited = std::any_of(event.blocks.begin(), event.blocks.end(), [](const BlockReach& b) {
-    return b.fate == Fate::deposited && b.reach.path > 0;
-  });
+// The block that is farthest from the top, whatever its fate: one that still moves must not be left
+// out of L. The length of its way says less: a block that danced in a hollow has a long one. Blocks
+// that stayed where they were bound the source, not the run-out.
+int find_toe_block(const EventReach& event, const RunFile& run,
+                   const std::vector<WeightedValue>& displacement) {
   int toe = -1;
   double farthest = -1;
   for (const BlockReach& b : event.blocks) {
-    if (deposited && b.fate != Fate::deposited) continue;
+    if (!(displacement[b.block].value > moved_m)) continue;
     const double distance = plan_distance(event.top, last_pose(run, b.block).position);
     if (distance <= farthest) continue;
     farthest = distance;
@@ -116,6 +115,8 @@ std::vector<Vec3> streamline(const RunFile& run, const EventReach& event, const 
 }
 
 }  // namespace
+
+double AngleProfile::at_end() const { return angle.empty() ? none : angle.back(); }
 
 double ReachLine::path_angle() const { return angle_of(height, path); }
 double ReachLine::chord_angle() const { return angle_of(height, chord); }
@@ -229,12 +230,19 @@ EventReach event_reach(const RunFile& run, const Trn& trn, const ReachSettings& 
     length += run.blocks.mass[block] * event.blocks.back().reach.path;
   }
   raise_by_passages(event.blocks, run.passages);
+  const std::vector<WeightedValue> displacement = displacements(run);
+  event.moved = moved_of(displacement);
+  if (!event.moved.any()) {
+    event.event = event.centre_of_mass = {none, none, none};
+    event.sum_angle = event.profile.smallest = event.profile.smallest_at = none;
+    return event;
+  }
+  event.top = highest_point(run);
   event.sum_angle = angle_of(drop, length);
   event.centre_of_mass =
       reach_along(simplified(centre_of_mass_path(run), settings.tolerance).point);
-  if (n_blocks(run) == 0 || n_frames(run.frames) == 0) return event;
-  event.top = highest_point(run);
-  event.toe_block = find_toe_block(event, run, event.toe_deposited);
+  event.toe_block = find_toe_block(event, run, displacement);
+  event.toe_fate = event.blocks[event.toe_block].fate;
   event.streamline = streamline(run, event, trn, settings.tolerance, event.toe);
   event.event = reach_along(event.streamline);
   // From where the toe block started: the piece from the top to there may lead sideways.

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "post/deposit.hpp"
+#include "post/moved.hpp"
 #include "terrain/trn.hpp"
 
 namespace talus {
@@ -56,7 +57,8 @@ struct AngleProfile {
   /// How far an energy line from the start to a later point runs below the ground at an earlier
   /// one, at most: the head that a mass on that line lacks to come by there [m].
   double missing_head = 0;
-  bool monotone = true;  ///< falls all the way: no head above `tolerance` is missing
+  bool monotone = true;                 ///< falls all the way: no head above `tolerance` is missing
+  [[nodiscard]] double at_end() const;  ///< [rad]; NaN for no way
 };
 /// `tolerance`: a missing head of no more is not told from the error of the points' heights [m].
 /// Points nearer than `from` to the start are left out, since the first steps of a fall say nothing
@@ -73,15 +75,19 @@ struct BlockReach {
 };
 
 /// What Eq. (29) needs, and what stands beside it.
+///
+/// Where no block moved (moved.hpp) there is no run-out: no toe block and no streamline, and the
+/// reach of event and centre of mass is NaN.
 struct EventReach {
-  Vec3 top = Vec3::Zero();     ///< highest point of the mass before it moved [m]
-  Vec3 toe = Vec3::Zero();     ///< outermost point of the deposit's outermost block, on the ground
-  int toe_block = -1;          ///< that came to lie farthest from the top, in plan
-  bool toe_deposited = false;  ///< false: no block had come to rest, the farthest one counts
-  std::vector<Vec3> streamline;  ///< top, the toe block's way on the ground, toe [m]
-  ReachLine event;               ///< along the streamline
-  AngleProfile profile;          ///< along the streamline from the toe block's start
-  ReachLine centre_of_mass;      ///< H_cm, L_cm along the way of the centre of mass
+  Moved moved;                      ///< how much of the mass, and how far
+  Vec3 top = Vec3::Zero();          ///< highest point of the mass before it moved [m]
+  Vec3 toe = Vec3::Zero();          ///< outermost point of the toe block, on the ground
+  int toe_block = -1;               ///< that moved and is at the end farthest from the top, in plan
+  Fate toe_fate = Fate::deposited;  ///< a toe block that still moves goes farther yet
+  std::vector<Vec3> streamline;     ///< top, the toe block's way on the ground, toe [m]
+  ReachLine event;                  ///< along the streamline
+  AngleProfile profile;             ///< along the streamline from the toe block's start
+  ReachLine centre_of_mass;         ///< H_cm, L_cm along the way of the centre of mass
   double sum_angle = 0;  ///< atan(sum m H / sum m L) over blocks: tan(phi) for pure sliding [rad]
   std::vector<BlockReach> blocks;  ///< of each block                                (n_blocks)
 };
@@ -91,7 +97,7 @@ struct ReachSettings {
   double rest_speed = 0.05;  ///< [m/s]
 };
 
-/// Throws nothing; a run without frames gives NaN angles.
+/// Throws nothing; a run without frames has not moved.
 [[nodiscard]] EventReach event_reach(const RunFile& run, const Trn& trn,
                                      const ReachSettings& settings);
 

@@ -30,6 +30,7 @@ RunoutRun runout_run(const RunFile& run, const RunMember& member, const PassageG
   }
   r.volume = run.blocks.volume;
   r.mass = run.blocks.mass;
+  for (const WeightedValue& d : displacements(run)) r.displacement.push_back(d.value);
   r.curves = curves(run);
   for (const Passage& passage : run.passages)
     r.cells.push_back(static_cast<std::uint32_t>(passage.cell));
@@ -42,7 +43,10 @@ RunoutRuns add_up(std::vector<RunoutRun> runs, const PassageGrid& grid) {
   RunoutRuns out;
   out.grid = grid;
   out.runs = std::move(runs);
+  std::vector<WeightedValue> displacement;
   for (const RunoutRun& r : out.runs) {
+    for (std::size_t b = 0; b < r.mass.size(); ++b)
+      displacement.push_back({r.displacement[b], r.mass[b]});
     add(out.balance, r.balance);
     add(out.deposit, r.deposit);
     out.cells.insert(out.cells.end(), r.cells.begin(), r.cells.end());
@@ -50,6 +54,7 @@ RunoutRuns add_up(std::vector<RunoutRun> runs, const PassageGrid& grid) {
     out.released.n_blocks.push_back(r.member.n_blocks);
   }
   sort_and_unite(out.cells);
+  out.moved = moved_of(std::move(displacement));
   return out;
 }
 
@@ -73,12 +78,18 @@ Spread spread_over(const std::vector<RunoutRun>& runs, double (*value)(const Run
           values.back().value};
 }
 
-int n_standing(const std::vector<RunoutRun>& runs) {
-  constexpr double hardly = 0.01;  // of L
-  const auto stands = [](const RunoutRun& run) {
-    return !(run.event.centre_of_mass.path > hardly * run.event.event.path);
-  };
-  return static_cast<int>(std::count_if(runs.begin(), runs.end(), stands));
+int n_moved(const std::vector<RunoutRun>& runs) {
+  return static_cast<int>(std::count_if(
+      runs.begin(), runs.end(), [](const RunoutRun& run) { return run.event.moved.any(); }));
+}
+
+const RunoutRun* farthest_run(const std::vector<RunoutRun>& runs) {
+  const RunoutRun* farthest = nullptr;
+  for (const RunoutRun& run : runs)
+    if (run.event.moved.any() &&
+        (farthest == nullptr || run.event.event.path > farthest->event.event.path))
+      farthest = &run;
+  return farthest;
 }
 
 }  // namespace talus

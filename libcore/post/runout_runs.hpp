@@ -23,6 +23,7 @@ struct RunoutRun {
   std::vector<Vec3> end;                      ///< centroids, local [m]              (n_blocks)
   std::vector<double> volume;                 ///< [m3]                              (n_blocks)
   std::vector<double> mass;                   ///< [kg]                              (n_blocks)
+  std::vector<double> displacement;           ///< [m]                               (n_blocks)
   std::vector<CurveRow> curves;
   std::vector<std::uint32_t> cells;  ///< that any block passed, ascending
   DepositSums deposit;
@@ -39,6 +40,7 @@ struct RunoutRuns {
   std::vector<std::uint32_t> cells;  ///< that any block of any run passed, ascending
   DepositSums deposit;
   Released released;
+  Moved moved;       ///< the mass of all runs together
   PassageGrid grid;  ///< of cells and deposit
 };
 [[nodiscard]] RunoutRuns add_up(std::vector<RunoutRun> runs, const PassageGrid& grid);
@@ -54,7 +56,10 @@ struct Spread {
 [[nodiscard]] Spread spread_over(const std::vector<RunoutRun>& runs,
                                  double (*value)(const RunoutRun&));
 
-/// Runs whose centre of mass moved less than 1 % of L: masses that stay where they are.
-[[nodiscard]] int n_standing(const std::vector<RunoutRun>& runs);
+/// Runs in which a block moved: the others have no run-out.
+[[nodiscard]] int n_moved(const std::vector<RunoutRun>& runs);
+
+/// The run whose event came farthest along the path, the first of them; null when none moved.
+[[nodiscard]] const RunoutRun* farthest_run(const std::vector<RunoutRun>& runs);
 
 }  // namespace talus

@@ -19,8 +19,16 @@ std::string html_fold(const std::string& summary, const std::string& content) {
   return "<details><summary>" + summary + "</summary>\n" + content + "</details>\n";
 }
 
-std::string html_fact(const std::string& value, const std::string& what) {
-  return "<div><b>" + value + "</b><span>" + what + "</span></div>\n";
+std::string html_fact(const std::string& value, const std::string& what, const std::string& kind) {
+  return (kind.empty() ? std::string("<div>") : "<div class=\"" + kind + "\">") + "<b>" + value +
+         "</b><span>" + what + "</span></div>\n";
+}
+
+std::string html_marked(const std::string& section, const std::string& banner) {
+  const std::size_t heading = section.find("</h2>\n");
+  if (banner.empty() || heading == std::string::npos) return section;
+  return section.substr(0, heading + 6) + "<p class=\"banner\">" + banner + "</p>\n" +
+         section.substr(heading + 6);
 }
 
 std::string html_figure(const std::string& picture, const std::string& caption) {

@@ -48,6 +48,16 @@ std::string layer_tree(const QgisProject& project) {
   return out + "</layer-tree-group>\n";
 }
 
+// An abstract of a layer or of the project, as its properties show it; empty without a remark.
+std::string metadata_xml(const QgisProject& project, const char* element,
+                         const std::string& title) {
+  if (project.remark.empty()) return "";
+  const std::string open = element;
+  return "<" + open + "><identifier></identifier><language></language><type></type><title>" +
+         xml_escaped(title) + "</title><abstract>" + xml_escaped(project.remark) + "</abstract></" +
+         open + ">\n";
+}
+
 // --- layers --------------------------------------------------------------------------------------
 
 // What stands between <qgis ...> and </qgis> of a style file.
@@ -77,7 +87,9 @@ std::string layer_xml(const QgisProject& project, std::size_t i) {
          id_of(project, i) + "</id>\n<datasource>./" + xml_escaped(layer.source) +
          "</datasource>\n<layername>" + xml_escaped(layer.name) + "</layername>\n<srs>" +
          crs_xml(project) + "</srs>\n<provider" +
-         (is_vector(layer) ? " encoding=\"UTF-8\">ogr" : ">gdal") + "</provider>\n";
+         (is_vector(layer) ? " encoding=\"UTF-8\">ogr" : ">gdal") + "</provider>\n" +
+         metadata_xml(project, "resourceMetadata", layer.name + " (" + project.remark + ")");
+  if (!project.remark.empty()) out += "<abstract>" + xml_escaped(project.remark) + "</abstract>\n";
   return out + style_of(layer) + "</maplayer>\n";
 }
 
@@ -204,7 +216,8 @@ std::string qgis_project_xml(const QgisProject& project) {
       "<qgis version=\"3.22.16\" projectname=\"" +
       xml_escaped(project.title) + "\">\n<homePath path=\"\"/>\n<title>" +
       xml_escaped(project.title) + "</title>\n<projectCrs>" + crs_xml(project) + "</projectCrs>\n" +
-      layer_tree(project) + "<mapcanvas name=\"theMapCanvas\"><units>meters</units><extent><xmin>" +
+      metadata_xml(project, "projectMetadata", project.title) + layer_tree(project) +
+      "<mapcanvas name=\"theMapCanvas\"><units>meters</units><extent><xmin>" +
       text(project.extent[0]) + "</xmin><ymin>" + text(project.extent[1]) + "</ymin><xmax>" +
       text(project.extent[2]) + "</xmax><ymax>" + text(project.extent[3]) +
       "</ymax></extent><destinationsrs>" + crs_xml(project) +

@@ -21,6 +21,7 @@ struct QgisLayer {
 
 struct QgisProject {
   std::string title;
+  std::string remark;                     ///< that runs failed: in the abstract of each layer
   std::string crs_wkt, crs_authid;        ///< "EPSG:31287"; either may be empty
   std::array<double, 4> extent{};         ///< x_min, y_min, x_max, y_max of the layout's map [m]
   std::vector<std::string> layout_lines;  ///< below the layout's title: what the map rests on

@@ -3,14 +3,15 @@
 // straight down a plane (30 degrees, cells of 2 m), recorded by the recorder itself.
 //   run-probe DIR N_RUNS [site=NAME] [version=V] [status=running|failed] [standing=1] [empty=1]
 //             [blocks=N] [step=H] [frames=DT] [seed=K] [height=H] [capacity=KJ|none]
-//             [hits=stopped|held|broken|pile] [moving=1]
+//             [hits=stopped|held|broken|pile] [moving=1] [still=N] [still_runs=N]
 // Box b of run r (edge 1 m, 2600 kg) starts at rest at x = 11, y = 10 + 6 b and slides with
 // a = 3 m/s2 along the slope for 4 s (24 m), then brakes evenly to rest within 2 s (12 m more); its
 // speed is that of run 0 times 1 + 0.01 r. Written: DIR/slope.tif, DIR/run_<r>.h5, DIR/site.toml.
 // hits: what a standing fence recorded. Each block that crosses the line touches it with the motion
 // of the crossing; then it does not cross (stopped), crosses 0.1 s later with half the energy in a
 // panel pushed 100 m (held) or in a broken one (broken), or nothing touches or crosses (pile).
-// moving: at the end, all of them.
+// moving: at the end, all of them. still: the first N boxes, still_runs: all boxes of the first N
+// runs stay where they are.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -164,8 +165,10 @@ RunFile make_run(const Words& words, int r, const std::string& trn_sha256) {
       scene, {record_line("check", posts_on_ground(scene.ground.trn, {{30, 4}, {30, 20}}, 8, {}))});
   FrameSampler sampler = start_frames(scene, interval);
   const double scale = 1 + 0.01 * r;
+  const double n_still = number(words, "still", 0), n_still_runs = number(words, "still_runs", 0);
   for (int b = 0; b < n_blocks(scene); ++b) {
-    const std::vector<Segment> way = way_of(b, scale, step);
+    const bool stays = b < n_still || r < n_still_runs;
+    const std::vector<Segment> way = way_of(b, stays ? 0 : scale, step);
     record_start(passages, scene, b, way[0].start, 0);
     record_start(sampler, scene, b, way[0].start, Vec6::Zero());
     for (const Segment& segment : way) {

@@ -57,4 +57,10 @@ done
 nothing_left g.gpkg
 run-probe with 1 seed=2 status=running
 expect 0 talus-fence site.toml run_0.h5 --without with/run_0.h5 --trn slope.tif -o c.gpkg --change c.tif --allow-unfinished
-[ "$(grep -c 'unfinished or failed' err)" = 1 ] || fail 'unfinished runs are not said once'
+[ "$(grep -c 'has not reached its end' err)" = 1 ] || fail 'unfinished runs are not said once'
+# A run that failed among those compared with marks all as well.
+run-probe with 1 seed=2 status=failed
+expect 0 talus-fence site.toml run_0.h5 --without with/run_0.h5 --trn slope.tif -o d.gpkg --json d.json
+says '1 of 2 runs failed its numerical checks: with/run_0 (a limit was broken'
+grep -q '"REMARK": "1 of 2 runs failed its numerical checks"' d.json || fail 'the result is not marked'
+ogrinfo -so d.gpkg fences | grep -q 'failed its numerical checks' || fail 'the layer is not marked'

@@ -1,6 +1,6 @@
 # What cannot be mapped is refused before anything is written, saying why and what to do.
 run-probe . 2
-mkdir other version failed empty
+mkdir other version failed empty half
 run-probe other 1 site=elsewhere seed=5
 run-probe version 1 version=9.9.9 seed=6
 run-probe failed 1 status=failed seed=7
@@ -15,15 +15,24 @@ says 'is the same run as'
 gdal_translate -q -a_nodata -1 slope.tif another.tif
 expect 1 talus-maps run_0.h5 --trn another.tif -o maps
 says 'computed on another terrain'
-expect 1 talus-maps failed/run_0.h5 --trn slope.tif -o maps
-says 'the run is failed: a limit was broken'
+run-probe half 1 status=running seed=9
+expect 1 talus-maps half/run_0.h5 --trn slope.tif -o maps
+says 'the run is running at 5 of 8 s, expected one that has ended'
 says '--allow-unfinished'
 nothing_left maps/reach.tif
-expect 0 talus-maps failed/run_0.h5 --trn slope.tif -o marked --allow-unfinished
-says '1 of 1 run unfinished or failed'
+
+# One that failed its health is taken, and every map, legend and picture says so.
+expect 0 talus-maps failed/run_0.h5 run_0.h5 --trn slope.tif -o marked --png
+says '1 of 2 runs failed its numerical checks: failed/run_0 (a limit was broken'
+expect 0 talus-maps run_0.h5 --trn slope.tif -o plain --png
 for name in reach ke_total deposit; do
-  gdalinfo "marked/$name.tif" | grep -q 'UNFINISHED OR FAILED' || fail "$name is not marked"
-  grep -q 'unfinished or failed' "marked/$name.qml" || fail "the legend of $name is not marked"
+  gdalinfo "marked/$name.tif" >info
+  grep -q 'HEALTH=1 of 2 runs failed its numerical checks: failed/run_0' info || fail "$name is not marked"
+  grep -q 'REMARK=1 of 2 runs failed its numerical checks' info || fail "$name has no remark"
+  grep -q '1 of 2 runs failed its numerical checks' "marked/$name.qml" || fail "the legend of $name is not marked"
+  # a red strip of 34 rows above the picture
+  [ "$(gdallocationinfo -valonly "marked/$name.png" 5 2 | head -3 | tr '\n' ' ')" = "179 32 31 " ] || fail "the picture of $name is not marked"
+  [ "$(gdallocationinfo -valonly "plain/$name.png" 5 2 | head -3 | tr '\n' ' ')" != "179 32 31 " ] || fail "a mark without a failure"
 done
 
 expect 0 talus-maps empty/run_0.h5 --trn slope.tif -o nothing

@@ -3,7 +3,7 @@ run-probe . 1
 expect 0 talus-runout run_0.h5 --trn slope.tif -o runout.gpkg --json runout.json --csv blocks.csv --curves curves.csv --svg mobility.svg --thickness thickness.tif --friction-deg 20
 prints 'run-out of run probe100000'
 nothing_left
-grep -q '^probe100000,0,deposited,1,2600,18,31.1769145,31.1769145,30,30,12,187.2$' blocks.csv || fail "blocks.csv holds $(tail -1 blocks.csv)"
+grep -q '^probe100000,0,deposited,1,2600,18,31.1769145,31.1769145,30,30,12,187.2,36$' blocks.csv || fail "blocks.csv holds $(tail -1 blocks.csv)"
 python3 - <<'PY' || fail 'runout.json differs from the closed form'
 import json, math
 j = json.load(open('runout.json'))
@@ -17,7 +17,7 @@ assert abs(centre['tan_friction'] - math.tan(math.radians(20))) < 1e-12
 # top: the box's upper edge at the start; toe: the ground below its front at the end
 start, end = 11 - 0.5, 11 + 36 * math.cos(math.pi / 6) + 0.5
 assert abs(run['event']['H_m'] - ((end - 11) * math.tan(math.pi / 6) + 0.6 + 0.5)) < 1e-6, run['event']
-assert run['angle_monotone_along_path'] and run['toe_is_deposited']
+assert run['angle_monotone_along_path'] and run['toe_fate'] == 'deposited'
 assert j['swept_area_m2'] == 34 * 4
 assert abs(run['energy_shares']['friction'] - 1) < 1e-12
 assert len(j['mobility']) == 17
@@ -25,7 +25,7 @@ assert sum(m['from_memory'] for m in j['mobility']) == 6
 PY
 grep -q 'corominas_rockfall_all' mobility.svg || fail 'the chart has no legend'
 ogrinfo -so runout.gpkg paths | grep -q '3D Measured Line String' || fail 'paths hold no time'
-for layer in envelope deposit paths path_points streamline reach_points; do
+for layer in envelope deposit paths path_points streamline reach_points runs; do
   ogrinfo -q runout.gpkg -sql "SELECT f_table_name FROM layer_styles WHERE f_table_name = '$layer' AND useAsDefault" | grep -q "$layer" || fail "$layer has no style"
 done
 ogrinfo -q runout.gpkg -sql 'SELECT area_m2 FROM envelope' | grep -q '= 136' || fail 'the envelope is not 136 m2'

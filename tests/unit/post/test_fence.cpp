@@ -9,6 +9,7 @@
 #include "base/random.hpp"
 #include "post/fence.hpp"
 #include "post/fence_design.hpp"
+#include "post/fence_result.hpp"
 #include "post/fence_summary.hpp"
 #include "post/statistics.hpp"
 #include "run_maker.hpp"
@@ -343,6 +344,125 @@ TEST(DesignCode, OfUniMultipliesSpeedPercentileAndDesignMass) {
   EXPECT_NEAR(r.required_height, 2 * 1.21 + 0.5, 1e-12);
   EXPECT_EQ(r.governs, "energy");
   EXPECT_EQ(r.verdict, DesignVerdict::does_not_meet);
+  EXPECT_EQ(text(r),
+            "does not meet the code, energy governs: needs 1096 kJ (ETAG class 4) and a height of "
+            "2.92 m");
+}
+
+namespace {
+
+FencePartSummary hundred_arrivals() {
+  FencePartSummary part;
+  part.n = 100;
+  part.n_eff = 100;
+  part.speed.percentile[2].value = 20;
+  part.energy.percentile[3].value = 300e3;
+  part.energy.largest = 310e3;
+  part.top.percentile[2].value = 2;
+  return part;
+}
+
+DesignCode uni() { return design_code(read_csv(TALUS_SOURCE_DIR "/share/codes/uni_11211-4.csv")); }
+
+const DesignStep& step(const DesignResult& result, const std::string& symbol) {
+  const auto at = std::find_if(result.steps.begin(), result.steps.end(),
+                               [&](const DesignStep& s) { return s.symbol == symbol; });
+  if (at == result.steps.end()) throw std::runtime_error("no step " + symbol);
+  return *at;
+}
+
+}  // namespace
+
+// Who reads the derivation can compute the need from its lines.
+TEST(DesignSteps, OfUniMultiplyToWhatIsNeeded) {
+  DesignInput input{1.5, 0.8, 2700, 2, false, NAN, NAN};
+  input.block_source = "95th percentile of the 100 blocks that arrive";
+  const DesignResult r = check_design(uni(), {}, input, hundred_arrivals(), straight_fence());
+  const auto value = [&](const char* symbol) { return step(r, symbol).value; };
+  EXPECT_DOUBLE_EQ(value("V"), 1.5);
+  EXPECT_EQ(step(r, "V").source, "95th percentile of the 100 blocks that arrive");
+  EXPECT_NEAR(value("m_d"), value("V") * value("rho") * value("g_V") * value("g_rho") / 1e3, 1e-9);
+  EXPECT_NEAR(value("v_d"), value("v_p") * value("g_t") * value("g_s"), 1e-12);
+  EXPECT_NEAR(value("E_d"), 0.5 * value("m_d") * value("v_d") * value("v_d") * value("g_R"), 1e-9);
+  EXPECT_NEAR(value("E_req"), value("E_d") * value("g_E"), 1e-9);
+  EXPECT_NEAR(value("E_req"), r.required_capacity / 1e3, 1e-9);
+  EXPECT_NEAR(value("h_req"), value("h_p") * value("g_t") * value("g_s") + value("f_min"), 1e-12);
+  EXPECT_DOUBLE_EQ(value("E"), 500);
+  EXPECT_EQ(step(r, "v_p").source, "of 100 arrivals");
+  EXPECT_NE(step(r, "g_R").source.find("gamma_risk: 1.00 to 1.10"), std::string::npos);
+  EXPECT_NE(step(r, "g_R").source.find("not checked against the print"), std::string::npos);
+  EXPECT_EQ(step(r, "g_t").source.find("not checked"), std::string::npos);
+}
+
+TEST(DesignSteps, OfOnrMultiplyToWhatIsNeeded) {
+  FencePartSummary part = hundred_arrivals();
+  const DesignCode onr = design_code(read_csv(TALUS_SOURCE_DIR "/share/codes/onr_24810.csv"));
+  const DesignResult r =
+      check_design(onr, {}, {1, 0.8, 2700, 3, false, NAN, NAN}, part, straight_fence());
+  EXPECT_DOUBLE_EQ(step(r, "E_k").value, 310);  // 100 arrivals give no 99th percentile
+  EXPECT_EQ(step(r, "E_k").source, "of 100 arrivals; the 99th percentile needs 299");
+  EXPECT_NEAR(step(r, "E_d").value, step(r, "E_k").value * step(r, "g_E").value, 1e-9);
+  EXPECT_NEAR(step(r, "E_d").value, r.required_capacity / 1e3, 1e-9);
+}
+
+// Beyond the largest class no net will do, and the largest class of the table is named.
+TEST(CheckDesign, NamesNoClassAboveTheLargest) {
+  const auto classes =
+      barrier_classes(read_csv(TALUS_SOURCE_DIR "/share/codes/barrier_classes.csv"));
+  const DesignInput input{60, 0.8, 2700, 2, false, NAN, NAN};
+  const DesignResult r = check_design(uni(), classes, input, hundred_arrivals(), straight_fence());
+  EXPECT_EQ(r.smallest_class, "none");
+  EXPECT_NE(text(r).find("(no ETAG class: above the largest, 4500 kJ; a net is no option)"),
+            std::string::npos)
+      << text(r);
+}
+
+// What touched a standing fence may condemn it, but never passes it.
+TEST(CheckDesign, PassesNothingByFirstTouches) {
+  DesignInput input{1, 0.8, 2700, 2, false, NAN, NAN};
+  Fence fence = straight_fence();
+  fence.capacity = 2e6;
+  EXPECT_EQ(check_design(uni(), {}, input, hundred_arrivals(), fence).verdict,
+            DesignVerdict::meets);
+  input.first_touches = true;
+  const DesignResult r = check_design(uni(), {}, input, hundred_arrivals(), fence);
+  EXPECT_EQ(r.verdict, DesignVerdict::first_touches);
+  EXPECT_FALSE(passes(r).has_value());
+  EXPECT_EQ(text(r).find("not judged: first touches"), 0U);
+  fence.capacity = 5e5;
+  EXPECT_EQ(check_design(uni(), {}, input, hundred_arrivals(), fence).verdict,
+            DesignVerdict::does_not_meet);
+}
+
+// Sixty cubes of 1 m3 cross the line; seven of 1,000 m3 stay where they are and ask for nothing.
+TEST(FenceResult, TakesTheDesignBlockFromTheBlocksThatArrive) {
+  const Trn trn = flat();
+  FenceCase fence{fence_settings(), {}, straight_fence()};
+  fence.line = record_line("test", fence.fence.post);
+  RunFile run;
+  for (int block = 0; block < 60; ++block) add_crossing(run, 15, 1, 1, 50e3, block);
+  for (int block = 0; block < 7; ++block) add_box(run, {10, 10, 10}, {0, 0, 0});
+  run.lines = {fence.line};
+  FenceRuns runs;
+  runs.with.members = {member_of("run_1.h5", run)};
+  runs.with.runs = {run_at_fences(run, 0, {fence}, {0}, uni(), {0.5, 0.05}, trn)};
+  FenceResultSettings settings;
+  settings.design.block_volume = settings.design.deflection = settings.design.distance_to_object =
+      NAN;
+  FenceResult r = fence_result(fence, 0, runs, uni(), {}, settings, trn);
+  EXPECT_EQ(r.basis, DesignBasis::open_line);
+  EXPECT_NEAR(step(r.design, "V").value, 1, 1e-12);
+  EXPECT_EQ(step(r.design, "V").source, "95th percentile of the 60 blocks that arrive");
+  settings.design.block_volume = 1000;
+  r = fence_result(fence, 0, runs, uni(), {}, settings, trn);
+  EXPECT_EQ(step(r.design, "V").value, 1000);
+}
+
+TEST(CheckDesign, OfAFenceThatNothingCameToSaysSo) {
+  const DesignResult r = check_design(uni(), {}, {}, {}, straight_fence());
+  EXPECT_EQ(r.verdict, DesignVerdict::nothing_came);
+  EXPECT_EQ(text(r), "not judged: nothing came to it");
+  EXPECT_FALSE(passes(r).has_value());
 }
 
 // Without a capacity the energy stays open, whatever else holds; a height that fails, fails.

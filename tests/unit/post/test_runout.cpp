@@ -8,6 +8,7 @@
 
 #include "base/random.hpp"
 #include "post/runout.hpp"
+#include "post/runout_text.hpp"
 #include "run_maker.hpp"
 
 using namespace talus;
@@ -63,7 +64,7 @@ TEST(EventReach, OfAStraightSlideIsExact) {
     EXPECT_DOUBLE_EQ(event.toe.x(), 81);
     EXPECT_DOUBLE_EQ(event.toe.z(), 84);  // on the ground
     EXPECT_NEAR(event.event.height, 12, 1e-9);
-    EXPECT_TRUE(event.toe_deposited);
+    EXPECT_EQ(event.toe_fate, Fate::deposited);
     EXPECT_EQ(event.blocks[0].fate, Fate::deposited);
     EXPECT_DOUBLE_EQ(event.blocks[0].max_speed, 3);
     EXPECT_DOUBLE_EQ(event.blocks[0].max_energy, 0.5 * 16000 * 9);
@@ -83,6 +84,46 @@ TEST(EventReach, TakesTheFarthestBlockAsToe) {
   EXPECT_EQ(event.toe_block, 1);
 }
 
+// L must not stop at the last block at rest while another has gone on beyond it.
+TEST(EventReach, GoesToTheFarthestBlockThoughItStillMoves) {
+  RunFile run;
+  for (int block = 0; block < 2; ++block) add_box(run, {2, 2, 2}, {0, 0, 0});
+  add_frame(run, 0, {standing({10, 0, 95}), standing({12, 0, 95})});
+  FrameBlock moving = standing({72, 0, 85});
+  moving.velocity = {5, 0, 0};
+  add_frame(run, 9, {standing({40, 0, 85}), moving});
+  const EventReach event = event_reach(run, bent_trn(), {});
+  EXPECT_EQ(event.toe_block, 1);
+  EXPECT_EQ(event.toe_fate, Fate::moving);
+  EXPECT_NEAR(event.event.chord, 73 - 9, 1e-9);  // the top is an edge of the first block
+}
+
+// A block that stayed low in the source is not what the run-out ends at.
+TEST(EventReach, DoesNotEndAtABlockThatStayed) {
+  RunFile run;
+  for (int block = 0; block < 2; ++block) add_box(run, {2, 2, 2}, {0, 0, 0});
+  add_frame(run, 0, {standing({10, 0, 95}), standing({50, 0, 85})});
+  add_frame(run, 9, {standing({40, 0, 85}), standing({50.5, 0, 85})});
+  const EventReach event = event_reach(run, bent_trn(), {});
+  EXPECT_EQ(event.toe_block, 0);
+  EXPECT_DOUBLE_EQ(event.moved.share, 0.5);
+}
+
+// The length of a source is no run-out.
+TEST(EventReach, OfAMassThatStaysHasNoReach) {
+  RunFile run;
+  for (int block = 0; block < 2; ++block) add_box(run, {2, 2, 2}, {0, 0, 0});
+  add_frame(run, 0, {standing({10, 0, 95}), standing({50, 0, 85})});
+  add_frame(run, 9, {standing({10.9, 0, 94.8}), standing({50, 0, 85})});
+  const EventReach event = event_reach(run, bent_trn(), {});
+  EXPECT_FALSE(event.moved.any());
+  EXPECT_EQ(event.toe_block, -1);
+  EXPECT_TRUE(event.streamline.empty());
+  for (const double value : {event.event.height, event.event.path, event.event.path_angle(),
+                             event.centre_of_mass.path, event.sum_angle})
+    EXPECT_TRUE(std::isnan(value));
+}
+
 // A way that flattens and then drops again: the angle at its end hides that a flatter energy line
 // would have been needed before.
 TEST(AngleProfile, SaysWhereItIsNotMonotone) {
@@ -97,6 +138,18 @@ TEST(AngleProfile, SaysWhereItIsNotMonotone) {
   // the line from the start to the end runs at 100 - 150 / 2 = 25 over the ground at 50
   EXPECT_DOUBLE_EQ(profile.missing_head, 25);
   EXPECT_TRUE(angle_profile(stepped, 5, 25.1).monotone);
+}
+
+// The angle that an energy line needs is said where it matters, by a degree or more.
+TEST(EnergyLineText, SaysWhichAngleToTakeWhereItMatters) {
+  const std::vector<Vec3> stepped = {{0, 0, 100}, {50, 0, 60}, {150, 0, 50}, {200, 0, 0}};
+  const std::string words = energy_line_text(angle_profile(stepped, 5, 0.5));
+  EXPECT_NE(words.find("flattens at 150 m"), std::string::npos) << words;
+  EXPECT_NE(words.find("reaches the toe with 18.4 deg"), std::string::npos) << words;
+  const std::vector<Vec3> hardly = {{0, 0, 100}, {150, 0, 50}, {200, 0, 32}};
+  EXPECT_FALSE(angle_profile(hardly, 5, 0.1).monotone);
+  EXPECT_EQ(energy_line_text(angle_profile(hardly, 5, 0.1)), "");
+  EXPECT_EQ(energy_line_text({}), "");
 }
 
 // lechtal_kotdam's expected path (data/SOURCES.md) is not monotone, the other three sites' are.

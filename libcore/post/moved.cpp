@@ -1,0 +1,59 @@
+#include "post/moved.hpp"
+
+#include <limits>
+
+#include "base/text.hpp"
+#include "post/deposit.hpp"
+
+namespace talus {
+namespace {
+
+std::string percent(double share) { return text(100 * share, 3) + " %"; }
+
+}  // namespace
+
+Moved moved_of(std::vector<WeightedValue> displacement_and_mass) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  sort_values(displacement_and_mass);
+  Moved out;
+  double moved = 0, far = 0;
+  for (const auto& [displacement, mass] : displacement_and_mass) {
+    out.mass += mass;
+    if (displacement > moved_m) moved += mass;
+    if (displacement > moved_far_m) far += mass;
+  }
+  if (!(out.mass > 0)) return {0, none, none, none, none, none, 0};
+  const auto percentile = [&](double p) { return weighted_percentile(displacement_and_mass, p); };
+  out.share = moved / out.mass;
+  out.share_far = far / out.mass;
+  out.p50 = percentile(0.5);
+  out.p90 = percentile(0.9);
+  out.p95 = percentile(0.95);
+  out.largest = displacement_and_mass.back().value;
+  return out;
+}
+
+std::vector<WeightedValue> displacements(const RunFile& run) {
+  std::vector<WeightedValue> out;
+  for (int block = 0; block < n_blocks(run); ++block)
+    out.push_back({(last_pose(run, block).position - first_pose(run, block).position).norm(),
+                   run.blocks.mass[block]});
+  return out;
+}
+
+std::string text(const Moved& moved) {
+  return percent(moved.share) + " of the mass moved more than " + text(moved_m) + " m, " +
+         percent(moved.share_far) + " more than " + text(moved_far_m) +
+         " m; displacement by mass: p50 " + text(moved.p50, 3) + " m, p90 " + text(moved.p90, 3) +
+         " m, p95 " + text(moved.p95, 3) + " m";
+}
+
+std::string standing_mass_warning(const Moved& moved) {
+  if (!(moved.share < least_moved)) return "";
+  if (!moved.any()) return "no block moved more than " + text(moved_m) + " m: there is no run-out";
+  return "only " + percent(moved.share) + " of the mass moved more than " + text(moved_m) +
+         " m: L and the angle of reach are those of few blocks, not of the released volume; see "
+         "whether the failure surface comes out at the foot of the source";
+}
+
+}  // namespace talus

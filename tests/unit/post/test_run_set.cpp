@@ -1,0 +1,87 @@
+#include <gtest/gtest.h>
+
+#include "base/error.hpp"
+#include "post/run_set.hpp"
+
+using namespace talus;
+
+namespace {
+
+RunMember member(const std::string& file, std::int64_t seed, const std::string& status,
+                 const std::string& reason = "") {
+  RunMember run;
+  run.file = file;
+  run.info.run_id = "id" + std::to_string(seed);
+  run.info.seed = seed;
+  run.info.status = status;
+  run.info.reason = reason;
+  run.info.duration = 60;
+  run.info.time = status == "running" ? 12.5 : 60;
+  return run;
+}
+
+std::string tag(const std::vector<RunMember>& runs, const std::string& name) {
+  for (const auto& [key, value] : tags_of(runs))
+    if (key == name) return value;
+  return "";
+}
+
+}  // namespace
+
+TEST(RunFaults, NameTheRunsThatFailedWithLimitAndValue) {
+  const std::vector<RunMember> runs = {
+      member("out/runs/run_10.h5", 10, "failed", "largest penetration [m] is 0.2, limit 0.1"),
+      member("out/runs/run_2.h5", 2, "done"), member("out/runs/run_1.h5", 1, "running")};
+  const RunFaults faults = faults_of(runs);
+  EXPECT_EQ(headline(faults),
+            "1 of 3 runs failed its numerical checks; 1 of 3 runs has not reached its end");
+  EXPECT_EQ(
+      text(faults),
+      "1 of 3 runs failed its numerical checks: run_10 (largest penetration [m] is 0.2, limit "
+      "0.1); 1 of 3 runs has not reached its end: run_1 (at 12.5 of 60 s)");
+  EXPECT_EQ(tag(runs, "HEALTH"), text(faults));
+  EXPECT_EQ(tag(runs, "N_FAILED"), "1");
+  EXPECT_EQ(tag(runs, "N_UNFINISHED"), "1");
+}
+
+TEST(RunFaults, AreNoneWhereAllRunsFinished) {
+  const std::vector<RunMember> runs = {member("run_1.h5", 1, "done")};
+  EXPECT_EQ(headline(faults_of(runs)), "");
+  EXPECT_EQ(text(faults_of(runs)), "");
+  EXPECT_EQ(tag(runs, "HEALTH"), "all runs finished within their limits");
+}
+
+// The order of the command line says nothing; seeds do, run_2 before run_10. Seven are not listed.
+TEST(RunFaults, AreListedBySeedAndOnlyTheFirstFive) {
+  std::vector<RunMember> runs;
+  for (const int seed : {10, 2, 7, 3, 5, 4, 6})
+    runs.push_back(member("run_" + std::to_string(seed) + ".h5", seed, "failed", "x"));
+  const std::string words = text(faults_of(runs));
+  EXPECT_EQ(
+      words,
+      "7 of 7 runs failed their numerical checks: run_2 (x), run_3 (x), run_4 (x), run_5 (x), "
+      "run_6 (x) and 2 more");
+  std::reverse(runs.begin(), runs.end());
+  EXPECT_EQ(text(faults_of(runs)), words);
+}
+
+TEST(NamesOf, TellRunsOfTwoFoldersApart) {
+  const std::vector<RunMember> runs = {member("out/runs/run_1.h5", 1, "done"),
+                                       member("out/without/run_1.h5", 1, "done"),
+                                       member("out/runs/run_2.h5", 2, "done")};
+  const std::vector<std::string> expected = {"runs/run_1", "without/run_1", "run_2"};
+  EXPECT_EQ(names_of(runs), expected);
+}
+
+// A run that a broken limit stopped is evaluated, one that was interrupted is not.
+TEST(CheckMember, TakesFailedRunsAndRefusesInterruptedOnes) {
+  RunMember stopped = member("run_1.h5", 1, "failed", "x is 2, limit 1");
+  stopped.info.time = 3.5;
+  EXPECT_NO_THROW(check_member(stopped, stopped, {false, "trn.tif", ""}));
+  EXPECT_EQ(text(faults_of({stopped})),
+            "1 of 1 run failed its numerical checks: run_1 (x is 2, limit 1; ended at 3.5 of 60 "
+            "s)");
+  const RunMember running = member("run_1.h5", 1, "running");
+  EXPECT_THROW(check_member(running, running, {false, "trn.tif", ""}), InputError);
+  EXPECT_NO_THROW(check_member(running, running, {true, "trn.tif", ""}));
+}
