@@ -24,6 +24,7 @@
 #include "base/sha256.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/raster_gdal.hpp"
+#include "scene/site.hpp"
 #include "store/run_file.hpp"
 #include "unit/store/hand_made.hpp"
 
@@ -186,7 +187,7 @@ RunFile make_run(const Words& words, int r, const std::string& trn_sha256) {
   if (number(words, "empty", 0) == 0) run.passages = sorted(passages.table);
   run.lines = crossings.lines;
   run.lines[0].standing = number(words, "standing", 0) != 0;
-  run.info.config = site_text(words);
+  run.info.config = print_config(parse_site(site_text(words), "site.toml"));
   run.crossings = sorted(crossings);
   if (words.contains("hits")) record_hits(run, words.at("hits"));
   run.health = {health_at(scene, 0, 0), health_at(scene, 8, 18 * scale)};

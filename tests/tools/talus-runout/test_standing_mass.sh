@@ -65,4 +65,4 @@ mkdir moving
 run-probe moving 1 moving=1
 expect 0 talus-runout moving/run_0.h5 --trn moving/slope.tif -o moving.gpkg --json moving.json --no-db
 prints 'the farthest block still moving'
-grep -q '"toe_fate": "moving"' moving.json || fail 'nothing says that the farthest block moves' 
+grep -q '"toe_fate": "moving"' moving.json || fail 'nothing says that the farthest block moves'
