@@ -100,11 +100,12 @@ void warn_of_mass(Tool& tool, const BlocksWork& work, const MassMeasure& measure
   for (size_t v = 0; v < measure.vertices.size(); v += 2)  // on the ground, below it, and so on
     low = std::min(low, measure.vertices[v].z()), high = std::max(high, measure.vertices[v].z());
   const double half_size = std::sqrt(mass.polygon_area) / 2;
-  const std::string depth = "the mass is up to " + text(mass.max_depth, 3) + " m deep, more than ";
-  if (mass.max_depth > high - low)
+  const std::string depth =
+      "the mass is " + text(mass.mean_depth, 3) + " m deep on average, more than ";
+  if (mass.mean_depth > high - low)
     tool.warn(depth + "the relief of the ground over it, " + text(high - low, 3) +
               " m; check the failure surface and its units");
-  else if (mass.max_depth > half_size)
+  else if (mass.mean_depth > half_size)
     tool.warn(depth + "half the size of the source, " + text(half_size, 3) +
               " m; check the failure surface and its units");
 }
