@@ -132,6 +132,26 @@ std::vector<AreaSide> sides_of(const Area& area) {
   return sides;
 }
 
+Area snapped(const Trn& trn, Area area) {
+  const double reach = 10 * side_tolerance(area) / trn.cell_size;  // in cells
+  for (Ring& ring : area.rings)
+    for (Vec2& p : ring) {
+      Vec2 at = (p - trn.node0) / trn.cell_size;
+      const Vec2 node = at.array().round();
+      const double off_diagonal = at.sum() - std::round(at.sum());  // they run to the south-east
+      if ((at - node).cwiseAbs().minCoeff() <= reach) {
+        for (int k = 0; k < 2; ++k)
+          if (std::abs(at[k] - node[k]) <= reach) at[k] = node[k];
+      } else if (std::abs(off_diagonal) <= reach) {
+        at.array() -= off_diagonal / 2;
+      } else {
+        continue;
+      }
+      p = trn.node0 + trn.cell_size * at;
+    }
+  return without_repeated_corners(area);
+}
+
 double side_tolerance(const Area& area) {
   const PlanBox box = box_of(area);
   return 1e-8 * (box.high - box.low).norm();
@@ -170,7 +190,8 @@ bool runs_through(const AreaSide& side, const Polyhedron& body, double tolerance
   return runs_through(side, section, tolerance);
 }
 
-std::vector<TriangleInArea> triangles_in(const Trn& trn, const Area& area) {
+std::vector<TriangleInArea> triangles_in(const Trn& trn, const Area& given) {
+  const Area area = snapped(trn, given);
   const std::vector<AreaSide> sides = sides_of(area);
   const double tolerance = side_tolerance(area);
   std::map<int, std::set<int>> sides_at;

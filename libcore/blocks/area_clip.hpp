@@ -5,7 +5,8 @@
 //
 // A triangle is cut along the whole line of each side that crosses it, so pieces are convex; they
 // lie wholly inside or outside of the area. What is nearer to a side than the tolerance lies on it:
-// corners on nodes, and sides along grid lines, cut nothing.
+// corners on nodes, and sides along grid lines, cut nothing. Corners a hair beside them are moved
+// there first, so that each triangle and its neighbour see the same.
 #pragma once
 
 #include <limits>
@@ -27,6 +28,10 @@ struct AreaSide {
 };
 [[nodiscard]] std::vector<AreaSide> sides_of(const Area& area);
 
+/// The area with corners that are nearer to a node, a grid line or a diagonal of the TRN than ten
+/// times the tolerance of its sides moved there.
+[[nodiscard]] Area snapped(const Trn& trn, Area area);
+
 /// 1e-8 of the diagonal of the area's box [m].
 [[nodiscard]] double side_tolerance(const Area& area);
 
@@ -45,7 +50,7 @@ struct TriangleInArea {
   std::vector<int> sides;                 ///< that cut it, in the order of the cuts
   std::vector<std::vector<Vec2>> pieces;  ///< convex, counter-clockwise, at least one
 };
-/// Ascending. The area must lie on the grid.
+/// Of the area as snapped; ascending. It must lie on the grid.
 [[nodiscard]] std::vector<TriangleInArea> triangles_in(const Trn& trn, const Area& area);
 
 }  // namespace talus

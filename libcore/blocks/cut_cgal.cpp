@@ -538,8 +538,9 @@ CellComplex exported(Lcc& lcc, std::vector<Leaf>& leaves, int n_uncut) {
 
 }  // namespace
 
-CellComplex cut_mass(const Trn& ground, const Trn& bed, const Area& area,
+CellComplex cut_mass(const Trn& ground, const Trn& bed, const Area& outline,
                      const std::vector<Joint>& joints, const ProgressFunction& progress) {
+  const Area area = snapped(ground, outline);
   const std::vector<TriangleInArea> triangles = triangles_of_mass(ground, bed, area);
   if (triangles.empty()) return {};
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;

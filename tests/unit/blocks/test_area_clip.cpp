@@ -4,6 +4,7 @@
 
 #include "blocks/area_clip.hpp"
 #include "blocks/assemble.hpp"
+#include "blocks/solid.hpp"
 #include "blocks/source.hpp"
 #include "scenes.hpp"
 
@@ -121,6 +122,32 @@ double farthest_outside(const BlockSet& set, const Area& area, Random& random) {
   return farthest;
 }
 
+bool boxes_meet(const Polyhedron& one, const Polyhedron& other) {
+  const auto extreme = [](const Polyhedron& body, bool high) {
+    Vec3 e = body.vertices[0];
+    for (const Vec3& v : body.vertices) e = high ? Vec3(e.cwiseMax(v)) : Vec3(e.cwiseMin(v));
+    return e;
+  };
+  return !(extreme(one, true).array() < extreme(other, false).array()).any() &&
+         !(extreme(other, true).array() < extreme(one, false).array()).any();
+}
+
+// No two blocks share more than 1e-9 of the larger.
+void expect_apart(const BlockSet& set) {
+  std::vector<Polyhedron> parts;
+  std::vector<int> block;
+  for (int b = 0; b < n_blocks(set); ++b)
+    for (int p = set.convex_part_begin[b]; p < set.convex_part_begin[b + 1]; ++p)
+      parts.push_back(convex_part(set, p)), block.push_back(b);
+  for (size_t p = 0; p < parts.size(); ++p)
+    for (size_t q = p + 1; q < parts.size(); ++q)
+      if (block[p] != block[q] && boxes_meet(parts[p], parts[q])) {
+        EXPECT_LE(common_volume(parts[p], parts[q]),
+                  1e-9 * std::max(set.volume[block[p]], set.volume[block[q]]))
+            << block[p] << " and " << block[q];
+      }
+}
+
 }  // namespace
 
 // The mass ends at the polygon: its volume is area times depth at any cell size, with corners on
@@ -185,7 +212,7 @@ TEST(AreaClip, CellsFillThePrismAndStayInside) {
     const Trn ground = rough_slope(cell);
     for (const Shape& shape : shapes())
       for (const double turn : {0.0, 45.0, 201.7})
-        for (const double offset : {0.0, 1e-9, 1e-7, 1e-5, 0.3712}) {
+        for (const double offset : {0.0, 1e-9, 3e-7, 3e-6, 1e-5, 0.3712}) {
           SCOPED_TRACE(std::string(shape.name) + ", cell " + std::to_string(cell) + ", turned " +
                        std::to_string(turn) + ", beside nodes by " + std::to_string(offset));
           const Area area = placed(shape.area, turn, Vec2(100 + offset, 100 - 2 * offset));
@@ -196,7 +223,7 @@ TEST(AreaClip, CellsFillThePrismAndStayInside) {
           double farthest = 0;
           for (const Vec3& v : complex.vertices)
             farthest = std::max(farthest, outside_by(area, v.head<2>()));
-          ASSERT_LT(farthest, 3e-6);
+          ASSERT_LT(farthest, 1e-5);
         }
   }
 }
@@ -232,6 +259,103 @@ TEST(AreaClip, ExactBlocksFillThePrism) {
         EXPECT_NEAR(walls, 10 * perimeter(area), 1e-6 * walls);
       }
   }
+}
+
+// The same with cells of 1 m, which are small against the blocks.
+TEST(AreaClip, ExactBlocksFillThePrismOnFineCells) {
+  const Trn ground = rough_slope(1);
+  const std::vector<Joint> joints = three_sets();
+  for (const double turn : {0.0, 33.0}) {
+    const Area area = placed(shapes()[2].area, turn, {100, 100});
+    const SourceMass mass = find_source(ground, area, vertical(10), {});
+    AssembleOptions options;
+    options.exact = true;
+    BlockSet set = new_set();
+    const AssembleReport report =
+        assemble_blocks(cut_mass(ground, mass.bed, area, joints), joints, mass.bed, options, set);
+    EXPECT_NEAR(report.block_volume + report.dropped_volume, 10 * area_of(area), 1e-2);
+    EXPECT_EQ(broken_promise(set), "");
+  }
+}
+
+namespace {
+
+// A star-shaped outline, its corners on nodes in every second trial.
+Area random_outline(Random& random, int number, double size, double cell) {
+  const int n = 3 + static_cast<int>(random.below(12));
+  Area area{{{}}};
+  for (int k = 0; k < n; ++k) {
+    const double angle = (k + random.uniform(0.1, 0.9)) * 2 * std::numbers::pi / n;
+    const double radius = random.uniform(0.12, 0.32) * size;
+    Vec2 p = Vec2(size / 2, size / 2) + radius * Vec2(std::cos(angle), std::sin(angle));
+    if (number % 2 == 0) p = (p / cell).array().round().matrix() * cell;
+    area.rings[0].push_back(p);
+  }
+  return without_repeated_corners(area);
+}
+
+bool is_sound(const Area& area) {
+  try {
+    check_area(area, Vec3::Zero(), {});
+  } catch (const InputError&) {
+    return false;
+  }
+  return true;
+}
+
+std::vector<Joint> random_joints(Random& random, int number, const Area& area, double size,
+                                 double cell) {
+  std::vector<JointSet> sets;
+  for (int k = 0; k < 1 + number % 3; ++k) {
+    JointSet set =
+        joint_set(random.uniform(0, 90), random.uniform(0, 360), random.uniform(1.5, 4) * cell);
+    if (number % 3 == 0) set.dip = 90 * degree, set.dip_direction = 45 * degree * random.below(8);
+    if (number % 4 == 0) set.persistence = 0.6, set.disc_diameter = 6 * cell;
+    sets.push_back(set);
+  }
+  std::vector<Joint> joints = draw_all(sets, {size / 2, size / 2, size / 3}, size, number);
+  Joint along_a_side;
+  along_a_side.plane = sides_of(area)[0].plane;
+  if (number % 5 == 0) joints.push_back(along_a_side);
+  return joints;
+}
+
+}  // namespace
+
+// Outlines and joints at random, joints along a side among them: cells fill the mass, blocks are
+// sound, do not overlap and stay inside.
+TEST(AreaClip, RandomOutlinesAndJoints) {
+  Random random(17);
+  int n_tried = 0;
+  for (int number = 0; number < 120; ++number) {
+    SCOPED_TRACE("trial " + std::to_string(number));
+    const double cell = random.uniform(1, 5), size = 20 * cell;
+    const Trn ground = grid(21, 21, cell, [&](double x, double y) {
+      return 0.6 * y + 0.2 * x + 0.4 * cell * std::sin(x / cell) * std::cos(0.7 * y / cell);
+    });
+    const Area area = random_outline(random, number, size, cell);
+    if (!is_sound(area)) continue;
+    ++n_tried;
+    const SourceMass mass = find_source(ground, area, vertical(random.uniform(0.5, 3) * cell), {});
+    const std::vector<Joint> joints = random_joints(random, number, area, size, cell);
+    const CellComplex complex = cut_mass(ground, mass.bed, area, joints);
+    ASSERT_EQ(complex.n_uncut, 0);
+    ASSERT_NEAR(sum_of_volumes(complex), mass.volume, 1e-9 * mass.volume);
+    for (const bool exact : {true, false}) {
+      AssembleOptions options;
+      options.exact = exact;
+      options.min_volume = exact ? 0 : 2e-3 * mass.volume;
+      BlockSet set = new_set();
+      const AssembleReport report = assemble_blocks(complex, joints, mass.bed, options, set);
+      EXPECT_EQ(broken_promise(set), "");
+      EXPECT_LT(farthest_outside(set, area, random), 1e-6 * size);
+      if (exact) {
+        EXPECT_NEAR(report.block_volume + report.dropped_volume, mass.volume, 1e-9 * mass.volume);
+      }
+      expect_apart(set);
+    }
+  }
+  EXPECT_GT(n_tried, 80);
 }
 
 // Convex blocks keep out of the rock beside the source, also at re-entrant corners.
