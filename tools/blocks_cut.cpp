@@ -106,6 +106,9 @@ void find_mass(Tool& tool, BlocksWork& work) {
   if (work.mass.n_above_ground > 0)
     tool.info("the failure surface lies above the ground at " +
               std::to_string(work.mass.n_above_ground) + " nodes inside the source: no mass there");
+  if (work.mass.n_extended > 0)
+    tool.info("the failure raster has no data at " + counted(work.mass.n_extended, "node") +
+              " beside the source: the depth of the nearest node that has is taken there");
   if (work.site.source.failure_surface == "plane" && work.at_foot.free_share < 0.5)
     tool.warn("the failure plane comes out of the ground along " +
               text(std::round(100 * work.at_foot.free_share)) +
@@ -113,12 +116,33 @@ void find_mass(Tool& tool, BlocksWork& work) {
               text(work.at_foot.largest_step, 2) + " m (talus-source lists planes that come out)");
 }
 
+// What is most likely not meant.
+void warn_of_mass(Tool& tool, const BlocksWork& work, const MassMeasure& measure) {
+  const SourceMass& mass = work.mass;
+  if (std::abs(mass.area / mass.polygon_area - 1) > 0.03)
+    tool.warn("the mass covers " + text(100 * mass.area / mass.polygon_area, 3) +
+              " % of the source polygon: elsewhere the failure surface does not lie below the "
+              "ground; check depth, plane or raster");
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (size_t v = 0; v < measure.vertices.size(); v += 2)  // on the ground, below it, and so on
+    low = std::min(low, measure.vertices[v].z()), high = std::max(high, measure.vertices[v].z());
+  const double half_size = std::sqrt(mass.polygon_area) / 2;
+  const std::string depth =
+      "the mass is " + text(mass.mean_depth, 3) + " m deep on average, more than ";
+  if (mass.mean_depth > high - low)
+    tool.warn(depth + "the relief of the ground over it, " + text(high - low, 3) +
+              " m; check the failure surface and its units");
+  else if (mass.mean_depth > half_size)
+    tool.warn(depth + "half the size of the source, " + text(half_size, 3) +
+              " m; check the failure surface and its units");
+}
+
 // --- joints ------------------------------------------------------------------------------------
 
-void check_expected(BlocksWork& work) {
+void check_expected(const MassMeasure& measure, BlocksWork& work) {
   std::vector<JointSet> sets;
   for (const PlannedSet& planned : work.sets) sets.push_back(planned.set);
-  work.expected = expected_cells(sets, measure_mass(work.ground, work.mass.bed));
+  work.expected = expected_cells(sets, measure);
   const auto most = static_cast<double>(work.site.source.max_blocks);
   if (work.expected > most)
     throw InputError(where_of(work.site, "source.max_blocks"),
@@ -129,17 +153,9 @@ void check_expected(BlocksWork& work) {
 }
 
 // The ball around the mass, which the joints must cross.
-void draw_all_joints(BlocksWork& work) {
+void draw_all_joints(const MassMeasure& measure, BlocksWork& work) {
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
-  for (const int node : work.mass.nodes) {
-    const int r = node / work.ground.n_cols, c = node % work.ground.n_cols;
-    for (int dr = -1; dr <= 1; ++dr)
-      for (int dc = -1; dc <= 1; ++dc)
-        for (const Trn* trn : {&work.ground, &work.mass.bed}) {
-          const Vec3 p = node_point(*trn, r + dr, c + dc);
-          low = low.cwiseMin(p), high = high.cwiseMax(p);
-        }
-  }
+  for (const Vec3& p : measure.vertices) low = low.cwiseMin(p), high = high.cwiseMax(p);
   const Vec3 centre = (low + high) / 2;
   for (size_t s = 0; s < work.sets.size(); ++s)
     for (Joint& joint :
@@ -189,14 +205,16 @@ void find_planes(Tool& tool, BlocksWork& work) {
 void cut_source(Tool& tool, bool exact, BlocksWork& work) {
   plan_sets(tool, work);
   find_mass(tool, work);
-  check_expected(work);
-  draw_all_joints(work);
+  const MassMeasure measure = measure_mass(work.ground, work.mass.bed, work.area);
+  warn_of_mass(tool, work, measure);
+  check_expected(measure, work);
+  draw_all_joints(measure, work);
   work.limits = plan_limits(work.site, work.sets, work.mass.volume, work.expected);
   work.limits.exact = exact;
   for (const PlannedSet& planned : work.sets)
     work.blocks.joint_set_names.push_back(planned.set.name);
   const ProgressFunction progress = tool.progress();
-  const CellComplex complex = cut_mass(work.ground, work.mass.bed, work.joints,
+  const CellComplex complex = cut_mass(work.ground, work.mass.bed, work.area, work.joints,
                                        [&](double share) { progress(0.5 * share); });
   work.cut = assemble_blocks(complex, work.joints, work.mass.bed, work.limits, work.blocks,
                              [&](double share) { progress(0.5 + 0.5 * share); });

@@ -94,6 +94,8 @@ Json cut_json(const BlocksWork& work) {
                {"failure_surface", work.site.source.failure_surface},
                {"prism_volume_m3", work.mass.volume},
                {"polygon_area_m2", work.mass.polygon_area},
+               {"mass_area_m2", work.mass.area},
+               {"mass_area_share", work.mass.area / work.mass.polygon_area},
                {"mean_depth_m", work.mass.mean_depth},
                {"largest_depth_m", work.mass.max_depth},
                {"expected_blocks", work.expected},
@@ -172,6 +174,9 @@ std::string blocks_summary(const Json& report) {
            " m deep on average (vertically), in " + counted(cut["n_pieces"].get<int>(), "piece") +
            "; " + counted(cut["n_slivers_merged"].get<int>(), "sliver") + " (" +
            number(cut["slivers_merged_m3"]) + " m3) given to a neighbour";
+  lines += "\nthe mass covers " + number(cut["mass_area_m2"]) + " m2, " +
+           text(100 * cut["mass_area_share"].get<double>(), 4) + " % of the polygon of " +
+           number(cut["polygon_area_m2"]) + " m2";
   if (!cut["exact"].get<bool>())
     lines += "\nmade convex: volume " + text(100 * cut["convexified_change"].get<double>(), 3) +
              " %, " + counted(cut["n_divided"].get<int>(), "block") + " as several convex parts, " +

@@ -34,7 +34,8 @@ struct AssembleReport {
   int n_dropped = 0;          ///< slivers without a neighbour, left out
   double dropped_volume = 0;  ///< of them [m3]
   int n_rings_parted = 0;     ///< ring-shaped blocks cut open, so that each is like a ball
-  int n_divided = 0;          ///< blocks made of two to four convex parts: one would lose too much
+  int n_divided = 0;          ///< blocks made of several convex parts: one would lose too much, or
+                              ///< reach out of the source
   int n_kept_exact = 0;       ///< blocks that would have lost too much by being made convex
   int n_below_limits = 0;     ///< blocks that are slivers as they now are
   int n_short_edged = 0;      ///< blocks with edges below the limit for convex parts

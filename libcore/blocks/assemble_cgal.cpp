@@ -17,8 +17,19 @@ namespace {
 struct Piece {
   std::vector<int> cells;
   Moments sum;
-  int leaf = 0;
 };
+
+// The cells of a piece that lie in one leaf.
+struct Share {
+  int piece = 0, leaf = 0;
+  std::vector<int> cells;
+  Moments sum;
+};
+
+void add_cell(std::vector<int>& cells, Moments& sum, int cell, const Moments& own) {
+  sum = cells.empty() ? own : joined(sum, own);
+  cells.push_back(cell);
+}
 
 struct Contact {
   double area = 0;
@@ -78,12 +89,9 @@ std::vector<Piece> find_pieces(const CellComplex& c, const std::vector<Polyhedro
     piece = piece_of_cell[root(parent, cell)];
     if (piece < 0) {
       piece = static_cast<int>(pieces.size());
-      pieces.push_back({{}, {}, c.cell_leaf[cell]});
+      pieces.emplace_back();
     }
-    const Moments own = moments(bodies[cell]);
-    Moments& sum = pieces[piece].sum;
-    sum = pieces[piece].cells.empty() ? own : joined(sum, own);
-    pieces[piece].cells.push_back(cell);
+    add_cell(pieces[piece].cells, pieces[piece].sum, cell, moments(bodies[cell]));
   }
   return pieces;
 }
@@ -164,9 +172,16 @@ std::vector<int> merge_slivers(const std::vector<Piece>& pieces, const Contacts&
 
 int face_origin(int made_by, const std::vector<Joint>& joints) {
   if (made_by >= 0) return joints[made_by].set;
-  return made_by == cut_failure   ? face_failure
-         : made_by == cut_terrain ? face_terrain
-                                  : face_internal;
+  switch (made_by) {
+    case cut_terrain:
+      return face_terrain;
+    case cut_failure:
+      return face_failure;
+    case cut_side:
+      return face_source_side;
+    default:
+      return face_internal;
+  }
 }
 
 // Tags of a polyhedron from CutFace or joint to FaceOrigin or joint set.
@@ -203,15 +218,16 @@ class Assembler {
     for (const Piece& piece : pieces) report.cut_volume += piece.sum.volume;
     const std::vector<int> owner = merge_slivers(pieces, contacts, options_, report);
 
-    std::vector<std::vector<int>> members(pieces.size()), in_leaf(complex_.leaves.size());
+    std::vector<std::vector<int>> members(pieces.size());
+    std::vector<std::vector<Share>> shares_in(complex_.leaves.size());
     for (int p = 0; p < static_cast<int>(pieces.size()); ++p) {
       if (owner[p] >= 0) members[owner[p]].push_back(p);
-      if (owner[p] == p) in_leaf[pieces[p].leaf].push_back(p);
+      if (owner[p] == p) add_shares(pieces[p], p, shares_in);
     }
     std::vector<Draft> drafts;
     for (int p = 0; p < static_cast<int>(pieces.size()); ++p) {
       if (progress) progress(static_cast<double>(p) / static_cast<double>(pieces.size()));
-      if (owner[p] == p) drafts.push_back(draft(pieces, p, members[p], in_leaf[pieces[p].leaf]));
+      if (owner[p] == p) drafts.push_back(draft(pieces, p, members[p], shares_in));
     }
     if (!options_.exact) keep_clear_of_exact(drafts);
     block_of_cell_.assign(complex_.cell_leaf.size(), -1);
@@ -223,17 +239,29 @@ class Assembler {
  private:
   // A block to be: the rock that it is made of, and its convex bodies; none: it stays exact.
   struct Draft {
-    int leaf = 0;
+    int joint_cell = 0;
     std::vector<int> cells;
     double volume = 0;
     std::vector<Polyhedron> parts;
   };
 
+  int joint_cell_of(int cell) const { return complex_.leaf_joint_cell[complex_.cell_leaf[cell]]; }
+
+  void add_shares(const Piece& piece, int number,
+                  std::vector<std::vector<Share>>& shares_in) const {
+    for (const int cell : piece.cells) {
+      const int leaf = complex_.cell_leaf[cell];
+      std::vector<Share>& shares = shares_in[leaf];
+      if (shares.empty() || shares.back().piece != number) shares.push_back({number, leaf, {}, {}});
+      add_cell(shares.back().cells, shares.back().sum, cell, moments(cells_[cell]));
+    }
+  }
+
   Draft draft(const std::vector<Piece>& pieces, int main, const std::vector<int>& members,
-              const std::vector<int>& in_same_leaf) const {
+              const std::vector<std::vector<Share>>& shares_in) const {
     Moments exact = pieces[members[0]].sum;
     Draft block;
-    block.leaf = pieces[main].leaf;
+    block.joint_cell = joint_cell_of(pieces[main].cells[0]);
     block.cells = pieces[members[0]].cells;
     for (size_t k = 1; k < members.size(); ++k) {
       const Piece& piece = pieces[members[k]];
@@ -241,7 +269,7 @@ class Assembler {
       block.cells.insert(block.cells.end(), piece.cells.begin(), piece.cells.end());
     }
     block.volume = exact.volume;
-    if (!options_.exact) block.parts = convex_bodies(pieces, main, in_same_leaf, exact.volume);
+    if (!options_.exact) block.parts = convex_bodies(pieces[main], main, shares_in, exact.volume);
     return block;
   }
 
@@ -249,10 +277,10 @@ class Assembler {
   // of another: slivers of that joint cell, or what reaches past the middle between blocks of one
   // joint cell. A convex block that stands in such rock stays exact too.
   void keep_clear_of_exact(std::vector<Draft>& drafts) const {
-    std::vector<std::vector<int>> in_leaf(complex_.leaves.size());
+    std::vector<std::vector<int>> in_joint_cell(complex_.leaves.size());
     std::vector<int> exact;
     for (int b = 0; b < static_cast<int>(drafts.size()); ++b) {
-      in_leaf[drafts[b].leaf].push_back(b);
+      in_joint_cell[drafts[b].joint_cell].push_back(b);
       if (drafts[b].parts.empty()) exact.push_back(b);
     }
     while (!exact.empty()) {
@@ -260,7 +288,7 @@ class Assembler {
       exact.pop_back();
       std::map<int, double> shared;
       for (const int cell : block.cells)
-        for (const int other : in_leaf[complex_.cell_leaf[cell]])
+        for (const int other : in_joint_cell[joint_cell_of(cell)])
           for (const Polyhedron& part : drafts[other].parts)
             shared[other] += common_volume(part, cells_[cell]);
       for (const auto& [other, volume] : shared) {
@@ -344,21 +372,10 @@ class Assembler {
     return body;
   }
 
-  template <class Visit>
-  void for_each_vertex(const Piece& piece, Visit visit) const {
-    for (const int cell : piece.cells)
-      for (int f = cell_face_begin_[cell]; f < cell_face_begin_[cell + 1]; ++f) {
-        int d = complex_.face_dart[f];
-        do {
-          visit(complex_.vertices[complex_.dart_vertex[d]]);
-          d = complex_.dart_next[d];
-        } while (d != complex_.face_dart[f]);
-      }
-  }
-
-  double largest_along(const Piece& piece, const Vec3& direction) const {
+  double largest_along(const Share& share, const Vec3& direction) const {
     double largest = -std::numeric_limits<double>::infinity();
-    for_each_vertex(piece, [&](const Vec3& v) { largest = std::max(largest, direction.dot(v)); });
+    for (const int cell : share.cells)
+      for (const Vec3& v : cells_[cell].vertices) largest = std::max(largest, direction.dot(v));
     return largest;
   }
 
@@ -368,37 +385,53 @@ class Assembler {
     return options_.min_edge < 0 ? 1e-3 * std::cbrt(volume) : options_.min_edge;
   }
 
-  // The joint cell, cut off half way to the other pieces in it.
-  Polyhedron room_of(const std::vector<Piece>& pieces, int p,
-                     const std::vector<int>& others) const {
-    Polyhedron room = complex_.leaves[pieces[p].leaf];
+  // The leaf, cut off half way to the other pieces in it.
+  Polyhedron room_of(const Share& own, const std::vector<Share>& in_leaf) const {
+    Polyhedron room = complex_.leaves[own.leaf];
     name_faces(room, joints_);
-    for (const int q : others) {
-      if (q == p || n_faces(room) == 0) continue;
-      const int first = std::min(p, q), second = std::max(p, q);
-      Vec3 apart = pieces[second].sum.centroid - pieces[first].sum.centroid;
+    for (const Share& other : in_leaf) {
+      if (other.piece == own.piece || n_faces(room) == 0) continue;
+      const bool is_first = own.piece < other.piece;
+      const Share &first = is_first ? own : other, &second = is_first ? other : own;
+      Vec3 apart = second.sum.centroid - first.sum.centroid;
       if (apart.norm() == 0) apart = Vec3::UnitX();
       apart.normalize();
-      const double middle =
-          (largest_along(pieces[first], apart) - largest_along(pieces[second], -apart)) / 2;
+      const double middle = (largest_along(first, apart) - largest_along(second, -apart)) / 2;
       const Plane between{apart, middle};
-      room = clip_convex(room, p == first ? between : flipped(between), face_terrain, tolerance_);
+      room = clip_convex(room, is_first ? between : flipped(between), face_terrain, tolerance_);
     }
     return room;
   }
 
-  std::vector<Polyhedron> convex_bodies(const std::vector<Piece>& pieces, int p,
-                                        const std::vector<int>& in_leaf, double volume) const {
-    ConvexTask task;
-    task.room = room_of(pieces, p, in_leaf);
-    if (n_faces(task.room) == 0) return {};
-    for (const int cell : pieces[p].cells) task.cells.push_back(cells_[cell]);
-    task.volume = volume;
+  // What the piece's joint cell leaves it to be convex in, leaf by leaf; what it took in is shared
+  // out by volume.
+  std::vector<ConvexTask> convex_tasks(const Piece& piece, int number,
+                                       const std::vector<std::vector<Share>>& shares_in,
+                                       double volume) const {
+    std::map<int, const Share*> shares;
+    for (const int cell : piece.cells)
+      for (const Share& share : shares_in[complex_.cell_leaf[cell]])
+        if (share.piece == number) shares[share.leaf] = &share;
+    std::vector<ConvexTask> tasks;
+    for (const auto& [leaf, share] : shares) {
+      ConvexTask task;
+      task.room = room_of(*share, shares_in[leaf]);
+      for (const int cell : share->cells) task.cells.push_back(cells_[cell]);
+      task.volume = shares.size() == 1 ? volume : volume * share->sum.volume / piece.sum.volume;
+      tasks.push_back(std::move(task));
+    }
+    return tasks;
+  }
+
+  std::vector<Polyhedron> convex_bodies(const Piece& piece, int number,
+                                        const std::vector<std::vector<Share>>& shares_in,
+                                        double volume) const {
     ConvexOptions options;
     options.max_loss = options_.max_convex_loss;
     options.tolerance_m = tolerance_;
     options.min_edge = min_edge(volume);
-    std::vector<Polyhedron> parts = made_convex_parts(task, bed_, options);
+    std::vector<Polyhedron> parts =
+        made_convex_parts(convex_tasks(piece, number, shares_in, volume), bed_, options);
     const bool all_sound = std::all_of(parts.begin(), parts.end(), [](const Polyhedron& part) {
       return check_surface(part).fault == SurfaceFault::none;
     });

@@ -84,9 +84,9 @@ bool all_within(const std::vector<int>& values, int low, size_t end) {
 }
 
 std::string broken_index(const BlockSet& set) {
-  if (!all_within(set.joint_set, face_internal, set.joint_set_names.size()) ||
-      !all_within(set.part_joint_set, face_internal, set.joint_set_names.size()) ||
-      !all_within(set.pair_joint_set, face_internal, set.joint_set_names.size()))
+  if (!all_within(set.joint_set, face_source_side, set.joint_set_names.size()) ||
+      !all_within(set.part_joint_set, face_source_side, set.joint_set_names.size()) ||
+      !all_within(set.pair_joint_set, face_source_side, set.joint_set_names.size()))
     return "joint_set names a joint set that does not exist";
   if (!all_within(set.material, 0, set.material_names.size()))
     return "material names a material that does not exist";

@@ -19,9 +19,10 @@ namespace talus {
 
 /// What made a face; joint sets count from 0.
 enum FaceOrigin : int {
-  face_terrain = -1,   ///< the ground surface, or any face of a block that was not cut here
-  face_failure = -2,   ///< the failure surface below the mass
-  face_internal = -3,  ///< in the rock: between convex parts, or where a ring was parted
+  face_terrain = -1,      ///< the ground surface, or any face of a block that was not cut here
+  face_failure = -2,      ///< the failure surface below the mass
+  face_internal = -3,     ///< in the rock: between convex parts, or where a ring was parted
+  face_source_side = -4,  ///< the vertical wall along the outline of the source
 };
 
 struct BlockSet {  // clang-format off

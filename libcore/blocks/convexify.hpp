@@ -1,7 +1,8 @@
 // libcore/blocks/convexify.hpp
 // Makes a block convex inside its joint cell: the bed is kept clear of by supporting planes, the
 // volume is kept by the height of one plane on the terrain side. A block that would lose too much
-// as one convex body becomes two or four that meet in planes.
+// as one convex body becomes two or four that meet in planes, and so does one at a re-entrant
+// corner of the source.
 #pragma once
 
 #include <vector>
@@ -14,7 +15,8 @@ namespace talus {
 /// A block as it was cut, and the room that it may take.
 struct ConvexTask {
   std::vector<Polyhedron> cells;  ///< convex cells that fill the block; face_tag as CutFace
-  Polyhedron room;                ///< convex: joint cell, cut off from other blocks in it
+  Polyhedron room;                ///< convex: joint cell within the source, cut off from other
+                                  ///< blocks in it
   double volume = 0;              ///< to be kept, > 0 [m3]
 };
 
@@ -30,10 +32,11 @@ struct ConvexOptions {
 [[nodiscard]] Polyhedron made_convex(const ConvexTask& task, const Trn& bed,
                                      const ConvexOptions& options);
 
-/// One, two or up to four convex bodies that keep at least 1 - max_loss of the volume; empty when
-/// that cannot be done, or would leave bodies that do not hang together. Two bodies meet in a
-/// vertical plane and do not overlap.
-[[nodiscard]] std::vector<Polyhedron> made_convex_parts(const ConvexTask& task, const Trn& bed,
+/// A convex body for each task of a block, and up to three more, that keep at least 1 - max_loss of
+/// the volume; empty when that cannot be done, or would leave bodies that do not hang together. Two
+/// bodies meet in a vertical plane and do not overlap.
+[[nodiscard]] std::vector<Polyhedron> made_convex_parts(const std::vector<ConvexTask>& tasks,
+                                                        const Trn& bed,
                                                         const ConvexOptions& options);
 
 /// A convex body inside `body` without edges shorter than `shortest` [m]: of vertices that near one

@@ -241,13 +241,18 @@ std::vector<Vec3> corners_of(const Polyhedron& body, int f) {
   return corners;
 }
 
+// Where the block was divided, or where the line of a side of the source goes on into it.
+bool may_part_a_block(int face_tag) {
+  return face_tag == face_internal || face_tag == face_source_side;
+}
+
 // Do two bodies share a part of a face where the block was divided?
 bool meet(const Polyhedron& one, const Polyhedron& other, double tolerance) {
   for (int f = 0; f < n_faces(one); ++f) {
-    if (one.face_tag[f] != face_internal) continue;
+    if (!may_part_a_block(one.face_tag[f])) continue;
     const Vec3 normal = face_normal(one, f), centre = face_centroid(one, f);
     for (int g = 0; g < n_faces(other); ++g) {
-      if (other.face_tag[g] != face_internal || face_normal(other, g).dot(normal) > -1 + 1e-9 ||
+      if (!may_part_a_block(other.face_tag[g]) || face_normal(other, g).dot(normal) > -1 + 1e-9 ||
           std::abs(normal.dot(face_centroid(other, g) - centre)) > tolerance)
         continue;
       const double least = 1e-6 * std::min(face_area(one, f), face_area(other, g));
@@ -312,22 +317,27 @@ Polyhedron made_convex(const ConvexTask& task, const Trn& bed, const ConvexOptio
   return {};
 }
 
-std::vector<Polyhedron> made_convex_parts(const ConvexTask& task, const Trn& bed,
+std::vector<Polyhedron> made_convex_parts(const std::vector<ConvexTask>& tasks, const Trn& bed,
                                           const ConvexOptions& options) {
   struct Part {
     ConvexTask task;
     Polyhedron body;
     [[nodiscard]] double missing() const { return task.volume - volume_of(body); }
   };
-  std::vector<Part> parts = {{task, made_convex(task, bed, options)}};
+  std::vector<Part> parts;
+  double volume = 0;
+  for (const ConvexTask& task : tasks) {
+    parts.push_back({task, task.volume > 0 ? made_convex(task, bed, options) : Polyhedron{}});
+    volume += task.volume;
+  }
   const auto missing = [&] {
     double sum = 0;
     for (const Part& part : parts) sum += std::abs(part.missing());
     return sum;
   };
   // The part that misses most is divided across the direction that then misses least.
-  while (missing() > options.max_loss * task.volume) {
-    if (parts.size() == 4) return {};
+  while (missing() > options.max_loss * volume) {
+    if (parts.size() == tasks.size() + 3) return {};
     const auto worst =
         std::max_element(parts.begin(), parts.end(),
                          [](const Part& a, const Part& b) { return a.missing() < b.missing(); });

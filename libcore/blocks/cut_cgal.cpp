@@ -7,18 +7,21 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <numeric>
 #include <unordered_map>
 
+#include "blocks/area_clip.hpp"
 #include "blocks/cut.hpp"
 #include "blocks/joint_cell_tree.hpp"
 
 namespace talus {
 namespace {
 
-// What a vertex remembers: which joint it was last compared with, and on which side it lies.
+// What a vertex remembers: which plane it was last compared with, and on which side it lies.
 struct VertexInfo {
-  int joint = -1;
+  int joint = -1;   // or n_joints + side of the outline
   double side = 0;  // signed distance, exactly 0 on the joint [m]
   int index = -1;   // in the finished complex
 };
@@ -176,22 +179,28 @@ class ColumnBuilder {
 
 // --- cutting -----------------------------------------------------------------------------------
 
+// Plane j is that of joint j, or of side j - n_joints of the outline.
 class Cutter {
  public:
-  Cutter(Lcc& lcc, const std::vector<Joint>& joints, double tolerance)
-      : lcc_(lcc), joints_(joints), tolerance_(tolerance) {}
+  Cutter(Lcc& lcc, const std::vector<Joint>& joints, const std::vector<AreaSide>& sides,
+         double tolerance, double side_tolerance)
+      : lcc_(lcc),
+        joints_(joints),
+        sides_(sides),
+        tolerance_(tolerance),
+        side_tolerance_(side_tolerance) {}
 
   int n_uncut = 0;
 
   // Which sides of joint j the piece reaches: bit 1 inside, bit 2 outside.
   int sides_of(const Piece& piece, int j) {
-    const Plane& plane = joints_[j].plane;
+    const Plane& plane = plane_of(j);
     const Vec3 middle = (piece.low + piece.high) / 2;
     const double reach = plane.normal.cwiseAbs().dot(piece.high - piece.low) / 2;
     const double at = distance(plane, middle);
     // Far from the joint: the box says it. Nearer, the vertices do, and are remembered.
-    if (at > reach + tolerance_) return 2;
-    if (at < -reach - tolerance_) return 1;
+    if (at > reach + tolerance_of(j)) return 2;
+    if (at < -reach - tolerance_of(j)) return 1;
     int sides = 0;
     for (auto it = lcc_.darts_of_orbit<1, 2>(piece.dart).begin(),
               end = lcc_.darts_of_orbit<1, 2>(piece.dart).end();
@@ -218,15 +227,7 @@ class Cutter {
 
   // Whether the discs of joint j cover its section through the piece.
   bool is_covered(const Piece& piece, int j) {
-    std::vector<Vec3> section;
-    for (auto it = lcc_.darts_of_orbit<1, 2>(piece.dart).begin(),
-              end = lcc_.darts_of_orbit<1, 2>(piece.dart).end();
-         it != end; ++it) {
-      const Dart next = lcc_.beta(it, 1);
-      const double a = side_of(it, j), b = side_of(next, j);
-      if (a == 0) section.push_back(point_of(lcc_, it));
-      if (a < 0 && b > 0) section.push_back(crossing(it, next));
-    }
+    const std::vector<Vec3> section = section_of(piece, j);
     return std::any_of(joints_[j].discs.begin(), joints_[j].discs.end(), [&](const Disc& disc) {
       return std::all_of(section.begin(), section.end(), [&](const Vec3& p) {
         return (p - disc.centre).squaredNorm() <= disc.radius * disc.radius;
@@ -234,7 +235,28 @@ class Cutter {
     });
   }
 
-  // Cuts the piece, which reaches both sides of joint j; false when it could not be done.
+  // The parts of a column of the mass inside the area; the rest is taken out of the complex.
+  std::vector<Piece> trimmed(const Piece& column, const std::vector<int>& sides, const Area& area) {
+    std::vector<Piece> parts = {column};
+    for (const int s : sides) {
+      const int j = static_cast<int>(joints_.size()) + s;
+      for (size_t k = parts.size(); k-- > 0;) {
+        if (sides_of(parts[k], j) != 3 || !is_crossed_by_side(parts[k], j)) continue;
+        Piece inner, outer;
+        if (!cut(parts[k], j, inner, outer)) continue;
+        parts[k] = inner;
+        parts.push_back(outer);
+      }
+    }
+    std::erase_if(parts, [&](const Piece& part) {
+      const bool is_outside = !contains(area, middle_of(part).template head<2>());
+      if (is_outside) lcc_.remove_cell<3>(part.dart);
+      return is_outside;
+    });
+    return parts;
+  }
+
+  // Cuts the piece, which reaches both sides of plane j; false when it could not be done.
   bool cut(const Piece& piece, int j, Piece& inner, Piece& outer) {
     split_edges(piece, j);
     split_faces(piece, j);
@@ -250,19 +272,56 @@ class Cutter {
       return ++n_uncut, false;
     const Dart outside = lcc_.beta(start, 2);
     const Dart face = lcc_.insert_cell_2_in_cell_3(rim.begin(), rim.end());
-    lcc_.set_attribute<2>(face, lcc_.create_attribute<2>(j));
+    lcc_.set_attribute<2>(face, lcc_.create_attribute<2>(is_side(j) ? int{cut_wall} : j));
     inner = piece_of(start);
     outer = piece_of(outside);
     return true;
   }
 
  private:
+  bool is_side(int j) const { return j >= static_cast<int>(joints_.size()); }
+  const AreaSide& area_side(int j) const { return sides_[static_cast<size_t>(j) - joints_.size()]; }
+  const Plane& plane_of(int j) const {
+    return is_side(j) ? area_side(j).plane : joints_[static_cast<size_t>(j)].plane;
+  }
+  double tolerance_of(int j) const { return is_side(j) ? side_tolerance_ : tolerance_; }
+
+  // Points of the plane's section through the piece, its corners among them.
+  std::vector<Vec3> section_of(const Piece& piece, int j) {
+    std::vector<Vec3> section;
+    for (auto it = lcc_.darts_of_orbit<1, 2>(piece.dart).begin(),
+              end = lcc_.darts_of_orbit<1, 2>(piece.dart).end();
+         it != end; ++it) {
+      const Dart next = lcc_.beta(it, 1);
+      const double a = side_of(it, j), b = side_of(next, j);
+      if (a == 0) section.push_back(point_of(lcc_, it));
+      if (a < 0 && b > 0) section.push_back(crossing(it, next));
+    }
+    return section;
+  }
+
+  bool is_crossed_by_side(const Piece& piece, int j) {
+    SideRange range;
+    for (const Vec3& p : section_of(piece, j)) include(range, area_side(j), p.head<2>());
+    return runs_through(area_side(j), range, side_tolerance_);
+  }
+
+  Vec3 middle_of(const Piece& piece) {
+    Vec3 sum = Vec3::Zero();
+    int n = 0;
+    for (auto it = lcc_.one_dart_per_incident_cell<0, 3, 2>(piece.dart).begin(),
+              end = lcc_.one_dart_per_incident_cell<0, 3, 2>(piece.dart).end();
+         it != end; ++it, ++n)
+      sum += point_of(lcc_, it);
+    return sum / n;
+  }
+
   double side_of(Dart d, int j) {
     VertexInfo& info = lcc_.info<0>(d);
     if (info.joint != j) {
       info.joint = j;
-      info.side = distance(joints_[j].plane, point_of(lcc_, d));
-      if (std::abs(info.side) <= tolerance_) info.side = 0;
+      info.side = distance(plane_of(j), point_of(lcc_, d));
+      if (std::abs(info.side) <= tolerance_of(j)) info.side = 0;
     }
     return info.side;
   }
@@ -379,9 +438,50 @@ class Cutter {
 
   Lcc& lcc_;
   const std::vector<Joint>& joints_;
-  double tolerance_;
+  const std::vector<AreaSide>& sides_;
+  double tolerance_, side_tolerance_;
   int n_rim_ = 0;
 };
+
+// --- the mass inside its outline ---------------------------------------------------------------
+
+// Triangles with rock over the bed; without rings in `area` no side cuts them.
+std::vector<TriangleInArea> triangles_of_mass(const Trn& ground, const Trn& bed, const Area& area) {
+  std::vector<TriangleInArea> triangles;
+  if (area.rings.empty())
+    for (int t = 0; t < n_triangles(ground); ++t) triangles.push_back({t, {}, {}});
+  else
+    triangles = triangles_in(ground, area);
+  std::erase_if(triangles, [&](const TriangleInArea& one) {
+    return !is_known(ground, one.triangle) ||
+           triangle_corners(ground, one.triangle) == triangle_corners(bed, one.triangle);
+  });
+  return triangles;
+}
+
+// All columns are sewn before the first is trimmed: walls match while they are whole.
+std::vector<Piece> columns_in(Lcc& lcc, const Trn& ground, const Trn& bed,
+                              const std::vector<TriangleInArea>& triangles, const Area& area,
+                              Cutter& cutter, double thin) {
+  ColumnBuilder builder(lcc, ground, bed, thin);
+  std::vector<Piece> columns;
+  std::vector<const TriangleInArea*> made_for;
+  for (const TriangleInArea& one : triangles) {
+    builder.add_triangle(one.triangle, columns);
+    made_for.resize(columns.size(), &one);
+  }
+  std::vector<Piece> pieces;
+  for (size_t k = 0; k < columns.size(); ++k) {
+    if (made_for[k]->sides.empty())
+      pieces.push_back(columns[k]);
+    else
+      for (const Piece& part : cutter.trimmed(columns[k], made_for[k]->sides, area))
+        pieces.push_back(part);
+  }
+  for (auto it = lcc.darts().begin(), end = lcc.darts().end(); it != end; ++it)
+    if (lcc.is_free<3>(it) && lcc.info<2>(it) == cut_wall) lcc.info<2>(it) = cut_side;
+  return pieces;
+}
 
 // --- export ------------------------------------------------------------------------------------
 
@@ -425,6 +525,7 @@ CellComplex exported(Lcc& lcc, std::vector<Leaf>& leaves, int n_uncut) {
     for (const Piece& piece : leaf.pieces)
       number_piece(lcc, piece, static_cast<int>(out.leaves.size()), out);
     out.leaves.push_back(std::move(leaf.body));
+    out.leaf_joint_cell.push_back(leaf.joint_cell);
   }
   out.dart_twin.assign(out.dart_vertex.size(), -1);
   out.dart_opposite.assign(out.dart_vertex.size(), -1);
@@ -437,28 +538,24 @@ CellComplex exported(Lcc& lcc, std::vector<Leaf>& leaves, int n_uncut) {
 
 }  // namespace
 
-CellComplex cut_mass(const Trn& ground, const Trn& bed, const std::vector<Joint>& joints,
-                     const ProgressFunction& progress) {
-  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
-  const auto include = [&](const Vec3& p) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  };
-  std::vector<int> triangles;
-  for (int t = 0; t < n_triangles(ground); ++t) {
-    const auto above = triangle_corners(ground, t), below = triangle_corners(bed, t);
-    if (above == below || !is_known(ground, t)) continue;
-    triangles.push_back(t);
-    for (int k = 0; k < 3; ++k) include(above[k]), include(below[k]);
-  }
+CellComplex cut_mass(const Trn& ground, const Trn& bed, const Area& outline,
+                     const std::vector<Joint>& joints, const ProgressFunction& progress) {
+  const Area area = snapped(ground, outline);
+  const std::vector<TriangleInArea> triangles = triangles_of_mass(ground, bed, area);
   if (triangles.empty()) return {};
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (const TriangleInArea& one : triangles)
+    for (const Trn* trn : {&ground, &bed})
+      for (const Vec3& p : triangle_corners(*trn, one.triangle))
+        low = low.cwiseMin(p), high = high.cwiseMax(p);
   const double diagonal = (high - low).norm();
   const double tolerance = 1e-8 * diagonal;
 
   Lcc lcc;
+  const std::vector<AreaSide> sides = sides_of(area);
+  Cutter cutter(lcc, joints, sides, tolerance, area.rings.empty() ? 0 : side_tolerance(area));
   Leaf root;
-  ColumnBuilder builder(lcc, ground, bed, tolerance);
-  for (const int t : triangles) builder.add_triangle(t, root.pieces);
+  root.pieces = columns_in(lcc, ground, bed, triangles, area, cutter, tolerance);
   // The joint cells reach above the ground, where blocks made convex may need the room.
   const Vec3 room = Vec3::Constant(0.05 * diagonal);
   root.body = box(low - room, high + room, cut_wall);
@@ -466,10 +563,12 @@ CellComplex cut_mass(const Trn& ground, const Trn& bed, const std::vector<Joint>
   for (const bool is_through : {true, false})
     for (int j = 0; j < static_cast<int>(joints.size()); ++j)
       if (joints[j].is_through == is_through) root.candidates.push_back(j);
+  root.sides.resize(sides.size());
+  std::iota(root.sides.begin(), root.sides.end(), 0);
 
-  Cutter cutter(lcc, joints, tolerance);
   std::vector<Leaf> leaves;
-  JointCellTree<Piece, Cutter>(cutter, joints, tolerance, progress).grow(std::move(root), leaves);
+  JointCellTree<Piece, Cutter>(cutter, joints, sides, tolerance, progress)
+      .grow(std::move(root), leaves);
   return exported(lcc, leaves, cutter.n_uncut);
 }
 

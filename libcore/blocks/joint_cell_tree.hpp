@@ -1,7 +1,10 @@
 // libcore/blocks/joint_cell_tree.hpp
 // The binary tree of joint cells: which joint divides which of them, and in what order.
-// in:    one joint cell around the mass with all pieces of rock, joints, and what cuts a piece
-// out:   the joint cells that no joint divides any more, each with its pieces
+// in:    one joint cell around the mass with all pieces of rock, joints, the sides of the outline
+// of
+//        the mass, and what cuts a piece
+// out:   the joint cells that no joint divides any more, each cut by the sides that cross it into
+//        convex leaves, with their pieces
 //
 // Within the module, for cut_cgal.cpp: there stands how a piece is kept and cut.
 #pragma once
@@ -11,20 +14,24 @@
 #include <vector>
 
 #include "base/progress.hpp"
+#include "blocks/area_clip.hpp"
+#include "blocks/cut.hpp"
 #include "blocks/joint_sets.hpp"
 #include "geometry/polyhedron.hpp"
 
 namespace talus {
 
-/// A joint cell: convex, with the pieces of rock that lie in it.
+/// A joint cell or a part of one: convex, with the pieces of rock that lie in it.
 template <class Piece>
 struct JointCell {
   Polyhedron body;
   std::vector<Piece> pieces;
   std::vector<int> candidates;  ///< joints that may still cut it, those that are whole first
+  std::vector<int> sides;       ///< of the outline, that may still cut it
+  int joint_cell = -1;          ///< its number, once no joint divides it any more
 };
 
-/// `Cutter` is asked of one piece and joint j:
+/// `Cutter` is asked of one piece and joint j; side s of the outline is n_joints + s there:
 ///   sides_of(piece, j)           which sides of the joint it reaches: bit 1 inside, bit 2 outside
 ///   has_wall_on(piece, j)        whether a wall on the joint has rock on its other side
 ///   is_covered(piece, j)         whether the joint's discs cover its section through the piece
@@ -36,9 +43,14 @@ class JointCellTree {
  public:
   using Leaf = JointCell<Piece>;
 
-  JointCellTree(Cutter& cutter, const std::vector<Joint>& joints, double tolerance,
+  JointCellTree(Cutter& cutter, const std::vector<Joint>& joints,
+                const std::vector<AreaSide>& sides, double tolerance,
                 const ProgressFunction& progress)
-      : cutter_(cutter), joints_(joints), tolerance_(tolerance), progress_(progress) {}
+      : cutter_(cutter),
+        joints_(joints),
+        sides_(sides),
+        tolerance_(tolerance),
+        progress_(progress) {}
 
   /// Finished joint cells go to `leaves`, each with its pieces.
   void grow(Leaf root, std::vector<Leaf>& leaves) {
@@ -48,7 +60,7 @@ class JointCellTree {
     while (!open.empty()) {
       auto [leaf, share] = std::move(open.back());
       open.pop_back();
-      const int j = take_joint(leaf);
+      const int j = take_cut(leaf);
       if (j < 0) {
         leaves.push_back(std::move(leaf));
         done += share;
@@ -65,6 +77,37 @@ class JointCellTree {
   }
 
  private:
+  // The next joint that cuts the leaf; when there is none left, the next side; -1 when that
+  // neither.
+  int take_cut(Leaf& leaf) {
+    std::erase_if(leaf.sides,
+                  [&](int s) { return !runs_through(sides_[s], leaf.body, tolerance_); });
+    if (leaf.joint_cell < 0) {
+      const int j = take_joint(leaf);
+      if (j >= 0) return j;
+      leaf.joint_cell = n_joint_cells_++;
+    }
+    const int s = take_side(leaf);
+    return s < 0 ? s : n_joints() + s;
+  }
+
+  // Sides first that leave the rock whole: they may spare it the others.
+  int take_side(Leaf& leaf) {
+    if (leaf.sides.empty()) return -1;
+    auto at = std::find_if(leaf.sides.begin(), leaf.sides.end(),
+                           [&](int s) { return !parts_rock(leaf, n_joints() + s); });
+    if (at == leaf.sides.end()) at = leaf.sides.begin();
+    const int s = *at;
+    leaf.sides.erase(at);
+    return s;
+  }
+
+  bool parts_rock(const Leaf& leaf, int j) {
+    int sides = 0;
+    for (const Piece& piece : leaf.pieces) sides |= cutter_.sides_of(piece, j);
+    return sides == 3;
+  }
+
   // The next joint that cuts the leaf, taken off its list: of the joints that are whole, the one in
   // the middle of the list, so that the tree stays low. Joints that miss the leaf are dropped.
   int take_joint(Leaf& leaf) {
@@ -109,8 +152,11 @@ class JointCellTree {
 
   std::pair<Leaf, Leaf> divide(Leaf leaf, int j) {
     Leaf inner, outer;
-    inner.body = clip_convex(leaf.body, joints_[j].plane, j, tolerance_);
-    outer.body = clip_convex(leaf.body, flipped(joints_[j].plane), j, tolerance_);
+    const bool is_side = j >= n_joints();
+    const Plane& plane = is_side ? sides_[j - n_joints()].plane : joints_[j].plane;
+    const int made_by = is_side ? int{cut_side} : j;
+    inner.body = clip_convex(leaf.body, plane, made_by, tolerance_);
+    outer.body = clip_convex(leaf.body, flipped(plane), made_by, tolerance_);
     for (const Piece& piece : leaf.pieces) {
       const int sides = cutter_.sides_of(piece, j);
       if (sides == 3) {
@@ -123,16 +169,23 @@ class JointCellTree {
         }
         continue;
       }
-      cutter_.mark_faces_on(piece, j);
+      if (!is_side) cutter_.mark_faces_on(piece, j);
       (sides == 2 ? outer : inner).pieces.push_back(piece);
     }
+    inner.joint_cell = outer.joint_cell = leaf.joint_cell;
+    inner.sides = leaf.sides;
+    outer.sides = std::move(leaf.sides);
     inner.candidates = leaf.candidates;
     outer.candidates = std::move(leaf.candidates);
     return {std::move(inner), std::move(outer)};
   }
 
+  int n_joints() const { return static_cast<int>(joints_.size()); }
+
   Cutter& cutter_;
   const std::vector<Joint>& joints_;
+  const std::vector<AreaSide>& sides_;
+  int n_joint_cells_ = 0;
   double tolerance_;
   const ProgressFunction& progress_;
 };

@@ -72,7 +72,9 @@ struct Attitude {
 struct MassMeasure {
   double volume = 0;               ///< [m3]
   std::vector<Vec3> vertices;      ///< of its surface [m]
-  std::vector<Vec3> area_vectors;  ///< of the faces of its surface [m2]
+  std::vector<Vec3> area_vectors;  ///< of the faces of its surface, either way round [m2]
+  double plan_area = 0;            ///< [m2]
+  double max_depth = 0;            ///< vertical [m]
 };
 
 /// Mean number of joint cells in a mass, taking every joint as through-going; 1 at least. Sets of

@@ -2,69 +2,20 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "base/text.hpp"
+#include "blocks/area_clip.hpp"
 #include "terrain/extent_text.hpp"
 
 namespace talus {
 namespace {
 
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-double ring_area(const std::vector<Vec2>& ring) {
-  double twice = 0;
-  for (size_t k = 0; k < ring.size(); ++k)
-    twice += cross(ring[k] - ring[0], ring[(k + 1) % ring.size()] - ring[0]);
-  return twice / 2;
-}
-
-bool on_segment(const Vec2& a, const Vec2& b, const Vec2& p) {
-  const Vec2 along = b - a;
-  const double length_sq = along.squaredNorm();
-  if (length_sq == 0) return (p - a).squaredNorm() == 0;
-  const double t = (p - a).dot(along) / length_sq;
-  return t >= 0 && t <= 1 && std::abs(cross(along, p - a)) <= 1e-9 * length_sq;
-}
-
-struct Segment {
-  Vec2 a, b;
-  size_t ring, index, n;  // of its ring
-};
-
-// Neighbours share an end; anything more is a fault, as is any touch of other segments.
-bool collide(const Segment& s, const Segment& t) {
-  const bool follows = s.ring == t.ring && (s.index + 1) % s.n == t.index;
-  const bool precedes = s.ring == t.ring && (t.index + 1) % t.n == s.index;
-  if (follows || precedes) {
-    const Vec2& far = follows ? t.b : t.a;  // the end that is not shared
-    return s.n > 2 && on_segment(s.a, s.b, far);
-  }
-  const double d1 = cross(s.b - s.a, t.a - s.a), d2 = cross(s.b - s.a, t.b - s.a);
-  const double d3 = cross(t.b - t.a, s.a - t.a), d4 = cross(t.b - t.a, s.b - t.a);
-  if (((d1 > 0) != (d2 > 0)) && ((d3 > 0) != (d4 > 0)) && d1 != 0 && d2 != 0 && d3 != 0 && d4 != 0)
-    return true;
-  return on_segment(s.a, s.b, t.a) || on_segment(s.a, s.b, t.b) || on_segment(t.a, t.b, s.a) ||
-         on_segment(t.a, t.b, s.b);
-}
-
 std::string place_text(const Vec2& local, const Vec3& origin) {
   return "(" + text(local.x() + origin.x(), 10) + ", " + text(local.y() + origin.y(), 10) + ")";
-}
-
-InputError crossing(const Segment& s, const Segment& t, const Vec3& origin, const Where& where) {
-  const auto ends = [&](const Segment& side) {
-    return place_text(side.a, origin) + " and " + place_text(side.b, origin);
-  };
-  if (s.ring == t.ring)
-    return {where,
-            "the source area crosses itself between " + ends(s) + ", where " +
-                place_text(t.a, origin) + " - " + place_text(t.b, origin) + " meets it",
-            "put the corners in order around the area"};
-  return {where,
-          "two outlines of the source area meet: the side between " + ends(s) +
-              " and that between " + ends(t),
-          "dissolve areas that share a side into one; a hole must not touch the outline"};
 }
 
 // Nodes of the TRN inside the area; throws when they are too few or unknown.
@@ -92,6 +43,30 @@ std::vector<int> nodes_inside(const Trn& ground, const Area& area, const Where& 
   return nodes;
 }
 
+std::array<size_t, 3> triangle_nodes(const Trn& trn, int triangle) {
+  const auto [r, c] = cell_of_triangle(trn, triangle);
+  const size_t north_west = node_index(trn, r, c), south_east = node_index(trn, r + 1, c + 1);
+  if (triangle % 2 == 0) return {north_west, node_index(trn, r + 1, c), south_east};
+  return {north_west, south_east, node_index(trn, r, c + 1)};
+}
+
+// Corners of the triangles that the area overlaps, ascending: below all of it the bed is then the
+// failure surface.
+std::vector<int> corners_of(const Trn& ground, const std::vector<TriangleInArea>& triangles) {
+  std::vector<int> nodes;
+  for (const TriangleInArea& one : triangles)
+    for (const size_t node : triangle_nodes(ground, one.triangle))
+      nodes.push_back(static_cast<int>(node));
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
+Vec2 place_of(const Trn& trn, int node) {
+  const int r = node / trn.n_cols, c = node % trn.n_cols;
+  return {trn.node0.x() + c * trn.cell_size, trn.node0.y() - r * trn.cell_size};
+}
+
 bool has_node(const Trn& trn, int r, int c) {
   return r >= 0 && c >= 0 && r < trn.n_rows && c < trn.n_cols;
 }
@@ -109,7 +84,7 @@ void check_known(const Trn& ground, const std::vector<int>& nodes, const Where& 
                          std::string("the source area touches ") +
                              (exists ? "nodata" : "the edge of the terrain") + " at " +
                              place_text(p, ground.origin),
-                         "fill the terrain there, or keep the source a cell away from it");
+                         "fill the terrain there, or keep the source two cells away from it");
       }
   }
 }
@@ -157,8 +132,7 @@ double lower_to_base_level(const Trn& ground, const std::vector<int>& nodes,
 }
 
 double surface_at(const Trn& ground, int node, const SourceOptions& options, const Where& where) {
-  const int r = node / ground.n_cols, c = node % ground.n_cols;
-  const Vec2 p(ground.node0.x() + c * ground.cell_size, ground.node0.y() - r * ground.cell_size);
+  const Vec2 p = place_of(ground, node);
   switch (options.kind) {
     case FailureSurface::vertical_depth:
       return ground.elevation[node] - options.depth;
@@ -177,58 +151,119 @@ double surface_at(const Trn& ground, int node, const SourceOptions& options, con
   return options.raster[node];
 }
 
-}  // namespace
-
-Area without_repeated_corners(Area area) {
-  for (auto& ring : area.rings) {
-    ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
-    while (ring.size() > 1 && ring.front() == ring.back()) ring.pop_back();
+// Depth below the ground of the failure raster at its known nodes nearest to `node`, their mean
+// where several are as near.
+double nearest_raster_depth(const Trn& ground, const std::vector<int>& nodes, int node,
+                            const SourceOptions& options) {
+  double nearest_sq = std::numeric_limits<double>::infinity(), sum = 0;
+  int n = 0;
+  for (const int other : nodes) {
+    if (std::isnan(options.raster[other])) continue;
+    const double dr = other / ground.n_cols - node / ground.n_cols;
+    const double dc = other % ground.n_cols - node % ground.n_cols;
+    const double distance_sq = dr * dr + dc * dc;
+    if (distance_sq > nearest_sq) continue;
+    if (distance_sq < nearest_sq) nearest_sq = distance_sq, sum = 0, n = 0;
+    sum += ground.elevation[other] - options.raster[other];
+    ++n;
   }
-  return area;
+  return n > 0 ? sum / n : 0;
 }
 
-bool contains(const Area& area, const Vec2& point) {
-  bool inside = false;
-  for (const auto& ring : area.rings)
-    for (size_t k = 0; k < ring.size(); ++k) {
-      const Vec2 &a = ring[k], &b = ring[(k + 1) % ring.size()];
-      if (on_segment(a, b, point)) return true;
-      if ((a.y() > point.y()) == (b.y() > point.y())) continue;
-      const double x = a.x() + (point.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
-      if (point.x() < x) inside = !inside;
+// Lowers `nodes` to the failure surface, never raises them. The sloping local base level starts
+// from the ground.
+void lower_to_surface(const Trn& ground, const Area& area, const std::vector<int>& nodes,
+                      const SourceOptions& options, const Where& where, SourceMass& mass) {
+  for (const int node : nodes) {
+    const bool is_inside = contains(area, place_of(ground, node));
+    double z;
+    if (!is_inside && options.kind == FailureSurface::raster && std::isnan(options.raster[node])) {
+      z = ground.elevation[node] - nearest_raster_depth(ground, nodes, node, options);
+      ++mass.n_extended;
+    } else {
+      z = surface_at(ground, node, options, where);
     }
-  return inside;
+    if (is_inside && z > ground.elevation[node]) ++mass.n_above_ground;
+    mass.bed.elevation[node] = std::min(z, ground.elevation[node]);
+  }
 }
 
-double area_of(const Area& area) {
-  double sum = 0;
-  for (size_t i = 0; i < area.rings.size(); ++i) {
-    int n_around = 0;
-    for (size_t j = 0; j < area.rings.size(); ++j)
-      n_around += i != j && contains(Area{{area.rings[j]}}, area.rings[i][0]);
-    sum += (n_around % 2 ? -1 : 1) * std::abs(ring_area(area.rings[i]));
-  }
-  return sum;
+// Of the plane of a triangle, also beside it.
+double elevation_on(const Trn& trn, int triangle, const Vec2& p) {
+  const Vec3 corner = triangle_corners(trn, triangle)[0];
+  return corner.z() + triangle_gradient(trn, triangle).dot(p - corner.head<2>());
 }
 
-void check_area(const Area& area, const Vec3& origin, const Where& where) {
-  if (area.rings.empty()) throw InputError(where, "the source area is empty");
-  std::vector<Segment> segments;
-  for (size_t i = 0; i < area.rings.size(); ++i) {
-    const auto& ring = area.rings[i];
-    for (const Vec2& p : ring)
-      if (!p.allFinite()) throw InputError(where, "a corner of the source area is not finite");
-    if (ring.size() < 3 || std::abs(ring_area(ring)) == 0)
-      throw InputError(where, "a ring of the source area has no area",
-                       "give at least three corners that are not in line");
-    for (size_t k = 0; k < ring.size(); ++k)
-      segments.push_back({ring[k], ring[(k + 1) % ring.size()], i, k, ring.size()});
+struct RingMeasure {
+  double area = 0;             // [m2]
+  Vec2 centre = Vec2::Zero();  // of area
+};
+
+RingMeasure measure_convex(const std::vector<Vec2>& ring) {
+  RingMeasure measure;
+  Vec2 moment = Vec2::Zero();
+  for (size_t k = 1; k + 1 < ring.size(); ++k) {
+    const Vec2 a = ring[k] - ring[0], b = ring[k + 1] - ring[0];
+    const double area = (a.x() * b.y() - a.y() * b.x()) / 2;
+    measure.area += area;
+    moment += area * (a + b) / 3;
   }
-  for (size_t i = 0; i < segments.size(); ++i)
-    for (size_t j = i + 1; j < segments.size(); ++j)
-      if (collide(segments[i], segments[j]))
-        throw crossing(segments[i], segments[j], origin, where);
+  measure.centre = ring[0];
+  if (measure.area > 0) measure.centre += moment / measure.area;
+  return measure;
 }
+
+// The prism over a piece of a triangle: depth is linear there, so its volume is exact.
+void add_prism(const Trn& ground, const Trn& bed, int triangle, const std::vector<Vec2>& piece,
+               MassMeasure& mass) {
+  const RingMeasure measure = measure_convex(piece);
+  const double area = measure.area;
+  const Vec2& centre = measure.centre;
+  mass.volume +=
+      area * (elevation_on(ground, triangle, centre) - elevation_on(bed, triangle, centre));
+  mass.plan_area += area;
+  for (const Trn* trn : {&ground, &bed}) {
+    const Vec2 gradient = triangle_gradient(*trn, triangle);
+    mass.area_vectors.emplace_back(-area * gradient.x(), -area * gradient.y(), area);
+  }
+  for (const Vec2& p : piece) {
+    const double high = elevation_on(ground, triangle, p), low = elevation_on(bed, triangle, p);
+    mass.vertices.emplace_back(p.x(), p.y(), high);
+    mass.vertices.emplace_back(p.x(), p.y(), low);
+    mass.max_depth = std::max(mass.max_depth, high - low);
+  }
+}
+
+// Where a value that goes from `first` to `last` passes whole numbers, as shares of the path.
+void add_whole_numbers(double first, double last, std::vector<double>& shares) {
+  for (double k = std::ceil(std::min(first, last)); k <= std::max(first, last); ++k)
+    if (first != last) shares.push_back((k - first) / (last - first));
+}
+
+// The wall of the mass along a side; its height is linear between grid lines and diagonals.
+void add_wall(const Trn& ground, const Trn& bed, const AreaSide& side, MassMeasure& mass) {
+  const auto east_south = [&](const Vec2& p) -> Vec2 {
+    return Vec2((p - ground.node0).x(), (ground.node0 - p).y()) / ground.cell_size;
+  };
+  const Vec2 a = east_south(side.start);
+  const Vec2 b = east_south(side.start + side.length * side.direction);
+  std::vector<double> shares = {0, 1};
+  add_whole_numbers(a.x(), b.x(), shares);
+  add_whole_numbers(a.y(), b.y(), shares);
+  add_whole_numbers(a.x() - a.y(), b.x() - b.y(), shares);
+  std::sort(shares.begin(), shares.end());
+  const auto height = [&](double share) {
+    const Vec2 p = side.start + share * side.length * side.direction;
+    return elevation_at(ground, p.x(), p.y()) - elevation_at(bed, p.x(), p.y());
+  };
+  double area = 0;
+  for (size_t k = 0; k + 1 < shares.size(); ++k)
+    area +=
+        (shares[k + 1] - shares[k]) * side.length * (height(shares[k]) + height(shares[k + 1])) / 2;
+  mass.area_vectors.push_back(area * side.plane.normal);
+}
+
+}  // namespace
 
 double prism_volume(const Trn& ground, const Trn& bed) {
   double sum = 0;
@@ -246,17 +281,15 @@ double prism_volume(const Trn& ground, const Trn& bed) {
   return sum * ground.cell_size * ground.cell_size / 6;
 }
 
-MassMeasure measure_mass(const Trn& ground, const Trn& bed) {
+MassMeasure measure_mass(const Trn& ground, const Trn& bed, const Area& area) {
   MassMeasure mass;
-  mass.volume = prism_volume(ground, bed);
-  for (int t = 0; t < n_triangles(ground); ++t) {
-    const auto above = triangle_corners(ground, t), below = triangle_corners(bed, t);
-    if (!is_known(ground, t) || above == below) continue;
-    for (const auto& corners : {above, below}) {
-      mass.vertices.insert(mass.vertices.end(), corners.begin(), corners.end());
-      mass.area_vectors.push_back((corners[1] - corners[0]).cross(corners[2] - corners[0]) / 2);
-    }
+  for (const TriangleInArea& one : triangles_in(ground, area)) {
+    if (!is_known(ground, one.triangle) ||
+        triangle_corners(ground, one.triangle) == triangle_corners(bed, one.triangle))
+      continue;
+    for (const auto& piece : one.pieces) add_prism(ground, bed, one.triangle, piece, mass);
   }
+  for (const AreaSide& side : sides_of(area)) add_wall(ground, bed, side, mass);
   return mass;
 }
 
@@ -265,29 +298,27 @@ SourceMass find_source(const Trn& ground, const Area& area, const SourceOptions&
   check_area(area, ground.origin, where);
   SourceMass mass;
   const std::vector<int> inside = nodes_inside(ground, area, where);
+  const std::vector<int> below = corners_of(ground, triangles_in(ground, area));
   check_known(ground, inside, where);
+  check_known(ground, below, where);
   mass.bed = ground;
-  mass.polygon_area = area_of(area);
-  for (const int node : inside) {
-    const double z = surface_at(ground, node, options, where);
-    if (z > ground.elevation[node]) ++mass.n_above_ground;
-    mass.bed.elevation[node] = std::min(z, ground.elevation[node]);
-  }
+  lower_to_surface(ground, area, below, options, where, mass);
   if (options.kind == FailureSurface::slbl)
     mass.slbl_unsettled = lower_to_base_level(ground, inside, options, mass.bed.elevation);
-  double sum = 0;
-  for (const int node : inside) {
-    const double depth = ground.elevation[node] - mass.bed.elevation[node];
-    if (depth <= 0) continue;
-    mass.nodes.push_back(node);
-    mass.max_depth = std::max(mass.max_depth, depth);
-    sum += depth;
-  }
-  if (mass.nodes.empty())
+  for (const std::vector<int>& lowered : {inside, below})
+    for (const int node : lowered)
+      if (mass.bed.elevation[node] < ground.elevation[node]) mass.nodes.push_back(node);
+  std::sort(mass.nodes.begin(), mass.nodes.end());
+  mass.nodes.erase(std::unique(mass.nodes.begin(), mass.nodes.end()), mass.nodes.end());
+  const MassMeasure measure = measure_mass(ground, mass.bed, area);
+  if (mass.nodes.empty() || !(measure.volume > 0))
     throw InputError(where, "the failure surface lies nowhere below the ground inside the source",
                      "check depth, plane or raster, and that elevations are in the same datum");
-  mass.mean_depth = sum / static_cast<double>(mass.nodes.size());
-  mass.volume = prism_volume(ground, mass.bed);
+  mass.polygon_area = area_of(area);
+  mass.volume = measure.volume;
+  mass.area = measure.plan_area;
+  mass.mean_depth = measure.volume / measure.plan_area;
+  mass.max_depth = measure.max_depth;
   return mass;
 }
 

@@ -27,7 +27,7 @@ void for_each_array(Set& set, Visit&& visit) {  // clang-format off
   visit(About{"block_vertex_begin", "1", "vertices of block b: [b] to [b + 1]"}, set.block_vertex_begin);
   visit(About{"face_vertices", "1", "vertex indices of the faces of shells, counter-clockwise from outside"}, set.face_vertices);
   visit(About{"face_begin", "1", "entries of face f in face_vertices: [f] to [f + 1]"}, set.face_begin);
-  visit(About{"joint_set", "1", "what made a face: joint set, -1 terrain, -2 failure surface, -3 within the rock"}, set.joint_set);
+  visit(About{"joint_set", "1", "what made a face: joint set, -1 terrain, -2 failure surface, -3 within the rock, -4 side of the source"}, set.joint_set);
   visit(About{"block_face_begin", "1", "faces of the shell of block b: [b] to [b + 1]"}, set.block_face_begin);
   visit(About{"part_face_vertices", "1", "vertex indices of the faces of convex parts"}, set.part_face_vertices);
   visit(About{"part_face_begin", "1", "entries of face f in part_face_vertices: [f] to [f + 1]"}, set.part_face_begin);

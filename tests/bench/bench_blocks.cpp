@@ -57,7 +57,7 @@ void cut_and_assemble(benchmark::State& state, bool exact) {
     AssembleOptions options;
     options.exact = exact;
     options.min_volume = 0.02 * spacing * spacing * spacing;
-    report = assemble_blocks(cut_mass(ground, bed, joints), joints, bed, options, set);
+    report = assemble_blocks(cut_mass(ground, bed, {}, joints), joints, bed, options, set);
   }
   const double volume = prism_volume(ground, bed);
   state.counters["blocks"] = n_blocks(set);

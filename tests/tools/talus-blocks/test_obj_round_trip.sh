@@ -2,7 +2,7 @@
 # and number, also where a block was divided into convex parts.
 . "$source_dir/tests/tools/talus-blocks/scene.sh"
 make_site
-expect 0 blocks --report r.json --footprints f.gpkg --obj objs
+expect 0 blocks --report r.json --footprints f.gpkg --obj objs --set source.max_convex_loss=0.005
 n=$(value r.json n_blocks)
 holds "$(value r.json n_divided) > 0 && $(value r.json n_kept_exact) > 0"
 divided=$(grep -l '^g block_[0-9]*_part_1$' objs/*.obj | wc -l)

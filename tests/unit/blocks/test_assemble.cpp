@@ -47,7 +47,7 @@ Trial random_trial(Random& random, int number) {
         corners[0], (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized());
     trial.joints.push_back(joint);
   }
-  trial.complex = cut_mass(trial.scene.ground, trial.scene.bed, trial.joints);
+  trial.complex = cut_mass(trial.scene.ground, trial.scene.bed, {}, trial.joints);
   trial.volume = prism_volume(trial.scene.ground, trial.scene.bed);
   return trial;
 }
@@ -215,7 +215,7 @@ TEST(AssembleBlocks, ConvexBlocksKeepClearOfThoseThatStayExact) {
     options.max_convex_loss = 0.005;
     BlockSet set = new_set();
     const AssembleReport report =
-        assemble_blocks(cut_mass(ground, bed, joints), joints, bed, options, set);
+        assemble_blocks(cut_mass(ground, bed, {}, joints), joints, bed, options, set);
     n_exact += report.n_kept_exact;
     n_convex += n_blocks(set) - report.n_kept_exact;
     const auto bodies = parts_by_block(set);
@@ -279,7 +279,7 @@ TEST(AssembleBlocks, EachSliverIsCountedOnce) {
   AssembleOptions options;
   options.exact = true;
   BlockSet pieces = new_set(), blocks = new_set();
-  const CellComplex complex = cut_mass(ground, bed, joints);
+  const CellComplex complex = cut_mass(ground, bed, {}, joints);
   static_cast<void>(assemble_blocks(complex, joints, bed, options, pieces));
   ASSERT_EQ(n_blocks(pieces), 3);
   options.min_volume = 5;
@@ -300,7 +300,7 @@ TEST(AssembleBlocks, ConvexBlocksKeepTheirVolumeWhereTheyCan) {
       draw_all({joint_set(0, 0, 2.5, "a"), joint_set(90, 0, 3, "b"), joint_set(90, 90, 3, "c")},
                {10, 10, 2}, 20);
   BlockSet set = new_set();
-  const CellComplex complex = cut_mass(ground, bed, joints);
+  const CellComplex complex = cut_mass(ground, bed, {}, joints);
   AssembleOptions options;
   options.min_volume = 0.5;
   const AssembleReport report = assemble_blocks(complex, joints, bed, options, set);
@@ -319,7 +319,7 @@ TEST(AssembleBlocks, PairsNameTheSharedJointAndItsArea) {
   BlockSet set = new_set();
   AssembleOptions options;
   options.exact = true;
-  static_cast<void>(assemble_blocks(cut_mass(ground, bed, joints), joints, bed, options, set));
+  static_cast<void>(assemble_blocks(cut_mass(ground, bed, {}, joints), joints, bed, options, set));
   ASSERT_EQ(n_blocks(set), 2);
   ASSERT_EQ(set.pair_blocks.size(), 1u);
   EXPECT_NEAR(set.pair_area[0], 2 * 2 + 2 * 0.5 * 2, 1e-12);  // trapezoid: 2 wide below, 4 above

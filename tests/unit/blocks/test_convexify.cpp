@@ -72,7 +72,7 @@ TEST(ConvexParts, HangTogether) {
   for (int k = 0; k < 40; ++k) {
     const Ridge ridge{0.5 * std::floor(uniform(-8, 8)), uniform(0.1, 1.5), uniform(0.1, 1.5)};
     const std::vector<Polyhedron> parts =
-        made_convex_parts(rock_above(ridge, uniform(0.02, 0.5)), bed_of(ridge), {});
+        made_convex_parts({rock_above(ridge, uniform(0.02, 0.5))}, bed_of(ridge), {});
     n_refused += parts.empty();
     if (parts.size() < 2) continue;
     ++n_divided;

@@ -74,7 +74,7 @@ TEST(CutMass, OrthogonalJointsOnGridLines) {
   const std::vector<JointSet> sets = {joint_set(0, 0, 2), joint_set(90, 0, 2),
                                       joint_set(90, 90, 2)};
   const auto joints = draw_all(sets, {5, 5, -2}, 9);
-  const CellComplex complex = cut_mass(ground, bed, joints);
+  const CellComplex complex = cut_mass(ground, bed, {}, joints);
   expect_sound(complex);
   EXPECT_NEAR(sum_of_volumes(complex), prism_volume(ground, bed), 1e-12 * 400);
   EXPECT_NEAR(prism_volume(ground, bed), 4 * 81, 1e-9);
@@ -101,7 +101,7 @@ TEST(CutMass, FillsRandomMassesExactly) {
     const double extent = scene.ground.cell_size * scene.ground.n_rows;
     const Vec3 centre(extent / 2, extent / 2, scene.ground.elevation[40]);
     const CellComplex complex =
-        cut_mass(scene.ground, scene.bed, draw_all(sets, centre, 2 * extent, trial));
+        cut_mass(scene.ground, scene.bed, {}, draw_all(sets, centre, 2 * extent, trial));
     SCOPED_TRACE("trial " + std::to_string(trial));
     expect_sound(complex);
     if (volume > 0) {
@@ -128,7 +128,7 @@ TEST(CutMass, DiscsPartOnlyWhatTheyCover) {
   across.plane = {Vec3::UnitY(), 4};
   across.set = 1;
   const auto n_pieces = [&](const std::vector<Joint>& joints) {
-    const CellComplex complex = cut_mass(ground, bed, joints);
+    const CellComplex complex = cut_mass(ground, bed, {}, joints);
     EXPECT_NEAR(sum_of_volumes(complex), 98, 1e-10);
     return n_components(complex, true);
   };

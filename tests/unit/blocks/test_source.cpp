@@ -67,16 +67,17 @@ TEST(Area, OutlinesThatMeetAreToldFromOneThatCrossesItself) {
             std::string::npos);
 }
 
-// A vertical depth over k x m nodes: the rim runs out over one cell, so each node stands for a
-// cell.
-TEST(FindSource, VerticalDepthIsNodesTimesCellTimesDepth) {
+// The bed goes down at the corners of all cells that the polygon overlaps; the mass ends at it.
+TEST(FindSource, VerticalDepthIsAreaTimesDepth) {
   const Trn ground = grid(12, 14, 2, [](double x, double y) { return 0.7 * x - 0.2 * y; });
   SourceOptions options;
   options.kind = FailureSurface::vertical_depth;
   options.depth = 3;
   const SourceMass mass = find_source(ground, rectangle(7, 5, 17, 13), options, {});
-  EXPECT_EQ(mass.nodes.size(), 5u * 4u);
-  EXPECT_NEAR(mass.volume, 20 * 4 * 3, 1e-10);
+  // Of 7 x 6 nodes around it two belong only to triangles that a corner of it touches.
+  EXPECT_EQ(mass.nodes.size(), 7u * 6u - 2u);
+  EXPECT_NEAR(mass.volume, 10 * 8 * 3, 1e-10);
+  EXPECT_NEAR(mass.area, 10 * 8, 1e-10);
   EXPECT_NEAR(mass.mean_depth, 3, 1e-12);
   EXPECT_EQ(mass.bed.elevation[0], ground.elevation[0]);
 }
@@ -100,11 +101,70 @@ TEST(FindSource, APlaneThatDaylightsLeavesAWedge) {
   options.plane_point = {0, 10, 9};            // comes out at y = 10
   const SourceMass mass = find_source(ground, rectangle(5, 2, 35, 30), options, {});
   EXPECT_GT(mass.n_above_ground, 0);
-  // Depth 0.4 (y - 10) on nodes of 5..35 x 10..30; each node stands for a cell of 0.25 m2.
-  double expected = 0;
-  for (int i = 0; i <= 60; ++i)
-    for (double y = 10; y <= 30; y += 0.5) expected += 0.25 * 0.4 * (y - 10);
-  EXPECT_NEAR(mass.volume, expected, 1e-9 * expected);
+  // Depth 0.4 (y - 10) over 5..35 x 10..30.
+  EXPECT_NEAR(mass.volume, 30 * 0.4 * 20 * 20 / 2, 1e-6);
+  EXPECT_NEAR(mass.area, 30 * 20, 1e-9);
+}
+
+// Where a plane comes out between two rows of nodes, the mass runs out to zero at the row behind:
+// the wedge gains at most (cell / its length)^2 / 4 of its volume.
+TEST(FindSource, APlaneThatDaylightsBetweenNodesGainsASecondOrderShare) {
+  const double length = 60;
+  for (const double cell : {1.0, 2.5, 5.0, 10.0})
+    for (const double share : {0.0, 0.25, 0.5, 0.9}) {
+      const int n = static_cast<int>(std::lround(150 / cell)) + 1;
+      const Trn ground = grid(n, n, cell, [](double, double y) { return 0.9 * y; });
+      const double comes_out = 40 + share * cell;
+      SourceOptions options;
+      options.kind = FailureSurface::plane;
+      options.plane_dip = std::atan(0.5);
+      options.plane_dip_direction = 180 * degree;
+      options.plane_point = {0, comes_out, 0.9 * comes_out};
+      const Area area = rectangle(50, 20, 90, comes_out + length);
+      const double wedge = 40 * 0.4 * length * length / 2;
+      const double gain = find_source(ground, area, options, {}).volume / wedge - 1;
+      EXPECT_NEAR(gain, share * (1 - share) * std::pow(cell / length, 2), 1e-6);
+    }
+}
+
+// A raster that ends at the polygon: beside it the depth of the nearest node goes on, so that the
+// mass is as deep at its walls as within.
+TEST(FindSource, ARasterIsExtendedBesideThePolygon) {
+  const Trn ground = grid(31, 31, 5, [](double x, double y) { return 0.8 * y + 0.1 * x; });
+  const Area area{{{{41, 43}, {101, 52}, {88, 104}, {60, 70}, {39, 99}}}};
+  SourceOptions options;
+  options.kind = FailureSurface::raster;
+  for (int r = 0; r < 31; ++r)
+    for (int c = 0; c < 31; ++c) {
+      const Vec3 p = node_point(ground, r, c);
+      options.raster.push_back(contains(area, p.head<2>()) ? p.z() - 7 : std::nan(""));
+    }
+  const SourceMass mass = find_source(ground, area, options, {});
+  EXPECT_GT(mass.n_extended, 20);
+  EXPECT_NEAR(mass.volume, 7 * area_of(area), 1e-6 * mass.volume);
+  options.raster[node_index(ground, 15, 11)] = std::nan("");  // (55, 75) lies inside
+  EXPECT_NE(refusal([&] {
+              static_cast<void>(find_source(ground, area, options, {}));
+            }).find("the failure surface has no data at (55, 75)"),
+            std::string::npos);
+}
+
+// The base level comes back to the ground at the first nodes outside: what is cut off at the
+// polygon is thin.
+TEST(FindSource, TheBaseLevelMeetsTheGroundBesideThePolygon) {
+  const Trn ground = grid(61, 61, 2, [](double, double y) { return 0.7 * y; });
+  SourceOptions options;
+  options.kind = FailureSurface::slbl;
+  options.slbl_curvature = 0.05;
+  const Area area = rectangle(31, 31, 89, 81);
+  const SourceMass mass = find_source(ground, area, options, {});
+  for (const int node : mass.nodes) {
+    const Vec3 p = node_point(ground, node / 61, node % 61);
+    EXPECT_TRUE(contains(area, p.head<2>()));
+  }
+  EXPECT_NEAR(mass.area, area_of(area), 1e-6);
+  EXPECT_LT(mass.volume, prism_volume(ground, mass.bed));
+  EXPECT_GT(mass.volume, 0.97 * prism_volume(ground, mass.bed));
 }
 
 // Along a profile the base level is the parabola with second derivative 2 C / cell^2 through its
