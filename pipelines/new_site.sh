@@ -111,10 +111,11 @@ elif ! measure_slope 2>"$part/.log"; then
   sed '/^make/d' "$part/.log" >&2
   echo "new-site: the slope could not be measured, for the reason above: joint sets are not fitted to it" >&2
 fi
-[ -s "$part/.joints" ] || hollow >"$part/.joints"
+is_measured=yes
+[ -s "$part/.joints" ] || { is_measured=no && hollow >"$part/.joints"; }
 grep -q '^\[joints' "$part/.joints" || joints_for_no_slope >>"$part/.joints"
 { head_of_site; cat "$part/.joints"; rest_of_site; } >"$part/site.toml"
-[ ! -s "$part/.slope/trn.tif" ] ||
+[ $is_measured = no ] ||
   "${tools}talus-source" "$part/site.toml" --trn "$part/.slope/trn.tif" --no-db
 rm -rf "$part/.slope" "$part/.joints" "$part/.log"
 

@@ -119,7 +119,8 @@ void find_mass(Tool& tool, BlocksWork& work) {
 // What is most likely not meant.
 void warn_of_mass(Tool& tool, const BlocksWork& work, const MassMeasure& measure) {
   const SourceMass& mass = work.mass;
-  if (std::abs(mass.area / mass.polygon_area - 1) > 0.03)
+  const bool may_daylight = work.site.source.failure_surface == "daylighting";
+  if (!may_daylight && std::abs(mass.area / mass.polygon_area - 1) > 0.03)
     tool.warn("the mass covers " + text(100 * mass.area / mass.polygon_area, 3) +
               " % of the source polygon: elsewhere the failure surface does not lie below the "
               "ground; check depth, plane or raster");

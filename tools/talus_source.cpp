@@ -65,7 +65,7 @@ Assumed assume_joints(const BlocksWork& work, double friction, int n_blocks) {
       "change.\nfailure_surface = \"daylighting\"\n\n"
       "# Joint sets cut the mass into blocks: dip, dip direction and spacing from the field. "
       "These\n# are ASSUMED from the slope (it dips " +
-      slope + "): the first halfway between friction and slope.\n";
+      slope + "): the first between friction and slope.\n";
   for (const JointSet& set : sets) toml += section_of(set);
   return {true, toml};
 }

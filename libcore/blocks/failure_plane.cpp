@@ -305,7 +305,7 @@ std::vector<JointSet> assumed_joint_sets(const Trn& ground, const Area& area, do
     return made;
   };
   std::vector<JointSet> sets = {
-      set("sliding", std::round((friction + slope.dip) / 2 / degree), fall_deg),
+      set("sliding", std::round((friction + 2 * slope.dip) / 3 / degree), fall_deg),
       set("rear", 80, fall_deg), set("lateral", 85, fall_deg + 90)};
   const FailurePlanes found = find_failure_planes(ground, area, {sets[0]}, friction, "", where);
   if (found.best < 0) return {};

@@ -93,10 +93,10 @@ struct FailurePlanes {
 /// find_source options of a plane.
 [[nodiscard]] SourceOptions source_on_plane(const Attitude& plane, const Vec3& point);
 
-/// Joint sets for a slope whose joints nobody has measured: one that dips out of it, halfway
-/// between friction and slope, a rear and a lateral one, spaced for about `n_blocks` blocks. Empty
-/// when the slope is not at least `least_room_deg` steeper than friction, or its foot is too uneven
-/// for a plane to daylight.
+/// Joint sets for a slope whose joints nobody has measured: one that dips out of it, two
+/// thirds of the way from friction to slope, a rear and a lateral one, spaced for about `n_blocks`
+/// blocks. Empty when the slope is not at least `least_room_deg` steeper than friction, or its foot
+/// is too uneven for a plane to daylight.
 inline constexpr double least_room_deg = 6;
 [[nodiscard]] std::vector<JointSet> assumed_joint_sets(const Trn& ground, const Area& area,
                                                        double friction, int n_blocks,

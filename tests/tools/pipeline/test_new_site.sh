@@ -12,10 +12,10 @@ new() { sh "$source_dir/pipelines/new_site.sh" "$@"; }
 mkdir "my slopes"
 expect 0 new "my slopes/a_slope" dem.tif source.geojson "$source_dir/pipelines"
 prints "my slopes/a_slope is made"
-prints "sliding (34 degrees towards 180): "
+prints "sliding (36 degrees towards 180): "
 grep -q '^failure_surface = "daylighting"' "my slopes/a_slope/site.toml" || fail "the surface does not daylight"
 expect 0 make -C "my slopes/a_slope" BIN= blocks
-prints "failure plane of set sliding: dips 34 degrees towards 180"
+prints "failure plane of set sliding: dips 36 degrees towards 180"
 [ -s "my slopes/a_slope/out/blocks.h5" ] || fail "no blocks"
 expect 1 new "my slopes/a_slope" dem.tif source.geojson
 says "a_slope exists already"

@@ -24,11 +24,11 @@ printf '\n[ground.slope]\nfriction_deg = 28\n' >rest.toml
 cat bare.toml rest.toml >asked.toml
 expect 0 talus-source asked.toml --trn trn.tif --assume-joints joints.toml --blocks 40 --no-db
 prints "joint sets are assumed from the slope"
-grep -q '^dip_deg = 34$' joints.toml || fail "not halfway between 28 and 40 degrees"
+grep -q '^dip_deg = 36$' joints.toml || fail "not two thirds of the way from 28 to 40 degrees"
 cat bare.toml joints.toml rest.toml >site.toml
 expect 0 blocks --report blocks.json --overwrite
 holds "$(value blocks.json n_blocks) >= 25 && $(value blocks.json n_blocks) <= 100"
-prints "failure plane of set sliding: dips 34 degrees towards 180, 6 degrees steeper than friction"
+prints "failure plane of set sliding: dips 36 degrees towards 180, 8 degrees steeper than friction"
 
 sed 's/friction_deg = 28/friction_deg = 38/' asked.toml >rough.toml
 expect 0 talus-source rough.toml --trn trn.tif --assume-joints none.toml --no-db
