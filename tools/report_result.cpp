@@ -6,9 +6,22 @@
 #include "base/text.hpp"
 #include "report/html.hpp"
 #include "report_fences.hpp"
+#include "report_folder.hpp"
 #include "report_json.hpp"
 
 namespace talus {
+namespace {
+
+// Runs that were wanted and gave no result: what is shown is of the rest.
+std::string missing_verdict(const Json& runout) {
+  const std::string n = text_at(runout, "/tags/N_MISSING");
+  if (n.empty()) return "";
+  return "<div class=\"verdict fail\"><b>Runs missing: " + n +
+         ".</b> They gave no result; all that is shown is of the other " +
+         word_text(value_at(runout, {"tags", "N_RUNS"})) + ".</div>\n";
+}
+
+}  // namespace
 
 std::string result_section(const ReportData& data) {
   const Json& r = data.runout;
@@ -44,6 +57,7 @@ std::string result_section(const ReportData& data) {
                    word_text(value_at(r, {"tags", "HEALTH"})) +
                    ". The numbers below are shown to find the cause, not to be used; see <a "
                    "href=\"#health\">health</a>.</div>\n";
+  out += missing_verdict(r);
   if (value_at(data.fence, {"fences"}).is_array())
     for (const Json& fence : data.fence["fences"]) out += fence_verdict(fence);
   return html_section("result", "Result", out);

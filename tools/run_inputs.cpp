@@ -34,6 +34,9 @@ RunInputs::RunInputs(Tool& tool) : tool_(tool) {
       ->check(number_between(0, 1000));
   tool.flag("--allow-unfinished", allow_unfinished,
             "take runs that have not ended or have failed; every output is marked");
+  tool.option("--missing", n_missing,
+              "runs that were wanted and are not there: every output says so")
+      ->check(number_between(0, 1e9));
 }
 
 const Trn& RunInputs::trn() {
@@ -120,9 +123,14 @@ std::string RunInputs::remark() const {
   const auto n = std::count_if(members.begin(), members.end(), [](const RunMember& member) {
     return member.info.status != "done";
   });
-  if (n == 0) return "";
-  const std::string words = std::to_string(n) + " of " + std::to_string(members.size()) +
-                            (members.size() == 1 ? " run" : " runs") + " unfinished or failed";
+  std::string words;
+  if (n > 0)
+    words = std::to_string(n) + " of " + std::to_string(members.size()) +
+            (members.size() == 1 ? " run" : " runs") + " unfinished or failed";
+  if (n_missing > 0)
+    words += (words.empty() ? "" : "; ") + std::to_string(n_missing) + " of " +
+             std::to_string(static_cast<int>(members.size()) + n_missing) + " runs missing";
+  if (words.empty()) return "";
   tool_.warn(words + ": every output says so");
   return words;
 }
