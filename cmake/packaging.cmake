@@ -3,7 +3,7 @@
 get_property(tools GLOBAL PROPERTY TALUS_TOOLS)
 
 install(DIRECTORY pipelines/ DESTINATION ${CMAKE_INSTALL_DATADIR}/talus/pipelines
-        FILES_MATCHING PATTERN "*.mk" PATTERN "new_site.sh")
+        FILES_MATCHING PATTERN "*.mk" PATTERN "new_site.sh" PATTERN "clean.sh" PATTERN "run_outcomes.sh")
 foreach(site designed maungawhau)
   install(DIRECTORY sample_sites/${site} DESTINATION ${CMAKE_INSTALL_DATADIR}/talus/sample_sites
           PATTERN out EXCLUDE)

@@ -4,8 +4,8 @@
 #   CASES       names of variants, CASE_<name> the options of each; RUNS of each are made, e.g.
 #               CASES = low high, CASE_low = --set ground.slope.friction_deg=28, CASE_high = ...
 #   WITHOUT     yes: also the runs without fences; when not given: where a fence of the site stands
-# A run that was stopped goes on where it was (--resume). One that fails its health ends make, but
-# not where what evaluates it may take it (EVALUATE_FLAGS).
+# A run that was stopped goes on where it was (--resume). One that fails stops no other: what can be made
+# is made, then make lists what failed and ends with an error.
 RUNS ?= $(SITE_RUNS)
 SEED ?= $(SITE_SEED)
 WITHOUT ?= $(SITE_FENCES_STAND)
@@ -22,12 +22,33 @@ $(foreach case,$(CASES),$(eval $(call remember,case_$(case),$(CASE_$(case)))))
 
 # Of the name CASE_SEED or SEED that a run has.
 run_options = --seed $(lastword $(subst _, ,$*)) $(CASE_$(firstword $(subst _, ,$*))) $(DDA_FLAGS)
-dda = $(BIN)talus-dda site.toml --trn $(OUT)/bed.tif --blocks $(OUT)/blocks.h5 -o $@ $(run_options) --resume --overwrite $(DB)
-may_fail := $(if $(filter --allow-unfinished,$(EVALUATE_FLAGS)),|| [ $$? -eq 3 ])
+# run(NAME,MARK): before it starts, its mark says that it has not ended; talus-dda says how it did.
+failed_marks := $(STAGES)/failed
+not_ended := did not end by itself: it was killed, or the machine was out of memory
+tab := $(shell printf '\t')
+run = $(if $(is_dry_run),,$(file >$(failed_marks)/$2,none$(tab)$(not_ended)))$(goes_on)$(Q)$(BIN)talus-dda site.toml \
+  --trn $(OUT)/bed.tif --blocks $(OUT)/blocks.h5 -o $@ $(run_options) --label $1 --failures $(failed_marks)/$2 --resume --overwrite $(DB)
+# Whoever asks for the file of one run is told at once that it failed (make out/runs/run_3.h5).
+goes_on := $(if $(filter $(OUT)/%,$(MAKECMDGOALS)),,-)
 
-$(run_files) $(without_files): $(OUT)/blocks.h5 $(STAGES)/run.txt $(STAGES)/dda.flags $(call named_in,$(filter-out %.xmf,$(DDA_FLAGS))) | $(OUT)/runs $(OUT)/without
-$(foreach case,$(CASES),$(eval $(filter $(OUT)/runs/run_$(case)_% $(OUT)/without/run_$(case)_%,$(run_files) $(without_files)): $(STAGES)/case_$(case).flags $(call named_in,$(CASE_$(case)))))
+$(run_files) $(without_files): $(OUT)/blocks.h5 $(STAGES)/run.txt $(STAGES)/dda.flags $(STAGES)/dda.files | $(OUT)/runs $(OUT)/without $(failed_marks)
+$(foreach case,$(CASES),$(eval $(filter $(OUT)/runs/run_$(case)_% $(OUT)/without/run_$(case)_%,$(run_files) $(without_files)): $(STAGES)/case_$(case).flags $(STAGES)/case_$(case).files))
 $(OUT)/runs/run_%.h5:
-	$(dda) $(may_fail)
+	$(call say,dda: run_$*)
+	$(call run,run_$*,run_$*)
 $(OUT)/without/run_%.h5:
-	$(dda) $(SITE_FENCES:%=--set fence.%.active=false) $(may_fail)
+	$(call say,dda: run_$* without fences)
+	$(call run,without/run_$*,without_run_$*) $(SITE_FENCES:%=--set fence.%.active=false)
+
+# --- what became of them ---
+# outcomes(WHAT,FILES)
+outcomes = sh $(PIPELINES)run_outcomes.sh $1 $(failed_marks) $2
+counted_runs = $(words $1) run$(if $(filter 1,$(words $1)),,s)
+run_there = $$($(call outcomes,there,$1))
+# The last goal that has to do with runs comes after the others and lists what failed.
+run_goals := runs runout maps fence report all
+asked := $(filter $(run_goals),$(or $(MAKECMDGOALS),all))
+last_goal := $(if $(filter all,$(asked)),all,$(lastword $(asked)))
+$(if $(last_goal),$(last_goal): | $(filter-out $(last_goal),$(asked)))
+$(or $(last_goal),$(filter-out all,$(run_goals))):
+	$(if $(findstring n,$(short_flags)),,$(if $(shell $(call outcomes,failed,$(run_files) $(without_files))),@$(call outcomes,list,$(run_files) $(without_files))))

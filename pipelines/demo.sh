@@ -14,10 +14,13 @@ sh pipelines/install_packages.sh build
 export CCACHE_SLOPPINESS=pch_defines,time_macros  # lets ccache keep files that use a precompiled header
 cmake --preset release -DTALUS_TESTS=OFF -DTALUS_BENCH=OFF -B build/demo >/dev/null
 cmake --build build/demo
-make -j"$(nproc)" -C "sample_sites/$site" BIN="$PWD/build/demo/tools/"
+code=0
+make -j"$(nproc)" -C "sample_sites/$site" BIN="$PWD/build/demo/tools/" || code=$?
 out=sample_sites/$site/out
+[ -f "$out/report.html" ] || exit "$code"
 echo
 echo "The results are in $out. Look at:"
 echo "  $out/report.html   maps, fence verdict, 3-D animation, health, what was assumed (any browser)"
 echo "  $out/site.qgz      the same as a QGIS project (QGIS 3.22 or later)"
 echo "Your own slope: docs/tutorial.md"
+exit "$code"

@@ -3,18 +3,18 @@
 #   CONTOURS or DEM                what the ground is made from, instead of [terrain]
 #   TIN_FLAGS, TRN_FLAGS, BLOCKS_FLAGS, DDA_FLAGS, RUNOUT_FLAGS, MAPS_FLAGS, FENCE_FLAGS
 #                                  further options of the tools
-#   EVALUATE_FLAGS                 of all tools that evaluate runs (e.g. --allow-unfinished)
+#   EVALUATE_FLAGS                 of all tools that evaluate runs (e.g. --rest-speed-m-s 0.1)
 #   RUNS, SEED, CASES, WITHOUT     dda.mk
-# and so may the command line (make RUNS=50 -j4). Every rule is one tool: files in, files out.
+# and so may the command line (make RUNS=50 -j4). V=1 shows every command. Every rule is one tool: files
+# in, files out.
 
 PIPELINES := $(dir $(lastword $(MAKEFILE_LIST)))
 OUT ?= out
-# The tools of this checkout when they are built here, else those on the search path.
-BIN ?= $(firstword $(wildcard $(PIPELINES)../build/release/tools/ $(PIPELINES)../build/demo/tools/))
 STAGES := $(OUT)/stages
 DB := --db $(OUT)/runs.sqlite
 
 include $(PIPELINES)variables.mk
+include $(PIPELINES)products.mk
 
 .DEFAULT_GOAL := all
 .SUFFIXES:
@@ -22,8 +22,8 @@ include $(PIPELINES)variables.mk
 
 all: report ## everything, up to the report
 
-clean: ## remove everything that was made
-	rm -rf '$(OUT)'
+clean: ## remove what was made, and nothing else
+	@sh $(PIPELINES)clean.sh '$(OUT)' '$(mark_of_out)' '$(products) $(made_patterns)' '$(made_folders)'
 
 # The goals in the order of the pipeline, and those that the site's Makefile adds.
 help_files := $(addprefix $(PIPELINES),site.mk trn.mk source.mk blocks.mk dda.mk runout.mk maps.mk fence.mk report.mk new_site.mk) \
@@ -31,35 +31,19 @@ help_files := $(addprefix $(PIPELINES),site.mk trn.mk source.mk blocks.mk dda.mk
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  \1: \2/p' $(help_files)$(if $(wildcard manifest.sha256),, | grep -v '^  data:')
 	@echo 'Several runs side by side: make RUNS=50 -j4. One input, other results: make OUT=out2 ...'
+	@echo 'V=1 shows every command, -n shows what would be run.'
 
 include $(PIPELINES)new_site.mk
+
+# One short line a stage, or with V=1 the commands; with -s neither.
+short_flags := $(filter-out --%,$(firstword -$(MAKEFLAGS)))
+Q := $(if $(V),,@)
+say = $(if $(findstring s,$(short_flags)),,$(info $1))
 
 # Goals that need no site file read.
 ifneq ($(filter-out clean help data new-site,$(or $(MAKECMDGOALS),all)),)
 
-# talus-site parts site.toml into a file a stage and touches only those that have changed, so that a
-# stage is repeated when its own settings or files have changed and not else.
-include $(STAGES)/site.mk
-$(STAGES)/site.mk: site.toml $(SITE_FILES)
-	@$(BIN)talus-site site.toml -o $(STAGES) --overwrite --no-db
-$(STAGES)/%.txt: | $(STAGES)/site.mk
-	@$(BIN)talus-site site.toml -o $(STAGES) --overwrite --no-db
-$(SITE_FILES): ;
-
-# remember(NAME,TEXT): a file that changes when TEXT does, e.g. options given to make.
-is_dry_run := $(findstring n,$(filter-out --%,$(firstword -$(MAKEFLAGS))))
-define remember
-ifeq ($(is_dry_run),)
-ifneq ($$(strip $$(file <$(STAGES)/$1.flags)),$$(strip flags: $2))
-$$(shell mkdir -p $(STAGES))$$(file >$(STAGES)/$1.flags,$$(strip flags: $2))
-endif
-endif
-$(STAGES)/$1.flags: ;
-endef
-
-# named_in(FLAGS): files that options name (--like FILE, --like=FILE), to depend on; not folders, nor
-# what lies in OUT.
-named_in = $(filter-out $(OUT)/%,$(foreach name,$(wildcard $(foreach word,$1,$(lastword $(subst =, ,$(word))))),$(if $(wildcard $(name)/.),,$(subst :,\:,$(name)))))
+include $(PIPELINES)inputs.mk
 
 # together(FILES): what one run of a tool writes, the first file last and all with the same time. Rules
 # name the first; the others come with it. One that is missing beside it makes the tool run again.
@@ -72,10 +56,7 @@ endif
 endif
 endef
 
-CONTOURS ?= $(SITE_CONTOURS)
-DEM ?= $(SITE_DEM)
-
-$(OUT) $(OUT)/runs $(OUT)/without:
+$(OUT) $(OUT)/runs $(OUT)/without $(STAGES)/failed:
 	@mkdir -p $@
 
 include $(PIPELINES)tin.mk
@@ -94,8 +75,4 @@ ifneq ($(wildcard manifest.sha256),)
 .PHONY: data
 data: ## check the site's data against manifest.sha256
 	sha256sum --check --quiet manifest.sha256
-$(OUT)/data.ok: manifest.sha256 $(wildcard $(shell cut -c67- manifest.sha256)) | $(OUT)
-	@sha256sum --check --quiet manifest.sha256 || { echo "The data of this site are missing or differ: see README.md." >&2; exit 1; }
-	@touch $@
-$(STAGES)/site.mk $(OUT)/tin.ply $(OUT)/trn.tif: | $(OUT)/data.ok
 endif

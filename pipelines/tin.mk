@@ -2,8 +2,9 @@
 # in: CONTOURS, [terrain], TIN_FLAGS (e.g. --hold-out-every 3)   out: $(OUT)/tin.ply, $(OUT)/tin.json
 $(eval $(call remember,tin,$(CONTOURS) $(TIN_FLAGS)))
 ifneq ($(CONTOURS),)
-tin_files := $(OUT)/tin.ply $(OUT)/tin.json
+tin_files := $(addprefix $(OUT)/,$(tin_products))
 $(eval $(call together,$(tin_files)))
-$(OUT)/tin.ply: $(CONTOURS) $(STAGES)/tin.txt $(STAGES)/tin.flags $(call named_in,$(TIN_FLAGS)) | $(OUT)
-	$(BIN)talus-tin $(CONTOURS) -o $(OUT)/tin.ply --report $(OUT)/tin.json $(SITE_TIN_FLAGS) $(TIN_FLAGS) --overwrite $(DB)
+$(OUT)/tin.ply: $(STAGES)/tin.txt $(STAGES)/tin.flags $(STAGES)/tin.files | $(CONTOURS) $(OUT)
+	$(call say,tin: contours -> triangles)
+	$(Q)$(BIN)talus-tin $(CONTOURS) -o $(OUT)/tin.ply --report $(OUT)/tin.json $(SITE_TIN_FLAGS) $(TIN_FLAGS) --overwrite $(DB)
 endif

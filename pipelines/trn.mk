@@ -2,9 +2,10 @@
 # in: [terrain], DEM, TRN_FLAGS (e.g. --like)   out: $(OUT)/trn.tif, $(OUT)/trn.json, $(OUT)/hillshade.png
 $(eval $(call remember,trn,$(DEM) $(TRN_FLAGS)))
 ground_source := $(if $(CONTOURS),$(OUT)/tin.ply,$(DEM))
-trn_files := $(addprefix $(OUT)/,trn.tif trn.json hillshade.png)
+trn_files := $(addprefix $(OUT)/,$(trn_products))
 terrain: $(trn_files) ## contours or elevation model -> terrain
 $(eval $(call together,$(trn_files)))
-$(OUT)/trn.tif: $(ground_source) $(STAGES)/trn.txt $(STAGES)/trn.flags $(call named_in,$(TRN_FLAGS)) | $(OUT)
-	$(BIN)talus-trn $(ground_source) -o $(OUT)/trn.tif --report $(OUT)/trn.json --hillshade $(OUT)/hillshade.png \
+$(OUT)/trn.tif: $(if $(CONTOURS),$(OUT)/tin.ply) $(STAGES)/trn.txt $(STAGES)/trn.flags $(STAGES)/trn.files | $(DEM) $(OUT)
+	$(call say,trn: $(if $(CONTOURS),triangles,elevation model) -> terrain)
+	$(Q)$(BIN)talus-trn $(ground_source) -o $(OUT)/trn.tif --report $(OUT)/trn.json --hillshade $(OUT)/hillshade.png \
 	  $(SITE_TRN_FLAGS) $(TRN_FLAGS) --overwrite $(DB)

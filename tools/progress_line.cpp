@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <iostream>
-#include <string>
 
 #include "base/text.hpp"
 
@@ -13,7 +12,7 @@ void ProgressLine::show(double share) {
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   if (elapsed < 1 || (elapsed - shown_at_ < 0.2 && share < 1)) return;
   shown_at_ = elapsed;
-  std::string line;
+  std::string line = label_.empty() ? "" : label_ + ": ";
   for (int mark = 0; mark <= static_cast<int>(share * 40); ++mark)
     line += mark % 4 == 0 ? std::to_string(mark / 4 * 10) : ".";
   if (share > 0.02 && share < 1)

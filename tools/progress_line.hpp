@@ -4,6 +4,7 @@
 #pragma once
 
 #include <chrono>
+#include <string>
 
 namespace talus {
 
@@ -13,6 +14,8 @@ class ProgressLine {
   void show(double share);
   /// Ends a line that is open, with these words behind it.
   void end(const char* last_words);
+  /// A word before the line, to tell runs apart.
+  void label(const std::string& word) { label_ = word; }
   /// New work begins: the time left is guessed from now on.
   void restart();
 
@@ -20,6 +23,7 @@ class ProgressLine {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   double shown_at_ = 0;  ///< since `start_` [s]
   bool is_open_ = false;
+  std::string label_;
 };
 
 }  // namespace talus

@@ -8,6 +8,7 @@
 #include "post/statistics.hpp"
 #include "report/html.hpp"
 #include "report_fences.hpp"
+#include "report_folder.hpp"
 #include "report_json.hpp"
 
 namespace talus {
@@ -156,6 +157,15 @@ std::string standing_mass(const Json& moved) {
          "failure surface comes out at the foot of the source.</div>\n";
 }
 
+// Runs that were wanted and gave no result: what is shown is of the rest.
+std::string missing_verdict(const Json& runout) {
+  const std::string n = text_at(runout, "/tags/N_MISSING");
+  if (n.empty()) return "";
+  return "<div class=\"verdict fail\"><b>Runs missing: " + n +
+         ".</b> They gave no result; all that is shown is of the other " +
+         word_text(value_at(runout, {"tags", "N_RUNS"})) + ".</div>\n";
+}
+
 }  // namespace
 
 std::string result_section(const ReportData& data) {
@@ -168,6 +178,7 @@ std::string result_section(const ReportData& data) {
   out += html_fact(number_text(value_at(data.blocks, {"n_blocks"})), "blocks");
   out += html_fact(number_text(value_at(data.blocks, {"volume_m3"})) + " m&sup3;", "released rock");
   out += "</div>\n" + standing_mass(moved) + health_verdict(data);
+  out += missing_verdict(data.runout);
   if (value_at(data.fence, {"fences"}).is_array())
     for (const Json& fence : data.fence["fences"]) out += fence_verdict(fence);
   return html_section("result", "Result", out);

@@ -34,6 +34,9 @@ RunInputs::RunInputs(Tool& tool) : tool_(tool) {
       ->check(number_between(0, 1000));
   tool.flag("--allow-unfinished", allow_unfinished,
             "take runs that were interrupted before their end; every output is marked");
+  tool.option("--missing", n_missing,
+              "runs that were wanted and are not there: every output says so")
+      ->check(number_between(0, 1e9));
 }
 
 const Trn& RunInputs::trn() {
@@ -118,9 +121,15 @@ std::string RunInputs::run_set() const {
 
 std::string RunInputs::remark() const {
   const RunFaults faults = faults_of(members);
-  if (const std::string words = text(faults); !words.empty())
-    tool_.warn(words + ": every output says so");
-  return headline(faults);
+  std::string words = text(faults), short_words = headline(faults);
+  if (n_missing > 0) {
+    const std::string missing = std::to_string(n_missing) + " of " +
+                                std::to_string(static_cast<int>(members.size()) + n_missing) +
+                                " runs missing";
+    for (std::string* all : {&words, &short_words}) *all += (all->empty() ? "" : "; ") + missing;
+  }
+  if (!words.empty()) tool_.warn(words + ": every output says so");
+  return short_words;
 }
 
 void mark_layers(std::vector<VectorLayer>& layers, const std::string& remark) {

@@ -15,7 +15,7 @@ namespace talus {
 
 class RunInputs {
  public:
-  /// Declares RUN.h5..., --trn, --allow-unfinished and --rest-speed-m-s on a tool.
+  /// Declares RUN.h5..., --trn, --allow-unfinished, --missing and --rest-speed-m-s on a tool.
   explicit RunInputs(Tool& tool);
 
   /// The terrain. Throws InputError (read_trn).
@@ -38,8 +38,8 @@ class RunInputs {
   /// Digest of the ids of the runs named by RUN.h5..., for the tag RUN_SET (run_set_id).
   [[nodiscard]] std::string run_set() const;
 
-  /// Warns of runs that failed or have not ended; "" when all are whole, else what pictures and
-  /// legends say.
+  /// Warns of runs that failed, have not ended or are missing; "" when all are there and whole,
+  /// else what pictures and legends say.
   [[nodiscard]] std::string remark() const;
 
   /// Warns when blocks were still moving as their runs ended, or had left the known terrain:
@@ -50,6 +50,7 @@ class RunInputs {
   std::string trn_file;
   double rest_speed_m_s = 0.05;
   bool allow_unfinished = false;
+  int n_missing = 0;               ///< runs that were wanted and gave no file
   std::vector<RunMember> members;  ///< of the files read so far; of one call by run id
 
  private:

@@ -18,6 +18,8 @@ namespace talus {
 namespace fs = std::filesystem;
 namespace {
 
+constexpr const char* late_mark = ".late-";
+
 std::string utc_now() {
   const std::time_t now = std::time(nullptr);
   char buffer[32];
@@ -57,6 +59,26 @@ std::string content_id(const RunRecord& record) {
   std::sort(contents.begin(), contents.end());
   for (const auto& [role, sha256] : contents) add(role), add(sha256);
   return hash.hex().substr(0, 16);
+}
+
+std::string late_registry(const std::string& db) {
+  return db + late_mark + host_name() + "-" + std::to_string(getpid());
+}
+
+bool is_late_registry(const std::string& path) {
+  return fs::path(path).filename().string().find(late_mark) != std::string::npos;
+}
+
+std::vector<std::string> late_registries(const std::string& db) {
+  const std::string begin = fs::path(db).filename().string() + late_mark;
+  std::vector<std::string> files;
+  for (const auto& entry : fs::directory_iterator(folder_of(db))) {
+    const std::string name = entry.path().filename().string();
+    const bool is_part = name.ends_with("-wal") || name.ends_with("-shm");
+    if (name.starts_with(begin) && !is_part) files.push_back(entry.path().string());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
 }
 
 void end_record(int exit_code, double wall_time_s, RunRecord& record) {

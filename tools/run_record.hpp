@@ -18,6 +18,14 @@ void begin_record(const std::string& tool, const std::string& command_line, RunR
 /// Digest of tool, version, settings and contents of the inputs (16 digits).
 [[nodiscard]] std::string content_id(const RunRecord& record);
 
+/// Where the entry of this process stands when its registry cannot be written.
+[[nodiscard]] std::string late_registry(const std::string& db);
+
+[[nodiscard]] bool is_late_registry(const std::string& path);
+
+/// The registries of this kind beside `db`, by name.
+[[nodiscard]] std::vector<std::string> late_registries(const std::string& db);
+
 /// Fills in how the run ended and what it took. `wall_time_s`: since it began [s].
 void end_record(int exit_code, double wall_time_s, RunRecord& record);
 

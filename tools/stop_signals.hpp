@@ -4,11 +4,12 @@
 
 namespace talus {
 
-/// From here on SIGINT and SIGTERM ask the work to end where it can, and a second one kills; a
-/// closed pipe and a limit on file sizes are errors of the write, as a full disk is.
+/// From here on SIGINT, SIGTERM and SIGHUP ask the work to end where it can, and a second SIGINT or
+/// SIGTERM kills; a SIGHUP that was ignored at the start (nohup) stays so. A closed pipe and a
+/// limit on file sizes are errors of the write, as a full disk is.
 void listen_for_signals();
 
-/// SIGINT or SIGTERM has come.
+/// SIGINT, SIGTERM or SIGHUP has come.
 [[nodiscard]] bool stop_requested();
 
 }  // namespace talus

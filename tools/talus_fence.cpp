@@ -87,6 +87,7 @@ MapTags output_tags(Tool& tool, const RunInputs& inputs, const FenceRuns& runs,
       if (name == "N_RUNS" || name == "DENOMINATOR" || name == "HEALTH")
         tags.emplace_back(name + "_WITHOUT", value);
   if (!remark.empty()) tags.emplace_back("REMARK", remark);
+  if (inputs.n_missing > 0) tags.emplace_back("N_MISSING", std::to_string(inputs.n_missing));
   return tags;
 }
 

@@ -152,6 +152,7 @@ void run_tool(Tool& tool, Options& o, talus::RunInputs& runs) {
   tags.insert(tags.begin(), {{"RUN_ID", tool.run_id()}, {"RUN_SET", runs.run_set()}});
   const std::string remark = runs.remark();
   if (!remark.empty()) tags.emplace_back("REMARK", remark);
+  if (runs.n_missing > 0) tags.emplace_back("N_MISSING", std::to_string(runs.n_missing));
   const talus::MapFrame frame = talus::map_frame(trn, grid, o.png, layers[0].cell);
   Json files = Json::array();
   const talus::ProgressFunction progress = tool.progress();

@@ -93,6 +93,7 @@ void run_tool(Tool& tool, Options& o, RunInputs& inputs) {
   tags.insert(tags.begin(), {{"RUN_ID", tool.run_id()}, {"RUN_SET", inputs.run_set()}});
   const std::string remark = inputs.remark();
   if (!remark.empty()) tags.emplace_back("REMARK", remark);
+  if (inputs.n_missing > 0) tags.emplace_back("N_MISSING", std::to_string(inputs.n_missing));
   inputs.warn_of_ends();
   warn_of_standing_mass(tool, all);
 

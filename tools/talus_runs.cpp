@@ -8,6 +8,7 @@
 
 #include "base/sha256.hpp"
 #include "base/text.hpp"
+#include "run_record.hpp"
 #include "store/runs.hpp"
 #include "tool.hpp"
 
@@ -214,11 +215,25 @@ void show_ancestry(talus::Tool& tool, const std::string& db, const std::string& 
   tool.result(std::move(document), text);
 }
 
+// What was taken over is removed.
+void adopt_late(talus::Tool& tool, const std::string& db, const std::vector<std::string>& files) {
+  int n = 0;
+  for (const std::string& file : files) {
+    if (std::filesystem::exists(db) && std::filesystem::equivalent(db, file))
+      throw talus::InputError({file}, "is the registry itself", "name what stands beside it");
+    n += talus::adopt_runs(db, file);
+    if (talus::is_late_registry(file)) std::filesystem::remove(file);
+  }
+  tool.result({{"n_adopted", n}},
+              std::to_string(n) + (n == 1 ? " run" : " runs") + " entered in " + db);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   std::string id, file;
   std::string db = "runs.sqlite";
+  std::vector<std::string> late;
   bool prov = false;
   talus::Tool tool("talus-runs",
                    "Reads the run registry: what was run, from what, with which outcome.");
@@ -238,8 +253,14 @@ int main(int argc, char** argv) {
   trace->add_option("FILE", file, "an output of any tool")->required();
   trace->add_flag("--prov", prov, "print the ancestry as W3C PROV-JSON");
 
+  CLI::App* adopt = tool.app().add_subcommand(
+      "adopt", "enter the runs that ended while the registry could not be written");
+  adopt->add_option("FILE", late, "what such a run left [all beside the registry: DB.late-*]");
+
   return tool.run(argc, argv, [&] {
-    if (list->parsed()) {
+    if (adopt->parsed()) {
+      adopt_late(tool, db, late.empty() ? talus::late_registries(db) : late);
+    } else if (list->parsed()) {
       Json runs = Json::array();
       std::string lines =
           "id    content id        tool          started               outcome      cpu       "

@@ -5,12 +5,14 @@
 #include <cctype>
 #include <cstring>
 #include <filesystem>
+#include <map>
 #include <set>
 
 #include "base/read_file.hpp"
-#include "base/sha256.hpp"
 #include "base/text.hpp"
+#include "file_digests.hpp"
 #include "file_paths.hpp"
+#include "io/dataset_files_gdal.hpp"
 #include "site_options.hpp"
 #include "site_stages.hpp"
 #include "tool.hpp"
@@ -58,20 +60,58 @@ bool is_read(const Site& site, const std::string& stage, const EffectiveValue& v
   return is_ground && stage == "blocks" && site.source.failure_surface == "daylighting";
 }
 
+// Digests of the files that a data set is made of. GDAL does not name the encoding of a Shapefile.
+std::string digests_of(const std::string& path, FileDigests& digests) {
+  const std::vector<std::string> members = dataset_files(path);
+  std::set<std::string> files(members.begin(), members.end());
+  for (const std::string& file : sidecars_of(path))
+    if (fs::is_regular_file(file)) files.insert(file);
+  std::string out;
+  for (const std::string& file : files) out += " " + digests.of(file);
+  return out;
+}
+
 // What a stage reads, a line a value; files by their content.
-std::string settings_of(const Site& site, const std::string& stage) {
+std::string settings_of(const Site& site, const std::string& stage, FileDigests& digests) {
   std::string out = "# what the stage " + stage + " reads of the site file\n";
   for (const EffectiveValue& value : effective_values(site)) {
     if (value.value.empty() || !is_read(site, stage, value)) continue;
     out += value.section + "." + value.key + " = " + value.value;
     const std::string file = file_named(site, value);
-    if (!file.empty())
-      out += "  # sha256 " + (fs::is_regular_file(file) ? sha256_of_file(file) : "none");
-    for (const std::string& member : sidecars_of(file))
-      if (fs::is_regular_file(member)) out += " " + sha256_of_file(member);
+    if (!file.empty()) out += "  # sha256" + digests_of(file, digests);
     out += "\n";
   }
   return out;
+}
+
+// --- files that make was given -----------------------------------------------------------------
+
+// NAME=FILE or NAME=: the name of a list, and a file of it.
+struct GivenFile {
+  std::string name, file;
+};
+
+GivenFile given_file(const std::string& words) {
+  const std::size_t sign = words.find('=');
+  const std::string name = words.substr(0, sign);
+  if (sign == std::string::npos || name.empty() || name.find('/') != std::string::npos)
+    throw UsageError({"", 0, "--given"}, "is " + words + ", expected NAME=FILE or NAME=",
+                     "NAME becomes the name of a file, NAME.files");
+  return {name, words.substr(sign + 1)};
+}
+
+// A list a name: its files and their digests.
+std::map<std::string, std::string> lists_of(const std::vector<std::string>& given,
+                                            FileDigests& digests) {
+  std::map<std::string, std::string> lists;
+  for (const std::string& words : given) {
+    const auto [name, file] = given_file(words);
+    std::string& list = lists[name];
+    if (list.empty()) list = "# files that make was given for " + name + "\n";
+    if (file.empty()) continue;
+    list += file + "  # sha256" + (is_virtual(file) ? " none" : digests_of(file, digests)) + "\n";
+  }
+  return lists;
 }
 
 // --- variables for make ------------------------------------------------------------------------
@@ -107,16 +147,6 @@ std::string make_word(const std::string& path, const Site& site) {
   return out;
 }
 
-// Files beside it as prerequisites, also one that comes later.
-std::string sidecar_words(const std::string& path, const Site& site) {
-  std::string out;
-  for (const std::string& member : sidecars_of(path)) {
-    const std::string word = make_word(member, site);
-    out += fs::exists(member) ? " " + word : " $(if $(wildcard " + word + ")," + word + ")";
-  }
-  return out;
-}
-
 std::string joined(const std::vector<double>& numbers) {
   std::string out;
   for (const double number : numbers) out += (out.empty() ? "" : ",") + text(number);
@@ -147,7 +177,7 @@ std::string trn_flags(const Site& site) {
 }
 
 std::string make_variables(const Site& site) {
-  std::string fences, files;
+  std::string fences;
   for (const FenceSettings& fence : site.fences) {
     if (fence.name.find_first_of(" #%") != std::string::npos)
       throw InputError(where_of(site, "fence." + fence.name),
@@ -155,10 +185,6 @@ std::string make_variables(const Site& site) {
                        "use letters, digits and _-+=,./@:");
     fences += " " + plain_name(fence.name, where_of(site, "fence." + fence.name));
   }
-  std::set<std::string> seen;
-  for (const EffectiveValue& value : effective_values(site))
-    if (const std::string file = file_named(site, value); !file.empty() && seen.insert(file).second)
-      files += " " + make_word(file, site) + sidecar_words(file, site);
   const bool any_active = std::any_of(site.fences.begin(), site.fences.end(),
                                       [](const FenceSettings& fence) { return fence.active; });
   std::string out = "# written by talus-site from the site file\n";
@@ -169,7 +195,6 @@ std::string make_variables(const Site& site) {
   line("SITE_DEM", make_word(resolved(site, site.terrain.dem), site));
   line("SITE_TIN_FLAGS", tin_flags(site));
   line("SITE_TRN_FLAGS", trn_flags(site));
-  line("SITE_FILES", files);
   line("SITE_RUNS", std::to_string(site.solver.n_runs));
   line("SITE_SEED", std::to_string(site.solver.seed));
   line("SITE_FENCES", fences);
@@ -190,18 +215,28 @@ void write_if_changed(Tool& tool, const fs::path& path, const std::string& conte
 
 int main(int argc, char** argv) {
   std::string folder;
+  std::vector<std::string> given;
   Tool tool("talus-site", "Parts the site file into what each stage of the pipeline reads.");
   SiteOptions site_options(tool);
   tool.output_folder("-o,--out", folder, "folder for a file a stage, and site.mk")->required();
+  tool.app()
+      .add_option(
+          "--given", given,
+          "NAME=FILE: a file that make was given; DIR/NAME.files lists those of a NAME with "
+          "their digests")
+      ->allow_extra_args(false);
   tool.footer("Example:\n  talus-site site.toml -o out/stages --overwrite --no-db");
   return tool.run(argc, argv, [&] {
     const Site& site = site_options.load();
     const std::string variables = make_variables(site);
     check_files(site);
-    // Always written; staged first, so that it comes in place last: its time says when the site
-    // file was last looked at.
-    tool.write_text((fs::path(folder) / "site.mk").string(), variables);
+    const fs::path out = folder, memory = out / ".digests";
+    FileDigests digests(fs::is_regular_file(memory) ? read_file(memory.string()) : "");
+    write_if_changed(tool, out / "site.mk", variables);
     for (const std::string& stage : stage_names())
-      write_if_changed(tool, fs::path(folder) / (stage + ".txt"), settings_of(site, stage));
+      write_if_changed(tool, out / (stage + ".txt"), settings_of(site, stage, digests));
+    for (const auto& [name, list] : lists_of(given, digests))
+      write_if_changed(tool, out / (name + ".files"), list);
+    write_if_changed(tool, memory, digests.as_text());
   });
 }

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <set>
 
 #include "base/text.hpp"
 #include "command_line.hpp"
@@ -25,6 +26,22 @@
 
 namespace talus {
 namespace fs = std::filesystem;
+namespace {
+
+std::string one_line(std::string words) {
+  std::replace_if(
+      words.begin(), words.end(), [](char c) { return c == '\n' || c == '\t'; }, ' ');
+  return words;
+}
+
+// The value of an option on a command line that could not be parsed; "" where it is not there.
+std::string word_after(const std::string& option, int argc, char** argv) {
+  for (int i = 1; i + 1 < argc; ++i)
+    if (argv[i] == option) return argv[i + 1];
+  return "";
+}
+
+}  // namespace
 
 struct Tool::Impl {
   std::string name;
@@ -38,7 +55,11 @@ struct Tool::Impl {
   Json result;
   Json layers_read = Json::array();
   std::string summary;
-  bool registered = false;
+  bool registered = false;  // to be recorded; record.id is 0 while it has no row
+  bool is_late = false;     // the registry was locked once: it is not waited for again
+  bool in_place = false;    // the outputs
+  std::vector<std::string> failures;
+  std::set<std::string> hints;  // for what failed
   bool on_terminal = isatty(STDERR_FILENO) == 1;
   ProgressLine progress_line;
 
@@ -51,7 +72,11 @@ struct Tool::Impl {
 
   void print(const std::string& text) {
     progress_line.end("");
-    std::cerr << text << std::endl;
+    std::cerr << labelled(text) << std::endl;
+  }
+
+  std::string labelled(const std::string& text) const {
+    return options.label.empty() ? text : options.label + ": " + text;
   }
 
   void event(const std::string& level, const std::string& text) {
@@ -85,8 +110,13 @@ struct Tool::Impl {
     if (options.no_db || registry_path(options).empty()) return;
     record.content_id = content_id(record);
     record.status = "running";
-    record.id = start_run(registry_path(options), record);
     registered = true;
+    try {
+      record.id = start_run(registry_path(options), record);
+    } catch (const RegistryBusy& error) {
+      is_late = true;
+      print(name + ": warning: " + error.what() + "; the run is recorded when it has ended");
+    }
     record.content_id.clear();  // the body may name further inputs
   }
 
@@ -98,7 +128,26 @@ struct Tool::Impl {
   void finish_record(int exit_code) {
     complete_content_id();
     end_record(exit_code, seconds_since_start(), record);
-    finish_run(registry_path(options), record);
+    const std::string db = registry_path(options);
+    const int wait_ms = is_late ? 0 : registry_wait_ms;
+    try {
+      record.id > 0 ? finish_run(db, record, wait_ms) : (void)add_run(db, record, wait_ms);
+    } catch (const InputError& error) {
+      keep_late_record(error.what());
+    }
+  }
+
+  // An output is worth more than its entry: this stands in a registry of its own then.
+  void keep_late_record(const std::string& why) {
+    const std::string db = registry_path(options), late = late_registry(db);
+    std::string found = "warning: " + why + "; whatever this run wrote is in place, its entry ";
+    try {
+      add_run(late, record);
+      print(name + ": " + found + "is in " + late);
+      print("  hint: talus-runs --db " + db + " adopt enters it once the registry can be written");
+    } catch (const InputError&) {
+      print(name + ": " + found + "is lost");
+    }
   }
 
   // Outputs by their final names, while they still have their temporary ones. Who finds one of them
@@ -111,7 +160,12 @@ struct Tool::Impl {
     }
     if (!registered || files.empty()) return;
     complete_content_id();
-    record_results(registry_path(options), record);
+    if (record.id == 0) return;
+    try {
+      record_results(registry_path(options), record);
+    } catch (const InputError&) {
+      is_late = true;  // said at the end, with where the entry is then
+    }
   }
 
   void commit_outputs() {
@@ -122,6 +176,7 @@ struct Tool::Impl {
         in_order_of_commit(staged, outputs.empty() ? "" : *outputs.front().path);
     record_outputs(files);
     put_in_place(files, now);
+    in_place = true;
     staged.clear();
   }
 
@@ -133,7 +188,7 @@ struct Tool::Impl {
       if (!warnings.empty()) result["warnings"] = warnings;
       std::cout << result.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
     } else if (!options.json && !options.quiet && !summary.empty()) {
-      std::cout << summary << '\n';
+      std::cout << labelled(summary) << '\n';
     }
     if (!std::cout.flush()) throw InputError({"standard output"}, "cannot be written");
   }
@@ -149,8 +204,28 @@ struct Tool::Impl {
     staged.clear();
     event("error", what);
     print(name + ": " + what);
-    if (!hint.empty()) print("  hint: " + hint);
+    say_hint(hint);
+    failures.push_back(what);
     return code;
+  }
+
+  void say_hint(const std::string& hint) {
+    if (hint.empty()) return;
+    print("  hint: " + hint);
+    hints.insert(hint);
+  }
+
+  // For who started many runs and lists what became of them.
+  void write_failures(int code) const {
+    if (options.failures.empty()) return;
+    std::error_code error;
+    fs::remove(options.failures, error);
+    if (code == done) return;
+    std::ofstream file(options.failures);
+    const char* outputs = in_place ? "kept\t" : "none\t";
+    for (const std::string& what : failures) file << outputs << one_line(what) << '\n';
+    for (const std::string& hint : hints) file << "hint\t" << one_line(hint) << '\n';
+    if (!file.flush()) std::cerr << name << ": " << options.failures << ": cannot be written\n";
   }
 
   int guarded(const std::function<int()>& work) {
@@ -181,9 +256,11 @@ struct Tool::Impl {
     for (std::size_t i = 0; i < record.checks.size(); ++i) {
       const RunCheck& check = record.checks[i];
       if (check.pass) continue;
-      print(name + ": health: " + check.name + " is " + text(check.value, 6) + ", limit " +
-            text(check.limit, 6));
-      if (!check_hints[i].empty()) print("  hint: " + check_hints[i]);
+      const std::string what =
+          check.name + " is " + text(check.value, 6) + ", limit " + text(check.limit, 6);
+      print(name + ": health: " + what);
+      say_hint(check_hints[i]);
+      failures.push_back(what);
     }
     return all_checks_pass() ? done : numbers_failed;
   }
@@ -336,9 +413,13 @@ int Tool::run(int argc, char** argv, const std::function<void()>& body) {
     return impl.app.exit(wanted);
   } catch (const CLI::ParseError& error) {
     std::cerr << impl.name << ": " << error.what() << "\n  hint: " << impl.name << " --help\n";
+    impl.failures.push_back(error.what());
+    impl.options.failures = word_after("--failures", argc, argv);
+    impl.write_failures(usage_wrong);
     return usage_wrong;
   }
   listen_for_signals();
+  impl.progress_line.label(impl.options.label);
 
   int code = impl.guarded([&] {
     if (impl.options.print_config) {
@@ -351,11 +432,9 @@ int Tool::run(int argc, char** argv, const std::function<void()>& body) {
   if (impl.registered) {
     const int recorded =
         impl.guarded([&] { return impl.finish_record(code), static_cast<int>(done); });
-    if (recorded != done && code == done) {
-      impl.print("  the outputs are whole and in place; only the record of this run is missing");
-      code = recorded;
-    }
+    if (code == done) code = recorded;
   }
+  impl.write_failures(code);
   return code;
 }
 

@@ -81,9 +81,9 @@ class Tool {
   void write_text(const std::string& path, const std::string& content);
   /// A file that was read but is not an option's value (named in a site file, member of a set).
   void read_also(const std::string& role, const std::string& path);
-  /// To hand to long work; throws Interrupted after SIGINT or SIGTERM.
+  /// To hand to long work; throws Interrupted after SIGINT, SIGTERM or SIGHUP.
   [[nodiscard]] ProgressFunction progress();
-  [[nodiscard]] bool interrupted() const;  ///< SIGINT or SIGTERM has come
+  [[nodiscard]] bool interrupted() const;  ///< one of these has come
   void info(const std::string& text);      ///< to stderr, not with -q
   void detail(const std::string& text);    ///< to stderr, with -v
   void warn(const std::string& text);      ///< as info(); kept in the registry and in result()

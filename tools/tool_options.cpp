@@ -37,6 +37,9 @@ void add_common_options(const std::string& tool, CLI::App& app, ToolOptions& opt
         app.add_flag("--overwrite", options.overwrite, "replace outputs that exist"),
         app.add_option("--db", options.db, "run registry [runs.sqlite beside the output]"),
         app.add_flag("--no-db", options.no_db, "do not record the run"),
+        app.add_option("--label", options.label, "put this word before every message"),
+        app.add_option("--failures", options.failures,
+                       "write what failed to this file too; none is left when nothing did"),
         app.add_flag("--print-config", options.print_config,
                      "print the effective settings and where each came from, then end")}) {
     option->group("Common options");

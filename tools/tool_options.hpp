@@ -33,7 +33,9 @@ struct ToolOptions {
 
   bool quiet = false, verbose = false, json = false, overwrite = false, no_db = false,
        print_config = false;
-  std::string db;  ///< as given; empty: beside the first output
+  std::string db;        ///< as given; empty: beside the first output
+  std::string label;     ///< before every message, to tell runs apart
+  std::string failures;  ///< file for what failed; empty: not wanted
 };
 
 /// Adds the options of every tool to `app`, whose values go to `options`.

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "base/error.hpp"
+
 namespace talus {
 
 struct RunParam {
@@ -65,8 +67,17 @@ struct RunRecord {
   std::vector<RunCheck> checks;
 };
 
+/// Somebody else has held the registry for as long as was waited.
+struct RegistryBusy : InputError {
+  using InputError::InputError;
+};
+
+/// How long a write waits for others that write [ms].
+constexpr int registry_wait_ms = 60000;
+
 /// Writes the run as it begins (status "running") and returns its row. Makes the registry when it
-/// does not exist. Throws InputError when `db` cannot be written or is not a registry.
+/// does not exist. Throws InputError when `db` cannot be written or is not a registry, RegistryBusy
+/// (all that write do).
 [[nodiscard]] std::int64_t start_run(const std::string& db, const RunRecord& run);
 
 /// Records what a run that still goes on has come to, before the first output is put in place:
@@ -75,7 +86,14 @@ struct RunRecord {
 void record_results(const std::string& db, const RunRecord& run);
 
 /// Completes the row `run.id`: outcome, times, and all that record_results writes.
-void finish_run(const std::string& db, const RunRecord& run);
+void finish_run(const std::string& db, const RunRecord& run, int wait_ms = registry_wait_ms);
+
+/// Writes a run that is over as a new row, and returns it.
+std::int64_t add_run(const std::string& db, const RunRecord& run, int wait_ms = registry_wait_ms);
+
+/// Takes over all runs of another registry: one that still goes on in `db` (same tool, host,
+/// process and start) is completed, any other is added. Returns how many there were.
+int adopt_runs(const std::string& db, const std::string& other);
 
 /// All runs without their details, in the order of their rows. Throws InputError when `db` does not
 /// exist or is not a registry.

@@ -1,6 +1,7 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <sqlite3.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "base/error.hpp"
@@ -10,7 +11,6 @@ namespace talus {
 namespace {
 
 constexpr int schema_version = 1;
-constexpr int busy_timeout_ms = 60000;
 
 constexpr const char* schema = R"sql(
 CREATE TABLE run (
@@ -44,8 +44,10 @@ CREATE INDEX event_run ON event (run_id);
 CREATE INDEX check_run ON "check" (run_id);
 )sql";
 
+constexpr const char* way_out = "name another registry with --db, or run with --no-db";
+
 [[noreturn]] void refuse(const std::string& db, const std::string& finding) {
-  throw InputError({db}, finding, "name another registry with --db, or run with --no-db");
+  throw InputError({db}, finding, way_out);
 }
 
 void check_version(SQLite::Database& database, const std::string& db) {
@@ -67,8 +69,8 @@ void make_tables(SQLite::Database& database) {
   transaction.commit();
 }
 
-SQLite::Database open_to_write(const std::string& db) {
-  SQLite::Database database(db, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, busy_timeout_ms);
+SQLite::Database open_to_write(const std::string& db, int wait_ms) {
+  SQLite::Database database(db, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, wait_ms);
   // The busy handler is not asked when the journal mode changes while another process reads, so
   // the mode is changed only where it is not WAL yet, and tried again until the other one is done.
   for (int attempt = 0; database.execAndGet("PRAGMA journal_mode").getString() != "wal";
@@ -76,7 +78,7 @@ SQLite::Database open_to_write(const std::string& db) {
     try {
       database.exec("PRAGMA journal_mode = WAL");
     } catch (const SQLite::Exception& error) {
-      if (error.getErrorCode() != SQLITE_BUSY || attempt > 1000) throw;
+      if (error.getErrorCode() != SQLITE_BUSY || 20 * attempt > wait_ms) throw;
       sqlite3_sleep(20);
     }
   }
@@ -89,7 +91,7 @@ SQLite::Database open_to_write(const std::string& db) {
 SQLite::Database open_to_read(const std::string& db) {
   if (!std::filesystem::exists(db))
     throw InputError({db}, "there is no such registry", "name it with --db");
-  SQLite::Database database(db, SQLite::OPEN_READWRITE, busy_timeout_ms);
+  SQLite::Database database(db, SQLite::OPEN_READWRITE, registry_wait_ms);
   check_version(database, db);
   return database;
 }
@@ -100,7 +102,9 @@ auto with_registry(const std::string& db, Work&& work) {
   try {
     return work();
   } catch (const SQLite::Exception& error) {
-    refuse(db, std::string("the run registry cannot be used: ") + error.what());
+    const std::string finding = std::string("the run registry cannot be used: ") + error.what();
+    if (error.getErrorCode() == SQLITE_BUSY) throw RegistryBusy({db}, finding, way_out);
+    refuse(db, finding);
   }
 }
 
@@ -200,11 +204,9 @@ void read_details(SQLite::Database& database, RunRecord& run) {
                           check.getColumn(2).getDouble(), check.getColumn(3).getInt() != 0});
 }
 
-}  // namespace
-
-std::int64_t start_run(const std::string& db, const RunRecord& run) {
+std::int64_t begin_row(const std::string& db, const RunRecord& run, int wait_ms) {
   return with_registry(db, [&] {
-    SQLite::Database database = open_to_write(db);
+    SQLite::Database database = open_to_write(db, wait_ms);
     SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
     insert(database,
            "INSERT INTO run (content_id, tool, version, git_commit, command_line, folder, host, "
@@ -222,18 +224,55 @@ std::int64_t start_run(const std::string& db, const RunRecord& run) {
   });
 }
 
+bool is_same_run(const RunRecord& a, const RunRecord& b) {
+  return a.tool == b.tool && a.host == b.host && a.process_id == b.process_id &&
+         a.started == b.started;
+}
+
+}  // namespace
+
+std::int64_t start_run(const std::string& db, const RunRecord& run) {
+  return begin_row(db, run, registry_wait_ms);
+}
+
+std::int64_t add_run(const std::string& db, const RunRecord& run, int wait_ms) {
+  RunRecord row = run;
+  row.id = begin_row(db, run, wait_ms);
+  finish_run(db, row, wait_ms);
+  return row.id;
+}
+
+int adopt_runs(const std::string& db, const std::string& other) {
+  const std::vector<RunRecord> known =
+      std::filesystem::exists(db) ? list_runs(db) : std::vector<RunRecord>{};
+  const std::vector<RunRecord> late = list_runs(other);
+  for (const RunRecord& row : late) {
+    RunRecord run = read_run(other, std::to_string(row.id));
+    const auto begun = std::find_if(known.begin(), known.end(), [&run](const RunRecord& r) {
+      return r.status == "running" && is_same_run(r, run);
+    });
+    if (begun == known.end()) {
+      add_run(db, run);
+      continue;
+    }
+    run.id = begun->id;
+    finish_run(db, run);
+  }
+  return static_cast<int>(late.size());
+}
+
 void record_results(const std::string& db, const RunRecord& run) {
   with_registry(db, [&] {
-    SQLite::Database database = open_to_write(db);
+    SQLite::Database database = open_to_write(db, registry_wait_ms);
     SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
     replace_results(database, run);
     transaction.commit();
   });
 }
 
-void finish_run(const std::string& db, const RunRecord& run) {
+void finish_run(const std::string& db, const RunRecord& run, int wait_ms) {
   with_registry(db, [&] {
-    SQLite::Database database = open_to_write(db);
+    SQLite::Database database = open_to_write(db, wait_ms);
     SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
     replace_results(database, run);
     insert(database,

@@ -336,8 +336,8 @@ def kill_pipeline(bench):
 
 
 def part_signal(bench):
-    """SIGINT and SIGTERM: exit code 130 (before a tool listens: death by the signal), resumable."""
-    for number in (signal.SIGINT, signal.SIGTERM):
+    """SIGINT, SIGTERM and SIGHUP: exit code 130 (before a tool listens: death by the signal), resumable."""
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         tried_all, losses_all, early = 0, [], 0
         for job in bench.jobs:
             tried, losses, codes = interrupted_tries(bench, job, bench.times(1, 6), number)

@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
   tool.input("source", source, "file to copy");
   tool.output("-o,--out", target, "where to")->required();
   tool.output("--second", second, "another copy");
-  tool.option("--mode", mode, "copy, refuse, fail, break, check, throw or wait");
+  tool.option("--mode", mode, "copy, refuse, fail, break, check, throw, wait or hold");
   tool.option("--factor-m", factor_m, "a number [m]");
   return tool.run(argc, argv, [&] {
     for (const std::string& path : {target, second})
@@ -28,6 +28,9 @@ int main(int argc, char** argv) {
         tool.progress()(i / 600.0);
         std::this_thread::sleep_for(std::chrono::milliseconds(50));
       }
+    if (mode == "hold")
+      while (std::filesystem::exists("hold"))
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
     tool.warn("a warning");
     tool.metric("n_bytes", static_cast<double>(std::filesystem::file_size(source)), "1");
     tool.result({{"run_id", tool.run_id()}}, "copied");

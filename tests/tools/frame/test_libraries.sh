@@ -15,7 +15,7 @@ needs() {
 }
 
 needs talus-runs sqlite3
-needs talus-site sqlite3 tomlplusplus
+needs talus-site gdal sqlite3 tomlplusplus
 needs talus-trn gdal sqlite3
 needs talus-tin gdal gmp sqlite3
 needs talus-maps gdal hdf5_serial sqlite3

@@ -14,8 +14,9 @@ made() {
   shift
   expect 0 make -C "$folder" BIN= "$@"
 }
-# same FOLDER FOLDER: all outputs byte by byte, but for the registry with its times and paths
+# same FOLDER FOLDER: all outputs byte by byte, but for the registry and the memory of digests, with
+# their times and paths
 same() {
-  diff -r -q --exclude='runs.sqlite*' --exclude='.*.part-*' "$1/out" "$2/out" >differences ||
+  diff -r -q --exclude='runs.sqlite*' --exclude=.digests --exclude='.*.part-*' "$1/out" "$2/out" >differences ||
     { cat differences >&2; fail "the outputs of $1 and $2 differ"; }
 }

@@ -23,7 +23,9 @@ sed -i 's/^height_m = 8/height_m = 7/' slope/site.toml
 would
 would_be "dda*2 fence*1 maps*1 report*1 runout*1" "another fence"
 sed -i 's/^height_m = 7/height_m = 8/' slope/site.toml
-made slope -j2
+would
+would_be "report*1" "a fence that was moved and put back, and a comment"
+made slope
 
 would RUNS=3
 would_be "dda*4 fence*1 maps*1 report*1 runout*1" "two more seeds"
@@ -33,8 +35,10 @@ would
 would_be "" "nothing changed"
 
 would FENCE_FLAGS='--code onr'
+would_be "fence*1 report*1" "another design code"
+would
 would_be "" "a dry run remembers no options"
-made slope -j2 FENCE_FLAGS='--code onr'
+made slope -j2 V=1 FENCE_FLAGS='--code onr'
 prints "talus-fence site.toml"
 if grep -q talus-maps out; then fail "another design code made the maps again"; fi
 made slope
@@ -46,7 +50,11 @@ sed -i 's/^plane_dip_deg = 32/plane_dip_deg = 33/' slope/site.toml
 
 touch slope/contours.gpkg
 would
-would_be "blocks*1 dda*2 fence*1 maps*1 report*1 runout*1 tin*1 trn*1" "newer contours"
+would_be "" "the same contours with another time"
+cp "$source_dir/sample_sites/maungawhau/contours.gpkg" slope/contours.gpkg
+would
+would_be "blocks*1 dda*2 fence*1 maps*1 report*1 runout*1 tin*1 trn*1" "other contours"
+cp "$source_dir/sample_sites/designed/contours.gpkg" slope/contours.gpkg
 
 sed -i 's/^friction_deg = 25/friction_deg = 250/' slope/site.toml
 code=0

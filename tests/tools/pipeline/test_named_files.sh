@@ -25,13 +25,13 @@ set -- TRN_FLAGS='--reference=dem.tif' FENCE_FLAGS='--code code.csv' RUNOUT_FLAG
 made slope -j2 "$@"
 would "$@"
 would_be "" "nothing changed"
-touch slope/mobility.csv
+echo "# a remark" >>slope/mobility.csv
 would "$@"
 would_be "report runout " "another table of mobility"
-touch slope/code.csv
+echo "# a remark" >>slope/code.csv
 would "$@"
 would_be "fence report runout " "another design code"
-touch slope/dem.tif
+gdal_translate -q -co COMPRESS=DEFLATE slope/dem.tif dem.tif && cp dem.tif slope/dem.tif
 would "$@"
 would_be "blocks dda fence maps report runout trn " "another reference"
 made slope -j2 "$@"

@@ -36,15 +36,19 @@ for pause in 0 0.1 0.3; do
   nothing_left killed.h5.part killed.h5.part.new
 done
 
-# interrupted: exit 130 after a checkpoint
-talus-dda site.toml --trn slope.tif --blocks blocks.h5 --no-db --independent -o stopped.h5 $slow &
-run_id=$!
-wait_for stopped.h5.part
-kill -TERM $run_id
-code=0
-wait $run_id || code=$?
-[ $code -eq 130 ] || fail "exit code $code after SIGTERM, expected 130"
-[ -s stopped.h5.part ] || fail "no checkpoint after SIGTERM"
+# interrupted, or its terminal closed: exit 130 after a checkpoint, here the first one
+for signal in HUP TERM; do
+  rm -f stopped.h5.part
+  talus-dda site.toml --trn slope.tif --blocks blocks.h5 --no-db --independent -o stopped.h5 -q \
+    --time-step-s 0.00005 --checkpoint-interval-s 3600 &
+  run_id=$!
+  sleep 1
+  kill -$signal $run_id || fail "the run was over before SIG$signal"
+  code=0
+  wait $run_id || code=$?
+  [ $code -eq 130 ] || fail "exit code $code after SIG$signal, expected 130"
+  [ -s stopped.h5.part ] || fail "no checkpoint after SIG$signal"
+done
 
 # only with the same settings
 expect 1 run_dda -o stopped.h5 $slow --resume --set ground.ground.friction_deg=21

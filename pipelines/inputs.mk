@@ -1,0 +1,95 @@
+# What the site is made from, looked at by content whenever make starts: other contents repeat a stage,
+# other times do not. talus-site writes a file a stage with the values that it reads and the digests of
+# its files, and leaves one that would be the same as it is.
+# in: site.toml, CONTOURS, DEM, *_FLAGS, manifest.sha256   out: $(STAGES)/*.txt, *.files, *.flags, SITE_*
+
+# With -n and -q nothing is written: the stage files go to a folder of their own and are compared.
+is_dry_run := $(findstring n,$(short_flags))$(findstring q,$(short_flags))
+
+# --- the tools: of this checkout when it is built whole, else on the search path ---
+tool_names := site tin trn blocks dda runout maps fence report
+whole_build = $(if $(word $(words $(tool_names)),$(wildcard $(tool_names:%=$1talus-%))),$1)
+BIN ?= $(firstword $(call whole_build,$(PIPELINES)../build/release/tools/) $(call whole_build,$(PIPELINES)../build/demo/tools/))
+wanted := $(or $(MAKECMDGOALS),all)
+needed_tools := site tin trn $(if $(filter-out terrain,$(wanted)),blocks) $(if $(filter-out terrain blocks,$(wanted)),dda) \
+  $(if $(filter-out terrain blocks runs,$(wanted)),runout maps fence report)
+missing_tools := $(shell for tool in $(needed_tools); do command -v $(BIN)talus-$$tool >/dev/null || echo talus-$$tool; done)
+ifneq ($(missing_tools),)
+$(error $(missing_tools) cannot be found$(if $(BIN), in $(BIN)): $(if $(wildcard $(PIPELINES)demo.sh),build first: sh $(PIPELINES)demo.sh; or )name the folder of the tools with a slash at its end: make BIN=/where/tools/)
+endif
+
+# --- the folder of the results ---
+ifeq ($(is_dry_run),)
+cannot_make := $(shell mkdir -p $(STAGES) 2>&1)
+ifneq ($(cannot_make),)
+$(error $(cannot_make): name another folder for the results: make OUT=/where/results)
+endif
+endif
+# One that the pipeline never wrote into may hold files of others under the names of its own.
+foreign := $(if $(wildcard $(OUT)/$(mark_of_out)),,$(wildcard $(addprefix $(OUT)/,$(products) runs/*.h5 without/*.h5)))
+ifneq ($(foreign),)
+$(error $(firstword $(foreign)) was not made by the pipeline, which would replace it: name another OUT, or move it away)
+endif
+
+# --- data that a manifest lists: checked again when one of them is another file ---
+ifneq ($(wildcard manifest.sha256),)
+data_state := $(shell cut -c67- manifest.sha256 | tr '\n' '\0' | xargs -0 stat -L -c '%n %s %i %y %z' -- manifest.sha256 2>&1)
+ifneq ($(strip $(file <$(OUT)/data.ok)),$(strip $(data_state)))
+data_trouble := $(shell sha256sum --check --quiet manifest.sha256 >&2 || echo trouble)
+ifneq ($(data_trouble),)
+$(error The data of this site are missing or differ: see README.md)
+endif
+ifeq ($(is_dry_run),)
+$(file >$(OUT)/data.ok,$(data_state))
+endif
+endif
+endif
+
+# --- what a stage reads ---
+# named_in(FLAGS): files that options name (--like FILE, --like=FILE); not folders, nor what lies in OUT.
+named_in = $(filter-out $(OUT)/%,$(foreach name,$(wildcard $(foreach word,$1,$(lastword $(subst =, ,$(word))))),$(if $(wildcard $(name)/.),,$(name))))
+# given(NAME,FLAGS): options of talus-site for the files of a list, which may be empty
+given = --given $1= $(foreach name,$(call named_in,$2),--given '$1=$(subst ','\'',$(name))')
+given_files := $(if $(CONTOURS),--given tin=$(CONTOURS)) $(call given,tin,$(TIN_FLAGS)) \
+  $(if $(DEM),--given trn=$(DEM)) $(call given,trn,$(TRN_FLAGS)) $(call given,blocks,$(BLOCKS_FLAGS)) \
+  $(call given,dda,$(filter-out %.xmf,$(DDA_FLAGS))) $(foreach case,$(CASES),$(call given,case_$(case),$(CASE_$(case)))) \
+  $(call given,runout,$(RUNOUT_FLAGS)) $(call given,maps,$(MAPS_FLAGS)) $(call given,fence,$(FENCE_FLAGS)) \
+  --given report=site.toml $(call given,report,$(REPORT_FLAGS))
+
+ifeq ($(is_dry_run),)
+stages_now := $(STAGES)
+else
+stages_now := $(shell mktemp -d)
+copied := $(shell cp $(STAGES)/.digests $(stages_now) 2>/dev/null)
+endif
+said := $(shell $(BIN)talus-site site.toml -o $(stages_now) $(given_files) --overwrite --no-db)
+ifneq ($(.SHELLSTATUS),0)
+ifneq ($(is_dry_run),)
+removed := $(shell rm -rf $(stages_now))
+endif
+$(error site.toml or a file that it names cannot be used, see above)
+endif
+include $(stages_now)/site.mk
+$(stages_now)/site.mk: ;
+$(STAGES)/%.txt $(STAGES)/%.files: ;
+ifneq ($(is_dry_run),)
+.PHONY: $(shell for file in $(stages_now)/*.txt $(stages_now)/*.files; do \
+  cmp -s $$file $(STAGES)/$${file##*/} || echo $(STAGES)/$${file##*/}; done; rm -rf $(stages_now))
+endif
+
+# remember(NAME,TEXT): a file that changes when TEXT does, e.g. options given to make.
+define remember
+ifneq ($$(strip $$(file <$(STAGES)/$1.flags)),$$(strip flags: $2))
+ifeq ($(is_dry_run),)
+$$(file >$(STAGES)/$1.flags,$$(strip flags: $2))
+else
+.PHONY: $(STAGES)/$1.flags
+endif
+endif
+$(STAGES)/$1.flags: ;
+endef
+
+# Given to make they stand above the site file's. Rules name them behind a bar: one that another rule
+# makes is made first, and its content counts, not its time.
+CONTOURS ?= $(SITE_CONTOURS)
+DEM ?= $(SITE_DEM)

@@ -1,0 +1,70 @@
+#!/bin/sh
+# What became of the runs of a site. MARKS is a folder with a file a run that failed (talus-dda
+# --failures): "kept" or "none", whether there is a result, and what failed.
+#   run_outcomes.sh there  MARKS RUN...   options of a tool that evaluates: the runs that have a result
+#   run_outcomes.sh some   MARKS RUN...   ends with 1, and with the list, when no run has a result
+#   run_outcomes.sh failed MARKS RUN...   prints the names of the runs that failed
+#   run_outcomes.sh list   MARKS RUN...   lists what failed in which run; ends with 1 when any did
+set -eu
+what=$1 marks=$2
+shift 2
+tab=$(printf '\t')
+
+# RUN is OUT/runs/run_3.h5 or OUT/without/run_3.h5: sets `name` and `mark`. A result that is newer than
+# a mark came in place after it: its run was killed before it could take the mark away.
+look_at() {
+  name=${1##*/} name=${name%.h5}
+  mark=$marks/$name
+  case $1 in without/* | */without/*) mark=$marks/without_$name name=without/$name ;; esac
+  if [ -f "$mark" ] && [ "$1" -nt "$mark" ] && ! grep -q '^kept' "$mark"; then mark=$mark.over; fi
+}
+has_result() {
+  [ -f "$1" ] || return 1
+  [ -f "$mark" ] || return 0
+  IFS=$tab read -r first rest <"$mark" && [ "$first" = kept ]
+}
+
+n=0 n_there=0 n_failed=0 there= failed=
+for run in "$@"; do
+  n=$((n + 1))
+  look_at "$run"
+  if has_result "$run"; then
+    n_there=$((n_there + 1))
+    case $run in without/* | */without/*) there="$there --without $run" ;; *) there="$there $run" ;; esac
+  fi
+  if [ -f "$mark" ] || [ ! -f "$run" ]; then
+    n_failed=$((n_failed + 1)) failed="$failed $run"
+  fi
+done
+
+list() {
+  echo "$n_failed of $n runs failed:"
+  for run in $failed; do
+    look_at "$run"
+    if [ -f "$mark" ]; then
+      while IFS=$tab read -r outcome words; do
+        case $outcome in
+          kept) echo "  $name: $words (its result is used, and marked)" ;;
+          none) echo "  $name: $words (no result)" ;;
+        esac
+      done <"$mark"
+    else
+      echo "  $name: was not computed"
+    fi
+  done
+  for run in $failed; do
+    look_at "$run"
+    [ ! -f "$mark" ] || sed -n "s/^hint$tab/  hint: /p" "$mark"
+  done | sort -u
+  [ "$n_there" -gt 0 ] || echo "  no run has a result: there is nothing to evaluate"
+}
+
+case $what in
+  there)
+    echo $there
+    [ "$n_there" -eq "$n" ] || echo --missing $((n - n_there))
+    ;;
+  some) [ "$n_there" -gt 0 ] || { list >&2; exit 1; } ;;
+  failed) echo $failed ;;
+  list) [ "$n_failed" -eq 0 ] || { list >&2; exit 1; } ;;
+esac
