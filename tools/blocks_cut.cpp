@@ -116,17 +116,19 @@ void find_mass(Tool& tool, BlocksWork& work) {
               text(work.at_foot.largest_step, 2) + " m (talus-source lists planes that come out)");
 }
 
-// Whether the mass may well end before its outline: where its failure plane comes out of the
-// ground.
-bool comes_out(const BlocksWork& work) {
+// How much of the polygon the mass should cover. It ends before its outline where its failure plane
+// comes out of the ground; by much, the polygon is not that of the mass.
+double least_share_covered(const BlocksWork& work) {
   const std::string& surface = work.site.source.failure_surface;
-  return surface == "daylighting" || (surface == "plane" && work.at_foot.free_share >= 0.5);
+  const bool comes_out =
+      surface == "daylighting" || (surface == "plane" && work.at_foot.free_share >= 0.5);
+  return comes_out ? 0.75 : 0.97;
 }
 
 // What is most likely not meant.
 void warn_of_mass(Tool& tool, const BlocksWork& work, const MassMeasure& measure) {
   const SourceMass& mass = work.mass;
-  if (!comes_out(work) && std::abs(mass.area / mass.polygon_area - 1) > 0.03)
+  if (mass.area < least_share_covered(work) * mass.polygon_area)
     tool.warn("the mass covers " + text(100 * mass.area / mass.polygon_area, 3) +
               " % of the source polygon: elsewhere the failure surface does not lie below the "
               "ground; check depth, plane or raster");

@@ -151,10 +151,11 @@ struct Tool::Impl {
   }
 
   // Outputs by their final names, while they still have their temporary ones. Who finds one of them
-  // finds it in the registry.
+  // finds it in the registry. A hidden file is what a tool remembers between its runs, no result.
   void record_outputs(const std::vector<StagedFile>& files) {
     for (const StagedFile& file : files) {
-      if (!fs::exists(file.temporary)) continue;
+      if (!fs::exists(file.temporary) || fs::path(file.path).filename().string()[0] == '.')
+        continue;
       record.outputs.push_back(artifact_of("output", file.temporary));
       record.outputs.back().path = absolute_path(file.path);
     }

@@ -25,23 +25,23 @@ const FailurePlane& only(const FailurePlanes& found) { return found.planes.at(0)
 
 }  // namespace
 
-// Sides of the rectangle lie midway between nodes, so each node stands for its cell.
+// The foot lies on nodes: the plane comes out of the ground there.
 TEST(FailurePlane, WedgeOverAPlaneThroughTheFootHasItsClosedForm) {
   const double width = 40, length = 30;
-  const Area area = rectangle(31, 41, 31 + width, 41 + length);
+  const Area area = rectangle(31, 40, 31 + width, 40 + length);
   const FailurePlanes found =
       find_failure_planes(even_slope(), area, {joint_set(30, 180, 4)}, 25 * degree, "", {"s.toml"});
   ASSERT_EQ(found.best, 0);
   const FailurePlane& plane = only(found);
   EXPECT_NEAR(found.slope.dip, 45 * degree, 1e-12);
   EXPECT_NEAR(found.slope.dip_direction, 180 * degree, 1e-12);
-  EXPECT_NEAR(plane.point.y(), 41, 1e-12);
-  EXPECT_NEAR(plane.point.z(), 41, 1e-12);
+  EXPECT_NEAR(plane.point.y(), 40, 1e-12);
+  EXPECT_NEAR(plane.point.z(), 40, 1e-12);
   EXPECT_NEAR(plane.volume, width * length * length / 2 * (1 - std::tan(30 * degree)), 1e-8);
   EXPECT_NEAR(plane.foot.free_share, 1, 1e-12);
   EXPECT_EQ(plane.foot.largest_step, 0);
-  EXPECT_NEAR(plane.foot.exit_low, 41, 1e-9);
-  EXPECT_NEAR(plane.foot.exit_high, 41, 1e-9);
+  EXPECT_NEAR(plane.foot.exit_low, 40, 1e-9);
+  EXPECT_NEAR(plane.foot.exit_high, 40, 1e-9);
   EXPECT_EQ(plane.rising_share, 0);
 }
 
