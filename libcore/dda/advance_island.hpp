@@ -13,7 +13,6 @@
 
 #include "base/index_set.hpp"
 #include "dda/newton.hpp"
-#include "dda/step_island.hpp"
 #include "dda/substep.hpp"
 
 namespace talus {

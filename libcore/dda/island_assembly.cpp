@@ -5,6 +5,7 @@
 #include "base/make_room.hpp"
 #include "contact/search.hpp"
 #include "dda/advance_island.hpp"
+#include "dda/bonds.hpp"
 #include "dda/fence.hpp"
 
 namespace talus {

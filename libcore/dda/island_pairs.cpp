@@ -3,8 +3,9 @@
 
 #include "dda/advance_island.hpp"
 #include "dda/fence.hpp"
+#include "dda/flight.hpp"
 #include "dda/rotation.hpp"
-#include "dda/step.hpp"
+#include "dda/step_island.hpp"
 
 namespace talus {
 namespace {

@@ -9,6 +9,7 @@
 #include "contact/block_pairs.hpp"
 #include "contact/contact.hpp"
 #include "contact/pose.hpp"
+#include "dda/bonds.hpp"
 #include "dda/scene.hpp"
 
 namespace talus {

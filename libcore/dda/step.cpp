@@ -21,21 +21,6 @@ using std::size_t;
 
 constexpr size_t expected_contacts = 16;  // of a block, before a buffer has to grow
 
-// Integral of the base acceleration, linear between samples and zero outside them.
-Vec3 base_impulse(const AccelerationRecord& base, double from, double to) {
-  const auto next = std::upper_bound(base.time.begin(), base.time.end(), from);
-  Vec3 sum = Vec3::Zero();
-  for (auto k = static_cast<size_t>(std::max<std::ptrdiff_t>(1, next - base.time.begin()));
-       k < base.time.size() && base.time[k - 1] < to; ++k) {
-    const double t0 = base.time[k - 1], length = base.time[k] - t0;
-    const double begin = std::max(from, t0), end = std::min(to, base.time[k]);
-    const double middle = ((begin - t0) + (end - t0)) / (2 * length);
-    sum += (end - begin) *
-           (base.acceleration[k - 1] + middle * (base.acceleration[k] - base.acceleration[k - 1]));
-  }
-  return sum;
-}
-
 // A block that something bears and that stays in place is left out until something wakes it.
 void put_to_sleep(const Scene& scene, size_t b, State& state) {
   watch_rest(scene, b, state);
@@ -66,14 +51,6 @@ bool is_above_ground(const Scene& scene, size_t b) {
 bool spins(const Scene& scene, size_t b) { return !scene.blocks.spin[b].isZero(0); }
 
 }  // namespace
-
-Vec3 free_acceleration(const Scene& scene, int b, double t_start, double t_end) {
-  Vec3 a = scene.gravity;
-  if (!scene.base.time.empty()) a -= base_impulse(scene.base, t_start, t_end) / (t_end - t_start);
-  for (const PointLoad& load : scene.loads)
-    if (load.block == b) a += load.force / scene.blocks.mass[static_cast<size_t>(b)];
-  return a;
-}
 
 State start(const Scene& scene) {
   const auto n = static_cast<size_t>(n_blocks(scene));
@@ -199,12 +176,6 @@ StepReport step(const Scene& scene, State& state, Work& work) {
   state.counters.passes += report.passes;
   state.counters.unconverged += report.n_unconverged;
   return report;
-}
-
-Motion motion_at(const Scene& scene, const State& state, int b, double time) {
-  const auto i = static_cast<size_t>(b);
-  if (state.phase[i] != Phase::flight || time == state.local_time[i]) return state.motion[i];
-  return fly(state.motion[i], scene.blocks.inertia[i], scene.gravity, time - state.local_time[i]);
 }
 
 Energies energies(const Scene& scene, const State& state) {

@@ -1,3 +1,5 @@
+#include "dda/step_island.hpp"
+
 #include <algorithm>
 #include <cmath>
 

@@ -6,11 +6,11 @@
 #include <utility>
 
 #include "contact/search.hpp"
+#include "dda/bonds.hpp"
 #include "dda/displacement.hpp"
-#include "dda/joint_classes.hpp"
+#include "dda/loads.hpp"
 #include "dda/newton.hpp"
 #include "dda/rotation.hpp"
-#include "dda/step.hpp"
 #include "dda/substep.hpp"
 
 namespace talus {

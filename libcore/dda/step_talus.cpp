@@ -8,7 +8,6 @@
 #include "dda/flight.hpp"
 #include "dda/impact.hpp"
 #include "dda/lone_substep.hpp"
-#include "dda/step.hpp"
 
 namespace talus {
 namespace {

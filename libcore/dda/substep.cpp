@@ -6,8 +6,8 @@
 
 #include "dda/displacement.hpp"
 #include "dda/flight.hpp"
+#include "dda/loads.hpp"
 #include "dda/rotation.hpp"
-#include "dda/step.hpp"
 
 namespace talus {
 namespace {
@@ -38,13 +38,6 @@ constexpr double least_by_tolerance = 2e-2;
 // still.
 constexpr double most_overlap = 2e-2, far_sag = 4;
 constexpr double parallel = 1 - 1e-12, no_limit = std::numeric_limits<double>::infinity();
-
-Vec3 load_torque(const Scene& scene, int b, const Quat& attitude) {
-  Vec3 torque = Vec3::Zero();
-  for (const PointLoad& load : scene.loads)
-    if (load.block == b) torque += (attitude * load.point).cross(load.force);
-  return torque;
-}
 
 // Below this approach there is no impact [m/s].
 double resting_speed(const Settings& settings, double g) {
