@@ -17,12 +17,6 @@
 
 namespace talus {
 
-/// Whether block b still moves or may be moved.
-[[nodiscard]] inline bool takes_part(const State& state, int b) {
-  const Phase phase = state.phase[static_cast<std::size_t>(b)];
-  return phase != Phase::left_domain && phase != Phase::stopped;
-}
-
 /// Everything that advances one island; a struct so that its parts share what they all need.
 struct AdvanceIsland {
   using size_t = std::size_t;

@@ -121,9 +121,7 @@ bool join_pairs(const Scene& scene, State& state, IslandStepWork& w) {
     for (const int b : {m.block_a, m.block_b}) {
       const auto i = static_cast<size_t>(b);
       if (state.phase[i] != Phase::asleep) continue;
-      state.phase[i] = Phase::near_ground;
-      state.still_steps[i] = 0;
-      state.local_time[i] = state.time;
+      wake(state, i, state.time);
       w.awake[i] = 1;
       woken = true;
     }
@@ -271,7 +269,7 @@ void form_islands(const Scene& scene, State& state, Work& work) {
   int n_near = 0;
   for (int b = 0; b < n; ++b) {
     const auto i = static_cast<size_t>(b);
-    const bool moves = takes_part(state, b) && state.phase[i] != Phase::asleep;
+    const bool moves = !does_not_move(state.phase[i]);
     const bool is_near = !may_be_far || (moves && !is_far_from_fixed(scene, state, b, margin, w));
     n_near += is_near;
     w.moving[i] = is_near || none_placed;
@@ -308,7 +306,7 @@ void put_island_to_sleep(const Scene& scene, int k, State& state, const Work& wo
   for (const int b : blocks) {
     if (!takes_part(state, b)) continue;
     watch_rest(scene, static_cast<size_t>(b), state);
-    steps = std::min(steps, state.still_steps[static_cast<size_t>(b)]);
+    steps = std::min(steps, state.rest_steps[static_cast<size_t>(b)]);
   }
   if (steps < steps_before_sleep) return;
   for (const int b : blocks)

@@ -24,12 +24,8 @@ constexpr size_t expected_contacts = 16;  // of a block, before a buffer has to 
 // A block that something bears and that stays in place is left out until something wakes it.
 void put_to_sleep(const Scene& scene, size_t b, State& state) {
   watch_rest(scene, b, state);
-  if (state.still_steps[b] >= steps_before_sleep && !state.memory[b].empty())
+  if (state.rest_steps[b] >= steps_before_sleep && !state.memory[b].empty())
     fall_asleep(scene, b, state);
-}
-
-bool does_not_move(Phase phase) {
-  return phase == Phase::asleep || phase == Phase::left_domain || phase == Phase::stopped;
 }
 
 // Whether block b shares its island with others, or may touch a fixed body.
@@ -55,15 +51,11 @@ bool spins(const Scene& scene, size_t b) { return !scene.blocks.spin[b].isZero(0
 State start(const Scene& scene) {
   const auto n = static_cast<size_t>(n_blocks(scene));
   State state;
+  static_cast<BlockLives&>(state) = start_lives(scene.blocks.rest);
   state.motion.resize(n);
-  state.local_time.assign(n, 0);
-  state.flight_end.assign(n, 0);
-  state.phase.assign(n, Phase::near_ground);
   state.acceleration.assign(n, Vec3::Zero());
   state.spin_rate.assign(n, Vec3::Zero());
   state.support.assign(n, Vec3::Zero());
-  state.still_pose = scene.blocks.rest;
-  state.still_steps.assign(n, 0);
   state.rebound.assign(n, Vec3::Zero());
   state.memory.resize(n);
   state.fence = start_fence(scene);
@@ -182,6 +174,7 @@ Energies energies(const Scene& scene, const State& state) {
   Energies sum;
   for (int b = 0; b < n_blocks(scene); ++b) {
     const auto i = static_cast<size_t>(b);
+    if (!exists(state.phase[i])) continue;
     Motion m = state.motion[i];  // a flight's spin energy does not change: no need to follow it
     const double flown = state.phase[i] == Phase::flight ? state.time - state.local_time[i] : 0;
     m.pose.position += flown * m.velocity + 0.5 * flown * flown * scene.gravity;

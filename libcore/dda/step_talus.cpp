@@ -211,8 +211,7 @@ struct Advance {
       state.flight_end[i()] = t + time_for_another_view();
       return false;
     }
-    state.phase[i()] = Phase::flight;
-    state.flight_end[i()] = t + safe;
+    take_off(state, i(), t + safe);
     report.n_flips += static_cast<int>(state.memory[i()].size());
     state.memory[i()].clear();
     state.support[i()].setZero();

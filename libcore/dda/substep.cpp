@@ -348,22 +348,21 @@ void end_flight(const Scene& scene, int b, double t, State& state, Work& work) {
     state.motion[i] = end;
   }
   forget_rates(scene, b, state);
-  state.local_time[i] = t;
-  state.phase[i] = Phase::near_ground;
+  land(state, i, t);
 }
 
 void watch_rest(const Scene& scene, size_t b, State& state) {
   constexpr double part_of_thickness = 1e-3;
-  const Pose &now = state.motion[b].pose, &then = state.still_pose[b];
+  const Pose &now = state.motion[b].pose, &then = state.rest_pose[b];
   const double dt = scene.settings.dt;
   const double resolved = std::min(scene.gravity.norm() * dt * dt,
                                    part_of_thickness * scene.blocks.shapes.thickness[b]);
   const double turn = 2 * (now.attitude.coeffs() - then.attitude.coeffs()).norm();
-  const double way = (now.position - then.position).norm() + turn * scene.blocks.shapes.radius[b];
-  ++state.still_steps[b];
-  if (way <= resolved) return;
-  state.still_pose[b] = now;
-  state.still_steps[b] = 0;
+  const double path = (now.position - then.position).norm() + turn * scene.blocks.shapes.radius[b];
+  ++state.rest_steps[b];
+  if (path <= resolved) return;
+  state.rest_pose[b] = now;
+  state.rest_steps[b] = 0;
 }
 
 double kinetic_energy(const Scene& scene, size_t b, const Motion& m) {
@@ -372,7 +371,7 @@ double kinetic_energy(const Scene& scene, size_t b, const Motion& m) {
 }
 
 void fall_asleep(const Scene& scene, size_t b, State& state) {
-  state.phase[b] = Phase::asleep;
+  go_to_sleep(state, b);
   state.ledger.contact += kinetic_energy(scene, b, state.motion[b]);
   state.motion[b].velocity.setZero();
   state.motion[b].angular_momentum.setZero();
@@ -388,7 +387,7 @@ void stop_outside(const Scene& scene, int b, State& state, StepReport& report) {
   state.ledger.removed += kinetic_energy(scene, i, m);
   m.velocity.setZero();
   m.angular_momentum.setZero();
-  state.phase[i] = Phase::left_domain;
+  leave_domain(state, i);
   state.memory[i].clear();
   ++state.counters.left_domain;
   report.flags = report.flags | StepFlag::left_domain;
@@ -425,7 +424,7 @@ bool is_finite(const Motion& m) {
 
 void stop_at(const Motion& last_good, size_t b, State& state, StepReport& report) {
   state.motion[b] = {last_good.pose, Vec3::Zero(), Vec3::Zero()};
-  state.phase[b] = Phase::stopped;
+  stop_for_good(state, b);
   state.memory[b].clear();
   report.flags = report.flags | StepFlag::not_finite;
 }

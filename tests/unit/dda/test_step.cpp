@@ -799,16 +799,16 @@ TEST(WatchRest, CountsStepsWithinWhatContactsResolve) {
     pose.position.x() = from.position.x() + (i % 2 == 0 ? 2.4e-4 : -2.4e-4);
     watch_rest(scene, 0, state);
   }
-  EXPECT_EQ(state.still_steps[0], 10);
+  EXPECT_EQ(state.rest_steps[0], 10);
   for (int i = 0; i < 10; ++i) {  // what creeps on in one direction does not stay
     pose.position.x() = from.position.x() + 1e-4 * i;
     watch_rest(scene, 0, state);
-    EXPECT_LT(state.still_steps[0], 14);
+    EXPECT_LT(state.rest_steps[0], 14);
   }
-  state.still_steps[0] = 5;
+  state.rest_steps[0] = 5;
   pose.attitude = rotation_by(Vec3(0, 0, 4e-4)) * pose.attitude;  // corners are 0.87 m off
   watch_rest(scene, 0, state);
-  EXPECT_EQ(state.still_steps[0], 0);
+  EXPECT_EQ(state.rest_steps[0], 0);
 }
 
 // A block that something shakes by micrometres for good is at rest; what it still moves by is lost,
