@@ -41,7 +41,6 @@ struct ContactRow {
   Vec3 direction = Vec3::Zero();  ///< of slip in the middle of the step, unit; while slipping
   double trial_speed = 0;         ///< |trial| [m/s]
   double cap = 0;                 ///< bound of the tangential impulse [N s]
-  double held_cap = 0;            ///< law paper: friction that slips, of the pass before [N]
   bool gives_way = false;         ///< the normal impulse is at its limit
   Vec3 impulse = Vec3::Zero();    ///< on A, body axes [N s]
   ContactState state = ContactState::open;

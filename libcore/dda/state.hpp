@@ -52,7 +52,6 @@ struct State : BlockLives {  // clang-format off
   std::vector<Vec3> acceleration;           ///< of the last step, by contact too [m/s2]  (n_blocks)
   std::vector<Vec3> spin_rate;              ///< angular acceleration, body axes [rad/s2] (n_blocks)
   std::vector<Vec3> support;                ///< by the ground in the last substep, hits aside [m/s2] (n_blocks)
-  std::vector<Vec3> rebound;                ///< law paper: v_a of the hit under way, (28) [m/s] (n_blocks)
   std::vector<Vec6> strain;                 ///< body axes; empty for rigid blocks [-]    (n_blocks)
   std::vector<Vec6> strain_rate;            ///< body axes; empty for rigid blocks [1/s]  (n_blocks)
   std::vector<std::vector<ContactMemory>> memory;  ///< contacts of block b with the ground and
@@ -61,6 +60,7 @@ struct State : BlockLives {  // clang-format off
   PlacedHulls placed;                       ///< where the pairs were searched last
   std::vector<BlockBond> bonds;             ///< sorted by block_a, block_b            (n_bonds)
   FenceState fence;                         ///< what the panels of fences have met
+  PaperState paper;                         ///< of law paper alone
   EnergyLedger ledger;
   RunCounters counters;
 };  // clang-format on

@@ -56,7 +56,6 @@ State start(const Scene& scene) {
   state.acceleration.assign(n, Vec3::Zero());
   state.spin_rate.assign(n, Vec3::Zero());
   state.support.assign(n, Vec3::Zero());
-  state.rebound.assign(n, Vec3::Zero());
   state.memory.resize(n);
   state.fence = start_fence(scene);
   state.bonds = start_bonds(scene);
@@ -72,6 +71,7 @@ State start(const Scene& scene) {
         scene.blocks.rest[b].attitude, scene.blocks.spin[b], scene.blocks.inertia[b]);
   }
   const bool is_paper = scene.settings.law == Law::paper;
+  if (is_paper) state.paper.rebound.assign(n, Vec3::Zero());
   if (scene.settings.trn_contacts && (is_paper || scene.settings.static_start)) {
     std::optional<Work> work;  // none where all blocks are above the ground
     for (size_t b = 0; b < n; ++b) {
@@ -125,16 +125,16 @@ void advance_talus(const Scene& scene, State& state, Work& work, StepReport& rep
   }
 }
 
-// Members and pairs of blocks of the island that block b is the first of.
+// Members and pairs of blocks of the island that block b is the first of, for law paper.
 void gather_island(const Scene& scene, int b, Work& work) {
   const IslandStepWork& w = work.islands;
   const auto k = static_cast<size_t>(w.groups.island_of[static_cast<size_t>(b)]);
-  work.members.assign(w.groups.blocks.begin() + w.groups.block_begin[k],
-                      w.groups.blocks.begin() + w.groups.block_begin[k + 1]);
+  work.paper.members.assign(w.groups.blocks.begin() + w.groups.block_begin[k],
+                            w.groups.blocks.begin() + w.groups.block_begin[k + 1]);
   for (int p = w.groups.pair_begin[k]; p < w.groups.pair_begin[k + 1]; ++p) {
     const int m = w.joined_manifold[static_cast<size_t>(w.groups.pairs[static_cast<size_t>(p)])];
     if (!is_fixed(scene, w.pairs.manifolds[static_cast<size_t>(m)].block_b))
-      work.manifolds.push_back(m);
+      work.paper.manifolds.push_back(m);
   }
 }
 
@@ -145,10 +145,10 @@ void advance_paper(const Scene& scene, State& state, Work& work, StepReport& rep
     const auto i = static_cast<size_t>(b);
     if (does_not_move(state.phase[i])) continue;
     if (islands && work.islands.groups.local_index[i] > 0) continue;
-    work.members.assign(1, b);
-    work.manifolds.clear();
+    work.paper.members.assign(1, b);
+    work.paper.manifolds.clear();
     if (islands) gather_island(scene, b, work);
-    advance_island_paper(scene, work.members, work.manifolds, state, work, report);
+    advance_island_paper(scene, work.paper.members, work.paper.manifolds, state, work, report);
   }
 }
 

@@ -164,7 +164,7 @@ void forget_last_step(ContactRow& row) {
   row.cohesion_impulse = row.tension_impulse = 0;
   row.normal_limit = no_normal_limit;
   row.memory = -1;
-  row.cap = row.held_cap = 0;
+  row.cap = 0;
   row.impulse.setZero();
   row.state = ContactState::open;
 }
@@ -304,17 +304,10 @@ void make_rows(const Scene& scene, int b, const BlockNumbers& c, const Substep& 
 }
 
 int count_flips(std::span<const ContactRow> rows, const std::vector<ContactMemory>& before) {
-  int n_flips = 0, n_kept = 0;
-  for (const ContactRow& row : rows) {
-    const ContactState now = row.waits_for_impact ? ContactState::open : row.state;
-    const bool is_kept = row.memory >= 0;
-    n_kept += is_kept;
-    const auto then = is_kept
-                          ? static_cast<ContactState>(before[static_cast<size_t>(row.memory)].state)
-                          : ContactState::open;
-    n_flips += now != then;
-  }
-  return n_flips + std::max(0, static_cast<int>(before.size()) - n_kept);  // others: out of reach
+  FlipCounter flips(before);
+  for (const ContactRow& row : rows)
+    flips.add(row.memory, row.waits_for_impact ? ContactState::open : row.state);
+  return flips.total();
 }
 
 // Residual at which the contact forces count as found, as a velocity: 1e-8 of what gravity does in

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "dda/flips.hpp"
 #include "dda/newton.hpp"
 #include "dda/report.hpp"
 #include "dda/scene.hpp"

@@ -8,10 +8,10 @@
 #include "contact/block_pairs.hpp"
 #include "contact/contact.hpp"
 #include "contact/search.hpp"
-#include "dda/block_lu.hpp"
 #include "dda/contact_row.hpp"
 #include "dda/island_groups.hpp"
 #include "dda/island_solver.hpp"
+#include "dda/paper_work.hpp"
 #include "dda/state.hpp"
 #include "dda/substep_numbers.hpp"
 
@@ -178,40 +178,6 @@ struct IslandStepWork {  // clang-format off
   std::vector<std::uint8_t> pressed;        ///< 1: by a contact, in the substep         (n_members)
 };  // clang-format on
 
-/// The block's part of Eq. (3) without contacts, in local axes: law paper.
-template <int Dof>
-struct BlockEquations {
-  using Vec = Eigen::Matrix<double, Dof, 1>;
-  using Mat = Eigen::Matrix<double, Dof, Dof>;
-  Mat K;
-  Vec F;
-  Vec velocity;  ///< at the start of the step
-  Mat3 R;        ///< body to local axes at the start
-};
-
-/// Between what a contact of law paper acts; its row's point is the arm of A.
-struct PaperSides {
-  int a = 0, b = -1;          ///< members of the island; b = -1: the ground
-  Vec3 arm_b = Vec3::Zero();  ///< from the centroid of B, local axes [m]
-  int ground_class = 0;       ///< where b is -1
-  int bond = -1;              ///< index into State::bonds, -1: none
-};
-
-/// What an island's step by law paper recomputes.
-template <int Dof>
-struct OpenCloseWork {  // clang-format off
-  using Vec = Eigen::Matrix<double, Dof, 1>;
-  std::vector<BlockEquations<Dof>> equations;  ///<                                      (n_members)
-  std::vector<ContactRow> rows;                ///< grouped by A
-  std::vector<PaperSides> sides;               ///< of each row
-  std::vector<ContactKey> keys;                ///< of each row
-  std::vector<std::size_t> row_begin;          ///<                                  (n_members + 1)
-  std::vector<std::pair<int, int>> edges;      ///< members that share contacts
-  std::vector<int> outsiders;                  ///< members off the known ground, ascending
-  BlockLu<Dof> lu;
-  std::vector<Vec> D;                          ///< right-hand side, then solution       (n_members)
-};  // clang-format on
-
 struct Work {  // clang-format off
   // find_contacts: candidates of the block at hand
   std::vector<Vec3> world_vertices;          ///< at the predicted pose [m]
@@ -222,9 +188,7 @@ struct Work {  // clang-format off
   // advance_block: the motion of this step, block by block, in order of time
   std::vector<Segment> segments;
   IslandStepWork islands;
-  OpenCloseWork<6> paper_rigid;
-  OpenCloseWork<12> paper_strained;
-  std::vector<int> members, manifolds;       ///< of the island at hand, law paper
+  PaperWork paper;
 };  // clang-format on
 
 }  // namespace talus

@@ -97,7 +97,7 @@ void fields(Fields<Archive>& archive, PlacedHulls& placed) {
 template <class Archive>
 void fields(Fields<Archive>& archive, State& state) {
   archive(state.time, state.motion, state.local_time, state.flight_end, state.phase,
-          state.acceleration, state.spin_rate, state.support, state.rebound, state.rest_pose,
+          state.acceleration, state.spin_rate, state.support, state.paper.rebound, state.rest_pose,
           state.rest_steps, state.strain, state.strain_rate, state.memory, state.pairs,
           state.placed, state.bonds, state.fence, state.ledger, state.counters);
 }
