@@ -40,7 +40,7 @@ struct AdvanceIsland {
   // One block near fixed bodies: it is hit at the end of a substep, so by one body after the other.
   [[nodiscard]] bool is_lone() const { return w.members.size() == 1; }
   // Row of contact `r` for the solver.
-  [[nodiscard]] RowIn<RowGroup> row(size_t r) const { return row_of(w.island, w.contacts[r].row); }
+  [[nodiscard]] RowIn<RowGroup> row(size_t r) const { return row_of(w.island, w.contacts[r].lane); }
   // Contacts of a pair of the island.
   [[nodiscard]] IndexRange contacts_of(size_t pair) const {
     const BodyPair& of = w.island.pairs[pair];
@@ -141,8 +141,8 @@ struct AdvanceIsland {
   void clear_island();
   void add_member(size_t k, double h);
   void begin_pair(int a, int b);
-  IslandContact& push(int a, const ContactKey& key, double touch, double restitution,
-                      bool never_waits, const ContactRow& row);
+  ContactRow& new_contact();
+  void finish_contact(size_t r, bool never_waits);
   bool add_ground(size_t k);
   [[nodiscard]] PointPath path_of(size_t k, const Vec3& x) const;
   void match_memories(const PairManifold& m);
@@ -203,16 +203,16 @@ struct AdvanceIsland {
   void find_pushes(double h);
   void note_touched_panels(double t);
   bool break_bonds(double h);
-  [[nodiscard]] int bond_of(const IslandContact& contact) const;
-  [[nodiscard]] const GroundClass& bond_class(const IslandContact& contact) const;
+  [[nodiscard]] int bond_of(const ContactRow& contact) const;
+  [[nodiscard]] const GroundClass& bond_class(const ContactRow& contact) const;
   void break_bond(int bond);
-  BondLoad& load_of(const IslandContact& contact);
-  [[nodiscard]] double share_pressed_out(const IslandContact& contact, double normal_force) const;
+  BondLoad& load_of(const ContactRow& contact);
+  [[nodiscard]] double share_pressed_out(const ContactRow& contact, double normal_force) const;
   void remember_contact(size_t r, const Vec3& path, double overlap, double h);
   void remember(double h);
   [[nodiscard]] Motion end_of(size_t k) const;
   [[nodiscard]] bool foresaw(size_t k, const Contact& contact, double least) const;
-  [[nodiscard]] double thickness_of(const IslandContact& contact) const;
+  [[nodiscard]] double thickness_of(const ContactRow& contact) const;
   [[nodiscard]] double end_of_deepening_hit(double h) const;
   [[nodiscard]] double end_of_throw_into_ground(double h);
   void add_path(size_t k, const Motion& end, double t, double h);

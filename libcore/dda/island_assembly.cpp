@@ -22,7 +22,7 @@ constexpr double held = 1e100;             // strength of an intact bond while t
 void set_motion(const Vec3& normal, double gap, const Vec3& arm, const Vec3& drift,
                 const Vec3& moved, const Vec3& slip, ContactRow& row) {
   row.normal = normal;
-  row.point = arm;
+  row.arm = arm;
   row.drift = drift;
   row.free_move = moved;
   row.gap_start = gap;
@@ -114,58 +114,33 @@ void AdvanceIsland::begin_pair(int a, int b) {
   w.first_contact.push_back(static_cast<int>(w.contacts.size()));
 }
 
-// Adds a contact of block a, given by its row in local axes, and its row for the solver.
-IslandContact& AdvanceIsland::push(int a, const ContactKey& key, double touch, double restitution,
-                                   bool never_waits, const ContactRow& row) {
+// Makes a contact of the last pair, filled but for this, ready for the solver.
+void AdvanceIsland::finish_contact(size_t r, bool never_waits) {
   const double h = w.substeps.front().h;
-  const double along_path = row.normal.dot(row.free_move);
-  make_room(w.contacts);
-  IslandContact& contact = w.contacts.emplace_back();
-  contact.key = key;
-  contact.a = a;
+  ContactRow& contact = w.contacts[r];
+  const double along_path = contact.normal.dot(contact.free_move);
   contact.pair = static_cast<int>(w.island.pairs.size()) - 1;
-  contact.touch = touch;
-  contact.restitution = restitution;
-  contact.arm = row.point;
-  contact.free_move = row.free_move;
-  contact.shear = row.shear;
-  contact.speed_start = row.speed_start;
-  contact.gap_start = row.gap_start;
-  contact.gap_free = row.gap_start + along_path;
-  contact.approach = std::min(row.speed_start, along_path / h);
-  contact.offset = row.offset;
-  contact.bond_area = row.bond_area;
+  contact.gap_free = contact.gap_start + along_path;
+  contact.approach = std::min(contact.speed_start, along_path / h);
   // what comes from so far that it must be fast, wherever another hit throws it, waits too
-  const double resting_speed = numbers(a).resting_speed;
-  contact.waits = row.memory < 0 && !never_waits &&
-                  (contact.approach < -resting_speed || row.gap_start > touch + h * resting_speed);
-
-  if (contact.waits) w.waiting.push_back(w.contacts.size() - 1);
+  const double resting_speed = numbers(contact.a).resting_speed;
+  contact.waits =
+      contact.memory < 0 && !never_waits &&
+      (contact.approach < -resting_speed || contact.gap_start > contact.touch + h * resting_speed);
+  if (contact.waits) w.waiting.push_back(r);
   w.any_bond |= contact.bond_area != 0;
+  if (contact.memory >= 0) {
+    const ContactMemory& then =
+        state.memory[static_cast<size_t>(contact.a)][static_cast<size_t>(contact.memory)];
+    contact.impulse = h * then.normal_force * contact.normal;
+    contact.state = static_cast<ContactState>(then.state);
+  }
+  contact.lane = add_row(contact, w.island);
+}
 
-  IslandRow out;
-  out.normal = row.normal;
-  out.arm = row.point;
-  out.friction = row.friction;
-  out.normal_limit = row.normal_limit;
-  if (!contact.waits) {  // until it is hit it presses nothing
-    const double along = row.normal.dot(row.drift);
-    out.shear_velocity = row.shear_velocity + (row.drift - along * row.normal);
-    out.slip_start = row.slip_start;
-    out.bias = row.bias + along;
-    out.normal_damping = row.normal_damping;
-    out.shear_damping = row.shear_damping;
-    out.cohesion_impulse = row.cohesion_impulse;
-    out.tension_impulse = row.tension_impulse;
-  }
-  if (row.memory >= 0) {
-    const ContactMemory& m = state.memory[static_cast<size_t>(a)][static_cast<size_t>(row.memory)];
-    out.impulse = h * m.normal_force * row.normal;
-    contact.bore = m.normal_force;
-    out.state = static_cast<ContactState>(m.state);
-  }
-  contact.row = add_row(out, w.island);
-  return contact;
+ContactRow& AdvanceIsland::new_contact() {
+  make_room(w.contacts);
+  return w.contacts.emplace_back();
 }
 
 // Contacts of a member with the ground. False when it is off the known ground.
@@ -188,20 +163,24 @@ IslandContact& AdvanceIsland::push(int a, const ContactKey& key, double touch, d
     return false;
   }
   if (near.reach == Reach::below) report.flags = report.flags | StepFlag::fell_through;
-  make_rows(scene, b, w.numbers[k], s, state, work);
-  w.lost.back() = lost_contacts(b, s, work.rows);
-  if (work.rows.empty()) return true;
-  w.ground_pair.back() = static_cast<int>(w.island.pairs.size());
-  begin_pair(static_cast<int>(k), -1);
-  for (ContactRow& row : work.rows) {
-    for (Vec3* v : {&row.normal, &row.point, &row.drift, &row.shear, &row.shear_velocity,
+  if (!work.contacts.empty()) {
+    w.ground_pair.back() = static_cast<int>(w.island.pairs.size());
+    begin_pair(static_cast<int>(k), -1);
+  }
+  const size_t first = w.contacts.size();
+  for (size_t i = 0; i < work.contacts.size(); ++i) (void)new_contact();
+  const std::span<ContactRow> rows = std::span(w.contacts).subspan(first);
+  make_rows(scene, b, w.numbers[k], s, state.memory[static_cast<size_t>(b)], work.contacts, rows);
+  w.lost.back() = lost_contacts(b, s, rows);
+  for (size_t r = first; r < w.contacts.size(); ++r) {
+    ContactRow& row = w.contacts[r];
+    for (Vec3* v : {&row.normal, &row.arm, &row.drift, &row.shear, &row.shear_velocity,
                     &row.slip_start, &row.free_move})
       *v = s.R * *v;
-    const Contact& contact = work.contacts[static_cast<size_t>(row.contact)];
-    const GroundClass& ground = scene.ground.classes[static_cast<size_t>(contact.ground_class)];
+    const GroundClass& ground = scene.ground.classes[static_cast<size_t>(row.ground_class)];
     if (row.bond_area > 0) hold(ground, w.numbers[k].recovery_time, row);
-    push(b, contact.key, w.numbers[k].touch, ground.restitution, row.bond_area > 0, row)
-        .ground_class = contact.ground_class;
+    row.touch = w.numbers[k].touch;
+    finish_contact(r, row.bond_area > 0);
   }
   return true;
 }
@@ -330,8 +309,15 @@ void AdvanceIsland::add_point(const PairManifold& m, const Meeting& meeting, con
   const Vec3 arm = (pa.start + pa.end + pb.start + pb.end) / 4 - meeting.shift / 2;
   const Vec3 arm_b = arm + meeting.shift;
   const Vec3 drift = pa.spin_end.cross(pa.end - arm) - pb.spin_end.cross(pb.end - arm_b);
-  ContactRow row;
+  ContactRow& row = new_contact();
+  row.key = point.key;
+  row.key.body_b = m.block_b;
+  row.a = m.block_a;
+  row.b = m.block_b;
+  row.bond = meeting.bond;
+  row.touch = c.touch;
   row.friction = meeting.faces.friction;
+  row.restitution = meeting.faces.restitution;
   set_motion(n, point.gap, arm, drift, pa.moved - pb.moved, pa.velocity - pb.velocity, row);
 
   const double approach = approach_of(row, h);
@@ -346,11 +332,7 @@ void AdvanceIsland::add_point(const PairManifold& m, const Meeting& meeting, con
     if (row.memory < 0) row.offset = -row.gap_start;
     hold(bond.face, c.recovery_time, row);
   }
-  IslandContact& contact =
-      push(m.block_a, point.key, c.touch, meeting.faces.restitution, bonded, row);
-  contact.key.body_b = m.block_b;
-  contact.b = m.block_b;
-  contact.bond = meeting.bond;
+  finish_contact(w.contacts.size() - 1, bonded);
 }
 
 // A point on a fixed body: for the solver, on the ground. `n_closing`: points of the manifold
@@ -365,8 +347,14 @@ void AdvanceIsland::add_fixed_point(const PairManifold& m, const PairPoint& poin
   BlockNumbers c = w.numbers[k];
   c.touch = pair_touch_ratio * c.radius;
   const GroundClass& faces = fixed_class(scene, m.block_b);
-  ContactRow row;
+  ContactRow& row = new_contact();
+  row.key = point.key;
+  row.key.body_b = m.block_b;
+  row.a = m.block_a;
+  row.fixed = m.block_b;
+  row.touch = c.touch;
   row.friction = faces.friction;
+  row.restitution = faces.restitution;
   set_motion(n, point.gap, arm, path.spin_end.cross(path.end - arm), path.moved, path.velocity,
              row);
 
@@ -375,12 +363,9 @@ void AdvanceIsland::add_fixed_point(const PairManifold& m, const PairPoint& poin
   // a panel that gives way is pressed for many steps
   if (!inherit_from(m, point, memory, panel != nullptr ? 0 : approach, c, row))
     row.offset = std::max(0.0, -row.gap_start);
-  set_law(scene, c, s.h, mobility_at(k, row.point, n), approach, row);
+  set_law(scene, c, s.h, mobility_at(k, row.arm, n), approach, row);
   if (panel != nullptr) row.normal_limit = panel->force * s.h / n_closing;
-  IslandContact& contact =
-      push(m.block_a, point.key, c.touch, faces.restitution, panel != nullptr, row);
-  contact.key.body_b = m.block_b;
-  contact.fixed = m.block_b;
+  finish_contact(w.contacts.size() - 1, panel != nullptr);
 }
 
 void AdvanceIsland::add_fixed_points(const PairManifold& m) {
@@ -409,7 +394,7 @@ double AdvanceIsland::first_touch(double h) const {
   double first = h + 1;
   if (scene.fixed.panels.empty()) return first;
   for (size_t r = 0; r < w.contacts.size(); ++r) {
-    const IslandContact& contact = w.contacts[r];
+    const ContactRow& contact = w.contacts[r];
     const double v = contact.speed_start, g = contact.gap_start;
     if (row(r).normal_limit() >= no_normal_limit || g <= contact.touch ||
         contact.gap_free > -contact.touch || knows_body(contact.a, contact.fixed))

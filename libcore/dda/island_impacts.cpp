@@ -41,7 +41,7 @@ void AdvanceIsland::bear_until_hit(double h) {
   w.support.assign(w.members.size(), {});
   for (IndexSet* members : {&w.hit_members, &w.opened, &w.moved}) members->reset(w.members.size());
   for (const size_t r : w.waiting) {
-    const IslandContact& contact = w.contacts[r];
+    const ContactRow& contact = w.contacts[r];
     if (contact.b >= 0 || contact.gap_free > contact.touch) continue;
     double time = 0;
     if (contact.gap_start > 0)
@@ -73,9 +73,10 @@ bool AdvanceIsland::bear_by_opened() {
     const auto k = static_cast<size_t>(member);
     if (w.support[k].until == 0 || w.ground_pair[k] < 0) continue;
     for (const size_t r : contacts_of(static_cast<size_t>(w.ground_pair[k]))) {
-      const IslandContact& contact = w.contacts[r];
-      if (contact.bore <= 0 || row(r).state() != ContactState::open) continue;
-      w.lost[k].add(contact.bore, contact.arm);
+      const ContactRow& contact = w.contacts[r];
+      const double previous_normal_force = contact.memory >= 0 ? contact.last_force : 0;
+      if (previous_normal_force <= 0 || row(r).state() != ContactState::open) continue;
+      w.lost[k].add(previous_normal_force, contact.arm);
       w.opened.add(member);
       note_change(r);  // the free motion of its body
     }
@@ -105,7 +106,7 @@ double AdvanceIsland::time_until_it_drives(size_t k) const {
 // speed at the end. Between them the speed is taken as linear; a block that another hit threw goes
 // on as fast as it was thrown, so that the speed at the end bounds what this hit can return.
 void AdvanceIsland::make_hit(size_t r, double gap_end, double speed_end, double h) {
-  IslandContact& contact = w.contacts[r];
+  ContactRow& contact = w.contacts[r];
   const RowIn<RowGroup> of = row(r);
   const Vec3 normal = of.normal();
   note_hit_pair(static_cast<size_t>(contact.pair));
@@ -160,7 +161,7 @@ void AdvanceIsland::note_hit_pair(size_t pair) {
 int AdvanceIsland::find_hits(double h, bool free) {
   const auto moved = [&](int b) { return b >= 0 && w.moved.contains(static_cast<int>(place(b))); };
   const auto is_hit = [&](size_t r) {
-    const IslandContact& contact = w.contacts[r];
+    const ContactRow& contact = w.contacts[r];
     if (!free && !moved(contact.a) && !moved(contact.b)) return false;
     const Vec3 normal = row(r).normal();
     double gap_end = contact.gap_free, speed_end = -std::numeric_limits<double>::infinity();

@@ -29,7 +29,7 @@ Vec6 AdvanceIsland::change_by(size_t k, const Vec6& p) const {
 void AdvanceIsland::sum_hits() {
   w.hit_sums.assign(w.members.size(), {});
   for (const Hit& hit : w.hits) {
-    const IslandContact& contact = w.contacts[hit.contact];
+    const ContactRow& contact = w.contacts[hit.contact];
     const RowIn<RowGroup> of = row(hit.contact);
     const Vec6 impulse = generalised<6>(of.arm(), of.impulse()) / hit.in_turn;
     const double p_n = of.normal_impulse() / hit.in_turn;

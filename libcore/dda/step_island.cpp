@@ -44,7 +44,7 @@ void AdvanceIsland::release() {
 // without and with contacts, less what gravity does to a change of velocity in the rest of the
 // substep.
 Vec3 AdvanceIsland::way_of_impulse(size_t r, double h) const {
-  const IslandContact& contact = w.contacts[r];
+  const ContactRow& contact = w.contacts[r];
   Vec3 way = relative(
       r, [&](size_t k) -> Vec6 { return (w.island.velocity[k] + w.island.free_velocity[k]) / 2; });
   const size_t ka = place(contact.a);
@@ -58,7 +58,7 @@ Vec3 AdvanceIsland::way_of_impulse(size_t r, double h) const {
 
 // Energy that contacts took, by kind; push_panels() adds that of panels that give way.
 void AdvanceIsland::account(size_t r, double h) {
-  const IslandContact& contact = w.contacts[r];
+  const ContactRow& contact = w.contacts[r];
   const Vec3 normal = row(r).normal(), impulse = row(r).impulse();
   const double p_n = normal.dot(impulse);
   const Vec3 p_t = impulse - p_n * normal;
@@ -74,7 +74,7 @@ void AdvanceIsland::find_pushes(double h) {
   if (scene.fixed.panels.empty()) return;
   for (size_t r = 0; r < w.contacts.size(); ++r) {
     if (!gives_way(r)) continue;
-    const IslandContact& contact = w.contacts[r];
+    const ContactRow& contact = w.contacts[r];
     const Vec3 normal = row(r).normal();
     const FencePanel& panel = *giving_way(scene, contact.fixed, normal);
     const double p_n = row(r).normal_impulse(), cosine = normal.dot(panel.normal);
@@ -96,7 +96,7 @@ void AdvanceIsland::find_pushes(double h) {
 void AdvanceIsland::note_touched_panels(double t) {
   if (scene.fixed.panels.empty()) return;
   for (size_t r = 0; r < w.contacts.size(); ++r) {
-    const IslandContact& contact = w.contacts[r];
+    const ContactRow& contact = w.contacts[r];
     if (contact.fixed < 0 || contact.waits || row(r).state() == ContactState::open ||
         panel_number(scene, contact.fixed) < 0)
       continue;
@@ -112,7 +112,7 @@ bool AdvanceIsland::break_bonds(double h) {
   w.bond_loads.clear();
   if (!w.any_bond) return false;
   for (size_t r = 0; r < w.contacts.size(); ++r) {
-    const IslandContact& contact = w.contacts[r];
+    const ContactRow& contact = w.contacts[r];
     const RowIn<RowGroup> of = row(r);
     if (contact.bond_area == 0 || contact.hit >= 0 || of.state() == ContactState::open) continue;
     const double per_h = 1 / (h * numbers(contact.a).recovery_time);
@@ -132,11 +132,11 @@ bool AdvanceIsland::break_bonds(double h) {
 }
 
 // Bonds are numbered as in the state; after them come those of the blocks with the ground.
-int AdvanceIsland::bond_of(const IslandContact& contact) const {
+int AdvanceIsland::bond_of(const ContactRow& contact) const {
   return contact.bond >= 0 ? contact.bond : static_cast<int>(state.bonds.size()) + contact.a;
 }
 
-const GroundClass& AdvanceIsland::bond_class(const IslandContact& contact) const {
+const GroundClass& AdvanceIsland::bond_class(const ContactRow& contact) const {
   return contact.bond >= 0 ? state.bonds[static_cast<size_t>(contact.bond)].face
                            : scene.ground.classes[static_cast<size_t>(contact.ground_class)];
 }
@@ -151,7 +151,7 @@ void AdvanceIsland::break_bond(int bond) {
     if (memory.key.body_b < 0) memory.bond_area = 0;
 }
 
-BondLoad& AdvanceIsland::load_of(const IslandContact& contact) {
+BondLoad& AdvanceIsland::load_of(const ContactRow& contact) {
   const int bond = bond_of(contact);
   for (BondLoad& load : w.bond_loads)
     if (load.bond == bond) return load;
@@ -164,7 +164,7 @@ BondLoad& AdvanceIsland::load_of(const IslandContact& contact) {
 // between blocks that are jammed the forces would grow without bound, and throw out what they hold.
 // So nothing is pressed out against several times the weight of the lighter block, unless it is
 // deep: health allows a tenth of the thickness.
-double AdvanceIsland::share_pressed_out(const IslandContact& contact, double normal_force) const {
+double AdvanceIsland::share_pressed_out(const ContactRow& contact, double normal_force) const {
   constexpr double heavy = 3, most_overlap = 0.02;
   double mass = numbers(contact.a).mass;
   if (contact.b >= 0) mass = std::min(mass, numbers(contact.b).mass);
@@ -180,7 +180,7 @@ double AdvanceIsland::share_pressed_out(const IslandContact& contact, double nor
 // drive into the ground; what that adds to the overlap has to be pressed out.
 void AdvanceIsland::remember_contact(size_t r, const Vec3& path, double overlap, double h) {
   constexpr double remembered_hit = 1e-2;  // of the thickness
-  const IslandContact& contact = w.contacts[r];
+  const ContactRow& contact = w.contacts[r];
   const RowIn<RowGroup> solved = row(r);
   const Vec3 normal = solved.normal(), impulse = solved.impulse();
   const bool was_hit = contact.hit >= 0;
@@ -218,7 +218,7 @@ void AdvanceIsland::remember_contact(size_t r, const Vec3& path, double overlap,
   w.pressed.assign(w.members.size(), 0);
   w.ground_impulse.assign(w.members.size(), Vec3::Zero());
   for (size_t r = 0; r < w.contacts.size(); ++r) {
-    const IslandContact& contact = w.contacts[r];
+    const ContactRow& contact = w.contacts[r];
     const Vec3 path = path_of_contact(r);
     const double overlap = -(contact.gap_start + row(r).normal().dot(path));
     note_overlap(report, overlap, thickness_of(contact));
@@ -259,7 +259,7 @@ bool AdvanceIsland::foresaw(size_t k, const Contact& contact, double least) cons
 }
 
 // Thickness of the thinner of the two blocks of a contact.
-double AdvanceIsland::thickness_of(const IslandContact& contact) const {
+double AdvanceIsland::thickness_of(const ContactRow& contact) const {
   const double thickness = numbers(contact.a).thickness;
   return contact.b < 0 ? thickness : std::min(thickness, numbers(contact.b).thickness);
 }
@@ -269,7 +269,7 @@ double AdvanceIsland::thickness_of(const IslandContact& contact) const {
 double AdvanceIsland::end_of_deepening_hit(double h) const {
   double end = h;
   for (const Hit& hit : w.hits) {
-    const IslandContact& of = w.contacts[hit.contact];
+    const ContactRow& of = w.contacts[hit.contact];
     const double gap_end =
         of.gap_start + row(hit.contact).normal().dot(path_of_contact(hit.contact));
     const double thickness = thickness_of(of);
@@ -296,7 +296,7 @@ double AdvanceIsland::end_of_throw_into_ground(double h) {
     if (std::none_of(work.contacts.begin(), work.contacts.end(), is_unforeseen)) continue;
     double first = h;
     for (const Hit& hit : w.hits) {
-      const IslandContact& of = w.contacts[hit.contact];
+      const ContactRow& of = w.contacts[hit.contact];
       if (of.a == w.members[k] || of.b == w.members[k]) first = std::min(first, hit.time);
     }
     return first < h ? std::min(first + after_hit * h, h) : h / 2;

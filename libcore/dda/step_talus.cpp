@@ -20,9 +20,9 @@ double first_hit(const BlockNumbers& c, const Substep& s, const Solved<Dof>& sol
                  const Work& work) {
   double first = s.h + 1;
   for (const ContactRow& row : work.rows) {
-    if (!row.waits_for_impact) continue;
+    if (!row.waits) continue;
     const double gap_end = work.contacts[static_cast<size_t>(row.contact)].gap +
-                           row.normal.dot(solved.moved(row.point, s.h));
+                           row.normal.dot(solved.moved(row.arm, s.h));
     if (gap_end > c.touch) continue;
     const double v = row.speed_start, g = row.gap_start + 0.5 * c.touch;
     const double a = 2 * (gap_end + 0.5 * c.touch - g - v * s.h) / (s.h * s.h);

@@ -47,11 +47,11 @@ double resting_speed(const Settings& settings, double g) {
 }
 
 // The row that a remembered contact continues: same features, nearest normal.
-int row_of(const ContactMemory& memory, const Work& work) {
+int row_of(const ContactMemory& memory, std::span<const Contact> contacts) {
   int best = -1;
   double nearest = 0.5;  // never over more than 60 degrees
-  for (size_t i = 0; i < work.contacts.size(); ++i) {
-    const Contact& contact = work.contacts[i];
+  for (size_t i = 0; i < contacts.size(); ++i) {
+    const Contact& contact = contacts[i];
     if (contact.key.feature_a != memory.key.feature_a || !(contact.key == memory.key)) continue;
     const double cosine = contact.normal.dot(memory.normal);
     if (cosine > nearest) nearest = cosine, best = static_cast<int>(i);
@@ -96,7 +96,7 @@ double stiffness_by_load(const BlockNumbers& c, double least, double stiffest,
 // mean over it where the spin turns the point round.
 double approach(const ContactRow& row, const Substep& s) {
   double mean = row.normal.dot(row.free_move) / s.h;
-  if (s.is_straining) mean += row.normal.dot(s.straining * row.point);
+  if (s.is_straining) mean += row.normal.dot(s.straining * row.arm);
   return std::min(row.speed_start, mean);
 }
 
@@ -237,33 +237,37 @@ void set_law(const Scene& scene, const BlockNumbers& c, double h, const Mobility
   const double per_recovery = 1 / c.recovery_time;
   row.shear_velocity = per_recovery * row.shear;
   row.bias = x < 0 ? x * per_recovery : x / h;
-  row.waits_for_impact = row.memory < 0 && row.gap_start > c.touch && approach < -c.resting_speed;
+  row.waits = row.memory < 0 && row.gap_start > c.touch && approach < -c.resting_speed;
 }
 
 void set_ground_law(const Scene& scene, const BlockNumbers& c, const Substep& s, ContactRow& row) {
-  set_law(scene, c, s.h, mobility(c.per_mass, c.per_inertia, row.point, row.normal),
-          approach(row, s), row);
+  set_law(scene, c, s.h, mobility(c.per_mass, c.per_inertia, row.arm, row.normal), approach(row, s),
+          row);
 }
 
-void make_rows(const Scene& scene, int b, const BlockNumbers& c, const Substep& s,
-               const State& state, Work& work) {
-  const Mat3 to_body = s.R.transpose();
+namespace {
+
+// Where the contacts are and how their points move without contact forces.
+void set_motions(const Scene& scene, int b, const Substep& s, const Mat3& to_body,
+                 std::span<const Contact> contacts, std::span<ContactRow> rows) {
   const Mat3 from_start = to_body * s.R_start;  // body axes at the start to those at the end
   const Vec3 moved = to_body * (s.free.pose.position - s.start.pose.position);
   const Vec3 velocity_start = to_body * s.start.velocity, spin_start = from_start * s.spin_start;
-  work.rows.resize(work.contacts.size());
-  for (size_t i = 0; i < work.contacts.size(); ++i) {
-    const Contact& contact = work.contacts[i];
+  for (size_t i = 0; i < contacts.size(); ++i) {
+    const Contact& contact = contacts[i];
     const GroundClass& ground = scene.ground.classes[static_cast<size_t>(contact.ground_class)];
-    ContactRow& row = work.rows[i];
+    ContactRow& row = rows[i];
     forget_last_step(row);
+    row.key = contact.key;
+    row.a = b;
+    row.ground_class = contact.ground_class;
     row.contact = static_cast<int>(i);
-    const bool same_plane = i > 0 && contact.normal == work.contacts[i - 1].normal;
-    row.normal = same_plane ? work.rows[i - 1].normal : Vec3(to_body * contact.normal);
+    const bool same_plane = i > 0 && contact.normal == contacts[i - 1].normal;
+    row.normal = same_plane ? rows[i - 1].normal : Vec3(to_body * contact.normal);
     const Vec3& X = contact.point_a;
     const Vec3 lever_start = from_start * X;
-    row.point = (X + lever_start) / 2;
-    row.drift = s.spin_free.cross(X - row.point);
+    row.arm = (X + lever_start) / 2;
+    row.drift = s.spin_free.cross(X - row.arm);
     row.free_move = moved + (X - lever_start);
     row.gap_start = contact.gap - row.normal.dot(row.free_move);
     const Vec3 w = velocity_start + spin_start.cross(lever_start);
@@ -274,30 +278,46 @@ void make_rows(const Scene& scene, int b, const BlockNumbers& c, const Substep& 
     const double slip_speed = slip.norm();
     row.slip_start = slip_speed > 0 ? Vec3((1 / slip_speed) * slip) : Vec3(Vec3::Zero());
     row.friction = ground.friction;
+    row.restitution = ground.restitution;
   }
-  const std::vector<ContactMemory>& memory = state.memory[static_cast<size_t>(b)];
+}
+
+// What the rows take over from the step before.
+void inherit_all(const BlockNumbers& c, const Substep& s, const Mat3& to_body,
+                 std::span<const ContactMemory> memory, std::span<const Contact> contacts,
+                 std::span<ContactRow> rows) {
   for (size_t m = 0; m < memory.size(); ++m) {
-    const int i = row_of(memory[m], work);
+    const int i = row_of(memory[m], contacts);
     if (i < 0) continue;
-    ContactRow& row = work.rows[static_cast<size_t>(i)];
+    ContactRow& row = rows[static_cast<size_t>(i)];
     // a plane that the contact only now runs into is met by an impact, not inherited
     const double speed = approach(row, s);
     if (speed < -c.resting_speed &&
         (row.gap_start > c.touch || comes_back_fast(memory[m], speed, s.h, c)))
       continue;
-    const ContactKey& key = work.contacts[static_cast<size_t>(i)].key;
-    const bool same_features = key.mode != ContactMode::vertex_face && key == memory[m].key;
+    const bool same_features = row.key.mode != ContactMode::vertex_face && row.key == memory[m].key;
     inherit(memory[m], static_cast<int>(m), same_features, to_body, c, row);
   }
-  for (ContactRow& row : work.rows) {
-    const Contact& contact = work.contacts[static_cast<size_t>(row.contact)];
+}
+
+}  // namespace
+
+void make_rows(const Scene& scene, int b, const BlockNumbers& c, const Substep& s,
+               std::span<const ContactMemory> memory, std::span<const Contact> contacts,
+               std::span<ContactRow> rows) {
+  const Mat3 to_body = s.R.transpose();
+  set_motions(scene, b, s, to_body, contacts, rows);
+  inherit_all(c, s, to_body, memory, contacts, rows);
+  for (size_t i = 0; i < rows.size(); ++i) {
+    ContactRow& row = rows[i];
     if (row.memory < 0) {
-      if (row.gap_start <= c.touch && contact.gap < -c.touch && approach(row, s) < -c.resting_speed)
-        row.gap_start = std::max(row.gap_start, clearance_at_start(scene, contact, s));
+      if (row.gap_start <= c.touch && contacts[i].gap < -c.touch &&
+          approach(row, s) < -c.resting_speed)
+        row.gap_start = std::max(row.gap_start, clearance_at_start(scene, contacts[i], s));
       row.offset = std::max(0.0, -row.gap_start);
     }
     set_ground_law(scene, c, s, row);
-    const GroundClass& ground = scene.ground.classes[static_cast<size_t>(contact.ground_class)];
+    const GroundClass& ground = scene.ground.classes[static_cast<size_t>(row.ground_class)];
     row.cohesion_impulse = ground.cohesion * row.bond_area * s.h;
     row.tension_impulse = ground.tension * row.bond_area * s.h;
   }
@@ -306,7 +326,7 @@ void make_rows(const Scene& scene, int b, const BlockNumbers& c, const Substep& 
 int count_flips(std::span<const ContactRow> rows, const std::vector<ContactMemory>& before) {
   FlipCounter flips(before);
   for (const ContactRow& row : rows)
-    flips.add(row.memory, row.waits_for_impact ? ContactState::open : row.state);
+    flips.add(row.memory, row.waits ? ContactState::open : row.state);
   return flips.total();
 }
 

@@ -28,31 +28,6 @@ struct Segment {
   Vec3 acceleration = Vec3::Zero();  ///< of the centroid, constant over the segment [m/s2]
 };
 
-/// A contact of an island, besides its row for the solver; vectors in local axes.
-struct IslandContact {
-  ContactKey key;
-  int a = 0, b = -1;              ///< blocks; b = -1: the ground, or a fixed body
-  int pair = 0;                   ///< index into the island's pairs
-  int row = 0;                    ///< of the island
-  int fixed = -1;                 ///< fixed body (as body of Blocks::hulls), -1: none
-  int ground_class = 0;           ///< where b and fixed are -1
-  int bond = -1;                  ///< index into State::bonds, -1: none
-  bool waits = false;             ///< approaches too fast to press without being hit
-  int hit = -1;                   ///< index into IslandStepWork::hits, -1: not hit
-  Vec3 arm = Vec3::Zero();        ///< from the centroid of A, both in the middle of the substep [m]
-  Vec3 free_move = Vec3::Zero();  ///< of A's point relative to B's without contact forces [m]
-  Vec3 shear = Vec3::Zero();      ///< s_n [m]
-  double speed_start = 0;         ///< normal velocity at the start of the substep [m/s]
-  double gap_start = 0;           ///< at the start of the substep [m]
-  double gap_free = 0;            ///< at its end without contact forces [m]
-  double bore = 0;                ///< normal force in the substep before [N]
-  double approach = 0;            ///< normal velocity without contact forces, < 0 closing [m/s]
-  double offset = 0;              ///< see ContactMemory [m]
-  double bond_area = 0;           ///< share of its bond, of blocks or with the ground [m2]
-  double touch = 0;               ///< it touches below this gap [m]
-  double restitution = 0;         ///< of the two surfaces [-]
-};
-
 /// A contact that is hit within the substep.
 struct Hit {
   std::size_t contact = 0;  ///< index into IslandStepWork::contacts
@@ -151,7 +126,7 @@ struct IslandStepWork {  // clang-format off
   std::vector<BondLoad> bond_loads;         ///< of this substep, by bond           (n_loaded)
   std::vector<PanelPush> pushes;            ///< on panels of fences, in this substep
   std::vector<FreeTurn> turns;              ///<                                         (n_members)
-  std::vector<IslandContact> contacts;      ///< in the order of the island's rows
+  std::vector<ContactRow> contacts;         ///< in the order of the island's rows
   std::vector<int> first_contact;           ///< of each pair of the island              (n_pairs)
   Island island;
   IslandWork solver;
