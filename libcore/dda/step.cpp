@@ -29,7 +29,7 @@ void put_to_sleep(const Scene& scene, size_t b, State& state) {
 }
 
 // Whether block b shares its island with others, or may touch a fixed body.
-bool in_company(const State& state, const IslandStepWork& w, int b) {
+bool in_company(const State& state, const PairSearch& w, int b) {
   const auto i = static_cast<size_t>(b), k = static_cast<size_t>(w.groups.island_of[i]);
   return w.groups.block_begin[k + 1] - w.groups.block_begin[k] > 1 ||
          (w.near_fixed[i] != 0 && !does_not_move(state.phase[i]));
@@ -106,9 +106,9 @@ void advance_talus(const Scene& scene, State& state, Work& work, StepReport& rep
   if (islands) form_islands(scene, state, work);
   for (int b = 0; b < n_blocks(scene); ++b) {
     const auto i = static_cast<size_t>(b);
-    if (islands && in_company(state, work.islands, b)) {
-      const int k = work.islands.groups.island_of[i];
-      if (work.islands.groups.local_index[i] > 0) continue;
+    if (islands && in_company(state, work.search, b)) {
+      const int k = work.search.groups.island_of[i];
+      if (work.search.groups.local_index[i] > 0) continue;
       advance_island(scene, k, t_end, state, work, report);
       if (may_sleep) put_island_to_sleep(scene, k, state, work);
       continue;
@@ -127,7 +127,7 @@ void advance_talus(const Scene& scene, State& state, Work& work, StepReport& rep
 
 // Members and pairs of blocks of the island that block b is the first of, for law paper.
 void gather_island(const Scene& scene, int b, Work& work) {
-  const IslandStepWork& w = work.islands;
+  const PairSearch& w = work.search;
   const auto k = static_cast<size_t>(w.groups.island_of[static_cast<size_t>(b)]);
   work.paper.members.assign(w.groups.blocks.begin() + w.groups.block_begin[k],
                             w.groups.blocks.begin() + w.groups.block_begin[k + 1]);
@@ -144,7 +144,7 @@ void advance_paper(const Scene& scene, State& state, Work& work, StepReport& rep
   for (int b = 0; b < n_blocks(scene); ++b) {
     const auto i = static_cast<size_t>(b);
     if (does_not_move(state.phase[i])) continue;
-    if (islands && work.islands.groups.local_index[i] > 0) continue;
+    if (islands && work.search.groups.local_index[i] > 0) continue;
     work.paper.members.assign(1, b);
     work.paper.manifolds.clear();
     if (islands) gather_island(scene, b, work);

@@ -257,7 +257,7 @@ struct OpenClose {
   }
 
   [[nodiscard]] size_t place_of(int block) const {
-    return static_cast<size_t>(work.islands.groups.local_index[static_cast<size_t>(block)]);
+    return static_cast<size_t>(work.search.groups.local_index[static_cast<size_t>(block)]);
   }
   [[nodiscard]] const Vec3& position(int block) const {
     return state.motion[static_cast<size_t>(block)].pose.position;
@@ -268,7 +268,7 @@ struct OpenClose {
     const GroundClass face =
         bond >= 0 ? state.bonds[static_cast<size_t>(bond)].face : pair_class(scene, m);
     for (int p = m.point_begin; p < m.point_end; ++p) {
-      const PairPoint& point = work.islands.pairs.points[static_cast<size_t>(p)];
+      const PairPoint& point = work.search.pairs.points[static_cast<size_t>(p)];
       PaperContact& contact = w.contacts.emplace_back();
       contact.key = point.key;
       contact.key.body_b = m.block_b;
@@ -298,7 +298,7 @@ struct OpenClose {
       w.contact_begin.push_back(w.contacts.size());
       add_ground(k);
       for (; next != manifolds.end(); ++next) {
-        const PairManifold& m = work.islands.pairs.manifolds[static_cast<size_t>(*next)];
+        const PairManifold& m = work.search.pairs.manifolds[static_cast<size_t>(*next)];
         if (m.block_a != members[k]) break;
         add_pair(m);
       }

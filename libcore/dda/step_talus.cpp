@@ -55,7 +55,7 @@ struct Advance {
   bool free_fall_only() const { return may_fly && gravity_only(); }
 
   void finish(const Substep& s, const Motion& end, double t, double t_next) {
-    add_segment(b, state.memory[i()].empty(), t, s.h, s.start, end, work);
+    add_segment(b, state.memory[i()].empty(), t, s.h, s.start, end, work.segments);
     set_support(scene, b, (end.velocity - s.free.velocity) / s.h, state);
     const Vec3 external = s.free_acceleration - scene.gravity;
     if (!external.isZero(0))

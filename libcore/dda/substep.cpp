@@ -340,7 +340,7 @@ double newton_tolerance(const BlockNumbers& c, const Substep& s) {
 }
 
 void add_segment(int b, bool flight, double t, double h, const Motion& start, const Motion& end,
-                 Work& work) {
+                 std::vector<Segment>& segments) {
   Segment segment;
   segment.block = b;
   segment.flight = flight;
@@ -349,7 +349,7 @@ void add_segment(int b, bool flight, double t, double h, const Motion& start, co
   segment.start = start;
   segment.end = end;
   segment.acceleration = (end.velocity - start.velocity) / h;
-  work.segments.push_back(segment);
+  segments.push_back(segment);
 }
 
 void end_flight(const Scene& scene, int b, double t, State& state, Work& work) {
@@ -357,7 +357,7 @@ void end_flight(const Scene& scene, int b, double t, State& state, Work& work) {
   const double h = t - state.local_time[i];
   if (h > 0) {
     const Motion end = fly(state.motion[i], scene.blocks.inertia[i], scene.gravity, h);
-    add_segment(b, true, state.local_time[i], h, state.motion[i], end, work);
+    add_segment(b, true, state.local_time[i], h, state.motion[i], end, work.segments);
     state.motion[i] = end;
   }
   forget_rates(scene, b, state);

@@ -87,7 +87,7 @@ void make_rows(const Scene& scene, int b, const BlockNumbers& c, const Substep& 
 [[nodiscard]] double newton_tolerance(const BlockNumbers& c, const Substep& s);
 
 void add_segment(int b, bool flight, double t, double h, const Motion& start, const Motion& end,
-                 Work& work);
+                 std::vector<Segment>& segments);
 
 /// Ends the flight of block b at `t`, not before its local time: its motion is then that at `t`.
 void end_flight(const Scene& scene, int b, double t, State& state, Work& work);
