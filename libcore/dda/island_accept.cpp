@@ -28,7 +28,7 @@ struct SubstepAcceptance {
 
   // Energy that contacts took, by kind; push_panels() adds that of panels that give way.
   void account(size_t r) {
-    const ContactRow& contact = system.contacts[r];
+    const KeptContact& contact = system.contacts[r];
     const RowIn<const RowGroup> lane = lane_of(system, r);
     const Vec3 normal = lane.normal(), impulse = lane.impulse();
     const double p_n = normal.dot(impulse);
@@ -43,7 +43,7 @@ struct SubstepAcceptance {
   // takes: between blocks that are jammed the forces would grow without bound, and throw out what
   // they hold. So nothing is pressed out against several times the weight of the lighter block,
   // unless it is deep: health allows a tenth of the thickness.
-  [[nodiscard]] double share_pressed_out(const ContactRow& contact, double normal_force) const {
+  [[nodiscard]] double share_pressed_out(const KeptContact& contact, double normal_force) const {
     constexpr double heavy = 3, most_overlap = 0.02;
     double mass = members.of(contact.a).mass;
     if (contact.b >= 0) mass = std::min(mass, members.of(contact.b).mass);
@@ -60,7 +60,7 @@ struct SubstepAcceptance {
   void remember_contact(size_t r, const Vec3& path, double overlap) {
     constexpr double remembered_hit = 1e-2;  // of the thickness
     const double h = free.h;
-    const ContactRow& contact = system.contacts[r];
+    const KeptContact& contact = system.contacts[r];
     const RowIn<const RowGroup> lane = lane_of(system, r);
     const Vec3 normal = lane.normal(), impulse = lane.impulse();
     const bool was_hit = contact.hit >= 0;
@@ -101,7 +101,7 @@ struct SubstepAcceptance {
     end.pressed.assign(members.size(), 0);
     end.ground_impulse.assign(members.size(), Vec3::Zero());
     for (size_t r = 0; r < system.contacts.size(); ++r) {
-      const ContactRow& contact = system.contacts[r];
+      const KeptContact& contact = system.contacts[r];
       const RowIn<const RowGroup> lane = lane_of(system, r);
       const Vec3 path = path_of_contact(system, end, r);
       const double overlap = -(contact.gap_start + lane.normal().dot(path));
@@ -186,7 +186,7 @@ struct SubstepAcceptance {
   void note_touched_panels() {
     if (scene.fixed.panels.empty()) return;
     for (size_t r = 0; r < system.contacts.size(); ++r) {
-      const ContactRow& contact = system.contacts[r];
+      const KeptContact& contact = system.contacts[r];
       if (contact.fixed < 0 || contact.waits || lane_of(system, r).state() == ContactState::open ||
           panel_number(scene, contact.fixed) < 0)
         continue;

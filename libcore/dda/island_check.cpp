@@ -74,7 +74,7 @@ struct SubstepCheck {
   [[nodiscard]] double end_of_deepening_hit() const {
     double first = free.h;
     for (const Hit& hit : hits.hits) {
-      const ContactRow& contact = system.contacts[hit.contact];
+      const KeptContact& contact = system.contacts[hit.contact];
       const double gap_end =
           contact.gap_start +
           lane_of(system, hit.contact).normal().dot(path_of_contact(system, end, hit.contact));
@@ -118,7 +118,7 @@ struct SubstepCheck {
       if (!ends_in_ground(k)) continue;
       double first = h;
       for (const Hit& hit : hits.hits) {
-        const ContactRow& contact = system.contacts[hit.contact];
+        const KeptContact& contact = system.contacts[hit.contact];
         if (contact.a == members.blocks[k] || contact.b == members.blocks[k])
           first = std::min(first, hit.time);
       }
@@ -129,12 +129,12 @@ struct SubstepCheck {
 
   // --- bonds -----------------------------------------------------------------------------------
 
-  [[nodiscard]] const GroundClass& bond_class(const ContactRow& contact) const {
+  [[nodiscard]] const GroundClass& bond_class(const KeptContact& contact) const {
     return contact.bond >= 0 ? state.bonds[static_cast<size_t>(contact.bond)].face
                              : scene.ground.classes[static_cast<size_t>(contact.ground_class)];
   }
 
-  [[nodiscard]] BondLoad& load_of(const ContactRow& contact) const {
+  [[nodiscard]] BondLoad& load_of(const KeptContact& contact) const {
     const int bond = bond_number(static_cast<int>(state.bonds.size()), contact);
     for (BondLoad& load : end.bond_loads)
       if (load.bond == bond) return load;
@@ -148,7 +148,7 @@ struct SubstepCheck {
     end.bond_loads.clear();
     if (!system.has_bonds) return false;
     for (size_t r = 0; r < system.contacts.size(); ++r) {
-      const ContactRow& contact = system.contacts[r];
+      const KeptContact& contact = system.contacts[r];
       const RowIn<const RowGroup> lane = lane_of(system, r);
       if (contact.bond_area == 0 || contact.hit >= 0 || lane.state() == ContactState::open)
         continue;
@@ -172,7 +172,7 @@ struct SubstepCheck {
     if (scene.fixed.panels.empty()) return;
     for (size_t r = 0; r < system.contacts.size(); ++r) {
       if (!gives_way(system, r)) continue;
-      const ContactRow& contact = system.contacts[r];
+      const KeptContact& contact = system.contacts[r];
       const RowIn<const RowGroup> lane = lane_of(system, r);
       const Vec3 normal = lane.normal();
       const FencePanel& panel = *giving_way(scene, contact.fixed, normal);
@@ -234,7 +234,7 @@ SubstepVerdict check_substep(const Scene& scene, const State& state, const PairS
 // rest of the substep.
 Vec3 path_of_impulse(const IslandMembers& members, const FreeMotions& free,
                      const IslandSystem& system, const SubstepHits& hits, size_t r) {
-  const ContactRow& contact = system.contacts[r];
+  const KeptContact& contact = system.contacts[r];
   Vec3 path = relative(system, r, [&](size_t k) -> Vec6 {
     return (system.island.velocity[k] + system.island.free_velocity[k]) / 2;
   });

@@ -139,14 +139,8 @@ struct ContactMaker {
     system.first_contact.push_back(static_cast<int>(system.contacts.size()));
   }
 
-  ContactRow& new_contact() {
-    make_room(system.contacts);
-    return system.contacts.emplace_back();
-  }
-
-  // Makes a contact of the last pair, filled but for this, ready for the solver.
-  void finish_contact(size_t r, bool never_waits) {
-    ContactRow& contact = system.contacts[r];
+  // Takes a contact of the last pair, filled but for this, and makes its lane.
+  void add_contact(ContactRow& contact, bool never_waits) {
     const double along_path = contact.normal.dot(contact.free_move);
     contact.pair = static_cast<int>(system.island.pairs.size()) - 1;
     contact.gap_free = contact.gap_start + along_path;
@@ -156,7 +150,7 @@ struct ContactMaker {
     contact.waits = contact.memory < 0 && !never_waits &&
                     (contact.approach < -resting_speed ||
                      contact.gap_start > contact.touch + free.h * resting_speed);
-    if (contact.waits) system.waiting.push_back(r);
+    if (contact.waits) system.waiting.push_back(system.contacts.size());
     system.has_bonds |= contact.bond_area != 0;
     if (contact.memory >= 0) {
       const ContactMemory& then = memory_of(contact.a)[static_cast<size_t>(contact.memory)];
@@ -164,6 +158,8 @@ struct ContactMaker {
       contact.state = static_cast<ContactState>(then.state);
     }
     contact.lane = add_row(contact, system.island);
+    make_room(system.contacts);
+    system.contacts.push_back(contact);
   }
 
   // --- with the ground -------------------------------------------------------------------------
@@ -219,24 +215,20 @@ struct ContactMaker {
       return false;
     }
     system.fell_through |= near.reach == Reach::below;
-    if (!making.found.empty()) {
-      system.ground_pair.back() = static_cast<int>(system.island.pairs.size());
-      begin_pair(static_cast<int>(k), -1);
-    }
-    const size_t first = system.contacts.size();
-    for (size_t i = 0; i < making.found.size(); ++i) (void)new_contact();
-    const std::span<ContactRow> rows = std::span(system.contacts).subspan(first);
-    make_rows(scene, b, c, s, ground_memory(b), making.found, rows);
-    system.lost.back() = lost_contacts(b, s, rows);
-    for (size_t r = first; r < system.contacts.size(); ++r) {
-      ContactRow& row = system.contacts[r];
+    making.rows.resize(making.found.size());
+    make_rows(scene, b, c, s, ground_memory(b), making.found, making.rows);
+    system.lost.back() = lost_contacts(b, s, making.rows);
+    if (making.rows.empty()) return true;
+    system.ground_pair.back() = static_cast<int>(system.island.pairs.size());
+    begin_pair(static_cast<int>(k), -1);
+    for (ContactRow& row : making.rows) {
       for (Vec3* v : {&row.normal, &row.arm, &row.drift, &row.shear, &row.shear_velocity,
                       &row.slip_start, &row.free_move})
         *v = s.R * *v;
       const GroundClass& ground = scene.ground.classes[static_cast<size_t>(row.ground_class)];
       if (row.bond_area > 0) hold(ground, c.recovery_time, row);
       row.touch = c.touch;
-      finish_contact(r, row.bond_area > 0);
+      add_contact(row, row.bond_area > 0);
     }
     return true;
   }
@@ -340,7 +332,7 @@ struct ContactMaker {
     const Vec3 arm = (pa.start + pa.end + pb.start + pb.end) / 4 - meeting.shift / 2;
     const Vec3 arm_b = arm + meeting.shift;
     const Vec3 drift = pa.spin_end.cross(pa.end - arm) - pb.spin_end.cross(pb.end - arm_b);
-    ContactRow& row = new_contact();
+    ContactRow row;
     row.key = point.key;
     row.key.body_b = m.block_b;
     row.a = m.block_a;
@@ -364,7 +356,7 @@ struct ContactMaker {
       if (row.memory < 0) row.offset = -row.gap_start;
       hold(bond.face, c.recovery_time, row);
     }
-    finish_contact(system.contacts.size() - 1, bonded);
+    add_contact(row, bonded);
   }
 
   // A point on a fixed body: for the solver, on the ground. `n_closing`: points of the manifold
@@ -378,7 +370,7 @@ struct ContactMaker {
     BlockNumbers c = members.numbers[k];
     c.touch = pair_touch_ratio * c.radius;
     const GroundClass& faces = fixed_class(scene, m.block_b);
-    ContactRow& row = new_contact();
+    ContactRow row;
     row.key = point.key;
     row.key.body_b = m.block_b;
     row.a = m.block_a;
@@ -396,7 +388,7 @@ struct ContactMaker {
       row.offset = std::max(0.0, -row.gap_start);
     set_law(scene, c, s.h, mobility_at(members, free, k, row.arm, n), approach, row);
     if (panel != nullptr) row.normal_limit = panel->force * s.h / n_closing;
-    finish_contact(system.contacts.size() - 1, panel != nullptr);
+    add_contact(row, panel != nullptr);
   }
 
   void add_fixed_points(const PairManifold& m) {
@@ -522,7 +514,7 @@ double first_touch(const Scene& scene, const State& state, const IslandSystem& s
   double first = h + 1;
   if (scene.fixed.panels.empty()) return first;
   for (size_t r = 0; r < system.contacts.size(); ++r) {
-    const ContactRow& contact = system.contacts[r];
+    const KeptContact& contact = system.contacts[r];
     const double v = contact.speed_start, g = contact.gap_start;
     if (lane_of(system, r).normal_limit() >= no_normal_limit || g <= contact.touch ||
         contact.gap_free > -contact.touch || knows_body(state, contact.a, contact.fixed))

@@ -107,7 +107,7 @@ struct LeftOutPoint {
 struct IslandSystem {  // clang-format off
   Island island;                            ///< 4: its bodies; 5: pairs, rows; 7: solution
   // 5 make_contacts
-  std::vector<ContactRow> contacts;         ///< in the order of the island's rows
+  std::vector<KeptContact> contacts;        ///< in the order of the island's rows
   std::vector<int> first_contact;           ///< of each pair of the island              (n_pairs)
   std::vector<int> ground_pair;             ///< with the ground, -1: none               (n_members)
   std::vector<LostContacts> lost;           ///<                                         (n_members)
@@ -123,6 +123,7 @@ struct IslandSystem {  // clang-format off
 struct ContactMaking {  // clang-format off
   std::vector<Vec3> world_vertices;         ///< of the member at hand [m]
   std::vector<Contact> found;               ///< with the ground, of the member at hand
+  std::vector<ContactRow> rows;             ///< of these
   std::vector<ContactMemory> unbonded;      ///< memory of a member whose bond with the ground broke
   std::vector<double> hit_speed_bound;      ///< that its own hits may give it, about [m/s] (n_members)
   int touched_by = -1;                      ///< block whose memories `touched` is of
@@ -333,13 +334,13 @@ template <class Of>
 }
 
 /// Thickness of the thinner of the two blocks of a contact.
-[[nodiscard]] inline double thickness_of(const IslandMembers& members, const ContactRow& contact) {
+[[nodiscard]] inline double thickness_of(const IslandMembers& members, const KeptContact& contact) {
   const double thickness = members.of(contact.a).thickness;
   return contact.b < 0 ? thickness : std::min(thickness, members.of(contact.b).thickness);
 }
 
 /// Bonds of blocks are numbered as in the state; after them come those of blocks with the ground.
-[[nodiscard]] inline int bond_number(int n_bonds, const ContactRow& contact) {
+[[nodiscard]] inline int bond_number(int n_bonds, const KeptContact& contact) {
   return contact.bond >= 0 ? contact.bond : n_bonds + contact.a;
 }
 [[nodiscard]] inline bool is_broken(const SubstepTries& tries, int bond) {

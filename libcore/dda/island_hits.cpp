@@ -57,7 +57,7 @@ void bear_until_hit(const State& state, const IslandMembers& members, const Free
   hits.support.assign(members.size(), {});
   for (IndexSet* set : {&hits.hit_members, &hits.opened, &hits.moved}) set->reset(members.size());
   for (const size_t r : system.waiting) {
-    const ContactRow& contact = system.contacts[r];
+    const KeptContact& contact = system.contacts[r];
     if (contact.b >= 0 || contact.gap_free > contact.touch) continue;
     double time = 0;
     if (contact.gap_start > 0)
@@ -80,13 +80,14 @@ void note_hit_pair(const IslandSystem& system, size_t pair, SubstepHits& hits) {
 
 // Mobility of the points of a contact relative to each other.
 Mobility relative_mobility(const IslandMembers& members, const FreeMotions& free,
-                           const IslandSystem& system, const ContactRow& contact) {
+                           const IslandSystem& system, const KeptContact& contact,
+                           const Vec3& normal) {
   const size_t ka = members.at(contact.a);
-  Mobility W = mobility_at(members, free, ka, contact.arm, contact.normal);
+  Mobility W = mobility_at(members, free, ka, contact.arm, normal);
   if (contact.b >= 0) {
     const size_t kb = members.at(contact.b);
     const Vec3 arm_b = contact.arm + system.island.position[ka] - system.island.position[kb];
-    const Mobility Wb = mobility_at(members, free, kb, arm_b, contact.normal);
+    const Mobility Wb = mobility_at(members, free, kb, arm_b, normal);
     W.normal += Wb.normal;
     W.tangent += Wb.tangent;
   }
@@ -99,7 +100,7 @@ Mobility relative_mobility(const IslandMembers& members, const FreeMotions& free
 void make_hit(const IslandMembers& members, const FreeMotions& free, size_t r, double gap_end,
               double speed_end, IslandSystem& system, SubstepHits& hits) {
   const double h = free.h;
-  ContactRow& contact = system.contacts[r];
+  KeptContact& contact = system.contacts[r];
   const RowIn<RowGroup> lane = lane_of(system, r);
   const Vec3 normal = lane.normal();
   note_hit_pair(system, static_cast<size_t>(contact.pair), hits);
@@ -124,7 +125,7 @@ void make_hit(const IslandMembers& members, const FreeMotions& free, size_t r, d
   hit.rebound = returned;
   hit.fall = std::min(0.0, a_free) * rest;
   hit.target = std::max(0.0, returned + hit.fall);
-  const Mobility W = relative_mobility(members, free, system, contact);
+  const Mobility W = relative_mobility(members, free, system, contact, normal);
   // no slip_start: friction against the end velocity never gains energy
   lane.set(&RowGroup::normal_damping, hit_stiffness / W.normal);
   lane.set(&RowGroup::shear_damping, hit_stiffness / W.tangent);
@@ -145,7 +146,7 @@ int find_hits(const IslandMembers& members, const FreeMotions& free, bool by_fre
     return b >= 0 && hits.moved.contains(static_cast<int>(members.at(b)));
   };
   const auto is_hit = [&](size_t r) {
-    const ContactRow& contact = system.contacts[r];
+    const KeptContact& contact = system.contacts[r];
     if (!by_free_motion && !moved(contact.a) && !moved(contact.b)) return false;
     const Vec3 normal = lane_of(system, r).normal();
     double gap_end = contact.gap_free, speed_end = -std::numeric_limits<double>::infinity();
@@ -254,7 +255,7 @@ bool bear_by_opened(const State& state, const IslandMembers& members, const Free
     const auto k = static_cast<size_t>(member);
     if (hits.support[k].until == 0 || system.ground_pair[k] < 0) continue;
     for (const size_t r : contacts_of(system, static_cast<size_t>(system.ground_pair[k]))) {
-      const ContactRow& contact = system.contacts[r];
+      const KeptContact& contact = system.contacts[r];
       const double previous_normal_force = contact.memory >= 0 ? contact.last_force : 0;
       if (previous_normal_force <= 0 || lane_of(system, r).state() != ContactState::open) continue;
       system.lost[k].add(previous_normal_force, contact.arm);

@@ -29,7 +29,7 @@ void sum_hits(const IslandMembers& members, const IslandSystem& system, const Su
               Rebounds& rebounds) {
   rebounds.hit_sums.assign(members.size(), {});
   for (const Hit& hit : hits.hits) {
-    const ContactRow& contact = system.contacts[hit.contact];
+    const KeptContact& contact = system.contacts[hit.contact];
     const RowIn<const RowGroup> lane = lane_of(system, hit.contact);
     const Vec6 impulse = generalised<6>(lane.arm(), lane.impulse()) / hit.in_turn;
     const double p_n = lane.normal_impulse() / hit.in_turn;

@@ -106,7 +106,7 @@ TEST(CheckSubstep, ABondThatFailsIsBrokenByTheAcceptedSubstepAlone) {
   first.w.tries.broken = {0};
   EXPECT_EQ(first.attempt(h).kind, SubstepVerdict::Kind::accept);
   EXPECT_EQ(first.state.bonds[0].area, area);
-  for (const ContactRow& contact : first.w.system.contacts) EXPECT_LT(contact.bond, 0);
+  for (const KeptContact& contact : first.w.system.contacts) EXPECT_LT(contact.bond, 0);
   StepReport report;
   accept(scene, first.w.members, first.w.free, first.w.system, first.w.hits, true, first.w.tries,
          first.w.end, first.state, first.work.segments, report);
