@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
-"""Checks the rules of inclusion: modules of libcore include one way, in their fixed order; the
-headers of a library stay in the sources that carry its name, also in tools; and a plain file includes
-no header of a source that needs a library, so that plain targets link alone."""
+"""Checks the rules of inclusion: modules of libcore include one way, in their fixed order; rooms of a
+module (a .cpp and its .hpp are one) include each other in no circle; the headers of a library stay in
+the sources that carry its name, also in tools; and a plain file includes no header of a source that
+needs a library, so that plain targets link alone."""
+import graphlib
 import pathlib
 import re
 import sys
@@ -25,7 +27,23 @@ def library_of(path):
     return word if word in LIBRARY_HEADERS else ""
 
 
+def circles_of(root):
+    """A circle of rooms of libcore, as one sentence; none where every room can be built on those below."""
+    rooms = {}
+    for path in sorted((root / "libcore").rglob("*.[ch]pp")):
+        room = str(path.relative_to(root / "libcore").with_suffix(""))
+        included = {header.rsplit(".", 1)[0] for bracket, header in INCLUDE.findall(path.read_text())
+                    if bracket == '"'}
+        rooms.setdefault(room, set()).update(included - {room})
+    try:
+        graphlib.TopologicalSorter(rooms).prepare()
+    except graphlib.CycleError as error:
+        yield " includes ".join(reversed(error.args[1])) + \
+            ": rooms in a circle; move what they share into a room below them"
+
+
 def problems_of(root):
+    yield from circles_of(root)
     for path in sorted((root / "libcore").rglob("*.[ch]pp")):
         module = path.relative_to(root / "libcore").parts[0]
         suffix = library_of(path)

@@ -94,9 +94,7 @@ void wake_sleepers_at(const Scene& scene, int panel, State& state) {
       if (!is_fixed(scene, m.key.body_b)) continue;
       const auto f = static_cast<size_t>(m.key.body_b - n_blocks(scene));
       if (scene.fixed.panel[f] != panel) continue;
-      state.phase[b] = Phase::near_ground;
-      state.still_steps[b] = 0;
-      state.local_time[b] = state.time;
+      wake(state, b, state.time);
     }
   }
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "dda/free_rotation.hpp"
 #include "dda/rotation.hpp"
 
 namespace talus {
@@ -159,6 +160,12 @@ Motion fly(const Motion& motion, const Vec3& inertia, const Vec3& a, double h) {
   end.velocity += h * a;
   end.pose.attitude = free_rotation(motion.pose.attitude, motion.angular_momentum, inertia, h);
   return end;
+}
+
+Motion motion_at(const Scene& scene, const State& state, int b, double time) {
+  const auto i = static_cast<size_t>(b);
+  if (state.phase[i] != Phase::flight || time == state.local_time[i]) return state.motion[i];
+  return fly(state.motion[i], scene.blocks.inertia[i], scene.gravity, time - state.local_time[i]);
 }
 
 FlyingBody flying_body(const Motion& motion, const Vec3& inertia, double radius,

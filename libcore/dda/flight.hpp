@@ -30,6 +30,9 @@ struct FlyingBody {
 /// translation, angular momentum untouched.
 [[nodiscard]] Motion fly(const Motion& motion, const Vec3& inertia, const Vec3& a, double h);
 
+/// Motion of block b at `time`, between its local time and the end of its flight.
+[[nodiscard]] Motion motion_at(const Scene& scene, const State& state, int b, double time);
+
 /// A time for which a body that accelerates with `a` stays above the ground for sure, at most
 /// `limit` and not beyond the grid's edge; 0 when none was found. Far above by bounds of the ground
 /// below the path of its ball; near it by the planes of the triangles, cell by cell, which unknown

@@ -210,7 +210,9 @@ Quat attitude_after(const FreeSpin& spin, double t) {
     case FreeSpin::Kind::series:
       return series_rotation(spin.attitude, spin.L, spin.inertia, t);
     case FreeSpin::Kind::symmetric:
-      return free_rotation(spin.attitude, spin.L, spin.inertia, t);
+      if (t == 0) break;
+      return symmetric_rotation(spin.attitude, spin.L, spin.inertia, axis_of_symmetry(spin.inertia),
+                                t);
   }
   return spin.attitude;
 }

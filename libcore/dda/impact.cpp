@@ -26,18 +26,21 @@ void make_impact_rows(const Scene& scene, int b, double resting_speed, const Mat
     forget_last_step(row);
     row.drift.setZero();
     row.shear_velocity.setZero();
-    row.waits_for_impact = false;
+    row.waits = false;
+    row.key = contact.key;
+    row.a = b;
+    row.ground_class = contact.ground_class;
     row.contact = static_cast<int>(i);
     const bool same_plane = i > 0 && contact.normal == work.contacts[i - 1].normal;
     row.normal = same_plane ? work.rows[i - 1].normal : Vec3(to_body * contact.normal);
-    row.point = contact.point_a;
-    const Vec3 w = point_velocity<6>(velocity, row.point);
+    row.arm = contact.point_a;
+    const Vec3 w = point_velocity<6>(velocity, row.arm);
     row.speed_start = row.normal.dot(w);
     const Vec3 tangent = w - row.speed_start * row.normal;
     const double slip_speed = tangent.norm();
     row.slip_start = slip_speed > 0 ? Vec3((1 / slip_speed) * tangent) : Vec3(Vec3::Zero());
     row.bias = row.speed_start < -resting_speed ? ground.restitution * row.speed_start : 0.0;
-    const Mobility W = mobility(per_mass, per_inertia, row.point, row.normal);
+    const Mobility W = mobility(per_mass, per_inertia, row.arm, row.normal);
     row.normal_damping = stiffness_ratio / W.normal;
     row.shear_damping = stiffness_ratio / W.tangent;
     row.friction = ground.friction;
@@ -63,7 +66,7 @@ double missing_part(const Vec6& after, std::span<const ContactRow> rows, double 
   double missing = most;
   for (const ContactRow& row : rows) {
     if (row.state == ContactState::open || row.speed_start >= -resting_speed) continue;
-    const double speed = row.normal.dot(point_velocity<6>(after, row.point));
+    const double speed = row.normal.dot(point_velocity<6>(after, row.arm));
     missing = std::min(missing, (-row.bias - speed) / (speed - row.speed_start));
   }
   return missing < most ? std::max(0.0, missing) : 0;

@@ -9,7 +9,25 @@ void open_pair(int a, int b, Island& island) {
   island.pairs.push_back({a, b, at, at, true});
 }
 
-int add_row(const IslandRow& row, Island& island) {
+namespace {
+
+// What makes a contact press. The drift is a known part of its point's velocity.
+void set_law(const ContactRow& contact, const RowIn<RowGroup>& lane) {
+  const double along = contact.normal.dot(contact.drift);
+  lane.set_vector(&RowGroup::shear_velocity,
+                  contact.shear_velocity + (contact.drift - along * contact.normal));
+  lane.set_vector(&RowGroup::slip_start, contact.slip_start);
+  lane.set(&RowGroup::bias, contact.bias + along);
+  lane.set(&RowGroup::normal_damping, contact.normal_damping);
+  lane.set(&RowGroup::shear_damping, contact.shear_damping);
+  lane.set(&RowGroup::cohesion, contact.cohesion_impulse);
+  lane.set(&RowGroup::tension, contact.tension_impulse);
+  lane.set(&RowGroup::normal_tangent, contact.normal_damping);
+}
+
+}  // namespace
+
+int add_row(const ContactRow& contact, Island& island) {
   BodyPair& pair = island.pairs.back();
   const int r = pair.row_end++;
   if (r % 2 == 0) {
@@ -17,21 +35,14 @@ int add_row(const IslandRow& row, Island& island) {
     RowGroup& group = island.rows.emplace_back();
     group.normal_limit = Two{no_normal_limit, no_normal_limit};
   }
-  const RowIn<RowGroup> out = row_of(island, r);
-  out.set_vector(&RowGroup::normal, row.normal);
-  out.set_vector(&RowGroup::arm, row.arm);
-  out.set_vector(&RowGroup::shear_velocity, row.shear_velocity);
-  out.set_vector(&RowGroup::slip_start, row.slip_start);
-  out.set_vector(&RowGroup::impulse, row.impulse);
-  out.set(&RowGroup::bias, row.bias);
-  out.set(&RowGroup::normal_damping, row.normal_damping);
-  out.set(&RowGroup::shear_damping, row.shear_damping);
-  out.set(&RowGroup::friction, row.friction);
-  out.set(&RowGroup::cohesion, row.cohesion_impulse);
-  out.set(&RowGroup::tension, row.tension_impulse);
-  out.set(&RowGroup::normal_limit, row.normal_limit);
-  out.set(&RowGroup::normal_tangent, row.normal_damping);
-  out.set_state(row.state);
+  const RowIn<RowGroup> lane = row_of(island, r);
+  lane.set_vector(&RowGroup::normal, contact.normal);
+  lane.set_vector(&RowGroup::arm, contact.arm);
+  lane.set(&RowGroup::friction, contact.friction);
+  lane.set(&RowGroup::normal_limit, contact.normal_limit);
+  lane.set_vector(&RowGroup::impulse, contact.impulse);
+  lane.set_state(contact.state);
+  if (!contact.waits) set_law(contact, lane);
   return r;
 }
 

@@ -21,36 +21,13 @@
 
 namespace talus {
 
-/// A contact of an island. Velocities are those of A's point relative to B's.
-///
-/// A known part of the point's velocity (ContactRow::drift) goes into bias and shear_velocity.
-/// A bond that breaks within the step makes the law jump, and a step with a jump may have no
-/// solution: give an intact bond without limit (`held` of island_assembly.cpp), compare its impulse
-/// with the limits afterwards and solve again without the bonds that were exceeded.
-struct IslandRow {  // clang-format off
-  // vectors in local axes
-  Vec3 normal = Vec3::Zero();          ///< unit, from B to A
-  Vec3 arm = Vec3::Zero();             ///< contact point from the centroid of A [m]
-  Vec3 shear_velocity = Vec3::Zero();  ///< s_n / tau, tangential, plus the tangential drift [m/s]
-  Vec3 slip_start = Vec3::Zero();      ///< unit direction of sliding at the step's start, or zero
-  double bias = 0;              ///< b_n: N > 0 needs v_n + b_n < 0; with the drift's part [m/s]
-  double normal_damping = 0;    ///< D_n, impulse per velocity below -b_n [kg]
-  double shear_damping = 0;     ///< D_t, impulse per tangential velocity while sticking [kg]
-  double friction = 0;          ///< tan(phi) [-]
-  double cohesion_impulse = 0;  ///< c A_c h [N s]
-  double tension_impulse = 0;   ///< t A_c h [N s]
-  double normal_limit = no_normal_limit;  ///< the other side gives way at this normal impulse [N s]
-  // in: those of the last step, scaled to this one's length; out: the solution
-  Vec3 impulse = Vec3::Zero();  ///< on A; B gets the opposite [N s]
-  ContactState state = ContactState::open;  ///< in: inherited; a new contact is `open`
-};  // clang-format on
-
 /// Two doubles, the compiler's vector type: a register of any x86-64, plain code elsewhere with the
 /// same bits. (Four at a time need AVX; without it the compiler takes them through memory.)
 using Two __attribute__((vector_size(16), may_alias)) = double;
 
-/// Two rows of one pair side by side; fields as in IslandRow, index = axis, then row. A lane
-/// without a contact is all zero but for the limit, and never presses.
+/// Two rows of one pair side by side; fields as in ContactRow, index = axis, then row; its drift is
+/// in bias and shear_velocity. A lane without a contact is all zero but for the limit, and never
+/// presses.
 struct RowGroup {
   Two normal[3], arm[3], shear_velocity[3], slip_start[3];
   Two bias, normal_damping, shear_damping, friction, cohesion, tension, normal_limit;
@@ -140,8 +117,9 @@ struct Island {  // clang-format off
 
 /// Adds a pair without rows.
 void open_pair(int a, int b, Island& island);
-/// Adds a row to the last pair and returns its number.
-int add_row(const IslandRow& row, Island& island);
+/// Adds the lane of a contact to the last pair and returns its number. One that waits gets the
+/// place alone and presses nothing until it is hit.
+int add_row(const ContactRow& contact, Island& island);
 
 /// M v and M^-1 p of one body.
 [[nodiscard]] inline Vec6 times_mass(const Mat6& M, const Vec6& v) {

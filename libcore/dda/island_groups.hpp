@@ -3,6 +3,7 @@
 // The ground, and blocks that stand as fast as the ground, join nobody.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <utility>
 #include <vector>
@@ -23,6 +24,14 @@ struct IslandGroups {  // clang-format off
 
 [[nodiscard]] inline int n_islands(const IslandGroups& groups) {
   return static_cast<int>(groups.block_begin.size()) - 1;
+}
+
+/// Blocks of island k, ascending.
+[[nodiscard]] inline std::span<const int> blocks_of(const IslandGroups& groups, int k) {
+  const auto at = static_cast<std::size_t>(k);
+  return std::span(groups.blocks)
+      .subspan(static_cast<std::size_t>(groups.block_begin[at]),
+               static_cast<std::size_t>(groups.block_begin[at + 1] - groups.block_begin[at]));
 }
 
 /// Groups blocks 0 .. n_blocks - 1 with `joins[b]` != 0 (all when `joins` is empty).

@@ -1,11 +1,12 @@
-// Blocks that press on each other hit and rebound several times in turn within a substep, and lose
-// energy each time; here is what that leaves of the rebound of hits that are solved all at once
-// (docs/design-notes.md, "Hits in turn").
+// Stage 8 of an island's step. Blocks that press on each other hit and rebound several times in
+// turn within a substep, and lose energy each time; here is what that leaves of the rebound of hits
+// that are solved all at once (docs/theory.md; docs/design-notes.md, "Hits in turn").
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <ranges>
 
-#include "dda/advance_island.hpp"
+#include "dda/island_stages.hpp"
 
 namespace talus {
 namespace {
@@ -16,134 +17,195 @@ constexpr double gain_rounding = 1e-6;    // of the energy of hits: not a gain
 constexpr double least_loss = 0.9;        // of what hits one after the other would lose
 constexpr double others_rounding = 1e-9;  // of a member's hits: there are no others
 
-}  // namespace
-
 // What the impulses `p` about member k's centroid alone do to its velocity.
-Vec6 AdvanceIsland::change_by(size_t k, const Vec6& p) const {
+Vec6 change_by(const IslandMembers& members, const FreeMotions& free, size_t k, const Vec6& p) {
   Vec6 v;
-  v << p.head<3>() / w.numbers[k].mass, w.turns[k].per_inertia * p.tail<3>();
+  v << p.head<3>() / members.numbers[k].mass, free.turns[k].per_inertia * p.tail<3>();
   return v;
 }
 
 // The hits of each member, of each only what it needs by itself, not what it passes on.
-void AdvanceIsland::sum_hits() {
-  w.hit_sums.assign(w.members.size(), {});
-  for (const Hit& hit : w.hits) {
-    const IslandContact& contact = w.contacts[hit.contact];
-    const RowIn<RowGroup> of = row(hit.contact);
-    const Vec6 impulse = generalised<6>(of.arm(), of.impulse()) / hit.in_turn;
-    const double p_n = of.normal_impulse() / hit.in_turn;
-    const size_t ka = place(contact.a);
-    w.hit_sums[ka].add(impulse, p_n, hit.time);
+void sum_hits(const IslandMembers& members, const IslandSystem& system, const SubstepHits& hits,
+              Rebounds& rebounds) {
+  rebounds.hit_sums.assign(members.size(), {});
+  for (const Hit& hit : hits.hits) {
+    const KeptContact& contact = system.contacts[hit.contact];
+    const RowIn<const RowGroup> lane = lane_of(system, hit.contact);
+    const Vec6 impulse = generalised<6>(lane.arm(), lane.impulse()) / hit.in_turn;
+    const double p_n = lane.normal_impulse() / hit.in_turn;
+    const size_t ka = members.at(contact.a);
+    rebounds.hit_sums[ka].add(impulse, p_n, hit.time);
     if (contact.b < 0) continue;
-    const size_t kb = place(contact.b);
-    const Vec3 shift = w.island.position[ka] - w.island.position[kb];
-    w.hit_sums[kb].add(-carried_to_b(impulse, shift), p_n, hit.time);
+    const size_t kb = members.at(contact.b);
+    const Vec3 shift = system.island.position[ka] - system.island.position[kb];
+    rebounds.hit_sums[kb].add(-carried_to_b(impulse, shift), p_n, hit.time);
   }
 }
 
 // What hits with others do to member k's velocity, as far as its hits of a pair, `own`, do not
 // follow on them in turn. They do when as much of the substep is left after the later of both as
 // lay between them: so long the bodies take to meet again.
-Vec6 AdvanceIsland::change_apart(size_t k, const HitSum& own, double h) const {
-  const HitSum& all = w.hit_sums[k];
+Vec6 change_apart(const IslandMembers& members, const FreeMotions& free, const Rebounds& rebounds,
+                  size_t k, const HitSum& own) {
+  const HitSum& all = rebounds.hit_sums[k];
   const double others = all.normal - own.normal;
   if (!(others > others_rounding * all.normal) || !(own.normal > 0)) return Vec6::Zero();
   const double time = own.moment / own.normal, other_time = (all.moment - own.moment) / others;
   const double between = std::abs(time - other_time);
-  const double left = std::max(0.0, h - std::max(time, other_time));
+  const double left = std::max(0.0, free.h - std::max(time, other_time));
   if (left >= between) return Vec6::Zero();
-  return (1 - left / between) * change_by(k, all.impulse - own.impulse);
+  return (1 - left / between) * change_by(members, free, k, all.impulse - own.impulse);
 }
 
 // How many times the impulses of a pair are those that would turn its hits round on its two bodies
 // alone, >= 1: what else presses on the bodies has them hit each other so many times in turn.
-double AdvanceIsland::hits_in_turn(size_t p, double h) const {
-  const BodyPair& pair = w.island.pairs[p];
+double hits_in_turn(const IslandMembers& members, const FreeMotions& free,
+                    const IslandSystem& system, const SubstepHits& hits, const Rebounds& rebounds,
+                    size_t p) {
+  const Island& island = system.island;
+  const BodyPair& pair = island.pairs[p];
   const auto ka = static_cast<size_t>(pair.a), kb = static_cast<size_t>(std::max(pair.b, 0));
   Vec6 impulse = Vec6::Zero();
   HitSum own;
-  for (const size_t r : contacts_of(p)) {
-    const RowIn<RowGroup> of = row(r);
-    const Vec6 of_row = generalised<6>(of.arm(), of.impulse());
+  for (const size_t r : contacts_of(system, p)) {
+    const RowIn<const RowGroup> lane = lane_of(system, r);
+    const Vec6 of_row = generalised<6>(lane.arm(), lane.impulse());
     impulse += of_row;
-    const Hit* hit = hit_of(r);
+    const Hit* hit = hit_of(system, hits, r);
     if (hit != nullptr)
-      own.add(of_row / hit->in_turn, of.normal_impulse() / hit->in_turn, hit->time);
+      own.add(of_row / hit->in_turn, lane.normal_impulse() / hit->in_turn, hit->time);
   }
-  const Vec6 alone_a = change_by(ka, impulse), apart_a = change_apart(ka, own, h);
+  const Vec6 alone_a = change_by(members, free, ka, impulse),
+             apart_a = change_apart(members, free, rebounds, ka, own);
   Vec6 alone_b = Vec6::Zero(), apart_b = Vec6::Zero();
   if (pair.b >= 0) {
-    const Vec3 shift = w.island.position[ka] - w.island.position[kb];
-    alone_b = change_by(kb, -carried_to_b(impulse, shift));
+    const Vec3 shift = island.position[ka] - island.position[kb];
+    alone_b = change_by(members, free, kb, -carried_to_b(impulse, shift));
     own.impulse = -carried_to_b(own.impulse, shift);
-    apart_b = change_apart(kb, own, h);
+    apart_b = change_apart(members, free, rebounds, kb, own);
   }
   double alone = 0, found = 0;
-  for (const size_t r : contacts_of(p)) {
-    const Hit* hit = hit_of(r);
+  for (const size_t r : contacts_of(system, p)) {
+    const Hit* hit = hit_of(system, hits, r);
     if (hit == nullptr) continue;
-    const Vec3 normal = row(r).normal();
-    const double p_n = row(r).normal_impulse();
-    const auto along = [&](auto&& of) { return normal.dot(relative(r, of)); };
-    const double free = along([&](size_t k) { return w.island.free_velocity[k]; });
-    const double end = along([&](size_t k) { return w.island.velocity[k]; });
+    const Vec3 normal = lane_of(system, r).normal();
+    const double p_n = lane_of(system, r).normal_impulse();
+    const auto along = [&](auto&& of) { return normal.dot(relative(system, r, of)); };
+    const double without = along([&](size_t k) { return island.free_velocity[k]; });
+    const double end = along([&](size_t k) { return island.velocity[k]; });
     const double apart = along([&](size_t k) { return k == ka ? apart_a : apart_b; });
     alone += p_n * along([&](size_t k) { return k == ka ? alone_a : alone_b; });
-    found += p_n * (end - std::min(0.0, apart) - std::min(free, hit->speed + hit->fall));
+    found += p_n * (end - std::min(0.0, apart) - std::min(without, hit->speed + hit->fall));
   }
   return found > 0 ? std::max(1.0, alone / found) : std::numeric_limits<double>::infinity();
 }
 
-// Targets of the hits: where others press on a pair, it hits and rebounds several times in turn,
-// each time with its restitution.
-void AdvanceIsland::set_targets(double h) {
-  sum_hits();
-  for (const size_t pair : w.hit_pairs) {
-    double times = 0;
-    for (const size_t r : contacts_of(pair)) {
-      Hit* hit = hit_of(r);
-      if (hit == nullptr || hit->rebound == 0) continue;
-      if (times == 0) times = hits_in_turn(pair, h);
-      hit->in_turn = times;
-      const double returned = hit->rebound * std::pow(w.contacts[r].restitution, times - 1);
-      hit->target = std::max(0.0, returned + hit->fall);
-    }
+// The part of the last change of the impulses expected of the hits that was too much, negative: by
+// which it was too little. Each round leaves about the same share of the error, so that two of them
+// show where it goes (Anderson's acceleration over one round). 0 while the hits are not those of
+// the round before.
+double overshoot_of_hits(const SubstepHits& hits, const IslandSystem& system,
+                         const Rebounds& rebounds) {
+  const std::vector<ExpectedHit>&now = rebounds.expected, &last = rebounds.last_expected;
+  const auto same = [](const ExpectedHit& a, const ExpectedHit& b) { return a.hit == b.hit; };
+  if (!std::ranges::equal(now, last, same)) return 0;
+  double along = 0, length_sq = 0;
+  for (size_t i = 0; i < now.size(); ++i) {
+    const double per_damping = 1 / lane_of(system, hits.hits[now[i].hit].contact).normal_damping();
+    const double difference = now[i].error - last[i].error;
+    along += per_damping * now[i].error * difference;
+    length_sq += per_damping * difference * difference;
   }
+  return length_sq > 0 ? std::clamp(along / length_sq, -1.0, 0.5) : 0;
 }
 
 // What the impulses of the hits take out at least: a hit alone that comes at speed u and returns
 // e u takes out (1 - e) / 2 of its impulse times u, and so does each of several in turn.
-double AdvanceIsland::loss_in_turn() const {
+double loss_in_turn(const IslandSystem& system, const SubstepHits& hits) {
   double sum = 0;
-  for (const Hit& hit : w.hits) {
-    const double share = least_loss * (1 - w.contacts[hit.contact].restitution) / 2 - gain_rounding;
-    sum -= share * hit.speed * row(hit.contact).normal_impulse();
+  for (const Hit& hit : hits.hits) {
+    const double share =
+        least_loss * (1 - system.contacts[hit.contact].restitution) / 2 - gain_rounding;
+    sum -= share * hit.speed * lane_of(system, hit.contact).normal_impulse();
   }
   return sum;
 }
 
 // Work of all contact impulses on the velocities: what the substep loses is its negative.
-double AdvanceIsland::work_on_velocities() const {
+double work_on_velocities(const IslandMembers& members, const Island& island) {
   double sum = 0;
-  for (size_t k = 0; k < w.members.size(); ++k)
-    sum += times_mass(w.island.mass[k], change(k))
-               .dot(w.island.velocity[k] + w.island.free_velocity[k]) /
+  for (size_t k = 0; k < members.size(); ++k)
+    sum += times_mass(island.mass[k], change(island, k))
+               .dot(island.velocity[k] + island.free_velocity[k]) /
            2;
   return sum;
 }
 
-// Takes the rebound from the hits: all at once they lost less than they would in turn. What they
-// then need of their impulses is expected to be what stopped them.
-void AdvanceIsland::forgo_rebound() {
-  for (Hit& hit : w.hits) {
-    const RowIn<RowGroup> of = row(hit.contact);
-    const double stopped = hit.speed / (hit.speed - hit.target);
-    of.set(&RowGroup::bias, -stopped * of.normal_impulse() / of.normal_damping());
-    hit.target = 0;
-    note_change(hit.contact);
+}  // namespace
+
+// Where others press on a pair, it hits and rebounds several times in turn, each time with its
+// restitution.
+void set_targets(const IslandMembers& members, const FreeMotions& free, const IslandSystem& system,
+                 SubstepHits& hits, Rebounds& rebounds) {
+  sum_hits(members, system, hits, rebounds);
+  for (const size_t pair : hits.hit_pairs) {
+    double times = 0;
+    for (const size_t r : contacts_of(system, pair)) {
+      if (system.contacts[r].hit < 0) continue;
+      Hit& hit = hits.hits[static_cast<size_t>(system.contacts[r].hit)];
+      if (hit.rebound == 0) continue;
+      if (times == 0) times = hits_in_turn(members, free, system, hits, rebounds, pair);
+      hit.in_turn = times;
+      const double returned = hit.rebound * std::pow(system.contacts[r].restitution, times - 1);
+      hit.target = std::max(0.0, returned + hit.fall);
+    }
   }
-  w.expected.clear();
+}
+
+double correct_hits(const SubstepHits& hits, IslandSystem& system, Rebounds& rebounds) {
+  double worst = 0;
+  std::vector<ExpectedHit>& expected_hits = rebounds.expected;
+  expected_hits.swap(rebounds.last_expected);
+  expected_hits.clear();
+  for (size_t i = 0; i < hits.hits.size(); ++i) {
+    const Hit& hit = hits.hits[i];
+    const RowIn<RowGroup> lane = lane_of(system, hit.contact);
+    const double p_n = lane.normal_impulse();
+    if (p_n <= 0) continue;
+    const double expected = -lane.normal_damping() * (lane.bias() + hit.target);
+    expected_hits.push_back({i, p_n, p_n - expected});
+    worst = std::max(worst, std::abs(p_n - expected) / lane.normal_damping() / -hit.speed);
+  }
+  const double overshoot = overshoot_of_hits(hits, system, rebounds);
+  for (size_t i = 0; i < expected_hits.size(); ++i) {
+    const Hit& hit = hits.hits[expected_hits[i].hit];
+    const RowIn<RowGroup> lane = lane_of(system, hit.contact);
+    double expected = expected_hits[i].impulse;
+    if (overshoot != 0)
+      expected =
+          std::max(0.0, expected - overshoot * (expected - rebounds.last_expected[i].impulse));
+    lane.set(&RowGroup::bias, -hit.target - expected / lane.normal_damping());
+    note_change(system, hit.contact);
+  }
+  return worst;
+}
+
+bool gain_energy(const IslandMembers& members, const IslandSystem& system,
+                 const SubstepHits& hits) {
+  return work_on_velocities(members, system.island) > -loss_in_turn(system, hits);
+}
+
+// All at once they lost less than they would in turn. What they then need of their impulses is
+// expected to be what stopped them.
+void forgo_rebound(IslandSystem& system, SubstepHits& hits, Rebounds& rebounds) {
+  for (Hit& hit : hits.hits) {
+    const RowIn<RowGroup> lane = lane_of(system, hit.contact);
+    const double stopped = hit.speed / (hit.speed - hit.target);
+    lane.set(&RowGroup::bias, -stopped * lane.normal_impulse() / lane.normal_damping());
+    hit.target = 0;
+    note_change(system, hit.contact);
+  }
+  rebounds.expected.clear();
 }
 
 }  // namespace talus

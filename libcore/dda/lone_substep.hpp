@@ -18,6 +18,13 @@
 
 namespace talus {
 
+/// Rows of the contacts that the search left in `work.contacts`, of block b with the ground.
+inline void make_rows(const Scene& scene, int b, const BlockNumbers& c, const Substep& s,
+                      const State& state, Work& work) {
+  work.rows.resize(work.contacts.size());
+  make_rows(scene, b, c, s, state.memory[static_cast<std::size_t>(b)], work.contacts, work.rows);
+}
+
 /// Momentum of the free motion, masses, and the first guess of the velocity at the end: the last
 /// acceleration goes on.
 template <int Dof>
@@ -106,10 +113,10 @@ void remember(const BlockNumbers& c, const Substep& s, const Solved<Dof>& solved
   memory.clear();
   for (ContactRow& row : work.rows) {
     const Contact& contact = work.contacts[static_cast<std::size_t>(row.contact)];
-    const Vec3 moved = row.free_move + solved.moved(row.point, s.h);
+    const Vec3 moved = row.free_move + solved.moved(row.arm, s.h);
     const double overlap = -(row.gap_start + row.normal.dot(moved));
     note_overlap(report, overlap, c.thickness);
-    if (row.waits_for_impact || row.state == ContactState::open) continue;
+    if (row.waits || row.state == ContactState::open) continue;
     const double p_n = row.normal.dot(row.impulse);
     const Vec3 p_t = row.impulse - p_n * row.normal;
     const double along = row.normal.dot(moved);
@@ -120,7 +127,7 @@ void remember(const BlockNumbers& c, const Substep& s, const Solved<Dof>& solved
                            ? Vec3((-c.recovery_time / row.shear_damping) * p_t)
                            : Vec3(row.shear + moved - along * row.normal);
     memory.push_back(
-        {.key = contact.key,
+        {.key = row.key,
          .normal = contact.normal,
          .shear = s.R * shear,
          .offset = offset,

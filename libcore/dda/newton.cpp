@@ -53,13 +53,13 @@ Vec<Dof> residual(const BlockSystem<Dof>& system, std::span<ContactRow> rows) {
   else
     r.noalias() = system.mass * (system.velocity - system.free_velocity);
   for (ContactRow& row : rows) {
-    if (row.waits_for_impact) continue;
-    const Vec3 w = point_velocity<Dof>(system.velocity, row.point) + row.drift;
+    if (row.waits) continue;
+    const Vec3 w = point_velocity<Dof>(system.velocity, row.arm) + row.drift;
     evaluate(w, row);
     if (row.state == ContactState::open) continue;
     r.template head<3>() -= row.impulse;  // part by part: whole, it would be put together in memory
-    r.template segment<3>(3) -= row.point.cross(row.impulse);
-    if constexpr (Dof == 12) r.template tail<6>() -= strain_load(row.point, row.impulse);
+    r.template segment<3>(3) -= row.arm.cross(row.impulse);
+    if constexpr (Dof == 12) r.template tail<6>() -= strain_load(row.arm, row.impulse);
   }
   return r;
 }
@@ -69,8 +69,8 @@ template <int Dof>
 Mat<Dof> derivative(const BlockSystem<Dof>& system, std::span<const ContactRow> rows) {
   Mat<Dof> H = system.mass;
   for (const ContactRow& row : rows) {
-    if (row.waits_for_impact || row.state == ContactState::open) continue;
-    add_tangent<Dof>(row.point, tangent(row), H);
+    if (row.waits || row.state == ContactState::open) continue;
+    add_tangent<Dof>(row.arm, tangent(row), H);
   }
   return H;
 }
@@ -192,10 +192,10 @@ NewtonResult solve_sweeps(BlockSystem<Dof>& system, std::span<ContactRow> rows) 
   for (int sweep = 1; sweep <= most_sweeps; ++sweep) {
     double change = 0;
     for (ContactRow& row : rows) {
-      if (row.waits_for_impact) continue;
+      if (row.waits) continue;
       const Vec3& n = row.normal;
-      const Vec3 w = point_velocity<Dof>(system.velocity, row.point) + row.drift;
-      const Vec<Dof> along_n = generalised<Dof>(row.point, n);
+      const Vec3 w = point_velocity<Dof>(system.velocity, row.arm) + row.drift;
+      const Vec<Dof> along_n = generalised<Dof>(row.arm, n);
       const double give_n = along_n.dot(per_mass * along_n) + 1 / row.normal_damping;
       const double p_old = row.impulse.dot(n);
       const double p_n =
@@ -203,7 +203,7 @@ NewtonResult solve_sweeps(BlockSystem<Dof>& system, std::span<ContactRow> rows) 
       const Vec3 t_old = row.impulse - p_old * n;
       double give_t = 1 / row.shear_damping;
       for (int k = 0; k < 3; ++k) {
-        const Vec<Dof> unit = generalised<Dof>(row.point, Vec3::Unit(k));
+        const Vec<Dof> unit = generalised<Dof>(row.arm, Vec3::Unit(k));
         give_t += unit.dot(per_mass * unit);
       }
       const Vec3 trial = w - n.dot(w) * n + row.shear_velocity;
@@ -212,10 +212,10 @@ NewtonResult solve_sweeps(BlockSystem<Dof>& system, std::span<ContactRow> rows) 
       row.state = p_n == 0 ? ContactState::open : ContactState::stick;
       if (size > cap) t *= cap / size, row.state = p_n == 0 ? row.state : ContactState::slip;
       const Vec3 impulse = p_n * n + t;
-      const Vec<Dof> dv = per_mass * generalised<Dof>(row.point, impulse - row.impulse);
+      const Vec<Dof> dv = per_mass * generalised<Dof>(row.arm, impulse - row.impulse);
       system.velocity += dv;
       row.impulse = impulse;
-      change = std::max(change, point_velocity<Dof>(dv, row.point).norm());
+      change = std::max(change, point_velocity<Dof>(dv, row.arm).norm());
     }
     if (change <= 10 * system.tolerance) return {true, sweep};
   }

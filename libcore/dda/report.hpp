@@ -3,6 +3,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
 
 namespace talus {
 
@@ -26,6 +29,20 @@ enum class StepFlag : unsigned {
 /// Overlap from which StepFlag::deep is set, as a share of the block's thickness.
 inline constexpr double deep_share = 0.1;
 
+/// Why a substep is made again.
+enum class SubstepCut : std::uint8_t {
+  panel_touched,     ///< a panel that gives way is first touched within it: ends there
+  hit_alone,         ///< a block near fixed bodies is hit within it: ends there
+  unconverged,       ///< its forces did not converge: half
+  contact_left_out,  ///< a contact that was left out closes: the same with all contacts
+  deep,              ///< a block would end deep in something: ends after the hit that does it
+  bond_broken,       ///< a bond carries more than it holds: the same without it
+  panel_used_up,     ///< a panel has taken all that it can: ends there
+};
+inline constexpr std::array<const char*, 7> substep_cut_names = {
+    "panel_touched", "hit_alone",   "unconverged",  "contact_left_out",
+    "deep",          "bond_broken", "panel_used_up"};
+
 struct StepReport {
   StepFlag flags = StepFlag::none;
   int passes = 0;     ///< iterations, summed over blocks and substeps
@@ -38,7 +55,9 @@ struct StepReport {
   double largest_penetration =
       0;                       ///< over all contacts, pressing or not, at the end of the step [m]
   double sum_penetration = 0;  ///< over contacts that press [m]
-  double shortest_dt = 0;      ///< shortest substep; 0 when no block searched contact [s]
+  /// Substeps of islands of law talus that were made again, by SubstepCut.
+  std::array<int, substep_cut_names.size()> cuts{};
+  double shortest_dt = 0;  ///< shortest substep; 0 when no block searched contact [s]
 };
 
 /// Takes the overlap of a contact into the report.

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dda/free_spin.hpp"
-
 namespace talus {
 namespace {
 
@@ -93,22 +91,12 @@ bool is_axis_of_symmetry(const Vec3& inertia, int k) {
   return std::abs(a - b) <= 1e-9 * std::max(a, b);  // equal but for the rounding of coordinates
 }
 
-// A body with two equal moments precesses steadily: about L at |L| / I_across, and about its own
-// axis at what is left of its spin there.
-Quat symmetric_rotation(const Quat& attitude, const Vec3& L, const Vec3& inertia, int axis,
-                        double h) {
-  const double across = inertia[(axis + 1) % 3];
-  const double along = (attitude.conjugate() * L)[axis];
-  const double own = h * along * (1 / inertia[axis] - 1 / across);
-  return (rotation_by(L * (h / across)) * attitude * rotation_by(own * Vec3::Unit(axis)))
-      .normalized();
-}
-
 }  // namespace
 
-bool has_two_equal_moments(const Vec3& inertia) {
-  return is_axis_of_symmetry(inertia, 0) || is_axis_of_symmetry(inertia, 1) ||
-         is_axis_of_symmetry(inertia, 2);
+int axis_of_symmetry(const Vec3& inertia) {
+  for (int k = 0; k < 3; ++k)
+    if (is_axis_of_symmetry(inertia, k)) return k;
+  return -1;
 }
 
 Quat rotation_by(const Vec3& r) {
@@ -122,13 +110,13 @@ Quat rotation_by(const Vec3& r) {
   return Quat(std::cos(angle / 2), s * r.x(), s * r.y(), s * r.z());
 }
 
-Quat free_rotation(const Quat& attitude, const Vec3& L, const Vec3& inertia, double h) {
-  if (L.isZero(0) || h == 0) return attitude;
-  for (int k = 0; k < 3; ++k)
-    if (is_axis_of_symmetry(inertia, k)) return symmetric_rotation(attitude, L, inertia, k, h);
-  const Vec3 spin = (attitude.conjugate() * L).cwiseQuotient(inertia);
-  if (spin.norm() * h > largest_turn) return attitude_after(free_spin(attitude, L, inertia), h);
-  return series_rotation(attitude, L, inertia, h);
+Quat symmetric_rotation(const Quat& attitude, const Vec3& L, const Vec3& inertia, int axis,
+                        double h) {
+  const double across = inertia[(axis + 1) % 3];
+  const double along = (attitude.conjugate() * L)[axis];
+  const double own = h * along * (1 / inertia[axis] - 1 / across);
+  return (rotation_by(L * (h / across)) * attitude * rotation_by(own * Vec3::Unit(axis)))
+      .normalized();
 }
 
 Quat series_rotation(const Quat& attitude, const Vec3& L, const Vec3& inertia, double h) {

@@ -1,5 +1,5 @@
 // libcore/dda/rotation.hpp
-// Finite rotation and the free spin of a rigid body.
+// Finite rotation, and what free spin is made of: series, symmetry, momentum.
 // theory 1.9 (no volume growth), 1.10 (angular momentum kept to rounding)
 #pragma once
 
@@ -10,21 +10,22 @@ namespace talus {
 /// Quaternion of the rotation by |r| about r: R = exp([r]x), so that no rotation changes a volume.
 [[nodiscard]] Quat rotation_by(const Vec3& r);
 
-/// Attitude of a body that spins freely for `h` seconds with angular momentum `L` [kg m2/s].
-///
-/// `inertia` holds the principal moments, axes = body axes; L is a constant of the call. Up to half
-/// a radian series_rotation(), beyond it the closed form of dda/free_spin.hpp; a body with two
-/// equal moments: exact.
-[[nodiscard]] Quat free_rotation(const Quat& attitude, const Vec3& L, const Vec3& inertia,
-                                 double h);
-
-/// The same by the power series of Euler's equations in parts of |omega| h <= 0.5, cut where a term
-/// falls below 1e-13: takes the longer the more it turns, and any body.
+/// free_rotation() by the power series of Euler's equations in parts of |omega| h <= 0.5, cut where
+/// a term falls below 1e-13: takes the longer the more it turns, and any body.
 [[nodiscard]] Quat series_rotation(const Quat& attitude, const Vec3& L, const Vec3& inertia,
                                    double h);
 
-/// Whether two principal moments are equal but for the rounding of coordinates.
-[[nodiscard]] bool has_two_equal_moments(const Vec3& inertia);
+/// The first body axis about which the other two principal moments are equal but for the rounding
+/// of coordinates; -1: none.
+[[nodiscard]] int axis_of_symmetry(const Vec3& inertia);
+[[nodiscard]] inline bool has_two_equal_moments(const Vec3& inertia) {
+  return axis_of_symmetry(inertia) >= 0;
+}
+
+/// free_rotation() of a body with two equal moments, `axis` being the third's: it precesses
+/// steadily, about L at |L| / I_across, and about its own axis at what is left of its spin there.
+[[nodiscard]] Quat symmetric_rotation(const Quat& attitude, const Vec3& L, const Vec3& inertia,
+                                      int axis, double h);
 
 /// Fastest that a freely spinning body ever turns [rad/s]: of all motions with its energy and
 /// momentum, |omega|^2 <= 2 E (1 / I_min + 1 / I_max) - L^2 / (I_min I_max).

@@ -9,31 +9,11 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
-#include "dda/island.hpp"
 #include "dda/packed_matrix.hpp"
+#include "dda/pair_evaluation.hpp"
 
 namespace talus {
-
-/// How contacts are evaluated: with the states they came with and friction bounded by the last
-/// step's normal impulses (a bound from the predicted overlap has no limit), a new contact and one
-/// that would pull more than it pressed by the law; or all with the law.
-enum class Evaluation : std::uint8_t { inherited, coupled };
-
-/// A pair to evaluate.
-struct PairEvaluation {
-  std::span<RowGroup> groups;
-  Vec6 motion;           ///< u
-  Two sum[6];            ///< out: of the impulses, as generalised ones on A about its centroid
-  bool changed = false;  ///< out: a tangent did
-
-  [[nodiscard]] Vec6 impulse() const {
-    Vec6 f;
-    for (int k = 0; k < 6; ++k) f[k] = sum[k][0] + sum[k][1];
-    return f;
-  }
-};
 
 /// Rows that are evaluated at a time, with the same bits: two anywhere, four where the processor
 /// has AVX2.

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-#include "dda/row_groups.hpp"
+#include "dda/pair_evaluation.hpp"
 
 namespace talus {
 namespace {

@@ -14,6 +14,7 @@
 #include "dda/displacement.hpp"
 #include "dda/fixed_bodies.hpp"
 #include "dda/joint_classes.hpp"
+#include "dda/paper_state.hpp"
 #include "scene/acceleration_record.hpp"
 
 namespace talus {
@@ -31,12 +32,12 @@ struct Settings {
   double shear_ratio = 0.4;     ///< k_s / k_n [-]
   double tolerance_factor = 1;  ///< law talus: on the residual at which forces count as found [-]
   int max_passes = 50;          ///< law talus, a lone block: of Newton, before a step is repeated
-  bool post_adjustment = true;  ///< law paper: restitution by (28); off, that of the springs
   bool static_start = true;     ///< law talus: blocks at rest start in equilibrium with the ground
   bool flight = true;           ///< law talus: no search while nothing can be hit; same motion
   bool block_contacts = true;   ///< blocks touch each other; off, each moves as if alone
   bool trn_contacts = true;  ///< law talus: blocks touch the TRN; off, fixed bodies are the slope
   bool sleep = true;         ///< law talus: blocks at rest are left out
+  PaperSettings paper;
 };
 
 /// A force on a material point of a block, constant in local axes.

@@ -9,18 +9,11 @@
 #include "contact/block_pairs.hpp"
 #include "contact/contact.hpp"
 #include "contact/pose.hpp"
+#include "dda/bonds.hpp"
+#include "dda/phase.hpp"
 #include "dda/scene.hpp"
 
 namespace talus {
-
-/// What a block is doing.
-enum class Phase : std::uint8_t {
-  near_ground,  ///< contact is searched in every step
-  flight,       ///< free until flight_end; its motion below is that at `local_time`
-  asleep,       ///< at rest
-  left_domain,  ///< left the known terrain: stopped where it left, and counted
-  stopped,      ///< its numbers failed: stopped at its last good state, and flagged
-};
 
 /// Motion of one block at its own time.
 struct Motion {
@@ -52,19 +45,13 @@ struct RunCounters {
   int left_domain = 0;            ///< blocks that left the known terrain
 };
 
-struct State {  // clang-format off
+/// Phases, local times and rest of the blocks are those of BlockLives.
+struct State : BlockLives {  // clang-format off
   double time = 0;                          ///< end of the last step [s]
   std::vector<Motion> motion;               ///<                                     (n_blocks)
-  std::vector<double> local_time;           ///< time of `motion`; lags in flight [s] (n_blocks)
-  std::vector<double> flight_end;           ///< nothing can be hit before; of a block that does
-                                            ///< not fly: it can not before [s]      (n_blocks)
-  std::vector<Phase> phase;                 ///<                                     (n_blocks)
   std::vector<Vec3> acceleration;           ///< of the last step, by contact too [m/s2]  (n_blocks)
   std::vector<Vec3> spin_rate;              ///< angular acceleration, body axes [rad/s2] (n_blocks)
   std::vector<Vec3> support;                ///< by the ground in the last substep, hits aside [m/s2] (n_blocks)
-  std::vector<Vec3> rebound;                ///< law paper: v_a of the hit under way, (28) [m/s] (n_blocks)
-  std::vector<Pose> still_pose;             ///< that a block has stayed near        (n_blocks)
-  std::vector<int> still_steps;             ///< for so many steps                   (n_blocks)
   std::vector<Vec6> strain;                 ///< body axes; empty for rigid blocks [-]    (n_blocks)
   std::vector<Vec6> strain_rate;            ///< body axes; empty for rigid blocks [1/s]  (n_blocks)
   std::vector<std::vector<ContactMemory>> memory;  ///< contacts of block b with the ground and
@@ -73,6 +60,7 @@ struct State {  // clang-format off
   PlacedHulls placed;                       ///< where the pairs were searched last
   std::vector<BlockBond> bonds;             ///< sorted by block_a, block_b            (n_bonds)
   FenceState fence;                         ///< what the panels of fences have met
+  PaperState paper;                         ///< of law paper alone
   EnergyLedger ledger;
   RunCounters counters;
 };  // clang-format on

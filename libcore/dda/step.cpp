@@ -21,34 +21,15 @@ using std::size_t;
 
 constexpr size_t expected_contacts = 16;  // of a block, before a buffer has to grow
 
-// Integral of the base acceleration, linear between samples and zero outside them.
-Vec3 base_impulse(const AccelerationRecord& base, double from, double to) {
-  const auto next = std::upper_bound(base.time.begin(), base.time.end(), from);
-  Vec3 sum = Vec3::Zero();
-  for (auto k = static_cast<size_t>(std::max<std::ptrdiff_t>(1, next - base.time.begin()));
-       k < base.time.size() && base.time[k - 1] < to; ++k) {
-    const double t0 = base.time[k - 1], length = base.time[k] - t0;
-    const double begin = std::max(from, t0), end = std::min(to, base.time[k]);
-    const double middle = ((begin - t0) + (end - t0)) / (2 * length);
-    sum += (end - begin) *
-           (base.acceleration[k - 1] + middle * (base.acceleration[k] - base.acceleration[k - 1]));
-  }
-  return sum;
-}
-
 // A block that something bears and that stays in place is left out until something wakes it.
 void put_to_sleep(const Scene& scene, size_t b, State& state) {
   watch_rest(scene, b, state);
-  if (state.still_steps[b] >= steps_before_sleep && !state.memory[b].empty())
+  if (state.rest_steps[b] >= steps_before_sleep && !state.memory[b].empty())
     fall_asleep(scene, b, state);
 }
 
-bool does_not_move(Phase phase) {
-  return phase == Phase::asleep || phase == Phase::left_domain || phase == Phase::stopped;
-}
-
 // Whether block b shares its island with others, or may touch a fixed body.
-bool in_company(const State& state, const IslandStepWork& w, int b) {
+bool in_company(const State& state, const PairSearch& w, int b) {
   const auto i = static_cast<size_t>(b), k = static_cast<size_t>(w.groups.island_of[i]);
   return w.groups.block_begin[k + 1] - w.groups.block_begin[k] > 1 ||
          (w.near_fixed[i] != 0 && !does_not_move(state.phase[i]));
@@ -67,27 +48,14 @@ bool spins(const Scene& scene, size_t b) { return !scene.blocks.spin[b].isZero(0
 
 }  // namespace
 
-Vec3 free_acceleration(const Scene& scene, int b, double t_start, double t_end) {
-  Vec3 a = scene.gravity;
-  if (!scene.base.time.empty()) a -= base_impulse(scene.base, t_start, t_end) / (t_end - t_start);
-  for (const PointLoad& load : scene.loads)
-    if (load.block == b) a += load.force / scene.blocks.mass[static_cast<size_t>(b)];
-  return a;
-}
-
 State start(const Scene& scene) {
   const auto n = static_cast<size_t>(n_blocks(scene));
   State state;
+  static_cast<BlockLives&>(state) = start_lives(scene.blocks.rest);
   state.motion.resize(n);
-  state.local_time.assign(n, 0);
-  state.flight_end.assign(n, 0);
-  state.phase.assign(n, Phase::near_ground);
   state.acceleration.assign(n, Vec3::Zero());
   state.spin_rate.assign(n, Vec3::Zero());
   state.support.assign(n, Vec3::Zero());
-  state.still_pose = scene.blocks.rest;
-  state.still_steps.assign(n, 0);
-  state.rebound.assign(n, Vec3::Zero());
   state.memory.resize(n);
   state.fence = start_fence(scene);
   state.bonds = start_bonds(scene);
@@ -103,6 +71,7 @@ State start(const Scene& scene) {
         scene.blocks.rest[b].attitude, scene.blocks.spin[b], scene.blocks.inertia[b]);
   }
   const bool is_paper = scene.settings.law == Law::paper;
+  if (is_paper) state.paper.rebound.assign(n, Vec3::Zero());
   if (scene.settings.trn_contacts && (is_paper || scene.settings.static_start)) {
     std::optional<Work> work;  // none where all blocks are above the ground
     for (size_t b = 0; b < n; ++b) {
@@ -137,9 +106,9 @@ void advance_talus(const Scene& scene, State& state, Work& work, StepReport& rep
   if (islands) form_islands(scene, state, work);
   for (int b = 0; b < n_blocks(scene); ++b) {
     const auto i = static_cast<size_t>(b);
-    if (islands && in_company(state, work.islands, b)) {
-      const int k = work.islands.groups.island_of[i];
-      if (work.islands.groups.local_index[i] > 0) continue;
+    if (islands && in_company(state, work.search, b)) {
+      const int k = work.search.groups.island_of[i];
+      if (work.search.groups.local_index[i] > 0) continue;
       advance_island(scene, k, t_end, state, work, report);
       if (may_sleep) put_island_to_sleep(scene, k, state, work);
       continue;
@@ -156,16 +125,16 @@ void advance_talus(const Scene& scene, State& state, Work& work, StepReport& rep
   }
 }
 
-// Members and pairs of blocks of the island that block b is the first of.
+// Members and pairs of blocks of the island that block b is the first of, for law paper.
 void gather_island(const Scene& scene, int b, Work& work) {
-  const IslandStepWork& w = work.islands;
+  const PairSearch& w = work.search;
   const auto k = static_cast<size_t>(w.groups.island_of[static_cast<size_t>(b)]);
-  work.members.assign(w.groups.blocks.begin() + w.groups.block_begin[k],
-                      w.groups.blocks.begin() + w.groups.block_begin[k + 1]);
+  work.paper.members.assign(w.groups.blocks.begin() + w.groups.block_begin[k],
+                            w.groups.blocks.begin() + w.groups.block_begin[k + 1]);
   for (int p = w.groups.pair_begin[k]; p < w.groups.pair_begin[k + 1]; ++p) {
     const int m = w.joined_manifold[static_cast<size_t>(w.groups.pairs[static_cast<size_t>(p)])];
     if (!is_fixed(scene, w.pairs.manifolds[static_cast<size_t>(m)].block_b))
-      work.manifolds.push_back(m);
+      work.paper.manifolds.push_back(m);
   }
 }
 
@@ -175,11 +144,11 @@ void advance_paper(const Scene& scene, State& state, Work& work, StepReport& rep
   for (int b = 0; b < n_blocks(scene); ++b) {
     const auto i = static_cast<size_t>(b);
     if (does_not_move(state.phase[i])) continue;
-    if (islands && work.islands.groups.local_index[i] > 0) continue;
-    work.members.assign(1, b);
-    work.manifolds.clear();
+    if (islands && work.search.groups.local_index[i] > 0) continue;
+    work.paper.members.assign(1, b);
+    work.paper.manifolds.clear();
     if (islands) gather_island(scene, b, work);
-    advance_island_paper(scene, work.members, work.manifolds, state, work, report);
+    advance_island_paper(scene, work.paper.members, work.paper.manifolds, state, work, report);
   }
 }
 
@@ -201,16 +170,11 @@ StepReport step(const Scene& scene, State& state, Work& work) {
   return report;
 }
 
-Motion motion_at(const Scene& scene, const State& state, int b, double time) {
-  const auto i = static_cast<size_t>(b);
-  if (state.phase[i] != Phase::flight || time == state.local_time[i]) return state.motion[i];
-  return fly(state.motion[i], scene.blocks.inertia[i], scene.gravity, time - state.local_time[i]);
-}
-
 Energies energies(const Scene& scene, const State& state) {
   Energies sum;
   for (int b = 0; b < n_blocks(scene); ++b) {
     const auto i = static_cast<size_t>(b);
+    if (!exists(state.phase[i])) continue;
     Motion m = state.motion[i];  // a flight's spin energy does not change: no need to follow it
     const double flown = state.phase[i] == Phase::flight ? state.time - state.local_time[i] : 0;
     m.pose.position += flown * m.velocity + 0.5 * flown * flown * scene.gravity;

@@ -5,6 +5,7 @@
 // paper: Zhang et al. 2018, Fig. 4; theory 1.7-1.12
 #pragma once
 
+#include "dda/flight.hpp"  // motion_at()
 #include "dda/report.hpp"
 #include "dda/scene.hpp"
 #include "dda/state.hpp"
@@ -25,13 +26,6 @@ namespace talus {
 /// A block in flight is not touched until its flight ends: its motion is that at local_time;
 /// motion_at() gives it at any time. A block that leaves the known terrain is stopped there.
 StepReport step(const Scene& scene, State& state, Work& work);
-
-/// Motion of block b at `time`, between its local time and the end of its flight.
-[[nodiscard]] Motion motion_at(const Scene& scene, const State& state, int b, double time);
-
-/// Acceleration of a free block over a step, in the ground's frame: gravity less the mean of the
-/// base acceleration, plus point loads over mass [m/s2].
-[[nodiscard]] Vec3 free_acceleration(const Scene& scene, int b, double t_start, double t_end);
 
 /// Energies of all blocks at state.time [J]. Potential energy counts from the local zero.
 struct Energies {

@@ -12,7 +12,7 @@
 
 namespace talus {
 
-/// Groups the blocks into islands for the step from state.time on: work.islands.groups.
+/// Groups the blocks into islands for the step from state.time on: work.search.groups.
 ///
 /// Two blocks are joined when parts of theirs are within reach of the step's relative motion. A
 /// flight ends, and a sleeping block wakes, where another block comes within reach.

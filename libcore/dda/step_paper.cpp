@@ -6,11 +6,11 @@
 #include <utility>
 
 #include "contact/search.hpp"
+#include "dda/bonds.hpp"
 #include "dda/displacement.hpp"
-#include "dda/joint_classes.hpp"
-#include "dda/newton.hpp"
+#include "dda/flips.hpp"
+#include "dda/loads.hpp"
 #include "dda/rotation.hpp"
-#include "dda/step.hpp"
 #include "dda/substep.hpp"
 
 namespace talus {
@@ -76,14 +76,14 @@ struct Spring {
   Vec3 direction;  // e_s of the pass before
 };
 
-ContactState judge(const ContactRow& row, const Spring& spring, double k_n, double k_s,
+ContactState judge(const PaperContact& contact, const Spring& spring, double k_n, double k_s,
                    ContactState before) {
-  if (spring.gap >= row.tension_impulse / k_n) return ContactState::open;  // criterion 1
+  if (spring.gap >= contact.tension_force / k_n) return ContactState::open;  // criterion 1
   const double N = std::max(0.0, -k_n * spring.gap);
-  const double bound = row.friction * N + row.cohesion_impulse;
+  const double bound = contact.friction * N + contact.cohesion_force;
   const double slip = spring.shear.norm();
   if (before == ContactState::slip)  // sticks again when the sliding turns back
-    return spring.shear.dot(spring.direction) - row.shear.dot(spring.direction) < 0 &&
+    return spring.shear.dot(spring.direction) - contact.shear.dot(spring.direction) < 0 &&
                    k_s * slip <= bound
                ? ContactState::stick
                : ContactState::slip;
@@ -93,9 +93,9 @@ ContactState judge(const ContactRow& row, const Spring& spring, double k_n, doub
 template <int Dof>
 OpenCloseWork<Dof>& work_of(Work& work) {
   if constexpr (Dof == 6)
-    return work.paper_rigid;
+    return work.paper.rigid;
   else
-    return work.paper_strained;
+    return work.paper.strained;
 }
 
 /// The blocks of an island over one step: Eq. (3) and the contacts among them and with the ground.
@@ -116,24 +116,24 @@ struct OpenClose {
 
   // Movement of A's point relative to B's.
   [[nodiscard]] Vec3 moved(size_t r) const {
-    const PaperSides& sides = w.sides[r];
-    const Vec3 of_a = T(w.rows[r].point) * w.D[static_cast<size_t>(sides.a)];
-    if (sides.b < 0) return of_a;
-    return of_a - T(sides.arm_b) * w.D[static_cast<size_t>(sides.b)];
+    const PaperContact& contact = w.contacts[r];
+    const Vec3 of_a = T(contact.arm_a) * w.D[static_cast<size_t>(contact.a)];
+    if (contact.b < 0) return of_a;
+    return of_a - T(contact.arm_b) * w.D[static_cast<size_t>(contact.b)];
   }
 
   // (17), (20), (24) of a closed contact: its stiffness as seen by the relative movement, and the
   // force on A.
-  void contact_terms(const ContactRow& row, Mat3& stiffness, Vec3& force) const {
-    const Vec3& n = row.normal;
+  void contact_terms(const PaperContact& contact, Mat3& stiffness, Vec3& force) const {
+    const Vec3& n = contact.normal;
     const Mat3 nn = n * n.transpose();
-    stiffness = k_n * nn;                             // (17a)
-    force = -k_n * (row.gap_start + row.offset) * n;  // (17b), d_0 = -gap
-    if (row.state == ContactState::stick) {
+    stiffness = k_n * nn;                                     // (17a)
+    force = -k_n * (contact.gap_start + contact.offset) * n;  // (17b), d_0 = -gap
+    if (contact.state == ContactState::stick) {
       stiffness += k_s * (Mat3::Identity() - nn);  // (20a)
-      force -= k_s * row.shear;                    // (20b)
+      force -= k_s * contact.shear;                // (20b)
     } else {
-      force -= row.held_cap * row.slip_start;  // (24)
+      force -= contact.held_friction * contact.slip_direction;  // (24)
     }
   }
 
@@ -141,9 +141,10 @@ struct OpenClose {
   void solve() {
     BlockLu<Dof>& lu = w.lu;
     w.edges.clear();
-    for (size_t r = 0; r < w.rows.size(); ++r)
-      if (w.sides[r].b >= 0 && (w.edges.empty() || w.edges.back() != edge_of(r)))
-        w.edges.push_back(edge_of(r));
+    for (const PaperContact& contact : w.contacts) {
+      const std::pair<int, int> edge(contact.a, contact.b);
+      if (contact.b >= 0 && (w.edges.empty() || w.edges.back() != edge)) w.edges.push_back(edge);
+    }
     analyse_pattern(static_cast<int>(members.size()), w.edges, lu.pattern);
     clear_matrix(lu);
     const auto diagonal = [&](int k) -> Mat& {
@@ -153,79 +154,77 @@ struct OpenClose {
       diagonal(static_cast<int>(k)) = w.equations[k].K;
       w.D[k] = w.equations[k].F;
     }
-    for (size_t r = 0; r < w.rows.size(); ++r) {
-      if (w.rows[r].state == ContactState::open) continue;
+    for (const PaperContact& contact : w.contacts) {
+      if (contact.state == ContactState::open) continue;
       Mat3 stiffness;
       Vec3 force;
-      contact_terms(w.rows[r], stiffness, force);
-      const PaperSides& sides = w.sides[r];
-      const auto T_a = T(w.rows[r].point);
-      diagonal(sides.a) += T_a.transpose() * stiffness * T_a;
-      w.D[static_cast<size_t>(sides.a)] += T_a.transpose() * force;
-      if (sides.b < 0) continue;
-      const auto T_b = T(sides.arm_b);
-      diagonal(sides.b) += T_b.transpose() * stiffness * T_b;
-      w.D[static_cast<size_t>(sides.b)] -= T_b.transpose() * force;
+      contact_terms(contact, stiffness, force);
+      const auto T_a = T(contact.arm_a);
+      diagonal(contact.a) += T_a.transpose() * stiffness * T_a;
+      w.D[static_cast<size_t>(contact.a)] += T_a.transpose() * force;
+      if (contact.b < 0) continue;
+      const auto T_b = T(contact.arm_b);
+      diagonal(contact.b) += T_b.transpose() * stiffness * T_b;
+      w.D[static_cast<size_t>(contact.b)] -= T_b.transpose() * force;
       const Mat ab = -T_a.transpose() * stiffness * T_b;
-      add_blocks<Dof>(lu, sides.a, sides.b, ab, ab.transpose());
+      add_blocks<Dof>(lu, contact.a, contact.b, ab, ab.transpose());
     }
     factor(lu);
     talus::solve<Dof>(lu, w.D, w.D);
   }
-  [[nodiscard]] std::pair<int, int> edge_of(size_t r) const { return {w.sides[r].a, w.sides[r].b}; }
 
   // The patterns of Fig. 8 at the solution; number of contacts that switched.
   int set_states() {
     int switched = 0;
-    for (size_t r = 0; r < w.rows.size(); ++r) {
-      ContactRow& row = w.rows[r];
-      const Vec3 way = moved(r);
-      const Vec3& n = row.normal;
+    for (size_t r = 0; r < w.contacts.size(); ++r) {
+      PaperContact& contact = w.contacts[r];
+      const Vec3 path = moved(r);
+      const Vec3& n = contact.normal;
       Spring spring;
-      spring.gap = row.gap_start + row.offset + n.dot(way);
-      spring.shear = row.shear + way - n.dot(way) * n;
-      spring.direction = row.slip_start;
-      const ContactState judged = judge(row, spring, k_n, k_s, row.state);
-      switched += judged != row.state;
-      row.state = judged;
+      spring.gap = contact.gap_start + contact.offset + n.dot(path);
+      spring.shear = contact.shear + path - n.dot(path) * n;
+      spring.direction = contact.slip_direction;
+      const ContactState judged = judge(contact, spring, k_n, k_s, contact.state);
+      switched += judged != contact.state;
+      contact.state = judged;
       const double slip = spring.shear.norm();
-      if (slip > 0) row.slip_start = spring.shear / slip;
-      row.held_cap = row.friction * std::max(0.0, -k_n * spring.gap);
-      if (judged == ContactState::stick) row.held_cap += row.cohesion_impulse;
+      if (slip > 0) contact.slip_direction = spring.shear / slip;
+      contact.held_friction = contact.friction * std::max(0.0, -k_n * spring.gap);
+      if (judged == ContactState::stick) contact.held_friction += contact.cohesion_force;
     }
     return switched;
   }
 
   // What a contact starts from: the memory of the same features, if there is one.
-  void start_row(const GroundClass& face, const ContactKey& key, ContactRow& row,
-                 const PaperSides& sides) {
+  void start_contact(const GroundClass& face, PaperContact& contact) {
     const std::vector<ContactMemory>& memory =
-        state.memory[static_cast<size_t>(members[static_cast<size_t>(sides.a)])];
-    row.friction = face.friction;
-    row.state = row.gap_start < 0 || sides.bond >= 0 ? ContactState::stick : ContactState::open;
-    row.offset = std::max(0.0, -row.gap_start);
+        state.memory[static_cast<size_t>(members[static_cast<size_t>(contact.a)])];
+    const bool closed = contact.gap_start < 0 || contact.bond >= 0;
+    contact.friction = face.friction;
+    contact.state = closed ? ContactState::stick : ContactState::open;
+    contact.offset = std::max(0.0, -contact.gap_start);
     // a vertex in a valley has a contact on either side of it, both with the vertex's key
     double nearest = -1;
     for (size_t m = 0; m < memory.size(); ++m) {
-      if (!(memory[m].key == key) || memory[m].normal.dot(row.normal) <= nearest) continue;
-      nearest = memory[m].normal.dot(row.normal);
-      row.memory = static_cast<int>(m);
+      if (!(memory[m].key == contact.key) || memory[m].normal.dot(contact.normal) <= nearest)
+        continue;
+      nearest = memory[m].normal.dot(contact.normal);
+      contact.memory = static_cast<int>(m);
     }
-    if (row.memory >= 0) {
-      const ContactMemory& last = memory[static_cast<size_t>(row.memory)];
-      row.shear = last.shear - row.normal.dot(last.shear) * row.normal;
-      row.slip_start = last.slip_direction;
-      row.offset = last.offset;
-      row.held_cap = face.friction * last.normal_force;
-      row.state = static_cast<ContactState>(last.state);
-      if (sides.bond < 0) row.bond_area = last.bond_area;
-      if (row.bond_area > 0) row.state = ContactState::stick;  // a bond that has failed has no area
-    }
-    row.cohesion_impulse = face.cohesion * row.bond_area;  // here forces: nothing is times dt
-    row.tension_impulse = face.tension * row.bond_area;
-    w.rows.push_back(row);
-    w.sides.push_back(sides);
-    w.keys.push_back(key);
+    if (contact.memory >= 0) inherit(memory[static_cast<size_t>(contact.memory)], contact);
+    contact.cohesion_force = face.cohesion * contact.bond_area;
+    contact.tension_force = face.tension * contact.bond_area;
+  }
+
+  static void inherit(const ContactMemory& last, PaperContact& contact) {
+    contact.shear = last.shear - contact.normal.dot(last.shear) * contact.normal;
+    contact.slip_direction = last.slip_direction;
+    contact.offset = last.offset;
+    contact.held_friction = contact.friction * last.normal_force;
+    contact.state = static_cast<ContactState>(last.state);
+    if (contact.bond < 0) contact.bond_area = last.bond_area;
+    // a bond that has failed has no area
+    if (contact.bond_area > 0) contact.state = ContactState::stick;
   }
 
   void add_ground(size_t k) {
@@ -245,69 +244,66 @@ struct OpenClose {
                       work.world_vertices, work.contacts, &work.near_ground[i]);
     if (near.reach == Reach::below) report.flags = report.flags | StepFlag::fell_through;
     if (near.reach == Reach::off_ground) w.outsiders.push_back(b);
-    for (const Contact& contact : work.contacts) {
-      ContactRow row;
-      row.normal = contact.normal;
-      row.point = w.equations[k].R * contact.point_a;
-      row.gap_start = contact.gap;
-      PaperSides sides;
-      sides.a = static_cast<int>(k);
-      sides.ground_class = contact.ground_class;
-      start_row(scene.ground.classes[static_cast<size_t>(contact.ground_class)], contact.key, row,
-                sides);
+    for (const Contact& found : work.contacts) {
+      PaperContact& contact = w.contacts.emplace_back();
+      contact.key = found.key;
+      contact.a = static_cast<int>(k);
+      contact.ground_class = found.ground_class;
+      contact.normal = found.normal;
+      contact.arm_a = w.equations[k].R * found.point_a;
+      contact.gap_start = found.gap;
+      start_contact(scene.ground.classes[static_cast<size_t>(found.ground_class)], contact);
     }
   }
 
   [[nodiscard]] size_t place_of(int block) const {
-    return static_cast<size_t>(work.islands.groups.local_index[static_cast<size_t>(block)]);
+    return static_cast<size_t>(work.search.groups.local_index[static_cast<size_t>(block)]);
   }
   [[nodiscard]] const Vec3& position(int block) const {
     return state.motion[static_cast<size_t>(block)].pose.position;
   }
 
   void add_pair(const PairManifold& m) {
-    PaperSides sides;
-    sides.a = static_cast<int>(place_of(m.block_a));
-    sides.b = static_cast<int>(place_of(m.block_b));
-    sides.bond = find_bond(state.bonds, m.block_a, m.block_b);
+    const int bond = find_bond(state.bonds, m.block_a, m.block_b);
     const GroundClass face =
-        sides.bond >= 0 ? state.bonds[static_cast<size_t>(sides.bond)].face : pair_class(scene, m);
+        bond >= 0 ? state.bonds[static_cast<size_t>(bond)].face : pair_class(scene, m);
     for (int p = m.point_begin; p < m.point_end; ++p) {
-      const PairPoint& point = work.islands.pairs.points[static_cast<size_t>(p)];
-      ContactRow row;
-      row.normal = m.normal;
-      row.point = point.point_b + point.gap * m.normal - position(m.block_a);
-      sides.arm_b = point.point_b - position(m.block_b);
-      row.gap_start = point.gap;
-      if (sides.bond >= 0 && m.area > 0)
-        row.bond_area = state.bonds[static_cast<size_t>(sides.bond)].area * point.area / m.area;
-      ContactKey key = point.key;
-      key.body_b = m.block_b;
-      start_row(face, key, row, sides);
+      const PairPoint& point = work.search.pairs.points[static_cast<size_t>(p)];
+      PaperContact& contact = w.contacts.emplace_back();
+      contact.key = point.key;
+      contact.key.body_b = m.block_b;
+      contact.a = static_cast<int>(place_of(m.block_a));
+      contact.b = static_cast<int>(place_of(m.block_b));
+      contact.bond = bond;
+      contact.normal = m.normal;
+      contact.arm_a = point.point_b + point.gap * m.normal - position(m.block_a);
+      contact.arm_b = point.point_b - position(m.block_b);
+      contact.gap_start = point.gap;
+      if (bond >= 0 && m.area > 0)
+        contact.bond_area = state.bonds[static_cast<size_t>(bond)].area * point.area / m.area;
+      start_contact(face, contact);
     }
   }
 
   // Equations, then contacts member by member: with the ground, then with later members.
   void assemble() {
     w.equations.clear();
-    w.rows.clear();
-    w.sides.clear();
-    w.keys.clear();
-    w.row_begin.clear();
+    w.contacts.clear();
+    w.contact_begin.clear();
     w.outsiders.clear();
     w.D.resize(members.size());
     for (const int b : members) w.equations.push_back(equations<Dof>(scene, b, state));
     auto next = manifolds.begin();
     for (size_t k = 0; k < members.size(); ++k) {
-      w.row_begin.push_back(w.rows.size());
+      w.contact_begin.push_back(w.contacts.size());
       add_ground(k);
       for (; next != manifolds.end(); ++next) {
-        const PairManifold& m = work.islands.pairs.manifolds[static_cast<size_t>(*next)];
+        const PairManifold& m = work.search.pairs.manifolds[static_cast<size_t>(*next)];
         if (m.block_a != members[k]) break;
         add_pair(m);
       }
     }
-    w.row_begin.push_back(w.rows.size());
+    w.contact_begin.push_back(w.contacts.size());
   }
 
   void iterate() {
@@ -322,47 +318,50 @@ struct OpenClose {
   }
 
   // What a closed contact keeps: a sticking one its spring, a slipping one its direction.
-  void remember_row(size_t r, std::vector<ContactMemory>& memories) {
-    const ContactRow& row = w.rows[r];
-    const PaperSides& sides = w.sides[r];
-    const bool sticks = row.state == ContactState::stick;
-    if (sides.bond >= 0 && !sticks) state.bonds[static_cast<size_t>(sides.bond)].area = 0;
-    const Vec3 way = moved(r);
-    const double along = row.normal.dot(way), overlap = -(row.gap_start + along);
-    const int block = members[static_cast<size_t>(sides.a)];
+  void remember_contact(size_t r, std::vector<ContactMemory>& memories) {
+    const PaperContact& contact = w.contacts[r];
+    const bool sticks = contact.state == ContactState::stick;
+    if (contact.bond >= 0 && !sticks) state.bonds[static_cast<size_t>(contact.bond)].area = 0;
+    const Vec3 path = moved(r);
+    const double along = contact.normal.dot(path), overlap = -(contact.gap_start + along);
+    const int block = members[static_cast<size_t>(contact.a)];
     note_overlap(report, overlap, scene.blocks.shapes.thickness[static_cast<size_t>(block)]);
-    if (row.state == ContactState::open) return;
+    if (contact.state == ContactState::open) return;
     ContactMemory memory;
-    memory.key = w.keys[r];
-    memory.normal = row.normal;
-    memory.gap_end = row.gap_start + row.offset + along;
-    memory.offset = std::max(0.0, row.offset - offset_speed * scene.settings.dt);
+    memory.key = contact.key;
+    memory.normal = contact.normal;
+    memory.gap_end = contact.gap_start + contact.offset + along;
+    memory.offset = std::max(0.0, contact.offset - offset_speed * scene.settings.dt);
     memory.normal_force = std::max(0.0, -k_n * memory.gap_end);
-    memory.slip_direction = row.slip_start;
-    if (sticks) memory.shear = row.shear + way - along * row.normal;
-    memory.bond_area = sticks && sides.bond < 0 ? row.bond_area : 0;
-    memory.state = static_cast<std::uint8_t>(row.state);
+    memory.slip_direction = contact.slip_direction;
+    if (sticks) memory.shear = contact.shear + path - along * contact.normal;
+    memory.bond_area = sticks && contact.bond < 0 ? contact.bond_area : 0;
+    memory.state = static_cast<std::uint8_t>(contact.state);
     memories.push_back(memory);
     ++report.n_closed;
     report.sum_penetration += std::max(overlap, 0.0);
     state.ledger.contact -= memory.normal_force * along;
     if (!sticks)
-      state.ledger.friction += row.held_cap * (way - along * row.normal).dot(row.slip_start);
+      state.ledger.friction +=
+          contact.held_friction * (path - along * contact.normal).dot(contact.slip_direction);
   }
 
   void remember() {
     for (size_t k = 0; k < members.size(); ++k) {
       std::vector<ContactMemory>& memory = state.memory[static_cast<size_t>(members[k])];
-      report.n_flips += count_flips(
-          std::span(w.rows).subspan(w.row_begin[k], w.row_begin[k + 1] - w.row_begin[k]), memory);
+      FlipCounter flips(memory);
+      for (size_t r = w.contact_begin[k]; r < w.contact_begin[k + 1]; ++r)
+        flips.add(w.contacts[r].memory, w.contacts[r].state);
+      report.n_flips += flips.total();
       memory.clear();
-      for (size_t r = w.row_begin[k]; r < w.row_begin[k + 1]; ++r) remember_row(r, memory);
+      for (size_t r = w.contact_begin[k]; r < w.contact_begin[k + 1]; ++r)
+        remember_contact(r, memory);
     }
   }
 
   [[nodiscard]] bool touches_nothing(size_t k) const {
-    return std::none_of(w.sides.begin(), w.sides.end(), [&](const PaperSides& sides) {
-      return sides.a == static_cast<int>(k) || sides.b == static_cast<int>(k);
+    return std::none_of(w.contacts.begin(), w.contacts.end(), [&](const PaperContact& contact) {
+      return contact.a == static_cast<int>(k) || contact.b == static_cast<int>(k);
     });
   }
 
@@ -411,7 +410,8 @@ struct OpenClose {
     const Vec3 velocity_before = state.motion[first].velocity;
     remember();
     for (size_t k = 0; k < members.size(); ++k) move(k);
-    if (scene.settings.post_adjustment && (n_blocks(scene) == 1 || !scene.settings.block_contacts))
+    if (scene.settings.paper.post_adjustment &&
+        (n_blocks(scene) == 1 || !scene.settings.block_contacts))
       post_adjust(was_free, velocity_before);
     for (const int b : members)
       if (left_ground(scene, position(b)) ||
@@ -431,19 +431,20 @@ struct OpenClose {
       normal.normalize();
       const double speed = -normal.dot(velocity_before);
       const double restitution =
-          scene.ground.classes[static_cast<size_t>(w.sides.front().ground_class)].restitution;
+          scene.ground.classes[static_cast<size_t>(w.contacts.front().ground_class)].restitution;
       const double resting = 2 * scene.gravity.norm() * scene.settings.dt;
-      state.rebound[i] = speed > resting ? Vec3(restitution * speed * normal) : Vec3(Vec3::Zero());
+      state.paper.rebound[i] =
+          speed > resting ? Vec3(restitution * speed * normal) : Vec3(Vec3::Zero());
     }
-    if (was_free || !is_free || state.rebound[i].isZero(0)) return;
-    const double wanted = state.rebound[i].norm();
-    const Vec3 normal = state.rebound[i] / wanted;
+    if (was_free || !is_free || state.paper.rebound[i].isZero(0)) return;
+    const double wanted = state.paper.rebound[i].norm();
+    const Vec3 normal = state.paper.rebound[i] / wanted;
     Vec3& v = state.motion[i].velocity;
     const Vec3 adjusted = v + (wanted - normal.dot(v)) * normal;
     state.ledger.impact += 0.5 * scene.blocks.mass[i] * (v.squaredNorm() - adjusted.squaredNorm());
     v = adjusted;
     if (state.phase[i] != Phase::stopped) work.segments.back().end = state.motion[i];
-    state.rebound[i].setZero();
+    state.paper.rebound[i].setZero();
   }
 };
 

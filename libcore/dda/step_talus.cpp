@@ -8,7 +8,6 @@
 #include "dda/flight.hpp"
 #include "dda/impact.hpp"
 #include "dda/lone_substep.hpp"
-#include "dda/step.hpp"
 
 namespace talus {
 namespace {
@@ -21,9 +20,9 @@ double first_hit(const BlockNumbers& c, const Substep& s, const Solved<Dof>& sol
                  const Work& work) {
   double first = s.h + 1;
   for (const ContactRow& row : work.rows) {
-    if (!row.waits_for_impact) continue;
+    if (!row.waits) continue;
     const double gap_end = work.contacts[static_cast<size_t>(row.contact)].gap +
-                           row.normal.dot(solved.moved(row.point, s.h));
+                           row.normal.dot(solved.moved(row.arm, s.h));
     if (gap_end > c.touch) continue;
     const double v = row.speed_start, g = row.gap_start + 0.5 * c.touch;
     const double a = 2 * (gap_end + 0.5 * c.touch - g - v * s.h) / (s.h * s.h);
@@ -56,7 +55,7 @@ struct Advance {
   bool free_fall_only() const { return may_fly && gravity_only(); }
 
   void finish(const Substep& s, const Motion& end, double t, double t_next) {
-    add_segment(b, state.memory[i()].empty(), t, s.h, s.start, end, work);
+    add_segment(b, state.memory[i()].empty(), t, s.h, s.start, end, work.segments);
     set_support(scene, b, (end.velocity - s.free.velocity) / s.h, state);
     const Vec3 external = s.free_acceleration - scene.gravity;
     if (!external.isZero(0))
@@ -212,8 +211,7 @@ struct Advance {
       state.flight_end[i()] = t + time_for_another_view();
       return false;
     }
-    state.phase[i()] = Phase::flight;
-    state.flight_end[i()] = t + safe;
+    take_off(state, i(), t + safe);
     report.n_flips += static_cast<int>(state.memory[i()].size());
     state.memory[i()].clear();
     state.support[i()].setZero();

@@ -6,8 +6,8 @@
 
 #include "dda/displacement.hpp"
 #include "dda/flight.hpp"
+#include "dda/loads.hpp"
 #include "dda/rotation.hpp"
-#include "dda/step.hpp"
 
 namespace talus {
 namespace {
@@ -39,13 +39,6 @@ constexpr double least_by_tolerance = 2e-2;
 constexpr double most_overlap = 2e-2, far_sag = 4;
 constexpr double parallel = 1 - 1e-12, no_limit = std::numeric_limits<double>::infinity();
 
-Vec3 load_torque(const Scene& scene, int b, const Quat& attitude) {
-  Vec3 torque = Vec3::Zero();
-  for (const PointLoad& load : scene.loads)
-    if (load.block == b) torque += (attitude * load.point).cross(load.force);
-  return torque;
-}
-
 // Below this approach there is no impact [m/s].
 double resting_speed(const Settings& settings, double g) {
   const double by_gravity = g * settings.dt;
@@ -54,11 +47,11 @@ double resting_speed(const Settings& settings, double g) {
 }
 
 // The row that a remembered contact continues: same features, nearest normal.
-int row_of(const ContactMemory& memory, const Work& work) {
+int row_of(const ContactMemory& memory, std::span<const Contact> contacts) {
   int best = -1;
   double nearest = 0.5;  // never over more than 60 degrees
-  for (size_t i = 0; i < work.contacts.size(); ++i) {
-    const Contact& contact = work.contacts[i];
+  for (size_t i = 0; i < contacts.size(); ++i) {
+    const Contact& contact = contacts[i];
     if (contact.key.feature_a != memory.key.feature_a || !(contact.key == memory.key)) continue;
     const double cosine = contact.normal.dot(memory.normal);
     if (cosine > nearest) nearest = cosine, best = static_cast<int>(i);
@@ -103,7 +96,7 @@ double stiffness_by_load(const BlockNumbers& c, double least, double stiffest,
 // mean over it where the spin turns the point round.
 double approach(const ContactRow& row, const Substep& s) {
   double mean = row.normal.dot(row.free_move) / s.h;
-  if (s.is_straining) mean += row.normal.dot(s.straining * row.point);
+  if (s.is_straining) mean += row.normal.dot(s.straining * row.arm);
   return std::min(row.speed_start, mean);
 }
 
@@ -171,7 +164,7 @@ void forget_last_step(ContactRow& row) {
   row.cohesion_impulse = row.tension_impulse = 0;
   row.normal_limit = no_normal_limit;
   row.memory = -1;
-  row.cap = row.held_cap = 0;
+  row.cap = 0;
   row.impulse.setZero();
   row.state = ContactState::open;
 }
@@ -244,33 +237,37 @@ void set_law(const Scene& scene, const BlockNumbers& c, double h, const Mobility
   const double per_recovery = 1 / c.recovery_time;
   row.shear_velocity = per_recovery * row.shear;
   row.bias = x < 0 ? x * per_recovery : x / h;
-  row.waits_for_impact = row.memory < 0 && row.gap_start > c.touch && approach < -c.resting_speed;
+  row.waits = row.memory < 0 && row.gap_start > c.touch && approach < -c.resting_speed;
 }
 
 void set_ground_law(const Scene& scene, const BlockNumbers& c, const Substep& s, ContactRow& row) {
-  set_law(scene, c, s.h, mobility(c.per_mass, c.per_inertia, row.point, row.normal),
-          approach(row, s), row);
+  set_law(scene, c, s.h, mobility(c.per_mass, c.per_inertia, row.arm, row.normal), approach(row, s),
+          row);
 }
 
-void make_rows(const Scene& scene, int b, const BlockNumbers& c, const Substep& s,
-               const State& state, Work& work) {
-  const Mat3 to_body = s.R.transpose();
+namespace {
+
+// Where the contacts are and how their points move without contact forces.
+void set_motions(const Scene& scene, int b, const Substep& s, const Mat3& to_body,
+                 std::span<const Contact> contacts, std::span<ContactRow> rows) {
   const Mat3 from_start = to_body * s.R_start;  // body axes at the start to those at the end
   const Vec3 moved = to_body * (s.free.pose.position - s.start.pose.position);
   const Vec3 velocity_start = to_body * s.start.velocity, spin_start = from_start * s.spin_start;
-  work.rows.resize(work.contacts.size());
-  for (size_t i = 0; i < work.contacts.size(); ++i) {
-    const Contact& contact = work.contacts[i];
+  for (size_t i = 0; i < contacts.size(); ++i) {
+    const Contact& contact = contacts[i];
     const GroundClass& ground = scene.ground.classes[static_cast<size_t>(contact.ground_class)];
-    ContactRow& row = work.rows[i];
+    ContactRow& row = rows[i];
     forget_last_step(row);
+    row.key = contact.key;
+    row.a = b;
+    row.ground_class = contact.ground_class;
     row.contact = static_cast<int>(i);
-    const bool same_plane = i > 0 && contact.normal == work.contacts[i - 1].normal;
-    row.normal = same_plane ? work.rows[i - 1].normal : Vec3(to_body * contact.normal);
+    const bool same_plane = i > 0 && contact.normal == contacts[i - 1].normal;
+    row.normal = same_plane ? rows[i - 1].normal : Vec3(to_body * contact.normal);
     const Vec3& X = contact.point_a;
     const Vec3 lever_start = from_start * X;
-    row.point = (X + lever_start) / 2;
-    row.drift = s.spin_free.cross(X - row.point);
+    row.arm = (X + lever_start) / 2;
+    row.drift = s.spin_free.cross(X - row.arm);
     row.free_move = moved + (X - lever_start);
     row.gap_start = contact.gap - row.normal.dot(row.free_move);
     const Vec3 w = velocity_start + spin_start.cross(lever_start);
@@ -281,47 +278,56 @@ void make_rows(const Scene& scene, int b, const BlockNumbers& c, const Substep& 
     const double slip_speed = slip.norm();
     row.slip_start = slip_speed > 0 ? Vec3((1 / slip_speed) * slip) : Vec3(Vec3::Zero());
     row.friction = ground.friction;
+    row.restitution = ground.restitution;
   }
-  const std::vector<ContactMemory>& memory = state.memory[static_cast<size_t>(b)];
+}
+
+// What the rows take over from the step before.
+void inherit_all(const BlockNumbers& c, const Substep& s, const Mat3& to_body,
+                 std::span<const ContactMemory> memory, std::span<const Contact> contacts,
+                 std::span<ContactRow> rows) {
   for (size_t m = 0; m < memory.size(); ++m) {
-    const int i = row_of(memory[m], work);
+    const int i = row_of(memory[m], contacts);
     if (i < 0) continue;
-    ContactRow& row = work.rows[static_cast<size_t>(i)];
+    ContactRow& row = rows[static_cast<size_t>(i)];
     // a plane that the contact only now runs into is met by an impact, not inherited
     const double speed = approach(row, s);
     if (speed < -c.resting_speed &&
         (row.gap_start > c.touch || comes_back_fast(memory[m], speed, s.h, c)))
       continue;
-    const ContactKey& key = work.contacts[static_cast<size_t>(i)].key;
-    const bool same_features = key.mode != ContactMode::vertex_face && key == memory[m].key;
+    const bool same_features = row.key.mode != ContactMode::vertex_face && row.key == memory[m].key;
     inherit(memory[m], static_cast<int>(m), same_features, to_body, c, row);
   }
-  for (ContactRow& row : work.rows) {
-    const Contact& contact = work.contacts[static_cast<size_t>(row.contact)];
+}
+
+}  // namespace
+
+void make_rows(const Scene& scene, int b, const BlockNumbers& c, const Substep& s,
+               std::span<const ContactMemory> memory, std::span<const Contact> contacts,
+               std::span<ContactRow> rows) {
+  const Mat3 to_body = s.R.transpose();
+  set_motions(scene, b, s, to_body, contacts, rows);
+  inherit_all(c, s, to_body, memory, contacts, rows);
+  for (size_t i = 0; i < rows.size(); ++i) {
+    ContactRow& row = rows[i];
     if (row.memory < 0) {
-      if (row.gap_start <= c.touch && contact.gap < -c.touch && approach(row, s) < -c.resting_speed)
-        row.gap_start = std::max(row.gap_start, clearance_at_start(scene, contact, s));
+      if (row.gap_start <= c.touch && contacts[i].gap < -c.touch &&
+          approach(row, s) < -c.resting_speed)
+        row.gap_start = std::max(row.gap_start, clearance_at_start(scene, contacts[i], s));
       row.offset = std::max(0.0, -row.gap_start);
     }
     set_ground_law(scene, c, s, row);
-    const GroundClass& ground = scene.ground.classes[static_cast<size_t>(contact.ground_class)];
+    const GroundClass& ground = scene.ground.classes[static_cast<size_t>(row.ground_class)];
     row.cohesion_impulse = ground.cohesion * row.bond_area * s.h;
     row.tension_impulse = ground.tension * row.bond_area * s.h;
   }
 }
 
 int count_flips(std::span<const ContactRow> rows, const std::vector<ContactMemory>& before) {
-  int n_flips = 0, n_kept = 0;
-  for (const ContactRow& row : rows) {
-    const ContactState now = row.waits_for_impact ? ContactState::open : row.state;
-    const bool is_kept = row.memory >= 0;
-    n_kept += is_kept;
-    const auto then = is_kept
-                          ? static_cast<ContactState>(before[static_cast<size_t>(row.memory)].state)
-                          : ContactState::open;
-    n_flips += now != then;
-  }
-  return n_flips + std::max(0, static_cast<int>(before.size()) - n_kept);  // others: out of reach
+  FlipCounter flips(before);
+  for (const ContactRow& row : rows)
+    flips.add(row.memory, row.waits ? ContactState::open : row.state);
+  return flips.total();
 }
 
 // Residual at which the contact forces count as found, as a velocity: 1e-8 of what gravity does in
@@ -334,7 +340,7 @@ double newton_tolerance(const BlockNumbers& c, const Substep& s) {
 }
 
 void add_segment(int b, bool flight, double t, double h, const Motion& start, const Motion& end,
-                 Work& work) {
+                 std::vector<Segment>& segments) {
   Segment segment;
   segment.block = b;
   segment.flight = flight;
@@ -343,7 +349,7 @@ void add_segment(int b, bool flight, double t, double h, const Motion& start, co
   segment.start = start;
   segment.end = end;
   segment.acceleration = (end.velocity - start.velocity) / h;
-  work.segments.push_back(segment);
+  segments.push_back(segment);
 }
 
 void end_flight(const Scene& scene, int b, double t, State& state, Work& work) {
@@ -351,26 +357,25 @@ void end_flight(const Scene& scene, int b, double t, State& state, Work& work) {
   const double h = t - state.local_time[i];
   if (h > 0) {
     const Motion end = fly(state.motion[i], scene.blocks.inertia[i], scene.gravity, h);
-    add_segment(b, true, state.local_time[i], h, state.motion[i], end, work);
+    add_segment(b, true, state.local_time[i], h, state.motion[i], end, work.segments);
     state.motion[i] = end;
   }
   forget_rates(scene, b, state);
-  state.local_time[i] = t;
-  state.phase[i] = Phase::near_ground;
+  land(state, i, t);
 }
 
 void watch_rest(const Scene& scene, size_t b, State& state) {
   constexpr double part_of_thickness = 1e-3;
-  const Pose &now = state.motion[b].pose, &then = state.still_pose[b];
+  const Pose &now = state.motion[b].pose, &then = state.rest_pose[b];
   const double dt = scene.settings.dt;
   const double resolved = std::min(scene.gravity.norm() * dt * dt,
                                    part_of_thickness * scene.blocks.shapes.thickness[b]);
   const double turn = 2 * (now.attitude.coeffs() - then.attitude.coeffs()).norm();
-  const double way = (now.position - then.position).norm() + turn * scene.blocks.shapes.radius[b];
-  ++state.still_steps[b];
-  if (way <= resolved) return;
-  state.still_pose[b] = now;
-  state.still_steps[b] = 0;
+  const double path = (now.position - then.position).norm() + turn * scene.blocks.shapes.radius[b];
+  ++state.rest_steps[b];
+  if (path <= resolved) return;
+  state.rest_pose[b] = now;
+  state.rest_steps[b] = 0;
 }
 
 double kinetic_energy(const Scene& scene, size_t b, const Motion& m) {
@@ -379,7 +384,7 @@ double kinetic_energy(const Scene& scene, size_t b, const Motion& m) {
 }
 
 void fall_asleep(const Scene& scene, size_t b, State& state) {
-  state.phase[b] = Phase::asleep;
+  go_to_sleep(state, b);
   state.ledger.contact += kinetic_energy(scene, b, state.motion[b]);
   state.motion[b].velocity.setZero();
   state.motion[b].angular_momentum.setZero();
@@ -395,7 +400,7 @@ void stop_outside(const Scene& scene, int b, State& state, StepReport& report) {
   state.ledger.removed += kinetic_energy(scene, i, m);
   m.velocity.setZero();
   m.angular_momentum.setZero();
-  state.phase[i] = Phase::left_domain;
+  leave_domain(state, i);
   state.memory[i].clear();
   ++state.counters.left_domain;
   report.flags = report.flags | StepFlag::left_domain;
@@ -432,7 +437,7 @@ bool is_finite(const Motion& m) {
 
 void stop_at(const Motion& last_good, size_t b, State& state, StepReport& report) {
   state.motion[b] = {last_good.pose, Vec3::Zero(), Vec3::Zero()};
-  state.phase[b] = Phase::stopped;
+  stop_for_good(state, b);
   state.memory[b].clear();
   report.flags = report.flags | StepFlag::not_finite;
 }

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "dda/flips.hpp"
 #include "dda/newton.hpp"
 #include "dda/report.hpp"
 #include "dda/scene.hpp"
@@ -66,9 +67,11 @@ void set_law(const Scene& scene, const BlockNumbers& c, double h, const Mobility
 /// The same for a contact with the ground.
 void set_ground_law(const Scene& scene, const BlockNumbers& c, const Substep& s, ContactRow& row);
 
-/// Rows of `work.contacts`, contacts of block b with the ground, in the body axes of s.R.
+/// Makes the `rows` of `contacts`, which the search found between block b and the ground, in the
+/// body axes of s.R. `memory`: what the block remembers.
 void make_rows(const Scene& scene, int b, const BlockNumbers& c, const Substep& s,
-               const State& state, Work& work);
+               std::span<const ContactMemory> memory, std::span<const Contact> contacts,
+               std::span<ContactRow> rows);
 
 /// Whether a vertex that was above the ground when the substep began ends below another triangle
 /// and moves out of its plane: it went through the ridge between them, and would never be hit.
@@ -84,7 +87,7 @@ void make_rows(const Scene& scene, int b, const BlockNumbers& c, const Substep& 
 [[nodiscard]] double newton_tolerance(const BlockNumbers& c, const Substep& s);
 
 void add_segment(int b, bool flight, double t, double h, const Motion& start, const Motion& end,
-                 Work& work);
+                 std::vector<Segment>& segments);
 
 /// Ends the flight of block b at `t`, not before its local time: its motion is then that at `t`.
 void end_flight(const Scene& scene, int b, double t, State& state, Work& work);

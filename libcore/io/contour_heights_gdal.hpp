@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "io/contour_layer_gdal.hpp"
+#include "terrain/contours.hpp"
 
 namespace talus {
 

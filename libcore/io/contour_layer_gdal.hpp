@@ -11,7 +11,7 @@
 
 #include "base/error.hpp"
 #include "base/types.hpp"
-#include "io/contours_gdal.hpp"
+#include "io/contour_sources.hpp"
 
 class GDALDataset;
 class OGRFeature;

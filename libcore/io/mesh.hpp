@@ -12,6 +12,9 @@
 
 namespace talus {
 
+/// Between the name of an OBJ object and the number of its part: "rock_part_3".
+inline constexpr const char* part_suffix = "_part_";
+
 /// A connected surface of a file, or the parts of one body; not yet checked for being a solid.
 struct MeshBody {
   std::string name;  ///< object or group of an OBJ file; else empty

@@ -15,9 +15,6 @@
 
 namespace talus {
 
-/// Between the name of an OBJ object and the number of its part: "rock_part_3".
-inline constexpr const char* part_suffix = "_part_";
-
 class MeshBuilder {
  public:
   void add_vertex(const Vec3& p, const Where& where);

@@ -97,8 +97,8 @@ void fields(Fields<Archive>& archive, PlacedHulls& placed) {
 template <class Archive>
 void fields(Fields<Archive>& archive, State& state) {
   archive(state.time, state.motion, state.local_time, state.flight_end, state.phase,
-          state.acceleration, state.spin_rate, state.support, state.rebound, state.still_pose,
-          state.still_steps, state.strain, state.strain_rate, state.memory, state.pairs,
+          state.acceleration, state.spin_rate, state.support, state.paper.rebound, state.rest_pose,
+          state.rest_steps, state.strain, state.strain_rate, state.memory, state.pairs,
           state.placed, state.bonds, state.fence, state.ledger, state.counters);
 }
 template <class Archive>
@@ -156,7 +156,7 @@ bool fits(const Checkpoint& checkpoint, std::size_t n_blocks, int n_cells) {
   const FrameSampler& sampler = checkpoint.sampler;
   if (!all_are(n_blocks, {state.motion.size(), state.local_time.size(), state.flight_end.size(),
                           state.phase.size(), state.acceleration.size(), state.spin_rate.size(),
-                          state.support.size(), state.still_pose.size(), state.still_steps.size(),
+                          state.support.size(), state.rest_pose.size(), state.rest_steps.size(),
                           state.memory.size(), sampler.next.size(), sampler.latest.size()}))
     return false;
   if (!checkpoint.trackers.empty() && checkpoint.trackers.size() != n_blocks) return false;

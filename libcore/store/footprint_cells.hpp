@@ -1,10 +1,10 @@
 // libcore/store/footprint_cells.hpp
 // The cells of a grid that a footprint lies over, at one place and on its way to another.
-// in:    footprints as extents along eight axes (store/passages.hpp)
+// in:    footprints as extents along eight axes (store/passage_recorder.hpp)
 // out:   cells; on a way the part of it over each, in closed form
 #pragma once
 
-#include "store/passages.hpp"
+#include "store/passage_recorder.hpp"
 #include "terrain/trn_pyramid.hpp"
 
 namespace talus {

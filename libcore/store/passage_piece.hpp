@@ -4,7 +4,7 @@
 // table and so does each cell that the piece passes.
 #pragma once
 
-#include "store/passages.hpp"
+#include "store/passage_recorder.hpp"
 
 namespace talus {
 

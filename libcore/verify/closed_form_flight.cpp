@@ -182,7 +182,7 @@ CaseResult corner_impulse(const Settings& settings, double restitution) {
 CaseResult elastic_restitution(const Settings& settings, double young) {
   Settings with_strains = settings;
   with_strains.strains = true;
-  with_strains.post_adjustment = false;
+  with_strains.paper.post_adjustment = false;
   const SlopeFrame flat = slope_frame(0, 0);
   Material material;
   material.young = young;

@@ -48,7 +48,7 @@ inline void add_contacts(int a, int b, const Vec3& normal, const std::vector<Vec
   const double m_b = b < 0 ? 0 : island.mass[static_cast<std::size_t>(b)](0, 0);
   open_pair(a, b, island);
   for (const Vec3& point : points) {
-    IslandRow row;
+    ContactRow row;
     row.normal = normal.normalized();
     row.arm = point - island.position[static_cast<std::size_t>(a)];
     row.normal_damping = law.stiffness_ratio * (b < 0 ? m_a : m_a * m_b / (m_a + m_b));

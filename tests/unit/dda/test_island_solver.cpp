@@ -6,8 +6,8 @@
 
 #include "dda/contact_law.hpp"
 #include "dda/island_solver.hpp"
-#include "unit/dda/as_contact_row.hpp"
 #include "unit/dda/island_scenes.hpp"
+#include "unit/dda/rows_of_island.hpp"
 
 namespace {
 
@@ -16,7 +16,6 @@ using talus::ContactRow;
 using talus::ContactState;
 using talus::Island;
 using talus::IslandResult;
-using talus::IslandRow;
 using talus::IslandSettings;
 using talus::IslandWork;
 using talus::Mat3;
@@ -24,7 +23,6 @@ using talus::RowGroup;
 using talus::Vec3;
 using talus::Vec6;
 using talus::scenes::LawOfScene;
-using talus::test::as_contact_row;
 using talus::test::row_at;
 using talus::test::row_numbers;
 
@@ -88,7 +86,7 @@ Eigen::VectorXd gauss_seidel(const Island& island, int sweeps) {
       const auto at = 3 * static_cast<Eigen::Index>(c);
       const Mat3 own = dense.map.middleRows(at, 3) * response.middleCols(at, 3);
       const Vec3 others = dense.map.middleRows(at, 3) * v - own * impulse[c];
-      const Vec3 p = local_impulse(as_contact_row(row_at(island, r)), others, own, impulse[c]);
+      const Vec3 p = local_impulse(row_at(island, r), others, own, impulse[c]);
       v += response.middleCols(at, 3) * (p - impulse[c]);
       change = std::max(change, (p - impulse[c]).norm());
       impulse[c] = p;
@@ -106,7 +104,7 @@ double dense_error(const Island& island) {
   double error = 0;
   for (const int r : row_numbers(island)) {
     const auto at = 3 * static_cast<Eigen::Index>(r);
-    ContactRow row = as_contact_row(row_at(island, r));
+    ContactRow row = row_at(island, r);
     const Vec3 impulse = row_of(island, r).impulse();
     p.segment(at, 3) = impulse;
     talus::evaluate(w.segment(at, 3), row);
@@ -170,7 +168,7 @@ TEST(SolveIsland, KeepsImpulsesInTheirCones) {
     const Dense dense(island);
     const Eigen::VectorXd w = dense.map * stacked(island.velocity);
     for (const int r : row_numbers(island)) {
-      const IslandRow row = row_at(island, r);
+      const ContactRow row = row_at(island, r);
       const double p_n = row.normal.dot(row.impulse);
       const double v_n = row.normal.dot(w.segment<3>(3 * static_cast<Eigen::Index>(r)));
       const double p_t = (row.impulse - p_n * row.normal).norm();

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "base/random.hpp"
+#include "dda/free_rotation.hpp"
 #include "dda/free_spin.hpp"
 #include "dda/rotation.hpp"
 

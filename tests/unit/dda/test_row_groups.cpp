@@ -7,18 +7,16 @@
 #include "dda/contact_law.hpp"
 #include "dda/newton.hpp"
 #include "dda/row_groups.hpp"
-#include "unit/dda/as_contact_row.hpp"
+#include "unit/dda/rows_of_island.hpp"
 
 namespace {
 
 using talus::ContactRow;
 using talus::ContactState;
 using talus::Evaluation;
-using talus::IslandRow;
 using talus::Mat6;
 using talus::Vec3;
 using talus::Vec6;
-using talus::test::as_contact_row;
 using talus::test::row_at;
 using talus::test::row_numbers;
 
@@ -34,8 +32,8 @@ Vec3 random_tangent(const Vec3& normal, talus::Random& random) {
 }
 
 // Rows of all kinds: springs, bonds, no friction, no start direction.
-IslandRow random_row(talus::Random& random) {
-  IslandRow row;
+ContactRow random_row(talus::Random& random) {
+  ContactRow row;
   row.normal = random_vector(random).normalized();
   row.arm = random_vector(random);
   if (random.uniform() < 0.5) row.shear_velocity = random_tangent(row.normal, random);
@@ -50,10 +48,10 @@ IslandRow random_row(talus::Random& random) {
   return row;
 }
 
-talus::Island island_of(const std::vector<IslandRow>& rows) {
+talus::Island island_of(const std::vector<ContactRow>& rows) {
   talus::Island island;
   open_pair(0, -1, island);
-  for (const IslandRow& row : rows) add_row(row, island);
+  for (const ContactRow& row : rows) add_row(row, island);
   return island;
 }
 
@@ -67,12 +65,12 @@ Vec6 impulse_at(const Vec6& u, Evaluation evaluation, talus::Island& island) {
 }
 
 struct Evaluated {
-  std::vector<IslandRow> rows;
+  std::vector<ContactRow> rows;
   talus::Island island;
   Vec6 f;
 };
 
-Evaluated evaluate(const std::vector<IslandRow>& rows, const Vec6& u) {
+Evaluated evaluate(const std::vector<ContactRow>& rows, const Vec6& u) {
   Evaluated e;
   e.island = island_of(rows);
   e.f = impulse_at(u, Evaluation::coupled, e.island);
@@ -91,13 +89,13 @@ TEST(EvaluatePairs, GivesTheImpulsesOfTheContactLaw) {
   talus::Random random(11, "law");
   int n_slip = 0, n_stick = 0, n_open = 0;
   for (int round = 0; round < 1000; ++round) {
-    std::vector<IslandRow> rows(1 + random.below(9));
-    for (IslandRow& row : rows) row = random_row(random);
+    std::vector<ContactRow> rows(1 + random.below(9));
+    for (ContactRow& row : rows) row = random_row(random);
     const Vec6 u = random_velocity(random);
     const Evaluated e = evaluate(rows, u);
     Vec6 f = Vec6::Zero();
     for (std::size_t r = 0; r < rows.size(); ++r) {
-      ContactRow expected = as_contact_row(rows[r]);
+      ContactRow expected = rows[r];
       talus::evaluate(talus::point_velocity<6>(u, rows[r].arm), expected);
       EXPECT_LT((e.rows[r].impulse - expected.impulse).norm(), 1e-14);
       EXPECT_EQ(e.rows[r].state, expected.state);
@@ -118,8 +116,8 @@ TEST(EvaluatePairs, HaveTheSameBitsFourRowsAtATime) {
   for (int round = 0; round < 500; ++round) {
     std::vector<talus::Island> by_two(1 + random.below(5));
     for (talus::Island& island : by_two) {
-      std::vector<IslandRow> rows(1 + random.below(7));
-      for (IslandRow& row : rows) row = random_row(random);
+      std::vector<ContactRow> rows(1 + random.below(7));
+      for (ContactRow& row : rows) row = random_row(random);
       island = island_of(rows);
     }
     std::vector<talus::Island> by_four = by_two;
@@ -154,8 +152,8 @@ TEST(EvaluatePairs, HaveTheSameBitsFourRowsAtATime) {
 TEST(SumTangents, IsTheDerivativeOfTheImpulse) {
   talus::Random random(12, "tangent");
   for (int round = 0; round < 300; ++round) {
-    std::vector<IslandRow> rows(1 + random.below(6));
-    for (IslandRow& row : rows) row = random_row(random);
+    std::vector<ContactRow> rows(1 + random.below(6));
+    for (ContactRow& row : rows) row = random_row(random);
     const Vec6 u = random_velocity(random);
     Evaluated e = evaluate(rows, u);
     talus::Packed<6> W;
@@ -178,7 +176,7 @@ TEST(SumTangents, IsTheDerivativeOfTheImpulse) {
     const Mat6 S = talus::unpacked(symmetric);
     EXPECT_GE(Eigen::SelfAdjointEigenSolver<Mat6>(S).eigenvalues().minCoeff(), -1e-13 * S.norm());
     bool slips = false;
-    for (const IslandRow& row : e.rows) slips |= row.state == ContactState::slip;
+    for (const ContactRow& row : e.rows) slips |= row.state == ContactState::slip;
     if (!slips) {
       EXPECT_LT((S - exact).norm(), 1e-14 * (1 + S.norm()));
     }
@@ -187,8 +185,8 @@ TEST(SumTangents, IsTheDerivativeOfTheImpulse) {
 
 // First iteration: a bound from the predicted overlap would have no limit.
 // The row that slips at an impulse of 2 and is pressed with 5 now, or as `change` makes it.
-Vec6 inherited_impulse(const std::function<void(IslandRow&)>& change) {
-  IslandRow row;
+Vec6 inherited_impulse(const std::function<void(ContactRow&)>& change) {
+  ContactRow row;
   row.normal = Vec3::UnitZ();
   row.bias = -5;
   row.normal_damping = row.shear_damping = 1;
@@ -203,22 +201,22 @@ Vec6 inherited_impulse(const std::function<void(IslandRow&)>& change) {
 }
 
 TEST(EvaluatePairs, BoundsInheritedFrictionByTheLastImpulse) {
-  const Vec6 slips = inherited_impulse([](IslandRow&) {});
+  const Vec6 slips = inherited_impulse([](ContactRow&) {});
   EXPECT_EQ(slips[0], -1);  // 0.5 x 2, not 0.5 x 5
   EXPECT_EQ(slips[2], 5);
-  const Vec6 sticks = inherited_impulse([](IslandRow& row) { row.state = ContactState::stick; });
+  const Vec6 sticks = inherited_impulse([](ContactRow& row) { row.state = ContactState::stick; });
   EXPECT_EQ(sticks[0], -10);
 }
 
 TEST(EvaluatePairs, TakesNewContactsByTheLaw) {
-  const Vec6 f = inherited_impulse([](IslandRow& row) { row.state = ContactState::open; });
+  const Vec6 f = inherited_impulse([](ContactRow& row) { row.state = ContactState::open; });
   EXPECT_EQ(f[0], -2.5);
   EXPECT_EQ(f[2], 5);
 }
 
 TEST(EvaluatePairs, KeepsAnInheritedContactUntilItWouldPullMoreThanItPressed) {
-  EXPECT_EQ(inherited_impulse([](IslandRow& row) { row.bias = 1.5; })[2], -1.5);
-  EXPECT_TRUE(inherited_impulse([](IslandRow& row) { row.bias = 2.5; }).isZero(0));
+  EXPECT_EQ(inherited_impulse([](ContactRow& row) { row.bias = 1.5; })[2], -1.5);
+  EXPECT_TRUE(inherited_impulse([](ContactRow& row) { row.bias = 2.5; }).isZero(0));
 }
 
 }  // namespace

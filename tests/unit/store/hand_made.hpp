@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/random.hpp"
+#include "dda/free_rotation.hpp"
 #include "dda/rotation.hpp"
 #include "dda/scene.hpp"
 #include "dda/work.hpp"

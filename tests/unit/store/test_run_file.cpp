@@ -280,8 +280,8 @@ talus::Checkpoint sample_checkpoint() {
   state.acceleration.resize(2, Vec3::Ones());
   state.spin_rate.resize(2, Vec3::Zero());
   state.support = {Vec3(1, 2, 3), Vec3(4, 5, 6)};
-  state.still_pose.resize(2);
-  state.still_steps = {0, 7};
+  state.rest_pose.resize(2);
+  state.rest_steps = {0, 7};
   state.memory.resize(2);
   state.memory[1].resize(3);
   state.memory[1][2].key.feature_a = 42;

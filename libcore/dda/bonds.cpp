@@ -1,12 +1,10 @@
-#include "dda/joint_classes.hpp"
+#include "dda/bonds.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <tuple>
 
-#include "contact/manifold.hpp"
 #include "contact/start_contacts.hpp"
-#include "dda/scene.hpp"
 
 namespace talus {
 namespace {

@@ -1,5 +1,5 @@
-// tests/unit/dda/as_contact_row.hpp
-// Rows of an island one by one, and as the contact law of one row takes them, to compare the two.
+// tests/unit/dda/rows_of_island.hpp
+// Contacts of an island one by one, read from their lanes.
 #pragma once
 
 #include <vector>
@@ -17,9 +17,9 @@ inline std::vector<int> row_numbers(const Island& island) {
   return numbers;
 }
 
-inline IslandRow row_at(const Island& island, int r) {
+inline ContactRow row_at(const Island& island, int r) {
   const RowIn<const RowGroup> of = row_of(island, r);
-  IslandRow out;
+  ContactRow out;
   out.normal = of.normal();
   out.arm = of.arm();
   out.shear_velocity = of.vector(&RowGroup::shear_velocity);
@@ -33,22 +33,6 @@ inline IslandRow row_at(const Island& island, int r) {
   out.normal_limit = of.normal_limit();
   out.impulse = of.impulse();
   out.state = of.state();
-  return out;
-}
-
-inline ContactRow as_contact_row(const IslandRow& row) {
-  ContactRow out;
-  out.normal = row.normal;
-  out.point = row.arm;
-  out.shear_velocity = row.shear_velocity;
-  out.slip_start = row.slip_start;
-  out.bias = row.bias;
-  out.normal_damping = row.normal_damping;
-  out.shear_damping = row.shear_damping;
-  out.friction = row.friction;
-  out.cohesion_impulse = row.cohesion_impulse;
-  out.tension_impulse = row.tension_impulse;
-  out.normal_limit = row.normal_limit;
   return out;
 }
 
