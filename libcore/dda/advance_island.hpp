@@ -177,6 +177,7 @@ struct AdvanceIsland {
   [[nodiscard]] std::pair<double, double> support_power(size_t k) const;
   [[nodiscard]] double time_until_it_drives(size_t k) const;
   void make_hit(size_t r, double gap_end, double speed_end, double h);
+  void see_speeds(double h);
   void note_hit_pair(size_t pair);
   int find_hits(double h, bool free);
   [[nodiscard]] double overshoot_of_hits() const;
@@ -201,6 +202,9 @@ struct AdvanceIsland {
   [[nodiscard]] double loss_in_turn() const;
   [[nodiscard]] double work_on_velocities() const;
   void forgo_rebound();
+  void keep_solution();
+  void blend_kept(double share);
+  bool lower_rebound(double h, double tolerance);
 
   // step_island.cpp
   void gather(std::span<const int> blocks);

@@ -148,6 +148,27 @@ void AdvanceIsland::make_hit(size_t r, double gap_end, double speed_end, double 
   note_change(r);
 }
 
+// Hits that the free motion leads to: their speed as the solver sees it, with its lever arms and
+// what pulls on the bodies until the end of the substep. Gaps over the substep tell it too, but for
+// what turning adds; a rebound from one that comes out as the other loses energy, or gains some.
+void AdvanceIsland::see_speeds(double h) {
+  for (Hit& hit : w.hits) {
+    if (!hit.is_free) continue;
+    const IslandContact& contact = w.contacts[hit.contact];
+    const Vec3 normal = row(hit.contact).normal();
+    Vec3 pull = w.substeps[place(contact.a)].free_acceleration;
+    if (contact.b >= 0) pull -= w.substeps[place(contact.b)].free_acceleration;
+    const Vec3 free =
+        relative(hit.contact, [&](size_t k) -> const Vec6& { return w.island.free_velocity[k]; });
+    hit.fall = normal.dot(pull) * (h - hit.time);
+    const double speed = normal.dot(free) - hit.fall;
+    const double resting_speed = numbers(contact.a).resting_speed;
+    hit.speed = std::min(speed, -resting_speed);
+    hit.rebound = speed < -resting_speed ? -contact.restitution * speed : 0;
+    hit.target = std::max(0.0, hit.rebound + hit.fall);
+  }
+}
+
 // `pair` has a hit, perhaps its first.
 void AdvanceIsland::note_hit_pair(size_t pair) {
   for (const size_t r : contacts_of(pair))
@@ -172,6 +193,7 @@ int AdvanceIsland::find_hits(double h, bool free) {
     }
     if (gap_end > contact.touch) return false;
     make_hit(r, gap_end, speed_end, h);
+    w.hits.back().is_free = free;
     return true;
   };
   const auto n = static_cast<int>(std::erase_if(w.waiting, is_hit));
@@ -289,11 +311,7 @@ bool AdvanceIsland::solve(double h) {
     if (more == 0 && error <= tolerance) break;
     converged = solve_once(h, true);
   }
-  if (converged && work_on_velocities() > -loss_in_turn()) {
-    forgo_rebound();
-    converged = solve_once(h, true);
-    if (converged && correct_hits() > tolerance) converged = solve_once(h, true);
-  }
+  if (converged && work_on_velocities() > -loss_in_turn()) converged = lower_rebound(h, tolerance);
   return converged;
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "dda/advance_island.hpp"
+#include "dda/impact.hpp"
 
 namespace talus {
 namespace {
@@ -98,6 +99,7 @@ double AdvanceIsland::hits_in_turn(size_t p, double h) const {
 // Targets of the hits: where others press on a pair, it hits and rebounds several times in turn,
 // each time with its restitution.
 void AdvanceIsland::set_targets(double h) {
+  see_speeds(h);
   sum_hits();
   for (const size_t pair : w.hit_pairs) {
     double times = 0;
@@ -133,8 +135,8 @@ double AdvanceIsland::work_on_velocities() const {
   return sum;
 }
 
-// Takes the rebound from the hits: all at once they lost less than they would in turn. What they
-// then need of their impulses is expected to be what stopped them.
+// Takes the rebound from the hits. What they then need of their impulses is expected to be what
+// stopped them.
 void AdvanceIsland::forgo_rebound() {
   for (Hit& hit : w.hits) {
     const RowIn<RowGroup> of = row(hit.contact);
@@ -144,6 +146,44 @@ void AdvanceIsland::forgo_rebound() {
     note_change(hit.contact);
   }
   w.expected.clear();
+}
+
+// Keeps the solution at hand, and goes back to it by `share` from the one found since.
+void AdvanceIsland::keep_solution() {
+  w.kept_velocity = w.island.velocity;
+  w.kept_rows = w.island.rows;
+}
+
+void AdvanceIsland::blend_kept(double share) {
+  for (size_t k = 0; k < w.members.size(); ++k)
+    w.island.velocity[k] += share * (w.kept_velocity[k] - w.island.velocity[k]);
+  for (size_t r = 0; r < w.contacts.size(); ++r) {
+    const int number = w.contacts[r].row;
+    const RowIn<RowGroup> now = row(r);
+    const RowIn<RowGroup> kept(w.kept_rows[static_cast<size_t>(number / 2)], number % 2);
+    now.set_vector(&RowGroup::impulse, now.impulse() + share * (kept.impulse() - now.impulse()));
+    if (now.state() == ContactState::open) now.set_state(kept.state());
+  }
+}
+
+// Where hits that are solved all at once lose less than they would in turn, or even gain, they get
+// as much of their rebound as loses that. Between the solutions with it and without it impulses and
+// velocities are blended: momentum, friction cones and contacts that do not approach are kept, and
+// energy is quadratic in the share.
+bool AdvanceIsland::lower_rebound(double h, double tolerance) {
+  const double excess = work_on_velocities() + loss_in_turn();
+  keep_solution();
+  forgo_rebound();
+  bool converged = solve_once(h, true);
+  if (converged && correct_hits() > tolerance) converged = solve_once(h, true);
+  double square = 0;
+  for (size_t k = 0; k < w.members.size(); ++k) {
+    const Vec6 gained = w.kept_velocity[k] - w.island.velocity[k];
+    square += times_mass(w.island.mass[k], gained).dot(gained) / 2;
+  }
+  const double lacking = work_on_velocities() + loss_in_turn();
+  if (square > 0) blend_kept(largest_share(square, excess - lacking - square, lacking));
+  return converged;
 }
 
 }  // namespace talus

@@ -61,6 +61,7 @@ struct Hit {
   double rebound = 0;       ///< normal velocity that the hit alone gives back [m/s]
   double fall = 0;          ///< what gravity makes of that up to the end, <= 0 [m/s]
   double target = 0;        ///< normal velocity at the end of the substep [m/s]
+  bool is_free = false;     ///< the motion without contact forces leads to it
   double in_turn = 1;       ///< how many times its pair hits in turn, see hits_in_turn()
 };
 
@@ -174,6 +175,8 @@ struct IslandStepWork {  // clang-format off
   std::vector<double> weight, delay;        ///< impulses expected [N s]; times delays [N s2] (n_members)
   std::vector<std::uint8_t> is_timed;       ///< 1: has a `time` of its own              (n_members)
   std::vector<std::uint8_t> shifted;        ///< 1: `time`, or what bears it, changed    (n_members)
+  std::vector<Vec6> kept_velocity;          ///< of the solution with all rebound        (n_members)
+  std::vector<RowGroup> kept_rows;          ///< ... and its rows
   std::vector<Vec6> displacement;           ///< by contact over the substep             (n_members)
   std::vector<std::uint8_t> pressed;        ///< 1: by a contact, in the substep         (n_members)
 };  // clang-format on
