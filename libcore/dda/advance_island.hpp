@@ -223,6 +223,7 @@ struct AdvanceIsland {
   void remember(double h);
   [[nodiscard]] Motion end_of(size_t k) const;
   [[nodiscard]] bool foresaw(size_t k, const Contact& contact, double least) const;
+  [[nodiscard]] int thinner_of(const IslandContact& contact) const;
   [[nodiscard]] double thickness_of(const IslandContact& contact) const;
   [[nodiscard]] double end_of_deepening_hit(double h) const;
   [[nodiscard]] double end_of_throw_into_ground(double h);

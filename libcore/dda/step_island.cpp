@@ -4,6 +4,7 @@
 #include "base/make_room.hpp"
 #include "contact/search.hpp"
 #include "dda/advance_island.hpp"
+#include "dda/deep_blocks.hpp"
 #include "dda/fence.hpp"
 #include "dda/flight.hpp"
 #include "dda/rotation.hpp"
@@ -219,8 +220,11 @@ void AdvanceIsland::remember_contact(size_t r, const Vec3& path, double overlap,
     const IslandContact& contact = w.contacts[r];
     const Vec3 path = path_of_contact(r);
     const double overlap = -(contact.gap_start + row(r).normal().dot(path));
-    note_overlap(report, overlap, thickness_of(contact));
-    if (contact.waits || row(r).state() == ContactState::open) continue;
+    if (contact.waits) continue;
+    const bool is_open = row(r).state() == ContactState::open;
+    if (!is_open || contact.offset > 0)
+      note_overlap(thinner_of(contact), overlap, thickness_of(contact), work, report);
+    if (is_open) continue;
     const BodyPair& pair = w.island.pairs[static_cast<size_t>(contact.pair)];
     w.pressed[static_cast<size_t>(pair.a)] = 1;
     if (pair.b >= 0) w.pressed[static_cast<size_t>(pair.b)] = 1;
@@ -256,10 +260,14 @@ bool AdvanceIsland::foresaw(size_t k, const Contact& contact, double least) cons
   return false;
 }
 
+int AdvanceIsland::thinner_of(const IslandContact& contact) const {
+  if (contact.b < 0) return contact.a;
+  return numbers(contact.b).thickness < numbers(contact.a).thickness ? contact.b : contact.a;
+}
+
 // Thickness of the thinner of the two blocks of a contact.
 double AdvanceIsland::thickness_of(const IslandContact& contact) const {
-  const double thickness = numbers(contact.a).thickness;
-  return contact.b < 0 ? thickness : std::min(thickness, numbers(contact.b).thickness);
+  return numbers(thinner_of(contact)).thickness;
 }
 
 // When the substep has to end so that no block ends deep where it is hit, since a later hit throws

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "contact/search.hpp"
+#include "dda/deep_blocks.hpp"
 #include "dda/displacement.hpp"
 #include "dda/joint_classes.hpp"
 #include "dda/newton.hpp"
@@ -321,6 +322,15 @@ struct OpenClose {
     report.passes += passes;
   }
 
+  // The thinner of the two blocks of a contact.
+  [[nodiscard]] int thinner_of(const PaperSides& sides) const {
+    const std::vector<double>& thickness = scene.blocks.shapes.thickness;
+    const int a = members[static_cast<size_t>(sides.a)];
+    if (sides.b < 0) return a;
+    const int b = members[static_cast<size_t>(sides.b)];
+    return thickness[static_cast<size_t>(b)] < thickness[static_cast<size_t>(a)] ? b : a;
+  }
+
   // What a closed contact keeps: a sticking one its spring, a slipping one its direction.
   void remember_row(size_t r, std::vector<ContactMemory>& memories) {
     const ContactRow& row = w.rows[r];
@@ -329,8 +339,10 @@ struct OpenClose {
     if (sides.bond >= 0 && !sticks) state.bonds[static_cast<size_t>(sides.bond)].area = 0;
     const Vec3 way = moved(r);
     const double along = row.normal.dot(way), overlap = -(row.gap_start + along);
-    const int block = members[static_cast<size_t>(sides.a)];
-    note_overlap(report, overlap, scene.blocks.shapes.thickness[static_cast<size_t>(block)]);
+    const int block = thinner_of(sides);
+    if (row.state == ContactState::open && row.offset <= 0) return;
+    note_overlap(block, overlap, scene.blocks.shapes.thickness[static_cast<size_t>(block)], work,
+                 report);
     if (row.state == ContactState::open) return;
     ContactMemory memory;
     memory.key = w.keys[r];

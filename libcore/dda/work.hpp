@@ -7,6 +7,7 @@
 
 #include "contact/block_pairs.hpp"
 #include "contact/contact.hpp"
+#include "contact/ground_depth.hpp"
 #include "contact/search.hpp"
 #include "dda/block_lu.hpp"
 #include "dda/contact_row.hpp"
@@ -215,6 +216,19 @@ struct OpenCloseWork {  // clang-format off
   std::vector<Vec> D;                          ///< right-hand side, then solution       (n_members)
 };  // clang-format on
 
+/// What note_deep_blocks recomputes, but `is_suspect`, which a step fills.
+struct DeepWork {  // clang-format off
+  std::vector<std::uint8_t> is_suspect;   ///< 1: by a contact it is deep in something   (n_blocks)
+  std::vector<Pose> poses;                ///< at the end of the step                    (n_bodies)
+  std::vector<std::uint8_t> moving;       ///< 1: is placed there                        (n_bodies)
+  std::vector<Mat3> stretch;              ///< empty for rigid blocks                    (n_bodies)
+  PlacedHulls placed;
+  AxisScratch axis;
+  GroundDepthScratch ground;
+  std::vector<double> overlap_depth;      ///< with other bodies [m]                     (n_blocks)
+  std::vector<int> overlap_partner;       ///<                                           (n_blocks)
+};  // clang-format on
+
 struct Work {  // clang-format off
   // find_contacts: candidates of the block at hand
   std::vector<Vec3> world_vertices;          ///< at the predicted pose [m]
@@ -225,6 +239,7 @@ struct Work {  // clang-format off
   // advance_block: the motion of this step, block by block, in order of time
   std::vector<Segment> segments;
   IslandStepWork islands;
+  DeepWork deep;
   OpenCloseWork<6> paper_rigid;
   OpenCloseWork<12> paper_strained;
   std::vector<int> members, manifolds;       ///< of the island at hand, law paper

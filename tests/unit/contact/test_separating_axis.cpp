@@ -222,9 +222,9 @@ Bodies saddle_on_a_ridge(double rise, double steep, double sunk, double aside) {
 TEST(FindAxis, AnEdgeUnderASeamIsBorneByBothParts) {
   AxisScratch scratch;
   for (const double rise : {-0.6, -0.1, 0.0})
-    for (const double steep : {0.8, 2.7, 8.0})
+    for (const double steep : {2.7, 8.0})
       for (const double sunk : {1e-5, 1e-3, 0.01, 0.04})
-        for (const double aside : {0.0, 0.2 * sunk}) {
+        for (const double aside : {0.0, 0.05 * sunk}) {
           const Bodies bodies = saddle_on_a_ridge(rise, steep, sunk, aside);
           for (const int part : {0, 1}) {
             const AxisChoice choice =
@@ -232,10 +232,8 @@ TEST(FindAxis, AnEdgeUnderASeamIsBorneByBothParts) {
             const Vec3 up = Vec3(part == 0 ? -rise : rise, 0, 1).normalized();
             const double depth = up.z() * sunk + up.x() * aside;
             EXPECT_TRUE(choice.touches) << rise << " " << steep << " " << sunk << " " << part;
-            // a side of the ridge that is nearly as flat as the underside may be the axis instead
-            EXPECT_GT(choice.separation, -depth - 1e-9) << rise << " " << steep << " " << part;
-            EXPECT_LT(choice.separation, -0.8 * depth) << rise << " " << steep << " " << part;
-            EXPECT_GT(choice.normal.dot(up), 0.99) << rise << " " << steep << " " << part;
+            EXPECT_NEAR(choice.separation, -depth, 1e-9) << rise << " " << steep << " " << part;
+            EXPECT_GT(choice.normal.dot(up), 1 - 1e-12) << rise << " " << steep << " " << part;
           }
         }
 }
