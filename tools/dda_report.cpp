@@ -5,9 +5,12 @@
 
 #include "base/text.hpp"
 #include "moved_json.hpp"
+#include "store/deep_rows.hpp"
 
 namespace talus {
 namespace {
+
+using std::size_t;
 
 // Of all moments where passages are recorded, else of those of the frames.
 double largest_speed(const RunFile& file) {
@@ -89,6 +92,9 @@ std::string trouble_summary(const Json& report) {
 // The way out of a broken limit, by what its name says.
 std::string health_hint(const std::string& check) {
   const auto is_of = [&check](const char* word) { return check.find(word) != std::string::npos; };
+  if (is_of("more than a tenth") || is_of("in the toe"))
+    return "take a smaller time_step_s, or merge small blocks ([source] min_block_volume_m3); "
+           "max_penetration_m says instead how deep is deep";
   if (is_of("penetration"))
     return "take a smaller time_step_s, or give max_penetration_m if that depth will do";
   if (is_of("left the terrain"))
@@ -96,6 +102,44 @@ std::string health_hint(const std::string& check) {
   if (is_of("energy gained") || is_of("not finite") || is_of("below the ground"))
     return "take a smaller time_step_s";
   return "";
+}
+
+// Blocks that were deep in something: which, in what, when, where, how deep.
+Json deep_blocks_of(const RunFile& file) {
+  Json list = Json::array();
+  for (const DeepRow& row : file.deep) {
+    const Vec3 at = row.place + file.info.origin;
+    list.push_back({{"block", row.block},
+                    {"partner", partner_name(row, file.lines)},
+                    {"depth_m", row.depth},
+                    {"thickness_m", row.thickness},
+                    {"time_s", row.time},
+                    {"first_time_s", row.first_time},
+                    {"steps", row.steps},
+                    {"position_m", {at.x(), at.y(), at.z()}},
+                    {"mass_share", row.mass_share},
+                    {"ends_in_toe", row.ends_in_toe != 0},
+                    {"met_fence", row.met_fence != 0},
+                    {"is_too_fast", row.is_too_fast != 0}});
+  }
+  return list;
+}
+
+// What the run says of them in one line: those that matter first, then the heaviest.
+std::string deep_warning(const RunFile& file) {
+  constexpr size_t most = 3;
+  std::vector<DeepRow> rows = file.deep;
+  std::stable_sort(rows.begin(), rows.end(), [](const DeepRow& a, const DeepRow& b) {
+    const int a_matters = n_that_matter({&a, 1}), b_matters = n_that_matter({&b, 1});
+    return a_matters != b_matters ? a_matters > b_matters : a.mass_share > b.mass_share;
+  });
+  std::string words = counted(static_cast<std::int64_t>(rows.size()), "block") + " of " +
+                      text(100 * mass_share(rows), 3) +
+                      " % of the mass came in by more than a tenth of " +
+                      (rows.size() == 1 ? "its" : "their") + " thickness: ";
+  for (size_t i = 0; i < std::min(most, rows.size()); ++i)
+    words += (i == 0 ? "" : "; ") + deep_words(rows[i], file.lines, file.info.origin);
+  return words + (rows.size() > most ? "; all stand in deep_blocks of the run" : "");
 }
 
 }  // namespace
@@ -138,6 +182,7 @@ Json run_report(const Runner& runner, const ScenePlan& plan, double cpu_s) {
                               {"value", check.value},
                               {"limit", check.limit},
                               {"pass", check.pass}});
+  json["deep_blocks"] = deep_blocks_of(file);
   json["plan"] = plan_json(plan);
   return json;
 }
@@ -164,6 +209,12 @@ void warn_of_standing_mass(Tool& tool, const RunFile& file) {
 }
 
 void record_health(Tool& tool, Runner& runner) {
+  runner.file.deep = deep_rows(runner.scene, runner.state, runner.crossings.rows);
+  if (!runner.file.deep.empty()) {
+    const std::string words = deep_warning(runner.file);
+    tool.warn(words);
+    runner.file.info.warnings += (runner.file.info.warnings.empty() ? "" : "\n") + words;
+  }
   for (const HealthCheck& check : health_checks(runner)) {
     tool.check(check.name, check.value, check.limit, check.pass, health_hint(check.name));
     if (check.pass) continue;

@@ -36,7 +36,11 @@ std::string health_section(const ReportData& data) {
     if (const RunFile& run = data.runs[i]; !run.info.reason.empty())
       out += html_note("Run " + xml_escaped(data.run_names[i]) +
                        " failed: " + xml_escaped(run.info.reason) + ".");
-  out += counter_table(data.runs, data.run_names) + "<div class=\"charts\">\n";
+  out += counter_table(data.runs, data.run_names);
+  if (const std::string deep = deep_table(data.runs, data.run_names); !deep.empty())
+    out += html_note("Blocks that came into something by more than a tenth of their thickness:") +
+           deep;
+  out += "<div class=\"charts\">\n";
   out += html_figure(chart_svg(energy_chart(data.shown)),
                      "Run " + xml_escaped(data.shown_name) +
                          ": the sum of what moves and what was spent lies on what has fallen.");

@@ -20,6 +20,7 @@ constexpr double same_axis_ratio = 2e-2;  // ... in the same direction
 // Overlap across a covered face is borne by the covering part up to this part of the thickness, and
 // up to this part of the overlap along the best other axis.
 constexpr double seam_ratio = 5e-3, seam_share = 0.25;
+constexpr double same_point_ratio = 1e-6;    // of the radius: vertices of parts are one point
 constexpr double longest_hold_ratio = 0.02;  // of the smaller radius, and at most longest_hold
 constexpr double longest_hold = 0.05;        // [m]
 
@@ -228,6 +229,46 @@ struct Covered {
   double all = none, part = none, bare = none;
 };
 
+// Is a point in a part, or on its surface?
+bool holds(const Parts& parts, int part, const Vec3& point) {
+  const double rounding = same_point_ratio * parts.hulls.radius[parts.hulls.body[part]];
+  const int begin = parts.hulls.face_begin[part], end = begin + parts.hulls.n_faces[part];
+  for (int face = begin; face < end; ++face)
+    if (normal_at(parts.placed, face).dot(point) - parts.placed.offset[face] > rounding)
+      return false;
+  return true;
+}
+
+// The vertex of `part` that lies farthest against `normal`.
+int farthest_vertex(const Hulls& hulls, const PlacedHulls& placed, int part, const Vec3& normal) {
+  int farthest = hulls.vertex_begin[part];
+  double lowest = infinity;
+  for (int v = farthest; v < hulls.vertex_begin[part + 1]; ++v) {
+    const double height = normal.dot(placed.vertices[v]);
+    if (height < lowest) farthest = v;
+    lowest = std::min(lowest, height);
+  }
+  return farthest;
+}
+
+// How far the vertex of `part` that comes nearest to a face of the other body is apart from it,
+// together with the parts of its body that hold this vertex too. A convex edge of a seam meets a
+// face as one; where the seam lies in a concave edge, or across a flat face, the next part reaches
+// far beyond, and what seems to meet the seam does not come from there.
+double apart_with_neighbours(const Parts& parts, const FaceAxis& axis, int part) {
+  const Hulls& hulls = parts.hulls;
+  const Vec3 normal = outward(parts, axis);
+  const Vec3& nearest = parts.placed.vertices[farthest_vertex(hulls, parts.placed, part, normal)];
+  double lowest = normal.dot(nearest);
+  const int body = hulls.body[part];
+  for (int p = hulls.part_begin[body]; p < hulls.part_begin[body + 1]; ++p)
+    if (p != part && holds(parts, p, nearest))
+      lowest = std::min(
+          lowest,
+          normal.dot(parts.placed.vertices[farthest_vertex(hulls, parts.placed, p, normal)]));
+  return lowest - parts.placed.offset[hulls.face_begin[axis.part] + axis.face];
+}
+
 // Faces inside a body, and faces that would meet one, stop nothing: their axes are taken out.
 Covered remove_internal(const Parts& parts, AxisScratch& scratch) {
   Covered largest;
@@ -238,11 +279,14 @@ Covered remove_internal(const Parts& parts, AxisScratch& scratch) {
   for_each_face(parts, scratch, [&](const FaceAxis& axis) {
     const int other = axis.part == parts.a ? parts.b : parts.a;
     const int met = incident_face(parts.hulls, parts.placed, other, outward(parts, axis));
-    const FaceCover cover = std::max(cover_of(axis.part, axis.face), cover_of(other, met));
+    const FaceCover own = cover_of(axis.part, axis.face), of_met = cover_of(other, met);
+    const FaceCover cover = std::max(own, of_met);
     double& sum = cover == FaceCover::all    ? largest.all
                   : cover == FaceCover::part ? largest.part
                                              : largest.bare;
-    sum = std::max(sum, axis.separation);
+    if (axis.separation > sum)
+      sum =
+          std::max(sum, of_met > own ? apart_with_neighbours(parts, axis, other) : axis.separation);
     if (cover == FaceCover::all)
       (axis.part == parts.a ? scratch.face_a : scratch.face_b)[axis.face] = none;
   });
@@ -391,16 +435,7 @@ void face_separations(const Hulls& hulls, const PlacedHulls& placed, int face_pa
 }
 
 int incident_face(const Hulls& hulls, const PlacedHulls& placed, int part, const Vec3& normal) {
-  const int first = hulls.vertex_begin[part], last = hulls.vertex_begin[part + 1];
-  int support = first;
-  double lowest = infinity;
-  for (int v = first; v < last; ++v) {
-    const double height = normal.dot(placed.vertices[v]);
-    if (height < lowest) {
-      lowest = height;
-      support = v;
-    }
-  }
+  const int support = farthest_vertex(hulls, placed, part, normal);
   int face = -1;
   double most_opposed = infinity;
   for (int k = hulls.ring_begin[support]; k < hulls.ring_begin[support + 1]; ++k) {

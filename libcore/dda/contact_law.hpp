@@ -1,5 +1,5 @@
 // libcore/dda/contact_law.hpp
-// Impulse of one contact as a function of the velocity of its point, and its exact derivative.
+// Impulse of one contact as a function of the velocity of its point, and its derivative.
 // paper: Eq. (16)-(24) and the three patterns of Fig. 8; theory 1.7 (return mapping), 1.8
 //
 // Law talus works with impulses over a step. Normal: p_n = max(0, -D_n (v_n + b)), where b holds
@@ -12,6 +12,7 @@
 // oblique slide). Inline: this is the innermost loop of the engine.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -55,7 +56,8 @@ inline void evaluate(const Vec3& w, ContactRow& row) {
 }
 
 /// -d impulse / d velocity [kg] where the law was evaluated; not for an open contact. Unsymmetric
-/// where it slips, since the bound follows the normal impulse.
+/// where it slips, since the bound follows the normal impulse; left out is how the mean direction
+/// turns with the bound.
 [[nodiscard]] inline Mat3 tangent(const ContactRow& row) {
   const Vec3& n = row.normal;
   const double normal_damping = row.gives_way ? 0 : row.normal_damping;

@@ -30,4 +30,9 @@ ImpactResult apply_impact(const Scene& scene, int b, double touch, double restin
 ImpactResult apply_impact(const Scene& scene, int b, double resting_speed, Motion& motion,
                           Work& work);
 
+/// Largest share f <= 1 of a restitution at which square f^2 + linear f + constant, what it gains
+/// or lacks of the energy that it must lose, is not above zero; where none is, the share at which
+/// it is least. `square` > 0; at f = 1 the sum is above zero.
+[[nodiscard]] double largest_share(double square, double linear, double constant);
+
 }  // namespace talus

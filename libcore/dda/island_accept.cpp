@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/make_room.hpp"
+#include "dda/deep_blocks.hpp"
 #include "dda/fence.hpp"
 #include "dda/flight.hpp"
 #include "dda/island_stages.hpp"
@@ -24,6 +25,7 @@ struct SubstepAcceptance {
   SubstepEnd& end;
   State& state;
   std::vector<Segment>& segments;
+  DeepWork& deep;
   StepReport& report;
 
   // Energy that contacts took, by kind; push_panels() adds that of panels that give way.
@@ -105,8 +107,12 @@ struct SubstepAcceptance {
       const RowIn<const RowGroup> lane = lane_of(system, r);
       const Vec3 path = path_of_contact(system, end, r);
       const double overlap = -(contact.gap_start + lane.normal().dot(path));
-      note_overlap(report, overlap, thickness_of(members, contact));
-      if (contact.waits || lane.state() == ContactState::open) continue;
+      if (contact.waits) continue;
+      const bool is_open = lane.state() == ContactState::open;
+      if (!is_open || contact.offset > 0)
+        note_overlap(thinner_of(members, contact), overlap, thickness_of(members, contact), deep,
+                     report);
+      if (is_open) continue;
       const BodyPair& pair = system.island.pairs[static_cast<size_t>(contact.pair)];
       end.pressed[static_cast<size_t>(pair.a)] = 1;
       if (pair.b >= 0) end.pressed[static_cast<size_t>(pair.b)] = 1;
@@ -212,8 +218,9 @@ void break_bonds(const SubstepTries& tries, State& state) {
 void accept(const Scene& scene, const IslandMembers& members, const FreeMotions& free,
             const IslandSystem& system, const SubstepHits& hits, bool converged,
             const SubstepTries& tries, SubstepEnd& end, State& state,
-            std::vector<Segment>& segments, StepReport& report) {
-  SubstepAcceptance acceptance{scene, members, free, system, hits, end, state, segments, report};
+            std::vector<Segment>& segments, DeepWork& deep, StepReport& report) {
+  SubstepAcceptance acceptance{scene, members, free,     system, hits,
+                               end,   state,   segments, deep,   report};
   report.n_impacts += static_cast<int>(hits.hits.size());
   if (!converged) ++report.n_unconverged, report.flags = report.flags | StepFlag::unconverged;
   if (system.fell_through) report.flags = report.flags | StepFlag::fell_through;

@@ -140,6 +140,7 @@ struct Hit {
   double rebound = 0;       ///< normal velocity that the hit alone gives back [m/s]
   double fall = 0;          ///< what gravity makes of that up to the end, <= 0 [m/s]
   double target = 0;        ///< normal velocity at the end of the substep [m/s]
+  bool is_free = false;     ///< the motion without contact forces leads to it
   double in_turn = 1;       ///< how many times its pair hits in turn, see set_targets()
 };
 
@@ -191,6 +192,8 @@ struct ExpectedHit {
 struct Rebounds {
   std::vector<HitSum> hit_sums;                      ///<                                (n_members)
   std::vector<ExpectedHit> expected, last_expected;  ///< in this round and the one before
+  std::vector<Vec6> full_velocity;                   ///< with all of the rebound        (n_members)
+  std::vector<RowGroup> full_rows;                   ///< ... and the island's rows
 };
 
 /// What the substep comes to.
@@ -333,10 +336,14 @@ template <class Of>
   return {along, std::max(along, all - along)};
 }
 
-/// Thickness of the thinner of the two blocks of a contact.
+/// The thinner of the two blocks of a contact.
+[[nodiscard]] inline int thinner_of(const IslandMembers& members, const KeptContact& contact) {
+  if (contact.b < 0) return contact.a;
+  const double a = members.of(contact.a).thickness, b = members.of(contact.b).thickness;
+  return b < a ? contact.b : contact.a;
+}
 [[nodiscard]] inline double thickness_of(const IslandMembers& members, const KeptContact& contact) {
-  const double thickness = members.of(contact.a).thickness;
-  return contact.b < 0 ? thickness : std::min(thickness, members.of(contact.b).thickness);
+  return members.of(thinner_of(members, contact)).thickness;
 }
 
 /// Bonds of blocks are numbered as in the state; after them come those of blocks with the ground.

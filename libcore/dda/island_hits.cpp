@@ -159,6 +159,7 @@ int find_hits(const IslandMembers& members, const FreeMotions& free, bool by_fre
     }
     if (gap_end > contact.touch) return false;
     make_hit(members, free, r, gap_end, speed_end, system, hits);
+    hits.hits.back().is_free = by_free_motion;
     return true;
   };
   const auto n = static_cast<int>(std::erase_if(system.waiting, is_hit));

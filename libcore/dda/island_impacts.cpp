@@ -85,8 +85,9 @@ void solve_with_hits(const Scene& scene, const State& state, const IslandMembers
     solve_on(true);
   }
   if (!solution.converged || !gain_energy(members, system, hits)) return;
-  forgo_rebound(system, hits, rebounds);
+  const double excess = forgo_rebound(members, system, hits, rebounds);
   if (solve_on(true) && correct_hits(hits, system, rebounds) > tolerance) solve_on(true);
+  blend_rebound(members, excess, hits, rebounds, system);
 }
 
 }  // namespace talus

@@ -6,6 +6,7 @@
 #include <limits>
 #include <ranges>
 
+#include "dda/impact.hpp"
 #include "dda/island_stages.hpp"
 
 namespace talus {
@@ -141,12 +142,42 @@ double work_on_velocities(const IslandMembers& members, const Island& island) {
   return sum;
 }
 
+// What the hits lose too little [J].
+double energy_excess(const IslandMembers& members, const IslandSystem& system,
+                     const SubstepHits& hits) {
+  return work_on_velocities(members, system.island) + loss_in_turn(system, hits);
+}
+
+// Hits that the free motion leads to: their speed as the solver sees it, with its lever arms and
+// what pulls on the bodies until the end of the substep. Gaps over the substep tell it too, but for
+// what turning adds; a rebound from one that comes out as the other loses energy, or gains some.
+void see_speeds(const IslandMembers& members, const FreeMotions& free, const IslandSystem& system,
+                SubstepHits& hits) {
+  for (Hit& hit : hits.hits) {
+    if (!hit.is_free) continue;
+    const KeptContact& contact = system.contacts[hit.contact];
+    const Vec3 normal = lane_of(system, hit.contact).normal();
+    Vec3 pull = free.substeps[members.at(contact.a)].free_acceleration;
+    if (contact.b >= 0) pull -= free.substeps[members.at(contact.b)].free_acceleration;
+    const Vec3 velocity = relative(system, hit.contact, [&](size_t k) -> const Vec6& {
+      return system.island.free_velocity[k];
+    });
+    hit.fall = normal.dot(pull) * (free.h - hit.time);
+    const double speed = normal.dot(velocity) - hit.fall;
+    const double resting_speed = members.of(contact.a).resting_speed;
+    hit.speed = std::min(speed, -resting_speed);
+    hit.rebound = speed < -resting_speed ? -contact.restitution * speed : 0;
+    hit.target = std::max(0.0, hit.rebound + hit.fall);
+  }
+}
+
 }  // namespace
 
 // Where others press on a pair, it hits and rebounds several times in turn, each time with its
 // restitution.
 void set_targets(const IslandMembers& members, const FreeMotions& free, const IslandSystem& system,
                  SubstepHits& hits, Rebounds& rebounds) {
+  see_speeds(members, free, system, hits);
   sum_hits(members, system, hits, rebounds);
   for (const size_t pair : hits.hit_pairs) {
     double times = 0;
@@ -192,12 +223,15 @@ double correct_hits(const SubstepHits& hits, IslandSystem& system, Rebounds& reb
 
 bool gain_energy(const IslandMembers& members, const IslandSystem& system,
                  const SubstepHits& hits) {
-  return work_on_velocities(members, system.island) > -loss_in_turn(system, hits);
+  return energy_excess(members, system, hits) > 0;
 }
 
-// All at once they lost less than they would in turn. What they then need of their impulses is
-// expected to be what stopped them.
-void forgo_rebound(IslandSystem& system, SubstepHits& hits, Rebounds& rebounds) {
+// What the hits then need of their impulses is expected to be what stopped them.
+double forgo_rebound(const IslandMembers& members, IslandSystem& system, SubstepHits& hits,
+                     Rebounds& rebounds) {
+  const double excess = energy_excess(members, system, hits);
+  rebounds.full_velocity = system.island.velocity;
+  rebounds.full_rows = system.island.rows;
   for (Hit& hit : hits.hits) {
     const RowIn<RowGroup> lane = lane_of(system, hit.contact);
     const double stopped = hit.speed / (hit.speed - hit.target);
@@ -206,6 +240,33 @@ void forgo_rebound(IslandSystem& system, SubstepHits& hits, Rebounds& rebounds) 
     note_change(system, hit.contact);
   }
   rebounds.expected.clear();
+  return excess;
+}
+
+// Between the solutions with the rebound and without it impulses and velocities are blended:
+// momentum, friction cones and contacts that do not approach are kept, and energy is quadratic in
+// the share.
+void blend_rebound(const IslandMembers& members, double excess, const SubstepHits& hits,
+                   const Rebounds& rebounds, IslandSystem& system) {
+  Island& island = system.island;
+  double square = 0;
+  for (size_t k = 0; k < members.size(); ++k) {
+    const Vec6 gained = rebounds.full_velocity[k] - island.velocity[k];
+    square += times_mass(island.mass[k], gained).dot(gained) / 2;
+  }
+  if (square <= 0) return;
+  const double lacking = energy_excess(members, system, hits);
+  const double share = largest_share(square, excess - lacking - square, lacking);
+  for (size_t k = 0; k < members.size(); ++k)
+    island.velocity[k] += share * (rebounds.full_velocity[k] - island.velocity[k]);
+  for (size_t r = 0; r < system.contacts.size(); ++r) {
+    const int number = system.contacts[r].lane;
+    const RowIn<RowGroup> now = lane_of(system, r);
+    const RowIn<const RowGroup> full(rebounds.full_rows[static_cast<size_t>(number / 2)],
+                                     number % 2);
+    now.set_vector(&RowGroup::impulse, now.impulse() + share * (full.impulse() - now.impulse()));
+    if (now.state() == ContactState::open) now.set_state(full.state());
+  }
 }
 
 }  // namespace talus

@@ -98,7 +98,7 @@ void solve(const Scene& scene, const IslandMembers& members, const FreeMotions& 
            Solution& solution);
 
 // --- 8 rebound (island_rebounds.cpp) -----------------------------------------------------------
-/// Fills the targets of the hits.
+/// Fills the speeds of the hits that the free motion leads to, and the targets of all.
 void set_targets(const IslandMembers& members, const FreeMotions& free, const IslandSystem& system,
                  SubstepHits& hits, Rebounds& rebounds);
 /// Moves the rows of the hits by what finite stiffness left of their targets: the largest error, as
@@ -107,8 +107,14 @@ double correct_hits(const SubstepHits& hits, IslandSystem& system, Rebounds& reb
 /// Whether the hits lost less energy than they would in turn.
 [[nodiscard]] bool gain_energy(const IslandMembers& members, const IslandSystem& system,
                                const SubstepHits& hits);
-/// Takes the rebound from the hits.
-void forgo_rebound(IslandSystem& system, SubstepHits& hits, Rebounds& rebounds);
+/// Keeps the solution at hand, in which the hits lose less than they should, and takes their
+/// rebound from them: what they lose too little [J], for blend_rebound().
+[[nodiscard]] double forgo_rebound(const IslandMembers& members, IslandSystem& system,
+                                   SubstepHits& hits, Rebounds& rebounds);
+/// Gives the hits, which are solved without rebound, as much of it as they may have. `excess`: of
+/// forgo_rebound() [J].
+void blend_rebound(const IslandMembers& members, double excess, const SubstepHits& hits,
+                   const Rebounds& rebounds, IslandSystem& system);
 
 /// Stages 6 to 8 until no hit is added and all rebound as they should.
 void solve_with_hits(const Scene& scene, const State& state, const IslandMembers& members,
@@ -140,6 +146,6 @@ void solve_with_hits(const Scene& scene, const State& state, const IslandMembers
 void accept(const Scene& scene, const IslandMembers& members, const FreeMotions& free,
             const IslandSystem& system, const SubstepHits& hits, bool converged,
             const SubstepTries& tries, SubstepEnd& end, State& state,
-            std::vector<Segment>& segments, StepReport& report);
+            std::vector<Segment>& segments, DeepWork& deep, StepReport& report);
 
 }  // namespace talus

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dda/deep_blocks.hpp"
 #include "dda/displacement.hpp"
 #include "dda/newton.hpp"
 #include "dda/rotation.hpp"
@@ -115,8 +116,10 @@ void remember(const BlockNumbers& c, const Substep& s, const Solved<Dof>& solved
     const Contact& contact = work.contacts[static_cast<std::size_t>(row.contact)];
     const Vec3 moved = row.free_move + solved.moved(row.arm, s.h);
     const double overlap = -(row.gap_start + row.normal.dot(moved));
-    note_overlap(report, overlap, c.thickness);
-    if (row.waits || row.state == ContactState::open) continue;
+    if (row.waits) continue;
+    const bool is_open = row.state == ContactState::open;
+    if (!is_open || row.offset > 0) note_overlap(b, overlap, c.thickness, work.deep, report);
+    if (is_open) continue;
     const double p_n = row.normal.dot(row.impulse);
     const Vec3 p_t = row.impulse - p_n * row.normal;
     const double along = row.normal.dot(moved);

@@ -2,7 +2,6 @@
 // What one step reports: its numbers for the health record, and trouble as bits.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -16,7 +15,7 @@ enum class StepFlag : unsigned {
   not_finite = 2,    ///< NaN or infinity: the block was stopped at its last good state
   left_domain = 4,   ///< a block left the known terrain and was stopped
   fell_through = 8,  ///< a block lies wholly below the ground under it
-  deep = 16,         ///< a contact presses with an overlap above a tenth of the block's thickness
+  deep = 16,         ///< a block is in something by more than a tenth of its thickness
 };
 
 [[nodiscard]] inline StepFlag operator|(StepFlag a, StepFlag b) {
@@ -26,7 +25,7 @@ enum class StepFlag : unsigned {
   return (static_cast<unsigned>(flags) & static_cast<unsigned>(flag)) != 0;
 }
 
-/// Overlap from which StepFlag::deep is set, as a share of the block's thickness.
+/// Overlap above which a block is deep (dda/deep_blocks.hpp), as a share of its thickness.
 inline constexpr double deep_share = 0.1;
 
 /// Why a substep is made again.
@@ -52,18 +51,13 @@ struct StepReport {
                       ///< islands of law talus
   int n_impacts = 0;  ///< impact events
   int n_unconverged = 0;  ///< block steps accepted without convergence
-  double largest_penetration =
-      0;                       ///< over all contacts, pressing or not, at the end of the step [m]
+  /// Overlap of contacts that press, or hold one that presses nothing, at the end of the step; of
+  /// those that say that a block is deep: of the bodies (dda/deep_blocks.hpp) [m].
+  double largest_penetration = 0;
   double sum_penetration = 0;  ///< over contacts that press [m]
   /// Substeps of islands of law talus that were made again, by SubstepCut.
   std::array<int, substep_cut_names.size()> cuts{};
   double shortest_dt = 0;  ///< shortest substep; 0 when no block searched contact [s]
 };
-
-/// Takes the overlap of a contact into the report.
-inline void note_overlap(StepReport& report, double overlap, double thickness) {
-  if (overlap > report.largest_penetration) report.largest_penetration = overlap;
-  if (overlap > deep_share * thickness) report.flags = report.flags | StepFlag::deep;
-}
 
 }  // namespace talus

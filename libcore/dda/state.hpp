@@ -45,6 +45,18 @@ struct RunCounters {
   int left_domain = 0;            ///< blocks that left the known terrain
 };
 
+/// What became of a block that was deep in something (dda/deep_blocks.hpp).
+struct DeepBlock {
+  std::int64_t steps = 0;     ///< that ended with it deep
+  double first_time = 0;      ///< end of the first of them [s]
+  double depth = 0;           ///< largest [m]
+  double time = 0;            ///< when that was [s]
+  Vec3 place = Vec3::Zero();  ///< of its centroid then [m]
+  int partner = -1;           ///< in which body then; -1: in the ground
+  bool is_deep = false;       ///< at the end of the last step
+  bool is_too_fast = false;   ///< at some time since, it was faster than its fall can have made it
+};
+
 /// Phases, local times and rest of the blocks are those of BlockLives.
 struct State : BlockLives {  // clang-format off
   double time = 0;                          ///< end of the last step [s]
@@ -59,6 +71,7 @@ struct State : BlockLives {  // clang-format off
   PairState pairs;                          ///< close pairs of blocks and their axes
   PlacedHulls placed;                       ///< where the pairs were searched last
   std::vector<BlockBond> bonds;             ///< sorted by block_a, block_b            (n_bonds)
+  std::vector<DeepBlock> deep;              ///<                                     (n_blocks)
   FenceState fence;                         ///< what the panels of fences have met
   PaperState paper;                         ///< of law paper alone
   EnergyLedger ledger;

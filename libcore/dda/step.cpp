@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "dda/deep_blocks.hpp"
 #include "dda/displacement.hpp"
 #include "dda/fence.hpp"
 #include "dda/flight.hpp"
@@ -57,6 +58,7 @@ State start(const Scene& scene) {
   state.spin_rate.assign(n, Vec3::Zero());
   state.support.assign(n, Vec3::Zero());
   state.memory.resize(n);
+  state.deep.resize(n);
   state.fence = start_fence(scene);
   state.bonds = start_bonds(scene);
   if (scene.settings.strains) {
@@ -91,6 +93,7 @@ Work make_work(const Scene& scene) {
   work.world_vertices.reserve(most_vertices);
   work.near_ground.resize(static_cast<size_t>(n_blocks(scene)));
   for (NearFeatures& near : work.near_ground) near.features.reserve(expected_contacts);
+  work.deep.is_suspect.resize(static_cast<size_t>(n_blocks(scene)));
   work.contacts.reserve(8 * (most_vertices + expected_contacts));
   work.rows.reserve(8 * (most_vertices + expected_contacts));
   work.segments.reserve(8 * static_cast<size_t>(n_blocks(scene)) + 64);
@@ -162,6 +165,7 @@ StepReport step(const Scene& scene, State& state, Work& work) {
   else
     advance_talus(scene, state, work, report);
   state.time += scene.settings.dt;
+  note_deep_blocks(scene, state, work.deep, report);
   ++state.counters.steps;
   state.counters.substeps += report.substeps;
   state.counters.impacts += report.n_impacts;

@@ -88,7 +88,7 @@ void make_substep(const Scene& scene, double t, double h, State& state, Work& wo
     if (verdict.kind == SubstepVerdict::Kind::accept) {
       const StageTimer timer(w.clock, IslandStage::accept);
       accept(scene, w.members, w.free, w.system, w.hits, solution.converged, w.tries, w.end, state,
-             work.segments, report);
+             work.segments, work.deep, report);
       return;
     }
     ++report.cuts[static_cast<size_t>(verdict.reason)];

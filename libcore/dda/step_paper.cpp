@@ -7,6 +7,7 @@
 
 #include "contact/search.hpp"
 #include "dda/bonds.hpp"
+#include "dda/deep_blocks.hpp"
 #include "dda/displacement.hpp"
 #include "dda/flips.hpp"
 #include "dda/loads.hpp"
@@ -317,6 +318,15 @@ struct OpenClose {
     report.passes += passes;
   }
 
+  // The thinner of the two blocks of a contact.
+  [[nodiscard]] int thinner_of(const PaperContact& contact) const {
+    const std::vector<double>& thickness = scene.blocks.shapes.thickness;
+    const int a = members[static_cast<size_t>(contact.a)];
+    if (contact.b < 0) return a;
+    const int b = members[static_cast<size_t>(contact.b)];
+    return thickness[static_cast<size_t>(b)] < thickness[static_cast<size_t>(a)] ? b : a;
+  }
+
   // What a closed contact keeps: a sticking one its spring, a slipping one its direction.
   void remember_contact(size_t r, std::vector<ContactMemory>& memories) {
     const PaperContact& contact = w.contacts[r];
@@ -324,8 +334,10 @@ struct OpenClose {
     if (contact.bond >= 0 && !sticks) state.bonds[static_cast<size_t>(contact.bond)].area = 0;
     const Vec3 path = moved(r);
     const double along = contact.normal.dot(path), overlap = -(contact.gap_start + along);
-    const int block = members[static_cast<size_t>(contact.a)];
-    note_overlap(report, overlap, scene.blocks.shapes.thickness[static_cast<size_t>(block)]);
+    if (contact.state == ContactState::open && contact.offset <= 0) return;
+    const int block = thinner_of(contact);
+    note_overlap(block, overlap, scene.blocks.shapes.thickness[static_cast<size_t>(block)],
+                 work.deep, report);
     if (contact.state == ContactState::open) return;
     ContactMemory memory;
     memory.key = contact.key;

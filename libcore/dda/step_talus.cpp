@@ -5,6 +5,7 @@
 
 #include "contact/past_ridge.hpp"
 #include "contact/search.hpp"
+#include "dda/deep_blocks.hpp"
 #include "dda/flight.hpp"
 #include "dda/impact.hpp"
 #include "dda/lone_substep.hpp"

@@ -8,6 +8,7 @@
 #include "contact/contact.hpp"
 #include "contact/search.hpp"
 #include "dda/contact_row.hpp"
+#include "dda/deep_work.hpp"
 #include "dda/island_data.hpp"
 #include "dda/paper_work.hpp"
 #include "dda/state.hpp"
@@ -38,6 +39,8 @@ struct Work {  // clang-format off
   PairSearch search;
   IslandScratch island;                      ///< at hand
   PaperWork paper;
+  // note_overlap, note_deep_blocks
+  DeepWork deep;
 };  // clang-format on
 
 }  // namespace talus

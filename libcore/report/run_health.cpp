@@ -4,6 +4,7 @@
 
 #include "base/text.hpp"
 #include "report/html.hpp"
+#include "store/deep_rows.hpp"
 
 namespace talus {
 
@@ -61,6 +62,30 @@ std::string counter_table(const std::vector<RunFile>& runs, const std::vector<st
                      "steps of a block accepted unconverged", "largest penetration [m]",
                      "blocks that left the terrain"},
                     rows, {false, false, true, true, true, true, true, true, true});
+}
+
+std::string deep_table(const std::vector<RunFile>& runs, const std::vector<std::string>& names) {
+  std::vector<std::vector<std::string>> rows;
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    for (const DeepRow& deep : runs[i].deep) {
+      const Vec3 at = deep.place + runs[i].info.origin;
+      std::string matters = deep.ends_in_toe != 0 ? "ends in the toe" : "";
+      const auto add = [&matters](int is_so, const char* what) {
+        if (is_so != 0) matters += std::string(matters.empty() ? "" : ", ") + what;
+      };
+      add(deep.met_fence, "met a fence");
+      add(deep.is_too_fast, "too fast for its fall");
+      rows.push_back({xml_escaped(names[i]), std::to_string(deep.block),
+                      xml_escaped(partner_name(deep, runs[i].lines)), text(deep.depth, 3),
+                      text(deep.thickness, 3), std::to_string(deep.steps), text(deep.time, 4),
+                      text(at.x(), 9), text(at.y(), 9), text(at.z(), 6),
+                      text(100 * deep.mass_share, 3), matters});
+    }
+  if (rows.empty()) return "";
+  return html_table({"run", "block", "in", "depth [m]", "thickness [m]", "steps", "deepest at [s]",
+                     "x [m]", "y [m]", "z [m]", "of the mass [%]", "why it matters"},
+                    rows,
+                    {false, true, false, true, true, true, true, true, true, true, true, false});
 }
 
 }  // namespace talus

@@ -33,4 +33,8 @@ void add_limits(const std::vector<RunCheck>& checks, std::vector<LimitOverRuns>&
 [[nodiscard]] std::string counter_table(const std::vector<RunFile>& runs,
                                         const std::vector<std::string>& names);
 
+/// A row a block that was deep in something; empty when there was none. `names`: one a run.
+[[nodiscard]] std::string deep_table(const std::vector<RunFile>& runs,
+                                     const std::vector<std::string>& names);
+
 }  // namespace talus

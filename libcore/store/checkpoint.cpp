@@ -14,11 +14,12 @@ namespace talus {
 // say that a list has to be looked at again.
 
 static_assert(sizeof(Motion) == 112 && sizeof(EnergyLedger) == 48 && sizeof(RunCounters) == 64);
-static_assert(sizeof(ContactMemory) == 136 && sizeof(HealthRow) == 184);
-static_assert(sizeof(State) == 8 + 14 * 24 + sizeof(EnergyLedger) + sizeof(RunCounters) +
+static_assert(sizeof(ContactMemory) == 136 && sizeof(HealthRow) == 176);
+static_assert(sizeof(State) == 8 + 15 * 24 + sizeof(EnergyLedger) + sizeof(RunCounters) +
                                    sizeof(PairState) + sizeof(PlacedHulls) + sizeof(FenceState));
 static_assert(sizeof(FenceState) == 5 * 24 && sizeof(FenceHit) == 104 && sizeof(BlockBond) == 48);
 static_assert(sizeof(PairState) == 272 && sizeof(PlacedHulls) == 192 && sizeof(ListedPair) == 96);
+static_assert(sizeof(DeepBlock) == 64);
 static_assert(sizeof(PairWatch) == 16 && sizeof(HeldPoint) == 24);
 
 template <class Archive>
@@ -48,6 +49,11 @@ void fields(Fields<Archive>& archive, FenceHit& hit) {
 template <class Archive>
 void fields(Fields<Archive>& archive, FenceState& fence) {
   archive(fence.deflection, fence.work, fence.broken_at, fence.broken_by, fence.hits);
+}
+template <class Archive>
+void fields(Fields<Archive>& archive, DeepBlock& deep) {
+  archive(deep.steps, deep.first_time, deep.depth, deep.time, deep.place, deep.partner,
+          deep.is_deep, deep.is_too_fast);
 }
 template <class Archive>
 void fields(Fields<Archive>& archive, RunCounters& counters) {
@@ -99,7 +105,7 @@ void fields(Fields<Archive>& archive, State& state) {
   archive(state.time, state.motion, state.local_time, state.flight_end, state.phase,
           state.acceleration, state.spin_rate, state.support, state.paper.rebound, state.rest_pose,
           state.rest_steps, state.strain, state.strain_rate, state.memory, state.pairs,
-          state.placed, state.bonds, state.fence, state.ledger, state.counters);
+          state.placed, state.bonds, state.deep, state.fence, state.ledger, state.counters);
 }
 template <class Archive>
 void fields(Fields<Archive>& archive, PassageValues& values) {
@@ -126,7 +132,7 @@ void fields(Fields<Archive>& archive, FrameSampler& sampler) {
 template <class Archive>
 void fields(Fields<Archive>& archive, HealthRow& row) {
   archive(row.time, row.shortest_dt, row.steps, row.substeps, row.passes, row.flips, row.impacts,
-          row.unconverged, row.left_domain, row.fell_through, row.not_finite, row.deep,
+          row.unconverged, row.left_domain, row.fell_through, row.not_finite,
           row.largest_penetration, row.translation, row.rotation, row.potential, row.elastic,
           row.friction, row.impact, row.contact, row.base, row.fence, row.removed);
 }
@@ -138,7 +144,7 @@ void fields(Fields<Archive>& archive, Checkpoint& checkpoint) {
 
 namespace {
 
-constexpr std::uint64_t format = 0x35306b6365686374;  // "tcheck05"
+constexpr std::uint64_t format = 0x36306b6365686374;  // "tcheck06"
 constexpr std::size_t digest_length = 64;
 
 std::string digest_of(std::span<const std::uint8_t> bytes) {
@@ -157,7 +163,8 @@ bool fits(const Checkpoint& checkpoint, std::size_t n_blocks, int n_cells) {
   if (!all_are(n_blocks, {state.motion.size(), state.local_time.size(), state.flight_end.size(),
                           state.phase.size(), state.acceleration.size(), state.spin_rate.size(),
                           state.support.size(), state.rest_pose.size(), state.rest_steps.size(),
-                          state.memory.size(), sampler.next.size(), sampler.latest.size()}))
+                          state.memory.size(), state.deep.size(), sampler.next.size(),
+                          sampler.latest.size()}))
     return false;
   if (!checkpoint.trackers.empty() && checkpoint.trackers.size() != n_blocks) return false;
   for (const PassageTracker& tracker : checkpoint.trackers)

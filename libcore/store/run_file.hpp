@@ -68,9 +68,9 @@ struct HealthRow {
   double time = 0;         ///< [s]
   double shortest_dt = 0;  ///< of a step with contact search; 0 when there was none [s]
   std::int64_t steps = 0, substeps = 0, passes = 0, flips = 0, impacts = 0, unconverged = 0;
-  std::int64_t left_domain = 0;  ///< blocks that have left the known terrain
-  std::int64_t fell_through = 0, not_finite = 0, deep = 0;  ///< steps so far with such a block
-  double largest_penetration = 0;                           ///< [m]
+  std::int64_t left_domain = 0;                   ///< blocks that have left the known terrain
+  std::int64_t fell_through = 0, not_finite = 0;  ///< steps so far with such a block
+  double largest_penetration = 0;                 ///< [m]
   double translation = 0, rotation = 0, potential = 0, elastic = 0;   ///< at `time` [J]
   double friction = 0, impact = 0, contact = 0, base = 0, fence = 0;  ///< since the start [J]
   double removed = 0;                                                 ///< since the start [J]
@@ -87,6 +87,24 @@ struct PanelRow {
 };
 [[nodiscard]] std::vector<PanelRow> panel_rows(const FixedBodies& fixed, const FenceState& fence);
 
+/// A block that was in something by more than a tenth of its thickness, and what it may have moved.
+struct DeepRow {
+  /// Values of `partner` below the numbers of blocks.
+  static constexpr std::int32_t ground = -1, fence = -2, fixed_body = -3;
+
+  std::int32_t block = 0;
+  std::int32_t partner = ground;       ///< in which block it was deepest
+  std::int32_t line = -1, panel = -1;  ///< of a fence
+  std::int64_t steps = 0;              ///< that ended with it so deep
+  double first_time = 0, time = 0;     ///< of the first of them; when it was deepest [s]
+  double depth = 0, thickness = 0;     ///< [m]
+  Vec3 place = Vec3::Zero();           ///< of its centroid when it was deepest, local [m]
+  double mass_share = 0;               ///< of the mass of all blocks [-]
+  std::int32_t ends_in_toe = 0;        ///< 1: farther from the top than 95 % of the mass
+  std::int32_t met_fence = 0;          ///< 1: touched a fence, or crossed its line
+  std::int32_t is_too_fast = 0;        ///< 1: was faster than its fall can have made it
+};
+
 /// Everything that a run file holds.
 struct RunFile {
   RunInfo info;
@@ -100,7 +118,8 @@ struct RunFile {
   std::vector<FenceHit> fence_hits;  ///< by time, step by step
   std::vector<PanelRow> panels;      ///< of the fences that stood, by line
   std::vector<HealthRow> health;
-  std::vector<Phase> phase;  ///< at info.time; empty: not known               (n_blocks)
+  std::vector<DeepRow> deep;  ///< by block
+  std::vector<Phase> phase;   ///< at info.time; empty: not known               (n_blocks)
   std::vector<std::uint8_t> checkpoint;  ///< store/checkpoint.hpp; empty when the run is done
 };
 

@@ -333,6 +333,15 @@ void read_fences(const H5Reader& file, const std::string& path, RunFile& run) {
       throw InputError({path, 0, "fence_hits"}, "a row names a block or panel that does not exist");
 }
 
+void read_deep(const H5Reader& file, const std::string& path, RunFile& run) {
+  if (!file.has("deep_blocks")) return;
+  run.deep = read_deep_table(file);
+  for (const DeepRow& row : run.deep)
+    if (row.block < 0 || row.block >= n_blocks(run) || row.partner >= n_blocks(run) ||
+        row.partner < DeepRow::fixed_body)
+      throw InputError({path, 0, "deep_blocks"}, "a row names a block that does not exist");
+}
+
 void write_phases(H5Writer& file, const RunFile& run) {
   std::vector<std::uint8_t> phases;
   for (const Phase phase : run.phase) phases.push_back(static_cast<std::uint8_t>(phase));
@@ -375,7 +384,10 @@ RunFile read_run_file(const std::string& path, const RunParts& parts) {
     read_crossings(file, path, run);
     read_fences(file, path, run);
   }
-  if (parts.health) run.health = read_health_table(file, parts.only_faults);
+  if (parts.health) {
+    run.health = read_health_table(file, parts.only_faults);
+    read_deep(file, path, run);
+  }
   if (parts.checkpoint && file.has("checkpoint"))
     run.checkpoint = file.array<std::uint8_t>("checkpoint", 1);
   return run;
@@ -399,6 +411,7 @@ void write_run_file(const std::string& path, const RunFile& run) {
   write_crossings(file, run);
   write_fences(file, run);
   write_health_table(file, run.health);
+  if (!run.deep.empty()) write_deep_table(file, run.deep);
   if (!run.checkpoint.empty())
     file.array<std::uint8_t>("checkpoint", run.checkpoint, {run.checkpoint.size()}, "1",
                              "state of the solver and the recorder, for talus-dda --resume");

@@ -178,6 +178,55 @@ void panel_columns(Visit&& column) {
 }
 
 template <class Visit>
+void deep_columns(Visit&& column) {
+  column(
+      "block", "1", "index of the block", [](DeepRow & d) -> auto& { return d.block; });
+  column(
+      "partner", "1",
+      "block in which it was deepest; -1: the ground, -2: a fence, -3: a fixed body",
+      [](DeepRow & d) -> auto& { return d.partner; });
+  column(
+      "line", "1", "index of the fence's line; -1: no fence",
+      [](DeepRow & d) -> auto& { return d.line; });
+  column(
+      "panel", "1", "panel of the fence; -1: no fence",
+      [](DeepRow & d) -> auto& { return d.panel; });
+  column(
+      "steps", "1", "steps that ended with it deep", [](DeepRow & d) -> auto& { return d.steps; });
+  column(
+      "first_time_s", "s", "end of the first of them",
+      [](DeepRow & d) -> auto& { return d.first_time; });
+  column(
+      "time_s", "s", "when it was deepest", [](DeepRow & d) -> auto& { return d.time; });
+  column(
+      "depth_m", "m", "largest overlap of the two bodies",
+      [](DeepRow & d) -> auto& { return d.depth; });
+  column(
+      "thickness_m", "m", "of the block", [](DeepRow & d) -> auto& { return d.thickness; });
+  column(
+      "position_x_m", "m", "centroid when it was deepest, local",
+      [](DeepRow & d) -> auto& { return d.place.x(); });
+  column(
+      "position_y_m", "m", "centroid when it was deepest, local",
+      [](DeepRow & d) -> auto& { return d.place.y(); });
+  column(
+      "position_z_m", "m", "centroid when it was deepest, local",
+      [](DeepRow & d) -> auto& { return d.place.z(); });
+  column(
+      "mass_share", "1", "of the mass of all blocks",
+      [](DeepRow & d) -> auto& { return d.mass_share; });
+  column(
+      "ends_in_toe", "1", "1: it ends farther from the top than 95 % of the mass",
+      [](DeepRow & d) -> auto& { return d.ends_in_toe; });
+  column(
+      "met_fence", "1", "1: it touched a fence or crossed its line",
+      [](DeepRow & d) -> auto& { return d.met_fence; });
+  column(
+      "is_too_fast", "1", "1: it was faster than its fall can have made it",
+      [](DeepRow & d) -> auto& { return d.is_too_fast; });
+}
+
+template <class Visit>
 void health_columns(Visit&& column) {
   column(
       "time_s", "s", "end of the interval", [](HealthRow & h) -> auto& { return h.time; });
@@ -210,7 +259,8 @@ void health_columns(Visit&& column) {
       "not_finite", "1", "steps so far in which a block was stopped for want of a finite number",
       [](HealthRow & h) -> auto& { return h.not_finite; });
   column(
-      "largest_penetration_m", "m", "largest overlap of a contact in the interval, pressing or not",
+      "largest_penetration_m", "m",
+      "largest overlap of a contact that presses, or of two bodies, in the interval",
       [](HealthRow & h) -> auto& { return h.largest_penetration; });
   column(
       "translational_energy_j", "J", "kinetic energy of translation, all blocks",
@@ -302,6 +352,12 @@ void write_hit_table(H5Writer& file, const std::vector<FenceHit>& rows) {
               [](auto&& column) { hit_columns(column); });
 }
 
+void write_deep_table(H5Writer& file, const std::vector<DeepRow>& rows) {
+  write_table(file, "deep_blocks",
+              "one row per block that was in something by more than a tenth of its thickness", rows,
+              [](auto&& column) { deep_columns(column); });
+}
+
 void write_health_table(H5Writer& file, const std::vector<HealthRow>& rows) {
   write_table(file, "health", "how the computation went, interval by interval", rows,
               [](auto&& column) { health_columns(column); });
@@ -321,6 +377,10 @@ std::vector<PanelRow> read_panel_table(const H5Reader& file) {
 
 std::vector<FenceHit> read_hit_table(const H5Reader& file) {
   return read_table<FenceHit>(file, "fence_hits", [](auto&& column) { hit_columns(column); });
+}
+
+std::vector<DeepRow> read_deep_table(const H5Reader& file) {
+  return read_table<DeepRow>(file, "deep_blocks", [](auto&& column) { deep_columns(column); });
 }
 
 std::vector<HealthRow> read_health_table(const H5Reader& file, bool only_faults) {

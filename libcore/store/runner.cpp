@@ -5,6 +5,7 @@
 
 #include "dda/step.hpp"
 #include "store/checkpoint.hpp"
+#include "store/deep_rows.hpp"
 
 namespace talus {
 namespace {
@@ -48,7 +49,6 @@ void add_to_interval(HealthRow& row, const StepReport& report) {
   row.unconverged += report.n_unconverged;
   row.fell_through += has(report.flags, StepFlag::fell_through) ? 1 : 0;
   row.not_finite += has(report.flags, StepFlag::not_finite) ? 1 : 0;
-  row.deep += has(report.flags, StepFlag::deep) ? 1 : 0;
   row.largest_penetration = std::max(row.largest_penetration, report.largest_penetration);
   if (report.shortest_dt > 0 && (row.shortest_dt == 0 || report.shortest_dt < row.shortest_dt))
     row.shortest_dt = report.shortest_dt;
@@ -74,7 +74,6 @@ void close_interval(Runner& runner) {
   HealthRow next;
   next.fell_through = row.fell_through;
   next.not_finite = row.not_finite;
-  next.deep = row.deep;
   row = next;
 }
 
@@ -128,11 +127,15 @@ std::vector<HealthCheck> checks_of(const Runner& runner, double penetration, dou
             limits.max_unconverged_share, false),
       check("blocks that left the terrain, share", lost_share(runner), limits.max_lost_share,
             false)};
-  if (std::isnan(limits.max_penetration))
-    checks.push_back(check("steps with a penetration above a tenth of the block's thickness",
-                           static_cast<double>(row.deep), 0, false));
-  else
+  if (!std::isnan(limits.max_penetration)) {
     checks.push_back(check("largest penetration, m", penetration, limits.max_penetration, true));
+    return checks;
+  }
+  const std::vector<DeepRow> deep = deep_rows(runner.scene, runner.state, runner.crossings.rows);
+  checks.push_back(check("mass of blocks in by more than a tenth of their thickness, share",
+                         mass_share(deep), limits.max_deep_share, false));
+  checks.push_back(check("such blocks in the toe, at a fence, or faster than by their fall",
+                         static_cast<double>(n_that_matter(deep)), 0, false));
   return checks;
 }
 
@@ -244,6 +247,7 @@ void update_file(Runner& runner, bool with_checkpoint) {
   file.crossings = sorted(runner.crossings);
   file.fence_hits = runner.state.fence.hits;
   file.panels = panel_rows(runner.scene.fixed, runner.state.fence);
+  file.deep = deep_rows(runner.scene, runner.state, runner.crossings.rows);
   file.info.time = runner.state.time;
   file.phase = runner.state.phase;
   file.checkpoint.clear();

@@ -25,6 +25,7 @@ struct RunLimits {
   double max_energy_gain = 0.01;       ///< mechanical energy gained, share of the fall energy [-]
   double max_lost_share = 0;           ///< blocks that left the terrain, share of all [-]
   double max_unconverged_share = 0.1;  ///< accepted without convergence, share of the steps [-]
+  double max_deep_share = 1e-3;        ///< mass of the blocks that were deep, share of all [-]
 };
 
 struct RunOptions {

@@ -202,4 +202,62 @@ TEST(FindAxis, EdgeCoveredInItsMiddleBearsAtItsEnds) {
   }
 }
 
+// A body of two parts whose undersides rise by `rise` from the seam between them, 0.6 thick, and a
+// ridge with sides that fall by `steep` below it, in by `sunk` and off the seam by `aside`.
+Bodies saddle_on_a_ridge(double rise, double steep, double sunk, double aside) {
+  const int tags[] = {0, 0, 0, 0}, three_tags[] = {0, 0, 0};
+  const Vec2 right[] = {{0, 0}, {3, 3 * rise}, {3, 3 * rise + 0.6}, {0, 0.6}};
+  const Vec2 left[] = {{-3, 3 * rise}, {0, 0}, {0, 0.6}, {-3, 3 * rise + 0.6}};
+  const Vec2 ridge[] = {{-3, -3 * steep}, {3, -3 * steep}, {0, 0}};
+  Bodies bodies;
+  const std::vector<Polyhedron> saddle = {prism(right, tags), prism(left, tags)};
+  add(bodies, saddle, {});
+  add(bodies, prism(ridge, three_tags), {Vec3(aside, 0, sunk), Quat::Identity()});
+  place(bodies);
+  return bodies;
+}
+
+// An edge that stands in a concave seam, or under a flat one, is borne by both parts, however far
+// it is in: neither leaves it to the other.
+TEST(FindAxis, AnEdgeUnderASeamIsBorneByBothParts) {
+  AxisScratch scratch;
+  for (const double rise : {-0.6, -0.1, 0.0})
+    for (const double steep : {2.7, 8.0})
+      for (const double sunk : {1e-5, 1e-3, 0.01, 0.04})
+        for (const double aside : {0.0, 0.05 * sunk}) {
+          const Bodies bodies = saddle_on_a_ridge(rise, steep, sunk, aside);
+          for (const int part : {0, 1}) {
+            const AxisChoice choice =
+                find_axis(bodies.hulls, bodies.placed, part, 2, 1e-3, {}, scratch);
+            const Vec3 up = Vec3(part == 0 ? -rise : rise, 0, 1).normalized();
+            const double depth = up.z() * sunk + up.x() * aside;
+            EXPECT_TRUE(choice.touches) << rise << " " << steep << " " << sunk << " " << part;
+            EXPECT_NEAR(choice.separation, -depth, 1e-9) << rise << " " << steep << " " << part;
+            EXPECT_GT(choice.normal.dot(up), 1 - 1e-12) << rise << " " << steep << " " << part;
+          }
+        }
+}
+
+// A plate on the convex edge of a seam, tipped to one side: that side's part bears it.
+TEST(FindAxis, APlateOnAConvexSeamIsNotDeepInThePartBehindIt) {
+  AxisScratch scratch;
+  const double rise = 0.5;
+  const int tags[] = {0, 0, 0, 0};
+  const Vec2 right[] = {{0, 0}, {0, -3}, {3, -3}, {3, -3 * rise}};
+  const Vec2 left[] = {{0, 0}, {-3, -3 * rise}, {-3, -3}, {0, -3}};
+  for (const double tipped : {0.0, 0.2, 1.0}) {
+    Bodies bodies;
+    const std::vector<Polyhedron> roof = {prism(right, tags), prism(left, tags)};
+    add(bodies, roof, {});
+    const double angle = -tipped * std::atan(rise);
+    const Mat3 turn = Eigen::AngleAxisd(angle, Vec3::UnitY()).toRotationMatrix();
+    add(bodies, box(Vec3(-2, -0.9, 0), Vec3(2, 0.9, 0.5)), {Vec3(0, 0, -1e-4), Quat(turn)});
+    place(bodies);
+    for (const int part : {0, 1}) {
+      const AxisChoice choice = find_axis(bodies.hulls, bodies.placed, part, 2, 1e-3, {}, scratch);
+      EXPECT_TRUE(!choice.touches || choice.separation > -2e-4) << tipped << " " << part;
+    }
+  }
+}
+
 }  // namespace

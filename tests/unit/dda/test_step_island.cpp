@@ -684,4 +684,63 @@ TEST(StepIsland, WhatDeepensADeepHitWithTheGroundIsPressedOut) {
 
 TEST(StepIsland, LargeBlockRestsOnSmallOnes) { EXPECT_LT(large_on_small({}).error, 1e-3); }
 
+// A roof of two slabs that hangs on the edge of a wedge, and a plate of two halves that balances on
+// one: what lies on both parts is borne, not let in where they meet.
+Body on_an_edge(double rise) {
+  const auto half = [rise](double side) {
+    Mat3 slope = Mat3::Identity();
+    slope(2, 0) = side * rise;
+    Polyhedron part =
+        box(Vec3(std::min(0.0, 3 * side), -0.5, 0), Vec3(std::max(0.0, 3 * side), 0.5, 0.6));
+    for (Vec3& vertex : part.vertices) vertex = slope * vertex + 10 * Vec3::UnitZ();
+    return part;
+  };
+  Body body;
+  body.parts = {half(1), half(-1)};
+  return body;
+}
+
+TEST(StepIsland, ABodyOfTwoPartsIsBorneByAnEdgeUnderItsSeam) {
+  const Polyhedron wedge =
+      polyhedron({{-4, -2, 0}, {4, -2, 0}, {0, -2, 10}, {-4, 2, 0}, {4, 2, 0}, {0, 2, 10}},
+                 {{0, 1, 2}, {5, 4, 3}, {1, 0, 3, 4}, {2, 1, 4, 5}, {0, 2, 5, 3}});
+  for (const double rise : {-0.6, 0.0}) {
+    const std::vector<Body> bodies = {body_of(wedge), on_an_edge(rise)};
+    const Scene scene = scene_of(plane_trn(slope_frame(0, 0), 5, 50), rough(50), bodies, {});
+    State state = start(scene);
+    const Vec3 before = state.motion[1].pose.position;
+    run(scene, 3, state);
+    EXPECT_LT(before.z() - state.motion[1].pose.position.z(), 1e-3) << rise;
+    EXPECT_LT(std::abs(state.motion[1].pose.position.x()), 1e-3) << rise;
+  }
+}
+
+// Boxes that meet while they turn, several of their corners at about the same time: without
+// friction and with all their restitution they keep their energy, each pair by itself.
+TEST(StepIsland, TurningBoxesThatReboundInFullKeepTheirEnergy) {
+  Random random(40, "elastic");
+  const auto turned = [&random](const Vec3& place, const Vec3& velocity) {
+    const auto number = [&random](double low, double high) { return random.uniform(low, high); };
+    const Vec3 half(number(0.25, 0.9), number(0.25, 0.9), number(0.25, 0.9));
+    const Vec3 axis = Vec3(random.normal(), random.normal(), random.normal()).normalized();
+    const Mat3 turn = Eigen::AngleAxisd(number(0, 3), axis).toRotationMatrix();
+    const Vec3 spin(number(-4, 4), number(-4, 4), number(-4, 4));
+    return body_of(moved(box(-half, half), turn, Vec3::Zero(), place), velocity, spin);
+  };
+  int n_hit = 0;
+  for (int i = 0; i < 100; ++i) {
+    const Vec3 aside(random.uniform(-0.4, 0.4), random.uniform(-0.4, 0.4), 4);
+    const std::vector<Body> bodies = {turned(Vec3(0, 0, 50), Vec3::Zero()),
+                                      turned(Vec3(0, 0, 50) + aside, Vec3(0, 0, -6))};
+    Scene scene = scene_of(plane_trn(slope_frame(0, 0), 5, 50), rough(0, 1), bodies, {});
+    scene.gravity.setZero();
+    State state = start(scene);
+    const double before = kinetic(scene, state);
+    run(scene, 1.5, state);
+    n_hit += state.counters.impacts > 0;
+    EXPECT_NEAR(kinetic(scene, state), before, 0.01 * before) << i;
+  }
+  EXPECT_GT(n_hit, 80);
+}
+
 }  // namespace

@@ -36,3 +36,19 @@ TEST(RunHealth, CountersAreThoseOfTheWholeRun) {
   EXPECT_NE(table.find("<td>CASE_1</td>"), std::string::npos);
   EXPECT_NE(table.find("<td class=\"n\">300</td><td class=\"n\">0.001</td>"), std::string::npos);
 }
+
+TEST(RunHealth, BlocksThatWereDeepAreNamedWithTheirPlaceOnTheMap) {
+  std::vector<RunFile> runs(2);
+  EXPECT_EQ(deep_table(runs, {"1", "2"}), "");
+  runs[1].info.origin = {500000, 5000000, 0};
+  DeepRow row;
+  row.block = 43;
+  row.depth = 0.185;
+  row.place = {12.5, 7, 900};
+  row.met_fence = 1;
+  runs[1].deep = {row};
+  const std::string table = deep_table(runs, {"1", "2"});
+  EXPECT_NE(table.find("<td>the ground</td><td class=\"n\">0.185</td>"), std::string::npos);
+  EXPECT_NE(table.find("500012.5"), std::string::npos);
+  EXPECT_NE(table.find("met a fence"), std::string::npos);
+}

@@ -192,6 +192,32 @@ TEST(RunFile, HoldsARunWithoutRows) {
   EXPECT_EQ(n_blocks(back), 2);
 }
 
+// Runs without blocks that were deep have no such table, as older ones.
+TEST(RunFile, KeepsTheBlocksThatWereDeep) {
+  const TemporaryFile file("deep.h5");
+  RunFile run = sample(2, 3);
+  talus::write_run_file(file.path, run);
+  EXPECT_TRUE(talus::read_run_file(file.path).deep.empty());
+  talus::DeepRow row;
+  row.block = 1;
+  row.partner = 0;
+  row.steps = 12;
+  row.depth = 0.17;
+  row.place = {1, 2, 3};
+  row.ends_in_toe = 1;
+  run.deep = {row};
+  talus::write_run_file(file.path, run);
+  const RunFile back = talus::read_run_file(file.path);
+  ASSERT_EQ(back.deep.size(), 1u);
+  EXPECT_EQ(back.deep[0].partner, 0);
+  EXPECT_EQ(back.deep[0].steps, 12);
+  EXPECT_EQ(back.deep[0].place, talus::Vec3(1, 2, 3));
+  EXPECT_EQ(back.deep[0].ends_in_toe, 1);
+  run.deep[0].block = 2;
+  talus::write_run_file(file.path, run);
+  EXPECT_THROW(talus::read_run_file(file.path), talus::InputError);
+}
+
 TEST(RunFile, OfEqualContentHasEqualBytes) {
   const TemporaryFile one("one.h5"), other("other.h5");
   talus::write_run_file(one.path, sample(200, 5000));
@@ -282,6 +308,9 @@ talus::Checkpoint sample_checkpoint() {
   state.support = {Vec3(1, 2, 3), Vec3(4, 5, 6)};
   state.rest_pose.resize(2);
   state.rest_steps = {0, 7};
+  state.deep.resize(2);
+  state.deep[1].steps = 12;
+  state.deep[1].depth = 0.17;
   state.memory.resize(2);
   state.memory[1].resize(3);
   state.memory[1][2].key.feature_a = 42;
@@ -305,6 +334,8 @@ TEST(Checkpoint, ReadsBackToTheBit) {
   EXPECT_EQ(back.state.memory[1][2].normal_force, 1e-300);
   EXPECT_EQ(back.state.support[1], Vec3(4, 5, 6));
   EXPECT_EQ(back.state.counters.impacts, 99);
+  EXPECT_EQ(back.state.deep[1].steps, 12);
+  EXPECT_EQ(back.state.deep[1].depth, 0.17);
   EXPECT_EQ(back.trackers[0].covered, (std::vector<int>{5, 6, 7}));
   EXPECT_EQ(back.interval.passes, 1234);
   EXPECT_EQ(back.sampler.open.size(), 1u);
