@@ -8,6 +8,7 @@
 #include "base/text.hpp"
 #include "blocks/least_size.hpp"
 #include "blocks/part_faces.hpp"
+#include "blocks/placed_bodies.hpp"
 #include "blocks/placement.hpp"
 #include "blocks/shapes.hpp"
 #include "blocks/solid.hpp"
@@ -33,25 +34,24 @@ Vec3 vector_of(const std::vector<double>& values) {
 // --- bodies ------------------------------------------------------------------------------------
 
 Polyhedron shape_of(const PlacedContext& context, const PlacedSettings& section, Random& random) {
-  Vec3 size = Vec3::Ones();
+  const ShapeKind& kind = shape_kind(section.shape);
+  ShapeSize size;
+  size.n_sides = static_cast<int>(section.n_sides);
+  size.n_points = static_cast<int>(section.n_points);
   const std::vector<double>& given = section.size_m;
+  const auto wanted = static_cast<std::size_t>(kind.n_extents);
   if (given.empty() && std::isnan(section.volume_m3))
     throw InputError(where_of_section(context, section), "neither size_m nor volume_m3 is given",
                      "give the extents of the shape, or its volume");
-  const size_t wanted = section.shape == "prism" ? 2 : 3;
   if (given.size() == 1)
-    size = Vec3::Constant(given[0]);
+    size.extents = Vec3::Constant(given[0]);
   else if (given.size() == wanted)
-    for (size_t k = 0; k < wanted; ++k) size[static_cast<Eigen::Index>(k)] = given[k];
+    for (std::size_t k = 0; k < wanted; ++k) size.extents[static_cast<Eigen::Index>(k)] = given[k];
   else if (!given.empty())
     throw InputError(where_of(context.site, "blocks." + section.name + ".size_m"),
                      "size_m has " + std::to_string(given.size()) + " numbers, expected 1 or " +
                          std::to_string(wanted) + " for a " + section.shape);
-  Polyhedron body;
-  if (section.shape == "box") body = box(-size / 2, size / 2, face_terrain);
-  if (section.shape == "prism") body = prism(static_cast<int>(section.n_sides), size.x(), size.y());
-  if (section.shape == "eota") body = eota(size);
-  if (section.shape == "rock") body = rock(size, static_cast<int>(section.n_points), random);
+  Polyhedron body = kind.make(size, random);
   if (n_faces(body) == 0 || check_surface(body).fault != SurfaceFault::none)
     throw InputError(where_of_section(context, section), "the " + section.shape + " has no volume",
                      "choose a larger size, or more points");
@@ -65,63 +65,21 @@ Polyhedron shape_of(const PlacedContext& context, const PlacedSettings& section,
   return body;
 }
 
-double volume_of(const Body& body) {
-  double sum = 0;
-  for (const Polyhedron& part : body.parts) sum += moments(part).volume;
-  return sum;
-}
-
-bool is_inside(const Vec3& point, const Polyhedron& convex) {
-  for (int f = 0; f < n_faces(convex); ++f)
-    if (face_normal(convex, f).dot(point - convex.vertices[face(convex, f)[0]]) > 0) return false;
-  return true;
-}
-
-struct Box {
-  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
-};
-Box box_of(const Body& body) {
-  Box box;
-  for (const Polyhedron& part : body.parts)
-    for (const Vec3& v : part.vertices)
-      box.low = box.low.cwiseMin(v), box.high = box.high.cwiseMax(v);
-  return box;
-}
-
 // Bodies of a file that stand in each other: an inside-out one in another is a cavity, which bodies
 // cannot have; the rest is a warning.
 void check_apart(const PlacedContext& context, const std::string& path,
                  const std::vector<Body>& bodies, const std::vector<std::string>& names,
                  const std::vector<bool>& were_turned) {
-  std::vector<Box> boxes;
-  for (const Body& body : bodies) boxes.push_back(box_of(body));
-  int n_overlapping = 0;
-  double largest = 0;  // share of the smaller body
-  std::string worst;
-  for (size_t a = 0; a < bodies.size(); ++a)
-    for (size_t b = 0; b < bodies.size(); ++b) {
-      if (a == b || (boxes[a].low.array() >= boxes[b].high.array()).any() ||
-          (boxes[b].low.array() >= boxes[a].high.array()).any())
-        continue;
-      double shared = 0;
-      for (const Polyhedron& part : bodies[a].parts)
-        for (const Polyhedron& other : bodies[b].parts) {
-          if (were_turned[a] && is_inside(part.vertices[0], other))
-            throw InputError({path, 0, names[a]},
-                             "is inside-out and stands in " + names[b] + ": a cavity",
-                             "bodies are solid: remove the inner surface");
-          if (a < b) shared += common_volume(part, other);
-        }
-      // Faces that touch share what rounding of their coordinates leaves.
-      const double share = shared / std::min(volume_of(bodies[a]), volume_of(bodies[b]));
-      if (share <= 1e-6) continue;
-      ++n_overlapping;
-      if (share > largest) largest = share, worst = names[a] + " and " + names[b];
-    }
-  if (n_overlapping > 0)
-    context.tool.warn(path + ": " + std::to_string(n_overlapping) +
-                      " pairs of bodies overlap, most of all " + worst + ": " +
-                      text(100 * largest, 3) + " % of the smaller one");
+  const BodyOverlaps found = find_overlaps(bodies, were_turned);
+  if (found.cavity)
+    throw InputError({path, 0, names[(*found.cavity)[0]]},
+                     "is inside-out and stands in " + names[(*found.cavity)[1]] + ": a cavity",
+                     "bodies are solid: remove the inner surface");
+  if (found.n > 0)
+    context.tool.warn(path + ": " + std::to_string(found.n) +
+                      " pairs of bodies overlap, most of all " + names[found.worst[0]] + " and " +
+                      names[found.worst[1]] + ": " + text(100 * found.largest_share, 3) +
+                      " % of the smaller one");
 }
 
 // The bodies of a mesh file, as they stand in it.
@@ -161,29 +119,6 @@ std::vector<Body> mesh_bodies(const PlacedContext& context, const PlacedSettings
     if (were_turned[b])
       context.tool.warn(path + ": " + names[b] + " was inside-out and has been turned");
   return bodies;
-}
-
-// Centre of mass of all bodies together to the origin.
-void centre(std::vector<Body>& bodies) {
-  Moments sum;
-  bool is_first = true;
-  for (const Body& body : bodies)
-    for (const Polyhedron& part : body.parts) {
-      sum = is_first ? moments(part) : joined(sum, moments(part));
-      is_first = false;
-    }
-  for (Body& body : bodies) move_by(body, -sum.centroid);
-}
-
-void scale_to_volume(std::vector<Body>& bodies, double volume) {
-  double sum = 0;
-  for (const Body& body : bodies) sum += volume_of(body);
-  const double factor = std::cbrt(volume / sum);
-  for (Body& body : bodies) {
-    for (Polyhedron& part : body.parts)
-      for (Vec3& v : part.vertices) v *= factor;
-    for (Vec3& v : body.shell.vertices) v *= factor;
-  }
 }
 
 // `n_places` release points, before they are made.
@@ -257,85 +192,60 @@ std::vector<Vec3> positions_of(const PlacedContext& context, const PlacedSetting
 // Turned, moved to the place and, unless its height is given, set on the ground.
 void put(const PlacedContext& context, const PlacedSettings& section, const Mat3& turn,
          const Vec3& position, std::vector<Body>& bodies) {
-  const double z0 = elevation_at(context.ground, position.x(), position.y());
   const Vec3 place = position + context.ground.origin;
-  const auto off_ground = [&] {
-    return InputError(where_of_section(context, section),
-                      "a body at (" + text(place.x(), 10) + ", " + text(place.y(), 10) +
-                          ") does not lie over known ground",
-                      "move it, or make the terrain larger");
-  };
-  if (std::isnan(z0)) throw off_ground();
-  const bool by_height = !std::isnan(section.height_above_ground_m) || std::isnan(position.z());
-  const Vec3 at(position.x(), position.y(), by_height ? z0 : position.z());
-  double gap = std::numeric_limits<double>::infinity();
+  const std::string words = "a body at (" + text(place.x(), 10) + ", " + text(place.y(), 10) + ")";
+  const double depth =
+      put_on_ground(bodies, context.ground, {turn, position, section.height_above_ground_m});
+  if (std::isnan(depth))
+    throw InputError(where_of_section(context, section), words + " does not lie over known ground",
+                     "move it, or make the terrain larger");
+  if (depth > 0)
+    context.tool.warn("blocks." + section.name + ": " + words + " reaches " + text(depth, 3) +
+                      " m into the ground");
+}
+
+// Bodies of a mesh as they stand in it, in map coordinates.
+std::vector<Body> bodies_in_place(const PlacedContext& context, const PlacedSettings& section) {
+  if (section.file.empty())
+    throw InputError(where_of_section(context, section), "in_place needs a mesh file");
+  std::vector<Body> bodies = mesh_bodies(context, section);
+  int n_below = 0;
+  for (const Body& body : bodies) {
+    if (std::isnan(clearance(body, context.ground)))
+      throw InputError(where_of_section(context, section),
+                       "the mesh does not lie over known ground",
+                       "in_place takes map coordinates; without it, give position_m");
+    n_below += is_below(body, context.ground);
+  }
+  if (n_below > 0)
+    context.tool.warn("blocks." + section.name + ": " + std::to_string(n_below) +
+                      " bodies lie wholly below the ground: check the datum of their heights, "
+                      "or give the terrain lowered to their bed");
+  return bodies;
+}
+
+// What stands at each place, about its centre of mass; empty for a shape, of which each is new.
+std::vector<Body> bodies_to_copy(const PlacedContext& context, const PlacedSettings& section) {
+  if (section.file.empty()) return {};
+  std::vector<Body> meshes = mesh_bodies(context, section);
+  centre(meshes);
+  if (!std::isnan(section.volume_m3)) scale_to_volume(meshes, section.volume_m3);
+  return meshes;
+}
+
+void add_bodies(const PlacedContext& context, const PlacedSettings& section,
+                std::vector<Body> bodies, BlockSet& set) {
   for (Body& body : bodies) {
-    rotate(body, turn);
-    move_by(body, at);
-    const double own = clearance(body, context.ground);
-    if (std::isnan(own)) throw off_ground();
-    gap = std::min(gap, own);
-  }
-  if (by_height) {
-    const double height =
-        std::isnan(section.height_above_ground_m) ? 0 : section.height_above_ground_m;
-    for (Body& body : bodies) move_by(body, {0, 0, height - gap});
-  } else if (gap < 0) {
-    context.tool.warn("blocks." + section.name + ": a body at (" + text(place.x(), 10) + ", " +
-                      text(place.y(), 10) + ") reaches " + text(-gap, 3) + " m into the ground");
+    body.material = material_index(context.site, section.material);
+    body.velocity = vector_of(section.velocity_m_s);
+    body.spin = vector_of(section.spin_rad_s);
+    add_body(set, body);
   }
 }
 
-bool is_below(const Body& body, const Trn& ground) {
-  for (const Polyhedron& part : body.parts)
-    for (const Vec3& v : part.vertices)
-      if (!(v.z() < elevation_at(ground, v.x(), v.y()))) return false;
-  return true;
-}
-
-void add_section(const PlacedContext& context, const PlacedSettings& section, BlockSet& set) {
-  if (section.file.empty() == section.shape.empty())
-    throw InputError(
-        where_of_section(context, section),
-        section.file.empty() ? "neither file nor shape is given" : "both file and shape are given",
-        "a body is one or the other");
+void add_copies(const PlacedContext& context, const PlacedSettings& section,
+                const std::vector<Body>& meshes, BlockSet& set) {
   Random random(static_cast<std::uint64_t>(section.seed), "blocks " + section.name);
-  std::vector<Body> meshes;
-  if (!section.file.empty()) meshes = mesh_bodies(context, section);
-  const auto add = [&](std::vector<Body>& bodies) {
-    for (Body& body : bodies) {
-      body.material = material_index(context.site, section.material);
-      body.velocity = vector_of(section.velocity_m_s);
-      body.spin = vector_of(section.spin_rad_s);
-      add_body(set, body);
-    }
-  };
-  if (section.in_place) {
-    if (section.file.empty())
-      throw InputError(where_of_section(context, section), "in_place needs a mesh file");
-    int n_below = 0;
-    for (const Body& body : meshes) {
-      if (std::isnan(clearance(body, context.ground)))
-        throw InputError(where_of_section(context, section),
-                         "the mesh does not lie over known ground",
-                         "in_place takes map coordinates; without it, give position_m");
-      n_below += is_below(body, context.ground);
-    }
-    if (n_below > 0)
-      context.tool.warn("blocks." + section.name + ": " + std::to_string(n_below) +
-                        " bodies lie wholly below the ground: check the datum of their heights, "
-                        "or give the terrain lowered to their bed");
-    add(meshes);
-    return;
-  }
-  if (!meshes.empty()) {
-    centre(meshes);
-    if (!std::isnan(section.volume_m3)) scale_to_volume(meshes, section.volume_m3);
-  }
-  if (section.n_per_point > 1)
-    context.tool.warn("blocks." + section.name + ": " + std::to_string(section.n_per_point) +
-                      " bodies at each release point overlap: move them alone (talus-dda "
-                      "--independent), or set n_per_point to 1");
   const Mat3 fixed =
       rotation(section.yaw_deg * degree, section.pitch_deg * degree, section.roll_deg * degree);
   const std::vector<Vec3> positions = positions_of(context, section);
@@ -351,8 +261,26 @@ void add_section(const PlacedContext& context, const PlacedSettings& section, Bl
       }
       const Mat3 turn = section.random_orientation ? random_rotation(random) : fixed;
       put(context, section, turn, position, bodies);
-      add(bodies);
+      add_bodies(context, section, std::move(bodies), set);
     }
+}
+
+void add_section(const PlacedContext& context, const PlacedSettings& section, BlockSet& set) {
+  if (section.file.empty() == section.shape.empty())
+    throw InputError(
+        where_of_section(context, section),
+        section.file.empty() ? "neither file nor shape is given" : "both file and shape are given",
+        "a body is one or the other");
+  if (section.in_place) {
+    add_bodies(context, section, bodies_in_place(context, section), set);
+    return;
+  }
+  const std::vector<Body> meshes = bodies_to_copy(context, section);
+  if (section.n_per_point > 1)
+    context.tool.warn("blocks." + section.name + ": " + std::to_string(section.n_per_point) +
+                      " bodies at each release point overlap: move them alone (talus-dda "
+                      "--independent), or set n_per_point to 1");
+  add_copies(context, section, meshes, set);
 }
 
 }  // namespace

@@ -25,14 +25,6 @@ constexpr double depth_tolerance = 1e-3;
 
 // --- blocks ------------------------------------------------------------------------------------
 
-void move_to_origin(BlockSet& blocks, const Vec3& origin) {
-  const Vec3 shift = blocks.origin - origin;
-  for (Vec3& vertex : blocks.vertices) vertex += shift;
-  for (Vec3& centroid : blocks.centroid) centroid += shift;
-  for (Vec3& point : blocks.pair_point) point += shift;
-  blocks.origin = origin;
-}
-
 void check_crs(const BlockSet& blocks, const Trn& trn, const DdaFiles& files) {
   if (blocks.crs_wkt.empty() || trn.crs_wkt.empty()) return;
   if (same_crs(blocks.crs_wkt, trn.crs_wkt) && same_heights(blocks.crs_wkt, trn.crs_wkt)) return;
@@ -117,7 +109,7 @@ BlockSet read_checked_blocks(Tool& tool, const Trn& trn, const std::string& dige
 
 void add_lines(Tool& tool, const Site& site, const FenceSettings& fence, DdaInputs& inputs,
                std::vector<FenceLine>& known) {
-  const Where where{site.file, fence.line_number, "fence." + fence.name};
+  const Where where = where_of_fence(site.file, fence);
   for (RecordLine& line : fence_lines(tool, site, inputs.parts.trn, fence)) {
     known.push_back({&fence, line});
     line.standing = fence.active && site.solver.law == "talus";
@@ -133,8 +125,7 @@ std::string panel_name(const DdaInputs& inputs, int panel) {
   for (const StandingFence& fence : inputs.parts.fences) {
     const int n = static_cast<int>(fence.posts.size()) - 1;
     if (panel < n)
-      return "panel " + std::to_string(panel) + " of fence " +
-             inputs.lines[static_cast<std::size_t>(fence.line)].name;
+      return "panel " + std::to_string(panel) + " of fence " + inputs.lines[fence.line].name;
     panel -= n;
   }
   return "a fence";
@@ -223,6 +214,7 @@ DdaInputs read_dda_inputs(Tool& tool, const Site& site, const DdaFiles& files) {
   inputs.origin = parts.trn.origin;
   inputs.trn_sha256 = sha256_of_file(files.trn);
   inputs.trn_digest = trn_digest(parts.trn);
+  tool.content_read("trn", inputs.trn_digest);
   parts.base = base_motion(site, site.solver.duration_s);
   if (!site.base_motion.file.empty())
     tool.read_also("base_motion", resolved(site, site.base_motion.file));

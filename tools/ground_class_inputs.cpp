@@ -1,10 +1,9 @@
 #include "ground_class_inputs.hpp"
 
-#include <cmath>
 #include <map>
 #include <string>
 
-#include "base/text.hpp"
+#include "base/sha256.hpp"
 #include "io/areas_gdal.hpp"
 #include "io/class_raster_gdal.hpp"
 #include "scene/ground_classes.hpp"
@@ -26,7 +25,7 @@ void check_corners(const std::vector<Vec3>& corners, const Where& where) {
 // one after the other, so that a place in both is in the section.
 void add_ground_areas(Tool& tool, const Site& site, const Trn& trn, int index,
                       std::vector<GroundArea>& areas) {
-  const GroundSettings& ground = site.grounds[static_cast<std::size_t>(index)];
+  const GroundSettings& ground = site.grounds[index];
   const std::string section = "ground." + ground.name;
   const auto add = [&](const Rings& rings) {
     areas.push_back({index, {}});
@@ -51,67 +50,26 @@ void add_ground_areas(Tool& tool, const Site& site, const Trn& trn, int index,
   add(found.shapes);
 }
 
-bool has_area(const GroundSettings& ground) {
-  return !ground.polygon.empty() || !ground.polygon_file.empty();
-}
-
-// The section that says neither where by a polygon nor by values of the raster.
-int ground_elsewhere(const Site& site) {
-  int elsewhere = -1;
-  for (std::size_t i = 0; i < site.grounds.size(); ++i) {
-    const GroundSettings& ground = site.grounds[i];
-    if (has_area(ground) || !ground.raster_values.empty()) continue;
-    if (elsewhere >= 0)
-      throw InputError({site.file, ground.line},
-                       "[ground." + ground.name + "] has no polygon, and neither has [ground." +
-                           site.grounds[static_cast<std::size_t>(elsewhere)].name + "]",
-                       "one section holds elsewhere, the others need a polygon or raster_values");
-    elsewhere = static_cast<int>(i);
-  }
-  return elsewhere;
-}
-
-// Which class a value of the raster stands for.
-std::map<std::int32_t, int> classes_of_values(const Site& site) {
-  std::map<std::int32_t, int> class_of;
-  for (std::size_t i = 0; i < site.grounds.size(); ++i) {
-    const GroundSettings& ground = site.grounds[i];
-    const Where where = where_of(site, "ground." + ground.name + ".raster_values");
-    if (!ground.raster_values.empty() && site.terrain.ground_raster.empty())
-      throw InputError(where, "raster_values stand here, and there is no raster",
-                       "name it: [terrain] ground_raster");
-    for (const double value : ground.raster_values) {
-      if (value != std::floor(value) || std::abs(value) > 2e9)
-        throw InputError(where, "raster_values holds " + text(value) + ", expected whole numbers");
-      if (!class_of.emplace(static_cast<std::int32_t>(value), static_cast<int>(i)).second)
-        throw InputError(where, "the raster's value " + text(value) + " stands for two grounds");
-    }
-  }
-  return class_of;
+std::string digest_of(const std::vector<std::int32_t>& values) {
+  Sha256 hash;
+  hash.add(values.data(), values.size() * sizeof values[0]);
+  return hash.hex();
 }
 
 // Classes of the cells by the raster; where it is unknown, and without a raster, `elsewhere`.
 std::vector<std::uint8_t> raster_classes(Tool& tool, const Site& site, const Trn& trn,
                                          int elsewhere) {
   const std::map<std::int32_t, int> class_of = classes_of_values(site);
-  const auto n_cells =
-      static_cast<std::size_t>(trn.n_rows - 1) * static_cast<std::size_t>(trn.n_cols - 1);
-  std::vector<std::uint8_t> classes(n_cells, static_cast<std::uint8_t>(elsewhere));
-  if (site.terrain.ground_raster.empty()) return classes;
+  if (site.terrain.ground_raster.empty()) {
+    const auto n_cells =
+        static_cast<std::size_t>(trn.n_rows - 1) * static_cast<std::size_t>(trn.n_cols - 1);
+    return std::vector<std::uint8_t>(n_cells, static_cast<std::uint8_t>(elsewhere));
+  }
   const std::string path = resolved(site, site.terrain.ground_raster);
   tool.read_also("ground_raster", path);
   const std::vector<std::int32_t> values = read_cell_classes(path, trn);
-  for (std::size_t cell = 0; cell < n_cells; ++cell) {
-    if (values[cell] == no_class) continue;
-    const auto found = class_of.find(values[cell]);
-    if (found == class_of.end())
-      throw InputError({path},
-                       "holds the value " + std::to_string(values[cell]) +
-                           " below the terrain, which no [ground.*] names",
-                       "add it to raster_values of a section [ground.*]");
-    classes[cell] = static_cast<std::uint8_t>(found->second);
-  }
-  return classes;
+  tool.content_read("ground_raster", digest_of(values));
+  return classes_of_cells(values, class_of, elsewhere, path);
 }
 
 }  // namespace
@@ -122,15 +80,9 @@ std::vector<std::uint8_t> ground_classes(Tool& tool, const Site& site, const Trn
   if (n > 255)
     throw InputError({site.file}, std::to_string(n) + " sections [ground.*], expected up to 255");
   const int elsewhere = ground_elsewhere(site);
-  if (elsewhere < 0)
-    throw InputError({site.file},
-                     "no section [ground.*] holds outside the polygons and where the raster says "
-                     "nothing",
-                     "add one without polygon and raster_values");
   std::vector<GroundArea> areas;
   for (int i = 0; i < n; ++i)
-    if (has_area(site.grounds[static_cast<std::size_t>(i)]))
-      add_ground_areas(tool, site, trn, i, areas);
+    if (has_area(site.grounds[i])) add_ground_areas(tool, site, trn, i, areas);
   std::vector<std::uint8_t> classes = raster_classes(tool, site, trn, elsewhere);
   paint_areas(trn, areas, classes);
   return classes;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "post/run_set.hpp"
+#include "report/map_figures.hpp"
 #include "report/run_health.hpp"
 #include "scene/site.hpp"
 #include "store/run_file.hpp"
@@ -15,10 +16,6 @@
 #include "tool.hpp"
 
 namespace talus {
-
-struct MapPicture {
-  std::string name, png, qml;  ///< of maps/NAME.*; qml may be empty
-};
 
 /// Everything that the sections show; JSON is null and text empty where a file is missing.
 struct ReportData {

@@ -47,15 +47,17 @@ void begin_record(const std::string& tool, const std::string& command_line, RunR
   record.started = utc_now();
 }
 
-std::string content_id(const RunRecord& record) {
+std::string content_id(const RunRecord& record, const RunIdParts& parts) {
   Sha256 hash;
   const auto add = [&hash](const std::string& word) { hash.add(word.c_str(), word.size() + 1); };
   add(record.tool);
   add(record.version);
-  for (const RunParam& param : record.params) add(param.key), add(param.value);
+  for (const RunParam& param : record.params)
+    if (!parts.left_out.contains(param.key)) add(param.key), add(param.value);
   // Results do not depend on the order in which several inputs of one option are named.
-  std::vector<std::pair<std::string, std::string>> contents;
-  for (const RunArtifact& file : record.inputs) contents.emplace_back(file.role, file.sha256);
+  std::vector<std::pair<std::string, std::string>> contents = parts.contents;
+  for (const RunArtifact& file : record.inputs)
+    if (!parts.left_out.contains(file.role)) contents.emplace_back(file.role, file.sha256);
   std::sort(contents.begin(), contents.end());
   for (const auto& [role, sha256] : contents) add(role), add(sha256);
   return hash.hex().substr(0, 16);

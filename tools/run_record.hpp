@@ -3,7 +3,10 @@
 // at which cost; and the id that equal runs share.
 #pragma once
 
+#include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "store/runs.hpp"
 
@@ -15,8 +18,14 @@ namespace talus {
 /// Fills in what is known of a run of `tool` as it begins: program, command, folder, machine, time.
 void begin_record(const std::string& tool, const std::string& command_line, RunRecord& record);
 
+/// What the id of a run takes beside its record, and what it leaves.
+struct RunIdParts {
+  std::set<std::string> left_out;                             ///< keys of settings, roles of inputs
+  std::vector<std::pair<std::string, std::string>> contents;  ///< role, digest of what was read
+};
+
 /// Digest of tool, version, settings and contents of the inputs (16 digits).
-[[nodiscard]] std::string content_id(const RunRecord& record);
+[[nodiscard]] std::string content_id(const RunRecord& record, const RunIdParts& parts);
 
 /// Where the entry of this process stands when its registry cannot be written.
 [[nodiscard]] std::string late_registry(const std::string& db);

@@ -33,6 +33,7 @@ class SiteOptions {
   /// An option of the tool that stands for a key of the site file and wins over it.
   void option(Tool& tool, const std::string& name, const std::string& key,
               const std::string& help) {
+    names_.push_back(name.substr(2));
     tool.app().add_option_function<std::string>(
         name, [this, key](const std::string& value) { overrides_.push_back(key + "=" + value); },
         help + " [" + key + "]");
@@ -54,10 +55,13 @@ class SiteOptions {
     return *site_;
   }
   [[nodiscard]] const std::string& file() const { return file_; }
+  /// Names of the file and of the options that override it. Where its effective values count, the
+  /// words that they were given in do not.
+  [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
 
  private:
   std::string file_;
-  std::vector<std::string> overrides_;
+  std::vector<std::string> overrides_, names_{"site", "set"};
   std::unique_ptr<Site> site_;
 };
 

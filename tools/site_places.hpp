@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "scene/site.hpp"
-#include "store/crossings.hpp"
+#include "store/fence_lines.hpp"
 #include "terrain/trn.hpp"
 #include "tool.hpp"
 
@@ -19,19 +19,12 @@ namespace talus {
                                              std::vector<Vec3> points, const std::string& key);
 
 /// The line or lines of a [fence.*], with posts on the ground; several are named NAME.1, NAME.2 ...
-/// Throws InputError for a fence without a line and as posts_on_ground().
+/// Throws InputError for a fence with two sources of its line and as
+/// lines_of_fence().
 [[nodiscard]] std::vector<RecordLine> fence_lines(Tool& tool, const Site& site, const Trn& trn,
                                                   const FenceSettings& fence);
 
-/// A line and the section that it belongs to.
-struct FenceLine {
-  const FenceSettings* fence = nullptr;
-  RecordLine line;
-};
-
-/// A fence that lies on another one all along is the same fence named twice, whichever end it
-/// begins at. Throws InputError with both names and the place for two lines of one section and for
-/// two active fences; warns of the rest, which count the same blocks.
+/// As check_fences_apart() of store/fence_lines.hpp, whose sentences become warnings.
 void check_fences_apart(Tool& tool, const Site& site, const Trn& trn,
                         const std::vector<FenceLine>& lines);
 

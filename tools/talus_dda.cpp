@@ -7,7 +7,6 @@
 #include <filesystem>
 
 #include "base/processor_time.hpp"
-#include "base/sha256.hpp"
 #include "base/text.hpp"
 #include "build_info.hpp"
 #include "dda/site_scene.hpp"
@@ -61,6 +60,10 @@ void declare(Tool& tool, SiteOptions& site, Options& o) {
   tool.footer(
       "Example:\n  talus-dda site.toml --trn bed.tif --blocks blocks.h5 -o run.h5\n"
       "A run that was stopped leaves run.h5.part: a readable run, and where --resume goes on.");
+  // All that was given or read counts for the run's id, but for what a resumed run may differ in.
+  // The site file counts by its effective values.
+  tool.leave_out_of_run_id(site.names());
+  tool.leave_out_of_run_id({"resume", "output.checkpoint_interval_s"});
 }
 
 // --- the plan ----------------------------------------------------------------------------------
@@ -76,28 +79,6 @@ ScenePlan plan_of(const Site& site, const DdaInputs& inputs, const Options& o) {
 
 // --- the run -----------------------------------------------------------------------------------
 
-// Equal for runs that must give equal bytes, whatever was interrupted and resumed on the way.
-std::string run_id_of(const Site& site, const DdaInputs& inputs, const Options& o) {
-  Sha256 hash;
-  const auto add = [&hash](const std::string& words) { hash.add(words.c_str(), words.size() + 1); };
-  add(build_version);
-  for (const EffectiveValue& entry : effective_values(site))
-    if (entry.key != "checkpoint_interval_s")
-      add(entry.section + "." + entry.key + "=" + entry.value);
-  add(inputs.trn_digest);
-  add(inputs.parts.blocks.content_hash);
-  for (const Vec3& vertex : inputs.parts.blocks.vertices) hash.add(vertex.data(), sizeof vertex);
-  for (const std::uint8_t c : inputs.parts.cell_class) hash.add(&c, 1);
-  for (const double time : inputs.parts.base.time) hash.add(&time, sizeof time);
-  for (const Vec3& a : inputs.parts.base.acceleration) hash.add(a.data(), sizeof a);
-  for (const RecordLine& line : inputs.lines)
-    for (const Vec3& point : line.points) hash.add(point.data(), sizeof point);
-  add(o.passages_by);
-  add(o.plan);
-  add(o.independent ? "independent" : "together");
-  return hash.hex().substr(0, 16);
-}
-
 RunOptions run_options(const Site& site, const ScenePlan& plan, const Options& o) {
   RunOptions options;
   options.duration = site.solver.duration_s;
@@ -111,11 +92,11 @@ RunOptions run_options(const Site& site, const ScenePlan& plan, const Options& o
   return options;
 }
 
-RunFile new_file(const Site& site, const DdaInputs& inputs, const ScenePlan& plan,
-                 const Options& o) {
+RunFile new_file(const std::string& run_id, const Site& site, const DdaInputs& inputs,
+                 const ScenePlan& plan) {
   RunFile file;
   RunInfo& info = file.info;
-  info.run_id = run_id_of(site, inputs, o);
+  info.run_id = run_id;
   info.version = build_version;
   info.site = site.info.name;
   info.crs_wkt = inputs.crs_wkt;
@@ -285,8 +266,7 @@ int main(int argc, char** argv) {
     warn_of_plan(tool, site, plan, inputs);
     check_start(tool, site, inputs, o.files, plan.block_contacts);
     tool.detail(as_text(plan));
-    RunFile file = new_file(site, inputs, plan, o);
-    tool.set_run_id(file.info.run_id);
+    RunFile file = new_file(tool.run_id(), site, inputs, plan);
     const BlockSet blocks = inputs.parts.blocks;
     const Scene scene = make_site_scene(site, plan, std::move(inputs.parts));
     file.blocks = run_blocks(scene, blocks);

@@ -1,5 +1,6 @@
 // tools/talus_maps.cpp
 // Hazard maps from the passages of one or many runs. Page: docs/tools/talus-maps.md
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -8,9 +9,8 @@
 #include "command_line.hpp"
 #include "fault_json.hpp"
 #include "map_output.hpp"
-#include "post/deposit.hpp"
+#include "post/map_layers.hpp"
 #include "post/map_style.hpp"
-#include "post/maps.hpp"
 #include "run_inputs.hpp"
 
 namespace {
@@ -96,20 +96,19 @@ Gathered gather(talus::RunInputs& runs, const Options& o) {
   return out;
 }
 
-// `progress` is told the share of the layers that are made.
-std::vector<MapLayer> passage_layers(const talus::CellRows& cells, const Gathered& g,
-                                     const talus::MapSettings& settings,
-                                     const talus::ProgressFunction& progress) {
-  std::vector<MapLayer> layers{
-      talus::reach_layer(cells, g.map.grid.cell_size, g.released, settings)};
-  for (const talus::MapQuantity quantity : talus::map_quantities) {
-    progress(static_cast<double>(layers.size()) / (1.0 + std::size(talus::map_quantities)));
-    layers.push_back(talus::quantity_layer(cells, quantity, g.released, settings));
+// All layers of a tile; those that are not of passages only with the first one. `progress` is told
+// the share of the layers that are made.
+void add_tile(const talus::MapSources& sources, const talus::ProgressFunction& progress,
+              std::vector<MapLayer>& layers) {
+  const std::vector<talus::MapLayerKind>& kinds = talus::map_layers();
+  const bool is_first = layers.empty();
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    progress(static_cast<double>(i) / static_cast<double>(kinds.size()));
+    if (is_first)
+      layers.push_back(talus::make_layer(kinds[i], sources));
+    else if (kinds[i].is_of_passages)
+      talus::append(layers[i], talus::make_layer(kinds[i], sources));
   }
-  layers.push_back(talus::exceedance_layer(cells, g.released));
-  layers.push_back(talus::arrival_layer(cells));
-  layers.push_back(talus::energy_line_layer(cells));
-  return layers;
 }
 
 // Tile by tile, each from its own reading of the runs where there is more than one.
@@ -127,15 +126,17 @@ std::vector<MapLayer> layers_of(Tool& tool, talus::RunInputs& runs, Gathered& g,
       });
     const talus::CellRows cells = talus::group_by_cell(std::move(g.rows), g.rows_of_cell.size());
     g.rows.clear();
-    std::vector<MapLayer> next = passage_layers(cells, g, o.settings, tool.progress());
-    if (layers.empty()) {
-      layers = std::move(next);
-      continue;
-    }
-    for (std::size_t i = 0; i < layers.size(); ++i) talus::append(layers[i], next[i]);
+    add_tile({cells, g.deposit, g.map.grid.cell_size, g.released, o.settings}, tool.progress(),
+             layers);
   }
-  layers.push_back(talus::deposit_layer(g.deposit, g.map.grid.cell_size, g.released));
   return layers;
+}
+
+// Cells that a block came over, ascending.
+const std::vector<std::uint32_t>& touched_cells(const std::vector<MapLayer>& layers) {
+  return std::find_if(layers.begin(), layers.end(),
+                      [](const MapLayer& layer) { return talus::kind_of(layer).is_of_passages; })
+      ->cell;
 }
 
 void run_tool(Tool& tool, Options& o, talus::RunInputs& runs) {
@@ -144,7 +145,7 @@ void run_tool(Tool& tool, Options& o, talus::RunInputs& runs) {
   const std::uint64_t n_rows = gathered.n_rows;
   const talus::PassageGrid grid = gathered.map.grid;
   const auto layers = layers_of(tool, runs, gathered, o);
-  const std::size_t n_touched = layers[0].cell.size();
+  const std::vector<std::uint32_t>& touched = touched_cells(layers);
   if (n_rows == 0) tool.warn("no block passed any cell: the maps are empty");
   runs.warn_of_ends();
 
@@ -153,31 +154,33 @@ void run_tool(Tool& tool, Options& o, talus::RunInputs& runs) {
   const std::string remark = runs.remark();
   if (!remark.empty()) tags.emplace_back("REMARK", remark);
   if (runs.n_missing > 0) tags.emplace_back("N_MISSING", std::to_string(runs.n_missing));
-  const talus::MapFrame frame = talus::map_frame(trn, grid, o.png, layers[0].cell);
+  const talus::MapFrame frame = talus::map_frame(trn, grid, o.png, touched);
   Json files = Json::array();
+  bool shows_maximum = false;
   const talus::ProgressFunction progress = tool.progress();
   for (const MapLayer& layer : layers) {
     progress(static_cast<double>(files.size()) / static_cast<double>(layers.size()));
     const std::string path = (std::filesystem::path(o.folder) / (layer.name + ".tif")).string();
     const std::string shown = talus::write_map(
         tool, frame, path, layer, talus::map_style(layer, remark), tags, o.creation_options);
-    if (shown == "velocity_max" && n_rows > 0)
-      tool.warn("cells with too few passages for a 95th percentile: styles show the maximum");
+    shows_maximum = shows_maximum || shown == layer.name + "_max";
     Json bands = Json::array();
     for (const auto& band : layer.bands) bands.push_back(band.name);
     files.push_back({{"file", path}, {"shown_band", shown}, {"bands", bands}});
   }
+  if (shows_maximum && n_rows > 0)
+    tool.warn("cells with too few passages for a 95th percentile: styles show the maximum");
   tool.metric("passages", static_cast<double>(n_rows), "1");
-  tool.metric("cells_touched", static_cast<double>(n_touched), "1");
+  tool.metric("cells_touched", static_cast<double>(touched.size()), "1");
   Json result = {{"run_id", tool.run_id()},       {"n_runs", runs.members.size()},
-                 {"n_passages", n_rows},          {"n_cells_touched", n_touched},
+                 {"n_passages", n_rows},          {"n_cells_touched", touched.size()},
                  {"cell_size_m", grid.cell_size}, {"layers", files}};
   talus::add_faults(result, talus::faults_of(runs.members));
-  tool.result(result, std::to_string(layers.size()) + " maps of " +
-                          std::to_string(runs.members.size()) +
-                          (runs.members.size() == 1 ? " run" : " runs") + ", " +
-                          std::to_string(n_rows) + " passages over " + std::to_string(n_touched) +
-                          " cells of " + talus::text(grid.cell_size, 4) + " m, in " + o.folder);
+  tool.result(result,
+              std::to_string(layers.size()) + " maps of " + std::to_string(runs.members.size()) +
+                  (runs.members.size() == 1 ? " run" : " runs") + ", " + std::to_string(n_rows) +
+                  " passages over " + std::to_string(touched.size()) + " cells of " +
+                  talus::text(grid.cell_size, 4) + " m, in " + o.folder);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "io/crs_gdal.hpp"
 #include "io/raster_gdal.hpp"
 #include "io/style.hpp"
+#include "post/map_layers.hpp"
 #include "report/plan_view.hpp"
 #include "report/qgis_project.hpp"
 #include "report/styles_gdal.hpp"
@@ -123,7 +124,8 @@ void read_registry(const std::string& db, const ResultFolder& folder,
     add_limits(writer_of(db, sha256_of_file(files[i].string()), latest).checks, data.limits);
   }
   std::set<std::int64_t> seen;
-  for (const char* name : {"runout.gpkg", "maps/velocity.tif", "fence.gpkg"})
+  const std::string a_map = std::string("maps/") + map_layers().front().name + ".tif";
+  for (const std::string& name : {std::string("runout.gpkg"), a_map, std::string("fence.gpkg")})
     if (folder.has(name))
       add_steps(db, sha256_of_file(folder.path(name).string()), latest, seen, data.steps);
 }
@@ -197,14 +199,12 @@ void add_package(QgisProject& project, const Options& o, const ResultFolder& fol
 }
 
 void add_maps(QgisProject& project, const Options& o, const ResultFolder& folder) {
-  for (const char* name :
-       {"velocity", "ke_total", "ke_translational", "pass_height_top", "pass_height_centroid",
-        "reach", "exceedance", "deposit", "arrival", "energy_line"}) {
-    const std::string base = std::string("maps/") + name;
+  for (const MapLayerKind& kind : map_layers()) {
+    const std::string base = std::string("maps/") + kind.name;
     if (!folder.has(base + ".tif")) continue;
-    project.layers.push_back({"Hazard", name, relative_to(o.qgis, folder.path(base + ".tif")),
-                              QgisLayer::raster, folder.text(base + ".qml"),
-                              std::string(name) == "velocity"});
+    project.layers.push_back({kind.group, kind.name,
+                              relative_to(o.qgis, folder.path(base + ".tif")), QgisLayer::raster,
+                              folder.text(base + ".qml"), kind.is_visible});
   }
 }
 

@@ -8,6 +8,7 @@
 #include "io/geopackage_gdal.hpp"
 #include "map_output.hpp"
 #include "moved_json.hpp"
+#include "post/map_layers.hpp"
 #include "post/map_style.hpp"
 #include "post/mobility.hpp"
 #include "post/runout_text.hpp"
@@ -68,7 +69,8 @@ std::vector<MobilityEvent> events_of(const std::vector<RunoutRun>& runs, bool co
 
 void write_thickness(Tool& tool, const Options& o, const RunoutRuns& all, const Trn& trn,
                      const MapTags& tags, const std::string& remark) {
-  MapLayer layer = deposit_layer(all.deposit, all.grid.cell_size, all.released);
+  MapLayer layer =
+      make_layer(deposit_kind(), {{}, all.deposit, all.grid.cell_size, all.released, {}});
   layer.bands.erase(layer.bands.begin(), layer.bands.begin() + 2);
   write_map(tool, map_frame(trn, all.grid, false, layer.cell), o.thickness, layer,
             map_style(layer, remark), tags);

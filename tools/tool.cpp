@@ -52,6 +52,7 @@ struct Tool::Impl {
   std::vector<StagedFile> staged;
   RunRecord record;
   std::vector<std::string> check_hints;  // of record.checks
+  RunIdParts id_parts;
   Json result;
   Json layers_read = Json::array();
   std::string summary;
@@ -108,7 +109,7 @@ struct Tool::Impl {
 
   void register_run() {
     if (options.no_db || registry_path(options).empty()) return;
-    record.content_id = content_id(record);
+    record.content_id = content_id(record, id_parts);
     record.status = "running";
     registered = true;
     try {
@@ -122,7 +123,7 @@ struct Tool::Impl {
 
   // The body may name further inputs until it asks for the id, or ends.
   void complete_content_id() {
-    if (record.content_id.empty()) record.content_id = content_id(record);
+    if (record.content_id.empty()) record.content_id = content_id(record, id_parts);
   }
 
   void finish_record(int exit_code) {
@@ -403,7 +404,13 @@ std::string Tool::run_id() {
   return impl_->record.content_id;
 }
 
-void Tool::set_run_id(const std::string& id) { impl_->record.content_id = id; }
+void Tool::content_read(const std::string& role, const std::string& digest) {
+  impl_->id_parts.contents.emplace_back(role, digest);
+}
+
+void Tool::leave_out_of_run_id(const std::vector<std::string>& names) {
+  impl_->id_parts.left_out.insert(names.begin(), names.end());
+}
 
 int Tool::run(int argc, char** argv, const std::function<void()>& body) {
   Impl& impl = *impl_;

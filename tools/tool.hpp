@@ -99,11 +99,15 @@ class Tool {
   void result(Json result, const std::string& summary);
   [[nodiscard]] bool overwrite() const;
   [[nodiscard]] std::string registry() const;  ///< that runs are recorded in, whether or not there
+  /// Digest of what was read of an input whose bytes do not say all: a folder, a virtual path of
+  /// GDAL, a file that is read together with others beside it. Counts for run_id() as the bytes do.
+  void content_read(const std::string& role, const std::string& digest);
+  /// Leaves these out of run_id(): settings by their keys and inputs by their roles that equal
+  /// results may differ in, or that other settings stand for. All others count, and so does every
+  /// input that was named by read_also() or content_read() before the first call of run_id().
+  void leave_out_of_run_id(const std::vector<std::string>& names);
   /// Digest of tool, version, options and input contents (16 digits); it stands in outputs' tags.
-  /// Inputs named by read_also() count when they were named before the first call.
   [[nodiscard]] std::string run_id();
-  /// Where equal results need another digest (of runs that may be resumed): the id instead of it.
-  void set_run_id(const std::string& id);
 
   /// Parse, check, run `body`, put the outputs in place, record; returns the exit code.
   int run(int argc, char** argv, const std::function<void()>& body);

@@ -1,6 +1,7 @@
 #include "vector_inputs.hpp"
 
 #include "base/grouped_text.hpp"
+#include "base/sha256.hpp"
 #include "base/text.hpp"
 #include "io/crs_gdal.hpp"
 
@@ -9,6 +10,16 @@ namespace {
 
 std::string noun_of(VectorKind kind) {
   return kind == VectorKind::points ? "point" : kind == VectorKind::lines ? "line" : "polygon";
+}
+
+std::string digest_of(const VectorShapes& found) {
+  Sha256 hash;
+  for (const std::vector<Vec3>& shape : found.shapes) {
+    const std::size_t n = shape.size();
+    hash.add(&n, sizeof n);
+    for (const Vec3& point : shape) hash.add(point.data(), sizeof point);
+  }
+  return hash.hex();
 }
 
 std::string sentence_on(const VectorShapes& found, const VectorQuery& query) {
@@ -42,6 +53,7 @@ Json entry_on(const VectorShapes& found, const std::string& role, const VectorQu
 VectorShapes read_layer(Tool& tool, const std::string& role, const VectorQuery& query,
                         const std::string& crs_wkt) {
   VectorShapes found = read_vectors(query, crs_wkt);
+  tool.content_read(role, digest_of(found));
   tool.info(sentence_on(found, query));
   if (found.n_passed_over > 0)
     tool.warn(query.path + ": layer " + found.layer + " also holds " +

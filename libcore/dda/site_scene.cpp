@@ -8,7 +8,6 @@
 #include "base/error.hpp"
 #include "base/random.hpp"
 #include "base/text.hpp"
-#include "dda/blocky_slope.hpp"
 #include "dda/make_scene.hpp"
 
 namespace talus {
@@ -136,13 +135,6 @@ Scene make_site_scene(const Site& site, const ScenePlan& plan, SceneParts parts)
   scene.base = std::move(parts.base);
   add_blocks(scene, parts.blocks, rock.materials);
   add_jitter(scene.blocks, solver.start_jitter_m_s, seed);
-  if (solver.terrain_model == "blocky") {
-    if (solver.law == "paper")
-      throw InputError(where_of(site, "solver.terrain_model"),
-                       "is blocky with law paper, which computes contacts with the TRN only",
-                       "take law talus");
-    add_blocky_slope(scene, blocky_depth(scene));
-  }
   for (const StandingFence& fence : parts.fences) add_fence(scene, fence);
   check_scene(scene);
   return scene;

@@ -33,8 +33,7 @@ struct SceneParts {
 
 /// The scene with the settings of the site and the decisions of the plan. Scatter of friction and
 /// restitution and the jitter of the start are drawn from [solver] seed. Throws InputError for a
-/// block material that the site file does not know, a blocky slope with law paper, and what
-/// check_scene() refuses.
+/// block material that the site file does not know, and what check_scene() refuses.
 [[nodiscard]] Scene make_site_scene(const Site& site, const ScenePlan& plan, SceneParts parts);
 
 /// A value of the site file that can be computed with but is far from what rock and its models

@@ -5,19 +5,16 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <vector>
 
+#include "scene/ground_classes.hpp"
 #include "terrain/trn.hpp"
 
 namespace talus {
 
-/// Stands for nodata and for places outside of the raster.
-inline constexpr std::int32_t no_class = std::numeric_limits<std::int32_t>::min();
-
 /// Value of the raster's pixel that holds the centre of each cell of `trn`, whatever the size of
-/// the pixels.                                                                    (n_cells)
+/// the pixels; no_class outside of the raster and where it has no data.           (n_cells)
 ///
 /// Throws InputError when the file is no raster, has not exactly one band, no place on the map, is
 /// rotated, is in another CRS (classes are not reprojected silently), or holds a value that is not

@@ -38,7 +38,7 @@ void add_run(GroundSums& sums, const PassageGrid& grid, const RunFile& run, doub
 }
 
 MapLayer change_layer(const GroundSums& with, const GroundSums& without, double cell_size) {
-  MapLayer layer{"fence_change", "Change by the fences", {}, {}};
+  MapLayer layer{"fence_change", {}, {}};
   layer.bands = {
       {"deposit_thickness_change",
        "m",

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "base/error.hpp"
 #include "base/text.hpp"
+#include "post/map_layers.hpp"
 
 namespace talus {
 namespace {
@@ -28,30 +28,6 @@ Colour ramp(double share) {
     colour[k] =
         static_cast<std::uint8_t>(std::lround(stops[i][k] + s * (stops[i + 1][k] - stops[i][k])));
   return colour;
-}
-
-struct Breaks {
-  const char* layer;
-  const char* band;  // empty: percentile or maximum
-  std::vector<double> upper;
-  bool zero_is_transparent;
-};
-
-const std::vector<Breaks>& all_breaks() {
-  const std::vector<double> energy = {1, 10, 30, 100, 300, 1000, 3000, 10000, 30000, 100000};
-  static const std::vector<Breaks> breaks = {
-      {"reach", "reach_probability", {0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 0.8}, true},
-      {"velocity", "", {1, 2.5, 5, 10, 15, 20, 30}, true},
-      {"ke_translational", "", energy, true},
-      {"ke_total", "", energy, true},
-      {"pass_height_centroid", "", {0.5, 1, 2, 3, 4, 5, 7, 10}, false},
-      {"pass_height_top", "", {0.5, 1, 2, 3, 4, 5, 7, 10}, false},
-      {"exceedance", "p_exceed_300kJ", {0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 0.8}, true},
-      {"deposit", "deposit_thickness", {0.25, 0.5, 1, 2, 4, 8, 16}, true},
-      {"arrival", "", {1, 2, 5, 10, 20, 30, 60}, false},
-      {"energy_line", "", {20, 25, 28, 30, 32, 35, 40, 45}, false},
-  };
-  return breaks;
 }
 
 // From the largest loss (blue) over no change (transparent) to the largest gain (red).
@@ -112,22 +88,19 @@ RasterStyle change_style(const MapLayer& layer, const std::string& remark) {
 }
 
 RasterStyle map_style(const MapLayer& layer, const std::string& remark) {
-  const auto& list = all_breaks();
-  const auto at = std::find_if(list.begin(), list.end(),
-                               [&layer](const Breaks& b) { return b.layer == layer.name; });
-  TALUS_ASSERT(at != list.end());
+  const MapLayerKind& kind = kind_of(layer);
   RasterStyle style;
-  const int index = shown_band(layer, at->band);
+  const int index = shown_band(layer, kind.shown_band);
   const MapBand& band = layer.bands[index];
   style.band = index + 1;
   style.title = band.name + " [" + band.unit + "]";
   style.remark = remark;
   const std::string unit = band.unit == "1" ? "" : " " + band.unit;
-  if (at->zero_is_transparent) style.classes.push_back({0, {255, 255, 255, 0}, "0" + unit});
-  std::string lower = at->zero_is_transparent ? "0" : "";
-  const double n = static_cast<double>(at->upper.size());
-  for (std::size_t i = 0; i < at->upper.size(); ++i) {
-    const double upper = at->upper[i];
+  if (kind.zero_is_transparent) style.classes.push_back({0, {255, 255, 255, 0}, "0" + unit});
+  std::string lower = kind.zero_is_transparent ? "0" : "";
+  const double n = static_cast<double>(kind.breaks.size());
+  for (std::size_t i = 0; i < kind.breaks.size(); ++i) {
+    const double upper = kind.breaks[i];
     style.classes.push_back({upper, ramp(static_cast<double>(i) / n),
                              (lower.empty() ? "up to " : lower + " - ") + text(upper, 9) + unit +
                                  intensity(band.unit, upper)});

@@ -22,23 +22,19 @@ struct QuantityText {
   MapQuantity quantity;
   float PassageValues::*member;
   double scale;  // from the passage's unit to the band's
-  const char *layer, *title, *unit, *what;
+  const char *unit, *what;
 };
 constexpr std::array<QuantityText, 5> quantity_texts = {{
-    {MapQuantity::speed, &PassageValues::speed, 1, "velocity", "Velocity", "m/s",
+    {MapQuantity::speed, &PassageValues::speed, 1, "m/s",
      "largest centroid speed of a block while any part of it is over the cell"},
-    {MapQuantity::translational_energy, &PassageValues::translational_energy, 1e-3,
-     "ke_translational", "Translational kinetic energy", "kJ",
+    {MapQuantity::translational_energy, &PassageValues::translational_energy, 1e-3, "kJ",
      "largest m v^2 / 2 of a block while any part of it is over the cell"},
-    {MapQuantity::total_energy, &PassageValues::total_energy, 1e-3, "ke_total",
-     "Kinetic energy with spin", "kJ",
+    {MapQuantity::total_energy, &PassageValues::total_energy, 1e-3, "kJ",
      "largest m v^2 / 2 + w' I w / 2 of a block while any part of it is over the cell"},
-    {MapQuantity::centroid_height, &PassageValues::centroid_height, 1, "pass_height_centroid",
-     "Passing height of the centroid", "m",
+    {MapQuantity::centroid_height, &PassageValues::centroid_height, 1, "m",
      "largest vertical height of a block's centroid above the ground while any part of the block "
      "is over the cell"},
-    {MapQuantity::top_height, &PassageValues::top_height, 1, "pass_height_top",
-     "Passing height of the top", "m",
+    {MapQuantity::top_height, &PassageValues::top_height, 1, "m",
      "largest vertical height of a block's highest vertex above the ground below its centroid "
      "while any part of the block is over the cell"},
 }};
@@ -178,11 +174,12 @@ MapBand band(std::string name, std::string unit, std::string description, std::s
           std::vector<float>(n_touched, none)};
 }
 
-MapLayer empty_quantity_layer(const QuantityText& text, const CellRows& cells) {
-  MapLayer layer{text.layer, text.title, cells.cell, {}};
-  const std::string prefix = text.layer, what = text.what;
-  const auto add = [&](const std::string& name, const std::string& description) {
-    layer.bands.push_back(band(prefix + "_" + name, text.unit, description, cells.cell.size()));
+MapLayer empty_quantity_layer(const std::string& name, const QuantityText& text,
+                              const CellRows& cells) {
+  MapLayer layer{name, cells.cell, {}};
+  const std::string what = text.what;
+  const auto add = [&](const std::string& statistic, const std::string& description) {
+    layer.bands.push_back(band(name + "_" + statistic, text.unit, description, cells.cell.size()));
   };
   add("mean", "weighted mean over blocks of the " + what);
   for (const PercentileLevel& p : percentile_levels)
@@ -243,10 +240,10 @@ std::vector<MapBand> empty_reach_bands(std::size_t n) {
 
 }  // namespace
 
-MapLayer quantity_layer(const CellRows& cells, MapQuantity quantity, const Released& released,
-                        const MapSettings& settings) {
+MapLayer quantity_layer(const std::string& name, const CellRows& cells, MapQuantity quantity,
+                        const Released& released, const MapSettings& settings) {
   const QuantityText& text = text_of(quantity);
-  MapLayer layer = empty_quantity_layer(text, cells);
+  MapLayer layer = empty_quantity_layer(name, text, cells);
   constexpr std::size_t n_p = percentile_levels.size();
   std::vector<BoundRanks> ranks;
   for (const PercentileLevel& p : percentile_levels) ranks.emplace_back(p.p);
@@ -274,7 +271,7 @@ MapLayer quantity_layer(const CellRows& cells, MapQuantity quantity, const Relea
 MapLayer reach_layer(const CellRows& cells, double cell_size, const Released& released,
                      const MapSettings& settings) {
   const std::size_t n = cells.cell.size();
-  MapLayer layer{"reach", "Reach", cells.cell, empty_reach_bands(n)};
+  MapLayer layer{"", cells.cell, empty_reach_bands(n)};
   const double total = sum(released.weight);
   const ShareBasis basis = reach_basis(released, settings);
   std::vector<RunWeight> parts;
@@ -305,7 +302,7 @@ MapLayer reach_layer(const CellRows& cells, double cell_size, const Released& re
 }
 
 MapLayer exceedance_layer(const CellRows& cells, const Released& released) {
-  MapLayer layer{"exceedance", "Exceedance of energy", cells.cell, {}};
+  MapLayer layer{"", cells.cell, {}};
   const double total = sum(released.weight);
   for (const int limit_kj : {30, 300}) {
     MapBand out =
@@ -325,7 +322,7 @@ MapLayer exceedance_layer(const CellRows& cells, const Released& released) {
 }
 
 MapLayer arrival_layer(const CellRows& cells) {
-  MapLayer layer{"arrival", "First arrival", cells.cell, {}};
+  MapLayer layer{"", cells.cell, {}};
   MapBand out = band("first_arrival", "s",
                      "earliest time after the run's start at which any block came over the cell",
                      cells.cell.size());
@@ -338,7 +335,7 @@ MapLayer arrival_layer(const CellRows& cells) {
 }
 
 MapLayer energy_line_layer(const CellRows& cells) {
-  MapLayer layer{"energy_line", "Energy-line angle", cells.cell, {}};
+  MapLayer layer{"", cells.cell, {}};
   MapBand out = band("energy_line_angle", "deg",
                      "smallest over blocks of atan(drop of the centroid since its start / "
                      "horizontal length of its path) when the block came over the cell",

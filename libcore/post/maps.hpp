@@ -9,7 +9,6 @@
 // grows with the cells, and no longer with the runs.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -41,8 +40,7 @@ struct MapBand {
 
 /// Bands that share a file.
 struct MapLayer {
-  std::string name;  ///< of the file, without extension
-  std::string title;
+  std::string name;                 ///< of the file, without extension; given by map_layers.hpp
   std::vector<std::uint32_t> cell;  ///< that the values stand for, ascending       (n_touched)
   std::vector<MapBand> bands;
 };
@@ -55,13 +53,11 @@ enum class MapQuantity {
   centroid_height,
   top_height,
 };
-inline constexpr std::array map_quantities = {
-    MapQuantity::speed, MapQuantity::translational_energy, MapQuantity::total_energy,
-    MapQuantity::centroid_height, MapQuantity::top_height};
 
-/// Layers velocity, ke_translational, ke_total, pass_height_centroid, pass_height_top.
-[[nodiscard]] MapLayer quantity_layer(const CellRows& cells, MapQuantity quantity,
-                                      const Released& released, const MapSettings& settings);
+/// Mean, percentiles with bounds, and maximum; their names begin with that of the layer.
+[[nodiscard]] MapLayer quantity_layer(const std::string& name, const CellRows& cells,
+                                      MapQuantity quantity, const Released& released,
+                                      const MapSettings& settings);
 /// n_pass, reach_probability with bounds, share of runs, passage_per_m, n_eff.
 [[nodiscard]] MapLayer reach_layer(const CellRows& cells, double cell_size,
                                    const Released& released, const MapSettings& settings);

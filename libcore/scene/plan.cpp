@@ -84,7 +84,6 @@ PlanFacts plan_facts(const Site& site, const BlockSet& blocks, const Trn& trn,
   facts.n_fences = static_cast<int>(site.fences.size());
   for (const FenceSettings& fence : site.fences)
     facts.n_standing += fence.active && site.solver.law == "talus";
-  facts.blocky = site.solver.terrain_model == "blocky";
   facts.has_base_motion = !site.base_motion.file.empty() || site.base_motion.amplitude_m_s2 > 0;
   facts.stress_wanted = site.output.strain;
   facts.strain = site.solver.strain;
@@ -151,8 +150,6 @@ ScenePlan make_plan(const PlanFacts& facts, bool full) {
   add({"standing fences", facts.n_standing > 0,
        "panels as fixed bodies where a fence is active, law talus",
        counted(facts.n_standing, "fence")});
-  add({"blocky slope", facts.blocky, "one fixed block a triangle, [solver] terrain_model",
-       facts.blocky ? "slower than the TRN: to compare with" : "the TRN is the slope"});
   plan.strains_in_frames = add(kept_by_full(
       full && plan.strains, {"strains in frames", facts.stress_wanted && plan.strains,
                              "stored where asked for and computed",

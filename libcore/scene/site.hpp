@@ -104,7 +104,6 @@ struct GroundSettings {
 /// [solver]
 struct SolverSettings {
   std::string law = "talus";
-  std::string terrain_model = "trn";  ///< or "blocky": the slope as fixed polyhedral blocks
   double duration_s = 60;
   double time_step_s = not_given;  ///< not given: time_step() says
   double min_time_step_s = not_given, max_time_step_s = not_given;

@@ -124,7 +124,6 @@ template <> const std::vector<SiteKey<SolverSettings>>& keys_of() {
   using S = SolverSettings;
   static const std::vector<SiteKey<S>> table = {
       {"law", &S::law, "contact law", any, "talus|paper"},
-      {"terrain_model", &S::terrain_model, "slope as TRN, or as one fixed block a triangle, to compare with", any, "trn|blocky"},
       {"duration_s", &S::duration_s, "time simulated", positive},
       {"time_step_s", &S::time_step_s, "time step, which law talus cuts where it must; not given: 0.005, law paper 0.0001", {0, 1, true, false}},
       {"min_time_step_s", &S::min_time_step_s, "smallest time step", {0, 1, true, false}},

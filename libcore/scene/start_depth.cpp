@@ -90,6 +90,14 @@ std::vector<double> depths_below_ground(const Trn& trn, const BlockSet& blocks) 
   return depths;
 }
 
+void move_to_origin(BlockSet& blocks, const Vec3& origin) {
+  const Vec3 shift = blocks.origin - origin;
+  for (Vec3& vertex : blocks.vertices) vertex += shift;
+  for (Vec3& centroid : blocks.centroid) centroid += shift;
+  for (Vec3& point : blocks.pair_point) point += shift;
+  blocks.origin = origin;
+}
+
 void move_block(BlockSet& blocks, int b, const Vec3& way) {
   const auto i = static_cast<std::size_t>(b);
   for (int v = blocks.block_vertex_begin[i]; v < blocks.block_vertex_begin[i + 1]; ++v)

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "base/error.hpp"
 #include "base/random.hpp"
 #include "scene/ground_classes.hpp"
 
@@ -73,6 +74,55 @@ TEST(GroundClasses, OfLaterAreasWinAndHolesAreHoles) {
   EXPECT_EQ(at(8, 8), 2);
   EXPECT_EQ(at(9, 9), 2);
   EXPECT_EQ(at(7, 7), 1);
+}
+
+talus::Site site_of(const std::vector<talus::GroundSettings>& grounds) {
+  talus::Site site;
+  site.file = "site.toml";
+  site.grounds = grounds;
+  site.terrain.ground_raster = "classes.tif";
+  return site;
+}
+
+talus::GroundSettings ground_of(const std::string& name, const std::vector<double>& values) {
+  talus::GroundSettings ground;
+  ground.name = name;
+  ground.raster_values = values;
+  return ground;
+}
+
+TEST(GroundSections, OneHoldsElsewhere) {
+  talus::GroundSettings scree = ground_of("scree", {});
+  scree.polygon = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}};
+  EXPECT_EQ(
+      talus::ground_elsewhere(site_of({scree, ground_of("rock", {}), ground_of("wood", {4})})), 1);
+  EXPECT_THROW(
+      (void)talus::ground_elsewhere(site_of({ground_of("rock", {}), ground_of("soil", {})})),
+      talus::InputError);
+  EXPECT_THROW((void)talus::ground_elsewhere(site_of({scree, ground_of("wood", {4})})),
+               talus::InputError);
+}
+
+TEST(GroundSections, AreFoundByTheValuesOfTheRaster) {
+  const talus::Site site =
+      site_of({ground_of("rock", {}), ground_of("wood", {4, 5}), ground_of("scree", {-2})});
+  const auto class_of = talus::classes_of_values(site);
+  const std::vector<std::uint8_t> expected = {1, 0, 2, 1};
+  EXPECT_EQ(talus::classes_of_cells({4, talus::no_class, -2, 5}, class_of, 0, "classes.tif"),
+            expected);
+  EXPECT_THROW((void)talus::classes_of_cells({4, 7}, class_of, 0, "classes.tif"),
+               talus::InputError);
+}
+
+TEST(GroundSections, AreRefusedForValuesOfNoUse) {
+  const auto refused = [](const talus::Site& site) {
+    EXPECT_THROW((void)talus::classes_of_values(site), talus::InputError);
+  };
+  refused(site_of({ground_of("wood", {4.5})}));
+  refused(site_of({ground_of("wood", {4}), ground_of("scree", {1, 4})}));
+  talus::Site without_raster = site_of({ground_of("wood", {4})});
+  without_raster.terrain.ground_raster = "";
+  refused(without_raster);
 }
 
 }  // namespace
