@@ -28,7 +28,7 @@ Vec3 mean_displacement(const RunFile& file) {
   Vec3 sum = Vec3::Zero();
   double mass = 0;
   for (int b = 0; b < n_blocks(file); ++b) {
-    const double m = file.blocks.mass[static_cast<std::size_t>(b)];
+    const double m = file.blocks.mass[b];
     sum += m * (frame_block(file, n_frames(file.frames) - 1, b).position -
                 frame_block(file, 0, b).position);
     mass += m;
@@ -40,7 +40,7 @@ Vec3 mean_displacement(const RunFile& file) {
 Json fences_on(const Runner& runner) {
   Json list = Json::array();
   for (const PanelRow& row : runner.file.panels) {
-    Json panel = {{"fence", runner.file.lines[static_cast<std::size_t>(row.line)].name},
+    Json panel = {{"fence", runner.file.lines[row.line].name},
                   {"panel", row.panel},
                   {"work_kj", row.work / 1e3},
                   {"deflection_m", row.deflection},

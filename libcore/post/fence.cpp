@@ -217,12 +217,12 @@ std::vector<FenceTouch> touches(const RunFile& file, int line, const Fence& fenc
                                 const std::vector<FenceArrival>& crossings) {
   std::vector<FenceTouch> out(static_cast<std::size_t>(n_blocks(file)));
   for (const FenceHit& hit : file.fence_hits) {
-    FenceTouch& touch = out[static_cast<std::size_t>(hit.block)];
+    FenceTouch& touch = out[hit.block];
     if (hit.line == line) touch.time = std::min(touch.time, hit.time);
   }
   for (const FenceArrival& crossing : crossings) {
     if (crossing.beside) continue;
-    FenceTouch& touch = out[static_cast<std::size_t>(crossing.block)];
+    FenceTouch& touch = out[crossing.block];
     for (const PanelRow& panel : file.panels)
       if (panel.line == line && panel.panel == crossing.field) touch.gap_since = panel.broken_at;
     touch.held = is_held(file, line, fence, crossing.block, crossing.direction);

@@ -58,7 +58,7 @@ QuantitySummary summary_of(const std::vector<FenceArrival>& arrivals, double n_e
     if (!bounds.runs_repeat)
       out.upper = weighted_percentile(values, static_cast<double>(upper_bound_rank(n, p)) / n);
     else if (by_runs && places[k] >= 0)
-      out.upper = values[static_cast<std::size_t>(places[k])].value;
+      out.upper = values[places[k]].value;
   }
   return summary;
 }

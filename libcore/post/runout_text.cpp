@@ -40,7 +40,7 @@ std::string unsettled_toe(const EventReach& reach) {
 std::string name_of(const RunoutRun& run, const std::vector<RunoutRun>& runs) {
   std::vector<RunMember> members;
   for (const RunoutRun& r : runs) members.push_back(r.member);
-  return names_of(members)[static_cast<std::size_t>(&run - runs.data())];
+  return names_of(members)[&run - runs.data()];
 }
 
 std::string reach_of_runs(const std::vector<RunoutRun>& runs) {

@@ -26,7 +26,7 @@ Frame& frame_at(FrameSampler& sampler, std::int64_t index) {
     sampler.open.push_back(
         {time_of(sampler, made), std::vector<FrameBlock>(sampler.latest.size())});
   }
-  return sampler.open[static_cast<std::size_t>(index - sampler.n_closed)];
+  return sampler.open[index - sampler.n_closed];
 }
 
 }  // namespace

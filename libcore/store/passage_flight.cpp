@@ -76,7 +76,7 @@ struct FlightRecord {
   }
 
   const FlightInstant& instant_at(int k) {
-    FlightInstant& found = recorder.flight_instants[static_cast<std::size_t>(k)];
+    FlightInstant& found = recorder.flight_instants[k];
     if (!found.known)
       found = flight_instant(scene, piece.block, motion.at(time_at(k)), spin_energy_at(k));
     return found;

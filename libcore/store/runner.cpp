@@ -11,7 +11,7 @@ namespace talus {
 namespace {
 
 Vec6 strain_of(const State& state, int b) {
-  return state.strain.empty() ? Vec6(Vec6::Zero()) : state.strain[static_cast<std::size_t>(b)];
+  return state.strain.empty() ? Vec6(Vec6::Zero()) : state.strain[b];
 }
 
 void record(Runner& runner, const Segment& segment) {
@@ -171,7 +171,7 @@ Runner begin_run(const Scene& scene, const RunOptions& options, std::vector<Reco
   runner.state = start(scene);
   runner.energy_start = mechanical(energies(scene, runner.state));
   for (int b = 0; b < n_blocks(scene); ++b) {
-    const Motion& motion = runner.state.motion[static_cast<std::size_t>(b)];
+    const Motion& motion = runner.state.motion[b];
     if (options.passages) record_start(runner.passages, scene, b, motion, 0);
     record_start(runner.sampler, scene, b, motion, strain_of(runner.state, b));
   }
@@ -288,8 +288,7 @@ RunBlocks run_blocks(const Scene& scene, const BlockSet& set) {
   for (std::size_t b = 0; b < blocks.rest.size(); ++b) {
     const Pose& rest = blocks.rest[b];
     for (int v = set.block_vertex_begin[b]; v < set.block_vertex_begin[b + 1]; ++v)
-      blocks.vertices.push_back(rest.attitude.conjugate() *
-                                (set.vertices[static_cast<std::size_t>(v)] - rest.position));
+      blocks.vertices.push_back(rest.attitude.conjugate() * (set.vertices[v] - rest.position));
   }
   return blocks;
 }
