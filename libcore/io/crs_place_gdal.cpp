@@ -2,6 +2,7 @@
 
 #include <ogr_spatialref.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
