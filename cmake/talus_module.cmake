@@ -9,7 +9,7 @@ target_compile_options(talus_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow
 target_include_directories(talus_options INTERFACE ${PROJECT_SOURCE_DIR}/libcore)
 
 set(TALUS_LIBRARY_cgal CGAL::CGAL)
-set(TALUS_LIBRARY_gdal GDAL::GDAL)
+set(TALUS_LIBRARY_gdal GDAL::GDAL PROJ::proj)
 set(TALUS_LIBRARY_hdf5 hdf5::hdf5)
 set(TALUS_LIBRARY_sqlite SQLiteCpp SQLite::SQLite3)
 set(TALUS_LIBRARY_toml tomlplusplus::tomlplusplus)

@@ -7,8 +7,23 @@ namespace fs = std::filesystem;
 
 bool is_virtual(const std::string& path) { return path.rfind("/vsi", 0) == 0; }
 
+std::string file_behind(const std::string& path) {
+  std::error_code error;
+  if (path.find(':') == std::string::npos || fs::exists(path, error)) return path;
+  const std::size_t begin = path.find(':') + 1;
+  for (std::size_t from = begin; from != 0; from = path.find(':', from) + 1)
+    for (std::size_t to = path.size(); to != std::string::npos && to > from;
+         to = path.rfind(':', to - 1)) {
+      std::string part = path.substr(from, to - from);
+      if (part.size() > 2 && part.front() == '"' && part.back() == '"')
+        part = part.substr(1, part.size() - 2);
+      if (fs::is_regular_file(part, error)) return part;
+    }
+  return path;
+}
+
 std::string absolute_path(const std::string& path) {
-  if (is_virtual(path)) return path;
+  if (is_virtual(path) || file_behind(path) != path) return path;
   std::error_code error;  // a pipe behind /dev/stdout has no name of its own
   const fs::path canonical = fs::weakly_canonical(fs::absolute(path), error);
   return (error ? fs::absolute(path) : canonical).string();

@@ -12,6 +12,10 @@ namespace talus {
 /// A virtual path of GDAL (/vsi...), which the file system does not know.
 [[nodiscard]] bool is_virtual(const std::string& path);
 
+/// The file that GDAL's name for a part of it speaks of: map.gpkg of GPKG:map.gpkg:dgm, scene.nc of
+/// NETCDF:"scene.nc":z. Any other path as it is.
+[[nodiscard]] std::string file_behind(const std::string& path);
+
 /// Absolute and without links, as far as it exists; a virtual path as it is.
 [[nodiscard]] std::string absolute_path(const std::string& path);
 

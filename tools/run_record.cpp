@@ -31,8 +31,9 @@ std::string utc_now() {
 
 RunArtifact artifact_of(const std::string& role, const std::string& path) {
   const std::string where = absolute_path(path);
-  if (is_virtual(path) || !fs::is_regular_file(path)) return {role, where, "", 0};
-  return {role, where, sha256_of_file(path), static_cast<std::int64_t>(fs::file_size(path))};
+  const std::string file = file_behind(path);
+  if (is_virtual(path) || !fs::is_regular_file(file)) return {role, where, "", 0};
+  return {role, where, sha256_of_file(file), static_cast<std::int64_t>(fs::file_size(file))};
 }
 
 void begin_record(const std::string& tool, const std::string& command_line, RunRecord& record) {

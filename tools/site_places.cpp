@@ -2,24 +2,38 @@
 
 #include "base/error.hpp"
 #include "io/crs_gdal.hpp"
+#include "io/crs_operation_gdal.hpp"
+#include "io/crs_place_gdal.hpp"
 #include "vector_inputs.hpp"
 
 namespace talus {
+namespace {
+
+// Map coordinates of the site file, in the CRS of the terrain.
+void bring_to_ground(Tool& tool, const Site& site, const Trn& ground, const std::string& key,
+                     std::vector<Vec3>& points) {
+  const std::string said =
+      site.info.crs.empty() ? std::string() : crs_from_user(site.info.crs, "site.crs");
+  const std::string crs = said.empty() ? ground.crs_wkt : said;
+  const Where where = where_of(site, key);
+  for (const std::string& warning : check_place({crs, window_of(points), ground.crs_wkt}, where))
+    tool.warn(warning);
+  if (same_crs(crs, ground.crs_wkt)) return;
+  const CrsOperation operation = find_operation(crs, ground.crs_wkt, window_of(points), where);
+  if (!carry_out(operation, points))
+    throw InputError(
+        where, "cannot be reprojected from " + crs_name(crs) + " to " + crs_name(ground.crs_wkt),
+        "check crs of [site]: it is that of the coordinates in the site file");
+  tool.info(key + ": " + sentence_on(operation));
+  tool.record(key + ": " + sentence_on(operation));
+  if (const std::string doubt = doubt_on(operation); !doubt.empty()) tool.warn(key + ": " + doubt);
+}
+
+}  // namespace
 
 std::vector<Vec3> local_points(Tool& tool, const Site& site, const Trn& ground,
                                std::vector<Vec3> points, const std::string& key) {
-  const std::string& user_crs = site.info.crs;
-  if (!user_crs.empty() && !points.empty() && !ground.crs_wkt.empty()) {
-    const std::string crs = crs_from_user(user_crs, "site.crs");
-    if (!crs.empty() && !same_crs(crs, ground.crs_wkt)) {
-      if (!reproject(crs, ground.crs_wkt, points))
-        throw InputError(
-            where_of(site, key),
-            "cannot be reprojected from " + crs_name(crs) + " to " + crs_name(ground.crs_wkt),
-            "check crs of [site]: it is that of the coordinates in the site file");
-      tool.info(key + ": reprojected from " + crs_name(crs));
-    }
-  }
+  if (!points.empty() && !ground.crs_wkt.empty()) bring_to_ground(tool, site, ground, key, points);
   for (Vec3& p : points) p -= ground.origin;
   return points;
 }

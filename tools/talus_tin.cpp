@@ -8,6 +8,7 @@
 #include "command_line.hpp"
 #include "io/contours_gdal.hpp"
 #include "io/crs_gdal.hpp"
+#include "io/crs_operation_gdal.hpp"
 #include "io/tin_ply.hpp"
 #include "terrain/flat.hpp"
 #include "terrain/outliers.hpp"
@@ -25,7 +26,7 @@ using talus::UsageError;
 
 struct Options {
   talus::ContourSources sources;
-  std::string out, crs, t_srs, report, hold_out;
+  std::string out, crs, t_srs, vertical_crs, t_vertical, report, hold_out;
   std::string flat = "fill";
   double fill_spacing_m = 0;
   int hold_out_every = 0;
@@ -56,20 +57,36 @@ void declare(Tool& tool, Options& o) {
   tool.option("--layer", s.contours.layer, "layer of the contours; empty: the only one with lines");
   tool.option("--elevation-field", s.contours.elevation_field,
               "field with the elevation; Z: the geometries' own; empty: found by itself");
-  tool.option("--elevation-unit-m", s.elevation_unit_m, "metres in one unit of elevation")
+  tool.option("--unit-m", s.contours.unit_m,
+              "metres in one unit of the contours, in plan and height; 0: metres, or refused where "
+              "a drawing says another unit")
+      ->check(check_positive);
+  tool.option("--elevation-unit-m", s.elevation_unit_m,
+              "metres in one unit of all elevations; 0: that of the plan")
       ->check(check_positive);
   tool.input("--breaklines", s.breaklines.path, "lines with heights where the slope breaks");
   tool.option("--breaklines-layer", s.breaklines.layer, "their layer");
   tool.option("--breaklines-elevation-field", s.breaklines.elevation_field,
               "field with their elevation, or Z; empty: found by itself");
+  tool.option("--breaklines-unit-m", s.breaklines.unit_m, "as --unit-m, for them")
+      ->check(check_positive);
   tool.input("--spots", s.spots.path, "spot heights (points)");
   tool.option("--spots-layer", s.spots.layer, "their layer");
   tool.option("--spots-elevation-field", s.spots.elevation_field,
               "field with their elevation, or Z; empty: found by itself");
+  tool.option("--spots-unit-m", s.spots.unit_m, "as --unit-m, for them")->check(check_positive);
   tool.input("--boundary", s.boundary.path, "polygons: triangles with their centre outside go");
   tool.option("--boundary-layer", s.boundary.layer, "their layer");
-  tool.option("--crs", o.crs, "CRS of contours that have none; none: local metres");
+  tool.option("--boundary-unit-m", s.boundary.unit_m, "as --unit-m, for them")
+      ->check(check_positive);
+  tool.option("--crs", o.crs,
+              "CRS of contours that have none, or one that cannot be true; none: local metres");
   tool.option("--t-srs", o.t_srs, "reproject to this CRS, e.g. EPSG:32632 (heights stay)");
+  tool.option("--vertical-crs", o.vertical_crs,
+              "what the heights are in, e.g. EPSG:5773, or ellipsoidal");
+  tool.option("--t-vertical", o.t_vertical, "take the heights to this system, e.g. EPSG:5773");
+  tool.flag("--accept-ballpark", s.accept_ballpark,
+            "reproject also where nothing is known of the datum");
   tool.option("--flat", o.flat, "flat triangles on summits, ridges, valley floors: fill or keep")
       ->check(CLI::IsMember({"fill", "keep"}));
   tool.option("--fill-spacing-m", o.fill_spacing_m,
@@ -98,6 +115,10 @@ ContourMap read_map(Tool& tool, Options& o, talus::ContourReading& reading) {
   talus::from_command_line([&] {
     if (!o.crs.empty()) o.sources.crs = talus::crs_from_user(o.crs, "--crs");
     if (!o.t_srs.empty()) o.sources.t_srs = talus::crs_from_user(o.t_srs, "--t-srs");
+    if (!o.vertical_crs.empty())
+      o.sources.vertical_crs = talus::vertical_crs_from_user(o.vertical_crs, "--vertical-crs");
+    if (!o.t_vertical.empty())
+      o.sources.t_vertical = talus::target_heights_from_user(o.t_vertical, "--t-vertical");
   });
   ContourMap map = talus::read_contours(o.sources, reading);
   talus::check_heights(map);
@@ -106,6 +127,11 @@ ContourMap read_map(Tool& tool, Options& o, talus::ContourReading& reading) {
     reading.notes.push_back(std::to_string(reading.n_ignored) +
                             " features of the drawing are no lines and were passed over");
   for (const std::string& note : reading.notes) tool.info(note);
+  for (const std::string& operation : reading.operations) {
+    tool.info(operation);
+    tool.record(operation);
+  }
+  for (const std::string& warning : reading.warnings) tool.warn(warning);
   return map;
 }
 
@@ -287,6 +313,7 @@ Json build(Tool& tool, Options& o, talus::Tin& tin) {
   tin = talus::to_tin(make_mesh(tool, o, map, report), map);
   report["tin"] = {{"n_points", tin.points.size()}, {"n_triangles", tin.triangles.size()}};
   report["notes"] = reading.notes;
+  report["operations"] = reading.operations;
   tool.metric("n_points", static_cast<double>(tin.points.size()), "1");
   return report;
 }

@@ -10,6 +10,8 @@
 #include "command_line.hpp"
 #include "io/contours_gdal.hpp"
 #include "io/crs_gdal.hpp"
+#include "io/crs_operation_gdal.hpp"
+#include "io/crs_place_gdal.hpp"
 #include "io/hillshade_gdal.hpp"
 #include "io/raster_gdal.hpp"
 #include "io/tin_ply.hpp"
@@ -34,6 +36,8 @@ constexpr MapWindow everywhere{-far, -far, far, far};
 
 struct Options {
   std::string source, out, window_text, t_srs, crs, like, reference, report, hillshade;
+  std::string vertical_crs, t_vertical;
+  bool accept_ballpark = false;
   talus::LayerChoice reference_points;
   double cell_size_m = 0;
   std::vector<std::string> creation_options;
@@ -73,7 +77,14 @@ void declare(Tool& tool, Options& o) {
       ->check([&o](const std::string& words) { return parse_window(words, o.window); });
   tool.input("--like", o.like, "put the nodes on the cell centres of this raster");
   tool.option("--t-srs", o.t_srs, "reproject a DEM to this CRS, e.g. EPSG:32632 (bilinear)");
-  tool.option("--crs", o.crs, "CRS of a source that has none; none: local metres");
+  tool.option("--crs", o.crs,
+              "CRS of a source that has none, or one that cannot be true; none: local metres");
+  tool.option("--vertical-crs", o.vertical_crs,
+              "what the heights are in, e.g. EPSG:5773, or ellipsoidal");
+  tool.option("--t-vertical", o.t_vertical,
+              "take the heights of a DEM to this system, e.g. EPSG:5773");
+  tool.flag("--accept-ballpark", o.accept_ballpark,
+            "reproject also where nothing is known of the datum");
   tool.input("--reference", o.reference, "better known DEM to hold the terrain against");
   tool.input("--reference-points", o.reference_points.path,
              "points with a height to hold the terrain against (any vector source)");
@@ -149,8 +160,13 @@ void check_tin(const talus::Tin& tin, const std::string& path) {
   }
 }
 
+std::string stated_vertical(const Options& o) {
+  return o.vertical_crs.empty() ? std::string()
+                                : talus::vertical_crs_from_user(o.vertical_crs, "--vertical-crs");
+}
+
 // The CRS of the TIN, or the one that the user gives for a TIN without; empty: local metres.
-std::string crs_of_tin(const talus::Tin& tin, const MapWindow& data, const Options& o) {
+std::string crs_of_tin(Tool& tool, const talus::Tin& tin, const MapWindow& data, const Options& o) {
   std::string crs;
   if (!tin.crs_wkt.empty())
     crs = talus::crs_from_user(tin.crs_wkt, o.source + ": comment crs of the PLY header");
@@ -162,14 +178,16 @@ std::string crs_of_tin(const talus::Tin& tin, const MapWindow& data, const Optio
                        "leave --crs away");
     if (talus::height_crs(crs).empty()) crs = given;
   }
-  if (crs.empty()) return crs;
+  const std::string vertical = talus::from_command_line([&] { return stated_vertical(o); });
+  if (crs.empty() && vertical.empty()) return crs;
   const talus::Vec2 middle(0.5 * (data.x_min + data.x_max), 0.5 * (data.y_min + data.y_max));
   const talus::CrsProblem problem = talus::find_crs_problem(crs, middle);
   if (!problem.finding.empty())
     throw InputError({o.source}, problem.finding,
                      "a TIN is not reprojected: make it from the contours with talus-tin --t-srs " +
                          (problem.mend_to.empty() ? "EPSG:code" : problem.mend_to));
-  return crs;
+  for (const std::string& warning : talus::check_place({crs, data}, {o.source})) tool.warn(warning);
+  return vertical.empty() ? crs : talus::with_stated_heights(crs, vertical, {o.source});
 }
 
 Trn trn_of_tin(Tool& tool, const Options& o) {
@@ -177,10 +195,13 @@ Trn trn_of_tin(Tool& tool, const Options& o) {
     throw InputError(
         {o.source}, "a TIN is not reprojected",
         "reproject the contours (ogr2ogr -t_srs " + o.t_srs + ") and make the TIN again");
+  if (!o.t_vertical.empty())
+    throw InputError({o.source}, "the heights of a TIN stay as they are",
+                     "make it from the contours with talus-tin --t-vertical " + o.t_vertical);
   const talus::Tin tin = talus::read_tin(o.source);
   check_tin(tin, o.source);
   const MapWindow data = talus::extent(tin);
-  const std::string crs = crs_of_tin(tin, data, o);
+  const std::string crs = crs_of_tin(tool, tin, data, o);
   const double natural_size = talus::natural_cell_size(tin);
   if (natural_size <= 0)
     throw InputError({o.source}, "no triangle has an area in plan, expected a surface");
@@ -196,14 +217,29 @@ Trn trn_of_tin(Tool& tool, const Options& o) {
   return talus::make_trn(frame, crs, talus::grid_tin(tin, frame, tool.progress()));
 }
 
-Trn trn_of_dem(Tool& tool, const Options& o) {
+void say(Tool& tool, const talus::DemReading& reading) {
+  for (const std::string& note : reading.notes) {
+    tool.info(note);
+    tool.record(note);
+  }
+  for (const std::string& warning : reading.warnings) tool.warn(warning);
+}
+
+// What was done to take it to another system goes to `operations`.
+Trn trn_of_dem(Tool& tool, const Options& o, std::vector<std::string>& operations) {
   talus::DemOptions options;
   options.crs_given = !o.crs.empty();
   talus::from_command_line([&] {
     if (options.crs_given) options.crs = talus::crs_from_user(o.crs, "--crs");
     if (!o.t_srs.empty()) options.t_srs = talus::crs_from_user(o.t_srs, "--t-srs");
+    options.vertical_crs = stated_vertical(o);
+    if (!o.t_vertical.empty())
+      options.t_vertical = talus::target_heights_from_user(o.t_vertical, "--t-vertical");
   });
+  options.accept_ballpark = o.accept_ballpark;
   const DemFile dem(o.source, options);
+  say(tool, dem.reading());
+  operations = dem.reading().notes;
   const GridFrame frame = o.like.empty() ? talus::frame_on_dem(dem.frame(), o.cell_size_m, o.window)
                                          : frame_like(o, dem.crs_wkt());
   check_frame(frame, talus::extent(dem.frame()), o);
@@ -380,9 +416,11 @@ int main(int argc, char** argv) {
   Tool tool("talus-trn", "Makes the terrain of nodes (TRN) from a TIN or an elevation raster.");
   declare(tool, o);
   return tool.run(argc, argv, [&] {
-    const Trn trn = is_tin(o.source) ? trn_of_tin(tool, o) : trn_of_dem(tool, o);
+    std::vector<std::string> operations;
+    const Trn trn = is_tin(o.source) ? trn_of_tin(tool, o) : trn_of_dem(tool, o, operations);
     talus::check_trn(trn, o.source);
-    const Json report = report_on(tool, o, trn);
+    Json report = report_on(tool, o, trn);
+    if (!operations.empty()) report["operations"] = operations;
     talus::write_trn(tool.stage(o.out), trn, {{{"RUN_ID", tool.run_id()}}, o.creation_options});
     if (!o.hillshade.empty()) talus::write_hillshade(tool.stage(o.hillshade), trn);
     if (!o.report.empty()) tool.write_text(o.report, report.dump(2) + "\n");

@@ -85,7 +85,7 @@ struct Tool::Impl {
   }
 
   void add_input(const std::string& role, const std::string& path) {
-    if (!is_virtual(path) && !fs::exists(path))
+    if (!is_virtual(path) && !fs::exists(file_behind(path)))
       throw InputError({path}, "there is no such file", "check the path given for " + role);
     record.inputs.push_back(artifact_of(role, path));
     for (const std::string& member : sidecars_of(path))
@@ -362,6 +362,8 @@ void Tool::info(const std::string& text) {
 void Tool::detail(const std::string& text) {
   if (impl_->options.verbose && !impl_->options.quiet) impl_->print(text);
 }
+
+void Tool::record(const std::string& text) { impl_->event("info", text); }
 
 void Tool::warn(const std::string& text) {
   impl_->event("warning", text);

@@ -87,6 +87,7 @@ class Tool {
   void info(const std::string& text);      ///< to stderr, not with -q
   void detail(const std::string& text);    ///< to stderr, with -v
   void warn(const std::string& text);      ///< as info(); kept in the registry and in result()
+  void record(const std::string& text);    ///< kept in the registry alone, as information
   /// What was taken from a vector source: an entry of `layers_read` in what --json prints.
   void layer_read(Json entry);
   [[nodiscard]] const Json& layers_read() const;  ///< of layer_read(), in order

@@ -3,7 +3,6 @@
 #include "base/grouped_text.hpp"
 #include "base/sha256.hpp"
 #include "base/text.hpp"
-#include "io/crs_gdal.hpp"
 
 namespace talus {
 namespace {
@@ -30,7 +29,7 @@ std::string sentence_on(const VectorShapes& found, const VectorQuery& query) {
   if (found.n_united > 0)
     words += "; " + std::to_string(found.n_united) + " that overlap or touch were united to " +
              std::to_string(found.n_made);
-  if (!found.source_crs.empty()) words += "; reprojected from " + crs_name(found.source_crs);
+  if (!found.operation.empty()) words += "; " + found.operation;
   return words;
 }
 
@@ -45,6 +44,7 @@ Json entry_on(const VectorShapes& found, const std::string& role, const VectorQu
     entry["area_m2"] = found.area_m2;
   }
   entry["n_passed_over"] = found.n_passed_over;
+  if (!found.operation.empty()) entry["operation"] = found.operation;
   return entry;
 }
 
@@ -55,6 +55,8 @@ VectorShapes read_layer(Tool& tool, const std::string& role, const VectorQuery& 
   VectorShapes found = read_vectors(query, crs_wkt);
   tool.content_read(role, digest_of(found));
   tool.info(sentence_on(found, query));
+  if (!found.operation.empty()) tool.record(query.path + ": " + found.operation);
+  for (const std::string& warning : found.warnings) tool.warn(warning);
   if (found.n_passed_over > 0)
     tool.warn(query.path + ": layer " + found.layer + " also holds " +
               counted(found.n_passed_over, "part") + " that are no " + noun_of(query.kind) +

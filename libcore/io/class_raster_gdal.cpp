@@ -8,7 +8,9 @@
 
 #include "base/text.hpp"
 #include "io/crs_gdal.hpp"
+#include "io/crs_place_gdal.hpp"
 #include "io/errors_gdal.hpp"
+#include "io/raster_bands_gdal.hpp"
 
 namespace talus {
 namespace {
@@ -27,11 +29,8 @@ Dataset open_classes(const std::string& path, const Trn& trn) {
   if (!dataset)
     throw InputError({path}, "cannot be opened as a raster: " + errors.failure(),
                      "gdalinfo " + path + " shows what GDAL makes of it");
-  if (dataset->GetRasterCount() != 1)
-    throw InputError(
-        {path},
-        "the raster has " + std::to_string(dataset->GetRasterCount()) + " bands, expected one",
-        "gdal_translate -b 1 " + path + " one_band.tif");
+  refuse_several_rasters(*dataset, path);
+  check_one_band(*dataset, path);
   const std::string crs = wkt_of(dataset->GetSpatialRef());
   if (!crs.empty() && !trn.crs_wkt.empty() && !same_crs(crs, trn.crs_wkt))
     throw InputError(
@@ -51,6 +50,17 @@ std::array<double, 6> place_of(GDALDataset& dataset, const std::string& path) {
     throw InputError({path}, "the raster is rotated or upside down, expected north-up",
                      "gdalwarp -r near " + path + " north_up.tif");
   return g;
+}
+
+// Classes that lie beside the terrain would all read as unknown.
+void check_ground_place(GDALDataset& dataset, const std::array<double, 6>& g,
+                        const std::string& path, const Trn& trn) {
+  const std::string own = wkt_of(dataset.GetSpatialRef());
+  Place place{
+      own.empty() ? trn.crs_wkt : own,
+      {g[0], g[3] + dataset.GetRasterYSize() * g[5], g[0] + dataset.GetRasterXSize() * g[1], g[3]}};
+  place.is_raster = true;
+  (void)check_place(place, {path});
 }
 
 /// One row of pixels at a time, as the terrain's rows come to them.
@@ -94,6 +104,7 @@ struct PixelRows {
 std::vector<std::int32_t> read_cell_classes(const std::string& path, const Trn& trn) {
   const Dataset dataset = open_classes(path, trn);
   const std::array<double, 6> g = place_of(*dataset, path);
+  check_ground_place(*dataset, g, path, trn);
   PixelRows rows{path, *dataset->GetRasterBand(1), -1, {}, {}};
   const int n_rows = trn.n_rows - 1, n_cols = trn.n_cols - 1;
   std::vector<std::int32_t> classes(static_cast<size_t>(n_rows) * static_cast<size_t>(n_cols),

@@ -88,6 +88,10 @@ double field_value(const OGRFeature& feature, const ElevationField& field, const
   return value;
 }
 
+double height_unit_of(double elevation_unit_m, double plan_unit_m) {
+  return elevation_unit_m > 0 ? elevation_unit_m : plan_unit_m;
+}
+
 // A name like ELEV_FT says that the numbers are no metres.
 void check_unit_in_name(const std::string& name, double unit_m, const Where& where) {
   const std::string small = lower(name);
@@ -239,7 +243,9 @@ Polylines read_contour_lines(const ContourSources& sources, OpenLayer& source,
   const HeightRange z = heights_of(raw.lines);
   const bool take_field = stand_in_field(choice, source, raw, z, field, true);
   if (take_field) {
-    check_unit_in_name(field->name, sources.elevation_unit_m, where);
+    check_unit_in_name(
+        field->name,
+        height_unit_of(sources.elevation_unit_m, choice.unit_m > 0 ? choice.unit_m : 1), where);
     set_heights(raw.by_field, raw.lines);
   } else {
     if (z.first_sloping >= 0)

@@ -14,14 +14,19 @@ struct LayerChoice {
   std::string path;
   std::string layer;
   std::string elevation_field;  ///< empty: Z where it tells heights apart, else a field by name
+  double unit_m = 0;  ///< metres in one unit of its coordinates; 0: metres, or as a drawing says
 };
 
 struct ContourSources {
   LayerChoice contours, breaklines, spots, boundary;  ///< all but contours may have an empty path
-  double elevation_unit_m = 1;                        ///< metres in one unit of all elevations read
-  bool crs_given = false;  ///< `crs` stands for the CRS of contours that have none
-  std::string crs;         ///< WKT; empty: local metres
-  std::string t_srs;       ///< WKT to reproject to; empty: the CRS of the contours
+  double elevation_unit_m = 0;  ///< metres in one unit of all elevations read; 0: that of the plan
+  bool crs_given = false;       ///< `crs` stands for the CRS of contours that have none
+  std::string crs;              ///< WKT; empty: local metres
+  std::string t_srs;            ///< WKT to reproject to; empty: the CRS of the contours
+  std::string vertical_crs;  ///< what the heights of contours are in that do not say it: WKT of a
+                             ///< vertical system, or ellipsoidal_heights
+  std::string t_vertical;    ///< WKT of the vertical system to take all heights to; empty: none
+  bool accept_ballpark = false;  ///< reproject though nothing is known of the datum
 };
 
 /// What was found while reading; `notes` are sentences for the user.
@@ -31,6 +36,8 @@ struct ContourReading {
   std::int64_t n_features = 0;  ///< of the contours
   std::int64_t n_ignored = 0;   ///< parts of the drawing of the contours that are no lines
   std::vector<std::string> notes;
+  std::vector<std::string> operations;  ///< sentences: how places and heights were taken over
+  std::vector<std::string> warnings;    ///< places beside their CRS, better operations without grid
 };
 
 }  // namespace talus

@@ -8,9 +8,13 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/text.hpp"
 #include "io/areas_gdal.hpp"
 #include "io/contour_layer_gdal.hpp"
 #include "io/crs_gdal.hpp"
+#include "io/crs_operation_gdal.hpp"
+#include "io/crs_place_gdal.hpp"
+#include "io/drawing_unit_gdal.hpp"
 #include "io/errors_gdal.hpp"
 
 namespace talus {
@@ -137,20 +141,57 @@ double area_of_ring(const std::vector<Vec3>& ring) {
   return std::abs(twice) / 2;
 }
 
+std::vector<Vec3> all_points(const Rings& shapes) {
+  std::vector<Vec3> points;
+  for (const auto& shape : shapes) points.insert(points.end(), shape.begin(), shape.end());
+  return points;
+}
+
+// Whether the coordinates can be in `crs`, to be used in `work_crs`.
+void check_place_of(const std::string& crs, const std::string& work_crs, OGRLayer& layer,
+                    const Where& where, VectorShapes& found) {
+  if (crs.empty() || found.shapes.empty()) return;
+  Place place{crs, window_of(all_points(found.shapes)), work_crs};
+  place.layer = layer.GetName();
+  place.geometry_column = layer.GetGeometryColumn();
+  for (std::string& warning : check_place(place, {where.file}))
+    found.warnings.push_back(std::move(warning));
+}
+
 void take_to(const std::string& crs_wkt, const Where& where, VectorShapes& found) {
-  for (auto& shape : found.shapes) {
-    if (is_beyond_degrees(found.source_crs, shape))
-      throw InputError(
-          where,
-          "the CRS is " + crs_name(found.source_crs) +
-              " (a GeoJSON without crs says so), but the coordinates are no degrees",
-          "name the CRS in the file: ogr2ogr -a_srs EPSG:code named.gpkg " + where.file);
-    if (!reproject(found.source_crs, crs_wkt, shape))
-      throw InputError(
-          where,
-          "cannot be reprojected from " + crs_name(found.source_crs) + " to " + crs_name(crs_wkt),
-          "check the CRS of the file");
-  }
+  std::vector<Vec3> points = all_points(found.shapes);
+  const CrsOperation operation =
+      find_operation(found.source_crs, crs_wkt, window_of(points), where);
+  if (!carry_out(operation, points))
+    throw InputError(
+        where,
+        "cannot be reprojected from " + crs_name(found.source_crs) + " to " + crs_name(crs_wkt),
+        "check the CRS of the file");
+  auto next = points.begin();
+  for (auto& shape : found.shapes)
+    for (Vec3& point : shape) point = *next++;
+  found.operation = sentence_on(operation);
+  if (const std::string doubt = doubt_on(operation); !doubt.empty())
+    found.warnings.push_back(where.file + ": " + doubt);
+}
+
+void refuse_no_degrees(const std::string& own, const Where& where, const Rings& shapes) {
+  if (!is_beyond_degrees(own, all_points(shapes))) return;
+  throw InputError(where,
+                   "the CRS is " + crs_name(own) +
+                       " (a GeoJSON without crs says so), but the coordinates are no degrees",
+                   "name the CRS in the file: ogr2ogr -a_srs EPSG:code named.gpkg " + where.file);
+}
+
+void check_unit(const OpenLayer& source, const std::string& crs, const Where& where) {
+  if (!source.is_drawing) return;
+  const std::string opened = source.dataset->GetDescription();
+  const DrawingUnit unit = drawing_unit(opened);
+  (void)scale_of_drawing(opened, 0, length_unit_m(crs), where,
+                         "bring it to metres: ogr2ogr -f GPKG -nln metres metres.gpkg " +
+                             where.file + " -dialect sqlite -sql 'SELECT ScaleCoords(geometry, " +
+                             (unit.metres > 0 ? text(unit.metres) : "METRES") +
+                             ") AS geometry, * FROM \"" + source.layer->GetName() + "\"'");
 }
 
 }  // namespace
@@ -167,7 +208,13 @@ VectorShapes read_vectors(const VectorQuery& query, const std::string& crs_wkt) 
   const std::vector<bool> is_hole = add_areas(parts, where, found);
   check_finite(found.shapes, where);
   const std::string own = wkt_of(source.layer->GetSpatialRef());
-  if (!own.empty() && !crs_wkt.empty() && !same_crs(own, crs_wkt)) {
+  check_unit(source, own.empty() ? crs_wkt : own, where);
+  if (const std::string doubt = doubt_on_unit(source.dataset->GetDescription(), 0); !doubt.empty())
+    found.warnings.push_back(query.path + ": " + doubt);
+  const bool is_taken_on = !own.empty() && !crs_wkt.empty() && !same_crs(own, crs_wkt);
+  if (is_taken_on) refuse_no_degrees(own, where, found.shapes);
+  check_place_of(is_taken_on ? own : crs_wkt, crs_wkt, *source.layer, where, found);
+  if (is_taken_on) {
     found.source_crs = own;
     take_to(crs_wkt, where, found);
     check_finite(found.shapes, where);

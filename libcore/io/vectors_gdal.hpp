@@ -28,16 +28,19 @@ struct VectorShapes {
   std::string layer;
   std::vector<std::vector<Vec3>> shapes;  ///< points, lines, or closed rings without the last point
   std::string source_crs;                 ///< WKT when the shapes were reprojected, else empty
-  int n_parts = 0;                        ///< points, lines or polygons as they were read
-  int n_passed_over = 0;                  ///< parts of another kind in the same layer
-  int n_united = 0;                       ///< polygons that met another one ...
-  int n_made = 0;                         ///< ... and the polygons made of them
-  double area_m2 = 0;                     ///< of all polygons, in the wanted CRS
+  std::string operation;              ///< sentence: how they were reprojected; empty: they were not
+  std::vector<std::string> warnings;  ///< places beside their CRS, a better operation
+  int n_parts = 0;                    ///< points, lines or polygons as they were read
+  int n_passed_over = 0;              ///< parts of another kind in the same layer
+  int n_united = 0;                   ///< polygons that met another one ...
+  int n_made = 0;                     ///< ... and the polygons made of them
+  double area_m2 = 0;                 ///< of all polygons, in the wanted CRS
 };
 
 /// Throws InputError: source cannot be opened, no such layer or several that may be meant, nothing
 /// of the kind in it, empty or missing geometries, polygons that are not sound, coordinates that
-/// are not finite or cannot be reprojected. A source or target without a CRS is taken to be in the
+/// are not finite, cannot be what their CRS says (check_place) or cannot be reprojected, a drawing
+/// that is not in metres. A source or target without a CRS is taken to be in the
 /// other's.
 [[nodiscard]] VectorShapes read_vectors(const VectorQuery& query, const std::string& crs_wkt);
 

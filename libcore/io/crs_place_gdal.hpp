@@ -1,0 +1,62 @@
+// libcore/io/crs_place_gdal.hpp
+// Whether coordinates can be what their system says: inside its area of use, with x to the east and
+// y to the north, metres that are metres; and what they look like where they cannot.
+// in:    a system, the extent of what was read, the system that is computed in
+// out:   nothing; a warning; or InputError with the finding and the way out
+// refs:  Snyder (1987), Map projections (scale factors)
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "base/types.hpp"
+#include "terrain/grid_frame.hpp"
+
+namespace talus {
+
+/// Longitudes and latitudes [degrees]; east < west where it spans the antimeridian.
+struct DegreeWindow {
+  bool known = false;  ///< false: the corners have no place on the Earth
+  double west = 0, south = 0, east = 0, north = 0;
+};
+
+/// Where a window of the map lies, on the datum of its system.
+[[nodiscard]] DegreeWindow degrees_of(const std::string& crs_wkt, const MapWindow& window);
+
+/// Longitude and latitude [degrees] of a place on its own datum; nothing where the projection does
+/// not reach.
+[[nodiscard]] std::optional<Vec2> degrees_at(const std::string& crs_wkt, const Vec2& place);
+
+/// UTM zone of a longitude and latitude [degrees], "EPSG:32632"; empty near the poles.
+[[nodiscard]] std::string utm_zone(const Vec2& longitude_latitude);
+
+/// What was read, and how the person who gave it can say what it is.
+struct Place {
+  std::string crs_wkt;           ///< of the coordinates; empty: local, nothing is checked
+  MapWindow extent;              ///< of what was read; of a raster the outer edges of its cells
+  std::string work_wkt{};        ///< system that is computed in; empty: crs_wkt
+  bool has_crs_option = false;   ///< the tool has --crs and --t-srs for this file
+  bool has_unit_option = false;  ///< and --unit-m
+  bool is_raster = false;
+  std::string layer{}, geometry_column{};  ///< of a vector source, for commands
+};
+
+/// Throws InputError at `where` when the coordinates lie far outside the area that their system, or
+/// the one computed in, is made for, when x does not run to the east and y to the north, or when a
+/// metre on the map is not within 1 % of one on the ground. The finding says what they would fit:
+/// x and y exchanged, degrees, feet, millimetres, zone numbers before the eastings ... Returns
+/// sentences to warn of: places somewhat outside, a grid north far from north.
+std::vector<std::string> check_place(const Place& place, const Where& where);
+
+/// Why a user may give a file another system than it names: its coordinates cannot be in that one,
+/// or that has no known datum and the other the same projection. Goes on "the CRS is EPSG:25832,
+/// ..."; empty: no reason.
+[[nodiscard]] std::string reason_to_replace(const std::string& own, const std::string& given,
+                                            const MapWindow& extent);
+
+/// The smallest window that holds the points.
+[[nodiscard]] MapWindow window_of(const std::vector<Vec3>& points);
+
+}  // namespace talus
