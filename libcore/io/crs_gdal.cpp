@@ -12,7 +12,6 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
-#include "io/crs_operation_gdal.hpp"
 #include "io/crs_place_gdal.hpp"
 #include "io/errors_gdal.hpp"
 
