@@ -1,11 +1,16 @@
 #include "file_paths.hpp"
 
+#include "base/source_path.hpp"
 #include "base/text.hpp"
 
 namespace talus {
 namespace fs = std::filesystem;
 
 bool is_virtual(const std::string& path) { return path.rfind("/vsi", 0) == 0; }
+
+std::string file_of(const std::string& source) { return parse_source_path(source).file; }
+
+std::string part_named(const std::string& source) { return parse_source_path(source).inside; }
 
 std::string absolute_path(const std::string& path) {
   if (is_virtual(path)) return path;

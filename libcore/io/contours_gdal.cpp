@@ -106,10 +106,10 @@ void scale_heights(double unit_m, const std::string& path, std::vector<Vec3>& po
 
 // Breaklines, or points as lines of one point, with their heights [m].
 Polylines read_measured(const LayerChoice& choice, const LayerRole& role,
-                        const std::string& map_crs, double unit_m,
-                        std::vector<std::string>& notes) {
+                        const std::string& map_crs, double unit_m, std::vector<std::string>& notes,
+                        LayerReading& taken) {
   OpenLayer source = open_layer(choice, role);
-  Polylines lines = read_measured_lines(choice, source, unit_m, notes);
+  Polylines lines = read_measured_lines(choice, source, unit_m, notes, taken);
   bring_to_map(choice, source, map_crs, lines.points, notes);
   const std::string own_crs = wkt_of(source.layer->GetSpatialRef());
   check_heights_alike(own_crs, map_crs, choice.path);
@@ -120,7 +120,7 @@ Polylines read_measured(const LayerChoice& choice, const LayerRole& role,
 }
 
 std::vector<BoundaryRing> read_boundary(const LayerChoice& choice, const std::string& map_crs,
-                                        std::vector<std::string>& notes) {
+                                        std::vector<std::string>& notes, LayerReading& taken) {
   OpenLayer source = open_layer(choice, boundary_role);
   std::vector<Vec3> points;
   std::vector<BoundaryRing> rings;
@@ -137,7 +137,9 @@ std::vector<BoundaryRing> read_boundary(const LayerChoice& choice, const std::st
     }
     ++n_polygons;
   });
+  taken = reading_of(choice, source);
   notes.push_back(choice.path + ": layer " + source.name + ", " + counted(n_polygons, "polygon"));
+  add_remarks(taken, notes);
   bring_to_map(choice, source, map_crs, points, notes);
   begin.push_back(points.size());
   for (std::size_t r = 0; r < rings.size(); ++r)
@@ -183,6 +185,7 @@ ContourMap read_contours(const ContourSources& sources, ContourReading& reading)
   map.source = sources.contours.path;
   OpenLayer source = open_layer(sources.contours, contours_role);
   map.contours = read_contour_lines(sources, source, reading);
+  add_remarks(reading.contours, reading.notes);
   const std::string own_crs = crs_of_contours(sources, source, map.contours.points);
   map.crs_wkt = own_crs;
   if (!sources.t_srs.empty()) {
@@ -197,25 +200,25 @@ ContourMap read_contours(const ContourSources& sources, ContourReading& reading)
   const HeightRange heights = heights_of(map.contours);
   if (!sources.breaklines.path.empty()) {
     map.breaklines = read_measured(sources.breaklines, breaklines_role, map.crs_wkt,
-                                   sources.elevation_unit_m, reading.notes);
+                                   sources.elevation_unit_m, reading.notes, reading.breaklines);
     check_units(map.breaklines.points, heights, sources.breaklines.path);
   }
   if (!sources.spots.path.empty()) {
     map.spots = read_measured(sources.spots, spots_role, map.crs_wkt, sources.elevation_unit_m,
-                              reading.notes)
+                              reading.notes, reading.spots)
                     .points;
     check_units(map.spots, heights, sources.spots.path);
   }
   if (!sources.boundary.path.empty())
-    map.boundary = read_boundary(sources.boundary, map.crs_wkt, reading.notes);
+    map.boundary = read_boundary(sources.boundary, map.crs_wkt, reading.notes, reading.boundary);
   make_relative(map);
   check_boundary(map, sources.boundary.path);
   return map;
 }
 
 std::vector<Vec3> read_points(const LayerChoice& choice, const std::string& crs_wkt,
-                              std::vector<std::string>& notes) {
-  return read_measured(choice, reference_role, crs_wkt, 1, notes).points;
+                              std::vector<std::string>& notes, LayerReading& taken) {
+  return read_measured(choice, reference_role, crs_wkt, 1, notes, taken).points;
 }
 
 void write_points(const std::string& path, const std::string& layer, const std::string& crs_wkt,

@@ -7,16 +7,21 @@
 #include <string>
 #include <vector>
 
+#include "io/layer_reading.hpp"
 #include "terrain/contours.hpp"
 
 namespace talus {
 
-/// A vector source and one of its layers; an empty layer means the only one with fitting
-/// geometries. In a DXF drawing the layer may also be a layer of the drawing.
+/// A vector source and one or several of its layers, parted by line breaks or commas, with * and ?
+/// for any letters; empty: the only one with fitting geometries. Of a DXF drawing they are the
+/// layers of the drawing.
 struct LayerChoice {
-  std::string path;
+  std::string path;  ///< also as QGIS writes it ("map.gpkg|layername=index"), or an archive
   std::string layer;
-  std::string elevation_field;  ///< empty: Z where it tells heights apart, else a field by name
+  /// Empty: Z where it tells heights apart, else a field by name. "Z", or "geometry.Z" and
+  /// "field.Z" where a field has that name.
+  std::string elevation_field;
+  std::string where;  ///< OGR attribute filter; empty: all
 };
 
 struct ContourSources {
@@ -32,8 +37,9 @@ struct ContourReading {
   std::string layer;            ///< of the contours
   std::string elevation_from;   ///< "Z" or "field ELEV"
   std::int64_t n_features = 0;  ///< of the contours
-  std::int64_t n_ignored = 0;   ///< parts of the drawing of the contours that are no lines
   std::vector<std::string> notes;
+  /// What was taken, of each source; without a file: none was given.
+  LayerReading contours, breaklines, spots, boundary;
 };
 
 /// Reads everything, reprojects breaklines, spot heights and boundary to the CRS of the contours,
@@ -42,10 +48,10 @@ struct ContourReading {
 [[nodiscard]] ContourMap read_contours(const ContourSources& sources, ContourReading& reading);
 
 /// Points with a height in map coordinates, in `crs_wkt` [m]: what a terrain is held against. What
-/// was found goes to `notes`; a missing CRS, of the source or in `crs_wkt`, means the same one.
-/// Throws InputError as read_contours does for spot heights.
+/// was found goes to `notes` and `taken`; a missing CRS, of the source or in `crs_wkt`, means the
+/// same one. Throws InputError as read_contours does for spot heights.
 [[nodiscard]] std::vector<Vec3> read_points(const LayerChoice& choice, const std::string& crs_wkt,
-                                            std::vector<std::string>& notes);
+                                            std::vector<std::string>& notes, LayerReading& taken);
 
 /// Writes points as a GeoPackage with one 3-D layer. `points` relative to `origin` [m].
 /// Throws InputError when the file cannot be written.
