@@ -1,6 +1,8 @@
 #include "base/source_path.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <filesystem>
 #include <utility>
 
@@ -72,7 +74,25 @@ void find_file(SourcePath& path) {
   path.source = archive_prefix(file) + path.source;
 }
 
+// As it is where nothing in it means something to a shell.
+std::string shell_word(const std::string& word) {
+  const auto is_plain = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+           std::string("_-+=,./@:%").find(c) != std::string::npos;
+  };
+  if (!word.empty() && std::all_of(word.begin(), word.end(), is_plain)) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
 }  // namespace
+
+std::string command_words(const std::string& name) {
+  const SourcePath path = parse_source_path(name);
+  return shell_word(path.source) + (path.layer.empty() ? "" : " " + shell_word(path.layer)) +
+         (path.subset.empty() ? "" : " -where " + shell_word(path.subset));
+}
 
 std::string archive_prefix(const std::string& file) {
   const std::string name = lower(file);

@@ -17,6 +17,10 @@ struct SourcePath {
 /// "|key=" that is not known.
 [[nodiscard]] SourcePath parse_source_path(const std::string& name);
 
+/// The source as words of a command like ogr2ogr, quoted for the shell where need be: what a hint
+/// that holds a command names.
+[[nodiscard]] std::string command_words(const std::string& name);
+
 /// The prefix by which GDAL looks into an archive ("/vsizip/"); empty when it is none by its name.
 [[nodiscard]] std::string archive_prefix(const std::string& file);
 

@@ -10,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/source_path.hpp"
 #include "base/text.hpp"
 #include "terrain/elevation.hpp"
 
@@ -262,9 +263,10 @@ void check_known(const Polylines& lines, const LayerChoice& choice, const OpenLa
                             std::to_string(lines.feature[static_cast<std::size_t>(l)]) + " (" +
                             text(point.x(), 10) + ", " + text(point.y(), 10) + ")"},
                        "the elevation is " + value + ", which stands for an unknown one",
-                       from == "Z" ? "give the line its height, or take it out: ogr2ogr -where"
-                                   : "give it its height, or take such out: ogr2ogr -where \"" +
-                                         from + " <> " + value + "\" known.gpkg " + choice.path);
+                       from == "Z"
+                           ? "give the line its height, or take it out"
+                           : "give it its height, or take such out: ogr2ogr -where \"" + from +
+                                 " <> " + value + "\" known.gpkg " + command_words(choice.path));
     }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/source_path.hpp"
 #include "base/text.hpp"
 #include "io/contour_layer_gdal.hpp"
 #include "io/errors_gdal.hpp"
@@ -189,7 +190,7 @@ std::string way_to_shape(const OpenLayer& source, const LayerChoice& choice) {
   const auto has = [&source](const char* kind) { return source.passed_over.count(kind) > 0; };
   if (source.role.shape == LayerShape::line && has("polygon"))
     return "outlines that each stand at one height: ogr2ogr -nlt MULTILINESTRING lines.gpkg " +
-           choice.path + "; bands between two heights are no contours";
+           command_words(choice.path) + "; bands between two heights are no contours";
   if (source.role.shape == LayerShape::polygon && has("open line"))
     return "end each line where it begins";
   return "";
@@ -293,7 +294,11 @@ void for_each_part(const LayerChoice& choice, OpenLayer& source, const Visit& vi
                          " features have no geometry, expected none: is the file truncated?",
                      "copy the file anew; features that are meant to be empty must be deleted");
   if (errors.failed())
-    throw InputError(where_of_layer(choice, source), "reading failed: " + errors.failure());
+    throw InputError(
+        where_of_layer(choice, source),
+        (source.filter.empty() ? "reading failed: "
+                               : "reading with the filter \"" + source.filter + "\" failed: ") +
+            errors.failure());
   if (source.n_parts == 0) throw without_parts(choice, source);
   check_named(choice, source);
   if (!source.is_drawing) return;

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "base/error.hpp"
+#include "base/source_path.hpp"
 #include "base/text.hpp"
 
 namespace talus {
@@ -255,7 +256,7 @@ void drop_mark(const std::string& file, std::string& text) {
   if (text.rfind("\xEF\xBB\xBF", 0) == 0) text.erase(0, 3);
   if (text.rfind("\xFF\xFE", 0) == 0 || text.rfind("\xFE\xFF", 0) == 0)
     throw InputError({file}, "is written in UTF-16, expected UTF-8",
-                     "iconv -f UTF-16 -t UTF-8 " + file + " > points.csv");
+                     "iconv -f UTF-16 -t UTF-8 " + command_words(file) + " > points.csv");
 }
 
 }  // namespace

@@ -117,7 +117,7 @@ void add_fields(const PointTable& table, OGRLayer& layer) {
   }
 }
 
-void add_points(const PointTable& table, OGRLayer& layer) {
+void add_points(const PointTable& table, const std::string& file, OGRLayer& layer) {
   for (std::size_t row = 0; row < table.points.size(); ++row) {
     OGRFeature feature(layer.GetLayerDefn());
     feature.SetFID(table.line[row]);
@@ -131,7 +131,8 @@ void add_points(const PointTable& table, OGRLayer& layer) {
     }
     OGRPoint point(table.points[row].x(), table.points[row].y());
     feature.SetGeometry(&point);
-    static_cast<void>(layer.CreateFeature(&feature));
+    if (layer.CreateFeature(&feature) != OGRERR_NONE)
+      throw InputError({file, table.line[row]}, "cannot be kept as a point");
   }
 }
 
@@ -145,7 +146,7 @@ VectorDataset table_as_dataset(const PointTable& table, const std::string& name)
   OGRLayer* layer =
       made.dataset->CreateLayer(name.c_str(), table.is_degrees ? &degrees : nullptr, wkbPoint);
   add_fields(table, *layer);
-  add_points(table, *layer);
+  add_points(table, name, *layer);
   made.remarks.push_back("x from " + table.x_from + ", y from " + table.y_from +
                          (table.is_degrees ? ", taken to be in EPSG:4326 (WGS 84)" : ""));
   return made;
@@ -175,7 +176,7 @@ VectorDataset open_vectors(const SourcePath& path) {
   throw InputError(
       {path.file},
       "cannot be opened as vectors" + (errors.failed() ? ": " + errors.failure() : std::string()),
-      "ogrinfo " + source + " shows what GDAL makes of it");
+      "ogrinfo " + command_words(source) + " shows what GDAL makes of it");
 }
 
 }  // namespace talus

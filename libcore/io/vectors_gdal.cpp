@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/source_path.hpp"
 #include "io/areas_gdal.hpp"
 #include "io/contour_layer_gdal.hpp"
 #include "io/crs_gdal.hpp"
@@ -106,11 +107,11 @@ double area_of_ring(const std::vector<Vec3>& ring) {
 void take_to(const std::string& crs_wkt, const Where& where, VectorShapes& found) {
   for (auto& shape : found.shapes) {
     if (is_beyond_degrees(found.source_crs, shape))
-      throw InputError(
-          where,
-          "the CRS is " + crs_name(found.source_crs) +
-              " (a GeoJSON without crs says so), but the coordinates are no degrees",
-          "name the CRS in the file: ogr2ogr -a_srs EPSG:code named.gpkg " + where.file);
+      throw InputError(where,
+                       "the CRS is " + crs_name(found.source_crs) +
+                           " (a GeoJSON without crs says so), but the coordinates are no degrees",
+                       "name the CRS in the file: ogr2ogr -a_srs EPSG:code named.gpkg " +
+                           command_words(where.file));
     if (!reproject(found.source_crs, crs_wkt, shape))
       throw InputError(
           where,

@@ -144,3 +144,20 @@ printf 'name;Easting;Northing\na;500020,0;5200020,0\n' >points.csv
 expect 0 talus-blocks points.toml --trn trn.tif -o table.h5 --no-db --set blocks.a.release_file=points.csv
 says "points.csv: x from Easting, y from Northing"
 says "points.csv: layer points, 1 point"
+
+# --- commands of hints ----------------------------------------------------------------------------
+hint() { sed -n 's/^  hint: //p' err; }
+# metres that the file calls degrees, with a code for the word of the hint
+sed 's/"crs":{[^}]*}},//' area.geojson >metres.geojson
+expect 1 cut --set source.polygon_file=metres.geojson
+says "the coordinates are no degrees"
+eval "$(hint | sed 's/.*\(ogr2ogr.*\)/\1/; s/EPSG:code/EPSG:32633/')"
+is_release --set source.polygon_file=named.gpkg
+# a layer named as QGIS does is a word of its own in the command, which mends it alone
+ogr2ogr -q -update areas.gpkg bow.geojson -nln "two triangles"
+expect 1 cut --set 'source.polygon_file=areas.gpkg|layername=two triangles'
+says "the polygon is not sound"
+rm -f mended.gpkg
+eval "$(hint | sed 's/mend it: //')"
+ogrinfo -so mended.gpkg >layers
+[ "$(grep -c '^[0-9]*: ' layers)" = 1 ] && grep -q 'two triangles' layers || fail "the hint mended $(cat layers)"

@@ -52,7 +52,7 @@ ogr2ogr -q -append -update -addfields -nln map filter.gpkg old.geojson
 is_truth filter.gpkg --where "OLD IS NULL"
 says "filter OLD IS NULL"
 is_truth 'filter.gpkg|layername=map|subset=OLD IS NULL'
-refused "cannot be used" filter.gpkg --where "NONE = 1"
+refused "filter \"NONE = 1\"" filter.gpkg --where "NONE = 1"
 refused "leaves no feature" filter.gpkg --where "ELEV > 9000"
 
 # --- drawings -------------------------------------------------------------------------------------
@@ -132,18 +132,28 @@ ogr2ogr -q -nlt MULTILINESTRING lines.gpkg bands.geojson
 refused "meets contour" lines.gpkg
 
 # --- Z and fields ---------------------------------------------------------------------------------
-# Z that is no number beside a good field
-ogr2ogr -q -f CSV -lco GEOMETRY=AS_WKT nan.csv map.geojson
-sed -i 's/\( 5[0-9.]*\) 1[0-3]0\([,)]\)/\1 nan\2/g' nan.csv
-is_map nan.csv --crs EPSG:32632
-says "elevation from field ELEV"
-says "Z of 4 of 4 is no number and was not looked at"
-is_map nan.csv --crs EPSG:32632 --elevation-field ELEV
-refused "the Z of 4 of 4 is not a finite number" nan.csv --crs EPSG:32632 --elevation-field Z
-sed 's/ELEV/OTHER/' nan.csv >unnamed.csv
-refused "the Z of 4 of 4 is not a finite number, and no field with a usual name holds heights" unnamed.csv --crs EPSG:32632
-says "hint: name the field with --elevation-field; the fields are: WKT, OTHER, NAME"
-is_map unnamed.csv --crs EPSG:32632 --elevation-field OTHER
+# Z that is no number beside a good field, in a GeoPackage and in a Shapefile
+ogr2ogr -q nan.gpkg map.geojson
+ogr2ogr -q -lco SHPT=ARCZ nan.shp map.geojson
+python3 - <<'PY'
+import struct
+for name in ('nan.gpkg', 'nan.shp'):
+    content = open(name, 'rb').read()
+    for height in (100, 110, 120, 130):
+        content = content.replace(struct.pack('<d', height), struct.pack('<d', float('nan')))
+    open(name, 'wb').write(content)
+PY
+for file in nan.gpkg nan.shp; do
+  is_truth $file
+  says "elevation from field ELEV"
+  says "Z of 4 of 4 is no number and was not looked at"
+  is_truth $file --elevation-field ELEV
+  refused "the Z of 4 of 4 is not a finite number" $file --elevation-field Z
+done
+ogr2ogr -q -sql "SELECT ELEV AS OTHER, NAME FROM nan" unnamed.gpkg nan.gpkg
+refused "the Z of 4 of 4 is not a finite number, and no field with a usual name holds heights" unnamed.gpkg
+says "hint: name the field with --elevation-field; the fields are: OTHER, NAME"
+is_truth unnamed.gpkg --elevation-field OTHER
 
 # a field called Z beside another Z: refused with both names, each of which works
 sed 's/"ELEV":1\([0-3]\)0/"Z":2\100/' map.geojson >z.geojson
@@ -163,7 +173,7 @@ ogr2ogr -q -dim XY -sql "SELECT ELEV, ELEV * 3.28 AS ELEV_FT, 0 AS ALT FROM map"
 is_truth feet.gpkg
 # the unit is said
 expect 0 talus-tin rivals.gpkg --elevation-field ELEV --elevation-unit-m 0.5 -o unit.ply
-says "elevation from field ELEV of layer rivals, in units of 0.5 m"
+says "elevation from field ELEV of layer map, in units of 0.5 m"
 
 # --- archives and tables --------------------------------------------------------------------------
 ogr2ogr -q -lco SHPT=ARCZ whole.shp map.geojson
@@ -204,3 +214,9 @@ for file in spots.xyz mark.csv; do
 done
 printf 'x,y,z\n500000,5200000,138\n500003,n/a,138\n' >bad.csv
 refused "bad.csv:3: says \"n/a\", expected a number" map.geojson --spots bad.csv
+# a table in UTF-16, by the command of the hint
+iconv -f UTF-8 -t UTF-16 mark.csv >wide.csv
+refused "is written in UTF-16, expected UTF-8" map.geojson --spots wide.csv
+eval "$(hint)"
+expect 0 talus-tin map.geojson -o found.ply --overwrite --spots points.csv
+cmp -s csv.ply found.ply || fail "the table of the hint gives another terrain"

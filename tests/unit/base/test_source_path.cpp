@@ -65,6 +65,12 @@ TEST(SourcePath, ArchivesAreLookedInto) {
   EXPECT_EQ(parse_source_path(packed).source, "/vsigzip/" + packed);
 }
 
+TEST(SourcePath, HintsNameTheSourceAsWordsOfACommand) {
+  EXPECT_EQ(command_words("a.gpkg"), "a.gpkg");
+  EXPECT_EQ(command_words("my map.gpkg|layername=in dex|subset=k = 'a'"),
+            "'my map.gpkg' 'in dex' -where 'k = '\\''a'\\'''");
+}
+
 TEST(SourcePath, AVirtualPathWithoutAFileStaysOne) {
   const SourcePath path = parse_source_path("/vsizip//vsicurl/https://example.org/a.zip/a.shp");
   EXPECT_EQ(path.file, "/vsizip//vsicurl/https://example.org/a.zip/a.shp");
