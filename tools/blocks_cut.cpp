@@ -39,7 +39,8 @@ Area read_area(Tool& tool, const BlocksWork& work) {
   const std::string path = resolved(work.site, source.polygon_file);
   tool.read_also("source.polygon_file", path);
   const VectorShapes found = read_layer(
-      tool, "source", {path, source.polygon_layer, "", VectorKind::areas, "source.polygon_"},
+      tool, "source",
+      {path, source.polygon_layer, source.polygon_where, VectorKind::areas, "source.polygon_"},
       work.ground.crs_wkt);
   for (std::vector<Vec3> ring : found.shapes) {
     for (Vec3& p : ring) p -= work.ground.origin;

@@ -1,5 +1,6 @@
 #include "file_paths.hpp"
 
+#include "base/source_path.hpp"
 #include "base/text.hpp"
 
 namespace talus {
@@ -21,6 +22,10 @@ std::string file_behind(const std::string& path) {
     }
   return path;
 }
+
+std::string file_of(const std::string& source) { return parse_source_path(source).file; }
+
+std::string part_named(const std::string& source) { return parse_source_path(source).inside; }
 
 std::string absolute_path(const std::string& path) {
   if (is_virtual(path) || file_behind(path) != path) return path;

@@ -16,6 +16,13 @@ namespace talus {
 /// NETCDF:"scene.nc":z. Any other path as it is.
 [[nodiscard]] std::string file_behind(const std::string& path);
 
+/// The file that a name of a source stands for: "map.gpkg" of "map.gpkg|layername=a", "map.zip" of
+/// "/vsizip/map.zip/a.shp".
+[[nodiscard]] std::string file_of(const std::string& source);
+
+/// What follows the file in the name of a source, as it is written; empty: nothing.
+[[nodiscard]] std::string part_named(const std::string& source);
+
 /// Absolute and without links, as far as it exists; a virtual path as it is.
 [[nodiscard]] std::string absolute_path(const std::string& path);
 

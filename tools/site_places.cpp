@@ -51,7 +51,8 @@ std::vector<RecordLine> fence_lines(Tool& tool, const Site& site, const Trn& trn
     tool.read_also("fence." + fence.name, path);
     const std::string section = "fence." + fence.name;
     VectorShapes shapes = read_layer(
-        tool, section, {path, fence.line_layer, "", VectorKind::lines, section + ".line_"},
+        tool, section,
+        {path, fence.line_layer, fence.line_where, VectorKind::lines, section + ".line_"},
         trn.crs_wkt);
     for (std::vector<Vec3>& line : shapes.shapes) {
       for (Vec3& point : line) point -= trn.origin;

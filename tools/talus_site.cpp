@@ -9,6 +9,7 @@
 #include <set>
 
 #include "base/read_file.hpp"
+#include "base/source_path.hpp"
 #include "base/text.hpp"
 #include "file_digests.hpp"
 #include "file_paths.hpp"
@@ -38,8 +39,8 @@ bool names_a_file(const std::string& section, const std::string& key) {
 
 std::string file_named(const Site& site, const EffectiveValue& value) {
   if (value.value.empty() || !names_a_file(value.section, value.key)) return "";
-  const std::string path = resolved(site, unquoted(value.value));
-  return path.rfind("/vsi", 0) == 0 ? "" : path;
+  const std::string file = file_of(resolved(site, unquoted(value.value)));
+  return is_virtual(file) ? "" : file;
 }
 
 // A file that is missing stops make here, once, and not in the middle of the pipeline.
@@ -109,7 +110,8 @@ std::map<std::string, std::string> lists_of(const std::vector<std::string>& give
     std::string& list = lists[name];
     if (list.empty()) list = "# files that make was given for " + name + "\n";
     if (file.empty()) continue;
-    list += file + "  # sha256" + (is_virtual(file) ? " none" : digests_of(file, digests)) + "\n";
+    const std::string read = file_of(file);
+    list += file + "  # sha256" + (is_virtual(read) ? " none" : digests_of(read, digests)) + "\n";
   }
   return lists;
 }
@@ -153,17 +155,46 @@ std::string joined(const std::vector<double>& numbers) {
   return out;
 }
 
+// A rule names the file of the contours alone; what else their name says becomes an option.
+std::string layer_of(const Site& site, const SourcePath& contours) {
+  const std::string& by_key = site.terrain.layer;
+  if (!contours.layer_id.empty())
+    throw InputError(where_of(site, "terrain.contours"),
+                     "contours asks for a layer by its number, " + contours.layer_id,
+                     "name it: layer = \"...\"");
+  if (contours.layer.empty() || by_key.empty() || by_key == contours.layer)
+    return contours.layer.empty() ? by_key : contours.layer;
+  throw InputError(where_of(site, "terrain.layer"),
+                   "layer is " + by_key + ", contours asks for the layer " + contours.layer,
+                   "name the layer once");
+}
+
+std::string filter_of(const Site& site, const SourcePath& contours) {
+  const std::string &a = contours.subset, &b = site.terrain.where;
+  return a.empty() || b.empty() ? a + b : "(" + a + ") AND (" + b + ")";
+}
+
 std::string tin_flags(const Site& site) {
   const TerrainSettings& t = site.terrain;
   std::string out;
   const auto add = [&out, &site](const char* option, const std::string& value) {
     if (!value.empty()) out += std::string(" ") + option + " " + shell_word(value, site);
   };
-  add("--layer", t.layer);
+  const SourcePath contours = parse_source_path(resolved(site, t.contours));
+  add("--layer", layer_of(site, contours));
+  add("--where", filter_of(site, contours));
   add("--elevation-field", t.elevation_field);
   add("--breaklines", resolved(site, t.breaklines));
+  add("--breaklines-layer", t.breaklines_layer);
+  add("--breaklines-where", t.breaklines_where);
+  add("--breaklines-elevation-field", t.breaklines_elevation_field);
   add("--spots", resolved(site, t.spots));
+  add("--spots-layer", t.spots_layer);
+  add("--spots-where", t.spots_where);
+  add("--spots-elevation-field", t.spots_elevation_field);
   add("--boundary", resolved(site, t.boundary));
+  add("--boundary-layer", t.boundary_layer);
+  add("--boundary-where", t.boundary_where);
   add("--flat", t.flat);
   return out;
 }
@@ -174,6 +205,13 @@ std::string trn_flags(const Site& site) {
   if (!std::isnan(t.cell_size_m)) out += " --cell-size-m " + text(t.cell_size_m);
   if (!t.window_m.empty()) out += " --window " + joined(t.window_m);
   return out;
+}
+
+// A member of an archive that is named by itself stands in the rule by GDAL's name for it.
+std::string contours_file(const Site& site) {
+  const SourcePath contours = parse_source_path(resolved(site, site.terrain.contours));
+  const bool is_member = contours.inside.find('/') == 0;
+  return is_member || is_virtual(contours.source) ? contours.source : contours.file;
 }
 
 std::string make_variables(const Site& site) {
@@ -191,7 +229,7 @@ std::string make_variables(const Site& site) {
   const auto line = [&out](const char* name, const std::string& value) {
     out += std::string(name) + " :=" + (value.empty() || value[0] == ' ' ? "" : " ") + value + "\n";
   };
-  line("SITE_CONTOURS", make_word(resolved(site, site.terrain.contours), site));
+  line("SITE_CONTOURS", make_word(contours_file(site), site));
   line("SITE_DEM", make_word(resolved(site, site.terrain.dem), site));
   line("SITE_TIN_FLAGS", tin_flags(site));
   line("SITE_TRN_FLAGS", trn_flags(site));

@@ -14,9 +14,11 @@
 #include "terrain/outliers.hpp"
 #include "terrain/tin_mesh.hpp"
 #include "tool.hpp"
+#include "vector_inputs.hpp"
 
 namespace {
 
+using talus::add_layer_options;
 using talus::ContourMap;
 using talus::InputError;
 using talus::Json;
@@ -54,7 +56,7 @@ void declare(Tool& tool, Options& o) {
   talus::ContourSources& s = o.sources;
   tool.input("contours", s.contours.path, "contour lines (any vector source that GDAL reads)");
   tool.output("-o,--out", o.out, "TIN to write (binary PLY)")->required();
-  tool.option("--layer", s.contours.layer, "layer of the contours; empty: the only one with lines");
+  add_layer_options(tool, "--", "the contours", s.contours);
   tool.option("--elevation-field", s.contours.elevation_field,
               "field with the elevation; Z: the geometries' own; empty: found by itself");
   tool.option("--unit-m", s.contours.unit_m,
@@ -65,18 +67,19 @@ void declare(Tool& tool, Options& o) {
               "metres in one unit of all elevations; 0: that of the plan")
       ->check(check_positive);
   tool.input("--breaklines", s.breaklines.path, "lines with heights where the slope breaks");
-  tool.option("--breaklines-layer", s.breaklines.layer, "their layer");
+  add_layer_options(tool, "--breaklines-", "the breaklines", s.breaklines);
   tool.option("--breaklines-elevation-field", s.breaklines.elevation_field,
               "field with their elevation, or Z; empty: found by itself");
   tool.option("--breaklines-unit-m", s.breaklines.unit_m, "as --unit-m, for them")
       ->check(check_positive);
   tool.input("--spots", s.spots.path, "spot heights (points)");
-  tool.option("--spots-layer", s.spots.layer, "their layer");
+  add_layer_options(tool, "--spots-", "the spot heights", s.spots);
   tool.option("--spots-elevation-field", s.spots.elevation_field,
               "field with their elevation, or Z; empty: found by itself");
   tool.option("--spots-unit-m", s.spots.unit_m, "as --unit-m, for them")->check(check_positive);
-  tool.input("--boundary", s.boundary.path, "polygons: triangles with their centre outside go");
-  tool.option("--boundary-layer", s.boundary.layer, "their layer");
+  tool.input("--boundary", s.boundary.path,
+             "polygons or closed lines: triangles with their centre outside go");
+  add_layer_options(tool, "--boundary-", "the boundary", s.boundary);
   tool.option("--boundary-unit-m", s.boundary.unit_m, "as --unit-m, for them")
       ->check(check_positive);
   tool.option("--crs", o.crs,
@@ -122,16 +125,23 @@ ContourMap read_map(Tool& tool, Options& o, talus::ContourReading& reading) {
   });
   ContourMap map = talus::read_contours(o.sources, reading);
   talus::check_heights(map);
-  tool.info("elevation from " + reading.elevation_from + " of layer " + reading.layer);
-  if (reading.n_ignored > 0)
-    reading.notes.push_back(std::to_string(reading.n_ignored) +
-                            " features of the drawing are no lines and were passed over");
+  tool.info("elevation from " + reading.elevation_from + " of layer " + reading.layer +
+            (reading.contours.unit_m == 1
+                 ? ""
+                 : ", in units of " + text(reading.contours.unit_m) + " m"));
   for (const std::string& note : reading.notes) tool.info(note);
   for (const std::string& operation : reading.operations) {
     tool.info(operation);
     tool.record(operation);
   }
   for (const std::string& warning : reading.warnings) tool.warn(warning);
+  const std::pair<const char*, const talus::LayerReading*> sources[] = {
+      {"contours", &reading.contours},
+      {"breaklines", &reading.breaklines},
+      {"spots", &reading.spots},
+      {"boundary", &reading.boundary}};
+  for (const auto& [role, taken] : sources)
+    if (!taken->file.empty()) tool.layer_read(talus::entry_on(*taken, role));
   return map;
 }
 
@@ -303,7 +313,8 @@ Json build(Tool& tool, Options& o, talus::Tin& tin) {
                  {"layer", reading.layer},
                  {"elevation_from", reading.elevation_from},
                  {"crs", talus::crs_name(map.crs_wkt)},
-                 {"contours", as_json(map, reading)}};
+                 {"contours", as_json(map, reading)},
+                 {"layers_read", tool.layers_read()}};
   if (o.hold_out_every > 0) {
     const auto held_back = talus::hold_back_contours(o.hold_out_every, map);
     talus::check_heights(map);

@@ -19,6 +19,7 @@
 #include "terrain/grid_tin.hpp"
 #include "terrain/trn_quality.hpp"
 #include "tool.hpp"
+#include "vector_inputs.hpp"
 
 namespace {
 
@@ -88,7 +89,7 @@ void declare(Tool& tool, Options& o) {
   tool.input("--reference", o.reference, "better known DEM to hold the terrain against");
   tool.input("--reference-points", o.reference_points.path,
              "points with a height to hold the terrain against (any vector source)");
-  tool.option("--reference-points-layer", o.reference_points.layer, "their layer");
+  talus::add_layer_options(tool, "--reference-points-", "the points", o.reference_points);
   tool.option("--reference-points-elevation-field", o.reference_points.elevation_field,
               "field with their elevation, or Z; empty: found by itself");
   tool.output("--report", o.report, "errors, slopes, coverage (JSON)");
@@ -297,7 +298,9 @@ talus::ErrorStatistics errors_against_dem(Tool& tool, const Trn& trn, const std:
 talus::ErrorStatistics errors_against_points(Tool& tool, const Trn& trn,
                                              const talus::LayerChoice& choice,
                                              std::vector<std::string>& notes) {
-  const std::vector<talus::Vec3> truth = talus::read_points(choice, trn.crs_wkt, notes);
+  talus::LayerReading taken;
+  const std::vector<talus::Vec3> truth = talus::read_points(choice, trn.crs_wkt, notes, taken);
+  tool.layer_read(talus::entry_on(taken, "reference_points"));
   for (const std::string& note : notes) tool.info(note);
   talus::ErrorCollector errors;
   for (const talus::Vec3& point : truth)

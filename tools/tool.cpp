@@ -85,10 +85,11 @@ struct Tool::Impl {
   }
 
   void add_input(const std::string& role, const std::string& path) {
-    if (!is_virtual(path) && !fs::exists(file_behind(path)))
-      throw InputError({path}, "there is no such file", "check the path given for " + role);
-    record.inputs.push_back(artifact_of(role, path));
-    for (const std::string& member : sidecars_of(path))
+    const std::string file = file_of(path);
+    if (!is_virtual(file) && !fs::exists(file_behind(file)))
+      throw InputError({file}, "there is no such file", "check the path given for " + role);
+    record.inputs.push_back(artifact_of(role, file));
+    for (const std::string& member : sidecars_of(file))
       if (fs::exists(member)) record.inputs.push_back(artifact_of(role, member));
   }
 
@@ -98,10 +99,19 @@ struct Tool::Impl {
         if (!path.empty()) add_input(key_of(*input.option), path);
   }
 
+  // What in a file an option names ("|layername=a") is a setting like others.
+  void add_parts_of_inputs() {
+    for (const InputOption& input : options.inputs)
+      for (const std::string& path : input.paths())
+        if (const std::string inside = part_named(path); !inside.empty())
+          record.params.push_back({key_of(*input.option) + "-part", inside, "cli"});
+  }
+
   void begin(int argc, char** argv) {
     begin_record(name, command_text(argc, argv), record);
     for (const ConfigValue& value : settings_of(app, options))
       record.params.push_back({value.key, value.value, value.source});
+    add_parts_of_inputs();
     add_inputs();
     check_outputs(options, record.inputs);
     register_run();
@@ -370,7 +380,10 @@ void Tool::warn(const std::string& text) {
   if (!impl_->options.quiet) impl_->print(impl_->name + ": warning: " + text);
 }
 
-void Tool::layer_read(Json entry) { impl_->layers_read.push_back(std::move(entry)); }
+void Tool::layer_read(Json entry) {
+  impl_->event("info", "read " + entry.dump(-1, ' ', false, Json::error_handler_t::replace));
+  impl_->layers_read.push_back(std::move(entry));
+}
 
 const Json& Tool::layers_read() const { return impl_->layers_read; }
 

@@ -44,7 +44,8 @@ class Tool {
 
   // --- declare, before run() ---------------------------------------------------------------------
   /// A file read: must exist; hashed into the registry under the option's name. A name without
-  /// dashes is positional and required. GDAL's virtual paths (/vsi...) are passed on unchecked.
+  /// dashes is positional and required. GDAL's virtual paths (/vsi...) are passed on unchecked;
+  /// what stands behind the file's name ("|layername=a", a member of an archive) is recorded.
   CLI::Option* input(const std::string& name, std::string& path, const std::string& help);
   CLI::Option* inputs(const std::string& name, std::vector<std::string>& paths,
                       const std::string& help);
@@ -88,7 +89,8 @@ class Tool {
   void detail(const std::string& text);    ///< to stderr, with -v
   void warn(const std::string& text);      ///< as info(); kept in the registry and in result()
   void record(const std::string& text);    ///< kept in the registry alone, as information
-  /// What was taken from a vector source: an entry of `layers_read` in what --json prints.
+  /// What was taken from a vector source: an entry of `layers_read` in what --json prints, and an
+  /// event in the registry.
   void layer_read(Json entry);
   [[nodiscard]] const Json& layers_read() const;  ///< of layer_read(), in order
   void metric(const std::string& name, double value, const std::string& unit);

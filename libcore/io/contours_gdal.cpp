@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/source_path.hpp"
 #include "base/text.hpp"
 #include "io/contour_heights_gdal.hpp"
 #include "io/contour_layer_gdal.hpp"
@@ -79,7 +80,7 @@ void check_place_of(const LayerChoice& choice, const OpenLayer& source, const st
   place.has_crs_option = place.has_unit_option = std::string(source.role.options) == "--";
   place.layer = source.layer->GetName();
   place.geometry_column = source.layer->GetGeometryColumn();
-  for (const std::string& warning : check_place(place, {choice.path}))
+  for (const std::string& warning : check_place(place, {parse_source_path(choice.path).source}))
     reading.warnings.push_back(warning);
 }
 
@@ -186,13 +187,13 @@ void scale_heights(double unit_m, const std::string& path, std::vector<Vec3>& po
 // Breaklines, or points as lines of one point, with their heights [m].
 Polylines read_measured(const LayerChoice& choice, const LayerRole& role,
                         const ContourSources& sources, const std::string& map_crs,
-                        ContourReading& reading) {
+                        ContourReading& reading, LayerReading& taken) {
   OpenLayer source = open_layer(choice, role);
   const std::string own_crs = wkt_of(source.layer->GetSpatialRef());
   const double plan_unit_m = plan_unit_of(choice, source, own_crs.empty() ? map_crs : own_crs,
                                           sources.elevation_unit_m, reading);
   const double unit_m = height_unit_of(sources.elevation_unit_m, plan_unit_m);
-  Polylines lines = read_measured_lines(choice, source, unit_m, reading.notes);
+  Polylines lines = read_measured_lines(choice, source, unit_m, reading.notes, taken);
   scale_plan(plan_unit_m, lines.points);
   bring_to_map(choice, source, map_crs, sources.accept_ballpark, lines.points, reading);
   check_heights_alike(own_crs, map_crs, choice.path);
@@ -222,8 +223,10 @@ std::vector<BoundaryRing> read_boundary(const ContourSources& sources, const std
     }
     ++n_polygons;
   });
+  reading.boundary = reading_of(choice, source);
   reading.notes.push_back(choice.path + ": layer " + source.name + ", " +
                           counted(n_polygons, "polygon"));
+  add_remarks(reading.boundary, reading.notes);
   scale_plan(plan_unit_of(choice, source, map_crs, 1, reading), points);
   bring_to_map(choice, source, map_crs, sources.accept_ballpark, points, reading);
   begin.push_back(points.size());
@@ -283,12 +286,14 @@ double read_contours_in_plan(const ContourSources& sources, ContourMap& map,
                              ContourReading& reading) {
   OpenLayer source = open_layer(sources.contours, contours_role);
   map.contours = read_contour_lines(sources, source, reading);
+  add_remarks(reading.contours, reading.notes);
   std::vector<Vec3>& points = map.contours.points;
   const std::string named = wkt_of(source.layer->GetSpatialRef());
   const double plan_unit_m =
       plan_unit_of(sources.contours, source, named.empty() ? sources.crs : named,
                    sources.elevation_unit_m, reading);
   const double unit_m = height_unit_of(sources.elevation_unit_m, plan_unit_m);
+  reading.contours.unit_m = unit_m;
   scale_plan(plan_unit_m, points);
   const std::string own =
       with_user_heights(sources, crs_of_contours(sources, source, points, reading), unit_m);
@@ -315,12 +320,14 @@ ContourMap read_contours(const ContourSources& sources, ContourReading& reading)
   bring_heights_to(sources, map.source, map.crs_wkt, map.contours.points, reading);
   const HeightRange heights = heights_of(map.contours);
   if (!sources.breaklines.path.empty()) {
-    map.breaklines =
-        read_measured(sources.breaklines, breaklines_role, sources, map.crs_wkt, reading);
+    map.breaklines = read_measured(sources.breaklines, breaklines_role, sources, map.crs_wkt,
+                                   reading, reading.breaklines);
     check_units(map.breaklines.points, heights, sources.breaklines.path);
   }
   if (!sources.spots.path.empty()) {
-    map.spots = read_measured(sources.spots, spots_role, sources, map.crs_wkt, reading).points;
+    map.spots =
+        read_measured(sources.spots, spots_role, sources, map.crs_wkt, reading, reading.spots)
+            .points;
     check_units(map.spots, heights, sources.spots.path);
   }
   if (!sources.boundary.path.empty()) map.boundary = read_boundary(sources, map.crs_wkt, reading);
@@ -332,10 +339,10 @@ ContourMap read_contours(const ContourSources& sources, ContourReading& reading)
 }
 
 std::vector<Vec3> read_points(const LayerChoice& choice, const std::string& crs_wkt,
-                              std::vector<std::string>& notes) {
+                              std::vector<std::string>& notes, LayerReading& taken) {
   ContourReading reading;
   const std::vector<Vec3> points =
-      read_measured(choice, reference_role, {}, crs_wkt, reading).points;
+      read_measured(choice, reference_role, {}, crs_wkt, reading, taken).points;
   for (const auto* sentences : {&reading.notes, &reading.operations, &reading.warnings})
     notes.insert(notes.end(), sentences->begin(), sentences->end());
   return points;

@@ -17,10 +17,10 @@ namespace talus {
 [[nodiscard]] ContourMap read_contours(const ContourSources& sources, ContourReading& reading);
 
 /// Points with a height in map coordinates, in `crs_wkt` [m]: what a terrain is held against. What
-/// was found goes to `notes`; a missing CRS, of the source or in `crs_wkt`, means the same one.
-/// Throws InputError as read_contours does for spot heights.
+/// was found goes to `notes` and `taken`; a missing CRS, of the source or in `crs_wkt`, means the
+/// same one. Throws InputError as read_contours does for spot heights.
 [[nodiscard]] std::vector<Vec3> read_points(const LayerChoice& choice, const std::string& crs_wkt,
-                                            std::vector<std::string>& notes);
+                                            std::vector<std::string>& notes, LayerReading& taken);
 
 /// Writes points as a GeoPackage with one 3-D layer. `points` relative to `origin` [m].
 /// Throws InputError when the file cannot be written.

@@ -67,7 +67,8 @@ std::string trimmed(const char* line) {
 }  // namespace
 
 DrawingUnit drawing_unit(const std::string& path) {
-  if (!lower(path).ends_with(".dxf")) return {};
+  const std::string name = lower(path);
+  if (!name.ends_with(".dxf") && !name.ends_with(".dxf.gz")) return {};
   const std::unique_ptr<VSILFILE, CloseFile> file(VSIFOpenL(path.c_str(), "rb"));
   if (!file) return {};
   constexpr int most_lines = 20000;  // headers have a few thousand

@@ -13,7 +13,10 @@ Where where_of(const Site& site, const std::string& key) {
 
 std::string resolved(const Site& site, const std::string& path) {
   const bool is_whole = path.empty() || path[0] == '/' || site.folder.empty();
-  return is_whole ? path : (std::filesystem::path(site.folder) / path).lexically_normal().string();
+  if (is_whole) return path;
+  const std::size_t end = path.find('|');  // what follows may be a filter, with any signs
+  const std::filesystem::path file = std::filesystem::path(site.folder) / path.substr(0, end);
+  return file.lexically_normal().string() + (end == std::string::npos ? "" : path.substr(end));
 }
 
 }  // namespace talus

@@ -28,7 +28,11 @@ struct SiteInfo {
 
 /// [terrain]: what talus-tin and talus-trn are called with.
 struct TerrainSettings {
-  std::string contours, layer, elevation_field, breaklines, spots, boundary, dem;
+  std::string contours, layer, where, elevation_field;
+  std::string breaklines, breaklines_layer, breaklines_where, breaklines_elevation_field;
+  std::string spots, spots_layer, spots_where, spots_elevation_field;
+  std::string boundary, boundary_layer, boundary_where;
+  std::string dem;
   std::string ground_raster;  ///< classes of ground, whole numbers
   std::string flat = "fill";
   double cell_size_m = not_given;
@@ -38,7 +42,7 @@ struct TerrainSettings {
 /// [source]: where the moving mass is, down to which surface, and the limits of cutting.
 struct SourceSettings {
   std::vector<Vec3> polygon;  ///< map x, y; or polygon_file
-  std::string polygon_file, polygon_layer;
+  std::string polygon_file, polygon_layer, polygon_where;
   std::string failure_surface = "normal_depth";
   std::string sliding_set;  ///< of a daylighting surface; not given: that of the largest mass
   double depth_m = not_given;
@@ -127,7 +131,7 @@ struct FenceSettings {
   std::string name;
   int line_number = 0;
   std::vector<Vec3> line;  ///< map x, y of at least two points; or line_file
-  std::string line_file, line_layer;
+  std::string line_file, line_layer, line_where;
   double height_m = 5;
   double capacity_kj = not_given;       ///< of a panel; not given: rigid
   double max_deflection_m = not_given;  ///< where it is used up; not given: half the height
@@ -170,8 +174,8 @@ struct PlacedSettings {
   std::vector<Vec3> position_m;  ///< map x, y or x, y, z; several: one body each
   double height_above_ground_m =
       not_given;  ///< of the lowest vertex; not given with z: z of the centroid
-  std::string release_file, release_layer;  ///< points or lines
-  double release_spacing_m = not_given;     ///< along lines, or of the grid in the source polygon
+  std::string release_file, release_layer, release_where;  ///< points or lines
+  double release_spacing_m = not_given;  ///< along lines, or of the grid in the source polygon
   bool release_grid = false;
   double yaw_deg = 0, pitch_deg = 0, roll_deg = 0;
   bool random_orientation = false;

@@ -39,6 +39,18 @@ unit 2 3.280839895013123 feet 0.3048
 unit 4 1000 millimetres 0.001
 unit 5 100 centimetres 0.01
 unit 21 3.280833333333333 "US survey feet" 0.3048006096012192
+# packed it says its unit, too
+drawing 2 3.280839895013123 >feet.dxf
+gzip -k feet.dxf
+python3 -c 'import zipfile; zipfile.ZipFile("feet.zip", "w").write("feet.dxf")'
+for packed in feet.dxf.gz feet.zip; do
+  expect 1 talus-tin $packed -o bad.ply --crs EPSG:25832 --no-db
+  says "the drawing is in feet (\$INSUNITS 2 in its header), expected metres"
+  nothing_left bad.ply
+  expect 0 talus-tin $packed -o feet.ply --crs EPSG:25832 --unit-m 0.3048 --report feet.json --overwrite --no-db
+  says "in units of 0.3048 m"
+  grep -q '"elevation_unit_m": 0.3048' feet.json || fail "$packed: layers_read says another unit"
+done
 # in millimetres by a template, drawn in metres: the user's word counts
 drawing 4 1 >template.dxf
 expect 0 talus-tin template.dxf -o template.ply --crs EPSG:25832 --unit-m 1 --no-db
