@@ -66,12 +66,18 @@ std::vector<int> add_vertices(std::vector<Vec3>& body_vertices, const Polyhedron
   return index;
 }
 
-double smallest_width(std::span<const ShapeFace> faces, std::span<const Vec3> vertices) {
+// A face of a body of several parts need not be the farthest of the body along its normal.
+double smallest_width(std::span<const ShapeFace> faces, std::span<const Vec3> vertices,
+                      double same) {
   double width = std::numeric_limits<double>::infinity();
   for (const ShapeFace& f : faces) {
-    double lowest = f.offset;
-    for (const Vec3& v : vertices) lowest = std::min(lowest, f.normal.dot(v));
-    width = std::min(width, f.offset - lowest);
+    double lowest = f.offset, highest = f.offset;
+    for (const Vec3& v : vertices) {
+      const double along = f.normal.dot(v);
+      lowest = std::min(lowest, along);
+      if (along > f.offset + same) highest = std::max(highest, along);
+    }
+    width = std::min(width, highest - lowest);
   }
   return width;
 }
@@ -95,7 +101,8 @@ void add_shape(Shapes& shapes, std::span<const Polyhedron> parts, const Polyhedr
   shapes.vertices.insert(shapes.vertices.end(), vertices.begin(), vertices.end());
   shapes.vertex_begin.push_back(static_cast<int>(shapes.vertices.size()));
   shapes.radius.push_back(size);
-  shapes.thickness.push_back(smallest_width(std::span(shapes.faces).subspan(first_face), vertices));
+  shapes.thickness.push_back(
+      smallest_width(std::span(shapes.faces).subspan(first_face), vertices, 1e-6 * size));
 }
 
 }  // namespace talus

@@ -192,6 +192,7 @@ struct ExpectedHit {
 struct Rebounds {
   std::vector<HitSum> hit_sums;                      ///<                                (n_members)
   std::vector<ExpectedHit> expected, last_expected;  ///< in this round and the one before
+  std::vector<std::uint8_t> is_borne;                ///< 1: by a contact, until the hit (n_members)
   std::vector<Vec6> full_velocity;                   ///< with all of the rebound        (n_members)
   std::vector<RowGroup> full_rows;                   ///< ... and the island's rows
 };

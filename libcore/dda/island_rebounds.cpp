@@ -148,14 +148,29 @@ double energy_excess(const IslandMembers& members, const IslandSystem& system,
   return work_on_velocities(members, system.island) + loss_in_turn(system, hits);
 }
 
-// Hits that the free motion leads to: their speed as the solver sees it, with its lever arms and
-// what pulls on the bodies until the end of the substep. Gaps over the substep tell it too, but for
-// what turning adds; a rebound from one that comes out as the other loses energy, or gains some.
+// Members that a contact bore in the substep before, or bears until they are hit.
+void see_borne(const IslandMembers& members, const IslandSystem& system, const SubstepHits& hits,
+               std::vector<std::uint8_t>& is_borne) {
+  is_borne.assign(members.size(), 0);
+  for (size_t k = 0; k < members.size(); ++k) is_borne[k] = hits.support[k].until > 0;
+  for (const KeptContact& contact : system.contacts) {
+    if (contact.memory < 0 || contact.last_force <= 0) continue;
+    is_borne[members.at(contact.a)] = 1;
+    if (contact.b >= 0) is_borne[members.at(contact.b)] = 1;
+  }
+}
+
+// Hits of members that fly freely until then: their speed as the solver sees it, with its lever
+// arms and what pulls on the bodies until the end of the substep. Gaps over the substep tell it
+// too, but for what turning adds; a rebound from one that comes out as the other loses energy, or
+// gains some. Where something else bears a member, the free motion is not how it comes to its hit.
 void see_speeds(const IslandMembers& members, const FreeMotions& free, const IslandSystem& system,
-                SubstepHits& hits) {
+                SubstepHits& hits, Rebounds& rebounds) {
+  see_borne(members, system, hits, rebounds.is_borne);
+  const auto flies = [&](int b) { return b < 0 || rebounds.is_borne[members.at(b)] == 0; };
   for (Hit& hit : hits.hits) {
-    if (!hit.is_free) continue;
     const KeptContact& contact = system.contacts[hit.contact];
+    if (!hit.is_free || !flies(contact.a) || !flies(contact.b)) continue;
     const Vec3 normal = lane_of(system, hit.contact).normal();
     Vec3 pull = free.substeps[members.at(contact.a)].free_acceleration;
     if (contact.b >= 0) pull -= free.substeps[members.at(contact.b)].free_acceleration;
@@ -177,7 +192,7 @@ void see_speeds(const IslandMembers& members, const FreeMotions& free, const Isl
 // restitution.
 void set_targets(const IslandMembers& members, const FreeMotions& free, const IslandSystem& system,
                  SubstepHits& hits, Rebounds& rebounds) {
-  see_speeds(members, free, system, hits);
+  see_speeds(members, free, system, hits, rebounds);
   sum_hits(members, system, hits, rebounds);
   for (const size_t pair : hits.hit_pairs) {
     double times = 0;

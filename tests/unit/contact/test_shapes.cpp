@@ -31,4 +31,13 @@ TEST(Shapes, KeepConvexEdgesOnly) {
   EXPECT_EQ(edges_of(shapes, 1).size(), 17U);
 }
 
+// A column on a thin foot: the foot's upper face lies deep inside of what the body measures.
+TEST(Shapes, ThicknessIsTheSmallestExtentOfTheWholeBody) {
+  const Polyhedron parts[] = {box(Vec3(0, 0, 0), Vec3(2, 1, 0.1)),
+                              box(Vec3(0, 0, 0.1), Vec3(1, 1, 2))};
+  Shapes shapes;
+  add_shape(shapes, parts, parts[1], Vec3(0.5, 0.5, 1), Mat3::Identity(), -3);
+  EXPECT_NEAR(shapes.thickness[0], 1, 1e-12);
+}
+
 }  // namespace
