@@ -11,6 +11,7 @@
 #include "ground_class_inputs.hpp"
 #include "io/blocks_hdf5.hpp"
 #include "io/crs_gdal.hpp"
+#include "io/crs_place_gdal.hpp"
 #include "io/raster_gdal.hpp"
 #include "scene/start_depth.hpp"
 #include "site_places.hpp"

@@ -1,5 +1,6 @@
 #include "report_maps.hpp"
 
+#include "base/text.hpp"
 #include "report/html.hpp"
 #include "report/map_figures.hpp"
 #include "report/plan_view.hpp"

@@ -7,6 +7,7 @@
 #include "blocks_outputs.hpp"
 #include "blocks_placed.hpp"
 #include "io/crs_gdal.hpp"
+#include "io/crs_place_gdal.hpp"
 #include "io/raster_gdal.hpp"
 #include "site_crs.hpp"
 #include "site_options.hpp"

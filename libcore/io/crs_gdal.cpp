@@ -12,7 +12,6 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
-#include "io/crs_place_gdal.hpp"
 #include "io/errors_gdal.hpp"
 
 namespace talus {
@@ -59,27 +58,10 @@ std::string authority(const OGRSpatialReference& srs) {
   return name && code ? std::string(name) + ":" + code : std::string();
 }
 
-std::string unit_text(double metres, const char* name) {
-  return std::string(name ? name : "unknown units") + " of " + text(metres, 10) + " m";
-}
-
 // What a GeoPackage calls the reference of a layer that has none.
 bool is_undefined(const OGRSpatialReference& srs) {
   const char* const name = srs.GetName();
   return name != nullptr && std::string_view(name).starts_with("Undefined ");
-}
-
-std::string describe_problem(const OGRSpatialReference& srs) {
-  if (srs.IsGeographic()) return "in degrees";
-  if (srs.IsGeocentric()) return "measured from the centre of the Earth";
-  if (!srs.IsProjected() && !srs.IsLocal()) return "neither projected nor local";
-  const char* name = nullptr;
-  const double unit = srs.GetLinearUnits(&name);
-  if (std::abs(unit - 1) > 1e-9) return "in " + unit_text(unit, name);
-  const double height_unit = srs.GetTargetLinearUnits("VERT_CS", &name);
-  if (srs.IsVertical() && std::abs(height_unit - 1) > 1e-9)
-    return "with heights in " + unit_text(height_unit, name);
-  return {};
 }
 
 }  // namespace
@@ -175,6 +157,17 @@ std::string assumed_heights(const std::string& a, const std::string& b) {
   return "taken to have heights in " + crs_name(first.empty() ? second : first);
 }
 
+std::string with_heights(const std::string& plan, const std::string& vertical, const Where& where) {
+  const GdalErrors errors;
+  const OGRSpatialReference horizontal = parse(plan), heights = parse(vertical);
+  OGRSpatialReference both;
+  const std::string name =
+      std::string(horizontal.GetName()) + " + " + std::string(heights.GetName());
+  if (both.SetCompoundCS(name.c_str(), &horizontal, &heights) != OGRERR_NONE)
+    throw InputError(where, "cannot be in " + crs_name(plan) + " with " + crs_name(vertical));
+  return as_wkt(both);
+}
+
 std::string with_heights_of(const std::string& other, const std::string& plan, const Where& where) {
   const std::string heights = height_crs(other), wanted = height_crs(plan);
   if (!wanted.empty() && (heights.empty() || !same_heights(other, plan)))
@@ -199,28 +192,6 @@ bool has_unknown_datum(const std::string& crs_wkt) {
   return datum.find("unknown") != std::string::npos ||
          datum.find("not specified") != std::string::npos ||
          datum.find("not_specified") != std::string::npos;
-}
-
-namespace {
-
-std::string zone_of(const std::string& crs_wkt, const Vec2& place) {
-  const std::optional<Vec2> lon_lat = degrees_at(crs_wkt, place);
-  return lon_lat ? utm_zone(*lon_lat) : std::string();
-}
-
-}  // namespace
-
-CrsProblem find_crs_problem(const std::string& crs_wkt, const Vec2& place) {
-  if (crs_wkt.empty()) return {"there is no CRS, expected a projected one in metres", {}};
-  const GdalErrors errors;
-  const OGRSpatialReference srs = parse(crs_wkt);
-  const std::string problem = describe_problem(srs);
-  if (problem.empty()) return {};
-  const bool fit_in_plan = srs.IsCompound() && describe_problem(plan_of(crs_wkt)).empty();
-  const double height_unit_m = fit_in_plan ? srs.GetTargetLinearUnits("VERT_CS") : 1;
-  return {
-      "the CRS is " + crs_name(crs_wkt) + ", " + problem + ", expected a projected one in metres",
-      fit_in_plan ? std::string() : zone_of(crs_wkt, place), height_unit_m};
 }
 
 }  // namespace talus

@@ -345,17 +345,6 @@ std::string heights_name(const std::string& vertical_wkt) {
                                              : crs_name(vertical_wkt);
 }
 
-std::string with_heights(const std::string& plan, const std::string& vertical, const Where& where) {
-  const GdalErrors errors;
-  const OGRSpatialReference horizontal = parse(plan), heights = parse(vertical);
-  OGRSpatialReference both;
-  const std::string name =
-      std::string(horizontal.GetName()) + " + " + std::string(heights.GetName());
-  if (both.SetCompoundCS(name.c_str(), &horizontal, &heights) != OGRERR_NONE)
-    throw InputError(where, "cannot be in " + crs_name(plan) + " with " + crs_name(vertical));
-  return as_wkt(both);
-}
-
 namespace {
 
 // Of what is written without a system of heights, but with a third axis above the ellipsoid.

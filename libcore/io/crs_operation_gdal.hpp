@@ -39,6 +39,12 @@ struct CrsOperation {
 /// taken; `points` are then spoilt.
 [[nodiscard]] bool carry_out(const CrsOperation& operation, std::vector<Vec3>& points);
 
+/// Takes points from one CRS to another in plan by find_operation(), x (east, longitude) first;
+/// heights stay. False when a point cannot be taken there; `points` are then spoilt. Throws
+/// InputError as find_operation().
+[[nodiscard]] bool reproject(const std::string& from, const std::string& to,
+                             std::vector<Vec3>& points);
+
 /// "reprojected from A to B by "MGI to ETRS89 (1)", good to 1.5 m".
 [[nodiscard]] std::string sentence_on(const CrsOperation& operation);
 
@@ -83,10 +89,6 @@ inline constexpr const char* ellipsoidal_heights = "ellipsoidal";
 
 /// What to call heights in a message.
 [[nodiscard]] std::string heights_name(const std::string& vertical_wkt);
-
-/// The system `plan` with heights in the vertical system `vertical` (WKT).
-[[nodiscard]] std::string with_heights(const std::string& plan, const std::string& vertical,
-                                       const Where& where);
 
 /// `crs` with heights in what the user says that they are in (WKT, or ellipsoidal_heights, which
 /// leaves `crs` as it is). Throws InputError when `crs` says another system of heights.

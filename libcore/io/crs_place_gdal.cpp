@@ -30,13 +30,16 @@ constexpr double same_place_m = 0.1;    // of two systems that differ by their d
 
 using Transformation = std::unique_ptr<OGRCoordinateTransformation>;
 
-OGRSpatialReference parse_plan(const std::string& crs_wkt) {
+OGRSpatialReference parse(const std::string& crs_wkt) {
   OGRSpatialReference srs;
   srs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-  const std::string plan = horizontal_crs(crs_wkt);
-  if (srs.importFromWkt(plan.c_str()) != OGRERR_NONE)
+  if (srs.importFromWkt(crs_wkt.c_str()) != OGRERR_NONE)
     throw InputError({}, "the CRS cannot be understood: " + crs_wkt.substr(0, 80));
   return srs;
+}
+
+OGRSpatialReference parse_plan(const std::string& crs_wkt) {
+  return parse(horizontal_crs(crs_wkt));
 }
 
 // --- a system and its place on the Earth ---------------------------------------------------------
@@ -541,6 +544,45 @@ MapWindow window_of(const std::vector<Vec3>& points) {
     window.y_max = std::max(window.y_max, p.y());
   }
   return window;
+}
+
+namespace {
+
+std::string unit_text(double metres, const char* name) {
+  return std::string(name ? name : "unknown units") + " of " + text(metres, 10) + " m";
+}
+
+std::string describe_problem(const OGRSpatialReference& srs) {
+  if (srs.IsGeographic()) return "in degrees";
+  if (srs.IsGeocentric()) return "measured from the centre of the Earth";
+  if (!srs.IsProjected() && !srs.IsLocal()) return "neither projected nor local";
+  const char* name = nullptr;
+  const double unit = srs.GetLinearUnits(&name);
+  if (std::abs(unit - 1) > 1e-9) return "in " + unit_text(unit, name);
+  const double height_unit = srs.GetTargetLinearUnits("VERT_CS", &name);
+  if (srs.IsVertical() && std::abs(height_unit - 1) > 1e-9)
+    return "with heights in " + unit_text(height_unit, name);
+  return {};
+}
+
+std::string zone_of(const std::string& crs_wkt, const Vec2& place) {
+  const std::optional<Vec2> lon_lat = degrees_at(crs_wkt, place);
+  return lon_lat ? utm_zone(*lon_lat) : std::string();
+}
+
+}  // namespace
+
+CrsProblem find_crs_problem(const std::string& crs_wkt, const Vec2& place) {
+  if (crs_wkt.empty()) return {"there is no CRS, expected a projected one in metres", {}};
+  const GdalErrors errors;
+  const OGRSpatialReference srs = parse(crs_wkt);
+  const std::string problem = describe_problem(srs);
+  if (problem.empty()) return {};
+  const bool fit_in_plan = srs.IsCompound() && describe_problem(parse_plan(crs_wkt)).empty();
+  const double height_unit_m = fit_in_plan ? srs.GetTargetLinearUnits("VERT_CS") : 1;
+  return {
+      "the CRS is " + crs_name(crs_wkt) + ", " + problem + ", expected a projected one in metres",
+      fit_in_plan ? std::string() : zone_of(crs_wkt, place), height_unit_m};
 }
 
 }  // namespace talus

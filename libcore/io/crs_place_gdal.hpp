@@ -32,6 +32,18 @@ struct DegreeWindow {
 /// UTM zone of a longitude and latitude [degrees], "EPSG:32632"; empty near the poles.
 [[nodiscard]] std::string utm_zone(const Vec2& longitude_latitude);
 
+/// Why a CRS cannot be computed in, and what to reproject to.
+struct CrsProblem {
+  std::string finding;  ///< "the CRS is EPSG:4326 (WGS 84), in degrees, expected ..."; empty: none
+  std::string mend_to;  ///< UTM zone of the place, "EPSG:32632"; empty when it cannot be told
+  double height_unit_m = 1;  ///< not 1: the system is fit in plan, its heights are not in metres
+};
+
+/// Geographic and geocentric systems, feet in plan or in height have a problem; projected and local
+/// systems in metres have none (what their metres are worth: check_place). `place` is any point of
+/// the data in this CRS, x (east, longitude) first.
+[[nodiscard]] CrsProblem find_crs_problem(const std::string& crs_wkt, const Vec2& place);
+
 /// What was read, and how the person who gave it can say what it is.
 struct Place {
   std::string crs_wkt;           ///< of the coordinates; empty: local, nothing is checked

@@ -2,6 +2,8 @@
 
 #include "base/error.hpp"
 #include "io/crs_gdal.hpp"
+#include "io/crs_operation_gdal.hpp"
+#include "io/crs_place_gdal.hpp"
 
 namespace {
 

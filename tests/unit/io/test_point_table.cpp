@@ -23,7 +23,7 @@ void expect_found(const std::string& found, const std::string& words) {
 }  // namespace
 
 TEST(PointTable, EverySignThatPartsColumnsGivesTheSamePoints) {
-  for (const std::string& text :
+  for (const std::string text :
        {"x,y,z\n500000.5,5200000,1234.5\n500001,5200001,1235\n",
         "\xEF\xBB\xBFz;y;x\r\n1234,5;5200000;500000,5\r\n1235;5200001;500001\r\n",
         "Easting [m]\tNorthing [m]\tz\n500000.5\t5200000\t1234.5\n500001\t5200001\t1235\n",

@@ -29,6 +29,7 @@ MadeByHand some_runs(int n_runs) {
   Random random(3, "layers");
   MadeByHand made;
   std::vector<std::vector<MapRow>> rows;
+  const std::vector<double> weight{1};  // of the one block
   for (int run = 0; run < n_runs; ++run) {
     std::vector<Passage> passages;
     for (int cell = 0; cell < grid.n_rows * grid.n_cols; ++cell) {
@@ -43,7 +44,7 @@ MadeByHand some_runs(int n_runs) {
       p.heading = 1;
       passages.push_back(p);
     }
-    rows.push_back(map_rows(passages, grid, {grid, 1}, {1}));
+    rows.push_back(map_rows(passages, grid, {grid, 1}, weight));
     made.released.weight.push_back(1);
     made.released.n_blocks.push_back(1);
   }
