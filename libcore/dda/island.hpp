@@ -23,20 +23,16 @@ namespace talus {
 
 /// Two doubles, the compiler's vector type: a register of any x86-64, plain code elsewhere with the
 /// same bits. (Four at a time need AVX; without it the compiler takes them through memory.)
-using Two __attribute__((vector_size(16), may_alias)) = double;
+using Two __attribute__((vector_size(16))) = double;
 
-/// Two rows of one pair side by side; fields as in ContactRow, index = axis, then row; its drift is
-/// in bias and shear_velocity. A lane without a contact is all zero but for the limit, and never
-/// presses.
-struct RowGroup {
-  Two normal[3], arm[3], shear_velocity[3], slip_start[3];
-  Two bias, normal_damping, shear_damping, friction, cohesion, tension, normal_limit;
-  Two impulse[3];
-  Two state;           ///< ContactState
-  Two normal_tangent;  ///< normal_damping; 0 while the normal impulse is at its limit [kg]
-  Two slip_tangent;    ///< of a slipping contact across its direction [kg]
-  Two trial_speed;     ///< of a slipping contact, v_t + s / tau [m/s]
-  Two used_tangent;    ///< slip_tangent when the tangent was last summed [kg]
+/// Two rows of one pair side by side, index = axis, then row; the drift of a ContactRow is in bias
+/// and shear_velocity. A lane without a contact is all zero but for the limit, and never presses.
+struct RowGroup : LawRow<Two> {
+  Two arm[3]{};        ///< from the centroid of A [m]
+  Two slip_tangent{};  ///< of a slipping contact across its direction [kg]
+  Two used_tangent{};  ///< slip_tangent when the tangent was last summed [kg]
+
+  RowGroup() { normal_limit = Two{no_normal_limit, no_normal_limit}; }
 };
 
 /// A row in its group.
@@ -60,6 +56,26 @@ class RowIn {
   [[nodiscard]] double normal_limit() const { return value(&RowGroup::normal_limit); }
   [[nodiscard]] ContactState state() const {
     return static_cast<ContactState>(static_cast<int>(value(&RowGroup::state)));
+  }
+
+  /// What the contact law reads and leaves.
+  [[nodiscard]] LawRow<double> law() const {
+    LawRow<double> out;
+    see_fields(group_, out, [lane = lane_](const auto& of, auto& value) {
+      if constexpr (std::is_array_v<std::remove_reference_t<decltype(of)>>)
+        for (int k = 0; k < 3; ++k) value[k] = of[k][lane];
+      else
+        value = static_cast<std::remove_reference_t<decltype(value)>>(of[lane]);
+    });
+    return out;
+  }
+  void set_law(const LawRow<double>& law) const {
+    see_fields(group_, law, [lane = lane_](auto& of, const auto& value) {
+      if constexpr (std::is_array_v<std::remove_reference_t<decltype(of)>>)
+        for (int k = 0; k < 3; ++k) of[k][lane] = value[k];
+      else
+        of[lane] = static_cast<double>(value);
+    });
   }
 
   void set_vector(Two (RowGroup::*field)[3], const Vec3& value) const {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "dda/contact_law.hpp"
+#include "dda/one_contact.hpp"
 
 namespace talus {
 namespace {
@@ -208,7 +208,9 @@ NewtonResult solve_sweeps(BlockSystem<Dof>& system, std::span<ContactRow> rows) 
       }
       const Vec3 trial = w - n.dot(w) * n + row.shear_velocity;
       Vec3 t = t_old - (trial + t_old / row.shear_damping) / give_t;
-      const double cap = row.friction * p_n + row.cohesion_impulse, size = t.norm();
+      double cap;
+      Strength<double>{row.friction, row.cohesion, 0}.bound(p_n, cap);
+      const double size = t.norm();
       row.state = p_n == 0 ? ContactState::open : ContactState::stick;
       if (size > cap) t *= cap / size, row.state = p_n == 0 ? row.state : ContactState::slip;
       const Vec3 impulse = p_n * n + t;
