@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "contact/contact.hpp"
+#include "dda/angular_row.hpp"
 #include "dda/contact_row.hpp"
 #include "dda/displacement.hpp"
 
@@ -99,6 +100,7 @@ struct BodyPair {
   /// In, for a solution that continues the last one: rows, centroids or free motion of a body are
   /// not those of that one. Out: false.
   bool changed = true;
+  int angular = -1;  ///< index into Island::angular, -1: no couple beside the points
 };
 
 /// One island of rigid bodies over one step. Velocity: of the centroid, and spin, in local axes;
@@ -111,6 +113,7 @@ struct Island {  // clang-format off
   std::vector<double> radius;      ///< turns spin into velocity [m]                    (n_bodies)
   std::vector<BodyPair> pairs;     ///< a pair may appear more than once                (n_pairs)
   std::vector<RowGroup> rows;      ///< row r is lane r % 2 of rows[r / 2]; pair by pair (n_groups)
+  std::vector<AngularRow> angular; ///< of the pairs that have one, mostly none
 };  // clang-format on
 
 [[nodiscard]] inline int n_bodies(const Island& island) {
@@ -129,6 +132,17 @@ struct Island {  // clang-format off
   const auto begin = static_cast<std::size_t>(pair.row_begin / 2);
   return std::span(island.rows)
       .subspan(begin, static_cast<std::size_t>(pair.row_end + 1) / 2 - begin);
+}
+
+/// Sum of the normal impulses of rows.
+[[nodiscard]] inline double normal_impulses(std::span<const RowGroup> groups) {
+  Two sum{};
+  for (const RowGroup& g : groups) {
+    const Two p_n =
+        g.normal[0] * g.impulse[0] + g.normal[1] * g.impulse[1] + g.normal[2] * g.impulse[2];
+    sum += p_n > 0 ? p_n : Two{};
+  }
+  return sum[0] + sum[1];
 }
 
 /// Adds a pair without rows.

@@ -126,6 +126,7 @@ struct ContactMaker {
     system.left_out.clear();
     system.island.pairs.clear();
     system.island.rows.clear();
+    system.island.angular.clear();
     system.first_contact.clear();
     system.ground_pair.clear();
     system.waiting.clear();

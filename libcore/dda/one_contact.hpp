@@ -1,11 +1,12 @@
 // libcore/dda/one_contact.hpp
-// The contact law of one contact, for a lone block and an impact, and its derivative. Inline: this
-// is the innermost loop of blocks that fly alone.
+// The contact law of one contact, for a lone block and an impact, and its derivative; and of the
+// angular row of a pair. Inline: this is the innermost loop of blocks alone.
 // theory 1.7 (return mapping), 1.8
 #pragma once
 
 #include <Eigen/Geometry>
 
+#include "dda/angular_row.hpp"
 #include "dda/contact_law.hpp"
 
 namespace talus {
@@ -73,6 +74,31 @@ struct OneContact {
   A += (side_scale * (side - d.dot(side) * d)) * side.transpose();
   A += (start - d.dot(start) * d) * start_change.transpose();
   return A;
+}
+
+// --- couples -----------------------------------------------------------------------------------
+
+/// Evaluates the row for the relative spin and the sum of the normal impulses.
+inline void evaluate(const Vec3& spin, double normal_impulse, AngularRow& row) {
+  Found<double> found;
+  bool within;
+  found.cap = row.cap = row.arm * normal_impulse;
+  const Vec3 trial = spin + row.spring_spin;
+  hold(row.damping, trial.squaredNorm(), found, within);
+  row.couple = -row.damping * trial;
+  row.state = row.cap <= 0 ? ContactState::open : ContactState::stick;
+  if (within) return;
+  row.direction = trial / found.trial_speed;
+  row.couple = -row.cap * row.direction;
+  row.slip_tangent = row.cap / found.trial_speed;
+  if (row.cap > 0) row.state = ContactState::slip;
+}
+
+/// -d couple / d spin [kg m2] where it was evaluated, at a constant bound.
+[[nodiscard]] inline Mat3 tangent(const AngularRow& row) {
+  if (row.state == ContactState::open) return Mat3::Zero();
+  if (row.state == ContactState::stick) return row.damping * Mat3::Identity();
+  return row.slip_tangent * (Mat3::Identity() - row.direction * row.direction.transpose());
 }
 
 }  // namespace
