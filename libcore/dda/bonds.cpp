@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "contact/start_contacts.hpp"
+#include "dda/contact_law.hpp"
 
 namespace talus {
 namespace {
@@ -84,7 +85,9 @@ int find_bond(std::span<const BlockBond> bonds, int block_a, int block_b) {
 
 void add_load(double N, const Vec3& shear, double area, const GroundClass& face, BondLoad& load) {
   load.shear += shear;
-  load.strength += face.friction * std::max(N, 0.0) + face.cohesion * area;
+  double bound;
+  Strength<double>{face.friction, face.cohesion * area, 0}.bound(N, bound);
+  load.strength += bound;
   load.torn |= face.tension > 0 && -N > face.tension * area;
 }
 

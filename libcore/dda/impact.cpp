@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "contact/search.hpp"
+#include "dda/contact_law.hpp"
 #include "dda/newton.hpp"
 #include "dda/rotation.hpp"
 #include "dda/substep.hpp"
@@ -16,8 +17,8 @@ constexpr double stiffness_ratio = 1e7;
 constexpr double gain_rounding = 1e-7;  // of the kinetic energy: not a gain
 
 // Less the speed that a contact gives back.
-double restitution_bias(const GroundClass& ground, double speed_start, double resting_speed) {
-  return speed_start < -resting_speed ? ground.restitution * speed_start : 0.0;
+double restitution_bias(const ContactRow& row, double resting_speed) {
+  return -returned_speed(row.restitution, row.speed_start, resting_speed);
 }
 
 void make_impact_rows(const Scene& scene, int b, double resting_speed, const Mat3& to_body,
@@ -26,31 +27,16 @@ void make_impact_rows(const Scene& scene, int b, double resting_speed, const Mat
   const Vec3 per_inertia = scene.blocks.inertia[static_cast<std::size_t>(b)].cwiseInverse();
   work.rows.resize(work.contacts.size());
   for (std::size_t i = 0; i < work.contacts.size(); ++i) {
-    const Contact& contact = work.contacts[i];
-    const GroundClass& ground =
-        scene.ground.classes[static_cast<std::size_t>(contact.ground_class)];
-    ContactRow& row = work.rows[i];
-    forget_last_step(row);
+    ContactRow& row = begin_row(scene, b, i, to_body, work.contacts, work.rows);
     row.drift.setZero();
     row.shear_velocity.setZero();
     row.waits = false;
-    row.key = contact.key;
-    row.a = b;
-    row.ground_class = contact.ground_class;
-    row.contact = static_cast<int>(i);
-    const bool same_plane = i > 0 && contact.normal == work.contacts[i - 1].normal;
-    row.normal = same_plane ? work.rows[i - 1].normal : Vec3(to_body * contact.normal);
-    row.arm = contact.point_a;
-    const Vec3 w = point_velocity<6>(velocity, row.arm);
-    row.speed_start = row.normal.dot(w);
-    const Vec3 tangent = w - row.speed_start * row.normal;
-    const double slip_speed = tangent.norm();
-    row.slip_start = slip_speed > 0 ? Vec3((1 / slip_speed) * tangent) : Vec3(Vec3::Zero());
-    row.bias = restitution_bias(ground, row.speed_start, resting_speed);
+    row.arm = work.contacts[i].point_a;
+    set_start(point_velocity<6>(velocity, row.arm), row);
+    row.bias = restitution_bias(row, resting_speed);
     const Mobility W = mobility(per_mass, per_inertia, row.arm, row.normal);
     row.normal_damping = stiffness_ratio / W.normal;
     row.shear_damping = stiffness_ratio / W.tangent;
-    row.friction = ground.friction;
   }
 }
 
@@ -91,8 +77,8 @@ void solve_rows(const Vec6& before, std::span<ContactRow> rows, BlockSystem<6>& 
 // the energy is quadratic in the share of the restitution, so that the largest share that gains
 // none is known (theory 1.12). A blend of both keeps momentum and friction cones, and no contact
 // approaches.
-void lower_restitution(const Scene& scene, const Vec6& before, double resting_speed, Work& work,
-                       BlockSystem<6>& system, ImpactResult& result) {
+void lower_restitution(const Vec6& before, double resting_speed, Work& work, BlockSystem<6>& system,
+                       ImpactResult& result) {
   const Vec6 full = system.velocity;
   for (ContactRow& row : work.rows) row.bias = 0;
   solve_rows(before, work.rows, system, result);
@@ -102,12 +88,7 @@ void lower_restitution(const Scene& scene, const Vec6& before, double resting_sp
       largest_share(gained.dot(momentum) / 2, stopped.dot(momentum),
                     kinetic_energy(system, stopped) - kinetic_energy(system, before));
   system.velocity = stopped + share * gained;
-  for (ContactRow& row : work.rows) {
-    const Contact& contact = work.contacts[static_cast<std::size_t>(row.contact)];
-    const auto ground = static_cast<std::size_t>(contact.ground_class);
-    row.bias =
-        share * restitution_bias(scene.ground.classes[ground], row.speed_start, resting_speed);
-  }
+  for (ContactRow& row : work.rows) row.bias = share * restitution_bias(row, resting_speed);
 }
 
 }  // namespace
@@ -146,7 +127,7 @@ ImpactResult apply_impact(const Scene& scene, int b, double resting_speed, Motio
   const double energy = kinetic_energy(system, before);
   solve_rows(before, work.rows, system, result);
   if (kinetic_energy(system, system.velocity) > (1 + gain_rounding) * energy)
-    lower_restitution(scene, before, resting_speed, work, system, result);
+    lower_restitution(before, resting_speed, work, system, result);
   const double missing = missing_part(system.velocity, work.rows, resting_speed);
   system.velocity += missing * (system.velocity - before);
   if (kinetic_energy(system, system.velocity) > energy) system.velocity = limited(system, before);

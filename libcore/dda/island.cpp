@@ -11,18 +11,20 @@ void open_pair(int a, int b, Island& island) {
 
 namespace {
 
-// What makes a contact press. The drift is a known part of its point's velocity.
-void set_law(const ContactRow& contact, const RowIn<RowGroup>& lane) {
+// As lanes have it: the drift is a known part of the point's velocity, and what waits to be hit
+// keeps its place and its strength, but presses nothing.
+LawRow<double> law_in_lane(const ContactRow& contact) {
+  LawRow<double> law = contact;
+  if (contact.waits) {
+    law.shear_velocity.setZero(), law.slip_start.setZero();
+    law.bias = law.normal_damping = law.shear_damping = law.cohesion = law.tension = 0;
+    return law;
+  }
   const double along = contact.normal.dot(contact.drift);
-  lane.set_vector(&RowGroup::shear_velocity,
-                  contact.shear_velocity + (contact.drift - along * contact.normal));
-  lane.set_vector(&RowGroup::slip_start, contact.slip_start);
-  lane.set(&RowGroup::bias, contact.bias + along);
-  lane.set(&RowGroup::normal_damping, contact.normal_damping);
-  lane.set(&RowGroup::shear_damping, contact.shear_damping);
-  lane.set(&RowGroup::cohesion, contact.cohesion_impulse);
-  lane.set(&RowGroup::tension, contact.tension_impulse);
-  lane.set(&RowGroup::normal_tangent, contact.normal_damping);
+  law.shear_velocity += contact.drift - along * contact.normal;
+  law.bias += along;
+  law.normal_tangent = law.normal_damping;
+  return law;
 }
 
 }  // namespace
@@ -32,17 +34,11 @@ int add_row(const ContactRow& contact, Island& island) {
   const int r = pair.row_end++;
   if (r % 2 == 0) {
     make_room(island.rows);
-    RowGroup& group = island.rows.emplace_back();
-    group.normal_limit = Two{no_normal_limit, no_normal_limit};
+    island.rows.emplace_back();
   }
   const RowIn<RowGroup> lane = row_of(island, r);
-  lane.set_vector(&RowGroup::normal, contact.normal);
+  lane.set_law(law_in_lane(contact));
   lane.set_vector(&RowGroup::arm, contact.arm);
-  lane.set(&RowGroup::friction, contact.friction);
-  lane.set(&RowGroup::normal_limit, contact.normal_limit);
-  lane.set_vector(&RowGroup::impulse, contact.impulse);
-  lane.set_state(contact.state);
-  if (!contact.waits) set_law(contact, lane);
   return r;
 }
 

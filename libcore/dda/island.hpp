@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "contact/contact.hpp"
+#include "dda/angular_row.hpp"
 #include "dda/contact_row.hpp"
 #include "dda/displacement.hpp"
 
@@ -23,20 +24,16 @@ namespace talus {
 
 /// Two doubles, the compiler's vector type: a register of any x86-64, plain code elsewhere with the
 /// same bits. (Four at a time need AVX; without it the compiler takes them through memory.)
-using Two __attribute__((vector_size(16), may_alias)) = double;
+using Two __attribute__((vector_size(16))) = double;
 
-/// Two rows of one pair side by side; fields as in ContactRow, index = axis, then row; its drift is
-/// in bias and shear_velocity. A lane without a contact is all zero but for the limit, and never
-/// presses.
-struct RowGroup {
-  Two normal[3], arm[3], shear_velocity[3], slip_start[3];
-  Two bias, normal_damping, shear_damping, friction, cohesion, tension, normal_limit;
-  Two impulse[3];
-  Two state;           ///< ContactState
-  Two normal_tangent;  ///< normal_damping; 0 while the normal impulse is at its limit [kg]
-  Two slip_tangent;    ///< of a slipping contact across its direction [kg]
-  Two trial_speed;     ///< of a slipping contact, v_t + s / tau [m/s]
-  Two used_tangent;    ///< slip_tangent when the tangent was last summed [kg]
+/// Two rows of one pair side by side, index = axis, then row; the drift of a ContactRow is in bias
+/// and shear_velocity. A lane without a contact is all zero but for the limit, and never presses.
+struct RowGroup : LawRow<Two> {
+  Two arm[3]{};        ///< from the centroid of A [m]
+  Two slip_tangent{};  ///< of a slipping contact across its direction [kg]
+  Two used_tangent{};  ///< slip_tangent when the tangent was last summed [kg]
+
+  RowGroup() { normal_limit = Two{no_normal_limit, no_normal_limit}; }
 };
 
 /// A row in its group.
@@ -62,6 +59,26 @@ class RowIn {
     return static_cast<ContactState>(static_cast<int>(value(&RowGroup::state)));
   }
 
+  /// What the contact law reads and leaves.
+  [[nodiscard]] LawRow<double> law() const {
+    LawRow<double> out;
+    see_fields(group_, out, [lane = lane_](const auto& of, auto& value) {
+      if constexpr (std::is_array_v<std::remove_reference_t<decltype(of)>>)
+        for (int k = 0; k < 3; ++k) value[k] = of[k][lane];
+      else
+        value = static_cast<std::remove_reference_t<decltype(value)>>(of[lane]);
+    });
+    return out;
+  }
+  void set_law(const LawRow<double>& law) const {
+    see_fields(group_, law, [lane = lane_](auto& of, const auto& value) {
+      if constexpr (std::is_array_v<std::remove_reference_t<decltype(of)>>)
+        for (int k = 0; k < 3; ++k) of[k][lane] = value[k];
+      else
+        of[lane] = static_cast<double>(value);
+    });
+  }
+
   void set_vector(Two (RowGroup::*field)[3], const Vec3& value) const {
     for (int k = 0; k < 3; ++k) (group_.*field)[k][lane_] = value[k];
   }
@@ -83,6 +100,7 @@ struct BodyPair {
   /// In, for a solution that continues the last one: rows, centroids or free motion of a body are
   /// not those of that one. Out: false.
   bool changed = true;
+  int angular = -1;  ///< index into Island::angular, -1: no couple beside the points
 };
 
 /// One island of rigid bodies over one step. Velocity: of the centroid, and spin, in local axes;
@@ -95,6 +113,7 @@ struct Island {  // clang-format off
   std::vector<double> radius;      ///< turns spin into velocity [m]                    (n_bodies)
   std::vector<BodyPair> pairs;     ///< a pair may appear more than once                (n_pairs)
   std::vector<RowGroup> rows;      ///< row r is lane r % 2 of rows[r / 2]; pair by pair (n_groups)
+  std::vector<AngularRow> angular; ///< of the pairs that have one, mostly none
 };  // clang-format on
 
 [[nodiscard]] inline int n_bodies(const Island& island) {
@@ -113,6 +132,17 @@ struct Island {  // clang-format off
   const auto begin = static_cast<std::size_t>(pair.row_begin / 2);
   return std::span(island.rows)
       .subspan(begin, static_cast<std::size_t>(pair.row_end + 1) / 2 - begin);
+}
+
+/// Sum of the normal impulses of rows.
+[[nodiscard]] inline double normal_impulses(std::span<const RowGroup> groups) {
+  Two sum{};
+  for (const RowGroup& g : groups) {
+    const Two p_n =
+        g.normal[0] * g.impulse[0] + g.normal[1] * g.impulse[1] + g.normal[2] * g.impulse[2];
+    sum += p_n > 0 ? p_n : Two{};
+  }
+  return sum[0] + sum[1];
 }
 
 /// Adds a pair without rows.

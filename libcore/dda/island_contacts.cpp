@@ -49,8 +49,8 @@ bool has_features(const ContactKey& now, const ContactKey& then) {
 
 // Holds a contact of a bond without limit; check_substep() compares what it carries.
 void hold(const GroundClass& face, double recovery_time, ContactRow& row) {
-  row.cohesion_impulse = held;
-  row.tension_impulse = face.tension > 0 ? held : 0;
+  row.cohesion = held;
+  row.tension = face.tension > 0 ? held : 0;
   row.bias = (row.gap_start + row.offset) / recovery_time;
 }
 
@@ -126,6 +126,7 @@ struct ContactMaker {
     system.left_out.clear();
     system.island.pairs.clear();
     system.island.rows.clear();
+    system.island.angular.clear();
     system.first_contact.clear();
     system.ground_pair.clear();
     system.waiting.clear();

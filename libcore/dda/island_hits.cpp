@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "dda/contact_law.hpp"
 #include "dda/island_stages.hpp"
 
 namespace talus {
@@ -120,7 +121,7 @@ void make_hit(const IslandMembers& members, const FreeMotions& free, size_t r, d
     return std::min(hit.time, hits.support[k].until) * hits.support[k].acceleration;
   }));
   const double speed = std::max(g > 0 ? v + a * hit.time + borne : contact.approach, speed_end);
-  const double returned = speed < -resting_speed ? -contact.restitution * speed : 0;
+  const double returned = returned_speed(contact.restitution, speed, resting_speed);
   hit.speed = std::min(speed, -resting_speed);
   hit.rebound = returned;
   hit.fall = std::min(0.0, a_free) * rest;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "dda/one_contact.hpp"
+
 namespace talus {
 namespace {
 
@@ -137,6 +139,35 @@ void prepare_matrix(const Island& island, IslandMatrix& matrix) {
     vectors->assign(n, {});
 }
 
+namespace {
+
+// W, and with `rest` the change of the bound, of the angular row beside the rows of `groups`.
+void add_couple(const AngularRow& turn, std::span<const RowGroup> groups, Packed<6>& W,
+                Mat6* rest) {
+  const Mat3 across = tangent(turn);
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j <= i; ++j) W(3 + i, 3 + j) += across(i, j);
+  if (rest == nullptr || turn.state != ContactState::slip) return;
+  for (const RowGroup& group : groups)
+    for (int lane = 0; lane < 2; ++lane) {
+      const RowIn<const RowGroup> row(group, lane);
+      if (row.state() == ContactState::open || row.normal_impulse() <= 0) continue;
+      rest->bottomRows<3>() -= (turn.arm * row.value(&RowGroup::normal_tangent)) * turn.direction *
+                               generalised<6>(row.arm(), row.normal()).transpose();
+    }
+}
+
+// The tangent of a pair's rows and of its angular row; false where no contact presses.
+bool sum_pair(Island& island, const BodyPair& pair, Packed<6>& W, Mat6* rest) {
+  const std::span<RowGroup> groups = groups_of(island, pair);
+  const bool closed = sum_tangents(groups, W, rest);
+  if (pair.angular >= 0)
+    add_couple(island.angular[static_cast<size_t>(pair.angular)], groups, W, rest);
+  return closed;
+}
+
+}  // namespace
+
 void update_tangents(Island& island, Tangent tangent, IslandMatrix& matrix) {
   if (tangent != matrix.tangent) begin_sums(island, matrix);
   matrix.tangent = tangent;
@@ -150,13 +181,12 @@ void update_tangents(Island& island, Tangent tangent, IslandMatrix& matrix) {
     const BodyPair& pair = island.pairs[p];
     if (exact) {
       matrix.rest[p].setZero();
-      matrix.pair_closed[p] =
-          sum_tangents(groups_of(island, pair), matrix.pair[p], &matrix.rest[p]);
+      matrix.pair_closed[p] = sum_pair(island, pair, matrix.pair[p], &matrix.rest[p]);
       continue;
     }
     Packed<6> change;
     if (matrix.pair_closed[p]) subtract(matrix.pair[p], change);
-    matrix.pair_closed[p] = sum_tangents(groups_of(island, pair), matrix.pair[p], nullptr);
+    matrix.pair_closed[p] = sum_pair(island, pair, matrix.pair[p], nullptr);
     add(matrix.pair[p], change);
     add_to_diagonals(pair, change, matrix.shift[p], matrix);
     if (pair.b >= 0) matrix.coupling[p] = {single(matrix.pair[p]), single(matrix.shift[p])};

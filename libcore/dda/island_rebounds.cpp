@@ -6,6 +6,7 @@
 #include <limits>
 #include <ranges>
 
+#include "dda/contact_law.hpp"
 #include "dda/impact.hpp"
 #include "dda/island_stages.hpp"
 
@@ -181,7 +182,7 @@ void see_speeds(const IslandMembers& members, const FreeMotions& free, const Isl
     const double speed = normal.dot(velocity) - hit.fall;
     const double resting_speed = members.of(contact.a).resting_speed;
     hit.speed = std::min(speed, -resting_speed);
-    hit.rebound = speed < -resting_speed ? -contact.restitution * speed : 0;
+    hit.rebound = returned_speed(contact.restitution, speed, resting_speed);
     hit.target = std::max(0.0, hit.rebound + hit.fall);
   }
 }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "dda/one_contact.hpp"
+
 namespace talus {
 namespace {
 
@@ -93,6 +95,20 @@ struct Solve {
     activate(island, work.start, work.matrix);
   }
 
+  // The couples of pairs whose rows were evaluated, at their relative spin. Their tangents count as
+  // changed: few pairs have one, and the bound follows every impulse.
+  void evaluate_couples(std::span<const int> pairs, std::span<PairEvaluation> evaluations) {
+    for (size_t i = 0; i < pairs.size(); ++i) {
+      const BodyPair& pair = island.pairs[static_cast<size_t>(pairs[i])];
+      if (pair.angular < 0) continue;
+      PairEvaluation& now = evaluations[i];
+      AngularRow& turn = island.angular[static_cast<size_t>(pair.angular)];
+      talus::evaluate(Vec3(now.motion.tail<3>()), normal_impulses(now.groups), turn);
+      for (int k = 0; k < 3; ++k) now.sum[3 + k][0] += turn.couple[k];
+      now.changed = true;
+    }
+  }
+
   // Contacts of active bodies; what a body at rest had from them before is replaced.
   [[gnu::flatten]] void evaluate_contacts(std::span<const int> pairs, Evaluation evaluation) {
     std::array<PairEvaluation, 32> now;  // few enough to stay near
@@ -108,6 +124,7 @@ struct Solve {
                                           work.matrix.shift[p]);
       }
       evaluate_pairs(std::span(now).first(some.size()), evaluation, direct ? 0 : slack);
+      if (!island.angular.empty()) evaluate_couples(some, now);
       for (size_t i = 0; i < some.size(); ++i) {
         if (now[i].changed) work.matrix.changed_pairs.add(some[i]);
         add_impulse(static_cast<size_t>(some[i]), now[i].impulse());

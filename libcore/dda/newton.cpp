@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "dda/contact_law.hpp"
+#include "dda/one_contact.hpp"
 
 namespace talus {
 namespace {
@@ -44,6 +44,42 @@ void add_tangent(const Vec3& X, const Mat3& A, Mat<Dof>& H) {
   }
 }
 
+// Sum of the normal impulses that bound an angular row.
+double pressed_on(const AngularRow& turn, std::span<const ContactRow> rows) {
+  double sum = 0;
+  for (int i = turn.row_begin; i < turn.row_end; ++i) {
+    const ContactRow& row = rows[static_cast<std::size_t>(i)];
+    sum += std::max(0.0, row.normal.dot(row.impulse));
+  }
+  return sum;
+}
+
+// What angular rows add to the residual whose rows were evaluated, and to its derivative: apart,
+// since few blocks have them.
+template <int Dof>
+[[gnu::noinline]] void add_couples(const BlockSystem<Dof>& system, std::span<const ContactRow> rows,
+                                   Vec<Dof>& r) {
+  for (AngularRow& turn : system.angular) {
+    evaluate(Vec3(system.velocity.template segment<3>(3)), pressed_on(turn, rows), turn);
+    r.template segment<3>(3) -= turn.couple;
+  }
+}
+
+template <int Dof>
+[[gnu::noinline]] void add_couple_tangents(const BlockSystem<Dof>& system,
+                                           std::span<const ContactRow> rows, Mat<Dof>& H) {
+  for (const AngularRow& turn : system.angular) {
+    H.template block<3, 3>(3, 3) += tangent(turn);
+    if (turn.state != ContactState::slip) continue;
+    for (int i = turn.row_begin; i < turn.row_end; ++i) {  // the bound follows the normal impulse
+      const ContactRow& row = rows[static_cast<std::size_t>(i)];
+      if (row.state == ContactState::open || row.normal.dot(row.impulse) <= 0) continue;
+      H.template middleRows<3>(3) -= (turn.arm * row.normal_tangent) * turn.direction *
+                                     generalised<Dof>(row.arm, row.normal).transpose();
+    }
+  }
+}
+
 // Momentum that is missing at the system's velocity.
 template <int Dof>
 Vec<Dof> residual(const BlockSystem<Dof>& system, std::span<ContactRow> rows) {
@@ -61,6 +97,7 @@ Vec<Dof> residual(const BlockSystem<Dof>& system, std::span<ContactRow> rows) {
     r.template segment<3>(3) -= row.arm.cross(row.impulse);
     if constexpr (Dof == 12) r.template tail<6>() -= strain_load(row.arm, row.impulse);
   }
+  if (!system.angular.empty()) add_couples<Dof>(system, rows, r);
   return r;
 }
 
@@ -72,6 +109,7 @@ Mat<Dof> derivative(const BlockSystem<Dof>& system, std::span<const ContactRow> 
     if (row.waits || row.state == ContactState::open) continue;
     add_tangent<Dof>(row.arm, tangent(row), H);
   }
+  if (!system.angular.empty()) add_couple_tangents<Dof>(system, rows, H);
   return H;
 }
 
@@ -168,6 +206,7 @@ NewtonResult solve_stiffening(BlockSystem<Dof>& system, std::span<ContactRow> ro
   constexpr double soft_goal = 1e-6;  // of the size at a stage's start, before the last stage
   const auto scale = [&](double factor) {
     for (ContactRow& row : rows) row.normal_damping *= factor, row.shear_damping *= factor;
+    for (AngularRow& turn : system.angular) turn.damping *= factor;
   };
   NewtonResult result;
   system.velocity = system.free_velocity;
@@ -181,6 +220,30 @@ NewtonResult solve_stiffening(BlockSystem<Dof>& system, std::span<ContactRow> ro
   }
 }
 
+// One sweep over the angular rows; returns the largest change of spin times its lever.
+template <int Dof>
+double sweep_couples(const Mat<Dof>& per_mass, std::span<const ContactRow> rows,
+                     BlockSystem<Dof>& system) {
+  double change = 0;
+  for (AngularRow& turn : system.angular) {
+    const double give = per_mass.template block<3, 3>(3, 3).trace() + 1 / turn.damping;
+    const Vec3 trial = system.velocity.template segment<3>(3) + turn.spring_spin;
+    Vec3 couple = turn.couple - (trial + turn.couple / turn.damping) / give;
+    turn.cap = turn.arm * pressed_on(turn, rows);
+    const double size = couple.norm();
+    turn.state = turn.cap <= 0 ? ContactState::open : ContactState::stick;
+    if (size > turn.cap) couple *= turn.cap / size;
+    if (size > turn.cap && turn.cap > 0) turn.state = ContactState::slip;
+    const Vec<Dof> dv = per_mass.template middleCols<3>(3) * (couple - turn.couple);
+    system.velocity += dv;
+    turn.couple = couple;
+    for (int i = turn.row_begin; i < turn.row_end; ++i)
+      change =
+          std::max(change, point_velocity<Dof>(dv, rows[static_cast<std::size_t>(i)].arm).norm());
+  }
+  return change;
+}
+
 // Gauss-Seidel over the contacts, each given the impulse that its own law asks for: slow, but it
 // gets through where Newton goes round in circles. Slip follows the end velocity.
 template <int Dof>
@@ -189,6 +252,7 @@ NewtonResult solve_sweeps(BlockSystem<Dof>& system, std::span<ContactRow> rows) 
   const Mat<Dof> per_mass = system.mass.inverse();
   system.velocity = system.free_velocity;
   for (ContactRow& row : rows) row.impulse.setZero();
+  for (AngularRow& turn : system.angular) turn.couple.setZero();
   for (int sweep = 1; sweep <= most_sweeps; ++sweep) {
     double change = 0;
     for (ContactRow& row : rows) {
@@ -208,7 +272,9 @@ NewtonResult solve_sweeps(BlockSystem<Dof>& system, std::span<ContactRow> rows) 
       }
       const Vec3 trial = w - n.dot(w) * n + row.shear_velocity;
       Vec3 t = t_old - (trial + t_old / row.shear_damping) / give_t;
-      const double cap = row.friction * p_n + row.cohesion_impulse, size = t.norm();
+      double cap;
+      Strength<double>{row.friction, row.cohesion, 0}.bound(p_n, cap);
+      const double size = t.norm();
       row.state = p_n == 0 ? ContactState::open : ContactState::stick;
       if (size > cap) t *= cap / size, row.state = p_n == 0 ? row.state : ContactState::slip;
       const Vec3 impulse = p_n * n + t;
@@ -217,6 +283,7 @@ NewtonResult solve_sweeps(BlockSystem<Dof>& system, std::span<ContactRow> rows) 
       row.impulse = impulse;
       change = std::max(change, point_velocity<Dof>(dv, row.arm).norm());
     }
+    change = std::max(change, sweep_couples<Dof>(per_mass, rows, system));
     if (change <= 10 * system.tolerance) return {true, sweep};
   }
   return {false, most_sweeps};

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <span>
 
+#include "dda/angular_row.hpp"
 #include "dda/contact_row.hpp"
 #include "dda/displacement.hpp"
 
@@ -18,10 +19,11 @@ template <int Dof>
 struct BlockSystem {
   using Vec = Eigen::Matrix<double, Dof, 1>;
   using Mat = Eigen::Matrix<double, Dof, Dof>;
-  Mat mass;              ///< M plus the damping of the elastic strains [kg, kg m2]
-  Vec free_velocity;     ///< without contact [m/s, rad/s, 1/s]
-  Vec velocity;          ///< in: first guess; out: at the end of the step
-  double tolerance = 0;  ///< largest residual, as a velocity of the block's points [m/s]
+  Mat mass;                       ///< M plus the damping of the elastic strains [kg, kg m2]
+  Vec free_velocity;              ///< without contact [m/s, rad/s, 1/s]
+  Vec velocity;                   ///< in: first guess; out: at the end of the step
+  double tolerance = 0;           ///< largest residual, as a velocity of the block's points [m/s]
+  std::span<AngularRow> angular;  ///< couples beside the rows, bounded by them; mostly none
 };
 
 struct NewtonResult {
@@ -29,7 +31,7 @@ struct NewtonResult {
   int passes = 0;  ///< evaluations of all contacts
 };
 
-/// Solves M (v - v_free) = sum J^T p(J v); sets `impulse` and `state` of the rows.
+/// Solves M (v - v_free) = sum J^T p(J v) + couples; sets `impulse` and `state` of the rows.
 ///
 /// Newton with the friction bound coupled to the normal impulse: whole steps at first, then with a
 /// line search. What has not settled after `max_passes` is solved with softer contacts and then

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "dda/newton.hpp"
-#include "dda/row_law.hpp"
+#include "dda/row_lanes.hpp"
 
 namespace talus {
 namespace {

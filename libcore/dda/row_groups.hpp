@@ -1,6 +1,6 @@
 // libcore/dda/row_groups.hpp
 // The contacts of an island two at a time: the contact law and the tangents without a branch per
-// contact. The impulse is that of dda/contact_law.hpp; a test holds the two together.
+// contact.
 //
 // The symmetric tangent leaves out the change of the friction bound with the normal impulse, so
 // that a Newton step goes downhill and conjugate gradients apply; the bound itself is renewed at

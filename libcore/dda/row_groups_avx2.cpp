@@ -8,7 +8,7 @@
 #pragma GCC target("avx2")
 #pragma GCC diagnostic ignored "-Wpsabi"  // vectors of four are passed within this file alone
 #define TALUS_FOUR_LANES
-#include "dda/row_law.hpp"
+#include "dda/row_lanes.hpp"
 
 namespace talus {
 
@@ -19,7 +19,7 @@ bool has_four_lanes() {
 
 [[gnu::flatten]] void evaluate_pairs_by_four(std::span<PairEvaluation> pairs, Evaluation evaluation,
                                              double slack) {
-  using FourDoubles __attribute__((vector_size(32), may_alias)) = double;
+  using FourDoubles __attribute__((vector_size(32))) = double;
   evaluate_in_lanes<FourDoubles>(pairs, evaluation, slack);
 }
 

@@ -161,12 +161,29 @@ bool came_through_ridge(const Scene& scene, const BlockNumbers& c, const Substep
 void forget_last_step(ContactRow& row) {
   row.shear.setZero();
   row.offset = row.last_stiffness = row.last_force = row.bond_area = 0;
-  row.cohesion_impulse = row.tension_impulse = 0;
+  row.cohesion = row.tension = 0;
   row.normal_limit = no_normal_limit;
   row.memory = -1;
   row.cap = 0;
   row.impulse.setZero();
   row.state = ContactState::open;
+}
+
+ContactRow& begin_row(const Scene& scene, int b, size_t i, const Mat3& to_row,
+                      std::span<const Contact> contacts, std::span<ContactRow> rows) {
+  const Contact& contact = contacts[i];
+  const GroundClass& ground = scene.ground.classes[static_cast<size_t>(contact.ground_class)];
+  ContactRow& row = rows[i];
+  forget_last_step(row);
+  row.key = contact.key;
+  row.a = b;
+  row.ground_class = contact.ground_class;
+  row.contact = static_cast<int>(i);
+  const bool same_plane = i > 0 && contact.normal == contacts[i - 1].normal;
+  row.normal = same_plane ? rows[i - 1].normal : Vec3(to_row * contact.normal);
+  row.friction = ground.friction;
+  row.restitution = ground.restitution;
+  return row;
 }
 
 bool comes_back_fast(const ContactMemory& memory, double approach, double h,
@@ -255,30 +272,16 @@ void set_motions(const Scene& scene, int b, const Substep& s, const Mat3& to_bod
   const Vec3 velocity_start = to_body * s.start.velocity, spin_start = from_start * s.spin_start;
   for (size_t i = 0; i < contacts.size(); ++i) {
     const Contact& contact = contacts[i];
-    const GroundClass& ground = scene.ground.classes[static_cast<size_t>(contact.ground_class)];
-    ContactRow& row = rows[i];
-    forget_last_step(row);
-    row.key = contact.key;
-    row.a = b;
-    row.ground_class = contact.ground_class;
-    row.contact = static_cast<int>(i);
-    const bool same_plane = i > 0 && contact.normal == contacts[i - 1].normal;
-    row.normal = same_plane ? rows[i - 1].normal : Vec3(to_body * contact.normal);
+    ContactRow& row = begin_row(scene, b, i, to_body, contacts, rows);
     const Vec3& X = contact.point_a;
     const Vec3 lever_start = from_start * X;
     row.arm = (X + lever_start) / 2;
     row.drift = s.spin_free.cross(X - row.arm);
     row.free_move = moved + (X - lever_start);
     row.gap_start = contact.gap - row.normal.dot(row.free_move);
-    const Vec3 w = velocity_start + spin_start.cross(lever_start);
-    row.speed_start = row.normal.dot(w);
-    const Vec3 slip = w - row.speed_start * row.normal;
+    set_start(velocity_start + spin_start.cross(lever_start), row);
     // not part of the slip: where a block all but sticks it would turn its direction round
     if (s.is_straining) row.speed_start += row.normal.dot(s.straining * X);
-    const double slip_speed = slip.norm();
-    row.slip_start = slip_speed > 0 ? Vec3((1 / slip_speed) * slip) : Vec3(Vec3::Zero());
-    row.friction = ground.friction;
-    row.restitution = ground.restitution;
   }
 }
 
@@ -318,8 +321,8 @@ void make_rows(const Scene& scene, int b, const BlockNumbers& c, const Substep& 
     }
     set_ground_law(scene, c, s, row);
     const GroundClass& ground = scene.ground.classes[static_cast<size_t>(row.ground_class)];
-    row.cohesion_impulse = ground.cohesion * row.bond_area * s.h;
-    row.tension_impulse = ground.tension * row.bond_area * s.h;
+    row.cohesion = ground.cohesion * row.bond_area * s.h;
+    row.tension = ground.tension * row.bond_area * s.h;
   }
 }
 

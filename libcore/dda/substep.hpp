@@ -41,6 +41,18 @@ inline constexpr int most_tries = 24;   ///< substeps repeated to find an event 
 /// as it was while the row waits. Cheaper than a whole new row.
 void forget_last_step(ContactRow& row);
 
+/// Begins row `i`, of what the search found between block b and the ground: forgets the last step,
+/// and says between what it acts, in the axes that `to_row` turns local ones into.
+[[nodiscard]] ContactRow& begin_row(const Scene& scene, int b, std::size_t i, const Mat3& to_row,
+                                    std::span<const Contact> contacts, std::span<ContactRow> rows);
+/// Normal velocity and direction of slip of a row whose point begins the substep with `velocity`.
+inline void set_start(const Vec3& velocity, ContactRow& row) {
+  row.speed_start = row.normal.dot(velocity);
+  const Vec3 slip = velocity - row.speed_start * row.normal;
+  const double slip_speed = slip.norm();
+  row.slip_start = slip_speed > 0 ? Vec3((1 / slip_speed) * slip) : Vec3(Vec3::Zero());
+}
+
 /// What a row inherits from memory `index`: the shear spring turned into the new tangent plane, and
 /// the overlap that presses nothing. Where what lies below changes plane the gap jumps; the jump
 /// does no work. Over one plane, or where both features are those of before, it jumps only by what

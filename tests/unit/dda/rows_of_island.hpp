@@ -20,19 +20,8 @@ inline std::vector<int> row_numbers(const Island& island) {
 inline ContactRow row_at(const Island& island, int r) {
   const RowIn<const RowGroup> of = row_of(island, r);
   ContactRow out;
-  out.normal = of.normal();
+  static_cast<LawRow<double>&>(out) = of.law();
   out.arm = of.arm();
-  out.shear_velocity = of.vector(&RowGroup::shear_velocity);
-  out.slip_start = of.vector(&RowGroup::slip_start);
-  out.bias = of.bias();
-  out.normal_damping = of.normal_damping();
-  out.shear_damping = of.shear_damping();
-  out.friction = of.value(&RowGroup::friction);
-  out.cohesion_impulse = of.value(&RowGroup::cohesion);
-  out.tension_impulse = of.value(&RowGroup::tension);
-  out.normal_limit = of.normal_limit();
-  out.impulse = of.impulse();
-  out.state = of.state();
   return out;
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/random.hpp"
-#include "dda/contact_law.hpp"
+#include "dda/one_contact.hpp"
 
 namespace {
 
@@ -37,7 +37,7 @@ TEST(ContactLaw, PressesByDampingTimesWhatClosesItAndNeverPulls) {
 
 TEST(ContactLaw, TensionHoldsUpToItsLimit) {
   ContactRow row = on_the_level();
-  row.tension_impulse = 1;
+  row.tension = 1;
   EXPECT_EQ(at(Vec3(0, 0, 0.49), row).impulse.z(), -0.98);
   EXPECT_EQ(at(Vec3(0, 0, 0.51), row).state, ContactState::open);
 }
@@ -55,7 +55,7 @@ TEST(ContactLaw, SticksUpToFrictionAndCohesion) {
   EXPECT_EQ(at(slow, row).state, ContactState::stick);
   EXPECT_EQ(at(slow, row).impulse.x(), -3 * 0.33);
   EXPECT_EQ(at(fast, row).state, ContactState::slip);
-  row.cohesion_impulse = 0.1;
+  row.cohesion = 0.1;
   EXPECT_EQ(at(fast, row).state, ContactState::stick);
   row.shear_velocity = Vec3(0.1, 0, 0);  // the spring of the step before
   EXPECT_EQ(at(fast, row).state, ContactState::slip);
@@ -102,7 +102,7 @@ ContactRow random_row(bool has_start, talus::Random& random) {
   row.normal_damping = random.uniform(0.5, 2);
   row.shear_damping = random.uniform(0.5, 2);
   row.friction = has_start ? 0 : random.uniform(0.1, 1);
-  row.cohesion_impulse = random.uniform(0, 0.2);
+  row.cohesion = random.uniform(0, 0.2);
   return row;
 }
 

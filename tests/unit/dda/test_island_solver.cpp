@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <limits>
 
-#include "dda/contact_law.hpp"
 #include "dda/island_solver.hpp"
+#include "dda/one_contact.hpp"
 #include "unit/dda/island_scenes.hpp"
 #include "unit/dda/rows_of_island.hpp"
 

@@ -4,8 +4,8 @@
 #include <functional>
 
 #include "base/random.hpp"
-#include "dda/contact_law.hpp"
 #include "dda/newton.hpp"
+#include "dda/one_contact.hpp"
 #include "dda/row_groups.hpp"
 #include "unit/dda/rows_of_island.hpp"
 
@@ -42,8 +42,8 @@ ContactRow random_row(talus::Random& random) {
   row.normal_damping = random.uniform(0.1, 2);
   row.shear_damping = random.uniform(0.1, 2);
   row.friction = random.uniform() < 0.2 ? 0 : random.uniform(0.05, 1);
-  if (random.uniform() < 0.3) row.cohesion_impulse = random.uniform();
-  if (random.uniform() < 0.3) row.tension_impulse = random.uniform();
+  if (random.uniform() < 0.3) row.cohesion = random.uniform();
+  if (random.uniform() < 0.3) row.tension = random.uniform();
   if (random.uniform() < 0.3) row.normal_limit = random.uniform();
   return row;
 }
@@ -84,8 +84,9 @@ Vec6 random_velocity(talus::Random& random) {
   return u;
 }
 
-// The law of contact_law.hpp, written apart for one block, at 5,000 contacts of all kinds.
-TEST(EvaluatePairs, GivesTheImpulsesOfTheContactLaw) {
+// One contact and lanes of them, at 5,000 contacts of all kinds: one template, but for how the slip
+// direction is rounded.
+TEST(EvaluatePairs, GivesTheImpulsesOfOneContactAfterTheOther) {
   talus::Random random(11, "law");
   int n_slip = 0, n_stick = 0, n_open = 0;
   for (int round = 0; round < 1000; ++round) {
