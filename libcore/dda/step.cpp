@@ -96,6 +96,7 @@ Work make_work(const Scene& scene) {
   work.deep.is_suspect.resize(static_cast<size_t>(n_blocks(scene)));
   work.contacts.reserve(8 * (most_vertices + expected_contacts));
   work.rows.reserve(8 * (most_vertices + expected_contacts));
+  work.unbonded.reserve(expected_contacts);
   work.segments.reserve(8 * static_cast<size_t>(n_blocks(scene)) + 64);
   return work;
 }

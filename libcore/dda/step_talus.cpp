@@ -44,10 +44,11 @@ struct Advance {
   Work& work;
   StepReport& report;
   BlockNumbers c;
-  Contact foreseen = {};     // the one that an attempt found about to hit
-  bool is_foreseen = false;  // not yet tried
-  bool may_fly = true;       // off for the rest of a step in which a flight met the ground
-  bool on_plane = false;     // it slides, and in the substep it cannot meet another plane
+  Contact foreseen = {};      // the one that an attempt found about to hit
+  bool is_foreseen = false;   // not yet tried
+  bool may_fly = true;        // off for the rest of a step in which a flight met the ground
+  bool on_plane = false;      // it slides, and in the substep it cannot meet another plane
+  bool breaks_bonds = false;  // of the substep under way; what is left is in work.unbonded
 
   [[nodiscard]] size_t i() const { return static_cast<size_t>(b); }
   Motion& motion() { return state.motion[i()]; }
@@ -88,6 +89,13 @@ struct Advance {
     return true;
   }
 
+  // What a longer substep would have broken may hold over a shorter one.
+  Attempt shorten(double to, double& h) {
+    h = to;
+    breaks_bonds = false;
+    return Attempt::shorter;
+  }
+
   // Substep of h from t; h is shortened to the first impact or when the forces do not converge.
   template <int Dof>
   Attempt attempt(double t, double& h, bool last) {
@@ -112,7 +120,7 @@ struct Advance {
       forget_rates(scene, b, state);
       return Attempt::done;
     }
-    make_rows(scene, b, c, s, state, work);
+    make_rows(scene, b, c, s, breaks_bonds ? work.unbonded : state.memory[i()], work);
     for (const ContactRow& row : work.rows)
       if (row.memory < 0 && row.gap_start <= c.touch && row.gap_start > -deep_share * c.thickness &&
           row.speed_start < -c.resting_speed) {
@@ -120,19 +128,15 @@ struct Advance {
         is_foreseen = true;
         return Attempt::impact;
       }
-    if (!last && goes_through_ridge(s)) {
-      h /= 2;
-      return Attempt::shorter;
-    }
+    if (!last && goes_through_ridge(s)) return shorten(h / 2, h);
     BlockSystem<Dof> system = make_system<Dof>(scene, b, c, s, state);
     const NewtonResult newton =
         solve_contacts(system, std::span(work.rows), scene.settings.max_passes);
     report.passes += newton.passes;
     if (!newton.converged) {
       if (!last) {
-        h /= 2;
         ++state.counters.cut_back;
-        return Attempt::shorter;
+        return shorten(h / 2, h);
       }
       ++report.n_unconverged;
       report.flags = report.flags | StepFlag::unconverged;
@@ -140,10 +144,7 @@ struct Advance {
     if (break_bonds()) return Attempt::shorter;
     const Solved<Dof> solved = solved_motion(c, s, system);
     const double hit = first_hit(c, s, solved, work);
-    if (hit < s.h && !last) {
-      h = hit;
-      return Attempt::shorter;
-    }
+    if (hit < s.h && !last) return shorten(hit, h);
     if (near.reach == Reach::below) report.flags = report.flags | StepFlag::fell_through;
     remember(c, s, solved, state, work, b, report);
     if constexpr (Dof == 12) {
@@ -168,7 +169,8 @@ struct Advance {
   }
 
   // A bond that opened is gone; bonds that slip are gone when no other holds the block any more, so
-  // that a face fails at the sum of its strengths. The substep is then computed again without them.
+  // that a face fails at the sum of its strengths. The substep is then computed again without them;
+  // the state loses them when that is accepted, since rows without a bond leave none.
   bool break_bonds() {
     bool holds = false, broken = false;
     for (const ContactRow& row : work.rows)
@@ -177,8 +179,9 @@ struct Advance {
       const bool fails =
           row.state == ContactState::open || (row.state == ContactState::slip && !holds);
       if (row.bond_area == 0 || !fails) continue;
-      state.memory[i()][static_cast<size_t>(row.memory)].bond_area = 0;
-      broken = true;
+      if (!breaks_bonds) work.unbonded = state.memory[i()];
+      work.unbonded[static_cast<size_t>(row.memory)].bond_area = 0;
+      broken = breaks_bonds = true;
     }
     return broken;
   }
@@ -323,6 +326,7 @@ struct Advance {
       }
       double h = std::min(t_end - t, longest_substep(t_end - t));
       Attempt outcome = Attempt::shorter;
+      breaks_bonds = false;
       for (int tries = 1; outcome == Attempt::shorter; ++tries)
         outcome = attempt<Dof>(t, h, tries >= most_tries);
       if (t_end - state.local_time[i()] < 1e-9 * scene.settings.dt) state.local_time[i()] = t_end;
