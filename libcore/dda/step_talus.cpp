@@ -8,6 +8,7 @@
 #include "dda/deep_blocks.hpp"
 #include "dda/flight.hpp"
 #include "dda/impact.hpp"
+#include "dda/law_numbers.hpp"
 #include "dda/lone_substep.hpp"
 
 namespace talus {
@@ -122,8 +123,8 @@ struct Advance {
     }
     make_rows(scene, b, c, s, breaks_bonds ? work.unbonded : state.memory[i()], work);
     for (const ContactRow& row : work.rows)
-      if (row.memory < 0 && row.gap_start <= c.touch && row.gap_start > -deep_share * c.thickness &&
-          row.speed_start < -c.resting_speed) {
+      if (row.memory < 0 && row.gap_start <= c.touch &&
+          row.gap_start > -law::deep_share * c.thickness && row.speed_start < -c.resting_speed) {
         foreseen = work.contacts[static_cast<size_t>(row.contact)];
         is_foreseen = true;
         return Attempt::impact;
@@ -159,13 +160,12 @@ struct Advance {
   // Whether a vertex or an edge has gone through a ridge in a substep, so that the contacts at its
   // end say nothing of that. No use to ask where hardly anything moved.
   [[nodiscard]] bool goes_through_ridge(const Substep& s) {
-    constexpr double deep = 0.03, short_way = 0.01;  // of the thickness
-    if (s.h * top_speed() < short_way * c.thickness) return false;
+    if (s.h * top_speed() < law::short_move * c.thickness) return false;
     for (const ContactRow& row : work.rows)
       if (came_through_ridge(scene, c, s, work.contacts[static_cast<size_t>(row.contact)], row))
         return true;
     return depth_past_ridge(scene.ground, scene.blocks.shapes, b, work.world_vertices,
-                            work.contacts, deep * c.thickness) > 0;
+                            work.contacts, law::deep_past_ridge * c.thickness) > 0;
   }
 
   // A bond that opened is gone; bonds that slip are gone when no other holds the block any more, so
@@ -202,8 +202,7 @@ struct Advance {
 
   // Flies on from t, where nothing can be hit for longer than `shortest`.
   bool begin_flight(double t, double shortest) {
-    constexpr double longest_turn = 60;  // [rad]: bounds what motion_at() costs near the flip
-    const double longest = std::min(1e3, longest_turn / (spin_speed() + 1e-300));
+    const double longest = std::min(1e3, law::longest_turn / (spin_speed() + 1e-300));
     // where strains let go the vertices move
     const bool is_rigid = state.strain.empty();
     FlyingBody body =
@@ -278,13 +277,12 @@ struct Advance {
   // most half a radian; a needle that rolls at more than 100 radians a step is not followed any
   // closer. A block that slides may go farther, up to `h`, where it meets no other plane or ground.
   double longest_substep(double h) {
-    constexpr double slides = 0.05;  // turns by no more [rad]
     const double spin = spin_speed() + 1e-300;
     const double by_turn = std::max(0.5 / spin, scene.settings.dt / 200);
     const double by_way = 0.5 * scene.ground.trn.cell_size / (top_speed() + 1e-300);
     on_plane = false;
     if (gravity_only() && !state.memory[i()].empty())
-      for (double longer = std::min(h, slides / spin); longer > by_way; longer /= 2)
+      for (double longer = std::min(h, law::slides_by_turn / spin); longer > by_way; longer /= 2)
         if ((on_plane = is_plane_ahead(longer))) return longer;
     return std::min(by_way, by_turn);
   }
@@ -300,11 +298,10 @@ struct Advance {
   // follow on each other, each ending nearer to the hit where the block spins, until it touches.
   template <int Dof>
   void run(double t_end) {
-    constexpr int most_flights = 16;  // in a step
     int events = 0, flights = 0;
     bool was_hit = false;
     const auto count_event = [&] {
-      if (++events > most_events) c.resting_speed *= 2;
+      if (++events > law::most_events) c.resting_speed *= 2;
     };
     while (state.local_time[i()] < t_end) {
       bool flew = false;
@@ -313,7 +310,7 @@ struct Advance {
         flew = true;
       }
       const double t = state.local_time[i()];
-      if ((flew || may_take_off(t, was_hit)) && may_fly && ++flights <= most_flights) {
+      if ((flew || may_take_off(t, was_hit)) && may_fly && ++flights <= law::most_flights) {
         // without spin a flight ends where the block touches
         const bool touches = flew && motion().angular_momentum.isZero(0);
         const double at_once = c.touch / (top_speed() + c.gravity * scene.settings.dt + 1e-300);
@@ -328,7 +325,7 @@ struct Advance {
       Attempt outcome = Attempt::shorter;
       breaks_bonds = false;
       for (int tries = 1; outcome == Attempt::shorter; ++tries)
-        outcome = attempt<Dof>(t, h, tries >= most_tries);
+        outcome = attempt<Dof>(t, h, tries >= law::most_tries);
       if (t_end - state.local_time[i()] < 1e-9 * scene.settings.dt) state.local_time[i()] = t_end;
       if (outcome == Attempt::impact) count_event();
       was_hit = outcome == Attempt::impact && impact();
