@@ -37,6 +37,8 @@ std::string health_section(const ReportData& data) {
       out += html_note("Run " + xml_escaped(data.run_names[i]) +
                        " failed: " + xml_escaped(run.info.reason) + ".");
   out += counter_table(data.runs, data.run_names);
+  if (const std::string cuts = cut_table(data.runs, data.run_names); !cuts.empty())
+    out += html_note("Substeps of blocks in contact that were made again, by reason:") + cuts;
   if (const std::string deep = deep_table(data.runs, data.run_names); !deep.empty())
     out += html_note("Blocks that came into something by more than a tenth of their thickness:") +
            deep;

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "blocks/block_set.hpp"
-#include "dda/fence.hpp"
+#include "dda/yielding.hpp"
 
 namespace talus {
 namespace {

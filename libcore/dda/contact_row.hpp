@@ -73,7 +73,7 @@ struct KeptContact {  // clang-format off
   // between what it acts
   ContactKey key;
   int a = 0, b = -1;              ///< blocks; b = -1: the ground, or a fixed body
-  int fixed = -1;                 ///< fixed body (as body of Blocks::hulls), -1: none
+  int fixed = -1;                 ///< id of a fixed body, -1: none
   int ground_class = 0;           ///< where b and fixed are -1
   int bond = -1;                  ///< index into State::bonds, -1: none
   int memory = -1;                ///< index into A's memory, -1: new

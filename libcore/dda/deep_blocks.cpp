@@ -2,9 +2,10 @@
 
 #include <algorithm>
 
-#include "dda/fence.hpp"
 #include "dda/flight.hpp"
+#include "dda/law_numbers.hpp"
 #include "dda/substep.hpp"
+#include "dda/yielding.hpp"
 
 namespace talus {
 namespace {
@@ -13,7 +14,7 @@ using std::size_t;
 
 struct Overlap {
   double depth = 0;  ///< [m]
-  int partner = -1;  ///< body, -1: the ground
+  int partner = ground_name;
 };
 
 // Bodies of the listed pairs of parts of which one is a suspect.
@@ -31,26 +32,33 @@ void for_each_listed(const Scene& scene, const State& state, const DeepWork& w, 
 
 // Places the suspects and what they may overlap where they are at the end of the step.
 void place_suspects(const Scene& scene, const State& state, DeepWork& w) {
-  const size_t n = static_cast<size_t>(n_blocks(scene) + n_fixed(scene));
-  w.poses.resize(n);
-  w.moving.assign(n, w.placed.turned.size() == n ? 0 : 1);
-  for (size_t b = 0; b < w.is_suspect.size(); ++b) w.moving[b] |= w.is_suspect[b];
+  const auto n = static_cast<size_t>(n_blocks(scene)), n_bodies = n + scene.fixed.pose.size();
+  const bool first = w.placed.turned.size() != n_bodies;
+  w.poses.resize(first ? n_bodies : n);
+  w.moving.assign(n, first ? 1 : 0);
+  for (size_t b = 0; b < n; ++b) w.moving[b] |= w.is_suspect[b];
+  w.fixed.clear();
   for_each_listed(scene, state, w, [&](const PairWatch&, int a, int b) {
-    w.moving[static_cast<size_t>(a)] = w.moving[static_cast<size_t>(b)] = 1;
+    w.moving[static_cast<size_t>(a)] = 1;
+    if (is_fixed(scene, b))
+      w.fixed.push_back(b);
+    else
+      w.moving[static_cast<size_t>(b)] = 1;
   });
-  for (size_t i = 0; i < n; ++i) {
-    if (w.moving[i] == 0) continue;
-    const int body = static_cast<int>(i);
-    w.poses[i] = is_fixed(scene, body) ? fixed_pose(scene, state, body)
-                                       : motion_at(scene, state, body, state.time).pose;
-  }
+  for (size_t b = 0; b < n; ++b)
+    if (w.moving[b] != 0)
+      w.poses[b] = motion_at(scene, state, static_cast<int>(b), state.time).pose;
+  if (first)
+    std::copy(scene.fixed.pose.begin(), scene.fixed.pose.end(),
+              w.poses.begin() + static_cast<std::ptrdiff_t>(n));
   w.stretch.clear();
   if (!state.strain.empty()) {
-    w.stretch.assign(n, Mat3::Identity());
-    for (int b = 0; b < n_blocks(scene); ++b)
-      w.stretch[static_cast<size_t>(b)] = stretch_of(state, b);
+    w.stretch.assign(w.poses.size(), Mat3::Identity());
+    for (size_t b = 0; b < n; ++b) w.stretch[b] = stretch_of(state, static_cast<int>(b));
   }
   place_hulls(scene.blocks.hulls, w.poses, w.stretch, w.moving, w.placed);
+  for (const int body : w.fixed)
+    place_body(scene.blocks.hulls, body, fixed_pose(scene, state, fixed_of(scene, body)), w.placed);
 }
 
 // Which of the bodies of a pair is in the other: the thinner block.
@@ -62,9 +70,9 @@ int thinner_of(const Scene& scene, int a, int b) {
 
 void measure_pairs(const Scene& scene, const State& state, DeepWork& w) {
   w.overlap_depth.assign(w.is_suspect.size(), 0);
-  w.overlap_partner.assign(w.is_suspect.size(), -1);
+  w.overlap_partner.assign(w.is_suspect.size(), ground_name);
   for_each_listed(scene, state, w, [&](const PairWatch& pair, int a, int b) {
-    if (is_fixed(scene, b) && !stands(scene, state, b)) return;
+    if (is_fixed(scene, b) && !stands(scene, state, fixed_of(scene, b))) return;
     const int thin = thinner_of(scene, a, b);
     const auto i = static_cast<size_t>(thin);
     if (w.is_suspect[i] == 0) return;
@@ -72,7 +80,7 @@ void measure_pairs(const Scene& scene, const State& state, DeepWork& w) {
         find_axis(scene.blocks.hulls, w.placed, pair.part_a, pair.part_b, 0, {}, w.axis);
     if (!axis.touches || -axis.separation <= w.overlap_depth[i]) return;
     w.overlap_depth[i] = -axis.separation;
-    w.overlap_partner[i] = thin == a ? b : a;
+    w.overlap_partner[i] = name_of_body(scene, thin == a ? b : a);
   });
 }
 
@@ -81,7 +89,7 @@ Overlap overlap_of(const Scene& scene, int b, DeepWork& w) {
   double in_ground = 0;
   if (scene.settings.trn_contacts)
     in_ground = depth_in_ground(scene.ground.trn, scene.blocks.hulls, w.placed, b, w.ground);
-  if (in_ground >= w.overlap_depth[i]) return {in_ground, -1};
+  if (in_ground >= w.overlap_depth[i]) return {in_ground, ground_name};
   return {w.overlap_depth[i], w.overlap_partner[i]};
 }
 
@@ -119,7 +127,7 @@ void note_deep_blocks(const Scene& scene, State& state, DeepWork& w, StepReport&
     if (w.is_suspect[b] != 0 && takes_part(phase)) {
       const Overlap overlap = overlap_of(scene, static_cast<int>(b), w);
       report.largest_penetration = std::max(report.largest_penetration, overlap.depth);
-      deep.is_deep = overlap.depth > deep_share * scene.blocks.shapes.thickness[b];
+      deep.is_deep = overlap.depth > law::deep_share * scene.blocks.shapes.thickness[b];
       if (deep.is_deep) take(overlap, state.motion[b].pose.position, state.time, deep);
     } else if (phase != Phase::asleep) {  // asleep it stays as deep as it was
       deep.is_deep = false;

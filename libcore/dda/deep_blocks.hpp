@@ -9,20 +9,18 @@
 #pragma once
 
 #include "dda/deep_work.hpp"
+#include "dda/law_numbers.hpp"
 #include "dda/report.hpp"
 #include "dda/scene.hpp"
 #include "dda/state.hpp"
 
 namespace talus {
 
-/// Overlap of a contact above which its bodies are measured, as a share of the thickness.
-inline constexpr double suspect_share = deep_share / 2;
-
 /// Takes a contact that presses, or holds an overlap that presses nothing, into the report.
 /// `block`: the thinner of its two.
 inline void note_overlap(int block, double overlap, double thickness, DeepWork& deep,
                          StepReport& report) {
-  if (overlap > suspect_share * thickness)
+  if (overlap > law::suspect_share * thickness)
     deep.is_suspect[static_cast<std::size_t>(block)] = 1;
   else if (overlap > report.largest_penetration)
     report.largest_penetration = overlap;

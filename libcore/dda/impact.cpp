@@ -5,6 +5,7 @@
 
 #include "contact/search.hpp"
 #include "dda/contact_law.hpp"
+#include "dda/law_numbers.hpp"
 #include "dda/newton.hpp"
 #include "dda/rotation.hpp"
 #include "dda/substep.hpp"
@@ -13,8 +14,8 @@ namespace talus {
 namespace {
 
 // Contacts are stiff dampers during an impact: the velocity condition holds to this part of it.
-constexpr double stiffness_ratio = 1e7;
-constexpr double gain_rounding = 1e-7;  // of the kinetic energy: not a gain
+constexpr double stiffness_ratio = law::impact_stiffness;
+constexpr double gain_rounding = law::impact_gain_rounding;
 
 // Less the speed that a contact gives back.
 double restitution_bias(const ContactRow& row, double resting_speed) {

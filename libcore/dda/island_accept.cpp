@@ -8,6 +8,7 @@
 #include "dda/fence.hpp"
 #include "dda/flight.hpp"
 #include "dda/island_stages.hpp"
+#include "dda/law_numbers.hpp"
 #include "dda/substep.hpp"
 
 namespace talus {
@@ -28,7 +29,7 @@ struct SubstepAcceptance {
   DeepWork& deep;
   StepReport& report;
 
-  // Energy that contacts took, by kind; push_panels() adds that of panels that give way.
+  // Energy that contacts took, by kind; push_bodies() adds that of bodies that give way.
   void account(size_t r) {
     const KeptContact& contact = system.contacts[r];
     const RowIn<const RowGroup> lane = lane_of(system, r);
@@ -46,12 +47,12 @@ struct SubstepAcceptance {
   // they hold. So nothing is pressed out against several times the weight of the lighter block,
   // unless it is deep: health allows a tenth of the thickness.
   [[nodiscard]] double share_pressed_out(const KeptContact& contact, double normal_force) const {
-    constexpr double heavy = 3, most_overlap = 0.02;
     double mass = members.of(contact.a).mass;
     if (contact.b >= 0) mass = std::min(mass, members.of(contact.b).mass);
     const double weight = mass * scene.gravity.norm();
-    const double by_load = weight > 0 ? 2 - normal_force / (heavy * weight) : 0;
-    const double by_depth = contact.offset / (most_overlap * thickness_of(members, contact)) - 1;
+    const double by_load = weight > 0 ? 2 - normal_force / (law::heavy * weight) : 0;
+    const double by_depth =
+        contact.offset / (law::relaxes_anyway * thickness_of(members, contact)) - 1;
     return std::clamp(std::max(by_load, by_depth), 0.0, 1.0);
   }
 
@@ -60,14 +61,13 @@ struct SubstepAcceptance {
   // slide on each other while they turn are hit in every step, and so are splinters that large
   // blocks drive into the ground; what that adds to the overlap has to be pressed out.
   void remember_contact(size_t r, const Vec3& path, double overlap) {
-    constexpr double remembered_hit = 1e-2;  // of the thickness
     const double h = free.h;
     const KeptContact& contact = system.contacts[r];
     const RowIn<const RowGroup> lane = lane_of(system, r);
     const Vec3 normal = lane.normal(), impulse = lane.impulse();
     const bool was_hit = contact.hit >= 0;
     if (was_hit &&
-        (contact.fixed >= 0 || overlap <= remembered_hit * thickness_of(members, contact)))
+        (contact.fixed >= 0 || overlap <= law::remembered_hit * thickness_of(members, contact)))
       return;
     const double p_n = normal.dot(impulse);
     std::vector<ContactMemory>& memories = state.memory[static_cast<size_t>(contact.a)];
@@ -228,7 +228,8 @@ void accept(const Scene& scene, const IslandMembers& members, const FreeMotions&
   acceptance.remember();
   acceptance.move_all();
   acceptance.note_touched_panels();
-  push_panels(scene, end.pushes, free.t + free.h, state);
+  note_work(scene, end.pushes, state.fence);
+  push_bodies(scene, end.pushes, free.t + free.h, state);
 }
 
 }  // namespace talus

@@ -3,21 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dda/fence.hpp"
 #include "dda/island_stages.hpp"
+#include "dda/law_numbers.hpp"
 #include "dda/rotation.hpp"
+#include "dda/yielding.hpp"
 
 namespace talus {
 namespace {
 
 using std::size_t;
 
-constexpr int most_halvings = 4;        // of a substep that does not converge
-constexpr int most_panel_cuts = 24;     // of a substep where a panel of a fence breaks
-constexpr int most_deep_cuts = 8;       // in a step, where a block would end deep in something
-constexpr double deep = 0.08;           // of the thickness: health allows a tenth
-constexpr double deeper = 0.02;         // of it, than at the start of the substep
-constexpr double after_hit = 1.0 / 32;  // of the substep
+using law::after_hit, law::deep_end, law::deepened, law::most_deep_cuts, law::most_halvings,
+    law::most_used_up_cuts, law::pair_touch_ratio;
 
 /// Checks a substep; a struct so that its parts share what they all read.
 struct SubstepCheck {
@@ -79,7 +76,7 @@ struct SubstepCheck {
           contact.gap_start +
           lane_of(system, hit.contact).normal().dot(path_of_contact(system, end, hit.contact));
       const double thickness = thickness_of(members, contact);
-      if (gap_end < std::min(-deep * thickness, contact.gap_start - deeper * thickness))
+      if (gap_end < std::min(-deep_end * thickness, contact.gap_start - deepened * thickness))
         first = std::min(first, hit.time + after_hit * free.h);
     }
     return first;
@@ -100,12 +97,13 @@ struct SubstepCheck {
   [[nodiscard]] bool ends_in_ground(size_t k) const {
     const BlockNumbers& c = members.numbers[k];
     const Vec6& by = end.displacement[k];
-    if (by.head<3>().norm() + c.radius * by.tail<3>().norm() < deep * c.thickness) return false;
+    if (by.head<3>().norm() + c.radius * by.tail<3>().norm() < deep_end * c.thickness) return false;
     (void)find_contacts(scene.ground, scene.blocks.shapes, members.blocks[k],
                         end_of(free, system, hits, end, k).pose, Mat3::Identity(), 0,
                         making.world_vertices, making.found, &near_ground[members.block(k)]);
     return std::any_of(making.found.begin(), making.found.end(), [&](const Contact& contact) {
-      return contact.gap < -deep * c.thickness && !foresaw(k, contact, deep / 2 * c.thickness);
+      return contact.gap < -deep_end * c.thickness &&
+             !foresaw(k, contact, deep_end / 2 * c.thickness);
     });
   }
 
@@ -164,30 +162,31 @@ struct SubstepCheck {
     return std::any_of(end.bond_loads.begin(), end.bond_loads.end(), breaks);
   }
 
-  // --- fences ----------------------------------------------------------------------------------
+  // --- what gives way --------------------------------------------------------------------------
 
-  // What the blocks do to the panels that give way.
+  // What the blocks do to the fixed bodies that give way.
   void find_pushes() const {
     end.pushes.clear();
-    if (scene.fixed.panels.empty()) return;
+    if (scene.fixed.yieldings.empty()) return;
     for (size_t r = 0; r < system.contacts.size(); ++r) {
       if (!gives_way(system, r)) continue;
       const KeptContact& contact = system.contacts[r];
       const RowIn<const RowGroup> lane = lane_of(system, r);
       const Vec3 normal = lane.normal();
-      const FencePanel& panel = *giving_way(scene, contact.fixed, normal);
-      const double p_n = lane.normal_impulse(), cosine = normal.dot(panel.normal);
-      PanelPush push;
+      const Yielding& yielding = *giving_way(scene, contact.fixed, normal);
+      const auto f = static_cast<size_t>(contact.fixed);
+      YieldPush push;
+      push.along = yield_direction(yielding, normal);
+      const double p_n = lane.normal_impulse(), cosine = normal.dot(push.along);
       push.block = contact.a;
-      push.panel = panel_number(scene, contact.fixed);
+      push.yielding = scene.fixed.yielding[f];
       push.work = -p_n * normal.dot(path_of_impulse(members, free, system, hits, r));
       push.power = -p_n / free.h * contact.speed_start;
       const double gap_end = contact.gap_start + normal.dot(path_of_contact(system, end, r));
       if (p_n >= (1 - 1e-12) * lane.normal_limit()) push.shift = std::min(0.0, gap_end) * cosine;
-      const auto f = static_cast<size_t>(contact.fixed);
-      const auto first_fixed = static_cast<size_t>(n_blocks(scene));
-      push.to = push.shift + panel.normal.dot(search.poses[f].position -
-                                              scene.fixed.pose[f - first_fixed].position);
+      const auto body = static_cast<size_t>(hull_of_fixed(scene, contact.fixed));
+      push.to =
+          push.shift + push.along.dot(search.poses[body].position - scene.fixed.pose[f].position);
       add_push(push, end.pushes);
     }
   }
@@ -210,9 +209,9 @@ struct SubstepCheck {
         return SubstepVerdict::again(SubstepCut::deep, first);
     if (overloads_bonds()) return SubstepVerdict::again(bond_broken, h);
     find_pushes();
-    const double used_up = time_to_first_break(scene, state.fence, end.pushes, h);
-    if (used_up < h && tries.panel_cuts < most_panel_cuts)
-      return SubstepVerdict::again(panel_used_up, used_up);
+    const double used_up = time_to_first_break(scene, state.yielding, end.pushes, h);
+    if (used_up < h && tries.used_up_cuts < most_used_up_cuts)
+      return SubstepVerdict::again(yielding_used_up, used_up);
     return SubstepVerdict::accept();
   }
 };

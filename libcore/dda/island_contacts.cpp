@@ -4,17 +4,18 @@
 #include <optional>
 
 #include "base/make_room.hpp"
-#include "dda/fence.hpp"
 #include "dda/island_stages.hpp"
+#include "dda/law_numbers.hpp"
 #include "dda/substep.hpp"
+#include "dda/yielding.hpp"
 
 namespace talus {
 namespace {
 
 using std::size_t;
 
-constexpr double reach_by_gravity = 0.25;  // of a contact: times g h^2
-constexpr double held = 1e100;             // strength of an intact bond while the forces are sought
+using law::pair_touch_ratio, law::reach_by_gravity;
+constexpr double held = 1e100;  // strength of an intact bond while the forces are sought
 
 // Sets what the motion of the points says of a contact: they move by `moved` relative to each other
 // within the substep without contact forces, and with `slip` at its start.
@@ -54,11 +55,11 @@ void hold(const GroundClass& face, double recovery_time, ContactRow& row) {
   row.bias = (row.gap_start + row.offset) / recovery_time;
 }
 
-// Whether block a touched body b in the last step.
-bool knows_body(const State& state, int a, int b) {
+// Whether block a touched what has this name in the last step.
+bool knows_body(const State& state, int a, int name) {
   const std::vector<ContactMemory>& memory = state.memory[static_cast<size_t>(a)];
   return std::any_of(memory.begin(), memory.end(),
-                     [b](const ContactMemory& m) { return m.key.body_b == b; });
+                     [name](const ContactMemory& m) { return m.key.body_b == name; });
 }
 
 // Lever arms, path and start velocity of a body's material point.
@@ -170,7 +171,7 @@ struct ContactMaker {
     if (!is_broken(tries, static_cast<int>(state.bonds.size()) + b)) return memory_of(b);
     making.unbonded = memory_of(b);
     for (ContactMemory& memory : making.unbonded)
-      if (memory.key.body_b < 0) memory.bond_area = 0;
+      if (memory.key.body_b == ground_name) memory.bond_area = 0;
     return making.unbonded;
   }
 
@@ -183,7 +184,7 @@ struct ContactMaker {
     LostContacts lost;
     for (size_t i = 0; i < memory.size(); ++i) {
       const ContactMemory& contact = memory[i];
-      if (contact.key.body_b >= 0) continue;
+      if (contact.key.body_b != ground_name) continue;
       lost.all += contact.normal_force;
       const auto continues = [i](const ContactRow& row) {
         return row.memory == static_cast<int>(i);
@@ -261,8 +262,9 @@ struct ContactMaker {
     }
     std::vector<int>& unclaimed = making.unclaimed;
     unclaimed.clear();
+    const int other = name_of_body(scene, m.block_b);
     for (size_t i = 0; i < making.touched.size(); ++i)
-      if (making.touched[i] == m.block_b) unclaimed.push_back(static_cast<int>(i));
+      if (making.touched[i] == other) unclaimed.push_back(static_cast<int>(i));
     if (unclaimed.empty()) return;
     const auto claim = [&](const auto& continues, double least_cosine) {
       for (size_t p = 0; p < making.continued.size() && !unclaimed.empty(); ++p) {
@@ -308,14 +310,13 @@ struct ContactMaker {
   // far deeper than those of the memory were, at the other end of the block perhaps.
   bool inherit_from(const PairManifold& m, const PairPoint& point, int memory, double approach,
                     const BlockNumbers& c, ContactRow& row) const {
-    constexpr double far_deeper = 1e-2;  // of the radius
     if (memory < 0) return false;
     const ContactMemory& then = memory_of(m.block_a)[static_cast<size_t>(memory)];
     const bool same_features = has_features(then.key, point.key);
     if (approach < -c.resting_speed) {
       if (row.gap_start > c.touch) return false;
       if (comes_back_fast(then, approach, free.h, c)) return false;
-      if (!same_features && then.gap_end - then.offset - row.gap_start > far_deeper * c.radius)
+      if (!same_features && then.gap_end - then.offset - row.gap_start > law::far_deeper * c.radius)
         return false;
     }
     inherit(then, memory, same_features, Mat3::Identity(), c, row);
@@ -361,7 +362,7 @@ struct ContactMaker {
   }
 
   // A point on a fixed body: for the solver, on the ground. `n_closing`: points of the manifold
-  // that close within the substep; they share the force with which a panel of a fence gives way.
+  // that close within the substep; they share the force with which it gives way.
   void add_fixed_point(const PairManifold& m, const PairPoint& point, int memory, int n_closing) {
     const size_t k = members.at(m.block_a);
     const Substep& s = free.substeps[k];
@@ -370,12 +371,13 @@ struct ContactMaker {
     const Vec3 arm = (path.start + path.end) / 2;
     BlockNumbers c = members.numbers[k];
     c.touch = pair_touch_ratio * c.radius;
-    const GroundClass& faces = fixed_class(scene, m.block_b);
+    const int fixed = fixed_of(scene, m.block_b);
+    const GroundClass& faces = fixed_class(scene, fixed);
     ContactRow row;
     row.key = point.key;
-    row.key.body_b = m.block_b;
+    row.key.body_b = name_of_fixed(fixed);
     row.a = m.block_a;
-    row.fixed = m.block_b;
+    row.fixed = fixed;
     row.touch = c.touch;
     row.friction = faces.friction;
     row.restitution = faces.restitution;
@@ -383,13 +385,13 @@ struct ContactMaker {
                row);
 
     const double approach = approach_of(row, s.h);
-    const FencePanel* panel = giving_way(scene, m.block_b, n);
-    // a panel that gives way is pressed for many steps
-    if (!inherit_from(m, point, memory, panel != nullptr ? 0 : approach, c, row))
+    const Yielding* yielding = giving_way(scene, fixed, n);
+    // what gives way is pressed for many steps
+    if (!inherit_from(m, point, memory, yielding != nullptr ? 0 : approach, c, row))
       row.offset = std::max(0.0, -row.gap_start);
     set_law(scene, c, s.h, mobility_at(members, free, k, row.arm, n), approach, row);
-    if (panel != nullptr) row.normal_limit = panel->force * s.h / n_closing;
-    add_contact(row, panel != nullptr);
+    if (yielding != nullptr) row.normal_limit = yielding->force * s.h / n_closing;
+    add_contact(row, yielding != nullptr);
   }
 
   void add_fixed_points(const PairManifold& m) {
@@ -513,12 +515,13 @@ bool make_contacts(const Scene& scene, const State& state, const PairSearch& sea
 
 double first_touch(const Scene& scene, const State& state, const IslandSystem& system, double h) {
   double first = h + 1;
-  if (scene.fixed.panels.empty()) return first;
+  if (scene.fixed.yieldings.empty()) return first;
   for (size_t r = 0; r < system.contacts.size(); ++r) {
     const KeptContact& contact = system.contacts[r];
     const double v = contact.speed_start, g = contact.gap_start;
     if (lane_of(system, r).normal_limit() >= no_normal_limit || g <= contact.touch ||
-        contact.gap_free > -contact.touch || knows_body(state, contact.a, contact.fixed))
+        contact.gap_free > -contact.touch ||
+        knows_body(state, contact.a, name_of_fixed(contact.fixed)))
       continue;
     const double a = 2 * (contact.gap_free - g - v * h) / (h * h);
     first = std::min(first, 2 * g / (std::sqrt(std::max(0.0, v * v - 2 * a * g)) - v));

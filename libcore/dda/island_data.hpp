@@ -28,16 +28,18 @@ namespace talus {
 
 // --- of a step ---------------------------------------------------------------------------------
 
-/// Which blocks meet. Bodies: blocks, then fixed ones.
+/// Which blocks meet, and what they meet. Bodies are those of Blocks::hulls.
 struct PairSearch {  // clang-format off
   // form_islands for all blocks; 2 find_pairs anew for those of an island
   std::vector<Pose> poses;                  ///< at the start of the step or substep     (n_bodies)
   std::vector<Vec3> step;                   ///< displacement ahead [m]                  (n_bodies)
   std::vector<Vec3> rotation;               ///< rotation vector ahead [rad]             (n_bodies)
   std::vector<double> turn;                 ///< path of turning ahead [m]               (n_bodies)
-  std::vector<std::uint8_t> moving, awake;  ///<                                         (n_bodies)
-  std::vector<std::uint8_t> fixed;          ///< 1: never moves; empty: none is          (n_bodies)
-  std::vector<int> group;                   ///< no contacts within; empty: all meet     (n_bodies)
+  std::vector<std::uint8_t> moving, awake;  ///<                                         (n_blocks)
+  BodyGrid grid;                            ///< the fixed bodies, where they stood first
+  std::vector<int> shifted;                 ///< bodies: the fixed ones whose pose is not that
+  std::vector<int> near;                    ///< scratch: fixed bodies near a block
+  std::int64_t n_fixed_near = 0;            ///< fixed bodies looked at so far, block by block
   PairWork pairs;
   bool is_of_step = false;                  ///< `pairs` are still those of form_islands
   // form_islands
@@ -203,7 +205,7 @@ struct SubstepEnd {  // clang-format off
   std::vector<Vec6> displacement;           ///< by contact                              (n_members)
   std::vector<double> farthest;             ///< that contact moves a point [m]          (n_members)
   std::vector<BondLoad> bond_loads;         ///< by bond                                 (n_loaded)
-  std::vector<PanelPush> pushes;            ///< on panels of fences
+  std::vector<YieldPush> pushes;            ///< on fixed bodies that give way
   // 10 accept
   std::vector<std::uint8_t> pressed;        ///< 1: by a contact                         (n_members)
   std::vector<Vec3> ground_impulse;         ///< hits aside [N s]                        (n_members)
@@ -225,7 +227,7 @@ struct SubstepVerdict {
 struct SubstepTries {
   // of the substep
   int halvings = 0;         ///< because it did not converge
-  int panel_cuts = 0;       ///< at the time when a panel is used up
+  int used_up_cuts = 0;     ///< at the time when what gives way is used up
   bool takes_all = false;   ///< contacts that may be left out are not
   std::vector<int> broken;  ///< bonds that it breaks: see bond_number()
   // of the step
@@ -247,11 +249,6 @@ struct IslandScratch {
   SubstepTries tries;
   StageClock* clock = nullptr;  ///< where the stages' times are wanted; no part of a run
 };
-
-/// k_n dt^2 / m of a contact in an island: bounds the condition of its matrix.
-inline constexpr double stiffest_in_island = 1;
-/// A pair touches when its gap is below this part of the smaller radius.
-inline constexpr double pair_touch_ratio = 1e-6;
 
 // --- what the stages ask of these --------------------------------------------------------------
 
@@ -275,7 +272,7 @@ inline void note_change(IslandSystem& system, std::size_t r) {
   system.island.pairs[static_cast<std::size_t>(system.contacts[r].pair)].changed = true;
 }
 
-/// Presses on a panel of a fence that gives way.
+/// Presses on a fixed body that gives way.
 [[nodiscard]] inline bool gives_way(const IslandSystem& system, std::size_t r) {
   const RowIn<const RowGroup> lane = lane_of(system, r);
   return lane.normal_limit() < no_normal_limit && lane.state() != ContactState::open;

@@ -7,17 +7,14 @@
 
 #include "dda/contact_law.hpp"
 #include "dda/island_stages.hpp"
+#include "dda/law_numbers.hpp"
 
 namespace talus {
 namespace {
 
 using std::size_t;
 
-constexpr double hit_stiffness = 30;     // D of a hit over the mass that it feels
-constexpr double hit_at_start = 1e-6;    // of the substep: a lone block's hit is at its start
-constexpr double hit_at_end = 1 - 1e-6;  // ... or at its end
-constexpr int most_lone_hits = 100;      // of a block in a step, before they come together
-constexpr double hit_share = 0.7;        // first guess of its impulse, of that of a lone hit
+using law::hit_at_end, law::hit_at_start, law::hit_share, law::hit_stiffness, law::most_lone_hits;
 
 // When a gap of `g` > 0 that closes at `v` and is `gap_end` <= 0 after `h` is zero, its speed taken
 // as linear.

@@ -2,20 +2,15 @@
 #include <algorithm>
 
 #include "dda/island_stages.hpp"
+#include "dda/law_numbers.hpp"
 
 namespace talus {
 namespace {
 
 using std::size_t;
 
-constexpr double hit_tolerance = 1e-2;        // of its rebound, of the speed that it came with
-constexpr double small_hit_tolerance = 1e-9;  // the same in an island that is factored
-constexpr int most_hit_rounds = 8;            // solutions until all hits are found and rebound
-constexpr double island_tolerance = 1e-2;     // of contact forces, of what gravity does in the step
-constexpr double motion_tolerance = 1e-3;  // ... but not above this part of the fastest speed ...
-constexpr double rest_tolerance = 1e-6;    // ... nor below this, of what gravity does
-constexpr double small_tolerance = 1e-8;   // the same in an island that is factored
-constexpr double linear_tolerance = 3e-2;  // of conjugate gradients in a Newton step
+using law::hit_tolerance, law::island_tolerance, law::linear_tolerance, law::most_hit_rounds,
+    law::motion_tolerance, law::rest_tolerance, law::small_hit_tolerance, law::small_tolerance;
 
 double fastest(const FreeMotions& free) {
   double speed = 0;

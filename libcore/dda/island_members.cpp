@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "dda/island_stages.hpp"
+#include "dda/law_numbers.hpp"
 #include "dda/substep.hpp"
 
 namespace talus {
@@ -9,12 +10,8 @@ namespace {
 
 using std::size_t;
 
-constexpr double bears_little = 3;  // stiffness of a contact that does: times that for its own mass
-constexpr double most_sag = 2;      // under load, before it is stiffer: times that of a block alone
-// ... and where it is small enough to be factored, so that a tower hardly sags.
-constexpr double stiffest_in_small_island = 30;
-constexpr size_t small_island = 8;
-constexpr size_t small_tree = 64;  // the same where blocks hang together without a ring: a column
+using law::bears_little, law::most_sag, law::small_island, law::small_tree, law::stiffest_in_island,
+    law::stiffest_in_small_island;
 
 }  // namespace
 

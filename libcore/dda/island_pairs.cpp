@@ -3,23 +3,21 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dda/fence.hpp"
 #include "dda/flight.hpp"
 #include "dda/island_groups.hpp"
 #include "dda/island_stages.hpp"
+#include "dda/law_numbers.hpp"
 #include "dda/rotation.hpp"
 #include "dda/step_island.hpp"
 #include "dda/substep.hpp"
+#include "dda/yielding.hpp"
 
 namespace talus {
 namespace {
 
 using std::size_t;
 
-constexpr double most_turn = 0.5;  // in a substep [rad]
-// Relative to a neighbour in a substep, of the thickness: so far in may be what no axis foresaw.
-constexpr double most_travel = 0.1;
-constexpr double most_substeps = 64;  // for these reasons
+using law::most_substeps, law::most_travel, law::most_turn;
 
 Vec3 spin_of(const Motion& m, const Vec3& inertia) {
   return angular_velocity(m.pose.attitude, m.angular_momentum, inertia);
@@ -37,7 +35,7 @@ double pair_margin(const Scene& scene, double h) {
 // Whether block b touches no fixed body within the step, seen from balls around them: told without
 // the attitude, which costs the most while a rock flies.
 bool is_far_from_fixed(const Scene& scene, const State& state, int b, double margin,
-                       const PairSearch& search) {
+                       PairSearch& search) {
   const auto i = static_cast<size_t>(b);
   const Motion& m = state.motion[i];
   const double h = scene.settings.dt;
@@ -47,11 +45,17 @@ bool is_far_from_fixed(const Scene& scene, const State& state, int b, double mar
                turn = h * m.angular_momentum.norm() / scene.blocks.inertia[i].minCoeff();
   const std::vector<double>& radius = scene.blocks.hulls.radius;
   const double reach = margin + step + (1 + turn) * radius[i];
-  for (size_t f = static_cast<size_t>(n_blocks(scene)); f < radius.size(); ++f) {
+  const auto is_near = [&](int body) {
+    const auto f = static_cast<size_t>(body);
     const double apart = radius[f] + reach;
-    if ((search.poses[f].position - at).squaredNorm() <= apart * apart) return false;
-  }
-  return true;
+    return (search.poses[f].position - at).squaredNorm() <= apart * apart;
+  };
+  const Vec3 around = Vec3::Constant(reach);
+  find_near(search.grid, {at - around, at + around}, search.near);
+  search.n_fixed_near += static_cast<std::int64_t>(search.near.size() + search.shifted.size());
+  return std::none_of(search.near.begin(), search.near.end(),
+                      [&](int f) { return is_near(hull_of_fixed(scene, f)); }) &&
+         std::none_of(search.shifted.begin(), search.shifted.end(), is_near);
 }
 
 // Contacts between the blocks marked in `search.moving`, and of those with others, over `h`.
@@ -60,11 +64,19 @@ void search_marked(const Scene& scene, double h, State& state, PairSearch& searc
   PairSettings settings;
   settings.margin = pair_margin(scene, h);
   settings.with_areas = !state.bonds.empty();
-  settings.graze_m = scene.gravity.norm() * h * h / stiffest_in_island;
-  place_hulls(blocks.hulls, search.poses, {}, search.moving, state.placed);
-  (void)find_pair_contacts(blocks.hulls, state.placed,
-                           {search.step, search.turn, search.awake, search.fixed, search.group},
-                           settings, state.pairs, search.pairs);
+  settings.graze_m = scene.gravity.norm() * h * h / law::stiffest_in_island;
+  const std::span<const Pose> poses = search.poses;
+  const bool none_placed = state.placed.turned.size() != poses.size();
+  place_hulls(blocks.hulls, none_placed ? poses : poses.first(static_cast<size_t>(n_blocks(scene))),
+              {}, search.moving, state.placed);
+  for (const int body : search.shifted)
+    place_body(blocks.hulls, body, poses[static_cast<size_t>(body)], state.placed);
+  const PairReport found =
+      find_pair_contacts(blocks.hulls, state.placed,
+                         {search.step, search.turn, search.awake, n_fixed(scene), &search.grid,
+                          search.shifted, scene.settings.block_contacts},
+                         settings, state.pairs, search.pairs);
+  search.n_fixed_near += found.n_fixed_near;
 }
 
 void set_motion_ahead(const Scene& scene, int b, const Motion& m, double h, PairSearch& search) {
@@ -75,27 +87,35 @@ void set_motion_ahead(const Scene& scene, int b, const Motion& m, double h, Pair
   search.turn[i] = scene.blocks.shapes.radius[i] * search.rotation[i].norm();
 }
 
-// Fixed bodies where they are now: they step nowhere and need no contacts of their own. Panels of
-// fences that gave way have moved since they were placed last.
-void place_fixed(const Scene& scene, const State& state, PairSearch& search) {
-  const int n = n_blocks(scene), n_bodies = n + n_fixed(scene);
-  if (n == n_bodies) return;
-  search.fixed.assign(static_cast<size_t>(n_bodies), 0);
-  search.group.clear();
-  for (int b = n; b < n_bodies; ++b) {
-    const auto i = static_cast<size_t>(b);
-    search.poses[i] = fixed_pose(scene, state, b);
+// The fixed bodies where they stood first: they step nowhere.
+void place_at_rest(const Scene& scene, PairSearch& search) {
+  std::vector<Vec3> centre;
+  for (int f = 0; f < n_fixed(scene); ++f) {
+    const auto i = static_cast<size_t>(hull_of_fixed(scene, f));
+    search.poses[i] = scene.fixed.pose[static_cast<size_t>(f)];
     search.step[i].setZero();
     search.rotation[i].setZero();
     search.turn[i] = 0;
-    search.moving[i] =
-        !state.placed.turned.empty() && state.placed.position[i] != search.poses[i].position;
-    search.awake[i] = 0;
-    search.fixed[i] = 1;
+    centre.push_back(search.poses[i].position);
   }
-  if (scene.settings.block_contacts) return;
-  search.group.assign(static_cast<size_t>(n_bodies), 0);
-  for (int b = n; b < n_bodies; ++b) search.group[static_cast<size_t>(b)] = 1;
+  const std::span<const double> radius = scene.blocks.hulls.radius;
+  search.grid = make_body_grid(centre, radius.last(centre.size()));
+  search.shifted.clear();
+}
+
+// Fixed bodies where they are now. Those that were never pushed are not looked at.
+void place_fixed(const Scene& scene, const State& state, PairSearch& search) {
+  if (n_fixed(scene) == 0) return;
+  if (search.grid.n_bodies != n_fixed(scene)) place_at_rest(scene, search);
+  for (const int body : search.shifted)  // by this state or by one before it
+    search.poses[static_cast<size_t>(body)] =
+        scene.fixed.pose[static_cast<size_t>(fixed_of(scene, body))];
+  search.shifted.clear();
+  for (const int f : state.yielding.shifted) {
+    const int body = hull_of_fixed(scene, f);
+    search.shifted.push_back(body);
+    search.poses[static_cast<size_t>(body)] = fixed_pose(scene, state, f);
+  }
 }
 
 // Pairs of blocks within reach; true when one of them was asleep and now is not.
@@ -106,7 +126,8 @@ bool join_pairs(const Scene& scene, State& state, PairSearch& search) {
   for (size_t j = 0; j < search.pairs.manifolds.size(); ++j) {
     const PairManifold& m = search.pairs.manifolds[j];
     if (is_fixed(scene, m.block_b)) {
-      if (!takes_part(state, m.block_a) || !stands(scene, state, m.block_b)) continue;
+      if (!takes_part(state, m.block_a) || !stands(scene, state, fixed_of(scene, m.block_b)))
+        continue;
       search.joined.emplace_back(m.block_a, -1);
       search.joined_manifold.push_back(static_cast<int>(j));
       search.near_fixed[static_cast<size_t>(m.block_a)] = 1;
@@ -130,7 +151,7 @@ bool join_pairs(const Scene& scene, State& state, PairSearch& search) {
 bool in_island(const Scene& scene, const State& state, const IslandMembers& members,
                const PairManifold& m) {
   return members.place[static_cast<size_t>(m.block_a)] >= 0 &&
-         (is_fixed(scene, m.block_b) ? stands(scene, state, m.block_b)
+         (is_fixed(scene, m.block_b) ? stands(scene, state, fixed_of(scene, m.block_b))
                                      : members.place[static_cast<size_t>(m.block_b)] >= 0);
 }
 
@@ -227,8 +248,8 @@ void form_islands(const Scene& scene, State& state, Work& work) {
   search.step.resize(size);
   search.rotation.resize(size);
   search.turn.resize(size);
-  search.moving.assign(size, 1);
-  search.awake.resize(size);
+  search.moving.assign(static_cast<size_t>(n), 1);
+  search.awake.resize(static_cast<size_t>(n));
   place_fixed(scene, state, search);
   // the full plan and blocks that meet each other follow all of them
   const bool may_be_far = scene.settings.flight && scene.settings.trn_contacts &&
@@ -256,7 +277,7 @@ void form_islands(const Scene& scene, State& state, Work& work) {
   do search_marked(scene, scene.settings.dt, state, search);
   while (join_pairs(scene, state, search));
   find_islands(n, search.joined, {}, search.groups);
-  search.moving.assign(size, 0);
+  search.moving.assign(static_cast<size_t>(n), 0);
   search.is_of_step = true;
   const auto end_flight_of = [&](int b) {
     if (b >= 0 && state.phase[static_cast<size_t>(b)] == Phase::flight)
@@ -267,13 +288,13 @@ void form_islands(const Scene& scene, State& state, Work& work) {
 
 void put_island_to_sleep(const Scene& scene, int k, State& state, const Work& work) {
   const std::span<const int> blocks = blocks_of(work.search.groups, k);
-  int steps = steps_before_sleep;
+  int steps = law::steps_before_sleep;
   for (const int b : blocks) {
     if (!takes_part(state, b)) continue;
     watch_rest(scene, static_cast<size_t>(b), state);
     steps = std::min(steps, state.rest_steps[static_cast<size_t>(b)]);
   }
-  if (steps < steps_before_sleep) return;
+  if (steps < law::steps_before_sleep) return;
   for (const int b : blocks)
     if (takes_part(state, b)) fall_asleep(scene, static_cast<size_t>(b), state);
 }

@@ -9,15 +9,14 @@
 #include "dda/contact_law.hpp"
 #include "dda/impact.hpp"
 #include "dda/island_stages.hpp"
+#include "dda/law_numbers.hpp"
 
 namespace talus {
 namespace {
 
 using std::size_t;
 
-constexpr double gain_rounding = 1e-6;    // of the energy of hits: not a gain
-constexpr double least_loss = 0.9;        // of what hits one after the other would lose
-constexpr double others_rounding = 1e-9;  // of a member's hits: there are no others
+using law::hit_gain_rounding, law::least_loss, law::others_rounding;
 
 // What the impulses `p` about member k's centroid alone do to its velocity.
 Vec6 change_by(const IslandMembers& members, const FreeMotions& free, size_t k, const Vec6& p) {
@@ -127,7 +126,7 @@ double loss_in_turn(const IslandSystem& system, const SubstepHits& hits) {
   double sum = 0;
   for (const Hit& hit : hits.hits) {
     const double share =
-        least_loss * (1 - system.contacts[hit.contact].restitution) / 2 - gain_rounding;
+        least_loss * (1 - system.contacts[hit.contact].restitution) / 2 - hit_gain_rounding;
     sum -= share * hit.speed * lane_of(system, hit.contact).normal_impulse();
   }
   return sum;

@@ -6,21 +6,15 @@
 #include <limits>
 
 #include "dda/one_contact.hpp"
+#include "dda/law_numbers.hpp"
 
 namespace talus {
 namespace {
 
 using std::size_t;
 
-constexpr int free_steps = 3;      // Newton steps before the line search looks at them
-constexpr int most_halvings = 8;   // of a step
-constexpr double slack = 0.5;      // of a slip stiffness before its tangent is summed again
-constexpr double first_ratio = 1;  // D / m at which stiffening starts
-constexpr double ratio_growth = 4;
-constexpr double soft_tolerance = 1e-3;  // of a stage before the last, relative to its start
-constexpr int all_every = 8;             // every so many linear solutions move all bodies
-constexpr size_t few = 2;                // the neighbourhood alone where fewer than half move
-constexpr double hopeless = 1e5;  // growth of the residual at which coupled steps are given up
+using law::all_every, law::few, law::first_ratio, law::hopeless, law::ratio_growth, law::slack,
+    law::soft_tolerance;
 
 /// One solve; a struct so that its parts share what they all need.
 struct Solve {
@@ -258,7 +252,7 @@ struct Solve {
         work.velocity[k] = work.from[k] + fraction * work.step[k];
       }
       const double residual = evaluate(Evaluation::coupled);
-      if (!search || i >= most_halvings || residual <= tolerance) return residual;
+      if (!search || i >= law::most_step_halvings || residual <= tolerance) return residual;
       if (direct ? residual < start_residual : slope() <= 0.5 * start_slope) return residual;
     }
   }
@@ -268,7 +262,7 @@ struct Solve {
         evaluate(settings.continues ? Evaluation::coupled : Evaluation::inherited);
     if ((settings.continues || !inherits) && at_start <= tolerance) return true;
     for (int steps = 0; result.passes < max_passes; ++steps) {
-      const double residual = advance(steps >= free_steps);
+      const double residual = advance(steps >= law::island_free_steps);
       if (residual <= tolerance) return true;
       if (!(residual < hopeless * best_residual)) return false;
     }
@@ -306,7 +300,7 @@ struct Solve {
       double residual = soften(std::min(ratio, settings.stiffest));
       const double goal = tracking ? tolerance : tolerance + soft_tolerance * residual;
       for (int steps = 0; residual > goal && result.passes < settings.max_passes; ++steps)
-        residual = advance(steps >= free_steps);
+        residual = advance(steps >= law::island_free_steps);
       if (tracking) return residual <= tolerance;
       if (!std::isfinite(residual) || result.passes >= settings.max_passes) return false;
     }

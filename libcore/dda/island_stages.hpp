@@ -59,7 +59,7 @@ void predict(const Scene& scene, const State& state, const IslandMembers& member
                                  const FreeMotions& free, const SubstepTries& tries,
                                  std::vector<NearFeatures>& near_ground, ContactMaking& making,
                                  IslandSystem& system);
-/// Time at which a block first touches a panel that gives way, h + 1: none does within the substep.
+/// Time at which a block first touches a fixed body that gives way, h + 1: none does within the substep.
 [[nodiscard]] double first_touch(const Scene& scene, const State& state, const IslandSystem& system,
                                  double h);
 
@@ -141,7 +141,7 @@ void solve_with_hits(const Scene& scene, const State& state, const IslandMembers
                             const SubstepHits& hits, const SubstepEnd& end, std::size_t k);
 
 // --- 10 accept (island_accept.cpp) -------------------------------------------------------------
-/// The substep holds: fills motion, memory, bonds, panels and ledger of the state, the segments,
+/// The substep holds: fills motion, memory, bonds, yielding bodies and ledger of the state, the segments,
 /// and the report. Nothing before it changes anything of these.
 void accept(const Scene& scene, const IslandMembers& members, const FreeMotions& free,
             const IslandSystem& system, const SubstepHits& hits, bool converged,

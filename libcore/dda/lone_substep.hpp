@@ -20,10 +20,11 @@
 namespace talus {
 
 /// Rows of the contacts that the search left in `work.contacts`, of block b with the ground.
+/// `memory`: what the block remembers.
 inline void make_rows(const Scene& scene, int b, const BlockNumbers& c, const Substep& s,
-                      const State& state, Work& work) {
+                      std::span<const ContactMemory> memory, Work& work) {
   work.rows.resize(work.contacts.size());
-  make_rows(scene, b, c, s, state.memory[static_cast<std::size_t>(b)], work.contacts, work.rows);
+  make_rows(scene, b, c, s, memory, work.contacts, work.rows);
 }
 
 /// Momentum of the free motion, masses, and the first guess of the velocity at the end: the last

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "dda/one_contact.hpp"
+#include "dda/law_numbers.hpp"
 
 namespace talus {
 namespace {
@@ -172,8 +173,8 @@ double size_of(const BlockSystem<Dof>& s, const Vec<Dof>& r) {
 template <int Dof>
 [[gnu::flatten]] NewtonResult solve_coupled(BlockSystem<Dof>& system, std::span<ContactRow> rows,
                                             int max_passes, double goal) {
-  constexpr int free_steps = 6, most_halvings = 9;
-  constexpr double least_gain = 0.1;  // of what the step promises
+  constexpr int free_steps = law::lone_free_steps, most_halvings = law::lone_halvings;
+  using law::least_gain;
   NewtonResult result;
   Vec<Dof> r = residual(system, rows);
   ++result.passes;
@@ -202,8 +203,8 @@ template <int Dof>
 template <int Dof>
 NewtonResult solve_stiffening(BlockSystem<Dof>& system, std::span<ContactRow> rows,
                               int max_passes) {
-  constexpr double softest = 1.0 / 1024, growth = 4;  // of the stiffness
-  constexpr double soft_goal = 1e-6;  // of the size at a stage's start, before the last stage
+  using law::soft_goal, law::softest;
+  constexpr double growth = law::stiffening;
   const auto scale = [&](double factor) {
     for (ContactRow& row : rows) row.normal_damping *= factor, row.shear_damping *= factor;
     for (AngularRow& turn : system.angular) turn.damping *= factor;
@@ -248,7 +249,7 @@ double sweep_couples(const Mat<Dof>& per_mass, std::span<const ContactRow> rows,
 // gets through where Newton goes round in circles. Slip follows the end velocity.
 template <int Dof>
 NewtonResult solve_sweeps(BlockSystem<Dof>& system, std::span<ContactRow> rows) {
-  constexpr int most_sweeps = 2000;
+  using law::most_sweeps;
   const Mat<Dof> per_mass = system.mass.inverse();
   system.velocity = system.free_velocity;
   for (ContactRow& row : rows) row.impulse.setZero();

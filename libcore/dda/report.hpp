@@ -25,22 +25,19 @@ enum class StepFlag : unsigned {
   return (static_cast<unsigned>(flags) & static_cast<unsigned>(flag)) != 0;
 }
 
-/// Overlap above which a block is deep (dda/deep_blocks.hpp), as a share of its thickness.
-inline constexpr double deep_share = 0.1;
-
 /// Why a substep is made again.
 enum class SubstepCut : std::uint8_t {
-  panel_touched,     ///< a panel that gives way is first touched within it: ends there
+  yielding_touched,  ///< a fixed body that gives way is first touched within it: ends there
   hit_alone,         ///< a block near fixed bodies is hit within it: ends there
   unconverged,       ///< its forces did not converge: half
   contact_left_out,  ///< a contact that was left out closes: the same with all contacts
   deep,              ///< a block would end deep in something: ends after the hit that does it
   bond_broken,       ///< a bond carries more than it holds: the same without it
-  panel_used_up,     ///< a panel has taken all that it can: ends there
+  yielding_used_up,  ///< what gives way has taken all that it can: ends there
 };
 inline constexpr std::array<const char*, 7> substep_cut_names = {
-    "panel_touched", "hit_alone",   "unconverged",  "contact_left_out",
-    "deep",          "bond_broken", "panel_used_up"};
+    "yielding_touched", "hit_alone",       "unconverged", "contact_left_out", "deep",
+    "bond_broken",      "yielding_used_up"};
 
 struct StepReport {
   StepFlag flags = StepFlag::none;

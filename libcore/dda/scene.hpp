@@ -69,7 +69,7 @@ struct Scene {
   GroundClass joint;    ///< contacts between blocks where `joints` says nothing else
   JointClasses joints;  ///< by joint set and by block
   Blocks blocks;
-  FixedBodies fixed;                 ///< law talus: fences, blocky slope
+  FixedBodies fixed;                 ///< law talus: fences, blocky slope; found through hulls
   Vec3 gravity = Vec3(0, 0, -9.81);  ///< [m/s2]
   std::vector<PointLoad> loads;      ///< sorted by block
   AccelerationRecord base;           ///< empty: the ground stands still
@@ -82,7 +82,17 @@ struct Scene {
 [[nodiscard]] inline int n_fixed(const Scene& scene) {
   return static_cast<int>(scene.fixed.pose.size());
 }
+
+// Blocks::hulls numbers blocks and fixed bodies in one row, for the search of pairs alone.
+
 /// Is body `b` of Blocks::hulls a fixed one?
 [[nodiscard]] inline bool is_fixed(const Scene& scene, int b) { return b >= n_blocks(scene); }
+/// Id of the fixed body that is body `b` of Blocks::hulls.
+[[nodiscard]] inline int fixed_of(const Scene& scene, int b) { return b - n_blocks(scene); }
+[[nodiscard]] inline int hull_of_fixed(const Scene& scene, int id) { return id + n_blocks(scene); }
+/// What the other side of a contact of two bodies of Blocks::hulls is called in ContactKey.
+[[nodiscard]] inline int name_of_body(const Scene& scene, int b) {
+  return is_fixed(scene, b) ? name_of_fixed(fixed_of(scene, b)) : b;
+}
 
 }  // namespace talus

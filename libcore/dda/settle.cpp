@@ -126,7 +126,7 @@ std::optional<StaticPass> static_pass(const Scene& scene, int b, const BlockNumb
   (void)find_contacts(scene.ground, scene.blocks.shapes, b, s.free.pose, stretch_of(state, b),
                       std::min(search_margin(c, h), most_margin * c.radius), work.world_vertices,
                       work.contacts);
-  make_rows(scene, b, c, s, state, work);
+  make_rows(scene, b, c, s, state.memory[static_cast<size_t>(b)], work);
   if (work.rows.empty()) return StaticPass{};
   for (ContactRow& row : work.rows) {
     if (friction >= 0) row.friction = friction;

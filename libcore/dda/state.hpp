@@ -29,7 +29,7 @@ struct EnergyLedger {
   double impact = 0;    ///< dissipated by the restitution law
   double contact = 0;   ///< dissipated or stored by normal contact and strain damping
   double base = 0;      ///< put in by base motion and point loads
-  double fence = 0;     ///< taken by panels of fences that gave way
+  double fence = 0;     ///< taken by panels of fences, and what else gave way
   double removed = 0;   ///< kinetic energy of blocks stopped at the domain's edge
 };
 
@@ -52,7 +52,7 @@ struct DeepBlock {
   double depth = 0;           ///< largest [m]
   double time = 0;            ///< when that was [s]
   Vec3 place = Vec3::Zero();  ///< of its centroid then [m]
-  int partner = -1;           ///< in which body then; -1: in the ground
+  int partner = ground_name;  ///< in what then: see dda/fixed_bodies.hpp
   bool is_deep = false;       ///< at the end of the last step
   bool is_too_fast = false;   ///< at some time since, it was faster than its fall can have made it
 };
@@ -72,7 +72,8 @@ struct State : BlockLives {  // clang-format off
   PlacedHulls placed;                       ///< where the pairs were searched last
   std::vector<BlockBond> bonds;             ///< sorted by block_a, block_b            (n_bonds)
   std::vector<DeepBlock> deep;              ///<                                     (n_blocks)
-  FenceState fence;                         ///< what the panels of fences have met
+  YieldingState yielding;                   ///< what fixed bodies that give way have met
+  FenceState fence;                         ///< what touched the panels of fences
   PaperState paper;                         ///< of law paper alone
   EnergyLedger ledger;
   RunCounters counters;

@@ -6,14 +6,15 @@
 
 #include "dda/deep_blocks.hpp"
 #include "dda/displacement.hpp"
-#include "dda/fence.hpp"
 #include "dda/flight.hpp"
+#include "dda/law_numbers.hpp"
 #include "dda/rotation.hpp"
 #include "dda/settle.hpp"
 #include "dda/step_island.hpp"
 #include "dda/step_paper.hpp"
 #include "dda/step_talus.hpp"
 #include "dda/substep.hpp"
+#include "dda/yielding.hpp"
 
 namespace talus {
 namespace {
@@ -25,7 +26,7 @@ constexpr size_t expected_contacts = 16;  // of a block, before a buffer has to 
 // A block that something bears and that stays in place is left out until something wakes it.
 void put_to_sleep(const Scene& scene, size_t b, State& state) {
   watch_rest(scene, b, state);
-  if (state.rest_steps[b] >= steps_before_sleep && !state.memory[b].empty())
+  if (state.rest_steps[b] >= law::steps_before_sleep && !state.memory[b].empty())
     fall_asleep(scene, b, state);
 }
 
@@ -59,7 +60,7 @@ State start(const Scene& scene) {
   state.support.assign(n, Vec3::Zero());
   state.memory.resize(n);
   state.deep.resize(n);
-  state.fence = start_fence(scene);
+  state.yielding = start_yielding(scene);
   state.bonds = start_bonds(scene);
   if (scene.settings.strains) {
     state.strain.assign(n, Vec6::Zero());
@@ -96,6 +97,7 @@ Work make_work(const Scene& scene) {
   work.deep.is_suspect.resize(static_cast<size_t>(n_blocks(scene)));
   work.contacts.reserve(8 * (most_vertices + expected_contacts));
   work.rows.reserve(8 * (most_vertices + expected_contacts));
+  work.unbonded.reserve(expected_contacts);
   work.segments.reserve(8 * static_cast<size_t>(n_blocks(scene)) + 64);
   return work;
 }

@@ -5,16 +5,13 @@
 #include <cmath>
 
 #include "dda/island_stages.hpp"
+#include "dda/law_numbers.hpp"
 #include "dda/substep.hpp"
 
 namespace talus {
 namespace {
 
 using std::size_t;
-
-// Pairs are searched at most so many substeps like the last one ahead: those that are far apart
-// when a long step begins cost the most, and bear nothing yet.
-constexpr double substeps_ahead = 2;
 
 // Stages 4 to 9: an attempt at the substep of `h` from `t`. Changes nothing but scratch.
 SubstepVerdict try_substep(const Scene& scene, const State& state, const PairSearch& search,
@@ -31,7 +28,7 @@ SubstepVerdict try_substep(const Scene& scene, const State& state, const PairSea
       return SubstepVerdict::left();
   }
   if (const double touch = first_touch(scene, state, w.system, h); touch < h)
-    return SubstepVerdict::again(SubstepCut::panel_touched, touch);
+    return SubstepVerdict::again(SubstepCut::yielding_touched, touch);
   // find_hits, solve, rebound: in turn
   solve_with_hits(scene, state, w.members, w.free, w.tries, w.system, w.hits, w.solver, w.rebounds,
                   w.clock, solution);
@@ -41,7 +38,7 @@ SubstepVerdict try_substep(const Scene& scene, const State& state, const PairSea
 }
 
 void begin_substep(SubstepTries& tries) {
-  tries.halvings = tries.panel_cuts = 0;
+  tries.halvings = tries.used_up_cuts = 0;
   tries.takes_all = false;
   tries.broken.clear();
 }
@@ -49,7 +46,7 @@ void begin_substep(SubstepTries& tries) {
 // Notes why a substep is made again.
 void note_cut(SubstepCut reason, const SubstepEnd& end, SubstepTries& tries) {
   switch (reason) {
-    case SubstepCut::panel_touched:
+    case SubstepCut::yielding_touched:
       break;
     case SubstepCut::hit_alone:
       ++tries.lone_hits;
@@ -67,8 +64,8 @@ void note_cut(SubstepCut reason, const SubstepEnd& end, SubstepTries& tries) {
       for (const BondLoad& load : end.bond_loads)
         if (breaks(load)) tries.broken.push_back(load.bond);
       break;
-    case SubstepCut::panel_used_up:
-      ++tries.panel_cuts;
+    case SubstepCut::yielding_used_up:
+      ++tries.used_up_cuts;
       break;
   }
 }
@@ -158,7 +155,8 @@ void advance_island(const Scene& scene, int k, double t_end, State& state, Work&
     t = state.local_time[w.members.block(0)];
     if (t_end - t < 1e-9 * scene.settings.dt) t = t_end;
     stop_outsiders(scene, t_end, state, work, report);
-    ahead = (t_end - t) / std::ceil((t_end - t) / (substeps_ahead * longest));
+    // pairs that are far apart when a long step begins cost the most, and bear nothing yet
+    ahead = (t_end - t) / std::ceil((t_end - t) / (law::substeps_ahead * longest));
   }
   for (const int b : w.members.blocks) state.local_time[static_cast<size_t>(b)] = t_end;
   release_members(w.members);

@@ -8,6 +8,7 @@
 #include "dda/deep_blocks.hpp"
 #include "dda/flight.hpp"
 #include "dda/impact.hpp"
+#include "dda/law_numbers.hpp"
 #include "dda/lone_substep.hpp"
 
 namespace talus {
@@ -44,10 +45,11 @@ struct Advance {
   Work& work;
   StepReport& report;
   BlockNumbers c;
-  Contact foreseen = {};     // the one that an attempt found about to hit
-  bool is_foreseen = false;  // not yet tried
-  bool may_fly = true;       // off for the rest of a step in which a flight met the ground
-  bool on_plane = false;     // it slides, and in the substep it cannot meet another plane
+  Contact foreseen = {};      // the one that an attempt found about to hit
+  bool is_foreseen = false;   // not yet tried
+  bool may_fly = true;        // off for the rest of a step in which a flight met the ground
+  bool on_plane = false;      // it slides, and in the substep it cannot meet another plane
+  bool breaks_bonds = false;  // of the substep under way; what is left is in work.unbonded
 
   [[nodiscard]] size_t i() const { return static_cast<size_t>(b); }
   Motion& motion() { return state.motion[i()]; }
@@ -88,6 +90,13 @@ struct Advance {
     return true;
   }
 
+  // What a longer substep would have broken may hold over a shorter one.
+  Attempt shorten(double to, double& h) {
+    h = to;
+    breaks_bonds = false;
+    return Attempt::shorter;
+  }
+
   // Substep of h from t; h is shortened to the first impact or when the forces do not converge.
   template <int Dof>
   Attempt attempt(double t, double& h, bool last) {
@@ -112,27 +121,23 @@ struct Advance {
       forget_rates(scene, b, state);
       return Attempt::done;
     }
-    make_rows(scene, b, c, s, state, work);
+    make_rows(scene, b, c, s, breaks_bonds ? work.unbonded : state.memory[i()], work);
     for (const ContactRow& row : work.rows)
-      if (row.memory < 0 && row.gap_start <= c.touch && row.gap_start > -deep_share * c.thickness &&
-          row.speed_start < -c.resting_speed) {
+      if (row.memory < 0 && row.gap_start <= c.touch &&
+          row.gap_start > -law::deep_share * c.thickness && row.speed_start < -c.resting_speed) {
         foreseen = work.contacts[static_cast<size_t>(row.contact)];
         is_foreseen = true;
         return Attempt::impact;
       }
-    if (!last && goes_through_ridge(s)) {
-      h /= 2;
-      return Attempt::shorter;
-    }
+    if (!last && goes_through_ridge(s)) return shorten(h / 2, h);
     BlockSystem<Dof> system = make_system<Dof>(scene, b, c, s, state);
     const NewtonResult newton =
         solve_contacts(system, std::span(work.rows), scene.settings.max_passes);
     report.passes += newton.passes;
     if (!newton.converged) {
       if (!last) {
-        h /= 2;
         ++state.counters.cut_back;
-        return Attempt::shorter;
+        return shorten(h / 2, h);
       }
       ++report.n_unconverged;
       report.flags = report.flags | StepFlag::unconverged;
@@ -140,10 +145,7 @@ struct Advance {
     if (break_bonds()) return Attempt::shorter;
     const Solved<Dof> solved = solved_motion(c, s, system);
     const double hit = first_hit(c, s, solved, work);
-    if (hit < s.h && !last) {
-      h = hit;
-      return Attempt::shorter;
-    }
+    if (hit < s.h && !last) return shorten(hit, h);
     if (near.reach == Reach::below) report.flags = report.flags | StepFlag::fell_through;
     remember(c, s, solved, state, work, b, report);
     if constexpr (Dof == 12) {
@@ -158,17 +160,17 @@ struct Advance {
   // Whether a vertex or an edge has gone through a ridge in a substep, so that the contacts at its
   // end say nothing of that. No use to ask where hardly anything moved.
   [[nodiscard]] bool goes_through_ridge(const Substep& s) {
-    constexpr double deep = 0.03, short_way = 0.01;  // of the thickness
-    if (s.h * top_speed() < short_way * c.thickness) return false;
+    if (s.h * top_speed() < law::short_move * c.thickness) return false;
     for (const ContactRow& row : work.rows)
       if (came_through_ridge(scene, c, s, work.contacts[static_cast<size_t>(row.contact)], row))
         return true;
     return depth_past_ridge(scene.ground, scene.blocks.shapes, b, work.world_vertices,
-                            work.contacts, deep * c.thickness) > 0;
+                            work.contacts, law::deep_past_ridge * c.thickness) > 0;
   }
 
   // A bond that opened is gone; bonds that slip are gone when no other holds the block any more, so
-  // that a face fails at the sum of its strengths. The substep is then computed again without them.
+  // that a face fails at the sum of its strengths. The substep is then computed again without them;
+  // the state loses them when that is accepted, since rows without a bond leave none.
   bool break_bonds() {
     bool holds = false, broken = false;
     for (const ContactRow& row : work.rows)
@@ -177,8 +179,9 @@ struct Advance {
       const bool fails =
           row.state == ContactState::open || (row.state == ContactState::slip && !holds);
       if (row.bond_area == 0 || !fails) continue;
-      state.memory[i()][static_cast<size_t>(row.memory)].bond_area = 0;
-      broken = true;
+      if (!breaks_bonds) work.unbonded = state.memory[i()];
+      work.unbonded[static_cast<size_t>(row.memory)].bond_area = 0;
+      broken = breaks_bonds = true;
     }
     return broken;
   }
@@ -199,8 +202,7 @@ struct Advance {
 
   // Flies on from t, where nothing can be hit for longer than `shortest`.
   bool begin_flight(double t, double shortest) {
-    constexpr double longest_turn = 60;  // [rad]: bounds what motion_at() costs near the flip
-    const double longest = std::min(1e3, longest_turn / (spin_speed() + 1e-300));
+    const double longest = std::min(1e3, law::longest_turn / (spin_speed() + 1e-300));
     // where strains let go the vertices move
     const bool is_rigid = state.strain.empty();
     FlyingBody body =
@@ -275,13 +277,12 @@ struct Advance {
   // most half a radian; a needle that rolls at more than 100 radians a step is not followed any
   // closer. A block that slides may go farther, up to `h`, where it meets no other plane or ground.
   double longest_substep(double h) {
-    constexpr double slides = 0.05;  // turns by no more [rad]
     const double spin = spin_speed() + 1e-300;
     const double by_turn = std::max(0.5 / spin, scene.settings.dt / 200);
     const double by_way = 0.5 * scene.ground.trn.cell_size / (top_speed() + 1e-300);
     on_plane = false;
     if (gravity_only() && !state.memory[i()].empty())
-      for (double longer = std::min(h, slides / spin); longer > by_way; longer /= 2)
+      for (double longer = std::min(h, law::slides_by_turn / spin); longer > by_way; longer /= 2)
         if ((on_plane = is_plane_ahead(longer))) return longer;
     return std::min(by_way, by_turn);
   }
@@ -297,11 +298,10 @@ struct Advance {
   // follow on each other, each ending nearer to the hit where the block spins, until it touches.
   template <int Dof>
   void run(double t_end) {
-    constexpr int most_flights = 16;  // in a step
     int events = 0, flights = 0;
     bool was_hit = false;
     const auto count_event = [&] {
-      if (++events > most_events) c.resting_speed *= 2;
+      if (++events > law::most_events) c.resting_speed *= 2;
     };
     while (state.local_time[i()] < t_end) {
       bool flew = false;
@@ -310,7 +310,7 @@ struct Advance {
         flew = true;
       }
       const double t = state.local_time[i()];
-      if ((flew || may_take_off(t, was_hit)) && may_fly && ++flights <= most_flights) {
+      if ((flew || may_take_off(t, was_hit)) && may_fly && ++flights <= law::most_flights) {
         // without spin a flight ends where the block touches
         const bool touches = flew && motion().angular_momentum.isZero(0);
         const double at_once = c.touch / (top_speed() + c.gravity * scene.settings.dt + 1e-300);
@@ -323,8 +323,9 @@ struct Advance {
       }
       double h = std::min(t_end - t, longest_substep(t_end - t));
       Attempt outcome = Attempt::shorter;
+      breaks_bonds = false;
       for (int tries = 1; outcome == Attempt::shorter; ++tries)
-        outcome = attempt<Dof>(t, h, tries >= most_tries);
+        outcome = attempt<Dof>(t, h, tries >= law::most_tries);
       if (t_end - state.local_time[i()] < 1e-9 * scene.settings.dt) state.local_time[i()] = t_end;
       if (outcome == Attempt::impact) count_event();
       was_hit = outcome == Attempt::impact && impact();

@@ -6,6 +6,7 @@
 
 #include "dda/displacement.hpp"
 #include "dda/flight.hpp"
+#include "dda/law_numbers.hpp"
 #include "dda/loads.hpp"
 #include "dda/rotation.hpp"
 
@@ -14,35 +15,16 @@ namespace {
 
 using std::size_t;
 
-// Overlap is pressed out over this many time steps: no velocity is turned round on the way.
-constexpr double recovery_steps = 3;
-// A contact is touching when its gap is below this part of the block's radius.
-constexpr double touch_ratio = 1e-8;
-// Over one plane, and between the same features, a gap jumps only by what turning bends the paths
-// of their points in a step. That is left unpressed up to these parts of the radius and of the
-// thickness: a needle that spins on its tip would otherwise sink in by it step after step, and so
-// would an edge that slides along another one while both turn.
-constexpr double most_by_turning = 1e-2, most_of_thickness = 5e-2;
-// A contact whose stiffness changes by more than this factor from step to step has another law,
-// with the size of its island or its neighbours; less is its block's turning.
-constexpr double same_law = 1.5;
-// Hits slower than what gravity does in two steps have no rebound, but those faster than this [m/s]
-// have one as soon as gravity does not reach their speed in one step: without it, what rocks lose
-// by all the rebounds that are left out shortens a slide at large steps.
-constexpr double rebound_matters = 0.1;
-// Nor has one what may be wrong with the forces of an island by a looser tolerance than the
-// default: this part of what gravity does in a step.
-constexpr double least_by_tolerance = 2e-2;
-// A contact that bears more than what is stiff enough for the heaviest block that touches there:
-// the overlap, as a part of the thickness and of BlockNumbers::sag, at which it becomes stiffer
-// still.
-constexpr double most_overlap = 2e-2, far_sag = 4;
+using law::least_by_tolerance, law::most_by_turning, law::most_of_thickness, law::rebound_matters,
+    law::recovery_steps, law::same_law, law::stiffest_lone, law::touch_ratio;
+
 constexpr double parallel = 1 - 1e-12, no_limit = std::numeric_limits<double>::infinity();
 
 // Below this approach there is no impact [m/s].
 double resting_speed(const Settings& settings, double g) {
   const double by_gravity = g * settings.dt;
-  return std::max({std::clamp(rebound_matters, by_gravity, 2 * by_gravity),
+  return std::max({std::clamp(rebound_matters, law::resting_by_gravity * by_gravity,
+                              law::rebounds_by_gravity * by_gravity),
                    least_by_tolerance * settings.tolerance_factor * by_gravity, 1e-6});
 }
 
@@ -76,9 +58,8 @@ void keep_force(double k_n, ContactRow& row) {
 // Stiffness with which a contact bears what it bore last at an overlap of `sag` or less. It changes
 // by leaps, so that keep_force() sees them, and seldom.
 double stiffness_to_bear(const ContactRow& row, double sag) {
-  constexpr double ample = 2, too_much = 8;
   const double needed = row.last_force / sag, last = row.last_stiffness;
-  return last >= needed && last <= too_much * needed ? last : ample * needed;
+  return last >= needed && last <= law::too_much * needed ? last : law::ample * needed;
 }
 
 // From `least` for what bears little up to `stiffest`; beyond, where even that lets the overlap
@@ -86,7 +67,7 @@ double stiffness_to_bear(const ContactRow& row, double sag) {
 double stiffness_by_load(const BlockNumbers& c, double least, double stiffest,
                          const ContactRow& row) {
   const double k = std::clamp(stiffness_to_bear(row, c.sag), std::min(least, stiffest), stiffest);
-  const double far = std::max(most_overlap * c.thickness, far_sag * c.sag);
+  const double far = std::max(law::most_sag_of_thickness * c.thickness, law::far_sag * c.sag);
   const bool is_beyond =
       row.last_force > far * stiffest || row.last_stiffness > same_law * stiffest;
   return is_beyond ? std::max(k, stiffness_to_bear(row, far)) : k;
@@ -188,8 +169,8 @@ ContactRow& begin_row(const Scene& scene, int b, size_t i, const Mat3& to_row,
 
 bool comes_back_fast(const ContactMemory& memory, double approach, double h,
                      const BlockNumbers& c) {
-  constexpr double far_in = 2e-2;  // of the thickness, in a substep
-  return memory.normal_force == 0 && memory.bond_area == 0 && -approach * h > far_in * c.thickness;
+  return memory.normal_force == 0 && memory.bond_area == 0 &&
+         -approach * h > law::far_in * c.thickness;
 }
 
 Mat3 stretch_of(const State& state, int b) {
@@ -368,11 +349,10 @@ void end_flight(const Scene& scene, int b, double t, State& state, Work& work) {
 }
 
 void watch_rest(const Scene& scene, size_t b, State& state) {
-  constexpr double part_of_thickness = 1e-3;
   const Pose &now = state.motion[b].pose, &then = state.rest_pose[b];
   const double dt = scene.settings.dt;
   const double resolved = std::min(scene.gravity.norm() * dt * dt,
-                                   part_of_thickness * scene.blocks.shapes.thickness[b]);
+                                   law::rests_within * scene.blocks.shapes.thickness[b]);
   const double turn = 2 * (now.attitude.coeffs() - then.attitude.coeffs()).norm();
   const double path = (now.position - then.position).norm() + turn * scene.blocks.shapes.radius[b];
   ++state.rest_steps[b];

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "dda/flips.hpp"
+#include "dda/law_numbers.hpp"
 #include "dda/newton.hpp"
 #include "dda/report.hpp"
 #include "dda/scene.hpp"
@@ -18,11 +19,6 @@
 #include "dda/work.hpp"
 
 namespace talus {
-
-/// k_n dt^2 / m of the stiffest contact of a lone block, m being the mass that the contact feels.
-inline constexpr double stiffest_lone = 400;
-inline constexpr int most_events = 40;  ///< impacts in a step before bouncing is given up
-inline constexpr int most_tries = 24;   ///< substeps repeated to find an event or to converge
 
 /// With the stiffness of a lone block.
 [[nodiscard]] BlockNumbers numbers_of(const Scene& scene, int b);
@@ -106,11 +102,9 @@ void end_flight(const Scene& scene, int b, double t, State& state, Work& work);
 
 /// What an overlap that presses nothing loses in `h`: slower than gravity, so nothing hops [m].
 [[nodiscard]] inline double offset_relaxed(double gravity, double h) {
-  return std::min(0.3, 0.25 * gravity * h) * h;
+  return std::min(law::fastest_relaxing, law::relaxes_by_gravity * gravity * h) * h;
 }
 
-/// Steps that a block, or all of an island, must stay in place before it is left out.
-inline constexpr int steps_before_sleep = 200;
 /// Counts the steps for which no point of block b has gone farther than contacts resolve: g dt^2,
 /// by which its weight presses a block of an island in, or a thousandth of its thickness.
 void watch_rest(const Scene& scene, std::size_t b, State& state);

@@ -33,6 +33,7 @@ struct Work {  // clang-format off
   std::vector<NearFeatures> near_ground;     ///< what each block may touch there      (n_blocks)
   // make_rows, solve_contacts
   std::vector<ContactRow> rows;              ///< of the block at hand
+  std::vector<ContactMemory> unbonded;       ///< its memory, less the bonds that its substep breaks
   // advance_block: the motion of this step, block by block, in order of time
   std::vector<Segment> segments;
   // form_islands, advance_island

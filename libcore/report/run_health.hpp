@@ -33,6 +33,11 @@ void add_limits(const std::vector<RunCheck>& checks, std::vector<LimitOverRuns>&
 [[nodiscard]] std::string counter_table(const std::vector<RunFile>& runs,
                                         const std::vector<std::string>& names);
 
+/// A row a run: how often islands made a substep again, by reason (docs/theory.md, stage 9); empty
+/// when none did.
+[[nodiscard]] std::string cut_table(const std::vector<RunFile>& runs,
+                                    const std::vector<std::string>& names);
+
 /// A row a block that was deep in something; empty when there was none. `names`: one a run.
 [[nodiscard]] std::string deep_table(const std::vector<RunFile>& runs,
                                      const std::vector<std::string>& names);

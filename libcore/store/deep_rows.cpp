@@ -52,8 +52,8 @@ double distance_of_toe(const std::vector<double>& distance, const std::vector<do
 
 void set_partner(const Scene& scene, int partner, DeepRow& row) {
   row.partner = partner;
-  if (!is_fixed(scene, partner)) return;
-  const int panel = panel_number(scene, partner);
+  if (!names_fixed(partner)) return;
+  const int panel = panel_number(scene, fixed_of_name(partner));
   row.partner = panel < 0 ? DeepRow::fixed_body : DeepRow::fence;
   if (panel < 0) return;
   row.line = scene.fixed.panels[static_cast<size_t>(panel)].line;

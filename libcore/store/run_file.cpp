@@ -17,11 +17,14 @@ void append(RunFrames& frames, const Frame& frame, bool with_strain) {
   }
 }
 
-std::vector<PanelRow> panel_rows(const FixedBodies& fixed, const FenceState& fence) {
+std::vector<PanelRow> panel_rows(const FixedBodies& fixed, const YieldingState& state) {
   std::vector<PanelRow> rows;
-  for (std::size_t p = 0; p < fixed.panels.size(); ++p)
-    rows.push_back({fixed.panels[p].line, fixed.panels[p].number, fixed.panels[p].capacity,
-                    fence.work[p], fence.deflection[p], fence.broken_at[p], fence.broken_by[p]});
+  for (const FencePanel& panel : fixed.panels) {
+    const auto y = static_cast<std::size_t>(panel.yielding);
+    const Yielded& met = state.met[y];
+    rows.push_back({panel.line, panel.number, fixed.yieldings[y].capacity, met.work, met.deflection,
+                    met.broken_at, met.broken_by});
+  }
   return rows;
 }
 

@@ -8,10 +8,12 @@
 // time_s below duration_s) and can be read by everything that reads a finished one.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "dda/report.hpp"
 #include "store/crossings.hpp"
 #include "store/frames.hpp"
 #include "store/passages.hpp"
@@ -70,7 +72,8 @@ struct HealthRow {
   std::int64_t steps = 0, substeps = 0, passes = 0, flips = 0, impacts = 0, unconverged = 0;
   std::int64_t left_domain = 0;                   ///< blocks that have left the known terrain
   std::int64_t fell_through = 0, not_finite = 0;  ///< steps so far with such a block
-  double largest_penetration = 0;                 ///< [m]
+  std::array<std::int64_t, substep_cut_names.size()> cuts{};  ///< substeps made again, by reason
+  double largest_penetration = 0;                             ///< [m]
   double translation = 0, rotation = 0, potential = 0, elastic = 0;   ///< at `time` [J]
   double friction = 0, impact = 0, contact = 0, base = 0, fence = 0;  ///< since the start [J]
   double removed = 0;                                                 ///< since the start [J]
@@ -85,7 +88,8 @@ struct PanelRow {
   double broken_at = 0;              ///< infinite: stands [s]
   std::int32_t broken_by = -1;       ///< block, -1: stands
 };
-[[nodiscard]] std::vector<PanelRow> panel_rows(const FixedBodies& fixed, const FenceState& fence);
+[[nodiscard]] std::vector<PanelRow> panel_rows(const FixedBodies& fixed,
+                                               const YieldingState& state);
 
 /// A block that was in something by more than a tenth of its thickness, and what it may have moved.
 struct DeepRow {

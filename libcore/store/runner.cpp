@@ -47,6 +47,7 @@ void add_to_interval(HealthRow& row, const StepReport& report) {
   row.flips += report.n_flips;
   row.impacts += report.n_impacts;
   row.unconverged += report.n_unconverged;
+  for (std::size_t k = 0; k < row.cuts.size(); ++k) row.cuts[k] += report.cuts[k];
   row.fell_through += has(report.flags, StepFlag::fell_through) ? 1 : 0;
   row.not_finite += has(report.flags, StepFlag::not_finite) ? 1 : 0;
   row.largest_penetration = std::max(row.largest_penetration, report.largest_penetration);
@@ -246,7 +247,7 @@ void update_file(Runner& runner, bool with_checkpoint) {
   }
   file.crossings = sorted(runner.crossings);
   file.fence_hits = runner.state.fence.hits;
-  file.panels = panel_rows(runner.scene.fixed, runner.state.fence);
+  file.panels = panel_rows(runner.scene.fixed, runner.state.yielding);
   file.deep = deep_rows(runner.scene, runner.state, runner.crossings.rows);
   file.info.time = runner.state.time;
   file.phase = runner.state.phase;

@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "dda/law_numbers.hpp"
 #include "dda/report.hpp"
 #include "verify/block_cases.hpp"
 #include "verify/case_run.hpp"
@@ -345,7 +346,7 @@ std::string text_of(Outcome outcome) {
 
 Outcome judge(const Corner& corner, const Seen& seen) {
   if (!seen.refusal.empty()) return Outcome::refused;
-  if (!seen.finite || seen.left || !(seen.gain <= gain_limit) || !(seen.depth <= deep_share))
+  if (!seen.finite || seen.left || !(seen.gain <= gain_limit) || !(seen.depth <= law::deep_share))
     return Outcome::broken;
   if (seen.depth <= depth_limit && (corner.norm.empty() || seen.error <= corner.tolerance))
     return Outcome::right;

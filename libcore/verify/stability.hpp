@@ -43,7 +43,7 @@ struct Corner {
 };
 
 /// Limits of what is right: energy gained, and depth, which the give of contacts explains. From
-/// `deep_share` (dda/report.hpp) on a depth is broken.
+/// `deep_share` (dda/law_numbers.hpp) on a depth is broken.
 inline constexpr double gain_limit = 1e-3, depth_limit = 0.02;
 
 [[nodiscard]] Outcome judge(const Corner& corner, const Seen& seen);

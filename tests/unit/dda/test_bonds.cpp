@@ -145,4 +145,45 @@ TEST(JointClasses, FrictionIsThatOfTheFacesThatTouch) {
   }
 }
 
+// A block whose face is bonded to the ground is shaken towards a steep rise, hardly a millimetre
+// off. Over a whole step the bond alone would hold the block, and fail; within the step the block
+// comes to lean on the rise, and the bond holds. An attempt at a longer step has broken nothing.
+struct Shaking {
+  double peak, gap, rise, height, strength;  // strength: of the peak
+  double before, until;                      // share of the peak, up to this share of a step
+  double up;                                 // of the peak
+};
+class LoneBond : public testing::TestWithParam<Shaking> {};
+INSTANTIATE_TEST_SUITE_P(Bonds, LoneBond,
+                         testing::Values(Shaking{189.519, 9.0356e-4, 1.8065, 1.64157, 0.964664, 0,
+                                                 0.911034, -0.458496},
+                                         Shaking{43.2762, 1.1135e-5, 6.1898, 1.79661, 0.703021,
+                                                 -0.977732, 0.458969, 0.571632}));
+
+TEST_P(LoneBond, IsBrokenByAnAcceptedSubstepAlone) {
+  const Shaking& p = GetParam();
+  Settings settings;
+  settings.dt = 0.02;
+  const Body block = body_of(box(Vec3(-1 - p.gap, 0.2, 0), Vec3(-p.gap, 1.2, p.height)));
+  const auto wall = [&](double x, double) { return x > 0 ? p.rise * x : 0.0; };
+  Scene scene = scene_of(make_trn(wall, 1, 20), ground_of(10, 0), {block}, settings);
+  GroundClass& ground = scene.ground.classes[0];
+  ground.cohesion = p.strength * scene.blocks.mass[0] * p.peak;
+  ground.tension = 1e9;
+  const Vec3 shaken = p.peak * Vec3(-1, 0, -p.up);
+  scene.base.time = {0, p.until * settings.dt, p.until * settings.dt + 1e-6, 1};
+  scene.base.acceleration = {p.before * shaken, p.before * shaken, shaken, shaken};
+  State state = start(scene);
+  Work work = make_work(scene);
+  const auto bonded = [&] {
+    double sum = 0;
+    for (const ContactMemory& memory : state.memory[0]) sum += memory.bond_area;
+    return sum;
+  };
+  ASSERT_NEAR(bonded(), 1, 1e-9);
+  for (int k = 0; k < 2; ++k) step(scene, state, work);
+  EXPECT_NEAR(bonded(), 1, 1e-9);
+  EXPECT_LT((state.motion[0].pose.position - scene.blocks.rest[0].position).norm(), 2e-3);
+}
+
 }  // namespace

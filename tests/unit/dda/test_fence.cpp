@@ -66,10 +66,10 @@ TEST(Fence, TakesTheEnergyOfABlockOverItsDeflection) {
   const State before = run(scene, stopped - 0.01), after = run(scene, stopped + 0.1);
   EXPECT_GT(before.motion[0].velocity.x(), 0.05);
   EXPECT_LT(after.motion[0].velocity.norm(), 0.05);  // 1e-5 of its energy
-  EXPECT_NEAR(after.fence.work[0], energy, 1e-5 * energy);
-  EXPECT_NEAR(-after.fence.deflection[0], energy / force, 1e-3);
-  EXPECT_EQ(after.fence.work[1], 0);
-  EXPECT_EQ(after.fence.broken_by[0], -1);
+  EXPECT_NEAR(after.yielding.met[0].work, energy, 1e-5 * energy);
+  EXPECT_NEAR(-after.yielding.met[0].deflection, energy / force, 1e-3);
+  EXPECT_EQ(after.yielding.met[1].work, 0);
+  EXPECT_EQ(after.yielding.met[0].broken_by, -1);
   ASSERT_EQ(after.fence.hits.size(), 1u);
   const FenceHit& hit = after.fence.hits[0];
   EXPECT_EQ(hit.panel, 0);
@@ -92,8 +92,8 @@ TEST_P(FenceCapacity, HoldsExactly) {
   const State state = run(scene, 1.5);
   const double left = std::max(0.0, energy - capacity);
   EXPECT_NEAR(kinetic(scene, state), left, 1e-5 * energy);
-  EXPECT_NEAR(state.fence.work[1], energy - left, 1e-5 * energy);
-  EXPECT_EQ(state.fence.broken_by[1], GetParam() > 1 ? 0 : -1);
+  EXPECT_NEAR(state.yielding.met[1].work, energy - left, 1e-5 * energy);
+  EXPECT_EQ(state.yielding.met[1].broken_by, GetParam() > 1 ? 0 : -1);
   EXPECT_NEAR(state.ledger.fence, energy - left, 1e-5 * energy);
   EXPECT_EQ(state.counters.unconverged, 0);
 }
@@ -105,8 +105,8 @@ TEST(Fence, HitsAtTheSameTimeAddUp) {
       {cube_at(Vec3(0, -8, 0), Vec3(10, 0, 0)), cube_at(Vec3(0, -3, 0), Vec3(10, 0, 0))},
       fence_across(capacity, 2));
   const State state = run(scene, 1.5);
-  EXPECT_GE(state.fence.broken_by[0], 0);
-  EXPECT_NEAR(state.fence.work[0], capacity, 1e-6 * capacity);
+  EXPECT_GE(state.yielding.met[0].broken_by, 0);
+  EXPECT_NEAR(state.yielding.met[0].work, capacity, 1e-6 * capacity);
   EXPECT_NEAR(kinetic(scene, state), 2 * energy - capacity, 1e-4 * energy);
   ASSERT_EQ(state.fence.hits.size(), 2u);
   EXPECT_NEAR(state.fence.hits[0].work + state.fence.hits[1].work, capacity, 1e-6 * capacity);
@@ -119,17 +119,17 @@ TEST(Fence, LetsThroughWhatComesAfterItBroke) {
       {cube_at(Vec3(0, -8, 0), Vec3(10, 0, 0)), cube_at(Vec3(-12, -4, 0), Vec3(10, 0, 0))},
       fence_across(0.5 * energy, 2));
   const State state = run(scene, 3);
-  EXPECT_EQ(state.fence.broken_by[0], 0);
+  EXPECT_EQ(state.yielding.met[0].broken_by, 0);
   EXPECT_NEAR(state.motion[1].velocity.x(), 10, 1e-6);
   EXPECT_EQ(state.fence.hits.size(), 1u);
 }
 
 TEST(Fence, RigidPanelThrowsBackByItsRestitution) {
   const Scene scene = smooth_plane({cube_at(Vec3(0, -5.5, 0), Vec3(10, 0, 0))},
-                                   fence_across(FencePanel::no_limit, 0, 0.4));
+                                   fence_across(Yielding::no_limit, 0, 0.4));
   const State state = run(scene, 1);
   EXPECT_NEAR(state.motion[0].velocity.x(), -4, 1e-6);
-  EXPECT_EQ(state.fence.deflection[0], 0);
+  EXPECT_EQ(state.yielding.met[0].deflection, 0);
   ASSERT_EQ(state.fence.hits.size(), 1u);
   EXPECT_NEAR(state.fence.hits[0].energy_after, 0.16 * energy_of(10), 1e-6 * energy_of(10));
   EXPECT_NEAR(state.ledger.impact, 0.84 * energy_of(10), 1e-6 * energy_of(10));
@@ -151,7 +151,7 @@ TEST_P(FenceThrow, IsMetWithinTheStep) {
   const Vec3 base(x, 3, 5 * bounce * bounce - x);
   Body cube;
   cube.parts = {box_in(slope, base, Vec3(-0.5, -0.5, 0), Vec3(0.5, 0.5, 1))};
-  StandingFence fence = fence_across(FencePanel::no_limit, 0, 0.4);
+  StandingFence fence = fence_across(Yielding::no_limit, 0, 0.4);
   for (Vec3& post : fence.posts) post.z() = -5;
   Settings settings;
   settings.dt = dt;
@@ -189,7 +189,7 @@ TEST(Fence, RocksThatMeetItsTopEdgeAreNotDeepInIt) {
   const auto uniform = [&](double low, double high) {
     return low + (high - low) * std::generate_canonical<double, 53>(random);
   };
-  StandingFence fence = fence_across(FencePanel::no_limit, 0, 0.4);
+  StandingFence fence = fence_across(Yielding::no_limit, 0, 0.4);
   fence.contact.friction = std::tan(20 * degree);
   std::vector<Body> bodies;
   for (const double y : {-8.0, -3.0, 2.0, 7.0})
@@ -222,7 +222,7 @@ TEST(Fence, RocksThatMeetItsTopEdgeAreNotDeepInIt) {
 // Beside the fence nothing stands.
 TEST(Fence, DoesNotReachBeyondItsEnds) {
   const Scene scene = smooth_plane({cube_at(Vec3(0, 10.5, 0), Vec3(10, 0, 0))},
-                                   fence_across(FencePanel::no_limit, 0));
+                                   fence_across(Yielding::no_limit, 0));
   const State state = run(scene, 1);
   EXPECT_NEAR(state.motion[0].velocity.x(), 10, 1e-9);
   EXPECT_TRUE(state.fence.hits.empty());

@@ -40,7 +40,7 @@ TEST(IslandStages, AreThoseOfThePage) {
     ASSERT_NE(at, std::string::npos) << reason;
     after = at;
   }
-  EXPECT_EQ(static_cast<std::size_t>(SubstepCut::panel_used_up) + 1, substep_cut_names.size());
+  EXPECT_EQ(static_cast<std::size_t>(SubstepCut::yielding_used_up) + 1, substep_cut_names.size());
 }
 
 // A cube on a slab, their common face bonded; the slab is rough, the cube shears its bond.

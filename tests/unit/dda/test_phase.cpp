@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "dda/law_numbers.hpp"
 #include "dda/phase.hpp"
 #include "dda/step.hpp"
 #include "dda/substep.hpp"
@@ -107,7 +108,7 @@ TEST(UnbornBlock, WakesNoSleeper) {
   State state = start(scene);
   Work work = make_work(scene);
   keep_unborn(state, 1);
-  for (int i = 0; i < 2 * steps_before_sleep; ++i) step(scene, state, work);
+  for (int i = 0; i < 2 * law::steps_before_sleep; ++i) step(scene, state, work);
   EXPECT_EQ(state.phase[0], Phase::asleep);
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "dda/law_numbers.hpp"
 #include "dda/rotation.hpp"
 #include "dda/step.hpp"
 #include "dda/substep.hpp"
@@ -65,7 +66,7 @@ TEST(Step, BlockThatIsShakenByMicrometresFallsAsleep) {
   const Scene scene = cube_at_rest({});
   State state = start(scene);
   Work work = make_work(scene);
-  for (int i = 0; i <= steps_before_sleep && state.phase[0] != Phase::asleep; ++i) {
+  for (int i = 0; i <= law::steps_before_sleep && state.phase[0] != Phase::asleep; ++i) {
     state.motion[0].velocity.x() += i % 2 == 0 ? 1e-3 : -1e-3;
     step(scene, state, work);
   }

@@ -124,6 +124,11 @@ TEST(Runner, ResumesWhatFencesHaveMet) {
   for (const PanelRow& panel : whole.panels) work += panel.work;
   EXPECT_GT(work, 1e4);
   EXPECT_NEAR(whole.health.back().fence, work, 1e-9 * work);
+  // the panels were touched within substeps, which ended there; counts are those of the interval
+  std::int64_t n_touches = 0;
+  for (const HealthRow& row : whole.health)
+    n_touches += row.cuts[static_cast<std::size_t>(SubstepCut::yielding_touched)];
+  EXPECT_GE(n_touches, 1);
   const RunFile resumed = computed(scene, options(0.1), {100, 190, 230});
   EXPECT_EQ(whole.frames.position, resumed.frames.position);
   ASSERT_EQ(whole.fence_hits.size(), resumed.fence_hits.size());
@@ -131,6 +136,8 @@ TEST(Runner, ResumesWhatFencesHaveMet) {
     EXPECT_EQ(whole.fence_hits[i].time, resumed.fence_hits[i].time);
     EXPECT_EQ(whole.fence_hits[i].work, resumed.fence_hits[i].work);
   }
+  for (std::size_t i = 0; i < whole.health.size(); ++i)
+    EXPECT_EQ(whole.health[i].cuts, resumed.health[i].cuts);
   for (std::size_t p = 0; p < whole.panels.size(); ++p) {
     EXPECT_EQ(whole.panels[p].deflection, resumed.panels[p].deflection);
     EXPECT_EQ(whole.panels[p].broken_by, resumed.panels[p].broken_by);
@@ -173,6 +180,7 @@ TEST(Runner, ResumedAnywhereGoesOnToTheSameBits) {
     for (std::size_t i = 0; i < whole.health.size(); ++i) {
       EXPECT_EQ(whole.health[i].passes, resumed.health[i].passes);
       EXPECT_EQ(whole.health[i].friction, resumed.health[i].friction);
+      EXPECT_EQ(whole.health[i].cuts, resumed.health[i].cuts);
       EXPECT_EQ(whole.health[i].largest_penetration, resumed.health[i].largest_penetration);
     }
   }
