@@ -140,7 +140,7 @@ struct Tool::Impl {
     complete_content_id();
     end_record(exit_code, seconds_since_start(), record);
     const std::string db = registry_path(options);
-    const int wait_ms = is_late ? 0 : registry_wait_ms;
+    const int wait_ms = is_late ? 0 : registry_wait_ms();
     try {
       record.id > 0 ? finish_run(db, record, wait_ms) : (void)add_run(db, record, wait_ms);
     } catch (const InputError& error) {
