@@ -1,5 +1,5 @@
 # talus_shipped_data(OUT FOLDER file...): a source OUT that holds files of FOLDER as text, declared in
-# tools/shipped_data.hpp; made again when one of them changes.
+# tools/frame/shipped_data.hpp; made again when one of them changes.
 function(talus_shipped_data out folder)
   set(entries "")
   foreach(name ${ARGN})

@@ -11,7 +11,7 @@
 
 #include "base/types.hpp"
 #include "contact/neighbours.hpp"
-#include "contact/pose.hpp"
+#include "motion/pose.hpp"
 #include "geometry/polyhedron.hpp"
 
 namespace talus {

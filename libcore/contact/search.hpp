@@ -10,7 +10,7 @@
 #include "contact/contact.hpp"
 #include "contact/ground.hpp"
 #include "contact/near_features.hpp"
-#include "contact/pose.hpp"
+#include "motion/pose.hpp"
 #include "contact/shapes.hpp"
 
 namespace talus {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/ground_classes.hpp"
+#include "site/ground_classes.hpp"
 #include "terrain/trn.hpp"
 
 namespace talus {

@@ -7,8 +7,8 @@
 #include <map>
 #include <vector>
 
-#include "post/maps.hpp"
-#include "store/run_file.hpp"
+#include "post/maps/maps.hpp"
+#include "record/run_file.hpp"
 
 namespace talus {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/percentile.hpp"
-#include "store/run_file.hpp"
+#include "record/run_file.hpp"
 
 namespace talus {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "store/passages.hpp"
+#include "record/passages.hpp"
 
 namespace talus {
 

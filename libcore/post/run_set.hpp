@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "store/run_file.hpp"
+#include "record/run_file.hpp"
 
 namespace talus {
 

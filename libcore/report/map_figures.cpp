@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "post/map_layers.hpp"
+#include "post/maps/map_layers.hpp"
 #include "report/html.hpp"
 #include "report/map_legend.hpp"
 

@@ -1,7 +1,7 @@
 // libcore/report/map_figures.hpp
 // The pictures of the map layers in a report, each with its caption and legend.
 // in:    what talus-maps wrote beside each raster
-// out:   HTML, in the order of the table of layers (post/map_layers.hpp)
+// out:   HTML, in the order of the table of layers (post/maps/map_layers.hpp)
 #pragma once
 
 #include <string>

@@ -8,7 +8,7 @@
 
 #include "base/text.hpp"
 #include "post/deposit.hpp"
-#include "post/runout.hpp"
+#include "post/runout/runout.hpp"
 #include "report/encode.hpp"
 
 namespace talus {

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "store/run_file.hpp"
+#include "record/run_file.hpp"
 #include "terrain/trn.hpp"
 
 namespace talus {

@@ -7,7 +7,7 @@
 
 #include "base/csv.hpp"
 #include "report/chart.hpp"
-#include "store/run_file.hpp"
+#include "record/run_file.hpp"
 
 namespace talus {
 

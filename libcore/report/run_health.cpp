@@ -4,7 +4,7 @@
 
 #include "base/text.hpp"
 #include "report/html.hpp"
-#include "store/deep_rows.hpp"
+#include "record/deep_rows.hpp"
 
 namespace talus {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "store/run_file.hpp"
+#include "record/run_file.hpp"
 #include "terrain/trn.hpp"
 
 namespace talus {

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "dda/state.hpp"
-#include "store/frames.hpp"
-#include "store/passages.hpp"
-#include "store/run_file.hpp"
+#include "scene/state.hpp"
+#include "record/frames.hpp"
+#include "record/passages.hpp"
+#include "record/run_file.hpp"
 
 namespace talus {
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "store/run_file.hpp"
+#include "record/run_file.hpp"
 
 namespace talus {
 

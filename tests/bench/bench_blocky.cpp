@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "dda/blocky_slope.hpp"
-#include "dda/step.hpp"
+#include "scene/blocky_slope.hpp"
+#include "step/step.hpp"
 #include "slide_scene.hpp"
 
 namespace {

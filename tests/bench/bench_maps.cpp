@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "base/random.hpp"
-#include "post/map_layers.hpp"
+#include "post/maps/map_layers.hpp"
 
 namespace {
 

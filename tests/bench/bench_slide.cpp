@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <fstream>
 
-#include "dda/step.hpp"
+#include "step/step.hpp"
 #include "slide_scene.hpp"
 
 namespace {

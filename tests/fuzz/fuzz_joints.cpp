@@ -1,7 +1,7 @@
 // tests/fuzz/fuzz_joints.cpp
 // Lists of measured joint orientations.
 #include "fuzz.hpp"
-#include "scene/joint_plan.hpp"
+#include "site/joint_plan.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   return talus::accepts_or_refuses([&] {

@@ -3,9 +3,9 @@
 // tightly.
 #include <gtest/gtest.h>
 
-#include "dda/step.hpp"
-#include "verify/cases.hpp"
-#include "verify/closed_form.hpp"
+#include "step/step.hpp"
+#include "verify/cases/cases.hpp"
+#include "verify/cases/closed_form.hpp"
 
 namespace {
 

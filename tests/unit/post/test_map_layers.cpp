@@ -6,8 +6,8 @@
 #include <sstream>
 
 #include "base/random.hpp"
-#include "post/map_layers.hpp"
-#include "post/map_style.hpp"
+#include "post/maps/map_layers.hpp"
+#include "post/maps/map_style.hpp"
 
 using namespace talus;
 

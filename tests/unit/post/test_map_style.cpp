@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "post/map_picture.hpp"
-#include "post/map_style.hpp"
+#include "post/maps/map_picture.hpp"
+#include "post/maps/map_style.hpp"
 #include "run_maker.hpp"
 
 using namespace talus;

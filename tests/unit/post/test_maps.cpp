@@ -8,7 +8,7 @@
 
 #include "base/error.hpp"
 #include "base/random.hpp"
-#include "post/maps.hpp"
+#include "post/maps/maps.hpp"
 #include "post/statistics.hpp"
 
 using namespace talus;

@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "base/random.hpp"
-#include "post/runout.hpp"
-#include "post/runout_text.hpp"
+#include "post/runout/runout.hpp"
+#include "post/runout/runout_text.hpp"
 #include "run_maker.hpp"
 
 using namespace talus;

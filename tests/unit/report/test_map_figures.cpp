@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "io/style.hpp"
-#include "post/map_layers.hpp"
-#include "post/map_style.hpp"
+#include "post/maps/map_layers.hpp"
+#include "post/maps/map_style.hpp"
 #include "report/map_figures.hpp"
 
 using namespace talus;

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "base/random.hpp"
-#include "dda/free_rotation.hpp"
-#include "dda/rotation.hpp"
-#include "dda/scene.hpp"
-#include "dda/work.hpp"
+#include "motion/free_rotation.hpp"
+#include "motion/rotation.hpp"
+#include "scene/scene.hpp"
+#include "step/work.hpp"
 
 namespace talus_test {
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "base/read_file.hpp"
-#include "verify/leaving_out.hpp"
+#include "verify/study/leaving_out.hpp"
 
 namespace talus {
 

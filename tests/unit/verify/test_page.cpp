@@ -8,7 +8,7 @@
 #include "base/error.hpp"
 #include "base/read_file.hpp"
 #include "base/text.hpp"
-#include "verify/page.hpp"
+#include "verify/study/page.hpp"
 
 namespace {
 
