@@ -1,5 +1,5 @@
 # talus_shipped_data(OUT FOLDER file...): a source OUT that holds files of FOLDER as text, declared in
-# tools/frame/shipped_data.hpp; made again when one of them changes.
+# tools/shipped_data.hpp; made again when one of them changes.
 function(talus_shipped_data out folder)
   set(entries "")
   foreach(name ${ARGN})
@@ -10,7 +10,7 @@ function(talus_shipped_data out folder)
   endforeach()
   set(source ${CMAKE_CURRENT_BINARY_DIR}/${out}.cpp)
   file(CONFIGURE OUTPUT ${source} @ONLY CONTENT [[
-#include "shipped_data.hpp"
+#include "tools/frame/shipped_data.hpp"
 
 #include <map>
 

@@ -1,4 +1,4 @@
-# talus_module(NAME [DEPENDS module...]): one folder of libcore, one target.
+# talus_module(NAME [DEPENDS module...]): one folder with its subfolders, one target.
 #
 # Plain sources become talus_NAME, which needs Eigen and the modules it depends on. A source whose
 # name ends in _cgal, _gdal, _hdf5, _sqlite or _toml becomes part of talus_NAME_cgal and so on, which
@@ -6,7 +6,7 @@
 
 add_library(talus_options INTERFACE)
 target_compile_options(talus_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Werror)
-target_include_directories(talus_options INTERFACE ${PROJECT_SOURCE_DIR}/libcore)
+target_include_directories(talus_options INTERFACE ${PROJECT_SOURCE_DIR}/libcore ${PROJECT_SOURCE_DIR})
 
 # The headers that nearly every source includes are compiled once. A source names all that it uses
 # nevertheless: the release preset builds without this.
@@ -32,7 +32,7 @@ set(TALUS_LIBRARY_toml tomlplusplus::tomlplusplus)
 
 function(talus_module name)
   cmake_parse_arguments(ARG "" "" "DEPENDS" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
   set(plain ${sources})
   list(FILTER plain EXCLUDE REGEX "_(cgal|gdal|hdf5|sqlite|toml)\\.cpp$")
   list(TRANSFORM ARG_DEPENDS PREPEND talus_ OUTPUT_VARIABLE modules)

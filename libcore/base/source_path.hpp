@@ -1,3 +1,4 @@
+// libcore/base/source_path.hpp: public
 // A file as people, QGIS and download sites name it, parted into the file and what in it is meant:
 // "map.gpkg|layername=index|subset=ELEV > 900", "map.zip", "/vsizip/map.zip/sheet.shp".
 #pragma once

@@ -282,7 +282,7 @@ class Cutter {
   bool is_side(int j) const { return j >= static_cast<int>(joints_.size()); }
   const AreaSide& area_side(int j) const { return sides_[static_cast<size_t>(j) - joints_.size()]; }
   const Plane& plane_of(int j) const {
-    return is_side(j) ? area_side(j).plane : joints_[static_cast<size_t>(j)].plane;
+    return is_side(j) ? area_side(j).plane : joints_[j].plane;
   }
   double tolerance_of(int j) const { return is_side(j) ? side_tolerance_ : tolerance_; }
 

@@ -1,4 +1,4 @@
-// libcore/blocks/failure_plane.hpp
+// libcore/blocks/failure_plane.hpp: public
 // The plane that a mass can leave on: of a joint set that dips out of the slope, laid so that it
 // comes out of the ground (daylights) along the foot of the source.
 //

@@ -1,4 +1,4 @@
-// libcore/blocks/placed_bodies.hpp
+// libcore/blocks/placed_bodies.hpp: public
 // Bodies from elsewhere as a group: scaled together, set on the ground, looked at for overlaps.
 // in:    bodies as they stand in their mesh, or a shape; the ground
 // out:   the same bodies at their place, and what is odd about them

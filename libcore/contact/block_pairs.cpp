@@ -61,7 +61,7 @@ double fixed_reach(const PairSettings& settings) { return settings.margin / 2; }
 // Adds the motion since the last step to `travel`, and fills `reach`.
 void follow_motion(const Hulls& hulls, const PlacedHulls& placed, const PairMotion& motion,
                    const PairSettings& settings, PairState& state, PairWork& work) {
-  work.reach.resize(static_cast<std::size_t>(n_free(hulls, motion)));
+  work.reach.resize(n_free(hulls, motion));
   state.in_frame = motion.n_fixed == 0;
   const Vec3 frame_step = mean_step(hulls, motion, state.in_frame);
   for (int b = 0; b < n_free(hulls, motion); ++b)
@@ -115,7 +115,7 @@ void set_budgets(const Hulls& hulls, const PlacedHulls& placed, const PairMotion
     state.travel[b] = 0;
   });
   state.fixed_budget = 2 * fixed_reach(settings);
-  state.budget.resize(static_cast<std::size_t>(n_free(hulls, motion)));
+  state.budget.resize(n_free(hulls, motion));
   const Vec3 frame_step = mean_step(hulls, motion, state.in_frame);
   for (int b = 0; b < n_free(hulls, motion); ++b) {
     const double skin = skin_ratio * hulls.radius[b] + 2 * reach(motion, settings, b, frame_step);
@@ -130,7 +130,7 @@ void set_budgets(const Hulls& hulls, const PlacedHulls& placed, const PairMotion
 void box_parts(const Hulls& hulls, const PlacedHulls& placed, const PairMotion& motion,
                const PairState& state, std::vector<Box>& boxes) {
   const int n = hulls.part_begin[n_free(hulls, motion)];
-  boxes.resize(static_cast<std::size_t>(n));
+  boxes.resize(n);
   for (int p = 0; p < n; ++p) {
     Box& box = boxes[p];
     box = box_of_part(hulls, placed, p);
@@ -474,7 +474,7 @@ void drop_manifolds(PairWork& work) {
     work.manifolds[kept++] = manifold;
   }
   work.manifolds.resize(kept);
-  work.points.resize(static_cast<std::size_t>(n_points));
+  work.points.resize(n_points);
 }
 
 int drop_grazing(const Hulls& hulls, const PlacedHulls& placed, const PairMotion& motion,

@@ -1,4 +1,4 @@
-// libcore/contact/block_pairs.hpp
+// libcore/contact/block_pairs.hpp: public
 // Contacts between blocks, step by step: a list of close pairs and an axis for each pair, each kept
 // while its motion budget lasts; features that meet, for a thousandth of the thickness.
 // in:    placed hulls, and how far the bodies may move in the coming step

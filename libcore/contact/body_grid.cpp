@@ -79,10 +79,10 @@ BodyGrid make_body_grid(std::span<const Vec3> centre, std::span<const double> ra
   };
   for_each([&](size_t, size_t c) { ++grid.begin[c + 1]; });
   std::partial_sum(grid.begin.begin(), grid.begin.end(), grid.begin.begin());
-  grid.bodies.resize(static_cast<size_t>(grid.begin.back()));
+  grid.bodies.resize(grid.begin.back());
   std::vector<int> next(grid.begin.begin(), grid.begin.end() - 1);
   for_each([&](size_t i, size_t c) {
-    grid.bodies[static_cast<size_t>(next[c]++)] = static_cast<int>(i);
+    grid.bodies[next[c]++] = static_cast<int>(i);
   });
   return grid;
 }
@@ -91,7 +91,7 @@ void find_near(const BodyGrid& grid, const Box& box, std::vector<int>& near) {
   near.clear();
   if (grid.n_bodies == 0) return;
   if (!box.low.allFinite() || !box.high.allFinite()) {
-    near.resize(static_cast<size_t>(grid.n_bodies));
+    near.resize(grid.n_bodies);
     std::iota(near.begin(), near.end(), 0);
     return;
   }

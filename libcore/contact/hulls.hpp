@@ -1,4 +1,4 @@
-// libcore/contact/hulls.hpp
+// libcore/contact/hulls.hpp: public
 // The convex parts of all blocks as the search of contacts between blocks reads them.
 // in:    the parts of each body (block set), then the pose of each body at every step
 // out:   vertices in local axes, and face normals as padded arrays of x, y and z

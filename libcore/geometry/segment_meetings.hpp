@@ -1,4 +1,4 @@
-// libcore/geometry/segment_meetings.hpp
+// libcore/geometry/segment_meetings.hpp: public
 // Where the segments of a plane map meet other than at common ends, decided without rounding
 // errors.
 #pragma once

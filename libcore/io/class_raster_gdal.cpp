@@ -75,8 +75,8 @@ struct PixelRows {
     if (wanted == row) return;
     const GdalErrors errors;
     const int n = band.GetXSize();
-    value.resize(static_cast<size_t>(n));
-    known.assign(static_cast<size_t>(n), 255);
+    value.resize(n);
+    known.assign(n, 255);
     CPLErr status =
         band.RasterIO(GF_Read, 0, wanted, n, 1, value.data(), n, 1, GDT_Float64, 0, 0, nullptr);
     if (status == CE_None && band.GetMaskFlags() != GMF_ALL_VALID)
@@ -90,8 +90,8 @@ struct PixelRows {
   }
 
   [[nodiscard]] std::int32_t at(int col) const {
-    const double v = value[static_cast<size_t>(col)];
-    if (known[static_cast<size_t>(col)] == 0 || std::isnan(v)) return no_class;
+    const double v = value[col];
+    if (known[col] == 0 || std::isnan(v)) return no_class;
     if (v != std::floor(v) || std::abs(v) > 2e9)
       throw InputError({path, 0, "row " + std::to_string(row) + ", column " + std::to_string(col)},
                        "the value is " + text(v) + ", expected a whole number that names a class");

@@ -1,4 +1,4 @@
-// libcore/io/class_raster_gdal.hpp
+// libcore/io/class_raster_gdal.hpp: public
 // Rasters of classes (ground, land cover): whole numbers that are looked up, never interpolated.
 // in:    any GDAL raster with one band of whole numbers, north-up, in the CRS of the terrain
 // out:   the value under the centre of each cell of a TRN

@@ -250,21 +250,21 @@ void append_part(const OGRGeometry& part, std::int64_t feature, const Where& whe
 void set_heights(const std::vector<double>& heights, Polylines& lines) {
   for (std::size_t l = 0; l < heights.size(); ++l)
     for (int i = lines.begin[l]; i < lines.begin[l + 1]; ++i)
-      lines.points[static_cast<std::size_t>(i)].z() = heights[l];
+      lines.points[i].z() = heights[l];
 }
 
 // What files write where they know no height is no height, whatever its unit.
 void check_known(const Polylines& lines, const LayerChoice& choice, const OpenLayer& source,
                  const std::string& from) {
   for (int l = 0; l < lines.n_lines(); ++l)
-    for (int i = lines.begin[static_cast<std::size_t>(l)];
-         i < lines.begin[static_cast<std::size_t>(l) + 1]; ++i) {
-      const Vec3& point = lines.points[static_cast<std::size_t>(i)];
+    for (int i = lines.begin[l];
+         i < lines.begin[l + 1]; ++i) {
+      const Vec3& point = lines.points[i];
       if (!is_usual_nodata(point.z())) continue;
       const std::string value = text(point.z());
       throw InputError({choice.path, 0,
                         "layer " + source.name + ", feature " +
-                            std::to_string(lines.feature[static_cast<std::size_t>(l)]) + " (" +
+                            std::to_string(lines.feature[l]) + " (" +
                             text(point.x(), 10) + ", " + text(point.y(), 10) + ")"},
                        "the elevation is " + value + ", which stands for an unknown one",
                        from == "Z"
@@ -281,7 +281,7 @@ void check_same_elevation(const RawLines& raw, const std::vector<double>& by_fie
   const std::string& name = field.name;
   const bool is_called_z = lower(name) == "z";
   for (std::size_t l = 0; l < by_field.size(); ++l) {
-    const double z = raw.lines.points[static_cast<std::size_t>(raw.lines.begin[l])].z();
+    const double z = raw.lines.points[raw.lines.begin[l]].z();
     if (!std::isfinite(z) || !differ(z, by_field[l])) continue;
     throw InputError(where,
                      "feature " + std::to_string(raw.lines.feature[l]) + " has Z " + text(z, 8) +
@@ -371,8 +371,8 @@ std::string remark_on_z(const RawLines& raw) {
 HeightRange heights_of(const Polylines& lines) {
   HeightRange range{lines.points.front().z(), lines.points.front().z(), -1};
   for (int l = 0; l < lines.n_lines(); ++l) {
-    const auto begin = static_cast<std::size_t>(lines.begin[static_cast<std::size_t>(l)]);
-    const auto end = static_cast<std::size_t>(lines.begin[static_cast<std::size_t>(l) + 1]);
+    const auto begin = static_cast<std::size_t>(lines.begin[l]);
+    const auto end = static_cast<std::size_t>(lines.begin[l + 1]);
     for (std::size_t i = begin; i < end; ++i) {
       const double z = lines.points[i].z();
       range.low = std::min(range.low, z);
@@ -413,7 +413,7 @@ Polylines read_contour_lines(const ContourSources& sources, OpenLayer& source,
       throw InputError(
           where,
           "feature " +
-              std::to_string(raw.lines.feature[static_cast<std::size_t>(z.first_sloping)]) +
+              std::to_string(raw.lines.feature[z.first_sloping]) +
               " changes its height along the line, expected contours",
           "give such lines as --breaklines, or choose a field with --elevation-field");
     if (reads_field) check_same_elevation(raw, values.values(), *field, where);

@@ -1,3 +1,4 @@
+// libcore/io/contour_layer_gdal.hpp
 // The layers of a vector source that are read, and their parts of one shape.
 // in:    a source and what it is read for
 // out:   layers chosen by name or by shape; a call a part. Messages name file, layer and feature

@@ -1,4 +1,4 @@
-// libcore/io/contours_gdal.hpp
+// libcore/io/contours_gdal.hpp: public
 // Contour maps from any vector source that OGR reads (GeoPackage, Shapefile, GeoJSON, GML, DXF
 // ...), with breaklines, spot heights and a boundary; all in one projected CRS in metres.
 #pragma once

@@ -1,4 +1,4 @@
-// libcore/io/crs_gdal.hpp
+// libcore/io/crs_gdal.hpp: public
 // Coordinate reference systems: names, parts and comparison of plans and heights.
 #pragma once
 

@@ -1,4 +1,4 @@
-// libcore/io/crs_operation_gdal.hpp
+// libcore/io/crs_operation_gdal.hpp: public
 // The one coordinate operation by which points are taken from a system to another.
 // in:    two systems, and the part of the map that is taken
 // out:   the best operation that this machine can carry out, with its name and accuracy; never one

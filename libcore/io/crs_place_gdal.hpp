@@ -1,4 +1,4 @@
-// libcore/io/crs_place_gdal.hpp
+// libcore/io/crs_place_gdal.hpp: public
 // Whether coordinates can be what their system says: inside its area of use, with x to the east and
 // y to the north, metres that are metres; and what they look like where they cannot.
 // in:    a system, the extent of what was read, the system that is computed in

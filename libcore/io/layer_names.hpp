@@ -1,3 +1,4 @@
+// libcore/io/layer_names.hpp
 // Names of layers as people write them: several parted by commas, with * and ? for any letters.
 #pragma once
 

@@ -1,3 +1,4 @@
+// libcore/io/layer_reading.hpp
 // What was taken from a vector source, for people and for programs.
 #pragma once
 

@@ -1,3 +1,4 @@
+// libcore/io/layer_shapes_gdal.hpp
 // Which geometries are lines, points or areas.
 #pragma once
 

@@ -1,3 +1,4 @@
+// libcore/io/point_table.hpp
 // Points in a text file: a row a point, columns parted by commas, semicolons, tabs, bars or blanks,
 // with or without a line of names.
 // in:    the text of a CSV or XYZ file

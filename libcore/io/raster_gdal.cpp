@@ -392,7 +392,7 @@ void DemFile::Impl::shift_heights(int row, int n_rows, int col, int n_cols,
                                   double* elevation) const {
   const auto n = static_cast<std::size_t>(n_cols);
   std::vector<double> x(n), y(n);
-  for (int c = 0; c < n_cols; ++c) x[static_cast<std::size_t>(c)] = frame.x(col + c);
+  for (int c = 0; c < n_cols; ++c) x[c] = frame.x(col + c);
   for (int r = 0; r < n_rows; ++r) {
     std::fill(y.begin(), y.end(), frame.y(row + r));
     to_vertical->apply(n, x.data(), y.data(), elevation + static_cast<std::size_t>(r) * n);

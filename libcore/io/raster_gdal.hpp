@@ -1,4 +1,4 @@
-// libcore/io/raster_gdal.hpp
+// libcore/io/raster_gdal.hpp: public
 // Elevation rasters: any GDAL raster read as rows of node elevations, the TRN read and written.
 // in:    single-band rasters, north-up, square cells, projected in metres
 // out:   Trn; GeoTIFF with AREA_OR_POINT=Point

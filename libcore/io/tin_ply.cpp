@@ -297,9 +297,9 @@ void make_relative(const Header& header, Tin& tin) {
 void turn_clockwise_triangles(Tin& tin) {
   for (auto& [a, b, c] : tin.triangles) {
     const Vec3 u =
-        tin.points[static_cast<std::size_t>(b)] - tin.points[static_cast<std::size_t>(a)];
+        tin.points[b] - tin.points[a];
     const Vec3 v =
-        tin.points[static_cast<std::size_t>(c)] - tin.points[static_cast<std::size_t>(a)];
+        tin.points[c] - tin.points[a];
     if (u.x() * v.y() - u.y() * v.x() < 0) std::swap(b, c);
   }
 }

@@ -1,4 +1,4 @@
-// libcore/io/tin_ply.hpp
+// libcore/io/tin_ply.hpp: public
 // TIN as binary PLY: what talus-tin writes and talus-trn reads; opens in MeshLab, ParaView and as a
 // mesh layer of QGIS. Coordinates in the file are those of the map (double), so that a viewer sets
 // it in its place; the CRS and the origin stand in comments:

@@ -1,3 +1,4 @@
+// libcore/io/vector_dataset_gdal.hpp
 // Opens any vector source by the name that people give it: archives are looked into, tables of
 // points are read as a layer.
 #pragma once

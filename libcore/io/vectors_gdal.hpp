@@ -1,4 +1,4 @@
-// libcore/io/vectors_gdal.hpp
+// libcore/io/vectors_gdal.hpp: public
 // Areas, lines and points from any vector source that OGR reads, in map coordinates of a wanted
 // CRS.
 #pragma once

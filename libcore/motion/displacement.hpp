@@ -1,4 +1,4 @@
-// libcore/motion/displacement.hpp
+// libcore/motion/displacement.hpp: public
 // Displacement of a block's points by its 12 degrees of freedom, its mass and elastic matrices.
 // paper: Zhang et al. 2018, Eq. (1)-(3); theory 1.2-1.5
 //

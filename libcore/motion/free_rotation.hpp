@@ -1,4 +1,4 @@
-// libcore/motion/free_rotation.hpp
+// libcore/motion/free_rotation.hpp: public
 // Attitude of a rigid body that spins freely, by the cheapest of its exact forms.
 // theory 1.10 (angular momentum kept to rounding)
 #pragma once

@@ -62,7 +62,7 @@ Thetas thetas(const FreeSpin& s, double v) {
   t.one = s.terms[0].odd_signed * odd.im;
   t.two = s.terms[0].odd * odd.re;
   for (int n = 1; n < s.n_terms; ++n, even = even * twice) {
-    const FreeSpin::Term& term = s.terms[static_cast<std::size_t>(n)];
+    const FreeSpin::Term& term = s.terms[n];
     odd = odd * twice;
     t.one += term.odd_signed * odd.im;
     t.two += term.odd * odd.re;
@@ -84,7 +84,7 @@ void set_series(double q, double p, FreeSpin& s) {
     const double odd = below * q_n * q_n, even = 2 * below * q_n;
     const double less = below * p_n, more = odd / p_n;
     if (s.n_terms > 1 && less < 1e-17) return;
-    s.terms[static_cast<std::size_t>(s.n_terms)] = {
+    s.terms[s.n_terms] = {
         odd, sign * odd, even, sign * even, sign * (less + more), sign * (less - more)};
     below = odd;
     q_n *= q;

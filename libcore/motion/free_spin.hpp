@@ -1,4 +1,4 @@
-// libcore/motion/free_spin.hpp
+// libcore/motion/free_spin.hpp: public
 // Free spin of a rigid body in closed form: the attitude at any time, at a price that neither the
 // time nor the turns in between enter.
 // in:    attitude, angular momentum, principal moments at time 0

@@ -1,4 +1,4 @@
-// libcore/motion/pose.hpp
+// libcore/motion/pose.hpp: public
 // Where a body is: its centroid and the rotation from body axes to local axes.
 #pragma once
 

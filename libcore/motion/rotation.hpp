@@ -1,4 +1,4 @@
-// libcore/motion/rotation.hpp
+// libcore/motion/rotation.hpp: public
 // Finite rotation, and what free spin is made of: series, symmetry, momentum.
 // theory 1.9 (no volume growth), 1.10 (angular momentum kept to rounding)
 #pragma once

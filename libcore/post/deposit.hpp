@@ -1,4 +1,4 @@
-// libcore/post/deposit.hpp
+// libcore/post/deposit.hpp: public
 // Where the blocks are when a run ends: at rest, gone, or still moving, and the volume of each.
 // in:    the last frame and the blocks of a run
 // out:   fates and their balance, footprints, volume over each cell

@@ -1,4 +1,4 @@
-// libcore/post/outline.hpp
+// libcore/post/outline.hpp: public
 // The outline of a set of cells, as polygons with holes.
 #pragma once
 

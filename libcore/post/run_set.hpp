@@ -1,4 +1,4 @@
-// libcore/post/run_set.hpp
+// libcore/post/run_set.hpp: public
 // Runs that are evaluated together: what must agree, in which order they stand, how sound they are.
 // in:    run files in any order
 // out:   their order by run id, the sum of their health, tags for every output

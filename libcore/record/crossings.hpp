@@ -1,4 +1,4 @@
-// libcore/record/crossings.hpp
+// libcore/record/crossings.hpp: public
 // When, where and how blocks cross lines: fences and virtual lines that stop nothing.
 // in:    the solver's segments; polylines with a height at each point
 // out:   one row per block and line, exact in time for the motion between two steps

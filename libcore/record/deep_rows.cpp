@@ -56,8 +56,8 @@ void set_partner(const Scene& scene, int partner, DeepRow& row) {
   const int panel = panel_number(scene, fixed_of_name(partner));
   row.partner = panel < 0 ? DeepRow::fixed_body : DeepRow::fence;
   if (panel < 0) return;
-  row.line = scene.fixed.panels[static_cast<size_t>(panel)].line;
-  row.panel = scene.fixed.panels[static_cast<size_t>(panel)].number;
+  row.line = scene.fixed.panels[panel].line;
+  row.panel = scene.fixed.panels[panel].number;
 }
 
 bool met_fence(const State& state, std::span<const Crossing> crossings, const DeepRow& row) {
@@ -95,8 +95,8 @@ std::vector<DeepRow> deep_rows(const Scene& scene, const State& state,
   const double total = std::accumulate(mass.begin(), mass.end(), 0.0),
                toe = distance_of_toe(distance, mass);
   for (DeepRow& row : rows) {
-    row.mass_share = mass[static_cast<size_t>(row.block)] / total;
-    row.ends_in_toe = distance[static_cast<size_t>(row.block)] >= toe ? 1 : 0;
+    row.mass_share = mass[row.block] / total;
+    row.ends_in_toe = distance[row.block] >= toe ? 1 : 0;
   }
   return rows;
 }

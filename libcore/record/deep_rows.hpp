@@ -1,4 +1,4 @@
-// libcore/record/deep_rows.hpp
+// libcore/record/deep_rows.hpp: public
 // Blocks that were deep in something, weighed: their mass, and whether they moved what maps and
 // fences are read for.
 // in:    State::deep

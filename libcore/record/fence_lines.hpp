@@ -1,4 +1,4 @@
-// libcore/record/fence_lines.hpp
+// libcore/record/fence_lines.hpp: public
 // From the corners of a [fence.*] to the lines that a run watches: posts on the ground, names, and
 // fences that lie on one another.
 #pragma once

@@ -1,4 +1,4 @@
-// libcore/record/frames.hpp
+// libcore/record/frames.hpp: public
 // States of all blocks at equal intervals of time, cut out of the solver's segments.
 // in:    segments, in the order of time for each block
 // out:   frames; they change nothing in the run, whatever their interval

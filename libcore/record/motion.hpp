@@ -1,4 +1,4 @@
-// libcore/record/motion.hpp
+// libcore/record/motion.hpp: public
 // A block's motion at any moment of a segment, and what is recorded of it.
 // in:    segments of the solver (step/work.hpp), pieces of constant acceleration of the centroid
 // out:   motion, energies; the same numbers for frames, passages and crossings

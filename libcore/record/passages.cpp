@@ -77,8 +77,8 @@ PassageRecorder start_passages(const Scene& scene, const PassageGrid& grid, bool
   recorder.frame.cell_size = grid.cell_size;
   recorder.frame.node0 = grid.corner;
   recorder.by_centroid = by_centroid;
-  recorder.trackers.resize(static_cast<std::size_t>(n_blocks(scene)));
-  recorder.last_extents.resize(static_cast<std::size_t>(n_blocks(scene)));
+  recorder.trackers.resize(n_blocks(scene));
+  recorder.last_extents.resize(n_blocks(scene));
   return recorder;
 }
 

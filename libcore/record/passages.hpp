@@ -1,4 +1,4 @@
-// libcore/record/passages.hpp
+// libcore/record/passages.hpp: public
 // Which cells each block passed and how: one row per block and cell, kept up between all steps.
 // in:    the solver's segments; the terrain; a grid of cells (the TRN's, or one of its own)
 // out:   rows whose number grows with the cells touched, not with steps; frames do not enter

@@ -1,4 +1,4 @@
-// libcore/report/map_figures.hpp
+// libcore/report/map_figures.hpp: public
 // The pictures of the map layers in a report, each with its caption and legend.
 // in:    what talus-maps wrote beside each raster
 // out:   HTML, in the order of the table of layers (post/maps/map_layers.hpp)

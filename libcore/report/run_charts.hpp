@@ -1,4 +1,4 @@
-// libcore/report/run_charts.hpp
+// libcore/report/run_charts.hpp: public
 // How runs went over time, as charts: speeds and ways, health, where the energy went.
 #pragma once
 

@@ -1,4 +1,4 @@
-// libcore/report/run_health.hpp
+// libcore/report/run_health.hpp: public
 // Whether runs kept to their limits, and what went on inside of them, as tables of a page.
 // in:    checks of the registry, health of the run files
 // out:   HTML

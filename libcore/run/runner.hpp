@@ -1,4 +1,4 @@
-// libcore/run/runner.hpp
+// libcore/run/runner.hpp: public
 // A run from its start, or from a checkpoint, to its end: steps, and what is recorded of them.
 // in:    a Scene, lines, limits
 // out:   a RunFile, complete at any moment

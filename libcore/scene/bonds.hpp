@@ -1,4 +1,4 @@
-// libcore/scene/bonds.hpp
+// libcore/scene/bonds.hpp: public
 // Bonds that hold joint faces together until they break, and the class of the faces that touch.
 // in:    joint classes of the scene; who lies against whom before anything moves
 // theory 1.7 (bonded area, brittle), docs/design-notes.md

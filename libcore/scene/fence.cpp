@@ -28,16 +28,16 @@ Vec3 left_of(const Vec3& along) { return Vec3(-along.y(), along.x(), 0).normaliz
 double horizontal(const Vec3& v) { return std::hypot(v.x(), v.y()); }
 
 const FencePanel& panel_of(const Scene& scene, int body) {
-  return scene.fixed.panels[static_cast<size_t>(panel_number(scene, body))];
+  return scene.fixed.panels[panel_number(scene, body)];
 }
 
 Vec3 spin_of(const Scene& scene, int block, const Motion& m) {
   return angular_velocity(m.pose.attitude, m.angular_momentum,
-                          scene.blocks.inertia[static_cast<size_t>(block)]);
+                          scene.blocks.inertia[block]);
 }
 
 double translational(const Scene& scene, int block, const Motion& m) {
-  return 0.5 * scene.blocks.mass[static_cast<size_t>(block)] * m.velocity.squaredNorm();
+  return 0.5 * scene.blocks.mass[block] * m.velocity.squaredNorm();
 }
 double rotational(const Scene& scene, int block, const Motion& m) {
   return 0.5 * spin_of(scene, block, m).dot(m.angular_momentum);
@@ -107,13 +107,13 @@ void add_fence(Scene& scene, const StandingFence& fence) {
     if (std::isfinite(fence.capacity)) yielding.force = fence.capacity / fence.deflection;
     const int body = add_fixed_body(scene, plates[i], contact_class);
     panel.yielding = let_yield(scene, body, yielding);
-    fixed.panel[static_cast<size_t>(body)] = static_cast<int>(fixed.panels.size());
+    fixed.panel[body] = static_cast<int>(fixed.panels.size());
     fixed.panels.push_back(panel);
   }
 }
 
 int panel_number(const Scene& scene, int body) {
-  return scene.fixed.panel[static_cast<size_t>(body)];
+  return scene.fixed.panel[body];
 }
 
 void note_hit(const Scene& scene, int block, int body, const Vec3& point, double time,
@@ -127,7 +127,7 @@ void note_hit(const Scene& scene, int block, int body, const Vec3& point, double
 
 void note_work(const Scene& scene, std::span<const YieldPush> pushes, FenceState& fence) {
   for (const YieldPush& push : pushes) {
-    const int body = scene.fixed.yieldings[static_cast<size_t>(push.yielding)].body;
+    const int body = scene.fixed.yieldings[push.yielding].body;
     if (panel_number(scene, body) < 0) continue;
     if (FenceHit* hit = find_hit(fence, push.block, panel_of(scene, body))) hit->work += push.work;
   }

@@ -1,4 +1,4 @@
-// libcore/scene/fence.hpp
+// libcore/scene/fence.hpp: public
 // Fences that stand in the way: panels between posts, rigid, or giving way at a constant force
 // until their energy is used up.
 // in:    posts on the ground, height, capacity and deflection; contacts of blocks with panels

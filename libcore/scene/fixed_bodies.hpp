@@ -1,4 +1,4 @@
-// libcore/scene/fixed_bodies.hpp
+// libcore/scene/fixed_bodies.hpp: public
 // Bodies without mass that no block moves: panels of fences, prisms of a blocky slope. Some of them
 // give way (Yielding). Blocks meet them through the same search as other blocks; for the solver of
 // an island they are the ground.

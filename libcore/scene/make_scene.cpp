@@ -65,7 +65,7 @@ void add_blocks(Scene& scene, const BlockSet& set, std::span<const Material> mat
     check_material(materials[m],
                    m < set.material_names.size() ? set.material_names[m] : std::to_string(m));
   for (int b = 0; b < n_blocks(set); ++b) {
-    const auto m = static_cast<std::size_t>(set.material[static_cast<std::size_t>(b)]);
+    const auto m = static_cast<std::size_t>(set.material[b]);
     TALUS_ASSERT(m < materials.size());
     add_block(scene, set, b, materials[m]);
   }

@@ -1,4 +1,4 @@
-// libcore/scene/make_scene.hpp
+// libcore/scene/make_scene.hpp: public
 // From a block set and a ground to a Scene: masses, principal axes, surfaces in body axes.
 // theory 1.3, 1.4
 #pragma once

@@ -57,7 +57,7 @@ struct BlockLives {  // clang-format off
 [[nodiscard]] BlockLives start_lives(const std::vector<Pose>& rest);
 
 [[nodiscard]] inline Phase phase_of(const BlockLives& lives, int b) {
-  return lives.phase[static_cast<std::size_t>(b)];
+  return lives.phase[b];
 }
 [[nodiscard]] inline bool takes_part(const BlockLives& lives, int b) {
   return takes_part(phase_of(lives, b));

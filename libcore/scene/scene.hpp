@@ -1,4 +1,4 @@
-// libcore/scene/scene.hpp
+// libcore/scene/scene.hpp: public
 // What a run is made of, read once and const afterwards: ground, blocks at rest, loads, settings.
 // in:    plain data; make_scene() in scene/make_scene.hpp fills it from a block set
 // paper: Zhang et al. 2018, Sect. 2; docs/theory.md

@@ -1,4 +1,4 @@
-// libcore/scene/site_fence.hpp
+// libcore/scene/site_fence.hpp: public
 // From a [fence.*] of the site file and its posts on the terrain to a fence that stands in a run.
 #pragma once
 

@@ -49,7 +49,7 @@ JointClasses joint_classes(const Site& site, const BlockSet& blocks,
                            const std::vector<GroundClass>& rock) {
   JointClasses classes;
   for (const int material : blocks.material)
-    classes.of_block.push_back(rock[static_cast<std::size_t>(material)]);
+    classes.of_block.push_back(rock[material]);
   for (const std::string& set : blocks.joint_set_names) {
     GroundClass& made = classes.of_set.emplace_back();
     made.friction = -1;

@@ -1,4 +1,4 @@
-// libcore/scene/state.hpp
+// libcore/scene/state.hpp: public
 // All that must be saved to resume a run, bit for bit: motion of the blocks, contact memory, time.
 // filled by: start() in step/step.hpp; changed by step() alone
 #pragma once

@@ -15,7 +15,7 @@ using std::size_t;
 bool has_axis(const Yielding& yielding) { return !yielding.axis.isZero(0); }
 
 int yielding_number(const Scene& scene, int body) {
-  return scene.fixed.yielding[static_cast<size_t>(body)];
+  return scene.fixed.yielding[body];
 }
 
 int hardest_pusher(std::span<const YieldPush> pushes, int yielding) {
@@ -71,7 +71,7 @@ int add_fixed_body(Scene& scene, const Polyhedron& body, int contact_class) {
 int let_yield(Scene& scene, int body, Yielding how) {
   const int number = static_cast<int>(scene.fixed.yieldings.size());
   how.body = body;
-  scene.fixed.yielding[static_cast<size_t>(body)] = number;
+  scene.fixed.yielding[body] = number;
   scene.fixed.yieldings.push_back(how);
   return number;
 }
@@ -84,28 +84,28 @@ YieldingState start_yielding(const Scene& scene) {
 
 bool stands(const Scene& scene, const State& state, int body) {
   const int y = yielding_number(scene, body);
-  return y < 0 || state.yielding.met[static_cast<size_t>(y)].broken_by < 0;
+  return y < 0 || state.yielding.met[y].broken_by < 0;
 }
 
 Pose fixed_pose(const Scene& scene, const State& state, int body) {
-  Pose pose = scene.fixed.pose[static_cast<size_t>(body)];
+  Pose pose = scene.fixed.pose[body];
   if (const int y = yielding_number(scene, body); y >= 0) {
-    const Yielding& yielding = scene.fixed.yieldings[static_cast<size_t>(y)];
-    const Yielded& met = state.yielding.met[static_cast<size_t>(y)];
+    const Yielding& yielding = scene.fixed.yieldings[y];
+    const Yielded& met = state.yielding.met[y];
     pose.position += has_axis(yielding) ? Vec3(met.deflection * yielding.axis) : met.shift;
   }
   return pose;
 }
 
 const GroundClass& fixed_class(const Scene& scene, int body) {
-  const int contact_class = scene.fixed.contact_class[static_cast<size_t>(body)];
-  return scene.fixed.classes[static_cast<size_t>(contact_class)];
+  const int contact_class = scene.fixed.contact_class[body];
+  return scene.fixed.classes[contact_class];
 }
 
 const Yielding* giving_way(const Scene& scene, int body, const Vec3& normal) {
   const int y = yielding_number(scene, body);
   if (y < 0) return nullptr;
-  const Yielding& yielding = scene.fixed.yieldings[static_cast<size_t>(y)];
+  const Yielding& yielding = scene.fixed.yieldings[y];
   const bool is_across =
       !has_axis(yielding) || std::abs(normal.dot(yielding.axis)) > law::least_yield_cosine;
   return std::isfinite(yielding.force) && is_across ? &yielding : nullptr;
@@ -153,10 +153,10 @@ double time_to_first_break(const Scene& scene, const YieldingState& yielding,
 
 void push_bodies(const Scene& scene, std::span<const YieldPush> pushes, double time, State& state) {
   const auto yielding_of = [&](const YieldPush& push) -> const Yielding& {
-    return scene.fixed.yieldings[static_cast<size_t>(push.yielding)];
+    return scene.fixed.yieldings[push.yielding];
   };
   const auto met_by = [&](const YieldPush& push) -> Yielded& {
-    return state.yielding.met[static_cast<size_t>(push.yielding)];
+    return state.yielding.met[push.yielding];
   };
   for (const YieldPush& push : pushes) {
     met_by(push).work += push.work;

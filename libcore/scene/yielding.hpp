@@ -1,4 +1,4 @@
-// libcore/scene/yielding.hpp
+// libcore/scene/yielding.hpp: public
 // Fixed bodies in a run: what they are, where they are now, and how those that give way do so.
 // in:    the scene's fixed bodies; what contacts did to them
 // out:   deflection, work and breaking of bodies that give way

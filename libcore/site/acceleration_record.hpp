@@ -1,4 +1,4 @@
-// libcore/site/acceleration_record.hpp
+// libcore/site/acceleration_record.hpp: public
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// libcore/site/base_motion.hpp
+// libcore/site/base_motion.hpp: public
 // How the ground shakes: a record of accelerations, from a CSV or a harmonic one.
 // theory 1.5: the terrain's frame, body force rho (g - a_base)
 #pragma once

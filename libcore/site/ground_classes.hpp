@@ -1,4 +1,4 @@
-// libcore/site/ground_classes.hpp
+// libcore/site/ground_classes.hpp: public
 // Which cell of the terrain has which class of ground: the sections [ground.*] with their areas.
 #pragma once
 

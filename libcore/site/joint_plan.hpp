@@ -1,4 +1,4 @@
-// libcore/site/joint_plan.hpp
+// libcore/site/joint_plan.hpp: public
 // From the sections of the site file to what cutting takes: joint sets, source options, limits.
 #pragma once
 

@@ -14,14 +14,14 @@ constexpr const char* full_asked_for = "the full plan was asked for";
 double height_of(const BlockSet& blocks, std::size_t b) {
   double low = 1e300, high = -1e300;
   for (int v = blocks.block_vertex_begin[b]; v < blocks.block_vertex_begin[b + 1]; ++v) {
-    low = std::min(low, blocks.vertices[static_cast<std::size_t>(v)].z());
-    high = std::max(high, blocks.vertices[static_cast<std::size_t>(v)].z());
+    low = std::min(low, blocks.vertices[v].z());
+    high = std::max(high, blocks.vertices[v].z());
   }
   return high - low;
 }
 
 const MaterialSettings* material_of(const Site& site, const BlockSet& blocks, std::size_t b) {
-  const std::string& name = blocks.material_names[static_cast<std::size_t>(blocks.material[b])];
+  const std::string& name = blocks.material_names[blocks.material[b]];
   for (const MaterialSettings& material : site.materials)
     if (material.name == name) return &material;
   return nullptr;

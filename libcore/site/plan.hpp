@@ -1,4 +1,4 @@
-// libcore/site/plan.hpp
+// libcore/site/plan.hpp: public
 // The scene plan: what a run has to compute and what it can leave out, with the reason.
 // in:    the site file, the blocks, the terrain
 // out:   decisions; talus-dda --plan prints them, --plan=full keeps on what a scene can do without

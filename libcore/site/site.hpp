@@ -1,4 +1,4 @@
-// libcore/site/site.hpp
+// libcore/site/site.hpp: public
 // The site file as plain structs: one struct a section, one field a key, its default beside it.
 // Every tool reads the whole file and takes its own sections. A new key is a field here and a row
 // in the table of site_keys.cpp; docs/site-file.md holds that table, and a test compares them.

@@ -17,14 +17,14 @@ void erase_value(std::vector<int>& sorted, int value) {
 
 void make_graph(int n, std::span<const std::pair<int, int>> edges,
                 std::vector<std::vector<int>>& neighbours) {
-  if (neighbours.size() < static_cast<size_t>(n)) neighbours.resize(static_cast<size_t>(n));
-  for (int i = 0; i < n; ++i) neighbours[static_cast<size_t>(i)].clear();
+  if (neighbours.size() < static_cast<size_t>(n)) neighbours.resize(n);
+  for (int i = 0; i < n; ++i) neighbours[i].clear();
   for (const auto& [a, b] : edges) {
-    neighbours[static_cast<size_t>(a)].push_back(b);
-    neighbours[static_cast<size_t>(b)].push_back(a);
+    neighbours[a].push_back(b);
+    neighbours[b].push_back(a);
   }
   for (int i = 0; i < n; ++i) {
-    std::vector<int>& list = neighbours[static_cast<size_t>(i)];
+    std::vector<int>& list = neighbours[i];
     std::sort(list.begin(), list.end());
     list.erase(std::unique(list.begin(), list.end()), list.end());
   }
@@ -35,9 +35,9 @@ int next_unknown(int n, const std::vector<int>& place,
                  const std::vector<std::vector<int>>& neighbours) {
   int best = -1;
   for (int i = 0; i < n; ++i) {
-    if (place[static_cast<size_t>(i)] >= 0) continue;
+    if (place[i] >= 0) continue;
     if (best < 0 ||
-        neighbours[static_cast<size_t>(i)].size() < neighbours[static_cast<size_t>(best)].size())
+        neighbours[i].size() < neighbours[best].size())
       best = i;
   }
   return best;
@@ -45,9 +45,9 @@ int next_unknown(int n, const std::vector<int>& place,
 
 // Takes `gone` out of the graph: its neighbours become neighbours of each other.
 void eliminate(int gone, std::vector<std::vector<int>>& neighbours, std::vector<int>& merged) {
-  const std::vector<int>& around = neighbours[static_cast<size_t>(gone)];
+  const std::vector<int>& around = neighbours[gone];
   for (const int i : around) {
-    std::vector<int>& own = neighbours[static_cast<size_t>(i)];
+    std::vector<int>& own = neighbours[i];
     merged.clear();
     std::set_union(own.begin(), own.end(), around.begin(), around.end(),
                    std::back_inserter(merged));
@@ -64,30 +64,30 @@ void analyse_pattern(int n, std::span<const std::pair<int, int>> edges, BlockPat
   pattern.n = n;
   pattern.edges.assign(edges.begin(), edges.end());
   pattern.order.clear();
-  pattern.place.assign(static_cast<size_t>(n), -1);
+  pattern.place.assign(n, -1);
   pattern.column_begin.assign(1, 0);
   pattern.row.clear();
   make_graph(n, edges, pattern.neighbours);
   for (int j = 0; j < n; ++j) {
     const int i = next_unknown(n, pattern.place, pattern.neighbours);
-    pattern.place[static_cast<size_t>(i)] = j;
+    pattern.place[i] = j;
     pattern.order.push_back(i);
-    const std::vector<int>& below = pattern.neighbours[static_cast<size_t>(i)];
+    const std::vector<int>& below = pattern.neighbours[i];
     // Numbers of unknowns; they become places when all of these are known.
     pattern.row.insert(pattern.row.end(), below.begin(), below.end());
     pattern.column_begin.push_back(static_cast<int>(pattern.row.size()));
     eliminate(i, pattern.neighbours, pattern.merged);
   }
-  for (int& row : pattern.row) row = pattern.place[static_cast<size_t>(row)];
+  for (int& row : pattern.row) row = pattern.place[row];
   for (int j = 0; j < n; ++j)
-    std::sort(pattern.row.begin() + pattern.column_begin[static_cast<size_t>(j)],
-              pattern.row.begin() + pattern.column_begin[static_cast<size_t>(j) + 1]);
+    std::sort(pattern.row.begin() + pattern.column_begin[j],
+              pattern.row.begin() + pattern.column_begin[j + 1]);
 }
 
 int entry_of(const BlockPattern& pattern, int row_place, int column_place) {
-  const auto begin = pattern.row.begin() + pattern.column_begin[static_cast<size_t>(column_place)];
+  const auto begin = pattern.row.begin() + pattern.column_begin[column_place];
   const auto end =
-      pattern.row.begin() + pattern.column_begin[static_cast<size_t>(column_place) + 1];
+      pattern.row.begin() + pattern.column_begin[column_place + 1];
   return static_cast<int>(std::lower_bound(begin, end, row_place) - pattern.row.begin());
 }
 
@@ -99,7 +99,7 @@ void invert(Eigen::Matrix<double, Dof, Dof>& matrix) {
     int pivot = k;
     for (int j = k + 1; j < Dof; ++j)
       if (std::abs(matrix(k, j)) > std::abs(matrix(k, pivot))) pivot = j;
-    swapped[static_cast<size_t>(k)] = pivot;
+    swapped[k] = pivot;
     if (pivot != k) matrix.col(k).swap(matrix.col(pivot));
     const double per_pivot = 1 / matrix(k, k);
     matrix(k, k) = 1;
@@ -112,7 +112,7 @@ void invert(Eigen::Matrix<double, Dof, Dof>& matrix) {
     }
   }
   for (int k = Dof; k-- > 0;) {
-    const int pivot = swapped[static_cast<size_t>(k)];
+    const int pivot = swapped[k];
     if (pivot != k) matrix.row(k).swap(matrix.row(pivot));
   }
 }
@@ -120,7 +120,7 @@ void invert(Eigen::Matrix<double, Dof, Dof>& matrix) {
 template <int Dof>
 void clear_matrix(BlockLu<Dof>& matrix) {
   using Mat = typename BlockLu<Dof>::Mat;
-  matrix.diagonal.assign(static_cast<size_t>(matrix.pattern.n), Mat::Zero());
+  matrix.diagonal.assign(matrix.pattern.n, Mat::Zero());
   matrix.lower.assign(matrix.pattern.row.size(), Mat::Zero());
   matrix.upper.assign(matrix.pattern.row.size(), Mat::Zero());
 }
@@ -128,8 +128,8 @@ void clear_matrix(BlockLu<Dof>& matrix) {
 template <int Dof>
 void add_blocks(BlockLu<Dof>& matrix, int i, int j, const Eigen::Matrix<double, Dof, Dof>& ij,
                 const Eigen::Matrix<double, Dof, Dof>& ji) {
-  const int pi = matrix.pattern.place[static_cast<size_t>(i)];
-  const int pj = matrix.pattern.place[static_cast<size_t>(j)];
+  const int pi = matrix.pattern.place[i];
+  const int pj = matrix.pattern.place[j];
   const auto entry =
       static_cast<size_t>(entry_of(matrix.pattern, std::max(pi, pj), std::min(pi, pj)));
   matrix.lower[entry] += pi > pj ? ij : ji;
@@ -162,13 +162,13 @@ void subtract_column(BlockLu<Dof>& matrix, int begin, int end) {
 template <int Dof>
 void factor(BlockLu<Dof>& matrix) {
   const BlockPattern& pattern = matrix.pattern;
-  matrix.inverse.resize(static_cast<size_t>(pattern.n));
+  matrix.inverse.resize(pattern.n);
   for (size_t j = 0; j < matrix.inverse.size(); ++j) {
     matrix.inverse[j] = matrix.diagonal[j];
     invert<Dof>(matrix.inverse[j]);
     const int begin = pattern.column_begin[j], end = pattern.column_begin[j + 1];
     for (int e = begin; e < end; ++e) {
-      auto& lower = matrix.lower[static_cast<size_t>(e)];
+      auto& lower = matrix.lower[e];
       lower = lower.lazyProduct(matrix.inverse[j]).eval();
     }
     subtract_column(matrix, begin, end);
@@ -182,19 +182,19 @@ void solve(BlockLu<Dof>& factored, std::span<const Eigen::Matrix<double, Dof, 1>
   const auto n = static_cast<size_t>(pattern.n);
   auto& y = factored.scratch;
   y.resize(n);
-  for (size_t j = 0; j < n; ++j) y[j] = b[static_cast<size_t>(pattern.order[j])];
+  for (size_t j = 0; j < n; ++j) y[j] = b[pattern.order[j]];
   for (size_t j = 0; j < n; ++j)
     for (int e = pattern.column_begin[j]; e < pattern.column_begin[j + 1]; ++e) {
       const auto ee = static_cast<size_t>(e);
-      y[static_cast<size_t>(pattern.row[ee])].noalias() -= factored.lower[ee].lazyProduct(y[j]);
+      y[pattern.row[ee]].noalias() -= factored.lower[ee].lazyProduct(y[j]);
     }
   for (size_t j = n; j-- > 0;) {
     for (int e = pattern.column_begin[j]; e < pattern.column_begin[j + 1]; ++e) {
       const auto ee = static_cast<size_t>(e);
-      y[j].noalias() -= factored.upper[ee].lazyProduct(y[static_cast<size_t>(pattern.row[ee])]);
+      y[j].noalias() -= factored.upper[ee].lazyProduct(y[pattern.row[ee]]);
     }
     y[j] = factored.inverse[j].lazyProduct(y[j]).eval();
-    x[static_cast<size_t>(pattern.order[j])] = y[j];
+    x[pattern.order[j]] = y[j];
   }
 }
 

@@ -1,4 +1,4 @@
-// libcore/solver/block_lu.hpp
+// libcore/solver/block_lu.hpp: public
 // LU factorisation of a sparse matrix of small dense blocks whose pattern is symmetric, its values
 // need not be: P A P^T = L U. Pivots are chosen within the diagonal blocks.
 // The order is minimum degree on the graph of the blocks; the analysis is kept while the graph

@@ -1,4 +1,4 @@
-// libcore/solver/contact_row.hpp
+// libcore/solver/contact_row.hpp: public
 // A contact made ready for the solve: one struct for a lone block, an impact and an island. The
 // step fills it, contact by contact. What the contact law reads of it is a struct over the number
 // type: the same fields are those of one contact and of an island's lanes (RowGroup in

@@ -1,4 +1,4 @@
-// libcore/solver/flips.hpp
+// libcore/solver/flips.hpp: public
 // Contacts whose state a step changed: opened, closed, or from stick to slip or back.
 #pragma once
 
@@ -20,7 +20,7 @@ class FlipCounter {
     const bool is_kept = memory >= 0;
     n_kept_ += is_kept;
     const ContactState then =
-        is_kept ? static_cast<ContactState>(before_[static_cast<std::size_t>(memory)].state)
+        is_kept ? static_cast<ContactState>(before_[memory].state)
                 : ContactState::open;
     n_flips_ += now != then;
   }

@@ -121,10 +121,10 @@ struct Island {  // clang-format off
 }
 
 [[nodiscard]] inline RowIn<const RowGroup> row_of(const Island& island, int r) {
-  return {island.rows[static_cast<std::size_t>(r / 2)], r % 2};
+  return {island.rows[r / 2], r % 2};
 }
 [[nodiscard]] inline RowIn<RowGroup> row_of(Island& island, int r) {
-  return {island.rows[static_cast<std::size_t>(r / 2)], r % 2};
+  return {island.rows[r / 2], r % 2};
 }
 
 /// The groups of a pair.
@@ -167,9 +167,9 @@ int add_row(const ContactRow& contact, Island& island);
 
 /// m_a m_b / (m_a + m_b); m_a on the ground [kg].
 [[nodiscard]] inline double reduced_mass(const Island& island, const BodyPair& pair) {
-  const double m_a = island.mass[static_cast<std::size_t>(pair.a)](0, 0);
+  const double m_a = island.mass[pair.a](0, 0);
   if (pair.b < 0) return m_a;
-  const double m_b = island.mass[static_cast<std::size_t>(pair.b)](0, 0);
+  const double m_b = island.mass[pair.b](0, 0);
   return m_a * (m_b / (m_a + m_b));
 }
 

@@ -1,4 +1,4 @@
-// libcore/solver/island_groups.hpp
+// libcore/solver/island_groups.hpp: public
 // Which blocks touch each other, directly or through others: union-find over the pairs in contact.
 // The ground, and blocks that stand as fast as the ground, join nobody.
 #pragma once

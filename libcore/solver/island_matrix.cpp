@@ -50,9 +50,9 @@ void list_pairs(const Island& island, IslandMatrix& matrix) {
   for_each([&](size_t i, int) { ++matrix.pair_begin[i]; });
   std::exclusive_scan(matrix.pair_begin.begin(), matrix.pair_begin.end(), matrix.pair_begin.begin(),
                       0);
-  matrix.pairs_of.resize(static_cast<size_t>(matrix.pair_begin.back()));
+  matrix.pairs_of.resize(matrix.pair_begin.back());
   for_each(
-      [&](size_t i, int p) { matrix.pairs_of[static_cast<size_t>(matrix.pair_begin[i]++)] = p; });
+      [&](size_t i, int p) { matrix.pairs_of[matrix.pair_begin[i]++] = p; });
   std::shift_right(matrix.pair_begin.begin(), matrix.pair_begin.end(), 1);
   matrix.pair_begin.front() = 0;
 }
@@ -82,7 +82,7 @@ void add_to_diagonals(const BodyPair& pair, const Packed<6>& W, const Vec3& shif
 void list_coupled(const Island& island, IslandMatrix& matrix) {
   matrix.active.coupled.clear();
   for (const int p : matrix.active.pairs)
-    if (matrix.pair_closed[static_cast<size_t>(p)] && island.pairs[static_cast<size_t>(p)].b >= 0)
+    if (matrix.pair_closed[p] && island.pairs[p].b >= 0)
       matrix.active.coupled.push_back(p);
 }
 
@@ -93,7 +93,7 @@ void read_active(const Island& island, IslandMatrix& matrix) {
   active.others.clear();
   for (const int body : active.bodies.items)
     for (const int p : pairs_of(matrix, static_cast<size_t>(body))) {
-      const BodyPair& pair = island.pairs[static_cast<size_t>(p)];
+      const BodyPair& pair = island.pairs[p];
       const int other = pair.a == body ? pair.b : pair.a;
       const bool both = other >= 0 && active.bodies.contains(other);
       if (both && other < body) continue;  // that one brings the pair
@@ -115,8 +115,8 @@ void prepare_pair(const Island& island, size_t p, IslandMatrix& matrix) {
     matrix.pair_closed[p] = 0;
   }
   matrix.shift[p] = pair.b < 0 ? Vec3(Vec3::Zero())
-                               : Vec3(island.position[static_cast<size_t>(pair.a)] -
-                                      island.position[static_cast<size_t>(pair.b)]);
+                               : Vec3(island.position[pair.a] -
+                                      island.position[pair.b]);
 }
 
 void prepare_matrix(const Island& island, IslandMatrix& matrix) {
@@ -162,7 +162,7 @@ bool sum_pair(Island& island, const BodyPair& pair, Packed<6>& W, Mat6* rest) {
   const std::span<RowGroup> groups = groups_of(island, pair);
   const bool closed = sum_tangents(groups, W, rest);
   if (pair.angular >= 0)
-    add_couple(island.angular[static_cast<size_t>(pair.angular)], groups, W, rest);
+    add_couple(island.angular[pair.angular], groups, W, rest);
   return closed;
 }
 
@@ -215,8 +215,8 @@ void choose_active(const Island& island, std::span<const int> moving, IslandMatr
   for (const int body : moving) {
     bodies.add(body);
     for (const int p : pairs_of(matrix, static_cast<size_t>(body))) {
-      const BodyPair& pair = island.pairs[static_cast<size_t>(p)];
-      if (!matrix.pair_closed[static_cast<size_t>(p)] || pair.b < 0) continue;
+      const BodyPair& pair = island.pairs[p];
+      if (!matrix.pair_closed[p] || pair.b < 0) continue;
       bodies.add(pair.a == body ? pair.b : pair.a);
     }
   }
@@ -274,7 +274,7 @@ void activate_all(const Island& island, IslandMatrix& matrix) {
     multiply(island, matrix, p, q);
     double curvature = 0;
     for (const int body : matrix.active.bodies.items)
-      curvature += dot(p[static_cast<size_t>(body)], q[static_cast<size_t>(body)]);
+      curvature += dot(p[body], q[body]);
     if (!(curvature > 0)) break;
     const auto step = static_cast<float>(rz / curvature);
     double rz_next = 0;
@@ -306,9 +306,9 @@ namespace {
 void sum_blocks(const Island& island, IslandMatrix& matrix) {
   BlockLu<6>& lu = matrix.lu;
   const auto diagonal_of = [&](int body) -> Mat6& {
-    return lu.diagonal[static_cast<size_t>(lu.pattern.place[static_cast<size_t>(body)])];
+    return lu.diagonal[lu.pattern.place[body]];
   };
-  for (int i = 0; i < n_bodies(island); ++i) diagonal_of(i) = island.mass[static_cast<size_t>(i)];
+  for (int i = 0; i < n_bodies(island); ++i) diagonal_of(i) = island.mass[i];
   for (size_t p = 0; p < island.pairs.size(); ++p) {
     if (!matrix.pair_closed[p]) continue;
     const BodyPair& pair = island.pairs[p];

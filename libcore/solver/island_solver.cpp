@@ -34,7 +34,7 @@ struct Solve {
   void prepare_pair(size_t p) {
     const BodyPair& pair = island.pairs[p];
     const double mass = reduced_mass(island, pair), limit = settings.stiffest * mass;
-    const double free_speed = island.free_velocity[static_cast<size_t>(pair.a)].head<3>().norm();
+    const double free_speed = island.free_velocity[pair.a].head<3>().norm();
     for (RowGroup& group : groups_of(island, pair))
       for (int lane = 0; lane < 2; ++lane) {
         inherits |= group.state[lane] != 0;
@@ -93,10 +93,10 @@ struct Solve {
   // changed: few pairs have one, and the bound follows every impulse.
   void evaluate_couples(std::span<const int> pairs, std::span<PairEvaluation> evaluations) {
     for (size_t i = 0; i < pairs.size(); ++i) {
-      const BodyPair& pair = island.pairs[static_cast<size_t>(pairs[i])];
+      const BodyPair& pair = island.pairs[pairs[i]];
       if (pair.angular < 0) continue;
       PairEvaluation& now = evaluations[i];
-      AngularRow& turn = island.angular[static_cast<size_t>(pair.angular)];
+      AngularRow& turn = island.angular[pair.angular];
       talus::evaluate(Vec3(now.motion.tail<3>()), normal_impulses(now.groups), turn);
       for (int k = 0; k < 3; ++k) now.sum[3 + k][0] += turn.couple[k];
       now.changed = true;
@@ -112,9 +112,9 @@ struct Solve {
         const auto p = static_cast<size_t>(some[i]);
         const BodyPair& pair = island.pairs[p];
         now[i].groups = groups_of(island, pair);
-        now[i].motion = work.velocity[static_cast<size_t>(pair.a)];
+        now[i].motion = work.velocity[pair.a];
         if (pair.b >= 0)
-          now[i].motion = relative_motion(now[i].motion, work.velocity[static_cast<size_t>(pair.b)],
+          now[i].motion = relative_motion(now[i].motion, work.velocity[pair.b],
                                           work.matrix.shift[p]);
       }
       evaluate_pairs(std::span(now).first(some.size()), evaluation, direct ? 0 : slack);
@@ -162,7 +162,7 @@ struct Solve {
       work.best = work.velocity;
     else
       for (const int body : work.matrix.active.bodies.items)
-        work.best[static_cast<size_t>(body)] = work.velocity[static_cast<size_t>(body)];
+        work.best[body] = work.velocity[body];
     work.at_best = true;
   }
 
@@ -231,7 +231,7 @@ struct Solve {
   [[nodiscard]] double slope() const {
     double sum = 0;
     for (const int body : work.matrix.active.bodies.items)
-      sum += work.residual[static_cast<size_t>(body)].dot(work.step[static_cast<size_t>(body)]);
+      sum += work.residual[body].dot(work.step[body]);
     return sum;
   }
 
@@ -244,7 +244,7 @@ struct Solve {
     const double start_residual = result.residual;
     const double start_slope = std::abs(slope());
     for (const int body : bodies)
-      work.from[static_cast<size_t>(body)] = work.velocity[static_cast<size_t>(body)];
+      work.from[body] = work.velocity[body];
     double fraction = 1;
     for (int i = 0;; ++i, fraction /= 2) {
       for (const int body : bodies) {
@@ -275,9 +275,9 @@ struct Solve {
       const double limit = ratio * reduced_mass(island, pair);
       const Two most = {limit, limit};
       for (int g = pair.row_begin / 2; 2 * g < pair.row_end; ++g) {
-        const auto [normal, shear] = work.damping[static_cast<size_t>(g)];
-        island.rows[static_cast<size_t>(g)].normal_damping = normal < most ? normal : most;
-        island.rows[static_cast<size_t>(g)].shear_damping = shear < most ? shear : most;
+        const auto [normal, shear] = work.damping[g];
+        island.rows[g].normal_damping = normal < most ? normal : most;
+        island.rows[g].shear_damping = shear < most ? shear : most;
       }
     }
     work.matrix.changed_pairs.fill();
@@ -332,7 +332,7 @@ struct Solve {
       island.velocity = work.velocity;
     }
     for (const int p : work.touched_pairs.items)
-      island.pairs[static_cast<size_t>(p)].changed = false;
+      island.pairs[p].changed = false;
   }
 };
 

@@ -1,4 +1,4 @@
-// libcore/solver/island_solver.hpp
+// libcore/solver/island_solver.hpp: public
 // Contact impulses of an island: semismooth Newton on the balance of momentum of all its bodies,
 //   M (v - v_free) = sum B_c^T p_c(B_c v),
 // with the contact law of solver/contact_law.hpp. A body that touches only the ground is cheaper with

@@ -1,4 +1,4 @@
-// libcore/solver/law_numbers.hpp
+// libcore/solver/law_numbers.hpp: public
 // The numbers of law talus: all that rule the step of an island and that of a lone block. A
 // question of stability begins here. Tolerances of one function's geometry or rounding stay with
 // it.

@@ -49,7 +49,7 @@ void add_tangent(const Vec3& X, const Mat3& A, Mat<Dof>& H) {
 double pressed_on(const AngularRow& turn, std::span<const ContactRow> rows) {
   double sum = 0;
   for (int i = turn.row_begin; i < turn.row_end; ++i) {
-    const ContactRow& row = rows[static_cast<std::size_t>(i)];
+    const ContactRow& row = rows[i];
     sum += std::max(0.0, row.normal.dot(row.impulse));
   }
   return sum;
@@ -73,7 +73,7 @@ template <int Dof>
     H.template block<3, 3>(3, 3) += tangent(turn);
     if (turn.state != ContactState::slip) continue;
     for (int i = turn.row_begin; i < turn.row_end; ++i) {  // the bound follows the normal impulse
-      const ContactRow& row = rows[static_cast<std::size_t>(i)];
+      const ContactRow& row = rows[i];
       if (row.state == ContactState::open || row.normal.dot(row.impulse) <= 0) continue;
       H.template middleRows<3>(3) -= (turn.arm * row.normal_tangent) * turn.direction *
                                      generalised<Dof>(row.arm, row.normal).transpose();
@@ -240,7 +240,7 @@ double sweep_couples(const Mat<Dof>& per_mass, std::span<const ContactRow> rows,
     turn.couple = couple;
     for (int i = turn.row_begin; i < turn.row_end; ++i)
       change =
-          std::max(change, point_velocity<Dof>(dv, rows[static_cast<std::size_t>(i)].arm).norm());
+          std::max(change, point_velocity<Dof>(dv, rows[i].arm).norm());
   }
   return change;
 }

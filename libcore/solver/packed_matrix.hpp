@@ -15,8 +15,8 @@ struct Packed {
   std::array<double, size> value{};
 
   static constexpr int at(int i, int j) { return i * (i + 1) / 2 + j; }  // i >= j
-  double& operator()(int i, int j) { return value[static_cast<std::size_t>(at(i, j))]; }
-  double operator()(int i, int j) const { return value[static_cast<std::size_t>(at(i, j))]; }
+  double& operator()(int i, int j) { return value[at(i, j)]; }
+  double operator()(int i, int j) const { return value[at(i, j)]; }
 };
 
 /// The lower triangle of `full`.
@@ -62,9 +62,9 @@ template <int N>
       for (int k = 0; k < j; ++k) s -= V(i, k) * L(j, k);
       V(i, j) = s;
     }
-    per_d[static_cast<std::size_t>(j)] = 1 / V(j, j);
+    per_d[j] = 1 / V(j, j);
 #pragma GCC unroll 12
-    for (int i = j + 1; i < N; ++i) L(i, j) = V(i, j) * per_d[static_cast<std::size_t>(j)];
+    for (int i = j + 1; i < N; ++i) L(i, j) = V(i, j) * per_d[j];
   }
 #pragma GCC unroll 12
   for (int i = 0; i < N; ++i) {
@@ -80,7 +80,7 @@ template <int N>
 #pragma GCC unroll 12
   for (int i = 0; i < N; ++i)
 #pragma GCC unroll 12
-    for (int k = i; k < N; ++k) V(k, i) = L(k, i) * per_d[static_cast<std::size_t>(k)];
+    for (int k = i; k < N; ++k) V(k, i) = L(k, i) * per_d[k];
 #pragma GCC unroll 12
   for (int i = 0; i < N; ++i)
 #pragma GCC unroll 12

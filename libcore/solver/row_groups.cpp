@@ -123,7 +123,7 @@ void add_exact_slip(const RowGroup& g, int lane, Mat6& rest) {
     for (int lane = 0; rest && lane < n_lanes; ++lane)
       if (g.slip_tangent[lane] > 0) add_exact_slip(g, lane, *rest);
   }
-  for (int k = 0; k < Packed<6>::size; ++k) W.value[static_cast<size_t>(k)] = sum(total[k]);
+  for (int k = 0; k < Packed<6>::size; ++k) W.value[k] = sum(total[k]);
   return closed;
 }
 

@@ -1,3 +1,4 @@
+// libcore/solver/single_matrix.hpp
 // 6 x 6 matrices and vectors of rigid motion in single precision, for what only has to point the
 // way: the direction that conjugate gradients find is good to a few hundredths, and the residual
 // that decides is computed in double. Four numbers at a time: a register of any x86-64 or arm64.

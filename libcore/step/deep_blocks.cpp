@@ -21,11 +21,11 @@ struct Overlap {
 template <class Visit>
 void for_each_listed(const Scene& scene, const State& state, const DeepWork& w, Visit&& visit) {
   const auto is_suspect = [&](int body) {
-    return body < n_blocks(scene) && w.is_suspect[static_cast<size_t>(body)] != 0;
+    return body < n_blocks(scene) && w.is_suspect[body] != 0;
   };
   for (const PairWatch& pair : state.pairs.watch) {
-    const int a = scene.blocks.hulls.body[static_cast<size_t>(pair.part_a)],
-              b = scene.blocks.hulls.body[static_cast<size_t>(pair.part_b)];
+    const int a = scene.blocks.hulls.body[pair.part_a],
+              b = scene.blocks.hulls.body[pair.part_b];
     if (is_suspect(a) || is_suspect(b)) visit(pair, a, b);
   }
 }
@@ -39,11 +39,11 @@ void place_suspects(const Scene& scene, const State& state, DeepWork& w) {
   for (size_t b = 0; b < n; ++b) w.moving[b] |= w.is_suspect[b];
   w.fixed.clear();
   for_each_listed(scene, state, w, [&](const PairWatch&, int a, int b) {
-    w.moving[static_cast<size_t>(a)] = 1;
+    w.moving[a] = 1;
     if (is_fixed(scene, b))
       w.fixed.push_back(b);
     else
-      w.moving[static_cast<size_t>(b)] = 1;
+      w.moving[b] = 1;
   });
   for (size_t b = 0; b < n; ++b)
     if (w.moving[b] != 0)
@@ -65,7 +65,7 @@ void place_suspects(const Scene& scene, const State& state, DeepWork& w) {
 int thinner_of(const Scene& scene, int a, int b) {
   if (is_fixed(scene, b)) return a;
   const std::vector<double>& thickness = scene.blocks.shapes.thickness;
-  return thickness[static_cast<size_t>(b)] < thickness[static_cast<size_t>(a)] ? b : a;
+  return thickness[b] < thickness[a] ? b : a;
 }
 
 void measure_pairs(const Scene& scene, const State& state, DeepWork& w) {

@@ -21,7 +21,7 @@ namespace talus {
 inline void note_overlap(int block, double overlap, double thickness, DeepWork& deep,
                          StepReport& report) {
   if (overlap > law::suspect_share * thickness)
-    deep.is_suspect[static_cast<std::size_t>(block)] = 1;
+    deep.is_suspect[block] = 1;
   else if (overlap > report.largest_penetration)
     report.largest_penetration = overlap;
 }

@@ -24,8 +24,8 @@ double restitution_bias(const ContactRow& row, double resting_speed) {
 
 void make_impact_rows(const Scene& scene, int b, double resting_speed, const Mat3& to_body,
                       const Vec6& velocity, Work& work) {
-  const double per_mass = 1 / scene.blocks.mass[static_cast<std::size_t>(b)];
-  const Vec3 per_inertia = scene.blocks.inertia[static_cast<std::size_t>(b)].cwiseInverse();
+  const double per_mass = 1 / scene.blocks.mass[b];
+  const Vec3 per_inertia = scene.blocks.inertia[b].cwiseInverse();
   work.rows.resize(work.contacts.size());
   for (std::size_t i = 0; i < work.contacts.size(); ++i) {
     ContactRow& row = begin_row(scene, b, i, to_body, work.contacts, work.rows);

@@ -28,7 +28,7 @@ Vec3 free_acceleration(const Scene& scene, int b, double t_start, double t_end) 
   Vec3 a = scene.gravity;
   if (!scene.base.time.empty()) a -= base_impulse(scene.base, t_start, t_end) / (t_end - t_start);
   for (const PointLoad& load : scene.loads)
-    if (load.block == b) a += load.force / scene.blocks.mass[static_cast<size_t>(b)];
+    if (load.block == b) a += load.force / scene.blocks.mass[b];
   return a;
 }
 

@@ -1,4 +1,4 @@
-// libcore/step/report.hpp
+// libcore/step/report.hpp: public
 // What one step reports: its numbers for the health record, and trouble as bits.
 #pragma once
 

@@ -26,20 +26,20 @@ void bond_faces(const Scene& scene, int b, const Pose& pose, const Work& work,
         return &c;
     return nullptr;
   };
-  const int first_part = shapes.part_begin[static_cast<size_t>(b)];
-  const int last_part = shapes.part_begin[static_cast<size_t>(b) + 1];
-  for (int f = shapes.face_begin[static_cast<size_t>(first_part)];
-       f < shapes.face_begin[static_cast<size_t>(last_part)]; ++f) {
-    const ShapeFace& face = shapes.faces[static_cast<size_t>(f)];
+  const int first_part = shapes.part_begin[b];
+  const int last_part = shapes.part_begin[b + 1];
+  for (int f = shapes.face_begin[first_part];
+       f < shapes.face_begin[last_part]; ++f) {
+    const ShapeFace& face = shapes.faces[f];
     const Vec3 outward = pose.attitude * face.normal;
     const int n = face.vertex_end - face.vertex_begin;
     int held = 0;
     for (int k = face.vertex_begin; k < face.vertex_end; ++k)
-      held += touching(shapes.face_vertices[static_cast<size_t>(k)], outward) != nullptr;
+      held += touching(shapes.face_vertices[k], outward) != nullptr;
     if (held < n) continue;
     for (int k = face.vertex_begin; k < face.vertex_end; ++k) {
-      const Contact& c = *touching(shapes.face_vertices[static_cast<size_t>(k)], outward);
-      const GroundClass& ground = scene.ground.classes[static_cast<size_t>(c.ground_class)];
+      const Contact& c = *touching(shapes.face_vertices[k], outward);
+      const GroundClass& ground = scene.ground.classes[c.ground_class];
       if (ground.cohesion == 0 && ground.tension == 0) continue;
       ContactMemory bond;
       bond.key = c.key;
@@ -126,7 +126,7 @@ std::optional<StaticPass> static_pass(const Scene& scene, int b, const BlockNumb
   (void)find_contacts(scene.ground, scene.blocks.shapes, b, s.free.pose, stretch_of(state, b),
                       std::min(search_margin(c, h), most_margin * c.radius), work.world_vertices,
                       work.contacts);
-  make_rows(scene, b, c, s, state.memory[static_cast<size_t>(b)], work);
+  make_rows(scene, b, c, s, state.memory[b], work);
   if (work.rows.empty()) return StaticPass{};
   for (ContactRow& row : work.rows) {
     if (friction >= 0) row.friction = friction;
@@ -169,7 +169,7 @@ Settled settle(const Scene& scene, int b, double friction, bool from_touch, doub
   BlockNumbers c = numbers_of(scene, b);
   const double h = static_step<Dof>(scene.settings, c);
   c.recovery_time = h / 2;  // from rest, this lands in equilibrium at once as k grows
-  Vec3& position = state.motion[static_cast<size_t>(b)].pose.position;
+  Vec3& position = state.motion[b].pose.position;
   const Vec3 begin = position;
   Vec3 way_before = Vec3::Zero();
   double change_before = 0;
@@ -187,7 +187,7 @@ Settled settle(const Scene& scene, int b, double friction, bool from_touch, doub
         change < std::min(of_way * way.norm(), slides_about * c.radius) + rounding) {
       const Vec3 along = way.normalized();
       position -= along.dot(position - begin) * along;
-      state.acceleration[static_cast<size_t>(b)] = pass->velocity / h;
+      state.acceleration[b] = pass->velocity / h;
       return Settled::slides;
     }
     if (n >= first_passes && change > accelerates * change_before) return Settled::moves;

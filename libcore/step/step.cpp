@@ -92,9 +92,9 @@ Work make_work(const Scene& scene) {
   for (int b = 0; b < n_blocks(scene); ++b)
     most_vertices = std::max(most_vertices, vertices_of(scene.blocks.shapes, b).size());
   work.world_vertices.reserve(most_vertices);
-  work.near_ground.resize(static_cast<size_t>(n_blocks(scene)));
+  work.near_ground.resize(n_blocks(scene));
   for (NearFeatures& near : work.near_ground) near.features.reserve(expected_contacts);
-  work.deep.is_suspect.resize(static_cast<size_t>(n_blocks(scene)));
+  work.deep.is_suspect.resize(n_blocks(scene));
   work.contacts.reserve(8 * (most_vertices + expected_contacts));
   work.rows.reserve(8 * (most_vertices + expected_contacts));
   work.unbonded.reserve(expected_contacts);
@@ -133,12 +133,12 @@ void advance_talus(const Scene& scene, State& state, Work& work, StepReport& rep
 // Members and pairs of blocks of the island that block b is the first of, for law paper.
 void gather_island(const Scene& scene, int b, Work& work) {
   const PairSearch& w = work.search;
-  const auto k = static_cast<size_t>(w.groups.island_of[static_cast<size_t>(b)]);
+  const auto k = static_cast<size_t>(w.groups.island_of[b]);
   work.paper.members.assign(w.groups.blocks.begin() + w.groups.block_begin[k],
                             w.groups.blocks.begin() + w.groups.block_begin[k + 1]);
   for (int p = w.groups.pair_begin[k]; p < w.groups.pair_begin[k + 1]; ++p) {
-    const int m = w.joined_manifold[static_cast<size_t>(w.groups.pairs[static_cast<size_t>(p)])];
-    if (!is_fixed(scene, w.pairs.manifolds[static_cast<size_t>(m)].block_b))
+    const int m = w.joined_manifold[w.groups.pairs[p]];
+    if (!is_fixed(scene, w.pairs.manifolds[m].block_b))
       work.paper.manifolds.push_back(m);
   }
 }

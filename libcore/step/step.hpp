@@ -1,4 +1,4 @@
-// libcore/step/step.hpp
+// libcore/step/step.hpp: public
 // One time step of all blocks: near cells, entrances, contact law, solution, update (Fig. 4).
 // in:    Scene (const), State, Work (scratch)
 // out:   State at the end of the step; the motion in between as segments in Work

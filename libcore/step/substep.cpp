@@ -153,7 +153,7 @@ void forget_last_step(ContactRow& row) {
 ContactRow& begin_row(const Scene& scene, int b, size_t i, const Mat3& to_row,
                       std::span<const Contact> contacts, std::span<ContactRow> rows) {
   const Contact& contact = contacts[i];
-  const GroundClass& ground = scene.ground.classes[static_cast<size_t>(contact.ground_class)];
+  const GroundClass& ground = scene.ground.classes[contact.ground_class];
   ContactRow& row = rows[i];
   forget_last_step(row);
   row.key = contact.key;
@@ -175,7 +175,7 @@ bool comes_back_fast(const ContactMemory& memory, double approach, double h,
 
 Mat3 stretch_of(const State& state, int b) {
   if (state.strain.empty()) return Mat3::Identity();
-  return Mat3::Identity() + strain_tensor(state.strain[static_cast<size_t>(b)]);
+  return Mat3::Identity() + strain_tensor(state.strain[b]);
 }
 
 void inherit(const ContactMemory& memory, int index, bool same_features, const Mat3& to_row,
@@ -273,7 +273,7 @@ void inherit_all(const BlockNumbers& c, const Substep& s, const Mat3& to_body,
   for (size_t m = 0; m < memory.size(); ++m) {
     const int i = row_of(memory[m], contacts);
     if (i < 0) continue;
-    ContactRow& row = rows[static_cast<size_t>(i)];
+    ContactRow& row = rows[i];
     // a plane that the contact only now runs into is met by an impact, not inherited
     const double speed = approach(row, s);
     if (speed < -c.resting_speed &&
@@ -301,7 +301,7 @@ void make_rows(const Scene& scene, int b, const BlockNumbers& c, const Substep& 
       row.offset = std::max(0.0, -row.gap_start);
     }
     set_ground_law(scene, c, s, row);
-    const GroundClass& ground = scene.ground.classes[static_cast<size_t>(row.ground_class)];
+    const GroundClass& ground = scene.ground.classes[row.ground_class];
     row.cohesion = ground.cohesion * row.bond_area * s.h;
     row.tension = ground.tension * row.bond_area * s.h;
   }
@@ -404,13 +404,13 @@ void set_rates(const Scene& scene, int b, const BlockNumbers& c, const Substep& 
 }
 
 void forget_rates(const Scene& scene, int b, State& state) {
-  state.acceleration[static_cast<size_t>(b)] = scene.gravity;
-  state.spin_rate[static_cast<size_t>(b)].setZero();
+  state.acceleration[b] = scene.gravity;
+  state.spin_rate[b].setZero();
 }
 
 void set_support(const Scene& scene, int b, const Vec3& acceleration, State& state) {
   const double size = acceleration.norm(), g = scene.gravity.norm();
-  state.support[static_cast<size_t>(b)] = size > g ? Vec3(g / size * acceleration) : acceleration;
+  state.support[b] = size > g ? Vec3(g / size * acceleration) : acceleration;
 }
 
 bool is_finite(const Motion& m) {

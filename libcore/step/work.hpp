@@ -1,4 +1,4 @@
-// libcore/step/work.hpp
+// libcore/step/work.hpp: public
 // What a step recomputes and may be thrown away; the comment above a group names what fills it.
 // Buffers grow to the largest step and are kept: the step loop does not allocate.
 #pragma once

@@ -1,4 +1,4 @@
-// libcore/store/checkpoint.hpp
+// libcore/store/checkpoint.hpp: public
 // What a run needs to go on as if it had not been stopped: to the bit.
 // The rows recorded so far stand in the run file itself; here is the rest.
 #pragma once

@@ -1,4 +1,4 @@
-// libcore/store/runs.hpp
+// libcore/store/runs.hpp: public
 // The run registry: who ran what on which inputs, with which options and outcome. One SQLite file
 // (WAL), shared by any number of processes; every write is one BEGIN IMMEDIATE transaction.
 // The tables are those of W3C PROV: run = Activity, artifact = Entity, run_input = used,

@@ -1,4 +1,4 @@
-// libcore/store/xdmf_hdf5.hpp
+// libcore/store/xdmf_hdf5.hpp: public
 // A run as ParaView shows it: XDMF 3 with the blocks' faces as polygons, frame by frame.
 #pragma once
 

@@ -1,4 +1,4 @@
-// libcore/terrain/contours.hpp
+// libcore/terrain/contours.hpp: public
 // A contour map as plain data, and its cleaning: what meets at one height is joined and counted,
 // what meets at two heights is refused with the place.
 // in:    lines read by io/contours_gdal

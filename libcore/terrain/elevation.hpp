@@ -1,4 +1,4 @@
-// libcore/terrain/elevation.hpp
+// libcore/terrain/elevation.hpp: public
 // The heights that ground can have.
 #pragma once
 

@@ -1,4 +1,4 @@
-// libcore/terrain/lone_levels.hpp
+// libcore/terrain/lone_levels.hpp: public
 // Areas of one value in an elevation raster that stand far off what lies beside them: what fills
 // gaps and rims where a file declares no nodata value (0, -999, 255, 9999 ...).
 // in:    rows of elevations, from the first one on

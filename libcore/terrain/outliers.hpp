@@ -1,4 +1,4 @@
-// libcore/terrain/outliers.hpp
+// libcore/terrain/outliers.hpp: public
 // Lines and points of a contour map whose heights do not go with those around them: a wrong label,
 // a missing one read as 0, a spot height in other units.
 // in:    the triangulation of a map; which line each point is of

@@ -196,7 +196,7 @@ Vec6 momentum(const Run& run) {
   Vec6 sum = Vec6::Zero();
   for (int b = 0; b < n_blocks(run.scene); ++b) {
     const Motion m = run.motion(b);
-    const Vec3 p = run.scene.blocks.mass[static_cast<std::size_t>(b)] * (m.velocity - fall);
+    const Vec3 p = run.scene.blocks.mass[b] * (m.velocity - fall);
     sum.head<3>() += p;
     sum.tail<3>() += m.angular_momentum + (m.pose.position - 0.5 * run.state.time * fall).cross(p);
   }

@@ -97,7 +97,7 @@ void note_ends(const Scene& scene, const State& state, OmissionRun& out) {
     keep(m.pose.attitude.coeffs());
     keep(m.velocity);
     out.places.push_back(m.pose.position);
-    const Vec3& from = scene.blocks.rest[static_cast<std::size_t>(b)].position;
+    const Vec3& from = scene.blocks.rest[b].position;
     out.way = std::max(out.way, (m.pose.position - from).norm());
   }
 }

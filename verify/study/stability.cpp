@@ -32,9 +32,9 @@ double total_energy(const Scene& scene, const State& state) {
 // How deep a point is inside part p of a block, from the nearest face; 0 outside. Body axes.
 double inside_of(const Shapes& shapes, int p, const Vec3& X) {
   double depth = std::numeric_limits<double>::infinity();
-  for (int f = shapes.face_begin[static_cast<std::size_t>(p)];
-       f < shapes.face_begin[static_cast<std::size_t>(p) + 1]; ++f) {
-    const ShapeFace& face = shapes.faces[static_cast<std::size_t>(f)];
+  for (int f = shapes.face_begin[p];
+       f < shapes.face_begin[p + 1]; ++f) {
+    const ShapeFace& face = shapes.faces[f];
     depth = std::min(depth, face.offset - face.normal.dot(X));
   }
   return std::max(0.0, depth);
@@ -46,7 +46,7 @@ double inside_of(const Shapes& shapes, int p, const Vec3& X) {
 double ground_inside(const Run& run, int b, const Pose& pose) {
   const Shapes& shapes = run.scene.blocks.shapes;
   const Trn& trn = run.scene.ground.trn;
-  const double radius = shapes.radius[static_cast<std::size_t>(b)];
+  const double radius = shapes.radius[b];
   const double apart = trn.cell_size * std::max(0.25, std::ceil(radius / 6 / trn.cell_size));
   const auto first = [&](double centre, double node) {
     return node + std::ceil((centre - radius - node) / apart) * apart;
@@ -58,8 +58,8 @@ double ground_inside(const Run& run, int b, const Pose& pose) {
       const double z = elevation_at(trn, x, y);
       if (!(std::abs(z - c.z()) < radius)) continue;
       const Vec3 X = pose.attitude.conjugate() * (Vec3(x, y, z) - c);
-      for (int p = shapes.part_begin[static_cast<std::size_t>(b)];
-           p < shapes.part_begin[static_cast<std::size_t>(b) + 1]; ++p)
+      for (int p = shapes.part_begin[b];
+           p < shapes.part_begin[b + 1]; ++p)
         deepest = std::max(deepest, inside_of(shapes, p, X));
     }
   return deepest;
@@ -75,7 +75,7 @@ double depth_of(const Run& run, int b) {
     const double ground = elevation_at(run.scene.ground.trn, at.x(), at.y());
     if (!std::isnan(ground)) deepest = std::max(deepest, ground - at.z());
   }
-  return deepest / shapes.radius[static_cast<std::size_t>(b)];
+  return deepest / shapes.radius[b];
 }
 
 // Moves the scene on and watches every step. The energy in play: kinetic at the start, what a fall
@@ -275,7 +275,7 @@ Seen on_feet(double ratio) {
   Seen seen = watch(run, 1);
   for (int b = 0; b < n_blocks(run.scene); ++b)
     seen.error = std::max(seen.error, (run.motion(b).pose.position -
-                                       run.scene.blocks.rest[static_cast<std::size_t>(b)].position)
+                                       run.scene.blocks.rest[b].position)
                                               .norm() /
                                           small);
   return seen;
@@ -290,7 +290,7 @@ Seen stack(int n, double dip_deg, double friction_deg, double dt) {
   Seen seen = watch(run, 4);
   for (int b = 0; b < n; ++b)
     seen.error = std::max(seen.error, (run.motion(b).pose.position -
-                                       run.scene.blocks.rest[static_cast<std::size_t>(b)].position)
+                                       run.scene.blocks.rest[b].position)
                                           .norm());
   return seen;
 }

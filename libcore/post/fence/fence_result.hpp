@@ -1,4 +1,4 @@
-// libcore/post/fence/fence_result.hpp
+// libcore/post/fence/fence_result.hpp: public
 // All that is said of one fence over many runs: shares of verdicts, statistics and design check of
 // the whole, its fields and posts, storage, and the ground behind it with and without the fence.
 // in:    runs at the fences (fence_runs.hpp), the design code

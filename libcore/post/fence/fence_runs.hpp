@@ -1,4 +1,4 @@
-// libcore/post/fence/fence_runs.hpp
+// libcore/post/fence/fence_runs.hpp: public
 // What runs say at the fences of a site, and that fences and runs belong together.
 // in:    run files one by one, the fences of the site file, the terrain
 // out:   of each run its arrivals and verdicts at every fence and how far it came

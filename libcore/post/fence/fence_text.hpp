@@ -1,4 +1,4 @@
-// libcore/post/fence/fence_text.hpp
+// libcore/post/fence/fence_text.hpp: public
 // Results at a fence in words and as a table.
 // in:    runs at the fences, the result of each fence
 // out:   a summary of some lines, notes on what the numbers do not know, one row a block and fence

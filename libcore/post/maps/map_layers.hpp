@@ -1,4 +1,4 @@
-// libcore/post/maps/map_layers.hpp
+// libcore/post/maps/map_layers.hpp: public
 // The layers of a hazard map: one row each, of one table. What talus-maps makes, in which classes
 // it is drawn, what the report writes below it and where it stands in the QGIS project are read
 // from here; the name of a layer stands nowhere else.

@@ -1,4 +1,4 @@
-// libcore/post/maps/map_picture.hpp
+// libcore/post/maps/map_picture.hpp: public
 // A map over the hillshade of its terrain, with its legend: what is looked at before anything is
 // believed.
 #pragma once

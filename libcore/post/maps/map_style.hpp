@@ -1,4 +1,4 @@
-// libcore/post/maps/map_style.hpp
+// libcore/post/maps/map_style.hpp: public
 // Classes, colours and legends of the map layers.
 #pragma once
 

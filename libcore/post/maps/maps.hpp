@@ -1,4 +1,4 @@
-// libcore/post/maps/maps.hpp
+// libcore/post/maps/maps.hpp: public
 // Hazard maps: what blocks of one or many runs did over each cell.
 // in:    passages of runs by cell (map_rows.hpp)
 // out:   bands over the cells that were touched; definitions in docs/formats.md#maps

@@ -1,4 +1,4 @@
-// libcore/post/runout/mobility.hpp
+// libcore/post/runout/mobility.hpp: public
 // Where an event lies among the published relations of volume, fall height and run-out.
 // in:    share/mobility.csv: the relations with their sources; V, H, L of events
 // out:   a table, and a chart of H/L against V

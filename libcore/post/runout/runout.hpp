@@ -1,4 +1,4 @@
-// libcore/post/runout/runout.hpp
+// libcore/post/runout/runout.hpp: public
 // How far a run came: paths, streamline, H, L and the angle of reach of the event, of each block
 // and of the centre of mass; curves over time; where the energy went.
 // in:    frames of one run, its terrain

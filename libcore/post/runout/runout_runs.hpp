@@ -1,4 +1,4 @@
-// libcore/post/runout/runout_runs.hpp
+// libcore/post/runout/runout_runs.hpp: public
 // How far many runs came: what is kept of each, their sums and the spread over them.
 // in:    run files one by one, the terrain
 // out:   of each run its reach, balance, paths and footprints; of all the deposit and swept cells

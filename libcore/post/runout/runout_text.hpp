@@ -1,4 +1,4 @@
-// libcore/post/runout/runout_text.hpp
+// libcore/post/runout/runout_text.hpp: public
 // How far runs came, in words and as tables.
 // in:    what was kept of the runs (runout_runs.hpp)
 // out:   a summary of some lines; rows of blocks and of curves over time

@@ -70,7 +70,7 @@ struct SubstepAcceptance {
         (contact.fixed >= 0 || overlap <= law::remembered_hit * thickness_of(members, contact)))
       return;
     const double p_n = normal.dot(impulse);
-    std::vector<ContactMemory>& memories = state.memory[static_cast<size_t>(contact.a)];
+    std::vector<ContactMemory>& memories = state.memory[contact.a];
     make_room(memories);
     ContactMemory& memory = memories.emplace_back();
     memory.key = contact.key;
@@ -99,7 +99,7 @@ struct SubstepAcceptance {
   // What the contacts keep for the next step, and the work they did. In one piece: see
   // ContactMaker::add_points().
   [[gnu::flatten]] void remember() {
-    for (const int b : members.blocks) state.memory[static_cast<size_t>(b)].clear();
+    for (const int b : members.blocks) state.memory[b].clear();
     end.pressed.assign(members.size(), 0);
     end.ground_impulse.assign(members.size(), Vec3::Zero());
     for (size_t r = 0; r < system.contacts.size(); ++r) {
@@ -113,14 +113,14 @@ struct SubstepAcceptance {
         note_overlap(thinner_of(members, contact), overlap, thickness_of(members, contact), deep,
                      report);
       if (is_open) continue;
-      const BodyPair& pair = system.island.pairs[static_cast<size_t>(contact.pair)];
-      end.pressed[static_cast<size_t>(pair.a)] = 1;
-      if (pair.b >= 0) end.pressed[static_cast<size_t>(pair.b)] = 1;
+      const BodyPair& pair = system.island.pairs[contact.pair];
+      end.pressed[pair.a] = 1;
+      if (pair.b >= 0) end.pressed[pair.b] = 1;
       account(r);
       ++report.n_closed;
       report.sum_penetration += std::max(overlap, 0.0);
       if (contact.hit < 0 && contact.b < 0 && !gives_way(system, r))
-        end.ground_impulse[static_cast<size_t>(pair.a)] += lane.impulse();
+        end.ground_impulse[pair.a] += lane.impulse();
       remember_contact(r, path, overlap);
     }
   }
@@ -210,7 +210,7 @@ struct SubstepAcceptance {
 void break_bonds(const SubstepTries& tries, State& state) {
   for (const int bond : tries.broken)
     if (static_cast<size_t>(bond) < state.bonds.size())
-      state.bonds[static_cast<size_t>(bond)].area = 0;
+      state.bonds[bond].area = 0;
 }
 
 }  // namespace

@@ -49,11 +49,11 @@ struct SubstepCheck {
     }
     return std::any_of(
         system.left_out.begin(), system.left_out.end(), [&](const LeftOutPoint& left) {
-          const PairManifold& m = search.pairs.manifolds[static_cast<size_t>(left.manifold)];
-          const double gap_end = system.gap_end[static_cast<size_t>(left.point)];
+          const PairManifold& m = search.pairs.manifolds[left.manifold];
+          const double gap_end = system.gap_end[left.point];
           if (gap_end > end.farthest[members.at(m.block_a)] + end.farthest[members.at(m.block_b)])
             return false;
-          const Vec3& x = search.pairs.points[static_cast<size_t>(left.point)].point_b;
+          const Vec3& x = search.pairs.points[left.point].point_b;
           const auto along = [&](int b) {
             const size_t k = members.at(b);
             return m.normal.dot(
@@ -128,8 +128,8 @@ struct SubstepCheck {
   // --- bonds -----------------------------------------------------------------------------------
 
   [[nodiscard]] const GroundClass& bond_class(const KeptContact& contact) const {
-    return contact.bond >= 0 ? state.bonds[static_cast<size_t>(contact.bond)].face
-                             : scene.ground.classes[static_cast<size_t>(contact.ground_class)];
+    return contact.bond >= 0 ? state.bonds[contact.bond].face
+                             : scene.ground.classes[contact.ground_class];
   }
 
   [[nodiscard]] BondLoad& load_of(const KeptContact& contact) const {

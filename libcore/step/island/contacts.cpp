@@ -34,7 +34,7 @@ void set_motion(const Vec3& normal, double gap, const Vec3& arm, const Vec3& dri
 
 // Whether block b is wholly below the ground under its centroid.
 bool is_below_ground(const Scene& scene, int b, const Vec3& centroid) {
-  const double radius = scene.blocks.shapes.radius[static_cast<size_t>(b)];
+  const double radius = scene.blocks.shapes.radius[b];
   return centroid.z() + radius < elevation_at(scene.ground.trn, centroid.x(), centroid.y());
 }
 
@@ -57,7 +57,7 @@ void hold(const GroundClass& face, double recovery_time, ContactRow& row) {
 
 // Whether block a touched what has this name in the last step.
 bool knows_body(const State& state, int a, int name) {
-  const std::vector<ContactMemory>& memory = state.memory[static_cast<size_t>(a)];
+  const std::vector<ContactMemory>& memory = state.memory[a];
   return std::any_of(memory.begin(), memory.end(),
                      [name](const ContactMemory& m) { return m.key.body_b == name; });
 }
@@ -110,10 +110,10 @@ struct ContactMaker {
     return static_cast<size_t>(m.point_end - m.point_begin);
   }
   [[nodiscard]] const PairPoint& point_at(int p) const {
-    return search.pairs.points[static_cast<size_t>(p)];
+    return search.pairs.points[p];
   }
   [[nodiscard]] const std::vector<ContactMemory>& memory_of(int b) const {
-    return state.memory[static_cast<size_t>(b)];
+    return state.memory[b];
   }
   // The intact bond of two blocks.
   [[nodiscard]] int bond_of(const PairManifold& m) const {
@@ -155,7 +155,7 @@ struct ContactMaker {
     if (contact.waits) system.waiting.push_back(system.contacts.size());
     system.has_bonds |= contact.bond_area != 0;
     if (contact.memory >= 0) {
-      const ContactMemory& then = memory_of(contact.a)[static_cast<size_t>(contact.memory)];
+      const ContactMemory& then = memory_of(contact.a)[contact.memory];
       contact.impulse = free.h * then.normal_force * contact.normal;
       contact.state = static_cast<ContactState>(then.state);
     }
@@ -192,7 +192,7 @@ struct ContactMaker {
       if (std::any_of(rows.begin(), rows.end(), continues)) continue;
       const bool is_vertex = contact.key.mode == ContactMode::vertex_face;
       lost.add(contact.normal_force,
-               is_vertex ? Vec3(s.R_start * vertices[static_cast<size_t>(contact.key.feature_a)])
+               is_vertex ? Vec3(s.R_start * vertices[contact.key.feature_a])
                          : Vec3(Vec3::Zero()));
     }
     return lost;
@@ -211,7 +211,7 @@ struct ContactMaker {
     }
     const SearchResult near = find_contacts(
         scene.ground, scene.blocks.shapes, b, s.free.pose, Mat3::Identity(), search_margin(c, s.h),
-        making.world_vertices, making.found, &near_ground[static_cast<size_t>(b)]);
+        making.world_vertices, making.found, &near_ground[b]);
     if (near.reach == Reach::off_ground) {
       system.outsider = b;
       return false;
@@ -227,7 +227,7 @@ struct ContactMaker {
       for (Vec3* v : {&row.normal, &row.arm, &row.drift, &row.shear, &row.shear_velocity,
                       &row.slip_start, &row.free_move})
         *v = s.R * *v;
-      const GroundClass& ground = scene.ground.classes[static_cast<size_t>(row.ground_class)];
+      const GroundClass& ground = scene.ground.classes[row.ground_class];
       if (row.bond_area > 0) hold(ground, c.recovery_time, row);
       row.touch = c.touch;
       add_contact(row, row.bond_area > 0);
@@ -269,9 +269,9 @@ struct ContactMaker {
     const auto claim = [&](const auto& continues, double least_cosine) {
       for (size_t p = 0; p < making.continued.size() && !unclaimed.empty(); ++p) {
         if (making.continued[p] >= 0) continue;
-        const ContactKey& key = search.pairs.points[static_cast<size_t>(m.point_begin) + p].key;
+        const ContactKey& key = search.pairs.points[m.point_begin + p].key;
         const auto found = std::find_if(unclaimed.begin(), unclaimed.end(), [&](int i) {
-          const ContactMemory& then = memory[static_cast<size_t>(i)];
+          const ContactMemory& then = memory[i];
           return continues(key, then.key) && then.normal.dot(m.normal) > least_cosine;
         });
         if (found == unclaimed.end()) continue;
@@ -284,7 +284,7 @@ struct ContactMaker {
   }
 
   [[nodiscard]] int continued(const PairManifold& m, int p) const {
-    return making.continued[static_cast<size_t>(p - m.point_begin)];
+    return making.continued[p - m.point_begin];
   }
 
   [[nodiscard]] Meeting meeting_of(const PairManifold& m) const {
@@ -311,7 +311,7 @@ struct ContactMaker {
   bool inherit_from(const PairManifold& m, const PairPoint& point, int memory, double approach,
                     const BlockNumbers& c, ContactRow& row) const {
     if (memory < 0) return false;
-    const ContactMemory& then = memory_of(m.block_a)[static_cast<size_t>(memory)];
+    const ContactMemory& then = memory_of(m.block_a)[memory];
     const bool same_features = has_features(then.key, point.key);
     if (approach < -c.resting_speed) {
       if (row.gap_start > c.touch) return false;
@@ -353,7 +353,7 @@ struct ContactMaker {
     set_law(scene, c, h, {Wa.normal + Wb.normal, Wa.tangent + Wb.tangent}, approach, row);
     const bool bonded = meeting.bond >= 0;
     if (bonded) {  // where the faces were when the bond was new, it carries nothing
-      const BlockBond& bond = state.bonds[static_cast<size_t>(meeting.bond)];
+      const BlockBond& bond = state.bonds[meeting.bond];
       row.bond_area = m.area > 0 ? bond.area * point.area / m.area : 0;
       if (row.memory < 0) row.offset = -row.gap_start;
       hold(bond.face, c.recovery_time, row);
@@ -435,13 +435,13 @@ struct ContactMaker {
       note_hit(system.contacts[r].a, -system.contacts[r].approach);
     system.gap_end.resize(search.pairs.points.size());
     for (const int i : manifolds) {
-      const PairManifold& m = search.pairs.manifolds[static_cast<size_t>(i)];
+      const PairManifold& m = search.pairs.manifolds[i];
       if (is_fixed(scene, m.block_b)) continue;
       const PairMotionFree motion = free_motion(m);
       const double resting_speed = members.of(m.block_a).resting_speed;
       for (int p = m.point_begin; p < m.point_end; ++p) {
         const double gap_end = motion.gap_end(point_at(p));
-        system.gap_end[static_cast<size_t>(p)] = gap_end;
+        system.gap_end[p] = gap_end;
         const double speed = -motion.approach(point_at(p), gap_end, h);
         if (!(speed > resting_speed && gap_end < h * speed)) continue;
         note_hit(m.block_a, speed);
@@ -456,7 +456,7 @@ struct ContactMaker {
   // add_ground(): a contact is many small functions, and their calls are a twentieth of a step.
   [[gnu::flatten]] void add_points(int manifold) {
     const double h = free.h;
-    const PairManifold& m = search.pairs.manifolds[static_cast<size_t>(manifold)];
+    const PairManifold& m = search.pairs.manifolds[manifold];
     const double farthest = reach_by_gravity * scene.gravity.norm() * h * h +
                             2 * h *
                                 std::max(making.hit_speed_bound[members.at(m.block_a)],
@@ -466,7 +466,7 @@ struct ContactMaker {
     for (int p = m.point_begin; p < m.point_end; ++p) {
       const PairPoint& point = point_at(p);
       const int memory = continued(m, p);
-      const double nearest = std::min(point.gap, system.gap_end[static_cast<size_t>(p)]);
+      const double nearest = std::min(point.gap, system.gap_end[p]);
       if (may_wait && memory < 0 && nearest > farthest) {
         system.left_out.push_back({manifold, p});
         continue;
@@ -477,9 +477,9 @@ struct ContactMaker {
   }
 
   void add_pair(int manifold) {
-    const PairManifold& m = search.pairs.manifolds[static_cast<size_t>(manifold)];
-    begin_pair(members.place[static_cast<size_t>(m.block_a)],
-               members.place[static_cast<size_t>(m.block_b)]);
+    const PairManifold& m = search.pairs.manifolds[manifold];
+    begin_pair(members.place[m.block_a],
+               members.place[m.block_b]);
     match_memories(m);
     if (is_fixed(scene, m.block_b))
       add_fixed_points(m);

@@ -64,7 +64,7 @@ struct IslandMembers {  // clang-format off
     return static_cast<std::size_t>(blocks[k]);
   }
   [[nodiscard]] std::size_t at(int b) const {
-    return static_cast<std::size_t>(place[static_cast<std::size_t>(b)]);
+    return static_cast<std::size_t>(place[b]);
   }
   [[nodiscard]] const BlockNumbers& of(int b) const { return numbers[at(b)]; }
   /// One block near fixed bodies: it is hit at the end of a substep, so by one after the other.
@@ -269,7 +269,7 @@ struct IslandScratch {
 
 /// The next solution cannot go on from what the last one made of contact `r`.
 inline void note_change(IslandSystem& system, std::size_t r) {
-  system.island.pairs[static_cast<std::size_t>(system.contacts[r].pair)].changed = true;
+  system.island.pairs[system.contacts[r].pair].changed = true;
 }
 
 /// Presses on a fixed body that gives way.
@@ -282,7 +282,7 @@ inline void note_change(IslandSystem& system, std::size_t r) {
 template <class Of>
 [[nodiscard]] Vec3 relative(const IslandSystem& system, std::size_t r, Of&& of) {
   const Island& island = system.island;
-  const BodyPair& pair = island.pairs[static_cast<std::size_t>(system.contacts[r].pair)];
+  const BodyPair& pair = island.pairs[system.contacts[r].pair];
   const Vec3 arm = lane_of(system, r).arm();
   const auto ka = static_cast<std::size_t>(pair.a);
   Vec3 v = point_velocity<6>(of(ka), arm);
@@ -313,7 +313,7 @@ template <class Of>
 [[nodiscard]] inline const Hit* hit_of(const IslandSystem& system, const SubstepHits& hits,
                                        std::size_t r) {
   const int hit = system.contacts[r].hit;
-  return hit < 0 ? nullptr : &hits.hits[static_cast<std::size_t>(hit)];
+  return hit < 0 ? nullptr : &hits.hits[hit];
 }
 
 /// Displacement of the points of contact `r` over the substep.

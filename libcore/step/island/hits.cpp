@@ -186,13 +186,13 @@ void find_mean_times(const IslandMembers& members, double h, const IslandSystem&
       hits.delay[members.at(b)] += delay;
     }
   }
-  const auto is_timed = [&](int k) { return k >= 0 && hits.is_timed[static_cast<size_t>(k)] != 0; };
+  const auto is_timed = [&](int k) { return k >= 0 && hits.is_timed[k] != 0; };
   for (const BodyPair& pair : system.island.pairs) {
     if (!is_timed(pair.a) && !is_timed(pair.b)) continue;
     for (int r = pair.row_begin; r < pair.row_end; ++r) {
       const double p = row_of(system.island, r).impulse().norm();
-      hits.weight[static_cast<size_t>(pair.a)] += p;
-      if (pair.b >= 0) hits.weight[static_cast<size_t>(pair.b)] += p;
+      hits.weight[pair.a] += p;
+      if (pair.b >= 0) hits.weight[pair.b] += p;
     }
   }
   if (closed) {

@@ -27,13 +27,13 @@ void gather_members(const Scene& scene, std::span<const int> blocks, IslandMembe
 }
 
 void release_members(IslandMembers& members) {
-  for (const int b : members.blocks) members.place[static_cast<size_t>(b)] = -1;
+  for (const int b : members.blocks) members.place[b] = -1;
 }
 
 void see_size(const Scene& scene, const PairSearch& search, std::span<const int> manifolds,
               IslandMembers& members) {
   const auto n_pairs = std::count_if(manifolds.begin(), manifolds.end(), [&](int i) {
-    const PairManifold& m = search.pairs.manifolds[static_cast<size_t>(i)];
+    const PairManifold& m = search.pairs.manifolds[i];
     return !is_fixed(scene, m.block_b) && has_points(m);
   });
   const size_t n = members.size();
@@ -50,7 +50,7 @@ void choose_stiffness(const Scene& scene, double time, const PairSearch& search,
   members.bearing.clear();
   for (const BlockNumbers& c : members.numbers) members.bearing.push_back(c.mass);
   for (const int i : manifolds) {
-    const PairManifold& m = search.pairs.manifolds[static_cast<size_t>(i)];
+    const PairManifold& m = search.pairs.manifolds[i];
     if (is_fixed(scene, m.block_b) || !has_points(m)) continue;
     double &a = members.bearing[members.at(m.block_a)], &b = members.bearing[members.at(m.block_b)];
     a = std::max(a, members.of(m.block_b).mass);

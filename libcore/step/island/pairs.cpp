@@ -70,7 +70,7 @@ void search_marked(const Scene& scene, double h, State& state, PairSearch& searc
   place_hulls(blocks.hulls, none_placed ? poses : poses.first(static_cast<size_t>(n_blocks(scene))),
               {}, search.moving, state.placed);
   for (const int body : search.shifted)
-    place_body(blocks.hulls, body, poses[static_cast<size_t>(body)], state.placed);
+    place_body(blocks.hulls, body, poses[body], state.placed);
   const PairReport found =
       find_pair_contacts(blocks.hulls, state.placed,
                          {search.step, search.turn, search.awake, n_fixed(scene), &search.grid,
@@ -92,7 +92,7 @@ void place_at_rest(const Scene& scene, PairSearch& search) {
   std::vector<Vec3> centre;
   for (int f = 0; f < n_fixed(scene); ++f) {
     const auto i = static_cast<size_t>(hull_of_fixed(scene, f));
-    search.poses[i] = scene.fixed.pose[static_cast<size_t>(f)];
+    search.poses[i] = scene.fixed.pose[f];
     search.step[i].setZero();
     search.rotation[i].setZero();
     search.turn[i] = 0;
@@ -108,13 +108,13 @@ void place_fixed(const Scene& scene, const State& state, PairSearch& search) {
   if (n_fixed(scene) == 0) return;
   if (search.grid.n_bodies != n_fixed(scene)) place_at_rest(scene, search);
   for (const int body : search.shifted)  // by this state or by one before it
-    search.poses[static_cast<size_t>(body)] =
-        scene.fixed.pose[static_cast<size_t>(fixed_of(scene, body))];
+    search.poses[body] =
+        scene.fixed.pose[fixed_of(scene, body)];
   search.shifted.clear();
   for (const int f : state.yielding.shifted) {
     const int body = hull_of_fixed(scene, f);
     search.shifted.push_back(body);
-    search.poses[static_cast<size_t>(body)] = fixed_pose(scene, state, f);
+    search.poses[body] = fixed_pose(scene, state, f);
   }
 }
 
@@ -130,7 +130,7 @@ bool join_pairs(const Scene& scene, State& state, PairSearch& search) {
         continue;
       search.joined.emplace_back(m.block_a, -1);
       search.joined_manifold.push_back(static_cast<int>(j));
-      search.near_fixed[static_cast<size_t>(m.block_a)] = 1;
+      search.near_fixed[m.block_a] = 1;
       continue;
     }
     if (!takes_part(state, m.block_a) || !takes_part(state, m.block_b)) continue;
@@ -150,9 +150,9 @@ bool join_pairs(const Scene& scene, State& state, PairSearch& search) {
 // Whether a manifold is between members, or of a member with a fixed body that stands.
 bool in_island(const Scene& scene, const State& state, const IslandMembers& members,
                const PairManifold& m) {
-  return members.place[static_cast<size_t>(m.block_a)] >= 0 &&
+  return members.place[m.block_a] >= 0 &&
          (is_fixed(scene, m.block_b) ? stands(scene, state, fixed_of(scene, m.block_b))
-                                     : members.place[static_cast<size_t>(m.block_b)] >= 0);
+                                     : members.place[m.block_b] >= 0);
 }
 
 // Bounds how far a point of either part of a pair goes ahead as the other body sees it: of all
@@ -198,8 +198,8 @@ void take_pairs(const Scene& scene, const State& state, const PairSearch& search
   manifolds.clear();
   for (int p = search.groups.pair_begin[at]; p < search.groups.pair_begin[at + 1]; ++p) {
     const int m =
-        search.joined_manifold[static_cast<size_t>(search.groups.pairs[static_cast<size_t>(p)])];
-    if (in_island(scene, state, members, search.pairs.manifolds[static_cast<size_t>(m)]))
+        search.joined_manifold[search.groups.pairs[p]];
+    if (in_island(scene, state, members, search.pairs.manifolds[m]))
       manifolds.push_back(m);
   }
 }
@@ -213,7 +213,7 @@ void find_pairs(const Scene& scene, const IslandMembers& members, double h, Stat
   search.awake = search.moving;
   place_fixed(scene, state, search);
   search_marked(scene, h, state, search);
-  for (const int b : members.blocks) search.moving[static_cast<size_t>(b)] = 0;
+  for (const int b : members.blocks) search.moving[b] = 0;
   search.is_of_step = false;
   manifolds.clear();
   for (size_t m = 0; m < search.pairs.manifolds.size(); ++m)
@@ -227,7 +227,7 @@ double longest_substep(const Scene& scene, const State& state, const PairSearch&
   for (size_t k = 0; k < members.size(); ++k)
     part = std::max(part, search.turn[members.block(k)] / (most_turn * members.numbers[k].radius));
   for (const int i : manifolds) {
-    const PairManifold& m = search.pairs.manifolds[static_cast<size_t>(i)];
+    const PairManifold& m = search.pairs.manifolds[i];
     double thickness = members.of(m.block_a).thickness;
     if (!is_fixed(scene, m.block_b))
       thickness = std::min(thickness, members.of(m.block_b).thickness);
@@ -243,13 +243,13 @@ void form_islands(const Scene& scene, State& state, Work& work) {
   PairSearch& search = work.search;
   const int n = n_blocks(scene);
   const auto size = static_cast<size_t>(n + n_fixed(scene));
-  search.near_fixed.assign(static_cast<size_t>(n), scene.settings.trn_contacts ? 0 : 1);
+  search.near_fixed.assign(n, scene.settings.trn_contacts ? 0 : 1);
   search.poses.resize(size);
   search.step.resize(size);
   search.rotation.resize(size);
   search.turn.resize(size);
-  search.moving.assign(static_cast<size_t>(n), 1);
-  search.awake.resize(static_cast<size_t>(n));
+  search.moving.assign(n, 1);
+  search.awake.resize(n);
   place_fixed(scene, state, search);
   // the full plan and blocks that meet each other follow all of them
   const bool may_be_far = scene.settings.flight && scene.settings.trn_contacts &&
@@ -277,10 +277,10 @@ void form_islands(const Scene& scene, State& state, Work& work) {
   do search_marked(scene, scene.settings.dt, state, search);
   while (join_pairs(scene, state, search));
   find_islands(n, search.joined, {}, search.groups);
-  search.moving.assign(static_cast<size_t>(n), 0);
+  search.moving.assign(n, 0);
   search.is_of_step = true;
   const auto end_flight_of = [&](int b) {
-    if (b >= 0 && state.phase[static_cast<size_t>(b)] == Phase::flight)
+    if (b >= 0 && state.phase[b] == Phase::flight)
       end_flight(scene, b, state.time, state, work);
   };
   for (const auto& [a, b] : search.joined) end_flight_of(a), end_flight_of(b);
@@ -292,7 +292,7 @@ void put_island_to_sleep(const Scene& scene, int k, State& state, const Work& wo
   for (const int b : blocks) {
     if (!takes_part(state, b)) continue;
     watch_rest(scene, static_cast<size_t>(b), state);
-    steps = std::min(steps, state.rest_steps[static_cast<size_t>(b)]);
+    steps = std::min(steps, state.rest_steps[b]);
   }
   if (steps < law::steps_before_sleep) return;
   for (const int b : blocks)

@@ -198,7 +198,7 @@ void set_targets(const IslandMembers& members, const FreeMotions& free, const Is
     double times = 0;
     for (const size_t r : contacts_of(system, pair)) {
       if (system.contacts[r].hit < 0) continue;
-      Hit& hit = hits.hits[static_cast<size_t>(system.contacts[r].hit)];
+      Hit& hit = hits.hits[system.contacts[r].hit];
       if (hit.rebound == 0) continue;
       if (times == 0) times = hits_in_turn(members, free, system, hits, rebounds, pair);
       hit.in_turn = times;
@@ -277,7 +277,7 @@ void blend_rebound(const IslandMembers& members, double excess, const SubstepHit
   for (size_t r = 0; r < system.contacts.size(); ++r) {
     const int number = system.contacts[r].lane;
     const RowIn<RowGroup> now = lane_of(system, r);
-    const RowIn<const RowGroup> full(rebounds.full_rows[static_cast<size_t>(number / 2)],
+    const RowIn<const RowGroup> full(rebounds.full_rows[number / 2],
                                      number % 2);
     now.set_vector(&RowGroup::impulse, now.impulse() + share * (full.impulse() - now.impulse()));
     if (now.state() == ContactState::open) now.set_state(full.state());

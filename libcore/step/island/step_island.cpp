@@ -88,7 +88,7 @@ void make_substep(const Scene& scene, double t, double h, State& state, Work& wo
              work.segments, work.deep, report);
       return;
     }
-    ++report.cuts[static_cast<size_t>(verdict.reason)];
+    ++report.cuts[verdict.reason];
     state.counters.cut_back += verdict.reason == SubstepCut::unconverged;
     note_cut(verdict.reason, w.end, w.tries);
     h = verdict.h;
@@ -102,7 +102,7 @@ void stop_outsiders(const Scene& scene, double t_end, State& state, Work& work,
   IslandMembers& members = work.island.members;
   const auto is_outside = [&](int b) {
     return b == work.island.system.outsider || !takes_part(state, b) ||
-           left_ground(scene, state.motion[static_cast<size_t>(b)].pose.position);
+           left_ground(scene, state.motion[b].pose.position);
   };
   if (std::none_of(members.blocks.begin(), members.blocks.end(), is_outside)) return;
   std::vector<int> stay;
@@ -112,7 +112,7 @@ void stop_outsiders(const Scene& scene, double t_end, State& state, Work& work,
       continue;
     }
     if (takes_part(state, b)) stop_outside(scene, b, state, report);
-    state.local_time[static_cast<size_t>(b)] = t_end;
+    state.local_time[b] = t_end;
   }
   release_members(members);
   gather_members(scene, stay, members);
@@ -158,7 +158,7 @@ void advance_island(const Scene& scene, int k, double t_end, State& state, Work&
     // pairs that are far apart when a long step begins cost the most, and bear nothing yet
     ahead = (t_end - t) / std::ceil((t_end - t) / (law::substeps_ahead * longest));
   }
-  for (const int b : w.members.blocks) state.local_time[static_cast<size_t>(b)] = t_end;
+  for (const int b : w.members.blocks) state.local_time[b] = t_end;
   release_members(w.members);
 }
 

@@ -110,11 +110,11 @@ template <int Dof>
 void remember(const BlockNumbers& c, const Substep& s, const Solved<Dof>& solved, State& state,
               Work& work, int b, StepReport& report) {
   const double relax = offset_relaxed(c.gravity, s.h), per_h = 1 / s.h;
-  std::vector<ContactMemory>& memory = state.memory[static_cast<std::size_t>(b)];
+  std::vector<ContactMemory>& memory = state.memory[b];
   report.n_flips += count_flips(work.rows, memory);
   memory.clear();
   for (ContactRow& row : work.rows) {
-    const Contact& contact = work.contacts[static_cast<std::size_t>(row.contact)];
+    const Contact& contact = work.contacts[row.contact];
     const Vec3 moved = row.free_move + solved.moved(row.arm, s.h);
     const double overlap = -(row.gap_start + row.normal.dot(moved));
     if (row.waits) continue;

@@ -23,7 +23,7 @@ double first_hit(const BlockNumbers& c, const Substep& s, const Solved<Dof>& sol
   double first = s.h + 1;
   for (const ContactRow& row : work.rows) {
     if (!row.waits) continue;
-    const double gap_end = work.contacts[static_cast<size_t>(row.contact)].gap +
+    const double gap_end = work.contacts[row.contact].gap +
                            row.normal.dot(solved.moved(row.arm, s.h));
     if (gap_end > c.touch) continue;
     const double v = row.speed_start, g = row.gap_start + 0.5 * c.touch;
@@ -125,7 +125,7 @@ struct Advance {
     for (const ContactRow& row : work.rows)
       if (row.memory < 0 && row.gap_start <= c.touch &&
           row.gap_start > -law::deep_share * c.thickness && row.speed_start < -c.resting_speed) {
-        foreseen = work.contacts[static_cast<size_t>(row.contact)];
+        foreseen = work.contacts[row.contact];
         is_foreseen = true;
         return Attempt::impact;
       }
@@ -162,7 +162,7 @@ struct Advance {
   [[nodiscard]] bool goes_through_ridge(const Substep& s) {
     if (s.h * top_speed() < law::short_move * c.thickness) return false;
     for (const ContactRow& row : work.rows)
-      if (came_through_ridge(scene, c, s, work.contacts[static_cast<size_t>(row.contact)], row))
+      if (came_through_ridge(scene, c, s, work.contacts[row.contact], row))
         return true;
     return depth_past_ridge(scene.ground, scene.blocks.shapes, b, work.world_vertices,
                             work.contacts, law::deep_past_ridge * c.thickness) > 0;
@@ -180,7 +180,7 @@ struct Advance {
           row.state == ContactState::open || (row.state == ContactState::slip && !holds);
       if (row.bond_area == 0 || !fails) continue;
       if (!breaks_bonds) work.unbonded = state.memory[i()];
-      work.unbonded[static_cast<size_t>(row.memory)].bond_area = 0;
+      work.unbonded[row.memory].bond_area = 0;
       broken = breaks_bonds = true;
     }
     return broken;

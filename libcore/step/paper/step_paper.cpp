@@ -118,9 +118,9 @@ struct OpenClose {
   // Movement of A's point relative to B's.
   [[nodiscard]] Vec3 moved(size_t r) const {
     const PaperContact& contact = w.contacts[r];
-    const Vec3 of_a = T(contact.arm_a) * w.D[static_cast<size_t>(contact.a)];
+    const Vec3 of_a = T(contact.arm_a) * w.D[contact.a];
     if (contact.b < 0) return of_a;
-    return of_a - T(contact.arm_b) * w.D[static_cast<size_t>(contact.b)];
+    return of_a - T(contact.arm_b) * w.D[contact.b];
   }
 
   // (17), (20), (24) of a closed contact: its stiffness as seen by the relative movement, and the
@@ -149,7 +149,7 @@ struct OpenClose {
     analyse_pattern(static_cast<int>(members.size()), w.edges, lu.pattern);
     clear_matrix(lu);
     const auto diagonal = [&](int k) -> Mat& {
-      return lu.diagonal[static_cast<size_t>(lu.pattern.place[static_cast<size_t>(k)])];
+      return lu.diagonal[lu.pattern.place[k]];
     };
     for (size_t k = 0; k < members.size(); ++k) {
       diagonal(static_cast<int>(k)) = w.equations[k].K;
@@ -162,11 +162,11 @@ struct OpenClose {
       contact_terms(contact, stiffness, force);
       const auto T_a = T(contact.arm_a);
       diagonal(contact.a) += T_a.transpose() * stiffness * T_a;
-      w.D[static_cast<size_t>(contact.a)] += T_a.transpose() * force;
+      w.D[contact.a] += T_a.transpose() * force;
       if (contact.b < 0) continue;
       const auto T_b = T(contact.arm_b);
       diagonal(contact.b) += T_b.transpose() * stiffness * T_b;
-      w.D[static_cast<size_t>(contact.b)] -= T_b.transpose() * force;
+      w.D[contact.b] -= T_b.transpose() * force;
       const Mat ab = -T_a.transpose() * stiffness * T_b;
       add_blocks<Dof>(lu, contact.a, contact.b, ab, ab.transpose());
     }
@@ -199,7 +199,7 @@ struct OpenClose {
   // What a contact starts from: the memory of the same features, if there is one.
   void start_contact(const GroundClass& face, PaperContact& contact) {
     const std::vector<ContactMemory>& memory =
-        state.memory[static_cast<size_t>(members[static_cast<size_t>(contact.a)])];
+        state.memory[members[contact.a]];
     const bool closed = contact.gap_start < 0 || contact.bond >= 0;
     contact.friction = face.friction;
     contact.state = closed ? ContactState::stick : ContactState::open;
@@ -212,7 +212,7 @@ struct OpenClose {
       nearest = memory[m].normal.dot(contact.normal);
       contact.memory = static_cast<int>(m);
     }
-    if (contact.memory >= 0) inherit(memory[static_cast<size_t>(contact.memory)], contact);
+    if (contact.memory >= 0) inherit(memory[contact.memory], contact);
     contact.cohesion_force = face.cohesion * contact.bond_area;
     contact.tension_force = face.tension * contact.bond_area;
   }
@@ -253,23 +253,23 @@ struct OpenClose {
       contact.normal = found.normal;
       contact.arm_a = w.equations[k].R * found.point_a;
       contact.gap_start = found.gap;
-      start_contact(scene.ground.classes[static_cast<size_t>(found.ground_class)], contact);
+      start_contact(scene.ground.classes[found.ground_class], contact);
     }
   }
 
   [[nodiscard]] size_t place_of(int block) const {
-    return static_cast<size_t>(work.search.groups.local_index[static_cast<size_t>(block)]);
+    return static_cast<size_t>(work.search.groups.local_index[block]);
   }
   [[nodiscard]] const Vec3& position(int block) const {
-    return state.motion[static_cast<size_t>(block)].pose.position;
+    return state.motion[block].pose.position;
   }
 
   void add_pair(const PairManifold& m) {
     const int bond = find_bond(state.bonds, m.block_a, m.block_b);
     const GroundClass face =
-        bond >= 0 ? state.bonds[static_cast<size_t>(bond)].face : pair_class(scene, m);
+        bond >= 0 ? state.bonds[bond].face : pair_class(scene, m);
     for (int p = m.point_begin; p < m.point_end; ++p) {
-      const PairPoint& point = work.search.pairs.points[static_cast<size_t>(p)];
+      const PairPoint& point = work.search.pairs.points[p];
       PaperContact& contact = w.contacts.emplace_back();
       contact.key = point.key;
       contact.key.body_b = m.block_b;
@@ -281,7 +281,7 @@ struct OpenClose {
       contact.arm_b = point.point_b - position(m.block_b);
       contact.gap_start = point.gap;
       if (bond >= 0 && m.area > 0)
-        contact.bond_area = state.bonds[static_cast<size_t>(bond)].area * point.area / m.area;
+        contact.bond_area = state.bonds[bond].area * point.area / m.area;
       start_contact(face, contact);
     }
   }
@@ -299,7 +299,7 @@ struct OpenClose {
       w.contact_begin.push_back(w.contacts.size());
       add_ground(k);
       for (; next != manifolds.end(); ++next) {
-        const PairManifold& m = work.search.pairs.manifolds[static_cast<size_t>(*next)];
+        const PairManifold& m = work.search.pairs.manifolds[*next];
         if (m.block_a != members[k]) break;
         add_pair(m);
       }
@@ -321,22 +321,22 @@ struct OpenClose {
   // The thinner of the two blocks of a contact.
   [[nodiscard]] int thinner_of(const PaperContact& contact) const {
     const std::vector<double>& thickness = scene.blocks.shapes.thickness;
-    const int a = members[static_cast<size_t>(contact.a)];
+    const int a = members[contact.a];
     if (contact.b < 0) return a;
-    const int b = members[static_cast<size_t>(contact.b)];
-    return thickness[static_cast<size_t>(b)] < thickness[static_cast<size_t>(a)] ? b : a;
+    const int b = members[contact.b];
+    return thickness[b] < thickness[a] ? b : a;
   }
 
   // What a closed contact keeps: a sticking one its spring, a slipping one its direction.
   void remember_contact(size_t r, std::vector<ContactMemory>& memories) {
     const PaperContact& contact = w.contacts[r];
     const bool sticks = contact.state == ContactState::stick;
-    if (contact.bond >= 0 && !sticks) state.bonds[static_cast<size_t>(contact.bond)].area = 0;
+    if (contact.bond >= 0 && !sticks) state.bonds[contact.bond].area = 0;
     const Vec3 path = moved(r);
     const double along = contact.normal.dot(path), overlap = -(contact.gap_start + along);
     if (contact.state == ContactState::open && contact.offset <= 0) return;
     const int block = thinner_of(contact);
-    note_overlap(block, overlap, scene.blocks.shapes.thickness[static_cast<size_t>(block)],
+    note_overlap(block, overlap, scene.blocks.shapes.thickness[block],
                  work.deep, report);
     if (contact.state == ContactState::open) return;
     ContactMemory memory;
@@ -360,7 +360,7 @@ struct OpenClose {
 
   void remember() {
     for (size_t k = 0; k < members.size(); ++k) {
-      std::vector<ContactMemory>& memory = state.memory[static_cast<size_t>(members[k])];
+      std::vector<ContactMemory>& memory = state.memory[members[k]];
       FlipCounter flips(memory);
       for (size_t r = w.contact_begin[k]; r < w.contact_begin[k + 1]; ++r)
         flips.add(w.contacts[r].memory, w.contacts[r].state);
@@ -443,7 +443,7 @@ struct OpenClose {
       normal.normalize();
       const double speed = -normal.dot(velocity_before);
       const double restitution =
-          scene.ground.classes[static_cast<size_t>(w.contacts.front().ground_class)].restitution;
+          scene.ground.classes[w.contacts.front().ground_class].restitution;
       const double resting = 2 * scene.gravity.norm() * scene.settings.dt;
       state.paper.rebound[i] =
           speed > resting ? Vec3(restitution * speed * normal) : Vec3(Vec3::Zero());
