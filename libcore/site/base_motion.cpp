@@ -10,27 +10,28 @@
 namespace talus {
 namespace {
 
-constexpr double samples_per_period = 64, most_samples = 1e7;
-
 AccelerationRecord harmonic(const BaseMotionSettings& settings, double duration) {
+  const double azimuth = settings.direction_deg * std::numbers::pi / 180;
   const double end =
       std::isnan(settings.duration_s) ? duration : settings.start_s + settings.duration_s;
-  const double step = 1 / (samples_per_period * settings.frequency_hz);
-  const double azimuth = settings.direction_deg * std::numbers::pi / 180;
-  const Vec3 direction(std::sin(azimuth), std::cos(azimuth), 0);
-  AccelerationRecord record{{0}, {Vec3::Zero()}};
-  const auto add = [&](double t, double a) {
-    if (t <= record.time.back()) return;
-    record.time.push_back(t);
-    record.acceleration.push_back(a * direction);
-  };
-  add(settings.start_s, 0);
-  for (int i = 1; settings.start_s + i * step <= end; ++i)
-    add(settings.start_s + i * step,
-        settings.amplitude_m_s2 * std::sin(2 * std::numbers::pi * i / samples_per_period));
-  add(end + step, 0);
-  add(duration + 2 * step, 0);  // stands still afterwards
+  AccelerationRecord record;
+  record.harmonic = {settings.amplitude_m_s2 * Vec3(std::sin(azimuth), std::cos(azimuth), 0),
+                     2 * std::numbers::pi * settings.frequency_hz, settings.start_s, end};
   return record;
+}
+
+// Refuses samples that do not cover the run.
+void check_times(const Site& site, const AccelerationRecord& record, double duration) {
+  const Where where = where_of(site, "base_motion.file");
+  if (record.time.back() < duration)
+    throw InputError(where,
+                     "the base motion ends at " + text(record.time.back(), 6) +
+                         " s, the run lasts " + text(duration, 6) + " s",
+                     "shorten the run with duration_s, or add samples of zero at the end");
+  if (record.time.front() > 0)
+    throw InputError(
+        where, "the base motion starts at " + text(record.time.front(), 6) + " s, after the run",
+        "add a sample of zero at 0 s");
 }
 
 }  // namespace
@@ -71,25 +72,14 @@ AccelerationRecord base_motion(const Site& site, double duration) {
   if (settings.file.empty() && std::isnan(settings.frequency_hz))
     throw InputError(where_of(site, "base_motion.amplitude_m_s2"),
                      "a harmonic motion has no frequency", "give frequency_hz");
-  const double n_samples = samples_per_period * settings.frequency_hz * duration;
-  if (n_samples > most_samples)  // false without a frequency
-    throw InputError(
-        where_of(site, "base_motion.frequency_hz"),
-        "gives " + text(n_samples, 3) + " samples, expected up to " + text(most_samples),
-        "give a lower frequency_hz or a shorter run");
-  AccelerationRecord record = settings.file.empty()
-                                  ? harmonic(settings, duration)
-                                  : read_acceleration_csv(resolved(site, settings.file));
-  if (record.time.back() < duration)
-    throw InputError(where_of(site, "base_motion.file"),
-                     "the base motion ends at " + text(record.time.back(), 6) +
-                         " s, the run lasts " + text(duration, 6) + " s",
-                     "shorten the run with duration_s, or add samples of zero at the end");
-  if (record.time.front() > 0)
-    throw InputError(
-        where_of(site, "base_motion.file"),
-        "the base motion starts at " + text(record.time.front(), 6) + " s, after the run",
-        "add a sample of zero at 0 s");
+  AccelerationRecord record;
+  if (settings.file.empty()) {
+    record = harmonic(settings, duration);
+  } else {
+    record = read_acceleration_csv(resolved(site, settings.file));
+    check_times(site, record, duration);
+  }
+  record.harmonic.amplitude *= settings.scale;
   for (Vec3& acceleration : record.acceleration) acceleration *= settings.scale;
   return record;
 }

@@ -16,9 +16,9 @@ namespace talus {
 [[nodiscard]] AccelerationRecord read_acceleration_csv(const std::string& path);
 
 /// The record that [base_motion] asks for, times `scale`; empty when it asks for none. A harmonic
-/// motion a sin(2 pi f (t - start)) is sampled 64 times a period. Throws InputError when the record
-/// ends before `duration` [s] or starts after 0, for both a file and an amplitude, a frequency
-/// without amplitude or the reverse, and for more than 1e7 samples.
+/// motion a sin(2 pi f (t - start)) lasts from its start to its end and nothing longer. Throws
+/// InputError when the samples of a file end before `duration` [s] or start after 0, for both a
+/// file and an amplitude, and for a frequency without amplitude or the reverse.
 [[nodiscard]] AccelerationRecord base_motion(const Site& site, double duration);
 
 }  // namespace talus

@@ -105,7 +105,7 @@ void take(const Overlap& overlap, const Vec3& at, double time, DeepBlock& deep) 
 // Faster than its fall so far, and one by its radius, can have made it. Base motion and loads give
 // energy besides: nothing is said then.
 bool is_too_fast(const Scene& scene, const State& state, size_t b) {
-  if (!scene.base.time.empty() || !scene.loads.empty()) return false;
+  if (shakes(scene.base) || !scene.loads.empty()) return false;
   const Motion motion = motion_at(scene, state, static_cast<int>(b), state.time);
   const Blocks& blocks = scene.blocks;
   const double fall = scene.gravity.dot(motion.pose.position - blocks.rest[b].position) +

@@ -54,7 +54,7 @@ struct Advance {
   [[nodiscard]] size_t i() const { return static_cast<size_t>(b); }
   Motion& motion() { return state.motion[i()]; }
 
-  bool gravity_only() const { return scene.base.time.empty() && scene.loads.empty(); }
+  bool gravity_only() const { return !shakes(scene.base) && scene.loads.empty(); }
   bool free_fall_only() const { return may_fly && gravity_only(); }
 
   void finish(const Substep& s, const Motion& end, double t, double t_next) {
