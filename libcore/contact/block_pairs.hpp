@@ -75,7 +75,7 @@ struct PairState {  // clang-format off
   std::vector<Vec3> listed_at;        ///< positions when listed [m]                     (n_bodies)
   std::vector<double> listed_turned;  ///< PlacedHulls::turned when listed [m]           (n_bodies)
   std::vector<Box> budget;            ///< motion that the list allows, relative to the frame [m] (n_free)
-  double fixed_budget = 0;            ///< the same for fixed bodies, each way [m]
+  double fixed_budget = 0;            ///< the same for fixed bodies, each path [m]
   Vec3 last_frame = Vec3::Zero();     ///< mean position of the last step [m]
   std::vector<Vec3> last_at;          ///< positions of the last step [m]                (n_bodies)
   std::vector<double> last_turned;    ///< PlacedHulls::turned of the last step [m]      (n_bodies)

@@ -81,9 +81,7 @@ BodyGrid make_body_grid(std::span<const Vec3> centre, std::span<const double> ra
   std::partial_sum(grid.begin.begin(), grid.begin.end(), grid.begin.begin());
   grid.bodies.resize(grid.begin.back());
   std::vector<int> next(grid.begin.begin(), grid.begin.end() - 1);
-  for_each([&](size_t i, size_t c) {
-    grid.bodies[next[c]++] = static_cast<int>(i);
-  });
+  for_each([&](size_t i, size_t c) { grid.bodies[next[c]++] = static_cast<int>(i); });
   return grid;
 }
 

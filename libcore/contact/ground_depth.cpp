@@ -79,8 +79,7 @@ void clip(const Vec3& normal, double offset, GroundDepthScratch& scratch) {
 bool reaches(const Hulls& hulls, const PlacedHulls& placed, int part, const Corners& corners,
              double depth, GroundDepthScratch& scratch) {
   scratch.polygon.assign(corners.begin(), corners.end());
-  const int begin = hulls.face_begin[part],
-            end = begin + hulls.n_faces[part];
+  const int begin = hulls.face_begin[part], end = begin + hulls.n_faces[part];
   for (int face = begin; face < end && !scratch.polygon.empty(); ++face) {
     const auto slot = static_cast<size_t>(face);
     const double inside = hulls.cover[slot] == FaceCover::all ? 0 : depth;
@@ -110,10 +109,8 @@ double depth_inside(const Trn& trn, const Hulls& hulls, const PlacedHulls& place
 double depth_in_ground(const Trn& trn, const Hulls& hulls, const PlacedHulls& placed, int body,
                        GroundDepthScratch& scratch) {
   double depth = 0;
-  for (int part = hulls.part_begin[body];
-       part < hulls.part_begin[body + 1]; ++part) {
-    for (int v = hulls.vertex_begin[part];
-         v < hulls.vertex_begin[part + 1]; ++v)
+  for (int part = hulls.part_begin[body]; part < hulls.part_begin[body + 1]; ++part) {
+    for (int v = hulls.vertex_begin[part]; v < hulls.vertex_begin[part + 1]; ++v)
       depth = std::max(depth, depth_of_point(trn, placed.vertices[v]));
     depth = depth_inside(trn, hulls, placed, part, depth, scratch);
   }

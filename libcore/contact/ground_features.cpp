@@ -48,9 +48,7 @@ struct FeatureSearch : PlacedBlock {
   [[nodiscard]] Vec3 to_body(const Vec3& x) const {
     return to_local.transpose() * (x - pose.position);
   }
-  [[nodiscard]] double height(int vertex) const {
-    return vertices[vertex].z();
-  }
+  [[nodiscard]] double height(int vertex) const { return vertices[vertex].z(); }
 
   // Whether a contact at x is taken. A deep one in doubt is put off to the second search, and left
   // out there when an overlap was found near it: the features have come in by that one.
@@ -71,8 +69,7 @@ struct FeatureSearch : PlacedBlock {
 bool is_across_wall(const Shapes& shapes, int p, const Vec3& X, double same) {
   const auto begin = shapes.walls.begin();
   return std::any_of(
-      begin + shapes.wall_begin[p],
-      begin + shapes.wall_begin[p + 1],
+      begin + shapes.wall_begin[p], begin + shapes.wall_begin[p + 1],
       [&](const ShapeWall& wall) { return wall.normal.dot(X) > wall.offset + same; });
 }
 
@@ -83,8 +80,7 @@ double depth_in_part(const Shapes& shapes, int p, const Vec3& X, const ShapeEdge
   constexpr double same_cos = 1 - 1e-9;
   if (is_across_wall(shapes, p, X, same)) return -1;
   double depth = std::numeric_limits<double>::infinity();
-  for (int f = shapes.face_begin[p];
-       f < shapes.face_begin[p + 1]; ++f) {
+  for (int f = shapes.face_begin[p]; f < shapes.face_begin[p + 1]; ++f) {
     const ShapeFace& face = shapes.faces[f];
     const double inside = face.offset - face.normal.dot(X);
     const bool at_edge =
@@ -105,8 +101,7 @@ bool edges_overlap(const FeatureSearch& s, const ShapeEdge& edge, const Vec3& A,
   if (!contains(trn, a.x(), a.y())) return false;
   if (!(a.z() - elevation_at(trn, locate(trn, a.x(), a.y())) < 2 * depth)) return false;
   const double same = same_wall * s.shapes.radius[s.b];
-  for (int p = s.shapes.part_begin[s.b];
-       p < s.shapes.part_begin[s.b + 1]; ++p)
+  for (int p = s.shapes.part_begin[s.b]; p < s.shapes.part_begin[s.b + 1]; ++p)
     if (depth_in_part(s.shapes, p, X, edge, same) >= depth) return true;
   return false;
 }
@@ -133,8 +128,7 @@ EnteredFace entered_face(const FeatureSearch& s, int p, int row, int col, const 
   EnteredFace nearest, beneath;
   beneath.is_nearest = false;
   double height = std::numeric_limits<double>::infinity();  // above the lowest face so far
-  for (int f = s.shapes.face_begin[p];
-       f < s.shapes.face_begin[p + 1]; ++f) {
+  for (int f = s.shapes.face_begin[p]; f < s.shapes.face_begin[p + 1]; ++f) {
     const ShapeFace& face = s.shapes.faces[f];
     const double gap = face.normal.dot(X) - face.offset, slope = face.normal.dot(up);
     if (gap > nearest.gap) nearest.face = f, nearest.gap = gap;
@@ -161,8 +155,7 @@ void find_mode_2(FeatureSearch& s, int row, int col, std::vector<Contact>& conta
   const double radius = s.shapes.radius[s.b] + s.margin;
   if (X.squaredNorm() > radius * radius) return;
   const double deepest = s.shapes.thickness[s.b] / 2;
-  for (int p = s.shapes.part_begin[s.b];
-       p < s.shapes.part_begin[s.b + 1]; ++p) {
+  for (int p = s.shapes.part_begin[s.b]; p < s.shapes.part_begin[s.b + 1]; ++p) {
     if (is_across_wall(s.shapes, p, X, same_wall * radius)) continue;
     const EnteredFace entered = entered_face(s, p, row, col, X);
     if (entered.face < 0) continue;
@@ -211,7 +204,7 @@ constexpr std::uint64_t all_edges = ~std::uint64_t{0};
 /// An edge of the ground and what it meets blocks with.
 struct Ridge {
   Vec3 end_a, end_b;          // local axes
-  Vec3 Q, f;                  // end_a and the way to end_b, body axes
+  Vec3 Q, f;                  // end_a and the path to end_b, body axes
   GaussArc arc;               // body axes
   int left = 0, feature = 0;  // triangle; as in the contact's key
 };
@@ -321,9 +314,7 @@ std::uint64_t touching_edges(const FeatureSearch& s, const GaussArc& ridge,
   std::uint64_t touching = 0;
   for (; near != 0; near &= near - 1) {
     const int i = std::countr_zero(near);
-    touching |= std::uint64_t{edges_may_touch(edges[i].arc, ridge,
-                                              s.nearly_parallel, s.turn)}
-                << i;
+    touching |= std::uint64_t{edges_may_touch(edges[i].arc, ridge, s.nearly_parallel, s.turn)} << i;
   }
   return touching;
 }
@@ -348,8 +339,7 @@ std::uint64_t near_edges(const FeatureSearch& s, const NearRidge& ridge,
   for (; among != 0; among &= among - 1) {
     const int i = std::countr_zero(among);
     const ShapeEdge& edge = edges[i];
-    const Vec3 &a = s.vertices[edge.a],
-               &b = s.vertices[edge.b];
+    const Vec3 &a = s.vertices[edge.a], &b = s.vertices[edge.b];
     const int is_high = int{a.z() > ridge.height} & int{b.z() > ridge.height};
     near |= std::uint64_t{(is_high | ridge.is_cleared_by(a, b)) == 0} << i;
   }
@@ -496,8 +486,8 @@ bool keep_list(const FeatureSearch& s, NearFeatures& near) {
   near.last = s.pose;
   // twice: by strains the points move, and so does the bound on that
   const double by_strain = 2 * radius * (s.stretch - near.stretch).norm();
-  const double way = moved(near.listed, s.pose, radius) + by_strain;
-  if (s.margin <= near.margin && way <= (1 - rounding) * near.skin) return true;
+  const double path = moved(near.listed, s.pose, radius) + by_strain;
+  if (s.margin <= near.margin && path <= (1 - rounding) * near.skin) return true;
   near.skin = std::max(searches_ahead * last, least_skin * radius);
   if (near.skin > most_skin * radius) {
     near.skin = most_skin * radius;

@@ -11,8 +11,8 @@
 
 #include "base/types.hpp"
 #include "contact/neighbours.hpp"
-#include "motion/pose.hpp"
 #include "geometry/polyhedron.hpp"
+#include "motion/pose.hpp"
 
 namespace talus {
 

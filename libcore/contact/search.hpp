@@ -10,8 +10,8 @@
 #include "contact/contact.hpp"
 #include "contact/ground.hpp"
 #include "contact/near_features.hpp"
-#include "motion/pose.hpp"
 #include "contact/shapes.hpp"
+#include "motion/pose.hpp"
 
 namespace talus {
 

@@ -22,12 +22,10 @@ void add_part(Shapes& shapes, const Polyhedron& part, std::span<const int> verte
     face_data.normal = normal;
     face_data.area = face_area(part, f);
     face_data.vertex_begin = static_cast<int>(shapes.face_vertices.size());
-    for (const int v : face(part, f))
-      shapes.face_vertices.push_back(vertex_of[v]);
+    for (const int v : face(part, f)) shapes.face_vertices.push_back(vertex_of[v]);
     face_data.vertex_end = static_cast<int>(shapes.face_vertices.size());
     for (int i = face_data.vertex_begin; i < face_data.vertex_end; ++i)
-      face_data.offset += face_data.normal.dot(body_vertices[
-          shapes.face_vertices[i]]);
+      face_data.offset += face_data.normal.dot(body_vertices[shapes.face_vertices[i]]);
     face_data.offset /= face_data.vertex_end - face_data.vertex_begin;
     shapes.faces.push_back(face_data);
   }
@@ -41,9 +39,7 @@ void add_edges(Shapes& shapes, const Polyhedron& shell, std::span<const int> ver
     if (edge.left < 0 || edge.right < 0) continue;
     const int a = vertex_of[edge.a];
     const int b = vertex_of[edge.b];
-    const Vec3 along =
-        (body_vertices[b] - body_vertices[a])
-            .normalized();
+    const Vec3 along = (body_vertices[b] - body_vertices[a]).normalized();
     const Vec3 left = to_body * face_normal(shell, edge.left);
     const Vec3 right = to_body * face_normal(shell, edge.right);
     if (left.cross(right).dot(along) > flattest_edge)

@@ -28,8 +28,7 @@ void lay_out(const std::vector<Vec2>& points, const std::vector<Segment>& segmen
   grid.low = points.front();
   for (const Vec2& p : points) grid.low = grid.low.cwiseMin(p), high = high.cwiseMax(p);
   double length = 0;
-  for (const auto& [a, b] : segments)
-    length += (points[b] - points[a]).norm();
+  for (const auto& [a, b] : segments) length += (points[b] - points[a]).norm();
   const auto n = static_cast<double>(segments.size());
   const Vec2 extent = high - grid.low;
   grid.cell_size = std::max({2 * length / n, std::sqrt(extent.x() * extent.y() / (4 * n)),
@@ -67,9 +66,7 @@ void for_each_cell(const SegmentGrid& grid, Vec2 a, Vec2 b, const Visit& visit) 
 SegmentGrid sort_into_cells(const std::vector<Vec2>& points, const std::vector<Segment>& segments) {
   SegmentGrid grid;
   lay_out(points, segments, grid);
-  const auto end_of = [&](std::size_t s, std::size_t end) {
-    return points[segments[s][end]];
-  };
+  const auto end_of = [&](std::size_t s, std::size_t end) { return points[segments[s][end]]; };
   grid.begin.assign(static_cast<std::size_t>(grid.n_x) * static_cast<std::size_t>(grid.n_y) + 1, 0);
   for (std::size_t s = 0; s < segments.size(); ++s)
     for_each_cell(grid, end_of(s, 0), end_of(s, 1), [&](std::size_t cell) { ++grid.begin[cell]; });

@@ -249,23 +249,20 @@ void append_part(const OGRGeometry& part, std::int64_t feature, const Where& whe
 
 void set_heights(const std::vector<double>& heights, Polylines& lines) {
   for (std::size_t l = 0; l < heights.size(); ++l)
-    for (int i = lines.begin[l]; i < lines.begin[l + 1]; ++i)
-      lines.points[i].z() = heights[l];
+    for (int i = lines.begin[l]; i < lines.begin[l + 1]; ++i) lines.points[i].z() = heights[l];
 }
 
 // What files write where they know no height is no height, whatever its unit.
 void check_known(const Polylines& lines, const LayerChoice& choice, const OpenLayer& source,
                  const std::string& from) {
   for (int l = 0; l < lines.n_lines(); ++l)
-    for (int i = lines.begin[l];
-         i < lines.begin[l + 1]; ++i) {
+    for (int i = lines.begin[l]; i < lines.begin[l + 1]; ++i) {
       const Vec3& point = lines.points[i];
       if (!is_usual_nodata(point.z())) continue;
       const std::string value = text(point.z());
       throw InputError({choice.path, 0,
-                        "layer " + source.name + ", feature " +
-                            std::to_string(lines.feature[l]) + " (" +
-                            text(point.x(), 10) + ", " + text(point.y(), 10) + ")"},
+                        "layer " + source.name + ", feature " + std::to_string(lines.feature[l]) +
+                            " (" + text(point.x(), 10) + ", " + text(point.y(), 10) + ")"},
                        "the elevation is " + value + ", which stands for an unknown one",
                        from == "Z"
                            ? "give the line its height, or take it out"
@@ -410,12 +407,10 @@ Polylines read_contour_lines(const ContourSources& sources, OpenLayer& source,
     set_heights(values.values(), raw.lines);
   } else {
     if (z.first_sloping >= 0)
-      throw InputError(
-          where,
-          "feature " +
-              std::to_string(raw.lines.feature[z.first_sloping]) +
-              " changes its height along the line, expected contours",
-          "give such lines as --breaklines, or choose a field with --elevation-field");
+      throw InputError(where,
+                       "feature " + std::to_string(raw.lines.feature[z.first_sloping]) +
+                           " changes its height along the line, expected contours",
+                       "give such lines as --breaklines, or choose a field with --elevation-field");
     if (reads_field) check_same_elevation(raw, values.values(), *field, where);
   }
   check_known(raw.lines, choice, source, take_field ? field->name : "Z");

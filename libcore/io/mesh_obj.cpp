@@ -25,8 +25,7 @@ Vec3 point_of(const std::vector<std::string_view>& words, const Where& where) {
   for (Eigen::Index k = 0; k < 3; ++k)
     if (!parse_double(words[k + 1], p[k]))
       throw InputError(where,
-                       "\"" + std::string(words[k + 1].substr(0, 40)) +
-                           "\" is not a number");
+                       "\"" + std::string(words[k + 1].substr(0, 40)) + "\" is not a number");
   return p;
 }
 

@@ -46,9 +46,8 @@ Mesh parse_text(const std::string& bytes, const std::string& path) {
       if (words.size() < 4) throw InputError(where, "a vertex has fewer than three coordinates");
       for (Eigen::Index k = 0; k < 3; ++k)
         if (!parse_double(words[k + 1], p[k]))
-          throw InputError(
-              where, "\"" + std::string(words[k + 1].substr(0, 40)) +
-                         "\" is not a number");
+          throw InputError(where,
+                           "\"" + std::string(words[k + 1].substr(0, 40)) + "\" is not a number");
       builder.add_vertex(p, where);
       ++n_corners;
     }

@@ -296,10 +296,8 @@ void make_relative(const Header& header, Tin& tin) {
 
 void turn_clockwise_triangles(Tin& tin) {
   for (auto& [a, b, c] : tin.triangles) {
-    const Vec3 u =
-        tin.points[b] - tin.points[a];
-    const Vec3 v =
-        tin.points[c] - tin.points[a];
+    const Vec3 u = tin.points[b] - tin.points[a];
+    const Vec3 v = tin.points[c] - tin.points[a];
     if (u.x() * v.y() - u.y() * v.x() < 0) std::swap(b, c);
   }
 }

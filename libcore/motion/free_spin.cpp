@@ -84,8 +84,8 @@ void set_series(double q, double p, FreeSpin& s) {
     const double odd = below * q_n * q_n, even = 2 * below * q_n;
     const double less = below * p_n, more = odd / p_n;
     if (s.n_terms > 1 && less < 1e-17) return;
-    s.terms[s.n_terms] = {
-        odd, sign * odd, even, sign * even, sign * (less + more), sign * (less - more)};
+    s.terms[s.n_terms] = {odd,         sign * odd,           even,
+                          sign * even, sign * (less + more), sign * (less - more)};
     below = odd;
     q_n *= q;
     p_n *= p;

@@ -57,26 +57,26 @@ struct Meeting {
 };
 
 // The ends of each lie on different sides of the other. A point on a line counts as lying to its
-// left, and a corner of the line has one side of the way for both of its parts, so that no crossing
-// is missed or seen twice when a step ends on the line or goes through a corner.
+// left, and a corner of the line has one side of the path for both of its parts, so that no
+// crossing is missed or seen twice when a step ends on the line or goes through a corner.
 Meeting meet(const LinePart& part, const Vec2& a, const Vec2& b) {
   const double side_a = cross(part.direction, a - part.start);
   const double side_b = cross(part.direction, b - part.start);
   if ((side_a >= 0) == (side_b >= 0)) return {};
-  const Vec2 way = b - a;
-  const double start = part.is_first ? -cross(way, part.direction) : cross(way, part.start - a);
-  const double end = part.is_last ? cross(way, part.direction) : cross(way, part.end - a);
+  const Vec2 path = b - a;
+  const double start = part.is_first ? -cross(path, part.direction) : cross(path, part.start - a);
+  const double end = part.is_last ? cross(path, part.direction) : cross(path, part.end - a);
   if ((start >= 0) == (end >= 0)) return {};
   const double s = side_a / (side_a - side_b);
-  return {true, s, share_of(part, a + s * way), side_b >= 0 ? 1 : -1};
+  return {true, s, share_of(part, a + s * path), side_b >= 0 ? 1 : -1};
 }
 
 // Time at which the centroid reaches share s of its way in plan. The way is a line, but where the
 // acceleration has a horizontal part along it the share is not that of the time.
 double time_at(const Segment& segment, double s) {
   const double h = segment.t_end - segment.t_start;
-  const Vec2 way = (segment.end.pose.position - segment.start.pose.position).head<2>();
-  const double bend = 0.5 * h * h * segment.acceleration.head<2>().dot(way) / way.squaredNorm();
+  const Vec2 path = (segment.end.pose.position - segment.start.pose.position).head<2>();
+  const double bend = 0.5 * h * h * segment.acceleration.head<2>().dot(path) / path.squaredNorm();
   double tau = s;  // s = tau - bend tau (1 - tau), by Newton
   for (int i = 0; i < 6; ++i)
     tau -= (tau - bend * tau * (1 - tau) - s) / std::max(0.1, 1 - bend * (1 - 2 * tau));

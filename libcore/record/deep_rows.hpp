@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "scene/state.hpp"
 #include "record/crossings.hpp"
 #include "record/run_file.hpp"
+#include "scene/state.hpp"
 
 namespace talus {
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "site/site.hpp"
 #include "record/crossings.hpp"
+#include "site/site.hpp"
 #include "terrain/trn.hpp"
 
 namespace talus {

@@ -52,7 +52,7 @@ CellBox cells_below(const PassageGrid& grid, const Vec2& low, const Vec2& high) 
 }
 
 // Cuts `share` down to where all of value + s * rate are positive.
-void keep_positive(const AxisArray& value, const AxisArray& rate, WayShare& share) {
+void keep_positive(const AxisArray& value, const AxisArray& rate, PathShare& share) {
   const AxisArray zero = -value / rate;
   for (int k = 0; k < n_footprint_axes; ++k) {
     if (rate[k] > 0)
@@ -104,24 +104,24 @@ void find_covered(const PassageRecorder& recorder, const Vec2& at, PassageTracke
   });
 }
 
-FootprintWay footprint_way(const PassageGrid& grid, const Footprint& from, const Footprint& to) {
+FootprintPath footprint_path(const PassageGrid& grid, const Footprint& from, const Footprint& to) {
   const AxisArray place = axes.project(from.at), rate = axes.project(to.at - from.at);
-  FootprintWay way;
-  way.cells =
+  FootprintPath path;
+  path.cells =
       cells_below(grid, from.low().cwiseMin(to.low()), from.high().cwiseMax(to.high())).cells;
-  way.low = place + from.extents.low;
-  way.high = place + from.extents.high;
-  way.low_rate = rate + to.extents.low - from.extents.low;
-  way.high_rate = rate + to.extents.high - from.extents.high;
-  way.half_cell = grid.cell_size * axes.half_cell;
-  return way;
+  path.low = place + from.extents.low;
+  path.high = place + from.extents.high;
+  path.low_rate = rate + to.extents.low - from.extents.low;
+  path.high_rate = rate + to.extents.high - from.extents.high;
+  path.half_cell = grid.cell_size * axes.half_cell;
+  return path;
 }
 
-WayShare share_over_cell(const FootprintWay& way, const Vec2& centre) {
+PathShare share_over_cell(const FootprintPath& path, const Vec2& centre) {
   const AxisArray at = axes.project(centre);
-  WayShare share;
-  keep_positive(way.high - at + way.half_cell, way.high_rate, share);
-  if (share.in < share.out) keep_positive(at + way.half_cell - way.low, -way.low_rate, share);
+  PathShare share;
+  keep_positive(path.high - at + path.half_cell, path.high_rate, share);
+  if (share.in < share.out) keep_positive(at + path.half_cell - path.low, -path.low_rate, share);
   return share;
 }
 

@@ -1,5 +1,5 @@
 // libcore/record/footprint_cells.hpp
-// The cells of a grid that a footprint lies over, at one place and on its way to another.
+// The cells of a grid that a footprint lies over, at one place and on its path to another.
 // in:    footprints as extents along eight axes (record/passage_recorder.hpp)
 // out:   cells; on a way the part of it over each, in closed form
 #pragma once
@@ -38,30 +38,30 @@ void find_covered(const PassageGrid& grid, const Footprint& footprint, PassageTr
 void find_covered(const PassageRecorder& recorder, const Vec2& at, PassageTracker& tracker);
 
 /// A footprint that goes straight from one place to another, its extents linearly.
-struct FootprintWay {
+struct FootprintPath {
   CellRange cells;                ///< that it may lie over
   AxisArray low, high;            ///< its sides at the start, along the axes [m]
   AxisArray low_rate, high_rate;  ///< by which they move up to the end [m]
   AxisArray half_cell;            ///< half the extent of a cell [m]
 };
-[[nodiscard]] FootprintWay footprint_way(const PassageGrid& grid, const Footprint& from,
-                                         const Footprint& to);
+[[nodiscard]] FootprintPath footprint_path(const PassageGrid& grid, const Footprint& from,
+                                           const Footprint& to);
 
 /// A part of a way, which goes from 0 to 1; none when in >= out.
-struct WayShare {
+struct PathShare {
   double in = 0, out = 1;
 };
 /// The part with the footprint over a cell: while their extents overlap along each axis.
-[[nodiscard]] WayShare share_over_cell(const FootprintWay& way, const Vec2& centre);
+[[nodiscard]] PathShare share_over_cell(const FootprintPath& path, const Vec2& centre);
 
-/// Calls visit(cell, in, out) for every cell that the footprint lies over on its way.
+/// Calls visit(cell, in, out) for every cell that the footprint lies over on its path.
 template <class Visit>
 void sweep_cells(const PassageGrid& grid, const Footprint& from, const Footprint& to,
                  Visit&& visit) {
-  const FootprintWay way = footprint_way(grid, from, to);
-  for (int row = way.cells.row_first; row <= way.cells.row_last; ++row)
-    for (int col = way.cells.col_first; col <= way.cells.col_last; ++col) {
-      const WayShare share = share_over_cell(way, cell_centre(grid, row, col));
+  const FootprintPath path = footprint_path(grid, from, to);
+  for (int row = path.cells.row_first; row <= path.cells.row_last; ++row)
+    for (int col = path.cells.col_first; col <= path.cells.col_last; ++col) {
+      const PathShare share = share_over_cell(path, cell_centre(grid, row, col));
       if (share.in < share.out) visit(cell_index(grid, row, col), share.in, share.out);
     }
 }

@@ -7,9 +7,9 @@
 #include <deque>
 #include <vector>
 
+#include "record/motion.hpp"
 #include "scene/scene.hpp"
 #include "step/work.hpp"
-#include "record/motion.hpp"
 
 namespace talus {
 

@@ -99,9 +99,9 @@ struct FlightRecord {
     if (std::isnan(centroid) || static_cast<float>(centroid + top_bound) <= top) return;
     if (to - from == 1) {
       HeightPath way = path(from, to);
-      way.top_from = instant_at(from).instant.top;
-      way.top_to = instant_at(to).instant.top;
-      const auto height = static_cast<float>(largest_heights(scene.ground.trn, way, 0, 1).top);
+      path.top_from = instant_at(from).instant.top;
+      path.top_to = instant_at(to).instant.top;
+      const auto height = static_cast<float>(largest_heights(scene.ground.trn, path, 0, 1).top);
       if (!(height <= top)) top = height;
       return;
     }

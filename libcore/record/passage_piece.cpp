@@ -65,7 +65,7 @@ void record_sweep(PassageRecorder& recorder, const Scene& scene, const PassagePi
                   const PassageValues& whole) {
   const Motion &a = piece.a.motion, &b = piece.b.motion;
   const PassageTracker& tracker = recorder.trackers[piece.block];
-  const Vec3 way = b.pose.position - a.pose.position;
+  const Vec3 path = b.pose.position - a.pose.position;
   const auto visit = [&](int cell, double s_in, double s_out) {
     const double time = piece.t_start + s_in * piece.duration;
     const PassageValues values =
@@ -74,9 +74,10 @@ void record_sweep(PassageRecorder& recorder, const Scene& scene, const PassagePi
       known->largest.raise(values);
       return;
     }
-    const double z = a.pose.position.z() + s_in * way.z() - piece.sag * s_in * (1 - s_in);
-    Passage row = arrival(piece.block, tracker, time, z, tracker.path + s_in * way.head<2>().norm(),
-                          a.velocity + s_in * (b.velocity - a.velocity));
+    const double z = a.pose.position.z() + s_in * path.z() - piece.sag * s_in * (1 - s_in);
+    Passage row =
+        arrival(piece.block, tracker, time, z, tracker.path + s_in * path.head<2>().norm(),
+                a.velocity + s_in * (b.velocity - a.velocity));
     row.cell = cell;
     row.largest = values;
     recorder.table.raise(row);

@@ -15,7 +15,7 @@ struct PassagePiece {
   double t_start = 0, duration = 0;  ///< [s]
   double sag = 0;                    ///< a_z h^2 / 2 [m]
   double turn = 0;                   ///< the attitude turns by less [rad]
-  double sagitta = 0;                ///< of a vertex's way by turning, from above [m]
+  double sagitta = 0;                ///< of a vertex's path by turning, from above [m]
 };
 
 [[nodiscard]] inline Vec2 place_in_plan(const Motion& motion) {

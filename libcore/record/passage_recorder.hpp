@@ -5,11 +5,11 @@
 
 #include <vector>
 
-#include "scene/scene.hpp"
-#include "step/work.hpp"
 #include "record/motion.hpp"
 #include "record/passage_table.hpp"
 #include "record/path_heights.hpp"
+#include "scene/scene.hpp"
+#include "step/work.hpp"
 #include "terrain/trn.hpp"
 
 namespace talus {

@@ -10,7 +10,7 @@
 
 namespace talus {
 
-/// The way of a block's centroid and of its top above it: straight in plan, z(s) = from + (to -
+/// The path of a block's centroid and of its top above it: straight in plan, z(s) = from + (to -
 /// from) s - sag s (1 - s) with sag = a_z h^2 / 2, s from 0 to 1.
 struct HeightPath {
   Vec3 from, to;                    ///< centroid [m]

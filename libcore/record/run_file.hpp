@@ -13,10 +13,10 @@
 #include <string>
 #include <vector>
 
-#include "step/report.hpp"
 #include "record/crossings.hpp"
 #include "record/frames.hpp"
 #include "record/passages.hpp"
+#include "step/report.hpp"
 
 namespace talus {
 

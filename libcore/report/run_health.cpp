@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "base/text.hpp"
-#include "report/html.hpp"
 #include "record/deep_rows.hpp"
+#include "report/html.hpp"
 
 namespace talus {
 

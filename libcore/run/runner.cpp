@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "record/deep_rows.hpp"
 #include "step/step.hpp"
 #include "store/checkpoint.hpp"
-#include "record/deep_rows.hpp"
 
 namespace talus {
 namespace {

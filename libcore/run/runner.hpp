@@ -9,13 +9,13 @@
 #include <vector>
 
 #include "blocks/block_set.hpp"
-#include "scene/scene.hpp"
-#include "scene/state.hpp"
-#include "step/work.hpp"
 #include "record/crossings.hpp"
 #include "record/frames.hpp"
 #include "record/passages.hpp"
 #include "record/run_file.hpp"
+#include "scene/scene.hpp"
+#include "scene/state.hpp"
+#include "step/work.hpp"
 
 namespace talus {
 

@@ -19,8 +19,7 @@ constexpr double bonded_angle = 1e-3;
 
 GroundClass face_class(const Scene& scene, int block, int joint_set) {
   const JointClasses& joints = scene.joints;
-  GroundClass made =
-      joints.of_block.empty() ? scene.joint : joints.of_block[block];
+  GroundClass made = joints.of_block.empty() ? scene.joint : joints.of_block[block];
   if (joint_set < 0 || static_cast<size_t>(joint_set) >= joints.of_set.size()) return made;
   const GroundClass& set = joints.of_set[joint_set];
   if (set.friction >= 0) made.friction = set.friction;

@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "base/error.hpp"
-#include "motion/rotation.hpp"
 #include "geometry/polyhedron.hpp"
+#include "motion/rotation.hpp"
 
 namespace talus {
 namespace {
@@ -32,8 +32,7 @@ const FencePanel& panel_of(const Scene& scene, int body) {
 }
 
 Vec3 spin_of(const Scene& scene, int block, const Motion& m) {
-  return angular_velocity(m.pose.attitude, m.angular_momentum,
-                          scene.blocks.inertia[block]);
+  return angular_velocity(m.pose.attitude, m.angular_momentum, scene.blocks.inertia[block]);
 }
 
 double translational(const Scene& scene, int block, const Motion& m) {
@@ -112,9 +111,7 @@ void add_fence(Scene& scene, const StandingFence& fence) {
   }
 }
 
-int panel_number(const Scene& scene, int body) {
-  return scene.fixed.panel[body];
-}
+int panel_number(const Scene& scene, int body) { return scene.fixed.panel[body]; }
 
 void note_hit(const Scene& scene, int block, int body, const Vec3& point, double time,
               const Motion& before, const Motion& after, FenceState& fence) {

@@ -56,9 +56,7 @@ struct BlockLives {  // clang-format off
 /// All blocks near the ground at time 0, each at its pose of `rest`.
 [[nodiscard]] BlockLives start_lives(const std::vector<Pose>& rest);
 
-[[nodiscard]] inline Phase phase_of(const BlockLives& lives, int b) {
-  return lives.phase[b];
-}
+[[nodiscard]] inline Phase phase_of(const BlockLives& lives, int b) { return lives.phase[b]; }
 [[nodiscard]] inline bool takes_part(const BlockLives& lives, int b) {
   return takes_part(phase_of(lives, b));
 }

@@ -48,8 +48,7 @@ const JointSettings* joints_of(const Site& site, const std::string& set) {
 JointClasses joint_classes(const Site& site, const BlockSet& blocks,
                            const std::vector<GroundClass>& rock) {
   JointClasses classes;
-  for (const int material : blocks.material)
-    classes.of_block.push_back(rock[material]);
+  for (const int material : blocks.material) classes.of_block.push_back(rock[material]);
   for (const std::string& set : blocks.joint_set_names) {
     GroundClass& made = classes.of_set.emplace_back();
     made.friction = -1;

@@ -60,8 +60,7 @@ double lowest_over(const Polyhedron& part, const Vec2& at) {
 double depth_of_part(const Trn& trn, const Polyhedron& part) {
   double depth = -infinity;
   for (const PolyhedronEdge& edge : edges(part))
-    deepen(depth, depth_of_edge(trn, part.vertices[edge.a],
-                                part.vertices[edge.b]));
+    deepen(depth, depth_of_edge(trn, part.vertices[edge.a], part.vertices[edge.b]));
   Vec3 low = part.vertices[0], high = low;
   for (const Vec3& vertex : part.vertices) {
     low = low.cwiseMin(vertex);
@@ -82,8 +81,7 @@ std::vector<double> depths_below_ground(const Trn& trn, const BlockSet& blocks) 
   std::vector<double> depths;
   for (int b = 0; b < n_blocks(blocks); ++b) {
     double depth = -infinity;
-    for (int p = blocks.convex_part_begin[b];
-         p < blocks.convex_part_begin[b + 1]; ++p)
+    for (int p = blocks.convex_part_begin[b]; p < blocks.convex_part_begin[b + 1]; ++p)
       deepen(depth, depth_of_part(trn, convex_part(blocks, p)));
     depths.push_back(depth);
   }

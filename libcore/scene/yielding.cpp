@@ -14,9 +14,7 @@ using std::size_t;
 
 bool has_axis(const Yielding& yielding) { return !yielding.axis.isZero(0); }
 
-int yielding_number(const Scene& scene, int body) {
-  return scene.fixed.yielding[body];
-}
+int yielding_number(const Scene& scene, int body) { return scene.fixed.yielding[body]; }
 
 int hardest_pusher(std::span<const YieldPush> pushes, int yielding) {
   const auto work_on = [yielding](const YieldPush& p) {

@@ -8,9 +8,9 @@
 #include <span>
 #include <vector>
 
+#include "geometry/polyhedron.hpp"
 #include "scene/scene.hpp"
 #include "scene/state.hpp"
-#include "geometry/polyhedron.hpp"
 
 namespace talus {
 

@@ -36,9 +36,7 @@ int next_unknown(int n, const std::vector<int>& place,
   int best = -1;
   for (int i = 0; i < n; ++i) {
     if (place[i] >= 0) continue;
-    if (best < 0 ||
-        neighbours[i].size() < neighbours[best].size())
-      best = i;
+    if (best < 0 || neighbours[i].size() < neighbours[best].size()) best = i;
   }
   return best;
 }
@@ -86,8 +84,7 @@ void analyse_pattern(int n, std::span<const std::pair<int, int>> edges, BlockPat
 
 int entry_of(const BlockPattern& pattern, int row_place, int column_place) {
   const auto begin = pattern.row.begin() + pattern.column_begin[column_place];
-  const auto end =
-      pattern.row.begin() + pattern.column_begin[column_place + 1];
+  const auto end = pattern.row.begin() + pattern.column_begin[column_place + 1];
   return static_cast<int>(std::lower_bound(begin, end, row_place) - pattern.row.begin());
 }
 

@@ -1,10 +1,9 @@
 // libcore/solver/contact_law.hpp: public
 // Law talus: the impulse of a contact as a function of the velocity of its point, once for a lone
-// block and an impact (V = double: solver/one_contact.hpp) and for an island (V = lanes of two or four
-// contacts: solver/row_lanes.hpp).
-// in:    velocity of the point, and what the contact is (fields of LawRow, over an accessor)
-// out:   impulse, state, tangents
-// paper: Eq. (16)-(24) and the three patterns of Fig. 8; theory 1.7 (return mapping), 1.8
+// block and an impact (V = double: solver/one_contact.hpp) and for an island (V = lanes of two or
+// four contacts: solver/row_lanes.hpp). in:    velocity of the point, and what the contact is
+// (fields of LawRow, over an accessor) out:   impulse, state, tangents paper: Eq. (16)-(24) and the
+// three patterns of Fig. 8; theory 1.7 (return mapping), 1.8
 //
 // The law works with impulses over a step. Normal: p_n = max(0, -D_n (v_n + b)), where b holds
 // the overlap at the start of the step, so that a resting contact of stiffness k_n presses with k_n

@@ -20,8 +20,7 @@ class FlipCounter {
     const bool is_kept = memory >= 0;
     n_kept_ += is_kept;
     const ContactState then =
-        is_kept ? static_cast<ContactState>(before_[memory].state)
-                : ContactState::open;
+        is_kept ? static_cast<ContactState>(before_[memory].state) : ContactState::open;
     n_flips_ += now != then;
   }
   /// With those that are out of reach by now.

@@ -16,9 +16,9 @@
 #include <vector>
 
 #include "contact/contact.hpp"
+#include "motion/displacement.hpp"
 #include "solver/angular_row.hpp"
 #include "solver/contact_row.hpp"
-#include "motion/displacement.hpp"
 
 namespace talus {
 

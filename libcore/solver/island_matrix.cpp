@@ -51,8 +51,7 @@ void list_pairs(const Island& island, IslandMatrix& matrix) {
   std::exclusive_scan(matrix.pair_begin.begin(), matrix.pair_begin.end(), matrix.pair_begin.begin(),
                       0);
   matrix.pairs_of.resize(matrix.pair_begin.back());
-  for_each(
-      [&](size_t i, int p) { matrix.pairs_of[matrix.pair_begin[i]++] = p; });
+  for_each([&](size_t i, int p) { matrix.pairs_of[matrix.pair_begin[i]++] = p; });
   std::shift_right(matrix.pair_begin.begin(), matrix.pair_begin.end(), 1);
   matrix.pair_begin.front() = 0;
 }
@@ -82,8 +81,7 @@ void add_to_diagonals(const BodyPair& pair, const Packed<6>& W, const Vec3& shif
 void list_coupled(const Island& island, IslandMatrix& matrix) {
   matrix.active.coupled.clear();
   for (const int p : matrix.active.pairs)
-    if (matrix.pair_closed[p] && island.pairs[p].b >= 0)
-      matrix.active.coupled.push_back(p);
+    if (matrix.pair_closed[p] && island.pairs[p].b >= 0) matrix.active.coupled.push_back(p);
 }
 
 // What the active bodies have to do with.
@@ -114,9 +112,8 @@ void prepare_pair(const Island& island, size_t p, IslandMatrix& matrix) {
     add_to_diagonals(pair, change, matrix.shift[p], matrix);
     matrix.pair_closed[p] = 0;
   }
-  matrix.shift[p] = pair.b < 0 ? Vec3(Vec3::Zero())
-                               : Vec3(island.position[pair.a] -
-                                      island.position[pair.b]);
+  matrix.shift[p] =
+      pair.b < 0 ? Vec3(Vec3::Zero()) : Vec3(island.position[pair.a] - island.position[pair.b]);
 }
 
 void prepare_matrix(const Island& island, IslandMatrix& matrix) {
@@ -161,8 +158,7 @@ void add_couple(const AngularRow& turn, std::span<const RowGroup> groups, Packed
 bool sum_pair(Island& island, const BodyPair& pair, Packed<6>& W, Mat6* rest) {
   const std::span<RowGroup> groups = groups_of(island, pair);
   const bool closed = sum_tangents(groups, W, rest);
-  if (pair.angular >= 0)
-    add_couple(island.angular[pair.angular], groups, W, rest);
+  if (pair.angular >= 0) add_couple(island.angular[pair.angular], groups, W, rest);
   return closed;
 }
 
@@ -273,8 +269,7 @@ void activate_all(const Island& island, IslandMatrix& matrix) {
     ++result.iterations;
     multiply(island, matrix, p, q);
     double curvature = 0;
-    for (const int body : matrix.active.bodies.items)
-      curvature += dot(p[body], q[body]);
+    for (const int body : matrix.active.bodies.items) curvature += dot(p[body], q[body]);
     if (!(curvature > 0)) break;
     const auto step = static_cast<float>(rz / curvature);
     double rz_next = 0;
@@ -305,9 +300,7 @@ namespace {
 
 void sum_blocks(const Island& island, IslandMatrix& matrix) {
   BlockLu<6>& lu = matrix.lu;
-  const auto diagonal_of = [&](int body) -> Mat6& {
-    return lu.diagonal[lu.pattern.place[body]];
-  };
+  const auto diagonal_of = [&](int body) -> Mat6& { return lu.diagonal[lu.pattern.place[body]]; };
   for (int i = 0; i < n_bodies(island); ++i) diagonal_of(i) = island.mass[i];
   for (size_t p = 0; p < island.pairs.size(); ++p) {
     if (!matrix.pair_closed[p]) continue;

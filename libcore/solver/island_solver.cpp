@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "solver/one_contact.hpp"
 #include "solver/law_numbers.hpp"
+#include "solver/one_contact.hpp"
 
 namespace talus {
 namespace {
@@ -114,8 +114,8 @@ struct Solve {
         now[i].groups = groups_of(island, pair);
         now[i].motion = work.velocity[pair.a];
         if (pair.b >= 0)
-          now[i].motion = relative_motion(now[i].motion, work.velocity[pair.b],
-                                          work.matrix.shift[p]);
+          now[i].motion =
+              relative_motion(now[i].motion, work.velocity[pair.b], work.matrix.shift[p]);
       }
       evaluate_pairs(std::span(now).first(some.size()), evaluation, direct ? 0 : slack);
       if (!island.angular.empty()) evaluate_couples(some, now);
@@ -161,8 +161,7 @@ struct Solve {
     if (!work.at_best)
       work.best = work.velocity;
     else
-      for (const int body : work.matrix.active.bodies.items)
-        work.best[body] = work.velocity[body];
+      for (const int body : work.matrix.active.bodies.items) work.best[body] = work.velocity[body];
     work.at_best = true;
   }
 
@@ -243,8 +242,7 @@ struct Solve {
     const std::vector<int>& bodies = work.matrix.active.bodies.items;
     const double start_residual = result.residual;
     const double start_slope = std::abs(slope());
-    for (const int body : bodies)
-      work.from[body] = work.velocity[body];
+    for (const int body : bodies) work.from[body] = work.velocity[body];
     double fraction = 1;
     for (int i = 0;; ++i, fraction /= 2) {
       for (const int body : bodies) {
@@ -331,8 +329,7 @@ struct Solve {
       result.residual = soften(settings.stiffest);
       island.velocity = work.velocity;
     }
-    for (const int p : work.touched_pairs.items)
-      island.pairs[p].changed = false;
+    for (const int p : work.touched_pairs.items) island.pairs[p].changed = false;
   }
 };
 

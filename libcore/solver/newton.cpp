@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "solver/one_contact.hpp"
 #include "solver/law_numbers.hpp"
+#include "solver/one_contact.hpp"
 
 namespace talus {
 namespace {
@@ -239,8 +239,7 @@ double sweep_couples(const Mat<Dof>& per_mass, std::span<const ContactRow> rows,
     system.velocity += dv;
     turn.couple = couple;
     for (int i = turn.row_begin; i < turn.row_end; ++i)
-      change =
-          std::max(change, point_velocity<Dof>(dv, rows[i].arm).norm());
+      change = std::max(change, point_velocity<Dof>(dv, rows[i].arm).norm());
   }
   return change;
 }

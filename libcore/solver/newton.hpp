@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <span>
 
+#include "motion/displacement.hpp"
 #include "solver/angular_row.hpp"
 #include "solver/contact_row.hpp"
-#include "motion/displacement.hpp"
 
 namespace talus {
 

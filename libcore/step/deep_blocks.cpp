@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "step/flight.hpp"
-#include "solver/law_numbers.hpp"
-#include "step/substep.hpp"
 #include "scene/yielding.hpp"
+#include "solver/law_numbers.hpp"
+#include "step/flight.hpp"
+#include "step/substep.hpp"
 
 namespace talus {
 namespace {
@@ -24,8 +24,7 @@ void for_each_listed(const Scene& scene, const State& state, const DeepWork& w, 
     return body < n_blocks(scene) && w.is_suspect[body] != 0;
   };
   for (const PairWatch& pair : state.pairs.watch) {
-    const int a = scene.blocks.hulls.body[pair.part_a],
-              b = scene.blocks.hulls.body[pair.part_b];
+    const int a = scene.blocks.hulls.body[pair.part_a], b = scene.blocks.hulls.body[pair.part_b];
     if (is_suspect(a) || is_suspect(b)) visit(pair, a, b);
   }
 }

@@ -8,11 +8,11 @@
 // corner seems to be in where it is not. What counts is the overlap of the two bodies.
 #pragma once
 
-#include "step/deep_work.hpp"
-#include "solver/law_numbers.hpp"
-#include "step/report.hpp"
 #include "scene/scene.hpp"
 #include "scene/state.hpp"
+#include "solver/law_numbers.hpp"
+#include "step/deep_work.hpp"
+#include "step/report.hpp"
 
 namespace talus {
 

@@ -128,8 +128,7 @@ bool is_few(const CellRange& cells) {
 std::array<double, 4> corner_heights(const Trn& trn, int row, int col, const Plane& plane) {
   std::array<double, 4> heights;
   for (int k = 0; k < 4; ++k)
-    heights[k] =
-        plane.up.dot(node_point(trn, row + k / 2, col + k % 2)) - plane.height;
+    heights[k] = plane.up.dot(node_point(trn, row + k / 2, col + k % 2)) - plane.height;
   return heights;
 }
 

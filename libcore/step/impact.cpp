@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "contact/search.hpp"
+#include "motion/rotation.hpp"
 #include "solver/contact_law.hpp"
 #include "solver/law_numbers.hpp"
 #include "solver/newton.hpp"
-#include "motion/rotation.hpp"
 #include "step/substep.hpp"
 
 namespace talus {

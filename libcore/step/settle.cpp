@@ -28,8 +28,7 @@ void bond_faces(const Scene& scene, int b, const Pose& pose, const Work& work,
   };
   const int first_part = shapes.part_begin[b];
   const int last_part = shapes.part_begin[b + 1];
-  for (int f = shapes.face_begin[first_part];
-       f < shapes.face_begin[last_part]; ++f) {
+  for (int f = shapes.face_begin[first_part]; f < shapes.face_begin[last_part]; ++f) {
     const ShapeFace& face = shapes.faces[f];
     const Vec3 outward = pose.attitude * face.normal;
     const int n = face.vertex_end - face.vertex_begin;

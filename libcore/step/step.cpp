@@ -4,17 +4,17 @@
 #include <cmath>
 #include <optional>
 
-#include "step/deep_blocks.hpp"
 #include "motion/displacement.hpp"
-#include "step/flight.hpp"
-#include "solver/law_numbers.hpp"
 #include "motion/rotation.hpp"
-#include "step/settle.hpp"
-#include "step/island/step_island.hpp"
-#include "step/paper/step_paper.hpp"
-#include "step/lone/step_talus.hpp"
-#include "step/substep.hpp"
 #include "scene/yielding.hpp"
+#include "solver/law_numbers.hpp"
+#include "step/deep_blocks.hpp"
+#include "step/flight.hpp"
+#include "step/island/step_island.hpp"
+#include "step/lone/step_talus.hpp"
+#include "step/paper/step_paper.hpp"
+#include "step/settle.hpp"
+#include "step/substep.hpp"
 
 namespace talus {
 namespace {
@@ -138,8 +138,7 @@ void gather_island(const Scene& scene, int b, Work& work) {
                             w.groups.blocks.begin() + w.groups.block_begin[k + 1]);
   for (int p = w.groups.pair_begin[k]; p < w.groups.pair_begin[k + 1]; ++p) {
     const int m = w.joined_manifold[w.groups.pairs[p]];
-    if (!is_fixed(scene, w.pairs.manifolds[m].block_b))
-      work.paper.manifolds.push_back(m);
+    if (!is_fixed(scene, w.pairs.manifolds[m].block_b)) work.paper.manifolds.push_back(m);
   }
 }
 

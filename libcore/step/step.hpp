@@ -5,10 +5,10 @@
 // paper: Zhang et al. 2018, Fig. 4; theory 1.7-1.12
 #pragma once
 
-#include "step/flight.hpp"  // motion_at()
-#include "step/report.hpp"
 #include "scene/scene.hpp"
 #include "scene/state.hpp"
+#include "step/flight.hpp"  // motion_at()
+#include "step/report.hpp"
 #include "step/work.hpp"
 
 namespace talus {

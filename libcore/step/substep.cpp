@@ -5,10 +5,10 @@
 #include <limits>
 
 #include "motion/displacement.hpp"
-#include "step/flight.hpp"
-#include "solver/law_numbers.hpp"
-#include "step/loads.hpp"
 #include "motion/rotation.hpp"
+#include "solver/law_numbers.hpp"
+#include "step/flight.hpp"
+#include "step/loads.hpp"
 
 namespace talus {
 namespace {

@@ -9,12 +9,12 @@
 #include <span>
 #include <vector>
 
+#include "scene/scene.hpp"
+#include "scene/state.hpp"
 #include "solver/flips.hpp"
 #include "solver/law_numbers.hpp"
 #include "solver/newton.hpp"
 #include "step/report.hpp"
-#include "scene/scene.hpp"
-#include "scene/state.hpp"
 #include "step/substep_numbers.hpp"
 #include "step/work.hpp"
 

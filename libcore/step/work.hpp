@@ -7,11 +7,11 @@
 
 #include "contact/contact.hpp"
 #include "contact/search.hpp"
+#include "scene/state.hpp"
 #include "solver/contact_row.hpp"
 #include "step/deep_work.hpp"
 #include "step/island/data.hpp"
 #include "step/paper/paper_work.hpp"
-#include "scene/state.hpp"
 
 namespace talus {
 

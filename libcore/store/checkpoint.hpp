@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "scene/state.hpp"
 #include "record/frames.hpp"
 #include "record/passages.hpp"
 #include "record/run_file.hpp"
+#include "scene/state.hpp"
 
 namespace talus {
 

@@ -200,7 +200,7 @@ double height_along(const Network& network, const Segment& s, double share) {
   return z_a == z_b ? z_a : z_a + share * (z_b - z_a);
 }
 
-// A point to be put into a segment, `share` of the way along it.
+// A point to be put into a segment, `share` of the path along it.
 struct Split {
   int segment = 0;
   double share = 0;

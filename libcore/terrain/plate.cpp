@@ -118,9 +118,7 @@ Groups grouped(const std::vector<int>& group_of_item, int n_groups) {
   std::inclusive_scan(groups.begin.begin(), groups.begin.end(), groups.begin.begin());
   groups.items.resize(groups.begin.back());
   for (std::size_t i = group_of_item.size(); i-- > 0;)
-    if (group_of_item[i] >= 0)
-      groups.items[
-          --groups.begin[group_of_item[i]]] = static_cast<int>(i);
+    if (group_of_item[i] >= 0) groups.items[--groups.begin[group_of_item[i]]] = static_cast<int>(i);
   return groups;
 }
 
@@ -149,8 +147,7 @@ std::vector<int> find_regions(const Nodes& nodes, const Unknowns& unknowns, int&
   // A root is the lowest of its region, so its entry is a region's number before others read it.
   n_regions = 0;
   for (std::size_t u = 0; u < root.size(); ++u)
-    root[u] =
-        root[u] == static_cast<int>(u) ? n_regions++ : root[root[u]];
+    root[u] = root[u] == static_cast<int>(u) ? n_regions++ : root[root[u]];
   return root;
 }
 
@@ -173,8 +170,7 @@ class NormalEquations {
     members_ = members;
     rows_.assign(members.size(), {});
     right_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(members.size()));
-    for (std::size_t k = 0; k < members.size(); ++k)
-      local_[members[k]] = static_cast<int>(k);
+    for (std::size_t k = 0; k < members.size(); ++k) local_[members[k]] = static_cast<int>(k);
     add_nodes();
     for (const int a : anchors) {
       const Vec3& anchor = problem_.anchors[a];
@@ -201,8 +197,7 @@ class NormalEquations {
         if (rows_[u][k] == 0) continue;
         const Offset offset = lower_neighbors[k];
         const int other = unknowns_.at(nodes_.number(i + offset.i, j + offset.j));
-        entries.emplace_back(static_cast<int>(u), local_[other],
-                             rows_[u][k]);
+        entries.emplace_back(static_cast<int>(u), local_[other], rows_[u][k]);
       }
     }
     const auto n = static_cast<Eigen::Index>(rows_.size());
@@ -322,8 +317,7 @@ PlateSolution solve_plate(const PlateProblem& problem,
     equations.assemble(region, of_region, anchors.of(region));
     const Eigen::VectorXd height = equations.solved();
     if (height.size() == 0) solution.n_unsolved += static_cast<int>(of_region.size());
-    for (Eigen::Index k = 0; k < height.size(); ++k)
-      solution.height[of_region[k]] = height[k];
+    for (Eigen::Index k = 0; k < height.size(); ++k) solution.height[of_region[k]] = height[k];
     n_done += of_region.size();
     if (progress)
       progress(static_cast<double>(n_done) / static_cast<double>(solution.height.size()));

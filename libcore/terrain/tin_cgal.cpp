@@ -88,11 +88,8 @@ struct Triangulation::Impl {
 
   void constrain(const std::vector<std::array<int, 2>>& edges) {
     std::vector<Delaunay::Vertex_handle> handles(n_points());
-    for (const auto vertex : delaunay.finite_vertex_handles())
-      handles[vertex->info()] = vertex;
-    for (const auto& [a, b] : edges)
-      delaunay.insert_constraint(handles[a],
-                                 handles[b]);
+    for (const auto vertex : delaunay.finite_vertex_handles()) handles[vertex->info()] = vertex;
+    for (const auto& [a, b] : edges) delaunay.insert_constraint(handles[a], handles[b]);
   }
 
   void add_neighbors(TriangleMesh& mesh) {

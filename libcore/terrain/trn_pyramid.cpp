@@ -84,8 +84,7 @@ TrnPyramid::Level next_level(const TrnPyramid::Level& finer) {
                      static_cast<std::size_t>(level.n_cols));
   for (int row = 0; row < finer.n_rows; ++row)
     for (int col = 0; col < finer.n_cols; ++col)
-      include(level.tiles[row / 2 * level.n_cols + col / 2],
-              finer.tiles[row * finer.n_cols + col]);
+      include(level.tiles[row / 2 * level.n_cols + col / 2], finer.tiles[row * finer.n_cols + col]);
   return level;
 }
 

@@ -6,8 +6,8 @@
 #include <algorithm>
 
 #include "scene/blocky_slope.hpp"
-#include "step/step.hpp"
 #include "slide_scene.hpp"
+#include "step/step.hpp"
 
 namespace {
 

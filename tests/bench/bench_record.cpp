@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "base/random.hpp"
-#include "step/step.hpp"
 #include "record/frames.hpp"
 #include "record/passages.hpp"
+#include "step/step.hpp"
 #include "verify/cases/cases.hpp"
 
 namespace {

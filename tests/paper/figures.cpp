@@ -8,8 +8,8 @@
 #include <iostream>
 #include <numbers>
 
-#include "step/step.hpp"
 #include "paper/plot.hpp"
+#include "step/step.hpp"
 #include "verify/cases/cases.hpp"
 #include "verify/cases/closed_form.hpp"
 

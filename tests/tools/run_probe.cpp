@@ -24,8 +24,8 @@
 #include "base/sha256.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/raster_gdal.hpp"
-#include "site/site.hpp"
 #include "record/run_file.hpp"
+#include "site/site.hpp"
 #include "unit/store/hand_made.hpp"
 
 namespace {

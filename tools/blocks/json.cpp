@@ -10,8 +10,8 @@
 #include "base/percentile.hpp"
 #include "base/text.hpp"
 #include "blocks/solid.hpp"
-#include "tools/frame/failure_plane_choice.hpp"
 #include "io/block_pictures.hpp"
+#include "tools/frame/failure_plane_choice.hpp"
 
 namespace talus {
 namespace {

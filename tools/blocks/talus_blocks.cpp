@@ -2,16 +2,16 @@
 // The blocks of a site: the source cut by its joints, or bodies from meshes and shapes. Page:
 // docs/tools/talus-blocks.md
 #include "base/sha256.hpp"
-#include "tools/frame/source_cut.hpp"
-#include "tools/blocks/json.hpp"
-#include "tools/blocks/outputs.hpp"
-#include "tools/blocks/placed.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/crs_place_gdal.hpp"
 #include "io/raster_gdal.hpp"
+#include "terrain/trn_digest.hpp"
+#include "tools/blocks/json.hpp"
+#include "tools/blocks/outputs.hpp"
+#include "tools/blocks/placed.hpp"
 #include "tools/frame/site_crs.hpp"
 #include "tools/frame/site_options.hpp"
-#include "terrain/trn_digest.hpp"
+#include "tools/frame/source_cut.hpp"
 #include "tools/frame/tool.hpp"
 
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "base/text.hpp"
-#include "tools/frame/moved_json.hpp"
 #include "record/deep_rows.hpp"
+#include "tools/frame/moved_json.hpp"
 
 namespace talus {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "site/plan.hpp"
 #include "run/runner.hpp"
+#include "site/plan.hpp"
 #include "tools/frame/tool.hpp"
 
 namespace talus {

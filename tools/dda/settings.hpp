@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "tools/frame/scene_inputs.hpp"
 #include "site/plan.hpp"
 #include "site/site.hpp"
+#include "tools/frame/scene_inputs.hpp"
 #include "tools/frame/tool.hpp"
 
 namespace talus {

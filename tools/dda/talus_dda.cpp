@@ -8,16 +8,16 @@
 
 #include "base/processor_time.hpp"
 #include "base/text.hpp"
-#include "tools/frame/build_info.hpp"
-#include "scene/site_scene.hpp"
-#include "tools/frame/scene_inputs.hpp"
-#include "tools/dda/report.hpp"
-#include "tools/dda/settings.hpp"
-#include "tools/frame/site_crs.hpp"
-#include "tools/frame/site_options.hpp"
 #include "run/runner.hpp"
+#include "scene/site_scene.hpp"
 #include "store/xdmf_hdf5.hpp"
 #include "terrain/trn_flags.hpp"
+#include "tools/dda/report.hpp"
+#include "tools/dda/settings.hpp"
+#include "tools/frame/build_info.hpp"
+#include "tools/frame/scene_inputs.hpp"
+#include "tools/frame/site_crs.hpp"
+#include "tools/frame/site_options.hpp"
 #include "tools/frame/tool.hpp"
 
 namespace {

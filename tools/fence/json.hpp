@@ -2,8 +2,8 @@
 // Results at fences as talus-fence writes them to JSON. Keys: docs/formats.md#fence
 #pragma once
 
-#include "tools/fence/inputs.hpp"
 #include "post/fence/fence_result.hpp"
+#include "tools/fence/inputs.hpp"
 #include "tools/frame/tool.hpp"
 
 namespace talus {

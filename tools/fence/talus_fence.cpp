@@ -2,13 +2,13 @@
 // What fences would meet, what they hold and what they change. Page: docs/tools/talus-fence.md
 #include <cmath>
 
-#include "tools/frame/fault_json.hpp"
+#include "post/fence/fence_text.hpp"
+#include "post/maps/map_style.hpp"
 #include "tools/fence/inputs.hpp"
 #include "tools/fence/json.hpp"
 #include "tools/fence/layers.hpp"
+#include "tools/frame/fault_json.hpp"
 #include "tools/frame/map_output.hpp"
-#include "post/fence/fence_text.hpp"
-#include "post/maps/map_style.hpp"
 #include "tools/frame/run_inputs.hpp"
 #include "tools/frame/site_options.hpp"
 

@@ -4,8 +4,8 @@
 #include <filesystem>
 
 #include "base/sha256.hpp"
-#include "tools/frame/command_line.hpp"
 #include "post/deposit.hpp"
+#include "tools/frame/command_line.hpp"
 
 namespace talus {
 namespace {

@@ -6,16 +6,16 @@
 #include "base/sha256.hpp"
 #include "base/text.hpp"
 #include "blocks/least_size.hpp"
-#include "scene/site_fence.hpp"
-#include "scene/start_overlaps.hpp"
-#include "tools/frame/ground_class_inputs.hpp"
 #include "io/blocks_hdf5.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/crs_place_gdal.hpp"
 #include "io/raster_gdal.hpp"
+#include "scene/site_fence.hpp"
 #include "scene/start_depth.hpp"
-#include "tools/frame/site_places.hpp"
+#include "scene/start_overlaps.hpp"
 #include "terrain/trn_digest.hpp"
+#include "tools/frame/ground_class_inputs.hpp"
+#include "tools/frame/site_places.hpp"
 #include "tools/frame/vector_inputs.hpp"
 
 namespace talus {
@@ -193,11 +193,11 @@ void check_start(Tool& tool, const Site& site, DdaInputs& inputs, const DdaFiles
   if (!files.settle) return;
   const Settled settled = settle(blocks, inputs.parts.trn, among_blocks, settled_tolerance);
   check_settled(settled, inputs, files, among_blocks);
-  const std::string way = ", by " + text(settled.farthest, 3) + " m at most";
+  const std::string path = ", by " + text(settled.farthest, 3) + " m at most";
   const auto say = [&](const std::string& finding, const std::string& outcome) {
     if (finding.empty()) return;
-    tool.info(finding + outcome + way);
-    inputs.warnings.push_back(finding + outcome + way);
+    tool.info(finding + outcome + path);
+    inputs.warnings.push_back(finding + outcome + path);
   };
   say(deep, ": lifted onto it");
   say(overlap, ": moved apart");

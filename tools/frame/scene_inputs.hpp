@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "record/crossings.hpp"
 #include "scene/site_scene.hpp"
 #include "site/site.hpp"
-#include "record/crossings.hpp"
 #include "tools/frame/tool.hpp"
 
 namespace talus {

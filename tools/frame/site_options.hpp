@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "tools/frame/command_line.hpp"
 #include "site/site.hpp"
+#include "tools/frame/command_line.hpp"
 #include "tools/frame/tool.hpp"
 
 namespace talus {

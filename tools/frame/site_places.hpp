@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "site/site.hpp"
 #include "record/fence_lines.hpp"
+#include "site/site.hpp"
 #include "terrain/trn.hpp"
 #include "tools/frame/tool.hpp"
 

@@ -9,9 +9,9 @@
 
 #include "base/read_file.hpp"
 #include "base/text.hpp"
-#include "tools/frame/failure_plane_choice.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/raster_gdal.hpp"
+#include "tools/frame/failure_plane_choice.hpp"
 #include "tools/frame/site_places.hpp"
 #include "tools/frame/vector_inputs.hpp"
 

@@ -13,6 +13,7 @@
 #include <set>
 
 #include "base/text.hpp"
+#include "store/runs.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/exit_code.hpp"
 #include "tools/frame/file_paths.hpp"
@@ -21,7 +22,6 @@
 #include "tools/frame/run_record.hpp"
 #include "tools/frame/staged_files.hpp"
 #include "tools/frame/stop_signals.hpp"
-#include "store/runs.hpp"
 #include "tools/frame/tool_options.hpp"
 
 namespace talus {

@@ -6,11 +6,11 @@
 #include <limits>
 
 #include "base/text.hpp"
+#include "post/maps/map_layers.hpp"
+#include "post/maps/map_style.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/fault_json.hpp"
 #include "tools/frame/map_output.hpp"
-#include "post/maps/map_layers.hpp"
-#include "post/maps/map_style.hpp"
 #include "tools/frame/run_inputs.hpp"
 
 namespace {

@@ -15,7 +15,7 @@ std::string curve_section(const ReportData& data) {
   for (const auto& [column, title, unit] :
        {std::array{"max_speed_m_s", "Fastest block", "m/s"},
         std::array{"mean_speed_m_s", "Mean speed of the mass", "m/s"},
-        std::array{"front_m", "Front: way of the block farthest ahead", "m"},
+        std::array{"front_m", "Front: path of the block farthest ahead", "m"},
         std::array{"translational_energy_kj", "Kinetic energy of translation", "kJ"}})
     out += html_figure(chart_svg(curve_chart(table, column, title, unit)), "");
   out += "</div>\n" + html_note("A line a run. <code>curves.csv</code>");

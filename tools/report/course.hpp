@@ -8,7 +8,7 @@
 
 namespace talus {
 
-/// Curves of speed, way and energy; empty without talus-runout's curves.
+/// Curves of speed, path and energy; empty without talus-runout's curves.
 [[nodiscard]] std::string curve_section(const ReportData& data);
 
 /// Limits, counters and energy balance.

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "post/run_set.hpp"
+#include "record/run_file.hpp"
 #include "report/map_figures.hpp"
 #include "report/run_health.hpp"
 #include "site/site.hpp"
-#include "record/run_file.hpp"
 #include "store/runs.hpp"
 #include "terrain/trn.hpp"
 #include "tools/frame/tool.hpp"

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "site/site.hpp"
 #include "record/run_file.hpp"
+#include "site/site.hpp"
 #include "tools/frame/tool.hpp"
 
 namespace talus {

@@ -8,8 +8,6 @@
 
 #include "base/sha256.hpp"
 #include "base/text.hpp"
-#include "tools/frame/build_info.hpp"
-#include "tools/frame/fault_json.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/raster_gdal.hpp"
 #include "io/style.hpp"
@@ -18,12 +16,14 @@
 #include "report/qgis_project.hpp"
 #include "report/styles_gdal.hpp"
 #include "report/zip.hpp"
-#include "tools/report/data.hpp"
-#include "tools/report/folder.hpp"
-#include "tools/report/page.hpp"
+#include "tools/frame/build_info.hpp"
+#include "tools/frame/fault_json.hpp"
 #include "tools/frame/shipped_data.hpp"
 #include "tools/frame/site_options.hpp"
 #include "tools/frame/tool.hpp"
+#include "tools/report/data.hpp"
+#include "tools/report/folder.hpp"
+#include "tools/report/page.hpp"
 
 namespace {
 

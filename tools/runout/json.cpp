@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "tools/frame/moved_json.hpp"
 #include "post/runout/runout_text.hpp"
+#include "tools/frame/moved_json.hpp"
 
 namespace talus {
 namespace {

@@ -83,7 +83,7 @@ VectorFeature line_feature(const std::vector<Vec3>& points, const std::vector<do
 VectorLayer path_layer(const std::vector<RunoutRun>& runs, const MapPlace& map, double tolerance) {
   VectorLayer layer{
       "paths",
-      "way of each block's centroid, M = time in s, simplified to " + text(tolerance) + " m",
+      "path of each block's centroid, M = time in s, simplified to " + text(tolerance) + " m",
       GeometryType::line_zm,
       {{"run_id", FieldType::text},
        {"block", FieldType::integer},

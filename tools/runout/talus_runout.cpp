@@ -3,19 +3,19 @@
 // docs/tools/talus-runout.md
 #include <cmath>
 
-#include "tools/frame/command_line.hpp"
-#include "tools/frame/fault_json.hpp"
 #include "io/geopackage_gdal.hpp"
-#include "tools/frame/map_output.hpp"
-#include "tools/frame/moved_json.hpp"
 #include "post/maps/map_layers.hpp"
 #include "post/maps/map_style.hpp"
 #include "post/runout/mobility.hpp"
 #include "post/runout/runout_text.hpp"
+#include "tools/frame/command_line.hpp"
+#include "tools/frame/fault_json.hpp"
+#include "tools/frame/map_output.hpp"
+#include "tools/frame/moved_json.hpp"
 #include "tools/frame/run_inputs.hpp"
+#include "tools/frame/shipped_data.hpp"
 #include "tools/runout/json.hpp"
 #include "tools/runout/layers.hpp"
-#include "tools/frame/shipped_data.hpp"
 
 namespace {
 
@@ -37,7 +37,7 @@ void declare(Tool& tool, Options& o) {
   tool.output("--thickness", o.thickness, "mean thickness of the deposit (GeoTIFF)");
   tool.input("--mobility", o.mobility, "relations to compare with (CSV) [share/mobility.csv]");
   tool.option("--path-tolerance-m", o.tolerance_m,
-              "no point of a block's way lies farther from its simplified path [m]")
+              "no point of a block's path lies farther from its simplified path [m]")
       ->check(number_between(1e-6, 1e6));
   tool.option("--friction-deg", o.friction_deg,
               "angle of friction, shown beside H_cm/L_cm [deg]; nan: not shown")

@@ -8,8 +8,8 @@
 
 #include "base/sha256.hpp"
 #include "base/text.hpp"
-#include "tools/frame/run_record.hpp"
 #include "store/runs.hpp"
+#include "tools/frame/run_record.hpp"
 #include "tools/frame/tool.hpp"
 
 namespace {

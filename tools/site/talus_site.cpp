@@ -11,12 +11,12 @@
 #include "base/read_file.hpp"
 #include "base/source_path.hpp"
 #include "base/text.hpp"
-#include "tools/site/file_digests.hpp"
-#include "tools/frame/file_paths.hpp"
 #include "io/dataset_files_gdal.hpp"
+#include "tools/frame/file_paths.hpp"
 #include "tools/frame/site_options.hpp"
 #include "tools/frame/site_stages.hpp"
 #include "tools/frame/tool.hpp"
+#include "tools/site/file_digests.hpp"
 
 namespace {
 

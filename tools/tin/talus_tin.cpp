@@ -5,7 +5,6 @@
 #endif
 
 #include "base/text.hpp"
-#include "tools/frame/command_line.hpp"
 #include "io/contours_gdal.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/crs_operation_gdal.hpp"
@@ -13,6 +12,7 @@
 #include "terrain/flat.hpp"
 #include "terrain/outliers.hpp"
 #include "terrain/tin_mesh.hpp"
+#include "tools/frame/command_line.hpp"
 #include "tools/frame/tool.hpp"
 #include "tools/frame/vector_inputs.hpp"
 

@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "base/text.hpp"
-#include "tools/frame/command_line.hpp"
 #include "io/contours_gdal.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/crs_operation_gdal.hpp"
@@ -18,6 +17,7 @@
 #include "terrain/elevation.hpp"
 #include "terrain/grid_tin.hpp"
 #include "terrain/trn_quality.hpp"
+#include "tools/frame/command_line.hpp"
 #include "tools/frame/tool.hpp"
 #include "tools/frame/vector_inputs.hpp"
 

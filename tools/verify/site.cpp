@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "base/text.hpp"
+#include "terrain/trn_flags.hpp"
 #include "tools/frame/build_info.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/machine.hpp"
-#include "terrain/trn_flags.hpp"
 #include "verify/study/ensemble.hpp"
 
 namespace talus {

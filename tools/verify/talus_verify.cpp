@@ -12,11 +12,11 @@
 #include "tools/frame/machine.hpp"
 #include "tools/frame/shipped_data.hpp"
 #include "tools/frame/tool.hpp"
+#include "tools/verify/site.hpp"
 #include "verify/cases/claims.hpp"
 #include "verify/study/page.hpp"
 #include "verify/study/peers.hpp"
 #include "verify/study/summary.hpp"
-#include "tools/verify/site.hpp"
 
 namespace {
 

@@ -53,11 +53,11 @@ CaseResult slides_on_the_others(Scene scene, const SlopeFrame& frame, double a) 
   run.advance_to(1.5);
   const std::vector<Vec3> after = places(run);
   const double expected = a * run.state.time * run.state.time / 2;
-  const Vec3 way = after.back() - before.back();
-  double off = (way - expected * frame.dip).norm();
+  const Vec3 path = after.back() - before.back();
+  double off = (path - expected * frame.dip).norm();
   for (std::size_t b = 0; b + 1 < before.size(); ++b)
     off = std::max(off, (after[b] - before[b]).norm());
-  return run.finish(way.dot(frame.dip), expected, off / expected);
+  return run.finish(path.dot(frame.dip), expected, off / expected);
 }
 
 }  // namespace
@@ -98,7 +98,7 @@ CaseResult head_on(const Settings& settings, double restitution) {
   run.advance_to(1);
   const double value = run.motion(1).velocity.x() - run.motion(0).velocity.x();
   const double expected = restitution * 8;
-  // they met after 5/8 s, 2.5 m on their way
+  // they met after 5/8 s, 2.5 m on their path
   const double place = -0.5 - restitution * 4 * 0.375;
   const double off = std::abs(run.motion(0).pose.position.x() - place);
   return run.finish(value, expected, std::max(std::abs(value - expected) / 8, off / 2.5));

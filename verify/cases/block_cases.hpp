@@ -27,12 +27,12 @@ CaseResult pile_topples(const Settings& settings);
 CaseResult block_on_block(const Settings& settings);
 
 /// Keel of 90 degrees in the groove of two long blocks on 35 degrees, friction 20, 1.5 s: relative
-/// error of its way. Each face bears W cos(dip) / sqrt(2), so
+/// error of its path. Each face bears W cos(dip) / sqrt(2), so
 /// a = g (sin(dip) - sqrt(2) tan(phi) cos(dip)).
 CaseResult groove(const Settings& settings);
 
 /// Equal cubes meeting face to face at 8 m/s, no friction. `value`: the speed they part with [m/s];
-/// error of that speed over 8 m/s, or of the place of one over its way, the larger.
+/// error of that speed over 8 m/s, or of the place of one over its path, the larger.
 CaseResult head_on(const Settings& settings, double restitution);
 
 /// A stack of n cubes that has had `settling_s` to press itself together: largest movement of a

@@ -4,8 +4,8 @@
 // theory 4; g = 10 m/s2 throughout
 #pragma once
 
-#include "step/report.hpp"
 #include "scene/scene.hpp"
+#include "step/report.hpp"
 
 namespace talus::cases {
 

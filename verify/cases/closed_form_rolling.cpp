@@ -39,7 +39,7 @@ CaseResult sustained_rolling(const Settings& settings, int n_sides) {
                             spin.cross(apothem * frame.normal - edge), spin);
   const Vec3 middle = 60 * frame.dip;
   Run run(on_plane(settings, frame, ground_of(80), body, 70, 2, middle));
-  // before an impact: the fastest spin of each side's length of way
+  // before an impact: the fastest spin of each side's length of path
   const double side = 2 * std::sin(half);
   double before = 0, fastest = 0, next = side;
   for (double at = 0; at < 100 && run.state.time < 60;) {

@@ -1,6 +1,7 @@
 // verify/cases/verify_cases.hpp
-// The cases that talus-verify runs: those of verify/cases/closed_form.hpp and verify/cases/block_cases.hpp,
-// with what each claims, what it is compared with, and over which settings it is worth running.
+// The cases that talus-verify runs: those of verify/cases/closed_form.hpp and
+// verify/cases/block_cases.hpp, with what each claims, what it is compared with, and over which
+// settings it is worth running.
 #pragma once
 
 #include <functional>

@@ -42,8 +42,7 @@ std::array<double, 3> quantities_of(const std::vector<double>& values,
 std::array<double, 3> answer_of(const cases::Run& run, const Progress& progress) {
   std::vector<double> values;
   for (int b = 0; b < n_blocks(run.scene); ++b)
-    values.push_back(progress(run.scene.blocks.rest[b].position,
-                              run.motion(b).pose.position));
+    values.push_back(progress(run.scene.blocks.rest[b].position, run.motion(b).pose.position));
   return quantities_of(values, run.scene.blocks.mass);
 }
 

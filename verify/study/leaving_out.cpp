@@ -7,9 +7,9 @@
 
 #include "base/random.hpp"
 #include "base/text.hpp"
+#include "run/runner.hpp"
 #include "scene/fence.hpp"
 #include "scene/site_scene.hpp"
-#include "run/runner.hpp"
 #include "verify/cases/block_cases.hpp"
 #include "verify/cases/cases.hpp"
 
@@ -69,7 +69,7 @@ Scene bonded_column(double cohesion) {
   return scene;
 }
 
-// Across the way of the rocks at `x`.
+// Across the path of the rocks at `x`.
 StandingFence fence_at(double x, double from, double to) {
   StandingFence fence;
   for (double y = from; y <= to; y += 10) {
@@ -98,7 +98,7 @@ void note_ends(const Scene& scene, const State& state, OmissionRun& out) {
     keep(m.velocity);
     out.places.push_back(m.pose.position);
     const Vec3& from = scene.blocks.rest[b].position;
-    out.way = std::max(out.way, (m.pose.position - from).norm());
+    out.path = std::max(out.path, (m.pose.position - from).norm());
   }
 }
 
@@ -136,14 +136,14 @@ OmissionRun run_recorded(const Scene& scene, const RunOptions& options,
   return out;
 }
 
-// Mean way of many starts.
+// Mean path of many starts.
 OmissionRun run_many(const std::function<Scene(std::uint64_t seed)>& scene, int n,
                      double duration) {
-  const auto way = [](const Vec3& from, const Vec3& now) { return (now - from).norm(); };
-  const EnsembleResult result = run_ensemble(scene, n, duration, way);
+  const auto path = [](const Vec3& from, const Vec3& now) { return (now - from).norm(); };
+  const EnsembleResult result = run_ensemble(scene, n, duration, path);
   OmissionRun out;
-  out.way = result.mean[0];
-  out.places = {Vec3(out.way, 0, 0)};
+  out.path = result.mean[0];
+  out.places = {Vec3(out.path, 0, 0)};
   out.uncertainty = result.standard_error[0];
   out.cpu = result.cpu;
   out.shown = result.sums.steps;
@@ -365,11 +365,11 @@ OmissionRow compare(const Omission& omission, int n) {
   }
   row.kept_cpu = median(kept_cpu);
   row.left_out_cpu = median(left_out_cpu);
-  row.way = kept.way;
+  row.path = kept.path;
   row.shown = std::min(kept.shown, left_out.shown);
   for (std::size_t b = 0; b < kept.places.size(); ++b)
     row.apart = std::max(row.apart, (kept.places[b] - left_out.places[b]).norm());
-  row.limit = omission.tolerance + omission.tolerance_share * row.way +
+  row.limit = omission.tolerance + omission.tolerance_share * row.path +
               3 * std::hypot(kept.uncertainty, left_out.uncertainty);
   row.holds = row.limit > 0 ? (row.apart <= row.limit) != omission.matters
                             : kept.numbers == left_out.numbers;
@@ -384,7 +384,7 @@ std::string omission_table(const std::vector<OmissionRow>& rows) {
     table += "| " + row.about.item + " | " + row.about.scene + " | " + text(row.kept_cpu * 1e3, 3) +
              " | " + text(row.left_out_cpu * 1e3, 3) + " | " +
              text(row.kept_cpu / row.left_out_cpu, 3) + " | " + text(row.apart, 2) + " | " +
-             (row.limit > 0 ? text(row.limit, 2) : "the same bits") + " | " + text(row.way, 4) +
+             (row.limit > 0 ? text(row.limit, 2) : "the same bits") + " | " + text(row.path, 4) +
              " | " + (row.about.matters ? "kept by the plan" : "left out") +
              (row.holds ? "" : ", **does not hold**") + " |\n";
   return table;

@@ -15,9 +15,9 @@ namespace talus {
 /// A run with something kept or left out.
 struct OmissionRun {
   std::vector<double> numbers;  ///< place, attitude and velocity of all blocks at the end
-  std::vector<Vec3> places;     ///< of the blocks at the end; of an ensemble, the mean way [m]
-  double uncertainty = 0;       ///< standard error of an ensemble's mean way [m]
-  double way = 0;               ///< largest of the blocks [m]
+  std::vector<Vec3> places;     ///< of the blocks at the end; of an ensemble, the mean path [m]
+  double uncertainty = 0;       ///< standard error of an ensemble's mean path [m]
+  double path = 0;              ///< largest of the blocks [m]
   double cpu = 0;               ///< the start, all steps and what is recorded of them [s]
   long shown = 0;               ///< hits, skipped steps: whatever must come up to show anything
 };
@@ -27,7 +27,7 @@ struct Omission {
   std::string item;  ///< of the scene plan
   std::string scene;
   double tolerance = 0;        ///< on how far blocks end apart [m]; 0, and no share: to the bit
-  double tolerance_share = 0;  ///< the same as a share of the way [-]
+  double tolerance_share = 0;  ///< the same as a share of the path [-]
   std::function<OmissionRun(bool kept)> run;
   bool matters = false;  ///< the plan keeps it here: without it blocks end farther apart than that
 };
@@ -42,12 +42,12 @@ struct OmissionRow {
   Omission about;
   double kept_cpu = 0, left_out_cpu = 0;  ///< [s]
   double apart = 0;                       ///< largest distance of a block's two ends [m]
-  double way = 0;                         ///< [m]
+  double path = 0;                        ///< [m]
   double limit = 0;                       ///< on `apart` [m]; 0: to the bit
   long shown = 0;                         ///< the lesser of both runs
   bool holds = false;
 };
-/// Runs it `n` times each way, in turn.
+/// Runs it `n` times each path, in turn.
 [[nodiscard]] OmissionRow compare(const Omission& omission, int n);
 
 /// Markdown, a line an omission.

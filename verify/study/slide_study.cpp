@@ -64,7 +64,7 @@ const std::array<VerifyCase, 3>& slide_claims() {
       made[q].reference = "the shortest steps, extrapolated to none; means of many starts";
       made[q].norm = "m";
       made[q].test = "SlideOf39Blocks.AnswersAgreeBetweenOneAndTenMilliseconds";
-      made[q].bound = 0.8;  // half a per cent of the way of the centre
+      made[q].bound = 0.8;  // half a per cent of the path of the centre
     }
     return made;
   }();
@@ -91,7 +91,7 @@ SlideStudy study_slide(const SlideData& data, bool full, const ProgressFunction&
     }
   out.reference = reference_of(out.results);
   const auto at_rest = [&data](std::uint64_t) { return slide_scene(data, {}, 0); };
-  out.way = out.reference.mean[0] - run_ensemble(at_rest, 1, 0, down_the_slope).mean[0];
+  out.path = out.reference.mean[0] - run_ensemble(at_rest, 1, 0, down_the_slope).mean[0];
   return out;
 }
 
@@ -102,7 +102,7 @@ std::vector<MeasuredCase> measured_of(const SlideStudy& study,
     MeasuredCase one;
     one.about = &slide_claims()[q];
     one.rows = rows_of(one.about->name, static_cast<Quantity>(q), study.results, study.reference);
-    one.worst = useful_error * study.way;  // [m]
+    one.worst = useful_error * study.path;  // [m]
     one.known_to = study.reference.band[q];
     out.push_back(one);
   }

@@ -22,7 +22,7 @@ inline constexpr const char* slide_name = "slide39";
 struct SlideStudy {
   std::vector<EnsembleResult> results;  ///< defaults last, from the longest step
   EnsembleReference reference;
-  double way = 0;  ///< of the centre, reference [m]
+  double path = 0;  ///< of the centre, reference [m]
 };
 /// `full`: 96 runs of 20 s a step at the defaults, 8 at other settings, 6 of law paper, a quarter
 /// of an hour; else one of 4 s. `progress` is called before every run.

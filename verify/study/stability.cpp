@@ -32,8 +32,7 @@ double total_energy(const Scene& scene, const State& state) {
 // How deep a point is inside part p of a block, from the nearest face; 0 outside. Body axes.
 double inside_of(const Shapes& shapes, int p, const Vec3& X) {
   double depth = std::numeric_limits<double>::infinity();
-  for (int f = shapes.face_begin[p];
-       f < shapes.face_begin[p + 1]; ++f) {
+  for (int f = shapes.face_begin[p]; f < shapes.face_begin[p + 1]; ++f) {
     const ShapeFace& face = shapes.faces[f];
     depth = std::min(depth, face.offset - face.normal.dot(X));
   }
@@ -58,8 +57,7 @@ double ground_inside(const Run& run, int b, const Pose& pose) {
       const double z = elevation_at(trn, x, y);
       if (!(std::abs(z - c.z()) < radius)) continue;
       const Vec3 X = pose.attitude.conjugate() * (Vec3(x, y, z) - c);
-      for (int p = shapes.part_begin[b];
-           p < shapes.part_begin[b + 1]; ++p)
+      for (int p = shapes.part_begin[b]; p < shapes.part_begin[b + 1]; ++p)
         deepest = std::max(deepest, inside_of(shapes, p, X));
     }
   return deepest;
@@ -274,10 +272,9 @@ Seen on_feet(double ratio) {
   Run run(scene_of(plane_trn(slope_frame(0, 0), 1, 2 + 3 * large), ground, bodies, {}));
   Seen seen = watch(run, 1);
   for (int b = 0; b < n_blocks(run.scene); ++b)
-    seen.error = std::max(seen.error, (run.motion(b).pose.position -
-                                       run.scene.blocks.rest[b].position)
-                                              .norm() /
-                                          small);
+    seen.error =
+        std::max(seen.error,
+                 (run.motion(b).pose.position - run.scene.blocks.rest[b].position).norm() / small);
   return seen;
 }
 
@@ -289,9 +286,8 @@ Seen stack(int n, double dip_deg, double friction_deg, double dt) {
   Run run(tower(n, dip_deg, friction_deg, awake));
   Seen seen = watch(run, 4);
   for (int b = 0; b < n; ++b)
-    seen.error = std::max(seen.error, (run.motion(b).pose.position -
-                                       run.scene.blocks.rest[b].position)
-                                          .norm());
+    seen.error = std::max(seen.error,
+                          (run.motion(b).pose.position - run.scene.blocks.rest[b].position).norm());
   return seen;
 }
 

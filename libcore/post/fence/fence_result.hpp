@@ -73,9 +73,9 @@ struct GroundBehind {
   double energy_p50 = 0;      ///< at the line [J]; NaN: too few blocks
   double energy_largest = 0;  ///< [J]
   int n_moved = 0;            ///< runs in which a block moved: those that the means are over
-  double path = 0;            ///< L of the event along the way, mean over runs [m]
-  double path_angle_deg = 0;  ///< angle of reach along the way, mean over runs
-  double centre_of_mass_path = 0;  ///< L_cm along the way, mean over runs [m]
+  double path = 0;            ///< L of the event along the path, mean over runs [m]
+  double path_angle_deg = 0;  ///< angle of reach along the path, mean over runs
+  double centre_of_mass_path = 0;  ///< L_cm along the path, mean over runs [m]
 };
 [[nodiscard]] GroundBehind ground_behind(const FenceRunGroup& group, std::size_t fence);
 

@@ -14,8 +14,8 @@ namespace talus {
 /// style's own (e.g. that runs failed).
 [[nodiscard]] RasterStyle map_style(const MapLayer& layer, const std::string& remark = {});
 
-/// The style of a layer of differences (post/fence/fence_change.hpp): its first band, blue for less and
-/// red for more; changes that are not told from none are transparent.
+/// The style of a layer of differences (post/fence/fence_change.hpp): its first band, blue for less
+/// and red for more; changes that are not told from none are transparent.
 [[nodiscard]] RasterStyle change_style(const MapLayer& layer, const std::string& remark = {});
 
 }  // namespace talus

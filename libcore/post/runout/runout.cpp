@@ -65,12 +65,12 @@ Vec3 highest_point(const RunFile& run) {
   return top;
 }
 
-// The vertex of the toe block that is outermost in the direction of its last piece of way, put
+// The vertex of the toe block that is outermost in the direction of its last piece of path, put
 // down to the ground.
-Vec3 outermost_point(const RunFile& run, int block, const std::vector<Vec3>& way, const Trn& trn) {
+Vec3 outermost_point(const RunFile& run, int block, const std::vector<Vec3>& path, const Trn& trn) {
   Vec2 forward = Vec2::Zero();
-  for (std::size_t i = way.size() - 1; i > 0 && forward.norm() < 1e-9; --i)
-    forward = (way.back() - way[i - 1]).head<2>();
+  for (std::size_t i = path.size() - 1; i > 0 && forward.norm() < 1e-9; --i)
+    forward = (path.back() - path[i - 1]).head<2>();
   const Pose pose = last_pose(run, block);
   Vec3 toe = pose.position;
   for (int v = run.blocks.vertex_begin[block]; v < run.blocks.vertex_begin[block + 1]; ++v) {
@@ -83,8 +83,8 @@ Vec3 outermost_point(const RunFile& run, int block, const std::vector<Vec3>& way
 }
 
 // The block that is farthest from the top, whatever its fate: one that still moves must not be left
-// out of L. The length of its way says less: a block that danced in a hollow has a long one. Blocks
-// that stayed where they were bound the source, not the run-out.
+// out of L. The length of its path says less: a block that danced in a hollow has a long one.
+// Blocks that stayed where they were bound the source, not the run-out.
 int find_toe_block(const EventReach& event, const RunFile& run,
                    const std::vector<WeightedValue>& displacement) {
   int toe = -1;
@@ -101,11 +101,12 @@ int find_toe_block(const EventReach& event, const RunFile& run,
 
 std::vector<Vec3> streamline(const RunFile& run, const EventReach& event, const Trn& trn,
                              double tolerance, Vec3& toe) {
-  const std::vector<Vec3> way = simplified(block_path(run, event.toe_block), tolerance).point;
-  toe = outermost_point(run, event.toe_block, way, trn);
-  // The way is put on the ground, so that bounces and the block's own size do not bend the profile.
+  const std::vector<Vec3> path = simplified(block_path(run, event.toe_block), tolerance).point;
+  toe = outermost_point(run, event.toe_block, path, trn);
+  // The path is put on the ground, so that bounces and the block's own size do not bend the
+  // profile.
   std::vector<Vec3> line{event.top};
-  for (Vec3 at : way) {
+  for (Vec3 at : path) {
     const double ground = elevation_at(trn, at.x(), at.y());
     if (!std::isnan(ground)) at.z() = ground;
     line.push_back(at);

@@ -16,7 +16,7 @@
 
 namespace talus {
 
-/// The way of a point through the frames, and its speed in each.
+/// The path of a point through the frames, and its speed in each.
 struct TimedPath {
   std::vector<double> time;   ///< [s]                                               (n_points)
   std::vector<Vec3> point;    ///< local [m]                                         (n_points)
@@ -33,32 +33,32 @@ struct TimedPath {
 [[nodiscard]] TimedPath simplified(const TimedPath& path, double tolerance);
 
 [[nodiscard]] double horizontal_length(
-    std::span<const Vec3> points);  ///< along the way, in plan [m]
+    std::span<const Vec3> points);  ///< along the path, in plan [m]
 
 /// H and L between two points, and Eq. (29): beta = atan(H / L).
 struct ReachLine {
   double height = 0;                         ///< H, positive downwards [m]
-  double path = 0;                           ///< L along the way, in plan [m]
+  double path = 0;                           ///< L along the path, in plan [m]
   double chord = 0;                          ///< L straight from end to end, in plan [m]
   [[nodiscard]] double path_angle() const;   ///< [rad]; NaN for no length
   [[nodiscard]] double chord_angle() const;  ///< [rad]; NaN for no length
 };
 [[nodiscard]] ReachLine reach_along(std::span<const Vec3> points);
 
-/// The angle from a path's first point to each of its points, along the way.
+/// The angle from a path's first point to each of its points, along the path.
 ///
 /// On a way that flattens it falls from start to end. Where a steeper part comes later it rises
 /// again: then the angle at the end is not the smallest one, an energy line of some angles would
 /// have stopped the mass higher up, and Eq. (29) at the toe hides that.
 struct AngleProfile {
   std::vector<double> angle;  ///< [rad]; NaN at the start                        (n_points)
-  double smallest = 0;        ///< the energy line that clears the whole way [rad]
+  double smallest = 0;        ///< the energy line that clears the whole path [rad]
   double smallest_at = 0;     ///< its horizontal distance from the start [m]
   /// How far an energy line from the start to a later point runs below the ground at an earlier
   /// one, at most: the head that a mass on that line lacks to come by there [m].
   double missing_head = 0;
   bool monotone = true;                 ///< falls all the way: no head above `tolerance` is missing
-  [[nodiscard]] double at_end() const;  ///< [rad]; NaN for no way
+  [[nodiscard]] double at_end() const;  ///< [rad]; NaN for no path
 };
 /// `tolerance`: a missing head of no more is not told from the error of the points' heights [m].
 /// Points nearer than `from` to the start are left out, since the first steps of a fall say nothing
@@ -84,10 +84,10 @@ struct EventReach {
   Vec3 toe = Vec3::Zero();          ///< outermost point of the toe block, on the ground
   int toe_block = -1;               ///< that moved and is at the end farthest from the top, in plan
   Fate toe_fate = Fate::deposited;  ///< a toe block that still moves goes farther yet
-  std::vector<Vec3> streamline;     ///< top, the toe block's way on the ground, toe [m]
+  std::vector<Vec3> streamline;     ///< top, the toe block's path on the ground, toe [m]
   ReachLine event;                  ///< along the streamline
   AngleProfile profile;             ///< along the streamline from the toe block's start
-  ReachLine centre_of_mass;         ///< H_cm, L_cm along the way of the centre of mass
+  ReachLine centre_of_mass;         ///< H_cm, L_cm along the path of the centre of mass
   double sum_angle = 0;  ///< atan(sum m H / sum m L) over blocks: tan(phi) for pure sliding [rad]
   std::vector<BlockReach> blocks;  ///< of each block                                (n_blocks)
 };

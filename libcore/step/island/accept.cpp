@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "base/make_room.hpp"
-#include "step/deep_blocks.hpp"
 #include "scene/fence.hpp"
+#include "solver/law_numbers.hpp"
+#include "step/deep_blocks.hpp"
 #include "step/flight.hpp"
 #include "step/island/stages.hpp"
-#include "solver/law_numbers.hpp"
 #include "step/substep.hpp"
 
 namespace talus {
@@ -209,8 +209,7 @@ struct SubstepAcceptance {
 // Bonds of the substep that broke are gone; those with the ground have left the memories already.
 void break_bonds(const SubstepTries& tries, State& state) {
   for (const int bond : tries.broken)
-    if (static_cast<size_t>(bond) < state.bonds.size())
-      state.bonds[bond].area = 0;
+    if (static_cast<size_t>(bond) < state.bonds.size()) state.bonds[bond].area = 0;
 }
 
 }  // namespace

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "step/island/stages.hpp"
-#include "solver/law_numbers.hpp"
 #include "motion/rotation.hpp"
 #include "scene/yielding.hpp"
+#include "solver/law_numbers.hpp"
+#include "step/island/stages.hpp"
 
 namespace talus {
 namespace {

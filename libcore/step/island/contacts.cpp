@@ -4,10 +4,10 @@
 #include <optional>
 
 #include "base/make_room.hpp"
-#include "step/island/stages.hpp"
-#include "solver/law_numbers.hpp"
-#include "step/substep.hpp"
 #include "scene/yielding.hpp"
+#include "solver/law_numbers.hpp"
+#include "step/island/stages.hpp"
+#include "step/substep.hpp"
 
 namespace talus {
 namespace {
@@ -109,12 +109,8 @@ struct ContactMaker {
   [[nodiscard]] size_t n_points(const PairManifold& m) const {
     return static_cast<size_t>(m.point_end - m.point_begin);
   }
-  [[nodiscard]] const PairPoint& point_at(int p) const {
-    return search.pairs.points[p];
-  }
-  [[nodiscard]] const std::vector<ContactMemory>& memory_of(int b) const {
-    return state.memory[b];
-  }
+  [[nodiscard]] const PairPoint& point_at(int p) const { return search.pairs.points[p]; }
+  [[nodiscard]] const std::vector<ContactMemory>& memory_of(int b) const { return state.memory[b]; }
   // The intact bond of two blocks.
   [[nodiscard]] int bond_of(const PairManifold& m) const {
     const int bond = find_bond(state.bonds, m.block_a, m.block_b);
@@ -192,8 +188,7 @@ struct ContactMaker {
       if (std::any_of(rows.begin(), rows.end(), continues)) continue;
       const bool is_vertex = contact.key.mode == ContactMode::vertex_face;
       lost.add(contact.normal_force,
-               is_vertex ? Vec3(s.R_start * vertices[contact.key.feature_a])
-                         : Vec3(Vec3::Zero()));
+               is_vertex ? Vec3(s.R_start * vertices[contact.key.feature_a]) : Vec3(Vec3::Zero()));
     }
     return lost;
   }
@@ -209,9 +204,9 @@ struct ContactMaker {
       system.fell_through |= is_below_ground(scene, b, s.free.pose.position);
       return true;
     }
-    const SearchResult near = find_contacts(
-        scene.ground, scene.blocks.shapes, b, s.free.pose, Mat3::Identity(), search_margin(c, s.h),
-        making.world_vertices, making.found, &near_ground[b]);
+    const SearchResult near =
+        find_contacts(scene.ground, scene.blocks.shapes, b, s.free.pose, Mat3::Identity(),
+                      search_margin(c, s.h), making.world_vertices, making.found, &near_ground[b]);
     if (near.reach == Reach::off_ground) {
       system.outsider = b;
       return false;
@@ -478,8 +473,7 @@ struct ContactMaker {
 
   void add_pair(int manifold) {
     const PairManifold& m = search.pairs.manifolds[manifold];
-    begin_pair(members.place[m.block_a],
-               members.place[m.block_b]);
+    begin_pair(members.place[m.block_a], members.place[m.block_b]);
     match_memories(m);
     if (is_fixed(scene, m.block_b))
       add_fixed_points(m);

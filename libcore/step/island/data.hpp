@@ -15,8 +15,8 @@
 #include "contact/block_pairs.hpp"
 #include "contact/search.hpp"
 #include "scene/bonds.hpp"
-#include "solver/contact_row.hpp"
 #include "scene/fixed_bodies.hpp"
+#include "solver/contact_row.hpp"
 #include "solver/island_groups.hpp"
 #include "solver/island_solver.hpp"
 #include "solver/newton.hpp"
@@ -63,9 +63,7 @@ struct IslandMembers {  // clang-format off
   [[nodiscard]] std::size_t block(std::size_t k) const {
     return static_cast<std::size_t>(blocks[k]);
   }
-  [[nodiscard]] std::size_t at(int b) const {
-    return static_cast<std::size_t>(place[b]);
-  }
+  [[nodiscard]] std::size_t at(int b) const { return static_cast<std::size_t>(place[b]); }
   [[nodiscard]] const BlockNumbers& of(int b) const { return numbers[at(b)]; }
   /// One block near fixed bodies: it is hit at the end of a substep, so by one after the other.
   [[nodiscard]] bool is_lone() const { return blocks.size() == 1; }

@@ -6,8 +6,8 @@
 #include <numeric>
 
 #include "solver/contact_law.hpp"
-#include "step/island/stages.hpp"
 #include "solver/law_numbers.hpp"
+#include "step/island/stages.hpp"
 
 namespace talus {
 namespace {

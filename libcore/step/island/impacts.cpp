@@ -1,8 +1,8 @@
 // Stage 7 of an island's step, the contact impulses, and the rounds of stages 6 to 8.
 #include <algorithm>
 
-#include "step/island/stages.hpp"
 #include "solver/law_numbers.hpp"
+#include "step/island/stages.hpp"
 
 namespace talus {
 namespace {

@@ -1,8 +1,8 @@
 // Stages 1 and 3 of an island's step: who belongs to it, and how stiff their contacts are.
 #include <algorithm>
 
-#include "step/island/stages.hpp"
 #include "solver/law_numbers.hpp"
+#include "step/island/stages.hpp"
 #include "step/substep.hpp"
 
 namespace talus {

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "step/flight.hpp"
-#include "solver/island_groups.hpp"
-#include "step/island/stages.hpp"
-#include "solver/law_numbers.hpp"
 #include "motion/rotation.hpp"
+#include "scene/yielding.hpp"
+#include "solver/island_groups.hpp"
+#include "solver/law_numbers.hpp"
+#include "step/flight.hpp"
+#include "step/island/stages.hpp"
 #include "step/island/step_island.hpp"
 #include "step/substep.hpp"
-#include "scene/yielding.hpp"
 
 namespace talus {
 namespace {
@@ -69,8 +69,7 @@ void search_marked(const Scene& scene, double h, State& state, PairSearch& searc
   const bool none_placed = state.placed.turned.size() != poses.size();
   place_hulls(blocks.hulls, none_placed ? poses : poses.first(static_cast<size_t>(n_blocks(scene))),
               {}, search.moving, state.placed);
-  for (const int body : search.shifted)
-    place_body(blocks.hulls, body, poses[body], state.placed);
+  for (const int body : search.shifted) place_body(blocks.hulls, body, poses[body], state.placed);
   const PairReport found =
       find_pair_contacts(blocks.hulls, state.placed,
                          {search.step, search.turn, search.awake, n_fixed(scene), &search.grid,
@@ -108,8 +107,7 @@ void place_fixed(const Scene& scene, const State& state, PairSearch& search) {
   if (n_fixed(scene) == 0) return;
   if (search.grid.n_bodies != n_fixed(scene)) place_at_rest(scene, search);
   for (const int body : search.shifted)  // by this state or by one before it
-    search.poses[body] =
-        scene.fixed.pose[fixed_of(scene, body)];
+    search.poses[body] = scene.fixed.pose[fixed_of(scene, body)];
   search.shifted.clear();
   for (const int f : state.yielding.shifted) {
     const int body = hull_of_fixed(scene, f);
@@ -197,10 +195,8 @@ void take_pairs(const Scene& scene, const State& state, const PairSearch& search
   const auto at = static_cast<size_t>(k);
   manifolds.clear();
   for (int p = search.groups.pair_begin[at]; p < search.groups.pair_begin[at + 1]; ++p) {
-    const int m =
-        search.joined_manifold[search.groups.pairs[p]];
-    if (in_island(scene, state, members, search.pairs.manifolds[m]))
-      manifolds.push_back(m);
+    const int m = search.joined_manifold[search.groups.pairs[p]];
+    if (in_island(scene, state, members, search.pairs.manifolds[m])) manifolds.push_back(m);
   }
 }
 
@@ -280,8 +276,7 @@ void form_islands(const Scene& scene, State& state, Work& work) {
   search.moving.assign(n, 0);
   search.is_of_step = true;
   const auto end_flight_of = [&](int b) {
-    if (b >= 0 && state.phase[b] == Phase::flight)
-      end_flight(scene, b, state.time, state, work);
+    if (b >= 0 && state.phase[b] == Phase::flight) end_flight(scene, b, state.time, state, work);
   };
   for (const auto& [a, b] : search.joined) end_flight_of(a), end_flight_of(b);
 }

@@ -7,9 +7,9 @@
 #include <ranges>
 
 #include "solver/contact_law.hpp"
+#include "solver/law_numbers.hpp"
 #include "step/impact.hpp"
 #include "step/island/stages.hpp"
-#include "solver/law_numbers.hpp"
 
 namespace talus {
 namespace {
@@ -277,8 +277,7 @@ void blend_rebound(const IslandMembers& members, double excess, const SubstepHit
   for (size_t r = 0; r < system.contacts.size(); ++r) {
     const int number = system.contacts[r].lane;
     const RowIn<RowGroup> now = lane_of(system, r);
-    const RowIn<const RowGroup> full(rebounds.full_rows[number / 2],
-                                     number % 2);
+    const RowIn<const RowGroup> full(rebounds.full_rows[number / 2], number % 2);
     now.set_vector(&RowGroup::impulse, now.impulse() + share * (full.impulse() - now.impulse()));
     if (now.state() == ContactState::open) now.set_state(full.state());
   }

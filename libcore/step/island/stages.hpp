@@ -9,21 +9,23 @@
 #include <utility>
 #include <vector>
 
-#include "step/island/data.hpp"
-#include "step/report.hpp"
 #include "scene/scene.hpp"
 #include "scene/state.hpp"
+#include "step/island/data.hpp"
+#include "step/report.hpp"
 #include "step/work.hpp"
 
 namespace talus {
 
-// --- 1 gather_members (step/island/members.cpp) -----------------------------------------------------
+// --- 1 gather_members (step/island/members.cpp)
+// -----------------------------------------------------
 /// Fills `members` but for what follows from their pairs.
 void gather_members(const Scene& scene, std::span<const int> blocks, IslandMembers& members);
 /// The bodies of `members` are in no island any more.
 void release_members(IslandMembers& members);
 
-// --- 2 find_pairs (step/island/pairs.cpp) -----------------------------------------------------------
+// --- 2 find_pairs (step/island/pairs.cpp)
+// -----------------------------------------------------------
 /// Fills `manifolds` with those of island `k` that form_islands found.
 void take_pairs(const Scene& scene, const State& state, const PairSearch& search, int k,
                 const IslandMembers& members, std::vector<int>& manifolds);
@@ -37,7 +39,8 @@ void find_pairs(const Scene& scene, const IslandMembers& members, double h, Stat
                                      const PairSearch& search, const IslandMembers& members,
                                      std::span<const int> manifolds, double h);
 
-// --- 3 choose_stiffness (step/island/members.cpp) ---------------------------------------------------
+// --- 3 choose_stiffness (step/island/members.cpp)
+// ---------------------------------------------------
 /// Fills IslandMembers::is_small, which holds for a step.
 void see_size(const Scene& scene, const PairSearch& search, std::span<const int> manifolds,
               IslandMembers& members);
@@ -45,12 +48,14 @@ void see_size(const Scene& scene, const PairSearch& search, std::span<const int>
 void choose_stiffness(const Scene& scene, double time, const PairSearch& search,
                       std::span<const int> manifolds, IslandMembers& members);
 
-// --- 4 predict (step/island/predict.cpp) ------------------------------------------------------------
+// --- 4 predict (step/island/predict.cpp)
+// ------------------------------------------------------------
 /// Fills `free` and the bodies of `island` for the substep of `h` from `t`.
 void predict(const Scene& scene, const State& state, const IslandMembers& members, double t,
              double h, FreeMotions& free, Island& island);
 
-// --- 5 make_contacts (step/island/contacts.cpp) -----------------------------------------------------
+// --- 5 make_contacts (step/island/contacts.cpp)
+// -----------------------------------------------------
 /// Fills `system` but for the bodies of its island: contacts with the ground, with other members
 /// and with fixed bodies. False: a member is off the known ground. `near_ground`: what each block
 /// may touch there, kept from search to search.
@@ -59,11 +64,13 @@ void predict(const Scene& scene, const State& state, const IslandMembers& member
                                  const FreeMotions& free, const SubstepTries& tries,
                                  std::vector<NearFeatures>& near_ground, ContactMaking& making,
                                  IslandSystem& system);
-/// Time at which a block first touches a fixed body that gives way, h + 1: none does within the substep.
+/// Time at which a block first touches a fixed body that gives way, h + 1: none does within the
+/// substep.
 [[nodiscard]] double first_touch(const Scene& scene, const State& state, const IslandSystem& system,
                                  double h);
 
-// --- 6 find_hits (step/island/hits.cpp) -------------------------------------------------------------
+// --- 6 find_hits (step/island/hits.cpp)
+// -------------------------------------------------------------
 /// Fills `hits` for the free motion, what bears the members until they are hit included. In
 /// `system`: the free velocities, and the rows of what is hit.
 void find_first_hits(const State& state, const IslandMembers& members, const FreeMotions& free,
@@ -85,7 +92,8 @@ void set_times(const FreeMotions& free, const IslandMembers& members, bool first
 [[nodiscard]] double first_lone_hit(const IslandMembers& members, const SubstepTries& tries,
                                     const SubstepHits& hits, double h);
 
-// --- 7 solve (step/island/impacts.cpp) --------------------------------------------------------------
+// --- 7 solve (step/island/impacts.cpp)
+// --------------------------------------------------------------
 /// What a solution has come to.
 struct Solution {
   bool converged = true;
@@ -97,7 +105,8 @@ void solve(const Scene& scene, const IslandMembers& members, const FreeMotions& 
            bool continues, IslandSystem& system, SubstepHits& hits, IslandWork& solver,
            Solution& solution);
 
-// --- 8 rebound (step/island/rebounds.cpp) -----------------------------------------------------------
+// --- 8 rebound (step/island/rebounds.cpp)
+// -----------------------------------------------------------
 /// Fills the speeds of the hits that the free motion leads to, and the targets of all.
 void set_targets(const IslandMembers& members, const FreeMotions& free, const IslandSystem& system,
                  SubstepHits& hits, Rebounds& rebounds);
@@ -122,7 +131,8 @@ void solve_with_hits(const Scene& scene, const State& state, const IslandMembers
                      SubstepHits& hits, IslandWork& solver, Rebounds& rebounds, StageClock* clock,
                      Solution& solution);
 
-// --- 9 check_substep (step/island/check.cpp) --------------------------------------------------------
+// --- 9 check_substep (step/island/check.cpp)
+// --------------------------------------------------------
 /// Fills `end` but for what accept() does: accept, or again with a reason. `making`, `near_ground`:
 /// for searches of the ground.
 [[nodiscard]] SubstepVerdict check_substep(const Scene& scene, const State& state,
@@ -140,9 +150,10 @@ void solve_with_hits(const Scene& scene, const State& state, const IslandMembers
 [[nodiscard]] Motion end_of(const FreeMotions& free, const IslandSystem& system,
                             const SubstepHits& hits, const SubstepEnd& end, std::size_t k);
 
-// --- 10 accept (step/island/accept.cpp) -------------------------------------------------------------
-/// The substep holds: fills motion, memory, bonds, yielding bodies and ledger of the state, the segments,
-/// and the report. Nothing before it changes anything of these.
+// --- 10 accept (step/island/accept.cpp)
+// -------------------------------------------------------------
+/// The substep holds: fills motion, memory, bonds, yielding bodies and ledger of the state, the
+/// segments, and the report. Nothing before it changes anything of these.
 void accept(const Scene& scene, const IslandMembers& members, const FreeMotions& free,
             const IslandSystem& system, const SubstepHits& hits, bool converged,
             const SubstepTries& tries, SubstepEnd& end, State& state,

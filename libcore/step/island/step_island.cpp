@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "step/island/stages.hpp"
 #include "solver/law_numbers.hpp"
+#include "step/island/stages.hpp"
 #include "step/substep.hpp"
 
 namespace talus {

@@ -5,9 +5,9 @@
 // theory 1.6, 1.7, 1.10, 1.12, 3.5; docs/design-notes.md
 #pragma once
 
-#include "step/report.hpp"
 #include "scene/scene.hpp"
 #include "scene/state.hpp"
+#include "step/report.hpp"
 #include "step/work.hpp"
 
 namespace talus {

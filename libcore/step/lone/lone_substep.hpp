@@ -8,12 +8,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "step/deep_blocks.hpp"
 #include "motion/displacement.hpp"
-#include "solver/newton.hpp"
 #include "motion/rotation.hpp"
 #include "scene/scene.hpp"
 #include "scene/state.hpp"
+#include "solver/newton.hpp"
+#include "step/deep_blocks.hpp"
 #include "step/substep.hpp"
 #include "step/work.hpp"
 

@@ -5,10 +5,10 @@
 
 #include "contact/past_ridge.hpp"
 #include "contact/search.hpp"
+#include "solver/law_numbers.hpp"
 #include "step/deep_blocks.hpp"
 #include "step/flight.hpp"
 #include "step/impact.hpp"
-#include "solver/law_numbers.hpp"
 #include "step/lone/lone_substep.hpp"
 
 namespace talus {
@@ -23,8 +23,8 @@ double first_hit(const BlockNumbers& c, const Substep& s, const Solved<Dof>& sol
   double first = s.h + 1;
   for (const ContactRow& row : work.rows) {
     if (!row.waits) continue;
-    const double gap_end = work.contacts[row.contact].gap +
-                           row.normal.dot(solved.moved(row.arm, s.h));
+    const double gap_end =
+        work.contacts[row.contact].gap + row.normal.dot(solved.moved(row.arm, s.h));
     if (gap_end > c.touch) continue;
     const double v = row.speed_start, g = row.gap_start + 0.5 * c.touch;
     const double a = 2 * (gap_end + 0.5 * c.touch - g - v * s.h) / (s.h * s.h);
@@ -162,8 +162,7 @@ struct Advance {
   [[nodiscard]] bool goes_through_ridge(const Substep& s) {
     if (s.h * top_speed() < law::short_move * c.thickness) return false;
     for (const ContactRow& row : work.rows)
-      if (came_through_ridge(scene, c, s, work.contacts[row.contact], row))
-        return true;
+      if (came_through_ridge(scene, c, s, work.contacts[row.contact], row)) return true;
     return depth_past_ridge(scene.ground, scene.blocks.shapes, b, work.world_vertices,
                             work.contacts, law::deep_past_ridge * c.thickness) > 0;
   }

@@ -3,9 +3,9 @@
 // flight. theory 1.10 (correction about the free motion), 1.12 (impacts); docs/design-notes.md
 #pragma once
 
-#include "step/report.hpp"
 #include "scene/scene.hpp"
 #include "scene/state.hpp"
+#include "step/report.hpp"
 #include "step/work.hpp"
 
 namespace talus {

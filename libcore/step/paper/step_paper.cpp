@@ -6,12 +6,12 @@
 #include <utility>
 
 #include "contact/search.hpp"
-#include "scene/bonds.hpp"
-#include "step/deep_blocks.hpp"
 #include "motion/displacement.hpp"
-#include "solver/flips.hpp"
-#include "step/loads.hpp"
 #include "motion/rotation.hpp"
+#include "scene/bonds.hpp"
+#include "solver/flips.hpp"
+#include "step/deep_blocks.hpp"
+#include "step/loads.hpp"
 #include "step/substep.hpp"
 
 namespace talus {
@@ -148,9 +148,7 @@ struct OpenClose {
     }
     analyse_pattern(static_cast<int>(members.size()), w.edges, lu.pattern);
     clear_matrix(lu);
-    const auto diagonal = [&](int k) -> Mat& {
-      return lu.diagonal[lu.pattern.place[k]];
-    };
+    const auto diagonal = [&](int k) -> Mat& { return lu.diagonal[lu.pattern.place[k]]; };
     for (size_t k = 0; k < members.size(); ++k) {
       diagonal(static_cast<int>(k)) = w.equations[k].K;
       w.D[k] = w.equations[k].F;
@@ -198,8 +196,7 @@ struct OpenClose {
 
   // What a contact starts from: the memory of the same features, if there is one.
   void start_contact(const GroundClass& face, PaperContact& contact) {
-    const std::vector<ContactMemory>& memory =
-        state.memory[members[contact.a]];
+    const std::vector<ContactMemory>& memory = state.memory[members[contact.a]];
     const bool closed = contact.gap_start < 0 || contact.bond >= 0;
     contact.friction = face.friction;
     contact.state = closed ? ContactState::stick : ContactState::open;
@@ -260,14 +257,11 @@ struct OpenClose {
   [[nodiscard]] size_t place_of(int block) const {
     return static_cast<size_t>(work.search.groups.local_index[block]);
   }
-  [[nodiscard]] const Vec3& position(int block) const {
-    return state.motion[block].pose.position;
-  }
+  [[nodiscard]] const Vec3& position(int block) const { return state.motion[block].pose.position; }
 
   void add_pair(const PairManifold& m) {
     const int bond = find_bond(state.bonds, m.block_a, m.block_b);
-    const GroundClass face =
-        bond >= 0 ? state.bonds[bond].face : pair_class(scene, m);
+    const GroundClass face = bond >= 0 ? state.bonds[bond].face : pair_class(scene, m);
     for (int p = m.point_begin; p < m.point_end; ++p) {
       const PairPoint& point = work.search.pairs.points[p];
       PaperContact& contact = w.contacts.emplace_back();
@@ -280,8 +274,7 @@ struct OpenClose {
       contact.arm_a = point.point_b + point.gap * m.normal - position(m.block_a);
       contact.arm_b = point.point_b - position(m.block_b);
       contact.gap_start = point.gap;
-      if (bond >= 0 && m.area > 0)
-        contact.bond_area = state.bonds[bond].area * point.area / m.area;
+      if (bond >= 0 && m.area > 0) contact.bond_area = state.bonds[bond].area * point.area / m.area;
       start_contact(face, contact);
     }
   }
@@ -336,8 +329,7 @@ struct OpenClose {
     const double along = contact.normal.dot(path), overlap = -(contact.gap_start + along);
     if (contact.state == ContactState::open && contact.offset <= 0) return;
     const int block = thinner_of(contact);
-    note_overlap(block, overlap, scene.blocks.shapes.thickness[block],
-                 work.deep, report);
+    note_overlap(block, overlap, scene.blocks.shapes.thickness[block], work.deep, report);
     if (contact.state == ContactState::open) return;
     ContactMemory memory;
     memory.key = contact.key;
@@ -442,8 +434,7 @@ struct OpenClose {
       for (const ContactMemory& memory : state.memory[i]) normal += memory.normal;
       normal.normalize();
       const double speed = -normal.dot(velocity_before);
-      const double restitution =
-          scene.ground.classes[w.contacts.front().ground_class].restitution;
+      const double restitution = scene.ground.classes[w.contacts.front().ground_class].restitution;
       const double resting = 2 * scene.gravity.norm() * scene.settings.dt;
       state.paper.rebound[i] =
           speed > resting ? Vec3(restitution * speed * normal) : Vec3(Vec3::Zero());

@@ -13,9 +13,9 @@
 
 #include <span>
 
-#include "step/report.hpp"
 #include "scene/scene.hpp"
 #include "scene/state.hpp"
+#include "step/report.hpp"
 #include "step/work.hpp"
 
 namespace talus {

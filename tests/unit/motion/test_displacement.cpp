@@ -3,8 +3,8 @@
 #include <Eigen/Geometry>
 
 #include "base/random.hpp"
-#include "motion/displacement.hpp"
 #include "geometry/polyhedron.hpp"
+#include "motion/displacement.hpp"
 
 namespace {
 

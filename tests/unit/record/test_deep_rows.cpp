@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "step/step.hpp"
 #include "record/deep_rows.hpp"
 #include "run/runner.hpp"
+#include "step/step.hpp"
 #include "verify/cases/cases.hpp"
 
 namespace {

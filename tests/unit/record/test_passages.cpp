@@ -318,7 +318,7 @@ TEST(Passages, EqualTheClosedFormOfAStraightSlide) {
     EXPECT_NEAR(row.largest.centroid_height, 0.4, 1e-4) << col;
     const double entry = (std::max(2.0 * col, 1.0) - 1) / along.x();
     EXPECT_NEAR(row.first_time, std::sqrt(2 * entry / a), 1e-3) << col;
-    if (col == 0) {  // where it started: no way yet, and it stood
+    if (col == 0) {  // where it started: no path yet, and it stood
       EXPECT_TRUE(std::isnan(row.travel_angle) && std::isnan(row.heading));
       continue;
     }

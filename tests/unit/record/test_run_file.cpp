@@ -8,8 +8,8 @@
 #include "base/sha256.hpp"
 #include "hand_made.hpp"
 #include "io/h5_hdf5.hpp"
-#include "store/checkpoint.hpp"
 #include "record/run_file.hpp"
+#include "store/checkpoint.hpp"
 
 namespace {
 

@@ -3,10 +3,10 @@
 #include <numbers>
 
 #include "base/error.hpp"
+#include "run/runner.hpp"
 #include "scene/fence.hpp"
 #include "step/step.hpp"
 #include "store/checkpoint.hpp"
-#include "run/runner.hpp"
 #include "verify/cases/cases.hpp"
 
 namespace {

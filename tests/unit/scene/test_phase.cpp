@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include "solver/law_numbers.hpp"
 #include "scene/phase.hpp"
+#include "solver/law_numbers.hpp"
 #include "step/step.hpp"
 #include "step/substep.hpp"
 #include "verify/cases/case_run.hpp"

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "step/step.hpp"
 #include "scene/yielding.hpp"
+#include "step/step.hpp"
 #include "verify/cases/cases.hpp"
 
 namespace {

@@ -6,8 +6,8 @@
 
 #include "base/random.hpp"
 #include "contact/search.hpp"
-#include "step/flight.hpp"
 #include "motion/rotation.hpp"
+#include "step/flight.hpp"
 #include "step/step.hpp"
 #include "unit/contact/depth_below_ground.hpp"
 #include "unit/contact/ground_overlap.hpp"

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "base/random.hpp"
-#include "step/impact.hpp"
 #include "motion/rotation.hpp"
+#include "step/impact.hpp"
 #include "step/step.hpp"
 #include "verify/cases/cases.hpp"
 

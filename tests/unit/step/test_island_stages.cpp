@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "step/island/stages.hpp"
-#include "step/step.hpp"
 #include "step/island/step_island.hpp"
+#include "step/step.hpp"
 #include "verify/cases/cases.hpp"
 
 namespace {

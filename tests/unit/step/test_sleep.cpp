@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "solver/law_numbers.hpp"
 #include "motion/rotation.hpp"
+#include "solver/law_numbers.hpp"
 #include "step/step.hpp"
 #include "step/substep.hpp"
 #include "verify/cases/cases.hpp"

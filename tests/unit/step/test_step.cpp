@@ -7,8 +7,8 @@
 
 #include "base/random.hpp"
 #include "contact/search.hpp"
-#include "step/flight.hpp"
 #include "motion/rotation.hpp"
+#include "step/flight.hpp"
 #include "step/step.hpp"
 #include "step/substep.hpp"
 #include "unit/contact/depth_below_ground.hpp"
