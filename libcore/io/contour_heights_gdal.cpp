@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "base/text.hpp"
+#include "terrain/contour_labels.hpp"
 #include "terrain/elevation.hpp"
 
 namespace talus {
@@ -203,6 +204,82 @@ std::vector<double> read_field(const LayerChoice& choice, OpenLayer& source,
   return values;
 }
 
+// --- labels --------------------------------------------------------------------------------------
+
+constexpr LayerRole labels_role{LayerShape::point, "labels", "--labels-"};
+
+// "1050", "1050 m", "1050,5"; other text is no label of a height.
+bool parse_label(std::string words, double& height) {
+  std::replace(words.begin(), words.end(), ',', '.');
+  while (!words.empty() && (words.back() == 'm' || words.back() == ' ')) words.pop_back();
+  return parse_double(words, height);
+}
+
+int text_field(const LayerChoice& choice, const OpenLayer& source) {
+  OGRFeatureDefn& definition = *source.layer->GetLayerDefn();
+  const int index = choice.elevation_field.empty()
+                        ? definition.GetFieldIndex("Text")
+                        : definition.GetFieldIndex(choice.elevation_field.c_str());
+  if (index >= 0) return index;
+  throw InputError(where_of_layer(choice, source),
+                   "there is no field " +
+                       (choice.elevation_field.empty() ? "Text" : choice.elevation_field) +
+                       "; the fields are: " + list_of_fields(definition),
+                   "name the field with the labels' text: --labels-field");
+}
+
+std::vector<Vec3> read_labels(const LayerChoice& choice, std::vector<std::string>& notes) {
+  OpenLayer source = open_layer(choice, labels_role);
+  const int field = text_field(choice, source);
+  std::vector<Vec3> labels;
+  std::int64_t n_other = 0;
+  for_each_part(choice, source, [&](const OGRGeometry& part, const OGRFeature& feature) {
+    double height = 0;
+    if (parse_label(feature.GetFieldAsString(field), height))
+      labels.emplace_back(part.toPoint()->getX(), part.toPoint()->getY(), height);
+    else
+      ++n_other;
+  });
+  notes.push_back(choice.path + ": " + counted(static_cast<std::int64_t>(labels.size()), "label") +
+                  " of heights" +
+                  (n_other > 0 ? "; " + std::to_string(n_other) + " other texts passed over" : ""));
+  return labels;
+}
+
+std::string where_line(const Polylines& lines, int line) {
+  const Vec3& p =
+      lines.points[static_cast<std::size_t>(lines.begin[static_cast<std::size_t>(line)])];
+  return "feature " + std::to_string(lines.feature[static_cast<std::size_t>(line)]) + ", x " +
+         text(p.x(), 10) + ", y " + text(p.y(), 10);
+}
+
+std::vector<double> labelled_heights(const LayerChoice& choice, const Polylines& lines,
+                                     std::vector<std::string>& notes) {
+  const std::vector<Vec3> labels = read_labels(choice, notes);
+  const LabelledLines found = heights_from_labels(lines, labels);
+  if (found.line_at_two >= 0)
+    throw InputError({choice.path},
+                     "one contour has the labels " + text(found.two_heights[0], 8) + " and " +
+                         text(found.two_heights[1], 8) +
+                         " m: " + where_line(lines, found.line_at_two),
+                     "move the label that belongs to another line, or part the lines there");
+  if (!found.without.empty()) {
+    const std::string unclear =
+        found.unclear.empty()
+            ? std::string()
+            : "; " + std::to_string(found.unclear.size()) + " labels stand between two contours";
+    throw InputError({choice.path},
+                     std::to_string(found.without.size()) + " of " +
+                         counted(lines.n_lines(), "contour") + " have no label, the first " +
+                         where_line(lines, found.without.front()) + unclear,
+                     "give each contour a label, or leave such contours in another layer");
+  }
+  if (!found.unclear.empty())
+    notes.push_back(choice.path + ": " + std::to_string(found.unclear.size()) +
+                    " labels between two contours passed over");
+  return found.height;
+}
+
 }  // namespace
 
 HeightRange heights_of(const Polylines& lines) {
@@ -224,7 +301,9 @@ HeightRange heights_of(const Polylines& lines) {
 Polylines read_contour_lines(const ContourSources& sources, OpenLayer& source,
                              ContourReading& reading) {
   const LayerChoice& choice = sources.contours;
-  const std::optional<ElevationField> field = find_field(choice, source);
+  const bool has_labels = !sources.labels.path.empty();
+  const std::optional<ElevationField> field =
+      has_labels ? std::nullopt : find_field(choice, source);
   const bool reads_field = field && field->index >= 0;
   RawLines raw;
   for_each_part(choice, source, [&](const OGRGeometry& part, const OGRFeature& feature) {
@@ -235,7 +314,17 @@ Polylines read_contour_lines(const ContourSources& sources, OpenLayer& source,
   reading.n_features = source.n_features;
   reading.n_ignored += source.n_ignored;
   const Where where = where_of_layer(choice, source);
-  if (raw.lines.points.empty()) throw InputError(where, "there is no line, expected contours");
+  if (raw.lines.points.empty())
+    throw InputError(where, "there is no line, expected contours",
+                     source.is_drawing ? "a surface of faces needs no contours: talus-trn " +
+                                             choice.path + " -o terrain.tif --crs EPSG:code"
+                                       : std::string());
+  if (has_labels) {
+    set_heights(labelled_heights(sources.labels, raw.lines, reading.notes), raw.lines);
+    reading.layer = source.name;
+    reading.elevation_from = "labels";
+    return std::move(raw.lines);
+  }
   const HeightRange z = heights_of(raw.lines);
   const bool take_field = stand_in_field(choice, source, raw, z, field, true);
   if (take_field) {

@@ -152,7 +152,10 @@ void for_each_part(const LayerChoice& choice, OpenLayer& source,
         } else {
           throw InputError(where_of_feature(choice, source, feature),
                            std::string("the geometry is ") + geometry.getGeometryName() +
-                               ", expected " + plural(shape));
+                               ", expected " + plural(shape),
+                           type == wkbPoint && shape == LayerShape::line
+                               ? "--points makes a TIN of points of the ground"
+                               : "");
         }
       };
   source.layer->ResetReading();

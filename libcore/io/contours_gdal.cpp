@@ -5,13 +5,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "base/error.hpp"
+#include "base/read_file.hpp"
 #include "base/text.hpp"
 #include "io/contour_heights_gdal.hpp"
 #include "io/contour_layer_gdal.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/errors_gdal.hpp"
+#include "io/point_text.hpp"
 #include "terrain/elevation.hpp"
 #include "terrain/tin_mesh.hpp"
 
@@ -20,6 +23,7 @@ namespace {
 
 // What the sources of a map are read for.
 constexpr LayerRole contours_role{LayerShape::line, "contours", "--"};
+constexpr LayerRole ground_points_role{LayerShape::point, "points", "--"};
 constexpr LayerRole breaklines_role{LayerShape::line, "breaklines", "--breaklines-"};
 constexpr LayerRole spots_role{LayerShape::point, "spot heights", "--spots-"};
 constexpr LayerRole boundary_role{LayerShape::polygon, "boundary", "--boundary-"};
@@ -27,9 +31,8 @@ constexpr LayerRole reference_role{LayerShape::point, "points", "--reference-poi
 
 // --- reference systems ---------------------------------------------------------------------------
 
-std::string crs_of_contours(const ContourSources& sources, const OpenLayer& source,
+std::string crs_of_contours(const ContourSources& sources, const std::string& named,
                             const std::vector<Vec3>& points) {
-  const std::string named = wkt_of(source.layer->GetSpatialRef());
   const bool no_degrees = is_beyond_degrees(named, points);
   const std::string own = no_degrees ? std::string() : named;
   const std::string& path = sources.contours.path;
@@ -167,8 +170,9 @@ void check_units(const std::vector<Vec3>& points, const HeightRange& contours,
 }
 
 void make_relative(ContourMap& map) {
-  Vec3 low = map.contours.points.front();
-  for (const Vec3& p : map.contours.points) low = low.cwiseMin(p);
+  const std::vector<Vec3>& ground = map.contours.points.empty() ? map.spots : map.contours.points;
+  Vec3 low = ground.front();
+  for (const Vec3& p : ground) low = low.cwiseMin(p);
   map.origin = Vec3(std::floor(low.x() / 100) * 100, std::floor(low.y() / 100) * 100, 0);
   for (std::vector<Vec3>* points : {&map.contours.points, &map.breaklines.points, &map.spots})
     for (Vec3& p : *points) p -= map.origin;
@@ -176,24 +180,79 @@ void make_relative(ContourMap& map) {
     for (Vec2& p : ring.points) p -= map.origin.head<2>();
 }
 
-}  // namespace
-
-ContourMap read_contours(const ContourSources& sources, ContourReading& reading) {
-  ContourMap map;
-  map.source = sources.contours.path;
-  OpenLayer source = open_layer(sources.contours, contours_role);
-  map.contours = read_contour_lines(sources, source, reading);
-  const std::string own_crs = crs_of_contours(sources, source, map.contours.points);
+// Points of a layer in `own_crs` to the CRS and the unit of the map.
+void bring_to_metres(const ContourSources& sources, const std::string& own_crs,
+                     std::vector<Vec3>& points, ContourMap& map) {
   map.crs_wkt = own_crs;
   if (!sources.t_srs.empty()) {
     if (own_crs.empty())
       throw InputError({map.source}, "local metres cannot be reprojected", "leave --t-srs away");
     map.crs_wkt = with_heights_of(own_crs, sources.t_srs, {map.source});
-    bring_to(own_crs, sources.t_srs, map.source, map.contours.points);
+    bring_to(own_crs, sources.t_srs, map.source, points);
   }
   if (sources.elevation_unit_m != 1) map.crs_wkt = horizontal_crs(map.crs_wkt);
-  check_crs(map.crs_wkt, map.source, map.contours.points.front());
-  scale_heights(sources.elevation_unit_m, map.source, map.contours.points);
+  check_crs(map.crs_wkt, map.source, points.front());
+  scale_heights(sources.elevation_unit_m, map.source, points);
+}
+
+// Laser scans take a library that not every system has; text takes none.
+void refuse_laser_scan(const std::string& path) {
+  const std::string extension = lower(std::filesystem::path(path).extension().string());
+  if (extension != ".las" && extension != ".laz" && extension != ".e57") return;
+  throw InputError({path}, "is a laser scan, which is not read as it is",
+                   "pdal translate " + path +
+                       " ground.csv -f filters.range "
+                       "--filters.range.limits=\"Classification[2:2]\" "
+                       "--writers.text.order=X,Y,Z --writers.text.keep_unspecified=false");
+}
+
+// Points in coordinates and units of the source; the CRS that it names.
+std::string read_raw_points(const ContourSources& sources, ContourReading& reading,
+                            std::vector<Vec3>& points) {
+  const std::string& path = sources.contours.path;
+  if (is_point_text(path)) {
+    PointText text = parse_points(read_file(path), path);
+    points = std::move(text.points);
+    reading.elevation_from = text.taken_from;
+    reading.notes.push_back(path + ": " +
+                            counted(static_cast<std::int64_t>(points.size()), "point") + " from " +
+                            text.taken_from);
+    return {};
+  }
+  OpenLayer source = open_layer(sources.contours, ground_points_role);
+  points =
+      read_measured_lines(sources.contours, source, sources.elevation_unit_m, reading.notes).points;
+  reading.layer = source.name;
+  reading.n_features = source.n_features;
+  return wkt_of(source.layer->GetSpatialRef());
+}
+
+}  // namespace
+
+ContourMap read_ground_points(const ContourSources& sources, ContourReading& reading) {
+  ContourMap map;
+  map.source = sources.contours.path;
+  refuse_laser_scan(map.source);
+  const std::string named = read_raw_points(sources, reading, map.spots);
+  bring_to_metres(sources, crs_of_contours(sources, named, map.spots), map.spots, map);
+  if (!sources.boundary.path.empty())
+    map.boundary = read_boundary(sources.boundary, map.crs_wkt, reading.notes);
+  make_relative(map);
+  check_boundary(map, sources.boundary.path);
+  return map;
+}
+
+ContourMap read_contours(const ContourSources& sources, ContourReading& reading) {
+  ContourMap map;
+  map.source = sources.contours.path;
+  if (is_point_text(map.source))
+    throw InputError({map.source}, "holds columns of text, expected contour lines",
+                     "--points makes a TIN of points of the ground");
+  OpenLayer source = open_layer(sources.contours, contours_role);
+  map.contours = read_contour_lines(sources, source, reading);
+  const std::string own_crs =
+      crs_of_contours(sources, wkt_of(source.layer->GetSpatialRef()), map.contours.points);
+  bring_to_metres(sources, own_crs, map.contours.points, map);
   const HeightRange heights = heights_of(map.contours);
   if (!sources.breaklines.path.empty()) {
     map.breaklines = read_measured(sources.breaklines, breaklines_role, map.crs_wkt,

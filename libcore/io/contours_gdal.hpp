@@ -21,6 +21,7 @@ struct LayerChoice {
 
 struct ContourSources {
   LayerChoice contours, breaklines, spots, boundary;  ///< all but contours may have an empty path
+  LayerChoice labels;  ///< points with the heights of the contours as text; empty path: none
   double elevation_unit_m = 1;                        ///< metres in one unit of all elevations read
   bool crs_given = false;  ///< `crs` stands for the CRS of contours that have none
   std::string crs;         ///< WKT; empty: local metres
@@ -40,6 +41,11 @@ struct ContourReading {
 /// and puts the origin at the lower left corner, floored to 100 m (z: 0). Throws InputError where
 /// anything is missing or cannot be true: see docs/tools/talus-tin.md.
 [[nodiscard]] ContourMap read_contours(const ContourSources& sources, ContourReading& reading);
+
+/// Points of the ground (`sources.contours`: a vector layer of points, or text, point_text.hpp) as
+/// spots of a map without contours, with a boundary; CRS, units and origin as read_contours does.
+/// Throws InputError; laser scans are refused with the command that makes text of them.
+[[nodiscard]] ContourMap read_ground_points(const ContourSources& sources, ContourReading& reading);
 
 /// Points with a height in map coordinates, in `crs_wkt` [m]: what a terrain is held against. What
 /// was found goes to `notes`; a missing CRS, of the source or in `crs_wkt`, means the same one.

@@ -160,6 +160,7 @@ struct DemFile::Impl {
   Dataset source, warped;  // warped reads from source and is closed first
   GDALRasterBand* band = nullptr;
   double scale = 1, offset = 0;
+  bool accepts_doubts = false;
 
   [[nodiscard]] Where where(std::size_t index, int row, int col, int n_cols) const {
     const int r = row + static_cast<int>(index / static_cast<std::size_t>(n_cols));
@@ -177,6 +178,8 @@ DemFile::DemFile(const std::string& path, const DemOptions& options)
   impl_->source = open_raster(path);
   GDALDataset* dataset = impl_->source.get();
   check_band(*dataset, path);
+  const char* const tag = dataset->GetMetadataItem("DOUBTS_ACCEPTED");
+  impl_->accepts_doubts = options.accepts_doubts || (tag != nullptr && std::string(tag) == "YES");
   impl_->crs = effective_crs(*dataset, path, options);
   if (!options.t_srs.empty()) {
     if (impl_->crs.empty())
@@ -205,6 +208,7 @@ DemFile::~DemFile() = default;
 const std::string& DemFile::path() const { return impl_->path; }
 const GridFrame& DemFile::frame() const { return impl_->frame; }
 const std::string& DemFile::crs_wkt() const { return impl_->crs; }
+bool DemFile::accepts_doubts() const { return impl_->accepts_doubts; }
 double DemFile::raw_of(double z) const { return (z - impl_->offset) / impl_->scale; }
 Where DemFile::where_of_cell(int row, int col) const {
   return impl_->where(0, row, col, impl_->frame.n_cols);
@@ -276,14 +280,14 @@ void refuse_lone_level(const DemFile& dem, const RowResampler& part,
   const std::optional<LoneLevel> found = levels.worst();
   if (!found) return;
   const int row = part.first_row() + found->row, col = part.first_col() + found->col;
-  throw InputError(dem.where_of_cell(row, col),
-                   "the elevation is " + text(found->value, 10) + " m in " +
-                       counted(found->n_cells, "cell") + " side by side, more than " +
-                       text(step, 6) + " m off " + std::to_string(found->n_far) + " of the " +
-                       std::to_string(found->n_beside) +
-                       " beside them, and the file does not declare it as nodata",
-                   "if it stands for nodata: gdal_translate -a_nodata " +
-                       text(dem.raw_of(found->value)) + " " + dem.path() + " declared.tif");
+  throw InputError(
+      dem.where_of_cell(row, col),
+      "the elevation is " + text(found->value, 10) + " m in " + counted(found->n_cells, "cell") +
+          " side by side, more than " + text(step, 6) + " m off " + std::to_string(found->n_far) +
+          " of the " + std::to_string(found->n_beside) +
+          " beside them, and the file does not declare it as nodata",
+      "if it stands for nodata: gdal_translate -a_nodata " + text(dem.raw_of(found->value)) + " " +
+          dem.path() + " declared.tif; if it is ground: talus-trn --accept-doubts");
 }
 
 }  // namespace
@@ -298,7 +302,8 @@ std::vector<double> read_dem(const DemFile& dem, const GridFrame& frame,
     steps.add_row(row);
     resampler.add_row(row);
   });
-  if (!steps.values().empty()) refuse_lone_level(dem, resampler, steps.values());
+  if (!steps.values().empty() && !dem.accepts_doubts())
+    refuse_lone_level(dem, resampler, steps.values());
   return resampler.take();
 }
 

@@ -25,6 +25,7 @@ struct DemOptions {
   std::string crs;         ///< WKT; empty: local metres, no place on the map
   std::string t_srs;       ///< WKT; not empty: reproject to it in plan (bilinear, at the file's
                            ///< resolution); heights stay, and so does the system that they are in
+  bool accepts_doubts = false;      ///< areas of one value that stand far off are ground
   bool crs_may_be_missing = false;  ///< no CRS and none given means local metres
 };
 
@@ -43,7 +44,9 @@ class DemFile {
   [[nodiscard]] const std::string& path() const;
   [[nodiscard]] const GridFrame& frame() const;      ///< its cell centres
   [[nodiscard]] const std::string& crs_wkt() const;  ///< empty for local metres
-  [[nodiscard]] double raw_of(double z) const;       ///< what stands in the file for an elevation
+  /// By the options, or by the tag DOUBTS_ACCEPTED=YES of a TRN that was made so.
+  [[nodiscard]] bool accepts_doubts() const;
+  [[nodiscard]] double raw_of(double z) const;  ///< what stands in the file for an elevation
   [[nodiscard]] Where where_of_cell(int row, int col) const;  ///< with its place on the map
 
   /// Elevations of n_rows x n_cols nodes from (row, col) on, NaN = unknown [m]. Throws InputError

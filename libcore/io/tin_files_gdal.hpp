@@ -1,0 +1,35 @@
+// TINs of other programs: faces of CAD drawings (DXF), LandXML, PLY.
+// in:    a file
+// out:   a TIN, its CRS if the file names one; what was passed over
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "terrain/tin.hpp"
+
+namespace talus {
+
+/// By name or first bytes: a PLY, a LandXML, or a drawing (DXF). A raster is none.
+[[nodiscard]] bool is_tin_file(const std::string& path);
+
+struct TinFile {
+  Tin tin;
+  bool is_ours = false;            ///< a PLY with an origin, as talus-tin writes it
+  std::vector<std::string> notes;  ///< what was taken and passed over
+};
+
+/// Faces of a drawing: 3DFACE and meshes; a face of four corners is two triangles. LandXML: the
+/// only surface, without its invisible faces. Units other than metres are refused. Triangles
+/// without an area in plan are left out and counted. Throws InputError.
+[[nodiscard]] TinFile read_tin_file(const std::string& path);
+
+/// Edges at which triangles lie over one another: more than two meet, or both on one side.
+struct FoldedEdges {
+  std::int64_t n = 0;
+  Vec3 first = Vec3::Zero();  ///< middle of the first, relative to the TIN's origin [m]
+};
+[[nodiscard]] FoldedEdges find_folded_edges(const Tin& tin);
+
+}  // namespace talus
