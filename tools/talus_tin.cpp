@@ -91,7 +91,7 @@ void declare(Tool& tool, Options& o) {
             "the source holds points of the ground, not contours: a vector layer, CSV or XYZ");
   tool.option("--tolerance-m", o.doubts.tolerance_m,
               "contours of different heights that meet are moved apart by at most this [m]; "
-              "0: refused; nan: the accuracy that their bends show")
+              "0: refused; not given: the accuracy that their bends show")
       ->check(check_not_negative);
   tool.output("--doubts", o.doubts.layer,
               "places to look at, also of a map that is refused (GeoPackage)");

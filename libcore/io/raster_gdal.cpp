@@ -280,14 +280,15 @@ void refuse_lone_level(const DemFile& dem, const RowResampler& part,
   const std::optional<LoneLevel> found = levels.worst();
   if (!found) return;
   const int row = part.first_row() + found->row, col = part.first_col() + found->col;
-  throw InputError(
-      dem.where_of_cell(row, col),
-      "the elevation is " + text(found->value, 10) + " m in " + counted(found->n_cells, "cell") +
-          " side by side, more than " + text(step, 6) + " m off " + std::to_string(found->n_far) +
-          " of the " + std::to_string(found->n_beside) +
-          " beside them, and the file does not declare it as nodata",
-      "if it stands for nodata: gdal_translate -a_nodata " + text(dem.raw_of(found->value)) + " " +
-          dem.path() + " declared.tif; if it is ground: talus-trn --accept-doubts");
+  throw InputError(dem.where_of_cell(row, col),
+                   "the elevation is " + text(found->value, 10) + " m in " +
+                       counted(found->n_cells, "cell") + " side by side, more than " +
+                       text(step, 6) + " m off " + std::to_string(found->n_far) + " of the " +
+                       std::to_string(found->n_beside) +
+                       " beside them, and the file does not declare it as nodata (talus-trn "
+                       "--accept-doubts takes it as ground)",
+                   "if it stands for nodata: gdal_translate -a_nodata " +
+                       text(dem.raw_of(found->value)) + " " + dem.path() + " declared.tif");
 }
 
 }  // namespace

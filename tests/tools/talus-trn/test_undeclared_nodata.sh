@@ -44,7 +44,7 @@ expect 0 talus-trn grid.tif -o good.tif --overwrite --no-db
 # taken as ground only when that is asked for, which the terrain says to those who read it
 grid 'r < 6 || c < 8' 0
 expect 1 talus-trn grid.tif -o bad.tif --no-db
-says "if it is ground: talus-trn --accept-doubts"
+says "(talus-trn --accept-doubts takes it as ground)"
 expect 0 talus-trn grid.tif -o accepted.tif --no-db --accept-doubts --report accepted.json
 grep -q '"doubts_accepted": true' accepted.json || fail "the report does not say it"
 gdalinfo accepted.tif | grep -q DOUBTS_ACCEPTED=YES || fail "the terrain does not say it"
