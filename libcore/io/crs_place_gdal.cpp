@@ -177,6 +177,18 @@ std::vector<Vec2> places_of(const Ground& ground, const MapWindow& extent) {
   return found;
 }
 
+double stretch_of(const Axes& axes) {
+  return std::max(std::abs(axes.stretch_x - 1), std::abs(axes.stretch_y - 1));
+}
+
+bool is_stretched(const Ground& ground, const std::vector<Vec2>& places) {
+  return !ground.is_geographic() &&
+         std::any_of(places.begin(), places.end(), [&ground](const Vec2& lon_lat) {
+           const auto axes = axes_at(ground, lon_lat);
+           return axes && stretch_of(*axes) > stretch_limit;
+         });
+}
+
 enum class Verdict { inside, beside, far };
 
 // Maps reach beyond the area of their system by as much as it is wide: neighbours' zones are used.
@@ -199,8 +211,14 @@ struct Systems {
   [[nodiscard]] Verdict verdict(const std::vector<Vec2>& places) const {
     if (places.empty()) return Verdict::far;
     Verdict worst = Verdict::inside;
-    for (const Ground* ground : {&own, &work})
-      if (ground->area()) worst = std::max(worst, verdict_in(*ground->area(), places));
+    for (const Ground* ground : {&own, &work}) {
+      if (!ground->area()) continue;
+      const Verdict verdict = verdict_in(*ground->area(), places);
+      // outside of its area, a projection still serves where its metres are metres
+      worst =
+          std::max(worst, verdict == Verdict::beside && is_stretched(*ground, places) ? Verdict::far
+                                                                                      : verdict);
+    }
     return worst;
   }
   [[nodiscard]] bool knows_area() const { return own.area() || work.area(); }
@@ -288,8 +306,9 @@ class Guesses {
       return Guess{
           std::string("they look like degrees") + (is_exchanged ? ", the latitude first" : ""),
           is_exchanged ? "write longitude and latitude, x first, and name the CRS EPSG:4326"
-          : place_.has_crs_option
-              ? "--crs EPSG:4326 --t-srs " + work
+          : place_.has_crs_option ? "--crs EPSG:4326 --t-srs " + work
+          : !place_.crs_said_in.empty()
+              ? place_.crs_said_in + " says metres, and they would be in EPSG:4326"
               : "name the CRS that they are in: ogr2ogr -a_srs EPSG:4326 -f GPKG "
                 "named.gpkg " +
                     where_.file};
@@ -341,8 +360,9 @@ class Guesses {
                                    ", which this CRS leaves out",
                                "ShiftCoords(@, " + text(-zone * million, 9) + ", 0)"))
         return with_system_of_zone(zone, *guess);
-    const double missing = std::floor(systems_.own.false_easting() / million);
-    if (missing < 1) return std::nullopt;
+    const double false_easting = systems_.own.false_easting();
+    const double missing = std::floor(false_easting / million);
+    if (missing < 1 || false_easting - missing * million != 500000) return std::nullopt;
     return changed(
         [&](const Vec2& p) { return Vec2(p.x() + missing * million, p.y()); },
         "the eastings lack the zone number " + text(missing) + " that they have in this CRS",
@@ -392,6 +412,8 @@ std::string outside_words(const Place& place, const Ground& ground) {
 std::string way_out(const Place& place, const Where& where) {
   if (place.has_crs_option)
     return "is it the CRS of these coordinates? name the right one with --crs EPSG:code";
+  if (!place.crs_said_in.empty())
+    return "is it the CRS of these coordinates? " + place.crs_said_in + " says so";
   return "is it the CRS of these coordinates? name the right one in the file: " +
          std::string(place.is_raster
                          ? "gdal_translate -a_srs EPSG:code " + where.file + " named.tif"
@@ -422,6 +444,7 @@ void check_area(const Systems& systems, const std::vector<Vec2>& places, const G
 std::string way_to_zone(const Place& place, const Where& where, const Vec2& lon_lat) {
   const std::string zone = utm_zone(lon_lat);
   const std::string to = zone.empty() ? "EPSG:code" : zone;
+  if (!place.way_to_other_crs.empty()) return place.way_to_other_crs + " " + to;
   if (!place.has_crs_option) return "reproject it to " + to + " first";
   return "--t-srs " + to +
          (place.is_raster
@@ -436,7 +459,7 @@ void check_axes(const Ground& ground, const std::vector<Vec2>& places, const Pla
   for (const Vec2& lon_lat : places) {
     const auto axes = axes_at(ground, lon_lat);
     if (!axes) continue;
-    const double stretch = std::max(std::abs(axes->stretch_x - 1), std::abs(axes->stretch_y - 1));
+    const double stretch = stretch_of(*axes);
     const double turn_x = std::abs(std::remainder(axes->bearing_x_deg - 90, 360));
     const double turn_y = std::abs(std::remainder(axes->bearing_y_deg, 360));
     if (turn_x > turned_deg || turn_y > turned_deg)

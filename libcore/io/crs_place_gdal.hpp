@@ -53,6 +53,8 @@ struct Place {
   bool has_unit_option = false;  ///< and --unit-m
   bool is_raster = false;
   std::string layer{}, geometry_column{};  ///< of a vector source, for commands
+  std::string way_to_other_crs{};  ///< of what is not reprojected, the code of the system follows
+  std::string crs_said_in{};  ///< what says the CRS of coordinates in no vector source or raster
 };
 
 /// Throws InputError at `where` when the coordinates lie far outside the area that their system, or

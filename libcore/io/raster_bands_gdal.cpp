@@ -1,6 +1,7 @@
 #include "io/raster_bands_gdal.hpp"
 
 #include <gdal_priv.h>
+#include <gdal_utils.h>
 
 #include <cstring>
 #include <vector>
@@ -36,6 +37,11 @@ std::string list_of(const std::vector<std::string>& names) {
   return words;
 }
 
+void replace_all(const std::string& from, const std::string& to, std::string& in) {
+  for (std::size_t at = in.find(from); at != std::string::npos; at = in.find(from, at + to.size()))
+    in.replace(at, from.size(), to);
+}
+
 }  // namespace
 
 void refuse_several_rasters(GDALDataset& dataset, const std::string& path) {
@@ -63,6 +69,31 @@ void check_one_band(GDALDataset& dataset, const std::string& path) {
                             : "; where band 2 says which cells are known: gdal_translate -b 1 "
                               "-mask 2 " +
                                   path + " one_band.tif"));
+}
+
+std::string with_alpha_as_mask(GDALDataset& dataset) {
+  if (dataset.GetRasterCount() != 2 || !is_alpha(dataset, 2)) return {};
+  const GDALDataType type = dataset.GetRasterBand(2)->GetRasterDataType();
+  const double opaque = type == GDT_UInt16 ? 65535 : type == GDT_Int16 ? 32767 : 255;
+  CPLStringList words;
+  for (const char* word : {"-of", "VRT", "-b", "1", "-mask", "2"}) words.AddString(word);
+  GDALTranslateOptions* const options = GDALTranslateOptionsNew(words.List(), nullptr);
+  GDALDatasetH handle = &dataset;
+  const GDALDatasetUniquePtr made(
+      GDALDataset::FromHandle(GDALTranslate("", handle, options, nullptr)));
+  GDALTranslateOptionsFree(options);
+  char** const xml = made ? made->GetMetadata("xml:VRT") : nullptr;
+  if (xml == nullptr || *xml == nullptr) return {};
+  std::string text(*xml);
+  const std::size_t begin = text.find("<MaskBand>"), end = text.find("</MaskBand>");
+  if (begin == std::string::npos || end == std::string::npos) return {};
+  std::string mask = text.substr(begin, end - begin);
+  replace_all("SimpleSource>", "ComplexSource>", mask);
+  replace_all("</ComplexSource>",
+              "<LUT>0:0," + talus::text(opaque - 1e-3, 12) + ":0," + talus::text(opaque, 12) +
+                  ":255</LUT></ComplexSource>",
+              mask);
+  return text.replace(begin, end - begin, mask);
 }
 
 }  // namespace talus

@@ -159,12 +159,12 @@ CPLStringList words_of(const std::vector<std::string>& words) {
 
 // A virtual raster of elevations that says unknown cells by NaN, with a ring of them around: what
 // is interpolated from it is unknown where an unknown cell has a share.
-Dataset with_unknown_ring(GDALDataset& source, const std::string& path) {
+Dataset with_unknown_ring(GDALDataset& source, const std::string& name) {
   std::array<double, 6> g{};
   source.GetGeoTransform(g.data());
   const int n_cols = source.GetRasterXSize(), n_rows = source.GetRasterYSize();
   const auto exact = [](double value) { return text(value); };
-  char* const escaped = CPLEscapeString(path.c_str(), -1, CPLES_XML);
+  char* const escaped = CPLEscapeString(name.c_str(), -1, CPLES_XML);
   const std::string size =
       " xSize=\"" + std::to_string(n_cols) + "\" ySize=\"" + std::to_string(n_rows) + "\"/>";
   const std::string xml =
@@ -230,6 +230,8 @@ void check_crs(const std::string& crs, const std::string& path, const Vec2& plac
 
 struct DemFile::Impl {
   std::string path, crs;
+  std::string name;  // that GDAL opens: the path, or a virtual raster
+  double nodata = std::numeric_limits<double>::quiet_NaN();  // beside a mask, which GDAL prefers
   GridFrame frame;
   DemReading reading;
   std::unique_ptr<HeightOperation> to_vertical;
@@ -245,6 +247,7 @@ struct DemFile::Impl {
             "row " + std::to_string(r) + ", column " + std::to_string(c) + " (" +
                 text(frame.x(c), 10) + ", " + text(frame.y(r), 10) + ")"};
   }
+  void open();
   void check_value(double raw, const Where& place) const;
   void check_place_of(const MapWindow& edges, const std::string& work_crs, bool has_options);
   void take_to(const std::string& target, bool accept_ballpark, const MapWindow& edges);
@@ -255,9 +258,8 @@ struct DemFile::Impl {
 DemFile::DemFile(const std::string& path, const DemOptions& options)
     : impl_(std::make_unique<Impl>()) {
   impl_->path = path;
-  impl_->source = open_raster(path);
+  impl_->open();
   GDALDataset* dataset = impl_->source.get();
-  check_band(*dataset, path);
   const char* const tag = dataset->GetMetadataItem("DOUBTS_ACCEPTED");
   impl_->accepts_doubts = options.accepts_doubts || (tag != nullptr && std::string(tag) == "YES");
   DemReading& reading = impl_->reading;
@@ -282,6 +284,22 @@ DemFile::DemFile(const std::string& path, const DemOptions& options)
   impl_->offset = impl_->source->GetRasterBand(1)->GetOffset();
 }
 
+// An alpha band becomes the mask of the elevations.
+void DemFile::Impl::open() {
+  name = path;
+  source = open_raster(path);
+  check_band(*source, path);
+  const std::string masked = with_alpha_as_mask(*source);
+  if (masked.empty()) return;
+  int has_nodata = 0;
+  const double value = source->GetRasterBand(1)->GetNoDataValue(&has_nodata);
+  if (has_nodata != 0) nodata = value;
+  name = masked;
+  const GdalErrors errors;
+  source.reset(GDALDataset::Open(name.c_str(), GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR));
+  if (!source) throw InputError({path}, "its alpha band cannot be read: " + errors.failure());
+}
+
 void DemFile::Impl::check_place_of(const MapWindow& edges, const std::string& work_crs,
                                    bool has_options) {
   if (crs.empty() || !is_finite(edges)) return;
@@ -302,7 +320,7 @@ void DemFile::Impl::take_to(const std::string& target, bool accept_ballpark,
   reading.notes.push_back(path + ": " + sentence_on(operation));
   if (const std::string doubt = doubt_on(operation); !doubt.empty())
     reading.warnings.push_back(path + ": " + doubt);
-  ringed = with_unknown_ring(*source, path);
+  ringed = with_unknown_ring(*source, name);
   if (!ringed) throw InputError({path}, "cannot be reprojected");
   warped = reprojected(*source, *ringed, path, operation);
   crs = wanted;
@@ -364,7 +382,7 @@ void DemFile::read(int row, int n_rows, int col, int n_cols, double* elevation) 
         "the file is damaged or cut short: fetch it again");
   for (std::size_t i = 0; i < n; ++i) {
     double& z = elevation[i];
-    if (std::isnan(z) || (!mask.empty() && mask[i] < least_known)) {
+    if (std::isnan(z) || z == impl_->nodata || (!mask.empty() && mask[i] < least_known)) {
       z = std::numeric_limits<double>::quiet_NaN();
       continue;
     }

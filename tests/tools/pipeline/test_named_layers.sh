@@ -19,7 +19,7 @@ stages() { talus-site named/site.toml -o named/stages --overwrite --no-db; }
 layers 'map.gpkg|layername=older|subset=elevation_m < 10' ''
 expect 0 stages
 grep -q '^SITE_CONTOURS := named/map.gpkg$' named/stages/site.mk || fail "$(grep CONTOURS named/stages/site.mk)"
-[ "$(flags)" = "--layer 'older' --where 'elevation_m < 10' --flat 'fill'" ] || fail "the options are $(flags)"
+[ "$(flags)" = "--layer 'older' --where 'elevation_m < 10' --elevation-field 'elevation_m' --flat 'fill'" ] || fail "the options are $(flags)"
 layers 'map.gpkg|layername=older' 'layer = "low"'
 expect 1 stages
 says "layer is low, contours asks for the layer older"

@@ -62,9 +62,12 @@ run_hint
 taken metres.gpkg
 
 # coordinates of the site file itself
+sed 's/EPSG:32633/EPSG:3329/' site.toml >other.toml
+expect 1 talus-blocks other.toml --trn trn.tif -o bad.h5 --no-db
+says "the eastings lack the zone number 5"
 sed 's/EPSG:32633/EPSG:31468/' site.toml >other.toml
 expect 1 talus-blocks other.toml --trn trn.tif -o bad.h5 --no-db
-says "the eastings lack the zone number 4"
+says "hint: is it the CRS of these coordinates? crs of [site] says so"
 sed 's/^polygon = .*/polygon = [[5200012, 500012], [5200034, 500012], [5200034, 500034], [5200012, 500034]]/' site.toml >other.toml
 expect 1 talus-blocks other.toml --trn trn.tif -o bad.h5 --no-db
 says "with x and y exchanged they would lie in it"

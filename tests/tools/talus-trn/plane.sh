@@ -5,7 +5,7 @@ command -v gdal_translate >/dev/null || skip "needs gdal-bin"
 # plane NAME [X0 Y0 CELL FACTOR]: as an ASCII grid; places and heights times FACTOR
 plane() {
   awk -v x0="${2-650000}" -v y0="${3-5200000}" -v d="${4-5}" -v f="${5-1}" 'BEGIN {
-    printf "ncols 41\nnrows 41\nxllcorner %.9g\nyllcorner %.9g\ncellsize %.17g\nNODATA_value -9999\n", x0 * f, y0 * f, d * f
+    printf "ncols 41\nnrows 41\nxllcorner %.15g\nyllcorner %.15g\ncellsize %.17g\nNODATA_value -9999\n", x0 * f, y0 * f, d * f
     for (r = 0; r < 41; r++) { line = ""; for (c = 0; c < 41; c++) line = line " " (1000 + 2.5 * (40.5 - r)) * f; print line }
   }' >"$1"
 }

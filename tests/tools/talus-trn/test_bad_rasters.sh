@@ -86,7 +86,7 @@ nothing_left bad.tif
 refused "the grid asked for lies outside" talus-trn good.tif $out --window 600000,5000000,600030,5000030
 refused "expected at least 2 x 2" talus-trn good.tif $out --cell-size-m 25
 refused "expected at most 268435456" talus-trn good.tif $out --cell-size-m 0.0001
-gdal_translate -q -of VRT good.tif lying.vrt
+gdal_translate -q -of VRT -a_ullr 300000 5000030 300003 5000027 good.tif lying.vrt
 sed -i 's/rasterXSize="3" rasterYSize="3"/rasterXSize="300000" rasterYSize="400000"/' lying.vrt
 refused "300000 x 400000 nodes, expected at most" talus-trn lying.vrt $out
 expect 2 talus-trn good.tif $out --co COMPRESS

@@ -7,20 +7,17 @@ lon=${corner% *} lat=${corner#* }
 awk -v lon="$lon" -v lat="$lat" 'BEGIN {
   for (r = 0; r < 60; r++) for (c = 0; c < 60; c++) printf "%.12f %.12f\n", lon + (c + 0.5) / 10800, lat + (59.5 - r) / 10800
 }' | gdaltransform -s_srs EPSG:4326 -t_srs EPSG:25832 -output_xy |
-  awk -v lon="$lon" -v lat="$lat" -v hole="${hole-1}" 'BEGIN {
+  awk -v lon="$lon" -v lat="$lat" 'BEGIN {
     printf "ncols 60\nnrows 60\nxllcorner %.12f\nyllcorner %.12f\ncellsize %.17g\nNODATA_value -32768\n", lon, lat, 1 / 10800
   } { r = int((NR - 1) / 60); c = (NR - 1) % 60
-      printf "%s%s", r >= 20 && r < 24 && c >= 20 && c < 24 ? -32768 : 1000 + 0.5 * ($2 - 5200000), c == 59 ? "\n" : " " }' >degrees.asc
+      printf "%s%s", (r >= 20 && r < 24 && c >= 20 && c < 24) ? "-32768" : sprintf("%.6f", 1000 + 0.5 * ($2 - 5200000)), c == 59 ? "\n" : " " }' >degrees.asc
 gdal_translate -q -ot Float64 -a_srs EPSG:4326 degrees.asc degrees.tif
 expect 0 talus-trn degrees.tif -o utm.tif --t-srs EPSG:25832 --no-db
 says "by \"Inverse of"
 is_plane utm.tif 0.02 2000  # 2.5 m where the rim is invented
-gdal_translate -q -a_nodata none degrees.tif whole.tif
 n_hole=$(off utm.tif | cut -d' ' -f2)
 expect 0 talus-trn degrees.tif -o other.tif --t-srs EPSG:25833 --no-db
 # again by a mask beside the raster instead of a value, and by an alpha band
-gdal_translate -q -of VRT -mask mask degrees.tif masked.vrt 2>/dev/null || true
-gdal_calc.py --version >/dev/null 2>&1 || true
 gdalwarp -q -r near -dstalpha degrees.tif alpha.tif
 expect 0 talus-trn alpha.tif -o alpha_utm.tif --t-srs EPSG:25832 --no-db
 is_plane alpha_utm.tif 0.02 2000

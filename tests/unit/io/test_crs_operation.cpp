@@ -56,7 +56,8 @@ TEST(CrsOperation, TheBestOperationThatIsHereIsTakenAndABetterOneNamed) {
   ASSERT_TRUE(talus::carry_out(operation, again));
   EXPECT_EQ(points[0], again[0]);
   EXPECT_EQ(points[0].z(), 1234);
-  EXPECT_NEAR(points[0].x(), 661300, 1000);
+  EXPECT_NEAR(points[0].x(), 680818.59, 2);
+  EXPECT_NEAR(points[0].y(), 5236606.24, 2);
 }
 
 TEST(CrsOperation, WithinOneDatumNothingIsLost) {

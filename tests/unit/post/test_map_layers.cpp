@@ -112,9 +112,10 @@ TEST(MapLayers, OneAloneIsOfTheDeposit) {
 
 // make has to know what talus-maps writes, and pages have to define it.
 TEST(MapLayers, AreThoseOfThePipelineAndOfThePages) {
-  std::string rule = text_of(TALUS_SOURCE_DIR "/pipelines/maps.mk");
+  std::string rule = text_of(TALUS_SOURCE_DIR "/pipelines/products.mk");
+  ASSERT_NE(rule.find("map_names :="), std::string::npos);
   rule = rule.substr(rule.find("map_names :=") + 12);
-  rule = rule.substr(0, rule.find("\nmap_files"));
+  rule = rule.substr(0, rule.find("\nmap_products"));
   std::istringstream words(rule);
   std::set<std::string> of_make, of_table;
   for (std::string word; words >> word;)
