@@ -288,8 +288,8 @@ OrientationList read_named(const ColumnText& list, const std::string& notation) 
                                 : name_at(list, pair.first) + ", " + name_at(list, pair.second);
   for (const int column : {quadrant, quantity})
     if (column >= 0) names += ", " + name_at(list, column);
-  const auto n_others =
-      static_cast<std::int64_t>(list.names.size()) - (by_normal ? 3 : 2) - (quantity >= 0 ? 1 : 0);
+  const int n_taken = (by_normal ? 3 : 2) + (quantity >= 0 ? 1 : 0) + (quadrant >= 0 ? 1 : 0);
+  const auto n_others = static_cast<std::int64_t>(list.names.size()) - n_taken;
   found.taken_from = "columns " + names;
   if (!by_normal) found.taken_from += std::string(" (") + words_for(pair.notation) + ")";
   if (n_others > 0) found.taken_from += "; " + counted(n_others, "other column") + " passed over";

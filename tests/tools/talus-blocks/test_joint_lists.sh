@@ -18,7 +18,7 @@ sets() { # sets FILE [LINE...]: blocks of the file's sets
   for line in "$@"; do printf '%s\n' "$line" >>listed.toml; done
   expect 0 talus-blocks listed.toml --trn trn.tif -o blocks.h5 --no-db --overwrite --json
   python3 -c 'import json
-for s in json.load(open("out"))["joint_sets"]: print(s["name"], *("%.6f" % s[k] for k in ("dip_deg", "dip_direction_deg", "fisher_k")))' >"$list.sets"
+for s in json.load(open("out"))["joints"]: print(s["name"], *("%.6f" % s[k] for k in ("dip_deg", "dip_direction_deg", "fisher_k")))' >"$list.sets"
 }
 make_site
 sets plain.txt
