@@ -341,7 +341,6 @@ void refuse_laser_scan(const std::string& path) {
                        "--filters.range.limits=\"Classification[2:2]\" "
                        "--writers.text.order=X,Y,Z --writers.text.keep_unspecified=false");
 }
-}
 
 }  // namespace
 

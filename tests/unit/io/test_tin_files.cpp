@@ -16,9 +16,15 @@ std::string write(const std::string& name, const std::string& text) {
   return path;
 }
 
+LayerChoice choice_of(const std::string& path) {
+  LayerChoice choice;
+  choice.path = path;
+  return choice;
+}
+
 std::string refusal(const std::string& path) {
   try {
-    static_cast<void>(read_tin_file({path}));
+    static_cast<void>(read_tin_file(choice_of(path)));
   } catch (const InputError& error) {
     return std::string(error.what()).substr(path.size());
   }
@@ -59,7 +65,7 @@ TEST(TinFiles, FacesOfADrawingAreATin) {
   const std::string path =
       write("faces.dxf", drawing(faces + face({{0, 0, 0}, {0, 0, 5}, {0, 9, 0}})));
   ASSERT_TRUE(is_tin_file(path));
-  const TinFile file = read_tin_file({path});
+  const TinFile file = read_tin_file(choice_of(path));
   EXPECT_EQ(file.tin.triangles.size(), 4U);
   EXPECT_NEAR(volume_above(file.tin, 10), 100 * 100 * 10, 1e-6);
   ASSERT_EQ(file.notes.size(), 2U);
@@ -79,7 +85,7 @@ TEST(TinFiles, DrawingsInOtherUnitsOrWithoutFacesAreRefused) {
 TEST(TinFiles, TwoLayersOfASurfaceAreFound) {
   const std::string path = write("folded.dxf", drawing(face({{0, 0, 1}, {10, 0, 1}, {5, 9, 1}}) +
                                                        face({{0, 0, 1}, {10, 0, 1}, {4, 8, 6}})));
-  const FoldedEdges folded = find_folded_edges(read_tin_file({path}).tin);
+  const FoldedEdges folded = find_folded_edges(read_tin_file(choice_of(path)).tin);
   EXPECT_EQ(folded.n, 1);
   EXPECT_EQ(folded.first.head<2>(), Vec2(5, 0));
 }
@@ -103,7 +109,7 @@ TEST(TinFiles, LandXmlIsNorthingEastingElevation) {
   const std::string path = write(
       "ground.xml",
       landxml(metric, corners, "<F>7 8 11</F><F n=\"1 2 3\">12 11 7</F><F i=\"1\">7 8 12</F>"));
-  const TinFile file = read_tin_file({path});
+  const TinFile file = read_tin_file(choice_of(path));
   EXPECT_EQ(file.tin.crs_wkt, "EPSG:25832");
   EXPECT_EQ(file.tin.origin, Vec3(650000, 5200000, 0));
   ASSERT_EQ(file.tin.triangles.size(), 2U);
