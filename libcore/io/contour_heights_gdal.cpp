@@ -12,6 +12,10 @@
 
 #include "base/source_path.hpp"
 #include "base/text.hpp"
+#include "io/crs_gdal.hpp"
+#include "io/drawing_unit_gdal.hpp"
+#include "io/point_table.hpp"
+#include "terrain/contour_labels.hpp"
 #include "terrain/elevation.hpp"
 
 namespace talus {
@@ -22,7 +26,7 @@ constexpr std::array elevation_names = {
     "elev",         "elevation", "height",     "contour",     "z",        "prop_value", "altitude",
     "alt",          "hoehe",     "höhe",       "kote",        "cota",     "quota",      "elev_m",
     "height_m",     "z_value",   "contour_m",  "elevation_m", "isohypse", "hgt",        "elev_ft",
-    "elevation_ft", "height_ft", "contour_ft", "elev_feet"};
+    "elevation_ft", "height_ft", "contour_ft", "elev_feet",   "h"};
 
 // --- elevation in a field ------------------------------------------------------------------------
 
@@ -87,9 +91,19 @@ ElevationField field_by_user(const LayerChoice& choice, const OpenLayer& source)
   return field;
 }
 
+// "Height" of "Height (m)".
+std::string without_unit(const std::string& name) {
+  std::string plain = name.substr(0, name.find_first_of("(["));
+  plain.erase(plain.find_last_not_of(' ') + 1);
+  return plain;
+}
+
 bool is_in_feet(const std::string& name) {
-  const std::string small = lower(name);
-  return small.ends_with("_ft") || small.ends_with("feet") || small.ends_with("_foot");
+  std::string small = lower(name);
+  std::erase_if(small, [](char c) { return c == ')' || c == ']' || c == ' '; });
+  for (const char* end : {"_ft", "feet", "_foot", "(ft", "[ft", "(foot", "[foot"})
+    if (small.ends_with(end)) return true;
+  return false;
 }
 
 // Fields with a usual name, the most telling first.
@@ -97,7 +111,7 @@ std::vector<int> fields_with_usual_name(OGRFeatureDefn& definition) {
   std::vector<int> found;
   for (const char* name : elevation_names)
     for (int i = 0; i < definition.GetFieldCount(); ++i)
-      if (lower(name_of_field(definition, i)) == name) found.push_back(i);
+      if (lower(without_unit(name_of_field(definition, i))) == name) found.push_back(i);
   return found;
 }
 
@@ -381,10 +395,137 @@ HeightRange heights_of(const Polylines& lines) {
   return range;
 }
 
+namespace {
+
+// --- labels --------------------------------------------------------------------------------------
+
+constexpr LayerRole labels_role{LayerShape::point, "labels", "--labels-", true};
+
+// "1050", "1050 m", "1050,5"; other text is no label of a height.
+bool parse_label(std::string words, double& height) {
+  while (!words.empty() && (words.back() == 'm' || words.back() == ' ')) words.pop_back();
+  return parse_decimal(words, height);
+}
+
+int text_field(const LayerChoice& choice, const OpenLayer& source) {
+  OGRFeatureDefn& definition = *source.layers[source.current]->GetLayerDefn();
+  const std::string name = choice.elevation_field.empty() ? "Text" : choice.elevation_field;
+  const int index = find_index(definition, name);
+  if (index >= 0) return index;
+  throw InputError(where_of_layer(choice, source),
+                   "there is no field " + name + "; the fields are: " + list_of_fields(definition),
+                   "name the field with the labels' text: --labels-field");
+}
+
+std::vector<Vec3> read_labels(const LayerChoice& choice, OpenLayer& source,
+                              ContourReading& reading) {
+  std::vector<Vec3> labels;
+  std::int64_t n_other = 0;
+  for_each_part(choice, source, [&](const OGRGeometry& part, const OGRFeature& feature) {
+    const OGRPoint& point = *part.toPoint();
+    double height = 0;
+    if (parse_label(feature.GetFieldAsString(text_field(choice, source)), height))
+      labels.emplace_back(point.getX(), point.getY(), height);
+    else
+      ++n_other;
+  });
+  reading.labels = reading_of(choice, source);
+  reading.labels.elevation_from = "labels";
+  reading.notes.push_back(
+      choice.path + ": " + counted(static_cast<std::int64_t>(labels.size()), "label") +
+      " of heights" +
+      (n_other > 0 ? "; " + counted(n_other, "other text") + " passed over" : std::string()));
+  add_remarks(reading.labels, reading.notes);
+  return labels;
+}
+
+// Labels stand beside the lines only where both are in one system and one unit.
+void check_labels_beside(const ContourSources& sources, const OpenLayer& contours,
+                         const OpenLayer& labels) {
+  const std::string of_contours = wkt_of(contours.layer->GetSpatialRef());
+  const std::string of_labels = wkt_of(labels.layer->GetSpatialRef());
+  if (!of_contours.empty() && !of_labels.empty() && !same_crs(of_contours, of_labels))
+    throw InputError({sources.labels.path},
+                     "the labels are in " + crs_name(of_labels) + ", the contours in " +
+                         crs_name(of_contours) + ", expected one CRS",
+                     "ogr2ogr -t_srs " + crs_code(of_contours) + " labels.gpkg " +
+                         command_words(sources.labels.path) + " takes them there");
+  const DrawingUnit drawn = drawing_unit(contours.dataset->GetDescription());
+  const DrawingUnit written = drawing_unit(labels.dataset->GetDescription());
+  if (drawn.metres > 0 && written.metres > 0 && drawn.metres != written.metres)
+    throw InputError({sources.labels.path},
+                     "the labels are drawn in " + written.name + ", the contours in " + drawn.name +
+                         ", expected one unit",
+                     "bring the drawings to one unit first");
+}
+
+std::string where_line(const Polylines& lines, int line) {
+  const Vec3& p = lines.points[lines.begin[line]];
+  return "feature " + std::to_string(lines.feature[line]) + ", x " + text(p.x(), 10) + ", y " +
+         text(p.y(), 10);
+}
+
+void check_labelled(const std::string& path, const Polylines& lines, const LabelledLines& found) {
+  if (found.line_at_two >= 0)
+    throw InputError({path},
+                     "one contour has the labels " + text(found.two_heights[0], 8) + " and " +
+                         text(found.two_heights[1], 8) +
+                         " m: " + where_line(lines, found.line_at_two),
+                     "move the label that belongs to another line, or part the lines there");
+  if (found.without.empty()) return;
+  const std::string unclear =
+      found.unclear.empty()
+          ? std::string()
+          : "; " + counted(static_cast<std::int64_t>(found.unclear.size()), "label") +
+                " between two contours";
+  throw InputError({path},
+                   std::to_string(found.without.size()) + " of " +
+                       counted(lines.n_lines(), "contour") + " have no label, the first " +
+                       where_line(lines, found.without.front()) + unclear,
+                   "give each contour a label, or leave such contours in another layer");
+}
+
+// A Z that tells the lines apart must say what their labels say.
+void check_z_beside_labels(const ContourSources& sources, const RawLines& raw,
+                           const std::vector<double>& heights) {
+  const HeightRange z = heights_of(raw.lines);
+  if (!raw.has_z || raw.n_no_number > 0 || z.high - z.low <= same_height_m) return;
+  for (std::size_t l = 0; l < heights.size(); ++l) {
+    const double own = raw.lines.points[raw.lines.begin[l]].z();
+    if (!differ(own, heights[l])) continue;
+    throw InputError({sources.labels.path},
+                     "the label says " + text(heights[l], 8) + ", the Z of the contour " +
+                         text(own, 8) + ": " + where_line(raw.lines, static_cast<int>(l)),
+                     "leave --labels away where Z is right");
+  }
+}
+
+Polylines with_labelled_heights(const ContourSources& sources, const OpenLayer& contours,
+                                RawLines raw, ContourReading& reading) {
+  const LayerChoice& choice = sources.labels;
+  OpenLayer source = open_layer(choice, labels_role);
+  check_labels_beside(sources, contours, source);
+  const LabelledLines found = heights_from_labels(raw.lines, read_labels(choice, source, reading));
+  check_labelled(choice.path, raw.lines, found);
+  check_z_beside_labels(sources, raw, found.height);
+  if (!found.unclear.empty())
+    reading.notes.push_back(choice.path + ": " +
+                            counted(static_cast<std::int64_t>(found.unclear.size()), "label") +
+                            " between two contours passed over");
+  set_heights(found.height, raw.lines);
+  reading.layer = contours.name;
+  reading.elevation_from = reading.contours.elevation_from = "labels";
+  return std::move(raw.lines);
+}
+
+}  // namespace
+
 Polylines read_contour_lines(const ContourSources& sources, OpenLayer& source,
                              ContourReading& reading) {
   const LayerChoice& choice = sources.contours;
-  const std::optional<ElevationField> field = find_field(choice, source);
+  const bool has_labels = !sources.labels.path.empty();
+  const std::optional<ElevationField> field =
+      has_labels ? std::nullopt : find_field(choice, source);
   const bool reads_field = field && !field->is_z();
   RawLines raw;
   FieldValues values(choice, source, field.value_or(ElevationField{}));
@@ -395,6 +536,7 @@ Polylines read_contour_lines(const ContourSources& sources, OpenLayer& source,
   reading.n_features = source.n_features;
   reading.contours = reading_of(choice, source);
   const Where where = where_of_layer(choice, source);
+  if (has_labels) return with_labelled_heights(sources, source, std::move(raw), reading);
   const HeightRange z = heights_of(raw.lines);
   const bool take_field = stand_in_field(choice, source, raw, z, field, true);
   if (take_field) {

@@ -45,7 +45,7 @@ bool any_feature(OGRLayer& layer, const std::function<bool(const OGRGeometry&)>&
 bool holds(OGRLayer& layer, LayerShape shape) {
   const OGRwkbGeometryType type = wkbFlatten(layer.GetGeomType());
   if (type == wkbNone) return false;
-  if (type != wkbUnknown && type != wkbGeometryCollection) return fits(type, shape);
+  if (type != wkbUnknown && type != wkbGeometryCollection) return fits(layer.GetGeomType(), shape);
   return any_feature(
       layer, [shape](const OGRGeometry& part) { return fits(part.getGeometryType(), shape); });
 }

@@ -26,8 +26,9 @@ namespace talus {
 /// What a source is read for.
 struct LayerRole {
   LayerShape shape;
-  const char* name;     ///< of its parts, for messages: "contours"
-  const char* options;  ///< how its options begin: "--breaklines-", "source.polygon_"
+  const char* name;          ///< of its parts, for messages: "contours"
+  const char* options;       ///< how its options begin: "--breaklines-", "source.polygon_"
+  bool is_of_texts = false;  ///< of a drawing its texts are read, else what is no text
 };
 
 /// A source that is open at one or more of its layers.

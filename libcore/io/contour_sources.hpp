@@ -25,6 +25,7 @@ struct LayerChoice {
 
 struct ContourSources {
   LayerChoice contours, breaklines, spots, boundary;  ///< all but contours may have an empty path
+  LayerChoice labels;  ///< points with the heights of the contours as text; empty path: none
   double elevation_unit_m = 0;  ///< metres in one unit of all elevations read; 0: that of the plan
   bool crs_given = false;       ///< `crs` stands for the CRS of contours that have none
   std::string crs;              ///< WKT; empty: local metres
@@ -44,7 +45,7 @@ struct ContourReading {
   std::vector<std::string> operations;  ///< sentences: how places and heights were taken over
   std::vector<std::string> warnings;    ///< places beside their CRS, better operations without grid
   /// What was taken, of each source; without a file: none was given.
-  LayerReading contours, breaklines, spots, boundary;
+  LayerReading contours, labels, breaklines, spots, boundary;
 };
 
 }  // namespace talus

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "base/error.hpp"
 #include "base/source_path.hpp"
@@ -24,6 +25,7 @@ namespace {
 
 // What the sources of a map are read for.
 constexpr LayerRole contours_role{LayerShape::line, "contours", "--"};
+constexpr LayerRole ground_points_role{LayerShape::point, "points", "--"};
 constexpr LayerRole breaklines_role{LayerShape::line, "breaklines", "--breaklines-"};
 constexpr LayerRole spots_role{LayerShape::point, "spot heights", "--spots-"};
 constexpr LayerRole boundary_role{LayerShape::polygon, "boundary", "--boundary-"};
@@ -84,8 +86,7 @@ void check_place_of(const LayerChoice& choice, const OpenLayer& source, const st
     reading.warnings.push_back(warning);
 }
 
-// --- units
-// -----------------------------------------------------------------------------------------
+// --- units ---------------------------------------------------------------------------------------
 
 // Metres in one unit of the coordinates as they stand in the source; 1 also where the CRS has the
 // unit of the drawing, which takes care of it in plan.
@@ -257,18 +258,15 @@ void check_units(const std::vector<Vec3>& points, const HeightRange& contours,
 }
 
 void make_relative(ContourMap& map) {
-  Vec3 low = map.contours.points.front();
-  for (const Vec3& p : map.contours.points) low = low.cwiseMin(p);
+  const std::vector<Vec3>& ground = map.contours.points.empty() ? map.spots : map.contours.points;
+  Vec3 low = ground.front();
+  for (const Vec3& p : ground) low = low.cwiseMin(p);
   map.origin = Vec3(std::floor(low.x() / 100) * 100, std::floor(low.y() / 100) * 100, 0);
   for (std::vector<Vec3>* points : {&map.contours.points, &map.breaklines.points, &map.spots})
     for (Vec3& p : *points) p -= map.origin;
   for (BoundaryRing& ring : map.boundary)
     for (Vec2& p : ring.points) p -= map.origin.head<2>();
 }
-
-}  // namespace
-
-namespace {
 
 // What the user says of heights whose file does not; a system of heights holds for its own unit.
 std::string with_user_heights(const ContourSources& sources, const std::string& crs,
@@ -280,20 +278,18 @@ std::string with_user_heights(const ContourSources& sources, const std::string& 
              : with_stated_heights(plan, sources.vertical_crs, {sources.contours.path});
 }
 
-// The contours in the system that is computed in, heights as they stand in the file. Returns metres
-// in one unit of these.
-double read_contours_in_plan(const ContourSources& sources, ContourMap& map,
-                             ContourReading& reading) {
-  OpenLayer source = open_layer(sources.contours, contours_role);
-  map.contours = read_contour_lines(sources, source, reading);
-  add_remarks(reading.contours, reading.notes);
-  std::vector<Vec3>& points = map.contours.points;
+// Metres in one unit of the contours, or of the points that stand for them.
+double plan_unit_of_map(const ContourSources& sources, const OpenLayer& source,
+                        ContourReading& reading) {
   const std::string named = wkt_of(source.layer->GetSpatialRef());
-  const double plan_unit_m =
-      plan_unit_of(sources.contours, source, named.empty() ? sources.crs : named,
-                   sources.elevation_unit_m, reading);
-  const double unit_m = height_unit_of(sources.elevation_unit_m, plan_unit_m);
-  reading.contours.unit_m = unit_m;
+  return plan_unit_of(sources.contours, source, named.empty() ? sources.crs : named,
+                      sources.elevation_unit_m, reading);
+}
+
+// Points as they stand in the source to the system that is computed in; heights stay.
+void take_to_map(const ContourSources& sources, const OpenLayer& source, double plan_unit_m,
+                 double unit_m, std::vector<Vec3>& points, ContourMap& map,
+                 ContourReading& reading) {
   scale_plan(plan_unit_m, points);
   const std::string own =
       with_user_heights(sources, crs_of_contours(sources, source, points, reading), unit_m);
@@ -303,21 +299,74 @@ double read_contours_in_plan(const ContourSources& sources, ContourMap& map,
   const bool is_there = sources.t_srs.empty() || same_crs(own, sources.t_srs);
   if (is_there) check_crs(map.crs_wkt, map.source, points.front());
   check_place_of(sources.contours, source, own, map.crs_wkt, points, reading);
-  if (!is_there) {
-    bring_to(own, sources.t_srs, map.source, sources.accept_ballpark, points, reading);
-    check_crs(map.crs_wkt, map.source, points.front());
-  }
-  return unit_m;
+  if (is_there) return;
+  bring_to(own, sources.t_srs, map.source, sources.accept_ballpark, points, reading);
+  check_crs(map.crs_wkt, map.source, points.front());
+}
+
+// The contours, or the points that stand for them, with heights in metres.
+void finish_heights(const ContourSources& sources, double unit_m, std::vector<Vec3>& points,
+                    const ContourMap& map, ContourReading& reading) {
+  scale_heights(unit_m, map.source, points);
+  bring_heights_to(sources, map.source, map.crs_wkt, points, reading);
+}
+
+void read_contours_to(const ContourSources& sources, ContourMap& map, ContourReading& reading) {
+  OpenLayer source = open_layer(sources.contours, contours_role);
+  map.contours = read_contour_lines(sources, source, reading);
+  add_remarks(reading.contours, reading.notes);
+  const double plan_unit_m = plan_unit_of_map(sources, source, reading);
+  const double unit_m = height_unit_of(sources.elevation_unit_m, plan_unit_m);
+  reading.contours.unit_m = unit_m;
+  take_to_map(sources, source, plan_unit_m, unit_m, map.contours.points, map, reading);
+  finish_heights(sources, unit_m, map.contours.points, map, reading);
+}
+
+// The boundary, the system of heights, the origin.
+void finish_map(const ContourSources& sources, ContourMap& map, ContourReading& reading) {
+  if (!sources.boundary.path.empty()) map.boundary = read_boundary(sources, map.crs_wkt, reading);
+  if (!sources.t_vertical.empty())
+    map.crs_wkt = with_heights(horizontal_crs(map.crs_wkt), sources.t_vertical, {map.source});
+  make_relative(map);
+  check_boundary(map, sources.boundary.path);
+}
+
+// Laser scans take a library that not every system has; text takes none.
+void refuse_laser_scan(const std::string& path) {
+  const std::string extension = lower(std::filesystem::path(path).extension().string());
+  if (extension != ".las" && extension != ".laz" && extension != ".e57") return;
+  throw InputError({path}, "is a laser scan, which is not read as it is",
+                   "pdal translate " + command_words(path) +
+                       " ground.csv -f filters.range "
+                       "--filters.range.limits=\"Classification[2:2]\" "
+                       "--writers.text.order=X,Y,Z --writers.text.keep_unspecified=false");
 }
 
 }  // namespace
 
+ContourMap read_ground_points(const ContourSources& sources, ContourReading& reading) {
+  ContourMap map;
+  map.source = sources.contours.path;
+  refuse_laser_scan(map.source);
+  OpenLayer source = open_layer(sources.contours, ground_points_role);
+  const double plan_unit_m = plan_unit_of_map(sources, source, reading);
+  const double unit_m = height_unit_of(sources.elevation_unit_m, plan_unit_m);
+  map.spots =
+      read_measured_lines(sources.contours, source, unit_m, reading.notes, reading.contours).points;
+  reading.layer = source.name;
+  reading.n_features = source.n_features;
+  reading.elevation_from = reading.contours.elevation_from;
+  take_to_map(sources, source, plan_unit_m, unit_m, map.spots, map, reading);
+  finish_heights(sources, unit_m, map.spots, map, reading);
+  finish_map(sources, map, reading);
+  return map;
+}
+
 ContourMap read_contours(const ContourSources& sources, ContourReading& reading) {
   ContourMap map;
   map.source = sources.contours.path;
-  const double unit_m = read_contours_in_plan(sources, map, reading);
-  scale_heights(unit_m, map.source, map.contours.points);
-  bring_heights_to(sources, map.source, map.crs_wkt, map.contours.points, reading);
+  refuse_laser_scan(map.source);
+  read_contours_to(sources, map, reading);
   const HeightRange heights = heights_of(map.contours);
   if (!sources.breaklines.path.empty()) {
     map.breaklines = read_measured(sources.breaklines, breaklines_role, sources, map.crs_wkt,
@@ -330,11 +379,7 @@ ContourMap read_contours(const ContourSources& sources, ContourReading& reading)
             .points;
     check_units(map.spots, heights, sources.spots.path);
   }
-  if (!sources.boundary.path.empty()) map.boundary = read_boundary(sources, map.crs_wkt, reading);
-  if (!sources.t_vertical.empty())
-    map.crs_wkt = with_heights(horizontal_crs(map.crs_wkt), sources.t_vertical, {map.source});
-  make_relative(map);
-  check_boundary(map, sources.boundary.path);
+  finish_map(sources, map, reading);
   return map;
 }
 

@@ -16,6 +16,11 @@ namespace talus {
 /// anything is missing or cannot be true: see docs/tools/talus-tin.md.
 [[nodiscard]] ContourMap read_contours(const ContourSources& sources, ContourReading& reading);
 
+/// Points of the ground (`sources.contours`: a vector layer of points, or text, point_text.hpp) as
+/// spots of a map without contours, with a boundary; CRS, units and origin as read_contours does.
+/// Throws InputError; laser scans are refused with the command that makes text of them.
+[[nodiscard]] ContourMap read_ground_points(const ContourSources& sources, ContourReading& reading);
+
 /// Points with a height in map coordinates, in `crs_wkt` [m]: what a terrain is held against. What
 /// was found goes to `notes` and `taken`; a missing CRS, of the source or in `crs_wkt`, means the
 /// same one. Throws InputError as read_contours does for spot heights.

@@ -12,7 +12,6 @@
 
 namespace talus {
 namespace {
-// --------------------------------------------------------------------------------------
 
 using Visit = std::function<void(const OGRGeometry&, const OGRFeature&)>;
 
@@ -107,18 +106,31 @@ class PartReader {
     const OGRwkbGeometryType type = wkbFlatten(geometry.getGeometryType());
     if (OGR_GT_IsSubClassOf(type, wkbGeometryCollection)) {
       for (const OGRGeometry* part : *geometry.toGeometryCollection()) descend(*part, feature);
-    } else if (fits(type, source_.role.shape)) {
-      if (is_label_)
-        keep(geometry, feature);
-      else
-        take(geometry, feature, is_curve_);
+    } else if (fits(geometry.getGeometryType(), source_.role.shape)) {
+      add_fitting(geometry, feature);
     } else if (source_.role.shape == LayerShape::polygon && type == wkbLineString) {
       if (is_closed(*geometry.toLineString()))
         keep(geometry, feature);
       else
         ++source_.passed_over["open line"];
     } else {
-      ++source_.passed_over[is_label_ ? "label" : kind_of(type)];
+      ++source_.passed_over[is_label_                                 ? "label"
+                            : source_.is_drawing && is_face(geometry) ? "face"
+                                                                      : kind_of(type)];
+    }
+  }
+
+  // Texts of a drawing are points only where nothing else is, or where they are asked for.
+  void add_fitting(const OGRGeometry& part, const OGRFeature& feature) {
+    if (source_.is_drawing && source_.role.is_of_texts) {
+      if (is_label_)
+        take(part, feature, false);
+      else
+        ++source_.passed_over[kind_of(part.getGeometryType())];
+    } else if (is_label_) {
+      keep(part, feature);
+    } else {
+      take(part, feature, is_curve_);
     }
   }
 
@@ -188,9 +200,17 @@ std::string in_words(const std::map<std::string, std::int64_t>& counts) {
 
 std::string way_to_shape(const OpenLayer& source, const LayerChoice& choice) {
   const auto has = [&source](const char* kind) { return source.passed_over.count(kind) > 0; };
+  if (std::string(source.role.options) == "--" && source.role.shape == LayerShape::line) {
+    if (source.is_drawing && has("face"))
+      return "a surface of faces needs no contours: talus-trn " + command_words(choice.path) +
+             " -o terrain.tif --crs EPSG:code";
+    if (has("point")) return "--points makes a TIN of points of the ground";
+  }
   if (source.role.shape == LayerShape::line && has("polygon"))
     return "outlines that each stand at one height: ogr2ogr -nlt MULTILINESTRING lines.gpkg " +
            command_words(choice.path) + "; bands between two heights are no contours";
+  if (source.role.shape == LayerShape::face && has("line"))
+    return "contours make a TIN: talus-tin " + command_words(choice.path) + " -o tin.ply";
   if (source.role.shape == LayerShape::polygon && has("open line"))
     return "end each line where it begins";
   return "";
@@ -311,9 +331,7 @@ LayerReading reading_of(const LayerChoice& choice, const OpenLayer& source) {
   reading.file = choice.path;
   reading.layer = source.name;
   reading.where = source.filter;
-  reading.noun = source.role.shape == LayerShape::line    ? "line"
-                 : source.role.shape == LayerShape::point ? "point"
-                                                          : "polygon";
+  reading.noun = singular(source.role.shape);
   reading.n_features = source.n_features;
   reading.n_parts = static_cast<int>(source.n_parts);
   for (const auto& [kind, n] : source.passed_over) reading.n_passed_over += static_cast<int>(n);

@@ -6,8 +6,34 @@
 
 namespace talus {
 
+const char* singular(LayerShape shape) {
+  switch (shape) {
+    case LayerShape::line:
+      return "line";
+    case LayerShape::point:
+      return "point";
+    case LayerShape::face:
+      return "face";
+    default:
+      return "polygon";
+  }
+}
+
 const char* plural(LayerShape shape) {
-  return shape == LayerShape::line ? "lines" : shape == LayerShape::point ? "points" : "polygons";
+  switch (shape) {
+    case LayerShape::line:
+      return "lines";
+    case LayerShape::point:
+      return "points";
+    case LayerShape::face:
+      return "faces";
+    default:
+      return "polygons";
+  }
+}
+
+bool is_face(const OGRGeometry& geometry) {
+  return fits(geometry.getGeometryType(), LayerShape::face);
 }
 
 bool fits(int ogr_type, LayerShape shape) {
@@ -18,6 +44,9 @@ bool fits(int ogr_type, LayerShape shape) {
       return flat == wkbLineString || flat == wkbMultiLineString;
     case LayerShape::point:
       return flat == wkbPoint || flat == wkbMultiPoint;
+    case LayerShape::face:
+      return OGR_GT_HasZ(type) != 0 && (flat == wkbPolygon || flat == wkbTriangle ||
+                                        flat == wkbPolyhedralSurface || flat == wkbTIN);
     default:
       return flat == wkbPolygon || flat == wkbMultiPolygon;
   }

@@ -2,14 +2,19 @@
 // Which geometries are lines, points or areas.
 #pragma once
 
+class OGRGeometry;
 class OGRLineString;
 
 namespace talus {
 
-enum class LayerShape { line, point, polygon };
+/// A face is a polygon with heights, or a surface of them (3DFACE, meshes).
+enum class LayerShape { line, point, polygon, face };
 
-/// "lines", "points", "polygons"
+/// "line", "lines"
+[[nodiscard]] const char* singular(LayerShape shape);
 [[nodiscard]] const char* plural(LayerShape shape);
+
+[[nodiscard]] bool is_face(const OGRGeometry& geometry);
 
 /// Whether the type (an OGRwkbGeometryType) is the shape, or several of it; curved or not.
 [[nodiscard]] bool fits(int ogr_type, LayerShape shape);

@@ -238,6 +238,7 @@ struct DemFile::Impl {
   Dataset source, ringed, warped;  // warped reads from ringed and is closed first
   GDALRasterBand* band = nullptr;
   double scale = 1, offset = 0;
+  bool accepts_doubts = false;
 
   [[nodiscard]] Where where(std::size_t index, int row, int col, int n_cols) const {
     const int r = row + static_cast<int>(index / static_cast<std::size_t>(n_cols));
@@ -259,6 +260,8 @@ DemFile::DemFile(const std::string& path, const DemOptions& options)
   impl_->path = path;
   impl_->open();
   GDALDataset* dataset = impl_->source.get();
+  const char* const tag = dataset->GetMetadataItem("DOUBTS_ACCEPTED");
+  impl_->accepts_doubts = options.accepts_doubts || (tag != nullptr && std::string(tag) == "YES");
   DemReading& reading = impl_->reading;
   impl_->crs = with_vertical(effective_crs(*dataset, path, options, reading), path, options);
   const MapWindow edges = edges_of(*dataset);
@@ -340,6 +343,7 @@ const std::string& DemFile::path() const { return impl_->path; }
 const GridFrame& DemFile::frame() const { return impl_->frame; }
 const std::string& DemFile::crs_wkt() const { return impl_->crs; }
 const DemReading& DemFile::reading() const { return impl_->reading; }
+bool DemFile::accepts_doubts() const { return impl_->accepts_doubts; }
 double DemFile::raw_of(double z) const { return (z - impl_->offset) / impl_->scale; }
 Where DemFile::where_of_cell(int row, int col) const {
   return impl_->where(0, row, col, impl_->frame.n_cols);
@@ -431,7 +435,8 @@ void refuse_lone_level(const DemFile& dem, const RowResampler& part,
                        counted(found->n_cells, "cell") + " side by side, more than " +
                        text(step, 6) + " m off " + std::to_string(found->n_far) + " of the " +
                        std::to_string(found->n_beside) +
-                       " beside them, and the file does not declare it as nodata",
+                       " beside them, and the file does not declare it as nodata (talus-trn "
+                       "--accept-doubts takes it as ground)",
                    "if it stands for nodata: gdal_translate -a_nodata " +
                        text(dem.raw_of(found->value)) + " " + dem.path() + " declared.tif");
 }
@@ -448,7 +453,8 @@ std::vector<double> read_dem(const DemFile& dem, const GridFrame& frame,
     steps.add_row(row);
     resampler.add_row(row);
   });
-  if (!steps.values().empty()) refuse_lone_level(dem, resampler, steps.values());
+  if (!steps.values().empty() && !dem.accepts_doubts())
+    refuse_lone_level(dem, resampler, steps.values());
   return resampler.take();
 }
 

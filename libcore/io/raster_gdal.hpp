@@ -26,6 +26,7 @@ struct DemOptions {
   std::string t_srs;       ///< WKT; not empty: reproject to it in plan (bilinear, at the file's
                            ///< resolution); heights stay, and so does the system that they are
                            ///< in; where an unknown cell has a share, the value is unknown
+  bool accepts_doubts = false;      ///< areas of one value that stand far off are ground
   bool crs_may_be_missing = false;  ///< no CRS and none given means local metres
   std::string vertical_crs;         ///< what heights are in whose file does not say it: WKT of a
                                     ///< vertical system, or ellipsoidal_heights
@@ -56,6 +57,8 @@ class DemFile {
   [[nodiscard]] const GridFrame& frame() const;      ///< its cell centres
   [[nodiscard]] const std::string& crs_wkt() const;  ///< empty for local metres
   [[nodiscard]] const DemReading& reading() const;
+  /// By the options, or by the tag DOUBTS_ACCEPTED=YES of a TRN that was made so.
+  [[nodiscard]] bool accepts_doubts() const;
   [[nodiscard]] double raw_of(double z) const;  ///< what stands in the file for an elevation
   [[nodiscard]] Where where_of_cell(int row, int col) const;  ///< with its place on the map
 

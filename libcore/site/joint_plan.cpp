@@ -4,24 +4,26 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <sstream>
 
 #include "base/text.hpp"
+#include "site/joint_list.hpp"
 
 namespace talus {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-// One orientation as a pole, checked.
-Vec3 checked_pole(double direction_deg, double dip_deg, const Where& where) {
-  if (!(dip_deg >= 0 && dip_deg <= 90))
-    throw InputError(where, "dip is " + text(dip_deg) + ", expected 0 to 90",
-                     "each pair is dip direction, dip in degrees");
-  if (!(direction_deg >= 0 && direction_deg <= 360))
-    throw InputError(where, "dip direction is " + text(direction_deg) + ", expected 0 to 360",
-                     "each pair is dip direction, dip in degrees");
-  return pole(dip_deg * degree, direction_deg * degree);
+// Clockwise seen from above. Without a turn bit by bit the same.
+Vec3 turned(const Vec3& axis, double turn_deg) {
+  if (turn_deg == 0) return axis;
+  const double c = std::cos(turn_deg * degree), s = std::sin(turn_deg * degree);
+  return {c * axis.x() + s * axis.y(), c * axis.y() - s * axis.x(), axis.z()};
+}
+
+double turned_azimuth(double azimuth_deg, double turn_deg) {
+  if (turn_deg == 0) return azimuth_deg;
+  const double rest = std::fmod(azimuth_deg + turn_deg, 360);
+  return rest < 0 ? rest + 360 : rest;
 }
 
 [[noreturn]] void missing(const Site& site, const JointSettings& section, const std::string& key,
@@ -104,31 +106,10 @@ void check_names(const Site& site, const std::vector<PlannedSet>& sets) {
 
 }  // namespace
 
-std::vector<Vec3> parse_orientations(const std::string& text, const std::string& file) {
-  std::vector<Vec3> poles;
-  std::istringstream lines(text);
-  int number = 0;
-  for (std::string line; std::getline(lines, line);) {
-    ++number;
-    line = line.substr(0, line.find('#'));
-    std::replace_if(
-        line.begin(), line.end(), [](char c) { return c == ',' || c == ';' || c == '\r'; }, ' ');
-    std::istringstream words(line);
-    std::vector<double> values;
-    for (std::string word; words >> word;) {
-      values.emplace_back();
-      if (!parse_double(word, values.back()))
-        throw InputError({file, number}, "\"" + word + "\" is not a number",
-                         "each line is dip direction, dip in degrees");
-    }
-    if (values.empty()) continue;
-    if (values.size() != 2)
-      throw InputError({file, number}, std::to_string(values.size()) + " numbers, expected 2",
-                       "each line is dip direction, dip in degrees");
-    poles.push_back(checked_pole(values[0], values[1], {file, number}));
-  }
-  if (poles.empty()) throw InputError({file}, "holds no orientation");
-  return poles;
+NorthTurn north_turn(const Site& site, const JointSettings& section) {
+  const auto value = [](double own, double common) { return std::isnan(own) ? common : own; };
+  return {value(section.declination_deg, site.joint_north.declination_deg),
+          value(section.convergence_deg, site.joint_north.convergence_deg)};
 }
 
 std::vector<PlannedSet> plan_joint_sets(const Site& site,
@@ -140,6 +121,8 @@ std::vector<PlannedSet> plan_joint_sets(const Site& site,
     std::vector<Vec3> poles = i < orientations.size() ? orientations[i] : std::vector<Vec3>{};
     for (const Vec3& pair : section.measured)
       poles.push_back(checked_pole(pair.x(), pair.y(), where_of(site, path + ".measured")));
+    const double turn_deg = north_turn(site, section).degrees();
+    for (Vec3& axis : poles) axis = turned(axis, turn_deg);
     const bool has_dip = !std::isnan(section.dip_deg) || !std::isnan(section.dip_direction_deg);
     if (!poles.empty()) {
       if (has_dip)
@@ -154,7 +137,7 @@ std::vector<PlannedSet> plan_joint_sets(const Site& site,
       missing(site, section, "dip_direction_deg", "azimuth of the steepest way down, 0 to 360");
     PlannedSet planned{plan_set(site, section), static_cast<int>(i), {}};
     planned.set.dip = section.dip_deg * degree;
-    planned.set.dip_direction = section.dip_direction_deg * degree;
+    planned.set.dip_direction = turned_azimuth(section.dip_direction_deg, turn_deg) * degree;
     sets.push_back(std::move(planned));
   }
   check_names(site, sets);
@@ -182,7 +165,7 @@ SourceOptions plan_source(const Site& site, const Vec3& origin) {
   } else if (source.failure_surface == "daylighting") {
     options.kind = FailureSurface::plane;
     if (site.joints.empty()) need(false, "[joints.*]");
-  } else if (source.failure_surface == "raster") {
+  } else if (source.failure_surface == "raster" || source.failure_surface == "thickness") {
     options.kind = FailureSurface::raster;
     need(!source.raster.empty(), "raster");
   } else if (source.failure_surface == "slbl") {

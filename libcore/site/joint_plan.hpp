@@ -19,14 +19,20 @@ struct PlannedSet {
   std::vector<Vec3> measured_poles;  ///< that stand for it; empty when dip and direction were given
 };
 
-/// Text of measured "dip direction, dip" pairs in degrees, one a line, separated by blanks, commas
-/// or semicolons; empty lines and # comments are skipped. Throws InputError with the line.
-[[nodiscard]] std::vector<Vec3> parse_orientations(const std::string& text,
-                                                   const std::string& file);
+/// From the north of a compass to that of the map.
+struct NorthTurn {
+  double declination_deg = 0;  ///< magnetic north east of true north: added to azimuths
+  double convergence_deg = 0;  ///< grid north east of true north: taken off
+  [[nodiscard]] double degrees() const { return declination_deg - convergence_deg; }
+};
+
+/// What the azimuths of a section are turned by; its own keys go before those of [joints].
+[[nodiscard]] NorthTurn north_turn(const Site& site, const JointSettings& section);
 
 /// Joint sets of the site; a section with measured orientations gives n_sets of them, named NAME_1
-/// and so on when there is more than one. `orientations[i]` are the pairs read from measured_file
-/// of section i. Throws InputError for what is missing or contradicts itself.
+/// and so on when there is more than one. `orientations[i]` are the poles read from measured_file
+/// of section i, as they stand there. All azimuths are turned to the map's north. Throws InputError
+/// for what is missing or contradicts itself.
 [[nodiscard]] std::vector<PlannedSet> plan_joint_sets(
     const Site& site, const std::vector<std::vector<Vec3>>& orientations);
 

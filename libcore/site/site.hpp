@@ -61,6 +61,12 @@ struct SourceSettings {
   double max_convex_loss = 0.05;  ///< share of a block's volume; above it the block stays exact
 };
 
+/// [joints]: from a compass to the map, for all sections that do not say it themselves.
+struct JointNorth {
+  double declination_deg = 0;  ///< magnetic north east of true north
+  double convergence_deg = 0;  ///< grid north east of true north
+};
+
 /// [joints.NAME]
 struct JointSettings {
   std::string name;
@@ -76,6 +82,8 @@ struct JointSettings {
   double offset_m = 0;         ///< of the first plane from the source's middle, along the normal
   std::vector<Vec3> measured;  ///< dip direction, dip pairs that stand for the set(s)
   std::string measured_file;
+  std::string measured_notation = "auto";
+  double declination_deg = not_given, convergence_deg = not_given;  ///< not given: of [joints]
   std::int64_t n_sets = 1;
   double friction_deg = not_given, cohesion_pa = 0, tension_pa = 0;
 };
@@ -198,6 +206,7 @@ struct Site {
   SolverSettings solver;
   OutputSettings output;
   BaseMotionSettings base_motion;
+  JointNorth joint_north;
   std::vector<JointSettings> joints;        ///< in the order of the file, as all named sections
   std::vector<MaterialSettings> materials;  ///< at least one: "rock" with the defaults
   std::vector<GroundSettings> grounds;      ///< at least one: "ground" with the defaults

@@ -63,13 +63,13 @@ template <> const std::vector<SiteKey<SourceSettings>>& keys_of() {
       {"polygon_file", &S::polygon_file, "vector file with the source area: polygons, or closed lines"},
       {"polygon_layer", &S::polygon_layer, "its layer or layers; not needed where one layer alone holds polygons"},
       {"polygon_where", &S::polygon_where, "attribute filter, e.g. name = 'release'"},
-      {"failure_surface", &S::failure_surface, "how the surface below the mass is given", any, "vertical_depth|normal_depth|plane|daylighting|raster|slbl"},
+      {"failure_surface", &S::failure_surface, "how the surface below the mass is given", any, "vertical_depth|normal_depth|plane|daylighting|raster|thickness|slbl"},
       {"sliding_set", &S::sliding_set, "daylighting: the joint set whose plane is the failure surface; the one with the largest mass when not given"},
       {"depth_m", &S::depth_m, "depth of the failure surface", positive},
       {"plane_dip_deg", &S::plane_dip_deg, "dip of a failure plane", {0, 90, false, true}, "", dip_hint},
       {"plane_dip_direction_deg", &S::plane_dip_direction_deg, "dip direction of a failure plane", azimuth, "", dip_hint},
       {"plane_point_m", &S::plane_point_m, "map x, y, z of a point of the plane", any, "", "", 3, 3},
-      {"raster", &S::raster, "elevations of the failure surface"},
+      {"raster", &S::raster, "elevations of the failure surface; thickness: depths of the mass below the ground, upright"},
       {"slbl_curvature_m", &S::slbl_curvature_m, "SLBL: how far a node may lie below the mean of its highest and lowest of four neighbours", not_negative},
       {"slbl_max_depth_m", &S::slbl_max_depth_m, "SLBL: largest depth", positive},
       {"material", &S::material, "material of the cut blocks"},
@@ -80,6 +80,13 @@ template <> const std::vector<SiteKey<SourceSettings>>& keys_of() {
       {"min_block_edge_m", &S::min_block_edge_m, "shorter edges of convex blocks are removed, one of their ends stays", not_negative},
       {"max_block_aspect", &S::max_block_aspect, "blocks with a larger ratio of longest to shortest axis are merged into a neighbour", at_least_1},
       {"max_convex_loss", &S::max_convex_loss, "blocks that would lose a larger share by being made convex stay a union of convex parts; 1: never", share}};
+  return table;
+}
+template <> const std::vector<SiteKey<JointNorth>>& keys_of() {
+  using S = JointNorth;
+  static const std::vector<SiteKey<S>> table = {
+      {"declination_deg", &S::declination_deg, "magnetic declination, east positive: added to all azimuths of [joints.*], which a compass gave", {-180, 180}},
+      {"convergence_deg", &S::convergence_deg, "grid convergence, from true north to grid north, east positive: taken off all azimuths of [joints.*]", {-90, 90}}};
   return table;
 }
 template <> const std::vector<SiteKey<JointSettings>>& keys_of() {
@@ -97,7 +104,10 @@ template <> const std::vector<SiteKey<JointSettings>>& keys_of() {
       {"disc_diameter_m", &S::disc_diameter_m, "diameter of the discs (persistence below 1)", positive},
       {"offset_m", &S::offset_m, "distance of one joint from the middle of the source, along the normal"},
       {"measured", &S::measured, "measured dip direction, dip pairs instead of dip_deg and dip_direction_deg [deg]", any, "", "", 1},
-      {"measured_file", &S::measured_file, "text file of measured dip direction, dip pairs [deg]"},
+      {"measured_file", &S::measured_file, "list of measured orientations: columns by name, or pairs of dip direction, dip [deg]"},
+      {"measured_notation", &S::measured_notation, "order of the pairs in a list without names of columns; auto: dip direction, dip, but 45/120 by its digits", any, "auto|dip_direction/dip|dip/dip_direction|strike_right/dip|strike_left/dip|pole_trend/plunge"},
+      {"declination_deg", &S::declination_deg, "of this section; not given: that of [joints]", {-180, 180}},
+      {"convergence_deg", &S::convergence_deg, "of this section; not given: that of [joints]", {-90, 90}},
       {"n_sets", &S::n_sets, "number of sets that measured pairs are grouped into", {1, 12}},
       {"friction_deg", &S::friction_deg, "friction angle of the joints; that of the material when not given", angle_below_90, "", friction_hint},
       {"cohesion_pa", &S::cohesion_pa, "cohesion of the joints", not_negative},

@@ -48,6 +48,7 @@ const std::vector<SiteKey<Section>>& keys_of();
 template <> const std::vector<SiteKey<SiteInfo>>& keys_of();
 template <> const std::vector<SiteKey<TerrainSettings>>& keys_of();
 template <> const std::vector<SiteKey<SourceSettings>>& keys_of();
+template <> const std::vector<SiteKey<JointNorth>>& keys_of();
 template <> const std::vector<SiteKey<JointSettings>>& keys_of();
 template <> const std::vector<SiteKey<MaterialSettings>>& keys_of();
 template <> const std::vector<SiteKey<GroundSettings>>& keys_of();
@@ -64,6 +65,7 @@ void for_each_group(SiteType& site, Visit&& visit) {
   visit("site", site.info);
   visit("terrain", site.terrain);
   visit("source", site.source);
+  visit("joints", site.joint_north);
   visit("joints", site.joints);
   visit("material", site.materials);
   visit("ground", site.grounds);

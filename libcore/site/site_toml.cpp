@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <type_traits>
 #include <utility>
 #include <variant>
 
@@ -176,9 +177,20 @@ const SiteKey<Section>& key_named(std::string_view name, const std::string& sect
                    did_you_mean(name, key_names<Section>()));
 }
 
+// [joints] holds keys of its own beside the sections [joints.NAME].
+template <class Section>
+constexpr bool stands_beside_named = std::is_same_v<Section, JointNorth>;
+
+template <class Section>
+bool has_key(std::string_view name) {
+  const auto& keys = keys_of<Section>();
+  return std::any_of(keys.begin(), keys.end(), [&](const auto& key) { return name == key.name; });
+}
+
 template <class Section>
 void read_section(Site& site, Section& section, const std::string& name, const toml::table& table) {
   for (const auto& [key_text, node] : table) {
+    if (stands_beside_named<Section> && !has_key<Section>(key_text.str())) continue;
     const Where where{site.file, line_of(node)};
     const auto& key = key_named<Section>(key_text.str(), name, where);
     read_value(section, key, std::string(key_text.str()), node, where);
@@ -197,7 +209,9 @@ template <class Section>
 void read_named(Site& site, std::vector<Section>& sections, const std::string& group,
                 const toml::table& tables) {
   std::vector<std::pair<const toml::node*, std::string>> found;
-  for (const auto& [name, node] : tables) found.emplace_back(&node, std::string(name.str()));
+  for (const auto& [name, node] : tables)
+    if (group != "joints" || !has_key<JointNorth>(name.str()))
+      found.emplace_back(&node, std::string(name.str()));
   std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) {
     return line_of(*a.first) < line_of(*b.first);
   });
@@ -234,6 +248,7 @@ Texts group_names() {
   Texts names;
   Site site;
   for_each_group(site, [&](const char* name, auto&) { names.emplace_back(name); });
+  names.erase(std::unique(names.begin(), names.end()), names.end());
   return names;
 }
 
@@ -243,7 +258,7 @@ struct GroupReader {
   template <class Section>
   void operator()(const char* name, Section& section) const {
     if (const toml::node* node = root.get(name)) {
-      site.sections.emplace_back(name);
+      if (!stands_beside_named<Section>) site.sections.emplace_back(name);
       read_section(site, section, name, table_of(*node, {site.file, line_of(*node)}, name));
     }
   }

@@ -49,6 +49,8 @@ class LoneLevels {
   /// Of the areas that stand off more than half of what is beside them, the one with most such
   /// neighbours.
   [[nodiscard]] std::optional<LoneLevel> worst() const;
+  /// All of these areas, by their first cells.
+  [[nodiscard]] std::vector<LoneLevel> all() const;
 
  private:
   [[nodiscard]] std::size_t leader(std::size_t area) const;

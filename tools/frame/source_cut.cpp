@@ -9,8 +9,10 @@
 
 #include "base/read_file.hpp"
 #include "base/text.hpp"
+#include "blocks/failure_raster.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/raster_gdal.hpp"
+#include "site/joint_list.hpp"
 #include "tools/frame/failure_plane_choice.hpp"
 #include "tools/frame/site_places.hpp"
 #include "tools/frame/vector_inputs.hpp"
@@ -55,9 +57,21 @@ Where where_of_area(const BlocksWork& work) {
              : where_of(work.site, "source.polygon");
 }
 
-// Elevations of the failure raster at the nodes of the terrain.
+// Heights of the surface in the terrain's own system, where both say it.
+void check_heights_of_surface(Tool& tool, const BlocksWork& work, const DemFile& raster) {
+  const std::string assumed = assumed_heights(raster.crs_wkt(), work.ground.crs_wkt);
+  if (!assumed.empty()) tool.info(raster.path() + " and the terrain: both are " + assumed);
+  if (!same_heights(raster.crs_wkt(), work.ground.crs_wkt))
+    throw InputError({raster.path()},
+                     "the heights are in " + crs_name(height_crs(raster.crs_wkt())) +
+                         ", those of the terrain in " + crs_name(height_crs(work.ground.crs_wkt)),
+                     "bring both to one system of heights first");
+}
+
+// Elevations of the failure surface at the nodes of the terrain.
 std::vector<double> read_failure_raster(Tool& tool, const BlocksWork& work) {
   const std::string path = resolved(work.site, work.site.source.raster);
+  const bool is_thickness = work.site.source.failure_surface == "thickness";
   tool.read_also("source.raster", path);
   DemOptions options;
   options.crs_may_be_missing = true;
@@ -70,14 +84,13 @@ std::vector<double> read_failure_raster(Tool& tool, const BlocksWork& work) {
                      "a raster is never reprojected silently: gdalwarp -r bilinear -novshift "
                      "-dstnodata -9999 -t_srs " +
                          crs_code(work.ground.crs_wkt) + " " + path + " surface.tif");
-  const std::string assumed = assumed_heights(raster.crs_wkt(), work.ground.crs_wkt);
-  if (!assumed.empty()) tool.info(path + " and the terrain: both are " + assumed);
-  if (!same_heights(raster.crs_wkt(), work.ground.crs_wkt))
-    throw InputError({path},
-                     "the heights are in " + crs_name(height_crs(raster.crs_wkt())) +
-                         ", those of the terrain in " + crs_name(height_crs(work.ground.crs_wkt)),
-                     "bring both to one system of heights first");
+  if (!is_thickness) check_heights_of_surface(tool, work, raster);
   std::vector<double> z = read_dem(raster, frame_of(work.ground));
+  if (is_thickness) {
+    lower_by_thickness(work.ground, work.area, {path}, z);
+    return z;
+  }
+  check_is_surface(work.ground, work.area, z, {path});
   for (double& value : z) value -= work.ground.origin.z();
   return z;
 }
@@ -184,6 +197,17 @@ std::string why_in_one_piece(const BlocksWork& work) {
   return "the joints that cross it leave no piece large enough to stand alone";
 }
 
+// Azimuths that are not taken as they stand.
+void say_turns(Tool& tool, const Site& site) {
+  for (const JointSettings& section : site.joints) {
+    const NorthTurn turn = north_turn(site, section);
+    if (turn.declination_deg == 0 && turn.convergence_deg == 0) continue;
+    tool.info("[joints." + section.name + "]: azimuths turned by " + text(turn.degrees(), 6) +
+              " degrees to the map's north (declination " + text(turn.declination_deg, 6) +
+              ", convergence " + text(turn.convergence_deg, 6) + ")");
+  }
+}
+
 }  // namespace
 
 Area read_source_area(Tool& tool, const BlocksWork& work) {
@@ -199,8 +223,17 @@ void plan_sets(Tool& tool, BlocksWork& work) {
     if (section.measured_file.empty()) continue;
     const std::string path = resolved(work.site, section.measured_file);
     tool.read_also("joints." + section.name, path);
-    measured.back() = parse_orientations(read_file(path), path);
+    OrientationList list = read_orientations(read_file(path), path, section.measured_notation);
+    tool.info(path + ": " + counted(static_cast<std::int64_t>(list.poles.size()), "orientation") +
+              " from " + list.taken_from);
+    if (list.is_computed && north_turn(work.site, section).declination_deg != 0)
+      tool.warn(path +
+                ": declination turns orientations that were computed from points, which "
+                "know no compass; set declination_deg = 0 in [joints." +
+                section.name + "]");
+    measured.back() = std::move(list.poles);
   }
+  say_turns(tool, work.site);
   work.sets = plan_joint_sets(work.site, measured);
 }
 

@@ -50,6 +50,7 @@ struct Tool::Impl {
 
   std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
   std::vector<StagedFile> staged;
+  std::vector<std::string> kept_if_refused;  // paths among them
   RunRecord record;
   std::vector<std::string> check_hints;  // of record.checks
   RunIdParts id_parts;
@@ -210,8 +211,24 @@ struct Tool::Impl {
                        [](const RunCheck& check) { return check.pass; });
   }
 
+  // What helps to mend an input that was refused. A failure here must not hide the first one.
+  void keep_places() {
+    std::vector<StagedFile> kept;
+    for (const StagedFile& file : staged)
+      if (std::count(kept_if_refused.begin(), kept_if_refused.end(), file.path) > 0)
+        kept.push_back(file);
+    timespec now{};
+    clock_gettime(CLOCK_REALTIME, &now);
+    try {
+      put_in_place(kept, now);
+    } catch (const InputError& error) {
+      print(name + ": " + error.what());
+    }
+  }
+
   int fail(int code, std::string what, const std::string& hint) {
     what = with_final_names(std::move(what), staged);
+    if (code == input_unusable) keep_places();
     remove_staged(staged);
     staged.clear();
     event("error", what);
@@ -342,6 +359,11 @@ std::string Tool::stage(const std::string& path) {
   refuse_existing(path, impl_->options.overwrite);
   impl_->staged.push_back({temporary_name(path), path});
   return impl_->staged.back().temporary;
+}
+
+std::string Tool::stage_also_if_refused(const std::string& path) {
+  impl_->kept_if_refused.push_back(path);
+  return stage(path);
 }
 
 void Tool::write_text(const std::string& path, const std::string& content) {

@@ -78,6 +78,9 @@ class Tool {
   /// staged files are synced and renamed when the body has returned, removed when it has thrown.
   /// Sidecars (styles, statistics) are staged like any other file.
   [[nodiscard]] std::string stage(const std::string& path);
+  /// The same, but put in place also where the body refuses its input (InputError): places to look
+  /// at.
+  [[nodiscard]] std::string stage_also_if_refused(const std::string& path);
   /// Stages `path` and writes `content` into it. Throws InputError when it cannot be written.
   void write_text(const std::string& path, const std::string& content);
   /// A file that was read but is not an option's value (named in a site file, member of a set).

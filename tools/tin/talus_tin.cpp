@@ -11,10 +11,12 @@
 #include "io/tin_ply.hpp"
 #include "terrain/flat.hpp"
 #include "terrain/outliers.hpp"
+#include "terrain/point_tin.hpp"
 #include "terrain/tin_mesh.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/tool.hpp"
 #include "tools/frame/vector_inputs.hpp"
+#include "tools/tin/doubts.hpp"
 
 namespace {
 
@@ -32,6 +34,8 @@ struct Options {
   std::string flat = "fill";
   double fill_spacing_m = 0;
   int hold_out_every = 0;
+  bool of_points = false;
+  talus::DoubtOptions doubts;
 };
 
 std::string check_not_negative(const std::string& word) {
@@ -59,6 +63,10 @@ void declare(Tool& tool, Options& o) {
   add_layer_options(tool, "--", "the contours", s.contours);
   tool.option("--elevation-field", s.contours.elevation_field,
               "field with the elevation; Z: the geometries' own; empty: found by itself");
+  tool.input("--labels", s.labels.path,
+             "texts beside the contours that say their heights (e.g. the same DXF drawing)");
+  add_layer_options(tool, "--labels-", "the labels", s.labels);
+  tool.option("--labels-field", s.labels.elevation_field, "field with their text; empty: Text");
   tool.option("--unit-m", s.contours.unit_m,
               "metres in one unit of the contours, in plan and height; 0: metres, or refused where "
               "a drawing says another unit")
@@ -99,6 +107,15 @@ void declare(Tool& tool, Options& o) {
               "hold back the contours at every K-th height, K >= 2; 0: none")
       ->check(check_every);
   tool.output("--hold-out", o.hold_out, "points of the contours held back (GeoPackage)");
+  tool.flag("--points", o.of_points,
+            "the source holds points of the ground, not contours: a vector layer, CSV or XYZ");
+  tool.option("--tolerance-m", o.doubts.tolerance_m,
+              "contours of different heights that meet are moved apart by at most this [m]; "
+              "0: refused; not given: the accuracy that their bends show")
+      ->check(check_not_negative);
+  tool.output("--doubts", o.doubts.layer,
+              "places to look at, also of a map that is refused (GeoPackage)");
+  tool.flag("--accept-doubts", o.doubts.accept, "take heights that cannot be, and say so");
   tool.output("--report", o.report, "what was read, cleaned and mended (JSON)");
   tool.footer(
       "Example:\n  talus-tin contours.gpkg -o slope.tin.ply --report slope.tin.json\n"
@@ -113,7 +130,7 @@ void check_together(const Options& o) {
                    "--hold-out-every and --hold-out go together, only one is given");
 }
 
-ContourMap read_map(Tool& tool, Options& o, talus::ContourReading& reading) {
+void read_crs_options(Options& o) {
   o.sources.crs_given = !o.crs.empty();
   talus::from_command_line([&] {
     if (!o.crs.empty()) o.sources.crs = talus::crs_from_user(o.crs, "--crs");
@@ -123,8 +140,10 @@ ContourMap read_map(Tool& tool, Options& o, talus::ContourReading& reading) {
     if (!o.t_vertical.empty())
       o.sources.t_vertical = talus::target_heights_from_user(o.t_vertical, "--t-vertical");
   });
-  ContourMap map = talus::read_contours(o.sources, reading);
-  talus::check_heights(map);
+}
+
+// What was read, from where, and what was done on the way in.
+void say_reading(Tool& tool, const Options& o, const talus::ContourReading& reading) {
   tool.info("elevation from " + reading.elevation_from + " of layer " + reading.layer +
             (reading.contours.unit_m == 1
                  ? ""
@@ -136,12 +155,20 @@ ContourMap read_map(Tool& tool, Options& o, talus::ContourReading& reading) {
   }
   for (const std::string& warning : reading.warnings) tool.warn(warning);
   const std::pair<const char*, const talus::LayerReading*> sources[] = {
-      {"contours", &reading.contours},
+      {o.of_points ? "points" : "contours", &reading.contours},
+      {"labels", &reading.labels},
       {"breaklines", &reading.breaklines},
       {"spots", &reading.spots},
       {"boundary", &reading.boundary}};
   for (const auto& [role, taken] : sources)
     if (!taken->file.empty()) tool.layer_read(talus::entry_on(*taken, role));
+}
+
+ContourMap read_map(Tool& tool, Options& o, talus::ContourReading& reading) {
+  read_crs_options(o);
+  ContourMap map = talus::read_contours(o.sources, reading);
+  talus::check_heights(map);
+  say_reading(tool, o, reading);
   return map;
 }
 
@@ -211,59 +238,12 @@ void mend(Tool& tool, const Options& o, const ContourMap& map,
     tool.warn(std::to_string(mended.n_unsolved) + " places were left flat: nothing holds them");
 }
 
-// Features of the lines of a map, which outlive the lines.
-struct Features {
-  std::vector<std::int64_t> contours, breaklines;
-};
-
-Json as_json(const talus::Outlier& outlier, const Features& features, const ContourMap& map) {
-  const auto line = static_cast<std::size_t>(outlier.line);
-  const std::size_t n_contours = features.contours.size();
-  const bool is_contour = line < n_contours;
-  const bool is_spot = line >= n_contours + features.breaklines.size();
-  const talus::Vec3 place = outlier.place + map.origin;
-  Json row = {{"kind", is_contour ? "contour" : is_spot ? "spot height" : "breakline"}};
-  if (!is_spot)
-    row["feature"] = is_contour ? features.contours[line] : features.breaklines[line - n_contours];
-  row["height_m"] = place.z();
-  row["at"] = {place.x(), place.y()};
-  row["contours_beside_m"] = {outlier.low + map.origin.z(), outlier.high + map.origin.z()};
-  return row;
-}
-
-std::string sentence_on(const Json& row) {
-  const auto number = [](const Json& value, int digits) {
-    return text(value.get<double>(), digits);
-  };
-  const Json& beside = row["contours_beside_m"];
-  return row["kind"].get<std::string>() + " at " + number(row["height_m"], 8) + " m" +
-         (row.contains("feature")
-              ? ", feature " + std::to_string(row["feature"].get<std::int64_t>())
-              : std::string()) +
-         ", x " + number(row["at"][0], 10) + ", y " + number(row["at"][1], 10) +
-         ": the contours beside it stand at " + number(beside[0], 8) +
-         (beside[0] == beside[1] ? "" : " to " + number(beside[1], 8)) + " m; is its height right?";
-}
-
-// Says which heights do not go with those around them.
-Json doubts(Tool& tool, const std::vector<talus::Outlier>& outliers, const Features& features,
-            const ContourMap& map) {
-  constexpr std::size_t most_said = 10;
-  Json rows = Json::array();
-  for (const talus::Outlier& outlier : outliers) rows.push_back(as_json(outlier, features, map));
-  for (std::size_t i = 0; i < std::min(rows.size(), most_said); ++i)
-    tool.warn(sentence_on(rows[i]));
-  if (rows.size() > most_said)
-    tool.warn(std::to_string(rows.size() - most_said) +
-              " more heights are in doubt; --report lists them all");
-  return rows;
-}
-
 // Triangles of the cleaned lines, mended as asked for. Frees what it no longer needs as it goes.
 talus::TriangleMesh make_mesh(Tool& tool, const Options& o, ContourMap& map, Json& report) {
   const double interval = talus::contour_interval(map);
-  talus::CleanLines clean = talus::clean_lines(map);
-  const Features features{map.contours.feature, map.breaklines.feature};
+  std::vector<talus::DoubtRow> rows = talus::rows_below_land(map);
+  talus::CleanLines clean = talus::clean_or_mend(tool, o.doubts, map, rows, report);
+  const talus::LineFeatures features{map.contours.feature, map.breaklines.feature};
   const int n_lines =
       map.contours.n_lines() + map.breaklines.n_lines() + static_cast<int>(map.spots.size());
   talus::forget_lines(map);
@@ -274,9 +254,12 @@ talus::TriangleMesh make_mesh(Tool& tool, const Options& o, ContourMap& map, Jso
   clean.segments = {};
   talus::TriangleMesh mesh;
   refresh_inside(map, triangulation, o, o.flat == "keep", mesh);
-  report["in_doubt"] = doubts(
-      tool, talus::find_outliers(mesh, {std::move(clean.line), measured.first, n_lines}, interval),
-      features, map);
+  const std::vector<talus::DoubtRow> off = talus::rows_of(
+      talus::find_outliers(mesh, {std::move(clean.line), measured.first, n_lines}, interval),
+      features, map.origin);
+  rows.insert(rows.end(), off.begin(), off.end());
+  report["in_doubt"] = talus::say_doubts(tool, o.doubts, map.source, map.crs_wkt, rows);
+  if (o.doubts.accept) report["doubts_accepted"] = true;
   const std::vector<std::uint8_t> flat = find_flat_triangles(mesh, measured);
   const talus::AreaShare before = area_of(mesh, flat);
   report["flat"] = {{"mode", o.flat}, {"share_before", before.share()}};
@@ -329,6 +312,72 @@ Json build(Tool& tool, Options& o, talus::Tin& tin) {
   return report;
 }
 
+// --- points --------------------------------------------------------------------------------------
+
+void check_no_lines(const Options& o) {
+  const bool has_lines = !o.sources.breaklines.path.empty() || !o.sources.spots.path.empty() ||
+                         !o.sources.labels.path.empty() || o.hold_out_every > 0 ||
+                         !std::isnan(o.doubts.tolerance_m);
+  if (!has_lines) return;
+  throw UsageError(
+      {"", 0, "--points"},
+      "breaklines, spot heights, labels, --hold-out-every and --tolerance-m are for contours",
+      "leave them away, or --points");
+}
+
+Json build_of_points(Tool& tool, Options& o, talus::Tin& tin) {
+  check_no_lines(o);
+  talus::ContourReading reading;
+  read_crs_options(o);
+  ContourMap map = talus::read_ground_points(o.sources, reading);
+  say_reading(tool, o, reading);
+  std::vector<talus::DoubtRow> rows = talus::rows_below_land(map);
+  for (talus::DoubtRow& row : rows) row.what = "point";
+  talus::PointMesh found = talus::mesh_of_points(std::move(map.spots), map.source);
+  for (const talus::PointDoubt& doubt : found.doubts) {
+    talus::DoubtRow row;
+    row.what = "point";
+    row.place = doubt.place + map.origin;
+    row.expected_low = doubt.low + map.origin.z(), row.expected_high = doubt.high + map.origin.z();
+    row.outcome = doubt.is_impossible ? "refused" : "in doubt";
+    rows.push_back(std::move(row));
+  }
+  Json report = {{"tool", "talus-tin"},
+                 {"source", o.sources.contours.path},
+                 {"run_id", tool.run_id()},
+                 {"layer", reading.layer},
+                 {"elevation_from", reading.elevation_from},
+                 {"crs", talus::crs_name(map.crs_wkt)},
+                 {"points", {{"n_read", found.n_read}, {"n_repeated", found.n_repeated}}},
+                 {"layers_read", tool.layers_read()}};
+  report["in_doubt"] = talus::say_doubts(tool, o.doubts, map.source, map.crs_wkt, rows);
+  if (o.doubts.accept) report["doubts_accepted"] = true;
+  talus::cut_to_rings(map.boundary, found.mesh);
+  if (found.mesh.triangles.empty())
+    throw InputError({o.sources.boundary.path}, "the boundary and the points share no ground");
+  const talus::EdgeLengths edges = talus::edge_lengths(found.mesh);
+  report["points"]["median_edge_m"] = edges.median;
+  report["points"]["longest_edge_m"] = edges.longest;
+  if (edges.longest > 10 * edges.median)
+    tool.warn("triangles span gaps of up to " + text(edges.longest, 4) + " m between points " +
+              text(edges.median, 3) +
+              " m apart: nothing is known of the ground there; --boundary cuts them off");
+  tin = talus::to_tin(std::move(found.mesh), map);
+  report["tin"] = {{"n_points", tin.points.size()}, {"n_triangles", tin.triangles.size()}};
+  report["notes"] = reading.notes;
+  report["operations"] = reading.operations;
+  tool.metric("n_points", static_cast<double>(tin.points.size()), "1");
+  return report;
+}
+
+std::string summary_of_points(const Json& report) {
+  const Json &points = report["points"], &tin = report["tin"];
+  return std::to_string(points["n_read"].get<std::size_t>()) + " points of the ground, " +
+         text(points["median_edge_m"].get<double>(), 3) + " m apart\n" +
+         std::to_string(tin["n_points"].get<std::size_t>()) + " points, " +
+         std::to_string(tin["n_triangles"].get<std::size_t>()) + " triangles";
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -339,9 +388,9 @@ int main(int argc, char** argv) {
   return tool.run(argc, argv, [&] {
     check_together(o);
     talus::Tin tin;
-    const Json report = build(tool, o, tin);
+    const Json report = o.of_points ? build_of_points(tool, o, tin) : build(tool, o, tin);
     talus::write_tin(tool.stage(o.out), tin);
     if (!o.report.empty()) tool.write_text(o.report, report.dump(2) + "\n");
-    tool.result(report, summary_of(report));
+    tool.result(report, o.of_points ? summary_of_points(report) : summary_of(report));
   });
 }

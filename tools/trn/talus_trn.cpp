@@ -1,8 +1,6 @@
 // tools/trn/talus_trn.cpp
 // A TIN or a DEM to the terrain that blocks move on, and how good it is. Page:
 // docs/tools/talus-trn.md
-#include <filesystem>
-#include <fstream>
 #include <limits>
 #include <optional>
 
@@ -13,11 +11,14 @@
 #include "io/crs_place_gdal.hpp"
 #include "io/hillshade_gdal.hpp"
 #include "io/raster_gdal.hpp"
-#include "io/tin_ply.hpp"
+#include "io/tin_files_gdal.hpp"
 #include "terrain/elevation.hpp"
 #include "terrain/grid_tin.hpp"
+#include "terrain/ground_doubts.hpp"
+#include "terrain/lone_levels.hpp"
 #include "terrain/trn_quality.hpp"
 #include "tools/frame/command_line.hpp"
+#include "tools/frame/doubts_layer.hpp"
 #include "tools/frame/tool.hpp"
 #include "tools/frame/vector_inputs.hpp"
 
@@ -39,10 +40,12 @@ struct Options {
   std::string source, out, window_text, t_srs, crs, like, reference, report, hillshade;
   std::string vertical_crs, t_vertical;
   bool accept_ballpark = false;
-  talus::LayerChoice reference_points;
+  talus::LayerChoice reference_points, faces;
   double cell_size_m = 0;
   std::vector<std::string> creation_options;
   MapWindow window = everywhere;
+  std::string doubts;
+  bool accept_doubts = false;
 };
 
 // --- command line ------------------------------------------------------------------------------
@@ -69,8 +72,13 @@ std::string check_positive(const std::string& word) {
 }
 
 void declare(Tool& tool, Options& o) {
-  tool.input("source", o.source, "TIN written by talus-tin (.ply), or an elevation raster");
+  tool.input("source", o.source, "TIN (PLY, LandXML, 3DFACE in DXF), or an elevation raster");
   tool.output("-o,--out", o.out, "terrain to write (GeoTIFF)")->required();
+  talus::add_layer_options(tool, "--", "a drawing of faces", o.faces);
+  tool.option("--unit-m", o.faces.unit_m,
+              "metres in one unit of a drawing of faces, in plan and height; 0: metres, or refused "
+              "where it says another unit")
+      ->check(check_positive);
   tool.option("--cell-size-m", o.cell_size_m,
               "distance of the nodes [m]; 0: the DEM's own, or near that of the TIN's points")
       ->check(check_positive);
@@ -93,6 +101,9 @@ void declare(Tool& tool, Options& o) {
   tool.option("--reference-points-elevation-field", o.reference_points.elevation_field,
               "field with their elevation, or Z; empty: found by itself");
   tool.output("--report", o.report, "errors, slopes, coverage (JSON)");
+  tool.output("--doubts", o.doubts,
+              "places to look at, also of ground that is refused (GeoPackage)");
+  tool.flag("--accept-doubts", o.accept_doubts, "take ground that cannot be, and say so");
   tool.output("--hillshade", o.hillshade, "picture of the terrain (PNG)");
   tool.app()
       .add_option("--co", o.creation_options, "creation option of the GeoTIFF, NAME=VALUE")
@@ -104,13 +115,6 @@ void declare(Tool& tool, Options& o) {
 }
 
 // --- the terrain ---------------------------------------------------------------------------------
-
-bool is_tin(const std::string& path) {
-  if (talus::lower(std::filesystem::path(path).extension().string()) == ".ply") return true;
-  std::array<char, 4> head{};
-  std::ifstream(path, std::ios::binary).read(head.data(), 4);
-  return std::string(head.data(), 3) == "ply" && (head[3] == '\n' || head[3] == '\r');
-}
 
 std::string window_as_text(const MapWindow& w) {
   return text(w.x_min, 10) + "," + text(w.y_min, 10) + " to " + text(w.x_max, 10) + "," +
@@ -166,11 +170,26 @@ std::string stated_vertical(const Options& o) {
                                 : talus::vertical_crs_from_user(o.vertical_crs, "--vertical-crs");
 }
 
+// A surface that folds over has two heights in one place; a terrain has one.
+void check_one_layer(Tool& tool, const Options& o, const talus::TinFile& file) {
+  if (file.is_ours) return;
+  const talus::FoldedEdges folded = talus::find_folded_edges(file.tin);
+  if (folded.n == 0) return;
+  const talus::Vec3 place = folded.first + file.tin.origin;
+  const std::string finding = "the surface folds over or has two layers at " +
+                              talus::counted(folded.n, "edge") + ", the first at x " +
+                              text(place.x(), 10) + ", y " + text(place.y(), 10);
+  if (!o.accept_doubts)
+    throw InputError(
+        {o.source}, finding + "; expected one height in each place",
+        "write the ground alone to the file; --accept-doubts takes one of the heights");
+  tool.warn(finding + ": one of the heights is taken");
+}
+
 // The CRS of the TIN, or the one that the user gives for a TIN without; empty: local metres.
 std::string crs_of_tin(Tool& tool, const talus::Tin& tin, const MapWindow& data, const Options& o) {
   std::string crs;
-  if (!tin.crs_wkt.empty())
-    crs = talus::crs_from_user(tin.crs_wkt, o.source + ": comment crs of the PLY header");
+  if (!tin.crs_wkt.empty()) crs = talus::crs_from_user(tin.crs_wkt, o.source + ": its CRS");
   if (!o.crs.empty()) {
     const std::string given =
         talus::from_command_line([&] { return talus::crs_from_user(o.crs, "--crs"); });
@@ -195,6 +214,12 @@ std::string crs_of_tin(Tool& tool, const talus::Tin& tin, const MapWindow& data,
   return vertical.empty() ? crs : talus::with_stated_heights(crs, vertical, {o.source});
 }
 
+talus::LayerChoice faces_of(const Options& o) {
+  talus::LayerChoice choice = o.faces;
+  choice.path = o.source;
+  return choice;
+}
+
 Trn trn_of_tin(Tool& tool, const Options& o) {
   if (!o.t_srs.empty())
     throw InputError(
@@ -203,8 +228,13 @@ Trn trn_of_tin(Tool& tool, const Options& o) {
   if (!o.t_vertical.empty())
     throw InputError({o.source}, "the heights of a TIN stay as they are",
                      "make it from the contours with talus-tin --t-vertical " + o.t_vertical);
-  const talus::Tin tin = talus::read_tin(o.source);
+  talus::TinFile file = talus::read_tin_file(faces_of(o));
+  for (const std::string& note : file.notes) tool.info(note);
+  for (const std::string& warning : file.warnings) tool.warn(warning);
+  if (!file.taken.file.empty()) tool.layer_read(talus::entry_on(file.taken, "source"));
+  const talus::Tin& tin = file.tin;
   check_tin(tin, o.source);
+  check_one_layer(tool, o, file);
   const MapWindow data = talus::extent(tin);
   const std::string crs = crs_of_tin(tool, tin, data, o);
   const double natural_size = talus::natural_cell_size(tin);
@@ -233,6 +263,7 @@ void say(Tool& tool, const talus::DemReading& reading) {
 // What was done to take it to another system goes to `operations`.
 Trn trn_of_dem(Tool& tool, const Options& o, std::vector<std::string>& operations) {
   talus::DemOptions options;
+  options.accepts_doubts = o.accept_doubts;
   options.crs_given = !o.crs.empty();
   talus::from_command_line([&] {
     if (options.crs_given) options.crs = talus::crs_from_user(o.crs, "--crs");
@@ -242,6 +273,9 @@ Trn trn_of_dem(Tool& tool, const Options& o, std::vector<std::string>& operation
       options.t_vertical = talus::target_heights_from_user(o.t_vertical, "--t-vertical");
   });
   options.accept_ballpark = o.accept_ballpark;
+  if (!o.faces.layer.empty() || !o.faces.where.empty() || o.faces.unit_m != 0)
+    throw talus::UsageError({"", 0, o.source}, "--layer, --where and --unit-m are for drawings",
+                            "leave them away");
   const DemFile dem(o.source, options);
   say(tool, dem.reading());
   operations = dem.reading().notes;
@@ -394,13 +428,93 @@ void add_errors(Tool& tool, const talus::ErrorStatistics& errors, const std::str
   tool.metric(name + "_largest_m", errors.largest, "m");
 }
 
+// --- what to look at -----------------------------------------------------------------------------
+
+const char* name_of(talus::GroundDoubtKind kind) {
+  switch (kind) {
+    case talus::GroundDoubtKind::below_land:
+      return "below all land";
+    case talus::GroundDoubtKind::level:
+      return "level area";
+    case talus::GroundDoubtKind::rim:
+      return "rim";
+    default:
+      return "step";
+  }
+}
+
+talus::DoubtRow row_of(const talus::GroundDoubt& doubt, const Trn& trn) {
+  talus::DoubtRow row;
+  row.what = name_of(doubt.kind);
+  row.place = talus::node_point(trn, doubt.row, doubt.col) + trn.origin;
+  row.expected_low = row.expected_high = doubt.expected + trn.origin.z();
+  row.outcome = doubt.kind == talus::GroundDoubtKind::below_land ? "refused" : "in doubt";
+  return row;
+}
+
+std::string place_of(const talus::DoubtRow& row) {
+  return text(row.place.z(), 6) + " m at x " + text(row.place.x(), 10) + ", y " +
+         text(row.place.y(), 10);
+}
+
+// What a kind of doubt means, in one sentence with the first place.
+std::string sentence_on(talus::GroundDoubtKind kind, std::int64_t n, const talus::DoubtRow& first,
+                        const Trn& trn) {
+  const std::string apart = text(talus::doubtful_step(trn.cell_size), 4);
+  switch (kind) {
+    case talus::GroundDoubtKind::below_land:
+      return talus::counted(n, "node") + " lower than any land (" + text(talus::lowest_land) +
+             " m), the first " + place_of(first);
+    case talus::GroundDoubtKind::level:
+      return talus::counted(n, "level area") + " more than " + apart +
+             " m off most of what is beside, the first " + place_of(first) +
+             ": is it undeclared nodata?";
+    case talus::GroundDoubtKind::rim:
+      return talus::counted(n, "node") + " at the rim of what is known more than " + apart +
+             " m off the next, the first " + place_of(first) + ": is it blended with nodata?";
+    default:
+      return talus::counted(n, "step") + " of more than " +
+             text(talus::impossible_step(trn.cell_size), 4) +
+             " m from one node to the next, the first from " + place_of(first) + " to " +
+             text(first.expected_low, 6) + " m: is it ground?";
+  }
+}
+
+// Says what the ground's own neighbours do not bear out; refuses what no land is.
+Json doubts_of(Tool& tool, const Options& o, const Trn& trn) {
+  using talus::GroundDoubtKind;
+  const std::vector<talus::GroundDoubt> doubts = talus::find_ground_doubts(trn);
+  std::vector<talus::DoubtRow> rows;
+  for (const talus::GroundDoubt& doubt : doubts) {
+    rows.push_back(row_of(doubt, trn));
+    if (o.accept_doubts && rows.back().outcome == "refused") rows.back().outcome = "accepted";
+  }
+  talus::write_doubts(tool, o.doubts, trn.crs_wkt, rows);
+  Json json = Json::object();
+  for (const GroundDoubtKind kind : {GroundDoubtKind::below_land, GroundDoubtKind::level,
+                                     GroundDoubtKind::rim, GroundDoubtKind::step}) {
+    std::int64_t n = 0;
+    const talus::DoubtRow* first = nullptr;
+    for (std::size_t i = 0; i < doubts.size(); ++i)
+      if (doubts[i].kind == kind && n++ == 0) first = &rows[i];
+    if (n == 0) continue;
+    const std::string sentence = sentence_on(kind, n, *first, trn);
+    json[name_of(kind)] = n;
+    if (kind == GroundDoubtKind::below_land && !o.accept_doubts)
+      throw InputError({o.source}, sentence,
+                       "declare nodata with gdal_translate -a_nodata, or mend the units; "
+                       "--accept-doubts takes ground below the sea");
+    tool.warn(sentence + (o.doubts.empty() ? " (--doubts places.gpkg writes all)" : ""));
+  }
+  return json;
+}
+
 Json report_on(Tool& tool, const Options& o, const Trn& trn) {
   const talus::SlopeStatistics slopes = talus::slope_statistics(trn);
-  Json report = {{"tool", "talus-trn"},
-                 {"source", o.source},
-                 {"run_id", tool.run_id()},
-                 {"grid", as_json(trn, slopes)},
-                 {"slope", as_json(slopes)}};
+  Json report = {{"tool", "talus-trn"},      {"source", o.source},
+                 {"run_id", tool.run_id()},  {"grid", as_json(trn, slopes)},
+                 {"slope", as_json(slopes)}, {"in_doubt", doubts_of(tool, o, trn)}};
+  if (o.accept_doubts) report["doubts_accepted"] = true;
   if (!o.reference.empty())
     add_errors(tool, errors_against_dem(tool, trn, o.reference), "reference", o.reference, trn,
                report);
@@ -424,11 +538,14 @@ int main(int argc, char** argv) {
   declare(tool, o);
   return tool.run(argc, argv, [&] {
     std::vector<std::string> operations;
-    const Trn trn = is_tin(o.source) ? trn_of_tin(tool, o) : trn_of_dem(tool, o, operations);
+    const Trn trn =
+        talus::is_tin_file(o.source) ? trn_of_tin(tool, o) : trn_of_dem(tool, o, operations);
     talus::check_trn(trn, o.source);
     Json report = report_on(tool, o, trn);
     if (!operations.empty()) report["operations"] = operations;
-    talus::write_trn(tool.stage(o.out), trn, {{{"RUN_ID", tool.run_id()}}, o.creation_options});
+    talus::TrnFileOptions file{{{"RUN_ID", tool.run_id()}}, o.creation_options};
+    if (o.accept_doubts) file.tags["DOUBTS_ACCEPTED"] = "YES";
+    talus::write_trn(tool.stage(o.out), trn, file);
     if (!o.hillshade.empty()) talus::write_hillshade(tool.stage(o.hillshade), trn);
     if (!o.report.empty()) tool.write_text(o.report, report.dump(2) + "\n");
     tool.result(report, summary_of(report));

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "site/joint_list.hpp"
 #include "site/joint_plan.hpp"
 
 namespace {
@@ -62,22 +63,6 @@ TEST(PlanLimits, FollowTheExpectedCells) {
   EXPECT_DOUBLE_EQ(plan_limits(site, {}, 1000, 50).min_volume, 0.2);
 }
 
-TEST(ParseOrientations, ReadsPairsAndNamesBadLines) {
-  EXPECT_EQ(parse_orientations("# c\n10 80\n\n 20,70 # x\r\n30;60\n", "f").size(), 3u);
-  const auto refused = [](const std::string& text) -> std::string {
-    try {
-      static_cast<void>(parse_orientations(text, "f.txt"));
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "accepted";
-  };
-  EXPECT_EQ(refused("10 80\n10 steep\n"), "f.txt:2: \"steep\" is not a number");
-  EXPECT_EQ(refused("10 80 3\n"), "f.txt:1: 3 numbers, expected 2");
-  EXPECT_EQ(refused("\n400 80\n"), "f.txt:2: dip direction is 400, expected 0 to 360");
-  EXPECT_EQ(refused("# nothing\n"), "f.txt: holds no orientation");
-}
-
 // A published list of measurements: its three sets are found where an eye on the net finds them.
 TEST(PlanJointSets, GroupsAPublishedListOfMeasurements) {
   const std::string path =
@@ -86,7 +71,7 @@ TEST(PlanJointSets, GroupsAPublishedListOfMeasurements) {
   if (!file) GTEST_SKIP() << "no ../shared/data";
   std::ostringstream content;
   content << file.rdbuf();
-  const auto poles = parse_orientations(content.str(), path);
+  const auto poles = read_orientations(content.str(), path).poles;
   const Site site =
       parse_site("[joints.m]\nspacing_m = 1\nmeasured_file = 'x'\nn_sets = 3\n", "s.toml");
   const auto sets = plan_joint_sets(site, {poles});
@@ -102,4 +87,23 @@ TEST(PlanJointSets, GroupsAPublishedListOfMeasurements) {
                   std::abs(p.dot(pole(other.set.dip, other.set.dip_direction))));
   }
   EXPECT_EQ(n, poles.size());
+}
+
+// Declination is added, convergence taken off; a section's own value goes before the common one.
+TEST(PlanJointSets, TurnsCompassAzimuthsToTheMapsNorth) {
+  const Site site = parse_site(
+      "[joints]\ndeclination_deg = 12\nconvergence_deg = -1.5\n"
+      "[joints.compass]\ndip_deg = 40\ndip_direction_deg = 350\nspacing_m = 5\n"
+      "[joints.list]\nmeasured = [[100, 80]]\nspacing_m = 5\n"
+      "[joints.cloud]\nmeasured_file = 'f'\nspacing_m = 5\ndeclination_deg = 0\n"
+      "convergence_deg = 0\n",
+      "s.toml");
+  const Vec3 of_file = checked_pole(200, 30, {});
+  const auto sets = plan_joint_sets(site, {{}, {}, {of_file}});
+  ASSERT_EQ(sets.size(), 3u);
+  EXPECT_NEAR(sets[0].set.dip_direction / degree, 3.5, 1e-12);
+  EXPECT_NEAR(sets[1].set.dip_direction / degree, 113.5, 1e-9);
+  EXPECT_NEAR(sets[1].set.dip / degree, 80, 1e-9);
+  EXPECT_EQ(sets[2].measured_poles[0], of_file);
+  EXPECT_EQ(refusal("[joints]\ndeclination = 4\n[joints.a]\n").find("s.toml:2: joints.decl"), 0u);
 }
