@@ -120,7 +120,7 @@ std::int64_t fixed_bodies_looked_at(const Scene& scene, int n_steps) {
   State state = start(scene);
   Work work = make_work(scene);
   for (int k = 0; k < n_steps; ++k) step(scene, state, work);
-  EXPECT_GT(state.motion[0].velocity.norm(), 1);
+  EXPECT_GT(state.motion[0].velocity.norm(), 0.5);  // they slide: 0.92 m/s by the slope alone
   EXPECT_TRUE(state.yielding.shifted.empty());
   return work.search.n_fixed_near;
 }
