@@ -73,7 +73,7 @@ std::string blocks_of(const RunFile& run, const Trn& trn) {
     starts += shape("start", path_of(footprint(run, b, first_pose(run, b)), place, true), name);
     if (n_frames(run.frames) == 0) continue;
     const TimedPath path = simplified(block_path(run, b), 0.25);
-    paths += shape("way", path_of(plan_of(way.point), place, false), name);
+    paths += shape("way", path_of(plan_of(path.point), place, false), name);
     ends += shape("end", path_of(footprint(run, b, last_pose(run, b)), place, true), name);
   }
   return starts + paths + ends;

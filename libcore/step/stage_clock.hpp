@@ -45,7 +45,7 @@ class StageTimer {
   ~StageTimer() {
     if (clock_ == nullptr) return;
     const double spent = std::chrono::duration<double>(Clock::now() - begin_).count();
-    clock_->seconds[stage_] += spent - within_;
+    clock_->seconds[static_cast<std::size_t>(stage_)] += spent - within_;
     clock_->running = outer_;
     if (outer_ != nullptr) outer_->within_ += spent;
   }

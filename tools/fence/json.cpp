@@ -84,7 +84,7 @@ Json design_json(const DesignResult& r, bool with_steps) {
 const char* basis_name(DesignBasis basis) {
   constexpr std::array names = {"line that stops nothing", "line without the fence",
                                 "first touches"};
-  return names[basis];
+  return names[static_cast<std::size_t>(basis)];
 }
 
 Json field_list(const Fence& fence, const FenceResult& result) {

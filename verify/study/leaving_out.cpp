@@ -279,7 +279,7 @@ void add_items_of_ground(std::vector<Omission>& out) {
                  }});
   out.push_back({"base motion", "one rock until it lands, 0.25 s", 1e-12, 0, [](bool kept) {
                    Scene scene = rocks(1);
-                   if (kept) scene.base = {{0, 1e9}, {Vec3::Zero(), Vec3::Zero()}};
+                   if (kept) scene.base = {{0, 1e9}, {Vec3::Zero(), Vec3::Zero()}, {}};
                    return run_scene(std::move(scene), 0.25);
                  }});
   out.push_back({"flight without search", "three rocks, 6 s", 0, 0, [](bool kept) {

@@ -112,7 +112,7 @@ bool is_held(const RunFile& file, int line, const Fence& fence, int block, int d
 const char* text(Verdict verdict) {
   constexpr std::array names = {"stopped",       "pierced",        "free_border", "overtopped",
                                 "bypassed_left", "bypassed_right", "underpassed", "not_reached"};
-  return names[verdict];
+  return names[static_cast<std::size_t>(verdict)];
 }
 
 Fence make_fence(const RecordLine& line, const FenceSettings& settings) {

@@ -245,7 +245,7 @@ const char* text(DesignVerdict verdict) {
   constexpr std::array names = {
       "meets",        "does not meet",     "energy not checked", "too few arrivals",
       "nothing came", "first touches only"};
-  return names[verdict];
+  return names[static_cast<std::size_t>(verdict)];
 }
 
 std::string text(const DesignResult& r) {

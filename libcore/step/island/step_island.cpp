@@ -88,7 +88,7 @@ void make_substep(const Scene& scene, double t, double h, State& state, Work& wo
              work.segments, work.deep, report);
       return;
     }
-    ++report.cuts[verdict.reason];
+    ++report.cuts[static_cast<std::size_t>(verdict.reason)];
     state.counters.cut_back += verdict.reason == SubstepCut::unconverged;
     note_cut(verdict.reason, w.end, w.tries);
     h = verdict.h;
