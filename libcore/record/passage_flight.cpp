@@ -98,10 +98,10 @@ struct FlightRecord {
     float& top = tracker().pending.top_height;
     if (std::isnan(centroid) || static_cast<float>(centroid + top_bound) <= top) return;
     if (to - from == 1) {
-      HeightPath piece = path(from, to);
-      piece.top_from = instant_at(from).instant.top;
-      piece.top_to = instant_at(to).instant.top;
-      const auto height = static_cast<float>(largest_heights(scene.ground.trn, piece, 0, 1).top);
+      HeightPath whole = path(from, to);
+      whole.top_from = instant_at(from).instant.top;
+      whole.top_to = instant_at(to).instant.top;
+      const auto height = static_cast<float>(largest_heights(scene.ground.trn, whole, 0, 1).top);
       if (!(height <= top)) top = height;
       return;
     }

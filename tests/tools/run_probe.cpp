@@ -26,7 +26,7 @@
 #include "io/raster_gdal.hpp"
 #include "record/run_file.hpp"
 #include "site/site.hpp"
-#include "unit/store/hand_made.hpp"
+#include "unit/record/hand_made.hpp"
 
 namespace {
 

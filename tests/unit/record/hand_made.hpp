@@ -1,4 +1,4 @@
-// tests/unit/store/hand_made.hpp
+// tests/unit/record/hand_made.hpp
 // Scenes and motions made by hand: what the recorder is shown without a solver behind it.
 #pragma once
 
