@@ -6,10 +6,10 @@
 
 #include "base/error.hpp"
 #include "base/sha256.hpp"
-#include "hand_made.hpp"
 #include "io/h5_hdf5.hpp"
 #include "record/run_file.hpp"
 #include "store/checkpoint.hpp"
+#include "unit/record/hand_made.hpp"
 
 namespace {
 
