@@ -281,9 +281,7 @@ class Cutter {
  private:
   bool is_side(int j) const { return j >= static_cast<int>(joints_.size()); }
   const AreaSide& area_side(int j) const { return sides_[static_cast<size_t>(j) - joints_.size()]; }
-  const Plane& plane_of(int j) const {
-    return is_side(j) ? area_side(j).plane : joints_[static_cast<size_t>(j)].plane;
-  }
+  const Plane& plane_of(int j) const { return is_side(j) ? area_side(j).plane : joints_[j].plane; }
   double tolerance_of(int j) const { return is_side(j) ? side_tolerance_ : tolerance_; }
 
   // Points of the plane's section through the piece, its corners among them.

@@ -6,7 +6,7 @@
 #include "base/error.hpp"
 #include "io/h5_hdf5.hpp"
 #include "io/write_bytes.hpp"
-#include "store/run_file.hpp"
+#include "record/run_file.hpp"
 #include "store/run_file_tables_hdf5.hpp"
 
 namespace talus {

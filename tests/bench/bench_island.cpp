@@ -5,7 +5,7 @@
 #include <benchmark/benchmark.h>
 
 #include "../unit/dda/island_scenes.hpp"
-#include "dda/island_solver.hpp"
+#include "solver/island_solver.hpp"
 
 namespace {
 

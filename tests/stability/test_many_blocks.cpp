@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "stability/block_scenes.hpp"
-#include "verify/block_cases.hpp"
+#include "verify/cases/block_cases.hpp"
 
 namespace {
 

@@ -55,7 +55,7 @@ bad_points() { # bad_points GEOMETRY WORDS
   nothing_left off.tif
 }
 bad_points '{"type":"Point","coordinates":[500010,5200010]}' "the points have no elevation: they are 2-D"
-bad_points '{"type":"LineString","coordinates":[[500010,5200010,1],[500020,5200010,1]]}' "feature 0: the geometry is LINESTRING"
+bad_points '{"type":"LineString","coordinates":[[500010,5200010,1],[500020,5200010,1]]}' "layer bad: holds no points, but 1 line; expected points"
 bad_points null "1 of 1 features have no geometry"
 
 # what does not fit is refused
