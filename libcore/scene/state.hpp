@@ -57,6 +57,21 @@ struct DeepBlock {
   bool is_too_fast = false;   ///< at some time since, it was faster than its fall can have made it
 };
 
+/// A block that something happened to, when and where.
+struct Mishap {
+  int block = -1;             ///< -1: it did not happen
+  int partner = -1;           ///< of an overlap: the other body; -1: the ground
+  double depth = 0;           ///< of an overlap [m]
+  double time = 0;            ///< end of the step [s]
+  Vec3 place = Vec3::Zero();  ///< of the block's centroid then [m]
+};
+
+/// What the limits of a run's health name (step/mishaps.hpp): the deepest overlap, and the first
+/// block of each other kind.
+struct Mishaps {
+  Mishap deepest, unconverged, not_finite, left_domain, fell_through;
+};
+
 /// Phases, local times and rest of the blocks are those of BlockLives.
 struct State : BlockLives {  // clang-format off
   double time = 0;                          ///< end of the last step [s]
@@ -72,6 +87,7 @@ struct State : BlockLives {  // clang-format off
   PlacedHulls placed;                       ///< where the pairs were searched last
   std::vector<BlockBond> bonds;             ///< sorted by block_a, block_b            (n_bonds)
   std::vector<DeepBlock> deep;              ///<                                     (n_blocks)
+  Mishaps mishaps;                          ///< so far
   YieldingState yielding;                   ///< what fixed bodies that give way have met
   FenceState fence;                         ///< what touched the panels of fences
   PaperState paper;                         ///< of law paper alone

@@ -112,6 +112,23 @@ bool is_too_fast(const Scene& scene, const State& state, size_t b) {
   return motion.velocity.squaredNorm() > 2 * fall + blocks.velocity[b].squaredNorm();
 }
 
+// What a block is in, by its body and not by its contact.
+int partner_of(const Scene& scene, const State& state, int b, DeepWork& w) {
+  w.is_suspect[static_cast<size_t>(b)] = 1;
+  place_suspects(scene, state, w);
+  measure_pairs(scene, state, w);
+  w.is_suspect[static_cast<size_t>(b)] = 0;
+  return overlap_of(scene, b, w).partner;
+}
+
+void note_deepest(const Scene& scene, State& state, DeepWork& w, const StepReport& report) {
+  Mishap& deepest = state.mishaps.deepest;
+  if (report.deepest_block < 0 || report.largest_penetration <= deepest.depth) return;
+  const int b = report.deepest_block;
+  deepest = {b, partner_of(scene, state, b, w), report.largest_penetration, state.time,
+             motion_at(scene, state, b, state.time).pose.position};
+}
+
 }  // namespace
 
 void note_deep_blocks(const Scene& scene, State& state, DeepWork& w, StepReport& report) {
@@ -125,7 +142,10 @@ void note_deep_blocks(const Scene& scene, State& state, DeepWork& w, StepReport&
     const Phase phase = state.phase[b];
     if (w.is_suspect[b] != 0 && takes_part(phase)) {
       const Overlap overlap = overlap_of(scene, static_cast<int>(b), w);
-      report.largest_penetration = std::max(report.largest_penetration, overlap.depth);
+      if (overlap.depth > report.largest_penetration) {
+        report.largest_penetration = overlap.depth;
+        report.deepest_block = static_cast<int>(b);
+      }
       deep.is_deep = overlap.depth > law::deep_share * scene.blocks.shapes.thickness[b];
       if (deep.is_deep) take(overlap, state.motion[b].pose.position, state.time, deep);
     } else if (phase != Phase::asleep) {  // asleep it stays as deep as it was
@@ -138,6 +158,7 @@ void note_deep_blocks(const Scene& scene, State& state, DeepWork& w, StepReport&
     }
     if (deep.steps > 0 && takes_part(phase)) deep.is_too_fast |= is_too_fast(scene, state, b);
   }
+  note_deepest(scene, state, w, report);
 }
 
 }  // namespace talus

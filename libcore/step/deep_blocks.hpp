@@ -20,13 +20,16 @@ namespace talus {
 /// `block`: the thinner of its two.
 inline void note_overlap(int block, double overlap, double thickness, DeepWork& deep,
                          StepReport& report) {
-  if (overlap > law::suspect_share * thickness)
+  if (overlap > law::suspect_share * thickness) {
     deep.is_suspect[block] = 1;
-  else if (overlap > report.largest_penetration)
+  } else if (overlap > report.largest_penetration) {
     report.largest_penetration = overlap;
+    report.deepest_block = block;
+  }
 }
 
-/// Measures the suspects of the step that has just ended at state.time.
+/// Measures the suspects of the step that has just ended at state.time; the deepest of the run so
+/// far goes into state.mishaps.
 void note_deep_blocks(const Scene& scene, State& state, DeepWork& w, StepReport& report);
 
 }  // namespace talus

@@ -12,6 +12,7 @@
 #include "step/flight.hpp"
 #include "step/island/step_island.hpp"
 #include "step/lone/step_talus.hpp"
+#include "step/mishaps.hpp"
 #include "step/paper/step_paper.hpp"
 #include "step/settle.hpp"
 #include "step/substep.hpp"
@@ -167,6 +168,7 @@ StepReport step(const Scene& scene, State& state, Work& work) {
     advance_talus(scene, state, work, report);
   state.time += scene.settings.dt;
   note_deep_blocks(scene, state, work.deep, report);
+  note_mishaps(scene, report, state);
   ++state.counters.steps;
   state.counters.substeps += report.substeps;
   state.counters.impacts += report.n_impacts;

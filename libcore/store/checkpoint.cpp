@@ -18,11 +18,11 @@ static_assert(sizeof(ContactMemory) == 136 &&
               sizeof(HealthRow) == 176 + 8 * substep_cut_names.size());
 static_assert(sizeof(State) == 8 + 15 * 24 + sizeof(EnergyLedger) + sizeof(RunCounters) +
                                    sizeof(PairState) + sizeof(PlacedHulls) + sizeof(FenceState) +
-                                   sizeof(YieldingState));
+                                   sizeof(YieldingState) + sizeof(Mishaps));
 static_assert(sizeof(YieldingState) == 2 * 24 && sizeof(Yielded) == 56);
 static_assert(sizeof(FenceState) == 24 && sizeof(FenceHit) == 104 && sizeof(BlockBond) == 48);
 static_assert(sizeof(PairState) == 280 && sizeof(PlacedHulls) == 192 && sizeof(ListedPair) == 96);
-static_assert(sizeof(DeepBlock) == 64);
+static_assert(sizeof(DeepBlock) == 64 && sizeof(Mishap) == 48 && sizeof(Mishaps) == 5 * 48);
 static_assert(sizeof(PairWatch) == 16 && sizeof(HeldPoint) == 24);
 
 template <class Archive>
@@ -65,6 +65,15 @@ template <class Archive>
 void fields(Fields<Archive>& archive, DeepBlock& deep) {
   archive(deep.steps, deep.first_time, deep.depth, deep.time, deep.place, deep.partner,
           deep.is_deep, deep.is_too_fast);
+}
+template <class Archive>
+void fields(Fields<Archive>& archive, Mishap& mishap) {
+  archive(mishap.block, mishap.partner, mishap.depth, mishap.time, mishap.place);
+}
+template <class Archive>
+void fields(Fields<Archive>& archive, Mishaps& mishaps) {
+  archive(mishaps.deepest, mishaps.unconverged, mishaps.not_finite, mishaps.left_domain,
+          mishaps.fell_through);
 }
 template <class Archive>
 void fields(Fields<Archive>& archive, RunCounters& counters) {
@@ -116,8 +125,8 @@ void fields(Fields<Archive>& archive, State& state) {
   archive(state.time, state.motion, state.local_time, state.flight_end, state.phase,
           state.acceleration, state.spin_rate, state.support, state.paper.rebound, state.rest_pose,
           state.rest_steps, state.strain, state.strain_rate, state.memory, state.pairs,
-          state.placed, state.bonds, state.deep, state.yielding, state.fence, state.ledger,
-          state.counters);
+          state.placed, state.bonds, state.deep, state.mishaps, state.yielding, state.fence,
+          state.ledger, state.counters);
 }
 template <class Archive>
 void fields(Fields<Archive>& archive, PassageValues& values) {
@@ -157,7 +166,7 @@ void fields(Fields<Archive>& archive, Checkpoint& checkpoint) {
 
 namespace {
 
-constexpr std::uint64_t format = 0x37306b6365686374;  // "tcheck07"
+constexpr std::uint64_t format = 0x38306b6365686374;  // "tcheck08"
 constexpr std::size_t digest_length = 64;
 
 std::string digest_of(std::span<const std::uint8_t> bytes) {
@@ -179,6 +188,10 @@ bool fits(const Checkpoint& checkpoint, std::size_t n_blocks, int n_cells) {
                           state.memory.size(), state.deep.size(), sampler.next.size(),
                           sampler.latest.size()}))
     return false;
+  const Mishaps& mishaps = state.mishaps;
+  for (const Mishap& mishap : {mishaps.deepest, mishaps.unconverged, mishaps.not_finite,
+                               mishaps.left_domain, mishaps.fell_through})
+    if (mishap.block >= static_cast<int>(n_blocks)) return false;
   if (!checkpoint.trackers.empty() && checkpoint.trackers.size() != n_blocks) return false;
   for (const PassageTracker& tracker : checkpoint.trackers)
     for (const int cell : tracker.covered)

@@ -128,11 +128,7 @@ Json deep_blocks_of(const RunFile& file) {
 // What the run says of them in one line: those that matter first, then the heaviest.
 std::string deep_warning(const RunFile& file) {
   constexpr size_t most = 3;
-  std::vector<DeepRow> rows = file.deep;
-  std::stable_sort(rows.begin(), rows.end(), [](const DeepRow& a, const DeepRow& b) {
-    const int a_matters = n_that_matter({&a, 1}), b_matters = n_that_matter({&b, 1});
-    return a_matters != b_matters ? a_matters > b_matters : a.mass_share > b.mass_share;
-  });
+  const std::vector<DeepRow> rows = by_weight(file.deep);
   std::string words = counted(static_cast<std::int64_t>(rows.size()), "block") + " of " +
                       text(100 * mass_share(rows), 3) +
                       " % of the mass came in by more than a tenth of " +
@@ -181,7 +177,8 @@ Json run_report(const Runner& runner, const ScenePlan& plan, double cpu_s) {
     json["health"].push_back({{"check", check.name},
                               {"value", check.value},
                               {"limit", check.limit},
-                              {"pass", check.pass}});
+                              {"pass", check.pass},
+                              {"where", check.where}});
   json["deep_blocks"] = deep_blocks_of(file);
   json["plan"] = plan_json(plan);
   return json;
@@ -216,11 +213,14 @@ void record_health(Tool& tool, Runner& runner) {
     runner.file.info.warnings += (runner.file.info.warnings.empty() ? "" : "\n") + words;
   }
   for (const HealthCheck& check : health_checks(runner)) {
-    tool.check(check.name, check.value, check.limit, check.pass, health_hint(check.name));
+    const std::string hint = health_hint(check.name);
+    tool.check(check.name, check.value, check.limit, check.pass,
+               check.where + (check.where.empty() || hint.empty() ? "" : "; ") + hint);
     if (check.pass) continue;
     runner.file.info.status = "failed";
     runner.file.info.reason += (runner.file.info.reason.empty() ? "" : "; ") + check.name + " is " +
-                               text(check.value, 6) + ", limit " + text(check.limit, 6);
+                               text(check.value, 6) + ", limit " + text(check.limit, 6) +
+                               (check.where.empty() ? "" : " (" + check.where + ")");
   }
 }
 

@@ -206,6 +206,13 @@ struct SubstepAcceptance {
   }
 };
 
+int heaviest_of(const Scene& scene, const IslandMembers& members) {
+  const std::vector<double>& mass = scene.blocks.mass;
+  return *std::max_element(members.blocks.begin(), members.blocks.end(), [&](int a, int b) {
+    return mass[static_cast<size_t>(a)] < mass[static_cast<size_t>(b)];
+  });
+}
+
 // Bonds of the substep that broke are gone; those with the ground have left the memories already.
 void break_bonds(const SubstepTries& tries, State& state) {
   for (const int bond : tries.broken)
@@ -221,7 +228,10 @@ void accept(const Scene& scene, const IslandMembers& members, const FreeMotions&
   SubstepAcceptance acceptance{scene, members, free,     system, hits,
                                end,   state,   segments, deep,   report};
   report.n_impacts += static_cast<int>(hits.hits.size());
-  if (!converged) ++report.n_unconverged, report.flags = report.flags | StepFlag::unconverged;
+  if (!converged) {
+    note_unconverged(heaviest_of(scene, members), report);
+    report.flags = report.flags | StepFlag::unconverged;
+  }
   if (system.fell_through) report.flags = report.flags | StepFlag::fell_through;
   break_bonds(tries, state);
   acceptance.remember();

@@ -84,7 +84,7 @@ struct Advance {
     state.ledger.impact += hit.dissipated;
     ++report.n_impacts;
     report.passes += hit.passes;
-    if (!hit.converged) ++report.n_unconverged;
+    if (!hit.converged) note_unconverged(b, report);
     forget_rates(scene, b, state);
     state.support[i()].setZero();
     return true;
@@ -139,7 +139,7 @@ struct Advance {
         ++state.counters.cut_back;
         return shorten(h / 2, h);
       }
-      ++report.n_unconverged;
+      note_unconverged(b, report);
       report.flags = report.flags | StepFlag::unconverged;
     }
     if (break_bonds()) return Attempt::shorter;
