@@ -44,8 +44,8 @@ int row_of(const ContactMemory& memory, std::span<const Contact> contacts) {
 
 // Where the stiffness of a contact is not what it was, its springs keep their forces. What they
 // were pressed in beyond that would throw the block; it presses nothing from now on, and again when
-// the contact is as soft as before. A contact that becomes softer carries no more than it did, since
-// what presses overlap out of a stiff one is mostly taken up by damping.
+// the contact is as soft as before. A contact that becomes softer carries no more than it did,
+// since what presses overlap out of a stiff one is mostly taken up by damping.
 void keep_force(double k_n, ContactRow& row) {
   const double share = row.last_stiffness / k_n;
   const double pressed_in = std::max(0.0, -(row.gap_start + row.offset));
