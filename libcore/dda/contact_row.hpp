@@ -64,6 +64,7 @@ struct ContactRow : KeptContact {  // clang-format off
   // an island in its lanes
   Vec3 impulse = Vec3::Zero();    ///< on A; B gets the opposite [N s]
   ContactState state = ContactState::open;
+  bool stuck = false;             ///< at the end of the last step
   double give = 0;                ///< an impact: speed by which it gives under its impulse [m/s]
   // a lone block: the law at its last evaluation
   bool gives_way = false;         ///< the normal impulse is at its limit

@@ -160,9 +160,11 @@ void remember(const BlockNumbers& c, const Substep& s, const Solved<Dof>& solved
     state.ledger.contact -= p_n * along * per_h;
     state.ledger.friction -= p_t.dot(moved) * per_h;
     const double offset = std::max(0.0, row.offset - relax);
-    const Vec3 shear = row.state == ContactState::slip
-                           ? Vec3((-c.recovery_time / row.shear_damping) * p_t)
-                           : Vec3(row.shear + moved - along * row.normal);
+    // One that begins to stick within the substep has not been wound up by what it slid before
+    // that; it holds what it bears, like one that slips.
+    const bool winds_up = row.state == ContactState::stick && row.stuck;
+    const Vec3 shear = winds_up ? Vec3(row.shear + moved - along * row.normal)
+                                : Vec3((-c.recovery_time / row.shear_damping) * p_t);
     memory.push_back(
         {.key = row.key,
          .normal = contact.normal,

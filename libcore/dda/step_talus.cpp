@@ -36,7 +36,7 @@ double first_hit(const BlockNumbers& c, const Substep& s, const Solved<Dof>& sol
 
 // An error in the speed of a contact that is not looked into: this part of the block's speed, and
 // of what gravity does in the substep.
-constexpr double of_speed = 5e-5, of_gravity = 1e-3;
+constexpr double of_speed = 2e-5, of_gravity = 1e-3;
 
 /// Outcome of one attempt at a substep.
 enum class Attempt { done, shorter, impact, flight, left };
@@ -108,11 +108,22 @@ struct Advance {
       return 0.0;
     };
     const double slow = of_speed * top_speed() + of_gravity * c.gravity * s.h;
+    BlockSystem<Dof> followed = system;  // what the drifts follow
     follow();
     NewtonResult result = solve_contacts(system, rows, scene.settings.max_passes);
-    for (int i = 0; i < most_turns && result.converged && follow() > slow; ++i) {
+    for (int i = 0; i < most_turns && result.converged; ++i) {
+      const BlockSystem<Dof> found = system;
+      if (follow() <= slow) break;
       const NewtonResult again = solve_contacts(system, rows, scene.settings.max_passes);
-      result = {again.converged, result.passes + again.passes};
+      result.passes += again.passes;
+      if (again.converged) {
+        followed = found;
+        continue;
+      }
+      system = followed;  // there may be no solution, in a jam: the one before stands
+      follow();
+      system = found;
+      return {solve_contacts(system, rows, scene.settings.max_passes).converged, result.passes};
     }
     return result;
   }

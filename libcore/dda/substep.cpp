@@ -228,6 +228,7 @@ void forget_last_step(ContactRow& row) {
   row.cohesion_impulse = row.tension_impulse = 0;
   row.normal_limit = no_normal_limit;
   row.memory = -1;
+  row.stuck = false;
   row.cap = 0;
   row.impulse.setZero();
   row.state = ContactState::open;
@@ -247,6 +248,7 @@ Mat3 stretch_of(const State& state, int b) {
 void inherit(const ContactMemory& memory, int index, bool same_features, const Mat3& to_row,
              const BlockNumbers& c, ContactRow& row) {
   row.memory = index;
+  row.stuck = memory.state == static_cast<std::uint8_t>(ContactState::stick);
   row.last_stiffness = memory.stiffness;
   row.last_force = memory.normal_force;
   row.bond_area = memory.bond_area;
