@@ -9,7 +9,7 @@ execute_process(COMMAND git -C ${SOURCE} show --no-patch --format=%cs HEAD
 if(failed OR NOT date)
   set(date unknown)
 endif()
-set(text "#include \"build_info.hpp\"\n\nnamespace talus {\nconst char* const build_version = \"${VERSION}\";\nconst char* const build_commit = \"${commit}\";\nconst char* const build_commit_date = \"${date}\";\n}  // namespace talus\n")
+set(text "#include \"tools/frame/build_info.hpp\"\n\nnamespace talus {\nconst char* const build_version = \"${VERSION}\";\nconst char* const build_commit = \"${commit}\";\nconst char* const build_commit_date = \"${date}\";\n}  // namespace talus\n")
 if(EXISTS ${OUTPUT})
   file(READ ${OUTPUT} old)
 endif()

@@ -10,7 +10,7 @@ function(talus_shipped_data out folder)
   endforeach()
   set(source ${CMAKE_CURRENT_BINARY_DIR}/${out}.cpp)
   file(CONFIGURE OUTPUT ${source} @ONLY CONTENT [[
-#include "shipped_data.hpp"
+#include "tools/frame/shipped_data.hpp"
 
 #include <map>
 

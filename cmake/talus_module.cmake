@@ -1,4 +1,4 @@
-# talus_module(NAME [DEPENDS module...]): one folder of libcore, one target.
+# talus_module(NAME [DEPENDS module...]): one folder with its subfolders, one target.
 #
 # Plain sources become talus_NAME, which needs Eigen and the modules it depends on. A source whose
 # name ends in _cgal, _gdal, _hdf5, _sqlite or _toml becomes part of talus_NAME_cgal and so on, which
@@ -6,23 +6,40 @@
 
 add_library(talus_options INTERFACE)
 target_compile_options(talus_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Werror)
-target_include_directories(talus_options INTERFACE ${PROJECT_SOURCE_DIR}/libcore)
+target_include_directories(talus_options INTERFACE ${PROJECT_SOURCE_DIR}/libcore ${PROJECT_SOURCE_DIR})
+
+# The headers that nearly every source includes are compiled once. A source names all that it uses
+# nevertheless: the release preset builds without this.
+option(TALUS_PRECOMPILED "Compile the common headers of libcore and of the tests once" OFF)
+set(talus_common_headers <Eigen/Geometry> <algorithm> <array> <cmath> <functional> <map> <optional>
+    <span> <string> <vector>)
+function(talus_precompiled target owner)
+  if(NOT TALUS_PRECOMPILED)
+    return()
+  endif()
+  if(target STREQUAL owner)
+    target_precompile_headers(${target} PRIVATE ${talus_common_headers} ${ARGN})
+  else()
+    target_precompile_headers(${target} REUSE_FROM ${owner})
+  endif()
+endfunction()
 
 set(TALUS_LIBRARY_cgal CGAL::CGAL)
-set(TALUS_LIBRARY_gdal GDAL::GDAL)
+set(TALUS_LIBRARY_gdal GDAL::GDAL PROJ::proj)
 set(TALUS_LIBRARY_hdf5 hdf5::hdf5)
 set(TALUS_LIBRARY_sqlite SQLiteCpp SQLite::SQLite3)
 set(TALUS_LIBRARY_toml tomlplusplus::tomlplusplus)
 
 function(talus_module name)
   cmake_parse_arguments(ARG "" "" "DEPENDS" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
   set(plain ${sources})
   list(FILTER plain EXCLUDE REGEX "_(cgal|gdal|hdf5|sqlite|toml)\\.cpp$")
   list(TRANSFORM ARG_DEPENDS PREPEND talus_ OUTPUT_VARIABLE modules)
 
   if(plain)
     add_library(talus_${name} STATIC ${plain})
+    talus_precompiled(talus_${name} talus_base)
     set(scope PUBLIC)
   else()
     add_library(talus_${name} INTERFACE)
@@ -35,6 +52,7 @@ function(talus_module name)
     list(FILTER own INCLUDE REGEX "_${library}\\.cpp$")
     if(own)
       add_library(talus_${name}_${library} STATIC ${own})
+      talus_precompiled(talus_${name}_${library} talus_base)
       target_link_libraries(talus_${name}_${library} PUBLIC talus_${name}
                             PRIVATE ${TALUS_LIBRARY_${library}})
       foreach(module ${modules})  # io_hdf5 serves store_hdf5

@@ -2,4 +2,4 @@
 # Every source is as clang-format 14 leaves it.
 cd "$1" || exit 1
 command -v clang-format-14 >/dev/null 2>&1 || { echo "clang-format-14 is not installed"; exit 1; }
-git ls-files -z 'libcore/*.[ch]pp' 'tools/*.[ch]pp' 'tests/*.[ch]pp' | xargs -0 -r clang-format-14 --dry-run -Werror
+git ls-files -z 'libcore/*.[ch]pp' 'verify/*.[ch]pp' 'tools/*.[ch]pp' 'tests/*.[ch]pp' | xargs -0 -r clang-format-14 --dry-run -Werror

@@ -1,15 +1,22 @@
 #!/usr/bin/env python3
-"""Checks the rules of inclusion: modules of libcore include one way, in their fixed order; rooms of a
-module (a .cpp and its .hpp are one) include each other in no circle; the headers of a library stay in
-the sources that carry its name, also in tools; and a plain file includes no header of a source that
-needs a library, so that plain targets link alone."""
+"""Checks the rules of inclusion.
+
+- Modules of libcore include one way, in their fixed order; verify and tools stand above all of them.
+- Rooms of libcore (a .cpp and its .hpp are one) include each other in no circle.
+- A header that other modules include says so in its first line: `// libcore/step/step.hpp: public`.
+  All others are private to their module. Tests and benchmarks may include any.
+- A tool includes its own folder, tools/frame and libcore; tools/frame includes no tool.
+- The headers of a library stay in the sources that carry its name; tools use none.
+- A plain file includes no header of a source that needs a library, so that plain targets link alone.
+- A source of libcore without a header of its own says in its first line what it is.
+"""
 import graphlib
 import pathlib
 import re
 import sys
 
-MODULES = ["base", "geometry", "terrain", "blocks", "scene", "contact", "dda", "io", "store", "post",
-           "report", "verify"]
+MODULES = ["base", "geometry", "motion", "terrain", "blocks", "site", "contact", "solver", "scene", "step",
+           "io", "record", "store", "run", "post", "report", "verify"]
 LIBRARY_HEADERS = {
     "cgal": re.compile(r"^(CGAL|boost)/"),
     "gdal": re.compile(r"^(gdal|ogr|cpl_|proj)"),
@@ -27,13 +34,26 @@ def library_of(path):
     return word if word in LIBRARY_HEADERS else ""
 
 
+def sources_of(root, *folders):
+    return [path for folder in folders for path in sorted((root / folder).rglob("*.[ch]pp"))]
+
+
+def own_includes(path):
+    return [header for bracket, header in INCLUDE.findall(path.read_text()) if bracket == '"']
+
+
+def module_of(root, path):
+    """libcore/step/lone/flight.hpp -> step; verify/cases/cases.hpp -> verify; tools/dda/x.hpp -> tools/dda."""
+    parts = path.relative_to(root).parts
+    return {"libcore": parts[1], "verify": "verify"}.get(parts[0], "/".join(parts[:2]))
+
+
 def circles_of(root):
     """A circle of rooms of libcore, as one sentence; none where every room can be built on those below."""
     rooms = {}
-    for path in sorted((root / "libcore").rglob("*.[ch]pp")):
+    for path in sources_of(root, "libcore"):
         room = str(path.relative_to(root / "libcore").with_suffix(""))
-        included = {header.rsplit(".", 1)[0] for bracket, header in INCLUDE.findall(path.read_text())
-                    if bracket == '"'}
+        included = {header.rsplit(".", 1)[0] for header in own_includes(path)}
         rooms.setdefault(room, set()).update(included - {room})
     try:
         graphlib.TopologicalSorter(rooms).prepare()
@@ -42,10 +62,50 @@ def circles_of(root):
             ": rooms in a circle; move what they share into a room below them"
 
 
+def marks_of(root):
+    """Headers whose first line does not say what they are: their path, and whether others use them."""
+    used_by = {}
+    for path in sources_of(root, "libcore", "verify", "tools"):
+        for header in own_includes(path):
+            used_by.setdefault(header, set()).add(module_of(root, path))
+    for path in sources_of(root, "libcore"):
+        if path.suffix != ".hpp":
+            continue
+        name = str(path.relative_to(root))
+        users = used_by.get(name.removeprefix("libcore/"), set()) - {module_of(root, path)}
+        wanted = f"// {name}" + (": public" if users else "")
+        found = path.read_text().split("\n", 1)[0]
+        if found != wanted:
+            why = f"included by {sorted(users)[0]}" if users else "included by its own module alone"
+            yield f"{name} begins with '{found}', not with '{wanted}': it is {why}"
+
+
+def first_lines_of(root):
+    for path in sources_of(root, "libcore", "verify"):
+        if path.suffix == ".cpp" and not path.with_suffix(".hpp").exists() and \
+                not path.read_text().startswith("// "):
+            yield f"{path.relative_to(root)} has no header of its own: say in its first line what it is"
+
+
+def tools_of(root):
+    for path in sources_of(root, "tools"):
+        folder = module_of(root, path)
+        for bracket, header in INCLUDE.findall(path.read_text()):
+            where = f"{path.relative_to(root)} includes {header}"
+            if bracket == "<" and any(pattern.match(header) for pattern in LIBRARY_HEADERS.values()):
+                yield f"{where}: tools use libraries through libcore only"
+            if bracket == '"' and header.startswith("tools/") and \
+                    "/".join(header.split("/")[:2]) not in (folder, "tools/frame"):
+                yield f"{where}: a tool includes its own folder and tools/frame; move what two share there"
+
+
 def problems_of(root):
     yield from circles_of(root)
-    for path in sorted((root / "libcore").rglob("*.[ch]pp")):
-        module = path.relative_to(root / "libcore").parts[0]
+    yield from marks_of(root)
+    yield from first_lines_of(root)
+    yield from tools_of(root)
+    for path in sources_of(root, "libcore", "verify"):
+        module = module_of(root, path)
         suffix = library_of(path)
         for bracket, header in INCLUDE.findall(path.read_text()):
             where = f"{path.relative_to(root)} includes {header}"
@@ -55,9 +115,9 @@ def problems_of(root):
                     yield f"{where}: own headers are named from libcore, MODULE/NAME.hpp"
                 elif MODULES.index(target) > MODULES.index(module):
                     yield f"{where}: {module} stands above {target}, includes go upwards only"
-                elif not (root / "libcore" / header).exists():
+                elif not (root / "libcore" / header).exists() and not (root / header).exists():
                     yield f"{where}: no such header"
-                elif suffix == "" and library_of(pathlib.Path(header)):
+                elif suffix == "" and module != "verify" and library_of(pathlib.Path(header)):
                     yield f"{where}: a plain file may not include what needs a library"
                 continue
             if FOREIGN.match(header):
@@ -65,10 +125,6 @@ def problems_of(root):
             for library, pattern in LIBRARY_HEADERS.items():
                 if pattern.match(header) and (suffix != library or path.suffix != ".cpp"):
                     yield f"{where}: only sources named *_{library}.cpp may"
-    for path in sorted((root / "tools").glob("*.[ch]pp")):
-        for bracket, header in INCLUDE.findall(path.read_text()):
-            if bracket == "<" and any(pattern.match(header) for pattern in LIBRARY_HEADERS.values()):
-                yield f"{path.relative_to(root)} includes {header}: tools use libraries through libcore only"
 
 
 def main():

@@ -48,7 +48,7 @@ std::vector<std::string> split(const std::string& line, const Where& where) {
 const std::string& CsvTable::at(std::size_t row, const std::string& name) const {
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end()) throw_without_column(*this, name);
-  return rows[row][static_cast<std::size_t>(found - names.begin())];
+  return rows[row][found - names.begin()];
 }
 
 double CsvTable::number(std::size_t row, const std::string& name) const {

@@ -1,4 +1,4 @@
-// libcore/base/csv.hpp
+// libcore/base/csv.hpp: public
 // Small data files of ours: comma-separated values with a line of names, '#' lines are remarks.
 #pragma once
 

@@ -1,4 +1,4 @@
-// libcore/base/error.hpp
+// libcore/base/error.hpp: public
 // How the library says that something went wrong: unusable input throws InputError with place,
 // finding, expectation and a way out; a run that must end throws NumericsError; a broken promise
 // between our own functions asserts. The library never prints and never exits.

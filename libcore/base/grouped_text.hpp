@@ -1,4 +1,4 @@
-// libcore/base/grouped_text.hpp
+// libcore/base/grouped_text.hpp: public
 // Numbers for readers: no power of ten where digits can be read, thousands apart.
 #pragma once
 

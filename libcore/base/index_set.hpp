@@ -1,3 +1,4 @@
+// libcore/base/index_set.hpp: public
 // Indices: a set below a size, for work that goes with how many there are and not with the size,
 // and a run of consecutive ones.
 #pragma once
@@ -19,7 +20,7 @@ struct IndexSet {
     has.assign(size, 0);
   }
   void clear() {
-    for (const int i : items) has[static_cast<std::size_t>(i)] = 0;
+    for (const int i : items) has[i] = 0;
     items.clear();
   }
   /// All indices, ascending.
@@ -29,11 +30,11 @@ struct IndexSet {
     has.assign(has.size(), 1);
   }
   void add(int i) {
-    std::uint8_t& is_in = has[static_cast<std::size_t>(i)];
+    std::uint8_t& is_in = has[i];
     if (is_in == 0) items.push_back(i);
     is_in = 1;
   }
-  [[nodiscard]] bool contains(int i) const { return has[static_cast<std::size_t>(i)] != 0; }
+  [[nodiscard]] bool contains(int i) const { return has[i] != 0; }
 };
 
 /// first, first + 1, ..., last - 1, for a loop.

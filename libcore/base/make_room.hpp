@@ -1,3 +1,4 @@
+// libcore/base/make_room.hpp: public
 // Growth of large arrays by an eighth, where doubling would leave half of the memory unused.
 #pragma once
 

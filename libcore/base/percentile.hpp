@@ -1,4 +1,4 @@
-// libcore/base/percentile.hpp
+// libcore/base/percentile.hpp: public
 #pragma once
 
 #include <span>

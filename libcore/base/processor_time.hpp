@@ -1,4 +1,4 @@
-// libcore/base/processor_time.hpp
+// libcore/base/processor_time.hpp: public
 // Processor time of the process, of all its threads, user and system. POSIX.
 #pragma once
 

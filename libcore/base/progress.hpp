@@ -1,4 +1,4 @@
-// libcore/base/progress.hpp
+// libcore/base/progress.hpp: public
 // How long work tells its caller how far it is. The library only calls; tools print.
 #pragma once
 

@@ -1,4 +1,4 @@
-// libcore/base/random.hpp
+// libcore/base/random.hpp: public
 // Seeded random numbers that are the same on every machine and compiler: std::mt19937_64 is fixed
 // by the standard, the standard library's distributions are not, so they are written out here.
 #pragma once

@@ -1,4 +1,4 @@
-// libcore/base/read_file.hpp
+// libcore/base/read_file.hpp: public
 #pragma once
 
 #include <string>

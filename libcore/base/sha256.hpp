@@ -1,4 +1,4 @@
-// libcore/base/sha256.hpp
+// libcore/base/sha256.hpp: public
 // SHA-256 of bytes and files (FIPS 180-4): what ties an output to its inputs. Processors with the
 // SHA extensions are found at run time; the digest is the same with and without.
 #pragma once

@@ -1,4 +1,4 @@
-// libcore/base/template_text.hpp
+// libcore/base/template_text.hpp: public
 // Fills a text file with marks: {{name}} anywhere in a line is a value; the lines between {{#name}}
 // and {{/name}}, each alone on its line, are a part that is kept or left out.
 // in:    the template, values and parts by name

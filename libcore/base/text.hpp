@@ -1,4 +1,4 @@
-// libcore/base/text.hpp
+// libcore/base/text.hpp: public
 // Numbers as text, the same for every locale, and the nearest known name for a misspelt one; text
 // in XML.
 #pragma once

@@ -1,4 +1,4 @@
-// libcore/base/types.hpp
+// libcore/base/types.hpp: public
 // The vector and matrix types of the whole library.
 #pragma once
 

@@ -1,4 +1,4 @@
-// libcore/blocks/assemble.hpp
+// libcore/blocks/assemble.hpp: public
 // From the cells of a cut mass to blocks: cells that no joint parts are one block, slivers go to a
 // neighbour, and each block becomes convex or keeps its exact shape.
 // in:    cell complex, joints, bed

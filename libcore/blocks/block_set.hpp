@@ -1,4 +1,4 @@
-// libcore/blocks/block_set.hpp
+// libcore/blocks/block_set.hpp: public
 // The blocks of a site as flat arrays: what talus-blocks writes and talus-dda moves.
 // in:    the cut rock mass, meshes or shapes
 // out:   bodies at rest, in place, relative to `origin`; see docs/formats.md for the HDF5 names

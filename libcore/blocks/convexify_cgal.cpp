@@ -1,3 +1,5 @@
+// blocks/convexify.hpp with CGAL: convex hulls of the pieces, supporting planes of the bed,
+// volume kept.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -403,7 +405,7 @@ Polyhedron without_short_edges(const Polyhedron& body, double shortest, double m
     const Vec3 normal = face_normal(hull, f);
     const auto along = [&](const Vec3& a, const Vec3& b) { return a.dot(normal) < b.dot(normal); };
     const auto best = std::max_element(normals.begin(), normals.end(), along);
-    hull.face_tag[f] = body.face_tag[static_cast<size_t>(best - normals.begin())];
+    hull.face_tag[f] = body.face_tag[best - normals.begin()];
   }
   hull = in_standard_order(with_joined_faces(hull));
   const bool is_sound = check_surface(hull).fault == SurfaceFault::none &&

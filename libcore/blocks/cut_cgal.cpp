@@ -1,3 +1,4 @@
+// blocks/cut.hpp with CGAL: columns of the mass, cut joint by joint into convex cells.
 #include <CGAL/Cell_attribute.h>
 #include <CGAL/Cell_attribute_with_point.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -281,9 +282,7 @@ class Cutter {
  private:
   bool is_side(int j) const { return j >= static_cast<int>(joints_.size()); }
   const AreaSide& area_side(int j) const { return sides_[static_cast<size_t>(j) - joints_.size()]; }
-  const Plane& plane_of(int j) const {
-    return is_side(j) ? area_side(j).plane : joints_[static_cast<size_t>(j)].plane;
-  }
+  const Plane& plane_of(int j) const { return is_side(j) ? area_side(j).plane : joints_[j].plane; }
   double tolerance_of(int j) const { return is_side(j) ? side_tolerance_ : tolerance_; }
 
   // Points of the plane's section through the piece, its corners among them.

@@ -1,4 +1,4 @@
-// libcore/blocks/failure_plane.hpp
+// libcore/blocks/failure_plane.hpp: public
 // The plane that a mass can leave on: of a joint set that dips out of the slope, laid so that it
 // comes out of the ground (daylights) along the foot of the source.
 //
@@ -94,7 +94,7 @@ struct FailurePlanes {
 [[nodiscard]] SourceOptions source_on_plane(const Attitude& plane, const Vec3& point);
 
 /// Joint sets for a slope whose joints nobody has measured: one that dips out of it, two
-/// thirds of the way from friction to slope, a rear and a lateral one, spaced for about `n_blocks`
+/// thirds of the path from friction to slope, a rear and a lateral one, spaced for about `n_blocks`
 /// blocks. Empty when the slope is not at least `least_room_deg` steeper than friction, or its foot
 /// is too uneven for a plane to daylight.
 inline constexpr double least_room_deg = 6;

@@ -148,7 +148,7 @@ std::vector<Joint> draw_joints(const JointSet& set, int index, const Vec3& centr
   };
   // Scattered planes may start outside the ball and still cross it, hence twice the radius.
   const double reach = set.fisher_k > 0 ? 2 * radius : radius;
-  // From a plane far away the way to the ball is not walked joint by joint.
+  // From a plane far away the path to the ball is not walked joint by joint.
   const double offset =
       std::abs(set.offset) > reach ? std::fmod(set.offset, set.mean_spacing) : set.offset;
   for (double along = offset; along < reach; along += draw_spacing(set, random))

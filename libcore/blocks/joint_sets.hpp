@@ -1,4 +1,4 @@
-// libcore/blocks/joint_sets.hpp
+// libcore/blocks/joint_sets.hpp: public
 // Joint sets: from dip, dip direction, spacing and scatter to the planes that cut the mass, and
 // from measured orientations to sets.
 //

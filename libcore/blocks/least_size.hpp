@@ -1,4 +1,4 @@
-// libcore/blocks/least_size.hpp
+// libcore/blocks/least_size.hpp: public
 // The smallest blocks that are made and moved.
 #pragma once
 

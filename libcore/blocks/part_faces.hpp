@@ -1,4 +1,4 @@
-// libcore/blocks/part_faces.hpp
+// libcore/blocks/part_faces.hpp: public
 // How the convex parts of one body stand to each other, where a file gives them.
 #pragma once
 

@@ -1,4 +1,4 @@
-// libcore/blocks/placement.hpp
+// libcore/blocks/placement.hpp: public
 // Where bodies from elsewhere start: points along lines and over areas, and the height above
 // ground.
 #pragma once

@@ -1,7 +1,10 @@
-// libcore/blocks/shapes.hpp
+// libcore/blocks/shapes.hpp: public
 // Shapes by name, for rockfall: box, prism, EOTA block, random rock. Centred on their centroid.
 // refs: EAD 340059 (the EOTA block: a cube with bevelled edges and corners, 24 vertices)
 #pragma once
+
+#include <string>
+#include <vector>
 
 #include "base/random.hpp"
 #include "geometry/polyhedron.hpp"
@@ -17,6 +20,23 @@ namespace talus {
 
 /// Convex hull of `n_points` points at random on an ellipsoid with these axes [m].
 [[nodiscard]] Polyhedron rock(const Vec3& axes, int n_points, Random& random);
+
+/// What a shape is made of; each reads what it needs.
+struct ShapeSize {
+  Vec3 extents = Vec3::Ones();  ///< of box, EOTA block, rock; prism: diameter, length [m]
+  int n_sides = 6;              ///< of a prism
+  int n_points = 20;            ///< of a rock
+};
+
+/// A shape as the site file names it.
+struct ShapeKind {
+  const char* name;
+  int n_extents;  ///< numbers that size_m takes, unless one stands for all
+  Polyhedron (*make)(const ShapeSize&, Random&);
+};
+[[nodiscard]] const std::vector<ShapeKind>& shape_kinds();
+/// The row of a name that the site file allows.
+[[nodiscard]] const ShapeKind& shape_kind(const std::string& name);
 
 /// Moved so that the centroid is at 0.
 [[nodiscard]] Polyhedron centred(Polyhedron body);

@@ -1,8 +1,11 @@
+// blocks/shapes.hpp: prism, EOTA block and, by the convex hull of CGAL, random rock.
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
+#include "base/error.hpp"
 #include "blocks/block_set.hpp"
 #include "blocks/shapes.hpp"
 #include "blocks/solid.hpp"
@@ -54,6 +57,33 @@ Polyhedron rock(const Vec3& axes, int n_points, Random& random) {
     points.push_back(direction.normalized().cwiseProduct(axes / 2));
   }
   return centred(convex_hull(points, face_terrain));
+}
+
+const std::vector<ShapeKind>& shape_kinds() {
+  static const std::vector<ShapeKind> kinds = {
+      {"box", 3,
+       [](const ShapeSize& size, Random&) {
+         return box(-size.extents / 2, size.extents / 2, face_terrain);
+       }},
+      {"prism", 2,
+       [](const ShapeSize& size, Random&) {
+         return prism(size.n_sides, size.extents.x(), size.extents.y());
+       }},
+      {"eota", 3, [](const ShapeSize& size, Random&) { return eota(size.extents); }},
+      {"rock", 3,
+       [](const ShapeSize& size, Random& random) {
+         return rock(size.extents, size.n_points, random);
+       }},
+  };
+  return kinds;
+}
+
+const ShapeKind& shape_kind(const std::string& name) {
+  const std::vector<ShapeKind>& kinds = shape_kinds();
+  const auto found = std::find_if(kinds.begin(), kinds.end(),
+                                  [&name](const ShapeKind& kind) { return kind.name == name; });
+  TALUS_ASSERT(found != kinds.end());
+  return *found;
 }
 
 Polyhedron centred(Polyhedron body) {

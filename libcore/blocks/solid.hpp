@@ -1,4 +1,4 @@
-// libcore/blocks/solid.hpp
+// libcore/blocks/solid.hpp: public
 // From a surface to a body: checked for being a solid, taken apart into convex parts.
 #pragma once
 

@@ -1,4 +1,4 @@
-// libcore/blocks/source.hpp
+// libcore/blocks/source.hpp: public
 // The source: the area that fails, the surface that it fails on, and the mass between that and the
 // ground.
 // in:    the TRN, a polygon, a depth, a plane, a raster or an SLBL limit

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/error.hpp"
+
 namespace talus {
 namespace {
 
@@ -13,16 +15,23 @@ constexpr double skin_ratio = 0.1;            // motion budget of a body, of its
 constexpr double steps_ahead = 20;            // ... and along the motion of so many steps ahead ...
 constexpr double farthest_ahead = 0.5;        // ... up to this part of its radius
 
-bool is_fixed(const PairMotion& motion, int b) {
-  return !motion.fixed.empty() && motion.fixed[b] != 0;
+int n_free(const Hulls& hulls, const PairMotion& motion) {
+  return n_bodies(hulls) - motion.n_fixed;
 }
-bool is_awake(const PairMotion& motion, int b) {
-  return motion.awake.empty() || motion.awake[b] != 0;
+bool is_fixed(const Hulls& hulls, const PairMotion& motion, int b) {
+  return b >= n_free(hulls, motion);
 }
 Vec3 step_of(const PairMotion& motion, int b) {
   return motion.step.empty() ? Vec3(Vec3::Zero()) : motion.step[b];
 }
 double turn_of(const PairMotion& motion, int b) { return motion.turn.empty() ? 0 : motion.turn[b]; }
+
+// All bodies that are not where they stood for good.
+template <class Visit>
+void for_each_movable(const Hulls& hulls, const PairMotion& motion, Visit&& visit) {
+  for (int b = 0; b < n_free(hulls, motion); ++b) visit(b);
+  for (const int b : motion.shifted) visit(b);
+}
 
 // Mean over the bodies; zero where budgets are not relative to it.
 template <class Value>
@@ -44,75 +53,120 @@ Vec3 mean_step(const Hulls& hulls, const PairMotion& motion, bool in_frame) {
 // How far body b reaches for contacts: the reaches of two bodies cover the margin of their pair.
 double reach(const PairMotion& motion, const PairSettings& settings, int b,
              const Vec3& frame_step) {
-  if (is_fixed(motion, b)) return settings.margin / 2;
   return settings.margin / 2 + (step_of(motion, b) - frame_step).norm() + turn_of(motion, b);
 }
+
+double fixed_reach(const PairSettings& settings) { return settings.margin / 2; }
 
 // Adds the motion since the last step to `travel`, and fills `reach`.
 void follow_motion(const Hulls& hulls, const PlacedHulls& placed, const PairMotion& motion,
                    const PairSettings& settings, PairState& state, PairWork& work) {
-  work.reach.resize(hulls.radius.size());
+  work.reach.resize(n_free(hulls, motion));
+  state.in_frame = motion.n_fixed == 0;
   const Vec3 frame_step = mean_step(hulls, motion, state.in_frame);
-  for (int b = 0; b < n_bodies(hulls); ++b) work.reach[b] = reach(motion, settings, b, frame_step);
+  for (int b = 0; b < n_free(hulls, motion); ++b)
+    work.reach[b] = reach(motion, settings, b, frame_step);
   if (state.travel.empty()) return;
   const Vec3 frame = mean_position(hulls, placed, state.in_frame);
-  for (int b = 0; b < n_bodies(hulls); ++b) {
+  for_each_movable(hulls, motion, [&](int b) {
     state.travel[b] += (placed.position[b] - state.last_at[b] - (frame - state.last_frame)).norm() +
                        placed.turned[b] - state.last_turned[b];
     state.last_at[b] = placed.position[b];
     state.last_turned[b] = placed.turned[b];
-  }
+  });
   state.last_frame = frame;
 }
 
-bool list_is_good(const Hulls& hulls, const PlacedHulls& placed, const PairSettings& settings,
-                  const PairState& state, const PairWork& work) {
+bool is_within(const Box& budget, const Vec3& moved, double around) {
+  return (moved.array() + around <= budget.high.array()).all() &&
+         (moved.array() - around >= budget.low.array()).all();
+}
+
+bool list_is_good(const Hulls& hulls, const PlacedHulls& placed, const PairMotion& motion,
+                  const PairSettings& settings, const PairState& state, const PairWork& work) {
   if (!settings.use_cache || state.listed_at.size() != hulls.radius.size()) return false;
   const Vec3 shift = state.last_frame - state.frame;
-  for (int b = 0; b < n_bodies(hulls); ++b) {
-    const Vec3 moved = placed.position[b] - state.listed_at[b] - shift;
-    const double around = placed.turned[b] - state.listed_turned[b] + work.reach[b];
-    const Box& budget = state.budget[b];
-    if (!((moved.array() + around <= budget.high.array()).all() &&
-          (moved.array() - around >= budget.low.array()).all()))
-      return false;
-  }
-  return true;
+  const auto keeps_within = [&](int b, const Box& budget, double reach) {
+    return is_within(budget, placed.position[b] - state.listed_at[b] - shift,
+                     placed.turned[b] - state.listed_turned[b] + reach);
+  };
+  for (int b = 0; b < n_free(hulls, motion); ++b)
+    if (!keeps_within(b, state.budget[b], work.reach[b])) return false;
+  if (motion.n_fixed == 0) return true;
+  const double reach = fixed_reach(settings);
+  const Box budget{Vec3::Constant(-state.fixed_budget), Vec3::Constant(state.fixed_budget)};
+  return reach <= state.fixed_budget &&
+         std::all_of(motion.shifted.begin(), motion.shifted.end(),
+                     [&](int b) { return keeps_within(b, budget, reach); });
 }
 
 void set_budgets(const Hulls& hulls, const PlacedHulls& placed, const PairMotion& motion,
                  const PairSettings& settings, PairState& state) {
-  state.in_frame = std::none_of(motion.fixed.begin(), motion.fixed.end(),
-                                [](std::uint8_t fixed) { return fixed != 0; });
   state.frame = mean_position(hulls, placed, state.in_frame);
-  state.listed_at = placed.position;
-  state.listed_turned = placed.turned;
   state.last_frame = state.frame;
-  state.last_at = placed.position;
-  state.last_turned = placed.turned;
-  state.travel.assign(hulls.radius.size(), 0);
-  state.budget.resize(hulls.radius.size());
+  if (state.listed_at.size() != hulls.radius.size()) {
+    state.listed_at = state.last_at = placed.position;
+    state.listed_turned = state.last_turned = placed.turned;
+    state.travel.assign(hulls.radius.size(), 0);
+  }
+  for_each_movable(hulls, motion, [&](int b) {
+    state.listed_at[b] = state.last_at[b] = placed.position[b];
+    state.listed_turned[b] = state.last_turned[b] = placed.turned[b];
+    state.travel[b] = 0;
+  });
+  state.fixed_budget = 2 * fixed_reach(settings);
+  state.budget.resize(n_free(hulls, motion));
   const Vec3 frame_step = mean_step(hulls, motion, state.in_frame);
-  for (int b = 0; b < n_bodies(hulls); ++b) {
-    const double skin = (is_fixed(motion, b) ? 0 : skin_ratio * hulls.radius[b]) +
-                        2 * reach(motion, settings, b, frame_step);
-    Vec3 ahead = is_fixed(motion, b) ? Vec3(Vec3::Zero())
-                                     : Vec3(steps_ahead * (step_of(motion, b) - frame_step));
+  for (int b = 0; b < n_free(hulls, motion); ++b) {
+    const double skin = skin_ratio * hulls.radius[b] + 2 * reach(motion, settings, b, frame_step);
+    Vec3 ahead = steps_ahead * (step_of(motion, b) - frame_step);
     const double farthest = farthest_ahead * hulls.radius[b];
     if (ahead.norm() > farthest) ahead *= farthest / ahead.norm();
     state.budget[b] = {ahead.cwiseMin(0).array() - skin, ahead.cwiseMax(0).array() + skin};
   }
 }
 
-void box_parts(const Hulls& hulls, const PlacedHulls& placed, const PairState& state,
-               std::vector<Box>& boxes) {
-  boxes.resize(hulls.body.size());
-  for (int p = 0; p < n_parts(hulls); ++p) {
+// Of the free bodies.
+void box_parts(const Hulls& hulls, const PlacedHulls& placed, const PairMotion& motion,
+               const PairState& state, std::vector<Box>& boxes) {
+  const int n = hulls.part_begin[n_free(hulls, motion)];
+  boxes.resize(n);
+  for (int p = 0; p < n; ++p) {
     Box& box = boxes[p];
     box = box_of_part(hulls, placed, p);
     box.low += state.budget[hulls.body[p]].low;
     box.high += state.budget[hulls.body[p]].high;
   }
+}
+
+Box grown(Box box, double by) {
+  box.low += Vec3::Constant(-by);
+  box.high += Vec3::Constant(by);
+  return box;
+}
+
+// Adds the pairs of free parts with those of the fixed bodies that stand near them.
+int add_fixed_pairs(const Hulls& hulls, const PlacedHulls& placed, const PairMotion& motion,
+                    const PairState& state, PairWork& work) {
+  TALUS_ASSERT(motion.grid != nullptr && motion.grid->n_bodies == motion.n_fixed);
+  const int first = n_free(hulls, motion);
+  int n_near = 0;
+  for (std::size_t p = 0; p < work.boxes.size(); ++p) {
+    find_near(*motion.grid, grown(work.boxes[p], state.fixed_budget), work.near);
+    for (int& f : work.near) f += first;
+    const auto by_grid = work.near.size();
+    for (const int body : motion.shifted)
+      if (!std::binary_search(work.near.begin(),
+                              work.near.begin() + static_cast<std::ptrdiff_t>(by_grid), body))
+        work.near.push_back(body);
+    n_near += static_cast<int>(work.near.size());
+    for (const int body : work.near)
+      for (int q = hulls.part_begin[body]; q < hulls.part_begin[body + 1]; ++q)
+        if (overlap(work.boxes[p], grown(box_of_part(hulls, placed, q), state.fixed_budget)))
+          work.close.push_back({static_cast<int>(p), q});
+  }
+  std::sort(work.close.begin(), work.close.end());
+  return n_near;
 }
 
 // The new list; pairs that were listed before keep what is known of them. Travel starts anew, so
@@ -136,20 +190,18 @@ void merge_list(PairState& state, PairWork& work) {
   state.pairs.swap(work.next_pairs);
 }
 
-void relist(const Hulls& hulls, const PlacedHulls& placed, const PairMotion& motion,
-            const PairSettings& settings, PairState& state, PairWork& work) {
+// Returns how many fixed bodies were looked at.
+int relist(const Hulls& hulls, const PlacedHulls& placed, const PairMotion& motion,
+           const PairSettings& settings, PairState& state, PairWork& work) {
   set_budgets(hulls, placed, motion, settings, state);
-  box_parts(hulls, placed, state, work.boxes);
-  work.fixed_parts.clear();
-  if (!state.in_frame)
-    for (int p = 0; p < n_parts(hulls); ++p)
-      work.fixed_parts.push_back(motion.fixed[hulls.body[p]]);
-  work.group_of_part.clear();
-  if (!motion.group.empty())
-    for (const int body : hulls.body) work.group_of_part.push_back(motion.group[body]);
-  find_overlaps(work.boxes, motion.group.empty() ? hulls.body : work.group_of_part,
-                work.fixed_parts, work.overlaps, work.close);
+  box_parts(hulls, placed, motion, state, work.boxes);
+  work.close.clear();
+  if (motion.free_meet)
+    find_overlaps(work.boxes, std::span(hulls.body).first(work.boxes.size()), {}, work.overlaps,
+                  work.close);
+  const int n_near = motion.n_fixed > 0 ? add_fixed_pairs(hulls, placed, motion, state, work) : 0;
   merge_list(state, work);
+  return n_near;
 }
 
 double graze_height(const Hulls& hulls, const PairSettings& settings, int part_a, int part_b) {
@@ -168,9 +220,21 @@ struct Search {
   PairReport& report;
 };
 
+bool is_awake(const Search& s, int b) {
+  return !is_fixed(s.hulls, s.motion, b) && (s.motion.awake.empty() || s.motion.awake[b] != 0);
+}
+
+// With everything that body b may have moved since the list was made.
+double reach_of(const Search& s, int b) {
+  return is_fixed(s.hulls, s.motion, b) ? fixed_reach(s.settings) + s.state.travel[b]
+                                        : s.work.reach[b];
+}
+
 double pair_margin(const Search& s, int a, int b) {
-  const double turn = turn_of(s.motion, a) + turn_of(s.motion, b);
+  const bool on_fixed = is_fixed(s.hulls, s.motion, b);  // a < b: never a
+  const double turn = turn_of(s.motion, a) + (on_fixed ? 0 : turn_of(s.motion, b));
   if (s.motion.step.empty()) return s.settings.margin + turn;
+  if (on_fixed) return s.settings.margin + turn + s.motion.step[a].norm();
   return s.settings.margin + turn + (s.motion.step[a] - s.motion.step[b]).norm();
 }
 
@@ -299,7 +363,7 @@ void refresh(const Search& s, const PairWatch& watch, Lookup& now, ListedPair& p
 // Looks at one listed pair: sets when to look next, and adds its contacts.
 void look_at(const Search& s, PairWatch& watch, ListedPair& pair) {
   const int a = s.hulls.body[watch.part_a], b = s.hulls.body[watch.part_b];
-  if (!is_awake(s.motion, a) && !is_awake(s.motion, b)) return keep_features(s, pair);
+  if (!is_awake(s, a) && !is_awake(s, b)) return keep_features(s, pair);
   Lookup now = look_up(s, pair, a, b);
   if (!stays_apart(s, watch, now, pair)) refresh(s, watch, now, pair);
   if (!pair.touches) {
@@ -317,25 +381,28 @@ void look_at(const Search& s, PairWatch& watch, ListedPair& pair) {
 void look_at_pairs(const Search& s) {
   PairState& state = s.state;
   s.work.next_held.clear();
-  for (int b = 0; b < n_bodies(s.hulls); ++b) s.work.reach[b] += state.travel[b];
+  for (int b = 0; b < n_free(s.hulls, s.motion); ++b) s.work.reach[b] += state.travel[b];
   for (std::size_t i = 0; i < state.watch.size(); ++i) {
     PairWatch& watch = state.watch[i];
     const double reached =
-        s.work.reach[s.hulls.body[watch.part_a]] + s.work.reach[s.hulls.body[watch.part_b]];
+        reach_of(s, s.hulls.body[watch.part_a]) + reach_of(s, s.hulls.body[watch.part_b]);
     if (!s.settings.use_cache || reached >= watch.wake) look_at(s, watch, state.pairs[i]);
   }
   state.held.swap(s.work.next_held);
 }
 
-// Manifolds by block that bear it for certain: closed within `graze`, and not shallow themselves.
-void list_supports(const Hulls& hulls, const PairSettings& settings, PairWork& work) {
+// Manifolds by free block that bear it for certain: closed within `graze`, and not shallow
+// themselves.
+void list_supports(const Hulls& hulls, const PairMotion& motion, const PairSettings& settings,
+                   PairWork& work) {
+  const int n = n_free(hulls, motion);
   const auto bears = [&](const PairManifold& m) {
     const double graze = graze_height(hulls, settings, m.part_a, m.part_b);
     return std::any_of(work.points.begin() + m.point_begin, work.points.begin() + m.point_end,
                        [&](const PairPoint& p) { return p.gap <= graze; });
   };
   std::vector<int>& begin = work.support_begin;
-  begin.assign(static_cast<std::size_t>(n_bodies(hulls)) + 2, 0);
+  begin.assign(static_cast<std::size_t>(n) + 2, 0);
   std::vector<int>& bearing = work.bearing;
   bearing.clear();
   auto next_shallow = work.shallow.begin();
@@ -345,14 +412,14 @@ void list_supports(const Hulls& hulls, const PairSettings& settings, PairWork& w
     } else if (bears(work.manifolds[m])) {
       bearing.push_back(m);
       ++begin[work.manifolds[m].block_a + 1];
-      ++begin[work.manifolds[m].block_b + 1];
+      if (work.manifolds[m].block_b < n) ++begin[work.manifolds[m].block_b + 1];
     }
   }
   for (std::size_t b = 1; b < begin.size(); ++b) begin[b] += begin[b - 1];
   work.supports.resize(2 * bearing.size());
   for (auto m = bearing.rbegin(); m != bearing.rend(); ++m) {
     work.supports[--begin[work.manifolds[*m].block_a + 1]] = *m;
-    work.supports[--begin[work.manifolds[*m].block_b + 1]] = *m;
+    if (work.manifolds[*m].block_b < n) work.supports[--begin[work.manifolds[*m].block_b + 1]] = *m;
   }
 }
 
@@ -381,7 +448,7 @@ bool is_grazing(const Hulls& hulls, const PlacedHulls& placed, const PairMotion&
       const Vec3 to_a = part == m.part_b ? outward : Vec3(-outward);
       if (to_a.dot(m.normal) >= same_axis_cos) continue;
       if (is_borne(work, m.block_a, m.block_b, to_a) ||
-          (!is_fixed(motion, m.block_b) && is_borne(work, m.block_b, m.block_a, -to_a)))
+          (!is_fixed(hulls, motion, m.block_b) && is_borne(work, m.block_b, m.block_a, -to_a)))
         return true;
     }
   }
@@ -407,13 +474,13 @@ void drop_manifolds(PairWork& work) {
     work.manifolds[kept++] = manifold;
   }
   work.manifolds.resize(kept);
-  work.points.resize(static_cast<std::size_t>(n_points));
+  work.points.resize(n_points);
 }
 
 int drop_grazing(const Hulls& hulls, const PlacedHulls& placed, const PairMotion& motion,
                  const PairSettings& settings, PairWork& work) {
   if (work.shallow.empty()) return 0;
-  list_supports(hulls, settings, work);
+  list_supports(hulls, motion, settings, work);
   work.dropped.clear();
   for (const int m : work.shallow)
     if (is_grazing(hulls, placed, motion, settings, work.manifolds[m], work))
@@ -432,8 +499,8 @@ PairReport find_pair_contacts(const Hulls& hulls, const PlacedHulls& placed,
   work.points.clear();
   work.shallow.clear();
   follow_motion(hulls, placed, motion, settings, state, work);
-  if (!list_is_good(hulls, placed, settings, state, work)) {
-    relist(hulls, placed, motion, settings, state, work);
+  if (!list_is_good(hulls, placed, motion, settings, state, work)) {
+    report.n_fixed_near = relist(hulls, placed, motion, settings, state, work);
     report.relisted = true;
   }
   look_at_pairs({hulls, placed, motion, settings, state, work, report});

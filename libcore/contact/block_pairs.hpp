@@ -1,4 +1,4 @@
-// libcore/contact/block_pairs.hpp
+// libcore/contact/block_pairs.hpp: public
 // Contacts between blocks, step by step: a list of close pairs and an axis for each pair, each kept
 // while its motion budget lasts; features that meet, for a thousandth of the thickness.
 // in:    placed hulls, and how far the bodies may move in the coming step
@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "contact/body_grid.hpp"
 #include "contact/hulls.hpp"
 #include "contact/manifold.hpp"
 #include "contact/neighbours.hpp"
@@ -30,14 +31,18 @@ struct PairSettings {
   bool use_cache = true;  ///< off: list and axes are searched anew each time, for tests
 };
 
-/// How far each body moves in the coming step, for margins and for the list's range.
-struct PairMotion {
-  std::span<const Vec3> step;    ///< displacement of the centroid [m]; empty: none  (n_bodies)
-  std::span<const double> turn;  ///< bound on motion by turning [m]; empty: none    (n_bodies)
-  std::span<const std::uint8_t> awake;  ///< 0: needs no contacts of its own; empty: all (n_bodies)
-  std::span<const std::uint8_t> fixed;  ///< 1: never moves; empty: none (n_bodies)
-  std::span<const int> group = {};  ///< bodies of one group do not meet; empty: all meet (n_bodies)
-};
+/// How far each body moves in the coming step, for margins and for the list's range. The last
+/// bodies of the hulls may be fixed: they need no contacts of their own, and only those that stand
+/// near a free one are looked at.
+struct PairMotion {  // clang-format off
+  std::span<const Vec3> step;       ///< displacement of the centroid [m]; empty: none  (n_free)
+  std::span<const double> turn;     ///< bound on motion by turning [m]; empty: none    (n_free)
+  std::span<const std::uint8_t> awake;  ///< 0: needs no contacts of its own; empty: all (n_free)
+  int n_fixed = 0;                  ///< the last bodies
+  const BodyGrid* grid = nullptr;   ///< the fixed bodies, where they stood first
+  std::span<const int> shifted = {};  ///< bodies: the fixed ones that stand elsewhere by now
+  bool free_meet = true;            ///< free bodies meet each other
+};  // clang-format on
 
 /// When a listed pair must be looked at again.
 struct PairWatch {
@@ -69,7 +74,8 @@ struct PairState {  // clang-format off
   Vec3 frame = Vec3::Zero();          ///< mean position when listed [m]
   std::vector<Vec3> listed_at;        ///< positions when listed [m]                     (n_bodies)
   std::vector<double> listed_turned;  ///< PlacedHulls::turned when listed [m]           (n_bodies)
-  std::vector<Box> budget;            ///< motion that the list allows, relative to the frame [m] (n_bodies)
+  std::vector<Box> budget;            ///< motion that the list allows, relative to the frame [m] (n_free)
+  double fixed_budget = 0;            ///< the same for fixed bodies, each path [m]
   Vec3 last_frame = Vec3::Zero();     ///< mean position of the last step [m]
   std::vector<Vec3> last_at;          ///< positions of the last step [m]                (n_bodies)
   std::vector<double> last_turned;    ///< PlacedHulls::turned of the last step [m]      (n_bodies)
@@ -77,10 +83,11 @@ struct PairState {  // clang-format off
 };  // clang-format on
 
 struct PairReport {
-  int n_listed = 0;    ///< pairs in the list
-  int n_searched = 0;  ///< pairs whose axis was searched
-  int n_clipped = 0;   ///< pairs whose features were searched
-  int n_grazing = 0;   ///< manifolds dropped as grazing
+  int n_listed = 0;      ///< pairs in the list
+  int n_searched = 0;    ///< pairs whose axis was searched
+  int n_clipped = 0;     ///< pairs whose features were searched
+  int n_grazing = 0;     ///< manifolds dropped as grazing
+  int n_fixed_near = 0;  ///< fixed bodies looked at for the list, summed over the free parts
   bool relisted = false;
 };
 
@@ -102,8 +109,7 @@ struct PairWork {
   std::vector<int> shallow;   ///< manifolds that may be grazing
   std::vector<int> bearing, dropped;
   std::vector<int> support_begin, supports;
-  std::vector<std::uint8_t> fixed_parts;
-  std::vector<int> group_of_part;
+  std::vector<int> near;  ///< fixed bodies near the part at hand
 };
 
 /// All contacts between blocks at the placed poses with gap <= margin + motion of the coming step,

@@ -1,4 +1,4 @@
-// libcore/contact/contact.hpp
+// libcore/contact/contact.hpp: public
 // One contact of a block, and what is remembered of it from step to step.
 // paper: Zhang et al. 2018, Fig. 7 (modes) and Eq. (8)-(24); theory 1.6: one form for the modes
 #pragma once

@@ -44,7 +44,7 @@ double inside_by(const Side& side, const ClipCorner& p) {
   return side.inward_u * (p.u - side.u) + side.inward_v * (p.v - side.v);
 }
 
-// Where the way from p (inside by d_p) to q (by d_q) crosses the side.
+// Where the path from p (inside by d_p) to q (by d_q) crosses the side.
 ClipCorner crossing(const Side& side, const ClipCorner& p, const ClipCorner& q, double d_p,
                     double d_q, int next_side) {
   const double t = d_p / (d_p - d_q);

@@ -1,4 +1,4 @@
-// libcore/contact/ground.hpp
+// libcore/contact/ground.hpp: public
 // The terrain as the contact search reads it: elevations, convex features, bounds and classes.
 // in:    a TRN and, for each cell, the class of its ground
 // out:   everything about the terrain that a contact needs; const during a run
@@ -34,7 +34,7 @@ struct Ground {
 
 /// Class of a triangle's cell.
 [[nodiscard]] inline int class_of(const Ground& ground, int triangle) {
-  return ground.cell_class.empty() ? 0 : ground.cell_class[static_cast<std::size_t>(triangle / 2)];
+  return ground.cell_class.empty() ? 0 : ground.cell_class[triangle / 2];
 }
 
 /// Whether all of the cells have the same class.

@@ -79,8 +79,7 @@ void clip(const Vec3& normal, double offset, GroundDepthScratch& scratch) {
 bool reaches(const Hulls& hulls, const PlacedHulls& placed, int part, const Corners& corners,
              double depth, GroundDepthScratch& scratch) {
   scratch.polygon.assign(corners.begin(), corners.end());
-  const int begin = hulls.face_begin[static_cast<size_t>(part)],
-            end = begin + hulls.n_faces[static_cast<size_t>(part)];
+  const int begin = hulls.face_begin[part], end = begin + hulls.n_faces[part];
   for (int face = begin; face < end && !scratch.polygon.empty(); ++face) {
     const auto slot = static_cast<size_t>(face);
     const double inside = hulls.cover[slot] == FaceCover::all ? 0 : depth;
@@ -92,7 +91,7 @@ bool reaches(const Hulls& hulls, const PlacedHulls& placed, int part, const Corn
 // Deepest point of the ground's surface in a part, if it is deeper than `depth`.
 double depth_inside(const Trn& trn, const Hulls& hulls, const PlacedHulls& placed, int part,
                     double depth, GroundDepthScratch& scratch) {
-  const double thickness = hulls.thickness[static_cast<size_t>(part)];
+  const double thickness = hulls.thickness[part];
   const Box box = box_of_part(hulls, placed, part);
   for_each_triangle(trn, box.low, box.high, 0, [&](const Corners& corners) {
     double high = thickness;
@@ -110,11 +109,9 @@ double depth_inside(const Trn& trn, const Hulls& hulls, const PlacedHulls& place
 double depth_in_ground(const Trn& trn, const Hulls& hulls, const PlacedHulls& placed, int body,
                        GroundDepthScratch& scratch) {
   double depth = 0;
-  for (int part = hulls.part_begin[static_cast<size_t>(body)];
-       part < hulls.part_begin[static_cast<size_t>(body) + 1]; ++part) {
-    for (int v = hulls.vertex_begin[static_cast<size_t>(part)];
-         v < hulls.vertex_begin[static_cast<size_t>(part) + 1]; ++v)
-      depth = std::max(depth, depth_of_point(trn, placed.vertices[static_cast<size_t>(v)]));
+  for (int part = hulls.part_begin[body]; part < hulls.part_begin[body + 1]; ++part) {
+    for (int v = hulls.vertex_begin[part]; v < hulls.vertex_begin[part + 1]; ++v)
+      depth = std::max(depth, depth_of_point(trn, placed.vertices[v]));
     depth = depth_inside(trn, hulls, placed, part, depth, scratch);
   }
   return depth;

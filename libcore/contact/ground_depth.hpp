@@ -1,4 +1,4 @@
-// libcore/contact/ground_depth.hpp
+// libcore/contact/ground_depth.hpp: public
 // How deep a body and the ground are in each other, as bodies: no contact is asked.
 // in:    a placed body, the terrain
 // out:   the least motion, at least, that frees the body's deepest vertex and what of the ground

@@ -48,9 +48,7 @@ struct FeatureSearch : PlacedBlock {
   [[nodiscard]] Vec3 to_body(const Vec3& x) const {
     return to_local.transpose() * (x - pose.position);
   }
-  [[nodiscard]] double height(int vertex) const {
-    return vertices[static_cast<size_t>(vertex)].z();
-  }
+  [[nodiscard]] double height(int vertex) const { return vertices[vertex].z(); }
 
   // Whether a contact at x is taken. A deep one in doubt is put off to the second search, and left
   // out there when an overlap was found near it: the features have come in by that one.
@@ -71,8 +69,7 @@ struct FeatureSearch : PlacedBlock {
 bool is_across_wall(const Shapes& shapes, int p, const Vec3& X, double same) {
   const auto begin = shapes.walls.begin();
   return std::any_of(
-      begin + shapes.wall_begin[static_cast<size_t>(p)],
-      begin + shapes.wall_begin[static_cast<size_t>(p) + 1],
+      begin + shapes.wall_begin[p], begin + shapes.wall_begin[p + 1],
       [&](const ShapeWall& wall) { return wall.normal.dot(X) > wall.offset + same; });
 }
 
@@ -83,9 +80,8 @@ double depth_in_part(const Shapes& shapes, int p, const Vec3& X, const ShapeEdge
   constexpr double same_cos = 1 - 1e-9;
   if (is_across_wall(shapes, p, X, same)) return -1;
   double depth = std::numeric_limits<double>::infinity();
-  for (int f = shapes.face_begin[static_cast<size_t>(p)];
-       f < shapes.face_begin[static_cast<size_t>(p) + 1]; ++f) {
-    const ShapeFace& face = shapes.faces[static_cast<size_t>(f)];
+  for (int f = shapes.face_begin[p]; f < shapes.face_begin[p + 1]; ++f) {
+    const ShapeFace& face = shapes.faces[f];
     const double inside = face.offset - face.normal.dot(X);
     const bool at_edge =
         face.normal.dot(edge.arc.left) > same_cos || face.normal.dot(edge.arc.right) > same_cos;
@@ -104,9 +100,8 @@ bool edges_overlap(const FeatureSearch& s, const ShapeEdge& edge, const Vec3& A,
   const Vec3 a = s.pose.position + s.to_local * A;
   if (!contains(trn, a.x(), a.y())) return false;
   if (!(a.z() - elevation_at(trn, locate(trn, a.x(), a.y())) < 2 * depth)) return false;
-  const double same = same_wall * s.shapes.radius[static_cast<size_t>(s.b)];
-  for (int p = s.shapes.part_begin[static_cast<size_t>(s.b)];
-       p < s.shapes.part_begin[static_cast<size_t>(s.b) + 1]; ++p)
+  const double same = same_wall * s.shapes.radius[s.b];
+  for (int p = s.shapes.part_begin[s.b]; p < s.shapes.part_begin[s.b + 1]; ++p)
     if (depth_in_part(s.shapes, p, X, edge, same) >= depth) return true;
   return false;
 }
@@ -133,9 +128,8 @@ EnteredFace entered_face(const FeatureSearch& s, int p, int row, int col, const 
   EnteredFace nearest, beneath;
   beneath.is_nearest = false;
   double height = std::numeric_limits<double>::infinity();  // above the lowest face so far
-  for (int f = s.shapes.face_begin[static_cast<size_t>(p)];
-       f < s.shapes.face_begin[static_cast<size_t>(p) + 1]; ++f) {
-    const ShapeFace& face = s.shapes.faces[static_cast<size_t>(f)];
+  for (int f = s.shapes.face_begin[p]; f < s.shapes.face_begin[p + 1]; ++f) {
+    const ShapeFace& face = s.shapes.faces[f];
     const double gap = face.normal.dot(X) - face.offset, slope = face.normal.dot(up);
     if (gap > nearest.gap) nearest.face = f, nearest.gap = gap;
     if (slope < 0 && gap > slope * height)
@@ -146,7 +140,7 @@ EnteredFace entered_face(const FeatureSearch& s, int p, int row, int col, const 
   const std::array<Vec3, 6> ring = node_ring(trn, row, col);
   for (const EnteredFace& entered : {nearest, beneath}) {
     if (entered.face < 0) continue;
-    const Vec3 outward = s.to_local * s.shapes.faces[static_cast<size_t>(entered.face)].normal;
+    const Vec3 outward = s.to_local * s.shapes.faces[entered.face].normal;
     if (vertex_may_enter(node_point(trn, row, col), ring, outward,
                          s.nearly_parallel * trn.cell_size))
       return entered;
@@ -158,17 +152,16 @@ void find_mode_2(FeatureSearch& s, int row, int col, std::vector<Contact>& conta
   const Trn& trn = s.ground.trn;
   const Vec3 node = node_point(trn, row, col);
   const Vec3 X = s.to_body(node);
-  const double radius = s.shapes.radius[static_cast<size_t>(s.b)] + s.margin;
+  const double radius = s.shapes.radius[s.b] + s.margin;
   if (X.squaredNorm() > radius * radius) return;
-  const double deepest = s.shapes.thickness[static_cast<size_t>(s.b)] / 2;
-  for (int p = s.shapes.part_begin[static_cast<size_t>(s.b)];
-       p < s.shapes.part_begin[static_cast<size_t>(s.b) + 1]; ++p) {
+  const double deepest = s.shapes.thickness[s.b] / 2;
+  for (int p = s.shapes.part_begin[s.b]; p < s.shapes.part_begin[s.b + 1]; ++p) {
     if (is_across_wall(s.shapes, p, X, same_wall * radius)) continue;
     const EnteredFace entered = entered_face(s, p, row, col, X);
     if (entered.face < 0) continue;
     const bool in_doubt = !entered.is_nearest && entered.gap < -doubtful * deepest;
     if (!s.takes(node, entered.gap, in_doubt, contacts)) continue;
-    const ShapeFace& face = s.shapes.faces[static_cast<size_t>(entered.face)];
+    const ShapeFace& face = s.shapes.faces[entered.face];
     Contact contact;
     contact.key = {ContactMode::face_vertex, -1, entered.face,
                    static_cast<int>(node_index(trn, row, col))};
@@ -211,7 +204,7 @@ constexpr std::uint64_t all_edges = ~std::uint64_t{0};
 /// An edge of the ground and what it meets blocks with.
 struct Ridge {
   Vec3 end_a, end_b;          // local axes
-  Vec3 Q, f;                  // end_a and the way to end_b, body axes
+  Vec3 Q, f;                  // end_a and the path to end_b, body axes
   GaussArc arc;               // body axes
   int left = 0, feature = 0;  // triangle; as in the contact's key
 };
@@ -221,8 +214,8 @@ void add_edge_contact(FeatureSearch& s, const Ridge& ridge, size_t i, double dee
                       std::vector<Contact>& contacts) {
   const std::span<const Vec3> body = vertices_of(s.shapes, s.b);
   const ShapeEdge& edge = edges_of(s.shapes, s.b)[i];
-  const Vec3 &Q = ridge.Q, &f = ridge.f, &P = body[static_cast<size_t>(edge.a)];
-  const Vec3 e = body[static_cast<size_t>(edge.b)] - P;
+  const Vec3 &Q = ridge.Q, &f = ridge.f, &P = body[edge.a];
+  const Vec3 e = body[edge.b] - P;
   LinePair at = nearest_on_lines(P, e, Q, f);
   if (at.parallel) return;
   Vec3 normal = e.cross(f);
@@ -286,7 +279,7 @@ bool come_near(const FeatureSearch& s, int row, int col, EdgeKind kind, NearRidg
     return false;
   ridge.Q = s.to_body(end_a);
   ridge.f = s.to_local.transpose() * (end_b - end_a);
-  const double radius = s.shapes.radius[static_cast<size_t>(s.b)] + reach;
+  const double radius = s.shapes.radius[s.b] + reach;
   const double nearest = std::clamp(-ridge.Q.dot(ridge.f) / ridge.f.squaredNorm(), 0.0, 1.0);
   if ((ridge.Q + nearest * ridge.f).squaredNorm() > radius * radius) return false;
   near.left = triangle_plane(trn, edge.left).normal;
@@ -321,9 +314,7 @@ std::uint64_t touching_edges(const FeatureSearch& s, const GaussArc& ridge,
   std::uint64_t touching = 0;
   for (; near != 0; near &= near - 1) {
     const int i = std::countr_zero(near);
-    touching |= std::uint64_t{edges_may_touch(edges[static_cast<size_t>(i)].arc, ridge,
-                                              s.nearly_parallel, s.turn)}
-                << i;
+    touching |= std::uint64_t{edges_may_touch(edges[i].arc, ridge, s.nearly_parallel, s.turn)} << i;
   }
   return touching;
 }
@@ -347,9 +338,8 @@ std::uint64_t near_edges(const FeatureSearch& s, const NearRidge& ridge,
   std::uint64_t near = 0;
   for (; among != 0; among &= among - 1) {
     const int i = std::countr_zero(among);
-    const ShapeEdge& edge = edges[static_cast<size_t>(i)];
-    const Vec3 &a = s.vertices[static_cast<size_t>(edge.a)],
-               &b = s.vertices[static_cast<size_t>(edge.b)];
+    const ShapeEdge& edge = edges[i];
+    const Vec3 &a = s.vertices[edge.a], &b = s.vertices[edge.b];
     const int is_high = int{a.z() > ridge.height} & int{b.z() > ridge.height};
     near |= std::uint64_t{(is_high | ridge.is_cleared_by(a, b)) == 0} << i;
   }
@@ -373,7 +363,7 @@ void find_mode_3(FeatureSearch& s, int row, int col, EdgeKind kind, std::uint64_
                  std::vector<Contact>& contacts) {
   NearRidge near;
   if (!come_near(s, row, col, kind, near)) return;
-  const double deepest = s.shapes.thickness[static_cast<size_t>(s.b)] / 2;
+  const double deepest = s.shapes.thickness[s.b] / 2;
   const std::span<const ShapeEdge> edges = edges_of(s.shapes, s.b);
   const auto add = [&](size_t begin, std::span<const ShapeEdge> some, std::uint64_t close) {
     std::uint64_t touching = touching_edges(s, near.ridge.arc, some, close);
@@ -464,7 +454,7 @@ double moved(const Pose& from, const Pose& to, double radius) {
 
 // Lists what may touch the block of `s` within `near.skin` and `near.margin`.
 void list_features(const FeatureSearch& s, NearFeatures& near) {
-  const double radius = s.shapes.radius[static_cast<size_t>(s.b)];
+  const double radius = s.shapes.radius[s.b];
   FeatureSearch around = s;
   around.margin = near.margin;
   around.skin = near.skin;
@@ -491,13 +481,13 @@ void list_features(const FeatureSearch& s, NearFeatures& near) {
 
 // Brings the list of the block of `s` up to date; false when none pays.
 bool keep_list(const FeatureSearch& s, NearFeatures& near) {
-  const double radius = s.shapes.radius[static_cast<size_t>(s.b)];
+  const double radius = s.shapes.radius[s.b];
   const double last = moved(near.last, s.pose, radius);
   near.last = s.pose;
   // twice: by strains the points move, and so does the bound on that
   const double by_strain = 2 * radius * (s.stretch - near.stretch).norm();
-  const double way = moved(near.listed, s.pose, radius) + by_strain;
-  if (s.margin <= near.margin && way <= (1 - rounding) * near.skin) return true;
+  const double path = moved(near.listed, s.pose, radius) + by_strain;
+  if (s.margin <= near.margin && path <= (1 - rounding) * near.skin) return true;
   near.skin = std::max(searches_ahead * last, least_skin * radius);
   if (near.skin > most_skin * radius) {
     near.skin = most_skin * radius;
@@ -517,7 +507,7 @@ bool keep_list(const FeatureSearch& s, NearFeatures& near) {
 
 void find_features(const PlacedBlock& block, const CellRange& cells, double margin,
                    NearFeatures* near, std::vector<Contact>& contacts) {
-  const double radius = block.shapes.radius[static_cast<size_t>(block.b)];
+  const double radius = block.shapes.radius[block.b];
   FeatureSearch s{block, margin, parallel_within(margin, radius),
                   (block.stretch - Mat3::Identity()).norm() * radius};
   if (near != nullptr && !keep_list(s, *near)) near = nullptr;

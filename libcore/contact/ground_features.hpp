@@ -12,8 +12,8 @@
 #include "contact/contact.hpp"
 #include "contact/ground.hpp"
 #include "contact/near_features.hpp"
-#include "contact/pose.hpp"
 #include "contact/shapes.hpp"
+#include "motion/pose.hpp"
 
 namespace talus {
 

@@ -329,23 +329,39 @@ Hulls make_hulls(const BlockSet& set, std::span<const Pose> rest) {
   return hulls;
 }
 
+namespace {
+
+// `stretch`: nullptr for a rigid body. `first`: it was not placed before.
+void place_one(const Hulls& hulls, int b, const Pose& pose, const Mat3* stretch, bool first,
+               PlacedHulls& placed) {
+  const bool rigid = stretch == nullptr;
+  const Mat3 turn = pose.attitude.toRotationMatrix();
+  const Mat3 axes = rigid ? turn : Mat3(turn * *stretch);
+  if (!first && axes == placed.axes[b] && pose.position == placed.position[b]) return;
+  if (!first) placed.turned[b] += hulls.radius[b] * (axes - placed.axes[b]).norm();
+  const Mat3 normal_axes = rigid ? turn : Mat3(axes.inverse().transpose());
+  placed.axes[b] = axes;
+  placed.position[b] = pose.position;
+  for (int p = hulls.part_begin[b]; p < hulls.part_begin[b + 1]; ++p)
+    place_part(hulls, p, axes, normal_axes, rigid, pose.position, placed);
+}
+
+}  // namespace
+
 void place_hulls(const Hulls& hulls, std::span<const Pose> poses, std::span<const Mat3> stretch,
                  std::span<const std::uint8_t> moving, PlacedHulls& placed) {
   const bool first = placed.turned.size() != hulls.radius.size();
   if (first) resize(hulls, placed);
-  const bool rigid = stretch.empty();
-  for (int b = 0; b < n_bodies(hulls); ++b) {
+  TALUS_ASSERT(!first || poses.size() == hulls.radius.size());
+  for (std::size_t b = 0; b < poses.size(); ++b) {
     if (!first && !moving.empty() && moving[b] == 0) continue;
-    const Mat3 turn = poses[b].attitude.toRotationMatrix();
-    const Mat3 axes = rigid ? turn : Mat3(turn * stretch[b]);
-    if (!first && axes == placed.axes[b] && poses[b].position == placed.position[b]) continue;
-    if (!first) placed.turned[b] += hulls.radius[b] * (axes - placed.axes[b]).norm();
-    const Mat3 normal_axes = rigid ? turn : Mat3(axes.inverse().transpose());
-    placed.axes[b] = axes;
-    placed.position[b] = poses[b].position;
-    for (int p = hulls.part_begin[b]; p < hulls.part_begin[b + 1]; ++p)
-      place_part(hulls, p, axes, normal_axes, rigid, poses[b].position, placed);
+    place_one(hulls, static_cast<int>(b), poses[b], stretch.empty() ? nullptr : &stretch[b], first,
+              placed);
   }
+}
+
+void place_body(const Hulls& hulls, int b, const Pose& pose, PlacedHulls& placed) {
+  place_one(hulls, b, pose, nullptr, false, placed);
 }
 
 Box box_of_part(const Hulls& hulls, const PlacedHulls& placed, int part) {

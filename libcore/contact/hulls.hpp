@@ -1,4 +1,4 @@
-// libcore/contact/hulls.hpp
+// libcore/contact/hulls.hpp: public
 // The convex parts of all blocks as the search of contacts between blocks reads them.
 // in:    the parts of each body (block set), then the pose of each body at every step
 // out:   vertices in local axes, and face normals as padded arrays of x, y and z
@@ -11,8 +11,8 @@
 
 #include "base/types.hpp"
 #include "contact/neighbours.hpp"
-#include "contact/pose.hpp"
 #include "geometry/polyhedron.hpp"
+#include "motion/pose.hpp"
 
 namespace talus {
 
@@ -90,9 +90,13 @@ struct PlacedHulls {  // clang-format off
 };  // clang-format on
 
 /// Brings `placed` to the given poses; body b is skipped where `moving[b]` is 0 (an empty span
-/// moves all). `stretch` is I + strain in body axes; empty for rigid bodies.
+/// moves all). `stretch` is I + strain in body axes; empty for rigid bodies. The first time all
+/// bodies have to have a pose; later on those behind the last pose stay where they are.
 void place_hulls(const Hulls& hulls, std::span<const Pose> poses, std::span<const Mat3> stretch,
                  std::span<const std::uint8_t> moving, PlacedHulls& placed);
+
+/// Brings one rigid body of `placed` to a pose.
+void place_body(const Hulls& hulls, int b, const Pose& pose, PlacedHulls& placed);
 
 /// The smallest box with sides along the local axes around a part.
 [[nodiscard]] Box box_of_part(const Hulls& hulls, const PlacedHulls& placed, int part);

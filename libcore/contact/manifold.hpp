@@ -1,4 +1,4 @@
-// libcore/contact/manifold.hpp
+// libcore/contact/manifold.hpp: public
 // The contact points of two convex parts along a given axis.
 // in:    two placed parts and the axis that find_axis chose
 // out:   which features meet; then one normal and a point, a gap and a share of the area for each

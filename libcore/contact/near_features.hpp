@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/types.hpp"
-#include "contact/pose.hpp"
+#include "motion/pose.hpp"
 
 namespace talus {
 

@@ -88,12 +88,6 @@ const OverlapScratch::Cell* find_cell(const OverlapScratch& scratch, std::uint64
   }
 }
 
-bool overlap(const Box& one, const Box& other) {
-  return one.low.x() <= other.high.x() && other.low.x() <= one.high.x() &&
-         one.low.y() <= other.high.y() && other.low.y() <= one.high.y() &&
-         one.low.z() <= other.high.z() && other.low.z() <= one.high.z();
-}
-
 struct Query {
   std::span<const Box> boxes;
   std::span<const int> owner;

@@ -17,6 +17,13 @@ struct Box {
   Vec3 low, high;
 };
 
+/// Whether boxes overlap or touch.
+[[nodiscard]] inline bool overlap(const Box& one, const Box& other) {
+  return one.low.x() <= other.high.x() && other.low.x() <= one.high.x() &&
+         one.low.y() <= other.high.y() && other.low.y() <= one.high.y() &&
+         one.low.z() <= other.high.z() && other.low.z() <= one.high.z();
+}
+
 /// Arrays that find_overlaps fills anew; kept to spare allocation.
 struct OverlapScratch {
   struct Item {

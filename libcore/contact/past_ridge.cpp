@@ -27,11 +27,11 @@ constexpr OwnedEdge edges_of_triangle[2][3] = {
 // vertex v, seen from above; 0 when none does [m].
 double height_under(const Shapes& shapes, int b, std::span<const Vec3> vertices, int v,
                     const Vec3& begin, const Vec3& end) {
-  const Vec3& x = vertices[static_cast<size_t>(v)];
+  const Vec3& x = vertices[v];
   double height = 0;
   for (const ShapeEdge& edge : edges_of(shapes, b)) {
     if (edge.a != v && edge.b != v) continue;
-    const Vec3 e = vertices[static_cast<size_t>(edge.a == v ? edge.b : edge.a)] - x;
+    const Vec3 e = vertices[edge.a == v ? edge.b : edge.a] - x;
     const LinePair at = crossing_seen_along(Vec3::UnitZ(), x, e, begin, end - begin);
     if (is_within(at)) height = std::max(height, (begin + at.t * (end - begin) - x - at.s * e).z());
   }
@@ -49,7 +49,7 @@ double depth_past_ridge(const Ground& ground, const Shapes& shapes, int b,
     reported = std::max(reported, -contact.gap);
     if (contact.key.mode != ContactMode::vertex_face) continue;
     const int v = contact.key.feature_a;
-    const Vec3& x = vertices[static_cast<size_t>(v)];
+    const Vec3& x = vertices[v];
     const GridPoint at = locate(trn, x.x(), x.y());
     for (const OwnedEdge& owned : edges_of_triangle[is_upper(at)]) {
       const int row = at.cell.row + owned.d_row, col = at.cell.col + owned.d_col;

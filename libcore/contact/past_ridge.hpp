@@ -1,4 +1,4 @@
-// libcore/contact/past_ridge.hpp
+// libcore/contact/past_ridge.hpp: public
 // How deep a block stands in a ridge that one of its vertices has crossed.
 // in:    ground, block, its contacts
 // out:   an overlap that none of the contacts reports

@@ -1,4 +1,4 @@
-// libcore/contact/search.hpp
+// libcore/contact/search.hpp: public
 // All contacts that a block may have with the ground at a pose: modes 1, 2 and 3 of Fig. 7.
 // in:    ground, block surface, pose
 // out:   candidate contacts with their gaps
@@ -10,8 +10,8 @@
 #include "contact/contact.hpp"
 #include "contact/ground.hpp"
 #include "contact/near_features.hpp"
-#include "contact/pose.hpp"
 #include "contact/shapes.hpp"
+#include "motion/pose.hpp"
 
 namespace talus {
 

@@ -172,7 +172,7 @@ BestEdges find_edges(const Parts& parts, const Vec3& best_face, bool inner, doub
 
   BestEdges best;
   for (int i = 0; i < n_a; ++i) {
-    const int e_a = scratch.edges_a[static_cast<std::size_t>(i)];
+    const int e_a = scratch.edges_a[i];
     const Vec3 along_a = edge_direction(parts, parts.a, edges_a[e_a]);
     normal_dots(parts, parts.b, along_a, row);
     int n = 0, n_both = 0;  // without branches, as above

@@ -13,21 +13,19 @@ void add_part(Shapes& shapes, const Polyhedron& part, std::span<const int> verte
               std::span<const Vec3> body_vertices, const Mat3& to_body, int internal_tag) {
   for (int f = 0; f < n_faces(part); ++f) {
     const Vec3 normal = to_body * face_normal(part, f);
-    if (part.face_tag[static_cast<std::size_t>(f)] == internal_tag) {
-      const int corner = vertex_of[static_cast<std::size_t>(face(part, f)[0])];
-      shapes.walls.push_back({normal, normal.dot(body_vertices[static_cast<std::size_t>(corner)])});
+    if (part.face_tag[f] == internal_tag) {
+      const int corner = vertex_of[face(part, f)[0]];
+      shapes.walls.push_back({normal, normal.dot(body_vertices[corner])});
       continue;
     }
     ShapeFace face_data;
     face_data.normal = normal;
     face_data.area = face_area(part, f);
     face_data.vertex_begin = static_cast<int>(shapes.face_vertices.size());
-    for (const int v : face(part, f))
-      shapes.face_vertices.push_back(vertex_of[static_cast<std::size_t>(v)]);
+    for (const int v : face(part, f)) shapes.face_vertices.push_back(vertex_of[v]);
     face_data.vertex_end = static_cast<int>(shapes.face_vertices.size());
     for (int i = face_data.vertex_begin; i < face_data.vertex_end; ++i)
-      face_data.offset += face_data.normal.dot(body_vertices[static_cast<std::size_t>(
-          shapes.face_vertices[static_cast<std::size_t>(i)])]);
+      face_data.offset += face_data.normal.dot(body_vertices[shapes.face_vertices[i]]);
     face_data.offset /= face_data.vertex_end - face_data.vertex_begin;
     shapes.faces.push_back(face_data);
   }
@@ -39,11 +37,9 @@ void add_edges(Shapes& shapes, const Polyhedron& shell, std::span<const int> ver
                std::span<const Vec3> body_vertices, const Mat3& to_body) {
   for (const PolyhedronEdge& edge : edges(shell)) {
     if (edge.left < 0 || edge.right < 0) continue;
-    const int a = vertex_of[static_cast<std::size_t>(edge.a)];
-    const int b = vertex_of[static_cast<std::size_t>(edge.b)];
-    const Vec3 along =
-        (body_vertices[static_cast<std::size_t>(b)] - body_vertices[static_cast<std::size_t>(a)])
-            .normalized();
+    const int a = vertex_of[edge.a];
+    const int b = vertex_of[edge.b];
+    const Vec3 along = (body_vertices[b] - body_vertices[a]).normalized();
     const Vec3 left = to_body * face_normal(shell, edge.left);
     const Vec3 right = to_body * face_normal(shell, edge.right);
     if (left.cross(right).dot(along) > flattest_edge)

@@ -1,4 +1,4 @@
-// libcore/contact/start_contacts.hpp
+// libcore/contact/start_contacts.hpp: public
 // Who touches whom before anything moves: joint faces in contact, where bonds act, and overlaps,
 // which are an error of the input.
 // in:    hulls placed as cut

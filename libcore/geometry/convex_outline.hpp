@@ -1,4 +1,4 @@
-// libcore/geometry/convex_outline.hpp
+// libcore/geometry/convex_outline.hpp: public
 // Convex outline of points in the plane. Andrew 1979 (monotone chain).
 #pragma once
 

@@ -1,4 +1,4 @@
-// libcore/geometry/face_overlap.hpp
+// libcore/geometry/face_overlap.hpp: public
 // The part that two faces lying against each other have in common, for faces that hide one another
 // inside a body and for joint faces between blocks.
 #pragma once

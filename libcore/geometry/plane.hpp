@@ -1,4 +1,4 @@
-// libcore/geometry/plane.hpp
+// libcore/geometry/plane.hpp: public
 // Oriented planes: n . x = d, the inside is where n . x < d.
 #pragma once
 

@@ -1,4 +1,4 @@
-// libcore/geometry/polyhedron.hpp
+// libcore/geometry/polyhedron.hpp: public
 // Closed polyhedra as plain data: vertices and polygons, their exact moments, their checks, and the
 // cutting of convex ones by a plane.
 // in:    nothing but coordinates; keep them near the local origin, never absolute map coordinates

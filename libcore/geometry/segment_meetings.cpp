@@ -28,8 +28,7 @@ void lay_out(const std::vector<Vec2>& points, const std::vector<Segment>& segmen
   grid.low = points.front();
   for (const Vec2& p : points) grid.low = grid.low.cwiseMin(p), high = high.cwiseMax(p);
   double length = 0;
-  for (const auto& [a, b] : segments)
-    length += (points[static_cast<std::size_t>(b)] - points[static_cast<std::size_t>(a)]).norm();
+  for (const auto& [a, b] : segments) length += (points[b] - points[a]).norm();
   const auto n = static_cast<double>(segments.size());
   const Vec2 extent = high - grid.low;
   grid.cell_size = std::max({2 * length / n, std::sqrt(extent.x() * extent.y() / (4 * n)),
@@ -67,9 +66,7 @@ void for_each_cell(const SegmentGrid& grid, Vec2 a, Vec2 b, const Visit& visit) 
 SegmentGrid sort_into_cells(const std::vector<Vec2>& points, const std::vector<Segment>& segments) {
   SegmentGrid grid;
   lay_out(points, segments, grid);
-  const auto end_of = [&](std::size_t s, std::size_t end) {
-    return points[static_cast<std::size_t>(segments[s][end])];
-  };
+  const auto end_of = [&](std::size_t s, std::size_t end) { return points[segments[s][end]]; };
   grid.begin.assign(static_cast<std::size_t>(grid.n_x) * static_cast<std::size_t>(grid.n_y) + 1, 0);
   for (std::size_t s = 0; s < segments.size(); ++s)
     for_each_cell(grid, end_of(s, 0), end_of(s, 1), [&](std::size_t cell) { ++grid.begin[cell]; });
@@ -90,8 +87,8 @@ class MeetingFinder {
 
   void test(int s, int t) {
     if (boxes_apart(s, t)) return;
-    const auto [a, b] = segments_[static_cast<std::size_t>(s)];
-    const auto [c, d] = segments_[static_cast<std::size_t>(t)];
+    const auto [a, b] = segments_[s];
+    const auto [c, d] = segments_[t];
     if (a == c || a == d || b == c || b == d) {
       test_joined(s, t);
       return;
@@ -113,12 +110,12 @@ class MeetingFinder {
   SegmentMeetings found;
 
  private:
-  [[nodiscard]] const Vec2& at(int point) const { return points_[static_cast<std::size_t>(point)]; }
+  [[nodiscard]] const Vec2& at(int point) const { return points_[point]; }
   [[nodiscard]] int side(int a, int b, int c) const { return orient2d(at(a), at(b), at(c)); }
 
   [[nodiscard]] bool boxes_apart(int s, int t) const {
-    const auto [a, b] = segments_[static_cast<std::size_t>(s)];
-    const auto [c, d] = segments_[static_cast<std::size_t>(t)];
+    const auto [a, b] = segments_[s];
+    const auto [c, d] = segments_[t];
     for (const Eigen::Index axis : {0, 1}) {
       const auto [s_low, s_high] = std::minmax(at(a)[axis], at(b)[axis]);
       const auto [t_low, t_high] = std::minmax(at(c)[axis], at(d)[axis]);
@@ -129,8 +126,8 @@ class MeetingFinder {
 
   // Segments with a common end meet elsewhere only where they lie on one line.
   void test_joined(int s, int t) {
-    const auto [a, b] = segments_[static_cast<std::size_t>(s)];
-    const auto [c, d] = segments_[static_cast<std::size_t>(t)];
+    const auto [a, b] = segments_[s];
+    const auto [c, d] = segments_[t];
     const int common = a == c || a == d ? a : b;
     const int end_s = common == a ? b : a, end_t = common == c ? d : c;
     if (end_s == end_t || side(common, end_s, end_t) != 0) return;
@@ -140,7 +137,7 @@ class MeetingFinder {
 
   // `point` is on the line of segment s; is it between the ends?
   void touch(int s, int point) {
-    const auto [a, b] = segments_[static_cast<std::size_t>(s)];
+    const auto [a, b] = segments_[s];
     if (point == a || point == b || a == b) return;
     const Vec2 low = at(a).cwiseMin(at(b)), high = at(a).cwiseMax(at(b));
     const Vec2& p = at(point);

@@ -1,4 +1,4 @@
-// libcore/geometry/segment_meetings.hpp
+// libcore/geometry/segment_meetings.hpp: public
 // Where the segments of a plane map meet other than at common ends, decided without rounding
 // errors.
 #pragma once
@@ -34,7 +34,7 @@ struct SegmentMeetings {
 [[nodiscard]] SegmentMeetings find_segment_meetings(
     const std::vector<Vec2>& points, const std::vector<std::array<int, 2>>& segments);
 
-/// Where the lines through a, b and c, d cross, as a share of the way from a to b. Not parallel.
+/// Where the lines through a, b and c, d cross, as a share of the path from a to b. Not parallel.
 [[nodiscard]] double crossing_share(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d);
 
 }  // namespace talus

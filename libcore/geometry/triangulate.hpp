@@ -1,4 +1,4 @@
-// libcore/geometry/triangulate.hpp
+// libcore/geometry/triangulate.hpp: public
 // Faces as triangles: fans where the face is convex, ears cut off where it is not.
 #pragma once
 

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/source_path.hpp"
 #include "io/errors_gdal.hpp"
 
 namespace talus {
@@ -80,7 +81,7 @@ void check(const OGRPolygon& polygon, const Where& where, const std::string& hin
 }  // namespace
 
 void check_polygon(const OGRPolygon& polygon, const Where& where) {
-  check(polygon, where, "mend it: ogr2ogr -makevalid mended.gpkg " + where.file);
+  check(polygon, where, "mend it: ogr2ogr -makevalid mended.gpkg " + command_words(where.file));
 }
 
 void check_polygon(const std::vector<Vec2>& corners, const Where& where) {

@@ -1,4 +1,4 @@
-// libcore/io/areas_gdal.hpp
+// libcore/io/areas_gdal.hpp: public
 // Polygons as they are read: each one by itself is sound, and what overlaps is one area.
 // in:    polygons of a vector source, or the corners of one
 // out:   polygons that share no ground

@@ -1,4 +1,4 @@
-// libcore/io/block_pictures.hpp
+// libcore/io/block_pictures.hpp: public
 // Pictures of a block set as SVG text: the stereonet of its joints, the curve of its sizes.
 #pragma once
 

@@ -1,4 +1,4 @@
-// libcore/io/blocks_hdf5.hpp
+// libcore/io/blocks_hdf5.hpp: public
 // The block set as an HDF5 file; docs/formats.md lists its datasets.
 #pragma once
 

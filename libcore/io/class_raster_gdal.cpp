@@ -8,7 +8,9 @@
 
 #include "base/text.hpp"
 #include "io/crs_gdal.hpp"
+#include "io/crs_place_gdal.hpp"
 #include "io/errors_gdal.hpp"
+#include "io/raster_bands_gdal.hpp"
 
 namespace talus {
 namespace {
@@ -27,11 +29,8 @@ Dataset open_classes(const std::string& path, const Trn& trn) {
   if (!dataset)
     throw InputError({path}, "cannot be opened as a raster: " + errors.failure(),
                      "gdalinfo " + path + " shows what GDAL makes of it");
-  if (dataset->GetRasterCount() != 1)
-    throw InputError(
-        {path},
-        "the raster has " + std::to_string(dataset->GetRasterCount()) + " bands, expected one",
-        "gdal_translate -b 1 " + path + " one_band.tif");
+  refuse_several_rasters(*dataset, path);
+  check_one_band(*dataset, path);
   const std::string crs = wkt_of(dataset->GetSpatialRef());
   if (!crs.empty() && !trn.crs_wkt.empty() && !same_crs(crs, trn.crs_wkt))
     throw InputError(
@@ -53,6 +52,17 @@ std::array<double, 6> place_of(GDALDataset& dataset, const std::string& path) {
   return g;
 }
 
+// Classes that lie beside the terrain would all read as unknown.
+void check_ground_place(GDALDataset& dataset, const std::array<double, 6>& g,
+                        const std::string& path, const Trn& trn) {
+  const std::string own = wkt_of(dataset.GetSpatialRef());
+  Place place{
+      own.empty() ? trn.crs_wkt : own,
+      {g[0], g[3] + dataset.GetRasterYSize() * g[5], g[0] + dataset.GetRasterXSize() * g[1], g[3]}};
+  place.is_raster = true;
+  (void)check_place(place, {path});
+}
+
 /// One row of pixels at a time, as the terrain's rows come to them.
 struct PixelRows {
   std::string path;
@@ -65,8 +75,8 @@ struct PixelRows {
     if (wanted == row) return;
     const GdalErrors errors;
     const int n = band.GetXSize();
-    value.resize(static_cast<size_t>(n));
-    known.assign(static_cast<size_t>(n), 255);
+    value.resize(n);
+    known.assign(n, 255);
     CPLErr status =
         band.RasterIO(GF_Read, 0, wanted, n, 1, value.data(), n, 1, GDT_Float64, 0, 0, nullptr);
     if (status == CE_None && band.GetMaskFlags() != GMF_ALL_VALID)
@@ -80,8 +90,8 @@ struct PixelRows {
   }
 
   [[nodiscard]] std::int32_t at(int col) const {
-    const double v = value[static_cast<size_t>(col)];
-    if (known[static_cast<size_t>(col)] == 0 || std::isnan(v)) return no_class;
+    const double v = value[col];
+    if (known[col] == 0 || std::isnan(v)) return no_class;
     if (v != std::floor(v) || std::abs(v) > 2e9)
       throw InputError({path, 0, "row " + std::to_string(row) + ", column " + std::to_string(col)},
                        "the value is " + text(v) + ", expected a whole number that names a class");
@@ -94,6 +104,7 @@ struct PixelRows {
 std::vector<std::int32_t> read_cell_classes(const std::string& path, const Trn& trn) {
   const Dataset dataset = open_classes(path, trn);
   const std::array<double, 6> g = place_of(*dataset, path);
+  check_ground_place(*dataset, g, path, trn);
   PixelRows rows{path, *dataset->GetRasterBand(1), -1, {}, {}};
   const int n_rows = trn.n_rows - 1, n_cols = trn.n_cols - 1;
   std::vector<std::int32_t> classes(static_cast<size_t>(n_rows) * static_cast<size_t>(n_cols),

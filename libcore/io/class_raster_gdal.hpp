@@ -1,23 +1,20 @@
-// libcore/io/class_raster_gdal.hpp
+// libcore/io/class_raster_gdal.hpp: public
 // Rasters of classes (ground, land cover): whole numbers that are looked up, never interpolated.
 // in:    any GDAL raster with one band of whole numbers, north-up, in the CRS of the terrain
 // out:   the value under the centre of each cell of a TRN
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <vector>
 
+#include "site/ground_classes.hpp"
 #include "terrain/trn.hpp"
 
 namespace talus {
 
-/// Stands for nodata and for places outside of the raster.
-inline constexpr std::int32_t no_class = std::numeric_limits<std::int32_t>::min();
-
 /// Value of the raster's pixel that holds the centre of each cell of `trn`, whatever the size of
-/// the pixels.                                                                    (n_cells)
+/// the pixels; no_class outside of the raster and where it has no data.           (n_cells)
 ///
 /// Throws InputError when the file is no raster, has not exactly one band, no place on the map, is
 /// rotated, is in another CRS (classes are not reprojected silently), or holds a value that is not

@@ -29,6 +29,10 @@ struct HeightRange {
 /// Breaklines, or points as lines of one point: a height a point. `unit_m`: metres in one unit of
 /// the heights, held against the field's name. Throws InputError where heights are missing.
 [[nodiscard]] Polylines read_measured_lines(const LayerChoice& choice, OpenLayer& source,
-                                            double unit_m, std::vector<std::string>& notes);
+                                            double unit_m, std::vector<std::string>& notes,
+                                            LayerReading& taken);
+
+/// Sentences on what was passed over, and the remarks of a source, to its notes.
+void add_remarks(const LayerReading& taken, std::vector<std::string>& notes);
 
 }  // namespace talus

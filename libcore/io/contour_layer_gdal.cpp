@@ -2,50 +2,42 @@
 
 #include <ogrsf_frmts.h>
 
+#include <algorithm>
+#include <cmath>
+#include <utility>
 #include <vector>
 
 #include "base/text.hpp"
+#include "io/crs_gdal.hpp"
 #include "io/errors_gdal.hpp"
+#include "io/layer_names.hpp"
+#include "io/layer_shapes_gdal.hpp"
+#include "io/vector_dataset_gdal.hpp"
 
 namespace talus {
 namespace {
 
-const char* plural(LayerShape shape) {
-  return shape == LayerShape::line ? "lines" : shape == LayerShape::point ? "points" : "polygons";
-}
+// --- shapes --------------------------------------------------------------------------------------
 
-GDALDatasetUniquePtr open_vectors(const std::string& path) {
-  register_gdal_drivers();
-  const GdalErrors errors;
-  GDALDatasetUniquePtr dataset(
-      GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_VERBOSE_ERROR));
-  if (dataset) return dataset;
-  throw InputError(
-      {path},
-      "cannot be opened as vectors" + (errors.failed() ? ": " + errors.failure() : std::string()),
-      "ogrinfo " + path + " shows what GDAL makes of it");
-}
-
-bool fits(OGRwkbGeometryType type, LayerShape shape) {
-  const OGRwkbGeometryType flat = OGR_GT_GetLinear(wkbFlatten(type));
-  switch (shape) {
-    case LayerShape::line:
-      return flat == wkbLineString || flat == wkbMultiLineString;
-    case LayerShape::point:
-      return flat == wkbPoint || flat == wkbMultiPoint;
-    default:
-      return flat == wkbPolygon || flat == wkbMultiPolygon;
-  }
-}
-
-// Whether the geometry is of the shape, or a collection with a part that is.
-bool has_part(const OGRGeometry& geometry, LayerShape shape) {
-  const OGRwkbGeometryType type = wkbFlatten(geometry.getGeometryType());
-  if (fits(type, shape)) return true;
-  if (type != wkbGeometryCollection) return false;
+// Whether a test holds for the geometry or for a part of it.
+bool any_part(const OGRGeometry& geometry, const std::function<bool(const OGRGeometry&)>& test) {
+  if (!OGR_GT_IsSubClassOf(wkbFlatten(geometry.getGeometryType()), wkbGeometryCollection))
+    return test(geometry);
   for (const OGRGeometry* part : *geometry.toGeometryCollection())
-    if (has_part(*part, shape)) return true;
+    if (any_part(*part, test)) return true;
   return false;
+}
+
+bool any_feature(OGRLayer& layer, const std::function<bool(const OGRGeometry&)>& test) {
+  layer.ResetReading();
+  bool found = false;
+  for (const auto& feature : layer) {
+    const OGRGeometry* geometry = feature->GetGeometryRef();
+    found = geometry != nullptr && any_part(*geometry, test);
+    if (found) break;
+  }
+  layer.ResetReading();
+  return found;
 }
 
 // Whether the layer is declared to hold the shape. One that may hold anything is looked through: a
@@ -53,134 +45,169 @@ bool has_part(const OGRGeometry& geometry, LayerShape shape) {
 bool holds(OGRLayer& layer, LayerShape shape) {
   const OGRwkbGeometryType type = wkbFlatten(layer.GetGeomType());
   if (type == wkbNone) return false;
-  if (type != wkbUnknown && type != wkbGeometryCollection) return fits(type, shape);
-  layer.ResetReading();
-  bool found = false;
-  for (const auto& feature : layer) {
-    const OGRGeometry* geometry = feature->GetGeometryRef();
-    found = geometry != nullptr && has_part(*geometry, shape);
-    if (found) break;
+  if (type != wkbUnknown && type != wkbGeometryCollection) return fits(layer.GetGeomType(), shape);
+  return any_feature(
+      layer, [shape](const OGRGeometry& part) { return fits(part.getGeometryType(), shape); });
+}
+
+bool holds_closed_line(OGRLayer& layer) {
+  if (!holds(layer, LayerShape::line)) return false;
+  return any_feature(layer, [](const OGRGeometry& part) {
+    const std::unique_ptr<OGRGeometry> line(part.getLinearGeometry());
+    return wkbFlatten(line->getGeometryType()) == wkbLineString && is_closed(*line->toLineString());
+  });
+}
+
+// --- layers by name ------------------------------------------------------------------------------
+
+std::vector<std::string> layer_names(GDALDataset& dataset) {
+  std::vector<std::string> names;
+  for (OGRLayer* layer : dataset.GetLayers()) names.emplace_back(layer->GetName());
+  return names;
+}
+
+// The layers of a database that one word names: a layer, a pattern, or several parted by commas.
+std::vector<OGRLayer*> layers_named(const std::string& word, const OpenLayer& source) {
+  if (OGRLayer* layer = source.dataset->GetLayerByName(word.c_str())) return {layer};
+  std::vector<OGRLayer*> found;
+  if (word.find(',') != std::string::npos) {
+    for (const std::string& part : parted(word, ',')) {
+      const std::vector<OGRLayer*> named = layers_named(part, source);
+      if (named.empty()) return {};
+      found.insert(found.end(), named.begin(), named.end());
+    }
+    return found;
   }
-  layer.ResetReading();
+  if (is_pattern(word))
+    for (OGRLayer* layer : source.dataset->GetLayers())
+      if (matches(word, layer->GetName()) && holds(*layer, source.role.shape))
+        found.push_back(layer);
   return found;
 }
 
-std::string list_of_layers(GDALDataset& dataset) {
-  std::string names;
-  for (OGRLayer* layer : dataset.GetLayers())
-    names += (names.empty() ? "" : ", ") + std::string(layer->GetName());
-  return names.empty() ? "none" : names;
-}
-
-std::string quoted(const std::string& text) {
-  std::string escaped;
-  for (const char c : text) escaped += c == '\'' ? "''" : std::string(1, c);
-  return "'" + escaped + "'";
-}
-
-void choose_by_name(const LayerChoice& choice, OpenLayer& source) {
-  source.layer = source.dataset->GetLayerByName(choice.layer.c_str());
-  source.name = choice.layer;
-  if (source.layer != nullptr) return;
-  if (source.is_drawing) {
-    source.layer = source.dataset->GetLayer(0);
-    source.filter = "Layer = " + quoted(choice.layer);
-    source.layer->SetAttributeFilter(source.filter.c_str());
-    if (source.layer->GetFeatureCount() > 0) return;
-    throw InputError({choice.path}, "the drawing has nothing in a layer \"" + choice.layer + "\"",
-                     "ogrinfo -al " + choice.path + " shows the layers as attribute Layer");
+void choose_by_name(const LayerChoice& choice, const std::string& names, OpenLayer& source) {
+  for (const std::string& word : parted(names, '\n')) {
+    const std::vector<OGRLayer*> found = layers_named(word, source);
+    if (found.empty() && source.is_drawing) {
+      source.wanted.push_back(word);
+      continue;
+    }
+    if (found.empty())
+      throw InputError({choice.path}, "there is no layer \"" + word + "\"; there are: " +
+                                          list_of(layer_names(*source.dataset)));
+    for (OGRLayer* layer : found)
+      if (std::find(source.layers.begin(), source.layers.end(), layer) == source.layers.end())
+        source.layers.push_back(layer);
   }
-  throw InputError({choice.path}, "there is no layer \"" + choice.layer +
-                                      "\"; there are: " + list_of_layers(*source.dataset));
+  if (source.is_drawing) {
+    if (!source.layers.empty()) source.wanted = {"*"};  // the whole drawing, by its name in GDAL
+    source.layers = {source.dataset->GetLayer(0)};
+  }
+}
+
+void choose_by_number(const LayerChoice& choice, const std::string& number, OpenLayer& source) {
+  double value = -1;
+  const int n = source.dataset->GetLayerCount();
+  if (!parse_double(number, value) || value < 0 || value >= n || value != std::floor(value))
+    throw InputError({choice.path},
+                     "there is no layer with the number " + number +
+                         "; the layers are: " + list_of(layer_names(*source.dataset)));
+  source.layers = {source.dataset->GetLayer(static_cast<int>(value))};
 }
 
 void choose_by_shape(const LayerChoice& choice, OpenLayer& source) {
   const LayerShape shape = source.role.shape;
-  std::vector<OGRLayer*> fitting;
-  if (source.dataset->GetLayerCount() == 1)
-    fitting.push_back(source.dataset->GetLayer(0));  // its features say what is wrong
-  else
+  const auto take_if = [&source](const std::function<bool(OGRLayer&)>& test) {
     for (OGRLayer* layer : source.dataset->GetLayers())
-      if (holds(*layer, shape)) fitting.push_back(layer);
-  if (fitting.size() != 1)
+      if (test(*layer)) source.layers.push_back(layer);
+  };
+  if (source.dataset->GetLayerCount() == 1)
+    source.layers.push_back(source.dataset->GetLayer(0));  // its features say what is wrong
+  else
+    take_if([shape](OGRLayer& layer) { return holds(layer, shape); });
+  if (source.layers.empty() && shape == LayerShape::polygon) take_if(holds_closed_line);
+  if (source.layers.size() == 1) return;
+  std::vector<std::string> fitting;
+  for (OGRLayer* layer : source.layers) fitting.emplace_back(layer->GetName());
+  throw InputError({choice.path},
+                   std::to_string(fitting.size()) + " layers hold " + plural(shape) +
+                       ", expected one; the layers are: " + list_of(layer_names(*source.dataset)),
+                   hint_to_choose(source.role.options, fitting));
+}
+
+// --- opening -------------------------------------------------------------------------------------
+
+// Names in the path, as QGIS writes them, and in the option or key are the same or one of them.
+std::string layers_asked_for(const LayerChoice& choice, const SourcePath& path,
+                             const OpenLayer& source) {
+  const std::string& by_path = path.layer.empty() ? path.layer_id : path.layer;
+  if (by_path.empty() || choice.layer.empty() || by_path == choice.layer)
+    return path.layer.empty() ? choice.layer : path.layer;
+  throw InputError({choice.path},
+                   "the name asks for the layer " + by_path + ", " +
+                       layer_option(source.role.options) + " for \"" + choice.layer + "\"",
+                   "name the layer once");
+}
+
+std::string both_filters(const std::string& a, const std::string& b) {
+  return a.empty() || b.empty() ? a + b : "(" + a + ") AND (" + b + ")";
+}
+
+void set_filter(const LayerChoice& choice, OpenLayer& source) {
+  if (source.filter.empty()) return;
+  for (OGRLayer* layer : source.layers) {
+    const GdalErrors errors;
+    if (layer->SetAttributeFilter(source.filter.c_str()) == OGRERR_NONE) continue;
+    throw InputError({choice.path, 0, std::string("layer ") + layer->GetName()},
+                     "the filter \"" + source.filter + "\" cannot be used: " + errors.failure());
+  }
+}
+
+void check_one_crs(const LayerChoice& choice, const OpenLayer& source) {
+  const std::string first = wkt_of(source.layer->GetSpatialRef());
+  for (OGRLayer* layer : source.layers) {
+    const std::string other = wkt_of(layer->GetSpatialRef());
+    if (same_crs(first, other) && same_heights(first, other)) continue;
     throw InputError({choice.path},
-                     std::to_string(fitting.size()) + " layers hold " + plural(shape) +
-                         ", expected one; the layers are: " + list_of_layers(*source.dataset),
-                     "choose with " + std::string(source.role.options) + "layer");
-  source.layer = fitting.front();
-  source.name = source.layer->GetName();
+                     std::string("the CRS of layer ") + source.layer->GetName() + " is " +
+                         crs_name(first) + ", that of layer " + layer->GetName() + " is " +
+                         crs_name(other) + ", expected one CRS",
+                     "bring the layers to one CRS first");
+  }
+}
+
+void find_drawing_field(OpenLayer& source) {
+  const std::string driver = source.dataset->GetDriverName();
+  if (driver == "DXF") source.drawing_field = "Layer";
+  if (driver == "DGN") source.drawing_field = "Level";
+  source.is_drawing = !source.drawing_field.empty();
 }
 
 }  // namespace
 
 OpenLayer open_layer(const LayerChoice& choice, const LayerRole& role) {
+  const SourcePath path = parse_source_path(choice.path);
   OpenLayer source;
   source.role = role;
-  source.dataset = open_vectors(choice.path);
-  source.is_drawing = std::string(source.dataset->GetDriverName()) == "DXF";
-  if (choice.layer.empty())
-    choose_by_shape(choice, source);
+  VectorDataset opened = open_vectors(path);
+  source.dataset = opened.dataset;
+  source.remarks = std::move(opened.remarks);
+  source.filter = both_filters(path.subset, choice.where);
+  find_drawing_field(source);
+  const std::string names = layers_asked_for(choice, path, source);
+  if (!names.empty())
+    choose_by_name(choice, names, source);
+  else if (!path.layer_id.empty())
+    choose_by_number(choice, path.layer_id, source);
   else
-    choose_by_name(choice, source);
+    choose_by_shape(choice, source);
+  source.layer = source.layers.front();
+  check_one_crs(choice, source);
+  set_filter(choice, source);
+  std::vector<std::string> taken;
+  for (OGRLayer* layer : source.layers) taken.emplace_back(layer->GetName());
+  source.name = list_of(source.wanted.empty() ? taken : source.wanted);
   return source;
-}
-
-Where where_of_layer(const LayerChoice& choice, const OpenLayer& source) {
-  return {choice.path, 0, "layer " + source.name};
-}
-
-Where where_of_feature(const LayerChoice& choice, const OpenLayer& source,
-                       const OGRFeature& feature) {
-  return {choice.path, 0, "layer " + source.name + ", feature " + std::to_string(feature.GetFID())};
-}
-
-void for_each_part(const LayerChoice& choice, OpenLayer& source,
-                   const std::function<void(const OGRGeometry&, const OGRFeature&)>& visit) {
-  const GdalErrors errors;
-  const LayerShape shape = source.role.shape;
-  std::int64_t n_null = 0;
-  source.n_features = source.n_ignored = 0;
-  const std::function<void(const OGRGeometry&, const OGRFeature&)> descend =
-      [&](const OGRGeometry& geometry, const OGRFeature& feature) {
-        const OGRwkbGeometryType type = wkbFlatten(geometry.getGeometryType());
-        if (OGR_GT_IsSubClassOf(type, wkbGeometryCollection)) {
-          for (const OGRGeometry* part : *geometry.toGeometryCollection()) descend(*part, feature);
-        } else if (fits(type, shape)) {
-          visit(geometry, feature);
-        } else if (source.is_drawing) {
-          ++source.n_ignored;
-        } else {
-          throw InputError(where_of_feature(choice, source, feature),
-                           std::string("the geometry is ") + geometry.getGeometryName() +
-                               ", expected " + plural(shape));
-        }
-      };
-  source.layer->ResetReading();
-  for (const auto& feature : *source.layer) {
-    ++source.n_features;
-    const OGRGeometry* geometry = feature->GetGeometryRef();
-    if (geometry == nullptr || geometry->IsEmpty()) {
-      ++n_null;
-      continue;
-    }
-    const std::unique_ptr<OGRGeometry> linear(geometry->getLinearGeometry());
-    descend(*linear, *feature);
-  }
-  const Where where = where_of_layer(choice, source);
-  if (source.n_features == 0)
-    throw InputError(where, "the layer is empty, expected " + std::string(plural(shape)));
-  if (n_null > 0)
-    throw InputError(where,
-                     std::to_string(n_null) + " of " + std::to_string(source.n_features) +
-                         " features have no geometry, expected none: is the file truncated?",
-                     "copy the file anew; features that are meant to be empty must be deleted");
-  if (errors.failed()) throw InputError(where, "reading failed: " + errors.failure());
-}
-
-void check_finite(const Vec3& point, const Where& where) {
-  if (point.allFinite()) return;
-  throw InputError(where, "a coordinate is not finite (x " + text(point.x()) + ", y " +
-                              text(point.y()) + ", z " + text(point.z()) + ")");
 }
 
 }  // namespace talus

@@ -6,22 +6,34 @@
 #include <string>
 #include <vector>
 
+#include "io/layer_reading.hpp"
+
 namespace talus {
 
-/// A vector source and one of its layers; an empty layer means the only one with fitting
-/// geometries. In a DXF drawing the layer may also be a layer of the drawing.
+/// A vector source and one or several of its layers, parted by line breaks or commas, with * and ?
+/// for any letters; empty: the only one with fitting geometries. Of a DXF drawing they are the
+/// layers of the drawing.
 struct LayerChoice {
-  std::string path;
+  std::string path;  ///< also as QGIS writes it ("map.gpkg|layername=index"), or an archive
   std::string layer;
-  std::string elevation_field;  ///< empty: Z where it tells heights apart, else a field by name
+  /// Empty: Z where it tells heights apart, else a field by name. "Z", or "geometry.Z" and
+  /// "field.Z" where a field has that name.
+  std::string elevation_field;
+  std::string where;  ///< OGR attribute filter; empty: all
+  double unit_m = 0;  ///< metres in one unit of its coordinates; 0: metres, or as a drawing says
 };
 
 struct ContourSources {
   LayerChoice contours, breaklines, spots, boundary;  ///< all but contours may have an empty path
-  double elevation_unit_m = 1;                        ///< metres in one unit of all elevations read
-  bool crs_given = false;  ///< `crs` stands for the CRS of contours that have none
-  std::string crs;         ///< WKT; empty: local metres
-  std::string t_srs;       ///< WKT to reproject to; empty: the CRS of the contours
+  LayerChoice labels;  ///< points with the heights of the contours as text; empty path: none
+  double elevation_unit_m = 0;  ///< metres in one unit of all elevations read; 0: that of the plan
+  bool crs_given = false;       ///< `crs` stands for the CRS of contours that have none
+  std::string crs;              ///< WKT; empty: local metres
+  std::string t_srs;            ///< WKT to reproject to; empty: the CRS of the contours
+  std::string vertical_crs;  ///< what the heights of contours are in that do not say it: WKT of a
+                             ///< vertical system, or ellipsoidal_heights
+  std::string t_vertical;    ///< WKT of the vertical system to take all heights to; empty: none
+  bool accept_ballpark = false;  ///< reproject though nothing is known of the datum
 };
 
 /// What was found while reading; `notes` are sentences for the user.
@@ -29,8 +41,11 @@ struct ContourReading {
   std::string layer;            ///< of the contours
   std::string elevation_from;   ///< "Z" or "field ELEV"
   std::int64_t n_features = 0;  ///< of the contours
-  std::int64_t n_ignored = 0;   ///< parts of the drawing of the contours that are no lines
   std::vector<std::string> notes;
+  std::vector<std::string> operations;  ///< sentences: how places and heights were taken over
+  std::vector<std::string> warnings;    ///< places beside their CRS, better operations without grid
+  /// What was taken, of each source; without a file: none was given.
+  LayerReading contours, labels, breaklines, spots, boundary;
 };
 
 }  // namespace talus

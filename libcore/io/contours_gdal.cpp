@@ -5,12 +5,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "base/error.hpp"
+#include "base/source_path.hpp"
 #include "base/text.hpp"
 #include "io/contour_heights_gdal.hpp"
 #include "io/contour_layer_gdal.hpp"
 #include "io/crs_gdal.hpp"
+#include "io/crs_operation_gdal.hpp"
+#include "io/crs_place_gdal.hpp"
+#include "io/drawing_unit_gdal.hpp"
 #include "io/errors_gdal.hpp"
 #include "terrain/elevation.hpp"
 #include "terrain/tin_mesh.hpp"
@@ -20,6 +25,7 @@ namespace {
 
 // What the sources of a map are read for.
 constexpr LayerRole contours_role{LayerShape::line, "contours", "--"};
+constexpr LayerRole ground_points_role{LayerShape::point, "points", "--"};
 constexpr LayerRole breaklines_role{LayerShape::line, "breaklines", "--breaklines-"};
 constexpr LayerRole spots_role{LayerShape::point, "spot heights", "--spots-"};
 constexpr LayerRole boundary_role{LayerShape::polygon, "boundary", "--boundary-"};
@@ -27,8 +33,22 @@ constexpr LayerRole reference_role{LayerShape::point, "points", "--reference-poi
 
 // --- reference systems ---------------------------------------------------------------------------
 
+// Whether the user may say that contours are in another system than their file names; notes why.
+bool may_be_given(const ContourSources& sources, const std::string& own,
+                  const std::vector<Vec3>& points, ContourReading& reading) {
+  if (same_crs(own, sources.crs) && same_heights(own, sources.crs)) return height_crs(own).empty();
+  const std::string reason = reason_to_replace(own, sources.crs, window_of(points));
+  if (reason.empty())
+    throw InputError({sources.contours.path},
+                     "the CRS is " + crs_name(own) + ", not " + crs_name(sources.crs),
+                     "leave --crs away; --t-srs reprojects");
+  reading.notes.push_back(sources.contours.path + ": the CRS is " + crs_name(own) + ", " + reason +
+                          "; taken as " + crs_name(sources.crs));
+  return true;
+}
+
 std::string crs_of_contours(const ContourSources& sources, const OpenLayer& source,
-                            const std::vector<Vec3>& points) {
+                            const std::vector<Vec3>& points, ContourReading& reading) {
   const std::string named = wkt_of(source.layer->GetSpatialRef());
   const bool no_degrees = is_beyond_degrees(named, points);
   const std::string own = no_degrees ? std::string() : named;
@@ -40,12 +60,8 @@ std::string crs_of_contours(const ContourSources& sources, const OpenLayer& sour
                                       "no degrees"
                                 : "there is no CRS, expected a projected one in metres",
                      "name it with --crs EPSG:code, or --crs none for local metres");
-  if (!own.empty() && sources.crs_given &&
-      !(same_crs(own, sources.crs) && same_heights(own, sources.crs)))
-    throw InputError({path}, "the CRS is " + crs_name(own) + ", not " + crs_name(sources.crs),
-                     "leave --crs away; --t-srs reprojects");
-  const bool user_says_heights = sources.crs_given && height_crs(own).empty();
-  return own.empty() || user_says_heights ? sources.crs : own;
+  if (own.empty()) return sources.crs;
+  return sources.crs_given && may_be_given(sources, own, points, reading) ? sources.crs : own;
 }
 
 void check_crs(const std::string& crs, const std::string& path, const Vec3& place) {
@@ -55,6 +71,52 @@ void check_crs(const std::string& crs, const std::string& path, const Vec3& plac
   throw InputError({path}, problem.finding,
                    "--t-srs " + (problem.mend_to.empty() ? "EPSG:code" : problem.mend_to) +
                        " reprojects; elevations in feet need --elevation-unit-m 0.3048");
+}
+
+// Whether the coordinates of a source can be in `crs`, to be used in `work_crs`.
+void check_place_of(const LayerChoice& choice, const OpenLayer& source, const std::string& crs,
+                    const std::string& work_crs, const std::vector<Vec3>& points,
+                    ContourReading& reading) {
+  if (crs.empty() || points.empty()) return;
+  Place place{crs, window_of(points), work_crs};
+  place.has_crs_option = place.has_unit_option = std::string(source.role.options) == "--";
+  place.layer = source.layer->GetName();
+  place.geometry_column = source.layer->GetGeometryColumn();
+  for (const std::string& warning : check_place(place, {parse_source_path(choice.path).source}))
+    reading.warnings.push_back(warning);
+}
+
+// --- units ---------------------------------------------------------------------------------------
+
+// Metres in one unit of the coordinates as they stand in the source; 1 also where the CRS has the
+// unit of the drawing, which takes care of it in plan.
+double plan_unit_of(const LayerChoice& choice, const OpenLayer& source, const std::string& crs,
+                    double elevation_unit_m, ContourReading& reading) {
+  const std::string opened = source.dataset->GetDescription();
+  if (const std::string doubt = doubt_on_unit(opened, choice.unit_m); !doubt.empty())
+    reading.warnings.push_back(choice.path + ": " + doubt);
+  const DrawingUnit unit = drawing_unit(opened);
+  const double crs_unit_m = length_unit_m(crs);
+  const std::string metres = unit.metres > 0 ? text(unit.metres) : "METRES";
+  const std::string option = std::string(source.role.options) + "unit-m";
+  const bool is_in_crs = crs_unit_m != 1 && std::abs(unit.metres / crs_unit_m - 1) < 1e-5;
+  if (is_in_crs && choice.unit_m == 0 && elevation_unit_m == 0)
+    throw InputError({choice.path},
+                     "the drawing is in " + unit.name + " ($INSUNITS " + std::to_string(unit.code) +
+                         "), as " + crs_name(crs) + " is: are its heights, too?",
+                     "--elevation-unit-m " + metres + ", or 1 where they are metres");
+  return scale_of_drawing(opened, choice.unit_m, crs_unit_m, {choice.path},
+                          option + " " + metres + " scales plan and heights; " + option +
+                              " 1 if it is in metres whatever its header says");
+}
+
+void scale_plan(double unit_m, std::vector<Vec3>& points) {
+  if (unit_m == 1) return;
+  for (Vec3& point : points) point.head<2>() *= unit_m;
+}
+
+double height_unit_of(double elevation_unit_m, double plan_unit_m) {
+  return elevation_unit_m > 0 ? elevation_unit_m : plan_unit_m;
 }
 
 // The system that the heights are in is held to the same as that of the map, where both say it.
@@ -67,25 +129,44 @@ void check_heights_alike(const std::string& own, const std::string& map_crs,
                    "bring them to one system first");
 }
 
-// Heights stay as they are.
+// Heights stay as they are. What was done is noted.
 void bring_to(const std::string& from, const std::string& to, const std::string& path,
-              std::vector<Vec3>& points) {
-  if (!reproject(from, to, points))
+              bool accept_ballpark, std::vector<Vec3>& points, ContourReading& reading) {
+  const CrsOperation operation =
+      find_operation(from, to, window_of(points), {path}, accept_ballpark);
+  if (!carry_out(operation, points))
     throw InputError({path},
                      "cannot be reprojected from " + crs_name(from) + " to " + crs_name(to));
+  reading.operations.push_back(path + ": " + sentence_on(operation));
+  if (const std::string doubt = doubt_on(operation); !doubt.empty())
+    reading.warnings.push_back(path + ": " + doubt);
 }
 
 // The CRS of an additional source, reprojected with a note.
 void bring_to_map(const LayerChoice& choice, const OpenLayer& source, const std::string& map_crs,
-                  std::vector<Vec3>& points, std::vector<std::string>& notes) {
+                  bool accept_ballpark, std::vector<Vec3>& points, ContourReading& reading) {
   const std::string own = wkt_of(source.layer->GetSpatialRef());
   const bool no_degrees = is_beyond_degrees(own, points);
   if (no_degrees || own.empty() != map_crs.empty())
-    notes.push_back(choice.path + ": taken to be in the CRS of the map" +
-                    (no_degrees ? ": its coordinates are no degrees" : ""));
-  if (no_degrees || own.empty() || map_crs.empty() || same_crs(own, map_crs)) return;
-  bring_to(own, map_crs, choice.path, points);
-  notes.push_back(choice.path + ": reprojected from " + crs_name(own) + " to " + crs_name(map_crs));
+    reading.notes.push_back(choice.path + ": taken to be in the CRS of the map" +
+                            (no_degrees ? ": its coordinates are no degrees" : ""));
+  const bool is_in_map = no_degrees || own.empty() || map_crs.empty() || same_crs(own, map_crs);
+  check_place_of(choice, source, is_in_map ? map_crs : own, map_crs, points, reading);
+  if (!is_in_map) bring_to(own, map_crs, choice.path, accept_ballpark, points, reading);
+}
+
+// Takes heights to the system that is asked for; `map_crs` is the one that they are in.
+void bring_heights_to(const ContourSources& sources, const std::string& path,
+                      const std::string& map_crs, std::vector<Vec3>& points,
+                      ContourReading& reading) {
+  if (sources.t_vertical.empty() || points.empty()) return;
+  const std::string from = sources.vertical_crs == ellipsoidal_heights
+                               ? sources.vertical_crs
+                               : stated_heights(map_crs, {path});
+  if (same_system(from, sources.t_vertical)) return;
+  const HeightOperation operation(map_crs, from, sources.t_vertical, window_of(points), {path});
+  operation.apply(points);
+  reading.operations.push_back(path + ": " + operation.sentence());
 }
 
 // --- breaklines, spot heights, boundary ----------------------------------------------------------
@@ -106,21 +187,27 @@ void scale_heights(double unit_m, const std::string& path, std::vector<Vec3>& po
 
 // Breaklines, or points as lines of one point, with their heights [m].
 Polylines read_measured(const LayerChoice& choice, const LayerRole& role,
-                        const std::string& map_crs, double unit_m,
-                        std::vector<std::string>& notes) {
+                        const ContourSources& sources, const std::string& map_crs,
+                        ContourReading& reading, LayerReading& taken) {
   OpenLayer source = open_layer(choice, role);
-  Polylines lines = read_measured_lines(choice, source, unit_m, notes);
-  bring_to_map(choice, source, map_crs, lines.points, notes);
   const std::string own_crs = wkt_of(source.layer->GetSpatialRef());
+  const double plan_unit_m = plan_unit_of(choice, source, own_crs.empty() ? map_crs : own_crs,
+                                          sources.elevation_unit_m, reading);
+  const double unit_m = height_unit_of(sources.elevation_unit_m, plan_unit_m);
+  Polylines lines = read_measured_lines(choice, source, unit_m, reading.notes, taken);
+  scale_plan(plan_unit_m, lines.points);
+  bring_to_map(choice, source, map_crs, sources.accept_ballpark, lines.points, reading);
   check_heights_alike(own_crs, map_crs, choice.path);
   const std::string assumed = assumed_heights(own_crs, map_crs);
-  if (!assumed.empty()) notes.push_back(choice.path + " and the map: both are " + assumed);
+  if (!assumed.empty()) reading.notes.push_back(choice.path + " and the map: both are " + assumed);
   scale_heights(unit_m, choice.path, lines.points);
+  bring_heights_to(sources, choice.path, map_crs, lines.points, reading);
   return lines;
 }
 
-std::vector<BoundaryRing> read_boundary(const LayerChoice& choice, const std::string& map_crs,
-                                        std::vector<std::string>& notes) {
+std::vector<BoundaryRing> read_boundary(const ContourSources& sources, const std::string& map_crs,
+                                        ContourReading& reading) {
+  const LayerChoice& choice = sources.boundary;
   OpenLayer source = open_layer(choice, boundary_role);
   std::vector<Vec3> points;
   std::vector<BoundaryRing> rings;
@@ -137,8 +224,12 @@ std::vector<BoundaryRing> read_boundary(const LayerChoice& choice, const std::st
     }
     ++n_polygons;
   });
-  notes.push_back(choice.path + ": layer " + source.name + ", " + counted(n_polygons, "polygon"));
-  bring_to_map(choice, source, map_crs, points, notes);
+  reading.boundary = reading_of(choice, source);
+  reading.notes.push_back(choice.path + ": layer " + source.name + ", " +
+                          counted(n_polygons, "polygon"));
+  add_remarks(reading.boundary, reading.notes);
+  scale_plan(plan_unit_of(choice, source, map_crs, 1, reading), points);
+  bring_to_map(choice, source, map_crs, sources.accept_ballpark, points, reading);
   begin.push_back(points.size());
   for (std::size_t r = 0; r < rings.size(); ++r)
     for (std::size_t i = begin[r]; i < begin[r + 1]; ++i)
@@ -167,8 +258,9 @@ void check_units(const std::vector<Vec3>& points, const HeightRange& contours,
 }
 
 void make_relative(ContourMap& map) {
-  Vec3 low = map.contours.points.front();
-  for (const Vec3& p : map.contours.points) low = low.cwiseMin(p);
+  const std::vector<Vec3>& ground = map.contours.points.empty() ? map.spots : map.contours.points;
+  Vec3 low = ground.front();
+  for (const Vec3& p : ground) low = low.cwiseMin(p);
   map.origin = Vec3(std::floor(low.x() / 100) * 100, std::floor(low.y() / 100) * 100, 0);
   for (std::vector<Vec3>* points : {&map.contours.points, &map.breaklines.points, &map.spots})
     for (Vec3& p : *points) p -= map.origin;
@@ -176,46 +268,129 @@ void make_relative(ContourMap& map) {
     for (Vec2& p : ring.points) p -= map.origin.head<2>();
 }
 
+// What the user says of heights whose file does not; a system of heights holds for its own unit.
+std::string with_user_heights(const ContourSources& sources, const std::string& crs,
+                              double unit_m) {
+  if (unit_m != 1 && sources.vertical_crs.empty()) return horizontal_crs(crs);
+  const std::string plan = unit_m != 1 ? horizontal_crs(crs) : crs;
+  return sources.vertical_crs.empty()
+             ? plan
+             : with_stated_heights(plan, sources.vertical_crs, {sources.contours.path});
+}
+
+// Metres in one unit of the contours, or of the points that stand for them.
+double plan_unit_of_map(const ContourSources& sources, const OpenLayer& source,
+                        ContourReading& reading) {
+  const std::string named = wkt_of(source.layer->GetSpatialRef());
+  return plan_unit_of(sources.contours, source, named.empty() ? sources.crs : named,
+                      sources.elevation_unit_m, reading);
+}
+
+// Points as they stand in the source to the system that is computed in; heights stay.
+void take_to_map(const ContourSources& sources, const OpenLayer& source, double plan_unit_m,
+                 double unit_m, std::vector<Vec3>& points, ContourMap& map,
+                 ContourReading& reading) {
+  scale_plan(plan_unit_m, points);
+  const std::string own =
+      with_user_heights(sources, crs_of_contours(sources, source, points, reading), unit_m);
+  if (own.empty() && !sources.t_srs.empty())
+    throw InputError({map.source}, "local metres cannot be reprojected", "leave --t-srs away");
+  map.crs_wkt = sources.t_srs.empty() ? own : with_heights_of(own, sources.t_srs, {map.source});
+  const bool is_there = sources.t_srs.empty() || same_crs(own, sources.t_srs);
+  if (is_there) check_crs(map.crs_wkt, map.source, points.front());
+  check_place_of(sources.contours, source, own, map.crs_wkt, points, reading);
+  if (is_there) return;
+  bring_to(own, sources.t_srs, map.source, sources.accept_ballpark, points, reading);
+  check_crs(map.crs_wkt, map.source, points.front());
+}
+
+// The contours, or the points that stand for them, with heights in metres.
+void finish_heights(const ContourSources& sources, double unit_m, std::vector<Vec3>& points,
+                    const ContourMap& map, ContourReading& reading) {
+  scale_heights(unit_m, map.source, points);
+  bring_heights_to(sources, map.source, map.crs_wkt, points, reading);
+}
+
+void read_contours_to(const ContourSources& sources, ContourMap& map, ContourReading& reading) {
+  OpenLayer source = open_layer(sources.contours, contours_role);
+  map.contours = read_contour_lines(sources, source, reading);
+  add_remarks(reading.contours, reading.notes);
+  const double plan_unit_m = plan_unit_of_map(sources, source, reading);
+  const double unit_m = height_unit_of(sources.elevation_unit_m, plan_unit_m);
+  reading.contours.unit_m = unit_m;
+  take_to_map(sources, source, plan_unit_m, unit_m, map.contours.points, map, reading);
+  finish_heights(sources, unit_m, map.contours.points, map, reading);
+}
+
+// The boundary, the system of heights, the origin.
+void finish_map(const ContourSources& sources, ContourMap& map, ContourReading& reading) {
+  if (!sources.boundary.path.empty()) map.boundary = read_boundary(sources, map.crs_wkt, reading);
+  if (!sources.t_vertical.empty())
+    map.crs_wkt = with_heights(horizontal_crs(map.crs_wkt), sources.t_vertical, {map.source});
+  make_relative(map);
+  check_boundary(map, sources.boundary.path);
+}
+
+// Laser scans take a library that not every system has; text takes none.
+void refuse_laser_scan(const std::string& path) {
+  const std::string extension = lower(std::filesystem::path(path).extension().string());
+  if (extension != ".las" && extension != ".laz" && extension != ".e57") return;
+  throw InputError({path}, "is a laser scan, which is not read as it is",
+                   "pdal translate " + command_words(path) +
+                       " ground.csv -f filters.range "
+                       "--filters.range.limits=\"Classification[2:2]\" "
+                       "--writers.text.order=X,Y,Z --writers.text.keep_unspecified=false");
+}
+
 }  // namespace
+
+ContourMap read_ground_points(const ContourSources& sources, ContourReading& reading) {
+  ContourMap map;
+  map.source = sources.contours.path;
+  refuse_laser_scan(map.source);
+  OpenLayer source = open_layer(sources.contours, ground_points_role);
+  const double plan_unit_m = plan_unit_of_map(sources, source, reading);
+  const double unit_m = height_unit_of(sources.elevation_unit_m, plan_unit_m);
+  map.spots =
+      read_measured_lines(sources.contours, source, unit_m, reading.notes, reading.contours).points;
+  reading.layer = source.name;
+  reading.n_features = source.n_features;
+  reading.elevation_from = reading.contours.elevation_from;
+  take_to_map(sources, source, plan_unit_m, unit_m, map.spots, map, reading);
+  finish_heights(sources, unit_m, map.spots, map, reading);
+  finish_map(sources, map, reading);
+  return map;
+}
 
 ContourMap read_contours(const ContourSources& sources, ContourReading& reading) {
   ContourMap map;
   map.source = sources.contours.path;
-  OpenLayer source = open_layer(sources.contours, contours_role);
-  map.contours = read_contour_lines(sources, source, reading);
-  const std::string own_crs = crs_of_contours(sources, source, map.contours.points);
-  map.crs_wkt = own_crs;
-  if (!sources.t_srs.empty()) {
-    if (own_crs.empty())
-      throw InputError({map.source}, "local metres cannot be reprojected", "leave --t-srs away");
-    map.crs_wkt = with_heights_of(own_crs, sources.t_srs, {map.source});
-    bring_to(own_crs, sources.t_srs, map.source, map.contours.points);
-  }
-  if (sources.elevation_unit_m != 1) map.crs_wkt = horizontal_crs(map.crs_wkt);
-  check_crs(map.crs_wkt, map.source, map.contours.points.front());
-  scale_heights(sources.elevation_unit_m, map.source, map.contours.points);
+  refuse_laser_scan(map.source);
+  read_contours_to(sources, map, reading);
   const HeightRange heights = heights_of(map.contours);
   if (!sources.breaklines.path.empty()) {
-    map.breaklines = read_measured(sources.breaklines, breaklines_role, map.crs_wkt,
-                                   sources.elevation_unit_m, reading.notes);
+    map.breaklines = read_measured(sources.breaklines, breaklines_role, sources, map.crs_wkt,
+                                   reading, reading.breaklines);
     check_units(map.breaklines.points, heights, sources.breaklines.path);
   }
   if (!sources.spots.path.empty()) {
-    map.spots = read_measured(sources.spots, spots_role, map.crs_wkt, sources.elevation_unit_m,
-                              reading.notes)
-                    .points;
+    map.spots =
+        read_measured(sources.spots, spots_role, sources, map.crs_wkt, reading, reading.spots)
+            .points;
     check_units(map.spots, heights, sources.spots.path);
   }
-  if (!sources.boundary.path.empty())
-    map.boundary = read_boundary(sources.boundary, map.crs_wkt, reading.notes);
-  make_relative(map);
-  check_boundary(map, sources.boundary.path);
+  finish_map(sources, map, reading);
   return map;
 }
 
 std::vector<Vec3> read_points(const LayerChoice& choice, const std::string& crs_wkt,
-                              std::vector<std::string>& notes) {
-  return read_measured(choice, reference_role, crs_wkt, 1, notes).points;
+                              std::vector<std::string>& notes, LayerReading& taken) {
+  ContourReading reading;
+  const std::vector<Vec3> points =
+      read_measured(choice, reference_role, {}, crs_wkt, reading, taken).points;
+  for (const auto* sentences : {&reading.notes, &reading.operations, &reading.warnings})
+    notes.insert(notes.end(), sentences->begin(), sentences->end());
+  return points;
 }
 
 void write_points(const std::string& path, const std::string& layer, const std::string& crs_wkt,

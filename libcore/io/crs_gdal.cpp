@@ -4,6 +4,7 @@
 #include <ogr_spatialref.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -57,49 +58,10 @@ std::string authority(const OGRSpatialReference& srs) {
   return name && code ? std::string(name) + ":" + code : std::string();
 }
 
-// UTM zone of a place given in `srs`; empty when the place cannot be transformed.
-std::string utm_zone(const OGRSpatialReference& srs, const Vec2& place) {
-  OGRSpatialReference wgs84;
-  wgs84.importFromEPSG(4326);
-  wgs84.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-  const std::unique_ptr<OGRCoordinateTransformation> to_degrees(
-      OGRCreateCoordinateTransformation(&srs, &wgs84));
-  double longitude = place.x(), latitude = place.y();
-  if (!to_degrees || !to_degrees->Transform(1, &longitude, &latitude)) return {};
-  if (!(std::abs(longitude) <= 180 && std::abs(latitude) <= 84)) return {};
-  const int zone = std::min(60, 1 + static_cast<int>(std::floor((longitude + 180) / 6)));
-  return "EPSG:" + std::to_string((latitude < 0 ? 32700 : 32600) + zone);
-}
-
-std::string unit_text(double metres, const char* name) {
-  return std::string(name ? name : "unknown units") + " of " + text(metres, 10) + " m";
-}
-
-// Any variant, spherical (web maps) or not, whatever the system is called; the transverse and the
-// oblique one begin with other words.
-bool is_mercator(const OGRSpatialReference& srs) {
-  const char* const method = srs.GetAttrValue("PROJECTION");
-  return method != nullptr && std::string_view(method).starts_with("Mercator");
-}
-
 // What a GeoPackage calls the reference of a layer that has none.
 bool is_undefined(const OGRSpatialReference& srs) {
   const char* const name = srs.GetName();
   return name != nullptr && std::string_view(name).starts_with("Undefined ");
-}
-
-std::string describe_problem(const OGRSpatialReference& srs) {
-  if (srs.IsGeographic()) return "in degrees";
-  if (srs.IsGeocentric()) return "measured from the centre of the Earth";
-  if (!srs.IsProjected() && !srs.IsLocal()) return "neither projected nor local";
-  if (is_mercator(srs)) return "whose metres are stretched by 1 / cos(latitude)";
-  const char* name = nullptr;
-  const double unit = srs.GetLinearUnits(&name);
-  if (std::abs(unit - 1) > 1e-9) return "in " + unit_text(unit, name);
-  const double height_unit = srs.GetTargetLinearUnits("VERT_CS", &name);
-  if (srs.IsVertical() && std::abs(height_unit - 1) > 1e-9)
-    return "with heights in " + unit_text(height_unit, name);
-  return {};
 }
 
 }  // namespace
@@ -119,17 +81,6 @@ bool is_beyond_degrees(const std::string& crs_wkt, const std::vector<Vec3>& poin
   return std::any_of(points.begin(), points.end(), [turn](const Vec3& p) {
     return std::abs(p.x()) > turn || std::abs(p.y()) > turn / 4 + 1e-9;
   });
-}
-
-bool reproject(const std::string& from, const std::string& to, std::vector<Vec3>& points) {
-  const GdalErrors errors;
-  const OGRSpatialReference source = plan_of(from), target = plan_of(to);
-  const std::unique_ptr<OGRCoordinateTransformation> transformation(
-      OGRCreateCoordinateTransformation(&source, &target));
-  if (!transformation) return false;
-  for (Vec3& point : points)
-    if (!transformation->Transform(1, &point.x(), &point.y())) return false;
-  return true;
 }
 
 std::string crs_from_user(const std::string& user_text, const std::string& option) {
@@ -157,6 +108,13 @@ std::string crs_code(const std::string& crs_wkt) {
   const GdalErrors errors;
   const std::string code = authority(plan_of(crs_wkt));
   return code.empty() ? "CRS" : code;
+}
+
+double length_unit_m(const std::string& crs_wkt) {
+  if (crs_wkt.empty()) return 1;
+  const GdalErrors errors;
+  const OGRSpatialReference srs = plan_of(crs_wkt);
+  return srs.IsProjected() ? srs.GetLinearUnits() : 1;
 }
 
 bool same_crs(const std::string& a, const std::string& b) {
@@ -199,6 +157,17 @@ std::string assumed_heights(const std::string& a, const std::string& b) {
   return "taken to have heights in " + crs_name(first.empty() ? second : first);
 }
 
+std::string with_heights(const std::string& plan, const std::string& vertical, const Where& where) {
+  const GdalErrors errors;
+  const OGRSpatialReference horizontal = parse(plan), heights = parse(vertical);
+  OGRSpatialReference both;
+  const std::string name =
+      std::string(horizontal.GetName()) + " + " + std::string(heights.GetName());
+  if (both.SetCompoundCS(name.c_str(), &horizontal, &heights) != OGRERR_NONE)
+    throw InputError(where, "cannot be in " + crs_name(plan) + " with " + crs_name(vertical));
+  return as_wkt(both);
+}
+
 std::string with_heights_of(const std::string& other, const std::string& plan, const Where& where) {
   const std::string heights = height_crs(other), wanted = height_crs(plan);
   if (!wanted.empty() && (heights.empty() || !same_heights(other, plan)))
@@ -206,29 +175,23 @@ std::string with_heights_of(const std::string& other, const std::string& plan, c
                      (heights.empty() ? "does not say what system its heights are in"
                                       : "its heights are in " + crs_name(heights)) +
                          ", and " + crs_name(plan) + " would have them in " + crs_name(wanted),
-                     "--t-srs " + crs_code(plan) + " reprojects in plan, heights stay");
-  if (heights.empty() || !wanted.empty()) return plan;
-  const GdalErrors errors;
-  const OGRSpatialReference horizontal = parse(plan), vertical = parse(heights);
-  OGRSpatialReference both;
-  const std::string name =
-      std::string(horizontal.GetName()) + " + " + std::string(vertical.GetName());
-  if (both.SetCompoundCS(name.c_str(), &horizontal, &vertical) != OGRERR_NONE)
-    throw InputError(where, "cannot be in " + crs_name(plan) + " with " + crs_name(heights));
-  return as_wkt(both);
+                     "--t-srs " + crs_code(plan) +
+                         " reprojects in plan, heights stay; --t-vertical " + crs_code(wanted) +
+                         " takes them there");
+  return heights.empty() || !wanted.empty() ? plan : with_heights(plan, heights, where);
 }
 
-CrsProblem find_crs_problem(const std::string& crs_wkt, const Vec2& place) {
-  if (crs_wkt.empty()) return {"there is no CRS, expected a projected one in metres", {}};
+bool has_unknown_datum(const std::string& crs_wkt) {
+  if (crs_wkt.empty()) return false;
   const GdalErrors errors;
-  const OGRSpatialReference srs = parse(crs_wkt);
-  const std::string problem = describe_problem(srs);
-  if (problem.empty()) return {};
-  const bool fit_in_plan = srs.IsCompound() && describe_problem(plan_of(crs_wkt)).empty();
-  const double height_unit_m = fit_in_plan ? srs.GetTargetLinearUnits("VERT_CS") : 1;
-  return {
-      "the CRS is " + crs_name(crs_wkt) + ", " + problem + ", expected a projected one in metres",
-      fit_in_plan ? std::string() : utm_zone(plan_of(crs_wkt), place), height_unit_m};
+  const OGRSpatialReference srs = plan_of(crs_wkt);
+  std::array<double, 7> shift{};
+  if (srs.GetTOWGS84(shift.data(), 7) == OGRERR_NONE) return false;
+  const char* const name = srs.GetAttrValue("DATUM");
+  const std::string datum = lower(name != nullptr ? name : "unknown");
+  return datum.find("unknown") != std::string::npos ||
+         datum.find("not specified") != std::string::npos ||
+         datum.find("not_specified") != std::string::npos;
 }
 
 }  // namespace talus

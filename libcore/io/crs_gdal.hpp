@@ -1,5 +1,5 @@
-// libcore/io/crs_gdal.hpp
-// Coordinate reference systems: which are fit for metres, and which one would mend one that is not.
+// libcore/io/crs_gdal.hpp: public
+// Coordinate reference systems: names, parts and comparison of plans and heights.
 #pragma once
 
 #include <string>
@@ -27,6 +27,9 @@ namespace talus {
 /// What a command takes for the system in plan: "EPSG:31287", or CRS where it has no code.
 [[nodiscard]] std::string crs_code(const std::string& crs_wkt);
 
+/// Metres in one unit of the plan; 1 for degrees.
+[[nodiscard]] double length_unit_m(const std::string& crs_wkt);
+
 /// Whether both describe the same system in plan, whatever system their heights are in; two empty
 /// ones do.
 [[nodiscard]] bool same_crs(const std::string& a, const std::string& b);
@@ -44,31 +47,22 @@ namespace talus {
 /// heights and the other does not; empty when there is nothing to assume.
 [[nodiscard]] std::string assumed_heights(const std::string& a, const std::string& b);
 
+/// The system `plan` with heights in the vertical system `vertical` (WKT).
+[[nodiscard]] std::string with_heights(const std::string& plan, const std::string& vertical,
+                                       const Where& where);
+
 /// The system `plan` with the heights of `other`, where that says them: what something is in that
 /// was reprojected in plan. Throws InputError when `plan` says another system of heights.
 [[nodiscard]] std::string with_heights_of(const std::string& other, const std::string& plan,
                                           const Where& where);
 
+/// Whether nothing is known of the datum but its ellipsoid ("+proj=tmerc +ellps=bessel"): then no
+/// operation leads to another system.
+[[nodiscard]] bool has_unknown_datum(const std::string& crs_wkt);
+
 /// Whether points cannot stand in the geographic system that their file names: a latitude above 90
 /// degrees or a longitude above 360. A GeoJSON without `crs` says degrees whatever it holds. False
 /// for other systems.
 [[nodiscard]] bool is_beyond_degrees(const std::string& crs_wkt, const std::vector<Vec3>& points);
-
-/// Takes points from one CRS to another in plan, x (east, longitude) first; heights stay. False
-/// when a point cannot be taken there; `points` are then spoilt.
-[[nodiscard]] bool reproject(const std::string& from, const std::string& to,
-                             std::vector<Vec3>& points);
-
-/// Why a CRS cannot be computed in, and what to reproject to.
-struct CrsProblem {
-  std::string finding;  ///< "the CRS is EPSG:4326 (WGS 84), in degrees, expected ..."; empty: none
-  std::string mend_to;  ///< UTM zone of the place, "EPSG:32632"; empty when it cannot be told
-  double height_unit_m = 1;  ///< not 1: the system is fit in plan, its heights are not in metres
-};
-
-/// Geographic, geocentric and Mercator systems, feet in plan or in height have a problem;
-/// projected and local systems in metres have none. `place` is any point of the data in this CRS,
-/// x (east, longitude) first.
-[[nodiscard]] CrsProblem find_crs_problem(const std::string& crs_wkt, const Vec2& place);
 
 }  // namespace talus

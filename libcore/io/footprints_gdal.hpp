@@ -1,4 +1,4 @@
-// libcore/io/footprints_gdal.hpp
+// libcore/io/footprints_gdal.hpp: public
 // Plan views of blocks as a GeoPackage for QGIS, with a default style.
 #pragma once
 

@@ -1,4 +1,4 @@
-// libcore/io/geopackage_gdal.hpp
+// libcore/io/geopackage_gdal.hpp: public
 // Features with attributes as layers of a GeoPackage, each with the style that QGIS opens it with.
 #pragma once
 

@@ -1,4 +1,4 @@
-// libcore/io/h5_hdf5.hpp
+// libcore/io/h5_hdf5.hpp: public
 // HDF5 as Talus uses it: arrays with a unit and a description, attributes, nothing else.
 //
 // Writing builds the whole file in memory, without time stamps, so that equal content gives equal

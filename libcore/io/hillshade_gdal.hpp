@@ -1,4 +1,4 @@
-// libcore/io/hillshade_gdal.hpp
+// libcore/io/hillshade_gdal.hpp: public
 // A shaded picture of a terrain: a wrong one is seen in a second.
 #pragma once
 

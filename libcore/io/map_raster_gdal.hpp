@@ -1,4 +1,4 @@
-// libcore/io/map_raster_gdal.hpp
+// libcore/io/map_raster_gdal.hpp: public
 // Results as rasters: cloud-optimised GeoTIFF with bands that say what they hold, and pictures.
 // in:    bands of cells from north to south, west to east
 // out:   COG (deflate, overviews without averaging), PNG

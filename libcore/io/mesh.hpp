@@ -1,4 +1,4 @@
-// libcore/io/mesh.hpp
+// libcore/io/mesh.hpp: public
 // Bodies from mesh files: OBJ, PLY (text and binary), OFF, STL (text and binary); one or many a
 // file.
 // in:    any bytes; everything is checked before it is believed

@@ -1,3 +1,4 @@
+// io/mesh.hpp for Wavefront OBJ.
 #include <cmath>
 #include <map>
 #include <set>
@@ -23,10 +24,9 @@ Vec3 point_of(const std::vector<std::string_view>& words, const Where& where) {
   Vec3 p;
   if (words.size() < 4) throw InputError(where, "a vertex has fewer than three coordinates");
   for (Eigen::Index k = 0; k < 3; ++k)
-    if (!parse_double(words[static_cast<std::size_t>(k) + 1], p[k]))
+    if (!parse_double(words[k + 1], p[k]))
       throw InputError(where,
-                       "\"" + std::string(words[static_cast<std::size_t>(k) + 1].substr(0, 40)) +
-                           "\" is not a number");
+                       "\"" + std::string(words[k + 1].substr(0, 40)) + "\" is not a number");
   return p;
 }
 

@@ -1,3 +1,4 @@
+// io/mesh.hpp for OFF.
 #include <cmath>
 
 #include "io/mesh_builder.hpp"
@@ -22,7 +23,7 @@ Mesh parse_off(const std::string& bytes, const std::string& path) {
   }
   std::vector<std::int64_t> loop;
   for (std::int64_t f = 0; f < n_polygons; ++f) {
-    loop.resize(static_cast<std::size_t>(reader.next_count(reader.n_left())));
+    loop.resize(reader.next_count(reader.n_left()));
     for (std::int64_t& v : loop) v = reader.next_count(std::int64_t{1} << 40);
     builder.add_polygon(loop, reader.where());
     reader.skip_line();

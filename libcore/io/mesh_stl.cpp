@@ -1,3 +1,4 @@
+// io/mesh.hpp for STL, binary and text.
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -45,10 +46,9 @@ Mesh parse_text(const std::string& bytes, const std::string& path) {
       Vec3 p;
       if (words.size() < 4) throw InputError(where, "a vertex has fewer than three coordinates");
       for (Eigen::Index k = 0; k < 3; ++k)
-        if (!parse_double(words[static_cast<std::size_t>(k) + 1], p[k]))
-          throw InputError(
-              where, "\"" + std::string(words[static_cast<std::size_t>(k) + 1].substr(0, 40)) +
-                         "\" is not a number");
+        if (!parse_double(words[k + 1], p[k]))
+          throw InputError(where,
+                           "\"" + std::string(words[k + 1].substr(0, 40)) + "\" is not a number");
       builder.add_vertex(p, where);
       ++n_corners;
     }

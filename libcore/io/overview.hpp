@@ -1,4 +1,4 @@
-// libcore/io/overview.hpp
+// libcore/io/overview.hpp: public
 // Smaller pictures of a raster that keep what matters in it: means would hide the fastest block.
 // in:    cells from north to south, west to east
 // out:   fewer cells, each with one value of those below it

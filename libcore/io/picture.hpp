@@ -1,4 +1,4 @@
-// libcore/io/picture.hpp
+// libcore/io/picture.hpp: public
 // A picture in memory.
 #pragma once
 

@@ -1,5 +1,6 @@
 #include "io/raster_gdal.hpp"
 
+#include <cpl_conv.h>
 #include <cpl_string.h>
 #include <gdal_priv.h>
 #include <gdal_utils.h>
@@ -14,7 +15,10 @@
 
 #include "base/text.hpp"
 #include "io/crs_gdal.hpp"
+#include "io/crs_operation_gdal.hpp"
+#include "io/crs_place_gdal.hpp"
 #include "io/errors_gdal.hpp"
+#include "io/raster_bands_gdal.hpp"
 #include "terrain/elevation.hpp"
 #include "terrain/lone_levels.hpp"
 #include "terrain/resample.hpp"
@@ -42,6 +46,7 @@ Dataset open_raster(const std::string& path) {
   if (!dataset)
     throw InputError({path}, "cannot be opened as a raster: " + errors.failure(),
                      "gdalinfo " + path + " shows what GDAL makes of it");
+  refuse_several_rasters(*dataset, path);
   return dataset;
 }
 
@@ -60,10 +65,7 @@ std::string to_metres(const std::string& unit, const std::string& crs, const std
 }
 
 void check_band(GDALDataset& dataset, const std::string& path) {
-  const int n_bands = dataset.GetRasterCount();
-  if (n_bands != 1)
-    throw InputError({path}, "the raster has " + std::to_string(n_bands) + " bands, expected one",
-                     "gdal_translate -b 1 " + path + " one_band.tif");
+  check_one_band(dataset, path);
   GDALRasterBand& band = *dataset.GetRasterBand(1);
   if (GDALDataTypeIsComplex(band.GetRasterDataType()))
     throw InputError({path}, "the band holds complex numbers, expected elevations");
@@ -104,40 +106,112 @@ GridFrame frame_of_raster(GDALDataset& dataset, const std::string& path) {
   return {n_rows, n_cols, width, {g[0] + 0.5 * width, g[3] - 0.5 * width}};
 }
 
-// The file's CRS, or the one that the user gives for a file without. The user may also say what
-// system the heights of a file are in that names the plan alone.
-std::string effective_crs(GDALDataset& dataset, const std::string& path,
-                          const DemOptions& options) {
+// Outer edges of the cells; not finite where the raster has none.
+MapWindow edges_of(GDALDataset& dataset) {
+  std::array<double, 6> g{};
+  if (dataset.GetGeoTransform(g.data()) != CE_None) return {NAN, NAN, NAN, NAN};
+  std::vector<Vec3> corners;
+  for (const int col : {0, dataset.GetRasterXSize()})
+    for (const int row : {0, dataset.GetRasterYSize()})
+      corners.emplace_back(g[0] + col * g[1] + row * g[2], g[3] + col * g[4] + row * g[5], 0);
+  return window_of(corners);
+}
+
+bool is_finite(const MapWindow& w) { return std::isfinite(w.x_min + w.y_min + w.x_max + w.y_max); }
+
+// The file's CRS, or the one that the user gives for a file without, or with one that cannot be
+// true. The user may also say what system the heights of a file are in that names the plan alone.
+std::string effective_crs(GDALDataset& dataset, const std::string& path, const DemOptions& options,
+                          DemReading& reading) {
   const std::string own = wkt_of(dataset.GetSpatialRef());
-  if (!own.empty()) {
-    if (options.crs_given && !(same_crs(own, options.crs) && same_heights(own, options.crs)))
-      throw InputError({path}, "the CRS is " + crs_name(own) + ", not " + crs_name(options.crs),
-                       "leave --crs away; --t-srs reprojects");
-    return options.crs_given && height_crs(own).empty() ? options.crs : own;
+  if (own.empty()) {
+    if (!options.crs_given && !options.crs_may_be_missing)
+      throw InputError({path}, "there is no CRS, expected a projected one in metres",
+                       "name it with --crs EPSG:code, or --crs none for local metres");
+    return options.crs;
   }
-  if (!options.crs_given && !options.crs_may_be_missing)
-    throw InputError({path}, "there is no CRS, expected a projected one in metres",
-                     "name it with --crs EPSG:code, or --crs none for local metres");
+  if (!options.crs_given) return own;
+  if (same_crs(own, options.crs) && same_heights(own, options.crs))
+    return height_crs(own).empty() ? options.crs : own;
+  const MapWindow edges = edges_of(dataset);
+  const std::string reason =
+      is_finite(edges) ? reason_to_replace(own, options.crs, edges) : std::string();
+  if (reason.empty())
+    throw InputError({path}, "the CRS is " + crs_name(own) + ", not " + crs_name(options.crs),
+                     "leave --crs away; --t-srs reprojects");
+  reading.notes.push_back(path + ": the CRS is " + crs_name(own) + ", " + reason + "; taken as " +
+                          crs_name(options.crs));
   return options.crs;
 }
 
-// A virtual raster that reprojects what is read from it. Exact transformation (-et 0): the default
-// eighth of a cell is a metre of height on a steep slope. Both systems are in plan alone: heights
-// stay as they are.
-Dataset reproject(GDALDataset& source, const std::string& path, const std::string& from,
-                  const std::string& to) {
-  CPLStringList words;
-  for (const char* word : {"-of", "VRT", "-r", "bilinear", "-et", "0", "-dstnodata", "nan", "-ot",
-                           "Float64", "-s_srs", from.c_str(), "-t_srs", to.c_str()})
-    words.AddString(word);
+// What the user says of the heights of a file that does not.
+std::string with_vertical(const std::string& crs, const std::string& path,
+                          const DemOptions& options) {
+  if (options.vertical_crs.empty()) return crs;
+  return with_stated_heights(crs, options.vertical_crs, {path});
+}
+
+CPLStringList words_of(const std::vector<std::string>& words) {
+  CPLStringList list;
+  for (const std::string& word : words) list.AddString(word.c_str());
+  return list;
+}
+
+// A virtual raster of elevations that says unknown cells by NaN, with a ring of them around: what
+// is interpolated from it is unknown where an unknown cell has a share.
+Dataset with_unknown_ring(GDALDataset& source, const std::string& name) {
+  std::array<double, 6> g{};
+  source.GetGeoTransform(g.data());
+  const int n_cols = source.GetRasterXSize(), n_rows = source.GetRasterYSize();
+  const auto exact = [](double value) { return text(value); };
+  char* const escaped = CPLEscapeString(name.c_str(), -1, CPLES_XML);
+  const std::string size =
+      " xSize=\"" + std::to_string(n_cols) + "\" ySize=\"" + std::to_string(n_rows) + "\"/>";
+  const std::string xml =
+      "<VRTDataset rasterXSize=\"" + std::to_string(n_cols + 2) + "\" rasterYSize=\"" +
+      std::to_string(n_rows + 2) + "\"><GeoTransform>" + exact(g[0] - g[1] - g[2]) + "," +
+      exact(g[1]) + "," + exact(g[2]) + "," + exact(g[3] - g[4] - g[5]) + "," + exact(g[4]) + "," +
+      exact(g[5]) +
+      "</GeoTransform><VRTRasterBand dataType=\"Float64\" band=\"1\"><NoDataValue>nan</NoDataValue>"
+      "<ComplexSource><SourceFilename relativeToVRT=\"0\">" +
+      escaped + "</SourceFilename><SourceBand>1</SourceBand><SrcRect xOff=\"0\" yOff=\"0\"" + size +
+      "<DstRect xOff=\"1\" yOff=\"1\"" + size +
+      "<UseMaskBand>true</UseMaskBand></ComplexSource></VRTRasterBand></VRTDataset>";
+  CPLFree(escaped);
+  return Dataset(GDALDataset::Open(xml.c_str(), GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR));
+}
+
+Dataset warp(GDALDataset& source, const std::string& path, const CrsOperation& operation,
+             const std::vector<std::string>& more) {
+  std::vector<std::string> words = {"-of",    "VRT",        "-r",         "bilinear",
+                                    "-et",    "0",          "-dstnodata", "nan",
+                                    "-ot",    "Float64",    "-s_srs",     operation.from,
+                                    "-t_srs", operation.to, "-ct",        operation.text};
+  words.insert(words.end(), more.begin(), more.end());
   GdalErrors errors;
-  GDALWarpAppOptions* const options = GDALWarpAppOptionsNew(words.List(), nullptr);
+  GDALWarpAppOptions* const options = GDALWarpAppOptionsNew(words_of(words).List(), nullptr);
   GDALDatasetH handle = &source;
   Dataset warped(GDALDataset::FromHandle(GDALWarp("", nullptr, 1, &handle, options, nullptr)));
   GDALWarpAppOptionsFree(options);
   if (!warped)
-    throw InputError({path}, "cannot be reprojected to " + crs_name(to) + ": " + errors.failure());
+    throw InputError(
+        {path}, "cannot be reprojected to " + crs_name(operation.to) + ": " + errors.failure());
   return warped;
+}
+
+// A virtual raster that reprojects what is read from it. Exact transformation (-et 0): the default
+// eighth of a cell is a metre of height on a steep slope. Both systems are in plan alone: heights
+// stay as they are. The cells are those that GDAL proposes for the raster without its ring.
+Dataset reprojected(GDALDataset& source, GDALDataset& ringed, const std::string& path,
+                    const CrsOperation& operation) {
+  const Dataset proposed = warp(source, path, operation, {});
+  std::array<double, 6> g{};
+  proposed->GetGeoTransform(g.data());
+  const int n_cols = proposed->GetRasterXSize(), n_rows = proposed->GetRasterYSize();
+  return warp(ringed, path, operation,
+              {"-srcnodata", "None", "-te", text(g[0]), text(g[3] + n_rows * g[5]),
+               text(g[0] + n_cols * g[1]), text(g[3]), "-ts", std::to_string(n_cols),
+               std::to_string(n_rows)});
 }
 
 void check_crs(const std::string& crs, const std::string& path, const Vec2& place) {
@@ -156,10 +230,15 @@ void check_crs(const std::string& crs, const std::string& path, const Vec2& plac
 
 struct DemFile::Impl {
   std::string path, crs;
+  std::string name;  // that GDAL opens: the path, or a virtual raster
+  double nodata = std::numeric_limits<double>::quiet_NaN();  // beside a mask, which GDAL prefers
   GridFrame frame;
-  Dataset source, warped;  // warped reads from source and is closed first
+  DemReading reading;
+  std::unique_ptr<HeightOperation> to_vertical;
+  Dataset source, ringed, warped;  // warped reads from ringed and is closed first
   GDALRasterBand* band = nullptr;
   double scale = 1, offset = 0;
+  bool accepts_doubts = false;
 
   [[nodiscard]] Where where(std::size_t index, int row, int col, int n_cols) const {
     const int r = row + static_cast<int>(index / static_cast<std::size_t>(n_cols));
@@ -168,26 +247,29 @@ struct DemFile::Impl {
             "row " + std::to_string(r) + ", column " + std::to_string(c) + " (" +
                 text(frame.x(c), 10) + ", " + text(frame.y(r), 10) + ")"};
   }
+  void open();
   void check_value(double raw, const Where& place) const;
+  void check_place_of(const MapWindow& edges, const std::string& work_crs, bool has_options);
+  void take_to(const std::string& target, bool accept_ballpark, const MapWindow& edges);
+  void take_heights_to(const DemOptions& options);
+  void shift_heights(int row, int n_rows, int col, int n_cols, double* elevation) const;
 };
 
 DemFile::DemFile(const std::string& path, const DemOptions& options)
     : impl_(std::make_unique<Impl>()) {
   impl_->path = path;
-  impl_->source = open_raster(path);
+  impl_->open();
   GDALDataset* dataset = impl_->source.get();
-  check_band(*dataset, path);
-  impl_->crs = effective_crs(*dataset, path, options);
+  const char* const tag = dataset->GetMetadataItem("DOUBTS_ACCEPTED");
+  impl_->accepts_doubts = options.accepts_doubts || (tag != nullptr && std::string(tag) == "YES");
+  DemReading& reading = impl_->reading;
+  impl_->crs = with_vertical(effective_crs(*dataset, path, options, reading), path, options);
+  const MapWindow edges = edges_of(*dataset);
   if (!options.t_srs.empty()) {
     if (impl_->crs.empty())
       throw InputError({path}, "there is no CRS to reproject from", "name it with --crs EPSG:code");
-    const std::string wanted = with_heights_of(impl_->crs, options.t_srs, {path});
-    if (!same_crs(impl_->crs, options.t_srs)) {
-      impl_->warped =
-          reproject(*dataset, path, horizontal_crs(impl_->crs), horizontal_crs(options.t_srs));
-      dataset = impl_->warped.get();
-      impl_->crs = wanted;
-    }
+    impl_->take_to(options.t_srs, options.accept_ballpark, edges);
+    if (impl_->warped) dataset = impl_->warped.get();
   }
   std::array<double, 6> g{};
   dataset->GetGeoTransform(g.data());
@@ -195,9 +277,64 @@ DemFile::DemFile(const std::string& path, const DemOptions& options)
             {g[0] + 0.5 * g[1] * dataset->GetRasterXSize(),
              g[3] + 0.5 * g[5] * dataset->GetRasterYSize()});
   impl_->frame = frame_of_raster(*dataset, path);
+  if (!impl_->warped) impl_->check_place_of(edges, impl_->crs, !options.crs_may_be_missing);
+  if (!options.t_vertical.empty()) impl_->take_heights_to(options);
   impl_->band = dataset->GetRasterBand(1);
-  impl_->scale = impl_->band->GetScale();
-  impl_->offset = impl_->band->GetOffset();
+  impl_->scale = impl_->source->GetRasterBand(1)->GetScale();
+  impl_->offset = impl_->source->GetRasterBand(1)->GetOffset();
+}
+
+// An alpha band becomes the mask of the elevations.
+void DemFile::Impl::open() {
+  name = path;
+  source = open_raster(path);
+  check_band(*source, path);
+  const std::string masked = with_alpha_as_mask(*source);
+  if (masked.empty()) return;
+  int has_nodata = 0;
+  const double value = source->GetRasterBand(1)->GetNoDataValue(&has_nodata);
+  if (has_nodata != 0) nodata = value;
+  name = masked;
+  const GdalErrors errors;
+  source.reset(GDALDataset::Open(name.c_str(), GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR));
+  if (!source) throw InputError({path}, "its alpha band cannot be read: " + errors.failure());
+}
+
+void DemFile::Impl::check_place_of(const MapWindow& edges, const std::string& work_crs,
+                                   bool has_options) {
+  if (crs.empty() || !is_finite(edges)) return;
+  Place place{crs, edges, work_crs};
+  place.has_crs_option = has_options;
+  place.is_raster = true;
+  for (std::string& warning : check_place(place, {path}))
+    reading.warnings.push_back(std::move(warning));
+}
+
+// Reprojects in plan, unless it is there already.
+void DemFile::Impl::take_to(const std::string& target, bool accept_ballpark,
+                            const MapWindow& edges) {
+  const std::string wanted = with_heights_of(crs, target, {path});
+  if (same_crs(crs, target)) return;
+  check_place_of(edges, target, true);
+  const CrsOperation operation = find_operation(crs, target, edges, {path}, accept_ballpark);
+  reading.notes.push_back(path + ": " + sentence_on(operation));
+  if (const std::string doubt = doubt_on(operation); !doubt.empty())
+    reading.warnings.push_back(path + ": " + doubt);
+  ringed = with_unknown_ring(*source, name);
+  if (!ringed) throw InputError({path}, "cannot be reprojected");
+  warped = reprojected(*source, *ringed, path, operation);
+  crs = wanted;
+}
+
+void DemFile::Impl::take_heights_to(const DemOptions& options) {
+  const std::string from = options.vertical_crs == ellipsoidal_heights
+                               ? options.vertical_crs
+                               : stated_heights(crs, {path});
+  if (from == options.t_vertical || same_system(from, options.t_vertical)) return;
+  to_vertical =
+      std::make_unique<HeightOperation>(crs, from, options.t_vertical, extent(frame), Where{path});
+  reading.notes.push_back(path + ": " + to_vertical->sentence());
+  crs = with_heights(horizontal_crs(crs), options.t_vertical, {path});
 }
 
 DemFile::~DemFile() = default;
@@ -205,6 +342,8 @@ DemFile::~DemFile() = default;
 const std::string& DemFile::path() const { return impl_->path; }
 const GridFrame& DemFile::frame() const { return impl_->frame; }
 const std::string& DemFile::crs_wkt() const { return impl_->crs; }
+const DemReading& DemFile::reading() const { return impl_->reading; }
+bool DemFile::accepts_doubts() const { return impl_->accepts_doubts; }
 double DemFile::raw_of(double z) const { return (z - impl_->offset) / impl_->scale; }
 Where DemFile::where_of_cell(int row, int col) const {
   return impl_->where(0, row, col, impl_->frame.n_cols);
@@ -225,9 +364,12 @@ void DemFile::read(int row, int n_rows, int col, int n_cols, double* elevation) 
   const std::size_t n = static_cast<std::size_t>(n_rows) * static_cast<std::size_t>(n_cols);
   const GdalErrors errors;
   std::vector<unsigned char> mask;
+  const int mask_flags = impl_->band->GetMaskFlags();
+  // half transparent cells hold values that are mixed with unknown ones
+  const unsigned char least_known = (mask_flags & GMF_ALPHA) != 0 ? 255 : 1;
   CPLErr status = impl_->band->RasterIO(GF_Read, col, row, n_cols, n_rows, elevation, n_cols,
                                         n_rows, GDT_Float64, 0, 0, nullptr);
-  if (status == CE_None && impl_->band->GetMaskFlags() != GMF_ALL_VALID) {
+  if (status == CE_None && mask_flags != GMF_ALL_VALID) {
     mask.resize(n);
     status = impl_->band->GetMaskBand()->RasterIO(GF_Read, col, row, n_cols, n_rows, mask.data(),
                                                   n_cols, n_rows, GDT_Byte, 0, 0, nullptr);
@@ -240,12 +382,24 @@ void DemFile::read(int row, int n_rows, int col, int n_cols, double* elevation) 
         "the file is damaged or cut short: fetch it again");
   for (std::size_t i = 0; i < n; ++i) {
     double& z = elevation[i];
-    if (std::isnan(z) || (!mask.empty() && mask[i] == 0)) {
+    if (std::isnan(z) || z == impl_->nodata || (!mask.empty() && mask[i] < least_known)) {
       z = std::numeric_limits<double>::quiet_NaN();
       continue;
     }
     if (!(std::abs(z) < 9999)) impl_->check_value(z, impl_->where(i, row, col, n_cols));
     if (impl_->scale != 1 || impl_->offset != 0) z = z * impl_->scale + impl_->offset;
+  }
+  if (impl_->to_vertical) impl_->shift_heights(row, n_rows, col, n_cols, elevation);
+}
+
+void DemFile::Impl::shift_heights(int row, int n_rows, int col, int n_cols,
+                                  double* elevation) const {
+  const auto n = static_cast<std::size_t>(n_cols);
+  std::vector<double> x(n), y(n);
+  for (int c = 0; c < n_cols; ++c) x[c] = frame.x(col + c);
+  for (int r = 0; r < n_rows; ++r) {
+    std::fill(y.begin(), y.end(), frame.y(row + r));
+    to_vertical->apply(n, x.data(), y.data(), elevation + static_cast<std::size_t>(r) * n);
   }
 }
 
@@ -281,7 +435,8 @@ void refuse_lone_level(const DemFile& dem, const RowResampler& part,
                        counted(found->n_cells, "cell") + " side by side, more than " +
                        text(step, 6) + " m off " + std::to_string(found->n_far) + " of the " +
                        std::to_string(found->n_beside) +
-                       " beside them, and the file does not declare it as nodata",
+                       " beside them, and the file does not declare it as nodata (talus-trn "
+                       "--accept-doubts takes it as ground)",
                    "if it stands for nodata: gdal_translate -a_nodata " +
                        text(dem.raw_of(found->value)) + " " + dem.path() + " declared.tif");
 }
@@ -298,7 +453,8 @@ std::vector<double> read_dem(const DemFile& dem, const GridFrame& frame,
     steps.add_row(row);
     resampler.add_row(row);
   });
-  if (!steps.values().empty()) refuse_lone_level(dem, resampler, steps.values());
+  if (!steps.values().empty() && !dem.accepts_doubts())
+    refuse_lone_level(dem, resampler, steps.values());
   return resampler.take();
 }
 

@@ -1,4 +1,4 @@
-// libcore/io/raster_gdal.hpp
+// libcore/io/raster_gdal.hpp: public
 // Elevation rasters: any GDAL raster read as rows of node elevations, the TRN read and written.
 // in:    single-band rasters, north-up, square cells, projected in metres
 // out:   Trn; GeoTIFF with AREA_OR_POINT=Point
@@ -24,17 +24,30 @@ struct DemOptions {
                            ///< when the file has another one
   std::string crs;         ///< WKT; empty: local metres, no place on the map
   std::string t_srs;       ///< WKT; not empty: reproject to it in plan (bilinear, at the file's
-                           ///< resolution); heights stay, and so does the system that they are in
+                           ///< resolution); heights stay, and so does the system that they are
+                           ///< in; where an unknown cell has a share, the value is unknown
+  bool accepts_doubts = false;      ///< areas of one value that stand far off are ground
   bool crs_may_be_missing = false;  ///< no CRS and none given means local metres
+  std::string vertical_crs;         ///< what heights are in whose file does not say it: WKT of a
+                                    ///< vertical system, or ellipsoidal_heights
+  std::string t_vertical;           ///< WKT; not empty: take heights to this vertical system
+  bool accept_ballpark = false;     ///< reproject though nothing is known of the datum
+};
+
+/// What was done on the way in.
+struct DemReading {
+  std::vector<std::string> notes;     ///< sentences: which operation took it to another system
+  std::vector<std::string> warnings;  ///< a place beside its CRS, a better operation without grid
 };
 
 /// An open elevation raster. Reads only what is asked for, so that it may be larger than memory.
 class DemFile {
  public:
-  /// Throws InputError when the raster cannot be opened, has not exactly one band of real numbers,
-  /// is rotated, not north-up or not square (by more than 1e-3 of a cell at its far end), is not in
-  /// projected metres, has elevations in another unit, or when the options contradict it. The hint
-  /// holds the command that mends it.
+  /// Throws InputError when the raster cannot be opened, holds several rasters, has not exactly one
+  /// band of real numbers (an alpha band beside it is its mask), is rotated, not north-up or not
+  /// square (by more than 1e-3 of a cell at its far end), is not in projected metres, lies where
+  /// its CRS is not used (check_place), has elevations in another unit, or when the options
+  /// contradict it. The hint holds the command that mends it.
   explicit DemFile(const std::string& path, const DemOptions& options = {});
   ~DemFile();
   DemFile(const DemFile&) = delete;
@@ -43,7 +56,10 @@ class DemFile {
   [[nodiscard]] const std::string& path() const;
   [[nodiscard]] const GridFrame& frame() const;      ///< its cell centres
   [[nodiscard]] const std::string& crs_wkt() const;  ///< empty for local metres
-  [[nodiscard]] double raw_of(double z) const;       ///< what stands in the file for an elevation
+  [[nodiscard]] const DemReading& reading() const;
+  /// By the options, or by the tag DOUBTS_ACCEPTED=YES of a TRN that was made so.
+  [[nodiscard]] bool accepts_doubts() const;
+  [[nodiscard]] double raw_of(double z) const;  ///< what stands in the file for an elevation
   [[nodiscard]] Where where_of_cell(int row, int col) const;  ///< with its place on the map
 
   /// Elevations of n_rows x n_cols nodes from (row, col) on, NaN = unknown [m]. Throws InputError

@@ -1,4 +1,4 @@
-// libcore/io/style.hpp
+// libcore/io/style.hpp: public
 // How results are coloured: classes with limits, colours and labels; the same ones in QGIS styles,
 // in pictures and in legends.
 #pragma once

@@ -1,4 +1,4 @@
-// libcore/io/tags_gdal.hpp
+// libcore/io/tags_gdal.hpp: public
 // What a raster or GeoPackage says of itself: the tags that the tools write, e.g. RUN_ID.
 #pragma once
 

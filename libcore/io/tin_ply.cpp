@@ -39,6 +39,7 @@ struct Header {
   bool has_origin = false;
   Vec3 origin = Vec3::Zero();
   std::size_t n_bytes = 0;  // up to and with the line end_header
+  bool is_text = false;     // the data are words, not bytes
 };
 
 constexpr std::size_t bytes_of_face = 13;        // a count and three corners
@@ -151,8 +152,9 @@ Header read_header(std::span<const char> bytes, const std::string& source) {
     if (words[0] == "element") read_element(words, source, header);
     if (words[0] == "property") read_property(words, source, header);
   }
-  if (format != "binary_little_endian")
-    refuse(source, "the PLY format is \"" + format + "\", expected binary_little_endian");
+  header.is_text = format == "ascii";
+  if (format != "binary_little_endian" && !header.is_text)
+    refuse(source, "the PLY format is \"" + format + "\", expected binary_little_endian or ascii");
   return header;
 }
 
@@ -244,6 +246,21 @@ void read_points(const Element& element, const std::string& source, Cursor& curs
   }
 }
 
+int corner_of(double corner, std::size_t face, const std::string& source, const Tin& tin) {
+  if (corner >= 0 && corner < static_cast<double>(tin.points.size()) &&
+      corner == std::floor(corner))
+    return static_cast<int>(corner);
+  refuse(source, "face " + std::to_string(face) + " has the corner " + text(corner) +
+                     ", expected 0 to " +
+                     std::to_string(static_cast<std::int64_t>(tin.points.size()) - 1));
+}
+
+void check_corners(const std::array<int, 3>& corners, std::size_t face, const std::string& source) {
+  const auto& [a, b, c] = corners;
+  if (a == b || b == c || a == c)
+    refuse(source, "face " + std::to_string(face) + " has one corner twice");
+}
+
 void read_triangles(const Element& element, const std::string& source, Cursor& cursor, Tin& tin) {
   const bool has_list = !element.properties.empty() && !element.properties[0].count_type.empty() &&
                         is_whole_type(element.properties[0].type) &&
@@ -264,17 +281,9 @@ void read_triangles(const Element& element, const std::string& source, Cursor& c
       refuse(source, "face " + std::to_string(t) + " has " + text(n_corners) +
                          " corners, expected triangles");
     const char* entry = cursor.take(3 * index_size + rest);
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double corner = read_index(entry + k * index_size);
-      if (!(corner >= 0 && corner < static_cast<double>(tin.points.size())))
-        refuse(source, "face " + std::to_string(t) + " has the corner " + text(corner) +
-                           ", expected 0 to " +
-                           std::to_string(static_cast<std::int64_t>(tin.points.size()) - 1));
-      tin.triangles[t][k] = static_cast<int>(corner);
-    }
-    const auto& [a, b, c] = tin.triangles[t];
-    if (a == b || b == c || a == c)
-      refuse(source, "face " + std::to_string(t) + " has one corner twice");
+    for (std::size_t k = 0; k < 3; ++k)
+      tin.triangles[t][k] = corner_of(read_index(entry + k * index_size), t, source, tin);
+    check_corners(tin.triangles[t], t, source);
   }
 }
 
@@ -282,6 +291,110 @@ void pass_over(const Element& element, const std::string& source, Cursor& cursor
   const std::size_t stride = stride_of(element.properties, element.name, source);
   cursor.expect(element.n, stride, "entries of element " + element.name);
   static_cast<void>(cursor.take(stride * element.n));
+}
+
+// --- data as text --------------------------------------------------------------------------------
+
+// Bytes that are no text as question marks: a message must not end at a zero byte.
+std::string printable(std::string_view word) {
+  std::string shown(word);
+  std::replace_if(
+      shown.begin(), shown.end(), [](char c) { return c < 0x20 || c > 0x7e; }, '?');
+  return shown;
+}
+
+// Words behind the header; lines do not matter.
+class WordCursor {
+ public:
+  WordCursor(std::span<const char> bytes, const std::string& source)
+      : rest_(bytes.data(), bytes.size()), source_(source) {}
+
+  double take_number() {
+    constexpr std::string_view blanks = " \t\r\n";
+    const std::size_t begin = std::min(rest_.find_first_not_of(blanks), rest_.size());
+    const std::size_t end = std::min(rest_.find_first_of(blanks, begin), rest_.size());
+    const std::string_view word = rest_.substr(begin, end - begin);
+    rest_.remove_prefix(end);
+    double value = 0;
+    if (word.empty()) refuse(source_, "the file ends before its data does: it was truncated");
+    if (!parse_double(word, value))
+      refuse(source_, "\"" + printable(word.substr(0, 40)) + "\" is no number");
+    return value;
+  }
+  // A number takes two bytes, with what parts it from the next.
+  void expect(std::uint64_t n, const std::string& what) const {
+    if (n > rest_.size() / 2 + 1)
+      refuse(source_, "the header promises " + std::to_string(n) + " " + what +
+                          ", the file is too short for them: it was truncated");
+  }
+
+ private:
+  std::string_view rest_;
+  const std::string& source_;
+};
+
+void read_points(const Element& element, const std::string& source, WordCursor& words, Tin& tin) {
+  static_cast<void>(stride_of(element.properties, element.name, source));  // plain numbers only
+  std::array<bool, 3> has{};
+  words.expect(element.n, "vertices");
+  tin.points.resize(element.n);
+  for (Vec3& point : tin.points)
+    for (const Property& property : element.properties) {
+      const double value = words.take_number();
+      const std::size_t axis = std::string_view("xyz").find(property.name);
+      if (property.name.size() != 1 || axis >= 3) continue;
+      point[static_cast<Eigen::Index>(axis)] = value;
+      has[axis] = true;
+    }
+  if (!(has[0] && has[1] && has[2])) refuse(source, "element vertex lacks x, y or z");
+}
+
+void read_triangles(const Element& element, const std::string& source, WordCursor& words,
+                    Tin& tin) {
+  if (element.properties.empty() || element.properties[0].count_type.empty() ||
+      !element.properties[0].name.starts_with("vertex_ind"))
+    refuse(source, "element face does not begin with the list vertex_indices of whole numbers");
+  words.expect(element.n, "faces");
+  tin.triangles.resize(element.n);
+  for (std::size_t t = 0; t < tin.triangles.size(); ++t) {
+    const double n_corners = words.take_number();
+    if (n_corners != 3)
+      refuse(source, "face " + std::to_string(t) + " has " + text(n_corners) +
+                         " corners, expected triangles");
+    for (int& corner : tin.triangles[t]) corner = corner_of(words.take_number(), t, source, tin);
+    for (std::size_t k = 1; k < element.properties.size(); ++k)
+      static_cast<void>(words.take_number());
+    check_corners(tin.triangles[t], t, source);
+  }
+}
+
+void pass_over(const Element& element, WordCursor& words) {
+  for (std::uint64_t i = 0; i < element.n; ++i)
+    for (const Property& property : element.properties) {
+      const auto n = static_cast<std::uint64_t>(
+          property.count_type.empty() ? 1 : std::max(0.0, words.take_number()));
+      for (std::uint64_t k = 0; k < n; ++k) static_cast<void>(words.take_number());
+    }
+}
+
+void pass_over(const Element& element, const std::string&, WordCursor& words) {
+  pass_over(element, words);
+}
+
+template <class AnyCursor>
+void read_elements(const Header& header, const std::string& source, AnyCursor& cursor, Tin& tin) {
+  bool has_vertices = false, has_faces = false;
+  for (const Element& element : header.elements) {
+    if (element.name == "vertex" && !has_vertices) {
+      read_points(element, source, cursor, tin);
+      has_vertices = true;
+    } else if (element.name == "face" && has_vertices && !has_faces) {
+      read_triangles(element, source, cursor, tin);
+      has_faces = true;
+    } else {
+      pass_over(element, source, cursor);
+    }
+  }
 }
 
 void make_relative(const Header& header, Tin& tin) {
@@ -296,10 +409,8 @@ void make_relative(const Header& header, Tin& tin) {
 
 void turn_clockwise_triangles(Tin& tin) {
   for (auto& [a, b, c] : tin.triangles) {
-    const Vec3 u =
-        tin.points[static_cast<std::size_t>(b)] - tin.points[static_cast<std::size_t>(a)];
-    const Vec3 v =
-        tin.points[static_cast<std::size_t>(c)] - tin.points[static_cast<std::size_t>(a)];
+    const Vec3 u = tin.points[b] - tin.points[a];
+    const Vec3 v = tin.points[c] - tin.points[a];
     if (u.x() * v.y() - u.y() * v.x() < 0) std::swap(b, c);
   }
 }
@@ -377,19 +488,14 @@ void write_tin(const std::string& path, const Tin& tin) {
 
 Tin parse_tin(std::span<const char> bytes, const std::string& source) {
   const Header header = read_header(bytes, source);
-  Cursor cursor(bytes.subspan(header.n_bytes), source);
+  const std::span<const char> data = bytes.subspan(header.n_bytes);
   Tin tin;
-  bool has_vertices = false, has_faces = false;
-  for (const Element& element : header.elements) {
-    if (element.name == "vertex" && !has_vertices) {
-      read_points(element, source, cursor, tin);
-      has_vertices = true;
-    } else if (element.name == "face" && has_vertices && !has_faces) {
-      read_triangles(element, source, cursor, tin);
-      has_faces = true;
-    } else {
-      pass_over(element, source, cursor);
-    }
+  if (header.is_text) {
+    WordCursor words(data, source);
+    read_elements(header, source, words, tin);
+  } else {
+    Cursor cursor(data, source);
+    read_elements(header, source, cursor, tin);
   }
   if (tin.points.empty() || tin.triangles.empty())
     refuse(source, "the PLY file has no vertices followed by faces");

@@ -1,4 +1,4 @@
-// libcore/io/tin_ply.hpp
+// libcore/io/tin_ply.hpp: public
 // TIN as binary PLY: what talus-tin writes and talus-trn reads; opens in MeshLab, ParaView and as a
 // mesh layer of QGIS. Coordinates in the file are those of the map (double), so that a viewer sets
 // it in its place; the CRS and the origin stand in comments:
@@ -18,7 +18,7 @@ namespace talus {
 /// Throws InputError when the file cannot be written.
 void write_tin(const std::string& path, const Tin& tin);
 
-/// Reads a TIN written by write_tin, or any little-endian binary PLY of triangles: float or
+/// Reads a TIN written by write_tin, or any PLY of triangles, as text or little-endian: float or
 /// double x y z, further numbers at a vertex or behind a face's corners are passed over. Clockwise
 /// triangles are turned. Without an origin in the file the lowest corner, floored to 100 m, is
 /// taken. Throws InputError, with what was expected, for anything else, a truncated or a lying

@@ -1,6 +1,5 @@
 #include "io/vectors_gdal.hpp"
 
-#include <gdal_priv.h>
 #include <ogrsf_frmts.h>
 
 #include <cmath>
@@ -8,10 +7,14 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/source_path.hpp"
+#include "base/text.hpp"
 #include "io/areas_gdal.hpp"
 #include "io/contour_layer_gdal.hpp"
 #include "io/crs_gdal.hpp"
-#include "io/errors_gdal.hpp"
+#include "io/crs_operation_gdal.hpp"
+#include "io/crs_place_gdal.hpp"
+#include "io/drawing_unit_gdal.hpp"
 
 namespace talus {
 namespace {
@@ -57,58 +60,26 @@ Rings rings_of(const OGRPolygon& polygon) {
 struct Parts {
   Rings shapes;
   std::vector<std::unique_ptr<OGRPolygon>> polygons;
-  int n_passed_over = 0;
 };
 
-// Adds the parts of one geometry; other kinds in a mixed layer are counted.
-void add_parts(const OGRGeometry& geometry, VectorKind kind, const Where& where, Parts& parts) {
-  const OGRwkbGeometryType type = wkbFlatten(geometry.getGeometryType());
-  if (OGR_GT_IsSubClassOf(type, wkbGeometryCollection)) {
-    for (const OGRGeometry* part : *geometry.toGeometryCollection())
-      add_parts(*part, kind, where, parts);
-  } else if (type == wkbPoint && kind == VectorKind::points) {
+void add_part(const OGRGeometry& geometry, VectorKind kind, const Where& where, Parts& parts) {
+  if (kind == VectorKind::points) {
     const OGRPoint* point = geometry.toPoint();
     parts.shapes.push_back({{point->getX(), point->getY(), point->Is3D() ? point->getZ() : NAN}});
-  } else if (type == wkbLineString && kind == VectorKind::lines) {
+  } else if (kind == VectorKind::lines) {
     parts.shapes.push_back(vertices_of(*geometry.toLineString(), false));
-  } else if (type == wkbPolygon && kind == VectorKind::areas) {
+  } else {
     check_finite(rings_of(*geometry.toPolygon()), where);
     check_polygon(*geometry.toPolygon(), where);
     parts.polygons.emplace_back(geometry.toPolygon()->clone());
-  } else {
-    ++parts.n_passed_over;
   }
 }
 
-Parts read_parts(const VectorQuery& query, OpenLayer& source) {
-  const LayerChoice choice{query.path, query.layer, ""};
-  const Where where = where_of_layer(choice, source);
-  const GdalErrors errors;
-  if (!query.where.empty()) {
-    const std::string filter =
-        source.filter.empty() ? query.where : source.filter + " AND (" + query.where + ")";
-    if (source.layer->SetAttributeFilter(filter.c_str()) != OGRERR_NONE)
-      throw InputError(where,
-                       "the filter \"" + query.where + "\" cannot be used: " + errors.failure());
-  }
+Parts read_parts(const VectorQuery& query, const LayerChoice& choice, OpenLayer& source) {
   Parts parts;
-  int n_null = 0;
-  source.layer->ResetReading();
-  for (auto&& feature : *source.layer) {
-    const OGRGeometry* geometry = feature->GetGeometryRef();
-    if (!geometry || geometry->IsEmpty()) {
-      ++n_null;
-      continue;
-    }
-    const std::unique_ptr<OGRGeometry> straight(geometry->getLinearGeometry());
-    add_parts(*straight, query.kind, where_of_feature(choice, source, *feature), parts);
-  }
-  if (errors.failed()) throw InputError(where, "reading failed: " + errors.failure());
-  if (n_null > 0)
-    throw InputError(where, std::to_string(n_null) + " features have no geometry",
-                     "the file may be cut short; repair it first");
-  if (parts.shapes.empty() && parts.polygons.empty())
-    throw InputError(where, std::string("holds no ") + source.role.name);
+  for_each_part(choice, source, [&](const OGRGeometry& part, const OGRFeature& feature) {
+    add_part(part, query.kind, where_of_feature(choice, source, feature), parts);
+  });
   return parts;
 }
 
@@ -137,37 +108,81 @@ double area_of_ring(const std::vector<Vec3>& ring) {
   return std::abs(twice) / 2;
 }
 
+std::vector<Vec3> all_points(const Rings& shapes) {
+  std::vector<Vec3> points;
+  for (const auto& shape : shapes) points.insert(points.end(), shape.begin(), shape.end());
+  return points;
+}
+
+// Whether the coordinates can be in `crs`, to be used in `work_crs`.
+void check_place_of(const std::string& crs, const std::string& work_crs, OGRLayer& layer,
+                    const Where& where, VectorShapes& found) {
+  if (crs.empty() || found.shapes.empty()) return;
+  Place place{crs, window_of(all_points(found.shapes)), work_crs};
+  place.layer = layer.GetName();
+  place.geometry_column = layer.GetGeometryColumn();
+  for (std::string& warning : check_place(place, {parse_source_path(where.file).source}))
+    found.warnings.push_back(std::move(warning));
+}
+
 void take_to(const std::string& crs_wkt, const Where& where, VectorShapes& found) {
-  for (auto& shape : found.shapes) {
-    if (is_beyond_degrees(found.source_crs, shape))
-      throw InputError(
-          where,
-          "the CRS is " + crs_name(found.source_crs) +
-              " (a GeoJSON without crs says so), but the coordinates are no degrees",
-          "name the CRS in the file: ogr2ogr -a_srs EPSG:code named.gpkg " + where.file);
-    if (!reproject(found.source_crs, crs_wkt, shape))
-      throw InputError(
-          where,
-          "cannot be reprojected from " + crs_name(found.source_crs) + " to " + crs_name(crs_wkt),
-          "check the CRS of the file");
-  }
+  std::vector<Vec3> points = all_points(found.shapes);
+  const CrsOperation operation =
+      find_operation(found.source_crs, crs_wkt, window_of(points), where);
+  if (!carry_out(operation, points))
+    throw InputError(
+        where,
+        "cannot be reprojected from " + crs_name(found.source_crs) + " to " + crs_name(crs_wkt),
+        "check the CRS of the file");
+  auto next = points.begin();
+  for (auto& shape : found.shapes)
+    for (Vec3& point : shape) point = *next++;
+  found.operation = sentence_on(operation);
+  if (const std::string doubt = doubt_on(operation); !doubt.empty())
+    found.warnings.push_back(where.file + ": " + doubt);
+}
+
+void refuse_no_degrees(const std::string& own, const Where& where, const Rings& shapes) {
+  if (!is_beyond_degrees(own, all_points(shapes))) return;
+  throw InputError(
+      where,
+      "the CRS is " + crs_name(own) +
+          " (a GeoJSON without crs says so), but the coordinates are no degrees",
+      "name the CRS in the file: ogr2ogr -a_srs EPSG:code named.gpkg " + command_words(where.file));
+}
+
+void check_unit(const OpenLayer& source, const std::string& crs, const Where& where) {
+  if (!source.is_drawing) return;
+  const std::string opened = source.dataset->GetDescription();
+  const DrawingUnit unit = drawing_unit(opened);
+  (void)scale_of_drawing(opened, 0, length_unit_m(crs), where,
+                         "bring it to metres: ogr2ogr -f GPKG -nln metres metres.gpkg " +
+                             command_words(parse_source_path(where.file).source) +
+                             " -dialect sqlite -sql 'SELECT ScaleCoords(geometry, " +
+                             (unit.metres > 0 ? text(unit.metres) : "METRES") +
+                             ") AS geometry, * FROM \"" + source.layer->GetName() + "\"'");
 }
 
 }  // namespace
 
 VectorShapes read_vectors(const VectorQuery& query, const std::string& crs_wkt) {
-  OpenLayer source = open_layer({query.path, query.layer, ""}, role_of(query));
-  const Where where{query.path, 0, "layer " + source.name};
-  Parts parts = read_parts(query, source);
+  const LayerChoice choice{query.path, query.layer, "", query.where};
+  OpenLayer source = open_layer(choice, role_of(query));
+  Parts parts = read_parts(query, choice, source);
+  const Where where = where_of_layer(choice, source);
   VectorShapes found;
-  found.layer = source.name;
-  found.n_passed_over = parts.n_passed_over;
-  found.n_parts = static_cast<int>(parts.shapes.size() + parts.polygons.size());
+  static_cast<LayerReading&>(found) = reading_of(choice, source);
   found.shapes = std::move(parts.shapes);
   const std::vector<bool> is_hole = add_areas(parts, where, found);
   check_finite(found.shapes, where);
   const std::string own = wkt_of(source.layer->GetSpatialRef());
-  if (!own.empty() && !crs_wkt.empty() && !same_crs(own, crs_wkt)) {
+  check_unit(source, own.empty() ? crs_wkt : own, where);
+  if (const std::string doubt = doubt_on_unit(source.dataset->GetDescription(), 0); !doubt.empty())
+    found.warnings.push_back(query.path + ": " + doubt);
+  const bool is_taken_on = !own.empty() && !crs_wkt.empty() && !same_crs(own, crs_wkt);
+  if (is_taken_on) refuse_no_degrees(own, where, found.shapes);
+  check_place_of(is_taken_on ? own : crs_wkt, crs_wkt, *source.layer, where, found);
+  if (is_taken_on) {
     found.source_crs = own;
     take_to(crs_wkt, where, found);
     check_finite(found.shapes, where);

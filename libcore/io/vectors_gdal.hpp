@@ -1,4 +1,4 @@
-// libcore/io/vectors_gdal.hpp
+// libcore/io/vectors_gdal.hpp: public
 // Areas, lines and points from any vector source that OGR reads, in map coordinates of a wanted
 // CRS.
 #pragma once
@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/types.hpp"
+#include "io/layer_reading.hpp"
 
 namespace talus {
 
@@ -15,7 +16,7 @@ enum class VectorKind { points, lines, areas };
 /// What is asked for.
 struct VectorQuery {
   std::string path;
-  std::string layer;  ///< empty: the only one that may hold the kind
+  std::string layer;  ///< or layers, parted by commas; empty: the only one that holds the kind
   std::string where;  ///< OGR attribute filter; empty: all
   VectorKind kind = VectorKind::areas;
   std::string options = "--";  ///< how the key begins that names the layer: "source.polygon_"
@@ -23,21 +24,22 @@ struct VectorQuery {
 
 /// Shapes of one kind. Single points each make a shape of one vertex. Areas are rings, even-odd:
 /// polygons that overlap, touch or lie in one another are united before, so that a ring in a ring
-/// is a hole of one polygon, never a polygon repeated.
-struct VectorShapes {
-  std::string layer;
+/// is a hole of one polygon, never a polygon repeated. Closed lines are areas where a layer has no
+/// polygon, and in a drawing always.
+struct VectorShapes : LayerReading {
   std::vector<std::vector<Vec3>> shapes;  ///< points, lines, or closed rings without the last point
   std::string source_crs;                 ///< WKT when the shapes were reprojected, else empty
-  int n_parts = 0;                        ///< points, lines or polygons as they were read
-  int n_passed_over = 0;                  ///< parts of another kind in the same layer
-  int n_united = 0;                       ///< polygons that met another one ...
-  int n_made = 0;                         ///< ... and the polygons made of them
-  double area_m2 = 0;                     ///< of all polygons, in the wanted CRS
+  std::string operation;              ///< sentence: how they were reprojected; empty: they were not
+  std::vector<std::string> warnings;  ///< places beside their CRS, a better operation
+  int n_united = 0;                   ///< polygons that met another one ...
+  int n_made = 0;                     ///< ... and the polygons made of them
+  double area_m2 = 0;                 ///< of all polygons, in the wanted CRS
 };
 
 /// Throws InputError: source cannot be opened, no such layer or several that may be meant, nothing
 /// of the kind in it, empty or missing geometries, polygons that are not sound, coordinates that
-/// are not finite or cannot be reprojected. A source or target without a CRS is taken to be in the
+/// are not finite, cannot be what their CRS says (check_place) or cannot be reprojected, a drawing
+/// that is not in metres. A source or target without a CRS is taken to be in the
 /// other's.
 [[nodiscard]] VectorShapes read_vectors(const VectorQuery& query, const std::string& crs_wkt);
 

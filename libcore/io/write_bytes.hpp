@@ -1,4 +1,4 @@
-// libcore/io/write_bytes.hpp
+// libcore/io/write_bytes.hpp: public
 // Bytes as a file that is on the disk when the call returns.
 #pragma once
 

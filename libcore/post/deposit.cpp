@@ -195,7 +195,7 @@ void add(DepositSums& sums, const DepositSums& other) {
 }
 
 MapLayer deposit_layer(const DepositSums& sums, double cell_size, const Released& released) {
-  MapLayer layer{"deposit", "Deposit", {}, {}};
+  MapLayer layer{"", {}, {}};
   for (const auto& [cell, volume] : sums.volume) layer.cell.push_back(cell);
   for (const auto& [cell, count] : sums.count)
     if (!sums.volume.contains(cell)) layer.cell.push_back(cell);

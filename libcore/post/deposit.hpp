@@ -1,4 +1,4 @@
-// libcore/post/deposit.hpp
+// libcore/post/deposit.hpp: public
 // Where the blocks are when a run ends: at rest, gone, or still moving, and the volume of each.
 // in:    the last frame and the blocks of a run
 // out:   fates and their balance, footprints, volume over each cell
@@ -7,8 +7,8 @@
 #include <map>
 #include <vector>
 
-#include "post/maps.hpp"
-#include "store/run_file.hpp"
+#include "post/maps/maps.hpp"
+#include "record/run_file.hpp"
 
 namespace talus {
 
@@ -40,7 +40,7 @@ void add(Balance& sum, const Balance& other);
 void add_volume(std::map<std::uint32_t, double>& volume, const PassageGrid& grid,
                 const RunFile& run, int block, const Pose& pose);
 
-/// What the layer `deposit` gathers over runs.
+/// What the layer of the deposit gathers over runs.
 struct DepositSums {
   std::map<std::uint32_t, double> count;   ///< blocks at rest with their centroid in the cell
   std::map<std::uint32_t, double> weight;  ///< of those

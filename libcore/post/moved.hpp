@@ -1,4 +1,4 @@
-// libcore/post/moved.hpp
+// libcore/post/moved.hpp: public
 // How much of the released mass moved, and how far: what no number of a single block tells.
 // in:    first and last pose of each block
 // out:   shares of the mass, percentiles of the displacement by mass
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/percentile.hpp"
-#include "store/run_file.hpp"
+#include "record/run_file.hpp"
 
 namespace talus {
 

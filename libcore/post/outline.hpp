@@ -1,4 +1,4 @@
-// libcore/post/outline.hpp
+// libcore/post/outline.hpp: public
 // The outline of a set of cells, as polygons with holes.
 #pragma once
 
@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "store/passages.hpp"
+#include "record/passages.hpp"
 
 namespace talus {
 

@@ -1,4 +1,4 @@
-// libcore/post/run_set.hpp
+// libcore/post/run_set.hpp: public
 // Runs that are evaluated together: what must agree, in which order they stand, how sound they are.
 // in:    run files in any order
 // out:   their order by run id, the sum of their health, tags for every output
@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "store/run_file.hpp"
+#include "record/run_file.hpp"
 
 namespace talus {
 

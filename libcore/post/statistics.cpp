@@ -154,7 +154,7 @@ std::vector<double> resampled_sums(const RunResamples& resamples, std::span<cons
   std::vector<double> sums(static_cast<std::size_t>(resamples.stride), 0.0);
   for (int run = 0; run < resamples.n_runs; ++run)
     add_to_resamples(sums.data(), resamples, run, of_run[run]);
-  sums.resize(static_cast<std::size_t>(resamples.n_resamples));
+  sums.resize(resamples.n_resamples);
   return sums;
 }
 

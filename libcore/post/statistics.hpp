@@ -1,4 +1,4 @@
-// libcore/post/statistics.hpp
+// libcore/post/statistics.hpp: public
 // What a sample of blocks or runs says about a quantity, and how sure it is.
 // in:    values with weights; counts; the run that each value came from
 // out:   percentiles, confidence bounds, effective sample size

@@ -1,4 +1,4 @@
-// libcore/report/chart.hpp
+// libcore/report/chart.hpp: public
 // Line charts as SVG, in a page or as a file: axes with round numbers, a legend, no script.
 #pragma once
 

@@ -1,4 +1,4 @@
-// libcore/report/html.hpp
+// libcore/report/html.hpp: public
 // The parts that a page is put together from. All texts given are HTML already.
 #pragma once
 

@@ -8,7 +8,7 @@
 
 #include "base/text.hpp"
 #include "post/deposit.hpp"
-#include "post/runout.hpp"
+#include "post/runout/runout.hpp"
 #include "report/encode.hpp"
 
 namespace talus {
@@ -72,8 +72,8 @@ std::string blocks_of(const RunFile& run, const Trn& trn) {
         "block " + std::to_string(b) + ", " + text(run.blocks.volume[b], 4) + " m3";
     starts += shape("start", path_of(footprint(run, b, first_pose(run, b)), place, true), name);
     if (n_frames(run.frames) == 0) continue;
-    const TimedPath way = simplified(block_path(run, b), 0.25);
-    paths += shape("way", path_of(plan_of(way.point), place, false), name);
+    const TimedPath path = simplified(block_path(run, b), 0.25);
+    paths += shape("way", path_of(plan_of(path.point), place, false), name);
     ends += shape("end", path_of(footprint(run, b, last_pose(run, b)), place, true), name);
   }
   return starts + paths + ends;

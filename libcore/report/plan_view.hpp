@@ -1,4 +1,4 @@
-// libcore/report/plan_view.hpp
+// libcore/report/plan_view.hpp: public
 // A map of a run as SVG over the hillshade: where the mass started, which way each block took,
 // where it came to rest, lines of fences. Scale bar and north arrow.
 #pragma once
@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "store/run_file.hpp"
+#include "record/run_file.hpp"
 #include "terrain/trn.hpp"
 
 namespace talus {

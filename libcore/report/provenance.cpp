@@ -35,13 +35,20 @@ std::string file_list(const std::vector<RunArtifact>& files, const std::string& 
   return out;
 }
 
+// The command, and what it said of its inputs: operations by which they were reprojected.
+std::string command_cell(const RunRecord& step) {
+  std::string cell = "<code>" + xml_escaped(bare_command(step.command_line)) + "</code>";
+  for (const RunEvent& event : step.events)
+    if (event.level == "info") cell += "<br>" + xml_escaped(event.text);
+  return cell;
+}
+
 }  // namespace
 
 std::string provenance_table(const std::vector<RunRecord>& steps, const std::string& site_file) {
   std::vector<std::vector<std::string>> rows;
   for (const RunRecord& step : steps)
-    rows.push_back({"<code>" + xml_escaped(bare_command(step.command_line)) + "</code>",
-                    xml_escaped(step.version + " (" + step.git_commit + ")"),
+    rows.push_back({command_cell(step), xml_escaped(step.version + " (" + step.git_commit + ")"),
                     "<code>" + xml_escaped(step.content_id) + "</code>",
                     file_list(step.inputs, site_file), file_list(step.outputs, site_file)});
   return html_table({"command", "version", "run id", "read", "wrote"}, rows);

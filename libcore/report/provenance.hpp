@@ -1,4 +1,4 @@
-// libcore/report/provenance.hpp
+// libcore/report/provenance.hpp: public
 // From the first files to the results: the steps as a table of a page.
 // in:    runs of the registry
 // out:   HTML, the same wherever the programs and the site's folder lie

@@ -1,4 +1,4 @@
-// libcore/report/qgis_project.hpp
+// libcore/report/qgis_project.hpp: public
 // A QGIS project (3.22 and later): layers in groups with their styles, and a print layout.
 // in:    layers by their paths relative to the project
 // out:   the XML of a .qgs

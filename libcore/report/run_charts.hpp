@@ -1,4 +1,4 @@
-// libcore/report/run_charts.hpp
+// libcore/report/run_charts.hpp: public
 // How runs went over time, as charts: speeds and ways, health, where the energy went.
 #pragma once
 
@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "base/csv.hpp"
+#include "record/run_file.hpp"
 #include "report/chart.hpp"
-#include "store/run_file.hpp"
 
 namespace talus {
 

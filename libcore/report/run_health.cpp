@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "base/text.hpp"
+#include "record/deep_rows.hpp"
 #include "report/html.hpp"
-#include "store/deep_rows.hpp"
 
 namespace talus {
 
@@ -62,6 +62,25 @@ std::string counter_table(const std::vector<RunFile>& runs, const std::vector<st
                      "steps of a block accepted unconverged", "largest penetration [m]",
                      "blocks that left the terrain"},
                     rows, {false, false, true, true, true, true, true, true, true});
+}
+
+std::string cut_table(const std::vector<RunFile>& runs, const std::vector<std::string>& names) {
+  std::vector<std::string> heads = {"run"};
+  heads.insert(heads.end(), substep_cut_names.begin(), substep_cut_names.end());
+  std::vector<std::vector<std::string>> rows;
+  bool any = false;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    std::vector<std::string>& row = rows.emplace_back(1, xml_escaped(names[i]));
+    for (std::size_t k = 0; k < substep_cut_names.size(); ++k) {
+      std::int64_t n = 0;
+      for (const HealthRow& health : runs[i].health) n += health.cuts[k];
+      row.push_back(std::to_string(n));
+      any |= n > 0;
+    }
+  }
+  std::vector<bool> is_number(heads.size(), true);
+  is_number[0] = false;
+  return any ? html_table(heads, rows, is_number) : "";
 }
 
 std::string deep_table(const std::vector<RunFile>& runs, const std::vector<std::string>& names) {

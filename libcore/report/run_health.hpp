@@ -1,4 +1,4 @@
-// libcore/report/run_health.hpp
+// libcore/report/run_health.hpp: public
 // Whether runs kept to their limits, and what went on inside of them, as tables of a page.
 // in:    checks of the registry, health of the run files
 // out:   HTML
@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "store/run_file.hpp"
+#include "record/run_file.hpp"
 #include "store/runs.hpp"
 
 namespace talus {
@@ -32,6 +32,11 @@ void add_limits(const std::vector<RunCheck>& checks, std::vector<LimitOverRuns>&
 /// A row a run: how far it came, its steps, and what was not as it should be. `names`: one a run.
 [[nodiscard]] std::string counter_table(const std::vector<RunFile>& runs,
                                         const std::vector<std::string>& names);
+
+/// A row a run: how often islands made a substep again, by reason (docs/theory.md, stage 9); empty
+/// when none did.
+[[nodiscard]] std::string cut_table(const std::vector<RunFile>& runs,
+                                    const std::vector<std::string>& names);
 
 /// A row a block that was deep in something; empty when there was none. `names`: one a run.
 [[nodiscard]] std::string deep_table(const std::vector<RunFile>& runs,

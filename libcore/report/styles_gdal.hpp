@@ -1,4 +1,4 @@
-// libcore/report/styles_gdal.hpp
+// libcore/report/styles_gdal.hpp: public
 // The layers of a GeoPackage and the styles that it holds for them.
 #pragma once
 

@@ -1,4 +1,4 @@
-// libcore/report/viewer_scene.hpp
+// libcore/report/viewer_scene.hpp: public
 // A run as the data of the 3-D viewer (tools/report/viewer.js).
 // in:    a run with frames, its terrain
 // out:   JSON: terrain, blocks, frames and fences in local coordinates, arrays in base64
@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "store/run_file.hpp"
+#include "record/run_file.hpp"
 #include "terrain/trn.hpp"
 
 namespace talus {

@@ -44,7 +44,7 @@ double lowest_over(const Polyhedron& part, const Vec2& at) {
   double low = -infinity, high = infinity;
   for (int f = 0; f < n_faces(part); ++f) {
     const Vec3 normal = face_normal(part, f);
-    const Vec3& corner = part.vertices[static_cast<std::size_t>(face(part, f)[0])];
+    const Vec3& corner = part.vertices[face(part, f)[0]];
     const double rest = normal.dot(corner) - normal.head<2>().dot(at);  // n_z z <= rest inside
     if (std::abs(normal.z()) < 1e-12) {
       if (rest < 0) return infinity;
@@ -60,8 +60,7 @@ double lowest_over(const Polyhedron& part, const Vec2& at) {
 double depth_of_part(const Trn& trn, const Polyhedron& part) {
   double depth = -infinity;
   for (const PolyhedronEdge& edge : edges(part))
-    deepen(depth, depth_of_edge(trn, part.vertices[static_cast<std::size_t>(edge.a)],
-                                part.vertices[static_cast<std::size_t>(edge.b)]));
+    deepen(depth, depth_of_edge(trn, part.vertices[edge.a], part.vertices[edge.b]));
   Vec3 low = part.vertices[0], high = low;
   for (const Vec3& vertex : part.vertices) {
     low = low.cwiseMin(vertex);
@@ -82,18 +81,25 @@ std::vector<double> depths_below_ground(const Trn& trn, const BlockSet& blocks) 
   std::vector<double> depths;
   for (int b = 0; b < n_blocks(blocks); ++b) {
     double depth = -infinity;
-    for (int p = blocks.convex_part_begin[static_cast<std::size_t>(b)];
-         p < blocks.convex_part_begin[static_cast<std::size_t>(b) + 1]; ++p)
+    for (int p = blocks.convex_part_begin[b]; p < blocks.convex_part_begin[b + 1]; ++p)
       deepen(depth, depth_of_part(trn, convex_part(blocks, p)));
     depths.push_back(depth);
   }
   return depths;
 }
 
+void move_to_origin(BlockSet& blocks, const Vec3& origin) {
+  const Vec3 shift = blocks.origin - origin;
+  for (Vec3& vertex : blocks.vertices) vertex += shift;
+  for (Vec3& centroid : blocks.centroid) centroid += shift;
+  for (Vec3& point : blocks.pair_point) point += shift;
+  blocks.origin = origin;
+}
+
 void move_block(BlockSet& blocks, int b, const Vec3& way) {
   const auto i = static_cast<std::size_t>(b);
   for (int v = blocks.block_vertex_begin[i]; v < blocks.block_vertex_begin[i + 1]; ++v)
-    blocks.vertices[static_cast<std::size_t>(v)] += way;
+    blocks.vertices[v] += way;
   blocks.centroid[i] += way;
 }
 

@@ -1,5 +1,5 @@
-// libcore/scene/start_depth.hpp
-// How deep blocks stand in the ground before anything moves.
+// libcore/scene/start_depth.hpp: public
+// How deep blocks stand in the ground before anything moves, and moving them as a set holds them.
 #pragma once
 
 #include <vector>
@@ -14,6 +14,9 @@ namespace talus {
 /// a vertex, at a terrain node, or where an edge crosses one of the terrain's. <= 0: above [m];
 /// -infinity where no ground is known below.                                       (n_blocks)
 [[nodiscard]] std::vector<double> depths_below_ground(const Trn& trn, const BlockSet& blocks);
+
+/// Expresses all places of the set relative to another local zero, in map coordinates [m].
+void move_to_origin(BlockSet& blocks, const Vec3& origin);
 
 /// Moves block b by `way` [m], with all that the set holds of it.
 void move_block(BlockSet& blocks, int b, const Vec3& way);

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "contact/pose.hpp"
+#include "motion/pose.hpp"
 
 namespace talus {
 

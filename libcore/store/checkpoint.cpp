@@ -14,11 +14,14 @@ namespace talus {
 // say that a list has to be looked at again.
 
 static_assert(sizeof(Motion) == 112 && sizeof(EnergyLedger) == 48 && sizeof(RunCounters) == 64);
-static_assert(sizeof(ContactMemory) == 136 && sizeof(HealthRow) == 176);
+static_assert(sizeof(ContactMemory) == 136 &&
+              sizeof(HealthRow) == 176 + 8 * substep_cut_names.size());
 static_assert(sizeof(State) == 8 + 15 * 24 + sizeof(EnergyLedger) + sizeof(RunCounters) +
-                                   sizeof(PairState) + sizeof(PlacedHulls) + sizeof(FenceState));
-static_assert(sizeof(FenceState) == 5 * 24 && sizeof(FenceHit) == 104 && sizeof(BlockBond) == 48);
-static_assert(sizeof(PairState) == 272 && sizeof(PlacedHulls) == 192 && sizeof(ListedPair) == 96);
+                                   sizeof(PairState) + sizeof(PlacedHulls) + sizeof(FenceState) +
+                                   sizeof(YieldingState));
+static_assert(sizeof(YieldingState) == 2 * 24 && sizeof(Yielded) == 56);
+static_assert(sizeof(FenceState) == 24 && sizeof(FenceHit) == 104 && sizeof(BlockBond) == 48);
+static_assert(sizeof(PairState) == 280 && sizeof(PlacedHulls) == 192 && sizeof(ListedPair) == 96);
 static_assert(sizeof(DeepBlock) == 64);
 static_assert(sizeof(PairWatch) == 16 && sizeof(HeldPoint) == 24);
 
@@ -48,7 +51,15 @@ void fields(Fields<Archive>& archive, FenceHit& hit) {
 }
 template <class Archive>
 void fields(Fields<Archive>& archive, FenceState& fence) {
-  archive(fence.deflection, fence.work, fence.broken_at, fence.broken_by, fence.hits);
+  archive(fence.hits);
+}
+template <class Archive>
+void fields(Fields<Archive>& archive, Yielded& met) {
+  archive(met.work, met.deflection, met.shift, met.broken_at, met.broken_by);
+}
+template <class Archive>
+void fields(Fields<Archive>& archive, YieldingState& yielding) {
+  archive(yielding.met, yielding.shifted);
 }
 template <class Archive>
 void fields(Fields<Archive>& archive, DeepBlock& deep) {
@@ -92,8 +103,8 @@ void fields(Fields<Archive>& archive, HeldPoint& point) {
 template <class Archive>
 void fields(Fields<Archive>& archive, PairState& pairs) {
   archive(pairs.watch, pairs.pairs, pairs.held, pairs.in_frame, pairs.frame, pairs.listed_at,
-          pairs.listed_turned, pairs.budget, pairs.last_frame, pairs.last_at, pairs.last_turned,
-          pairs.travel);
+          pairs.listed_turned, pairs.budget, pairs.fixed_budget, pairs.last_frame, pairs.last_at,
+          pairs.last_turned, pairs.travel);
 }
 template <class Archive>
 void fields(Fields<Archive>& archive, PlacedHulls& placed) {
@@ -105,7 +116,8 @@ void fields(Fields<Archive>& archive, State& state) {
   archive(state.time, state.motion, state.local_time, state.flight_end, state.phase,
           state.acceleration, state.spin_rate, state.support, state.paper.rebound, state.rest_pose,
           state.rest_steps, state.strain, state.strain_rate, state.memory, state.pairs,
-          state.placed, state.bonds, state.deep, state.fence, state.ledger, state.counters);
+          state.placed, state.bonds, state.deep, state.yielding, state.fence, state.ledger,
+          state.counters);
 }
 template <class Archive>
 void fields(Fields<Archive>& archive, PassageValues& values) {
@@ -135,6 +147,7 @@ void fields(Fields<Archive>& archive, HealthRow& row) {
           row.unconverged, row.left_domain, row.fell_through, row.not_finite,
           row.largest_penetration, row.translation, row.rotation, row.potential, row.elastic,
           row.friction, row.impact, row.contact, row.base, row.fence, row.removed);
+  for (std::int64_t& n : row.cuts) archive(n);
 }
 template <class Archive>
 void fields(Fields<Archive>& archive, Checkpoint& checkpoint) {
@@ -144,7 +157,7 @@ void fields(Fields<Archive>& archive, Checkpoint& checkpoint) {
 
 namespace {
 
-constexpr std::uint64_t format = 0x36306b6365686374;  // "tcheck06"
+constexpr std::uint64_t format = 0x37306b6365686374;  // "tcheck07"
 constexpr std::size_t digest_length = 64;
 
 std::string digest_of(std::span<const std::uint8_t> bytes) {

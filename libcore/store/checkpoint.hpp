@@ -1,4 +1,4 @@
-// libcore/store/checkpoint.hpp
+// libcore/store/checkpoint.hpp: public
 // What a run needs to go on as if it had not been stopped: to the bit.
 // The rows recorded so far stand in the run file itself; here is the rest.
 #pragma once
@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "dda/state.hpp"
-#include "store/frames.hpp"
-#include "store/passages.hpp"
-#include "store/run_file.hpp"
+#include "record/frames.hpp"
+#include "record/passages.hpp"
+#include "record/run_file.hpp"
+#include "scene/state.hpp"
 
 namespace talus {
 

@@ -1,3 +1,4 @@
+// record/run_file.hpp as HDF5: writes and reads a run file whole, or its head.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -6,7 +7,7 @@
 #include "base/error.hpp"
 #include "io/h5_hdf5.hpp"
 #include "io/write_bytes.hpp"
-#include "store/run_file.hpp"
+#include "record/run_file.hpp"
 #include "store/run_file_tables_hdf5.hpp"
 
 namespace talus {

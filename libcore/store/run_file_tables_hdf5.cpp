@@ -294,6 +294,16 @@ void health_columns(Visit&& column) {
       [](HealthRow & h) -> auto& { return h.removed; });
 }
 
+// Missing in runs of earlier versions.
+template <class Visit>
+void cut_columns(Visit&& column) {
+  for (std::size_t k = 0; k < substep_cut_names.size(); ++k)
+    column(
+        (std::string("cut_") + substep_cut_names[k]).c_str(), "1",
+        "substeps of islands made again for this reason in the interval (docs/theory.md, stage 9)",
+        [k](HealthRow & h) -> auto& { return h.cuts[k]; });
+}
+
 template <class Row, class Field>
 using FieldType = std::remove_cvref_t<std::invoke_result_t<Field, Row&>>;
 
@@ -360,7 +370,10 @@ void write_deep_table(H5Writer& file, const std::vector<DeepRow>& rows) {
 
 void write_health_table(H5Writer& file, const std::vector<HealthRow>& rows) {
   write_table(file, "health", "how the computation went, interval by interval", rows,
-              [](auto&& column) { health_columns(column); });
+              [](auto&& column) {
+                health_columns(column);
+                cut_columns(column);
+              });
 }
 
 std::vector<Passage> read_passage_table(const H5Reader& file) {
@@ -387,8 +400,17 @@ std::vector<HealthRow> read_health_table(const H5Reader& file, bool only_faults)
   std::set<std::string> wanted;
   if (only_faults)
     wanted = {"unconverged", "left_domain", "fell_through", "not_finite", "largest_penetration_m"};
-  return read_table<HealthRow>(
+  std::vector<HealthRow> rows = read_table<HealthRow>(
       file, "health", [](auto&& column) { health_columns(column); }, wanted);
+  if (only_faults || !file.has(std::string("health/cut_") + substep_cut_names.front())) return rows;
+  const std::vector<HealthRow> cuts =
+      read_table<HealthRow>(file, "health", [](auto&& column) { cut_columns(column); });
+  if (cuts.size() != rows.size())
+    throw InputError({"health/cut_"}, "has " + std::to_string(cuts.size()) +
+                                          " rows, the columns beside it have " +
+                                          std::to_string(rows.size()));
+  for (std::size_t i = 0; i < rows.size(); ++i) rows[i].cuts = cuts[i].cuts;
+  return rows;
 }
 
 }  // namespace talus

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "io/h5_hdf5.hpp"
-#include "store/run_file.hpp"
+#include "record/run_file.hpp"
 
 namespace talus {
 

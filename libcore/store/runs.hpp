@@ -1,4 +1,4 @@
-// libcore/store/runs.hpp
+// libcore/store/runs.hpp: public
 // The run registry: who ran what on which inputs, with which options and outcome. One SQLite file
 // (WAL), shared by any number of processes; every write is one BEGIN IMMEDIATE transaction.
 // The tables are those of W3C PROV: run = Activity, artifact = Entity, run_input = used,
@@ -72,8 +72,10 @@ struct RegistryBusy : InputError {
   using InputError::InputError;
 };
 
-/// How long a write waits for others that write [ms].
-constexpr int registry_wait_ms = 60000;
+/// How long a write waits for another process that writes [ms]: a minute, or what the environment
+/// variable TALUS_REGISTRY_WAIT_S says [s]. Throws InputError when that is not a number from 0 to
+/// 3600.
+[[nodiscard]] int registry_wait_ms();
 
 /// Writes the run as it begins (status "running") and returns its row. Makes the registry when it
 /// does not exist. Throws InputError when `db` cannot be written or is not a registry, RegistryBusy
@@ -86,10 +88,10 @@ constexpr int registry_wait_ms = 60000;
 void record_results(const std::string& db, const RunRecord& run);
 
 /// Completes the row `run.id`: outcome, times, and all that record_results writes.
-void finish_run(const std::string& db, const RunRecord& run, int wait_ms = registry_wait_ms);
+void finish_run(const std::string& db, const RunRecord& run, int wait_ms = registry_wait_ms());
 
 /// Writes a run that is over as a new row, and returns it.
-std::int64_t add_run(const std::string& db, const RunRecord& run, int wait_ms = registry_wait_ms);
+std::int64_t add_run(const std::string& db, const RunRecord& run, int wait_ms = registry_wait_ms());
 
 /// Takes over all runs of another registry: one that still goes on in `db` (same tool, host,
 /// process and start) is completed, any other is added. Returns how many there were.

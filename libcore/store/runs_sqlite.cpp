@@ -1,10 +1,13 @@
+// store/runs.hpp with SQLite.
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <sqlite3.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 
 #include "base/error.hpp"
+#include "base/text.hpp"
 #include "store/runs.hpp"
 
 namespace talus {
@@ -91,7 +94,7 @@ SQLite::Database open_to_write(const std::string& db, int wait_ms) {
 SQLite::Database open_to_read(const std::string& db) {
   if (!std::filesystem::exists(db))
     throw InputError({db}, "there is no such registry", "name it with --db");
-  SQLite::Database database(db, SQLite::OPEN_READWRITE, registry_wait_ms);
+  SQLite::Database database(db, SQLite::OPEN_READWRITE, registry_wait_ms());
   check_version(database, db);
   return database;
 }
@@ -231,8 +234,20 @@ bool is_same_run(const RunRecord& a, const RunRecord& b) {
 
 }  // namespace
 
+int registry_wait_ms() {
+  constexpr const char* name = "TALUS_REGISTRY_WAIT_S";
+  const char* const given = std::getenv(name);
+  if (!given) return 60000;
+  double seconds = 0;
+  if (!parse_double(given, seconds) || seconds < 0 || seconds > 3600)
+    throw InputError({name},
+                     "is \"" + std::string(given) + "\", not a number of seconds up to 3600",
+                     "unset the environment variable, or give it one");
+  return static_cast<int>(1000 * seconds);
+}
+
 std::int64_t start_run(const std::string& db, const RunRecord& run) {
-  return begin_row(db, run, registry_wait_ms);
+  return begin_row(db, run, registry_wait_ms());
 }
 
 std::int64_t add_run(const std::string& db, const RunRecord& run, int wait_ms) {
@@ -263,7 +278,7 @@ int adopt_runs(const std::string& db, const std::string& other) {
 
 void record_results(const std::string& db, const RunRecord& run) {
   with_registry(db, [&] {
-    SQLite::Database database = open_to_write(db, registry_wait_ms);
+    SQLite::Database database = open_to_write(db, registry_wait_ms());
     SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
     replace_results(database, run);
     transaction.commit();

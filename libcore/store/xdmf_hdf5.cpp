@@ -22,7 +22,7 @@ Faces faces_of(const RunBlocks& blocks) {
       faces.topology.push_back(polygon);
       faces.topology.push_back(blocks.face_begin[i + 1] - blocks.face_begin[i]);
       for (int k = blocks.face_begin[i]; k < blocks.face_begin[i + 1]; ++k)
-        faces.topology.push_back(blocks.face_vertices[static_cast<std::size_t>(k)]);
+        faces.topology.push_back(blocks.face_vertices[k]);
       faces.block.push_back(static_cast<std::int32_t>(b));
     }
   return faces;
@@ -37,12 +37,11 @@ void write_frame(H5Writer& data, const RunFile& run, const Faces& faces, int k) 
     const Pose pose{block.position, block.attitude};
     const auto i = static_cast<std::size_t>(b);
     for (int v = blocks.vertex_begin[i]; v < blocks.vertex_begin[i + 1]; ++v)
-      for (const double x : place(pose, blocks.vertices[static_cast<std::size_t>(v)]))
+      for (const double x : place(pose, blocks.vertices[v]))
         points.push_back(static_cast<float>(x));
     speed_of_block.push_back(static_cast<float>(block.velocity.norm()));
   }
-  for (const std::int32_t b : faces.block)
-    speeds.push_back(speed_of_block[static_cast<std::size_t>(b)]);
+  for (const std::int32_t b : faces.block) speeds.push_back(speed_of_block[b]);
   const std::string group = "frame_" + std::to_string(k);
   data.group(group, "one frame");
   data.array<float>(group + "/points", points, {points.size() / 3, 3}, "m", "vertices, local");
@@ -62,8 +61,7 @@ std::string described(const RunFile& run, const Faces& faces, const std::string&
       "<Grid Name=\"blocks\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
   for (int k = 0; k < n_frames(run.frames); ++k) {
     const std::string frame = data_name + ":/frame_" + std::to_string(k);
-    xml += "<Grid Name=\"blocks\" GridType=\"Uniform\"><Time Value=\"" +
-           text(run.frames.time[static_cast<std::size_t>(k)]) +
+    xml += "<Grid Name=\"blocks\" GridType=\"Uniform\"><Time Value=\"" + text(run.frames.time[k]) +
            "\"/>\n<Topology TopologyType=\"Mixed\" NumberOfElements=\"" + n_faces + "\">" +
            item(std::to_string(faces.topology.size()), "Int", data_name + ":/topology") +
            "</Topology>\n<Geometry GeometryType=\"XYZ\">" +

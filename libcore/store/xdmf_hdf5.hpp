@@ -1,10 +1,10 @@
-// libcore/store/xdmf_hdf5.hpp
+// libcore/store/xdmf_hdf5.hpp: public
 // A run as ParaView shows it: XDMF 3 with the blocks' faces as polygons, frame by frame.
 #pragma once
 
 #include <string>
 
-#include "store/run_file.hpp"
+#include "record/run_file.hpp"
 
 namespace talus {
 

@@ -32,10 +32,11 @@ std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 Vec2 plan(const Vec3& point) { return point.head<2>(); }
 
-// Collects places where heights disagree, and refuses them all at once.
+// Collects places where heights disagree.
 class HeightJudge {
  public:
-  HeightJudge(const ContourMap& map, double interval) : map_(map), interval_(interval) {}
+  HeightJudge(double interval, std::vector<HeightConflict>& conflicts)
+      : interval_(interval), conflicts_(conflicts) {}
 
   // True when both heights may be taken as one. Contours must agree; a breakline or spot height
   // yields to a contour within half an interval.
@@ -44,35 +45,21 @@ class HeightJudge {
     if (difference <= same_height_m) return true;
     const bool both_contours = kind1 == Kind::contour && kind2 == Kind::contour;
     if (!both_contours && difference <= interval_ / 2) return true;
-    if (n_conflicts_++ == 0) first_ = describe(place, height1, kind1, height2, kind2);
+    const auto point = [&](double height) { return Vec3(place.x(), place.y(), height); };
+    conflicts_.push_back({name(kind1), name(kind2), point(height1), point(height2)});
     return false;
   }
 
-  void refuse_conflicts() const {
-    if (n_conflicts_ == 0) return;
-    const std::string more =
-        n_conflicts_ > 1 ? ", and so in " + std::to_string(n_conflicts_ - 1) + " more places" : "";
-    throw InputError(
-        {map_.source}, first_ + more + "; expected lines of different height to stay apart",
-        "mend the lines at the place named, or take wrong ones out with ogr2ogr -where");
-  }
+  [[nodiscard]] bool found_conflicts() const { return !conflicts_.empty(); }
 
  private:
-  [[nodiscard]] std::string describe(const Vec2& place, double height1, Kind kind1, double height2,
-                                     Kind kind2) const {
-    const auto name = [this](Kind kind, double height) {
-      const char* names[] = {"contour", "breakline", "spot height"};
-      return std::string(names[static_cast<int>(kind)]) + " at " +
-             text(height + map_.origin.z(), 10) + " m";
-    };
-    return name(kind1, height1) + " meets " + name(kind2, height2) + " at x " +
-           text(place.x() + map_.origin.x(), 10) + ", y " + text(place.y() + map_.origin.y(), 10);
+  static const char* name(Kind kind) {
+    const char* names[] = {"contour", "breakline", "spot height"};
+    return names[static_cast<int>(kind)];
   }
 
-  const ContourMap& map_;
   double interval_;
-  std::size_t n_conflicts_ = 0;
-  std::string first_;
+  std::vector<HeightConflict>& conflicts_;
 };
 
 void gather_lines(const Polylines& lines, Kind kind, int first_line, Network& network,
@@ -200,7 +187,7 @@ double height_along(const Network& network, const Segment& s, double share) {
   return z_a == z_b ? z_a : z_a + share * (z_b - z_a);
 }
 
-// A point to be put into a segment, `share` of the way along it.
+// A point to be put into a segment, `share` of the path along it.
 struct Split {
   int segment = 0;
   double share = 0;
@@ -280,7 +267,7 @@ bool split_where_lines_meet(const ContourMap& map, Network& network, HeightJudge
   Splitter splitter(network, map.contours.n_lines(), judge, counts);
   for (const SegmentTouch& touch : meetings.touches) splitter.touch(touch);
   for (const SegmentCrossing& crossing : meetings.crossings) splitter.cross(crossing);
-  judge.refuse_conflicts();
+  if (judge.found_conflicts()) return false;
   splitter.apply();
   return !meetings.touches.empty() || !meetings.crossings.empty();
 }
@@ -361,21 +348,45 @@ void check_heights(const ContourMap& map) {
                    "choose the field that holds the elevation with --elevation-field");
 }
 
-CleanLines clean_lines(const ContourMap& map) {
+std::optional<CleanLines> try_clean_lines(const ContourMap& map,
+                                          std::vector<HeightConflict>& conflicts) {
   CleaningCounts counts;
-  HeightJudge judge(map, contour_interval(map));
+  HeightJudge judge(contour_interval(map), conflicts);
   Network network = gather(map, counts);
   for (int round = 0; round < max_rounds; ++round) {
     join_equal_points(network, judge, counts);
-    judge.refuse_conflicts();
+    if (judge.found_conflicts()) return std::nullopt;
     drop_repeated_segments(network, counts);
-    if (!split_where_lines_meet(map, network, judge, counts))
-      return contours_first(network, counts);
+    const bool was_split = split_where_lines_meet(map, network, judge, counts);
+    if (judge.found_conflicts()) return std::nullopt;
+    if (!was_split) return contours_first(network, counts);
   }
   throw InputError(
       {map.source},
       "lines still cross each other after " + std::to_string(max_rounds) + " rounds of splitting",
       "simplify the lines, e.g. with ogr2ogr -simplify");
+}
+
+std::string describe(const HeightConflict& conflict, const Vec3& origin) {
+  const auto line = [&](const std::string& kind, const Vec3& point) {
+    return kind + " at " + text(point.z() + origin.z(), 10) + " m";
+  };
+  return line(conflict.a, conflict.place_a) + " meets " + line(conflict.b, conflict.place_b) +
+         " at x " + text(conflict.place_a.x() + origin.x(), 10) + ", y " +
+         text(conflict.place_a.y() + origin.y(), 10);
+}
+
+CleanLines clean_lines(const ContourMap& map) {
+  std::vector<HeightConflict> conflicts;
+  std::optional<CleanLines> clean = try_clean_lines(map, conflicts);
+  if (clean) return std::move(*clean);
+  const std::string more =
+      conflicts.size() > 1 ? ", and so in " + std::to_string(conflicts.size() - 1) + " more places"
+                           : "";
+  throw InputError({map.source},
+                   describe(conflicts.front(), map.origin) + more +
+                       "; expected lines of different height to stay apart",
+                   "mend the lines at the place named, or take wrong ones out with ogr2ogr -where");
 }
 
 void forget_lines(ContourMap& map) {

@@ -1,4 +1,4 @@
-// libcore/terrain/contours.hpp
+// libcore/terrain/contours.hpp: public
 // A contour map as plain data, and its cleaning: what meets at one height is joined and counted,
 // what meets at two heights is refused with the place.
 // in:    lines read by io/contours_gdal
@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -83,6 +84,20 @@ void check_heights(const ContourMap& map);
 /// Throws InputError, with the place in map coordinates and both heights, where lines meet or
 /// points coincide at different heights.
 [[nodiscard]] CleanLines clean_lines(const ContourMap& map);
+
+/// Where lines meet, or points coincide, at different heights.
+struct HeightConflict {
+  std::string a, b;                                     ///< "contour", "breakline" or "spot height"
+  Vec3 place_a = Vec3::Zero(), place_b = Vec3::Zero();  ///< of either; one place in plan [m]
+};
+
+/// The same; where heights differ, nothing, and the places that were found before lines could not
+/// be split any further.
+[[nodiscard]] std::optional<CleanLines> try_clean_lines(const ContourMap& map,
+                                                        std::vector<HeightConflict>& conflicts);
+
+/// "contour at 100 m meets spot height at 109 m at x 1, y 2", in map coordinates.
+[[nodiscard]] std::string describe(const HeightConflict& conflict, const Vec3& origin);
 
 /// Gives back the memory of the lines; origin, CRS and boundary stay.
 void forget_lines(ContourMap& map);

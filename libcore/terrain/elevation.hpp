@@ -1,4 +1,4 @@
-// libcore/terrain/elevation.hpp
+// libcore/terrain/elevation.hpp: public
 // The heights that ground can have.
 #pragma once
 
@@ -6,6 +6,9 @@ namespace talus {
 
 /// The Earth keeps within, above and below sea level [m].
 inline constexpr double highest_elevation = 12'000;
+
+/// No land lies lower: the shore of the Dead Sea is at about -440 m [m].
+inline constexpr double lowest_land = -500;
 
 /// Values that stand for an unknown height in so many files that none of them is taken for one.
 [[nodiscard]] constexpr bool is_usual_nodata(double value) {

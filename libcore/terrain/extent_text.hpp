@@ -1,4 +1,4 @@
-// libcore/terrain/extent_text.hpp
+// libcore/terrain/extent_text.hpp: public
 // Where a terrain lies, in the words of messages.
 #pragma once
 

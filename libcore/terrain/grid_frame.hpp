@@ -1,4 +1,4 @@
-// libcore/terrain/grid_frame.hpp
+// libcore/terrain/grid_frame.hpp: public
 // Where the nodes of a grid lie on the map: what a raster is read into before it is local ground.
 #pragma once
 

@@ -8,7 +8,7 @@ namespace {
 constexpr double rounding = 1e-9;  // of a cell
 
 const Vec3& corner(const Tin& tin, const std::array<int, 3>& triangle, std::size_t k) {
-  return tin.points[static_cast<std::size_t>(triangle[k])];
+  return tin.points[triangle[k]];
 }
 
 double area_twice(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -118,7 +118,7 @@ std::vector<double> grid_tin(const Tin& tin, const GridFrame& frame,
       std::numeric_limits<double>::quiet_NaN());
   const double west = frame.x(0) - tin.origin.x(), north = frame.y(0) - tin.origin.y();
   const auto in_grid = [&](int point) {
-    const Vec3& p = tin.points[static_cast<std::size_t>(point)];
+    const Vec3& p = tin.points[point];
     return Vec3((p.x() - west) / frame.cell_size, (north - p.y()) / frame.cell_size,
                 p.z() + tin.origin.z());
   };

@@ -1,4 +1,4 @@
-// libcore/terrain/grid_tin.hpp
+// libcore/terrain/grid_tin.hpp: public
 // A TIN on a regular grid of nodes: scan conversion, triangle by triangle.
 // in:    a TIN, the nodes wanted
 // out:   elevation of the TIN at each node, unknown outside of it: nothing is extrapolated

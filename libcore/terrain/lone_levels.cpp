@@ -80,13 +80,17 @@ void LoneLevels::add_row(const double* elevation) {
   ++row_;
 }
 
+std::vector<LoneLevel> LoneLevels::all() const {
+  std::vector<LoneLevel> found;
+  for (std::size_t i = 0; i < areas_.size(); ++i)
+    if (parent_[i] == i && 2 * areas_[i].n_far > areas_[i].n_beside) found.push_back(areas_[i]);
+  return found;
+}
+
 std::optional<LoneLevel> LoneLevels::worst() const {
   std::optional<LoneLevel> found;
-  for (std::size_t i = 0; i < areas_.size(); ++i) {
-    const LoneLevel& level = areas_[i];
-    if (parent_[i] != i || 2 * level.n_far <= level.n_beside) continue;
+  for (const LoneLevel& level : all())
     if (!found || level.n_far > found->n_far) found = level;
-  }
   return found;
 }
 

@@ -1,4 +1,4 @@
-// libcore/terrain/lone_levels.hpp
+// libcore/terrain/lone_levels.hpp: public
 // Areas of one value in an elevation raster that stand far off what lies beside them: what fills
 // gaps and rims where a file declares no nodata value (0, -999, 255, 9999 ...).
 // in:    rows of elevations, from the first one on
@@ -49,6 +49,8 @@ class LoneLevels {
   /// Of the areas that stand off more than half of what is beside them, the one with most such
   /// neighbours.
   [[nodiscard]] std::optional<LoneLevel> worst() const;
+  /// All of these areas, by their first cells.
+  [[nodiscard]] std::vector<LoneLevel> all() const;
 
  private:
   [[nodiscard]] std::size_t leader(std::size_t area) const;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "terrain/contours.hpp"
+#include "terrain/lone_levels.hpp"
 
 namespace talus {
 namespace {
@@ -49,12 +50,19 @@ bool stands_off(std::int64_t n_above, std::int64_t n_below, std::int64_t n_edges
          n_edges > 0;
 }
 
+// Whether an edge is too high for its length, as a step between cells side by side would be.
+bool is_impossible_edge(const TriangleMesh& mesh, int a, int b) {
+  const Vec3 edge = mesh.points[index(b)] - mesh.points[index(a)];
+  return std::abs(edge.z()) > impossible_step(edge.head<2>().norm());
+}
+
 // A contour that stands off by the map's interval, and all that its surroundings say of it.
 struct Candidate {
-  Outlier outlier{0, Vec3::Zero(), infinity, -infinity};
-  std::vector<double> above;    // by edge [m]
-  std::vector<int> neighbours;  // lines beside it; after gather_steps() each once
-  std::vector<double> steps;    // that its sound neighbours leave to sound contours beyond [m]
+  Outlier outlier{0, Vec3::Zero(), infinity, -infinity, false};
+  std::int64_t n_impossible = 0;  // edges
+  std::vector<double> above;      // by edge [m]
+  std::vector<int> neighbours;    // lines beside it; after gather_steps() each once
+  std::vector<double> steps;      // that its sound neighbours leave to sound contours beyond [m]
   bool has_sound_neighbour = false;
 };
 
@@ -88,6 +96,7 @@ void gather_neighbours(const TriangleMesh& mesh, const LinesOfPoints& lines,
     candidate.outlier.low = std::min(candidate.outlier.low, z);
     candidate.outlier.high = std::max(candidate.outlier.high, z);
     candidate.above.push_back(above);
+    candidate.n_impossible += is_impossible_edge(mesh, point, other) ? 1 : 0;
     candidate.neighbours.push_back(lines.line[index(other)]);
     candidate.has_sound_neighbour |= candidate_of[index(lines.line[index(other)])] < 0;
   });
@@ -142,10 +151,14 @@ std::vector<Outlier> contour_outliers(const TriangleMesh& mesh, const LinesOfPoi
   gather_neighbours(mesh, lines, candidate_of, candidates);
   gather_steps(mesh, lines, candidate_of, candidates);
   std::vector<Outlier> found;
-  for (const Candidate& candidate : candidates)
-    if (stands_off(candidate, std::max(interval, median(candidate.steps))) &&
-        !is_beside_culprit(candidate, candidate_of, candidates))
-      found.push_back(candidate.outlier);
+  for (Candidate& candidate : candidates) {
+    if (!stands_off(candidate, std::max(interval, median(candidate.steps))) ||
+        is_beside_culprit(candidate, candidate_of, candidates))
+      continue;
+    candidate.outlier.is_impossible =
+        stands_off(candidate.n_impossible, 0, static_cast<std::int64_t>(candidate.above.size()));
+    found.push_back(candidate.outlier);
+  }
   return found;
 }
 
@@ -155,21 +168,27 @@ std::vector<Outlier> measured_outliers(const TriangleMesh& mesh, const LinesOfPo
                                        double interval) {
   const std::size_t first = index(lines.n_contour_points);
   std::vector<double> low(lines.line.size() - first, infinity), high(low.size(), -infinity);
+  std::vector<std::int64_t> n_edges(low.size()), n_impossible(low.size());
   for_each_edge(mesh, lines, [&](int point, int contour) {
     if (index(point) < first) return;
     const double z = mesh.points[index(contour)].z();
     low[index(point) - first] = std::min(low[index(point) - first], z);
     high[index(point) - first] = std::max(high[index(point) - first], z);
+    ++n_edges[index(point) - first];
+    n_impossible[index(point) - first] += is_impossible_edge(mesh, point, contour) ? 1 : 0;
   });
   std::vector<Outlier> found;
   for (std::size_t i = 0; i < low.size(); ++i) {
     const Vec3& point = mesh.points[first + i];
     const double limit = measured_steps * std::max(interval, high[i] - low[i]);
     if (!(point.z() > high[i] + limit || point.z() < low[i] - limit) || low[i] > high[i]) continue;
-    found.push_back({lines.line[first + i], point, low[i], high[i]});
+    found.push_back({lines.line[first + i], point, low[i], high[i],
+                     stands_off(n_impossible[i], 0, n_edges[i])});
   }
-  std::stable_sort(found.begin(), found.end(),
-                   [](const Outlier& a, const Outlier& b) { return a.line < b.line; });
+  // of a line the point that says most about it
+  std::stable_sort(found.begin(), found.end(), [](const Outlier& a, const Outlier& b) {
+    return a.line != b.line ? a.line < b.line : a.is_impossible > b.is_impossible;
+  });
   const auto same = [](const Outlier& a, const Outlier& b) { return a.line == b.line; };
   found.erase(std::unique(found.begin(), found.end(), same), found.end());
   return found;

@@ -1,4 +1,4 @@
-// libcore/terrain/outliers.hpp
+// libcore/terrain/outliers.hpp: public
 // Lines and points of a contour map whose heights do not go with those around them: a wrong label,
 // a missing one read as 0, a spot height in other units.
 // in:    the triangulation of a map; which line each point is of
@@ -21,8 +21,9 @@ struct LinesOfPoints {
 
 struct Outlier {
   int line = 0;
-  Vec3 place = Vec3::Zero();  ///< one of its points [m]
-  double low = 0, high = 0;   ///< of the contours beside it [m]
+  Vec3 place = Vec3::Zero();   ///< one of its points [m]
+  double low = 0, high = 0;    ///< of the contours beside it [m]
+  bool is_impossible = false;  ///< no ground stands so far off so near, see find_outliers
 };
 
 /// Contours that stand above all contours beside them, or below them all, by more than one and a
@@ -32,6 +33,10 @@ struct Outlier {
 ///
 /// Measured points that lie more than two steps above the highest contour beside them or below the
 /// lowest. A step is `interval`, or the difference of those two where that is more.
+///
+/// What is found is impossible where four in five of those edges are higher than 200 m and than
+/// five times their length: steeper than 79 degrees all around, as cells of an undeclared value in
+/// a raster (lone_levels.hpp).
 ///
 /// Ascending by line, each line once.
 [[nodiscard]] std::vector<Outlier> find_outliers(const TriangleMesh& mesh,

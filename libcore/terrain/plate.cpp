@@ -43,7 +43,7 @@ class Unknowns {
   }
   [[nodiscard]] int count() const { return static_cast<int>(node_.size()); }
   [[nodiscard]] std::size_t node(int unknown) const {
-    return static_cast<std::size_t>(node_[static_cast<std::size_t>(unknown)]);
+    return static_cast<std::size_t>(node_[unknown]);
   }
   // The unknown at a node, -1 when the node is not free.
   [[nodiscard]] int at(std::size_t node) const {
@@ -114,13 +114,11 @@ Groups grouped(const std::vector<int>& group_of_item, int n_groups) {
   Groups groups;
   groups.begin.assign(static_cast<std::size_t>(n_groups) + 1, 0);
   for (const int g : group_of_item)
-    if (g >= 0) ++groups.begin[static_cast<std::size_t>(g)];
+    if (g >= 0) ++groups.begin[g];
   std::inclusive_scan(groups.begin.begin(), groups.begin.end(), groups.begin.begin());
-  groups.items.resize(static_cast<std::size_t>(groups.begin.back()));
+  groups.items.resize(groups.begin.back());
   for (std::size_t i = group_of_item.size(); i-- > 0;)
-    if (group_of_item[i] >= 0)
-      groups.items[static_cast<std::size_t>(
-          --groups.begin[static_cast<std::size_t>(group_of_item[i])])] = static_cast<int>(i);
+    if (group_of_item[i] >= 0) groups.items[--groups.begin[group_of_item[i]]] = static_cast<int>(i);
   return groups;
 }
 
@@ -129,9 +127,9 @@ std::vector<int> find_regions(const Nodes& nodes, const Unknowns& unknowns, int&
   std::vector<int> root(static_cast<std::size_t>(unknowns.count()));
   std::iota(root.begin(), root.end(), 0);
   const auto find = [&](int u) {
-    while (root[static_cast<std::size_t>(u)] != u) {
-      int& above = root[static_cast<std::size_t>(u)];
-      above = root[static_cast<std::size_t>(above)];
+    while (root[u] != u) {
+      int& above = root[u];
+      above = root[above];
       u = above;
     }
     return u;
@@ -143,14 +141,13 @@ std::vector<int> find_regions(const Nodes& nodes, const Unknowns& unknowns, int&
       const int v = unknowns.at(nodes.number(i + offset.i, j + offset.j));
       if (v < 0) continue;
       const int root_u = find(u), root_v = find(v);
-      root[static_cast<std::size_t>(std::max(root_u, root_v))] = std::min(root_u, root_v);
+      root[std::max(root_u, root_v)] = std::min(root_u, root_v);
     }
   }
   // A root is the lowest of its region, so its entry is a region's number before others read it.
   n_regions = 0;
   for (std::size_t u = 0; u < root.size(); ++u)
-    root[u] =
-        root[u] == static_cast<int>(u) ? n_regions++ : root[static_cast<std::size_t>(root[u])];
+    root[u] = root[u] == static_cast<int>(u) ? n_regions++ : root[root[u]];
   return root;
 }
 
@@ -173,11 +170,10 @@ class NormalEquations {
     members_ = members;
     rows_.assign(members.size(), {});
     right_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(members.size()));
-    for (std::size_t k = 0; k < members.size(); ++k)
-      local_[static_cast<std::size_t>(members[k])] = static_cast<int>(k);
+    for (std::size_t k = 0; k < members.size(); ++k) local_[members[k]] = static_cast<int>(k);
     add_nodes();
     for (const int a : anchors) {
-      const Vec3& anchor = problem_.anchors[static_cast<std::size_t>(a)];
+      const Vec3& anchor = problem_.anchors[a];
       add_square(nodes_.height_at(anchor), anchor.z(), problem_.anchor_weight);
     }
   }
@@ -201,8 +197,7 @@ class NormalEquations {
         if (rows_[u][k] == 0) continue;
         const Offset offset = lower_neighbors[k];
         const int other = unknowns_.at(nodes_.number(i + offset.i, j + offset.j));
-        entries.emplace_back(static_cast<int>(u), local_[static_cast<std::size_t>(other)],
-                             rows_[u][k]);
+        entries.emplace_back(static_cast<int>(u), local_[other], rows_[u][k]);
       }
     }
     const auto n = static_cast<Eigen::Index>(rows_.size());
@@ -261,8 +256,8 @@ class NormalEquations {
     bool is_ours = false;
     for (std::size_t k = 0; k < terms.size(); ++k) {
       const int unknown = unknowns_.at(nodes_.number(terms[k].i, terms[k].j));
-      local[k] = unknown < 0 ? -1 : local_[static_cast<std::size_t>(unknown)];
-      is_ours |= unknown >= 0 && region_of_unknown_[static_cast<std::size_t>(unknown)] == region_;
+      local[k] = unknown < 0 ? -1 : local_[unknown];
+      is_ours |= unknown >= 0 && region_of_unknown_[unknown] == region_;
     }
     if (!is_ours) return;
     for (std::size_t p = 0; p < terms.size(); ++p) {
@@ -274,7 +269,7 @@ class NormalEquations {
         if (local[q] < 0)
           right_[local[p]] -= value * height_of_(nodes_.number(terms[q].i, terms[q].j));
         else if (local[q] <= local[p])
-          rows_[static_cast<std::size_t>(local[p])][slot(terms[p], terms[q])] += value;
+          rows_[local[p]][slot(terms[p], terms[q])] += value;
       }
     }
   }
@@ -310,7 +305,7 @@ PlateSolution solve_plate(const PlateProblem& problem,
   for (std::size_t a = 0; a < problem.anchors.size(); ++a)
     for (const Term& term : nodes.height_at(problem.anchors[a]))
       if (const int u = unknowns.at(nodes.number(term.i, term.j)); term.coefficient != 0 && u >= 0)
-        region_of_anchor[a] = region_of_unknown[static_cast<std::size_t>(u)];
+        region_of_anchor[a] = region_of_unknown[u];
   const Groups members = grouped(region_of_unknown, solution.n_regions);
   const Groups anchors = grouped(region_of_anchor, solution.n_regions);
 
@@ -322,8 +317,7 @@ PlateSolution solve_plate(const PlateProblem& problem,
     equations.assemble(region, of_region, anchors.of(region));
     const Eigen::VectorXd height = equations.solved();
     if (height.size() == 0) solution.n_unsolved += static_cast<int>(of_region.size());
-    for (Eigen::Index k = 0; k < height.size(); ++k)
-      solution.height[static_cast<std::size_t>(of_region[static_cast<std::size_t>(k)])] = height[k];
+    for (Eigen::Index k = 0; k < height.size(); ++k) solution.height[of_region[k]] = height[k];
     n_done += of_region.size();
     if (progress)
       progress(static_cast<double>(n_done) / static_cast<double>(solution.height.size()));

@@ -1,4 +1,4 @@
-// libcore/terrain/resample.hpp
+// libcore/terrain/resample.hpp: public
 // Elevations of one grid on the nodes of another, row by row, so that the source is never whole in
 // memory.
 // in:    rows of a source grid from north to south

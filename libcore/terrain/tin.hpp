@@ -1,4 +1,4 @@
-// libcore/terrain/tin.hpp
+// libcore/terrain/tin.hpp: public
 // Triangulated irregular network: what contours become before they are gridded.
 #pragma once
 

@@ -1,3 +1,5 @@
+// terrain/triangulate.hpp with CGAL: points are inserted in an order of our own, so that the same
+// points give the same triangles.
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Triangulation_face_base_with_info_2.h>
@@ -88,11 +90,8 @@ struct Triangulation::Impl {
 
   void constrain(const std::vector<std::array<int, 2>>& edges) {
     std::vector<Delaunay::Vertex_handle> handles(n_points());
-    for (const auto vertex : delaunay.finite_vertex_handles())
-      handles[static_cast<std::size_t>(vertex->info())] = vertex;
-    for (const auto& [a, b] : edges)
-      delaunay.insert_constraint(handles[static_cast<std::size_t>(a)],
-                                 handles[static_cast<std::size_t>(b)]);
+    for (const auto vertex : delaunay.finite_vertex_handles()) handles[vertex->info()] = vertex;
+    for (const auto& [a, b] : edges) delaunay.insert_constraint(handles[a], handles[b]);
   }
 
   void add_neighbors(TriangleMesh& mesh) {
@@ -119,7 +118,7 @@ Triangulation::Triangulation(std::vector<Vec3> points,
     : impl_(std::make_unique<Impl>()) {
   Delaunay::Face_handle hint;
   for (const int i : insertion_order(points)) {
-    const auto vertex = impl_->delaunay.insert(plan(points[static_cast<std::size_t>(i)]), hint);
+    const auto vertex = impl_->delaunay.insert(plan(points[i]), hint);
     vertex->info() = i;
     hint = vertex->face();
   }
@@ -148,7 +147,7 @@ void Triangulation::add(const std::vector<Vec3>& points) {
   Delaunay::Face_handle hint;
   for (const int i : insertion_order(points)) {
     const std::size_t n_before = impl_->delaunay.number_of_vertices();
-    const Vec3& point = points[static_cast<std::size_t>(i)];
+    const Vec3& point = points[i];
     const Delaunay::Vertex_handle vertex = impl_->delaunay.insert(plan(point), hint);
     hint = vertex->face();
     if (impl_->delaunay.number_of_vertices() == n_before) continue;

@@ -1,4 +1,4 @@
-// libcore/terrain/tin_mesh.hpp
+// libcore/terrain/tin_mesh.hpp: public
 // From a triangulation to a TIN: cut to a boundary, points that no triangle uses left out.
 #pragma once
 

@@ -1,4 +1,4 @@
-// libcore/terrain/trn.hpp
+// libcore/terrain/trn.hpp: public
 // Terrain as a triangulated regular network (TRN): one elevation a node, two triangles a cell.
 // in:    elevation raster written by talus-trn
 // out:   cell, triangle, plane and elevation at a point, in a time that the size does not enter

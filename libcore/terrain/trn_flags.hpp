@@ -1,4 +1,4 @@
-// libcore/terrain/trn_flags.hpp
+// libcore/terrain/trn_flags.hpp: public
 // One byte a node: which of its edges, and whether the node itself, stand out of the ground.
 // Only these can be met by an edge or a face of a convex block (contact modes 3 and 2): flat and
 // concave features have an empty Gauss arc. On smooth ground nearly all bytes are 0.

@@ -46,12 +46,12 @@ CellRange cells_of_tile(const Trn& trn, int level, int row, int col) {
 
 void include_tile(const Trn& trn, const TrnPyramid& pyramid, const CellRange& range, int level,
                   int row, int col, ElevationRange& found) {
-  const TrnPyramid::Level& tiles = pyramid.levels[static_cast<std::size_t>(level)];
+  const TrnPyramid::Level& tiles = pyramid.levels[level];
   if (row >= tiles.n_rows || col >= tiles.n_cols) return;
   const CellRange own = cells_of_tile(trn, level, row, col);
   const CellRange common = intersection(range, own);
   if (common.empty()) return;
-  const ElevationRange& tile = tiles.tiles[static_cast<std::size_t>(row * tiles.n_cols + col)];
+  const ElevationRange& tile = tiles.tiles[row * tiles.n_cols + col];
   if (holds(found, tile)) return;
   if (common == own) {
     include(found, tile);
@@ -84,8 +84,7 @@ TrnPyramid::Level next_level(const TrnPyramid::Level& finer) {
                      static_cast<std::size_t>(level.n_cols));
   for (int row = 0; row < finer.n_rows; ++row)
     for (int col = 0; col < finer.n_cols; ++col)
-      include(level.tiles[static_cast<std::size_t>(row / 2 * level.n_cols + col / 2)],
-              finer.tiles[static_cast<std::size_t>(row * finer.n_cols + col)]);
+      include(level.tiles[row / 2 * level.n_cols + col / 2], finer.tiles[row * finer.n_cols + col]);
   return level;
 }
 

@@ -1,4 +1,4 @@
-// libcore/terrain/trn_pyramid.hpp
+// libcore/terrain/trn_pyramid.hpp: public
 // Lowest and highest elevation over any range of cells, and the candidate cells of a block.
 // in:    a TRN; box of a block
 // out:   the few cells that the block can touch in one step, or that it touches none

@@ -48,7 +48,7 @@ ErrorStatistics ErrorCollector::statistics() const {
   result.rmse = std::sqrt(sum_sq / n);
   const auto rank = static_cast<std::ptrdiff_t>(std::ceil(0.95 * n)) - 1;
   std::nth_element(sizes.begin(), sizes.begin() + rank, sizes.end());
-  result.p95 = sizes[static_cast<std::size_t>(rank)];
+  result.p95 = sizes[rank];
   result.largest = largest_;
   result.largest_at = largest_at_;
   return result;

@@ -1,4 +1,4 @@
-// libcore/terrain/trn_quality.hpp
+// libcore/terrain/trn_quality.hpp: public
 // How good a TRN is: its errors against what is known better, and where a height field is a poor
 // model of the ground.
 #pragma once

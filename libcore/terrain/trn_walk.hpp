@@ -1,4 +1,4 @@
-// libcore/terrain/trn_walk.hpp
+// libcore/terrain/trn_walk.hpp: public
 // The cells that a segment crosses in plan, in order, with the part of the segment in each.
 // in:    two points; a TRN's grid
 // out:   a call a cell; the parts follow one another without a gap, so that what is summed or

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
-#include "dda/blocky_slope.hpp"
-#include "dda/step.hpp"
+#include "scene/blocky_slope.hpp"
 #include "slide_scene.hpp"
+#include "step/step.hpp"
 
 namespace {
 

@@ -7,9 +7,9 @@
 #include <numbers>
 #include <utility>
 
-#include "dda/step.hpp"
-#include "verify/cases.hpp"
-#include "verify/closed_form.hpp"
+#include "step/step.hpp"
+#include "verify/cases/cases.hpp"
+#include "verify/cases/closed_form.hpp"
 
 namespace {
 

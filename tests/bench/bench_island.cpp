@@ -4,8 +4,8 @@
 // the argument `noise` (in per mille) of itself.
 #include <benchmark/benchmark.h>
 
-#include "../unit/dda/island_scenes.hpp"
-#include "dda/island_solver.hpp"
+#include "../unit/solver/island_scenes.hpp"
+#include "solver/island_solver.hpp"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "base/random.hpp"
-#include "post/maps.hpp"
+#include "post/maps/map_layers.hpp"
 
 namespace {
 
@@ -61,13 +61,12 @@ void all_layers(benchmark::State& state) {
   Released released;
   released.weight.assign(runs.size(), static_cast<double>(state.range(1)));
   released.n_blocks.assign(runs.size(), static_cast<int>(state.range(1)));
+  const DepositSums deposit;  // nothing came to rest
+  const MapSettings settings;
   for (auto _ : state) {
-    benchmark::DoNotOptimize(reach_layer(cells, 5, released, {}).bands.data());
-    for (const MapQuantity quantity : map_quantities)
-      benchmark::DoNotOptimize(quantity_layer(cells, quantity, released, {}).bands.data());
-    benchmark::DoNotOptimize(exceedance_layer(cells, released).bands.data());
-    benchmark::DoNotOptimize(arrival_layer(cells).bands.data());
-    benchmark::DoNotOptimize(energy_line_layer(cells).bands.data());
+    for (const MapLayerKind& kind : map_layers())
+      benchmark::DoNotOptimize(
+          make_layer(kind, {cells, deposit, 5, released, settings}).bands.data());
   }
   state.counters["rows_per_s"] = benchmark::Counter(static_cast<double>(cells.rows.size()),
                                                     benchmark::Counter::kIsIterationInvariantRate);

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "base/random.hpp"
-#include "dda/step.hpp"
-#include "store/frames.hpp"
-#include "store/passages.hpp"
-#include "verify/cases.hpp"
+#include "record/frames.hpp"
+#include "record/passages.hpp"
+#include "step/step.hpp"
+#include "verify/cases/cases.hpp"
 
 namespace {
 

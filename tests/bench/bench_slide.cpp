@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <fstream>
 
-#include "dda/step.hpp"
 #include "slide_scene.hpp"
+#include "step/step.hpp"
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include <sstream>
 #include <string>
 
-#include "verify/ensemble.hpp"
+#include "verify/study/ensemble.hpp"
 
 namespace talus::bench {
 

@@ -1,7 +1,7 @@
 // tests/fuzz/fuzz_motion.cpp
 // Records of the ground's acceleration.
 #include "fuzz.hpp"
-#include "scene/base_motion.hpp"
+#include "site/base_motion.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   return talus::accepts_or_refuses([&] {

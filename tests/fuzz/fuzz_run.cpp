@@ -1,8 +1,8 @@
 // tests/fuzz/fuzz_run.cpp
 // Runs (HDF5), and the checkpoint in them.
 #include "fuzz.hpp"
+#include "record/run_file.hpp"
 #include "store/checkpoint.hpp"
-#include "store/run_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   return talus::accepts_or_refuses([&] {

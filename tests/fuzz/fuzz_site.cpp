@@ -1,8 +1,8 @@
 // tests/fuzz/fuzz_site.cpp
 // Site files: all sections, with fences and joint sets, up to the plan of the joint sets.
 #include "fuzz.hpp"
-#include "scene/joint_plan.hpp"
-#include "scene/site.hpp"
+#include "site/joint_plan.hpp"
+#include "site/site.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   return talus::accepts_or_refuses([&] {

@@ -8,10 +8,10 @@
 #include <iostream>
 #include <numbers>
 
-#include "dda/step.hpp"
 #include "paper/plot.hpp"
-#include "verify/cases.hpp"
-#include "verify/closed_form.hpp"
+#include "step/step.hpp"
+#include "verify/cases/cases.hpp"
+#include "verify/cases/closed_form.hpp"
 
 namespace {
 

@@ -3,7 +3,7 @@
 // (docs/verification.md lists what is reached).
 #include <gtest/gtest.h>
 
-#include "verify/closed_form.hpp"
+#include "verify/cases/closed_form.hpp"
 
 namespace {
 

@@ -3,9 +3,9 @@
 // tightly.
 #include <gtest/gtest.h>
 
-#include "dda/step.hpp"
-#include "verify/cases.hpp"
-#include "verify/closed_form.hpp"
+#include "step/step.hpp"
+#include "verify/cases/cases.hpp"
+#include "verify/cases/closed_form.hpp"
 
 namespace {
 
@@ -67,7 +67,7 @@ TEST(LawPaper, WorkOfTheBaseMotionIsBooked) {
   const SlopeFrame flat = slope_frame(0, 0);
   const Body cube = body_of(box_in(flat, Vec3::Zero(), Vec3(-0.5, -0.5, 0), Vec3(0.5, 0.5, 1)));
   Scene scene = scene_of(plane_trn(flat, 1, 20), GroundClass{}, {cube}, law_paper(1e-3, 5e8));
-  scene.base = {{0, 10}, {Vec3(-5, 0, 0), Vec3(-5, 0, 0)}};
+  scene.base = {{0, 10}, {Vec3(-5, 0, 0), Vec3(-5, 0, 0)}, {}};
   State state = start(scene);
   Work work = make_work(scene);
   while (state.time < 0.5) step(scene, state, work);

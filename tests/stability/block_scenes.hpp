@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "base/text.hpp"
-#include "dda/step.hpp"
-#include "verify/cases.hpp"
+#include "step/step.hpp"
+#include "verify/cases/cases.hpp"
 
 namespace talus::stability {
 

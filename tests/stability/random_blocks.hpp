@@ -12,10 +12,10 @@
 
 #include "base/random.hpp"
 #include "base/text.hpp"
-#include "dda/rotation.hpp"
-#include "dda/step.hpp"
+#include "motion/rotation.hpp"
+#include "step/step.hpp"
 #include "unit/contact/ground_overlap.hpp"
-#include "verify/cases.hpp"
+#include "verify/cases/cases.hpp"
 
 namespace talus::stability {
 

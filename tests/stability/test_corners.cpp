@@ -5,7 +5,7 @@
 #include <ostream>
 #include <string>
 
-#include "verify/stability.hpp"
+#include "verify/study/stability.hpp"
 
 namespace talus {
 

@@ -24,9 +24,9 @@
 #include "base/sha256.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/raster_gdal.hpp"
-#include "scene/site.hpp"
-#include "store/run_file.hpp"
-#include "unit/store/hand_made.hpp"
+#include "record/run_file.hpp"
+#include "site/site.hpp"
+#include "unit/record/hand_made.hpp"
 
 namespace {
 

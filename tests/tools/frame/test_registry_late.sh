@@ -47,6 +47,7 @@ expect 0 talus-runs show 1 --db r.sqlite
 prints "a warning"
 
 # somebody holds it for longer than a tool waits
+export TALUS_REGISTRY_WAIT_S=2
 start two.txt
 cat >lock.py <<'END'
 import os, sqlite3, time
@@ -71,3 +72,9 @@ n_rows 3
 expect 1 talus-runs --db r.sqlite adopt r.sqlite
 says "is the registry itself"
 [ -s r.sqlite ] || fail "the registry is gone"
+
+# the time to wait must be one
+for wait in two -1 1e9; do
+  TALUS_REGISTRY_WAIT_S=$wait expect 1 talus-runs list --db r.sqlite
+  says "TALUS_REGISTRY_WAIT_S"
+done

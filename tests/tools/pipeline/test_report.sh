@@ -58,6 +58,10 @@ for source in sources:
     assert os.path.exists(f"{out}/{source.split('|')[0]}"), source
 groups = [g.get("name") for g in project.find("layer-tree-group").findall("layer-tree-group")]
 assert groups == ["Fences", "Paths", "Source", "Hazard", "Terrain"], groups
+hazard = next(g for g in project.find("layer-tree-group") if g.get("name") == "Hazard")
+shown = {layer.get("name") for layer in hazard.findall("layer-tree-layer")}
+made = {name[:-4] for name in os.listdir(f"{out}/maps") if name.endswith(".tif")}
+assert shown == made and len(made) == 10, f"maps {made}, in the project {shown}"
 assert project.find("Layouts/Layout") is not None
 END
 

@@ -30,7 +30,7 @@ says "but the coordinates are no degrees"
 says "hint: name the CRS in the file: ogr2ogr -a_srs EPSG:code named.gpkg metres.geojson"
 nothing_left metres.h5
 
-sed 's/EPSG:32633/EPSG:31468/' site.toml >other.toml
+sed 's/EPSG:32633/EPSG:32632/' site.toml >other.toml
 expect 1 talus-blocks other.toml --trn trn.tif -o other.h5 --no-db
 says "reaches outside the terrain"
 

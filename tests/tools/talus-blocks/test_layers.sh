@@ -52,7 +52,7 @@ collection mixed.geojson "$line" "$area"
 rm areas.gpkg
 ogr2ogr -q areas.gpkg mixed.geojson -nln mixed -nlt GEOMETRY
 expect 0 cut
-says "layer mixed also holds 1 part that are no polygons, passed over"
+says "layer mixed also holds 1 open line, passed over"
 holds "$(value out prism_volume_m3) == $volume"
 
 # repeated, nested and adjoining polygons are the area that they cover
@@ -101,3 +101,63 @@ expect 1 talus-blocks points.toml --trn trn.tif -o other.h5 --no-db
 says "2 layers hold points, expected one; the layers are: a, b"
 says "choose with blocks.a.release_layer"
 expect 0 talus-blocks points.toml --trn trn.tif -o other.h5 --no-db --set blocks.a.release_layer=b
+
+# --- every key that names a vector file takes what the reader takes -------------------------------
+is_release() { # is_release ARGUMENTS...: the mass is that of the release area
+  expect 0 cut "$@"
+  holds "($(value out prism_volume_m3) - $volume) ^ 2 < 1e-12"
+}
+rm areas.gpkg
+ogr2ogr -q areas.gpkg study.geojson -nln study_area
+ogr2ogr -q -update areas.gpkg area.geojson -nln release
+is_release --set 'source.polygon_file=areas.gpkg|layername=release'
+grep -q '"layer": "release"' out || fail "the layer is not in the result"
+collection named.geojson "$(printf %s "$study" | sed 's/"properties":{}/"properties":{"kind":"study"}/')" \
+  "$(printf %s "$area" | sed 's/"properties":{}/"properties":{"kind":"release"}/')"
+is_release --set source.polygon_file=named.geojson --set "source.polygon_where=kind = 'release'"
+says "named.geojson: layer named where kind = 'release', 1 polygon of 484 m2 in all"
+is_release --set "source.polygon_file=named.geojson|subset=kind = 'release'"
+ogr2ogr -q whole.shp area.geojson
+python3 - <<'PY'
+import zipfile
+with zipfile.ZipFile('whole.zip', 'w') as archive:
+    for end in ('shp', 'shx', 'dbf', 'prj'): archive.write('whole.' + end)
+PY
+is_release --set source.polygon_file=whole.zip
+# a closed line of a drawing; of two layers of the drawing one must be named
+square() { # square LAYER XMIN YMIN XMAX YMAX
+  printf '0\nLWPOLYLINE\n100\nAcDbEntity\n8\n%s\n100\nAcDbPolyline\n90\n4\n70\n1\n' "$1"
+  printf '10\n%s\n20\n%s\n' "$2" "$3" "$4" "$3" "$4" "$5" "$2" "$5"
+}
+{
+  printf '0\nSECTION\n2\nENTITIES\n'
+  square RELEASE 500012 5200012 500034 5200034
+  square STUDY 500006 5200006 500040 5200040
+  printf '0\nENDSEC\n0\nEOF\n'
+} >areas.dxf
+expect 1 cut --set source.polygon_file=areas.dxf
+says "2 layers of the drawing hold polygons, expected one; they are: RELEASE (1), STUDY (1)"
+is_release --set source.polygon_file=areas.dxf --set source.polygon_layer=RELEASE
+says "1 closed line taken as areas"
+# release points from a table
+printf 'name;Easting;Northing\na;500020,0;5200020,0\n' >points.csv
+expect 0 talus-blocks points.toml --trn trn.tif -o table.h5 --no-db --set blocks.a.release_file=points.csv
+says "points.csv: x from Easting, y from Northing"
+says "points.csv: layer points, 1 point"
+
+# --- commands of hints ----------------------------------------------------------------------------
+hint() { sed -n 's/^  hint: //p' err; }
+# metres that the file calls degrees, with a code for the word of the hint
+sed 's/"crs":{[^}]*}},//' area.geojson >metres.geojson
+expect 1 cut --set source.polygon_file=metres.geojson
+says "the coordinates are no degrees"
+eval "$(hint | sed 's/.*\(ogr2ogr.*\)/\1/; s/EPSG:code/EPSG:32633/')"
+is_release --set source.polygon_file=named.gpkg
+# a layer named as QGIS does is a word of its own in the command, which mends it alone
+ogr2ogr -q -update areas.gpkg bow.geojson -nln "two triangles"
+expect 1 cut --set 'source.polygon_file=areas.gpkg|layername=two triangles'
+says "the polygon is not sound"
+rm -f mended.gpkg
+eval "$(hint | sed 's/mend it: //')"
+ogrinfo -so mended.gpkg >layers
+[ "$(grep -c '^[0-9]*: ' layers)" = 1 ] && grep -q 'two triangles' layers || fail "the hint mended $(cat layers)"

@@ -65,15 +65,3 @@ refused 'line = [[500021, 5000030], [500021, 5000040]]' 'block 0 and panel 0 of 
 expect 0 talus-dda rigid.toml --trn slope.tif --blocks blocks.h5 -o paper.h5 --no-db --law paper --independent \
   --duration-s 0.001 --time-step-s 1e-4 --set solver.normal_stiffness_n_m=1e9
 says 'fences stop nothing with law paper'
-
-# the slope as fixed blocks: the blocks come to lie where they do on the TRN, to the impacts' chaos
-expect 0 run_dda -o blocky.h5 --set 'solver.terrain_model="blocky"' --duration-s 2 --json
-cp out blocky.json
-expect 0 run_dda -o trn.h5 --duration-s 2 --json
-python3 - <<'PY' || fail 'the blocky slope moves blocks otherwise'
-import json
-a, b = (json.load(open(f))['mean_displacement_m'] for f in ('blocky.json', 'out'))
-assert all(abs(x - y) < 0.5 for x, y in zip(a, b)), (a, b)
-PY
-expect 1 run_dda -o p.h5 --set 'solver.terrain_model="blocky"' --law paper
-says 'is blocky with law paper'

@@ -89,8 +89,8 @@ says "bow.geojson: polygon 1 of the boundary crosses itself at x 500000, y 52000
 polygon '[[1,1],[2,1],[2,2],[1,1]]' >elsewhere.geojson
 expect 1 talus-tin map.geojson -o bad.ply --boundary elsewhere.geojson
 says "the boundary and the contours share no ground"
-expect 1 talus-tin map.geojson -o bad.ply --boundary map.geojson
-says "expected polygons"
+expect 1 talus-tin map.geojson -o bad.ply --boundary ridge.geojson
+says "holds no polygons, but 1 open line; expected polygons or closed lines"
 nothing_left bad.ply
 
 # layers of one file are told apart by their geometry; two of a kind must be chosen

@@ -48,7 +48,7 @@ done
 sed '3s/,110\]/,111]/' map.geojson >sloping.geojson
 refused "changes its height along the line, expected contours" talus-tin sloping.geojson
 printf '{"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"EPSG:32632"}},"features":[{"type":"Feature","properties":{"ELEV":1},"geometry":{"type":"Point","coordinates":[1,2]}}]}' >points.geojson
-refused "the geometry is POINT, expected lines" talus-tin points.geojson
+refused "holds no lines, but 1 point; expected lines" talus-tin points.geojson
 
 # mixed units: Z in metres, a field in feet
 sed 's/"ELEV":1\([0-3]\)0/"ELEV":3\100/' map.geojson >mixed.geojson

@@ -24,7 +24,7 @@ says "EPSG:3857"
 nothing_left bad.ply
 ogr2ogr -q -a_srs ESRI:102100 web.gpkg mercator.geojson
 expect 1 talus-tin web.gpkg -o bad.ply
-says "stretched by 1 / cos(latitude)"
+says "whose metres are stretched here"
 
 # a GeoPackage without CRS calls it undefined; a GeoJSON without crs says degrees whatever it holds
 for undefined in 0 -1; do

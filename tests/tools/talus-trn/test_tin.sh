@@ -55,7 +55,7 @@ bad_points() { # bad_points GEOMETRY WORDS
   nothing_left off.tif
 }
 bad_points '{"type":"Point","coordinates":[500010,5200010]}' "the points have no elevation: they are 2-D"
-bad_points '{"type":"LineString","coordinates":[[500010,5200010,1],[500020,5200010,1]]}' "feature 0: the geometry is LINESTRING"
+bad_points '{"type":"LineString","coordinates":[[500010,5200010,1],[500020,5200010,1]]}' "layer bad: holds no points, but 1 line; expected points"
 bad_points null "1 of 1 features have no geometry"
 
 # what does not fit is refused
@@ -83,7 +83,7 @@ expect 0 talus-trn code.ply -o code.tif --cell-size-m 4
 gdalinfo code.tif | grep -qF 'ID["EPSG",32632]' || fail "the CRS named by its code was lost"
 header nonsense.ply "crs EPSG:nonsense"
 expect 1 talus-trn nonsense.ply -o off.tif
-says "nonsense.ply: comment crs of the PLY header: \"EPSG:nonsense\" is not a CRS"
+says "nonsense.ply: its CRS: \"EPSG:nonsense\" is not a CRS"
 
 # a TIN that is no ground: no area in plan, higher than the Earth
 triangle() { # triangle BYTES: bytes x, y and two of z for each of the three corners

@@ -291,6 +291,11 @@ TEST(BlockPairs, PartsWithinTheMarginAreNamedEvenWithoutPoints) {
   EXPECT_TRUE(work.manifolds.empty());
 }
 
+BodyGrid grid_of_last(const Bodies& bodies, std::size_t n) {
+  return make_body_grid(std::span(bodies.placed.position).last(n),
+                        std::span(bodies.hulls.radius).last(n));
+}
+
 TEST(BlockPairs, FixedAndSleepingPairsAreLeftOut) {
   Bodies bodies;
   for (int k = 0; k < 4; ++k)
@@ -299,9 +304,9 @@ TEST(BlockPairs, FixedAndSleepingPairsAreLeftOut) {
   place(bodies);
   PairState state;
   PairWork work;
-  const std::vector<std::uint8_t> fixed = {1, 1, 0, 0};
-  find_pair_contacts(bodies.hulls, bodies.placed, {{}, {}, {}, fixed}, {}, state, work);
-  EXPECT_EQ(work.manifolds.size(), 2u);  // 1-2, 2-3
+  const BodyGrid grid = grid_of_last(bodies, 2);
+  find_pair_contacts(bodies.hulls, bodies.placed, {{}, {}, {}, 2, &grid}, {}, state, work);
+  EXPECT_EQ(work.manifolds.size(), 2u);  // 0-1, 1-2
   PairState asleep_state;
   const std::vector<std::uint8_t> awake = {0, 0, 0, 1};
   find_pair_contacts(bodies.hulls, bodies.placed, {{}, {}, awake, {}}, {}, asleep_state, work);
@@ -314,21 +319,20 @@ template <class AddFloor>
 void slide_over_floor(AddFloor&& add_floor, double turn, double penetration, const Vec3& step,
                       double first_x) {
   Bodies bodies;
-  add_floor(bodies);
   add(bodies, box(Vec3(-0.4, -0.4, -0.4), Vec3(0.4, 0.4, 0.4)),
       {Vec3(first_x, 1.47, 0.4 - penetration), Quat(Eigen::AngleAxisd(turn, Vec3::UnitZ()))});
+  add_floor(bodies);
   place(bodies);
-  const int cube = n_bodies(bodies.hulls) - 1;
-  std::vector<Vec3> steps(bodies.poses.size(), Vec3::Zero());
-  steps.back() = step;
+  const int cube = 0, n_fixed = n_bodies(bodies.hulls) - 1;
+  const std::vector<Vec3> steps = {step};
+  const BodyGrid grid = grid_of_last(bodies, static_cast<std::size_t>(n_fixed));
   PairState state;
   PairWork work;
   PairSettings settings;
   settings.margin = 1e-4;
-  std::vector<std::uint8_t> fixed(bodies.poses.size(), 1);
-  fixed.back() = 0;
   for (int k = 0; bodies.poses[cube].position.x() < 10.5; ++k) {
-    find_pair_contacts(bodies.hulls, bodies.placed, {steps, {}, {}, fixed}, settings, state, work);
+    find_pair_contacts(bodies.hulls, bodies.placed, {steps, {}, {}, n_fixed, &grid}, settings,
+                       state, work);
     ASSERT_FALSE(work.manifolds.empty()) << k;
     for (const PairManifold& m : work.manifolds)
       if (has_points(m)) {

@@ -13,7 +13,7 @@ using namespace talus;
 using namespace talus::test;
 using Pairs = std::vector<std::array<int, 2>>;
 
-bool overlap(const Box& p, const Box& q) {
+bool meet(const Box& p, const Box& q) {
   return (p.low.array() <= q.high.array()).all() && (q.low.array() <= p.high.array()).all();
 }
 
@@ -23,8 +23,7 @@ Pairs brute_pairs(const std::vector<Box>& boxes, const std::vector<int>& owner,
   for (int i = 0; i < static_cast<int>(boxes.size()); ++i)
     for (int j = i + 1; j < static_cast<int>(boxes.size()); ++j) {
       const bool both_fixed = !fixed.empty() && fixed[i] != 0 && fixed[j] != 0;
-      if (owner[i] != owner[j] && !both_fixed && overlap(boxes[i], boxes[j]))
-        pairs.push_back({i, j});
+      if (owner[i] != owner[j] && !both_fixed && meet(boxes[i], boxes[j])) pairs.push_back({i, j});
     }
   return pairs;
 }

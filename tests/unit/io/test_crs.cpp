@@ -2,6 +2,8 @@
 
 #include "base/error.hpp"
 #include "io/crs_gdal.hpp"
+#include "io/crs_operation_gdal.hpp"
+#include "io/crs_place_gdal.hpp"
 
 namespace {
 
@@ -16,7 +18,7 @@ TEST(Crs, ProjectedMetresAreFit) {
     EXPECT_EQ(find_crs_problem(crs_from_user(crs, "--crs"), {500000, 5200000}).finding, "") << crs;
 }
 
-TEST(Crs, DegreesFeetAndStretchedMetresAreNot) {
+TEST(Crs, DegreesAndFeetAreNot) {
   const auto problem = [](const char* crs, double x, double y) {
     return find_crs_problem(crs_from_user(crs, "--crs"), {x, y});
   };
@@ -28,26 +30,7 @@ TEST(Crs, DegreesFeetAndStretchedMetresAreNot) {
   EXPECT_TRUE(says(problem("EPSG:4978", 4e6, 1e6), "centre of the Earth"));
   EXPECT_TRUE(says(problem("EPSG:2225", 6e6, 2.1e6), "US survey foot"));
   EXPECT_TRUE(says(problem("EPSG:32632+6360", 5e5, 5e6), "heights in US survey foot"));
-  EXPECT_TRUE(says(problem("EPSG:3857", 1.2e6, 5.9e6), "1 / cos(latitude)"));
   EXPECT_TRUE(says(find_crs_problem("", {0, 0}), "there is no CRS"));
-}
-
-// Mercator is known by its method, not by the code of the system; the transverse one is fit.
-TEST(Crs, MercatorIsFoundWhateverItIsCalled) {
-  for (const char* crs :
-       {"ESRI:102100", "EPSG:3395", "+proj=webmerc +datum=WGS84",
-        "+proj=merc +lat_ts=47 +ellps=GRS80",
-        "+proj=merc +a=6378137 +b=6378137 +lat_ts=0 +k=1 +units=m +nadgrids=@null +no_defs",
-        "PROJCS[\"Web\",GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS "
-        "84\",6378137,298.257223563]],"
-        "PRIMEM[\"Greenwich\",0],UNIT[\"degree\",0.0174532925199433]],PROJECTION[\"Mercator_1SP\"],"
-        "PARAMETER[\"central_meridian\",0],PARAMETER[\"scale_factor\",1],UNIT[\"metre\",1]]"})
-    EXPECT_NE(find_crs_problem(crs_from_user(crs, "--crs"), {1.2e6, 5.9e6})
-                  .finding.find("stretched by 1 / cos(latitude)"),
-              std::string::npos)
-        << crs;
-  for (const char* crs : {"EPSG:3078", "EPSG:32632"})  // oblique, transverse
-    EXPECT_EQ(find_crs_problem(crs_from_user(crs, "--crs"), {5e5, 5e6}).finding, "") << crs;
 }
 
 // A GeoPackage calls the reference of a layer without one "undefined".

@@ -133,7 +133,9 @@ TEST(TinPly, RefusesCoordinatesThatAreNotFinite) {
 }
 
 TEST(TinPly, RefusesOtherFormatsWithWhatItFound) {
-  EXPECT_NE(refusal(with("binary_little_endian", "ascii")).find("\"ascii\""), std::string::npos);
+  EXPECT_NE(refusal(with("binary_little_endian", "binary_big_endian")).find("_big_endian\""),
+            std::string::npos);
+  EXPECT_NE(refusal(with("binary_little_endian", "ascii")).find("is no number"), std::string::npos);
   EXPECT_NE(refusal("solid stl\n").find("not a PLY file"), std::string::npos);
   EXPECT_NE(refusal(with("end_header", "end_heather")).find("header"), std::string::npos);
   EXPECT_NE(refusal(with("double z", "double w")).find("lacks x, y or z"), std::string::npos);
@@ -180,6 +182,39 @@ TEST(TinPly, SurvivesRandomDamage) {
     } catch (const talus::InputError&) {
     }
   }
+}
+
+const std::string text_header =
+    "ply\r\nformat ascii 1.0\r\ncomment from CAD\r\nelement vertex 4\r\nproperty float x\r\n"
+    "property float y\r\nproperty uchar red\r\nproperty float z\r\nelement face 2\r\n"
+    "property list uchar int vertex_indices\r\nend_header\r\n";
+
+TEST(TinPly, TextIsReadLikeBytes) {
+  const Tin tin = parse_tin(text_header +
+                                "650000 5200000 255 10\r\n650100 5200000 0 10\r\n"
+                                "650100 5200100.25 0 3e1\r\n650000 5200100 9 30\r\n"
+                                "3 0 1 2\r\n3 0 3 2\r\n",
+                            "x.ply");
+  EXPECT_EQ(tin.origin, Vec3(650000, 5200000, 0));
+  ASSERT_EQ(tin.points.size(), 4U);
+  EXPECT_EQ(tin.points[2], Vec3(100, 100.25, 30));
+  EXPECT_EQ(tin.triangles[0], (std::array<int, 3>{0, 1, 2}));
+  EXPECT_EQ(tin.triangles[1], (std::array<int, 3>{0, 2, 3}));  // turned
+}
+
+TEST(TinPly, TextThatLiesIsRefused) {
+  const std::string points = "0 0 0 0\n1 0 0 0\n1 1 0 0\n0 1 0 0\n";
+  EXPECT_EQ(refusal(text_header + points + "3 0 1 2\n3 0 2\n"),
+            "x.ply: the file ends before its data does: it was truncated");
+  EXPECT_EQ(refusal(text_header + points + "3 0 1 2\n3 0 2 4\n"),
+            "x.ply: face 1 has the corner 4, expected 0 to 3");
+  EXPECT_EQ(refusal(text_header + points + "3 0 1 2\n3 0 2 1.5\n"),
+            "x.ply: face 1 has the corner 1.5, expected 0 to 3");
+  EXPECT_EQ(refusal(text_header + points + "4 0 1 2 3\n"),
+            "x.ply: face 0 has 4 corners, expected triangles");
+  EXPECT_EQ(refusal(text_header + "0 0 0 zero\n"), "x.ply: \"zero\" is no number");
+  EXPECT_NE(refusal(with("binary_little_endian 1.0\n", "ascii 1.0\n")).find("is no number"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -118,7 +118,8 @@ TEST(ReadVectors, WhatIsNotThereIsNamed) {
             std::string::npos);
   EXPECT_NE(refusal({path, "", "nonsense = ", VectorKind::points}).find("cannot be used"),
             std::string::npos);
-  EXPECT_NE(refusal({path, "", "kind = 'b'", VectorKind::points}).find("holds no points"),
+  EXPECT_NE(refusal({path, "", "kind = 'b'", VectorKind::points})
+                .find("holds no points: the filter \"kind = 'b'\" leaves no feature"),
             std::string::npos);
   EXPECT_NE(refusal({scratch("broken.geojson", "{"), "", "", VectorKind::points})
                 .find("cannot be opened"),
@@ -134,7 +135,9 @@ TEST(ReadVectors, LayersThatMayBeMeantAreListed) {
     FAIL() << "accepted";
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("the layers are: first, second"), std::string::npos);
-    EXPECT_EQ(error.hint(), "choose with source.polygon_layer");
+    EXPECT_EQ(
+        error.hint(),
+        "choose with source.polygon_layer; several: source.polygon_layer = \"first, second\"");
   }
   const VectorShapes found = read_vectors({path, "second", "", VectorKind::areas}, "");
   EXPECT_EQ(found.layer, "second");
@@ -155,6 +158,126 @@ TEST(ReadVectors, ALayerOfAnyGeometryHidesNoneBehindIt) {
   EXPECT_EQ(inside.n_passed_over, 1);
   EXPECT_NE(refusal({path, "", "", VectorKind::lines}).find("2 layers hold lines"),
             std::string::npos);
+}
+
+TEST(ReadVectors, SeveralLayersAreReadAsOne) {
+  const std::string path = two_layers("both.vrt", square(0, 0, 3), square(20, 0, 2));
+  for (const char* layers : {"first\nsecond", "first, second", "second,first", "*", "fi*,sec?nd"}) {
+    const VectorShapes found = read_vectors({path, layers, "", VectorKind::areas}, "");
+    EXPECT_EQ(found.area_m2, 13) << layers;
+    EXPECT_EQ(found.n_parts, 2) << layers;
+  }
+  EXPECT_NE(refusal({path, "first, third", "", VectorKind::areas}).find("there is no layer"),
+            std::string::npos);
+}
+
+TEST(ReadVectors, ANamedLayerWithoutTheShapeIsRefused) {
+  const std::string point = R"({"type":"Point","coordinates":[1,2]})";
+  const std::string path = two_layers("half.vrt", square(0, 0, 3), point);
+  EXPECT_NE(refusal({path, "first, second", "", VectorKind::areas})
+                .find("layer second: holds no polygons"),
+            std::string::npos);
+}
+
+TEST(ReadVectors, NamesAsQgisWritesThemChooseLayerAndFeatures) {
+  const std::string path = two_layers("qgis.vrt", square(0, 0, 3), square(20, 0, 2));
+  EXPECT_EQ(read_vectors({path + "|layername=second", "", "", VectorKind::areas}, "").area_m2, 4);
+  EXPECT_EQ(read_vectors({path + "|layerid=0", "", "", VectorKind::areas}, "").area_m2, 9);
+  EXPECT_NE(refusal({path + "|layername=second", "first", "", VectorKind::areas})
+                .find("the name asks for the layer second"),
+            std::string::npos);
+  EXPECT_NE(refusal({path + "|layerid=2", "", "", VectorKind::areas}).find("the number 2"),
+            std::string::npos);
+  const std::string two = scratch(
+      "subset.geojson",
+      R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":{"k":1},"geometry":)" +
+          square(0, 0, 3) + R"(},{"type":"Feature","properties":{"k":2},"geometry":)" +
+          square(9, 0, 1) + "}]}");
+  EXPECT_EQ(read_vectors({two + "|subset=k = 2", "", "", VectorKind::areas}, "").area_m2, 1);
+  EXPECT_NE(refusal({two + "|subset=k = 2", "", "k = 1", VectorKind::areas})
+                .find("the filter \"(k = 2) AND (k = 1)\" leaves no feature"),
+            std::string::npos);
+}
+
+TEST(ReadVectors, PointsComeFromTables) {
+  const std::string path = scratch("points.csv", "name;northing;easting\na;5200000,5;500000\n");
+  const VectorShapes found = read_vectors({path, "", "", VectorKind::points}, "");
+  ASSERT_EQ(found.shapes.size(), 1u);
+  EXPECT_EQ(found.shapes[0][0].head<2>(), Vec2(500000, 5200000.5));
+  ASSERT_EQ(found.remarks.size(), 1u);
+  EXPECT_EQ(found.remarks[0], "x from easting, y from northing");
+  const std::string geometries = scratch("wkt.csv", "id,WKT\n1,POINT (3 4)\n");
+  EXPECT_EQ(read_vectors({geometries, "", "", VectorKind::points}, "").shapes[0][0].x(), 3);
+}
+
+// --- closed lines, drawings ----------------------------------------------------------------------
+
+// A drawing (DXF) of closed and open lines: "LAYER 1" closed, "LAYER 0" open, each a square of 10 m
+// that begins at (100 i, 0).
+std::string drawing(const std::string& name,
+                    const std::vector<std::pair<std::string, int>>& lines) {
+  std::string text = "0\nSECTION\n2\nENTITIES\n";
+  int x = 0;
+  for (const auto& [layer, is_closed] : lines) {
+    text += "0\nLWPOLYLINE\n100\nAcDbEntity\n8\n" + layer + "\n100\nAcDbPolyline\n90\n4\n70\n" +
+            std::to_string(is_closed) + "\n";
+    for (const auto& [dx, dy] :
+         {std::pair(0, 0), std::pair(10, 0), std::pair(10, 10), std::pair(0, 10)})
+      text += "10\n" + std::to_string(x + dx) + "\n20\n" + std::to_string(dy) + "\n";
+    x += 100;
+  }
+  return scratch(name, text + "0\nENDSEC\n0\nEOF\n");
+}
+
+TEST(ReadVectors, ClosedLinesOfADrawingAreAreas) {
+  const std::string path = drawing("limit.dxf", {{"LIMIT", 1}, {"LIMIT", 0}});
+  const VectorShapes found = read_vectors({path, "", "", VectorKind::areas}, "");
+  EXPECT_EQ(found.layer, "LIMIT");
+  EXPECT_EQ(found.area_m2, 100);
+  EXPECT_EQ(found.passed_over, "1 open line");
+  EXPECT_EQ(found.remarks, std::vector<std::string>{"1 closed line taken as areas"});
+  EXPECT_NE(refusal({drawing("open.dxf", {{"A", 0}}), "", "", VectorKind::areas})
+                .find("holds no polygons, but 1 open line; expected polygons or closed lines"),
+            std::string::npos);
+}
+
+TEST(ReadVectors, ClosedLinesAreAreasWhereNoPolygonIs) {
+  const std::string ring = R"({"type":"LineString","coordinates":[[0,0],[4,0],[4,4],[0,4],[0,0]]})";
+  EXPECT_EQ(read_vectors({features("ring.geojson", {ring}), "", "", VectorKind::areas}, "").area_m2,
+            16);
+  const VectorShapes both = read_vectors(
+      {features("ring_and.geojson", {ring, square(50, 0, 3)}), "", "", VectorKind::areas}, "");
+  EXPECT_EQ(both.area_m2, 9);
+  EXPECT_EQ(both.passed_over, "1 closed line");
+  const std::string line = R"({"type":"LineString","coordinates":[[0,0],[9,9]]})";
+  const VectorShapes behind =
+      read_vectors({two_layers("c.vrt", line, ring), "", "", VectorKind::areas}, "");
+  EXPECT_EQ(behind.layer, "second");
+}
+
+TEST(ReadVectors, LayersOfADrawingAreChosenLikeOthers) {
+  const std::string path = drawing("layers.dxf", {{"A", 1}, {"B", 1}, {"ROAD", 0}});
+  const std::string said = refusal({path, "", "", VectorKind::areas});
+  EXPECT_NE(
+      said.find("2 layers of the drawing hold polygons, expected one; they are: A (1), B (1)"),
+      std::string::npos)
+      << said;
+  EXPECT_EQ(read_vectors({path, "A", "", VectorKind::areas}, "").n_parts, 1);
+  for (const char* layers : {"A\nB", "A,B", "?", "*", "entities"})
+    EXPECT_EQ(read_vectors({path, layers, "", VectorKind::areas}, "").n_parts, 2) << layers;
+  EXPECT_EQ(read_vectors({path, "", "Layer IN ('A', 'B')", VectorKind::areas}, "").n_parts, 2);
+  EXPECT_NE(refusal({path, "C", "", VectorKind::areas}).find("its layers are: A, B, ROAD"),
+            std::string::npos);
+  EXPECT_NE(refusal({path, "A,ROAD", "", VectorKind::areas}).find("layer ROAD: holds no polygons"),
+            std::string::npos);
+}
+
+TEST(ReadVectors, CurvesAreStrokedAndSaid) {
+  const std::string path =
+      scratch("arc.csv", "WKT,k\n\"CURVEPOLYGON (CIRCULARSTRING (0 0,2 0,0 0))\",1\n");
+  const VectorShapes found = read_vectors({path, "", "", VectorKind::areas}, "");
+  EXPECT_NEAR(found.area_m2, 3.14159, 0.01);
+  EXPECT_EQ(found.remarks, std::vector<std::string>{"1 curve stroked to lines"});
 }
 
 // --- polygons ----------------------------------------------------------------------------------

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "post/deposit.hpp"
-#include "store/run_file.hpp"
+#include "record/run_file.hpp"
 #include "terrain/trn.hpp"
 
 namespace talus::testing {

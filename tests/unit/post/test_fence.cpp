@@ -7,10 +7,10 @@
 
 #include "base/error.hpp"
 #include "base/random.hpp"
-#include "post/fence.hpp"
-#include "post/fence_design.hpp"
-#include "post/fence_result.hpp"
-#include "post/fence_summary.hpp"
+#include "post/fence/fence.hpp"
+#include "post/fence/fence_design.hpp"
+#include "post/fence/fence_result.hpp"
+#include "post/fence/fence_summary.hpp"
 #include "post/statistics.hpp"
 #include "run_maker.hpp"
 

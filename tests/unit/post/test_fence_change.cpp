@@ -2,8 +2,8 @@
 
 #include <map>
 
-#include "post/fence_change.hpp"
-#include "post/map_style.hpp"
+#include "post/fence/fence_change.hpp"
+#include "post/maps/map_style.hpp"
 #include "run_maker.hpp"
 
 using namespace talus;

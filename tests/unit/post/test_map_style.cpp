@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "post/map_picture.hpp"
-#include "post/map_style.hpp"
+#include "post/maps/map_picture.hpp"
+#include "post/maps/map_style.hpp"
 #include "run_maker.hpp"
 
 using namespace talus;
@@ -14,7 +14,7 @@ using namespace talus::testing;
 namespace {
 
 MapLayer energy_layer(int n_cells, int n_without_p95) {
-  MapLayer layer{"ke_total", "Kinetic energy with spin", {}, {}};
+  MapLayer layer{"ke_total", {}, {}};
   layer.bands = {{"ke_total_p95", "kJ", "", false, {}}, {"ke_total_max", "kJ", "", false, {}}};
   for (int i = 0; i < n_cells; ++i) {
     layer.cell.push_back(static_cast<std::uint32_t>(i));

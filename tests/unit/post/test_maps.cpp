@@ -8,7 +8,7 @@
 
 #include "base/error.hpp"
 #include "base/random.hpp"
-#include "post/maps.hpp"
+#include "post/maps/maps.hpp"
 #include "post/statistics.hpp"
 
 using namespace talus;
@@ -127,8 +127,8 @@ void expect_statistics(const HandMade& made, int factor, int min_passages) {
   const CellRows cells = made.cells(map);
   MapSettings settings;
   settings.min_passages = min_passages;
-  const MapLayer layer =
-      quantity_layer(cells, MapQuantity::centroid_height, made.released(), settings);
+  const MapLayer layer = quantity_layer("pass_height_centroid", cells, MapQuantity::centroid_height,
+                                        made.released(), settings);
   const auto known = by_cell(made, factor);
   ASSERT_EQ(cells.cell.size(), known.size());
   for (std::size_t i = 0; i < cells.cell.size(); ++i) {
@@ -177,7 +177,8 @@ TEST(QuantityLayer, BoundsPercentilesByRanksWhereRunsAreIndependent) {
       p.largest.speed = static_cast<float>((run * 7) % 300);
       made.runs[run].passages.push_back(p);
     }
-  const MapLayer layer = quantity_layer(made.cells(), MapQuantity::speed, made.released(), {});
+  const MapLayer layer =
+      quantity_layer("velocity", made.cells(), MapQuantity::speed, made.released(), {});
   const auto& p95 = band_named(layer, "velocity_p95").value;
   const auto& p95_hi = band_named(layer, "velocity_p95_hi").value;
   EXPECT_TRUE(std::isnan(p95[0]));
@@ -193,7 +194,8 @@ TEST(QuantityLayer, BoundsPercentilesByRanksWhereRunsAreIndependent) {
 TEST(QuantityLayer, BoundsNothingFromASingleRun) {
   const HandMade one = random_runs(1, 500, false, 1, 4), many = random_runs(25, 20, false, 1, 4);
   const auto bound = [](const HandMade& made) {
-    return band_named(quantity_layer(made.cells(), MapQuantity::total_energy, made.released(), {}),
+    return band_named(quantity_layer("ke_total", made.cells(), MapQuantity::total_energy,
+                                     made.released(), {}),
                       "ke_total_p95_hi")
         .value[0];
   };
@@ -208,7 +210,7 @@ TEST(QuantityLayer, GivesEnergiesInKilojoule) {
   p.largest.total_energy = 41500;
   made.runs[0].passages = {p};
   const MapLayer layer =
-      quantity_layer(made.cells(), MapQuantity::total_energy, made.released(), {});
+      quantity_layer("ke_total", made.cells(), MapQuantity::total_energy, made.released(), {});
   EXPECT_FLOAT_EQ(band_named(layer, "ke_total_max").value[0], 41.5F);
   EXPECT_EQ(layer.bands[0].unit, "kJ");
 }
@@ -314,9 +316,10 @@ TEST(MapTiles, ChangeNothing) {
         rows.push_back(map_rows(run.passages, made.grid, map, run.weight, tile));
       const CellRows cells = group_by_cell(
           std::move(rows), static_cast<std::size_t>(map.grid.n_rows) * map.grid.n_cols);
-      return std::vector{reach_layer(cells, 2, made.released(), {}),
-                         quantity_layer(cells, MapQuantity::centroid_height, made.released(), {}),
-                         arrival_layer(cells)};
+      return std::vector{
+          reach_layer(cells, 2, made.released(), {}),
+          quantity_layer("height", cells, MapQuantity::centroid_height, made.released(), {}),
+          arrival_layer(cells)};
     };
     std::vector<std::uint32_t> rows_of_cell(static_cast<std::size_t>(map.grid.n_rows) *
                                             map.grid.n_cols);
@@ -347,7 +350,7 @@ TEST(OnGrid, TellsZeroFromNodata) {
   made.runs[0].passages = {p};
   const CellRows cells = made.cells();
   const MapLayer reach = reach_layer(cells, 2, made.released(), {});
-  const MapLayer speed = quantity_layer(cells, MapQuantity::speed, made.released(), {});
+  const MapLayer speed = quantity_layer("velocity", cells, MapQuantity::speed, made.released(), {});
   EXPECT_EQ(on_grid(reach, band_named(reach, "n_pass"), 3, -9999), (std::vector<float>{0, 1, 0}));
   EXPECT_EQ(on_grid(speed, band_named(speed, "velocity_max"), 3, -9999),
             (std::vector<float>{-9999, 0, -9999}));
@@ -360,6 +363,6 @@ TEST(Maps, OfNoPassageAtAllAreEmpty) {
   const CellRows cells = made.cells();
   EXPECT_TRUE(cells.cell.empty());
   EXPECT_EQ(reach_layer(cells, 2, made.released(), {}).bands.size(), 7U);
-  for (const MapQuantity q : map_quantities)
-    EXPECT_EQ(quantity_layer(cells, q, made.released(), {}).bands.size(), 10U);
+  EXPECT_EQ(quantity_layer("speed", cells, MapQuantity::speed, made.released(), {}).bands.size(),
+            10U);
 }

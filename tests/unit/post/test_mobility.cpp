@@ -5,7 +5,7 @@
 #include <set>
 
 #include "base/error.hpp"
-#include "post/mobility.hpp"
+#include "post/runout/mobility.hpp"
 
 using namespace talus;
 

@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "base/random.hpp"
-#include "post/runout.hpp"
-#include "post/runout_text.hpp"
+#include "post/runout/runout.hpp"
+#include "post/runout/runout_text.hpp"
 #include "run_maker.hpp"
 
 using namespace talus;
@@ -41,8 +41,8 @@ Trn bent_trn() {
 }  // namespace
 
 TEST(ReachLine, OfAnLShapedWayTellsPathFromChord) {
-  const std::vector<Vec3> way = {{0, 0, 30}, {30, 0, 10}, {30, 40, 0}};
-  const ReachLine reach = reach_along(way);
+  const std::vector<Vec3> path = {{0, 0, 30}, {30, 0, 10}, {30, 40, 0}};
+  const ReachLine reach = reach_along(path);
   EXPECT_DOUBLE_EQ(reach.height, 30);
   EXPECT_DOUBLE_EQ(reach.path, 70);
   EXPECT_DOUBLE_EQ(reach.chord, 50);
@@ -71,7 +71,7 @@ TEST(EventReach, OfAStraightSlideIsExact) {
   }
 }
 
-// The toe is where the deposit ends, not where the longest way ends.
+// The toe is where the deposit ends, not where the longest path ends.
 TEST(EventReach, TakesTheFarthestBlockAsToe) {
   RunFile run;
   for (int block = 0; block < 2; ++block) add_box(run, {2, 2, 2}, {0, 0, 0});
@@ -124,7 +124,7 @@ TEST(EventReach, OfAMassThatStaysHasNoReach) {
     EXPECT_TRUE(std::isnan(value));
 }
 
-// A way that flattens and then drops again: the angle at its end hides that a flatter energy line
+// A path that flattens and then drops again: the angle at its end hides that a flatter energy line
 // would have been needed before.
 TEST(AngleProfile, SaysWhereItIsNotMonotone) {
   const std::vector<Vec3> falling = {{0, 0, 100}, {50, 0, 60}, {150, 0, 40}};

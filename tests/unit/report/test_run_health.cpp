@@ -37,6 +37,18 @@ TEST(RunHealth, CountersAreThoseOfTheWholeRun) {
   EXPECT_NE(table.find("<td class=\"n\">300</td><td class=\"n\">0.001</td>"), std::string::npos);
 }
 
+TEST(RunHealth, CutsAreSummedByReason) {
+  RunFile run;
+  run.health.resize(2);
+  EXPECT_EQ(cut_table({run}, {"CASE_1"}), "");
+  const auto deep = static_cast<std::size_t>(SubstepCut::deep);
+  run.health[0].cuts[deep] = 3;
+  run.health[1].cuts[deep] = 4;
+  const std::string table = cut_table({run}, {"CASE_1"});
+  EXPECT_NE(table.find("bond_broken"), std::string::npos);
+  EXPECT_NE(table.find("<td class=\"n\">7</td><td class=\"n\">0</td>"), std::string::npos);
+}
+
 TEST(RunHealth, BlocksThatWereDeepAreNamedWithTheirPlaceOnTheMap) {
   std::vector<RunFile> runs(2);
   EXPECT_EQ(deep_table(runs, {"1", "2"}), "");

@@ -100,3 +100,18 @@ TEST(StartDepth, OfALiftedBlockIsZero) {
 }
 
 }  // namespace
+
+TEST(MoveToOrigin, KeepsThePlaceOnTheMap) {
+  talus::BlockSet set;
+  set.origin = {1000, 2000, 0};
+  talus::Body body;
+  body.parts = {talus::box(talus::Vec3(1, 2, 3), talus::Vec3(2, 4, 6))};
+  talus::add_body(set, body);
+  set.pair_point = {talus::Vec3(5, 6, 7)};
+  const talus::Vec3 vertex = set.vertices[3] + set.origin, centroid = set.centroid[0] + set.origin;
+  talus::move_to_origin(set, {1100, 1900, 50});
+  EXPECT_EQ(set.origin, talus::Vec3(1100, 1900, 50));
+  EXPECT_EQ(talus::Vec3(set.vertices[3] + set.origin), vertex);
+  EXPECT_EQ(talus::Vec3(set.centroid[0] + set.origin), centroid);
+  EXPECT_EQ(set.pair_point[0], talus::Vec3(-95, 106, -43));
+}

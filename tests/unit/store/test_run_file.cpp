@@ -6,9 +6,10 @@
 
 #include "base/error.hpp"
 #include "base/sha256.hpp"
-#include "hand_made.hpp"
+#include "io/h5_hdf5.hpp"
+#include "record/run_file.hpp"
 #include "store/checkpoint.hpp"
-#include "store/run_file.hpp"
+#include "unit/record/hand_made.hpp"
 
 namespace {
 
@@ -85,6 +86,8 @@ RunFile sample(int n_frames, int n_rows) {
   run.health.resize(3);
   run.health[2].unconverged = 5;
   run.health[2].friction = 1e6;
+  for (std::size_t k = 0; k < run.health[1].cuts.size(); ++k)
+    run.health[1].cuts[k] = 10 + static_cast<std::int64_t>(k);
   run.checkpoint = {1, 2, 3, 255};
   run.phase = {talus::Phase::asleep, talus::Phase::left_domain};
   run.blocks.weight = {1, 0.25};
@@ -145,7 +148,20 @@ TEST(RunFile, ReadsBackWhatWasWritten) {
   EXPECT_EQ(back.crossings[0].n_crossings, 2);
   EXPECT_EQ(back.health[2].unconverged, 5);
   EXPECT_EQ(back.health[2].friction, 1e6);
+  EXPECT_EQ(back.health[1].cuts, run.health[1].cuts);
   EXPECT_EQ(back.checkpoint, run.checkpoint);
+}
+
+// The reasons for which substeps are made again have the same names in the file as in the code.
+TEST(RunFile, NamesTheReasonsOfCutsAsTheCodeDoes) {
+  const TemporaryFile file("cuts.h5");
+  talus::write_run_file(file.path, sample(1, 1));
+  const talus::H5Reader reader(file.path);
+  for (std::size_t k = 0; k < talus::substep_cut_names.size(); ++k) {
+    const auto counts =
+        reader.array<std::int64_t>(std::string("health/cut_") + talus::substep_cut_names[k], 1);
+    EXPECT_EQ(counts, (std::vector<std::int64_t>{0, 10 + static_cast<std::int64_t>(k), 0}));
+  }
 }
 
 TEST(RunFile, IsReadInParts) {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <fstream>
 
-#include "store/runner.hpp"
-#include "verify/cases.hpp"
+#include "run/runner.hpp"
+#include "verify/cases/cases.hpp"
 
 // Ten hours of simulated time, as many runs in one process and as one run, and one run of many
 // frames: memory stays within the bound that the page of talus-dda states, and the health figures

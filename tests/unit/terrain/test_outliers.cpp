@@ -104,4 +104,20 @@ TEST(Outliers, ABreaklineIsNamedAtAPointThatIsOff) {
   EXPECT_EQ(found[0].place.z(), 3200);
 }
 
+// 150 m above what stands 20 m beside it is in doubt; a kilometre below it is no ground.
+TEST(Outliers, WhatNoGroundCanBeIsTold) {
+  for (const auto& [wrong, is_impossible] :
+       {std::pair{1150.0, false}, {1260.0, false}, {1261.0, true}, {0.0, true}, {839.0, true}}) {
+    Map map{rising(11), {}};
+    map.heights[5] = wrong;
+    const std::vector<Outlier> found = doubts(map);
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].is_impossible, is_impossible) << wrong;
+  }
+  const auto spot = doubts({rising(11), {{Vec3(50, 92, 3431)}, {Vec3(150, 92, 1120)}}});
+  ASSERT_EQ(spot.size(), 2U);
+  EXPECT_TRUE(spot[0].is_impossible);
+  EXPECT_FALSE(spot[1].is_impossible);
+}
+
 }  // namespace

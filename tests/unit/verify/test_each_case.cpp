@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "verify/verify_cases.hpp"
+#include "verify/cases/verify_cases.hpp"
 
 namespace talus {
 

@@ -4,8 +4,8 @@
 #include <numbers>
 
 #include "base/error.hpp"
-#include "verify/cases.hpp"
-#include "verify/ensemble.hpp"
+#include "verify/cases/cases.hpp"
+#include "verify/study/ensemble.hpp"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/read_file.hpp"
-#include "verify/slide_study.hpp"
+#include "verify/study/slide_study.hpp"
 
 namespace {
 

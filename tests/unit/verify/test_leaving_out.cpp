@@ -6,7 +6,7 @@
 #include <string>
 
 #include "base/read_file.hpp"
-#include "verify/leaving_out.hpp"
+#include "verify/study/leaving_out.hpp"
 
 namespace talus {
 
@@ -41,7 +41,7 @@ TEST_P(LeavingOut, ChangesNoMoreThanItMay) {
   const OmissionRow row = compare(GetParam(), 1);
   EXPECT_TRUE(row.holds) << row.apart << " m apart, allowed " << row.limit << " m";
   EXPECT_GT(row.shown, 0) << "the scene does not show it";
-  EXPECT_GT(row.way, 0);
+  EXPECT_GT(row.path, 0);
 }
 
 // The comparison itself sees what is left out though it matters.

@@ -4,9 +4,9 @@
 #include <deque>
 #include <set>
 
-#include "verify/claims.hpp"
-#include "verify/measure.hpp"
-#include "verify/summary.hpp"
+#include "verify/cases/claims.hpp"
+#include "verify/study/measure.hpp"
+#include "verify/study/summary.hpp"
 
 namespace {
 

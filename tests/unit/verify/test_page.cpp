@@ -8,14 +8,14 @@
 #include "base/error.hpp"
 #include "base/read_file.hpp"
 #include "base/text.hpp"
-#include "verify/page.hpp"
+#include "verify/study/page.hpp"
 
 namespace {
 
 using namespace talus;
 
 const std::string source = TALUS_SOURCE_DIR;
-const std::string page_template = read_file(source + "/libcore/verify/page.md.in");
+const std::string page_template = read_file(source + "/verify/study/page.md.in");
 
 bool contains(const std::string& whole, const std::string& part) {
   return whole.find(part) != std::string::npos;

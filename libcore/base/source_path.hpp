@@ -1,0 +1,28 @@
+// libcore/base/source_path.hpp: public
+// A file as people, QGIS and download sites name it, parted into the file and what in it is meant:
+// "map.gpkg|layername=index|subset=ELEV > 900", "map.zip", "/vsizip/map.zip/sheet.shp".
+#pragma once
+
+#include <string>
+
+namespace talus {
+
+struct SourcePath {
+  std::string file;    ///< that the file system knows; a virtual path of GDAL without one stays
+  std::string source;  ///< what GDAL opens: "map.gpkg", "/vsizip/map.zip/sheet.shp"
+  std::string inside;  ///< what follows `file` in the name, as it is written; empty: nothing
+  std::string layer, layer_id, subset;  ///< of a name as QGIS writes it
+};
+
+/// A name that a file has is that file, whatever signs stand in it. Throws InputError for a part
+/// "|key=" that is not known.
+[[nodiscard]] SourcePath parse_source_path(const std::string& name);
+
+/// The source as words of a command like ogr2ogr, quoted for the shell where need be: what a hint
+/// that holds a command names.
+[[nodiscard]] std::string command_words(const std::string& name);
+
+/// The prefix by which GDAL looks into an archive ("/vsizip/"); empty when it is none by its name.
+[[nodiscard]] std::string archive_prefix(const std::string& file);
+
+}  // namespace talus

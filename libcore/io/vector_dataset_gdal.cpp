@@ -1,0 +1,182 @@
+#include "io/vector_dataset_gdal.hpp"
+
+#include <cpl_vsi.h>
+#include <gdal_priv.h>
+#include <ogrsf_frmts.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "io/errors_gdal.hpp"
+#include "io/point_table.hpp"
+
+namespace talus {
+namespace fs = std::filesystem;
+namespace {
+
+// --- archives ------------------------------------------------------------------------------------
+
+std::string extension_of(const std::string& path) {
+  return lower(fs::path(path).extension().string());
+}
+
+// What stands beside a vector file and is none itself.
+bool is_companion(const std::string& path, const std::set<std::string>& all) {
+  static const std::set<std::string> extensions = {
+      ".shx", ".dbf", ".prj",  ".cpg", ".sbn", ".sbx",  ".qix", ".qpj",
+      ".qml", ".sld", ".qmd",  ".xml", ".pdf", ".html", ".htm", ".md",
+      ".xsd", ".gfs", ".csvt", ".jpg", ".png", ".tif",  ".lyr", ".txt"};
+  return all.size() > 1 && extensions.count(extension_of(path)) > 0;
+}
+
+bool is_vector(const std::string& source) {
+  if (is_table_name(source)) return true;
+  const GdalErrors quiet;
+  return GDALIdentifyDriverEx(source.c_str(), GDAL_OF_VECTOR, nullptr, nullptr) != nullptr;
+}
+
+// Files of an archive, and folders that are one source (.gdb), by their names in it.
+std::set<std::string> names_in(const std::string& archive) {
+  const GdalErrors quiet;
+  std::set<std::string> names;
+  const CPLStringList found(VSIReadDirRecursive(archive.c_str()));
+  for (int i = 0; i < found.size(); ++i) {
+    std::string name = found[i];
+    if (name.empty() || name.rfind("__MACOSX", 0) == 0) continue;
+    if (const std::size_t gdb = lower(name).find(".gdb/"); gdb != std::string::npos)
+      name = name.substr(0, gdb + 4);
+    if (name.back() != '/') names.insert(name);
+  }
+  return names;
+}
+
+std::vector<std::string> vector_members(const std::string& archive) {
+  const std::set<std::string> names = names_in(archive);
+  std::vector<std::string> members;
+  for (const std::string& name : names)
+    if (!is_companion(name, names) && is_vector(archive + "/" + name)) members.push_back(name);
+  return members;
+}
+
+// Shapefiles in one folder are the layers of one source.
+bool are_shapefiles_of_one_folder(const std::vector<std::string>& members) {
+  return std::all_of(members.begin(), members.end(), [&members](const std::string& member) {
+    return extension_of(member) == ".shp" &&
+           fs::path(member).parent_path() == fs::path(members.front()).parent_path();
+  });
+}
+
+std::string list_of(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  return list;
+}
+
+// The source in an archive; one that is compressed by itself (.gz) is the source.
+std::string source_in(const SourcePath& path, std::vector<std::string>& remarks) {
+  const std::string prefix = archive_prefix(path.file);
+  const bool is_whole = !prefix.empty() && path.source == prefix + path.file;
+  if (!is_whole || prefix == "/vsigzip/") return path.source;
+  const std::vector<std::string> members = vector_members(path.source);
+  if (members.empty())
+    throw InputError({path.file}, "the archive holds no vector file that GDAL reads",
+                     "unzip it, and look what it holds");
+  if (members.size() > 1 && are_shapefiles_of_one_folder(members)) {
+    const std::string folder = fs::path(members.front()).parent_path().string();
+    return folder.empty() ? path.source : path.source + "/" + folder;
+  }
+  if (members.size() > 1)
+    throw InputError({path.file},
+                     "the archive holds " + std::to_string(members.size()) +
+                         " vector files, expected one; they are: " + list_of(members),
+                     "name one: " + path.file + "/" + members.front());
+  remarks.push_back("read from " + members.front() + " in the archive");
+  return path.source + "/" + members.front();
+}
+
+// --- tables of points ----------------------------------------------------------------------------
+
+std::string read_all(const std::string& source) {
+  const GdalErrors errors;
+  GByte* bytes = nullptr;
+  vsi_l_offset size = 0;
+  if (VSIIngestFile(nullptr, source.c_str(), &bytes, &size, -1) == 0)
+    throw InputError({source}, "cannot be read: " + errors.failure());
+  std::string text(reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(size));
+  VSIFree(bytes);
+  return text;
+}
+
+void add_fields(const PointTable& table, OGRLayer& layer) {
+  for (std::size_t k = 0; k < table.names.size(); ++k) {
+    OGRFieldDefn field(table.names[k].c_str(), table.is_number[k] ? OFTReal : OFTString);
+    layer.CreateField(&field);
+  }
+}
+
+void add_points(const PointTable& table, const std::string& file, OGRLayer& layer) {
+  for (std::size_t row = 0; row < table.points.size(); ++row) {
+    OGRFeature feature(layer.GetLayerDefn());
+    feature.SetFID(table.line[row]);
+    for (std::size_t k = 0; k < table.names.size(); ++k) {
+      const std::string& word = table.values[row][k];
+      double value = 0;
+      if (table.is_number[k] && parse_double(word, value))
+        feature.SetField(static_cast<int>(k), value);
+      else if (!word.empty())
+        feature.SetField(static_cast<int>(k), word.c_str());
+    }
+    OGRPoint point(table.points[row].x(), table.points[row].y());
+    feature.SetGeometry(&point);
+    if (layer.CreateFeature(&feature) != OGRERR_NONE)
+      throw InputError({file, table.line[row]}, "cannot be kept as a point");
+  }
+}
+
+VectorDataset table_as_dataset(const PointTable& table, const std::string& name) {
+  VectorDataset made;
+  GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("Memory");
+  made.dataset = GDALDatasetUniquePtr(driver->Create(name.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
+  OGRSpatialReference degrees;
+  degrees.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  if (table.is_degrees) degrees.importFromEPSG(4326);
+  OGRLayer* layer =
+      made.dataset->CreateLayer(name.c_str(), table.is_degrees ? &degrees : nullptr, wkbPoint);
+  add_fields(table, *layer);
+  add_points(table, name, *layer);
+  made.remarks.push_back("x from " + table.x_from + ", y from " + table.y_from +
+                         (table.is_degrees ? ", taken to be in EPSG:4326 (WGS 84)" : ""));
+  return made;
+}
+
+}  // namespace
+
+VectorDataset open_vectors(const SourcePath& path) {
+  register_gdal_drivers();
+  VectorDataset opened;
+  const std::string source = source_in(path, opened.remarks);
+  const std::string named =
+      lower(source).ends_with(".gz") ? source.substr(0, source.size() - 3) : source;
+  if (is_table_name(named)) {
+    std::string text = read_all(source);
+    if (!has_wkt_column(text)) {
+      VectorDataset made = table_as_dataset(parse_point_table(std::move(text), path.file),
+                                            fs::path(named).stem().string());
+      made.remarks.insert(made.remarks.begin(), opened.remarks.begin(), opened.remarks.end());
+      return made;
+    }
+  }
+  const GdalErrors errors;
+  opened.dataset = GDALDatasetUniquePtr(
+      GDALDataset::Open(source.c_str(), GDAL_OF_VECTOR | GDAL_OF_VERBOSE_ERROR));
+  if (opened.dataset) return opened;
+  throw InputError(
+      {path.file},
+      "cannot be opened as vectors" + (errors.failed() ? ": " + errors.failure() : std::string()),
+      "ogrinfo " + command_words(source) + " shows what GDAL makes of it");
+}
+
+}  // namespace talus

@@ -1,0 +1,93 @@
+// libcore/post/fence/fence_runs.hpp: public
+// What runs say at the fences of a site, and that fences and runs belong together.
+// in:    run files one by one, the fences of the site file, the terrain
+// out:   of each run its arrivals and verdicts at every fence and how far it came
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "post/fence/fence.hpp"
+#include "post/fence/fence_change.hpp"
+#include "post/fence/fence_design.hpp"
+#include "post/run_set.hpp"
+#include "post/runout/runout.hpp"
+
+namespace talus {
+
+/// A fence of the site file, on the ground.
+struct FenceCase {
+  FenceSettings settings;
+  RecordLine line;
+  Fence fence;
+};
+
+/// The line of a run that belongs to a fence. `file` and `site_file` are what messages name. Throws
+/// InputError when the run recorded none for it, or one in another place.
+[[nodiscard]] int find_line(const RunFile& run, const FenceCase& fence, const std::string& file,
+                            const std::string& site_file);
+
+/// Throws InputError unless the fence that `stood` in the run of `file` is built as that of the
+/// site file; that its posts are where they were, find_line() checks.
+void check_same_fence(const FenceSettings& stood, const FenceSettings& expected,
+                      const std::string& file, const std::string& site_file);
+
+/// A run at one fence.
+struct RunAtFence {
+  std::vector<FenceArrival> arrivals;   ///< what comes at the fence
+  std::vector<FenceArrival> crossings;  ///< of its line
+  std::vector<BlockVerdict> verdicts;   ///<                                         (n_blocks)
+  bool standing = false;
+  int n_unsettled = 0;  ///< blocks that the standing fence stopped and that move at the end
+  std::vector<PanelRow> broken;  ///< panels of the fence that broke, by time
+};
+/// Crossings of blocks that passed a fence for good; one that hangs in a panel has not.
+[[nodiscard]] std::vector<FenceArrival> passed_for_good(const RunAtFence& at);
+
+/// What is kept of a run once it has been read.
+struct FenceRun {
+  std::vector<double> volume;        ///< of each block [m3]                         (n_blocks)
+  std::vector<double> weight;        ///<                                            (n_blocks)
+  double density = 0;                ///< of all its rock [kg/m3]
+  double block_size = 0;             ///< mean of the cube roots of the volumes [m]
+  ReachLine event, centre;           ///< of the whole run, and of its centre of mass
+  std::vector<RunAtFence> at_fence;  ///< (n_fences)
+};
+
+struct FenceRunSettings {
+  double free_border = 0;  ///< f_min [m]; NaN: that of the code for the run's blocks
+  double rest_speed = 0;   ///< [m/s]
+};
+/// `index` is what arrivals and verdicts carry as run; `line` of each fence (find_line) (n_fences)
+[[nodiscard]] FenceRun run_at_fences(const RunFile& run, int index,
+                                     const std::vector<FenceCase>& fences,
+                                     const std::vector<int>& line, const DesignCode& code,
+                                     const FenceRunSettings& settings, const Trn& trn);
+
+/// Runs that are one sample, in the order of their ids and numbered in that order.
+struct FenceRunGroup {
+  std::vector<RunMember> members;  ///<                                              (n_runs)
+  std::vector<FenceRun> runs;      ///<                                              (n_runs)
+};
+[[nodiscard]] inline int n_runs(const FenceRunGroup& group) {
+  return static_cast<int>(group.runs.size());
+}
+/// Whether a fence stood in the runs: in all of them or in none (check_one_kind).
+[[nodiscard]] inline bool stood(const FenceRunGroup& group, std::size_t fence) {
+  return group.runs[0].at_fence[fence].standing;
+}
+[[nodiscard]] std::vector<FenceArrival> arrivals_at(const FenceRunGroup& group, std::size_t fence);
+[[nodiscard]] int n_unsettled(const FenceRunGroup& group, std::size_t fence);
+
+/// Throws InputError when a fence stood in some runs and not in others: what it lets through and
+/// what comes to its line when it does not stand are two samples.
+void check_one_kind(const FenceRunGroup& group, const std::vector<FenceCase>& fences);
+
+/// The runs with the fences and those to compare with, and where their blocks came to rest.
+struct FenceRuns {
+  FenceRunGroup with, without;  ///< `without` may hold no run
+  GroundSums ground_with, ground_without;
+  PassageGrid grid;  ///< of the ground sums
+};
+
+}  // namespace talus

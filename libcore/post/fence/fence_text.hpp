@@ -1,0 +1,38 @@
+// libcore/post/fence/fence_text.hpp: public
+// Results at a fence in words and as a table.
+// in:    runs at the fences, the result of each fence
+// out:   a summary of some lines, notes on what the numbers do not know, one row a block and fence
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "post/fence/fence_result.hpp"
+
+namespace talus {
+
+/// Where an arrival's values are from: "first touch" or "crossing".
+[[nodiscard]] const char* recorded_at(const FenceArrival& arrival);
+
+/// What the design check rests on: "70 crossings of its line in 10 runs without the fence".
+[[nodiscard]] std::string basis_text(const FenceResult& result);
+
+/// Which energies are for design and which are not, and what to run when there are none.
+[[nodiscard]] std::string basis_note(const FenceResult& result, const std::string& fence);
+
+/// What became of the blocks at fence number `index`, what came to it, and what the design check
+/// says of it: one line.
+[[nodiscard]] std::string fence_summary(const FenceCase& fence, std::size_t index,
+                                        const FenceResult& result, const FenceRunGroup& group);
+
+/// What the numbers do not know, a sentence or two each.
+[[nodiscard]] std::vector<std::string> fence_notes(const FenceCase& fence, std::size_t index,
+                                                   const FenceResult& result,
+                                                   const FenceRunGroup& group,
+                                                   const DesignCode& code);
+
+/// A row (CSV) for each fence, run and block: its verdict and, where it came to the fence, how.
+[[nodiscard]] std::string verdict_csv(const std::vector<FenceCase>& fences,
+                                      const FenceRunGroup& group);
+
+}  // namespace talus

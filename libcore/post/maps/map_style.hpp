@@ -1,0 +1,21 @@
+// libcore/post/maps/map_style.hpp: public
+// Classes, colours and legends of the map layers.
+#pragma once
+
+#include "io/style.hpp"
+#include "post/maps/maps.hpp"
+
+namespace talus {
+
+/// The style of a layer. It shows the 95th percentile where nearly all cells that blocks came over
+/// have one (19 of 20), else the maximum: a map must not leave out places that were reached. For
+/// layers without percentiles it shows their main band. Energies break at 30 and 300 kJ, the limits
+/// of low, medium and high intensity; zero is transparent. `remark`: the
+/// style's own (e.g. that runs failed).
+[[nodiscard]] RasterStyle map_style(const MapLayer& layer, const std::string& remark = {});
+
+/// The style of a layer of differences (post/fence/fence_change.hpp): its first band, blue for less
+/// and red for more; changes that are not told from none are transparent.
+[[nodiscard]] RasterStyle change_style(const MapLayer& layer, const std::string& remark = {});
+
+}  // namespace talus

@@ -1,0 +1,78 @@
+// libcore/post/maps/maps.hpp: public
+// Hazard maps: what blocks of one or many runs did over each cell.
+// in:    passages of runs by cell (map_rows.hpp)
+// out:   bands over the cells that were touched; definitions in docs/formats.md#maps
+//
+// A block counts once in a cell, with its largest value there. The rows of a cell are put in the
+// order of run and block before anything is summed, so the same runs give the same bytes in
+// whatever order they come. A map may be made in tiles, a range of cells at a time: then memory
+// grows with the cells, and no longer with the runs.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "io/overview.hpp"
+#include "post/maps/map_rows.hpp"
+
+namespace talus {
+
+/// What was released: the denominators.
+struct Released {
+  std::vector<double> weight;  ///< sum over the run's blocks                       (n_runs)
+  std::vector<int> n_blocks;   ///<                                                 (n_runs)
+};
+
+struct MapSettings {
+  int min_passages = 0;    ///< for any percentile; 0: Wilks (5, 29, 59, 299 for p50 to p99)
+  int n_resamples = 200;   ///< of the runs
+  std::uint64_t seed = 1;  ///< of the bootstrap
+};
+
+/// One quantity over the touched cells; NaN = nodata.
+struct MapBand {
+  std::string name, unit, description;
+  bool zero_elsewhere = false;  ///< cells that nothing touched hold 0 (else nodata)
+  std::vector<float> value;     ///<                                                (n_touched)
+  OverviewValue overview = OverviewValue::largest;  ///< in the file
+};
+
+/// Bands that share a file.
+struct MapLayer {
+  std::string name;                 ///< of the file, without extension; given by map_layers.hpp
+  std::vector<std::uint32_t> cell;  ///< that the values stand for, ascending       (n_touched)
+  std::vector<MapBand> bands;
+};
+
+/// The five quantities whose per-block maxima are described by mean, percentiles, bounds, maximum.
+enum class MapQuantity {
+  speed,
+  translational_energy,
+  total_energy,
+  centroid_height,
+  top_height,
+};
+
+/// Mean, percentiles with bounds, and maximum; their names begin with that of the layer.
+[[nodiscard]] MapLayer quantity_layer(const std::string& name, const CellRows& cells,
+                                      MapQuantity quantity, const Released& released,
+                                      const MapSettings& settings);
+/// n_pass, reach_probability with bounds, share of runs, passage_per_m, n_eff.
+[[nodiscard]] MapLayer reach_layer(const CellRows& cells, double cell_size,
+                                   const Released& released, const MapSettings& settings);
+/// p_exceed_30kJ, p_exceed_300kJ.
+[[nodiscard]] MapLayer exceedance_layer(const CellRows& cells, const Released& released);
+/// first_arrival.
+[[nodiscard]] MapLayer arrival_layer(const CellRows& cells);
+/// energy_line_angle.
+[[nodiscard]] MapLayer energy_line_layer(const CellRows& cells);
+
+/// Adds the cells of a layer that follow on those of `layer`: another tile of the same map.
+void append(MapLayer& layer, const MapLayer& next);
+
+/// A band over all cells of the grid, `nodata` where it has no value.
+[[nodiscard]] std::vector<float> on_grid(const MapLayer& layer, const MapBand& band,
+                                         std::size_t n_cells, float nodata);
+
+}  // namespace talus

@@ -1,0 +1,299 @@
+#include "post/runout/runout.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "record/motion.hpp"
+
+namespace talus {
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+double angle_of(double height, double length) {
+  return length > 0 ? std::atan2(height, length) : none;
+}
+
+double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
+  const Vec3 along = b - a;
+  const double length_sq = along.squaredNorm();
+  const double s = length_sq > 0 ? std::clamp((p - a).dot(along) / length_sq, 0.0, 1.0) : 0;
+  return (p - a - s * along).norm();
+}
+
+double plan_distance(const Vec3& a, const Vec3& b) { return (b - a).head<2>().norm(); }
+
+double kinetic_rotation(const RunFile& run, int block, const FrameBlock& at) {
+  const Vec3 spin = at.attitude.conjugate() * at.spin;
+  return 0.5 * spin.cwiseAbs2().dot(run.blocks.inertia[block]);
+}
+
+BlockReach block_reach(const RunFile& run, int block, const ReachSettings& settings) {
+  BlockReach out;
+  out.block = block;
+  out.fate = fate_of(run, block, settings.rest_speed);
+  out.reach = reach_along(simplified(block_path(run, block), settings.tolerance).point);
+  for (int k = 0; k < n_frames(run.frames); ++k) {
+    const FrameBlock at = frame_block(run, k, block);
+    const double speed = at.velocity.norm();
+    out.max_speed = std::max(out.max_speed, speed);
+    out.max_energy = std::max(out.max_energy, 0.5 * run.blocks.mass[block] * speed * speed +
+                                                  kinetic_rotation(run, block, at));
+  }
+  return out;
+}
+
+// The recorder has seen every step, the frames only their own moments.
+void raise_by_passages(std::vector<BlockReach>& blocks, const std::vector<Passage>& passages) {
+  for (const Passage& passage : passages) {
+    BlockReach& b = blocks[passage.block];
+    b.max_speed = std::max<double>(b.max_speed, passage.largest.speed);
+    b.max_energy = std::max<double>(b.max_energy, passage.largest.total_energy);
+  }
+}
+
+Vec3 highest_point(const RunFile& run) {
+  Vec3 top(0, 0, -std::numeric_limits<double>::infinity());
+  for (int block = 0; block < n_blocks(run); ++block) {
+    const Pose pose = first_pose(run, block);
+    for (int v = run.blocks.vertex_begin[block]; v < run.blocks.vertex_begin[block + 1]; ++v) {
+      const Vec3 at = place(pose, run.blocks.vertices[v]);
+      if (at.z() > top.z()) top = at;
+    }
+  }
+  return top;
+}
+
+// The vertex of the toe block that is outermost in the direction of its last piece of path, put
+// down to the ground.
+Vec3 outermost_point(const RunFile& run, int block, const std::vector<Vec3>& path, const Trn& trn) {
+  Vec2 forward = Vec2::Zero();
+  for (std::size_t i = path.size() - 1; i > 0 && forward.norm() < 1e-9; --i)
+    forward = (path.back() - path[i - 1]).head<2>();
+  const Pose pose = last_pose(run, block);
+  Vec3 toe = pose.position;
+  for (int v = run.blocks.vertex_begin[block]; v < run.blocks.vertex_begin[block + 1]; ++v) {
+    const Vec3 at = place(pose, run.blocks.vertices[v]);
+    if (forward.dot(at.head<2>()) > forward.dot(toe.head<2>())) toe = at;
+  }
+  const double ground = elevation_at(trn, toe.x(), toe.y());
+  if (!std::isnan(ground)) toe.z() = ground;
+  return toe;
+}
+
+// The block that is farthest from the top, whatever its fate: one that still moves must not be left
+// out of L. The length of its path says less: a block that danced in a hollow has a long one.
+// Blocks that stayed where they were bound the source, not the run-out.
+int find_toe_block(const EventReach& event, const RunFile& run,
+                   const std::vector<WeightedValue>& displacement) {
+  int toe = -1;
+  double farthest = -1;
+  for (const BlockReach& b : event.blocks) {
+    if (!(displacement[b.block].value > moved_m)) continue;
+    const double distance = plan_distance(event.top, last_pose(run, b.block).position);
+    if (distance <= farthest) continue;
+    farthest = distance;
+    toe = b.block;
+  }
+  return toe;
+}
+
+std::vector<Vec3> streamline(const RunFile& run, const EventReach& event, const Trn& trn,
+                             double tolerance, Vec3& toe) {
+  const std::vector<Vec3> path = simplified(block_path(run, event.toe_block), tolerance).point;
+  toe = outermost_point(run, event.toe_block, path, trn);
+  // The path is put on the ground, so that bounces and the block's own size do not bend the
+  // profile.
+  std::vector<Vec3> line{event.top};
+  for (Vec3 at : path) {
+    const double ground = elevation_at(trn, at.x(), at.y());
+    if (!std::isnan(ground)) at.z() = ground;
+    line.push_back(at);
+  }
+  line.push_back(toe);
+  return line;
+}
+
+}  // namespace
+
+double AngleProfile::at_end() const { return angle.empty() ? none : angle.back(); }
+
+double ReachLine::path_angle() const { return angle_of(height, path); }
+double ReachLine::chord_angle() const { return angle_of(height, chord); }
+
+TimedPath block_path(const RunFile& run, int block) {
+  TimedPath path;
+  for (int k = 0; k < n_frames(run.frames); ++k) {
+    const FrameBlock at = frame_block(run, k, block);
+    path.time.push_back(run.frames.time[k]);
+    path.point.push_back(at.position);
+    path.speed.push_back(at.velocity.norm());
+  }
+  return path;
+}
+
+TimedPath centre_of_mass_path(const RunFile& run) {
+  TimedPath path;
+  for (int k = 0; k < n_frames(run.frames); ++k) {
+    Vec3 moment = Vec3::Zero(), momentum = Vec3::Zero();
+    double mass = 0;
+    for (int block = 0; block < n_blocks(run); ++block) {
+      const FrameBlock at = frame_block(run, k, block);
+      moment += run.blocks.mass[block] * at.position;
+      momentum += run.blocks.mass[block] * at.velocity;
+      mass += run.blocks.mass[block];
+    }
+    path.time.push_back(run.frames.time[k]);
+    path.point.emplace_back(moment / mass);
+    path.speed.push_back(momentum.norm() / mass);
+  }
+  return path;
+}
+
+std::vector<int> simplified(std::span<const Vec3> points, double tolerance) {
+  const int n = static_cast<int>(points.size());
+  if (n == 0) return {};
+  std::vector<bool> keep(points.size(), false);
+  keep.front() = keep.back() = true;
+  std::vector<std::pair<int, int>> open{{0, n - 1}};
+  while (!open.empty()) {
+    const auto [first, last] = open.back();
+    open.pop_back();
+    int farthest = -1;
+    double largest = tolerance;
+    for (int i = first + 1; i < last; ++i) {
+      const double off = distance_to_segment(points[i], points[first], points[last]);
+      if (off <= largest) continue;
+      largest = off;
+      farthest = i;
+    }
+    if (farthest < 0) continue;
+    keep[farthest] = true;
+    open.emplace_back(first, farthest);
+    open.emplace_back(farthest, last);
+  }
+  std::vector<int> kept;
+  for (int i = 0; i < n; ++i)
+    if (keep[i]) kept.push_back(i);
+  return kept;
+}
+
+TimedPath simplified(const TimedPath& path, double tolerance) {
+  TimedPath out;
+  for (const int i : simplified(std::span(path.point), tolerance)) {
+    out.time.push_back(path.time[i]);
+    out.point.push_back(path.point[i]);
+    out.speed.push_back(path.speed[i]);
+  }
+  return out;
+}
+
+double horizontal_length(std::span<const Vec3> points) {
+  double length = 0;
+  for (std::size_t i = 1; i < points.size(); ++i) length += plan_distance(points[i - 1], points[i]);
+  return length;
+}
+
+ReachLine reach_along(std::span<const Vec3> points) {
+  if (points.empty()) return {};
+  return {points.front().z() - points.back().z(), horizontal_length(points),
+          plan_distance(points.front(), points.back())};
+}
+
+AngleProfile angle_profile(std::span<const Vec3> points, double from, double tolerance) {
+  AngleProfile profile;
+  profile.smallest = profile.smallest_at = none;
+  double distance = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (i > 0) distance += plan_distance(points[i - 1], points[i]);
+    const double angle = angle_of(points[0].z() - points[i].z(), distance);
+    profile.angle.push_back(angle);
+    if (std::isnan(angle) || distance < from) continue;
+    if (angle >= profile.smallest) {  // false for the first: comparison with NaN fails
+      const double head = profile.smallest_at * (std::tan(angle) - std::tan(profile.smallest));
+      profile.missing_head = std::max(profile.missing_head, head);
+      continue;
+    }
+    profile.smallest = angle;
+    profile.smallest_at = distance;
+  }
+  profile.monotone = profile.missing_head <= tolerance;
+  return profile;
+}
+
+EventReach event_reach(const RunFile& run, const Trn& trn, const ReachSettings& settings) {
+  EventReach event;
+  double drop = 0, length = 0;
+  for (int block = 0; block < n_blocks(run); ++block) {
+    event.blocks.push_back(block_reach(run, block, settings));
+    drop += run.blocks.mass[block] * event.blocks.back().reach.height;
+    length += run.blocks.mass[block] * event.blocks.back().reach.path;
+  }
+  raise_by_passages(event.blocks, run.passages);
+  const std::vector<WeightedValue> displacement = displacements(run);
+  event.moved = moved_of(displacement);
+  if (!event.moved.any()) {
+    event.event = event.centre_of_mass = {none, none, none};
+    event.sum_angle = event.profile.smallest = event.profile.smallest_at = none;
+    return event;
+  }
+  event.top = highest_point(run);
+  event.sum_angle = angle_of(drop, length);
+  event.centre_of_mass =
+      reach_along(simplified(centre_of_mass_path(run), settings.tolerance).point);
+  event.toe_block = find_toe_block(event, run, displacement);
+  event.toe_fate = event.blocks[event.toe_block].fate;
+  event.streamline = streamline(run, event, trn, settings.tolerance, event.toe);
+  event.event = reach_along(event.streamline);
+  // From where the toe block started: the piece from the top to there may lead sideways.
+  event.profile = angle_profile(std::span<const Vec3>(event.streamline).subspan(1),
+                                0.1 * event.event.path, settings.tolerance);
+  return event;
+}
+
+std::vector<CurveRow> curves(const RunFile& run) {
+  std::vector<CurveRow> rows;
+  const TimedPath centre = centre_of_mass_path(run);
+  for (int k = 0; k < n_frames(run.frames); ++k) {
+    CurveRow row;
+    row.time = run.frames.time[k];
+    row.centre_of_mass = centre.point[k];
+    double mass = 0;
+    for (int block = 0; block < n_blocks(run); ++block) {
+      const FrameBlock at = frame_block(run, k, block);
+      const double speed = at.velocity.norm(), m = run.blocks.mass[block];
+      mass += m;
+      row.mean_speed += m * speed;
+      row.max_speed = std::max(row.max_speed, speed);
+      row.front = std::max(row.front, plan_distance(first_pose(run, block).position, at.position));
+      row.translation += translational_energy(m, at.velocity);
+      row.rotation += kinetic_rotation(run, block, at);
+    }
+    row.mean_speed /= mass;
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+EnergyShares energy_shares(const RunFile& run) {
+  EnergyShares shares;
+  if (run.health.empty()) return shares;
+  const HealthRow &start = run.health.front(), &end = run.health.back();
+  const double at_start = start.translation + start.rotation + start.friction + start.impact +
+                          start.contact + start.fence + start.removed + start.elastic - start.base;
+  shares.put_in = start.potential - end.potential + at_start + end.base;
+  if (!(shares.put_in > 0)) return {};
+  shares.friction = end.friction / shares.put_in;
+  shares.impact = end.impact / shares.put_in;
+  shares.contact = end.contact / shares.put_in;
+  shares.fence = end.fence / shares.put_in;
+  shares.removed = end.removed / shares.put_in;
+  shares.kinetic = (end.translation + end.rotation) / shares.put_in;
+  shares.elastic = end.elastic / shares.put_in;
+  shares.unaccounted = 1 - shares.friction - shares.impact - shares.contact - shares.fence -
+                       shares.removed - shares.kinetic - shares.elastic;
+  return shares;
+}
+
+}  // namespace talus

@@ -1,0 +1,33 @@
+// libcore/post/runout/runout_text.hpp: public
+// How far runs came, in words and as tables.
+// in:    what was kept of the runs (runout_runs.hpp)
+// out:   a summary of some lines; rows of blocks and of curves over time
+#pragma once
+
+#include <string>
+
+#include "post/runout/runout_runs.hpp"
+
+namespace talus {
+
+/// Runs that did not move, how much of the mass did, H, L and angle of reach of a run or their
+/// ranges over those that moved, and the balance of volumes.
+[[nodiscard]] std::string runout_summary(const RunoutRuns& all);
+
+/// A row (CSV) for each block of each run: its fate and how far it came.
+[[nodiscard]] std::string block_csv(const std::vector<RunoutRun>& runs);
+
+/// A row (CSV) for each run: how much of the mass moved and how far, H, L and angle of reach.
+[[nodiscard]] std::string run_csv(const std::vector<RunoutRun>& runs);
+
+/// "19 of 36 runs did not move (no block by more than 1 m)"; "" when all moved.
+[[nodiscard]] std::string standing_runs(const std::vector<RunoutRun>& runs);
+
+/// Where the angle of the energy line that passes all of the ground is smaller than that to the toe
+/// by a degree or more: which angle to take, and why; "" else.
+[[nodiscard]] std::string energy_line_text(const AngleProfile& profile);
+
+/// A row (CSV) for each frame of each run. `origin`: map coordinates of the local origin [m].
+[[nodiscard]] std::string curve_csv(const std::vector<RunoutRun>& runs, const Vec3& origin);
+
+}  // namespace talus

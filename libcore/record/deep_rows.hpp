@@ -1,0 +1,36 @@
+// libcore/record/deep_rows.hpp: public
+// Blocks that were deep in something, weighed: their mass, and whether they moved what maps and
+// fences are read for.
+// in:    State::deep
+// out:   rows of the run file, what its health holds against them, and a line of words for each
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "record/crossings.hpp"
+#include "record/run_file.hpp"
+#include "scene/state.hpp"
+
+namespace talus {
+
+/// A row a block that was deep, as things stand at state.time; by block.
+[[nodiscard]] std::vector<DeepRow> deep_rows(const Scene& scene, const State& state,
+                                             std::span<const Crossing> crossings);
+
+/// Of the mass of all blocks [-].
+[[nodiscard]] double mass_share(std::span<const DeepRow> rows);
+
+/// Blocks that end in the toe, met a fence, or were faster than their fall can have made them.
+[[nodiscard]] int n_that_matter(std::span<const DeepRow> rows);
+
+/// "the ground", "block 7", "panel 2 of fence NAME".
+[[nodiscard]] std::string partner_name(const DeepRow& row, std::span<const RecordLine> lines);
+
+/// Block, partner, time, place on the map, depth, thickness, share of the mass, and what makes it
+/// matter. `origin`: map coordinates of the local zero [m].
+[[nodiscard]] std::string deep_words(const DeepRow& row, std::span<const RecordLine> lines,
+                                     const Vec3& origin);
+
+}  // namespace talus

@@ -1,0 +1,161 @@
+// libcore/record/run_file.hpp: public
+// One run as a file: who moved where, when and how. docs/formats.md#run
+// in:    what the recorder holds
+// out:   an HDF5 file that is whole at any moment, or none
+//
+// A file is always written in one go, under another name, synced, and renamed: a run that is killed
+// leaves the file of its last checkpoint, whole and closed. It says so itself (status "running",
+// time_s below duration_s) and can be read by everything that reads a finished one.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "record/crossings.hpp"
+#include "record/frames.hpp"
+#include "record/passages.hpp"
+#include "step/report.hpp"
+
+namespace talus {
+
+/// What is said of a run as a whole.
+struct RunInfo {
+  std::string run_id;          ///< digest of version, settings and inputs
+  std::string version;         ///< of the program
+  std::string site;            ///< name of the site
+  std::string crs_wkt;         ///< of the map; empty when unknown
+  Vec3 origin = Vec3::Zero();  ///< map coordinates of the local zero [m]
+  std::string trn_sha256;      ///< of the TRN file
+  std::string blocks_hash;     ///< of the block set
+  std::string law;             ///< "talus" or "paper"
+  std::int64_t seed = 0;
+  std::string status = "running";  ///< "running", "done" or "failed"
+  std::string reason;              ///< why it failed
+  double duration = 0;             ///< asked for [s]
+  double time = 0;                 ///< reached [s]
+  std::string config;              ///< effective settings, TOML
+  std::string plan;                ///< what was computed and what left out, JSON
+  std::string warnings;            ///< a line each, of inputs and settings; no paths
+};
+
+/// The blocks as they are drawn and weighed.
+struct RunBlocks {  // clang-format off
+  std::vector<double> mass;              ///< [kg]                                    (n_blocks)
+  std::vector<double> volume;            ///< [m3]                                    (n_blocks)
+  std::vector<double> weight;            ///< in statistics; empty: 1 each            (n_blocks)
+  std::vector<Vec3> inertia;             ///< principal moments [kg m2]               (n_blocks)
+  std::vector<Pose> rest;                ///< as cut, local                           (n_blocks)
+  std::vector<int> vertex_begin{0};      ///< vertices of block b: [b], [b + 1)       (n_blocks + 1)
+  std::vector<Vec3> vertices;            ///< body axes [m]                           (n_vertices)
+  std::vector<int> face_vertices;        ///< into `vertices`, counter-clockwise from outside
+  std::vector<int> face_begin{0};        ///< first entry of face f                   (n_faces + 1)
+  std::vector<int> block_face_begin{0};  ///< faces of block b: [b], [b + 1)          (n_blocks + 1)
+};  // clang-format on
+
+/// Frames as they are stored: positions in full, the rest in single precision.
+struct RunFrames {  // clang-format off
+  std::vector<double> time;      ///< [s]                                (n_frames)
+  std::vector<double> position;  ///< of the centroids, local [m]        (n_frames x n_blocks x 3)
+  std::vector<float> attitude;   ///< w x y z, body to local axes        (n_frames x n_blocks x 4)
+  std::vector<float> velocity;   ///< [m/s]                              (n_frames x n_blocks x 3)
+  std::vector<float> spin;       ///< local axes [rad/s]                 (n_frames x n_blocks x 3)
+  std::vector<float> strain;     ///< empty when not asked for [-]       (n_frames x n_blocks x 6)
+};  // clang-format on
+void append(RunFrames& frames, const Frame& frame, bool with_strain);
+
+/// Health over an interval that ends at `time`; counts are those of the interval.
+struct HealthRow {
+  double time = 0;         ///< [s]
+  double shortest_dt = 0;  ///< of a step with contact search; 0 when there was none [s]
+  std::int64_t steps = 0, substeps = 0, passes = 0, flips = 0, impacts = 0, unconverged = 0;
+  std::int64_t left_domain = 0;                   ///< blocks that have left the known terrain
+  std::int64_t fell_through = 0, not_finite = 0;  ///< steps so far with such a block
+  std::array<std::int64_t, substep_cut_names.size()> cuts{};  ///< substeps made again, by reason
+  double largest_penetration = 0;                             ///< [m]
+  double translation = 0, rotation = 0, potential = 0, elastic = 0;   ///< at `time` [J]
+  double friction = 0, impact = 0, contact = 0, base = 0, fence = 0;  ///< since the start [J]
+  double removed = 0;                                                 ///< since the start [J]
+};
+
+/// A panel of a fence that stood, as it was at the end.
+struct PanelRow {
+  std::int32_t line = 0, panel = 0;  ///< panel: number in its line, from 0
+  double capacity = 0;               ///< infinite: rigid [J]
+  double work = 0;                   ///< taken from blocks [J]
+  double deflection = 0;             ///< to the left of the line, lasting [m]
+  double broken_at = 0;              ///< infinite: stands [s]
+  std::int32_t broken_by = -1;       ///< block, -1: stands
+};
+[[nodiscard]] std::vector<PanelRow> panel_rows(const FixedBodies& fixed,
+                                               const YieldingState& state);
+
+/// A block that was in something by more than a tenth of its thickness, and what it may have moved.
+struct DeepRow {
+  /// Values of `partner` below the numbers of blocks.
+  static constexpr std::int32_t ground = -1, fence = -2, fixed_body = -3;
+
+  std::int32_t block = 0;
+  std::int32_t partner = ground;       ///< in which block it was deepest
+  std::int32_t line = -1, panel = -1;  ///< of a fence
+  std::int64_t steps = 0;              ///< that ended with it so deep
+  double first_time = 0, time = 0;     ///< of the first of them; when it was deepest [s]
+  double depth = 0, thickness = 0;     ///< [m]
+  Vec3 place = Vec3::Zero();           ///< of its centroid when it was deepest, local [m]
+  double mass_share = 0;               ///< of the mass of all blocks [-]
+  std::int32_t ends_in_toe = 0;        ///< 1: farther from the top than 95 % of the mass
+  std::int32_t met_fence = 0;          ///< 1: touched a fence, or crossed its line
+  std::int32_t is_too_fast = 0;        ///< 1: was faster than its fall can have made it
+};
+
+/// Everything that a run file holds.
+struct RunFile {
+  RunInfo info;
+  RunBlocks blocks;
+  RunFrames frames;
+  PassageGrid grid;
+  bool passages_by_centroid = false;
+  std::vector<Passage> passages;  ///< by block, then cell
+  std::vector<RecordLine> lines;
+  std::vector<Crossing> crossings;   ///< by line, then block
+  std::vector<FenceHit> fence_hits;  ///< by time, step by step
+  std::vector<PanelRow> panels;      ///< of the fences that stood, by line
+  std::vector<HealthRow> health;
+  std::vector<DeepRow> deep;  ///< by block
+  std::vector<Phase> phase;   ///< at info.time; empty: not known               (n_blocks)
+  std::vector<std::uint8_t> checkpoint;  ///< store/checkpoint.hpp; empty when the run is done
+};
+
+[[nodiscard]] inline int n_blocks(const RunFile& run) {
+  return static_cast<int>(run.blocks.mass.size());
+}
+[[nodiscard]] inline int n_frames(const RunFrames& frames) {
+  return static_cast<int>(frames.time.size());
+}
+/// Block b in frame k; strain zero when it was not stored.
+[[nodiscard]] FrameBlock frame_block(const RunFile& run, int k, int b);
+
+/// What to read beside info and blocks; files of many runs are read for their passages alone.
+struct RunParts {
+  bool frames = true, passages = true, crossings = true, health = true, checkpoint = true;
+  bool only_last_frame = false;  ///< of the frames
+  bool only_faults = false;      ///< of the health, penetrations and counts of what went wrong
+  bool words = true;             ///< info's config and plan
+};
+
+/// Reads a run file. Throws InputError for a file that is no run, is damaged, or contradicts itself
+/// (an index out of range, arrays of different lengths, numbers that are not finite where they
+/// must be).
+[[nodiscard]] RunFile read_run_file(const std::string& path, const RunParts& parts = {});
+
+/// What tells whether a run belongs to others: `info` without config and plan, and `grid`.
+[[nodiscard]] RunFile read_run_head(const std::string& path);
+
+/// Writes `run` to `path` itself, synced. Equal content gives equal bytes.
+void write_run_file(const std::string& path, const RunFile& run);
+
+/// Writes to a name beside `path` and puts it in its place when it is whole.
+void replace_run_file(const std::string& path, const RunFile& run);
+
+}  // namespace talus

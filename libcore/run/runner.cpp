@@ -1,0 +1,297 @@
+#include "run/runner.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "record/deep_rows.hpp"
+#include "step/step.hpp"
+#include "store/checkpoint.hpp"
+
+namespace talus {
+namespace {
+
+Vec6 strain_of(const State& state, int b) {
+  return state.strain.empty() ? Vec6(Vec6::Zero()) : state.strain[b];
+}
+
+void record(Runner& runner, const Segment& segment) {
+  const auto b = static_cast<std::size_t>(segment.block);
+  runner.motion.follow(segment, runner.scene.blocks.inertia[b]);
+  if (runner.options.passages) record_passages(runner.passages, runner.scene, runner.motion);
+  record_crossings(runner.crossings, runner.scene, segment);
+  record_frames(runner.sampler, runner.scene, runner.motion,
+                strain_of(runner.state, segment.block));
+}
+
+void take(Runner& runner, double time) {
+  for (const Frame& frame : take_frames(runner.sampler, time))
+    append(runner.file.frames, frame, runner.options.strain);
+}
+
+// All blocks are recorded up to here: a flight is handed over when it ends.
+double recorded_until(const State& state) {
+  double time = state.time;
+  for (std::size_t b = 0; b < state.phase.size(); ++b)
+    if (state.phase[b] == Phase::flight) time = std::min(time, state.local_time[b]);
+  return time;
+}
+
+double mechanical(const Energies& e) {
+  return e.translation + e.rotation + e.potential + e.elastic;
+}
+
+void add_to_interval(HealthRow& row, const StepReport& report) {
+  ++row.steps;
+  row.substeps += report.substeps;
+  row.passes += report.passes;
+  row.flips += report.n_flips;
+  row.impacts += report.n_impacts;
+  row.unconverged += report.n_unconverged;
+  for (std::size_t k = 0; k < row.cuts.size(); ++k) row.cuts[k] += report.cuts[k];
+  row.fell_through += has(report.flags, StepFlag::fell_through) ? 1 : 0;
+  row.not_finite += has(report.flags, StepFlag::not_finite) ? 1 : 0;
+  row.largest_penetration = std::max(row.largest_penetration, report.largest_penetration);
+  if (report.shortest_dt > 0 && (row.shortest_dt == 0 || report.shortest_dt < row.shortest_dt))
+    row.shortest_dt = report.shortest_dt;
+}
+
+void close_interval(Runner& runner) {
+  HealthRow& row = runner.interval;
+  const State& state = runner.state;
+  const Energies e = energies(runner.scene, state);
+  row.time = state.time;
+  row.left_domain = state.counters.left_domain;
+  row.translation = e.translation;
+  row.rotation = e.rotation;
+  row.potential = e.potential;
+  row.elastic = e.elastic;
+  row.friction = state.ledger.friction;
+  row.impact = state.ledger.impact;
+  row.contact = state.ledger.contact;
+  row.base = state.ledger.base;
+  row.fence = state.ledger.fence;
+  row.removed = state.ledger.removed;
+  runner.file.health.push_back(row);
+  HealthRow next;
+  next.fell_through = row.fell_through;
+  next.not_finite = row.not_finite;
+  row = next;
+}
+
+double half_step(const Runner& runner) { return 0.5 * runner.scene.settings.dt; }
+
+// Energy from nowhere up to a row, as a share of what the blocks fell and were given.
+double energy_gain(const Runner& runner, const HealthRow& row) {
+  const double now = row.translation + row.rotation + row.potential + row.elastic;
+  double weight = 0, potential_start = 0;
+  const Blocks& blocks = runner.scene.blocks;
+  for (std::size_t b = 0; b < blocks.mass.size(); ++b) {
+    weight += blocks.mass[b] * runner.scene.gravity.norm();
+    potential_start -= blocks.mass[b] * runner.scene.gravity.dot(blocks.rest[b].position);
+  }
+  const double kinetic_start = std::max(0.0, runner.energy_start - potential_start);
+  const double turned_over =
+      std::abs(potential_start - row.potential) + kinetic_start + std::abs(row.base);
+  // so that neither rounding at rest nor overlaps at the start that are pressed out are a gain
+  const std::vector<double>& radius = blocks.shapes.radius;
+  const double least_fall = 0.1 * *std::min_element(radius.begin(), radius.end());
+  // What is gone into friction and impacts came from somewhere too. The ledger of law paper leaves
+  // out what its integrator damps.
+  double known = now - runner.energy_start - row.base;
+  if (runner.scene.settings.law == Law::talus)
+    known += std::max(0.0, row.friction + row.impact + row.contact + row.fence + row.removed);
+  return known / std::max(turned_over, least_fall * weight);
+}
+
+double lost_share(const Runner& runner) {
+  const int n = n_blocks(runner.scene);
+  return n == 0 ? 0 : static_cast<double>(runner.state.counters.left_domain) / n;
+}
+
+double unconverged_share(const Runner& runner) {
+  const RunCounters& counters = runner.state.counters;
+  return static_cast<double>(counters.unconverged) /
+         static_cast<double>(std::max<std::int64_t>(1, counters.steps));
+}
+
+std::vector<HealthCheck> checks_of(const Runner& runner, double penetration, double gain,
+                                   const HealthRow& row) {
+  const RunLimits& limits = runner.options.limits;
+  const auto check = [](std::string name, double value, double limit, bool ends_run) {
+    return HealthCheck{std::move(name), value, limit, value <= limit, ends_run};
+  };
+  std::vector<HealthCheck> checks = {
+      check("steps with a block that is not finite", static_cast<double>(row.not_finite), 0, true),
+      check("steps with a block below the ground", static_cast<double>(row.fell_through), 0, true),
+      check("energy gained, share of the fall energy", gain, limits.max_energy_gain, true),
+      check("steps accepted unconverged, share", unconverged_share(runner),
+            limits.max_unconverged_share, false),
+      check("blocks that left the terrain, share", lost_share(runner), limits.max_lost_share,
+            false)};
+  if (!std::isnan(limits.max_penetration)) {
+    checks.push_back(check("largest penetration, m", penetration, limits.max_penetration, true));
+    return checks;
+  }
+  const std::vector<DeepRow> deep = deep_rows(runner.scene, runner.state, runner.crossings.rows);
+  checks.push_back(check("mass of blocks in by more than a tenth of their thickness, share",
+                         mass_share(deep), limits.max_deep_share, false));
+  checks.push_back(check("such blocks in the toe, at a fence, or faster than by their fall",
+                         static_cast<double>(n_that_matter(deep)), 0, false));
+  return checks;
+}
+
+Runner make_runner(const Scene& scene, const RunOptions& options, std::vector<RecordLine> lines,
+                   RunFile file) {
+  Runner runner{scene,
+                options,
+                {},
+                make_work(scene),
+                {},
+                start_crossings(scene, std::move(lines)),
+                start_frames(scene, options.frame_interval),
+                {},
+                {},
+                0,
+                std::move(file)};
+  if (options.passages)
+    runner.passages =
+        start_passages(scene, passage_grid(scene.ground.trn, options.passage_cell_size),
+                       options.passages_by_centroid);
+  runner.file.grid = runner.passages.grid;
+  runner.file.passages_by_centroid = options.passages_by_centroid;
+  runner.file.lines = runner.crossings.lines;
+  runner.file.info.duration = options.duration;
+  return runner;
+}
+
+}  // namespace
+
+Runner begin_run(const Scene& scene, const RunOptions& options, std::vector<RecordLine> lines,
+                 RunFile file) {
+  Runner runner = make_runner(scene, options, std::move(lines), std::move(file));
+  runner.state = start(scene);
+  runner.energy_start = mechanical(energies(scene, runner.state));
+  for (int b = 0; b < n_blocks(scene); ++b) {
+    const Motion& motion = runner.state.motion[b];
+    if (options.passages) record_start(runner.passages, scene, b, motion, 0);
+    record_start(runner.sampler, scene, b, motion, strain_of(runner.state, b));
+  }
+  return runner;
+}
+
+Runner resume_run(const Scene& scene, const RunOptions& options, std::vector<RecordLine> lines,
+                  RunFile file, const std::string& path) {
+  Runner runner = make_runner(scene, options, std::move(lines), std::move(file));
+  const int n_cells = std::max(1, runner.passages.grid.n_rows * runner.passages.grid.n_cols);
+  Checkpoint checkpoint = unpack(runner.file.checkpoint, n_blocks(scene), n_cells, path);
+  runner.state = std::move(checkpoint.state);
+  runner.sampler = std::move(checkpoint.sampler);
+  runner.interval = checkpoint.interval;
+  runner.energy_start = checkpoint.energy_start;
+  runner.passages.trackers = std::move(checkpoint.trackers);
+  for (const Passage& row : runner.file.passages) runner.passages.table.raise(row);
+  const std::size_t n_lines = runner.crossings.lines.size();
+  for (const Crossing& row : runner.file.crossings) {
+    runner.crossings.row_of[static_cast<std::size_t>(row.block) * n_lines +
+                            static_cast<std::size_t>(row.line)] =
+        static_cast<std::int32_t>(runner.crossings.rows.size());
+    runner.crossings.rows.push_back(row);
+  }
+  return runner;
+}
+
+void advance(Runner& runner) {
+  const StepReport report = step(runner.scene, runner.state, runner.work);
+  for (const Segment& segment : runner.work.segments) record(runner, segment);
+  add_to_interval(runner.interval, report);
+  const double next_frame =
+      static_cast<double>(runner.sampler.n_closed) * runner.options.frame_interval;
+  if (next_frame <= runner.state.time) take(runner, recorded_until(runner.state));
+  const double interval_end =
+      static_cast<double>(runner.file.health.size() + 1) * runner.options.frame_interval;
+  if (runner.state.time >= interval_end - half_step(runner)) close_interval(runner);
+}
+
+bool is_over(const Runner& runner) {
+  return runner.state.time >= runner.options.duration - half_step(runner);
+}
+
+void finish(Runner& runner) {
+  const State& state = runner.state;
+  for (int b = 0; b < n_blocks(runner.scene); ++b) {
+    const auto i = static_cast<std::size_t>(b);
+    if (state.phase[i] != Phase::flight || state.local_time[i] >= state.time) continue;
+    Segment segment;
+    segment.block = b;
+    segment.flight = true;
+    segment.t_start = state.local_time[i];
+    segment.t_end = state.time;
+    segment.start = state.motion[i];
+    segment.end = motion_at(runner.scene, state, b, state.time);
+    segment.acceleration = runner.scene.gravity;
+    record(runner, segment);
+  }
+  if (runner.interval.steps > 0) close_interval(runner);
+  // the time is a sum of steps: a frame due at the very end may lie above it by rounding
+  take(runner, state.time + 1e-3 * runner.scene.settings.dt);
+  const RunFrames& frames = runner.file.frames;
+  if (frames.time.empty() || frames.time.back() < state.time - 1e-3 * runner.scene.settings.dt)
+    append(runner.file.frames, last_frame(runner.sampler, state.time), runner.options.strain);
+}
+
+void update_file(Runner& runner, bool with_checkpoint) {
+  RunFile& file = runner.file;
+  if (runner.options.passages) {
+    flush_passages(runner.passages);
+    file.passages = sorted(runner.passages.table);
+  }
+  file.crossings = sorted(runner.crossings);
+  file.fence_hits = runner.state.fence.hits;
+  file.panels = panel_rows(runner.scene.fixed, runner.state.yielding);
+  file.deep = deep_rows(runner.scene, runner.state, runner.crossings.rows);
+  file.info.time = runner.state.time;
+  file.phase = runner.state.phase;
+  file.checkpoint.clear();
+  if (with_checkpoint)
+    file.checkpoint = pack({runner.state, runner.passages.trackers, runner.sampler, runner.interval,
+                            runner.energy_start});
+}
+
+std::vector<HealthCheck> health_checks(const Runner& runner) {
+  double penetration = 0, gain = 0;
+  for (const HealthRow& row : runner.file.health) {
+    penetration = std::max(penetration, row.largest_penetration);
+    gain = std::max(gain, energy_gain(runner, row));
+  }
+  const HealthRow last = runner.file.health.empty() ? HealthRow{} : runner.file.health.back();
+  return checks_of(runner, penetration, gain, last);
+}
+
+bool has_failed(const Runner& runner) {
+  if (runner.file.health.empty()) return false;
+  const HealthRow& row = runner.file.health.back();
+  const std::vector<HealthCheck> checks =
+      checks_of(runner, row.largest_penetration, energy_gain(runner, row), row);
+  return std::any_of(checks.begin(), checks.end(),
+                     [](const HealthCheck& check) { return !check.pass && check.ends_run; });
+}
+
+RunBlocks run_blocks(const Scene& scene, const BlockSet& set) {
+  RunBlocks blocks;
+  blocks.mass = scene.blocks.mass;
+  blocks.volume = scene.blocks.volume;
+  blocks.inertia = scene.blocks.inertia;
+  blocks.rest = scene.blocks.rest;
+  blocks.vertex_begin = set.block_vertex_begin;
+  blocks.face_vertices = set.face_vertices;
+  blocks.face_begin = set.face_begin;
+  blocks.block_face_begin = set.block_face_begin;
+  for (std::size_t b = 0; b < blocks.rest.size(); ++b) {
+    const Pose& rest = blocks.rest[b];
+    for (int v = set.block_vertex_begin[b]; v < set.block_vertex_begin[b + 1]; ++v)
+      blocks.vertices.push_back(rest.attitude.conjugate() * (set.vertices[v] - rest.position));
+  }
+  return blocks;
+}
+
+}  // namespace talus

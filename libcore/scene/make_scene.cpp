@@ -1,0 +1,104 @@
+#include "scene/make_scene.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <string>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+
+namespace talus {
+namespace {
+
+/// Rotation whose columns are the principal axes of S, right-handed. A tensor that is diagonal to
+/// rounding keeps the local axes, so that a box stays a box in its own axes.
+Mat3 principal_axes(const Mat3& S) {
+  const double scale = S.diagonal().maxCoeff();
+  const double mixed = std::max({std::abs(S(0, 1)), std::abs(S(0, 2)), std::abs(S(1, 2))});
+  if (mixed <= 1e-14 * scale) return Mat3::Identity();
+  const Eigen::SelfAdjointEigenSolver<Mat3> solver(S);
+  Mat3 axes = solver.eigenvectors();
+  if (axes.determinant() < 0) axes.col(2) = -axes.col(2);
+  return axes;
+}
+
+void check_material(const Material& m, const std::string& name) {
+  const Where where{"", 0, "material " + name};
+  if (!(m.density > 0 && std::isfinite(m.density)))
+    throw InputError(where, "density is " + text(m.density) + " kg/m3, expected above 0");
+  if (!(m.young > 0 && std::isfinite(m.young)))
+    throw InputError(where, "Young's modulus is " + text(m.young) + " Pa, expected above 0");
+  if (!(m.poisson >= 0 && m.poisson < 0.5))
+    throw InputError(where, "Poisson's ratio is " + text(m.poisson) + ", expected 0 to below 0.5");
+}
+
+void add_block(Scene& scene, const BlockSet& set, int b, const Material& material) {
+  const auto i = static_cast<std::size_t>(b);
+  Blocks& blocks = scene.blocks;
+  const double volume = set.volume[i];
+  const Mat3 axes = principal_axes(set.second_moment[i]);
+  const Vec3 S = (axes.transpose() * set.second_moment[i] * axes).diagonal();
+  if (!(volume > 0) || !(S.minCoeff() > 0))
+    throw InputError({"", 0, "block " + std::to_string(b)}, "has no volume or no extent",
+                     "remove it from the block set, or rebuild the set with talus-blocks");
+  blocks.mass.push_back(material.density * volume);
+  blocks.volume.push_back(volume);
+  blocks.inertia.push_back(material.density * Vec3(S.y() + S.z(), S.x() + S.z(), S.x() + S.y()));
+  blocks.second_moment.push_back(S);
+  blocks.young.push_back(material.young);
+  blocks.poisson.push_back(material.poisson);
+  blocks.rest.push_back({set.centroid[i], Quat(axes)});
+  blocks.velocity.push_back(set.velocity[i]);
+  blocks.spin.push_back(set.spin[i]);
+  std::vector<Polyhedron> parts;
+  for (int p = set.convex_part_begin[i]; p < set.convex_part_begin[i + 1]; ++p)
+    parts.push_back(convex_part(set, p));
+  add_shape(blocks.shapes, parts, block_shell(set, b), set.centroid[i], axes.transpose(),
+            face_internal);
+  add_hulls(blocks.hulls, parts, set.centroid[i], axes.transpose());
+}
+
+}  // namespace
+
+void add_blocks(Scene& scene, const BlockSet& set, std::span<const Material> materials) {
+  for (std::size_t m = 0; m < materials.size(); ++m)
+    check_material(materials[m],
+                   m < set.material_names.size() ? set.material_names[m] : std::to_string(m));
+  for (int b = 0; b < n_blocks(set); ++b) {
+    const auto m = static_cast<std::size_t>(set.material[b]);
+    TALUS_ASSERT(m < materials.size());
+    add_block(scene, set, b, materials[m]);
+  }
+}
+
+void check_scene(const Scene& scene) {
+  const Settings& s = scene.settings;
+  if (!(s.dt > 0 && std::isfinite(s.dt)))
+    throw InputError({}, "time step is " + text(s.dt) + " s, expected above 0");
+  if (s.law == Law::paper && !(s.normal_stiffness > 0))
+    throw InputError({}, "law paper needs a normal stiffness above 0 N/m",
+                     "give [solver] normal_stiffness_n_m; the paper takes k_n = E = 5e10");
+  if (!(s.normal_stiffness >= 0))
+    throw InputError({}, "normal stiffness is " + text(s.normal_stiffness) + " N/m, expected >= 0");
+  if (!(s.shear_ratio > 0))
+    throw InputError(
+        {}, "ratio of shear to normal stiffness is " + text(s.shear_ratio) + ", expected above 0");
+  for (const GroundClass& g : scene.ground.classes) {
+    if (!(g.friction >= 0 && std::isfinite(g.friction)))
+      throw InputError({}, "friction tan(phi) is " + text(g.friction) + ", expected >= 0");
+    if (!(g.restitution >= 0 && g.restitution <= 1))
+      throw InputError({}, "restitution is " + text(g.restitution) + ", expected 0 to 1");
+    if (!(g.cohesion >= 0 && g.tension >= 0))
+      throw InputError({}, "cohesion or tensile strength is negative");
+  }
+  const AccelerationRecord& base = scene.base;
+  if (base.time.size() != base.acceleration.size())
+    throw InputError({}, "base motion has " + std::to_string(base.time.size()) + " times and " +
+                             std::to_string(base.acceleration.size()) + " accelerations");
+  for (std::size_t i = 1; i < base.time.size(); ++i)
+    if (!(base.time[i] > base.time[i - 1]))
+      throw InputError({},
+                       "times of the base motion do not increase at sample " + std::to_string(i));
+}
+
+}  // namespace talus

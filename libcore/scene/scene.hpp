@@ -1,0 +1,98 @@
+// libcore/scene/scene.hpp: public
+// What a run is made of, read once and const afterwards: ground, blocks at rest, loads, settings.
+// in:    plain data; make_scene() in scene/make_scene.hpp fills it from a block set
+// paper: Zhang et al. 2018, Sect. 2; docs/theory.md
+#pragma once
+
+#include <vector>
+
+#include "base/types.hpp"
+#include "contact/ground.hpp"
+#include "contact/hulls.hpp"
+#include "contact/shapes.hpp"
+#include "motion/displacement.hpp"
+#include "motion/pose.hpp"
+#include "scene/fixed_bodies.hpp"
+#include "scene/joint_classes.hpp"
+#include "scene/paper_state.hpp"
+#include "site/acceleration_record.hpp"
+
+namespace talus {
+
+/// `paper`: penalty springs, open-close iteration, fixed step. `talus`: docs/theory.md.
+enum class Law { talus, paper };
+
+/// How a run is computed. The defaults of law talus serve every scene; those that a site file may
+/// change are its defaults too (SolverSettings).
+struct Settings {
+  Law law = Law::talus;
+  bool strains = false;         ///< 12 degrees of freedom a block instead of 6
+  double dt = 0.005;            ///< time step, > 0; law talus shortens it where it must [s]
+  double normal_stiffness = 0;  ///< k_n, > 0; 0 lets law talus choose [N/m]
+  double shear_ratio = 0.4;     ///< k_s / k_n [-]
+  double tolerance_factor = 1;  ///< law talus: on the residual at which forces count as found [-]
+  int max_passes = 50;          ///< law talus, a lone block: of Newton, before a step is repeated
+  bool static_start = true;     ///< law talus: blocks at rest start in equilibrium with the ground
+  bool flight = true;           ///< law talus: no search while nothing can be hit; same motion
+  bool block_contacts = true;   ///< blocks touch each other; off, each moves as if alone
+  bool trn_contacts = true;  ///< law talus: blocks touch the TRN; off, fixed bodies are the slope
+  bool sleep = true;         ///< law talus: blocks at rest are left out
+  PaperSettings paper;
+};
+
+/// A force on a material point of a block, constant in local axes.
+struct PointLoad {
+  int block = 0;
+  Vec3 point = Vec3::Zero();  ///< body axes [m]
+  Vec3 force = Vec3::Zero();  ///< local axes [N]
+};
+
+/// Bodies at rest. Body axes: origin at the centroid, axes along the principal axes of inertia.
+struct Blocks {  // clang-format off
+  std::vector<double> mass;           ///< [kg]                                        (n_blocks)
+  std::vector<double> volume;         ///< [m3]                                        (n_blocks)
+  std::vector<Vec3> inertia;          ///< principal moments of inertia [kg m2]        (n_blocks)
+  std::vector<Vec3> second_moment;    ///< S_xx, S_yy, S_zz, body axes [m5]            (n_blocks)
+  std::vector<double> young;          ///< E [Pa]                                      (n_blocks)
+  std::vector<double> poisson;        ///< nu [-]                                      (n_blocks)
+  std::vector<Pose> rest;             ///< as cut: the attitude turns body to local axes (n_blocks)
+  std::vector<Vec3> velocity;         ///< at the start [m/s]                          (n_blocks)
+  std::vector<Vec3> spin;             ///< at the start, local axes [rad/s]            (n_blocks)
+  std::vector<Vec6> initial_stress;   ///< sx sy sz tyz tzx txy, body axes; may be empty [Pa]
+  Shapes shapes;                      ///< surfaces, as the search of the ground reads them
+  Hulls hulls;                        ///< convex parts, as the search of other blocks reads them;
+                                      ///< after the blocks, those of the fixed bodies
+};  // clang-format on
+
+struct Scene {
+  Ground ground;
+  GroundClass joint;    ///< contacts between blocks where `joints` says nothing else
+  JointClasses joints;  ///< by joint set and by block
+  Blocks blocks;
+  FixedBodies fixed;                 ///< law talus: fences, blocky slope; found through hulls
+  Vec3 gravity = Vec3(0, 0, -9.81);  ///< [m/s2]
+  std::vector<PointLoad> loads;      ///< sorted by block
+  AccelerationRecord base;           ///< empty: the ground stands still
+  Settings settings;
+};
+
+[[nodiscard]] inline int n_blocks(const Scene& scene) {
+  return static_cast<int>(scene.blocks.mass.size());
+}
+[[nodiscard]] inline int n_fixed(const Scene& scene) {
+  return static_cast<int>(scene.fixed.pose.size());
+}
+
+// Blocks::hulls numbers blocks and fixed bodies in one row, for the search of pairs alone.
+
+/// Is body `b` of Blocks::hulls a fixed one?
+[[nodiscard]] inline bool is_fixed(const Scene& scene, int b) { return b >= n_blocks(scene); }
+/// Id of the fixed body that is body `b` of Blocks::hulls.
+[[nodiscard]] inline int fixed_of(const Scene& scene, int b) { return b - n_blocks(scene); }
+[[nodiscard]] inline int hull_of_fixed(const Scene& scene, int id) { return id + n_blocks(scene); }
+/// What the other side of a contact of two bodies of Blocks::hulls is called in ContactKey.
+[[nodiscard]] inline int name_of_body(const Scene& scene, int b) {
+  return is_fixed(scene, b) ? name_of_fixed(fixed_of(scene, b)) : b;
+}
+
+}  // namespace talus

@@ -1,0 +1,162 @@
+#include "scene/site_scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "base/error.hpp"
+#include "base/random.hpp"
+#include "base/text.hpp"
+#include "scene/make_scene.hpp"
+
+namespace talus {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+GroundClass ground_class(const GroundSettings& ground, const SolverSettings& solver,
+                         double friction_shift_deg, double cor_shift) {
+  GroundClass made;
+  const double friction = std::clamp(ground.friction_deg + friction_shift_deg, 0.0, 89.0);
+  const double cor = std::isnan(solver.cor) ? ground.cor : solver.cor;
+  made.friction = std::tan(friction * degree);
+  made.cohesion = ground.cohesion_pa;
+  made.tension = ground.tension_pa;
+  made.restitution = std::clamp(cor + cor_shift, 0.0, 1.0);
+  return made;
+}
+
+GroundClass rock_class(const MaterialSettings& material, const SolverSettings& solver) {
+  GroundClass made;
+  made.friction = std::tan(material.friction_deg * degree);
+  made.cohesion = material.cohesion_pa;
+  made.tension = material.tension_pa;
+  made.restitution = std::isnan(solver.cor) ? material.cor : solver.cor;
+  return made;
+}
+
+// A joint set's faces; the parts of a section with several sets are named NAME_1, NAME_2, ...
+const JointSettings* joints_of(const Site& site, const std::string& set) {
+  for (const JointSettings& joints : site.joints)
+    if (joints.name == set || (joints.n_sets > 1 && set.rfind('_') != std::string::npos &&
+                               joints.name == set.substr(0, set.rfind('_'))))
+      return &joints;
+  return nullptr;
+}
+
+JointClasses joint_classes(const Site& site, const BlockSet& blocks,
+                           const std::vector<GroundClass>& rock) {
+  JointClasses classes;
+  for (const int material : blocks.material) classes.of_block.push_back(rock[material]);
+  for (const std::string& set : blocks.joint_set_names) {
+    GroundClass& made = classes.of_set.emplace_back();
+    made.friction = -1;
+    const JointSettings* joints = joints_of(site, set);
+    if (joints == nullptr) continue;
+    if (!std::isnan(joints->friction_deg)) made.friction = std::tan(joints->friction_deg * degree);
+    made.cohesion = joints->cohesion_pa;
+    made.tension = joints->tension_pa;
+  }
+  return classes;
+}
+
+/// Materials in the order of the block set's names: what blocks weigh, and what their faces do.
+struct Rock {
+  std::vector<Material> materials;
+  std::vector<GroundClass> classes;
+};
+
+Rock rock_of(const Site& site, const BlockSet& blocks) {
+  Rock rock;
+  for (const std::string& name : blocks.material_names) {
+    const auto found = std::find_if(site.materials.begin(), site.materials.end(),
+                                    [&name](const auto& m) { return m.name == name; });
+    if (found == site.materials.end())
+      throw InputError({site.file},
+                       "the blocks are of material " + name + ", which the site file does not have",
+                       "add [material." + name + "], or cut the blocks again");
+    rock.materials.push_back({found->density_kg_m3, found->young_modulus_pa, found->poisson_ratio});
+    rock.classes.push_back(rock_class(*found, site.solver));
+  }
+  return rock;
+}
+
+void add_jitter(Blocks& blocks, double size, std::uint64_t seed) {
+  if (size == 0) return;
+  Random random(seed, "start jitter");
+  for (Vec3& velocity : blocks.velocity)
+    velocity += size * Vec3(random.normal(), random.normal(), random.normal());
+}
+
+}  // namespace
+
+double time_step(const SolverSettings& solver) {
+  double dt = solver.time_step_s;
+  if (std::isnan(dt)) dt = solver.law == "paper" ? 1e-4 : Settings{}.dt;
+  if (!std::isnan(solver.min_time_step_s)) dt = std::max(dt, solver.min_time_step_s);
+  if (!std::isnan(solver.max_time_step_s)) dt = std::min(dt, solver.max_time_step_s);
+  return dt;
+}
+
+Settings settings_of(const SolverSettings& solver, const ScenePlan& plan) {
+  Settings settings;
+  settings.law = solver.law == "paper" ? Law::paper : Law::talus;
+  settings.strains = plan.strains;
+  settings.dt = time_step(solver);
+  settings.normal_stiffness =
+      std::isnan(solver.normal_stiffness_n_m) ? 0 : solver.normal_stiffness_n_m;
+  settings.shear_ratio = solver.shear_stiffness_ratio;
+  settings.max_passes = static_cast<int>(solver.max_passes);
+  settings.flight = plan.flight;
+  settings.block_contacts = plan.block_contacts;
+  settings.sleep = plan.sleep;
+  return settings;
+}
+
+Scene make_site_scene(const Site& site, const ScenePlan& plan, SceneParts parts) {
+  const SolverSettings& solver = site.solver;
+  const auto seed = static_cast<std::uint64_t>(solver.seed);
+  Random scatter(seed, "scatter of ground");
+  Scene scene;
+  scene.ground = make_ground(std::move(parts.trn), {});
+  scene.ground.classes.clear();
+  for (const GroundSettings& ground : site.grounds) {
+    const double friction_shift = solver.friction_scatter_deg * scatter.normal();
+    const double cor_shift = solver.cor_scatter * scatter.normal();
+    scene.ground.classes.push_back(ground_class(ground, solver, friction_shift, cor_shift));
+  }
+  scene.ground.cell_class = std::move(parts.cell_class);
+  const Rock rock = rock_of(site, parts.blocks);
+  scene.joints = joint_classes(site, parts.blocks, rock.classes);
+  scene.gravity = {0, 0, -solver.gravity_m_s2};
+  scene.settings = settings_of(solver, plan);
+  scene.base = std::move(parts.base);
+  add_blocks(scene, parts.blocks, rock.materials);
+  add_jitter(scene.blocks, solver.start_jitter_m_s, seed);
+  for (const StandingFence& fence : parts.fences) add_fence(scene, fence);
+  check_scene(scene);
+  return scene;
+}
+
+std::vector<UnusualValue> unusual_values(const Site& site) {
+  std::vector<UnusualValue> found;
+  const auto look = [&](const std::string& key, double value, double low, double high,
+                        const std::string& unit, const std::string& usual) {
+    if (value >= low && value <= high) return;
+    if (std::isnan(value)) return;
+    found.push_back({key, "is " + text(value, 4) + " " + unit + "; " + usual});
+  };
+  for (const MaterialSettings& m : site.materials) {
+    const std::string key = "material." + m.name + ".";
+    look(key + "density_kg_m3", m.density_kg_m3, 1500, 3500, "kg/m3",
+         "rock has 2000 to 3200 kg/m3");
+    look(key + "young_modulus_pa", m.young_modulus_pa, 1e8, 2e11, "Pa",
+         "rock has 1e9 to 1e11 Pa, weathered rock from 1e8");
+  }
+  look("solver.normal_stiffness_n_m", site.solver.normal_stiffness_n_m, 1e6, 1e14, "N/m",
+       "contacts of blocks have 1e8 to 1e12 N/m; law talus chooses it when it is not given");
+  return found;
+}
+
+}  // namespace talus

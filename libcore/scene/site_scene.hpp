@@ -1,0 +1,47 @@
+// libcore/scene/site_scene.hpp: public
+// From a site file, its terrain and its blocks to the scene that is computed.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "blocks/block_set.hpp"
+#include "scene/fence.hpp"
+#include "scene/scene.hpp"
+#include "site/base_motion.hpp"
+#include "site/plan.hpp"
+#include "site/site.hpp"
+
+namespace talus {
+
+/// What a site file's settings refer to, read by the caller.
+struct SceneParts {
+  Trn trn;
+  std::vector<std::uint8_t> cell_class;  ///< index into [ground.*]; empty: one class   (n_cells)
+  BlockSet blocks;                       ///< in the TRN's local coordinates
+  AccelerationRecord base;
+  std::vector<StandingFence> fences;  ///< that stand in the run
+};
+
+/// The effective time step: [solver] time_step_s, else 5 ms for law talus and 0.1 ms for law paper,
+/// within min_time_step_s and max_time_step_s [s].
+[[nodiscard]] double time_step(const SolverSettings& solver);
+
+/// How a site's run is computed: its solver's settings with the decisions of the plan. Without any
+/// it is Settings{}.
+[[nodiscard]] Settings settings_of(const SolverSettings& solver, const ScenePlan& plan);
+
+/// The scene with the settings of the site and the decisions of the plan. Scatter of friction and
+/// restitution and the jitter of the start are drawn from [solver] seed. Throws InputError for a
+/// block material that the site file does not know, and what check_scene() refuses.
+[[nodiscard]] Scene make_site_scene(const Site& site, const ScenePlan& plan, SceneParts parts);
+
+/// A value of the site file that can be computed with but is far from what rock and its models
+/// have.
+struct UnusualValue {
+  std::string key;      ///< "material.rock.density_kg_m3"
+  std::string finding;  ///< "is 260 kg/m3; rock has ..."
+};
+[[nodiscard]] std::vector<UnusualValue> unusual_values(const Site& site);
+
+}  // namespace talus

@@ -1,0 +1,82 @@
+// libcore/scene/state.hpp: public
+// All that must be saved to resume a run, bit for bit: motion of the blocks, contact memory, time.
+// filled by: start() in step/step.hpp; changed by step() alone
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "contact/block_pairs.hpp"
+#include "contact/contact.hpp"
+#include "motion/pose.hpp"
+#include "scene/bonds.hpp"
+#include "scene/phase.hpp"
+#include "scene/scene.hpp"
+
+namespace talus {
+
+/// Motion of one block at its own time.
+struct Motion {
+  Pose pose;                             ///< centroid [m], attitude
+  Vec3 velocity = Vec3::Zero();          ///< of the centroid [m/s]
+  Vec3 angular_momentum = Vec3::Zero();  ///< about the centroid, local axes [kg m2/s]
+};
+
+/// Sums since the start over all blocks, all in joule; what each adds is >= 0 except `contact` and
+/// `base`.
+struct EnergyLedger {
+  double friction = 0;  ///< dissipated by sliding
+  double impact = 0;    ///< dissipated by the restitution law
+  double contact = 0;   ///< dissipated or stored by normal contact and strain damping
+  double base = 0;      ///< put in by base motion and point loads
+  double fence = 0;     ///< taken by panels of fences, and what else gave way
+  double removed = 0;   ///< kinetic energy of blocks stopped at the domain's edge
+};
+
+/// Counts since the start.
+struct RunCounters {
+  std::int64_t steps = 0;         ///< calls of step()
+  std::int64_t substeps = 0;      ///< block steps with contact search
+  std::int64_t flight_skips = 0;  ///< block steps skipped in flight
+  std::int64_t impacts = 0;       ///< impact events
+  std::int64_t passes = 0;        ///< Newton or open-close iterations
+  std::int64_t unconverged = 0;   ///< block steps accepted without convergence
+  std::int64_t cut_back = 0;      ///< block steps repeated with a shorter one
+  int left_domain = 0;            ///< blocks that left the known terrain
+};
+
+/// What became of a block that was deep in something (step/deep_blocks.hpp).
+struct DeepBlock {
+  std::int64_t steps = 0;     ///< that ended with it deep
+  double first_time = 0;      ///< end of the first of them [s]
+  double depth = 0;           ///< largest [m]
+  double time = 0;            ///< when that was [s]
+  Vec3 place = Vec3::Zero();  ///< of its centroid then [m]
+  int partner = ground_name;  ///< in what then: see scene/fixed_bodies.hpp
+  bool is_deep = false;       ///< at the end of the last step
+  bool is_too_fast = false;   ///< at some time since, it was faster than its fall can have made it
+};
+
+/// Phases, local times and rest of the blocks are those of BlockLives.
+struct State : BlockLives {  // clang-format off
+  double time = 0;                          ///< end of the last step [s]
+  std::vector<Motion> motion;               ///<                                     (n_blocks)
+  std::vector<Vec3> acceleration;           ///< of the last step, by contact too [m/s2]  (n_blocks)
+  std::vector<Vec3> spin_rate;              ///< angular acceleration, body axes [rad/s2] (n_blocks)
+  std::vector<Vec3> support;                ///< by the ground in the last substep, hits aside [m/s2] (n_blocks)
+  std::vector<Vec6> strain;                 ///< body axes; empty for rigid blocks [-]    (n_blocks)
+  std::vector<Vec6> strain_rate;            ///< body axes; empty for rigid blocks [1/s]  (n_blocks)
+  std::vector<std::vector<ContactMemory>> memory;  ///< contacts of block b with the ground and
+                                                   ///< blocks of higher number       (n_blocks)
+  PairState pairs;                          ///< close pairs of blocks and their axes
+  PlacedHulls placed;                       ///< where the pairs were searched last
+  std::vector<BlockBond> bonds;             ///< sorted by block_a, block_b            (n_bonds)
+  std::vector<DeepBlock> deep;              ///<                                     (n_blocks)
+  YieldingState yielding;                   ///< what fixed bodies that give way have met
+  FenceState fence;                         ///< what touched the panels of fences
+  PaperState paper;                         ///< of law paper alone
+  EnergyLedger ledger;
+  RunCounters counters;
+};  // clang-format on
+
+}  // namespace talus

@@ -1,0 +1,54 @@
+// libcore/scene/yielding.hpp: public
+// Fixed bodies in a run: what they are, where they are now, and how those that give way do so.
+// in:    the scene's fixed bodies; what contacts did to them
+// out:   deflection, work and breaking of bodies that give way
+// Fences are one use (scene/fence.hpp). All bodies are named by their ids.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "geometry/polyhedron.hpp"
+#include "scene/scene.hpp"
+#include "scene/state.hpp"
+
+namespace talus {
+
+/// One convex body that no block moves. Returns its id. The blocks are all there already.
+int add_fixed_body(Scene& scene, const Polyhedron& body, int contact_class);
+
+/// Lets fixed body `body` give way as `how` says (but for its `body`). Returns its number among
+/// those that do.
+int let_yield(Scene& scene, int body, Yielding how);
+
+/// What the bodies that give way have met before anything moves.
+[[nodiscard]] YieldingState start_yielding(const Scene& scene);
+
+/// Does fixed body `body` stop anything (any more)?
+[[nodiscard]] bool stands(const Scene& scene, const State& state, int body);
+
+/// Where fixed body `body` is now.
+[[nodiscard]] Pose fixed_pose(const Scene& scene, const State& state, int body);
+
+[[nodiscard]] const GroundClass& fixed_class(const Scene& scene, int body);
+
+/// How a fixed body gives way to a contact with this normal; nullptr: it is rigid. One with an axis
+/// gives way along it: what lands on the upper edge of a fence's panel meets a rigid plate.
+[[nodiscard]] const Yielding* giving_way(const Scene& scene, int body, const Vec3& normal);
+
+/// Along which direction it does.
+[[nodiscard]] Vec3 yield_direction(const Yielding& yielding, const Vec3& normal);
+
+/// Takes what a contact did to a body into the push of its block.
+void add_push(const YieldPush& push, std::vector<YieldPush>& pushes);
+
+/// Time within a substep of `h` at which the first body has taken all that it can; infinite when
+/// none has. Exact for forces that are constant over the substep.
+[[nodiscard]] double time_to_first_break(const Scene& scene, const YieldingState& yielding,
+                                         std::span<const YieldPush> pushes, double h);
+
+/// Takes the pushes of an accepted substep that ends at `time` into the bodies; those that are used
+/// up break, and blocks that sleep against one wake.
+void push_bodies(const Scene& scene, std::span<const YieldPush> pushes, double time, State& state);
+
+}  // namespace talus

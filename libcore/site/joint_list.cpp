@@ -1,0 +1,360 @@
+#include "site/joint_list.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string_view>
+#include <utility>
+
+#include "base/column_text.hpp"
+#include "base/error.hpp"
+#include "base/text.hpp"
+#include "blocks/joint_sets.hpp"
+
+namespace talus {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+constexpr const char* pair_hint =
+    "each pair is dip direction, dip in degrees; measured_notation names another order";
+constexpr const char* names_hint =
+    "name them Dip direction and Dip, Strike and Dip, or Trend and Plunge (of the pole)";
+
+enum class Notation {
+  direction_dip,
+  dip_direction,
+  strike_right_dip,
+  strike_left_dip,
+  trend_plunge
+};
+
+// As [joints.NAME] measured_notation has them.
+Notation notation_of(const std::string& name) {
+  if (name == "dip/dip_direction") return Notation::dip_direction;
+  if (name == "strike_right/dip") return Notation::strike_right_dip;
+  if (name == "strike_left/dip") return Notation::strike_left_dip;
+  if (name == "pole_trend/plunge") return Notation::trend_plunge;
+  return Notation::direction_dip;
+}
+
+const char* words_for(Notation notation) {
+  switch (notation) {
+    case Notation::dip_direction:
+      return "dip, dip direction";
+    case Notation::strike_right_dip:
+      return "strike, dip by the right-hand rule";
+    case Notation::strike_left_dip:
+      return "strike, dip by the left-hand rule";
+    case Notation::trend_plunge:
+      return "trend, plunge of poles";
+    default:
+      return "dip direction, dip";
+  }
+}
+
+double around(double azimuth_deg) {
+  const double rest = std::fmod(azimuth_deg, 360);
+  return rest < 0 ? rest + 360 : rest;
+}
+
+void check_angle(const char* name, double angle, double highest, const Where& where) {
+  if (angle >= 0 && angle <= highest) return;
+  throw InputError(where,
+                   std::string(name) + " is " + text(angle) + ", expected 0 to " + text(highest),
+                   pair_hint);
+}
+
+// --- words ---------------------------------------------------------------------------------------
+
+// Azimuth of the compass letters of a dip ("SE"); NaN: none.
+double quadrant_azimuth(std::string_view letters) {
+  constexpr std::array<std::pair<std::string_view, double>, 8> known = {{{"n", 0},
+                                                                         {"ne", 45},
+                                                                         {"e", 90},
+                                                                         {"se", 135},
+                                                                         {"s", 180},
+                                                                         {"sw", 225},
+                                                                         {"w", 270},
+                                                                         {"nw", 315}}};
+  for (const auto& [name, azimuth] : known)
+    if (lower(letters) == name) return azimuth;
+  return std::nan("");
+}
+
+// One angle: a number, with a degree sign if need be.
+bool parse_angle(const ColumnText& list, std::string word, double& value) {
+  for (const std::string_view sign : {"\xc2\xb0", "\xc2\xba", "\xb0", "\xba"})
+    if (word.ends_with(sign)) word.resize(word.size() - sign.size());
+  return parse_number(list, word, value);
+}
+
+// N45E: from north or south by so much to east or west.
+bool parse_bearing(const ColumnText& list, const std::string& word, double& value) {
+  if (word.size() < 3) return parse_angle(list, word, value);
+  const std::string small = lower(word);
+  const bool is_bearing = (small.front() == 'n' || small.front() == 's') &&
+                          (small.back() == 'e' || small.back() == 'w');
+  if (!is_bearing) return parse_angle(list, word, value);
+  if (!parse_angle(list, small.substr(1, small.size() - 2), value) || !(value >= 0 && value <= 90))
+    return false;
+  const double turn = small.back() == 'e' ? value : -value;
+  value = around(small.front() == 'n' ? turn : 180 - turn);
+  return true;
+}
+
+// A dip with the side that it goes to, 30SE; side: NaN where none is said.
+bool parse_dip(const ColumnText& list, const std::string& word, double& value, double& side) {
+  const std::size_t letters = word.find_last_not_of("NSEWnsew");
+  if (letters == std::string::npos) return false;
+  side = letters + 1 < word.size() ? quadrant_azimuth(word.substr(letters + 1)) : std::nan("");
+  if (letters + 1 < word.size() && std::isnan(side)) return false;
+  return parse_angle(list, word.substr(0, letters + 1), value);
+}
+
+// --- one orientation -----------------------------------------------------------------------------
+
+// Of the two ways down from a strike, the one nearer to the side that is said.
+Vec3 pole_by_side(double strike_deg, double dip_deg, double side_deg, const Where& where) {
+  const double apart = std::cos((strike_deg + 90 - side_deg) * degree);
+  if (std::abs(apart) < 0.25)
+    throw InputError(
+        where,
+        "the plane strikes " + text(strike_deg) + " degrees and its dip goes nearly along that",
+        "mend the letters behind the dip");
+  return checked_pole(around(apart > 0 ? strike_deg + 90 : strike_deg - 90), dip_deg, where);
+}
+
+Vec3 pole_by(Notation notation, double first, double second, const Where& where) {
+  switch (notation) {
+    case Notation::dip_direction:
+      return checked_pole(second, first, where);
+    case Notation::strike_right_dip:
+    case Notation::strike_left_dip:
+      check_angle("strike", first, 360, where);
+      return checked_pole(around(first + (notation == Notation::strike_right_dip ? 90 : 270)),
+                          second, where);
+    case Notation::trend_plunge:
+      check_angle("trend", first, 360, where);
+      check_angle("plunge", second, 90, where);
+      return checked_pole(around(first + 180), 90 - second, where);
+    default:
+      return checked_pole(first, second, where);
+  }
+}
+
+// With letters behind the dip the first angle is a strike, unless a name says otherwise.
+Vec3 pole_of_pair(const ColumnText& list, Notation notation, bool is_named,
+                  const std::string& first, const std::string& second, const Where& where) {
+  double a = 0, b = 0, side = std::nan("");
+  const bool strikes =
+      notation == Notation::strike_right_dip || notation == Notation::strike_left_dip;
+  const auto refuse = [&](const std::string& word) {
+    throw InputError(where, "\"" + word + "\" is not a number", pair_hint);
+  };
+  if (!parse_bearing(list, first, a)) refuse(first);
+  if (!parse_dip(list, second, b, side)) refuse(second);
+  const bool is_bearing = !parse_angle(list, first, a) && parse_bearing(list, first, a);
+  if (!std::isnan(side) && (strikes || !is_named)) {
+    check_angle("strike", a, 360, where);
+    return pole_by_side(a, b, side, where);
+  }
+  if (!std::isnan(side) && !(std::cos((a - side) * degree) > 0.25))
+    throw InputError(where, "\"" + second + "\" contradicts the direction " + text(a),
+                     "mend the letters behind the dip");
+  if (is_bearing && !strikes)
+    throw InputError(where, "\"" + first + "\" is a strike, and nothing says where the plane dips",
+                     "write the side behind the dip (30SE), or set measured_notation");
+  return pole_by(notation, a, b, where);
+}
+
+// --- lists with names ----------------------------------------------------------------------------
+
+const std::vector<std::string> dip_names = {"dip",        "dipangle",   "truedip",
+                                            "fallwinkel", "einfallen",  "inclinazione",
+                                            "pendage",    "buzamiento", "inclination"};
+const std::vector<std::string> direction_names = {
+    "dipdirection",   "dipdir",           "dipazimuth",   "dipaz",      "ddr",
+    "directionofdip", "einfallsrichtung", "fallrichtung", "immersione", "dirbuzamiento"};
+const std::vector<std::string> right_names = {"strike",    "strikeright",    "striker",
+                                              "strikerhr", "strikedipright", "strikerighthandrule"};
+const std::vector<std::string> left_names = {"strikeleft", "strikel", "strikelhr",
+                                             "strikelefthandrule"};
+
+// Where the orientation stands in the columns.
+struct NamedPair {
+  Notation notation = Notation::direction_dip;
+  int first = -1, second = -1;
+};
+
+NamedPair find_pair(const ColumnText& list) {
+  const int dip = find_column(list, dip_names), direction = find_column(list, direction_names);
+  const int right = find_column(list, right_names), left = find_column(list, left_names);
+  const int trend = find_column(list, {"trend", "poletrend"});
+  const int plunge = find_column(list, {"plunge", "poleplunge"});
+  if (dip >= 0 && direction >= 0) return {Notation::direction_dip, direction, dip};
+  if (dip >= 0 && left >= 0) return {Notation::strike_left_dip, left, dip};
+  if (dip >= 0 && right >= 0) return {Notation::strike_right_dip, right, dip};
+  if (trend >= 0 && plunge >= 0) return {Notation::trend_plunge, trend, plunge};
+  return {};
+}
+
+std::array<int, 3> find_normal(const ColumnText& list) {
+  const auto all = [&](const std::array<std::vector<std::string>, 3>& names) {
+    return std::array{find_column(list, names[0]), find_column(list, names[1]),
+                      find_column(list, names[2])};
+  };
+  return all({{{"normalx", "nx", "a"}, {"normaly", "ny", "b"}, {"normalz", "nz", "c"}}});
+}
+
+bool is_whole(const std::array<int, 3>& columns) {
+  return std::all_of(columns.begin(), columns.end(), [](int c) { return c >= 0; });
+}
+
+const std::string& word_at(const ColumnText& list, std::size_t row, int column) {
+  const std::vector<std::string>& words = list.rows[row];
+  if (static_cast<std::size_t>(column) >= words.size() || words[column].empty())
+    throw InputError({list.file, list.line[row]},
+                     "there is nothing in column " + list.names[column],
+                     "fill it in, or take the line out");
+  return words[column];
+}
+
+Vec3 pole_of_normal(const ColumnText& list, std::size_t row, const std::array<int, 3>& columns) {
+  Vec3 normal = Vec3::Zero();
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::string& word = word_at(list, row, columns[k]);
+    if (!parse_number(list, word, normal[static_cast<Eigen::Index>(k)]))
+      throw InputError({list.file, list.line[row]}, "\"" + word + "\" is not a number",
+                       "a normal has three numbers");
+  }
+  if (!(normal.norm() > 0.5))
+    throw InputError({list.file, list.line[row]}, "the normal has no length, expected 1");
+  const Attitude plane = attitude(normal);
+  return pole(plane.dip, plane.dip_direction);
+}
+
+// How many joints a line stands for.
+int quantity_of(const ColumnText& list, std::size_t row, int column) {
+  if (column < 0) return 1;
+  const std::string& word = word_at(list, row, column);
+  double value = 0;
+  if (parse_number(list, word, value) && value >= 1 && value <= 1000 && value == std::floor(value))
+    return static_cast<int>(value);
+  throw InputError({list.file, list.line[row]},
+                   "the quantity is \"" + word + "\", expected a whole number of 1 to 1000");
+}
+
+std::string name_at(const ColumnText& list, int column) { return list.names[column]; }
+
+OrientationList read_named(const ColumnText& list, const std::string& notation) {
+  const NamedPair pair = find_pair(list);
+  const std::array<int, 3> normal = find_normal(list);
+  const bool by_normal = pair.first < 0 && is_whole(normal);
+  if (pair.first < 0 && !by_normal)
+    throw InputError({list.file}, "no columns of orientations are among: " + list_of_names(list),
+                     names_hint);
+  if (notation != "auto" && !by_normal && notation_of(notation) != pair.notation &&
+      !(notation == "dip/dip_direction" && pair.notation == Notation::direction_dip))
+    throw InputError({list.file},
+                     "its columns are named " + name_at(list, pair.first) + ", " +
+                         name_at(list, pair.second) + ", measured_notation is " + notation,
+                     "leave measured_notation away: columns are found by their names");
+  const bool strikes =
+      pair.notation == Notation::strike_right_dip || pair.notation == Notation::strike_left_dip;
+  const int quantity = find_column(list, {"quantity", "qty"});
+  const int quadrant =
+      strikes ? find_column(list, {"quadrant", "dipquadrant", "quad", "dipquad"}) : -1;
+  OrientationList found;
+  found.is_computed = is_whole(normal);
+  for (std::size_t row = 0; row < list.rows.size(); ++row) {
+    const Where where{list.file, list.line[row]};
+    Vec3 axis;
+    if (by_normal) {
+      axis = pole_of_normal(list, row, normal);
+    } else {
+      const std::string side = quadrant < 0 ? std::string() : word_at(list, row, quadrant);
+      axis = pole_of_pair(list, pair.notation, true, word_at(list, row, pair.first),
+                          word_at(list, row, pair.second) + side, where);
+    }
+    found.poles.insert(found.poles.end(),
+                       static_cast<std::size_t>(quantity_of(list, row, quantity)), axis);
+  }
+  std::string names = by_normal ? name_at(list, normal[0]) + ", " + name_at(list, normal[1]) +
+                                      ", " + name_at(list, normal[2])
+                                : name_at(list, pair.first) + ", " + name_at(list, pair.second);
+  for (const int column : {quadrant, quantity})
+    if (column >= 0) names += ", " + name_at(list, column);
+  const int n_taken = (by_normal ? 3 : 2) + (quantity >= 0 ? 1 : 0) + (quadrant >= 0 ? 1 : 0);
+  const auto n_others = static_cast<std::int64_t>(list.names.size()) - n_taken;
+  found.taken_from = "columns " + names;
+  if (!by_normal) found.taken_from += std::string(" (") + words_for(pair.notation) + ")";
+  if (n_others > 0) found.taken_from += "; " + counted(n_others, "other column") + " passed over";
+  return found;
+}
+
+// --- lists without names -------------------------------------------------------------------------
+
+// 045/60 in one word, or two words, whatever stands between them.
+std::vector<std::string> pair_of_words(const ColumnText& list, std::size_t row) {
+  std::vector<std::string> words = list.rows[row];
+  const std::size_t mark = words.size() == 1 ? words[0].find_first_of("/,; \t") : std::string::npos;
+  if (mark != std::string::npos) {
+    const std::size_t second = words[0].find_first_not_of(" \t", mark + 1);
+    if (second != std::string::npos) words = {words[0].substr(0, mark), words[0].substr(second)};
+  }
+  if (words.size() == 2) return words;
+  throw InputError({list.file, list.line[row]},
+                   std::to_string(words.size()) + " numbers, expected 2",
+                   words.size() > 2 ? std::string("a first line with the names of the columns "
+                                                  "says which are meant: ") +
+                                          names_hint
+                                    : std::string(pair_hint));
+}
+
+int n_whole_digits(const std::string& word) {
+  return static_cast<int>(
+      std::find_if_not(word.begin(), word.end(), [](char c) { return c >= '0' && c <= '9'; }) -
+      word.begin());
+}
+
+// 45/120: two digits, then three, in all pairs. 045/60, 5/120 and 45/12 leave the usual order.
+bool is_dip_first(const std::vector<std::vector<std::string>>& pairs) {
+  return std::all_of(pairs.begin(), pairs.end(), [](const std::vector<std::string>& pair) {
+    return n_whole_digits(pair[0]) == 2 && n_whole_digits(pair[1]) == 3;
+  });
+}
+
+OrientationList read_pairs(const ColumnText& list, const std::string& name) {
+  std::vector<std::vector<std::string>> pairs;
+  for (std::size_t row = 0; row < list.rows.size(); ++row)
+    pairs.push_back(pair_of_words(list, row));
+  const bool has_slash =
+      list.rows.front().size() == 1 && list.rows.front()[0].find('/') != std::string::npos;
+  Notation notation = notation_of(name);
+  if (name == "auto" && has_slash && is_dip_first(pairs)) notation = Notation::dip_direction;
+  OrientationList found;
+  for (std::size_t row = 0; row < pairs.size(); ++row)
+    found.poles.push_back(pole_of_pair(list, notation, false, pairs[row][0], pairs[row][1],
+                                       {list.file, list.line[row]}));
+  found.taken_from = std::string("pairs of ") + words_for(notation);
+  return found;
+}
+
+}  // namespace
+
+Vec3 checked_pole(double direction_deg, double dip_deg, const Where& where) {
+  check_angle("dip", dip_deg, 90, where);
+  check_angle("dip direction", direction_deg, 360, where);
+  return pole(dip_deg * degree, direction_deg * degree);
+}
+
+OrientationList read_orientations(const std::string& text, const std::string& file,
+                                  const std::string& notation) {
+  const ColumnText list = parse_columns(text, file);
+  const bool has_names = !list.names.empty() && !list.names_in_remark;
+  const bool names_tell = find_pair(list).first >= 0 || is_whole(find_normal(list));
+  return has_names || names_tell ? read_named(list, notation) : read_pairs(list, notation);
+}
+
+}  // namespace talus

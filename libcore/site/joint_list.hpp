@@ -1,0 +1,35 @@
+// libcore/site/joint_list.hpp: public
+// Measured orientations as compasses, point clouds and stereonets write them: columns by name, or
+// pairs in a notation.
+// in:    the text of a list
+// out:   upward unit poles, azimuths as they stand in the list; what was taken, to be said
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "base/types.hpp"
+
+namespace talus {
+
+struct OrientationList {
+  std::vector<Vec3> poles;   ///< upward; azimuths from the list's own north  (n_orientations)
+  std::string taken_from;    ///< "columns Dip dir., Dip; 8 other columns passed over"
+  bool is_computed = false;  ///< from normals or beside them: azimuths from a grid's north
+};
+
+/// `notation` says what the pairs of a list without names are: "auto" (dip direction, dip; 45/120
+/// by its digits), or one of the names of notations. Columns are found by their names: dip and dip
+/// direction, strike and dip (right-hand rule unless the name says left), trend and plunge of the
+/// pole, or the normal; a column Quantity repeats. Strikes may be N45E, and dips 30SE.
+///
+/// Throws InputError with the line: text, other numbers of columns, angles out of their range, a
+/// list whose order its values contradict.
+[[nodiscard]] OrientationList read_orientations(const std::string& text, const std::string& file,
+                                                const std::string& notation = "auto");
+
+/// The pole of dip direction, dip in degrees. Throws InputError when an angle is out of its range.
+[[nodiscard]] Vec3 checked_pole(double direction_deg, double dip_deg, const Where& where);
+
+}  // namespace talus

@@ -1,0 +1,52 @@
+// libcore/site/joint_plan.hpp: public
+// From the sections of the site file to what cutting takes: joint sets, source options, limits.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "blocks/assemble.hpp"
+#include "blocks/joint_sets.hpp"
+#include "blocks/source.hpp"
+#include "site/site.hpp"
+
+namespace talus {
+
+/// A joint set and the section that it came from.
+struct PlannedSet {
+  JointSet set;
+  int section = 0;                   ///< index into Site::joints
+  std::vector<Vec3> measured_poles;  ///< that stand for it; empty when dip and direction were given
+};
+
+/// From the north of a compass to that of the map.
+struct NorthTurn {
+  double declination_deg = 0;  ///< magnetic north east of true north: added to azimuths
+  double convergence_deg = 0;  ///< grid north east of true north: taken off
+  [[nodiscard]] double degrees() const { return declination_deg - convergence_deg; }
+};
+
+/// What the azimuths of a section are turned by; its own keys go before those of [joints].
+[[nodiscard]] NorthTurn north_turn(const Site& site, const JointSettings& section);
+
+/// Joint sets of the site; a section with measured orientations gives n_sets of them, named NAME_1
+/// and so on when there is more than one. `orientations[i]` are the poles read from measured_file
+/// of section i, as they stand there. All azimuths are turned to the map's north. Throws InputError
+/// for what is missing or contradicts itself.
+[[nodiscard]] std::vector<PlannedSet> plan_joint_sets(
+    const Site& site, const std::vector<std::vector<Vec3>>& orientations);
+
+/// Failure surface of [source], local to `origin`; the raster is left empty, and so is the plane of
+/// a daylighting surface, which find_failure_planes() finds. Throws InputError when
+/// what its kind needs is not given.
+[[nodiscard]] SourceOptions plan_source(const Site& site, const Vec3& origin);
+
+/// Limits of slivers with their defaults filled in, from the joint sets, the volume of the mass and
+/// the number of joint cells expected in it.
+[[nodiscard]] AssembleOptions plan_limits(const Site& site, const std::vector<PlannedSet>& sets,
+                                          double mass_volume, double expected_cells);
+
+/// Index of the material of that name; the only one when the name is empty.
+[[nodiscard]] int material_index(const Site& site, const std::string& name);
+
+}  // namespace talus

@@ -1,0 +1,22 @@
+#include "site/site.hpp"
+
+#include <filesystem>
+
+namespace talus {
+
+Where where_of(const Site& site, const std::string& key) {
+  const auto found = site.sources.find(key);
+  if (found == site.sources.end()) return {site.file};
+  if (found->second.kind == ValueSource::from_cli) return {"", 0, "command line"};
+  return {site.file, found->second.line};
+}
+
+std::string resolved(const Site& site, const std::string& path) {
+  const bool is_whole = path.empty() || path[0] == '/' || site.folder.empty();
+  if (is_whole) return path;
+  const std::size_t end = path.find('|');  // what follows may be a filter, with any signs
+  const std::filesystem::path file = std::filesystem::path(site.folder) / path.substr(0, end);
+  return file.lexically_normal().string() + (end == std::string::npos ? "" : path.substr(end));
+}
+
+}  // namespace talus

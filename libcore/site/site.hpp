@@ -1,0 +1,252 @@
+// libcore/site/site.hpp: public
+// The site file as plain structs: one struct a section, one field a key, its default beside it.
+// Every tool reads the whole file and takes its own sections. A new key is a field here and a row
+// in the table of site_keys.cpp; docs/site-file.md holds that table, and a test compares them.
+//
+// A field named like its key, unit included. NaN, an empty text and an empty list mean "not given".
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "base/types.hpp"
+
+namespace talus {
+
+inline constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
+
+/// [site]
+struct SiteInfo {
+  std::string name;  ///< of the site; the name of its folder when not given
+  std::string crs;   ///< e.g. "EPSG:31287"; what the coordinates in this file are in
+  std::string description;
+};
+
+/// [terrain]: what talus-tin and talus-trn are called with.
+struct TerrainSettings {
+  std::string contours, layer, where, elevation_field;
+  std::string breaklines, breaklines_layer, breaklines_where, breaklines_elevation_field;
+  std::string spots, spots_layer, spots_where, spots_elevation_field;
+  std::string boundary, boundary_layer, boundary_where;
+  std::string dem;
+  std::string ground_raster;  ///< classes of ground, whole numbers
+  std::string flat = "fill";
+  double cell_size_m = not_given;
+  std::vector<double> window_m;  ///< xmin, ymin, xmax, ymax in map coordinates
+};
+
+/// [source]: where the moving mass is, down to which surface, and the limits of cutting.
+struct SourceSettings {
+  std::vector<Vec3> polygon;  ///< map x, y; or polygon_file
+  std::string polygon_file, polygon_layer, polygon_where;
+  std::string failure_surface = "normal_depth";
+  std::string sliding_set;  ///< of a daylighting surface; not given: that of the largest mass
+  double depth_m = not_given;
+  double plane_dip_deg = not_given, plane_dip_direction_deg = not_given;
+  std::vector<double> plane_point_m;  ///< map x, y, z
+  std::string raster;
+  double slbl_curvature_m = 0;  ///< below the mean of the highest and lowest of four neighbours
+  double slbl_max_depth_m = not_given;
+  std::string material;  ///< of the blocks; the only one when there is one
+  std::int64_t seed = 1;
+  std::int64_t max_blocks = 20000;
+  double min_block_volume_m3 = not_given;    ///< not given: 1e-2 of the mean joint cell
+  double min_block_thickness_m = not_given;  ///< see docs/site-file.md
+  double min_block_edge_m = not_given;  ///< not given: 1e-3 of the cube root of the block's volume
+  double max_block_aspect = 50;
+  double max_convex_loss = 0.05;  ///< share of a block's volume; above it the block stays exact
+};
+
+/// [joints]: from a compass to the map, for all sections that do not say it themselves.
+struct JointNorth {
+  double declination_deg = 0;  ///< magnetic north east of true north
+  double convergence_deg = 0;  ///< grid north east of true north
+};
+
+/// [joints.NAME]
+struct JointSettings {
+  std::string name;
+  int line = 0;  ///< of the section
+  double dip_deg = not_given, dip_direction_deg = not_given;
+  double spacing_m = not_given;
+  std::string spacing = "fixed";
+  double spacing_min_m = not_given, spacing_max_m = not_given;  ///< uniform
+  double spacing_std_m = not_given;                             ///< lognormal
+  double fisher_k = 0;                                          ///< 0: no scatter
+  double persistence = 1;              ///< share of each joint plane that is open
+  double disc_diameter_m = not_given;  ///< not given: 10 spacings
+  double offset_m = 0;         ///< of the first plane from the source's middle, along the normal
+  std::vector<Vec3> measured;  ///< dip direction, dip pairs that stand for the set(s)
+  std::string measured_file;
+  std::string measured_notation = "auto";
+  double declination_deg = not_given, convergence_deg = not_given;  ///< not given: of [joints]
+  std::int64_t n_sets = 1;
+  double friction_deg = not_given, cohesion_pa = 0, tension_pa = 0;
+};
+
+/// [material.NAME]: the rock of blocks.
+struct MaterialSettings {
+  std::string name;
+  int line = 0;
+  double density_kg_m3 = 2600;
+  double young_modulus_pa = 5e9;
+  double poisson_ratio = 0.25;
+  double friction_deg = 30;  ///< between blocks
+  double cohesion_pa = 0, tension_pa = 0;
+  double cor = 0.3;  ///< coefficient of restitution between blocks
+};
+
+/// [ground.NAME]: what blocks slide on; a polygon or `raster_values` say where, one section without
+/// both holds elsewhere.
+struct GroundSettings {
+  std::string name;
+  int line = 0;
+  double friction_deg = 30;
+  double cohesion_pa = 0, tension_pa = 0;
+  double cor = 0.3;  ///< along the normal
+  std::vector<Vec3> polygon;
+  std::string polygon_file, polygon_layer, polygon_where;
+  std::vector<double> raster_values;  ///< of TerrainSettings::ground_raster, whole numbers
+};
+
+/// [solver]
+struct SolverSettings {
+  std::string law = "talus";
+  double duration_s = 60;
+  double time_step_s = not_given;  ///< not given: time_step() says
+  double min_time_step_s = not_given, max_time_step_s = not_given;
+  double gravity_m_s2 = 9.80665;
+  double normal_stiffness_n_m = not_given;
+  double shear_stiffness_ratio = 0.4;  ///< k_s / k_n
+  double cor = not_given;              ///< overrides those of materials and ground
+  std::string strain = "auto";
+  std::int64_t max_passes = 50;
+  std::int64_t seed = 1, n_runs = 1;
+  double start_jitter_m_s = 0;
+  double friction_scatter_deg = 0, cor_scatter = 0;
+  double max_penetration_m = not_given;
+  double max_energy_gain = 0.01;       ///< share of the fall energy; more makes the run fail
+  double max_lost_share = 0;           ///< of the blocks; more makes the run fail
+  double max_unconverged_share = 0.1;  ///< of the steps; more makes the run fail
+};
+
+/// [fence.NAME]
+struct FenceSettings {
+  std::string name;
+  int line_number = 0;
+  std::vector<Vec3> line;  ///< map x, y of at least two points; or line_file
+  std::string line_file, line_layer, line_where;
+  double height_m = 5;
+  double capacity_kj = not_given;       ///< of a panel; not given: rigid
+  double max_deflection_m = not_given;  ///< where it is used up; not given: half the height
+  double post_spacing_m = 10;
+  bool active = true;
+  double cor = 0.1, friction_deg = 30;
+};
+
+/// [output]
+struct OutputSettings {
+  double frame_interval_s = 0.1;
+  double checkpoint_interval_s = 60;  ///< of wall time
+  double cell_size_m = not_given;
+  bool passages = true, strain = false;
+};
+
+/// [base_motion]: acceleration of the ground, from a file or a harmonic one.
+struct BaseMotionSettings {
+  std::string file;  ///< CSV: time_s, ax_m_s2, ay_m_s2, az_m_s2
+  double scale = 1;
+  double amplitude_m_s2 = 0, frequency_hz = not_given, start_s = 0, duration_s = not_given;
+  double direction_deg = 0;  ///< azimuth, clockwise from north
+};
+
+/// [blocks.NAME]: bodies from elsewhere, meshes or shapes, placed once or many times.
+struct PlacedSettings {
+  std::string name;
+  int line = 0;
+  std::string file;  ///< OBJ, PLY, OFF or STL; or shape
+  bool y_up = false;
+  bool in_place = false;  ///< the mesh has map coordinates
+  double scale = 1;
+  std::string shape;
+  std::vector<double>
+      size_m;  ///< edges of a box; axes of a rock, a prism (diameter, length) or an eota
+  double volume_m3 = not_given;  ///< scales the shape to it
+  std::int64_t n_sides = 6;      ///< prism
+  std::int64_t n_points = 20;    ///< rock
+  std::string material;
+  std::vector<Vec3> position_m;  ///< map x, y or x, y, z; several: one body each
+  double height_above_ground_m =
+      not_given;  ///< of the lowest vertex; not given with z: z of the centroid
+  std::string release_file, release_layer, release_where;  ///< points or lines
+  double release_spacing_m = not_given;  ///< along lines, or of the grid in the source polygon
+  bool release_grid = false;
+  double yaw_deg = 0, pitch_deg = 0, roll_deg = 0;
+  bool random_orientation = false;
+  std::vector<double> velocity_m_s, spin_rad_s;
+  std::int64_t seed = 1, n_per_point = 1;
+};
+
+/// Where the value of a key came from.
+struct ValueSource {
+  enum Kind { from_default, from_file, from_cli } kind = from_default;
+  int line = 0;  ///< in the site file
+};
+
+struct Site {
+  std::string file;    ///< path as given
+  std::string folder;  ///< of the file; relative paths in it start there
+  SiteInfo info;
+  TerrainSettings terrain;
+  SourceSettings source;
+  SolverSettings solver;
+  OutputSettings output;
+  BaseMotionSettings base_motion;
+  JointNorth joint_north;
+  std::vector<JointSettings> joints;        ///< in the order of the file, as all named sections
+  std::vector<MaterialSettings> materials;  ///< at least one: "rock" with the defaults
+  std::vector<GroundSettings> grounds;      ///< at least one: "ground" with the defaults
+  std::vector<FenceSettings> fences;
+  std::vector<PlacedSettings> blocks;
+  std::map<std::string, ValueSource> sources;  ///< "joints.J1.dip_deg" -> where it came from
+  std::vector<std::string> sections;           ///< that stand in the file
+};
+
+/// Reads and checks a site file.
+///
+/// Throws InputError with file:line for text that is not TOML, an unknown section or key (naming
+/// the nearest known one), a wrong type, a number out of its range, a name that repeats.
+[[nodiscard]] Site read_site(const std::string& path);
+/// The same from text; `path` is what messages say.
+[[nodiscard]] Site parse_site(const std::string& text, const std::string& path);
+
+/// Sets "section.key" from the command line, e.g. ("solver.duration_s", "30"). The value is TOML,
+/// or plain text where the key takes text. Throws InputError as read_site does.
+void override_value(Site& site, const std::string& key, const std::string& value);
+
+/// A value in effect, as TOML, and where it came from: "default", "file, line 7", "cli".
+struct EffectiveValue {
+  std::string section, key, value, source;  ///< value is empty when not given
+};
+[[nodiscard]] std::vector<EffectiveValue> effective_values(const Site& site);
+
+/// The effective values as TOML, each with a comment that says where it came from.
+[[nodiscard]] std::string print_config(const Site& site);
+
+/// Place of a key, for messages of later checks; the file alone when it does not stand there.
+[[nodiscard]] Where where_of(const Site& site, const std::string& key);
+
+/// `path` as it is when absolute or virtual, else below the site file's folder.
+[[nodiscard]] std::string resolved(const Site& site, const std::string& path);
+
+/// One row of the table of keys.
+struct KeyDescription {
+  std::string section, key, type, default_value, range, help;
+};
+[[nodiscard]] std::vector<KeyDescription> site_keys();
+
+}  // namespace talus

@@ -1,0 +1,253 @@
+#include "site/site_keys.hpp"
+
+#include <cmath>
+
+#include "base/text.hpp"
+
+namespace talus {
+namespace {
+
+constexpr KeyRange any{};
+constexpr KeyRange positive{0, std::numeric_limits<double>::infinity(), true, false};
+constexpr KeyRange not_negative{0};
+constexpr KeyRange share{0, 1};
+constexpr KeyRange angle_below_90{0, 90, false, true};
+constexpr KeyRange azimuth{0, 360};
+constexpr KeyRange at_least_1{1};
+
+// clang-format off
+constexpr const char* friction_hint = "give degrees; a friction coefficient mu is atan(mu) in degrees";
+constexpr const char* dip_hint = "dip is the steepest slope of the plane below the horizontal; dip direction is its azimuth from north";
+// clang-format on
+
+}  // namespace
+
+// clang-format off
+template <> const std::vector<SiteKey<SiteInfo>>& keys_of() {
+  using S = SiteInfo;
+  static const std::vector<SiteKey<S>> table = {
+      {"name", &S::name, "name of the site"},
+      {"crs", &S::crs, "coordinate system of the coordinates in this file, e.g. EPSG:31287"},
+      {"description", &S::description, "free text"}};
+  return table;
+}
+template <> const std::vector<SiteKey<TerrainSettings>>& keys_of() {
+  using S = TerrainSettings;
+  static const std::vector<SiteKey<S>> table = {
+      {"contours", &S::contours, "contour lines for talus-tin"},
+      {"layer", &S::layer, "layer of the contours; several: \"index, intermediate\", or with * and ?"},
+      {"where", &S::where, "attribute filter on the contours, e.g. type = 'contour'"},
+      {"elevation_field", &S::elevation_field, "field with the elevation of a contour; Z: the geometries' own"},
+      {"breaklines", &S::breaklines, "breaklines for talus-tin"},
+      {"breaklines_layer", &S::breaklines_layer, "their layer or layers"},
+      {"breaklines_where", &S::breaklines_where, "attribute filter on the breaklines"},
+      {"breaklines_elevation_field", &S::breaklines_elevation_field, "field with their elevation, or Z"},
+      {"spots", &S::spots, "spot heights for talus-tin"},
+      {"spots_layer", &S::spots_layer, "their layer or layers"},
+      {"spots_where", &S::spots_where, "attribute filter on the spot heights"},
+      {"spots_elevation_field", &S::spots_elevation_field, "field with their elevation, or Z"},
+      {"boundary", &S::boundary, "boundary polygon, or closed line, for talus-tin"},
+      {"boundary_layer", &S::boundary_layer, "its layer or layers"},
+      {"boundary_where", &S::boundary_where, "attribute filter on the boundary"},
+      {"dem", &S::dem, "elevation raster for talus-trn instead of contours"},
+      {"ground_raster", &S::ground_raster, "raster of ground classes, whole numbers; [ground.*] raster_values says which is which"},
+      {"flat", &S::flat, "what happens to flat triangles", any, "fill|keep"},
+      {"cell_size_m", &S::cell_size_m, "cell size of the TRN", positive},
+      {"window_m", &S::window_m, "xmin, ymin, xmax, ymax of the TRN, map coordinates", any, "", "", 4, 4}};
+  return table;
+}
+template <> const std::vector<SiteKey<SourceSettings>>& keys_of() {
+  using S = SourceSettings;
+  static const std::vector<SiteKey<S>> table = {
+      {"polygon", &S::polygon, "corners of the source area, map x, y", any, "", "", 3},
+      {"polygon_file", &S::polygon_file, "vector file with the source area: polygons, or closed lines"},
+      {"polygon_layer", &S::polygon_layer, "its layer or layers; not needed where one layer alone holds polygons"},
+      {"polygon_where", &S::polygon_where, "attribute filter, e.g. name = 'release'"},
+      {"failure_surface", &S::failure_surface, "how the surface below the mass is given", any, "vertical_depth|normal_depth|plane|daylighting|raster|thickness|slbl"},
+      {"sliding_set", &S::sliding_set, "daylighting: the joint set whose plane is the failure surface; the one with the largest mass when not given"},
+      {"depth_m", &S::depth_m, "depth of the failure surface", positive},
+      {"plane_dip_deg", &S::plane_dip_deg, "dip of a failure plane", {0, 90, false, true}, "", dip_hint},
+      {"plane_dip_direction_deg", &S::plane_dip_direction_deg, "dip direction of a failure plane", azimuth, "", dip_hint},
+      {"plane_point_m", &S::plane_point_m, "map x, y, z of a point of the plane", any, "", "", 3, 3},
+      {"raster", &S::raster, "elevations of the failure surface; thickness: depths of the mass below the ground, upright"},
+      {"slbl_curvature_m", &S::slbl_curvature_m, "SLBL: how far a node may lie below the mean of its highest and lowest of four neighbours", not_negative},
+      {"slbl_max_depth_m", &S::slbl_max_depth_m, "SLBL: largest depth", positive},
+      {"material", &S::material, "material of the cut blocks"},
+      {"seed", &S::seed, "seed of joint positions and orientations", not_negative},
+      {"max_blocks", &S::max_blocks, "more expected blocks than this are refused before cutting, more bodies of a [blocks.*] before placing", {1, 10000000}},
+      {"min_block_volume_m3", &S::min_block_volume_m3, "smaller blocks are merged into a neighbour; not given: 1e-2 of the mean joint cell in the mass", not_negative},
+      {"min_block_thickness_m", &S::min_block_thickness_m, "thinner blocks are merged into a neighbour; not given: 0.05 of the smallest spacing, or of the cube root of the mass if that is less", not_negative},
+      {"min_block_edge_m", &S::min_block_edge_m, "shorter edges of convex blocks are removed, one of their ends stays", not_negative},
+      {"max_block_aspect", &S::max_block_aspect, "blocks with a larger ratio of longest to shortest axis are merged into a neighbour", at_least_1},
+      {"max_convex_loss", &S::max_convex_loss, "blocks that would lose a larger share by being made convex stay a union of convex parts; 1: never", share}};
+  return table;
+}
+template <> const std::vector<SiteKey<JointNorth>>& keys_of() {
+  using S = JointNorth;
+  static const std::vector<SiteKey<S>> table = {
+      {"declination_deg", &S::declination_deg, "magnetic declination, east positive: added to all azimuths of [joints.*], which a compass gave", {-180, 180}},
+      {"convergence_deg", &S::convergence_deg, "grid convergence, from true north to grid north, east positive: taken off all azimuths of [joints.*]", {-90, 90}}};
+  return table;
+}
+template <> const std::vector<SiteKey<JointSettings>>& keys_of() {
+  using S = JointSettings;
+  static const std::vector<SiteKey<S>> table = {
+      {"dip_deg", &S::dip_deg, "dip of the set", {0, 90}, "", dip_hint},
+      {"dip_direction_deg", &S::dip_direction_deg, "dip direction of the set", azimuth, "", dip_hint},
+      {"spacing_m", &S::spacing_m, "mean distance of neighbouring joints along their normal", positive},
+      {"spacing", &S::spacing, "distribution of the spacing", any, "fixed|uniform|exponential|lognormal"},
+      {"spacing_min_m", &S::spacing_min_m, "smallest spacing (uniform)", positive},
+      {"spacing_max_m", &S::spacing_max_m, "largest spacing (uniform)", positive},
+      {"spacing_std_m", &S::spacing_std_m, "standard deviation of the spacing (lognormal)", positive},
+      {"fisher_k", &S::fisher_k, "Fisher concentration of the orientations; 0: no scatter", not_negative},
+      {"persistence", &S::persistence, "share of each joint plane that is open; below 1 as discs", {0, 1, true, false}},
+      {"disc_diameter_m", &S::disc_diameter_m, "diameter of the discs (persistence below 1)", positive},
+      {"offset_m", &S::offset_m, "distance of one joint from the middle of the source, along the normal"},
+      {"measured", &S::measured, "measured dip direction, dip pairs instead of dip_deg and dip_direction_deg [deg]", any, "", "", 1},
+      {"measured_file", &S::measured_file, "list of measured orientations: columns by name, or pairs of dip direction, dip [deg]"},
+      {"measured_notation", &S::measured_notation, "order of the pairs in a list without names of columns; auto: dip direction, dip, but 45/120 by its digits", any, "auto|dip_direction/dip|dip/dip_direction|strike_right/dip|strike_left/dip|pole_trend/plunge"},
+      {"declination_deg", &S::declination_deg, "of this section; not given: that of [joints]", {-180, 180}},
+      {"convergence_deg", &S::convergence_deg, "of this section; not given: that of [joints]", {-90, 90}},
+      {"n_sets", &S::n_sets, "number of sets that measured pairs are grouped into", {1, 12}},
+      {"friction_deg", &S::friction_deg, "friction angle of the joints; that of the material when not given", angle_below_90, "", friction_hint},
+      {"cohesion_pa", &S::cohesion_pa, "cohesion of the joints", not_negative},
+      {"tension_pa", &S::tension_pa, "tensile strength of the joints", not_negative}};
+  return table;
+}
+template <> const std::vector<SiteKey<MaterialSettings>>& keys_of() {
+  using S = MaterialSettings;
+  static const std::vector<SiteKey<S>> table = {
+      {"density_kg_m3", &S::density_kg_m3, "density", {100, 10000}, "", "kilograms per cubic metre: rock is 2000 to 3200"},
+      {"young_modulus_pa", &S::young_modulus_pa, "Young's modulus", positive},
+      {"poisson_ratio", &S::poisson_ratio, "Poisson's ratio", {0, 0.5, false, true}},
+      {"friction_deg", &S::friction_deg, "friction angle between blocks", angle_below_90, "", friction_hint},
+      {"cohesion_pa", &S::cohesion_pa, "cohesion between blocks", not_negative},
+      {"tension_pa", &S::tension_pa, "tensile strength between blocks", not_negative},
+      {"cor", &S::cor, "coefficient of restitution between blocks", share}};
+  return table;
+}
+template <> const std::vector<SiteKey<GroundSettings>>& keys_of() {
+  using S = GroundSettings;
+  static const std::vector<SiteKey<S>> table = {
+      {"friction_deg", &S::friction_deg, "friction angle on the ground", angle_below_90, "", friction_hint},
+      {"cohesion_pa", &S::cohesion_pa, "cohesion on the ground", not_negative},
+      {"tension_pa", &S::tension_pa, "tensile strength on the ground", not_negative},
+      {"cor", &S::cor, "coefficient of restitution along the normal", share},
+      {"polygon", &S::polygon, "corners of the area, map x, y", any, "", "", 3},
+      {"polygon_file", &S::polygon_file, "vector file with the area: polygons, or closed lines"},
+      {"polygon_layer", &S::polygon_layer, "its layer or layers"},
+      {"polygon_where", &S::polygon_where, "attribute filter, e.g. type = 'scree'"},
+      {"raster_values", &S::raster_values, "values of [terrain] ground_raster that stand for this ground", any, "", "whole numbers, as the raster has them", 1}};
+  return table;
+}
+template <> const std::vector<SiteKey<SolverSettings>>& keys_of() {
+  using S = SolverSettings;
+  static const std::vector<SiteKey<S>> table = {
+      {"law", &S::law, "contact law", any, "talus|paper"},
+      {"duration_s", &S::duration_s, "time simulated", positive},
+      {"time_step_s", &S::time_step_s, "time step, which law talus cuts where it must; not given: 0.005, law paper 0.0001", {0, 1, true, false}},
+      {"min_time_step_s", &S::min_time_step_s, "smallest time step", {0, 1, true, false}},
+      {"max_time_step_s", &S::max_time_step_s, "largest time step", {0, 1, true, false}},
+      {"gravity_m_s2", &S::gravity_m_s2, "gravity, downwards", not_negative},
+      {"normal_stiffness_n_m", &S::normal_stiffness_n_m, "penalty stiffness of a contact", positive},
+      {"shear_stiffness_ratio", &S::shear_stiffness_ratio, "shear over normal stiffness", {0, 10, true, false}},
+      {"cor", &S::cor, "coefficient of restitution everywhere", share},
+      {"strain", &S::strain, "strain degrees of freedom", any, "auto|on|off"},
+      {"max_passes", &S::max_passes, "passes of the contact iteration of a lone block in one step, law talus", {1, 10000}},
+      {"seed", &S::seed, "seed of the run", not_negative},
+      {"n_runs", &S::n_runs, "runs with seeds counted up", {1, 1000000}},
+      {"start_jitter_m_s", &S::start_jitter_m_s, "random velocity at the start", not_negative},
+      {"friction_scatter_deg", &S::friction_scatter_deg, "standard deviation of the ground's friction between runs", {0, 45}},
+      {"cor_scatter", &S::cor_scatter, "standard deviation of the ground's restitution between runs", share},
+      {"max_penetration_m", &S::max_penetration_m, "deeper makes the run fail", positive},
+      {"max_energy_gain", &S::max_energy_gain, "share of the fall energy; more makes the run fail", not_negative},
+      {"max_lost_share", &S::max_lost_share, "share of blocks that may leave the terrain", share},
+      {"max_unconverged_share", &S::max_unconverged_share, "share of the steps that may be accepted unconverged", share}};
+  return table;
+}
+template <> const std::vector<SiteKey<FenceSettings>>& keys_of() {
+  using S = FenceSettings;
+  static const std::vector<SiteKey<S>> table = {
+      {"line", &S::line, "points of the fence, map x, y", any, "", "a fence needs two points", 2},
+      {"line_file", &S::line_file, "vector file with the fence line, instead of line"},
+      {"line_layer", &S::line_layer, "its layer or layers"},
+      {"line_where", &S::line_where, "attribute filter on the lines"},
+      {"height_m", &S::height_m, "height above the ground", positive},
+      {"capacity_kj", &S::capacity_kj, "energy that a panel takes before it breaks; rigid when not given", positive},
+      {"max_deflection_m", &S::max_deflection_m, "deflection at which one block has used up the capacity; half the height when not given", positive},
+      {"post_spacing_m", &S::post_spacing_m, "distance of posts", positive},
+      {"active", &S::active, "whether it stands in the run"},
+      {"cor", &S::cor, "coefficient of restitution of a rigid fence", share},
+      {"friction_deg", &S::friction_deg, "friction angle", angle_below_90, "", friction_hint}};
+  return table;
+}
+template <> const std::vector<SiteKey<OutputSettings>>& keys_of() {
+  using S = OutputSettings;
+  static const std::vector<SiteKey<S>> table = {
+      {"frame_interval_s", &S::frame_interval_s, "simulated time between frames", positive},
+      {"checkpoint_interval_s", &S::checkpoint_interval_s, "wall time between checkpoints", positive},
+      {"cell_size_m", &S::cell_size_m, "cell size of maps; that of the TRN when not given", positive},
+      {"passages", &S::passages, "record passages of cells"},
+      {"strain", &S::strain, "record strains"}};
+  return table;
+}
+template <> const std::vector<SiteKey<BaseMotionSettings>>& keys_of() {
+  using S = BaseMotionSettings;
+  static const std::vector<SiteKey<S>> table = {
+      {"file", &S::file, "CSV with columns time_s, ax_m_s2, ay_m_s2, az_m_s2"},
+      {"scale", &S::scale, "factor on the accelerations"},
+      {"amplitude_m_s2", &S::amplitude_m_s2, "amplitude of a harmonic motion", not_negative},
+      {"frequency_hz", &S::frequency_hz, "frequency of a harmonic motion", positive},
+      {"start_s", &S::start_s, "when it starts", not_negative},
+      {"duration_s", &S::duration_s, "how long it lasts", positive},
+      {"direction_deg", &S::direction_deg, "azimuth of a harmonic motion", azimuth}};
+  return table;
+}
+template <> const std::vector<SiteKey<PlacedSettings>>& keys_of() {
+  using S = PlacedSettings;
+  static const std::vector<SiteKey<S>> table = {
+      {"file", &S::file, "mesh file: OBJ, PLY, OFF or STL, one or many closed bodies"},
+      {"y_up", &S::y_up, "the mesh has y upwards: (x, y, z) becomes (x, -z, y)"},
+      {"in_place", &S::in_place, "the mesh has map coordinates and is not moved"},
+      {"scale", &S::scale, "factor on the mesh", positive},
+      {"shape", &S::shape, "shape instead of a mesh", any, "box|prism|eota|rock"},
+      {"size_m", &S::size_m, "box, rock, eota: extents x, y, z; prism: diameter, length", positive, "", "", 1, 3},
+      {"volume_m3", &S::volume_m3, "volume that the body is scaled to", positive},
+      {"n_sides", &S::n_sides, "sides of a prism", {3, 64}},
+      {"n_points", &S::n_points, "points of a rock", {4, 500}},
+      {"material", &S::material, "material of the bodies"},
+      {"position_m", &S::position_m, "map x, y or x, y, z of each body", any, "", "", 1},
+      {"height_above_ground_m", &S::height_above_ground_m, "height of the lowest vertex above the ground below it", not_negative},
+      {"release_file", &S::release_file, "vector file of release points or lines"},
+      {"release_layer", &S::release_layer, "its layer or layers"},
+      {"release_where", &S::release_where, "attribute filter on the points or lines"},
+      {"release_spacing_m", &S::release_spacing_m, "spacing along release lines or of the release grid", positive},
+      {"release_grid", &S::release_grid, "release all over the source polygon, evenly by sloping area"},
+      {"yaw_deg", &S::yaw_deg, "rotation about z, applied last", {-360, 360}},
+      {"pitch_deg", &S::pitch_deg, "rotation about y", {-360, 360}},
+      {"roll_deg", &S::roll_deg, "rotation about x, applied first", {-360, 360}},
+      {"random_orientation", &S::random_orientation, "each body is turned at random, uniformly over all rotations"},
+      {"velocity_m_s", &S::velocity_m_s, "initial velocity x, y, z", any, "", "", 3, 3},
+      {"spin_rad_s", &S::spin_rad_s, "initial angular velocity x, y, z", any, "", "", 3, 3},
+      {"seed", &S::seed, "seed of shapes and orientations", not_negative},
+      {"n_per_point", &S::n_per_point, "bodies at each release point", {1, 100000}}};
+  return table;
+}
+// clang-format on
+
+std::string text_of(const KeyRange& range) {
+  const bool has_low = std::isfinite(range.low), has_high = std::isfinite(range.high);
+  if (has_low && has_high)
+    return (range.open_low ? "above " : "") + text(range.low) + " to " +
+           (range.open_high ? "below " : "") + text(range.high);
+  if (has_low) return range.open_low ? "above " + text(range.low) : "at least " + text(range.low);
+  return "a finite number";
+}
+
+bool contains(const KeyRange& range, double value) {
+  const bool above = range.open_low ? value > range.low : value >= range.low;
+  const bool below = range.open_high ? value < range.high : value <= range.high;
+  return std::isfinite(value) && above && below;
+}
+
+}  // namespace talus

@@ -1,0 +1,79 @@
+// libcore/site/site_keys.hpp
+// The table of keys of the site file, a row each in site_keys.cpp. Within the module: shared by
+// site_toml.cpp, which reads site files and the command line, and site_values_toml.cpp, which lists
+// keys and the values in effect.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "site/site.hpp"
+
+namespace talus {
+
+/// What a number may be, in the unit of its key; ends are included unless `open`.
+struct KeyRange {
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  bool open_low = false, open_high = false;
+};
+/// False for NaN too.
+[[nodiscard]] bool contains(const KeyRange& range, double value);
+/// "above 0 to below 90", "at least 1", "a finite number".
+[[nodiscard]] std::string text_of(const KeyRange& range);
+
+/// One key: the field that it sets, what it may hold (numbers: range; text: choices separated by |;
+/// lists: how many entries), what it means, and how to mend it.
+template <class Section>
+struct SiteKey {
+  using Field = std::variant<double Section::*, std::int64_t Section::*, bool Section::*,
+                             std::string Section::*, std::vector<double> Section::*,
+                             std::vector<Vec3> Section::*>;
+  const char* name;
+  Field field;
+  const char* help;
+  KeyRange range = {};
+  const char* choices = "";
+  const char* hint = "";
+  int n_min = 0, n_max = 1 << 20;  ///< entries of a list
+};
+
+/// The rows of one section, in the order in which they are printed.
+template <class Section>
+const std::vector<SiteKey<Section>>& keys_of();
+// clang-format off
+template <> const std::vector<SiteKey<SiteInfo>>& keys_of();
+template <> const std::vector<SiteKey<TerrainSettings>>& keys_of();
+template <> const std::vector<SiteKey<SourceSettings>>& keys_of();
+template <> const std::vector<SiteKey<JointNorth>>& keys_of();
+template <> const std::vector<SiteKey<JointSettings>>& keys_of();
+template <> const std::vector<SiteKey<MaterialSettings>>& keys_of();
+template <> const std::vector<SiteKey<GroundSettings>>& keys_of();
+template <> const std::vector<SiteKey<SolverSettings>>& keys_of();
+template <> const std::vector<SiteKey<FenceSettings>>& keys_of();
+template <> const std::vector<SiteKey<OutputSettings>>& keys_of();
+template <> const std::vector<SiteKey<BaseMotionSettings>>& keys_of();
+template <> const std::vector<SiteKey<PlacedSettings>>& keys_of();
+// clang-format on
+
+/// Calls visit(name, section) for the single sections and visit(group, vector) for the named ones.
+template <class SiteType, class Visit>
+void for_each_group(SiteType& site, Visit&& visit) {
+  visit("site", site.info);
+  visit("terrain", site.terrain);
+  visit("source", site.source);
+  visit("joints", site.joint_north);
+  visit("joints", site.joints);
+  visit("material", site.materials);
+  visit("ground", site.grounds);
+  visit("blocks", site.blocks);
+  visit("solver", site.solver);
+  visit("fence", site.fences);
+  visit("base_motion", site.base_motion);
+  visit("output", site.output);
+}
+
+}  // namespace talus

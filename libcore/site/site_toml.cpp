@@ -1,0 +1,419 @@
+// The part of site/site.hpp that reads a site file: every key by its row of site_keys.cpp.
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <type_traits>
+#include <utility>
+#include <variant>
+
+#include "base/read_file.hpp"
+#include "base/text.hpp"
+#include "site/site_keys.hpp"
+
+namespace talus {
+namespace {
+
+using Texts = std::vector<std::string>;
+using Points = std::vector<Vec3>;
+using Numbers = std::vector<double>;
+
+// --- values ------------------------------------------------------------------------------------
+
+const char* type_name(toml::node_type type) {
+  switch (type) {
+    case toml::node_type::string:
+      return "text";
+    case toml::node_type::boolean:
+      return "true or false";
+    case toml::node_type::integer:
+      return "a whole number";
+    case toml::node_type::floating_point:
+      return "a number";
+    case toml::node_type::array:
+      return "a list";
+    case toml::node_type::table:
+      return "a section";
+    default:
+      return "a date or time";
+  }
+}
+
+int line_of(const toml::node& node) { return static_cast<int>(node.source().begin.line); }
+
+// A value being read: where it stands and what messages call it.
+struct Place {
+  Where where;
+  std::string key;
+  const char* hint;
+  [[noreturn]] void refuse(const std::string& found, const std::string& expected) const {
+    throw InputError(where, key + " is " + found + ", expected " + expected, hint);
+  }
+};
+
+double number_of(const toml::node& node, const KeyRange& range, const Place& place) {
+  double value = 0;
+  if (const auto* real = node.as_floating_point())
+    value = real->get();
+  else if (const auto* whole = node.as_integer())
+    value = static_cast<double>(whole->get());
+  else
+    place.refuse(type_name(node.type()), "a number");
+  if (!contains(range, value)) place.refuse(text(value), text_of(range));
+  return value;
+}
+
+std::int64_t whole_number_of(const toml::node& node, const KeyRange& range, const Place& place) {
+  const auto* whole = node.as_integer();
+  if (!whole) place.refuse(type_name(node.type()), "a whole number");
+  if (!contains(range, static_cast<double>(whole->get())))
+    place.refuse(std::to_string(whole->get()), text_of(range));
+  return whole->get();
+}
+
+const toml::array& list_of(const toml::node& node, const Place& place, int n_min, int n_max) {
+  const auto* list = node.as_array();
+  if (!list) place.refuse(type_name(node.type()), "a list");
+  const int n = static_cast<int>(std::min<size_t>(list->size(), 1u << 30));
+  if (n < n_min || n > n_max)
+    place.refuse("a list of " + std::to_string(n),
+                 n_min == n_max ? std::to_string(n_min) + " entries"
+                 : n < n_min    ? "at least " + std::to_string(n_min) + " entries"
+                                : "at most " + std::to_string(n_max) + " entries");
+  return *list;
+}
+
+// [x, y] or [x, y, z]; z is NaN when not given.
+Vec3 point_of(const toml::node& node, const Place& place) {
+  const toml::array& list = list_of(node, place, 2, 3);
+  Vec3 point(0, 0, not_given);
+  for (size_t k = 0; k < list.size(); ++k)
+    point[static_cast<Eigen::Index>(k)] = number_of(list[k], KeyRange{}, place);
+  return point;
+}
+
+template <class Section>
+struct Reader {
+  Section& section;
+  const SiteKey<Section>& key;
+  const toml::node& node;
+  const Place& place;
+
+  void operator()(double Section::*field) const {
+    section.*field = number_of(node, key.range, place);
+  }
+  void operator()(std::int64_t Section::*field) const {
+    section.*field = whole_number_of(node, key.range, place);
+  }
+  void operator()(bool Section::*field) const {
+    const auto* flag = node.as_boolean();
+    if (!flag) place.refuse(type_name(node.type()), "true or false");
+    section.*field = flag->get();
+  }
+  void operator()(std::string Section::*field) const {
+    const auto* value = node.as_string();
+    if (!value) place.refuse(type_name(node.type()), "text");
+    const std::string choices = std::string("|") + key.choices + "|";
+    const bool is_plain = value->get().find_first_of(std::string("|\0", 2)) == std::string::npos;
+    if (*key.choices && (!is_plain || choices.find("|" + value->get() + "|") == std::string::npos))
+      place.refuse("\"" + value->get() + "\"", "one of " + std::string(key.choices));
+    section.*field = value->get();
+  }
+  void operator()(Numbers Section::*field) const {
+    (section.*field).clear();
+    for (const toml::node& entry : list_of(node, place, key.n_min, key.n_max))
+      (section.*field).push_back(number_of(entry, key.range, place));
+  }
+  // One point may stand without the outer list.
+  void operator()(Points Section::*field) const {
+    (section.*field).clear();
+    const toml::array& list = list_of(node, place, 1, key.n_max);
+    if (!list[0].is_array() && key.n_min <= 1) {
+      (section.*field).push_back(point_of(node, place));
+      return;
+    }
+    for (const toml::node& entry : list_of(node, place, key.n_min, key.n_max))
+      (section.*field).push_back(point_of(entry, place));
+  }
+};
+
+// --- sections ----------------------------------------------------------------------------------
+
+template <class Section>
+Texts key_names() {
+  Texts names;
+  for (const auto& key : keys_of<Section>()) names.emplace_back(key.name);
+  return names;
+}
+
+std::string did_you_mean(std::string_view name, const Texts& known) {
+  const std::string nearest = nearest_name(name, known);
+  if (!nearest.empty()) return "did you mean " + nearest + "?";
+  std::string all;
+  for (const std::string& entry : known) all += (all.empty() ? "known: " : ", ") + entry;
+  return all;
+}
+
+const toml::table& table_of(const toml::node& node, const Where& where, const std::string& name) {
+  const auto* table = node.as_table();
+  if (!table)
+    throw InputError(where, name + " is " + type_name(node.type()) + ", expected a section",
+                     "write [" + name + "] on a line of its own");
+  return *table;
+}
+
+template <class Section>
+void read_value(Section& section, const SiteKey<Section>& key, const std::string& path,
+                const toml::node& node, const Where& where) {
+  std::visit(Reader<Section>{section, key, node, Place{where, path, key.hint}}, key.field);
+}
+
+// The row of `name`, or an InputError that names the nearest.
+template <class Section>
+const SiteKey<Section>& key_named(std::string_view name, const std::string& section,
+                                  const Where& where) {
+  for (const auto& key : keys_of<Section>())
+    if (name == key.name) return key;
+  throw InputError(where, "unknown key " + std::string(name) + " in [" + section + "]",
+                   did_you_mean(name, key_names<Section>()));
+}
+
+// [joints] holds keys of its own beside the sections [joints.NAME].
+template <class Section>
+constexpr bool stands_beside_named = std::is_same_v<Section, JointNorth>;
+
+template <class Section>
+bool has_key(std::string_view name) {
+  const auto& keys = keys_of<Section>();
+  return std::any_of(keys.begin(), keys.end(), [&](const auto& key) { return name == key.name; });
+}
+
+template <class Section>
+void read_section(Site& site, Section& section, const std::string& name, const toml::table& table) {
+  for (const auto& [key_text, node] : table) {
+    if (stands_beside_named<Section> && !has_key<Section>(key_text.str())) continue;
+    const Where where{site.file, line_of(node)};
+    const auto& key = key_named<Section>(key_text.str(), name, where);
+    read_value(section, key, std::string(key_text.str()), node, where);
+    site.sources[name + "." + key.name] = {ValueSource::from_file, where.line};
+  }
+}
+
+int& line_field(FenceSettings& fence) { return fence.line_number; }
+template <class Section>
+int& line_field(Section& section) {
+  return section.line;
+}
+
+// [group.NAME] sections, in the order of the file (tables are kept sorted by name).
+template <class Section>
+void read_named(Site& site, std::vector<Section>& sections, const std::string& group,
+                const toml::table& tables) {
+  std::vector<std::pair<const toml::node*, std::string>> found;
+  for (const auto& [name, node] : tables)
+    if (group != "joints" || !has_key<JointNorth>(name.str()))
+      found.emplace_back(&node, std::string(name.str()));
+  std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) {
+    return line_of(*a.first) < line_of(*b.first);
+  });
+  for (const auto& [node, name] : found) {
+    const Where where{site.file, line_of(*node)};
+    const auto* table = node->as_table();
+    if (!table)
+      throw InputError(
+          where,
+          group + "." + name + " is " + type_name(node->type()) + ", expected a section of its own",
+          "[" + group + "] holds named sections: write [" + group + ".NAME]");
+    Section section;
+    section.name = name;
+    line_field(section) = where.line;
+    read_section(site, section, group + "." + name, *table);
+    sections.push_back(std::move(section));
+  }
+}
+
+// Of the sections that there are in `group`, with it: "ground.scree".
+struct SectionNames {
+  const std::string& group;
+  Texts& names;
+  template <class Section>
+  void operator()(const char*, const Section&) const {}
+  template <class Section>
+  void operator()(const char* candidate, const std::vector<Section>& sections) const {
+    if (group != candidate) return;
+    for (const Section& section : sections) names.push_back(group + "." + section.name);
+  }
+};
+
+Texts group_names() {
+  Texts names;
+  Site site;
+  for_each_group(site, [&](const char* name, auto&) { names.emplace_back(name); });
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return names;
+}
+
+struct GroupReader {
+  Site& site;
+  const toml::table& root;
+  template <class Section>
+  void operator()(const char* name, Section& section) const {
+    if (const toml::node* node = root.get(name)) {
+      if (!stands_beside_named<Section>) site.sections.emplace_back(name);
+      read_section(site, section, name, table_of(*node, {site.file, line_of(*node)}, name));
+    }
+  }
+  template <class Section>
+  void operator()(const char* name, std::vector<Section>& sections) const {
+    if (const toml::node* node = root.get(name)) {
+      site.sections.emplace_back(name);
+      read_named(site, sections, name, table_of(*node, {site.file, line_of(*node)}, name));
+    }
+  }
+};
+
+void check_groups(const toml::table& root, const std::string& file) {
+  const Texts known = group_names();
+  for (const auto& [name, node] : root) {
+    if (std::find(known.begin(), known.end(), name.str()) != known.end()) continue;
+    const std::string kind = node.is_table() ? "section " : "key outside any section: ";
+    throw InputError({file, line_of(node)}, "unknown " + kind + std::string(name.str()),
+                     did_you_mean(name.str(), known));
+  }
+}
+
+void fill_defaults(Site& site) {
+  namespace fs = std::filesystem;
+  site.folder = fs::path(site.file).parent_path().string();
+  if (site.info.name.empty()) {
+    std::error_code unreadable;
+    const fs::path whole = fs::absolute(site.file, unreadable);
+    site.info.name = unreadable ? "site" : whole.parent_path().filename().string();
+  }
+  if (site.materials.empty()) {
+    site.materials.emplace_back();
+    site.materials.back().name = "rock";
+  }
+  if (site.grounds.empty()) {
+    site.grounds.emplace_back();
+    site.grounds.back().name = "ground";
+  }
+}
+
+// Names that other sections refer to.
+void check_material(const Site& site, const std::string& material, const std::string& key) {
+  Texts known;
+  for (const auto& entry : site.materials) known.push_back(entry.name);
+  if (material.empty()) {
+    if (known.size() == 1) return;
+    throw InputError(where_of(site, key), key + " is not given, but there are several materials",
+                     "name one of [material.*]");
+  }
+  if (std::find(known.begin(), known.end(), material) == known.end())
+    throw InputError(where_of(site, key), key + " is \"" + material + "\", which is not a material",
+                     did_you_mean(material, known));
+}
+
+void check_names(const Site& site) {
+  const auto stands = [&](const char* section) {
+    return std::find(site.sections.begin(), site.sections.end(), section) != site.sections.end();
+  };
+  if (stands("source")) check_material(site, site.source.material, "source.material");
+  for (const auto& body : site.blocks)
+    check_material(site, body.material, "blocks." + body.name + ".material");
+}
+
+// --- command line ------------------------------------------------------------------------------
+
+// `value` as a TOML value; plain text when it is none.
+toml::table parsed_value(const std::string& value) {
+  try {
+    toml::table table = toml::parse("value = " + value);
+    if (table.size() == 1) return table;
+  } catch (const toml::parse_error&) {
+    // not a TOML value: text without quotes
+  }
+  return toml::table{{"value", value}};
+}
+
+struct Overrider {
+  Site& site;
+  std::string group, name, key;  // name is empty for single sections
+  const toml::node& node;
+  bool& is_done;
+
+  template <class Section>
+  void set(Section& section, const std::string& path) const {
+    const Where where{"", 0, "command line"};
+    const auto& row = key_named<Section>(key, path, where);
+    read_value(section, row, path + "." + key, node, where);
+    site.sources[path + "." + key] = {ValueSource::from_cli, 0};
+    is_done = true;
+  }
+  template <class Section>
+  void operator()(const char* candidate, Section& section) const {
+    if (group == candidate && name.empty()) set(section, group);
+  }
+  template <class Section>
+  void operator()(const char* candidate, std::vector<Section>& sections) const {
+    for (Section& section : sections)
+      if (group == candidate && name == section.name) set(section, group + "." + name);
+  }
+};
+
+}  // namespace
+
+Site parse_site(const std::string& text, const std::string& path) {
+  Site site;
+  site.file = path;
+  toml::table root;
+  try {
+    root = toml::parse(text, path);
+  } catch (const toml::parse_error& error) {
+    const std::string finding(error.description());
+    const bool is_twice = finding.find("redefine") != std::string::npos;
+    throw InputError(
+        {path, static_cast<int>(error.source().begin.line)}, finding,
+        is_twice ? "a section or key stands in the file twice: put its keys in one place"
+                 : "the file must be TOML: key = value, text in quotes, decimals with a point");
+  }
+  check_groups(root, path);
+  for_each_group(site, GroupReader{site, root});
+  fill_defaults(site);
+  check_names(site);
+  return site;
+}
+
+Site read_site(const std::string& path) {
+  return parse_site(read_file(path, "give the path of a site.toml"), path);
+}
+
+void override_value(Site& site, const std::string& key, const std::string& value) {
+  const size_t first = key.find('.'), last = key.rfind('.');
+  if (first == std::string::npos)
+    throw InputError({"", 0, "command line"}, "\"" + key + "\" is not section.key",
+                     "e.g. solver.duration_s");
+  const std::string group = key.substr(0, first);
+  const std::string name = first == last ? "" : key.substr(first + 1, last - first - 1);
+  const toml::table holder = parsed_value(value);
+  const toml::node* node = holder.get("value");
+  const toml::value<std::string> plain(value);
+  bool is_done = false;
+  const Overrider overrider{site,
+                            group,
+                            name,
+                            key.substr(last + 1),
+                            node ? *node : static_cast<const toml::node&>(plain),
+                            is_done};
+  for_each_group(site, overrider);
+  if (!is_done) {
+    Texts known;
+    for_each_group(site, SectionNames{group, known});
+    throw InputError({"", 0, "command line"}, "no section [" + key.substr(0, last) + "]",
+                     known.empty() ? did_you_mean(group, group_names())
+                                   : did_you_mean(key.substr(0, last), known));
+  }
+  check_names(site);
+}
+
+}  // namespace talus

@@ -1,0 +1,149 @@
+// The part of site/site.hpp that writes: effective values, and a site file that reads back.
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <sstream>
+#include <variant>
+
+#include "base/text.hpp"
+#include "site/site_keys.hpp"
+
+namespace talus {
+namespace {
+
+// --- values as text ----------------------------------------------------------------------------
+
+std::string quoted(const std::string& value) {
+  std::ostringstream out;
+  out << toml::node_view<const toml::node>(toml::value<std::string>(value));
+  return out.str();
+}
+std::string literal(double value) { return text(value); }
+std::string literal(std::int64_t value) { return std::to_string(value); }
+std::string literal(bool value) { return value ? "true" : "false"; }
+std::string literal(const std::string& value) { return quoted(value); }
+std::string literal(const Vec3& p) {
+  std::string out = "[" + text(p.x()) + ", " + text(p.y());
+  return out + (std::isnan(p.z()) ? "]" : ", " + text(p.z()) + "]");
+}
+template <class T>
+std::string literal(const std::vector<T>& list) {
+  std::string out = "[";
+  for (const T& entry : list) out += (out.size() > 1 ? ", " : "") + literal(entry);
+  return out + "]";
+}
+
+bool is_given(double value) { return !std::isnan(value); }
+bool is_given(std::int64_t) { return true; }
+bool is_given(bool) { return true; }
+bool is_given(const std::string& value) { return !value.empty(); }
+template <class T>
+bool is_given(const std::vector<T>& list) {
+  return !list.empty();
+}
+
+const char* type_text(double) { return "number"; }
+const char* type_text(std::int64_t) { return "whole number"; }
+const char* type_text(bool) { return "true or false"; }
+const char* type_text(const std::string&) { return "text"; }
+const char* type_text(const std::vector<double>&) { return "list of numbers"; }
+const char* type_text(const std::vector<Vec3>&) { return "list of points"; }
+
+// --- listing -----------------------------------------------------------------------------------
+
+std::string key_text(const std::string& name) {
+  const bool is_bare = !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-';
+  });
+  return is_bare ? name : quoted(name);
+}
+
+struct ValueLister {
+  const Site& site;
+  std::vector<EffectiveValue>& values;
+
+  // `section` is the name for people, `path` the key of Site::sources.
+  template <class Section>
+  void list(const std::string& section, const std::string& path, const Section& fields) const {
+    for (const auto& key : keys_of<Section>())
+      std::visit(
+          [&](auto field) {
+            const auto& value = fields.*field;
+            values.push_back({section, key.name, is_given(value) ? literal(value) : "",
+                              source_of(path + "." + key.name)});
+          },
+          key.field);
+  }
+  std::string source_of(const std::string& path) const {
+    const auto found = site.sources.find(path);
+    if (found == site.sources.end()) return "default";
+    if (found->second.kind == ValueSource::from_cli) return "cli";
+    return "file, line " + std::to_string(found->second.line);
+  }
+  template <class Section>
+  void operator()(const char* name, const Section& fields) const {
+    list(name, name, fields);
+  }
+  template <class Section>
+  void operator()(const char* group, const std::vector<Section>& sections) const {
+    for (const Section& fields : sections)
+      list(group + ("." + key_text(fields.name)), group + ("." + fields.name), fields);
+  }
+};
+
+struct KeyLister {
+  std::vector<KeyDescription>& rows;
+  template <class Section>
+  void list(const std::string& name, const Section& values) const {
+    for (const auto& key : keys_of<Section>())
+      std::visit(
+          [&](auto field) {
+            const bool has_range = std::isfinite(key.range.low) || std::isfinite(key.range.high);
+            rows.push_back({name, key.name, type_text(values.*field),
+                            is_given(values.*field) ? literal(values.*field) : "",
+                            *key.choices ? key.choices
+                            : has_range  ? text_of(key.range)
+                                         : "",
+                            key.help});
+          },
+          key.field);
+  }
+  template <class Section>
+  void operator()(const char* name, const Section& values) const {
+    list(name, values);
+  }
+  template <class Section>
+  void operator()(const char* group, const std::vector<Section>&) const {
+    list(std::string(group) + ".NAME", Section{});
+  }
+};
+
+}  // namespace
+
+std::vector<EffectiveValue> effective_values(const Site& site) {
+  std::vector<EffectiveValue> values;
+  for_each_group(site, ValueLister{site, values});
+  return values;
+}
+
+std::string print_config(const Site& site) {
+  std::string out, section;
+  for (const EffectiveValue& entry : effective_values(site)) {
+    if (entry.section != section) out += (section.empty() ? "[" : "\n[") + entry.section + "]\n";
+    section = entry.section;
+    out += entry.value.empty() ? "# " + entry.key + ": not given\n"
+                               : entry.key + " = " + entry.value + "  # " + entry.source + "\n";
+  }
+  return out;
+}
+
+std::vector<KeyDescription> site_keys() {
+  std::vector<KeyDescription> rows;
+  const Site site;
+  for_each_group(site, KeyLister{rows});
+  return rows;
+}
+
+}  // namespace talus

@@ -1,0 +1,45 @@
+#include "solver/island.hpp"
+
+#include "base/make_room.hpp"
+
+namespace talus {
+
+void open_pair(int a, int b, Island& island) {
+  const int at = 2 * static_cast<int>(island.rows.size());
+  island.pairs.push_back({a, b, at, at, true});
+}
+
+namespace {
+
+// As lanes have it: the drift is a known part of the point's velocity, and what waits to be hit
+// keeps its place and its strength, but presses nothing.
+LawRow<double> law_in_lane(const ContactRow& contact) {
+  LawRow<double> law = contact;
+  if (contact.waits) {
+    law.shear_velocity.setZero(), law.slip_start.setZero();
+    law.bias = law.normal_damping = law.shear_damping = law.cohesion = law.tension = 0;
+    return law;
+  }
+  const double along = contact.normal.dot(contact.drift);
+  law.shear_velocity += contact.drift - along * contact.normal;
+  law.bias += along;
+  law.normal_tangent = law.normal_damping;
+  return law;
+}
+
+}  // namespace
+
+int add_row(const ContactRow& contact, Island& island) {
+  BodyPair& pair = island.pairs.back();
+  const int r = pair.row_end++;
+  if (r % 2 == 0) {
+    make_room(island.rows);
+    island.rows.emplace_back();
+  }
+  const RowIn<RowGroup> lane = row_of(island, r);
+  lane.set_law(law_in_lane(contact));
+  lane.set_vector(&RowGroup::arm, contact.arm);
+  return r;
+}
+
+}  // namespace talus

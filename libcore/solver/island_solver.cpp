@@ -1,0 +1,344 @@
+#include "solver/island_solver.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "solver/law_numbers.hpp"
+#include "solver/one_contact.hpp"
+
+namespace talus {
+namespace {
+
+using std::size_t;
+
+using law::all_every, law::few, law::first_ratio, law::hopeless, law::ratio_growth, law::slack,
+    law::soft_tolerance;
+
+/// One solve; a struct so that its parts share what they all need.
+struct Solve {
+  Island& island;
+  const IslandSettings& settings;
+  IslandWork& work;
+  IslandResult result;
+  double tolerance = 0;
+  double best_residual = std::numeric_limits<double>::infinity();
+  bool direct = false;
+  bool tracking = true;
+  bool inherits = false;  // a row comes with a state: the first evaluation is not the law's
+  int n_linear = 0;       // linear solutions by conjugate gradients
+
+  // Lowers the rows of pair `p` that are too stiff, and notes what tolerance they and the
+  // velocities allow: in a very short substep contacts press with little more than rounding.
+  void prepare_pair(size_t p) {
+    const BodyPair& pair = island.pairs[p];
+    const double mass = reduced_mass(island, pair), limit = settings.stiffest * mass;
+    const double free_speed = island.free_velocity[pair.a].head<3>().norm();
+    for (RowGroup& group : groups_of(island, pair))
+      for (int lane = 0; lane < 2; ++lane) {
+        inherits |= group.state[lane] != 0;
+        double stiffness = std::max(group.normal_damping[lane], group.shear_damping[lane]);
+        if (stiffness > limit) {
+          ++result.n_lowered;
+          group.normal_damping[lane] = std::min(group.normal_damping[lane], limit);
+          group.shear_damping[lane] = std::min(group.shear_damping[lane], limit);
+          stiffness = limit;
+        }
+        work.stiffness_ratio = std::max(work.stiffness_ratio, stiffness / mass);
+        const double changed = stiffness / mass * (std::abs(group.bias[lane]) + free_speed);
+        work.rounding = std::max(
+            work.rounding, 8 * std::numeric_limits<double>::epsilon() * (changed + free_speed));
+      }
+  }
+
+  void prepare() {
+    const size_t n = island.mass.size(), n_pairs = island.pairs.size();
+    work.rounding = work.stiffness_ratio = 0;
+    for (size_t p = 0; p < n_pairs; ++p) prepare_pair(p);
+    prepare_matrix(island, work.matrix);
+    for (auto* vectors : {&work.residual, &work.step, &work.from, &work.best}) vectors->resize(n);
+    work.at_best = false;
+    work.speed.resize(n);
+    work.per_impulse.resize(n);
+    for (size_t i = 0; i < n; ++i) {
+      work.per_impulse[i] = island.mass[i].diagonal().cwiseInverse();
+      work.per_impulse[i].tail<3>() *= island.radius[i];
+    }
+    work.pair_impulse.assign(n_pairs, Vec6::Zero());
+    work.touched_bodies.reset(n);
+    work.touched_pairs.reset(n_pairs);
+    work.velocity = island.velocity;
+    for (size_t i = 0; i < n; ++i)
+      if (!work.velocity[i].allFinite()) work.velocity[i] = island.free_velocity[i];
+  }
+
+  // Goes on where the last solution was found, with the pairs that changed since.
+  void prepare_changed() {
+    work.touched_bodies.clear();
+    work.touched_pairs.clear();
+    work.start.clear();
+    for (size_t p = 0; p < island.pairs.size(); ++p) {
+      const BodyPair& pair = island.pairs[p];
+      if (!pair.changed) continue;
+      prepare_pair(p);
+      talus::prepare_pair(island, p, work.matrix);
+      work.start.push_back(pair.a);
+      if (pair.b >= 0) work.start.push_back(pair.b);
+    }
+    activate(island, work.start, work.matrix);
+  }
+
+  // The couples of pairs whose rows were evaluated, at their relative spin. Their tangents count as
+  // changed: few pairs have one, and the bound follows every impulse.
+  void evaluate_couples(std::span<const int> pairs, std::span<PairEvaluation> evaluations) {
+    for (size_t i = 0; i < pairs.size(); ++i) {
+      const BodyPair& pair = island.pairs[pairs[i]];
+      if (pair.angular < 0) continue;
+      PairEvaluation& now = evaluations[i];
+      AngularRow& turn = island.angular[pair.angular];
+      talus::evaluate(Vec3(now.motion.tail<3>()), normal_impulses(now.groups), turn);
+      for (int k = 0; k < 3; ++k) now.sum[3 + k][0] += turn.couple[k];
+      now.changed = true;
+    }
+  }
+
+  // Contacts of active bodies; what a body at rest had from them before is replaced.
+  [[gnu::flatten]] void evaluate_contacts(std::span<const int> pairs, Evaluation evaluation) {
+    std::array<PairEvaluation, 32> now;  // few enough to stay near
+    for (size_t begin = 0; begin < pairs.size(); begin += now.size()) {
+      const auto some = pairs.subspan(begin, std::min(now.size(), pairs.size() - begin));
+      for (size_t i = 0; i < some.size(); ++i) {
+        const auto p = static_cast<size_t>(some[i]);
+        const BodyPair& pair = island.pairs[p];
+        now[i].groups = groups_of(island, pair);
+        now[i].motion = work.velocity[pair.a];
+        if (pair.b >= 0)
+          now[i].motion =
+              relative_motion(now[i].motion, work.velocity[pair.b], work.matrix.shift[p]);
+      }
+      evaluate_pairs(std::span(now).first(some.size()), evaluation, direct ? 0 : slack);
+      if (!island.angular.empty()) evaluate_couples(some, now);
+      for (size_t i = 0; i < some.size(); ++i) {
+        if (now[i].changed) work.matrix.changed_pairs.add(some[i]);
+        add_impulse(static_cast<size_t>(some[i]), now[i].impulse());
+      }
+    }
+  }
+
+  void add_impulse(size_t p, const Vec6& f) {
+    const BodyPair& pair = island.pairs[p];
+    const auto a = static_cast<size_t>(pair.a), b = static_cast<size_t>(pair.b);
+    const IndexSet& active = work.matrix.active.bodies;
+    const Vec6 change = f - work.pair_impulse[p];
+    work.pair_impulse[p] = f;
+    work.residual[a] -= active.contains(pair.a) ? f : change;
+    if (pair.b >= 0)
+      work.residual[b] += carried_to_b(active.contains(pair.b) ? f : change, work.matrix.shift[p]);
+  }
+
+  // The residual as a velocity: impulse over mass, angular impulse over inertia times radius.
+  void find_speeds(const IndexSet& bodies) {
+    for (const int body : bodies.items) {
+      const auto i = static_cast<size_t>(body);
+      work.speed[i] = work.residual[i].cwiseAbs().cwiseProduct(work.per_impulse[i]).maxCoeff();
+    }
+  }
+
+  static void add_to(IndexSet& set, const std::vector<int>& items) {
+    if (set.items.size() == set.has.size()) return;  // it has them all
+    for (const int i : items) set.add(i);
+  }
+
+  // The largest of all bodies; NaN where there is one.
+  [[nodiscard]] double residual_speed() const {
+    const auto n = static_cast<Eigen::Index>(work.speed.size());
+    return n == 0 ? 0 : Eigen::ArrayXd::Map(work.speed.data(), n).maxCoeff<Eigen::PropagateNaN>();
+  }
+
+  // Keeps the velocities: all, or those that moved from where they were kept last.
+  void keep_best() {
+    if (!work.at_best)
+      work.best = work.velocity;
+    else
+      for (const int body : work.matrix.active.bodies.items) work.best[body] = work.velocity[body];
+    work.at_best = true;
+  }
+
+  [[gnu::flatten]] double evaluate(Evaluation evaluation) {
+    ++result.passes;
+    const ActiveBodies& active = work.matrix.active;
+    for (const int body : active.bodies.items) {
+      const auto i = static_cast<size_t>(body);
+      work.residual[i] = times_mass(island.mass[i], work.velocity[i] - island.free_velocity[i]);
+    }
+    evaluate_contacts(active.pairs, evaluation);
+    add_to(work.touched_pairs, active.pairs);
+    for (const IndexSet* bodies : {&active.bodies, &active.others}) {
+      find_speeds(*bodies);
+      add_to(work.touched_bodies, bodies->items);
+    }
+    result.residual = residual_speed();
+    if (tracking && evaluation == Evaluation::coupled && result.residual < best_residual) {
+      best_residual = result.residual;
+      keep_best();
+    } else {
+      work.at_best = false;
+    }
+    return result.residual;
+  }
+
+  // Do so few bodies move that their neighbourhood is worth a linear solution of its own? Not in
+  // every step: a push that travels far needs them all.
+  bool few_move() {
+    work.moving.clear();
+    const auto note = [this](size_t i) {
+      if (!(work.speed[i] <= tolerance)) work.moving.push_back(static_cast<int>(i));
+    };
+    // most bodies do not: eight of them are looked at together
+    size_t i = 0;
+    for (; i + 8 <= work.speed.size(); i += 8) {
+      const auto eight = Eigen::Array<double, 8, 1>::Map(&work.speed[i]);
+      if (eight.maxCoeff<Eigen::PropagateNaN>() <= tolerance) continue;
+      for (size_t k = i; k < i + 8; ++k) note(k);
+    }
+    for (; i < work.speed.size(); ++i) note(i);
+    return ++n_linear % all_every != 0 && few * work.moving.size() < work.speed.size();
+  }
+
+  // K step = -residual.
+  void find_step() {
+    update_tangents(island, direct ? Tangent::exact : Tangent::symmetric, work.matrix);
+    if (direct) {
+      activate_all(island, work.matrix);
+      ++result.factorisations;
+      solve_direct(island, work.matrix, work.residual, work.step);
+      return;
+    }
+    invert_diagonals(work.matrix);
+    if (few_move())
+      choose_active(island, work.moving, work.matrix);
+    else
+      activate_all(island, work.matrix);
+    const LinearResult linear =
+        solve_conjugate_gradients(island, work.matrix, work.residual, settings.linear_tolerance,
+                                  settings.max_linear_iterations, work.step);
+    result.linear_iterations += linear.iterations;
+    direct = !linear.converged && n_bodies(island) <= settings.direct_fallback;
+  }
+
+  [[nodiscard]] double slope() const {
+    double sum = 0;
+    for (const int body : work.matrix.active.bodies.items)
+      sum += work.residual[body].dot(work.step[body]);
+    return sum;
+  }
+
+  // A Newton step; with `search` it is shortened: with the exact derivative until the residual
+  // falls, else until the residual's work along the step is at most half of what it was at the
+  // start.
+  double advance(bool search) {
+    find_step();
+    const std::vector<int>& bodies = work.matrix.active.bodies.items;
+    const double start_residual = result.residual;
+    const double start_slope = std::abs(slope());
+    for (const int body : bodies) work.from[body] = work.velocity[body];
+    double fraction = 1;
+    for (int i = 0;; ++i, fraction /= 2) {
+      for (const int body : bodies) {
+        const auto k = static_cast<size_t>(body);
+        work.velocity[k] = work.from[k] + fraction * work.step[k];
+      }
+      const double residual = evaluate(Evaluation::coupled);
+      if (!search || i >= law::most_step_halvings || residual <= tolerance) return residual;
+      if (direct ? residual < start_residual : slope() <= 0.5 * start_slope) return residual;
+    }
+  }
+
+  bool solve_coupled(int max_passes) {
+    const double at_start =
+        evaluate(settings.continues ? Evaluation::coupled : Evaluation::inherited);
+    if ((settings.continues || !inherits) && at_start <= tolerance) return true;
+    for (int steps = 0; result.passes < max_passes; ++steps) {
+      const double residual = advance(steps >= law::island_free_steps);
+      if (residual <= tolerance) return true;
+      if (!(residual < hopeless * best_residual)) return false;
+    }
+    return false;
+  }
+
+  // The law with D_n and D_t at most `ratio` times the reduced mass.
+  double soften(double ratio) {
+    for (const BodyPair& pair : island.pairs) {
+      const double limit = ratio * reduced_mass(island, pair);
+      const Two most = {limit, limit};
+      for (int g = pair.row_begin / 2; 2 * g < pair.row_end; ++g) {
+        const auto [normal, shear] = work.damping[g];
+        island.rows[g].normal_damping = normal < most ? normal : most;
+        island.rows[g].shear_damping = shear < most ? shear : most;
+      }
+    }
+    work.matrix.changed_pairs.fill();
+    activate_all(island, work.matrix);
+    work.at_best = false;
+    return evaluate(Evaluation::coupled);
+  }
+
+  // From rest in the free motion, at a stiffness where Newton converges, then at higher ones
+  // from there; factored, since slipping contacts that are stiff couple through their friction
+  // bounds.
+  bool solve_stiffening() {
+    work.velocity = island.free_velocity;
+    work.damping.clear();
+    for (const RowGroup& group : island.rows)
+      work.damping.push_back({group.normal_damping, group.shear_damping});
+    direct = n_bodies(island) <= settings.direct_fallback;
+    for (double ratio = first_ratio;; ratio *= ratio_growth) {
+      tracking = ratio >= work.stiffness_ratio;
+      double residual = soften(std::min(ratio, settings.stiffest));
+      const double goal = tracking ? tolerance : tolerance + soft_tolerance * residual;
+      for (int steps = 0; residual > goal && result.passes < settings.max_passes; ++steps)
+        residual = advance(steps >= law::island_free_steps);
+      if (tracking) return residual <= tolerance;
+      if (!std::isfinite(residual) || result.passes >= settings.max_passes) return false;
+    }
+  }
+
+  // Velocities that are handed back: v - M^-1 residual, so that what the bodies exchange adds up to
+  // nothing whatever the tolerance. That moves them by no more than the tolerance, but a solution
+  // that continues starts from v: a stiff contact makes many tolerances of that move.
+  void keep_momentum() {
+    for (const int body : work.touched_bodies.items) {
+      const auto i = static_cast<size_t>(body);
+      island.velocity[i] = work.velocity[i] - solve_mass(island.mass[i], work.residual[i]);
+    }
+  }
+
+  void run() {
+    if (settings.continues)
+      prepare_changed();
+    else
+      prepare();
+    tolerance = std::max(settings.tolerance, work.rounding);
+    direct = n_bodies(island) <= settings.direct_bodies;
+    result.converged = solve_coupled(settings.max_passes / 3) || solve_stiffening();
+    if (result.converged) {
+      keep_momentum();
+    } else {
+      work.velocity = std::isfinite(best_residual) ? work.best : island.free_velocity;
+      result.residual = soften(settings.stiffest);
+      island.velocity = work.velocity;
+    }
+    for (const int p : work.touched_pairs.items) island.pairs[p].changed = false;
+  }
+};
+
+}  // namespace
+
+IslandResult solve_island(Island& island, const IslandSettings& settings, IslandWork& work) {
+  Solve solve{island, settings, work, {}};
+  solve.run();
+  return solve.result;
+}
+
+}  // namespace talus

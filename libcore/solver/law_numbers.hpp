@@ -1,0 +1,229 @@
+// libcore/solver/law_numbers.hpp: public
+// The numbers of law talus: all that rule the step of an island and that of a lone block. A
+// question of stability begins here. Tolerances of one function's geometry or rounding stay with
+// it.
+//
+// Each row: value, [unit], what it is. "Tried": the values that were compared, and what was seen;
+// where a row says nothing of that, no other value is on record. h is a substep, dt the nominal
+// step, g gravity, m the mass that a contact feels. Shares of the thickness or radius are those of
+// the block, of two blocks those of the smaller.
+#pragma once
+
+#include <cstddef>
+
+namespace talus::law {
+
+// --- stiffness ---------------------------------------------------------------------------------
+
+/// [-] k_n dt^2 / m of the stiffest contact of a lone block. Tried: the block's full mass for m;
+/// needles fail.
+inline constexpr double stiffest_lone = 400;
+/// [-] The same in an island: bounds the condition of its matrix. Tried: softer, a tower topples
+/// that should hold; stiffer, solutions take many times the evaluations, and some fail.
+inline constexpr double stiffest_in_island = 1;
+/// [-] The same where the island's matrix is cheap to factor, so that a tower hardly sags. Tried:
+/// 1; high towers lean.
+inline constexpr double stiffest_in_small_island = 30;
+/// [blocks] A small island has at most so many ...
+inline constexpr std::size_t small_island = 8;
+/// [blocks] ... or so many that hang together without a ring: a column.
+inline constexpr std::size_t small_tree = 64;
+/// [-] Stiffness of a contact that bears little: times that for its own mass.
+inline constexpr double bears_little = 3;
+/// [-] Sag under load before a contact is stiffer: times that of a block alone. Tried: as stiff as
+/// the heaviest neighbour asks from the start; hardly a step of mixed sizes converges.
+inline constexpr double most_sag = 2;
+/// [-] Stiffness of a contact whose load asks for more: times what it needs ...
+inline constexpr double ample = 2;
+/// [-] ... and kept until it is this many times what it needs.
+inline constexpr double too_much = 8;
+/// [thickness] A contact becomes stiffer still, without bound, at this overlap ...
+inline constexpr double most_sag_of_thickness = 2e-2;
+/// [sags] ... or this one, where that is more.
+inline constexpr double far_sag = 4;
+/// [-] A contact whose stiffness changes by more than this factor in a step has another law.
+inline constexpr double same_law = 1.5;
+/// [dt] Overlap is pressed out over so many steps (tau). Tried: Newmark's own damping; contacts
+/// ring (lambda near -1). At 2.9 h |lambda| is 0.41 without a change of sign.
+inline constexpr double recovery_steps = 3;
+
+// --- touching, and overlap that presses nothing ------------------------------------------------
+
+/// [radius] A contact with the ground touches below this gap.
+inline constexpr double touch_ratio = 1e-8;
+/// [radius] A pair touches below this gap.
+inline constexpr double pair_touch_ratio = 1e-6;
+/// [g h] Speed at which overlap that presses nothing relaxes: slower than gravity, nothing hops ...
+inline constexpr double relaxes_by_gravity = 0.25;
+/// [m/s] ... and at most this.
+inline constexpr double fastest_relaxing = 0.3;
+/// [weights] Overlap is pressed out in full up to this force, not at all from twice as much on.
+/// Tried: without bound; blocks that are jammed are thrown out.
+inline constexpr double heavy = 3;
+/// [thickness] Above this overlap it is pressed out all the same, in full from twice as much on.
+inline constexpr double relaxes_anyway = 0.02;
+/// [radius] A gap jumps over one plane by turning; so much of it is left unpressed ...
+inline constexpr double most_by_turning = 1e-2;
+/// [thickness] ... or so much, where that is less. Tried: all of it; a needle that spins on its tip
+/// sinks in step after step.
+inline constexpr double most_of_thickness = 5e-2;
+/// [radius] A contact that comes fast takes over no memory when it is so much deeper.
+inline constexpr double far_deeper = 1e-2;
+/// [thickness] One that a hit left deep is hit anew when a substep brings it so much farther in.
+inline constexpr double far_in = 2e-2;
+/// [thickness] A hit that ends deeper than this is remembered. Tried: none; edges that slide while
+/// they turn are hit anew in every step, each time with all overlap as an offset.
+inline constexpr double remembered_hit = 1e-2;
+
+// --- how long a substep may be -----------------------------------------------------------------
+
+/// [rad] A block of an island turns by no more in a substep.
+inline constexpr double most_turn = 0.5;
+/// [thickness] A point goes by no more relative to a neighbour.
+inline constexpr double most_travel = 0.1;
+/// [substeps in dt] For these two reasons no more than this.
+inline constexpr double most_substeps = 64;
+/// [h] Pairs are searched so far ahead. Tried: at predicted poses; an approach becomes an overlap
+/// with the wrong face.
+inline constexpr double substeps_ahead = 2;
+/// [rad] A lone block that slides on one plane turns by no more in a substep.
+inline constexpr double slides_by_turn = 0.05;
+/// [g h^2] A contact of an island farther than this, and than its hits may close, is left out.
+inline constexpr double reach_by_gravity = 0.25;
+
+// --- hits --------------------------------------------------------------------------------------
+
+/// [g dt] Approaches above the larger of these rebound: at least this much, which resting contacts
+/// reach ...
+inline constexpr double resting_by_gravity = 1;
+/// [g dt] ... at most this much ...
+inline constexpr double rebounds_by_gravity = 2;
+/// [m/s] ... and in between those faster than this. Tried: 2 g dt at any step; what rocks lose by
+/// the rebounds that are left out shortens a slide at large steps.
+inline constexpr double rebound_matters = 0.1;
+/// [g dt] Times the factor on the solver's tolerance: what its error may bring about is no hit.
+inline constexpr double least_by_tolerance = 2e-2;
+/// [-] D of a hit in an island, over the mass that it feels.
+inline constexpr double hit_stiffness = 30;
+/// [-] First guess of its impulse, as a share of that of the hit alone.
+inline constexpr double hit_share = 0.7;
+/// [approach] A hit is found when its impulse errs by less ...
+inline constexpr double hit_tolerance = 1e-2;
+/// [approach] ... or by this in an island that is factored.
+inline constexpr double small_hit_tolerance = 1e-9;
+/// [-] Solutions until all hits are found and rebound.
+inline constexpr int most_hit_rounds = 8;
+/// [-] Hits lose at least this share of what they would lose one after the other.
+inline constexpr double least_loss = 0.9;
+/// [energy of the hits] Less is no gain.
+inline constexpr double hit_gain_rounding = 1e-6;
+/// [hits of a block] Less is none.
+inline constexpr double others_rounding = 1e-9;
+/// [h] A lone block's hit is at the start of the substep before this time ...
+inline constexpr double hit_at_start = 1e-6;
+/// [h] ... and at its end after this one.
+inline constexpr double hit_at_end = 1 - 1e-6;
+/// [in a step] Hits of a lone block near fixed bodies, before they come together.
+inline constexpr int most_lone_hits = 100;
+/// [in a step] Impacts of a lone block before bouncing is given up.
+inline constexpr int most_events = 40;
+/// [in a step] Flights of a lone block.
+inline constexpr int most_flights = 16;
+/// [rad] Longest turn of a flight: bounds what its attitude costs.
+inline constexpr double longest_turn = 60;
+/// [1/mobility] Damping of the contacts of a lone block's impact. Tried: stiffer; the residual
+/// drowns in rounding.
+inline constexpr double impact_stiffness = 1e7;
+/// [kinetic energy] Less is no gain of an impact.
+inline constexpr double impact_gain_rounding = 1e-7;
+
+// --- check of a substep, and repetitions -------------------------------------------------------
+
+/// [-] Halvings of an island's substep that does not converge.
+inline constexpr int most_halvings = 4;
+/// [-] Cuts of a substep where what gives way is used up.
+inline constexpr int most_used_up_cuts = 24;
+/// [in a step] Cuts where a block would end deep in something.
+inline constexpr int most_deep_cuts = 8;
+/// [thickness] A hit that ends deeper than this cuts the substep: health allows `deep_share` ...
+inline constexpr double deep_end = 0.08;
+/// [thickness] ... where it is deeper by this than at the start.
+inline constexpr double deepened = 0.02;
+/// [h] So long after the hit the substep ends.
+inline constexpr double after_hit = 1.0 / 32;
+/// [-] Repetitions of a lone block's substep, to find an event or to converge.
+inline constexpr int most_tries = 24;
+/// [thickness] A lone block has gone through a ridge when it is so deep behind it ...
+inline constexpr double deep_past_ridge = 0.03;
+/// [thickness] ... and no point moved less than this.
+inline constexpr double short_move = 0.01;
+/// [thickness] A block is deep above this overlap: health counts it.
+inline constexpr double deep_share = 0.1;
+/// [thickness] Contacts with more overlap have the bodies measured.
+inline constexpr double suspect_share = deep_share / 2;
+
+// --- what gives way ----------------------------------------------------------------------------
+
+/// [capacity] A body breaks that has taken so much.
+inline constexpr double used_up = 1 - 1e-9;
+/// [-] One with an axis gives way to contacts whose normal has at least this cosine with it.
+inline constexpr double least_yield_cosine = 0.5;
+
+// --- solution of an island ---------------------------------------------------------------------
+
+/// [g h] Residual at which an island's forces count as found ...
+inline constexpr double island_tolerance = 1e-2;
+/// [fastest speed] ... but not above this ...
+inline constexpr double motion_tolerance = 1e-3;
+/// [g h] ... nor below this.
+inline constexpr double rest_tolerance = 1e-6;
+/// [g h] The same in an island that is factored.
+inline constexpr double small_tolerance = 1e-8;
+/// [-] Of conjugate gradients in a Newton step.
+inline constexpr double linear_tolerance = 3e-2;
+/// [-] Newton steps before the line search looks at them.
+inline constexpr int island_free_steps = 3;
+/// [-] Halvings of a Newton step.
+inline constexpr int most_step_halvings = 8;
+/// [slip stiffness] Change before a pair's tangent is summed again.
+inline constexpr double slack = 0.5;
+/// [-] D / m at which stiffening starts ...
+inline constexpr double first_ratio = 1;
+/// [-] ... and its growth from stage to stage.
+inline constexpr double ratio_growth = 4;
+/// [start of the stage] Residual of a stage before the last.
+inline constexpr double soft_tolerance = 1e-3;
+/// [-] Every so many linear solutions all bodies move.
+inline constexpr int all_every = 8;
+/// [-] The neighbourhood alone is solved where fewer than one in so many move.
+inline constexpr std::size_t few = 2;
+/// [-] Growth of the residual at which coupled steps are given up.
+inline constexpr double hopeless = 1e5;
+
+// --- solution of a lone block ------------------------------------------------------------------
+
+/// [-] Newton steps before the line search looks at them. Tried: bounds of friction held and
+/// renewed; they rarely settle.
+inline constexpr int lone_free_steps = 6;
+/// [-] Halvings of a Newton step.
+inline constexpr int lone_halvings = 9;
+/// [promised gain] Least gain of a Newton step.
+inline constexpr double least_gain = 0.1;
+/// [stiffness] Softest stage when steps do not help ...
+inline constexpr double softest = 1.0 / 1024;
+/// [-] ... its growth from stage to stage ...
+inline constexpr double stiffening = 4;
+/// [start of the stage] ... and the residual of a stage before the last.
+inline constexpr double soft_goal = 1e-6;
+/// [-] Sweeps of Gauss and Seidel, when that fails too.
+inline constexpr int most_sweeps = 2000;
+
+// --- rest --------------------------------------------------------------------------------------
+
+/// [steps] A block, or all of an island, stays in place for so long before it is left out. Tried: a
+/// limit on speed; one trembling block keeps an island awake.
+inline constexpr int steps_before_sleep = 200;
+/// [thickness] In place: no point went farther than this, or g dt^2 where that is less.
+inline constexpr double rests_within = 1e-3;
+
+}  // namespace talus::law

@@ -1,0 +1,308 @@
+#include "solver/newton.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "solver/law_numbers.hpp"
+#include "solver/one_contact.hpp"
+
+namespace talus {
+namespace {
+
+template <int Dof>
+using Vec = typename BlockSystem<Dof>::Vec;
+template <int Dof>
+using Mat = typename BlockSystem<Dof>::Mat;
+
+// H += J^T A J with J = [I, -S, strain columns], S = skew(X).
+template <int Dof>
+void add_tangent(const Vec3& X, const Mat3& A, Mat<Dof>& H) {
+  if constexpr (Dof == 12) {
+    const Mat3x12 T = displacement_matrix(X);
+    H.noalias() += T.transpose() * (A * T).eval();
+    return;
+  }
+  const double x = X.x(), y = X.y(), z = X.z();
+  double B[3][6];  // A J
+  for (int i = 0; i < 3; ++i) {
+    const double a = A(i, 0), b = A(i, 1), c = A(i, 2);
+    B[i][0] = a;
+    B[i][1] = b;
+    B[i][2] = c;
+    B[i][3] = y * c - z * b;
+    B[i][4] = z * a - x * c;
+    B[i][5] = x * b - y * a;
+  }
+  for (int j = 0; j < 6; ++j) {
+    H(0, j) += B[0][j];
+    H(1, j) += B[1][j];
+    H(2, j) += B[2][j];
+    H(3, j) += y * B[2][j] - z * B[1][j];
+    H(4, j) += z * B[0][j] - x * B[2][j];
+    H(5, j) += x * B[1][j] - y * B[0][j];
+  }
+}
+
+// Sum of the normal impulses that bound an angular row.
+double pressed_on(const AngularRow& turn, std::span<const ContactRow> rows) {
+  double sum = 0;
+  for (int i = turn.row_begin; i < turn.row_end; ++i) {
+    const ContactRow& row = rows[i];
+    sum += std::max(0.0, row.normal.dot(row.impulse));
+  }
+  return sum;
+}
+
+// What angular rows add to the residual whose rows were evaluated, and to its derivative: apart,
+// since few blocks have them.
+template <int Dof>
+[[gnu::noinline]] void add_couples(const BlockSystem<Dof>& system, std::span<const ContactRow> rows,
+                                   Vec<Dof>& r) {
+  for (AngularRow& turn : system.angular) {
+    evaluate(Vec3(system.velocity.template segment<3>(3)), pressed_on(turn, rows), turn);
+    r.template segment<3>(3) -= turn.couple;
+  }
+}
+
+template <int Dof>
+[[gnu::noinline]] void add_couple_tangents(const BlockSystem<Dof>& system,
+                                           std::span<const ContactRow> rows, Mat<Dof>& H) {
+  for (const AngularRow& turn : system.angular) {
+    H.template block<3, 3>(3, 3) += tangent(turn);
+    if (turn.state != ContactState::slip) continue;
+    for (int i = turn.row_begin; i < turn.row_end; ++i) {  // the bound follows the normal impulse
+      const ContactRow& row = rows[i];
+      if (row.state == ContactState::open || row.normal.dot(row.impulse) <= 0) continue;
+      H.template middleRows<3>(3) -= (turn.arm * row.normal_tangent) * turn.direction *
+                                     generalised<Dof>(row.arm, row.normal).transpose();
+    }
+  }
+}
+
+// Momentum that is missing at the system's velocity.
+template <int Dof>
+Vec<Dof> residual(const BlockSystem<Dof>& system, std::span<ContactRow> rows) {
+  Vec<Dof> r;
+  if constexpr (Dof == 6)
+    r = system.mass.diagonal().cwiseProduct(system.velocity - system.free_velocity);
+  else
+    r.noalias() = system.mass * (system.velocity - system.free_velocity);
+  for (ContactRow& row : rows) {
+    if (row.waits) continue;
+    const Vec3 w = point_velocity<Dof>(system.velocity, row.arm) + row.drift;
+    evaluate(w, row);
+    if (row.state == ContactState::open) continue;
+    r.template head<3>() -= row.impulse;  // part by part: whole, it would be put together in memory
+    r.template segment<3>(3) -= row.arm.cross(row.impulse);
+    if constexpr (Dof == 12) r.template tail<6>() -= strain_load(row.arm, row.impulse);
+  }
+  if (!system.angular.empty()) add_couples<Dof>(system, rows, r);
+  return r;
+}
+
+// Derivative of the residual where it was last evaluated.
+template <int Dof>
+Mat<Dof> derivative(const BlockSystem<Dof>& system, std::span<const ContactRow> rows) {
+  Mat<Dof> H = system.mass;
+  for (const ContactRow& row : rows) {
+    if (row.waits || row.state == ContactState::open) continue;
+    add_tangent<Dof>(row.arm, tangent(row), H);
+  }
+  if (!system.angular.empty()) add_couple_tangents<Dof>(system, rows, H);
+  return H;
+}
+
+// Column k of the elimination, with row pivoting, which leaves 1 / pivot on the diagonal. Column by
+// column, and with sizes that the compiler knows, so that it can take two rows at a time.
+template <int Dof, int k>
+[[gnu::always_inline]] inline void eliminate(Mat<Dof>& H, Vec<Dof>& b) {
+  int pivot = k;
+  for (int i = k + 1; i < Dof; ++i)
+    if (std::abs(H(i, k)) > std::abs(H(pivot, k))) pivot = i;
+  if (pivot != k) {
+    H.row(k).swap(H.row(pivot));
+    std::swap(b[k], b[pivot]);
+  }
+  H(k, k) = 1 / H(k, k);
+  constexpr int below = Dof - 1 - k;
+  if constexpr (below > 0) {
+    const Eigen::Matrix<double, below, 1> factor = H.template block<below, 1>(k + 1, k) * H(k, k);
+    for (int j = k + 1; j < Dof; ++j) H.template block<below, 1>(k + 1, j) -= H(k, j) * factor;
+    b.template tail<below>() -= b[k] * factor;
+  }
+}
+
+// What is left of b above row k, whose unknown is the last one not yet known.
+template <int Dof, int k>
+[[gnu::always_inline]] inline void substitute(const Mat<Dof>& H, Vec<Dof>& b) {
+  b[k] *= H(k, k);
+  if constexpr (k > 0) b.template head<k>() -= b[k] * H.template block<k, 1>(0, k);
+}
+
+// Makes b the x with H x = b, by elimination; H is a few rows and regular (M is in it).
+template <int Dof>
+void solve_dense(Mat<Dof>& H, Vec<Dof>& b) {
+  [&]<int... k>(std::integer_sequence<int, k...>) {
+    (eliminate<Dof, k>(H, b), ...);
+    (substitute<Dof, Dof - 1 - k>(H, b), ...);
+  }
+  (std::make_integer_sequence<int, Dof>());
+}
+
+// The residual as a velocity of the block's points: impulse over mass; angular impulse over
+// inertia, times the radius of gyration about that axis.
+template <int Dof>
+bool is_small(const BlockSystem<Dof>& s, const Vec<Dof>& r) {
+  const double limit = s.tolerance * s.tolerance * s.mass(0, 0);
+  for (int i = 0; i < Dof; ++i)
+    if (!(r[i] * r[i] <= limit * s.mass(i, i))) return false;
+  return true;
+}
+
+// The residual as an energy, twice: what line searches bring down.
+template <int Dof>
+double size_of(const BlockSystem<Dof>& s, const Vec<Dof>& r) {
+  return r.cwiseAbs2().cwiseQuotient(s.mass.diagonal()).sum();
+}
+
+// Newton steps until the residual is small or has the size `goal`; from the seventh on they are
+// shortened until it falls. In one piece: called by themselves, the law and its derivative make an
+// impact a seventh dearer.
+template <int Dof>
+[[gnu::flatten]] NewtonResult solve_coupled(BlockSystem<Dof>& system, std::span<ContactRow> rows,
+                                            int max_passes, double goal) {
+  constexpr int free_steps = law::lone_free_steps, most_halvings = law::lone_halvings;
+  using law::least_gain;
+  NewtonResult result;
+  Vec<Dof> r = residual(system, rows);
+  ++result.passes;
+  for (int steps = 0;; ++steps) {
+    const bool asks_size = goal > 0 || steps >= free_steps;
+    const double size = asks_size ? size_of(system, r) : 0;
+    result.converged = is_small(system, r) || (goal > 0 && size <= goal);
+    if (result.converged || result.passes >= max_passes) return result;
+    const Vec<Dof> from = system.velocity;
+    Mat<Dof> H = derivative<Dof>(system, rows);
+    Vec<Dof> step = -r;
+    solve_dense<Dof>(H, step);
+    double fraction = 1;
+    for (int i = 0;; ++i, fraction /= 2) {
+      system.velocity = from + fraction * step;
+      r = residual(system, rows);
+      ++result.passes;
+      if (steps < free_steps || i == most_halvings) break;
+      if (size_of(system, r) < (1 - least_gain * fraction) * size) break;
+    }
+  }
+}
+
+// From the free motion with contacts that are soft, then with ever stiffer ones, each from where
+// the last left off.
+template <int Dof>
+NewtonResult solve_stiffening(BlockSystem<Dof>& system, std::span<ContactRow> rows,
+                              int max_passes) {
+  using law::soft_goal, law::softest;
+  constexpr double growth = law::stiffening;
+  const auto scale = [&](double factor) {
+    for (ContactRow& row : rows) row.normal_damping *= factor, row.shear_damping *= factor;
+    for (AngularRow& turn : system.angular) turn.damping *= factor;
+  };
+  NewtonResult result;
+  system.velocity = system.free_velocity;
+  scale(softest);  // powers of two: the last stage has the rows' own numbers
+  for (double share = softest;; share *= growth, scale(growth)) {
+    const double goal = share < 1 ? soft_goal * size_of(system, residual(system, rows)) : 0;
+    const NewtonResult stage = solve_coupled(system, rows, max_passes, goal);
+    result.passes += stage.passes;
+    result.converged = stage.converged;
+    if (share >= 1) return result;
+  }
+}
+
+// One sweep over the angular rows; returns the largest change of spin times its lever.
+template <int Dof>
+double sweep_couples(const Mat<Dof>& per_mass, std::span<const ContactRow> rows,
+                     BlockSystem<Dof>& system) {
+  double change = 0;
+  for (AngularRow& turn : system.angular) {
+    const double give = per_mass.template block<3, 3>(3, 3).trace() + 1 / turn.damping;
+    const Vec3 trial = system.velocity.template segment<3>(3) + turn.spring_spin;
+    Vec3 couple = turn.couple - (trial + turn.couple / turn.damping) / give;
+    turn.cap = turn.arm * pressed_on(turn, rows);
+    const double size = couple.norm();
+    turn.state = turn.cap <= 0 ? ContactState::open : ContactState::stick;
+    if (size > turn.cap) couple *= turn.cap / size;
+    if (size > turn.cap && turn.cap > 0) turn.state = ContactState::slip;
+    const Vec<Dof> dv = per_mass.template middleCols<3>(3) * (couple - turn.couple);
+    system.velocity += dv;
+    turn.couple = couple;
+    for (int i = turn.row_begin; i < turn.row_end; ++i)
+      change = std::max(change, point_velocity<Dof>(dv, rows[i].arm).norm());
+  }
+  return change;
+}
+
+// Gauss-Seidel over the contacts, each given the impulse that its own law asks for: slow, but it
+// gets through where Newton goes round in circles. Slip follows the end velocity.
+template <int Dof>
+NewtonResult solve_sweeps(BlockSystem<Dof>& system, std::span<ContactRow> rows) {
+  using law::most_sweeps;
+  const Mat<Dof> per_mass = system.mass.inverse();
+  system.velocity = system.free_velocity;
+  for (ContactRow& row : rows) row.impulse.setZero();
+  for (AngularRow& turn : system.angular) turn.couple.setZero();
+  for (int sweep = 1; sweep <= most_sweeps; ++sweep) {
+    double change = 0;
+    for (ContactRow& row : rows) {
+      if (row.waits) continue;
+      const Vec3& n = row.normal;
+      const Vec3 w = point_velocity<Dof>(system.velocity, row.arm) + row.drift;
+      const Vec<Dof> along_n = generalised<Dof>(row.arm, n);
+      const double give_n = along_n.dot(per_mass * along_n) + 1 / row.normal_damping;
+      const double p_old = row.impulse.dot(n);
+      const double p_n =
+          std::max(0.0, p_old - (n.dot(w) + row.bias + p_old / row.normal_damping) / give_n);
+      const Vec3 t_old = row.impulse - p_old * n;
+      double give_t = 1 / row.shear_damping;
+      for (int k = 0; k < 3; ++k) {
+        const Vec<Dof> unit = generalised<Dof>(row.arm, Vec3::Unit(k));
+        give_t += unit.dot(per_mass * unit);
+      }
+      const Vec3 trial = w - n.dot(w) * n + row.shear_velocity;
+      Vec3 t = t_old - (trial + t_old / row.shear_damping) / give_t;
+      double cap;
+      Strength<double>{row.friction, row.cohesion, 0}.bound(p_n, cap);
+      const double size = t.norm();
+      row.state = p_n == 0 ? ContactState::open : ContactState::stick;
+      if (size > cap) t *= cap / size, row.state = p_n == 0 ? row.state : ContactState::slip;
+      const Vec3 impulse = p_n * n + t;
+      const Vec<Dof> dv = per_mass * generalised<Dof>(row.arm, impulse - row.impulse);
+      system.velocity += dv;
+      row.impulse = impulse;
+      change = std::max(change, point_velocity<Dof>(dv, row.arm).norm());
+    }
+    change = std::max(change, sweep_couples<Dof>(per_mass, rows, system));
+    if (change <= 10 * system.tolerance) return {true, sweep};
+  }
+  return {false, most_sweeps};
+}
+
+}  // namespace
+
+template <int Dof>
+NewtonResult solve_contacts(BlockSystem<Dof>& system, std::span<ContactRow> rows, int max_passes) {
+  NewtonResult result = solve_coupled(system, rows, max_passes, 0);
+  const auto go_on = [&](const NewtonResult& next) {
+    result = {next.converged, result.passes + next.passes};
+  };
+  if (!result.converged) go_on(solve_stiffening(system, rows, max_passes));
+  if (!result.converged) go_on(solve_sweeps(system, rows));
+  return result;
+}
+
+template NewtonResult solve_contacts<6>(BlockSystem<6>&, std::span<ContactRow>, int);
+template NewtonResult solve_contacts<12>(BlockSystem<12>&, std::span<ContactRow>, int);
+
+}  // namespace talus

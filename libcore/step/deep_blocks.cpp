@@ -1,0 +1,143 @@
+#include "step/deep_blocks.hpp"
+
+#include <algorithm>
+
+#include "scene/yielding.hpp"
+#include "solver/law_numbers.hpp"
+#include "step/flight.hpp"
+#include "step/substep.hpp"
+
+namespace talus {
+namespace {
+
+using std::size_t;
+
+struct Overlap {
+  double depth = 0;  ///< [m]
+  int partner = ground_name;
+};
+
+// Bodies of the listed pairs of parts of which one is a suspect.
+template <class Visit>
+void for_each_listed(const Scene& scene, const State& state, const DeepWork& w, Visit&& visit) {
+  const auto is_suspect = [&](int body) {
+    return body < n_blocks(scene) && w.is_suspect[body] != 0;
+  };
+  for (const PairWatch& pair : state.pairs.watch) {
+    const int a = scene.blocks.hulls.body[pair.part_a], b = scene.blocks.hulls.body[pair.part_b];
+    if (is_suspect(a) || is_suspect(b)) visit(pair, a, b);
+  }
+}
+
+// Places the suspects and what they may overlap where they are at the end of the step.
+void place_suspects(const Scene& scene, const State& state, DeepWork& w) {
+  const auto n = static_cast<size_t>(n_blocks(scene)), n_bodies = n + scene.fixed.pose.size();
+  const bool first = w.placed.turned.size() != n_bodies;
+  w.poses.resize(first ? n_bodies : n);
+  w.moving.assign(n, first ? 1 : 0);
+  for (size_t b = 0; b < n; ++b) w.moving[b] |= w.is_suspect[b];
+  w.fixed.clear();
+  for_each_listed(scene, state, w, [&](const PairWatch&, int a, int b) {
+    w.moving[a] = 1;
+    if (is_fixed(scene, b))
+      w.fixed.push_back(b);
+    else
+      w.moving[b] = 1;
+  });
+  for (size_t b = 0; b < n; ++b)
+    if (w.moving[b] != 0)
+      w.poses[b] = motion_at(scene, state, static_cast<int>(b), state.time).pose;
+  if (first)
+    std::copy(scene.fixed.pose.begin(), scene.fixed.pose.end(),
+              w.poses.begin() + static_cast<std::ptrdiff_t>(n));
+  w.stretch.clear();
+  if (!state.strain.empty()) {
+    w.stretch.assign(w.poses.size(), Mat3::Identity());
+    for (size_t b = 0; b < n; ++b) w.stretch[b] = stretch_of(state, static_cast<int>(b));
+  }
+  place_hulls(scene.blocks.hulls, w.poses, w.stretch, w.moving, w.placed);
+  for (const int body : w.fixed)
+    place_body(scene.blocks.hulls, body, fixed_pose(scene, state, fixed_of(scene, body)), w.placed);
+}
+
+// Which of the bodies of a pair is in the other: the thinner block.
+int thinner_of(const Scene& scene, int a, int b) {
+  if (is_fixed(scene, b)) return a;
+  const std::vector<double>& thickness = scene.blocks.shapes.thickness;
+  return thickness[b] < thickness[a] ? b : a;
+}
+
+void measure_pairs(const Scene& scene, const State& state, DeepWork& w) {
+  w.overlap_depth.assign(w.is_suspect.size(), 0);
+  w.overlap_partner.assign(w.is_suspect.size(), ground_name);
+  for_each_listed(scene, state, w, [&](const PairWatch& pair, int a, int b) {
+    if (is_fixed(scene, b) && !stands(scene, state, fixed_of(scene, b))) return;
+    const int thin = thinner_of(scene, a, b);
+    const auto i = static_cast<size_t>(thin);
+    if (w.is_suspect[i] == 0) return;
+    const AxisChoice axis =
+        find_axis(scene.blocks.hulls, w.placed, pair.part_a, pair.part_b, 0, {}, w.axis);
+    if (!axis.touches || -axis.separation <= w.overlap_depth[i]) return;
+    w.overlap_depth[i] = -axis.separation;
+    w.overlap_partner[i] = name_of_body(scene, thin == a ? b : a);
+  });
+}
+
+Overlap overlap_of(const Scene& scene, int b, DeepWork& w) {
+  const auto i = static_cast<size_t>(b);
+  double in_ground = 0;
+  if (scene.settings.trn_contacts)
+    in_ground = depth_in_ground(scene.ground.trn, scene.blocks.hulls, w.placed, b, w.ground);
+  if (in_ground >= w.overlap_depth[i]) return {in_ground, ground_name};
+  return {w.overlap_depth[i], w.overlap_partner[i]};
+}
+
+void take(const Overlap& overlap, const Vec3& at, double time, DeepBlock& deep) {
+  if (deep.steps == 0) deep.first_time = time;
+  if (overlap.depth <= deep.depth) return;
+  deep.depth = overlap.depth;
+  deep.partner = overlap.partner;
+  deep.time = time;
+  deep.place = at;
+}
+
+// Faster than its fall so far, and one by its radius, can have made it. Base motion and loads give
+// energy besides: nothing is said then.
+bool is_too_fast(const Scene& scene, const State& state, size_t b) {
+  if (shakes(scene.base) || !scene.loads.empty()) return false;
+  const Motion motion = motion_at(scene, state, static_cast<int>(b), state.time);
+  const Blocks& blocks = scene.blocks;
+  const double fall = scene.gravity.dot(motion.pose.position - blocks.rest[b].position) +
+                      scene.gravity.norm() * blocks.shapes.radius[b];
+  return motion.velocity.squaredNorm() > 2 * fall + blocks.velocity[b].squaredNorm();
+}
+
+}  // namespace
+
+void note_deep_blocks(const Scene& scene, State& state, DeepWork& w, StepReport& report) {
+  const bool any = std::find(w.is_suspect.begin(), w.is_suspect.end(), 1) != w.is_suspect.end();
+  if (any) {
+    place_suspects(scene, state, w);
+    measure_pairs(scene, state, w);
+  }
+  for (size_t b = 0; b < state.deep.size(); ++b) {
+    DeepBlock& deep = state.deep[b];
+    const Phase phase = state.phase[b];
+    if (w.is_suspect[b] != 0 && takes_part(phase)) {
+      const Overlap overlap = overlap_of(scene, static_cast<int>(b), w);
+      report.largest_penetration = std::max(report.largest_penetration, overlap.depth);
+      deep.is_deep = overlap.depth > law::deep_share * scene.blocks.shapes.thickness[b];
+      if (deep.is_deep) take(overlap, state.motion[b].pose.position, state.time, deep);
+    } else if (phase != Phase::asleep) {  // asleep it stays as deep as it was
+      deep.is_deep = false;
+    }
+    w.is_suspect[b] = 0;
+    if (deep.is_deep) {
+      ++deep.steps;
+      report.flags = report.flags | StepFlag::deep;
+    }
+    if (deep.steps > 0 && takes_part(phase)) deep.is_too_fast |= is_too_fast(scene, state, b);
+  }
+}
+
+}  // namespace talus

@@ -1,0 +1,32 @@
+// libcore/step/deep_blocks.hpp
+// Blocks that are in the ground, in another block or in a fence by more than a tenth of their
+// thickness at the end of a step.
+// in:    blocks with a contact that says so (DeepWork::is_suspect), motion at the end of the step
+// out:   State::deep, and the largest overlap of the step
+//
+// A contact only raises the suspicion: along its own normal a block that has turned or gone round a
+// corner seems to be in where it is not. What counts is the overlap of the two bodies.
+#pragma once
+
+#include "scene/scene.hpp"
+#include "scene/state.hpp"
+#include "solver/law_numbers.hpp"
+#include "step/deep_work.hpp"
+#include "step/report.hpp"
+
+namespace talus {
+
+/// Takes a contact that presses, or holds an overlap that presses nothing, into the report.
+/// `block`: the thinner of its two.
+inline void note_overlap(int block, double overlap, double thickness, DeepWork& deep,
+                         StepReport& report) {
+  if (overlap > law::suspect_share * thickness)
+    deep.is_suspect[block] = 1;
+  else if (overlap > report.largest_penetration)
+    report.largest_penetration = overlap;
+}
+
+/// Measures the suspects of the step that has just ended at state.time.
+void note_deep_blocks(const Scene& scene, State& state, DeepWork& w, StepReport& report);
+
+}  // namespace talus

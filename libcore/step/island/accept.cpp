@@ -1,0 +1,234 @@
+// Stage 10 of an island's step: the substep holds. What it leaves of bonds, memory, motion, panels,
+// and the work of its contacts.
+#include <algorithm>
+#include <cmath>
+
+#include "base/make_room.hpp"
+#include "scene/fence.hpp"
+#include "solver/law_numbers.hpp"
+#include "step/deep_blocks.hpp"
+#include "step/flight.hpp"
+#include "step/island/stages.hpp"
+#include "step/substep.hpp"
+
+namespace talus {
+namespace {
+
+using std::size_t;
+
+/// Accepts a substep; a struct so that its parts share what they all read and fill.
+struct SubstepAcceptance {
+  const Scene& scene;
+  const IslandMembers& members;
+  const FreeMotions& free;
+  const IslandSystem& system;
+  const SubstepHits& hits;
+  SubstepEnd& end;
+  State& state;
+  std::vector<Segment>& segments;
+  DeepWork& deep;
+  StepReport& report;
+
+  // Energy that contacts took, by kind; push_bodies() adds that of bodies that give way.
+  void account(size_t r) {
+    const KeptContact& contact = system.contacts[r];
+    const RowIn<const RowGroup> lane = lane_of(system, r);
+    const Vec3 normal = lane.normal(), impulse = lane.impulse();
+    const double p_n = normal.dot(impulse);
+    const Vec3 p_t = impulse - p_n * normal;
+    const Vec3 path = path_of_impulse(members, free, system, hits, r);
+    if (!gives_way(system, r))
+      (contact.hit >= 0 ? state.ledger.impact : state.ledger.contact) -= p_n * normal.dot(path);
+    state.ledger.friction -= p_t.dot(path);
+  }
+
+  // Share of offset_relaxed() by which an overlap is pressed out. That is a speed, whatever it
+  // takes: between blocks that are jammed the forces would grow without bound, and throw out what
+  // they hold. So nothing is pressed out against several times the weight of the lighter block,
+  // unless it is deep: health allows a tenth of the thickness.
+  [[nodiscard]] double share_pressed_out(const KeptContact& contact, double normal_force) const {
+    double mass = members.of(contact.a).mass;
+    if (contact.b >= 0) mass = std::min(mass, members.of(contact.b).mass);
+    const double weight = mass * scene.gravity.norm();
+    const double by_load = weight > 0 ? 2 - normal_force / (law::heavy * weight) : 0;
+    const double by_depth =
+        contact.offset / (law::relaxes_anyway * thickness_of(members, contact)) - 1;
+    return std::clamp(std::max(by_load, by_depth), 0.0, 1.0);
+  }
+
+  // What contact `r`, which pressed and ends with an overlap of `overlap`, keeps for the next step.
+  // Hits keep nothing, but where blocks are found deep in each other or in the ground: edges that
+  // slide on each other while they turn are hit in every step, and so are splinters that large
+  // blocks drive into the ground; what that adds to the overlap has to be pressed out.
+  void remember_contact(size_t r, const Vec3& path, double overlap) {
+    const double h = free.h;
+    const KeptContact& contact = system.contacts[r];
+    const RowIn<const RowGroup> lane = lane_of(system, r);
+    const Vec3 normal = lane.normal(), impulse = lane.impulse();
+    const bool was_hit = contact.hit >= 0;
+    if (was_hit &&
+        (contact.fixed >= 0 || overlap <= law::remembered_hit * thickness_of(members, contact)))
+      return;
+    const double p_n = normal.dot(impulse);
+    std::vector<ContactMemory>& memories = state.memory[contact.a];
+    make_room(memories);
+    ContactMemory& memory = memories.emplace_back();
+    memory.key = contact.key;
+    memory.normal = normal;
+    memory.offset = contact.offset;
+    if (contact.bond < 0 && contact.offset > 0) {
+      const double relaxed = offset_relaxed(scene.gravity.norm(), h);
+      const double pressed_out = (was_hit ? 1 : share_pressed_out(contact, p_n / h)) * relaxed;
+      memory.offset = std::max(0.0, contact.offset - pressed_out);
+    }
+    const double along = normal.dot(path);
+    memory.gap_end = contact.gap_start + contact.offset + along - (contact.offset - memory.offset);
+    if (was_hit) return;  // it bears nothing
+    const ContactState stays = lane.state();
+    memory.normal_force = p_n / h;
+    const double per_time = members.of(contact.a).recovery_time * h;
+    if (contact.bond < 0 && contact.bond_area == 0)
+      memory.stiffness = lane.normal_damping() / per_time;
+    memory.state = static_cast<std::uint8_t>(stays);
+    memory.bond_area = contact.bond >= 0 ? 0 : contact.bond_area;  // of the ground
+    const double k_t = lane.shear_damping() / per_time;
+    memory.shear = stays == ContactState::slip ? Vec3((impulse - p_n * normal) / (-h * k_t))
+                                               : Vec3(contact.shear + path - along * normal);
+  }
+
+  // What the contacts keep for the next step, and the work they did. In one piece: see
+  // ContactMaker::add_points().
+  [[gnu::flatten]] void remember() {
+    for (const int b : members.blocks) state.memory[b].clear();
+    end.pressed.assign(members.size(), 0);
+    end.ground_impulse.assign(members.size(), Vec3::Zero());
+    for (size_t r = 0; r < system.contacts.size(); ++r) {
+      const KeptContact& contact = system.contacts[r];
+      const RowIn<const RowGroup> lane = lane_of(system, r);
+      const Vec3 path = path_of_contact(system, end, r);
+      const double overlap = -(contact.gap_start + lane.normal().dot(path));
+      if (contact.waits) continue;
+      const bool is_open = lane.state() == ContactState::open;
+      if (!is_open || contact.offset > 0)
+        note_overlap(thinner_of(members, contact), overlap, thickness_of(members, contact), deep,
+                     report);
+      if (is_open) continue;
+      const BodyPair& pair = system.island.pairs[contact.pair];
+      end.pressed[pair.a] = 1;
+      if (pair.b >= 0) end.pressed[pair.b] = 1;
+      account(r);
+      ++report.n_closed;
+      report.sum_penetration += std::max(overlap, 0.0);
+      if (contact.hit < 0 && contact.b < 0 && !gives_way(system, r))
+        end.ground_impulse[pair.a] += lane.impulse();
+      remember_contact(r, path, overlap);
+    }
+  }
+
+  // The path of a member: in one piece, or up to its hit and on from there.
+  void add_path(size_t k, const Motion& motion) {
+    constexpr double rounding = 1e-12;
+    const Substep& s = free.substeps[k];
+    const int b = members.blocks[k];
+    const double hit = hits.time[k], t = free.t, h = free.h;
+    if (std::abs(hit - h / 2) < 1e-3 * h) {
+      add_segment(b, false, t, h, s.start, motion, segments);
+      return;
+    }
+    const Support& support = hits.support[k];
+    const double borne = std::min(hit, support.until);
+    Motion before = fly(s.start, members.numbers[k].inertia, s.free_acceleration, hit);
+    before.velocity += borne * support.acceleration.head<3>();
+    before.pose.position += borne_path(hits, k, hit).head<3>();
+    Motion after = before;
+    after.velocity = motion.velocity - (h - hit) * s.free_acceleration -
+                     (support.until - borne) * support.acceleration.head<3>();
+    after.angular_momentum = motion.angular_momentum;
+    if (hit > rounding * h) add_segment(b, false, t, hit, s.start, before, segments);
+    if (hit < (1 - rounding) * h) add_segment(b, false, t + hit, h - hit, after, motion, segments);
+  }
+
+  // How the ground supports a member from now on, and the work of its support until it was hit.
+  void renew_support(size_t k) {
+    const Support& was = hits.support[k];
+    if (was.until > 0) {
+      const auto [power, rise] = support_power(free, system.island, hits, k);
+      state.ledger.friction -= was.until * (power + was.until / 2 * rise);
+    }
+    Vec3 support = end.ground_impulse[k] / (members.numbers[k].mass * free.h);
+    if (!support.isZero(0)) support += was.until / free.h * was.acceleration.head<3>();
+    set_support(scene, members.blocks[k], support, state);
+  }
+
+  void move(size_t k) {
+    const Substep& s = free.substeps[k];
+    const int b = members.blocks[k];
+    const Motion motion = end_of(free, system, hits, end, k);
+    add_path(k, motion);
+    renew_support(k);
+    if (end.pressed[k])
+      set_rates(scene, b, members.numbers[k], s, motion, state);
+    else
+      forget_rates(scene, b, state);
+    const Vec3 external = s.free_acceleration - scene.gravity;
+    if (!external.isZero(0))
+      state.ledger.base +=
+          members.numbers[k].mass * external.dot(motion.pose.position - s.start.pose.position);
+    state.motion[members.block(k)] = motion;
+    if (!is_finite(motion)) stop_at(s.start, members.block(k), state, report);
+    state.local_time[members.block(k)] = free.t + free.h;
+    ++report.substeps;
+  }
+
+  void move_all() {
+    for (size_t k = 0; k < members.size(); ++k) move(k);
+    for (const Hit& hit : hits.hits)
+      for (const int b : {system.contacts[hit.contact].a, system.contacts[hit.contact].b})
+        if (b >= 0) forget_rates(scene, b, state);
+    report.shortest_dt = report.shortest_dt > 0 ? std::min(report.shortest_dt, free.h) : free.h;
+  }
+
+  // First touches, and what the touched panels left to their blocks.
+  void note_touched_panels() {
+    if (scene.fixed.panels.empty()) return;
+    for (size_t r = 0; r < system.contacts.size(); ++r) {
+      const KeptContact& contact = system.contacts[r];
+      if (contact.fixed < 0 || contact.waits || lane_of(system, r).state() == ContactState::open ||
+          panel_number(scene, contact.fixed) < 0)
+        continue;
+      const size_t k = members.at(contact.a);
+      const Motion& before = free.substeps[k].start;
+      const Hit* hit = hit_of(system, hits, r);
+      note_hit(scene, contact.a, contact.fixed, before.pose.position + contact.arm,
+               hit != nullptr ? free.t + hit->time : free.t, before, state.motion[members.block(k)],
+               state.fence);
+    }
+  }
+};
+
+// Bonds of the substep that broke are gone; those with the ground have left the memories already.
+void break_bonds(const SubstepTries& tries, State& state) {
+  for (const int bond : tries.broken)
+    if (static_cast<size_t>(bond) < state.bonds.size()) state.bonds[bond].area = 0;
+}
+
+}  // namespace
+
+void accept(const Scene& scene, const IslandMembers& members, const FreeMotions& free,
+            const IslandSystem& system, const SubstepHits& hits, bool converged,
+            const SubstepTries& tries, SubstepEnd& end, State& state,
+            std::vector<Segment>& segments, DeepWork& deep, StepReport& report) {
+  SubstepAcceptance acceptance{scene, members, free,     system, hits,
+                               end,   state,   segments, deep,   report};
+  report.n_impacts += static_cast<int>(hits.hits.size());
+  if (!converged) ++report.n_unconverged, report.flags = report.flags | StepFlag::unconverged;
+  if (system.fell_through) report.flags = report.flags | StepFlag::fell_through;
+  break_bonds(tries, state);
+  acceptance.remember();
+  acceptance.move_all();
+  acceptance.note_touched_panels();
+  note_work(scene, end.pushes, state.fence);
+  push_bodies(scene, end.pushes, free.t + free.h, state);
+}
+
+}  // namespace talus

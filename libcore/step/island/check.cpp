@@ -1,0 +1,263 @@
+// Stage 9 of an island's step: does the substep hold, or is it made again, shorter or with other
+// contacts? Reads alone; what it finds is in SubstepEnd.
+#include <algorithm>
+#include <cmath>
+
+#include "motion/rotation.hpp"
+#include "scene/yielding.hpp"
+#include "solver/law_numbers.hpp"
+#include "step/island/stages.hpp"
+
+namespace talus {
+namespace {
+
+using std::size_t;
+
+using law::after_hit, law::deep_end, law::deepened, law::most_deep_cuts, law::most_halvings,
+    law::most_used_up_cuts, law::pair_touch_ratio;
+
+/// Checks a substep; a struct so that its parts share what they all read.
+struct SubstepCheck {
+  const Scene& scene;
+  const State& state;
+  const PairSearch& search;
+  const IslandMembers& members;
+  const FreeMotions& free;
+  const IslandSystem& system;
+  const SubstepHits& hits;
+  const SubstepTries& tries;
+  std::vector<NearFeatures>& near_ground;
+  ContactMaking& making;
+  SubstepEnd& end;
+
+  void set_displacements() const {
+    end.displacement.resize(members.size());
+    for (size_t k = 0; k < members.size(); ++k)
+      end.displacement[k] = displacement_by_contact(system.island, hits, k, free.h);
+  }
+
+  // Whether a contact that was left out closes by the displacements found without it.
+  [[nodiscard]] bool closes_left_out() const {
+    // Most are told by a bound: no point of a pair is farther than two radii from a block's start.
+    end.farthest.clear();
+    for (size_t k = 0; k < members.size(); ++k) {
+      const double shift =
+          (system.island.position[k] - free.substeps[k].start.pose.position).norm();
+      const Vec6& by = end.displacement[k];
+      end.farthest.push_back(by.head<3>().norm() +
+                             (2 * members.numbers[k].radius + shift) * by.tail<3>().norm());
+    }
+    return std::any_of(
+        system.left_out.begin(), system.left_out.end(), [&](const LeftOutPoint& left) {
+          const PairManifold& m = search.pairs.manifolds[left.manifold];
+          const double gap_end = system.gap_end[left.point];
+          if (gap_end > end.farthest[members.at(m.block_a)] + end.farthest[members.at(m.block_b)])
+            return false;
+          const Vec3& x = search.pairs.points[left.point].point_b;
+          const auto along = [&](int b) {
+            const size_t k = members.at(b);
+            return m.normal.dot(
+                point_velocity<6>(end.displacement[k], x - system.island.position[k]));
+          };
+          const double touch = pair_touch_ratio *
+                               std::min(members.of(m.block_a).radius, members.of(m.block_b).radius);
+          return gap_end + along(m.block_a) - along(m.block_b) < -touch;
+        });
+  }
+
+  // When the substep has to end so that no block ends deep where it is hit, since a later hit
+  // throws it back or it goes in after its hit because of another: shortly after that hit. h: none
+  // does.
+  [[nodiscard]] double end_of_deepening_hit() const {
+    double first = free.h;
+    for (const Hit& hit : hits.hits) {
+      const KeptContact& contact = system.contacts[hit.contact];
+      const double gap_end =
+          contact.gap_start +
+          lane_of(system, hit.contact).normal().dot(path_of_contact(system, end, hit.contact));
+      const double thickness = thickness_of(members, contact);
+      if (gap_end < std::min(-deep_end * thickness, contact.gap_start - deepened * thickness))
+        first = std::min(first, hit.time + after_hit * free.h);
+    }
+    return first;
+  }
+
+  // Whether a contact of the substep leads member k to this gap with the ground, but for `least`.
+  [[nodiscard]] bool foresaw(size_t k, const Contact& contact, double least) const {
+    if (system.ground_pair[k] < 0) return false;
+    for (const size_t r : contacts_of(system, static_cast<size_t>(system.ground_pair[k]))) {
+      const double gap_end = system.contacts[r].gap_start +
+                             lane_of(system, r).normal().dot(path_of_contact(system, end, r));
+      if (system.contacts[r].key == contact.key && gap_end < contact.gap + least) return true;
+    }
+    return false;
+  }
+
+  // Whether member k ends deep in ground that was not looked for there.
+  [[nodiscard]] bool ends_in_ground(size_t k) const {
+    const BlockNumbers& c = members.numbers[k];
+    const Vec6& by = end.displacement[k];
+    if (by.head<3>().norm() + c.radius * by.tail<3>().norm() < deep_end * c.thickness) return false;
+    (void)find_contacts(scene.ground, scene.blocks.shapes, members.blocks[k],
+                        end_of(free, system, hits, end, k).pose, Mat3::Identity(), 0,
+                        making.world_vertices, making.found, &near_ground[members.block(k)]);
+    return std::any_of(making.found.begin(), making.found.end(), [&](const Contact& contact) {
+      return contact.gap < -deep_end * c.thickness &&
+             !foresaw(k, contact, deep_end / 2 * c.thickness);
+    });
+  }
+
+  // The same for members that are thrown into ground that was not looked for where they end:
+  // shortly after the first of their hits.
+  [[nodiscard]] double end_of_throw_into_ground() const {
+    const double h = free.h;
+    if (!scene.settings.trn_contacts) return h;
+    for (size_t k = 0; k < members.size(); ++k) {
+      if (!ends_in_ground(k)) continue;
+      double first = h;
+      for (const Hit& hit : hits.hits) {
+        const KeptContact& contact = system.contacts[hit.contact];
+        if (contact.a == members.blocks[k] || contact.b == members.blocks[k])
+          first = std::min(first, hit.time);
+      }
+      return first < h ? std::min(first + after_hit * h, h) : h / 2;
+    }
+    return h;
+  }
+
+  // --- bonds -----------------------------------------------------------------------------------
+
+  [[nodiscard]] const GroundClass& bond_class(const KeptContact& contact) const {
+    return contact.bond >= 0 ? state.bonds[contact.bond].face
+                             : scene.ground.classes[contact.ground_class];
+  }
+
+  [[nodiscard]] BondLoad& load_of(const KeptContact& contact) const {
+    const int bond = bond_number(static_cast<int>(state.bonds.size()), contact);
+    for (BondLoad& load : end.bond_loads)
+      if (load.bond == bond) return load;
+    BondLoad& load = end.bond_loads.emplace_back();
+    load.bond = bond;
+    return load;
+  }
+
+  // What the bonds carry; whether it is more than one of them holds.
+  [[nodiscard]] bool overloads_bonds() const {
+    end.bond_loads.clear();
+    if (!system.has_bonds) return false;
+    for (size_t r = 0; r < system.contacts.size(); ++r) {
+      const KeptContact& contact = system.contacts[r];
+      const RowIn<const RowGroup> lane = lane_of(system, r);
+      if (contact.bond_area == 0 || contact.hit >= 0 || lane.state() == ContactState::open)
+        continue;
+      const double per_h = 1 / (free.h * members.of(contact.a).recovery_time);
+      const Vec3 path = path_of_contact(system, end, r);
+      const double along = lane.normal().dot(path);
+      const double N =
+          -per_h * lane.normal_damping() * (contact.gap_start + contact.offset + along);
+      const Vec3 shear =
+          -per_h * lane.shear_damping() * (contact.shear + path - along * lane.normal());
+      add_load(N, shear, contact.bond_area, bond_class(contact), load_of(contact));
+    }
+    return std::any_of(end.bond_loads.begin(), end.bond_loads.end(), breaks);
+  }
+
+  // --- what gives way --------------------------------------------------------------------------
+
+  // What the blocks do to the fixed bodies that give way.
+  void find_pushes() const {
+    end.pushes.clear();
+    if (scene.fixed.yieldings.empty()) return;
+    for (size_t r = 0; r < system.contacts.size(); ++r) {
+      if (!gives_way(system, r)) continue;
+      const KeptContact& contact = system.contacts[r];
+      const RowIn<const RowGroup> lane = lane_of(system, r);
+      const Vec3 normal = lane.normal();
+      const Yielding& yielding = *giving_way(scene, contact.fixed, normal);
+      const auto f = static_cast<size_t>(contact.fixed);
+      YieldPush push;
+      push.along = yield_direction(yielding, normal);
+      const double p_n = lane.normal_impulse(), cosine = normal.dot(push.along);
+      push.block = contact.a;
+      push.yielding = scene.fixed.yielding[f];
+      push.work = -p_n * normal.dot(path_of_impulse(members, free, system, hits, r));
+      push.power = -p_n / free.h * contact.speed_start;
+      const double gap_end = contact.gap_start + normal.dot(path_of_contact(system, end, r));
+      if (p_n >= (1 - 1e-12) * lane.normal_limit()) push.shift = std::min(0.0, gap_end) * cosine;
+      const auto body = static_cast<size_t>(hull_of_fixed(scene, contact.fixed));
+      push.to =
+          push.shift + push.along.dot(search.poses[body].position - scene.fixed.pose[f].position);
+      add_push(push, end.pushes);
+    }
+  }
+
+  // --- in this order ---------------------------------------------------------------------------
+
+  [[nodiscard]] SubstepVerdict run(bool converged) const {
+    using enum SubstepCut;
+    const double h = free.h;
+    if (const double hit = first_lone_hit(members, tries, hits, h); hit < h)
+      return SubstepVerdict::again(hit_alone, hit);
+    if (!converged && tries.halvings < most_halvings)
+      return SubstepVerdict::again(unconverged, h / 2);
+    set_displacements();
+    if (converged && !tries.takes_all && closes_left_out())
+      return SubstepVerdict::again(contact_left_out, h);
+    if (tries.deep_cuts < most_deep_cuts)
+      if (const double first = std::min(end_of_deepening_hit(), end_of_throw_into_ground());
+          first < h)
+        return SubstepVerdict::again(SubstepCut::deep, first);
+    if (overloads_bonds()) return SubstepVerdict::again(bond_broken, h);
+    find_pushes();
+    const double used_up = time_to_first_break(scene, state.yielding, end.pushes, h);
+    if (used_up < h && tries.used_up_cuts < most_used_up_cuts)
+      return SubstepVerdict::again(yielding_used_up, used_up);
+    return SubstepVerdict::accept();
+  }
+};
+
+}  // namespace
+
+SubstepVerdict check_substep(const Scene& scene, const State& state, const PairSearch& search,
+                             const IslandMembers& members, const FreeMotions& free,
+                             const IslandSystem& system, const SubstepHits& hits, bool converged,
+                             const SubstepTries& tries, std::vector<NearFeatures>& near_ground,
+                             ContactMaking& making, SubstepEnd& end) {
+  return SubstepCheck{scene, state, search,      members, free, system,
+                      hits,  tries, near_ground, making,  end}
+      .run(converged);
+}
+
+// Path per time of the points of contact `r` that its impulse works on, over the substep: their
+// mean velocity without and with contacts, less what gravity does to a change of velocity in the
+// rest of the substep.
+Vec3 path_of_impulse(const IslandMembers& members, const FreeMotions& free,
+                     const IslandSystem& system, const SubstepHits& hits, size_t r) {
+  const KeptContact& contact = system.contacts[r];
+  Vec3 path = relative(system, r, [&](size_t k) -> Vec6 {
+    return (system.island.velocity[k] + system.island.free_velocity[k]) / 2;
+  });
+  const size_t ka = members.at(contact.a);
+  path -= (free.h - hits.time[ka]) * free.substeps[ka].free_acceleration;
+  if (contact.b >= 0) {
+    const size_t kb = members.at(contact.b);
+    path += (free.h - hits.time[kb]) * free.substeps[kb].free_acceleration;
+  }
+  return path;
+}
+
+// The free motion, corrected (theory 1.8, 1.10).
+Motion end_of(const FreeMotions& free, const IslandSystem& system, const SubstepHits& hits,
+              const SubstepEnd& end, size_t k) {
+  const Substep& s = free.substeps[k];
+  const Vec6 dv = change(system.island, k) + hits.support[k].until * hits.support[k].acceleration;
+  Motion out = s.free;
+  out.velocity += dv.head<3>();
+  out.pose.position += end.displacement[k].head<3>();
+  out.pose.attitude =
+      (rotation_by(end.displacement[k].tail<3>()) * s.free.pose.attitude).normalized();
+  out.angular_momentum += system.island.mass[k].bottomRightCorner<3, 3>() * dv.tail<3>();
+  return out;
+}
+
+}  // namespace talus

@@ -1,0 +1,526 @@
+// Stage 5 of an island's step: its contacts, made ready for the solver.
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "base/make_room.hpp"
+#include "scene/yielding.hpp"
+#include "solver/law_numbers.hpp"
+#include "step/island/stages.hpp"
+#include "step/substep.hpp"
+
+namespace talus {
+namespace {
+
+using std::size_t;
+
+using law::pair_touch_ratio, law::reach_by_gravity;
+constexpr double held = 1e100;  // strength of an intact bond while the forces are sought
+
+// Sets what the motion of the points says of a contact: they move by `moved` relative to each other
+// within the substep without contact forces, and with `slip` at its start.
+void set_motion(const Vec3& normal, double gap, const Vec3& arm, const Vec3& drift,
+                const Vec3& moved, const Vec3& slip, ContactRow& row) {
+  row.normal = normal;
+  row.arm = arm;
+  row.drift = drift;
+  row.free_move = moved;
+  row.gap_start = gap;
+  row.speed_start = normal.dot(slip);
+  const Vec3 tangent = slip - row.speed_start * normal;
+  const double slip_speed = tangent.norm();
+  row.slip_start = slip_speed > 0 ? Vec3(tangent / slip_speed) : Vec3(Vec3::Zero());
+}
+
+// Whether block b is wholly below the ground under its centroid.
+bool is_below_ground(const Scene& scene, int b, const Vec3& centroid) {
+  const double radius = scene.blocks.shapes.radius[b];
+  return centroid.z() + radius < elevation_at(scene.ground.trn, centroid.x(), centroid.y());
+}
+
+double approach_of(const ContactRow& row, double h) {
+  return std::min(row.speed_start, row.normal.dot(row.free_move) / h);
+}
+
+// Of one pair of bodies, whatever the keys say of them.
+bool has_features(const ContactKey& now, const ContactKey& then) {
+  return now.mode == then.mode && now.feature_a == then.feature_a &&
+         now.feature_b == then.feature_b;
+}
+
+// Holds a contact of a bond without limit; check_substep() compares what it carries.
+void hold(const GroundClass& face, double recovery_time, ContactRow& row) {
+  row.cohesion = held;
+  row.tension = face.tension > 0 ? held : 0;
+  row.bias = (row.gap_start + row.offset) / recovery_time;
+}
+
+// Whether block a touched what has this name in the last step.
+bool knows_body(const State& state, int a, int name) {
+  const std::vector<ContactMemory>& memory = state.memory[a];
+  return std::any_of(memory.begin(), memory.end(),
+                     [name](const ContactMemory& m) { return m.key.body_b == name; });
+}
+
+// Lever arms, path and start velocity of a body's material point.
+struct PointPath {
+  Vec3 start, end, moved, velocity, spin_end;
+};
+
+/// Motion of two blocks along the normal of their manifold, without contact forces.
+struct PairMotionFree {
+  Vec3 turn_a, turn_b, spin_a, spin_b, at_a, at_b;
+  double moved, speed;
+
+  // Gap at the end of the substep.
+  [[nodiscard]] double gap_end(const PairPoint& point) const {
+    return point.gap + moved + turn_a.dot(point.point_b - at_a) - turn_b.dot(point.point_b - at_b);
+  }
+  // The smaller of the speeds at the start and on the mean.
+  [[nodiscard]] double approach(const PairPoint& point, double gap_end, double h) const {
+    const double start =
+        speed + spin_a.dot(point.point_b - at_a) - spin_b.dot(point.point_b - at_b);
+    return std::min(start, (gap_end - point.gap) / h);
+  }
+};
+
+/// What the contacts of a manifold of two blocks have in common.
+struct Meeting {
+  size_t ka, kb;         ///< members
+  Vec3 shift;            ///< of B's arms from A's [m]
+  GroundClass faces;     ///< class of the contacts
+  int bond;              ///< index into State::bonds, -1: none
+  BlockNumbers numbers;  ///< of A, but sizes, stiffness and touching gap are the pair's
+};
+
+/// Makes the contacts of a substep; a struct so that its parts share what they all read.
+struct ContactMaker {
+  const Scene& scene;
+  const State& state;
+  const PairSearch& search;
+  std::span<const int> manifolds;
+  const IslandMembers& members;
+  const FreeMotions& free;
+  const SubstepTries& tries;
+  std::vector<NearFeatures>& near_ground;
+  ContactMaking& making;
+  IslandSystem& system;
+
+  [[nodiscard]] size_t n_points(const PairManifold& m) const {
+    return static_cast<size_t>(m.point_end - m.point_begin);
+  }
+  [[nodiscard]] const PairPoint& point_at(int p) const { return search.pairs.points[p]; }
+  [[nodiscard]] const std::vector<ContactMemory>& memory_of(int b) const { return state.memory[b]; }
+  // The intact bond of two blocks.
+  [[nodiscard]] int bond_of(const PairManifold& m) const {
+    const int bond = find_bond(state.bonds, m.block_a, m.block_b);
+    return bond >= 0 && is_broken(tries, bond) ? -1 : bond;
+  }
+
+  void clear() {
+    system.lost.clear();
+    system.contacts.clear();
+    system.left_out.clear();
+    system.island.pairs.clear();
+    system.island.rows.clear();
+    system.island.angular.clear();
+    system.first_contact.clear();
+    system.ground_pair.clear();
+    system.waiting.clear();
+    system.has_bonds = system.fell_through = false;
+    system.outsider = -1;
+    making.touched_by = -1;
+  }
+
+  void begin_pair(int a, int b) {
+    open_pair(a, b, system.island);
+    system.first_contact.push_back(static_cast<int>(system.contacts.size()));
+  }
+
+  // Takes a contact of the last pair, filled but for this, and makes its lane.
+  void add_contact(ContactRow& contact, bool never_waits) {
+    const double along_path = contact.normal.dot(contact.free_move);
+    contact.pair = static_cast<int>(system.island.pairs.size()) - 1;
+    contact.gap_free = contact.gap_start + along_path;
+    contact.approach = std::min(contact.speed_start, along_path / free.h);
+    // what comes from so far that it must be fast, wherever another hit throws it, waits too
+    const double resting_speed = members.of(contact.a).resting_speed;
+    contact.waits = contact.memory < 0 && !never_waits &&
+                    (contact.approach < -resting_speed ||
+                     contact.gap_start > contact.touch + free.h * resting_speed);
+    if (contact.waits) system.waiting.push_back(system.contacts.size());
+    system.has_bonds |= contact.bond_area != 0;
+    if (contact.memory >= 0) {
+      const ContactMemory& then = memory_of(contact.a)[contact.memory];
+      contact.impulse = free.h * then.normal_force * contact.normal;
+      contact.state = static_cast<ContactState>(then.state);
+    }
+    contact.lane = add_row(contact, system.island);
+    make_room(system.contacts);
+    system.contacts.push_back(contact);
+  }
+
+  // --- with the ground -------------------------------------------------------------------------
+
+  // What block b remembers; of a bond with the ground that the substep breaks, no more.
+  [[nodiscard]] std::span<const ContactMemory> ground_memory(int b) const {
+    if (!is_broken(tries, static_cast<int>(state.bonds.size()) + b)) return memory_of(b);
+    making.unbonded = memory_of(b);
+    for (ContactMemory& memory : making.unbonded)
+      if (memory.key.body_b == ground_name) memory.bond_area = 0;
+    return making.unbonded;
+  }
+
+  // The contacts of block b with the ground that no row of the substep continues: their features
+  // crossed to another plane.
+  [[nodiscard]] LostContacts lost_contacts(int b, const Substep& s,
+                                           std::span<const ContactRow> rows) const {
+    const std::vector<ContactMemory>& memory = memory_of(b);
+    const std::span<const Vec3> vertices = vertices_of(scene.blocks.shapes, b);
+    LostContacts lost;
+    for (size_t i = 0; i < memory.size(); ++i) {
+      const ContactMemory& contact = memory[i];
+      if (contact.key.body_b != ground_name) continue;
+      lost.all += contact.normal_force;
+      const auto continues = [i](const ContactRow& row) {
+        return row.memory == static_cast<int>(i);
+      };
+      if (std::any_of(rows.begin(), rows.end(), continues)) continue;
+      const bool is_vertex = contact.key.mode == ContactMode::vertex_face;
+      lost.add(contact.normal_force,
+               is_vertex ? Vec3(s.R_start * vertices[contact.key.feature_a]) : Vec3(Vec3::Zero()));
+    }
+    return lost;
+  }
+
+  // Contacts of a member with the ground. False when it is off the known ground.
+  [[gnu::flatten]] bool add_ground(size_t k) {
+    const Substep& s = free.substeps[k];
+    const int b = members.blocks[k];
+    const BlockNumbers& c = members.numbers[k];
+    system.lost.push_back({});
+    system.ground_pair.push_back(-1);
+    if (!scene.settings.trn_contacts) {
+      system.fell_through |= is_below_ground(scene, b, s.free.pose.position);
+      return true;
+    }
+    const SearchResult near =
+        find_contacts(scene.ground, scene.blocks.shapes, b, s.free.pose, Mat3::Identity(),
+                      search_margin(c, s.h), making.world_vertices, making.found, &near_ground[b]);
+    if (near.reach == Reach::off_ground) {
+      system.outsider = b;
+      return false;
+    }
+    system.fell_through |= near.reach == Reach::below;
+    making.rows.resize(making.found.size());
+    make_rows(scene, b, c, s, ground_memory(b), making.found, making.rows);
+    system.lost.back() = lost_contacts(b, s, making.rows);
+    if (making.rows.empty()) return true;
+    system.ground_pair.back() = static_cast<int>(system.island.pairs.size());
+    begin_pair(static_cast<int>(k), -1);
+    for (ContactRow& row : making.rows) {
+      for (Vec3* v : {&row.normal, &row.arm, &row.drift, &row.shear, &row.shear_velocity,
+                      &row.slip_start, &row.free_move})
+        *v = s.R * *v;
+      const GroundClass& ground = scene.ground.classes[row.ground_class];
+      if (row.bond_area > 0) hold(ground, c.recovery_time, row);
+      row.touch = c.touch;
+      add_contact(row, row.bond_area > 0);
+    }
+    return true;
+  }
+
+  // --- with other bodies -----------------------------------------------------------------------
+
+  [[nodiscard]] PointPath path_of(size_t k, const Vec3& x) const {
+    const Substep& s = free.substeps[k];
+    const FreeTurn& turn = free.turns[k];
+    PointPath p;
+    p.start = x - s.start.pose.position;
+    p.end = turn.by * p.start;
+    p.moved = s.free.pose.position - s.start.pose.position + p.end - p.start;
+    p.velocity = s.start.velocity + turn.spin_start.cross(p.start);
+    p.spin_end = turn.spin_end;
+    return p;
+  }
+
+  // The memories that the points of a manifold continue, -1: none. First those of the same
+  // features; then, where features changed, those that the pair leaves without a successor, so
+  // that a face that rests on another keeps its support and its friction while corners pass edges.
+  void match_memories(const PairManifold& m) {
+    const std::vector<ContactMemory>& memory = memory_of(m.block_a);
+    making.continued.assign(n_points(m), -1);
+    if (making.touched_by != m.block_a) {  // manifolds come block by block
+      making.touched_by = m.block_a;
+      making.touched.clear();
+      for (const ContactMemory& contact : memory) making.touched.push_back(contact.key.body_b);
+    }
+    std::vector<int>& unclaimed = making.unclaimed;
+    unclaimed.clear();
+    const int other = name_of_body(scene, m.block_b);
+    for (size_t i = 0; i < making.touched.size(); ++i)
+      if (making.touched[i] == other) unclaimed.push_back(static_cast<int>(i));
+    if (unclaimed.empty()) return;
+    const auto claim = [&](const auto& continues, double least_cosine) {
+      for (size_t p = 0; p < making.continued.size() && !unclaimed.empty(); ++p) {
+        if (making.continued[p] >= 0) continue;
+        const ContactKey& key = search.pairs.points[m.point_begin + p].key;
+        const auto found = std::find_if(unclaimed.begin(), unclaimed.end(), [&](int i) {
+          const ContactMemory& then = memory[i];
+          return continues(key, then.key) && then.normal.dot(m.normal) > least_cosine;
+        });
+        if (found == unclaimed.end()) continue;
+        making.continued[p] = *found;
+        unclaimed.erase(found);
+      }
+    };
+    claim(has_features, 0.5);
+    claim([](const ContactKey&, const ContactKey&) { return true; }, 0.99);
+  }
+
+  [[nodiscard]] int continued(const PairManifold& m, int p) const {
+    return making.continued[p - m.point_begin];
+  }
+
+  [[nodiscard]] Meeting meeting_of(const PairManifold& m) const {
+    const size_t ka = members.at(m.block_a), kb = members.at(m.block_b);
+    const BlockNumbers &ca = members.numbers[ka], &cb = members.numbers[kb];
+    Meeting meeting{ka,
+                    kb,
+                    system.island.position[ka] - system.island.position[kb],
+                    pair_class(scene, m),
+                    bond_of(m),
+                    ca};
+    meeting.numbers.radius = std::min(ca.radius, cb.radius);
+    meeting.numbers.thickness = std::min(ca.thickness, cb.thickness);
+    meeting.numbers.touch = pair_touch_ratio * meeting.numbers.radius;
+    meeting.numbers.stiffness =
+        std::max(ca.stiffness, cb.stiffness) * (ca.mass / std::min(ca.mass, cb.mass));
+    if (meeting.bond >= 0) meeting.numbers.sag = 0;
+    return meeting;
+  }
+
+  // Takes over what `memory` holds; false where it is not this contact's. What comes fast is met by
+  // a hit: where it is still apart; where a hit left the memory; and where other features are found
+  // far deeper than those of the memory were, at the other end of the block perhaps.
+  bool inherit_from(const PairManifold& m, const PairPoint& point, int memory, double approach,
+                    const BlockNumbers& c, ContactRow& row) const {
+    if (memory < 0) return false;
+    const ContactMemory& then = memory_of(m.block_a)[memory];
+    const bool same_features = has_features(then.key, point.key);
+    if (approach < -c.resting_speed) {
+      if (row.gap_start > c.touch) return false;
+      if (comes_back_fast(then, approach, free.h, c)) return false;
+      if (!same_features && then.gap_end - then.offset - row.gap_start > law::far_deeper * c.radius)
+        return false;
+    }
+    inherit(then, memory, same_features, Mat3::Identity(), c, row);
+    return true;
+  }
+
+  void add_point(const PairManifold& m, const Meeting& meeting, const PairPoint& point,
+                 int memory) {
+    const size_t ka = meeting.ka, kb = meeting.kb;
+    const BlockNumbers& c = meeting.numbers;
+    const double h = free.h;
+    const Vec3& n = m.normal;
+    const PointPath pa = path_of(ka, point.point_b + point.gap * n);
+    const PointPath pb = path_of(kb, point.point_b);
+    const Vec3 arm = (pa.start + pa.end + pb.start + pb.end) / 4 - meeting.shift / 2;
+    const Vec3 arm_b = arm + meeting.shift;
+    const Vec3 drift = pa.spin_end.cross(pa.end - arm) - pb.spin_end.cross(pb.end - arm_b);
+    ContactRow row;
+    row.key = point.key;
+    row.key.body_b = m.block_b;
+    row.a = m.block_a;
+    row.b = m.block_b;
+    row.bond = meeting.bond;
+    row.touch = c.touch;
+    row.friction = meeting.faces.friction;
+    row.restitution = meeting.faces.restitution;
+    set_motion(n, point.gap, arm, drift, pa.moved - pb.moved, pa.velocity - pb.velocity, row);
+
+    const double approach = approach_of(row, h);
+    if (!inherit_from(m, point, memory, approach, c, row))
+      take_on_load(memory_of(m.block_a), m.block_b, row);
+    const Mobility Wa = mobility_at(members, free, ka, arm, n),
+                   Wb = mobility_at(members, free, kb, arm_b, n);
+    set_law(scene, c, h, {Wa.normal + Wb.normal, Wa.tangent + Wb.tangent}, approach, row);
+    const bool bonded = meeting.bond >= 0;
+    if (bonded) {  // where the faces were when the bond was new, it carries nothing
+      const BlockBond& bond = state.bonds[meeting.bond];
+      row.bond_area = m.area > 0 ? bond.area * point.area / m.area : 0;
+      if (row.memory < 0) row.offset = -row.gap_start;
+      hold(bond.face, c.recovery_time, row);
+    }
+    add_contact(row, bonded);
+  }
+
+  // A point on a fixed body: for the solver, on the ground. `n_closing`: points of the manifold
+  // that close within the substep; they share the force with which it gives way.
+  void add_fixed_point(const PairManifold& m, const PairPoint& point, int memory, int n_closing) {
+    const size_t k = members.at(m.block_a);
+    const Substep& s = free.substeps[k];
+    const Vec3& n = m.normal;
+    const PointPath path = path_of(k, point.point_b + point.gap * n);
+    const Vec3 arm = (path.start + path.end) / 2;
+    BlockNumbers c = members.numbers[k];
+    c.touch = pair_touch_ratio * c.radius;
+    const int fixed = fixed_of(scene, m.block_b);
+    const GroundClass& faces = fixed_class(scene, fixed);
+    ContactRow row;
+    row.key = point.key;
+    row.key.body_b = name_of_fixed(fixed);
+    row.a = m.block_a;
+    row.fixed = fixed;
+    row.touch = c.touch;
+    row.friction = faces.friction;
+    row.restitution = faces.restitution;
+    set_motion(n, point.gap, arm, path.spin_end.cross(path.end - arm), path.moved, path.velocity,
+               row);
+
+    const double approach = approach_of(row, s.h);
+    const Yielding* yielding = giving_way(scene, fixed, n);
+    // what gives way is pressed for many steps
+    if (!inherit_from(m, point, memory, yielding != nullptr ? 0 : approach, c, row))
+      row.offset = std::max(0.0, -row.gap_start);
+    set_law(scene, c, s.h, mobility_at(members, free, k, row.arm, n), approach, row);
+    if (yielding != nullptr) row.normal_limit = yielding->force * s.h / n_closing;
+    add_contact(row, yielding != nullptr);
+  }
+
+  void add_fixed_points(const PairManifold& m) {
+    const size_t k = members.at(m.block_a);
+    int n_closing = 0;
+    for (int p = m.point_begin; p < m.point_end; ++p) {
+      const PointPath path = path_of(k, point_at(p).point_b + point_at(p).gap * m.normal);
+      n_closing += point_at(p).gap + m.normal.dot(path.moved) <= 0;
+    }
+    for (int p = m.point_begin; p < m.point_end; ++p)
+      add_fixed_point(m, point_at(p), continued(m, p), std::max(n_closing, 1));
+  }
+
+  [[nodiscard]] PairMotionFree free_motion(const PairManifold& m) const {
+    const size_t ka = members.at(m.block_a), kb = members.at(m.block_b);
+    const Substep &a = free.substeps[ka], &b = free.substeps[kb];
+    const FreeTurn &turn_a = free.turns[ka], &turn_b = free.turns[kb];
+    const Vec3& n = m.normal;
+    PairMotionFree out;
+    out.turn_a = turn_a.by.transpose() * n - n;
+    out.turn_b = turn_b.by.transpose() * n - n;
+    out.spin_a = n.cross(turn_a.spin_start);
+    out.spin_b = n.cross(turn_b.spin_start);
+    out.at_a = a.start.pose.position;
+    out.at_b = b.start.pose.position;
+    out.moved = n.dot((a.free.pose.position - out.at_a) - (b.free.pose.position - out.at_b));
+    out.speed = n.dot(a.start.velocity - b.start.velocity);
+    return out;
+  }
+
+  // Gaps at the end of the substep without contact forces, and how fast each member may be thrown
+  // by the fastest of its own hits.
+  void look_ahead() {
+    const double h = free.h;
+    std::vector<double>& bound = making.hit_speed_bound;
+    bound.assign(members.size(), 0);
+    const auto note_hit = [&](int b, double speed) {
+      if (b >= 0) bound[members.at(b)] = std::max(bound[members.at(b)], speed);
+    };
+    for (const size_t r : system.waiting)
+      note_hit(system.contacts[r].a, -system.contacts[r].approach);
+    system.gap_end.resize(search.pairs.points.size());
+    for (const int i : manifolds) {
+      const PairManifold& m = search.pairs.manifolds[i];
+      if (is_fixed(scene, m.block_b)) continue;
+      const PairMotionFree motion = free_motion(m);
+      const double resting_speed = members.of(m.block_a).resting_speed;
+      for (int p = m.point_begin; p < m.point_end; ++p) {
+        const double gap_end = motion.gap_end(point_at(p));
+        system.gap_end[p] = gap_end;
+        const double speed = -motion.approach(point_at(p), gap_end, h);
+        if (!(speed > resting_speed && gap_end < h * speed)) continue;
+        note_hit(m.block_a, speed);
+        note_hit(m.block_b, speed);
+      }
+    }
+  }
+
+  // Contacts of two blocks. A new one is left out where its gap is wider than a quarter of what
+  // gravity does in the substep and twice what hits throw the two; check_substep() sees whether it
+  // closed all the same, and then the substep is made again with all. In one piece, as
+  // add_ground(): a contact is many small functions, and their calls are a twentieth of a step.
+  [[gnu::flatten]] void add_points(int manifold) {
+    const double h = free.h;
+    const PairManifold& m = search.pairs.manifolds[manifold];
+    const double farthest = reach_by_gravity * scene.gravity.norm() * h * h +
+                            2 * h *
+                                std::max(making.hit_speed_bound[members.at(m.block_a)],
+                                         making.hit_speed_bound[members.at(m.block_b)]);
+    const bool may_wait = !tries.takes_all && bond_of(m) < 0;
+    std::optional<Meeting> meeting;  // most manifolds of a dense mass need none
+    for (int p = m.point_begin; p < m.point_end; ++p) {
+      const PairPoint& point = point_at(p);
+      const int memory = continued(m, p);
+      const double nearest = std::min(point.gap, system.gap_end[p]);
+      if (may_wait && memory < 0 && nearest > farthest) {
+        system.left_out.push_back({manifold, p});
+        continue;
+      }
+      if (!meeting) meeting = meeting_of(m);
+      add_point(m, *meeting, point, memory);
+    }
+  }
+
+  void add_pair(int manifold) {
+    const PairManifold& m = search.pairs.manifolds[manifold];
+    begin_pair(members.place[m.block_a], members.place[m.block_b]);
+    match_memories(m);
+    if (is_fixed(scene, m.block_b))
+      add_fixed_points(m);
+    else
+      add_points(manifold);
+    if (system.island.pairs.back().row_begin == system.island.pairs.back().row_end) {
+      system.island.pairs.pop_back();
+      system.first_contact.pop_back();
+    }
+  }
+
+  bool run() {
+    clear();
+    for (size_t k = 0; k < members.size(); ++k)
+      if (!add_ground(k)) return false;
+    look_ahead();
+    for (const int i : manifolds) add_pair(i);
+    return true;
+  }
+};
+
+}  // namespace
+
+bool make_contacts(const Scene& scene, const State& state, const PairSearch& search,
+                   std::span<const int> manifolds, const IslandMembers& members,
+                   const FreeMotions& free, const SubstepTries& tries,
+                   std::vector<NearFeatures>& near_ground, ContactMaking& making,
+                   IslandSystem& system) {
+  return ContactMaker{scene, state, search,      manifolds, members,
+                      free,  tries, near_ground, making,    system}
+      .run();
+}
+
+double first_touch(const Scene& scene, const State& state, const IslandSystem& system, double h) {
+  double first = h + 1;
+  if (scene.fixed.yieldings.empty()) return first;
+  for (size_t r = 0; r < system.contacts.size(); ++r) {
+    const KeptContact& contact = system.contacts[r];
+    const double v = contact.speed_start, g = contact.gap_start;
+    if (lane_of(system, r).normal_limit() >= no_normal_limit || g <= contact.touch ||
+        contact.gap_free > -contact.touch ||
+        knows_body(state, contact.a, name_of_fixed(contact.fixed)))
+      continue;
+    const double a = 2 * (contact.gap_free - g - v * h) / (h * h);
+    first = std::min(first, 2 * g / (std::sqrt(std::max(0.0, v * v - 2 * a * g)) - v));
+  }
+  return first;
+}
+
+}  // namespace talus

@@ -1,0 +1,353 @@
+// libcore/step/island/data.hpp
+// What the step of an island computes and may throw away, each struct by its life. The ten stages
+// that fill them are in step/island/stages.hpp; the comment at a group names the stage.
+// PairSearch: a step, for all islands. All else is in IslandScratch: the island at hand, so that
+// each thread could have one of its own. Buffers grow to the largest step and are kept.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "base/index_set.hpp"
+#include "contact/block_pairs.hpp"
+#include "contact/search.hpp"
+#include "scene/bonds.hpp"
+#include "scene/fixed_bodies.hpp"
+#include "solver/contact_row.hpp"
+#include "solver/island_groups.hpp"
+#include "solver/island_solver.hpp"
+#include "solver/newton.hpp"
+#include "step/report.hpp"
+#include "step/stage_clock.hpp"
+#include "step/substep_numbers.hpp"
+
+namespace talus {
+
+// --- of a step ---------------------------------------------------------------------------------
+
+/// Which blocks meet, and what they meet. Bodies are those of Blocks::hulls.
+struct PairSearch {  // clang-format off
+  // form_islands for all blocks; 2 find_pairs anew for those of an island
+  std::vector<Pose> poses;                  ///< at the start of the step or substep     (n_bodies)
+  std::vector<Vec3> step;                   ///< displacement ahead [m]                  (n_bodies)
+  std::vector<Vec3> rotation;               ///< rotation vector ahead [rad]             (n_bodies)
+  std::vector<double> turn;                 ///< path of turning ahead [m]               (n_bodies)
+  std::vector<std::uint8_t> moving, awake;  ///<                                         (n_blocks)
+  BodyGrid grid;                            ///< the fixed bodies, where they stood first
+  std::vector<int> shifted;                 ///< bodies: the fixed ones whose pose is not that
+  std::vector<int> near;                    ///< scratch: fixed bodies near a block
+  std::int64_t n_fixed_near = 0;            ///< fixed bodies looked at so far, block by block
+  PairWork pairs;
+  bool is_of_step = false;                  ///< `pairs` are still those of form_islands
+  // form_islands
+  std::vector<std::pair<int, int>> joined;  ///< blocks within reach of each other
+  std::vector<int> joined_manifold;         ///< of each                                 (n_joined)
+  std::vector<std::uint8_t> near_fixed;     ///< 1: within reach of a fixed body         (n_blocks)
+  IslandGroups groups;
+};  // clang-format on
+
+// --- of an island in a step --------------------------------------------------------------------
+
+/// 1 gather_members; their stiffness: 3 choose_stiffness.
+struct IslandMembers {  // clang-format off
+  std::vector<int> blocks;                  ///< ascending
+  std::vector<BlockNumbers> numbers;        ///<                                         (n_members)
+  std::vector<int> place;                   ///< of a body in `blocks`, -1: not in it    (n_bodies)
+  bool is_small = false;                    ///< the island's matrix is cheap to factor
+  std::vector<double> bearing;              ///< mass of the heaviest block touched [kg] (n_members)
+  // clang-format on
+  [[nodiscard]] std::size_t size() const { return blocks.size(); }
+  [[nodiscard]] std::size_t block(std::size_t k) const {
+    return static_cast<std::size_t>(blocks[k]);
+  }
+  [[nodiscard]] std::size_t at(int b) const { return static_cast<std::size_t>(place[b]); }
+  [[nodiscard]] const BlockNumbers& of(int b) const { return numbers[at(b)]; }
+  /// One block near fixed bodies: it is hit at the end of a substep, so by one after the other.
+  [[nodiscard]] bool is_lone() const { return blocks.size() == 1; }
+};
+
+// --- of a substep ------------------------------------------------------------------------------
+
+/// How a body turns over a substep without contact, and how hard it is to turn.
+struct FreeTurn {
+  Mat3 by;                    ///< from start to end, local axes
+  Vec3 spin_start, spin_end;  ///< local axes [rad/s]
+  Mat3 per_inertia;           ///< inverse of the inertia at the end, local axes [1/(kg m2)]
+};
+
+/// 4 predict.
+struct FreeMotions {
+  double t = 0, h = 0;            ///< start and length of the substep [s]
+  std::vector<Substep> substeps;  ///<                                                   (n_members)
+  std::vector<FreeTurn> turns;    ///<                                                   (n_members)
+};
+
+/// Contacts that pressed on a body from the ground in the substep before, and those of them that do
+/// not press at the end of this one.
+struct LostContacts {
+  double all = 0;           ///< normal forces of all [N]
+  double force = 0;         ///< ... of those lost [N]
+  Vec3 arm = Vec3::Zero();  ///< sum of these times their arms from the centroid [N m]
+
+  void add(double normal_force, const Vec3& at) {
+    force += normal_force;
+    arm += normal_force * at;
+  }
+};
+
+/// A point of contact too far apart to close within the substep.
+struct LeftOutPoint {
+  int manifold = 0, point = 0;
+};
+
+/// Bodies and contacts of the substep.
+struct IslandSystem {  // clang-format off
+  Island island;                            ///< 4: its bodies; 5: pairs, rows; 7: solution
+  // 5 make_contacts
+  std::vector<KeptContact> contacts;        ///< in the order of the island's rows
+  std::vector<int> first_contact;           ///< of each pair of the island              (n_pairs)
+  std::vector<int> ground_pair;             ///< with the ground, -1: none               (n_members)
+  std::vector<LostContacts> lost;           ///<                                         (n_members)
+  std::vector<std::size_t> waiting;         ///< contacts that wait for their hit
+  std::vector<LeftOutPoint> left_out;       ///< points of the pairs that are no contacts
+  std::vector<double> gap_end;              ///< without contact forces [m]              (n_points)
+  bool has_bonds = false;                   ///< a contact is part of a bond
+  bool fell_through = false;                ///< a member is wholly below the ground
+  int outsider = -1;                        ///< block off the known ground, -1: none
+};  // clang-format on
+
+/// Scratch of 5 make_contacts.
+struct ContactMaking {  // clang-format off
+  std::vector<Vec3> world_vertices;         ///< of the member at hand [m]
+  std::vector<Contact> found;               ///< with the ground, of the member at hand
+  std::vector<ContactRow> rows;             ///< of these
+  std::vector<ContactMemory> unbonded;      ///< memory of a member whose bond with the ground broke
+  std::vector<double> hit_speed_bound;      ///< that its own hits may give it, about [m/s] (n_members)
+  int touched_by = -1;                      ///< block whose memories `touched` is of
+  std::vector<int> touched;                 ///< body B of each memory
+  std::vector<int> continued;               ///< memory that a manifold's point continues
+  std::vector<int> unclaimed;               ///< memories of the pair that no point continues yet
+};  // clang-format on
+
+/// A contact that is hit within the substep.
+struct Hit {
+  std::size_t contact = 0;  ///< index into IslandSystem::contacts
+  double time = 0;          ///< from the start of the substep [s]
+  double speed = 0;         ///< normal velocity just before, < 0 [m/s]
+  double rebound = 0;       ///< normal velocity that the hit alone gives back [m/s]
+  double fall = 0;          ///< what gravity makes of that up to the end, <= 0 [m/s]
+  double target = 0;        ///< normal velocity at the end of the substep [m/s]
+  bool is_free = false;     ///< the motion without contact forces leads to it
+  double in_turn = 1;       ///< how many times its pair hits in turn, see set_targets()
+};
+
+/// What bears a body until the ground hits it in a substep and is none of the substep's contacts:
+/// acceleration and spin acceleration.
+struct Support {
+  Vec6 acceleration = Vec6::Zero();  ///< [m/s2, rad/s2]
+  double until = 0;                  ///< from the start of the substep [s]
+};
+
+/// 6 find_hits: what is hit, when, and what bears the members until then.
+struct SubstepHits {  // clang-format off
+  std::vector<Hit> hits;                    ///< in the order in which they were found
+  std::vector<std::size_t> hit_pairs;       ///< pairs of the island with a hit
+  std::vector<Support> support;             ///<                                         (n_members)
+  IndexSet hit_members;                     ///< hit by the ground without contact forces
+  IndexSet opened;                          ///< members with contacts with the ground that a hit opened
+  IndexSet moved;                           ///< by solutions since hits were looked for last
+  // when each member's velocity changes
+  std::vector<double> time;                 ///< on the mean over its impulses [s]       (n_members)
+  std::vector<double> last_time;            ///< `time` before it was set last [s]       (n_members)
+  std::vector<double> weight, delay;        ///< impulses expected [N s]; times delays [N s2] (n_members)
+  std::vector<std::uint8_t> is_timed;       ///< 1: has a `time` of its own              (n_members)
+  std::vector<std::uint8_t> shifted;        ///< 1: `time`, or what bears it, changed    (n_members)
+};  // clang-format on
+
+/// Impulses of hits on a body: their sum about its centroid, of their normal parts, and of these
+/// times the times at which they act.
+struct HitSum {
+  Vec6 impulse = Vec6::Zero();  ///< [N s, N m s]
+  double normal = 0;            ///< [N s]
+  double moment = 0;            ///< [N s2]
+
+  void add(const Vec6& p, double p_n, double time) {
+    impulse += p;
+    normal += p_n;
+    moment += p_n * time;
+  }
+};
+
+/// A hit that presses, in a round of solutions.
+struct ExpectedHit {
+  std::size_t hit = 0;  ///< index into SubstepHits::hits
+  double impulse = 0;   ///< along the normal [N s]
+  double error = 0;     ///< by which that differs from the one expected [N s]
+};
+
+/// Scratch of 8 rebound.
+struct Rebounds {
+  std::vector<HitSum> hit_sums;                      ///<                                (n_members)
+  std::vector<ExpectedHit> expected, last_expected;  ///< in this round and the one before
+  std::vector<std::uint8_t> is_borne;                ///< 1: by a contact, until the hit (n_members)
+  std::vector<Vec6> full_velocity;                   ///< with all of the rebound        (n_members)
+  std::vector<RowGroup> full_rows;                   ///< ... and the island's rows
+};
+
+/// What the substep comes to.
+struct SubstepEnd {  // clang-format off
+  // 9 check_substep
+  std::vector<Vec6> displacement;           ///< by contact                              (n_members)
+  std::vector<double> farthest;             ///< that contact moves a point [m]          (n_members)
+  std::vector<BondLoad> bond_loads;         ///< by bond                                 (n_loaded)
+  std::vector<YieldPush> pushes;            ///< on fixed bodies that give way
+  // 10 accept
+  std::vector<std::uint8_t> pressed;        ///< 1: by a contact                         (n_members)
+  std::vector<Vec3> ground_impulse;         ///< hits aside [N s]                        (n_members)
+};  // clang-format on
+
+/// What became of an attempt at a substep.
+struct SubstepVerdict {
+  enum class Kind : std::uint8_t { accept, again, left } kind = Kind::accept;
+  SubstepCut reason = SubstepCut::unconverged;  ///< where it is made again
+  double h = 0;                                 ///< for which [s]
+
+  static SubstepVerdict accept() { return {}; }
+  static SubstepVerdict again(SubstepCut reason, double h) { return {Kind::again, reason, h}; }
+  /// A member left the known ground.
+  static SubstepVerdict left() { return {Kind::left}; }
+};
+
+/// What the attempts at a substep have come to so far, and those of the step.
+struct SubstepTries {
+  // of the substep
+  int halvings = 0;         ///< because it did not converge
+  int used_up_cuts = 0;     ///< at the time when what gives way is used up
+  bool takes_all = false;   ///< contacts that may be left out are not
+  std::vector<int> broken;  ///< bonds that it breaks: see bond_number()
+  // of the step
+  int deep_cuts = 0;  ///< because a block would end deep in something
+  int lone_hits = 0;  ///< for each of which a substep ended
+};
+
+/// The island at hand: nothing of it outlives its step.
+struct IslandScratch {
+  IslandMembers members;
+  std::vector<int> manifolds;  ///< 2 find_pairs: of the island, indices into PairSearch::pairs
+  FreeMotions free;
+  IslandSystem system;
+  ContactMaking making;
+  SubstepHits hits;
+  IslandWork solver;  ///< scratch of 7 solve
+  Rebounds rebounds;
+  SubstepEnd end;
+  SubstepTries tries;
+  StageClock* clock = nullptr;  ///< where the stages' times are wanted; no part of a run
+};
+
+// --- what the stages ask of these --------------------------------------------------------------
+
+/// Row of contact `r` for the solver.
+[[nodiscard]] inline RowIn<RowGroup> lane_of(IslandSystem& system, std::size_t r) {
+  return row_of(system.island, system.contacts[r].lane);
+}
+[[nodiscard]] inline RowIn<const RowGroup> lane_of(const IslandSystem& system, std::size_t r) {
+  return row_of(system.island, system.contacts[r].lane);
+}
+
+/// Contacts of a pair of the island.
+[[nodiscard]] inline IndexRange contacts_of(const IslandSystem& system, std::size_t pair) {
+  const BodyPair& of = system.island.pairs[pair];
+  const auto first = static_cast<std::size_t>(system.first_contact[pair]);
+  return {first, first + static_cast<std::size_t>(of.row_end - of.row_begin)};
+}
+
+/// The next solution cannot go on from what the last one made of contact `r`.
+inline void note_change(IslandSystem& system, std::size_t r) {
+  system.island.pairs[system.contacts[r].pair].changed = true;
+}
+
+/// Presses on a fixed body that gives way.
+[[nodiscard]] inline bool gives_way(const IslandSystem& system, std::size_t r) {
+  const RowIn<const RowGroup> lane = lane_of(system, r);
+  return lane.normal_limit() < no_normal_limit && lane.state() != ContactState::open;
+}
+
+/// Relative motion of the points of contact `r`, `of` being a motion of members.
+template <class Of>
+[[nodiscard]] Vec3 relative(const IslandSystem& system, std::size_t r, Of&& of) {
+  const Island& island = system.island;
+  const BodyPair& pair = island.pairs[system.contacts[r].pair];
+  const Vec3 arm = lane_of(system, r).arm();
+  const auto ka = static_cast<std::size_t>(pair.a);
+  Vec3 v = point_velocity<6>(of(ka), arm);
+  if (pair.b >= 0) {
+    const auto kb = static_cast<std::size_t>(pair.b);
+    v -= point_velocity<6>(of(kb), arm + island.position[ka] - island.position[kb]);
+  }
+  return v;
+}
+
+/// Change of a member's velocity by contact.
+[[nodiscard]] inline Vec6 change(const Island& island, std::size_t k) {
+  return island.velocity[k] - island.free_velocity[k];
+}
+
+/// Path of member k that its support alone has made at `time`.
+[[nodiscard]] inline Vec6 borne_path(const SubstepHits& hits, std::size_t k, double time) {
+  const double until = std::min(time, hits.support[k].until);
+  return until * (time - until / 2) * hits.support[k].acceleration;
+}
+
+/// Displacement of member k by contact over the substep of `h`, its support included.
+[[nodiscard]] inline Vec6 displacement_by_contact(const Island& island, const SubstepHits& hits,
+                                                  std::size_t k, double h) {
+  return (h - hits.time[k]) * change(island, k) + borne_path(hits, k, h);
+}
+
+[[nodiscard]] inline const Hit* hit_of(const IslandSystem& system, const SubstepHits& hits,
+                                       std::size_t r) {
+  const int hit = system.contacts[r].hit;
+  return hit < 0 ? nullptr : &hits.hits[hit];
+}
+
+/// Displacement of the points of contact `r` over the substep.
+[[nodiscard]] inline Vec3 path_of_contact(const IslandSystem& system, const SubstepEnd& end,
+                                          std::size_t r) {
+  return system.contacts[r].free_move +
+         relative(system, r, [&](std::size_t k) -> const Vec6& { return end.displacement[k]; });
+}
+
+/// Mobility of a contact's point relative to the other side's, as mobility() with local axes.
+[[nodiscard]] inline Mobility mobility_at(const IslandMembers& members, const FreeMotions& free,
+                                          std::size_t k, const Vec3& arm, const Vec3& normal) {
+  const Mat3& per_inertia = free.turns[k].per_inertia;
+  const Vec3 turn = arm.cross(normal);
+  const double along = 1 / members.numbers[k].mass + turn.dot(per_inertia * turn);
+  const double all = 3 / members.numbers[k].mass + per_inertia.trace() * arm.squaredNorm() -
+                     arm.dot(per_inertia * arm);
+  return {along, std::max(along, all - along)};
+}
+
+/// The thinner of the two blocks of a contact.
+[[nodiscard]] inline int thinner_of(const IslandMembers& members, const KeptContact& contact) {
+  if (contact.b < 0) return contact.a;
+  const double a = members.of(contact.a).thickness, b = members.of(contact.b).thickness;
+  return b < a ? contact.b : contact.a;
+}
+[[nodiscard]] inline double thickness_of(const IslandMembers& members, const KeptContact& contact) {
+  return members.of(thinner_of(members, contact)).thickness;
+}
+
+/// Bonds of blocks are numbered as in the state; after them come those of blocks with the ground.
+[[nodiscard]] inline int bond_number(int n_bonds, const KeptContact& contact) {
+  return contact.bond >= 0 ? contact.bond : n_bonds + contact.a;
+}
+[[nodiscard]] inline bool is_broken(const SubstepTries& tries, int bond) {
+  return std::find(tries.broken.begin(), tries.broken.end(), bond) != tries.broken.end();
+}
+
+}  // namespace talus

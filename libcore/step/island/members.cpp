@@ -1,0 +1,70 @@
+// Stages 1 and 3 of an island's step: who belongs to it, and how stiff their contacts are.
+#include <algorithm>
+
+#include "solver/law_numbers.hpp"
+#include "step/island/stages.hpp"
+#include "step/substep.hpp"
+
+namespace talus {
+namespace {
+
+using std::size_t;
+
+using law::bears_little, law::most_sag, law::small_island, law::small_tree, law::stiffest_in_island,
+    law::stiffest_in_small_island;
+
+}  // namespace
+
+void gather_members(const Scene& scene, std::span<const int> blocks, IslandMembers& members) {
+  const auto n_bodies = static_cast<size_t>(n_blocks(scene) + n_fixed(scene));
+  if (members.place.size() != n_bodies) members.place.assign(n_bodies, -1);
+  members.blocks.assign(blocks.begin(), blocks.end());
+  members.numbers.clear();
+  for (size_t k = 0; k < members.size(); ++k) {
+    members.place[members.block(k)] = static_cast<int>(k);
+    members.numbers.push_back(numbers_of(scene, members.blocks[k]));
+  }
+}
+
+void release_members(IslandMembers& members) {
+  for (const int b : members.blocks) members.place[b] = -1;
+}
+
+void see_size(const Scene& scene, const PairSearch& search, std::span<const int> manifolds,
+              IslandMembers& members) {
+  const auto n_pairs = std::count_if(manifolds.begin(), manifolds.end(), [&](int i) {
+    const PairManifold& m = search.pairs.manifolds[i];
+    return !is_fixed(scene, m.block_b) && has_points(m);
+  });
+  const size_t n = members.size();
+  members.is_small = n <= small_island || (n <= small_tree && static_cast<size_t>(n_pairs) < n);
+}
+
+// A small block may bear a large one: its contacts are up to as stiff as the heaviest block that it
+// touches asks for, those of a large island only as far as they bear as much. Stiff ones that do
+// not press a small block with forces that are far beyond its weight as soon as they close, and
+// solving an island with many of them takes tens of factorisations. In the first step nobody knows
+// what they bear.
+void choose_stiffness(const Scene& scene, double time, const PairSearch& search,
+                      std::span<const int> manifolds, IslandMembers& members) {
+  members.bearing.clear();
+  for (const BlockNumbers& c : members.numbers) members.bearing.push_back(c.mass);
+  for (const int i : manifolds) {
+    const PairManifold& m = search.pairs.manifolds[i];
+    if (is_fixed(scene, m.block_b) || !has_points(m)) continue;
+    double &a = members.bearing[members.at(m.block_a)], &b = members.bearing[members.at(m.block_b)];
+    a = std::max(a, members.of(m.block_b).mass);
+    b = std::max(b, members.of(m.block_a).mass);
+  }
+  const double per_mass = (members.is_small ? stiffest_in_small_island : stiffest_in_island) /
+                          (scene.settings.dt * scene.settings.dt);
+  const bool follows_load = !members.is_small && time > 0;
+  for (size_t k = 0; k < members.size(); ++k) {
+    BlockNumbers& c = members.numbers[k];
+    c.stiffness = per_mass * members.bearing[k];
+    c.least_stiffness = bears_little * per_mass * c.mass;
+    c.sag = follows_load ? most_sag * scene.gravity.norm() / per_mass : 0;
+  }
+}
+
+}  // namespace talus

@@ -1,0 +1,57 @@
+// Stage 4 of an island's step: each member without contact.
+#include "step/island/stages.hpp"
+#include "step/substep.hpp"
+
+namespace talus {
+namespace {
+
+using std::size_t;
+
+// Mass, free velocity, first guess of the velocity, and where the member's impulses act.
+void add_body(const Scene& scene, const State& state, const BlockNumbers& c, const Substep& s,
+              const FreeTurn& turn, size_t b, Island& island) {
+  Vec6 free, guess;
+  free << s.free.velocity, turn.spin_end;
+  if (state.acceleration[b] == scene.gravity)  // nothing pressed it
+    guess = free;
+  else
+    guess << s.start.velocity + s.h * state.acceleration[b],
+        turn.spin_start + s.h * (s.R * state.spin_rate[b]);
+  Mat6 M = Mat6::Zero();
+  M.topLeftCorner<3, 3>().diagonal().setConstant(c.mass);
+  M.bottomRightCorner<3, 3>() = s.R * c.inertia.asDiagonal() * s.R.transpose();
+  island.mass.push_back(M);
+  island.free_velocity.push_back(free);
+  island.velocity.push_back(guess);
+  island.position.push_back((s.start.pose.position + s.free.pose.position) / 2);
+  island.radius.push_back(c.radius);
+}
+
+void clear_bodies(Island& island) {
+  island.mass.clear();
+  island.free_velocity.clear();
+  island.velocity.clear();
+  island.position.clear();
+  island.radius.clear();
+}
+
+}  // namespace
+
+void predict(const Scene& scene, const State& state, const IslandMembers& members, double t,
+             double h, FreeMotions& free, Island& island) {
+  free.t = t;
+  free.h = h;
+  free.substeps.resize(members.size());
+  free.turns.clear();
+  clear_bodies(island);
+  for (size_t k = 0; k < members.size(); ++k) {
+    const BlockNumbers& c = members.numbers[k];
+    Substep& s = free.substeps[k];
+    s = predict(scene, members.blocks[k], c, state.motion[members.block(k)], t, h);
+    free.turns.push_back({s.R * s.R_start.transpose(), s.R_start * s.spin_start, s.R * s.spin_free,
+                          s.R * c.per_inertia.asDiagonal() * s.R.transpose()});
+    add_body(scene, state, c, s, free.turns.back(), members.block(k), island);
+  }
+}
+
+}  // namespace talus

@@ -1,0 +1,162 @@
+// libcore/step/island/stages.hpp
+// The step of an island in ten stages: law talus for blocks within reach of each other. Each stage
+// names what it reads and fills; step_island.cpp is the page that puts them in order. Numbers,
+// names and equations: docs/theory.md, "One step of an island".
+// theory 1.6, 1.7, 1.10, 1.12, 3.5; docs/design-notes.md
+#pragma once
+
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "scene/scene.hpp"
+#include "scene/state.hpp"
+#include "step/island/data.hpp"
+#include "step/report.hpp"
+#include "step/work.hpp"
+
+namespace talus {
+
+// --- 1 gather_members (step/island/members.cpp)
+// -----------------------------------------------------
+/// Fills `members` but for what follows from their pairs.
+void gather_members(const Scene& scene, std::span<const int> blocks, IslandMembers& members);
+/// The bodies of `members` are in no island any more.
+void release_members(IslandMembers& members);
+
+// --- 2 find_pairs (step/island/pairs.cpp)
+// -----------------------------------------------------------
+/// Fills `manifolds` with those of island `k` that form_islands found.
+void take_pairs(const Scene& scene, const State& state, const PairSearch& search, int k,
+                const IslandMembers& members, std::vector<int>& manifolds);
+/// Fills `search` and `manifolds` with the pairs at the poses of now, for at most `h` ahead. Of the
+/// state, what it remembers of pairs.
+void find_pairs(const Scene& scene, const IslandMembers& members, double h, State& state,
+                PairSearch& search, std::vector<int>& manifolds);
+/// The longest substep, up to `h`, over which the contacts found at its start still describe the
+/// motion.
+[[nodiscard]] double longest_substep(const Scene& scene, const State& state,
+                                     const PairSearch& search, const IslandMembers& members,
+                                     std::span<const int> manifolds, double h);
+
+// --- 3 choose_stiffness (step/island/members.cpp)
+// ---------------------------------------------------
+/// Fills IslandMembers::is_small, which holds for a step.
+void see_size(const Scene& scene, const PairSearch& search, std::span<const int> manifolds,
+              IslandMembers& members);
+/// Fills the stiffness of the members' numbers.
+void choose_stiffness(const Scene& scene, double time, const PairSearch& search,
+                      std::span<const int> manifolds, IslandMembers& members);
+
+// --- 4 predict (step/island/predict.cpp)
+// ------------------------------------------------------------
+/// Fills `free` and the bodies of `island` for the substep of `h` from `t`.
+void predict(const Scene& scene, const State& state, const IslandMembers& members, double t,
+             double h, FreeMotions& free, Island& island);
+
+// --- 5 make_contacts (step/island/contacts.cpp)
+// -----------------------------------------------------
+/// Fills `system` but for the bodies of its island: contacts with the ground, with other members
+/// and with fixed bodies. False: a member is off the known ground. `near_ground`: what each block
+/// may touch there, kept from search to search.
+[[nodiscard]] bool make_contacts(const Scene& scene, const State& state, const PairSearch& search,
+                                 std::span<const int> manifolds, const IslandMembers& members,
+                                 const FreeMotions& free, const SubstepTries& tries,
+                                 std::vector<NearFeatures>& near_ground, ContactMaking& making,
+                                 IslandSystem& system);
+/// Time at which a block first touches a fixed body that gives way, h + 1: none does within the
+/// substep.
+[[nodiscard]] double first_touch(const Scene& scene, const State& state, const IslandSystem& system,
+                                 double h);
+
+// --- 6 find_hits (step/island/hits.cpp)
+// -------------------------------------------------------------
+/// Fills `hits` for the free motion, what bears the members until they are hit included. In
+/// `system`: the free velocities, and the rows of what is hit.
+void find_first_hits(const State& state, const IslandMembers& members, const FreeMotions& free,
+                     IslandSystem& system, SubstepHits& hits);
+/// Adds the hits that the impulses found so far bring about: how many.
+int find_more_hits(const IslandMembers& members, const FreeMotions& free, IslandSystem& system,
+                   SubstepHits& hits);
+/// Contacts with the ground that a hit opened bear their members until then: whether there are any.
+bool bear_by_opened(const State& state, const IslandMembers& members, const FreeMotions& free,
+                    IslandSystem& system, SubstepHits& hits);
+/// Fills the times at which the members' velocities change, and with `first` anew the places of
+/// their centroids then; moves lever arms.
+void set_times(const FreeMotions& free, const IslandMembers& members, bool first,
+               IslandSystem& system, SubstepHits& hits);
+/// Power of what bears member k at the start of the substep, and how fast it rises [W, W/s].
+[[nodiscard]] std::pair<double, double> support_power(const FreeMotions& free, const Island& island,
+                                                      const SubstepHits& hits, std::size_t k);
+/// Where the substep of a lone block has to end, since it is hit within it; h + 1: nowhere.
+[[nodiscard]] double first_lone_hit(const IslandMembers& members, const SubstepTries& tries,
+                                    const SubstepHits& hits, double h);
+
+// --- 7 solve (step/island/impacts.cpp)
+// --------------------------------------------------------------
+/// What a solution has come to.
+struct Solution {
+  bool converged = true;
+  int passes = 0;
+};
+/// Fills velocities and impulses of the island; marks the members that moved. `continues`: from the
+/// last solution.
+void solve(const Scene& scene, const IslandMembers& members, const FreeMotions& free,
+           bool continues, IslandSystem& system, SubstepHits& hits, IslandWork& solver,
+           Solution& solution);
+
+// --- 8 rebound (step/island/rebounds.cpp)
+// -----------------------------------------------------------
+/// Fills the speeds of the hits that the free motion leads to, and the targets of all.
+void set_targets(const IslandMembers& members, const FreeMotions& free, const IslandSystem& system,
+                 SubstepHits& hits, Rebounds& rebounds);
+/// Moves the rows of the hits by what finite stiffness left of their targets: the largest error, as
+/// a share of the speed of its hit.
+double correct_hits(const SubstepHits& hits, IslandSystem& system, Rebounds& rebounds);
+/// Whether the hits lost less energy than they would in turn.
+[[nodiscard]] bool gain_energy(const IslandMembers& members, const IslandSystem& system,
+                               const SubstepHits& hits);
+/// Keeps the solution at hand, in which the hits lose less than they should, and takes their
+/// rebound from them: what they lose too little [J], for blend_rebound().
+[[nodiscard]] double forgo_rebound(const IslandMembers& members, IslandSystem& system,
+                                   SubstepHits& hits, Rebounds& rebounds);
+/// Gives the hits, which are solved without rebound, as much of it as they may have. `excess`: of
+/// forgo_rebound() [J].
+void blend_rebound(const IslandMembers& members, double excess, const SubstepHits& hits,
+                   const Rebounds& rebounds, IslandSystem& system);
+
+/// Stages 6 to 8 until no hit is added and all rebound as they should.
+void solve_with_hits(const Scene& scene, const State& state, const IslandMembers& members,
+                     const FreeMotions& free, const SubstepTries& tries, IslandSystem& system,
+                     SubstepHits& hits, IslandWork& solver, Rebounds& rebounds, StageClock* clock,
+                     Solution& solution);
+
+// --- 9 check_substep (step/island/check.cpp)
+// --------------------------------------------------------
+/// Fills `end` but for what accept() does: accept, or again with a reason. `making`, `near_ground`:
+/// for searches of the ground.
+[[nodiscard]] SubstepVerdict check_substep(const Scene& scene, const State& state,
+                                           const PairSearch& search, const IslandMembers& members,
+                                           const FreeMotions& free, const IslandSystem& system,
+                                           const SubstepHits& hits, bool converged,
+                                           const SubstepTries& tries,
+                                           std::vector<NearFeatures>& near_ground,
+                                           ContactMaking& making, SubstepEnd& end);
+/// Path per time of the points of contact `r` that its impulse works on, over the substep [m/s].
+[[nodiscard]] Vec3 path_of_impulse(const IslandMembers& members, const FreeMotions& free,
+                                   const IslandSystem& system, const SubstepHits& hits,
+                                   std::size_t r);
+/// Motion of member k at the end of the substep.
+[[nodiscard]] Motion end_of(const FreeMotions& free, const IslandSystem& system,
+                            const SubstepHits& hits, const SubstepEnd& end, std::size_t k);
+
+// --- 10 accept (step/island/accept.cpp)
+// -------------------------------------------------------------
+/// The substep holds: fills motion, memory, bonds, yielding bodies and ledger of the state, the
+/// segments, and the report. Nothing before it changes anything of these.
+void accept(const Scene& scene, const IslandMembers& members, const FreeMotions& free,
+            const IslandSystem& system, const SubstepHits& hits, bool converged,
+            const SubstepTries& tries, SubstepEnd& end, State& state,
+            std::vector<Segment>& segments, DeepWork& deep, StepReport& report);
+
+}  // namespace talus

@@ -1,0 +1,165 @@
+// The step of an island as a page: its ten stages in order. What they are: step/island/stages.hpp.
+#include "step/island/step_island.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/law_numbers.hpp"
+#include "step/island/stages.hpp"
+#include "step/substep.hpp"
+
+namespace talus {
+namespace {
+
+using std::size_t;
+
+// Stages 4 to 9: an attempt at the substep of `h` from `t`. Changes nothing but scratch.
+SubstepVerdict try_substep(const Scene& scene, const State& state, const PairSearch& search,
+                           double t, double h, std::vector<NearFeatures>& near_ground,
+                           IslandScratch& w, Solution& solution) {
+  {
+    const StageTimer timer(w.clock, IslandStage::predict);
+    predict(scene, state, w.members, t, h, w.free, w.system.island);
+  }
+  {
+    const StageTimer timer(w.clock, IslandStage::make_contacts);
+    if (!make_contacts(scene, state, search, w.manifolds, w.members, w.free, w.tries, near_ground,
+                       w.making, w.system))
+      return SubstepVerdict::left();
+  }
+  if (const double touch = first_touch(scene, state, w.system, h); touch < h)
+    return SubstepVerdict::again(SubstepCut::yielding_touched, touch);
+  // find_hits, solve, rebound: in turn
+  solve_with_hits(scene, state, w.members, w.free, w.tries, w.system, w.hits, w.solver, w.rebounds,
+                  w.clock, solution);
+  const StageTimer timer(w.clock, IslandStage::check_substep);
+  return check_substep(scene, state, search, w.members, w.free, w.system, w.hits,
+                       solution.converged, w.tries, near_ground, w.making, w.end);
+}
+
+void begin_substep(SubstepTries& tries) {
+  tries.halvings = tries.used_up_cuts = 0;
+  tries.takes_all = false;
+  tries.broken.clear();
+}
+
+// Notes why a substep is made again.
+void note_cut(SubstepCut reason, const SubstepEnd& end, SubstepTries& tries) {
+  switch (reason) {
+    case SubstepCut::yielding_touched:
+      break;
+    case SubstepCut::hit_alone:
+      ++tries.lone_hits;
+      break;
+    case SubstepCut::unconverged:
+      ++tries.halvings;
+      break;
+    case SubstepCut::contact_left_out:
+      tries.takes_all = true;
+      break;
+    case SubstepCut::deep:
+      ++tries.deep_cuts;
+      break;
+    case SubstepCut::bond_broken:
+      for (const BondLoad& load : end.bond_loads)
+        if (breaks(load)) tries.broken.push_back(load.bond);
+      break;
+    case SubstepCut::yielding_used_up:
+      ++tries.used_up_cuts;
+      break;
+  }
+}
+
+// Stages 4 to 10: attempts from `t`, the first over `h`, until one holds or a member is found off
+// the known ground.
+void make_substep(const Scene& scene, double t, double h, State& state, Work& work,
+                  StepReport& report) {
+  IslandScratch& w = work.island;
+  begin_substep(w.tries);
+  for (;;) {
+    Solution solution;
+    const SubstepVerdict verdict =
+        try_substep(scene, state, work.search, t, h, work.near_ground, w, solution);
+    report.passes += solution.passes;
+    if (verdict.kind == SubstepVerdict::Kind::left) return;
+    if (verdict.kind == SubstepVerdict::Kind::accept) {
+      const StageTimer timer(w.clock, IslandStage::accept);
+      accept(scene, w.members, w.free, w.system, w.hits, solution.converged, w.tries, w.end, state,
+             work.segments, work.deep, report);
+      return;
+    }
+    ++report.cuts[static_cast<std::size_t>(verdict.reason)];
+    state.counters.cut_back += verdict.reason == SubstepCut::unconverged;
+    note_cut(verdict.reason, w.end, w.tries);
+    h = verdict.h;
+  }
+}
+
+// Stops the members that left the known ground; those that stay, and whose numbers did not fail,
+// go on.
+void stop_outsiders(const Scene& scene, double t_end, State& state, Work& work,
+                    StepReport& report) {
+  IslandMembers& members = work.island.members;
+  const auto is_outside = [&](int b) {
+    return b == work.island.system.outsider || !takes_part(state, b) ||
+           left_ground(scene, state.motion[b].pose.position);
+  };
+  if (std::none_of(members.blocks.begin(), members.blocks.end(), is_outside)) return;
+  std::vector<int> stay;
+  for (const int b : members.blocks) {
+    if (!is_outside(b)) {
+      stay.push_back(b);
+      continue;
+    }
+    if (takes_part(state, b)) stop_outside(scene, b, state, report);
+    state.local_time[b] = t_end;
+  }
+  release_members(members);
+  gather_members(scene, stay, members);
+  work.search.is_of_step = false;
+}
+
+// Stages 2 and 3, for at most `ahead`: the longest substep that they allow.
+double prepare_substep(const Scene& scene, int k, double t, double ahead, State& state,
+                       Work& work) {
+  PairSearch& search = work.search;
+  IslandScratch& w = work.island;
+  const bool begins = t == state.time;
+  {
+    const StageTimer timer(w.clock, IslandStage::find_pairs);
+    if (search.is_of_step && begins)
+      take_pairs(scene, state, search, k, w.members, w.manifolds);
+    else
+      find_pairs(scene, w.members, ahead, state, search, w.manifolds);
+  }
+  const StageTimer timer(w.clock, IslandStage::choose_stiffness);
+  if (begins) see_size(scene, search, w.manifolds, w.members);
+  choose_stiffness(scene, state.time, search, w.manifolds, w.members);
+  return longest_substep(scene, state, search, w.members, w.manifolds, ahead);
+}
+
+}  // namespace
+
+void advance_island(const Scene& scene, int k, double t_end, State& state, Work& work,
+                    StepReport& report) {
+  IslandScratch& w = work.island;
+  {
+    const StageTimer timer(w.clock, IslandStage::gather_members);
+    gather_members(scene, blocks_of(work.search.groups, k), w.members);
+  }
+  w.tries.deep_cuts = w.tries.lone_hits = 0;
+  double t = state.time, ahead = t_end - t;
+  while (t < t_end && !w.members.blocks.empty()) {
+    const double longest = prepare_substep(scene, k, t, ahead, state, work);
+    make_substep(scene, t, longest, state, work, report);
+    t = state.local_time[w.members.block(0)];
+    if (t_end - t < 1e-9 * scene.settings.dt) t = t_end;
+    stop_outsiders(scene, t_end, state, work, report);
+    // pairs that are far apart when a long step begins cost the most, and bear nothing yet
+    ahead = (t_end - t) / std::ceil((t_end - t) / (law::substeps_ahead * longest));
+  }
+  for (const int b : w.members.blocks) state.local_time[b] = t_end;
+  release_members(w.members);
+}
+
+}  // namespace talus

@@ -1,0 +1,202 @@
+#include "step/step.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "motion/displacement.hpp"
+#include "motion/rotation.hpp"
+#include "scene/yielding.hpp"
+#include "solver/law_numbers.hpp"
+#include "step/deep_blocks.hpp"
+#include "step/flight.hpp"
+#include "step/island/step_island.hpp"
+#include "step/lone/step_talus.hpp"
+#include "step/paper/step_paper.hpp"
+#include "step/settle.hpp"
+#include "step/substep.hpp"
+
+namespace talus {
+namespace {
+
+using std::size_t;
+
+constexpr size_t expected_contacts = 16;  // of a block, before a buffer has to grow
+
+// A block that something bears and that stays in place is left out until something wakes it.
+void put_to_sleep(const Scene& scene, size_t b, State& state) {
+  watch_rest(scene, b, state);
+  if (state.rest_steps[b] >= law::steps_before_sleep && !state.memory[b].empty())
+    fall_asleep(scene, b, state);
+}
+
+// Whether block b shares its island with others, or may touch a fixed body.
+bool in_company(const State& state, const PairSearch& w, int b) {
+  const auto i = static_cast<size_t>(b), k = static_cast<size_t>(w.groups.island_of[i]);
+  return w.groups.block_begin[k + 1] - w.groups.block_begin[k] > 1 ||
+         (w.near_fixed[i] != 0 && !does_not_move(state.phase[i]));
+}
+
+// Whether the ball around block b at rest is far above all ground below it.
+bool is_above_ground(const Scene& scene, size_t b) {
+  const Vec3 &at = scene.blocks.rest[b].position,
+             around = Vec3::Constant(1.001 * scene.blocks.shapes.radius[b]);
+  const NearCells near =
+      find_near_cells(scene.ground.trn, scene.ground.pyramid, at - around, at + around, 0);
+  return near.reach == Reach::above;
+}
+
+bool spins(const Scene& scene, size_t b) { return !scene.blocks.spin[b].isZero(0); }
+
+}  // namespace
+
+State start(const Scene& scene) {
+  const auto n = static_cast<size_t>(n_blocks(scene));
+  State state;
+  static_cast<BlockLives&>(state) = start_lives(scene.blocks.rest);
+  state.motion.resize(n);
+  state.acceleration.assign(n, Vec3::Zero());
+  state.spin_rate.assign(n, Vec3::Zero());
+  state.support.assign(n, Vec3::Zero());
+  state.memory.resize(n);
+  state.deep.resize(n);
+  state.yielding = start_yielding(scene);
+  state.bonds = start_bonds(scene);
+  if (scene.settings.strains) {
+    state.strain.assign(n, Vec6::Zero());
+    state.strain_rate.assign(n, Vec6::Zero());
+  }
+  for (size_t b = 0; b < n; ++b) {
+    state.memory[b].reserve(expected_contacts);
+    state.motion[b].pose = scene.blocks.rest[b];
+    state.motion[b].velocity = scene.blocks.velocity[b];
+    state.motion[b].angular_momentum = angular_momentum(
+        scene.blocks.rest[b].attitude, scene.blocks.spin[b], scene.blocks.inertia[b]);
+  }
+  const bool is_paper = scene.settings.law == Law::paper;
+  if (is_paper) state.paper.rebound.assign(n, Vec3::Zero());
+  if (scene.settings.trn_contacts && (is_paper || scene.settings.static_start)) {
+    std::optional<Work> work;  // none where all blocks are above the ground
+    for (size_t b = 0; b < n; ++b) {
+      if (spins(scene, b) || is_above_ground(scene, b)) continue;
+      if (!work) work = make_work(scene);
+      (is_paper ? bond_block : settle_block)(scene, static_cast<int>(b), state, *work);
+    }
+  }
+  return state;
+}
+
+Work make_work(const Scene& scene) {
+  Work work;
+  size_t most_vertices = 0;
+  for (int b = 0; b < n_blocks(scene); ++b)
+    most_vertices = std::max(most_vertices, vertices_of(scene.blocks.shapes, b).size());
+  work.world_vertices.reserve(most_vertices);
+  work.near_ground.resize(n_blocks(scene));
+  for (NearFeatures& near : work.near_ground) near.features.reserve(expected_contacts);
+  work.deep.is_suspect.resize(n_blocks(scene));
+  work.contacts.reserve(8 * (most_vertices + expected_contacts));
+  work.rows.reserve(8 * (most_vertices + expected_contacts));
+  work.unbonded.reserve(expected_contacts);
+  work.segments.reserve(8 * static_cast<size_t>(n_blocks(scene)) + 64);
+  return work;
+}
+
+namespace {
+
+void advance_talus(const Scene& scene, State& state, Work& work, StepReport& report) {
+  const double t_end = state.time + scene.settings.dt;
+  const bool may_sleep = scene.settings.sleep && !shakes(scene.base);
+  const bool islands = (n_blocks(scene) > 1 && scene.settings.block_contacts) || n_fixed(scene) > 0;
+  if (islands) form_islands(scene, state, work);
+  for (int b = 0; b < n_blocks(scene); ++b) {
+    const auto i = static_cast<size_t>(b);
+    if (islands && in_company(state, work.search, b)) {
+      const int k = work.search.groups.island_of[i];
+      if (work.search.groups.local_index[i] > 0) continue;
+      advance_island(scene, k, t_end, state, work, report);
+      if (may_sleep) put_island_to_sleep(scene, k, state, work);
+      continue;
+    }
+    if (does_not_move(state.phase[i])) continue;
+    if (state.phase[i] == Phase::flight && state.flight_end[i] >= t_end && scene.settings.flight) {
+      ++state.counters.flight_skips;
+      continue;
+    }
+    const Motion before = state.motion[i];
+    advance_block_talus(scene, b, t_end, state, work, report);
+    if (!is_finite(state.motion[i])) stop_at(before, i, state, report);
+    if (may_sleep && !does_not_move(state.phase[i])) put_to_sleep(scene, i, state);
+  }
+}
+
+// Members and pairs of blocks of the island that block b is the first of, for law paper.
+void gather_island(const Scene& scene, int b, Work& work) {
+  const PairSearch& w = work.search;
+  const auto k = static_cast<size_t>(w.groups.island_of[b]);
+  work.paper.members.assign(w.groups.blocks.begin() + w.groups.block_begin[k],
+                            w.groups.blocks.begin() + w.groups.block_begin[k + 1]);
+  for (int p = w.groups.pair_begin[k]; p < w.groups.pair_begin[k + 1]; ++p) {
+    const int m = w.joined_manifold[w.groups.pairs[p]];
+    if (!is_fixed(scene, w.pairs.manifolds[m].block_b)) work.paper.manifolds.push_back(m);
+  }
+}
+
+void advance_paper(const Scene& scene, State& state, Work& work, StepReport& report) {
+  const bool islands = n_blocks(scene) > 1 && scene.settings.block_contacts;
+  if (islands) form_islands(scene, state, work);
+  for (int b = 0; b < n_blocks(scene); ++b) {
+    const auto i = static_cast<size_t>(b);
+    if (does_not_move(state.phase[i])) continue;
+    if (islands && work.search.groups.local_index[i] > 0) continue;
+    work.paper.members.assign(1, b);
+    work.paper.manifolds.clear();
+    if (islands) gather_island(scene, b, work);
+    advance_island_paper(scene, work.paper.members, work.paper.manifolds, state, work, report);
+  }
+}
+
+}  // namespace
+
+StepReport step(const Scene& scene, State& state, Work& work) {
+  StepReport report;
+  work.segments.clear();
+  if (scene.settings.law == Law::paper)
+    advance_paper(scene, state, work, report);
+  else
+    advance_talus(scene, state, work, report);
+  state.time += scene.settings.dt;
+  note_deep_blocks(scene, state, work.deep, report);
+  ++state.counters.steps;
+  state.counters.substeps += report.substeps;
+  state.counters.impacts += report.n_impacts;
+  state.counters.passes += report.passes;
+  state.counters.unconverged += report.n_unconverged;
+  return report;
+}
+
+Energies energies(const Scene& scene, const State& state) {
+  Energies sum;
+  for (int b = 0; b < n_blocks(scene); ++b) {
+    const auto i = static_cast<size_t>(b);
+    if (!exists(state.phase[i])) continue;
+    Motion m = state.motion[i];  // a flight's spin energy does not change: no need to follow it
+    const double flown = state.phase[i] == Phase::flight ? state.time - state.local_time[i] : 0;
+    m.pose.position += flown * m.velocity + 0.5 * flown * flown * scene.gravity;
+    m.velocity += flown * scene.gravity;
+    const double mass = scene.blocks.mass[i];
+    const Vec3 spin =
+        angular_velocity(m.pose.attitude, m.angular_momentum, scene.blocks.inertia[i]);
+    sum.translation += 0.5 * mass * m.velocity.squaredNorm();
+    sum.rotation += 0.5 * spin.dot(m.angular_momentum);
+    sum.potential -= mass * scene.gravity.dot(m.pose.position);
+    if (!state.strain.empty())
+      sum.elastic +=
+          0.5 * scene.blocks.volume[i] *
+          state.strain[i].dot(elastic_matrix(scene.blocks.young[i], scene.blocks.poisson[i]) *
+                              state.strain[i]);
+  }
+  return sum;
+}
+
+}  // namespace talus

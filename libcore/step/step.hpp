@@ -1,0 +1,36 @@
+// libcore/step/step.hpp: public
+// One time step of all blocks: near cells, entrances, contact law, solution, update (Fig. 4).
+// in:    Scene (const), State, Work (scratch)
+// out:   State at the end of the step; the motion in between as segments in Work
+// paper: Zhang et al. 2018, Fig. 4; theory 1.7-1.12
+#pragma once
+
+#include "scene/scene.hpp"
+#include "scene/state.hpp"
+#include "step/flight.hpp"  // motion_at()
+#include "step/report.hpp"
+#include "step/work.hpp"
+
+namespace talus {
+
+/// State at time 0. With law talus and Settings::static_start, a block at rest that touches the
+/// ground is let down into equilibrium with it (its weight over the contact stiffness,
+/// micrometres).
+[[nodiscard]] State start(const Scene& scene);
+
+/// Buffers for `scene`, large enough that step() does not allocate.
+[[nodiscard]] Work make_work(const Scene& scene);
+
+/// Advances all blocks to state.time + settings.dt.
+///
+/// A block in flight is not touched until its flight ends: its motion is that at local_time;
+/// motion_at() gives it at any time. A block that leaves the known terrain is stopped there.
+StepReport step(const Scene& scene, State& state, Work& work);
+
+/// Energies of all blocks at state.time [J]. Potential energy counts from the local zero.
+struct Energies {
+  double translation = 0, rotation = 0, potential = 0, elastic = 0;
+};
+[[nodiscard]] Energies energies(const Scene& scene, const State& state);
+
+}  // namespace talus

@@ -1,0 +1,47 @@
+// libcore/step/work.hpp: public
+// What a step recomputes and may be thrown away; the comment above a group names what fills it.
+// Buffers grow to the largest step and are kept: the step loop does not allocate.
+#pragma once
+
+#include <vector>
+
+#include "contact/contact.hpp"
+#include "contact/search.hpp"
+#include "scene/state.hpp"
+#include "solver/contact_row.hpp"
+#include "step/deep_work.hpp"
+#include "step/island/data.hpp"
+#include "step/paper/paper_work.hpp"
+
+namespace talus {
+
+/// A piece of a block's motion with constant acceleration of the centroid, from one event to the
+/// next: position(t) = start + v_start (t - t_start) + a (t - t_start)^2 / 2. A flight is one
+/// piece.
+struct Segment {
+  int block = 0;
+  bool flight = false;               ///< nothing was touched
+  double t_start = 0, t_end = 0;     ///< [s]
+  Motion start, end;                 ///< motion just after t_start and just before t_end
+  Vec3 acceleration = Vec3::Zero();  ///< of the centroid, constant over the segment [m/s2]
+};
+
+struct Work {  // clang-format off
+  // find_contacts: candidates of the block at hand
+  std::vector<Vec3> world_vertices;          ///< at the predicted pose [m]
+  std::vector<Contact> contacts;             ///< of the block at hand             (n_candidates)
+  std::vector<NearFeatures> near_ground;     ///< what each block may touch there      (n_blocks)
+  // make_rows, solve_contacts
+  std::vector<ContactRow> rows;              ///< of the block at hand
+  std::vector<ContactMemory> unbonded;       ///< its memory, less the bonds that its substep breaks
+  // advance_block: the motion of this step, block by block, in order of time
+  std::vector<Segment> segments;
+  // form_islands, advance_island
+  PairSearch search;
+  IslandScratch island;                      ///< at hand
+  PaperWork paper;
+  // note_overlap, note_deep_blocks
+  DeepWork deep;
+};  // clang-format on
+
+}  // namespace talus

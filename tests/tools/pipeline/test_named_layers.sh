@@ -1,0 +1,45 @@
+# Sources as QGIS and download sites name them stand in a site file, and make follows their files.
+. "$source_dir/tests/tools/pipeline/common.sh"
+command -v ogr2ogr >/dev/null || skip "needs gdal-bin"
+site plain
+made plain terrain
+site named
+( # the contours in two layers beside an older map, the source in a zip
+  cd named
+  ogr2ogr -q -where "elevation_m < 50" -nln low map.gpkg contours.gpkg
+  ogr2ogr -q -update -where "elevation_m >= 50" -nln high map.gpkg contours.gpkg
+  ogr2ogr -q -update -where "elevation_m < 20" -nln older map.gpkg contours.gpkg
+  mv contours.gpkg contours_now.gpkg
+)
+layers() { sed "s#^contours = .*#contours = \"$1\"\n$2#" plain/site.toml >named/site.toml; }
+flags() { sed -n 's/^SITE_TIN_FLAGS := //p' named/stages/site.mk; }
+stages() { talus-site named/site.toml -o named/stages --overwrite --no-db; }
+
+# of the file, its layers and its filter, the rule names the file alone
+layers 'map.gpkg|layername=older|subset=elevation_m < 10' ''
+expect 0 stages
+grep -q '^SITE_CONTOURS := named/map.gpkg$' named/stages/site.mk || fail "$(grep CONTOURS named/stages/site.mk)"
+[ "$(flags)" = "--layer 'older' --where 'elevation_m < 10' --elevation-field 'elevation_m' --flat 'fill'" ] || fail "the options are $(flags)"
+layers 'map.gpkg|layername=older' 'layer = "low"'
+expect 1 stages
+says "layer is low, contours asks for the layer older"
+layers 'map.gpkg|layerid=1' ''
+expect 1 stages
+says "name it: layer ="
+layers 'none.gpkg|layername=older' ''
+expect 1 stages
+says "there is no file named/none.gpkg"
+
+layers map.gpkg 'layer = "low, high"'
+made named terrain
+gdalinfo -checksum plain/out/trn.tif | grep Checksum >expected
+gdalinfo -checksum named/out/trn.tif | grep Checksum >found
+cmp -s expected found || fail "the map in two layers gives another terrain"
+made named -n terrain
+if grep -q '^talus-' out; then fail "nothing changed, and make would start a tool"; fi
+touch named/map.gpkg
+made named -n terrain
+if grep -q '^talus-' out; then fail "the map was touched, and make would start a tool"; fi
+(cd named && ogr2ogr -q -update -where "elevation_m < 30" -nln lowest map.gpkg contours_now.gpkg)
+made named -n terrain
+prints "talus-tin"

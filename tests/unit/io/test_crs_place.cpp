@@ -1,0 +1,195 @@
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "io/crs_gdal.hpp"
+#include "io/crs_place_gdal.hpp"
+
+namespace {
+
+using talus::check_place;
+using talus::crs_from_user;
+using talus::InputError;
+using talus::MapWindow;
+using talus::Place;
+using talus::Vec2;
+
+std::string wkt(const std::string& crs) { return crs_from_user(crs, "--crs"); }
+
+// A window of 200 m from a corner on.
+MapWindow window_at(double x, double y) { return {x, y, x + 200, y + 200}; }
+
+struct Outcome {
+  std::string refusal, hint;
+  std::vector<std::string> warnings;
+
+  [[nodiscard]] bool says(const char* words) const {
+    return refusal.find(words) != std::string::npos;
+  }
+};
+
+Outcome outcome_of(const Place& place) {
+  Outcome outcome;
+  try {
+    outcome.warnings = check_place(place, {"map.gpkg"});
+  } catch (const InputError& error) {
+    outcome.refusal = error.what();
+    outcome.hint = error.hint();
+  }
+  return outcome;
+}
+
+Outcome outcome_at(const char* crs, double x, double y, const char* work = "") {
+  Place place{wkt(crs), window_at(x, y), std::string(work).empty() ? "" : wkt(work)};
+  place.has_crs_option = place.has_unit_option = true;
+  place.layer = "map";
+  return outcome_of(place);
+}
+
+// Systems and places of five continents, read from maps of the agencies.
+TEST(CrsPlace, MapsWhereTheyBelongAreTakenWithoutAWord) {
+  struct Case {
+    const char* crs;
+    double x, y;
+  };
+  for (const Case& c :
+       {Case{"EPSG:25832", 650000, 5200000}, Case{"EPSG:32632", 650000, 5200000},
+        Case{"EPSG:31287", 248400, 351100}, Case{"EPSG:31254", 80000, 236000},
+        Case{"EPSG:2056", 2600000, 1200000}, Case{"EPSG:27700", 327000, 672000},
+        Case{"EPSG:2193", 1757000, 5917000}, Case{"EPSG:32718", 300000, 8500000},
+        Case{"EPSG:5514", -450000, -1200000}, Case{"EPSG:4647", 32650000, 5300000},
+        Case{"EPSG:31467", 3550000, 5300000}, Case{"EPSG:3035", 4321000, 3210000}}) {
+    const Outcome outcome = outcome_at(c.crs, c.x, c.y);
+    EXPECT_EQ(outcome.refusal, "") << c.crs;
+    EXPECT_TRUE(outcome.warnings.empty()) << c.crs << ": " << outcome.warnings.front();
+  }
+}
+
+// What counts is the scale where the work is, not the name of the projection.
+TEST(CrsPlace, StretchedMetresAreRefused) {
+  struct Case {
+    const char* crs;
+    double x, y;
+  };
+  for (const Case& c :
+       {Case{"EPSG:3857", 1.2e6, 5.9e6}, Case{"ESRI:102100", 1.2e6, 5.9e6},
+        Case{"EPSG:3395", 1.2e6, 5.9e6}, Case{"EPSG:32662", 1224514, 5225000},
+        Case{"EPSG:6933", 1060000, 5360000}, Case{"+proj=merc +lat_ts=30 +ellps=GRS80", 1.1e6, 5e6},
+        Case{"+proj=eqc +lat_ts=0 +ellps=GRS80", 1.2e6, 5.2e6}}) {
+    const Outcome outcome = outcome_at(c.crs, c.x, c.y);
+    EXPECT_TRUE(outcome.says("whose metres are stretched here")) << c.crs << outcome.refusal;
+    EXPECT_NE(outcome.hint.find("--t-srs EPSG:32632"), std::string::npos) << outcome.hint;
+  }
+  EXPECT_TRUE(outcome_at("EPSG:3857", 1.2e6, 5.9e6).says("1.4")) << "1 / cos(46.8 degrees) = 1.46";
+  // Mercator with the scale of its place, and near the equator
+  EXPECT_EQ(outcome_at("+proj=merc +lat_ts=47 +ellps=GRS80", 8.2e5, 4.06e6).refusal, "");
+  EXPECT_EQ(outcome_at("EPSG:3395", -8.7e6, -2e5).refusal, "");
+}
+
+TEST(CrsPlace, AxesThatDoNotRunEastAndNorthAreRefused) {
+  EXPECT_TRUE(outcome_at("EPSG:2053", 20000, 2900000).says("x runs to"));   // west and south
+  EXPECT_TRUE(outcome_at("EPSG:5513", 1100000, 500000).says("x runs to"));  // south and west
+  EXPECT_TRUE(outcome_at("EPSG:3031", 1e6, -1.5e6).says("x runs to"));
+  EXPECT_TRUE(outcome_at("+proj=utm +zone=32 +south +ellps=GRS80 +axis=wsu", -650000, -5200000)
+                  .says("x runs"));
+  // they are turned where the work is done in another system
+  EXPECT_EQ(outcome_at("EPSG:5513", 1100000, 500000, "EPSG:32633").refusal, "");
+}
+
+TEST(CrsPlace, ExchangedCoordinatesAreNamed) {
+  const Outcome outcome = outcome_at("EPSG:25832", 5200000, 650000);
+  EXPECT_TRUE(outcome.says("with x and y exchanged they would lie in it")) << outcome.refusal;
+  EXPECT_NE(outcome.hint.find("SwapCoords(geometry)"), std::string::npos) << outcome.hint;
+  // latitude first, to be reprojected
+  Place place{wkt("EPSG:4326"), {46.9, 11.0, 46.91, 11.01}, wkt("EPSG:25832")};
+  EXPECT_TRUE(outcome_of(place).says("with x and y exchanged they would lie in it"));
+}
+
+TEST(CrsPlace, DegreesUnderACrsInMetresAreNamed) {
+  for (const char* crs :
+       {"EPSG:25832", "EPSG:27700"}) {  // 0, 0 lies inside of the area of the latter
+    const bool is_british = std::string(crs) == "EPSG:27700";
+    Place place{wkt(crs),
+                is_british ? MapWindow{-3.2, 55.9, -3.1, 56} : MapWindow{11, 47, 11.1, 47.1}};
+    place.has_crs_option = true;
+    const Outcome outcome = outcome_of(place);
+    EXPECT_TRUE(outcome.says("they look like degrees")) << outcome.refusal;
+    EXPECT_EQ(outcome.hint, "--crs EPSG:4326 --t-srs " + std::string(crs));
+  }
+  const Outcome latitude_first = outcome_of({wkt("EPSG:25832"), MapWindow{47, 11, 47.1, 11.1}});
+  EXPECT_TRUE(latitude_first.says("the latitude first")) << latitude_first.refusal;
+}
+
+TEST(CrsPlace, ZoneNumbersBeforeEastingsAreNamed) {
+  const Outcome with = outcome_at("EPSG:25832", 32650000, 5200000);
+  EXPECT_TRUE(with.says("begin with the zone number 32")) << with.refusal;
+  EXPECT_EQ(with.hint, "--crs EPSG:4647 --t-srs EPSG:25832");
+  EXPECT_TRUE(outcome_at("EPSG:32633", 33400000, 5200000).says("begin with the zone number 33"));
+  const Outcome without = outcome_at("EPSG:31467", 550000, 5300000);
+  EXPECT_TRUE(without.says("lack the zone number 3")) << without.refusal;
+  EXPECT_NE(without.hint.find("ShiftCoords(geometry, 3000000, 0)"), std::string::npos);
+}
+
+TEST(CrsPlace, FeetAndMillimetresAreNamed) {
+  const Outcome feet = outcome_at("EPSG:25832", 650000 / 0.3048, 5200000 / 0.3048);
+  EXPECT_TRUE(feet.says("as feet they would lie in it")) << feet.refusal;
+  EXPECT_EQ(feet.hint, "--unit-m 0.3048 scales plan and heights");
+  EXPECT_TRUE(outcome_at("EPSG:31254", 80000e3, 236000e3).says("as millimetres"));
+}
+
+TEST(CrsPlace, OtherSignsAreNamed) {
+  EXPECT_TRUE(outcome_at("EPSG:5514", 500000, 1100000).says("with the other signs"));
+  EXPECT_TRUE(
+      outcome_at("EPSG:5514", 1100000, 500000).says("x and y exchanged, and the other signs"));
+}
+
+// A zone is used beyond its border; a map of another country is not.
+TEST(CrsPlace, BesideTheAreaIsWarnedOfAndFarFromItRefused) {
+  const Outcome beside = outcome_at("EPSG:25832", 820000, 5200000);  // 13.2 degrees east
+  EXPECT_EQ(beside.refusal, "");
+  ASSERT_EQ(beside.warnings.size(), 1u);
+  EXPECT_NE(beside.warnings[0].find("lie outside the area"), std::string::npos);
+  EXPECT_TRUE(outcome_at("EPSG:31287", 650000, 5200000).says("lie outside the area"));
+  EXPECT_TRUE(outcome_at("EPSG:2056", 650000, 5200000).says("lie outside the area"));
+  EXPECT_TRUE(outcome_at("EPSG:4326", 11, 47, "EPSG:2193").says("lie outside the area"));
+}
+
+TEST(CrsPlace, NorthOfTheMapFarOffNorthIsWarnedOf) {
+  const Outcome outcome =
+      outcome_at("EPSG:3035", 5500000, 4500000);  // 21 degrees east of its middle
+  EXPECT_EQ(outcome.refusal, "");
+  ASSERT_EQ(outcome.warnings.size(), 1u);
+  EXPECT_NE(outcome.warnings[0].find("degrees off north"), std::string::npos);
+}
+
+TEST(CrsPlace, LocalMetresHaveNoPlace) {
+  EXPECT_EQ(outcome_of({"", window_at(0, 0)}).refusal, "");
+  EXPECT_EQ(outcome_of({"", window_at(1e9, 1e9)}).refusal, "");
+}
+
+// A CRS that a file names is replaced only where it cannot be true.
+TEST(CrsPlace, ACrsIsReplacedForAReasonOnly) {
+  const MapWindow here = window_at(80000, 236000);
+  const std::string bessel =
+      wkt("+proj=tmerc +lat_0=0 +lon_0=10.3333333333333 +k=1 +x_0=0 +y_0=-5000000 +ellps=bessel "
+          "+units=m");
+  EXPECT_EQ(talus::reason_to_replace(bessel, wkt("EPSG:31254"), here), "whose datum is not known");
+  EXPECT_EQ(talus::reason_to_replace(bessel, wkt("EPSG:31255"), here), "");  // another meridian
+  EXPECT_EQ(talus::reason_to_replace(wkt("EPSG:31254"), wkt("EPSG:25832"), here), "");
+  EXPECT_EQ(talus::reason_to_replace(wkt("EPSG:3857"), wkt("EPSG:25832"), window_at(1.2e6, 5.9e6)),
+            "");  // stretched, but there
+  EXPECT_EQ(
+      talus::reason_to_replace(wkt("EPSG:25832"), wkt("EPSG:4647"), window_at(32650000, 5.2e6)),
+      "where its coordinates cannot be");
+}
+
+TEST(CrsPlace, DegreesCountFromGreenwich) {
+  const auto place =
+      talus::degrees_at(wkt("EPSG:27572"), {600000, 2200000});  // from Paris, in grads
+  ASSERT_TRUE(place.has_value());
+  EXPECT_NEAR(place->x(), 2.3372, 1e-3);
+  EXPECT_NEAR(place->y(), 46.8, 1e-6);
+}
+
+}  // namespace

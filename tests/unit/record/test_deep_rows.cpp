@@ -1,0 +1,130 @@
+#include <gtest/gtest.h>
+
+#include "record/deep_rows.hpp"
+#include "run/runner.hpp"
+#include "step/step.hpp"
+#include "verify/cases/cases.hpp"
+
+namespace {
+
+using namespace talus;
+using namespace talus::cases;
+
+/// Twenty blocks of 8 m3 in a row, and after them one of `width` cubed that was deep in the ground.
+struct Row {
+  explicit Row(double width)
+      : scene(scene_of(plane_trn(slope_frame(0, 0), 5, 100), ground_of(30), bodies(width), {})) {
+    options.duration = 1;
+    options.frame_interval = 0.1;
+  }
+  static std::vector<Body> bodies(double width) {
+    std::vector<Body> made;
+    for (int i = 0; i < 20; ++i)
+      made.push_back(
+          body_of(box(Vec3(-60 + 3 * i, 0, 0), Vec3(-58 + 3 * i, 2, 2 + 0.1 * (20 - i)))));
+    made.push_back(body_of(box(Vec3(-40, 5, 0), Vec3(-40 + width, 5 + width, width))));
+    return made;
+  }
+  Runner begin() {
+    RunFile file;
+    file.blocks.mass = scene.blocks.mass;
+    return begin_run(scene, options, {}, std::move(file));
+  }
+  static void sink(Runner& runner) {
+    DeepBlock& deep = runner.state.deep[20];
+    deep.steps = 7;
+    deep.depth = 0.05;
+    deep.time = 3;
+    deep.place = Vec3(1, 2, 3);
+  }
+  static std::vector<std::string> broken(const Runner& runner) {
+    std::vector<std::string> names;
+    for (const HealthCheck& check : health_checks(runner))
+      if (!check.pass) names.push_back(check.name);
+    return names;
+  }
+
+  Scene scene;
+  RunOptions options;
+};
+
+const char* const share = "mass of blocks in by more than a tenth of their thickness, share";
+const char* const matters = "such blocks in the toe, at a fence, or faster than by their fall";
+
+// A splinter of 0.004 % of the mass that was in by more than a tenth is a warning, a block of 0.6 %
+// fails the run.
+TEST(DeepRows, HealthWeighsTheBlocksThatWereDeep) {
+  for (const auto& [width, is_broken] : {std::pair{0.2, false}, {1.0, true}}) {
+    Row row(width);
+    Runner runner = row.begin();
+    EXPECT_TRUE(Row::broken(runner).empty());
+    Row::sink(runner);
+    EXPECT_EQ(Row::broken(runner),
+              is_broken ? std::vector<std::string>{share} : std::vector<std::string>{});
+  }
+}
+
+// The splinter fails the run where it is in the farthest twentieth of the mass, at a fence, or too
+// fast.
+TEST(DeepRows, ASplinterThatMattersFailsTheRun) {
+  Row row(0.2);
+  Runner in_toe = row.begin(), at_fence = row.begin(), fast = row.begin();
+  for (Runner* runner : {&in_toe, &at_fence, &fast}) Row::sink(*runner);
+  in_toe.state.motion[20].pose.position.x() = 20;
+  FenceHit hit;
+  hit.block = 20;
+  at_fence.state.fence.hits.push_back(hit);
+  fast.state.deep[20].is_too_fast = true;
+  for (Runner* runner : {&in_toe, &at_fence, &fast})
+    EXPECT_EQ(Row::broken(*runner), std::vector<std::string>{matters});
+  at_fence.state.fence.hits[0].block = 3;
+  EXPECT_TRUE(Row::broken(at_fence).empty());
+}
+
+// With a depth given that will do, that depth alone counts.
+TEST(DeepRows, ALimitInMetresTakesThePlaceOfTheShare) {
+  Row row(1);
+  row.options.limits.max_penetration = 0.5;
+  Runner runner = row.begin();
+  Row::sink(runner);
+  EXPECT_TRUE(Row::broken(runner).empty());
+}
+
+TEST(DeepRows, WordsNameBlockPartnerTimePlaceAndShare) {
+  Row row(0.2);
+  Runner runner = row.begin();
+  Row::sink(runner);
+  const std::vector<DeepRow> rows = deep_rows(row.scene, runner.state, {});
+  ASSERT_EQ(rows.size(), 1u);
+  const std::string words = deep_words(rows[0], {}, Vec3(1000, 2000, 0));
+  EXPECT_EQ(words,
+            "block 20 was in the ground by 0.05 m of its 0.2 m at 3 s near 1001, 2002, 3, deep in "
+            "7 steps, 0.00328 % of the mass");
+}
+
+// A run that is stopped while a block is deep goes on counting where it was.
+TEST(DeepRows, AreResumedFromACheckpoint) {
+  Row row(1);
+  const auto computed = [&row](int stop) {
+    Runner runner = row.begin();
+    runner.state.motion[20].pose.position.z() -= 0.2;
+    for (int i = 0; i < 40; ++i) {
+      if (i == stop) {
+        update_file(runner, true);
+        Runner next = resume_run(row.scene, row.options, {}, runner.file, "memory");
+        runner.state = next.state;
+        runner.work = make_work(row.scene);
+      }
+      advance(runner);
+    }
+    return runner.state.deep[20];
+  };
+  const DeepBlock whole = computed(-1), resumed = computed(1);
+  EXPECT_GT(whole.steps, 1);
+  EXPECT_EQ(whole.steps, resumed.steps);
+  EXPECT_EQ(whole.depth, resumed.depth);
+  EXPECT_EQ(whole.place, resumed.place);
+  EXPECT_EQ(whole.time, resumed.time);
+}
+
+}  // namespace

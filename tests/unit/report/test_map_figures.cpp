@@ -1,0 +1,55 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "io/style.hpp"
+#include "post/maps/map_layers.hpp"
+#include "post/maps/map_style.hpp"
+#include "report/map_figures.hpp"
+
+using namespace talus;
+
+namespace {
+
+std::size_t count(const std::string& text, const std::string& word) {
+  std::size_t n = 0;
+  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++n;
+  return n;
+}
+
+// The style of a layer over no cell: its classes do not depend on the values.
+std::string qml_of(const MapLayerKind& kind) {
+  return raster_qml(map_style(make_layer(kind, {{}, {}, 1, {{1}, {1}}, {}})));
+}
+
+}  // namespace
+
+// Every row of the table has its place in the report, with a legend of all classes that are drawn.
+TEST(MapFigures, ShowEveryLayerOfTheTableWithItsLegend) {
+  std::vector<MapPicture> pictures;
+  for (const MapLayerKind& kind : map_layers())
+    pictures.push_back({kind.name, "a picture", qml_of(kind)});
+  std::reverse(pictures.begin(), pictures.end());
+  const std::string all = map_figures(pictures);
+  EXPECT_EQ(count(all, "<figure"), map_layers().size());
+  std::size_t at = 0;
+  for (const MapLayerKind& kind : map_layers()) {
+    const std::string file = "<code>maps/" + std::string(kind.name) + ".tif</code>";
+    const std::size_t here = all.find(file);
+    ASSERT_NE(here, std::string::npos) << kind.name;
+    EXPECT_GT(here, at) << kind.name << ": not in the order of the table";
+    at = here;
+    const std::string legend = all.substr(here, all.find("</figure>", here) - here);
+    EXPECT_EQ(count(legend, "<i style"), kind.breaks.size() + 1) << kind.name;
+    EXPECT_NE(all.find("<b>" + std::string(kind.title) + "</b>: " + kind.caption + " [" +
+                       kind.unit + "]"),
+              std::string::npos)
+        << kind.name;
+  }
+}
+
+TEST(MapFigures, LeaveOutLayersWithoutAPicture) {
+  const std::string one = map_figures({{map_layers().back().name, "a picture", ""}});
+  EXPECT_EQ(count(one, "<figure"), 1U);
+  EXPECT_NE(one.find(map_layers().back().title), std::string::npos);
+}

@@ -1,0 +1,229 @@
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "base/error.hpp"
+#include "run/runner.hpp"
+#include "scene/fence.hpp"
+#include "step/step.hpp"
+#include "store/checkpoint.hpp"
+#include "verify/cases/cases.hpp"
+
+namespace {
+
+using namespace talus;
+using namespace talus::cases;
+
+// Boxes that fall on a rough slope, spin, bounce and slide; far enough apart not to meet.
+Scene bouncing_scene() {
+  const double slope = std::tan(std::numbers::pi / 6);
+  const auto height = [&](double x, double y) {
+    return -slope * x + 0.3 * std::sin(0.7 * x) * std::cos(0.9 * y);
+  };
+  std::vector<Body> bodies;
+  for (int i = 0; i < 3; ++i) {
+    Body body;
+    const SlopeFrame frame = slope_frame(30, 0);
+    const Vec3 base(-30 + 2.0 * i, -20 + 15.0 * i, height(-30 + 2.0 * i, -20 + 15.0 * i) + 2);
+    body.parts.push_back(box_in(frame, base, {0, 0, 0}, {2, 1.5, 1 + 0.2 * i}));
+    body.velocity = {4, 0.5 * i, 0};
+    body.spin = {0.5, 1, -0.3 * i};
+    bodies.push_back(body);
+  }
+  Settings settings;
+  settings.dt = 0.01;
+  const GroundClass ground = ground_of(25, 0.5);
+  return scene_of(make_trn(height, 2, 80), ground, bodies, settings);
+}
+
+RunOptions options(double frame_interval) {
+  RunOptions made;
+  made.duration = 4;
+  made.frame_interval = frame_interval;
+  made.limits.max_lost_share = 1;
+  return made;
+}
+
+std::vector<RecordLine> lines() {
+  return {record_line("low", {{-10, -60, 0}, {-10, 60, 0}}),
+          record_line("lower", {{0, -60, 0}, {5, 0, 0}, {0, 60, 0}})};
+}
+
+RunFile blocks_of(const Scene& scene) {
+  RunFile file;
+  file.blocks.mass = scene.blocks.mass;
+  return file;
+}
+
+// A run that packs and unpacks its checkpoint after each of the given steps.
+RunFile computed(const Scene& scene, const RunOptions& wanted, const std::vector<int>& stops = {}) {
+  Runner runner = begin_run(scene, wanted, lines(), blocks_of(scene));
+  std::vector<int> left = stops;
+  for (int step = 0; !is_over(runner); ++step) {
+    if (!left.empty() && step == left.front()) {
+      update_file(runner, true);
+      Runner next = resume_run(scene, wanted, lines(), runner.file, "memory");
+      runner.state = next.state;
+      runner.work = make_work(scene);
+      runner.passages = next.passages;
+      runner.crossings = next.crossings;
+      runner.sampler = next.sampler;
+      runner.interval = next.interval;
+      runner.energy_start = next.energy_start;
+      runner.file = next.file;
+      left.erase(left.begin());
+    }
+    advance(runner);
+  }
+  finish(runner);
+  update_file(runner, false);
+  return runner.file;
+}
+
+bool same(const Passage& a, const Passage& b) {
+  return a.block == b.block && a.cell == b.cell && a.largest.speed == b.largest.speed &&
+         a.largest.translational_energy == b.largest.translational_energy &&
+         a.largest.total_energy == b.largest.total_energy &&
+         a.largest.centroid_height == b.largest.centroid_height &&
+         a.largest.top_height == b.largest.top_height && a.first_time == b.first_time;
+}
+
+void expect_same_rows(const RunFile& a, const RunFile& b) {
+  ASSERT_EQ(a.passages.size(), b.passages.size());
+  for (std::size_t i = 0; i < a.passages.size(); ++i)
+    ASSERT_TRUE(same(a.passages[i], b.passages[i])) << i;
+  ASSERT_EQ(a.crossings.size(), b.crossings.size());
+  for (std::size_t i = 0; i < a.crossings.size(); ++i) {
+    EXPECT_EQ(a.crossings[i].time, b.crossings[i].time);
+    EXPECT_EQ(a.crossings[i].position, b.crossings[i].position);
+    EXPECT_EQ(a.crossings[i].spin, b.crossings[i].spin);
+    EXPECT_EQ(a.crossings[i].n_crossings, b.crossings[i].n_crossings);
+  }
+}
+
+// A fence that stands across the way of the boxes, and gives way.
+Scene fenced_scene() {
+  Scene scene = bouncing_scene();
+  StandingFence fence;
+  for (const double y : {-30.0, -10.0, 10.0, 30.0})
+    fence.posts.emplace_back(-10, y, elevation_at(scene.ground.trn, -10, y));
+  fence.depth = {1, 1, 1};
+  fence.height = 4;
+  fence.capacity = 2e5;
+  fence.deflection = 2;
+  add_fence(scene, fence);
+  return scene;
+}
+
+TEST(Runner, ResumesWhatFencesHaveMet) {
+  const Scene scene = fenced_scene();
+  const RunFile whole = computed(scene, options(0.1));
+  ASSERT_GE(whole.fence_hits.size(), 2u);
+  ASSERT_EQ(whole.panels.size(), 3u);
+  double work = 0;
+  for (const PanelRow& panel : whole.panels) work += panel.work;
+  EXPECT_GT(work, 1e4);
+  EXPECT_NEAR(whole.health.back().fence, work, 1e-9 * work);
+  // the panels were touched within substeps, which ended there; counts are those of the interval
+  std::int64_t n_touches = 0;
+  for (const HealthRow& row : whole.health)
+    n_touches += row.cuts[static_cast<std::size_t>(SubstepCut::yielding_touched)];
+  EXPECT_GE(n_touches, 1);
+  const RunFile resumed = computed(scene, options(0.1), {100, 190, 230});
+  EXPECT_EQ(whole.frames.position, resumed.frames.position);
+  ASSERT_EQ(whole.fence_hits.size(), resumed.fence_hits.size());
+  for (std::size_t i = 0; i < whole.fence_hits.size(); ++i) {
+    EXPECT_EQ(whole.fence_hits[i].time, resumed.fence_hits[i].time);
+    EXPECT_EQ(whole.fence_hits[i].work, resumed.fence_hits[i].work);
+  }
+  for (std::size_t i = 0; i < whole.health.size(); ++i)
+    EXPECT_EQ(whole.health[i].cuts, resumed.health[i].cuts);
+  for (std::size_t p = 0; p < whole.panels.size(); ++p) {
+    EXPECT_EQ(whole.panels[p].deflection, resumed.panels[p].deflection);
+    EXPECT_EQ(whole.panels[p].broken_by, resumed.panels[p].broken_by);
+  }
+}
+
+TEST(Runner, RowsDoNotDependOnTheFrameIntervalToTheBit) {
+  const Scene scene = bouncing_scene();
+  const RunFile coarse = computed(scene, options(1)), fine = computed(scene, options(0.037));
+  ASSERT_GT(coarse.passages.size(), 60u);
+  ASSERT_GE(coarse.crossings.size(), 4u);
+  expect_same_rows(coarse, fine);
+  EXPECT_EQ(n_frames(coarse.frames), 5);
+  EXPECT_EQ(n_frames(fine.frames), 110);  // 109 of them regular, and the end
+}
+
+TEST(Runner, FramesAreTheSameToTheBitWithoutPassages) {
+  const Scene scene = bouncing_scene();
+  RunOptions bare = options(0.1);
+  bare.passages = false;
+  const RunFile all = computed(scene, options(0.1)), few = computed(scene, bare);
+  ASSERT_GT(n_frames(all.frames), 30);
+  EXPECT_EQ(all.frames.position, few.frames.position);
+  EXPECT_EQ(all.frames.velocity, few.frames.velocity);
+  EXPECT_EQ(few.passages.size(), 0u);
+}
+
+TEST(Runner, ResumedAnywhereGoesOnToTheSameBits) {
+  const Scene scene = bouncing_scene();
+  const RunFile whole = computed(scene, options(0.1));
+  for (const std::vector<int>& stops :
+       std::vector<std::vector<int>>{{1}, {57}, {100, 101, 102}, {30, 199, 333, 398}}) {
+    const RunFile resumed = computed(scene, options(0.1), stops);
+    expect_same_rows(whole, resumed);
+    EXPECT_EQ(whole.frames.time, resumed.frames.time);
+    EXPECT_EQ(whole.frames.position, resumed.frames.position);
+    EXPECT_EQ(whole.frames.attitude, resumed.frames.attitude);
+    EXPECT_EQ(whole.frames.spin, resumed.frames.spin);
+    ASSERT_EQ(whole.health.size(), resumed.health.size());
+    for (std::size_t i = 0; i < whole.health.size(); ++i) {
+      EXPECT_EQ(whole.health[i].passes, resumed.health[i].passes);
+      EXPECT_EQ(whole.health[i].friction, resumed.health[i].friction);
+      EXPECT_EQ(whole.health[i].cuts, resumed.health[i].cuts);
+      EXPECT_EQ(whole.health[i].largest_penetration, resumed.health[i].largest_penetration);
+    }
+  }
+}
+
+TEST(Runner, FramesStandAtTheirTimesAndAtTheEnd) {
+  const Scene scene = bouncing_scene();
+  RunOptions wanted = options(0.3);
+  const RunFile file = computed(scene, wanted);
+  ASSERT_EQ(n_frames(file.frames), 15);
+  for (int k = 0; k < 14; ++k) EXPECT_DOUBLE_EQ(file.frames.time[k], 0.3 * k);
+  EXPECT_NEAR(file.frames.time[14], 4, 1e-9);
+  EXPECT_EQ(file.health.size(), 14u);
+}
+
+TEST(Runner, ABrokenLimitFailsTheRun) {
+  const Scene scene = bouncing_scene();
+  RunOptions wanted = options(0.1);
+  wanted.limits.max_penetration = 1e-15;
+  Runner runner = begin_run(scene, wanted, lines(), blocks_of(scene));
+  while (!is_over(runner) && !has_failed(runner)) advance(runner);
+  EXPECT_TRUE(has_failed(runner));
+  EXPECT_LT(runner.state.time, 3.9);
+  int n_broken = 0;
+  for (const HealthCheck& check : health_checks(runner)) n_broken += check.pass ? 0 : 1;
+  EXPECT_EQ(n_broken, 1);
+}
+
+TEST(Runner, UnconvergedStepsAreLimited) {
+  const Scene scene = bouncing_scene();
+  RunOptions wanted = options(0.1);
+  wanted.limits.max_unconverged_share = 0.01;
+  Runner runner = begin_run(scene, wanted, lines(), blocks_of(scene));
+  for (int i = 0; i < 100; ++i) advance(runner);
+  const auto broken = [&] {
+    std::vector<std::string> names;
+    for (const HealthCheck& check : health_checks(runner))
+      if (!check.pass) names.push_back(check.name);
+    return names;
+  };
+  EXPECT_TRUE(broken().empty());
+  runner.state.counters.unconverged = 2;
+  EXPECT_EQ(broken(), std::vector<std::string>{"steps accepted unconverged, share"});
+}
+
+}  // namespace

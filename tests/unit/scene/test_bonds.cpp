@@ -1,0 +1,189 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "scene/fence.hpp"
+#include "step/step.hpp"
+#include "verify/cases/cases.hpp"
+
+namespace {
+
+using namespace talus;
+using namespace talus::cases;
+
+constexpr double degree = std::numbers::pi / 180;
+
+// A cube on a slab that holds to the ground, their common faces made by joint set 0.
+Scene cube_on_slab(double dip_deg, const GroundClass& set) {
+  const SlopeFrame frame = slope_frame(dip_deg, 30);
+  Body slab, cube;
+  slab.parts = {box_in(frame, Vec3::Zero(), Vec3(-3, -3, 0), Vec3(3, 3, 0.5))};
+  cube.parts = {box_in(frame, Vec3::Zero(), Vec3(-0.5, -0.5, 0.5), Vec3(0.5, 0.5, 1.5))};
+  for (Body* body : {&slab, &cube}) body->parts[0].face_tag.assign(6, 0);
+  const GroundClass rough = ground_of(85);
+  Settings settings;
+  settings.sleep = false;
+  Scene scene = scene_of(plane_trn(frame, 1, 30), rough, {slab, cube}, settings);
+  scene.joints.of_set = {set};
+  return scene;
+}
+
+State run(const Scene& scene, double time) {
+  State state = start(scene);
+  Work work = make_work(scene);
+  while (state.time < time - 1e-9) step(scene, state, work);
+  return state;
+}
+
+double slid(const Scene& scene, const State& state) {
+  const Vec3 way = state.motion[1].pose.position - state.motion[0].pose.position -
+                   (scene.blocks.rest[1].position - scene.blocks.rest[0].position);
+  return way.norm();
+}
+
+constexpr double area = 1, weight = 2500 * 10;
+
+// Angle at which weight sin = weight cos tan(phi) + c A, by bisection.
+double failure_angle_deg(double friction, double cohesion) {
+  double low = 0, high = 90;
+  for (int i = 0; i < 60; ++i) {
+    const double angle = (low + high) / 2 * degree;
+    const bool fails =
+        weight * std::sin(angle) > weight * std::cos(angle) * friction + cohesion * area;
+    (fails ? high : low) = (low + high) / 2;
+  }
+  return low;
+}
+
+struct Strength {
+  double phi_deg, cohesion;
+};
+class Bond : public testing::TestWithParam<Strength> {};
+INSTANTIATE_TEST_SUITE_P(Bonds, Bond,
+                         testing::Values(Strength{20, 5000}, Strength{10, 8000},
+                                         Strength{0, 10000}));
+
+// Holds 0.05 degrees below the computed angle, and fails 0.05 degrees above it.
+TEST_P(Bond, HoldsExactlyToItsLimit) {
+  GroundClass set = ground_of(GetParam().phi_deg);
+  set.cohesion = GetParam().cohesion;
+  set.tension = GetParam().cohesion;
+  const double angle = failure_angle_deg(set.friction, set.cohesion);
+  const Scene below = cube_on_slab(angle - 0.05, set), above = cube_on_slab(angle + 0.05, set);
+  const State held = run(below, 2), failed = run(above, 2);
+  ASSERT_EQ(held.bonds.size(), 1u);
+  EXPECT_NEAR(held.bonds[0].area, area, 1e-9);
+  EXPECT_LT(slid(below, held), 1e-3);
+  EXPECT_EQ(failed.bonds[0].area, 0);
+  EXPECT_GT(slid(above, failed), 0.1);
+}
+
+// Brittle: what broke slides with the friction of the joint alone.
+// What keeps the forces of a contact whose stiffness changes is an offset. On a bond it would stay,
+// and pull when the load is gone: bonds have none.
+TEST(Bonds, KeepTheirZeroWhateverTheirStiffness) {
+  GroundClass set = ground_of(20);
+  set.cohesion = set.tension = 5000;
+  const State state = run(cube_on_slab(20, set), 0.1);
+  int n_bonded = 0, n_free = 0;
+  for (const std::vector<ContactMemory>& of_block : state.memory)
+    for (const ContactMemory& memory : of_block) {
+      const bool bonded = memory.key.body_b >= 0;
+      (bonded ? n_bonded : n_free) += 1;
+      EXPECT_EQ(memory.stiffness > 0, !bonded);
+    }
+  EXPECT_GE(n_bonded, 3);
+  EXPECT_GE(n_free, 3);
+}
+
+TEST(Bonds, LeaveTheFrictionOfTheJointBehind) {
+  GroundClass set = ground_of(15);
+  set.cohesion = 1000;
+  const double dip = failure_angle_deg(set.friction, set.cohesion) + 2;
+  const Scene scene = cube_on_slab(dip, set);
+  const auto speed = [&](double time) { return run(scene, time).motion[1].velocity.norm(); };
+  const double a = 10 * (std::sin(dip * degree) - set.friction * std::cos(dip * degree));
+  EXPECT_NEAR((speed(1) - speed(0.5)) / 0.5, a, 1e-3 * a);
+}
+
+// A cube that hangs below a fixed slab by its tensile strength: t A against its weight.
+TEST(Bonds, HangByTheirTensileStrength) {
+  for (const double share : {0.99, 1.01}) {
+    GroundClass set;
+    set.cohesion = 1e6;
+    set.tension = weight / area / share;
+    const SlopeFrame flat = slope_frame(0, 0);
+    Body slab, cube;
+    // the slab lies on two ridges of fixed blocks, the cube hangs between them
+    slab.parts = {box(Vec3(-3, -3, 2), Vec3(3, 3, 3))};
+    cube.parts = {box(Vec3(-0.5, -0.5, 1), Vec3(0.5, 0.5, 2))};
+    for (Body* body : {&slab, &cube}) body->parts[0].face_tag.assign(6, 0);
+    GroundClass rough;
+    rough.friction = 1;
+    Settings settings;
+    settings.sleep = false;
+    Scene scene = scene_of(plane_trn(flat, 1, 30), rough, {slab, cube}, settings);
+    scene.joints.of_set = {set};
+    scene.fixed.classes = {rough};
+    add_fixed_body(scene, box(Vec3(-3, -3, 0), Vec3(-2, 3, 2)), 0);
+    add_fixed_body(scene, box(Vec3(2, -3, 0), Vec3(3, 3, 2)), 0);
+    const State state = run(scene, 1);
+    EXPECT_EQ(state.bonds[0].area > 0, share < 1);
+    EXPECT_EQ(slid(scene, state) < 0.01, share < 1);
+  }
+}
+
+// Faces of two sets: each pair of faces has its own friction.
+TEST(JointClasses, FrictionIsThatOfTheFacesThatTouch) {
+  const GroundClass smooth = ground_of(10), rough = ground_of(40);
+  for (const bool slides : {false, true}) {
+    Scene scene = cube_on_slab(25, slides ? smooth : rough);
+    scene.joints.of_set.push_back(slides ? rough : smooth);  // of no face
+    const State state = run(scene, 1);
+    EXPECT_EQ(slid(scene, state) > 0.5, slides);
+  }
+}
+
+// A block whose face is bonded to the ground is shaken towards a steep rise, hardly a millimetre
+// off. Over a whole step the bond alone would hold the block, and fail; within the step the block
+// comes to lean on the rise, and the bond holds. An attempt at a longer step has broken nothing.
+struct Shaking {
+  double peak, gap, rise, height, strength;  // strength: of the peak
+  double before, until;                      // share of the peak, up to this share of a step
+  double up;                                 // of the peak
+};
+class LoneBond : public testing::TestWithParam<Shaking> {};
+INSTANTIATE_TEST_SUITE_P(Bonds, LoneBond,
+                         testing::Values(Shaking{189.519, 9.0356e-4, 1.8065, 1.64157, 0.964664, 0,
+                                                 0.911034, -0.458496},
+                                         Shaking{43.2762, 1.1135e-5, 6.1898, 1.79661, 0.703021,
+                                                 -0.977732, 0.458969, 0.571632}));
+
+TEST_P(LoneBond, IsBrokenByAnAcceptedSubstepAlone) {
+  const Shaking& p = GetParam();
+  Settings settings;
+  settings.dt = 0.02;
+  const Body block = body_of(box(Vec3(-1 - p.gap, 0.2, 0), Vec3(-p.gap, 1.2, p.height)));
+  const auto wall = [&](double x, double) { return x > 0 ? p.rise * x : 0.0; };
+  Scene scene = scene_of(make_trn(wall, 1, 20), ground_of(10, 0), {block}, settings);
+  GroundClass& ground = scene.ground.classes[0];
+  ground.cohesion = p.strength * scene.blocks.mass[0] * p.peak;
+  ground.tension = 1e9;
+  const Vec3 shaken = p.peak * Vec3(-1, 0, -p.up);
+  scene.base.time = {0, p.until * settings.dt, p.until * settings.dt + 1e-6, 1};
+  scene.base.acceleration = {p.before * shaken, p.before * shaken, shaken, shaken};
+  State state = start(scene);
+  Work work = make_work(scene);
+  const auto bonded = [&] {
+    double sum = 0;
+    for (const ContactMemory& memory : state.memory[0]) sum += memory.bond_area;
+    return sum;
+  };
+  ASSERT_NEAR(bonded(), 1, 1e-9);
+  for (int k = 0; k < 2; ++k) step(scene, state, work);
+  EXPECT_NEAR(bonded(), 1, 1e-9);
+  EXPECT_LT((state.motion[0].pose.position - scene.blocks.rest[0].position).norm(), 2e-3);
+}
+
+}  // namespace

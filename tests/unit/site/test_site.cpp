@@ -1,0 +1,208 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <iostream>
+#include <set>
+#include <sstream>
+
+#include "base/random.hpp"
+#include "site/site.hpp"
+
+namespace {
+
+using talus::InputError;
+using talus::parse_site;
+using talus::Site;
+
+constexpr const char* whole = R"(
+[site]
+name = "wall"
+crs = "EPSG:31287"
+
+[source]
+polygon = [[10, 20], [30, 20], [30.5, 40]]
+failure_surface = "vertical_depth"
+depth_m = 8
+
+[joints.J2]
+dip_deg = 80
+dip_direction_deg = 324
+spacing_m = 6
+[joints.J1]
+dip_deg = 44
+dip_direction_deg = 144
+spacing_m = 5
+
+[ground.scree]
+friction_deg = 32
+[blocks.one]
+shape = "box"
+size_m = [1, 2, 3]
+position_m = [5, 6]
+)";
+
+// What a site file is refused with.
+std::string refusal(const std::string& text) {
+  try {
+    static_cast<void>(parse_site(text, "s/site.toml"));
+  } catch (const InputError& error) {
+    return std::string(error.what()) + " | " + error.hint();
+  }
+  return "accepted";
+}
+
+}  // namespace
+
+TEST(Site, ValuesDefaultsAndTheOrderOfTheFile) {
+  const Site site = parse_site(whole, "s/site.toml");
+  EXPECT_EQ(site.info.name, "wall");
+  ASSERT_EQ(site.joints.size(), 2u);
+  EXPECT_EQ(site.joints[0].name, "J2");
+  EXPECT_EQ(site.joints[1].dip_direction_deg, 144);
+  ASSERT_EQ(site.source.polygon.size(), 3u);
+  EXPECT_EQ(site.source.polygon[2].x(), 30.5);
+  EXPECT_EQ(site.materials.at(0).density_kg_m3, 2600);
+  EXPECT_EQ(site.grounds.at(0).friction_deg, 32);
+  EXPECT_TRUE(std::isnan(site.solver.time_step_s));
+  ASSERT_EQ(site.blocks.at(0).position_m.size(), 1u);
+  EXPECT_TRUE(std::isnan(site.blocks[0].position_m[0].z()));
+  EXPECT_EQ(talus::where_of(site, "source.depth_m").text(), "s/site.toml:9");
+  EXPECT_EQ(talus::resolved(site, "map.gpkg"), "s/map.gpkg");
+  EXPECT_EQ(talus::resolved(site, "/data/map.gpkg"), "/data/map.gpkg");
+}
+
+TEST(Site, UnknownKeysNameTheNearestAndTheLine) {
+  EXPECT_EQ(refusal("[joints.J1]\n\ndip_degree = 3\n"),
+            "s/site.toml:3: unknown key dip_degree in [joints.J1] | did you mean dip_deg?");
+  EXPECT_EQ(refusal("[solvr]\nlaw = 'paper'\n"),
+            "s/site.toml:1: unknown section solvr | did you mean solver?");
+  EXPECT_NE(refusal("friction_deg = 3\n").find("key outside any section"), std::string::npos);
+}
+
+TEST(Site, ValuesOutOfRangeSayWhatIsExpected) {
+  EXPECT_EQ(refusal("[ground.g]\nfriction_deg = 250\n"),
+            "s/site.toml:2: friction_deg is 250, expected 0 to below 90 | give degrees; a friction "
+            "coefficient mu is atan(mu) in degrees");
+  EXPECT_NE(refusal("[joints.a]\nspacing_m = 0").find("expected above 0"), std::string::npos);
+  EXPECT_NE(refusal("[joints.a]\nspacing_m = -1").find("expected above 0"), std::string::npos);
+  EXPECT_NE(refusal("[joints.a]\ndip_deg = 91").find("expected 0 to 90"), std::string::npos);
+  EXPECT_NE(refusal("[joints.a]\ndip_deg = nan").find("is nan"), std::string::npos);
+  EXPECT_NE(refusal("[joints.a]\ndip_deg = 'steep'").find("is text, expected a number"),
+            std::string::npos);
+  EXPECT_NE(refusal("[solver]\nlaw = 'other'").find("one of talus|paper"), std::string::npos);
+  EXPECT_NE(refusal("[source]\nseed = 1.5").find("expected a whole number"), std::string::npos);
+  EXPECT_NE(refusal("[source]\npolygon = [[1, 2], [3, 4]]").find("at least 3"), std::string::npos);
+  EXPECT_NE(refusal("[fence.f]\nline = [[1, 2]]").find("at least 2"), std::string::npos);
+  EXPECT_NE(refusal("[source]\nmaterial = 'gneis'\n[material.gneiss]").find("gneiss?"),
+            std::string::npos);
+  EXPECT_NE(refusal("[source]\n[material.a]\n[material.b]").find("several materials"),
+            std::string::npos);
+}
+
+TEST(Site, TextThatIsNotTomlIsRefusedWithItsLine) {
+  EXPECT_EQ(refusal("[site]\nname = \n").rfind("s/site.toml:2: ", 0), 0u);
+  EXPECT_EQ(refusal("[site]\nname = 'a'\nname = 'b'\n").rfind("s/site.toml:3: ", 0), 0u);
+  EXPECT_NE(refusal("site = 3").find("expected a section"), std::string::npos);
+  EXPECT_NE(refusal("[joints]\ndip_deg = 3").find("write [joints.NAME]"), std::string::npos);
+}
+
+TEST(Site, TheCommandLineOverridesTheFile) {
+  Site site = parse_site(whole, "s/site.toml");
+  talus::override_value(site, "source.depth_m", "12");
+  talus::override_value(site, "joints.J1.spacing_m", "2.5");
+  talus::override_value(site, "solver.law", "paper");
+  EXPECT_EQ(site.source.depth_m, 12);
+  EXPECT_EQ(site.joints[1].spacing_m, 2.5);
+  EXPECT_EQ(site.solver.law, "paper");
+  EXPECT_THROW(talus::override_value(site, "solver.lawn", "paper"), InputError);
+  EXPECT_THROW(talus::override_value(site, "joints.J9.dip_deg", "3"), InputError);
+  try {
+    talus::override_value(site, "joints.J22.dip_deg", "3");
+    ADD_FAILURE() << "joints.J22 is known";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.hint(), "did you mean joints.J2?");
+  }
+  EXPECT_THROW(talus::override_value(site, "solver.duration_s", "soon"), InputError);
+  EXPECT_THROW(talus::override_value(site, "duration_s", "3"), InputError);
+  EXPECT_THROW(talus::override_value(site, "source.depth_m", "1\nseed = 3"), InputError);
+}
+
+// What is printed reads back as the same configuration.
+TEST(Site, PrintedConfigurationReadsBackTheSame) {
+  Site site = parse_site(whole, "s/site.toml");
+  talus::override_value(site, "source.depth_m", "12");
+  const std::string printed = talus::print_config(site);
+  EXPECT_NE(printed.find("depth_m = 12  # cli"), std::string::npos);
+  EXPECT_NE(printed.find("dip_deg = 44  # file, line 16"), std::string::npos);
+  EXPECT_NE(printed.find("law = 'talus'  # default"), std::string::npos);
+  const auto without_comments = [](const std::string& text) {
+    std::string kept;
+    for (size_t i = 0; i < text.size(); ++i) {
+      if (text.compare(i, 3, "  #") == 0) i = text.find('\n', i);
+      kept += text[i];
+    }
+    return kept;
+  };
+  EXPECT_EQ(without_comments(printed),
+            without_comments(talus::print_config(parse_site(printed, "s/site.toml"))));
+}
+
+// A key with a dimension says its unit, so that no number stands alone.
+TEST(Site, EveryKeyIsDescribedAndUnique) {
+  std::set<std::string> seen;
+  for (const auto& row : talus::site_keys()) {
+    EXPECT_TRUE(seen.insert(row.section + "." + row.key).second) << row.key;
+    EXPECT_FALSE(row.help.empty()) << row.key;
+  }
+  EXPECT_TRUE(seen.count("joints.NAME.dip_deg"));
+}
+
+// docs/site-file.md holds the table of keys; TALUS_PRINT_KEYS=1 prints what should stand there.
+TEST(Site, ThePageOfKeysIsTheTable) {
+  std::string rows, section;
+  for (const auto& row : talus::site_keys()) {
+    if (row.section != section)
+      rows += "\n### [" + row.section +
+              "]\n| Key | Holds | Default | Allowed | Meaning |\n|---|---|---|---|---|\n";
+    section = row.section;
+    std::string allowed = row.range;
+    for (size_t at = 0; (at = allowed.find('|', at)) != std::string::npos; at += 2)
+      allowed.replace(at, 1, ", ");
+    rows += "| `" + row.key + "` | " + row.type + " | " + row.default_value + " | " + allowed +
+            " | " + row.help + " |\n";
+  }
+  if (std::getenv("TALUS_PRINT_KEYS")) std::cout << rows;
+  std::ifstream file(std::string(TALUS_SOURCE_DIR) + "/docs/site-file.md");
+  std::ostringstream page;
+  page << file.rdbuf();
+  EXPECT_NE(page.str().find(rows), std::string::npos) << "the table of keys has changed";
+}
+
+// Mangled files are refused or accepted, never anything else.
+TEST(Site, MangledFilesNeverCrash) {
+  talus::Random random(3);
+  const std::string source = whole;
+  for (int trial = 0; trial < 3000; ++trial) {
+    std::string text = source;
+    for (int k = 0; k < 1 + trial % 4; ++k) {
+      const size_t at = random.below(text.size());
+      switch (random.below(4)) {
+        case 0:
+          text.erase(at, random.below(20));
+          break;
+        case 1:
+          text.insert(at, 1, static_cast<char>(random.below(256)));
+          break;
+        case 2:
+          text[at] = "[]=.\"'{}\n-e9"[random.below(12)];
+          break;
+        default:
+          text.insert(at, source.substr(random.below(source.size()), random.below(30)));
+      }
+      if (text.empty()) break;
+    }
+    EXPECT_FALSE(refusal(text).empty());
+  }
+}

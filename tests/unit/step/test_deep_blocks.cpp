@@ -1,0 +1,116 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "step/deep_blocks.hpp"
+#include "step/step.hpp"
+#include "verify/cases/cases.hpp"
+
+namespace {
+
+using namespace talus;
+using namespace talus::cases;
+
+/// Blocks on a slope that dips to +x, and what steps them.
+struct OnASlope {
+  OnASlope(double dip_deg, const std::vector<Body>& bodies)
+      : scene(scene_of(plane_trn(slope_frame(dip_deg, 90), 5, 50), ground_of(60), bodies, {})),
+        state(start(scene)),
+        work(make_work(scene)) {}
+  StepReport go() { return step(scene, state, work); }
+
+  Scene scene;
+  State state;
+  Work work;
+};
+
+Body cube_at(const Vec3& low, double width = 1) {
+  return body_of(box(low, low + Vec3::Constant(width)));
+}
+
+// What a contact says of itself, that a block is deep, counts only when its body overlaps another.
+TEST(DeepBlocks, ASuspectThatHardlyOverlapsAnythingIsNotDeep) {
+  OnASlope stack(0, {cube_at({0, 0, 0}), cube_at({0, 0, 1}), cube_at({5, 0, 30})});
+  for (int i = 0; i < 20; ++i) {
+    StepReport before;
+    for (int b = 0; b < 3; ++b) note_overlap(b, 0.8, 1, stack.work.deep, before);
+    const StepReport report = stack.go();
+    EXPECT_FALSE(has(report.flags, StepFlag::deep));
+    EXPECT_LT(report.largest_penetration, 1e-3);
+  }
+  for (const DeepBlock& deep : stack.state.deep) EXPECT_EQ(deep.steps, 0);
+}
+
+// Two cubes that overlap by 0.2 m far above the ground: the smaller one is in the larger one.
+TEST(DeepBlocks, TheThinnerOfTwoBlocksIsInTheOther) {
+  for (const int small : {0, 1}) {
+    std::vector<Body> bodies = {cube_at({-1.5, -1.5, 30}, 3), cube_at({-1.5, -1.5, 30}, 3)};
+    bodies[static_cast<std::size_t>(small)] = cube_at({-0.5, -0.5, 32.8});
+    OnASlope pair(0, bodies);
+    const StepReport report = pair.go();
+    EXPECT_TRUE(has(report.flags, StepFlag::deep));
+    EXPECT_NEAR(report.largest_penetration, 0.2, 0.01);
+    const DeepBlock& deep = pair.state.deep[static_cast<std::size_t>(small)];
+    EXPECT_EQ(deep.partner, 1 - small);
+    EXPECT_EQ(deep.steps, 1);
+    EXPECT_EQ(deep.time, pair.state.time);
+    EXPECT_NEAR(deep.depth, 0.2, 0.01);
+    EXPECT_LT((deep.place - Vec3(0, 0, 33.3)).norm(), 0.02);
+    EXPECT_EQ(pair.state.deep[static_cast<std::size_t>(1 - small)].steps, 0);
+  }
+}
+
+// Set 0.2 m into a slope along its normal: so deep it is, not what it reaches below it vertically.
+TEST(DeepBlocks, DepthInTheGroundIsThatAlongItsNormal) {
+  for (const double dip : {0.0, 35.0}) {
+    const SlopeFrame frame = slope_frame(dip, 90);
+    OnASlope slope(dip,
+                   {body_of(box_in(frame, Vec3::Zero(), Vec3(-0.5, -0.5, 0), Vec3(0.5, 0.5, 1)))});
+    slope.state.motion[0].pose.position -= 0.2 * frame.normal;
+    slope.go();
+    EXPECT_EQ(slope.state.deep[0].partner, -1);
+    const Vec3 down = slope.scene.blocks.rest[0].position - slope.state.motion[0].pose.position;
+    const double expected = frame.normal.dot(down);  // it is pressed out already
+    EXPECT_GT(expected, 0.15);
+    EXPECT_NEAR(slope.state.deep[0].depth, expected, 1e-6) << dip;
+  }
+}
+
+// How far block 0 has gone down.
+double gone_down(const Scene& scene, const State& state) {
+  return scene.blocks.rest[0].position.z() - state.motion[0].pose.position.z();
+}
+
+// A ridge goes into a plate whose corners are all above the ground.
+TEST(DeepBlocks, ARidgeInAPlateCounts) {
+  const auto ridge = [](double x, double) { return -0.8 * std::abs(x); };
+  const Body plate = body_of(box(Vec3(-2, -2, 0), Vec3(2, 2, 0.4)));
+  const Scene scene = scene_of(make_trn(ridge, 5, 50), ground_of(60), {plate}, {});
+  State state = start(scene);
+  Work work = make_work(scene);
+  state.motion[0].pose.position.z() -= 0.1;
+  step(scene, state, work);
+  EXPECT_EQ(state.deep[0].steps, 1);
+  const double expected = gone_down(scene, state);
+  EXPECT_GT(expected, 0.08);
+  EXPECT_NEAR(state.deep[0].depth, expected, 1e-6);
+}
+
+// A block that something threw out is faster than its fall can have made it; one that fell is not.
+TEST(DeepBlocks, ABlockThatWasDeepIsWatchedForItsSpeed) {
+  for (const double thrown : {0.0, 12.0}) {
+    OnASlope pair(0, {cube_at({-1.5, -1.5, 30}, 3), cube_at({-0.5, -0.5, 32.8})});
+    pair.go();
+    EXPECT_EQ(pair.state.deep[1].steps, 1);
+    EXPECT_FALSE(pair.state.deep[1].is_too_fast);
+    pair.state.motion[1].pose.position.x() += 4;
+    pair.state.motion[1].velocity.x() += thrown;
+    for (int i = 0; i < 20; ++i) pair.go();
+    EXPECT_EQ(pair.state.deep[1].is_too_fast, thrown > 0);
+    EXPECT_FALSE(pair.state.deep[1].is_deep);
+    EXPECT_FALSE(pair.state.deep[0].is_too_fast);
+  }
+}
+
+}  // namespace

@@ -1,0 +1,22 @@
+// tools/blocks/outputs.hpp
+// The files that talus-blocks writes.
+#pragma once
+
+#include <string>
+
+#include "tools/frame/source_work.hpp"
+#include "tools/frame/tool.hpp"
+
+namespace talus {
+
+/// Paths of the command line; all but `blocks` may be empty: not asked for.
+struct BlocksOutputs {
+  std::string blocks, trn, report, footprints, stereonet, size_curve;
+  std::string obj_folder;  ///< for one OBJ file a block
+};
+
+/// Writes what is asked for; removes OBJ files that an earlier run with more blocks left behind.
+void write_outputs(Tool& tool, const BlocksOutputs& files, const BlocksWork& work,
+                   const Json& report);
+
+}  // namespace talus

@@ -1,0 +1,109 @@
+// tools/blocks/talus_blocks.cpp
+// The blocks of a site: the source cut by its joints, or bodies from meshes and shapes. Page:
+// docs/tools/talus-blocks.md
+#include "base/sha256.hpp"
+#include "io/crs_gdal.hpp"
+#include "io/crs_place_gdal.hpp"
+#include "io/raster_gdal.hpp"
+#include "terrain/trn_digest.hpp"
+#include "tools/blocks/json.hpp"
+#include "tools/blocks/outputs.hpp"
+#include "tools/blocks/placed.hpp"
+#include "tools/frame/site_crs.hpp"
+#include "tools/frame/site_options.hpp"
+#include "tools/frame/source_cut.hpp"
+#include "tools/frame/tool.hpp"
+
+namespace {
+
+using namespace talus;  // NOLINT: a program of its own
+
+struct Options {
+  std::string trn;
+  BlocksOutputs files;
+  bool exact = false;
+};
+
+void declare(Tool& tool, Options& o) {
+  tool.input("--trn", o.trn, "terrain before the slide (talus-trn)")->required();
+  tool.output("-o,--out", o.files.blocks, "block set to write (HDF5)")->required();
+  tool.app().add_flag("--exact", o.exact,
+                      "keep blocks as they are cut, non-convex at the ground, as unions of convex "
+                      "parts; default: convex inside their joint cell");
+  tool.output("--trn-out", o.files.trn,
+              "terrain lowered to the failure surface, the bed that the blocks lie on (GeoTIFF)");
+  tool.output("--report", o.files.report, "volumes, sizes, shapes, joints (JSON)");
+  tool.output("--footprints", o.files.footprints, "plan outlines of the blocks (GeoPackage)");
+  tool.output("--stereonet", o.files.stereonet, "poles and mean planes of the joints (SVG)");
+  tool.output("--size-curve", o.files.size_curve, "size distribution of the blocks (SVG)");
+  tool.output_folder("--obj", o.files.obj_folder,
+                     "folder for one OBJ file a block, map coordinates");
+  tool.footer(
+      "Example:\n  talus-blocks site.toml --trn slope.tif -o blocks.h5 --trn-out bed.tif "
+      "--footprints blocks.gpkg --report blocks.json");
+}
+
+std::string hash_of(const Options& o, const BlocksWork& work) {
+  Sha256 hash;
+  const auto add = [&hash](const std::string& words) { hash.add(words.c_str(), words.size() + 1); };
+  add(sha256_of_file(o.trn));
+  add(o.exact ? "exact" : "convex");
+  for (const EffectiveValue& entry : effective_values(work.site))
+    add(entry.section + "." + entry.key + "=" + entry.value);
+  for (const Vec3& v : work.blocks.vertices) hash.add(v.data(), sizeof v);
+  return hash.hex();
+}
+
+void check_ground(const BlocksWork& work, const std::string& path) {
+  const Vec2 place = (work.ground.origin.head<2>() + work.ground.node0).eval();
+  if (work.ground.crs_wkt.empty()) return;
+  const CrsProblem problem = find_crs_problem(work.ground.crs_wkt, place);
+  if (!problem.finding.empty())
+    throw InputError(
+        {path}, problem.finding,
+        problem.mend_to.empty() ? "" : "reproject it: talus-trn --t-srs " + problem.mend_to);
+}
+
+void record_metrics(Tool& tool, const Json& report) {
+  tool.metric("n_blocks", report["n_blocks"].get<double>(), "1");
+  tool.metric("volume_m3", report["volume_m3"].get<double>(), "m3");
+  if (report.contains("cut"))
+    tool.metric("convexified_change", report["cut"]["convexified_change"].get<double>(), "1");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options o;
+  Tool tool("talus-blocks",
+            "Cuts the rock mass of a source into blocks by its joints, or takes blocks from "
+            "meshes and shapes.");
+  SiteOptions site(tool);
+  declare(tool, o);
+  return tool.run(argc, argv, [&] {
+    BlocksWork work;
+    work.site = site.load();
+    check_site_crs(work.site);
+    work.ground = read_trn(o.trn);
+    check_ground(work, o.trn);
+    work.blocks.origin = work.ground.origin;
+    work.blocks.crs_wkt = work.ground.crs_wkt;
+    for (const MaterialSettings& material : work.site.materials)
+      work.blocks.material_names.push_back(material.name);
+    if (!work.has_source() && work.site.blocks.empty())
+      throw InputError({work.site.file}, "there is neither [source] nor [blocks.*]",
+                       "say what moves: a source to be cut, or blocks");
+    if (work.has_source()) work.area = read_source_area(tool, work);
+    if (work.is_cut()) cut_source(tool, o.exact, work);
+    add_placed_blocks({tool, work.site, work.ground, work.has_source() ? &work.area : nullptr},
+                      work.blocks);
+    work.blocks.content_hash = hash_of(o, work);
+    work.blocks.ground_digests = {trn_digest(work.ground)};
+    if (work.is_cut()) work.blocks.ground_digests = {trn_digest(work.mass.bed)};
+    Json report = blocks_json(work, tool.run_id());
+    if (!tool.layers_read().empty()) report["layers_read"] = tool.layers_read();
+    record_metrics(tool, report);
+    write_outputs(tool, o.files, work, report);
+    tool.result(report, blocks_summary(report));
+  });
+}

@@ -1,0 +1,227 @@
+#include "tools/dda/report.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/text.hpp"
+#include "record/deep_rows.hpp"
+#include "tools/frame/moved_json.hpp"
+
+namespace talus {
+namespace {
+
+using std::size_t;
+
+// Of all moments where passages are recorded, else of those of the frames.
+double largest_speed(const RunFile& file) {
+  float largest = 0;
+  for (const Passage& row : file.passages) largest = std::max(largest, row.largest.speed);
+  if (!file.passages.empty()) return largest;
+  const std::vector<float>& v = file.frames.velocity;
+  for (std::size_t i = 0; i + 2 < v.size(); i += 3)
+    largest = std::max(largest, std::hypot(v[i], v[i + 1], v[i + 2]));
+  return largest;
+}
+
+// Mean displacement of the blocks by mass, from the first frame to the last.
+Vec3 mean_displacement(const RunFile& file) {
+  Vec3 sum = Vec3::Zero();
+  double mass = 0;
+  for (int b = 0; b < n_blocks(file); ++b) {
+    const double m = file.blocks.mass[b];
+    sum += m * (frame_block(file, n_frames(file.frames) - 1, b).position -
+                frame_block(file, 0, b).position);
+    mass += m;
+  }
+  return sum / mass;
+}
+
+// Panels that stood, and those that broke, when and by which block.
+Json fences_on(const Runner& runner) {
+  Json list = Json::array();
+  for (const PanelRow& row : runner.file.panels) {
+    Json panel = {{"fence", runner.file.lines[row.line].name},
+                  {"panel", row.panel},
+                  {"work_kj", row.work / 1e3},
+                  {"deflection_m", row.deflection},
+                  {"broken", row.broken_by >= 0}};
+    if (row.broken_by >= 0) {
+      panel["broken_at_s"] = row.broken_at;
+      panel["broken_by_block"] = row.broken_by;
+    }
+    list.push_back(std::move(panel));
+  }
+  return list;
+}
+
+// When and by which block: of the first few.
+std::string broken_panels(const Json& panels) {
+  constexpr int most = 5;
+  std::string words;
+  int n = 0;
+  for (const Json& panel : panels) {
+    if (!panel["broken"].get<bool>()) continue;
+    if (n++ == most) return words + "; all with --json)";
+    words += (n == 1 ? " (" : "; ") + panel["fence"].get<std::string>() + " panel " +
+             panel["panel"].dump() + " at " + text(panel["broken_at_s"].get<double>(), 4) +
+             " s by block " + panel["broken_by_block"].dump();
+  }
+  return n == 0 ? words : words + ")";
+}
+
+std::string fence_summary(const Json& report) {
+  const Json& panels = report["fences"];
+  if (panels.empty()) return "";
+  const auto n_broken = std::count_if(panels.begin(), panels.end(),
+                                      [](const Json& p) { return p["broken"].get<bool>(); });
+  return ", " + counted(report["n_fence_hits"].get<std::int64_t>(), "hit") + " on fences, " +
+         std::to_string(n_broken) + " of " +
+         counted(static_cast<std::int64_t>(panels.size()), "panel") + " broken" +
+         broken_panels(panels);
+}
+
+// What a user must not miss, where there is any.
+std::string trouble_summary(const Json& report) {
+  const auto said = [&report](const char* key, const std::string& what) {
+    return report[key].get<std::int64_t>() == 0 ? "" : ", " + report[key].dump() + what;
+  };
+  return said("left_domain", " left the terrain") +
+         said("unconverged", " steps of a block accepted unconverged");
+}
+
+// The way out of a broken limit, by what its name says.
+std::string health_hint(const std::string& check) {
+  const auto is_of = [&check](const char* word) { return check.find(word) != std::string::npos; };
+  if (is_of("more than a tenth") || is_of("in the toe"))
+    return "take a smaller time_step_s, or merge small blocks ([source] min_block_volume_m3); "
+           "max_penetration_m says instead how deep is deep";
+  if (is_of("penetration"))
+    return "take a smaller time_step_s, or give max_penetration_m if that depth will do";
+  if (is_of("left the terrain"))
+    return "take a larger terrain, or give max_lost_share if blocks may leave it";
+  if (is_of("energy gained") || is_of("not finite") || is_of("below the ground"))
+    return "take a smaller time_step_s";
+  return "";
+}
+
+// Blocks that were deep in something: which, in what, when, where, how deep.
+Json deep_blocks_of(const RunFile& file) {
+  Json list = Json::array();
+  for (const DeepRow& row : file.deep) {
+    const Vec3 at = row.place + file.info.origin;
+    list.push_back({{"block", row.block},
+                    {"partner", partner_name(row, file.lines)},
+                    {"depth_m", row.depth},
+                    {"thickness_m", row.thickness},
+                    {"time_s", row.time},
+                    {"first_time_s", row.first_time},
+                    {"steps", row.steps},
+                    {"position_m", {at.x(), at.y(), at.z()}},
+                    {"mass_share", row.mass_share},
+                    {"ends_in_toe", row.ends_in_toe != 0},
+                    {"met_fence", row.met_fence != 0},
+                    {"is_too_fast", row.is_too_fast != 0}});
+  }
+  return list;
+}
+
+// What the run says of them in one line: those that matter first, then the heaviest.
+std::string deep_warning(const RunFile& file) {
+  constexpr size_t most = 3;
+  std::vector<DeepRow> rows = file.deep;
+  std::stable_sort(rows.begin(), rows.end(), [](const DeepRow& a, const DeepRow& b) {
+    const int a_matters = n_that_matter({&a, 1}), b_matters = n_that_matter({&b, 1});
+    return a_matters != b_matters ? a_matters > b_matters : a.mass_share > b.mass_share;
+  });
+  std::string words = counted(static_cast<std::int64_t>(rows.size()), "block") + " of " +
+                      text(100 * mass_share(rows), 3) +
+                      " % of the mass came in by more than a tenth of " +
+                      (rows.size() == 1 ? "its" : "their") + " thickness: ";
+  for (size_t i = 0; i < std::min(most, rows.size()); ++i)
+    words += (i == 0 ? "" : "; ") + deep_words(rows[i], file.lines, file.info.origin);
+  return words + (rows.size() > most ? "; all stand in deep_blocks of the run" : "");
+}
+
+}  // namespace
+
+Json plan_json(const ScenePlan& plan) {
+  Json list = Json::array();
+  for (const PlanItem& item : plan.items)
+    list.push_back(
+        {{"item", item.item}, {"on", item.on}, {"rule", item.rule}, {"reason", item.reason}});
+  return list;
+}
+
+Json run_report(const Runner& runner, const ScenePlan& plan, double cpu_s) {
+  const RunFile& file = runner.file;
+  const RunCounters& counters = runner.state.counters;
+  const Vec3 moved = mean_displacement(file);
+  Json json = {{"run_id", file.info.run_id},
+               {"status", file.info.status},
+               {"time_s", file.info.time},
+               {"n_blocks", n_blocks(file)},
+               {"steps", counters.steps},
+               {"block_steps", counters.substeps},
+               {"flight_skips", counters.flight_skips},
+               {"passes", counters.passes},
+               {"impacts", counters.impacts},
+               {"unconverged", counters.unconverged},
+               {"left_domain", counters.left_domain},
+               {"n_passages", file.passages.size()},
+               {"n_crossings", file.crossings.size()},
+               {"n_fence_hits", file.fence_hits.size()},
+               {"fences", fences_on(runner)},
+               {"n_frames", n_frames(file.frames)},
+               {"largest_speed_m_s", largest_speed(file)},
+               {"mean_displacement_m", {moved.x(), moved.y(), moved.z()}},
+               {"moved", moved_json(moved_of(displacements(file)))},
+               {"cpu_time_s", cpu_s}};
+  json["health"] = Json::array();
+  for (const HealthCheck& check : health_checks(runner))
+    json["health"].push_back({{"check", check.name},
+                              {"value", check.value},
+                              {"limit", check.limit},
+                              {"pass", check.pass}});
+  json["deep_blocks"] = deep_blocks_of(file);
+  json["plan"] = plan_json(plan);
+  return json;
+}
+
+std::string run_summary(const Json& report, const RunFile& file) {
+  const auto number = [&report](const char* key) { return text(report[key].get<double>(), 4); };
+  const Json& moved = report["mean_displacement_m"];
+  const double horizontal = std::hypot(moved[0].get<double>(), moved[1].get<double>());
+  const auto count = [&report](const char* key, const char* noun) {
+    return counted(report[key].get<std::int64_t>(), noun);
+  };
+  const double fell = -moved[2].get<double>();
+  return count("n_blocks", "block") + ", " + number("time_s") + " s in " + count("steps", "step") +
+         ": centre of mass moved " + text(horizontal, 4) + " m and " +
+         (fell < 0 ? "rose " : "fell ") + text(std::abs(fell), 4) + " m, " +
+         text(moved_of(displacements(file))) + "; largest speed " + number("largest_speed_m_s") +
+         " m/s, " + count("n_passages", "passage") + ", " + count("n_crossings", "crossing") +
+         fence_summary(report) + trouble_summary(report);
+}
+
+void warn_of_standing_mass(Tool& tool, const RunFile& file) {
+  const std::string words = standing_mass_warning(moved_of(displacements(file)));
+  if (!words.empty()) tool.warn(words);
+}
+
+void record_health(Tool& tool, Runner& runner) {
+  runner.file.deep = deep_rows(runner.scene, runner.state, runner.crossings.rows);
+  if (!runner.file.deep.empty()) {
+    const std::string words = deep_warning(runner.file);
+    tool.warn(words);
+    runner.file.info.warnings += (runner.file.info.warnings.empty() ? "" : "\n") + words;
+  }
+  for (const HealthCheck& check : health_checks(runner)) {
+    tool.check(check.name, check.value, check.limit, check.pass, health_hint(check.name));
+    if (check.pass) continue;
+    runner.file.info.status = "failed";
+    runner.file.info.reason += (runner.file.info.reason.empty() ? "" : "; ") + check.name + " is " +
+                               text(check.value, 6) + ", limit " + text(check.limit, 6);
+  }
+}
+
+}  // namespace talus

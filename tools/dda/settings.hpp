@@ -1,0 +1,25 @@
+// tools/dda/settings.hpp
+// What is odd about the settings of a run: refused, or said to the user.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "site/plan.hpp"
+#include "site/site.hpp"
+#include "tools/frame/scene_inputs.hpp"
+#include "tools/frame/tool.hpp"
+
+namespace talus {
+
+/// Throws InputError for time steps out of order, a duration below one step, or too many frames.
+void check_times(const Site& site);
+
+/// Warns of settings that do nothing, or that are unusual. Returns the warnings for the run file.
+[[nodiscard]] std::vector<std::string> warn_of_settings(Tool& tool, const Site& site);
+
+/// Warns of blocks that pass through each other, and of strains asked for that are not computed;
+/// adds to inputs.warnings.
+void warn_of_plan(Tool& tool, const Site& site, const ScenePlan& plan, DdaInputs& inputs);
+
+}  // namespace talus

@@ -1,0 +1,288 @@
+// tools/dda/talus_dda.cpp
+// Moves blocks by three-dimensional discontinuous deformation analysis. Page:
+// docs/tools/talus-dda.md
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+
+#include "base/processor_time.hpp"
+#include "base/text.hpp"
+#include "run/runner.hpp"
+#include "scene/site_scene.hpp"
+#include "store/xdmf_hdf5.hpp"
+#include "terrain/trn_flags.hpp"
+#include "tools/dda/report.hpp"
+#include "tools/dda/settings.hpp"
+#include "tools/frame/build_info.hpp"
+#include "tools/frame/scene_inputs.hpp"
+#include "tools/frame/site_crs.hpp"
+#include "tools/frame/site_options.hpp"
+#include "tools/frame/tool.hpp"
+
+namespace {
+
+using namespace talus;  // NOLINT: a program of its own
+namespace fs = std::filesystem;
+
+struct Options {
+  DdaFiles files;
+  std::string out, xdmf, plan, passages_by = "footprint";
+  bool resume = false, independent = false;
+};
+
+void declare(Tool& tool, SiteOptions& site, Options& o) {
+  tool.input("--trn", o.files.trn, "terrain that the blocks slide on (talus-trn, talus-blocks)")
+      ->required();
+  tool.input("--blocks", o.files.blocks, "block set (talus-blocks)")->required();
+  tool.output("-o,--out", o.out, "run to write (HDF5); not needed for --plan");
+  tool.output("--xdmf", o.xdmf, "scene for ParaView (XDMF), with its own HDF5 file beside it");
+  tool.app().add_flag("--plan{show}", o.plan,
+                      "print what the scene needs and what is left out, then end; --plan=full "
+                      "computes everything");
+  tool.flag("--resume", o.resume, "go on from the checkpoint of a run that was stopped, if any");
+  tool.flag("--independent", o.independent,
+            "move each block as if it were alone: rocks that fall one by one");
+  tool.flag(
+      "--settle", o.files.settle,
+      "lift blocks that start below the ground onto it with what lies on them, and move blocks "
+      "apart that overlap a little");
+  tool.option("--passages-by", o.passages_by,
+              "a cell is passed while the footprint or only the centroid is over it")
+      ->check(CLI::IsMember({"footprint", "centroid"}));
+  site.option(tool, "--law", "solver.law", "contact law, talus or paper");
+  site.option(tool, "--duration-s", "solver.duration_s", "time simulated");
+  site.option(tool, "--time-step-s", "solver.time_step_s", "time step");
+  site.option(tool, "--seed", "solver.seed", "seed of scatter and jitter");
+  site.option(tool, "--frame-interval-s", "output.frame_interval_s", "time between frames");
+  site.option(tool, "--checkpoint-interval-s", "output.checkpoint_interval_s",
+              "wall time between checkpoints");
+  tool.footer(
+      "Example:\n  talus-dda site.toml --trn bed.tif --blocks blocks.h5 -o run.h5\n"
+      "A run that was stopped leaves run.h5.part: a readable run, and where --resume goes on.");
+  // All that was given or read counts for the run's id, but for what a resumed run may differ in.
+  // The site file counts by its effective values.
+  tool.leave_out_of_run_id(site.names());
+  tool.leave_out_of_run_id({"resume", "output.checkpoint_interval_s"});
+}
+
+// --- the plan ----------------------------------------------------------------------------------
+
+ScenePlan plan_of(const Site& site, const DdaInputs& inputs, const Options& o) {
+  if (!o.plan.empty() && o.plan != "show" && o.plan != "full")
+    throw InputError({"", 0, "--plan"}, "is " + o.plan + ", expected full or nothing");
+  const Trn& trn = inputs.parts.trn;
+  PlanFacts facts = plan_facts(site, inputs.parts.blocks, trn, ground_flags(trn));
+  facts.independent = o.independent;
+  return make_plan(facts, o.plan == "full");
+}
+
+// --- the run -----------------------------------------------------------------------------------
+
+RunOptions run_options(const Site& site, const ScenePlan& plan, const Options& o) {
+  RunOptions options;
+  options.duration = site.solver.duration_s;
+  options.frame_interval = site.output.frame_interval_s;
+  options.passages = plan.passages;
+  options.passages_by_centroid = o.passages_by == "centroid";
+  options.passage_cell_size = site.output.cell_size_m;
+  options.strain = plan.strains_in_frames;
+  options.limits = {site.solver.max_penetration_m, site.solver.max_energy_gain,
+                    site.solver.max_lost_share, site.solver.max_unconverged_share};
+  return options;
+}
+
+RunFile new_file(const std::string& run_id, const Site& site, const DdaInputs& inputs,
+                 const ScenePlan& plan) {
+  RunFile file;
+  RunInfo& info = file.info;
+  info.run_id = run_id;
+  info.version = build_version;
+  info.site = site.info.name;
+  info.crs_wkt = inputs.crs_wkt;
+  info.origin = inputs.origin;
+  info.trn_sha256 = inputs.trn_sha256;
+  info.blocks_hash = inputs.parts.blocks.content_hash;
+  info.law = site.solver.law;
+  info.seed = site.solver.seed;
+  info.config = print_config(site);
+  info.plan = plan_json(plan).dump(1);
+  for (const std::string& line : inputs.warnings)
+    info.warnings += (info.warnings.empty() ? "" : "\n") + line;
+  return file;
+}
+
+std::string part_of(const Options& o) { return o.out + ".part"; }
+
+// Where the numbers of the XDMF file go.
+fs::path xdmf_data_of(const Options& o) { return fs::path(o.xdmf).replace_extension(".xdmf.h5"); }
+
+// The checkpoint takes the place of what a stopped run left, and is removed at the end.
+void check_outputs_beside(Tool& tool, const Options& o) {
+  for (const char* end : {"", ".new"}) tool.write_also(part_of(o) + end, true);
+  if (!o.xdmf.empty()) tool.write_also(xdmf_data_of(o).string());
+}
+
+void check_leftover(Tool& tool, const Options& o) {
+  if (!fs::exists(part_of(o)) || o.resume || tool.overwrite()) return;
+  throw InputError({part_of(o)}, "is what a run that was stopped left behind",
+                   "--resume goes on with it, --overwrite starts again");
+}
+
+// From the checkpoint when there is one and it is asked for, else from the beginning.
+Runner runner_of(Tool& tool, const Scene& scene, const RunOptions& options,
+                 const std::vector<RecordLine>& lines, RunFile file, const Options& o) {
+  const auto from_start = [&] { return begin_run(scene, options, lines, std::move(file)); };
+  if (!o.resume || !fs::exists(part_of(o))) {
+    if (o.resume) tool.detail(part_of(o) + " does not exist: the run starts at its beginning");
+    return from_start();
+  }
+  RunFile part;
+  try {
+    part = read_run_file(part_of(o));
+  } catch (const InputError& error) {
+    if (!tool.overwrite())
+      throw InputError({}, error.what(), "--overwrite starts again from the beginning");
+    tool.warn(std::string(error.what()) + ": the run starts at its beginning");
+    return from_start();
+  }
+  if (part.info.run_id != file.info.run_id && tool.overwrite()) {
+    tool.info(part_of(o) + " is of other inputs or settings: the run starts at its beginning");
+    return from_start();
+  }
+  if (part.info.run_id != file.info.run_id)
+    throw InputError(
+        {part_of(o)},
+        "belongs to a run of other inputs or settings (" + part.info.run_id + ", this one is " +
+            file.info.run_id + ")",
+        "give the same site file, options and inputs, or start again with --overwrite");
+  part.info = file.info;
+  Runner runner = resume_run(scene, options, lines, std::move(part), part_of(o));
+  tool.info("goes on at " + text(runner.state.time, 6) + " s");
+  return runner;
+}
+
+// Writes checkpoints at intervals, more rarely where writing one takes long.
+class Checkpoints {
+ public:
+  Checkpoints(Tool& tool, std::string path, double interval_s)
+      : tool_(tool), path_(std::move(path)), interval_s_(interval_s) {}
+
+  void write(Runner& runner) {
+    const auto begin = Clock::now();
+    update_file(runner, true);
+    replace_run_file(path_, runner.file);
+    const double cost = std::chrono::duration<double>(Clock::now() - begin).count();
+    next_ = Clock::now() + to_duration(std::max(interval_s_, 20 * cost));
+  }
+  // A full disk does not end a run that still can end well.
+  void write_if_due(Runner& runner) {
+    if (Clock::now() < next_) return;
+    try {
+      write(runner);
+    } catch (const InputError& error) {
+      tool_.warn(std::string("no checkpoint: ") + error.what());
+      next_ = Clock::now() + to_duration(10 * interval_s_);
+    }
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  static Clock::duration to_duration(double seconds) {
+    return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+  }
+  Tool& tool_;
+  std::string path_;
+  double interval_s_;
+  Clock::time_point next_ = Clock::now() + to_duration(interval_s_);
+};
+
+// To the end, to a broken limit, or to a signal.
+void compute(Tool& tool, Runner& runner, const std::string& part, double interval_s) {
+  Checkpoints checkpoints(tool, part, interval_s);
+  const ProgressFunction progress = tool.progress();
+  std::size_t n_rows = runner.file.health.size();
+  while (!is_over(runner)) {
+    if (tool.interrupted()) {
+      checkpoints.write(runner);
+      tool.info("stopped at " + text(runner.state.time, 6) + " s; --resume goes on from " + part);
+      throw Interrupted();
+    }
+    advance(runner);
+    if (runner.file.health.size() > n_rows) {  // once an interval: clocks and limits
+      n_rows = runner.file.health.size();
+      if (has_failed(runner)) break;
+      progress(std::min(1.0, runner.state.time / runner.options.duration));
+      checkpoints.write_if_due(runner);
+    }
+  }
+  finish(runner);
+}
+
+void write_outputs(Tool& tool, Runner& runner, const Options& o) {
+  runner.file.info.status = "done";
+  record_health(tool, runner);
+  update_file(runner, false);
+  write_run_file(tool.stage(o.out), runner.file);
+  if (o.xdmf.empty()) return;
+  const fs::path data = xdmf_data_of(o);
+  write_xdmf(tool.stage(o.xdmf), tool.stage(data.string()), data.filename().string(), runner.file);
+}
+
+// Also the half of one that a killed run left. One that cannot be removed does no harm.
+void remove_checkpoints(const Options& o) {
+  std::error_code error;
+  fs::remove(part_of(o), error);
+  fs::remove(part_of(o) + ".new", error);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options o;
+  Tool tool("talus-dda", "Moves blocks by three-dimensional discontinuous deformation analysis.");
+  SiteOptions site_options(tool);
+  declare(tool, site_options, o);
+  bool is_written = false;
+  const int code = tool.run(argc, argv, [&] {
+    const double cpu_start = processor_seconds();
+    const Site& site = site_options.load();
+    check_site_crs(site);
+    if (o.out.empty() && o.plan != "show")
+      throw UsageError({"", 0, "--out"}, "no output is named", "give -o RUN.h5");
+    if (!o.out.empty()) {
+      check_outputs_beside(tool, o);
+      check_leftover(tool, o);
+    }
+    check_times(site);
+    const std::vector<std::string> odd = warn_of_settings(tool, site);
+    DdaInputs inputs = read_dda_inputs(tool, site, o.files);
+    inputs.warnings.insert(inputs.warnings.begin(), odd.begin(), odd.end());
+    const ScenePlan plan = plan_of(site, inputs, o);
+    if (o.plan == "show") {
+      tool.result({{"plan", plan_json(plan)}}, as_text(plan));
+      return;
+    }
+    warn_of_plan(tool, site, plan, inputs);
+    check_start(tool, site, inputs, o.files, plan.block_contacts);
+    tool.detail(as_text(plan));
+    RunFile file = new_file(tool.run_id(), site, inputs, plan);
+    const BlockSet blocks = inputs.parts.blocks;
+    const Scene scene = make_site_scene(site, plan, std::move(inputs.parts));
+    file.blocks = run_blocks(scene, blocks);
+    Runner runner =
+        runner_of(tool, scene, run_options(site, plan, o), inputs.lines, std::move(file), o);
+    compute(tool, runner, part_of(o), site.output.checkpoint_interval_s);
+    write_outputs(tool, runner, o);
+    const Json report = run_report(runner, plan, processor_seconds() - cpu_start);
+    for (const char* key : {"steps", "impacts", "unconverged", "left_domain", "largest_speed_m_s"})
+      tool.metric(key, report[key].get<double>(),
+                  std::string(key) == "largest_speed_m_s" ? "m/s" : "1");
+    warn_of_standing_mass(tool, runner.file);
+    tool.result(report, run_summary(report, runner.file));
+    is_written = true;
+  });
+  // the run is in place: what it could have been resumed from is of no more use
+  if (is_written && (code == 0 || code == 3)) remove_checkpoints(o);
+  return code;
+}

@@ -1,9 +1,0 @@
-// tools/exit_code.hpp
-// What a tool tells its caller by the number that it ends with. docs/tools/common.md
-#pragma once
-
-namespace talus {
-
-enum ExitCode { done = 0, input_unusable = 1, usage_wrong = 2, numbers_failed = 3, stopped = 130 };
-
-}  // namespace talus

@@ -1,0 +1,102 @@
+#include "tools/fence/inputs.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "base/csv.hpp"
+#include "base/sha256.hpp"
+#include "tools/frame/shipped_data.hpp"
+#include "tools/frame/site_places.hpp"
+
+namespace talus {
+namespace {
+
+// Throws InputError unless a fence that stood in a run is built as it is now.
+void check_built_alike(const RunFile& run, const FenceSettings& expected, const std::string& file,
+                       const std::string& site_file) {
+  const Site site = parse_site(run.info.config, file);
+  const auto stood =
+      std::find_if(site.fences.begin(), site.fences.end(),
+                   [&](const FenceSettings& fence) { return fence.name == expected.name; });
+  if (stood == site.fences.end()) return;  // the run does not say how it was built
+  check_same_fence(*stood, expected, file, site_file);
+}
+
+// The line of each fence in a run.
+std::vector<int> lines_of(const RunFile& run, const std::vector<FenceCase>& fences,
+                          const std::string& file, const std::string& site_file) {
+  std::vector<int> lines;
+  for (const FenceCase& fence : fences) {
+    lines.push_back(find_line(run, fence, file, site_file));
+    if (run.lines[lines.back()].standing) check_built_alike(run, fence.settings, file, site_file);
+  }
+  return lines;
+}
+
+}  // namespace
+
+FenceCode read_fence_code(const std::string& name) {
+  const bool shipped = name == "uni" || name == "onr";
+  const std::string file = name == "uni" ? "codes/uni_11211-4.csv" : "codes/onr_24810.csv";
+  FenceCode out;
+  out.classes = barrier_classes(
+      parse_csv(shipped_data("codes/barrier_classes.csv"), "share/codes/barrier_classes.csv"));
+  if (!shipped && !std::filesystem::exists(name))
+    throw InputError({"", 0, "--code"}, "is \"" + name + "\", which is no file",
+                     "give uni, onr, or a data file like those of share/codes/");
+  if (shipped) {
+    Sha256 hash;
+    hash.add(shipped_data(file).data(), shipped_data(file).size());
+    out.code = design_code(parse_csv(shipped_data(file), "share/" + file));
+    out.sha256 = hash.hex();
+  } else {
+    out.code = design_code(read_csv(name));
+    out.sha256 = sha256_of_file(name);
+  }
+  return out;
+}
+
+std::vector<FenceCase> fence_cases(Tool& tool, const Site& site, const Trn& trn) {
+  std::vector<FenceCase> cases;
+  std::vector<FenceLine> lines;
+  for (const FenceSettings& settings : site.fences)
+    for (const RecordLine& line : fence_lines(tool, site, trn, settings)) {
+      lines.push_back({&settings, line});
+      cases.push_back({settings, line, make_fence(line, settings)});
+    }
+  check_fences_apart(tool, site, trn, lines);
+  if (cases.empty())
+    throw InputError({site.file}, "has no section [fence.*]", "add one with its line and height");
+  return cases;
+}
+
+FenceRuns read_fence_runs(RunInputs& inputs, const std::vector<std::string>& without_files,
+                          const std::vector<FenceCase>& fences, const DesignCode& code,
+                          double free_border, const std::string& site_file) {
+  const Trn& trn = inputs.trn();
+  const FenceRunSettings settings{free_border, inputs.rest_speed_m_s};
+  FenceRuns out;
+  out.grid = passage_grid(trn, 0);
+  std::vector<FenceRun> runs;
+  const auto take = [&](RunFile& run, int index) {
+    if (run.grid.n_rows > 0) out.grid = run.grid;
+    add_run(runs.size() < inputs.files.size() ? out.ground_with : out.ground_without, out.grid, run,
+            inputs.rest_speed_m_s);
+    const std::vector<int> lines = lines_of(run, fences, inputs.members[index].file, site_file);
+    runs.push_back(run_at_fences(run, index, fences, lines, code, settings, trn));
+  };
+  const RunParts parts{.checkpoint = false};
+  inputs.read(parts, take);
+  const std::size_t n_with = runs.size();
+  inputs.read(without_files, parts, take);
+  const auto split = [&](std::size_t first, std::size_t last) {
+    return FenceRunGroup{{inputs.members.begin() + first, inputs.members.begin() + last},
+                         {runs.begin() + first, runs.begin() + last}};
+  };
+  out.with = split(0, n_with);
+  out.without = split(n_with, runs.size());
+  for (const FenceRunGroup* group : {&out.with, &out.without}) check_one_kind(*group, fences);
+  return out;
+}
+
+}  // namespace talus

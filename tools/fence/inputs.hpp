@@ -1,0 +1,37 @@
+// tools/fence/inputs.hpp
+// What talus-fence reads: design codes, the fences of the site file, and the runs at them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "post/fence/fence_runs.hpp"
+#include "tools/frame/run_inputs.hpp"
+#include "tools/frame/tool.hpp"
+
+namespace talus {
+
+/// A design code and the barrier classes, as they were read.
+struct FenceCode {
+  DesignCode code;
+  std::string sha256;  ///< of the code's file
+  std::vector<BarrierClass> classes;
+};
+/// `name`: uni, onr, or a data file. Throws InputError when it is none of them, or as
+/// design_code().
+[[nodiscard]] FenceCode read_fence_code(const std::string& name);
+
+/// Every line of every [fence.*], on the ground. Throws InputError when there is none, or as
+/// fence_lines().
+[[nodiscard]] std::vector<FenceCase> fence_cases(Tool& tool, const Site& site, const Trn& trn);
+
+/// Reads the runs of `inputs` and those `without_files` to compare with. `free_border`: f_min [m];
+/// NaN: that of the code. Throws InputError for runs of other fences than those of the site file
+/// (find_line, check_same_fence, check_one_kind).
+[[nodiscard]] FenceRuns read_fence_runs(RunInputs& inputs,
+                                        const std::vector<std::string>& without_files,
+                                        const std::vector<FenceCase>& fences,
+                                        const DesignCode& code, double free_border,
+                                        const std::string& site_file);
+
+}  // namespace talus

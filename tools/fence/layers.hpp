@@ -1,0 +1,19 @@
+// tools/fence/layers.hpp
+// Results at fences as layers of the GeoPackage that talus-fence writes, with their styles.
+// Attributes: docs/formats.md#fence
+#pragma once
+
+#include <vector>
+
+#include "io/geopackage_gdal.hpp"
+#include "post/fence/fence_result.hpp"
+
+namespace talus {
+
+/// fences, fence_fields, fence_posts and fence_arrivals, in this order. `origin`: map coordinates
+/// of the local origin [m].
+[[nodiscard]] std::vector<VectorLayer> fence_layers(const std::vector<FenceCase>& fences,
+                                                    const std::vector<FenceResult>& results,
+                                                    const FenceRunGroup& group, const Vec3& origin);
+
+}  // namespace talus

@@ -1,0 +1,151 @@
+// tools/fence/talus_fence.cpp
+// What fences would meet, what they hold and what they change. Page: docs/tools/talus-fence.md
+#include <cmath>
+
+#include "post/fence/fence_text.hpp"
+#include "post/maps/map_style.hpp"
+#include "tools/fence/inputs.hpp"
+#include "tools/fence/json.hpp"
+#include "tools/fence/layers.hpp"
+#include "tools/frame/fault_json.hpp"
+#include "tools/frame/map_output.hpp"
+#include "tools/frame/run_inputs.hpp"
+#include "tools/frame/site_options.hpp"
+
+namespace {
+
+using namespace talus;  // NOLINT: a program of its own
+
+struct Options {
+  std::string out, json, csv, change, code = "uni";
+  std::vector<std::string> without;
+  FenceResultSettings result;
+};
+
+void declare(Tool& tool, Options& o) {
+  DesignInput& design = o.result.design;
+  design.block_volume = design.deflection = design.distance_to_object = std::nan("");
+  tool.output("-o,--out", o.out, "fields, posts and arrivals (GeoPackage)")->required();
+  tool.json_output(o.json, "verdicts, statistics, design check, comparison (JSON)");
+  tool.output("--csv", o.csv, "one row a block and fence: its verdict (CSV)");
+  tool.inputs("--without", o.without, "runs without the fence, to compare with");
+  tool.output("--change", o.change,
+              "deposit and speed with the fences minus those of --without (GeoTIFF; style and "
+              "picture beside it)");
+  tool.option("--code", o.code, "design code: uni, onr, or a data file (CSV)");
+  tool.option("--consequence-class", design.consequence_class, "of ONR 24810")
+      ->check(CLI::Range(1, 3));
+  tool.flag("--service-level", design.service_level, "UNI: check the service energy level (SEL)");
+  tool.option("--design-block-m3", design.block_volume,
+              "volume of the design block [m3]; nan: 95th percentile of the blocks that arrive")
+      ->check(CLI::PositiveNumber);
+  tool.option("--deflection-m", design.deflection, "largest deflection of the barrier [m]")
+      ->check(CLI::NonNegativeNumber);
+  tool.option("--object-distance-m", design.distance_to_object,
+              "distance from the fence to the object behind it [m]")
+      ->check(CLI::PositiveNumber);
+  tool.option("--free-border-m", design.free_border, "f_min [m]; nan: that of the code")
+      ->check(CLI::NonNegativeNumber);
+  tool.option("--bulking", o.result.bulking, "volume of piled blocks over that of their rock")
+      ->check(CLI::Range(1.0, 3.0));
+  tool.option("--seed", o.result.seed, "of the bootstrap over runs");
+  tool.footer(
+      "Example:\n  talus-fence site.toml run_*.h5 --trn slope.tif -o fence.gpkg --json fence.json\n"
+      "  talus-fence site.toml with.h5 --without without.h5 --trn slope.tif -o fence.gpkg");
+}
+
+// What a reader of the verdicts at fence i must know.
+void warn_of(Tool& tool, const FenceCase& fence, std::size_t i, const FenceResult& result,
+             const FenceRuns& runs) {
+  const std::string name = "fence " + fence.line.name;
+  const bool compared = n_runs(runs.without) > 0;
+  if (compared && !stood(runs.with, i))
+    tool.warn(name + " did not stand in the runs compared with --without");
+  if (compared && stood(runs.without, i))
+    tool.warn(name + " stood in the runs of --without as well");
+  if (std::isnan(fence.fence.capacity))
+    tool.warn(name + " has no capacity_kj: the design check leaves its energy open");
+  if (const int n = n_unsettled(runs.with, i); n > 0)
+    tool.warn(name + ": " + std::to_string(n) +
+              " of the blocks that it stopped were still moving when their run ended; give "
+              "talus-dda a longer --duration-s");
+  if (result.basis == DesignBasis::first_touches && result.at_basis.n > 0)
+    tool.warn(name + ": " + basis_note(result, fence.settings.name));
+  if (result.design.verdict == DesignVerdict::too_few)
+    tool.warn(name + ": " + std::to_string(result.at_basis.n) +
+              " arrivals are too few for the percentiles of the code, which need " +
+              std::to_string(result.design.n_needed) +
+              ": the largest values stand in for them, and nothing is judged");
+}
+
+MapTags output_tags(Tool& tool, const RunInputs& inputs, const FenceRuns& runs,
+                    const std::string& remark) {
+  MapTags tags = tags_of(runs.with.members);
+  tags.insert(tags.begin(), {{"RUN_ID", tool.run_id()}, {"RUN_SET", inputs.run_set()}});
+  if (n_runs(runs.without) > 0)
+    for (const auto& [name, value] : tags_of(runs.without.members))
+      if (name == "N_RUNS" || name == "DENOMINATOR" || name == "HEALTH")
+        tags.emplace_back(name + "_WITHOUT", value);
+  if (!remark.empty()) tags.emplace_back("REMARK", remark);
+  if (inputs.n_missing > 0) tags.emplace_back("N_MISSING", std::to_string(inputs.n_missing));
+  return tags;
+}
+
+void write_change(Tool& tool, const std::string& path, const FenceRuns& runs, const Trn& trn,
+                  const MapTags& tags, const std::string& remark) {
+  const MapLayer layer = change_layer(runs.ground_with, runs.ground_without, runs.grid.cell_size);
+  write_map(tool, map_frame(trn, runs.grid, true, layer.cell), path, layer,
+            change_style(layer, remark), tags);
+}
+
+void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& inputs) {
+  const Site& site = site_options.load();
+  const FenceCode code = read_fence_code(o.code);
+  if (!o.change.empty() && o.without.empty())
+    throw InputError({"", 0, "--change"}, "has nothing to compare with",
+                     "give runs without the fences by --without");
+  if (o.code != "uni" && o.code != "onr") tool.read_also("code", o.code);
+  const Trn& trn = inputs.trn();
+  const std::vector<FenceCase> fences = fence_cases(tool, site, trn);
+  const FenceRuns runs =
+      read_fence_runs(inputs, o.without, fences, code.code, o.result.design.free_border, site.file);
+  const bool compared = n_runs(runs.without) > 0;
+
+  const ShareBasis basis = verdict_basis(runs.with, o.result.seed);
+  std::vector<FenceResult> results;
+  Json fence_list = Json::array();
+  std::string summary;
+  for (std::size_t i = 0; i < fences.size(); ++i) {
+    results.push_back(fence_result(fences[i], i, runs, code.code, code.classes, o.result, trn));
+    fence_list.push_back(fence_json(fences[i], i, results[i], runs.with, basis, code));
+    if (compared) fence_list.back()["comparison"] = comparison_json(runs.with, runs.without, i);
+    warn_of(tool, fences[i], i, results[i], runs);
+    summary += (i > 0 ? "\n" : "") + fence_summary(fences[i], i, results[i], runs.with);
+  }
+  inputs.warn_of_ends();
+  const std::string remark = inputs.remark();
+  const MapTags tags = output_tags(tool, inputs, runs, remark);
+  if (!o.change.empty()) write_change(tool, o.change, runs, trn, tags, remark);
+  std::vector<VectorLayer> layers = fence_layers(fences, results, runs.with, trn.origin);
+  mark_layers(layers, remark);
+  write_geopackage(tool.stage(o.out), trn.crs_wkt, layers, tags);
+  if (!o.csv.empty()) tool.write_text(o.csv, verdict_csv(fences, runs.with));
+  Json tag_list;
+  for (const auto& [key, value] : tags) tag_list[key] = value;
+  Json result = {{"run_id", tool.run_id()}, {"tags", tag_list}, {"fences", fence_list}};
+  add_faults(result, faults_of(inputs.members));
+  if (compared)
+    result["deposit_change"] = deposit_change_json(runs.ground_with, runs.ground_without);
+  tool.result(result, summary);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  Tool tool("talus-fence", "What fences would meet, what they hold and what they change.");
+  SiteOptions site(tool);
+  RunInputs runs(tool);
+  declare(tool, options);
+  return tool.run(argc, argv, [&] { run_tool(tool, options, site, runs); });
+}

@@ -1,0 +1,11 @@
+// tools/frame/build_info.hpp
+// What was built: version and commit, written into the run registry. build_info.cpp is generated.
+#pragma once
+
+namespace talus {
+
+extern const char* const build_version;  ///< "0.1.0"
+extern const char* const build_commit;   ///< short hash, "-dirty" with local changes, or "unknown"
+extern const char* const build_commit_date;  ///< of that commit, "2026-11-25", or "unknown"
+
+}  // namespace talus

@@ -1,0 +1,169 @@
+#include "tools/frame/failure_plane_choice.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include "base/grouped_text.hpp"
+#include "base/text.hpp"
+#include "tools/frame/ground_class_inputs.hpp"
+
+namespace talus {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+std::string tenths(double value) { return text(std::round(10 * value) / 10); }
+
+std::string percent(double share) { return text(std::round(100 * share)) + " %"; }
+
+std::string attitude_text(const Json& plane) {
+  return "dips " + tenths(plane["dip_deg"]) + " degrees towards " +
+         tenths(plane["dip_direction_deg"]);
+}
+
+std::string named_attitude(const FailurePlane& plane) {
+  return plane.set + " (" + tenths(plane.attitude.dip / degree) + " degrees towards " +
+         tenths(plane.attitude.dip_direction / degree) + ")";
+}
+
+Json json_of(const FailurePlane& plane, double friction, const Vec3& origin) {
+  Json row = {{"set", plane.set},
+              {"dip_deg", plane.attitude.dip / degree},
+              {"dip_direction_deg", plane.attitude.dip_direction / degree},
+              {"off_fall_line_deg", plane.lateral / degree},
+              {"why_not", plane.why_not.empty() ? Json() : Json(plane.why_not)}};
+  if (!plane.why_not.empty()) return row;
+  const Vec3 point = plane.point + origin;
+  row["above_friction_deg"] = (plane.attitude.dip - friction) / degree;
+  row["point_m"] = {point.x(), point.y(), point.z()};
+  row["free_share_of_foot"] = plane.foot.free_share;
+  row["largest_step_at_foot_m"] = plane.foot.largest_step;
+  row["comes_out_from_m"] = number_or_null(plane.foot.exit_low + origin.z());
+  row["comes_out_to_m"] = number_or_null(plane.foot.exit_high + origin.z());
+  row["volume_m3"] = plane.volume;
+  row["mean_depth_m"] = plane.mean_depth;
+  row["largest_depth_m"] = plane.max_depth;
+  row["share_over_rising_bed"] = plane.rising_share;
+  return row;
+}
+
+// What the plane does at the foot, and how much of it is steeper than friction.
+std::string foot_text(const Json& plane) {
+  std::string words = tenths(plane["above_friction_deg"]) +
+                      " degrees steeper than friction; comes out of the ground along " +
+                      percent(plane["free_share_of_foot"]) + " of the foot";
+  if (!plane["comes_out_from_m"].is_null())
+    words += ", " + grouped_text(std::round(plane["comes_out_from_m"].get<double>()), 5) + " to " +
+             grouped_text(std::round(plane["comes_out_to_m"].get<double>()), 5) + " m";
+  if (plane["largest_step_at_foot_m"] > 0)
+    words += ", a step of up to " + text(plane["largest_step_at_foot_m"], 2) + " m on the rest";
+  return words;
+}
+
+std::string mass_text(const Json& plane) {
+  return grouped_text(plane["volume_m3"].get<double>(), 3) + " m3, " +
+         text(plane["mean_depth_m"], 3) + " m deep on average, " +
+         text(plane["largest_depth_m"], 3) + " m at most";
+}
+
+}  // namespace
+
+double friction_below(Tool& tool, const Site& site, const Trn& ground, const Area& area) {
+  const std::vector<std::uint8_t> classes = ground_classes(tool, site, ground);
+  if (classes.empty()) return site.grounds[0].friction_deg * degree;
+  const auto friction_at = [&](const Cell& cell) {
+    const auto index = static_cast<std::size_t>(first_triangle(ground, cell)) / 2;
+    return site.grounds[classes[index]].friction_deg;
+  };
+  const Vec2& corner = area.rings[0][0];
+  double largest = friction_at(locate(ground, corner.x(), corner.y()).cell);
+  for (int row = 0; row + 1 < ground.n_rows; ++row)
+    for (int col = 0; col + 1 < ground.n_cols; ++col) {
+      const Vec2 middle(ground.node0.x() + (col + 0.5) * ground.cell_size,
+                        ground.node0.y() - (row + 0.5) * ground.cell_size);
+      if (contains(area, middle)) largest = std::max(largest, friction_at({row, col}));
+    }
+  return largest * degree;
+}
+
+void check_sliding_set(const Site& site, const FailurePlanes& found) {
+  const std::string& wanted = site.source.sliding_set;
+  const bool is_there = std::any_of(found.planes.begin(), found.planes.end(),
+                                    [&](const FailurePlane& plane) { return plane.set == wanted; });
+  if (wanted.empty() || is_there) return;
+  std::string names;
+  for (const FailurePlane& plane : found.planes) names += (names.empty() ? "" : ", ") + plane.set;
+  throw InputError(where_of(site, "source.sliding_set"),
+                   "there is no joint set " + wanted + "; there are: " + names);
+}
+
+std::string what_would_go(const FailurePlanes& found) {
+  const double friction_deg = found.friction / degree, slope_deg = found.slope.dip / degree;
+  if (slope_deg <= friction_deg + 1)
+    return "the slope is no steeper than friction: nothing slides off it on a plane";
+  const double fall = found.slope.dip_direction / degree;
+  const auto azimuth = [&](double off) {
+    return tenths(std::fmod(std::round(fall) + off + 360, 360));
+  };
+  return "a set that dips " + tenths(std::ceil(friction_deg)) + " to " +
+         tenths(std::floor(slope_deg)) + " degrees towards " + azimuth(-widest_lateral_deg) +
+         " to " + azimuth(widest_lateral_deg) + " would let the mass go";
+}
+
+InputError no_plane_daylights(const Site& site, const FailurePlanes& found) {
+  const std::string& wanted = site.source.sliding_set;
+  std::string reasons;
+  for (const FailurePlane& plane : found.planes)
+    if (wanted.empty() || plane.set == wanted)
+      reasons += "; " + named_attitude(plane) + " " + plane.why_not;
+  return {where_of(site, "source.failure_surface"),
+          (wanted.empty() ? "no joint set makes" : "set " + wanted + " does not make") +
+              std::string(" a failure surface that daylights at the foot of the source, where the "
+                          "slope dips ") +
+              tenths(found.slope.dip / degree) + " degrees towards " +
+              tenths(found.slope.dip_direction / degree) + reasons,
+          what_would_go(found) +
+              "; else change the polygon, friction_deg of the ground, or give the surface by hand "
+              "(failure_surface = \"plane\", \"raster\", \"slbl\")"};
+}
+
+std::string planes_text(const FailurePlanes& found, const Vec3& origin) {
+  std::string lines = "slope: dips " + tenths(found.slope.dip / degree) + " degrees towards " +
+                      tenths(found.slope.dip_direction / degree) + "; friction of the ground " +
+                      tenths(found.friction / degree) + " degrees";
+  for (size_t i = 0; i < found.planes.size(); ++i) {
+    const FailurePlane& plane = found.planes[i];
+    lines += "\n" + named_attitude(plane) + ": ";
+    if (!plane.why_not.empty()) {
+      lines += plane.why_not;
+      continue;
+    }
+    const Json row = json_of(plane, found.friction, origin);
+    lines += mass_text(row) + "; " + foot_text(row);
+    if (static_cast<int>(i) == found.best) lines += " (taken)";
+  }
+  return lines;
+}
+
+std::string best_plane_text(const Json& planes) {
+  for (const Json& plane : planes["sets"])
+    if (plane["set"] == planes["taken"])
+      return "failure plane of set " + plane["set"].get<std::string>() + ": " +
+             attitude_text(plane) + ", " + foot_text(plane);
+  return "";
+}
+
+Json planes_json(const FailurePlanes& found, const Vec3& origin) {
+  Json rows = Json::array();
+  for (const FailurePlane& plane : found.planes)
+    rows.push_back(json_of(plane, found.friction, origin));
+  return {{"slope_dip_deg", found.slope.dip / degree},
+          {"slope_dip_direction_deg", found.slope.dip_direction / degree},
+          {"friction_deg", found.friction / degree},
+          {"taken", found.best < 0 ? Json() : Json(found.planes[found.best].set)},
+          {"sets", rows}};
+}
+
+}  // namespace talus

@@ -1,0 +1,23 @@
+// tools/frame/fault_json.hpp
+// Runs that failed or have not ended, as every tool that evaluates runs writes them to JSON.
+#pragma once
+
+#include "post/run_set.hpp"
+#include "tools/frame/tool.hpp"
+
+namespace talus {
+
+[[nodiscard]] inline Json fault_json(const std::vector<RunFault>& faults) {
+  Json list = Json::array();
+  for (const RunFault& fault : faults)
+    list.push_back({{"run", fault.name}, {"run_id", fault.run_id}, {"reason", fault.words}});
+  return list;
+}
+
+/// Adds the keys failed_runs and unfinished_runs.
+inline void add_faults(Json& result, const RunFaults& faults) {
+  result["failed_runs"] = fault_json(faults.failed);
+  result["unfinished_runs"] = fault_json(faults.unfinished);
+}
+
+}  // namespace talus

@@ -1,0 +1,92 @@
+#include "tools/frame/map_output.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+namespace talus {
+namespace {
+
+MapRaster raster_of(const MapFrame& frame, const MapLayer& layer) {
+  MapRaster raster;
+  raster.corner = frame.corner;
+  raster.cell_size = frame.grid.cell_size;
+  raster.n_rows = frame.grid.n_rows;
+  raster.n_cols = frame.grid.n_cols;
+  raster.crs_wkt = frame.crs_wkt;
+  for (const MapBand& band : layer.bands) {
+    std::vector<float> value = on_grid(layer, band, frame.known.size(), MapRaster::nodata);
+    for (std::size_t i = 0; i < value.size(); ++i)
+      if (!frame.known[i] && value[i] == 0) value[i] = MapRaster::nodata;
+    raster.bands.push_back(
+        {band.name, band.unit, band.description, std::move(value), band.overview});
+  }
+  return raster;
+}
+
+PassageGrid part_of(const PassageGrid& grid, const CellWindow& w) {
+  PassageGrid part = grid;
+  part.corner += grid.cell_size * Vec2(w.col_begin, -w.row_begin);
+  part.n_rows = w.row_end - w.row_begin;
+  part.n_cols = w.col_end - w.col_begin;
+  return part;
+}
+
+std::vector<float> part_of(const std::vector<float>& value, const PassageGrid& grid,
+                           const CellWindow& w) {
+  std::vector<float> part;
+  for (int row = w.row_begin; row < w.row_end; ++row) {
+    const auto first = value.begin() + static_cast<std::ptrdiff_t>(row) * grid.n_cols;
+    part.insert(part.end(), first + w.col_begin, first + w.col_end);
+  }
+  return part;
+}
+
+CellWindow window_around(const PassageGrid& grid, const std::vector<std::uint32_t>& touched) {
+  if (touched.empty()) return {0, grid.n_rows, 0, grid.n_cols};
+  CellWindow w{grid.n_rows, 0, grid.n_cols, 0};
+  for (const std::uint32_t cell : touched) {
+    const int row = static_cast<int>(cell) / grid.n_cols,
+              col = static_cast<int>(cell) % grid.n_cols;
+    w = {std::min(w.row_begin, row), std::max(w.row_end, row + 1), std::min(w.col_begin, col),
+         std::max(w.col_end, col + 1)};
+  }
+  const int margin = std::max({10, (w.row_end - w.row_begin) / 2, (w.col_end - w.col_begin) / 2});
+  return {std::max(0, w.row_begin - margin), std::min(grid.n_rows, w.row_end + margin),
+          std::max(0, w.col_begin - margin), std::min(grid.n_cols, w.col_end + margin)};
+}
+
+}  // namespace
+
+MapFrame map_frame(const Trn& trn, const PassageGrid& grid, bool png,
+                   const std::vector<std::uint32_t>& touched) {
+  const CellWindow drawn = window_around(grid, touched);
+  return {grid.corner + trn.origin.head<2>(),
+          grid,
+          trn.crs_wkt,
+          known_cells(trn, grid),
+          png,
+          drawn,
+          png ? shading_of(trn, part_of(grid, drawn)) : Shading{}};
+}
+
+std::string write_map(Tool& tool, const MapFrame& frame, const std::string& path,
+                      const MapLayer& layer, const RasterStyle& style, MapTags tags,
+                      const std::vector<std::string>& creation_options) {
+  MapRaster raster = raster_of(frame, layer);
+  const std::size_t shown = static_cast<std::size_t>(style.band) - 1;
+  tags.emplace_back("SHOWN_BAND", layer.bands[shown].name);
+  raster.tags = std::move(tags);
+  write_map_raster(tool.stage(path), raster, creation_options);
+  const auto beside = [&path](const char* extension) {
+    return std::filesystem::path(path).replace_extension(extension).string();
+  };
+  tool.write_text(beside(".qml"), raster_qml(style));
+  if (frame.png)
+    write_png(tool.stage(beside(".png")),
+              map_picture(frame.shading, part_of(frame.grid, frame.drawn),
+                          part_of(raster.bands[shown].value, frame.grid, frame.drawn),
+                          MapRaster::nodata, style));
+  return layer.bands[shown].name;
+}
+
+}  // namespace talus

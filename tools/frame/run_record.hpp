@@ -1,0 +1,41 @@
+// tools/frame/run_record.hpp
+// What is recorded of a run, beside what the tool itself says of it: who, when, where, what with,
+// at which cost; and the id that equal runs share.
+#pragma once
+
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "store/runs.hpp"
+
+namespace talus {
+
+/// A file with its digest; none of a folder and of GDAL's virtual paths.
+[[nodiscard]] RunArtifact artifact_of(const std::string& role, const std::string& path);
+
+/// Fills in what is known of a run of `tool` as it begins: program, command, folder, machine, time.
+void begin_record(const std::string& tool, const std::string& command_line, RunRecord& record);
+
+/// What the id of a run takes beside its record, and what it leaves.
+struct RunIdParts {
+  std::set<std::string> left_out;                             ///< keys of settings, roles of inputs
+  std::vector<std::pair<std::string, std::string>> contents;  ///< role, digest of what was read
+};
+
+/// Digest of tool, version, settings and contents of the inputs (16 digits).
+[[nodiscard]] std::string content_id(const RunRecord& record, const RunIdParts& parts);
+
+/// Where the entry of this process stands when its registry cannot be written.
+[[nodiscard]] std::string late_registry(const std::string& db);
+
+[[nodiscard]] bool is_late_registry(const std::string& path);
+
+/// The registries of this kind beside `db`, by name.
+[[nodiscard]] std::vector<std::string> late_registries(const std::string& db);
+
+/// Fills in how the run ended and what it took. `wall_time_s`: since it began [s].
+void end_record(int exit_code, double wall_time_s, RunRecord& record);
+
+}  // namespace talus

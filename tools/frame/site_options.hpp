@@ -1,0 +1,68 @@
+// tools/frame/site_options.hpp
+// The site file as every tool that reads one takes it: the file, --set, and what --print-config
+// shows.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "site/site.hpp"
+#include "tools/frame/command_line.hpp"
+#include "tools/frame/tool.hpp"
+
+namespace talus {
+
+/// Declares SITE.toml and --set on a tool; load() reads the file once and applies the overrides.
+class SiteOptions {
+ public:
+  explicit SiteOptions(Tool& tool) {
+    tool.input("site", file_, "site file (TOML)");
+    tool.app()
+        .add_option("--set", overrides_, "override a key of the site file: section.key=value")
+        ->allow_extra_args(false);
+    tool.more_config([this] {
+      std::vector<ConfigValue> values;
+      for (const EffectiveValue& entry : effective_values(load()))
+        if (!entry.value.empty())
+          values.push_back({entry.section + "." + entry.key, entry.value, entry.source});
+      return values;
+    });
+  }
+
+  /// An option of the tool that stands for a key of the site file and wins over it.
+  void option(Tool& tool, const std::string& name, const std::string& key,
+              const std::string& help) {
+    names_.push_back(name.substr(2));
+    tool.app().add_option_function<std::string>(
+        name, [this, key](const std::string& value) { overrides_.push_back(key + "=" + value); },
+        help + " [" + key + "]");
+  }
+
+  /// Throws InputError (read_site), UsageError (--set).
+  const Site& load() {
+    if (site_) return *site_;
+    Site site = read_site(file_);
+    for (const std::string& word : overrides_) {
+      const std::size_t equals = word.find('=');
+      if (equals == std::string::npos)
+        throw UsageError({"", 0, "--set"}, "\"" + word + "\" is not section.key=value",
+                         "e.g. --set source.depth_m=12");
+      from_command_line(
+          [&] { override_value(site, word.substr(0, equals), word.substr(equals + 1)); });
+    }
+    site_ = std::make_unique<Site>(std::move(site));
+    return *site_;
+  }
+  [[nodiscard]] const std::string& file() const { return file_; }
+  /// Names of the file and of the options that override it. Where its effective values count, the
+  /// words that they were given in do not.
+  [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
+
+ private:
+  std::string file_;
+  std::vector<std::string> overrides_, names_{"site", "set"};
+  std::unique_ptr<Site> site_;
+};
+
+}  // namespace talus

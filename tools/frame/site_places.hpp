@@ -1,0 +1,31 @@
+// tools/frame/site_places.hpp
+// Places that a site file names, in the local coordinates of the terrain: corners and lines written
+// in the file itself or in vector files beside it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "record/fence_lines.hpp"
+#include "site/site.hpp"
+#include "terrain/trn.hpp"
+#include "tools/frame/tool.hpp"
+
+namespace talus {
+
+/// Points of the site file (map coordinates in the CRS of [site]) as local ones; z NaN stays NaN.
+/// `key` is where they stand. Throws InputError when they cannot be reprojected.
+[[nodiscard]] std::vector<Vec3> local_points(Tool& tool, const Site& site, const Trn& ground,
+                                             std::vector<Vec3> points, const std::string& key);
+
+/// The line or lines of a [fence.*], with posts on the ground; several are named NAME.1, NAME.2 ...
+/// Throws InputError for a fence with two sources of its line and as
+/// lines_of_fence().
+[[nodiscard]] std::vector<RecordLine> fence_lines(Tool& tool, const Site& site, const Trn& trn,
+                                                  const FenceSettings& fence);
+
+/// As check_fences_apart() of record/fence_lines.hpp, whose sentences become warnings.
+void check_fences_apart(Tool& tool, const Site& site, const Trn& trn,
+                        const std::vector<FenceLine>& lines);
+
+}  // namespace talus

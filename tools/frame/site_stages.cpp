@@ -1,0 +1,59 @@
+#include "tools/frame/site_stages.hpp"
+
+#include <algorithm>
+
+namespace talus {
+namespace {
+
+// Sections and keys that a stage reads. An entry is "section", "section.key" or, for a key that the
+// stage does not read, "-section.key"; a section stands for all of its names ("joints" for
+// [joints.J1]).
+struct Stage {
+  std::string name;
+  std::vector<std::string> reads;
+};
+
+const std::vector<Stage>& stages() {
+  static const std::vector<Stage> list = {
+      {"tin",
+       {"terrain.contours", "terrain.layer", "terrain.where", "terrain.elevation_field",
+        "terrain.breaklines", "terrain.breaklines_layer", "terrain.breaklines_where",
+        "terrain.breaklines_elevation_field", "terrain.spots", "terrain.spots_layer",
+        "terrain.spots_where", "terrain.spots_elevation_field", "terrain.boundary",
+        "terrain.boundary_layer", "terrain.boundary_where", "terrain.flat"}},
+      {"trn", {"terrain.dem", "terrain.cell_size_m", "terrain.window_m"}},
+      {"blocks", {"site.crs", "source", "joints", "blocks", "material"}},
+      {"run",
+       {"site.name", "site.crs", "terrain.ground_raster", "material", "joints", "ground", "solver",
+        "fence", "base_motion", "output", "-solver.seed", "-solver.n_runs",
+        "-output.checkpoint_interval_s"}},
+      {"fence", {"site.name", "site.crs", "fence"}},
+  };
+  return list;
+}
+
+// "joints" for "joints.J1"
+std::string kind_of(const std::string& section) { return section.substr(0, section.find('.')); }
+
+}  // namespace
+
+const std::vector<std::string>& stage_names() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> list;
+    for (const Stage& stage : stages()) list.push_back(stage.name);
+    return list;
+  }();
+  return names;
+}
+
+bool stage_reads(const std::string& stage, const EffectiveValue& value) {
+  const auto found = std::find_if(stages().begin(), stages().end(),
+                                  [&stage](const Stage& s) { return s.name == stage; });
+  const auto has = [&found](const std::string& entry) {
+    return std::find(found->reads.begin(), found->reads.end(), entry) != found->reads.end();
+  };
+  const std::string kind = kind_of(value.section), key = kind + "." + value.key;
+  return (has(kind) || has(key)) && !has("-" + key);
+}
+
+}  // namespace talus

@@ -1,0 +1,18 @@
+// tools/frame/site_stages.hpp
+// Which stage of the pipeline reads what of the site file.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "site/site.hpp"
+
+namespace talus {
+
+/// tin, trn, blocks, run, fence.
+[[nodiscard]] const std::vector<std::string>& stage_names();
+
+/// Whether results of the stage depend on the value.
+[[nodiscard]] bool stage_reads(const std::string& stage, const EffectiveValue& value);
+
+}  // namespace talus

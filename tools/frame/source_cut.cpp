@@ -1,0 +1,285 @@
+#include "tools/frame/source_cut.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "base/read_file.hpp"
+#include "base/text.hpp"
+#include "blocks/failure_raster.hpp"
+#include "io/crs_gdal.hpp"
+#include "io/raster_gdal.hpp"
+#include "site/joint_list.hpp"
+#include "tools/frame/failure_plane_choice.hpp"
+#include "tools/frame/site_places.hpp"
+#include "tools/frame/vector_inputs.hpp"
+
+namespace talus {
+namespace {
+
+// --- the source --------------------------------------------------------------------------------
+
+Area read_area(Tool& tool, const BlocksWork& work) {
+  const SourceSettings& source = work.site.source;
+  if (source.polygon.empty() == source.polygon_file.empty())
+    throw InputError({work.site.file},
+                     source.polygon.empty() ? "[source] has neither polygon nor polygon_file"
+                                            : "[source] has both polygon and polygon_file",
+                     "say where the source is, once");
+  Area area;
+  const auto add_ring = [&](const std::vector<Vec3>& local) {
+    area.rings.emplace_back();
+    for (const Vec3& p : local) area.rings.back().emplace_back(p.head<2>());
+  };
+  if (!source.polygon.empty()) {
+    add_ring(local_points(tool, work.site, work.ground, source.polygon, "source.polygon"));
+    return without_repeated_corners(area);
+  }
+  const std::string path = resolved(work.site, source.polygon_file);
+  tool.read_also("source.polygon_file", path);
+  const VectorShapes found = read_layer(
+      tool, "source",
+      {path, source.polygon_layer, source.polygon_where, VectorKind::areas, "source.polygon_"},
+      work.ground.crs_wkt);
+  for (std::vector<Vec3> ring : found.shapes) {
+    for (Vec3& p : ring) p -= work.ground.origin;
+    add_ring(ring);
+  }
+  return without_repeated_corners(area);
+}
+
+Where where_of_area(const BlocksWork& work) {
+  return work.site.source.polygon.empty()
+             ? Where{resolved(work.site, work.site.source.polygon_file)}
+             : where_of(work.site, "source.polygon");
+}
+
+// Heights of the surface in the terrain's own system, where both say it.
+void check_heights_of_surface(Tool& tool, const BlocksWork& work, const DemFile& raster) {
+  const std::string assumed = assumed_heights(raster.crs_wkt(), work.ground.crs_wkt);
+  if (!assumed.empty()) tool.info(raster.path() + " and the terrain: both are " + assumed);
+  if (!same_heights(raster.crs_wkt(), work.ground.crs_wkt))
+    throw InputError({raster.path()},
+                     "the heights are in " + crs_name(height_crs(raster.crs_wkt())) +
+                         ", those of the terrain in " + crs_name(height_crs(work.ground.crs_wkt)),
+                     "bring both to one system of heights first");
+}
+
+// Elevations of the failure surface at the nodes of the terrain.
+std::vector<double> read_failure_raster(Tool& tool, const BlocksWork& work) {
+  const std::string path = resolved(work.site, work.site.source.raster);
+  const bool is_thickness = work.site.source.failure_surface == "thickness";
+  tool.read_also("source.raster", path);
+  DemOptions options;
+  options.crs_may_be_missing = true;
+  const DemFile raster(path, options);
+  if (!raster.crs_wkt().empty() && !work.ground.crs_wkt.empty() &&
+      !same_crs(raster.crs_wkt(), work.ground.crs_wkt))
+    throw InputError({path},
+                     "the CRS is " + crs_name(raster.crs_wkt()) + ", that of the terrain is " +
+                         crs_name(work.ground.crs_wkt),
+                     "a raster is never reprojected silently: gdalwarp -r bilinear -novshift "
+                     "-dstnodata -9999 -t_srs " +
+                         crs_code(work.ground.crs_wkt) + " " + path + " surface.tif");
+  if (!is_thickness) check_heights_of_surface(tool, work, raster);
+  std::vector<double> z = read_dem(raster, frame_of(work.ground));
+  if (is_thickness) {
+    lower_by_thickness(work.ground, work.area, {path}, z);
+    return z;
+  }
+  check_is_surface(work.ground, work.area, z, {path});
+  for (double& value : z) value -= work.ground.origin.z();
+  return z;
+}
+
+SourceOptions daylighting_surface(Tool& tool, BlocksWork& work) {
+  find_planes(tool, work);
+  check_sliding_set(work.site, work.planes);
+  if (work.planes.best < 0) throw no_plane_daylights(work.site, work.planes);
+  const FailurePlane& plane = work.planes.planes[work.planes.best];
+  return source_on_plane(plane.attitude, plane.point);
+}
+
+void find_mass(Tool& tool, BlocksWork& work) {
+  SourceOptions options = plan_source(work.site, work.ground.origin);
+  if (work.site.source.failure_surface == "daylighting") {
+    options = daylighting_surface(tool, work);
+  } else if (options.kind == FailureSurface::plane) {
+    const auto& p = work.site.source.plane_point_m;
+    options.plane_point = local_points(tool, work.site, work.ground, {Vec3(p[0], p[1], p[2])},
+                                       "source.plane_point_m")[0];
+    work.at_foot =
+        plane_at_foot(work.ground, work.area, {options.plane_dip, options.plane_dip_direction},
+                      options.plane_point);
+  }
+  if (options.kind == FailureSurface::raster) options.raster = read_failure_raster(tool, work);
+  work.mass = find_source(work.ground, work.area, options, where_of_area(work));
+  if (work.mass.n_above_ground > 0)
+    tool.info("the failure surface lies above the ground at " +
+              std::to_string(work.mass.n_above_ground) + " nodes inside the source: no mass there");
+  if (work.mass.n_extended > 0)
+    tool.info("the failure raster has no data at " + counted(work.mass.n_extended, "node") +
+              " beside the source: the depth of the nearest node that has is taken there");
+  if (work.site.source.failure_surface == "plane" && work.at_foot.free_share < 0.5)
+    tool.warn("the failure plane comes out of the ground along " +
+              text(std::round(100 * work.at_foot.free_share)) +
+              " % of the foot of the source only; on the rest the mass leans on a step of up to " +
+              text(work.at_foot.largest_step, 2) + " m (talus-source lists planes that come out)");
+}
+
+// How much of the polygon the mass should cover. It ends before its outline where its failure plane
+// comes out of the ground; by much, the polygon is not that of the mass.
+double least_share_covered(const BlocksWork& work) {
+  const std::string& surface = work.site.source.failure_surface;
+  const bool comes_out =
+      surface == "daylighting" || (surface == "plane" && work.at_foot.free_share >= 0.5);
+  return comes_out ? 0.75 : 0.97;
+}
+
+// What is most likely not meant.
+void warn_of_mass(Tool& tool, const BlocksWork& work, const MassMeasure& measure) {
+  const SourceMass& mass = work.mass;
+  if (mass.area < least_share_covered(work) * mass.polygon_area)
+    tool.warn("the mass covers " + text(100 * mass.area / mass.polygon_area, 3) +
+              " % of the source polygon: elsewhere the failure surface does not lie below the "
+              "ground; check depth, plane or raster");
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (size_t v = 0; v < measure.vertices.size(); v += 2)  // on the ground, below it, and so on
+    low = std::min(low, measure.vertices[v].z()), high = std::max(high, measure.vertices[v].z());
+  const double half_size = std::sqrt(mass.polygon_area) / 2;
+  const std::string depth =
+      "the mass is " + text(mass.mean_depth, 3) + " m deep on average, more than ";
+  if (mass.mean_depth > high - low)
+    tool.warn(depth + "the relief of the ground over it, " + text(high - low, 3) +
+              " m; check the failure surface and its units");
+  else if (mass.mean_depth > half_size)
+    tool.warn(depth + "half the size of the source, " + text(half_size, 3) +
+              " m; check the failure surface and its units");
+}
+
+// --- joints ------------------------------------------------------------------------------------
+
+void check_expected(const MassMeasure& measure, BlocksWork& work) {
+  std::vector<JointSet> sets;
+  for (const PlannedSet& planned : work.sets) sets.push_back(planned.set);
+  work.expected = expected_cells(sets, measure);
+  const auto most = static_cast<double>(work.site.source.max_blocks);
+  if (work.expected > most)
+    throw InputError(where_of(work.site, "source.max_blocks"),
+                     "the joints would cut " + text(work.mass.volume, 4) + " m3 into about " +
+                         text(std::round(work.expected)) + " blocks, expected at most " +
+                         text(most),
+                     "widen the spacings, or set source.max_blocks to what your machine can take");
+}
+
+// The ball around the mass, which the joints must cross.
+void draw_all_joints(const MassMeasure& measure, BlocksWork& work) {
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (const Vec3& p : measure.vertices) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  const Vec3 centre = (low + high) / 2;
+  for (size_t s = 0; s < work.sets.size(); ++s)
+    for (Joint& joint :
+         draw_joints(work.sets[s].set, static_cast<int>(s), centre, (high - low).norm() / 2,
+                     static_cast<std::uint64_t>(work.site.source.seed)))
+      work.joints.push_back(std::move(joint));
+}
+
+std::string why_in_one_piece(const BlocksWork& work) {
+  if (work.sets.empty()) return "there are no [joints.*]";
+  if (work.joints.empty()) return "no joint crosses it: the spacings are wider than the mass";
+  const bool all_partial = std::none_of(work.joints.begin(), work.joints.end(),
+                                        [](const Joint& j) { return j.is_through; });
+  if (all_partial)
+    return "no joint is persistent enough to part it; see persistence and disc_diameter_m";
+  return "the joints that cross it leave no piece large enough to stand alone";
+}
+
+// Azimuths that are not taken as they stand.
+void say_turns(Tool& tool, const Site& site) {
+  for (const JointSettings& section : site.joints) {
+    const NorthTurn turn = north_turn(site, section);
+    if (turn.declination_deg == 0 && turn.convergence_deg == 0) continue;
+    tool.info("[joints." + section.name + "]: azimuths turned by " + text(turn.degrees(), 6) +
+              " degrees to the map's north (declination " + text(turn.declination_deg, 6) +
+              ", convergence " + text(turn.convergence_deg, 6) + ")");
+  }
+}
+
+}  // namespace
+
+Area read_source_area(Tool& tool, const BlocksWork& work) {
+  Area area = read_area(tool, work);
+  check_area(area, work.ground.origin, where_of_area(work));
+  return area;
+}
+
+void plan_sets(Tool& tool, BlocksWork& work) {
+  std::vector<std::vector<Vec3>> measured;
+  for (const JointSettings& section : work.site.joints) {
+    measured.emplace_back();
+    if (section.measured_file.empty()) continue;
+    const std::string path = resolved(work.site, section.measured_file);
+    tool.read_also("joints." + section.name, path);
+    OrientationList list = read_orientations(read_file(path), path, section.measured_notation);
+    tool.info(path + ": " + counted(static_cast<std::int64_t>(list.poles.size()), "orientation") +
+              " from " + list.taken_from);
+    if (list.is_computed && north_turn(work.site, section).declination_deg != 0)
+      tool.warn(path +
+                ": declination turns orientations that were computed from points, which "
+                "know no compass; set declination_deg = 0 in [joints." +
+                section.name + "]");
+    measured.back() = std::move(list.poles);
+  }
+  say_turns(tool, work.site);
+  work.sets = plan_joint_sets(work.site, measured);
+}
+
+void find_planes(Tool& tool, BlocksWork& work) {
+  std::vector<JointSet> sets;
+  for (const PlannedSet& planned : work.sets) sets.push_back(planned.set);
+  const double friction = friction_below(tool, work.site, work.ground, work.area);
+  work.planes = find_failure_planes(work.ground, work.area, sets, friction,
+                                    work.site.source.sliding_set, where_of_area(work));
+}
+
+void cut_source(Tool& tool, bool exact, BlocksWork& work) {
+  plan_sets(tool, work);
+  find_mass(tool, work);
+  const MassMeasure measure = measure_mass(work.ground, work.mass.bed, work.area);
+  warn_of_mass(tool, work, measure);
+  check_expected(measure, work);
+  draw_all_joints(measure, work);
+  work.limits = plan_limits(work.site, work.sets, work.mass.volume, work.expected);
+  work.limits.exact = exact;
+  for (const PlannedSet& planned : work.sets)
+    work.blocks.joint_set_names.push_back(planned.set.name);
+  const ProgressFunction progress = tool.progress();
+  const CellComplex complex = cut_mass(work.ground, work.mass.bed, work.area, work.joints,
+                                       [&](double share) { progress(0.5 * share); });
+  work.cut = assemble_blocks(complex, work.joints, work.mass.bed, work.limits, work.blocks,
+                             [&](double share) { progress(0.5 + 0.5 * share); });
+  if (complex.n_uncut > 0)
+    tool.warn(std::to_string(complex.n_uncut) + " cells could not be cut and stayed in one piece");
+  if (work.cut.n_dropped > 0)
+    tool.warn(std::to_string(work.cut.n_dropped) + " slivers without a neighbour were left out, " +
+              text(work.cut.dropped_volume, 3) + " m3 in all");
+  if (work.cut.n_below_limits > 0)
+    tool.warn(std::to_string(work.cut.n_below_limits) +
+              " blocks are below the limits for slivers after they were made convex");
+  if (work.cut.n_short_edged > 0)
+    tool.warn(counted(work.cut.n_short_edged, "block") +
+              " with edges of convex parts that are shorter than min_block_edge_m, between the "
+              "parts or outside: without them too much of the volume would be lost");
+  if (n_blocks(work.blocks) == 1)
+    tool.warn("the mass stays in one piece: " + why_in_one_piece(work));
+  if (n_blocks(work.blocks) == 0)
+    throw InputError({work.site.file}, "no block is left",
+                     "min_block_volume_m3 or min_block_thickness_m leave out all of the mass");
+  const double error = std::abs(work.cut.cut_volume - work.mass.volume) / work.mass.volume;
+  tool.check("volume_error", error, 1e-9, error <= 1e-9);
+}
+
+}  // namespace talus

@@ -1,0 +1,26 @@
+// tools/frame/source_cut.hpp
+// [source] and [joints.*] of the site file: the mass between the ground and the failure surface,
+// and the blocks that its joints cut it into.
+#pragma once
+
+#include "tools/frame/source_work.hpp"
+#include "tools/frame/tool.hpp"
+
+namespace talus {
+
+/// The polygon of [source], from the site file or the vector file that it names, reprojected with a
+/// note and checked (check_area). Throws InputError where the section names none or both.
+[[nodiscard]] Area read_source_area(Tool& tool, const BlocksWork& work);
+
+/// Reads [joints.*] with the files that it names into `work.sets`.
+void plan_sets(Tool& tool, BlocksWork& work);
+
+/// The planes of `work.sets` that a mass can leave on, into `work.planes`.
+void find_planes(Tool& tool, BlocksWork& work);
+
+/// Finds the mass, draws the joints and puts the blocks into `work.blocks`, as they are cut
+/// (`exact`) or made convex. Warns of what was left out or lies below the limits. Throws InputError
+/// for more blocks than source.max_blocks, and where none is left.
+void cut_source(Tool& tool, bool exact, BlocksWork& work);
+
+}  // namespace talus

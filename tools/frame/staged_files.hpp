@@ -1,0 +1,40 @@
+// tools/frame/staged_files.hpp
+// Outputs on their way: written to a hidden name in the folder of the output, and put in place when
+// all of a run are whole.
+// in:    paths of outputs
+// out:   files in their places with equal times, or none of them
+#pragma once
+
+#include <ctime>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace talus {
+
+struct StagedFile {
+  std::string temporary;  ///< where it is written for now
+  std::string path;       ///< where it will be
+};
+
+/// A hidden name beside `path`, with its extension, host and process in it. Removes what a killed
+/// run of this host left under the same name.
+[[nodiscard]] std::string temporary_name(const std::filesystem::path& path);
+
+/// The order in which outputs come in place: the one staged first is last, or `main` where it is
+/// one of them. Who finds it, finds the others of the same run beside it.
+[[nodiscard]] std::vector<StagedFile> in_order_of_commit(const std::vector<StagedFile>& staged,
+                                                         const std::string& main);
+
+/// Syncs and renames `files` in their order, with what GDAL has put beside them; `time` becomes the
+/// last change of each, so that make sees none as older than another. What was not written is
+/// passed over. Throws InputError when one cannot be put in place.
+void put_in_place(const std::vector<StagedFile>& files, const timespec& time);
+
+/// Removes the temporary files, with what GDAL has put beside them.
+void remove_staged(const std::vector<StagedFile>& files);
+
+/// Names outputs as the user did, not by where they were written for now.
+[[nodiscard]] std::string with_final_names(std::string words, const std::vector<StagedFile>& files);
+
+}  // namespace talus

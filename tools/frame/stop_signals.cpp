@@ -1,0 +1,34 @@
+#include "tools/frame/stop_signals.hpp"
+
+#include <csignal>
+
+namespace talus {
+namespace {
+
+volatile std::sig_atomic_t signal_has_come = 0;
+
+void request_stop(int signal) {
+  signal_has_come = 1;
+  // A line that is cut may be told of twice, by the terminal and by its shell: only a second order
+  // of a person kills.
+  if (signal != SIGHUP) std::signal(signal, SIG_DFL);
+}
+
+// A program started to outlive its terminal (nohup) goes on ignoring that it went.
+void listen_for_hangup() {
+  if (std::signal(SIGHUP, request_stop) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
+}
+
+}  // namespace
+
+void listen_for_signals() {
+  std::signal(SIGINT, request_stop);
+  std::signal(SIGTERM, request_stop);
+  listen_for_hangup();
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+}
+
+bool stop_requested() { return signal_has_come != 0; }
+
+}  // namespace talus

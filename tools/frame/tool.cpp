@@ -1,0 +1,486 @@
+#include "tools/frame/tool.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <set>
+
+#include "base/text.hpp"
+#include "store/runs.hpp"
+#include "tools/frame/command_line.hpp"
+#include "tools/frame/exit_code.hpp"
+#include "tools/frame/file_paths.hpp"
+#include "tools/frame/output_checks.hpp"
+#include "tools/frame/progress_line.hpp"
+#include "tools/frame/run_record.hpp"
+#include "tools/frame/staged_files.hpp"
+#include "tools/frame/stop_signals.hpp"
+#include "tools/frame/tool_options.hpp"
+
+namespace talus {
+namespace fs = std::filesystem;
+namespace {
+
+std::string one_line(std::string words) {
+  std::replace_if(
+      words.begin(), words.end(), [](char c) { return c == '\n' || c == '\t'; }, ' ');
+  return words;
+}
+
+// The value of an option on a command line that could not be parsed; "" where it is not there.
+std::string word_after(const std::string& option, int argc, char** argv) {
+  for (int i = 1; i + 1 < argc; ++i)
+    if (argv[i] == option) return argv[i + 1];
+  return "";
+}
+
+}  // namespace
+
+struct Tool::Impl {
+  std::string name;
+  CLI::App app;
+  ToolOptions options;
+
+  std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+  std::vector<StagedFile> staged;
+  std::vector<std::string> kept_if_refused;  // paths among them
+  RunRecord record;
+  std::vector<std::string> check_hints;  // of record.checks
+  RunIdParts id_parts;
+  Json result;
+  Json layers_read = Json::array();
+  std::string summary;
+  bool registered = false;  // to be recorded; record.id is 0 while it has no row
+  bool is_late = false;     // the registry was locked once: it is not waited for again
+  bool in_place = false;    // the outputs
+  std::vector<std::string> failures;
+  std::set<std::string> hints;  // for what failed
+  bool on_terminal = isatty(STDERR_FILENO) == 1;
+  ProgressLine progress_line;
+
+  Impl(std::string tool_name, std::string purpose)
+      : name(std::move(tool_name)), app(std::move(purpose), name) {}
+
+  double seconds_since_start() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
+
+  void print(const std::string& text) {
+    progress_line.end("");
+    std::cerr << labelled(text) << std::endl;
+  }
+
+  std::string labelled(const std::string& text) const {
+    return options.label.empty() ? text : options.label + ": " + text;
+  }
+
+  void event(const std::string& level, const std::string& text) {
+    record.events.push_back({seconds_since_start(), level, text});
+  }
+
+  void add_input(const std::string& role, const std::string& path) {
+    const std::string file = file_of(path);
+    if (!is_virtual(file) && !fs::exists(file_behind(file)))
+      throw InputError({file}, "there is no such file", "check the path given for " + role);
+    record.inputs.push_back(artifact_of(role, file));
+    for (const std::string& member : sidecars_of(file))
+      if (fs::exists(member)) record.inputs.push_back(artifact_of(role, member));
+  }
+
+  void add_inputs() {
+    for (const InputOption& input : options.inputs)
+      for (const std::string& path : input.paths())
+        if (!path.empty()) add_input(key_of(*input.option), path);
+  }
+
+  // What in a file an option names ("|layername=a") is a setting like others.
+  void add_parts_of_inputs() {
+    for (const InputOption& input : options.inputs)
+      for (const std::string& path : input.paths())
+        if (const std::string inside = part_named(path); !inside.empty())
+          record.params.push_back({key_of(*input.option) + "-part", inside, "cli"});
+  }
+
+  void begin(int argc, char** argv) {
+    begin_record(name, command_text(argc, argv), record);
+    for (const ConfigValue& value : settings_of(app, options))
+      record.params.push_back({value.key, value.value, value.source});
+    add_parts_of_inputs();
+    add_inputs();
+    check_outputs(options, record.inputs);
+    register_run();
+  }
+
+  void register_run() {
+    if (options.no_db || registry_path(options).empty()) return;
+    record.content_id = content_id(record, id_parts);
+    record.status = "running";
+    registered = true;
+    try {
+      record.id = start_run(registry_path(options), record);
+    } catch (const RegistryBusy& error) {
+      is_late = true;
+      print(name + ": warning: " + error.what() + "; the run is recorded when it has ended");
+    }
+    record.content_id.clear();  // the body may name further inputs
+  }
+
+  // The body may name further inputs until it asks for the id, or ends.
+  void complete_content_id() {
+    if (record.content_id.empty()) record.content_id = content_id(record, id_parts);
+  }
+
+  void finish_record(int exit_code) {
+    complete_content_id();
+    end_record(exit_code, seconds_since_start(), record);
+    const std::string db = registry_path(options);
+    const int wait_ms = is_late ? 0 : registry_wait_ms();
+    try {
+      record.id > 0 ? finish_run(db, record, wait_ms) : (void)add_run(db, record, wait_ms);
+    } catch (const InputError& error) {
+      keep_late_record(error.what());
+    }
+  }
+
+  // An output is worth more than its entry: this stands in a registry of its own then.
+  void keep_late_record(const std::string& why) {
+    const std::string db = registry_path(options), late = late_registry(db);
+    std::string found = "warning: " + why + "; whatever this run wrote is in place, its entry ";
+    try {
+      add_run(late, record);
+      print(name + ": " + found + "is in " + late);
+      print("  hint: talus-runs --db " + db + " adopt enters it once the registry can be written");
+    } catch (const InputError&) {
+      print(name + ": " + found + "is lost");
+    }
+  }
+
+  // Outputs by their final names, while they still have their temporary ones. Who finds one of them
+  // finds it in the registry. A hidden file is what a tool remembers between its runs, no result.
+  void record_outputs(const std::vector<StagedFile>& files) {
+    for (const StagedFile& file : files) {
+      if (!fs::exists(file.temporary) || fs::path(file.path).filename().string()[0] == '.')
+        continue;
+      record.outputs.push_back(artifact_of("output", file.temporary));
+      record.outputs.back().path = absolute_path(file.path);
+    }
+    if (!registered || files.empty()) return;
+    complete_content_id();
+    if (record.id == 0) return;
+    try {
+      record_results(registry_path(options), record);
+    } catch (const InputError&) {
+      is_late = true;  // said at the end, with where the entry is then
+    }
+  }
+
+  void commit_outputs() {
+    timespec now{};
+    clock_gettime(CLOCK_REALTIME, &now);
+    const std::vector<OutputOption>& outputs = options.outputs;
+    const std::vector<StagedFile> files =
+        in_order_of_commit(staged, outputs.empty() ? "" : *outputs.front().path);
+    record_outputs(files);
+    put_in_place(files, now);
+    in_place = true;
+    staged.clear();
+  }
+
+  void print_result() {
+    if (options.json && !result.is_null()) {
+      Json warnings = Json::array();
+      for (const RunEvent& e : record.events)
+        if (e.level == "warning") warnings.push_back(e.text);
+      if (!warnings.empty()) result["warnings"] = warnings;
+      std::cout << result.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+    } else if (!options.json && !options.quiet && !summary.empty()) {
+      std::cout << labelled(summary) << '\n';
+    }
+    if (!std::cout.flush()) throw InputError({"standard output"}, "cannot be written");
+  }
+
+  bool all_checks_pass() const {
+    return std::all_of(record.checks.begin(), record.checks.end(),
+                       [](const RunCheck& check) { return check.pass; });
+  }
+
+  // What helps to mend an input that was refused. A failure here must not hide the first one.
+  void keep_places() {
+    std::vector<StagedFile> kept;
+    for (const StagedFile& file : staged)
+      if (std::count(kept_if_refused.begin(), kept_if_refused.end(), file.path) > 0)
+        kept.push_back(file);
+    timespec now{};
+    clock_gettime(CLOCK_REALTIME, &now);
+    try {
+      put_in_place(kept, now);
+    } catch (const InputError& error) {
+      print(name + ": " + error.what());
+    }
+  }
+
+  int fail(int code, std::string what, const std::string& hint) {
+    what = with_final_names(std::move(what), staged);
+    if (code == input_unusable) keep_places();
+    remove_staged(staged);
+    staged.clear();
+    event("error", what);
+    print(name + ": " + what);
+    say_hint(hint);
+    failures.push_back(what);
+    return code;
+  }
+
+  void say_hint(const std::string& hint) {
+    if (hint.empty()) return;
+    print("  hint: " + hint);
+    hints.insert(hint);
+  }
+
+  // For who started many runs and lists what became of them.
+  void write_failures(int code) const {
+    if (options.failures.empty()) return;
+    std::error_code error;
+    fs::remove(options.failures, error);
+    if (code == done) return;
+    std::ofstream file(options.failures);
+    const char* outputs = in_place ? "kept\t" : "none\t";
+    for (const std::string& what : failures) file << outputs << one_line(what) << '\n';
+    for (const std::string& hint : hints) file << "hint\t" << one_line(hint) << '\n';
+    if (!file.flush()) std::cerr << name << ": " << options.failures << ": cannot be written\n";
+  }
+
+  int guarded(const std::function<int()>& work) {
+    try {
+      return work();
+    } catch (const UsageError& error) {
+      return fail(usage_wrong, error.what(), error.hint());
+    } catch (const InputError& error) {
+      return fail(input_unusable, error.what(), error.hint());
+    } catch (const NumericsError& error) {
+      return fail(numbers_failed, error.what(), "");
+    } catch (const Interrupted&) {
+      return fail(stopped, "interrupted", "");
+    } catch (const std::bad_alloc&) {
+      return fail(input_unusable, "out of memory", "give it more memory, or a smaller window");
+    } catch (const std::exception& error) {
+      return fail(input_unusable, std::string("unexpected: ") + error.what(), "");
+    }
+  }
+
+  int work_and_commit(const std::function<void()>& body) {
+    progress_line.restart();
+    body();
+    progress_line.end(" - done.");
+    if (stop_requested()) throw Interrupted();
+    commit_outputs();
+    print_result();
+    for (std::size_t i = 0; i < record.checks.size(); ++i) {
+      const RunCheck& check = record.checks[i];
+      if (check.pass) continue;
+      const std::string what =
+          check.name + " is " + text(check.value, 6) + ", limit " + text(check.limit, 6);
+      print(name + ": health: " + what);
+      say_hint(check_hints[i]);
+      failures.push_back(what);
+    }
+    return all_checks_pass() ? done : numbers_failed;
+  }
+};
+
+Tool::Tool(std::string name, std::string purpose)
+    : impl_(std::make_unique<Impl>(std::move(name), std::move(purpose))) {
+  add_common_options(impl_->name, impl_->app, impl_->options);
+}
+
+Tool::~Tool() = default;
+
+CLI::App& Tool::app() { return impl_->app; }
+
+CLI::Option* Tool::input(const std::string& name, std::string& path, const std::string& help) {
+  CLI::Option* option = app().add_option(name, path, help);
+  if (name[0] != '-') option->required();
+  impl_->options.inputs.push_back({option, [&path] { return std::vector<std::string>{path}; }});
+  return option;
+}
+
+CLI::Option* Tool::inputs(const std::string& name, std::vector<std::string>& paths,
+                          const std::string& help) {
+  CLI::Option* option = app().add_option(name, paths, help);
+  if (name[0] != '-') option->required();
+  impl_->options.inputs.push_back({option, [&paths] { return paths; }});
+  return option;
+}
+
+CLI::Option* Tool::output(const std::string& name, std::string& path, const std::string& help) {
+  CLI::Option* option = app().add_option(name, path, help);
+  impl_->options.outputs.push_back({option, &path, false});
+  return option;
+}
+
+CLI::Option* Tool::output_folder(const std::string& name, std::string& path,
+                                 const std::string& help) {
+  CLI::Option* option = app().add_option(name, path, help);
+  impl_->options.outputs.push_back({option, &path, true});
+  return option;
+}
+
+void Tool::json_output(std::string& path, const std::string& help) {
+  std::erase(impl_->options.common, app().get_option("--json"));
+  app().remove_option(app().get_option("--json"));
+  CLI::Option* const option = output("--json", path, help)->expected(0, 1);
+  option->default_str("");
+  impl_->options.json_path = &path;
+  impl_->options.json_option = option;
+}
+
+void Tool::footer(const std::string& text) { app().footer(text); }
+
+void Tool::more_config(std::function<std::vector<ConfigValue>()> settings) {
+  impl_->options.more_config = std::move(settings);
+}
+
+void Tool::write_also(const std::string& path, bool may_exist) {
+  check_output_file(path, impl_->record.inputs);
+  for (const OutputOption& output : impl_->options.outputs)
+    if (!output.path->empty() && absolute_path(*output.path) == absolute_path(path))
+      throw InputError({path}, "is named for two outputs", "give each its own name");
+  refuse_existing(path, may_exist || impl_->options.overwrite);
+}
+
+std::string Tool::stage(const std::string& path) {
+  refuse_existing(path, impl_->options.overwrite);
+  impl_->staged.push_back({temporary_name(path), path});
+  return impl_->staged.back().temporary;
+}
+
+std::string Tool::stage_also_if_refused(const std::string& path) {
+  impl_->kept_if_refused.push_back(path);
+  return stage(path);
+}
+
+void Tool::write_text(const std::string& path, const std::string& content) {
+  std::ofstream file(stage(path), std::ios::binary);
+  file << content;
+  file.close();
+  if (!file) throw InputError({path}, std::string("cannot be written: ") + std::strerror(errno));
+}
+
+void Tool::read_also(const std::string& role, const std::string& path) {
+  impl_->add_input(role, path);
+}
+
+ProgressFunction Tool::progress() {
+  impl_->progress_line.restart();
+  return [this](double share) {
+    if (stop_requested()) throw Interrupted();
+    if (impl_->on_terminal && !impl_->options.quiet) impl_->progress_line.show(share);
+  };
+}
+
+bool Tool::interrupted() const { return stop_requested(); }
+
+void Tool::info(const std::string& text) {
+  if (!impl_->options.quiet) impl_->print(text);
+}
+
+void Tool::detail(const std::string& text) {
+  if (impl_->options.verbose && !impl_->options.quiet) impl_->print(text);
+}
+
+void Tool::record(const std::string& text) { impl_->event("info", text); }
+
+void Tool::warn(const std::string& text) {
+  impl_->event("warning", text);
+  if (!impl_->options.quiet) impl_->print(impl_->name + ": warning: " + text);
+}
+
+void Tool::layer_read(Json entry) {
+  impl_->event("info", "read " + entry.dump(-1, ' ', false, Json::error_handler_t::replace));
+  impl_->layers_read.push_back(std::move(entry));
+}
+
+const Json& Tool::layers_read() const { return impl_->layers_read; }
+
+void Tool::metric(const std::string& name, double value, const std::string& unit) {
+  impl_->record.metrics.push_back({name, value, unit});
+}
+
+void Tool::check(const std::string& name, double value, double limit, bool pass,
+                 const std::string& hint) {
+  impl_->record.checks.push_back({name, value, limit, pass});
+  impl_->check_hints.push_back(hint);
+}
+
+void Tool::result(Json result, const std::string& summary) {
+  impl_->result = std::move(result);
+  if (!impl_->layers_read.empty()) impl_->result["layers_read"] = impl_->layers_read;
+  impl_->summary = summary;
+  ToolOptions& options = impl_->options;
+  if (options.json_option == nullptr) return;
+  if (!options.json_path->empty())
+    write_text(*options.json_path,
+               impl_->result.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  else if (options.json_option->count() > 0)
+    options.json = true;
+}
+
+bool Tool::overwrite() const { return impl_->options.overwrite; }
+
+std::string Tool::registry() const { return registry_path(impl_->options); }
+
+std::string Tool::run_id() {
+  impl_->complete_content_id();
+  return impl_->record.content_id;
+}
+
+void Tool::content_read(const std::string& role, const std::string& digest) {
+  impl_->id_parts.contents.emplace_back(role, digest);
+}
+
+void Tool::leave_out_of_run_id(const std::vector<std::string>& names) {
+  impl_->id_parts.left_out.insert(names.begin(), names.end());
+}
+
+int Tool::run(int argc, char** argv, const std::function<void()>& body) {
+  Impl& impl = *impl_;
+  try {
+    impl.app.parse(arguments_of(argc, argv, impl.app));
+    check_output_names(impl.options);
+  } catch (const CLI::Success& wanted) {  // --help, --version
+    return impl.app.exit(wanted);
+  } catch (const CLI::ParseError& error) {
+    std::cerr << impl.name << ": " << error.what() << "\n  hint: " << impl.name << " --help\n";
+    impl.failures.push_back(error.what());
+    impl.options.failures = word_after("--failures", argc, argv);
+    impl.write_failures(usage_wrong);
+    return usage_wrong;
+  }
+  listen_for_signals();
+  impl.progress_line.label(impl.options.label);
+
+  int code = impl.guarded([&] {
+    if (impl.options.print_config) {
+      print_settings(settings_of(impl.app, impl.options), std::cout);
+      return static_cast<int>(done);
+    }
+    impl.begin(argc, argv);
+    return impl.work_and_commit(body);
+  });
+  if (impl.registered) {
+    const int recorded =
+        impl.guarded([&] { return impl.finish_record(code), static_cast<int>(done); });
+    if (code == done) code = recorded;
+  }
+  impl.write_failures(code);
+  return code;
+}
+
+}  // namespace talus

@@ -1,0 +1,126 @@
+// tools/frame/tool.hpp
+// The frame of every executable: common options, inputs checked before long work, outputs written
+// to a temporary name and renamed only when whole, progress, exit codes, the run registry, and the
+// only catch. A tool is a list of options and one function. docs/tools/common.md
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "base/progress.hpp"
+
+namespace talus {
+
+using Json = nlohmann::ordered_json;
+
+/// null for NaN and infinity, which JSON does not have.
+[[nodiscard]] inline Json number_or_null(double value) {
+  return std::isfinite(value) ? Json(value) : Json();
+}
+
+/// One effective setting and where it came from: "default", "cli", or a place in the site file.
+struct ConfigValue {
+  std::string key;
+  std::string value;
+  std::string source;
+};
+
+class Tool {
+ public:
+  /// `name` as typed ("talus-tin"); `purpose` one sentence for --help.
+  Tool(std::string name, std::string purpose);
+  ~Tool();
+  Tool(const Tool&) = delete;
+  Tool& operator=(const Tool&) = delete;
+
+  /// For what the functions below do not cover (groups, sub-commands).
+  CLI::App& app();
+
+  // --- declare, before run() ---------------------------------------------------------------------
+  /// A file read: must exist; hashed into the registry under the option's name. A name without
+  /// dashes is positional and required. GDAL's virtual paths (/vsi...) are passed on unchecked;
+  /// what stands behind the file's name ("|layername=a", a member of an archive) is recorded.
+  CLI::Option* input(const std::string& name, std::string& path, const std::string& help);
+  CLI::Option* inputs(const std::string& name, std::vector<std::string>& paths,
+                      const std::string& help);
+  /// A file written: refused when it exists and --overwrite is not given, when it is also an input,
+  /// or when its folder cannot be written. runs.sqlite stands beside the first one given.
+  CLI::Option* output(const std::string& name, std::string& path, const std::string& help);
+  /// A folder written into, made when missing; refused when not empty without --overwrite.
+  CLI::Option* output_folder(const std::string& name, std::string& path, const std::string& help);
+  /// Lets --json name a file that the result is written to; without a name it prints, as always.
+  void json_output(std::string& path, const std::string& help);
+  /// A value; its default is shown by --help, and its effective value is recorded with its source.
+  template <class T>
+  CLI::Option* option(const std::string& name, T& value, const std::string& help) {
+    return app().add_option(name, value, help)->capture_default_str();
+  }
+  CLI::Option* flag(const std::string& name, bool& value, const std::string& help) {
+    return app().add_flag(name, value, help);
+  }
+  /// Remarks below the options in --help, e.g. an example.
+  void footer(const std::string& text);
+  /// Settings beyond the command line (a site file's), asked for once the command line is known;
+  /// shown by --print-config and recorded. May throw InputError.
+  void more_config(std::function<std::vector<ConfigValue>()> settings);
+
+  // --- use, inside the body ----------------------------------------------------------------------
+  /// A file that will be written and has no option of its own, as one beside an output: checked
+  /// like an output, before long work. `may_exist`: it is replaced without --overwrite.
+  void write_also(const std::string& path, bool may_exist = false);
+  /// Where to write `path` for now: a hidden name in the same folder with the same extension. All
+  /// staged files are synced and renamed when the body has returned, removed when it has thrown.
+  /// Sidecars (styles, statistics) are staged like any other file.
+  [[nodiscard]] std::string stage(const std::string& path);
+  /// The same, but put in place also where the body refuses its input (InputError): places to look
+  /// at.
+  [[nodiscard]] std::string stage_also_if_refused(const std::string& path);
+  /// Stages `path` and writes `content` into it. Throws InputError when it cannot be written.
+  void write_text(const std::string& path, const std::string& content);
+  /// A file that was read but is not an option's value (named in a site file, member of a set).
+  void read_also(const std::string& role, const std::string& path);
+  /// To hand to long work; throws Interrupted after SIGINT, SIGTERM or SIGHUP.
+  [[nodiscard]] ProgressFunction progress();
+  [[nodiscard]] bool interrupted() const;  ///< one of these has come
+  void info(const std::string& text);      ///< to stderr, not with -q
+  void detail(const std::string& text);    ///< to stderr, with -v
+  void warn(const std::string& text);      ///< as info(); kept in the registry and in result()
+  void record(const std::string& text);    ///< kept in the registry alone, as information
+  /// What was taken from a vector source: an entry of `layers_read` in what --json prints, and an
+  /// event in the registry.
+  void layer_read(Json entry);
+  [[nodiscard]] const Json& layers_read() const;  ///< of layer_read(), in order
+  void metric(const std::string& name, double value, const std::string& unit);
+  /// A limit of the run's health; a failed one makes the exit code 3 once the outputs are in place,
+  /// and is said with `hint`, the way out.
+  void check(const std::string& name, double value, double limit, bool pass,
+             const std::string& hint = "");
+  /// What --json prints; without --json `summary` goes to stdout, not with -q.
+  void result(Json result, const std::string& summary);
+  [[nodiscard]] bool overwrite() const;
+  [[nodiscard]] std::string registry() const;  ///< that runs are recorded in, whether or not there
+  /// Digest of what was read of an input whose bytes do not say all: a folder, a virtual path of
+  /// GDAL, a file that is read together with others beside it. Counts for run_id() as the bytes do.
+  void content_read(const std::string& role, const std::string& digest);
+  /// Leaves these out of run_id(): settings by their keys and inputs by their roles that equal
+  /// results may differ in, or that other settings stand for. All others count, and so does every
+  /// input that was named by read_also() or content_read() before the first call of run_id().
+  void leave_out_of_run_id(const std::vector<std::string>& names);
+  /// Digest of tool, version, options and input contents (16 digits); it stands in outputs' tags.
+  [[nodiscard]] std::string run_id();
+
+  /// Parse, check, run `body`, put the outputs in place, record; returns the exit code.
+  int run(int argc, char** argv, const std::function<void()>& body);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace talus

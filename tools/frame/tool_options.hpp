@@ -1,0 +1,56 @@
+// tools/frame/tool_options.hpp
+// What a tool has declared to CLI11: files read and written, the options of every tool, and the
+// settings that are in effect.
+#pragma once
+
+#include <functional>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "tools/frame/tool.hpp"
+
+namespace talus {
+
+struct InputOption {
+  const CLI::Option* option;
+  std::function<std::vector<std::string>()> paths;  ///< once the command line is known
+};
+
+struct OutputOption {
+  const CLI::Option* option;
+  const std::string* path;  ///< of the tool; empty: not wanted
+  bool is_folder;
+};
+
+struct ToolOptions {
+  std::vector<InputOption> inputs;
+  std::vector<OutputOption> outputs;                      ///< the first one is the main one
+  std::vector<const CLI::Option*> common;                 ///< of every tool
+  const CLI::Option* json_option = nullptr;               ///< where --json may name a file
+  const std::string* json_path = nullptr;                 ///< that file
+  std::function<std::vector<ConfigValue>()> more_config;  ///< may be empty
+
+  bool quiet = false, verbose = false, json = false, overwrite = false, no_db = false,
+       print_config = false;
+  std::string db;        ///< as given; empty: beside the first output
+  std::string label;     ///< before every message, to tell runs apart
+  std::string failures;  ///< file for what failed; empty: not wanted
+};
+
+/// Adds the options of every tool to `app`, whose values go to `options`.
+void add_common_options(const std::string& tool, CLI::App& app, ToolOptions& options);
+
+/// The name that an option goes by in the registry: without dashes.
+[[nodiscard]] std::string key_of(const CLI::Option& option);
+
+/// All settings in effect: what is no file and no option of every tool, then those of more_config.
+[[nodiscard]] std::vector<ConfigValue> settings_of(const CLI::App& app, const ToolOptions& options);
+
+/// Prints settings as TOML, each with a comment that says where it came from.
+void print_settings(const std::vector<ConfigValue>& settings, std::ostream& out);
+
+/// The registry that runs are recorded in; empty when there is no output to stand beside.
+[[nodiscard]] std::string registry_path(const ToolOptions& options);
+
+}  // namespace talus

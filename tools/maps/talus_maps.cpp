@@ -1,0 +1,194 @@
+// tools/maps/talus_maps.cpp
+// Hazard maps from the passages of one or many runs. Page: docs/tools/talus-maps.md
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+#include "base/text.hpp"
+#include "post/maps/map_layers.hpp"
+#include "post/maps/map_style.hpp"
+#include "tools/frame/command_line.hpp"
+#include "tools/frame/fault_json.hpp"
+#include "tools/frame/map_output.hpp"
+#include "tools/frame/run_inputs.hpp"
+
+namespace {
+
+using talus::Json;
+using talus::MapLayer;
+using talus::RunFile;
+using talus::Tool;
+
+struct Options {
+  std::string folder;
+  double cell_size_m = std::numeric_limits<double>::quiet_NaN();
+  talus::MapSettings settings;
+  bool png = false;
+  double memory_mb = 2000;
+  std::vector<std::string> creation_options;
+
+  // Rows that may be held: each twice while they are sorted.
+  [[nodiscard]] std::uint64_t most_rows() const {
+    return static_cast<std::uint64_t>(memory_mb * 1e6 / (2 * sizeof(talus::MapRow)));
+  }
+};
+
+void declare(Tool& tool, Options& o) {
+  tool.output_folder("-o,--out", o.folder, "folder for the maps")->required();
+  tool.option("--cell-size-m", o.cell_size_m,
+              "cell of the maps, a whole multiple of the recorded one [m]; nan: as recorded")
+      ->check(talus::number_between(0, 1e6, true));
+  tool.option("--min-passages", o.settings.min_passages,
+              "passages that a percentile needs; 0: 5, 29, 59, 299 for p50, p90, p95, p99")
+      ->check(CLI::Range(0, 1000000000));
+  tool.option("--resamples", o.settings.n_resamples, "resamples of the bootstrap over runs")
+      ->check(CLI::Range(20, 10000));
+  tool.option("--seed", o.settings.seed, "of the bootstrap");
+  tool.flag("--png", o.png, "a picture of each map over hillshade beside it");
+  tool.option("--memory-mb", o.memory_mb,
+              "for rows of passages [MB]; more of them are taken in several readings of the runs")
+      ->check(talus::number_between(1e-3, 1e7));
+  tool.option("--co", o.creation_options, "creation option of the COGs, NAME=VALUE")
+      ->check(talus::check_creation_option);
+  tool.footer("Example:\n  talus-maps run_1.h5 run_2.h5 --trn slope.tif -o maps --png");
+}
+
+/// What the runs give to the maps.
+struct Gathered {
+  talus::MapGrid map;
+  talus::Released released;
+  talus::DepositSums deposit;
+  std::vector<std::uint32_t> rows_of_cell;  // of the map
+  std::uint64_t n_rows = 0;
+  std::vector<std::vector<talus::MapRow>> rows;  // of each run; empty when they are too many
+};
+
+// All that does not grow with the number of runs, and the rows as long as they are few enough.
+Gathered gather(talus::RunInputs& runs, const Options& o) {
+  Gathered out;
+  const talus::RunParts parts{.crossings = false,
+                              .checkpoint = false,
+                              .only_last_frame = true,
+                              .only_faults = true,
+                              .words = false};
+  runs.read(parts, [&](RunFile& run, int index) {
+    if (run.grid.n_rows == 0)
+      throw talus::InputError({runs.members[index].file}, "holds no passages",
+                              "set [output] passages = true and run talus-dda again");
+    if (index == 0) {
+      out.map = talus::map_grid(run.grid, o.cell_size_m, "--cell-size-m");
+      out.rows_of_cell.assign(static_cast<std::size_t>(out.map.grid.n_rows) * out.map.grid.n_cols,
+                              0);
+    }
+    std::vector<talus::MapRow> rows =
+        talus::map_rows(run.passages, run.grid, out.map, run.blocks.weight);
+    for (const talus::MapRow& row : rows) ++out.rows_of_cell[row.cell];
+    out.n_rows += rows.size();
+    if (out.n_rows > o.most_rows())
+      std::vector<std::vector<talus::MapRow>>().swap(out.rows);
+    else
+      out.rows.push_back(std::move(rows));
+    out.released.weight.push_back(runs.members[index].weight);
+    out.released.n_blocks.push_back(runs.members[index].n_blocks);
+    talus::add_deposit(out.deposit, out.map.grid, run, runs.rest_speed_m_s);
+  });
+  return out;
+}
+
+// All layers of a tile; those that are not of passages only with the first one. `progress` is told
+// the share of the layers that are made.
+void add_tile(const talus::MapSources& sources, const talus::ProgressFunction& progress,
+              std::vector<MapLayer>& layers) {
+  const std::vector<talus::MapLayerKind>& kinds = talus::map_layers();
+  const bool is_first = layers.empty();
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    progress(static_cast<double>(i) / static_cast<double>(kinds.size()));
+    if (is_first)
+      layers.push_back(talus::make_layer(kinds[i], sources));
+    else if (kinds[i].is_of_passages)
+      talus::append(layers[i], talus::make_layer(kinds[i], sources));
+  }
+}
+
+// Tile by tile, each from its own reading of the runs where there is more than one.
+std::vector<MapLayer> layers_of(Tool& tool, talus::RunInputs& runs, Gathered& g, const Options& o) {
+  const talus::RunParts only_passages{
+      .frames = false, .crossings = false, .health = false, .checkpoint = false, .words = false};
+  std::vector<MapLayer> layers;
+  const std::vector<talus::MapTile> tiles = g.n_rows > o.most_rows()
+                                                ? talus::tiles_of(g.rows_of_cell, o.most_rows())
+                                                : std::vector<talus::MapTile>{{}};
+  for (const talus::MapTile& tile : tiles) {
+    if (g.rows.empty())
+      runs.read_again(only_passages, [&](RunFile& run, int) {
+        g.rows.push_back(talus::map_rows(run.passages, run.grid, g.map, run.blocks.weight, tile));
+      });
+    const talus::CellRows cells = talus::group_by_cell(std::move(g.rows), g.rows_of_cell.size());
+    g.rows.clear();
+    add_tile({cells, g.deposit, g.map.grid.cell_size, g.released, o.settings}, tool.progress(),
+             layers);
+  }
+  return layers;
+}
+
+// Cells that a block came over, ascending.
+const std::vector<std::uint32_t>& touched_cells(const std::vector<MapLayer>& layers) {
+  return std::find_if(layers.begin(), layers.end(),
+                      [](const MapLayer& layer) { return talus::kind_of(layer).is_of_passages; })
+      ->cell;
+}
+
+void run_tool(Tool& tool, Options& o, talus::RunInputs& runs) {
+  const talus::Trn& trn = runs.trn();
+  Gathered gathered = gather(runs, o);
+  const std::uint64_t n_rows = gathered.n_rows;
+  const talus::PassageGrid grid = gathered.map.grid;
+  const auto layers = layers_of(tool, runs, gathered, o);
+  const std::vector<std::uint32_t>& touched = touched_cells(layers);
+  if (n_rows == 0) tool.warn("no block passed any cell: the maps are empty");
+  runs.warn_of_ends();
+
+  auto tags = talus::tags_of(runs.members);
+  tags.insert(tags.begin(), {{"RUN_ID", tool.run_id()}, {"RUN_SET", runs.run_set()}});
+  const std::string remark = runs.remark();
+  if (!remark.empty()) tags.emplace_back("REMARK", remark);
+  if (runs.n_missing > 0) tags.emplace_back("N_MISSING", std::to_string(runs.n_missing));
+  const talus::MapFrame frame = talus::map_frame(trn, grid, o.png, touched);
+  Json files = Json::array();
+  bool shows_maximum = false;
+  const talus::ProgressFunction progress = tool.progress();
+  for (const MapLayer& layer : layers) {
+    progress(static_cast<double>(files.size()) / static_cast<double>(layers.size()));
+    const std::string path = (std::filesystem::path(o.folder) / (layer.name + ".tif")).string();
+    const std::string shown = talus::write_map(
+        tool, frame, path, layer, talus::map_style(layer, remark), tags, o.creation_options);
+    shows_maximum = shows_maximum || shown == layer.name + "_max";
+    Json bands = Json::array();
+    for (const auto& band : layer.bands) bands.push_back(band.name);
+    files.push_back({{"file", path}, {"shown_band", shown}, {"bands", bands}});
+  }
+  if (shows_maximum && n_rows > 0)
+    tool.warn("cells with too few passages for a 95th percentile: styles show the maximum");
+  tool.metric("passages", static_cast<double>(n_rows), "1");
+  tool.metric("cells_touched", static_cast<double>(touched.size()), "1");
+  Json result = {{"run_id", tool.run_id()},       {"n_runs", runs.members.size()},
+                 {"n_passages", n_rows},          {"n_cells_touched", touched.size()},
+                 {"cell_size_m", grid.cell_size}, {"layers", files}};
+  talus::add_faults(result, talus::faults_of(runs.members));
+  tool.result(result,
+              std::to_string(layers.size()) + " maps of " + std::to_string(runs.members.size()) +
+                  (runs.members.size() == 1 ? " run" : " runs") + ", " + std::to_string(n_rows) +
+                  " passages over " + std::to_string(touched.size()) + " cells of " +
+                  talus::text(grid.cell_size, 4) + " m, in " + o.folder);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  Tool tool("talus-maps", "Hazard maps from the passages of one or many runs.");
+  talus::RunInputs runs(tool);
+  declare(tool, options);
+  return tool.run(argc, argv, [&] { run_tool(tool, options, runs); });
+}

@@ -1,0 +1,59 @@
+#include "tools/report/course.hpp"
+
+#include <array>
+
+#include "base/text.hpp"
+#include "report/html.hpp"
+#include "report/run_charts.hpp"
+
+namespace talus {
+
+std::string curve_section(const ReportData& data) {
+  if (data.curves_csv.empty()) return "";
+  const CsvTable table = parse_csv(data.curves_csv, "curves.csv");
+  std::string out = "<div class=\"charts\">\n";
+  for (const auto& [column, title, unit] :
+       {std::array{"max_speed_m_s", "Fastest block", "m/s"},
+        std::array{"mean_speed_m_s", "Mean speed of the mass", "m/s"},
+        std::array{"front_m", "Front: path of the block farthest ahead", "m"},
+        std::array{"translational_energy_kj", "Kinetic energy of translation", "kJ"}})
+    out += html_figure(chart_svg(curve_chart(table, column, title, unit)), "");
+  out += "</div>\n" + html_note("A line a run. <code>curves.csv</code>");
+  return html_section("curves", "Over time", out);
+}
+
+std::string health_section(const ReportData& data) {
+  std::string out =
+      all_pass(data.runs, data.limits)
+          ? "<div class=\"verdict pass\"><b>Pass.</b> All runs finished within their "
+            "limits.</div>\n"
+          : "<div class=\"verdict fail\"><b>Fail.</b> A limit is broken or a run has not "
+            "finished.</div>\n";
+  out += data.limits.empty()
+             ? html_note("The registry holds no record of these runs: limits cannot be shown.")
+             : limit_table(data.limits, data.runs.size());
+  for (std::size_t i = 0; i < data.runs.size(); ++i)
+    if (const RunFile& run = data.runs[i]; !run.info.reason.empty())
+      out += html_note("Run " + xml_escaped(data.run_names[i]) +
+                       " failed: " + xml_escaped(run.info.reason) + ".");
+  out += counter_table(data.runs, data.run_names);
+  if (const std::string cuts = cut_table(data.runs, data.run_names); !cuts.empty())
+    out += html_note("Substeps of blocks in contact that were made again, by reason:") + cuts;
+  if (const std::string deep = deep_table(data.runs, data.run_names); !deep.empty())
+    out += html_note("Blocks that came into something by more than a tenth of their thickness:") +
+           deep;
+  out += "<div class=\"charts\">\n";
+  out += html_figure(chart_svg(energy_chart(data.shown)),
+                     "Run " + xml_escaped(data.shown_name) +
+                         ": the sum of what moves and what was spent lies on what has fallen.");
+  out += html_figure(chart_svg(health_chart(data.runs, "Largest penetration in the interval", "m",
+                                            &HealthRow::largest_penetration)),
+                     "");
+  out += html_figure(chart_svg(health_chart(data.runs, "Shortest time step in the interval", "s",
+                                            &HealthRow::shortest_dt)),
+                     "A step ends at an impact, so steps may be very short without anything being "
+                     "wrong. Gaps: no step with a search for contacts.");
+  return html_section("health", "Health certificate", out + "</div>\n");
+}
+
+}  // namespace talus

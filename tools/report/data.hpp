@@ -1,0 +1,44 @@
+// tools/report/data.hpp
+// What a report is made from.
+// in:    the results in a site's folder, as the tools wrote them
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "post/run_set.hpp"
+#include "record/run_file.hpp"
+#include "report/map_figures.hpp"
+#include "report/run_health.hpp"
+#include "site/site.hpp"
+#include "store/runs.hpp"
+#include "terrain/trn.hpp"
+#include "tools/frame/tool.hpp"
+
+namespace talus {
+
+/// Everything that the sections show; JSON is null and text empty where a file is missing.
+struct ReportData {
+  explicit ReportData(const Site& of_site) : site(of_site) {}
+
+  const Site& site;
+  Json tin, trn, blocks, runout, fence;  ///< reports of the tools
+  Trn terrain, bed;                      ///< before the slide; what the blocks slide on
+  std::string hillshade_png, mobility_svg, stereonet_svg, sizes_svg, curves_csv, change_png;
+  std::vector<MapPicture> maps;
+  std::vector<RunFile> runs;  ///< info and health, by seed and name; frames left out    (n_runs)
+  std::vector<std::string> run_names;  ///< "1", or "CASE_1"                            (n_runs)
+  RunFaults faults;                    ///< of these runs
+  RunFile shown;                       ///< the run of the animation, whole
+  std::string shown_name;
+  std::vector<LimitOverRuns> limits;
+  std::vector<RunRecord> steps;  ///< each behind those whose outputs it read
+  std::string run_id, version;
+};
+
+/// "1 of 12 runs failed its numerical checks"; "" where nothing is wrong. What the fences rest on
+/// also counts runs that they are compared with.
+[[nodiscard]] std::string remark_of(const ReportData& data);
+[[nodiscard]] std::string fence_remark_of(const ReportData& data);
+
+}  // namespace talus

@@ -1,0 +1,17 @@
+// tools/report/fences.hpp
+// What fences do, as a report says it: verdict, arrivals, fields, and the slide with and without.
+#pragma once
+
+#include <string>
+
+#include "tools/report/data.hpp"
+
+namespace talus {
+
+/// Whether a fence meets its design code, and what it would need; `fence` of the fences' JSON.
+[[nodiscard]] std::string fence_verdict(const Json& fence);
+
+/// The chapter; empty without the fences' JSON.
+[[nodiscard]] std::string fence_section(const ReportData& data);
+
+}  // namespace talus

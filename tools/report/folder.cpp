@@ -1,0 +1,223 @@
+#include "tools/report/folder.hpp"
+
+#include <algorithm>
+#include <map>
+#include <sstream>
+
+#include "base/read_file.hpp"
+#include "base/sha256.hpp"
+#include "io/tags_gdal.hpp"
+#include "post/run_set.hpp"
+#include "tools/frame/site_stages.hpp"
+
+namespace talus {
+namespace fs = std::filesystem;
+
+bool ResultFolder::has(const std::string& name) const {
+  return left_out_.count(name) == 0 && fs::exists(path(name));
+}
+
+std::string ResultFolder::text(const std::string& name) const {
+  if (!has(name)) return "";
+  tool_.read_also("result", path(name).string());
+  return read_file(path(name).string());
+}
+
+Json ResultFolder::json(const std::string& name) const { return parsed(name, text(name)); }
+
+Json ResultFolder::glance(const std::string& name) const {
+  return parsed(name, read_file(path(name).string()));
+}
+
+std::string ResultFolder::required(const std::string& name, const std::string& tool) const {
+  if (!has(name))
+    throw InputError({path(name).string()}, "there is no such file",
+                     "run " + tool + " first, or make in the site's folder");
+  return path(name).string();
+}
+
+void ResultFolder::leave_out(const std::vector<std::string>& names, const std::string& why) {
+  std::string found;
+  for (const std::string& name : names) {
+    if (has(name)) found += (found.empty() ? "" : ", ") + name;
+    left_out_.insert(name);
+  }
+  if (!found.empty()) tool_.warn(path_.string() + ": left out: " + found + ": " + why);
+}
+
+Json ResultFolder::parsed(const std::string& name, const std::string& content) const {
+  if (content.empty()) return nullptr;
+  Json json = Json::parse(content, nullptr, false);
+  if (!json.is_object())
+    throw InputError({path(name).string()}, "is not a JSON object", "make it again");
+  return json;
+}
+
+std::string text_at(const Json& json, const std::string& place) {
+  const Json::json_pointer pointer(place);
+  return json.contains(pointer) && json[pointer].is_string() ? json[pointer].get<std::string>()
+                                                             : "";
+}
+
+Json read_runout(const ResultFolder& folder) {
+  Json runout = folder.json("runout.json");
+  const auto is_run = [](const Json& run) {
+    return run.is_object() && run.contains("run_id") && run["run_id"].is_string() &&
+           run.contains("event") && run["event"].is_object();
+  };
+  const bool is_whole = runout.contains("runs") && runout["runs"].is_array() &&
+                        !runout["runs"].empty() &&
+                        std::all_of(runout["runs"].begin(), runout["runs"].end(), is_run);
+  if (!is_whole)
+    throw InputError({folder.path("runout.json").string()},
+                     "does not name the runs that it is made from", "make the run-out again");
+  return runout;
+}
+
+std::vector<std::string> ids_of(const Json& runout) {
+  std::vector<std::string> ids;
+  for (const Json& run : runout.at("runs")) ids.push_back(run["run_id"].get<std::string>());
+  return ids;
+}
+
+// --- what belongs together -----------------------------------------------------------------------
+
+namespace {
+
+// The run of a tool that made a file, and the digest of the runs that it evaluated; "" where the
+// file does not say.
+struct Origin {
+  std::string run_id, run_set;
+};
+
+Origin origin_of(const ResultFolder& folder, const std::string& name) {
+  if (!name.ends_with(".json")) {
+    const std::string path = folder.path(name).string();
+    return {tag_of(path, "RUN_ID"), tag_of(path, "RUN_SET")};
+  }
+  const Json json = folder.glance(name);
+  return {text_at(json, "/tags/RUN_ID"), text_at(json, "/tags/RUN_SET")};
+}
+
+// A raster with its picture and style; another file by itself.
+std::vector<std::string> with_sidecars(const std::string& name) {
+  if (!name.ends_with(".tif")) return {name};
+  const std::string base = name.substr(0, name.size() - 4);
+  return {name, base + ".png", base + ".qml"};
+}
+
+const char* const of_other_runs = "not of the runs that runout.json is of";
+
+void leave_out_fences(ResultFolder& folder, const Site& site, const std::string& run_set) {
+  std::string id;
+  for (const char* name : {"fence.json", "fence.gpkg", "change.tif"}) {
+    if (!folder.has(name)) continue;
+    const Origin origin = origin_of(folder, name);
+    std::string why;
+    if (site.fences.empty())
+      why = "the site has no fences";
+    else if (origin.run_set != run_set)
+      why = of_other_runs;
+    else if (!id.empty() && origin.run_id != id)
+      why = "not of the run of talus-fence that fence.json is of";
+    if (why.empty())
+      id = origin.run_id;
+    else
+      folder.leave_out(with_sidecars(name), why);
+  }
+}
+
+void leave_out_maps(ResultFolder& folder, const std::string& run_set) {
+  if (!folder.has("maps")) return;
+  std::set<std::string> others;
+  for (const auto& entry : fs::directory_iterator(folder.path("maps"))) {
+    const std::string file = entry.path().filename().string();
+    if (!file.ends_with(".tif") || file[0] == '.') continue;
+    if (origin_of(folder, "maps/" + file).run_set == run_set) continue;
+    for (const std::string& name : with_sidecars("maps/" + file)) others.insert(name);
+  }
+  folder.leave_out({others.begin(), others.end()}, of_other_runs);
+}
+
+// The terrain's report says what it was made from.
+void leave_out_tin(ResultFolder& folder) {
+  if (!folder.has("trn.json")) return;
+  const std::string source = text_at(folder.glance("trn.json"), "/source");
+  if (!source.empty() && !source.ends_with(".ply"))
+    folder.leave_out({"tin.json"}, "the terrain is made from " + source);
+}
+
+}  // namespace
+
+void leave_out_others(ResultFolder& folder, const Site& site, const Json& runout) {
+  const std::string run_set = run_set_id(ids_of(runout));
+  leave_out_fences(folder, site, run_set);
+  leave_out_maps(folder, run_set);
+  leave_out_tin(folder);
+  if (folder.has("runout.gpkg") &&
+      origin_of(folder, "runout.gpkg").run_id != text_at(runout, "/run_id"))
+    folder.leave_out({"runout.gpkg"}, "not of the run of talus-runout that runout.json is of");
+}
+
+namespace {
+
+// "section.key" -> the value, of the text of print_config().
+std::map<std::string, EffectiveValue> values_of(const std::string& config) {
+  std::map<std::string, EffectiveValue> values;
+  std::istringstream lines(config);
+  std::string section;
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t equals = line.find(" = "), source = line.rfind("  # ");
+    if (line.starts_with("[")) section = line.substr(1, line.size() - 2);
+    if (line.empty() || line[0] == '[' || line[0] == '#') continue;
+    if (equals == std::string::npos || source == std::string::npos) continue;
+    const std::string key = line.substr(0, equals);
+    values[section + "." + key] = {section, key, line.substr(equals + 3, source - equals - 3),
+                                   line.substr(source + 4)};
+  }
+  return values;
+}
+
+// Whether what the report shows of the site depends on the value.
+bool is_shown(const EffectiveValue& value, const ResultFolder& folder) {
+  return stage_reads("run", value) || stage_reads("blocks", value) || stage_reads("trn", value) ||
+         (folder.has("tin.json") && stage_reads("tin", value));
+}
+
+}  // namespace
+
+void check_site_of(const RunFile& run, const std::string& path, const Site& site,
+                   const ResultFolder& folder) {
+  std::map<std::string, EffectiveValue> was = values_of(run.info.config), is;
+  for (EffectiveValue& value : effective_values(site))
+    if (!value.value.empty()) is[value.section + "." + value.key] = std::move(value);
+  const auto given = [](const EffectiveValue& value) {
+    return value.value.empty() ? "not given" : value.value;
+  };
+  std::set<std::string> keys;
+  for (const auto* values : {&was, &is})
+    for (const auto& [key, value] : *values)
+      if (is_shown(value, folder)) keys.insert(key);
+  for (const std::string& key : keys) {
+    const EffectiveValue &old = was[key], &now = is[key];
+    if (old.value == now.value || old.source == "cli" || now.source == "cli") continue;
+    // a section that is gone, or a key that the program did not know yet
+    if (old.source.empty() && now.source == "default") continue;
+    if (now.source.empty() && old.source == "default") continue;
+    throw InputError(
+        {path},
+        "was computed with " + key + " = " + given(old) + "; in the site file it is " + given(now),
+        "give the site file that the runs were made with, or make them again");
+  }
+}
+
+std::string ground_of(const RunInfo& run, const ResultFolder& folder) {
+  for (const char* name : {"bed.tif", "trn.tif"})
+    if (folder.has(name) &&
+        (run.trn_sha256.empty() || sha256_of_file(folder.path(name).string()) == run.trn_sha256))
+      return folder.path(name).string();
+  throw InputError({folder.path("bed.tif").string()}, "is not the terrain of the runs",
+                   "make the runs again");
+}
+
+}  // namespace talus

@@ -1,0 +1,32 @@
+#include "tools/report/json.hpp"
+
+#include "base/grouped_text.hpp"
+#include "base/text.hpp"
+
+namespace talus {
+
+Json value_at(const Json& json, std::initializer_list<const char*> keys) {
+  const Json* here = &json;
+  for (const char* key : keys) {
+    if (!here->is_object() || !here->contains(key)) return nullptr;
+    here = &(*here)[key];
+  }
+  return *here;
+}
+
+std::string number_text(const Json& value, int digits) {
+  if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
+  if (!value.is_number()) return "&ndash;";
+  if (value.is_number_integer()) digits = 9;
+  return grouped_text(value.get<double>(), digits);
+}
+
+std::string percent_text(const Json& value) {
+  return value.is_number() ? text(100 * value.get<double>(), 3) + " %" : "&ndash;";
+}
+
+std::string word_text(const Json& value) {
+  return value.is_string() ? xml_escaped(value.get<std::string>()) : "";
+}
+
+}  // namespace talus

@@ -1,0 +1,24 @@
+// tools/report/json.hpp
+// Values of the tools' JSON as text of a page: HTML, a dash where there is none.
+#pragma once
+
+#include <initializer_list>
+#include <string>
+
+#include "tools/frame/tool.hpp"
+
+namespace talus {
+
+/// The value at a path of keys; null where any is missing.
+[[nodiscard]] Json value_at(const Json& json, std::initializer_list<const char*> keys);
+
+/// A number with `digits` significant digits, a whole one with all; "yes" or "no" of a truth value.
+[[nodiscard]] std::string number_text(const Json& value, int digits = 4);
+
+/// A share, 0 to 1, in percent with its sign.
+[[nodiscard]] std::string percent_text(const Json& value);
+
+/// A text, escaped; empty where there is none.
+[[nodiscard]] std::string word_text(const Json& value);
+
+}  // namespace talus

@@ -1,0 +1,15 @@
+// tools/report/runout.hpp
+// The chapter of a report on run-out: how far, how it spread over the runs, and beside published
+// relations.
+#pragma once
+
+#include <string>
+
+#include "tools/report/data.hpp"
+
+namespace talus {
+
+/// Empty without the run-out's JSON.
+[[nodiscard]] std::string runout_section(const ReportData& data);
+
+}  // namespace talus

@@ -1,0 +1,277 @@
+// tools/report/talus_report.cpp
+// The results of a site as one HTML file and as a QGIS project. Page: docs/tools/talus-report.md
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <set>
+
+#include "base/sha256.hpp"
+#include "base/text.hpp"
+#include "io/crs_gdal.hpp"
+#include "io/raster_gdal.hpp"
+#include "io/style.hpp"
+#include "post/maps/map_layers.hpp"
+#include "report/plan_view.hpp"
+#include "report/qgis_project.hpp"
+#include "report/styles_gdal.hpp"
+#include "report/zip.hpp"
+#include "tools/frame/build_info.hpp"
+#include "tools/frame/fault_json.hpp"
+#include "tools/frame/shipped_data.hpp"
+#include "tools/frame/site_options.hpp"
+#include "tools/frame/tool.hpp"
+#include "tools/report/data.hpp"
+#include "tools/report/folder.hpp"
+#include "tools/report/page.hpp"
+
+namespace {
+
+using namespace talus;  // NOLINT: a program of its own
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string dir, out, qgis;
+};
+
+// --- runs ----------------------------------------------------------------------------------------
+
+// The files of runs/ whose run was evaluated: RUNOUT.json names them, others are left from before.
+std::vector<fs::path> evaluated_runs(const ResultFolder& folder, const Json& runout) {
+  const std::vector<std::string> listed = ids_of(runout);
+  const std::set<std::string> ids(listed.begin(), listed.end());
+  std::vector<std::pair<std::int64_t, fs::path>> found;
+  for (const auto& entry : fs::directory_iterator(folder.required("runs", "talus-dda"))) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with("run_") || !name.ends_with(".h5")) continue;  // staged ones are hidden
+    const RunInfo info =
+        read_run_file(entry.path().string(), {false, false, false, false, false}).info;
+    if (ids.count(info.run_id) > 0) found.emplace_back(info.seed, entry.path());
+  }
+  if (found.size() != ids.size())
+    throw InputError({folder.path("runs").string()},
+                     "holds " + std::to_string(found.size()) + " of the " +
+                         std::to_string(ids.size()) + " runs that runout.json is made from",
+                     "make the run-out again");
+  std::sort(found.begin(), found.end());
+  std::vector<fs::path> files;
+  for (const auto& [seed, path] : found) files.push_back(path);
+  return files;
+}
+
+// The run whose event came farthest along the path; the first of them.
+std::string farthest_run(const Json& runout) {
+  std::string id;
+  double farthest = -1;
+  for (const Json& run : runout.at("runs")) {
+    const Json length = run.at("event").value("L_path_m", Json());
+    if (!id.empty() && !(length.is_number() && length.get<double>() > farthest)) continue;
+    id = run.at("run_id").get<std::string>();
+    farthest = length.is_number() ? length.get<double>() : -1;
+  }
+  return id;
+}
+
+void read_runs(Tool& tool, const ResultFolder& folder, const std::vector<fs::path>& files,
+               const ProgressFunction& progress, ReportData& data) {
+  const std::string shown = farthest_run(data.runout);
+  std::vector<RunMember> members;
+  for (const fs::path& path : files) {
+    progress(0.5 * static_cast<double>(data.runs.size()) / static_cast<double>(files.size()));
+    tool.read_also("run", path.string());
+    RunFile run = read_run_file(path.string(), {false, false, false, true, false});
+    check_site_of(run, path.string(), data.site, folder);
+    data.run_names.push_back(path.stem().string().substr(4));  // without "run_"
+    if (run.info.run_id == shown) {
+      data.shown = read_run_file(path.string(), {true, false, true, true, false});
+      data.shown_name = data.run_names.back();
+    }
+    members.push_back(member_of(path.string(), run));
+    data.runs.push_back(std::move(run));
+  }
+  data.faults = faults_of(members);
+  if (const std::string words = talus::text(data.faults); !words.empty())
+    tool.warn(words + ": every part of the report says so");
+}
+
+// --- registry ------------------------------------------------------------------------------------
+
+// The run that wrote a file with this content, of those before row `before`; none: id 0.
+RunRecord writer_of(const std::string& db, const std::string& sha256, std::int64_t before) {
+  for (const std::int64_t id : runs_that_wrote(db, sha256))
+    if (id < before) return read_run(db, std::to_string(id));
+  return {};
+}
+
+// Depth first, so that each step stands behind those whose outputs it reads.
+void add_steps(const std::string& db, const std::string& sha256, std::int64_t before,
+               std::set<std::int64_t>& seen, std::vector<RunRecord>& steps) {
+  if (sha256.empty()) return;
+  const RunRecord record = writer_of(db, sha256, before);
+  if (record.id == 0 || !seen.insert(record.id).second) return;
+  for (const RunArtifact& input : record.inputs)
+    add_steps(db, input.sha256, record.id, seen, steps);
+  steps.push_back(record);
+}
+
+void read_registry(const std::string& db, const ResultFolder& folder,
+                   const std::vector<fs::path>& files, const ProgressFunction& progress,
+                   ReportData& data) {
+  if (!fs::exists(db)) return;
+  constexpr std::int64_t latest = std::numeric_limits<std::int64_t>::max();
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    progress(0.5 + 0.4 * static_cast<double>(i) / static_cast<double>(files.size()));
+    add_limits(writer_of(db, sha256_of_file(files[i].string()), latest).checks, data.limits);
+  }
+  std::set<std::int64_t> seen;
+  const std::string a_map = std::string("maps/") + map_layers().front().name + ".tif";
+  for (const std::string& name : {std::string("runout.gpkg"), a_map, std::string("fence.gpkg")})
+    if (folder.has(name))
+      add_steps(db, sha256_of_file(folder.path(name).string()), latest, seen, data.steps);
+}
+
+// --- the page ------------------------------------------------------------------------------------
+
+ReportData read_data(Tool& tool, const Site& site, ResultFolder& folder,
+                     const ProgressFunction& progress) {
+  ReportData data(site);
+  data.version = build_version;
+  data.terrain = read_trn(folder.required("trn.tif", "talus-trn"));
+  folder.required("runout.json", "talus-runout");
+  data.runout = read_runout(folder);
+  leave_out_others(folder, site, data.runout);
+  data.tin = folder.json("tin.json");
+  data.trn = folder.json("trn.json");
+  data.blocks = folder.json("blocks.json");
+  data.fence = folder.json("fence.json");
+  data.hillshade_png = folder.text("hillshade.png");
+  data.mobility_svg = folder.text("runout.svg");
+  data.stereonet_svg = folder.text("stereonet.svg");
+  data.sizes_svg = folder.text("sizes.svg");
+  data.curves_csv = folder.text("curves.csv");
+  data.change_png = folder.text("change.png");
+  if (folder.has("maps")) {
+    std::vector<fs::path> pictures;
+    for (const auto& entry : fs::directory_iterator(folder.path("maps")))
+      if (entry.path().extension() == ".png" && entry.path().filename().string()[0] != '.')
+        if (folder.has("maps/" + entry.path().filename().string()))
+          pictures.push_back(entry.path());
+    std::sort(pictures.begin(), pictures.end());
+    for (const fs::path& path : pictures)
+      data.maps.push_back({path.stem().string(), folder.text("maps/" + path.filename().string()),
+                           folder.text("maps/" + path.stem().string() + ".qml")});
+  }
+  const std::vector<fs::path> files = evaluated_runs(folder, data.runout);
+  read_runs(tool, folder, files, progress, data);
+  data.bed = read_trn(ground_of(data.runs[0].info, folder));
+  read_registry(tool.registry(), folder, files, progress, data);
+  data.run_id = tool.run_id();
+  return data;
+}
+
+// --- the QGIS project ----------------------------------------------------------------------------
+
+// Of layers that bring none: an outline that covers nothing.
+std::string plain_style() {
+  return vector_qml({SymbolKind::polygon, "", {{"", "", {42, 87, 184, 60}}}, 0.5});
+}
+
+// Where the project lies, paths in it begin.
+std::string relative_to(const std::string& project, const fs::path& path) {
+  const fs::path folder = fs::absolute(fs::path(project)).parent_path();
+  return fs::absolute(path).lexically_normal().lexically_relative(folder.lexically_normal());
+}
+
+void add_package(QgisProject& project, const Options& o, const ResultFolder& folder,
+                 const std::string& file, const std::string& group,
+                 const std::set<std::string>& hidden) {
+  if (!folder.has(file)) return;
+  static constexpr QgisLayer::Kind kinds[] = {QgisLayer::raster, QgisLayer::point, QgisLayer::line,
+                                              QgisLayer::polygon};
+  for (const StyledLayer& layer : styled_layers(folder.path(file).string())) {
+    std::string name = layer.name;
+    std::replace(name.begin(), name.end(), '_', ' ');
+    project.layers.push_back({group, name,
+                              relative_to(o.qgis, folder.path(file)) + "|layername=" + layer.name,
+                              kinds[layer.shape], layer.qml.empty() ? plain_style() : layer.qml,
+                              hidden.count(layer.name) == 0});
+  }
+}
+
+void add_maps(QgisProject& project, const Options& o, const ResultFolder& folder) {
+  for (const MapLayerKind& kind : map_layers()) {
+    const std::string base = std::string("maps/") + kind.name;
+    if (!folder.has(base + ".tif")) continue;
+    project.layers.push_back({kind.group, kind.name,
+                              relative_to(o.qgis, folder.path(base + ".tif")), QgisLayer::raster,
+                              folder.text(base + ".qml"), kind.is_visible});
+  }
+}
+
+QgisProject project_of(const ReportData& data, const Options& o, const ResultFolder& folder) {
+  const Trn& trn = data.terrain;
+  QgisProject project;
+  project.remark = remark_of(data).empty() ? fence_remark_of(data) : remark_of(data);
+  project.title = data.site.info.name + ": rockslide hazard" +
+                  (project.remark.empty() ? "" : " (" + project.remark + ")");
+  project.crs_wkt = trn.crs_wkt;
+  if (const std::string name = crs_name(trn.crs_wkt); name.starts_with("EPSG:"))
+    project.crs_authid = name.substr(0, name.find(' '));
+  const PlanWindow window = plan_window(data.shown, trn);
+  const Vec2 origin = trn.origin.head<2>(), low = window.low + origin, high = window.high + origin;
+  project.extent = {low.x(), low.y(), high.x(), high.y()};
+  const auto tag = [&data](const std::string& name) {
+    return text_at(data.runout, ("/tags/" + name).c_str());
+  };
+  project.layout_lines = {
+      "run id " + data.run_id + ", Talus " + data.version + ", CRS " + crs_name(trn.crs_wkt),
+      tag("DENOMINATOR"), "health: " + tag("HEALTH")};
+
+  add_package(project, o, folder, "fence.gpkg", "Fences", {"fence_fields", "fence_posts"});
+  if (folder.has("change.tif"))
+    project.layers.push_back({"Fences", "change by the fence",
+                              relative_to(o.qgis, folder.path("change.tif")), QgisLayer::raster,
+                              folder.text("change.qml"), false});
+  add_package(project, o, folder, "runout.gpkg", "Paths",
+              {"path_points", "paths", "envelope", "runs"});
+  add_package(project, o, folder, "blocks.gpkg", "Source", {"blocks"});
+  add_maps(project, o, folder);
+  project.layers.push_back({"Terrain", "hillshade", relative_to(o.qgis, folder.path("trn.tif")),
+                            QgisLayer::hillshade, "", true});
+  return project;
+}
+
+void run_tool(Tool& tool, const Options& o, const Site& site) {
+  ResultFolder folder(tool, o.dir);
+  const ProgressFunction progress = tool.progress();
+  const ReportData data = read_data(tool, site, folder, progress);
+  progress(0.9);
+  std::string qgs;
+  if (!o.qgis.empty()) qgs = qgis_project_xml(project_of(data, o, folder));
+  tool.write_text(o.out, report_page(data, shipped_data("viewer.js"), shipped_data("report.css")));
+  if (!o.qgis.empty())
+    tool.write_text(o.qgis, zip_archive({{fs::path(o.qgis).stem().string() + ".qgs", qgs}}));
+  Json result = {{"run_id", data.run_id},
+                 {"report", o.out},
+                 {"qgis", o.qgis},
+                 {"n_runs", data.runs.size()},
+                 {"n_maps", data.maps.size()},
+                 {"n_steps", data.steps.size()}};
+  add_faults(result, data.faults);
+  tool.result(result, "report of " + counted(static_cast<std::int64_t>(data.runs.size()), "run") +
+                          " in " + o.out + (o.qgis.empty() ? "" : ", QGIS project in " + o.qgis));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options o;
+  Tool tool("talus-report", "The results of a site as one HTML file and as a QGIS project.");
+  SiteOptions site(tool);
+  tool.app().add_option("--dir", o.dir, "folder with the results of the site")->required();
+  tool.output("-o,--out", o.out, "report to write (HTML, one file)")->required();
+  tool.output("--qgis", o.qgis, "project to write (QGZ), with paths relative to it");
+  tool.footer(
+      "Example:\n  talus-report site.toml --dir out -o out/report.html --qgis out/site.qgz");
+  return tool.run(argc, argv, [&] { run_tool(tool, o, site.load()); });
+}

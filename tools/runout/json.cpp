@@ -1,0 +1,111 @@
+#include "tools/runout/json.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "post/runout/runout_text.hpp"
+#include "tools/frame/moved_json.hpp"
+
+namespace talus {
+namespace {
+
+constexpr double degrees = 180 / std::numbers::pi;
+
+Json line_json(const ReachLine& line) {
+  return {{"H_m", number_or_null(line.height)},
+          {"L_path_m", number_or_null(line.path)},
+          {"L_chord_m", number_or_null(line.chord)},
+          {"reach_angle_path_deg", number_or_null(line.path_angle() * degrees)},
+          {"reach_angle_chord_deg", number_or_null(line.chord_angle() * degrees)}};
+}
+
+Json energy_json(const EnergyShares& s) {
+  if (!(s.put_in > 0)) return {};
+  return {
+      {"put_in_kj", s.put_in / 1e3}, {"friction", s.friction},    {"impact", s.impact},
+      {"contact", s.contact},        {"fence", s.fence},          {"removed", s.removed},
+      {"kinetic_left", s.kinetic},   {"elastic_left", s.elastic}, {"unaccounted", s.unaccounted}};
+}
+
+// Null where the number is nowhere finite.
+Json spread(const std::vector<RunoutRun>& runs, double (*value)(const RunoutRun&)) {
+  const Spread s = spread_over(runs, value);
+  if (s.n == 0) return {};
+  return {{"n", s.n},     {"mean", s.mean}, {"min", s.smallest}, {"p05", s.p05},
+          {"p50", s.p50}, {"p95", s.p95},   {"max", s.largest}};
+}
+
+}  // namespace
+
+Json balance_json(const Balance& b) {
+  return {{"released_m3", b.released},  {"deposited_m3", b.deposited},
+          {"moving_m3", b.moving},      {"left_domain_m3", b.left},
+          {"n_released", b.n_released}, {"n_deposited", b.n_deposited},
+          {"n_moving", b.n_moving},     {"n_left_domain", b.n_left}};
+}
+
+Json run_json(const RunoutRun& r, double friction_deg) {
+  const EventReach& e = r.event;
+  Json centre = line_json(e.centre_of_mass);
+  centre["H_over_L"] = number_or_null(e.centre_of_mass.height / e.centre_of_mass.path);
+  centre["atan_sum_mH_over_sum_mL_deg"] = number_or_null(e.sum_angle * degrees);
+  if (std::isfinite(friction_deg)) centre["tan_friction"] = std::tan(friction_deg / degrees);
+  double max_speed = 0;
+  for (const BlockReach& b : e.blocks) max_speed = std::max(max_speed, b.max_speed);
+  return {{"run_id", r.member.info.run_id},
+          {"seed", r.member.info.seed},
+          {"status", r.member.info.status},
+          {"did_move", e.moved.any()},
+          {"moved", moved_json(e.moved)},
+          {"event", line_json(e.event)},
+          {"toe_block", e.moved.any() ? Json(e.toe_block) : Json()},
+          {"toe_fate", e.moved.any() ? Json(text(e.toe_fate)) : Json()},
+          {"angle_monotone_along_path", e.moved.any() ? Json(e.profile.monotone) : Json()},
+          {"energy_line", energy_line_text(e.profile)},
+          {"missing_head_m", e.moved.any() ? Json(e.profile.missing_head) : Json()},
+          {"smallest_angle_along_path_deg", number_or_null(e.profile.smallest * degrees)},
+          {"smallest_angle_at_m", number_or_null(e.profile.smallest_at)},
+          {"centre_of_mass", centre},
+          {"max_speed_m_s", max_speed},
+          {"balance", balance_json(r.balance)},
+          {"energy_shares", energy_json(r.energy)}};
+}
+
+Json spread_json(const std::vector<RunoutRun>& runs) {
+  return {{"H_m", spread(runs, [](const RunoutRun& r) { return r.event.event.height; })},
+          {"L_path_m", spread(runs, [](const RunoutRun& r) { return r.event.event.path; })},
+          {"L_chord_m", spread(runs, [](const RunoutRun& r) { return r.event.event.chord; })},
+          {"reach_angle_path_deg",
+           spread(runs, [](const RunoutRun& r) { return r.event.event.path_angle() * degrees; })},
+          {"reach_angle_chord_deg",
+           spread(runs, [](const RunoutRun& r) { return r.event.event.chord_angle() * degrees; })},
+          {"H_cm_over_L_cm", spread(runs, [](const RunoutRun& r) {
+             return r.event.centre_of_mass.height / r.event.centre_of_mass.path;
+           })}};
+}
+
+Json mobility_json(const std::vector<MobilityRelation>& relations,
+                   const std::vector<MobilityEvent>& events) {
+  Json list = Json::array();
+  for (const MobilityRelation& relation : relations) {
+    Json rows = Json::array();
+    for (const MobilityEvent& event : events) {
+      const MobilityRow row = compare(relation, event);
+      rows.push_back({{"run_id", event.name},
+                      {"L_expected_m", number_or_null(row.length)},
+                      {"L_on_lower_line_m", number_or_null(row.length_upper)},
+                      {"L_over_expected", number_or_null(row.ratio)},
+                      {"exceedance_probability", number_or_null(row.exceedance)}});
+    }
+    list.push_back({{"relation", relation.id},
+                    {"group", relation.group},
+                    {"path", relation.path},
+                    {"source", relation.source},
+                    {"from_memory", relation.from_memory},
+                    {"runs", rows}});
+  }
+  return list;
+}
+
+}  // namespace talus

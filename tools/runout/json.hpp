@@ -1,0 +1,23 @@
+// tools/runout/json.hpp
+// How far runs came, as talus-runout writes it to JSON. Keys: docs/formats.md#run-out
+#pragma once
+
+#include <vector>
+
+#include "post/runout/mobility.hpp"
+#include "post/runout/runout_runs.hpp"
+#include "tools/frame/tool.hpp"
+
+namespace talus {
+
+[[nodiscard]] Json balance_json(const Balance& balance);
+
+/// `friction_deg`: shown beside H/L of the centre of mass; NaN: not shown.
+[[nodiscard]] Json run_json(const RunoutRun& run, double friction_deg);
+
+[[nodiscard]] Json spread_json(const std::vector<RunoutRun>& runs);
+
+[[nodiscard]] Json mobility_json(const std::vector<MobilityRelation>& relations,
+                                 const std::vector<MobilityEvent>& events);
+
+}  // namespace talus

@@ -1,0 +1,138 @@
+// tools/runout/talus_runout.cpp
+// How far runs came: deposit, paths, streamline, angle of reach, mobility. Page:
+// docs/tools/talus-runout.md
+#include <cmath>
+
+#include "io/geopackage_gdal.hpp"
+#include "post/maps/map_layers.hpp"
+#include "post/maps/map_style.hpp"
+#include "post/runout/mobility.hpp"
+#include "post/runout/runout_text.hpp"
+#include "tools/frame/command_line.hpp"
+#include "tools/frame/fault_json.hpp"
+#include "tools/frame/map_output.hpp"
+#include "tools/frame/moved_json.hpp"
+#include "tools/frame/run_inputs.hpp"
+#include "tools/frame/shipped_data.hpp"
+#include "tools/runout/json.hpp"
+#include "tools/runout/layers.hpp"
+
+namespace {
+
+using namespace talus;  // NOLINT: a program of its own
+
+struct Options {
+  std::string out, json, csv, run_table, svg, curves, thickness, mobility;
+  double tolerance_m = 0.5, friction_deg = std::nan("");
+  bool confined = false;
+};
+
+void declare(Tool& tool, Options& o) {
+  tool.output("-o,--out", o.out, "deposit, paths, streamlines, envelope (GeoPackage)")->required();
+  tool.json_output(o.json, "run-out of the event, runs and relations (JSON)");
+  tool.output("--csv", o.csv, "one row a block (CSV)");
+  tool.output("--run-table", o.run_table, "one row a run: what moved, H, L, angle of reach (CSV)");
+  tool.output("--curves", o.curves, "speed, energy and centre of mass over time (CSV)");
+  tool.output("--svg", o.svg, "where the event lies among the mobility relations (SVG)");
+  tool.output("--thickness", o.thickness, "mean thickness of the deposit (GeoTIFF)");
+  tool.input("--mobility", o.mobility, "relations to compare with (CSV) [share/mobility.csv]");
+  tool.option("--path-tolerance-m", o.tolerance_m,
+              "no point of a block's path lies farther from its simplified path [m]")
+      ->check(number_between(1e-6, 1e6));
+  tool.option("--friction-deg", o.friction_deg,
+              "angle of friction, shown beside H_cm/L_cm [deg]; nan: not shown")
+      ->check(number_between(0, 89, true));
+  tool.flag("--confined", o.confined, "the path is laterally confined (for the relations)");
+  tool.footer("Example:\n  talus-runout run.h5 --trn slope.tif -o runout.gpkg --json runout.json");
+}
+
+RunoutRuns read_runs(RunInputs& inputs, const Options& o, const Trn& trn) {
+  const ReachSettings settings{o.tolerance_m, inputs.rest_speed_m_s};
+  std::vector<RunoutRun> runs;
+  PassageGrid grid;
+  inputs.read({.crossings = false, .checkpoint = false}, [&](RunFile& run, int index) {
+    grid = run.grid.n_rows > 0 ? run.grid : passage_grid(trn, 0);
+    runs.push_back(runout_run(run, inputs.members[index], grid, trn, settings));
+  });
+  return add_up(std::move(runs), grid);
+}
+
+// The relations mostly use the chord or the axis of the path: L is the chord.
+std::vector<MobilityEvent> events_of(const std::vector<RunoutRun>& runs, bool confined) {
+  std::vector<MobilityEvent> events;
+  for (const RunoutRun& r : runs)
+    if (r.event.moved.any())
+      events.push_back({r.member.info.run_id, r.balance.released, r.event.event.height,
+                        r.event.event.chord, confined});
+  return events;
+}
+
+void write_thickness(Tool& tool, const Options& o, const RunoutRuns& all, const Trn& trn,
+                     const MapTags& tags, const std::string& remark) {
+  MapLayer layer =
+      make_layer(deposit_kind(), {{}, all.deposit, all.grid.cell_size, all.released, {}});
+  layer.bands.erase(layer.bands.begin(), layer.bands.begin() + 2);
+  write_map(tool, map_frame(trn, all.grid, false, layer.cell), o.thickness, layer,
+            map_style(layer, remark), tags);
+}
+
+// Where little moved, the reach of a few blocks must not look like that of the volume.
+void warn_of_standing_mass(Tool& tool, const RunoutRuns& all) {
+  if (const std::string words = standing_runs(all.runs); !words.empty())
+    tool.warn(words + ": no run-out, left out of means and of H, L and the angle of reach");
+  if (const std::string words = standing_mass_warning(all.moved);
+      !words.empty() && n_moved(all.runs) > 0)
+    tool.warn(words);
+}
+
+void run_tool(Tool& tool, Options& o, RunInputs& inputs) {
+  const std::vector<MobilityRelation> relations = mobility_relations(
+      o.mobility.empty() ? parse_csv(shipped_data("mobility.csv"), "share/mobility.csv")
+                         : read_csv(o.mobility));
+  const Trn& trn = inputs.trn();
+  const RunoutRuns all = read_runs(inputs, o, trn);
+  MapTags tags = tags_of(inputs.members);
+  tags.insert(tags.begin(), {{"RUN_ID", tool.run_id()}, {"RUN_SET", inputs.run_set()}});
+  const std::string remark = inputs.remark();
+  if (!remark.empty()) tags.emplace_back("REMARK", remark);
+  if (inputs.n_missing > 0) tags.emplace_back("N_MISSING", std::to_string(inputs.n_missing));
+  inputs.warn_of_ends();
+  warn_of_standing_mass(tool, all);
+
+  std::vector<VectorLayer> layers = runout_layers(all, trn.origin, o.tolerance_m);
+  mark_layers(layers, remark);
+  write_geopackage(tool.stage(o.out), trn.crs_wkt, layers, tags);
+  const std::vector<MobilityEvent> events = events_of(all.runs, o.confined);
+  if (!o.csv.empty()) tool.write_text(o.csv, block_csv(all.runs));
+  if (!o.run_table.empty()) tool.write_text(o.run_table, run_csv(all.runs));
+  if (!o.curves.empty()) tool.write_text(o.curves, curve_csv(all.runs, trn.origin));
+  if (!o.svg.empty()) tool.write_text(o.svg, mobility_svg(relations, events));
+  if (!o.thickness.empty()) write_thickness(tool, o, all, trn, tags, remark);
+
+  Json runs = Json::array(), tag_list;
+  for (const RunoutRun& r : all.runs) runs.push_back(run_json(r, o.friction_deg));
+  for (const auto& [key, value] : tags) tag_list[key] = value;
+  Json result = {{"run_id", tool.run_id()},
+                 {"tags", tag_list},
+                 {"n_runs", all.runs.size()},
+                 {"n_runs_moved", n_moved(all.runs)},
+                 {"moved", moved_json(all.moved)},
+                 {"balance", balance_json(all.balance)},
+                 {"swept_area_m2", swept_area(all)},
+                 {"path_tolerance_m", o.tolerance_m},
+                 {"spread_over_runs", spread_json(all.runs)},
+                 {"runs", runs},
+                 {"mobility", mobility_json(relations, events)}};
+  add_faults(result, faults_of(inputs.members));
+  tool.result(result, runout_summary(all));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  Tool tool("talus-runout", "How far runs came: deposit, paths, angle of reach, mobility.");
+  RunInputs runs(tool);
+  declare(tool, options);
+  return tool.run(argc, argv, [&] { run_tool(tool, options, runs); });
+}

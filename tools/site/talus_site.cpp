@@ -1,0 +1,280 @@
+// tools/site/talus_site.cpp
+// Parts the site file into what each stage reads, so that make repeats a stage only when its own
+// settings have changed. Page: docs/tools/talus-site.md
+#include <algorithm>
+#include <cctype>
+#include <cstring>
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include "base/read_file.hpp"
+#include "base/source_path.hpp"
+#include "base/text.hpp"
+#include "io/dataset_files_gdal.hpp"
+#include "tools/frame/file_paths.hpp"
+#include "tools/frame/site_options.hpp"
+#include "tools/frame/site_stages.hpp"
+#include "tools/frame/tool.hpp"
+#include "tools/site/file_digests.hpp"
+
+namespace {
+
+using namespace talus;  // NOLINT: a program of its own
+namespace fs = std::filesystem;
+
+// Text of a TOML string without its quotes.
+std::string unquoted(const std::string& toml) {
+  return toml.size() >= 2 && (toml[0] == '\'' || toml[0] == '"') ? toml.substr(1, toml.size() - 2)
+                                                                 : toml;
+}
+
+// Keys whose value is the name of a file.
+bool names_a_file(const std::string& section, const std::string& key) {
+  static const std::set<std::string> keys = {"contours", "breaklines", "spots",         "boundary",
+                                             "dem",      "raster",     "ground_raster", "file"};
+  if (section == "site" || section == "solver" || section == "output") return false;
+  return keys.count(key) > 0 || (key.size() > 5 && key.ends_with("_file"));
+}
+
+std::string file_named(const Site& site, const EffectiveValue& value) {
+  if (value.value.empty() || !names_a_file(value.section, value.key)) return "";
+  const std::string file = file_of(resolved(site, unquoted(value.value)));
+  return is_virtual(file) ? "" : file;
+}
+
+// A file that is missing stops make here, once, and not in the middle of the pipeline.
+void check_files(const Site& site) {
+  for (const EffectiveValue& value : effective_values(site)) {
+    const std::string file = file_named(site, value);
+    if (!file.empty() && !fs::exists(file))
+      throw InputError(where_of(site, value.section + "." + value.key),
+                       value.key + " of [" + value.section + "]: there is no file " + file,
+                       "names are relative to the folder of the site file");
+  }
+}
+
+// A daylighting failure surface depends on the friction of the ground, so on [ground.*] too.
+bool is_read(const Site& site, const std::string& stage, const EffectiveValue& value) {
+  if (stage_reads(stage, value)) return true;
+  const bool is_ground = value.section.starts_with("ground.") || value.key == "ground_raster";
+  return is_ground && stage == "blocks" && site.source.failure_surface == "daylighting";
+}
+
+// Digests of the files that a data set is made of. GDAL does not name the encoding of a Shapefile.
+std::string digests_of(const std::string& path, FileDigests& digests) {
+  const std::vector<std::string> members = dataset_files(path);
+  std::set<std::string> files(members.begin(), members.end());
+  for (const std::string& file : sidecars_of(path))
+    if (fs::is_regular_file(file)) files.insert(file);
+  std::string out;
+  for (const std::string& file : files) out += " " + digests.of(file);
+  return out;
+}
+
+// What a stage reads, a line a value; files by their content.
+std::string settings_of(const Site& site, const std::string& stage, FileDigests& digests) {
+  std::string out = "# what the stage " + stage + " reads of the site file\n";
+  for (const EffectiveValue& value : effective_values(site)) {
+    if (value.value.empty() || !is_read(site, stage, value)) continue;
+    out += value.section + "." + value.key + " = " + value.value;
+    const std::string file = file_named(site, value);
+    if (!file.empty()) out += "  # sha256" + digests_of(file, digests);
+    out += "\n";
+  }
+  return out;
+}
+
+// --- files that make was given -----------------------------------------------------------------
+
+// NAME=FILE or NAME=: the name of a list, and a file of it.
+struct GivenFile {
+  std::string name, file;
+};
+
+GivenFile given_file(const std::string& words) {
+  const std::size_t sign = words.find('=');
+  const std::string name = words.substr(0, sign);
+  if (sign == std::string::npos || name.empty() || name.find('/') != std::string::npos)
+    throw UsageError({"", 0, "--given"}, "is " + words + ", expected NAME=FILE or NAME=",
+                     "NAME becomes the name of a file, NAME.files");
+  return {name, words.substr(sign + 1)};
+}
+
+// A list a name: its files and their digests.
+std::map<std::string, std::string> lists_of(const std::vector<std::string>& given,
+                                            FileDigests& digests) {
+  std::map<std::string, std::string> lists;
+  for (const std::string& words : given) {
+    const auto [name, file] = given_file(words);
+    std::string& list = lists[name];
+    if (list.empty()) list = "# files that make was given for " + name + "\n";
+    if (file.empty()) continue;
+    const std::string read = file_of(file);
+    list += file + "  # sha256" + (is_virtual(read) ? " none" : digests_of(read, digests)) + "\n";
+  }
+  return lists;
+}
+
+// --- variables for make ------------------------------------------------------------------------
+
+// A word in a recipe: quoted for the shell, with make's own sign doubled.
+std::string shell_word(const std::string& word, const Site& site) {
+  std::string out = "'";
+  for (const char c : word) {
+    if (std::iscntrl(static_cast<unsigned char>(c)) != 0)
+      throw InputError({site.file}, "\"" + word + "\" holds a line break or control character",
+                       "take it out: the value stands in a makefile");
+    out += c == '\'' ? "'\\''" : c == '$' ? "$$" : std::string(1, c);
+  }
+  return out + "'";
+}
+
+// A name that stands in rules and recipes: whatever means something to make or to the shell is
+// refused, so that a site file can name things but not give orders.
+const std::string& plain_name(const std::string& name, const Where& where) {
+  for (const char c : name)
+    if (static_cast<unsigned char>(c) < 0x80 && std::isalnum(static_cast<unsigned char>(c)) == 0 &&
+        std::strchr("_-+=,./@ #:%", c) == nullptr)
+      throw InputError(where, "the name " + name + " cannot stand in a makefile",
+                       "use letters, digits, blanks and _-+=,./@#:%");
+  return name;
+}
+
+// The name of a file as a prerequisite.
+std::string make_word(const std::string& path, const Site& site) {
+  std::string out;
+  for (const char c : plain_name(path, {site.file}))
+    out += c == ' ' || c == '#' || c == ':' || c == '%' ? std::string("\\") + c : std::string(1, c);
+  return out;
+}
+
+std::string joined(const std::vector<double>& numbers) {
+  std::string out;
+  for (const double number : numbers) out += (out.empty() ? "" : ",") + text(number);
+  return out;
+}
+
+// A rule names the file of the contours alone; what else their name says becomes an option.
+std::string layer_of(const Site& site, const SourcePath& contours) {
+  const std::string& by_key = site.terrain.layer;
+  if (!contours.layer_id.empty())
+    throw InputError(where_of(site, "terrain.contours"),
+                     "contours asks for a layer by its number, " + contours.layer_id,
+                     "name it: layer = \"...\"");
+  if (contours.layer.empty() || by_key.empty() || by_key == contours.layer)
+    return contours.layer.empty() ? by_key : contours.layer;
+  throw InputError(where_of(site, "terrain.layer"),
+                   "layer is " + by_key + ", contours asks for the layer " + contours.layer,
+                   "name the layer once");
+}
+
+std::string filter_of(const Site& site, const SourcePath& contours) {
+  const std::string &a = contours.subset, &b = site.terrain.where;
+  return a.empty() || b.empty() ? a + b : "(" + a + ") AND (" + b + ")";
+}
+
+std::string tin_flags(const Site& site) {
+  const TerrainSettings& t = site.terrain;
+  std::string out;
+  const auto add = [&out, &site](const char* option, const std::string& value) {
+    if (!value.empty()) out += std::string(" ") + option + " " + shell_word(value, site);
+  };
+  const SourcePath contours = parse_source_path(resolved(site, t.contours));
+  add("--layer", layer_of(site, contours));
+  add("--where", filter_of(site, contours));
+  add("--elevation-field", t.elevation_field);
+  add("--breaklines", resolved(site, t.breaklines));
+  add("--breaklines-layer", t.breaklines_layer);
+  add("--breaklines-where", t.breaklines_where);
+  add("--breaklines-elevation-field", t.breaklines_elevation_field);
+  add("--spots", resolved(site, t.spots));
+  add("--spots-layer", t.spots_layer);
+  add("--spots-where", t.spots_where);
+  add("--spots-elevation-field", t.spots_elevation_field);
+  add("--boundary", resolved(site, t.boundary));
+  add("--boundary-layer", t.boundary_layer);
+  add("--boundary-where", t.boundary_where);
+  add("--flat", t.flat);
+  return out;
+}
+
+std::string trn_flags(const Site& site) {
+  const TerrainSettings& t = site.terrain;
+  std::string out;
+  if (!std::isnan(t.cell_size_m)) out += " --cell-size-m " + text(t.cell_size_m);
+  if (!t.window_m.empty()) out += " --window " + joined(t.window_m);
+  return out;
+}
+
+// A member of an archive that is named by itself stands in the rule by GDAL's name for it.
+std::string contours_file(const Site& site) {
+  const SourcePath contours = parse_source_path(resolved(site, site.terrain.contours));
+  const bool is_member = contours.inside.find('/') == 0;
+  return is_member || is_virtual(contours.source) ? contours.source : contours.file;
+}
+
+std::string make_variables(const Site& site) {
+  std::string fences;
+  for (const FenceSettings& fence : site.fences) {
+    if (fence.name.find_first_of(" #%") != std::string::npos)
+      throw InputError(where_of(site, "fence." + fence.name),
+                       "the fence's name " + fence.name + " cannot stand in a makefile",
+                       "use letters, digits and _-+=,./@:");
+    fences += " " + plain_name(fence.name, where_of(site, "fence." + fence.name));
+  }
+  const bool any_active = std::any_of(site.fences.begin(), site.fences.end(),
+                                      [](const FenceSettings& fence) { return fence.active; });
+  std::string out = "# written by talus-site from the site file\n";
+  const auto line = [&out](const char* name, const std::string& value) {
+    out += std::string(name) + " :=" + (value.empty() || value[0] == ' ' ? "" : " ") + value + "\n";
+  };
+  line("SITE_CONTOURS", make_word(contours_file(site), site));
+  line("SITE_DEM", make_word(resolved(site, site.terrain.dem), site));
+  line("SITE_TIN_FLAGS", tin_flags(site));
+  line("SITE_TRN_FLAGS", trn_flags(site));
+  line("SITE_RUNS", std::to_string(site.solver.n_runs));
+  line("SITE_SEED", std::to_string(site.solver.seed));
+  line("SITE_FENCES", fences);
+  line("SITE_FENCES_STAND", any_active ? "yes" : "");
+  return out;
+}
+
+// --- the whole ---------------------------------------------------------------------------------
+
+// A file that holds this already keeps its time, so that make sees no change.
+void write_if_changed(Tool& tool, const fs::path& path, const std::string& content) {
+  if (fs::exists(path) && read_file(path.string()) == content) return;
+  tool.write_text(path.string(), content);
+  tool.detail("changed: " + path.string());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::string folder;
+  std::vector<std::string> given;
+  Tool tool("talus-site", "Parts the site file into what each stage of the pipeline reads.");
+  SiteOptions site_options(tool);
+  tool.output_folder("-o,--out", folder, "folder for a file a stage, and site.mk")->required();
+  tool.app()
+      .add_option(
+          "--given", given,
+          "NAME=FILE: a file that make was given; DIR/NAME.files lists those of a NAME with "
+          "their digests")
+      ->allow_extra_args(false);
+  tool.footer("Example:\n  talus-site site.toml -o out/stages --overwrite --no-db");
+  return tool.run(argc, argv, [&] {
+    const Site& site = site_options.load();
+    const std::string variables = make_variables(site);
+    check_files(site);
+    const fs::path out = folder, memory = out / ".digests";
+    FileDigests digests(fs::is_regular_file(memory) ? read_file(memory.string()) : "");
+    write_if_changed(tool, out / "site.mk", variables);
+    for (const std::string& stage : stage_names())
+      write_if_changed(tool, out / (stage + ".txt"), settings_of(site, stage, digests));
+    for (const auto& [name, list] : lists_of(given, digests))
+      write_if_changed(tool, out / (name + ".files"), list);
+    write_if_changed(tool, memory, digests.as_text());
+  });
+}

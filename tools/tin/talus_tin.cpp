@@ -1,0 +1,396 @@
+// tools/tin/talus_tin.cpp
+// Contour lines to a triangulated irregular network. Page: docs/tools/talus-tin.md
+#if __has_include(<malloc.h>)
+#include <malloc.h>
+#endif
+
+#include "base/text.hpp"
+#include "io/contours_gdal.hpp"
+#include "io/crs_gdal.hpp"
+#include "io/crs_operation_gdal.hpp"
+#include "io/tin_ply.hpp"
+#include "terrain/flat.hpp"
+#include "terrain/outliers.hpp"
+#include "terrain/point_tin.hpp"
+#include "terrain/tin_mesh.hpp"
+#include "tools/frame/command_line.hpp"
+#include "tools/frame/tool.hpp"
+#include "tools/frame/vector_inputs.hpp"
+#include "tools/tin/doubts.hpp"
+
+namespace {
+
+using talus::add_layer_options;
+using talus::ContourMap;
+using talus::InputError;
+using talus::Json;
+using talus::text;
+using talus::Tool;
+using talus::UsageError;
+
+struct Options {
+  talus::ContourSources sources;
+  std::string out, crs, t_srs, vertical_crs, t_vertical, report, hold_out;
+  std::string flat = "fill";
+  double fill_spacing_m = 0;
+  int hold_out_every = 0;
+  bool of_points = false;
+  talus::DoubtOptions doubts;
+};
+
+std::string check_not_negative(const std::string& word) {
+  double value = 0;
+  if (talus::parse_double(word, value) && value >= 0) return {};
+  return word + " is no distance, expected metres, 0 or more";
+}
+
+std::string check_positive(const std::string& word) {
+  double value = 0;
+  if (talus::parse_double(word, value) && value > 0) return {};
+  return word + " is no unit, expected metres above 0";
+}
+
+std::string check_every(const std::string& word) {
+  double value = 0;
+  if (talus::parse_double(word, value) && value >= 2 && value == static_cast<int>(value)) return {};
+  return word + " is no step, expected a whole number of 2 or more";
+}
+
+void declare(Tool& tool, Options& o) {
+  talus::ContourSources& s = o.sources;
+  tool.input("contours", s.contours.path, "contour lines (any vector source that GDAL reads)");
+  tool.output("-o,--out", o.out, "TIN to write (binary PLY)")->required();
+  add_layer_options(tool, "--", "the contours", s.contours);
+  tool.option("--elevation-field", s.contours.elevation_field,
+              "field with the elevation; Z: the geometries' own; empty: found by itself");
+  tool.input("--labels", s.labels.path,
+             "texts beside the contours that say their heights (e.g. the same DXF drawing)");
+  add_layer_options(tool, "--labels-", "the labels", s.labels);
+  tool.option("--labels-field", s.labels.elevation_field, "field with their text; empty: Text");
+  tool.option("--unit-m", s.contours.unit_m,
+              "metres in one unit of the contours, in plan and height; 0: metres, or refused where "
+              "a drawing says another unit")
+      ->check(check_positive);
+  tool.option("--elevation-unit-m", s.elevation_unit_m,
+              "metres in one unit of all elevations; 0: that of the plan")
+      ->check(check_positive);
+  tool.input("--breaklines", s.breaklines.path, "lines with heights where the slope breaks");
+  add_layer_options(tool, "--breaklines-", "the breaklines", s.breaklines);
+  tool.option("--breaklines-elevation-field", s.breaklines.elevation_field,
+              "field with their elevation, or Z; empty: found by itself");
+  tool.option("--breaklines-unit-m", s.breaklines.unit_m, "as --unit-m, for them")
+      ->check(check_positive);
+  tool.input("--spots", s.spots.path, "spot heights (points)");
+  add_layer_options(tool, "--spots-", "the spot heights", s.spots);
+  tool.option("--spots-elevation-field", s.spots.elevation_field,
+              "field with their elevation, or Z; empty: found by itself");
+  tool.option("--spots-unit-m", s.spots.unit_m, "as --unit-m, for them")->check(check_positive);
+  tool.input("--boundary", s.boundary.path,
+             "polygons or closed lines: triangles with their centre outside go");
+  add_layer_options(tool, "--boundary-", "the boundary", s.boundary);
+  tool.option("--boundary-unit-m", s.boundary.unit_m, "as --unit-m, for them")
+      ->check(check_positive);
+  tool.option("--crs", o.crs,
+              "CRS of contours that have none, or one that cannot be true; none: local metres");
+  tool.option("--t-srs", o.t_srs, "reproject to this CRS, e.g. EPSG:32632 (heights stay)");
+  tool.option("--vertical-crs", o.vertical_crs,
+              "what the heights are in, e.g. EPSG:5773, or ellipsoidal");
+  tool.option("--t-vertical", o.t_vertical, "take the heights to this system, e.g. EPSG:5773");
+  tool.flag("--accept-ballpark", s.accept_ballpark,
+            "reproject also where nothing is known of the datum");
+  tool.option("--flat", o.flat, "flat triangles on summits, ridges, valley floors: fill or keep")
+      ->check(CLI::IsMember({"fill", "keep"}));
+  tool.option("--fill-spacing-m", o.fill_spacing_m,
+              "distance of the points that mend flat triangles [m]; 0: from the map")
+      ->check(check_not_negative);
+  tool.option("--hold-out-every", o.hold_out_every,
+              "hold back the contours at every K-th height, K >= 2; 0: none")
+      ->check(check_every);
+  tool.output("--hold-out", o.hold_out, "points of the contours held back (GeoPackage)");
+  tool.flag("--points", o.of_points,
+            "the source holds points of the ground, not contours: a vector layer, CSV or XYZ");
+  tool.option("--tolerance-m", o.doubts.tolerance_m,
+              "contours of different heights that meet are moved apart by at most this [m]; "
+              "0: refused; not given: the accuracy that their bends show")
+      ->check(check_not_negative);
+  tool.output("--doubts", o.doubts.layer,
+              "places to look at, also of a map that is refused (GeoPackage)");
+  tool.flag("--accept-doubts", o.doubts.accept, "take heights that cannot be, and say so");
+  tool.output("--report", o.report, "what was read, cleaned and mended (JSON)");
+  tool.footer(
+      "Example:\n  talus-tin contours.gpkg -o slope.tin.ply --report slope.tin.json\n"
+      "  talus-tin map.dxf -o slope.tin.ply --crs EPSG:31287 --spots heights.gpkg");
+}
+
+// --- steps ---------------------------------------------------------------------------------------
+
+void check_together(const Options& o) {
+  if ((o.hold_out_every > 0) == !o.hold_out.empty()) return;
+  throw UsageError({"", 0, o.hold_out.empty() ? "--hold-out-every" : "--hold-out"},
+                   "--hold-out-every and --hold-out go together, only one is given");
+}
+
+void read_crs_options(Options& o) {
+  o.sources.crs_given = !o.crs.empty();
+  talus::from_command_line([&] {
+    if (!o.crs.empty()) o.sources.crs = talus::crs_from_user(o.crs, "--crs");
+    if (!o.t_srs.empty()) o.sources.t_srs = talus::crs_from_user(o.t_srs, "--t-srs");
+    if (!o.vertical_crs.empty())
+      o.sources.vertical_crs = talus::vertical_crs_from_user(o.vertical_crs, "--vertical-crs");
+    if (!o.t_vertical.empty())
+      o.sources.t_vertical = talus::target_heights_from_user(o.t_vertical, "--t-vertical");
+  });
+}
+
+// What was read, from where, and what was done on the way in.
+void say_reading(Tool& tool, const Options& o, const talus::ContourReading& reading) {
+  tool.info("elevation from " + reading.elevation_from + " of layer " + reading.layer +
+            (reading.contours.unit_m == 1
+                 ? ""
+                 : ", in units of " + text(reading.contours.unit_m) + " m"));
+  for (const std::string& note : reading.notes) tool.info(note);
+  for (const std::string& operation : reading.operations) {
+    tool.info(operation);
+    tool.record(operation);
+  }
+  for (const std::string& warning : reading.warnings) tool.warn(warning);
+  const std::pair<const char*, const talus::LayerReading*> sources[] = {
+      {o.of_points ? "points" : "contours", &reading.contours},
+      {"labels", &reading.labels},
+      {"breaklines", &reading.breaklines},
+      {"spots", &reading.spots},
+      {"boundary", &reading.boundary}};
+  for (const auto& [role, taken] : sources)
+    if (!taken->file.empty()) tool.layer_read(talus::entry_on(*taken, role));
+}
+
+ContourMap read_map(Tool& tool, Options& o, talus::ContourReading& reading) {
+  read_crs_options(o);
+  ContourMap map = talus::read_contours(o.sources, reading);
+  talus::check_heights(map);
+  say_reading(tool, o, reading);
+  return map;
+}
+
+// Arrays of a large map each get pages of their own, which go back to the system with them; what is
+// smaller stays for the next step. By default glibc keeps arrays of up to 32 MB, in the way of
+// others.
+void keep_large_arrays_apart() {
+#ifdef __GLIBC__
+  mallopt(M_MMAP_THRESHOLD, 12 << 20);
+  mallopt(M_TRIM_THRESHOLD, 128 << 20);
+#endif
+}
+
+// What a step has freed goes back to the system, so that the next one does not come on top of it.
+void give_memory_back() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+}
+
+// Brings the mesh up to date, inside the boundary.
+void refresh_inside(const ContourMap& map, talus::Triangulation& triangulation, const Options& o,
+                    bool only_triangles, talus::TriangleMesh& mesh) {
+  triangulation.refresh(mesh, only_triangles);
+  talus::cut_to_rings(map.boundary, mesh);
+  if (mesh.triangles.empty())
+    throw InputError({o.sources.boundary.path}, "the boundary and the contours share no ground");
+}
+
+Json as_json(const talus::CleaningCounts& c) {
+  return {{"duplicate_points", c.duplicate_points},
+          {"duplicate_segments", c.duplicate_segments},
+          {"touches_at_one_height", c.touches},
+          {"crossings_at_one_height", c.crossings},
+          {"lines_of_one_point", c.single_points},
+          {"breaklines_and_spots_on_contours", c.breakline_meetings}};
+}
+
+Json as_json(const ContourMap& map, const talus::ContourReading& reading) {
+  const std::vector<double> levels = talus::contour_levels(map);
+  return {{"n_features", reading.n_features},
+          {"n_lines", map.contours.n_lines()},
+          {"n_points", map.contours.points.size()},
+          {"n_heights", levels.size()},
+          {"lowest_m", levels.front() + map.origin.z()},
+          {"highest_m", levels.back() + map.origin.z()},
+          {"interval_m", talus::contour_interval(map)},
+          {"n_breaklines", map.breaklines.n_lines()},
+          {"n_spots", map.spots.size()}};
+}
+
+// Adds points to the triangulation that mend its flat triangles; what was done goes to `report`.
+void mend(Tool& tool, const Options& o, const ContourMap& map,
+          const std::vector<std::uint8_t>& flat, double interval,
+          talus::Triangulation& triangulation, talus::TriangleMesh& mesh, Json& report) {
+  const talus::MendingPoints mended =
+      talus::mend_flat_triangles(mesh, flat, {interval, o.fill_spacing_m}, tool.progress());
+  mesh.triangles = {};
+  give_memory_back();
+  triangulation.fix_edges(mended.border);
+  triangulation.add(mended.points);
+  refresh_inside(map, triangulation, o, true, mesh);
+  report["spacing_m"] = mended.spacing;
+  report["n_points_added"] = mended.points.size();
+  report["largest_change_m"] = mended.largest_change;
+  if (mended.n_unsolved > 0)
+    tool.warn(std::to_string(mended.n_unsolved) + " places were left flat: nothing holds them");
+}
+
+// Triangles of the cleaned lines, mended as asked for. Frees what it no longer needs as it goes.
+talus::TriangleMesh make_mesh(Tool& tool, const Options& o, ContourMap& map, Json& report) {
+  const double interval = talus::contour_interval(map);
+  std::vector<talus::DoubtRow> rows = talus::rows_below_land(map);
+  talus::CleanLines clean = talus::clean_or_mend(tool, o.doubts, map, rows, report);
+  const talus::LineFeatures features{map.contours.feature, map.breaklines.feature};
+  const int n_lines =
+      map.contours.n_lines() + map.breaklines.n_lines() + static_cast<int>(map.spots.size());
+  talus::forget_lines(map);
+  report["cleaning"] = as_json(clean.counts);
+  const talus::MeasuredPoints measured{clean.n_contour_points,
+                                       static_cast<int>(clean.points.size())};
+  talus::Triangulation triangulation(std::move(clean.points), clean.segments, map.source);
+  clean.segments = {};
+  talus::TriangleMesh mesh;
+  refresh_inside(map, triangulation, o, o.flat == "keep", mesh);
+  const std::vector<talus::DoubtRow> off = talus::rows_of(
+      talus::find_outliers(mesh, {std::move(clean.line), measured.first, n_lines}, interval),
+      features, map.origin);
+  rows.insert(rows.end(), off.begin(), off.end());
+  report["in_doubt"] = talus::say_doubts(tool, o.doubts, map.source, map.crs_wkt, rows);
+  if (o.doubts.accept) report["doubts_accepted"] = true;
+  const std::vector<std::uint8_t> flat = find_flat_triangles(mesh, measured);
+  const talus::AreaShare before = area_of(mesh, flat);
+  report["flat"] = {{"mode", o.flat}, {"share_before", before.share()}};
+  if (o.flat == "fill" && before.marked_m2 > 0)
+    mend(tool, o, map, flat, interval, triangulation, mesh, report["flat"]);
+  const talus::AreaShare after = area_of(mesh, find_flat_triangles(mesh, measured));
+  report["flat"]["share_after"] = after.share();
+  report["area_m2"] = after.all_m2;
+  tool.metric("flat_share_before", before.share(), "1");
+  tool.metric("flat_share_after", after.share(), "1");
+  return mesh;
+}
+
+std::string summary_of(const Json& report) {
+  const auto percent = [](const Json& value) { return text(100 * value.get<double>(), 3) + " %"; };
+  const Json &contours = report["contours"], &tin = report["tin"], &flat = report["flat"];
+  return std::to_string(contours["n_lines"].get<int>()) + " contours, " +
+         std::to_string(contours["n_points"].get<std::size_t>()) + " points, every " +
+         text(contours["interval_m"].get<double>(), 6) + " m from " +
+         text(contours["lowest_m"].get<double>(), 8) + " to " +
+         text(contours["highest_m"].get<double>(), 8) + " m\n" +
+         std::to_string(tin["n_points"].get<std::size_t>()) + " points, " +
+         std::to_string(tin["n_triangles"].get<std::size_t>()) + " triangles; flat " +
+         percent(flat["share_before"]) + " of the area, " + percent(flat["share_after"]) +
+         (flat["mode"] == "fill" ? " after mending" : " (kept)");
+}
+
+Json build(Tool& tool, Options& o, talus::Tin& tin) {
+  talus::ContourReading reading;
+  ContourMap map = read_map(tool, o, reading);
+  Json report = {{"tool", "talus-tin"},
+                 {"source", o.sources.contours.path},
+                 {"run_id", tool.run_id()},
+                 {"layer", reading.layer},
+                 {"elevation_from", reading.elevation_from},
+                 {"crs", talus::crs_name(map.crs_wkt)},
+                 {"contours", as_json(map, reading)},
+                 {"layers_read", tool.layers_read()}};
+  if (o.hold_out_every > 0) {
+    const auto held_back = talus::hold_back_contours(o.hold_out_every, map);
+    talus::check_heights(map);
+    talus::write_points(tool.stage(o.hold_out), "held_back", map.crs_wkt, map.origin, held_back);
+    report["held_back"] = {{"every", o.hold_out_every}, {"n_points", held_back.size()}};
+  }
+  tin = talus::to_tin(make_mesh(tool, o, map, report), map);
+  report["tin"] = {{"n_points", tin.points.size()}, {"n_triangles", tin.triangles.size()}};
+  report["notes"] = reading.notes;
+  report["operations"] = reading.operations;
+  tool.metric("n_points", static_cast<double>(tin.points.size()), "1");
+  return report;
+}
+
+// --- points --------------------------------------------------------------------------------------
+
+void check_no_lines(const Options& o) {
+  const bool has_lines = !o.sources.breaklines.path.empty() || !o.sources.spots.path.empty() ||
+                         !o.sources.labels.path.empty() || o.hold_out_every > 0 ||
+                         !std::isnan(o.doubts.tolerance_m);
+  if (!has_lines) return;
+  throw UsageError(
+      {"", 0, "--points"},
+      "breaklines, spot heights, labels, --hold-out-every and --tolerance-m are for contours",
+      "leave them away, or --points");
+}
+
+Json build_of_points(Tool& tool, Options& o, talus::Tin& tin) {
+  check_no_lines(o);
+  talus::ContourReading reading;
+  read_crs_options(o);
+  ContourMap map = talus::read_ground_points(o.sources, reading);
+  say_reading(tool, o, reading);
+  std::vector<talus::DoubtRow> rows = talus::rows_below_land(map);
+  for (talus::DoubtRow& row : rows) row.what = "point";
+  talus::PointMesh found = talus::mesh_of_points(std::move(map.spots), map.source);
+  for (const talus::PointDoubt& doubt : found.doubts) {
+    talus::DoubtRow row;
+    row.what = "point";
+    row.place = doubt.place + map.origin;
+    row.expected_low = doubt.low + map.origin.z(), row.expected_high = doubt.high + map.origin.z();
+    row.outcome = doubt.is_impossible ? "refused" : "in doubt";
+    rows.push_back(std::move(row));
+  }
+  Json report = {{"tool", "talus-tin"},
+                 {"source", o.sources.contours.path},
+                 {"run_id", tool.run_id()},
+                 {"layer", reading.layer},
+                 {"elevation_from", reading.elevation_from},
+                 {"crs", talus::crs_name(map.crs_wkt)},
+                 {"points", {{"n_read", found.n_read}, {"n_repeated", found.n_repeated}}},
+                 {"layers_read", tool.layers_read()}};
+  report["in_doubt"] = talus::say_doubts(tool, o.doubts, map.source, map.crs_wkt, rows);
+  if (o.doubts.accept) report["doubts_accepted"] = true;
+  talus::cut_to_rings(map.boundary, found.mesh);
+  if (found.mesh.triangles.empty())
+    throw InputError({o.sources.boundary.path}, "the boundary and the points share no ground");
+  const talus::EdgeLengths edges = talus::edge_lengths(found.mesh);
+  report["points"]["median_edge_m"] = edges.median;
+  report["points"]["longest_edge_m"] = edges.longest;
+  if (edges.longest > 10 * edges.median)
+    tool.warn("triangles span gaps of up to " + text(edges.longest, 4) + " m between points " +
+              text(edges.median, 3) +
+              " m apart: nothing is known of the ground there; --boundary cuts them off");
+  tin = talus::to_tin(std::move(found.mesh), map);
+  report["tin"] = {{"n_points", tin.points.size()}, {"n_triangles", tin.triangles.size()}};
+  report["notes"] = reading.notes;
+  report["operations"] = reading.operations;
+  tool.metric("n_points", static_cast<double>(tin.points.size()), "1");
+  return report;
+}
+
+std::string summary_of_points(const Json& report) {
+  const Json &points = report["points"], &tin = report["tin"];
+  return std::to_string(points["n_read"].get<std::size_t>()) + " points of the ground, " +
+         text(points["median_edge_m"].get<double>(), 3) + " m apart\n" +
+         std::to_string(tin["n_points"].get<std::size_t>()) + " points, " +
+         std::to_string(tin["n_triangles"].get<std::size_t>()) + " triangles";
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  keep_large_arrays_apart();
+  Options o;
+  Tool tool("talus-tin", "Makes a triangulated irregular network (TIN) from contour lines.");
+  declare(tool, o);
+  return tool.run(argc, argv, [&] {
+    check_together(o);
+    talus::Tin tin;
+    const Json report = o.of_points ? build_of_points(tool, o, tin) : build(tool, o, tin);
+    talus::write_tin(tool.stage(o.out), tin);
+    if (!o.report.empty()) tool.write_text(o.report, report.dump(2) + "\n");
+    tool.result(report, o.of_points ? summary_of_points(report) : summary_of(report));
+  });
+}

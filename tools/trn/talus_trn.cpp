@@ -1,0 +1,553 @@
+// tools/trn/talus_trn.cpp
+// A TIN or a DEM to the terrain that blocks move on, and how good it is. Page:
+// docs/tools/talus-trn.md
+#include <limits>
+#include <optional>
+
+#include "base/text.hpp"
+#include "io/contours_gdal.hpp"
+#include "io/crs_gdal.hpp"
+#include "io/crs_operation_gdal.hpp"
+#include "io/crs_place_gdal.hpp"
+#include "io/hillshade_gdal.hpp"
+#include "io/raster_gdal.hpp"
+#include "io/tin_files_gdal.hpp"
+#include "terrain/elevation.hpp"
+#include "terrain/grid_tin.hpp"
+#include "terrain/ground_doubts.hpp"
+#include "terrain/lone_levels.hpp"
+#include "terrain/trn_quality.hpp"
+#include "tools/frame/command_line.hpp"
+#include "tools/frame/doubts_layer.hpp"
+#include "tools/frame/tool.hpp"
+#include "tools/frame/vector_inputs.hpp"
+
+namespace {
+
+using talus::DemFile;
+using talus::GridFrame;
+using talus::InputError;
+using talus::Json;
+using talus::MapWindow;
+using talus::text;
+using talus::Tool;
+using talus::Trn;
+
+constexpr double far = std::numeric_limits<double>::infinity();
+constexpr MapWindow everywhere{-far, -far, far, far};
+
+struct Options {
+  std::string source, out, window_text, t_srs, crs, like, reference, report, hillshade;
+  std::string vertical_crs, t_vertical;
+  bool accept_ballpark = false;
+  talus::LayerChoice reference_points, faces;
+  double cell_size_m = 0;
+  std::vector<std::string> creation_options;
+  MapWindow window = everywhere;
+  std::string doubts;
+  bool accept_doubts = false;
+};
+
+// --- command line ------------------------------------------------------------------------------
+
+std::string parse_window(const std::string& words, MapWindow& window) {
+  std::array<double, 4> number{};
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::size_t end = i < 3 ? words.find(',', begin) : words.size();
+    if (end == std::string::npos ||
+        !talus::parse_double(words.substr(begin, end - begin), number[i]))
+      return words + " is no window, expected XMIN,YMIN,XMAX,YMAX";
+    begin = end + 1;
+  }
+  window = {number[0], number[1], number[2], number[3]};
+  if (window.x_min < window.x_max && window.y_min < window.y_max) return {};
+  return "the window " + words + " has no area, expected XMIN < XMAX and YMIN < YMAX";
+}
+
+std::string check_positive(const std::string& word) {
+  double value = 0;
+  if (talus::parse_double(word, value) && value > 0) return {};
+  return word + " is no size, expected metres above 0";
+}
+
+void declare(Tool& tool, Options& o) {
+  tool.input("source", o.source, "TIN (PLY, LandXML, 3DFACE in DXF), or an elevation raster");
+  tool.output("-o,--out", o.out, "terrain to write (GeoTIFF)")->required();
+  talus::add_layer_options(tool, "--", "a drawing of faces", o.faces);
+  tool.option("--unit-m", o.faces.unit_m,
+              "metres in one unit of a drawing of faces, in plan and height; 0: metres, or refused "
+              "where it says another unit")
+      ->check(check_positive);
+  tool.option("--cell-size-m", o.cell_size_m,
+              "distance of the nodes [m]; 0: the DEM's own, or near that of the TIN's points")
+      ->check(check_positive);
+  tool.option("--window", o.window_text, "part to take, map coordinates: XMIN,YMIN,XMAX,YMAX [m]")
+      ->check([&o](const std::string& words) { return parse_window(words, o.window); });
+  tool.input("--like", o.like, "put the nodes on the cell centres of this raster");
+  tool.option("--t-srs", o.t_srs, "reproject a DEM to this CRS, e.g. EPSG:32632 (bilinear)");
+  tool.option("--crs", o.crs,
+              "CRS of a source that has none, or one that cannot be true; none: local metres");
+  tool.option("--vertical-crs", o.vertical_crs,
+              "what the heights are in, e.g. EPSG:5773, or ellipsoidal");
+  tool.option("--t-vertical", o.t_vertical,
+              "take the heights of a DEM to this system, e.g. EPSG:5773");
+  tool.flag("--accept-ballpark", o.accept_ballpark,
+            "reproject also where nothing is known of the datum");
+  tool.input("--reference", o.reference, "better known DEM to hold the terrain against");
+  tool.input("--reference-points", o.reference_points.path,
+             "points with a height to hold the terrain against (any vector source)");
+  talus::add_layer_options(tool, "--reference-points-", "the points", o.reference_points);
+  tool.option("--reference-points-elevation-field", o.reference_points.elevation_field,
+              "field with their elevation, or Z; empty: found by itself");
+  tool.output("--report", o.report, "errors, slopes, coverage (JSON)");
+  tool.output("--doubts", o.doubts,
+              "places to look at, also of ground that is refused (GeoPackage)");
+  tool.flag("--accept-doubts", o.accept_doubts, "take ground that cannot be, and say so");
+  tool.output("--hillshade", o.hillshade, "picture of the terrain (PNG)");
+  tool.app()
+      .add_option("--co", o.creation_options, "creation option of the GeoTIFF, NAME=VALUE")
+      ->allow_extra_args(false)
+      ->check(talus::check_creation_option);
+  tool.footer(
+      "Example:\n  talus-trn slope.ply -o slope.tif --cell-size-m 5 --report slope.json\n"
+      "  talus-trn dem.tif -o slope.tif --window 248400,351100,249200,351700");
+}
+
+// --- the terrain ---------------------------------------------------------------------------------
+
+std::string window_as_text(const MapWindow& w) {
+  return text(w.x_min, 10) + "," + text(w.y_min, 10) + " to " + text(w.x_max, 10) + "," +
+         text(w.y_max, 10);
+}
+
+// The part of a raster's lattice that is wanted, for a source in `crs_wkt`.
+GridFrame frame_like(const Options& o, const std::string& crs_wkt) {
+  talus::DemOptions lattice_options;
+  lattice_options.crs_may_be_missing = true;
+  const DemFile lattice(o.like, lattice_options);
+  if (!lattice.crs_wkt().empty() && !talus::same_crs(lattice.crs_wkt(), crs_wkt))
+    throw InputError({o.like},
+                     "the CRS is " + talus::crs_name(lattice.crs_wkt()) + ", that of " + o.source +
+                         " is " + talus::crs_name(crs_wkt),
+                     "--like needs the same CRS");
+  if (o.cell_size_m != 0 && !talus::is_own_cell_size(lattice.frame(), o.cell_size_m))
+    throw InputError({o.like},
+                     "the cells are " + text(lattice.frame().cell_size, 10) +
+                         " m, --cell-size-m is " + text(o.cell_size_m),
+                     "give one of --like and --cell-size-m");
+  return talus::part_covering(lattice.frame(), o.window);
+}
+
+void check_frame(const GridFrame& frame, const MapWindow& data, const Options& o) {
+  const MapWindow common =
+      talus::intersection(frame.empty() ? o.window : talus::extent(frame), data);
+  if (common.x_min > common.x_max || common.y_min > common.y_max)
+    throw InputError({o.source},
+                     "the grid asked for lies outside of the data, " + window_as_text(data),
+                     o.like.empty() ? "look at --window" : "look at --like and --window");
+  talus::check_size(frame, o.source);
+  if (frame.n_rows >= 2 && frame.n_cols >= 2) return;
+  throw InputError({o.source},
+                   "there is room for " + std::to_string(frame.n_cols) + " x " +
+                       std::to_string(frame.n_rows) + " nodes, expected at least 2 x 2",
+                   "choose a smaller cell or a larger window");
+}
+
+void check_tin(const talus::Tin& tin, const std::string& path) {
+  for (const talus::Vec3& point : tin.points) {
+    const talus::Vec3 place = point + tin.origin;
+    if (std::abs(place.z()) > talus::highest_elevation)
+      throw InputError({path}, "the elevation at x " + text(place.x(), 10) + ", y " +
+                                   text(place.y(), 10) + " is " + text(place.z(), 10) +
+                                   " m, expected at most " + text(talus::highest_elevation) +
+                                   " m either way");
+  }
+}
+
+std::string stated_vertical(const Options& o) {
+  return o.vertical_crs.empty() ? std::string()
+                                : talus::vertical_crs_from_user(o.vertical_crs, "--vertical-crs");
+}
+
+// A surface that folds over has two heights in one place; a terrain has one.
+void check_one_layer(Tool& tool, const Options& o, const talus::TinFile& file) {
+  if (file.is_ours) return;
+  const talus::FoldedEdges folded = talus::find_folded_edges(file.tin);
+  if (folded.n == 0) return;
+  const talus::Vec3 place = folded.first + file.tin.origin;
+  const std::string finding = "the surface folds over or has two layers at " +
+                              talus::counted(folded.n, "edge") + ", the first at x " +
+                              text(place.x(), 10) + ", y " + text(place.y(), 10);
+  if (!o.accept_doubts)
+    throw InputError(
+        {o.source}, finding + "; expected one height in each place",
+        "write the ground alone to the file; --accept-doubts takes one of the heights");
+  tool.warn(finding + ": one of the heights is taken");
+}
+
+// The CRS of the TIN, or the one that the user gives for a TIN without; empty: local metres.
+std::string crs_of_tin(Tool& tool, const talus::Tin& tin, const MapWindow& data, const Options& o) {
+  std::string crs;
+  if (!tin.crs_wkt.empty()) crs = talus::crs_from_user(tin.crs_wkt, o.source + ": its CRS");
+  if (!o.crs.empty()) {
+    const std::string given =
+        talus::from_command_line([&] { return talus::crs_from_user(o.crs, "--crs"); });
+    if (!crs.empty() && !(talus::same_crs(crs, given) && talus::same_heights(crs, given)))
+      throw InputError({o.source}, "the CRS is " + talus::crs_name(crs) + ", not " + o.crs,
+                       "leave --crs away");
+    if (talus::height_crs(crs).empty()) crs = given;
+  }
+  const std::string vertical = talus::from_command_line([&] { return stated_vertical(o); });
+  if (crs.empty() && vertical.empty()) return crs;
+  const talus::Vec2 middle(0.5 * (data.x_min + data.x_max), 0.5 * (data.y_min + data.y_max));
+  const talus::CrsProblem problem = talus::find_crs_problem(crs, middle);
+  if (!problem.finding.empty())
+    throw InputError({o.source}, problem.finding,
+                     "a TIN is not reprojected: make it from the contours with talus-tin --t-srs " +
+                         (problem.mend_to.empty() ? "EPSG:code" : problem.mend_to));
+  talus::Place place{crs, data};
+  place.way_to_other_crs =
+      "a TIN is not reprojected: make it from the contours with talus-tin --t-srs";
+  place.crs_said_in = o.crs.empty() ? "the file" : "--crs";
+  for (const std::string& warning : talus::check_place(place, {o.source})) tool.warn(warning);
+  return vertical.empty() ? crs : talus::with_stated_heights(crs, vertical, {o.source});
+}
+
+talus::LayerChoice faces_of(const Options& o) {
+  talus::LayerChoice choice = o.faces;
+  choice.path = o.source;
+  return choice;
+}
+
+Trn trn_of_tin(Tool& tool, const Options& o) {
+  if (!o.t_srs.empty())
+    throw InputError(
+        {o.source}, "a TIN is not reprojected",
+        "reproject the contours (ogr2ogr -t_srs " + o.t_srs + ") and make the TIN again");
+  if (!o.t_vertical.empty())
+    throw InputError({o.source}, "the heights of a TIN stay as they are",
+                     "make it from the contours with talus-tin --t-vertical " + o.t_vertical);
+  talus::TinFile file = talus::read_tin_file(faces_of(o));
+  for (const std::string& note : file.notes) tool.info(note);
+  for (const std::string& warning : file.warnings) tool.warn(warning);
+  if (!file.taken.file.empty()) tool.layer_read(talus::entry_on(file.taken, "source"));
+  const talus::Tin& tin = file.tin;
+  check_tin(tin, o.source);
+  check_one_layer(tool, o, file);
+  const MapWindow data = talus::extent(tin);
+  const std::string crs = crs_of_tin(tool, tin, data, o);
+  const double natural_size = talus::natural_cell_size(tin);
+  if (natural_size <= 0)
+    throw InputError({o.source}, "no triangle has an area in plan, expected a surface");
+  const double size = o.cell_size_m > 0 ? o.cell_size_m : natural_size;
+  const MapWindow common = talus::intersection(o.window, data);
+  GridFrame frame;
+  if (!o.like.empty())
+    frame = frame_like(o, crs);
+  else if (common.x_min <= common.x_max && common.y_min <= common.y_max)
+    frame = o.window.x_min > -far ? talus::frame_covering(o.window, size)
+                                  : talus::frame_inside(data, size);
+  check_frame(frame, data, o);
+  return talus::make_trn(frame, crs, talus::grid_tin(tin, frame, tool.progress()));
+}
+
+void say(Tool& tool, const talus::DemReading& reading) {
+  for (const std::string& note : reading.notes) {
+    tool.info(note);
+    tool.record(note);
+  }
+  for (const std::string& warning : reading.warnings) tool.warn(warning);
+}
+
+// What was done to take it to another system goes to `operations`.
+Trn trn_of_dem(Tool& tool, const Options& o, std::vector<std::string>& operations) {
+  talus::DemOptions options;
+  options.accepts_doubts = o.accept_doubts;
+  options.crs_given = !o.crs.empty();
+  talus::from_command_line([&] {
+    if (options.crs_given) options.crs = talus::crs_from_user(o.crs, "--crs");
+    if (!o.t_srs.empty()) options.t_srs = talus::crs_from_user(o.t_srs, "--t-srs");
+    options.vertical_crs = stated_vertical(o);
+    if (!o.t_vertical.empty())
+      options.t_vertical = talus::target_heights_from_user(o.t_vertical, "--t-vertical");
+  });
+  options.accept_ballpark = o.accept_ballpark;
+  if (!o.faces.layer.empty() || !o.faces.where.empty() || o.faces.unit_m != 0)
+    throw talus::UsageError({"", 0, o.source}, "--layer, --where and --unit-m are for drawings",
+                            "leave them away");
+  const DemFile dem(o.source, options);
+  say(tool, dem.reading());
+  operations = dem.reading().notes;
+  const GridFrame frame = o.like.empty() ? talus::frame_on_dem(dem.frame(), o.cell_size_m, o.window)
+                                         : frame_like(o, dem.crs_wkt());
+  check_frame(frame, talus::extent(dem.frame()), o);
+  if (o.cell_size_m != 0 && frame.cell_size != o.cell_size_m)
+    tool.info("the nodes are the DEM's own, " + text(frame.cell_size, 12) + " m apart");
+  return talus::make_trn(frame, dem.crs_wkt(), talus::read_dem(dem, frame, tool.progress()));
+}
+
+// --- how good it is ------------------------------------------------------------------------------
+
+// The reference's heights must be in the terrain's system, where both say it; where one does not,
+// that is said.
+void check_heights_alike(Tool& tool, const std::string& path, const std::string& crs,
+                         const Trn& trn) {
+  const std::string assumed = talus::assumed_heights(crs, trn.crs_wkt);
+  if (!assumed.empty()) tool.info(path + " and the terrain: both are " + assumed);
+  if (talus::same_heights(crs, trn.crs_wkt)) return;
+  throw InputError({path},
+                   "the heights are in " + talus::crs_name(talus::height_crs(crs)) +
+                       ", those of the terrain in " +
+                       talus::crs_name(talus::height_crs(trn.crs_wkt)),
+                   "bring both to one system of heights first");
+}
+
+// A reference DEM node by node, in strips.
+talus::ErrorStatistics errors_against_dem(Tool& tool, const Trn& trn, const std::string& path) {
+  talus::DemOptions options;
+  options.crs_may_be_missing = true;
+  const DemFile dem(path, options);
+  if (!dem.crs_wkt().empty() && !talus::same_crs(dem.crs_wkt(), trn.crs_wkt))
+    throw InputError({path},
+                     "the CRS is " + talus::crs_name(dem.crs_wkt()) + ", that of the terrain is " +
+                         talus::crs_name(trn.crs_wkt),
+                     "a DEM is never reprojected silently: talus-trn " + path +
+                         " -o reference.tif --t-srs " + talus::crs_code(trn.crs_wkt));
+  check_heights_alike(tool, path, dem.crs_wkt(), trn);
+  const GridFrame all = talus::part_covering(dem.frame(), talus::extent(talus::frame_of(trn)));
+  talus::ErrorCollector errors;
+  for (int row = 0; row < all.n_rows; row += 256) {
+    const GridFrame strip{
+        std::min(256, all.n_rows - row), all.n_cols, all.cell_size, {all.x(0), all.y(row)}};
+    const std::vector<double> truth = talus::read_dem(dem, strip);
+    for (int r = 0; r < strip.n_rows; ++r)
+      for (int c = 0; c < strip.n_cols; ++c) {
+        const double z =
+            truth[static_cast<std::size_t>(r) * static_cast<std::size_t>(strip.n_cols) +
+                  static_cast<std::size_t>(c)];
+        if (!std::isnan(z))
+          errors.add(trn, strip.x(c) - trn.origin.x(), strip.y(r) - trn.origin.y(), z);
+      }
+  }
+  return errors.statistics();
+}
+
+talus::ErrorStatistics errors_against_points(Tool& tool, const Trn& trn,
+                                             const talus::LayerChoice& choice,
+                                             std::vector<std::string>& notes) {
+  talus::LayerReading taken;
+  const std::vector<talus::Vec3> truth = talus::read_points(choice, trn.crs_wkt, notes, taken);
+  tool.layer_read(talus::entry_on(taken, "reference_points"));
+  for (const std::string& note : notes) tool.info(note);
+  talus::ErrorCollector errors;
+  for (const talus::Vec3& point : truth)
+    errors.add(trn, point.x() - trn.origin.x(), point.y() - trn.origin.y(), point.z());
+  return errors.statistics();
+}
+
+double share(std::int64_t part, std::int64_t whole) {
+  return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0;
+}
+
+Json as_json(const talus::ErrorStatistics& e, const Trn& trn, const std::string& path) {
+  return {{"file", path},
+          {"n", e.n},
+          {"covered_share", share(e.n, e.n + e.n_uncovered)},
+          {"rmse_m", e.rmse},
+          {"mae_m", e.mae},
+          {"mean_m", e.mean},
+          {"p95_m", e.p95},
+          {"largest_m", e.largest},
+          {"largest_at", {e.largest_at.x() + trn.origin.x(), e.largest_at.y() + trn.origin.y()}}};
+}
+
+Json as_json(const talus::SlopeStatistics& s) {
+  Json histogram = Json::array();
+  for (std::size_t bin = 0; bin < s.n_in_bin.size(); ++bin)
+    histogram.push_back({{"from_deg", static_cast<int>(bin) * s.bin_deg},
+                         {"to_deg", static_cast<int>(bin + 1) * s.bin_deg},
+                         {"share", share(s.n_in_bin[bin], s.n_triangles)}});
+  return {{"mean_deg", s.mean_deg},
+          {"largest_deg", s.largest_deg},
+          {"flat_share", share(s.n_flat, s.n_triangles)},
+          {"cells_steeper_than_70_deg", s.n_cells_steep},
+          {"share_steeper_than_70_deg", share(s.n_cells_steep, s.n_cells)},
+          {"histogram", histogram}};
+}
+
+Json as_json(const Trn& trn, const talus::SlopeStatistics& s) {
+  const GridFrame frame = talus::frame_of(trn);
+  const MapWindow window = talus::extent(frame);
+  double low = far, high = -far;
+  for (const double z : trn.elevation) {
+    low = z < low ? z : low;
+    high = z > high ? z : high;
+  }
+  return {{"n_rows", trn.n_rows},
+          {"n_cols", trn.n_cols},
+          {"cell_size_m", trn.cell_size},
+          {"window", {window.x_min, window.y_min, window.x_max, window.y_max}},
+          {"crs", talus::crs_name(trn.crs_wkt)},
+          {"lowest_m", low},
+          {"highest_m", high},
+          {"covered_share", share(s.n_nodes_known, talus::feature_counts(trn).vertices)},
+          {"n_triangles", s.n_triangles}};
+}
+
+std::string summary_of(const Json& report) {
+  const auto percent = [](const Json& value) { return text(100 * value.get<double>(), 3) + " %"; };
+  const Json &grid = report["grid"], &slope = report["slope"];
+  std::string lines =
+      std::to_string(grid["n_cols"].get<int>()) + " x " +
+      std::to_string(grid["n_rows"].get<int>()) + " nodes, " +
+      text(grid["cell_size_m"].get<double>(), 10) + " m apart, " + percent(grid["covered_share"]) +
+      " known, " + text(grid["lowest_m"].get<double>(), 6) + " to " +
+      text(grid["highest_m"].get<double>(), 6) + " m\nslope " +
+      text(slope["mean_deg"].get<double>(), 3) + " degrees on average, up to " +
+      text(slope["largest_deg"].get<double>(), 3) + "; flat " + percent(slope["flat_share"]) +
+      "; steeper than 70 degrees " + percent(slope["share_steeper_than_70_deg"]);
+  for (const char* name : {"reference", "reference_points"}) {
+    if (!report.contains(name)) continue;
+    const Json& e = report[name];
+    const auto metres = [&](const char* key) { return text(e[key].get<double>(), 4) + " m"; };
+    lines += "\nagainst " + e["file"].get<std::string>() + ": RMSE " + metres("rmse_m") + ", MAE " +
+             metres("mae_m") + ", 95 % within " + metres("p95_m") + ", largest " +
+             metres("largest_m") + " at " + text(e["largest_at"][0].get<double>(), 9) + "," +
+             text(e["largest_at"][1].get<double>(), 9) + "; covers " + percent(e["covered_share"]);
+  }
+  return lines;
+}
+
+void add_errors(Tool& tool, const talus::ErrorStatistics& errors, const std::string& name,
+                const std::string& path, const Trn& trn, Json& report) {
+  if (errors.n == 0)
+    throw InputError({path}, "no place in common with known ground of the terrain");
+  report[name] = as_json(errors, trn, path);
+  tool.metric(name + "_rmse_m", errors.rmse, "m");
+  tool.metric(name + "_largest_m", errors.largest, "m");
+}
+
+// --- what to look at -----------------------------------------------------------------------------
+
+const char* name_of(talus::GroundDoubtKind kind) {
+  switch (kind) {
+    case talus::GroundDoubtKind::below_land:
+      return "below all land";
+    case talus::GroundDoubtKind::level:
+      return "level area";
+    case talus::GroundDoubtKind::rim:
+      return "rim";
+    default:
+      return "step";
+  }
+}
+
+talus::DoubtRow row_of(const talus::GroundDoubt& doubt, const Trn& trn) {
+  talus::DoubtRow row;
+  row.what = name_of(doubt.kind);
+  row.place = talus::node_point(trn, doubt.row, doubt.col) + trn.origin;
+  row.expected_low = row.expected_high = doubt.expected + trn.origin.z();
+  row.outcome = doubt.kind == talus::GroundDoubtKind::below_land ? "refused" : "in doubt";
+  return row;
+}
+
+std::string place_of(const talus::DoubtRow& row) {
+  return text(row.place.z(), 6) + " m at x " + text(row.place.x(), 10) + ", y " +
+         text(row.place.y(), 10);
+}
+
+// What a kind of doubt means, in one sentence with the first place.
+std::string sentence_on(talus::GroundDoubtKind kind, std::int64_t n, const talus::DoubtRow& first,
+                        const Trn& trn) {
+  const std::string apart = text(talus::doubtful_step(trn.cell_size), 4);
+  switch (kind) {
+    case talus::GroundDoubtKind::below_land:
+      return talus::counted(n, "node") + " lower than any land (" + text(talus::lowest_land) +
+             " m), the first " + place_of(first);
+    case talus::GroundDoubtKind::level:
+      return talus::counted(n, "level area") + " more than " + apart +
+             " m off most of what is beside, the first " + place_of(first) +
+             ": is it undeclared nodata?";
+    case talus::GroundDoubtKind::rim:
+      return talus::counted(n, "node") + " at the rim of what is known more than " + apart +
+             " m off the next, the first " + place_of(first) + ": is it blended with nodata?";
+    default:
+      return talus::counted(n, "step") + " of more than " +
+             text(talus::impossible_step(trn.cell_size), 4) +
+             " m from one node to the next, the first from " + place_of(first) + " to " +
+             text(first.expected_low, 6) + " m: is it ground?";
+  }
+}
+
+// Says what the ground's own neighbours do not bear out; refuses what no land is.
+Json doubts_of(Tool& tool, const Options& o, const Trn& trn) {
+  using talus::GroundDoubtKind;
+  const std::vector<talus::GroundDoubt> doubts = talus::find_ground_doubts(trn);
+  std::vector<talus::DoubtRow> rows;
+  for (const talus::GroundDoubt& doubt : doubts) {
+    rows.push_back(row_of(doubt, trn));
+    if (o.accept_doubts && rows.back().outcome == "refused") rows.back().outcome = "accepted";
+  }
+  talus::write_doubts(tool, o.doubts, trn.crs_wkt, rows);
+  Json json = Json::object();
+  for (const GroundDoubtKind kind : {GroundDoubtKind::below_land, GroundDoubtKind::level,
+                                     GroundDoubtKind::rim, GroundDoubtKind::step}) {
+    std::int64_t n = 0;
+    const talus::DoubtRow* first = nullptr;
+    for (std::size_t i = 0; i < doubts.size(); ++i)
+      if (doubts[i].kind == kind && n++ == 0) first = &rows[i];
+    if (n == 0) continue;
+    const std::string sentence = sentence_on(kind, n, *first, trn);
+    json[name_of(kind)] = n;
+    if (kind == GroundDoubtKind::below_land && !o.accept_doubts)
+      throw InputError({o.source}, sentence,
+                       "declare nodata with gdal_translate -a_nodata, or mend the units; "
+                       "--accept-doubts takes ground below the sea");
+    tool.warn(sentence + (o.doubts.empty() ? " (--doubts places.gpkg writes all)" : ""));
+  }
+  return json;
+}
+
+Json report_on(Tool& tool, const Options& o, const Trn& trn) {
+  const talus::SlopeStatistics slopes = talus::slope_statistics(trn);
+  Json report = {{"tool", "talus-trn"},      {"source", o.source},
+                 {"run_id", tool.run_id()},  {"grid", as_json(trn, slopes)},
+                 {"slope", as_json(slopes)}, {"in_doubt", doubts_of(tool, o, trn)}};
+  if (o.accept_doubts) report["doubts_accepted"] = true;
+  if (!o.reference.empty())
+    add_errors(tool, errors_against_dem(tool, trn, o.reference), "reference", o.reference, trn,
+               report);
+  std::vector<std::string> notes;
+  if (!o.reference_points.path.empty())
+    add_errors(tool, errors_against_points(tool, trn, o.reference_points, notes),
+               "reference_points", o.reference_points.path, trn, report);
+  if (!notes.empty()) report["notes"] = notes;
+  tool.metric("covered_share", report["grid"]["covered_share"].get<double>(), "1");
+  if (slopes.n_cells_steep > 0)
+    tool.warn(std::to_string(slopes.n_cells_steep) +
+              " cells are steeper than 70 degrees, where a height field is a poor model");
+  return report;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options o;
+  Tool tool("talus-trn", "Makes the terrain of nodes (TRN) from a TIN or an elevation raster.");
+  declare(tool, o);
+  return tool.run(argc, argv, [&] {
+    std::vector<std::string> operations;
+    const Trn trn =
+        talus::is_tin_file(o.source) ? trn_of_tin(tool, o) : trn_of_dem(tool, o, operations);
+    talus::check_trn(trn, o.source);
+    Json report = report_on(tool, o, trn);
+    if (!operations.empty()) report["operations"] = operations;
+    talus::TrnFileOptions file{{{"RUN_ID", tool.run_id()}}, o.creation_options};
+    if (o.accept_doubts) file.tags["DOUBTS_ACCEPTED"] = "YES";
+    talus::write_trn(tool.stage(o.out), trn, file);
+    if (!o.hillshade.empty()) talus::write_hillshade(tool.stage(o.hillshade), trn);
+    if (!o.report.empty()) tool.write_text(o.report, report.dump(2) + "\n");
+    tool.result(report, summary_of(report));
+  });
+}

@@ -1,0 +1,25 @@
+// tools/verify/site.hpp
+// Which time step, stiffness and strain setting a user's own scene needs: the cheapest whose answer
+// stays within a tolerance of the refined one.
+#pragma once
+
+#include <string>
+
+#include "tools/frame/scene_inputs.hpp"
+
+namespace talus {
+
+struct SiteStudyOptions {
+  std::string site;  ///< site file; empty: no such study
+  DdaFiles files;
+  std::string tolerance = "1%";     ///< share, or per cent with the sign
+  std::string quantity = "centre";  ///< centre, p90 or spread
+  int n_runs = 4;
+  bool with_paper = false;  ///< law paper in the table too; never the cheapest
+};
+
+/// Runs the ladder of settings, writes DIR/site.csv, site.svg and solver.toml; returns the table.
+/// Throws InputError for a tolerance that is no share above 0 and for what talus-dda refuses.
+[[nodiscard]] std::string study_site(Tool& tool, const SiteStudyOptions& o, const std::string& out);
+
+}  // namespace talus

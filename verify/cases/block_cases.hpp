@@ -1,0 +1,64 @@
+// verify/cases/block_cases.hpp
+// Cases of several blocks with a closed form; as closed_form.hpp. Where blocks should stand, a way
+// of more than 0.1 m before they are watched counts too.
+#pragma once
+
+#include "verify/cases/closed_form.hpp"
+
+namespace talus::cases {
+
+/// n unit cubes one on the other on a slope whose direction of dip is turned by 30 degrees.
+[[nodiscard]] Scene tower(int n, double dip_deg, double friction_deg, const Settings& settings);
+
+/// Three cubes, friction 40 degrees between them and 10 on the ground, on 15 degrees for 1 s: they
+/// slide as one. Largest relative error of their displacements down the dip.
+CaseResult tower_slide(const Settings& settings);
+
+/// The same three on a ground of 15.5 degrees stay: largest movement of one in the 4 s after the
+/// first [m].
+CaseResult tower_holds(const Settings& settings);
+
+/// Four cubes, friction 40 degrees: dip at which they topple, tan(dip) = 1 / 4, 14.036 degrees, by
+/// bisection: error [deg]. What they stand on gives way under their edge, so it is a little less.
+CaseResult pile_topples(const Settings& settings);
+
+/// Cube on a plate that sticks to a slope of 30 degrees, friction 20 between the two, 1.5 s:
+/// relative error of its way (26), or how far the plate moved over that way, the larger.
+CaseResult block_on_block(const Settings& settings);
+
+/// Keel of 90 degrees in the groove of two long blocks on 35 degrees, friction 20, 1.5 s: relative
+/// error of its path. Each face bears W cos(dip) / sqrt(2), so
+/// a = g (sin(dip) - sqrt(2) tan(phi) cos(dip)).
+CaseResult groove(const Settings& settings);
+
+/// Equal cubes meeting face to face at 8 m/s, no friction. `value`: the speed they part with [m/s];
+/// error of that speed over 8 m/s, or of the place of one over its path, the larger.
+CaseResult head_on(const Settings& settings, double restitution);
+
+/// A stack of n cubes that has had `settling_s` to press itself together: largest movement of a
+/// cube in the 4 s after [m].
+CaseResult stack_stands(const Settings& settings, int n, double settling_s);
+
+/// Arch of seven stones, radii 4 and 5.5 m, that has had 5 s to settle: largest movement of a stone
+/// in the 5 s after [m].
+CaseResult arch_stands(const Settings& settings);
+
+/// A cube of 10 m on four cubes of 0.1 m, 1e6 times lighter, for 2 s: largest movement [m].
+CaseResult large_on_small(const Settings& settings);
+
+/// Plate of 10 x 10 x 0.1 m on a cube of 2 m that has had 1 s to settle: largest movement in the 4
+/// s after [m].
+CaseResult thin_plate(const Settings& settings);
+
+/// Eight tumbling boxes thrown at each other far above the ground, 1.5 s: change of momentum and of
+/// angular momentum about the local zero beyond gravity's, the larger, over the momentum that the
+/// boxes bring [-, 1 m for the angular one]. `value`: energy gained over the kinetic one brought,
+/// below 0 for what collisions cost.
+CaseResult collision(const Settings& settings, double restitution);
+
+/// Row of 14 upright plates of which the first is pushed: relative error of the time that the wave
+/// takes from the fourth to the twelfth. Against angles alone, rigid, contacts by projected
+/// Gauss-Seidel at steps of 2e-5 s.
+CaseResult dominoes(const Settings& settings);
+
+}  // namespace talus::cases

@@ -1,0 +1,111 @@
+// verify/cases/case_run.hpp
+// Moves the scene of a case on and counts what its steps report; finds where something begins.
+// in:    a Scene
+// out:   a CaseResult, complete once finish() has its error
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "base/processor_time.hpp"
+#include "motion/rotation.hpp"
+#include "step/step.hpp"
+#include "verify/cases/closed_form.hpp"
+
+namespace talus::cases {
+
+inline constexpr double g = 10;  // [m/s2]
+inline constexpr double degree = std::numbers::pi / 180;
+
+/// What reading the processor's clock takes by itself, at least: no part of a case, some of which
+/// take a few microseconds [s].
+inline double clock_seconds() {
+  static const double seconds = [] {
+    double least = 1;
+    for (int i = 0; i < 100; ++i) {
+      const double begin = processor_seconds();
+      least = std::min(least, processor_seconds() - begin);
+    }
+    return least;
+  }();
+  return seconds;
+}
+
+/// A scene on its way, and the sums that a case reports of it.
+struct Run {
+  Scene scene;
+  double clock = clock_seconds();      ///< [s]
+  double begin = processor_seconds();  ///< before the start, after the set-up of the scene [s]
+  State state;
+  Work work;
+  CaseResult result;
+
+  explicit Run(Scene s) : scene(std::move(s)), state(start(scene)), work(make_work(scene)) {}
+
+  StepReport advance() {
+    const StepReport report = step(scene, state, work);
+    ++result.steps;
+    result.passes += report.passes;
+    result.unconverged += report.n_unconverged;
+    result.largest_penetration = std::max(result.largest_penetration, report.largest_penetration);
+    result.flags = result.flags | report.flags;
+    return report;
+  }
+  void advance_to(double time) {
+    const long n = std::lround((time - state.time) / scene.settings.dt);
+    for (long i = 0; i < n; ++i) advance();
+  }
+  /// Of block b, now.
+  [[nodiscard]] Motion motion(int b = 0) const { return motion_at(scene, state, b, state.time); }
+  /// Of the first block [rad/s].
+  [[nodiscard]] Vec3 spin(const Motion& m) const {
+    return angular_velocity(m.pose.attitude, m.angular_momentum, scene.blocks.inertia[0]);
+  }
+  /// What it has taken so far.
+  [[nodiscard]] CaseResult counted() const {
+    CaseResult counts = result;
+    counts.cpu = std::max(0.0, processor_seconds() - begin - clock - counts.reference_cpu);
+    return counts;
+  }
+  [[nodiscard]] CaseResult finish(double value, double expected, double error) const {
+    CaseResult outcome = counted();
+    outcome.value = value;
+    outcome.expected = expected;
+    outcome.error = error;
+    return outcome;
+  }
+};
+
+/// Counts what `one` took to `total`; value, expected and error stay.
+inline void add_counts(const CaseResult& one, CaseResult& total) {
+  total.steps += one.steps;
+  total.passes += one.passes;
+  total.unconverged += one.unconverged;
+  total.cpu += one.cpu;
+  total.reference_cpu += one.reference_cpu;
+  total.largest_penetration = std::max(total.largest_penetration, one.largest_penetration);
+  total.flags = total.flags | one.flags;
+}
+
+/// Where `happens(x)` turns from false to true between low and high, after n halvings.
+template <class Happens>
+double bisect(double low, double high, int n, const Happens& happens) {
+  for (int i = 0; i < n; ++i) {
+    const double middle = (low + high) / 2;
+    (happens(middle) ? high : low) = middle;
+  }
+  return (low + high) / 2;
+}
+
+/// `compute()`, its CPU time noted as not the engine's.
+template <class Compute>
+auto timed_reference(CaseResult& result, const Compute& compute) {
+  const double begin = processor_seconds();
+  const auto value = compute();
+  result.reference_cpu += processor_seconds() - begin;
+  return value;
+}
+
+}  // namespace talus::cases

@@ -1,0 +1,39 @@
+// verify/study/slide_study.hpp
+// The slide of 39 blocks, for which nothing exact is known: means of many starts at several
+// settings, and their distance to what the shortest steps tend to.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "base/progress.hpp"
+#include "verify/study/ensemble.hpp"
+#include "verify/study/peers.hpp"
+
+namespace talus {
+
+/// As named on the command line and in file names.
+inline constexpr const char* slide_name = "slide39";
+
+/// What the table of cases says of the slide, by Quantity.
+[[nodiscard]] const std::array<VerifyCase, 3>& slide_claims();
+
+struct SlideStudy {
+  std::vector<EnsembleResult> results;  ///< defaults last, from the longest step
+  EnsembleReference reference;
+  double path = 0;  ///< of the centre, reference [m]
+};
+/// `full`: 96 runs of 20 s a step at the defaults, 8 at other settings, 6 of law paper, a quarter
+/// of an hour; else one of 4 s. `progress` is called before every run.
+[[nodiscard]] SlideStudy study_slide(const SlideData& data, bool full,
+                                     const ProgressFunction& progress = {});
+
+/// The three quantities as cases; other engines have a centre alone.
+[[nodiscard]] std::vector<MeasuredCase> measured_of(const SlideStudy& study,
+                                                    const std::vector<PeerSlide>& peers);
+
+/// Markdown: means, standard errors and CPU time, a line a setting, and the reference.
+[[nodiscard]] std::string slide_table(const SlideStudy& study);
+
+}  // namespace talus
