@@ -6,9 +6,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "verify/case_run.hpp"
-#include "verify/closed_form.hpp"
-#include "verify/closed_form_scenes.hpp"
+#include "verify/cases/case_run.hpp"
+#include "verify/cases/closed_form.hpp"
+#include "verify/cases/closed_form_scenes.hpp"
 
 namespace talus::cases {
 namespace {

@@ -99,35 +99,45 @@ struct Advance {
   }
 
   // The contacts' forces. The turn that they add to the block is first taken to be that of the
-  // guess, and they are computed again where it makes their points move otherwise.
+  // guess, and they are computed again where it makes their points move otherwise. Where that finds
+  // no forces, as in a jam, those stand that were found for the turn before, or for none.
   template <int Dof>
   NewtonResult solve(const Substep& s, BlockSystem<Dof>& system) {
-    constexpr int most_turns = 4;
     const std::span<ContactRow> rows(work.rows);
-    const auto follow = [&] {
-      if constexpr (Dof == 6)
-        return follow_turn(c, s, solved_motion(c, s, system), work.contacts, rows);
-      return 0.0;
-    };
-    const double slow = of_speed * top_speed() + of_gravity * c.gravity * s.h;
-    BlockSystem<Dof> followed = system;  // what the drifts follow
-    follow();
-    NewtonResult result = solve_contacts(system, rows, scene.settings.max_passes);
-    for (int i = 0; i < most_turns && result.converged; ++i) {
-      const BlockSystem<Dof> found = system;
-      if (follow() <= slow) break;
-      const NewtonResult again = solve_contacts(system, rows, scene.settings.max_passes);
-      result.passes += again.passes;
-      if (again.converged) {
-        followed = found;
-        continue;
+    const auto found_at = [&] { return solve_contacts(system, rows, scene.settings.max_passes); };
+    if constexpr (Dof != 6) {
+      return found_at();
+    } else {
+      constexpr int most_turns = 4;
+      const double slow = of_speed * top_speed() + of_gravity * c.gravity * s.h;
+      const BlockSystem<6> guess = system;
+      Solved<6> followed = solved_motion(c, s, system);
+      (void)follow_turn(c, s, followed, work.contacts, rows);
+      NewtonResult result = found_at();
+      if (!result.converged) {
+        followed = {};
+        (void)follow_turn(c, s, followed, work.contacts, rows);
+        system = guess;
+        const NewtonResult unturned = found_at();
+        result = {unturned.converged, result.passes + unturned.passes};
       }
-      system = followed;  // there may be no solution, in a jam: the one before stands
-      follow();
-      system = found;
-      return {solve_contacts(system, rows, scene.settings.max_passes).converged, result.passes};
+      for (int i = 0; i < most_turns && result.converged; ++i) {
+        const Vec6 found = system.velocity;
+        const Solved<6> next = solved_motion(c, s, system);
+        if (follow_turn(c, s, next, work.contacts, rows) <= slow) break;
+        const NewtonResult again = found_at();
+        result.passes += again.passes;
+        if (again.converged) {
+          followed = next;
+          continue;
+        }
+        (void)follow_turn(c, s, followed, work.contacts, rows);
+        system.velocity = found;
+        const NewtonResult before = found_at();
+        return {before.converged, result.passes + before.passes};
+      }
+      return result;
     }
-    return result;
   }
 
   // What a longer substep would have broken may hold over a shorter one.
@@ -369,7 +379,8 @@ struct Advance {
   // closer. A block that slides may go farther, up to `h`, where it meets no other plane or ground.
   double longest_substep(double h) {
     const double spin = spin_speed() + 1e-300;
-    const double by_turn = std::max(0.5 / spin, scene.settings.dt / 200);
+    const double by_turn =
+        std::max((state.memory[i()].empty() ? 0.5 : 0.25) / spin, scene.settings.dt / 200);
     const double by_way = 0.5 * scene.ground.trn.cell_size / (top_speed() + 1e-300);
     on_plane = false;
     if (gravity_only() && !state.memory[i()].empty())

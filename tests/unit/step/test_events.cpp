@@ -2,7 +2,7 @@
 // the step, at long steps too.
 #include <gtest/gtest.h>
 
-#include "verify/closed_form.hpp"
+#include "verify/cases/closed_form.hpp"
 
 namespace {
 
