@@ -138,7 +138,11 @@ void follow_features(const Scene& scene, const Substep& s, const Contact& contac
   const Vec3 lever = from_start * start->point, normal = from_start * start->normal;
   const Vec3 velocity = to_body * s.start.velocity + (from_start * s.spin_start).cross(lever);
   row.arm = (contact.point_a + lever) / 2;
-  row.drift = s.spin_free.cross(contact.point_a - row.arm);
+  const Vec3 normal_free = row.normal;
+  row.normal = (normal_free + normal).normalized();
+  const Vec3 velocity_free = to_body * s.free.velocity + s.spin_free.cross(contact.point_a);
+  row.tilt_speed = (normal_free - row.normal).dot(velocity_free);
+  row.drift = s.spin_free.cross(contact.point_a - row.arm) + row.tilt_speed * row.normal;
   row.gap_start = start->gap;
   row.speed_start = normal.dot(velocity);
   row.free_move += (contact.gap - start->gap - row.normal.dot(row.free_move)) * row.normal;
@@ -210,6 +214,7 @@ void forget_last_step(ContactRow& row) {
   row.normal_limit = no_normal_limit;
   row.memory = -1;
   row.stuck = false;
+  row.tilt_speed = 0;
   row.cap = 0;
   row.impulse.setZero();
   row.state = ContactState::open;

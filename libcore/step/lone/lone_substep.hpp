@@ -130,8 +130,8 @@ inline double follow_turn(const BlockNumbers& c, const Substep& s, const Solved<
   double largest = 0;
   for (ContactRow& row : rows) {
     const Vec3& X = contacts[static_cast<std::size_t>(row.contact)].point_a;
-    const Vec3 drift =
-        spin.cross(X - row.arm) - by_axes.cross(X) + solved.turn.cross(spin.cross(X));
+    const Vec3 drift = spin.cross(X - row.arm) - by_axes.cross(X) +
+                       solved.turn.cross(spin.cross(X)) + row.tilt_speed * row.normal;
     if (row.state != ContactState::open && !row.waits)
       largest = std::max(largest, (drift - row.drift).squaredNorm());
     row.drift = drift;

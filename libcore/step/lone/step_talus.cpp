@@ -348,11 +348,12 @@ struct Advance {
   double top_speed() { return motion().velocity.norm() + spin_speed() * c.radius; }
 
   // Approach of a contact that ends a substep. A slower one closes within it, which errs by up to
-  // that speed in what the block does next, and by that times the substep in where it is.
+  // that speed in what the block does next, and by that times the substep in where it is. A block
+  // that strains comes to rest by its strains, of which an impact knows nothing.
   void locate_hits() {
     constexpr double of_own = 5e-3, of_resting = 2e-2;
-    c.located_speed =
-        std::min(c.resting_speed, std::max(of_own * top_speed(), of_resting * c.resting_speed));
+    const double slow = std::max(of_own * top_speed(), of_resting * c.resting_speed);
+    c.located_speed = state.strain.empty() ? std::min(c.resting_speed, slow) : c.resting_speed;
   }
 
   // Where gravity alone drives a block that slides, that and what bears it change its path by no
@@ -375,8 +376,10 @@ struct Advance {
   }
 
   // Near the ground a substep moves no point farther than half a cell and turns the block by at
-  // most half a radian; a needle that rolls at more than 100 radians a step is not followed any
-  // closer. A block that slides may go farther, up to `h`, where it meets no other plane or ground.
+  // most half a radian, one that the ground bears by half of that, since forces that turn with a
+  // block err by the square of its turn; a needle that rolls at more than 100 radians a step is not
+  // followed any closer. A block that slides may go farther, up to `h`, where it meets no other
+  // plane or ground.
   double longest_substep(double h) {
     const double spin = spin_speed() + 1e-300;
     const double by_turn =
