@@ -25,20 +25,6 @@ CaseResult worst_rolling_angle(const Settings& settings) {
   return worst;
 }
 
-CaseResult worst_rolling_prism(const Settings& settings) {
-  CaseResult worst;
-  for (const Rolling& rolling : rolling_prisms) {
-    const CaseResult one = prism_rolls(settings, rolling, 2);
-    if (one.error >= worst.error) {
-      worst.value = one.value;
-      worst.expected = one.expected;
-      worst.error = one.error;
-    }
-    add_counts(one, worst);
-  }
-  return worst;
-}
-
 VerifyCase slide_case(const std::string& name, double friction_deg, double bound) {
   return {
       .name = name,
@@ -111,48 +97,6 @@ std::vector<VerifyCase> single_block_cases() {
        .test = "LawTalus.PrismRollsOnAtTheSteadySpeed",
        .bound = 0.01,
        .run = [](const Settings& s) { return sustained_rolling(s, 12); }},
-      {.name = "prisms_roll",
-       .claim = "prisms of 3 to 128 sides roll hit by hit, 2 s",
-       .reference = "integrated closed form",
-       .norm = "relative, worst of ten",
-       .test = "Events.PrismsRollHitByHit",
-       .bound = 3e-3,
-       .run = worst_rolling_prism},
-      {.name = "bouncing_slab",
-       .claim = "a slab that falls flat on 20 degrees goes as far as its bounces take it, COR 0.8",
-       .reference = "closed form",
-       .norm = "relative",
-       .test = "Events.AFlatSlabBouncesDownASlope",
-       .bound = 5e-3,
-       .run = [](const Settings& s) { return bouncing_slab(s, 0.8); }},
-      {.name = "top",
-       .claim = "a top on its tip at 60 rad/s nutates and precesses, 3 s",
-       .reference = "Lagrange's top by Runge-Kutta",
-       .norm = "degrees",
-       .test = "Events.ATopNutates",
-       .bound = 0.1,
-       .run = [](const Settings& s) { return spinning_top(s, 60); }},
-      {.name = "lifted",
-       .claim = "a slab flies off ground that drops away within a step, and lands",
-       .reference = "closed form",
-       .norm = "share of the height",
-       .test = "Events.DroppingGroundLetsGoInTheMiddleOfAStep",
-       .bound = 1e-3,
-       .run = lifted_slab},
-      {.name = "over_edge",
-       .claim = "a slab slides over the edge of a cliff at 3 m/s and tips, 1.5 s",
-       .reference = "integrated closed form",
-       .norm = "m",
-       .test = "Events.ASlabTipsOverAnEdge",
-       .bound = 2e-3,
-       .run = slab_over_edge},
-      {.name = "border",
-       .claim = "a slab slides across a border of two frictions, 1.6 s",
-       .reference = "integrated closed form",
-       .norm = "relative",
-       .test = "Events.FrictionChangesWhereTheBorderIs",
-       .bound = 1e-3,
-       .run = border_slide},
       bounce_case("bounce_face", 0.7, Landing::face),
       bounce_case("bounce_edge", 0.7, Landing::edge),
       bounce_case("bounce_corner", 0.7, Landing::corner),
