@@ -75,10 +75,10 @@ struct YieldingState {  // clang-format off
 /// What one block does to one body that gives way, over a substep.
 struct YieldPush {
   int block = 0, yielding = 0;  ///< yielding: index into `yieldings`; after them, the stems
-  double work = 0;   ///< taken from the block [J]
-  double power = 0;  ///< of the force at the start of the substep [W]
-  double shift = 0;  ///< that the body is pushed on, along `along` [m]
-  double to = 0;     ///< position along `along` that it is pushed to, where shift is not 0 [m]
+  double work = 0;              ///< taken from the block [J]
+  double power = 0;             ///< of the force at the start of the substep [W]
+  double shift = 0;             ///< that the body is pushed on, along `along` [m]
+  double to = 0;  ///< position along `along` that it is pushed to, where shift is not 0 [m]
   Vec3 along = Vec3::Zero();  ///< the body's axis; without one, normal of the contact
 };
 

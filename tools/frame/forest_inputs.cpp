@@ -113,9 +113,14 @@ std::vector<StockedCell> cells_of_polygon(const ForestSection& s, const MapBox& 
   return cells;
 }
 
-void check_number(const ForestSection& s, const std::vector<StockedCell>& cells) {
-  double n = 0;
-  for (const StockedCell& c : cells) n += c.stocking.stems_per_ha * c.cell.size * c.cell.size / 1e4;
+void check_number(const ForestSection& s, const std::optional<Area>& area,
+                  const std::vector<StockedCell>& cells) {
+  double n = 0, most = 0;
+  for (const StockedCell& c : cells) {
+    n += c.stocking.stems_per_ha * c.cell.size * c.cell.size / 1e4;
+    most = std::max(most, c.stocking.stems_per_ha);
+  }
+  if (area) n = std::min(n, most * area_of(*area) / 1e4);
   if (n > most_stems)
     s.refuse("has about " + text(n, 3) + " stems, expected up to " + text(most_stems),
              "draw the stand smaller, or check the unit: stems on a hectare");
@@ -147,17 +152,20 @@ std::vector<Stem> drawn_stems(const ForestSection& s) {
     s.refuse("lies outside the terrain", "draw it on the terrain, or take a larger window");
   const std::vector<StockedCell> cells =
       f.nrtrees_raster.empty() ? cells_of_polygon(s, box) : cells_of_rasters(s, box);
-  check_number(s, cells);
+  check_number(s, area, cells);
   const StandSeed seed{f.seed, f.name, f.new_stand_per_run ? 1 + s.site.solver.seed : 0};
   std::vector<DrawnStem> drawn;
-  for (const StockedCell& c : cells) draw_cell(seed, c.cell, c.stocking, drawn);
   std::vector<Stem> stems;
-  for (const DrawnStem& stem : drawn) {
-    const Vec2 at = stem.at - s.trn.origin.head<2>();
-    const double z = elevation_at(s.trn, at.x(), at.y());
-    if (std::isnan(z) || (area && !contains(*area, at))) continue;
-    stems.push_back(stem_of(f, Vec3(at.x(), at.y(), z), stem.dbh, stem.is_conifer ? 0 : 1));
-    stems.back().id = static_cast<std::int32_t>(stems.size()) - 1;
+  for (const StockedCell& c : cells) {
+    drawn.clear();
+    draw_cell(seed, c.cell, c.stocking, drawn);
+    for (const DrawnStem& stem : drawn) {
+      const Vec2 at = stem.at - s.trn.origin.head<2>();
+      const double z = elevation_at(s.trn, at.x(), at.y());
+      if (std::isnan(z) || (area && !contains(*area, at))) continue;
+      stems.push_back(stem_of(f, Vec3(at.x(), at.y(), z), stem.dbh, stem.is_conifer ? 0 : 1));
+      stems.back().id = static_cast<std::int32_t>(stems.size()) - 1;
+    }
   }
   return stems;
 }
