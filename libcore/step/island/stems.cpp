@@ -17,6 +17,7 @@ using std::size_t;
 constexpr double side_of_stem = 0.25;  // that a point may go along it, of the radius ...
 constexpr double thin_stem = 0.05;     // ... which counts as this at least [m]
 constexpr double as_good_as_all = 0.999, as_good_as_none = 0.05;  // of the impulse at the limit
+constexpr double still_moves = 0.1;                               // of the speed at the start
 
 VerticalCylinder cylinder_of(const Scene& scene, const State& state, int stem) {
   const Stem& of = scene.forest.stems[stem];
@@ -112,7 +113,11 @@ double time_to_stop(const Scene& scene, const IslandMembers& members, const Isla
     if (!follows_block(scene, members, system, r)) continue;
     const RowIn<const RowGroup> lane = lane_of(system, r);
     const double share = lane.normal_impulse() / lane.normal_limit();
-    if (share > as_good_as_none && share < as_good_as_all) first = std::min(first, h * share);
+    // a soft contact slows the block down, as long as it takes, and does not stop it
+    const double speed_end = -lane.normal_impulse() / lane.normal_damping() - lane.bias();
+    const bool stops = speed_end > still_moves * system.contacts[r].speed_start;
+    if (stops && share > as_good_as_none && share < as_good_as_all)
+      first = std::min(first, h * share);
   }
   return first;
 }

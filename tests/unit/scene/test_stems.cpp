@@ -113,6 +113,23 @@ TEST(Stems, AStopTakesTheTimeOfItsForce) {
   EXPECT_NEAR(stopped, touch + stop, 0.01 * stop);
 }
 
+// Whatever the stiffness, a stop takes few substeps: a soft contact, which slows a block down more
+// and more gently, is not cut again and again at the end that it never comes to.
+TEST(Stems, AStopIsReachedInFewSubsteps) {
+  for (const double stiffness : {0.0, 1e7, 1e8, 1e9, 5e10})
+    for (const double dt : {0.005, 0.001}) {
+      Scene scene = forest_on_plane({cube_at(Vec3(-1, 0, side / 2), Vec3(10, 0, 0))},
+                                    {stem_at(Vec3::Zero())});
+      scene.settings.normal_stiffness = stiffness;
+      scene.settings.dt = dt;
+      State state = start(scene);
+      Work work = make_work(scene);
+      while (state.time < 0.2) ASSERT_LT(step(scene, state, work).substeps, 100);
+      EXPECT_LT(std::abs(state.motion[0].velocity.x()), 0.02) << stiffness << " " << dt;
+      EXPECT_NEAR(met_by_stem(state.yielding, 0).work, 0.5 * 500 * 100, 0.01 * 25e3);
+    }
+}
+
 // What one block left of a stem is all that the next one meets.
 TEST(Stems, HitsOneAfterTheOtherAddUp) {
   const Scene scene = forest_on_plane({cube_at(Vec3(-1, 0, side / 2), Vec3(10, 0, 0)),
