@@ -108,7 +108,8 @@ namespace {
 void advance_talus(const Scene& scene, State& state, Work& work, StepReport& report) {
   const double t_end = state.time + scene.settings.dt;
   const bool may_sleep = scene.settings.sleep && !shakes(scene.base);
-  const bool islands = (n_blocks(scene) > 1 && scene.settings.block_contacts) || n_fixed(scene) > 0;
+  const bool islands = (n_blocks(scene) > 1 && scene.settings.block_contacts) ||
+                       n_fixed(scene) > 0 || !scene.forest.stems.empty();
   if (islands) form_islands(scene, state, work);
   for (int b = 0; b < n_blocks(scene); ++b) {
     const auto i = static_cast<size_t>(b);
