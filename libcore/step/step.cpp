@@ -95,7 +95,7 @@ Work make_work(const Scene& scene) {
   work.world_vertices.reserve(most_vertices);
   work.near_ground.resize(n_blocks(scene));
   for (NearFeatures& near : work.near_ground) near.features.reserve(expected_contacts);
-  work.deep.is_suspect.resize(n_blocks(scene));
+  work.deep = make_deep_work(scene);
   work.contacts.reserve(8 * (most_vertices + expected_contacts));
   work.rows.reserve(8 * (most_vertices + expected_contacts));
   work.unbonded.reserve(expected_contacts);
