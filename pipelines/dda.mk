@@ -31,7 +31,7 @@ run = $(if $(is_dry_run),,$(file >$(failed_marks)/$2,none$(tab)$(not_ended)))$(g
 # Whoever asks for the file of one run is told at once that it failed (make out/runs/run_3.h5).
 goes_on := $(if $(filter $(OUT)/%,$(MAKECMDGOALS)),,-)
 
-$(run_files) $(without_files): $(OUT)/blocks.h5 $(STAGES)/run.txt $(STAGES)/dda.flags $(STAGES)/dda.files | $(OUT)/runs $(OUT)/without $(failed_marks)
+$(run_files) $(without_files): $(OUT)/blocks.h5 $(STAGES)/run.txt $(STAGES)/dda.flags $(STAGES)/dda.files | $(OUT)/check.html $(OUT)/runs $(OUT)/without $(failed_marks)
 $(foreach case,$(CASES),$(eval $(filter $(OUT)/runs/run_$(case)_% $(OUT)/without/run_$(case)_%,$(run_files) $(without_files)): $(STAGES)/case_$(case).flags $(STAGES)/case_$(case).files))
 $(OUT)/runs/run_%.h5:
 	$(call say,dda: run_$*)

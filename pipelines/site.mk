@@ -1,7 +1,7 @@
 # The chain of tools for one site, included by sample_sites/<site>/Makefile. What is computed stands in
 # site.toml; the Makefile may set
 #   CONTOURS or DEM                what the ground is made from, instead of [terrain]
-#   TIN_FLAGS, TRN_FLAGS, BLOCKS_FLAGS, DDA_FLAGS, RUNOUT_FLAGS, MAPS_FLAGS, FENCE_FLAGS
+#   TIN_FLAGS, TRN_FLAGS, BLOCKS_FLAGS, CHECK_FLAGS, DDA_FLAGS, RUNOUT_FLAGS, MAPS_FLAGS, FENCE_FLAGS
 #                                  further options of the tools
 #   EVALUATE_FLAGS                 of all tools that evaluate runs (e.g. --rest-speed-m-s 0.1)
 #   RUNS, SEED, CASES, WITHOUT     dda.mk
@@ -18,15 +18,15 @@ include $(PIPELINES)products.mk
 
 .DEFAULT_GOAL := all
 .SUFFIXES:
-.PHONY: all terrain blocks runs runout maps fence report clean help
+.PHONY: all terrain blocks check runs runout maps fence report clean help
 
-all: report ## everything, up to the report
+all: check report ## everything, up to the report
 
 clean: ## remove what was made, and nothing else
 	@sh $(PIPELINES)clean.sh '$(OUT)' '$(mark_of_out)' '$(products) $(made_patterns)' '$(made_folders)'
 
 # The goals in the order of the pipeline, and those that the site's Makefile adds.
-help_files := $(addprefix $(PIPELINES),site.mk trn.mk source.mk blocks.mk dda.mk runout.mk maps.mk fence.mk report.mk new_site.mk) \
+help_files := $(addprefix $(PIPELINES),site.mk trn.mk source.mk blocks.mk check.mk dda.mk runout.mk maps.mk fence.mk report.mk new_site.mk) \
   $(filter-out $(PIPELINES)%,$(MAKEFILE_LIST))
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  \1: \2/p' $(help_files)$(if $(wildcard manifest.sha256),, | grep -v '^  data:')
@@ -63,6 +63,7 @@ include $(PIPELINES)tin.mk
 include $(PIPELINES)trn.mk
 include $(PIPELINES)source.mk
 include $(PIPELINES)blocks.mk
+include $(PIPELINES)check.mk
 include $(PIPELINES)dda.mk
 include $(PIPELINES)runout.mk
 include $(PIPELINES)maps.mk

@@ -299,6 +299,24 @@ bool is_over(const Runner& runner) {
   return runner.state.time >= runner.options.duration - half_step(runner);
 }
 
+bool stands(const Runner& runner) {
+  const Scene& scene = runner.scene;
+  const State& state = runner.state;
+  if (scene.settings.law != Law::talus || state.time < standing_after_s - half_step(runner))
+    return false;
+  if (shakes(scene.base) || !scene.loads.empty()) return false;
+  for (int b = 0; b < n_blocks(scene); ++b) {
+    const auto i = static_cast<std::size_t>(b);
+    if (state.phase[i] == Phase::unborn) continue;  // the whole block stands for its fragments
+    if (state.phase[i] != Phase::near_ground && state.phase[i] != Phase::asleep) return false;
+    const Motion& motion = state.motion[i];
+    const Vec3 moved = motion.pose.position - scene.blocks.rest[i].position;
+    if (moved.norm() > standing_within_m || motion.velocity.norm() > standing_speed_m_s)
+      return false;
+  }
+  return true;
+}
+
 void finish(Runner& runner) {
   const State& state = runner.state;
   for (int b = 0; b < n_blocks(runner.scene); ++b) {

@@ -16,15 +16,12 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-GroundClass ground_class(const GroundSettings& ground, const SolverSettings& solver,
-                         double friction_shift_deg, double cor_shift) {
+GroundClass ground_class(const GroundSettings& drawn) {
   GroundClass made;
-  const double friction = std::clamp(ground.friction_deg + friction_shift_deg, 0.0, 89.0);
-  const double cor = std::isnan(solver.cor) ? ground.cor : solver.cor;
-  made.friction = std::tan(friction * degree);
-  made.cohesion = ground.cohesion_pa;
-  made.tension = ground.tension_pa;
-  made.restitution = std::clamp(cor + cor_shift, 0.0, 1.0);
+  made.friction = std::tan(drawn.friction_deg * degree);
+  made.cohesion = drawn.cohesion_pa;
+  made.tension = drawn.tension_pa;
+  made.restitution = drawn.cor;
   return made;
 }
 
@@ -115,18 +112,28 @@ Settings settings_of(const SolverSettings& solver, const ScenePlan& plan) {
   return settings;
 }
 
+std::vector<GroundSettings> drawn_grounds(const Site& site) {
+  const SolverSettings& solver = site.solver;
+  Random scatter(static_cast<std::uint64_t>(solver.seed), "scatter of ground");
+  std::vector<GroundSettings> drawn = site.grounds;
+  for (GroundSettings& ground : drawn) {
+    const double friction_shift = solver.friction_scatter_deg * scatter.normal();
+    const double cor_shift = solver.cor_scatter * scatter.normal();
+    const double cor = std::isnan(solver.cor) ? ground.cor : solver.cor;
+    ground.friction_deg = std::clamp(ground.friction_deg + friction_shift, 0.0, 89.0);
+    ground.cor = std::clamp(cor + cor_shift, 0.0, 1.0);
+  }
+  return drawn;
+}
+
 Scene make_site_scene(const Site& site, const ScenePlan& plan, SceneParts parts) {
   const SolverSettings& solver = site.solver;
   const auto seed = static_cast<std::uint64_t>(solver.seed);
-  Random scatter(seed, "scatter of ground");
   Scene scene;
   scene.ground = make_ground(std::move(parts.trn), {});
   scene.ground.classes.clear();
-  for (const GroundSettings& ground : site.grounds) {
-    const double friction_shift = solver.friction_scatter_deg * scatter.normal();
-    const double cor_shift = solver.cor_scatter * scatter.normal();
-    scene.ground.classes.push_back(ground_class(ground, solver, friction_shift, cor_shift));
-  }
+  for (const GroundSettings& ground : drawn_grounds(site))
+    scene.ground.classes.push_back(ground_class(ground));
   scene.ground.cell_class = std::move(parts.cell_class);
   const Rock rock = rock_of(site, parts.blocks);
   scene.joints = joint_classes(site, parts.blocks, rock.classes);

@@ -33,6 +33,10 @@ struct SceneParts {
 /// it is Settings{}.
 [[nodiscard]] Settings settings_of(const SolverSettings& solver, const ScenePlan& plan);
 
+/// The ground classes of a site with the friction and restitution that its seed draws, within what
+/// they can be.
+[[nodiscard]] std::vector<GroundSettings> drawn_grounds(const Site& site);
+
 /// The scene with the settings of the site and the decisions of the plan. Scatter of friction and
 /// restitution and the jitter of the start are drawn from [solver] seed. Throws InputError for a
 /// block material that the site file does not know, and what check_scene() refuses.

@@ -39,13 +39,13 @@ constexpr double never_high = std::numeric_limits<double>::infinity(), never_low
 void look_at_depth(const PlausibilityFacts& f, Doubts& doubts) {
   const double size = std::sqrt(f.polygon_area);
   const std::string units =
-      "check the failure surface and its units: depth_m is in metres, and so are the heights";
-  doubts.above(f.mean_depth / size, {0.25, 1}, "source.depth_m",
+      "check the failure surface and its units: all lengths and heights are in metres";
+  doubts.above(f.mean_depth / size, {0.25, 1}, f.depth_key,
                "the mass is " + metres(f.mean_depth) + " deep on average, " +
                    text(f.mean_depth / size, 2) + " of the size of the source (" + metres(size) +
                    "); slides have 0.02 to 0.25",
                units);
-  doubts.above(f.max_depth / f.relief, {0.5, 1}, "source.depth_m",
+  doubts.above(f.max_depth / f.relief, {0.5, 1}, f.depth_key,
                "the mass is up to " + metres(f.max_depth) + " deep, " +
                    percent(f.max_depth / f.relief) + " of the relief over it (" + metres(f.relief) +
                    ")",

@@ -127,6 +127,7 @@ struct SolverSettings {
   double shear_stiffness_ratio = 0.4;  ///< k_s / k_n
   double cor = not_given;              ///< overrides those of materials and ground
   std::string strain = "auto";
+  bool end_when_standing = true;  ///< a run in which nothing moves ends after some seconds
   std::int64_t max_passes = 50;
   std::int64_t seed = 1, n_runs = 1;
   double start_jitter_m_s = 0;

@@ -156,6 +156,7 @@ template <> const std::vector<SiteKey<SolverSettings>>& keys_of() {
       {"shear_stiffness_ratio", &S::shear_stiffness_ratio, "shear over normal stiffness", {0, 10, true, false}},
       {"cor", &S::cor, "coefficient of restitution everywhere", share},
       {"strain", &S::strain, "strain degrees of freedom", any, "auto|on|off"},
+      {"end_when_standing", &S::end_when_standing, "a run in which no block moved more than 0.1 m or is faster than 2 mm/s after 3 s ends there, and says so"},
       {"max_passes", &S::max_passes, "passes of the contact iteration of a lone block in one step, law talus", {1, 10000}},
       {"seed", &S::seed, "seed of the run", not_negative},
       {"n_runs", &S::n_runs, "runs with seeds counted up", {1, 1000000}},

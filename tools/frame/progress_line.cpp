@@ -21,6 +21,18 @@ void ProgressLine::show(double share) {
   is_open_ = true;
 }
 
+void ProgressLine::report(double share) {
+  constexpr double interval_s = 60;
+  const double elapsed =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  if (elapsed - shown_at_ < interval_s || share >= 1) return;
+  shown_at_ = elapsed;
+  std::cerr << (label_.empty() ? "" : label_ + ": ") << text(std::round(100 * share)) << " %";
+  if (share > 0.02)
+    std::cerr << " (about " << text(std::ceil(elapsed / share * (1 - share)), 6) << " s left)";
+  std::cerr << std::endl;
+}
+
 void ProgressLine::end(const char* last_words) {
   if (is_open_) std::cerr << last_words << '\n';
   is_open_ = false;

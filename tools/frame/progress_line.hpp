@@ -12,6 +12,8 @@ class ProgressLine {
  public:
   /// The line for the share of the work done, 0 to 1; not more often than can be read.
   void show(double share);
+  /// The same where no terminal shows it: a line of its own each minute.
+  void report(double share);
   /// Ends a line that is open, with these words behind it.
   void end(const char* last_words);
   /// A word before the line, to tell runs apart.

@@ -381,7 +381,11 @@ ProgressFunction Tool::progress() {
   impl_->progress_line.restart();
   return [this](double share) {
     if (stop_requested()) throw Interrupted();
-    if (impl_->on_terminal && !impl_->options.quiet) impl_->progress_line.show(share);
+    if (impl_->options.quiet) return;
+    if (impl_->on_terminal)
+      impl_->progress_line.show(share);
+    else
+      impl_->progress_line.report(share);
   };
 }
 

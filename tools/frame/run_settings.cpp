@@ -1,4 +1,4 @@
-#include "tools/dda/settings.hpp"
+#include "tools/frame/run_settings.hpp"
 
 #include <algorithm>
 #include <cmath>

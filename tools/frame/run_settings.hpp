@@ -1,4 +1,4 @@
-// tools/dda/settings.hpp
+// tools/frame/run_settings.hpp
 // What is odd about the settings of a run: refused, or said to the user.
 #pragma once
 
