@@ -83,8 +83,11 @@ void look_at_motion(const PlausibilityFacts& f, Doubts& doubts) {
   doubts.above(f.step_at_foot / f.sliding_spacing, {0.3, never_high}, "source.failure_surface",
                "the mass leans on a step of up to " + metres(f.step_at_foot) + " along " +
                    percent(f.step_share) + " of its foot",
-               "a surface that comes out at the foot: failure_surface = \"daylighting\", or "
-               "daylight = \"...\" (talus-source lists what there is)");
+               f.daylights
+                   ? "move the lower edge of the source to where the surface comes out, or leave "
+                     "out what leans on it: daylight = \"...\""
+                   : "a surface that comes out at the foot: failure_surface = \"daylighting\", or "
+                     "daylight = \"...\" (talus-source lists what there is)");
   doubts.below(f.moved_share, {0.9, never_low}, "source.failure_surface",
                f.moved_share < 0.1 ? "this is no rockslide: " + percent(f.moved_share) +
                                          " of the mass moved in the probe, the rest stands"

@@ -23,6 +23,7 @@ struct PlausibilityFacts {
   double cell_size = none;                     ///< [m]
   double smallest_spacing = none;              ///< of the joint sets [m]
   double n_blocks = none;                      ///< that a run would move
+  bool daylights = false;                      ///< the surface is a plane or wedge that comes out
   double step_at_foot = none;                  ///< largest height that the mass leans on [m]
   double step_share = none;                    ///< of the foot with such a step [-]
   double sliding_spacing = none;               ///< of the set that slides [m]

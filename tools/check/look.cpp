@@ -116,7 +116,7 @@ void look_at_mass(Look& look) {
   look.volume.prism = look.measure.volume;
   for (const double volume : look.inputs.parts.blocks.volume) look.volume.cut += volume;
   look.volume.nodes = node_volume(ground, bed, work.area, area_of(work.area));
-  look.mean_depth = look.measure.plan_area > 0 ? look.measure.volume / area_of(work.area) : 0;
+  look.mean_depth = look.measure.plan_area > 0 ? look.measure.volume / look.measure.plan_area : 0;
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (size_t v = 0; v < look.measure.vertices.size(); v += 2) {  // on the ground, below it, ...
     low = std::min(low, look.measure.vertices[v].z());
@@ -338,6 +338,7 @@ void find_doubts(Look& look) {
       facts.smallest_spacing = std::isnan(facts.smallest_spacing)
                                    ? planned.set.mean_spacing
                                    : std::min(facts.smallest_spacing, planned.set.mean_spacing);
+    facts.daylights = site.source.failure_surface == "daylighting";
     facts.step_at_foot = look.step;
     facts.step_share = look.step_share;
     facts.sliding_spacing = facts.smallest_spacing;
