@@ -86,12 +86,12 @@ def drawn_site(draw, name, out):
         f'failure_surface = "normal_depth"\ndepth_m = {draw.uniform(4, 8):.1f}\ndaylight = "sliding"',
         'failure_surface = "slbl"\nslbl_scenario = "inter"'])
     spread = lambda azimuth, by: round((azimuth + draw.uniform(-by, by)) % 360)
-    spacing = lambda: round(draw.uniform(6, 10), 1)
+    spacing = lambda: round(draw.uniform(9, 14), 1)
     write(out, name=name, crs=f'EPSG:{code}', dem=dem, polygon=polygon, surface=surface,
           sliding=(round(dip - draw.uniform(3, 14)), spread(aspect, 15), spacing()),
           rear=(round(draw.uniform(74, 88)), spread(aspect + 180, 20), spacing()),
           lateral=(round(draw.uniform(78, 88)), spread(aspect + 90, 20), spacing()),
-          friction=round(draw.uniform(24, 34)), duration=40)
+          friction=round(draw.uniform(24, 34)), duration=20)
 
 
 def main():
