@@ -45,8 +45,10 @@ Probe probe(const Scene& scene, double duration, const std::function<bool(double
     const double distance = (motion.pose.position - scene.blocks.rest[i].position).norm();
     result.displacement.push_back(distance);
     all += scene.blocks.mass[i];
-    if (distance > probe_moved_m) moved += scene.blocks.mass[i];
-    result.largest_speed = std::max(result.largest_speed, motion.velocity.norm());
+    const double speed = motion.velocity.norm();
+    result.goes.push_back(distance + probe_ahead_s * speed > probe_goes_m);
+    if (result.goes.back()) moved += scene.blocks.mass[i];
+    result.largest_speed = std::max(result.largest_speed, speed);
   }
   result.moved_share = all > 0 ? moved / all : 0;
   return result;

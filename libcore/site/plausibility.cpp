@@ -90,9 +90,9 @@ void look_at_motion(const PlausibilityFacts& f, Doubts& doubts) {
                      "daylight = \"...\" (talus-source lists what there is)");
   doubts.below(f.moved_share, {0.9, never_low}, "source.failure_surface",
                f.moved_share < 0.1 ? "this is no rockslide: " + percent(f.moved_share) +
-                                         " of the mass moved in the probe, the rest stands"
+                                         " of the mass goes in the probe, the rest stands"
                                    : percent(f.moved_share) +
-                                         " of the mass moved in the probe: the rest is likely "
+                                         " of the mass goes in the probe: the rest is likely "
                                          "to stay",
                "look at the step at the foot, at friction against the dip of the failure surface, "
                "and at the blocks that lock");

@@ -44,7 +44,7 @@ std::string motion_section(const Look& look) {
   if (look.is_probed) {
     const double share = look.probe.moved_share;
     facts += html_fact(percent(share),
-                       "of the mass moved more than 0.1 m in " + text(look.probe.time, 3) +
+                       "of the mass is on its way after " + text(look.probe.time, 3) +
                            " s of the engine: it " + text(outlook_of(share)),
                        share < 0.1 ? "two bad" : "two");
   }
@@ -75,9 +75,9 @@ BlockOutlook outlook_of_block(const Look& look, int b) {
       std::any_of(look.peel.locks.begin(), look.peel.locks.end(),
                   [b](const Lock& lock) { return lock.block == b && lock.freed >= 0.01; });
   if (look.is_probed)
-    return look.probe.displacement[b] > probe_moved_m ? BlockOutlook::goes
-           : holds                                    ? BlockOutlook::holds_others
-                                                      : BlockOutlook::stays;
+    return look.probe.goes[b] ? BlockOutlook::goes
+           : holds            ? BlockOutlook::holds_others
+                              : BlockOutlook::stays;
   if (!look.is_cut) return BlockOutlook::goes;
   return look.peel.round[b] >= 0 ? BlockOutlook::goes
          : holds                 ? BlockOutlook::holds_others

@@ -51,6 +51,20 @@ TEST(Probe, SeesWhatStands) {
   EXPECT_LT(result.largest_speed, 1e-3);
 }
 
+// At 1 s a box on 30 degrees with a friction of 25 has gone 0.5 m and is at 0.9 m/s; one that drops
+// 0.3 m onto a slope that holds it is at rest.
+TEST(Probe, TellsWhatGoesFromWhatSags) {
+  const Probe sliding = probe(two_boxes(25), 1);
+  EXPECT_LT(sliding.displacement[1], probe_goes_m);
+  EXPECT_EQ(sliding.moved_share, 1);
+  Scene scene = two_boxes(60);
+  for (Pose& rest : scene.blocks.rest) rest.position.z() += 0.3;
+  const Probe sagging = probe(scene, 2);
+  EXPECT_GT(sagging.displacement[1], 0.1);
+  EXPECT_EQ(sagging.moved_share, 0);
+  EXPECT_FALSE(sagging.goes[1]);
+}
+
 TEST(Probe, EndsWhenItIsStopped) {
   const Probe result = probe(two_boxes(20), 1, [](double share) { return share > 0.45; });
   EXPECT_LT(result.time, 0.7);
