@@ -6,6 +6,7 @@
 
 #include "base/grouped_text.hpp"
 #include "base/text.hpp"
+#include "run/runner.hpp"
 #include "tools/frame/failure_plane_choice.hpp"
 
 namespace talus {
@@ -154,10 +155,15 @@ std::string time_text(const Look& look, std::int64_t n_runs, bool of_this_machin
                       " s; points that slide from the source ask for " +
                       text(std::ceil(look.travel_duration)) + " s\n";
   if (site.solver.law != "talus") return words + "time: not estimated for law paper";
-  const double one = of_this_machine && look.is_probed && look.probe.time > 0
-                         ? scaled_cpu_s(look.probe_cpu_s, look.probe.time, probe_step_s,
-                                        site.solver.duration_s, dt)
-                         : expected_cpu_s(n, site.solver.duration_s, dt);
+  const bool may_stand =
+      look.is_probed && look.probe.moved_share == 0 && site.solver.end_when_standing;
+  const double duration =
+      may_stand ? std::min(standing_after_s, site.solver.duration_s) : site.solver.duration_s;
+  const double one =
+      of_this_machine && look.is_probed && look.probe.time > 0
+          ? scaled_cpu_s(look.probe_cpu_s, look.probe.time, probe_step_s, duration, dt)
+          : expected_cpu_s(n, duration, dt);
+  if (may_stand) words += "a run in which nothing moves ends after 3 s\n";
   words += "time: a run takes about " + seconds_text(one) + " of one core (" +
            seconds_text(one / 2.5) + " to " + seconds_text(one * 2.5) + ")";
   if (n_runs > 1)
