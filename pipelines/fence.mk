@@ -10,5 +10,6 @@ $(OUT)/fence.gpkg: $(run_files) $(without_files) $(OUT)/blocks.h5 $(STAGES)/fenc
 	@$(call outcomes,some,$(run_files))$(if $(without_files), && $(call outcomes,some,$(without_files)))
 	$(Q)$(BIN)talus-fence site.toml $(call run_there,$(run_files) $(without_files)) $(if $(without_files),--change $(OUT)/change.tif) --trn $(OUT)/bed.tif -o $(OUT)/fence.gpkg \
 	  --json $(OUT)/fence.json --csv $(OUT)/fence.csv $(EVALUATE_FLAGS) $(FENCE_FLAGS) --overwrite $(DB)
+	$(call made,talus-fence)
 endif
 fence: $(fence_files) ## runs -> what the fences meet and hold
