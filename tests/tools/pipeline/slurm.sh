@@ -88,7 +88,10 @@ kill_all() {
 kill_node() {
   eval "daemon=\$daemon_$1"
   below=$(processes_of "SLURMD_NODENAME=$1")
-  steps=$(for process in $below; do ps -o pid=,args= -p "$(ps -o ppid= -p "$process")"; done | sed -n 's/^ *\([0-9]*\) slurmstepd: .*/\1/p')
+  steps=$(for process in $below; do
+    # shellcheck disable=SC2046  # a number with blanks before it
+    ps -o pid=,args= -p $(ps -o ppid= -p "$process") 2>/dev/null
+  done | sed -n 's/^ *\([0-9]*\) slurmstepd: .*/\1/p')
   # shellcheck disable=SC2086,SC2154  # lists of numbers
   kill_all $daemon $steps $below
 }
@@ -109,5 +112,7 @@ stop_slurm() {
   kill_node n3
   kill_all "$controller"
   kill "$(cat "$cluster/munge/munged.pid" 2>/dev/null)" 2>/dev/null || true
+  rm -rf slurm_log
+  cp -r "$cluster/log" slurm_log  # to look at when a test fails
   rm -rf "$cluster"
 }
