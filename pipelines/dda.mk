@@ -35,8 +35,10 @@ goes_on := $(if $(filter $(OUT)/%,$(MAKECMDGOALS)),,-)
 # How far the runs are: what is to be made is counted when the first one starts, and all that they read is made.
 run_inputs := $(OUT)/blocks.h5 $(STAGES)/run.txt $(STAGES)/dda.flags $(STAGES)/dda.files
 newer_runs = $(shell find $(wildcard $(OUT)/runs $(OUT)/without) -name 'run_$2*.h5' $(addprefix -newer ,$1))
-fresh_runs = $(foreach case,$(or $(CASES),-),$(call newer_runs,$(run_inputs) $(if $(CASES),$(STAGES)/case_$(case).flags $(STAGES)/case_$(case).files),$(CASES:%=$(case)_)))
-wanted_runs = $(if $(SHARD),$(shard_runs),$(run_files) $(without_files))
+fresh_runs = $(foreach case,$(or $(CASES),-),$(call newer_runs,$(run_inputs) $(if $(CASES),$(STAGES)/case_$(case).flags $(STAGES)/case_$(case).files),$(if $(CASES),$(case)_)))
+# Those of the goals: maps and run-out need none without fences.
+goal_runs = $(run_files) $(if $(filter-out maps runout,$(wanted)),$(without_files))
+wanted_runs = $(or $(if $(SHARD),$(shard_runs)),$(filter $(MAKECMDGOALS),$(goal_runs)),$(goal_runs))
 count_runs = $(if $(runs_begun),,$(eval runs_begun := $(shell date +%s))$(eval n_to_make := $(words $(filter-out $(fresh_runs),$(wanted_runs)))))
 run_progress := $(STAGES)/.progress$(if $(SHARD),-$(SHARD)-of-$(SHARDS))
 $(if $(is_dry_run),,$(if $(wildcard $(run_progress)),$(shell rm -f $(run_progress))))
@@ -73,4 +75,4 @@ asked := $(filter $(run_goals),$(or $(MAKECMDGOALS),all))
 last_goal := $(if $(filter all,$(asked)),all,$(lastword $(asked)))
 $(if $(last_goal),$(last_goal): | $(filter-out $(last_goal),$(asked)))
 $(or $(last_goal),$(filter-out all,$(run_goals))):
-	$(if $(findstring n,$(short_flags)),,$(if $(shell $(call outcomes,failed,$(run_files) $(without_files))),@$(call outcomes,list,$(run_files) $(without_files))))
+	$(if $(findstring n,$(short_flags)),,$(if $(shell $(call outcomes,failed,$(goal_runs))),@$(call outcomes,list,$(goal_runs))))

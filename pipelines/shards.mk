@@ -17,7 +17,8 @@ of_shard = $(patsubst %|$1,%,$(filter %|$1,$(runs_by_shard)))
 # --- one shard ---
 shard_runs := $(if $(SHARD),$(call of_shard,$(SHARD)))
 $(if $(SHARD),$(shard_runs): | $(OUT)/shards)
-# What else a shard does when its runs have ended, e.g. bring them together in one file; another rule file may set it.
+# What else a shard does when its runs have ended, e.g. bring those with a result, $(call run_there,$(shard_runs)),
+# together in one file. Another rule file may set it.
 SHARD_LAST ?=
 .PHONY: runs-shard
 runs-shard: $(shard_runs) ## SHARD=k SHARDS=n: the runs of one shard (after `make prepare`)

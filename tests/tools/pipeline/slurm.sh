@@ -1,7 +1,7 @@
 # A Slurm of three nodes on this machine, for the tests beside it: started by start_slurm, ended when the
 # test does. Nothing of a Slurm that the machine may have is touched.
 PATH=$PATH:/usr/sbin
-for program in munged slurmctld slurmd sbatch squeue scontrol sinfo setsid; do
+for program in munged slurmctld slurmd sbatch squeue scontrol scancel sinfo setsid ps; do
   command -v $program >/dev/null || skip "needs $program (Debian packages slurm-wlm and munge)"
 done
 
