@@ -21,8 +21,10 @@ made_patterns := thickness.qml runs/run_*[0-9].h5 runs/run_*[0-9].h5.part runs/r
   runs.sqlite runs.sqlite-wal runs.sqlite-shm runs.sqlite.late-* data.ok \
   $(addsuffix .aux.xml,$(filter %.tif %.png,$(products))) \
   $(foreach ending,txt flags files,$(stages_made:%=stages/%.$(ending))) \
+  shards/*-of-*.sqlite shards/*-of-*.sqlite-wal shards/*-of-*.sqlite-shm shards/*-of-*.sqlite.late-* \
+  shards/merged shards/jobs shards/log/*_*.txt stages/.progress* \
   stages/.digests stages/failed/run_*[0-9] stages/failed/without_run_*[0-9] \
   $(addsuffix .*.part-*-*,$(sort $(dir $(products))) runs/ without/ stages/)
 # The mark of a folder that the pipeline has written into; it goes last.
 mark_of_out := stages/site.mk
-made_folders := maps runs without stages/failed stages
+made_folders := maps runs without shards/log shards stages/failed stages
