@@ -16,6 +16,7 @@
 #include "record/crossings.hpp"
 #include "record/frames.hpp"
 #include "record/passages.hpp"
+#include "scene/state.hpp"
 #include "step/report.hpp"
 
 namespace talus {
@@ -76,6 +77,7 @@ struct HealthRow {
   double largest_penetration = 0;                             ///< [m]
   double translation = 0, rotation = 0, potential = 0, elastic = 0;   ///< at `time` [J]
   double friction = 0, impact = 0, contact = 0, base = 0, fence = 0;  ///< since the start [J]
+  double breakage = 0;                                                ///< since the start [J]
   double removed = 0;                                                 ///< since the start [J]
 };
 
@@ -122,8 +124,9 @@ struct RunFile {
   std::vector<FenceHit> fence_hits;  ///< by time, step by step
   std::vector<PanelRow> panels;      ///< of the fences that stood, by line
   std::vector<HealthRow> health;
-  std::vector<DeepRow> deep;  ///< by block
-  std::vector<Phase> phase;   ///< at info.time; empty: not known               (n_blocks)
+  std::vector<DeepRow> deep;          ///< by block
+  std::vector<CrushedBlock> crushed;  ///< by time
+  std::vector<Phase> phase;           ///< at info.time; empty: not known               (n_blocks)
   std::vector<std::uint8_t> checkpoint;  ///< store/checkpoint.hpp; empty when the run is done
 };
 

@@ -23,6 +23,16 @@ void record(Runner& runner, const Segment& segment) {
                 strain_of(runner.state, segment.block));
 }
 
+// Debris lies still from now on.
+void record_crushed(Runner& runner, std::size_t first) {
+  const State& state = runner.state;
+  for (std::size_t i = first; i < state.crushed.size(); ++i) {
+    const int b = state.crushed[i].block;
+    record_start(runner.sampler, runner.scene, b, state.motion[static_cast<std::size_t>(b)],
+                 strain_of(state, b));
+  }
+}
+
 void take(Runner& runner, double time) {
   for (const Frame& frame : take_frames(runner.sampler, time))
     append(runner.file.frames, frame, runner.options.strain);
@@ -70,6 +80,7 @@ void close_interval(Runner& runner) {
   row.contact = state.ledger.contact;
   row.base = state.ledger.base;
   row.fence = state.ledger.fence;
+  row.breakage = state.ledger.breakage;
   row.removed = state.ledger.removed;
   runner.file.health.push_back(row);
   HealthRow next;
@@ -99,7 +110,8 @@ double energy_gain(const Runner& runner, const HealthRow& row) {
   // out what its integrator damps.
   double known = now - runner.energy_start - row.base;
   if (runner.scene.settings.law == Law::talus)
-    known += std::max(0.0, row.friction + row.impact + row.contact + row.fence + row.removed);
+    known += std::max(
+        0.0, row.friction + row.impact + row.contact + row.fence + row.breakage + row.removed);
   return known / std::max(turned_over, least_fall * weight);
 }
 
@@ -201,8 +213,10 @@ Runner resume_run(const Scene& scene, const RunOptions& options, std::vector<Rec
 }
 
 void advance(Runner& runner) {
+  const std::size_t n_crushed = runner.state.crushed.size();
   const StepReport report = step(runner.scene, runner.state, runner.work);
   for (const Segment& segment : runner.work.segments) record(runner, segment);
+  record_crushed(runner, n_crushed);
   add_to_interval(runner.interval, report);
   const double next_frame =
       static_cast<double>(runner.sampler.n_closed) * runner.options.frame_interval;
@@ -249,6 +263,7 @@ void update_file(Runner& runner, bool with_checkpoint) {
   file.fence_hits = runner.state.fence.hits;
   file.panels = panel_rows(runner.scene.fixed, runner.state.yielding);
   file.deep = deep_rows(runner.scene, runner.state, runner.crossings.rows);
+  file.crushed = runner.state.crushed;
   file.info.time = runner.state.time;
   file.phase = runner.state.phase;
   file.checkpoint.clear();

@@ -69,6 +69,7 @@ struct Scene {
   GroundClass joint;    ///< contacts between blocks where `joints` says nothing else
   JointClasses joints;  ///< by joint set and by block
   Blocks blocks;
+  std::vector<double> crush_load;    ///< that crushes a block; empty: none is [N] (n_blocks)
   FixedBodies fixed;                 ///< law talus: fences, blocky slope; found through hulls
   Vec3 gravity = Vec3(0, 0, -9.81);  ///< [m/s2]
   std::vector<PointLoad> loads;      ///< sorted by block

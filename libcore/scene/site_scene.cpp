@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "base/random.hpp"
 #include "base/text.hpp"
+#include "scene/crushing.hpp"
 #include "scene/make_scene.hpp"
 
 namespace talus {
@@ -65,6 +66,7 @@ JointClasses joint_classes(const Site& site, const BlockSet& blocks,
 struct Rock {
   std::vector<Material> materials;
   std::vector<GroundClass> classes;
+  std::vector<Crushing> crushing;
 };
 
 Rock rock_of(const Site& site, const BlockSet& blocks) {
@@ -78,6 +80,7 @@ Rock rock_of(const Site& site, const BlockSet& blocks) {
                        "add [material." + name + "], or cut the blocks again");
     rock.materials.push_back({found->density_kg_m3, found->young_modulus_pa, found->poisson_ratio});
     rock.classes.push_back(rock_class(*found, site.solver));
+    rock.crushing.push_back({1e6 * found->strength_mpa, found->crush_below});
   }
   return rock;
 }
@@ -133,6 +136,8 @@ Scene make_site_scene(const Site& site, const ScenePlan& plan, SceneParts parts)
   scene.settings = settings_of(solver, plan);
   scene.base = std::move(parts.base);
   add_blocks(scene, parts.blocks, rock.materials);
+  if (scene.settings.law == Law::talus)
+    scene.crush_load = crush_loads(parts.blocks, scene.blocks, rock.crushing);
   add_jitter(scene.blocks, solver.start_jitter_m_s, seed);
   for (const StandingFence& fence : parts.fences) add_fence(scene, fence);
   check_scene(scene);

@@ -30,6 +30,7 @@ struct EnergyLedger {
   double contact = 0;   ///< dissipated or stored by normal contact and strain damping
   double base = 0;      ///< put in by base motion and point loads
   double fence = 0;     ///< taken by panels of fences, and what else gave way
+  double breakage = 0;  ///< kinetic energy of blocks that were crushed
   double removed = 0;   ///< kinetic energy of blocks stopped at the domain's edge
 };
 
@@ -43,6 +44,26 @@ struct RunCounters {
   std::int64_t unconverged = 0;   ///< block steps accepted without convergence
   std::int64_t cut_back = 0;      ///< block steps repeated with a shorter one
   int left_domain = 0;            ///< blocks that left the known terrain
+};
+
+/// What presses on a block that may be crushed (step/crushing.hpp): means over law::load_time, and
+/// sums of the step under way, which are zero between steps.
+struct BlockLoad {
+  Mat3 press = Mat3::Zero();       ///< sum of N n n^T over its contacts, N the normal force [N]
+  Vec3 push = Vec3::Zero();        ///< sum of their forces [N]
+  Mat3 step_press = Mat3::Zero();  ///< [N s]
+  Vec3 step_push = Vec3::Zero();   ///< [N s]
+};
+
+/// A block that was crushed.
+struct CrushedBlock {
+  std::int32_t block = 0;
+  double time = 0;            ///< [s]
+  double load = 0;            ///< that went through it, mean over law::load_time [N]
+  double strength = 0;        ///< the load that it could bear [N]
+  Vec3 place = Vec3::Zero();  ///< of its centroid; it stays there as debris [m]
+  double volume = 0;          ///< [m3]
+  double mass = 0;            ///< [kg]
 };
 
 /// What became of a block that was deep in something (step/deep_blocks.hpp).
@@ -72,6 +93,8 @@ struct State : BlockLives {  // clang-format off
   PlacedHulls placed;                       ///< where the pairs were searched last
   std::vector<BlockBond> bonds;             ///< sorted by block_a, block_b            (n_bonds)
   std::vector<DeepBlock> deep;              ///<                                     (n_blocks)
+  std::vector<BlockLoad> load;              ///< empty: none is crushed                 (n_blocks)
+  std::vector<CrushedBlock> crushed;        ///< by time
   YieldingState yielding;                   ///< what fixed bodies that give way have met
   FenceState fence;                         ///< what touched the panels of fences
   PaperState paper;                         ///< of law paper alone

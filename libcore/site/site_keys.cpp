@@ -123,7 +123,9 @@ template <> const std::vector<SiteKey<MaterialSettings>>& keys_of() {
       {"friction_deg", &S::friction_deg, "friction angle between blocks", angle_below_90, "", friction_hint},
       {"cohesion_pa", &S::cohesion_pa, "cohesion between blocks", not_negative},
       {"tension_pa", &S::tension_pa, "tensile strength between blocks", not_negative},
-      {"cor", &S::cor, "coefficient of restitution between blocks", share}};
+      {"cor", &S::cor, "coefficient of restitution between blocks", share},
+      {"strength_mpa", &S::strength_mpa, "uniaxial compressive strength of the rock: small blocks are crushed by what is pressed through them; 0: none is", {0, 1000}, "", "hard rock has 50 to 250 MPa"},
+      {"crush_below", &S::crush_below, "only blocks smaller than this share of the median volume are crushed", share}};
   return table;
 }
 template <> const std::vector<SiteKey<GroundSettings>>& keys_of() {

@@ -8,6 +8,7 @@
 #include "motion/rotation.hpp"
 #include "scene/yielding.hpp"
 #include "solver/law_numbers.hpp"
+#include "step/crushing.hpp"
 #include "step/deep_blocks.hpp"
 #include "step/flight.hpp"
 #include "step/island/step_island.hpp"
@@ -60,6 +61,7 @@ State start(const Scene& scene) {
   state.support.assign(n, Vec3::Zero());
   state.memory.resize(n);
   state.deep.resize(n);
+  if (!scene.crush_load.empty()) state.load.resize(n);
   state.yielding = start_yielding(scene);
   state.bonds = start_bonds(scene);
   if (scene.settings.strains) {
@@ -166,6 +168,7 @@ StepReport step(const Scene& scene, State& state, Work& work) {
   else
     advance_talus(scene, state, work, report);
   state.time += scene.settings.dt;
+  crush_blocks(scene, state);
   note_deep_blocks(scene, state, work.deep, report);
   ++state.counters.steps;
   state.counters.substeps += report.substeps;

@@ -343,13 +343,22 @@ void read_deep(const H5Reader& file, const std::string& path, RunFile& run) {
       throw InputError({path, 0, "deep_blocks"}, "a row names a block that does not exist");
 }
 
+void read_crushed(const H5Reader& file, const std::string& path, RunFile& run) {
+  if (!file.has("crushed_blocks")) return;
+  run.crushed = read_crushed_table(file);
+  for (const CrushedBlock& row : run.crushed)
+    if (row.block < 0 || row.block >= n_blocks(run))
+      throw InputError({path, 0, "crushed_blocks"}, "a row names a block that does not exist");
+}
+
 void write_phases(H5Writer& file, const RunFile& run) {
   std::vector<std::uint8_t> phases;
   for (const Phase phase : run.phase) phases.push_back(static_cast<std::uint8_t>(phase));
   if (!phases.empty())
     file.array<std::uint8_t>("blocks/phase", phases, {phases.size()}, "1",
                              "at the end: 0 near the ground, 1 in flight, 2 asleep, 3 left the "
-                             "terrain, 4 stopped for want of finite numbers");
+                             "terrain, 4 stopped for want of finite numbers, 5 not there yet, 6 "
+                             "crushed");
 }
 
 std::vector<Phase> read_phases(const H5Reader& file, std::size_t n_blocks,
@@ -357,7 +366,7 @@ std::vector<Phase> read_phases(const H5Reader& file, std::size_t n_blocks,
   std::vector<Phase> phases;
   if (!file.has("blocks/phase")) return phases;
   for (const std::uint8_t phase : file.array<std::uint8_t>("blocks/phase", 1)) {
-    if (phase > static_cast<std::uint8_t>(Phase::stopped))
+    if (phase > static_cast<std::uint8_t>(last_phase))
       throw InputError({path, 0, "blocks/phase"}, "holds an unknown phase");
     phases.push_back(static_cast<Phase>(phase));
   }
@@ -387,6 +396,7 @@ RunFile read_run_file(const std::string& path, const RunParts& parts) {
   }
   if (parts.health) {
     run.health = read_health_table(file, parts.only_faults);
+    read_crushed(file, path, run);
     read_deep(file, path, run);
   }
   if (parts.checkpoint && file.has("checkpoint"))
@@ -412,6 +422,7 @@ void write_run_file(const std::string& path, const RunFile& run) {
   write_crossings(file, run);
   write_fences(file, run);
   write_health_table(file, run.health);
+  if (!run.crushed.empty()) write_crushed_table(file, run.crushed);
   if (!run.deep.empty()) write_deep_table(file, run.deep);
   if (!run.checkpoint.empty())
     file.array<std::uint8_t>("checkpoint", run.checkpoint, {run.checkpoint.size()}, "1",

@@ -178,6 +178,33 @@ void panel_columns(Visit&& column) {
 }
 
 template <class Visit>
+void crushed_columns(Visit&& column) {
+  column(
+      "block", "1", "index of the block", [](CrushedBlock & c) -> auto& { return c.block; });
+  column(
+      "time_s", "s", "when it was crushed", [](CrushedBlock & c) -> auto& { return c.time; });
+  column(
+      "load_n", "N", "that was pressed through it, mean over 0.1 s",
+      [](CrushedBlock & c) -> auto& { return c.load; });
+  column(
+      "strength_n", "N", "load that it could bear",
+      [](CrushedBlock & c) -> auto& { return c.strength; });
+  column(
+      "position_x_m", "m", "centroid, where its debris stays, local",
+      [](CrushedBlock & c) -> auto& { return c.place.x(); });
+  column(
+      "position_y_m", "m", "centroid, where its debris stays, local",
+      [](CrushedBlock & c) -> auto& { return c.place.y(); });
+  column(
+      "position_z_m", "m", "centroid, where its debris stays, local",
+      [](CrushedBlock & c) -> auto& { return c.place.z(); });
+  column(
+      "volume_m3", "m3", "of the block", [](CrushedBlock & c) -> auto& { return c.volume; });
+  column(
+      "mass_kg", "kg", "of the block", [](CrushedBlock & c) -> auto& { return c.mass; });
+}
+
+template <class Visit>
 void deep_columns(Visit&& column) {
   column(
       "block", "1", "index of the block", [](DeepRow & d) -> auto& { return d.block; });
@@ -296,6 +323,14 @@ void health_columns(Visit&& column) {
 
 // Missing in runs of earlier versions.
 template <class Visit>
+void breakage_column(Visit&& column) {
+  column(
+      "breakage_loss_j", "J", "kinetic energy of blocks that were crushed, since the start",
+      [](HealthRow & h) -> auto& { return h.breakage; });
+}
+
+// Missing in runs of earlier versions.
+template <class Visit>
 void cut_columns(Visit&& column) {
   for (std::size_t k = 0; k < substep_cut_names.size(); ++k)
     column(
@@ -362,6 +397,11 @@ void write_hit_table(H5Writer& file, const std::vector<FenceHit>& rows) {
               [](auto&& column) { hit_columns(column); });
 }
 
+void write_crushed_table(H5Writer& file, const std::vector<CrushedBlock>& rows) {
+  write_table(file, "crushed_blocks", "one row per block that was crushed, by time", rows,
+              [](auto&& column) { crushed_columns(column); });
+}
+
 void write_deep_table(H5Writer& file, const std::vector<DeepRow>& rows) {
   write_table(file, "deep_blocks",
               "one row per block that was in something by more than a tenth of its thickness", rows,
@@ -372,6 +412,7 @@ void write_health_table(H5Writer& file, const std::vector<HealthRow>& rows) {
   write_table(file, "health", "how the computation went, interval by interval", rows,
               [](auto&& column) {
                 health_columns(column);
+                breakage_column(column);
                 cut_columns(column);
               });
 }
@@ -392,6 +433,11 @@ std::vector<FenceHit> read_hit_table(const H5Reader& file) {
   return read_table<FenceHit>(file, "fence_hits", [](auto&& column) { hit_columns(column); });
 }
 
+std::vector<CrushedBlock> read_crushed_table(const H5Reader& file) {
+  return read_table<CrushedBlock>(file, "crushed_blocks",
+                                  [](auto&& column) { crushed_columns(column); });
+}
+
 std::vector<DeepRow> read_deep_table(const H5Reader& file) {
   return read_table<DeepRow>(file, "deep_blocks", [](auto&& column) { deep_columns(column); });
 }
@@ -402,6 +448,12 @@ std::vector<HealthRow> read_health_table(const H5Reader& file, bool only_faults)
     wanted = {"unconverged", "left_domain", "fell_through", "not_finite", "largest_penetration_m"};
   std::vector<HealthRow> rows = read_table<HealthRow>(
       file, "health", [](auto&& column) { health_columns(column); }, wanted);
+  if (!only_faults && file.has("health/breakage_loss_j")) {
+    const auto breakage = file.array<double>("health/breakage_loss_j", 1);
+    if (breakage.size() != rows.size())
+      throw InputError({"health/breakage_loss_j"}, "has not as many rows as the columns beside it");
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i].breakage = breakage[i];
+  }
   if (only_faults || !file.has(std::string("health/cut_") + substep_cut_names.front())) return rows;
   const std::vector<HealthRow> cuts =
       read_table<HealthRow>(file, "health", [](auto&& column) { cut_columns(column); });

@@ -6,6 +6,7 @@
 #include "base/make_room.hpp"
 #include "scene/fence.hpp"
 #include "solver/law_numbers.hpp"
+#include "step/crushing.hpp"
 #include "step/deep_blocks.hpp"
 #include "step/flight.hpp"
 #include "step/island/stages.hpp"
@@ -40,6 +41,9 @@ struct SubstepAcceptance {
     if (!gives_way(system, r))
       (contact.hit >= 0 ? state.ledger.impact : state.ledger.contact) -= p_n * normal.dot(path);
     state.ledger.friction -= p_t.dot(path);
+    if (state.load.empty()) return;
+    add_load(scene, contact.a, normal, p_n, impulse, state);
+    add_load(scene, contact.b, normal, p_n, -impulse, state);
   }
 
   // Share of offset_relaxed() by which an overlap is pressed out. That is a speed, whatever it
