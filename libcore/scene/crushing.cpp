@@ -38,12 +38,12 @@ double equivalent_core_diameter(const Polyhedron& shell, const Pose& rest) {
 }
 
 std::vector<double> crush_loads(const BlockSet& set, const Blocks& blocks,
-                                std::span<const Crushing> crushing) {
+                                std::span<const Crushing> crushing, int n_released) {
   std::vector<double> loads;
   const bool any = std::any_of(crushing.begin(), crushing.end(),
                                [](const Crushing& c) { return c.strength > 0 && c.below > 0; });
-  if (!any || blocks.volume.empty()) return loads;
-  const double middle = median(blocks.volume);
+  if (!any || n_released == 0) return loads;
+  const double middle = median({blocks.volume.begin(), blocks.volume.begin() + n_released});
   loads.assign(blocks.volume.size(), std::numeric_limits<double>::infinity());
   bool any_small = false;
   for (int b = 0; b < n_blocks(set); ++b) {

@@ -32,8 +32,9 @@ struct Crushing {
 };
 
 /// Load that crushes each block, infinite for those that are not crushed [N]; empty where none is.
-/// `crushing`: by material of `set`.
+/// `crushing`: by material of `set`. The median is that of the first `n_released`: pieces of blocks
+/// that are still whole stand behind them.
 [[nodiscard]] std::vector<double> crush_loads(const BlockSet& set, const Blocks& blocks,
-                                              std::span<const Crushing> crushing);
+                                              std::span<const Crushing> crushing, int n_released);
 
 }  // namespace talus

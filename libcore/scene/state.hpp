@@ -30,7 +30,7 @@ struct EnergyLedger {
   double contact = 0;   ///< dissipated or stored by normal contact and strain damping
   double base = 0;      ///< put in by base motion and point loads
   double fence = 0;     ///< taken by panels of fences, and what else gave way
-  double breakage = 0;  ///< kinetic energy of blocks that were crushed
+  double breakage = 0;  ///< kinetic energy of crushed blocks, and work of fracture
   double removed = 0;   ///< kinetic energy of blocks stopped at the domain's edge
 };
 
@@ -66,6 +66,20 @@ struct CrushedBlock {
   double mass = 0;            ///< [kg]
 };
 
+/// A block that broke into two pieces.
+struct Break {
+  std::int32_t block = 0;
+  std::int32_t first_piece = 0;  ///< the other one is the next
+  std::int32_t released = 0;     ///< the released block that it was part of
+  std::int32_t generation = 0;   ///< of the block
+  double time = 0;               ///< [s]
+  Vec3 place = Vec3::Zero();     ///< of its centroid [m]
+  double volume = 0;             ///< of the block [m3]
+  double hit_loss = 0;           ///< normal energy that the hit took, or left of it to a piece [J]
+  double fracture = 0;           ///< work of fracture, part of that [J]
+  double separation = 0;         ///< that drives the pieces apart, part of that [J]
+};
+
 /// What became of a block that was deep in something (step/deep_blocks.hpp).
 struct DeepBlock {
   std::int64_t steps = 0;     ///< that ended with it deep
@@ -95,6 +109,9 @@ struct State : BlockLives {  // clang-format off
   std::vector<DeepBlock> deep;              ///<                                     (n_blocks)
   std::vector<BlockLoad> load;              ///< empty: none is crushed                 (n_blocks)
   std::vector<CrushedBlock> crushed;        ///< by time
+  std::vector<double> hit_loss;             ///< of the step under way; empty: none breaks [J] (n_blocks)
+  std::vector<std::int32_t> n_hits;         ///< steps with a hit; empty: none breaks   (n_blocks)
+  std::vector<Break> breaks;                ///< by time
   YieldingState yielding;                   ///< what fixed bodies that give way have met
   FenceState fence;                         ///< what touched the panels of fences
   PaperState paper;                         ///< of law paper alone

@@ -205,6 +205,19 @@ template <> const std::vector<SiteKey<BaseMotionSettings>>& keys_of() {
       {"direction_deg", &S::direction_deg, "azimuth of a harmonic motion", azimuth}};
   return table;
 }
+template <> const std::vector<SiteKey<FragmentationSettings>>& keys_of() {
+  using S = FragmentationSettings;
+  static const std::vector<SiteKey<S>> table = {
+      {"enabled", &S::enabled, "blocks break in two when they are hit hard, and their pieces again (law talus)"},
+      {"splitting", &S::splitting, "planes along which they break: of any direction, or parallel to the joint sets", any, "random|joints"},
+      {"energy_j_m2", &S::energy_j_m2, "effective work of fracture, all losses included", positive},
+      {"spread", &S::spread, "exponent k of the chance to break, 1 - 2^-(energy of the hit / work)^k", {0, 1000, true, false}},
+      {"separation_share", &S::separation_share, "share of the energy that the hit took that drives the pieces apart", share},
+      {"min_volume_m3", &S::min_volume_m3, "no piece is smaller", positive},
+      {"max_generation", &S::max_generation, "breaks, one after the other", {1, 12}},
+      {"seed", &S::seed, "seed of planes and of what breaks", not_negative}};
+  return table;
+}
 template <> const std::vector<SiteKey<PlacedSettings>>& keys_of() {
   using S = PlacedSettings;
   static const std::vector<SiteKey<S>> table = {

@@ -56,6 +56,7 @@ template <> const std::vector<SiteKey<SolverSettings>>& keys_of();
 template <> const std::vector<SiteKey<FenceSettings>>& keys_of();
 template <> const std::vector<SiteKey<OutputSettings>>& keys_of();
 template <> const std::vector<SiteKey<BaseMotionSettings>>& keys_of();
+template <> const std::vector<SiteKey<FragmentationSettings>>& keys_of();
 template <> const std::vector<SiteKey<PlacedSettings>>& keys_of();
 // clang-format on
 
@@ -73,6 +74,7 @@ void for_each_group(SiteType& site, Visit&& visit) {
   visit("solver", site.solver);
   visit("fence", site.fences);
   visit("base_motion", site.base_motion);
+  visit("fragmentation", site.fragmentation);
   visit("output", site.output);
 }
 

@@ -16,13 +16,13 @@ namespace talus {
 static_assert(sizeof(Motion) == 112 && sizeof(EnergyLedger) == 56 && sizeof(RunCounters) == 64);
 static_assert(sizeof(ContactMemory) == 136 &&
               sizeof(HealthRow) == 184 + 8 * substep_cut_names.size());
-static_assert(sizeof(State) == 8 + 17 * 24 + sizeof(EnergyLedger) + sizeof(RunCounters) +
+static_assert(sizeof(State) == 8 + 20 * 24 + sizeof(EnergyLedger) + sizeof(RunCounters) +
                                    sizeof(PairState) + sizeof(PlacedHulls) + sizeof(FenceState) +
                                    sizeof(YieldingState));
 static_assert(sizeof(YieldingState) == 2 * 24 && sizeof(Yielded) == 56);
 static_assert(sizeof(FenceState) == 24 && sizeof(FenceHit) == 104 && sizeof(BlockBond) == 48);
 static_assert(sizeof(PairState) == 280 && sizeof(PlacedHulls) == 192 && sizeof(ListedPair) == 96);
-static_assert(sizeof(BlockLoad) == 192 && sizeof(CrushedBlock) == 72);
+static_assert(sizeof(BlockLoad) == 192 && sizeof(CrushedBlock) == 72 && sizeof(Break) == 80);
 static_assert(sizeof(DeepBlock) == 64);
 static_assert(sizeof(PairWatch) == 16 && sizeof(HeldPoint) == 24);
 
@@ -81,6 +81,11 @@ void fields(Fields<Archive>& archive, CrushedBlock& crushed) {
           crushed.volume, crushed.mass);
 }
 template <class Archive>
+void fields(Fields<Archive>& archive, Break& broken) {
+  archive(broken.block, broken.first_piece, broken.released, broken.generation, broken.time,
+          broken.place, broken.volume, broken.hit_loss, broken.fracture, broken.separation);
+}
+template <class Archive>
 void fields(Fields<Archive>& archive, RunCounters& counters) {
   archive(counters.steps, counters.substeps, counters.flight_skips, counters.impacts,
           counters.passes, counters.unconverged, counters.cut_back, counters.left_domain);
@@ -126,8 +131,8 @@ void fields(Fields<Archive>& archive, State& state) {
   archive(state.time, state.motion, state.local_time, state.flight_end, state.phase,
           state.acceleration, state.spin_rate, state.support, state.paper.rebound, state.rest_pose,
           state.rest_steps, state.strain, state.strain_rate, state.memory, state.pairs,
-          state.placed, state.bonds, state.deep, state.load, state.crushed, state.yielding,
-          state.fence, state.ledger, state.counters);
+          state.placed, state.bonds, state.deep, state.load, state.crushed, state.hit_loss,
+          state.n_hits, state.breaks, state.yielding, state.fence, state.ledger, state.counters);
 }
 template <class Archive>
 void fields(Fields<Archive>& archive, PassageValues& values) {
@@ -190,6 +195,13 @@ bool fits(const Checkpoint& checkpoint, std::size_t n_blocks, int n_cells) {
                           sampler.latest.size()}))
     return false;
   if (!state.load.empty() && state.load.size() != n_blocks) return false;
+  if (state.hit_loss.size() != state.n_hits.size() ||
+      (!state.n_hits.empty() && state.n_hits.size() != n_blocks))
+    return false;
+  for (const Break& broken : state.breaks)
+    if (broken.block < 0 || broken.first_piece < 0 ||
+        std::max(broken.block, broken.first_piece + 1) >= static_cast<int>(n_blocks))
+      return false;
   for (const CrushedBlock& crushed : state.crushed)
     if (crushed.block < 0 || crushed.block >= static_cast<int>(n_blocks)) return false;
   if (!checkpoint.trackers.empty() && checkpoint.trackers.size() != n_blocks) return false;

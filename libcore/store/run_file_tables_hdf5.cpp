@@ -178,6 +178,43 @@ void panel_columns(Visit&& column) {
 }
 
 template <class Visit>
+void break_columns(Visit&& column) {
+  column(
+      "block", "1", "body that broke", [](Break & b) -> auto& { return b.block; });
+  column(
+      "first_piece", "1", "the first of its two pieces; the other is the next body",
+      [](Break & b) -> auto& { return b.first_piece; });
+  column(
+      "released", "1", "released block that the body was part of",
+      [](Break & b) -> auto& { return b.released; });
+  column(
+      "generation", "1", "breaks of the released block before that, from piece to piece",
+      [](Break & b) -> auto& { return b.generation; });
+  column(
+      "time_s", "s", "when it broke", [](Break & b) -> auto& { return b.time; });
+  column(
+      "position_x_m", "m", "its centroid then, local",
+      [](Break & b) -> auto& { return b.place.x(); });
+  column(
+      "position_y_m", "m", "its centroid then, local",
+      [](Break & b) -> auto& { return b.place.y(); });
+  column(
+      "position_z_m", "m", "its centroid then, local",
+      [](Break & b) -> auto& { return b.place.z(); });
+  column(
+      "volume_m3", "m3", "of the body", [](Break & b) -> auto& { return b.volume; });
+  column(
+      "hit_loss_j", "J", "normal energy that the hit took, or left of it to a piece",
+      [](Break & b) -> auto& { return b.hit_loss; });
+  column(
+      "fracture_j", "J", "work of fracture, part of that",
+      [](Break & b) -> auto& { return b.fracture; });
+  column(
+      "separation_j", "J", "kinetic energy that drives the pieces apart, part of that",
+      [](Break & b) -> auto& { return b.separation; });
+}
+
+template <class Visit>
 void crushed_columns(Visit&& column) {
   column(
       "block", "1", "index of the block", [](CrushedBlock & c) -> auto& { return c.block; });
@@ -325,7 +362,8 @@ void health_columns(Visit&& column) {
 template <class Visit>
 void breakage_column(Visit&& column) {
   column(
-      "breakage_loss_j", "J", "kinetic energy of blocks that were crushed, since the start",
+      "breakage_loss_j", "J",
+      "kinetic energy of blocks that were crushed, and work of fracture, since the start",
       [](HealthRow & h) -> auto& { return h.breakage; });
 }
 
@@ -397,6 +435,11 @@ void write_hit_table(H5Writer& file, const std::vector<FenceHit>& rows) {
               [](auto&& column) { hit_columns(column); });
 }
 
+void write_break_table(H5Writer& file, const std::vector<Break>& rows) {
+  write_table(file, "breaks", "one row per block or piece that broke in two, by time", rows,
+              [](auto&& column) { break_columns(column); });
+}
+
 void write_crushed_table(H5Writer& file, const std::vector<CrushedBlock>& rows) {
   write_table(file, "crushed_blocks", "one row per block that was crushed, by time", rows,
               [](auto&& column) { crushed_columns(column); });
@@ -431,6 +474,10 @@ std::vector<PanelRow> read_panel_table(const H5Reader& file) {
 
 std::vector<FenceHit> read_hit_table(const H5Reader& file) {
   return read_table<FenceHit>(file, "fence_hits", [](auto&& column) { hit_columns(column); });
+}
+
+std::vector<Break> read_break_table(const H5Reader& file) {
+  return read_table<Break>(file, "breaks", [](auto&& column) { break_columns(column); });
 }
 
 std::vector<CrushedBlock> read_crushed_table(const H5Reader& file) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/text.hpp"
+#include "post/fragment_sizes.hpp"
 #include "record/deep_rows.hpp"
 #include "tools/frame/moved_json.hpp"
 
@@ -85,7 +86,7 @@ std::string trouble_summary(const Json& report) {
   const auto said = [&report](const char* key, const std::string& what) {
     return report[key].get<std::int64_t>() == 0 ? "" : ", " + report[key].dump() + what;
   };
-  return said("left_domain", " left the terrain") +
+  return said("n_breaks", " breaks into two") + said("left_domain", " left the terrain") +
          said("unconverged", " steps of a block accepted unconverged");
 }
 
@@ -175,6 +176,21 @@ std::string crushed_warning(const RunFile& file) {
          text(at.z(), 5) + "; all stand in crushed_blocks of the run)";
 }
 
+// Pieces of blocks that broke, and what their breaking took.
+Json fragments_of(const RunFile& file) {
+  const FragmentSizes sizes = fragment_sizes(file);
+  double fracture = 0;
+  for (const Break& row : file.breaks) fracture += row.fracture;
+  Json json = {{"n_pieces", sizes.n_pieces},
+               {"n_unbroken", sizes.n_unbroken},
+               {"unbroken_share", sizes.unbroken_share},
+               {"largest_m3", sizes.largest},
+               {"fracture_j", fracture},
+               {"fractal_dimension", nullptr}};
+  if (std::isfinite(sizes.dimension)) json["fractal_dimension"] = sizes.dimension;
+  return json;
+}
+
 }  // namespace
 
 Json plan_json(const ScenePlan& plan) {
@@ -200,6 +216,7 @@ Json run_report(const Runner& runner, const ScenePlan& plan, double cpu_s) {
                {"impacts", counters.impacts},
                {"unconverged", counters.unconverged},
                {"left_domain", counters.left_domain},
+               {"n_breaks", file.breaks.size()},
                {"n_passages", file.passages.size()},
                {"n_crossings", file.crossings.size()},
                {"n_fence_hits", file.fence_hits.size()},
@@ -216,6 +233,7 @@ Json run_report(const Runner& runner, const ScenePlan& plan, double cpu_s) {
                               {"limit", check.limit},
                               {"pass", check.pass}});
   json["crushed_blocks"] = crushed_blocks_of(file);
+  if (!file.breaks.empty()) json["fragments"] = fragments_of(file);
   json["deep_blocks"] = deep_blocks_of(file);
   json["plan"] = plan_json(plan);
   return json;

@@ -6,6 +6,7 @@
 #include "base/make_room.hpp"
 #include "scene/fence.hpp"
 #include "solver/law_numbers.hpp"
+#include "step/breakage.hpp"
 #include "step/crushing.hpp"
 #include "step/deep_blocks.hpp"
 #include "step/flight.hpp"
@@ -41,9 +42,17 @@ struct SubstepAcceptance {
     if (!gives_way(system, r))
       (contact.hit >= 0 ? state.ledger.impact : state.ledger.contact) -= p_n * normal.dot(path);
     state.ledger.friction -= p_t.dot(path);
+    if (!state.hit_loss.empty() && contact.hit >= 0 && !gives_way(system, r))
+      add_hit_losses(contact, -p_n * normal.dot(path));
     if (state.load.empty()) return;
     add_load(scene, contact.a, normal, p_n, impulse, state);
     add_load(scene, contact.b, normal, p_n, -impulse, state);
+  }
+
+  // What a hit takes, the ground and fixed bodies have no part in; two blocks have half of it each.
+  void add_hit_losses(const KeptContact& contact, double loss) {
+    add_hit_loss(contact.a, contact.b < 0 ? loss : loss / 2, state);
+    add_hit_loss(contact.b, loss / 2, state);
   }
 
   // Share of offset_relaxed() by which an overlap is pressed out. That is a speed, whatever it

@@ -6,6 +6,7 @@
 #include "contact/past_ridge.hpp"
 #include "contact/search.hpp"
 #include "solver/law_numbers.hpp"
+#include "step/breakage.hpp"
 #include "step/deep_blocks.hpp"
 #include "step/flight.hpp"
 #include "step/impact.hpp"
@@ -74,6 +75,7 @@ struct Advance {
   // contact that was foreseen is hit besides those that touch; without it nothing would be hit,
   // again and again.
   bool impact() {
+    const Motion before = motion();
     ImpactResult hit = apply_impact(scene, b, 2 * c.touch, c.resting_speed, motion(), work);
     if (!hit.hit && is_foreseen) {
       work.contacts.push_back(foreseen);
@@ -82,6 +84,7 @@ struct Advance {
     is_foreseen = false;
     if (!hit.hit) return false;
     state.ledger.impact += hit.dissipated;
+    add_ground_hit_loss(scene, b, before, motion(), work.contacts, hit.dissipated, state);
     ++report.n_impacts;
     report.passes += hit.passes;
     if (!hit.converged) ++report.n_unconverged;

@@ -73,13 +73,13 @@ struct Six {
 TEST(CrushLoads, OnlyBlocksBelowTheShareOfTheMedianAreCrushed) {
   const Six small(0.5), larger(1);
   const std::vector<Crushing> rock = {{100e6, 0.1}};
-  const std::vector<double> loads = crush_loads(small.set, small.scene.blocks, rock);
+  const std::vector<double> loads = crush_loads(small.set, small.scene.blocks, rock, 6);
   ASSERT_EQ(loads.size(), 6u);
   for (int b = 0; b < 5; ++b) EXPECT_TRUE(std::isinf(loads[b])) << b;
   EXPECT_NEAR(loads[5], point_load_strength(100e6, std::sqrt(4 * 0.25 / pi)), 1e-3);
-  EXPECT_TRUE(crush_loads(larger.set, larger.scene.blocks, rock).empty());
+  EXPECT_TRUE(crush_loads(larger.set, larger.scene.blocks, rock, 6).empty());
   const std::vector<Crushing> never = {{0, 0.1}};
-  EXPECT_TRUE(crush_loads(small.set, small.scene.blocks, never).empty());
+  EXPECT_TRUE(crush_loads(small.set, small.scene.blocks, never, 6).empty());
 }
 
 }  // namespace

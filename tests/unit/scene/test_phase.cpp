@@ -23,13 +23,14 @@ struct Answers {
 };
 
 TEST(Phase, QuestionsOfEachState) {
-  const std::array<Answers, 7> table = {{{Phase::near_ground, true, false, true, false},
+  const std::array<Answers, 8> table = {{{Phase::near_ground, true, false, true, false},
                                          {Phase::flight, true, false, true, false},
                                          {Phase::asleep, true, true, true, false},
                                          {Phase::left_domain, false, true, true, false},
                                          {Phase::stopped, false, true, true, false},
                                          {Phase::unborn, false, true, false, true},
-                                         {Phase::crushed, false, true, true, true}}};
+                                         {Phase::crushed, false, true, true, true},
+                                         {Phase::broken, false, true, false, true}}};
   EXPECT_EQ(table.size(), static_cast<std::size_t>(last_phase) + 1);
   for (std::size_t k = 0; k < table.size(); ++k) {
     EXPECT_EQ(static_cast<std::size_t>(table[k].phase), k);
