@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -17,10 +18,10 @@ constexpr double none = -infinity;
 constexpr double keep_ratio = 0.1;   // another face must be better by this part of |separation|
 constexpr double face_ratio = 1e-3;  // ... and of the thickness; edges too
 constexpr double same_axis_ratio = 2e-2;  // ... in the same direction
-// Overlap across a covered face is borne by the covering part up to this part of the thickness, and
-// up to this part of the overlap along the best other axis.
-constexpr double seam_ratio = 5e-3, seam_share = 0.25;
-constexpr double same_point_ratio = 1e-6;    // of the radius: vertices of parts are one point
+// Of bodies of several parts: what is nearer than this part of the thickness may be the same place
+// on both sides of a seam; what is not this part of its depth is as good as free.
+constexpr double seam_ratio = 5e-3, touch_ratio = 1e-3;
+constexpr double as_good_as_free = 0.1;      // what is left of an overlap
 constexpr double longest_hold_ratio = 0.02;  // of the smaller radius, and at most longest_hold
 constexpr double longest_hold = 0.05;        // [m]
 
@@ -197,12 +198,6 @@ BestEdges find_edges(const Parts& parts, const Vec3& best_face, bool inner, doub
   return best;
 }
 
-// A face axis by number: faces of A first, then those of B.
-struct FaceAxis {
-  int part = -1, face = -1;
-  double separation = none;
-};
-
 Vec3 outward(const Parts& parts, const FaceAxis& axis) {
   return normal_at(parts.placed, parts.hulls.face_begin[axis.part] + axis.face);
 }
@@ -224,21 +219,6 @@ bool has_pieces(const Hulls& hulls, int part) {
   return hulls.part_begin[body + 1] - hulls.part_begin[body] > 1;
 }
 
-// Largest separation along faces that other parts of the body cover, and along bare ones.
-struct Covered {
-  double all = none, part = none, bare = none;
-};
-
-// Is a point in a part, or on its surface?
-bool holds(const Parts& parts, int part, const Vec3& point) {
-  const double rounding = same_point_ratio * parts.hulls.radius[parts.hulls.body[part]];
-  const int begin = parts.hulls.face_begin[part], end = begin + parts.hulls.n_faces[part];
-  for (int face = begin; face < end; ++face)
-    if (normal_at(parts.placed, face).dot(point) - parts.placed.offset[face] > rounding)
-      return false;
-  return true;
-}
-
 // The vertex of `part` that lies farthest against `normal`.
 int farthest_vertex(const Hulls& hulls, const PlacedHulls& placed, int part, const Vec3& normal) {
   int farthest = hulls.vertex_begin[part];
@@ -251,46 +231,204 @@ int farthest_vertex(const Hulls& hulls, const PlacedHulls& placed, int part, con
   return farthest;
 }
 
-// How far the vertex of `part` that comes nearest to a face of the other body is apart from it,
-// together with the parts of its body that hold this vertex too. A convex edge of a seam meets a
-// face as one; where the seam lies in a concave edge, or across a flat face, the next part reaches
-// far beyond, and what seems to meet the seam does not come from there.
-double apart_with_neighbours(const Parts& parts, const FaceAxis& axis, int part) {
+// --- bodies of several parts ---
+
+// Pairs of edges of two parts, each part taken alone, whose Gauss arcs cross; with `active` those
+// of the bodies' surfaces. Few pairs of parts come here: no lanes, no list of near edges.
+template <class Visit>
+void for_each_crossing(const Parts& parts, bool active, Visit&& visit) {
   const Hulls& hulls = parts.hulls;
-  const Vec3 normal = outward(parts, axis);
-  const Vec3& nearest = parts.placed.vertices[farthest_vertex(hulls, parts.placed, part, normal)];
-  double lowest = normal.dot(nearest);
-  const int body = hulls.body[part];
-  for (int p = hulls.part_begin[body]; p < hulls.part_begin[body + 1]; ++p)
-    if (p != part && holds(parts, p, nearest))
-      lowest = std::min(
-          lowest,
-          normal.dot(parts.placed.vertices[farthest_vertex(hulls, parts.placed, p, normal)]));
-  return lowest - parts.placed.offset[hulls.face_begin[axis.part] + axis.face];
+  const auto n_edges = [&](int part) {
+    return active ? hulls.n_active_edges[part]
+                  : hulls.edge_begin[part + 1] - hulls.edge_begin[part];
+  };
+  const auto normals = [&](int part, const HullEdge& e) {
+    const int first = hulls.face_begin[part];
+    return std::array{normal_at(parts.placed, first + (active ? e.arc_left : e.left)),
+                      normal_at(parts.placed, first + (active ? e.arc_right : e.right))};
+  };
+  for (int i = 0; i < n_edges(parts.a); ++i) {
+    const HullEdge& edge_a = hulls.edges[hulls.edge_begin[parts.a] + i];
+    const auto [left_a, right_a] = normals(parts.a, edge_a);
+    const Vec3 along_a = edge_direction(parts, parts.a, edge_a);
+    const Vec3& from_a = parts.placed.vertices[slot(hulls, parts.a, edge_a.a)];
+    for (int k = 0; k < n_edges(parts.b); ++k) {
+      const HullEdge& edge_b = hulls.edges[hulls.edge_begin[parts.b] + k];
+      const auto [left_b, right_b] = normals(parts.b, edge_b);
+      const double a_left = along_a.dot(left_b), a_right = along_a.dot(right_b);
+      if (!(a_left * a_right < 0)) continue;
+      const Vec3 along_b = edge_direction(parts, parts.b, edge_b);
+      const double b_left = along_b.dot(left_a), b_right = along_b.dot(right_a);
+      if (!(b_left * b_right < 0) || !(a_left * b_right < 0)) continue;
+      Vec3 normal = along_a.cross(along_b);
+      if (are_parallel(along_a, along_b, normal)) continue;
+      normal *= (a_right > 0 ? 1 : -1) / normal.norm();
+      visit(normal, normal.dot(from_a - parts.placed.vertices[slot(hulls, parts.b, edge_b.a)]));
+    }
+  }
 }
 
-// Faces inside a body, and faces that would meet one, stop nothing: their axes are taken out.
-Covered remove_internal(const Parts& parts, AxisScratch& scratch) {
-  Covered largest;
-  if (!has_pieces(parts.hulls, parts.a) && !has_pieces(parts.hulls, parts.b)) return largest;
-  const auto cover_of = [&](int part, int face) {
+// Faces of both parts by their normal from B to A, and the separation along it.
+template <class Visit>
+void for_each_face_normal(const Parts& parts, Visit&& visit) {
+  for (const int part : {parts.a, parts.b}) {
+    const int begin = parts.hulls.face_begin[part];
+    for (int face = begin; face < begin + parts.hulls.n_faces[part]; ++face) {
+      const Vec3 outward = normal_at(parts.placed, face);
+      const Vec3 normal = part == parts.b ? outward : Vec3(-outward);
+      const int other = part == parts.a ? parts.b : parts.a;
+      const Vec3& nearest =
+          parts.placed.vertices[farthest_vertex(parts.hulls, parts.placed, other, outward)];
+      visit(normal, outward.dot(nearest) - parts.placed.offset[face], parts.hulls.cover[face]);
+    }
+  }
+}
+
+// How far two parts are apart once A has moved; at least `enough` is as good as more.
+double apart_after(const Parts& parts, const Vec3& moved, double enough) {
+  double apart = none;
+  const auto consider = [&](const Vec3& normal, double separation) {
+    apart = std::max(apart, separation + normal.dot(moved));
+  };
+  for_each_face_normal(parts, [&](const Vec3& normal, double separation, FaceCover) {
+    consider(normal, separation);
+  });
+  if (apart < enough) for_each_crossing(parts, false, consider);
+  return apart;
+}
+
+// Do two parts overlap by more than `depth` along all axes in other directions than `normal`, once
+// A has moved?
+bool overlap_beside(const Parts& parts, const Vec3& moved, const Vec3& normal, double depth) {
+  bool overlap = true;
+  const auto consider = [&](const Vec3& other, double separation) {
+    if (other.dot(normal) < same_axis_cos) overlap &= separation + other.dot(moved) < -depth;
+  };
+  for_each_face_normal(
+      parts, [&](const Vec3& other, double separation, FaceCover) { consider(other, separation); });
+  if (overlap) for_each_crossing(parts, false, consider);
+  return overlap;
+}
+
+// An axis from B to A along which two parts are apart, or overlap.
+struct Axis {
+  Vec3 normal = Vec3::Zero();
+  double separation = none;
+};
+
+// The least overlap along what of two parts lies bare.
+Axis bare_axis(const Parts& parts) {
+  Axis best;
+  const auto consider = [&best](const Vec3& normal, double separation) {
+    if (separation > best.separation) best = {normal, separation};
+  };
+  for_each_face_normal(parts, [&](const Vec3& normal, double separation, FaceCover cover) {
+    if (cover != FaceCover::all) consider(normal, separation);
+  });
+  for_each_crossing(parts, true, consider);
+  return best;
+}
+
+// The other pairs of parts of the same two bodies.
+template <class Visit>
+void for_each_other_pair(const Parts& parts, Visit&& visit) {
+  const Hulls& hulls = parts.hulls;
+  const int body_a = hulls.body[parts.a], body_b = hulls.body[parts.b];
+  for (int a = hulls.part_begin[body_a]; a < hulls.part_begin[body_a + 1]; ++a)
+    for (int b = hulls.part_begin[body_b]; b < hulls.part_begin[body_b + 1]; ++b)
+      if (a != parts.a || b != parts.b) visit(Parts{hulls, parts.placed, a, b});
+}
+
+// Moves A on by what is missing of an overlap.
+void move_out(const Axis& axis, Vec3& moved) {
+  if (axis.separation >= 0) return;
+  moved += std::max(0.0, -axis.separation - axis.normal.dot(moved)) * axis.normal;
+}
+
+// Whether the parts' bodies touch along an axis of the parts: where A is moved along it until the
+// parts touch, it is in no other part, or is in none once that has pushed A out and these parts
+// still lie against each other.
+bool leads_out(const Parts& parts, const Axis& axis, double seam) {
+  Vec3 others_out = Vec3::Zero();
+  bool is_free = true;
+  const Vec3 until_touch = -axis.separation * axis.normal;
+  for_each_other_pair(parts, [&](const Parts& other) {
+    if (apart_after(other, until_touch, seam) >= seam) return;
+    is_free = false;
+    move_out(bare_axis(other), others_out);
+  });
+  if (is_free) return true;
+  const Vec3 moved = others_out - (axis.separation + axis.normal.dot(others_out)) * axis.normal;
+  if (!overlap_beside(parts, moved, axis.normal, seam)) return false;
+  is_free = true;
+  for_each_other_pair(parts, [&](const Parts& other) {
+    is_free &= apart_after(other, moved, 0) >= -touch_ratio * seam;
+  });
+  return is_free;
+}
+
+// Whether what other parts of the bodies bear, each less deep than these parts along their own axis
+// and in another direction, frees these parts too. So the least deep of all is never left out.
+bool others_free(const Parts& parts, const Axis& own) {
+  Vec3 moved = Vec3::Zero();
+  for_each_other_pair(parts, [&](const Parts& other) {
+    const Axis axis = bare_axis(other);
+    if (axis.separation > own.separation && axis.normal.dot(own.normal) < same_axis_cos &&
+        apart_after(other, Vec3::Zero(), 0) < 0)
+      move_out(axis, moved);
+  });
+  return !moved.isZero(0) && apart_after(parts, moved, 0) >= as_good_as_free * own.separation;
+}
+
+// Axes of faces that other parts cover where they would meet.
+struct Covered {
+  double passed_over = none;  // the best that leads into another part
+  double below = none;        // the best of those that the bare ones are better than
+  bool is_chosen = false;     // one of them is the best axis, or was nearly
+};
+
+double& separation_of(const Parts& parts, const FaceAxis& axis, AxisScratch& scratch) {
+  return (axis.part == parts.a ? scratch.face_a : scratch.face_b)[axis.face];
+}
+
+FaceCover cover_of(const Parts& parts, const FaceAxis& axis) {
+  const int other = axis.part == parts.a ? parts.b : parts.a;
+  const int met = incident_face(parts.hulls, parts.placed, other, outward(parts, axis));
+  const auto cover = [&](int part, int face) {
     return parts.hulls.cover[parts.hulls.face_begin[part] + face];
   };
+  return std::max(cover(axis.part, axis.face), cover(other, met));
+}
+
+// Takes out the axes of covered faces, but those that are better than all bare ones, down to the
+// first that leads out of the bodies. `open`: separation along edges.
+Covered remove_covered(const Parts& parts, double open, double seam, AxisScratch& scratch) {
+  Covered covered;
+  std::vector<FaceAxis>& doubtful = scratch.doubtful;
+  doubtful.clear();
   for_each_face(parts, scratch, [&](const FaceAxis& axis) {
-    const int other = axis.part == parts.a ? parts.b : parts.a;
-    const int met = incident_face(parts.hulls, parts.placed, other, outward(parts, axis));
-    const FaceCover own = cover_of(axis.part, axis.face), of_met = cover_of(other, met);
-    const FaceCover cover = std::max(own, of_met);
-    double& sum = cover == FaceCover::all    ? largest.all
-                  : cover == FaceCover::part ? largest.part
-                                             : largest.bare;
-    if (axis.separation > sum)
-      sum =
-          std::max(sum, of_met > own ? apart_with_neighbours(parts, axis, other) : axis.separation);
-    if (cover == FaceCover::all)
-      (axis.part == parts.a ? scratch.face_a : scratch.face_b)[axis.face] = none;
+    const FaceCover cover = cover_of(parts, axis);
+    if (cover == FaceCover::none) {
+      open = std::max(open, axis.separation);
+      return;
+    }
+    doubtful.push_back(axis);
+    if (cover == FaceCover::all) separation_of(parts, axis, scratch) = none;
   });
-  return largest;
+  std::stable_sort(doubtful.begin(), doubtful.end(), [](const FaceAxis& p, const FaceAxis& q) {
+    return p.separation > q.separation;
+  });
+  for (const FaceAxis& axis : doubtful) {
+    if (axis.separation <= open) {
+      covered.below = axis.separation;
+      break;
+    }
+    covered.is_chosen = leads_out(parts, {to_a(parts, axis), axis.separation}, seam);
+    separation_of(parts, axis, scratch) = covered.is_chosen ? axis.separation : none;
+    if (covered.is_chosen) break;
+    covered.passed_over = std::max(covered.passed_over, axis.separation);
+  }
+  return covered;
 }
 
 FaceAxis best_face(const Parts& parts, const AxisScratch& scratch) {
@@ -466,32 +604,33 @@ AxisChoice find_axis(const Hulls& hulls, const PlacedHulls& placed, int part_a, 
   BestEdges edges = find_edges(parts, to_a(parts, farthest), false, least, scratch);
   if (edges.separation > margin && edges.separation > apart.separation) return apart_choice(edges);
 
-  Covered covered = remove_internal(parts, scratch);
   const double seam = std::max(seam_ratio * thickness, margin);
+  Covered covered;
+  if (pieces) covered = remove_covered(parts, edges.separation, seam, scratch);
   const FaceAxis best = best_face(parts, scratch);
-  // what edges need above the best face: half as much when an edge pair was chosen last
-  const double edge_bar = face_ratio * thickness * (last.kind == AxisKind::edges ? 0.5 : 1);
-  AxisChoice choice;
-  double open = std::max(best.separation, edges.separation);
-  const bool covered_above = std::max(covered.all, covered.part) > open;
   if (pieces) {
     const BestEdges inner = find_edges(parts, to_a(parts, farthest), true, none, scratch);
     if (inner.separation > margin) return apart_choice(inner);
-    if (covered_above) {
-      covered.all = std::max(covered.all, inner.separation);
-    } else if (open < -seam && inner.separation > open) {
-      edges = inner;  // an edge that is covered where it was judged, bare here
-      open = inner.separation;
+    if (inner.separation > std::max(best.separation, edges.separation)) {
+      covered.is_chosen = leads_out(parts, {inner.normal, inner.separation}, seam);
+      if (covered.is_chosen)
+        edges = inner;
+      else
+        covered.passed_over = std::max(covered.passed_over, inner.separation);
     }
   }
-  const bool all_bears =
-      covered.all > open && (covered.all >= -seam || covered.all > seam_share * open);
-  const bool part_bears =
-      covered.part > std::max(covered.bare, edges.separation) && covered.part >= -seam;
-  if (all_bears || part_bears) {
-    apart.axis = {};
-    return apart;
+  if (covered.passed_over > none) {
+    const Axis open = edges.separation > best.separation ? Axis{edges.normal, edges.separation}
+                                                         : Axis{to_a(parts, best), best.separation};
+    if (covered.passed_over >= 0 || open.separation == none || others_free(parts, open)) {
+      apart.axis = {};
+      return apart;
+    }
+    covered.is_chosen = true;
   }
+  // what edges need above the best face: half as much when an edge pair was chosen last
+  const double edge_bar = face_ratio * thickness * (last.kind == AxisKind::edges ? 0.5 : 1);
+  AxisChoice choice;
   if (edges.separation > best.separation + edge_bar) {
     const double near = same_axis_ratio * thickness * (last.kind == AxisKind::edges ? 0.5 : 1);
     choice = edge_choice(parts, scratch, edges, best, edge_bar, near);
@@ -504,9 +643,9 @@ AxisChoice find_axis(const Hulls& hulls, const PlacedHulls& placed, int part_a, 
     return apart;
   }
   choice.touches = true;
-  const double to_seam = std::min(-seam - std::max(covered.all, covered.part),
-                                  (seam_share * open - covered.all) / (1 + seam_share));
-  choice.hold = std::clamp(std::min(choice.hold, to_seam), 0.0, longest);
+  const double to_covered =
+      covered.is_chosen ? 0 : (std::max(best.separation, edges.separation) - covered.below) / 2;
+  choice.hold = std::clamp(std::min(choice.hold, to_covered), 0.0, longest);
   return choice;
 }
 

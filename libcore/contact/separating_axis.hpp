@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "contact/hulls.hpp"
@@ -45,12 +46,19 @@ struct AxisChoice {
   PairAxis near_face;          ///< face in nearly the direction of the chosen edges, if any
 };
 
+/// The axis along a face of one of the parts.
+struct FaceAxis {
+  int part = -1, face = -1;  ///< the face counts from the part's first
+  double separation = -std::numeric_limits<double>::infinity();  ///< [m]
+};
+
 /// Arrays that find_axis fills anew; kept to spare allocation.
 struct AxisScratch {
   std::vector<double> face_a, face_b;  ///< separation along the faces of A, of B [m]
   std::vector<double> dots_a, dots_b;  ///< edge directions times the other part's normals
   std::vector<int> edges_a, edges_b;   ///< edges of A, of B, that may bear or separate
   std::vector<double> heights;         ///< of two points of the other body over the faces [m]
+  std::vector<FaceAxis> doubtful;      ///< of faces that other parts of their bodies cover
   std::vector<int> crossing;           ///< of edges_b, those whose arcs cross that of an edge of A
 };
 
@@ -65,8 +73,9 @@ void face_separations(const Hulls& hulls, const PlacedHulls& placed, int face_pa
 /// A face that separates by more than `margin` [m] ends the search. Otherwise the axis chosen is
 /// that of the largest separation, except: `last` stays until another face is better by a tenth, a
 /// face is preferred to a pair of edges that is better by less than a thousandth of the thickness,
-/// and a face of A to one of B in the same direction. Faces and edges inside a body are never
-/// chosen.
+/// and a face of A to one of B in the same direction. Of bodies of several parts, an axis that
+/// leads out of one part into another is not chosen, and a pair that the pushes of less deep ones
+/// free does not touch.
 [[nodiscard]] AxisChoice find_axis(const Hulls& hulls, const PlacedHulls& placed, int part_a,
                                    int part_b, double margin, const PairAxis& last,
                                    AxisScratch& scratch);

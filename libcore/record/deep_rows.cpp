@@ -60,6 +60,11 @@ void set_partner(const Scene& scene, int partner, DeepRow& row) {
   row.panel = scene.fixed.panels[panel].number;
 }
 
+double share_of_mass(const Scene& scene, int block) {
+  const std::vector<double>& mass = scene.blocks.mass;
+  return mass[static_cast<size_t>(block)] / std::accumulate(mass.begin(), mass.end(), 0.0);
+}
+
 bool met_fence(const State& state, std::span<const Crossing> crossings, const DeepRow& row) {
   const auto is_of = [&row](const auto& met) { return met.block == row.block; };
   return row.partner == DeepRow::fence ||
@@ -115,6 +120,15 @@ int n_that_matter(std::span<const DeepRow> rows) {
   }));
 }
 
+std::vector<DeepRow> by_weight(std::span<const DeepRow> rows) {
+  std::vector<DeepRow> sorted(rows.begin(), rows.end());
+  std::stable_sort(sorted.begin(), sorted.end(), [](const DeepRow& a, const DeepRow& b) {
+    const int a_matters = n_that_matter({&a, 1}), b_matters = n_that_matter({&b, 1});
+    return a_matters != b_matters ? a_matters > b_matters : a.mass_share > b.mass_share;
+  });
+  return sorted;
+}
+
 std::string partner_name(const DeepRow& row, std::span<const RecordLine> lines) {
   if (row.partner == DeepRow::ground) return "the ground";
   if (row.partner == DeepRow::fixed_body) return "the fixed slope";
@@ -124,14 +138,37 @@ std::string partner_name(const DeepRow& row, std::span<const RecordLine> lines) 
   return panel + (line < lines.size() ? lines[line].name : std::to_string(row.line));
 }
 
-std::string deep_words(const DeepRow& row, std::span<const RecordLine> lines, const Vec3& origin) {
-  const Vec3 at = row.place + origin;
+DeepRow deepest_row(const Scene& scene, const Mishap& deepest) {
+  DeepRow row;
+  row.block = static_cast<std::int32_t>(deepest.block);
+  set_partner(scene, deepest.partner, row);
+  row.time = deepest.time;
+  row.depth = deepest.depth;
+  row.thickness = scene.blocks.shapes.thickness[static_cast<size_t>(deepest.block)];
+  row.place = deepest.place;
+  row.mass_share = share_of_mass(scene, deepest.block);
+  return row;
+}
+
+std::string where_words(double time, const Vec3& place) {
   const auto metres = [](double x) { return text(std::round(10 * x) / 10); };
-  std::string words =
-      "block " + std::to_string(row.block) + " was in " + partner_name(row, lines) + " by " +
-      text(row.depth, 3) + " m of its " + text(row.thickness, 3) + " m at " + text(row.time, 4) +
-      " s near " + metres(at.x()) + ", " + metres(at.y()) + ", " + metres(at.z()) + ", deep in " +
-      counted(row.steps, "step") + ", " + text(100 * row.mass_share, 3) + " % of the mass";
+  return "at " + text(time, 4) + " s near " + metres(place.x()) + ", " + metres(place.y()) + ", " +
+         metres(place.z());
+}
+
+std::string mishap_words(const Scene& scene, const Mishap& mishap, const Vec3& origin) {
+  if (mishap.block < 0) return "";
+  return "first block " + std::to_string(mishap.block) + " " +
+         where_words(mishap.time, mishap.place + origin) + ", " +
+         text(100 * share_of_mass(scene, mishap.block), 3) + " % of the mass";
+}
+
+std::string deep_words(const DeepRow& row, std::span<const RecordLine> lines, const Vec3& origin) {
+  std::string words = "block " + std::to_string(row.block) + " was in " + partner_name(row, lines) +
+                      " by " + text(row.depth, 3) + " m of its " + text(row.thickness, 3) + " m " +
+                      where_words(row.time, row.place + origin);
+  if (row.steps > 0) words += ", deep in " + counted(row.steps, "step");
+  words += ", " + text(100 * row.mass_share, 3) + " % of the mass";
   if (row.ends_in_toe != 0) words += ", ends in the toe";
   if (row.met_fence != 0) words += ", met a fence";
   if (row.is_too_fast != 0) words += ", was faster than its fall can have made it";

@@ -25,6 +25,12 @@ namespace talus {
 /// Blocks that end in the toe, met a fence, or were faster than their fall can have made them.
 [[nodiscard]] int n_that_matter(std::span<const DeepRow> rows);
 
+/// Those that matter first, then the heaviest.
+[[nodiscard]] std::vector<DeepRow> by_weight(std::span<const DeepRow> rows);
+
+/// The deepest overlap of a run, which need not be deep for its block; `deepest.block` is one.
+[[nodiscard]] DeepRow deepest_row(const Scene& scene, const Mishap& deepest);
+
 /// "the ground", "block 7", "panel 2 of fence NAME".
 [[nodiscard]] std::string partner_name(const DeepRow& row, std::span<const RecordLine> lines);
 
@@ -32,5 +38,9 @@ namespace talus {
 /// matter. `origin`: map coordinates of the local zero [m].
 [[nodiscard]] std::string deep_words(const DeepRow& row, std::span<const RecordLine> lines,
                                      const Vec3& origin);
+
+/// Block, time, place on the map and share of the mass; nothing where it did not happen.
+[[nodiscard]] std::string mishap_words(const Scene& scene, const Mishap& mishap,
+                                       const Vec3& origin);
 
 }  // namespace talus

@@ -142,6 +142,7 @@ void rename_alone(const Lineage& lineage, RunFile& run) {
   };
   for (FenceHit& row : run.fence_hits) rename(row.block);
   for (PanelRow& row : run.panels) rename(row.broken_by);
+  for (TreeHitRow& row : run.tree_hits) rename(row.hit.block), rename(row.broken_by);
   for (CrushedBlock& row : run.crushed) rename(row.block);
   for (DeepRow& row : run.deep) rename(row.block), rename(row.partner);
 }

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text.hpp"
 #include "record/deep_rows.hpp"
+#include "record/tree_hits.hpp"
 #include "step/step.hpp"
 #include "store/checkpoint.hpp"
 
@@ -112,9 +114,8 @@ void close_interval(Runner& runner) {
 
 double half_step(const Runner& runner) { return 0.5 * runner.scene.settings.dt; }
 
-// Energy from nowhere up to a row, as a share of what the blocks fell and were given.
-double energy_gain(const Runner& runner, const HealthRow& row) {
-  const double now = row.translation + row.rotation + row.potential + row.elastic;
+// What the blocks fell and were given up to a row [J].
+double turned_over(const Runner& runner, const HealthRow& row) {
   double weight = 0, potential_start = 0;
   const Blocks& blocks = runner.scene.blocks;
   for (std::size_t b = 0; b < blocks.mass.size(); ++b) {
@@ -123,18 +124,47 @@ double energy_gain(const Runner& runner, const HealthRow& row) {
     potential_start -= blocks.mass[b] * runner.scene.gravity.dot(blocks.rest[b].position);
   }
   const double kinetic_start = std::max(0.0, runner.energy_start - potential_start);
-  const double turned_over =
-      std::abs(potential_start - row.potential) + kinetic_start + std::abs(row.base);
   // so that neither rounding at rest nor overlaps at the start that are pressed out are a gain
   const std::vector<double>& radius = blocks.shapes.radius;
   const double least_fall = 0.1 * *std::min_element(radius.begin(), radius.end());
+  return std::max(std::abs(potential_start - row.potential) + kinetic_start + std::abs(row.base),
+                  least_fall * weight);
+}
+
+// Energy from nowhere up to a row, as a share of what the blocks fell and were given.
+double energy_gain(const Runner& runner, const HealthRow& row) {
+  const double now = row.translation + row.rotation + row.potential + row.elastic;
   // What is gone into friction and impacts came from somewhere too. The ledger of law paper leaves
   // out what its integrator damps.
   double known = now - runner.energy_start - row.base;
   if (runner.scene.settings.law == Law::talus)
     known += std::max(
         0.0, row.friction + row.impact + row.contact + row.fence + row.breakage + row.removed);
-  return known / std::max(turned_over, least_fall * weight);
+  return known / turned_over(runner, row);
+}
+
+// The smallest restitution of anything that may meet.
+double least_restitution(const Scene& scene) {
+  double least = 1;
+  const auto meet = [&least](const std::vector<GroundClass>& classes) {
+    for (const GroundClass& c : classes) least = std::min(least, c.restitution);
+  };
+  meet(scene.ground.classes);
+  meet(scene.joints.of_block);
+  if (n_blocks(scene) > 1 && scene.joints.of_block.empty())
+    least = std::min(least, scene.joint.restitution);
+  meet(scene.fixed.classes);
+  return least;
+}
+
+// Energy gone up to a row that neither friction nor hits, fences nor the edge of the terrain took;
+// with full restitution not hits either.
+double energy_loss(const Runner& runner, const HealthRow& row, double restitution) {
+  const double now = row.translation + row.rotation + row.potential + row.elastic;
+  double lost =
+      runner.energy_start + row.base - now - row.friction - row.fence - row.breakage - row.removed;
+  if (restitution < 1) lost -= row.impact;
+  return lost / turned_over(runner, row);
 }
 
 double lost_share(const Runner& runner) {
@@ -150,29 +180,83 @@ double unconverged_share(const Runner& runner) {
          static_cast<double>(std::max<std::int64_t>(1, counters.steps));
 }
 
-std::vector<HealthCheck> checks_of(const Runner& runner, double penetration, double gain,
+// The worst of what the rows of health say, and when that was.
+struct Worst {
+  double value = 0, time = 0;
+
+  void meet(double other, double at) {
+    if (other > value) value = other, time = at;
+  }
+  [[nodiscard]] std::string where() const {
+    return value > 0 ? "most at " + text(time, 4) + " s, all blocks together" : "";
+  }
+};
+
+struct WorstOfRows {
+  double penetration = 0;
+  Worst gain, loss;
+};
+
+constexpr double almost_full = 0.9;  // restitution from which a loss is watched too
+
+void meet(const Runner& runner, const HealthRow& row, WorstOfRows& worst) {
+  const double restitution = least_restitution(runner.scene);
+  worst.penetration = std::max(worst.penetration, row.largest_penetration);
+  worst.gain.meet(energy_gain(runner, row), row.time);
+  if (restitution >= almost_full) worst.loss.meet(energy_loss(runner, row, restitution), row.time);
+}
+
+HealthCheck check(std::string name, double value, double limit, bool ends_run, std::string where) {
+  return {std::move(name), value, limit, value <= limit, ends_run, std::move(where)};
+}
+
+void add_deep_checks(const Runner& runner, std::vector<HealthCheck>& checks) {
+  const std::vector<DeepRow> deep =
+      by_weight(deep_rows(runner.scene, runner.state, runner.crossings.rows));
+  const std::string words =
+      deep.empty() ? "" : deep_words(deep[0], runner.file.lines, runner.file.info.origin);
+  const int n = n_that_matter(deep);
+  checks.push_back(check("mass of blocks in by more than a tenth of their thickness, share",
+                         mass_share(deep), runner.options.limits.max_deep_share, false, words));
+  checks.push_back(check("such blocks in the toe, at a fence, or faster than by their fall", n, 0,
+                         false, n > 0 ? words : ""));
+}
+
+void add_penetration_check(const Runner& runner, double penetration,
+                           std::vector<HealthCheck>& checks) {
+  const Mishap& deepest = runner.state.mishaps.deepest;
+  checks.push_back(
+      check("largest penetration, m", penetration, runner.options.limits.max_penetration, true,
+            deepest.block < 0 ? ""
+                              : deep_words(deepest_row(runner.scene, deepest), runner.file.lines,
+                                           runner.file.info.origin)));
+}
+
+std::vector<HealthCheck> checks_of(const Runner& runner, const WorstOfRows& worst,
                                    const HealthRow& row) {
   const RunLimits& limits = runner.options.limits;
-  const auto check = [](std::string name, double value, double limit, bool ends_run) {
-    return HealthCheck{std::move(name), value, limit, value <= limit, ends_run};
+  const Mishaps& mishaps = runner.state.mishaps;
+  const auto first = [&runner](const Mishap& mishap) {
+    return mishap_words(runner.scene, mishap, runner.file.info.origin);
   };
   std::vector<HealthCheck> checks = {
-      check("steps with a block that is not finite", static_cast<double>(row.not_finite), 0, true),
-      check("steps with a block below the ground", static_cast<double>(row.fell_through), 0, true),
-      check("energy gained, share of the fall energy", gain, limits.max_energy_gain, true),
-      check("steps accepted unconverged, share", unconverged_share(runner),
-            limits.max_unconverged_share, false),
-      check("blocks that left the terrain, share", lost_share(runner), limits.max_lost_share,
-            false)};
-  if (!std::isnan(limits.max_penetration)) {
-    checks.push_back(check("largest penetration, m", penetration, limits.max_penetration, true));
-    return checks;
-  }
-  const std::vector<DeepRow> deep = deep_rows(runner.scene, runner.state, runner.crossings.rows);
-  checks.push_back(check("mass of blocks in by more than a tenth of their thickness, share",
-                         mass_share(deep), limits.max_deep_share, false));
-  checks.push_back(check("such blocks in the toe, at a fence, or faster than by their fall",
-                         static_cast<double>(n_that_matter(deep)), 0, false));
+      check("steps with a block that is not finite", static_cast<double>(row.not_finite), 0, true,
+            first(mishaps.not_finite)),
+      check("steps with a block below the ground", static_cast<double>(row.fell_through), 0, true,
+            first(mishaps.fell_through)),
+      check("energy gained, share of the fall energy", worst.gain.value, limits.max_energy_gain,
+            true, worst.gain.where())};
+  if (least_restitution(runner.scene) >= almost_full && runner.scene.settings.law == Law::talus)
+    checks.push_back(check("energy lost but by friction and hits, share of the fall energy",
+                           worst.loss.value, limits.max_energy_gain, false, worst.loss.where()));
+  checks.push_back(check("steps accepted unconverged, share", unconverged_share(runner),
+                         limits.max_unconverged_share, false, first(mishaps.unconverged)));
+  checks.push_back(check("blocks that left the terrain, share", lost_share(runner),
+                         limits.max_lost_share, false, first(mishaps.left_domain)));
+  if (std::isnan(limits.max_penetration))
+    add_deep_checks(runner, checks);
+  else
+    add_penetration_check(runner, worst.penetration, checks);
   return checks;
 }
 
@@ -288,6 +372,7 @@ void update_file(Runner& runner, bool with_checkpoint) {
   file.crossings = sorted(runner.crossings);
   file.fence_hits = runner.state.fence.hits;
   file.panels = panel_rows(runner.scene.fixed, runner.state.yielding);
+  file.tree_hits = tree_hit_rows(runner.scene, runner.state);
   file.deep = deep_rows(runner.scene, runner.state, runner.crossings.rows);
   file.breaks = runner.state.breaks;
   file.crushed = runner.state.crushed;
@@ -300,20 +385,18 @@ void update_file(Runner& runner, bool with_checkpoint) {
 }
 
 std::vector<HealthCheck> health_checks(const Runner& runner) {
-  double penetration = 0, gain = 0;
-  for (const HealthRow& row : runner.file.health) {
-    penetration = std::max(penetration, row.largest_penetration);
-    gain = std::max(gain, energy_gain(runner, row));
-  }
+  WorstOfRows worst;
+  for (const HealthRow& row : runner.file.health) meet(runner, row, worst);
   const HealthRow last = runner.file.health.empty() ? HealthRow{} : runner.file.health.back();
-  return checks_of(runner, penetration, gain, last);
+  return checks_of(runner, worst, last);
 }
 
 bool has_failed(const Runner& runner) {
   if (runner.file.health.empty()) return false;
   const HealthRow& row = runner.file.health.back();
-  const std::vector<HealthCheck> checks =
-      checks_of(runner, row.largest_penetration, energy_gain(runner, row), row);
+  WorstOfRows worst;
+  meet(runner, row, worst);
+  const std::vector<HealthCheck> checks = checks_of(runner, worst, row);
   return std::any_of(checks.begin(), checks.end(),
                      [](const HealthCheck& check) { return !check.pass && check.ends_run; });
 }

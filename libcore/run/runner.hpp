@@ -22,7 +22,8 @@ namespace talus {
 /// Limits of a run's health; what breaks one fails the run.
 struct RunLimits {
   double max_penetration = std::numeric_limits<double>::quiet_NaN();  ///< NaN: none [m]
-  double max_energy_gain = 0.01;       ///< mechanical energy gained, share of the fall energy [-]
+  /// Mechanical energy gained, or lost where all hits return almost all, share of the fall energy.
+  double max_energy_gain = 0.01;
   double max_lost_share = 0;           ///< blocks that left the terrain, share of all [-]
   double max_unconverged_share = 0.1;  ///< accepted without convergence, share of the steps [-]
   double max_deep_share = 1e-3;        ///< mass of the blocks that were deep, share of all [-]
@@ -44,6 +45,7 @@ struct HealthCheck {
   double value = 0, limit = 0;
   bool pass = true;
   bool ends_run = false;  ///< no sense in going on once it is broken
+  std::string where;      ///< which block, in what, when, where, its share; empty: nothing to name
 };
 
 /// A run under way. `file` holds what is complete; update_file() adds the rest.

@@ -21,7 +21,9 @@ struct SceneParts {
   BlockSet blocks;                       ///< in the TRN's local coordinates
   std::vector<Fragment> fragments;       ///< of add_fragments(), which has changed `blocks`
   AccelerationRecord base;
-  std::vector<StandingFence> fences;  ///< that stand in the run
+  std::vector<StandingFence> fences;    ///< that stand in the run
+  std::vector<Stem> stems;              ///< of the forests that stand in it
+  std::vector<GroundClass> stem_faces;  ///< by Stem::section
 };
 
 /// The effective time step: [solver] time_step_s, else 5 ms for law talus and 0.1 ms for law paper,

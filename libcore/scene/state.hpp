@@ -92,6 +92,21 @@ struct DeepBlock {
   bool is_too_fast = false;   ///< at some time since, it was faster than its fall can have made it
 };
 
+/// A block that something happened to, when and where.
+struct Mishap {
+  int block = -1;             ///< -1: it did not happen
+  int partner = -1;           ///< of an overlap: the other body; -1: the ground
+  double depth = 0;           ///< of an overlap [m]
+  double time = 0;            ///< end of the step [s]
+  Vec3 place = Vec3::Zero();  ///< of the block's centroid then [m]
+};
+
+/// What the limits of a run's health name (step/mishaps.hpp): the deepest overlap, and the first
+/// block of each other kind.
+struct Mishaps {
+  Mishap deepest, unconverged, not_finite, left_domain, fell_through;
+};
+
 /// Phases, local times and rest of the blocks are those of BlockLives.
 struct State : BlockLives {  // clang-format off
   double time = 0;                          ///< end of the last step [s]
@@ -112,8 +127,10 @@ struct State : BlockLives {  // clang-format off
   std::vector<double> hit_loss;             ///< of the step under way; empty: none breaks [J] (n_blocks)
   std::vector<std::int32_t> n_hits;         ///< steps with a hit; empty: none breaks   (n_blocks)
   std::vector<Break> breaks;                ///< by time
+  Mishaps mishaps;                          ///< so far
   YieldingState yielding;                   ///< what fixed bodies that give way have met
   FenceState fence;                         ///< what touched the panels of fences
+  std::vector<StemHit> stem_hits;           ///< in the order of their times, step by step
   PaperState paper;                         ///< of law paper alone
   EnergyLedger ledger;
   RunCounters counters;

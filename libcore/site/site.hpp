@@ -150,6 +150,25 @@ struct FenceSettings {
   double cor = 0.1, friction_deg = 30;
 };
 
+/// [forest.NAME]: stems that stand in the way, drawn or from a list.
+struct ForestSettings {
+  std::string name;
+  int line = 0;
+  std::vector<Vec3> polygon;  ///< map x, y; or polygon_file
+  std::string polygon_file, polygon_layer, polygon_where;
+  double stems_per_ha = not_given;
+  double dbh_mean_cm = 30, dbh_std_cm = 10;  ///< diameter at breast height, gamma distributed
+  double conifer_share = 1;
+  std::string nrtrees_raster, dbhmean_raster, dbhstd_raster, conif_percent_raster;
+  std::string stems_file, stems_layer, stems_where;  ///< points with dbh_cm, and species or conifer
+  double fe_conifer = 0.93, fe_broadleaf = 1.59;     ///< FE of the energy that breaks a stem
+  double deflection_m = 0.5;                         ///< over which it takes that energy
+  double height_m = 20, friction_deg = 16.7;
+  std::int64_t seed = 1;
+  bool new_stand_per_run = false;
+  bool active = true;
+};
+
 /// [output]
 struct OutputSettings {
   double frame_interval_s = 0.1;
@@ -226,6 +245,7 @@ struct Site {
   std::vector<MaterialSettings> materials;  ///< at least one: "rock" with the defaults
   std::vector<GroundSettings> grounds;      ///< at least one: "ground" with the defaults
   std::vector<FenceSettings> fences;
+  std::vector<ForestSettings> forests;
   std::vector<PlacedSettings> blocks;
   std::map<std::string, ValueSource> sources;  ///< "joints.J1.dip_deg" -> where it came from
   std::vector<std::string> sections;           ///< that stand in the file

@@ -160,7 +160,7 @@ inline constexpr double short_move = 0.01;
 /// [thickness] A block is deep above this overlap: health counts it.
 inline constexpr double deep_share = 0.1;
 /// [thickness] Contacts with more overlap have the bodies measured.
-inline constexpr double suspect_share = deep_share / 2;
+inline constexpr double suspect_share = deep_share / 10;
 
 // --- what gives way ----------------------------------------------------------------------------
 

@@ -33,11 +33,9 @@ void for_each_listed(const Scene& scene, const State& state, const DeepWork& w, 
 
 // Places the suspects and what they may overlap where they are at the end of the step.
 void place_suspects(const Scene& scene, const State& state, DeepWork& w) {
-  const auto n = static_cast<size_t>(n_blocks(scene)), n_bodies = n + scene.fixed.pose.size();
-  const bool first = w.placed.turned.size() != n_bodies;
-  w.poses.resize(first ? n_bodies : n);
-  w.moving.assign(n, first ? 1 : 0);
-  for (size_t b = 0; b < n; ++b) w.moving[b] |= w.is_suspect[b];
+  const auto n = static_cast<size_t>(n_blocks(scene));
+  w.poses.resize(n);
+  w.moving = w.is_suspect;
   w.fixed.clear();
   for_each_listed(scene, state, w, [&](const PairWatch&, int a, int b) {
     w.moving[a] = 1;
@@ -49,9 +47,6 @@ void place_suspects(const Scene& scene, const State& state, DeepWork& w) {
   for (size_t b = 0; b < n; ++b)
     if (w.moving[b] != 0)
       w.poses[b] = motion_at(scene, state, static_cast<int>(b), state.time).pose;
-  if (first)
-    std::copy(scene.fixed.pose.begin(), scene.fixed.pose.end(),
-              w.poses.begin() + static_cast<std::ptrdiff_t>(n));
   w.stretch.clear();
   if (!state.strain.empty()) {
     w.stretch.assign(w.poses.size(), Mat3::Identity());
@@ -114,7 +109,42 @@ bool is_too_fast(const Scene& scene, const State& state, size_t b) {
   return motion.velocity.squaredNorm() > 2 * fall + blocks.velocity[b].squaredNorm();
 }
 
+// What a block is in, by its body and not by its contact.
+int partner_of(const Scene& scene, const State& state, int b, DeepWork& w) {
+  w.is_suspect[static_cast<size_t>(b)] = 1;
+  place_suspects(scene, state, w);
+  measure_pairs(scene, state, w);
+  w.is_suspect[static_cast<size_t>(b)] = 0;
+  return overlap_of(scene, b, w).partner;
+}
+
+void note_deepest(const Scene& scene, State& state, DeepWork& w, const StepReport& report) {
+  Mishap& deepest = state.mishaps.deepest;
+  if (report.deepest_block < 0 || report.largest_penetration <= deepest.depth) return;
+  const int b = report.deepest_block;
+  deepest = {b, partner_of(scene, state, b, w), report.largest_penetration, state.time,
+             motion_at(scene, state, b, state.time).pose.position};
+}
+
 }  // namespace
+
+DeepWork make_deep_work(const Scene& scene) {
+  constexpr size_t expected_corners = 64;  // of a polygon that a body cuts out of the ground
+  DeepWork w;
+  const auto n = static_cast<size_t>(n_blocks(scene));
+  w.is_suspect.resize(n);
+  w.moving.assign(n, 1);
+  w.overlap_depth.resize(n);
+  w.overlap_partner.resize(n);
+  w.fixed.reserve(scene.fixed.pose.size());
+  w.poses.assign(scene.blocks.rest.begin(), scene.blocks.rest.end());
+  w.poses.insert(w.poses.end(), scene.fixed.pose.begin(), scene.fixed.pose.end());
+  if (scene.settings.strains) w.stretch.reserve(w.poses.size());
+  place_hulls(scene.blocks.hulls, w.poses, {}, w.moving, w.placed);
+  w.ground.polygon.reserve(expected_corners);
+  w.ground.clipped.reserve(expected_corners);
+  return w;
+}
 
 void note_deep_blocks(const Scene& scene, State& state, DeepWork& w, StepReport& report) {
   const bool any = std::find(w.is_suspect.begin(), w.is_suspect.end(), 1) != w.is_suspect.end();
@@ -127,7 +157,10 @@ void note_deep_blocks(const Scene& scene, State& state, DeepWork& w, StepReport&
     const Phase phase = state.phase[b];
     if (w.is_suspect[b] != 0 && takes_part(phase)) {
       const Overlap overlap = overlap_of(scene, static_cast<int>(b), w);
-      report.largest_penetration = std::max(report.largest_penetration, overlap.depth);
+      if (overlap.depth > report.largest_penetration) {
+        report.largest_penetration = overlap.depth;
+        report.deepest_block = static_cast<int>(b);
+      }
       deep.is_deep = overlap.depth > law::deep_share * scene.blocks.shapes.thickness[b];
       if (deep.is_deep) take(overlap, state.motion[b].pose.position, state.time, deep);
     } else if (phase != Phase::asleep) {  // asleep it stays as deep as it was
@@ -140,6 +173,7 @@ void note_deep_blocks(const Scene& scene, State& state, DeepWork& w, StepReport&
     }
     if (deep.steps > 0 && takes_part(phase)) deep.is_too_fast |= is_too_fast(scene, state, b);
   }
+  note_deepest(scene, state, w, report);
 }
 
 }  // namespace talus

@@ -16,17 +16,23 @@
 
 namespace talus {
 
+/// Scratch for the blocks of a scene, so that a step asks for no memory.
+[[nodiscard]] DeepWork make_deep_work(const Scene& scene);
+
 /// Takes a contact that presses, or holds an overlap that presses nothing, into the report.
 /// `block`: the thinner of its two.
 inline void note_overlap(int block, double overlap, double thickness, DeepWork& deep,
                          StepReport& report) {
-  if (overlap > law::suspect_share * thickness)
+  if (overlap > law::suspect_share * thickness) {
     deep.is_suspect[block] = 1;
-  else if (overlap > report.largest_penetration)
+  } else if (overlap > report.largest_penetration) {
     report.largest_penetration = overlap;
+    report.deepest_block = block;
+  }
 }
 
-/// Measures the suspects of the step that has just ended at state.time.
+/// Measures the suspects of the step that has just ended at state.time; the deepest of the run so
+/// far goes into state.mishaps.
 void note_deep_blocks(const Scene& scene, State& state, DeepWork& w, StepReport& report);
 
 }  // namespace talus

@@ -47,7 +47,9 @@ struct StepReport {
   int n_flips = 0;    ///< contacts that opened, closed, or went from stick to slip or back; not in
                       ///< islands of law talus
   int n_impacts = 0;  ///< impact events
-  int n_unconverged = 0;  ///< block steps accepted without convergence
+  int n_unconverged = 0;       ///< block steps accepted without convergence
+  int unconverged_block = -1;  ///< first of them; of an island the heaviest block
+  int deepest_block = -1;      ///< with largest_penetration
   /// Overlap of contacts that press, or hold one that presses nothing, at the end of the step; of
   /// those that say that a block is deep: of the bodies (step/deep_blocks.hpp) [m].
   double largest_penetration = 0;
@@ -56,5 +58,11 @@ struct StepReport {
   std::array<int, substep_cut_names.size()> cuts{};
   double shortest_dt = 0;  ///< shortest substep; 0 when no block searched contact [s]
 };
+
+/// A step of `block` is accepted without convergence.
+inline void note_unconverged(int block, StepReport& report) {
+  if (report.n_unconverged == 0) report.unconverged_block = block;
+  ++report.n_unconverged;
+}
 
 }  // namespace talus

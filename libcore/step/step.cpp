@@ -14,6 +14,7 @@
 #include "step/flight.hpp"
 #include "step/island/step_island.hpp"
 #include "step/lone/step_talus.hpp"
+#include "step/mishaps.hpp"
 #include "step/paper/step_paper.hpp"
 #include "step/settle.hpp"
 #include "step/substep.hpp"
@@ -102,7 +103,7 @@ Work make_work(const Scene& scene) {
   work.world_vertices.reserve(most_vertices);
   work.near_ground.resize(n_blocks(scene));
   for (NearFeatures& near : work.near_ground) near.features.reserve(expected_contacts);
-  work.deep.is_suspect.resize(n_blocks(scene));
+  work.deep = make_deep_work(scene);
   work.contacts.reserve(8 * (most_vertices + expected_contacts));
   work.rows.reserve(8 * (most_vertices + expected_contacts));
   work.unbonded.reserve(expected_contacts);
@@ -115,7 +116,8 @@ namespace {
 void advance_talus(const Scene& scene, State& state, Work& work, StepReport& report) {
   const double t_end = state.time + scene.settings.dt;
   const bool may_sleep = scene.settings.sleep && !shakes(scene.base);
-  const bool islands = (n_blocks(scene) > 1 && scene.settings.block_contacts) || n_fixed(scene) > 0;
+  const bool islands = (n_blocks(scene) > 1 && scene.settings.block_contacts) ||
+                       n_fixed(scene) > 0 || !scene.forest.stems.empty();
   if (islands) form_islands(scene, state, work);
   for (int b = 0; b < n_blocks(scene); ++b) {
     const auto i = static_cast<size_t>(b);
@@ -177,6 +179,7 @@ StepReport step(const Scene& scene, State& state, Work& work) {
   break_blocks(scene, state, work);
   crush_blocks(scene, state);
   note_deep_blocks(scene, state, work.deep, report);
+  note_mishaps(scene, report, state);
   ++state.counters.steps;
   state.counters.substeps += report.substeps;
   state.counters.impacts += report.n_impacts;

@@ -16,14 +16,15 @@ namespace talus {
 static_assert(sizeof(Motion) == 112 && sizeof(EnergyLedger) == 56 && sizeof(RunCounters) == 64);
 static_assert(sizeof(ContactMemory) == 136 &&
               sizeof(HealthRow) == 184 + 8 * substep_cut_names.size());
-static_assert(sizeof(State) == 8 + 20 * 24 + sizeof(EnergyLedger) + sizeof(RunCounters) +
+static_assert(sizeof(State) == 8 + 21 * 24 + sizeof(EnergyLedger) + sizeof(RunCounters) +
                                    sizeof(PairState) + sizeof(PlacedHulls) + sizeof(FenceState) +
-                                   sizeof(YieldingState));
-static_assert(sizeof(YieldingState) == 2 * 24 && sizeof(Yielded) == 56);
+                                   sizeof(YieldingState) + sizeof(Mishaps));
+static_assert(sizeof(YieldingState) == 3 * 24 && sizeof(Yielded) == 56);
+static_assert(sizeof(StemMet) == 64 && sizeof(StemHit) == 80);
 static_assert(sizeof(FenceState) == 24 && sizeof(FenceHit) == 104 && sizeof(BlockBond) == 48);
 static_assert(sizeof(PairState) == 280 && sizeof(PlacedHulls) == 192 && sizeof(ListedPair) == 96);
 static_assert(sizeof(BlockLoad) == 192 && sizeof(CrushedBlock) == 72 && sizeof(Break) == 80);
-static_assert(sizeof(DeepBlock) == 64);
+static_assert(sizeof(DeepBlock) == 64 && sizeof(Mishap) == 48 && sizeof(Mishaps) == 5 * 48);
 static_assert(sizeof(PairWatch) == 16 && sizeof(HeldPoint) == 24);
 
 template <class Archive>
@@ -63,8 +64,17 @@ void fields(Fields<Archive>& archive, Yielded& met) {
   archive(met.work, met.deflection, met.shift, met.broken_at, met.broken_by);
 }
 template <class Archive>
+void fields(Fields<Archive>& archive, StemMet& stem) {
+  archive(stem.stem, stem.met);
+}
+template <class Archive>
+void fields(Fields<Archive>& archive, StemHit& hit) {
+  archive(hit.block, hit.stem, hit.time, hit.height, hit.velocity, hit.translational_energy,
+          hit.rotational_energy, hit.energy_after, hit.work);
+}
+template <class Archive>
 void fields(Fields<Archive>& archive, YieldingState& yielding) {
-  archive(yielding.met, yielding.shifted);
+  archive(yielding.met, yielding.shifted, yielding.stems);
 }
 template <class Archive>
 void fields(Fields<Archive>& archive, DeepBlock& deep) {
@@ -84,6 +94,15 @@ template <class Archive>
 void fields(Fields<Archive>& archive, Break& broken) {
   archive(broken.block, broken.first_piece, broken.released, broken.generation, broken.time,
           broken.place, broken.volume, broken.hit_loss, broken.fracture, broken.separation);
+}
+template <class Archive>
+void fields(Fields<Archive>& archive, Mishap& mishap) {
+  archive(mishap.block, mishap.partner, mishap.depth, mishap.time, mishap.place);
+}
+template <class Archive>
+void fields(Fields<Archive>& archive, Mishaps& mishaps) {
+  archive(mishaps.deepest, mishaps.unconverged, mishaps.not_finite, mishaps.left_domain,
+          mishaps.fell_through);
 }
 template <class Archive>
 void fields(Fields<Archive>& archive, RunCounters& counters) {
@@ -132,7 +151,8 @@ void fields(Fields<Archive>& archive, State& state) {
           state.acceleration, state.spin_rate, state.support, state.paper.rebound, state.rest_pose,
           state.rest_steps, state.strain, state.strain_rate, state.memory, state.pairs,
           state.placed, state.bonds, state.deep, state.load, state.crushed, state.hit_loss,
-          state.n_hits, state.breaks, state.yielding, state.fence, state.ledger, state.counters);
+          state.n_hits, state.breaks, state.mishaps, state.yielding, state.fence, state.stem_hits,
+          state.ledger, state.counters);
 }
 template <class Archive>
 void fields(Fields<Archive>& archive, PassageValues& values) {
@@ -172,7 +192,7 @@ void fields(Fields<Archive>& archive, Checkpoint& checkpoint) {
 
 namespace {
 
-constexpr std::uint64_t format = 0x39306b6365686374;  // "tcheck09"
+constexpr std::uint64_t format = 0x30316b6365686374;  // "tcheck10"
 constexpr std::size_t digest_length = 64;
 
 std::string digest_of(std::span<const std::uint8_t> bytes) {
@@ -204,6 +224,10 @@ bool fits(const Checkpoint& checkpoint, std::size_t n_blocks, int n_cells) {
       return false;
   for (const CrushedBlock& crushed : state.crushed)
     if (crushed.block < 0 || crushed.block >= static_cast<int>(n_blocks)) return false;
+  const Mishaps& mishaps = state.mishaps;
+  for (const Mishap& mishap : {mishaps.deepest, mishaps.unconverged, mishaps.not_finite,
+                               mishaps.left_domain, mishaps.fell_through})
+    if (mishap.block >= static_cast<int>(n_blocks)) return false;
   if (!checkpoint.trackers.empty() && checkpoint.trackers.size() != n_blocks) return false;
   for (const PassageTracker& tracker : checkpoint.trackers)
     for (const int cell : tracker.covered)

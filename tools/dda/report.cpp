@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
 
 #include "base/text.hpp"
 #include "post/fragment_sizes.hpp"
@@ -81,6 +83,32 @@ std::string fence_summary(const Json& report) {
          broken_panels(panels);
 }
 
+// Stems that stood, that were hit, and that broke.
+Json trees_on(const RunFile& file) {
+  std::set<std::pair<int, int>> hit, broken;
+  double work = 0;
+  for (const TreeHitRow& row : file.tree_hits) {
+    hit.emplace(row.forest, row.stem);
+    if (row.broken_by >= 0) broken.emplace(row.forest, row.stem);
+    work += row.hit.work;
+  }
+  std::int64_t n = 0;
+  for (const ForestInfo& forest : file.forests) n += forest.n_stems;
+  return {{"n_stems", n},
+          {"n_stems_hit", hit.size()},
+          {"n_stems_broken", broken.size()},
+          {"n_hits", file.tree_hits.size()},
+          {"work_kj", work / 1e3}};
+}
+
+std::string tree_summary(const Json& report) {
+  if (!report.contains("trees")) return "";
+  const Json& trees = report["trees"];
+  return ", " + trees["n_stems_hit"].dump() + " of " +
+         counted(trees["n_stems"].get<std::int64_t>(), "stem") + " hit, " +
+         trees["n_stems_broken"].dump() + " broken";
+}
+
 // What a user must not miss, where there is any.
 std::string trouble_summary(const Json& report) {
   const auto said = [&report](const char* key, const std::string& what) {
@@ -129,11 +157,7 @@ Json deep_blocks_of(const RunFile& file) {
 // What the run says of them in one line: those that matter first, then the heaviest.
 std::string deep_warning(const RunFile& file) {
   constexpr size_t most = 3;
-  std::vector<DeepRow> rows = file.deep;
-  std::stable_sort(rows.begin(), rows.end(), [](const DeepRow& a, const DeepRow& b) {
-    const int a_matters = n_that_matter({&a, 1}), b_matters = n_that_matter({&b, 1});
-    return a_matters != b_matters ? a_matters > b_matters : a.mass_share > b.mass_share;
-  });
+  const std::vector<DeepRow> rows = by_weight(file.deep);
   std::string words = counted(static_cast<std::int64_t>(rows.size()), "block") + " of " +
                       text(100 * mass_share(rows), 3) +
                       " % of the mass came in by more than a tenth of " +
@@ -226,12 +250,14 @@ Json run_report(const Runner& runner, const ScenePlan& plan, double cpu_s) {
                {"mean_displacement_m", {moved.x(), moved.y(), moved.z()}},
                {"moved", moved_json(moved_of(displacements(file)))},
                {"cpu_time_s", cpu_s}};
+  if (!file.forests.empty()) json["trees"] = trees_on(file);
   json["health"] = Json::array();
   for (const HealthCheck& check : health_checks(runner))
     json["health"].push_back({{"check", check.name},
                               {"value", check.value},
                               {"limit", check.limit},
-                              {"pass", check.pass}});
+                              {"pass", check.pass},
+                              {"where", check.where}});
   json["crushed_blocks"] = crushed_blocks_of(file);
   if (!file.breaks.empty()) json["fragments"] = fragments_of(file);
   json["deep_blocks"] = deep_blocks_of(file);
@@ -252,7 +278,7 @@ std::string run_summary(const Json& report, const RunFile& file) {
          (fell < 0 ? "rose " : "fell ") + text(std::abs(fell), 4) + " m, " +
          text(moved_of(displacements(file))) + "; largest speed " + number("largest_speed_m_s") +
          " m/s, " + count("n_passages", "passage") + ", " + count("n_crossings", "crossing") +
-         fence_summary(report) + trouble_summary(report);
+         fence_summary(report) + tree_summary(report) + trouble_summary(report);
 }
 
 void warn_of_standing_mass(Tool& tool, const RunFile& file) {
@@ -270,11 +296,14 @@ void record_health(Tool& tool, Runner& runner) {
   if (!runner.file.crushed.empty()) warn(crushed_warning(runner.file));
   if (!runner.file.deep.empty()) warn(deep_warning(runner.file));
   for (const HealthCheck& check : health_checks(runner)) {
-    tool.check(check.name, check.value, check.limit, check.pass, health_hint(check.name));
+    const std::string hint = health_hint(check.name);
+    tool.check(check.name, check.value, check.limit, check.pass,
+               check.where + (check.where.empty() || hint.empty() ? "" : "; ") + hint);
     if (check.pass) continue;
     runner.file.info.status = "failed";
     runner.file.info.reason += (runner.file.info.reason.empty() ? "" : "; ") + check.name + " is " +
-                               text(check.value, 6) + ", limit " + text(check.limit, 6);
+                               text(check.value, 6) + ", limit " + text(check.limit, 6) +
+                               (check.where.empty() ? "" : " (" + check.where + ")");
   }
 }
 

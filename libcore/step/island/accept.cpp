@@ -5,6 +5,7 @@
 
 #include "base/make_room.hpp"
 #include "scene/fence.hpp"
+#include "scene/stems.hpp"
 #include "solver/law_numbers.hpp"
 #include "step/breakage.hpp"
 #include "step/crushing.hpp"
@@ -217,7 +218,28 @@ struct SubstepAcceptance {
                state.fence);
     }
   }
+
+  // The same for stems. They are touched where a substep begins, see first_touch().
+  void note_touched_stems() {
+    if (scene.forest.stems.empty()) return;
+    for (size_t r = 0; r < system.contacts.size(); ++r) {
+      const KeptContact& contact = system.contacts[r];
+      if (contact.fixed < n_fixed(scene) || lane_of(system, r).state() == ContactState::open)
+        continue;
+      const size_t k = members.at(contact.a);
+      const Motion& before = free.substeps[k].start;
+      note_stem_touch(scene, contact.a, contact.fixed, before.pose.position + contact.arm, free.t,
+                      before, state.motion[members.block(k)], state.stem_hits);
+    }
+  }
 };
+
+int heaviest_of(const Scene& scene, const IslandMembers& members) {
+  const std::vector<double>& mass = scene.blocks.mass;
+  return *std::max_element(members.blocks.begin(), members.blocks.end(), [&](int a, int b) {
+    return mass[static_cast<size_t>(a)] < mass[static_cast<size_t>(b)];
+  });
+}
 
 // Bonds of the substep that broke are gone; those with the ground have left the memories already.
 void break_bonds(const SubstepTries& tries, State& state) {
@@ -234,13 +256,18 @@ void accept(const Scene& scene, const IslandMembers& members, const FreeMotions&
   SubstepAcceptance acceptance{scene, members, free,     system, hits,
                                end,   state,   segments, deep,   report};
   report.n_impacts += static_cast<int>(hits.hits.size());
-  if (!converged) ++report.n_unconverged, report.flags = report.flags | StepFlag::unconverged;
+  if (!converged) {
+    note_unconverged(heaviest_of(scene, members), report);
+    report.flags = report.flags | StepFlag::unconverged;
+  }
   if (system.fell_through) report.flags = report.flags | StepFlag::fell_through;
   break_bonds(tries, state);
   acceptance.remember();
   acceptance.move_all();
   acceptance.note_touched_panels();
+  acceptance.note_touched_stems();
   note_work(scene, end.pushes, state.fence);
+  note_stem_work(scene, end.pushes, state.stem_hits);
   push_bodies(scene, end.pushes, free.t + free.h, state);
 }
 

@@ -307,7 +307,10 @@ struct OpenClose {
       switched = set_states();
       ++passes;
     }
-    if (switched > 0) ++report.n_unconverged, report.flags = report.flags | StepFlag::unconverged;
+    if (switched > 0) {
+      note_unconverged(members.front(), report);
+      report.flags = report.flags | StepFlag::unconverged;
+    }
     report.passes += passes;
   }
 

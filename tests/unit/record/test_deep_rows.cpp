@@ -81,6 +81,49 @@ TEST(DeepRows, ASplinterThatMattersFailsTheRun) {
   EXPECT_TRUE(Row::broken(at_fence).empty());
 }
 
+// Every limit that is broken says which block, in what, when, where and its share of the mass.
+TEST(DeepRows, BrokenLimitsNameABlock) {
+  Row row(1);
+  Runner deep = row.begin();
+  Row::sink(deep);
+  row.options.limits.max_penetration = 0.01;
+  Runner shallow = row.begin();
+  shallow.state.mishaps.deepest = {3, 4, 0.02, 1.5, Vec3(1, 2, 3)};
+  shallow.state.mishaps.left_domain = {5, -1, 0, 2, Vec3(1, 2, 3)};
+  shallow.state.counters.left_domain = 1;
+  shallow.file.health.push_back({});
+  shallow.file.health.back().largest_penetration = 0.02;
+  int n = 0;
+  for (const Runner* runner : {&deep, &shallow})
+    for (const HealthCheck& check : health_checks(*runner)) {
+      if (check.pass) continue;
+      ++n;
+      for (const char* word : {"block ", " s near 1, 2, 3", "% of the mass"})
+        EXPECT_NE(check.where.find(word), std::string::npos) << check.name << ": " << check.where;
+    }
+  EXPECT_EQ(n, 3);
+}
+
+// Blocks that rebound almost in full are watched for what they lose as well.
+TEST(DeepRows, ALossOfEnergyFailsWhereHitsReturnAlmostAll) {
+  for (const double restitution : {0.3, 0.95}) {
+    Scene scene = scene_of(plane_trn(slope_frame(0, 0), 5, 100), ground_of(30, restitution),
+                           {body_of(box(Vec3(0, 0, 10), Vec3(1, 1, 11)))}, {});
+    RunOptions options;
+    options.duration = options.frame_interval = 0.1;
+    RunFile file;
+    file.blocks.mass = scene.blocks.mass;
+    Runner runner = begin_run(scene, options, {}, std::move(file));
+    while (!is_over(runner)) advance(runner);
+    EXPECT_TRUE(Row::broken(runner).empty());
+    HealthRow& last = runner.file.health.back();
+    last.translation *= 0.9;  // gone, and nothing took it
+    const std::vector<std::string> lost = {
+        "energy lost but by friction and hits, share of the fall energy"};
+    EXPECT_EQ(Row::broken(runner), restitution < 0.9 ? std::vector<std::string>{} : lost);
+  }
+}
+
 // With a depth given that will do, that depth alone counts.
 TEST(DeepRows, ALimitInMetresTakesThePlaceOfTheShare) {
   Row row(1);

@@ -113,4 +113,59 @@ TEST(DeepBlocks, ABlockThatWasDeepIsWatchedForItsSpeed) {
   }
 }
 
+// A wedge that stands in a narrow notch: each of its walls reads a fifth of what the edge is in.
+TEST(DeepBlocks, AnEdgeInANotchIsInByItsDistanceFromTheGround) {
+  const double half = std::tan(10 * std::numbers::pi / 180) * 3;
+  const Body wedge = body_of(polyhedron(
+      {{0, -1, 0}, {half, -1, 3}, {-half, -1, 3}, {0, 1, 0}, {half, 1, 3}, {-half, 1, 3}},
+      {{0, 1, 2}, {3, 5, 4}, {0, 3, 4, 1}, {1, 4, 5, 2}, {2, 5, 3, 0}}));
+  const double steep = 1 / std::tan(15 * std::numbers::pi / 180);
+  const auto notch = [steep](double x, double) { return steep * std::abs(x); };
+  const Scene scene = scene_of(make_trn(notch, 1, 20), ground_of(60), {wedge}, {});
+  State state = start(scene);
+  Work work = make_work(scene);
+  state.motion[0].pose.position.z() -= 0.13;
+  const StepReport report = step(scene, state, work);
+  const double sunk = gone_down(scene, state);
+  ASSERT_GT(sunk, 0.1 * scene.blocks.shapes.thickness[0]);
+  EXPECT_NEAR(report.largest_penetration, sunk, 1e-6);
+  EXPECT_EQ(state.deep[0].steps, 1);
+}
+
+// What is not deep is named too where it is the deepest of the run: block, partner, time, place.
+TEST(DeepBlocks, TheDeepestOverlapOfARunIsNamed) {
+  OnASlope pair(0,
+                {cube_at({0, 0, 0}), cube_at({-1.5, -1.5, 30}, 3), cube_at({-0.5, -0.5, 32.99})});
+  pair.go();
+  const Mishap first = pair.state.mishaps.deepest;
+  EXPECT_EQ(first.block, 2);
+  EXPECT_EQ(first.partner, 1);
+  EXPECT_NEAR(first.depth, 0.01, 1e-3);
+  EXPECT_EQ(first.time, pair.state.time);
+  EXPECT_LT((first.place - Vec3(0, 0, 33.49)).norm(), 0.02);
+  pair.state.motion[2].pose.position.z() += 1;
+  for (int i = 0; i < 3; ++i) pair.go();
+  EXPECT_EQ(pair.state.mishaps.deepest.time, first.time);  // they are apart
+  pair.state.motion[0].pose.position.z() -= 0.03;
+  pair.go();
+  EXPECT_EQ(pair.state.mishaps.deepest.block, 0);
+  EXPECT_EQ(pair.state.mishaps.deepest.partner, -1);
+  EXPECT_EQ(pair.state.deep[0].steps, 0);
+}
+
+// So is the first block that leaves the terrain.
+TEST(Mishaps, NameTheFirstBlockThatLeft) {
+  std::vector<Body> bodies = {cube_at({0, 0, 0}), cube_at({40, 0, 0}), cube_at({45, 3, 5})};
+  bodies[2].velocity = Vec3(20, 0, 0);
+  OnASlope slope(0, bodies);
+  for (int i = 0; i < 100; ++i) slope.go();
+  ASSERT_EQ(slope.state.counters.left_domain, 1) << slope.state.motion[2].pose.position.transpose();
+  const Mishap& left = slope.state.mishaps.left_domain;
+  EXPECT_EQ(left.block, 2);
+  EXPECT_GT(left.place.x(), 46);
+  EXPECT_GT(left.time, 0);
+  EXPECT_EQ(slope.state.mishaps.fell_through.block, -1);
+  EXPECT_EQ(slope.state.mishaps.not_finite.block, -1);
+}
+
 }  // namespace

@@ -1,0 +1,16 @@
+// libcore/step/mishaps.hpp
+// Which block first went wrong, when and where: what the limits of a run's health name.
+// in:    what a step reports, motion at its end
+// out:   State::mishaps, but the deepest overlap, which step/deep_blocks.hpp notes
+#pragma once
+
+#include "scene/scene.hpp"
+#include "scene/state.hpp"
+#include "step/report.hpp"
+
+namespace talus {
+
+/// Of the step that has just ended at state.time.
+void note_mishaps(const Scene& scene, const StepReport& report, State& state);
+
+}  // namespace talus

@@ -1,0 +1,107 @@
+// tests/unit/contact/body_overlap.hpp
+// The least path that frees two bodies of several convex parts, by brute force: no contact is
+// asked. Out of one part may be into the next, so paths count only where they leave all of them.
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "convex_bodies.hpp"
+
+namespace talus::test {
+
+/// A part of A is out of a part of B once A has moved by x with u . x >= h for one of these.
+struct WaysOut {
+  std::vector<Vec3> u;    ///< unit
+  std::vector<double> h;  ///< [m]
+};
+
+/// Faces, and all products of edges both ways round.
+inline WaysOut ways_out(const Hulls& hulls, const PlacedHulls& placed, int a, int b) {
+  WaysOut ways;
+  const auto add_way = [&](const Vec3& n) {
+    ways.u.push_back(n);
+    ways.h.push_back(-separation_along(hulls, placed, a, b, n));
+  };
+  for (int f = 0; f < hulls.n_faces[a]; ++f) add_way(-normal_at(placed, hulls.face_begin[a] + f));
+  for (int f = 0; f < hulls.n_faces[b]; ++f) add_way(normal_at(placed, hulls.face_begin[b] + f));
+  const auto directions = [&](int p) {
+    std::vector<Vec3> list;
+    for (int e = hulls.edge_begin[p]; e < hulls.edge_begin[p + 1]; ++e) {
+      const Vec3 along = (placed.vertices[hulls.vertex_begin[p] + hulls.edges[e].b] -
+                          placed.vertices[hulls.vertex_begin[p] + hulls.edges[e].a])
+                             .normalized();
+      bool known = false;
+      for (const Vec3& other : list) known |= std::abs(other.dot(along)) > 1 - 1e-12;
+      if (!known) list.push_back(along);
+    }
+    return list;
+  };
+  for (const Vec3& u : directions(a))
+    for (const Vec3& v : directions(b)) {
+      const Vec3 n = u.cross(v);
+      if (n.norm() < 1e-9) continue;
+      add_way(n.normalized());
+      add_way(-n.normalized());
+    }
+  return ways;
+}
+
+inline std::vector<WaysOut> ways_out_of_bodies(const Bodies& bodies, int body_a, int body_b) {
+  std::vector<WaysOut> list;
+  const Hulls& hulls = bodies.hulls;
+  for (int a = hulls.part_begin[body_a]; a < hulls.part_begin[body_a + 1]; ++a)
+    for (int b = hulls.part_begin[body_b]; b < hulls.part_begin[body_b + 1]; ++b)
+      list.push_back(ways_out(hulls, bodies.placed, a, b));
+  return list;
+}
+
+/// How far A moves along `direction` until it is out of all of B, past what it meets on the path.
+inline double path_along(const std::vector<WaysOut>& pairs, const Vec3& direction) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  double at = 0;
+  for (bool moved = true; moved;) {
+    moved = false;
+    for (const WaysOut& ways : pairs) {
+      double begin = -infinity, end = infinity;
+      for (std::size_t k = 0; k < ways.u.size(); ++k) {
+        const double rate = ways.u[k].dot(direction);
+        if (rate > 1e-12)
+          end = std::min(end, ways.h[k] / rate);
+        else if (rate < -1e-12)
+          begin = std::max(begin, ways.h[k] / rate);
+        else if (ways.h[k] <= 0)
+          begin = infinity;
+      }
+      if (begin > at + 1e-12 || !(end > at + 1e-12) || begin >= end) continue;
+      at = end;
+      moved = true;
+    }
+  }
+  return at;
+}
+
+/// The least path out, and where it leads.
+struct LeastPath {
+  double length = 0;  ///< 0: they do not overlap [m]
+  Vec3 direction = Vec3::Zero();
+};
+
+/// Of the paths along the axes of parts that overlap.
+inline LeastPath least_path(const std::vector<WaysOut>& pairs) {
+  LeastPath least;
+  least.length = std::numeric_limits<double>::infinity();
+  bool overlap = false;
+  for (const WaysOut& ways : pairs) {
+    if (*std::min_element(ways.h.begin(), ways.h.end()) <= 0) continue;
+    overlap = true;
+    for (std::size_t k = 0; k < ways.u.size(); ++k) {
+      if (ways.h[k] >= least.length) continue;
+      const double length = path_along(pairs, ways.u[k]);
+      if (length < least.length) least = {length, ways.u[k]};
+    }
+  }
+  return overlap ? least : LeastPath{};
+}
+
+}  // namespace talus::test
