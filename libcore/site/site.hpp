@@ -51,7 +51,10 @@ struct SourceSettings {
   std::string raster;
   double slbl_curvature_m = 0;  ///< below the mean of the highest and lowest of four neighbours
   double slbl_max_depth_m = not_given;
-  std::string material;  ///< of the blocks; the only one when there is one
+  double slbl_sag_m = not_given;  ///< instead of slbl_curvature_m
+  std::string slbl_scenario;      ///< instead of both
+  std::string daylight;           ///< what stands before the mass along this direction is left out
+  std::string material;           ///< of the blocks; the only one when there is one
   std::int64_t seed = 1;
   std::int64_t max_blocks = 20000;
   double min_block_volume_m3 = not_given;    ///< not given: 1e-2 of the mean joint cell
