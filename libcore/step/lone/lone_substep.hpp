@@ -74,7 +74,7 @@ BlockSystem<Dof> make_system(const Scene& scene, int b, const BlockNumbers& c, c
 template <int Dof>
 struct Solved {
   Motion end;
-  Vec6 change;                   // of velocity by contact, body axes
+  Vec6 change = Vec6::Zero();    // of velocity by contact, body axes
   Vec3 turn = Vec3::Zero();      // by contact, body axes [rad]
   Mat3 strained = Mat3::Zero();  // twice the mean strain rate, body axes
   /// Displacement of a body point by contact and by straining, body axes.
@@ -131,7 +131,7 @@ inline double follow_turn(const BlockNumbers& c, const Substep& s, const Solved<
   // A needle's spin about its axis is all but free: a small turn would seem to set it spinning.
   constexpr double most_followed = 0.5;
   if (by_axes.norm() > most_followed * spin.norm())
-    return follow_turn(c, s, Solved<6>{.end = {}, .change = Vec6::Zero()}, contacts, rows);
+    return follow_turn(c, s, Solved<6>{}, contacts, rows);
   double largest = 0;
   for (ContactRow& row : rows) {
     const Vec3& X = contacts[static_cast<std::size_t>(row.contact)].point_a;
