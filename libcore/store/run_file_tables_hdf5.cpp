@@ -1,5 +1,6 @@
 #include "store/run_file_tables_hdf5.hpp"
 
+#include <algorithm>
 #include <set>
 #include <string>
 #include <type_traits>
@@ -420,7 +421,7 @@ void health_columns(Visit&& column) {
       [](HealthRow & h) -> auto& { return h.removed; });
 }
 
-// Missing in runs of earlier versions.
+// Missing where nothing broke or was crushed.
 template <class Visit>
 void breakage_column(Visit&& column) {
   column(
@@ -519,10 +520,12 @@ void write_deep_table(H5Writer& file, const std::vector<DeepRow>& rows) {
 }
 
 void write_health_table(H5Writer& file, const std::vector<HealthRow>& rows) {
+  const bool any_breakage =
+      std::any_of(rows.begin(), rows.end(), [](const HealthRow& row) { return row.breakage != 0; });
   write_table(file, "health", "how the computation went, interval by interval", rows,
-              [](auto&& column) {
+              [any_breakage](auto&& column) {
                 health_columns(column);
-                breakage_column(column);
+                if (any_breakage) breakage_column(column);
                 cut_columns(column);
               });
 }

@@ -1,20 +1,24 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/error.hpp"
 #include "blocks/fragments.hpp"
-#include "verify/cases/cases.hpp"
 
 namespace {
 
 using namespace talus;
-using namespace talus::cases;
+
+Body body_of(const Polyhedron& shape) { return {{shape}, {}, 0, Vec3::Zero(), Vec3::Zero()}; }
 
 BlockSet set_of(const std::vector<Polyhedron>& shapes) {
   BlockSet set;
   set.material_names = {"rock"};
-  for (const Polyhedron& shape : shapes) add_body(set, body_of(shape));
+  for (Polyhedron shape : shapes) {
+    std::fill(shape.face_tag.begin(), shape.face_tag.end(), face_terrain);
+    add_body(set, body_of(shape));
+  }
   return set;
 }
 
