@@ -102,7 +102,7 @@ struct MaterialSettings {
   double cohesion_pa = 0, tension_pa = 0;
   double cor = 0.3;           ///< coefficient of restitution between blocks
   double strength_mpa = 100;  ///< uniaxial compressive; 0: nothing is crushed
-  double crush_below = 0.1;   ///< share of the median volume below which blocks are crushed
+  double crush_below = 0.01;  ///< share of the median volume below which blocks are crushed
 };
 
 /// [ground.NAME]: what blocks slide on; a polygon or `raster_values` say where, one section without

@@ -7,8 +7,9 @@ touching() { talus-dda site.toml --trn slope.tif --blocks blocks.h5 --no-db "$@"
 
 expect 0 touching -o whole.h5 --json
 cp out whole.json
+expect 0 touching -o said.h5 $breaking
+prints "breaks into two"
 expect 0 touching -o broken.h5 $breaking --json
-says "breaks into two"
 cp out broken.json
 /usr/bin/python3 - <<'END' || fail "pieces do not add up to the blocks"
 import json
@@ -22,7 +23,7 @@ assert all(check["pass"] for check in broken["health"] if check["check"].startsw
 END
 
 # what evaluates runs reads pieces, with the volume that was released
-expect 0 talus-runout broken.h5 --trn slope.tif -o runout.json --no-db
+expect 0 talus-runout broken.h5 --trn slope.tif -o runout.gpkg --json runout.json --no-db
 expect 0 talus-maps broken.h5 --trn slope.tif -o maps --no-db
 /usr/bin/python3 - <<'END' || fail "the run-out table lost volume"
 import json
@@ -33,14 +34,20 @@ assert volume["n_released"] == 3 + json.load(open("broken.json"))["n_breaks"], v
 END
 
 # stopped and resumed
-touching -o stopped.h5 $breaking -q --time-step-s 0.0002 --checkpoint-interval-s 0.02 &
+slow="$breaking -q --time-step-s 0.0001 --duration-s 3 --checkpoint-interval-s 0.02"
+talus-dda site.toml --trn slope.tif --blocks blocks.h5 --no-db -o stopped.h5 $slow &
 run_id=$!
-sleep 1
+n=0
+while [ ! -e stopped.h5.part ]; do
+  n=$((n + 1))
+  [ $n -lt 600 ] || fail "no checkpoint"
+  sleep 0.05
+done
 kill -TERM $run_id || fail "the run was over before SIGTERM"
 wait $run_id || true
 [ -s stopped.h5.part ] || fail "no checkpoint after SIGTERM"
-expect 0 touching -o stopped.h5 $breaking -q --time-step-s 0.0002 --resume
-expect 0 touching -o direct.h5 $breaking -q --time-step-s 0.0002
+expect 0 touching -o stopped.h5 $slow --resume
+expect 0 touching -o direct.h5 $slow
 cmp direct.h5 stopped.h5 || fail "the resumed run differs from the whole one"
 
 expect 1 touching -o joints.h5 $breaking --set fragmentation.splitting=joints
