@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "base/random.hpp"
 #include "base/text.hpp"
+#include "scene/crushing.hpp"
 #include "scene/make_scene.hpp"
 #include "scene/stems.hpp"
 
@@ -63,6 +64,7 @@ JointClasses joint_classes(const Site& site, const BlockSet& blocks,
 struct Rock {
   std::vector<Material> materials;
   std::vector<GroundClass> classes;
+  std::vector<Crushing> crushing;
 };
 
 Rock rock_of(const Site& site, const BlockSet& blocks) {
@@ -76,6 +78,7 @@ Rock rock_of(const Site& site, const BlockSet& blocks) {
                        "add [material." + name + "], or cut the blocks again");
     rock.materials.push_back({found->density_kg_m3, found->young_modulus_pa, found->poisson_ratio});
     rock.classes.push_back(rock_class(*found, site.solver));
+    rock.crushing.push_back({1e6 * found->strength_mpa, found->crush_below});
   }
   return rock;
 }
@@ -141,11 +144,37 @@ Scene make_site_scene(const Site& site, const ScenePlan& plan, SceneParts parts)
   scene.settings = settings_of(solver, plan);
   scene.base = std::move(parts.base);
   add_blocks(scene, parts.blocks, rock.materials);
+  const FragmentationSettings& breaking = site.fragmentation;
+  scene.fragments = std::move(parts.fragments);
+  scene.fragmentation = {breaking.energy_j_m2, breaking.spread, breaking.separation_share,
+                         static_cast<std::uint64_t>(breaking.seed)};
+  if (scene.settings.law == Law::talus) {
+    const auto n_released = std::count_if(scene.fragments.begin(), scene.fragments.end(),
+                                          [](const Fragment& f) { return f.parent < 0; });
+    scene.crush_load =
+        crush_loads(parts.blocks, scene.blocks, rock.crushing,
+                    scene.fragments.empty() ? n_blocks(scene) : static_cast<int>(n_released));
+  }
   add_jitter(scene.blocks, solver.start_jitter_m_s, seed);
   for (const StandingFence& fence : parts.fences) add_fence(scene, fence);
   if (!parts.stems.empty()) add_forest(scene, std::move(parts.stems), std::move(parts.stem_faces));
   check_scene(scene);
   return scene;
+}
+
+SplitSettings split_settings(const Site& site, const BlockSet& set) {
+  const FragmentationSettings& from = site.fragmentation;
+  SplitSettings made;
+  made.splitting = from.splitting == "joints" ? Splitting::joints : Splitting::random;
+  made.min_volume = from.min_volume_m3;
+  made.max_generation = static_cast<int>(from.max_generation);
+  made.seed = static_cast<std::uint64_t>(from.seed);
+  for (const std::string& name : set.joint_set_names) {
+    const JointSettings* joints = joints_of(site, name);
+    const bool is_partly_open = joints != nullptr && joints->persistence < 1;
+    made.bonded.push_back(is_partly_open ? 1 - joints->persistence : 1);
+  }
+  return made;
 }
 
 std::vector<UnusualValue> unusual_values(const Site& site) {

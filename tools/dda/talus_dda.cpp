@@ -8,6 +8,7 @@
 
 #include "base/processor_time.hpp"
 #include "base/text.hpp"
+#include "record/pieces.hpp"
 #include "run/runner.hpp"
 #include "scene/site_scene.hpp"
 #include "store/xdmf_hdf5.hpp"
@@ -140,7 +141,9 @@ Runner runner_of(Tool& tool, const Scene& scene, const RunOptions& options,
   }
   RunFile part;
   try {
-    part = read_run_file(part_of(o));
+    RunParts parts;
+    parts.merge_pieces = false;  // all bodies that may still come off
+    part = read_run_file(part_of(o), parts);
   } catch (const InputError& error) {
     if (!tool.overwrite())
       throw InputError({}, error.what(), "--overwrite starts again from the beginning");
@@ -234,6 +237,7 @@ void write_outputs(Tool& tool, Runner& runner, const Options& o) {
   record_health(tool, runner);
   update_file(runner, false);
   write_run_file(tool.stage(o.out), runner.file);
+  merge_pieces(runner.file);
   if (o.xdmf.empty()) return;
   const fs::path data = xdmf_data_of(o);
   write_xdmf(tool.stage(o.xdmf), tool.stage(data.string()), data.filename().string(), runner.file);
@@ -276,6 +280,7 @@ int main(int argc, char** argv) {
     warn_of_plan(tool, site, plan, inputs);
     check_start(tool, site, inputs, o.files, plan.block_contacts);
     tool.detail(as_text(plan));
+    cut_fragments(tool, site, inputs);
     RunFile file = new_file(tool.run_id(), site, inputs, plan);
     const BlockSet blocks = inputs.parts.blocks;
     const Scene scene = make_site_scene(site, plan, std::move(inputs.parts));

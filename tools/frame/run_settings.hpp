@@ -18,6 +18,10 @@ void check_times(const Site& site);
 /// Warns of settings that do nothing, or that are unusual. Returns the warnings for the run file.
 [[nodiscard]] std::vector<std::string> warn_of_settings(Tool& tool, const Site& site);
 
+/// Adds the pieces into which blocks may break to the blocks of `inputs`, where [fragmentation] is
+/// enabled; warns of blocks that stay whole.
+void cut_fragments(Tool& tool, const Site& site, DdaInputs& inputs);
+
 /// Warns of blocks that pass through each other, and of strains asked for that are not computed;
 /// adds to inputs.warnings.
 void warn_of_plan(Tool& tool, const Site& site, const ScenePlan& plan, DdaInputs& inputs);

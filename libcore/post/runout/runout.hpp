@@ -138,7 +138,7 @@ struct CurveRow {
 /// run's own balance error.
 struct EnergyShares {
   double put_in = 0;  ///< loss of potential energy + kinetic energy at the start + input [J]
-  double friction = 0, impact = 0, contact = 0, removed = 0, kinetic = 0, elastic = 0;
+  double friction = 0, impact = 0, contact = 0, breakage = 0, removed = 0, kinetic = 0, elastic = 0;
   double fence = 0;  ///< taken by panels of fences that gave way
   double unaccounted = 0;
 };
