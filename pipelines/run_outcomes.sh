@@ -17,7 +17,7 @@ look_at() {
   name=${1##*/} name=${name%.h5}
   mark=$marks/$name
   case $1 in without/* | */without/*) mark=$marks/without_$name name=without/$name ;; esac
-  if [ -f "$mark" ] && [ "$1" -nt "$mark" ] && ! grep -q '^kept' "$mark"; then mark=$mark.over; fi
+  if [ -f "$mark" ] && [ "$1" -nt "$mark" ] && ! grep -q '^kept' "$mark"; then rm -f "$mark"; fi
 }
 has_result() {
   [ -f "$1" ] || return 1
