@@ -58,7 +58,7 @@ double node_volume(const Trn& ground, const Trn& bed, const Area& area, double p
   return n > 0 ? polygon_area * sum / n : 0;
 }
 
-// The shorter of the ways across the area: along its fall line and across it.
+// The shorter of the two widths of the area: along its fall line and across it.
 double width_of(const Area& area, double azimuth) {
   const Vec2 down(std::sin(azimuth), std::cos(azimuth)), across(down.y(), -down.x());
   double width = std::numeric_limits<double>::infinity();

@@ -106,7 +106,7 @@ VectorLayer path_layer(const std::vector<RunoutRun>& runs, const MapPlace& map, 
 
 VectorLayer path_point_layer(const std::vector<RunoutRun>& runs, const MapPlace& map) {
   VectorLayer layer{"path_points",
-                    "points of the simplified ways",
+                    "points of the simplified paths",
                     GeometryType::point_z,
                     {{"run_id", FieldType::text},
                      {"block", FieldType::integer},
