@@ -8,6 +8,7 @@
 #include "base/text.hpp"
 #include "post/maps/map_layers.hpp"
 #include "post/maps/map_style.hpp"
+#include "post/reduce.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/fault_json.hpp"
 #include "tools/frame/map_output.hpp"
@@ -25,7 +26,7 @@ struct Options {
   double cell_size_m = std::numeric_limits<double>::quiet_NaN();
   talus::MapSettings settings;
   bool png = false;
-  double memory_mb = 2000;
+  double memory_mb = 2000, half_width = 0.05;
   std::vector<std::string> creation_options;
 
   // Rows that may be held: each twice while they are sorted.
@@ -49,6 +50,9 @@ void declare(Tool& tool, Options& o) {
   tool.option("--memory-mb", o.memory_mb,
               "for rows of passages [MB]; more of them are taken in several readings of the runs")
       ->check(talus::number_between(1e-3, 1e7));
+  tool.option("--half-width", o.half_width,
+              "wanted of the interval of reach_probability: says how many runs to add")
+      ->check(talus::number_between(1e-4, 0.5));
   tool.option("--co", o.creation_options, "creation option of the COGs, NAME=VALUE")
       ->check(talus::check_creation_option);
   tool.footer("Example:\n  talus-maps run_1.h5 run_2.h5 --trn slope.tif -o maps --png");
@@ -62,7 +66,32 @@ struct Gathered {
   std::vector<std::uint32_t> rows_of_cell;  // of the map
   std::uint64_t n_rows = 0;
   std::vector<std::vector<talus::MapRow>> rows;  // of each run; empty when they are too many
+  std::vector<std::vector<double>> weight;       // of the blocks of each run; empty: 1 each
+  int n_to_add = 0;  // runs, for the half width that is wanted; known when layers are made
 };
+
+// Behind the rows of the same run that came before.
+void add_rows(std::vector<std::vector<talus::MapRow>>& all, std::vector<talus::MapRow> rows,
+              std::size_t member) {
+  if (all.size() <= member) all.resize(member + 1);
+  if (all[member].empty())
+    all[member] = std::move(rows);
+  else
+    all[member].insert(all[member].end(), rows.begin(), rows.end());
+}
+
+// The rows of the parts over a tile of the map: `take` gets those of a run, by its place.
+void take_rows_of_parts(const talus::RunInputs& runs, const talus::MapGrid& map,
+                        const std::vector<std::vector<double>>& weight, const talus::MapTile& tile,
+                        std::uint64_t most,
+                        const std::function<void(std::vector<talus::MapRow>, int)>& take) {
+  for (const talus::PartInput& part : runs.parts())
+    talus::for_each_strip(part.file, map.factor, tile, most, [&](const auto& by_run) {
+      for (std::size_t r = 0; r < by_run.size(); ++r)
+        if (const int member = part.member[r]; member >= 0 && !by_run[r].empty())
+          take(talus::map_rows(by_run[r], part.file.part.grid, map, weight[member], tile), member);
+    });
+}
 
 // All that does not grow with the number of runs, and the rows as long as they are few enough.
 Gathered gather(talus::RunInputs& runs, const Options& o) {
@@ -72,6 +101,14 @@ Gathered gather(talus::RunInputs& runs, const Options& o) {
                               .only_last_frame = true,
                               .only_faults = true,
                               .words = false};
+  const auto count = [&](std::vector<talus::MapRow> rows, std::size_t member) {
+    for (const talus::MapRow& row : rows) ++out.rows_of_cell[row.cell];
+    out.n_rows += rows.size();
+    if (out.n_rows > o.most_rows())
+      std::vector<std::vector<talus::MapRow>>().swap(out.rows);
+    else
+      add_rows(out.rows, std::move(rows), member);
+  };
   runs.read(parts, [&](RunFile& run, int index) {
     if (run.grid.n_rows == 0)
       throw talus::InputError({runs.members[index].file}, "holds no passages",
@@ -81,18 +118,15 @@ Gathered gather(talus::RunInputs& runs, const Options& o) {
       out.rows_of_cell.assign(static_cast<std::size_t>(out.map.grid.n_rows) * out.map.grid.n_cols,
                               0);
     }
-    std::vector<talus::MapRow> rows =
-        talus::map_rows(run.passages, run.grid, out.map, run.blocks.weight);
-    for (const talus::MapRow& row : rows) ++out.rows_of_cell[row.cell];
-    out.n_rows += rows.size();
-    if (out.n_rows > o.most_rows())
-      std::vector<std::vector<talus::MapRow>>().swap(out.rows);
-    else
-      out.rows.push_back(std::move(rows));
+    count(talus::map_rows(run.passages, run.grid, out.map, run.blocks.weight), index);
+    out.weight.push_back(run.blocks.weight);
     out.released.weight.push_back(runs.members[index].weight);
     out.released.n_blocks.push_back(runs.members[index].n_blocks);
     talus::add_deposit(out.deposit, out.map.grid, run, runs.rest_speed_m_s);
   });
+  take_rows_of_parts(runs, out.map, out.weight, {}, o.most_rows(),
+                     [&](auto rows, int member) { count(std::move(rows), member); });
+  out.released.failed_share = runs.failed_share();
   return out;
 }
 
@@ -120,12 +154,17 @@ std::vector<MapLayer> layers_of(Tool& tool, talus::RunInputs& runs, Gathered& g,
                                                 ? talus::tiles_of(g.rows_of_cell, o.most_rows())
                                                 : std::vector<talus::MapTile>{{}};
   for (const talus::MapTile& tile : tiles) {
-    if (g.rows.empty())
-      runs.read_again(only_passages, [&](RunFile& run, int) {
-        g.rows.push_back(talus::map_rows(run.passages, run.grid, g.map, run.blocks.weight, tile));
+    if (g.rows.empty()) {
+      runs.read_again(only_passages, [&](RunFile& run, int member) {
+        add_rows(g.rows, talus::map_rows(run.passages, run.grid, g.map, run.blocks.weight, tile),
+                 member);
       });
+      take_rows_of_parts(runs, g.map, g.weight, tile, o.most_rows(),
+                         [&](auto rows, int member) { add_rows(g.rows, std::move(rows), member); });
+    }
     const talus::CellRows cells = talus::group_by_cell(std::move(g.rows), g.rows_of_cell.size());
     g.rows.clear();
+    g.n_to_add = std::max(g.n_to_add, talus::runs_to_add(cells, g.released, o.half_width));
     add_tile({cells, g.deposit, g.map.grid.cell_size, g.released, o.settings}, tool.progress(),
              layers);
   }
@@ -149,11 +188,17 @@ void run_tool(Tool& tool, Options& o, talus::RunInputs& runs) {
   if (n_rows == 0) tool.warn("no block passed any cell: the maps are empty");
   runs.warn_of_ends();
 
-  auto tags = talus::tags_of(runs.members);
+  auto tags = talus::tags_of(runs.members, runs.left_out);
   tags.insert(tags.begin(), {{"RUN_ID", tool.run_id()}, {"RUN_SET", runs.run_set()}});
   const std::string remark = runs.remark();
   if (!remark.empty()) tags.emplace_back("REMARK", remark);
   if (runs.n_missing > 0) tags.emplace_back("N_MISSING", std::to_string(runs.n_missing));
+  tags.emplace_back("REACH_UPPER_BOUND_ELSEWHERE",
+                    talus::text(talus::reach_bound_elsewhere(gathered.released), 6));
+  tags.emplace_back("RUNS_TO_ADD", std::to_string(gathered.n_to_add) + " for a half width of " +
+                                       talus::text(o.half_width) +
+                                       " where reach_probability is above " +
+                                       talus::text(talus::least_reach));
   const talus::MapFrame frame = talus::map_frame(trn, grid, o.png, touched);
   Json files = Json::array();
   bool shows_maximum = false;
@@ -174,8 +219,9 @@ void run_tool(Tool& tool, Options& o, talus::RunInputs& runs) {
   tool.metric("cells_touched", static_cast<double>(touched.size()), "1");
   Json result = {{"run_id", tool.run_id()},       {"n_runs", runs.members.size()},
                  {"n_passages", n_rows},          {"n_cells_touched", touched.size()},
-                 {"cell_size_m", grid.cell_size}, {"layers", files}};
-  talus::add_faults(result, talus::faults_of(runs.members));
+                 {"cell_size_m", grid.cell_size}, {"runs_to_add", gathered.n_to_add},
+                 {"half_width", o.half_width},    {"layers", files}};
+  talus::add_faults(result, talus::faults_of(runs.members, runs.left_out));
   tool.result(result,
               std::to_string(layers.size()) + " maps of " + std::to_string(runs.members.size()) +
                   (runs.members.size() == 1 ? " run" : " runs") + ", " + std::to_string(n_rows) +
