@@ -31,6 +31,14 @@ bound() { sed -n 's/ *REACH_UPPER_BOUND_ELSEWHERE=//p'; }
 gdalinfo good/reach.tif | bound >good.bound
 [ "$(cat good.bound)" = 0.0369935 ] || fail "the bound elsewhere is $(cat good.bound)"
 bound <info | awk '{ wanted = 0.0369935 * 100 / 102 + 2 / 102; exit $1 - wanted > 1e-6 || wanted - $1 > 1e-6 }' || fail 'the bound elsewhere does not count the failed runs'
+# the same from a part that holds the failed runs too
+expect 0 talus-reduce run_*.h5 failed/run_*.h5 --trn slope.tif -o part.h5
+expect 0 talus-maps part.h5 --trn slope.tif -o of_part --png
+for file in few/*.tif few/*.qml few/*.png; do cmp "$file" "of_part/${file#few/}" || fail "$file of a part is another one"; done
+expect 0 talus-runout run_*.h5 failed/run_*.h5 --trn slope.tif -o a.gpkg --json a.json
+expect 0 talus-runout part.h5 --trn slope.tif -o b.gpkg --json b.json
+for side in a b; do ogr2ogr -f CSV $side.csv $side.gpkg envelope -lco GEOMETRY=AS_WKT; done
+cmp a.csv b.csv || fail 'cells of failed runs are in the envelope of a part'
 # as many missing runs: the same intervals
 expect 0 talus-maps run_*.h5 --missing 2 --trn slope.tif -o missing
 for side in few missing; do gdal_translate -q -of XYZ -b 4 $side/reach.tif $side.xyz; done
