@@ -59,14 +59,17 @@ print_lists() {
   done
 }
 
+# Few failed runs are left out of what is made: --max-failed-share of the tools, 0.02 unless given.
 list() {
+  used='its result is used, and marked'
+  [ $((50 * n_failed)) -gt "$n" ] || used='left out, and counted into the intervals'
   echo "$n_failed of $n runs failed:"
   for run in $failed; do
     look_at "$run"
     if [ -f "$mark" ]; then
       while IFS=$tab read -r outcome words; do
         case $outcome in
-          kept) echo "  $name: $words (its result is used, and marked)" ;;
+          kept) echo "  $name: $words ($used)" ;;
           none) echo "  $name: $words (no result)" ;;
         esac
       done <"$mark"
