@@ -112,13 +112,28 @@ BoundPlaces upper_bound_places(PercentileBounds& bounds, std::span<const RunWeig
   return places;
 }
 
-PlaceInterval woodruff_interval(std::span<const RunWeight> ascending, double p) {
+BoundedPlaces percentile_places(std::span<const RunWeight> ascending, double p) {
+  if (ascending.empty()) return {};
   int last_run = 0;
   for (const RunWeight& item : ascending) last_run = std::max(last_run, item.run);
   std::vector<int> place_of_run(static_cast<std::size_t>(last_run) + 1, -1);
   RunSample sample = sample_of(ascending, place_of_run);
-  const Interval interval = sample_interval(sample_below(sample, ascending, p), p);
-  return {place_of(sample, interval.low), place_of(sample, interval.high)};
+  const int n = static_cast<int>(sample.n_eff + 1e-9);
+  if (n < smallest_sample(p)) return {};
+  BoundedPlaces places{place_of(sample, p), -1, -1};
+  if (!sample.runs_repeat) {
+    const RankInterval ranks = rank_interval(n, p);
+    if (ranks.low > 0) places.low = place_of(sample, static_cast<double>(ranks.low) / n);
+    if (ranks.high > 0) places.high = place_of(sample, static_cast<double>(ranks.high) / n);
+    return places;
+  }
+  if (sample.over.n_runs < least_runs_for_woodruff) return places;
+  const ShareSample below = sample_below(sample, ascending, p);
+  if (below.n_trials + 1e-9 < smallest_sample(p)) return places;
+  const Interval interval = sample_interval(below, p);
+  places.low = place_of(sample, interval.low);
+  places.high = place_of(sample, interval.high);
+  return places;
 }
 
 }  // namespace talus

@@ -46,10 +46,12 @@ struct PercentileBounds {
 [[nodiscard]] BoundPlaces upper_bound_places(PercentileBounds& bounds,
                                              std::span<const RunWeight> ascending);
 
-/// Both ends of the 95 % interval of the p-percentile by Woodruff's method.
-struct PlaceInterval {
-  int low = 0, high = 0;
+/// A percentile among values in ascending order, and both ends of its 95 % interval; -1: none.
+struct BoundedPlaces {
+  int place = -1, low = -1, high = -1;
 };
-[[nodiscard]] PlaceInterval woodruff_interval(std::span<const RunWeight> ascending, double p);
+/// By ranks, or by Woodruff's method where runs repeat (30 runs or more). The percentile needs
+/// values worth smallest_sample(p) independent ones.
+[[nodiscard]] BoundedPlaces percentile_places(std::span<const RunWeight> ascending, double p);
 
 }  // namespace talus

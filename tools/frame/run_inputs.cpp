@@ -44,8 +44,8 @@ RunInputs::RunInputs(Tool& tool, RunUse use) : tool_(tool) {
   tool.input("--trn", trn_file, "terrain of the runs (GeoTIFF of talus-trn)")->required();
   tool.flag("--allow-unfinished", allow_unfinished,
             "take runs that were interrupted before their end; every output is marked");
-  tool.leave_out_of_run_id(
-      {"run", "runs-from", "without", "without-from"});  // the runs themselves stand for them
+  tool.leave_out_of_run_id({"run", "runs-from", "without", "without-from", "compare",
+                            "compare-from"});  // the runs themselves stand for them
   if (use == RunUse::reduced) {
     max_failed_share = 0;
     return;
@@ -124,6 +124,7 @@ void RunInputs::leave_out_failed(Found& found, bool is_first) {
   const FailedShare failed =
       talus::failed_share(static_cast<int>(found.members.size()), static_cast<int>(n_failed),
                           is_first ? n_missing : 0, max_failed_share);
+  last_failed_share_ = failed.share;
   if (is_first) failed_share_ = failed.share;
   if (!failed.is_left_out || n_failed == 0) return;
   Found kept;

@@ -63,6 +63,8 @@ class RunInputs {
 
   /// Of the runs named by RUN.h5... and those missing: left out.
   [[nodiscard]] double failed_share() const { return failed_share_; }
+  /// Of those that were read last.
+  [[nodiscard]] double last_failed_share() const { return last_failed_share_; }
 
   /// Warns when blocks were still moving as their runs ended, or had left the known terrain:
   /// deposits leave them out.
@@ -101,7 +103,7 @@ class RunInputs {
   std::vector<std::string> part_files_;  // of parts_
   std::vector<Place> places_;            // of members
   std::size_t n_first_ = 0;              // members of RUN.h5...
-  double failed_share_ = 0;
+  double failed_share_ = 0, last_failed_share_ = 0;
 };
 
 /// The lines of a list of files, blanks left out; none where no list is named. Throws InputError.

@@ -124,13 +124,6 @@ MapLayer empty_quantity_layer(const std::string& name, const QuantityText& text,
   return layer;
 }
 
-// What the intervals of shares rest on.
-ShareBasis share_basis_of(const Released& released) {
-  const bool single_blocks = std::all_of(released.n_blocks.begin(), released.n_blocks.end(),
-                                         [](int count) { return count <= 1; });
-  return share_basis(released.weight, single_blocks, released.failed_share);
-}
-
 // Weight of each run that came and `counts`; `rows` by run.
 template <class Test>
 void weigh_runs(std::span<const MapRow> rows, const Test& counts, std::vector<RunWeight>& parts) {
@@ -177,6 +170,12 @@ std::vector<MapBand> empty_reach_bands(std::size_t n) {
 }
 
 }  // namespace
+
+ShareBasis share_basis_of(const Released& released) {
+  const bool single_blocks = std::all_of(released.n_blocks.begin(), released.n_blocks.end(),
+                                         [](int count) { return count <= 1; });
+  return share_basis(released.weight, single_blocks, released.failed_share);
+}
 
 MapLayer quantity_layer(const std::string& name, const CellRows& cells, MapQuantity quantity,
                         const Released& released, const MapSettings& settings) {

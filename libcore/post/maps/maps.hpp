@@ -15,6 +15,7 @@
 
 #include "io/overview.hpp"
 #include "post/maps/map_rows.hpp"
+#include "post/share_interval.hpp"
 
 namespace talus {
 
@@ -24,6 +25,9 @@ struct Released {
   std::vector<int> n_blocks;   ///<                                                 (n_runs)
   double failed_share = 0;     ///< of the runs that were wanted, left out here [-]
 };
+
+/// What the intervals of shares rest on.
+[[nodiscard]] ShareBasis share_basis_of(const Released& released);
 
 struct MapSettings {
   int min_passages = 0;    ///< for any percentile; 0: Wilks (5, 29, 59, 299 for p50 to p99)

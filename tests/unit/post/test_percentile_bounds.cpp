@@ -85,7 +85,7 @@ TEST(PercentileBounds, HoldTheTruthInSimulatedEnsembles) {
   for (int trial = 0; trial < n_trials; ++trial) {
     const std::vector<RunValue> values = clustered(random, 100, 20);
     const std::vector<RunWeight> runs = runs_of(values);
-    const PlaceInterval places = woodruff_interval(runs, 0.95);
+    const BoundedPlaces places = percentile_places(runs, 0.95);
     both += values[places.low].value <= truth && truth <= values[places.high].value;
     PercentileBounds bounds(100, 200, 1);
     upper += truth <= values[upper_bound_places(bounds, runs)[2]].value;
