@@ -5,7 +5,7 @@ set -eu
 
 build="g++ cmake ninja-build make ccache libgdal-dev libcgal-dev libeigen3-dev libhdf5-dev
   libsqlite3-dev libsqlitecpp-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-dev gdal-bin proj-data git help2man"
-test="libgtest-dev librapidcheck-dev clang-format-14 python3 sqlite3 hdf5-tools"
+test="libgtest-dev librapidcheck-dev clang-format-14 python3 sqlite3 hdf5-tools procps slurm-wlm munge parallel"
 
 case ${1:-} in
   build) wanted=$build ;;

@@ -34,7 +34,7 @@ struct Part {
 [[nodiscard]] RunFile run_of(const Part& part, int run);
 
 /// Adds a run at the end: its blocks and lines are kept once. Passages and checkpoint are dropped.
-/// The run's `reach` must be given.
+/// The run's `reach` must be given, and its pieces merged (record/pieces.hpp).
 struct PartBuilder {
   Part part;
   std::vector<std::pair<std::string, int>> known_blocks, known_lines;  ///< digest, index; sorted

@@ -34,7 +34,8 @@ std::string digest_of(const RunBlocks& b) {
     sum.add(pose.position.data(), 3 * sizeof(double));
     sum.add(pose.attitude.coeffs().data(), 4 * sizeof(double));
   }
-  for (const auto* list : {&b.vertex_begin, &b.face_vertices, &b.face_begin, &b.block_face_begin})
+  for (const auto* list : {&b.vertex_begin, &b.face_vertices, &b.face_begin, &b.block_face_begin,
+                           &b.generation, &b.body})
     hash(sum, *list);
   return sum.hex();
 }
@@ -70,6 +71,29 @@ void extend_begin(std::vector<int>& begin, const std::vector<int>& more, int by)
   for (std::size_t i = 1; i < more.size(); ++i) begin.push_back(more[i] + by);
 }
 
+// Where nothing broke, each block is a body of its own, and says nothing of it.
+void leave_out_if_whole(RunBlocks& blocks) {
+  const auto is_zero = [](int generation) { return generation == 0; };
+  bool is_whole = std::all_of(blocks.generation.begin(), blocks.generation.end(), is_zero);
+  for (std::size_t b = 0; b < blocks.body.size(); ++b)
+    is_whole = is_whole && blocks.body[b] == static_cast<int>(b);
+  if (!is_whole) return;
+  blocks.generation.clear();
+  blocks.body.clear();
+}
+
+void extend_bodies(RunBlocks& all, const RunBlocks& more) {
+  const std::size_t n = more.mass.size();
+  if (more.body.empty())
+    for (std::size_t b = 0; b < n; ++b) all.body.push_back(static_cast<int>(b));
+  else
+    extend(all.body, more.body);
+  if (more.generation.empty())
+    all.generation.resize(all.generation.size() + n, 0);
+  else
+    extend(all.generation, more.generation);
+}
+
 void extend_blocks(RunBlocks& all, const RunBlocks& more) {
   const int n_vertices = static_cast<int>(all.vertices.size());
   const int n_entries = static_cast<int>(all.face_vertices.size());
@@ -80,6 +104,7 @@ void extend_blocks(RunBlocks& all, const RunBlocks& more) {
     all.weight.resize(all.weight.size() + more.mass.size(), 1);
   else
     extend(all.weight, more.weight);
+  extend_bodies(all, more);
   extend(all.inertia, more.inertia);
   extend(all.rest, more.rest);
   extend(all.vertices, more.vertices);
@@ -110,6 +135,9 @@ RunBlocks blocks_between(const RunBlocks& all, int first, int end) {
   out.weight = piece(all.weight, first, end);
   if (std::all_of(out.weight.begin(), out.weight.end(), [](double w) { return w == 1; }))
     out.weight.clear();
+  if (!all.body.empty()) out.body = piece(all.body, first, end);
+  if (!all.generation.empty()) out.generation = piece(all.generation, first, end);
+  leave_out_if_whole(out);
   out.inertia = piece(all.inertia, first, end);
   out.rest = piece(all.rest, first, end);
   const int v0 = all.vertex_begin[first], v1 = all.vertex_begin[end];
@@ -267,6 +295,11 @@ void write_sets(H5Writer& file, const Part& part) {
     extend_blocks(all, blocks);
     begin.push_back(static_cast<int>(all.mass.size()));
   }
+  const auto is_whole = [](const RunBlocks& blocks) { return blocks.body.empty(); };
+  if (std::all_of(part.blocks.begin(), part.blocks.end(), is_whole)) {
+    all.body.clear();
+    all.generation.clear();
+  }
   write_blocks(file, all);
   put_indices(file, "blocks/set_begin", begin, "blocks of set s: [s], [s + 1)");
   std::vector<RecordLine> lines;
@@ -317,10 +350,7 @@ void write_ends(H5Writer& file, const Part& part) {
   std::vector<std::uint8_t> phase;
   for (const Phase p : joined(part, phases)) phase.push_back(static_cast<std::uint8_t>(p));
   file.group("phase", "state of each block at the end of its run");
-  file.array<std::uint8_t>(
-      "phase/phase", phase, {phase.size()}, "1",
-      "0 near the ground, 1 in flight, 2 asleep, 3 left the terrain, 4 stopped "
-      "for want of finite numbers");
+  file.array<std::uint8_t>("phase/phase", phase, {phase.size()}, "1", phase_numbers);
   put_begin(file, "phase", part, phases);
 }
 
@@ -347,12 +377,8 @@ void read_ends(const H5Reader& file, const std::string& path, Part& part) {
     frames.velocity = piece(velocity, 3 * begin[r], 3 * begin[r + 1]);
     frames.spin = piece(spin, 3 * begin[r], 3 * begin[r + 1]);
   }
-  std::vector<Phase> phases;
-  for (const std::uint8_t phase : file.array<std::uint8_t>("phase/phase", 1)) {
-    if (phase > static_cast<std::uint8_t>(Phase::stopped))
-      throw InputError({path, 0, "phase"}, "holds an unknown phase");
-    phases.push_back(static_cast<Phase>(phase));
-  }
+  const std::vector<Phase> phases =
+      phases_of(file.array<std::uint8_t>("phase/phase", 1), {path, 0, "phase"});
   share_out(
       file, path, "phase", part, phases, [](RunFile & run) -> auto& { return run.phase; });
   for (std::size_t r = 0; r < part.runs.size(); ++r)
@@ -463,6 +489,12 @@ void write_tables(H5Writer& file, const Part& part) {
       file, "health", part, true, [](const RunFile& run) { return run.health; },
       write_health_table);
   write_rows(
+      file, "breaks", part, false, [](const RunFile& run) { return run.breaks; },
+      write_break_table);
+  write_rows(
+      file, "crushed_blocks", part, false, [](const RunFile& run) { return run.crushed; },
+      write_crushed_table);
+  write_rows(
       file, "deep_blocks", part, false, [](const RunFile& run) { return run.deep; },
       write_deep_table);
 }
@@ -484,12 +516,18 @@ void read_tables(const H5Reader& file, const std::string& path, Part& part) {
       "health", [](const H5Reader& from) { return read_health_table(from, false); },
       [](RunFile & run) -> auto& { return run.health; });
   take(
+      "breaks", read_break_table, [](RunFile & run) -> auto& { return run.breaks; });
+  take(
+      "crushed_blocks", read_crushed_table, [](RunFile & run) -> auto& { return run.crushed; });
+  take(
       "deep_blocks", read_deep_table, [](RunFile & run) -> auto& { return run.deep; });
   for (int r = 0; r < n_runs(part); ++r) {
     RunFile run = run_of(part, r);
     check_crossings(run, path);
     check_fences(run, path);
     check_tree_hits(run, path);
+    check_breaks(run, path);
+    check_crushed(run, path);
     check_deep(run, path);
     part.runs[r].crossings = std::move(run.crossings);  // now told apart by `beside`
   }
@@ -525,7 +563,7 @@ RunFile run_of(const Part& part, int run) {
 }
 
 void add_run(PartBuilder& builder, const std::string& name, RunFile run) {
-  TALUS_ASSERT(run.reach && n_frames(run.frames) <= 2);
+  TALUS_ASSERT(run.reach && n_frames(run.frames) <= 2 && run.blocks.parent.empty());
   Part& part = builder.part;
   if (part.runs.empty()) {
     part.path_tolerance = run.reach->tolerance;
@@ -535,6 +573,7 @@ void add_run(PartBuilder& builder, const std::string& name, RunFile run) {
   RunBlocks& blocks = run.blocks;
   if (std::all_of(blocks.weight.begin(), blocks.weight.end(), [](double w) { return w == 1; }))
     blocks.weight.clear();
+  leave_out_if_whole(blocks);
   bool is_new = false;
   part.blocks_of_run.push_back(index_of(builder.known_blocks, digest_of(blocks), is_new));
   if (is_new) part.blocks.push_back(blocks);

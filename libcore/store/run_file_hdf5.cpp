@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "io/h5_hdf5.hpp"
 #include "io/write_bytes.hpp"
+#include "record/pieces.hpp"
 #include "record/run_file.hpp"
 #include "store/run_file_pieces_hdf5.hpp"
 #include "store/run_file_tables_hdf5.hpp"
@@ -215,24 +216,30 @@ void read_deep(const H5Reader& file, const std::string& path, RunFile& run) {
   check_deep(run, path);
 }
 
+void read_breaks(const H5Reader& file, const std::string& path, RunFile& run) {
+  if (!file.has("breaks")) return;
+  run.breaks = read_break_table(file);
+  check_breaks(run, path);
+}
+
+void read_crushed(const H5Reader& file, const std::string& path, RunFile& run) {
+  if (!file.has("crushed_blocks")) return;
+  run.crushed = read_crushed_table(file);
+  check_crushed(run, path);
+}
+
 void write_phases(H5Writer& file, const RunFile& run) {
   std::vector<std::uint8_t> phases;
   for (const Phase phase : run.phase) phases.push_back(static_cast<std::uint8_t>(phase));
   if (!phases.empty())
-    file.array<std::uint8_t>("blocks/phase", phases, {phases.size()}, "1",
-                             "at the end: 0 near the ground, 1 in flight, 2 asleep, 3 left the "
-                             "terrain, 4 stopped for want of finite numbers");
+    file.array<std::uint8_t>("blocks/phase", phases, {phases.size()}, "1", phase_numbers);
 }
 
 std::vector<Phase> read_phases(const H5Reader& file, std::size_t n_blocks,
                                const std::string& path) {
   std::vector<Phase> phases;
   if (!file.has("blocks/phase")) return phases;
-  for (const std::uint8_t phase : file.array<std::uint8_t>("blocks/phase", 1)) {
-    if (phase > static_cast<std::uint8_t>(Phase::stopped))
-      throw InputError({path, 0, "blocks/phase"}, "holds an unknown phase");
-    phases.push_back(static_cast<Phase>(phase));
-  }
+  phases = phases_of(file.array<std::uint8_t>("blocks/phase", 1), {path, 0, "blocks/phase"});
   if (phases.size() != n_blocks)
     throw InputError({path, 0, "blocks/phase"}, "does not have a row for each block");
   return phases;
@@ -261,8 +268,13 @@ RunFile read_run_file(const std::string& path, const RunParts& parts) {
   if (parts.trees) read_trees(file, path, run);
   if (parts.health) {
     run.health = read_health_table(file, parts.only_faults);
+    read_crushed(file, path, run);
     read_deep(file, path, run);
   }
+  read_breaks(file, path, run);
+  if (!run.blocks.parent.empty() && run.phase.empty())
+    throw InputError({path, 0, "blocks/phase"}, "is missing, and tells which pieces are there");
+  if (parts.merge_pieces) merge_pieces(run);
   if (parts.checkpoint && file.has("checkpoint"))
     run.checkpoint = file.array<std::uint8_t>("checkpoint", 1);
   return run;
@@ -288,6 +300,8 @@ void write_run_file(const std::string& path, const RunFile& run) {
   write_fences(file, run);
   write_trees(file, run);
   write_health_table(file, run.health);
+  if (!run.breaks.empty()) write_break_table(file, run.breaks);
+  if (!run.crushed.empty()) write_crushed_table(file, run.crushed);
   if (!run.deep.empty()) write_deep_table(file, run.deep);
   if (!run.checkpoint.empty())
     file.array<std::uint8_t>("checkpoint", run.checkpoint, {run.checkpoint.size()}, "1",

@@ -70,6 +70,14 @@ void write_blocks(H5Writer& file, const RunBlocks& blocks) {
                      "quaternion w x y z as cut, body to local axes");
   if (!blocks.weight.empty())
     file.array<double>("blocks/weight", blocks.weight, {n}, "1", "weight in statistics");
+  if (!blocks.parent.empty())
+    put_indices(file, "blocks/parent", blocks.parent,
+                "block that a piece comes from; -1: released");
+  if (!blocks.generation.empty())
+    put_indices(file, "blocks/generation", blocks.generation, "breaks before it was there");
+  if (!blocks.body.empty())
+    put_indices(file, "blocks/body", blocks.body,
+                "its number in the run, of which only what is there at the end is kept");
   put_points(file, "blocks/vertices_m", blocks.vertices, "m", "vertices, body axes");
   put_indices(file, "blocks/vertex_begin", blocks.vertex_begin,
               "vertices of block b: [b], [b + 1)");
@@ -96,6 +104,19 @@ RunBlocks read_blocks(const H5Reader& file, const std::string& path) {
     blocks.weight = file.array<double>("blocks/weight", 1);
     same("blocks/weight", blocks.weight.size());
   }
+  const auto read_if_there = [&](const std::string& name, std::vector<int>& values) {
+    if (!file.has(name)) return;
+    values = file.array<std::int32_t>(name, 1);
+    same(name, values.size());
+  };
+  read_if_there("blocks/parent", blocks.parent);
+  read_if_there("blocks/generation", blocks.generation);
+  read_if_there("blocks/body", blocks.body);
+  if (!blocks.parent.empty() && blocks.generation.empty())
+    throw InputError({path, 0, "blocks/generation"}, "is missing beside blocks/parent");
+  for (std::size_t b = 0; b < blocks.parent.size(); ++b)
+    if (blocks.parent[b] < -1 || blocks.parent[b] >= static_cast<int>(b))
+      throw InputError({path, 0, "blocks/parent"}, "names a block behind its piece");
   blocks.inertia = as_points(file.array<double>("blocks/inertia_kg_m2", 3));
   same("blocks/inertia_kg_m2", blocks.inertia.size());
   const std::vector<Vec3> position = as_points(file.array<double>("blocks/rest_position_m", 3));
@@ -223,6 +244,39 @@ void check_deep(const RunFile& run, const std::string& path) {
     if (row.block < 0 || row.block >= n_blocks(run) || row.partner >= n_blocks(run) ||
         row.partner < DeepRow::fixed_body)
       throw InputError({path, 0, "deep_blocks"}, "a row names a block that does not exist");
+}
+
+void check_breaks(const RunFile& run, const std::string& path) {
+  const std::vector<int>& parent = run.blocks.parent;
+  const auto is_piece = [&](int piece, int of) {
+    return piece >= 0 && piece < n_blocks(run) && parent[piece] == of;
+  };
+  // Where only what is left was kept, nothing tells whose pieces they are.
+  const auto is_known = [&](const Break& row) {
+    if (parent.empty())
+      return !run.blocks.body.empty() && row.block >= 0 && row.first_piece > row.block;
+    return row.block >= 0 && row.block < n_blocks(run) && is_piece(row.first_piece, row.block) &&
+           is_piece(row.first_piece + 1, row.block);
+  };
+  for (const Break& row : run.breaks)
+    if (!is_known(row))
+      throw InputError({path, 0, "breaks"}, "a row names a piece that does not exist");
+}
+
+void check_crushed(const RunFile& run, const std::string& path) {
+  for (const CrushedBlock& row : run.crushed)
+    if (row.block < 0 || row.block >= n_blocks(run))
+      throw InputError({path, 0, "crushed_blocks"}, "a row names a block that does not exist");
+}
+
+std::vector<Phase> phases_of(const std::vector<std::uint8_t>& numbers, const Where& where) {
+  std::vector<Phase> phases;
+  for (const std::uint8_t number : numbers) {
+    if (number > static_cast<std::uint8_t>(last_phase))
+      throw InputError(where, "holds an unknown phase");
+    phases.push_back(static_cast<Phase>(number));
+  }
+  return phases;
 }
 
 void write_block_reach(H5Writer& file, const std::string& group, const RunReach& reach) {

@@ -22,6 +22,14 @@ void put_indices(H5Writer& file, const std::string& path, const std::vector<int>
 /// entries.
 void check_begin(const std::vector<int>& begin, std::size_t n, std::size_t end, const Where& where);
 
+/// What the numbers of Phase mean, for whoever reads a file.
+inline constexpr const char* phase_numbers =
+    "at the end: 0 near the ground, 1 in flight, 2 asleep, 3 left the terrain, 4 stopped for want "
+    "of finite numbers, 5 not there yet, 6 crushed, 7 broken into fragments";
+/// Throws InputError for a number that no phase has.
+[[nodiscard]] std::vector<Phase> phases_of(const std::vector<std::uint8_t>& numbers,
+                                           const Where& where);
+
 void write_blocks(H5Writer& file, const RunBlocks& blocks);
 [[nodiscard]] RunBlocks read_blocks(const H5Reader& file, const std::string& path);
 
@@ -43,6 +51,8 @@ void write_block_reach(H5Writer& file, const std::string& group, const RunReach&
 void check_crossings(RunFile& run, const std::string& path);
 void check_fences(const RunFile& run, const std::string& path);
 void check_tree_hits(const RunFile& run, const std::string& path);
+void check_breaks(const RunFile& run, const std::string& path);
+void check_crushed(const RunFile& run, const std::string& path);
 void check_deep(const RunFile& run, const std::string& path);
 void check_reach(const RunReach& reach, std::size_t n_blocks, const std::string& path);
 

@@ -9,13 +9,14 @@
 #include "base/processor_time.hpp"
 #include "base/text.hpp"
 #include "post/reduce.hpp"
+#include "record/pieces.hpp"
 #include "run/runner.hpp"
 #include "scene/site_scene.hpp"
 #include "store/xdmf_hdf5.hpp"
 #include "terrain/trn_flags.hpp"
 #include "tools/dda/report.hpp"
-#include "tools/dda/settings.hpp"
 #include "tools/frame/build_info.hpp"
+#include "tools/frame/run_settings.hpp"
 #include "tools/frame/scene_inputs.hpp"
 #include "tools/frame/site_crs.hpp"
 #include "tools/frame/site_options.hpp"
@@ -141,7 +142,9 @@ Runner runner_of(Tool& tool, const Scene& scene, const RunOptions& options,
   }
   RunFile part;
   try {
-    part = read_run_file(part_of(o));
+    RunParts parts;
+    parts.merge_pieces = false;  // all bodies that may still come off
+    part = read_run_file(part_of(o), parts);
   } catch (const InputError& error) {
     if (!tool.overwrite())
       throw InputError({}, error.what(), "--overwrite starts again from the beginning");
@@ -199,8 +202,9 @@ class Checkpoints {
   Clock::time_point next_ = Clock::now() + to_duration(interval_s_);
 };
 
-// To the end, to a broken limit, or to a signal.
-void compute(Tool& tool, Runner& runner, const std::string& part, double interval_s) {
+// To the end, to a broken limit, to where the mass stands, or to a signal.
+void compute(Tool& tool, Runner& runner, const std::string& part, double interval_s,
+             bool may_end_standing) {
   Checkpoints checkpoints(tool, part, interval_s);
   const ProgressFunction progress = tool.progress();
   std::size_t n_rows = runner.file.health.size();
@@ -214,11 +218,19 @@ void compute(Tool& tool, Runner& runner, const std::string& part, double interva
     if (runner.file.health.size() > n_rows) {  // once an interval: clocks and limits
       n_rows = runner.file.health.size();
       if (has_failed(runner)) break;
+      if (may_end_standing && stands(runner)) break;
       progress(std::min(1.0, runner.state.time / runner.options.duration));
       checkpoints.write_if_due(runner);
     }
   }
   finish(runner);
+  if (!may_end_standing || is_over(runner) || has_failed(runner)) return;
+  const std::string words = "the mass stands: no block moved more than " + text(standing_within_m) +
+                            " m in " + text(runner.state.time, 3) + " s; the other " +
+                            text(runner.options.duration - runner.state.time, 3) +
+                            " s were left out";
+  tool.warn(words);
+  runner.file.info.warnings += (runner.file.info.warnings.empty() ? "" : "\n") + words;
 }
 
 void write_outputs(Tool& tool, Runner& runner, const Site& site, const Trn& trn, const Options& o) {
@@ -226,10 +238,13 @@ void write_outputs(Tool& tool, Runner& runner, const Site& site, const Trn& trn,
   record_health(tool, runner);
   update_file(runner, false);
   const std::string path = tool.stage(o.out);
-  if (site.output.frames)
+  if (site.output.frames) {
     write_run_file(path, runner.file);
-  else
+    merge_pieces(runner.file);
+  } else {
+    merge_pieces(runner.file);  // the reach is that of the pieces
     write_run_file(path, without_frames(runner.file, trn, {}));
+  }
   if (o.xdmf.empty()) return;
   const fs::path data = xdmf_data_of(o);
   write_xdmf(tool.stage(o.xdmf), tool.stage(data.string()), data.filename().string(), runner.file);
@@ -272,13 +287,15 @@ int main(int argc, char** argv) {
     warn_of_plan(tool, site, plan, inputs);
     check_start(tool, site, inputs, o.files, plan.block_contacts);
     tool.detail(as_text(plan));
+    cut_fragments(tool, site, inputs);
     RunFile file = new_file(tool.run_id(), site, inputs, plan);
     const BlockSet blocks = inputs.parts.blocks;
     const Scene scene = make_site_scene(site, plan, std::move(inputs.parts));
     file.blocks = run_blocks(scene, blocks);
     Runner runner =
         runner_of(tool, scene, run_options(site, plan, o), inputs.lines, std::move(file), o);
-    compute(tool, runner, part_of(o), site.output.checkpoint_interval_s);
+    compute(tool, runner, part_of(o), site.output.checkpoint_interval_s,
+            site.solver.end_when_standing);
     write_outputs(tool, runner, site, scene.ground.trn, o);
     const Json report = run_report(runner, plan, processor_seconds() - cpu_start);
     for (const char* key : {"steps", "impacts", "unconverged", "left_domain", "largest_speed_m_s"})

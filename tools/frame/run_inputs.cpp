@@ -92,6 +92,7 @@ struct RunInputs::Found {
 RunInputs::Found RunInputs::look_at(const std::vector<std::string>& paths, const RunParts& parts,
                                     bool at_once) {
   Found found;
+  const ProgressFunction progress = tool_.progress();
   const auto add = [&](const std::string& name, RunFile&& run, const Place& place) {
     found.members.push_back(member_of(name, run));
     if (place.part >= 0) found.members.back().part = part_files_[place.part];
@@ -102,6 +103,7 @@ RunInputs::Found RunInputs::look_at(const std::vector<std::string>& paths, const
     std::vector<HealthRow>().swap(run.health);
     found.runs.push_back(std::move(run));
   };
+  std::size_t n_read = 0;
   for (const std::string& path : paths) {
     if (is_part_file(path)) {
       const int p = static_cast<int>(parts_.size());
@@ -113,7 +115,7 @@ RunInputs::Found RunInputs::look_at(const std::vector<std::string>& paths, const
     } else {
       add(path, at_once ? read_run_file(path, parts) : read_run_head(path), {});
     }
-    tool_.progress()(static_cast<double>(found.members.size()) / static_cast<double>(paths.size()));
+    progress(static_cast<double>(++n_read) / static_cast<double>(paths.size()));
   }
   return found;
 }

@@ -208,6 +208,71 @@ TEST(PartFile, HandsOverEachPassageOnce) {
   EXPECT_GT(n_rows, wanted);
 }
 
+namespace {
+
+// Block 0 broke into 1 and 2, and 2 was crushed; in the other run nothing broke, though it might.
+RunFile broken_run() {
+  RunFile run = random_run(1, false);
+  run.blocks.body = {1, 2};
+  run.blocks.generation = {1, 1};
+  Break row;
+  row.first_piece = 1;
+  row.time = 3.5;
+  row.fracture = 12;
+  run.breaks = {row};
+  CrushedBlock debris;
+  debris.block = 1;
+  debris.load = 2e6;
+  debris.place = {1, 2, 3};
+  run.crushed = {debris};
+  run.phase = {Phase::asleep, Phase::crushed};
+  for (HealthRow& health : run.health) health.breakage = 50 * health.time;
+  return run;
+}
+
+}  // namespace
+
+TEST(Part, KeepsWhatBrokeAndWhatWasCrushed) {
+  RunFile whole = random_run(2, false);
+  whole.blocks.body = {0, 1};
+  whole.blocks.generation = {0, 0};
+  const RunFile broken = broken_run();
+  const PartFile part(part_of({broken, whole}, "part_pieces.h5"));
+  const RunFile got = run_of(part.part, 0), other = run_of(part.part, 1);
+  EXPECT_EQ(got.blocks.body, broken.blocks.body);
+  EXPECT_EQ(got.blocks.generation, broken.blocks.generation);
+  EXPECT_EQ(got.phase, broken.phase);
+  ASSERT_EQ(got.breaks.size(), 1u);
+  EXPECT_EQ(got.breaks[0].first_piece, 1);
+  EXPECT_EQ(got.breaks[0].time, 3.5);
+  EXPECT_EQ(got.breaks[0].fracture, 12);
+  ASSERT_EQ(got.crushed.size(), 1u);
+  EXPECT_EQ(got.crushed[0].block, 1);
+  EXPECT_EQ(got.crushed[0].load, 2e6);
+  EXPECT_EQ(got.crushed[0].place, Vec3(1, 2, 3));
+  EXPECT_EQ(got.health.back().breakage, broken.health.back().breakage);
+  EXPECT_TRUE(other.blocks.body.empty() && other.blocks.generation.empty());
+  EXPECT_TRUE(other.breaks.empty() && other.crushed.empty());
+}
+
+// The same part by way of run files without frames, and of a part.
+TEST(Part, OfRunsThatBrokeIsTheSameByAnyWay) {
+  const std::string direct = part_of({broken_run(), random_run(2, false)}, "part_direct.h5");
+  const std::string path = temporary("run_broken_ends.h5");
+  write_run_file(path, without_frames(broken_run(), terrain(), {}));
+  EXPECT_EQ(bytes_of(part_of({read_run_file(path), random_run(2, false)}, "part_by_file.h5")),
+            bytes_of(direct));
+}
+
+// Of which block they are pieces is not known where no bodies are numbered.
+TEST(RunFile, WithBreaksOfPiecesThatItLacksIsRefused) {
+  RunFile run = broken_run();
+  run.blocks.body.clear();
+  const std::string path = temporary("run_no_bodies.h5");
+  write_run_file(path, run);
+  EXPECT_THROW((void)read_run_file(path), InputError);
+}
+
 TEST(PartFile, IsNotOpenedWhenItIsAnotherFile) {
   const std::string path = temporary("run_alone.h5");
   write_run_file(path, random_run(1, false));
