@@ -3,7 +3,7 @@
 # tools, or for building and testing them. As root, or through sudo; says so where neither works.
 set -eu
 
-build="g++ cmake ninja-build make ccache libgdal-dev libcgal-dev libeigen3-dev libhdf5-dev
+build="g++ cmake ninja-build make ccache libgdal-dev libcgal-dev libboost-dev libeigen3-dev libhdf5-dev
   libsqlite3-dev libsqlitecpp-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-dev gdal-bin proj-data git help2man"
 test="libgtest-dev librapidcheck-dev clang-format-14 python3 sqlite3 hdf5-tools procps"
 # without these their tests are skipped, with a line that says so

@@ -15,9 +15,10 @@ import pathlib
 import re
 import sys
 
-MODULES = ["base", "geometry", "motion", "terrain", "blocks", "site", "contact", "solver", "scene", "step",
+MODULES = ["base", "sampling", "geometry", "motion", "terrain", "blocks", "site", "contact", "solver", "scene", "step",
            "io", "record", "store", "run", "post", "report", "verify"]
 LIBRARY_HEADERS = {
+    "boost": re.compile(r"^boost/"),
     "cgal": re.compile(r"^(CGAL|boost)/"),
     "gdal": re.compile(r"^(gdal|ogr|cpl_|proj)"),
     "hdf5": re.compile(r"^(hdf5|H5)"),
@@ -122,9 +123,9 @@ def problems_of(root):
                 continue
             if FOREIGN.match(header):
                 yield f"{where}: belongs to tools or tests"
-            for library, pattern in LIBRARY_HEADERS.items():
-                if pattern.match(header) and (suffix != library or path.suffix != ".cpp"):
-                    yield f"{where}: only sources named *_{library}.cpp may"
+            may = [library for library, pattern in LIBRARY_HEADERS.items() if pattern.match(header)]
+            if may and (suffix not in may or path.suffix != ".cpp"):
+                yield f"{where}: only sources named *_{may[0]}.cpp may"
 
 
 def main():

@@ -156,11 +156,6 @@ RankInterval rank_interval(int n, double p, double confidence) {
   return {from_above > 0 ? n + 1 - from_above : 0, upper_bound_rank(n, p, one_side)};
 }
 
-double normal_quantile(double p) {
-  TALUS_ASSERT(p > 0 && p < 1);
-  return solved([](double x) { return 0.5 * std::erfc(-x / std::numbers::sqrt2); }, p);
-}
-
 double student_quantile(int degrees, double p) {
   TALUS_ASSERT(degrees >= 1 && p >= 0.5 && p < 1);
   if (degrees <= most_exact_degrees)

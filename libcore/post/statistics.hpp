@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/percentile.hpp"
+#include "sampling/normal.hpp"
 
 namespace talus {
 
@@ -53,9 +54,8 @@ struct RankInterval {
 };
 [[nodiscard]] RankInterval rank_interval(int n, double p, double confidence = 0.95);
 
-/// The value that a normal variable stays below with probability p, 0 < p < 1.
-[[nodiscard]] double normal_quantile(double p);
-/// The same of Student's variable with `degrees` of freedom, 1 or more; to 1e-9, p 0.5 to 0.999.
+/// The value that Student's variable with `degrees` of freedom, 1 or more, stays below with
+/// probability p, 0.5 to 0.999; to 1e-9.
 [[nodiscard]] double student_quantile(int degrees, double p);
 
 /// How often each run stands in each resample of all runs, drawn with replacement: the bootstrap
