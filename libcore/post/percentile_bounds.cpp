@@ -83,10 +83,16 @@ void bootstrap_places(PercentileBounds& bounds, std::span<const RunWeight> ascen
 
 }  // namespace
 
-BoundPlaces upper_bound_places(PercentileBounds& bounds, std::span<const RunWeight> ascending) {
+BoundPlaces upper_bound_places(PercentileBounds& bounds, std::span<const RunWeight> by_run) {
   BoundPlaces places;
   places.fill(-1);
-  if (ascending.empty()) return places;
+  if (by_run.empty()) return places;
+  std::vector<RunWeight> by_unit;
+  if (!bounds.unit.empty()) {
+    by_unit.assign(by_run.begin(), by_run.end());
+    for (RunWeight& item : by_unit) item.run = bounds.unit[item.run];
+  }
+  const std::span<const RunWeight> ascending = bounds.unit.empty() ? by_run : by_unit;
   bounds.place_of_run.resize(static_cast<std::size_t>(bounds.n_runs), -1);
   RunSample sample = sample_of(ascending, bounds.place_of_run);
   const int n = static_cast<int>(sample.n_eff + 1e-9);

@@ -6,8 +6,7 @@
 // - No run has two values: they are independent, and the binomial distribution of ranks bounds them
 //   exactly (Wilks 1941).
 // - 30 runs or more: Woodruff (1952). The interval of the share of the values that do not exceed
-// the
-//   percentile (share_interval.hpp) is read off the values.
+//   the percentile (share_interval.hpp) is read off the values.
 // - 10 to 29 runs: the bootstrap over runs. Fewer bound nothing.
 #pragma once
 
@@ -16,6 +15,7 @@
 #include <map>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "post/share_interval.hpp"
@@ -30,14 +30,20 @@ using BoundPlaces = std::array<int, percentile_levels.size()>;
 
 /// Sets of values over the same runs, one after the other: what they share is computed once.
 struct PercentileBounds {
-  PercentileBounds(int runs, int resamples_of_runs, std::uint64_t seed_of_them)
-      : n_runs(runs), n_resamples(resamples_of_runs), seed(seed_of_them) {}
+  /// `unit_of_run`: of a run, as share_basis() takes it; then `runs` is the number of units.
+  PercentileBounds(int runs, int resamples_of_runs, std::uint64_t seed_of_them,
+                   std::vector<int> unit_of_run = {})
+      : n_runs(runs),
+        n_resamples(resamples_of_runs),
+        seed(seed_of_them),
+        unit(std::move(unit_of_run)) {}
 
   int n_runs = 0;
   int n_resamples = 0;
   std::uint64_t seed = 0;                                         ///< of the bootstrap
   std::optional<RunResamples> resamples;                          ///< drawn when first needed
   std::array<std::map<int, int>, percentile_levels.size()> rank;  ///< of upper bounds, by n
+  std::vector<int> unit;                                          ///< empty: each run is its own
   std::vector<int> place_of_run;  ///< scratch: among the runs with a value, -1 none      (n_runs)
 };
 

@@ -108,16 +108,23 @@ void check_member(const RunMember& run, const RunMember& first, const RunSetOpti
                      "the run is " + run.info.status + " at " + time_reached(run.info) +
                          ", expected one that has ended",
                      "let talus-dda finish it (--resume), or give --allow-unfinished");
-  if (!run.info.trn_sha256.empty() && run.info.trn_sha256 != options.trn_sha256)
-    throw InputError({where_of(run)},
-                     "was computed on another terrain than " + options.trn_file + " (SHA-256 " +
-                         run.info.trn_sha256.substr(0, 16) + ", not " +
-                         options.trn_sha256.substr(0, 16) + ")",
-                     "give the TRN that talus-dda was given");
+  const bool on_bed = !run.info.terrain_digest.empty() &&
+                      run.info.terrain_digest == options.trn_digest &&
+                      first.info.terrain_digest == options.trn_digest;
+  if (!on_bed && !run.info.trn_sha256.empty() && run.info.trn_sha256 != options.trn_sha256)
+    throw InputError(
+        {where_of(run)},
+        "was computed on another terrain than " + options.trn_file + " (SHA-256 " +
+            run.info.trn_sha256.substr(0, 16) + ", not " + options.trn_sha256.substr(0, 16) + ")",
+        run.info.terrain_digest.empty()
+            ? "give the TRN that talus-dda was given"
+            : "runs of several rock masses are evaluated on the terrain that they were "
+              "cut from (talus-trn)");
   check_same(run.info.site, first.info.site, "the site", run, first,
              "evaluate each site by itself");
-  check_same(run.info.trn_sha256, first.info.trn_sha256, "the terrain's SHA-256", run, first,
-             "evaluate runs on one terrain together");
+  if (!on_bed)
+    check_same(run.info.trn_sha256, first.info.trn_sha256, "the terrain's SHA-256", run, first,
+               "evaluate runs on one terrain together");
   check_same(run.info.version, first.info.version, "the version of the program", run, first,
              "compute all runs with one version");
   check_same(text_of(run.grid), text_of(first.grid), "the grid of passages", run, first,
@@ -140,6 +147,18 @@ std::vector<int> order_by_id(const std::vector<RunMember>& runs) {
                        "name each run once; give runs different seeds");
   }
   return order;
+}
+
+std::vector<int> units_of(const std::vector<RunMember>& runs) {
+  std::map<std::string, int> known;
+  std::vector<int> unit;
+  for (const RunMember& run : runs) {
+    if (run.info.terrain_digest.empty()) return {};
+    unit.push_back(
+        known.try_emplace(run.info.blocks_hash, static_cast<int>(known.size())).first->second);
+  }
+  if (known.size() < 2 || known.size() == runs.size()) return {};
+  return unit;
 }
 
 std::vector<std::string> names_of(const std::vector<RunMember>& runs) {

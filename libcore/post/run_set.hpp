@@ -35,15 +35,21 @@ struct RunMember {
 struct RunSetOptions {
   bool allow_unfinished = false;
   std::string trn_file, trn_sha256;  ///< that the evaluation is given
+  std::string trn_digest{};          ///< of its contents
 };
 
 /// Throws InputError unless `run` has ended (or unfinished ones are allowed), was computed on the
-/// terrain of `options`, and agrees with `first`, another run of the set, in site, terrain, blocks'
-/// origin, version of the program and grid of passages.
+/// terrain of `options`, or on a bed in it where there are several rock masses, and agrees with
+/// `first`, another run of the set, in site, terrain, blocks' origin, version of the program and
+/// grid of passages.
 void check_member(const RunMember& run, const RunMember& first, const RunSetOptions& options);
 
 /// Order by run id. Throws InputError naming both files when the same run is given twice.
 [[nodiscard]] std::vector<int> order_by_id(const std::vector<RunMember>& runs);
+
+/// Which runs count as one, for they move the same one of several rock masses: a number from 0 for
+/// each run. Empty where each run counts for itself, as those of one mass alone do.     (n_runs)
+[[nodiscard]] std::vector<int> units_of(const std::vector<RunMember>& runs);
 
 /// The file's name without folder and ending; with the folder where two of the runs share it.
 [[nodiscard]] std::vector<std::string> names_of(const std::vector<RunMember>& runs);

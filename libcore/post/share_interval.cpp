@@ -34,6 +34,13 @@ Interval within_runs(const Interval& interval, const ShareBasis& basis,
 // The runs with any part.
 std::vector<RunShare> shares_of(const ShareBasis& basis, std::span<const RunWeight> parts) {
   std::vector<RunShare> some;
+  if (!basis.unit.empty()) {
+    std::vector<double> of_unit(basis.released.size(), 0);
+    for (const RunWeight& part : parts) of_unit[basis.unit[part.run]] += part.weight;
+    for (std::size_t u = 0; u < of_unit.size(); ++u)
+      if (of_unit[u] > 0) some.push_back({of_unit[u], basis.released[u]});
+    return some;
+  }
   some.reserve(parts.size());
   for (const RunWeight& part : parts)
     if (part.weight > 0) some.push_back({part.weight, basis.released[part.run]});
@@ -68,13 +75,22 @@ Interval sample_interval(const ShareSample& sample, double share, double p) {
   return wilson_interval(share, n, z);
 }
 
-ShareBasis share_basis(std::span<const double> released, bool single_blocks, double failed_share) {
+ShareBasis share_basis(std::span<const double> released, bool single_blocks, double failed_share,
+                       const std::vector<int>& unit) {
   ShareBasis basis;
-  basis.released.assign(released.begin(), released.end());
+  basis.unit = unit;
+  if (unit.empty()) {
+    basis.released.assign(released.begin(), released.end());
+  } else {
+    basis.released.assign(static_cast<std::size_t>(*std::max_element(unit.begin(), unit.end())) + 1,
+                          0);
+    for (std::size_t run = 0; run < unit.size(); ++run) basis.released[unit[run]] += released[run];
+    single_blocks = false;
+  }
   basis.single_blocks = single_blocks;
-  basis.over.n_runs = static_cast<int>(released.size());
+  basis.over.n_runs = static_cast<int>(basis.released.size());
   basis.bounded = single_blocks || basis.over.n_runs >= least_runs_to_resample;
-  for (const double weight : released) {
+  for (const double weight : basis.released) {
     basis.over.whole += weight;
     basis.over.squares += weight * weight;
   }
@@ -106,6 +122,15 @@ Interval interval_of_none_or_all(const ShareBasis& basis, bool all) {
 Interval run_share_interval(const ShareBasis& basis, int n_hit) {
   const double n = basis.over.n_runs;
   return with_failed(wilson_interval(n_hit / n, n), basis.failed_share);
+}
+
+Interval run_share_interval(const ShareBasis& basis, std::span<const RunWeight> hit) {
+  if (basis.unit.empty()) return run_share_interval(basis, static_cast<int>(hit.size()));
+  const std::vector<double> each(basis.unit.size(), 1);
+  std::vector<RunWeight> parts;
+  for (const RunWeight& run : hit) parts.push_back({run.run, 1});
+  const double share = static_cast<double>(hit.size()) / static_cast<double>(each.size());
+  return share_interval(share_basis(each, false, basis.failed_share, basis.unit), parts, share);
 }
 
 Interval with_failed(const Interval& interval, double failed_share) {

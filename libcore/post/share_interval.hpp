@@ -47,15 +47,18 @@ struct ShareSample {
 
 /// The whole that shares are parts of, as their intervals need it.
 struct ShareBasis {
-  std::vector<double> released;  ///< weight of each run                               (n_runs)
+  std::vector<double> released;  ///< weight of each run, or of each unit
   bool single_blocks = false;    ///< no run released more than one block
   bool bounded = false;          ///< enough runs for any interval (least_runs_to_resample)
+  std::vector<int> unit;         ///< that a run belongs to; empty: each is its own     (n_runs)
   ShareOver over;
   double n_eff = 0;         ///< effective number of runs [-]
   double failed_share = 0;  ///< of the runs that were wanted [-]
 };
+/// `unit`: runs of one number, from 0 without gaps, are not independent of each other (they move
+/// the same blocks): they are counted as one, and `released` is then by unit.
 [[nodiscard]] ShareBasis share_basis(std::span<const double> released, bool single_blocks,
-                                     double failed_share = 0);
+                                     double failed_share = 0, const std::vector<int>& unit = {});
 
 /// Of share = sum(parts) / sum(released), 0 to 1; `parts` names only runs that add something, each
 /// once. NaN where there are too few runs.
@@ -69,8 +72,11 @@ struct ShareBasis {
 /// Of no block (`all` false) or of all: each effective run is a trial. NaN where there are too few.
 [[nodiscard]] Interval interval_of_none_or_all(const ShareBasis& basis, bool all);
 
-/// Of the share of runs in which something happened, `n_hit` of them.
+/// Of the share of runs in which something happened, `n_hit` of them; each run its own unit, or
+/// none of them was hit.
 [[nodiscard]] Interval run_share_interval(const ShareBasis& basis, int n_hit);
+/// The same of these runs, named once each, as units of the basis ask for.
+[[nodiscard]] Interval run_share_interval(const ShareBasis& basis, std::span<const RunWeight> hit);
 
 /// The interval of a share of the runs that did not fail, for all that were wanted.
 [[nodiscard]] Interval with_failed(const Interval& interval, double failed_share);

@@ -32,6 +32,8 @@ struct RunInfo {
   std::string crs_wkt;         ///< of the map; empty when unknown
   Vec3 origin = Vec3::Zero();  ///< map coordinates of the local zero [m]
   std::string trn_sha256;      ///< of the TRN file
+  std::string terrain_digest;  ///< of the terrain before the slide, where there are several rock
+                               ///< masses, each with a bed of its own; else empty
   std::string blocks_hash;     ///< of the block set
   std::string law;             ///< "talus" or "paper"
   std::int64_t seed = 0;

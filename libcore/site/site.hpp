@@ -179,7 +179,8 @@ struct OutputSettings {
   double checkpoint_interval_s = 60;  ///< of wall time
   double cell_size_m = not_given;
   bool passages = true, strain = false;
-  bool frames = true;  ///< kept once the run has ended; else the first and the last alone
+  bool frames = true;      ///< kept once the run has ended; else the first and the last alone
+  double whole_share = 0;  ///< of the runs, where frames is false, that keep them nevertheless
 };
 
 /// [base_motion]: acceleration of the ground, from a file or a harmonic one.
@@ -229,10 +230,48 @@ struct PlacedSettings {
   std::int64_t seed = 1, n_per_point = 1;
 };
 
+/// [uncertainty]: how the quantities of [uncertainty.NAME] are drawn.
+struct UncertaintySettings {
+  std::string sampling = "sobol";
+  std::int64_t seed = 1;
+  std::int64_t n_samples = 0;    ///< of a hypercube
+  std::int64_t sample = 0;       ///< of this run, from 1; 0: nothing is drawn
+  std::int64_t rock_masses = 0;  ///< sets of blocks that are cut; 0: one, of what the file says
+  double terrain_rmse_m = 0, terrain_correlation_m = not_given;
+  double max_failed_share = 0.02;  ///< of the runs, that may be left out
+};
+
+/// [uncertainty.NAME]: a quantity that differs from run to run.
+struct QuantitySettings {
+  std::string name;
+  int line = 0;
+  std::vector<std::string> keys;  ///< that move together
+  std::string apply = "set";
+  std::string distribution;
+  double mean = not_given, std = not_given;                   ///< normal, lognormal
+  double min = not_given, mode = not_given, max = not_given;  ///< uniform, triangular
+  std::vector<double> values, weights;                        ///< discrete
+  std::vector<double> truncate;                               ///< lowest and highest
+  std::int64_t n_measured = 0;                                ///< fisher: of the mean of so many
+  double fisher_k = not_given;                                ///< fisher: of the mean itself
+  std::string source;                                         ///< of these numbers
+};
+
+/// [place.NAME]: where it is to be known how many blocks arrive.
+struct PlaceSettings {
+  std::string name;
+  int line = 0;
+  std::vector<Vec3> polygon;  ///< map x, y; or polygon_file; or fence
+  std::string polygon_file, polygon_layer, polygon_where;
+  std::string fence;         ///< a line of [fence.*]
+  double half_width = 0.05;  ///< wanted, of the interval of the share of blocks
+};
+
 /// Where the value of a key came from.
 struct ValueSource {
-  enum Kind { from_default, from_file, from_cli } kind = from_default;
-  int line = 0;  ///< in the site file
+  enum Kind { from_default, from_file, from_cli, from_draw } kind = from_default;
+  int line = 0;         ///< in the site file
+  std::string words{};  ///< of a draw: "sample 7 of uncertainty.friction"
 };
 
 struct Site {
@@ -252,6 +291,9 @@ struct Site {
   std::vector<FenceSettings> fences;
   std::vector<ForestSettings> forests;
   std::vector<PlacedSettings> blocks;
+  UncertaintySettings uncertainty;
+  std::vector<QuantitySettings> quantities;
+  std::vector<PlaceSettings> places;
   std::map<std::string, ValueSource> sources;  ///< "joints.J1.dip_deg" -> where it came from
   std::vector<std::string> sections;           ///< that stand in the file
 };
@@ -259,7 +301,8 @@ struct Site {
 /// Reads and checks a site file.
 ///
 /// Throws InputError with file:line for text that is not TOML, an unknown section or key (naming
-/// the nearest known one), a wrong type, a number out of its range, a name that repeats.
+/// the nearest known one), a wrong type, a number out of its range, a name that repeats. What is
+/// uncertain is checked by check_uncertainty().
 [[nodiscard]] Site read_site(const std::string& path);
 /// The same from text; `path` is what messages say.
 [[nodiscard]] Site parse_site(const std::string& text, const std::string& path);
@@ -268,7 +311,8 @@ struct Site {
 /// or plain text where the key takes text. Throws InputError as read_site does.
 void override_value(Site& site, const std::string& key, const std::string& value);
 
-/// A value in effect, as TOML, and where it came from: "default", "file, line 7", "cli".
+/// A value in effect, as TOML, and where it came from: "default", "file, line 7", "cli",
+/// "sample 7 of uncertainty.friction".
 struct EffectiveValue {
   std::string section, key, value, source;  ///< value is empty when not given
 };

@@ -223,7 +223,8 @@ template <> const std::vector<SiteKey<OutputSettings>>& keys_of() {
       {"cell_size_m", &S::cell_size_m, "cell size of maps; that of the TRN when not given", positive},
       {"passages", &S::passages, "record passages of cells"},
       {"strain", &S::strain, "record strains"},
-      {"frames", &S::frames, "keep all frames of a run that has ended; else the first and the last"}};
+      {"frames", &S::frames, "keep all frames of a run that has ended; else the first and the last"},
+      {"whole_share", &S::whole_share, "with frames = false: share of the runs, evenly over their seeds, that keep all frames nevertheless, for the animation", share}};
   return table;
 }
 template <> const std::vector<SiteKey<BaseMotionSettings>>& keys_of() {
@@ -279,6 +280,49 @@ template <> const std::vector<SiteKey<PlacedSettings>>& keys_of() {
       {"spin_rad_s", &S::spin_rad_s, "initial angular velocity x, y, z", any, "", "", 3, 3},
       {"seed", &S::seed, "seed of shapes and orientations", not_negative},
       {"n_per_point", &S::n_per_point, "bodies at each release point", {1, 100000}}};
+  return table;
+}
+template <> const std::vector<SiteKey<UncertaintySettings>>& keys_of() {
+  using S = UncertaintySettings;
+  static const std::vector<SiteKey<S>> table = {
+      {"sampling", &S::sampling, "how quantities are drawn: sobol (more runs go on where others ended), hypercube (needs n_samples), random", any, "sobol|hypercube|random"},
+      {"seed", &S::seed, "seed of the draws", not_negative},
+      {"n_samples", &S::n_samples, "samples of a hypercube, which has no others", {0, 1e7}},
+      {"sample", &S::sample, "which sample this run is, from 1; 0: nothing is drawn. The pipeline gives each run that of its seed", {0, 4e9}},
+      {"rock_masses", &S::rock_masses, "sets of blocks that are cut, each with its own joints; runs take them in turn. 0: one, by what this file says", {0, 1000000}},
+      {"terrain_rmse_m", &S::terrain_rmse_m, "error of the terrain's elevations, root of the mean square: each rock mass gets a ground of its own. 0: none", not_negative},
+      {"terrain_correlation_m", &S::terrain_correlation_m, "distance over which errors of the terrain are alike; 10 cells when not given", positive},
+      {"max_failed_share", &S::max_failed_share, "up to this share of the runs may fail: they are left out, and widen the intervals", share}};
+  return table;
+}
+template <> const std::vector<SiteKey<QuantitySettings>>& keys_of() {
+  using S = QuantitySettings;
+  static const std::vector<SiteKey<S>> table = {
+      {"keys", &S::keys, "keys of this file that the quantity is for; several move together. fisher: joints.NAME.orientation", any, "", "e.g. keys = [\"ground.slope.friction_deg\"]", 1},
+      {"apply", &S::apply, "what is drawn takes the place of the value, is added to it, or is a factor on it", any, "set|add|factor"},
+      {"distribution", &S::distribution, "what it is drawn from", any, "normal|lognormal|uniform|triangular|discrete|fisher"},
+      {"mean", &S::mean, "normal, lognormal: mean; not given: the key's own value (add: 0, factor: 1)"},
+      {"std", &S::std, "normal, lognormal: standard deviation, of the value itself", positive},
+      {"min", &S::min, "uniform, triangular: smallest value"},
+      {"mode", &S::mode, "triangular: most likely value"},
+      {"max", &S::max, "uniform, triangular: largest value"},
+      {"values", &S::values, "discrete: values", any, "", "", 1},
+      {"weights", &S::weights, "discrete: their weights; all alike when not given", not_negative, "", "", 1},
+      {"truncate", &S::truncate, "normal, lognormal: lowest and highest value; what is left is scaled up. Not given: what the keys may hold, at most 1 % outside of it", any, "", "", 2, 2},
+      {"n_measured", &S::n_measured, "fisher: the orientation is the mean of so many measured ones, which scatter by fisher_k of the set", {0, 1000000}},
+      {"fisher_k", &S::fisher_k, "fisher: concentration of the mean orientation itself, instead of n_measured", positive},
+      {"source", &S::source, "where these numbers come from; printed"}};
+  return table;
+}
+template <> const std::vector<SiteKey<PlaceSettings>>& keys_of() {
+  using S = PlaceSettings;
+  static const std::vector<SiteKey<S>> table = {
+      {"polygon", &S::polygon, "corners of the place, map x, y", any, "", "", 3},
+      {"polygon_file", &S::polygon_file, "vector file with the place: polygons, or closed lines"},
+      {"polygon_layer", &S::polygon_layer, "its layer or layers"},
+      {"polygon_where", &S::polygon_where, "attribute filter, e.g. name = 'school'"},
+      {"fence", &S::fence, "the line of this fence instead of a polygon"},
+      {"half_width", &S::half_width, "wanted half of the 95 % interval of the share of blocks that reach the place: make RUNS=auto adds runs until it is so narrow", {0, 0.5, true, false}}};
   return table;
 }
 // clang-format on

@@ -31,7 +31,7 @@ template <class Section>
 struct SiteKey {
   using Field = std::variant<double Section::*, std::int64_t Section::*, bool Section::*,
                              std::string Section::*, std::vector<double> Section::*,
-                             std::vector<Vec3> Section::*>;
+                             std::vector<Vec3> Section::*, std::vector<std::string> Section::*>;
   const char* name;
   Field field;
   const char* help;
@@ -59,6 +59,9 @@ template <> const std::vector<SiteKey<OutputSettings>>& keys_of();
 template <> const std::vector<SiteKey<BaseMotionSettings>>& keys_of();
 template <> const std::vector<SiteKey<FragmentationSettings>>& keys_of();
 template <> const std::vector<SiteKey<PlacedSettings>>& keys_of();
+template <> const std::vector<SiteKey<UncertaintySettings>>& keys_of();
+template <> const std::vector<SiteKey<QuantitySettings>>& keys_of();
+template <> const std::vector<SiteKey<PlaceSettings>>& keys_of();
 // clang-format on
 
 /// Calls visit(name, section) for the single sections and visit(group, vector) for the named ones.
@@ -78,6 +81,9 @@ void for_each_group(SiteType& site, Visit&& visit) {
   visit("base_motion", site.base_motion);
   visit("fragmentation", site.fragmentation);
   visit("output", site.output);
+  visit("uncertainty", site.uncertainty);
+  visit("uncertainty", site.quantities);
+  visit("place", site.places);
 }
 
 }  // namespace talus

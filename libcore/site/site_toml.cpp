@@ -124,6 +124,17 @@ struct Reader {
     for (const toml::node& entry : list_of(node, place, key.n_min, key.n_max))
       (section.*field).push_back(number_of(entry, key.range, place));
   }
+  // One text may stand without the list.
+  void operator()(Texts Section::*field) const {
+    (section.*field).clear();
+    const auto add = [&](const toml::node& entry) {
+      const auto* value = entry.as_string();
+      if (!value) place.refuse(type_name(entry.type()), "text");
+      (section.*field).push_back(value->get());
+    };
+    if (node.is_string()) return add(node);
+    for (const toml::node& entry : list_of(node, place, key.n_min, key.n_max)) add(entry);
+  }
   // One point may stand without the outer list.
   void operator()(Points Section::*field) const {
     (section.*field).clear();
@@ -195,9 +206,10 @@ const SiteKey<Section>& key_named(std::string_view name, const std::string& sect
                    did_you_mean(name, key_names<Section>()));
 }
 
-// [joints] holds keys of its own beside the sections [joints.NAME].
+// [joints] and [uncertainty] hold keys of their own beside the sections [joints.NAME] and so on.
 template <class Section>
-constexpr bool stands_beside_named = std::is_same_v<Section, JointNorth>;
+constexpr bool stands_beside_named =
+    std::is_same_v<Section, JointNorth> || std::is_same_v<Section, UncertaintySettings>;
 
 template <class Section>
 bool has_key(std::string_view name) {
@@ -222,13 +234,34 @@ int& line_field(Section& section) {
   return section.line;
 }
 
+// Keys of a group that stand beside its named sections; none in most groups.
+Texts keys_beside(const std::string& group) {
+  if (group == "joints") return key_names<JointNorth>();
+  if (group == "uncertainty") return key_names<UncertaintySettings>();
+  return {};
+}
+
+// A value where a named section should stand.
+[[noreturn]] void refuse_value(const std::string& file, const std::string& group,
+                               const std::string& name, const toml::node& node,
+                               const Texts& beside) {
+  const Where where{file, line_of(node)};
+  const std::string nearest = nearest_name(name, beside);
+  throw InputError(
+      where,
+      group + "." + name + " is " + type_name(node.type()) + ", expected a section of its own",
+      nearest.empty() ? "[" + group + "] holds named sections: write [" + group + ".NAME]"
+                      : "did you mean " + nearest + "? A section is written [" + group + ".NAME]");
+}
+
 // [group.NAME] sections, in the order of the file (tables are kept sorted by name).
 template <class Section>
 void read_named(Site& site, std::vector<Section>& sections, const std::string& group,
                 const toml::table& tables) {
   std::vector<std::pair<const toml::node*, std::string>> found;
+  const Texts beside = keys_beside(group);
   for (const auto& [name, node] : tables)
-    if (group != "joints" || !has_key<JointNorth>(name.str()))
+    if (std::find(beside.begin(), beside.end(), name.str()) == beside.end())
       found.emplace_back(&node, std::string(name.str()));
   std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) {
     return line_of(*a.first) < line_of(*b.first);
@@ -236,11 +269,7 @@ void read_named(Site& site, std::vector<Section>& sections, const std::string& g
   for (const auto& [node, name] : found) {
     const Where where{site.file, line_of(*node)};
     const auto* table = node->as_table();
-    if (!table)
-      throw InputError(
-          where,
-          group + "." + name + " is " + type_name(node->type()) + ", expected a section of its own",
-          "[" + group + "] holds named sections: write [" + group + ".NAME]");
+    if (!table) refuse_value(site.file, group, name, *node, beside);
     Section section;
     section.name = name;
     line_field(section) = where.line;

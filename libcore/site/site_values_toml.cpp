@@ -13,6 +13,8 @@
 namespace talus {
 namespace {
 
+using Texts = std::vector<std::string>;
+
 // --- values as text ----------------------------------------------------------------------------
 
 std::string quoted(const std::string& value) {
@@ -50,6 +52,7 @@ const char* type_text(bool) { return "true or false"; }
 const char* type_text(const std::string&) { return "text"; }
 const char* type_text(const std::vector<double>&) { return "list of numbers"; }
 const char* type_text(const std::vector<Vec3>&) { return "list of points"; }
+const char* type_text(const Texts&) { return "list of texts"; }
 
 // --- listing -----------------------------------------------------------------------------------
 
@@ -80,6 +83,7 @@ struct ValueLister {
     const auto found = site.sources.find(path);
     if (found == site.sources.end()) return "default";
     if (found->second.kind == ValueSource::from_cli) return "cli";
+    if (found->second.kind == ValueSource::from_draw) return found->second.words;
     return "file, line " + std::to_string(found->second.line);
   }
   template <class Section>

@@ -15,7 +15,7 @@ namespace talus {
 namespace {
 
 const char* const format_name = "talus-part";
-constexpr std::int64_t format_version = 1;
+constexpr std::int64_t format_version = 2;
 
 // --- what runs share ---------------------------------------------------------------------------
 
@@ -194,6 +194,9 @@ struct InfoText {
 };
 constexpr InfoText info_texts[] = {
     {"run_id", "digest of version, settings and inputs", &RunInfo::run_id},
+    {"trn_sha256", "of the terrain that the blocks slid on", &RunInfo::trn_sha256},
+    {"terrain_digest", "of the terrain before the slide, where beds differ",
+     &RunInfo::terrain_digest},
     {"blocks_hash", "of the block set", &RunInfo::blocks_hash},
     {"law", "talus or paper", &RunInfo::law},
     {"status", "done or failed; running: not ended", &RunInfo::status},
@@ -218,7 +221,6 @@ void write_runs(H5Writer& file, const Part& part) {
   file.attribute("", "site", first.site);
   file.attribute("", "crs", first.crs_wkt);
   file.attribute("", "origin_m", std::span<const double>(first.origin.data(), 3));
-  file.attribute("", "trn_sha256", first.trn_sha256);
   file.attribute("", "path_tolerance_m", part.path_tolerance);
   file.group("runs", "the runs, by their id");
   file.texts("runs/name", part.name, "file that the run stood in, with its folder");
@@ -255,7 +257,6 @@ void read_runs(const H5Reader& file, const std::string& path, Part& part) {
   common.info.site = file.attribute_text("", "site");
   common.info.crs_wkt = file.attribute_text("", "crs");
   common.info.origin = Vec3(origin[0], origin[1], origin[2]);
-  common.info.trn_sha256 = file.attribute_text("", "trn_sha256");
   part.path_tolerance = file.attribute_number("", "path_tolerance_m");
   part.name = file.texts("runs/name");
   part.runs.assign(part.name.size(), common);

@@ -39,6 +39,8 @@ void write_info(H5Writer& file, const RunFile& run) {
   file.attribute("", "reason", info.reason);
   file.attribute("", "duration_s", info.duration);
   file.attribute("", "time_s", info.time);
+  if (!info.terrain_digest.empty())
+    file.text("terrain_digest", info.terrain_digest, "of the terrain before the slide");
   file.text("config", info.config, "effective settings as TOML, each with its origin");
   file.text("plan", info.plan, "what was computed and what was left out, JSON");
   if (!info.warnings.empty())
@@ -64,6 +66,7 @@ RunInfo read_info(const H5Reader& file, const std::string& path) {
     throw InputError({path, 0, "origin_m"}, "is not three finite numbers");
   info.origin = Vec3(origin[0], origin[1], origin[2]);
   info.trn_sha256 = file.attribute_text("", "trn_sha256");
+  if (file.has("terrain_digest")) info.terrain_digest = file.text("terrain_digest");
   info.blocks_hash = file.attribute_text("", "blocks_hash");
   info.law = file.attribute_text("", "law");
   info.seed = file.attribute_integer("", "seed");

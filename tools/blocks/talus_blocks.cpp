@@ -1,10 +1,15 @@
 // tools/blocks/talus_blocks.cpp
 // The blocks of a site: the source cut by its joints, or bodies from meshes and shapes. Page:
 // docs/tools/talus-blocks.md
+#include <cmath>
+
+#include "base/hash_random.hpp"
 #include "base/sha256.hpp"
+#include "base/text.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/crs_place_gdal.hpp"
 #include "io/raster_gdal.hpp"
+#include "terrain/terrain_error.hpp"
 #include "terrain/trn_digest.hpp"
 #include "tools/blocks/json.hpp"
 #include "tools/blocks/outputs.hpp"
@@ -64,6 +69,23 @@ void check_ground(const BlocksWork& work, const std::string& path) {
         problem.mend_to.empty() ? "" : "reproject it: talus-trn --t-srs " + problem.mend_to);
 }
 
+// Of the rock mass that is cut: each has a ground of its own.
+void add_terrain_error(Tool& tool, BlocksWork& work) {
+  const UncertaintySettings& u = work.site.uncertainty;
+  const std::int64_t mass = rock_mass(u);
+  if (mass == 0 || u.terrain_rmse_m == 0) return;
+  const double correlation =
+      std::isnan(u.terrain_correlation_m) ? 10 * work.ground.cell_size : u.terrain_correlation_m;
+  work.ground = with_error(
+      work.ground, u.terrain_rmse_m, correlation,
+      HashRandom({static_cast<std::uint64_t>(u.seed), HashRandom::word_of("terrain error"),
+                  static_cast<std::uint64_t>(mass)})
+          .next());
+  tool.info("ground of rock mass " + std::to_string(mass) + ": its elevations are off by " +
+            text(u.terrain_rmse_m) + " m (root of the mean square), alike over " +
+            text(correlation) + " m");
+}
+
 void record_metrics(Tool& tool, const Json& report) {
   tool.metric("n_blocks", report["n_blocks"].get<double>(), "1");
   tool.metric("volume_m3", report["volume_m3"].get<double>(), "m3");
@@ -78,7 +100,7 @@ int main(int argc, char** argv) {
   Tool tool("talus-blocks",
             "Cuts the rock mass of a source into blocks by its joints, or takes blocks from "
             "meshes and shapes.");
-  SiteOptions site(tool);
+  SiteOptions site(tool, DrawScope::rock);
   declare(tool, o);
   return tool.run(argc, argv, [&] {
     BlocksWork work;
@@ -86,6 +108,8 @@ int main(int argc, char** argv) {
     check_site_crs(work.site);
     work.ground = read_trn(o.trn);
     check_ground(work, o.trn);
+    const std::string terrain_digest = trn_digest(work.ground);
+    add_terrain_error(tool, work);
     work.blocks.origin = work.ground.origin;
     work.blocks.crs_wkt = work.ground.crs_wkt;
     for (const MaterialSettings& material : work.site.materials)
@@ -98,8 +122,8 @@ int main(int argc, char** argv) {
     add_placed_blocks({tool, work.site, work.ground, work.has_source() ? &work.area : nullptr},
                       work.blocks);
     work.blocks.content_hash = hash_of(o, work);
-    work.blocks.ground_digests = {trn_digest(work.ground)};
-    if (work.is_cut()) work.blocks.ground_digests = {trn_digest(work.mass.bed)};
+    work.blocks.ground_digests = {trn_digest(work.is_cut() ? work.mass.bed : work.ground),
+                                  terrain_digest};
     Json report = blocks_json(work, tool.run_id());
     if (!tool.layers_read().empty()) report["layers_read"] = tool.layers_read();
     record_metrics(tool, report);

@@ -65,7 +65,8 @@ void declare(Tool& tool, SiteOptions& site, Options& o) {
   // All that was given or read counts for the run's id, but for what a resumed run may differ in.
   // The site file counts by its effective values.
   tool.leave_out_of_run_id(site.names());
-  tool.leave_out_of_run_id({"resume", "output.checkpoint_interval_s", "output.frames"});
+  tool.leave_out_of_run_id(
+      {"resume", "output.checkpoint_interval_s", "output.frames", "output.whole_share"});
 }
 
 // --- the plan ----------------------------------------------------------------------------------
@@ -104,6 +105,8 @@ RunFile new_file(const std::string& run_id, const Site& site, const DdaInputs& i
   info.crs_wkt = inputs.crs_wkt;
   info.origin = inputs.origin;
   info.trn_sha256 = inputs.trn_sha256;
+  if (site.uncertainty.rock_masses > 0 && !inputs.parts.blocks.ground_digests.empty())
+    info.terrain_digest = inputs.parts.blocks.ground_digests.back();
   info.blocks_hash = inputs.parts.blocks.content_hash;
   info.law = site.solver.law;
   info.seed = site.solver.seed;
@@ -233,12 +236,18 @@ void compute(Tool& tool, Runner& runner, const std::string& part, double interva
   runner.file.info.warnings += (runner.file.info.warnings.empty() ? "" : "\n") + words;
 }
 
+// With a share s of the runs whole, those at whose seed another whole number of s is begun.
+bool keeps_frames(const Site& site) {
+  const double share = site.output.whole_share, seed = static_cast<double>(site.solver.seed);
+  return site.output.frames || std::ceil(seed * share) > std::ceil((seed - 1) * share);
+}
+
 void write_outputs(Tool& tool, Runner& runner, const Site& site, const Trn& trn, const Options& o) {
   runner.file.info.status = "done";
   record_health(tool, runner);
   update_file(runner, false);
   const std::string path = tool.stage(o.out);
-  if (site.output.frames) {
+  if (keeps_frames(site)) {
     write_run_file(path, runner.file);
     merge_pieces(runner.file);
   } else {
@@ -262,7 +271,7 @@ void remove_checkpoints(const Options& o) {
 int main(int argc, char** argv) {
   Options o;
   Tool tool("talus-dda", "Moves blocks by three-dimensional discontinuous deformation analysis.");
-  SiteOptions site_options(tool);
+  SiteOptions site_options(tool, DrawScope::all);
   declare(tool, site_options, o);
   bool is_written = false;
   const int code = tool.run(argc, argv, [&] {

@@ -8,6 +8,7 @@
 #include "base/sha256.hpp"
 #include "base/text.hpp"
 #include "post/deposit.hpp"
+#include "terrain/trn_digest.hpp"
 #include "tools/frame/command_line.hpp"
 
 namespace talus {
@@ -155,7 +156,8 @@ void RunInputs::check_reach(const RunFile& run, const RunMember& member) const {
 void RunInputs::read(const std::vector<std::string>& paths, const std::string& role,
                      const RunParts& parts, const std::function<void(RunFile&, int)>& take) {
   const bool is_first = set_options_.trn_sha256.empty();
-  if (is_first) set_options_ = {allow_unfinished, trn_file, sha256_of_file(trn_file)};
+  if (is_first)
+    set_options_ = {allow_unfinished, trn_file, sha256_of_file(trn_file), trn_digest(trn())};
   const bool at_once = parts.only_last_frame && bytes_of(paths) <= most_at_once;
   Found found = look_at(paths, parts, at_once);
   static_cast<void>(order_by_id(found.members));  // the same run twice

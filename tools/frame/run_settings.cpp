@@ -85,8 +85,15 @@ std::vector<std::string> warn_of_settings(Tool& tool, const Site& site) {
       tool.warn(warnings.back());
     }
   const SolverSettings& solver = site.solver;
-  if (solver.seed != SolverSettings{}.seed && solver.start_jitter_m_s == 0 &&
-      solver.friction_scatter_deg == 0 && solver.cor_scatter == 0 &&
+  if (!site.quantities.empty() && site.uncertainty.sample == 0) {
+    warnings.push_back(std::to_string(site.quantities.size()) +
+                       (site.quantities.size() == 1 ? " quantity" : " quantities") +
+                       " of [uncertainty] not drawn: no --sample is given, so the values of the "
+                       "site file hold");
+    tool.warn(warnings.back());
+  }
+  if (solver.seed != SolverSettings{}.seed && site.uncertainty.sample == 0 &&
+      solver.start_jitter_m_s == 0 && solver.friction_scatter_deg == 0 && solver.cor_scatter == 0 &&
       std::none_of(site.forests.begin(), site.forests.end(), [](const ForestSettings& forest) {
         return forest.active && forest.new_stand_per_run;
       })) {

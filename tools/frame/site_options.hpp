@@ -4,19 +4,22 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "site/site.hpp"
+#include "site/uncertainty.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/tool.hpp"
 
 namespace talus {
 
-/// Declares SITE.toml and --set on a tool; load() reads the file once and applies the overrides.
+/// Declares SITE.toml and --set on a tool; load() reads the file once, applies the overrides and,
+/// for a tool with `draws`, the sample that --sample names.
 class SiteOptions {
  public:
-  explicit SiteOptions(Tool& tool) {
+  explicit SiteOptions(Tool& tool, std::optional<DrawScope> draws = {}) : draws_(draws) {
     tool.input("site", file_, "site file (TOML)");
     tool.app()
         .add_option("--set", overrides_, "override a key of the site file: section.key=value")
@@ -28,6 +31,11 @@ class SiteOptions {
           values.push_back({entry.section + "." + entry.key, entry.value, entry.source});
       return values;
     });
+    if (draws_)
+      option(tool, "--sample", "uncertainty.sample",
+             *draws_ == DrawScope::rock
+                 ? "which sample of [uncertainty] the rock is cut by, from 1"
+                 : "which sample of [uncertainty] this run is, from 1; 0: nothing is drawn");
   }
 
   /// An option of the tool that stands for a key of the site file and wins over it.
@@ -39,7 +47,7 @@ class SiteOptions {
         help + " [" + key + "]");
   }
 
-  /// Throws InputError (read_site), UsageError (--set).
+  /// Throws InputError (read_site, check_uncertainty, apply_draws), UsageError (--set).
   const Site& load() {
     if (site_) return *site_;
     Site site = read_site(file_);
@@ -51,6 +59,8 @@ class SiteOptions {
       from_command_line(
           [&] { override_value(site, word.substr(0, equals), word.substr(equals + 1)); });
     }
+    check_uncertainty(site);
+    if (draws_) apply_draws(site, *draws_);
     site_ = std::make_unique<Site>(std::move(site));
     return *site_;
   }
@@ -63,6 +73,7 @@ class SiteOptions {
   std::string file_;
   std::vector<std::string> overrides_, names_{"site", "set"};
   std::unique_ptr<Site> site_;
+  std::optional<DrawScope> draws_;
 };
 
 }  // namespace talus

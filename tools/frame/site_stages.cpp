@@ -23,11 +23,14 @@ const std::vector<Stage>& stages() {
         "terrain.boundary_layer", "terrain.boundary_where", "terrain.flat"}},
       {"trn", {"terrain.dem", "terrain.cell_size_m", "terrain.window_m"}},
       {"blocks", {"site.crs", "source", "joints", "blocks", "material"}},
+      {"rock", {"site.crs", "source", "joints", "blocks", "material", "uncertainty"}},
       {"run",
        {"site.name", "site.crs", "terrain.ground_raster", "material", "joints", "ground", "solver",
         "fence", "forest", "base_motion", "output", "-solver.seed", "-solver.n_runs",
-        "-output.checkpoint_interval_s"}},
+        "-output.checkpoint_interval_s", "uncertainty", "-uncertainty.max_failed_share",
+        "-uncertainty.sample"}},
       {"fence", {"site.name", "site.crs", "fence"}},
+      {"place", {"site.crs", "place"}},
   };
   return list;
 }

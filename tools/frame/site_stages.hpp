@@ -9,7 +9,8 @@
 
 namespace talus {
 
-/// tin, trn, blocks, run, fence.
+/// tin, trn, blocks, rock (blocks of other masses), run, fence,
+/// place.
 [[nodiscard]] const std::vector<std::string>& stage_names();
 
 /// Whether results of the stage depend on the value.

@@ -143,6 +143,8 @@ Gathered gather(talus::RunInputs& runs, const std::vector<std::string>& paths,
   take_rows_of_parts(runs, range, out.map, out.weight, {}, o.most_rows(),
                      [&](auto rows, int run) { count(std::move(rows), run); });
   out.released.failed_share = runs.last_failed_share();
+  out.released.unit = talus::units_of(
+      {runs.members.begin() + static_cast<std::ptrdiff_t>(range.first), runs.members.end()});
   return out;
 }
 

@@ -59,7 +59,8 @@ void check_files(const Site& site) {
 bool is_read(const Site& site, const std::string& stage, const EffectiveValue& value) {
   if (stage_reads(stage, value)) return true;
   const bool is_ground = value.section.starts_with("ground.") || value.key == "ground_raster";
-  return is_ground && stage == "blocks" && site.source.failure_surface == "daylighting";
+  return is_ground && (stage == "blocks" || stage == "rock") &&
+         site.source.failure_surface == "daylighting";
 }
 
 // Digests of the files that a data set is made of. GDAL does not name the encoding of a Shapefile.
@@ -237,8 +238,37 @@ std::string make_variables(const Site& site) {
   line("SITE_RUNS", std::to_string(site.solver.n_runs));
   line("SITE_SEED", std::to_string(site.solver.seed));
   line("SITE_FENCES", fences);
+  line("SITE_SAMPLES", site.quantities.empty() && site.uncertainty.rock_masses == 0 ? "" : "yes");
+  line("SITE_ROCK_MASSES",
+       site.uncertainty.rock_masses == 0 ? "" : std::to_string(site.uncertainty.rock_masses));
+  line("SITE_MAX_FAILED_SHARE", text(site.uncertainty.max_failed_share));
+  line("SITE_PLACES", site.places.empty() ? "" : "yes");
   line("SITE_FENCES_STAND", any_active ? "yes" : "");
   return out;
+}
+
+// --- what is drawn ---
+
+// A line a quantity; "" where nothing is drawn.
+std::string draws_text(const Site& site) {
+  std::string words;
+  for (const QuantitySettings& quantity : site.quantities)
+    words += (words.empty() ? "" : "\n") + quantity.name + ": " + text_of(site, quantity) +
+             (is_rock(quantity) ? "; cuts the rock" : "");
+  if (site.uncertainty.rock_masses > 0)
+    words += (words.empty() ? "" : "\n") + std::to_string(site.uncertainty.rock_masses) +
+             " rock masses, each cut anew";
+  return words;
+}
+
+Json draws_json(const Site& site) {
+  Json list = Json::array();
+  for (const QuantitySettings& quantity : site.quantities)
+    list.push_back({{"quantity", quantity.name},
+                    {"keys", keys_drawn(quantity)},
+                    {"cuts_rock", is_rock(quantity)},
+                    {"words", text_of(site, quantity)}});
+  return {{"drawn", list}, {"rock_masses", site.uncertainty.rock_masses}};
 }
 
 // --- the whole ---------------------------------------------------------------------------------
@@ -277,5 +307,7 @@ int main(int argc, char** argv) {
     for (const auto& [name, list] : lists_of(given, digests))
       write_if_changed(tool, out / (name + ".files"), list);
     write_if_changed(tool, memory, digests.as_text());
+    if (const std::string words = draws_text(site); !words.empty())
+      tool.result(draws_json(site), words);
   });
 }

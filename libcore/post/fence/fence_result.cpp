@@ -114,7 +114,7 @@ FenceResult fence_result(const FenceCase& fence_case, std::size_t index, const F
   DesignInput input = design_input(settings.design, group, design_arrivals);
   input.first_touches = r.basis == DesignBasis::first_touches;
   const auto summary = [&](const std::vector<FenceArrival>& arrivals, const FenceRunGroup& of) {
-    return summarise(arrivals, n_runs(of), settings.seed);
+    return summarise(arrivals, n_runs(of), settings.seed, units_of(of.members));
   };
   r.whole = summary(r.arrivals, group);
   r.at_basis = summary(design_arrivals, design_group);
@@ -149,7 +149,7 @@ ShareBasis verdict_basis(const FenceRunGroup& group, double failed_share) {
     released.push_back(weight);
     single_blocks = single_blocks && run.weight.size() <= 1;
   }
-  return share_basis(released, single_blocks, failed_share);
+  return share_basis(released, single_blocks, failed_share, units_of(group.members));
 }
 
 VerdictShare verdict_share(const FenceRunGroup& group, std::size_t fence, Verdict verdict,

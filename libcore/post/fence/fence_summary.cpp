@@ -54,7 +54,8 @@ void find_busiest_second(const std::vector<FenceArrival>& of_run, FencePartSumma
 
 }  // namespace
 
-FencePartSummary summarise(const std::vector<FenceArrival>& given, int n_runs, std::uint64_t seed) {
+FencePartSummary summarise(const std::vector<FenceArrival>& given, int n_runs, std::uint64_t seed,
+                           const std::vector<int>& unit) {
   FencePartSummary summary;
   std::vector<FenceArrival> sorted = given;
   std::sort(sorted.begin(), sorted.end(), [](const FenceArrival& a, const FenceArrival& b) {
@@ -81,7 +82,8 @@ FencePartSummary summarise(const std::vector<FenceArrival>& given, int n_runs, s
     find_busiest_second(of_run, summary);
   }
   summary.runs_hit_twice = static_cast<double>(n_twice) / n_runs;
-  PercentileBounds bounds(n_runs, fence_resamples, seed);
+  const int n_units = unit.empty() ? n_runs : *std::max_element(unit.begin(), unit.end()) + 1;
+  PercentileBounds bounds(n_units, fence_resamples, seed, unit);
   const auto of = [&](double (*quantity)(const FenceArrival&)) {
     return summary_of(sorted, summary.n_eff, bounds, quantity);
   };

@@ -40,8 +40,8 @@ struct FencePartSummary {
   int window_hits = 0;                  ///< of that second
 };
 /// `n_runs`: all of them, also those without an arrival. Bounds: percentile_bounds.hpp; `seed` is
-/// that of its bootstrap.
+/// that of its bootstrap, `unit` that of units_of().
 [[nodiscard]] FencePartSummary summarise(const std::vector<FenceArrival>& arrivals, int n_runs,
-                                         std::uint64_t seed);
+                                         std::uint64_t seed, const std::vector<int>& unit = {});
 
 }  // namespace talus

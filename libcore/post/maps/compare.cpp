@@ -59,7 +59,8 @@ Estimate reach_of(const Side& side, std::span<const MapRow> rows) {
   return {share, interval.low, interval.high};
 }
 
-Estimate percentile_of(std::span<const MapRow> rows, const Compared& quantity, double p) {
+Estimate percentile_of(std::span<const MapRow> rows, const Compared& quantity, double p,
+                       const std::vector<int>& unit) {
   struct Item {
     float value;
     RunWeight run;
@@ -74,6 +75,8 @@ Estimate percentile_of(std::span<const MapRow> rows, const Compared& quantity, d
   });
   std::vector<RunWeight> runs;
   for (const Item& item : items) runs.push_back(item.run);
+  if (!unit.empty())
+    for (RunWeight& item : runs) item.run = unit[item.run];
   const BoundedPlaces places = percentile_places(runs, p);
   const auto value_at = [&](int place) {
     return place < 0 ? none : static_cast<double>(items[place].value) * quantity.scale;
@@ -130,8 +133,8 @@ MapLayer comparison_layer(const Ensemble& a, const Ensemble& b) {
     for (const Compared& quantity : quantities)
       for (const Level& level : levels)
         put(layer, band += 3, i,
-            difference(percentile_of(rows_a, quantity, level.p),
-                       percentile_of(rows_b, quantity, level.p)));
+            difference(percentile_of(rows_a, quantity, level.p, a.released.unit),
+                       percentile_of(rows_b, quantity, level.p, b.released.unit)));
   }
   return layer;
 }

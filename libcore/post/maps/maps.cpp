@@ -47,6 +47,10 @@ std::span<const MapRow> rows_of(const CellRows& cells, std::size_t i) {
 }
 
 int n_runs(const Released& released) { return static_cast<int>(released.weight.size()); }
+int n_units(const Released& released) {
+  return released.unit.empty() ? n_runs(released)
+                               : *std::max_element(released.unit.begin(), released.unit.end()) + 1;
+}
 
 double sum(std::span<const double> values) {
   double total = 0;
@@ -174,7 +178,7 @@ std::vector<MapBand> empty_reach_bands(std::size_t n) {
 ShareBasis share_basis_of(const Released& released) {
   const bool single_blocks = std::all_of(released.n_blocks.begin(), released.n_blocks.end(),
                                          [](int count) { return count <= 1; });
-  return share_basis(released.weight, single_blocks, released.failed_share);
+  return share_basis(released.weight, single_blocks, released.failed_share, released.unit);
 }
 
 MapLayer quantity_layer(const std::string& name, const CellRows& cells, MapQuantity quantity,
@@ -182,7 +186,7 @@ MapLayer quantity_layer(const std::string& name, const CellRows& cells, MapQuant
   const QuantityText& text = text_of(quantity);
   MapLayer layer = empty_quantity_layer(name, text, cells);
   constexpr std::size_t n_p = percentile_levels.size();
-  PercentileBounds bounds(n_runs(released), settings.n_resamples, settings.seed);
+  PercentileBounds bounds(n_units(released), settings.n_resamples, settings.seed, released.unit);
   CellSample sample;
   for (std::size_t i = 0; i < cells.cell.size(); ++i) {
     sample.fill(rows_of(cells, i), text.member);
@@ -223,7 +227,7 @@ MapLayer reach_layer(const CellRows& cells, double cell_size, const Released& re
     weigh_runs(
         rows, [](const MapRow&) { return true; }, parts);
     const Interval interval = share_interval(basis, parts, share);
-    const Interval of_runs = run_share_interval(basis, runs);
+    const Interval of_runs = run_share_interval(basis, parts);
     const std::array values = {static_cast<double>(rows.size()),
                                share,
                                interval.low,

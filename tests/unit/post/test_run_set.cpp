@@ -85,3 +85,27 @@ TEST(CheckMember, TakesFailedRunsAndRefusesInterruptedOnes) {
   EXPECT_THROW(check_member(running, running, {false, "trn.tif", ""}), InputError);
   EXPECT_NO_THROW(check_member(running, running, {true, "trn.tif", ""}));
 }
+
+// Beds of rock masses differ; what they were cut from does not.
+TEST(RunSet, RunsOfSeveralRockMassesBelongTogetherOnTheTerrainBefore) {
+  RunMember first;
+  first.info.status = "done";
+  first.info.trn_sha256 = "bed 1";
+  first.info.terrain_digest = "ground";
+  first.info.blocks_hash = "blocks 1";
+  RunMember second = first;
+  second.info.trn_sha256 = "bed 2";
+  second.info.blocks_hash = "blocks 2";
+  EXPECT_NO_THROW(check_member(second, first, {false, "trn.tif", "sha of trn.tif", "ground"}));
+  EXPECT_THROW(check_member(second, first, {false, "bed_1.tif", "bed 1", "digest of bed 1"}),
+               InputError);
+  EXPECT_THROW(check_member(second, first, {false, "other.tif", "sha", "other"}), InputError);
+  EXPECT_EQ(units_of({first, second, first}), (std::vector<int>{0, 1, 0}));
+  EXPECT_TRUE(units_of({first, second}).empty());  // each has a mass of its own
+  EXPECT_TRUE(units_of({first, first}).empty());   // one mass: nothing is said of others
+  RunMember plain = first;
+  plain.info.terrain_digest.clear();
+  RunMember other = plain;
+  other.info.blocks_hash = "blocks 2";
+  EXPECT_TRUE(units_of({plain, other, plain}).empty());
+}

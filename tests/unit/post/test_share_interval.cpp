@@ -162,3 +162,34 @@ TEST(ShareInterval, HoldsTheTruthInSimulatedEnsembles) {
   for (const double rho : {0.05, 0.2, 0.5})
     EXPECT_GE(coverage(200, 0.1, rho, 500, ++seed), 0.93) << rho;
 }
+
+// Runs of one rock mass are one observation: 200 runs over 10 masses are worth ten, not 200. Each
+// mass has a probability of its own, as joints that are cut anew give it.
+TEST(ShareInterval, RunsOfOneRockMassCountAsOne) {
+  constexpr int n_masses = 20, n_each = 10, n_trials = 400;
+  Random random(11);
+  int by_mass = 0, by_run = 0;
+  const std::vector<double> released(n_masses * n_each, 1);
+  std::vector<int> unit;
+  for (int run = 0; run < n_masses * n_each; ++run) unit.push_back(run % n_masses);
+  const ShareBasis masses = share_basis(released, true, 0, unit),
+                   runs = share_basis(released, true);
+  EXPECT_EQ(masses.over.n_runs, n_masses);
+  for (int trial = 0; trial < n_trials; ++trial) {
+    std::vector<double> chance;  // uniform: mean 0.5
+    for (int m = 0; m < n_masses; ++m) chance.push_back(random.uniform());
+    std::vector<RunWeight> parts;
+    for (int run = 0; run < n_masses * n_each; ++run)
+      if (random.uniform() < chance[run % n_masses]) parts.push_back({run, 1});
+    const double share = static_cast<double>(parts.size()) / (n_masses * n_each);
+    const auto holds = [](const Interval& i) { return i.low <= 0.5 && 0.5 <= i.high; };
+    by_mass += holds(share_interval(masses, parts, share));
+    by_run += holds(share_interval(runs, parts, share));
+    const Interval of_runs = run_share_interval(masses, parts);
+    EXPECT_NEAR(of_runs.low, share_interval(masses, parts, share).low, 1e-12);
+  }
+  EXPECT_GE(by_mass, 0.93 * n_trials);
+  EXPECT_LE(by_run, 0.75 * n_trials);
+  // nothing reached: as many trials as masses
+  EXPECT_NEAR(run_share_interval(masses, 0).high, wilson_interval(0, n_masses).high, 1e-12);
+}

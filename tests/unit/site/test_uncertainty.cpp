@@ -1,0 +1,273 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+
+#include "blocks/joint_sets.hpp"
+#include "site/uncertainty.hpp"
+
+namespace {
+
+using namespace talus;  // NOLINT: a test
+
+constexpr const char* whole = R"(
+[source]
+seed = 5
+[joints.bedding]
+dip_deg = 44
+dip_direction_deg = 144
+spacing_m = 5
+fisher_k = 40
+[ground.slope]
+friction_deg = 28
+[ground.scree]
+friction_deg = 32
+[uncertainty]
+rock_masses = 8
+[uncertainty.friction]
+keys = ["ground.slope.friction_deg", "ground.scree.friction_deg"]
+apply = "add"
+distribution = "normal"
+std = 2
+source = "back-analysis of 3 events"
+[uncertainty.cor]
+keys = "ground.slope.cor"
+distribution = "uniform"
+min = 0.1
+max = 0.5
+[uncertainty.bedding]
+keys = ["joints.bedding.orientation"]
+distribution = "fisher"
+n_measured = 50
+[uncertainty.spacing]
+keys = ["joints.bedding.spacing_m"]
+apply = "factor"
+distribution = "lognormal"
+std = 0.2
+)";
+
+Site site_of(const std::string& text, std::int64_t sample = 0) {
+  Site site = parse_site(text, "s/site.toml");
+  site.uncertainty.sample = sample;
+  check_uncertainty(site);
+  return site;
+}
+
+Site drawn_site(std::int64_t sample, DrawScope scope = DrawScope::all) {
+  Site site = site_of(whole, sample);
+  apply_draws(site, scope);
+  return site;
+}
+
+// What a section [uncertainty.q] is refused with, beside a site with a ground and a joint set.
+std::string refusal(const std::string& section, const std::string& before = "") {
+  const std::string text =
+      "[ground.slope]\nfriction_deg = 28\n[joints.J1]\ndip_deg = 70\ndip_direction_deg = 10\n"
+      "spacing_m = 5\n[solver]\nseed = 1\n" +
+      before + "[uncertainty.q]\n" + section;
+  try {
+    check_uncertainty(parse_site(text, "s/site.toml"));
+  } catch (const InputError& error) {
+    return std::string(error.what()) + " | " + error.hint();
+  }
+  return "accepted";
+}
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST(Uncertainty, KeysOfAQuantityMoveTogetherAroundTheirValues) {
+  for (std::int64_t sample = 1; sample <= 20; ++sample) {
+    const Site site = drawn_site(sample);
+    EXPECT_NEAR(site.grounds[1].friction_deg - site.grounds[0].friction_deg, 4, 1e-12);
+    EXPECT_NE(site.grounds[0].friction_deg, 28);
+    EXPECT_TRUE(site.grounds[0].cor > 0.1 && site.grounds[0].cor < 0.5);
+  }
+  const Site held = drawn_site(0);
+  EXPECT_EQ(held.grounds[0].friction_deg, 28);
+  EXPECT_EQ(held.source.seed, 5);
+}
+
+// 512 points of the sequence: mean and standard deviation are those that were asked for.
+TEST(Uncertainty, SamplesHaveTheMomentsThatWereGiven) {
+  double sum = 0, squares = 0;
+  constexpr int n = 512;
+  for (std::int64_t sample = 1; sample <= n; ++sample) {
+    const double x = drawn_site(sample).grounds[0].friction_deg - 28;
+    sum += x, squares += x * x;
+  }
+  EXPECT_NEAR(sum / n, 0, 0.01);
+  EXPECT_NEAR(std::sqrt(squares / n), 2, 0.02);
+}
+
+TEST(Uncertainty, ASampleIsTheSameInAnyOrderAndWithMoreRuns) {
+  std::map<std::int64_t, double> friction;
+  for (std::int64_t sample = 1; sample <= 30; ++sample)
+    friction[sample] = drawn_site(sample).grounds[0].friction_deg;
+  for (std::int64_t sample = 60; sample >= 1; --sample) {
+    const double again = drawn_site(sample).grounds[0].friction_deg;
+    if (friction.contains(sample)) EXPECT_EQ(again, friction[sample]);
+  }
+  // a quantity behind the others leaves theirs as they are
+  Site more = site_of(std::string(whole) +
+                          "[uncertainty.last]\nkeys = \"solver.start_jitter_m_s\"\n"
+                          "distribution = \"uniform\"\nmin = 0\nmax = 1\n",
+                      7);
+  apply_draws(more, DrawScope::all);
+  EXPECT_EQ(more.grounds[0].friction_deg, friction[7]);
+}
+
+TEST(Uncertainty, RockKeysAreDrawnOnceForEachRockMass) {
+  std::set<double> spacings;
+  for (std::int64_t sample = 1; sample <= 8; ++sample) {
+    const Site site = drawn_site(sample), later = drawn_site(sample + 8);
+    spacings.insert(site.joints[0].spacing_m);
+    EXPECT_EQ(site.joints[0].spacing_m, later.joints[0].spacing_m);
+    EXPECT_EQ(site.joints[0].dip_deg, later.joints[0].dip_deg);
+    EXPECT_EQ(site.source.seed, 4 + sample);
+    EXPECT_EQ(later.source.seed, 4 + sample);
+    EXPECT_NE(site.grounds[0].friction_deg, later.grounds[0].friction_deg);
+    EXPECT_EQ(rock_mass(later.uncertainty), sample);
+  }
+  EXPECT_EQ(spacings.size(), 8U);
+  // talus-blocks draws these alone
+  const Site rock = drawn_site(3, DrawScope::rock);
+  EXPECT_EQ(rock.joints[0].spacing_m, drawn_site(3).joints[0].spacing_m);
+  EXPECT_EQ(rock.grounds[0].friction_deg, 28);
+  EXPECT_EQ(print_config(rock), print_config(drawn_site(11, DrawScope::rock)));
+}
+
+// Mean of 50 poles that scatter by 40: concentration 1,951, 95 % within 3.18 degrees.
+TEST(Uncertainty, OrientationsScatterAroundTheMeanOfWhatWasMeasured) {
+  Site site = site_of(whole);
+  site.uncertainty.rock_masses = 400;
+  const double degree = std::numbers::pi / 180;
+  const Vec3 mean = pole(44 * degree, 144 * degree);
+  int n_within = 0;
+  double sum = 0;
+  for (std::int64_t sample = 1; sample <= 400; ++sample) {
+    Site drawn = site;
+    drawn.uncertainty.sample = sample;
+    apply_draws(drawn, DrawScope::all);
+    const Vec3 made =
+        pole(drawn.joints[0].dip_deg * degree, drawn.joints[0].dip_direction_deg * degree);
+    n_within += std::acos(std::min(1.0, made.dot(mean))) < 3.18 * degree;
+    sum += 1 - made.dot(mean);
+  }
+  EXPECT_NEAR(n_within / 400.0, 0.95, 0.01);
+  EXPECT_NEAR(sum / 400, 1 / 1951.0, 1e-5);  // 1 - coth k + 1/k
+}
+
+TEST(Uncertainty, EffectiveValuesSayWhichSampleTheyAreOf) {
+  const Site site = drawn_site(10);
+  std::map<std::string, EffectiveValue> values;
+  for (const EffectiveValue& value : effective_values(site))
+    values[value.section + "." + value.key] = value;
+  EXPECT_EQ(values["ground.slope.friction_deg"].source, "sample 10 of uncertainty.friction");
+  EXPECT_EQ(values["source.seed"].source, "rock mass 2");
+  EXPECT_EQ(values["uncertainty.friction.keys"].value,
+            "['ground.slope.friction_deg', 'ground.scree.friction_deg']");
+  // and the text reads back, with the values that were drawn
+  const Site back = parse_site(print_config(site), "run");
+  EXPECT_EQ(back.grounds[0].friction_deg, site.grounds[0].friction_deg);
+  EXPECT_EQ(back.joints[0].dip_direction_deg, site.joints[0].dip_direction_deg);
+  const std::vector<DrawnKey> now = values_in_effect(back);
+  ASSERT_EQ(now.size(), 6U);
+  EXPECT_EQ(now[0].key, "ground.slope.friction_deg");
+  EXPECT_EQ(now[0].value, site.grounds[0].friction_deg);
+  EXPECT_EQ(now[3].key, "joints.bedding.dip_deg");
+  EXPECT_EQ(text_of(site_of(whole), site_of(whole).quantities[0]),
+            "ground.slope.friction_deg, ground.scree.friction_deg: what is added is drawn from "
+            "normal, mean 0, standard deviation 2 (back-analysis of 3 events)");
+}
+
+TEST(Uncertainty, TheCommandLineHoldsAKey) {
+  Site site = site_of(whole, 4);
+  override_value(site, "ground.slope.friction_deg", "25");
+  apply_draws(site, DrawScope::all);
+  EXPECT_EQ(site.grounds[0].friction_deg, 25);
+  EXPECT_NE(site.grounds[1].friction_deg, 32);
+}
+
+TEST(Uncertainty, AzimuthsGoOnBeyondNorth) {
+  const Site base = site_of(
+      "[joints.J1]\ndip_deg = 70\ndip_direction_deg = 358\nspacing_m = 5\n"
+      "[uncertainty]\nrock_masses = 64\n[uncertainty.q]\nkeys = \"joints.J1.dip_direction_deg\"\n"
+      "distribution = \"normal\"\nstd = 10\n");
+  int n_beyond = 0;
+  for (std::int64_t sample = 1; sample <= 64; ++sample) {
+    Site site = base;
+    site.uncertainty.sample = sample;
+    apply_draws(site, DrawScope::all);
+    const double azimuth = site.joints[0].dip_direction_deg;
+    EXPECT_TRUE(azimuth >= 0 && azimuth <= 360);
+    n_beyond += azimuth < 180;
+  }
+  EXPECT_NEAR(n_beyond, 27, 2);  // above 2 of a normal with 10: 0.42
+}
+
+TEST(Uncertainty, WhatCannotBeDrawnIsRefusedWithPlaceAndWayOut) {
+  const std::string normal = "distribution = \"normal\"\nstd = 2\n";
+  const std::string friction = "keys = \"ground.slope.friction_deg\"\n";
+  const std::string unknown = refusal("keys = \"ground.slope.fricton_deg\"\n" + normal);
+  EXPECT_EQ(
+      unknown,
+      "s/site.toml:10: [uncertainty.q]: there is no key ground.slope.fricton_deg in this site "
+      "file | did you mean ground.slope.friction_deg?");
+  EXPECT_TRUE(has(refusal("keys = \"solver.law\"\n" + normal), "solver.law holds no number"));
+  EXPECT_TRUE(has(refusal("keys = \"solver.seed\"\n" + normal), "seeds follow from the run"));
+  EXPECT_TRUE(has(refusal("keys = \"terrain.cell_size_m\"\n" + normal), "terrain_rmse_m"));
+  EXPECT_TRUE(has(refusal("keys = \"joints.J1.spacing_m\"\n" + normal), "needs a rock mass"));
+  EXPECT_TRUE(has(refusal("keys = \"joints.J1.spacing_m\"\n" + normal), "rock_masses"));
+  EXPECT_TRUE(has(refusal("keys = \"joints.J1.friction_deg\"\napply = \"add\"\n" + normal),
+                  "is not given, so nothing can be added to it"));
+  EXPECT_TRUE(has(refusal(friction), "distribution is missing"));
+  EXPECT_TRUE(has(refusal(friction + "distribution = \"normal\"\n"), "needs std"));
+  EXPECT_TRUE(has(refusal(friction + normal + "min = 3\n"),
+                  "min does not belong to distribution = \"normal\""));
+  EXPECT_TRUE(has(refusal(friction + "distribution = \"uniform\"\nmin = 30\nmax = 20\n"),
+                  "max is 20, expected above min, 30"));
+  EXPECT_TRUE(
+      has(refusal(friction + "distribution = \"uniform\"\nmin = 20\nmax = 95\n"), "draws 95"));
+  EXPECT_TRUE(
+      has(refusal(friction + "distribution = \"triangular\"\nmin = 20\nmax = 30\nmode = 31\n"),
+          "mode is 31, expected between min and max, 20 to 30"));
+  EXPECT_TRUE(has(refusal(friction + "distribution = \"normal\"\nstd = 30\n"),
+                  "of what it draws lies outside of 0 to 90"));
+  EXPECT_TRUE(has(refusal(friction + normal + "truncate = [30, 20]\n"), "the lowest value first"));
+  EXPECT_TRUE(has(refusal(friction + normal + "truncate = [-5, 20]\n"), "expected within 0 to 90"));
+  EXPECT_TRUE(has(refusal(friction + normal + "truncate = [80, 85]\n"), "leaves nothing"));
+  EXPECT_TRUE(
+      has(refusal(friction + "distribution = \"discrete\"\nvalues = [20, 30]\nweights = [1]\n"),
+          "there are 1 weight, expected one for each of 2 values"));
+  EXPECT_TRUE(
+      has(refusal(friction + "distribution = \"fisher\"\nn_measured = 5\n"), "is no orientation"));
+  EXPECT_TRUE(
+      has(refusal("keys = \"joints.J1.orientation\"\ndistribution = \"fisher\"\nn_measured = 5\n",
+                  "[uncertainty]\nrock_masses = 4\n"),
+          "fisher_k of [joints.J1] is 0"));
+  EXPECT_TRUE(has(refusal("keys = [\"ground.slope.cor\", \"ground.slope.cor\"]\n"
+                          "distribution = \"uniform\"\nmin = 0\nmax = 1\n"),
+                  "is drawn twice"));
+  EXPECT_TRUE(
+      has(refusal(friction + normal, "friction_scatter_deg = 2\n"), "scatters by [solver]"));
+  EXPECT_TRUE(has(refusal("keys = \"solver.max_passes\"\n" + normal), "\"discrete\""));
+  EXPECT_TRUE(has(refusal(friction + normal, "[uncertainty]\nsampling = \"hypercube\"\n"),
+                  "needs n_samples"));
+  EXPECT_EQ(refusal(friction + normal), "accepted");
+}
+
+TEST(Uncertainty, AHypercubeHasNoSampleBeyondItsLast) {
+  Site site = site_of(
+      "[uncertainty]\nsampling = \"hypercube\"\nn_samples = 10\n[uncertainty.q]\n"
+      "keys = \"ground.ground.friction_deg\"\ndistribution = \"normal\"\nstd = 2\n",
+      10);
+  EXPECT_EQ(drawn_keys(site, DrawScope::all).size(), 1U);
+  site.uncertainty.sample = 11;
+  EXPECT_THROW(static_cast<void>(drawn_keys(site, DrawScope::all)), InputError);
+}
+
+}  // namespace
