@@ -178,6 +178,11 @@ std::map<std::string, EffectiveValue> values_of(const std::string& config) {
   return values;
 }
 
+// By [uncertainty]: differs from run to run.
+bool is_drawn(const EffectiveValue& value) {
+  return value.source.starts_with("sample ") || value.source.starts_with("rock mass ");
+}
+
 // Whether what the report shows of the site depends on the value.
 bool is_shown(const EffectiveValue& value, const ResultFolder& folder) {
   return stage_reads("run", value) || stage_reads("blocks", value) || stage_reads("trn", value) ||
@@ -201,6 +206,7 @@ void check_site_of(const RunFile& run, const std::string& path, const Site& site
   for (const std::string& key : keys) {
     const EffectiveValue &old = was[key], &now = is[key];
     if (old.value == now.value || old.source == "cli" || now.source == "cli") continue;
+    if (is_drawn(old) || key == "uncertainty.sample") continue;
     // a section that is gone, or a key that the program did not know yet
     if (old.source.empty() && now.source == "default") continue;
     if (now.source.empty() && old.source == "default") continue;
@@ -212,7 +218,9 @@ void check_site_of(const RunFile& run, const std::string& path, const Site& site
 }
 
 std::string ground_of(const RunInfo& run, const ResultFolder& folder) {
-  for (const char* name : {"bed.tif", "trn.tif"})
+  const Site site = run.terrain_digest.empty() ? Site{} : parse_site(run.config, run.run_id);
+  const std::string own = "rock/bed_" + std::to_string(rock_mass(site.uncertainty)) + ".tif";
+  for (const std::string& name : {own, std::string("bed.tif"), std::string("trn.tif")})
     if (folder.has(name) &&
         (run.trn_sha256.empty() || sha256_of_file(folder.path(name).string()) == run.trn_sha256))
       return folder.path(name).string();

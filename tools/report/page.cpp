@@ -12,6 +12,7 @@
 #include "tools/report/result.hpp"
 #include "tools/report/runout.hpp"
 #include "tools/report/trees.hpp"
+#include "tools/report/uncertainty.hpp"
 #include "tools/report/viewer.hpp"
 
 namespace talus {
@@ -36,12 +37,14 @@ std::string page_head(const ReportData& data, const std::string& style) {
                                   {"runout", "Run-out"},
                                   {"fences", "Fences"},
                                   {"trees", "Trees"},
+                                  {"uncertainty", "Uncertainty"},
                                   {"curves", "Over time"},
                                   {"health", "Numerical checks"},
                                   {"assumed", "Assumptions"},
                                   {"plan", "Plan"},
                                   {"provenance", "Provenance"}}) {
     if (id == std::string("trees") && tree_section(data).empty()) continue;
+    if (id == std::string("uncertainty") && uncertainty_section(data).empty()) continue;
     out += std::string("<a href=\"#") + id + "\">" + title + "</a>";
   }
   return out + "</nav>\n</header>\n<main>\n";
@@ -85,6 +88,8 @@ std::string report_page(const ReportData& data, const std::string& viewer,
   main += html_marked(fence_section(data), xml_escaped(fence_remark));
   if (const std::string trees = tree_section(data); !trees.empty())
     main += html_marked(trees, xml_escaped(remark));
+  if (const std::string drawn = uncertainty_section(data); !drawn.empty())
+    main += html_marked(drawn, xml_escaped(remark));
   for (const std::string& section :
        {curve_section(data), health_section(data), assumption_section(data), plan_section(data),
         provenance_section(data)})

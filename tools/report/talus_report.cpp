@@ -107,8 +107,12 @@ std::vector<RunPlace> evaluated_runs(const ResultFolder& folder, const Json& run
 // them.
 std::string farthest_run(const Json& runout, const std::vector<RunPlace>& places) {
   std::set<std::string> with_frames;
+  std::set<std::string> without_frames;  // as runs of [output] frames = false are
+  for (const Json& run : runout.at("runs"))
+    if (!run.value("has_frames", true)) without_frames.insert(run.at("run_id").get<std::string>());
   for (const RunPlace& place : places)
-    if (place.part == nullptr) with_frames.insert(place.run_id);
+    if (place.part == nullptr && without_frames.count(place.run_id) == 0)
+      with_frames.insert(place.run_id);
   std::string id;
   double farthest = -1;
   for (const Json& run : runout.at("runs")) {
@@ -201,6 +205,7 @@ ReportData read_data(Tool& tool, const Site& site, ResultFolder& folder,
   data.trn = folder.json("trn.json");
   data.blocks = folder.json("blocks.json");
   data.fence = folder.json("fence.json");
+  if (folder.has("places.json")) data.places = folder.json("places.json");
   data.hillshade_png = folder.text("hillshade.png");
   data.mobility_svg = folder.text("runout.svg");
   data.stereonet_svg = folder.text("stereonet.svg");
@@ -222,7 +227,7 @@ ReportData read_data(Tool& tool, const Site& site, ResultFolder& folder,
     data.runs_to_add = tag_of(folder.path("maps/reach.tif").string(), "RUNS_TO_ADD");
   const std::vector<RunPlace> places = evaluated_runs(folder, data.runout);
   read_runs(tool, folder, places, progress, data);
-  data.bed = read_trn(ground_of(data.runs[0].info, folder));
+  data.bed = read_trn(ground_of(data.shown.info, folder));
   read_registry(tool.registry(), folder, places, progress, data);
   data.run_id = tool.run_id();
   return data;

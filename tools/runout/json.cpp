@@ -99,6 +99,7 @@ Json run_json(const RunoutRun& r, double friction_deg) {
           {"status", r.member.info.status},
           {"case", case_of(r.member.file)},
           {"drawn", drawn_json(r)},
+          {"has_frames", r.has_frames},
           {"did_move", e.moved.any()},
           {"moved", moved_json(e.moved)},
           {"event", line_json(e.event)},
@@ -133,6 +134,17 @@ Json cases_json(const std::vector<RunoutRun>& runs) {
                     {"moved", moved_json(one.moved)},
                     {"spread_over_runs", spread_of(runs, one.runs)}});
   }
+  return list;
+}
+
+Json sensitivity_json(const std::vector<SensitivityRow>& rows) {
+  Json list = Json::array();
+  for (const SensitivityRow& row : rows)
+    list.push_back({{"result", row.result},
+                    {"quantity", row.quantity},
+                    {"n_runs", row.n},
+                    {"rank_correlation", number_or_null(row.rank_correlation)},
+                    {"first_order", number_or_null(row.first_order)}});
   return list;
 }
 

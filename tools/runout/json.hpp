@@ -6,6 +6,7 @@
 
 #include "post/runout/mobility.hpp"
 #include "post/runout/runout_runs.hpp"
+#include "post/runout/runout_sensitivity.hpp"
 #include "tools/frame/tool.hpp"
 
 namespace talus {
@@ -18,6 +19,9 @@ namespace talus {
 /// A row a case, with the spread over its runs; empty where there is one.
 [[nodiscard]] Json cases_json(const std::vector<RunoutRun>& runs);
 [[nodiscard]] Json spread_json(const std::vector<RunoutRun>& runs);
+
+/// Numbers are null where there are not enough runs.
+[[nodiscard]] Json sensitivity_json(const std::vector<SensitivityRow>& rows);
 
 [[nodiscard]] Json mobility_json(const std::vector<MobilityRelation>& relations,
                                  const std::vector<MobilityEvent>& events);

@@ -10,8 +10,10 @@
 #include "post/maps/map_style.hpp"
 #include "post/reduce.hpp"
 #include "post/runout/mobility.hpp"
+#include "post/runout/runout_sensitivity.hpp"
 #include "post/runout/runout_text.hpp"
 #include "scene/site_scene.hpp"
+#include "site/uncertainty.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/fault_json.hpp"
 #include "tools/frame/map_output.hpp"
@@ -27,7 +29,7 @@ namespace {
 using namespace talus;  // NOLINT: a program of its own
 
 struct Options {
-  std::string out, json, csv, run_table, svg, curves, thickness, mobility;
+  std::string out, json, csv, run_table, svg, curves, thickness, mobility, sensitivity;
   double tolerance_m = 0.5, friction_deg = std::nan("");
   bool confined = false;
 };
@@ -39,6 +41,8 @@ void declare(Tool& tool, Options& o) {
   tool.output("--run-table", o.run_table, "one row a run: what moved, H, L, angle of reach (CSV)");
   tool.output("--curves", o.curves, "speed, energy and centre of mass over time (CSV)");
   tool.output("--svg", o.svg, "where the event lies among the mobility relations (SVG)");
+  tool.output("--sensitivity", o.sensitivity,
+              "what results owe to each quantity that the runs drew (CSV)");
   tool.output("--thickness", o.thickness, "mean thickness of the deposit (GeoTIFF)");
   tool.input("--mobility", o.mobility, "relations to compare with (CSV) [share/mobility.csv]");
   tool.option("--path-tolerance-m", o.tolerance_m,
@@ -66,7 +70,8 @@ void add_cells(RunoutSums& sums, const PartInput& part) {
   });
 }
 
-// Friction and restitution of the ground as the run drew them, where it scatters them.
+// What the run drew: its sample and rock mass, the keys of [uncertainty], and friction and
+// restitution of the ground as they are in effect.
 // Nothing of a run whose settings this version does not read.
 std::vector<DrawnValue> drawn_by(const RunInfo& info) {
   Site site;
@@ -76,6 +81,12 @@ std::vector<DrawnValue> drawn_by(const RunInfo& info) {
     return {};
   }
   std::vector<DrawnValue> values;
+  if (site.uncertainty.sample > 0)
+    values.push_back({"sample", static_cast<double>(site.uncertainty.sample)});
+  if (const auto mass = static_cast<double>(rock_mass(site.uncertainty)); mass > 0)
+    values.push_back({"rock_mass", mass});
+  if (site.uncertainty.sample > 0)
+    for (const DrawnKey& key : values_in_effect(site)) values.push_back({key.key, key.value});
   for (const GroundSettings& ground : drawn_grounds(site)) {
     values.push_back({"friction_deg." + ground.name, ground.friction_deg});
     if (site.solver.cor_scatter > 0) values.push_back({"cor." + ground.name, ground.cor});
@@ -87,7 +98,7 @@ RunoutRuns read_runs(RunInputs& inputs, const Options& o, const Trn& trn) {
   const ReachSettings settings{o.tolerance_m, inputs.rest_speed_m_s};
   inputs.path_tolerance_m = o.tolerance_m;
   RunoutSums sums;
-  inputs.read({.crossings = false, .checkpoint = false}, [&](RunFile& run, int index) {
+  inputs.read({.checkpoint = false}, [&](RunFile& run, int index) {
     add_run(sums, run, inputs.members[index], run.grid.n_rows > 0 ? run.grid : passage_grid(trn, 0),
             trn, settings);
     sums.runs.back().drawn = drawn_by(run.info);
@@ -177,6 +188,8 @@ void run_tool(Tool& tool, Options& o, RunInputs& inputs) {
   const std::vector<MobilityEvent> events = events_of(all.runs, o.confined);
   if (!o.csv.empty()) tool.write_text(o.csv, block_csv(all.runs));
   if (!o.run_table.empty()) tool.write_text(o.run_table, run_csv(all.runs));
+  const std::vector<SensitivityRow> sensitivity = sensitivity_of(all.runs);
+  if (!o.sensitivity.empty()) tool.write_text(o.sensitivity, sensitivity_csv(sensitivity));
   if (!o.curves.empty()) tool.write_text(o.curves, curve_csv(all.runs, trn.origin));
   if (!o.svg.empty()) tool.write_text(o.svg, mobility_svg(relations, events));
   if (!o.thickness.empty()) write_thickness(tool, o, all, trn, tags, remark);
@@ -195,6 +208,7 @@ void run_tool(Tool& tool, Options& o, RunInputs& inputs) {
                  {"spread_over_runs", spread_json(all.runs)},
                  {"cases", cases_json(all.runs)},
                  {"runs", runs},
+                 {"sensitivity", sensitivity_json(sensitivity)},
                  {"mobility", mobility_json(relations, events)}};
   if (trees.any) result["trees"] = trees_json(summary_of(trees.runs), trn.origin);
   add_faults(result, faults_of(inputs.members, inputs.left_out));

@@ -10,6 +10,20 @@
 
 namespace talus {
 
+std::vector<LineReach> reach_of_lines(const RunFile& run) {
+  double total = 0;
+  for (int b = 0; b < n_blocks(run); ++b) total += weight_of(run, b);
+  std::vector<LineReach> lines;
+  for (const RecordLine& line : run.lines) lines.push_back({line.name, 0, 0});
+  for (const Crossing& crossing : run.crossings) {  // a row a block and line
+    if (crossing.beside) continue;
+    LineReach& line = lines[crossing.line];
+    line.share += weight_of(run, crossing.block) / total;
+    line.energy = std::max(line.energy, crossing.translational_energy + crossing.rotational_energy);
+  }
+  return lines;
+}
+
 RunoutRun runout_run(const RunFile& run, const RunMember& member, const Trn& trn,
                      const ReachSettings& settings) {
   RunoutRun r;
@@ -27,6 +41,7 @@ RunoutRun runout_run(const RunFile& run, const RunMember& member, const Trn& trn
   r.volume = run.blocks.volume;
   r.mass = run.blocks.mass;
   for (const WeightedValue& d : displacements(run)) r.displacement.push_back(d.value);
+  r.lines = reach_of_lines(run);
   r.trees = {run.forests, run.tree_hits};
   r.curves = curves(run);
   return r;

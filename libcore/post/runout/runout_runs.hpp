@@ -20,10 +20,20 @@ struct DrawnValue {
   double value = 0;
 };
 
+/// What of a run crossed a line.
+struct LineReach {
+  std::string name;
+  double share = 0;   ///< of the weight of its blocks [-]
+  double energy = 0;  ///< largest, with spin; 0: none crossed [J]
+};
+/// Of each line that the run recorded.
+[[nodiscard]] std::vector<LineReach> reach_of_lines(const RunFile& run);
+
 /// What is kept of a run once it has been read.
 struct RunoutRun {
   RunMember member;
   std::vector<DrawnValue> drawn;  ///< where it is known
+  std::vector<LineReach> lines;
   EventReach event;
   Balance balance;
   EnergyShares energy;

@@ -9,6 +9,7 @@
 #include "base/random.hpp"
 #include "post/runout/runout.hpp"
 #include "post/runout/runout_runs.hpp"
+#include "post/runout/runout_sensitivity.hpp"
 #include "post/runout/runout_text.hpp"
 #include "run_maker.hpp"
 
@@ -318,4 +319,43 @@ TEST(RunoutCases, StandByTheNamesOfTheirFiles) {
   EXPECT_EQ(spread.largest, 20);
   runs.erase(runs.begin() + 1);
   EXPECT_TRUE(cases_of(runs).empty());
+}
+
+// L = 300 - 5 friction + cor: 25 and 1 times the variances of the two (uniform, width 4 and 0.4).
+// Ground and key say the same of friction; a quantity that never changes says nothing.
+TEST(Sensitivity, OfRunsSaysWhatEachQuantityExplains) {
+  std::vector<RunoutRun> runs(400);
+  talus::Random random(3);
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const double friction = random.uniform(26, 30), cor = random.uniform(0.1, 0.5);
+    RunoutRun& run = runs[i];
+    run.drawn = {{"sample", static_cast<double>(i + 1)},
+                 {"rock_mass", static_cast<double>(i % 4)},
+                 {"ground.slope.friction_deg", friction},
+                 {"ground.slope.cor", cor},
+                 {"solver.duration_s", 20},
+                 {"friction_deg.slope", friction}};
+    run.event.moved.largest = 50;
+    run.event.event.path = 300 - 5 * friction + cor;
+    run.lines = {{"road", cor, 1e3 * friction}};
+  }
+  const std::vector<SensitivityRow> rows = sensitivity_of(runs);
+  std::map<std::string, SensitivityRow> of;
+  for (const SensitivityRow& row : rows) of[row.result + " " + row.quantity] = row;
+  ASSERT_EQ(of.count("L_path_m ground.slope.friction_deg"), 1U);
+  EXPECT_NEAR(of["L_path_m ground.slope.friction_deg"].rank_correlation, -1, 0.01);
+  EXPECT_NEAR(of["L_path_m ground.slope.friction_deg"].first_order, 1, 0.03);
+  EXPECT_NEAR(of["L_path_m ground.slope.cor"].first_order, 0, 0.15);
+  EXPECT_NEAR(of["crossed.road ground.slope.cor"].rank_correlation, 1, 1e-12);
+  EXPECT_NEAR(of["energy_kj.road ground.slope.friction_deg"].rank_correlation, 1, 1e-12);
+  EXPECT_TRUE(std::isnan(of["L_path_m rock_mass"].rank_correlation));
+  EXPECT_NEAR(of["L_path_m rock_mass"].first_order, 0, 0.15);
+  EXPECT_EQ(of.count("L_path_m friction_deg.slope"), 0U);
+  EXPECT_EQ(of.count("L_path_m solver.duration_s"), 0U);
+  EXPECT_EQ(of.count("L_path_m sample"), 0U);
+  runs.resize(199);
+  for (const SensitivityRow& row : sensitivity_of(runs)) {
+    EXPECT_TRUE(std::isnan(row.first_order));
+    EXPECT_EQ(row.n, 199);
+  }
 }

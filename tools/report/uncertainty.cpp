@@ -1,0 +1,208 @@
+#include "tools/report/uncertainty.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <vector>
+
+#include "base/text.hpp"
+#include "report/html.hpp"
+#include "sampling/sensitivity.hpp"
+#include "site/uncertainty.hpp"
+#include "tools/report/json.hpp"
+
+namespace talus {
+namespace {
+
+// --- what was drawn ----------------------------------------------------------------------------
+
+std::string quantity_table(const Site& site) {
+  std::vector<std::vector<std::string>> rows;
+  for (const QuantitySettings& quantity : site.quantities)
+    rows.push_back({"<code>" + xml_escaped(quantity.name) + "</code>",
+                    xml_escaped(text_of(site, quantity)),
+                    is_rock(quantity) ? "how the rock is cut" : "how blocks move"});
+  return rows.empty() ? "" : html_table({"quantity", "drawn from", "decides"}, rows);
+}
+
+std::string masses_note(const Site& site) {
+  const UncertaintySettings& u = site.uncertainty;
+  if (u.rock_masses == 0)
+    return "All runs move the same blocks: how the rock is jointed is not in the intervals.";
+  return std::to_string(u.rock_masses) +
+         " rock masses, each cut anew, are taken in turn. Runs of one mass are not independent: "
+         "intervals count each mass once." +
+         (u.terrain_rmse_m > 0 ? " Each mass has a ground of its own, off by " +
+                                     text(u.terrain_rmse_m, 3) + " m (root of the mean square)."
+                               : "");
+}
+
+// The runs with what they drew; all stand in runs.csv.
+std::string drawn_table(const Json& runout) {
+  constexpr std::size_t most = 200;
+  const Json runs = value_at(runout, {"runs"});
+  std::vector<std::string> headings;
+  std::vector<std::vector<std::string>> rows;
+  if (!runs.is_array()) return "";
+  for (const Json& run : runs) {
+    const Json drawn = value_at(run, {"drawn"});
+    if (!drawn.is_object() || !drawn.contains("sample")) continue;
+    if (headings.empty()) {
+      headings = {"seed", "L [m]"};
+      for (const auto& [name, value] : drawn.items()) headings.push_back(name);
+    }
+    if (rows.size() == most) break;
+    std::vector<std::string> row = {number_text(value_at(run, {"seed"})),
+                                    number_text(value_at(run, {"event", "L_path_m"}))};
+    for (std::size_t c = 2; c < headings.size(); ++c)
+      row.push_back(number_text(value_at(drawn, {headings[c].c_str()})));
+    rows.push_back(std::move(row));
+  }
+  if (rows.empty()) return "";
+  std::sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) {
+    return a[0].size() != b[0].size() ? a[0].size() < b[0].size() : a[0] < b[0];
+  });
+  const std::string note =
+      runs.size() > rows.size()
+          ? html_note(std::to_string(rows.size()) + " of " + std::to_string(runs.size()) +
+                      " runs; all stand in runs.csv.")
+          : "";
+  return html_fold("What each run drew",
+                   html_table(headings, rows, std::vector<bool>(headings.size(), true)) + note);
+}
+
+// --- sensitivity -------------------------------------------------------------------------------
+
+struct Bar {
+  std::string name;
+  double value = 0;
+};
+
+// Bars from a line at 0, as far as -1 and 1 in each direction that there is.
+std::string bars_svg(const std::vector<Bar>& bars, const std::string& title) {
+  constexpr double row = 22, top = 26, label = 250, width = 640, right = 50;
+  double low = 0;
+  for (const Bar& bar : bars) low = std::min(low, bar.value);
+  low = low < -0.02 ? -1 : 0;
+  const double scale = (width - label - right) / (1 - low);
+  const auto x = [&](double value) { return label + (value - low) * scale; };
+  const double height = top + row * static_cast<double>(bars.size()) + 6;
+  std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + text(width) + " " +
+                    text(height) + "\" font-size=\"12\" font-family=\"sans-serif\">\n";
+  const auto words = [&](double at, double y, const char* anchor, const std::string& content) {
+    svg += "<text x=\"" + text(at, 5) + "\" y=\"" + text(y, 5) + "\" text-anchor=\"" + anchor +
+           "\" fill=\"currentColor\">" + xml_escaped(content) + "</text>\n";
+  };
+  words(0, 14, "start", title);
+  for (std::size_t i = 0; i < bars.size(); ++i) {
+    const double y = top + row * static_cast<double>(i),
+                 value = std::clamp(bars[i].value, low, 1.0);
+    const double from = std::min(x(0), x(value)), to = std::max(x(0), x(value));
+    words(label - 8, y + 14, "end", bars[i].name);
+    svg += "<rect x=\"" + text(from, 5) + "\" y=\"" + text(y + 3, 5) + "\" width=\"" +
+           text(std::max(1.0, to - from), 5) + "\" height=\"" + text(row - 8) + "\" fill=\"" +
+           (value < 0 ? "#b5533c" : "#2f6f9f") + "\"/>\n";
+    words(to + 6, y + 14, "start", text(bars[i].value, 2));
+  }
+  svg += "<line x1=\"" + text(x(0), 5) + "\" x2=\"" + text(x(0), 5) + "\" y1=\"" + text(top) +
+         "\" y2=\"" + text(height - 4, 5) + "\" stroke=\"currentColor\"/>\n";
+  return svg + "</svg>\n";
+}
+
+// "L_path_m" in words.
+std::string result_words(const std::string& result) {
+  static const std::map<std::string, std::string> words = {
+      {"L_path_m", "Run-out L of the farthest block, along its path"},
+      {"reach_angle_path_deg", "Angle of reach"},
+      {"L95_m", "L95, of 95 % of what moved"},
+      {"share_moved_1_m", "Share of the mass that moved"}};
+  if (const auto found = words.find(result); found != words.end()) return found->second;
+  const std::size_t dot = result.find('.');
+  const std::string line = result.substr(dot + 1);
+  return result.starts_with("crossed.") ? "Share of the blocks that cross the line of " + line
+                                        : "Largest energy at the line of " + line;
+}
+
+// The rows of one result: a table, and a picture with both numbers.
+std::string result_part(const std::string& result, const std::vector<Json>& rows) {
+  const bool is_enough = std::any_of(rows.begin(), rows.end(), [](const Json& row) {
+    return value_at(row, {"first_order"}).is_number();
+  });
+  const std::string title = result_words(result);
+  if (!is_enough)
+    return html_note(xml_escaped(title) + ": not enough runs, " +
+                     number_text(value_at(rows[0], {"n_runs"})) + " of " +
+                     std::to_string(least_runs_for_sensitivity) + ".");
+  std::vector<Bar> shares, correlations;
+  std::vector<std::vector<std::string>> table;
+  for (const Json& row : rows) {
+    const std::string name = value_at(row, {"quantity"}).get<std::string>();
+    const Json share = value_at(row, {"first_order"}), rank = value_at(row, {"rank_correlation"});
+    if (share.is_number()) shares.push_back({name, share.get<double>()});
+    if (rank.is_number()) correlations.push_back({name, rank.get<double>()});
+    table.push_back({"<code>" + xml_escaped(name) + "</code>", number_text(share, 2),
+                     number_text(rank, 2), number_text(value_at(row, {"n_runs"}))});
+  }
+  const std::string svg = bars_svg(shares, "share of the variance that it alone explains"),
+                    svg_rank = bars_svg(correlations, "rank correlation");
+  return "<h3>" + xml_escaped(title) + "</h3>\n" +
+         html_table({"quantity", "first-order index", "rank correlation", "runs"}, table,
+                    {false, true, true, true}) +
+         html_figure(html_svg(svg, "first-order indices") +
+                         (correlations.empty() ? "" : html_svg(svg_rank, "rank correlations")),
+                     xml_escaped(title) + ".");
+}
+
+std::string sensitivity_part(const Json& runout) {
+  const Json list = value_at(runout, {"sensitivity"});
+  if (!list.is_array() || list.empty()) return "";
+  std::vector<std::pair<std::string, std::vector<Json>>> by_result;
+  for (const Json& row : list) {
+    const std::string result = value_at(row, {"result"}).get<std::string>();
+    if (by_result.empty() || by_result.back().first != result) by_result.push_back({result, {}});
+    by_result.back().second.push_back(row);
+  }
+  std::string out = "<h3>What results owe to what was drawn</h3>\n";
+  for (const auto& [result, rows] : by_result) out += result_part(result, rows);
+  return out + html_note(
+                   "From the same runs. An index has an error of about one over the root of the "
+                   "number of runs; what is smaller, or below 0, is none. Indices that sum to less "
+                   "than 1 leave the rest to quantities together, and to what the seed draws.");
+}
+
+// --- places ------------------------------------------------------------------------------------
+
+std::string place_table(const Json& places) {
+  std::vector<std::vector<std::string>> rows;
+  if (const Json list = value_at(places, {"places"}); list.is_array())
+    for (const Json& place : list) {
+      const Json low = value_at(place, {"share_low"}), high = value_at(place, {"share_high"});
+      rows.push_back({word_text(value_at(place, {"place"})),
+                      percent_text(value_at(place, {"share_of_blocks"})),
+                      low.is_number() ? percent_text(low) + " to " + percent_text(high) : "-",
+                      percent_text(value_at(place, {"share_of_runs"})),
+                      number_text(value_at(place, {"half_width"}), 2),
+                      number_text(value_at(place, {"wanted_half_width"}), 2),
+                      number_text(value_at(place, {"runs_to_add"}))});
+    }
+  if (rows.empty()) return "";
+  return "<h3>Places</h3>\n" +
+         html_table({"place", "blocks that reach it", "95 % interval", "runs that reach it",
+                     "half width", "wanted", "runs to add"},
+                    rows, {false, true, true, true, true, true, true});
+}
+
+}  // namespace
+
+std::string uncertainty_section(const ReportData& data) {
+  const std::string places = place_table(data.places);
+  const bool is_drawn = !data.site.quantities.empty() || data.site.uncertainty.rock_masses > 0;
+  const std::string sensitivity = sensitivity_part(data.runout);
+  if (!is_drawn && places.empty() && sensitivity.empty()) return "";
+  std::string out = quantity_table(data.site);
+  if (is_drawn) out += html_paragraph(masses_note(data.site));
+  out += drawn_table(data.runout) + places + sensitivity;
+  return html_section("uncertainty", "What differs from run to run", out);
+}
+
+}  // namespace talus
