@@ -5,6 +5,7 @@
 #               CASES = low high, CASE_low = --set ground.slope.friction_deg=28, CASE_high = ...
 #   WITHOUT     yes: also the runs without fences; when not given: where a fence of the site stands
 #   SHARD, SHARDS   shards.mk
+# With [uncertainty] each run draws the sample of its seed; blocks of other rock masses: rock.mk.
 # A run that was stopped goes on where it was (--resume). One that fails stops no other: what can be made
 # is made, then make lists what failed and ends with an error.
 RUNS ?= $(SITE_RUNS)
@@ -21,23 +22,26 @@ $(eval $(call remember,dda,$(DDA_FLAGS)))
 $(eval $(call remember,runs,$(run_files) $(without_files)))
 $(foreach case,$(CASES),$(eval $(call remember,case_$(case),$(CASE_$(case)))))
 
-# Of the name CASE_SEED or SEED that a run has.
-run_options = --seed $(lastword $(subst _, ,$*)) $(CASE_$(firstword $(subst _, ,$*))) $(DDA_FLAGS)
+# Of the name CASE_SEED or SEED that a run has. What [uncertainty] draws is the sample of the same number.
+seed_of_run = $(lastword $(subst _, ,$*))
+mass :=
+$(if $(SITE_SAMPLES),$(if $(filter 0,$(firstword $(seeds))),$(error SEED is 0: samples of [uncertainty] count from 1)))
+run_options = --seed $(seed_of_run) $(if $(SITE_SAMPLES),--sample $(seed_of_run)) $(CASE_$(firstword $(subst _, ,$*))) $(DDA_FLAGS)
 # run(NAME,MARK): before it starts, its mark says that it has not ended; talus-dda says how it did.
 failed_marks := $(STAGES)/failed
 not_ended := did not end by itself: it was killed, the machine was out of memory, or what starts it (BIN) lost it
 tab := $(shell printf '\t')
 run = $(if $(is_dry_run),,$(count_runs)$(file >$(failed_marks)/$2,none$(tab)$(not_ended)))$(goes_on)$(Q)$(BIN)talus-dda site.toml \
-  --trn $(OUT)/bed.tif --blocks $(OUT)/blocks.h5 -o $@ $(run_options) --label $1 --failures $(failed_marks)/$2 --resume --overwrite $(DB)
+  --trn $(if $(mass),$(OUT)/rock/bed_$(mass).tif,$(OUT)/bed.tif) --blocks $(if $(mass),$(OUT)/rock/blocks_$(mass).h5,$(OUT)/blocks.h5) -o $@ $(run_options) --label $1 --failures $(failed_marks)/$2 --resume --overwrite $(DB)
 # Whoever asks for the file of one run is told at once that it failed (make out/runs/run_3.h5).
 goes_on := $(if $(filter $(OUT)/%,$(MAKECMDGOALS)),,-)
 
 # How far the runs are: what is to be made is counted when the first one starts, and all that they read is made.
-run_inputs := $(OUT)/blocks.h5 $(STAGES)/run.txt $(STAGES)/dda.flags $(STAGES)/dda.files
+run_inputs := $(OUT)/blocks.h5 $(STAGES)/run.txt $(if $(SITE_ROCK_MASSES),$(STAGES)/rock.txt) $(STAGES)/dda.flags $(STAGES)/dda.files
 newer_runs = $(shell find $(wildcard $(OUT)/runs $(OUT)/without) -name 'run_$2*.h5' $(addprefix -newer ,$1))
 fresh_runs = $(foreach case,$(or $(CASES),-),$(call newer_runs,$(run_inputs) $(if $(CASES),$(STAGES)/case_$(case).flags $(STAGES)/case_$(case).files),$(if $(CASES),$(case)_)))
 # Those of the goals: maps and run-out need none without fences.
-goal_runs = $(run_files) $(if $(filter-out maps runout,$(wanted)),$(without_files))
+goal_runs = $(run_files) $(if $(filter-out maps runout places,$(wanted)),$(without_files))
 wanted_runs = $(or $(if $(SHARD),$(shard_runs)),$(filter $(MAKECMDGOALS),$(goal_runs)),$(goal_runs))
 count_runs = $(if $(runs_begun),,$(eval runs_begun := $(shell date +%s))$(eval n_to_make := $(words $(filter-out $(fresh_runs),$(wanted_runs)))))
 run_progress := $(STAGES)/.progress$(if $(SHARD),-$(SHARD)-of-$(SHARDS))
@@ -74,7 +78,7 @@ $(if $(run_lists),$(if $(is_dry_run),,$(file >$(STAGES)/runs.list)$(file >$(STAG
 list_of = $(if $(filter $(firstword $2),$(firstword $1) $(lastword $1)),--from $(STAGES)/$3.list)
 named = $(if $(run_lists),$(call list_of,$1,$(run_files),runs) $(call list_of,$(lastword $1),$(lastword $(without_files)),without),$1)
 # outcomes(WHAT,FILES)
-outcomes = sh $(PIPELINES)run_outcomes.sh $1 $(failed_marks) $(call named,$2)
+outcomes = most_failed=$(SITE_MAX_FAILED_SHARE) sh $(PIPELINES)run_outcomes.sh $1 $(failed_marks) $(call named,$2)
 counted_runs = $(words $1) run$(if $(filter 1,$(words $1)),,s)
 run_there = $$($(call outcomes,there,$1))
 # The last goal that has to do with runs comes after the others and lists what failed.

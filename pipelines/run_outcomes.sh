@@ -67,10 +67,11 @@ print_lists() {
   done
 }
 
-# Few failed runs are left out of what is made: --max-failed-share of the tools, 0.02 unless given.
+# Few failed runs are left out of what is made: up to the share `most_failed`, 0.02 unless given.
 list() {
   used='its result is used, and marked'
-  [ $((50 * n_failed)) -gt "$n" ] || used='left out, and counted into the intervals'
+  awk "BEGIN { exit ($n_failed > ${most_failed:-0.02} * $n) }" &&
+    used='left out, and counted into the intervals'
   echo "$n_failed of $n runs failed:"
   for run in $failed; do
     look_at "$run"

@@ -1,10 +1,10 @@
 # The chain of tools for one site, included by sample_sites/<site>/Makefile. What is computed stands in
 # site.toml; the Makefile may set
 #   CONTOURS or DEM                what the ground is made from, instead of [terrain]
-#   TIN_FLAGS, TRN_FLAGS, BLOCKS_FLAGS, CHECK_FLAGS, DDA_FLAGS, RUNOUT_FLAGS, MAPS_FLAGS, FENCE_FLAGS
+#   TIN_FLAGS, TRN_FLAGS, BLOCKS_FLAGS, CHECK_FLAGS, DDA_FLAGS, RUNOUT_FLAGS, MAPS_FLAGS, FENCE_FLAGS, PLACES_FLAGS
 #                                  further options of the tools
 #   EVALUATE_FLAGS                 of all tools that evaluate runs (e.g. --rest-speed-m-s 0.1)
-#   RUNS, SEED, CASES, WITHOUT     dda.mk
+#   RUNS, SEED, CASES, WITHOUT     dda.mk; RUNS=auto, RUNS_MOST: as many as [place.*] want (auto_runs.sh)
 #   SHARDS, SHARD, SBATCH_FLAGS    shards.mk, slurm.mk
 # and so may the command line (make RUNS=50 -j4). V=1 shows every command. Every rule is one tool: files
 # in, files out.
@@ -20,6 +20,7 @@ include $(PIPELINES)products.mk
 .DEFAULT_GOAL := all
 .SUFFIXES:
 .PHONY: all terrain blocks check runs runout maps fence report clean help
+RUNS_MOST ?= 1600
 
 all: check report ## everything, up to the report
 
@@ -27,7 +28,7 @@ clean: ## remove what was made, and nothing else
 	@sh $(PIPELINES)clean.sh '$(OUT)' '$(mark_of_out)' '$(products) $(made_patterns)' '$(made_folders)'
 
 # The goals in the order of the pipeline, and those that the site's Makefile adds.
-help_files := $(addprefix $(PIPELINES),site.mk trn.mk source.mk blocks.mk check.mk dda.mk runout.mk maps.mk fence.mk report.mk shards.mk slurm.mk new_site.mk) \
+help_files := $(addprefix $(PIPELINES),site.mk trn.mk source.mk blocks.mk check.mk dda.mk runout.mk maps.mk fence.mk places.mk report.mk shards.mk slurm.mk new_site.mk) \
   $(filter-out $(PIPELINES)%,$(MAKEFILE_LIST))
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  \1: \2/p' $(help_files)$(if $(wildcard manifest.sha256),, | grep -v '^  data:')
@@ -36,13 +37,23 @@ help: ## this list
 
 include $(PIPELINES)new_site.mk
 
+# RUNS=auto: another make decides how many.
+goals := $(or $(MAKECMDGOALS),all)
+is_auto := $(and $(filter auto,$(RUNS)),$(filter-out clean help data new-site,$(goals)))
+ifneq ($(is_auto),)
+.PHONY: auto-runs
+$(goals): auto-runs ;
+auto-runs:
+	+@sh $(PIPELINES)auto_runs.sh '$(MAKE)' '$(OUT)' $(RUNS_MOST) $(goals)
+endif
+
 # One short line a stage, or with V=1 the commands; with -s neither.
 short_flags := $(filter-out --%,$(firstword -$(MAKEFLAGS)))
 Q := $(if $(V),,@)
 say = $(if $(findstring s,$(short_flags)),,$(info $1))
 
 # Goals that need no site file read.
-ifneq ($(filter-out clean help data new-site,$(or $(MAKECMDGOALS),all)),)
+ifneq ($(if $(is_auto),,$(filter-out clean help data new-site,$(goals))),)
 
 include $(PIPELINES)inputs.mk
 
@@ -62,7 +73,10 @@ endif
 endif
 endef
 
-$(OUT) $(OUT)/runs $(OUT)/without $(STAGES)/failed:
+# evaluate_flags: of every tool that evaluates runs; what the site file says, unless make is given it.
+evaluate_flags = $(if $(findstring --max-failed-share,$(EVALUATE_FLAGS)),,--max-failed-share $(SITE_MAX_FAILED_SHARE)) $(EVALUATE_FLAGS)
+
+$(OUT) $(OUT)/runs $(OUT)/without $(OUT)/rock $(STAGES)/failed:
 	@mkdir -p $@
 
 include $(PIPELINES)tin.mk
@@ -71,9 +85,11 @@ include $(PIPELINES)source.mk
 include $(PIPELINES)blocks.mk
 include $(PIPELINES)check.mk
 include $(PIPELINES)dda.mk
+include $(PIPELINES)rock.mk
 include $(PIPELINES)runout.mk
 include $(PIPELINES)maps.mk
 include $(PIPELINES)fence.mk
+include $(PIPELINES)places.mk
 include $(PIPELINES)report.mk
 include $(PIPELINES)shards.mk
 include $(PIPELINES)slurm.mk

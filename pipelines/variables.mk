@@ -10,8 +10,11 @@ override OUT := $(strip $(OUT))
 
 no_digits = $(subst 0,,$(subst 1,,$(subst 2,,$(subst 3,,$(subst 4,,$(subst 5,,$(subst 6,,$(subst 7,,$(subst 8,,$(subst 9,,$1))))))))))
 is_number = $(and $(filter 1,$(words $1)),$(if $(call no_digits,$(strip $1)),,yes))
+$(if $(and $(filter auto,$(RUNS)),$(SHARDS)),$(error RUNS=auto decides from runs that are there: give a number with SHARDS))
+ifneq ($(strip $(RUNS)),auto)
 ifneq ($(origin RUNS),undefined)
-$(if $(and $(call is_number,$(RUNS)),$(subst 0,,$(RUNS))),,$(error RUNS is '$(RUNS)', expected a whole number, 1 or more))
+$(if $(and $(call is_number,$(RUNS)),$(subst 0,,$(RUNS))),,$(error RUNS is '$(RUNS)', expected a whole number, 1 or more, or auto))
+endif
 endif
 ifneq ($(origin SEED),undefined)
 $(if $(call is_number,$(SEED)),,$(error SEED is '$(SEED)', expected a whole number, 0 or more))

@@ -1,0 +1,186 @@
+// tools/places/talus_places.cpp
+// How surely runs say that blocks reach the places of a site. Page: docs/tools/talus-places.md
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/text.hpp"
+#include "post/places.hpp"
+#include "post/reduce.hpp"
+#include "tools/frame/fault_json.hpp"
+#include "tools/frame/run_inputs.hpp"
+#include "tools/frame/site_options.hpp"
+#include "tools/frame/site_places.hpp"
+#include "tools/frame/vector_inputs.hpp"
+
+namespace {
+
+using namespace talus;  // NOLINT: a program of its own
+
+PlaceRings rings_of(Tool& tool, const Site& site, const Trn& trn, const PlaceSettings& place) {
+  const std::string section = "place." + place.name;
+  std::vector<std::vector<Vec3>> rings;
+  if (!place.polygon.empty()) {
+    rings = {local_points(tool, site, trn, place.polygon, section + ".polygon")};
+  } else {
+    const std::string path = resolved(site, place.polygon_file);
+    tool.read_also(section, path);
+    const VectorShapes found = read_layer(
+        tool, section,
+        {path, place.polygon_layer, place.polygon_where, VectorKind::areas, section + ".polygon_"},
+        trn.crs_wkt);
+    rings = found.shapes;
+    for (std::vector<Vec3>& ring : rings)
+      for (Vec3& point : ring) point -= trn.origin;
+  }
+  PlaceRings plan;
+  for (const std::vector<Vec3>& ring : rings) {
+    plan.emplace_back();
+    for (const Vec3& point : ring) plan.back().push_back(point.head<2>());
+  }
+  return plan;
+}
+
+std::vector<Place> places_of(Tool& tool, const Site& site, const Trn& trn,
+                             const PassageGrid& grid) {
+  std::vector<Place> places;
+  for (const PlaceSettings& settings : site.places) {
+    Place place{settings.name, settings.half_width, {}, settings.fence};
+    if (settings.fence.empty()) {
+      place.cells = cells_touched(grid, rings_of(tool, site, trn, settings));
+      if (std::find(place.cells.begin(), place.cells.end(), 1) == place.cells.end())
+        throw InputError({site.file, settings.line},
+                         "[place." + settings.name + "] lies outside of the terrain",
+                         "its corners are map coordinates, as those of [source]");
+    }
+    places.push_back(std::move(place));
+  }
+  return places;
+}
+
+// What the runs say of the places.
+struct Reached {
+  std::vector<Place> places;
+  Released released;
+  std::vector<std::vector<double>> weight;  // by place, of each run
+};
+
+void check_line(const Place& place, const RunFile& run, const RunMember& member) {
+  if (!place.cells.empty()) return;
+  for (const RecordLine& line : run.lines)
+    if (line.name == place.line || line.name.starts_with(place.line + ".")) return;
+  throw InputError({where_of(member)}, "did not record the line of fence " + place.line,
+                   "make the runs again with this site file");
+}
+
+void add_run(Reached& all, const RunFile& run, const std::vector<Passage>& passages, int at) {
+  for (std::size_t p = 0; p < all.places.size(); ++p)
+    all.weight[p][at] += weight_reaching(all.places[p], run, passages);
+}
+
+Reached read_all(Tool& tool, const Site& site, RunInputs& inputs) {
+  Reached all;
+  const RunParts parts{
+      .checkpoint = false, .only_last_frame = true, .only_faults = true, .words = false};
+  inputs.read(parts, [&](RunFile& run, int index) {
+    if (run.grid.n_rows == 0)
+      throw InputError({where_of(inputs.members[index])}, "holds no passages",
+                       "set [output] passages = true and run talus-dda again");
+    if (index == 0) {
+      all.places = places_of(tool, site, inputs.trn(), run.grid);
+      all.weight.resize(all.places.size());
+    }
+    for (const Place& place : all.places) check_line(place, run, inputs.members[index]);
+    all.released.weight.push_back(inputs.members[index].weight);
+    all.released.n_blocks.push_back(inputs.members[index].n_blocks);
+    for (std::vector<double>& weight : all.weight) weight.push_back(0);
+    if (inputs.members[index].part.empty()) add_run(all, run, run.passages, index);
+  });
+  for (const PartInput& part : inputs.parts()) {
+    std::vector<std::vector<Passage>> rows(part.member.size());
+    for_each_strip(part.file, 1, {}, std::numeric_limits<std::uint64_t>::max(),
+                   [&](const auto& by_run) {
+                     for (std::size_t r = 0; r < by_run.size(); ++r)
+                       rows[r].insert(rows[r].end(), by_run[r].begin(), by_run[r].end());
+                   });
+    for (std::size_t r = 0; r < rows.size(); ++r)
+      if (part.member[r] >= 0)
+        add_run(all, run_of(part.file.part, static_cast<int>(r)), rows[r], part.member[r]);
+  }
+  all.released.failed_share = inputs.failed_share();
+  all.released.unit = units_of(inputs.members);
+  return all;
+}
+
+Json place_json(const Place& place, const PlaceReach& reach) {
+  return {{"place", place.name},
+          {"share_of_blocks", reach.share},
+          {"share_low", number_or_null(reach.interval.low)},
+          {"share_high", number_or_null(reach.interval.high)},
+          {"share_of_runs", reach.share_of_runs},
+          {"share_of_runs_low", number_or_null(reach.interval_of_runs.low)},
+          {"share_of_runs_high", number_or_null(reach.interval_of_runs.high)},
+          {"half_width", number_or_null(reach.half_width)},
+          {"wanted_half_width", place.half_width},
+          {"runs_to_add", reach.runs_to_add}};
+}
+
+// "road: 12.5 % of the blocks (9.8 to 15.9 %), in 38 of 50 runs; half width 0.031, wanted 0.05"
+std::string line_of(const Place& place, const PlaceReach& reach, int n_runs) {
+  const auto percent = [](double share) { return text(100 * share, 3); };
+  std::string words = place.name + ": " + percent(reach.share) + " % of the blocks";
+  if (std::isfinite(reach.half_width))
+    words += " (" + percent(reach.interval.low) + " to " + percent(reach.interval.high) + " %)";
+  words += ", in " + std::to_string(std::lround(reach.share_of_runs * n_runs)) + " of " +
+           counted(n_runs, "run");
+  if (reach.lacks_masses) return words + "; too few rock masses for an interval";
+  if (!std::isfinite(reach.half_width))
+    return words + "; too few runs for an interval: add " + counted(reach.runs_to_add, "run");
+  words += "; half width " + text(reach.half_width, 2) + ", wanted " + text(place.half_width);
+  return reach.runs_to_add == 0 ? words : words + ": add " + counted(reach.runs_to_add, "run");
+}
+
+void run_tool(Tool& tool, const Site& site, RunInputs& inputs) {
+  if (site.places.empty())
+    throw InputError({site.file}, "names no place", "add [place.NAME] with a polygon or a fence");
+  const Reached all = read_all(tool, site, inputs);
+  const int n_runs = static_cast<int>(inputs.members.size());
+  Json list = Json::array();
+  std::string summary;
+  int most = 0;
+  bool lacks_masses = false;
+  for (std::size_t p = 0; p < all.places.size(); ++p) {
+    const PlaceReach reach = place_reach(all.places[p], all.released, all.weight[p]);
+    most = std::max(most, reach.runs_to_add);
+    lacks_masses = lacks_masses || reach.lacks_masses;
+    list.push_back(place_json(all.places[p], reach));
+    summary += line_of(all.places[p], reach, n_runs) + "\n";
+  }
+  static_cast<void>(inputs.remark());
+  if (lacks_masses)
+    tool.warn(
+        "runs of one rock mass count as one, and too few masses give no interval: raise "
+        "rock_masses to 10 or more");
+  summary += lacks_masses ? "more runs do not help"
+             : most == 0  ? "all places are known as surely as wanted, by " + counted(n_runs, "run")
+                          : "add " + counted(most, "run") + " to " + std::to_string(n_runs);
+  Json result = {{"run_id", tool.run_id()},
+                 {"run_set", inputs.run_set()},
+                 {"n_runs", n_runs},
+                 {"runs_to_add", most},
+                 {"places", list}};
+  add_faults(result, faults_of(inputs.members, inputs.left_out));
+  tool.result(result, summary);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::string json;
+  Tool tool("talus-places", "How surely runs say that blocks reach the places of a site.");
+  SiteOptions site(tool);
+  RunInputs runs(tool);
+  tool.json_output(json, "shares of blocks and runs with their intervals, runs to add (JSON)");
+  tool.footer("Example:\n  talus-places site.toml run_*.h5 --trn bed.tif --json places.json");
+  return tool.run(argc, argv, [&] { run_tool(tool, site.load(), runs); });
+}
