@@ -21,6 +21,7 @@
 #include "tools/frame/site_crs.hpp"
 #include "tools/frame/site_options.hpp"
 #include "tools/frame/tool.hpp"
+#include "tools/frame/whole_runs.hpp"
 
 namespace {
 
@@ -236,18 +237,12 @@ void compute(Tool& tool, Runner& runner, const std::string& part, double interva
   runner.file.info.warnings += (runner.file.info.warnings.empty() ? "" : "\n") + words;
 }
 
-// With a share s of the runs whole, those at whose seed another whole number of s is begun.
-bool keeps_frames(const Site& site) {
-  const double share = site.output.whole_share, seed = static_cast<double>(site.solver.seed);
-  return site.output.frames || std::ceil(seed * share) > std::ceil((seed - 1) * share);
-}
-
 void write_outputs(Tool& tool, Runner& runner, const Site& site, const Trn& trn, const Options& o) {
   runner.file.info.status = "done";
   record_health(tool, runner);
   update_file(runner, false);
   const std::string path = tool.stage(o.out);
-  if (keeps_frames(site)) {
+  if (keeps_frames(site.output, site.solver.seed)) {
     write_run_file(path, runner.file);
     merge_pieces(runner.file);
   } else {

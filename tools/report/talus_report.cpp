@@ -25,6 +25,7 @@
 #include "tools/frame/shipped_data.hpp"
 #include "tools/frame/site_options.hpp"
 #include "tools/frame/tool.hpp"
+#include "tools/frame/whole_runs.hpp"
 #include "tools/report/data.hpp"
 #include "tools/report/folder.hpp"
 #include "tools/report/page.hpp"
@@ -103,16 +104,23 @@ std::vector<RunPlace> evaluated_runs(const ResultFolder& folder, const Json& run
   return found;
 }
 
+// Runs that have files of their own, and of these those that keep their frames, if any does.
+std::set<std::string> runs_with_frames(const std::vector<RunPlace>& places,
+                                       const OutputSettings& output) {
+  std::set<std::string> files, whole;
+  for (const RunPlace& place : places) {
+    if (place.part != nullptr) continue;
+    files.insert(place.run_id);
+    if (keeps_frames(output, place.seed)) whole.insert(place.run_id);
+  }
+  return whole.empty() ? files : whole;
+}
+
 // The run whose event came farthest along the path, of those with frames if any has; the first of
 // them.
-std::string farthest_run(const Json& runout, const std::vector<RunPlace>& places) {
-  std::set<std::string> with_frames;
-  std::set<std::string> without_frames;  // as runs of [output] frames = false are
-  for (const Json& run : runout.at("runs"))
-    if (!run.value("has_frames", true)) without_frames.insert(run.at("run_id").get<std::string>());
-  for (const RunPlace& place : places)
-    if (place.part == nullptr && without_frames.count(place.run_id) == 0)
-      with_frames.insert(place.run_id);
+std::string farthest_run(const Json& runout, const std::vector<RunPlace>& places,
+                         const OutputSettings& output) {
+  const std::set<std::string> with_frames = runs_with_frames(places, output);
   std::string id;
   double farthest = -1;
   for (const Json& run : runout.at("runs")) {
@@ -128,7 +136,7 @@ std::string farthest_run(const Json& runout, const std::vector<RunPlace>& places
 
 void read_runs(Tool& tool, const ResultFolder& folder, const std::vector<RunPlace>& places,
                const ProgressFunction& progress, ReportData& data) {
-  const std::string shown = farthest_run(data.runout, places);
+  const std::string shown = farthest_run(data.runout, places, data.site.output);
   std::vector<RunMember> members;
   for (const RunPlace& place : places) {
     progress(0.5 * static_cast<double>(data.runs.size()) / static_cast<double>(places.size()));

@@ -99,7 +99,6 @@ Json run_json(const RunoutRun& r, double friction_deg) {
           {"status", r.member.info.status},
           {"case", case_of(r.member.file)},
           {"drawn", drawn_json(r)},
-          {"has_frames", r.has_frames},
           {"did_move", e.moved.any()},
           {"moved", moved_json(e.moved)},
           {"event", line_json(e.event)},
