@@ -8,6 +8,7 @@
 #include "base/sha256.hpp"
 #include "io/tags_gdal.hpp"
 #include "post/run_set.hpp"
+#include "site/uncertainty.hpp"
 #include "tools/frame/site_stages.hpp"
 
 namespace talus {
