@@ -39,8 +39,8 @@ enum class DrawScope { rock, all };
 /// command line gives is held. Throws InputError for a sample that a hypercube does not have.
 [[nodiscard]] std::vector<DrawnKey> drawn_keys(const Site& site, DrawScope scope);
 
-/// Gives these values to the site. Seeds of rock and bodies differ from mass to mass. All samples of
-/// one mass give the same site by DrawScope::rock: that of the first of them.
+/// Gives these values to the site. Seeds of rock and bodies differ from mass to mass. All samples
+/// of one mass give the same site by DrawScope::rock: that of the first of them.
 void apply_draws(Site& site, DrawScope scope);
 
 /// The rock mass of the sample, from 1; 0: there is but one, or no sample.
