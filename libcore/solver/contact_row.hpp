@@ -102,7 +102,10 @@ struct KeptContact {  // clang-format off
 struct ContactRow : KeptContact, LawRow<double> {  // clang-format off
   int contact = 0;                ///< with the ground: index into what the search found
   double last_stiffness = 0;      ///< ContactMemory::stiffness, 0: new [N/m]
+  bool stuck = false;             ///< at the end of the last step
+  double give = 0;                ///< an impact: speed by which it gives under its impulse [m/s]
   Vec3 drift = Vec3::Zero();      ///< velocity at the end is T(arm) v + drift [m/s]
+  double tilt_speed = 0;          ///< by how much its normal differs at the end, part of drift [m/s]
   // a lone block: the law at its last evaluation
   double cap = 0;                 ///< bound of the tangential impulse [N s]
   Vec3 trial = Vec3::Zero();      ///< v_t + s / tau [m/s]

@@ -15,6 +15,7 @@ struct BlockNumbers {
   double recovery_time = 0;         ///< overlap is pressed out over this time [s]
   double touch = 0;                 ///< a contact is touching when its gap is below this [m]
   double resting_speed = 0;         ///< below this approach there is no impact [m/s]
+  double located_speed = 0;         ///< above this, at most resting_speed, it ends a substep [m/s]
   double gravity = 0;               ///< [m/s2]
   Vec3 inertia = Vec3::Zero();      ///< principal moments [kg m2]
   double per_mass = 0;              ///< [1/kg]
