@@ -26,6 +26,7 @@ struct Solve {
   double best_residual = std::numeric_limits<double>::infinity();
   bool direct = false;
   bool tracking = true;
+  Evaluation law = Evaluation::coupled;
   bool inherits = false;  // a row comes with a state: the first evaluation is not the law's
   int n_linear = 0;       // linear solutions by conjugate gradients
 
@@ -46,10 +47,20 @@ struct Solve {
           stiffness = limit;
         }
         work.stiffness_ratio = std::max(work.stiffness_ratio, stiffness / mass);
+        set_bound(group, lane);
         const double changed = stiffness / mass * (std::abs(group.bias[lane]) + free_speed);
         work.rounding = std::max(
             work.rounding, 8 * std::numeric_limits<double>::epsilon() * (changed + free_speed));
       }
+  }
+
+  // What holds friction at first: the normal impulse of the last step, < 0: nothing is known of it.
+  static void set_bound(RowGroup& group, int lane) {
+    double p_n = 0;
+    for (int k = 0; k < 3; ++k) p_n += group.normal[k][lane] * group.impulse[k][lane];
+    group.bound[lane] = group.state[lane] == 0
+                            ? -1
+                            : group.friction[lane] * std::max(p_n, 0.0) + group.cohesion[lane];
   }
 
   void prepare() {
@@ -57,6 +68,7 @@ struct Solve {
     work.rounding = work.stiffness_ratio = 0;
     for (size_t p = 0; p < n_pairs; ++p) prepare_pair(p);
     prepare_matrix(island, work.matrix);
+    set_heights(island, settings.down, work.factor);
     for (auto* vectors : {&work.residual, &work.step, &work.from, &work.best}) vectors->resize(n);
     work.at_best = false;
     work.speed.resize(n);
@@ -192,14 +204,15 @@ struct Solve {
   // every step: a push that travels far needs them all.
   bool few_move() {
     work.moving.clear();
-    const auto note = [this](size_t i) {
-      if (!(work.speed[i] <= tolerance)) work.moving.push_back(static_cast<int>(i));
+    const double goal = (law == Evaluation::held ? law::held_goal : 1) * tolerance;
+    const auto note = [&](size_t i) {
+      if (!(work.speed[i] <= goal)) work.moving.push_back(static_cast<int>(i));
     };
     // most bodies do not: eight of them are looked at together
     size_t i = 0;
     for (; i + 8 <= work.speed.size(); i += 8) {
       const auto eight = Eigen::Array<double, 8, 1>::Map(&work.speed[i]);
-      if (eight.maxCoeff<Eigen::PropagateNaN>() <= tolerance) continue;
+      if (eight.maxCoeff<Eigen::PropagateNaN>() <= goal) continue;
       for (size_t k = i; k < i + 8; ++k) note(k);
     }
     for (; i < work.speed.size(); ++i) note(i);
@@ -208,20 +221,21 @@ struct Solve {
 
   // K step = -residual.
   void find_step() {
-    update_tangents(island, direct ? Tangent::exact : Tangent::symmetric, work.matrix);
+    const bool exact = direct && law == Evaluation::coupled;
+    update_tangents(island, exact ? Tangent::exact : Tangent::symmetric, work.matrix);
     if (direct) {
       activate_all(island, work.matrix);
       ++result.factorisations;
       solve_direct(island, work.matrix, work.residual, work.step);
       return;
     }
-    invert_diagonals(work.matrix);
     if (few_move())
       choose_active(island, work.moving, work.matrix);
     else
       activate_all(island, work.matrix);
+    eliminate(island, work.matrix, work.factor);
     const LinearResult linear =
-        solve_conjugate_gradients(island, work.matrix, work.residual, settings.linear_tolerance,
+        solve_conjugate_gradients(work.factor, work.residual, settings.linear_tolerance,
                                   settings.max_linear_iterations, work.step);
     result.linear_iterations += linear.iterations;
     direct = !linear.converged && n_bodies(island) <= settings.direct_fallback;
@@ -234,21 +248,104 @@ struct Solve {
     return sum;
   }
 
+  void go_along(double fraction) {
+    for (const int body : work.matrix.active.bodies.items) {
+      const auto k = static_cast<size_t>(body);
+      work.velocity[k] = work.from[k] + fraction * work.step[k];
+    }
+  }
+
+  void keep_from() {
+    for (const int body : work.matrix.active.bodies.items)
+      work.from[static_cast<size_t>(body)] = work.velocity[static_cast<size_t>(body)];
+  }
+
+  // A Newton step to where the forces do no work along it, about: the lowest place there of the
+  // function that they are the gradient of while friction bounds are held.
+  double advance_held() {
+    find_step();
+    keep_from();
+    const double at_start = slope(), goal = law::level * std::abs(at_start);
+    double low = 0, low_slope = at_start, high = 0, high_slope = 0, fraction = 1;
+    for (int i = 0;; ++i) {
+      go_along(fraction);
+      const double residual = evaluate(law), at = slope();
+      if (std::abs(at) <= goal || i >= law::most_trials || residual <= law::held_goal * tolerance ||
+          !std::isfinite(at))
+        return residual;
+      if (at < 0)
+        low = fraction, low_slope = at;
+      else
+        high = fraction, high_slope = at;
+      if (high == 0) {
+        fraction *= 3;
+        continue;
+      }
+      const double secant = low + (high - low) * low_slope / (low_slope - high_slope);
+      const double margin = 0.05 * (high - low);
+      fraction = std::clamp(secant, low + margin, high - margin);
+    }
+  }
+
+  // The bounds of friction that the normal impulses give, all or `share` of the way there.
+  void renew_bounds(double share) {
+    for (const BodyPair& pair : island.pairs)
+      for (RowGroup& group : groups_of(island, pair)) {
+        Two p_n = {};
+        for (int k = 0; k < 3; ++k) p_n += group.normal[k] * group.impulse[k];
+        const Two bound = group.friction * (p_n > 0 ? p_n : Two{}) + group.cohesion;
+        const Two next = group.bound + share * (bound - group.bound);
+        group.bound = group.bound < 0 ? bound : next;
+      }
+  }
+
+  // Where the matrix is factored, the exact derivative follows the bounds: from near the solution
+  // it gets there in a few steps, and renewals in many. Else the velocities are those of before.
+  bool finish_held() {
+    work.held = work.velocity;
+    for (int steps = 0; steps < law::most_finishing; ++steps)
+      if (advance(true) <= tolerance) return true;
+    work.velocity = work.held;
+    work.at_best = false;
+    evaluate(Evaluation::coupled);
+    return false;
+  }
+
+  // Newton with bounds that are held, then renewed from the law at what it finds.
+  bool solve_held() {
+    direct = n_bodies(island) <= settings.direct_bodies;
+    work.velocity = std::isfinite(best_residual) ? work.best : island.free_velocity;
+    activate_all(island, work.matrix);
+    work.at_best = false;
+    double residual = evaluate(Evaluation::coupled);
+    renew_bounds(settings.continues ? 1 : 0);
+    const int most_passes = static_cast<int>(law::held_share * settings.max_passes);
+    for (; result.renewals < law::most_renewals && result.passes < most_passes; ++result.renewals) {
+      law = Evaluation::held;
+      residual = evaluate(law);
+      while (residual > law::held_goal * tolerance && result.passes < most_passes)
+        residual = advance_held();
+      law = Evaluation::coupled;
+      if (!std::isfinite(residual)) return false;
+      activate_all(island, work.matrix);
+      residual = evaluate(law);
+      if (residual <= tolerance || (direct && finish_held())) return true;
+      renew_bounds(result.renewals < law::full_renewals ? 1 : 0.5);
+    }
+    return false;
+  }
+
   // A Newton step; with `search` it is shortened: with the exact derivative until the residual
   // falls, else until the residual's work along the step is at most half of what it was at the
   // start.
   double advance(bool search) {
     find_step();
-    const std::vector<int>& bodies = work.matrix.active.bodies.items;
     const double start_residual = result.residual;
     const double start_slope = std::abs(slope());
-    for (const int body : bodies) work.from[body] = work.velocity[body];
+    keep_from();
     double fraction = 1;
     for (int i = 0;; ++i, fraction /= 2) {
-      for (const int body : bodies) {
-        const auto k = static_cast<size_t>(body);
-        work.velocity[k] = work.from[k] + fraction * work.step[k];
-      }
+      go_along(fraction);
       const double residual = evaluate(Evaluation::coupled);
       if (!search || i >= law::most_step_halvings || residual <= tolerance) return residual;
       if (direct ? residual < start_residual : slope() <= 0.5 * start_slope) return residual;
@@ -321,7 +418,8 @@ struct Solve {
       prepare();
     tolerance = std::max(settings.tolerance, work.rounding);
     direct = n_bodies(island) <= settings.direct_bodies;
-    result.converged = solve_coupled(settings.max_passes / 3) || solve_stiffening();
+    result.converged = solve_coupled(settings.max_passes / law::coupled_share) || solve_held() ||
+                       solve_stiffening();
     if (result.converged) {
       keep_momentum();
     } else {

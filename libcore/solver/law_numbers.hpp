@@ -18,11 +18,10 @@ namespace talus::law {
 /// [-] k_n dt^2 / m of the stiffest contact of a lone block. Tried: the block's full mass for m;
 /// needles fail.
 inline constexpr double stiffest_lone = 400;
-/// [-] The same in an island: bounds the condition of its matrix. Tried: softer, a tower topples
-/// that should hold; stiffer, solutions take many times the evaluations, and some fail.
+/// [-] The same in an island, of a contact that bears little, slips or opens. Tried: 400 for all; the
+/// forces of masses in motion are not found.
 inline constexpr double stiffest_in_island = 1;
-/// [-] The same where the island's matrix is cheap to factor, so that a tower hardly sags. Tried:
-/// 1; high towers lean.
+/// [-] The same where the island's matrix is cheap to factor.
 inline constexpr double stiffest_in_small_island = 30;
 /// [blocks] A small island has at most so many ...
 inline constexpr std::size_t small_island = 8;
@@ -30,17 +29,31 @@ inline constexpr std::size_t small_island = 8;
 inline constexpr std::size_t small_tree = 64;
 /// [-] Stiffness of a contact that bears little: times that for its own mass.
 inline constexpr double bears_little = 3;
-/// [-] Sag under load before a contact is stiffer: times that of a block alone. Tried: as stiff as
-/// the heaviest neighbour asks from the start; hardly a step of mixed sizes converges.
-inline constexpr double most_sag = 2;
+/// [thickness] Overlap of a contact at rest under its load: it is as stiff as that asks ...
+inline constexpr double most_sag = 1e-5;
+/// [thickness] ... and in an island that is factored. A tower leans by the sum of these. Tried:
+/// multipliers carried from step to step; they shake towers down.
+inline constexpr double most_sag_in_small_island = 1e-6;
+/// [-] k_n dt^2 / m of the stiffest contact by its load.
+inline constexpr double stiffest_by_load = 1e7 / 3;
+/// [-] A contact at rest becomes stiffer by so much a step, beyond what the masses ask for ...
+inline constexpr double stiffens = 2;
+/// [-] ... one that slips or opens softer by so much.
+inline constexpr double softens = 4;
+/// [g dt] Speed of slip or of opening from which a contact does not rest.
+inline constexpr double slow = 0.2;
+/// [passes] An island whose first solution in a substep takes more is hard: its contacts ...
+inline constexpr int hard_passes = 10;
+/// [-] ... become softer by so much ...
+inline constexpr double relief = 8;
+/// [steps] ... and no stiffer for so long.
+inline constexpr int most_rests = 5;
+/// [-] Solutions of the first step until contacts are as stiff as they bear.
+inline constexpr int most_settlings = 12;
 /// [-] Stiffness of a contact whose load asks for more: times what it needs ...
 inline constexpr double ample = 2;
 /// [-] ... and kept until it is this many times what it needs.
 inline constexpr double too_much = 8;
-/// [thickness] A contact becomes stiffer still, without bound, at this overlap ...
-inline constexpr double most_sag_of_thickness = 2e-2;
-/// [sags] ... or this one, where that is more.
-inline constexpr double far_sag = 4;
 /// [-] A contact whose stiffness changes by more than this factor in a step has another law.
 inline constexpr double same_law = 1.5;
 /// [dt] Overlap is pressed out over so many steps (tau). Tried: Newmark's own damping; contacts
@@ -199,6 +212,22 @@ inline constexpr int all_every = 8;
 inline constexpr std::size_t few = 2;
 /// [-] Growth of the residual at which coupled steps are given up.
 inline constexpr double hopeless = 1e5;
+/// [passes allowed] One in so many are coupled steps; then friction bounds are held ...
+inline constexpr int coupled_share = 10;
+/// [passes allowed] ... until so much of them is spent.
+inline constexpr double held_share = 2.0 / 3;
+/// [tolerance] Residual while bounds are held: what is left is for the bounds.
+inline constexpr double held_goal = 0.5;
+/// [-] Renewals of bounds ...
+inline constexpr int most_renewals = 30;
+/// [-] ... of which so many go all the way, the others half of it.
+inline constexpr int full_renewals = 5;
+/// [-] Steps with the exact derivative from what they give, where the island is factored.
+inline constexpr int most_finishing = 4;
+/// [slope at the start] A step with held bounds ends where the slope along it is less.
+inline constexpr double level = 0.3;
+/// [-] Places looked at along it.
+inline constexpr int most_trials = 12;
 
 // --- solution of a lone block ------------------------------------------------------------------
 

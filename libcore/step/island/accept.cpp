@@ -89,6 +89,8 @@ struct SubstepAcceptance {
     const double per_time = members.of(contact.a).recovery_time * h;
     if (contact.bond < 0 && contact.bond_area == 0)
       memory.stiffness = lane.normal_damping() / per_time;
+    memory.rests = static_cast<std::uint8_t>(system.is_hard ? law::most_rests
+                                                            : std::max(0, contact.rests - 1));
     memory.state = static_cast<std::uint8_t>(stays);
     memory.bond_area = contact.bond >= 0 ? 0 : contact.bond_area;  // of the ground
     const double k_t = lane.shear_damping() / per_time;

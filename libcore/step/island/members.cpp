@@ -10,8 +10,8 @@ namespace {
 
 using std::size_t;
 
-using law::bears_little, law::most_sag, law::small_island, law::small_tree, law::stiffest_in_island,
-    law::stiffest_in_small_island;
+using law::bears_little, law::most_sag, law::most_sag_in_small_island, law::slow, law::small_island,
+    law::small_tree, law::stiffest_by_load, law::stiffest_in_island, law::stiffest_in_small_island;
 
 }  // namespace
 
@@ -40,11 +40,12 @@ void see_size(const Scene& scene, const PairSearch& search, std::span<const int>
   members.is_small = n <= small_island || (n <= small_tree && static_cast<size_t>(n_pairs) < n);
 }
 
-// A small block may bear a large one: its contacts are up to as stiff as the heaviest block that it
-// touches asks for, those of a large island only as far as they bear as much. Stiff ones that do
-// not press a small block with forces that are far beyond its weight as soon as they close, and
-// solving an island with many of them takes tens of factorisations. In the first step nobody knows
-// what they bear.
+// What a contact gives must not grow with what lies above it, with the step, or with small blocks:
+// a tower of springs leans by the sum of what they give, and buckles. So a contact at rest is as
+// stiff as its load of the last step asks for an overlap of `sag`, whatever that takes. Contacts
+// that slip, open or bear little stay soft: stiff ones that close press a small block with forces
+// far beyond its weight, and take many passes. A small block may bear a large one: its contacts are
+// as stiff as the heaviest block that it touches asks for before they know what they bear.
 void choose_stiffness(const Scene& scene, double time, const PairSearch& search,
                       std::span<const int> manifolds, IslandMembers& members) {
   members.bearing.clear();
@@ -58,12 +59,16 @@ void choose_stiffness(const Scene& scene, double time, const PairSearch& search,
   }
   const double per_mass = (members.is_small ? stiffest_in_small_island : stiffest_in_island) /
                           (scene.settings.dt * scene.settings.dt);
-  const bool follows_load = !members.is_small && time > 0;
+  const double g = scene.gravity.norm(), dt = scene.settings.dt;
+  const double sag = members.is_small ? most_sag_in_small_island : most_sag;
+  const bool is_first = members.is_small || time == 0;
   for (size_t k = 0; k < members.size(); ++k) {
     BlockNumbers& c = members.numbers[k];
     c.stiffness = per_mass * members.bearing[k];
-    c.least_stiffness = bears_little * per_mass * c.mass;
-    c.sag = follows_load ? most_sag * scene.gravity.norm() / per_mass : 0;
+    c.least_stiffness = is_first ? c.stiffness : bears_little * per_mass * c.mass;
+    c.most_stiffness = stiffest_by_load / (dt * dt) * c.mass;
+    c.sag = sag * c.thickness;
+    c.slow = slow * g * dt;
   }
 }
 
