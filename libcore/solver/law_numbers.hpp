@@ -21,8 +21,9 @@ inline constexpr double stiffest_lone = 400;
 /// [-] The same in an island, of a contact that bears little, slips or opens. Tried: 400 for all; the
 /// forces of masses in motion are not found.
 inline constexpr double stiffest_in_island = 1;
-/// [-] The same where the island's matrix is cheap to factor.
-inline constexpr double stiffest_in_small_island = 30;
+/// [-] The same where the island's matrix is cheap to factor, and of blocks that rest. Tried: 1 for
+/// blocks that rest; twin towers near the angle at which they topple sway and fall.
+inline constexpr double stiffest_at_rest = 30;
 /// [blocks] A small island has at most so many ...
 inline constexpr std::size_t small_island = 8;
 /// [blocks] ... or so many that hang together without a ring: a column.
@@ -40,9 +41,9 @@ inline constexpr double stiffest_by_load = 1e7 / 3;
 inline constexpr double stiffens = 2;
 /// [-] ... one that slips or opens softer by so much.
 inline constexpr double softens = 4;
-/// [g dt] Speed of slip or of opening from which a contact does not rest.
+/// [g dt] Speed of slip or of opening from which a contact does not rest, nor a block.
 inline constexpr double slow = 0.2;
-/// [passes] An island whose first solution in a substep takes more is hard: its contacts ...
+/// [passes] An island whose first solution in a substep takes more is hard: contacts of what moves ...
 inline constexpr int hard_passes = 10;
 /// [-] ... become softer by so much ...
 inline constexpr double relief = 8;
@@ -192,8 +193,10 @@ inline constexpr double motion_tolerance = 1e-3;
 inline constexpr double rest_tolerance = 1e-6;
 /// [g h] The same in an island that is factored.
 inline constexpr double small_tolerance = 1e-8;
-/// [-] Of conjugate gradients in a Newton step.
-inline constexpr double linear_tolerance = 3e-2;
+/// [-] Of conjugate gradients in a Newton step ...
+inline constexpr double linear_tolerance = 1e-2;
+/// [-] ... and of a mass at rest. Tried: 1e-2; two to four times the steps.
+inline constexpr double linear_tolerance_at_rest = 1e-3;
 /// [-] Newton steps before the line search looks at them.
 inline constexpr int island_free_steps = 3;
 /// [-] Halvings of a Newton step.

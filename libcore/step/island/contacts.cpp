@@ -295,7 +295,14 @@ struct ContactMaker {
     meeting.numbers.thickness = std::min(ca.thickness, cb.thickness);
     meeting.numbers.touch = pair_touch_ratio * meeting.numbers.radius;
     const double to_lighter = ca.mass / std::min(ca.mass, cb.mass);
-    meeting.numbers.stiffness = std::max(ca.stiffness, cb.stiffness) * to_lighter;
+    const bool rest = ca.rests && cb.rests;
+    const auto stiffness = [&](const BlockNumbers& c) {
+      return c.rests && !rest ? c.stiffness * (law::stiffest_in_island / law::stiffest_at_rest)
+                              : c.stiffness;
+    };
+    meeting.numbers.stiffness = std::max(stiffness(ca), stiffness(cb)) * to_lighter;
+    meeting.numbers.least_stiffness =
+        ca.mass * std::min(ca.least_stiffness / ca.mass, cb.least_stiffness / cb.mass);
     meeting.numbers.sag = std::min(ca.sag, cb.sag);
     if (meeting.bond >= 0) meeting.numbers.sag = 0;
     return meeting;

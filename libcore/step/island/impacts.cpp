@@ -39,7 +39,9 @@ void solve(const Scene& scene, const IslandMembers& members, const FreeMotions& 
     const double by_motion = std::clamp(motion_tolerance * fastest(free),
                                         rest_tolerance * by_gravity, island_tolerance * by_gravity);
     settings.tolerance = std::max(by_motion, hit_tolerance * fastest_hit(hits));
-    settings.linear_tolerance = linear_tolerance;
+    // a pile at rest is solved to far below what gravity does: good directions spare it steps
+    settings.linear_tolerance = std::clamp(settings.tolerance / by_gravity,
+                                           law::linear_tolerance_at_rest, linear_tolerance);
   }
   settings.tolerance *= scene.settings.tolerance_factor;
   const IslandResult solved = solve_island(system.island, settings, solver);

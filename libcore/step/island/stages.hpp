@@ -45,7 +45,7 @@ void find_pairs(const Scene& scene, const IslandMembers& members, double h, Stat
 void see_size(const Scene& scene, const PairSearch& search, std::span<const int> manifolds,
               IslandMembers& members);
 /// Fills the stiffness of the members' numbers.
-void choose_stiffness(const Scene& scene, double time, const PairSearch& search,
+void choose_stiffness(const Scene& scene, const State& state, const PairSearch& search,
                       std::span<const int> manifolds, IslandMembers& members);
 
 // --- 4 predict (step/island/predict.cpp)

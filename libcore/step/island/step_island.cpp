@@ -134,7 +134,7 @@ double prepare_substep(const Scene& scene, int k, double t, double ahead, State&
   }
   const StageTimer timer(w.clock, IslandStage::choose_stiffness);
   if (begins) see_size(scene, search, w.manifolds, w.members);
-  choose_stiffness(scene, state.time, search, w.manifolds, w.members);
+  choose_stiffness(scene, state, search, w.manifolds, w.members);
   return longest_substep(scene, state, search, w.members, w.manifolds, ahead);
 }
 
