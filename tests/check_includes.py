@@ -8,6 +8,7 @@
 - A tool includes its own folder, tools/frame and libcore; tools/frame includes no tool.
 - The headers of a library stay in the sources that carry its name; tools use none.
 - A plain file includes no header of a source that needs a library, so that plain targets link alone.
+- A source of libcore without a header of its own says in its first line what it is.
 """
 import graphlib
 import pathlib
@@ -79,6 +80,13 @@ def marks_of(root):
             yield f"{name} begins with '{found}', not with '{wanted}': it is {why}"
 
 
+def first_lines_of(root):
+    for path in sources_of(root, "libcore", "verify"):
+        if path.suffix == ".cpp" and not path.with_suffix(".hpp").exists() and \
+                not path.read_text().startswith("// "):
+            yield f"{path.relative_to(root)} has no header of its own: say in its first line what it is"
+
+
 def tools_of(root):
     for path in sources_of(root, "tools"):
         folder = module_of(root, path)
@@ -94,6 +102,7 @@ def tools_of(root):
 def problems_of(root):
     yield from circles_of(root)
     yield from marks_of(root)
+    yield from first_lines_of(root)
     yield from tools_of(root)
     for path in sources_of(root, "libcore", "verify"):
         module = module_of(root, path)

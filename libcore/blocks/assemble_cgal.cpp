@@ -1,3 +1,5 @@
+// blocks/assemble.hpp with CGAL: cells that no joint parts are joined, slivers merged, blocks
+// made convex.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,5 @@
+// blocks/convexify.hpp with CGAL: convex hulls of the pieces, supporting planes of the bed,
+// volume kept.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>

@@ -1,3 +1,4 @@
+// blocks/cut.hpp with CGAL: columns of the mass, cut joint by joint into convex cells.
 #include <CGAL/Cell_attribute.h>
 #include <CGAL/Cell_attribute_with_point.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

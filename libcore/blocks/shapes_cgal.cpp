@@ -1,3 +1,4 @@
+// blocks/shapes.hpp: prism, EOTA block and, by the convex hull of CGAL, random rock.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// blocks/solid.hpp with CGAL: a surface checked for being a solid, and its convex parts.
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/convex_hull_3.h>

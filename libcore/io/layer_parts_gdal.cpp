@@ -1,3 +1,5 @@
+// The part of io/contour_layer_gdal.hpp that walks the features of a layer and hands on their
+// parts.
 #include <ogrsf_frmts.h>
 
 #include <algorithm>

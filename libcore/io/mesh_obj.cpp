@@ -1,3 +1,4 @@
+// io/mesh.hpp for Wavefront OBJ.
 #include <cmath>
 #include <map>
 #include <set>

@@ -1,3 +1,4 @@
+// io/mesh.hpp for PLY, binary and text.
 #include <algorithm>
 #include <bit>
 #include <cmath>

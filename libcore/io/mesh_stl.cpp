@@ -1,3 +1,4 @@
+// io/mesh.hpp for STL, binary and text.
 #include <bit>
 #include <cmath>
 #include <cstring>

@@ -295,6 +295,14 @@ void pass_over(const Element& element, const std::string& source, Cursor& cursor
 
 // --- data as text --------------------------------------------------------------------------------
 
+// Bytes that are no text as question marks: a message must not end at a zero byte.
+std::string printable(std::string_view word) {
+  std::string shown(word);
+  std::replace_if(
+      shown.begin(), shown.end(), [](char c) { return c < 0x20 || c > 0x7e; }, '?');
+  return shown;
+}
+
 // Words behind the header; lines do not matter.
 class WordCursor {
  public:
@@ -310,7 +318,7 @@ class WordCursor {
     double value = 0;
     if (word.empty()) refuse(source_, "the file ends before its data does: it was truncated");
     if (!parse_double(word, value))
-      refuse(source_, "\"" + std::string(word.substr(0, 40)) + "\" is no number");
+      refuse(source_, "\"" + printable(word.substr(0, 40)) + "\" is no number");
     return value;
   }
   // A number takes two bytes, with what parts it from the next.

@@ -36,7 +36,7 @@ struct StartOverlap {
 struct Settled {
   bool done = false;  ///< nothing above the tolerance is left
   int rounds = 0;
-  double farthest = 0;  ///< way of the block that moved most [m]
+  double farthest = 0;  ///< path of the block that moved most [m]
 };
 
 /// Moves blocks until none is deeper than `tolerance` [m] in the ground or (`among_blocks`) in

@@ -1,3 +1,4 @@
+// The part of site/site.hpp that reads a site file: every key by its row of site_keys.cpp.
 #include <toml++/toml.h>
 
 #include <algorithm>

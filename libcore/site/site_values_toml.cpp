@@ -1,3 +1,4 @@
+// The part of site/site.hpp that writes: effective values, and a site file that reads back.
 #include <toml++/toml.h>
 
 #include <algorithm>

@@ -381,7 +381,7 @@ struct Solve {
     return evaluate(Evaluation::coupled);
   }
 
-  // From rest in the free motion, at a stiffness where Newton finds its way, then at higher ones
+  // From rest in the free motion, at a stiffness where Newton converges, then at higher ones
   // from there; factored, since slipping contacts that are stiff couple through their friction
   // bounds.
   bool solve_stiffening() {

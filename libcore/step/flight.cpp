@@ -48,7 +48,7 @@ double time_on_grid(const Trn& trn, const Vec3& x, const Vec3& v, const Vec3& a)
                    first_zero(north - x.y(), -v.y(), -a.y())});
 }
 
-/// A body on its way: its centroid `time` after the flight began, and how it was then.
+/// A body on its path: its centroid `time` after the flight began, and how it was then.
 struct Passing {
   const FlyingBody& body;
   Vec3 x, v, a;

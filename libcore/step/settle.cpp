@@ -159,11 +159,13 @@ std::optional<StaticPass> static_pass(const Scene& scene, int b, const BlockNumb
 template <int Dof>
 Settled settle(const Scene& scene, int b, double friction, bool from_touch, double still,
                State& state, Work& work) {
-  // the first are those before the way settles down, which takes long where friction holds strains
+  // the first are those before the motion settles down, which takes long where friction holds
+  // strains
   constexpr int most_passes = Dof == 12 ? 400 : 40, first_passes = Dof == 12 ? 100 : 5;
   constexpr double accelerates = 0.9;  // of the pass before: it comes to no end
-  // What slides goes on until the way changes by less than this, of the radius, or where that is as
-  // far as the solver's tolerance lets it come: by less than these, of the way and of the radius.
+  // What slides goes on until the path changes by less than this, of the radius, or where that is
+  // as far as the solver's tolerance lets it come: by less than these, of the path and of the
+  // radius.
   constexpr double slides = 1e-11, slides_about = 1e-8, of_way = 1e-5;
   BlockNumbers c = numbers_of(scene, b);
   const double h = static_step<Dof>(scene.settings, c);

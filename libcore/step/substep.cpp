@@ -44,8 +44,8 @@ int row_of(const ContactMemory& memory, std::span<const Contact> contacts) {
 
 // Where the stiffness of a contact is not what it was, its springs keep their forces. What they
 // were pressed in beyond that would throw the block; it presses nothing from now on, and again when
-// the contact is as soft as before. A contact that becomes softer bears no more than it bore, since
-// what presses overlap out of a stiff one is mostly taken up by damping.
+// the contact is as soft as before. A contact that becomes softer carries no more than it did,
+// since what presses overlap out of a stiff one is mostly taken up by damping.
 void keep_force(double k_n, ContactRow& row) {
   const double share = row.last_stiffness / k_n;
   const double pressed_in = std::max(0.0, -(row.gap_start + row.offset));
@@ -55,7 +55,7 @@ void keep_force(double k_n, ContactRow& row) {
   row.shear *= share;
 }
 
-// Stiffness with which a contact bears what it bore last at an overlap of `sag` or less. It changes
+// Stiffness with which a contact carries its last force at an overlap of `sag` or less. It changes
 // by leaps, so that keep_force() sees them, and seldom.
 double stiffness_to_bear(const ContactRow& row, double sag) {
   const double needed = row.last_force / sag, last = row.last_stiffness;
@@ -86,7 +86,7 @@ double approach(const ContactRow& row, const Substep& s) {
 
 // Gap of a vertex to the ground below it when the substep begins. A vertex may stand behind the
 // plane of the triangle that it will reach, a ridge away, and yet above the ground: it will hit on
-// its way.
+// its path.
 double clearance_at_start(const Scene& scene, const Contact& contact, const Substep& s) {
   if (contact.key.mode != ContactMode::vertex_face) return -1;
   const Trn& trn = scene.ground.trn;

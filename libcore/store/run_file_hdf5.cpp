@@ -1,3 +1,4 @@
+// record/run_file.hpp as HDF5: writes and reads a run file whole, or its head.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>

@@ -1,3 +1,4 @@
+// store/runs.hpp with SQLite.
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <sqlite3.h>
 

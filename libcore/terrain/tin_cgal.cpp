@@ -1,3 +1,5 @@
+// terrain/triangulate.hpp with CGAL: points are inserted in an order of our own, so that the same
+// points give the same triangles.
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Triangulation_face_base_with_info_2.h>

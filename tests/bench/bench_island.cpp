@@ -4,7 +4,7 @@
 // the argument `noise` (in per mille) of itself.
 #include <benchmark/benchmark.h>
 
-#include "../unit/dda/island_scenes.hpp"
+#include "../unit/solver/island_scenes.hpp"
 #include "solver/island_solver.hpp"
 
 namespace {

@@ -1,6 +1,6 @@
 // Many blocks on each other: what stands, stands; what slides, topples or collides does so as rigid
 // bodies do; whatever stiffness and step, the outcome is bounded. Long forms:
-// unit/dda/test_many_blocks_long.cpp.
+// unit/step/test_many_blocks_long.cpp.
 #include <gtest/gtest.h>
 
 #include <thread>

@@ -1,3 +1,4 @@
+// Cases of closed_form.hpp: flight, free spin, rebounds.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>

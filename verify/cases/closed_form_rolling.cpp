@@ -1,3 +1,4 @@
+// Cases of closed_form.hpp: rolling and rocking.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>

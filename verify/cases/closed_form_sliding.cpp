@@ -1,3 +1,4 @@
+// Cases of closed_form.hpp: sliding, toppling, bonds, shaking, the energy line.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>

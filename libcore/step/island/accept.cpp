@@ -159,7 +159,7 @@ struct SubstepAcceptance {
     if (hit < (1 - rounding) * h) add_segment(b, false, t + hit, h - hit, after, motion, segments);
   }
 
-  // How the ground bears a member from now on, and the work of what bore it until it was hit.
+  // How the ground supports a member from now on, and the work of its support until it was hit.
   void renew_support(size_t k) {
     const Support& was = hits.support[k];
     if (was.until > 0) {

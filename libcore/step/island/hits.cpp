@@ -46,7 +46,7 @@ void set_support_of(const State& state, const IslandMembers& members, const Free
 }
 
 // The contacts of a substep are those at its end. Where a member's corner crosses to a plane that
-// it hits, what bore it until then is none of them: it goes on up to the hit. Without that the
+// it hits, its support until then is none of them: that goes on up to the hit. Without that the
 // member falls, and the new plane takes up what the old one should have borne, as if all bends came
 // half a step too soon. It ends where it would begin to drive the member.
 void bear_until_hit(const State& state, const IslandMembers& members, const FreeMotions& free,

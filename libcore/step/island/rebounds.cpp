@@ -148,7 +148,7 @@ double energy_excess(const IslandMembers& members, const IslandSystem& system,
   return work_on_velocities(members, system.island) + loss_in_turn(system, hits);
 }
 
-// Members that a contact bore in the substep before, or bears until they are hit.
+// Members that a contact supported in the substep before, or supports until they are hit.
 void see_borne(const IslandMembers& members, const IslandSystem& system, const SubstepHits& hits,
                std::vector<std::uint8_t>& is_borne) {
   is_borne.assign(members.size(), 0);

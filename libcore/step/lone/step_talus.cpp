@@ -286,8 +286,9 @@ struct Advance {
     return std::min(by_way, by_turn);
   }
 
-  // Whether the block may be off the ground: after a hit, or when nothing bore it in the last step.
-  // Asked only now and then where it was not, since blocks that stay near rough ground ask in vain.
+  // Whether the block may be off the ground: after a hit, or when nothing supported it in the last
+  // step. Asked only now and then where it was not, since blocks that stay near rough ground ask in
+  // vain.
   [[nodiscard]] bool may_take_off(double t, bool was_hit) const {
     const bool asks = t == state.time && t >= state.flight_end[i()] && state.memory[i()].empty();
     return (was_hit || asks) && free_fall_only();

@@ -6,9 +6,9 @@ awk 'BEGIN { srand(3); for (s = 0; s < 3; ++s) for (i = 0; i < 10; ++i) {
 awk 'BEGIN { print "Index;CenterX;CenterY;CenterZ;NormalX;NormalY;NormalZ;RMS;Dip dir.;Dip" }
   { print NR - 1 ";500020.1;5200020.2;140;0;0;1;0.01;" $1 ";" $2 }' plain.txt >facets.csv
 awk 'BEGIN { printf "\357\273\277" } { gsub(/\./, ","); printf "%s;%s\r\n", $1, $2 }' plain.txt >excel.csv
-awk 'BEGIN { print "* Dips\nID,Strike (Right),Dip,Quantity" } { s = $1 - 90; printf "%d,%.1f,%s,1\n", NR, s < 0 ? s + 360 : s, $2 }' plain.txt >dips.csv
-awk 'BEGIN { print "Trend\tPlunge" } { t = $1 + 180; printf "%.1f\t%.1f\n", t >= 360 ? t - 360 : t, 90 - $2 }' plain.txt >stereonet.txt
-awk 'BEGIN { print "% DS dipdir(o) dip(o) density" } { print 1, $1, $2, 0.4 }' plain.txt >dse.txt
+awk 'BEGIN { print "* Dips\nID,Strike (Right),Dip,Quantity" } { s = $1 - 90; printf "%d,%.1f,%s,1\n", NR, (s < 0 ? s + 360 : s), $2 }' plain.txt >dips.csv
+awk 'BEGIN { print "Trend\tPlunge" } { t = $1 + 180; printf "%.1f\t%.1f\n", (t >= 360 ? t - 360 : t), 90 - $2 }' plain.txt >stereonet.txt
+awk 'BEGIN { print "% DS dipdir(\302\272) dip(\302\272) density" } { print 1, $1, $2, 0.4 }' plain.txt >dse.txt
 awk '{ print $2 " " $1 }' plain.txt >swapped.txt
 sets() { # sets FILE [LINE...]: blocks of the file's sets
   list=$1

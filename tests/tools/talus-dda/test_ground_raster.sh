@@ -55,4 +55,27 @@ says "the raster's value 4 stands for two grounds"
 sed 's/^ground_raster.*//' site.toml >none.toml
 expect 1 talus-dda none.toml --trn slope.tif --blocks blocks.h5 -o bad.h5 --no-db --independent
 says "there is no raster"
-exit 0
+
+# Commands of the hints are run: what they make gives the run of the right raster.
+speed_on() { # speed_on RASTER
+  sed "s/^ground_raster.*/ground_raster = \"$1\"/" site.toml >other.toml
+  expect 0 talus-dda other.toml --trn slope.tif --blocks blocks.h5 -o run.h5 --overwrite --no-db --independent --json
+  sed -n 's/.*"largest_speed_m_s": \([0-9.]*\).*/\1/p' out | head -n 1
+}
+refuses_raster() { # refuses_raster RASTER WORDS
+  sed "s/^ground_raster.*/ground_raster = \"$1\"/" site.toml >other.toml
+  expect 1 talus-dda other.toml --trn slope.tif --blocks blocks.h5 -o bad.h5 --no-db --independent
+  says "$2"
+}
+run_hint() { sed -n 's/^ *hint: \(.*\)$/\1/p' err >hint.sh && sh -e hint.sh >/dev/null; }
+make_classes 3 9
+right=$(speed_on classes.asc)
+gdalwarp -q -r near -tr 0.00002 0.00002 -s_srs EPSG:32632 -t_srs EPSG:4326 classes.asc degrees.tif
+refuses_raster degrees.tif "the terrain is in EPSG:32632"
+run_hint
+[ "$(speed_on classes.tif)" = "$right" ] || fail "reprojected classes: $(speed_on classes.tif) m/s, expected $right"
+gdal_translate -q -a_srs EPSG:32632 -a_ullr 499995 4999995 500155 5000105 classes.asc south_up.tif
+refuses_raster south_up.tif "is rotated or upside down"
+run_hint
+awk 'NR <= 6 { print; next } { row[NR] = $0 } END { for (r = NR; r > 6; r--) print row[r] }' classes.asc >flipped.asc
+[ "$(speed_on north_up.tif)" = "$(speed_on flipped.asc)" ] || fail "turned classes: $(speed_on north_up.tif) m/s"

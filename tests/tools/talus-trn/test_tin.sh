@@ -83,7 +83,7 @@ expect 0 talus-trn code.ply -o code.tif --cell-size-m 4
 gdalinfo code.tif | grep -qF 'ID["EPSG",32632]' || fail "the CRS named by its code was lost"
 header nonsense.ply "crs EPSG:nonsense"
 expect 1 talus-trn nonsense.ply -o off.tif
-says "nonsense.ply: comment crs of the PLY header: \"EPSG:nonsense\" is not a CRS"
+says "nonsense.ply: its CRS: \"EPSG:nonsense\" is not a CRS"
 
 # a TIN that is no ground: no area in plan, higher than the Earth
 triangle() { # triangle BYTES: bytes x, y and two of z for each of the three corners

@@ -56,7 +56,7 @@ double kinetic(const Scene& scene, const State& state) {
 
 double energy_of(double speed) { return 0.5 * cube_mass * speed * speed; }
 
-// The block stops where force times way is its energy, after m v / F.
+// The block stops where force times path is its energy, after m v / F.
 TEST(Fence, TakesTheEnergyOfABlockOverItsDeflection) {
   const double energy = energy_of(10), capacity = 2 * energy, deflection = 3;
   const Scene scene =

@@ -147,7 +147,7 @@ TEST(FreeTime, EndsAtUnknownGround) {
   }
   const Ground ground = make_ground(std::move(trn), {});
   const double T = free_time(ground, {{0, 0.5, 3}, {10, 0, 10}, 0.5}, {0, 0, -10}, 100);
-  EXPECT_GT(T, 0.4);  // on its way there
+  EXPECT_GT(T, 0.4);  // on its path there
   EXPECT_LT(T, 0.75);
 }
 
