@@ -155,21 +155,6 @@ template <class V, class Rows>
   closed = (p_n >= -strength.tension) | (none_of<V>(is_new) & (p_n >= -last_p_n));
 }
 
-// Where friction bounds are held, a contact rubs whether or not it presses.
-template <class V, class Rows>
-[[gnu::always_inline]] inline void press_held(const Rows& rows, V& p_n, Mask<V>& closed,
-                                              Found<V>& found) {
-  if constexpr (is_lanes<V>) {
-    V tension;
-    rows.read(&Rows::Row::tension, tension);
-    rows.read(&Rows::Row::bound, found.cap);
-    const Mask<V> presses = p_n > -tension;
-    p_n = presses ? p_n : V{};
-    found.normal_tangent = presses ? found.normal_tangent : V{};
-    closed = presses | (found.cap > 0);
-  }
-}
-
 // Which contacts the bound lets stick. Lanes compare squares, so that no root is taken of those
 // that do; one contact, which without friction sticks while it stands, compares as it is.
 template <class V>
@@ -271,12 +256,7 @@ template <class V, class Rows>
   p_n = below_limit ? p_n : limit;
   found.normal_tangent = below_limit ? damping : V{};
   Mask<V> closed;
-  bool held = false;
-  if constexpr (is_lanes<V>) held = evaluation == Evaluation::held;
-  if (held)
-    press_held(rows, p_n, closed, found);
-  else
-    press(rows, normal, p_n, state_before, evaluation, closed, found.cap);
+  press(rows, normal, p_n, state_before, evaluation, closed, found.cap);
   found.state = all_in<V>(ContactState::open);
   found.slip_tangent = V{};
   for (int k = 0; k < 3; ++k) found.impulse[k] = V{};

@@ -7,6 +7,7 @@
 
 #include "solver/law_numbers.hpp"
 #include "solver/one_contact.hpp"
+#include "solver/row_groups.hpp"
 
 namespace talus {
 namespace {
@@ -129,7 +130,8 @@ struct Solve {
           now[i].motion =
               relative_motion(now[i].motion, work.velocity[pair.b], work.matrix.shift[p]);
       }
-      evaluate_pairs(std::span(now).first(some.size()), evaluation, direct ? 0 : slack);
+      evaluate_pairs(std::span(now).first(some.size()), evaluation,
+                     direct || evaluation == Evaluation::held ? 0 : slack);
       if (!island.angular.empty()) evaluate_couples(some, now);
       for (size_t i = 0; i < some.size(); ++i) {
         if (now[i].changed) work.matrix.changed_pairs.add(some[i]);
@@ -287,16 +289,13 @@ struct Solve {
     }
   }
 
-  // The bounds of friction that the normal impulses give, all or `share` of the way there.
-  void renew_bounds(double share) {
-    for (const BodyPair& pair : island.pairs)
-      for (RowGroup& group : groups_of(island, pair)) {
-        Two p_n = {};
-        for (int k = 0; k < 3; ++k) p_n += group.normal[k] * group.impulse[k];
-        const Two bound = group.friction * (p_n > 0 ? p_n : Two{}) + group.cohesion;
-        const Two next = group.bound + share * (bound - group.bound);
-        group.bound = group.bound < 0 ? bound : next;
-      }
+  // Holds friction as the law has it at the velocities, the bounds all or `share` of the way there.
+  void hold(double share) {
+    for (RowGroup& group : island.rows) hold_friction(group, share);
+  }
+
+  void let_go() {
+    for (RowGroup& group : island.rows) group.held_share = Two{};
   }
 
   // Where the matrix is factored, the exact derivative follows the bounds: from near the solution
@@ -311,14 +310,14 @@ struct Solve {
     return false;
   }
 
-  // Newton with bounds that are held, then renewed from the law at what it finds.
+  // Newton with friction that is held, then renewed from the law at what it finds.
   bool solve_held() {
     direct = n_bodies(island) <= settings.direct_bodies;
     work.velocity = std::isfinite(best_residual) ? work.best : island.free_velocity;
     activate_all(island, work.matrix);
     work.at_best = false;
     double residual = evaluate(Evaluation::coupled);
-    renew_bounds(settings.continues ? 1 : 0);
+    hold(settings.continues ? 1 : 0);
     const int most_passes = static_cast<int>(law::held_share * settings.max_passes);
     for (; result.renewals < law::most_renewals && result.passes < most_passes; ++result.renewals) {
       law = Evaluation::held;
@@ -326,13 +325,14 @@ struct Solve {
       while (residual > law::held_goal * tolerance && result.passes < most_passes)
         residual = advance_held();
       law = Evaluation::coupled;
-      if (!std::isfinite(residual)) return false;
+      if (!std::isfinite(residual)) break;
       activate_all(island, work.matrix);
       residual = evaluate(law);
-      if (residual <= tolerance || (direct && finish_held())) return true;
-      renew_bounds(result.renewals < law::full_renewals ? 1 : 0.5);
+      if (residual <= tolerance || (direct && finish_held())) break;
+      hold(result.renewals < law::full_renewals ? 1 : 0.5);
     }
-    return false;
+    let_go();
+    return result.residual <= tolerance;
   }
 
   // A Newton step; with `search` it is shortened: with the exact derivative until the residual

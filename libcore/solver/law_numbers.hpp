@@ -31,12 +31,12 @@ inline constexpr std::size_t small_tree = 64;
 /// [-] Stiffness of a contact that bears little: times that for its own mass.
 inline constexpr double bears_little = 3;
 /// [thickness] Overlap of a contact at rest under its load: it is as stiff as that asks ...
-inline constexpr double most_sag = 1e-5;
+inline constexpr double most_sag = 1e-6;
 /// [thickness] ... and in an island that is factored. A tower leans by the sum of these. Tried:
 /// multipliers carried from step to step; they shake towers down.
-inline constexpr double most_sag_in_small_island = 1e-6;
+inline constexpr double most_sag_in_small_island = 3e-7;
 /// [-] k_n dt^2 / m of the stiffest contact by its load.
-inline constexpr double stiffest_by_load = 1e7 / 3;
+inline constexpr double stiffest_by_load = 4e5;
 /// [-] A contact at rest becomes stiffer by so much a step, beyond what the masses ask for ...
 inline constexpr double stiffens = 2;
 /// [-] ... one that slips or opens softer by so much.
@@ -53,6 +53,8 @@ inline constexpr int most_rests = 5;
 inline constexpr int most_settlings = 12;
 /// [-] Stiffness of a contact whose load asks for more: times what it needs ...
 inline constexpr double ample = 2;
+/// [-] ... times that in the first step, whose sag starts all motion ...
+inline constexpr double ample_at_start = 8;
 /// [-] ... and kept until it is this many times what it needs.
 inline constexpr double too_much = 8;
 /// [-] A contact whose stiffness changes by more than this factor in a step has another law.

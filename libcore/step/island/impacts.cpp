@@ -54,15 +54,13 @@ void solve(const Scene& scene, const IslandMembers& members, const FreeMotions& 
 
 namespace {
 
-// Makes new contacts at rest as stiff as the impulses found ask for: whether one was not yet.
+// Makes contacts at rest as stiff as the impulses found ask for: whether one was not yet.
 bool stiffen_to_load(const IslandMembers& members, double h, IslandSystem& system) {
   bool any = false;
   for (size_t r = 0; r < system.contacts.size(); ++r) {
     const KeptContact& contact = system.contacts[r];
     const RowIn<RowGroup> lane = lane_of(system, r);
-    if (contact.memory >= 0 || contact.hit >= 0 || contact.waits || contact.bond_area != 0 ||
-        contact.gap_start > contact.touch || gives_way(system, r))
-      continue;
+    if (contact.hit >= 0 || contact.waits || contact.bond_area != 0 || gives_way(system, r)) continue;
     const BlockNumbers& a = members.of(contact.a);
     double sag = a.sag, most = a.most_stiffness;
     if (contact.b >= 0) {
@@ -71,7 +69,7 @@ bool stiffen_to_load(const IslandMembers& members, double h, IslandSystem& syste
     }
     const double per_stiffness = h * a.recovery_time, damping = lane.normal_damping();
     const double needed = lane.normal_impulse() / h / sag * per_stiffness;
-    const double next = std::min(law::ample * needed, most * per_stiffness);
+    const double next = std::min(law::ample_at_start * needed, most * per_stiffness);
     if (!(sag > 0) || needed <= damping || next <= damping) continue;
     lane.set(&RowGroup::normal_damping, next);
     lane.set(&RowGroup::shear_damping, next / damping * lane.shear_damping());
