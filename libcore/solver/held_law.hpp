@@ -4,8 +4,8 @@
 // with H(f) = D_t f^2 / 2 up to f = c / D_t, beyond c f - c^2 / (2 D_t), and its second derivative.
 // c and s are held, e is the direction of slip at the start of the step. Friction acts whether or
 // not the contact presses, and of what gives way E grows no faster than its limit times v_n.
-// Where c and s are those of what it finds (hold_friction), this is the law of contact_law.hpp: that slips
-// along x + s <x . e> e, the gradient of f, too. theory 1.7
+// Where c and s are those of what it finds (hold_friction), this is the law of contact_law.hpp:
+// that slips along x + s <x . e> e, the gradient of f, too. theory 1.7
 #pragma once
 
 #include "solver/contact_law.hpp"
@@ -31,7 +31,7 @@ template <class V, class Rows>
   const V none{};
   dot(normal, w, v_n);
   V p_n = -damping * (v_n + bias);
-  const Mask<V> below_limit = p_n < limit, presses = p_n > -tension;
+  const Mask<V> below_limit = p_n<limit, presses = p_n> - tension;
   p_n = below_limit ? p_n : limit;
   p_n = presses ? p_n : none;
   found.normal_tangent = below_limit & presses ? damping : none;

@@ -23,7 +23,7 @@ struct Solve {
   const IslandSettings& settings;
   IslandWork& work;
   IslandResult result;
-  double tolerance = 0;
+  double tolerance = 0, held_goal = 0;
   double best_residual = std::numeric_limits<double>::infinity();
   bool direct = false;
   bool tracking = true;
@@ -206,7 +206,7 @@ struct Solve {
   // every step: a push that travels far needs them all.
   bool few_move() {
     work.moving.clear();
-    const double goal = (law == Evaluation::held ? law::held_goal : 1) * tolerance;
+    const double goal = law == Evaluation::held ? held_goal : tolerance;
     const auto note = [&](size_t i) {
       if (!(work.speed[i] <= goal)) work.moving.push_back(static_cast<int>(i));
     };
@@ -263,29 +263,35 @@ struct Solve {
   }
 
   // A Newton step to where the forces do no work along it, about: the lowest place there of the
-  // function that they are the gradient of while friction bounds are held.
+  // function that they are the gradient of while friction is held. The slope has kinks: a false
+  // position that keeps an end halves the slope there (Illinois).
   double advance_held() {
     find_step();
     keep_from();
-    const double at_start = slope(), goal = law::level * std::abs(at_start);
-    double low = 0, low_slope = at_start, high = 0, high_slope = 0, fraction = 1;
-    for (int i = 0;; ++i) {
+    struct Place {
+      double fraction, slope;
+    };
+    Place low = {0, slope()}, high = {0, 0};
+    const double goal = law::level * std::abs(low.slope);
+    double fraction = 1;
+    for (int i = 0, kept = 0;; ++i) {
       go_along(fraction);
       const double residual = evaluate(law), at = slope();
-      if (std::abs(at) <= goal || i >= law::most_trials || residual <= law::held_goal * tolerance ||
+      if (std::abs(at) <= goal || i >= law::most_trials || residual <= held_goal ||
           !std::isfinite(at))
         return residual;
-      if (at < 0)
-        low = fraction, low_slope = at;
-      else
-        high = fraction, high_slope = at;
-      if (high == 0) {
-        fraction *= 3;
+      const int side = at < 0 ? -1 : 1;
+      (at < 0 ? low : high) = {fraction, at};
+      if (high.fraction == 0) {
+        fraction *= law::farther;
         continue;
       }
-      const double secant = low + (high - low) * low_slope / (low_slope - high_slope);
-      const double margin = 0.05 * (high - low);
-      fraction = std::clamp(secant, low + margin, high - margin);
+      if (side == kept) (at < 0 ? high : low).slope /= 2;
+      kept = side;
+      const double secant =
+          (low.fraction * high.slope - high.fraction * low.slope) / (high.slope - low.slope);
+      const double margin = law::off_ends * (high.fraction - low.fraction);
+      fraction = std::clamp(secant, low.fraction + margin, high.fraction - margin);
     }
   }
 
@@ -298,14 +304,19 @@ struct Solve {
     for (RowGroup& group : island.rows) group.held_share = Two{};
   }
 
-  // Where the matrix is factored, the exact derivative follows the bounds: from near the solution
-  // it gets there in a few steps, and renewals in many. Else the velocities are those of before.
+  // Near the solution steps with the law get there sooner than renewals do: as long as each gets
+  // much closer. Else the velocities are those of before.
   bool finish_held() {
     work.held = work.velocity;
-    for (int steps = 0; steps < law::most_finishing; ++steps)
-      if (advance(true) <= tolerance) return true;
+    for (double before = result.residual;; before = result.residual) {
+      const double residual = advance(true);
+      if (residual <= tolerance) return true;
+      if (!(residual <= law::finishing * before)) break;
+      work.held = work.velocity;
+    }
     work.velocity = work.held;
     work.at_best = false;
+    activate_all(island, work.matrix);
     evaluate(Evaluation::coupled);
     return false;
   }
@@ -319,17 +330,19 @@ struct Solve {
     double residual = evaluate(Evaluation::coupled);
     hold(settings.continues ? 1 : 0);
     const int most_passes = static_cast<int>(law::held_share * settings.max_passes);
-    for (; result.renewals < law::most_renewals && result.passes < most_passes; ++result.renewals) {
+    for (double share = 1; result.passes < most_passes; ++result.renewals) {
+      const double before = residual;
+      held_goal = std::max(law::held_goal * tolerance, law::held_share_of_error * before);
       law = Evaluation::held;
       residual = evaluate(law);
-      while (residual > law::held_goal * tolerance && result.passes < most_passes)
-        residual = advance_held();
+      while (residual > held_goal && result.passes < most_passes) residual = advance_held();
       law = Evaluation::coupled;
       if (!std::isfinite(residual)) break;
       activate_all(island, work.matrix);
       residual = evaluate(law);
       if (residual <= tolerance || (direct && finish_held())) break;
-      hold(result.renewals < law::full_renewals ? 1 : 0.5);
+      share = residual > law::renews_well * before ? std::max(share / 2, law::least_renewal) : 1;
+      hold(share);
     }
     let_go();
     return result.residual <= tolerance;
@@ -352,14 +365,19 @@ struct Solve {
     }
   }
 
+  // Given up where the smallest residual does not fall by half within some steps.
   bool solve_coupled(int max_passes) {
     const double at_start =
         evaluate(settings.continues ? Evaluation::coupled : Evaluation::inherited);
     if ((settings.continues || !inherits) && at_start <= tolerance) return true;
+    double before = std::numeric_limits<double>::infinity();
     for (int steps = 0; result.passes < max_passes; ++steps) {
       const double residual = advance(steps >= law::island_free_steps);
       if (residual <= tolerance) return true;
       if (!(residual < hopeless * best_residual)) return false;
+      if (steps % law::patience != law::patience - 1) continue;
+      if (best_residual > 0.5 * before) return false;
+      before = best_residual;
     }
     return false;
   }

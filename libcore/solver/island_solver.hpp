@@ -13,7 +13,7 @@ namespace talus {
 
 struct IslandSettings {
   double tolerance = 0;        ///< largest residual, as a velocity of a body's points, > 0 [m/s]
-  int max_passes = 300;        ///< evaluations of all contacts
+  int max_passes = 200;        ///< evaluations of all contacts
   Vec3 down = -Vec3::UnitZ();  ///< along gravity: the order in which bodies are eliminated
   double linear_tolerance = 1e-2;   ///< of conjugate gradients, relative to the step's start
   int max_linear_iterations = 250;  ///< of conjugate gradients in one step
@@ -74,10 +74,10 @@ struct IslandWork {  // clang-format off
 /// impulses; where none is inherited and the first guess is right, there is no step. Steps follow
 /// with the law at the iterate, from the fourth on with a line search: with the exact derivative
 /// where the matrix is factored, with a symmetric one for conjugate gradients, which move only the
-/// bodies that have not settled and their neighbours. Where that has not settled after a tenth of
-/// `max_passes`, friction bounds are held while the forces are sought, which then are those of a
-/// convex function, and renewed until they are right; where they do not come to rest, the island is
-/// solved with softer contacts first and then with ever stiffer ones.
+/// bodies that have not settled and their neighbours. Where that gets no closer, friction is held
+/// while the forces are sought, which then are those of a convex function (solver/held_law.hpp),
+/// and renewed until it is right; where that does not settle, the island is solved with softer
+/// contacts first and then with ever stiffer ones.
 /// At last the velocities are made those that the impulses give, so that momentum and angular
 /// momentum are kept to rounding.
 ///

@@ -83,8 +83,9 @@ void add_exact_slip(const RowGroup& g, int lane, Mat6& rest) {
         g.friction[lane] * g.normal_tangent[lane] * generalised<6>(arm, bound) * q_n.transpose();
 }
 
-// The stiffness across the slip, s a a^T with a = n x x / |x|, x the velocity against which friction
-// acts; while friction is held (held_law.hpp), that of a contact that sticks along the start.
+// The stiffness across the slip, s a a^T with a = n x x / |x|, x the velocity against which
+// friction acts; while friction is held (held_law.hpp), that of a contact that sticks along the
+// start.
 [[gnu::always_inline]] inline void add_across(const RowGroup& g, Two (&out)[Packed<6>::size]) {
   Two across[3], against[3], q[6], along, length_sq;
   // t = -A x and A^-1 = 1 - s / (1 + s) e e^T where x goes along e

@@ -75,8 +75,7 @@ template <class Archive>
 void fields(Fields<Archive>& archive, ContactMemory& memory) {
   archive(memory.key.mode, memory.key.body_b, memory.key.feature_a, memory.key.feature_b,
           memory.normal, memory.shear, memory.slip_direction, memory.offset, memory.gap_end,
-          memory.normal_force, memory.stiffness, memory.bond_area, memory.state,
-          memory.rests);
+          memory.normal_force, memory.stiffness, memory.bond_area, memory.state, memory.rests);
 }
 template <class Archive>
 void fields(Fields<Archive>& archive, Mat3& value) {
@@ -158,7 +157,7 @@ void fields(Fields<Archive>& archive, Checkpoint& checkpoint) {
 
 namespace {
 
-constexpr std::uint64_t format = 0x37306b6365686374;  // "tcheck07"
+constexpr std::uint64_t format = 0x38306b6365686374;  // "tcheck08"
 constexpr std::size_t digest_length = 64;
 
 std::string digest_of(std::span<const std::uint8_t> bytes) {

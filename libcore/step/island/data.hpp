@@ -230,6 +230,7 @@ struct SubstepTries {
   bool takes_all = false;   ///< contacts that may be left out are not
   std::vector<int> broken;  ///< bonds that it breaks: see bond_number()
   // of the step
+  int eased = 0;      ///< contacts are softer, because it did not converge
   int deep_cuts = 0;  ///< because a block would end deep in something
   int lone_hits = 0;  ///< for each of which a substep ended
 };

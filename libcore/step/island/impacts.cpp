@@ -46,8 +46,7 @@ void solve(const Scene& scene, const IslandMembers& members, const FreeMotions& 
   settings.tolerance *= scene.settings.tolerance_factor;
   const IslandResult solved = solve_island(system.island, settings, solver);
   solution.passes += solved.passes;
-  system.is_hard |=
-      !continues && !members.is_small && free.t > 0 && solved.passes > law::hard_passes;
+  system.is_hard |= !continues && free.t > 0 && solved.passes > law::hard_passes;
   solution.converged = solved.converged;
   for (const int k : solver.touched_bodies.items) hits.moved.add(k);
 }
@@ -60,7 +59,8 @@ bool stiffen_to_load(const IslandMembers& members, double h, IslandSystem& syste
   for (size_t r = 0; r < system.contacts.size(); ++r) {
     const KeptContact& contact = system.contacts[r];
     const RowIn<RowGroup> lane = lane_of(system, r);
-    if (contact.hit >= 0 || contact.waits || contact.bond_area != 0 || gives_way(system, r)) continue;
+    if (contact.hit >= 0 || contact.waits || contact.bond_area != 0 || gives_way(system, r))
+      continue;
     const BlockNumbers& a = members.of(contact.a);
     double sag = a.sag, most = a.most_stiffness;
     if (contact.b >= 0) {

@@ -1,5 +1,6 @@
 // Stages 1 and 3 of an island's step: who belongs to it, and how stiff their contacts are.
 #include <algorithm>
+#include <cmath>
 
 #include "solver/law_numbers.hpp"
 #include "step/island/stages.hpp"
@@ -48,7 +49,7 @@ void see_size(const Scene& scene, const PairSearch& search, std::span<const int>
 // may bear a large one: its contacts are as stiff as the heaviest block that it touches asks for
 // before they know what they bear.
 void choose_stiffness(const Scene& scene, const State& state, const PairSearch& search,
-                      std::span<const int> manifolds, IslandMembers& members) {
+                      std::span<const int> manifolds, int eased, IslandMembers& members) {
   members.bearing.clear();
   for (const BlockNumbers& c : members.numbers) members.bearing.push_back(c.mass);
   for (const int i : manifolds) {
@@ -60,6 +61,7 @@ void choose_stiffness(const Scene& scene, const State& state, const PairSearch& 
   }
   const double g = scene.gravity.norm(), dt = scene.settings.dt;
   const double sag = members.is_small ? most_sag_in_small_island : most_sag;
+  const double stiffest = stiffest_by_load / std::pow(law::easing, eased);
   const bool is_first = members.is_small || state.time == 0;
   for (size_t k = 0; k < members.size(); ++k) {
     BlockNumbers& c = members.numbers[k];
@@ -68,7 +70,7 @@ void choose_stiffness(const Scene& scene, const State& state, const PairSearch& 
     const double per_mass = (c.rests ? stiffest_at_rest : stiffest_in_island) / (dt * dt);
     c.stiffness = per_mass * members.bearing[k];
     c.least_stiffness = is_first ? no_normal_limit : bears_little * per_mass * c.mass;
-    c.most_stiffness = stiffest_by_load / (dt * dt) * c.mass;
+    c.most_stiffness = stiffest / (dt * dt) * c.mass;
     c.sag = sag * c.thickness;
   }
 }

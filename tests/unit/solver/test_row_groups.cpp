@@ -200,8 +200,8 @@ TEST(EvaluatePairs, HeldImpulsesAreThoseOfAConvexFunction) {
       EXPECT_NEAR((held_energy(at, u - e) - held_energy(at, u + e)) / (2 * h), f[k],
                   1e-8 * (1 + f.norm()));
       talus::Island up = at, down = at;
-      const Vec6 change = impulse_at(u + e, Evaluation::held, up) -
-                          impulse_at(u - e, Evaluation::held, down);
+      const Vec6 change =
+          impulse_at(u + e, Evaluation::held, up) - impulse_at(u - e, Evaluation::held, down);
       bool smooth = true;
       for (const int r : row_numbers(at))
         smooth &= row_of(std::as_const(up), r).state() == row_of(std::as_const(down), r).state() &&

@@ -19,6 +19,7 @@ struct Pile {
   double share = 0;
   double step = 0.005;  ///< [s]
   double friction_deg = 35;
+  double heavy = 1;  ///< the last block is so many times as heavy as the others
 };
 
 [[nodiscard]] inline double dip_of(const Pile& pile) {
@@ -39,8 +40,11 @@ struct Pile {
         bodies.push_back(
             body_of(box_in(frame, Vec3::Zero(), low, low + Vec3::Constant(pile.side))));
       }
-  return scene_of(plane_trn(frame, 3 * pile.side, (60 + pile.high) * pile.side),
-                  ground_of(pile.friction_deg), bodies, settings);
+  Scene scene = scene_of(plane_trn(frame, 3 * pile.side, (60 + pile.high) * pile.side),
+                         ground_of(pile.friction_deg), bodies, settings);
+  scene.blocks.mass.back() *= pile.heavy;
+  scene.blocks.inertia.back() *= pile.heavy;
+  return scene;
 }
 
 /// The farthest that the centroid of a cube gets from where it began within `time` [m].
