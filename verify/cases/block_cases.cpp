@@ -112,10 +112,6 @@ CaseResult tower_holds(const Settings& settings) {
   return movement_after(tower(3, 15, 15.5, settings), 1, 4);
 }
 
-CaseResult tower_leans(const Settings& settings, int n, double share) {
-  return movement_after(tower(n, share * std::atan(1.0 / n) / degree, 35, settings), 0, 9);
-}
-
 CaseResult pile_topples(const Settings& settings) {
   CaseResult total;
   total.expected = std::atan(0.25) / degree;

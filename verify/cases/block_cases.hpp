@@ -18,10 +18,6 @@ CaseResult tower_slide(const Settings& settings);
 /// first [m].
 CaseResult tower_holds(const Settings& settings);
 
-/// A tower of n cubes, friction 35 degrees, on a dip of `share` of atan(1 / n), at which a rigid one
-/// topples: largest movement of a cube in the 9 s from the start [m].
-CaseResult tower_leans(const Settings& settings, int n, double share);
-
 /// Four cubes, friction 40 degrees: dip at which they topple, tan(dip) = 1 / 4, 14.036 degrees, by
 /// bisection: error [deg]. What they stand on gives way under their edge, so it is a little less.
 CaseResult pile_topples(const Settings& settings);

@@ -302,11 +302,6 @@ void add_blocks(std::vector<Corner>& corners) {
   for (const double n : {2.0, 5.0, 10.0, 20.0, 50.0})
     corners.push_back({"stack of cubes", n, "1", "at rest, 4 s", norm, 0.05,
                        [n, dt] { return stack(static_cast<int>(n), 0, 30, dt); }});
-  for (const double share : {0.5, 0.8, 0.9, 0.97})
-    for (const int n : {8, 16, 32})
-      corners.push_back(
-          {"lean, tower of " + text(n), share, "1", "of where it topples, 4 s", norm, 1e-2,
-           [n, share, dt] { return stack(n, share * std::atan(1.0 / n) / degree, 35, dt); }});
   for (const double step : {1e-4, 1e-3, 1e-2, 5e-2}) {
     corners.push_back({"time step, stack of ten", step, "s", "at rest, 4 s", norm, 0.05,
                        [step] { return stack(10, 0, 30, step); }});

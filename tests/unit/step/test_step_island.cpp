@@ -616,7 +616,7 @@ TEST(StepIsland, StiffnessFollowsWhatAContactBears) {
     EXPECT_DOUBLE_EQ(stiffness(100 * force, 2 * c.least_stiffness), c.least_stiffness);
     *speed = 0;
   }
-  rests = most_rests;
+  rests = law::most_rests;
   EXPECT_DOUBLE_EQ(stiffness(100 * force, k), k / 8);
   rests = 1;
   EXPECT_DOUBLE_EQ(stiffness(100 * force, k), k);
