@@ -198,6 +198,7 @@ struct SubstepCheck {
     const double h = free.h;
     if (const double hit = first_lone_hit(members, tries, hits, h); hit < h)
       return SubstepVerdict::again(hit_alone, hit);
+    if (!converged && tries.eased < law::most_eased) return SubstepVerdict::again(unconverged, h);
     if (!converged && tries.halvings < most_halvings)
       return SubstepVerdict::again(unconverged, h / 2);
     set_displacements();
