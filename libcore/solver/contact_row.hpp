@@ -95,6 +95,7 @@ struct KeptContact {  // clang-format off
   double bond_area = 0;           ///< share of its bond, of blocks or with the ground [m2]
   double last_force = 0;          ///< ContactMemory::normal_force [N]
   Vec3 arm = Vec3::Zero();        ///< from the centroid of A, both in the middle of the substep [m]
+  Vec3 arm_start = Vec3::Zero();  ///< from the centroid of A to A's point, at the start [m]
   Vec3 free_move = Vec3::Zero();  ///< displacement [m]
   Vec3 shear = Vec3::Zero();      ///< s_n [m]
 };  // clang-format on
@@ -106,7 +107,6 @@ struct ContactRow : KeptContact, LawRow<double> {  // clang-format off
   int contact = 0;                ///< with the ground: index into what the search found
   double last_stiffness = 0;      ///< ContactMemory::stiffness, 0: new [N/m]
   bool stuck = false;             ///< at the end of the last step
-  double give = 0;                ///< an impact: speed by which it gives under its impulse [m/s]
   double slip_speed = 0;          ///< of its point when the substep begins [m/s]
   Vec3 drift = Vec3::Zero();      ///< velocity at the end is T(arm) v + drift [m/s]
   double tilt_speed = 0;          ///< by how much its normal differs at the end, part of drift [m/s]
