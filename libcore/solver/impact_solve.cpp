@@ -12,7 +12,7 @@ using Row = ImpactWork::Row;
 
 // A contact gives way by 1/D of the error of its expected impulse: four figures a round.
 constexpr double stiffness_ratio = 9e3;    // D over the mass that the contact feels
-constexpr double first_stiffness = 10;     // in the first round
+constexpr double first_stiffness = 1e3;    // in the first round
 constexpr double round_tolerance = 1e-12;  // of the fastest approach: what contacts give way
 constexpr double settled = 1e-5;     // ... where a round hardly helps, for rounding or slow slips
 constexpr double tolerance = 1e-13;  // of the same: residual of the balance of momentum
