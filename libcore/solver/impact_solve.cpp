@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace talus {
@@ -261,7 +262,7 @@ struct Solver {
     for (int k = 0; k < most && error > enough; ++k) {
       if (!find_step()) return false;
       const double next = is_convex ? go_to_least() : go_on(k, error);
-      if (next >= error / 2 && error <= nearly) {  // no better, for rounding
+      if (next >= error / 2 && error <= 1e3 * enough) {  // no better, for rounding
         (void)balance(w.velocity);
         return true;
       }
@@ -282,7 +283,7 @@ struct Solver {
   // opens is found while they are soft. In the convex form slips are renewed with the impulses:
   // velocities do not depend on how contacts share impulses, so neither do they.
   bool solve_rounds(bool is_convex, int most, double stiffness) {
-    double gives = 0, last = 0;
+    double gives = 0, last = std::numeric_limits<double>::infinity();
     scale_stiffness(stiffness);
     for (int round = 0; round < most; ++round) {
       const bool solved = solve_round(is_convex);
