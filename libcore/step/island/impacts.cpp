@@ -59,8 +59,7 @@ bool stiffen_to_load(const IslandMembers& members, double h, IslandSystem& syste
   for (size_t r = 0; r < system.contacts.size(); ++r) {
     const KeptContact& contact = system.contacts[r];
     const RowIn<RowGroup> lane = lane_of(system, r);
-    if (contact.hit >= 0 || contact.waits || contact.bond_area != 0 || gives_way(system, r) ||
-        lane.state() != ContactState::stick)
+    if (contact.hit >= 0 || contact.waits || contact.bond_area != 0 || gives_way(system, r))
       continue;
     const BlockNumbers& a = members.of(contact.a);
     double sag = a.sag, most = a.most_stiffness;
