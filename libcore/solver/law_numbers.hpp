@@ -73,7 +73,7 @@ inline constexpr double ample = 2;
 inline constexpr double ample_at_start = 8;
 /// [-] ... and kept until it is this many times what it needs. Tried: 8; heels of high towers that
 /// rock are soft when they come down, and each turn goes farther.
-inline constexpr double too_much = 1000;
+inline constexpr double too_much = 8;
 /// [-] A contact whose stiffness changes by more than this factor in a step has another law.
 inline constexpr double same_law = 1.5;
 /// [dt] Overlap is pressed out over so many steps (tau). Tried: Newmark's own damping; contacts

@@ -112,7 +112,7 @@ struct SubstepAcceptance {
   [[gnu::flatten]] void remember() {
     for (const int b : members.blocks) state.memory[b].clear();
     end.pressed.assign(members.size(), 0);
-    end.contact_impulse.assign(members.size(), Vec3::Zero());
+    end.ground_impulse.assign(members.size(), Vec3::Zero());
     for (size_t r = 0; r < system.contacts.size(); ++r) {
       const KeptContact& contact = system.contacts[r];
       const RowIn<const RowGroup> lane = lane_of(system, r);
@@ -133,10 +133,8 @@ struct SubstepAcceptance {
       account(r);
       ++report.n_closed;
       report.sum_penetration += std::max(overlap, 0.0);
-      if (!gives_way(system, r)) {
-        end.contact_impulse[pair.a] += lane.impulse();
-        if (pair.b >= 0) end.contact_impulse[pair.b] -= lane.impulse();
-      }
+      // what blocks give each other they keep: only the ground may go on to bear one alone
+      if (pair.b < 0 && !gives_way(system, r)) end.ground_impulse[pair.a] += lane.impulse();
       remember_contact(r, path, overlap);
     }
   }
@@ -168,7 +166,7 @@ struct SubstepAcceptance {
     const double since = free.h - hits.members[k].clock;
     if (since < law::short_after_hit * free.h) return;
     set_support(scene, members.blocks[k],
-                end.contact_impulse[k] / (members.numbers[k].mass * since), state);
+                end.ground_impulse[k] / (members.numbers[k].mass * since), state);
   }
 
   void move(size_t k) {

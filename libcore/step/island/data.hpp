@@ -220,7 +220,7 @@ struct SubstepEnd {  // clang-format off
   std::vector<YieldPush> pushes;            ///< on fixed bodies that give way
   // 9 accept
   std::vector<std::uint8_t> pressed;        ///< 1: by a contact                         (n_members)
-  std::vector<Vec3> contact_impulse;        ///< hits aside [N s]                        (n_members)
+  std::vector<Vec3> ground_impulse;        ///< hits aside [N s]                        (n_members)
 };  // clang-format on
 
 /// What became of an attempt at a substep.
