@@ -5,6 +5,7 @@
 
 #include "base/make_room.hpp"
 #include "scene/fence.hpp"
+#include "scene/stems.hpp"
 #include "solver/law_numbers.hpp"
 #include "step/deep_blocks.hpp"
 #include "step/flight.hpp"
@@ -216,6 +217,20 @@ struct SubstepAcceptance {
                state.fence);
     }
   }
+
+  // The same for stems. They are touched where a substep begins, see first_touch().
+  void note_touched_stems() {
+    if (scene.forest.stems.empty()) return;
+    for (size_t r = 0; r < system.contacts.size(); ++r) {
+      const KeptContact& contact = system.contacts[r];
+      if (contact.fixed < n_fixed(scene) || lane_of(system, r).state() == ContactState::open)
+        continue;
+      const size_t k = members.at(contact.a);
+      const Motion& before = free.substeps[k].start;
+      note_stem_touch(scene, contact.a, contact.fixed, before.pose.position + contact.arm, free.t,
+                      before, state.motion[members.block(k)], state.stem_hits);
+    }
+  }
 };
 
 int heaviest_of(const Scene& scene, const IslandMembers& members) {
@@ -249,7 +264,9 @@ void accept(const Scene& scene, const IslandMembers& members, const FreeMotions&
   acceptance.remember();
   acceptance.move_all();
   acceptance.note_touched_panels();
+  acceptance.note_touched_stems();
   note_work(scene, end.pushes, state.fence);
+  note_stem_work(scene, end.pushes, state.stem_hits);
   push_bodies(scene, end.pushes, free.t + free.h, state);
 }
 

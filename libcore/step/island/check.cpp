@@ -4,9 +4,11 @@
 #include <cmath>
 
 #include "motion/rotation.hpp"
+#include "scene/stems.hpp"
 #include "scene/yielding.hpp"
 #include "solver/law_numbers.hpp"
 #include "step/island/stages.hpp"
+#include "step/island/stems.hpp"
 
 namespace talus {
 namespace {
@@ -168,29 +170,33 @@ struct SubstepCheck {
 
   // --- what gives way --------------------------------------------------------------------------
 
+  // How far a fixed body had been pushed when it was searched.
+  [[nodiscard]] Vec3 pushed_before(int fixed) const {
+    if (is_stem(scene, fixed)) return met_by_stem(state.yielding, stem_of(scene, fixed)).shift;
+    return search.poses[hull_of_fixed(scene, fixed)].position - scene.fixed.pose[fixed].position;
+  }
+
   // What the blocks do to the fixed bodies that give way.
   void find_pushes() const {
     end.pushes.clear();
-    if (scene.fixed.yieldings.empty()) return;
+    if (!anything_yields(scene)) return;
     for (size_t r = 0; r < system.contacts.size(); ++r) {
       if (!gives_way(system, r)) continue;
       const KeptContact& contact = system.contacts[r];
       const RowIn<const RowGroup> lane = lane_of(system, r);
       const Vec3 normal = lane.normal();
       const Yielding& yielding = *giving_way(scene, contact.fixed, normal);
-      const auto f = static_cast<size_t>(contact.fixed);
       YieldPush push;
       push.along = yield_direction(yielding, normal);
       const double p_n = lane.normal_impulse(), cosine = normal.dot(push.along);
       push.block = contact.a;
-      push.yielding = scene.fixed.yielding[f];
+      push.yielding = yielding_number(scene, contact.fixed);
       push.work = -p_n * normal.dot(path_of_impulse(members, free, system, hits, r));
       push.power = -p_n / free.h * contact.speed_start;
       const double gap_end = contact.gap_start + normal.dot(path_of_contact(system, end, r));
-      if (p_n >= (1 - 1e-12) * lane.normal_limit()) push.shift = std::min(0.0, gap_end) * cosine;
-      const auto body = static_cast<size_t>(hull_of_fixed(scene, contact.fixed));
-      push.to =
-          push.shift + push.along.dot(search.poses[body].position - scene.fixed.pose[f].position);
+      if (p_n >= (1 - 1e-12) * lane.normal_limit() || follows_block(scene, members, system, r))
+        push.shift = std::min(0.0, gap_end) * cosine;
+      push.to = push.shift + push.along.dot(pushed_before(contact.fixed));
       add_push(push, end.pushes);
     }
   }
@@ -212,7 +218,8 @@ struct SubstepCheck {
         return SubstepVerdict::again(SubstepCut::deep, first);
     if (overloads_bonds()) return SubstepVerdict::again(bond_broken, h);
     find_pushes();
-    const double used_up = time_to_first_break(scene, state.yielding, end.pushes, h);
+    const double used_up = std::min(time_to_first_break(scene, state.yielding, end.pushes, h),
+                                    time_to_stop(scene, members, system, h));
     if (used_up < h && tries.used_up_cuts < most_used_up_cuts)
       return SubstepVerdict::again(yielding_used_up, used_up);
     return SubstepVerdict::accept();
