@@ -173,7 +173,7 @@ struct SubstepAcceptance {
   void move(size_t k) {
     const Substep& s = free.substeps[k];
     const int b = members.blocks[k];
-    const Motion motion = end_of(free, system, end, k);
+    const Motion motion = end_of(members, free, system, end, k);
     add_path(k, motion);
     renew_support(k);
     if (end.pressed[k])

@@ -32,12 +32,6 @@ struct SubstepCheck {
   ContactMaking& making;
   SubstepEnd& end;
 
-  void set_displacements() const {
-    end.displacement.resize(members.size());
-    for (size_t k = 0; k < members.size(); ++k)
-      end.displacement[k] = displacement_by_contact(system.island, hits, k, free.h);
-  }
-
   // Whether a contact that was left out closes by the displacements found without it.
   [[nodiscard]] bool closes_left_out() const {
     // Most are told by a bound: no point of a pair is farther than two radii from a block's start.
@@ -101,7 +95,7 @@ struct SubstepCheck {
     const Vec6 by = end.displacement[k] + hits.thrown[k];
     if (by.head<3>().norm() + c.radius * by.tail<3>().norm() < deep_end * c.thickness) return false;
     (void)find_contacts(scene.ground, scene.blocks.shapes, members.blocks[k],
-                        end_of(free, system, end, k).pose, Mat3::Identity(), 0,
+                        end_of(members, free, system, end, k).pose, Mat3::Identity(), 0,
                         making.world_vertices, making.found, &near_ground[members.block(k)]);
     return std::any_of(making.found.begin(), making.found.end(), [&](const Contact& contact) {
       return contact.gap < -deep_end * c.thickness &&
@@ -209,7 +203,7 @@ struct SubstepCheck {
     if (!converged && tries.eased < law::most_eased) return SubstepVerdict::again(unconverged, h);
     if (!converged && tries.halvings < most_halvings)
       return SubstepVerdict::again(unconverged, h / 2);
-    set_displacements();
+    set_displacements(free.h, system, hits, end.displacement);
     if (converged && !tries.takes_all && closes_left_out())
       return SubstepVerdict::again(contact_left_out, h);
     if (tries.deep_cuts < most_deep_cuts)
@@ -247,18 +241,15 @@ Vec3 path_of_impulse(const IslandMembers& members, const FreeMotions& free,
   Vec3 path = relative(system, r, [&](size_t k) -> Vec6 {
     return (system.island.velocity[k] + system.island.free_velocity[k]) / 2;
   });
-  const size_t ka = members.at(contact.a);
-  path -= (free.h - hits.time[ka]) * free.substeps[ka].free_acceleration;
-  if (contact.b >= 0) {
-    const size_t kb = members.at(contact.b);
-    path += (free.h - hits.time[kb]) * free.substeps[kb].free_acceleration;
-  }
+  const double rest = free.h - hits.pair_time[contact.pair];
+  path -= rest * free.substeps[members.at(contact.a)].free_acceleration;
+  if (contact.b >= 0) path += rest * free.substeps[members.at(contact.b)].free_acceleration;
   return path;
 }
 
 // The free motion, corrected (theory 1.8, 1.10).
-Motion end_of(const FreeMotions& free, const IslandSystem& system, const SubstepEnd& end,
-              size_t k) {
+Motion end_of(const IslandMembers& members, const FreeMotions& free, const IslandSystem& system,
+              const SubstepEnd& end, size_t k) {
   const Substep& s = free.substeps[k];
   const Vec6 dv = change(system.island, k);
   Motion out = s.free;
@@ -267,6 +258,9 @@ Motion end_of(const FreeMotions& free, const IslandSystem& system, const Substep
   out.pose.attitude =
       (rotation_by(end.displacement[k].tail<3>()) * s.free.pose.attitude).normalized();
   out.angular_momentum += system.island.mass[k].bottomRightCorner<3, 3>() * dv.tail<3>();
+  // what presses later does so where what pressed earlier has moved the member
+  const Vec3 by_times = end.displacement[k].head<3>() - free.h / 2 * dv.head<3>();
+  out.angular_momentum -= members.numbers[k].mass * by_times.cross(dv.head<3>());
   return out;
 }
 

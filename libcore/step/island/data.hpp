@@ -179,7 +179,8 @@ struct SubstepHits {  // clang-format off
   std::vector<Hit> hits;                    ///< in the order in which they were found
   std::vector<FlyingMember> members;        ///<                                         (n_members)
   std::vector<PathToHit> paths;             ///< in order of time
-  std::vector<double> time;                 ///< when contact changes its velocity [s]   (n_members)
+  std::vector<double> pair_time;            ///< when contacts change velocities [s]     (n_pairs)
+  std::vector<Vec6> displacement;           ///< by contact, hits aside                  (n_members)
   std::vector<Vec6> thrown;                 ///< displacement by hits                    (n_members)
   std::vector<Vec3> bond_impulse;           ///< of contacts with bonds, by hits [N s]; empty: none
   double dissipated = 0;                    ///< by hits, but for friction [J]
@@ -295,11 +296,10 @@ template <class Of>
   const Island& island = system.island;
   const BodyPair& pair = island.pairs[system.contacts[r].pair];
   const Vec3 arm = lane_of(system, r).arm();
-  const auto ka = static_cast<std::size_t>(pair.a);
-  Vec3 v = point_velocity<6>(of(ka), arm);
+  Vec3 v = point_velocity<6>(of(static_cast<std::size_t>(pair.a)), arm);
   if (pair.b >= 0) {
     const auto kb = static_cast<std::size_t>(pair.b);
-    v -= point_velocity<6>(of(kb), arm + island.position[ka] - island.position[kb]);
+    v -= point_velocity<6>(of(kb), arm + pair.shift);
   }
   return v;
 }
@@ -307,12 +307,6 @@ template <class Of>
 /// Change of a member's velocity by contact.
 [[nodiscard]] inline Vec6 change(const Island& island, std::size_t k) {
   return island.velocity[k] - island.free_velocity[k];
-}
-
-/// Displacement of member k by contact over the substep of `h`, hits aside.
-[[nodiscard]] inline Vec6 displacement_by_contact(const Island& island, const SubstepHits& hits,
-                                                  std::size_t k, double h) {
-  return (h - hits.time[k]) * change(island, k);
 }
 
 [[nodiscard]] inline const Hit* hit_of(const IslandSystem& system, const SubstepHits& hits,
