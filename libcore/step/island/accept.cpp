@@ -63,7 +63,8 @@ struct SubstepAcceptance {
     const auto moves = [&](int b) {
       return b >= 0 && free.substeps[members.at(b)].start.velocity.norm() > members.of(b).slow;
     };
-    const bool eases = system.is_hard && (moves(contact.a) || moves(contact.b));
+    const bool eases =
+        members.is_eased || (system.is_hard && (moves(contact.a) || moves(contact.b)));
     return static_cast<std::uint8_t>(eases ? law::most_rests : std::max(0, contact.rests - 1));
   }
 
@@ -166,8 +167,8 @@ struct SubstepAcceptance {
   void renew_support(size_t k) {
     const double since = free.h - hits.members[k].clock;
     if (since < law::short_after_hit * free.h) return;
-    set_support(scene, members.blocks[k],
-                end.ground_impulse[k] / (members.numbers[k].mass * since), state);
+    set_support(scene, members.blocks[k], end.ground_impulse[k] / (members.numbers[k].mass * since),
+                state);
   }
 
   void move(size_t k) {

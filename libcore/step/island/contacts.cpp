@@ -461,8 +461,8 @@ struct ContactMaker {
 
   void add_pair(int manifold) {
     const PairManifold& m = search.pairs.manifolds[manifold];
-    begin_pair(members.place[m.block_a],
-               is_fixed(scene, m.block_b) ? -1 : members.place[m.block_b], manifold);
+    begin_pair(members.place[m.block_a], is_fixed(scene, m.block_b) ? -1 : members.place[m.block_b],
+               manifold);
     match_memories(m);
     if (is_fixed(scene, m.block_b))
       add_fixed_points(m);

@@ -113,8 +113,8 @@ void solve_with_hits(const Scene& scene, const State& state, const PairSearch& s
                                            const SubstepTries& tries,
                                            std::vector<NearFeatures>& near_ground,
                                            ContactMaking& making, SubstepEnd& end);
-/// Displacement of the members by contact over the substep of `h`, hits aside: each pair acts at its
-/// own time.
+/// Displacement of the members by contact over the substep of `h`, hits aside: each pair acts at
+/// its own time.
 void set_displacements(double h, const IslandSystem& system, const SubstepHits& hits,
                        std::vector<Vec6>& displacement);
 /// Path per time of the points of contact `r` that its impulse works on, over the substep [m/s].
