@@ -3,6 +3,7 @@
 # --failures): "kept" or "none", whether there is a result, and what failed.
 #   run_outcomes.sh there  MARKS RUN...   options of a tool that evaluates: the runs that have a result
 #   run_outcomes.sh some   MARKS RUN...   ends with 1, and with the list, when no run has a result
+#   run_outcomes.sh ended  MARKS RUN...   ends with 1, and with the list, when a run has no result for no fault of its own
 #   run_outcomes.sh failed MARKS RUN...   prints the names of the runs that failed
 #   run_outcomes.sh list   MARKS RUN...   lists what failed in which run; ends with 1 when any did
 set -eu
@@ -16,7 +17,7 @@ look_at() {
   name=${1##*/} name=${name%.h5}
   mark=$marks/$name
   case $1 in without/* | */without/*) mark=$marks/without_$name name=without/$name ;; esac
-  if [ -f "$mark" ] && [ "$1" -nt "$mark" ] && ! grep -q '^kept' "$mark"; then mark=$mark.over; fi
+  if [ -f "$mark" ] && [ "$1" -nt "$mark" ] && ! grep -q '^kept' "$mark"; then rm -f "$mark"; fi
 }
 has_result() {
   [ -f "$1" ] || return 1
@@ -24,7 +25,13 @@ has_result() {
   IFS=$tab read -r first rest <"$mark" && [ "$first" = kept ]
 }
 
-n=0 n_there=0 n_failed=0 there= failed=
+# Killed, asked to end, or never begun: it may well have a result when it is made again.
+is_cut_off() {
+  [ -f "$mark" ] || return 0
+  grep -q "^none$tab.*\(did not end by itself\|interrupted\)" "$mark"
+}
+
+n=0 n_there=0 n_failed=0 n_cut_off=0 there= failed=
 for run in "$@"; do
   n=$((n + 1))
   look_at "$run"
@@ -34,6 +41,7 @@ for run in "$@"; do
   fi
   if [ -f "$mark" ] || [ ! -f "$run" ]; then
     n_failed=$((n_failed + 1)) failed="$failed $run"
+    has_result "$run" || ! is_cut_off || n_cut_off=$((n_cut_off + 1))
   fi
 done
 
@@ -65,6 +73,7 @@ case $what in
     [ "$n_there" -eq "$n" ] || echo --missing $((n - n_there))
     ;;
   some) [ "$n_there" -gt 0 ] || { list >&2; exit 1; } ;;
+  ended) [ "$n_cut_off" -eq 0 ] || { list >&2; exit 1; } ;;
   failed) echo $failed ;;
   list) [ "$n_failed" -eq 0 ] || { list >&2; exit 1; } ;;
 esac

@@ -282,6 +282,12 @@ inline constexpr double soft_goal = 1e-6;
 /// [-] Sweeps of Gauss and Seidel, when that fails too.
 inline constexpr int most_sweeps = 2000;
 
+// --- breakage ----------------------------------------------------------------------------------
+
+/// [s] Loads that crush a block are means over this time, so that hits count and steps do not. It
+/// lies between the duration of a hit of rock on rock (about 1 ms) and that of a jam (seconds).
+inline constexpr double load_time = 0.1;
+
 // --- rest --------------------------------------------------------------------------------------
 
 /// [steps] A block, or all of an island, stays in place for so long before it is left out. Tried: a

@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "io/h5_hdf5.hpp"
 #include "io/write_bytes.hpp"
+#include "record/pieces.hpp"
 #include "record/run_file.hpp"
 #include "scene/stand.hpp"
 #include "store/run_file_tables_hdf5.hpp"
@@ -120,6 +121,11 @@ void write_blocks(H5Writer& file, const RunBlocks& blocks) {
                      "quaternion w x y z as cut, body to local axes");
   if (!blocks.weight.empty())
     file.array<double>("blocks/weight", blocks.weight, {n}, "1", "weight in statistics");
+  if (!blocks.parent.empty()) {
+    put_indices(file, "blocks/parent", blocks.parent,
+                "block that a piece comes from; -1: released");
+    put_indices(file, "blocks/generation", blocks.generation, "breaks before it was there");
+  }
   put_points(file, "blocks/vertices_m", blocks.vertices, "m", "vertices, body axes");
   put_indices(file, "blocks/vertex_begin", blocks.vertex_begin,
               "vertices of block b: [b], [b + 1)");
@@ -160,6 +166,15 @@ RunBlocks read_blocks(const H5Reader& file, const std::string& path) {
   if (file.has("blocks/weight")) {
     blocks.weight = file.array<double>("blocks/weight", 1);
     same("blocks/weight", blocks.weight.size());
+  }
+  if (file.has("blocks/parent")) {
+    blocks.parent = file.array<std::int32_t>("blocks/parent", 1);
+    blocks.generation = file.array<std::int32_t>("blocks/generation", 1);
+    same("blocks/parent", blocks.parent.size());
+    same("blocks/generation", blocks.generation.size());
+    for (std::size_t b = 0; b < n; ++b)
+      if (blocks.parent[b] < -1 || blocks.parent[b] >= static_cast<int>(b))
+        throw InputError({path, 0, "blocks/parent"}, "names a block behind its piece");
   }
   blocks.inertia = as_points(file.array<double>("blocks/inertia_kg_m2", 3));
   same("blocks/inertia_kg_m2", blocks.inertia.size());
@@ -376,13 +391,34 @@ void read_deep(const H5Reader& file, const std::string& path, RunFile& run) {
       throw InputError({path, 0, "deep_blocks"}, "a row names a block that does not exist");
 }
 
+void read_breaks(const H5Reader& file, const std::string& path, RunFile& run) {
+  if (!file.has("breaks")) return;
+  run.breaks = read_break_table(file);
+  const auto is_piece = [&run](int piece, int of) {
+    return piece >= 0 && piece < n_blocks(run) && run.blocks.parent[piece] == of;
+  };
+  for (const Break& row : run.breaks)
+    if (run.blocks.parent.empty() || row.block < 0 || row.block >= n_blocks(run) ||
+        !is_piece(row.first_piece, row.block) || !is_piece(row.first_piece + 1, row.block))
+      throw InputError({path, 0, "breaks"}, "a row names a piece that does not exist");
+}
+
+void read_crushed(const H5Reader& file, const std::string& path, RunFile& run) {
+  if (!file.has("crushed_blocks")) return;
+  run.crushed = read_crushed_table(file);
+  for (const CrushedBlock& row : run.crushed)
+    if (row.block < 0 || row.block >= n_blocks(run))
+      throw InputError({path, 0, "crushed_blocks"}, "a row names a block that does not exist");
+}
+
 void write_phases(H5Writer& file, const RunFile& run) {
   std::vector<std::uint8_t> phases;
   for (const Phase phase : run.phase) phases.push_back(static_cast<std::uint8_t>(phase));
   if (!phases.empty())
     file.array<std::uint8_t>("blocks/phase", phases, {phases.size()}, "1",
                              "at the end: 0 near the ground, 1 in flight, 2 asleep, 3 left the "
-                             "terrain, 4 stopped for want of finite numbers");
+                             "terrain, 4 stopped for want of finite numbers, 5 not there yet, 6 "
+                             "crushed, 7 broken into fragments");
 }
 
 std::vector<Phase> read_phases(const H5Reader& file, std::size_t n_blocks,
@@ -390,7 +426,7 @@ std::vector<Phase> read_phases(const H5Reader& file, std::size_t n_blocks,
   std::vector<Phase> phases;
   if (!file.has("blocks/phase")) return phases;
   for (const std::uint8_t phase : file.array<std::uint8_t>("blocks/phase", 1)) {
-    if (phase > static_cast<std::uint8_t>(Phase::stopped))
+    if (phase > static_cast<std::uint8_t>(last_phase))
       throw InputError({path, 0, "blocks/phase"}, "holds an unknown phase");
     phases.push_back(static_cast<Phase>(phase));
   }
@@ -421,8 +457,11 @@ RunFile read_run_file(const std::string& path, const RunParts& parts) {
   if (parts.trees) read_trees(file, path, run);
   if (parts.health) {
     run.health = read_health_table(file, parts.only_faults);
+    read_crushed(file, path, run);
     read_deep(file, path, run);
   }
+  read_breaks(file, path, run);
+  if (parts.merge_pieces) merge_pieces(run);
   if (parts.checkpoint && file.has("checkpoint"))
     run.checkpoint = file.array<std::uint8_t>("checkpoint", 1);
   return run;
@@ -447,6 +486,8 @@ void write_run_file(const std::string& path, const RunFile& run) {
   write_fences(file, run);
   write_trees(file, run);
   write_health_table(file, run.health);
+  if (!run.breaks.empty()) write_break_table(file, run.breaks);
+  if (!run.crushed.empty()) write_crushed_table(file, run.crushed);
   if (!run.deep.empty()) write_deep_table(file, run.deep);
   if (!run.checkpoint.empty())
     file.array<std::uint8_t>("checkpoint", run.checkpoint, {run.checkpoint.size()}, "1",

@@ -1,5 +1,6 @@
 #include "store/run_file_tables_hdf5.hpp"
 
+#include <algorithm>
 #include <set>
 #include <string>
 #include <type_traits>
@@ -240,6 +241,70 @@ void panel_columns(Visit&& column) {
 }
 
 template <class Visit>
+void break_columns(Visit&& column) {
+  column(
+      "block", "1", "body that broke", [](Break & b) -> auto& { return b.block; });
+  column(
+      "first_piece", "1", "the first of its two pieces; the other is the next body",
+      [](Break & b) -> auto& { return b.first_piece; });
+  column(
+      "released", "1", "released block that the body was part of",
+      [](Break & b) -> auto& { return b.released; });
+  column(
+      "generation", "1", "breaks of the released block before that, from piece to piece",
+      [](Break & b) -> auto& { return b.generation; });
+  column(
+      "time_s", "s", "when it broke", [](Break & b) -> auto& { return b.time; });
+  column(
+      "position_x_m", "m", "its centroid then, local",
+      [](Break & b) -> auto& { return b.place.x(); });
+  column(
+      "position_y_m", "m", "its centroid then, local",
+      [](Break & b) -> auto& { return b.place.y(); });
+  column(
+      "position_z_m", "m", "its centroid then, local",
+      [](Break & b) -> auto& { return b.place.z(); });
+  column(
+      "volume_m3", "m3", "of the body", [](Break & b) -> auto& { return b.volume; });
+  column(
+      "hit_loss_j", "J", "normal energy that the hit took, or left of it to a piece",
+      [](Break & b) -> auto& { return b.hit_loss; });
+  column(
+      "fracture_j", "J", "work of fracture, part of that",
+      [](Break & b) -> auto& { return b.fracture; });
+  column(
+      "separation_j", "J", "kinetic energy that drives the pieces apart, part of that",
+      [](Break & b) -> auto& { return b.separation; });
+}
+
+template <class Visit>
+void crushed_columns(Visit&& column) {
+  column(
+      "block", "1", "index of the block", [](CrushedBlock & c) -> auto& { return c.block; });
+  column(
+      "time_s", "s", "when it was crushed", [](CrushedBlock & c) -> auto& { return c.time; });
+  column(
+      "load_n", "N", "that was pressed through it, mean over 0.1 s",
+      [](CrushedBlock & c) -> auto& { return c.load; });
+  column(
+      "strength_n", "N", "load that it could bear",
+      [](CrushedBlock & c) -> auto& { return c.strength; });
+  column(
+      "position_x_m", "m", "centroid, where its debris stays, local",
+      [](CrushedBlock & c) -> auto& { return c.place.x(); });
+  column(
+      "position_y_m", "m", "centroid, where its debris stays, local",
+      [](CrushedBlock & c) -> auto& { return c.place.y(); });
+  column(
+      "position_z_m", "m", "centroid, where its debris stays, local",
+      [](CrushedBlock & c) -> auto& { return c.place.z(); });
+  column(
+      "volume_m3", "m3", "of the block", [](CrushedBlock & c) -> auto& { return c.volume; });
+  column(
+      "mass_kg", "kg", "of the block", [](CrushedBlock & c) -> auto& { return c.mass; });
+}
+
+template <class Visit>
 void deep_columns(Visit&& column) {
   column(
       "block", "1", "index of the block", [](DeepRow & d) -> auto& { return d.block; });
@@ -356,6 +421,15 @@ void health_columns(Visit&& column) {
       [](HealthRow & h) -> auto& { return h.removed; });
 }
 
+// Missing where nothing broke or was crushed.
+template <class Visit>
+void breakage_column(Visit&& column) {
+  column(
+      "breakage_loss_j", "J",
+      "kinetic energy of blocks that were crushed, and work of fracture, since the start",
+      [](HealthRow & h) -> auto& { return h.breakage; });
+}
+
 // Missing in runs of earlier versions.
 template <class Visit>
 void cut_columns(Visit&& column) {
@@ -424,6 +498,16 @@ void write_hit_table(H5Writer& file, const std::vector<FenceHit>& rows) {
               [](auto&& column) { hit_columns(column); });
 }
 
+void write_break_table(H5Writer& file, const std::vector<Break>& rows) {
+  write_table(file, "breaks", "one row per block or piece that broke in two, by time", rows,
+              [](auto&& column) { break_columns(column); });
+}
+
+void write_crushed_table(H5Writer& file, const std::vector<CrushedBlock>& rows) {
+  write_table(file, "crushed_blocks", "one row per block that was crushed, by time", rows,
+              [](auto&& column) { crushed_columns(column); });
+}
+
 void write_tree_hit_table(H5Writer& file, const std::vector<TreeHitRow>& rows) {
   write_table(file, "tree_hits", "one row per block and stem that it touched", rows,
               [](auto&& column) { tree_hit_columns(column); });
@@ -436,9 +520,12 @@ void write_deep_table(H5Writer& file, const std::vector<DeepRow>& rows) {
 }
 
 void write_health_table(H5Writer& file, const std::vector<HealthRow>& rows) {
+  const bool any_breakage =
+      std::any_of(rows.begin(), rows.end(), [](const HealthRow& row) { return row.breakage != 0; });
   write_table(file, "health", "how the computation went, interval by interval", rows,
-              [](auto&& column) {
+              [any_breakage](auto&& column) {
                 health_columns(column);
+                if (any_breakage) breakage_column(column);
                 cut_columns(column);
               });
 }
@@ -459,6 +546,15 @@ std::vector<FenceHit> read_hit_table(const H5Reader& file) {
   return read_table<FenceHit>(file, "fence_hits", [](auto&& column) { hit_columns(column); });
 }
 
+std::vector<Break> read_break_table(const H5Reader& file) {
+  return read_table<Break>(file, "breaks", [](auto&& column) { break_columns(column); });
+}
+
+std::vector<CrushedBlock> read_crushed_table(const H5Reader& file) {
+  return read_table<CrushedBlock>(file, "crushed_blocks",
+                                  [](auto&& column) { crushed_columns(column); });
+}
+
 std::vector<TreeHitRow> read_tree_hit_table(const H5Reader& file) {
   return read_table<TreeHitRow>(file, "tree_hits", [](auto&& column) { tree_hit_columns(column); });
 }
@@ -473,6 +569,12 @@ std::vector<HealthRow> read_health_table(const H5Reader& file, bool only_faults)
     wanted = {"unconverged", "left_domain", "fell_through", "not_finite", "largest_penetration_m"};
   std::vector<HealthRow> rows = read_table<HealthRow>(
       file, "health", [](auto&& column) { health_columns(column); }, wanted);
+  if (!only_faults && file.has("health/breakage_loss_j")) {
+    const auto breakage = file.array<double>("health/breakage_loss_j", 1);
+    if (breakage.size() != rows.size())
+      throw InputError({"health/breakage_loss_j"}, "has not as many rows as the columns beside it");
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i].breakage = breakage[i];
+  }
   if (only_faults || !file.has(std::string("health/cut_") + substep_cut_names.front())) return rows;
   const std::vector<HealthRow> cuts =
       read_table<HealthRow>(file, "health", [](auto&& column) { cut_columns(column); });

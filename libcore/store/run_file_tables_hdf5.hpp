@@ -17,6 +17,8 @@ void write_passage_table(H5Writer& file, const std::vector<Passage>& rows);
 void write_crossing_table(H5Writer& file, const std::vector<Crossing>& rows);
 void write_panel_table(H5Writer& file, const std::vector<PanelRow>& rows);
 void write_hit_table(H5Writer& file, const std::vector<FenceHit>& rows);
+void write_break_table(H5Writer& file, const std::vector<Break>& rows);
+void write_crushed_table(H5Writer& file, const std::vector<CrushedBlock>& rows);
 void write_deep_table(H5Writer& file, const std::vector<DeepRow>& rows);
 void write_health_table(H5Writer& file, const std::vector<HealthRow>& rows);
 
@@ -25,6 +27,8 @@ void write_health_table(H5Writer& file, const std::vector<HealthRow>& rows);
 [[nodiscard]] std::vector<Crossing> read_crossing_table(const H5Reader& file);
 [[nodiscard]] std::vector<PanelRow> read_panel_table(const H5Reader& file);
 [[nodiscard]] std::vector<FenceHit> read_hit_table(const H5Reader& file);
+[[nodiscard]] std::vector<Break> read_break_table(const H5Reader& file);
+[[nodiscard]] std::vector<CrushedBlock> read_crushed_table(const H5Reader& file);
 void write_tree_hit_table(H5Writer& file, const std::vector<TreeHitRow>& rows);
 [[nodiscard]] std::vector<TreeHitRow> read_tree_hit_table(const H5Reader& file);
 [[nodiscard]] std::vector<DeepRow> read_deep_table(const H5Reader& file);

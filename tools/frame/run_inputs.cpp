@@ -53,6 +53,7 @@ void RunInputs::read(const std::vector<std::string>& paths, const RunParts& part
   const bool at_once = parts.only_last_frame && bytes_of(paths) <= most_at_once;
   std::vector<RunMember> found;
   std::vector<RunFile> runs;
+  const ProgressFunction progress = tool_.progress();
   for (const std::string& path : paths) {
     RunFile run = at_once ? read_run_file(path, parts) : read_run_head(path);
     found.push_back(member_of(path, run));
@@ -60,7 +61,7 @@ void RunInputs::read(const std::vector<std::string>& paths, const RunParts& part
     if (!at_once) continue;
     std::vector<HealthRow>().swap(run.health);
     runs.push_back(std::move(run));
-    tool_.progress()(static_cast<double>(runs.size()) / static_cast<double>(paths.size()));
+    progress(static_cast<double>(runs.size()) / static_cast<double>(paths.size()));
   }
   const std::size_t first = members.size();
   const std::vector<int> order = order_by_id(found);

@@ -11,7 +11,7 @@ namespace talus {
 std::string map_section(const ReportData& data) {
   std::string out = html_figure(
       plan_view_svg(data.shown, data.terrain, data.hillshade_png),
-      "<span class=\"key\"><i class=\"start\"></i>start<i class=\"way\"></i>ways of the "
+      "<span class=\"key\"><i class=\"start\"></i>start<i class=\"way\"></i>paths of the "
       "centroids<i class=\"end\"></i>end<i class=\"fence\"></i>fence line</span>. Run " +
           xml_escaped(data.shown_name) + "; north is up.");
   out += html_paragraph(

@@ -98,6 +98,9 @@ std::string reach_tiles(const Json& r) {
          html_fact(number_text(of("L_path_m", "max")) + " m",
                    "L, run-out of the farthest block along its path, " + over_runs(r, "largest") +
                        extreme_percentile(length, "p95", " m") + unsettled(r)) +
+         html_fact(number_text(of("L95_m", "max")) + " m",
+                   "L95, straight from its top, within which 95 % of the mass that moved came, " +
+                       over_runs(r, "largest")) +
          html_fact(number_text(of("reach_angle_path_deg", "min"), 3) + "&deg;",
                    "angle of reach, atan(H/L), " + over_runs(r, "smallest") +
                        extreme_percentile(angle, "p05", "&deg;"));
@@ -136,15 +139,16 @@ std::string fault_table(const RunFaults& faults) {
 std::string health_verdict(const ReportData& data) {
   const std::string wrong = headline(data.faults);
   if (!wrong.empty())
-    return "<div class=\"verdict fail\"><b>Health: fail.</b> " + xml_escaped(wrong) +
+    return "<div class=\"verdict fail\"><b>Numerical checks: failed.</b> " + xml_escaped(wrong) +
            ". What these runs say is not to be relied on before the cause is found; see <a "
-           "href=\"#health\">health</a>.</div>\n" +
+           "href=\"#health\">the checks</a>.</div>\n" +
            fault_table(data.faults);
   if (all_pass(data.runs, data.limits))
-    return "<div class=\"verdict pass\"><b>Health: pass.</b> All runs finished within their "
+    return "<div class=\"verdict pass\"><b>Numerical checks: passed.</b> All runs finished within "
+           "their "
            "limits.</div>\n";
-  return "<div class=\"verdict fail\"><b>Health: fail.</b> A limit is broken; see <a "
-         "href=\"#health\">health</a>.</div>\n";
+  return "<div class=\"verdict fail\"><b>Numerical checks: failed.</b> A limit is broken; see <a "
+         "href=\"#health\">the checks</a>.</div>\n";
 }
 
 std::string standing_mass(const Json& moved) {

@@ -8,6 +8,7 @@
 #include "post/maps/map_style.hpp"
 #include "post/runout/mobility.hpp"
 #include "post/runout/runout_text.hpp"
+#include "scene/site_scene.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/fault_json.hpp"
 #include "tools/frame/map_output.hpp"
@@ -47,6 +48,23 @@ void declare(Tool& tool, Options& o) {
   tool.footer("Example:\n  talus-runout run.h5 --trn slope.tif -o runout.gpkg --json runout.json");
 }
 
+// Friction and restitution of the ground as the run drew them, where it scatters them.
+// Nothing of a run whose settings this version does not read.
+std::vector<DrawnValue> drawn_by(const RunInfo& info) {
+  Site site;
+  try {
+    site = parse_site(info.config, info.run_id);
+  } catch (const InputError&) {
+    return {};
+  }
+  std::vector<DrawnValue> values;
+  for (const GroundSettings& ground : drawn_grounds(site)) {
+    values.push_back({"friction_deg." + ground.name, ground.friction_deg});
+    if (site.solver.cor_scatter > 0) values.push_back({"cor." + ground.name, ground.cor});
+  }
+  return values;
+}
+
 RunoutRuns read_runs(RunInputs& inputs, const Options& o, const Trn& trn) {
   const ReachSettings settings{o.tolerance_m, inputs.rest_speed_m_s};
   std::vector<RunoutRun> runs;
@@ -54,17 +72,19 @@ RunoutRuns read_runs(RunInputs& inputs, const Options& o, const Trn& trn) {
   inputs.read({.crossings = false, .checkpoint = false}, [&](RunFile& run, int index) {
     grid = run.grid.n_rows > 0 ? run.grid : passage_grid(trn, 0);
     runs.push_back(runout_run(run, inputs.members[index], grid, trn, settings));
+    runs.back().drawn = drawn_by(run.info);
   });
   return add_up(std::move(runs), grid);
 }
 
-// The relations mostly use the chord or the axis of the path: L is the chord.
+// The relations are of masses, not of single blocks: V is what moved, H and L are those of 95 % of
+// it, straight.
 std::vector<MobilityEvent> events_of(const std::vector<RunoutRun>& runs, bool confined) {
   std::vector<MobilityEvent> events;
   for (const RunoutRun& r : runs)
     if (r.event.moved.any())
-      events.push_back({r.member.info.run_id, r.balance.released, r.event.event.height,
-                        r.event.event.chord, confined});
+      events.push_back({r.member.info.run_id, r.event.mass.moved_volume, r.event.mass.height,
+                        r.event.mass.length, confined});
   return events;
 }
 
@@ -143,6 +163,7 @@ void run_tool(Tool& tool, Options& o, RunInputs& inputs) {
                  {"swept_area_m2", swept_area(all)},
                  {"path_tolerance_m", o.tolerance_m},
                  {"spread_over_runs", spread_json(all.runs)},
+                 {"cases", cases_json(all.runs)},
                  {"runs", runs},
                  {"mobility", mobility_json(relations, events)}};
   if (trees.any) result["trees"] = trees_json(summary_of(trees.runs), trn.origin);

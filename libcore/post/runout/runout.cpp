@@ -53,15 +53,18 @@ void raise_by_passages(std::vector<BlockReach>& blocks, const std::vector<Passag
   }
 }
 
+// Raises `top` to the highest vertex of a block before it moved.
+void raise_to_highest(const RunFile& run, int block, Vec3& top) {
+  const Pose pose = first_pose(run, block);
+  for (int v = run.blocks.vertex_begin[block]; v < run.blocks.vertex_begin[block + 1]; ++v) {
+    const Vec3 at = place(pose, run.blocks.vertices[v]);
+    if (at.z() > top.z()) top = at;
+  }
+}
+
 Vec3 highest_point(const RunFile& run) {
   Vec3 top(0, 0, -std::numeric_limits<double>::infinity());
-  for (int block = 0; block < n_blocks(run); ++block) {
-    const Pose pose = first_pose(run, block);
-    for (int v = run.blocks.vertex_begin[block]; v < run.blocks.vertex_begin[block + 1]; ++v) {
-      const Vec3 at = place(pose, run.blocks.vertices[v]);
-      if (at.z() > top.z()) top = at;
-    }
-  }
+  for (int block = 0; block < n_blocks(run); ++block) raise_to_highest(run, block, top);
   return top;
 }
 
@@ -116,6 +119,47 @@ std::vector<Vec3> streamline(const RunFile& run, const EventReach& event, const 
 }
 
 }  // namespace
+
+double MassReach::angle() const { return angle_of(height, length); }
+
+MassReach mass_reach(const RunFile& run, const std::vector<WeightedValue>& displacement) {
+  struct End {
+    double distance, z, mass;
+  };
+  MassReach reach;
+  Vec3 top(0, 0, -std::numeric_limits<double>::infinity());
+  const auto has_moved = [&](int block) { return displacement[block].value > moved_m; };
+  for (int block = 0; block < n_blocks(run); ++block)
+    if (has_moved(block)) raise_to_highest(run, block, top);
+  std::vector<End> ends;
+  double all = 0;
+  for (int block = 0; block < n_blocks(run); ++block) {
+    if (!has_moved(block)) continue;
+    const Vec3 at = last_pose(run, block).position;
+    ends.push_back({plan_distance(top, at), at.z(), run.blocks.mass[block]});
+    all += run.blocks.mass[block];
+    reach.moved_volume += run.blocks.volume[block];
+  }
+  if (ends.empty()) return {none, none, 0, none, none, 0, 0};
+  std::stable_sort(ends.begin(), ends.end(),
+                   [](const End& a, const End& b) { return a.distance < b.distance; });
+  double within = 0;
+  for (const End& end : ends) {
+    if (within < reach_share * all * (1 - 1e-12)) {
+      reach.length = end.distance;
+      reach.height = top.z() - end.z;
+    }
+    within += end.mass;
+  }
+  for (const End& end : ends) {
+    if (end.distance <= reach.length) continue;
+    ++reach.n_beyond;
+    reach.beyond_share += end.mass / all;
+    reach.n_outliers += end.distance > outlier_factor * reach.length;
+  }
+  reach.toe_share = ends.back().mass / all;
+  return reach;
+}
 
 double AngleProfile::at_end() const { return angle.empty() ? none : angle.back(); }
 
@@ -236,6 +280,7 @@ EventReach event_reach(const RunFile& run, const Trn& trn, const ReachSettings& 
   if (!event.moved.any()) {
     event.event = event.centre_of_mass = {none, none, none};
     event.sum_angle = event.profile.smallest = event.profile.smallest_at = none;
+    event.mass = mass_reach(run, displacement);
     return event;
   }
   event.top = highest_point(run);
@@ -246,6 +291,7 @@ EventReach event_reach(const RunFile& run, const Trn& trn, const ReachSettings& 
   event.toe_fate = event.blocks[event.toe_block].fate;
   event.streamline = streamline(run, event, trn, settings.tolerance, event.toe);
   event.event = reach_along(event.streamline);
+  event.mass = mass_reach(run, displacement);
   // From where the toe block started: the piece from the top to there may lead sideways.
   event.profile = angle_profile(std::span<const Vec3>(event.streamline).subspan(1),
                                 0.1 * event.event.path, settings.tolerance);
@@ -281,18 +327,20 @@ EnergyShares energy_shares(const RunFile& run) {
   if (run.health.empty()) return shares;
   const HealthRow &start = run.health.front(), &end = run.health.back();
   const double at_start = start.translation + start.rotation + start.friction + start.impact +
-                          start.contact + start.fence + start.removed + start.elastic - start.base;
+                          start.contact + start.fence + start.breakage + start.removed +
+                          start.elastic - start.base;
   shares.put_in = start.potential - end.potential + at_start + end.base;
   if (!(shares.put_in > 0)) return {};
   shares.friction = end.friction / shares.put_in;
   shares.impact = end.impact / shares.put_in;
   shares.contact = end.contact / shares.put_in;
   shares.fence = end.fence / shares.put_in;
+  shares.breakage = end.breakage / shares.put_in;
   shares.removed = end.removed / shares.put_in;
   shares.kinetic = (end.translation + end.rotation) / shares.put_in;
   shares.elastic = end.elastic / shares.put_in;
   shares.unaccounted = 1 - shares.friction - shares.impact - shares.contact - shares.fence -
-                       shares.removed - shares.kinetic - shares.elastic;
+                       shares.breakage - shares.removed - shares.kinetic - shares.elastic;
   return shares;
 }
 

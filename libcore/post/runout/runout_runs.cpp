@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <map>
+#include <numeric>
 
 #include "post/statistics.hpp"
 
@@ -64,10 +67,40 @@ double swept_area(const RunoutRuns& all) {
 }
 
 Spread spread_over(const std::vector<RunoutRun>& runs, double (*value)(const RunoutRun&)) {
+  std::vector<int> all(runs.size());
+  std::iota(all.begin(), all.end(), 0);
+  return spread_over(runs, all, value);
+}
+
+std::string case_of(const std::string& file) {
+  const std::string stem = std::filesystem::path(file).stem().string();
+  const std::size_t last = stem.rfind('_');
+  if (stem.rfind("run_", 0) != 0 || last <= 4 || last == std::string::npos) return "";
+  return stem.substr(4, last - 4);
+}
+
+std::vector<RunoutCase> cases_of(const std::vector<RunoutRun>& runs) {
+  std::map<std::string, std::vector<int>> by_name;
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    by_name[case_of(runs[i].member.file)].push_back(static_cast<int>(i));
+  std::vector<RunoutCase> cases;
+  if (by_name.size() < 2) return cases;
+  for (auto& [name, of_case] : by_name) {
+    std::vector<WeightedValue> displacement;
+    for (const int i : of_case)
+      for (std::size_t b = 0; b < runs[i].mass.size(); ++b)
+        displacement.push_back({runs[i].displacement[b], runs[i].mass[b]});
+    cases.push_back({name, of_case, moved_of(std::move(displacement))});
+  }
+  return cases;
+}
+
+Spread spread_over(const std::vector<RunoutRun>& runs, const std::vector<int>& some,
+                   double (*value)(const RunoutRun&)) {
   std::vector<WeightedValue> values;
   double sum = 0;
-  for (const RunoutRun& r : runs)
-    if (const double v = value(r); std::isfinite(v)) values.push_back({v, 1}), sum += v;
+  for (const int i : some)
+    if (const double v = value(runs[i]); std::isfinite(v)) values.push_back({v, 1}), sum += v;
   if (values.empty()) return {};
   sort_values(values);
   return {values.size(),

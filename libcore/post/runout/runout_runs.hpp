@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "post/run_set.hpp"
@@ -13,9 +14,16 @@
 
 namespace talus {
 
+/// A value that a run drew, by the name of its column.
+struct DrawnValue {
+  std::string name;
+  double value = 0;
+};
+
 /// What is kept of a run once it has been read.
 struct RunoutRun {
   RunMember member;
+  std::vector<DrawnValue> drawn;  ///< where it is known
   EventReach event;
   Balance balance;
   EnergyShares energy;
@@ -56,6 +64,22 @@ struct Spread {
   double mean = 0, smallest = 0, p05 = 0, p50 = 0, p95 = 0, largest = 0;
 };
 [[nodiscard]] Spread spread_over(const std::vector<RunoutRun>& runs,
+                                 double (*value)(const RunoutRun&));
+
+/// The variant of settings that a run belongs to: "low" of run_low_3.h5; "" of run_3.h5.
+[[nodiscard]] std::string case_of(const std::string& file);
+
+/// The runs of one case.
+struct RunoutCase {
+  std::string name;
+  std::vector<int> runs;  ///< of RunoutRuns::runs
+  Moved moved;            ///< the mass of its runs together
+};
+/// By name; empty where all runs are of one case.
+[[nodiscard]] std::vector<RunoutCase> cases_of(const std::vector<RunoutRun>& runs);
+
+/// spread_over() of some runs.
+[[nodiscard]] Spread spread_over(const std::vector<RunoutRun>& runs, const std::vector<int>& some,
                                  double (*value)(const RunoutRun&));
 
 /// Runs in which a block moved: the others have no run-out.

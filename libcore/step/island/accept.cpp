@@ -7,6 +7,8 @@
 #include "scene/fence.hpp"
 #include "scene/stems.hpp"
 #include "solver/law_numbers.hpp"
+#include "step/breakage.hpp"
+#include "step/crushing.hpp"
 #include "step/deep_blocks.hpp"
 #include "step/flight.hpp"
 #include "step/island/stages.hpp"
@@ -41,6 +43,37 @@ struct SubstepAcceptance {
     if (!gives_way(system, r))
       (contact.hit >= 0 ? state.ledger.impact : state.ledger.contact) -= p_n * normal.dot(path);
     state.ledger.friction -= p_t.dot(path);
+    if (state.load.empty()) return;
+    add_load(scene, contact.a, normal, p_n, impulse, state);
+    add_load(scene, contact.b, normal, p_n, -impulse, state);
+  }
+
+  // Normal energy that the contact of a hit took; below zero where others drove its bodies apart.
+  [[nodiscard]] double hit_loss_of(size_t r) const {
+    if (system.contacts[r].hit < 0 || system.contacts[r].waits || gives_way(system, r) ||
+        lane_of(system, r).state() == ContactState::open)
+      return 0;
+    const RowIn<const RowGroup> lane = lane_of(system, r);
+    const Vec3 path = path_of_impulse(members, free, system, hits, r);
+    return -lane.normal().dot(lane.impulse()) * lane.normal().dot(path);
+  }
+
+  // What hits take, the ground and fixed bodies have no part in; two blocks have half of it each.
+  // Where a hit is passed on through a block, one contact takes what another gives back: all
+  // together have what the hits of the substep took, so that breaking takes no more.
+  void add_hit_losses() {
+    double taken = 0, given = 0;
+    for (size_t r = 0; r < system.contacts.size(); ++r) {
+      const double loss = hit_loss_of(r);
+      (loss > 0 ? taken : given) += std::abs(loss);
+    }
+    if (taken <= given) return;
+    for (size_t r = 0; r < system.contacts.size(); ++r) {
+      const double loss = std::max(0.0, hit_loss_of(r)) * (1 - given / taken);
+      const KeptContact& contact = system.contacts[r];
+      add_hit_loss(contact.a, contact.b < 0 ? loss : loss / 2, state);
+      add_hit_loss(contact.b, loss / 2, state);
+    }
   }
 
   // Share of offset_relaxed() by which an overlap is pressed out. That is a speed, whatever it
@@ -139,6 +172,7 @@ struct SubstepAcceptance {
       if (pair.b < 0 && !gives_way(system, r)) end.ground_impulse[pair.a] += lane.impulse();
       remember_contact(r, path, overlap);
     }
+    if (!state.hit_loss.empty()) add_hit_losses();
   }
 
   // The path of a member: in one piece, or from hit to hit and on from the last.

@@ -39,6 +39,7 @@ struct PairSearch {  // clang-format off
   std::vector<Vec3> rotation;               ///< rotation vector ahead [rad]             (n_bodies)
   std::vector<double> turn;                 ///< path of turning ahead [m]               (n_bodies)
   std::vector<std::uint8_t> moving, awake;  ///<                                         (n_blocks)
+  std::vector<std::uint8_t> absent;         ///< 1: touches nothing; empty: none      (n_blocks)
   BodyGrid grid;                            ///< the fixed bodies, where they stood first
   std::vector<int> shifted;                 ///< bodies: the fixed ones whose pose is not that
   std::vector<int> near;                    ///< scratch: fixed bodies near a block

@@ -6,6 +6,7 @@
 #include "contact/past_ridge.hpp"
 #include "contact/search.hpp"
 #include "solver/law_numbers.hpp"
+#include "step/breakage.hpp"
 #include "step/deep_blocks.hpp"
 #include "step/flight.hpp"
 #include "step/impact.hpp"
@@ -80,6 +81,7 @@ struct Advance {
   // contact that was foreseen is hit besides those that touch; without it nothing would be hit,
   // again and again.
   bool impact() {
+    const Motion before = motion();
     const HitSpeeds speeds{c.resting_speed, c.located_speed};
     ImpactResult hit = apply_impact(scene, b, 2 * c.touch, speeds, motion(), work);
     if (!hit.hit && is_foreseen) {
@@ -90,6 +92,7 @@ struct Advance {
     if (!hit.hit) return false;
     was_fast = hit.is_fast;
     state.ledger.impact += hit.dissipated;
+    add_ground_hit_loss(scene, b, before, motion(), work.contacts, hit.dissipated, state);
     ++report.n_impacts;
     report.passes += hit.passes;
     if (!hit.converged) note_unconverged(b, report);
