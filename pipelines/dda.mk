@@ -65,11 +65,18 @@ $(run_files) $(without_files): ; $(eval lacking_runs += $@)
 endif
 
 # --- what became of them ---
+# More names than this do not go into one line of a shell, which holds 128 KiB: lists hold them.
+most_named := 1000
+# A shard names its own runs, and leaves the lists to others, since many shards are made at a time.
+run_lists := $(if $(SHARD),,$(if $(word $(most_named),$(run_files) $(without_files)),yes))
+$(if $(run_lists),$(if $(is_dry_run),,$(file >$(STAGES)/runs.list)$(file >$(STAGES)/without.list)\
+  $(foreach file,$(run_files),$(file >>$(STAGES)/runs.list,$(file)))$(foreach file,$(without_files),$(file >>$(STAGES)/without.list,$(file)))))
+list_of = $(if $(filter $(firstword $2),$(firstword $1) $(lastword $1)),--from $(STAGES)/$3.list)
+named = $(if $(run_lists),$(call list_of,$1,$(run_files),runs) $(call list_of,$(lastword $1),$(lastword $(without_files)),without),$1)
 # outcomes(WHAT,FILES)
-outcomes = sh $(PIPELINES)run_outcomes.sh $1 $(failed_marks) $2
+outcomes = sh $(PIPELINES)run_outcomes.sh $1 $(failed_marks) $(call named,$2)
 counted_runs = $(words $1) run$(if $(filter 1,$(words $1)),,s)
-# By make, not by the shell, whose one line holds 128 KiB: some 6,000 runs.
-run_there = $(if $(is_dry_run),$$($(call outcomes,there,$1)),$(shell $(call outcomes,there,$1)))
+run_there = $$($(call outcomes,there,$1))
 # The last goal that has to do with runs comes after the others and lists what failed.
 run_goals := runs runout maps fence report all
 asked := $(filter $(run_goals),$(or $(MAKECMDGOALS),all))

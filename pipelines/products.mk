@@ -21,6 +21,7 @@ made_patterns := thickness.qml runs/run_*[0-9].h5 runs/run_*[0-9].h5.part runs/r
   runs.sqlite runs.sqlite-wal runs.sqlite-shm runs.sqlite.late-* data.ok \
   $(addsuffix .aux.xml,$(filter %.tif %.png,$(products))) \
   $(foreach ending,txt flags files,$(stages_made:%=stages/%.$(ending))) \
+  stages/runs.list stages/without.list stages/runs.list.there stages/without.list.there \
   shards/*-of-*.sqlite shards/*-of-*.sqlite-wal shards/*-of-*.sqlite-shm shards/*-of-*.sqlite.late-* \
   shards/merged shards/jobs shards/log/*_*.txt stages/.progress* \
   stages/.digests stages/failed/run_*[0-9] stages/failed/without_run_*[0-9] \

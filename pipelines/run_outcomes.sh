@@ -6,10 +6,20 @@
 #   run_outcomes.sh ended  MARKS RUN...   ends with 1, and with the list, when a run has no result for no fault of its own
 #   run_outcomes.sh failed MARKS RUN...   prints the names of the runs that failed
 #   run_outcomes.sh list   MARKS RUN...   lists what failed in which run; ends with 1 when any did
+# RUN may also be --from LIST, a file with a name a line; then `there` names lists of those that have a result.
 set -eu
 what=$1 marks=$2
 shift 2
 tab=$(printf '\t')
+
+runs= lists=
+while [ $# -gt 0 ]; do
+  case $1 in
+    --from) runs="$runs $(cat "$2")" lists="$lists $2"; shift 2 ;;
+    *) runs="$runs $1"; shift ;;
+  esac
+done
+set -- $runs
 
 # RUN is OUT/runs/run_3.h5 or OUT/without/run_3.h5: sets `name` and `mark`. A result that is newer than
 # a mark came in place after it: its run was killed before it could take the mark away.
@@ -45,14 +55,29 @@ for run in "$@"; do
   fi
 done
 
+# A list beside each that was given, replaced in one go: several tools may ask at a time.
+print_lists() {
+  for list in $lists; do
+    for run in $(cat "$list"); do
+      look_at "$run"
+      if has_result "$run"; then echo "$run"; fi
+    done >"$list.there.$$"
+    mv "$list.there.$$" "$list.there"
+    case $list in */without.list) echo "--without-from $list.there" ;; *) echo "--runs-from $list.there" ;; esac
+  done
+}
+
+# Few failed runs are left out of what is made: --max-failed-share of the tools, 0.02 unless given.
 list() {
+  used='its result is used, and marked'
+  [ $((50 * n_failed)) -gt "$n" ] || used='left out, and counted into the intervals'
   echo "$n_failed of $n runs failed:"
   for run in $failed; do
     look_at "$run"
     if [ -f "$mark" ]; then
       while IFS=$tab read -r outcome words; do
         case $outcome in
-          kept) echo "  $name: $words (its result is used, and marked)" ;;
+          kept) echo "  $name: $words ($used)" ;;
           none) echo "  $name: $words (no result)" ;;
         esac
       done <"$mark"
@@ -69,7 +94,11 @@ list() {
 
 case $what in
   there)
-    echo $there
+    if [ -z "$lists" ]; then
+      echo $there
+    else
+      print_lists
+    fi
     [ "$n_there" -eq "$n" ] || echo --missing $((n - n_there))
     ;;
   some) [ "$n_there" -gt 0 ] || { list >&2; exit 1; } ;;

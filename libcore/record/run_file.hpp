@@ -10,12 +10,14 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "record/crossings.hpp"
 #include "record/frames.hpp"
 #include "record/passages.hpp"
+#include "record/reach.hpp"
 #include "scene/forest.hpp"
 #include "scene/state.hpp"
 #include "step/report.hpp"
@@ -142,6 +144,7 @@ struct RunFile {
   RunInfo info;
   RunBlocks blocks;
   RunFrames frames;
+  std::optional<RunReach> reach;  ///< stands for the frames between the first and the last
   PassageGrid grid;
   bool passages_by_centroid = false;
   std::vector<Passage> passages;  ///< by block, then cell

@@ -179,6 +179,7 @@ struct OutputSettings {
   double checkpoint_interval_s = 60;  ///< of wall time
   double cell_size_m = not_given;
   bool passages = true, strain = false;
+  bool frames = true;  ///< kept once the run has ended; else the first and the last alone
 };
 
 /// [base_motion]: acceleration of the ground, from a file or a harmonic one.

@@ -222,7 +222,8 @@ template <> const std::vector<SiteKey<OutputSettings>>& keys_of() {
       {"checkpoint_interval_s", &S::checkpoint_interval_s, "wall time between checkpoints", positive},
       {"cell_size_m", &S::cell_size_m, "cell size of maps; that of the TRN when not given", positive},
       {"passages", &S::passages, "record passages of cells"},
-      {"strain", &S::strain, "record strains"}};
+      {"strain", &S::strain, "record strains"},
+      {"frames", &S::frames, "keep all frames of a run that has ended; else the first and the last"}};
   return table;
 }
 template <> const std::vector<SiteKey<BaseMotionSettings>>& keys_of() {

@@ -483,6 +483,38 @@ void write_passage_table(H5Writer& file, const std::vector<Passage>& rows) {
               [](auto&& column) { passage_columns(column); });
 }
 
+void write_part_rows(H5Writer& file, const std::vector<PartRow>& rows) {
+  file.group("rows", "one row per cell, run and block that passed it");
+  const auto put = [&](const char* name, const char* units, const char* meaning, auto&& value) {
+    using Value = std::remove_cvref_t<decltype(value(rows.front()))>;
+    std::vector<Value> values;
+    values.reserve(rows.size());
+    for (const PartRow& row : rows) values.push_back(value(row));
+    file.array<Value>(std::string("rows/") + name, values, {values.size()}, units, meaning);
+  };
+  put("run", "1", "index of the run", [](const PartRow& row) { return row.run; });
+  passage_columns([&](const char* name, const char* units, const char* meaning, auto field) {
+    if (std::string(name) == "cell") return;  // those of the group cells
+    put(name, units, meaning, [&field](const PartRow& row) {
+      Passage passage = row.passage;
+      return field(passage);
+    });
+  });
+}
+
+std::vector<PartRow> read_part_rows(const H5Reader& file, std::size_t first, std::size_t n) {
+  std::vector<PartRow> rows(n);
+  const std::vector<std::int32_t> run = file.rows<std::int32_t>("rows/run", 1, first, n);
+  for (std::size_t i = 0; i < n; ++i) rows[i].run = run[i];
+  passage_columns([&](const char* name, const char*, const char*, auto field) {
+    if (std::string(name) == "cell") return;
+    using Value = FieldType<Passage, decltype(field)>;
+    const std::vector<Value> values = file.rows<Value>(std::string("rows/") + name, 1, first, n);
+    for (std::size_t i = 0; i < n; ++i) field(rows[i].passage) = values[i];
+  });
+  return rows;
+}
+
 void write_crossing_table(H5Writer& file, const std::vector<Crossing>& rows) {
   write_table(file, "crossings", "one row per block and line that it crossed or passed beside",
               rows, [](auto&& column) { crossing_columns(column); });

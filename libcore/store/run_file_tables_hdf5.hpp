@@ -9,11 +9,14 @@
 #include <vector>
 
 #include "io/h5_hdf5.hpp"
+#include "record/part_file.hpp"
 #include "record/run_file.hpp"
 
 namespace talus {
 
 void write_passage_table(H5Writer& file, const std::vector<Passage>& rows);
+/// The group rows of a part: run and passage without its cell.
+void write_part_rows(H5Writer& file, const std::vector<PartRow>& rows);
 void write_crossing_table(H5Writer& file, const std::vector<Crossing>& rows);
 void write_panel_table(H5Writer& file, const std::vector<PanelRow>& rows);
 void write_hit_table(H5Writer& file, const std::vector<FenceHit>& rows);
@@ -24,6 +27,9 @@ void write_health_table(H5Writer& file, const std::vector<HealthRow>& rows);
 
 /// Each throws InputError for a column that is missing or not as long as the first.
 [[nodiscard]] std::vector<Passage> read_passage_table(const H5Reader& file);
+/// `n` rows from `first` on; cells stay 0.
+[[nodiscard]] std::vector<PartRow> read_part_rows(const H5Reader& file, std::size_t first,
+                                                  std::size_t n);
 [[nodiscard]] std::vector<Crossing> read_crossing_table(const H5Reader& file);
 [[nodiscard]] std::vector<PanelRow> read_panel_table(const H5Reader& file);
 [[nodiscard]] std::vector<FenceHit> read_hit_table(const H5Reader& file);

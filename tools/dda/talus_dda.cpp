@@ -8,6 +8,7 @@
 
 #include "base/processor_time.hpp"
 #include "base/text.hpp"
+#include "post/reduce.hpp"
 #include "record/pieces.hpp"
 #include "run/runner.hpp"
 #include "scene/site_scene.hpp"
@@ -64,7 +65,7 @@ void declare(Tool& tool, SiteOptions& site, Options& o) {
   // All that was given or read counts for the run's id, but for what a resumed run may differ in.
   // The site file counts by its effective values.
   tool.leave_out_of_run_id(site.names());
-  tool.leave_out_of_run_id({"resume", "output.checkpoint_interval_s"});
+  tool.leave_out_of_run_id({"resume", "output.checkpoint_interval_s", "output.frames"});
 }
 
 // --- the plan ----------------------------------------------------------------------------------
@@ -232,12 +233,18 @@ void compute(Tool& tool, Runner& runner, const std::string& part, double interva
   runner.file.info.warnings += (runner.file.info.warnings.empty() ? "" : "\n") + words;
 }
 
-void write_outputs(Tool& tool, Runner& runner, const Options& o) {
+void write_outputs(Tool& tool, Runner& runner, const Site& site, const Trn& trn, const Options& o) {
   runner.file.info.status = "done";
   record_health(tool, runner);
   update_file(runner, false);
-  write_run_file(tool.stage(o.out), runner.file);
-  merge_pieces(runner.file);
+  const std::string path = tool.stage(o.out);
+  if (site.output.frames) {
+    write_run_file(path, runner.file);
+    merge_pieces(runner.file);
+  } else {
+    merge_pieces(runner.file);  // the reach is that of the pieces
+    write_run_file(path, without_frames(runner.file, trn, {}));
+  }
   if (o.xdmf.empty()) return;
   const fs::path data = xdmf_data_of(o);
   write_xdmf(tool.stage(o.xdmf), tool.stage(data.string()), data.filename().string(), runner.file);
@@ -289,7 +296,7 @@ int main(int argc, char** argv) {
         runner_of(tool, scene, run_options(site, plan, o), inputs.lines, std::move(file), o);
     compute(tool, runner, part_of(o), site.output.checkpoint_interval_s,
             site.solver.end_when_standing);
-    write_outputs(tool, runner, o);
+    write_outputs(tool, runner, site, scene.ground.trn, o);
     const Json report = run_report(runner, plan, processor_seconds() - cpu_start);
     for (const char* key : {"steps", "impacts", "unconverged", "left_domain", "largest_speed_m_s"})
       tool.metric(key, report[key].get<double>(),

@@ -161,6 +161,22 @@ std::string standing_mass(const Json& moved) {
          "failure surface comes out at the foot of the source.</div>\n";
 }
 
+// Failed runs, few enough to be left out.
+std::string left_out_verdict(const Json& runout) {
+  const Json runs = value_at(runout, {"left_out_runs"});
+  if (!runs.is_array() || runs.empty()) return "";
+  std::vector<std::vector<std::string>> rows;
+  for (const Json& run : runs)
+    rows.push_back({word_text(value_at(run, {"run"})), number_text(value_at(run, {"seed"})),
+                    word_text(value_at(run, {"reason"}))});
+  return "<div class=\"verdict warn\"><b>" +
+         counted(static_cast<std::int64_t>(runs.size()), "run") +
+         " failed and left out.</b> Intervals of shares count them: all may have reached a place, "
+         "or "
+         "none.</div>\n" +
+         html_table({"run", "seed", "broken limit, its value"}, rows);
+}
+
 // Runs that were wanted and gave no result: what is shown is of the rest.
 std::string missing_verdict(const Json& runout) {
   const std::string n = text_at(runout, "/tags/N_MISSING");
@@ -182,7 +198,7 @@ std::string result_section(const ReportData& data) {
   out += html_fact(number_text(value_at(data.blocks, {"n_blocks"})), "blocks");
   out += html_fact(number_text(value_at(data.blocks, {"volume_m3"})) + " m&sup3;", "released rock");
   out += "</div>\n" + standing_mass(moved) + health_verdict(data);
-  out += missing_verdict(data.runout);
+  out += left_out_verdict(data.runout) + missing_verdict(data.runout);
   if (value_at(data.fence, {"fences"}).is_array())
     for (const Json& fence : data.fence["fences"]) out += fence_verdict(fence);
   return html_section("result", "Result", out);

@@ -94,6 +94,7 @@ VectorLayer path_layer(const std::vector<RunoutRun>& runs, const MapPlace& map, 
       vector_qml({SymbolKind::line, "", {{"", "", {31, 78, 121, 160}}}, 0.3})};
   for (const RunoutRun& r : runs)
     for (const BlockReach& b : r.event.blocks) {
+      if (!r.has_frames) break;
       const TimedPath& path = r.paths[b.block];
       if (path.point.empty()) continue;
       VectorFeature f = line_feature(path.point, path.time, map);

@@ -12,6 +12,7 @@
 
 #include "post/deposit.hpp"
 #include "post/moved.hpp"
+#include "record/reach.hpp"
 #include "terrain/trn.hpp"
 
 namespace talus {
@@ -35,14 +36,7 @@ struct TimedPath {
 [[nodiscard]] double horizontal_length(
     std::span<const Vec3> points);  ///< along the path, in plan [m]
 
-/// H and L between two points, and Eq. (29): beta = atan(H / L).
-struct ReachLine {
-  double height = 0;                         ///< H, positive downwards [m]
-  double path = 0;                           ///< L along the path, in plan [m]
-  double chord = 0;                          ///< L straight from end to end, in plan [m]
-  [[nodiscard]] double path_angle() const;   ///< [rad]; NaN for no length
-  [[nodiscard]] double chord_angle() const;  ///< [rad]; NaN for no length
-};
+/// H and L from the first to the last point.
 [[nodiscard]] ReachLine reach_along(std::span<const Vec3> points);
 
 /// The angle from a path's first point to each of its points, along the path.
@@ -115,7 +109,12 @@ struct ReachSettings {
   double rest_speed = 0.05;  ///< [m/s]
 };
 
-/// Throws nothing; a run without frames has not moved.
+/// What the frames and passages of a run tell of its reach.
+[[nodiscard]] RunReach reach_of_frames(const RunFile& run, const Trn& trn,
+                                       const ReachSettings& settings);
+
+/// Throws nothing; a run without frames has not moved. Where `run.reach` stands for the frames, the
+/// settings' tolerance must be that of it.
 [[nodiscard]] EventReach event_reach(const RunFile& run, const Trn& trn,
                                      const ReachSettings& settings);
 

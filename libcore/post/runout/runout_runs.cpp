@@ -9,24 +9,17 @@
 #include "post/statistics.hpp"
 
 namespace talus {
-namespace {
 
-void sort_and_unite(std::vector<std::uint32_t>& cells) {
-  std::sort(cells.begin(), cells.end());
-  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
-}
-
-}  // namespace
-
-RunoutRun runout_run(const RunFile& run, const RunMember& member, const PassageGrid& grid,
-                     const Trn& trn, const ReachSettings& settings) {
+RunoutRun runout_run(const RunFile& run, const RunMember& member, const Trn& trn,
+                     const ReachSettings& settings) {
   RunoutRun r;
   r.member = member;
   r.event = event_reach(run, trn, settings);
   r.balance = balance_of(run, settings.rest_speed);
   r.energy = energy_shares(run);
+  r.has_frames = !run.reach;
   for (int b = 0; b < n_blocks(run); ++b) {
-    r.paths.push_back(simplified(block_path(run, b), settings.tolerance));
+    if (r.has_frames) r.paths.push_back(simplified(block_path(run, b), settings.tolerance));
     const Pose pose = last_pose(run, b);
     r.footprints.push_back(footprint(run, b, pose));
     r.end.push_back(pose.position);
@@ -36,28 +29,40 @@ RunoutRun runout_run(const RunFile& run, const RunMember& member, const PassageG
   for (const WeightedValue& d : displacements(run)) r.displacement.push_back(d.value);
   r.trees = {run.forests, run.tree_hits};
   r.curves = curves(run);
-  for (const Passage& passage : run.passages)
-    r.cells.push_back(static_cast<std::uint32_t>(passage.cell));
-  sort_and_unite(r.cells);
-  add_deposit(r.deposit, grid, run, settings.rest_speed);
   return r;
 }
 
-RunoutRuns add_up(std::vector<RunoutRun> runs, const PassageGrid& grid) {
+void add_run(RunoutSums& sums, const RunFile& run, const RunMember& member, const PassageGrid& grid,
+             const Trn& trn, const ReachSettings& settings) {
+  sums.grid = grid;
+  sums.runs.push_back(runout_run(run, member, trn, settings));
+  for (const Passage& passage : run.passages) add_cell(sums, passage.cell);
+  DepositSums deposit;
+  add_deposit(deposit, grid, run, settings.rest_speed);
+  add(sums.deposit, deposit);
+}
+
+void add_cell(RunoutSums& sums, std::int32_t cell) {
+  const auto n_cells = static_cast<std::size_t>(sums.grid.n_rows) * sums.grid.n_cols;
+  if (sums.is_passed.size() < n_cells) sums.is_passed.resize(n_cells, 0);
+  sums.is_passed[cell] = 1;
+}
+
+RunoutRuns add_up(RunoutSums sums) {
   RunoutRuns out;
-  out.grid = grid;
-  out.runs = std::move(runs);
+  out.grid = sums.grid;
+  out.runs = std::move(sums.runs);
+  out.deposit = std::move(sums.deposit);
   std::vector<WeightedValue> displacement;
   for (const RunoutRun& r : out.runs) {
     for (std::size_t b = 0; b < r.mass.size(); ++b)
       displacement.push_back({r.displacement[b], r.mass[b]});
     add(out.balance, r.balance);
-    add(out.deposit, r.deposit);
-    out.cells.insert(out.cells.end(), r.cells.begin(), r.cells.end());
     out.released.weight.push_back(r.member.weight);
     out.released.n_blocks.push_back(r.member.n_blocks);
   }
-  sort_and_unite(out.cells);
+  for (std::size_t cell = 0; cell < sums.is_passed.size(); ++cell)
+    if (sums.is_passed[cell] != 0) out.cells.push_back(static_cast<std::uint32_t>(cell));
   out.moved = moved_of(std::move(displacement));
   return out;
 }

@@ -34,13 +34,10 @@ struct RunoutRun {
   std::vector<double> mass;                   ///< [kg]                              (n_blocks)
   std::vector<double> displacement;           ///< [m]                               (n_blocks)
   RunTrees trees;
-  std::vector<CurveRow> curves;
-  std::vector<std::uint32_t> cells;  ///< that any block passed, ascending
-  DepositSums deposit;
+  std::vector<CurveRow> curves;  ///< of a run without frames: start and end
+  bool has_frames = true;        ///< else there are no paths
 };
-/// `grid` of the deposit.
-[[nodiscard]] RunoutRun runout_run(const RunFile& run, const RunMember& member,
-                                   const PassageGrid& grid, const Trn& trn,
+[[nodiscard]] RunoutRun runout_run(const RunFile& run, const RunMember& member, const Trn& trn,
                                    const ReachSettings& settings);
 
 /// All runs, in the order of their ids, with their sums.
@@ -53,7 +50,18 @@ struct RunoutRuns {
   Moved moved;       ///< the mass of all runs together
   PassageGrid grid;  ///< of cells and deposit
 };
-[[nodiscard]] RunoutRuns add_up(std::vector<RunoutRun> runs, const PassageGrid& grid);
+/// What runs add as they are read, in the order of their ids. `grid`: of cells and deposit.
+struct RunoutSums {
+  PassageGrid grid;
+  std::vector<RunoutRun> runs;
+  DepositSums deposit;
+  std::vector<std::uint8_t> is_passed;  ///< 1: by any block of any run               (n_cells)
+};
+void add_run(RunoutSums& sums, const RunFile& run, const RunMember& member, const PassageGrid& grid,
+             const Trn& trn, const ReachSettings& settings);
+void add_cell(RunoutSums& sums, std::int32_t cell);
+
+[[nodiscard]] RunoutRuns add_up(RunoutSums sums);
 
 /// Area of all cells that any block of any run passed [m2].
 [[nodiscard]] double swept_area(const RunoutRuns& all);

@@ -236,7 +236,8 @@ std::string curve_csv(const std::vector<RunoutRun>& runs, const Vec3& origin) {
   std::string out =
       csv_line({"run_id", "time_s", "x_m", "y_m", "z_m", "mean_speed_m_s", "max_speed_m_s",
                 "front_m", "translational_energy_kj", "rotational_energy_kj"});
-  for (const RunoutRun& r : runs)
+  for (const RunoutRun& r : runs) {
+    if (!r.has_frames) continue;
     for (const CurveRow& row : r.curves) {
       const Vec3 at = row.centre_of_mass + origin;
       out += csv_line({r.member.info.run_id, text(row.time, 9), text(at.x(), 11), text(at.y(), 11),
@@ -244,6 +245,7 @@ std::string curve_csv(const std::vector<RunoutRun>& runs, const Vec3& origin) {
                        text(row.front, 7), text(row.translation / 1e3, 7),
                        text(row.rotation / 1e3, 7)});
     }
+  }
   return out;
 }
 

@@ -35,7 +35,8 @@ namespace talus {
 /// by a degree or more: which angle to take, and why; "" else.
 [[nodiscard]] std::string energy_line_text(const AngleProfile& profile);
 
-/// A row (CSV) for each frame of each run. `origin`: map coordinates of the local origin [m].
+/// A row (CSV) for each frame of each run that has them. `origin`: map coordinates of the local
+/// origin [m].
 [[nodiscard]] std::string curve_csv(const std::vector<RunoutRun>& runs, const Vec3& origin);
 
 }  // namespace talus

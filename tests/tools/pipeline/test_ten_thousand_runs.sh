@@ -7,7 +7,12 @@ rm tools/talus-maps
 cat >tools/talus-maps <<'END'
 #!/bin/sh
 n=0
-for word; do case $word in out/runs/run_*.h5) n=$((n + 1)) ;; esac; done
+for word; do
+  case $word in
+    out/runs/run_*.h5) n=$((n + 1)) ;;
+    *.list.there) n=$((n + $(grep -c '^out/runs/run_.*h5$' "$word"))) ;;
+  esac
+done
 mkdir -p out/maps
 echo "$n runs" >out/maps/reach.tif
 END
