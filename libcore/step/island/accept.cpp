@@ -31,6 +31,7 @@ struct SubstepAcceptance {
   std::vector<Segment>& segments;
   DeepWork& deep;
   StepReport& report;
+  bool is_eased = false;
 
   // Energy that contacts took, by kind; push_bodies() adds that of bodies that give way.
   void account(size_t r) {
@@ -96,8 +97,7 @@ struct SubstepAcceptance {
     const auto moves = [&](int b) {
       return b >= 0 && free.substeps[members.at(b)].start.velocity.norm() > members.of(b).slow;
     };
-    const bool eases =
-        members.is_eased || (system.is_hard && (moves(contact.a) || moves(contact.b)));
+    const bool eases = is_eased || (system.is_hard && (moves(contact.a) || moves(contact.b)));
     return static_cast<std::uint8_t>(eases ? law::most_rests : std::max(0, contact.rests - 1));
   }
 
@@ -287,8 +287,8 @@ void accept(const Scene& scene, const IslandMembers& members, const FreeMotions&
             const IslandSystem& system, const SubstepHits& hits, bool converged,
             const SubstepTries& tries, SubstepEnd& end, State& state,
             std::vector<Segment>& segments, DeepWork& deep, StepReport& report) {
-  SubstepAcceptance acceptance{scene, members, free,     system, hits,
-                               end,   state,   segments, deep,   report};
+  SubstepAcceptance acceptance{scene, members,  free, system, hits,           end,
+                               state, segments, deep, report, tries.eased > 0};
   report.n_impacts += hits.n_hits;
   if (!converged || !hits.converged) {
     note_unconverged(heaviest_of(scene, members), report);

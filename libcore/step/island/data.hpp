@@ -137,6 +137,12 @@ struct PlacedMotion {
   Vec3 velocity = Vec3::Zero(), spin = Vec3::Zero();
 };
 
+/// The same, with its attitude and momentum.
+struct MemberMotion {
+  Motion motion;
+  PlacedMotion placed;
+};
+
 /// A member between two of its hits. Until its first what bore it in the substep before goes on.
 struct FlyingMember {
   Motion motion;               ///< at `clock`
@@ -148,6 +154,9 @@ struct FlyingMember {
   int version = 0;       ///< number of changes of its motion
   int end_version = -1;  ///< of `end`
   PlacedMotion end;      ///< at the end of the substep
+  int now_version = -1;  ///< of `now` ...
+  double now_time = -1;  ///< ... and its time, that which was asked for last [s]
+  MemberMotion now;
 };
 
 /// A time at which a pair has to be looked at, since it may be hit then.

@@ -71,13 +71,10 @@ struct HitPhase {
         for (const size_t r : contacts_of(system, static_cast<size_t>(p))) {
           const KeptContact& contact = system.contacts[r];
           if (contact.bond_area == 0) continue;
-          const PlacedMotion a = looks.place(static_cast<size_t>(pair.a),
-                                             looks.motion_of(static_cast<size_t>(pair.a), time));
-          PlacedMotion b;
-          if (pair.b >= 0)
-            b = looks.place(static_cast<size_t>(pair.b),
-                            looks.motion_of(static_cast<size_t>(pair.b), time));
-          const RowMotion at_hit = row_motion(free, system, r, a, pair.b < 0 ? nullptr : &b);
+          const PlacedMotion& a = looks.member_at(static_cast<size_t>(pair.a), time).placed;
+          const PlacedMotion* b =
+              pair.b < 0 ? nullptr : &looks.member_at(static_cast<size_t>(pair.b), time).placed;
+          const RowMotion at_hit = row_motion(free, system, r, a, b);
           TouchingContact bond;
           bond.of.a = pair.a;
           bond.of.b = pair.b;
@@ -163,7 +160,7 @@ struct HitPhase {
     for (const size_t k : hits.changed) {
       if (group_of(static_cast<int>(k)) != group) continue;
       hits.local[k] = static_cast<int>(hits.bodies.size());
-      hits.before.push_back(looks.motion_of(k, time));
+      hits.before.push_back(looks.member_at(k, time).motion);
       hits.bodies.push_back(body_of(k, hits.before.back()));
     }
     for (const TouchingContact& touching : hits.batch) {
