@@ -41,8 +41,9 @@ struct SubstepAcceptance {
     const double p_n = normal.dot(impulse);
     const Vec3 p_t = impulse - p_n * normal;
     const Vec3 path = path_of_impulse(members, free, system, hits, r);
+    const double loss = -p_n * normal.dot(path);  // < 0: others drove its bodies apart
     if (!gives_way(system, r))
-      (contact.hit >= 0 ? state.ledger.impact : state.ledger.contact) -= p_n * normal.dot(path);
+      (contact.hit >= 0 && loss > 0 ? state.ledger.impact : state.ledger.contact) += loss;
     state.ledger.friction -= p_t.dot(path);
     if (state.load.empty()) return;
     add_load(scene, contact.a, normal, p_n, impulse, state);
@@ -64,16 +65,30 @@ struct SubstepAcceptance {
   // together have what the hits of the substep took, so that breaking takes no more.
   void add_hit_losses() {
     double taken = 0, given = 0;
-    for (size_t r = 0; r < system.contacts.size(); ++r) {
-      const double loss = hit_loss_of(r);
-      (loss > 0 ? taken : given) += std::abs(loss);
-    }
+    const auto sum = [&](int, int, double loss) { (loss > 0 ? taken : given) += std::abs(loss); };
+    for_each_hit_loss(sum);
     if (taken <= given) return;
-    for (size_t r = 0; r < system.contacts.size(); ++r) {
-      const double loss = std::max(0.0, hit_loss_of(r)) * (1 - given / taken);
-      const KeptContact& contact = system.contacts[r];
-      add_hit_loss(contact.a, contact.b < 0 ? loss : loss / 2, state);
-      add_hit_loss(contact.b, loss / 2, state);
+    for_each_hit_loss([&](int a, int b, double found) {
+      const double loss = std::max(0.0, found) * (1 - given / taken);
+      add_hit_loss(a, b < 0 ? loss : loss / 2, state);
+      add_hit_loss(b, loss / 2, state);
+    });
+  }
+
+  // Calls take(block a, block b, loss) for every contact that was hit, and where hits were stopped.
+  template <class Take>
+  void for_each_hit_loss(const Take& take) const {
+    for (const HitImpulse& hit : hits.impulses) take(hit.a, hit.b, hit.loss);
+    for (size_t r = 0; r < system.contacts.size(); ++r)
+      take(system.contacts[r].a, system.contacts[r].b, hit_loss_of(r));
+  }
+
+  // Hits load their blocks too.
+  void add_hit_loads() {
+    for (const HitImpulse& hit : hits.impulses) {
+      const double p_n = std::max(0.0, hit.normal.dot(hit.impulse));
+      add_load(scene, hit.a, hit.normal, p_n, hit.impulse, state);
+      add_load(scene, hit.b, hit.normal, p_n, -hit.impulse, state);
     }
   }
 
@@ -173,6 +188,7 @@ struct SubstepAcceptance {
       remember_contact(r, path, overlap);
     }
     if (!state.hit_loss.empty()) add_hit_losses();
+    if (!state.load.empty()) add_hit_loads();
   }
 
   // The path of a member: in one piece, or from hit to hit and on from the last.
@@ -287,8 +303,17 @@ void accept(const Scene& scene, const IslandMembers& members, const FreeMotions&
             const IslandSystem& system, const SubstepHits& hits, bool converged,
             const SubstepTries& tries, SubstepEnd& end, State& state,
             std::vector<Segment>& segments, DeepWork& deep, StepReport& report) {
-  SubstepAcceptance acceptance{scene, members,  free, system, hits,           end,
-                               state, segments, deep, report, tries.eased > 0};
+  SubstepAcceptance acceptance{scene,
+                               members,
+                               free,
+                               system,
+                               hits,
+                               end,
+                               state,
+                               segments,
+                               deep,
+                               report,
+                               tries.eased > 0 && free.t > 0};
   report.n_impacts += hits.n_hits;
   if (!converged || !hits.converged) {
     note_unconverged(heaviest_of(scene, members), report);

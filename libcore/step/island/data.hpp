@@ -185,6 +185,14 @@ struct TouchingContact {
   int pair = 0;    ///< of the island
 };
 
+/// What a contact of a hit did to its blocks.
+struct HitImpulse {
+  int a = 0, b = -1;            ///< blocks; b = -1: the ground or a fixed body
+  Vec3 normal = Vec3::Zero();   ///< from B to A
+  Vec3 impulse = Vec3::Zero();  ///< on A [N s]
+  double loss = 0;              ///< normal energy that it took; < 0: it gave back [J]
+};
+
 /// 6 find_hits: what is hit, when, and how the members move with that.
 struct SubstepHits {  // clang-format off
   std::vector<Hit> hits;                    ///< in the order in which they were found
@@ -193,6 +201,7 @@ struct SubstepHits {  // clang-format off
   std::vector<double> pair_time;            ///< when contacts change velocities [s]     (n_pairs)
   std::vector<Vec6> displacement;           ///< by contact, hits aside                  (n_members)
   std::vector<Vec6> thrown;                 ///< displacement by hits                    (n_members)
+  std::vector<HitImpulse> impulses;         ///< where blocks may break or be crushed, else none
   std::vector<Vec3> bond_impulse;           ///< of contacts with bonds, by hits [N s]; empty: none
   double dissipated = 0;                    ///< by hits, but for friction [J]
   double by_friction = 0;                   ///< ... by friction and by what bore members [J]

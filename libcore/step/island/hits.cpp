@@ -152,6 +152,35 @@ struct HitPhase {
     hits.hit_members.add(static_cast<int>(k));
   }
 
+  // What the contacts that were solved did to blocks that may break or be crushed. All together
+  // they took no more than `taken`.
+  void note_impulses(int group, double taken) const {
+    const auto speed_of = [&](const ImpactContact& c, int body) {
+      const ImpactBody& of = hits.bodies[body];
+      return c.normal.dot(of.velocity.head<3>() +
+                          of.velocity.tail<3>().cross(c.point - of.position));
+    };
+    size_t i = 0;
+    const size_t begin = hits.impulses.size();
+    double sum = 0;
+    for (const TouchingContact& touching : hits.batch) {
+      if (group_of(touching.of.a) != group) continue;
+      const ImpactContact& c = hits.contacts[i++];
+      if (c.is_bond) continue;
+      const double after = speed_of(c, c.a) - (c.b < 0 ? 0 : speed_of(c, c.b));
+      HitImpulse out;
+      out.a = members.blocks[touching.of.a];
+      if (touching.of.b >= 0) out.b = members.blocks[touching.of.b];
+      out.normal = c.normal;
+      out.impulse = c.impulse;
+      out.loss = -c.normal.dot(c.impulse) * (c.approach + after) / 2;
+      sum += out.loss;
+      hits.impulses.push_back(out);
+    }
+    if (sum <= taken) return;
+    for (size_t k = begin; k < hits.impulses.size(); ++k) hits.impulses[k].loss *= taken / sum;
+  }
+
   // Solves the contacts of the batch whose members are of `group`. `stops`: without rebound.
   void solve_group(int group, double time, bool stops) const {
     hits.bodies.clear();
@@ -187,6 +216,8 @@ struct HitPhase {
         throw_member(k, time, hits.before[i], hits.bodies[i]);
         ++i;
       }
+    if (!looks.state.load.empty() || !looks.state.hit_loss.empty())
+      note_impulses(group, impact.dissipated - impact.by_friction);
     if (!system.has_bonds) return;
     i = 0;
     for (const TouchingContact& touching : hits.batch) {
@@ -240,6 +271,7 @@ struct HitPhase {
     looks.begin();
     hits.hits.clear();
     hits.paths.clear();
+    hits.impulses.clear();
     hits.dissipated = hits.by_friction = 0;
     hits.n_hits = hits.passes = 0;
     hits.converged = true;
