@@ -26,8 +26,10 @@ inline constexpr double stiffest_in_island = 1;
 inline constexpr double stiffest_at_rest = 30;
 /// [blocks] A small island has at most so many ...
 inline constexpr std::size_t small_island = 8;
-/// [blocks] ... or so many that hang together without a ring: a column.
+/// [blocks] ... or so many that hang together without a ring: a column ...
 inline constexpr std::size_t small_tree = 64;
+/// [g times the sum of thicknesses] ... whose squared speeds are below this: it stands or topples.
+inline constexpr double column_falls = 0.1;
 /// [-] Stiffness of a contact that bears little, slips or opens: times that for its own mass.
 inline constexpr double bears_little = 3;
 /// [thickness] Overlap of a contact at rest under its load: it is as stiff as that asks ...
