@@ -31,7 +31,7 @@ gdal_translate -q -ot Float64 -a_srs EPSG:32633 dem.asc part.tif
 gdalbuildvrt -q all.vrt part.tif
 one=$(id_of all.vrt)
 [ "$(id_of all.vrt)" = "$one" ] || fail "the same files make another run"
-sed 's/118/119/' dem.asc >higher.asc
+sed 's/116/119/' dem.asc >higher.asc
 gdal_translate -q -ot Float64 -a_srs EPSG:32633 higher.asc part.tif
 [ "$(id_of all.vrt)" != "$one" ] || fail "another source of a virtual raster makes no other run"
 gdalsrsinfo -o wkt1 EPSG:32633 >dem.prj
