@@ -34,7 +34,7 @@ one=$(id_of all.vrt)
 sed 's/116/119/' dem.asc >higher.asc
 gdal_translate -q -ot Float64 -a_srs EPSG:32633 higher.asc part.tif
 [ "$(id_of all.vrt)" != "$one" ] || fail "another source of a virtual raster makes no other run"
-gdalsrsinfo -o wkt1 EPSG:32633 >dem.prj
+gdalsrsinfo --single-line -o wkt_esri EPSG:32633 | sed '/^$/d' >dem.prj
 one=$(id_of dem.asc)
-gdalsrsinfo -o wkt1 EPSG:32632 >dem.prj
+gdalsrsinfo --single-line -o wkt_esri EPSG:32632 | sed '/^$/d' >dem.prj
 [ "$(id_of dem.asc)" != "$one" ] || fail "another CRS beside a raster makes no other run"

@@ -345,7 +345,7 @@ TEST(DesignCode, OfUniMultipliesSpeedPercentileAndDesignMass) {
   EXPECT_EQ(r.governs, "energy");
   EXPECT_EQ(r.verdict, DesignVerdict::does_not_meet);
   EXPECT_EQ(text(r),
-            "does not meet the code, energy governs: needs 1096 kJ (ETAG class 4) and a height of "
+            "does not meet the code, energy governs: needs 1,100 kJ (ETAG class 4) and a height of "
             "2.92 m");
 }
 
@@ -412,7 +412,7 @@ TEST(CheckDesign, NamesNoClassAboveTheLargest) {
   const DesignInput input{60, 0.8, 2700, 2, false, NAN, NAN};
   const DesignResult r = check_design(uni(), classes, input, hundred_arrivals(), straight_fence());
   EXPECT_EQ(r.smallest_class, "none");
-  EXPECT_NE(text(r).find("(no ETAG class: above the largest, 4500 kJ; a net is no option)"),
+  EXPECT_NE(text(r).find("(no ETAG class: above the largest, 4,500 kJ; a net is no option)"),
             std::string::npos)
       << text(r);
 }
