@@ -7,6 +7,9 @@
 #   SHARD, SHARDS   shards.mk
 # A run that was stopped goes on where it was (--resume). One that fails stops no other: what can be made
 # is made, then make lists what failed and ends with an error.
+# What the cases count among one another, for all that evaluates runs: WEIGHTS = low=1 high=3. Without it runs
+# count alike, and outputs say that they are no probabilities.
+evaluate_flags = $(WEIGHTS:%=--case-weight %) $(EVALUATE_FLAGS)
 RUNS ?= $(SITE_RUNS)
 SEED ?= $(SITE_SEED)
 WITHOUT ?= $(SITE_FENCES_STAND)

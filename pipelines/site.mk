@@ -4,7 +4,7 @@
 #   TIN_FLAGS, TRN_FLAGS, BLOCKS_FLAGS, CHECK_FLAGS, DDA_FLAGS, RUNOUT_FLAGS, MAPS_FLAGS, FENCE_FLAGS
 #                                  further options of the tools
 #   EVALUATE_FLAGS                 of all tools that evaluate runs (e.g. --rest-speed-m-s 0.1)
-#   RUNS, SEED, CASES, WITHOUT     dda.mk
+#   RUNS, SEED, CASES, WEIGHTS, WITHOUT   dda.mk
 #   SHARDS, SHARD, SBATCH_FLAGS    shards.mk, slurm.mk
 # and so may the command line (make RUNS=50 -j4). V=1 shows every command. Every rule is one tool: files
 # in, files out.

@@ -160,6 +160,9 @@ struct RunFile {
   std::vector<CrushedBlock> crushed;  ///< by time
   std::vector<Phase> phase;           ///< at info.time; empty: not known               (n_blocks)
   std::vector<std::uint8_t> checkpoint;  ///< store/checkpoint.hpp; empty when the run is done
+  /// How much it counts among the runs that are evaluated with it, 1 on average; not in the file
+  /// [-]
+  double run_weight = 1;
 };
 
 [[nodiscard]] inline int n_blocks(const RunFile& run) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -37,6 +38,37 @@ const char* type_name(toml::node_type type) {
     default:
       return "a date or time";
   }
+}
+
+// Parts of the longest dotted key ("a.b.c": 3), as far as the text has any: the parser, and what
+// frees its tables, go as deep. Text between quotes is a part of its own.
+int longest_dotted_key(const std::string& text, int& line) {
+  int longest = 0, parts = 1, here = 1;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '.') {
+      if (++parts > longest) longest = parts, line = here;
+    } else if (c == '"' || c == '\'') {
+      const std::size_t end = text.find_first_of(std::string{c, '\n'}, i + 1);
+      if (end != std::string::npos && text[end] == c) i = end;
+    } else if (c == '#') {
+      i = std::min(text.find('\n', i), text.size()) - 1;
+    } else if (std::string_view("=[]{},\n").find(c) != std::string_view::npos) {
+      parts = 1;
+      here += c == '\n';
+    }
+  }
+  return longest;
+}
+
+// Throws InputError besides what the parser throws.
+toml::table parsed(const std::string& text, const std::string& path) {
+  constexpr int deepest = 1000;
+  int line = 0;
+  if (const int n = longest_dotted_key(text, line); n > deepest)
+    throw InputError({path, line}, "a key of " + std::to_string(n) + " parts, expected one or two",
+                     "a key is SECTION.NAME or NAME");
+  return toml::parse(text, path);
 }
 
 int line_of(const toml::node& node) { return static_cast<int>(node.source().begin.line); }
@@ -345,7 +377,7 @@ void check_names(const Site& site) {
 // `value` as a TOML value; plain text when it is none.
 toml::table parsed_value(const std::string& value) {
   try {
-    toml::table table = toml::parse("value = " + value);
+    toml::table table = parsed("value = " + value, "--set");
     if (table.size() == 1) return table;
   } catch (const toml::parse_error&) {
     // not a TOML value: text without quotes
@@ -385,7 +417,7 @@ Site parse_site(const std::string& text, const std::string& path) {
   site.file = path;
   toml::table root;
   try {
-    root = toml::parse(text, path);
+    root = parsed(text, path);
   } catch (const toml::parse_error& error) {
     const std::string finding(error.description());
     const bool is_twice = finding.find("redefine") != std::string::npos;

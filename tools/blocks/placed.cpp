@@ -143,7 +143,7 @@ double length_of(const std::vector<Vec2>& line) {
 
 std::vector<Vec3> release_from_file(const PlacedContext& context, const PlacedSettings& section) {
   const std::string path = resolved(context.site, section.release_file);
-  context.tool.read_also("blocks." + section.name + ".release", path);
+  read_data(context.tool, "blocks." + section.name + ".release", path);
   const bool along_lines = !std::isnan(section.release_spacing_m);
   const std::string key = "blocks." + section.name + ".release_";
   const VectorKind kind = along_lines ? VectorKind::lines : VectorKind::points;

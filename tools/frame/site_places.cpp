@@ -49,7 +49,7 @@ std::vector<RecordLine> fence_lines(Tool& tool, const Site& site, const Trn& trn
     found.push_back(local_points(tool, site, trn, fence.line, "fence." + fence.name + ".line"));
   if (!fence.line_file.empty()) {
     const std::string path = resolved(site, fence.line_file);
-    tool.read_also("fence." + fence.name, path);
+    read_data(tool, "fence." + fence.name, path);
     const std::string section = "fence." + fence.name;
     VectorShapes shapes = read_layer(
         tool, section,

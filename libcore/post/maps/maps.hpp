@@ -24,6 +24,7 @@ struct Released {
   std::vector<double> weight;  ///< sum over the run's blocks                       (n_runs)
   std::vector<int> n_blocks;   ///<                                                 (n_runs)
   double failed_share = 0;     ///< of the runs that were wanted, left out here [-]
+  std::vector<double> run_weight = {};  ///< empty: 1 each                          (n_runs)
 };
 
 /// What the intervals of shares rest on.
