@@ -89,7 +89,9 @@ TEST(Trace, AddsUpToWhatWasReleased) {
     double of_cell = source.n_none;
     for (const SourceLink& link : links) of_cell += link.source == cell ? link.n_hits : 0;
     EXPECT_GE(of_cell, source.n);
-    if (source.n == 9) EXPECT_EQ(of_cell, source.n);  // no block of this cell hits two
+    if (source.n == 9) {  // no block of this cell hits two
+      EXPECT_EQ(of_cell, source.n);
+    }
   }
   EXPECT_EQ(n_links, static_cast<double>(sums.hits.size()));
   EXPECT_NEAR(shares[0], 1, 1e-12);
