@@ -28,7 +28,6 @@ for group in 'Hazard classes' 'Frequency and return period' 'Objects'; do
   grep -q "layer-tree-group name=\"$group\"" project || fail "the project has no group $group"
 done
 made slope RUNS=2 report
-prints_nothing=$(grep -c . out || :)
-[ "$prints_nothing" -le 1 ] || fail "made again: $(cat out)"
+prints 'Nothing to be done'
 made slope clean
 [ ! -e slope/out ] || fail "left: $(find slope/out)"
