@@ -278,7 +278,42 @@ template <> const std::vector<SiteKey<PlacedSettings>>& keys_of() {
       {"velocity_m_s", &S::velocity_m_s, "initial velocity x, y, z", any, "", "", 3, 3},
       {"spin_rad_s", &S::spin_rad_s, "initial angular velocity x, y, z", any, "", "", 3, 3},
       {"seed", &S::seed, "seed of shapes and orientations", not_negative},
-      {"n_per_point", &S::n_per_point, "bodies at each release point", {1, 100000}}};
+      {"n_per_point", &S::n_per_point, "bodies at each release point", {1, 100000}},
+      {"frequency_per_a", &S::frequency_per_a, "events a year at each release point, shared by its bodies as their weights", positive},
+      {"frequency_per_m2_a", &S::frequency_per_m2_a, "events a year and m2 of the release grid's sloping area, as the weights of its bodies", positive}};
+  return table;
+}
+template <> const std::vector<SiteKey<ObjectSettings>>& keys_of() {
+  using S = ObjectSettings;
+  static const std::vector<SiteKey<S>> table = {
+      {"polygon", &S::polygon, "outline of an area, map x, y", any, "", "an area needs three points", 3},
+      {"line", &S::line, "points of a line, map x, y", any, "", "a line needs two points", 2},
+      {"position_m", &S::position_m, "map x, y of points", any, "", "", 1},
+      {"file", &S::file, "vector file with areas, or with lines (width_m) or points (radius_m), instead"},
+      {"layer", &S::layer, "its layer or layers"},
+      {"where", &S::where, "attribute filter on its features"},
+      {"width_m", &S::width_m, "width of lines", positive},
+      {"radius_m", &S::radius_m, "radius about points", positive},
+      {"kind", &S::kind, "what it is, e.g. house, road: printed"}};
+  return table;
+}
+template <> const std::vector<SiteKey<HazardSettings>>& keys_of() {
+  using S = HazardSettings;
+  static const std::vector<SiteKey<S>> table = {
+      {"recipe", &S::recipe, "how classes are made: a name of share/hazard, or a file like those"},
+      {"mode", &S::mode, "many sources that fail again and again, or one that may fail once", any, "diffuse|localized"},
+      {"split", &S::split, "side of cells that a recipe leaves open; the recipe's own when not given", any, "a|b"}};
+  return table;
+}
+template <> const std::vector<SiteKey<HazardClassSettings>>& keys_of() {
+  using S = HazardClassSettings;
+  static const std::vector<SiteKey<S>> table = {
+      {"frequency_per_a", &S::frequency_per_a, "events a year", positive},
+      {"events", &S::events, "events that were counted, instead", not_negative},
+      {"observed_a", &S::observed_a, "years in which they were counted", positive},
+      {"failure_probability", &S::failure_probability, "that the mass fails, mode localized", {0, 1, true, false}},
+      {"in_years", &S::in_years, "within so many years", positive},
+      {"by_weights", &S::by_weights, "weights of blocks are their frequencies, of [blocks.*] frequency_per_a or frequency_per_m2_a"}};
   return table;
 }
 // clang-format on

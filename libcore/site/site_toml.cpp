@@ -231,6 +231,11 @@ const SiteKey<Section>& key_named(std::string_view name, const std::string& sect
 template <class Section>
 constexpr bool stands_beside_named = std::is_same_v<Section, JointNorth>;
 
+// [hazard] holds the named sections [hazard.class.NAME].
+bool is_group_within(const std::string& section, std::string_view key) {
+  return section == "hazard" && key == "class";
+}
+
 template <class Section>
 bool has_key(std::string_view name) {
   const auto& keys = keys_of<Section>();
@@ -241,6 +246,7 @@ template <class Section>
 void read_section(Site& site, Section& section, const std::string& name, const toml::table& table) {
   for (const auto& [key_text, node] : table) {
     if (stands_beside_named<Section> && !has_key<Section>(key_text.str())) continue;
+    if (is_group_within(name, key_text.str())) continue;
     const Where where{site.file, line_of(node)};
     const auto& key = key_named<Section>(key_text.str(), name, where);
     read_value(section, key, std::string(key_text.str()), node, where);
@@ -249,6 +255,7 @@ void read_section(Site& site, Section& section, const std::string& name, const t
 }
 
 int& line_field(FenceSettings& fence) { return fence.line_number; }
+int& line_field(ObjectSettings& object) { return object.line_number; }
 template <class Section>
 int& line_field(Section& section) {
   return section.line;
@@ -314,7 +321,8 @@ struct GroupReader {
   }
   template <class Section>
   void operator()(const char* name, std::vector<Section>& sections) const {
-    if (const toml::node* node = root.get(name)) {
+    const toml::node_view<const toml::node> found = root.at_path(name);
+    if (const toml::node* node = found.node()) {
       site.sections.emplace_back(name);
       read_named(site, sections, name, table_of(*node, {site.file, line_of(*node)}, name));
     }
@@ -387,26 +395,26 @@ toml::table parsed_value(const std::string& value) {
 
 struct Overrider {
   Site& site;
-  std::string group, name, key;  // name is empty for single sections
+  std::string section, key;  // "hazard", "fence.upper", "hazard.class.V1"
   const toml::node& node;
   bool& is_done;
 
   template <class Section>
-  void set(Section& section, const std::string& path) const {
+  void set(Section& fields, const std::string& path) const {
     const Where where{"", 0, "command line"};
     const auto& row = key_named<Section>(key, path, where);
-    read_value(section, row, path + "." + key, node, where);
+    read_value(fields, row, path + "." + key, node, where);
     site.sources[path + "." + key] = {ValueSource::from_cli, 0};
     is_done = true;
   }
   template <class Section>
-  void operator()(const char* candidate, Section& section) const {
-    if (group == candidate && name.empty()) set(section, group);
+  void operator()(const char* candidate, Section& fields) const {
+    if (section == candidate) set(fields, section);
   }
   template <class Section>
   void operator()(const char* candidate, std::vector<Section>& sections) const {
-    for (Section& section : sections)
-      if (group == candidate && name == section.name) set(section, group + "." + name);
+    for (Section& fields : sections)
+      if (section == candidate + ("." + fields.name)) set(fields, section);
   }
 };
 
@@ -443,17 +451,12 @@ void override_value(Site& site, const std::string& key, const std::string& value
     throw InputError({"", 0, "command line"}, "\"" + key + "\" is not section.key",
                      "e.g. solver.duration_s");
   const std::string group = key.substr(0, first);
-  const std::string name = first == last ? "" : key.substr(first + 1, last - first - 1);
   const toml::table holder = parsed_value(value);
   const toml::node* node = holder.get("value");
   const toml::value<std::string> plain(value);
   bool is_done = false;
-  const Overrider overrider{site,
-                            group,
-                            name,
-                            key.substr(last + 1),
-                            node ? *node : static_cast<const toml::node&>(plain),
-                            is_done};
+  const Overrider overrider{site, key.substr(0, last), key.substr(last + 1),
+                            node ? *node : static_cast<const toml::node&>(plain), is_done};
   for_each_group(site, overrider);
   if (!is_done) {
     Texts known;
