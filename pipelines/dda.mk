@@ -8,6 +8,8 @@
 # With [uncertainty] each run draws the sample of its seed; blocks of other rock masses: rock.mk.
 # A run that was stopped goes on where it was (--resume). One that fails stops no other: what can be made
 # is made, then make lists what failed and ends with an error.
+# What the cases count among one another, for all that evaluates runs: WEIGHTS = low=1 high=3 (evaluate_flags of
+# site.mk). Without it runs count alike, and outputs say that they are no probabilities.
 RUNS ?= $(SITE_RUNS)
 SEED ?= $(SITE_SEED)
 WITHOUT ?= $(SITE_FENCES_STAND)
@@ -41,7 +43,7 @@ run_inputs := $(OUT)/blocks.h5 $(STAGES)/run.txt $(if $(SITE_ROCK_MASSES),$(STAG
 newer_runs = $(shell find $(wildcard $(OUT)/runs $(OUT)/without) -name 'run_$2*.h5' $(addprefix -newer ,$1))
 fresh_runs = $(foreach case,$(or $(CASES),-),$(call newer_runs,$(run_inputs) $(if $(CASES),$(STAGES)/case_$(case).flags $(STAGES)/case_$(case).files),$(if $(CASES),$(case)_)))
 # Those of the goals: maps and run-out need none without fences.
-goal_runs = $(run_files) $(if $(filter-out maps runout places,$(wanted)),$(without_files))
+goal_runs = $(run_files) $(if $(filter-out maps runout places hazard trace,$(wanted)),$(without_files))
 wanted_runs = $(or $(if $(SHARD),$(shard_runs)),$(filter $(MAKECMDGOALS),$(goal_runs)),$(goal_runs))
 count_runs = $(if $(runs_begun),,$(eval runs_begun := $(shell date +%s))$(eval n_to_make := $(words $(filter-out $(fresh_runs),$(wanted_runs)))))
 run_progress := $(STAGES)/.progress$(if $(SHARD),-$(SHARD)-of-$(SHARDS))
@@ -82,7 +84,7 @@ outcomes = most_failed=$(SITE_MAX_FAILED_SHARE) sh $(PIPELINES)run_outcomes.sh $
 counted_runs = $(words $1) run$(if $(filter 1,$(words $1)),,s)
 run_there = $$($(call outcomes,there,$1))
 # The last goal that has to do with runs comes after the others and lists what failed.
-run_goals := runs runout maps fence report all
+run_goals := runs runout maps fence hazard trace report all
 asked := $(filter $(run_goals),$(or $(MAKECMDGOALS),all))
 last_goal := $(if $(filter all,$(asked)),all,$(lastword $(asked)))
 $(if $(last_goal),$(last_goal): | $(filter-out $(last_goal),$(asked)))

@@ -1,10 +1,11 @@
 # The chain of tools for one site, included by sample_sites/<site>/Makefile. What is computed stands in
 # site.toml; the Makefile may set
 #   CONTOURS or DEM                what the ground is made from, instead of [terrain]
-#   TIN_FLAGS, TRN_FLAGS, BLOCKS_FLAGS, CHECK_FLAGS, DDA_FLAGS, RUNOUT_FLAGS, MAPS_FLAGS, FENCE_FLAGS, PLACES_FLAGS
+#   TIN_FLAGS, TRN_FLAGS, BLOCKS_FLAGS, CHECK_FLAGS, DDA_FLAGS, RUNOUT_FLAGS, MAPS_FLAGS, FENCE_FLAGS,
+#   PLACES_FLAGS, HAZARD_FLAGS, TRACE_FLAGS
 #                                  further options of the tools
 #   EVALUATE_FLAGS                 of all tools that evaluate runs (e.g. --rest-speed-m-s 0.1)
-#   RUNS, SEED, CASES, WITHOUT     dda.mk; RUNS=auto, RUNS_MOST: as many as [place.*] want (auto_runs.sh)
+#   RUNS, SEED, CASES, WEIGHTS, WITHOUT   dda.mk; RUNS=auto, RUNS_MOST: as many as [place.*] want (auto_runs.sh)
 #   SHARDS, SHARD, SBATCH_FLAGS    shards.mk, slurm.mk
 # and so may the command line (make RUNS=50 -j4). V=1 shows every command. Every rule is one tool: files
 # in, files out.
@@ -19,7 +20,7 @@ include $(PIPELINES)products.mk
 
 .DEFAULT_GOAL := all
 .SUFFIXES:
-.PHONY: all terrain blocks check runs runout maps fence report clean help
+.PHONY: all terrain blocks check runs runout maps fence hazard trace report clean help
 RUNS_MOST ?= 1600
 
 all: check report ## everything, up to the report
@@ -28,7 +29,7 @@ clean: ## remove what was made, and nothing else
 	@sh $(PIPELINES)clean.sh '$(OUT)' '$(mark_of_out)' '$(products) $(made_patterns)' '$(made_folders)'
 
 # The goals in the order of the pipeline, and those that the site's Makefile adds.
-help_files := $(addprefix $(PIPELINES),site.mk trn.mk source.mk blocks.mk check.mk dda.mk runout.mk maps.mk fence.mk places.mk report.mk shards.mk slurm.mk new_site.mk) \
+help_files := $(addprefix $(PIPELINES),site.mk trn.mk source.mk blocks.mk check.mk dda.mk runout.mk maps.mk fence.mk places.mk hazard.mk trace.mk report.mk shards.mk slurm.mk new_site.mk) \
   $(filter-out $(PIPELINES)%,$(MAKEFILE_LIST))
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  \1: \2/p' $(help_files)$(if $(wildcard manifest.sha256),, | grep -v '^  data:')
@@ -73,8 +74,10 @@ endif
 endif
 endef
 
-# evaluate_flags: of every tool that evaluates runs; what the site file says, unless make is given it.
-evaluate_flags = $(if $(findstring --max-failed-share,$(EVALUATE_FLAGS)),,--max-failed-share $(SITE_MAX_FAILED_SHARE)) $(EVALUATE_FLAGS)
+# evaluate_flags: of every tool that evaluates runs; what the site file says, unless make is given it, and what cases
+# count (dda.mk). class_flags: of tools that take runs by class, which cases may be, without that.
+class_flags = $(if $(findstring --max-failed-share,$(EVALUATE_FLAGS)),,--max-failed-share $(SITE_MAX_FAILED_SHARE)) $(EVALUATE_FLAGS)
+evaluate_flags = $(WEIGHTS:%=--case-weight %) $(class_flags)
 
 $(OUT) $(OUT)/runs $(OUT)/without $(OUT)/rock $(STAGES)/failed:
 	@mkdir -p $@
@@ -90,6 +93,8 @@ include $(PIPELINES)runout.mk
 include $(PIPELINES)maps.mk
 include $(PIPELINES)fence.mk
 include $(PIPELINES)places.mk
+include $(PIPELINES)hazard.mk
+include $(PIPELINES)trace.mk
 include $(PIPELINES)report.mk
 include $(PIPELINES)shards.mk
 include $(PIPELINES)slurm.mk

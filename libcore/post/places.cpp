@@ -83,16 +83,20 @@ PlaceReach place_reach(const Place& place, const Released& released,
   const ShareBasis basis = share_basis_of(released);
   const int n_runs = static_cast<int>(weight.size());
   std::vector<RunWeight> parts;
-  double reached = 0, total = 0;
+  double reached = 0, total = 0, runs_hit = 0;
   for (int run = 0; run < n_runs; ++run) {
     total += released.weight[run];
-    if (weight[run] > 0) parts.push_back({run, weight[run]}), reached += weight[run];
+    if (weight[run] == 0) continue;
+    parts.push_back({run, weight[run]});
+    reached += weight[run];
+    runs_hit += basis.run_weight[run];
   }
   PlaceReach out;
   out.share = total > 0 ? std::min(1.0, reached / total) : 0;
   out.interval = parts.empty() ? interval_of_none_or_all(basis, false)
                                : share_interval(basis, parts, out.share);
-  out.share_of_runs = static_cast<double>(parts.size()) / n_runs;
+  out.n_runs_hit = static_cast<int>(parts.size());
+  out.share_of_runs = std::min(1.0, runs_hit / basis.runs.whole);
   out.interval_of_runs = run_share_interval(basis, parts);
   out.half_width = (out.interval.high - out.interval.low) / 2;
   out.lacks_masses = std::isnan(out.half_width) && !released.unit.empty();

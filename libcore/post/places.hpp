@@ -37,7 +37,8 @@ struct Place {
 struct PlaceReach {
   double share = 0;          ///< of the weight of all released blocks
   Interval interval;         ///< 95 %; NaN where there are too few runs
-  double share_of_runs = 0;  ///< in which any block reaches it
+  int n_runs_hit = 0;        ///< in which any block reaches it
+  double share_of_runs = 0;  ///< of all, each with its weight
   Interval interval_of_runs;
   double half_width = 0;      ///< of `interval`
   int runs_to_add = 0;        ///< until it is as narrow as wanted

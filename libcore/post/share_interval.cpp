@@ -31,6 +31,24 @@ Interval within_runs(const Interval& interval, const ShareBasis& basis,
   return out;
 }
 
+// Sums over the units; the same where each run is its own.
+std::vector<double> by_unit(std::span<const double> of_run, const std::vector<int>& unit) {
+  if (unit.empty()) return {of_run.begin(), of_run.end()};
+  std::vector<double> sums(static_cast<std::size_t>(*std::max_element(unit.begin(), unit.end())) +
+                           1);
+  for (std::size_t run = 0; run < unit.size(); ++run) sums[unit[run]] += of_run[run];
+  return sums;
+}
+
+ShareOver over_of(const std::vector<double>& weights) {
+  ShareOver over{static_cast<int>(weights.size()), 0, 0};
+  for (const double weight : weights) {
+    over.whole += weight;
+    over.squares += weight * weight;
+  }
+  return over;
+}
+
 // The runs with any part.
 std::vector<RunShare> shares_of(const ShareBasis& basis, std::span<const RunWeight> parts) {
   std::vector<RunShare> some;
@@ -79,24 +97,19 @@ ShareBasis share_basis(std::span<const double> released, bool single_blocks, dou
                        const std::vector<int>& unit) {
   ShareBasis basis;
   basis.unit = unit;
-  if (unit.empty()) {
-    basis.released.assign(released.begin(), released.end());
-  } else {
-    basis.released.assign(static_cast<std::size_t>(*std::max_element(unit.begin(), unit.end())) + 1,
-                          0);
-    for (std::size_t run = 0; run < unit.size(); ++run) basis.released[unit[run]] += released[run];
-    single_blocks = false;
-  }
-  basis.single_blocks = single_blocks;
-  basis.over.n_runs = static_cast<int>(basis.released.size());
-  basis.bounded = single_blocks || basis.over.n_runs >= least_runs_to_resample;
-  for (const double weight : basis.released) {
-    basis.over.whole += weight;
-    basis.over.squares += weight * weight;
-  }
+  basis.released = by_unit(released, unit);
+  basis.single_blocks = single_blocks && unit.empty();
+  basis.over = over_of(basis.released);
+  basis.bounded = basis.single_blocks || basis.over.n_runs >= least_runs_to_resample;
   basis.n_eff = effective_size(basis.over.whole, basis.over.squares);
   basis.failed_share = failed_share;
+  weigh_runs_of(basis, std::vector<double>(released.size(), 1.0));
   return basis;
+}
+
+void weigh_runs_of(ShareBasis& basis, std::span<const double> run_weight) {
+  basis.run_weight.assign(run_weight.begin(), run_weight.end());
+  basis.runs = over_of(by_unit(run_weight, basis.unit));
 }
 
 Interval share_interval(const ShareBasis& basis, std::span<const RunWeight> parts, double share) {
@@ -119,18 +132,20 @@ Interval interval_of_none_or_all(const ShareBasis& basis, bool all) {
   return with_failed(wilson_interval(all ? 1 : 0, basis.n_eff), basis.failed_share);
 }
 
-Interval run_share_interval(const ShareBasis& basis, int n_hit) {
-  const double n = basis.over.n_runs;
-  return with_failed(wilson_interval(n_hit / n, n), basis.failed_share);
+Interval run_share_interval(const ShareBasis& basis, double share) {
+  return with_failed(wilson_interval(share, effective_size(basis.runs.whole, basis.runs.squares)),
+                     basis.failed_share);
 }
 
 Interval run_share_interval(const ShareBasis& basis, std::span<const RunWeight> hit) {
-  if (basis.unit.empty()) return run_share_interval(basis, static_cast<int>(hit.size()));
-  const std::vector<double> each(basis.unit.size(), 1);
+  double weight = 0;
+  for (const RunWeight& run : hit) weight += basis.run_weight[run.run];
+  const double share = std::min(1.0, weight / basis.runs.whole);
+  if (basis.unit.empty()) return run_share_interval(basis, share);
   std::vector<RunWeight> parts;
-  for (const RunWeight& run : hit) parts.push_back({run.run, 1});
-  const double share = static_cast<double>(hit.size()) / static_cast<double>(each.size());
-  return share_interval(share_basis(each, false, basis.failed_share, basis.unit), parts, share);
+  for (const RunWeight& run : hit) parts.push_back({run.run, basis.run_weight[run.run]});
+  return share_interval(share_basis(basis.run_weight, false, basis.failed_share, basis.unit), parts,
+                        share);
 }
 
 Interval with_failed(const Interval& interval, double failed_share) {

@@ -52,8 +52,10 @@ struct ShareBasis {
   bool bounded = false;          ///< enough runs for any interval (least_runs_to_resample)
   std::vector<int> unit;         ///< that a run belongs to; empty: each is its own     (n_runs)
   ShareOver over;
-  double n_eff = 0;         ///< effective number of runs [-]
-  double failed_share = 0;  ///< of the runs that were wanted [-]
+  double n_eff = 0;                ///< effective number of runs [-]
+  double failed_share = 0;         ///< of the runs that were wanted [-]
+  std::vector<double> run_weight;  ///< what each counts: 1 unless they are weighed     (n_runs)
+  ShareOver runs;                  ///< the runs themselves by these weights, or the units
 };
 /// `unit`: runs of one number, from 0 without gaps, are not independent of each other (they move
 /// the same blocks): they are counted as one, and `released` is then by unit.
@@ -65,6 +67,10 @@ struct ShareBasis {
 [[nodiscard]] Interval share_interval(const ShareBasis& basis, std::span<const RunWeight> parts,
                                       double share);
 
+/// Runs that do not all count alike, e.g. those of weighed cases; `released` has their weights
+/// already.                                                                        (n_runs)
+void weigh_runs_of(ShareBasis& basis, std::span<const double> run_weight);
+
 /// How many trials the share is worth (share_sample); NaN where there are too few runs.
 [[nodiscard]] double trials_of(const ShareBasis& basis, std::span<const RunWeight> parts,
                                double share);
@@ -72,10 +78,12 @@ struct ShareBasis {
 /// Of no block (`all` false) or of all: each effective run is a trial. NaN where there are too few.
 [[nodiscard]] Interval interval_of_none_or_all(const ShareBasis& basis, bool all);
 
-/// Of the share of runs in which something happened, `n_hit` of them; each run its own unit, or
-/// none of them was hit.
-[[nodiscard]] Interval run_share_interval(const ShareBasis& basis, int n_hit);
-/// The same of these runs, named once each, as units of the basis ask for.
+/// Of the share of runs in which something happened, each with its weight; each run its own unit,
+/// or none of them was hit.
+[[nodiscard]] Interval run_share_interval(const ShareBasis& basis, double share);
+Interval run_share_interval(const ShareBasis& basis, int n_hit) = delete;  ///< a number is no share
+/// The same of these runs, named once each, as units of the basis ask for; their weights are those
+/// of the basis.
 [[nodiscard]] Interval run_share_interval(const ShareBasis& basis, std::span<const RunWeight> hit);
 
 /// The interval of a share of the runs that did not fail, for all that were wanted.

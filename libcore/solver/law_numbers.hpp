@@ -18,29 +18,67 @@ namespace talus::law {
 /// [-] k_n dt^2 / m of the stiffest contact of a lone block. Tried: the block's full mass for m;
 /// needles fail.
 inline constexpr double stiffest_lone = 400;
-/// [-] The same in an island: bounds the condition of its matrix. Tried: softer, a tower topples
-/// that should hold; stiffer, solutions take many times the evaluations, and some fail.
+/// [-] The same in an island, before a contact knows what it bears. Tried: 400 for all; the forces
+/// of masses in motion are not found.
 inline constexpr double stiffest_in_island = 1;
-/// [-] The same where the island's matrix is cheap to factor, so that a tower hardly sags. Tried:
-/// 1; high towers lean.
-inline constexpr double stiffest_in_small_island = 30;
+/// [-] The same where the island's matrix is cheap to factor, and of blocks that rest. Tried: 1 for
+/// blocks that rest; twin towers near the angle at which they topple sway and fall.
+inline constexpr double stiffest_at_rest = 30;
 /// [blocks] A small island has at most so many ...
 inline constexpr std::size_t small_island = 8;
-/// [blocks] ... or so many that hang together without a ring: a column.
+/// [blocks] ... or so many that hang together without a ring: a column ...
 inline constexpr std::size_t small_tree = 64;
-/// [-] Stiffness of a contact that bears little: times that for its own mass.
+/// [g times the sum of thicknesses] ... whose squared speeds are below this: it stands or topples.
+inline constexpr double column_falls = 0.1;
+/// [-] Stiffness of a contact that bears little, slips or opens: times that for its own mass.
 inline constexpr double bears_little = 3;
-/// [-] Sag under load before a contact is stiffer: times that of a block alone. Tried: as stiff as
-/// the heaviest neighbour asks from the start; hardly a step of mixed sizes converges.
-inline constexpr double most_sag = 2;
+/// [thickness] Overlap of a contact at rest under its load: it is as stiff as that asks ...
+inline constexpr double most_sag = 1e-6;
+/// [thickness] ... and in an island that is factored. A tower leans by the sum of these. Tried:
+/// multipliers carried from step to step; they shake towers down.
+inline constexpr double most_sag_in_small_island = 3e-7;
+/// [thickness] ... and of blocks in motion, else.
+inline constexpr double most_sag_in_motion = 1e-5;
+/// [g dt^2] Overlap of a contact that slips, opens or is hard to find the force of: it bears
+/// little, or is as stiff as that asks. Tried: none; small blocks under a large one that slides
+/// sink in.
+inline constexpr double soft_sag = 2;
+/// [thickness] It is stiffer than the heaviest neighbour asks for at this overlap ...
+inline constexpr double most_sag_of_thickness = 2e-2;
+/// [soft sags] ... or this one, where that is more.
+inline constexpr double far_sag = 4;
+/// [-] k_n dt^2 / m of the stiffest contact by its load.
+inline constexpr double stiffest_by_load = 4e5;
+/// [-] That is softer by so much where forces are not found, and stays so for `most_rests`. Tried:
+/// 64; it changes little and is in vain ...
+inline constexpr double easing = 4096;
+/// [-] ... then all of the island is soft, at once where a block moves; beyond, substeps are
+/// halved.
+inline constexpr int most_eased = 2;
+/// [-] A contact at rest becomes stiffer by so much a step, beyond what the masses ask for ...
+inline constexpr double stiffens = 2;
+/// [-] ... one that slips or opens softer by so much.
+inline constexpr double softens = 4;
+/// [g dt] Speed of slip or of opening from which a contact does not rest, nor a block.
+inline constexpr double slow = 0.2;
+/// [passes] An island whose first solution in a substep takes more is hard: contacts of what
+/// moves ...
+inline constexpr int hard_passes = 10;
+/// [-] ... become softer by so much ...
+inline constexpr double relief = 8;
+/// [steps] ... and no stiffer for so long. Tried: 5; a mass that topples takes half as many passes
+/// again.
+inline constexpr int most_rests = 40;
+/// [-] Solutions of the first step until contacts are as stiff as they bear.
+inline constexpr int most_settlings = 12;
 /// [-] Stiffness of a contact whose load asks for more: times what it needs ...
 inline constexpr double ample = 2;
-/// [-] ... and kept until it is this many times what it needs.
-inline constexpr double too_much = 8;
-/// [thickness] A contact becomes stiffer still, without bound, at this overlap ...
-inline constexpr double most_sag_of_thickness = 2e-2;
-/// [sags] ... or this one, where that is more.
-inline constexpr double far_sag = 4;
+/// [-] ... times that in the first step, in which all sag at once. Tried: 2; towers sway ...
+inline constexpr double ample_at_start = 8;
+/// [-] ... and kept until it is this many times what it needs. Tried: 8; layers of small blocks
+/// that slide under a large one grow soft and are squeezed out. 100; a tower of 16 creeps at 20 ms.
+/// 300; a tower under a block a thousand times as heavy falls.
+inline constexpr double too_much = 30;
 /// [-] A contact whose stiffness changes by more than this factor in a step has another law.
 inline constexpr double same_law = 1.5;
 /// [dt] Overlap is pressed out over so many steps (tau). Tried: Newmark's own damping; contacts
@@ -103,39 +141,42 @@ inline constexpr double rebounds_by_gravity = 2;
 inline constexpr double rebound_matters = 0.1;
 /// [g dt] Times the factor on the solver's tolerance: what its error may bring about is no hit.
 inline constexpr double least_by_tolerance = 2e-2;
-/// [-] D of a hit in an island, over the mass that it feels.
-inline constexpr double hit_stiffness = 30;
-/// [-] First guess of its impulse, as a share of that of the hit alone.
-inline constexpr double hit_share = 0.7;
-/// [approach] A hit is found when its impulse errs by less ...
-inline constexpr double hit_tolerance = 1e-2;
-/// [approach] ... or by this in an island that is factored.
-inline constexpr double small_hit_tolerance = 1e-9;
-/// [-] Solutions until all hits are found and rebound.
-inline constexpr int most_hit_rounds = 8;
-/// [-] Hits lose at least this share of what they would lose one after the other.
-inline constexpr double least_loss = 0.9;
-/// [energy of the hits] Less is no gain.
-inline constexpr double hit_gain_rounding = 1e-6;
-/// [hits of a block] Less is none.
-inline constexpr double others_rounding = 1e-9;
-/// [h] A lone block's hit is at the start of the substep before this time ...
-inline constexpr double hit_at_start = 1e-6;
-/// [h] ... and at its end after this one.
-inline constexpr double hit_at_end = 1 - 1e-6;
-/// [in a step] Hits of a lone block near fixed bodies, before they come together.
-inline constexpr int most_lone_hits = 100;
+/// [size] Corners of a pair, and pairs, whose gaps differ by less are hit at one time. Tried: 1e-6
+/// to 1e-4; a tilt beyond it is a hit of one corner.
+inline constexpr double hit_window = 1e-5;
+/// [h] Looks closer than this are at one time.
+inline constexpr double one_time = 1e-9;
+/// [-] Looks at true gaps to find the time of a hit.
+inline constexpr int most_looks_for_time = 5;
+/// [in a substep] Looks at a pair.
+inline constexpr int most_pair_looks = 80;
+/// [h] A look that found no hit looks on after this time. Tried: none; the next corner of a pair
+/// that parts is missed, and stopped without rebound.
+inline constexpr double walk_on = 1.0 / 16;
+/// [m g v_r] Power above which a support drives a block: it ends before.
+inline constexpr double support_drives = 0.1;
+/// [in a substep] Hits of a pair; beyond, it is stopped.
+inline constexpr int most_pair_hits = 20;
+/// [-] Rounds of hits at one time, and two for each block that they hit; beyond, they are stopped.
+inline constexpr int most_hit_rounds = 40;
+/// [fastest approach] Slower contacts part.
+inline constexpr double parts = 1e-9;
+/// [-] Solutions until no contact is added that hits left to be stopped.
+inline constexpr int most_closing_rounds = 8;
+/// [-] D of a contact that only stops, over the mass that it feels.
+inline constexpr double stopping_stiffness = 30;
+/// [h] What is left after a hit is taken as no shorter.
+inline constexpr double shortest_rest = 1e-3;
+/// [thickness] So deep goes what is hit in the next substep.
+inline constexpr double waits_within = 1e-2;
+/// [h] So shortly after a hit nobody knows what supports a block.
+inline constexpr double short_after_hit = 0.05;
 /// [in a step] Impacts of a lone block before bouncing is given up.
 inline constexpr int most_events = 40;
 /// [in a step] Flights of a lone block.
 inline constexpr int most_flights = 16;
 /// [rad] Longest turn of a flight: bounds what its attitude costs.
 inline constexpr double longest_turn = 60;
-/// [1/mobility] Damping of the contacts of a lone block's impact. Tried: stiffer; the residual
-/// drowns in rounding.
-inline constexpr double impact_stiffness = 1e7;
-/// [kinetic energy] Less is no gain of an impact.
-inline constexpr double impact_gain_rounding = 1e-7;
 
 // --- check of a substep, and repetitions -------------------------------------------------------
 
@@ -179,8 +220,10 @@ inline constexpr double motion_tolerance = 1e-3;
 inline constexpr double rest_tolerance = 1e-6;
 /// [g h] The same in an island that is factored.
 inline constexpr double small_tolerance = 1e-8;
-/// [-] Of conjugate gradients in a Newton step.
-inline constexpr double linear_tolerance = 3e-2;
+/// [-] Of conjugate gradients in a Newton step ...
+inline constexpr double linear_tolerance = 1e-2;
+/// [-] ... and of a mass at rest. Tried: 1e-2; two to four times the steps.
+inline constexpr double linear_tolerance_at_rest = 1e-3;
 /// [-] Newton steps before the line search looks at them.
 inline constexpr int island_free_steps = 3;
 /// [-] Halvings of a Newton step.
@@ -199,6 +242,31 @@ inline constexpr int all_every = 8;
 inline constexpr std::size_t few = 2;
 /// [-] Growth of the residual at which coupled steps are given up.
 inline constexpr double hopeless = 1e5;
+/// [-] In so many steps the smallest residual has to fall by half.
+inline constexpr int patience = 6;
+/// [passes allowed] One in so many are coupled steps; then friction bounds are held ...
+inline constexpr int coupled_share = 8;
+/// [passes allowed] ... until so much of them is spent.
+inline constexpr double held_share = 2.0 / 3;
+/// [tolerance] Residual while bounds are held: what is left is for the bounds.
+inline constexpr double held_goal = 0.5;
+/// [residual by the law] ... or that, where it is more: bounds that are far off are worth no more.
+inline constexpr double held_share_of_error = 0.1;
+/// [residual] Renewals of bounds go all the way while each leaves no more than this; else half as
+/// far as the last, ...
+inline constexpr double renews_well = 0.9;
+/// [-] ... at least so far.
+inline constexpr double least_renewal = 0.25;
+/// [-] Steps by the law from what they give go on while each leaves no more of the residual.
+inline constexpr double finishing = 0.3;
+/// [slope at the start] A step with held bounds ends where the slope along it is less.
+inline constexpr double level = 0.3;
+/// [-] Places looked at along it, ...
+inline constexpr int most_trials = 12;
+/// [-] ... each so many times as far while it goes down, ...
+inline constexpr double farther = 3;
+/// [-] ... then so much of the bracket off its ends.
+inline constexpr double off_ends = 0.02;
 
 // --- solution of a lone block ------------------------------------------------------------------
 

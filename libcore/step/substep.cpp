@@ -64,15 +64,26 @@ double stiffness_to_bear(const ContactRow& row, double sag) {
   return last >= needed && last <= law::too_much * needed ? last : law::ample * needed;
 }
 
-// From `least` for what bears little up to `stiffest`; beyond, where even that lets the overlap
-// grow far.
-double stiffness_by_load(const BlockNumbers& c, double least, double stiffest,
+// As soft as a contact may be that bears its last force: with `sag` of overlap, from `least` for
+// what bears little up to `stiffest`; beyond, where even that lets the overlap grow far.
+double softest_by_load(const BlockNumbers& c, double sag, double least, double stiffest,
+                       const ContactRow& row) {
+  const double k = std::clamp(stiffness_to_bear(row, sag), std::min(least, stiffest), stiffest);
+  const double far = std::max(law::most_sag_of_thickness * c.thickness, law::far_sag * sag);
+  return row.last_force > far * stiffest ? std::max(k, stiffness_to_bear(row, far)) : k;
+}
+
+// What the load asks for, from `soft` up to `most`; reached step by step beyond `ready`, left step
+// by step by what slips or opens, and at once where the forces were hard to find.
+double stiffness_by_load(const BlockNumbers& c, double soft, double ready, double most,
                          const ContactRow& row) {
-  const double k = std::clamp(stiffness_to_bear(row, c.sag), std::min(least, stiffest), stiffest);
-  const double far = std::max(law::most_sag_of_thickness * c.thickness, law::far_sag * c.sag);
-  const bool is_beyond =
-      row.last_force > far * stiffest || row.last_stiffness > same_law * stiffest;
-  return is_beyond ? std::max(k, stiffness_to_bear(row, far)) : k;
+  const double last = row.last_stiffness;
+  double k = std::min(stiffness_to_bear(row, c.sag), std::max(law::stiffens * last, ready));
+  if (last > 0 && row.rests > 0)
+    k = std::min(k, row.rests == law::most_rests ? last / law::relief : last);
+  const bool moves = row.slip_speed > c.slow || row.speed_start > c.slow;
+  if (moves) k = std::min(k, last / law::softens);
+  return std::clamp(k, soft, std::max(soft, most));
 }
 
 // How fast the contact would close without contact forces: at the start of the substep, or on the
@@ -215,6 +226,7 @@ void forget_last_step(ContactRow& row) {
   row.memory = -1;
   row.stuck = false;
   row.tilt_speed = 0;
+  row.rests = 0;
   row.cap = 0;
   row.impulse.setZero();
   row.state = ContactState::open;
@@ -254,6 +266,7 @@ void inherit(const ContactMemory& memory, int index, bool same_features, const M
   row.stuck = memory.state == static_cast<std::uint8_t>(ContactState::stick);
   row.last_stiffness = memory.stiffness;
   row.last_force = memory.normal_force;
+  row.rests = memory.rests;
   row.bond_area = memory.bond_area;
   row.offset = std::min(memory.offset, std::max(0.0, -row.gap_start));
   const double jump = memory.gap_end - (row.gap_start + row.offset);
@@ -280,6 +293,7 @@ void take_on_load(std::span<const ContactMemory> memory, int body_b, ContactRow&
     deepest = -c.gap_end;
     row.last_stiffness = c.stiffness;
     row.last_force = c.normal_force;
+    row.rests = c.rests;
   }
   row.offset = std::max(0.0, -row.gap_start - deepest);
 }
@@ -292,7 +306,12 @@ void set_law(const Scene& scene, const BlockNumbers& c, double h, const Mobility
   double k_n = stiffest;
   const bool was_hit = row.memory >= 0 && row.last_stiffness == 0;  // nobody knows what it bears
   if (c.sag > 0 && row.bond_area == 0 && !was_hit) {
-    k_n = stiffness_by_load(c, c.least_stiffness * c.per_mass / W.normal, stiffest, row);
+    const double per_mobility = c.per_mass / W.normal;
+    const double at_once = scene.gravity.norm() * scene.settings.dt * scene.settings.dt;
+    const double soft_sag = std::max(law::soft_sag * at_once, c.sag);
+    const double soft =
+        softest_by_load(c, soft_sag, c.least_stiffness * per_mobility, stiffest, row);
+    k_n = stiffness_by_load(c, soft, stiffest, c.most_stiffness * per_mobility, row);
     if (asked > 0) k_n = std::min(k_n, asked);
   }
   const double k_s =
@@ -353,6 +372,7 @@ void set_motions(const Scene& scene, int b, const Substep& s, const Mat3& to_bod
     const Vec3& X = contact.point_a;
     const Vec3 lever_start = from_start * X;
     row.arm = (X + lever_start) / 2;
+    row.arm_start = lever_start;
     row.drift = s.spin_free.cross(X - row.arm);
     row.free_move = moved + (X - lever_start);
     row.gap_start = contact.gap - row.normal.dot(row.free_move);

@@ -26,11 +26,13 @@ const std::vector<Stage>& stages() {
       {"rock", {"site.crs", "source", "joints", "blocks", "material", "uncertainty"}},
       {"run",
        {"site.name", "site.crs", "terrain.ground_raster", "material", "joints", "ground", "solver",
-        "fence", "forest", "base_motion", "output", "-solver.seed", "-solver.n_runs",
+        "fence", "forest", "base_motion", "output", "object", "-solver.seed", "-solver.n_runs",
         "-output.checkpoint_interval_s", "uncertainty", "-uncertainty.max_failed_share",
         "-uncertainty.sample"}},
       {"fence", {"site.name", "site.crs", "fence"}},
       {"place", {"site.crs", "place"}},
+      {"hazard", {"site.name", "site.crs", "hazard"}},
+      {"trace", {"site.name", "site.crs", "object", "hazard"}},
   };
   return list;
 }

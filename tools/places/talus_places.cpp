@@ -80,8 +80,12 @@ void add_run(Reached& all, const RunFile& run, const std::vector<Passage>& passa
 
 Reached read_all(Tool& tool, const Site& site, RunInputs& inputs) {
   Reached all;
-  const RunParts parts{
-      .checkpoint = false, .only_last_frame = true, .only_faults = true, .words = false};
+  const RunParts parts{.checkpoint = false,
+                       .objects = false,
+                       .only_last_frame = true,
+                       .only_faults = true,
+                       .words = false,
+                       .trees = false};
   inputs.read(parts, [&](RunFile& run, int index) {
     if (run.grid.n_rows == 0)
       throw InputError({where_of(inputs.members[index])}, "holds no passages",
@@ -93,6 +97,7 @@ Reached read_all(Tool& tool, const Site& site, RunInputs& inputs) {
     for (const Place& place : all.places) check_line(place, run, inputs.members[index]);
     all.released.weight.push_back(inputs.members[index].weight);
     all.released.n_blocks.push_back(inputs.members[index].n_blocks);
+    all.released.run_weight.push_back(run.run_weight);
     for (std::vector<double>& weight : all.weight) weight.push_back(0);
     if (inputs.members[index].part.empty()) add_run(all, run, run.passages, index);
   });
@@ -103,9 +108,12 @@ Reached read_all(Tool& tool, const Site& site, RunInputs& inputs) {
                      for (std::size_t r = 0; r < by_run.size(); ++r)
                        rows[r].insert(rows[r].end(), by_run[r].begin(), by_run[r].end());
                    });
-    for (std::size_t r = 0; r < rows.size(); ++r)
-      if (part.member[r] >= 0)
-        add_run(all, run_of(part.file.part, static_cast<int>(r)), rows[r], part.member[r]);
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      if (part.member[r] < 0) continue;
+      RunFile run = run_of(part.file.part, static_cast<int>(r));
+      run.run_weight = inputs.members[part.member[r]].run_weight;
+      add_run(all, run, rows[r], part.member[r]);
+    }
   }
   all.released.failed_share = inputs.failed_share();
   all.released.unit = units_of(inputs.members);
@@ -131,8 +139,7 @@ std::string line_of(const Place& place, const PlaceReach& reach, int n_runs) {
   std::string words = place.name + ": " + percent(reach.share) + " % of the blocks";
   if (std::isfinite(reach.half_width))
     words += " (" + percent(reach.interval.low) + " to " + percent(reach.interval.high) + " %)";
-  words += ", in " + std::to_string(std::lround(reach.share_of_runs * n_runs)) + " of " +
-           counted(n_runs, "run");
+  words += ", in " + std::to_string(reach.n_runs_hit) + " of " + counted(n_runs, "run");
   if (reach.lacks_masses) return words + "; too few rock masses for an interval";
   if (!std::isfinite(reach.half_width))
     return words + "; too few runs for an interval: add " + counted(reach.runs_to_add, "run");

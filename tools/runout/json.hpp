@@ -18,7 +18,9 @@ namespace talus {
 
 /// A row a case, with the spread over its runs; empty where there is one.
 [[nodiscard]] Json cases_json(const std::vector<RunoutRun>& runs);
-[[nodiscard]] Json spread_json(const std::vector<RunoutRun>& runs);
+/// How many of some runs are events, with which probability, and the spread over those that moved
+/// and over the events.
+void add_spreads(Json& to, const std::vector<RunoutRun>& runs, const std::vector<int>& some);
 
 /// Numbers are null where there are not enough runs.
 [[nodiscard]] Json sensitivity_json(const std::vector<SensitivityRow>& rows);

@@ -1,4 +1,4 @@
-// Stage 10 of an island's step: the substep holds. What it leaves of bonds, memory, motion, panels,
+// Stage 9 of an island's step: the substep holds. What it leaves of bonds, memory, motion, panels,
 // and the work of its contacts.
 #include <algorithm>
 #include <cmath>
@@ -31,6 +31,7 @@ struct SubstepAcceptance {
   std::vector<Segment>& segments;
   DeepWork& deep;
   StepReport& report;
+  bool is_eased = false;
 
   // Energy that contacts took, by kind; push_bodies() adds that of bodies that give way.
   void account(size_t r) {
@@ -40,8 +41,9 @@ struct SubstepAcceptance {
     const double p_n = normal.dot(impulse);
     const Vec3 p_t = impulse - p_n * normal;
     const Vec3 path = path_of_impulse(members, free, system, hits, r);
+    const double loss = -p_n * normal.dot(path);  // < 0: others drove its bodies apart
     if (!gives_way(system, r))
-      (contact.hit >= 0 ? state.ledger.impact : state.ledger.contact) -= p_n * normal.dot(path);
+      (contact.hit >= 0 && loss > 0 ? state.ledger.impact : state.ledger.contact) += loss;
     state.ledger.friction -= p_t.dot(path);
     if (state.load.empty()) return;
     add_load(scene, contact.a, normal, p_n, impulse, state);
@@ -63,16 +65,30 @@ struct SubstepAcceptance {
   // together have what the hits of the substep took, so that breaking takes no more.
   void add_hit_losses() {
     double taken = 0, given = 0;
-    for (size_t r = 0; r < system.contacts.size(); ++r) {
-      const double loss = hit_loss_of(r);
-      (loss > 0 ? taken : given) += std::abs(loss);
-    }
+    const auto sum = [&](int, int, double loss) { (loss > 0 ? taken : given) += std::abs(loss); };
+    for_each_hit_loss(sum);
     if (taken <= given) return;
-    for (size_t r = 0; r < system.contacts.size(); ++r) {
-      const double loss = std::max(0.0, hit_loss_of(r)) * (1 - given / taken);
-      const KeptContact& contact = system.contacts[r];
-      add_hit_loss(contact.a, contact.b < 0 ? loss : loss / 2, state);
-      add_hit_loss(contact.b, loss / 2, state);
+    for_each_hit_loss([&](int a, int b, double found) {
+      const double loss = std::max(0.0, found) * (1 - given / taken);
+      add_hit_loss(a, b < 0 ? loss : loss / 2, state);
+      add_hit_loss(b, loss / 2, state);
+    });
+  }
+
+  // Calls take(block a, block b, loss) for every contact that was hit, and where hits were stopped.
+  template <class Take>
+  void for_each_hit_loss(const Take& take) const {
+    for (const HitImpulse& hit : hits.impulses) take(hit.a, hit.b, hit.loss);
+    for (size_t r = 0; r < system.contacts.size(); ++r)
+      take(system.contacts[r].a, system.contacts[r].b, hit_loss_of(r));
+  }
+
+  // Hits load their blocks too.
+  void add_hit_loads() {
+    for (const HitImpulse& hit : hits.impulses) {
+      const double p_n = std::max(0.0, hit.normal.dot(hit.impulse));
+      add_load(scene, hit.a, hit.normal, p_n, hit.impulse, state);
+      add_load(scene, hit.b, hit.normal, p_n, -hit.impulse, state);
     }
   }
 
@@ -88,6 +104,16 @@ struct SubstepAcceptance {
     const double by_depth =
         contact.offset / (law::relaxes_anyway * thickness_of(members, contact)) - 1;
     return std::clamp(std::max(by_load, by_depth), 0.0, 1.0);
+  }
+
+  // How long contacts are to stiffen no more: those of blocks in motion whose forces were hard to
+  // find. A pile that stands would begin to lean.
+  [[nodiscard]] std::uint8_t rests_of(const KeptContact& contact) const {
+    const auto moves = [&](int b) {
+      return b >= 0 && free.substeps[members.at(b)].start.velocity.norm() > members.of(b).slow;
+    };
+    const bool eases = is_eased || (system.is_hard && (moves(contact.a) || moves(contact.b)));
+    return static_cast<std::uint8_t>(eases ? law::most_rests : std::max(0, contact.rests - 1));
   }
 
   // What contact `r`, which pressed and ends with an overlap of `overlap`, keeps for the next step.
@@ -123,6 +149,7 @@ struct SubstepAcceptance {
     const double per_time = members.of(contact.a).recovery_time * h;
     if (contact.bond < 0 && contact.bond_area == 0)
       memory.stiffness = lane.normal_damping() / per_time;
+    memory.rests = rests_of(contact);
     memory.state = static_cast<std::uint8_t>(stays);
     memory.bond_area = contact.bond >= 0 ? 0 : contact.bond_area;  // of the ground
     const double k_t = lane.shear_damping() / per_time;
@@ -146,59 +173,58 @@ struct SubstepAcceptance {
       if (!is_open || contact.offset > 0)
         note_overlap(thinner_of(members, contact), overlap, thickness_of(members, contact), deep,
                      report);
-      if (is_open) continue;
+      if (is_open) {
+        if (contact.hit >= 0) remember_contact(r, path, overlap);
+        continue;
+      }
       const BodyPair& pair = system.island.pairs[contact.pair];
       end.pressed[pair.a] = 1;
       if (pair.b >= 0) end.pressed[pair.b] = 1;
       account(r);
       ++report.n_closed;
       report.sum_penetration += std::max(overlap, 0.0);
-      if (contact.hit < 0 && contact.b < 0 && !gives_way(system, r))
-        end.ground_impulse[pair.a] += lane.impulse();
+      // what blocks give each other they keep: only the ground may go on to bear one alone
+      if (pair.b < 0 && !gives_way(system, r)) end.ground_impulse[pair.a] += lane.impulse();
       remember_contact(r, path, overlap);
     }
     if (!state.hit_loss.empty()) add_hit_losses();
+    if (!state.load.empty()) add_hit_loads();
   }
 
-  // The path of a member: in one piece, or up to its hit and on from there.
+  // The path of a member: in one piece, or from hit to hit and on from the last.
   void add_path(size_t k, const Motion& motion) {
     constexpr double rounding = 1e-12;
-    const Substep& s = free.substeps[k];
     const int b = members.blocks[k];
-    const double hit = hits.time[k], t = free.t, h = free.h;
-    if (std::abs(hit - h / 2) < 1e-3 * h) {
-      add_segment(b, false, t, h, s.start, motion, segments);
+    const double t = free.t, h = free.h;
+    const FlyingMember& flying = hits.members[k];
+    if (!flying.was_hit) {
+      add_segment(b, false, t, h, free.substeps[k].start, motion, segments);
       return;
     }
-    const Support& support = hits.support[k];
-    const double borne = std::min(hit, support.until);
-    Motion before = fly(s.start, members.numbers[k].inertia, s.free_acceleration, hit);
-    before.velocity += borne * support.acceleration.head<3>();
-    before.pose.position += borne_path(hits, k, hit).head<3>();
-    Motion after = before;
-    after.velocity = motion.velocity - (h - hit) * s.free_acceleration -
-                     (support.until - borne) * support.acceleration.head<3>();
+    for (const PathToHit& path : hits.paths)
+      if (path.member == k && path.end > path.begin + rounding * h)
+        add_segment(b, false, t + path.begin, path.end - path.begin, path.start, path.stop,
+                    segments);
+    const double last = flying.clock, rest = h - last;
+    if (!(rest > rounding * h)) return;
+    Motion after = flying.motion;
+    after.velocity = motion.velocity - rest * free.substeps[k].free_acceleration;
     after.angular_momentum = motion.angular_momentum;
-    if (hit > rounding * h) add_segment(b, false, t, hit, s.start, before, segments);
-    if (hit < (1 - rounding) * h) add_segment(b, false, t + hit, h - hit, after, motion, segments);
+    add_segment(b, false, t + last, rest, after, motion, segments);
   }
 
-  // How the ground supports a member from now on, and the work of its support until it was hit.
+  // How contacts bear a member from now on. Shortly after a hit nobody knows.
   void renew_support(size_t k) {
-    const Support& was = hits.support[k];
-    if (was.until > 0) {
-      const auto [power, rise] = support_power(free, system.island, hits, k);
-      state.ledger.friction -= was.until * (power + was.until / 2 * rise);
-    }
-    Vec3 support = end.ground_impulse[k] / (members.numbers[k].mass * free.h);
-    if (!support.isZero(0)) support += was.until / free.h * was.acceleration.head<3>();
-    set_support(scene, members.blocks[k], support, state);
+    const double since = free.h - hits.members[k].clock;
+    if (since < law::short_after_hit * free.h) return;
+    set_support(scene, members.blocks[k], end.ground_impulse[k] / (members.numbers[k].mass * since),
+                state);
   }
 
   void move(size_t k) {
     const Substep& s = free.substeps[k];
     const int b = members.blocks[k];
-    const Motion motion = end_of(free, system, hits, end, k);
+    const Motion motion = end_of(members, free, system, end, k);
     add_path(k, motion);
     renew_support(k);
     if (end.pressed[k])
@@ -220,6 +246,9 @@ struct SubstepAcceptance {
     for (const Hit& hit : hits.hits)
       for (const int b : {system.contacts[hit.contact].a, system.contacts[hit.contact].b})
         if (b >= 0) forget_rates(scene, b, state);
+    for (const int k : hits.hit_members.items) forget_rates(scene, members.blocks[k], state);
+    state.ledger.impact += hits.dissipated;
+    state.ledger.friction += hits.by_friction;
     report.shortest_dt = report.shortest_dt > 0 ? std::min(report.shortest_dt, free.h) : free.h;
   }
 
@@ -228,8 +257,8 @@ struct SubstepAcceptance {
     if (scene.fixed.panels.empty()) return;
     for (size_t r = 0; r < system.contacts.size(); ++r) {
       const KeptContact& contact = system.contacts[r];
-      if (contact.fixed < 0 || contact.waits || lane_of(system, r).state() == ContactState::open ||
-          panel_number(scene, contact.fixed) < 0)
+      if (contact.fixed < 0 || panel_number(scene, contact.fixed) < 0) continue;
+      if (contact.hit < 0 && (contact.waits || lane_of(system, r).state() == ContactState::open))
         continue;
       const size_t k = members.at(contact.a);
       const Motion& before = free.substeps[k].start;
@@ -274,10 +303,19 @@ void accept(const Scene& scene, const IslandMembers& members, const FreeMotions&
             const IslandSystem& system, const SubstepHits& hits, bool converged,
             const SubstepTries& tries, SubstepEnd& end, State& state,
             std::vector<Segment>& segments, DeepWork& deep, StepReport& report) {
-  SubstepAcceptance acceptance{scene, members, free,     system, hits,
-                               end,   state,   segments, deep,   report};
-  report.n_impacts += static_cast<int>(hits.hits.size());
-  if (!converged) {
+  SubstepAcceptance acceptance{scene,
+                               members,
+                               free,
+                               system,
+                               hits,
+                               end,
+                               state,
+                               segments,
+                               deep,
+                               report,
+                               tries.eased > 0 && free.t > 0};
+  report.n_impacts += hits.n_hits;
+  if (!converged || !hits.converged) {
     note_unconverged(heaviest_of(scene, members), report);
     report.flags = report.flags | StepFlag::unconverged;
   }

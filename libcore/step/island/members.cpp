@@ -1,5 +1,6 @@
 // Stages 1 and 3 of an island's step: who belongs to it, and how stiff their contacts are.
 #include <algorithm>
+#include <cmath>
 
 #include "solver/law_numbers.hpp"
 #include "step/island/stages.hpp"
@@ -10,8 +11,8 @@ namespace {
 
 using std::size_t;
 
-using law::bears_little, law::most_sag, law::small_island, law::small_tree, law::stiffest_in_island,
-    law::stiffest_in_small_island;
+using law::bears_little, law::most_sag, law::most_sag_in_small_island, law::slow, law::small_island,
+    law::small_tree, law::stiffest_by_load, law::stiffest_in_island, law::stiffest_at_rest;
 
 }  // namespace
 
@@ -30,23 +31,32 @@ void release_members(IslandMembers& members) {
   for (const int b : members.blocks) members.place[b] = -1;
 }
 
-void see_size(const Scene& scene, const PairSearch& search, std::span<const int> manifolds,
-              IslandMembers& members) {
+void see_size(const Scene& scene, const State& state, const PairSearch& search,
+              std::span<const int> manifolds, IslandMembers& members) {
   const auto n_pairs = std::count_if(manifolds.begin(), manifolds.end(), [&](int i) {
     const PairManifold& m = search.pairs.manifolds[i];
     return !is_fixed(scene, m.block_b) && has_points(m);
   });
   const size_t n = members.size();
-  members.is_small = n <= small_island || (n <= small_tree && static_cast<size_t>(n_pairs) < n);
+  double thickness = 0, speed = 0;
+  for (size_t k = 0; k < n; ++k) {
+    thickness += members.numbers[k].thickness;
+    speed = std::max(speed, state.motion[members.block(k)].velocity.norm());
+  }
+  const bool is_column = n <= small_tree && static_cast<size_t>(n_pairs) < n &&
+                         speed * speed < law::column_falls * scene.gravity.norm() * thickness;
+  members.is_small = n <= small_island || is_column;
 }
 
-// A small block may bear a large one: its contacts are up to as stiff as the heaviest block that it
-// touches asks for, those of a large island only as far as they bear as much. Stiff ones that do
-// not press a small block with forces that are far beyond its weight as soon as they close, and
-// solving an island with many of them takes tens of factorisations. In the first step nobody knows
-// what they bear.
-void choose_stiffness(const Scene& scene, double time, const PairSearch& search,
-                      std::span<const int> manifolds, IslandMembers& members) {
+// What a contact gives must not grow with what lies above it, with the step, or with small blocks:
+// a tower of springs leans by the sum of what they give, and buckles. So a contact at rest is as
+// stiff as its load of the last step asks for an overlap of `sag`, whatever that takes. Contacts
+// that slip, open or bear little stay soft, and all of a large island of which a block moves: stiff
+// ones that close press a small block with forces far beyond its weight, and take many passes. A
+// small block may bear a large one: its contacts are as stiff as the heaviest block that it touches
+// asks for before they know what they bear.
+void choose_stiffness(const Scene& scene, const State& state, const PairSearch& search,
+                      std::span<const int> manifolds, int eased, IslandMembers& members) {
   members.bearing.clear();
   for (const BlockNumbers& c : members.numbers) members.bearing.push_back(c.mass);
   for (const int i : manifolds) {
@@ -56,14 +66,26 @@ void choose_stiffness(const Scene& scene, double time, const PairSearch& search,
     a = std::max(a, members.of(m.block_b).mass);
     b = std::max(b, members.of(m.block_a).mass);
   }
-  const double per_mass = (members.is_small ? stiffest_in_small_island : stiffest_in_island) /
-                          (scene.settings.dt * scene.settings.dt);
-  const bool follows_load = !members.is_small && time > 0;
+  const double g = scene.gravity.norm(), dt = scene.settings.dt;
+  const double sag = members.is_small ? most_sag_in_small_island : most_sag;
+  const bool is_first = members.is_small || state.time == 0;
+  const auto moves = [&](int b) {
+    return state.motion[static_cast<size_t>(b)].velocity.norm() > slow * g * dt;
+  };
+  const bool any_moves = std::any_of(members.blocks.begin(), members.blocks.end(), moves);
+  members.is_eased = eased > (any_moves ? 0 : 1);
+  const bool is_soft = members.is_eased || (any_moves && !members.is_small);
+  const double stiffest = stiffest_by_load / std::pow(law::easing, eased);
   for (size_t k = 0; k < members.size(); ++k) {
     BlockNumbers& c = members.numbers[k];
+    c.slow = slow * g * dt;
+    c.rests = members.is_small || !moves(members.blocks[k]);
+    const bool is_stiff = members.is_small || (c.rests && state.time > 0 && !is_soft);
+    const double per_mass = (is_stiff ? stiffest_at_rest : stiffest_in_island) / (dt * dt);
     c.stiffness = per_mass * members.bearing[k];
-    c.least_stiffness = bears_little * per_mass * c.mass;
-    c.sag = follows_load ? most_sag * scene.gravity.norm() / per_mass : 0;
+    c.least_stiffness = is_first ? no_normal_limit : bears_little * per_mass * c.mass;
+    c.most_stiffness = is_soft ? 0 : stiffest / (dt * dt) * c.mass;
+    c.sag = (c.rests ? sag : std::max(sag, law::most_sag_in_motion)) * c.thickness;
   }
 }
 

@@ -101,3 +101,20 @@ TEST(Places, NothingReachedHasAWidthAsWell) {
   released.weight.assign(5, 3), released.n_blocks.assign(5, 3);
   EXPECT_EQ(place_reach(place, released, std::vector<double>(5, 0)).runs_to_add, 5);
 }
+
+// A run that weighs 3 of 40 and one of 1: a tenth of the runs' weight by two runs.
+TEST(Places, RunsCountByTheWeightOfTheirCase) {
+  Released released;
+  released.n_blocks.assign(38, 2);
+  released.run_weight.assign(38, 1);
+  released.run_weight[7] = 3;
+  for (const double w : released.run_weight) released.weight.push_back(2 * w);
+  std::vector<double> weight(38, 0);
+  weight[7] = 3;  // one block of two
+  weight[8] = 1;
+  const PlaceReach reach = place_reach({"hut", 0.05, {}, "x"}, released, weight);
+  EXPECT_EQ(reach.n_runs_hit, 2);
+  EXPECT_NEAR(reach.share, 4.0 / 80, 1e-12);
+  EXPECT_NEAR(reach.share_of_runs, 0.1, 1e-12);
+  EXPECT_NEAR(reach.interval_of_runs.high, wilson_interval(0.1, 1600.0 / 46).high, 1e-12);
+}

@@ -106,7 +106,8 @@ TEST(ShareInterval, OfRunsThatAgreeCountsRuns) {
 
 TEST(RunShareInterval, IsWilsonsOfTheRuns) {
   const auto of = [](int n_hit, int n) {
-    return run_share_interval(share_basis(std::vector<double>(n, 7.0), false), n_hit);
+    return run_share_interval(share_basis(std::vector<double>(n, 7.0), false),
+                              static_cast<double>(n_hit) / n);
   };
   EXPECT_NEAR(of(0, 10).high, 0.277533, 5e-7);
   EXPECT_NEAR(of(0, 100).high, 0.036993, 5e-7);
@@ -191,5 +192,28 @@ TEST(ShareInterval, RunsOfOneRockMassCountAsOne) {
   EXPECT_GE(by_mass, 0.93 * n_trials);
   EXPECT_LE(by_run, 0.75 * n_trials);
   // nothing reached: as many trials as masses
-  EXPECT_NEAR(run_share_interval(masses, 0).high, wilson_interval(0, n_masses).high, 1e-12);
+  EXPECT_NEAR(run_share_interval(masses, 0.0).high, wilson_interval(0, n_masses).high, 1e-12);
+}
+
+// Cases weigh runs, rock masses bind them: 12 masses of a run of weight 1.5 and one of 0.5 are
+// worth 12, and the half of the runs that weighs 0.75 is 0.75.
+TEST(RunShareInterval, OfWeighedRunsOfRockMassesCountsMasses) {
+  std::vector<double> weight;
+  std::vector<int> unit;
+  std::vector<RunWeight> heavy;
+  for (int run = 0; run < 24; ++run) {
+    weight.push_back(run % 2 == 0 ? 1.5 : 0.5);
+    unit.push_back(run / 2);
+    if (run % 2 == 0) heavy.push_back({run, 1});
+  }
+  ShareBasis basis = share_basis(weight, false, 0, unit);
+  weigh_runs_of(basis, weight);
+  EXPECT_NEAR(run_share_interval(basis, 0.0).high, wilson_interval(0, 12).high, 1e-12);
+  const Interval of_masses = run_share_interval(basis, heavy);  // each mass has 0.75 of it
+  EXPECT_NEAR(of_masses.low, wilson_interval(0.75, 12).low, 1e-12);
+  EXPECT_NEAR(of_masses.high, wilson_interval(0.75, 12).high, 1e-12);
+  ShareBasis alone = share_basis(weight, false);
+  weigh_runs_of(alone, weight);
+  const double n_eff = 24.0 * 24 / (12 * (1.5 * 1.5 + 0.5 * 0.5));
+  EXPECT_NEAR(run_share_interval(alone, heavy).high, wilson_interval(0.75, n_eff).high, 1e-12);
 }

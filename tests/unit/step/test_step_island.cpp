@@ -416,8 +416,7 @@ struct FallingColumn {
 };
 
 // Cubes that fall on each other on level ground, touching or with gaps that a step leaps over, keep
-// about what they would keep hit by hit, whatever the step: a column of ten nearly nothing. A step
-// may forgo its rebound, or leave out what its hits would lose in turn with those of the next one.
+// what they would keep hit by hit, whatever the step: a column of ten nearly nothing.
 TEST(StepIsland, ColumnLosesWhatItsHitsWouldLoseInTurn) {
   constexpr double restitution = 0.7;
   double sum = 0;
@@ -437,7 +436,7 @@ TEST(StepIsland, ColumnLosesWhatItsHitsWouldLoseInTurn) {
         sum += (kept - expected) * (kept - expected);
         ++n_columns;
       }
-  EXPECT_LT(std::sqrt(sum / n_columns), 0.05);
+  EXPECT_LT(std::sqrt(sum / n_columns), 3e-3);
 }
 
 // A cube that is hit from above just after the ground has hit it goes down again within the step:
@@ -575,17 +574,24 @@ TEST(StepIsland, WhatDeepensADeepHitIsPressedOut) {
   EXPECT_NEAR(thrown.speed(), 0.5 * 20, 0.2);  // hit
 }
 
-// Between the least stiffness and what the heaviest neighbour asks for it is twice what bears the
-// last force at `sag`, stays while that is enough and not eight times too much, and goes on beyond
-// where the overlap would be above 2 % of the thickness. Bonds keep theirs.
+// It is twice what bears the last force at `sag`, stays while that is enough and not thirty times
+// too much, and goes beyond what the heaviest neighbour asks for by doubling. What slips,
+// opens, or is in an island whose forces were hard to find becomes softer. Bonds keep theirs.
 TEST(StepIsland, StiffnessFollowsWhatAContactBears) {
   const Scene scene = tower(2, 0, 30, {});
   BlockNumbers c = numbers_of(scene, 0);
-  c.least_stiffness = c.stiffness / 100;
-  c.sag = 1e-3;
+  c.least_stiffness = c.stiffness / 1e5;
+  c.most_stiffness = 1e3 * c.stiffness;
+  c.sag = 1e-6;  // a soft contact may have 5e-4
+  c.slow = 0.1;
+  double slips = 0, opens = 0;
+  int rests = 0;
   const auto stiffness = [&](double force, double last, double bond_area = 0) {
     ContactRow row;
+    row.slip_speed = slips;
+    row.speed_start = opens;
     forget_last_step(row);
+    row.rests = rests;
     row.last_force = force;
     row.last_stiffness = last;
     row.bond_area = bond_area;
@@ -596,13 +602,26 @@ TEST(StepIsland, StiffnessFollowsWhatAContactBears) {
   EXPECT_DOUBLE_EQ(stiffness(0, 0), c.least_stiffness);
   EXPECT_DOUBLE_EQ(stiffness(force, 0), k);
   EXPECT_DOUBLE_EQ(stiffness(1.9 * force, k), k);
-  EXPECT_DOUBLE_EQ(stiffness(0.3 * force, k), k);
   EXPECT_DOUBLE_EQ(stiffness(2.1 * force, k), 2.1 * k);
-  EXPECT_DOUBLE_EQ(stiffness(0.2 * force, k), 0.2 * k);
+  EXPECT_DOUBLE_EQ(stiffness(0.07 * force, k), k);
+  EXPECT_DOUBLE_EQ(stiffness(0.06 * force, k), 0.06 * k);
   EXPECT_DOUBLE_EQ(stiffness(100 * force, k), c.stiffness);
-  const double far = 0.02 * c.thickness, crushing = 10 * c.stiffness * far;
-  EXPECT_DOUBLE_EQ(stiffness(crushing, c.stiffness), 20 * c.stiffness);
-  EXPECT_DOUBLE_EQ(stiffness(crushing, c.stiffness, 1), c.stiffness);
+  EXPECT_DOUBLE_EQ(stiffness(100 * force, c.stiffness), 2 * c.stiffness);
+  EXPECT_DOUBLE_EQ(stiffness(1e6 * force, c.most_stiffness), c.most_stiffness);
+  EXPECT_DOUBLE_EQ(stiffness(100 * force, c.stiffness, 1), c.stiffness);
+  for (double* speed : {&slips, &opens}) {
+    *speed = 0.11;
+    EXPECT_DOUBLE_EQ(stiffness(10 * force, k), k / 4);
+    EXPECT_DOUBLE_EQ(stiffness(0, 2 * c.least_stiffness), c.least_stiffness);
+    EXPECT_DOUBLE_EQ(stiffness(100 * force, k), k);  // no softer than it bears in motion
+    EXPECT_NEAR(stiffness(2e3 * force, k), 4e3 * force / 5e-4, 1e-6 * k);
+    *speed = 0;
+  }
+  rests = law::most_rests;
+  EXPECT_DOUBLE_EQ(stiffness(10 * force, k), k / 8);
+  rests = 1;
+  EXPECT_DOUBLE_EQ(stiffness(100 * force, k), k);
+  rests = 0;
   ContactRow hit;  // remembered from a hit: what it bears is not known
   forget_last_step(hit);
   hit.memory = 0;
@@ -675,11 +694,13 @@ TEST(StepIsland, WhatDeepensADeepHitWithTheGroundIsPressedOut) {
       c->place(c->depth() + 1.5e-3, 0.3);
       c->go();
     }
-  EXPECT_LT(corner.depth(), deep + 0.015);
-  EXPECT_GT(forgotten.depth(), 0.08);
+  // both blocks come down on it anew in every step, and the upper one hits it again
+  EXPECT_GT(forgotten.depth(), deep + 0.07);
+  EXPECT_LT(corner.depth() - deep, (forgotten.depth() - deep) / 2);
   thrown.place(0.052, 20);
   thrown.go();
-  EXPECT_GT(thrown.state.motion[0].velocity.z(), 5);  // hit
+  // by the ground, by the block above, by the ground and by the block again: e = 0.5
+  EXPECT_NEAR(thrown.state.motion[0].velocity.z(), 3.4375 - 10 * 5e-3, 1e-6);
 }
 
 TEST(StepIsland, LargeBlockRestsOnSmallOnes) { EXPECT_LT(large_on_small({}).error, 1e-3); }
