@@ -52,8 +52,7 @@ inline constexpr double stiffest_by_load = 4e5;
 /// [-] That is softer by so much where forces are not found, and stays so for `most_rests`. Tried:
 /// 64; it changes little and is in vain ...
 inline constexpr double easing = 4096;
-/// [-] ... then all of the island is soft, at once where a block moves; beyond, substeps are
-/// halved.
+/// [-] ... then all of the island is soft, at once where a block moves; then substeps are halved.
 inline constexpr int most_eased = 2;
 /// [-] A contact at rest becomes stiffer by so much a step, beyond what the masses ask for ...
 inline constexpr double stiffens = 2;
