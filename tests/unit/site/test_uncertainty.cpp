@@ -220,6 +220,8 @@ TEST(Uncertainty, WhatCannotBeDrawnIsRefusedWithPlaceAndWayOut) {
   EXPECT_TRUE(has(refusal("keys = \"solver.law\"\n" + normal), "solver.law holds no number"));
   EXPECT_TRUE(has(refusal("keys = \"solver.seed\"\n" + normal), "seeds follow from the run"));
   EXPECT_TRUE(has(refusal("keys = \"terrain.cell_size_m\"\n" + normal), "terrain_rmse_m"));
+  EXPECT_TRUE(has(refusal("keys = \"hazard.class.V1.frequency_per_a\"\n" + normal),
+                  "[hazard] is the same in all runs"));
   EXPECT_TRUE(has(refusal("keys = \"joints.J1.spacing_m\"\n" + normal), "needs a rock mass"));
   EXPECT_TRUE(has(refusal("keys = \"joints.J1.spacing_m\"\n" + normal), "rock_masses"));
   EXPECT_TRUE(has(refusal("keys = \"joints.J1.friction_deg\"\napply = \"add\"\n" + normal),
