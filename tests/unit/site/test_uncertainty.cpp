@@ -109,7 +109,9 @@ TEST(Uncertainty, ASampleIsTheSameInAnyOrderAndWithMoreRuns) {
     friction[sample] = drawn_site(sample).grounds[0].friction_deg;
   for (std::int64_t sample = 60; sample >= 1; --sample) {
     const double again = drawn_site(sample).grounds[0].friction_deg;
-    if (friction.contains(sample)) EXPECT_EQ(again, friction[sample]);
+    if (sample <= 30) {
+      EXPECT_EQ(again, friction[sample]);
+    }
   }
   // a quantity behind the others leaves theirs as they are
   Site more = site_of(std::string(whole) +
