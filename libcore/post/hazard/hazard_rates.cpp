@@ -32,8 +32,9 @@ bool comes_within(double rate, double period) { return rate * period >= 1 - rate
 }  // namespace
 
 Rate share_of(const HazardRuns& runs, int n_hit) {
-  const Interval interval = run_share_interval(runs.basis, n_hit);
-  return {static_cast<double>(n_hit) / runs.n, interval.low, interval.high};
+  const double share = static_cast<double>(n_hit) / runs.n;
+  const Interval interval = run_share_interval(runs.basis, share);
+  return {share, interval.low, interval.high};
 }
 
 Rate rate_of(const HazardRuns& runs, int n_hit) {

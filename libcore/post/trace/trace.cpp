@@ -266,7 +266,7 @@ ObjectTrace object_trace(const TraceSums& sums, int object, const ShareBasis& ba
   out.n_hits = static_cast<int>(hits.size());
   out.n_runs_hit = static_cast<int>(parts.size());
   out.run_share = out.n_runs_hit / n;
-  out.run_share_interval = run_share_interval(basis, out.n_runs_hit);
+  out.run_share_interval = run_share_interval(basis, out.run_share);
   out.hits_a_run = out.n_hits / n;
   out.weight_share = std::min(1.0, weight / basis.over.whole);
   out.weight_share_interval = share_interval(basis, parts, out.weight_share);
