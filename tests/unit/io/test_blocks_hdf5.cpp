@@ -174,6 +174,12 @@ TEST(BlocksHdf5, LeadToNoOtherFile) {
     H5Ldelete(file, name.c_str(), H5P_DEFAULT);
     const hid_t list = H5Pcreate(H5P_DATASET_CREATE);
     EXPECT_GE(H5Pset_external(list, "/etc/passwd", 0, H5F_UNLIMITED), 0);
-    EXPECT_GE(H5Dcreate2(file, name.c_str(), type, space, H5P_DEFAULT, list, H5P_DEFAULT), 0);
+    const hid_t after = H5Dcreate2(file, name.c_str(), type, space, H5P_DEFAULT, list, H5P_DEFAULT);
+    EXPECT_GE(after, 0);
+    // a file is whole when nothing of it is open any more
+    EXPECT_GE(H5Dclose(after), 0);
+    EXPECT_GE(H5Tclose(type), 0);
+    EXPECT_GE(H5Sclose(space), 0);
+    EXPECT_GE(H5Pclose(list), 0);
   });
 }
