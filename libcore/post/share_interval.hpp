@@ -75,6 +75,7 @@ void weigh_runs_of(ShareBasis& basis, std::span<const double> run_weight);
 
 /// Of the share of runs in which something happened, each run with its weight.
 [[nodiscard]] Interval run_share_interval(const ShareBasis& basis, double share);
+Interval run_share_interval(const ShareBasis& basis, int n_runs) = delete;  // a count is no share
 
 /// The interval of a share of the runs that did not fail, for all that were wanted.
 [[nodiscard]] Interval with_failed(const Interval& interval, double failed_share);

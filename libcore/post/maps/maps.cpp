@@ -247,7 +247,7 @@ MapLayer reach_layer(const CellRows& cells, double cell_size, const Released& re
 }
 
 double reach_bound_elsewhere(const Released& released) {
-  return run_share_interval(share_basis_of(released), 0).high;
+  return run_share_interval(share_basis_of(released), 0.0).high;
 }
 
 int runs_to_add(const CellRows& cells, const Released& released, double half) {
