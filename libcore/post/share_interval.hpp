@@ -81,7 +81,7 @@ void weigh_runs_of(ShareBasis& basis, std::span<const double> run_weight);
 /// Of the share of runs in which something happened, each with its weight; each run its own unit,
 /// or none of them was hit.
 [[nodiscard]] Interval run_share_interval(const ShareBasis& basis, double share);
-Interval run_share_interval(const ShareBasis& basis, int n_hit) = delete;  ///< a number is no share
+Interval run_share_interval(const ShareBasis& basis, int n_runs) = delete;  // a count is no share
 /// The same of these runs, named once each, as units of the basis ask for; their weights are those
 /// of the basis.
 [[nodiscard]] Interval run_share_interval(const ShareBasis& basis, std::span<const RunWeight> hit);
