@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Checks that every path which docs/developing.md names in `code` exists, that its table of modules is
-that of check_includes.py, and that its ten stages are those of docs/theory.md."""
+that of check_includes.py, and that its nine stages are those of docs/theory.md."""
 import pathlib
 import re
 import sys

@@ -33,7 +33,7 @@ void add_limits(const std::vector<RunCheck>& checks, std::vector<LimitOverRuns>&
 [[nodiscard]] std::string counter_table(const std::vector<RunFile>& runs,
                                         const std::vector<std::string>& names);
 
-/// A row a run: how often islands made a substep again, by reason (docs/theory.md, stage 9); empty
+/// A row a run: how often islands made a substep again, by reason (docs/theory.md, stage 8); empty
 /// when none did.
 [[nodiscard]] std::string cut_table(const std::vector<RunFile>& runs,
                                     const std::vector<std::string>& names);

@@ -92,6 +92,7 @@ struct KeptContact {  // clang-format off
   double bond_area = 0;           ///< share of its bond, of blocks or with the ground [m2]
   double last_force = 0;          ///< ContactMemory::normal_force [N]
   Vec3 arm = Vec3::Zero();        ///< from the centroid of A, both in the middle of the substep [m]
+  Vec3 arm_start = Vec3::Zero();  ///< from the centroid of A to A's point, at the start [m]
   Vec3 free_move = Vec3::Zero();  ///< displacement [m]
   Vec3 shear = Vec3::Zero();      ///< s_n [m]
 };  // clang-format on

@@ -103,39 +103,42 @@ inline constexpr double rebounds_by_gravity = 2;
 inline constexpr double rebound_matters = 0.1;
 /// [g dt] Times the factor on the solver's tolerance: what its error may bring about is no hit.
 inline constexpr double least_by_tolerance = 2e-2;
-/// [-] D of a hit in an island, over the mass that it feels.
-inline constexpr double hit_stiffness = 30;
-/// [-] First guess of its impulse, as a share of that of the hit alone.
-inline constexpr double hit_share = 0.7;
-/// [approach] A hit is found when its impulse errs by less ...
-inline constexpr double hit_tolerance = 1e-2;
-/// [approach] ... or by this in an island that is factored.
-inline constexpr double small_hit_tolerance = 1e-9;
-/// [-] Solutions until all hits are found and rebound.
-inline constexpr int most_hit_rounds = 8;
-/// [-] Hits lose at least this share of what they would lose one after the other.
-inline constexpr double least_loss = 0.9;
-/// [energy of the hits] Less is no gain.
-inline constexpr double hit_gain_rounding = 1e-6;
-/// [hits of a block] Less is none.
-inline constexpr double others_rounding = 1e-9;
-/// [h] A lone block's hit is at the start of the substep before this time ...
-inline constexpr double hit_at_start = 1e-6;
-/// [h] ... and at its end after this one.
-inline constexpr double hit_at_end = 1 - 1e-6;
-/// [in a step] Hits of a lone block near fixed bodies, before they come together.
-inline constexpr int most_lone_hits = 100;
+/// [size] Corners of a pair, and pairs, whose gaps differ by less are hit at one time. Tried: 1e-6
+/// to 1e-4; a tilt beyond it is a hit of one corner.
+inline constexpr double hit_window = 1e-5;
+/// [h] Looks closer than this are at one time.
+inline constexpr double one_time = 1e-9;
+/// [-] Looks at true gaps to find the time of a hit.
+inline constexpr int most_looks_for_time = 5;
+/// [in a substep] Looks at a pair.
+inline constexpr int most_pair_looks = 80;
+/// [h] A look that found no hit looks on after this time. Tried: none; the next corner of a pair
+/// that parts is missed, and stopped without rebound.
+inline constexpr double walk_on = 1.0 / 16;
+/// [m g v_r] Power above which a support drives a block: it ends before.
+inline constexpr double support_drives = 0.1;
+/// [in a substep] Hits of a pair; beyond, it is stopped.
+inline constexpr int most_pair_hits = 20;
+/// [-] Rounds of hits at one time, and two for each block that they hit; beyond, they are stopped.
+inline constexpr int most_hit_rounds = 40;
+/// [fastest approach] Slower contacts part.
+inline constexpr double parts = 1e-9;
+/// [-] Solutions until no contact is added that hits left to be stopped.
+inline constexpr int most_closing_rounds = 8;
+/// [-] D of a contact that only stops, over the mass that it feels.
+inline constexpr double stopping_stiffness = 30;
+/// [h] What is left after a hit is taken as no shorter.
+inline constexpr double shortest_rest = 1e-3;
+/// [thickness] So deep goes what is hit in the next substep.
+inline constexpr double waits_within = 1e-2;
+/// [h] So shortly after a hit nobody knows what supports a block.
+inline constexpr double short_after_hit = 0.05;
 /// [in a step] Impacts of a lone block before bouncing is given up.
 inline constexpr int most_events = 40;
 /// [in a step] Flights of a lone block.
 inline constexpr int most_flights = 16;
 /// [rad] Longest turn of a flight: bounds what its attitude costs.
 inline constexpr double longest_turn = 60;
-/// [1/mobility] Damping of the contacts of a lone block's impact. Tried: stiffer; the residual
-/// drowns in rounding.
-inline constexpr double impact_stiffness = 1e7;
-/// [kinetic energy] Less is no gain of an impact.
-inline constexpr double impact_gain_rounding = 1e-7;
 
 // --- check of a substep, and repetitions -------------------------------------------------------
 

@@ -1,102 +1,85 @@
 #include "step/impact.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "contact/search.hpp"
-#include "motion/rotation.hpp"
-#include "solver/contact_law.hpp"
-#include "solver/law_numbers.hpp"
-#include "solver/newton.hpp"
-#include "step/substep.hpp"
 
 namespace talus {
 namespace {
 
-// Contacts are stiff dampers during an impact: the velocity condition holds to this part of it.
-constexpr double stiffness_ratio = law::impact_stiffness;
-constexpr double gain_rounding = law::impact_gain_rounding;
+using std::size_t;
 
-// Less the speed that a contact gives back.
-double restitution_bias(const ContactRow& row, double resting_speed) {
-  return -returned_speed(row.restitution, row.speed_start, resting_speed);
+constexpr int most_rounds = 40;   // in which contacts are hit at one time, one after the other
+constexpr double at_rest = 1e-9;  // of the fastest approach: a contact that does not part
+
+// The block in its own axes.
+ImpactBody body_of(const Scene& scene, size_t i, const Motion& motion, const Mat3& R) {
+  const Vec3& inertia = scene.blocks.inertia[i];
+  ImpactBody body;
+  body.per_mass = 1 / scene.blocks.mass[i];
+  body.inertia = inertia.asDiagonal();
+  body.per_inertia = inertia.cwiseInverse().asDiagonal();
+  body.velocity << R.transpose() * motion.velocity,
+      (R.transpose() * motion.angular_momentum).cwiseQuotient(inertia);
+  return body;
 }
 
-void make_impact_rows(const Scene& scene, int b, double resting_speed, const Mat3& to_body,
-                      const Vec6& velocity, Work& work) {
-  const double per_mass = 1 / scene.blocks.mass[b];
-  const Vec3 per_inertia = scene.blocks.inertia[b].cwiseInverse();
-  work.rows.resize(work.contacts.size());
-  for (std::size_t i = 0; i < work.contacts.size(); ++i) {
-    ContactRow& row = begin_row(scene, b, i, to_body, work.contacts, work.rows);
-    row.drift.setZero();
-    row.shear_velocity.setZero();
-    row.waits = false;
-    row.arm = work.contacts[i].point_a;
-    set_start(point_velocity<6>(velocity, row.arm), row);
-    row.bias = restitution_bias(row, resting_speed);
-    const Mobility W = mobility(per_mass, per_inertia, row.arm, row.normal);
-    row.normal_damping = stiffness_ratio / W.normal;
-    row.shear_damping = stiffness_ratio / W.tangent;
+ImpactContact contact_of(const Scene& scene, const Contact& found, const Mat3& R,
+                         double resting_speed) {
+  const GroundClass& ground = scene.ground.classes[found.ground_class];
+  ImpactContact contact;
+  contact.normal = R.transpose() * found.normal;
+  contact.point = found.point_a;
+  contact.friction = ground.friction;
+  contact.restitution = ground.restitution;
+  contact.resting_speed = resting_speed;
+  return contact;
+}
+
+double approach_of(const ImpactBody& body, const ImpactContact& contact) {
+  return contact.normal.dot(body.velocity.head<3>() + body.velocity.tail<3>().cross(contact.point));
+}
+
+// One round: what approaches is hit. False when nothing is faster than the resting speed.
+bool hit_once(std::span<const ImpactContact> touching, bool is_last, ImpactBody& body,
+              ImpactScratch& scratch, ImpactResult& result) {
+  double fastest = 0;
+  bool hits = false;
+  for (const ImpactContact& contact : touching) {
+    const double approach = approach_of(body, contact);
+    fastest = std::max(fastest, -approach);
+    hits |= approach < -contact.resting_speed;
   }
-}
-
-double kinetic_energy(const BlockSystem<6>& system, const Vec6& velocity) {
-  return 0.5 * velocity.dot(system.mass.diagonal().cwiseProduct(velocity));
-}
-
-// The part of the change of velocity that leaves the kinetic energy where it was.
-Vec6 limited(const BlockSystem<6>& system, const Vec6& before) {
-  const Vec6 change = system.velocity - before;
-  const double slope = before.dot(system.mass.diagonal().cwiseProduct(change)),
-               curve = 2 * kinetic_energy(system, change);
-  return before + std::clamp(-2 * slope / curve, 0.0, 1.0) * change;
-}
-
-// What the contacts' stiffness leaves to be done: the change of velocity is too small by the part
-// of it that is missing where least is, so that no contact rebounds faster than it should.
-double missing_part(const Vec6& after, std::span<const ContactRow> rows, double resting_speed) {
-  constexpr double most = 100 / stiffness_ratio;  // beyond, contacts work against each other
-  double missing = most;
-  for (const ContactRow& row : rows) {
-    if (row.state == ContactState::open || row.speed_start >= -resting_speed) continue;
-    const double speed = row.normal.dot(point_velocity<6>(after, row.arm));
-    missing = std::min(missing, (-row.bias - speed) / (speed - row.speed_start));
-  }
-  return missing < most ? std::max(0.0, missing) : 0;
-}
-
-void solve_rows(const Vec6& before, std::span<ContactRow> rows, BlockSystem<6>& system,
-                ImpactResult& result) {
-  system.velocity = before;
-  const NewtonResult newton = solve_contacts(system, rows, 120);
-  result.converged = newton.converged;
-  result.passes += newton.passes;
-}
-
-// Newton's law with friction can gain energy. Without restitution it cannot; between both solutions
-// the energy is quadratic in the share of the restitution, so that the largest share that gains
-// none is known (theory 1.12). A blend of both keeps momentum and friction cones, and no contact
-// approaches.
-void lower_restitution(const Vec6& before, double resting_speed, Work& work, BlockSystem<6>& system,
-                       ImpactResult& result) {
-  const Vec6 full = system.velocity;
-  for (ContactRow& row : work.rows) row.bias = 0;
-  solve_rows(before, work.rows, system, result);
-  const Vec6 stopped = system.velocity, gained = full - stopped;
-  const Vec6 momentum = system.mass.diagonal().cwiseProduct(gained);
-  const double share =
-      largest_share(gained.dot(momentum) / 2, stopped.dot(momentum),
-                    kinetic_energy(system, stopped) - kinetic_energy(system, before));
-  system.velocity = stopped + share * gained;
-  for (ContactRow& row : work.rows) row.bias = share * restitution_bias(row, resting_speed);
+  if (!hits) return false;
+  scratch.hit.clear();
+  for (const ImpactContact& contact : touching)
+    if (is_last || approach_of(body, contact) <= at_rest * fastest) scratch.hit.push_back(contact);
+  if (is_last)
+    for (ImpactContact& contact : scratch.hit) contact.restitution = 0;
+  const Impact impact = solve_impact({&body, 1}, scratch.hit, scratch.solver);
+  result.hit = true;
+  result.converged = result.converged && impact.converged;
+  result.passes += impact.passes;
+  result.dissipated += impact.dissipated;
+  return true;
 }
 
 }  // namespace
 
-double largest_share(double square, double linear, double constant) {
-  const double discriminant = linear * linear - 4 * square * constant;
-  return std::clamp((-linear + std::sqrt(std::max(0.0, discriminant))) / (2 * square), 0.0, 1.0);
+void reserve_impacts(size_t n_contacts, ImpactScratch& scratch) {
+  ImpactWork& w = scratch.solver;
+  scratch.touching.reserve(n_contacts);
+  scratch.hit.reserve(n_contacts);
+  w.rows.reserve(n_contacts);
+  w.kept.reserve(n_contacts);
+  w.full_impulse.reserve(n_contacts);
+  for (Eigen::VectorXd* v : {&w.full, &w.kept_velocity}) v->setZero(6);
+  ImpactBody body;  // an impact makes the rest
+  body.per_mass = 1;
+  body.velocity[2] = -1;
+  ImpactContact contact;
+  contact.normal = Vec3::UnitZ();
+  (void)solve_impact({&body, 1}, {&contact, 1}, w);
 }
 
 ImpactResult apply_impact(const Scene& scene, int b, double touch, double resting_speed,
@@ -108,33 +91,20 @@ ImpactResult apply_impact(const Scene& scene, int b, double touch, double restin
 
 ImpactResult apply_impact(const Scene& scene, int b, double resting_speed, Motion& motion,
                           Work& work) {
-  const auto i = static_cast<std::size_t>(b);
+  const auto i = static_cast<size_t>(b);
   ImpactResult result;
   const Mat3 R = motion.pose.attitude.toRotationMatrix();
-  const Vec3& inertia = scene.blocks.inertia[i];
-  Vec6 before;
-  before << R.transpose() * motion.velocity,
-      (R.transpose() * motion.angular_momentum).cwiseQuotient(inertia);
-  make_impact_rows(scene, b, resting_speed, R.transpose(), before, work);
-  for (const ContactRow& row : work.rows) result.hit |= row.speed_start < -resting_speed;
+  ImpactBody body = body_of(scene, i, motion, R);
+  ImpactScratch& scratch = work.impact;
+  scratch.touching.clear();
+  for (const Contact& found : work.contacts)
+    scratch.touching.push_back(contact_of(scene, found, R, resting_speed));
+  for (int round = 1; round <= most_rounds; ++round)
+    if (!hit_once(scratch.touching, round == most_rounds, body, scratch, result)) break;
   if (!result.hit) return result;
-
-  BlockSystem<6> system;
-  system.mass.setZero();
-  system.mass.diagonal() << Vec3::Constant(scene.blocks.mass[i]), inertia;
-  system.free_velocity = before;
-  system.tolerance =
-      1e-8 * (before.head<3>().norm() + before.tail<3>().norm() * scene.blocks.shapes.radius[i]);
-  const double energy = kinetic_energy(system, before);
-  solve_rows(before, work.rows, system, result);
-  if (kinetic_energy(system, system.velocity) > (1 + gain_rounding) * energy)
-    lower_restitution(before, resting_speed, work, system, result);
-  const double missing = missing_part(system.velocity, work.rows, resting_speed);
-  system.velocity += missing * (system.velocity - before);
-  if (kinetic_energy(system, system.velocity) > energy) system.velocity = limited(system, before);
-  result.dissipated = energy - kinetic_energy(system, system.velocity);
-  motion.velocity = R * system.velocity.head<3>();
-  motion.angular_momentum = R * system.velocity.tail<3>().cwiseProduct(inertia).eval();
+  motion.velocity = R * body.velocity.head<3>();
+  motion.angular_momentum =
+      R * body.velocity.tail<3>().cwiseProduct(scene.blocks.inertia[i]).eval();
   return result;
 }
 

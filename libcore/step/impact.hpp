@@ -1,13 +1,14 @@
 // libcore/step/impact.hpp
-// Impact of one block on the ground: a change of velocity at one instant, for all touching contacts
-// together: v_n+ >= -e v_n-, p_n >= 0, complementary; Coulomb friction on the impulses.
-// theory 1.12 (Newton's law at velocity level); replaces Eq. (28)
+// Impact of one block on the ground: what approaches is hit, all of it together, and again what
+// that drives into the ground, until nothing approaches. theory 1.12 (solver/impact_solve.hpp);
+// replaces Eq. (28)
 #pragma once
 
 #include <span>
 
 #include "scene/scene.hpp"
 #include "scene/state.hpp"
+#include "solver/impact_solve.hpp"
 #include "step/work.hpp"
 
 namespace talus {
@@ -20,9 +21,7 @@ struct ImpactResult {
 };
 
 /// Applies the impact law to `motion` of block b at its pose; contacts closer than `touch` take
-/// part. Those that approach slower than `resting_speed` get no restitution. Where Newton's law
-/// with friction would raise the kinetic energy, the restitution of all contacts is lowered until
-/// it does not.
+/// part. Those that approach slower than `resting_speed` get no restitution, and no further hit.
 ImpactResult apply_impact(const Scene& scene, int b, double touch, double resting_speed,
                           Motion& motion, Work& work);
 
@@ -30,9 +29,7 @@ ImpactResult apply_impact(const Scene& scene, int b, double touch, double restin
 ImpactResult apply_impact(const Scene& scene, int b, double resting_speed, Motion& motion,
                           Work& work);
 
-/// Largest share f <= 1 of a restitution at which square f^2 + linear f + constant, what it gains
-/// or lacks of the energy that it must lose, is not above zero; where none is, the share at which
-/// it is least. `square` > 0; at f = 1 the sum is above zero.
-[[nodiscard]] double largest_share(double square, double linear, double constant);
+/// Room for impacts of one block with up to so many contacts: they allocate nothing then.
+void reserve_impacts(std::size_t n_contacts, ImpactScratch& scratch);
 
 }  // namespace talus

@@ -19,13 +19,12 @@ enum class IslandStage : std::uint8_t {
   make_contacts,
   find_hits,
   solve,
-  rebound,
   check_substep,
   accept
 };
-inline constexpr std::array<const char*, 10> island_stage_names = {
-    "gather_members", "find_pairs", "choose_stiffness", "predict",       "make_contacts",
-    "find_hits",      "solve",      "rebound",          "check_substep", "accept"};
+inline constexpr std::array<const char*, 9> island_stage_names = {
+    "gather_members", "find_pairs", "choose_stiffness", "predict", "make_contacts",
+    "find_hits",      "solve",      "check_substep",    "accept"};
 
 class StageTimer;
 struct StageClock {

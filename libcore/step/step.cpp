@@ -10,6 +10,7 @@
 #include "solver/law_numbers.hpp"
 #include "step/deep_blocks.hpp"
 #include "step/flight.hpp"
+#include "step/impact.hpp"
 #include "step/island/step_island.hpp"
 #include "step/lone/step_talus.hpp"
 #include "step/mishaps.hpp"
@@ -99,6 +100,7 @@ Work make_work(const Scene& scene) {
   work.contacts.reserve(8 * (most_vertices + expected_contacts));
   work.rows.reserve(8 * (most_vertices + expected_contacts));
   work.unbonded.reserve(expected_contacts);
+  reserve_impacts(work.contacts.capacity(), work.impact);
   work.segments.reserve(8 * static_cast<size_t>(n_blocks(scene)) + 64);
   return work;
 }

@@ -257,6 +257,7 @@ void set_motions(const Scene& scene, int b, const Substep& s, const Mat3& to_bod
     const Vec3& X = contact.point_a;
     const Vec3 lever_start = from_start * X;
     row.arm = (X + lever_start) / 2;
+    row.arm_start = lever_start;
     row.drift = s.spin_free.cross(X - row.arm);
     row.free_move = moved + (X - lever_start);
     row.gap_start = contact.gap - row.normal.dot(row.free_move);

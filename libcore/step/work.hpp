@@ -9,6 +9,7 @@
 #include "contact/search.hpp"
 #include "scene/state.hpp"
 #include "solver/contact_row.hpp"
+#include "solver/impact_solve.hpp"
 #include "step/deep_work.hpp"
 #include "step/island/data.hpp"
 #include "step/paper/paper_work.hpp"
@@ -34,6 +35,8 @@ struct Work {  // clang-format off
   // make_rows, solve_contacts
   std::vector<ContactRow> rows;              ///< of the block at hand
   std::vector<ContactMemory> unbonded;       ///< its memory, less the bonds that its substep breaks
+  // apply_impact
+  ImpactScratch impact;
   // advance_block: the motion of this step, block by block, in order of time
   std::vector<Segment> segments;
   // form_islands, advance_island

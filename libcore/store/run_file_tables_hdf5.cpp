@@ -300,7 +300,7 @@ void cut_columns(Visit&& column) {
   for (std::size_t k = 0; k < substep_cut_names.size(); ++k)
     column(
         (std::string("cut_") + substep_cut_names[k]).c_str(), "1",
-        "substeps of islands made again for this reason in the interval (docs/theory.md, stage 9)",
+        "substeps of islands made again for this reason in the interval (docs/theory.md, stage 8)",
         [k](HealthRow & h) -> auto& { return h.cuts[k]; });
 }
 

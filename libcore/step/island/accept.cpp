@@ -1,4 +1,4 @@
-// Stage 10 of an island's step: the substep holds. What it leaves of bonds, memory, motion, panels,
+// Stage 9 of an island's step: the substep holds. What it leaves of bonds, memory, motion, panels,
 // and the work of its contacts.
 #include <algorithm>
 #include <cmath>
@@ -101,7 +101,7 @@ struct SubstepAcceptance {
   [[gnu::flatten]] void remember() {
     for (const int b : members.blocks) state.memory[b].clear();
     end.pressed.assign(members.size(), 0);
-    end.ground_impulse.assign(members.size(), Vec3::Zero());
+    end.contact_impulse.assign(members.size(), Vec3::Zero());
     for (size_t r = 0; r < system.contacts.size(); ++r) {
       const KeptContact& contact = system.contacts[r];
       const RowIn<const RowGroup> lane = lane_of(system, r);
@@ -112,58 +112,58 @@ struct SubstepAcceptance {
       if (!is_open || contact.offset > 0)
         note_overlap(thinner_of(members, contact), overlap, thickness_of(members, contact), deep,
                      report);
-      if (is_open) continue;
+      if (is_open) {
+        if (contact.hit >= 0) remember_contact(r, path, overlap);
+        continue;
+      }
       const BodyPair& pair = system.island.pairs[contact.pair];
       end.pressed[pair.a] = 1;
       if (pair.b >= 0) end.pressed[pair.b] = 1;
       account(r);
       ++report.n_closed;
       report.sum_penetration += std::max(overlap, 0.0);
-      if (contact.hit < 0 && contact.b < 0 && !gives_way(system, r))
-        end.ground_impulse[pair.a] += lane.impulse();
+      if (!gives_way(system, r)) {
+        end.contact_impulse[pair.a] += lane.impulse();
+        if (pair.b >= 0) end.contact_impulse[pair.b] -= lane.impulse();
+      }
       remember_contact(r, path, overlap);
     }
   }
 
-  // The path of a member: in one piece, or up to its hit and on from there.
+  // The path of a member: in one piece, or from hit to hit and on from the last.
   void add_path(size_t k, const Motion& motion) {
     constexpr double rounding = 1e-12;
-    const Substep& s = free.substeps[k];
     const int b = members.blocks[k];
-    const double hit = hits.time[k], t = free.t, h = free.h;
-    if (std::abs(hit - h / 2) < 1e-3 * h) {
-      add_segment(b, false, t, h, s.start, motion, segments);
+    const double t = free.t, h = free.h;
+    const FlyingMember& flying = hits.members[k];
+    if (!flying.was_hit) {
+      add_segment(b, false, t, h, free.substeps[k].start, motion, segments);
       return;
     }
-    const Support& support = hits.support[k];
-    const double borne = std::min(hit, support.until);
-    Motion before = fly(s.start, members.numbers[k].inertia, s.free_acceleration, hit);
-    before.velocity += borne * support.acceleration.head<3>();
-    before.pose.position += borne_path(hits, k, hit).head<3>();
-    Motion after = before;
-    after.velocity = motion.velocity - (h - hit) * s.free_acceleration -
-                     (support.until - borne) * support.acceleration.head<3>();
+    for (const PathToHit& path : hits.paths)
+      if (path.member == k && path.end > path.begin + rounding * h)
+        add_segment(b, false, t + path.begin, path.end - path.begin, path.start, path.stop,
+                    segments);
+    const double last = flying.clock, rest = h - last;
+    if (!(rest > rounding * h)) return;
+    Motion after = flying.motion;
+    after.velocity = motion.velocity - rest * free.substeps[k].free_acceleration;
     after.angular_momentum = motion.angular_momentum;
-    if (hit > rounding * h) add_segment(b, false, t, hit, s.start, before, segments);
-    if (hit < (1 - rounding) * h) add_segment(b, false, t + hit, h - hit, after, motion, segments);
+    add_segment(b, false, t + last, rest, after, motion, segments);
   }
 
-  // How the ground supports a member from now on, and the work of its support until it was hit.
+  // How contacts bear a member from now on. Shortly after a hit nobody knows.
   void renew_support(size_t k) {
-    const Support& was = hits.support[k];
-    if (was.until > 0) {
-      const auto [power, rise] = support_power(free, system.island, hits, k);
-      state.ledger.friction -= was.until * (power + was.until / 2 * rise);
-    }
-    Vec3 support = end.ground_impulse[k] / (members.numbers[k].mass * free.h);
-    if (!support.isZero(0)) support += was.until / free.h * was.acceleration.head<3>();
-    set_support(scene, members.blocks[k], support, state);
+    const double since = free.h - hits.members[k].clock;
+    if (since < law::short_after_hit * free.h) return;
+    set_support(scene, members.blocks[k],
+                end.contact_impulse[k] / (members.numbers[k].mass * since), state);
   }
 
   void move(size_t k) {
     const Substep& s = free.substeps[k];
     const int b = members.blocks[k];
-    const Motion motion = end_of(free, system, hits, end, k);
+    const Motion motion = end_of(free, system, end, k);
     add_path(k, motion);
     renew_support(k);
     if (end.pressed[k])
@@ -185,6 +185,9 @@ struct SubstepAcceptance {
     for (const Hit& hit : hits.hits)
       for (const int b : {system.contacts[hit.contact].a, system.contacts[hit.contact].b})
         if (b >= 0) forget_rates(scene, b, state);
+    for (const int k : hits.hit_members.items) forget_rates(scene, members.blocks[k], state);
+    state.ledger.impact += hits.dissipated;
+    state.ledger.friction += hits.by_friction;
     report.shortest_dt = report.shortest_dt > 0 ? std::min(report.shortest_dt, free.h) : free.h;
   }
 
@@ -193,8 +196,8 @@ struct SubstepAcceptance {
     if (scene.fixed.panels.empty()) return;
     for (size_t r = 0; r < system.contacts.size(); ++r) {
       const KeptContact& contact = system.contacts[r];
-      if (contact.fixed < 0 || contact.waits || lane_of(system, r).state() == ContactState::open ||
-          panel_number(scene, contact.fixed) < 0)
+      if (contact.fixed < 0 || panel_number(scene, contact.fixed) < 0) continue;
+      if (contact.hit < 0 && (contact.waits || lane_of(system, r).state() == ContactState::open))
         continue;
       const size_t k = members.at(contact.a);
       const Motion& before = free.substeps[k].start;
@@ -227,8 +230,8 @@ void accept(const Scene& scene, const IslandMembers& members, const FreeMotions&
             std::vector<Segment>& segments, DeepWork& deep, StepReport& report) {
   SubstepAcceptance acceptance{scene, members, free,     system, hits,
                                end,   state,   segments, deep,   report};
-  report.n_impacts += static_cast<int>(hits.hits.size());
-  if (!converged) {
+  report.n_impacts += hits.n_hits;
+  if (!converged || !hits.converged) {
     note_unconverged(heaviest_of(scene, members), report);
     report.flags = report.flags | StepFlag::unconverged;
   }

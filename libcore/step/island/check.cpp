@@ -1,4 +1,4 @@
-// Stage 9 of an island's step: does the substep hold, or is it made again, shorter or with other
+// Stage 8 of an island's step: does the substep hold, or is it made again, shorter or with other
 // contacts? Reads alone; what it finds is in SubstepEnd.
 #include <algorithm>
 #include <cmath>
@@ -43,7 +43,7 @@ struct SubstepCheck {
     for (size_t k = 0; k < members.size(); ++k) {
       const double shift =
           (system.island.position[k] - free.substeps[k].start.pose.position).norm();
-      const Vec6& by = end.displacement[k];
+      const Vec6 by = end.displacement[k] + hits.thrown[k];
       end.farthest.push_back(by.head<3>().norm() +
                              (2 * members.numbers[k].radius + shift) * by.tail<3>().norm());
     }
@@ -56,8 +56,8 @@ struct SubstepCheck {
           const Vec3& x = search.pairs.points[left.point].point_b;
           const auto along = [&](int b) {
             const size_t k = members.at(b);
-            return m.normal.dot(
-                point_velocity<6>(end.displacement[k], x - system.island.position[k]));
+            return m.normal.dot(point_velocity<6>(end.displacement[k] + hits.thrown[k],
+                                                  x - system.island.position[k]));
           };
           const double touch = pair_touch_ratio *
                                std::min(members.of(m.block_a).radius, members.of(m.block_b).radius);
@@ -96,10 +96,10 @@ struct SubstepCheck {
   // Whether member k ends deep in ground that was not looked for there.
   [[nodiscard]] bool ends_in_ground(size_t k) const {
     const BlockNumbers& c = members.numbers[k];
-    const Vec6& by = end.displacement[k];
+    const Vec6 by = end.displacement[k] + hits.thrown[k];
     if (by.head<3>().norm() + c.radius * by.tail<3>().norm() < deep_end * c.thickness) return false;
     (void)find_contacts(scene.ground, scene.blocks.shapes, members.blocks[k],
-                        end_of(free, system, hits, end, k).pose, Mat3::Identity(), 0,
+                        end_of(free, system, end, k).pose, Mat3::Identity(), 0,
                         making.world_vertices, making.found, &near_ground[members.block(k)]);
     return std::any_of(making.found.begin(), making.found.end(), [&](const Contact& contact) {
       return contact.gap < -deep_end * c.thickness &&
@@ -153,10 +153,14 @@ struct SubstepCheck {
       const double per_h = 1 / (free.h * members.of(contact.a).recovery_time);
       const Vec3 path = path_of_contact(system, end, r);
       const double along = lane.normal().dot(path);
-      const double N =
-          -per_h * lane.normal_damping() * (contact.gap_start + contact.offset + along);
-      const Vec3 shear =
-          -per_h * lane.shear_damping() * (contact.shear + path - along * lane.normal());
+      double N = -per_h * lane.normal_damping() * (contact.gap_start + contact.offset + along);
+      Vec3 shear = -per_h * lane.shear_damping() * (contact.shear + path - along * lane.normal());
+      if (!hits.bond_impulse.empty()) {
+        const Vec3 by_hits = hits.bond_impulse[r] / free.h;
+        const double pressed = lane.normal().dot(by_hits);
+        N += pressed;
+        shear += by_hits - pressed * lane.normal();
+      }
       add_load(N, shear, contact.bond_area, bond_class(contact), load_of(contact));
     }
     return std::any_of(end.bond_loads.begin(), end.bond_loads.end(), breaks);
@@ -196,8 +200,6 @@ struct SubstepCheck {
   [[nodiscard]] SubstepVerdict run(bool converged) const {
     using enum SubstepCut;
     const double h = free.h;
-    if (const double hit = first_lone_hit(members, tries, hits, h); hit < h)
-      return SubstepVerdict::again(hit_alone, hit);
     if (!converged && tries.halvings < most_halvings)
       return SubstepVerdict::again(unconverged, h / 2);
     set_displacements();
@@ -247,10 +249,10 @@ Vec3 path_of_impulse(const IslandMembers& members, const FreeMotions& free,
 }
 
 // The free motion, corrected (theory 1.8, 1.10).
-Motion end_of(const FreeMotions& free, const IslandSystem& system, const SubstepHits& hits,
-              const SubstepEnd& end, size_t k) {
+Motion end_of(const FreeMotions& free, const IslandSystem& system, const SubstepEnd& end,
+              size_t k) {
   const Substep& s = free.substeps[k];
-  const Vec6 dv = change(system.island, k) + hits.support[k].until * hits.support[k].acceleration;
+  const Vec6 dv = change(system.island, k);
   Motion out = s.free;
   out.velocity += dv.head<3>();
   out.pose.position += end.displacement[k].head<3>();

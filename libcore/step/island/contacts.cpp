@@ -118,7 +118,7 @@ struct ContactMaker {
   }
 
   void clear() {
-    system.lost.clear();
+    system.pair_manifold.clear();
     system.contacts.clear();
     system.left_out.clear();
     system.island.pairs.clear();
@@ -132,8 +132,9 @@ struct ContactMaker {
     making.touched_by = -1;
   }
 
-  void begin_pair(int a, int b) {
+  void begin_pair(int a, int b, int manifold) {
     open_pair(a, b, system.island);
+    system.pair_manifold.push_back(manifold);
     system.first_contact.push_back(static_cast<int>(system.contacts.size()));
   }
 
@@ -171,34 +172,11 @@ struct ContactMaker {
     return making.unbonded;
   }
 
-  // The contacts of block b with the ground that no row of the substep continues: their features
-  // crossed to another plane.
-  [[nodiscard]] LostContacts lost_contacts(int b, const Substep& s,
-                                           std::span<const ContactRow> rows) const {
-    const std::vector<ContactMemory>& memory = memory_of(b);
-    const std::span<const Vec3> vertices = vertices_of(scene.blocks.shapes, b);
-    LostContacts lost;
-    for (size_t i = 0; i < memory.size(); ++i) {
-      const ContactMemory& contact = memory[i];
-      if (contact.key.body_b != ground_name) continue;
-      lost.all += contact.normal_force;
-      const auto continues = [i](const ContactRow& row) {
-        return row.memory == static_cast<int>(i);
-      };
-      if (std::any_of(rows.begin(), rows.end(), continues)) continue;
-      const bool is_vertex = contact.key.mode == ContactMode::vertex_face;
-      lost.add(contact.normal_force,
-               is_vertex ? Vec3(s.R_start * vertices[contact.key.feature_a]) : Vec3(Vec3::Zero()));
-    }
-    return lost;
-  }
-
   // Contacts of a member with the ground. False when it is off the known ground.
   [[gnu::flatten]] bool add_ground(size_t k) {
     const Substep& s = free.substeps[k];
     const int b = members.blocks[k];
     const BlockNumbers& c = members.numbers[k];
-    system.lost.push_back({});
     system.ground_pair.push_back(-1);
     if (!scene.settings.trn_contacts) {
       system.fell_through |= is_below_ground(scene, b, s.free.pose.position);
@@ -214,13 +192,12 @@ struct ContactMaker {
     system.fell_through |= near.reach == Reach::below;
     making.rows.resize(making.found.size());
     make_rows(scene, b, c, s, ground_memory(b), making.found, making.rows);
-    system.lost.back() = lost_contacts(b, s, making.rows);
     if (making.rows.empty()) return true;
     system.ground_pair.back() = static_cast<int>(system.island.pairs.size());
-    begin_pair(static_cast<int>(k), -1);
+    begin_pair(static_cast<int>(k), -1, -1);
     for (ContactRow& row : making.rows) {
       for (Vec3* v : {&row.normal, &row.arm, &row.drift, &row.shear, &row.shear_velocity,
-                      &row.slip_start, &row.free_move})
+                      &row.slip_start, &row.free_move, &row.arm_start})
         *v = s.R * *v;
       const GroundClass& ground = scene.ground.classes[row.ground_class];
       if (row.bond_area > 0) hold(ground, c.recovery_time, row);
@@ -339,6 +316,7 @@ struct ContactMaker {
     row.friction = meeting.faces.friction;
     row.restitution = meeting.faces.restitution;
     set_motion(n, point.gap, arm, drift, pa.moved - pb.moved, pa.velocity - pb.velocity, row);
+    row.arm_start = pa.start;
 
     const double approach = approach_of(row, h);
     if (!inherit_from(m, point, memory, approach, c, row))
@@ -378,6 +356,7 @@ struct ContactMaker {
     row.restitution = faces.restitution;
     set_motion(n, point.gap, arm, path.spin_end.cross(path.end - arm), path.moved, path.velocity,
                row);
+    row.arm_start = path.start;
 
     const double approach = approach_of(row, s.h);
     const Yielding* yielding = giving_way(scene, fixed, n);
@@ -473,7 +452,7 @@ struct ContactMaker {
 
   void add_pair(int manifold) {
     const PairManifold& m = search.pairs.manifolds[manifold];
-    begin_pair(members.place[m.block_a], members.place[m.block_b]);
+    begin_pair(members.place[m.block_a], members.place[m.block_b], manifold);
     match_memories(m);
     if (is_fixed(scene, m.block_b))
       add_fixed_points(m);
@@ -482,6 +461,7 @@ struct ContactMaker {
     if (system.island.pairs.back().row_begin == system.island.pairs.back().row_end) {
       system.island.pairs.pop_back();
       system.first_contact.pop_back();
+      system.pair_manifold.pop_back();
     }
   }
 

@@ -1,5 +1,5 @@
 // libcore/step/island/data.hpp
-// What the step of an island computes and may throw away, each struct by its life. The ten stages
+// What the step of an island computes and may throw away, each struct by its life. The nine stages
 // that fill them are in step/island/stages.hpp; the comment at a group names the stage.
 // PairSearch: a step, for all islands. All else is in IslandScratch: the island at hand, so that
 // each thread could have one of its own. Buffers grow to the largest step and are kept.
@@ -13,10 +13,13 @@
 
 #include "base/index_set.hpp"
 #include "contact/block_pairs.hpp"
+#include "contact/hulls.hpp"
+#include "contact/manifold.hpp"
 #include "contact/search.hpp"
 #include "scene/bonds.hpp"
 #include "scene/fixed_bodies.hpp"
 #include "solver/contact_row.hpp"
+#include "solver/impact_solve.hpp"
 #include "solver/island_groups.hpp"
 #include "solver/island_solver.hpp"
 #include "solver/newton.hpp"
@@ -65,8 +68,6 @@ struct IslandMembers {  // clang-format off
   }
   [[nodiscard]] std::size_t at(int b) const { return static_cast<std::size_t>(place[b]); }
   [[nodiscard]] const BlockNumbers& of(int b) const { return numbers[at(b)]; }
-  /// One block near fixed bodies: it is hit at the end of a substep, so by one after the other.
-  [[nodiscard]] bool is_lone() const { return blocks.size() == 1; }
 };
 
 // --- of a substep ------------------------------------------------------------------------------
@@ -85,19 +86,6 @@ struct FreeMotions {
   std::vector<FreeTurn> turns;    ///<                                                   (n_members)
 };
 
-/// Contacts that pressed on a body from the ground in the substep before, and those of them that do
-/// not press at the end of this one.
-struct LostContacts {
-  double all = 0;           ///< normal forces of all [N]
-  double force = 0;         ///< ... of those lost [N]
-  Vec3 arm = Vec3::Zero();  ///< sum of these times their arms from the centroid [N m]
-
-  void add(double normal_force, const Vec3& at) {
-    force += normal_force;
-    arm += normal_force * at;
-  }
-};
-
 /// A point of contact too far apart to close within the substep.
 struct LeftOutPoint {
   int manifold = 0, point = 0;
@@ -109,8 +97,8 @@ struct IslandSystem {  // clang-format off
   // 5 make_contacts
   std::vector<KeptContact> contacts;        ///< in the order of the island's rows
   std::vector<int> first_contact;           ///< of each pair of the island              (n_pairs)
+  std::vector<int> pair_manifold;           ///< index into PairSearch::pairs, -1: ground (n_pairs)
   std::vector<int> ground_pair;             ///< with the ground, -1: none               (n_members)
-  std::vector<LostContacts> lost;           ///<                                         (n_members)
   std::vector<std::size_t> waiting;         ///< contacts that wait for their hit
   std::vector<LeftOutPoint> left_out;       ///< points of the pairs that are no contacts
   std::vector<double> gap_end;              ///< without contact forces [m]              (n_points)
@@ -137,76 +125,101 @@ struct Hit {
   std::size_t contact = 0;  ///< index into IslandSystem::contacts
   double time = 0;          ///< from the start of the substep [s]
   double speed = 0;         ///< normal velocity just before, < 0 [m/s]
-  double rebound = 0;       ///< normal velocity that the hit alone gives back [m/s]
-  double fall = 0;          ///< what gravity makes of that up to the end, <= 0 [m/s]
-  double target = 0;        ///< normal velocity at the end of the substep [m/s]
-  bool is_free = false;     ///< the motion without contact forces leads to it
-  double in_turn = 1;       ///< how many times its pair hits in turn, see set_targets()
 };
 
-/// What bears a body until the ground hits it in a substep and is none of the substep's contacts:
-/// acceleration and spin acceleration.
-struct Support {
-  Vec6 acceleration = Vec6::Zero();  ///< [m/s2, rad/s2]
-  double until = 0;                  ///< from the start of the substep [s]
+/// Where a member is at a time, and how it moves.
+struct PlacedMotion {
+  Vec3 position = Vec3::Zero();  ///< of its centroid [m]
+  Mat3 turn = Mat3::Identity();  ///< since the start of the substep, local axes
+  Vec3 velocity = Vec3::Zero(), spin = Vec3::Zero();
 };
 
-/// 6 find_hits: what is hit, when, and what bears the members until then.
+/// A member between two of its hits. Until its first what bore it in the substep before goes on.
+struct FlyingMember {
+  Motion motion;               ///< at `clock`
+  double clock = 0;            ///< its last hit, from the start of the substep [s]
+  Vec3 borne = Vec3::Zero();   ///< acceleration by what bears it [m/s2]
+  double borne_until = 0;      ///< from the start of the substep [s]
+  Vec3 torque = Vec3::Zero();  ///< of loads [N m]
+  bool was_hit = false;
+  int version = 0;       ///< number of changes of its motion
+  int end_version = -1;  ///< of `end`
+  PlacedMotion end;      ///< at the end of the substep
+};
+
+/// A time at which a pair has to be looked at, since it may be hit then.
+struct PairLook {
+  double time = 0;   ///< [s]
+  int pair = 0;      ///< of the island
+  int version = 0;   ///< of its two members together; older looks are void
+  double from = 0;   ///< the gap was `gap` then, open [s]
+  double gap = 0;    ///< [m]
+  double speed = 0;  ///< at which it is expected to close, > 0 [m/s]
+  int tries = 0;     ///< to find the time
+};
+
+/// A piece of a member's path that ends with a hit.
+struct PathToHit {
+  std::size_t member = 0;
+  double begin = 0, end = 0;  ///< from the start of the substep [s]
+  Motion start, stop;         ///< just after `begin`, just before `end`
+};
+
+/// A contact that touches when its pair is hit.
+struct TouchingContact {
+  ImpactContact of;  ///< bodies: members
+  ContactKey key;
+  double gap = 0;  ///< [m]
+  int pair = 0;    ///< of the island
+};
+
+/// 6 find_hits: what is hit, when, and how the members move with that.
 struct SubstepHits {  // clang-format off
   std::vector<Hit> hits;                    ///< in the order in which they were found
-  std::vector<std::size_t> hit_pairs;       ///< pairs of the island with a hit
-  std::vector<Support> support;             ///<                                         (n_members)
-  IndexSet hit_members;                     ///< hit by the ground without contact forces
-  IndexSet opened;                          ///< members with contacts with the ground that a hit opened
+  std::vector<FlyingMember> members;        ///<                                         (n_members)
+  std::vector<PathToHit> paths;             ///< in order of time
+  std::vector<double> time;                 ///< when contact changes its velocity [s]   (n_members)
+  std::vector<Vec6> thrown;                 ///< displacement by hits                    (n_members)
+  std::vector<Vec3> bond_impulse;           ///< of contacts with bonds, by hits [N s]; empty: none
+  double dissipated = 0;                    ///< by hits, but for friction [J]
+  double by_friction = 0;                   ///< ... by friction and by what bore members [J]
+  int n_hits = 0;                           ///< contacts hit, and how often
+  int passes = 0;                           ///< of their solutions
+  bool converged = true;
+  IndexSet hit_members;
   IndexSet moved;                           ///< by solutions since hits were looked for last
-  // when each member's velocity changes
-  std::vector<double> time;                 ///< on the mean over its impulses [s]       (n_members)
-  std::vector<double> last_time;            ///< `time` before it was set last [s]       (n_members)
-  std::vector<double> weight, delay;        ///< impulses expected [N s]; times delays [N s2] (n_members)
-  std::vector<std::uint8_t> is_timed;       ///< 1: has a `time` of its own              (n_members)
-  std::vector<std::uint8_t> shifted;        ///< 1: `time`, or what bears it, changed    (n_members)
+  // scratch
+  std::vector<PairLook> queue;              ///< a heap, by time
+  std::vector<PairLook> due;                ///< taken from it, of one time
+  std::vector<int> pair_begin, pairs;       ///< pairs of each member
+  std::vector<int> n_looks, n_pair_hits;    ///<                                         (n_pairs)
+  std::vector<std::uint8_t> is_closed;      ///< 1: looked at no more                    (n_pairs)
+  std::vector<TouchingContact> touching, batch;
+  std::vector<int> group;                   ///< of members hit at one time              (n_members)
+  std::vector<int> local;                   ///< body of a member in the impact at hand  (n_members)
+  std::vector<ImpactBody> bodies;
+  std::vector<Motion> before;               ///< of these
+  std::vector<ImpactContact> contacts;
+  std::vector<std::size_t> changed;         ///< members
+  ImpactWork impact;
+  PlacedHulls placed;
+  AxisScratch axis;
+  ClipScratch clip;
+  std::vector<HeldPoint> held;
+  std::vector<PairManifold> manifolds;
+  std::vector<PairPoint> points;
 };  // clang-format on
-
-/// Impulses of hits on a body: their sum about its centroid, of their normal parts, and of these
-/// times the times at which they act.
-struct HitSum {
-  Vec6 impulse = Vec6::Zero();  ///< [N s, N m s]
-  double normal = 0;            ///< [N s]
-  double moment = 0;            ///< [N s2]
-
-  void add(const Vec6& p, double p_n, double time) {
-    impulse += p;
-    normal += p_n;
-    moment += p_n * time;
-  }
-};
-
-/// A hit that presses, in a round of solutions.
-struct ExpectedHit {
-  std::size_t hit = 0;  ///< index into SubstepHits::hits
-  double impulse = 0;   ///< along the normal [N s]
-  double error = 0;     ///< by which that differs from the one expected [N s]
-};
-
-/// Scratch of 8 rebound.
-struct Rebounds {
-  std::vector<HitSum> hit_sums;                      ///<                                (n_members)
-  std::vector<ExpectedHit> expected, last_expected;  ///< in this round and the one before
-  std::vector<std::uint8_t> is_borne;                ///< 1: by a contact, until the hit (n_members)
-  std::vector<Vec6> full_velocity;                   ///< with all of the rebound        (n_members)
-  std::vector<RowGroup> full_rows;                   ///< ... and the island's rows
-};
 
 /// What the substep comes to.
 struct SubstepEnd {  // clang-format off
-  // 9 check_substep
+  // 8 check_substep
   std::vector<Vec6> displacement;           ///< by contact                              (n_members)
   std::vector<double> farthest;             ///< that contact moves a point [m]          (n_members)
   std::vector<BondLoad> bond_loads;         ///< by bond                                 (n_loaded)
   std::vector<YieldPush> pushes;            ///< on fixed bodies that give way
-  // 10 accept
+  // 9 accept
   std::vector<std::uint8_t> pressed;        ///< 1: by a contact                         (n_members)
-  std::vector<Vec3> ground_impulse;         ///< hits aside [N s]                        (n_members)
+  std::vector<Vec3> contact_impulse;        ///< hits aside [N s]                        (n_members)
 };  // clang-format on
 
 /// What became of an attempt at a substep.
@@ -230,7 +243,6 @@ struct SubstepTries {
   std::vector<int> broken;  ///< bonds that it breaks: see bond_number()
   // of the step
   int deep_cuts = 0;  ///< because a block would end deep in something
-  int lone_hits = 0;  ///< for each of which a substep ended
 };
 
 /// The island at hand: nothing of it outlives its step.
@@ -242,7 +254,6 @@ struct IslandScratch {
   ContactMaking making;
   SubstepHits hits;
   IslandWork solver;  ///< scratch of 7 solve
-  Rebounds rebounds;
   SubstepEnd end;
   SubstepTries tries;
   StageClock* clock = nullptr;  ///< where the stages' times are wanted; no part of a run
@@ -296,16 +307,10 @@ template <class Of>
   return island.velocity[k] - island.free_velocity[k];
 }
 
-/// Path of member k that its support alone has made at `time`.
-[[nodiscard]] inline Vec6 borne_path(const SubstepHits& hits, std::size_t k, double time) {
-  const double until = std::min(time, hits.support[k].until);
-  return until * (time - until / 2) * hits.support[k].acceleration;
-}
-
-/// Displacement of member k by contact over the substep of `h`, its support included.
+/// Displacement of member k by contact over the substep of `h`, hits aside.
 [[nodiscard]] inline Vec6 displacement_by_contact(const Island& island, const SubstepHits& hits,
                                                   std::size_t k, double h) {
-  return (h - hits.time[k]) * change(island, k) + borne_path(hits, k, h);
+  return (h - hits.time[k]) * change(island, k);
 }
 
 [[nodiscard]] inline const Hit* hit_of(const IslandSystem& system, const SubstepHits& hits,

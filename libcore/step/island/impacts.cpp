@@ -1,4 +1,4 @@
-// Stage 7 of an island's step, the contact impulses, and the rounds of stages 6 to 8.
+// Stage 7 of an island's step, the contact impulses, and how stages 6 and 7 follow on each other.
 #include <algorithm>
 
 #include "solver/law_numbers.hpp"
@@ -9,18 +9,12 @@ namespace {
 
 using std::size_t;
 
-using law::hit_tolerance, law::island_tolerance, law::linear_tolerance, law::most_hit_rounds,
-    law::motion_tolerance, law::rest_tolerance, law::small_hit_tolerance, law::small_tolerance;
+using law::island_tolerance, law::linear_tolerance, law::motion_tolerance, law::most_closing_rounds,
+    law::rest_tolerance, law::small_tolerance;
 
 double fastest(const FreeMotions& free) {
   double speed = 0;
   for (const Substep& s : free.substeps) speed = std::max(speed, s.start.velocity.norm());
-  return speed;
-}
-
-double fastest_hit(const SubstepHits& hits) {
-  double speed = 0;
-  for (const Hit& hit : hits.hits) speed = std::max(speed, -hit.speed);
   return speed;
 }
 
@@ -35,9 +29,8 @@ void solve(const Scene& scene, const IslandMembers& members, const FreeMotions& 
   settings.tolerance = small_tolerance * by_gravity;
   settings.direct_bodies = members.is_small ? static_cast<int>(members.size()) : 0;
   if (!members.is_small) {
-    const double by_motion = std::clamp(motion_tolerance * fastest(free),
-                                        rest_tolerance * by_gravity, island_tolerance * by_gravity);
-    settings.tolerance = std::max(by_motion, hit_tolerance * fastest_hit(hits));
+    settings.tolerance = std::clamp(motion_tolerance * fastest(free), rest_tolerance * by_gravity,
+                                    island_tolerance * by_gravity);
     settings.linear_tolerance = linear_tolerance;
   }
   settings.tolerance *= scene.settings.tolerance_factor;
@@ -47,42 +40,24 @@ void solve(const Scene& scene, const IslandMembers& members, const FreeMotions& 
   for (const int k : solver.touched_bodies.items) hits.moved.add(k);
 }
 
-// Gives up where first_lone_hit() says that the substep ends sooner: check_substep() sees that.
-void solve_with_hits(const Scene& scene, const State& state, const IslandMembers& members,
-                     const FreeMotions& free, const SubstepTries& tries, IslandSystem& system,
-                     SubstepHits& hits, IslandWork& solver, Rebounds& rebounds, StageClock* clock,
-                     Solution& solution) {
-  const double h = free.h;
-  const auto solve_on = [&](bool continues) {
-    const StageTimer timer(clock, IslandStage::solve);
-    solve(scene, members, free, continues, system, hits, solver, solution);
-    return solution.converged;
-  };
-  const auto ends_sooner = [&] { return first_lone_hit(members, tries, hits, h) < h; };
+void solve_with_hits(const Scene& scene, const State& state, const PairSearch& search,
+                     const IslandMembers& members, std::vector<NearFeatures>& near_ground,
+                     ContactMaking& making, FreeMotions& free, IslandSystem& system,
+                     SubstepHits& hits, IslandWork& solver, StageClock* clock, Solution& solution) {
   {
     const StageTimer timer(clock, IslandStage::find_hits);
-    find_first_hits(state, members, free, system, hits);
-    if (ends_sooner()) return;
-    set_times(free, members, true, system, hits);
+    find_hits(scene, state, search, members, near_ground, making, free, system, hits);
+    solution.passes += hits.passes;
   }
-  rebounds.expected.clear();
-  const double tolerance = members.is_small ? small_hit_tolerance : hit_tolerance;
-  solve_on(false);
-  for (int round = 0; round < most_hit_rounds && solution.converged; ++round) {
-    if (round == 0 && bear_by_opened(state, members, free, system, hits) && !solve_on(true)) break;
-    const StageTimer timer(clock, IslandStage::rebound);
-    const int n_more = find_more_hits(members, free, system, hits);
-    if (hits.hits.empty() || ends_sooner()) return;
-    set_targets(members, free, system, hits, rebounds);
-    const double error = correct_hits(hits, system, rebounds);
-    if (n_more > 0) set_times(free, members, false, system, hits);
-    if (n_more == 0 && error <= tolerance) break;
-    solve_on(true);
+  for (int round = 0; round < most_closing_rounds; ++round) {
+    {
+      const StageTimer timer(clock, IslandStage::solve);
+      solve(scene, members, free, round > 0, system, hits, solver, solution);
+    }
+    if (!solution.converged) return;
+    const StageTimer timer(clock, IslandStage::find_hits);
+    if (close_waiting(members, free, system, hits) == 0) return;
   }
-  if (!solution.converged || !gain_energy(members, system, hits)) return;
-  const double excess = forgo_rebound(members, system, hits, rebounds);
-  if (solve_on(true) && correct_hits(hits, system, rebounds) > tolerance) solve_on(true);
-  blend_rebound(members, excess, hits, rebounds, system);
 }
 
 }  // namespace talus

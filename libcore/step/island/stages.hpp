@@ -1,5 +1,5 @@
 // libcore/step/island/stages.hpp
-// The step of an island in ten stages: law talus for blocks within reach of each other. Each stage
+// The step of an island in nine stages: law talus for blocks within reach of each other. Each stage
 // names what it reads and fills; step_island.cpp is the page that puts them in order. Numbers,
 // names and equations: docs/theory.md, "One step of an island".
 // theory 1.6, 1.7, 1.10, 1.12, 3.5; docs/design-notes.md
@@ -69,28 +69,19 @@ void predict(const Scene& scene, const State& state, const IslandMembers& member
 [[nodiscard]] double first_touch(const Scene& scene, const State& state, const IslandSystem& system,
                                  double h);
 
-// --- 6 find_hits (step/island/hits.cpp)
-// -------------------------------------------------------------
-/// Fills `hits` for the free motion, what bears the members until they are hit included. In
-/// `system`: the free velocities, and the rows of what is hit.
-void find_first_hits(const State& state, const IslandMembers& members, const FreeMotions& free,
-                     IslandSystem& system, SubstepHits& hits);
-/// Adds the hits that the impulses found so far bring about: how many.
-int find_more_hits(const IslandMembers& members, const FreeMotions& free, IslandSystem& system,
-                   SubstepHits& hits);
-/// Contacts with the ground that a hit opened bear their members until then: whether there are any.
-bool bear_by_opened(const State& state, const IslandMembers& members, const FreeMotions& free,
-                    IslandSystem& system, SubstepHits& hits);
-/// Fills the times at which the members' velocities change, and with `first` anew the places of
-/// their centroids then; moves lever arms.
-void set_times(const FreeMotions& free, const IslandMembers& members, bool first,
-               IslandSystem& system, SubstepHits& hits);
-/// Power of what bears member k at the start of the substep, and how fast it rises [W, W/s].
-[[nodiscard]] std::pair<double, double> support_power(const FreeMotions& free, const Island& island,
-                                                      const SubstepHits& hits, std::size_t k);
-/// Where the substep of a lone block has to end, since it is hit within it; h + 1: nowhere.
-[[nodiscard]] double first_lone_hit(const IslandMembers& members, const SubstepTries& tries,
-                                    const SubstepHits& hits, double h);
+// --- 6 find_hits (step/island/hits.cpp, hit_looks.cpp, after_hits.cpp)
+// ------------------------------
+/// Fills `hits`: what the members hit on their way through the substep, in order of time, each with
+/// where they are and how they move then. That is part of the motion without contact from now on:
+/// changes `free`, and in `system` bodies and rows of what was hit. `near_ground`, `making`: for
+/// searches of the ground.
+void find_hits(const Scene& scene, const State& state, const PairSearch& search,
+               const IslandMembers& members, std::vector<NearFeatures>& near_ground,
+               ContactMaking& making, FreeMotions& free, IslandSystem& system, SubstepHits& hits);
+/// Contacts that wait and that the impulses found so far close press from now on, without rebound:
+/// how many.
+int close_waiting(const IslandMembers& members, const FreeMotions& free, IslandSystem& system,
+                  SubstepHits& hits);
 
 // --- 7 solve (step/island/impacts.cpp)
 // --------------------------------------------------------------
@@ -105,33 +96,13 @@ void solve(const Scene& scene, const IslandMembers& members, const FreeMotions& 
            bool continues, IslandSystem& system, SubstepHits& hits, IslandWork& solver,
            Solution& solution);
 
-// --- 8 rebound (step/island/rebounds.cpp)
-// -----------------------------------------------------------
-/// Fills the speeds of the hits that the free motion leads to, and the targets of all.
-void set_targets(const IslandMembers& members, const FreeMotions& free, const IslandSystem& system,
-                 SubstepHits& hits, Rebounds& rebounds);
-/// Moves the rows of the hits by what finite stiffness left of their targets: the largest error, as
-/// a share of the speed of its hit.
-double correct_hits(const SubstepHits& hits, IslandSystem& system, Rebounds& rebounds);
-/// Whether the hits lost less energy than they would in turn.
-[[nodiscard]] bool gain_energy(const IslandMembers& members, const IslandSystem& system,
-                               const SubstepHits& hits);
-/// Keeps the solution at hand, in which the hits lose less than they should, and takes their
-/// rebound from them: what they lose too little [J], for blend_rebound().
-[[nodiscard]] double forgo_rebound(const IslandMembers& members, IslandSystem& system,
-                                   SubstepHits& hits, Rebounds& rebounds);
-/// Gives the hits, which are solved without rebound, as much of it as they may have. `excess`: of
-/// forgo_rebound() [J].
-void blend_rebound(const IslandMembers& members, double excess, const SubstepHits& hits,
-                   const Rebounds& rebounds, IslandSystem& system);
+/// Stages 6 and 7: hits, then the contacts that press, until no contact is added.
+void solve_with_hits(const Scene& scene, const State& state, const PairSearch& search,
+                     const IslandMembers& members, std::vector<NearFeatures>& near_ground,
+                     ContactMaking& making, FreeMotions& free, IslandSystem& system,
+                     SubstepHits& hits, IslandWork& solver, StageClock* clock, Solution& solution);
 
-/// Stages 6 to 8 until no hit is added and all rebound as they should.
-void solve_with_hits(const Scene& scene, const State& state, const IslandMembers& members,
-                     const FreeMotions& free, const SubstepTries& tries, IslandSystem& system,
-                     SubstepHits& hits, IslandWork& solver, Rebounds& rebounds, StageClock* clock,
-                     Solution& solution);
-
-// --- 9 check_substep (step/island/check.cpp)
+// --- 8 check_substep (step/island/check.cpp)
 // --------------------------------------------------------
 /// Fills `end` but for what accept() does: accept, or again with a reason. `making`, `near_ground`:
 /// for searches of the ground.
@@ -148,9 +119,9 @@ void solve_with_hits(const Scene& scene, const State& state, const IslandMembers
                                    std::size_t r);
 /// Motion of member k at the end of the substep.
 [[nodiscard]] Motion end_of(const FreeMotions& free, const IslandSystem& system,
-                            const SubstepHits& hits, const SubstepEnd& end, std::size_t k);
+                            const SubstepEnd& end, std::size_t k);
 
-// --- 10 accept (step/island/accept.cpp)
+// --- 9 accept (step/island/accept.cpp)
 // -------------------------------------------------------------
 /// The substep holds: fills motion, memory, bonds, yielding bodies and ledger of the state, the
 /// segments, and the report. Nothing before it changes anything of these.

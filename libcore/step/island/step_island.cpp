@@ -1,4 +1,4 @@
-// The step of an island as a page: its ten stages in order. What they are: step/island/stages.hpp.
+// The step of an island as a page: its nine stages in order. What they are: step/island/stages.hpp.
 #include "step/island/step_island.hpp"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 
 using std::size_t;
 
-// Stages 4 to 9: an attempt at the substep of `h` from `t`. Changes nothing but scratch.
+// Stages 4 to 8: an attempt at the substep of `h` from `t`. Changes nothing but scratch.
 SubstepVerdict try_substep(const Scene& scene, const State& state, const PairSearch& search,
                            double t, double h, std::vector<NearFeatures>& near_ground,
                            IslandScratch& w, Solution& solution) {
@@ -29,9 +29,9 @@ SubstepVerdict try_substep(const Scene& scene, const State& state, const PairSea
   }
   if (const double touch = first_touch(scene, state, w.system, h); touch < h)
     return SubstepVerdict::again(SubstepCut::yielding_touched, touch);
-  // find_hits, solve, rebound: in turn
-  solve_with_hits(scene, state, w.members, w.free, w.tries, w.system, w.hits, w.solver, w.rebounds,
-                  w.clock, solution);
+  // find_hits, solve: in turn
+  solve_with_hits(scene, state, search, w.members, near_ground, w.making, w.free, w.system, w.hits,
+                  w.solver, w.clock, solution);
   const StageTimer timer(w.clock, IslandStage::check_substep);
   return check_substep(scene, state, search, w.members, w.free, w.system, w.hits,
                        solution.converged, w.tries, near_ground, w.making, w.end);
@@ -47,9 +47,6 @@ void begin_substep(SubstepTries& tries) {
 void note_cut(SubstepCut reason, const SubstepEnd& end, SubstepTries& tries) {
   switch (reason) {
     case SubstepCut::yielding_touched:
-      break;
-    case SubstepCut::hit_alone:
-      ++tries.lone_hits;
       break;
     case SubstepCut::unconverged:
       ++tries.halvings;
@@ -70,7 +67,7 @@ void note_cut(SubstepCut reason, const SubstepEnd& end, SubstepTries& tries) {
   }
 }
 
-// Stages 4 to 10: attempts from `t`, the first over `h`, until one holds or a member is found off
+// Stages 4 to 9: attempts from `t`, the first over `h`, until one holds or a member is found off
 // the known ground.
 void make_substep(const Scene& scene, double t, double h, State& state, Work& work,
                   StepReport& report) {
@@ -88,7 +85,7 @@ void make_substep(const Scene& scene, double t, double h, State& state, Work& wo
              work.segments, work.deep, report);
       return;
     }
-    ++report.cuts[static_cast<std::size_t>(verdict.reason)];
+    ++report.cuts[static_cast<size_t>(verdict.reason)];
     state.counters.cut_back += verdict.reason == SubstepCut::unconverged;
     note_cut(verdict.reason, w.end, w.tries);
     h = verdict.h;
@@ -147,7 +144,7 @@ void advance_island(const Scene& scene, int k, double t_end, State& state, Work&
     const StageTimer timer(w.clock, IslandStage::gather_members);
     gather_members(scene, blocks_of(work.search.groups, k), w.members);
   }
-  w.tries.deep_cuts = w.tries.lone_hits = 0;
+  w.tries.deep_cuts = 0;
   double t = state.time, ahead = t_end - t;
   while (t < t_end && !w.members.blocks.empty()) {
     const double longest = prepare_substep(scene, k, t, ahead, state, work);

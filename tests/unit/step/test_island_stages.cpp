@@ -24,7 +24,7 @@ std::string theory() {
   return page.str();
 }
 
-// The ten stages have the numbers and names of the page, and so have the reasons of a cut.
+// The nine stages have the numbers and names of the page, and so have the reasons of a cut.
 TEST(IslandStages, AreThoseOfThePage) {
   const std::string page = theory();
   std::size_t after = 0;
@@ -84,8 +84,8 @@ struct FirstSubstep {
     predict(scene, state, w.members, 0, h, w.free, w.system.island);
     EXPECT_TRUE(make_contacts(scene, state, work.search, w.manifolds, w.members, w.free, w.tries,
                               work.near_ground, w.making, w.system));
-    solve_with_hits(scene, state, w.members, w.free, w.tries, w.system, w.hits, w.solver,
-                    w.rebounds, nullptr, solution);
+    solve_with_hits(scene, state, work.search, w.members, work.near_ground, w.making, w.free,
+                    w.system, w.hits, w.solver, nullptr, solution);
     EXPECT_TRUE(solution.converged);
     return check_substep(scene, state, work.search, w.members, w.free, w.system, w.hits,
                          solution.converged, w.tries, work.near_ground, w.making, w.end);

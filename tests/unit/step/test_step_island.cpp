@@ -416,8 +416,7 @@ struct FallingColumn {
 };
 
 // Cubes that fall on each other on level ground, touching or with gaps that a step leaps over, keep
-// about what they would keep hit by hit, whatever the step: a column of ten nearly nothing. A step
-// may forgo its rebound, or leave out what its hits would lose in turn with those of the next one.
+// what they would keep hit by hit, whatever the step: a column of ten nearly nothing.
 TEST(StepIsland, ColumnLosesWhatItsHitsWouldLoseInTurn) {
   constexpr double restitution = 0.7;
   double sum = 0;
@@ -437,7 +436,7 @@ TEST(StepIsland, ColumnLosesWhatItsHitsWouldLoseInTurn) {
         sum += (kept - expected) * (kept - expected);
         ++n_columns;
       }
-  EXPECT_LT(std::sqrt(sum / n_columns), 0.05);
+  EXPECT_LT(std::sqrt(sum / n_columns), 3e-3);
 }
 
 // A cube that is hit from above just after the ground has hit it goes down again within the step:
@@ -679,7 +678,8 @@ TEST(StepIsland, WhatDeepensADeepHitWithTheGroundIsPressedOut) {
   EXPECT_GT(forgotten.depth(), 0.08);
   thrown.place(0.052, 20);
   thrown.go();
-  EXPECT_GT(thrown.state.motion[0].velocity.z(), 5);  // hit
+  // by the ground, by the block above, by the ground and by the block again: e = 0.5
+  EXPECT_NEAR(thrown.state.motion[0].velocity.z(), 3.4375 - 10 * 5e-3, 1e-6);
 }
 
 TEST(StepIsland, LargeBlockRestsOnSmallOnes) { EXPECT_LT(large_on_small({}).error, 1e-3); }

@@ -1,0 +1,477 @@
+#include "solver/impact_solve.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace talus {
+namespace {
+
+using std::size_t;
+using Row = ImpactWork::Row;
+
+// A contact gives way by 1/D of the error of its expected impulse: four figures a round.
+constexpr double stiffness_ratio = 9e3;    // D over the mass that the contact feels
+constexpr double first_stiffness = 10;     // in the first round
+constexpr double round_tolerance = 1e-12;  // of the fastest approach: what contacts give way
+constexpr double settled = 1e-5;     // ... where a round hardly helps, for rounding or slow slips
+constexpr double tolerance = 1e-13;  // of the same: residual of the balance of momentum
+constexpr double loose_tolerance = 1e-7;  // ... where a step hardly helps
+constexpr double gain_rounding = 1e-12;   // of the kinetic energy: not a gain
+constexpr int most_rounds = 12;           // of expected impulses
+constexpr int convex_rounds = 15;         // ... in the convex form, before the other is tried ...
+constexpr int most_convex_tries = 8;      // ... so often
+constexpr double least_renewed = 0.05, most_renewed = 20;  // of what a slip misses
+constexpr int most_steps = 30, most_convex_steps = 100;    // of Newton in a round
+constexpr int whole_steps = 6;                             // before its line search
+
+/// An impact being solved; a struct so that its parts share what they all need.
+struct Solver {
+  std::span<const ImpactBody> bodies;
+  std::span<const ImpactContact> contacts;
+  ImpactWork& w;
+  double scale = 0;          // fastest approach [m/s]
+  double rounding = 0;       // of velocities [m/s]
+  double renewed = 1;        // share of what a slip misses that a round adds
+  bool has_missing = false;  // of the round before
+  int passes = 0;
+
+  [[nodiscard]] Vec6 of(const Eigen::VectorXd& v, int k) const { return v.segment<6>(6 * k); }
+
+  [[nodiscard]] Vec3 point_velocity(const Eigen::VectorXd& v, size_t i) const {
+    const ImpactContact& c = contacts[i];
+    const Row& row = w.rows[i];
+    const Vec6 a = of(v, c.a);
+    Vec3 u = a.head<3>() + a.tail<3>().cross(row.arm_a);
+    if (c.b < 0) return u;
+    const Vec6 b = of(v, c.b);
+    return u - (b.head<3>() + b.tail<3>().cross(row.arm_b));
+  }
+
+  // Speed of a contact's point per impulse along the normal, and the largest along a tangent.
+  [[nodiscard]] std::pair<double, double> mobility(size_t i) const {
+    const ImpactContact& c = contacts[i];
+    double along = 0, all = 0;
+    const auto add = [&](const ImpactBody& body, const Vec3& arm) {
+      const Vec3 turn = arm.cross(c.normal);
+      along += body.per_mass + turn.dot(body.per_inertia * turn);
+      all += 3 * body.per_mass + body.per_inertia.trace() * arm.squaredNorm() -
+             arm.dot(body.per_inertia * arm);
+    };
+    add(bodies[c.a], w.rows[i].arm_a);
+    if (c.b >= 0) add(bodies[c.b], w.rows[i].arm_b);
+    return {along, std::max(along, all - along)};
+  }
+
+  void begin() {
+    const auto n = static_cast<Eigen::Index>(6 * bodies.size());
+    w.before.resize(n);
+    double fastest = 0;
+    for (size_t k = 0; k < bodies.size(); ++k) {
+      w.before.segment<6>(static_cast<Eigen::Index>(6 * k)) = bodies[k].velocity;
+      fastest = std::max(fastest, bodies[k].velocity.head<3>().norm());
+    }
+    w.rows.assign(contacts.size(), {});
+    for (size_t i = 0; i < contacts.size(); ++i) {
+      const ImpactContact& c = contacts[i];
+      Row& row = w.rows[i];
+      row.arm_a = c.point - bodies[c.a].position;
+      if (c.b >= 0) row.arm_b = c.point - bodies[c.b].position;
+      const auto [normal, tangent] = mobility(i);
+      row.normal_damping = 1 / normal;
+      row.shear_damping = 1 / tangent;
+      scale = std::max(scale, point_velocity(w.before, i).norm());
+    }
+    rounding = 1e-14 * fastest;
+  }
+
+  // The law at velocity `u` of the contact's point: impulse and tangent.
+  static void evaluate(const ImpactContact& c, const Vec3& u, Row& row) {
+    const Vec3& n = c.normal;
+    const Mat3 across = Mat3::Identity() - n * n.transpose();
+    if (c.is_bond) {
+      row.impulse =
+          row.expected - row.normal_damping * u.dot(n) * n - row.shear_damping * (u - u.dot(n) * n);
+      row.tangent = row.normal_damping * n * n.transpose() + row.shear_damping * across;
+      return;
+    }
+    row.impulse.setZero();
+    row.tangent.setZero();
+    if (row.slip >= 0) return evaluate_convex(c, u, row);
+    const double pressed = n.dot(row.expected) - row.normal_damping * (n.dot(u) - row.target);
+    if (pressed <= 0) return;
+    const Vec3 trial = across * (row.shear_damping * u - row.expected);
+    const double size = trial.norm(), cap = c.friction * pressed;
+    row.tangent = row.normal_damping * n * n.transpose();
+    if (size <= cap) {
+      row.impulse = pressed * n - trial;
+      row.tangent += row.shear_damping * across;
+      return;
+    }
+    const Vec3 direction = trial / size, side = n.cross(direction);
+    row.impulse = pressed * n - cap * direction;
+    row.tangent += (cap * row.shear_damping / size) * side * side.transpose() -
+                   (c.friction * row.normal_damping) * direction * n.transpose();
+  }
+
+  // The same where the slip `row.slip` is taken as known (de Saxce): the impulse is the nearest in
+  // the cone of friction to what a damper would give that asks for friction times the slip more.
+  static void evaluate_convex(const ImpactContact& c, const Vec3& u, Row& row) {
+    const Vec3& n = c.normal;
+    const double D = row.shear_damping, mu = c.friction;
+    const Vec3 pull = row.expected - D * (u + (mu * row.slip - row.target) * n);
+    const double pressed = n.dot(pull);
+    const Vec3 across = pull - pressed * n;
+    const double size = across.norm();
+    if (size <= mu * pressed) {
+      row.impulse = pull;
+      row.tangent = D * Mat3::Identity();
+      return;
+    }
+    if (mu * size <= -pressed) return;
+    const Vec3 direction = size > 0 ? Vec3(across / size) : Vec3(Vec3::Zero());
+    const Vec3 ray = n + mu * direction, side = n.cross(direction);
+    const double p_n = (pressed + mu * size) / (1 + mu * mu);
+    row.impulse = p_n * ray;
+    row.tangent = (D / (1 + mu * mu)) * ray * ray.transpose();
+    if (size > 0) row.tangent += (D * mu * p_n / size) * side * side.transpose();
+  }
+
+  // M (v - v-) - sum J^T p per body, as a velocity: the largest.
+  double balance(const Eigen::VectorXd& v) {
+    ++passes;
+    w.residual.resize(v.size());
+    for (size_t k = 0; k < bodies.size(); ++k) {
+      const auto at = static_cast<Eigen::Index>(6 * k);
+      const Vec6 dv = v.segment<6>(at) - w.before.segment<6>(at);
+      w.residual.segment<3>(at) = dv.head<3>() / bodies[k].per_mass;
+      w.residual.segment<3>(at + 3) = bodies[k].inertia * dv.tail<3>();
+    }
+    for (size_t i = 0; i < contacts.size(); ++i) {
+      const ImpactContact& c = contacts[i];
+      Row& row = w.rows[i];
+      evaluate(c, point_velocity(v, i), row);
+      w.residual.segment<3>(6 * c.a) -= row.impulse;
+      w.residual.segment<3>(6 * c.a + 3) -= row.arm_a.cross(row.impulse);
+      if (c.b < 0) continue;
+      w.residual.segment<3>(6 * c.b) += row.impulse;
+      w.residual.segment<3>(6 * c.b + 3) += row.arm_b.cross(row.impulse);
+    }
+    double worst = 0;
+    for (size_t k = 0; k < bodies.size(); ++k) {
+      const auto at = static_cast<Eigen::Index>(6 * k);
+      const Vec3 r = w.residual.segment<3>(at), m = w.residual.segment<3>(at + 3);
+      worst = std::max(worst, std::sqrt(bodies[k].per_mass * (bodies[k].per_mass * r.squaredNorm() +
+                                                              m.dot(bodies[k].per_inertia * m))));
+    }
+    return worst;
+  }
+
+  // T(arm)^T K T(arm') of a contact's tangent.
+  static Mat6 block(const Mat3& K, const Vec3& arm_left, const Vec3& arm_right) {
+    const auto cross = [](const Vec3& x) {
+      Mat3 X;
+      X << 0, -x.z(), x.y(), x.z(), 0, -x.x(), -x.y(), x.x(), 0;
+      return X;
+    };
+    const Mat3 left = cross(arm_left), right = cross(arm_right);
+    Mat6 B;
+    B << K, -K * right, left * K, -left * K * right;
+    return B;
+  }
+
+  void find_pattern() {
+    w.edges.clear();
+    for (const ImpactContact& c : contacts)
+      if (c.b >= 0) w.edges.emplace_back(std::min(c.a, c.b), std::max(c.a, c.b));
+    std::sort(w.edges.begin(), w.edges.end());
+    w.edges.erase(std::unique(w.edges.begin(), w.edges.end()), w.edges.end());
+    analyse_pattern(static_cast<int>(bodies.size()), w.edges, w.matrix.pattern);
+    w.blocks.resize(bodies.size());
+  }
+
+  void set_matrix() {
+    clear_matrix(w.matrix);
+    for (size_t k = 0; k < bodies.size(); ++k) {
+      Mat6& M = w.matrix.diagonal[w.matrix.pattern.place[k]];
+      M.topLeftCorner<3, 3>().diagonal().setConstant(1 / bodies[k].per_mass);
+      M.bottomRightCorner<3, 3>() = bodies[k].inertia;
+    }
+    for (size_t i = 0; i < contacts.size(); ++i) {
+      const ImpactContact& c = contacts[i];
+      const Row& row = w.rows[i];
+      if (row.tangent.isZero(0)) continue;
+      const auto add = [&](int k, const Vec3& arm) {
+        w.matrix.diagonal[w.matrix.pattern.place[k]] += block(row.tangent, arm, arm);
+      };
+      add(c.a, row.arm_a);
+      if (c.b < 0) continue;
+      add(c.b, row.arm_b);
+      add_blocks<6>(w.matrix, c.a, c.b, -block(row.tangent, row.arm_a, row.arm_b),
+                    -block(row.tangent, row.arm_b, row.arm_a));
+    }
+  }
+
+  // Newton's step from what balance() left; false where the matrix is singular.
+  bool find_step() {
+    set_matrix();
+    factor(w.matrix);
+    for (size_t k = 0; k < bodies.size(); ++k)
+      w.blocks[k] = -w.residual.segment<6>(static_cast<Eigen::Index>(6 * k));
+    talus::solve<6>(w.matrix, w.blocks, w.blocks);
+    w.step.resize(w.residual.size());
+    for (size_t k = 0; k < bodies.size(); ++k)
+      w.step.segment<6>(static_cast<Eigen::Index>(6 * k)) = w.blocks[k];
+    return w.step.allFinite();
+  }
+
+  // How far to go along Newton's step where slips are taken as known: the work of all is convex
+  // then, and least where its slope along the step is zero. Leaves `tried` near there.
+  double go_to_least() {
+    constexpr double flat = 0.1;  // of the slope at the start
+    const double steep = std::abs(w.residual.dot(w.step));
+    double low = 0, high = 1, share = 1, error = 0;
+    for (int cut = 0; cut < 20; ++cut) {
+      w.tried = w.velocity + share * w.step;
+      error = balance(w.tried);
+      const double slope = w.residual.dot(w.step);
+      if (std::abs(slope) <= flat * steep || (slope < 0 && share == 1)) break;
+      (slope > 0 ? high : low) = share;
+      share = (low + high) / 2;
+    }
+    return error;
+  }
+
+  // The same where friction follows the normal impulses: as far as the error falls.
+  double go_on(int k, double error) {
+    double share = 1, next = 0;
+    for (int cut = 0; cut < 8; ++cut, share /= 2) {
+      w.tried = w.velocity + share * w.step;
+      next = balance(w.tried);
+      if (k < whole_steps || next < error) break;
+    }
+    return next;
+  }
+
+  // One round: the velocities that belong to the expected impulses.
+  bool solve_round(bool is_convex) {
+    const double enough = tolerance * scale + rounding, nearly = loose_tolerance * scale + rounding;
+    const int most = is_convex ? most_convex_steps : most_steps;
+    double error = balance(w.velocity);
+    for (int k = 0; k < most && error > enough; ++k) {
+      if (!find_step()) return false;
+      const double next = is_convex ? go_to_least() : go_on(k, error);
+      if (next >= error / 2 && error <= nearly) {  // no better, for rounding
+        (void)balance(w.velocity);
+        return true;
+      }
+      w.velocity.swap(w.tried);
+      error = next;
+    }
+    return error <= nearly;
+  }
+
+  void scale_stiffness(double factor) {
+    for (Row& row : w.rows) {
+      row.normal_damping *= factor;
+      row.shear_damping *= factor;
+    }
+  }
+
+  // Rounds until no contact gives way any more, with ever stiffer contacts: what sticks, slides or
+  // opens is found while they are soft. In the convex form slips are renewed with the impulses:
+  // velocities do not depend on how contacts share impulses, so neither do they.
+  bool solve_rounds(bool is_convex, int most, double stiffness) {
+    double gives = 0, last = 0;
+    scale_stiffness(stiffness);
+    for (int round = 0; round < most; ++round) {
+      const bool solved = solve_round(is_convex);
+      if (!solved && !is_convex) {
+        gives = scale;
+        break;
+      }
+      gives = renew(is_convex);
+      if (solved && (gives <= round_tolerance * scale + rounding ||
+                     (gives <= settled * scale && gives > last / 2)))
+        break;
+      last = gives;
+      if (stiffness < stiffness_ratio) {
+        stiffness *= 10;
+        scale_stiffness(10);
+        has_missing = false;
+      }
+    }
+    scale_stiffness(1 / stiffness);
+    return gives <= settled * scale + rounding;
+  }
+
+  // Impulses and slips found are those expected from now on: by how much they were not [m/s].
+  double renew(bool is_convex) {
+    double gives = 0, along_change = 0, change = 0;
+    for (size_t i = 0; i < contacts.size(); ++i) {
+      Row& row = w.rows[i];
+      const Vec3& n = contacts[i].normal;
+      const Vec3 error = row.impulse - row.expected;
+      const double along = n.dot(error),
+                   damping = is_convex ? row.shear_damping : row.normal_damping;
+      gives = std::max(
+          {gives, std::abs(along) / damping, (error - along * n).norm() / row.shear_damping});
+      row.expected = row.impulse;
+      if (!is_convex || contacts[i].is_bond) continue;
+      const Vec3 u = point_velocity(w.velocity, i);
+      const double slip = (u - n.dot(u) * n).norm(), missing = slip - row.slip;
+      if (!row.impulse.isZero(0)) gives = std::max(gives, contacts[i].friction * std::abs(missing));
+      const double turned = missing - row.missing_slip;
+      along_change += row.missing_slip * turned;
+      change += turned * turned;
+      row.missing_slip = missing;
+    }
+    if (!is_convex) return gives;
+    // Aitken: less where slips swing, more where they creep
+    if (has_missing && change > 0)
+      renewed = std::clamp(-renewed * along_change / change, least_renewed, most_renewed);
+    has_missing = true;
+    for (Row& row : w.rows) row.slip = std::max(0.0, row.slip + renewed * row.missing_slip);
+    return gives;
+  }
+
+  void begin_rounds() {
+    w.velocity = w.before;
+    for (Row& row : w.rows) row.expected.setZero();
+  }
+
+  void set_form(bool is_convex) {
+    for (Row& row : w.rows) row.slip = is_convex ? 0 : -1;
+    has_missing = false;
+    renewed = 1;
+  }
+
+  // Newton's method with friction that follows the normal impulses is quick, and fails where many
+  // contacts stick and slide. The convex form finds which do, and then it is quick again. What has
+  // not settled is nearly a solution, and whatever its slips are it gains no energy without
+  // restitution (theory 1.12).
+  bool solve() {
+    begin_rounds();
+    set_form(false);
+    if (solve_rounds(false, most_rounds, first_stiffness)) return true;
+    begin_rounds();
+    set_form(true);
+    for (int k = 0; k < most_convex_tries; ++k) {
+      if (solve_rounds(true, convex_rounds, k == 0 ? first_stiffness : stiffness_ratio))
+        return true;
+      w.kept = w.rows;
+      w.kept_velocity = w.velocity;
+      set_form(false);
+      if (solve_rounds(false, most_rounds, stiffness_ratio / 100)) return true;
+      w.rows.swap(w.kept);
+      w.velocity.swap(w.kept_velocity);
+      has_missing = false;
+      renewed = 1;
+    }
+    (void)balance(w.velocity);
+    return false;
+  }
+
+  [[nodiscard]] double energy(const Eigen::VectorXd& v) const {
+    double sum = 0;
+    for (size_t k = 0; k < bodies.size(); ++k) {
+      const Vec6 u = of(v, static_cast<int>(k));
+      sum += u.head<3>().squaredNorm() / bodies[k].per_mass +
+             u.tail<3>().dot(bodies[k].inertia * u.tail<3>());
+    }
+    return sum / 2;
+  }
+
+  [[nodiscard]] double work_of(const Eigen::VectorXd& v, const Eigen::VectorXd& u) const {
+    double sum = 0;
+    for (size_t k = 0; k < bodies.size(); ++k) {
+      const Vec6 a = of(v, static_cast<int>(k)), b = of(u, static_cast<int>(k));
+      sum += a.head<3>().dot(b.head<3>()) / bodies[k].per_mass +
+             a.tail<3>().dot(bodies[k].inertia * b.tail<3>());
+    }
+    return sum;
+  }
+
+  // Velocities are those that the impulses give: momentum is kept to rounding, and energies are
+  // those of what is returned.
+  void take_impulses() {
+    w.velocity = w.before;
+    const auto add = [&](int k, const Vec3& arm, const Vec3& p) {
+      const ImpactBody& body = bodies[k];
+      w.velocity.segment<3>(6 * k) += body.per_mass * p;
+      w.velocity.segment<3>(6 * k + 3) += body.per_inertia * arm.cross(p);
+    };
+    for (size_t i = 0; i < contacts.size(); ++i) {
+      const ImpactContact& c = contacts[i];
+      const Row& row = w.rows[i];
+      add(c.a, row.arm_a, row.impulse);
+      if (c.b >= 0) add(c.b, row.arm_b, -row.impulse);
+    }
+  }
+
+  // The largest share of the restitution that gains no energy.
+  bool lower_restitution(Impact& out) {
+    w.full = w.velocity;
+    w.full_impulse.clear();
+    for (Row& row : w.rows) {
+      w.full_impulse.push_back(row.impulse);
+      row.target = 0;
+    }
+    const bool solved = solve();
+    take_impulses();
+    w.full -= w.velocity;
+    const Eigen::VectorXd& gained = w.full;
+    const double square = work_of(gained, gained) / 2;
+    if (square <= 0) return solved;
+    out.share =
+        largest_share(square, work_of(w.velocity, gained), energy(w.velocity) - energy(w.before));
+    w.velocity += out.share * gained;
+    for (size_t i = 0; i < w.rows.size(); ++i)
+      w.rows[i].impulse += out.share * (w.full_impulse[i] - w.rows[i].impulse);
+    return solved;
+  }
+};
+
+}  // namespace
+
+double largest_share(double square, double linear, double constant) {
+  const double discriminant = linear * linear - 4 * square * constant;
+  return std::clamp((-linear + std::sqrt(std::max(0.0, discriminant))) / (2 * square), 0.0, 1.0);
+}
+
+Impact solve_impact(std::span<ImpactBody> bodies, std::span<ImpactContact> contacts,
+                    ImpactWork& work) {
+  Impact out;
+  Solver solver{bodies, contacts, work};
+  solver.begin();
+  solver.find_pattern();
+  for (size_t i = 0; i < contacts.size(); ++i) {
+    ImpactContact& c = contacts[i];
+    c.approach = c.normal.dot(solver.point_velocity(work.before, i));
+    if (!c.is_bond && c.approach < -c.resting_speed)
+      work.rows[i].target = -c.restitution * c.approach;
+  }
+  const double before = solver.energy(work.before);
+  out.converged = solver.solve();
+  solver.take_impulses();
+  if (solver.energy(work.velocity) > (1 + gain_rounding) * before)
+    out.converged = solver.lower_restitution(out) && out.converged;
+  out.passes = solver.passes;
+  if (!work.velocity.allFinite()) {
+    out.converged = false;
+    return out;
+  }
+  for (size_t i = 0; i < contacts.size(); ++i) contacts[i].impulse = work.rows[i].impulse;
+  for (size_t k = 0; k < bodies.size(); ++k)
+    bodies[k].velocity = work.velocity.segment<6>(static_cast<Eigen::Index>(6 * k));
+  out.dissipated = before - solver.energy(work.velocity);
+  for (size_t i = 0; i < contacts.size(); ++i) {
+    const ImpactContact& c = contacts[i];
+    const Vec3 mean =
+        (solver.point_velocity(work.before, i) + solver.point_velocity(work.velocity, i)) / 2;
+    out.by_friction -= (c.impulse - c.normal.dot(c.impulse) * c.normal).dot(mean);
+  }
+  return out;
+}
+
+}  // namespace talus

@@ -1,0 +1,88 @@
+// libcore/solver/impact_solve.hpp: public
+// The impact law: what rigid bodies that hit each other at one time do to each other's velocities.
+// in:    bodies at that time, and the contacts that approach then
+// out:   their velocities after it, and the impulse of each contact
+// theory 1.12: M (v - v-) = sum J^T p, 0 <= p_n _|_ u_n - t >= 0, Coulomb against the end velocity
+#pragma once
+
+#include <Eigen/Dense>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "motion/displacement.hpp"
+#include "solver/block_lu.hpp"
+
+namespace talus {
+
+/// A body at the time of the impact; local axes.
+struct ImpactBody {
+  double per_mass = 0;                  ///< [1/kg]
+  Mat3 inertia = Mat3::Identity();      ///< [kg m2]
+  Mat3 per_inertia = Mat3::Identity();  ///< its inverse [1/(kg m2)]
+  Vec3 position = Vec3::Zero();         ///< of the centroid [m]
+  Vec6 velocity = Vec6::Zero();         ///< of the centroid, and spin; in: before, out: after
+};
+
+/// A contact of two of the bodies, or of one with the ground. One point, common to both bodies.
+struct ImpactContact {
+  int a = 0, b = -1;           ///< bodies; b = -1: the ground
+  Vec3 normal = Vec3::Zero();  ///< unit, from B to A
+  Vec3 point = Vec3::Zero();   ///< local axes [m]
+  double friction = 0;         ///< tan(phi) [-]
+  double restitution = 0;      ///< of the normal speed [-]
+  double resting_speed = 0;    ///< a slower approach returns nothing [m/s]
+  bool is_bond = false;        ///< holds A to B whatever the force
+  // out
+  double approach = 0;          ///< normal speed before, < 0: approaches [m/s]
+  Vec3 impulse = Vec3::Zero();  ///< on A; B gets the opposite [N s]
+};
+
+/// What an impact came to.
+struct Impact {
+  bool converged = true;
+  int passes = 0;          ///< evaluations of all contacts
+  double share = 1;        ///< of the restitution: below 1 where all of it would gain energy
+  double dissipated = 0;   ///< kinetic energy lost, >= 0 [J]
+  double by_friction = 0;  ///< ... of it by friction [J]
+};
+
+/// Scratch of solve_impact.
+struct ImpactWork {  // clang-format off
+  struct Row {
+    Vec3 arm_a, arm_b;                   ///< from the centroids [m]
+    double target = 0;                   ///< normal speed that is asked for [m/s]
+    double normal_damping = 0, shear_damping = 0;  ///< [kg]
+    Vec3 expected = Vec3::Zero();        ///< impulse that the solution is sought around [N s]
+    double missing_slip = 0;             ///< of the last round [m/s]
+    double slip = -1;                    ///< taken as known; < 0: it is not [m/s]
+    Vec3 impulse = Vec3::Zero();         ///< [N s]
+    Mat3 tangent = Mat3::Zero();         ///< - d impulse / d velocity [kg]
+  };
+  std::vector<Row> rows, kept;           ///<                                            (n_contacts)
+  std::vector<Vec3> full_impulse;        ///< with all of the restitution                (n_contacts)
+  Eigen::VectorXd before, velocity, kept_velocity, full, tried, residual, step;  ///<   (6 n_bodies)
+  BlockLu<6> matrix;
+  std::vector<std::pair<int, int>> edges;
+  std::vector<Vec6> blocks;              ///<                                            (n_bodies)
+};  // clang-format on
+
+/// Scratch of those who look for hits.
+struct ImpactScratch {
+  std::vector<ImpactContact> touching, hit;
+  ImpactWork solver;
+};
+
+/// Newton's law with each contact's own restitution, all contacts together. Where friction would
+/// let it gain energy, the largest share of the restitution is taken that does not: between the
+/// solutions with the restitution and without it energy is quadratic in the share. Momentum is kept
+/// to rounding, no contact approaches afterwards, impulses stay in their cones.
+Impact solve_impact(std::span<ImpactBody> bodies, std::span<ImpactContact> contacts,
+                    ImpactWork& work);
+
+/// Largest share f <= 1 of a restitution at which square f^2 + linear f + constant, what it gains
+/// or lacks of the energy that it must lose, is not above zero; where none is, the share at which
+/// it is least. `square` > 0; at f = 1 the sum is above zero.
+[[nodiscard]] double largest_share(double square, double linear, double constant);
+
+}  // namespace talus

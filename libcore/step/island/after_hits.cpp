@@ -1,0 +1,215 @@
+// Stage 6 of an island's step, its end: hits become part of the motion without contact, about which
+// the contacts that press are solved. A body that was hit is pressed from its last hit on.
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "solver/law_numbers.hpp"
+#include "step/island/hit_looks.hpp"
+
+namespace talus {
+namespace {
+
+using std::size_t;
+
+using law::shortest_rest, law::stopping_stiffness, law::waits_within;
+
+// Where member k is at the end of the substep without contact forces.
+PlacedMotion free_end(const FreeMotions& free, size_t k) {
+  const Motion& end = free.substeps[k].free;
+  return {end.pose.position, free.turns[k].by, end.velocity, free.turns[k].spin_end};
+}
+
+Mobility relative_mobility(const IslandMembers& members, const FreeMotions& free,
+                           const IslandSystem& system, size_t r) {
+  const KeptContact& contact = system.contacts[r];
+  const BodyPair& pair = system.island.pairs[contact.pair];
+  const auto ka = static_cast<size_t>(pair.a);
+  const Vec3 normal = lane_of(system, r).normal(), arm = lane_of(system, r).arm();
+  Mobility W = mobility_at(members, free, ka, arm, normal);
+  if (pair.b < 0) return W;
+  const auto kb = static_cast<size_t>(pair.b);
+  const Mobility Wb = mobility_at(
+      members, free, kb, arm + system.island.position[ka] - system.island.position[kb], normal);
+  W.normal += Wb.normal;
+  W.tangent += Wb.tangent;
+  return W;
+}
+
+// Velocity of the points of contact `r` at the end that its arms do not tell.
+Vec3 drift_of(const FreeMotions& free, const IslandSystem& system, size_t r) {
+  const KeptContact& contact = system.contacts[r];
+  const BodyPair& pair = system.island.pairs[contact.pair];
+  const auto ka = static_cast<size_t>(pair.a);
+  const PlacedMotion a = free_end(free, ka);
+  PlacedMotion b;
+  if (pair.b >= 0) b = free_end(free, static_cast<size_t>(pair.b));
+  const Vec3 velocity = row_motion(free, system, r, a, pair.b < 0 ? nullptr : &b).velocity;
+  return velocity - relative(system, r, [&](size_t k) -> Vec6 {
+           Vec6 v;
+           v << free.substeps[k].free.velocity, free.turns[k].spin_end;
+           return v;
+         });
+}
+
+void set_drift(const Vec3& drift, double bias, const Vec3& shear_velocity,
+               const RowIn<RowGroup>& lane) {
+  const Vec3 normal = lane.normal();
+  const double along = normal.dot(drift);
+  lane.set(&RowGroup::bias, bias + along);
+  lane.set_vector(&RowGroup::shear_velocity, shear_velocity + (drift - along * normal));
+}
+
+// Contact `r`, which waits, presses from now on as far as that stops it. `gap`, with which it
+// enters the rest of the substep.
+void stop(const IslandMembers& members, const FreeMotions& free, size_t r, double gap, double rest,
+          IslandSystem& system, SubstepHits& hits) {
+  KeptContact& contact = system.contacts[r];
+  const RowIn<RowGroup> lane = lane_of(system, r);
+  contact.waits = false;
+  if (contact.hit < 0) {
+    contact.hit = static_cast<int>(hits.hits.size());
+    hits.hits.push_back({r, free.h - rest, std::min(contact.approach, 0.0)});
+  }
+  const Mobility W = relative_mobility(members, free, system, r);
+  lane.set(&RowGroup::normal_damping, stopping_stiffness / W.normal);
+  lane.set(&RowGroup::shear_damping, stopping_stiffness / W.tangent);
+  lane.set(&RowGroup::normal_tangent, stopping_stiffness / W.normal);
+  lane.set_state(ContactState::open);
+  lane.set_vector(&RowGroup::impulse, Vec3::Zero());
+  set_drift(drift_of(free, system, r), std::max(0.0, gap) / rest, Vec3::Zero(), lane);
+  note_change(system, r);
+}
+
+// Contact `r` presses nothing: what comes fast is hit, in the next substep where this one did not
+// find it.
+void wait_for_hit(size_t r, IslandSystem& system) {
+  const RowIn<RowGroup> lane = lane_of(system, r);
+  system.contacts[r].waits = true;
+  for (Two RowGroup::*field : {&RowGroup::normal_damping, &RowGroup::shear_damping,
+                               &RowGroup::normal_tangent, &RowGroup::bias})
+    lane.set(field, 0);
+  lane.set_state(ContactState::open);
+  lane.set_vector(&RowGroup::impulse, Vec3::Zero());
+  system.waiting.push_back(r);
+}
+
+// Bodies of the island and their free motion, for member k, which was hit.
+void take_member(const HitLooks& looks, size_t k, FreeMotions& free, IslandSystem& system,
+                 SubstepHits& hits) {
+  const BlockNumbers& c = looks.members.numbers[k];
+  const Motion end = looks.motion_of(k, free.h);
+  Substep& s = free.substeps[k];
+  FreeTurn& turn = free.turns[k];
+  const Eigen::AngleAxisd turned(end.pose.attitude * s.free.pose.attitude.conjugate());
+  hits.thrown[k] << end.pose.position - s.free.pose.position, turned.angle() * turned.axis();
+  s.free = end;
+  s.R = end.pose.attitude.toRotationMatrix();
+  s.spin_free = (s.R.transpose() * end.angular_momentum).cwiseProduct(c.per_inertia);
+  turn.by = s.R * s.R_start.transpose();
+  turn.spin_end = s.R * s.spin_free;
+  turn.per_inertia = s.R * c.per_inertia.asDiagonal() * s.R.transpose();
+  Island& island = system.island;
+  island.mass[k].bottomRightCorner<3, 3>() = s.R * c.inertia.asDiagonal() * s.R.transpose();
+  island.free_velocity[k] << end.velocity, turn.spin_end;
+  island.velocity[k] = island.free_velocity[k];
+  hits.time[k] = (hits.members[k].clock + free.h) / 2;
+  island.position[k] = end.pose.position - (free.h - hits.time[k]) * end.velocity;
+}
+
+// Row of a pair of which a member was hit: what is left of the substep after its last hit.
+void take_row(const HitLooks& looks, size_t r, const FreeMotions& free, IslandSystem& system,
+              SubstepHits& hits) {
+  KeptContact& contact = system.contacts[r];
+  const BodyPair& pair = system.island.pairs[contact.pair];
+  const auto ka = static_cast<size_t>(pair.a), kb = static_cast<size_t>(std::max(pair.b, 0));
+  const double h = free.h;
+  double from = hits.members[ka].clock;
+  if (pair.b >= 0) from = std::max(from, hits.members[kb].clock);
+  const double rest = std::max(h - from, shortest_rest * h);
+  const PlacedMotion a = looks.place(ka, looks.motion_of(ka, from)), end_a = free_end(free, ka);
+  PlacedMotion b, end_b;
+  if (pair.b >= 0) b = looks.place(kb, looks.motion_of(kb, from)), end_b = free_end(free, kb);
+  const RowMotion now = row_motion(free, system, r, a, pair.b < 0 ? nullptr : &b);
+  const RowMotion then = row_motion(free, system, r, end_a, pair.b < 0 ? nullptr : &end_b);
+  const RowIn<RowGroup> lane = lane_of(system, r);
+  const Vec3 normal = lane.normal();
+  contact.free_move = then.point_a - then.point_b - contact.gap_start * normal;
+  contact.gap_free = then.gap;
+  contact.arm =
+      (now.point_a + then.point_a + now.point_b + then.point_b) / 4 - system.island.position[ka];
+  lane.set_vector(&RowGroup::arm, contact.arm);
+  if (contact.waits) {
+    const bool is_over = hits.is_closed[contact.pair] != 0;
+    if (then.gap <= contact.touch &&
+        (is_over || then.speed >= -looks.members.numbers[ka].resting_speed))
+      stop(looks.members, free, r, now.gap, rest, system, hits);
+    return;
+  }
+  const bool is_new =
+      contact.memory < 0 && contact.bond_area == 0 && lane.normal_limit() >= no_normal_limit;
+  if (is_new && then.speed < -looks.members.numbers[ka].resting_speed &&
+      hits.is_closed[contact.pair] == 0)
+    return wait_for_hit(r, system);
+  if (is_new) contact.offset = std::max(contact.offset, -now.gap);
+  const double per_recovery = 1 / looks.members.numbers[ka].recovery_time;
+  const double x = now.gap + contact.offset;
+  const double bias = x < 0 || contact.bond_area != 0 ? x * per_recovery : x / rest;
+  set_drift(drift_of(free, system, r), bias, per_recovery * contact.shear, lane);
+  const Vec3 slip = now.velocity - now.speed * normal;
+  const double slip_speed = slip.norm();
+  lane.set_vector(&RowGroup::slip_start,
+                  slip_speed > 0 ? Vec3(slip / slip_speed) : Vec3(Vec3::Zero()));
+}
+
+}  // namespace
+
+void take_hits(const HitLooks& looks, FreeMotions& free, IslandSystem& system, SubstepHits& hits) {
+  const size_t n = looks.members.size();
+  hits.time.assign(n, free.h / 2);
+  hits.thrown.assign(n, Vec6::Zero());
+  for (size_t i = 0; i < hits.hits.size(); ++i) {
+    int& hit = system.contacts[hits.hits[i].contact].hit;
+    if (hit < 0) hit = static_cast<int>(i);
+  }
+  for (const int k : hits.hit_members.items)
+    take_member(looks, static_cast<size_t>(k), free, system, hits);
+  const auto was_hit = [&](int k) { return k >= 0 && hits.hit_members.contains(k); };
+  if (!hits.hit_members.items.empty())
+    for (size_t p = 0; p < system.island.pairs.size(); ++p) {
+      if (!was_hit(system.island.pairs[p].a) && !was_hit(system.island.pairs[p].b)) continue;
+      for (const size_t r : contacts_of(system, p)) take_row(looks, r, free, system, hits);
+    }
+  std::erase_if(system.waiting, [&](size_t r) { return !system.contacts[r].waits; });
+}
+
+int close_waiting(const IslandMembers& members, const FreeMotions& free, IslandSystem& system,
+                  SubstepHits& hits) {
+  const auto closes = [&](size_t r) {
+    const KeptContact& contact = system.contacts[r];
+    const auto moved = [&](int b) {
+      return b >= 0 && hits.moved.contains(static_cast<int>(members.at(b)));
+    };
+    if (!moved(contact.a) && !moved(contact.b)) return false;
+    const auto p = static_cast<size_t>(contact.pair);
+    // where it was looked for, the features that its gap tells of did not meet
+    if (hits.n_looks[p] > 0 && hits.is_closed[p] == 0) return false;
+    const Vec3 normal = lane_of(system, r).normal();
+    const double gap_end = contact.gap_free + normal.dot(relative(system, r, [&](size_t k) {
+      return displacement_by_contact(system.island, hits, k, free.h);
+    }));
+    if (gap_end > contact.touch) return false;
+    const double speed =
+        normal.dot(relative(system, r, [&](size_t k) { return system.island.velocity[k]; }));
+    if (speed < -members.of(contact.a).resting_speed &&
+        gap_end > -waits_within * thickness_of(members, contact))
+      return false;  // hit in the next substep
+    stop(members, free, r, contact.gap_start, free.h, system, hits);
+    return true;
+  };
+  const auto n = static_cast<int>(std::erase_if(system.waiting, closes));
+  hits.moved.clear();
+  return n;
+}
+
+}  // namespace talus

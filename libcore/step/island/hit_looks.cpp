@@ -1,0 +1,356 @@
+#include "step/island/hit_looks.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "motion/rotation.hpp"
+#include "scene/fence.hpp"
+#include "solver/law_numbers.hpp"
+#include "step/flight.hpp"
+#include "step/substep.hpp"
+
+namespace talus {
+namespace {
+
+using std::size_t;
+
+using law::hit_window, law::most_looks_for_time, law::most_pair_looks, law::one_time, law::parts,
+    law::support_drives, law::walk_on;
+
+// When a gap of `g` > 0 that closes at `v` and is `gap_end` after `h` is zero, its speed taken as
+// linear.
+double time_to_close(double g, double v, double gap_end, double h) {
+  const double a = 2 * (gap_end - g - v * h) / (h * h);
+  return std::min(h, 2 * g / (std::sqrt(std::max(0.0, v * v - 2 * a * g)) - v));
+}
+
+Vec3 point_of(const PlacedMotion& m, const Vec3& arm) { return m.position + arm; }
+Vec3 velocity_of(const PlacedMotion& m, const Vec3& arm) { return m.velocity + m.spin.cross(arm); }
+
+bool bears(const State& state, int b) {
+  const std::vector<ContactMemory>& memory = state.memory[b];
+  return std::any_of(memory.begin(), memory.end(),
+                     [](const ContactMemory& m) { return m.normal_force > 0; });
+}
+
+// What bears member k goes on until its first hit, or until it would begin to drive it.
+void set_borne(const State& state, const IslandMembers& members, const Substep& s, size_t k,
+               FlyingMember& flying) {
+  const BlockNumbers& c = members.numbers[k];
+  flying.borne = state.support[members.block(k)];
+  if (flying.borne.isZero(0)) return;
+  const double power = flying.borne.dot(s.start.velocity),
+               rise = flying.borne.dot(flying.borne + s.free_acceleration),
+               most = support_drives * c.gravity * c.resting_speed;
+  flying.borne_until = s.h;
+  if (power > most)
+    flying.borne_until = 0;
+  else if (rise > 0)
+    flying.borne_until = std::min(s.h, (most - power) / rise);
+}
+
+}  // namespace
+
+RowMotion row_motion(const FreeMotions& free, const IslandSystem& system, size_t r,
+                     const PlacedMotion& a, const PlacedMotion* b) {
+  const KeptContact& contact = system.contacts[r];
+  const BodyPair& pair = system.island.pairs[contact.pair];
+  const Vec3 normal = lane_of(system, r).normal();
+  const Vec3& start_a = free.substeps[pair.a].start.pose.position;
+  const Vec3 arm_a = a.turn * contact.arm_start;
+  RowMotion out;
+  out.point_a = point_of(a, arm_a);
+  out.velocity = velocity_of(a, arm_a);
+  Vec3 moved = out.point_a - start_a - contact.arm_start;
+  out.point_b = start_a + contact.arm_start - contact.gap_start * normal;
+  if (b != nullptr) {
+    const Vec3& start_b = free.substeps[pair.b].start.pose.position;
+    const Vec3 arm_start = out.point_b - start_b, arm_b = b->turn * arm_start;
+    moved -= point_of(*b, arm_b) - out.point_b;
+    out.point_b = point_of(*b, arm_b);
+    out.velocity -= velocity_of(*b, arm_b);
+  }
+  out.gap = contact.gap_start + normal.dot(moved);
+  out.speed = normal.dot(out.velocity);
+  return out;
+}
+
+void HitLooks::begin() const {
+  const Hulls& hulls = scene.blocks.hulls;
+  if (hits.placed.turned.size() != hulls.radius.size())
+    place_hulls(hulls, search.poses, {}, {}, hits.placed);
+  const size_t n = members.size();
+  hits.members.assign(n, {});
+  for (size_t k = 0; k < n; ++k) {
+    const Substep& s = free.substeps[k];
+    hits.members[k].motion = s.start;
+    if (!scene.loads.empty())
+      hits.members[k].torque = (s.free.angular_momentum - s.start.angular_momentum) / s.h;
+    if (bears(state, members.blocks[k]) || system.ground_pair[k] >= 0)
+      set_borne(state, members, s, k, hits.members[k]);
+  }
+  const size_t n_pairs = system.island.pairs.size();
+  hits.n_looks.assign(n_pairs, 0);
+  hits.n_pair_hits.assign(n_pairs, 0);
+  hits.is_closed.assign(n_pairs, 0);
+  hits.queue.clear();
+  hits.pair_begin.assign(n + 1, 0);
+  for (const BodyPair& pair : system.island.pairs)
+    for (const int k : {pair.a, pair.b})
+      if (k >= 0) ++hits.pair_begin[k];
+  int sum = 0;
+  for (int& begin : hits.pair_begin) begin = sum += begin;
+  hits.pairs.resize(static_cast<size_t>(sum));
+  for (size_t p = n_pairs; p-- > 0;)
+    for (const int k : {system.island.pairs[p].a, system.island.pairs[p].b})
+      if (k >= 0) hits.pairs[--hits.pair_begin[k]] = static_cast<int>(p);
+}
+
+Motion HitLooks::motion_of(size_t k, double time) const {
+  const FlyingMember& flying = hits.members[k];
+  const Substep& s = free.substeps[k];
+  const double dt = time - flying.clock;
+  if (dt <= 0) return flying.motion;
+  Motion m = fly(flying.motion, members.numbers[k].inertia, s.free_acceleration, dt);
+  m.angular_momentum += dt * flying.torque;
+  if (flying.was_hit || flying.borne_until == 0) return m;
+  const double borne = std::min(dt, flying.borne_until);
+  m.velocity += borne * flying.borne;
+  m.pose.position += borne * (dt - borne / 2) * flying.borne;
+  return m;
+}
+
+PlacedMotion HitLooks::place(size_t k, const Motion& motion) const {
+  const Mat3 R = motion.pose.attitude.toRotationMatrix();
+  const Vec3 in_body = R.transpose() * motion.angular_momentum;
+  return {motion.pose.position, R * free.substeps[k].R_start.transpose(), motion.velocity,
+          R * in_body.cwiseProduct(members.numbers[k].per_inertia)};
+}
+
+const PlacedMotion& HitLooks::end_of_member(size_t k) const {
+  FlyingMember& flying = hits.members[k];
+  if (flying.end_version != flying.version) {
+    flying.end = place(k, motion_of(k, free.h));
+    flying.end_version = flying.version;
+  }
+  return flying.end;
+}
+
+int HitLooks::version_of(size_t p) const {
+  const BodyPair& pair = system.island.pairs[p];
+  const int of_b = pair.b < 0 ? 0 : hits.members[pair.b].version;
+  return hits.members[pair.a].version + of_b;
+}
+
+void HitLooks::push(const PairLook& look) const {
+  hits.queue.push_back(look);
+  std::push_heap(hits.queue.begin(), hits.queue.end(), comes_after);
+}
+
+double HitLooks::size_of(size_t p) const {
+  const BodyPair& pair = system.island.pairs[p];
+  const double a = members.numbers[pair.a].radius;
+  return pair.b < 0 ? a : std::min(a, members.numbers[pair.b].radius);
+}
+
+void HitLooks::look_ahead(size_t p, double from, double not_before) const {
+  if (hits.is_closed[p] != 0) return;
+  if (++hits.n_looks[p] > most_pair_looks) {
+    hits.is_closed[p] = 1;
+    return;
+  }
+  const BodyPair& pair = system.island.pairs[p];
+  const auto ka = static_cast<size_t>(pair.a), kb = static_cast<size_t>(std::max(pair.b, 0));
+  const double h = free.h, rest = h - from;
+  if (!(rest > 0)) return;
+  const PlacedMotion a = place(ka, motion_of(ka, from));
+  const PlacedMotion b = pair.b < 0 ? PlacedMotion{} : place(kb, motion_of(kb, from));
+  const PlacedMotion& end_a = end_of_member(ka);
+  const PlacedMotion* end_b = pair.b < 0 ? nullptr : &end_of_member(kb);
+  const double resting = members.numbers[ka].resting_speed, open = hit_window * size_of(p);
+  PairLook look;
+  look.time = h + 1;
+  for (const size_t r : contacts_of(system, p)) {
+    const KeptContact& contact = system.contacts[r];
+    if (contact.bond_area != 0 || lane_of(system, r).normal_limit() < no_normal_limit) continue;
+    const RowMotion now = row_motion(free, system, r, a, pair.b < 0 ? nullptr : &b);
+    const RowMotion then = row_motion(free, system, r, end_a, end_b);
+    PairLook of_row;
+    of_row.time = h + 1;
+    of_row.speed = std::max(-now.speed, -then.speed);
+    if (now.gap <= open) {
+      if (now.speed < -resting) {
+        of_row.time = from;
+      } else if (then.speed < -resting && then.gap <= open) {
+        const double change = now.speed - then.speed;
+        of_row.time = from + rest * std::max((now.speed + resting) / change,
+                                             std::min(1.0, 2 * now.speed / change));
+      }
+    } else if (then.gap <= contact.touch && of_row.speed > 0) {
+      of_row.time = from + time_to_close(now.gap, now.speed, then.gap, rest);
+      of_row.from = from;
+      of_row.gap = now.gap;
+    }
+    if (of_row.time < look.time) look = of_row;
+  }
+  if (look.time > h) return;
+  if (look.time < not_before) {
+    look.time = not_before;
+    look.gap = 0;
+  }
+  if (look.time >= h) return;
+  look.pair = static_cast<int>(p);
+  look.version = version_of(p);
+  push(look);
+}
+
+void HitLooks::take_due(std::vector<PairLook>& due) const {
+  due.clear();
+  const auto pop = [&] {
+    std::pop_heap(hits.queue.begin(), hits.queue.end(), comes_after);
+    const PairLook look = hits.queue.back();
+    hits.queue.pop_back();
+    return look;
+  };
+  while (!hits.queue.empty()) {
+    const PairLook& next = hits.queue.front();
+    const auto p = static_cast<size_t>(next.pair);
+    if (next.version != version_of(p) || hits.is_closed[p] != 0) {
+      (void)pop();
+      continue;
+    }
+    if (!due.empty()) {
+      const double after = next.time - due.front().time;
+      if (after > one_time * free.h && after * next.speed > hit_window * size_of(p)) return;
+    }
+    PairLook look = pop();
+    if (!due.empty()) look.time = due.front().time;
+    due.push_back(look);
+  }
+}
+
+void HitLooks::find_touching_ground(size_t p, double time) const {
+  const auto k = static_cast<size_t>(system.island.pairs[p].a);
+  const BlockNumbers& c = members.numbers[k];
+  const Motion m = motion_of(k, time);
+  const double margin = 1e-2 * c.radius;
+  (void)find_contacts(scene.ground, scene.blocks.shapes, members.blocks[k], m.pose,
+                      Mat3::Identity(), margin, making.world_vertices, making.found,
+                      &near_ground[members.block(k)]);
+  for (const Contact& found : making.found) {
+    const GroundClass& ground = scene.ground.classes[found.ground_class];
+    TouchingContact touching;
+    touching.of.a = static_cast<int>(k);
+    touching.of.normal = found.normal;
+    touching.of.point = talus::place(m.pose, found.point_a) - found.gap / 2 * found.normal;
+    touching.of.friction = ground.friction;
+    touching.of.restitution = ground.restitution;
+    touching.of.resting_speed = c.resting_speed;
+    touching.key = found.key;
+    touching.gap = found.gap;
+    touching.pair = static_cast<int>(p);
+    hits.touching.push_back(touching);
+  }
+}
+
+void HitLooks::find_touching_bodies(size_t p, double time) const {
+  const BodyPair& pair = system.island.pairs[p];
+  const PairManifold& of = search.pairs.manifolds[system.pair_manifold[p]];
+  const Hulls& hulls = scene.blocks.hulls;
+  const auto ka = static_cast<size_t>(pair.a);
+  const BlockNumbers& c = members.numbers[ka];
+  place_body(hulls, of.block_a, motion_of(ka, time).pose, hits.placed);
+  place_body(
+      hulls, of.block_b,
+      pair.b < 0 ? search.poses[of.block_b] : motion_of(static_cast<size_t>(pair.b), time).pose,
+      hits.placed);
+  hits.held.clear();
+  hits.manifolds.clear();
+  hits.points.clear();
+  const double margin = 1e-2 * size_of(p);
+  const ContactSearch found = search_contact(hulls, hits.placed, of.part_a, of.part_b, margin, {},
+                                             false, hits.axis, hits.clip, hits.held);
+  if (!found.choice.touches || found.choice.axis.kind == AxisKind::none) return;
+  add_manifold(hulls, hits.placed, of.part_a, of.part_b, found.choice.axis, found.incident,
+               axis_normal(hulls, hits.placed, of.part_a, of.part_b, found.choice.axis), found.area,
+               margin, hits.held, hits.manifolds, hits.points);
+  if (hits.manifolds.empty()) return;
+  const PairManifold& m = hits.manifolds.front();
+  if (pair.b < 0 && giving_way(scene, of.block_b, m.normal) != nullptr) return;
+  const GroundClass faces = pair.b < 0 ? fixed_class(scene, of.block_b) : pair_class(scene, m);
+  for (int i = m.point_begin; i < m.point_end; ++i) {
+    const PairPoint& point = hits.points[i];
+    TouchingContact touching;
+    touching.of.a = pair.a;
+    touching.of.b = pair.b;
+    touching.of.normal = m.normal;
+    touching.of.point = point.point_b + point.gap / 2 * m.normal;
+    touching.of.friction = faces.friction;
+    touching.of.restitution = faces.restitution;
+    touching.of.resting_speed = c.resting_speed;
+    touching.key = point.key;
+    touching.gap = point.gap;
+    touching.pair = static_cast<int>(p);
+    hits.touching.push_back(touching);
+  }
+}
+
+void HitLooks::find_touching(size_t p, double time) const {
+  hits.touching.clear();
+  if (system.pair_manifold[p] < 0)
+    find_touching_ground(p, time);
+  else
+    find_touching_bodies(p, time);
+}
+
+void HitLooks::look_at(const PairLook& look) const {
+  const auto p = static_cast<size_t>(look.pair);
+  const BodyPair& pair = system.island.pairs[p];
+  const double h = free.h, open = hit_window * size_of(p);
+  const auto look_on = [&] { look_ahead(p, look.time, look.time + walk_on * h); };
+  find_touching(p, look.time);
+  if (hits.touching.empty()) return look_on();
+  const auto ka = static_cast<size_t>(pair.a);
+  const PlacedMotion a = place(ka, motion_of(ka, look.time));
+  PlacedMotion b;
+  if (pair.b >= 0) {
+    const auto kb = static_cast<size_t>(pair.b);
+    b = place(kb, motion_of(kb, look.time));
+  }
+  double least = hits.touching.front().gap, approach_of_least = 0;
+  for (TouchingContact& touching : hits.touching) {
+    ImpactContact& c = touching.of;
+    Vec3 u = velocity_of(a, c.point - a.position);
+    if (pair.b >= 0) u -= velocity_of(b, c.point - b.position);
+    c.approach = c.normal.dot(u);
+    if (touching.gap <= least) least = touching.gap, approach_of_least = c.approach;
+  }
+  PairLook again = look;
+  ++again.tries;
+  if (again.tries <= most_looks_for_time) {
+    if (least > open) {  // not yet
+      if (!(approach_of_least < 0)) return look_on();
+      again.from = look.time;
+      again.gap = least;
+      again.time = look.time - least / approach_of_least;
+      if (again.time < h) push(again);
+      return;
+    }
+    if (least < -open && look.gap > open) {  // it was hit before
+      again.time = look.from + (look.time - look.from) * look.gap / (look.gap - least);
+      if (again.time < look.time) return push(again);
+    }
+  } else if (least > open) {
+    return look_on();
+  }
+  double fastest = 0;
+  const double below = std::max(least, 0.0) + open;
+  for (const TouchingContact& touching : hits.touching)
+    if (touching.gap <= below) fastest = std::max(fastest, -touching.of.approach);
+  if (fastest <= members.numbers[ka].resting_speed) return look_on();
+  for (const TouchingContact& touching : hits.touching)
+    if (touching.gap <= below && touching.of.approach <= parts * fastest)
+      hits.batch.push_back(touching);
+}
+
+}  // namespace talus

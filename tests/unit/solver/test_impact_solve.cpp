@@ -1,0 +1,220 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "base/random.hpp"
+#include "solver/impact_solve.hpp"
+
+namespace {
+
+using namespace talus;
+
+// A box of density 1 at `position`.
+ImpactBody box_body(const Vec3& size, const Vec3& position, const Vec3& velocity,
+                    const Vec3& spin = Vec3::Zero()) {
+  ImpactBody body;
+  const double mass = size.prod();
+  const Vec3 sq = size.cwiseAbs2();
+  const Vec3 moments = mass / 12 * Vec3(sq.y() + sq.z(), sq.x() + sq.z(), sq.x() + sq.y());
+  body.per_mass = 1 / mass;
+  body.inertia = moments.asDiagonal();
+  body.per_inertia = moments.cwiseInverse().asDiagonal();
+  body.position = position;
+  body.velocity << velocity, spin;
+  return body;
+}
+
+ImpactContact contact(int a, int b, const Vec3& normal, const Vec3& point, double restitution,
+                      double friction = 0) {
+  ImpactContact c;
+  c.a = a;
+  c.b = b;
+  c.normal = normal.normalized();
+  c.point = point;
+  c.restitution = restitution;
+  c.friction = friction;
+  return c;
+}
+
+double energy(const std::vector<ImpactBody>& bodies) {
+  double sum = 0;
+  for (const ImpactBody& b : bodies) {
+    const Vec3 v = b.velocity.head<3>(), w = b.velocity.tail<3>();
+    sum += v.squaredNorm() / b.per_mass / 2 + w.dot(b.inertia * w) / 2;
+  }
+  return sum;
+}
+
+Vec3 momentum(const std::vector<ImpactBody>& bodies) {
+  Vec3 sum = Vec3::Zero();
+  for (const ImpactBody& b : bodies) sum += b.velocity.head<3>() / b.per_mass;
+  return sum;
+}
+
+Vec3 angular_momentum(const std::vector<ImpactBody>& bodies) {
+  Vec3 sum = Vec3::Zero();
+  for (const ImpactBody& b : bodies)
+    sum += b.position.cross(b.velocity.head<3>()) / b.per_mass + b.inertia * b.velocity.tail<3>();
+  return sum;
+}
+
+// Velocity of A's point relative to B's.
+Vec3 at(const std::vector<ImpactBody>& bodies, const ImpactContact& c) {
+  const auto of = [&](int k) -> Vec3 {
+    const ImpactBody& body = bodies[k];
+    return body.velocity.head<3>() + body.velocity.tail<3>().cross(c.point - body.position);
+  };
+  return c.b < 0 ? of(c.a) : Vec3(of(c.a) - of(c.b));
+}
+
+Vec3 random_vector(Random& random, double size) {
+  Vec3 v;
+  for (int k = 0; k < 3; ++k) v[k] = random.uniform(-size, size);
+  return v;
+}
+
+// Spinning boxes that meet at one point return their restitution to rounding.
+TEST(SolveImpact, OneContactReturnsItsRestitution) {
+  Random random(1);
+  ImpactWork work;
+  for (int i = 0; i < 300; ++i) {
+    const double e = random.uniform();
+    std::vector<ImpactBody> bodies{
+        box_body(Vec3::Ones() + random_vector(random, 0.5), Vec3(0, 0, 1), random_vector(random, 5),
+                 random_vector(random, 15)),
+        box_body(Vec3::Ones() + random_vector(random, 0.5), Vec3::Zero(), random_vector(random, 5),
+                 random_vector(random, 15))};
+    std::vector<ImpactContact> contacts{contact(0, 1, Vec3(0, 0, 1) + random_vector(random, 0.5),
+                                                Vec3(0, 0, 0.5) + random_vector(random, 0.5), e)};
+    const double before = contacts[0].normal.dot(at(bodies, contacts[0]));
+    if (before > -0.1) continue;
+    const double energy_before = energy(bodies);
+    const Impact impact = solve_impact(bodies, contacts, work);
+    EXPECT_TRUE(impact.converged);
+    EXPECT_NEAR(contacts[0].normal.dot(at(bodies, contacts[0])), -e * before, 1e-10);
+    EXPECT_NEAR(impact.dissipated, (1 - e * e) / 2 * contacts[0].impulse.norm() * -before / (1 + e),
+                1e-9 * energy_before);
+  }
+}
+
+// Any contacts with any restitutions and friction: no energy is gained, nothing approaches
+// afterwards, impulses are in their cones, momenta are kept.
+TEST(SolveImpact, KeepsWhatMustBeKept) {
+  Random random(2);
+  ImpactWork work;
+  int n_lowered = 0, n_unsettled = 0, n_unsettled_small = 0;
+  for (int i = 0; i < 400; ++i) {
+    const int n = 2 + i % 7;
+    std::vector<ImpactBody> bodies;
+    for (int k = 0; k < n; ++k)
+      bodies.push_back(box_body(Vec3::Ones() + random_vector(random, 0.4), Vec3(0, 0, k),
+                                Vec3(0, 0, -2.0 * k) + random_vector(random, 1),
+                                random_vector(random, 3)));
+    std::vector<ImpactContact> contacts;
+    for (int k = 1; k < n; ++k)
+      for (int j = 0; j < 1 + i % 4; ++j) {
+        const ImpactContact c = contact(k, k - 1, Vec3(0, 0, 1) + random_vector(random, 0.1),
+                                        Vec3(0, 0, k - 0.5) + random_vector(random, 0.4),
+                                        i % 4 == 3 ? 1 : random.uniform(), random.uniform(0, 1.2));
+        if (c.normal.dot(at(bodies, c)) < 0) contacts.push_back(c);
+      }
+    const double before = energy(bodies);
+    const Vec3 p = momentum(bodies), L = angular_momentum(bodies);
+    const Impact impact = solve_impact(bodies, contacts, work);
+    n_unsettled += !impact.converged;
+    n_unsettled_small += !impact.converged && n <= 4;
+    EXPECT_LE(energy(bodies) / before - 1, 1e-11) << i << " " << impact.share;
+    EXPECT_NEAR(impact.dissipated, before - energy(bodies), 1e-9 * before) << i;
+    EXPECT_LT((momentum(bodies) - p).norm(), 1e-12) << i;
+    EXPECT_LT((angular_momentum(bodies) - L).norm(), 1e-11) << i;
+    n_lowered += impact.share < 1;
+    for (const ImpactContact& c : contacts) {
+      const double p_n = c.normal.dot(c.impulse);
+      EXPECT_GE(p_n, -1e-12) << i;
+      EXPECT_LE((c.impulse - p_n * c.normal).norm(), c.friction * p_n + 1e-8) << i;
+      EXPECT_GE(c.normal.dot(at(bodies, c)), -1e-8) << i;
+    }
+  }
+  EXPECT_GT(n_lowered, 0);
+  // with up to 28 contacts and friction up to 50 degrees; those keep all of the above
+  EXPECT_EQ(n_unsettled_small, 0);
+  EXPECT_LE(n_unsettled, 4);
+}
+
+// A plate that lands flat on a slope, with friction, does not begin to turn; whatever the order of
+// its corners.
+TEST(SolveImpact, AFlatLandingStaysFlat) {
+  ImpactWork work;
+  for (const double slip : {0.3, 3.0}) {
+    std::vector<ImpactBody> bodies{box_body(Vec3(2, 1, 0.3), Vec3(0, 0, 0.15), Vec3(slip, 0, -5))};
+    std::vector<ImpactContact> contacts;
+    for (const double x : {-1.0, 1.0})
+      for (const double y : {-0.5, 0.5})
+        contacts.push_back(contact(0, -1, Vec3(0, 0, 1), Vec3(x, y, 0), 0.8, std::tan(0.436)));
+    std::vector<ImpactBody> reversed = bodies;
+    EXPECT_TRUE(solve_impact(bodies, contacts, work).converged);
+    EXPECT_NEAR(bodies[0].velocity[2], 4, 1e-11);
+    EXPECT_LT(bodies[0].velocity.tail<3>().norm(), 1e-11) << slip;
+    std::reverse(contacts.begin(), contacts.end());
+    EXPECT_TRUE(solve_impact(reversed, contacts, work).converged);
+    EXPECT_LT((reversed[0].velocity - bodies[0].velocity).norm(), 1e-11);
+  }
+}
+
+// A beam that falls flat on two cubes leaves them alike.
+TEST(SolveImpact, HitsOfOneTimeAreSymmetric) {
+  ImpactWork work;
+  std::vector<ImpactBody> bodies{box_body(Vec3(4, 1, 0.5), Vec3(0, 0, 1.25), Vec3(0, 0, -5)),
+                                 box_body(Vec3::Ones(), Vec3(-1, 0, 0.5), Vec3::Zero()),
+                                 box_body(Vec3::Ones(), Vec3(1, 0, 0.5), Vec3::Zero())};
+  std::vector<ImpactContact> contacts;
+  for (const int b : {1, 2})
+    for (const double x : {-0.5, 0.5})
+      for (const double y : {-0.5, 0.5})
+        contacts.push_back(contact(0, b, Vec3(0, 0, 1), Vec3((b == 1 ? -1 : 1) + x, y, 1), 0.7));
+  EXPECT_TRUE(solve_impact(bodies, contacts, work).converged);
+  EXPECT_NEAR(bodies[1].velocity[2], bodies[2].velocity[2], 1e-11);
+  EXPECT_LT(bodies[0].velocity.tail<3>().norm(), 1e-11);
+  EXPECT_NEAR(bodies[0].velocity[2] - bodies[1].velocity[2], 0.7 * 5, 1e-10);
+}
+
+// Bonded bodies are hit as one.
+TEST(SolveImpact, BondsHoldThroughTheHit) {
+  ImpactWork work;
+  std::vector<ImpactBody> bodies{box_body(Vec3::Ones(), Vec3(0, 0, 0.5), Vec3(0, 0, -4)),
+                                 box_body(Vec3::Ones(), Vec3(0, 0, 1.5), Vec3(0, 0, -4))};
+  std::vector<ImpactContact> contacts;
+  for (const double x : {-0.5, 0.5})
+    for (const double y : {-0.5, 0.5}) {
+      contacts.push_back(contact(0, -1, Vec3(0, 0, 1), Vec3(x, y, 0), 0.5));
+      contacts.push_back(contact(1, 0, Vec3(0, 0, 1), Vec3(x, y, 1), 0.9));
+      contacts.back().is_bond = true;
+    }
+  EXPECT_TRUE(solve_impact(bodies, contacts, work).converged);
+  EXPECT_NEAR(bodies[0].velocity[2], 2, 1e-9);
+  EXPECT_NEAR(bodies[1].velocity[2], 2, 1e-9);
+}
+
+// Many bodies hit at one time: the matrix is sparse, the answer the same law.
+TEST(SolveImpact, LargeGroupsKeepWhatMustBeKept) {
+  Random random(3);
+  ImpactWork work;
+  std::vector<ImpactBody> bodies;
+  std::vector<ImpactContact> contacts;
+  const int n = 40;
+  for (int k = 0; k < n; ++k)
+    bodies.push_back(box_body(Vec3::Ones(), Vec3(0, 0, k + 0.5), Vec3(0, 0, -0.1 * k),
+                              random_vector(random, 0.02)));
+  for (int k = 1; k < n; ++k)
+    for (const double x : {-0.5, 0.5})
+      for (const double y : {-0.5, 0.5})
+        contacts.push_back(contact(k, k - 1, Vec3(0, 0, 1), Vec3(x, y, k), 0.5, 0.5));
+  const double before = energy(bodies);
+  EXPECT_TRUE(solve_impact(bodies, contacts, work).converged);
+  EXPECT_LT(energy(bodies), before);
+  for (const ImpactContact& c : contacts) EXPECT_GE(c.normal.dot(at(bodies, c)), -1e-9);
+}
+
+}  // namespace
