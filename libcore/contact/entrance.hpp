@@ -1,4 +1,4 @@
-// libcore/contact/entrance.hpp
+// libcore/contact/entrance.hpp: public
 // Exact local entrance tests: whether two convex features can be the ones through which two bodies
 // first touch, that is, whether they give a face of the entrance block (Minkowski difference).
 // theory 2.2; paper: Sect. 3, "Identification of the entrance plane"

@@ -18,8 +18,10 @@ inline constexpr double no_normal_limit = 1e150;
 
 /// How contacts are evaluated: with the states they came with and friction bounded by the last
 /// step's normal impulses (a bound from the predicted overlap has no limit), a new contact and one
-/// that would pull more than it pressed by the law; or all with the law.
-enum class Evaluation : std::uint8_t { inherited, coupled };
+/// that would pull more than it pressed by the law; all with the law; or with friction bounds that
+/// are held whatever the normal impulses, so that the forces are those of a convex function (in an
+/// island alone: RowGroup::bound).
+enum class Evaluation : std::uint8_t { inherited, coupled, held };
 
 /// A vector and a state of one contact (Number = double), or of several side by side (a vector type
 /// of the compiler); either way axis k of a vector is v[k].
@@ -80,6 +82,7 @@ struct KeptContact {  // clang-format off
   int pair = 0;                   ///< island: index into its pairs
   int lane = 0;                   ///< island: its number among the rows of the solver
   int hit = -1;                   ///< island: index into the hits of the substep, -1: not hit
+  int rests = 0;                  ///< ContactMemory::rests
   bool waits = false;             ///< approaches too fast to press without being hit: presses nothing
   // where it is and how it moves in the substep without contact forces
   double gap_start = 0;           ///< gap at the start, without `offset` [m]
@@ -103,7 +106,10 @@ struct KeptContact {  // clang-format off
 struct ContactRow : KeptContact, LawRow<double> {  // clang-format off
   int contact = 0;                ///< with the ground: index into what the search found
   double last_stiffness = 0;      ///< ContactMemory::stiffness, 0: new [N/m]
+  bool stuck = false;             ///< at the end of the last step
+  double slip_speed = 0;          ///< of its point when the substep begins [m/s]
   Vec3 drift = Vec3::Zero();      ///< velocity at the end is T(arm) v + drift [m/s]
+  double tilt_speed = 0;          ///< by how much its normal differs at the end, part of drift [m/s]
   // a lone block: the law at its last evaluation
   double cap = 0;                 ///< bound of the tangential impulse [N s]
   Vec3 trial = Vec3::Zero();      ///< v_t + s / tau [m/s]

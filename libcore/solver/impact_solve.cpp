@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace talus {
@@ -12,7 +13,7 @@ using Row = ImpactWork::Row;
 
 // A contact gives way by 1/D of the error of its expected impulse: four figures a round.
 constexpr double stiffness_ratio = 9e3;    // D over the mass that the contact feels
-constexpr double first_stiffness = 10;     // in the first round
+constexpr double first_stiffness = 1e3;    // in the first round
 constexpr double round_tolerance = 1e-12;  // of the fastest approach: what contacts give way
 constexpr double settled = 1e-5;     // ... where a round hardly helps, for rounding or slow slips
 constexpr double tolerance = 1e-13;  // of the same: residual of the balance of momentum
@@ -261,7 +262,7 @@ struct Solver {
     for (int k = 0; k < most && error > enough; ++k) {
       if (!find_step()) return false;
       const double next = is_convex ? go_to_least() : go_on(k, error);
-      if (next >= error / 2 && error <= nearly) {  // no better, for rounding
+      if (next >= error / 2 && error <= 1e3 * enough) {  // no better, for rounding
         (void)balance(w.velocity);
         return true;
       }
@@ -282,7 +283,7 @@ struct Solver {
   // opens is found while they are soft. In the convex form slips are renewed with the impulses:
   // velocities do not depend on how contacts share impulses, so neither do they.
   bool solve_rounds(bool is_convex, int most, double stiffness) {
-    double gives = 0, last = 0;
+    double gives = 0, last = std::numeric_limits<double>::infinity();
     scale_stiffness(stiffness);
     for (int round = 0; round < most; ++round) {
       const bool solved = solve_round(is_convex);

@@ -7,6 +7,7 @@
 
 #include "solver/law_numbers.hpp"
 #include "solver/one_contact.hpp"
+#include "solver/row_groups.hpp"
 
 namespace talus {
 namespace {
@@ -22,10 +23,11 @@ struct Solve {
   const IslandSettings& settings;
   IslandWork& work;
   IslandResult result;
-  double tolerance = 0;
+  double tolerance = 0, held_goal = 0;
   double best_residual = std::numeric_limits<double>::infinity();
   bool direct = false;
   bool tracking = true;
+  Evaluation law = Evaluation::coupled;
   bool inherits = false;  // a row comes with a state: the first evaluation is not the law's
   int n_linear = 0;       // linear solutions by conjugate gradients
 
@@ -46,10 +48,20 @@ struct Solve {
           stiffness = limit;
         }
         work.stiffness_ratio = std::max(work.stiffness_ratio, stiffness / mass);
+        set_bound(group, lane);
         const double changed = stiffness / mass * (std::abs(group.bias[lane]) + free_speed);
         work.rounding = std::max(
             work.rounding, 8 * std::numeric_limits<double>::epsilon() * (changed + free_speed));
       }
+  }
+
+  // What holds friction at first: the normal impulse of the last step, < 0: nothing is known of it.
+  static void set_bound(RowGroup& group, int lane) {
+    double p_n = 0;
+    for (int k = 0; k < 3; ++k) p_n += group.normal[k][lane] * group.impulse[k][lane];
+    group.bound[lane] = group.state[lane] == 0
+                            ? -1
+                            : group.friction[lane] * std::max(p_n, 0.0) + group.cohesion[lane];
   }
 
   void prepare() {
@@ -57,6 +69,7 @@ struct Solve {
     work.rounding = work.stiffness_ratio = 0;
     for (size_t p = 0; p < n_pairs; ++p) prepare_pair(p);
     prepare_matrix(island, work.matrix);
+    set_heights(island, settings.down, work.factor);
     for (auto* vectors : {&work.residual, &work.step, &work.from, &work.best}) vectors->resize(n);
     work.at_best = false;
     work.speed.resize(n);
@@ -117,7 +130,8 @@ struct Solve {
           now[i].motion =
               relative_motion(now[i].motion, work.velocity[pair.b], work.matrix.shift[p]);
       }
-      evaluate_pairs(std::span(now).first(some.size()), evaluation, direct ? 0 : slack);
+      evaluate_pairs(std::span(now).first(some.size()), evaluation,
+                     direct || evaluation == Evaluation::held ? 0 : slack);
       if (!island.angular.empty()) evaluate_couples(some, now);
       for (size_t i = 0; i < some.size(); ++i) {
         if (now[i].changed) work.matrix.changed_pairs.add(some[i]);
@@ -192,14 +206,15 @@ struct Solve {
   // every step: a push that travels far needs them all.
   bool few_move() {
     work.moving.clear();
-    const auto note = [this](size_t i) {
-      if (!(work.speed[i] <= tolerance)) work.moving.push_back(static_cast<int>(i));
+    const double goal = law == Evaluation::held ? held_goal : tolerance;
+    const auto note = [&](size_t i) {
+      if (!(work.speed[i] <= goal)) work.moving.push_back(static_cast<int>(i));
     };
     // most bodies do not: eight of them are looked at together
     size_t i = 0;
     for (; i + 8 <= work.speed.size(); i += 8) {
       const auto eight = Eigen::Array<double, 8, 1>::Map(&work.speed[i]);
-      if (eight.maxCoeff<Eigen::PropagateNaN>() <= tolerance) continue;
+      if (eight.maxCoeff<Eigen::PropagateNaN>() <= goal) continue;
       for (size_t k = i; k < i + 8; ++k) note(k);
     }
     for (; i < work.speed.size(); ++i) note(i);
@@ -208,20 +223,21 @@ struct Solve {
 
   // K step = -residual.
   void find_step() {
-    update_tangents(island, direct ? Tangent::exact : Tangent::symmetric, work.matrix);
+    const bool exact = direct && law == Evaluation::coupled;
+    update_tangents(island, exact ? Tangent::exact : Tangent::symmetric, work.matrix);
     if (direct) {
       activate_all(island, work.matrix);
       ++result.factorisations;
       solve_direct(island, work.matrix, work.residual, work.step);
       return;
     }
-    invert_diagonals(work.matrix);
     if (few_move())
       choose_active(island, work.moving, work.matrix);
     else
       activate_all(island, work.matrix);
+    eliminate(island, work.matrix, work.factor);
     const LinearResult linear =
-        solve_conjugate_gradients(island, work.matrix, work.residual, settings.linear_tolerance,
+        solve_conjugate_gradients(work.factor, work.residual, settings.linear_tolerance,
                                   settings.max_linear_iterations, work.step);
     result.linear_iterations += linear.iterations;
     direct = !linear.converged && n_bodies(island) <= settings.direct_fallback;
@@ -234,35 +250,134 @@ struct Solve {
     return sum;
   }
 
+  void go_along(double fraction) {
+    for (const int body : work.matrix.active.bodies.items) {
+      const auto k = static_cast<size_t>(body);
+      work.velocity[k] = work.from[k] + fraction * work.step[k];
+    }
+  }
+
+  void keep_from() {
+    for (const int body : work.matrix.active.bodies.items)
+      work.from[static_cast<size_t>(body)] = work.velocity[static_cast<size_t>(body)];
+  }
+
+  // A Newton step to where the forces do no work along it, about: the lowest place there of the
+  // function that they are the gradient of while friction is held. The slope has kinks: a false
+  // position that keeps an end halves the slope there (Illinois).
+  double advance_held() {
+    find_step();
+    keep_from();
+    struct Place {
+      double fraction, slope;
+    };
+    Place low = {0, slope()}, high = {0, 0};
+    const double goal = law::level * std::abs(low.slope);
+    double fraction = 1;
+    for (int i = 0, kept = 0;; ++i) {
+      go_along(fraction);
+      const double residual = evaluate(law), at = slope();
+      if (std::abs(at) <= goal || i >= law::most_trials || residual <= held_goal ||
+          !std::isfinite(at))
+        return residual;
+      const int side = at < 0 ? -1 : 1;
+      (at < 0 ? low : high) = {fraction, at};
+      if (high.fraction == 0) {
+        fraction *= law::farther;
+        continue;
+      }
+      if (side == kept) (at < 0 ? high : low).slope /= 2;
+      kept = side;
+      const double secant =
+          (low.fraction * high.slope - high.fraction * low.slope) / (high.slope - low.slope);
+      const double margin = law::off_ends * (high.fraction - low.fraction);
+      fraction = std::clamp(secant, low.fraction + margin, high.fraction - margin);
+    }
+  }
+
+  // Holds friction as the law has it at the velocities, the bounds all or `share` of the way there.
+  void hold(double share) {
+    for (RowGroup& group : island.rows) hold_friction(group, share);
+  }
+
+  void let_go() {
+    for (RowGroup& group : island.rows) group.held_share = Two{};
+  }
+
+  // Near the solution steps with the law get there sooner than renewals do: as long as each gets
+  // much closer. Else the velocities are those of before.
+  bool finish_held() {
+    work.held = work.velocity;
+    for (double before = result.residual;; before = result.residual) {
+      const double residual = advance(true);
+      if (residual <= tolerance) return true;
+      if (!(residual <= law::finishing * before)) break;
+      work.held = work.velocity;
+    }
+    work.velocity = work.held;
+    work.at_best = false;
+    activate_all(island, work.matrix);
+    evaluate(Evaluation::coupled);
+    return false;
+  }
+
+  // Newton with friction that is held, then renewed from the law at what it finds.
+  bool solve_held() {
+    direct = n_bodies(island) <= settings.direct_bodies;
+    work.velocity = std::isfinite(best_residual) ? work.best : island.free_velocity;
+    activate_all(island, work.matrix);
+    work.at_best = false;
+    double residual = evaluate(Evaluation::coupled);
+    hold(settings.continues ? 1 : 0);
+    const int most_passes = static_cast<int>(law::held_share * settings.max_passes);
+    for (double share = 1; result.passes < most_passes; ++result.renewals) {
+      const double before = residual;
+      held_goal = std::max(law::held_goal * tolerance, law::held_share_of_error * before);
+      law = Evaluation::held;
+      residual = evaluate(law);
+      while (residual > held_goal && result.passes < most_passes) residual = advance_held();
+      law = Evaluation::coupled;
+      if (!std::isfinite(residual)) break;
+      activate_all(island, work.matrix);
+      residual = evaluate(law);
+      if (residual <= tolerance || (direct && finish_held())) break;
+      share = residual > law::renews_well * before ? std::max(share / 2, law::least_renewal) : 1;
+      hold(share);
+    }
+    let_go();
+    return result.residual <= tolerance;
+  }
+
   // A Newton step; with `search` it is shortened: with the exact derivative until the residual
   // falls, else until the residual's work along the step is at most half of what it was at the
   // start.
   double advance(bool search) {
     find_step();
-    const std::vector<int>& bodies = work.matrix.active.bodies.items;
     const double start_residual = result.residual;
     const double start_slope = std::abs(slope());
-    for (const int body : bodies) work.from[body] = work.velocity[body];
+    keep_from();
     double fraction = 1;
     for (int i = 0;; ++i, fraction /= 2) {
-      for (const int body : bodies) {
-        const auto k = static_cast<size_t>(body);
-        work.velocity[k] = work.from[k] + fraction * work.step[k];
-      }
+      go_along(fraction);
       const double residual = evaluate(Evaluation::coupled);
       if (!search || i >= law::most_step_halvings || residual <= tolerance) return residual;
       if (direct ? residual < start_residual : slope() <= 0.5 * start_slope) return residual;
     }
   }
 
+  // Given up where the smallest residual does not fall by half within some steps.
   bool solve_coupled(int max_passes) {
     const double at_start =
         evaluate(settings.continues ? Evaluation::coupled : Evaluation::inherited);
     if ((settings.continues || !inherits) && at_start <= tolerance) return true;
+    double before = std::numeric_limits<double>::infinity();
     for (int steps = 0; result.passes < max_passes; ++steps) {
       const double residual = advance(steps >= law::island_free_steps);
       if (residual <= tolerance) return true;
       if (!(residual < hopeless * best_residual)) return false;
+      if (steps % law::patience != law::patience - 1) continue;
+      if (best_residual > 0.5 * before) return false;
+      before = best_residual;
     }
     return false;
   }
@@ -321,7 +436,8 @@ struct Solve {
       prepare();
     tolerance = std::max(settings.tolerance, work.rounding);
     direct = n_bodies(island) <= settings.direct_bodies;
-    result.converged = solve_coupled(settings.max_passes / 3) || solve_stiffening();
+    result.converged = solve_coupled(settings.max_passes / law::coupled_share) || solve_held() ||
+                       solve_stiffening();
     if (result.converged) {
       keep_momentum();
     } else {

@@ -5,14 +5,16 @@
 // with solve_contacts() in solver/newton.hpp. theory 1.7, 3.3-3.5; docs/design-notes.md
 #pragma once
 
+#include "solver/incomplete_factor.hpp"
 #include "solver/island.hpp"
 #include "solver/island_matrix.hpp"
 
 namespace talus {
 
 struct IslandSettings {
-  double tolerance = 0;  ///< largest residual, as a velocity of a body's points, > 0 [m/s]
-  int max_passes = 100;  ///< evaluations of all contacts
+  double tolerance = 0;        ///< largest residual, as a velocity of a body's points, > 0 [m/s]
+  int max_passes = 200;        ///< evaluations of all contacts
+  Vec3 down = -Vec3::UnitZ();  ///< along gravity: the order in which bodies are eliminated
   double linear_tolerance = 1e-2;   ///< of conjugate gradients, relative to the step's start
   int max_linear_iterations = 250;  ///< of conjugate gradients in one step
   int direct_bodies = 8;            ///< islands up to this size are factored
@@ -33,6 +35,7 @@ struct IslandResult {
   int passes = 0;       ///< evaluations of all contacts
   int linear_iterations = 0;  ///< of conjugate gradients, summed
   int factorisations = 0;
+  int renewals = 0;   ///< of friction bounds that were held
   int n_lowered = 0;  ///< rows stiffer than IslandSettings::stiffest, of pairs that changed
 };
 
@@ -44,6 +47,7 @@ struct Damping {
 /// Scratch of solve_island; reused from call to call, it stops allocating.
 struct IslandWork {  // clang-format off
   IslandMatrix matrix;
+  IncompleteFactor factor;
   std::vector<Vec6> velocity;      ///< before momentum is kept; where a solution that continues
                                    ///< this one starts                                 (n_bodies)
   std::vector<Vec6> residual;      ///< M (v - v_free) - sum B^T p                       (n_bodies)
@@ -54,6 +58,7 @@ struct IslandWork {  // clang-format off
   std::vector<Vec6> step;          ///< of Newton                                        (n_bodies)
   std::vector<Vec6> from;          ///< velocity before the step                         (n_bodies)
   std::vector<Vec6> best;          ///< velocity with the smallest residual so far       (n_bodies)
+  std::vector<Vec6> held;          ///< velocity found with bounds that were held        (n_bodies)
   bool at_best = false;            ///< `best` is `velocity`
   std::vector<int> start;          ///< their bodies
   IndexSet touched_bodies;         ///< whose residual this solution computed anew
@@ -69,8 +74,10 @@ struct IslandWork {  // clang-format off
 /// impulses; where none is inherited and the first guess is right, there is no step. Steps follow
 /// with the law at the iterate, from the fourth on with a line search: with the exact derivative
 /// where the matrix is factored, with a symmetric one for conjugate gradients, which move only the
-/// bodies that have not settled and their neighbours. Where that has not settled after a third of
-/// `max_passes`, the island is solved with softer contacts first and then with ever stiffer ones.
+/// bodies that have not settled and their neighbours. Where that gets no closer, friction is held
+/// while the forces are sought, which then are those of a convex function (solver/held_law.hpp),
+/// and renewed until it is right; where that does not settle, the island is solved with softer
+/// contacts first and then with ever stiffer ones.
 /// At last the velocities are made those that the impulses give, so that momentum and angular
 /// momentum are kept to rounding.
 ///

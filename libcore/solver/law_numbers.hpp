@@ -18,29 +18,52 @@ namespace talus::law {
 /// [-] k_n dt^2 / m of the stiffest contact of a lone block. Tried: the block's full mass for m;
 /// needles fail.
 inline constexpr double stiffest_lone = 400;
-/// [-] The same in an island: bounds the condition of its matrix. Tried: softer, a tower topples
-/// that should hold; stiffer, solutions take many times the evaluations, and some fail.
+/// [-] The same in an island, before a contact knows what it bears. Tried: 400 for all; the forces
+/// of masses in motion are not found.
 inline constexpr double stiffest_in_island = 1;
-/// [-] The same where the island's matrix is cheap to factor, so that a tower hardly sags. Tried:
-/// 1; high towers lean.
-inline constexpr double stiffest_in_small_island = 30;
+/// [-] The same where the island's matrix is cheap to factor, and of blocks that rest. Tried: 1 for
+/// blocks that rest; twin towers near the angle at which they topple sway and fall.
+inline constexpr double stiffest_at_rest = 30;
 /// [blocks] A small island has at most so many ...
 inline constexpr std::size_t small_island = 8;
 /// [blocks] ... or so many that hang together without a ring: a column.
 inline constexpr std::size_t small_tree = 64;
-/// [-] Stiffness of a contact that bears little: times that for its own mass.
+/// [-] Stiffness of a contact that bears little, slips or opens: times that for its own mass.
 inline constexpr double bears_little = 3;
-/// [-] Sag under load before a contact is stiffer: times that of a block alone. Tried: as stiff as
-/// the heaviest neighbour asks from the start; hardly a step of mixed sizes converges.
-inline constexpr double most_sag = 2;
+/// [thickness] Overlap of a contact at rest under its load: it is as stiff as that asks ...
+inline constexpr double most_sag = 1e-6;
+/// [thickness] ... and in an island that is factored. A tower leans by the sum of these. Tried:
+/// multipliers carried from step to step; they shake towers down.
+inline constexpr double most_sag_in_small_island = 3e-7;
+/// [-] k_n dt^2 / m of the stiffest contact by its load.
+inline constexpr double stiffest_by_load = 4e5;
+/// [-] That is softer by so much where forces are not found ...
+inline constexpr double easing = 64;
+/// [-] ... up to so many times a step, before substeps are halved.
+inline constexpr int most_eased = 2;
+/// [-] A contact at rest becomes stiffer by so much a step, beyond what the masses ask for ...
+inline constexpr double stiffens = 2;
+/// [-] ... one that slips or opens softer by so much.
+inline constexpr double softens = 4;
+/// [g dt] Speed of slip or of opening from which a contact does not rest, nor a block.
+inline constexpr double slow = 0.2;
+/// [passes] An island whose first solution in a substep takes more is hard: contacts of what
+/// moves ...
+inline constexpr int hard_passes = 10;
+/// [-] ... become softer by so much ...
+inline constexpr double relief = 8;
+/// [steps] ... and no stiffer for so long. Tried: 5; a mass that topples takes half as many passes
+/// again.
+inline constexpr int most_rests = 40;
+/// [-] Solutions of the first step until contacts are as stiff as they bear.
+inline constexpr int most_settlings = 12;
 /// [-] Stiffness of a contact whose load asks for more: times what it needs ...
 inline constexpr double ample = 2;
-/// [-] ... and kept until it is this many times what it needs.
-inline constexpr double too_much = 8;
-/// [thickness] A contact becomes stiffer still, without bound, at this overlap ...
-inline constexpr double most_sag_of_thickness = 2e-2;
-/// [sags] ... or this one, where that is more.
-inline constexpr double far_sag = 4;
+/// [-] ... times that in the first step, in which all sag at once. Tried: 2; towers sway ...
+inline constexpr double ample_at_start = 8;
+/// [-] ... and kept until it is this many times what it needs. Tried: 8; heels of high towers that
+/// rock are soft when they come down, and each turn goes farther.
+inline constexpr double too_much = 1000;
 /// [-] A contact whose stiffness changes by more than this factor in a step has another law.
 inline constexpr double same_law = 1.5;
 /// [dt] Overlap is pressed out over so many steps (tau). Tried: Newmark's own damping; contacts
@@ -182,8 +205,10 @@ inline constexpr double motion_tolerance = 1e-3;
 inline constexpr double rest_tolerance = 1e-6;
 /// [g h] The same in an island that is factored.
 inline constexpr double small_tolerance = 1e-8;
-/// [-] Of conjugate gradients in a Newton step.
-inline constexpr double linear_tolerance = 3e-2;
+/// [-] Of conjugate gradients in a Newton step ...
+inline constexpr double linear_tolerance = 1e-2;
+/// [-] ... and of a mass at rest. Tried: 1e-2; two to four times the steps.
+inline constexpr double linear_tolerance_at_rest = 1e-3;
 /// [-] Newton steps before the line search looks at them.
 inline constexpr int island_free_steps = 3;
 /// [-] Halvings of a Newton step.
@@ -202,6 +227,31 @@ inline constexpr int all_every = 8;
 inline constexpr std::size_t few = 2;
 /// [-] Growth of the residual at which coupled steps are given up.
 inline constexpr double hopeless = 1e5;
+/// [-] In so many steps the smallest residual has to fall by half.
+inline constexpr int patience = 6;
+/// [passes allowed] One in so many are coupled steps; then friction bounds are held ...
+inline constexpr int coupled_share = 8;
+/// [passes allowed] ... until so much of them is spent.
+inline constexpr double held_share = 2.0 / 3;
+/// [tolerance] Residual while bounds are held: what is left is for the bounds.
+inline constexpr double held_goal = 0.5;
+/// [residual by the law] ... or that, where it is more: bounds that are far off are worth no more.
+inline constexpr double held_share_of_error = 0.1;
+/// [residual] Renewals of bounds go all the way while each leaves no more than this; else half as
+/// far as the last, ...
+inline constexpr double renews_well = 0.9;
+/// [-] ... at least so far.
+inline constexpr double least_renewal = 0.25;
+/// [-] Steps by the law from what they give go on while each leaves no more of the residual.
+inline constexpr double finishing = 0.3;
+/// [slope at the start] A step with held bounds ends where the slope along it is less.
+inline constexpr double level = 0.3;
+/// [-] Places looked at along it, ...
+inline constexpr int most_trials = 12;
+/// [-] ... each so many times as far while it goes down, ...
+inline constexpr double farther = 3;
+/// [-] ... then so much of the bracket off its ends.
+inline constexpr double off_ends = 0.02;
 
 // --- solution of a lone block ------------------------------------------------------------------
 

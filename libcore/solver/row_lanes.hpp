@@ -6,6 +6,7 @@
 #pragma once
 
 #include "solver/contact_law.hpp"
+#include "solver/held_law.hpp"
 #include "solver/pair_evaluation.hpp"
 
 namespace talus {
@@ -82,7 +83,11 @@ template <class V>
   rows.read(&RowGroup::normal_tangent, tangent_before);
   rows.read(&RowGroup::used_tangent, used);
   velocity_at(arm, u, w);
-  contact_law(rows, w, state_before, evaluation, found);
+  found.trial_speed = V{};
+  if (evaluation == Evaluation::held)
+    held_law(rows, w, found);
+  else
+    contact_law(rows, w, state_before, evaluation, found);
   rows.write(found.impulse, &RowGroup::impulse);
   rows.write(found.state, &RowGroup::state);
   rows.write(found.normal_tangent, &RowGroup::normal_tangent);

@@ -40,17 +40,14 @@ double approach_of(const ImpactBody& body, const ImpactContact& contact) {
   return contact.normal.dot(body.velocity.head<3>() + body.velocity.tail<3>().cross(contact.point));
 }
 
-// One round: what approaches is hit. False when nothing is faster than the resting speed.
-bool hit_once(std::span<const ImpactContact> touching, bool is_last, ImpactBody& body,
-              ImpactScratch& scratch, ImpactResult& result) {
+// One round: what approaches is hit. False when nothing is faster than the located speed.
+bool hit_once(std::span<const ImpactContact> touching, const HitSpeeds& speeds, bool is_last,
+              ImpactBody& body, ImpactScratch& scratch, ImpactResult& result) {
   double fastest = 0;
-  bool hits = false;
-  for (const ImpactContact& contact : touching) {
-    const double approach = approach_of(body, contact);
-    fastest = std::max(fastest, -approach);
-    hits |= approach < -contact.resting_speed;
-  }
-  if (!hits) return false;
+  for (const ImpactContact& contact : touching)
+    fastest = std::max(fastest, -approach_of(body, contact));
+  if (fastest <= speeds.located) return false;
+  result.is_fast |= fastest > speeds.resting;
   scratch.hit.clear();
   for (const ImpactContact& contact : touching)
     if (is_last || approach_of(body, contact) <= at_rest * fastest) scratch.hit.push_back(contact);
@@ -82,14 +79,14 @@ void reserve_impacts(size_t n_contacts, ImpactScratch& scratch) {
   (void)solve_impact({&body, 1}, {&contact, 1}, w);
 }
 
-ImpactResult apply_impact(const Scene& scene, int b, double touch, double resting_speed,
+ImpactResult apply_impact(const Scene& scene, int b, double touch, const HitSpeeds& speeds,
                           Motion& motion, Work& work) {
   (void)find_contacts(scene.ground, scene.blocks.shapes, b, motion.pose, Mat3::Identity(), touch,
                       work.world_vertices, work.contacts);
-  return apply_impact(scene, b, resting_speed, motion, work);
+  return apply_impact(scene, b, speeds, motion, work);
 }
 
-ImpactResult apply_impact(const Scene& scene, int b, double resting_speed, Motion& motion,
+ImpactResult apply_impact(const Scene& scene, int b, const HitSpeeds& speeds, Motion& motion,
                           Work& work) {
   const auto i = static_cast<size_t>(b);
   ImpactResult result;
@@ -98,9 +95,9 @@ ImpactResult apply_impact(const Scene& scene, int b, double resting_speed, Motio
   ImpactScratch& scratch = work.impact;
   scratch.touching.clear();
   for (const Contact& found : work.contacts)
-    scratch.touching.push_back(contact_of(scene, found, R, resting_speed));
+    scratch.touching.push_back(contact_of(scene, found, R, speeds.resting));
   for (int round = 1; round <= most_rounds; ++round)
-    if (!hit_once(scratch.touching, round == most_rounds, body, scratch, result)) break;
+    if (!hit_once(scratch.touching, speeds, round == most_rounds, body, scratch, result)) break;
   if (!result.hit) return result;
   motion.velocity = R * body.velocity.head<3>();
   motion.angular_momentum =

@@ -13,20 +13,28 @@
 
 namespace talus {
 
+/// Approaches that matter [m/s].
+struct HitSpeeds {
+  double resting = 0;  ///< slower ones do not rebound
+  double located = 0;  ///< slower ones are no hits
+};
+
 struct ImpactResult {
-  bool hit = false;  ///< some contact approached faster than the resting speed
+  bool hit = false;      ///< some contact approached faster than the located speed
+  bool is_fast = false;  ///< one of them than the resting speed
   bool converged = true;
   int passes = 0;
   double dissipated = 0;  ///< kinetic energy lost, >= 0 [J]
 };
 
 /// Applies the impact law to `motion` of block b at its pose; contacts closer than `touch` take
-/// part. Those that approach slower than `resting_speed` get no restitution, and no further hit.
-ImpactResult apply_impact(const Scene& scene, int b, double touch, double resting_speed,
+/// part, and those of the located speed or less alone make no impact. Those that approach slower
+/// than the resting speed get no restitution.
+ImpactResult apply_impact(const Scene& scene, int b, double touch, const HitSpeeds& speeds,
                           Motion& motion, Work& work);
 
 /// The same for the contacts that stand in `work.contacts`.
-ImpactResult apply_impact(const Scene& scene, int b, double resting_speed, Motion& motion,
+ImpactResult apply_impact(const Scene& scene, int b, const HitSpeeds& speeds, Motion& motion,
                           Work& work);
 
 /// Room for impacts of one block with up to so many contacts: they allocate nothing then.

@@ -33,7 +33,27 @@ Vec3 sampled_impulse(const AccelerationRecord& base, double from, double to) {
   return sum;
 }
 
+// Linear between samples, zero outside them.
+Vec3 base_acceleration(const AccelerationRecord& base, double t) {
+  const auto next = std::upper_bound(base.time.begin(), base.time.end(), t);
+  if (next == base.time.begin() || next == base.time.end()) return Vec3::Zero();
+  const auto k = static_cast<size_t>(next - base.time.begin());
+  const double share = (t - base.time[k - 1]) / (base.time[k] - base.time[k - 1]);
+  return base.acceleration[k - 1] + share * (base.acceleration[k] - base.acceleration[k - 1]);
+}
+
 }  // namespace
+
+double range_of_base(const AccelerationRecord& base, double from, double to) {
+  Vec3 low = base_acceleration(base, from), high = low;
+  const auto take = [&](const Vec3& a) { low = low.cwiseMin(a), high = high.cwiseMax(a); };
+  take(base_acceleration(base, to));
+  for (auto k = static_cast<size_t>(std::upper_bound(base.time.begin(), base.time.end(), from) -
+                                    base.time.begin());
+       k < base.time.size() && base.time[k] < to; ++k)
+    take(base.acceleration[k]);
+  return (high - low).norm();
+}
 
 Vec3 free_acceleration(const Scene& scene, int b, double t_start, double t_end) {
   Vec3 a = scene.gravity;

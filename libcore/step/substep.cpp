@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
+#include "contact/entrance.hpp"
 #include "motion/displacement.hpp"
 #include "motion/rotation.hpp"
 #include "solver/law_numbers.hpp"
@@ -62,15 +64,18 @@ double stiffness_to_bear(const ContactRow& row, double sag) {
   return last >= needed && last <= law::too_much * needed ? last : law::ample * needed;
 }
 
-// From `least` for what bears little up to `stiffest`; beyond, where even that lets the overlap
-// grow far.
-double stiffness_by_load(const BlockNumbers& c, double least, double stiffest,
+// What the load asks for, from `least` for what bears little up to `most`; reached step by step
+// beyond `ready`, left step by step by what slips or opens, and at once where the forces were hard
+// to find.
+double stiffness_by_load(const BlockNumbers& c, double least, double ready, double most,
                          const ContactRow& row) {
-  const double k = std::clamp(stiffness_to_bear(row, c.sag), std::min(least, stiffest), stiffest);
-  const double far = std::max(law::most_sag_of_thickness * c.thickness, law::far_sag * c.sag);
-  const bool is_beyond =
-      row.last_force > far * stiffest || row.last_stiffness > same_law * stiffest;
-  return is_beyond ? std::max(k, stiffness_to_bear(row, far)) : k;
+  const double last = row.last_stiffness;
+  double k = std::min(stiffness_to_bear(row, c.sag), std::max(law::stiffens * last, ready));
+  if (last > 0 && row.rests > 0)
+    k = std::min(k, row.rests == law::most_rests ? last / law::relief : last);
+  const bool moves = row.slip_speed > c.slow || row.speed_start > c.slow;
+  if (moves) k = std::min(k, last / law::softens);
+  return std::clamp(k, least, std::max(least, most));
 }
 
 // How fast the contact would close without contact forces: at the start of the substep, or on the
@@ -79,6 +84,71 @@ double approach(const ContactRow& row, const Substep& s) {
   double mean = row.normal.dot(row.free_move) / s.h;
   if (s.is_straining) mean += row.normal.dot(s.straining * row.arm);
   return std::min(row.speed_start, mean);
+}
+
+/// Where a contact of a face or an edge was when the substep began: the block slides over a node or
+/// a ridge that stays, so it is another point of the block there.
+struct FeatureStart {
+  Vec3 point = Vec3::Zero();   // of the block, body axes [m]
+  Vec3 normal = Vec3::Zero();  // from the ground to the block, body axes
+  double gap = 0;              // [m]
+};
+
+FeatureStart face_start(const Vec3& node, const Contact& contact, const Vec3& normal) {
+  const double gap = normal.dot(contact.point_a - node);
+  return {node + gap * normal, normal, gap};
+}
+
+// None where the edges were nearly parallel, or did not cross between the ends of the block's.
+std::optional<FeatureStart> edge_start(const Scene& scene, const Substep& s, const Contact& contact,
+                                       const Vec3& normal_end) {
+  const Trn& trn = scene.ground.trn;
+  const int node = contact.key.feature_b / 4;
+  const TrnEdge ridge = trn_edge(trn, node / trn.n_cols, node % trn.n_cols,
+                                 static_cast<EdgeKind>(contact.key.feature_b % 4));
+  const Vec3 from = node_point(trn, ridge.a.row, ridge.a.col);
+  const Vec3 f = s.R_start.transpose() * (node_point(trn, ridge.b.row, ridge.b.col) - from),
+             Q = s.R_start.transpose() * (from - s.start.pose.position);
+  const Shapes& shapes = scene.blocks.shapes;
+  const ShapeEdge& edge =
+      edges_of(shapes, contact.block_a)[static_cast<size_t>(contact.key.feature_a)];
+  const std::span<const Vec3> vertices = vertices_of(shapes, contact.block_a);
+  const Vec3 &P = vertices[static_cast<size_t>(edge.a)],
+             e = vertices[static_cast<size_t>(edge.b)] - P;
+  const LinePair at = nearest_on_lines(P, e, Q, f);
+  if (at.parallel || at.s < 0 || at.s > 1) return std::nullopt;
+  Vec3 normal = e.cross(f).normalized();
+  if (normal.dot(normal_end) < 0) normal = -normal;
+  const Vec3 point = P + at.s * e;
+  return FeatureStart{point, normal, normal.dot(point - (Q + at.t * f))};
+}
+
+// A contact of a face or an edge that goes on acts, over the substep, half-way between where it was
+// on the block and where it will be, and its gap is that between the features at either time. With
+// the point of its end alone, a face that slides over a node at speed v would be borne v h / 2 away
+// from where it is.
+void follow_features(const Scene& scene, const Substep& s, const Contact& contact,
+                     const Mat3& to_body, ContactRow& row) {
+  const Mat3 from_start = to_body * s.R_start;
+  const Vec3 normal_end = s.R_start.transpose() * contact.normal;
+  std::optional<FeatureStart> start;
+  if (contact.key.mode == ContactMode::face_vertex)
+    start = face_start(s.R_start.transpose() * (contact.point_b - s.start.pose.position), contact,
+                       row.normal);
+  else
+    start = edge_start(scene, s, contact, normal_end);
+  if (!start) return;
+  const Vec3 lever = from_start * start->point, normal = from_start * start->normal;
+  const Vec3 velocity = to_body * s.start.velocity + (from_start * s.spin_start).cross(lever);
+  row.arm = (contact.point_a + lever) / 2;
+  const Vec3 normal_free = row.normal;
+  row.normal = (normal_free + normal).normalized();
+  const Vec3 velocity_free = to_body * s.free.velocity + s.spin_free.cross(contact.point_a);
+  row.tilt_speed = (normal_free - row.normal).dot(velocity_free);
+  row.drift = s.spin_free.cross(contact.point_a - row.arm) + row.tilt_speed * row.normal;
+  row.gap_start = start->gap;
+  row.speed_start = normal.dot(velocity);
+  row.free_move += (contact.gap - start->gap - row.normal.dot(row.free_move)) * row.normal;
 }
 
 // Gap of a vertex to the ground below it when the substep begins. A vertex may stand behind the
@@ -106,6 +176,7 @@ BlockNumbers numbers_of(const Scene& scene, int b) {
           stiffest_lone * scene.blocks.mass[i] / (dt * dt),
           recovery_steps * dt,
           touch_ratio * radius,
+          resting_speed(scene.settings, g),
           resting_speed(scene.settings, g),
           g,
           scene.blocks.inertia[i],
@@ -145,6 +216,9 @@ void forget_last_step(ContactRow& row) {
   row.cohesion = row.tension = 0;
   row.normal_limit = no_normal_limit;
   row.memory = -1;
+  row.stuck = false;
+  row.tilt_speed = 0;
+  row.rests = 0;
   row.cap = 0;
   row.impulse.setZero();
   row.state = ContactState::open;
@@ -181,8 +255,10 @@ Mat3 stretch_of(const State& state, int b) {
 void inherit(const ContactMemory& memory, int index, bool same_features, const Mat3& to_row,
              const BlockNumbers& c, ContactRow& row) {
   row.memory = index;
+  row.stuck = memory.state == static_cast<std::uint8_t>(ContactState::stick);
   row.last_stiffness = memory.stiffness;
   row.last_force = memory.normal_force;
+  row.rests = memory.rests;
   row.bond_area = memory.bond_area;
   row.offset = std::min(memory.offset, std::max(0.0, -row.gap_start));
   const double jump = memory.gap_end - (row.gap_start + row.offset);
@@ -209,6 +285,7 @@ void take_on_load(std::span<const ContactMemory> memory, int body_b, ContactRow&
     deepest = -c.gap_end;
     row.last_stiffness = c.stiffness;
     row.last_force = c.normal_force;
+    row.rests = c.rests;
   }
   row.offset = std::max(0.0, -row.gap_start - deepest);
 }
@@ -221,7 +298,9 @@ void set_law(const Scene& scene, const BlockNumbers& c, double h, const Mobility
   double k_n = stiffest;
   const bool was_hit = row.memory >= 0 && row.last_stiffness == 0;  // nobody knows what it bears
   if (c.sag > 0 && row.bond_area == 0 && !was_hit) {
-    k_n = stiffness_by_load(c, c.least_stiffness * c.per_mass / W.normal, stiffest, row);
+    const double per_mobility = c.per_mass / W.normal;
+    k_n = stiffness_by_load(c, std::min(c.least_stiffness * per_mobility, stiffest), stiffest,
+                            c.most_stiffness * per_mobility, row);
     if (asked > 0) k_n = std::min(k_n, asked);
   }
   const double k_s =
@@ -235,7 +314,7 @@ void set_law(const Scene& scene, const BlockNumbers& c, double h, const Mobility
   const double per_recovery = 1 / c.recovery_time;
   row.shear_velocity = per_recovery * row.shear;
   row.bias = x < 0 ? x * per_recovery : x / h;
-  row.waits = row.memory < 0 && row.gap_start > c.touch && approach < -c.resting_speed;
+  row.waits = row.memory < 0 && row.gap_start > c.touch && approach < -c.located_speed;
 }
 
 void set_ground_law(const Scene& scene, const BlockNumbers& c, const Substep& s, ContactRow& row) {
@@ -244,6 +323,31 @@ void set_ground_law(const Scene& scene, const BlockNumbers& c, const Substep& s,
 }
 
 namespace {
+
+// Class of the ground below a point; `otherwise` off the grid.
+int class_below(const Ground& ground, const Vec3& x, int otherwise) {
+  if (!contains(ground.trn, x.x(), x.y())) return otherwise;
+  return class_of(ground, triangle_at(ground.trn, x.x(), x.y()));
+}
+
+// Friction of a vertex that ends on another class of ground than it starts on: the mean over its
+// path, so that where the class changes within the substep is not rounded to its end.
+double friction_on_path(const Scene& scene, const Substep& s, const Contact& contact) {
+  constexpr int halvings = 20;
+  const std::vector<GroundClass>& classes = scene.ground.classes;
+  const int last = contact.ground_class;
+  const Vec3 from = place(s.start.pose, contact.point_a), to = place(s.free.pose, contact.point_a);
+  const int first = class_below(scene.ground, from, last);
+  const double at_end = classes[static_cast<size_t>(last)].friction;
+  if (first == last) return at_end;
+  double low = 0, high = 1;  // shares of the path: still on the first class, no longer on it
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = (low + high) / 2;
+    const bool is_first = class_below(scene.ground, from + middle * (to - from), last) == first;
+    (is_first ? low : high) = middle;
+  }
+  return high * classes[static_cast<size_t>(first)].friction + (1 - high) * at_end;
+}
 
 // Where the contacts are and how their points move without contact forces.
 void set_motions(const Scene& scene, int b, const Substep& s, const Mat3& to_body,
@@ -264,17 +368,21 @@ void set_motions(const Scene& scene, int b, const Substep& s, const Mat3& to_bod
     set_start(velocity_start + spin_start.cross(lever_start), row);
     // not part of the slip: where a block all but sticks it would turn its direction round
     if (s.is_straining) row.speed_start += row.normal.dot(s.straining * X);
+    if (!scene.ground.cell_class.empty() && contact.key.mode == ContactMode::vertex_face)
+      row.friction = friction_on_path(scene, s, contact);
   }
 }
 
 // What the rows take over from the step before.
-void inherit_all(const BlockNumbers& c, const Substep& s, const Mat3& to_body,
+void inherit_all(const Scene& scene, const BlockNumbers& c, const Substep& s, const Mat3& to_body,
                  std::span<const ContactMemory> memory, std::span<const Contact> contacts,
                  std::span<ContactRow> rows) {
   for (size_t m = 0; m < memory.size(); ++m) {
     const int i = row_of(memory[m], contacts);
     if (i < 0) continue;
     ContactRow& row = rows[i];
+    if (row.key.mode != ContactMode::vertex_face)
+      follow_features(scene, s, contacts[i], to_body, row);
     // a plane that the contact only now runs into is met by an impact, not inherited
     const double speed = approach(row, s);
     if (speed < -c.resting_speed &&
@@ -292,7 +400,7 @@ void make_rows(const Scene& scene, int b, const BlockNumbers& c, const Substep& 
                std::span<ContactRow> rows) {
   const Mat3 to_body = s.R.transpose();
   set_motions(scene, b, s, to_body, contacts, rows);
-  inherit_all(c, s, to_body, memory, contacts, rows);
+  inherit_all(scene, c, s, to_body, memory, contacts, rows);
   for (size_t i = 0; i < rows.size(); ++i) {
     ContactRow& row = rows[i];
     if (row.memory < 0) {

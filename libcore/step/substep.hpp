@@ -46,6 +46,7 @@ inline void set_start(const Vec3& velocity, ContactRow& row) {
   row.speed_start = row.normal.dot(velocity);
   const Vec3 slip = velocity - row.speed_start * row.normal;
   const double slip_speed = slip.norm();
+  row.slip_speed = slip_speed;
   row.slip_start = slip_speed > 0 ? Vec3((1 / slip_speed) * slip) : Vec3(Vec3::Zero());
 }
 

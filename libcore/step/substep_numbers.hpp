@@ -15,13 +15,17 @@ struct BlockNumbers {
   double recovery_time = 0;         ///< overlap is pressed out over this time [s]
   double touch = 0;                 ///< a contact is touching when its gap is below this [m]
   double resting_speed = 0;         ///< below this approach there is no impact [m/s]
+  double located_speed = 0;         ///< above this, at most resting_speed, it ends a substep [m/s]
   double gravity = 0;               ///< [m/s2]
   Vec3 inertia = Vec3::Zero();      ///< principal moments [kg m2]
   double per_mass = 0;              ///< [1/kg]
   Vec3 per_inertia = Vec3::Zero();  ///< [1/(kg m2)]
-  /// Where contacts are as stiff as they have to bear: k_n of one that bears little [N/m], and the
-  /// overlap under its load at which one becomes stiffer, up to `stiffness` [m]; 0: all have that.
-  double least_stiffness = 0, sag = 0;
+  /// Where contacts are as stiff as their load asks, with those above for the whole mass: k_n of
+  /// one that bears little and of one that nothing makes stiffer [N/m]; the overlap under its load,
+  /// 0: all have `stiffness` [m]; the speed of slip or of opening from which it does not rest
+  /// [m/s].
+  double least_stiffness = 0, most_stiffness = 0, sag = 0, slow = 0;
+  bool rests = false;  ///< island: slower than that when the substep begins, or factored
 };
 
 /// A substep of `h`: where the block would be without contact.

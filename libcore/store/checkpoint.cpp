@@ -84,7 +84,7 @@ template <class Archive>
 void fields(Fields<Archive>& archive, ContactMemory& memory) {
   archive(memory.key.mode, memory.key.body_b, memory.key.feature_a, memory.key.feature_b,
           memory.normal, memory.shear, memory.slip_direction, memory.offset, memory.gap_end,
-          memory.normal_force, memory.stiffness, memory.bond_area, memory.state);
+          memory.normal_force, memory.stiffness, memory.bond_area, memory.state, memory.rests);
 }
 template <class Archive>
 void fields(Fields<Archive>& archive, Mat3& value) {

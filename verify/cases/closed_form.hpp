@@ -4,6 +4,8 @@
 // theory 4; g = 10 m/s2 throughout
 #pragma once
 
+#include <array>
+
 #include "scene/scene.hpp"
 #include "step/report.hpp"
 
@@ -96,6 +98,50 @@ CaseResult own_weight(const Settings& settings);
 /// Cube of 1.7 m, turned by 0.3 rad, at 20 m/s over 80 m of a frictionless plane with 1 m cells and
 /// the given dip: largest distance to the closed form [m].
 CaseResult ghost_collisions(const Settings& settings, double dip_deg);
+
+/// Slab of 2 x 2 x 0.3 m that falls flat from 1 m on 20 degrees, friction 25 degrees: relative
+/// error of the way down the dip after all of its bounces, 5 s.
+CaseResult bouncing_slab(const Settings& settings, double restitution);
+
+/// A prism of radius 1 m that turns about its lower edge at first.
+struct Rolling {
+  int n_sides = 0;
+  double dip_deg = 0;
+  double spin = 0;  ///< at the start [rad/s]
+  double begin =
+      -1;  ///< its centroid from the normal at that edge, as a share of half a side's angle
+};
+/// Of 3 to 128 sides. Two come to rest, one after a side, one after rocking; the others go on
+/// rolling. None flies.
+inline constexpr std::array<Rolling, 10> rolling_prisms = {{{3, 0, 0, 0.6},
+                                                            {4, 0, 2.6},
+                                                            {5, 15, 1.2},
+                                                            {6, 10, 1.3},
+                                                            {8, 10, 1.5},
+                                                            {12, 8, 1.5},
+                                                            {16, 6, 1.2},
+                                                            {32, 5, 1},
+                                                            {64, 5, 0},
+                                                            {128, 4, 0}}};
+/// Friction 85 degrees: largest error of the way in `duration_s`, as a part of all of it, side by
+/// side (pivot, plastic hit, next pivot).
+CaseResult prism_rolls(const Settings& settings, const Rolling& rolling, double duration_s);
+
+/// Top of twelve sides on its tip, which sticks, let go at 20 degrees with `spin` about its axis:
+/// how far the axis is from Lagrange's after 3 s [deg].
+CaseResult spinning_top(const Settings& settings, double spin);
+
+/// Slab on ground that drops away at twice gravity for 0.3 s and stops: largest error of its height
+/// above the ground, as a part of the largest height.
+CaseResult lifted_slab(const Settings& settings);
+
+/// Slab of 4 x 0.4 m that slides over the edge of a cliff at 3 m/s, no friction: it tips about the
+/// edge while it slides on. Error of the place of its centroid after 1.5 s [m].
+CaseResult slab_over_edge(const Settings& settings);
+
+/// Slab sliding down 30 degrees from ground of friction 10 degrees onto ground of 22: relative
+/// error of the way, 1.6 s.
+CaseResult border_slide(const Settings& settings);
 
 /// Elastic cube of modulus `young` that falls on its face at 4 m/s and loses nothing else (COR 1;
 /// of law paper that of the springs alone, which has to resolve the hit): speed after over speed

@@ -56,6 +56,16 @@ struct SubstepAcceptance {
     return std::clamp(std::max(by_load, by_depth), 0.0, 1.0);
   }
 
+  // How long contacts are to stiffen no more: those of blocks in motion whose forces were hard to
+  // find. A pile that stands would begin to lean.
+  [[nodiscard]] std::uint8_t rests_of(const KeptContact& contact) const {
+    const auto moves = [&](int b) {
+      return b >= 0 && free.substeps[members.at(b)].start.velocity.norm() > members.of(b).slow;
+    };
+    const bool eases = system.is_hard && (moves(contact.a) || moves(contact.b));
+    return static_cast<std::uint8_t>(eases ? law::most_rests : std::max(0, contact.rests - 1));
+  }
+
   // What contact `r`, which pressed and ends with an overlap of `overlap`, keeps for the next step.
   // Hits keep nothing, but where blocks are found deep in each other or in the ground: edges that
   // slide on each other while they turn are hit in every step, and so are splinters that large
@@ -89,6 +99,7 @@ struct SubstepAcceptance {
     const double per_time = members.of(contact.a).recovery_time * h;
     if (contact.bond < 0 && contact.bond_area == 0)
       memory.stiffness = lane.normal_damping() / per_time;
+    memory.rests = rests_of(contact);
     memory.state = static_cast<std::uint8_t>(stays);
     memory.bond_area = contact.bond >= 0 ? 0 : contact.bond_area;  // of the ground
     const double k_t = lane.shear_damping() / per_time;

@@ -28,8 +28,8 @@ void set_motion(const Vec3& normal, double gap, const Vec3& arm, const Vec3& dri
   row.gap_start = gap;
   row.speed_start = normal.dot(slip);
   const Vec3 tangent = slip - row.speed_start * normal;
-  const double slip_speed = tangent.norm();
-  row.slip_start = slip_speed > 0 ? Vec3(tangent / slip_speed) : Vec3(Vec3::Zero());
+  row.slip_speed = tangent.norm();
+  row.slip_start = row.slip_speed > 0 ? Vec3(tangent / row.slip_speed) : Vec3(Vec3::Zero());
 }
 
 // Whether block b is wholly below the ground under its centroid.
@@ -127,7 +127,7 @@ struct ContactMaker {
     system.first_contact.clear();
     system.ground_pair.clear();
     system.waiting.clear();
-    system.has_bonds = system.fell_through = false;
+    system.has_bonds = system.fell_through = system.is_hard = false;
     system.outsider = -1;
     making.touched_by = -1;
   }
@@ -271,8 +271,16 @@ struct ContactMaker {
     meeting.numbers.radius = std::min(ca.radius, cb.radius);
     meeting.numbers.thickness = std::min(ca.thickness, cb.thickness);
     meeting.numbers.touch = pair_touch_ratio * meeting.numbers.radius;
-    meeting.numbers.stiffness =
-        std::max(ca.stiffness, cb.stiffness) * (ca.mass / std::min(ca.mass, cb.mass));
+    const double to_lighter = ca.mass / std::min(ca.mass, cb.mass);
+    const bool rest = ca.rests && cb.rests;
+    const auto stiffness = [&](const BlockNumbers& c) {
+      return c.rests && !rest ? c.stiffness * (law::stiffest_in_island / law::stiffest_at_rest)
+                              : c.stiffness;
+    };
+    meeting.numbers.stiffness = std::max(stiffness(ca), stiffness(cb)) * to_lighter;
+    meeting.numbers.least_stiffness =
+        ca.mass * std::min(ca.least_stiffness / ca.mass, cb.least_stiffness / cb.mass);
+    meeting.numbers.sag = std::min(ca.sag, cb.sag);
     if (meeting.bond >= 0) meeting.numbers.sag = 0;
     return meeting;
   }
@@ -360,6 +368,7 @@ struct ContactMaker {
 
     const double approach = approach_of(row, s.h);
     const Yielding* yielding = giving_way(scene, fixed, n);
+    if (yielding != nullptr) c.sag = 0;  // its force is what that gives way at
     // what gives way is pressed for many steps
     if (!inherit_from(m, point, memory, yielding != nullptr ? 0 : approach, c, row))
       row.offset = std::max(0.0, -row.gap_start);

@@ -103,6 +103,7 @@ struct IslandSystem {  // clang-format off
   std::vector<LeftOutPoint> left_out;       ///< points of the pairs that are no contacts
   std::vector<double> gap_end;              ///< without contact forces [m]              (n_points)
   bool has_bonds = false;                   ///< a contact is part of a bond
+  bool is_hard = false;                     ///< 7: its forces took many passes
   bool fell_through = false;                ///< a member is wholly below the ground
   int outsider = -1;                        ///< block off the known ground, -1: none
 };  // clang-format on
@@ -242,6 +243,7 @@ struct SubstepTries {
   bool takes_all = false;   ///< contacts that may be left out are not
   std::vector<int> broken;  ///< bonds that it breaks: see bond_number()
   // of the step
+  int eased = 0;      ///< contacts are softer, because it did not converge
   int deep_cuts = 0;  ///< because a block would end deep in something
 };
 

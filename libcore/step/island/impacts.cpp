@@ -25,20 +25,54 @@ void solve(const Scene& scene, const IslandMembers& members, const FreeMotions& 
            Solution& solution) {
   IslandSettings settings;
   settings.continues = continues;
+  settings.down = scene.gravity;
   const double by_gravity = scene.gravity.norm() * free.h;
   settings.tolerance = small_tolerance * by_gravity;
   settings.direct_bodies = members.is_small ? static_cast<int>(members.size()) : 0;
   if (!members.is_small) {
     settings.tolerance = std::clamp(motion_tolerance * fastest(free), rest_tolerance * by_gravity,
                                     island_tolerance * by_gravity);
-    settings.linear_tolerance = linear_tolerance;
+    // a pile at rest is solved to far below what gravity does: good directions spare it steps
+    settings.linear_tolerance = std::clamp(settings.tolerance / by_gravity,
+                                           law::linear_tolerance_at_rest, linear_tolerance);
   }
   settings.tolerance *= scene.settings.tolerance_factor;
   const IslandResult solved = solve_island(system.island, settings, solver);
   solution.passes += solved.passes;
+  system.is_hard |= !continues && free.t > 0 && solved.passes > law::hard_passes;
   solution.converged = solved.converged;
   for (const int k : solver.touched_bodies.items) hits.moved.add(k);
 }
+
+namespace {
+
+// Makes contacts at rest as stiff as the impulses found ask for: whether one was not yet.
+bool stiffen_to_load(const IslandMembers& members, double h, IslandSystem& system) {
+  bool any = false;
+  for (size_t r = 0; r < system.contacts.size(); ++r) {
+    const KeptContact& contact = system.contacts[r];
+    const RowIn<RowGroup> lane = lane_of(system, r);
+    if (contact.hit >= 0 || contact.waits || contact.bond_area != 0 || gives_way(system, r))
+      continue;
+    const BlockNumbers& a = members.of(contact.a);
+    double sag = a.sag, most = a.most_stiffness;
+    if (contact.b >= 0) {
+      const BlockNumbers& b = members.of(contact.b);
+      sag = std::min(sag, b.sag), most = std::min(most, b.most_stiffness);
+    }
+    const double per_stiffness = h * a.recovery_time, damping = lane.normal_damping();
+    const double needed = lane.normal_impulse() / h / sag * per_stiffness;
+    const double next = std::min(law::ample_at_start * needed, most * per_stiffness);
+    if (!(sag > 0) || needed <= damping || next <= damping) continue;
+    lane.set(&RowGroup::normal_damping, next);
+    lane.set(&RowGroup::shear_damping, next / damping * lane.shear_damping());
+    note_change(system, r);
+    any = true;
+  }
+  return any;
+}
+
+}  // namespace
 
 void solve_with_hits(const Scene& scene, const State& state, const PairSearch& search,
                      const IslandMembers& members, std::vector<NearFeatures>& near_ground,

@@ -1,5 +1,6 @@
 // Stages 1 and 3 of an island's step: who belongs to it, and how stiff their contacts are.
 #include <algorithm>
+#include <cmath>
 
 #include "solver/law_numbers.hpp"
 #include "step/island/stages.hpp"
@@ -10,8 +11,8 @@ namespace {
 
 using std::size_t;
 
-using law::bears_little, law::most_sag, law::small_island, law::small_tree, law::stiffest_in_island,
-    law::stiffest_in_small_island;
+using law::bears_little, law::most_sag, law::most_sag_in_small_island, law::slow, law::small_island,
+    law::small_tree, law::stiffest_by_load, law::stiffest_in_island, law::stiffest_at_rest;
 
 }  // namespace
 
@@ -40,13 +41,15 @@ void see_size(const Scene& scene, const PairSearch& search, std::span<const int>
   members.is_small = n <= small_island || (n <= small_tree && static_cast<size_t>(n_pairs) < n);
 }
 
-// A small block may bear a large one: its contacts are up to as stiff as the heaviest block that it
-// touches asks for, those of a large island only as far as they bear as much. Stiff ones that do
-// not press a small block with forces that are far beyond its weight as soon as they close, and
-// solving an island with many of them takes tens of factorisations. In the first step nobody knows
-// what they bear.
-void choose_stiffness(const Scene& scene, double time, const PairSearch& search,
-                      std::span<const int> manifolds, IslandMembers& members) {
+// What a contact gives must not grow with what lies above it, with the step, or with small blocks:
+// a tower of springs leans by the sum of what they give, and buckles. So a contact at rest is as
+// stiff as its load of the last step asks for an overlap of `sag`, whatever that takes. Contacts
+// that slip, open or bear little stay soft, those of blocks in motion softest: stiff ones that
+// close press a small block with forces far beyond its weight, and take many passes. A small block
+// may bear a large one: its contacts are as stiff as the heaviest block that it touches asks for
+// before they know what they bear.
+void choose_stiffness(const Scene& scene, const State& state, const PairSearch& search,
+                      std::span<const int> manifolds, int eased, IslandMembers& members) {
   members.bearing.clear();
   for (const BlockNumbers& c : members.numbers) members.bearing.push_back(c.mass);
   for (const int i : manifolds) {
@@ -56,14 +59,19 @@ void choose_stiffness(const Scene& scene, double time, const PairSearch& search,
     a = std::max(a, members.of(m.block_b).mass);
     b = std::max(b, members.of(m.block_a).mass);
   }
-  const double per_mass = (members.is_small ? stiffest_in_small_island : stiffest_in_island) /
-                          (scene.settings.dt * scene.settings.dt);
-  const bool follows_load = !members.is_small && time > 0;
+  const double g = scene.gravity.norm(), dt = scene.settings.dt;
+  const double sag = members.is_small ? most_sag_in_small_island : most_sag;
+  const double stiffest = stiffest_by_load / std::pow(law::easing, eased);
+  const bool is_first = members.is_small || state.time == 0;
   for (size_t k = 0; k < members.size(); ++k) {
     BlockNumbers& c = members.numbers[k];
+    c.slow = slow * g * dt;
+    c.rests = members.is_small || state.motion[members.block(k)].velocity.norm() <= c.slow;
+    const double per_mass = (c.rests ? stiffest_at_rest : stiffest_in_island) / (dt * dt);
     c.stiffness = per_mass * members.bearing[k];
-    c.least_stiffness = bears_little * per_mass * c.mass;
-    c.sag = follows_load ? most_sag * scene.gravity.norm() / per_mass : 0;
+    c.least_stiffness = is_first ? no_normal_limit : bears_little * per_mass * c.mass;
+    c.most_stiffness = stiffest / (dt * dt) * c.mass;
+    c.sag = sag * c.thickness;
   }
 }
 

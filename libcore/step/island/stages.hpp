@@ -44,9 +44,9 @@ void find_pairs(const Scene& scene, const IslandMembers& members, double h, Stat
 /// Fills IslandMembers::is_small, which holds for a step.
 void see_size(const Scene& scene, const PairSearch& search, std::span<const int> manifolds,
               IslandMembers& members);
-/// Fills the stiffness of the members' numbers.
-void choose_stiffness(const Scene& scene, double time, const PairSearch& search,
-                      std::span<const int> manifolds, IslandMembers& members);
+/// Fills the stiffness of the members' numbers; `eased`: SubstepTries.
+void choose_stiffness(const Scene& scene, const State& state, const PairSearch& search,
+                      std::span<const int> manifolds, int eased, IslandMembers& members);
 
 // --- 4 predict (step/island/predict.cpp)
 // ------------------------------------------------------------

@@ -49,7 +49,7 @@ void note_cut(SubstepCut reason, const SubstepEnd& end, SubstepTries& tries) {
     case SubstepCut::yielding_touched:
       break;
     case SubstepCut::unconverged:
-      ++tries.halvings;
+      ++(tries.eased < law::most_eased ? tries.eased : tries.halvings);
       break;
     case SubstepCut::contact_left_out:
       tries.takes_all = true;
@@ -88,6 +88,8 @@ void make_substep(const Scene& scene, double t, double h, State& state, Work& wo
     ++report.cuts[static_cast<size_t>(verdict.reason)];
     state.counters.cut_back += verdict.reason == SubstepCut::unconverged;
     note_cut(verdict.reason, w.end, w.tries);
+    if (verdict.reason == SubstepCut::unconverged)
+      choose_stiffness(scene, state, work.search, w.manifolds, w.tries.eased, w.members);
     h = verdict.h;
   }
 }
@@ -131,7 +133,7 @@ double prepare_substep(const Scene& scene, int k, double t, double ahead, State&
   }
   const StageTimer timer(w.clock, IslandStage::choose_stiffness);
   if (begins) see_size(scene, search, w.manifolds, w.members);
-  choose_stiffness(scene, state.time, search, w.manifolds, w.members);
+  choose_stiffness(scene, state, search, w.manifolds, w.tries.eased, w.members);
   return longest_substep(scene, state, search, w.members, w.manifolds, ahead);
 }
 
@@ -144,7 +146,7 @@ void advance_island(const Scene& scene, int k, double t_end, State& state, Work&
     const StageTimer timer(w.clock, IslandStage::gather_members);
     gather_members(scene, blocks_of(work.search.groups, k), w.members);
   }
-  w.tries.deep_cuts = 0;
+  w.tries.deep_cuts = w.tries.eased = 0;
   double t = state.time, ahead = t_end - t;
   while (t < t_end && !w.members.blocks.empty()) {
     const double longest = prepare_substep(scene, k, t, ahead, state, work);

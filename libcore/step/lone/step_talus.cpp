@@ -9,6 +9,7 @@
 #include "step/deep_blocks.hpp"
 #include "step/flight.hpp"
 #include "step/impact.hpp"
+#include "step/loads.hpp"
 #include "step/lone/lone_substep.hpp"
 
 namespace talus {
@@ -34,6 +35,10 @@ double first_hit(const BlockNumbers& c, const Substep& s, const Solved<Dof>& sol
   return first;
 }
 
+// An error in the speed of a contact that is not looked into: this part of the block's speed, and
+// of what gravity does in the substep.
+constexpr double of_speed = 2e-5, of_gravity = 1e-3;
+
 /// Outcome of one attempt at a substep.
 enum class Attempt { done, shorter, impact, flight, left };
 
@@ -48,6 +53,7 @@ struct Advance {
   Contact foreseen = {};      // the one that an attempt found about to hit
   bool is_foreseen = false;   // not yet tried
   bool may_fly = true;        // off for the rest of a step in which a flight met the ground
+  bool was_fast = false;      // the last hit was no slow one, which ends a substep and no more
   bool on_plane = false;      // it slides, and in the substep it cannot meet another plane
   bool breaks_bonds = false;  // of the substep under way; what is left is in work.unbonded
 
@@ -74,13 +80,15 @@ struct Advance {
   // contact that was foreseen is hit besides those that touch; without it nothing would be hit,
   // again and again.
   bool impact() {
-    ImpactResult hit = apply_impact(scene, b, 2 * c.touch, c.resting_speed, motion(), work);
+    const HitSpeeds speeds{c.resting_speed, c.located_speed};
+    ImpactResult hit = apply_impact(scene, b, 2 * c.touch, speeds, motion(), work);
     if (!hit.hit && is_foreseen) {
       work.contacts.push_back(foreseen);
-      hit = apply_impact(scene, b, c.resting_speed, motion(), work);
+      hit = apply_impact(scene, b, speeds, motion(), work);
     }
     is_foreseen = false;
     if (!hit.hit) return false;
+    was_fast = hit.is_fast;
     state.ledger.impact += hit.dissipated;
     ++report.n_impacts;
     report.passes += hit.passes;
@@ -88,6 +96,48 @@ struct Advance {
     forget_rates(scene, b, state);
     state.support[i()].setZero();
     return true;
+  }
+
+  // The contacts' forces. The turn that they add to the block is first taken to be that of the
+  // guess, and they are computed again where it makes their points move otherwise. Where that finds
+  // no forces, as in a jam, those stand that were found for the turn before, or for none.
+  template <int Dof>
+  NewtonResult solve(const Substep& s, BlockSystem<Dof>& system) {
+    const std::span<ContactRow> rows(work.rows);
+    const auto found_at = [&] { return solve_contacts(system, rows, scene.settings.max_passes); };
+    if constexpr (Dof != 6) {
+      return found_at();
+    } else {
+      constexpr int most_turns = 4;
+      const double slow = of_speed * top_speed() + of_gravity * c.gravity * s.h;
+      const BlockSystem<6> guess = system;
+      Solved<6> followed = solved_motion(c, s, system);
+      (void)follow_turn(c, s, followed, work.contacts, rows);
+      NewtonResult result = found_at();
+      if (!result.converged) {
+        followed = {};
+        (void)follow_turn(c, s, followed, work.contacts, rows);
+        system = guess;
+        const NewtonResult unturned = found_at();
+        result = {unturned.converged, result.passes + unturned.passes};
+      }
+      for (int i = 0; i < most_turns && result.converged; ++i) {
+        const Vec6 found = system.velocity;
+        const Solved<6> next = solved_motion(c, s, system);
+        if (follow_turn(c, s, next, work.contacts, rows) <= slow) break;
+        const NewtonResult again = found_at();
+        result.passes += again.passes;
+        if (again.converged) {
+          followed = next;
+          continue;
+        }
+        (void)follow_turn(c, s, followed, work.contacts, rows);
+        system.velocity = found;
+        const NewtonResult before = found_at();
+        return {before.converged, result.passes + before.passes};
+      }
+      return result;
+    }
   }
 
   // What a longer substep would have broken may hold over a shorter one.
@@ -112,6 +162,8 @@ struct Advance {
                       work.contacts, &work.near_ground[i()]);
     if (near.reach == Reach::off_ground) return Attempt::left;
     if (work.contacts.empty()) {
+      work.rows.clear();
+      if (!last && changes_bearing() && is_rough(t, h)) return shorten(h / 2, h);
       const bool lifts_off = !state.memory[i()].empty();
       if (lifts_off && free_fall_only() && begin_flight(t, 2 * h)) return Attempt::flight;
       report.n_flips += static_cast<int>(state.memory[i()].size());
@@ -124,15 +176,14 @@ struct Advance {
     make_rows(scene, b, c, s, breaks_bonds ? work.unbonded : state.memory[i()], work);
     for (const ContactRow& row : work.rows)
       if (row.memory < 0 && row.gap_start <= c.touch &&
-          row.gap_start > -law::deep_share * c.thickness && row.speed_start < -c.resting_speed) {
+          row.gap_start > -law::deep_share * c.thickness && row.speed_start < -c.located_speed) {
         foreseen = work.contacts[row.contact];
         is_foreseen = true;
         return Attempt::impact;
       }
     if (!last && goes_through_ridge(s)) return shorten(h / 2, h);
     BlockSystem<Dof> system = make_system<Dof>(scene, b, c, s, state);
-    const NewtonResult newton =
-        solve_contacts(system, std::span(work.rows), scene.settings.max_passes);
+    const NewtonResult newton = solve(s, system);
     report.passes += newton.passes;
     if (!newton.converged) {
       if (!last) {
@@ -142,6 +193,7 @@ struct Advance {
       note_unconverged(b, report);
       report.flags = report.flags | StepFlag::unconverged;
     }
+    if (!last && (changes_bearing() || bond_fails()) && is_rough(t, h)) return shorten(h / 2, h);
     if (break_bonds()) return Attempt::shorter;
     const Solved<Dof> solved = solved_motion(c, s, system);
     const double hit = first_hit(c, s, solved, work);
@@ -167,17 +219,59 @@ struct Advance {
                             work.contacts, law::deep_past_ridge * c.thickness) > 0;
   }
 
+  /// How the ground bears a block: by how many contacts, up to three, and whether one of them holds
+  /// it where it is.
+  struct Bearing {
+    int contacts = 0;
+    bool holds = false;
+    void add(ContactState contact) {
+      contacts = std::min(3, contacts + (contact != ContactState::open ? 1 : 0));
+      holds |= contact == ContactState::stick;
+    }
+    bool operator==(const Bearing&) const = default;
+  };
+
+  // Whether the ground bears the block otherwise at the end of the substep than at its start.
+  [[nodiscard]] bool changes_bearing() const {
+    Bearing start, end;
+    for (const ContactMemory& memory : state.memory[i()])
+      start.add(static_cast<ContactState>(memory.state));
+    for (const ContactRow& row : work.rows)
+      if (!row.waits) end.add(row.state);
+    return start != end;
+  }
+
+  // Whether the ground's motion may be too rough to take its mean over the substep where the block
+  // begins or ceases to move in it. What drives the block before that counts in the mean and does
+  // nothing: the speed errs by up to an eighth of how far the acceleration ranges, times h.
+  [[nodiscard]] bool is_rough(double t, double h) const {
+    constexpr double accuracy = 5e-3;  // of what gravity does in a step
+    if (scene.base.time.empty()) return false;
+    return h / 8 * range_of_base(scene.base, t, t + h) > accuracy * c.gravity * scene.settings.dt;
+  }
+
   // A bond that opened is gone; bonds that slip are gone when no other holds the block any more, so
   // that a face fails at the sum of its strengths. The substep is then computed again without them;
   // the state loses them when that is accepted, since rows without a bond leave none.
+  [[nodiscard]] bool bond_holds() const {
+    return std::any_of(work.rows.begin(), work.rows.end(), [](const ContactRow& row) {
+      return row.bond_area > 0 && row.state == ContactState::stick;
+    });
+  }
+  static bool fails(const ContactRow& row, bool holds) {
+    return row.bond_area > 0 &&
+           (row.state == ContactState::open || (row.state == ContactState::slip && !holds));
+  }
+  [[nodiscard]] bool bond_fails() const {
+    const bool holds = bond_holds();
+    return std::any_of(work.rows.begin(), work.rows.end(),
+                       [&](const ContactRow& row) { return fails(row, holds); });
+  }
   bool break_bonds() {
-    bool holds = false, broken = false;
-    for (const ContactRow& row : work.rows)
-      holds |= row.bond_area > 0 && row.state == ContactState::stick;
+    const bool holds = bond_holds();
+    bool broken = false;
     for (const ContactRow& row : work.rows) {
-      const bool fails =
-          row.state == ContactState::open || (row.state == ContactState::slip && !holds);
-      if (row.bond_area == 0 || !fails) continue;
+      if (!fails(row, holds)) continue;
       if (!breaks_bonds) work.unbonded = state.memory[i()];
       work.unbonded[row.memory].bond_area = 0;
       broken = breaks_bonds = true;
@@ -253,6 +347,15 @@ struct Advance {
   // No point of the block is faster [m/s].
   double top_speed() { return motion().velocity.norm() + spin_speed() * c.radius; }
 
+  // Approach of a contact that ends a substep. A slower one closes within it, which errs by up to
+  // that speed in what the block does next, and by that times the substep in where it is. A block
+  // that strains comes to rest by its strains, of which an impact knows nothing.
+  void locate_hits() {
+    constexpr double of_own = 5e-3, of_resting = 2e-2;
+    const double slow = std::max(of_own * top_speed(), of_resting * c.resting_speed);
+    c.located_speed = state.strain.empty() ? std::min(c.resting_speed, slow) : c.resting_speed;
+  }
+
   // Where gravity alone drives a block that slides, that and what bears it change its path by no
   // more than about half of this.
   double margin_on_plane(double h) const { return c.gravity * h * h + 1e-3 * c.radius; }
@@ -273,11 +376,14 @@ struct Advance {
   }
 
   // Near the ground a substep moves no point farther than half a cell and turns the block by at
-  // most half a radian; a needle that rolls at more than 100 radians a step is not followed any
-  // closer. A block that slides may go farther, up to `h`, where it meets no other plane or ground.
+  // most half a radian, one that the ground bears by half of that, since forces that turn with a
+  // block err by the square of its turn; a needle that rolls at more than 100 radians a step is not
+  // followed any closer. A block that slides may go farther, up to `h`, where it meets no other
+  // plane or ground.
   double longest_substep(double h) {
     const double spin = spin_speed() + 1e-300;
-    const double by_turn = std::max(0.5 / spin, scene.settings.dt / 200);
+    const double by_turn =
+        std::max((state.memory[i()].empty() ? 0.5 : 0.25) / spin, scene.settings.dt / 200);
     const double by_way = 0.5 * scene.ground.trn.cell_size / (top_speed() + 1e-300);
     on_plane = false;
     if (gravity_only() && !state.memory[i()].empty())
@@ -310,7 +416,8 @@ struct Advance {
         flew = true;
       }
       const double t = state.local_time[i()];
-      if ((flew || may_take_off(t, was_hit)) && may_fly && ++flights <= law::most_flights) {
+      if ((flew || may_take_off(t, was_hit && was_fast)) && may_fly &&
+          ++flights <= law::most_flights) {
         // without spin a flight ends where the block touches
         const bool touches = flew && motion().angular_momentum.isZero(0);
         const double at_once = c.touch / (top_speed() + c.gravity * scene.settings.dt + 1e-300);
@@ -321,6 +428,7 @@ struct Advance {
           continue;
         }
       }
+      locate_hits();
       double h = std::min(t_end - t, longest_substep(t_end - t));
       Attempt outcome = Attempt::shorter;
       breaks_bonds = false;

@@ -273,6 +273,51 @@ TEST(SolveIsland, WallOf400BlocksConverges) {
   EXPECT_LT(dense_error(island), 2e-9 * law.gravity * law.step);
 }
 
+// Elimination from the lowest body up adds nothing between bodies of a column: each linear solution
+// is exact after one iteration, whatever the stiffness.
+TEST(SolveIsland, AColumnIsEliminatedExactly) {
+  for (const double ratio : {1.0, 1e3, 1e6}) {
+    LawOfScene law;
+    law.stiffness_ratio = ratio;
+    Island island = talus::scenes::stack(100, law);
+    IslandWork work;
+    IslandSettings settings;
+    settings.direct_bodies = settings.direct_fallback = 0;
+    settings.tolerance = 1e-6 * law.gravity * law.step;
+    const IslandResult result = solve_island(island, settings, work);
+    EXPECT_TRUE(result.converged) << ratio << ' ' << result.residual;
+    EXPECT_LE(result.linear_iterations, result.passes) << ratio;
+  }
+}
+
+// Contacts that stick, slide and open at random: the impulses found with friction that is held and
+// renewed are those of the law.
+TEST(SolveIsland, PilesConvergeByHeldFriction) {
+  struct Try {
+    double ratio;
+    int passes;
+  };
+  talus::Random random(53, "held");
+  int renewals = 0;
+  for (const auto& [ratio, passes] : {Try{10, 200}, Try{100, 1000}})
+    for (const int direct_bodies : {0, 100}) {
+      LawOfScene law;
+      law.stiffness_ratio = ratio;
+      law.friction = 0.7;
+      Island island = talus::scenes::pile({3, 3, 4}, law, random);
+      IslandWork work;
+      IslandSettings settings;
+      settings.direct_bodies = direct_bodies;
+      settings.max_passes = passes;
+      settings.tolerance = 1e-6 * law.gravity * law.step;
+      const IslandResult result = solve_island(island, settings, work);
+      EXPECT_TRUE(result.converged) << ratio << ' ' << direct_bodies << ' ' << result.residual;
+      EXPECT_LT(dense_error(island), 2 * settings.tolerance) << ratio;
+      renewals += result.renewals;
+    }
+  EXPECT_GT(renewals, 0);
+}
+
 // A push at one end of 200 blocks in a row travels through all of them in one step when they are
 // hard.
 TEST(SolveIsland, PushTravelsThroughALongChain) {

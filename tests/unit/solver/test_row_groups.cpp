@@ -148,6 +148,88 @@ TEST(EvaluatePairs, HaveTheSameBitsFourRowsAtATime) {
   }
 }
 
+// E(w) of solver/held_law.hpp, written out for one contact.
+double held_energy(const talus::RowIn<const talus::RowGroup>& row, const Vec6& u) {
+  const Vec3 w = talus::point_velocity<6>(u, row.arm()), n = row.normal();
+  const double D = row.normal_damping(), D_t = row.shear_damping(), limit = row.normal_limit();
+  const double in = -(n.dot(w) + row.bias());
+  const double normal = in <= 0          ? 0
+                        : D * in < limit ? D / 2 * in * in
+                                         : limit * (in - limit / (2 * D));
+  const Vec3 x = w - n.dot(w) * n + row.vector(&talus::RowGroup::shear_velocity);
+  const double along = std::max(0.0, x.dot(row.vector(&talus::RowGroup::slip_start)));
+  const double share = row.value(&talus::RowGroup::held_share);
+  const double c = row.value(&talus::RowGroup::held_bound);
+  const double f = std::sqrt(x.squaredNorm() + share * along * along);
+  return normal + (D_t * f <= c ? D_t / 2 * f * f : c * f - c * c / (2 * D_t));
+}
+
+double held_energy(const talus::Island& island, const Vec6& u) {
+  double sum = 0;
+  for (const int r : row_numbers(island)) sum += held_energy(row_of(island, r), u);
+  return sum;
+}
+
+// Rows that hold the friction of one motion, evaluated at others: impulses are minus the gradient
+// of one convex function, tangents its second derivative.
+TEST(EvaluatePairs, HeldImpulsesAreThoseOfAConvexFunction) {
+  talus::Random random(14, "held");
+  int n_tangents = 0, n_shares = 0;
+  for (int round = 0; round < 400; ++round) {
+    std::vector<ContactRow> rows(1 + random.below(6));
+    for (ContactRow& row : rows) {
+      row = random_row(random);
+      row.tension = 0;
+    }
+    talus::Island island = island_of(rows);
+    impulse_at(random_velocity(random), Evaluation::coupled, island);
+    for (talus::RowGroup& group : island.rows) hold_friction(group);
+    for (const int r : row_numbers(island))
+      n_shares += row_of(island, r).value(&talus::RowGroup::held_share) > 0;
+    const Vec6 u = random_velocity(random), other = random_velocity(random);
+    const Vec6 f = impulse_at(u, Evaluation::held, island);
+    talus::Packed<6> packed;
+    talus::sum_tangents(island.rows, packed, nullptr);
+    const Mat6 W = talus::unpacked(packed);
+    EXPECT_GE(Eigen::SelfAdjointEigenSolver<Mat6>(W).eigenvalues().minCoeff(), -1e-13 * W.norm());
+    EXPECT_GE(held_energy(island, other), held_energy(island, u) - f.dot(other - u) - 1e-12);
+    const talus::Island at = island;
+    const double h = 1e-6;
+    for (int k = 0; k < 6; ++k) {
+      const Vec6 e = h * Vec6::Unit(k);
+      EXPECT_NEAR((held_energy(at, u - e) - held_energy(at, u + e)) / (2 * h), f[k],
+                  1e-8 * (1 + f.norm()));
+      talus::Island up = at, down = at;
+      const Vec6 change =
+          impulse_at(u + e, Evaluation::held, up) - impulse_at(u - e, Evaluation::held, down);
+      bool smooth = true;
+      for (const int r : row_numbers(at))
+        smooth &= row_of(std::as_const(up), r).state() == row_of(std::as_const(down), r).state() &&
+                  row_of(up, r).value(&talus::RowGroup::normal_tangent) ==
+                      row_of(down, r).value(&talus::RowGroup::normal_tangent);
+      if (!smooth) continue;
+      ++n_tangents;
+      EXPECT_LT((W.col(k) + change / (2 * h)).norm(), 1e-5 * (1 + W.norm()));
+    }
+  }
+  EXPECT_GT(n_tangents, 2000);
+  EXPECT_GT(n_shares, 200);
+}
+
+// Held friction is that of the law where it was held, at the motion that it is held for.
+TEST(EvaluatePairs, HeldImpulsesAreThoseOfTheLawWhereTheyWereHeld) {
+  talus::Random random(15, "held at");
+  for (int round = 0; round < 400; ++round) {
+    std::vector<ContactRow> rows(1 + random.below(6));
+    for (ContactRow& row : rows) row = random_row(random);
+    talus::Island island = island_of(rows);
+    const Vec6 u = random_velocity(random);
+    const Vec6 f = impulse_at(u, Evaluation::coupled, island);
+    for (talus::RowGroup& group : island.rows) hold_friction(group);
+    EXPECT_LT((impulse_at(u, Evaluation::held, island) - f).norm(), 1e-12 * (1 + f.norm()));
+  }
+}
+
 // The exact tangent is minus the derivative of the summed impulse (central differences); the
 // symmetric one is positive semidefinite and equals it as far as nothing slips.
 TEST(SumTangents, IsTheDerivativeOfTheImpulse) {

@@ -22,7 +22,7 @@ Scene cube_on_ground(double friction_deg, double restitution) {
 
 ImpactResult hit(const Scene& scene, double resting_speed, Motion& motion) {
   Work work = make_work(scene);
-  return apply_impact(scene, 0, 1e-6, resting_speed, motion, work);
+  return apply_impact(scene, 0, 1e-6, {resting_speed, resting_speed}, motion, work);
 }
 
 TEST(Impact, AFaceReboundsByTheRestitution) {
@@ -94,7 +94,7 @@ TEST(Impact, AReboundThatWouldGainEnergyIsLoweredNoFurtherThanItMust) {
     motion.velocity = velocity;
     const Energies before = energies(scene, start(scene));
     const double energy = before.translation + before.rotation;
-    const ImpactResult hit = apply_impact(scene, 0, 1e-4, 0.01, motion, work);
+    const ImpactResult hit = apply_impact(scene, 0, 1e-4, {0.01, 0.01}, motion, work);
     ASSERT_TRUE(hit.hit) << i;
     const Vec3 after =
         motion.velocity +

@@ -77,7 +77,7 @@ struct FirstSubstep {
     gather_members(scene, blocks_of(work.search.groups, 0), w.members);
     take_pairs(scene, state, work.search, 0, w.members, w.manifolds);
     see_size(scene, work.search, w.manifolds, w.members);
-    choose_stiffness(scene, state.time, work.search, w.manifolds, w.members);
+    choose_stiffness(scene, state, work.search, w.manifolds, 0, w.members);
   }
   SubstepVerdict attempt(double h) {
     Solution solution;
