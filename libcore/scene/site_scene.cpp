@@ -15,15 +15,39 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
+// What is drawn anew for a run.
+struct GroundScatter {
+  double friction_deg = 0, cor = 0, rolling = 1;
+};
+
+double or_none(double value) { return std::isnan(value) ? 0 : value; }
+
+// What ground that gives way does.
+void set_yielding(const GroundSettings& ground, double rolling_factor, GroundClass& made) {
+  made.half_speed = or_none(ground.cor_half_speed_m_s);
+  made.half_energy = 1e3 * or_none(ground.cor_half_energy_kj);
+  made.rolling = rolling_factor * or_none(ground.rolling_resistance);
+  made.bearing = 1e3 * or_none(ground.bearing_kpa) / (rolling_factor * rolling_factor);
+  if (!std::isnan(ground.spin_resistance)) made.spinning = rolling_factor * ground.spin_resistance;
+  made.scar_friction = or_none(ground.scar_friction);
+  made.scar_rate = or_none(ground.scar_rate_1_m);
+  made.scar_decay = or_none(ground.scar_decay_1_s);
+  made.weakening_speed = or_none(ground.weakening_speed_m_s);
+  made.weak_friction = std::tan(or_none(ground.friction_weak_deg) * degree);
+  made.drag_per_time = ground.drag_1_s;
+  made.drag_per_way = ground.drag_1_m;
+}
+
 GroundClass ground_class(const GroundSettings& ground, const SolverSettings& solver,
-                         double friction_shift_deg, double cor_shift) {
+                         const GroundScatter& scatter) {
   GroundClass made;
-  const double friction = std::clamp(ground.friction_deg + friction_shift_deg, 0.0, 89.0);
+  const double friction = std::clamp(ground.friction_deg + scatter.friction_deg, 0.0, 89.0);
   const double cor = std::isnan(solver.cor) ? ground.cor : solver.cor;
   made.friction = std::tan(friction * degree);
   made.cohesion = ground.cohesion_pa;
   made.tension = ground.tension_pa;
-  made.restitution = std::clamp(cor + cor_shift, 0.0, 1.0);
+  made.restitution = std::clamp(cor + scatter.cor, 0.0, 1.0);
+  set_yielding(ground, scatter.rolling, made);
   return made;
 }
 
@@ -117,14 +141,16 @@ Settings settings_of(const SolverSettings& solver, const ScenePlan& plan) {
 Scene make_site_scene(const Site& site, const ScenePlan& plan, SceneParts parts) {
   const SolverSettings& solver = site.solver;
   const auto seed = static_cast<std::uint64_t>(solver.seed);
-  Random scatter(seed, "scatter of ground");
+  Random scatter(seed, "scatter of ground"), rolling_scatter(seed, "scatter of rolling");
   Scene scene;
   scene.ground = make_ground(std::move(parts.trn), {});
   scene.ground.classes.clear();
   for (const GroundSettings& ground : site.grounds) {
-    const double friction_shift = solver.friction_scatter_deg * scatter.normal();
-    const double cor_shift = solver.cor_scatter * scatter.normal();
-    scene.ground.classes.push_back(ground_class(ground, solver, friction_shift, cor_shift));
+    GroundScatter drawn;
+    drawn.friction_deg = solver.friction_scatter_deg * scatter.normal();
+    drawn.cor = solver.cor_scatter * scatter.normal();
+    drawn.rolling = std::exp(solver.rolling_scatter * rolling_scatter.normal());
+    scene.ground.classes.push_back(ground_class(ground, solver, drawn));
   }
   scene.ground.cell_class = std::move(parts.cell_class);
   const Rock rock = rock_of(site, parts.blocks);

@@ -30,7 +30,15 @@ struct EnergyLedger {
   double contact = 0;   ///< dissipated or stored by normal contact and strain damping
   double base = 0;      ///< put in by base motion and point loads
   double fence = 0;     ///< taken by panels of fences, and what else gave way
+  double rolling = 0;   ///< dissipated by rolling and pivoting resistance, in hits too
+  double drag = 0;      ///< dissipated by drag of the ground
   double removed = 0;   ///< kinetic energy of blocks stopped at the domain's edge
+};
+
+/// What a block has slid, on ground whose friction follows that.
+struct SlidWay {
+  double way = 0;   ///< [m]
+  double time = 0;  ///< when it did so last [s]
 };
 
 /// Counts since the start.
@@ -87,6 +95,7 @@ struct State : BlockLives {  // clang-format off
   PlacedHulls placed;                       ///< where the pairs were searched last
   std::vector<BlockBond> bonds;             ///< sorted by block_a, block_b            (n_bonds)
   std::vector<DeepBlock> deep;              ///<                                     (n_blocks)
+  std::vector<SlidWay> slid;                ///< empty: friction follows no way      (n_blocks)
   Mishaps mishaps;                          ///< so far
   YieldingState yielding;                   ///< what fixed bodies that give way have met
   FenceState fence;                         ///< what touched the panels of fences

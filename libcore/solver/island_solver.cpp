@@ -110,7 +110,7 @@ struct Solve {
       if (pair.angular < 0) continue;
       PairEvaluation& now = evaluations[i];
       AngularRow& turn = island.angular[pair.angular];
-      talus::evaluate(Vec3(now.motion.tail<3>()), normal_impulses(now.groups), turn);
+      talus::evaluate(Vec3(now.motion.tail<3>()), couple_bounds(island, pair), turn);
       for (int k = 0; k < 3; ++k) now.sum[3 + k][0] += turn.couple[k];
       now.changed = true;
     }

@@ -78,27 +78,48 @@ struct OneContact {
 
 // --- couples -----------------------------------------------------------------------------------
 
-/// Evaluates the row for the relative spin and the sum of the normal impulses.
-inline void evaluate(const Vec3& spin, double normal_impulse, AngularRow& row) {
-  Found<double> found;
-  bool within;
-  found.cap = row.cap = row.arm * normal_impulse;
-  const Vec3 trial = spin + row.spring_spin;
-  hold(row.damping, trial.squaredNorm(), found, within);
-  row.couple = -row.damping * trial;
-  row.state = row.cap <= 0 ? ContactState::open : ContactState::stick;
-  if (within) return;
-  row.direction = trial / found.trial_speed;
-  row.couple = -row.cap * row.direction;
-  row.slip_tangent = row.cap / found.trial_speed;
-  if (row.cap > 0) row.state = ContactState::slip;
+/// A part of a couple: -damping times `spin`, or where that is more than `cap`, of that size.
+[[nodiscard]] inline Vec3 couple_part(const Vec3& spin, double damping, double cap,
+                                      CouplePart& part) {
+  const double speed = spin.norm();
+  if (damping * speed <= cap) {
+    part.state = cap > 0 ? ContactState::stick : ContactState::open;
+    return -damping * spin;
+  }
+  part.direction = spin / speed;
+  part.slip_tangent = cap / speed;
+  part.state = cap > 0 ? ContactState::slip : ContactState::open;
+  return -cap * part.direction;
 }
 
-/// -d couple / d spin [kg m2] where it was evaluated, at a constant bound.
+/// Evaluates the row for the relative spin.
+inline void evaluate(const Vec3& spin, const CoupleBounds& bounds, AngularRow& row) {
+  const double pressed = bounds.normal.norm();
+  row.normal = pressed > 0 ? Vec3(bounds.normal / pressed) : Vec3(Vec3::Zero());
+  const Vec3 along = row.normal.dot(spin) * row.normal;
+  row.couple = couple_part(spin - along, row.damping, bounds.rolling, row.rolling);
+  row.couple += couple_part(along, row.damping, bounds.spinning, row.spinning);
+}
+
+/// -d couple / d spin [kg m2] where it was evaluated, at constant bounds and mean normal.
 [[nodiscard]] inline Mat3 tangent(const AngularRow& row) {
-  if (row.state == ContactState::open) return Mat3::Zero();
-  if (row.state == ContactState::stick) return row.damping * Mat3::Identity();
-  return row.slip_tangent * (Mat3::Identity() - row.direction * row.direction.transpose());
+  const Mat3 along = row.normal * row.normal.transpose();
+  Mat3 A = Mat3::Zero();
+  if (row.rolling.state == ContactState::stick)
+    A = row.damping * (Mat3::Identity() - along);
+  else if (row.rolling.state == ContactState::slip)
+    A = row.rolling.slip_tangent *
+        (Mat3::Identity() - along - row.rolling.direction * row.rolling.direction.transpose());
+  if (row.spinning.state == ContactState::stick) A += row.damping * along;
+  return A;
+}
+
+/// -d couple / d (normal impulse) of a contact with arms `arm`: what slips follows its bound.
+[[nodiscard]] inline Vec3 by_bound(const AngularRow& row, const RowArm& arm) {
+  Vec3 change = Vec3::Zero();
+  if (row.rolling.state == ContactState::slip) change += arm.rolling * row.rolling.direction;
+  if (row.spinning.state == ContactState::slip) change += arm.spinning * row.spinning.direction;
+  return change;
 }
 
 }  // namespace

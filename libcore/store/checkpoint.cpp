@@ -13,16 +13,17 @@ namespace talus {
 // A field added to one of these structs and forgotten here would be lost on --resume: the sizes
 // say that a list has to be looked at again.
 
-static_assert(sizeof(Motion) == 112 && sizeof(EnergyLedger) == 48 && sizeof(RunCounters) == 64);
+static_assert(sizeof(Motion) == 112 && sizeof(EnergyLedger) == 64 && sizeof(RunCounters) == 64);
 static_assert(sizeof(ContactMemory) == 136 &&
-              sizeof(HealthRow) == 176 + 8 * substep_cut_names.size());
-static_assert(sizeof(State) == 8 + 15 * 24 + sizeof(EnergyLedger) + sizeof(RunCounters) +
+              sizeof(HealthRow) == 192 + 8 * substep_cut_names.size());
+static_assert(sizeof(State) == 8 + 16 * 24 + sizeof(EnergyLedger) + sizeof(RunCounters) +
                                    sizeof(PairState) + sizeof(PlacedHulls) + sizeof(FenceState) +
                                    sizeof(YieldingState) + sizeof(Mishaps));
 static_assert(sizeof(YieldingState) == 2 * 24 && sizeof(Yielded) == 56);
-static_assert(sizeof(FenceState) == 24 && sizeof(FenceHit) == 104 && sizeof(BlockBond) == 48);
+static_assert(sizeof(FenceState) == 24 && sizeof(FenceHit) == 104 && sizeof(BlockBond) == 144);
 static_assert(sizeof(PairState) == 280 && sizeof(PlacedHulls) == 192 && sizeof(ListedPair) == 96);
-static_assert(sizeof(DeepBlock) == 64 && sizeof(Mishap) == 48 && sizeof(Mishaps) == 5 * 48);
+static_assert(sizeof(SlidWay) == 16 && sizeof(DeepBlock) == 64 && sizeof(Mishap) == 48 &&
+              sizeof(Mishaps) == 5 * 48);
 static_assert(sizeof(PairWatch) == 16 && sizeof(HeldPoint) == 24);
 
 template <class Archive>
@@ -35,8 +36,8 @@ void fields(Fields<Archive>& archive, Motion& motion) {
 }
 template <class Archive>
 void fields(Fields<Archive>& archive, EnergyLedger& ledger) {
-  archive(ledger.friction, ledger.impact, ledger.contact, ledger.base, ledger.fence,
-          ledger.removed);
+  archive(ledger.friction, ledger.impact, ledger.contact, ledger.base, ledger.fence, ledger.rolling,
+          ledger.drag, ledger.removed);
 }
 template <class Archive>
 void fields(Fields<Archive>& archive, BlockBond& bond) {
@@ -74,6 +75,10 @@ template <class Archive>
 void fields(Fields<Archive>& archive, Mishaps& mishaps) {
   archive(mishaps.deepest, mishaps.unconverged, mishaps.not_finite, mishaps.left_domain,
           mishaps.fell_through);
+}
+template <class Archive>
+void fields(Fields<Archive>& archive, SlidWay& slid) {
+  archive(slid.way, slid.time);
 }
 template <class Archive>
 void fields(Fields<Archive>& archive, RunCounters& counters) {
@@ -125,8 +130,8 @@ void fields(Fields<Archive>& archive, State& state) {
   archive(state.time, state.motion, state.local_time, state.flight_end, state.phase,
           state.acceleration, state.spin_rate, state.support, state.paper.rebound, state.rest_pose,
           state.rest_steps, state.strain, state.strain_rate, state.memory, state.pairs,
-          state.placed, state.bonds, state.deep, state.mishaps, state.yielding, state.fence,
-          state.ledger, state.counters);
+          state.placed, state.bonds, state.deep, state.slid, state.mishaps, state.yielding,
+          state.fence, state.ledger, state.counters);
 }
 template <class Archive>
 void fields(Fields<Archive>& archive, PassageValues& values) {
@@ -155,7 +160,8 @@ void fields(Fields<Archive>& archive, HealthRow& row) {
   archive(row.time, row.shortest_dt, row.steps, row.substeps, row.passes, row.flips, row.impacts,
           row.unconverged, row.left_domain, row.fell_through, row.not_finite,
           row.largest_penetration, row.translation, row.rotation, row.potential, row.elastic,
-          row.friction, row.impact, row.contact, row.base, row.fence, row.removed);
+          row.friction, row.impact, row.contact, row.base, row.fence, row.rolling, row.drag,
+          row.removed);
   for (std::int64_t& n : row.cuts) archive(n);
 }
 template <class Archive>
@@ -166,7 +172,7 @@ void fields(Fields<Archive>& archive, Checkpoint& checkpoint) {
 
 namespace {
 
-constexpr std::uint64_t format = 0x38306b6365686374;  // "tcheck08"
+constexpr std::uint64_t format = 0x39306b6365686374;  // "tcheck09"
 constexpr std::size_t digest_length = 64;
 
 std::string digest_of(std::span<const std::uint8_t> bytes) {

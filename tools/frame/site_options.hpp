@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "site/site.hpp"
+#include "site/soils.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/tool.hpp"
 
@@ -25,7 +26,8 @@ class SiteOptions {
       std::vector<ConfigValue> values;
       for (const EffectiveValue& entry : effective_values(load()))
         if (!entry.value.empty())
-          values.push_back({entry.section + "." + entry.key, entry.value, entry.source});
+          values.push_back({entry.section + "." + entry.key, entry.value,
+                            entry.source + (entry.note.empty() ? "" : "; " + entry.note)});
       return values;
     });
   }
@@ -51,6 +53,7 @@ class SiteOptions {
       from_command_line(
           [&] { override_value(site, word.substr(0, equals), word.substr(equals + 1)); });
     }
+    check_grounds(site);
     site_ = std::make_unique<Site>(std::move(site));
     return *site_;
   }

@@ -7,6 +7,7 @@
 #include "scene/fence.hpp"
 #include "solver/law_numbers.hpp"
 #include "step/flight.hpp"
+#include "step/soil.hpp"
 #include "step/substep.hpp"
 
 namespace talus {
@@ -229,6 +230,16 @@ void HitLooks::take_due(std::vector<PairLook>& due) const {
   }
 }
 
+namespace {
+
+// Speed across the normal of a contact's point on a body that moves so [m/s].
+double slip_of(const ImpactContact& contact, const PlacedMotion& body) {
+  const Vec3 u = velocity_of(body, contact.point - body.position);
+  return (u - contact.normal.dot(u) * contact.normal).norm();
+}
+
+}  // namespace
+
 void HitLooks::find_touching_ground(size_t p, double time) const {
   const auto k = static_cast<size_t>(system.island.pairs[p].a);
   const BlockNumbers& c = members.numbers[k];
@@ -239,14 +250,20 @@ void HitLooks::find_touching_ground(size_t p, double time) const {
                       &near_ground[members.block(k)]);
   for (const Contact& found : making.found) {
     const GroundClass& ground = scene.ground.classes[found.ground_class];
+    const int b = members.blocks[k];
     TouchingContact touching;
     touching.of.a = static_cast<int>(k);
     touching.of.normal = found.normal;
     touching.of.point = talus::place(m.pose, found.point_a) - found.gap / 2 * found.normal;
     touching.of.friction = ground.friction;
     touching.of.restitution = ground.restitution;
+    touching.of.fall = fall_on(ground, c.mass);
+    touching.of.arm = arm_on(scene, ground, b);
     touching.of.resting_speed = c.resting_speed;
     touching.key = found.key;
+    if (varies_friction(ground))
+      touching.of.friction = friction_on(ground, slip_of(touching.of, place(k, m)),
+                                         way_slid(state, ground, b, free.t + time));
     touching.gap = found.gap;
     touching.pair = static_cast<int>(p);
     hits.touching.push_back(touching);

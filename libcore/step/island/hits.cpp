@@ -182,7 +182,8 @@ struct HitPhase {
       return;
     }
     hits.converged = hits.converged && impact.converged;
-    hits.dissipated += impact.dissipated - impact.by_friction;
+    hits.dissipated += impact.dissipated - impact.by_friction - impact.by_rolling;
+    hits.by_rolling += impact.by_rolling;
     hits.by_friction += impact.by_friction;
     size_t i = 0;
     for (const size_t k : hits.changed)
@@ -243,7 +244,7 @@ struct HitPhase {
     looks.begin();
     hits.hits.clear();
     hits.paths.clear();
-    hits.dissipated = hits.by_friction = 0;
+    hits.dissipated = hits.by_friction = hits.by_rolling = 0;
     hits.n_hits = hits.passes = 0;
     hits.converged = true;
     hits.hit_members.reset(members.size());

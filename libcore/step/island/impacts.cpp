@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "solver/law_numbers.hpp"
+#include "step/island/island_soil.hpp"
 #include "step/island/stages.hpp"
 
 namespace talus {
@@ -83,12 +84,19 @@ void solve_with_hits(const Scene& scene, const State& state, const PairSearch& s
     find_hits(scene, state, search, members, near_ground, making, free, system, hits);
     solution.passes += hits.passes;
   }
+  const auto solve_on = [&](bool continues) {
+    const StageTimer timer(clock, IslandStage::solve);
+    solve(scene, members, free, continues, system, hits, solver, solution);
+    return solution.converged;
+  };
   for (int round = 0; round < most_closing_rounds; ++round) {
-    {
-      const StageTimer timer(clock, IslandStage::solve);
-      solve(scene, members, free, round > 0, system, hits, solver, solution);
-    }
-    if (!solution.converged) return;
+    if (!solve_on(round > 0)) return;
+    // at the start nobody knows what contacts bear
+    const int settlings = round == 0 && free.t == 0 ? law::most_settlings : 0;
+    for (int i = 0; i < settlings && stiffen_to_load(members, free.h, system); ++i)
+      if (!solve_on(true)) return;
+    if (round == 0 && renew_friction(scene, state, members, free, hits, system) && !solve_on(true))
+      return;
     const StageTimer timer(clock, IslandStage::find_hits);
     if (close_waiting(members, free, system, hits) == 0) return;
   }
