@@ -32,6 +32,9 @@ struct CoupleBounds {
 /// A part of a couple at its last evaluation.
 struct CouplePart {
   ContactState state = ContactState::open;
+  bool aims = false;            ///< it slips, and is about to hold
+  Vec3 spin = Vec3::Zero();     ///< [rad/s]
+  Vec3 couple = Vec3::Zero();   ///< [N m s]
   Vec3 direction = Vec3::Zero();  ///< of the spin, unit; while it slips
   double slip_tangent = 0;        ///< across `direction`, while it slips [kg m2]
 };
@@ -41,6 +44,7 @@ struct AngularRow {
   int row_begin = 0, row_end = 0;  ///< a lone block: rows whose normal impulses bound it
   int arm_begin = 0;               ///< of the arms of the pair's rows
   double damping = 0;              ///< couple impulse per spin while it holds, > 0 [kg m2]
+  double inertia = 0;              ///< that it turns, about; 0: it never aims [kg m2]
   // at the last evaluation
   Vec3 couple = Vec3::Zero();  ///< on A; B gets the opposite [N m s]
   Vec3 normal = Vec3::Zero();  ///< mean normal, unit; zero: nothing presses

@@ -191,6 +191,7 @@ template <int Dof>
     const Vec<Dof> from = system.velocity;
     Mat<Dof> H = derivative<Dof>(system, rows);
     Vec<Dof> step = -r;
+    for (const AngularRow& turn : system.angular) step.template segment<3>(3) -= aimed(turn);
     solve_dense<Dof>(H, step);
     double fraction = 1;
     for (int i = 0;; ++i, fraction /= 2) {

@@ -63,6 +63,7 @@ int add_turn(const Scene& scene, int b, const BlockNumbers& c, double h,
   // as firm as the stiffest contact of a lone block
   turn.damping =
       law::stiffest_lone * law::recovery_steps * (h / scene.settings.dt) * c.inertia.maxCoeff();
+  turn.inertia = c.inertia.minCoeff();
   for (const ContactRow& row : rows) arms.push_back(arm_on(scene, class_of_row(row), b));
   turns.push_back(turn);
   return static_cast<int>(turns.size()) - 1;

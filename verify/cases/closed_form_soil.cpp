@@ -87,7 +87,7 @@ CaseResult falling_restitution(const Settings& settings, bool by_energy) {
     // down to the hit, then up to the top
     while (run.motion().velocity.z() <= 0 && run.state.time < 20) run.advance();
     Motion top = run.motion();
-    while (top.velocity.z() > 0 && run.state.time < 20) {
+    while (run.motion().velocity.z() > 0 && run.state.time < 20) {
       run.advance();
       if (run.motion().velocity.z() > 0) top = run.motion();
     }

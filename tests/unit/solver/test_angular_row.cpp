@@ -40,6 +40,7 @@ AngularRow resistance() {
   AngularRow turn;
   turn.row_end = 1;
   turn.damping = damping;
+  turn.inertia = inertia;
   return turn;
 }
 
@@ -148,6 +149,22 @@ TEST(AngularRow, BearsNothingWhereNothingPresses) {
   EXPECT_EQ(disc.step_from(v, 0), v + pull(0));
   EXPECT_TRUE(disc.turns[0].couple.isZero(0));
   EXPECT_EQ(disc.turns[0].rolling.state, ContactState::open);
+}
+
+// In the step in which it stops, Newton's method finds that in few passes.
+TEST(AngularRow, StopsADiscInFewPasses) {
+  for (const double speed : {0.2, 0.5, 0.9, 1.0, 1.2}) {
+    Lone disc;
+    disc.system.mass = mass_of_disc();
+    const double loss = arm / radius * mass * g * step / rolling_mass;
+    disc.system.free_velocity = disc.system.velocity = rolling(speed * loss) + pull(0);
+    disc.system.tolerance = 1e-12;
+    disc.system.angular = disc.turns;
+    disc.system.arms = disc.arms;
+    const NewtonResult result = solve_contacts(disc.system, std::span(disc.rows), 60);
+    EXPECT_TRUE(result.converged) << speed;
+    EXPECT_LE(result.passes, 12) << speed;
+  }
 }
 
 // Rolling across the normal and pivoting along it have bounds of their own.
@@ -314,6 +331,7 @@ struct Pendulum {
     AngularRow turn;
     turn.row_end = 2;
     turn.damping = 1e9;
+    turn.inertia = m / 6;
     std::array<AngularRow, 1> turns = {turn};
     const double lever_arm = resistance * std::cbrt(3 / (4 * std::numbers::pi));
     const std::array<RowArm, 2> arms = {RowArm{lever_arm, lever_arm}, RowArm{lever_arm, lever_arm}};
