@@ -35,6 +35,16 @@ inline constexpr double most_sag = 1e-6;
 /// [thickness] ... and in an island that is factored. A tower leans by the sum of these. Tried:
 /// multipliers carried from step to step; they shake towers down.
 inline constexpr double most_sag_in_small_island = 3e-7;
+/// [thickness] ... and of blocks in motion, else.
+inline constexpr double most_sag_in_motion = 1e-5;
+/// [g dt^2] Overlap of a contact that slips, opens or is hard to find the force of: it bears
+/// little, or is as stiff as that asks. Tried: none; small blocks under a large one that slides
+/// sink in.
+inline constexpr double soft_sag = 2;
+/// [thickness] It is stiffer than the heaviest neighbour asks for at this overlap ...
+inline constexpr double most_sag_of_thickness = 2e-2;
+/// [soft sags] ... or this one, where that is more.
+inline constexpr double far_sag = 4;
 /// [-] k_n dt^2 / m of the stiffest contact by its load.
 inline constexpr double stiffest_by_load = 4e5;
 /// [-] That is softer by so much where forces are not found ...

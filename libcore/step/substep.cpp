@@ -64,10 +64,18 @@ double stiffness_to_bear(const ContactRow& row, double sag) {
   return last >= needed && last <= law::too_much * needed ? last : law::ample * needed;
 }
 
-// What the load asks for, from `least` for what bears little up to `most`; reached step by step
-// beyond `ready`, left step by step by what slips or opens, and at once where the forces were hard
-// to find.
-double stiffness_by_load(const BlockNumbers& c, double least, double ready, double most,
+// As soft as a contact may be that bears its last force: with `sag` of overlap, from `least` for
+// what bears little up to `stiffest`; beyond, where even that lets the overlap grow far.
+double softest_by_load(const BlockNumbers& c, double sag, double least, double stiffest,
+                       const ContactRow& row) {
+  const double k = std::clamp(stiffness_to_bear(row, sag), std::min(least, stiffest), stiffest);
+  const double far = std::max(law::most_sag_of_thickness * c.thickness, law::far_sag * sag);
+  return row.last_force > far * stiffest ? std::max(k, stiffness_to_bear(row, far)) : k;
+}
+
+// What the load asks for, from `soft` up to `most`; reached step by step beyond `ready`, left step
+// by step by what slips or opens, and at once where the forces were hard to find.
+double stiffness_by_load(const BlockNumbers& c, double soft, double ready, double most,
                          const ContactRow& row) {
   const double last = row.last_stiffness;
   double k = std::min(stiffness_to_bear(row, c.sag), std::max(law::stiffens * last, ready));
@@ -75,7 +83,7 @@ double stiffness_by_load(const BlockNumbers& c, double least, double ready, doub
     k = std::min(k, row.rests == law::most_rests ? last / law::relief : last);
   const bool moves = row.slip_speed > c.slow || row.speed_start > c.slow;
   if (moves) k = std::min(k, last / law::softens);
-  return std::clamp(k, least, std::max(least, most));
+  return std::clamp(k, soft, std::max(soft, most));
 }
 
 // How fast the contact would close without contact forces: at the start of the substep, or on the
@@ -299,8 +307,11 @@ void set_law(const Scene& scene, const BlockNumbers& c, double h, const Mobility
   const bool was_hit = row.memory >= 0 && row.last_stiffness == 0;  // nobody knows what it bears
   if (c.sag > 0 && row.bond_area == 0 && !was_hit) {
     const double per_mobility = c.per_mass / W.normal;
-    k_n = stiffness_by_load(c, std::min(c.least_stiffness * per_mobility, stiffest), stiffest,
-                            c.most_stiffness * per_mobility, row);
+    const double at_once = scene.gravity.norm() * scene.settings.dt * scene.settings.dt;
+    const double soft_sag = std::max(law::soft_sag * at_once, c.sag);
+    const double soft =
+        softest_by_load(c, soft_sag, c.least_stiffness * per_mobility, stiffest, row);
+    k_n = stiffness_by_load(c, soft, stiffest, c.most_stiffness * per_mobility, row);
     if (asked > 0) k_n = std::min(k_n, asked);
   }
   const double k_s =

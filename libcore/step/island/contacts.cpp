@@ -283,7 +283,7 @@ struct ContactMaker {
     meeting.numbers.stiffness = std::max(stiffness(ca), stiffness(cb)) * to_lighter;
     meeting.numbers.least_stiffness =
         ca.mass * std::min(ca.least_stiffness / ca.mass, cb.least_stiffness / cb.mass);
-    meeting.numbers.sag = std::min(ca.sag, cb.sag);
+    meeting.numbers.sag = rest ? std::min(ca.sag, cb.sag) : std::max(ca.sag, cb.sag);
     if (meeting.bond >= 0) meeting.numbers.sag = 0;
     return meeting;
   }

@@ -293,8 +293,9 @@ void HitLooks::find_touching_bodies(size_t p, double time) const {
                margin, hits.held, hits.manifolds, hits.points);
   if (hits.manifolds.empty()) return;
   const PairManifold& m = hits.manifolds.front();
-  if (pair.b < 0 && giving_way(scene, of.block_b, m.normal) != nullptr) return;
-  const GroundClass faces = pair.b < 0 ? fixed_class(scene, of.block_b) : pair_class(scene, m);
+  if (pair.b < 0 && giving_way(scene, fixed_of(scene, of.block_b), m.normal) != nullptr) return;
+  const GroundClass faces =
+      pair.b < 0 ? fixed_class(scene, fixed_of(scene, of.block_b)) : pair_class(scene, m);
   for (int i = m.point_begin; i < m.point_end; ++i) {
     const PairPoint& point = hits.points[i];
     TouchingContact touching;

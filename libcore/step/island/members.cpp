@@ -67,11 +67,12 @@ void choose_stiffness(const Scene& scene, const State& state, const PairSearch& 
     BlockNumbers& c = members.numbers[k];
     c.slow = slow * g * dt;
     c.rests = members.is_small || state.motion[members.block(k)].velocity.norm() <= c.slow;
-    const double per_mass = (c.rests ? stiffest_at_rest : stiffest_in_island) / (dt * dt);
+    const bool is_stiff = members.is_small || (c.rests && state.time > 0);
+    const double per_mass = (is_stiff ? stiffest_at_rest : stiffest_in_island) / (dt * dt);
     c.stiffness = per_mass * members.bearing[k];
     c.least_stiffness = is_first ? no_normal_limit : bears_little * per_mass * c.mass;
     c.most_stiffness = stiffest / (dt * dt) * c.mass;
-    c.sag = sag * c.thickness;
+    c.sag = (c.rests ? sag : std::max(sag, law::most_sag_in_motion)) * c.thickness;
   }
 }
 
