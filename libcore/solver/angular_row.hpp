@@ -32,9 +32,9 @@ struct CoupleBounds {
 /// A part of a couple at its last evaluation.
 struct CouplePart {
   ContactState state = ContactState::open;
-  bool aims = false;            ///< it slips, and is about to hold
-  Vec3 spin = Vec3::Zero();     ///< [rad/s]
-  Vec3 couple = Vec3::Zero();   ///< [N m s]
+  bool aims = false;              ///< it slips, and is about to hold
+  Vec3 spin = Vec3::Zero();       ///< [rad/s]
+  Vec3 couple = Vec3::Zero();     ///< [N m s]
   Vec3 direction = Vec3::Zero();  ///< of the spin, unit; while it slips
   double slip_tangent = 0;        ///< across `direction`, while it slips [kg m2]
 };

@@ -205,8 +205,8 @@ struct Advance {
     if (!last && goes_through_ridge(s)) return shorten(h / 2, h);
     BlockSystem<Dof> system = make_system<Dof>(scene, b, c, s, state);
     begin_soil(scene, b, c, s, state, t, work);
-    const NewtonResult newton = solve_on_soil(scene, b, s, state, t, system, work,
-                                              [&] { return solve(s, system); });
+    const NewtonResult newton =
+        solve_on_soil(scene, b, s, state, t, system, work, [&] { return solve(s, system); });
     report.passes += newton.passes;
     if (!newton.converged) {
       if (!last) {
