@@ -65,6 +65,15 @@ InputError crossing(const Segment& s, const Segment& t, const Vec3& origin, cons
           "dissolve areas that share a side into one; a hole must not touch the outline"};
 }
 
+// Of an outline that crosses itself the two halves may cancel: its area says nothing.
+bool are_in_line(const std::vector<Vec2>& ring) {
+  for (const Vec2& p : ring) {
+    const Vec2 along = ring[1] - ring[0], to = p - ring[0];
+    if (along.x() * to.y() - along.y() * to.x() != 0) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 Area without_repeated_corners(Area area) {
@@ -106,7 +115,7 @@ void check_area(const Area& area, const Vec3& origin, const Where& where) {
     const auto& ring = area.rings[i];
     for (const Vec2& p : ring)
       if (!p.allFinite()) throw InputError(where, "a corner of the source area is not finite");
-    if (ring.size() < 3 || std::abs(ring_area(ring)) == 0)
+    if (ring.size() < 3 || are_in_line(ring))
       throw InputError(where, "a ring of the source area has no area",
                        "give at least three corners that are not in line");
     for (size_t k = 0; k < ring.size(); ++k)

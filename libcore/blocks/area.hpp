@@ -1,4 +1,4 @@
-// libcore/blocks/area.hpp
+// libcore/blocks/area.hpp: public
 // Areas in plan: rings, what lies in them, what is wrong with them.
 #pragma once
 

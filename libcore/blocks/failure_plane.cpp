@@ -222,6 +222,37 @@ PlaneAtFoot plane_at_foot(const Trn& ground, const Area& area, const Attitude& p
   return result;
 }
 
+std::vector<FootStep> steps_at_foot(const Trn& ground, const Trn& bed, const Area& area,
+                                    double azimuth) {
+  std::vector<FootStep> steps;
+  for (const FootPoint& at : find_foot(ground, area, {0, azimuth})) {
+    const double step = at.ground - elevation_at(bed, at.place.x(), at.place.y());
+    steps.push_back({at.place, std::max(0.0, step), at.weight});
+  }
+  return steps;
+}
+
+std::vector<PlaneAtShare> planes_by_share(const Trn& ground, const Area& area,
+                                          const Attitude& plane, const std::vector<double>& shares,
+                                          const Where& where) {
+  std::vector<PlaneAtShare> rows;
+  const std::vector<FootPoint> foot = find_foot(ground, area, plane);
+  if (foot.empty()) return rows;
+  for (const double share : shares) {
+    const FootPoint& touched = point_that_clears(foot, share);
+    PlaneAtShare row;
+    row.share = share;
+    row.point = Vec3(touched.place.x(), touched.place.y(), touched.ground);
+    if (count_covered(ground, area, plane, row.point).n_covered > 0) {
+      const SourceMass mass = find_source(ground, area, source_on_plane(plane, row.point), where);
+      row.volume = mass.volume;
+      row.mean_depth = mass.mean_depth;
+    }
+    rows.push_back(row);
+  }
+  return rows;
+}
+
 double share_over_rising_bed(const Trn& ground, const Trn& bed, const Area& area, double azimuth) {
   const Vec2 motion = heading(azimuth);
   double all = 0, rising = 0;

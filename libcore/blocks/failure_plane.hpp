@@ -49,6 +49,16 @@ struct PlaneAtFoot {
 [[nodiscard]] PlaneAtFoot plane_at_foot(const Trn& ground, const Area& area, const Attitude& plane,
                                         const Vec3& point);
 
+/// What stands before a mass at a point of its foot, whatever its failure surface.
+struct FootStep {
+  Vec2 place = Vec2::Zero();  ///< on the outline [m]
+  double height = 0;          ///< of the ground above the bed, 0 or more [m]
+  double weight = 0;          ///< length of outline across the motion [m]
+};
+/// The foot for a motion along `azimuth` [rad].
+[[nodiscard]] std::vector<FootStep> steps_at_foot(const Trn& ground, const Trn& bed,
+                                                  const Area& area, double azimuth);
+
 /// Share of the mass between ground and bed, inside the area, over bed that rises in the direction
 /// `azimuth` [rad].
 [[nodiscard]] double share_over_rising_bed(const Trn& ground, const Trn& bed, const Area& area,
@@ -89,6 +99,19 @@ struct FailurePlanes {
 [[nodiscard]] FailurePlanes find_failure_planes(const Trn& ground, const Area& area,
                                                 const std::vector<JointSet>& sets, double friction,
                                                 const std::string& wanted, const Where& where);
+
+/// The lowest plane of an attitude that daylights along a share of the foot, and its mass.
+struct PlaneAtShare {
+  double share = 0;  ///< of the foot, asked for
+  Vec3 point = Vec3::Zero();
+  double volume = 0, mean_depth = 0;  ///< 0 where no rock is left above it [m3], [m]
+};
+/// For each share: the less of the foot is free, the more rock lies above the plane, and on the
+/// higher a step it leans.
+[[nodiscard]] std::vector<PlaneAtShare> planes_by_share(const Trn& ground, const Area& area,
+                                                        const Attitude& plane,
+                                                        const std::vector<double>& shares,
+                                                        const Where& where);
 
 /// find_source options of a plane.
 [[nodiscard]] SourceOptions source_on_plane(const Attitude& plane, const Vec3& point);

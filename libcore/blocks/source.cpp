@@ -98,11 +98,16 @@ double cosine_of_slope(const Trn& ground, int node) {
   return 1 / std::sqrt(1 + dz_dx * dz_dx + dz_dy * dz_dy);
 }
 
+double height_of(const SurfacePlane& plane, const Vec2& p) {
+  const Vec3 n = pole(plane.dip, plane.dip_direction);
+  return plane.point.z() -
+         (n.x() * (p.x() - plane.point.x()) + n.y() * (p.y() - plane.point.y())) / n.z();
+}
+
 double plane_elevation(const SourceOptions& options, const Vec2& p) {
-  const Vec3 n = pole(options.plane_dip, options.plane_dip_direction);
-  return options.plane_point.z() -
-         (n.x() * (p.x() - options.plane_point.x()) + n.y() * (p.y() - options.plane_point.y())) /
-             n.z();
+  double z = height_of({options.plane_dip, options.plane_dip_direction, options.plane_point}, p);
+  for (const SurfacePlane& plane : options.more_planes) z = std::max(z, height_of(plane, p));
+  return z;
 }
 
 // Sloping local base level: a node goes down to the mean of its highest and lowest of four
@@ -305,11 +310,17 @@ SourceMass find_source(const Trn& ground, const Area& area, const SourceOptions&
   lower_to_surface(ground, area, below, options, where, mass);
   if (options.kind == FailureSurface::slbl)
     mass.slbl_unsettled = lower_to_base_level(ground, inside, options, mass.bed.elevation);
-  for (const std::vector<int>& lowered : {inside, below})
-    for (const int node : lowered)
-      if (mass.bed.elevation[node] < ground.elevation[node]) mass.nodes.push_back(node);
-  std::sort(mass.nodes.begin(), mass.nodes.end());
-  mass.nodes.erase(std::unique(mass.nodes.begin(), mass.nodes.end()), mass.nodes.end());
+  Trn bed = std::move(mass.bed);
+  return mass_over(ground, area, std::move(mass), std::move(bed), where);
+}
+
+SourceMass mass_over(const Trn& ground, const Area& area, SourceMass mass, Trn bed,
+                     const Where& where) {
+  mass.bed = std::move(bed);
+  mass.nodes.clear();
+  for (size_t node = 0; node < ground.elevation.size(); ++node)
+    if (mass.bed.elevation[node] < ground.elevation[node])
+      mass.nodes.push_back(static_cast<int>(node));
   const MassMeasure measure = measure_mass(ground, mass.bed, area);
   if (mass.nodes.empty() || !(measure.volume > 0))
     throw InputError(where, "the failure surface lies nowhere below the ground inside the source",

@@ -21,11 +21,18 @@ namespace talus {
 
 enum class FailureSurface { vertical_depth, normal_depth, plane, raster, slbl };
 
+/// A plane by its attitude and a point.
+struct SurfacePlane {
+  double dip = 0, dip_direction = 0;  ///< [rad]
+  Vec3 point = Vec3::Zero();          ///< local [m]
+};
+
 struct SourceOptions {
   FailureSurface kind = FailureSurface::normal_depth;
   double depth = 0;                               ///< vertical or along the normal of the slope [m]
   double plane_dip = 0, plane_dip_direction = 0;  ///< [rad]
   Vec3 plane_point = Vec3::Zero();                ///< local [m]
+  std::vector<SurfacePlane> more_planes;  ///< of a wedge: the surface is the highest of all planes
   std::vector<double> raster;  ///< local elevation at each node of the TRN, NaN = unknown [m]
   double slbl_curvature = 0;   ///< C: a node goes down to the mean of its highest and
                                ///< lowest neighbour minus C [m]
@@ -53,6 +60,11 @@ struct SourceMass {
 /// the ground everywhere, raster without data in the area.
 [[nodiscard]] SourceMass find_source(const Trn& ground, const Area& area,
                                      const SourceOptions& options, const Where& where);
+
+/// The mass over another bed, which is not above the ground; what find_source() counted stays.
+/// Throws InputError where nothing lies over it.
+[[nodiscard]] SourceMass mass_over(const Trn& ground, const Area& area, SourceMass mass, Trn bed,
+                                   const Where& where);
 
 /// Surface and volume of the mass between ground and bed inside `area`.
 [[nodiscard]] MassMeasure measure_mass(const Trn& ground, const Trn& bed, const Area& area);

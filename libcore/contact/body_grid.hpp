@@ -1,4 +1,4 @@
-// libcore/contact/body_grid.hpp
+// libcore/contact/body_grid.hpp: public
 // Bodies that stay where they are, by place: who stands near a box, without a look at all others.
 // in:    centres and radii of balls around the bodies
 // out:   candidates for a box

@@ -55,4 +55,11 @@ void register_gdal_drivers() {
   static_cast<void>(once);
 }
 
+std::string GdalErrors::why_not_written() const {
+  for (const char* words : {"No such file", "ermission denied", "Read-only", "not permitted"})
+    if (failure_.find(words) != std::string::npos)
+      return "the folder takes no new files: name another output";
+  return "is the disk full, or its quota used up?";
+}
+
 }  // namespace talus

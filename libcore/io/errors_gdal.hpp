@@ -19,6 +19,8 @@ class GdalErrors {
   [[nodiscard]] const std::string& failure() const { return failure_; }
   /// The first warning, likewise.
   [[nodiscard]] const std::string& warning() const { return warning_; }
+  /// What may be wrong with a file that cannot be written: the folder, or the disk.
+  [[nodiscard]] std::string why_not_written() const;
   void note(bool is_failure, bool is_warning, const char* message);  ///< called by GDAL
 
  private:

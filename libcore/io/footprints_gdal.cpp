@@ -28,7 +28,7 @@ constexpr const char* style_qml =
 <qgis version="3.22"><renderer-v2 type="singleSymbol" symbollevels="0" forceraster="0" enableorderby="0"><symbols><symbol type="fill" name="0" alpha="1" clip_to_extent="1" force_rhr="0"><layer class="SimpleFill" enabled="1" locked="0" pass="0"><Option type="Map"><Option type="QString" name="color" value="196,132,84,150"/><Option type="QString" name="outline_color" value="70,40,20,255"/><Option type="QString" name="outline_width" value="0.2"/><Option type="QString" name="outline_width_unit" value="MM"/><Option type="QString" name="style" value="solid"/></Option></layer></symbol></symbols></renderer-v2></qgis>)";
 
 [[noreturn]] void fail(const std::string& path, const GdalErrors& errors) {
-  throw InputError({path}, "cannot be written: " + errors.failure(), "is the disk full?");
+  throw InputError({path}, "cannot be written: " + errors.failure(), errors.why_not_written());
 }
 
 OGRPolygon polygon_of(const std::vector<Vec2>& ring) {

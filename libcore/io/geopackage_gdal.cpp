@@ -173,8 +173,7 @@ void write_geopackage(const std::string& path, const std::string& crs_wkt,
   }
   dataset.reset();  // the last bytes are written here
   if (!is_open || errors.failed())
-    throw InputError({path}, "cannot be written: " + errors.failure(),
-                     "is the disk full, or its quota used up?");
+    throw InputError({path}, "cannot be written: " + errors.failure(), errors.why_not_written());
 }
 
 }  // namespace talus

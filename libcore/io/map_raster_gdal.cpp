@@ -119,8 +119,7 @@ Dataset copy_to(const char* driver_name, const std::string& path, GDALDataset& s
 
 void check_written(const std::string& path, bool written, const GdalErrors& errors) {
   if (written && !errors.failed()) return;
-  throw InputError({path}, "cannot be written: " + errors.failure(),
-                   "is the disk full, or its quota used up?");
+  throw InputError({path}, "cannot be written: " + errors.failure(), errors.why_not_written());
 }
 
 }  // namespace

@@ -59,6 +59,7 @@ Rings rings_of(const OGRPolygon& polygon) {
 // What is read from a layer, polygons apart from the rest.
 struct Parts {
   Rings shapes;
+  std::vector<std::vector<std::string>> attributes;
   std::vector<std::unique_ptr<OGRPolygon>> polygons;
 };
 
@@ -75,10 +76,23 @@ void add_part(const OGRGeometry& geometry, VectorKind kind, const Where& where, 
   }
 }
 
+// The attributes asked for, as text.
+std::vector<std::string> attributes_of(const OGRFeature& feature, const VectorQuery& query) {
+  std::vector<std::string> values;
+  for (const std::string& name : query.fields) {
+    const int index = feature.GetFieldIndex(name.c_str());
+    values.emplace_back(index >= 0 && feature.IsFieldSetAndNotNull(index) != 0
+                            ? feature.GetFieldAsString(index)
+                            : "");
+  }
+  return values;
+}
+
 Parts read_parts(const VectorQuery& query, const LayerChoice& choice, OpenLayer& source) {
   Parts parts;
   for_each_part(choice, source, [&](const OGRGeometry& part, const OGRFeature& feature) {
     add_part(part, query.kind, where_of_feature(choice, source, feature), parts);
+    if (query.kind == VectorKind::points) parts.attributes.push_back(attributes_of(feature, query));
   });
   return parts;
 }
@@ -173,6 +187,7 @@ VectorShapes read_vectors(const VectorQuery& query, const std::string& crs_wkt) 
   VectorShapes found;
   static_cast<LayerReading&>(found) = reading_of(choice, source);
   found.shapes = std::move(parts.shapes);
+  found.attributes = std::move(parts.attributes);
   const std::vector<bool> is_hole = add_areas(parts, where, found);
   check_finite(found.shapes, where);
   const std::string own = wkt_of(source.layer->GetSpatialRef());

@@ -20,6 +20,7 @@ struct VectorQuery {
   std::string where;  ///< OGR attribute filter; empty: all
   VectorKind kind = VectorKind::areas;
   std::string options = "--";  ///< how the key begins that names the layer: "source.polygon_"
+  std::vector<std::string> fields = {};  ///< attributes to read of each point
 };
 
 /// Shapes of one kind. Single points each make a shape of one vertex. Areas are rings, even-odd:
@@ -28,7 +29,10 @@ struct VectorQuery {
 /// polygon, and in a drawing always.
 struct VectorShapes : LayerReading {
   std::vector<std::vector<Vec3>> shapes;  ///< points, lines, or closed rings without the last point
-  std::string source_crs;                 ///< WKT when the shapes were reprojected, else empty
+  /// Of points: the fields asked for, as text; empty where a layer does not have one or it is not
+  /// set.                                                                     (n_shapes x n_fields)
+  std::vector<std::vector<std::string>> attributes;
+  std::string source_crs;             ///< WKT when the shapes were reprojected, else empty
   std::string operation;              ///< sentence: how they were reprojected; empty: they were not
   std::vector<std::string> warnings;  ///< places beside their CRS, a better operation
   int n_united = 0;                   ///< polygons that met another one ...

@@ -16,6 +16,7 @@
 #include "record/crossings.hpp"
 #include "record/frames.hpp"
 #include "record/passages.hpp"
+#include "scene/forest.hpp"
 #include "step/report.hpp"
 
 namespace talus {
@@ -109,6 +110,26 @@ struct DeepRow {
   std::int32_t is_too_fast = 0;        ///< 1: was faster than its fall can have made it
 };
 
+/// A forest that stood.
+struct ForestInfo {
+  std::string name;          ///< of the section
+  std::int32_t n_stems = 0;  ///< at the start
+};
+
+/// A touch of a block and a stem, and the stem as it was at the end.
+struct TreeHitRow {
+  std::int32_t forest = 0;      ///< index into RunFile::forests
+  std::int32_t stem = 0;        ///< its id in that forest
+  std::int32_t species = 0;     ///< index into known_species()
+  Vec3 foot = Vec3::Zero();     ///< local [m]
+  double dbh = 0;               ///< [m]
+  double capacity = 0;          ///< before anything hit it [J]
+  double left = 0;              ///< of it at the end of the run, 0 once it is broken [J]
+  double broken_at = 0;         ///< infinite: it stands [s]
+  std::int32_t broken_by = -1;  ///< block, -1: it stands
+  StemHit hit;                  ///< hit.stem says nothing once it is read
+};
+
 /// Everything that a run file holds.
 struct RunFile {
   RunInfo info;
@@ -118,9 +139,11 @@ struct RunFile {
   bool passages_by_centroid = false;
   std::vector<Passage> passages;  ///< by block, then cell
   std::vector<RecordLine> lines;
-  std::vector<Crossing> crossings;   ///< by line, then block
-  std::vector<FenceHit> fence_hits;  ///< by time, step by step
-  std::vector<PanelRow> panels;      ///< of the fences that stood, by line
+  std::vector<Crossing> crossings;    ///< by line, then block
+  std::vector<FenceHit> fence_hits;   ///< by time, step by step
+  std::vector<PanelRow> panels;       ///< of the fences that stood, by line
+  std::vector<ForestInfo> forests;    ///< that stood
+  std::vector<TreeHitRow> tree_hits;  ///< by time, step by step
   std::vector<HealthRow> health;
   std::vector<DeepRow> deep;  ///< by block
   std::vector<Phase> phase;   ///< at info.time; empty: not known               (n_blocks)
@@ -142,6 +165,7 @@ struct RunParts {
   bool only_last_frame = false;  ///< of the frames
   bool only_faults = false;      ///< of the health, penetrations and counts of what went wrong
   bool words = true;             ///< info's config and plan
+  bool trees = true;             ///< hits of trees
 };
 
 /// Reads a run file. Throws InputError for a file that is no run, is damaged, or contradicts itself

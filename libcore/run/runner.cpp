@@ -5,6 +5,7 @@
 
 #include "base/text.hpp"
 #include "record/deep_rows.hpp"
+#include "record/tree_hits.hpp"
 #include "step/step.hpp"
 #include "store/checkpoint.hpp"
 
@@ -335,6 +336,7 @@ void update_file(Runner& runner, bool with_checkpoint) {
   file.crossings = sorted(runner.crossings);
   file.fence_hits = runner.state.fence.hits;
   file.panels = panel_rows(runner.scene.fixed, runner.state.yielding);
+  file.tree_hits = tree_hit_rows(runner.scene, runner.state);
   file.deep = deep_rows(runner.scene, runner.state, runner.crossings.rows);
   file.info.time = runner.state.time;
   file.phase = runner.state.phase;

@@ -111,7 +111,9 @@ void add_fence(Scene& scene, const StandingFence& fence) {
   }
 }
 
-int panel_number(const Scene& scene, int body) { return scene.fixed.panel[body]; }
+int panel_number(const Scene& scene, int body) {
+  return body < n_fixed(scene) ? scene.fixed.panel[body] : -1;
+}
 
 void note_hit(const Scene& scene, int block, int body, const Vec3& point, double time,
               const Motion& before, const Motion& after, FenceState& fence) {
@@ -124,6 +126,7 @@ void note_hit(const Scene& scene, int block, int body, const Vec3& point, double
 
 void note_work(const Scene& scene, std::span<const YieldPush> pushes, FenceState& fence) {
   for (const YieldPush& push : pushes) {
+    if (push.yielding >= static_cast<int>(scene.fixed.yieldings.size())) continue;  // a stem
     const int body = scene.fixed.yieldings[push.yielding].body;
     if (panel_number(scene, body) < 0) continue;
     if (FenceHit* hit = find_hit(fence, push.block, panel_of(scene, body))) hit->work += push.work;

@@ -59,19 +59,26 @@ struct Yielded {
   int broken_by = -1;                     ///< block; -1 while it stands
 };
 
+/// What a stem of the forest has met; those that nothing hit have none.
+struct StemMet {
+  std::int32_t stem = 0;
+  Yielded met;
+};
+
 /// Part of the state.
 struct YieldingState {  // clang-format off
   std::vector<Yielded> met;         ///<                                                (n_yielding)
   std::vector<int> shifted;         ///< fixed bodies that have been pushed, in that order
+  std::vector<StemMet> stems;       ///< stems that were pushed, ascending
 };  // clang-format on
 
 /// What one block does to one body that gives way, over a substep.
 struct YieldPush {
-  int block = 0, yielding = 0;
-  double work = 0;   ///< taken from the block [J]
-  double power = 0;  ///< of the force at the start of the substep [W]
-  double shift = 0;  ///< that the body is pushed on, along `along` [m]
-  double to = 0;     ///< position along `along` that it is pushed to, where shift is not 0 [m]
+  int block = 0, yielding = 0;  ///< yielding: index into `yieldings`; after them, the stems
+  double work = 0;              ///< taken from the block [J]
+  double power = 0;             ///< of the force at the start of the substep [W]
+  double shift = 0;             ///< that the body is pushed on, along `along` [m]
+  double to = 0;  ///< position along `along` that it is pushed to, where shift is not 0 [m]
   Vec3 along = Vec3::Zero();  ///< the body's axis; without one, normal of the contact
 };
 

@@ -13,6 +13,7 @@
 #include "motion/displacement.hpp"
 #include "motion/pose.hpp"
 #include "scene/fixed_bodies.hpp"
+#include "scene/forest.hpp"
 #include "scene/joint_classes.hpp"
 #include "scene/paper_state.hpp"
 #include "site/acceleration_record.hpp"
@@ -70,6 +71,7 @@ struct Scene {
   JointClasses joints;  ///< by joint set and by block
   Blocks blocks;
   FixedBodies fixed;                 ///< law talus: fences, blocky slope; found through hulls
+  Forest forest;                     ///< law talus: stems of trees, found by place
   Vec3 gravity = Vec3(0, 0, -9.81);  ///< [m/s2]
   std::vector<PointLoad> loads;      ///< sorted by block
   AccelerationRecord base;           ///< empty: the ground stands still

@@ -9,6 +9,7 @@
 #include "base/random.hpp"
 #include "base/text.hpp"
 #include "scene/make_scene.hpp"
+#include "scene/stems.hpp"
 
 namespace talus {
 namespace {
@@ -161,6 +162,7 @@ Scene make_site_scene(const Site& site, const ScenePlan& plan, SceneParts parts)
   add_blocks(scene, parts.blocks, rock.materials);
   add_jitter(scene.blocks, solver.start_jitter_m_s, seed);
   for (const StandingFence& fence : parts.fences) add_fence(scene, fence);
+  if (!parts.stems.empty()) add_forest(scene, std::move(parts.stems), std::move(parts.stem_faces));
   check_scene(scene);
   return scene;
 }

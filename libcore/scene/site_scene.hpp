@@ -20,7 +20,9 @@ struct SceneParts {
   std::vector<std::uint8_t> cell_class;  ///< index into [ground.*]; empty: one class   (n_cells)
   BlockSet blocks;                       ///< in the TRN's local coordinates
   AccelerationRecord base;
-  std::vector<StandingFence> fences;  ///< that stand in the run
+  std::vector<StandingFence> fences;    ///< that stand in the run
+  std::vector<Stem> stems;              ///< of the forests that stand in it
+  std::vector<GroundClass> stem_faces;  ///< by Stem::section
 };
 
 /// The effective time step: [solver] time_step_s, else 5 ms for law talus and 0.1 ms for law paper,

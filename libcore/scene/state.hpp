@@ -99,6 +99,7 @@ struct State : BlockLives {  // clang-format off
   Mishaps mishaps;                          ///< so far
   YieldingState yielding;                   ///< what fixed bodies that give way have met
   FenceState fence;                         ///< what touched the panels of fences
+  std::vector<StemHit> stem_hits;           ///< in the order of their times, step by step
   PaperState paper;                         ///< of law paper alone
   EnergyLedger ledger;
   RunCounters counters;

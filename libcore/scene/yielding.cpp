@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "scene/stems.hpp"
 #include "solver/law_numbers.hpp"
 
 namespace talus {
@@ -14,7 +15,21 @@ using std::size_t;
 
 bool has_axis(const Yielding& yielding) { return !yielding.axis.isZero(0); }
 
-int yielding_number(const Scene& scene, int body) { return scene.fixed.yielding[body]; }
+// The bodies with hulls that give way, then the stems.
+int n_with_hulls(const Scene& scene) { return static_cast<int>(scene.fixed.yieldings.size()); }
+
+const Yielding& yielding_of(const Scene& scene, int y) {
+  const int n = n_with_hulls(scene);
+  return y < n ? scene.fixed.yieldings[y] : scene.forest.yieldings[y - n];
+}
+const Yielded& met_by(const Scene& scene, const YieldingState& state, int y) {
+  const int n = n_with_hulls(scene);
+  return y < n ? state.met[y] : met_by_stem(state, y - n);
+}
+Yielded& met_by(const Scene& scene, YieldingState& state, int y) {
+  const int n = n_with_hulls(scene);
+  return y < n ? state.met[y] : meet_stem(state, y - n);
+}
 
 int hardest_pusher(std::span<const YieldPush> pushes, int yielding) {
   const auto work_on = [yielding](const YieldPush& p) {
@@ -80,9 +95,14 @@ YieldingState start_yielding(const Scene& scene) {
   return state;
 }
 
+int yielding_number(const Scene& scene, int body) {
+  return is_stem(scene, body) ? n_with_hulls(scene) + stem_of(scene, body)
+                              : scene.fixed.yielding[body];
+}
+
 bool stands(const Scene& scene, const State& state, int body) {
   const int y = yielding_number(scene, body);
-  return y < 0 || state.yielding.met[y].broken_by < 0;
+  return y < 0 || met_by(scene, state.yielding, y).broken_by < 0;
 }
 
 Pose fixed_pose(const Scene& scene, const State& state, int body) {
@@ -96,6 +116,8 @@ Pose fixed_pose(const Scene& scene, const State& state, int body) {
 }
 
 const GroundClass& fixed_class(const Scene& scene, int body) {
+  if (is_stem(scene, body))
+    return scene.forest.faces[scene.forest.stems[stem_of(scene, body)].section];
   const int contact_class = scene.fixed.contact_class[body];
   return scene.fixed.classes[contact_class];
 }
@@ -103,7 +125,7 @@ const GroundClass& fixed_class(const Scene& scene, int body) {
 const Yielding* giving_way(const Scene& scene, int body, const Vec3& normal) {
   const int y = yielding_number(scene, body);
   if (y < 0) return nullptr;
-  const Yielding& yielding = scene.fixed.yieldings[y];
+  const Yielding& yielding = yielding_of(scene, y);
   const bool is_across =
       !has_axis(yielding) || std::abs(normal.dot(yielding.axis)) > law::least_yield_cosine;
   return std::isfinite(yielding.force) && is_across ? &yielding : nullptr;
@@ -132,15 +154,14 @@ double time_to_first_break(const Scene& scene, const YieldingState& yielding,
                            std::span<const YieldPush> pushes, double h) {
   double first = std::numeric_limits<double>::infinity();
   for (const YieldPush& push : pushes) {
-    const auto y = static_cast<size_t>(push.yielding);
-    const double capacity = scene.fixed.yieldings[y].capacity;
+    const double capacity = yielding_of(scene, push.yielding).capacity;
     double work = 0, power = 0;
     for (const YieldPush& other : pushes) {
       if (other.yielding != push.yielding) continue;
       work += other.work;
       power += other.power;
     }
-    const double left = std::max(0.0, capacity - yielding.met[y].work);
+    const double left = std::max(0.0, capacity - met_by(scene, yielding, push.yielding).work);
     if (work <= left + (1 - law::used_up) * capacity) continue;
     const double change = (work - power * h) / (h * h);  // work(t) = power t + change t^2
     const double root = std::sqrt(std::max(0.0, power * power + 4 * change * left));
@@ -150,24 +171,25 @@ double time_to_first_break(const Scene& scene, const YieldingState& yielding,
 }
 
 void push_bodies(const Scene& scene, std::span<const YieldPush> pushes, double time, State& state) {
-  const auto yielding_of = [&](const YieldPush& push) -> const Yielding& {
-    return scene.fixed.yieldings[push.yielding];
-  };
-  const auto met_by = [&](const YieldPush& push) -> Yielded& {
-    return state.yielding.met[push.yielding];
-  };
+  YieldingState& yielding = state.yielding;
   for (const YieldPush& push : pushes) {
-    met_by(push).work += push.work;
+    const Yielding& how = yielding_of(scene, push.yielding);
+    Yielded& met = met_by(scene, yielding, push.yielding);
+    met.work += push.work;
     state.ledger.fence += push.work;
-    deflect(yielding_of(push), push, met_by(push));
-    note_shifted(yielding_of(push).body, met_by(push), state.yielding.shifted);
+    deflect(how, push, met);
+    if (!is_stem(scene, how.body))
+      note_shifted(how.body, met, yielding.shifted);
+    else if (push.shift != 0)
+      wake_sleepers_at(how.body, state);
   }
   for (const YieldPush& push : pushes) {
-    Yielded& met = met_by(push);
-    if (met.work < law::used_up * yielding_of(push).capacity || met.broken_by >= 0) continue;
+    const Yielding& how = yielding_of(scene, push.yielding);
+    Yielded& met = met_by(scene, yielding, push.yielding);
+    if (met.work < law::used_up * how.capacity || met.broken_by >= 0) continue;
     met.broken_at = time;
     met.broken_by = hardest_pusher(pushes, push.yielding);
-    wake_sleepers_at(yielding_of(push).body, state);
+    wake_sleepers_at(how.body, state);
   }
 }
 

@@ -2,7 +2,8 @@
 // Fixed bodies in a run: what they are, where they are now, and how those that give way do so.
 // in:    the scene's fixed bodies; what contacts did to them
 // out:   deflection, work and breaking of bodies that give way
-// Fences are one use (scene/fence.hpp). All bodies are named by their ids.
+// Fences are one use (scene/fence.hpp), stems of trees another (scene/stems.hpp). All bodies are
+// named by their ids.
 #pragma once
 
 #include <span>
@@ -26,6 +27,14 @@ int let_yield(Scene& scene, int body, Yielding how);
 
 /// Does fixed body `body` stop anything (any more)?
 [[nodiscard]] bool stands(const Scene& scene, const State& state, int body);
+
+/// Whether there are bodies that give way.
+[[nodiscard]] inline bool anything_yields(const Scene& scene) {
+  return !scene.fixed.yieldings.empty() || !scene.forest.yieldings.empty();
+}
+
+/// Number of fixed body `body` among those that give way, -1: it does not.
+[[nodiscard]] int yielding_number(const Scene& scene, int body);
 
 /// Where fixed body `body` is now.
 [[nodiscard]] Pose fixed_pose(const Scene& scene, const State& state, int body);

@@ -170,7 +170,7 @@ SourceOptions plan_source(const Site& site, const Vec3& origin) {
     need(!source.raster.empty(), "raster");
   } else if (source.failure_surface == "slbl") {
     options.kind = FailureSurface::slbl;
-    options.slbl_curvature = source.slbl_curvature_m;
+    options.slbl_curvature = source.slbl_curvature_m;  // or by its sag, once the slope is known
     options.slbl_max_depth = std::isnan(source.slbl_max_depth_m) ? 0 : source.slbl_max_depth_m;
   } else {
     options.kind = source.failure_surface == "vertical_depth" ? FailureSurface::vertical_depth

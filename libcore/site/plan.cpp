@@ -84,6 +84,8 @@ PlanFacts plan_facts(const Site& site, const BlockSet& blocks, const Trn& trn,
   facts.n_fences = static_cast<int>(site.fences.size());
   for (const FenceSettings& fence : site.fences)
     facts.n_standing += fence.active && site.solver.law == "talus";
+  for (const ForestSettings& forest : site.forests)
+    facts.n_forests += forest.active && site.solver.law == "talus";
   facts.has_base_motion = !site.base_motion.file.empty() || site.base_motion.amplitude_m_s2 > 0;
   facts.stress_wanted = site.output.strain;
   facts.strain = site.solver.strain;
@@ -150,6 +152,9 @@ ScenePlan make_plan(const PlanFacts& facts, bool full) {
   add({"standing fences", facts.n_standing > 0,
        "panels as fixed bodies where a fence is active, law talus",
        counted(facts.n_standing, "fence")});
+  if (facts.n_forests > 0)
+    add({"forest", true, "stems by place, looked at where a block is near",
+         counted(facts.n_forests, "forest")});
   plan.strains_in_frames = add(kept_by_full(
       full && plan.strains, {"strains in frames", facts.stress_wanted && plan.strains,
                              "stored where asked for and computed",

@@ -51,7 +51,10 @@ struct SourceSettings {
   std::string raster;
   double slbl_curvature_m = 0;  ///< below the mean of the highest and lowest of four neighbours
   double slbl_max_depth_m = not_given;
-  std::string material;  ///< of the blocks; the only one when there is one
+  double slbl_sag_m = not_given;  ///< instead of slbl_curvature_m
+  std::string slbl_scenario;      ///< instead of both
+  std::string daylight;           ///< what stands before the mass along this direction is left out
+  std::string material;           ///< of the blocks; the only one when there is one
   std::int64_t seed = 1;
   std::int64_t max_blocks = 20000;
   double min_block_volume_m3 = not_given;    ///< not given: 1e-2 of the mean joint cell
@@ -157,6 +160,25 @@ struct FenceSettings {
   double cor = 0.1, friction_deg = 30;
 };
 
+/// [forest.NAME]: stems that stand in the way, drawn or from a list.
+struct ForestSettings {
+  std::string name;
+  int line = 0;
+  std::vector<Vec3> polygon;  ///< map x, y; or polygon_file
+  std::string polygon_file, polygon_layer, polygon_where;
+  double stems_per_ha = not_given;
+  double dbh_mean_cm = 30, dbh_std_cm = 10;  ///< diameter at breast height, gamma distributed
+  double conifer_share = 1;
+  std::string nrtrees_raster, dbhmean_raster, dbhstd_raster, conif_percent_raster;
+  std::string stems_file, stems_layer, stems_where;  ///< points with dbh_cm, and species or conifer
+  double fe_conifer = 0.93, fe_broadleaf = 1.59;     ///< FE of the energy that breaks a stem
+  double deflection_m = 0.5;                         ///< over which it takes that energy
+  double height_m = 20, friction_deg = 16.7;
+  std::int64_t seed = 1;
+  bool new_stand_per_run = false;
+  bool active = true;
+};
+
 /// [output]
 struct OutputSettings {
   double frame_interval_s = 0.1;
@@ -220,6 +242,7 @@ struct Site {
   std::vector<MaterialSettings> materials;  ///< at least one: "rock" with the defaults
   std::vector<GroundSettings> grounds;      ///< at least one: "ground" with the defaults
   std::vector<FenceSettings> fences;
+  std::vector<ForestSettings> forests;
   std::vector<PlacedSettings> blocks;
   std::map<std::string, ValueSource> sources;  ///< "joints.J1.dip_deg" -> where it came from
   std::vector<std::string> sections;           ///< that stand in the file

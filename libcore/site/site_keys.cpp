@@ -71,7 +71,10 @@ template <> const std::vector<SiteKey<SourceSettings>>& keys_of() {
       {"plane_point_m", &S::plane_point_m, "map x, y, z of a point of the plane", any, "", "", 3, 3},
       {"raster", &S::raster, "elevations of the failure surface; thickness: depths of the mass below the ground, upright"},
       {"slbl_curvature_m", &S::slbl_curvature_m, "SLBL: how far a node may lie below the mean of its highest and lowest of four neighbours", not_negative},
+      {"slbl_sag_m", &S::slbl_sag_m, "SLBL: how far the surface sags below the line from the upper to the lower end of the source, instead of slbl_curvature_m; the same on every cell size", not_negative},
+      {"slbl_scenario", &S::slbl_scenario, "SLBL: min (no sag), max (0.41 of the height of the source) or inter (half of that), instead of slbl_sag_m", any, "min|inter|max"},
       {"slbl_max_depth_m", &S::slbl_max_depth_m, "SLBL: largest depth", positive},
+      {"daylight", &S::daylight, "lifts the failure surface until nothing stands before the mass: along the dip of a joint set (its name), the line of two (\"one + other\"), or a plunge in degrees down the fall line"},
       {"material", &S::material, "material of the cut blocks"},
       {"seed", &S::seed, "seed of joint positions and orientations", not_negative},
       {"max_blocks", &S::max_blocks, "more expected blocks than this are refused before cutting, more bodies of a [blocks.*] before placing", {1, 10000000}},
@@ -193,6 +196,34 @@ template <> const std::vector<SiteKey<FenceSettings>>& keys_of() {
       {"active", &S::active, "whether it stands in the run"},
       {"cor", &S::cor, "coefficient of restitution of a rigid fence", share},
       {"friction_deg", &S::friction_deg, "friction angle", angle_below_90, "", friction_hint}};
+  return table;
+}
+template <> const std::vector<SiteKey<ForestSettings>>& keys_of() {
+  using S = ForestSettings;
+  static const std::vector<SiteKey<S>> table = {
+      {"polygon", &S::polygon, "corners of the stand, map x, y", any, "", "", 3},
+      {"polygon_file", &S::polygon_file, "vector file with the stand, instead of polygon: polygons, or closed lines"},
+      {"polygon_layer", &S::polygon_layer, "its layer or layers"},
+      {"polygon_where", &S::polygon_where, "attribute filter, e.g. type = 'spruce'"},
+      {"stems_per_ha", &S::stems_per_ha, "stems on a hectare, drawn at random places", {0, 100000}},
+      {"dbh_mean_cm", &S::dbh_mean_cm, "mean diameter at breast height", {0, 1000, true, false}},
+      {"dbh_std_cm", &S::dbh_std_cm, "its standard deviation (gamma distribution); 0: all alike", {0, 1000}},
+      {"conifer_share", &S::conifer_share, "share of conifers", share},
+      {"nrtrees_raster", &S::nrtrees_raster, "raster of stems on a hectare, instead of stems_per_ha"},
+      {"dbhmean_raster", &S::dbhmean_raster, "raster of mean diameters [cm], on the cells of nrtrees_raster"},
+      {"dbhstd_raster", &S::dbhstd_raster, "raster of their standard deviations [cm]"},
+      {"conif_percent_raster", &S::conif_percent_raster, "raster of the percentage of conifers"},
+      {"stems_file", &S::stems_file, "vector file of stems instead of a stand: points with field dbh_cm, and species or conifer (1 or 0) where known"},
+      {"stems_layer", &S::stems_layer, "its layer or layers"},
+      {"stems_where", &S::stems_where, "attribute filter on the stems"},
+      {"fe_conifer", &S::fe_conifer, "factor on the energy that breaks a conifer", {0, 10, true, false}},
+      {"fe_broadleaf", &S::fe_broadleaf, "the same of a broadleaf", {0, 10, true, false}},
+      {"deflection_m", &S::deflection_m, "path of the block over which a stem takes its energy", {0, 10, true, false}},
+      {"height_m", &S::height_m, "height above the ground up to which stems stop blocks", positive},
+      {"friction_deg", &S::friction_deg, "friction angle between block and stem", angle_below_90, "", friction_hint},
+      {"seed", &S::seed, "seed of the stand", not_negative},
+      {"new_stand_per_run", &S::new_stand_per_run, "each [solver] seed draws a stand of its own"},
+      {"active", &S::active, "whether it stands in the run"}};
   return table;
 }
 template <> const std::vector<SiteKey<OutputSettings>>& keys_of() {

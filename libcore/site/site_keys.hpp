@@ -54,6 +54,7 @@ template <> const std::vector<SiteKey<MaterialSettings>>& keys_of();
 template <> const std::vector<SiteKey<GroundSettings>>& keys_of();
 template <> const std::vector<SiteKey<SolverSettings>>& keys_of();
 template <> const std::vector<SiteKey<FenceSettings>>& keys_of();
+template <> const std::vector<SiteKey<ForestSettings>>& keys_of();
 template <> const std::vector<SiteKey<OutputSettings>>& keys_of();
 template <> const std::vector<SiteKey<BaseMotionSettings>>& keys_of();
 template <> const std::vector<SiteKey<PlacedSettings>>& keys_of();
@@ -72,6 +73,7 @@ void for_each_group(SiteType& site, Visit&& visit) {
   visit("blocks", site.blocks);
   visit("solver", site.solver);
   visit("fence", site.fences);
+  visit("forest", site.forests);
   visit("base_motion", site.base_motion);
   visit("output", site.output);
 }

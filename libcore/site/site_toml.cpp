@@ -147,7 +147,24 @@ Texts key_names() {
   return names;
 }
 
+// "depth" for depth_m: the entries that begin with the name, as units are left away.
+std::string without_its_unit(std::string_view name, const Texts& known) {
+  std::string words;
+  for (const std::string& entry : known)
+    if (entry.size() > name.size() && entry.starts_with(name) && entry[name.size()] == '_')
+      words += (words.empty() ? "" : " or ") + entry;
+  return words;
+}
+
 std::string did_you_mean(std::string_view name, const Texts& known) {
+  if (name.starts_with("strike"))
+    for (const std::string& entry : known)
+      if (entry.ends_with("dip_direction_deg"))
+        return entry +
+               " is the azimuth of the steepest way down: strike + 90 by the right-hand "
+               "rule, strike - 90 by the left-hand rule";
+  const std::string longer = without_its_unit(name, known);
+  if (!longer.empty()) return "did you mean " + longer + "?";
   const std::string nearest = nearest_name(name, known);
   if (!nearest.empty()) return "did you mean " + nearest + "?";
   std::string all;

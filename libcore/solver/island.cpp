@@ -6,7 +6,11 @@ namespace talus {
 
 void open_pair(int a, int b, Island& island) {
   const int at = 2 * static_cast<int>(island.rows.size());
-  island.pairs.push_back({a, b, at, at, true});
+  BodyPair& pair = island.pairs.emplace_back();
+  pair.a = a;
+  pair.b = b;
+  pair.row_begin = pair.row_end = at;
+  if (b >= 0) pair.shift = island.position[a] - island.position[b];
 }
 
 namespace {

@@ -104,7 +104,8 @@ struct BodyPair {
   /// In, for a solution that continues the last one: rows, centroids or free motion of a body are
   /// not those of that one. Out: false.
   bool changed = true;
-  int angular = -1;  ///< index into Island::angular, -1: no couple beside the points
+  int angular = -1;           ///< index into Island::angular, -1: no couple beside the points
+  Vec3 shift = Vec3::Zero();  ///< from B to A when its contacts press; without B: zero [m]
 };
 
 /// One island of rigid bodies over one step. Velocity: of the centroid, and spin, in local axes;
@@ -151,7 +152,7 @@ struct Island {  // clang-format off
   return bounds;
 }
 
-/// Adds a pair without rows.
+/// Adds a pair without rows, its bodies where they are.
 void open_pair(int a, int b, Island& island);
 /// Adds the lane of a contact to the last pair and returns its number. One that waits gets the
 /// place alone and presses nothing until it is hit.

@@ -112,8 +112,7 @@ void prepare_pair(const Island& island, size_t p, IslandMatrix& matrix) {
     add_to_diagonals(pair, change, matrix.shift[p], matrix);
     matrix.pair_closed[p] = 0;
   }
-  matrix.shift[p] =
-      pair.b < 0 ? Vec3(Vec3::Zero()) : Vec3(island.position[pair.a] - island.position[pair.b]);
+  matrix.shift[p] = pair.shift;
 }
 
 void prepare_matrix(const Island& island, IslandMatrix& matrix) {

@@ -31,11 +31,9 @@ void for_each_listed(const Scene& scene, const State& state, const DeepWork& w, 
 
 // Places the suspects and what they may overlap where they are at the end of the step.
 void place_suspects(const Scene& scene, const State& state, DeepWork& w) {
-  const auto n = static_cast<size_t>(n_blocks(scene)), n_bodies = n + scene.fixed.pose.size();
-  const bool first = w.placed.turned.size() != n_bodies;
-  w.poses.resize(first ? n_bodies : n);
-  w.moving.assign(n, first ? 1 : 0);
-  for (size_t b = 0; b < n; ++b) w.moving[b] |= w.is_suspect[b];
+  const auto n = static_cast<size_t>(n_blocks(scene));
+  w.poses.resize(n);
+  w.moving = w.is_suspect;
   w.fixed.clear();
   for_each_listed(scene, state, w, [&](const PairWatch&, int a, int b) {
     w.moving[a] = 1;
@@ -47,9 +45,6 @@ void place_suspects(const Scene& scene, const State& state, DeepWork& w) {
   for (size_t b = 0; b < n; ++b)
     if (w.moving[b] != 0)
       w.poses[b] = motion_at(scene, state, static_cast<int>(b), state.time).pose;
-  if (first)
-    std::copy(scene.fixed.pose.begin(), scene.fixed.pose.end(),
-              w.poses.begin() + static_cast<std::ptrdiff_t>(n));
   w.stretch.clear();
   if (!state.strain.empty()) {
     w.stretch.assign(w.poses.size(), Mat3::Identity());
@@ -130,6 +125,24 @@ void note_deepest(const Scene& scene, State& state, DeepWork& w, const StepRepor
 }
 
 }  // namespace
+
+DeepWork make_deep_work(const Scene& scene) {
+  constexpr size_t expected_corners = 64;  // of a polygon that a body cuts out of the ground
+  DeepWork w;
+  const auto n = static_cast<size_t>(n_blocks(scene));
+  w.is_suspect.resize(n);
+  w.moving.assign(n, 1);
+  w.overlap_depth.resize(n);
+  w.overlap_partner.resize(n);
+  w.fixed.reserve(scene.fixed.pose.size());
+  w.poses.assign(scene.blocks.rest.begin(), scene.blocks.rest.end());
+  w.poses.insert(w.poses.end(), scene.fixed.pose.begin(), scene.fixed.pose.end());
+  if (scene.settings.strains) w.stretch.reserve(w.poses.size());
+  place_hulls(scene.blocks.hulls, w.poses, {}, w.moving, w.placed);
+  w.ground.polygon.reserve(expected_corners);
+  w.ground.clipped.reserve(expected_corners);
+  return w;
+}
 
 void note_deep_blocks(const Scene& scene, State& state, DeepWork& w, StepReport& report) {
   const bool any = std::find(w.is_suspect.begin(), w.is_suspect.end(), 1) != w.is_suspect.end();

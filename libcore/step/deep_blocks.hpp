@@ -16,6 +16,9 @@
 
 namespace talus {
 
+/// Scratch for the blocks of a scene, so that a step asks for no memory.
+[[nodiscard]] DeepWork make_deep_work(const Scene& scene);
+
 /// Takes a contact that presses, or holds an overlap that presses nothing, into the report.
 /// `block`: the thinner of its two.
 inline void note_overlap(int block, double overlap, double thickness, DeepWork& deep,

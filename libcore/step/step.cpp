@@ -100,7 +100,7 @@ Work make_work(const Scene& scene) {
   work.world_vertices.reserve(most_vertices);
   work.near_ground.resize(n_blocks(scene));
   for (NearFeatures& near : work.near_ground) near.features.reserve(expected_contacts);
-  work.deep.is_suspect.resize(n_blocks(scene));
+  work.deep = make_deep_work(scene);
   work.contacts.reserve(8 * (most_vertices + expected_contacts));
   work.rows.reserve(8 * (most_vertices + expected_contacts));
   work.unbonded.reserve(expected_contacts);
@@ -114,7 +114,8 @@ namespace {
 void advance_talus(const Scene& scene, State& state, Work& work, StepReport& report) {
   const double t_end = state.time + scene.settings.dt;
   const bool may_sleep = scene.settings.sleep && !shakes(scene.base);
-  const bool islands = (n_blocks(scene) > 1 && scene.settings.block_contacts) || n_fixed(scene) > 0;
+  const bool islands = (n_blocks(scene) > 1 && scene.settings.block_contacts) ||
+                       n_fixed(scene) > 0 || !scene.forest.stems.empty();
   if (islands) form_islands(scene, state, work);
   for (int b = 0; b < n_blocks(scene); ++b) {
     const auto i = static_cast<size_t>(b);

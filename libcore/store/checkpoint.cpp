@@ -16,11 +16,12 @@ namespace talus {
 static_assert(sizeof(Motion) == 112 && sizeof(EnergyLedger) == 64 && sizeof(RunCounters) == 64);
 static_assert(sizeof(ContactMemory) == 136 &&
               sizeof(HealthRow) == 192 + 8 * substep_cut_names.size());
-static_assert(sizeof(State) == 8 + 16 * 24 + sizeof(EnergyLedger) + sizeof(RunCounters) +
+static_assert(sizeof(State) == 8 + 17 * 24 + sizeof(EnergyLedger) + sizeof(RunCounters) +
                                    sizeof(PairState) + sizeof(PlacedHulls) + sizeof(FenceState) +
                                    sizeof(YieldingState) + sizeof(Mishaps));
-static_assert(sizeof(YieldingState) == 2 * 24 && sizeof(Yielded) == 56);
-static_assert(sizeof(FenceState) == 24 && sizeof(FenceHit) == 104 && sizeof(BlockBond) == 144);
+static_assert(sizeof(YieldingState) == 3 * 24 && sizeof(Yielded) == 56);
+static_assert(sizeof(StemMet) == 64 && sizeof(StemHit) == 80);
+static_assert(sizeof(FenceState) == 24 && sizeof(FenceHit) == 104 && sizeof(BlockBond) == 48);
 static_assert(sizeof(PairState) == 280 && sizeof(PlacedHulls) == 192 && sizeof(ListedPair) == 96);
 static_assert(sizeof(SlidWay) == 16 && sizeof(DeepBlock) == 64 && sizeof(Mishap) == 48 &&
               sizeof(Mishaps) == 5 * 48);
@@ -59,8 +60,17 @@ void fields(Fields<Archive>& archive, Yielded& met) {
   archive(met.work, met.deflection, met.shift, met.broken_at, met.broken_by);
 }
 template <class Archive>
+void fields(Fields<Archive>& archive, StemMet& stem) {
+  archive(stem.stem, stem.met);
+}
+template <class Archive>
+void fields(Fields<Archive>& archive, StemHit& hit) {
+  archive(hit.block, hit.stem, hit.time, hit.height, hit.velocity, hit.translational_energy,
+          hit.rotational_energy, hit.energy_after, hit.work);
+}
+template <class Archive>
 void fields(Fields<Archive>& archive, YieldingState& yielding) {
-  archive(yielding.met, yielding.shifted);
+  archive(yielding.met, yielding.shifted, yielding.stems);
 }
 template <class Archive>
 void fields(Fields<Archive>& archive, DeepBlock& deep) {
@@ -131,7 +141,7 @@ void fields(Fields<Archive>& archive, State& state) {
           state.acceleration, state.spin_rate, state.support, state.paper.rebound, state.rest_pose,
           state.rest_steps, state.strain, state.strain_rate, state.memory, state.pairs,
           state.placed, state.bonds, state.deep, state.slid, state.mishaps, state.yielding,
-          state.fence, state.ledger, state.counters);
+          state.fence, state.stem_hits, state.ledger, state.counters);
 }
 template <class Archive>
 void fields(Fields<Archive>& archive, PassageValues& values) {
@@ -172,7 +182,7 @@ void fields(Fields<Archive>& archive, Checkpoint& checkpoint) {
 
 namespace {
 
-constexpr std::uint64_t format = 0x39306b6365686374;  // "tcheck09"
+constexpr std::uint64_t format = 0x31316b6365686374;  // "tcheck11"
 constexpr std::size_t digest_length = 64;
 
 std::string digest_of(std::span<const std::uint8_t> bytes) {

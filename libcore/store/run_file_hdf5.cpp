@@ -8,6 +8,7 @@
 #include "io/h5_hdf5.hpp"
 #include "io/write_bytes.hpp"
 #include "record/run_file.hpp"
+#include "scene/stand.hpp"
 #include "store/run_file_tables_hdf5.hpp"
 
 namespace talus {
@@ -334,6 +335,38 @@ void read_fences(const H5Reader& file, const std::string& path, RunFile& run) {
       throw InputError({path, 0, "fence_hits"}, "a row names a block or panel that does not exist");
 }
 
+// Only in runs with forests that stood.
+void write_trees(H5Writer& file, const RunFile& run) {
+  if (run.forests.empty()) return;
+  std::vector<std::string> names;
+  std::vector<int> n_stems;
+  for (const ForestInfo& forest : run.forests) {
+    names.push_back(forest.name);
+    n_stems.push_back(forest.n_stems);
+  }
+  file.group("forests", "the forests that stood");
+  file.texts("forests/name", names, "name of the forest");
+  put_indices(file, "forests/n_stems", n_stems, "stems that stood at the start");
+  write_tree_hit_table(file, run.tree_hits);
+}
+
+void read_trees(const H5Reader& file, const std::string& path, RunFile& run) {
+  if (!file.has("tree_hits")) return;
+  const std::vector<std::string> names = file.texts("forests/name");
+  const std::vector<int> n_stems = file.array<std::int32_t>("forests/n_stems", 1);
+  if (n_stems.size() != names.size())
+    throw InputError({path, 0, "forests/n_stems"}, "does not have a row for each forest");
+  for (std::size_t k = 0; k < names.size(); ++k) run.forests.push_back({names[k], n_stems[k]});
+  run.tree_hits = read_tree_hit_table(file);
+  const int n_species = static_cast<int>(known_species().size());
+  for (const TreeHitRow& row : run.tree_hits)
+    if (row.forest < 0 || row.forest >= static_cast<int>(names.size()) || row.species < 0 ||
+        row.species >= n_species || row.hit.block < 0 || row.hit.block >= n_blocks(run) ||
+        row.broken_by >= n_blocks(run))
+      throw InputError({path, 0, "tree_hits"},
+                       "a row names a block, forest or species that does not exist");
+}
+
 void read_deep(const H5Reader& file, const std::string& path, RunFile& run) {
   if (!file.has("deep_blocks")) return;
   run.deep = read_deep_table(file);
@@ -385,6 +418,7 @@ RunFile read_run_file(const std::string& path, const RunParts& parts) {
     read_crossings(file, path, run);
     read_fences(file, path, run);
   }
+  if (parts.trees) read_trees(file, path, run);
   if (parts.health) {
     run.health = read_health_table(file, parts.only_faults);
     read_deep(file, path, run);
@@ -411,6 +445,7 @@ void write_run_file(const std::string& path, const RunFile& run) {
   if (run.grid.n_rows > 0) write_passages(file, run);
   write_crossings(file, run);
   write_fences(file, run);
+  write_trees(file, run);
   write_health_table(file, run.health);
   if (!run.deep.empty()) write_deep_table(file, run.deep);
   if (!run.checkpoint.empty())

@@ -155,6 +155,68 @@ void hit_columns(Visit&& column) {
 }
 
 template <class Visit>
+void tree_hit_columns(Visit&& column) {
+  column(
+      "stem", "1", "id of the stem in its forest: of a list its row, else its number in the stand",
+      [](TreeHitRow & t) -> auto& { return t.stem; });
+  column(
+      "forest", "1", "index of its forest", [](TreeHitRow & t) -> auto& { return t.forest; });
+  column(
+      "species", "1",
+      "0 conifer, 1 broadleaf, 2 larch, 3 spruce, 4 fir, 5 pine, 6 maple, 7 beech, 8 oak, 9 "
+      "robinia",
+      [](TreeHitRow & t) -> auto& { return t.species; });
+  column(
+      "x_m", "m", "foot of the stem, local", [](TreeHitRow & t) -> auto& { return t.foot.x(); });
+  column(
+      "y_m", "m", "foot of the stem, local", [](TreeHitRow & t) -> auto& { return t.foot.y(); });
+  column(
+      "z_m", "m", "foot of the stem, local", [](TreeHitRow & t) -> auto& { return t.foot.z(); });
+  column(
+      "dbh_m", "m", "diameter at breast height", [](TreeHitRow & t) -> auto& { return t.dbh; });
+  column(
+      "capacity_j", "J", "energy that breaks it, before anything hit it",
+      [](TreeHitRow & t) -> auto& { return t.capacity; });
+  column(
+      "left_j", "J", "what was left of that at the end of the run; 0: it is broken",
+      [](TreeHitRow & t) -> auto& { return t.left; });
+  column(
+      "broken_at_s", "s", "when it broke; infinite: it stands",
+      [](TreeHitRow & t) -> auto& { return t.broken_at; });
+  column(
+      "broken_by", "1", "block that broke it; -1: it stands",
+      [](TreeHitRow & t) -> auto& { return t.broken_by; });
+  column(
+      "block", "1", "index of the block", [](TreeHitRow & t) -> auto& { return t.hit.block; });
+  column(
+      "time_s", "s", "of the first touch", [](TreeHitRow & t) -> auto& { return t.hit.time; });
+  column(
+      "height_m", "m", "of the first touch above the foot",
+      [](TreeHitRow & t) -> auto& { return t.hit.height; });
+  column(
+      "velocity_x_m_s", "m/s", "velocity before, x",
+      [](TreeHitRow & t) -> auto& { return t.hit.velocity.x(); });
+  column(
+      "velocity_y_m_s", "m/s", "velocity before, y",
+      [](TreeHitRow & t) -> auto& { return t.hit.velocity.y(); });
+  column(
+      "velocity_z_m_s", "m/s", "velocity before, z",
+      [](TreeHitRow & t) -> auto& { return t.hit.velocity.z(); });
+  column(
+      "translational_energy_j", "J", "kinetic energy of translation before",
+      [](TreeHitRow & t) -> auto& { return t.hit.translational_energy; });
+  column(
+      "rotational_energy_j", "J", "kinetic energy of rotation before",
+      [](TreeHitRow & t) -> auto& { return t.hit.rotational_energy; });
+  column(
+      "energy_after_j", "J", "kinetic energy with spin when block and stem last touched",
+      [](TreeHitRow & t) -> auto& { return t.hit.energy_after; });
+  column(
+      "work_j", "J", "energy that the stem took from the block",
+      [](TreeHitRow & t) -> auto& { return t.hit.work; });
+}
+
+template <class Visit>
 void panel_columns(Visit&& column) {
   column(
       "line", "1", "index of the fence's line", [](PanelRow & p) -> auto& { return p.line; });
@@ -373,6 +435,11 @@ void write_hit_table(H5Writer& file, const std::vector<FenceHit>& rows) {
               [](auto&& column) { hit_columns(column); });
 }
 
+void write_tree_hit_table(H5Writer& file, const std::vector<TreeHitRow>& rows) {
+  write_table(file, "tree_hits", "one row per block and stem that it touched", rows,
+              [](auto&& column) { tree_hit_columns(column); });
+}
+
 void write_deep_table(H5Writer& file, const std::vector<DeepRow>& rows) {
   write_table(file, "deep_blocks",
               "one row per block that was in something by more than a tenth of its thickness", rows,
@@ -422,6 +489,10 @@ std::vector<PanelRow> read_panel_table(const H5Reader& file) {
 
 std::vector<FenceHit> read_hit_table(const H5Reader& file) {
   return read_table<FenceHit>(file, "fence_hits", [](auto&& column) { hit_columns(column); });
+}
+
+std::vector<TreeHitRow> read_tree_hit_table(const H5Reader& file) {
+  return read_table<TreeHitRow>(file, "tree_hits", [](auto&& column) { tree_hit_columns(column); });
 }
 
 std::vector<DeepRow> read_deep_table(const H5Reader& file) {

@@ -25,6 +25,8 @@ void write_health_table(H5Writer& file, const std::vector<HealthRow>& rows);
 [[nodiscard]] std::vector<Crossing> read_crossing_table(const H5Reader& file);
 [[nodiscard]] std::vector<PanelRow> read_panel_table(const H5Reader& file);
 [[nodiscard]] std::vector<FenceHit> read_hit_table(const H5Reader& file);
+void write_tree_hit_table(H5Writer& file, const std::vector<TreeHitRow>& rows);
+[[nodiscard]] std::vector<TreeHitRow> read_tree_hit_table(const H5Reader& file);
 [[nodiscard]] std::vector<DeepRow> read_deep_table(const H5Reader& file);
 /// `only_faults`: as RunParts says; the other fields stay zero.
 [[nodiscard]] std::vector<HealthRow> read_health_table(const H5Reader& file, bool only_faults);

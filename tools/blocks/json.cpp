@@ -123,13 +123,18 @@ Json cut_json(const BlocksWork& work) {
                 (cut.block_volume + cut.dropped_volume - cut.cut_volume) / cut.cut_volume}};
   const SourceSettings& source = work.site.source;
   if (source.failure_surface == "daylighting")
-    rows["failure_planes"] = planes_json(work.planes, work.ground.origin);
+    rows["failure_planes"] = planes_json(work.planes, work.wedges, work.wedge, work.ground.origin);
   if (source.failure_surface == "plane") {
     rows["free_share_of_foot"] = work.at_foot.free_share;
     rows["largest_step_at_foot_m"] = work.at_foot.largest_step;
   }
+  if (!source.daylight.empty()) {
+    rows["daylight"] = source.daylight;
+    rows["hollow_volume_m3"] = work.hollow_volume;
+    rows["leans_on_the_foot_m3"] = work.hollow_volume - work.mass.volume;
+  }
   if (source.failure_surface == "slbl") {
-    rows["slbl_curvature_m"] = source.slbl_curvature_m;
+    rows["slbl_curvature_m"] = work.slbl_curvature;
     if (!std::isnan(source.slbl_max_depth_m)) rows["slbl_max_depth_m"] = source.slbl_max_depth_m;
   }
   return rows;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
 
 #include "base/text.hpp"
 #include "record/deep_rows.hpp"
@@ -78,6 +80,32 @@ std::string fence_summary(const Json& report) {
          std::to_string(n_broken) + " of " +
          counted(static_cast<std::int64_t>(panels.size()), "panel") + " broken" +
          broken_panels(panels);
+}
+
+// Stems that stood, that were hit, and that broke.
+Json trees_on(const RunFile& file) {
+  std::set<std::pair<int, int>> hit, broken;
+  double work = 0;
+  for (const TreeHitRow& row : file.tree_hits) {
+    hit.emplace(row.forest, row.stem);
+    if (row.broken_by >= 0) broken.emplace(row.forest, row.stem);
+    work += row.hit.work;
+  }
+  std::int64_t n = 0;
+  for (const ForestInfo& forest : file.forests) n += forest.n_stems;
+  return {{"n_stems", n},
+          {"n_stems_hit", hit.size()},
+          {"n_stems_broken", broken.size()},
+          {"n_hits", file.tree_hits.size()},
+          {"work_kj", work / 1e3}};
+}
+
+std::string tree_summary(const Json& report) {
+  if (!report.contains("trees")) return "";
+  const Json& trees = report["trees"];
+  return ", " + trees["n_stems_hit"].dump() + " of " +
+         counted(trees["n_stems"].get<std::int64_t>(), "stem") + " hit, " +
+         trees["n_stems_broken"].dump() + " broken";
 }
 
 // What a user must not miss, where there is any.
@@ -172,6 +200,7 @@ Json run_report(const Runner& runner, const ScenePlan& plan, double cpu_s) {
                {"mean_displacement_m", {moved.x(), moved.y(), moved.z()}},
                {"moved", moved_json(moved_of(displacements(file)))},
                {"cpu_time_s", cpu_s}};
+  if (!file.forests.empty()) json["trees"] = trees_on(file);
   json["health"] = Json::array();
   for (const HealthCheck& check : health_checks(runner))
     json["health"].push_back({{"check", check.name},
@@ -197,7 +226,7 @@ std::string run_summary(const Json& report, const RunFile& file) {
          (fell < 0 ? "rose " : "fell ") + text(std::abs(fell), 4) + " m, " +
          text(moved_of(displacements(file))) + "; largest speed " + number("largest_speed_m_s") +
          " m/s, " + count("n_passages", "passage") + ", " + count("n_crossings", "crossing") +
-         fence_summary(report) + trouble_summary(report);
+         fence_summary(report) + tree_summary(report) + trouble_summary(report);
 }
 
 void warn_of_standing_mass(Tool& tool, const RunFile& file) {

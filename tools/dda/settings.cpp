@@ -73,6 +73,12 @@ std::vector<std::string> warn_of_settings(Tool& tool, const Site& site) {
     warnings.push_back("fences stop nothing with law paper: what crosses their lines is recorded");
     tool.warn(warnings.back());
   }
+  const bool has_forest = std::any_of(site.forests.begin(), site.forests.end(),
+                                      [](const ForestSettings& forest) { return forest.active; });
+  if (has_forest && site.solver.law == "paper") {
+    warnings.push_back("forests stop nothing with law paper");
+    tool.warn(warnings.back());
+  }
   for (const FenceSettings& fence : site.fences)
     if (!std::isnan(fence.max_deflection_m) && std::isnan(fence.capacity_kj)) {
       warnings.push_back("fence." + fence.name +
@@ -87,7 +93,10 @@ std::vector<std::string> warn_of_settings(Tool& tool, const Site& site) {
     }
   const SolverSettings& solver = site.solver;
   if (solver.seed != SolverSettings{}.seed && solver.start_jitter_m_s == 0 &&
-      solver.friction_scatter_deg == 0 && solver.cor_scatter == 0 && solver.rolling_scatter == 0) {
+      solver.friction_scatter_deg == 0 && solver.cor_scatter == 0 && solver.rolling_scatter == 0 &&
+      std::none_of(site.forests.begin(), site.forests.end(), [](const ForestSettings& forest) {
+        return forest.active && forest.new_stand_per_run;
+      })) {
     warnings.push_back(
         "the seed draws nothing: start_jitter_m_s, friction_scatter_deg, cor_scatter and "
         "rolling_scatter are 0, so other seeds give the same run");

@@ -68,10 +68,35 @@ std::string mass_text(const Json& plane) {
          text(plane["largest_depth_m"], 3) + " m at most";
 }
 
+double azimuth_deg(double azimuth) { return std::fmod(azimuth / degree + 360, 360); }
+std::string azimuth_text(double azimuth) { return tenths(azimuth_deg(azimuth)); }
+
+Json wedge_json(const FailureWedge& wedge, const Vec3& origin) {
+  Json row = {{"sets", pair_name(wedge)},
+              {"plunge_deg", wedge.line.plunge / degree},
+              {"trend_deg", azimuth_deg(wedge.line.trend)},
+              {"factor_of_safety", number_or_null(wedge.line.factor)},
+              {"why_not", wedge.why_not.empty() ? Json() : Json(wedge.why_not)}};
+  if (!wedge.why_not.empty()) return row;
+  const Vec3 first = wedge.first_point + origin, second = wedge.second_point + origin;
+  row["first_point_m"] = {first.x(), first.y(), first.z()};
+  row["second_point_m"] = {second.x(), second.y(), second.z()};
+  row["free_share_of_foot"] = wedge.free_share;
+  row["largest_step_at_foot_m"] = wedge.largest_step;
+  row["volume_m3"] = wedge.volume;
+  row["mean_depth_m"] = wedge.mean_depth;
+  row["largest_depth_m"] = wedge.max_depth;
+  return row;
+}
+
 }  // namespace
 
 double friction_below(Tool& tool, const Site& site, const Trn& ground, const Area& area) {
-  const std::vector<std::uint8_t> classes = ground_classes(tool, site, ground);
+  return friction_below(site, ground, area, ground_classes(tool, site, ground));
+}
+
+double friction_below(const Site& site, const Trn& ground, const Area& area,
+                      const std::vector<std::uint8_t>& classes) {
   if (classes.empty()) return site.grounds[0].friction_deg * degree;
   const auto friction_at = [&](const Cell& cell) {
     const auto index = static_cast<std::size_t>(first_triangle(ground, cell)) / 2;
@@ -88,15 +113,36 @@ double friction_below(Tool& tool, const Site& site, const Trn& ground, const Are
   return largest * degree;
 }
 
+std::vector<std::string> names_joined(const std::string& said) {
+  std::vector<std::string> names;
+  for (size_t begin = 0; begin <= said.size();) {
+    const size_t end = std::min(said.find('+', begin), said.size());
+    const size_t first = said.find_first_not_of(' ', begin),
+                 last = said.find_last_not_of(' ', end - 1);
+    names.push_back(first < end && last != std::string::npos && last >= first
+                        ? said.substr(first, std::min(last + 1, end) - first)
+                        : "");
+    begin = end + 1;
+  }
+  if (said.empty()) names.clear();
+  return names;
+}
+
 void check_sliding_set(const Site& site, const FailurePlanes& found) {
-  const std::string& wanted = site.source.sliding_set;
-  const bool is_there = std::any_of(found.planes.begin(), found.planes.end(),
-                                    [&](const FailurePlane& plane) { return plane.set == wanted; });
-  if (wanted.empty() || is_there) return;
-  std::string names;
-  for (const FailurePlane& plane : found.planes) names += (names.empty() ? "" : ", ") + plane.set;
-  throw InputError(where_of(site, "source.sliding_set"),
-                   "there is no joint set " + wanted + "; there are: " + names);
+  const std::vector<std::string> wanted = names_joined(site.source.sliding_set);
+  if (wanted.size() > 2)
+    throw InputError(where_of(site, "source.sliding_set"),
+                     "sliding_set names " + std::to_string(wanted.size()) +
+                         " sets, expected one, or two for a wedge (\"one + other\")");
+  for (const std::string& name : wanted) {
+    const bool is_there = std::any_of(found.planes.begin(), found.planes.end(),
+                                      [&](const FailurePlane& plane) { return plane.set == name; });
+    if (is_there) continue;
+    std::string names;
+    for (const FailurePlane& plane : found.planes) names += (names.empty() ? "" : ", ") + plane.set;
+    throw InputError(where_of(site, "source.sliding_set"),
+                     "there is no joint set " + name + "; there are: " + names);
+  }
 }
 
 std::string what_would_go(const FailurePlanes& found) {
@@ -112,12 +158,16 @@ std::string what_would_go(const FailurePlanes& found) {
          " to " + azimuth(widest_lateral_deg) + " would let the mass go";
 }
 
-InputError no_plane_daylights(const Site& site, const FailurePlanes& found) {
+InputError no_plane_daylights(const Site& site, const FailurePlanes& found,
+                              const std::vector<FailureWedge>& wedges) {
   const std::string& wanted = site.source.sliding_set;
   std::string reasons;
   for (const FailurePlane& plane : found.planes)
     if (wanted.empty() || plane.set == wanted)
       reasons += "; " + named_attitude(plane) + " " + plane.why_not;
+  if (names_joined(wanted).size() != 1)
+    for (const FailureWedge& wedge : wedges)
+      if (!wedge.why_not.empty()) reasons += "; " + pair_name(wedge) + " " + wedge.why_not;
   return {where_of(site, "source.failure_surface"),
           (wanted.empty() ? "no joint set makes" : "set " + wanted + " does not make") +
               std::string(" a failure surface that daylights at the foot of the source, where the "
@@ -147,7 +197,32 @@ std::string planes_text(const FailurePlanes& found, const Vec3& origin) {
   return lines;
 }
 
+std::string wedges_text(const std::vector<FailureWedge>& wedges, bool all, int taken) {
+  std::string lines;
+  for (size_t i = 0; i < wedges.size(); ++i) {
+    const FailureWedge& wedge = wedges[i];
+    if (!wedge.why_not.empty()) {
+      if (all) lines += "\n" + pair_name(wedge) + " (wedge): " + wedge.why_not;
+      continue;
+    }
+    lines += "\n" + pair_name(wedge) + " (wedge along " + tenths(wedge.line.plunge / degree) +
+             " degrees towards " + azimuth_text(wedge.line.trend) +
+             "): " + mass_text(wedge_json(wedge, Vec3::Zero())) + "; factor of safety " +
+             text(wedge.line.factor, 3) + "; comes out of the ground along " +
+             percent(wedge.free_share) + " of the foot" +
+             (static_cast<int>(i) == taken ? " (taken)" : "");
+  }
+  return lines;
+}
+
 std::string best_plane_text(const Json& planes) {
+  for (const Json& wedge : planes["wedges"])
+    if (wedge["sets"] == planes["taken"])
+      return "failure wedge of sets " + wedge["sets"].get<std::string>() + ": along " +
+             tenths(wedge["plunge_deg"]) + " degrees towards " + tenths(wedge["trend_deg"]) +
+             ", factor of safety " + text(wedge["factor_of_safety"], 3) +
+             "; comes out of the ground along " + percent(wedge["free_share_of_foot"]) +
+             " of the foot";
   for (const Json& plane : planes["sets"])
     if (plane["set"] == planes["taken"])
       return "failure plane of set " + plane["set"].get<std::string>() + ": " +
@@ -155,15 +230,21 @@ std::string best_plane_text(const Json& planes) {
   return "";
 }
 
-Json planes_json(const FailurePlanes& found, const Vec3& origin) {
-  Json rows = Json::array();
+Json planes_json(const FailurePlanes& found, const std::vector<FailureWedge>& wedges, int wedge,
+                 const Vec3& origin) {
+  Json rows = Json::array(), pairs = Json::array();
+  for (const FailureWedge& one : wedges) pairs.push_back(wedge_json(one, origin));
+  Json taken;
+  if (found.best >= 0) taken = found.planes[found.best].set;
+  if (wedge >= 0) taken = pair_name(wedges[wedge]);
   for (const FailurePlane& plane : found.planes)
     rows.push_back(json_of(plane, found.friction, origin));
   return {{"slope_dip_deg", found.slope.dip / degree},
           {"slope_dip_direction_deg", found.slope.dip_direction / degree},
           {"friction_deg", found.friction / degree},
-          {"taken", found.best < 0 ? Json() : Json(found.planes[found.best].set)},
-          {"sets", rows}};
+          {"taken", taken},
+          {"sets", rows},
+          {"wedges", pairs}};
 }
 
 }  // namespace talus

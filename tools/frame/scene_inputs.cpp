@@ -14,6 +14,7 @@
 #include "scene/start_depth.hpp"
 #include "scene/start_overlaps.hpp"
 #include "terrain/trn_digest.hpp"
+#include "tools/frame/forest_inputs.hpp"
 #include "tools/frame/ground_class_inputs.hpp"
 #include "tools/frame/site_places.hpp"
 #include "tools/frame/vector_inputs.hpp"
@@ -183,8 +184,10 @@ void check_settled(const Settled& settled, const DdaInputs& inputs, const DdaFil
 
 }  // namespace
 
-void check_start(Tool& tool, const Site& site, DdaInputs& inputs, const DdaFiles& files,
-                 bool among_blocks) {
+namespace {
+
+void settle_start(Tool& tool, const Site& site, DdaInputs& inputs, const DdaFiles& files,
+                  bool among_blocks) {
   BlockSet& blocks = inputs.parts.blocks;
   const std::string deep = depth_finding(blocks, inputs.parts.trn);
   const std::string overlap =
@@ -201,6 +204,19 @@ void check_start(Tool& tool, const Site& site, DdaInputs& inputs, const DdaFiles
   };
   say(deep, ": lifted onto it");
   say(overlap, ": moved apart");
+}
+
+}  // namespace
+
+void check_start(Tool& tool, const Site& site, DdaInputs& inputs, const DdaFiles& files,
+                 bool among_blocks) {
+  settle_start(tool, site, inputs, files, among_blocks);
+  SceneParts& parts = inputs.parts;
+  StandingForests forests = read_forests(tool, site, parts.trn, parts.blocks);
+  parts.stems = std::move(forests.stems);
+  parts.stem_faces = std::move(forests.faces);
+  inputs.forests = std::move(forests.forests);
+  inputs.warnings.insert(inputs.warnings.end(), forests.warnings.begin(), forests.warnings.end());
 }
 
 DdaInputs read_dda_inputs(Tool& tool, const Site& site, const DdaFiles& files) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "record/crossings.hpp"
+#include "record/run_file.hpp"
 #include "scene/site_scene.hpp"
 #include "site/site.hpp"
 #include "tools/frame/tool.hpp"
@@ -19,7 +20,8 @@ struct DdaFiles {
 
 struct DdaInputs {
   SceneParts parts;
-  std::vector<RecordLine> lines;  ///< of [fence.*], on the ground
+  std::vector<RecordLine> lines;    ///< of [fence.*], on the ground
+  std::vector<ForestInfo> forests;  ///< of [forest.*] that stand, set by check_start()
   std::string crs_wkt;
   Vec3 origin = Vec3::Zero();  ///< of the TRN: everything is relative to it
   std::string trn_sha256, trn_digest;
@@ -29,7 +31,7 @@ struct DdaInputs {
 /// Throws InputError for blocks that overlap one another (`among_blocks`) or a fence by more than a
 /// millimetre: how many, and of the deepest which two, how deep and where. With files.settle blocks
 /// in the ground are lifted onto it, and those that overlap by up to a twentieth of their thickness
-/// are moved apart.
+/// are moved apart. Then reads the forests: stems keep clear of the blocks (read_forests()).
 void check_start(Tool& tool, const Site& site, DdaInputs& inputs, const DdaFiles& files,
                  bool among_blocks);
 

@@ -4,11 +4,16 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "base/grouped_text.hpp"
 #include "base/read_file.hpp"
 #include "base/text.hpp"
+#include "blocks/base_level.hpp"
+#include "blocks/daylight_envelope.hpp"
 #include "blocks/failure_raster.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/raster_gdal.hpp"
@@ -49,12 +54,6 @@ Area read_area(Tool& tool, const BlocksWork& work) {
     add_ring(ring);
   }
   return without_repeated_corners(area);
-}
-
-Where where_of_area(const BlocksWork& work) {
-  return work.site.source.polygon.empty()
-             ? Where{resolved(work.site, work.site.source.polygon_file)}
-             : where_of(work.site, "source.polygon");
 }
 
 // Heights of the surface in the terrain's own system, where both say it.
@@ -98,9 +97,97 @@ std::vector<double> read_failure_raster(Tool& tool, const BlocksWork& work) {
 SourceOptions daylighting_surface(Tool& tool, BlocksWork& work) {
   find_planes(tool, work);
   check_sliding_set(work.site, work.planes);
-  if (work.planes.best < 0) throw no_plane_daylights(work.site, work.planes);
-  const FailurePlane& plane = work.planes.planes[work.planes.best];
-  return source_on_plane(plane.attitude, plane.point);
+  if (work.planes.best >= 0) {
+    const FailurePlane& plane = work.planes.planes[work.planes.best];
+    return source_on_plane(plane.attitude, plane.point);
+  }
+  const std::vector<std::string> wanted = names_joined(work.site.source.sliding_set);
+  find_wedges(work);
+  if (wanted.size() != 1)
+    work.wedge = best_wedge(work.wedges, wanted.empty() ? "" : wanted[0] + " + " + wanted[1]);
+  if (work.wedge < 0) throw no_plane_daylights(work.site, work.planes, work.wedges);
+  return source_on_wedge(work.wedges[work.wedge]);
+}
+
+// C of the cells at hand, from what [source] says of the curvature of its base level.
+double base_level_curvature(Tool& tool, const BlocksWork& work) {
+  const SourceSettings& source = work.site.source;
+  const bool has_curvature = work.site.sources.count("source.slbl_curvature_m") > 0;
+  const bool has_sag = !std::isnan(source.slbl_sag_m), has_scenario = !source.slbl_scenario.empty();
+  if (has_curvature + has_sag + has_scenario > 1)
+    throw InputError(where_of(work.site, "source.failure_surface"),
+                     "two of slbl_curvature_m, slbl_sag_m and slbl_scenario are given",
+                     "each of them says how curved the surface is: give one");
+  if (!has_sag && !has_scenario) return source.slbl_curvature_m;
+  const SourceProfile profile = source_profile(work.ground, work.area);
+  double sag = source.slbl_sag_m;
+  if (has_scenario)
+    sag = largest_sag(profile.height) * (source.slbl_scenario == "max"     ? 1
+                                         : source.slbl_scenario == "inter" ? 0.5
+                                                                           : 0);
+  const double curvature = curvature_of_sag(sag, profile.length, work.ground.cell_size);
+  tool.info("SLBL: sags by " + text(sag, 3) + " m on " + text(profile.length, 4) +
+            " m (slbl_curvature_m = " + text(curvature, 4) + " on these cells)");
+  return curvature;
+}
+
+const PlannedSet& set_named(const BlocksWork& work, const std::string& name) {
+  for (const PlannedSet& planned : work.sets)
+    if (planned.set.name == name) return planned;
+  std::string names;
+  for (const PlannedSet& planned : work.sets)
+    names += (names.empty() ? "" : ", ") + planned.set.name;
+  throw InputError(where_of(work.site, "source.daylight"),
+                   "there is no joint set " + name + "; there are: " + names,
+                   "name a set, two (\"one + other\"), or a plunge in degrees");
+}
+
+// The direction that source.daylight names.
+DaylightDirection daylight_direction(const BlocksWork& work) {
+  constexpr double degree = std::numbers::pi / 180;
+  const std::string& said = work.site.source.daylight;
+  DaylightDirection direction;
+  double widest = 0;
+  for (const PlannedSet& planned : work.sets) widest = std::max(widest, planned.set.mean_spacing);
+  direction.width = widest;
+  double plunge = 0;
+  if (parse_double(said, plunge)) {
+    if (!(plunge >= 0 && plunge < 90))
+      throw InputError(where_of(work.site, "source.daylight"),
+                       "daylight is " + said + ", expected a plunge of 0 to below 90 degrees");
+    direction.plunge = plunge * degree;
+    direction.azimuth = mean_slope(work.ground, work.area).dip_direction;
+    return direction;
+  }
+  const std::vector<std::string> names = names_joined(said);
+  const JointSet& first = set_named(work, names[0]).set;
+  if (names.size() == 1) {
+    direction.azimuth = first.dip_direction;
+    direction.plunge = first.dip;
+    return direction;
+  }
+  const JointSet& second = set_named(work, names[1]).set;
+  const Wedge wedge =
+      wedge_of({first.dip, first.dip_direction}, {second.dip, second.dip_direction}, 0, 0);
+  if (wedge.line.isZero())
+    throw InputError(where_of(work.site, "source.daylight"),
+                     "the sets " + said + " are parallel: they have no line");
+  direction.azimuth = wedge.trend;
+  direction.plunge = wedge.plunge;
+  return direction;
+}
+
+// Leaves out what the mass would lean on.
+void lift_to_daylight(Tool& tool, BlocksWork& work) {
+  if (work.site.source.daylight.empty()) return;
+  const DaylightDirection direction = daylight_direction(work);
+  work.hollow_volume = work.mass.volume;
+  Trn bed = lifted_to_daylight(work.ground, work.area, work.mass.bed, direction);
+  work.mass =
+      mass_over(work.ground, work.area, std::move(work.mass), std::move(bed), where_of_area(work));
+  tool.info("daylight: " + grouped_text(work.mass.volume, 3) + " of " +
+            grouped_text(work.hollow_volume, 3) + " m3 can leave along " +
+            work.site.source.daylight + "; the rest leans on the foot and is left out");
 }
 
 void find_mass(Tool& tool, BlocksWork& work) {
@@ -116,14 +203,18 @@ void find_mass(Tool& tool, BlocksWork& work) {
                       options.plane_point);
   }
   if (options.kind == FailureSurface::raster) options.raster = read_failure_raster(tool, work);
+  if (options.kind == FailureSurface::slbl)
+    options.slbl_curvature = work.slbl_curvature = base_level_curvature(tool, work);
   work.mass = find_source(work.ground, work.area, options, where_of_area(work));
+  lift_to_daylight(tool, work);
   if (work.mass.n_above_ground > 0)
     tool.info("the failure surface lies above the ground at " +
               std::to_string(work.mass.n_above_ground) + " nodes inside the source: no mass there");
   if (work.mass.n_extended > 0)
     tool.info("the failure raster has no data at " + counted(work.mass.n_extended, "node") +
               " beside the source: the depth of the nearest node that has is taken there");
-  if (work.site.source.failure_surface == "plane" && work.at_foot.free_share < 0.5)
+  if (work.site.source.failure_surface == "plane" && work.site.source.daylight.empty() &&
+      work.at_foot.free_share < 0.5)
     tool.warn("the failure plane comes out of the ground along " +
               text(std::round(100 * work.at_foot.free_share)) +
               " % of the foot of the source only; on the rest the mass leans on a step of up to " +
@@ -134,8 +225,8 @@ void find_mass(Tool& tool, BlocksWork& work) {
 // comes out of the ground; by much, the polygon is not that of the mass.
 double least_share_covered(const BlocksWork& work) {
   const std::string& surface = work.site.source.failure_surface;
-  const bool comes_out =
-      surface == "daylighting" || (surface == "plane" && work.at_foot.free_share >= 0.5);
+  const bool comes_out = surface == "daylighting" || !work.site.source.daylight.empty() ||
+                         (surface == "plane" && work.at_foot.free_share >= 0.5);
   return comes_out ? 0.75 : 0.97;
 }
 
@@ -210,6 +301,12 @@ void say_turns(Tool& tool, const Site& site) {
 
 }  // namespace
 
+Where where_of_area(const BlocksWork& work) {
+  return work.site.source.polygon.empty()
+             ? Where{resolved(work.site, work.site.source.polygon_file)}
+             : where_of(work.site, "source.polygon");
+}
+
 Area read_source_area(Tool& tool, const BlocksWork& work) {
   Area area = read_area(tool, work);
   check_area(area, work.ground.origin, where_of_area(work));
@@ -243,6 +340,13 @@ void find_planes(Tool& tool, BlocksWork& work) {
   const double friction = friction_below(tool, work.site, work.ground, work.area);
   work.planes = find_failure_planes(work.ground, work.area, sets, friction,
                                     work.site.source.sliding_set, where_of_area(work));
+}
+
+void find_wedges(BlocksWork& work) {
+  std::vector<JointSet> sets;
+  for (const PlannedSet& planned : work.sets) sets.push_back(planned.set);
+  work.wedges =
+      find_failure_wedges(work.ground, work.area, sets, work.planes.friction, where_of_area(work));
 }
 
 void cut_source(Tool& tool, bool exact, BlocksWork& work) {

@@ -18,6 +18,12 @@ void plan_sets(Tool& tool, BlocksWork& work);
 /// The planes of `work.sets` that a mass can leave on, into `work.planes`.
 void find_planes(Tool& tool, BlocksWork& work);
 
+/// The wedges of pairs of `work.sets`, into `work.wedges`; after find_planes().
+void find_wedges(BlocksWork& work);
+
+/// Where the polygon of [source] stands.
+[[nodiscard]] Where where_of_area(const BlocksWork& work);
+
 /// Finds the mass, draws the joints and puts the blocks into `work.blocks`, as they are cut
 /// (`exact`) or made convex. Warns of what was left out or lies below the limits. Throws InputError
 /// for more blocks than source.max_blocks, and where none is left.

@@ -8,6 +8,7 @@
 
 #include "blocks/assemble.hpp"
 #include "blocks/failure_plane.hpp"
+#include "blocks/failure_wedge.hpp"
 #include "blocks/source.hpp"
 #include "site/joint_plan.hpp"
 #include "site/site.hpp"
@@ -22,7 +23,11 @@ struct BlocksWork {
   Area area;                     ///< polygon of [source]; empty without one
   std::vector<PlannedSet> sets;  ///< of [joints.*]; from here to `expected`: only where is_cut()
   FailurePlanes planes;          ///< of the sets: of a daylighting surface only
-  PlaneAtFoot at_foot;           ///< of a plane given by hand only
+  std::vector<FailureWedge> wedges;  ///< of pairs of sets, where they were looked for
+  int wedge = -1;                    ///< of `wedges`, that the mass lies on; -1: none
+  double hollow_volume = 0;          ///< of the mass before source.daylight, 0 without [m3]
+  PlaneAtFoot at_foot;               ///< of a plane given by hand only
+  double slbl_curvature = 0;         ///< C of a base level on these cells [m]
   SourceMass mass;
   std::vector<Joint> joints;  ///< drawn, all that cross the mass
   AssembleOptions limits;     ///< of slivers and edges; whether blocks stay as they are cut

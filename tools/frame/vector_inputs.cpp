@@ -14,6 +14,8 @@ std::string digest_of(const VectorShapes& found) {
     hash.add(&n, sizeof n);
     for (const Vec3& point : shape) hash.add(point.data(), sizeof point);
   }
+  for (const std::vector<std::string>& values : found.attributes)
+    for (const std::string& value : values) hash.add(value.c_str(), value.size() + 1);
   return hash.hex();
 }
 

@@ -11,6 +11,7 @@
 #include "tools/report/maps.hpp"
 #include "tools/report/result.hpp"
 #include "tools/report/runout.hpp"
+#include "tools/report/trees.hpp"
 #include "tools/report/viewer.hpp"
 
 namespace talus {
@@ -34,12 +35,15 @@ std::string page_head(const ReportData& data, const std::string& style) {
                                   {"animation", "Animation"},
                                   {"runout", "Run-out"},
                                   {"fences", "Fences"},
+                                  {"trees", "Trees"},
                                   {"curves", "Over time"},
                                   {"health", "Health"},
                                   {"assumed", "Assumptions"},
                                   {"plan", "Plan"},
-                                  {"provenance", "Provenance"}})
+                                  {"provenance", "Provenance"}}) {
+    if (id == std::string("trees") && tree_section(data).empty()) continue;
     out += std::string("<a href=\"#") + id + "\">" + title + "</a>";
+  }
   return out + "</nav>\n</header>\n<main>\n";
 }
 
@@ -79,6 +83,8 @@ std::string report_page(const ReportData& data, const std::string& viewer,
   for (const std::string& section : {map_section(data), viewer_section(data), runout_section(data)})
     main += html_marked(section, xml_escaped(remark));
   main += html_marked(fence_section(data), xml_escaped(fence_remark));
+  if (const std::string trees = tree_section(data); !trees.empty())
+    main += html_marked(trees, xml_escaped(remark));
   for (const std::string& section :
        {curve_section(data), health_section(data), assumption_section(data), plan_section(data),
         provenance_section(data)})

@@ -233,7 +233,7 @@ QgisProject project_of(const ReportData& data, const Options& o, const ResultFol
                               relative_to(o.qgis, folder.path("change.tif")), QgisLayer::raster,
                               folder.text("change.qml"), false});
   add_package(project, o, folder, "runout.gpkg", "Paths",
-              {"path_points", "paths", "envelope", "runs"});
+              {"path_points", "paths", "envelope", "runs", "tree_hits"});
   add_package(project, o, folder, "blocks.gpkg", "Source", {"blocks"});
   add_maps(project, o, folder);
   project.layers.push_back({"Terrain", "hillshade", relative_to(o.qgis, folder.path("trn.tif")),

@@ -16,6 +16,7 @@
 #include "tools/frame/shipped_data.hpp"
 #include "tools/runout/json.hpp"
 #include "tools/runout/layers.hpp"
+#include "tools/runout/trees.hpp"
 
 namespace {
 
@@ -85,6 +86,23 @@ void warn_of_standing_mass(Tool& tool, const RunoutRuns& all) {
     tool.warn(words);
 }
 
+// Hits of trees by run, and whether a forest stood in any.
+struct AllTrees {
+  std::vector<RunTrees> runs;
+  std::vector<std::string> run_ids;
+  bool any = false;
+};
+
+AllTrees trees_of(const RunoutRuns& all) {
+  AllTrees trees;
+  for (const RunoutRun& run : all.runs) {
+    trees.runs.push_back(run.trees);
+    trees.run_ids.push_back(run.member.info.run_id);
+    trees.any = trees.any || !run.trees.forests.empty();
+  }
+  return trees;
+}
+
 void run_tool(Tool& tool, Options& o, RunInputs& inputs) {
   const std::vector<MobilityRelation> relations = mobility_relations(
       o.mobility.empty() ? parse_csv(shipped_data("mobility.csv"), "share/mobility.csv")
@@ -99,7 +117,11 @@ void run_tool(Tool& tool, Options& o, RunInputs& inputs) {
   inputs.warn_of_ends();
   warn_of_standing_mass(tool, all);
 
+  const AllTrees trees = trees_of(all);
   std::vector<VectorLayer> layers = runout_layers(all, trn.origin, o.tolerance_m);
+  if (trees.any)
+    for (VectorLayer& layer : tree_layers(trees.runs, trees.run_ids, trn.origin))
+      layers.push_back(std::move(layer));
   mark_layers(layers, remark);
   write_geopackage(tool.stage(o.out), trn.crs_wkt, layers, tags);
   const std::vector<MobilityEvent> events = events_of(all.runs, o.confined);
@@ -123,6 +145,7 @@ void run_tool(Tool& tool, Options& o, RunInputs& inputs) {
                  {"spread_over_runs", spread_json(all.runs)},
                  {"runs", runs},
                  {"mobility", mobility_json(relations, events)}};
+  if (trees.any) result["trees"] = trees_json(summary_of(trees.runs), trn.origin);
   add_faults(result, faults_of(inputs.members));
   tool.result(result, runout_summary(all));
 }

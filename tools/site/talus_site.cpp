@@ -34,7 +34,8 @@ bool names_a_file(const std::string& section, const std::string& key) {
   static const std::set<std::string> keys = {"contours", "breaklines", "spots",         "boundary",
                                              "dem",      "raster",     "ground_raster", "file"};
   if (section == "site" || section == "solver" || section == "output") return false;
-  return keys.count(key) > 0 || (key.size() > 5 && key.ends_with("_file"));
+  return keys.count(key) > 0 || (key.size() > 5 && key.ends_with("_file")) ||
+         (section.starts_with("forest.") && key.ends_with("_raster"));
 }
 
 std::string file_named(const Site& site, const EffectiveValue& value) {

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vector>
 
+#include "base/grouped_text.hpp"
 #include "base/text.hpp"
 #include "io/raster_gdal.hpp"
 #include "tools/frame/failure_plane_choice.hpp"
@@ -70,6 +71,43 @@ Assumed assume_joints(const BlocksWork& work, double friction, int n_blocks) {
   return {true, toml};
 }
 
+// The planes of each set that offers one, by the share of the foot that they are to come out along.
+Json shares_json(const BlocksWork& work) {
+  Json rows = Json::array();
+  for (const FailurePlane& plane : work.planes.planes) {
+    if (!plane.why_not.empty()) continue;
+    for (const PlaneAtShare& row :
+         planes_by_share(work.ground, work.area, plane.attitude, {1, 0.95, 0.9, 0.75, 0.5},
+                         where_of_area(work))) {
+      const Vec3 point = row.point + work.ground.origin;
+      rows.push_back({{"set", plane.set},
+                      {"free_share_of_foot", row.share},
+                      {"volume_m3", row.volume},
+                      {"mean_depth_m", row.mean_depth},
+                      {"point_m", {point.x(), point.y(), point.z()}}});
+    }
+  }
+  return rows;
+}
+
+// "bedding by the share of the foot: 100 % 41,000 m3, 95 % ..."
+std::string shares_text(const Json& rows) {
+  std::string lines, set;
+  for (const Json& row : rows) {
+    const bool is_new = row["set"] != set;
+    set = row["set"].get<std::string>();
+    lines += (is_new ? "\n" + set + " by the share of the foot that is free: " : ", ") +
+             text(100 * row["free_share_of_foot"].get<double>(), 3) + " % " +
+             grouped_text(row["volume_m3"].get<double>(), 3) + " m3";
+  }
+  return lines;
+}
+
+std::string wanted_pair(const std::string& sliding_set) {
+  const std::vector<std::string> names = names_joined(sliding_set);
+  return names.size() == 2 ? names[0] + " + " + names[1] : "";
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -91,12 +129,20 @@ int main(int argc, char** argv) {
     plan_sets(tool, work);
     find_planes(tool, work);
     check_sliding_set(work.site, work.planes);
-    std::string words = planes_text(work.planes, work.ground.origin);
-    if (work.planes.best < 0) words += "\nno set offers a plane: " + what_would_go(work.planes);
-    Json report = {{"tool", "talus-source"},
-                   {"site", work.site.info.name},
-                   {"run_id", tool.run_id()},
-                   {"failure_planes", planes_json(work.planes, work.ground.origin)}};
+    find_wedges(work);
+    if (work.planes.best < 0 && names_joined(work.site.source.sliding_set).size() != 1)
+      work.wedge = best_wedge(work.wedges, wanted_pair(work.site.source.sliding_set));
+    const Json shares = shares_json(work);
+    std::string words = planes_text(work.planes, work.ground.origin) + shares_text(shares) +
+                        wedges_text(work.wedges, work.planes.best < 0, work.wedge);
+    if (work.planes.best < 0 && work.wedge < 0)
+      words += "\nno set offers a plane: " + what_would_go(work.planes);
+    Json report = {
+        {"tool", "talus-source"},
+        {"site", work.site.info.name},
+        {"run_id", tool.run_id()},
+        {"failure_planes", planes_json(work.planes, work.wedges, work.wedge, work.ground.origin)},
+        {"by_share_of_foot", shares}};
     if (!o.assumed.empty()) {
       const Assumed assumed = assume_joints(work, work.planes.friction, o.n_blocks);
       tool.write_text(o.assumed, assumed.toml);

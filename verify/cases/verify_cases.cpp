@@ -5,6 +5,7 @@
 #include "base/text.hpp"
 #include "verify/cases/block_cases.hpp"
 #include "verify/cases/case_run.hpp"
+#include "verify/cases/stem_case.hpp"
 
 namespace talus {
 namespace {
@@ -339,6 +340,13 @@ std::vector<VerifyCase> block_cases() {
                      .test = "ManyBlocks.DominoesFallAsARigidComputationSays",
                      .bound = 0.02,
                      .run = dominoes}),
+      of_blocks(1, {.name = "stem",
+                    .claim = "a stem takes its energy from a cube of 500 kg at 10 to 25 m/s",
+                    .reference = "closed form, v'^2 = v^2 - 2 E / m",
+                    .norm = "share of the speed before, worst of four",
+                    .test = "Stems/CentralHit.TakesTheCapacityAndNoMore",
+                    .bound = 1e-3,
+                    .run = stem}),
       of_blocks(10, {.name = "stack_10",
                      .claim = "a stack of ten cubes stands still, 4 s",
                      .reference = "rest",

@@ -31,6 +31,7 @@ RunoutRun runout_run(const RunFile& run, const RunMember& member, const PassageG
   r.volume = run.blocks.volume;
   r.mass = run.blocks.mass;
   for (const WeightedValue& d : displacements(run)) r.displacement.push_back(d.value);
+  r.trees = {run.forests, run.tree_hits};
   r.curves = curves(run);
   for (const Passage& passage : run.passages)
     r.cells.push_back(static_cast<std::uint32_t>(passage.cell));

@@ -9,6 +9,7 @@
 
 #include "post/run_set.hpp"
 #include "post/runout/runout.hpp"
+#include "post/runout/tree_summary.hpp"
 
 namespace talus {
 
@@ -24,6 +25,7 @@ struct RunoutRun {
   std::vector<double> volume;                 ///< [m3]                              (n_blocks)
   std::vector<double> mass;                   ///< [kg]                              (n_blocks)
   std::vector<double> displacement;           ///< [m]                               (n_blocks)
+  RunTrees trees;
   std::vector<CurveRow> curves;
   std::vector<std::uint32_t> cells;  ///< that any block passed, ascending
   DepositSums deposit;

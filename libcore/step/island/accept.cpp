@@ -5,6 +5,7 @@
 
 #include "base/make_room.hpp"
 #include "scene/fence.hpp"
+#include "scene/stems.hpp"
 #include "solver/law_numbers.hpp"
 #include "step/deep_blocks.hpp"
 #include "step/flight.hpp"
@@ -63,7 +64,8 @@ struct SubstepAcceptance {
     const auto moves = [&](int b) {
       return b >= 0 && free.substeps[members.at(b)].start.velocity.norm() > members.of(b).slow;
     };
-    const bool eases = system.is_hard && (moves(contact.a) || moves(contact.b));
+    const bool eases =
+        members.is_eased || (system.is_hard && (moves(contact.a) || moves(contact.b)));
     return static_cast<std::uint8_t>(eases ? law::most_rests : std::max(0, contact.rests - 1));
   }
 
@@ -113,7 +115,7 @@ struct SubstepAcceptance {
   [[gnu::flatten]] void remember() {
     for (const int b : members.blocks) state.memory[b].clear();
     end.pressed.assign(members.size(), 0);
-    end.contact_impulse.assign(members.size(), Vec3::Zero());
+    end.ground_impulse.assign(members.size(), Vec3::Zero());
     for (size_t r = 0; r < system.contacts.size(); ++r) {
       const KeptContact& contact = system.contacts[r];
       const RowIn<const RowGroup> lane = lane_of(system, r);
@@ -134,10 +136,8 @@ struct SubstepAcceptance {
       account(r);
       ++report.n_closed;
       report.sum_penetration += std::max(overlap, 0.0);
-      if (!gives_way(system, r)) {
-        end.contact_impulse[pair.a] += lane.impulse();
-        if (pair.b >= 0) end.contact_impulse[pair.b] -= lane.impulse();
-      }
+      // what blocks give each other they keep: only the ground may go on to bear one alone
+      if (pair.b < 0 && !gives_way(system, r)) end.ground_impulse[pair.a] += lane.impulse();
       remember_contact(r, path, overlap);
     }
   }
@@ -168,14 +168,14 @@ struct SubstepAcceptance {
   void renew_support(size_t k) {
     const double since = free.h - hits.members[k].clock;
     if (since < law::short_after_hit * free.h) return;
-    set_support(scene, members.blocks[k],
-                end.contact_impulse[k] / (members.numbers[k].mass * since), state);
+    set_support(scene, members.blocks[k], end.ground_impulse[k] / (members.numbers[k].mass * since),
+                state);
   }
 
   void move(size_t k) {
     const Substep& s = free.substeps[k];
     const int b = members.blocks[k];
-    const Motion motion = end_of(free, system, end, k);
+    const Motion motion = end_of(members, free, system, end, k);
     add_path(k, motion);
     renew_support(k);
     if (end.pressed[k])
@@ -221,6 +221,20 @@ struct SubstepAcceptance {
                state.fence);
     }
   }
+
+  // The same for stems. They are touched where a substep begins, see first_touch().
+  void note_touched_stems() {
+    if (scene.forest.stems.empty()) return;
+    for (size_t r = 0; r < system.contacts.size(); ++r) {
+      const KeptContact& contact = system.contacts[r];
+      if (contact.fixed < n_fixed(scene) || lane_of(system, r).state() == ContactState::open)
+        continue;
+      const size_t k = members.at(contact.a);
+      const Motion& before = free.substeps[k].start;
+      note_stem_touch(scene, contact.a, contact.fixed, before.pose.position + contact.arm, free.t,
+                      before, state.motion[members.block(k)], state.stem_hits);
+    }
+  }
 };
 
 int heaviest_of(const Scene& scene, const IslandMembers& members) {
@@ -255,7 +269,9 @@ void accept(const Scene& scene, const IslandMembers& members, const FreeMotions&
   end_soil(scene, members, free, system, hits, state);
   acceptance.move_all();
   acceptance.note_touched_panels();
+  acceptance.note_touched_stems();
   note_work(scene, end.pushes, state.fence);
+  note_stem_work(scene, end.pushes, state.stem_hits);
   push_bodies(scene, end.pushes, free.t + free.h, state);
 }
 

@@ -29,8 +29,7 @@ Mobility relative_mobility(const IslandMembers& members, const FreeMotions& free
   Mobility W = mobility_at(members, free, ka, arm, normal);
   if (pair.b < 0) return W;
   const auto kb = static_cast<size_t>(pair.b);
-  const Mobility Wb = mobility_at(
-      members, free, kb, arm + system.island.position[ka] - system.island.position[kb], normal);
+  const Mobility Wb = mobility_at(members, free, kb, arm + pair.shift, normal);
   W.normal += Wb.normal;
   W.tangent += Wb.tangent;
   return W;
@@ -113,31 +112,51 @@ void take_member(const HitLooks& looks, size_t k, FreeMotions& free, IslandSyste
   island.mass[k].bottomRightCorner<3, 3>() = s.R * c.inertia.asDiagonal() * s.R.transpose();
   island.free_velocity[k] << end.velocity, turn.spin_end;
   island.velocity[k] = island.free_velocity[k];
-  hits.time[k] = (hits.members[k].clock + free.h) / 2;
-  island.position[k] = end.pose.position - (free.h - hits.time[k]) * end.velocity;
 }
 
-// Row of a pair of which a member was hit: what is left of the substep after its last hit.
-void take_row(const HitLooks& looks, size_t r, const FreeMotions& free, IslandSystem& system,
-              SubstepHits& hits) {
+/// What is left of the substep after the last hit of the bodies of a pair.
+struct PairRest {
+  double length = 0;  // [s]
+  bool has_b = false;
+  PlacedMotion a, b, end_a, end_b;  // at its begin, and at the end without contact
+};
+
+PairRest rest_of(const HitLooks& looks, const BodyPair& pair, const FreeMotions& free) {
+  const auto ka = static_cast<size_t>(pair.a), kb = static_cast<size_t>(std::max(pair.b, 0));
+  PairRest rest;
+  rest.has_b = pair.b >= 0;
+  double from = looks.hits.members[ka].clock;
+  if (rest.has_b) from = std::max(from, looks.hits.members[kb].clock);
+  rest.length = std::max(free.h - from, shortest_rest * free.h);
+  rest.a = looks.place(ka, looks.motion_of(ka, from));
+  rest.end_a = free_end(free, ka);
+  if (!rest.has_b) return rest;
+  rest.b = looks.place(kb, looks.motion_of(kb, from));
+  rest.end_b = free_end(free, kb);
+  return rest;
+}
+
+// Where a body's impulses act that press it in the middle of `rest`: there they and what they move
+// have the same moment, so that angular momentum is kept.
+Vec3 place_of_impulse(const PlacedMotion& end, double rest) {
+  return end.position - rest / 2 * end.velocity;
+}
+
+// Row of a pair of which a member was hit.
+void take_row(const HitLooks& looks, size_t r, const PairRest& of, const FreeMotions& free,
+              IslandSystem& system, SubstepHits& hits) {
   KeptContact& contact = system.contacts[r];
   const BodyPair& pair = system.island.pairs[contact.pair];
-  const auto ka = static_cast<size_t>(pair.a), kb = static_cast<size_t>(std::max(pair.b, 0));
-  const double h = free.h;
-  double from = hits.members[ka].clock;
-  if (pair.b >= 0) from = std::max(from, hits.members[kb].clock);
-  const double rest = std::max(h - from, shortest_rest * h);
-  const PlacedMotion a = looks.place(ka, looks.motion_of(ka, from)), end_a = free_end(free, ka);
-  PlacedMotion b, end_b;
-  if (pair.b >= 0) b = looks.place(kb, looks.motion_of(kb, from)), end_b = free_end(free, kb);
-  const RowMotion now = row_motion(free, system, r, a, pair.b < 0 ? nullptr : &b);
-  const RowMotion then = row_motion(free, system, r, end_a, pair.b < 0 ? nullptr : &end_b);
+  const auto ka = static_cast<size_t>(pair.a);
+  const double rest = of.length;
+  const RowMotion now = row_motion(free, system, r, of.a, of.has_b ? &of.b : nullptr);
+  const RowMotion then = row_motion(free, system, r, of.end_a, of.has_b ? &of.end_b : nullptr);
   const RowIn<RowGroup> lane = lane_of(system, r);
   const Vec3 normal = lane.normal();
   contact.free_move = then.point_a - then.point_b - contact.gap_start * normal;
   contact.gap_free = then.gap;
-  contact.arm =
-      (now.point_a + then.point_a + now.point_b + then.point_b) / 4 - system.island.position[ka];
+  contact.arm = (now.point_a + then.point_a + now.point_b + then.point_b) / 4 -
+                place_of_impulse(of.end_a, rest);
   lane.set_vector(&RowGroup::arm, contact.arm);
   if (contact.waits) {
     const bool is_over = hits.is_closed[contact.pair] != 0;
@@ -162,11 +181,53 @@ void take_row(const HitLooks& looks, size_t r, const FreeMotions& free, IslandSy
                   slip_speed > 0 ? Vec3(slip / slip_speed) : Vec3(Vec3::Zero()));
 }
 
+// The pair acts in the middle of what is left of the substep.
+void take_pair(const HitLooks& looks, size_t p, const FreeMotions& free, IslandSystem& system,
+               SubstepHits& hits) {
+  BodyPair& pair = system.island.pairs[p];
+  const PairRest rest = rest_of(looks, pair, free);
+  hits.pair_time[p] = free.h - rest.length / 2;
+  if (rest.has_b)
+    pair.shift =
+        place_of_impulse(rest.end_a, rest.length) - place_of_impulse(rest.end_b, rest.length);
+  for (const size_t r : contacts_of(system, p)) take_row(looks, r, rest, free, system, hits);
+}
+
+// What the contacts of pair `p` change of the velocity of its member k.
+Vec6 change_by_pair(const IslandSystem& system, size_t p, int k) {
+  const BodyPair& pair = system.island.pairs[p];
+  Vec6 sum = Vec6::Zero();
+  for (const size_t r : contacts_of(system, p)) {
+    const RowIn<const RowGroup> lane = lane_of(system, r);
+    const Vec3 impulse = lane.impulse();
+    if (impulse.isZero(0)) continue;
+    const Vec3 arm = k == pair.a ? lane.arm() : Vec3(lane.arm() + pair.shift);
+    const double sign = k == pair.a ? 1 : -1;
+    sum.head<3>() += sign * impulse;
+    sum.tail<3>() += sign * arm.cross(impulse);
+  }
+  return solve_mass(system.island.mass[k], sum);
+}
+
 }  // namespace
+
+void set_displacements(double h, const IslandSystem& system, const SubstepHits& hits,
+                       std::vector<Vec6>& displacement) {
+  const Island& island = system.island;
+  displacement.resize(island.mass.size());
+  for (size_t k = 0; k < displacement.size(); ++k) displacement[k] = h / 2 * change(island, k);
+  if (hits.hit_members.items.empty()) return;
+  for (size_t p = 0; p < island.pairs.size(); ++p) {
+    const double later = hits.pair_time[p] - h / 2;
+    if (later == 0) continue;
+    for (const int k : {island.pairs[p].a, island.pairs[p].b})
+      if (k >= 0) displacement[k] -= later * change_by_pair(system, p, k);
+  }
+}
 
 void take_hits(const HitLooks& looks, FreeMotions& free, IslandSystem& system, SubstepHits& hits) {
   const size_t n = looks.members.size();
-  hits.time.assign(n, free.h / 2);
+  hits.pair_time.assign(system.island.pairs.size(), free.h / 2);
   hits.thrown.assign(n, Vec6::Zero());
   for (size_t i = 0; i < hits.hits.size(); ++i) {
     int& hit = system.contacts[hits.hits[i].contact].hit;
@@ -178,13 +239,18 @@ void take_hits(const HitLooks& looks, FreeMotions& free, IslandSystem& system, S
   if (!hits.hit_members.items.empty())
     for (size_t p = 0; p < system.island.pairs.size(); ++p) {
       if (!was_hit(system.island.pairs[p].a) && !was_hit(system.island.pairs[p].b)) continue;
-      for (const size_t r : contacts_of(system, p)) take_row(looks, r, free, system, hits);
+      take_pair(looks, p, free, system, hits);
     }
   std::erase_if(system.waiting, [&](size_t r) { return !system.contacts[r].waits; });
 }
 
 int close_waiting(const IslandMembers& members, const FreeMotions& free, IslandSystem& system,
                   SubstepHits& hits) {
+  if (system.waiting.empty()) {
+    hits.moved.clear();
+    return 0;
+  }
+  set_displacements(free.h, system, hits, hits.displacement);
   const auto closes = [&](size_t r) {
     const KeptContact& contact = system.contacts[r];
     const auto moved = [&](int b) {
@@ -195,9 +261,10 @@ int close_waiting(const IslandMembers& members, const FreeMotions& free, IslandS
     // where it was looked for, the features that its gap tells of did not meet
     if (hits.n_looks[p] > 0 && hits.is_closed[p] == 0) return false;
     const Vec3 normal = lane_of(system, r).normal();
-    const double gap_end = contact.gap_free + normal.dot(relative(system, r, [&](size_t k) {
-      return displacement_by_contact(system.island, hits, k, free.h);
-    }));
+    const double gap_end =
+        contact.gap_free + normal.dot(relative(system, r, [&](size_t k) -> const Vec6& {
+          return hits.displacement[k];
+        }));
     if (gap_end > contact.touch) return false;
     const double speed =
         normal.dot(relative(system, r, [&](size_t k) { return system.island.velocity[k]; }));

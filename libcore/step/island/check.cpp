@@ -4,9 +4,11 @@
 #include <cmath>
 
 #include "motion/rotation.hpp"
+#include "scene/stems.hpp"
 #include "scene/yielding.hpp"
 #include "solver/law_numbers.hpp"
 #include "step/island/stages.hpp"
+#include "step/island/stems.hpp"
 
 namespace talus {
 namespace {
@@ -29,12 +31,6 @@ struct SubstepCheck {
   std::vector<NearFeatures>& near_ground;
   ContactMaking& making;
   SubstepEnd& end;
-
-  void set_displacements() const {
-    end.displacement.resize(members.size());
-    for (size_t k = 0; k < members.size(); ++k)
-      end.displacement[k] = displacement_by_contact(system.island, hits, k, free.h);
-  }
 
   // Whether a contact that was left out closes by the displacements found without it.
   [[nodiscard]] bool closes_left_out() const {
@@ -99,7 +95,7 @@ struct SubstepCheck {
     const Vec6 by = end.displacement[k] + hits.thrown[k];
     if (by.head<3>().norm() + c.radius * by.tail<3>().norm() < deep_end * c.thickness) return false;
     (void)find_contacts(scene.ground, scene.blocks.shapes, members.blocks[k],
-                        end_of(free, system, end, k).pose, Mat3::Identity(), 0,
+                        end_of(members, free, system, end, k).pose, Mat3::Identity(), 0,
                         making.world_vertices, making.found, &near_ground[members.block(k)]);
     return std::any_of(making.found.begin(), making.found.end(), [&](const Contact& contact) {
       return contact.gap < -deep_end * c.thickness &&
@@ -168,29 +164,33 @@ struct SubstepCheck {
 
   // --- what gives way --------------------------------------------------------------------------
 
+  // How far a fixed body had been pushed when it was searched.
+  [[nodiscard]] Vec3 pushed_before(int fixed) const {
+    if (is_stem(scene, fixed)) return met_by_stem(state.yielding, stem_of(scene, fixed)).shift;
+    return search.poses[hull_of_fixed(scene, fixed)].position - scene.fixed.pose[fixed].position;
+  }
+
   // What the blocks do to the fixed bodies that give way.
   void find_pushes() const {
     end.pushes.clear();
-    if (scene.fixed.yieldings.empty()) return;
+    if (!anything_yields(scene)) return;
     for (size_t r = 0; r < system.contacts.size(); ++r) {
       if (!gives_way(system, r)) continue;
       const KeptContact& contact = system.contacts[r];
       const RowIn<const RowGroup> lane = lane_of(system, r);
       const Vec3 normal = lane.normal();
       const Yielding& yielding = *giving_way(scene, contact.fixed, normal);
-      const auto f = static_cast<size_t>(contact.fixed);
       YieldPush push;
       push.along = yield_direction(yielding, normal);
       const double p_n = lane.normal_impulse(), cosine = normal.dot(push.along);
       push.block = contact.a;
-      push.yielding = scene.fixed.yielding[f];
+      push.yielding = yielding_number(scene, contact.fixed);
       push.work = -p_n * normal.dot(path_of_impulse(members, free, system, hits, r));
       push.power = -p_n / free.h * contact.speed_start;
       const double gap_end = contact.gap_start + normal.dot(path_of_contact(system, end, r));
-      if (p_n >= (1 - 1e-12) * lane.normal_limit()) push.shift = std::min(0.0, gap_end) * cosine;
-      const auto body = static_cast<size_t>(hull_of_fixed(scene, contact.fixed));
-      push.to =
-          push.shift + push.along.dot(search.poses[body].position - scene.fixed.pose[f].position);
+      if (p_n >= (1 - 1e-12) * lane.normal_limit() || follows_block(scene, members, system, r))
+        push.shift = std::min(0.0, gap_end) * cosine;
+      push.to = push.shift + push.along.dot(pushed_before(contact.fixed));
       add_push(push, end.pushes);
     }
   }
@@ -203,7 +203,7 @@ struct SubstepCheck {
     if (!converged && tries.eased < law::most_eased) return SubstepVerdict::again(unconverged, h);
     if (!converged && tries.halvings < most_halvings)
       return SubstepVerdict::again(unconverged, h / 2);
-    set_displacements();
+    set_displacements(free.h, system, hits, end.displacement);
     if (converged && !tries.takes_all && closes_left_out())
       return SubstepVerdict::again(contact_left_out, h);
     if (tries.deep_cuts < most_deep_cuts)
@@ -212,7 +212,8 @@ struct SubstepCheck {
         return SubstepVerdict::again(SubstepCut::deep, first);
     if (overloads_bonds()) return SubstepVerdict::again(bond_broken, h);
     find_pushes();
-    const double used_up = time_to_first_break(scene, state.yielding, end.pushes, h);
+    const double used_up = std::min(time_to_first_break(scene, state.yielding, end.pushes, h),
+                                    time_to_stop(scene, members, system, h));
     if (used_up < h && tries.used_up_cuts < most_used_up_cuts)
       return SubstepVerdict::again(yielding_used_up, used_up);
     return SubstepVerdict::accept();
@@ -240,18 +241,15 @@ Vec3 path_of_impulse(const IslandMembers& members, const FreeMotions& free,
   Vec3 path = relative(system, r, [&](size_t k) -> Vec6 {
     return (system.island.velocity[k] + system.island.free_velocity[k]) / 2;
   });
-  const size_t ka = members.at(contact.a);
-  path -= (free.h - hits.time[ka]) * free.substeps[ka].free_acceleration;
-  if (contact.b >= 0) {
-    const size_t kb = members.at(contact.b);
-    path += (free.h - hits.time[kb]) * free.substeps[kb].free_acceleration;
-  }
+  const double rest = free.h - hits.pair_time[contact.pair];
+  path -= rest * free.substeps[members.at(contact.a)].free_acceleration;
+  if (contact.b >= 0) path += rest * free.substeps[members.at(contact.b)].free_acceleration;
   return path;
 }
 
 // The free motion, corrected (theory 1.8, 1.10).
-Motion end_of(const FreeMotions& free, const IslandSystem& system, const SubstepEnd& end,
-              size_t k) {
+Motion end_of(const IslandMembers& members, const FreeMotions& free, const IslandSystem& system,
+              const SubstepEnd& end, size_t k) {
   const Substep& s = free.substeps[k];
   const Vec6 dv = change(system.island, k);
   Motion out = s.free;
@@ -260,6 +258,9 @@ Motion end_of(const FreeMotions& free, const IslandSystem& system, const Substep
   out.pose.attitude =
       (rotation_by(end.displacement[k].tail<3>()) * s.free.pose.attitude).normalized();
   out.angular_momentum += system.island.mass[k].bottomRightCorner<3, 3>() * dv.tail<3>();
+  // what presses later does so where what pressed earlier has moved the member
+  const Vec3 by_times = end.displacement[k].head<3>() - free.h / 2 * dv.head<3>();
+  out.angular_momentum -= members.numbers[k].mass * by_times.cross(dv.head<3>());
   return out;
 }
 

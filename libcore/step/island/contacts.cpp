@@ -464,7 +464,8 @@ struct ContactMaker {
 
   void add_pair(int manifold) {
     const PairManifold& m = search.pairs.manifolds[manifold];
-    begin_pair(members.place[m.block_a], members.place[m.block_b], manifold);
+    begin_pair(members.place[m.block_a], is_fixed(scene, m.block_b) ? -1 : members.place[m.block_b],
+               manifold);
     match_memories(m);
     if (is_fixed(scene, m.block_b))
       add_fixed_points(m);
@@ -501,7 +502,7 @@ bool make_contacts(const Scene& scene, const State& state, const PairSearch& sea
 
 double first_touch(const Scene& scene, const State& state, const IslandSystem& system, double h) {
   double first = h + 1;
-  if (scene.fixed.yieldings.empty()) return first;
+  if (!anything_yields(scene)) return first;
   for (size_t r = 0; r < system.contacts.size(); ++r) {
     const KeptContact& contact = system.contacts[r];
     const double v = contact.speed_start, g = contact.gap_start;

@@ -60,6 +60,7 @@ struct IslandMembers {  // clang-format off
   std::vector<BlockNumbers> numbers;        ///<                                         (n_members)
   std::vector<int> place;                   ///< of a body in `blocks`, -1: not in it    (n_bodies)
   bool is_small = false;                    ///< the island's matrix is cheap to factor
+  bool is_eased = false;                    ///< soft, since forces were not found and blocks move
   std::vector<double> bearing;              ///< mass of the heaviest block touched [kg] (n_members)
   // clang-format on
   [[nodiscard]] std::size_t size() const { return blocks.size(); }
@@ -179,7 +180,8 @@ struct SubstepHits {  // clang-format off
   std::vector<Hit> hits;                    ///< in the order in which they were found
   std::vector<FlyingMember> members;        ///<                                         (n_members)
   std::vector<PathToHit> paths;             ///< in order of time
-  std::vector<double> time;                 ///< when contact changes its velocity [s]   (n_members)
+  std::vector<double> pair_time;            ///< when contacts change velocities [s]     (n_pairs)
+  std::vector<Vec6> displacement;           ///< by contact, hits aside                  (n_members)
   std::vector<Vec6> thrown;                 ///< displacement by hits                    (n_members)
   std::vector<Vec3> bond_impulse;           ///< of contacts with bonds, by hits [N s]; empty: none
   double dissipated = 0;                    ///< by hits, but for friction [J]
@@ -221,7 +223,7 @@ struct SubstepEnd {  // clang-format off
   std::vector<YieldPush> pushes;            ///< on fixed bodies that give way
   // 9 accept
   std::vector<std::uint8_t> pressed;        ///< 1: by a contact                         (n_members)
-  std::vector<Vec3> contact_impulse;        ///< hits aside [N s]                        (n_members)
+  std::vector<Vec3> ground_impulse;        ///< hits aside [N s]                        (n_members)
 };  // clang-format on
 
 /// What became of an attempt at a substep.
@@ -296,11 +298,10 @@ template <class Of>
   const Island& island = system.island;
   const BodyPair& pair = island.pairs[system.contacts[r].pair];
   const Vec3 arm = lane_of(system, r).arm();
-  const auto ka = static_cast<std::size_t>(pair.a);
-  Vec3 v = point_velocity<6>(of(ka), arm);
+  Vec3 v = point_velocity<6>(of(static_cast<std::size_t>(pair.a)), arm);
   if (pair.b >= 0) {
     const auto kb = static_cast<std::size_t>(pair.b);
-    v -= point_velocity<6>(of(kb), arm + island.position[ka] - island.position[kb]);
+    v -= point_velocity<6>(of(kb), arm + pair.shift);
   }
   return v;
 }
@@ -308,12 +309,6 @@ template <class Of>
 /// Change of a member's velocity by contact.
 [[nodiscard]] inline Vec6 change(const Island& island, std::size_t k) {
   return island.velocity[k] - island.free_velocity[k];
-}
-
-/// Displacement of member k by contact over the substep of `h`, hits aside.
-[[nodiscard]] inline Vec6 displacement_by_contact(const Island& island, const SubstepHits& hits,
-                                                  std::size_t k, double h) {
-  return (h - hits.time[k]) * change(island, k);
 }
 
 [[nodiscard]] inline const Hit* hit_of(const IslandSystem& system, const SubstepHits& hits,

@@ -44,10 +44,10 @@ void see_size(const Scene& scene, const PairSearch& search, std::span<const int>
 // What a contact gives must not grow with what lies above it, with the step, or with small blocks:
 // a tower of springs leans by the sum of what they give, and buckles. So a contact at rest is as
 // stiff as its load of the last step asks for an overlap of `sag`, whatever that takes. Contacts
-// that slip, open or bear little stay soft, those of blocks in motion softest: stiff ones that
-// close press a small block with forces far beyond its weight, and take many passes. A small block
-// may bear a large one: its contacts are as stiff as the heaviest block that it touches asks for
-// before they know what they bear.
+// that slip, open or bear little stay soft, and all of a large island of which a block moves: stiff
+// ones that close press a small block with forces far beyond its weight, and take many passes. A
+// small block may bear a large one: its contacts are as stiff as the heaviest block that it touches
+// asks for before they know what they bear.
 void choose_stiffness(const Scene& scene, const State& state, const PairSearch& search,
                       std::span<const int> manifolds, int eased, IslandMembers& members) {
   members.bearing.clear();
@@ -61,17 +61,23 @@ void choose_stiffness(const Scene& scene, const State& state, const PairSearch& 
   }
   const double g = scene.gravity.norm(), dt = scene.settings.dt;
   const double sag = members.is_small ? most_sag_in_small_island : most_sag;
-  const double stiffest = stiffest_by_load / std::pow(law::easing, eased);
   const bool is_first = members.is_small || state.time == 0;
+  const auto moves = [&](int b) {
+    return state.motion[static_cast<size_t>(b)].velocity.norm() > slow * g * dt;
+  };
+  const bool any_moves = std::any_of(members.blocks.begin(), members.blocks.end(), moves);
+  members.is_eased = any_moves && eased > 0;
+  const bool is_soft = members.is_eased || (any_moves && !members.is_small);
+  const double stiffest = stiffest_by_load / std::pow(law::easing, eased);
   for (size_t k = 0; k < members.size(); ++k) {
     BlockNumbers& c = members.numbers[k];
     c.slow = slow * g * dt;
-    c.rests = members.is_small || state.motion[members.block(k)].velocity.norm() <= c.slow;
-    const bool is_stiff = members.is_small || (c.rests && state.time > 0);
+    c.rests = members.is_small || !moves(members.blocks[k]);
+    const bool is_stiff = members.is_small || (c.rests && state.time > 0 && !is_soft);
     const double per_mass = (is_stiff ? stiffest_at_rest : stiffest_in_island) / (dt * dt);
     c.stiffness = per_mass * members.bearing[k];
     c.least_stiffness = is_first ? no_normal_limit : bears_little * per_mass * c.mass;
-    c.most_stiffness = stiffest / (dt * dt) * c.mass;
+    c.most_stiffness = is_soft ? 0 : stiffest / (dt * dt) * c.mass;
     c.sag = (c.rests ? sag : std::max(sag, law::most_sag_in_motion)) * c.thickness;
   }
 }

@@ -4,11 +4,13 @@
 #include <cmath>
 
 #include "motion/rotation.hpp"
+#include "scene/stems.hpp"
 #include "scene/yielding.hpp"
 #include "solver/island_groups.hpp"
 #include "solver/law_numbers.hpp"
 #include "step/flight.hpp"
 #include "step/island/stages.hpp"
+#include "step/island/stems.hpp"
 #include "step/island/step_island.hpp"
 #include "step/substep.hpp"
 
@@ -55,7 +57,8 @@ bool is_far_from_fixed(const Scene& scene, const State& state, int b, double mar
   search.n_fixed_near += static_cast<std::int64_t>(search.near.size() + search.shifted.size());
   return std::none_of(search.near.begin(), search.near.end(),
                       [&](int f) { return is_near(hull_of_fixed(scene, f)); }) &&
-         std::none_of(search.shifted.begin(), search.shifted.end(), is_near);
+         std::none_of(search.shifted.begin(), search.shifted.end(), is_near) &&
+         is_far_from_stems(scene, state, at, reach, search);
 }
 
 // Contacts between the blocks marked in `search.moving`, and of those with others, over `h`.
@@ -76,6 +79,7 @@ void search_marked(const Scene& scene, double h, State& state, PairSearch& searc
                           search.shifted, scene.settings.block_contacts},
                          settings, state.pairs, search.pairs);
   search.n_fixed_near += found.n_fixed_near;
+  add_stem_pairs(scene, state, settings.margin, search);
 }
 
 void set_motion_ahead(const Scene& scene, int b, const Motion& m, double h, PairSearch& search) {
@@ -225,6 +229,10 @@ double longest_substep(const Scene& scene, const State& state, const PairSearch&
   for (const int i : manifolds) {
     const PairManifold& m = search.pairs.manifolds[i];
     double thickness = members.of(m.block_a).thickness;
+    if (is_fixed(scene, m.block_b) && is_stem(scene, fixed_of(scene, m.block_b))) {
+      part = std::max(part, part_by_stem(scene, search, m, thickness));
+      continue;
+    }
     if (!is_fixed(scene, m.block_b))
       thickness = std::min(thickness, members.of(m.block_b).thickness);
     const double enough = most_travel * thickness;

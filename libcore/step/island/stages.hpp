@@ -113,13 +113,17 @@ void solve_with_hits(const Scene& scene, const State& state, const PairSearch& s
                                            const SubstepTries& tries,
                                            std::vector<NearFeatures>& near_ground,
                                            ContactMaking& making, SubstepEnd& end);
+/// Displacement of the members by contact over the substep of `h`, hits aside: each pair acts at
+/// its own time.
+void set_displacements(double h, const IslandSystem& system, const SubstepHits& hits,
+                       std::vector<Vec6>& displacement);
 /// Path per time of the points of contact `r` that its impulse works on, over the substep [m/s].
 [[nodiscard]] Vec3 path_of_impulse(const IslandMembers& members, const FreeMotions& free,
                                    const IslandSystem& system, const SubstepHits& hits,
                                    std::size_t r);
 /// Motion of member k at the end of the substep.
-[[nodiscard]] Motion end_of(const FreeMotions& free, const IslandSystem& system,
-                            const SubstepEnd& end, std::size_t k);
+[[nodiscard]] Motion end_of(const IslandMembers& members, const FreeMotions& free,
+                            const IslandSystem& system, const SubstepEnd& end, std::size_t k);
 
 // --- 9 accept (step/island/accept.cpp)
 // -------------------------------------------------------------

@@ -74,7 +74,7 @@ BlockSystem<Dof> make_system(const Scene& scene, int b, const BlockNumbers& c, c
 template <int Dof>
 struct Solved {
   Motion end;
-  Vec6 change;                   // of velocity by contact, body axes
+  Vec6 change = Vec6::Zero();    // of velocity by contact, body axes
   Vec3 turn = Vec3::Zero();      // by contact, body axes [rad]
   Mat3 strained = Mat3::Zero();  // twice the mean strain rate, body axes
   /// Displacement of a body point by contact and by straining, body axes.
@@ -122,11 +122,16 @@ Solved<Dof> solved_motion(const BlockNumbers& c, const Substep& s, const BlockSy
 /// The law asks how fast the points of the contacts move at the end of the substep. It does so at
 /// the attitude without contact; by the turn that contact adds, a body that spins moves otherwise.
 /// Sets that into the rows' drift, for a solution that ends with `solved`, and returns by how much
-/// it changed there [m/s]. Of the second order in h but for the forces of a hit or a jam.
+/// it changed there [m/s]. Of the second order in h but for the forces of a hit or a jam. No turn
+/// is followed that would change the spin by half of itself or more.
 inline double follow_turn(const BlockNumbers& c, const Substep& s, const Solved<6>& solved,
                           std::span<const Contact> contacts, std::span<ContactRow> rows) {
   const Vec3 change = solved.change.tail<3>(), spin = s.spin_free + change;
   const Vec3 by_axes = c.per_inertia.cwiseProduct(solved.turn.cross(c.inertia.cwiseProduct(spin)));
+  // A needle's spin about its axis is all but free: a small turn would seem to set it spinning.
+  constexpr double most_followed = 0.5;
+  if (by_axes.norm() > most_followed * spin.norm())
+    return follow_turn(c, s, Solved<6>{}, contacts, rows);
   double largest = 0;
   for (ContactRow& row : rows) {
     const Vec3& X = contacts[static_cast<std::size_t>(row.contact)].point_a;

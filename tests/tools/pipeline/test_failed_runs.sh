@@ -13,7 +13,7 @@ says "2 of 4 runs failed:"
 says "  run_bad_1: largest penetration, m is"
 says "  run_bad_2: largest penetration, m is"
 says "(its result is used, and marked)"
-says "  hint: take a smaller time_step_s"
+says "take a smaller time_step_s"
 prints "run_good_2: "
 says "run_bad_2: talus-dda: health: largest penetration"
 for name in runs/run_bad_1.h5 runs/run_good_2.h5 report.html site.qgz maps/velocity.tif; do

@@ -134,7 +134,7 @@ nothing_left run.h5 flat.h5
 # a broken limit: exit 3, said which, and the file is kept
 expect 3 run_dda -o limit.h5 --set solver.max_penetration_m=1e-12
 says "largest penetration, m"
-says "hint: take a smaller time_step_s, or give max_penetration_m"
+says "; take a smaller time_step_s, or give max_penetration_m"
 [ -s limit.h5 ] || fail "the file of a failed run was not kept"
 
 # Blocks that pass through each other are no result, unless asked for by name, and then said.

@@ -50,7 +50,7 @@ grep -q "unconverged\|left the terrain" out && fail "trouble is said where there
 expect 0 run_dda -o gone.h5 --duration-s 20 --set ground.ground.friction_deg=0
 grep -q "3 left the terrain" out || fail "the summary does not say that blocks left the terrain"
 expect 3 run_dda -o lost.h5 --duration-s 20 --set ground.ground.friction_deg=0 --set solver.max_lost_share=0
-says "hint: take a larger terrain, or give max_lost_share"
+says "; take a larger terrain, or give max_lost_share"
 
 # ParaView
 expect 0 run_dda -o x.h5 --xdmf x.xmf -q --duration-s 1

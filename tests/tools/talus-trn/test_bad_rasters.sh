@@ -26,6 +26,9 @@ says "gdalwarp -r bilinear -t_srs EPSG:32632 degrees.tif"
 gdal_translate -q -a_srs EPSG:2225 -a_ullr 6000000 2100000 6000030 2099970 good.asc feet.tif
 refused "US survey foot" talus-trn feet.tif $out
 says "--t-srs EPSG:32610"
+# heights of a plan in feet: in either unit, so nothing is assumed
+refused "nothing says what unit the heights are in" talus-trn feet.tif $out --t-srs EPSG:32610
+says "--vertical-crs"
 gdal_translate -q -a_srs EPSG:3857 good.asc mercator.tif
 refused "whose metres are stretched here" talus-trn mercator.tif $out
 expect 2 talus-trn good.asc $out --crs EPSG:nonsense

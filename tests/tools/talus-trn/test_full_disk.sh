@@ -8,3 +8,9 @@ trap '' XFSZ
 ) || fail "a full disk was not noticed"
 says "cannot be written"
 nothing_left full.tif full.tfw
+
+# A folder that takes no new files is not called a full disk.
+if [ -w /proc ]; then
+  expect 1 talus-trn dem.asc -o /proc/full.tif --crs none --no-db
+  says "the folder takes no new files: name another output"
+fi

@@ -44,6 +44,9 @@ TEST(Area, OutlinesThatCrossThemselvesAreRefused) {
               check_area(bow_tie, Vec3(500000, 0, 0), {"s.toml", 7});
             }).find("s.toml:7: the source area crosses itself between (500000, 0)"),
             std::string::npos);
+  const Area even{{{{0, 0}, {10, 10}, {10, 0}, {0, 10}}}};  // halves that cancel
+  EXPECT_NE(refusal([&] { check_area(even, Vec3::Zero(), {}); }).find("crosses itself"),
+            std::string::npos);
   const Area flat{{{{0, 0}, {1, 1}, {2, 2}}}};
   EXPECT_NE(refusal([&] { check_area(flat, Vec3::Zero(), {}); }).find("no area"),
             std::string::npos);

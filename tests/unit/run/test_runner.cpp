@@ -5,6 +5,7 @@
 #include "base/error.hpp"
 #include "run/runner.hpp"
 #include "scene/fence.hpp"
+#include "scene/stems.hpp"
 #include "step/step.hpp"
 #include "store/checkpoint.hpp"
 #include "verify/cases/cases.hpp"
@@ -144,6 +145,47 @@ TEST(Runner, ResumesWhatFencesHaveMet) {
   }
 }
 
+// The boxes run into a stand on the way.
+Scene wooded_scene() {
+  Scene scene = bouncing_scene();
+  std::vector<Stem> stems;
+  for (int i = 0; i < 20; ++i)
+    for (int j = 0; j < 30; ++j) {
+      Stem& stem = stems.emplace_back();
+      const double x = -22 + 1.7 * i, y = -25 + 1.9 * j;
+      stem.foot = Vec3(x, y, elevation_at(scene.ground.trn, x, y));
+      stem.height = 20;
+      stem.radius = 0.1;
+      stem.capacity = 5e3 + 1e3 * j;
+      stem.deflection = 0.5;
+      stem.id = 30 * i + j;
+    }
+  GroundClass face;
+  face.friction = 0.3;
+  add_forest(scene, stems, {face});
+  return scene;
+}
+
+TEST(Runner, ResumesWhatStemsHaveMet) {
+  const Scene scene = wooded_scene();
+  const RunFile whole = computed(scene, options(0.1));
+  ASSERT_GE(whole.tree_hits.size(), 5u);
+  EXPECT_TRUE(std::any_of(whole.tree_hits.begin(), whole.tree_hits.end(),
+                          [](const TreeHitRow& row) { return row.broken_by >= 0; }));
+  double work = 0;
+  for (const TreeHitRow& row : whole.tree_hits) work += row.hit.work;
+  EXPECT_NEAR(whole.health.back().fence, work, 1e-9 * work);
+  const RunFile resumed = computed(scene, options(0.1), {60, 100, 131, 190, 230});
+  EXPECT_EQ(whole.frames.position, resumed.frames.position);
+  ASSERT_EQ(whole.tree_hits.size(), resumed.tree_hits.size());
+  for (std::size_t i = 0; i < whole.tree_hits.size(); ++i) {
+    EXPECT_EQ(whole.tree_hits[i].stem, resumed.tree_hits[i].stem);
+    EXPECT_EQ(whole.tree_hits[i].hit.time, resumed.tree_hits[i].hit.time);
+    EXPECT_EQ(whole.tree_hits[i].hit.work, resumed.tree_hits[i].hit.work);
+    EXPECT_EQ(whole.tree_hits[i].left, resumed.tree_hits[i].left);
+  }
+}
+
 TEST(Runner, RowsDoNotDependOnTheFrameIntervalToTheBit) {
   const Scene scene = bouncing_scene();
   const RunFile coarse = computed(scene, options(1)), fine = computed(scene, options(0.037));
@@ -197,7 +239,8 @@ TEST(Runner, FramesStandAtTheirTimesAndAtTheEnd) {
 }
 
 TEST(Runner, ABrokenLimitFailsTheRun) {
-  const Scene scene = bouncing_scene();
+  Scene scene = bouncing_scene();
+  for (GroundClass& ground : scene.ground.classes) ground.restitution = 0;  // they come to slide
   RunOptions wanted = options(0.1);
   wanted.limits.max_penetration = 1e-15;
   Runner runner = begin_run(scene, wanted, lines(), blocks_of(scene));

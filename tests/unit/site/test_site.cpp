@@ -77,6 +77,11 @@ TEST(Site, ValuesDefaultsAndTheOrderOfTheFile) {
 TEST(Site, UnknownKeysNameTheNearestAndTheLine) {
   EXPECT_EQ(refusal("[joints.J1]\n\ndip_degree = 3\n"),
             "s/site.toml:3: unknown key dip_degree in [joints.J1] | did you mean dip_deg?");
+  EXPECT_NE(refusal("[source]\ndepth = 3\n").find("did you mean depth_m?"), std::string::npos);
+  EXPECT_NE(refusal("[joints.J1]\nspacing_max = 3\n").find("did you mean spacing_max_m?"),
+            std::string::npos);
+  EXPECT_NE(refusal("[joints.J1]\nstrike_deg = 3\n").find("dip_direction_deg is the azimuth of"),
+            std::string::npos);
   EXPECT_EQ(refusal("[solvr]\nlaw = 'paper'\n"),
             "s/site.toml:1: unknown section solvr | did you mean solver?");
   EXPECT_NE(refusal("friction_deg = 3\n").find("key outside any section"), std::string::npos);

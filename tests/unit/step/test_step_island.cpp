@@ -574,8 +574,8 @@ TEST(StepIsland, WhatDeepensADeepHitIsPressedOut) {
   EXPECT_NEAR(thrown.speed(), 0.5 * 20, 0.2);  // hit
 }
 
-// It is twice what bears the last force at `sag`, stays while that is enough and not a thousand
-// times too much, and goes beyond what the heaviest neighbour asks for by doubling. What slips,
+// It is twice what bears the last force at `sag`, stays while that is enough and not thirty times
+// too much, and goes beyond what the heaviest neighbour asks for by doubling. What slips,
 // opens, or is in an island whose forces were hard to find becomes softer. Bonds keep theirs.
 TEST(StepIsland, StiffnessFollowsWhatAContactBears) {
   const Scene scene = tower(2, 0, 30, {});
@@ -603,22 +603,22 @@ TEST(StepIsland, StiffnessFollowsWhatAContactBears) {
   EXPECT_DOUBLE_EQ(stiffness(force, 0), k);
   EXPECT_DOUBLE_EQ(stiffness(1.9 * force, k), k);
   EXPECT_DOUBLE_EQ(stiffness(2.1 * force, k), 2.1 * k);
-  EXPECT_DOUBLE_EQ(stiffness(3e-3 * force, k), k);
-  EXPECT_DOUBLE_EQ(stiffness(1e-3 * force, k), 1e-3 * k);
+  EXPECT_DOUBLE_EQ(stiffness(0.07 * force, k), k);
+  EXPECT_DOUBLE_EQ(stiffness(0.06 * force, k), 0.06 * k);
   EXPECT_DOUBLE_EQ(stiffness(100 * force, k), c.stiffness);
   EXPECT_DOUBLE_EQ(stiffness(100 * force, c.stiffness), 2 * c.stiffness);
-  EXPECT_DOUBLE_EQ(stiffness(1e9 * force, c.most_stiffness), c.most_stiffness);
+  EXPECT_DOUBLE_EQ(stiffness(1e6 * force, c.most_stiffness), c.most_stiffness);
   EXPECT_DOUBLE_EQ(stiffness(100 * force, c.stiffness, 1), c.stiffness);
   for (double* speed : {&slips, &opens}) {
     *speed = 0.11;
-    EXPECT_DOUBLE_EQ(stiffness(100 * force, k), k / 4);
+    EXPECT_DOUBLE_EQ(stiffness(10 * force, k), k / 4);
     EXPECT_DOUBLE_EQ(stiffness(0, 2 * c.least_stiffness), c.least_stiffness);
-    EXPECT_NEAR(stiffness(1e3 * force, k), 2e3 * force / 5e-4,
-                1e-6 * k);  // no softer than it bears
+    EXPECT_DOUBLE_EQ(stiffness(100 * force, k), k);  // no softer than it bears in motion
+    EXPECT_NEAR(stiffness(2e3 * force, k), 4e3 * force / 5e-4, 1e-6 * k);
     *speed = 0;
   }
   rests = law::most_rests;
-  EXPECT_DOUBLE_EQ(stiffness(100 * force, k), k / 8);
+  EXPECT_DOUBLE_EQ(stiffness(10 * force, k), k / 8);
   rests = 1;
   EXPECT_DOUBLE_EQ(stiffness(100 * force, k), k);
   rests = 0;
@@ -694,8 +694,9 @@ TEST(StepIsland, WhatDeepensADeepHitWithTheGroundIsPressedOut) {
       c->place(c->depth() + 1.5e-3, 0.3);
       c->go();
     }
-  EXPECT_LT(corner.depth(), deep + 0.015);
-  EXPECT_GT(forgotten.depth(), 0.08);
+  // both blocks come down on it anew in every step, and the upper one hits it again
+  EXPECT_GT(forgotten.depth(), deep + 0.07);
+  EXPECT_LT(corner.depth() - deep, (forgotten.depth() - deep) / 2);
   thrown.place(0.052, 20);
   thrown.go();
   // by the ground, by the block above, by the ground and by the block again: e = 0.5

@@ -101,6 +101,18 @@ RunFile sample(int n_frames, int n_rows) {
   run.panels = {{0, 0, std::numeric_limits<double>::infinity(), 0, 0,
                  std::numeric_limits<double>::infinity(), -1},
                 {0, 1, 5e5, 5e5, -1.5, 3.25, 1}};
+  run.forests = {{"upper", 400}, {"lower", 30}};
+  talus::TreeHitRow& tree = run.tree_hits.emplace_back();
+  tree.forest = 1;
+  tree.stem = 17;
+  tree.species = 8;
+  tree.foot = {1, 2, 3};
+  tree.capacity = 5e4;
+  tree.left = 2e4;
+  tree.broken_at = std::numeric_limits<double>::infinity();
+  tree.hit.block = 1;
+  tree.hit.velocity = {3, 2, 1};
+  tree.hit.work = 3e4;
   return run;
 }
 
@@ -137,6 +149,18 @@ TEST(RunFile, ReadsBackWhatWasWritten) {
   EXPECT_TRUE(std::isinf(back.panels[0].capacity));
   EXPECT_EQ(back.panels[1].broken_at, 3.25);
   EXPECT_EQ(back.panels[1].broken_by, 1);
+  ASSERT_EQ(back.forests.size(), 2u);
+  EXPECT_EQ(back.forests[0].name, "upper");
+  EXPECT_EQ(back.forests[1].n_stems, 30);
+  ASSERT_EQ(back.tree_hits.size(), 1u);
+  EXPECT_EQ(back.tree_hits[0].forest, 1);
+  EXPECT_EQ(back.tree_hits[0].stem, 17);
+  EXPECT_EQ(back.tree_hits[0].species, 8);
+  EXPECT_EQ(back.tree_hits[0].foot, Vec3(1, 2, 3));
+  EXPECT_EQ(back.tree_hits[0].left, 2e4);
+  EXPECT_EQ(back.tree_hits[0].broken_by, -1);
+  EXPECT_EQ(back.tree_hits[0].hit.velocity, Vec3(3, 2, 1));
+  EXPECT_EQ(back.tree_hits[0].hit.work, 3e4);
   EXPECT_EQ(back.grid.corner, run.grid.corner);
   EXPECT_EQ(back.grid.n_cols, 30);
   ASSERT_EQ(back.lines.size(), 1u);

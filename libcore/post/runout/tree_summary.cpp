@@ -1,0 +1,61 @@
+#include "post/runout/tree_summary.hpp"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+namespace talus {
+namespace {
+
+// What tells stems apart: of stands that each run draws anew, the place too.
+using StemName = std::tuple<std::string, std::int32_t, double, double>;
+
+void add_run(const RunTrees& run, std::map<StemName, HitStem>& stems,
+             std::map<std::string, ForestSummary>& forests) {
+  for (const ForestInfo& forest : run.forests) {
+    ForestSummary& sum = forests[forest.name];
+    sum.name = forest.name;
+    ++sum.n_runs;
+    sum.stems += forest.n_stems;
+  }
+  std::map<StemName, int> seen;  // hits of the stem in this run so far
+  for (const TreeHitRow& row : run.hits) {
+    const std::string& name = run.forests[row.forest].name;
+    const StemName key(name, row.stem, row.foot.x(), row.foot.y());
+    const bool is_new = seen[key]++ == 0;
+    HitStem& stem = stems[key];
+    if (stem.n_hits == 0) {
+      stem.forest = name;
+      stem.first = row;
+      stem.least_left = row.left;
+    }
+    ++stem.n_hits;
+    stem.largest_work = std::max(stem.largest_work, row.hit.work);
+    stem.least_left = std::min(stem.least_left, row.left);
+    ForestSummary& sum = forests[name];
+    sum.work += row.hit.work;
+    if (!is_new) continue;
+    ++stem.n_runs;
+    sum.hit += 1;
+    if (row.broken_by < 0) continue;
+    ++stem.n_broken;
+    sum.broken += 1;
+  }
+}
+
+}  // namespace
+
+TreeSummary summary_of(const std::vector<RunTrees>& runs) {
+  std::map<StemName, HitStem> stems;
+  std::map<std::string, ForestSummary> forests;
+  for (const RunTrees& run : runs) add_run(run, stems, forests);
+  TreeSummary out;
+  for (auto& [key, stem] : stems) out.stems.push_back(std::move(stem));
+  for (auto& [name, sum] : forests) {
+    for (double* value : {&sum.stems, &sum.hit, &sum.broken, &sum.work}) *value /= sum.n_runs;
+    out.forests.push_back(sum);
+  }
+  return out;
+}
+
+}  // namespace talus

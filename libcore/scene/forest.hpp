@@ -1,0 +1,55 @@
+// libcore/scene/forest.hpp: public
+// Stems of trees that stand in the way: vertical cylinders that give way as other fixed bodies do
+// (scene/fixed_bodies.hpp), without an axis, until they have taken their energy and are gone.
+// in:    stems from a list or drawn (scene/stand.hpp)
+// out:   what the search and the solver know of them; what hit them
+//
+// Stems have no hulls, so that a forest costs nothing where no block is. Their numbers as fixed
+// bodies follow those of the bodies with hulls: see scene/stems.hpp.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/types.hpp"
+#include "contact/body_grid.hpp"
+#include "contact/ground.hpp"
+#include "scene/fixed_bodies.hpp"
+
+namespace talus {
+
+/// A stem before anything hit it, local coordinates.
+struct Stem {
+  Vec3 foot = Vec3::Zero();  ///< on the ground [m]
+  double height = 0;         ///< > 0 [m]
+  double radius = 0;         ///< half of the diameter at breast height, > 0 [m]
+  double capacity = 0;       ///< energy that breaks it, > 0 [J]
+  double deflection = 0;     ///< over which it takes that, > 0 [m]
+  std::int32_t section = 0;  ///< index of its [forest.*]
+  std::int32_t id = 0;       ///< in that section: of a list its row, else in the order of the stand
+  std::int32_t species = 0;  ///< index into known_species()
+};
+
+/// Stems of a scene; plain where there are none.
+struct Forest {  // clang-format off
+  std::vector<Stem> stems;            ///<                                            (n_stems)
+  std::vector<Yielding> yieldings;    ///< how each gives way                         (n_stems)
+  std::vector<GroundClass> faces;     ///< friction, by section                       (n_sections)
+  BodyGrid grid;                      ///< stems by place
+  double widest = 0;                  ///< largest radius [m]
+};  // clang-format on
+
+/// First touch of a block and a stem, and what became of it.
+struct StemHit {
+  std::int32_t block = 0, stem = 0;  ///< stem: of the scene
+  double time = 0;                   ///< of the first touch [s]
+  double height = 0;                 ///< of the place above the foot [m]
+  Vec3 velocity = Vec3::Zero();      ///< of the centroid before [m/s]
+  double translational_energy = 0;   ///< before [J]
+  double rotational_energy = 0;      ///< before [J]
+  double energy_after = 0;  ///< kinetic, with spin, at the end of the last touch so far [J]
+  double work = 0;          ///< taken from this block so far [J]
+};
+
+}  // namespace talus

@@ -1,0 +1,53 @@
+// libcore/scene/stems.hpp: public
+// Stems of a forest in a scene: their numbers among the fixed bodies, and what hits them.
+// in:    stems on the ground; contacts of blocks with them
+// out:   Scene::forest; hits
+// ref:   Dorren and Berger 2006 (energy that breaks a stem)
+//
+// As fixed bodies the stems stand behind those with hulls: stem s is body n_fixed + s.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scene/scene.hpp"
+#include "scene/state.hpp"
+
+namespace talus {
+
+[[nodiscard]] inline int n_stems(const Scene& scene) {
+  return static_cast<int>(scene.forest.stems.size());
+}
+/// Is fixed body `body` a stem?
+[[nodiscard]] inline bool is_stem(const Scene& scene, int body) { return body >= n_fixed(scene); }
+[[nodiscard]] inline int stem_of(const Scene& scene, int body) { return body - n_fixed(scene); }
+[[nodiscard]] inline int body_of_stem(const Scene& scene, int stem) {
+  return stem + n_fixed(scene);
+}
+
+/// Energy that breaks a stem of this diameter at breast height, FE 38.7 DBH^2.31 with DBH in
+/// centimetres [J]. `factor`: FE, by the species.
+[[nodiscard]] double stem_capacity(double factor, double dbh_m);
+
+/// Adds stems to a scene whose blocks and fixed bodies are all there. `faces`: of each section.
+void add_forest(Scene& scene, std::vector<Stem> stems, std::vector<GroundClass> faces);
+
+/// What stem `stem` has met; nothing where nothing pushed it.
+[[nodiscard]] const Yielded& met_by_stem(const YieldingState& yielding, int stem);
+/// The same to be changed.
+[[nodiscard]] Yielded& meet_stem(YieldingState& yielding, int stem);
+
+/// Where the axis of `stem` stands now, local x, y [m].
+[[nodiscard]] Vec2 axis_of_stem(const Scene& scene, const State& state, int stem);
+
+/// Notes that `block` touches fixed body `body`, a stem, at `point`, having had motion `before` at
+/// `time`, and leaves it with motion `after`; what is known from the first touch stays.
+void note_stem_touch(const Scene& scene, int block, int body, const Vec3& point, double time,
+                     const Motion& before, const Motion& after, std::vector<StemHit>& hits);
+
+/// Adds what stems took from the blocks that pushed them in an accepted substep to their hits.
+void note_stem_work(const Scene& scene, std::span<const YieldPush> pushes,
+                    std::vector<StemHit>& hits);
+
+}  // namespace talus

@@ -1,0 +1,59 @@
+// libcore/site/plausibility.hpp
+// Numbers of a site that can be computed with and are most likely not meant.
+// in:    what was measured of the source, its blocks and the time that they need
+// out:   doubts, each with the key to change
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace talus {
+
+/// NaN where a number does not apply.
+struct PlausibilityFacts {
+  static constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  double polygon_area = none;                  ///< [m2]
+  double mean_depth = none, max_depth = none;  ///< of the mass, vertical [m]
+  double relief = none;                        ///< of the ground over the mass [m]
+  double normal_depth = none;                  ///< depth_m, where it counts along the normal [m]
+  double width = none;                         ///< shorter way across the source [m]
+  double terrain_area = none;                  ///< known ground [m2]
+  double cell_size = none;                     ///< [m]
+  double smallest_spacing = none;              ///< of the joint sets [m]
+  double n_blocks = none;                      ///< that a run would move
+  double step_at_foot = none;                  ///< largest height that the mass leans on [m]
+  double step_share = none;                    ///< of the foot with such a step [-]
+  double sliding_spacing = none;               ///< of the set that slides [m]
+  double duration = none;                      ///< of the run [s]
+  double travel_duration = none;               ///< that sliders from the source ask for [s]
+  double moved_share = none;                   ///< of the mass in the probe [-]
+};
+
+struct Doubt {
+  std::string key;      ///< of the site file, that would change it
+  std::string finding;  ///< what was found, with the usual range
+  std::string hint;     ///< what to do
+  double value = 0, limit = 0;
+  bool is_refused = false;  ///< beyond what can be meant
+};
+
+/// In a fixed order.
+[[nodiscard]] std::vector<Doubt> doubts_of(const PlausibilityFacts& facts);
+
+/// What the probe says of the whole mass.
+enum class Outlook { stands, goes_in_part, goes };
+[[nodiscard]] Outlook outlook_of(double moved_share);
+[[nodiscard]] const char* text(Outlook outlook);
+
+/// Processor time of a run of blocks in contact, from many runs of masses on real slopes: within a
+/// factor of 2.5 [s]. `dt`: time step [s].
+[[nodiscard]] double expected_cpu_s(double n_blocks, double duration, double dt);
+/// Of one simulated second while all blocks are in contact [s].
+[[nodiscard]] double cpu_s_of_a_packed_second(double n_blocks, double dt);
+/// The same run, from the time that a probe of it took: `probe_cpu` for `probe_duration` at
+/// `probe_dt` [s].
+[[nodiscard]] double scaled_cpu_s(double probe_cpu, double probe_duration, double probe_dt,
+                                  double duration, double dt);
+
+}  // namespace talus

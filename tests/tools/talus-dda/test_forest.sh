@@ -1,0 +1,120 @@
+# Forests: drawn in a polygon, from rasters, from a list; what of them is refused; the same bytes.
+. "$source_dir/tests/tools/talus-dda/common.sh"
+make_inputs
+polygon='polygon = [[500050, 5000010], [500095, 5000010], [500095, 5000090], [500050, 5000090]]'
+
+with_forest() {  # NAME LINES
+  { cat site.toml && printf '[forest.wood]\n%b\n' "$2"; } >"$1.toml"
+}
+run() { talus-dda "$1.toml" --trn slope.tif --blocks blocks.h5 -o "$1.h5" --no-db "$2"; }
+
+# drawn: blocks hit stems, break some, and the result says so; again it is the same, byte by byte
+with_forest drawn "$polygon\nstems_per_ha = 1500\ndbh_mean_cm = 25\nconifer_share = 0.5"
+expect 0 run drawn --json
+cp out drawn.json
+expect 0 talus-dda drawn.toml --trn slope.tif --blocks blocks.h5 -o again.h5 --no-db
+cmp -s drawn.h5 again.h5 || fail 'two runs with a forest differ'
+prints ' stems hit, '
+expect 0 talus-dda drawn.toml --trn slope.tif --blocks blocks.h5 --no-db --plan
+prints 'on   forest: 1 forest'
+
+# each run may draw a stand of its own
+expect 0 talus-dda drawn.toml --trn slope.tif --blocks blocks.h5 -o other.h5 --no-db \
+  --set forest.wood.new_stand_per_run=true
+cmp -s drawn.h5 other.h5 && fail 'a stand of the run is that of all runs'
+
+# layers, and what the evaluation says
+expect 0 talus-runout drawn.h5 --trn slope.tif -o runout.gpkg --json runout.json --no-db -q
+PATH=/usr/bin:$PATH python3 - <<'PY' || fail 'hits of trees'
+import json, sqlite3
+report = json.load(open('drawn.json'))['trees']
+assert 350 < report['n_stems'] < 750, report  # 0.36 ha of 1500 a hectare, clear of the blocks
+assert report['n_stems_hit'] >= report['n_stems_broken'] >= 1, report
+trees = json.load(open('runout.json'))['trees']
+forest, = trees['forests']
+assert forest['stems'] == report['n_stems'] and forest['broken'] == report['n_stems_broken']
+assert abs(forest['work_kj'] - report['work_kj']) < 1e-6 * report['work_kj']
+layers = sqlite3.connect('runout.gpkg')
+rows = layers.execute('select stem, dbh_cm, capacity_kj, n_hits, n_broken, largest_work_kj, least_left_kj from trees_hit').fetchall()
+assert len(rows) == report['n_stems_hit']
+for stem, dbh, capacity, n, broken, work, left in rows:
+    factors = [0.93, 1.59]
+    assert any(abs(capacity - f * 0.0387 * dbh ** 2.31) < 1e-6 * capacity for f in factors), (dbh, capacity)
+    assert (left == 0) == (broken == 1) and work <= capacity * (1 + 1e-6)
+taken, = layers.execute('select sum(work_kj) from tree_hits').fetchone()
+assert abs(taken - report['work_kj']) < 1e-6 * taken
+PY
+
+# a list, with species, one stem off the terrain
+cat >stems.geojson <<'END'
+{"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "EPSG:32632"}}, "features": [
+{"type": "Feature", "properties": {"dbh_cm": 60, "species": "oak"}, "geometry": {"type": "Point", "coordinates": [500060, 5000050]}},
+{"type": "Feature", "properties": {"dbh_cm": 12.5, "conifer": 0}, "geometry": {"type": "Point", "coordinates": [500050, 5000030]}},
+{"type": "Feature", "properties": {"dbh_cm": 20}, "geometry": {"type": "Point", "coordinates": [400000, 5000030]}}]}
+END
+with_forest list 'stems_file = "stems.geojson"'
+expect 0 run list --json
+prints '"n_stems": 2'
+says 'forest.wood: 1 of 3 stems lie off the known ground, left out'
+
+# rasters of 20 m as Rockyfor3D has them: trees in the west half of the wood alone
+raster() {  # FILE VALUE_WEST VALUE_EAST
+  { printf 'ncols 4\nnrows 5\nxllcorner 500040\nyllcorner 5000000\ncellsize 20\nNODATA_value -9999\n'
+    for row in 1 2 3 4 5; do echo "$2 $2 $3 $3"; done; } >"$1"
+}
+raster nrtrees.asc 2000 0
+raster dbhmean.asc 18 18
+raster dbhstd.asc 5 5
+raster conif.asc 100 0
+rasters='nrtrees_raster = "nrtrees.asc"\ndbhmean_raster = "dbhmean.asc"\ndbhstd_raster = "dbhstd.asc"'
+with_forest rasters "$rasters\nconif_percent_raster = \"conif.asc\""
+expect 0 run rasters --json
+PATH=/usr/bin:$PATH python3 - <<'PY' || fail 'stems of rasters'
+import json
+n = json.load(open('out'))['trees']['n_stems']
+assert abs(n - 800) < 4 * 800 ** 0.5, n  # 0.4 ha
+PY
+
+# nothing of it where there is none: no table, no line, the same bytes
+with_forest none "$polygon\nstems_per_ha = 400\nactive = false"
+expect 0 run none --json
+grep -q trees out && fail 'a forest that does not stand is told of'
+expect 0 talus-dda none.toml --trn slope.tif --blocks blocks.h5 -o x.h5 --no-db --law paper --independent \
+  --duration-s 0.001 --time-step-s 1e-4 --set solver.normal_stiffness_n_m=1e9 --set forest.wood.active=true
+says 'forests stop nothing with law paper'
+
+# what is refused, with a way out
+refused() {  # LINES TEXT
+  with_forest bad "$1"
+  expect 1 run bad -q
+  says "$2"
+  nothing_left bad.h5
+}
+refused 'stems_per_ha = 400' 'forest.wood: does not say where it stands'
+refused "$polygon" 'does not say how many stems there are'
+refused "$polygon\nstems_per_ha = 400\nstems_file = \"stems.geojson\"" 'has both stems_file and polygon'
+refused "$polygon\nstems_per_ha = 400\nnrtrees_raster = \"nrtrees.asc\"" 'has both stems_per_ha and nrtrees_raster'
+refused "$rasters\ndbh_mean_cm = 30" 'has both dbh_mean_cm and dbhmean_raster'
+refused "$polygon\nstems_per_ha = 400\ndbhstd_raster = \"dbhstd.asc\"" 'has dbhstd_raster without nrtrees_raster'
+refused "$polygon\nstems_per_ha = 400\ndbh_mean_cm = 0" 'dbh_mean_cm is 0, expected above 0'
+refused "$polygon\nstems_per_ha = 400\ndeflection_m = 0" 'deflection_m is 0, expected above 0'
+refused 'polygon = [[600050, 5000010], [600095, 5000010], [600095, 5000090]]\nstems_per_ha = 400' \
+  'forest.wood: lies outside the terrain'
+refused "$polygon\nstems_per_ha = 0.01" 'forest.wood: has no stem on the terrain'
+refused "$polygon\nstems_per_ha = 400\ndbh_cm = 3" 'unknown key dbh_cm'
+raster nothing.asc 0 0
+refused 'nrtrees_raster = "nrtrees.asc"\ndbhmean_raster = "nothing.asc"' 'dbhmean_raster is 0 where nrtrees_raster has trees'
+raster percent.asc 150 150
+refused 'nrtrees_raster = "nrtrees.asc"\nconif_percent_raster = "percent.asc"' 'conif_percent_raster is 150'
+sed 's/cellsize 20/cellsize 10/' dbhmean.asc >other.asc
+refused 'nrtrees_raster = "nrtrees.asc"\ndbhmean_raster = "other.asc"' 'has other cells than nrtrees_raster'
+sed 's/500040/700040/' nrtrees.asc >away.asc
+refused 'nrtrees_raster = "away.asc"' 'nrtrees_raster lies outside the terrain'
+sed 's/"dbh_cm": 60/"dbh_cm": 0/' stems.geojson >thin.geojson
+refused 'stems_file = "thin.geojson"' 'dbh_cm is 0, expected above 0'
+sed 's/oak/oka/' stems.geojson >oka.geojson
+refused 'stems_file = "oka.geojson"' 'species is oka'
+sed 's/500050, 5000030/500020, 5000030/' stems.geojson >inside.geojson
+refused 'stems_file = "inside.geojson"' 'stands in block 0 at the start'
+sed 's/\[500060, 5000050\]/[300000, 5000050]/; s/\[500050, 5000030\]/[300000, 5000030]/' stems.geojson >off.geojson
+refused 'stems_file = "off.geojson"' 'forest.wood: has no stem on the terrain'

@@ -1,0 +1,63 @@
+#include "tools/report/trees.hpp"
+
+#include <vector>
+
+#include "report/html.hpp"
+#include "tools/report/json.hpp"
+
+namespace talus {
+namespace {
+
+std::string forest_table(const Json& forests) {
+  std::vector<std::vector<std::string>> rows;
+  for (const Json& forest : forests) {
+    std::vector<std::string> row = {word_text(value_at(forest, {"forest"}))};
+    for (const char* key : {"n_runs", "stems", "hit", "broken", "work_kj"})
+      row.push_back(number_text(value_at(forest, {key})));
+    rows.push_back(row);
+  }
+  return html_table(
+      {"forest", "runs", "stems", "of them hit, mean", "broken, mean", "energy taken, mean [kJ]"},
+      rows, {false, true, true, true, true, true});
+}
+
+std::string stem_table(const Json& stems) {
+  std::vector<std::vector<std::string>> rows;
+  for (const Json& stem : stems) {
+    std::vector<std::string> row = {
+        word_text(value_at(stem, {"forest"})) + " " + number_text(value_at(stem, {"stem"})),
+        word_text(value_at(stem, {"species"}))};
+    row.push_back(number_text(value_at(stem, {"x_m"}), 9) + ", " +
+                  number_text(value_at(stem, {"y_m"}), 9));
+    for (const char* key : {"dbh_cm", "capacity_kj", "n_runs", "n_hits", "n_broken",
+                            "largest_work_kj", "least_left_kj"})
+      row.push_back(number_text(value_at(stem, {key}), 3));
+    rows.push_back(row);
+  }
+  return html_table(
+      {"stem", "species", "x, y [m]", "DBH [cm]", "capacity [kJ]", "runs that hit it", "blocks",
+       "runs that broke it", "most energy taken at once [kJ]", "least left [kJ]"},
+      rows, {false, false, false, true, true, true, true, true, true, true});
+}
+
+}  // namespace
+
+std::string tree_section(const ReportData& data) {
+  const Json forests = value_at(data.runout, {"trees", "forests"});
+  const Json stems = value_at(data.runout, {"trees", "stems"});
+  if (!forests.is_array() || forests.empty()) return "";
+  std::string out = forest_table(forests);
+  if (!stems.is_array() || stems.empty()) {
+    out += html_paragraph("No block reached a stem.");
+  } else {
+    const std::string n = number_text(value_at(data.runout, {"trees", "n_stems_hit"}));
+    out += html_fold("The " + std::to_string(stems.size()) + " stems that were hit most, of " + n,
+                     stem_table(stems));
+    out += html_note(
+        "All hits stand in layers trees_hit and tree_hits of <code>runout.gpkg</code>. A stem "
+        "takes energy up to its capacity, over all blocks that hit it in a run.");
+  }
+  return html_section("trees", "Trees", out);
+}
+
+}  // namespace talus

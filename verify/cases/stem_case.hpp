@@ -1,0 +1,14 @@
+// verify/cases/stem_case.hpp
+// A stem of a tree that stops a block, or breaks.
+#pragma once
+
+#include "verify/cases/closed_form.hpp"
+
+namespace talus::cases {
+
+/// A cube of 500 kg slides on a smooth plane into the middle of a stem of 91.111 kJ at 10, 15, 20
+/// and 25 m/s: largest error of its speed behind the stem, v'^2 = v^2 - 2 E / m or 0, relative to
+/// the speed before.
+CaseResult stem(const Settings& settings);
+
+}  // namespace talus::cases
