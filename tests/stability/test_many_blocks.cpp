@@ -68,7 +68,8 @@ std::vector<Body> large_on_a_layer(const SlopeFrame& frame) {
 
 // Contacts of small blocks among large ones are as stiff as they have to bear: a large one sinks in
 // by no more than 2 g dt^2 a contact, slides on them as one with them, and no step is repeated for
-// the sake of stiff contacts that bear nothing, but the first two, while what they bear is not known.
+// the sake of stiff contacts that bear nothing, but the first two, while what they bear is not
+// known.
 TEST(ManyBlocks, ALayerOfSmallBlocksBearsALargeOne) {
   for (const double dt : {1e-3, 5e-3, 1e-2}) {
     Settings settings;
