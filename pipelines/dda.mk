@@ -4,6 +4,7 @@
 #   CASES       names of variants, CASE_<name> the options of each; RUNS of each are made, e.g.
 #               CASES = low high, CASE_low = --set ground.slope.friction_deg=28, CASE_high = ...
 #   WITHOUT     yes: also the runs without fences; when not given: where a fence of the site stands
+#   SHARD, SHARDS   shards.mk
 # A run that was stopped goes on where it was (--resume). One that fails stops no other: what can be made
 # is made, then make lists what failed and ends with an error.
 RUNS ?= $(SITE_RUNS)
@@ -24,25 +25,56 @@ $(foreach case,$(CASES),$(eval $(call remember,case_$(case),$(CASE_$(case)))))
 run_options = --seed $(lastword $(subst _, ,$*)) $(CASE_$(firstword $(subst _, ,$*))) $(DDA_FLAGS)
 # run(NAME,MARK): before it starts, its mark says that it has not ended; talus-dda says how it did.
 failed_marks := $(STAGES)/failed
-not_ended := did not end by itself: it was killed, or the machine was out of memory
+not_ended := did not end by itself: it was killed, the machine was out of memory, or what starts it (BIN) lost it
 tab := $(shell printf '\t')
-run = $(if $(is_dry_run),,$(file >$(failed_marks)/$2,none$(tab)$(not_ended)))$(goes_on)$(Q)$(BIN)talus-dda site.toml \
+run = $(if $(is_dry_run),,$(count_runs)$(file >$(failed_marks)/$2,none$(tab)$(not_ended)))$(goes_on)$(Q)$(BIN)talus-dda site.toml \
   --trn $(OUT)/bed.tif --blocks $(OUT)/blocks.h5 -o $@ $(run_options) --label $1 --failures $(failed_marks)/$2 --resume --overwrite $(DB)
 # Whoever asks for the file of one run is told at once that it failed (make out/runs/run_3.h5).
 goes_on := $(if $(filter $(OUT)/%,$(MAKECMDGOALS)),,-)
 
-$(run_files) $(without_files): $(OUT)/blocks.h5 $(STAGES)/run.txt $(STAGES)/dda.flags $(STAGES)/dda.files | $(OUT)/runs $(OUT)/without $(failed_marks)
+# How far the runs are: what is to be made is counted when the first one starts, and all that they read is made.
+run_inputs := $(OUT)/blocks.h5 $(STAGES)/run.txt $(STAGES)/dda.flags $(STAGES)/dda.files
+newer_runs = $(shell find $(wildcard $(OUT)/runs $(OUT)/without) -name 'run_$2*.h5' $(addprefix -newer ,$1))
+fresh_runs = $(foreach case,$(or $(CASES),-),$(call newer_runs,$(run_inputs) $(if $(CASES),$(STAGES)/case_$(case).flags $(STAGES)/case_$(case).files),$(if $(CASES),$(case)_)))
+# Those of the goals: maps and run-out need none without fences.
+goal_runs = $(run_files) $(if $(filter-out maps runout,$(wanted)),$(without_files))
+wanted_runs = $(or $(if $(SHARD),$(shard_runs)),$(filter $(MAKECMDGOALS),$(goal_runs)),$(goal_runs))
+count_runs = $(if $(runs_begun),,$(eval runs_begun := $(shell date +%s))$(eval n_to_make := $(words $(filter-out $(fresh_runs),$(wanted_runs)))))
+run_progress := $(STAGES)/.progress$(if $(SHARD),-$(SHARD)-of-$(SHARDS))
+$(if $(is_dry_run),,$(if $(wildcard $(run_progress)),$(shell rm -f $(run_progress))))
+# run_ended(NAME,MARK)
+run_ended = $(if $(is_dry_run),,@sh $(PIPELINES)run_ended.sh $1 $(failed_marks)/$2 $(run_progress) $(n_to_make) $(runs_begun) $(if $(goes_on),,must)$(if $(findstring s,$(short_flags)), >/dev/null))
+
+$(run_files) $(without_files): $(run_inputs) | $(OUT)/check.html $(OUT)/runs $(OUT)/without $(failed_marks)
 $(foreach case,$(CASES),$(eval $(filter $(OUT)/runs/run_$(case)_% $(OUT)/without/run_$(case)_%,$(run_files) $(without_files)): $(STAGES)/case_$(case).flags $(STAGES)/case_$(case).files))
+# Before jobs are sent, make finds out what they are to do: the rule of a run notes that it is to be made, and makes
+# nothing (shards.mk, slurm.mk).
+notes_runs := $(filter submit prepare,$(MAKECMDGOALS))
+ifeq ($(notes_runs),)
 $(OUT)/runs/run_%.h5:
 	$(call say,dda: run_$*)
 	$(call run,run_$*,run_$*)
+	$(call run_ended,run_$*,run_$*)
 $(OUT)/without/run_%.h5:
 	$(call say,dda: run_$* without fences)
 	$(call run,without/run_$*,without_run_$*) $(SITE_FENCES:%=--set fence.%.active=false)
+	$(call run_ended,without/run_$*,without_run_$*)
+else
+lacking_runs :=
+$(run_files) $(without_files): ; $(eval lacking_runs += $@)
+endif
 
 # --- what became of them ---
+# More names than this do not go into one line of a shell, which holds 128 KiB: lists hold them.
+most_named := 1000
+# A shard names its own runs, and leaves the lists to others, since many shards are made at a time.
+run_lists := $(if $(SHARD),,$(if $(word $(most_named),$(run_files) $(without_files)),yes))
+$(if $(run_lists),$(if $(is_dry_run),,$(file >$(STAGES)/runs.list)$(file >$(STAGES)/without.list)\
+  $(foreach file,$(run_files),$(file >>$(STAGES)/runs.list,$(file)))$(foreach file,$(without_files),$(file >>$(STAGES)/without.list,$(file)))))
+list_of = $(if $(filter $(firstword $2),$(firstword $1) $(lastword $1)),--from $(STAGES)/$3.list)
+named = $(if $(run_lists),$(call list_of,$1,$(run_files),runs) $(call list_of,$(lastword $1),$(lastword $(without_files)),without),$1)
 # outcomes(WHAT,FILES)
-outcomes = sh $(PIPELINES)run_outcomes.sh $1 $(failed_marks) $2
+outcomes = sh $(PIPELINES)run_outcomes.sh $1 $(failed_marks) $(call named,$2)
 counted_runs = $(words $1) run$(if $(filter 1,$(words $1)),,s)
 run_there = $$($(call outcomes,there,$1))
 # The last goal that has to do with runs comes after the others and lists what failed.
@@ -51,4 +83,4 @@ asked := $(filter $(run_goals),$(or $(MAKECMDGOALS),all))
 last_goal := $(if $(filter all,$(asked)),all,$(lastword $(asked)))
 $(if $(last_goal),$(last_goal): | $(filter-out $(last_goal),$(asked)))
 $(or $(last_goal),$(filter-out all,$(run_goals))):
-	$(if $(findstring n,$(short_flags)),,$(if $(shell $(call outcomes,failed,$(run_files) $(without_files))),@$(call outcomes,list,$(run_files) $(without_files))))
+	$(if $(findstring n,$(short_flags)),,$(if $(shell $(call outcomes,failed,$(goal_runs))),@$(call outcomes,list,$(goal_runs))))

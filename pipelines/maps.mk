@@ -8,3 +8,4 @@ $(OUT)/maps/reach.tif: $(run_files) $(OUT)/blocks.h5 $(STAGES)/runs.flags $(STAG
 	$(call say,maps: $(call counted_runs,$(run_files)) -> maps)
 	@$(call outcomes,some,$(run_files))
 	$(Q)$(BIN)talus-maps $(call run_there,$(run_files)) --trn $(OUT)/bed.tif -o $(OUT)/maps --png $(EVALUATE_FLAGS) $(MAPS_FLAGS) --overwrite $(DB)
+	$(call made,talus-maps)

@@ -2,6 +2,7 @@
 tin_products := tin.ply tin.json
 trn_products := trn.tif trn.json hillshade.png
 block_products := blocks.h5 bed.tif blocks.json blocks.gpkg stereonet.svg sizes.svg
+check_products := check.html check.json
 runout_products := runout.gpkg runout.json runout.csv runout.svg runs.csv curves.csv thickness.tif
 map_names := reach velocity ke_translational ke_total pass_height_centroid \
   pass_height_top exceedance deposit arrival energy_line
@@ -9,19 +10,22 @@ map_products := $(foreach suffix,tif png qml,$(map_names:%=maps/%.$(suffix)))
 fence_products := fence.gpkg fence.json fence.csv
 change_products := change.tif change.qml change.png
 report_products := report.html site.qgz
-products := $(tin_products) $(trn_products) $(block_products) $(runout_products) $(map_products) \
+products := $(tin_products) $(trn_products) $(block_products) $(check_products) $(runout_products) $(map_products) \
   $(fence_products) $(change_products) $(report_products)
 
 # As patterns of the shell: a style that comes with its raster, runs by seed and case with their checkpoints, the registry, what a stage
 # reads, side files that GDAL and QGIS write beside a raster, and hidden names of tools that were killed.
-stages_made := tin trn blocks run runs dda runout maps fence report case_*
+stages_made := tin trn blocks check run runs dda runout maps fence report case_*
 made_patterns := thickness.qml runs/run_*[0-9].h5 runs/run_*[0-9].h5.part runs/run_*[0-9].h5.part.new \
   without/run_*[0-9].h5 without/run_*[0-9].h5.part without/run_*[0-9].h5.part.new \
   runs.sqlite runs.sqlite-wal runs.sqlite-shm runs.sqlite.late-* data.ok \
   $(addsuffix .aux.xml,$(filter %.tif %.png,$(products))) \
   $(foreach ending,txt flags files,$(stages_made:%=stages/%.$(ending))) \
+  stages/runs.list stages/without.list stages/runs.list.there stages/without.list.there \
+  shards/*-of-*.sqlite shards/*-of-*.sqlite-wal shards/*-of-*.sqlite-shm shards/*-of-*.sqlite.late-* \
+  shards/merged shards/jobs shards/log/*_*.txt stages/.progress* \
   stages/.digests stages/failed/run_*[0-9] stages/failed/without_run_*[0-9] \
   $(addsuffix .*.part-*-*,$(sort $(dir $(products))) runs/ without/ stages/)
 # The mark of a folder that the pipeline has written into; it goes last.
 mark_of_out := stages/site.mk
-made_folders := maps runs without stages/failed stages
+made_folders := maps runs without shards/log shards stages/failed stages

@@ -7,3 +7,4 @@ $(OUT)/report.html: $(tin_files) $(trn_files) $(block_files) \
   $(run_files) $(runout_files) $(map_files) $(fence_files) $(STAGES)/report.flags $(STAGES)/report.files
 	$(call say,report: all of it -> report and QGIS project)
 	$(Q)$(BIN)talus-report site.toml --dir $(OUT) -o $(OUT)/report.html --qgis $(OUT)/site.qgz $(REPORT_FLAGS) --overwrite $(DB)
+	$(call made,talus-report)

@@ -3,12 +3,23 @@
 # --failures): "kept" or "none", whether there is a result, and what failed.
 #   run_outcomes.sh there  MARKS RUN...   options of a tool that evaluates: the runs that have a result
 #   run_outcomes.sh some   MARKS RUN...   ends with 1, and with the list, when no run has a result
+#   run_outcomes.sh ended  MARKS RUN...   ends with 1, and with the list, when a run has no result for no fault of its own
 #   run_outcomes.sh failed MARKS RUN...   prints the names of the runs that failed
 #   run_outcomes.sh list   MARKS RUN...   lists what failed in which run; ends with 1 when any did
+# RUN may also be --from LIST, a file with a name a line; then `there` names lists of those that have a result.
 set -eu
 what=$1 marks=$2
 shift 2
 tab=$(printf '\t')
+
+runs= lists=
+while [ $# -gt 0 ]; do
+  case $1 in
+    --from) runs="$runs $(cat "$2")" lists="$lists $2"; shift 2 ;;
+    *) runs="$runs $1"; shift ;;
+  esac
+done
+set -- $runs
 
 # RUN is OUT/runs/run_3.h5 or OUT/without/run_3.h5: sets `name` and `mark`. A result that is newer than
 # a mark came in place after it: its run was killed before it could take the mark away.
@@ -16,7 +27,7 @@ look_at() {
   name=${1##*/} name=${name%.h5}
   mark=$marks/$name
   case $1 in without/* | */without/*) mark=$marks/without_$name name=without/$name ;; esac
-  if [ -f "$mark" ] && [ "$1" -nt "$mark" ] && ! grep -q '^kept' "$mark"; then mark=$mark.over; fi
+  if [ -f "$mark" ] && [ "$1" -nt "$mark" ] && ! grep -q '^kept' "$mark"; then rm -f "$mark"; fi
 }
 has_result() {
   [ -f "$1" ] || return 1
@@ -24,7 +35,13 @@ has_result() {
   IFS=$tab read -r first rest <"$mark" && [ "$first" = kept ]
 }
 
-n=0 n_there=0 n_failed=0 there= failed=
+# Killed, asked to end, or never begun: it may well have a result when it is made again.
+is_cut_off() {
+  [ -f "$mark" ] || return 0
+  grep -q "^none$tab.*\(did not end by itself\|interrupted\)" "$mark"
+}
+
+n=0 n_there=0 n_failed=0 n_cut_off=0 there= failed=
 for run in "$@"; do
   n=$((n + 1))
   look_at "$run"
@@ -34,17 +51,33 @@ for run in "$@"; do
   fi
   if [ -f "$mark" ] || [ ! -f "$run" ]; then
     n_failed=$((n_failed + 1)) failed="$failed $run"
+    has_result "$run" || ! is_cut_off || n_cut_off=$((n_cut_off + 1))
   fi
 done
 
+# A list beside each that was given, replaced in one go: several tools may ask at a time.
+print_lists() {
+  for list in $lists; do
+    for run in $(cat "$list"); do
+      look_at "$run"
+      if has_result "$run"; then echo "$run"; fi
+    done >"$list.there.$$"
+    mv "$list.there.$$" "$list.there"
+    case $list in */without.list) echo "--without-from $list.there" ;; *) echo "--runs-from $list.there" ;; esac
+  done
+}
+
+# Few failed runs are left out of what is made: --max-failed-share of the tools, 0.02 unless given.
 list() {
+  used='its result is used, and marked'
+  [ $((50 * n_failed)) -gt "$n" ] || used='left out, and counted into the intervals'
   echo "$n_failed of $n runs failed:"
   for run in $failed; do
     look_at "$run"
     if [ -f "$mark" ]; then
       while IFS=$tab read -r outcome words; do
         case $outcome in
-          kept) echo "  $name: $words (its result is used, and marked)" ;;
+          kept) echo "  $name: $words ($used)" ;;
           none) echo "  $name: $words (no result)" ;;
         esac
       done <"$mark"
@@ -61,10 +94,15 @@ list() {
 
 case $what in
   there)
-    echo $there
+    if [ -z "$lists" ]; then
+      echo $there
+    else
+      print_lists
+    fi
     [ "$n_there" -eq "$n" ] || echo --missing $((n - n_there))
     ;;
   some) [ "$n_there" -gt 0 ] || { list >&2; exit 1; } ;;
+  ended) [ "$n_cut_off" -eq 0 ] || { list >&2; exit 1; } ;;
   failed) echo $failed ;;
   list) [ "$n_failed" -eq 0 ] || { list >&2; exit 1; } ;;
 esac

@@ -10,3 +10,4 @@ $(OUT)/runout.gpkg: $(run_files) $(OUT)/blocks.h5 $(STAGES)/runs.flags $(STAGES)
 	@$(call outcomes,some,$(run_files))
 	$(Q)$(BIN)talus-runout $(call run_there,$(run_files)) --trn $(OUT)/bed.tif -o $(OUT)/runout.gpkg --json $(OUT)/runout.json --csv $(OUT)/runout.csv \
 	  --svg $(OUT)/runout.svg --run-table $(OUT)/runs.csv --curves $(OUT)/curves.csv --thickness $(OUT)/thickness.tif $(EVALUATE_FLAGS) $(RUNOUT_FLAGS) --overwrite $(DB)
+	$(call made,talus-runout)

@@ -1,32 +1,33 @@
 # The chain of tools for one site, included by sample_sites/<site>/Makefile. What is computed stands in
 # site.toml; the Makefile may set
 #   CONTOURS or DEM                what the ground is made from, instead of [terrain]
-#   TIN_FLAGS, TRN_FLAGS, BLOCKS_FLAGS, DDA_FLAGS, RUNOUT_FLAGS, MAPS_FLAGS, FENCE_FLAGS
+#   TIN_FLAGS, TRN_FLAGS, BLOCKS_FLAGS, CHECK_FLAGS, DDA_FLAGS, RUNOUT_FLAGS, MAPS_FLAGS, FENCE_FLAGS
 #                                  further options of the tools
 #   EVALUATE_FLAGS                 of all tools that evaluate runs (e.g. --rest-speed-m-s 0.1)
 #   RUNS, SEED, CASES, WITHOUT     dda.mk
+#   SHARDS, SHARD, SBATCH_FLAGS    shards.mk, slurm.mk
 # and so may the command line (make RUNS=50 -j4). V=1 shows every command. Every rule is one tool: files
 # in, files out.
 
 PIPELINES := $(dir $(lastword $(MAKEFILE_LIST)))
 OUT ?= out
 STAGES := $(OUT)/stages
-DB := --db $(OUT)/runs.sqlite
+DB := --db $(OUT)/$(if $(SHARD),shards/$(SHARD)-of-$(SHARDS),runs).sqlite
 
 include $(PIPELINES)variables.mk
 include $(PIPELINES)products.mk
 
 .DEFAULT_GOAL := all
 .SUFFIXES:
-.PHONY: all terrain blocks runs runout maps fence report clean help
+.PHONY: all terrain blocks check runs runout maps fence report clean help
 
-all: report ## everything, up to the report
+all: check report ## everything, up to the report
 
 clean: ## remove what was made, and nothing else
 	@sh $(PIPELINES)clean.sh '$(OUT)' '$(mark_of_out)' '$(products) $(made_patterns)' '$(made_folders)'
 
 # The goals in the order of the pipeline, and those that the site's Makefile adds.
-help_files := $(addprefix $(PIPELINES),site.mk trn.mk source.mk blocks.mk dda.mk runout.mk maps.mk fence.mk report.mk new_site.mk) \
+help_files := $(addprefix $(PIPELINES),site.mk trn.mk source.mk blocks.mk check.mk dda.mk runout.mk maps.mk fence.mk report.mk shards.mk slurm.mk new_site.mk) \
   $(filter-out $(PIPELINES)%,$(MAKEFILE_LIST))
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  \1: \2/p' $(help_files)$(if $(wildcard manifest.sha256),, | grep -v '^  data:')
@@ -44,6 +45,11 @@ say = $(if $(findstring s,$(short_flags)),,$(info $1))
 ifneq ($(filter-out clean help data new-site,$(or $(MAKECMDGOALS),all)),)
 
 include $(PIPELINES)inputs.mk
+
+# made(TOOL): the line behind that of a tool, in a rule: has it really written the file?
+made = $(if $(is_dry_run),,@sh $(PIPELINES)made.sh $1 $@ '$(shell stat -c '%i %Z' $@ 2>/dev/null)')
+# Several shards at once must not make what all of them read (shards.mk).
+not_in_a_shard = $(if $(SHARD),$(error $1 is to be made again, and a shard makes runs alone: make prepare, or make submit))
 
 # together(FILES): what one run of a tool writes, the first file last and all with the same time. Rules
 # name the first; the others come with it. One that is missing beside it makes the tool run again.
@@ -63,11 +69,14 @@ include $(PIPELINES)tin.mk
 include $(PIPELINES)trn.mk
 include $(PIPELINES)source.mk
 include $(PIPELINES)blocks.mk
+include $(PIPELINES)check.mk
 include $(PIPELINES)dda.mk
 include $(PIPELINES)runout.mk
 include $(PIPELINES)maps.mk
 include $(PIPELINES)fence.mk
 include $(PIPELINES)report.mk
+include $(PIPELINES)shards.mk
+include $(PIPELINES)slurm.mk
 endif
 
 # Sites whose data are not in the repository keep a list of what they need, with checksums.

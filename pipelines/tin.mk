@@ -5,6 +5,8 @@ ifneq ($(CONTOURS),)
 tin_files := $(addprefix $(OUT)/,$(tin_products))
 $(eval $(call together,$(tin_files)))
 $(OUT)/tin.ply: $(STAGES)/tin.txt $(STAGES)/tin.flags $(STAGES)/tin.files | $(CONTOURS) $(OUT)
+	$(call not_in_a_shard,$@)
 	$(call say,tin: contours -> triangles)
 	$(Q)$(BIN)talus-tin $(CONTOURS) -o $(OUT)/tin.ply --report $(OUT)/tin.json $(SITE_TIN_FLAGS) $(TIN_FLAGS) --overwrite $(DB)
+	$(call made,talus-tin)
 endif

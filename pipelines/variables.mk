@@ -1,5 +1,5 @@
 # What make is given is looked at before anything runs.
-# in: OUT (site.mk), RUNS, SEED, WITHOUT, CASES (dda.mk)   out: an error that says what is expected
+# in: OUT (site.mk), RUNS, SEED, WITHOUT, CASES (dda.mk), SHARD, SHARDS (shards.mk)   out: an error that says what is expected
 
 # A word of a rule and of a recipe: neither can carry what make or the shell would part or run.
 ifneq ($(words $(OUT)),1)
@@ -16,5 +16,11 @@ endif
 ifneq ($(origin SEED),undefined)
 $(if $(call is_number,$(SEED)),,$(error SEED is '$(SEED)', expected a whole number, 0 or more))
 endif
+shard_goals := $(filter submit prepare runs-shard,$(MAKECMDGOALS))
+$(if $(word 2,$(shard_goals))$(if $(shard_goals),$(filter-out $(shard_goals),$(MAKECMDGOALS))),$(error $(firstword $(shard_goals)) stands alone: give other goals to a make of their own))
+$(if $(filter runs-shard,$(shard_goals)),$(if $(and $(SHARD),$(SHARDS)),,$(error runs-shard needs SHARD and SHARDS, e.g. make SHARD=1 SHARDS=8 runs-shard)))
+$(if $(filter submit,$(shard_goals)),$(if $(SHARDS),,$(error submit needs SHARDS, the number of jobs, e.g. 40: so that each takes 10 to 60 minutes)))
+$(foreach name,SHARD SHARDS SHARDS_AT_ONCE,$(if $($(name)),$(if $(and $(call is_number,$($(name))),$(subst 0,,$($(name)))),,$(error $(name) is '$($(name))', expected a whole number, 1 or more))))
+$(if $(SHARD),$(if $(filter runs-shard,$(shard_goals)),,$(error SHARD goes with the goal runs-shard))$(if $(filter-out $(shell seq $(or $(SHARDS),1)),$(SHARD)),$(error SHARD is $(SHARD), expected a number up to SHARDS: $(SHARDS))))
 $(if $(filter-out yes no,$(WITHOUT)),$(error WITHOUT is '$(WITHOUT)', expected yes or no))
 $(foreach case,$(CASES),$(if $(or $(findstring _,$(case)),$(findstring /,$(case))),$(error CASES names '$(case)', expected a name without _ and /, since files are named run_CASE_SEED.h5)))

@@ -1,4 +1,4 @@
-// libcore/blocks/bed_equilibrium.hpp
+// libcore/blocks/bed_equilibrium.hpp: public
 // The factor of safety of a mass that moves as one over its bed.
 // in:    columns: weight and the gradient of the bed below them
 // out:   F and the azimuth of the motion for which it is smallest

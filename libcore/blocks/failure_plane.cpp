@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "base/text.hpp"
 
@@ -50,6 +51,22 @@ double highest_ahead(const Trn& ground, const Vec2& place, const Vec2& motion) {
     if (z > highest) highest = z;
   }
   return highest;
+}
+
+// Up from a point of the foot against the motion: the last place below the mass that has no rock.
+// The point itself where the mass reaches it; nothing where no rock lies above it.
+std::optional<Vec2> exit_of_mass(const Trn& ground, const Trn& bed, const Area& area,
+                                 const Vec2& foot, const Vec2& motion) {
+  constexpr double thin = 0.1;  // [m]
+  const double half = ground.cell_size / 2;
+  Vec2 exit = foot;
+  for (Vec2 place = foot; place == foot || contains(area, place); place -= half * motion) {
+    const double depth =
+        elevation_at(ground, place.x(), place.y()) - elevation_at(bed, place.x(), place.y());
+    if (depth > thin) return exit;
+    exit = place;
+  }
+  return std::nullopt;
 }
 
 // Points every half cell along a side of the outline, in the middle of their pieces.
@@ -224,10 +241,13 @@ PlaneAtFoot plane_at_foot(const Trn& ground, const Area& area, const Attitude& p
 
 std::vector<FootStep> steps_at_foot(const Trn& ground, const Trn& bed, const Area& area,
                                     double azimuth) {
+  const Vec2 motion = heading(azimuth);
   std::vector<FootStep> steps;
   for (const FootPoint& at : find_foot(ground, area, {0, azimuth})) {
-    const double step = at.ground - elevation_at(bed, at.place.x(), at.place.y());
-    steps.push_back({at.place, std::max(0.0, step), at.weight});
+    double step = 0;
+    if (const auto exit = exit_of_mass(ground, bed, area, at.place, motion))
+      step = highest_ahead(ground, *exit, motion) - elevation_at(bed, exit->x(), exit->y());
+    steps.push_back({at.place, step > 0 ? step : 0.0, at.weight});
   }
   return steps;
 }

@@ -52,7 +52,7 @@ struct PlaneAtFoot {
 /// What stands before a mass at a point of its foot, whatever its failure surface.
 struct FootStep {
   Vec2 place = Vec2::Zero();  ///< on the outline [m]
-  double height = 0;          ///< of the ground above the bed, 0 or more [m]
+  double height = 0;          ///< of the ground ahead above the bed where rock ends, 0 or more [m]
   double weight = 0;          ///< length of outline across the motion [m]
 };
 /// The foot for a motion along `azimuth` [rad].

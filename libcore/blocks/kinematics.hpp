@@ -1,4 +1,4 @@
-// libcore/blocks/kinematics.hpp
+// libcore/blocks/kinematics.hpp: public
 // Kinematic analysis: on which share of a slope's face a joint set, or a pair of sets, is free to
 // slide or to topple.
 // in:    the face as triangles of the ground, the attitudes and friction of the sets
@@ -6,7 +6,7 @@
 // refs:  Goodman 1989; Hocking 1976 (sliding on one plane of a wedge); Wyllie and Mah 2004
 //
 // It looks at the face alone. What holds a mass is the bed at its foot: a slope that is free all
-// over by these shares may stand.
+// over by these shares may stand. docs/tools/talus-check.md
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// libcore/blocks/removability.hpp
+// libcore/blocks/removability.hpp: public
 // Which blocks of a mass can leave it, in which order, and which of them hold the others.
 // in:    the planes that a block rests on, with the directions that they leave it, and its weight
 // out:   whether it can move at all, the way it goes, its factor of safety; the order of going

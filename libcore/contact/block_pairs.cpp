@@ -24,6 +24,9 @@ bool is_fixed(const Hulls& hulls, const PairMotion& motion, int b) {
 Vec3 step_of(const PairMotion& motion, int b) {
   return motion.step.empty() ? Vec3(Vec3::Zero()) : motion.step[b];
 }
+bool is_absent(const PairMotion& motion, int b) {
+  return static_cast<std::size_t>(b) < motion.absent.size() && motion.absent[b] != 0;
+}
 double turn_of(const PairMotion& motion, int b) { return motion.turn.empty() ? 0 : motion.turn[b]; }
 
 // All bodies that are not where they stood for good.
@@ -133,6 +136,10 @@ void box_parts(const Hulls& hulls, const PlacedHulls& placed, const PairMotion& 
   boxes.resize(n);
   for (int p = 0; p < n; ++p) {
     Box& box = boxes[p];
+    if (is_absent(motion, hulls.body[p])) {  // near nothing but what is where its centroid is
+      box.low = box.high = placed.position[hulls.body[p]];
+      continue;
+    }
     box = box_of_part(hulls, placed, p);
     box.low += state.budget[hulls.body[p]].low;
     box.high += state.budget[hulls.body[p]].high;
@@ -384,6 +391,9 @@ void look_at_pairs(const Search& s) {
   for (int b = 0; b < n_free(s.hulls, s.motion); ++b) s.work.reach[b] += state.travel[b];
   for (std::size_t i = 0; i < state.watch.size(); ++i) {
     PairWatch& watch = state.watch[i];
+    if (is_absent(s.motion, s.hulls.body[watch.part_a]) ||
+        is_absent(s.motion, s.hulls.body[watch.part_b]))
+      continue;
     const double reached =
         reach_of(s, s.hulls.body[watch.part_a]) + reach_of(s, s.hulls.body[watch.part_b]);
     if (!s.settings.use_cache || reached >= watch.wake) look_at(s, watch, state.pairs[i]);

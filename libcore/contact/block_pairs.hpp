@@ -42,6 +42,7 @@ struct PairMotion {  // clang-format off
   const BodyGrid* grid = nullptr;   ///< the fixed bodies, where they stood first
   std::span<const int> shifted = {};  ///< bodies: the fixed ones that stand elsewhere by now
   bool free_meet = true;            ///< free bodies meet each other
+  std::span<const std::uint8_t> absent = {};  ///< 1: touches nothing; empty: none      (n_free)
 };  // clang-format on
 
 /// When a listed pair must be looked at again.

@@ -404,6 +404,29 @@ Polyhedron clip_convex(const Polyhedron& body, const Plane& plane, int tag, doub
   return std::move(clipper.out);
 }
 
+double section_area(const Polyhedron& body, const Plane& plane) {
+  // each triangle of a face that the plane cuts gives a side of the section, all in one sense
+  double twice = 0;
+  const Vec3 from = plane.offset * plane.normal;
+  for (int f = 0; f < n_faces(body); ++f) {
+    const auto loop = face(body, f);
+    for (size_t k = 1; k + 1 < loop.size(); ++k) {
+      const std::array<int, 3> corners = {loop[0], loop[k], loop[k + 1]};
+      Vec3 rises = Vec3::Zero(), falls = Vec3::Zero();
+      bool cut = false;
+      for (size_t i = 0; i < 3; ++i) {
+        const Vec3 &a = body.vertices[corners[i]], &b = body.vertices[corners[(i + 1) % 3]];
+        const double off_a = distance(plane, a), off_b = distance(plane, b);
+        if ((off_a > 0) == (off_b > 0)) continue;
+        cut = true;
+        (off_b > 0 ? rises : falls) = a + off_a / (off_a - off_b) * (b - a) - from;
+      }
+      if (cut) twice += plane.normal.dot(falls.cross(rises));
+    }
+  }
+  return std::abs(twice) / 2;
+}
+
 Polyhedron box(const Vec3& low, const Vec3& high, int tag) {
   Polyhedron body;
   for (int k = 0; k < 8; ++k)

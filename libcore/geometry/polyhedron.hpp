@@ -96,6 +96,9 @@ struct SurfaceCheck {
 [[nodiscard]] Polyhedron clip_convex(const Polyhedron& body, const Plane& plane, int tag,
                                      double tolerance_m);
 
+/// Area of the section of a closed body, convex or not, by a plane [m2].
+[[nodiscard]] double section_area(const Polyhedron& body, const Plane& plane);
+
 /// Box between two corners, low < high. Faces: -x, +x, -y, +y, -z, +z, all with `tag`.
 [[nodiscard]] Polyhedron box(const Vec3& low, const Vec3& high, int tag = 0);
 

@@ -59,13 +59,93 @@ std::string attitude_text(const Vec3& n) {
 
 }  // namespace
 
-std::string stereonet_svg(const std::vector<NetSet>& sets, const Vec3& slope_normal) {
+namespace {
+
+// Upward unit normal of a plane of this dip and dip direction [rad].
+Vec3 upward_pole(double dip, double direction) {
+  return {std::sin(dip) * std::sin(direction), std::sin(dip) * std::cos(direction), std::cos(dip)};
+}
+
+std::string polygon(const std::vector<Vec3>& directions, const std::string& style) {
+  std::string path;
+  for (const Vec3& direction : directions) {
+    const Vec2 q = on_net(direction);
+    path += (path.empty() ? "M" : "L") + number(q.x()) + " " + number(q.y());
+  }
+  return "<path d=\"" + path + "Z\" " + style + "/>\n";
+}
+
+// Poles of planes from `low(off)` to `high(off)` steep, `off` from -limit to limit about `azimuth`.
+template <class Low, class High>
+std::string pole_zone(double azimuth, double limit, Low low, High high, const std::string& style) {
+  constexpr int n = 24;
+  std::vector<Vec3> ring, back;
+  for (int k = -n; k <= n; ++k) {
+    const double off = limit * k / n;
+    if (!(low(off) < high(off))) continue;
+    ring.push_back(upward_pole(low(off), azimuth + off));
+    back.push_back(upward_pole(high(off), azimuth + off));
+  }
+  if (ring.size() < 2) return "";
+  ring.insert(ring.end(), back.rbegin(), back.rend());
+  return polygon(ring, style);
+}
+
+std::string zones_of(const NetZones& zones) {
+  const auto apparent = [&](double off) {
+    return std::atan(std::tan(zones.slope) * std::cos(off));
+  };
+  std::string out;
+  // poles of planes that daylight, whatever their friction
+  out += pole_zone(
+      zones.aspect, std::numbers::pi / 2 - 0.01, [](double) { return 0.0; }, apparent,
+      "fill=\"none\" stroke=\"#c8553d\" stroke-dasharray=\"3 3\"");
+  out += pole_zone(
+      zones.aspect, zones.lateral, [&](double) { return zones.friction; }, apparent,
+      "fill=\"#c8553d\" fill-opacity=\"0.22\" stroke=\"#c8553d\"");
+  const double slip = zones.slope - zones.friction;
+  if (slip > 0)
+    out += pole_zone(
+        zones.aspect + std::numbers::pi, zones.toppling_lateral,
+        [&](double off) { return std::atan(1 / (std::tan(slip) * std::cos(off))); },
+        [](double) { return std::numbers::pi / 2; },
+        "fill=\"#8a5aa8\" fill-opacity=\"0.22\" stroke=\"#8a5aa8\"");
+  const double r = std::numbers::sqrt2 * radius * std::sin(zones.friction / 2);
+  return out + "<circle cx=\"" + number(middle) + "\" cy=\"" + number(middle) + "\" r=\"" +
+         number(r) + "\" fill=\"none\" stroke=\"#555\" stroke-dasharray=\"2 3\"/>\n";
+}
+
+std::string line_marks(const std::vector<NetLine>& lines) {
+  std::string out;
+  for (const NetLine& line : lines) {
+    const Vec2 p = on_net(line.direction);
+    out += "<path d=\"M" + number(p.x()) + " " + number(p.y() - 5) + "l5 9h-10z\" fill=\"" +
+           (line.is_free ? "#c8553d" : "#555") + "\"><title>" + xml_escaped(line.name) +
+           "</title></path>\n";
+    if (line.is_free)
+      out += "<circle cx=\"" + number(p.x()) + "\" cy=\"" + number(p.y()) +
+             "\" r=\"10\" fill=\"none\" stroke=\"#c8553d\" stroke-width=\"1.5\"/>\n";
+  }
+  return out;
+}
+
+constexpr const char* zone_key =
+    "<text x=\"460\" y=\"354\" fill=\"#c8553d\">filled: poles of planes that slide</text>\n"
+    "<text x=\"460\" y=\"372\" fill=\"#c8553d\">dashed: daylight envelope</text>\n"
+    "<text x=\"460\" y=\"390\" fill=\"#8a5aa8\">filled: poles of layers that topple</text>\n"
+    "<text x=\"460\" y=\"408\" fill=\"#555\">dotted: friction circle of poles</text>\n"
+    "<text x=\"460\" y=\"426\" fill=\"#555\">triangles: lines of two sets</text>\n"
+    "<text x=\"460\" y=\"444\" fill=\"#555\">ringed: slides as a wedge</text>\n";
+
+std::string net_svg(const std::vector<NetSet>& sets, const Vec3& slope_normal,
+                    const std::string& below, const std::string& above) {
   std::ostringstream out;
   out << "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"700\" height=\"480\" "
          "font-family=\"sans-serif\" font-size=\"13\">\n"
          "<rect width=\"700\" height=\"480\" fill=\"white\"/>\n"
       << "<circle cx=\"" << middle << "\" cy=\"" << middle << "\" r=\"" << radius
       << "\" fill=\"none\" stroke=\"black\"/>\n";
+  out << below;
   for (int azimuth = 0; azimuth < 360; azimuth += 30) {
     const double a = azimuth * std::numbers::pi / 180;
     out << "<line x1=\"" << number(middle + radius * std::sin(a)) << "\" y1=\""
@@ -86,7 +166,8 @@ std::string stereonet_svg(const std::vector<NetSet>& sets, const Vec3& slope_nor
     }
     out << "<rect x=\"460\" y=\"" << line - 10 << "\" width=\"12\" height=\"12\" fill=\"" << colour
         << "\"/><text x=\"480\" y=\"" << line << "\">" << xml_escaped(sets[s].name) << "  "
-        << attitude_text(sets[s].mean) << "  (" << sets[s].poles.size() << " poles)</text>\n";
+        << attitude_text(sets[s].mean) << "  ("
+        << counted(static_cast<std::int64_t>(sets[s].poles.size()), "pole") << ")</text>\n";
     line += 22;
   }
   if (slope_normal.squaredNorm() > 0) {
@@ -95,8 +176,20 @@ std::string stereonet_svg(const std::vector<NetSet>& sets, const Vec3& slope_nor
         << "\" stroke=\"black\" stroke-dasharray=\"6 4\"/><text x=\"480\" y=\"" << line
         << "\">slope  " << attitude_text(slope_normal) << "</text>\n";
   }
-  out << "<text x=\"460\" y=\"460\" fill=\"#555\">lower hemisphere, equal area</text>\n</svg>\n";
+  out << above
+      << "<text x=\"460\" y=\"460\" fill=\"#555\">lower hemisphere, equal area</text>\n</svg>\n";
   return out.str();
+}
+
+}  // namespace
+
+std::string stereonet_svg(const std::vector<NetSet>& sets, const Vec3& slope_normal) {
+  return net_svg(sets, slope_normal, "", "");
+}
+
+std::string kinematic_net_svg(const std::vector<NetSet>& sets, const Vec3& slope_normal,
+                              const NetZones& zones, const std::vector<NetLine>& lines) {
+  return net_svg(sets, slope_normal, zones_of(zones), line_marks(lines) + zone_key);
 }
 
 double volume_quantile(const std::vector<double>& sorted, double share) {

@@ -16,9 +16,28 @@ struct NetSet {
   std::vector<Vec3> poles;    ///< of the planes drawn or measured
 };
 
+/// Where planes and lines are free to move out of a slope.
+struct NetZones {
+  double slope = 0, aspect = 0;              ///< of the mean face [rad]
+  double friction = 0;                       ///< [rad]
+  double lateral = 0, toppling_lateral = 0;  ///< limits beside the fall line [rad]
+};
+/// A line of intersection of two sets.
+struct NetLine {
+  std::string name;
+  Vec3 direction = Vec3::UnitZ();
+  bool is_free = false;  ///< ringed
+};
+
 /// Equal-area (Schmidt) net of the lower hemisphere: poles as dots, the mean plane of each set as a
 /// great circle, and the mean direction and dip of the slope when `slope_normal` is not zero.
 [[nodiscard]] std::string stereonet_svg(const std::vector<NetSet>& sets, const Vec3& slope_normal);
+
+/// The same with the zones of poles that slide (daylight envelope, friction circle, lateral limits)
+/// and topple (slip limit plane), and with the lines of pairs of sets.
+[[nodiscard]] std::string kinematic_net_svg(const std::vector<NetSet>& sets,
+                                            const Vec3& slope_normal, const NetZones& zones,
+                                            const std::vector<NetLine>& lines);
 
 /// Share of the volume in blocks smaller than V against V, logarithmic, with V10, V50, V90 marked.
 [[nodiscard]] std::string size_curve_svg(std::vector<double> volumes);

@@ -69,6 +69,13 @@ void check_band(GDALDataset& dataset, const std::string& path) {
   GDALRasterBand& band = *dataset.GetRasterBand(1);
   if (GDALDataTypeIsComplex(band.GetRasterDataType()))
     throw InputError({path}, "the band holds complex numbers, expected elevations");
+  if (band.GetRasterDataType() == GDT_Byte)
+    throw InputError({path},
+                     "the values have 8 bits, 0 to 255, as the shades of a picture (a hillshade) "
+                     "have; expected elevations",
+                     "give the elevation model itself; if these are heights: gdal_translate -ot "
+                     "Float32 " +
+                         path + " heights.tif");
   const std::string unit = lower(band.GetUnitType() ? band.GetUnitType() : "");
   for (const char* metre : {"", "m", "metre", "metres", "meter", "meters"})
     if (unit == metre) return;

@@ -99,7 +99,8 @@ const char* text(Fate fate) {
 Fate fate_of(const RunFile& run, int block, double rest_speed) {
   if (!run.phase.empty()) {
     if (run.phase[block] == Phase::left_domain) return Fate::left_domain;
-    if (run.phase[block] == Phase::asleep) return Fate::deposited;
+    if (run.phase[block] == Phase::asleep || run.phase[block] == Phase::crushed)
+      return Fate::deposited;
   }
   const int n = n_frames(run.frames);
   const bool at_rest = n > 0 && frame_block(run, n - 1, block).velocity.norm() < rest_speed;

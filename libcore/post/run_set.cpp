@@ -64,8 +64,9 @@ void check_same(const std::string& mine, const std::string& other, const char* w
                 const RunMember& run, const RunMember& first, const char* hint) {
   if (mine == other) return;
   throw InputError(
-      {run.file},
-      std::string(what) + " is " + mine + ", expected " + other + " as in " + first.file, hint);
+      {where_of(run)},
+      std::string(what) + " is " + mine + ", expected " + other + " as in " + where_of(first),
+      hint);
 }
 
 std::string text_of(const PassageGrid& grid) {
@@ -84,7 +85,7 @@ auto sum_of(const std::vector<RunMember>& runs, Field field) {
 }  // namespace
 
 RunMember member_of(const std::string& file, const RunFile& run) {
-  RunMember member{file, run.info, run.grid, n_blocks(run), 0, 0, 0, 0, 0, 0, 0};
+  RunMember member{file, run.info, run.grid, n_blocks(run), 0, 0, 0, 0, 0, 0, 0, ""};
   for (std::string* words : {&member.info.config, &member.info.plan}) std::string().swap(*words);
   for (int block = 0; block < member.n_blocks; ++block) member.weight += weight_of(run, block);
   for (const HealthRow& row : run.health) {
@@ -97,14 +98,18 @@ RunMember member_of(const std::string& file, const RunFile& run) {
   return member;
 }
 
+std::string where_of(const RunMember& run) {
+  return run.part.empty() ? run.file : run.part + " (" + run.file + ")";
+}
+
 void check_member(const RunMember& run, const RunMember& first, const RunSetOptions& options) {
   if (!has_ended(run.info) && !options.allow_unfinished)
-    throw InputError({run.file},
+    throw InputError({where_of(run)},
                      "the run is " + run.info.status + " at " + time_reached(run.info) +
                          ", expected one that has ended",
                      "let talus-dda finish it (--resume), or give --allow-unfinished");
   if (!run.info.trn_sha256.empty() && run.info.trn_sha256 != options.trn_sha256)
-    throw InputError({run.file},
+    throw InputError({where_of(run)},
                      "was computed on another terrain than " + options.trn_file + " (SHA-256 " +
                          run.info.trn_sha256.substr(0, 16) + ", not " +
                          options.trn_sha256.substr(0, 16) + ")",
@@ -118,7 +123,7 @@ void check_member(const RunMember& run, const RunMember& first, const RunSetOpti
   check_same(text_of(run.grid), text_of(first.grid), "the grid of passages", run, first,
              "compute all runs with the same [output] cell_size_m");
   if (run.info.origin != first.info.origin)
-    throw InputError({run.file}, "has another local origin than " + first.file,
+    throw InputError({where_of(run)}, "has another local origin than " + where_of(first),
                      "compute all runs from the same TRN");
 }
 
@@ -130,7 +135,8 @@ std::vector<int> order_by_id(const std::vector<RunMember>& runs) {
   for (std::size_t i = 1; i < order.size(); ++i) {
     const RunMember &a = runs[order[i - 1]], &b = runs[order[i]];
     if (a.info.run_id == b.info.run_id)
-      throw InputError({b.file}, "is the same run as " + a.file + " (id " + a.info.run_id + ")",
+      throw InputError({where_of(b)},
+                       "is the same run as " + where_of(a) + " (id " + a.info.run_id + ")",
                        "name each run once; give runs different seeds");
   }
   return order;
@@ -148,26 +154,43 @@ std::vector<std::string> names_of(const std::vector<RunMember>& runs) {
   return names;
 }
 
-RunFaults faults_of(const std::vector<RunMember>& runs) {
-  const std::vector<std::string> names = names_of(runs);
-  std::vector<std::size_t> order(runs.size());
+RunFaults faults_of(const std::vector<RunMember>& runs, const std::vector<RunMember>& left_out) {
+  std::vector<RunMember> all = runs;
+  all.insert(all.end(), left_out.begin(), left_out.end());
+  const std::vector<std::string> names = names_of(all);
+  std::vector<std::size_t> order(all.size());
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return std::tie(runs[a].info.seed, names[a], runs[a].info.run_id) <
-           std::tie(runs[b].info.seed, names[b], runs[b].info.run_id);
+    return std::tie(all[a].info.seed, names[a], all[a].info.run_id) <
+           std::tie(all[b].info.seed, names[b], all[b].info.run_id);
   });
-  RunFaults faults{static_cast<int>(runs.size()), {}, {}};
+  RunFaults faults{static_cast<int>(runs.size()), {}, {}, {}};
   for (const std::size_t i : order) {
-    const RunInfo& info = runs[i].info;
+    const RunInfo& info = all[i].info;
     if (info.status == "done") continue;
-    (info.status == "failed" ? faults.failed : faults.unfinished)
-        .push_back({names[i], info.run_id, fault_words(info)});
+    std::vector<RunFault>& list = i >= runs.size()          ? faults.left_out
+                                  : info.status == "failed" ? faults.failed
+                                                            : faults.unfinished;
+    list.push_back({names[i], info.run_id, info.seed, fault_words(info)});
   }
   return faults;
 }
 
+FailedShare failed_share(int n_runs, int n_failed, int n_missing, double most) {
+  const double wanted = n_runs + n_missing;
+  const bool few = n_failed < n_runs && n_failed + n_missing <= most * wanted;
+  return {((few ? n_failed : 0) + n_missing) / wanted, few};
+}
+
 std::string headline(const RunFaults& faults) { return words_of(faults, false); }
 std::string text(const RunFaults& faults) { return words_of(faults, true); }
+std::string left_out_text(const RunFaults& faults) {
+  if (faults.left_out.empty()) return "";
+  const int n_all = faults.n_runs + static_cast<int>(faults.left_out.size());
+  return count_words(faults.left_out.size(), n_all, " failed its numerical checks and is left out",
+                     " failed their numerical checks and are left out") +
+         first_few(faults.left_out);
+}
 
 std::string run_set_id(std::vector<std::string> run_ids) {
   std::sort(run_ids.begin(), run_ids.end());
@@ -185,8 +208,9 @@ std::vector<std::string> warnings_of(const std::vector<RunMember>& runs) {
   return {lines.begin(), lines.end()};
 }
 
-std::vector<std::pair<std::string, std::string>> tags_of(const std::vector<RunMember>& runs) {
-  const RunFaults faults = faults_of(runs);
+std::vector<std::pair<std::string, std::string>> tags_of(const std::vector<RunMember>& runs,
+                                                         const std::vector<RunMember>& left_out) {
+  const RunFaults faults = faults_of(runs, left_out);
   double weight = 0, penetration = 0;
   for (const int i : order_by_id(runs)) {
     weight += runs[i].weight;
@@ -195,7 +219,7 @@ std::vector<std::pair<std::string, std::string>> tags_of(const std::vector<RunMe
   const std::string n_runs = std::to_string(runs.size());
   std::vector<std::pair<std::string, std::string>> tags = {
       {"N_RUNS", n_runs},
-      {"N_FAILED", std::to_string(faults.failed.size())},
+      {"N_FAILED", std::to_string(faults.failed.size() + faults.left_out.size())},
       {"N_UNFINISHED", std::to_string(faults.unfinished.size())},
       {"DENOMINATOR", "W = " + text(weight, 9) + ", the weight of all " +
                           std::to_string(sum_of(runs, &RunMember::n_blocks)) +
@@ -205,8 +229,11 @@ std::vector<std::pair<std::string, std::string>> tags_of(const std::vector<RunMe
     tags.emplace_back("VERSION", runs[0].info.version);
   }
   tags.emplace_back("N_MOVING_AT_END", std::to_string(sum_of(runs, &RunMember::n_moving)));
-  const std::string wrong = text(faults);
-  tags.emplace_back("HEALTH", wrong.empty() ? "all runs finished within their limits" : wrong);
+  if (!left_out.empty()) tags.emplace_back("N_LEFT_OUT", std::to_string(left_out.size()));
+  const std::string wrong = text(faults), left_out_words = left_out_text(faults);
+  const std::string health = wrong.empty() ? "all runs finished within their limits" : wrong;
+  tags.emplace_back("HEALTH",
+                    left_out_words.empty() ? health : left_out_words + "; of the rest: " + health);
   tags.emplace_back("HEALTH_LARGEST_PENETRATION_M", text(penetration, 4));
   tags.emplace_back("HEALTH_UNCONVERGED_STEPS",
                     std::to_string(sum_of(runs, &RunMember::unconverged)));

@@ -14,8 +14,8 @@ namespace talus {
 
 /// What is kept of a run for the set.
 struct RunMember {
-  std::string file;
-  RunInfo info;  ///< without config and plan, which are as large as a small run
+  std::string file;  ///< of a run in a part: that it stood in, with its folder
+  RunInfo info;      ///< without config and plan, which are as large as a small run
   PassageGrid grid;
   int n_blocks = 0;
   int n_moving = 0;   ///< at the end, by the evaluation's own limit of speed
@@ -25,7 +25,10 @@ struct RunMember {
   std::int64_t unconverged = 0;                   ///< block steps accepted without convergence
   std::int64_t left_domain = 0;                   ///< blocks
   std::int64_t fell_through = 0, not_finite = 0;  ///< steps
+  std::string part;                               ///< file of the part that it stands in; "": none
 };
+/// What messages name.
+[[nodiscard]] std::string where_of(const RunMember& run);
 /// Of a run read in any parts; health, blocks and weight as far as they were read.
 [[nodiscard]] RunMember member_of(const std::string& file, const RunFile& run);
 
@@ -48,6 +51,7 @@ void check_member(const RunMember& run, const RunMember& first, const RunSetOpti
 /// What keeps a run from being believed as it is.
 struct RunFault {
   std::string name, run_id;
+  std::int64_t seed = 0;
   std::string words;  ///< the broken limits, or how far an unfinished run came
 };
 /// Those of a set: runs that broke a limit of their health, and runs that have not ended. A run
@@ -55,13 +59,26 @@ struct RunFault {
 struct RunFaults {
   int n_runs = 0;
   std::vector<RunFault> failed, unfinished;
+  std::vector<RunFault> left_out;  ///< failed, and not evaluated
 };
-[[nodiscard]] RunFaults faults_of(const std::vector<RunMember>& runs);
+/// `left_out`: failed runs that are not among `runs`.
+[[nodiscard]] RunFaults faults_of(const std::vector<RunMember>& runs,
+                                  const std::vector<RunMember>& left_out = {});
 
-/// "1 of 12 runs failed its numerical checks"; "" where nothing is wrong.
+/// Of the runs that were wanted, those that failed or gave no result, `n_missing` of them, as far
+/// as they are left out; and whether they may be: their share is at most `most`.
+struct FailedShare {
+  double share = 0;          ///< left out [-]
+  bool is_left_out = false;  ///< the failed ones; else they are evaluated like all others
+};
+[[nodiscard]] FailedShare failed_share(int n_runs, int n_failed, int n_missing, double most);
+
+/// "1 of 12 runs failed its numerical checks"; "" where nothing is wrong with those evaluated.
 [[nodiscard]] std::string headline(const RunFaults& faults);
 /// The headline with the runs behind it, the first few of them; "" where nothing is wrong.
 [[nodiscard]] std::string text(const RunFaults& faults);
+/// The runs that were left out, the first few of them; "" when none were.
+[[nodiscard]] std::string left_out_text(const RunFaults& faults);
 
 /// Digest of the runs' ids in whatever order (16 digits): equal for evaluations of the same runs.
 [[nodiscard]] std::string run_set_id(std::vector<std::string> run_ids);
@@ -70,8 +87,8 @@ struct RunFaults {
 [[nodiscard]] std::vector<std::string> warnings_of(const std::vector<RunMember>& runs);
 
 /// Tags N_RUNS, N_FAILED, N_UNFINISHED, DENOMINATOR, VERSION, SITE, HEALTH, HEALTH_* and, where
-/// there are any, WARNINGS; the same in whatever order the runs come.
+/// there are any, N_LEFT_OUT and WARNINGS; the same in whatever order the runs come.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> tags_of(
-    const std::vector<RunMember>& runs);
+    const std::vector<RunMember>& runs, const std::vector<RunMember>& left_out = {});
 
 }  // namespace talus

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "base/error.hpp"
 #include "base/random.hpp"
@@ -25,12 +26,35 @@ std::size_t rank_of(double p, std::size_t n) {
   return static_cast<std::size_t>(std::clamp(rank, 1.0, static_cast<double>(n)));
 }
 
-// The value of rank ceil(p n); NaN when there is none. Reorders `values`.
-double percentile_of(std::vector<double>& values, double p) {
-  if (values.empty()) return none;
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(rank_of(p, values.size()) - 1);
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
+constexpr int most_exact_degrees = 100;
+
+// P(T <= t) of Student's variable by its finite sums: Abramowitz and Stegun 26.7.3 and 26.7.4.
+double student_probability(double t, int degrees) {
+  const double theta = std::atan2(t, std::sqrt(static_cast<double>(degrees)));
+  const double cos_sq = std::pow(std::cos(theta), 2);
+  const bool is_odd = degrees % 2 == 1;
+  double term = is_odd ? std::cos(theta) : 1, sum = degrees == 1 ? 0 : term;
+  for (int k = is_odd ? 3 : 2; k <= degrees - 2; k += 2) {
+    term *= cos_sq * (k - 1) / k;
+    sum += term;
+  }
+  const double inside =
+      is_odd ? 2 / std::numbers::pi * (theta + std::sin(theta) * sum) : std::sin(theta) * sum;
+  return 0.5 * (1 + inside);
+}
+
+// Where a function that rises reaches p, by bisection.
+template <class Function>
+double solved(const Function& rising, double p) {
+  double low = -1, high = 1;
+  while (rising(low) > p) low *= 2;
+  while (rising(high) < p) high *= 2;
+  for (int i = 0; i < 200 && low < high; ++i) {
+    const double middle = low + (high - low) / 2;
+    if (middle == low || middle == high) break;
+    (rising(middle) < p ? low : high) = middle;
+  }
+  return high;
 }
 
 // Resamples are worked on in groups of this size, which the compiler turns into vectors.
@@ -126,6 +150,29 @@ int smallest_sample(double p, double confidence) {
   return static_cast<int>(std::ceil(std::log1p(-confidence) / std::log(p) * (1 - rounding)));
 }
 
+RankInterval rank_interval(int n, double p, double confidence) {
+  const double one_side = (1 + confidence) / 2;
+  const int from_above = upper_bound_rank(n, 1 - p, one_side);
+  return {from_above > 0 ? n + 1 - from_above : 0, upper_bound_rank(n, p, one_side)};
+}
+
+double normal_quantile(double p) {
+  TALUS_ASSERT(p > 0 && p < 1);
+  return solved([](double x) { return 0.5 * std::erfc(-x / std::numbers::sqrt2); }, p);
+}
+
+double student_quantile(int degrees, double p) {
+  TALUS_ASSERT(degrees >= 1 && p >= 0.5 && p < 1);
+  if (degrees <= most_exact_degrees)
+    return solved([degrees](double t) { return student_probability(t, degrees); }, p);
+  // Cornish and Fisher's expansion in 1 / degrees: Abramowitz and Stegun 26.7.5
+  const double z = normal_quantile(p), z2 = z * z, n = degrees;
+  const double a = (z2 + 1) / 4, b = ((5 * z2 + 16) * z2 + 3) / 96,
+               c = (((3 * z2 + 19) * z2 + 17) * z2 - 15) / 384,
+               d = ((((79 * z2 + 776) * z2 + 1482) * z2 - 1920) * z2 - 945) / 92160;
+  return z * (1 + (a + (b + (c + d / n) / n) / n) / n);
+}
+
 RunResamples resample_runs(int n_runs, int n_resamples, std::uint64_t seed) {
   TALUS_ASSERT(n_runs > 0 && n_resamples > 0);
   RunResamples resamples{n_runs, n_resamples, (n_resamples + lanes - 1) / lanes * lanes, {}};
@@ -147,27 +194,6 @@ std::vector<int> bootstrap_upper_places(std::span<const RunWeight> descending,
                                              [unit](auto& item) { return item.weight == unit; });
   return equal ? places_of<std::int32_t>(descending, resamples, levels, confidence, unit)
                : places_of<double>(descending, resamples, levels, confidence, 1);
-}
-
-std::vector<double> resampled_sums(const RunResamples& resamples, std::span<const double> of_run) {
-  TALUS_ASSERT(static_cast<int>(of_run.size()) == resamples.n_runs);
-  std::vector<double> sums(static_cast<std::size_t>(resamples.stride), 0.0);
-  for (int run = 0; run < resamples.n_runs; ++run)
-    add_to_resamples(sums.data(), resamples, run, of_run[run]);
-  sums.resize(resamples.n_resamples);
-  return sums;
-}
-
-Interval bootstrap_share(std::span<const RunWeight> parts, std::span<const double> whole,
-                         const RunResamples& resamples, double confidence) {
-  std::vector<double> shares(static_cast<std::size_t>(resamples.stride), 0.0);
-  for (const RunWeight& part : parts)
-    add_to_resamples(shares.data(), resamples, part.run, part.weight);
-  shares.resize(whole.size());
-  for (std::size_t b = 0; b < shares.size(); ++b) shares[b] /= whole[b];
-  std::erase_if(shares, [](double share) { return std::isnan(share); });
-  const double low = percentile_of(shares, (1 - confidence) / 2);
-  return {low, percentile_of(shares, (1 + confidence) / 2)};
 }
 
 }  // namespace talus

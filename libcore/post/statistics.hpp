@@ -46,6 +46,18 @@ struct Interval {
 /// The smallest n for which upper_bound_rank() exists: ceil(log(1 - confidence) / log p).
 [[nodiscard]] int smallest_sample(double p, double confidence = 0.95);
 
+/// Ranks of the order statistics that hold the true p-percentile between them with at least
+/// `confidence`, whatever the distribution; a rank of 0: none that bounds it there.
+struct RankInterval {
+  int low = 0, high = 0;
+};
+[[nodiscard]] RankInterval rank_interval(int n, double p, double confidence = 0.95);
+
+/// The value that a normal variable stays below with probability p, 0 < p < 1.
+[[nodiscard]] double normal_quantile(double p);
+/// The same of Student's variable with `degrees` of freedom, 1 or more; to 1e-9, p 0.5 to 0.999.
+[[nodiscard]] double student_quantile(int degrees, double p);
+
 /// How often each run stands in each resample of all runs, drawn with replacement: the bootstrap
 /// over runs, which keeps together the blocks of one run because they are not independent.
 struct RunResamples {
@@ -74,15 +86,5 @@ struct RunWeight {
                                                       const RunResamples& resamples,
                                                       std::span<const double> levels,
                                                       double confidence = 0.95);
-
-/// The sum over runs of `of_run` in each resample                            (n_resamples)
-[[nodiscard]] std::vector<double> resampled_sums(const RunResamples& resamples,
-                                                 std::span<const double> of_run);
-
-/// Interval of the share sum(parts) / sum(whole) by the bootstrap over runs, `confidence` between
-/// the bounds. `parts` names only runs that add something; `whole` comes from resampled_sums().
-[[nodiscard]] Interval bootstrap_share(std::span<const RunWeight> parts,
-                                       std::span<const double> whole, const RunResamples& resamples,
-                                       double confidence = 0.95);
 
 }  // namespace talus

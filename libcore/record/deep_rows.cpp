@@ -95,12 +95,14 @@ std::vector<DeepRow> deep_rows(const Scene& scene, const State& state,
     row.met_fence = met_fence(state, crossings, row) ? 1 : 0;
   }
   if (rows.empty()) return rows;
-  const std::vector<double>& mass = scene.blocks.mass;
+  std::vector<double> mass = scene.blocks.mass;
+  for (size_t b = 0; b < mass.size(); ++b)
+    if (!exists(state.phase[b])) mass[b] = 0;
   const std::vector<double> distance = distances(scene, state);
   const double total = std::accumulate(mass.begin(), mass.end(), 0.0),
                toe = distance_of_toe(distance, mass);
   for (DeepRow& row : rows) {
-    row.mass_share = mass[row.block] / total;
+    row.mass_share = scene.blocks.mass[row.block] / total;
     row.ends_in_toe = distance[row.block] >= toe ? 1 : 0;
   }
   return rows;

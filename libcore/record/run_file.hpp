@@ -10,13 +10,16 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "record/crossings.hpp"
 #include "record/frames.hpp"
 #include "record/passages.hpp"
+#include "record/reach.hpp"
 #include "scene/forest.hpp"
+#include "scene/state.hpp"
 #include "step/report.hpp"
 
 namespace talus {
@@ -46,6 +49,11 @@ struct RunBlocks {  // clang-format off
   std::vector<double> mass;              ///< [kg]                                    (n_blocks)
   std::vector<double> volume;            ///< [m3]                                    (n_blocks)
   std::vector<double> weight;            ///< in statistics; empty: 1 each            (n_blocks)
+  std::vector<int> parent;               ///< that a piece may come from, -1: released; empty:
+                                         ///< nothing breaks                          (n_blocks)
+  std::vector<int> generation;           ///< breaks before it; empty: nothing breaks (n_blocks)
+  std::vector<int> body;                 ///< its number in the run, once pieces are merged into
+                                         ///< blocks (record/pieces.hpp); empty: that of the row
   std::vector<Vec3> inertia;             ///< principal moments [kg m2]               (n_blocks)
   std::vector<Pose> rest;                ///< as cut, local                           (n_blocks)
   std::vector<int> vertex_begin{0};      ///< vertices of block b: [b], [b + 1)       (n_blocks + 1)
@@ -77,7 +85,8 @@ struct HealthRow {
   double largest_penetration = 0;                             ///< [m]
   double translation = 0, rotation = 0, potential = 0, elastic = 0;   ///< at `time` [J]
   double friction = 0, impact = 0, contact = 0, base = 0, fence = 0;  ///< since the start [J]
-  double rolling = 0, drag = 0, removed = 0;                          ///< since the start [J]
+  double rolling = 0, drag = 0, breakage = 0;                         ///< since the start [J]
+  double removed = 0;                                                 ///< since the start [J]
 };
 
 /// A panel of a fence that stood, as it was at the end.
@@ -135,6 +144,7 @@ struct RunFile {
   RunInfo info;
   RunBlocks blocks;
   RunFrames frames;
+  std::optional<RunReach> reach;  ///< stands for the frames between the first and the last
   PassageGrid grid;
   bool passages_by_centroid = false;
   std::vector<Passage> passages;  ///< by block, then cell
@@ -145,8 +155,10 @@ struct RunFile {
   std::vector<ForestInfo> forests;    ///< that stood
   std::vector<TreeHitRow> tree_hits;  ///< by time, step by step
   std::vector<HealthRow> health;
-  std::vector<DeepRow> deep;  ///< by block
-  std::vector<Phase> phase;   ///< at info.time; empty: not known               (n_blocks)
+  std::vector<DeepRow> deep;          ///< by block
+  std::vector<Break> breaks;          ///< by time; blocks by their number in the run
+  std::vector<CrushedBlock> crushed;  ///< by time
+  std::vector<Phase> phase;           ///< at info.time; empty: not known               (n_blocks)
   std::vector<std::uint8_t> checkpoint;  ///< store/checkpoint.hpp; empty when the run is done
 };
 
@@ -165,6 +177,7 @@ struct RunParts {
   bool only_last_frame = false;  ///< of the frames
   bool only_faults = false;      ///< of the health, penetrations and counts of what went wrong
   bool words = true;             ///< info's config and plan
+  bool merge_pieces = true;      ///< of blocks that broke, see record/pieces.hpp
   bool trees = true;             ///< hits of trees
 };
 

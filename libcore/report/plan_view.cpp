@@ -10,6 +10,7 @@
 #include "post/deposit.hpp"
 #include "post/runout/runout.hpp"
 #include "report/encode.hpp"
+#include "report/map_marks.hpp"
 
 namespace talus {
 namespace {
@@ -40,28 +41,6 @@ std::vector<Vec2> plan_of(const std::vector<Vec3>& points) {
   std::vector<Vec2> plan;
   for (const Vec3& p : points) plan.emplace_back(p.head<2>());
   return plan;
-}
-
-// A round length of about a quarter of the width.
-std::string scale_and_north(const PlanWindow& w) {
-  const double width = w.high.x() - w.low.x(), unit = width / 100;
-  double length = std::pow(10, std::floor(std::log10(width / 4)));
-  for (const double factor : {5.0, 2.0})
-    if (factor * length <= width / 4) {
-      length *= factor;
-      break;
-    }
-  const double x = w.low.x() + 3 * unit, y = w.high.y() - 3 * unit;
-  const double north_x = w.high.x() - 5 * unit, north_y = w.low.y() + 10 * unit;
-  return "<g font-size=\"" + number(2.6 * unit) + "\" class=\"marks\">" + "<path d=\"M" +
-         number(x) + " " + number(y - unit) + "v" + number(unit) + "h" + number(length) + "v" +
-         number(-unit) + "\" fill=\"none\" stroke=\"#000\" stroke-width=\"" + number(0.35 * unit) +
-         "\"/><text x=\"" + number(x + length + unit) + "\" y=\"" + number(y) + "\">" +
-         text(length) + " m</text><path d=\"M" + number(north_x) + " " + number(north_y) + "l" +
-         number(1.6 * unit) + " " + number(0.8 * unit) + "l" + number(-1.6 * unit) + " " +
-         number(-6 * unit) + "l" + number(-1.6 * unit) + " " + number(6 * unit) +
-         "z\"/><text text-anchor=\"middle\" x=\"" + number(north_x) + "\" y=\"" +
-         number(north_y - 6 * unit) + "\">N</text></g>\n";
 }
 
 std::string blocks_of(const RunFile& run, const Trn& trn) {
@@ -115,7 +94,7 @@ std::string plan_view_svg(const RunFile& run, const Trn& trn, std::string_view h
   out += blocks_of(run, trn);
   for (const RecordLine& line : run.lines)
     out += shape("fence", path_of(plan_of(line.points), place, false), "fence " + line.name);
-  return out + scale_and_north(w) + "</svg>\n";
+  return out + scale_and_north(w.low, w.high) + "</svg>\n";
 }
 
 }  // namespace talus

@@ -54,11 +54,11 @@ Chart energy_chart(const RunFile& run) {
   const HealthRow& first = run.health.front();
   const double start = first.translation + first.rotation + first.potential + first.elastic +
                        first.friction + first.impact + first.contact + first.rolling + first.drag +
-                       first.removed - first.base;
+                       first.breakage + first.removed - first.base;
   for (const HealthRow& row : run.health) {
     const double moving = row.translation + row.rotation + row.elastic;
-    const double spent =
-        row.friction + row.impact + row.contact + row.rolling + row.drag + row.removed;
+    const double spent = row.friction + row.impact + row.contact + row.rolling + row.drag +
+                         row.breakage + row.removed;
     const double values[] = {start - row.potential + row.base, moving, row.friction, row.impact,
                              moving + spent};
     for (std::size_t k = 0; k < chart.series.size(); ++k) {

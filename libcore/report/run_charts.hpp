@@ -1,5 +1,5 @@
 // libcore/report/run_charts.hpp: public
-// How runs went over time, as charts: speeds and ways, health, where the energy went.
+// How runs went over time, as charts: speeds and paths, health, where the energy went.
 #pragma once
 
 #include <string>

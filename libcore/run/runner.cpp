@@ -25,6 +25,37 @@ void record(Runner& runner, const Segment& segment) {
                 strain_of(runner.state, segment.block));
 }
 
+// A piece begins where its parent ends; its travel counts from where the block was released.
+void record_breaks(Runner& runner, std::size_t first) {
+  const State& state = runner.state;
+  for (std::size_t i = first; i < state.breaks.size(); ++i) {
+    const Break& broken = state.breaks[i];
+    for (const int piece : {broken.first_piece, broken.first_piece + 1}) {
+      const Motion& motion = state.motion[static_cast<std::size_t>(piece)];
+      record_start(runner.sampler, runner.scene, piece, motion, strain_of(state, piece));
+      if (!runner.options.passages) continue;
+      record_start(runner.passages, runner.scene, piece, motion, broken.time);
+      const PassageTracker& from = runner.passages.trackers[static_cast<std::size_t>(broken.block)];
+      PassageTracker& to = runner.passages.trackers[static_cast<std::size_t>(piece)];
+      to.start_z = from.start_z;
+      to.path = from.path;
+    }
+    record_start(runner.sampler, runner.scene, broken.block,
+                 state.motion[static_cast<std::size_t>(broken.block)],
+                 strain_of(state, broken.block));
+  }
+}
+
+// Debris lies still from now on.
+void record_crushed(Runner& runner, std::size_t first) {
+  const State& state = runner.state;
+  for (std::size_t i = first; i < state.crushed.size(); ++i) {
+    const int b = state.crushed[i].block;
+    record_start(runner.sampler, runner.scene, b, state.motion[static_cast<std::size_t>(b)],
+                 strain_of(state, b));
+  }
+}
+
 void take(Runner& runner, double time) {
   for (const Frame& frame : take_frames(runner.sampler, time))
     append(runner.file.frames, frame, runner.options.strain);
@@ -74,6 +105,7 @@ void close_interval(Runner& runner) {
   row.fence = state.ledger.fence;
   row.rolling = state.ledger.rolling;
   row.drag = state.ledger.drag;
+  row.breakage = state.ledger.breakage;
   row.removed = state.ledger.removed;
   runner.file.health.push_back(row);
   HealthRow next;
@@ -89,6 +121,7 @@ double turned_over(const Runner& runner, const HealthRow& row) {
   double weight = 0, potential_start = 0;
   const Blocks& blocks = runner.scene.blocks;
   for (std::size_t b = 0; b < blocks.mass.size(); ++b) {
+    if (!is_released(runner.scene, b)) continue;
     weight += blocks.mass[b] * runner.scene.gravity.norm();
     potential_start -= blocks.mass[b] * runner.scene.gravity.dot(blocks.rest[b].position);
   }
@@ -108,7 +141,7 @@ double energy_gain(const Runner& runner, const HealthRow& row) {
   double known = now - runner.energy_start - row.base;
   if (runner.scene.settings.law == Law::talus)
     known += std::max(0.0, row.friction + row.impact + row.contact + row.fence + row.rolling +
-                               row.drag + row.removed);
+                               row.drag + row.breakage + row.removed);
   return known / turned_over(runner, row);
 }
 
@@ -132,14 +165,16 @@ double least_restitution(const Scene& scene) {
 double energy_loss(const Runner& runner, const HealthRow& row, double restitution) {
   const double now = row.translation + row.rotation + row.potential + row.elastic;
   double lost = runner.energy_start + row.base - now - row.friction - row.fence - row.rolling -
-                row.drag - row.removed;
+                row.drag - row.breakage - row.removed;
   if (restitution < 1) lost -= row.impact;
   return lost / turned_over(runner, row);
 }
 
 double lost_share(const Runner& runner) {
-  const int n = n_blocks(runner.scene);
-  return n == 0 ? 0 : static_cast<double>(runner.state.counters.left_domain) / n;
+  const auto n = std::count_if(runner.state.phase.begin(), runner.state.phase.end(),
+                               [](Phase phase) { return exists(phase); });
+  return n == 0 ? 0
+                : static_cast<double>(runner.state.counters.left_domain) / static_cast<double>(n);
 }
 
 double unconverged_share(const Runner& runner) {
@@ -261,7 +296,8 @@ Runner begin_run(const Scene& scene, const RunOptions& options, std::vector<Reco
   runner.energy_start = mechanical(energies(scene, runner.state));
   for (int b = 0; b < n_blocks(scene); ++b) {
     const Motion& motion = runner.state.motion[b];
-    if (options.passages) record_start(runner.passages, scene, b, motion, 0);
+    if (options.passages && is_released(scene, static_cast<std::size_t>(b)))
+      record_start(runner.passages, scene, b, motion, 0);
     record_start(runner.sampler, scene, b, motion, strain_of(runner.state, b));
   }
   return runner;
@@ -289,8 +325,11 @@ Runner resume_run(const Scene& scene, const RunOptions& options, std::vector<Rec
 }
 
 void advance(Runner& runner) {
+  const std::size_t n_crushed = runner.state.crushed.size(), n_breaks = runner.state.breaks.size();
   const StepReport report = step(runner.scene, runner.state, runner.work);
   for (const Segment& segment : runner.work.segments) record(runner, segment);
+  record_breaks(runner, n_breaks);
+  record_crushed(runner, n_crushed);
   add_to_interval(runner.interval, report);
   const double next_frame =
       static_cast<double>(runner.sampler.n_closed) * runner.options.frame_interval;
@@ -302,6 +341,24 @@ void advance(Runner& runner) {
 
 bool is_over(const Runner& runner) {
   return runner.state.time >= runner.options.duration - half_step(runner);
+}
+
+bool stands(const Runner& runner) {
+  const Scene& scene = runner.scene;
+  const State& state = runner.state;
+  if (scene.settings.law != Law::talus || state.time < standing_after_s - half_step(runner))
+    return false;
+  if (shakes(scene.base) || !scene.loads.empty()) return false;
+  for (int b = 0; b < n_blocks(scene); ++b) {
+    const auto i = static_cast<std::size_t>(b);
+    if (state.phase[i] == Phase::unborn) continue;  // the whole block stands for its fragments
+    if (state.phase[i] != Phase::near_ground && state.phase[i] != Phase::asleep) return false;
+    const Motion& motion = state.motion[i];
+    const Vec3 moved = motion.pose.position - scene.blocks.rest[i].position;
+    if (moved.norm() > standing_within_m || motion.velocity.norm() > standing_speed_m_s)
+      return false;
+  }
+  return true;
 }
 
 void finish(Runner& runner) {
@@ -338,6 +395,8 @@ void update_file(Runner& runner, bool with_checkpoint) {
   file.panels = panel_rows(runner.scene.fixed, runner.state.yielding);
   file.tree_hits = tree_hit_rows(runner.scene, runner.state);
   file.deep = deep_rows(runner.scene, runner.state, runner.crossings.rows);
+  file.breaks = runner.state.breaks;
+  file.crushed = runner.state.crushed;
   file.info.time = runner.state.time;
   file.phase = runner.state.phase;
   file.checkpoint.clear();
@@ -373,6 +432,11 @@ RunBlocks run_blocks(const Scene& scene, const BlockSet& set) {
   blocks.face_vertices = set.face_vertices;
   blocks.face_begin = set.face_begin;
   blocks.block_face_begin = set.block_face_begin;
+  for (const Fragment& fragment : scene.fragments) {
+    blocks.parent.push_back(fragment.parent);
+    blocks.generation.push_back(fragment.generation);
+    blocks.weight.push_back(fragment.volume_share);
+  }
   for (std::size_t b = 0; b < blocks.rest.size(); ++b) {
     const Pose& rest = blocks.rest[b];
     for (int v = set.block_vertex_begin[b]; v < set.block_vertex_begin[b + 1]; ++v)

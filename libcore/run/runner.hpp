@@ -77,6 +77,11 @@ struct Runner {
 void advance(Runner& runner);
 /// Whether the duration is reached, to half a step.
 [[nodiscard]] bool is_over(const Runner& runner);
+/// Whether the mass stands and may be left: `standing_after_s` have passed, no block is farther
+/// than `standing_within_m` from where it began or faster than `standing_speed_m_s`, none flies,
+/// and nothing shakes the ground. A mass that loosens is faster.
+inline constexpr double standing_after_s = 3, standing_within_m = 0.1, standing_speed_m_s = 2e-3;
+[[nodiscard]] bool stands(const Runner& runner);
 /// Records what is still under way (flights, the last frame, the last interval of health).
 void finish(Runner& runner);
 

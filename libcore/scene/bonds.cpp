@@ -56,9 +56,15 @@ std::vector<BlockBond> start_bonds(const Scene& scene) {
   poses.insert(poses.end(), scene.fixed.pose.begin(), scene.fixed.pose.end());
   PlacedHulls placed;
   place_hulls(hulls, poses, {}, {}, placed);
-  const double gap = bonded_gap_ratio * *std::min_element(hulls.radius.begin(), hulls.radius.end());
+  double least_radius = std::numeric_limits<double>::infinity();
+  for (std::size_t b = 0; b < hulls.radius.size(); ++b)
+    if (is_fixed(scene, static_cast<int>(b)) || is_released(scene, b))
+      least_radius = std::min(least_radius, hulls.radius[b]);
+  const double gap = bonded_gap_ratio * least_radius;
   for (const JointContact& c : joint_contacts(hulls, placed, gap, bonded_angle)) {
-    if (is_fixed(scene, c.block_b)) continue;
+    if (is_fixed(scene, c.block_b) || !is_released(scene, c.block_a) ||
+        !is_released(scene, c.block_b))
+      continue;
     const GroundClass face = smaller(face_class(scene, c.block_a, c.joint_set_a),
                                      face_class(scene, c.block_b, c.joint_set_b));
     if (!has_strength(face)) continue;

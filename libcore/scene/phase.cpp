@@ -47,6 +47,16 @@ void leave_domain(BlockLives& lives, size_t b) {
 
 void stop_for_good(BlockLives& lives, size_t b) { lives.phase[b] = Phase::stopped; }
 
+void crush_to_debris(BlockLives& lives, size_t b) {
+  TALUS_ASSERT(lives.phase[b] == Phase::near_ground);
+  lives.phase[b] = Phase::crushed;
+}
+
+void break_up(BlockLives& lives, size_t b) {
+  TALUS_ASSERT(takes_part(lives.phase[b]));
+  lives.phase[b] = Phase::broken;
+}
+
 void keep_unborn(BlockLives& lives, size_t b) {
   TALUS_ASSERT(lives.phase[b] == Phase::near_ground);
   lives.phase[b] = Phase::unborn;

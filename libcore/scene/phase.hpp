@@ -5,6 +5,7 @@
 //     unborn -> near_ground <-> flight
 //               near_ground <-> asleep
 //               near_ground, flight, asleep -> left_domain | stopped
+//               near_ground -> crushed | broken
 //
 // A transition changes the life alone. Its caller books the energy and clears the memory
 // (step/substep.hpp).
@@ -26,8 +27,10 @@ enum class Phase : std::uint8_t {
   left_domain,  ///< left the known terrain: stopped where it left, and counted
   stopped,      ///< its numbers failed: stopped at its last good state, and flagged
   unborn,       ///< not there yet: a fragment of a block that is still whole
+  crushed,      ///< debris that bears nothing, where it was crushed
+  broken,       ///< not there any more: its fragments are
 };
-inline constexpr Phase last_phase = Phase::unborn;
+inline constexpr Phase last_phase = Phase::broken;
 
 // --- questions ---------------------------------------------------------------------------------
 
@@ -40,7 +43,13 @@ inline constexpr Phase last_phase = Phase::unborn;
   return phase == Phase::asleep || !takes_part(phase);
 }
 /// Whether its mass and its energy count.
-[[nodiscard]] constexpr bool exists(Phase phase) { return phase != Phase::unborn; }
+[[nodiscard]] constexpr bool exists(Phase phase) {
+  return phase != Phase::unborn && phase != Phase::broken;
+}
+/// Whether nothing ever touches it, wherever it lies.
+[[nodiscard]] constexpr bool bears_nothing(Phase phase) {
+  return !exists(phase) || phase == Phase::crushed;
+}
 
 // --- the lives of all blocks -------------------------------------------------------------------
 
@@ -72,6 +81,10 @@ void go_to_sleep(BlockLives& lives, std::size_t b);
 void wake(BlockLives& lives, std::size_t b, double time);
 void leave_domain(BlockLives& lives, std::size_t b);
 void stop_for_good(BlockLives& lives, std::size_t b);
+/// It is debris from now on.
+void crush_to_debris(BlockLives& lives, std::size_t b);
+/// Its fragments, which be_born(), take its place.
+void break_up(BlockLives& lives, std::size_t b);
 /// It is not there until be_born(). Before the first step alone.
 void keep_unborn(BlockLives& lives, std::size_t b);
 /// It is there from `time` on, near the ground.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/types.hpp"
+#include "blocks/fragments.hpp"
 #include "contact/ground.hpp"
 #include "contact/hulls.hpp"
 #include "contact/shapes.hpp"
@@ -65,11 +66,22 @@ struct Blocks {  // clang-format off
                                       ///< after the blocks, those of the fixed bodies
 };  // clang-format on
 
+/// How blocks break when they are hit (step/breakage.hpp). The defaults are those of a site file.
+struct Fragmentation {
+  double energy = 3e5;             ///< effective work of fracture [J/m2]
+  double spread = 2;               ///< exponent of the chance; the larger the sharper [-]
+  double separation_share = 0.01;  ///< of the energy of a hit, that drives pieces apart [-]
+  std::uint64_t seed = 1;
+};
+
 struct Scene {
   Ground ground;
   GroundClass joint;    ///< contacts between blocks where `joints` says nothing else
   JointClasses joints;  ///< by joint set and by block
   Blocks blocks;
+  std::vector<double> crush_load;   ///< that crushes a block; empty: none is [N] (n_blocks)
+  std::vector<Fragment> fragments;  ///< empty: nothing breaks                    (n_blocks)
+  Fragmentation fragmentation;
   FixedBodies fixed;                 ///< law talus: fences, blocky slope; found through hulls
   Forest forest;                     ///< law talus: stems of trees, found by place
   Vec3 gravity = Vec3(0, 0, -9.81);  ///< [m/s2]
@@ -83,6 +95,11 @@ struct Scene {
 }
 [[nodiscard]] inline int n_fixed(const Scene& scene) {
   return static_cast<int>(scene.fixed.pose.size());
+}
+
+/// Whether block b is there when the run begins: no piece of another.
+[[nodiscard]] inline bool is_released(const Scene& scene, std::size_t b) {
+  return scene.fragments.empty() || scene.fragments[b].parent < 0;
 }
 
 // Blocks::hulls numbers blocks and fixed bodies in one row, for the search of pairs alone.

@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "base/random.hpp"
 #include "base/text.hpp"
+#include "scene/crushing.hpp"
 #include "scene/make_scene.hpp"
 #include "scene/stems.hpp"
 
@@ -16,39 +17,31 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-// What is drawn anew for a run.
-struct GroundScatter {
-  double friction_deg = 0, cor = 0, rolling = 1;
-};
-
 double or_none(double value) { return std::isnan(value) ? 0 : value; }
 
 // What ground that gives way does.
-void set_yielding(const GroundSettings& ground, double rolling_factor, GroundClass& made) {
-  made.half_speed = or_none(ground.cor_half_speed_m_s);
-  made.half_energy = 1e3 * or_none(ground.cor_half_energy_kj);
-  made.rolling = rolling_factor * or_none(ground.rolling_resistance);
-  made.bearing = 1e3 * or_none(ground.bearing_kpa) / (rolling_factor * rolling_factor);
-  if (!std::isnan(ground.spin_resistance)) made.spinning = rolling_factor * ground.spin_resistance;
-  made.scar_friction = or_none(ground.scar_friction);
-  made.scar_rate = or_none(ground.scar_rate_1_m);
-  made.scar_decay = or_none(ground.scar_decay_1_s);
-  made.weakening_speed = or_none(ground.weakening_speed_m_s);
-  made.weak_friction = std::tan(or_none(ground.friction_weak_deg) * degree);
-  made.drag_per_time = ground.drag_1_s;
-  made.drag_per_way = ground.drag_1_m;
+void set_yielding(const GroundSettings& drawn, GroundClass& made) {
+  made.half_speed = or_none(drawn.cor_half_speed_m_s);
+  made.half_energy = 1e3 * or_none(drawn.cor_half_energy_kj);
+  made.rolling = or_none(drawn.rolling_resistance);
+  made.bearing = 1e3 * or_none(drawn.bearing_kpa);
+  if (!std::isnan(drawn.spin_resistance)) made.spinning = drawn.spin_resistance;
+  made.scar_friction = or_none(drawn.scar_friction);
+  made.scar_rate = or_none(drawn.scar_rate_1_m);
+  made.scar_decay = or_none(drawn.scar_decay_1_s);
+  made.weakening_speed = or_none(drawn.weakening_speed_m_s);
+  made.weak_friction = std::tan(or_none(drawn.friction_weak_deg) * degree);
+  made.drag_per_time = drawn.drag_1_s;
+  made.drag_per_way = drawn.drag_1_m;
 }
 
-GroundClass ground_class(const GroundSettings& ground, const SolverSettings& solver,
-                         const GroundScatter& scatter) {
+GroundClass ground_class(const GroundSettings& drawn) {
   GroundClass made;
-  const double friction = std::clamp(ground.friction_deg + scatter.friction_deg, 0.0, 89.0);
-  const double cor = std::isnan(solver.cor) ? ground.cor : solver.cor;
-  made.friction = std::tan(friction * degree);
-  made.cohesion = ground.cohesion_pa;
-  made.tension = ground.tension_pa;
-  made.restitution = std::clamp(cor + scatter.cor, 0.0, 1.0);
-  set_yielding(ground, scatter.rolling, made);
+  made.friction = std::tan(drawn.friction_deg * degree);
+  made.cohesion = drawn.cohesion_pa;
+  made.tension = drawn.tension_pa;
+  made.restitution = drawn.cor;
+  set_yielding(drawn, made);
   return made;
 }
 
@@ -90,6 +83,7 @@ JointClasses joint_classes(const Site& site, const BlockSet& blocks,
 struct Rock {
   std::vector<Material> materials;
   std::vector<GroundClass> classes;
+  std::vector<Crushing> crushing;
 };
 
 Rock rock_of(const Site& site, const BlockSet& blocks) {
@@ -103,6 +97,7 @@ Rock rock_of(const Site& site, const BlockSet& blocks) {
                        "add [material." + name + "], or cut the blocks again");
     rock.materials.push_back({found->density_kg_m3, found->young_modulus_pa, found->poisson_ratio});
     rock.classes.push_back(rock_class(*found, site.solver));
+    rock.crushing.push_back({1e6 * found->strength_mpa, found->crush_below});
   }
   return rock;
 }
@@ -139,20 +134,33 @@ Settings settings_of(const SolverSettings& solver, const ScenePlan& plan) {
   return settings;
 }
 
-Scene make_site_scene(const Site& site, const ScenePlan& plan, SceneParts parts) {
+std::vector<GroundSettings> drawn_grounds(const Site& site) {
   const SolverSettings& solver = site.solver;
   const auto seed = static_cast<std::uint64_t>(solver.seed);
   Random scatter(seed, "scatter of ground"), rolling_scatter(seed, "scatter of rolling");
+  std::vector<GroundSettings> drawn = site.grounds;
+  for (GroundSettings& ground : drawn) {
+    const double friction_shift = solver.friction_scatter_deg * scatter.normal();
+    const double cor_shift = solver.cor_scatter * scatter.normal();
+    const double cor = std::isnan(solver.cor) ? ground.cor : solver.cor;
+    ground.friction_deg = std::clamp(ground.friction_deg + friction_shift, 0.0, 89.0);
+    ground.cor = std::clamp(cor + cor_shift, 0.0, 1.0);
+    const double factor = std::exp(solver.rolling_scatter * rolling_scatter.normal());
+    ground.rolling_resistance *= factor;
+    ground.spin_resistance *= factor;
+    ground.bearing_kpa /= factor * factor;
+  }
+  return drawn;
+}
+
+Scene make_site_scene(const Site& site, const ScenePlan& plan, SceneParts parts) {
+  const SolverSettings& solver = site.solver;
+  const auto seed = static_cast<std::uint64_t>(solver.seed);
   Scene scene;
   scene.ground = make_ground(std::move(parts.trn), {});
   scene.ground.classes.clear();
-  for (const GroundSettings& ground : site.grounds) {
-    GroundScatter drawn;
-    drawn.friction_deg = solver.friction_scatter_deg * scatter.normal();
-    drawn.cor = solver.cor_scatter * scatter.normal();
-    drawn.rolling = std::exp(solver.rolling_scatter * rolling_scatter.normal());
-    scene.ground.classes.push_back(ground_class(ground, solver, drawn));
-  }
+  for (const GroundSettings& ground : drawn_grounds(site))
+    scene.ground.classes.push_back(ground_class(ground));
   scene.ground.cell_class = std::move(parts.cell_class);
   const Rock rock = rock_of(site, parts.blocks);
   scene.joints = joint_classes(site, parts.blocks, rock.classes);
@@ -160,11 +168,37 @@ Scene make_site_scene(const Site& site, const ScenePlan& plan, SceneParts parts)
   scene.settings = settings_of(solver, plan);
   scene.base = std::move(parts.base);
   add_blocks(scene, parts.blocks, rock.materials);
+  const FragmentationSettings& breaking = site.fragmentation;
+  scene.fragments = std::move(parts.fragments);
+  scene.fragmentation = {breaking.energy_j_m2, breaking.spread, breaking.separation_share,
+                         static_cast<std::uint64_t>(breaking.seed)};
+  if (scene.settings.law == Law::talus) {
+    const auto n_released = std::count_if(scene.fragments.begin(), scene.fragments.end(),
+                                          [](const Fragment& f) { return f.parent < 0; });
+    scene.crush_load =
+        crush_loads(parts.blocks, scene.blocks, rock.crushing,
+                    scene.fragments.empty() ? n_blocks(scene) : static_cast<int>(n_released));
+  }
   add_jitter(scene.blocks, solver.start_jitter_m_s, seed);
   for (const StandingFence& fence : parts.fences) add_fence(scene, fence);
   if (!parts.stems.empty()) add_forest(scene, std::move(parts.stems), std::move(parts.stem_faces));
   check_scene(scene);
   return scene;
+}
+
+SplitSettings split_settings(const Site& site, const BlockSet& set) {
+  const FragmentationSettings& from = site.fragmentation;
+  SplitSettings made;
+  made.splitting = from.splitting == "joints" ? Splitting::joints : Splitting::random;
+  made.min_volume = from.min_volume_m3;
+  made.max_generation = static_cast<int>(from.max_generation);
+  made.seed = static_cast<std::uint64_t>(from.seed);
+  for (const std::string& name : set.joint_set_names) {
+    const JointSettings* joints = joints_of(site, name);
+    const bool is_partly_open = joints != nullptr && joints->persistence < 1;
+    made.bonded.push_back(is_partly_open ? 1 - joints->persistence : 1);
+  }
+  return made;
 }
 
 std::vector<UnusualValue> unusual_values(const Site& site) {

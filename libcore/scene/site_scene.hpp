@@ -19,6 +19,7 @@ struct SceneParts {
   Trn trn;
   std::vector<std::uint8_t> cell_class;  ///< index into [ground.*]; empty: one class   (n_cells)
   BlockSet blocks;                       ///< in the TRN's local coordinates
+  std::vector<Fragment> fragments;       ///< of add_fragments(), which has changed `blocks`
   AccelerationRecord base;
   std::vector<StandingFence> fences;    ///< that stand in the run
   std::vector<Stem> stems;              ///< of the forests that stand in it
@@ -33,10 +34,17 @@ struct SceneParts {
 /// it is Settings{}.
 [[nodiscard]] Settings settings_of(const SolverSettings& solver, const ScenePlan& plan);
 
+/// The ground classes of a site with the friction and restitution that its seed draws, within what
+/// they can be.
+[[nodiscard]] std::vector<GroundSettings> drawn_grounds(const Site& site);
+
 /// The scene with the settings of the site and the decisions of the plan. Scatter of friction and
 /// restitution and the jitter of the start are drawn from [solver] seed. Throws InputError for a
 /// block material that the site file does not know, and what check_scene() refuses.
 [[nodiscard]] Scene make_site_scene(const Site& site, const ScenePlan& plan, SceneParts parts);
+
+/// How blocks are cut for [fragmentation]; `set`: before that.
+[[nodiscard]] SplitSettings split_settings(const Site& site, const BlockSet& set);
 
 /// A value of the site file that can be computed with but is far from what rock and its models
 /// have.

@@ -32,6 +32,7 @@ struct EnergyLedger {
   double fence = 0;     ///< taken by panels of fences, and what else gave way
   double rolling = 0;   ///< dissipated by rolling and pivoting resistance, in hits too
   double drag = 0;      ///< dissipated by drag of the ground
+  double breakage = 0;  ///< kinetic energy of crushed blocks, and work of fracture
   double removed = 0;   ///< kinetic energy of blocks stopped at the domain's edge
 };
 
@@ -51,6 +52,40 @@ struct RunCounters {
   std::int64_t unconverged = 0;   ///< block steps accepted without convergence
   std::int64_t cut_back = 0;      ///< block steps repeated with a shorter one
   int left_domain = 0;            ///< blocks that left the known terrain
+};
+
+/// What presses on a block that may be crushed (step/crushing.hpp): means over law::load_time, and
+/// sums of the step under way, which are zero between steps.
+struct BlockLoad {
+  Mat3 press = Mat3::Zero();       ///< sum of N n n^T over its contacts, N the normal force [N]
+  Vec3 push = Vec3::Zero();        ///< sum of their forces [N]
+  Mat3 step_press = Mat3::Zero();  ///< [N s]
+  Vec3 step_push = Vec3::Zero();   ///< [N s]
+};
+
+/// A block that was crushed.
+struct CrushedBlock {
+  std::int32_t block = 0;
+  double time = 0;            ///< [s]
+  double load = 0;            ///< that went through it, mean over law::load_time [N]
+  double strength = 0;        ///< the load that it could bear [N]
+  Vec3 place = Vec3::Zero();  ///< of its centroid; it stays there as debris [m]
+  double volume = 0;          ///< [m3]
+  double mass = 0;            ///< [kg]
+};
+
+/// A block that broke into two pieces.
+struct Break {
+  std::int32_t block = 0;
+  std::int32_t first_piece = 0;  ///< the other one is the next
+  std::int32_t released = 0;     ///< the released block that it was part of
+  std::int32_t generation = 0;   ///< of the block
+  double time = 0;               ///< [s]
+  Vec3 place = Vec3::Zero();     ///< of its centroid [m]
+  double volume = 0;             ///< of the block [m3]
+  double hit_loss = 0;           ///< normal energy that the hit took, or left of it to a piece [J]
+  double fracture = 0;           ///< work of fracture, part of that [J]
+  double separation = 0;         ///< that drives the pieces apart, part of that [J]
 };
 
 /// What became of a block that was deep in something (step/deep_blocks.hpp).
@@ -96,6 +131,11 @@ struct State : BlockLives {  // clang-format off
   std::vector<BlockBond> bonds;             ///< sorted by block_a, block_b            (n_bonds)
   std::vector<DeepBlock> deep;              ///<                                     (n_blocks)
   std::vector<SlidWay> slid;                ///< empty: friction follows no way      (n_blocks)
+  std::vector<BlockLoad> load;              ///< empty: none is crushed                 (n_blocks)
+  std::vector<CrushedBlock> crushed;        ///< by time
+  std::vector<double> hit_loss;             ///< of the step under way; empty: none breaks [J] (n_blocks)
+  std::vector<std::int32_t> n_hits;         ///< steps with a hit; empty: none breaks   (n_blocks)
+  std::vector<Break> breaks;                ///< by time
   Mishaps mishaps;                          ///< so far
   YieldingState yielding;                   ///< what fixed bodies that give way have met
   FenceState fence;                         ///< what touched the panels of fences

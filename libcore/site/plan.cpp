@@ -84,6 +84,7 @@ PlanFacts plan_facts(const Site& site, const BlockSet& blocks, const Trn& trn,
   facts.n_fences = static_cast<int>(site.fences.size());
   for (const FenceSettings& fence : site.fences)
     facts.n_standing += fence.active && site.solver.law == "talus";
+  facts.breaks = site.fragmentation.enabled && site.solver.law == "talus";
   for (const ForestSettings& forest : site.forests)
     facts.n_forests += forest.active && site.solver.law == "talus";
   facts.has_base_motion = !site.base_motion.file.empty() || site.base_motion.amplitude_m_s2 > 0;
@@ -105,8 +106,11 @@ PlanItem kept_by_full(bool full, PlanItem item) {
 }
 
 PlanItem block_contacts(const PlanFacts& facts, bool full) {
-  const PlanItem item{"contacts between blocks", facts.n_blocks > 1 && !facts.independent,
-                      "two blocks or more, not --independent", counted(facts.n_blocks, "block")};
+  const bool several = facts.n_blocks > 1 || facts.breaks;
+  const PlanItem item{
+      "contacts between blocks", several && !facts.independent,
+      "two blocks or more, not --independent",
+      counted(facts.n_blocks, "block") + (facts.breaks ? " that may break ([fragmentation])" : "")};
   if (facts.independent && facts.n_blocks > 1)
     return {item.item, false, item.rule, item.reason + ", each moves as if it were alone"};
   return kept_by_full(full && !facts.independent, item);

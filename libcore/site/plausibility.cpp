@@ -39,13 +39,13 @@ constexpr double never_high = std::numeric_limits<double>::infinity(), never_low
 void look_at_depth(const PlausibilityFacts& f, Doubts& doubts) {
   const double size = std::sqrt(f.polygon_area);
   const std::string units =
-      "check the failure surface and its units: depth_m is in metres, and so are the heights";
-  doubts.above(f.mean_depth / size, {0.25, 1}, "source.depth_m",
+      "check the failure surface and its units: all lengths and heights are in metres";
+  doubts.above(f.mean_depth / size, {0.25, 1}, f.depth_key,
                "the mass is " + metres(f.mean_depth) + " deep on average, " +
                    text(f.mean_depth / size, 2) + " of the size of the source (" + metres(size) +
                    "); slides have 0.02 to 0.25",
                units);
-  doubts.above(f.max_depth / f.relief, {0.5, 1}, "source.depth_m",
+  doubts.above(f.max_depth / f.relief, {0.5, 1}, f.depth_key,
                "the mass is up to " + metres(f.max_depth) + " deep, " +
                    percent(f.max_depth / f.relief) + " of the relief over it (" + metres(f.relief) +
                    ")",
@@ -83,13 +83,16 @@ void look_at_motion(const PlausibilityFacts& f, Doubts& doubts) {
   doubts.above(f.step_at_foot / f.sliding_spacing, {0.3, never_high}, "source.failure_surface",
                "the mass leans on a step of up to " + metres(f.step_at_foot) + " along " +
                    percent(f.step_share) + " of its foot",
-               "a surface that comes out at the foot: failure_surface = \"daylighting\", or "
-               "daylight = \"...\" (talus-source lists what there is)");
+               f.daylights
+                   ? "move the lower edge of the source to where the surface comes out, or leave "
+                     "out what leans on it: daylight = \"...\""
+                   : "a surface that comes out at the foot: failure_surface = \"daylighting\", or "
+                     "daylight = \"...\" (talus-source lists what there is)");
   doubts.below(f.moved_share, {0.9, never_low}, "source.failure_surface",
                f.moved_share < 0.1 ? "this is no rockslide: " + percent(f.moved_share) +
-                                         " of the mass moved in the probe, the rest stands"
+                                         " of the mass goes in the probe, the rest stands"
                                    : percent(f.moved_share) +
-                                         " of the mass moved in the probe: the rest is likely "
+                                         " of the mass goes in the probe: the rest is likely "
                                          "to stay",
                "look at the step at the foot, at friction against the dip of the failure surface, "
                "and at the blocks that lock");

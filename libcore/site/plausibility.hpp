@@ -1,4 +1,4 @@
-// libcore/site/plausibility.hpp
+// libcore/site/plausibility.hpp: public
 // Numbers of a site that can be computed with and are most likely not meant.
 // in:    what was measured of the source, its blocks and the time that they need
 // out:   doubts, each with the key to change
@@ -15,6 +15,7 @@ struct PlausibilityFacts {
   static constexpr double none = std::numeric_limits<double>::quiet_NaN();
   double polygon_area = none;                  ///< [m2]
   double mean_depth = none, max_depth = none;  ///< of the mass, vertical [m]
+  std::string depth_key = "source.depth_m";    ///< that sets the depth
   double relief = none;                        ///< of the ground over the mass [m]
   double normal_depth = none;                  ///< depth_m, where it counts along the normal [m]
   double width = none;                         ///< shorter way across the source [m]
@@ -22,6 +23,7 @@ struct PlausibilityFacts {
   double cell_size = none;                     ///< [m]
   double smallest_spacing = none;              ///< of the joint sets [m]
   double n_blocks = none;                      ///< that a run would move
+  bool daylights = false;                      ///< the surface is a plane or wedge that comes out
   double step_at_foot = none;                  ///< largest height that the mass leans on [m]
   double step_share = none;                    ///< of the foot with such a step [-]
   double sliding_spacing = none;               ///< of the set that slides [m]
@@ -38,7 +40,7 @@ struct Doubt {
   bool is_refused = false;  ///< beyond what can be meant
 };
 
-/// In a fixed order.
+/// In a fixed order. Limits: docs/tools/talus-check.md
 [[nodiscard]] std::vector<Doubt> doubts_of(const PlausibilityFacts& facts);
 
 /// What the probe says of the whole mass.

@@ -100,7 +100,9 @@ struct MaterialSettings {
   double poisson_ratio = 0.25;
   double friction_deg = 30;  ///< between blocks
   double cohesion_pa = 0, tension_pa = 0;
-  double cor = 0.3;  ///< coefficient of restitution between blocks
+  double cor = 0.3;           ///< coefficient of restitution between blocks
+  double strength_mpa = 100;  ///< uniaxial compressive; 0: nothing is crushed
+  double crush_below = 0.01;  ///< share of the median volume below which blocks are crushed
 };
 
 /// [ground.NAME]: what blocks slide on; a polygon or `raster_values` say where, one section without
@@ -136,6 +138,7 @@ struct SolverSettings {
   double shear_stiffness_ratio = 0.4;  ///< k_s / k_n
   double cor = not_given;              ///< overrides those of materials and ground
   std::string strain = "auto";
+  bool end_when_standing = true;  ///< a run in which nothing moves ends after some seconds
   std::int64_t max_passes = 50;
   std::int64_t seed = 1, n_runs = 1;
   double start_jitter_m_s = 0;
@@ -185,6 +188,7 @@ struct OutputSettings {
   double checkpoint_interval_s = 60;  ///< of wall time
   double cell_size_m = not_given;
   bool passages = true, strain = false;
+  bool frames = true;  ///< kept once the run has ended; else the first and the last alone
 };
 
 /// [base_motion]: acceleration of the ground, from a file or a harmonic one.
@@ -193,6 +197,18 @@ struct BaseMotionSettings {
   double scale = 1;
   double amplitude_m_s2 = 0, frequency_hz = not_given, start_s = 0, duration_s = not_given;
   double direction_deg = 0;  ///< azimuth, clockwise from north
+};
+
+/// [fragmentation]: blocks that break in two when they are hit hard.
+struct FragmentationSettings {
+  bool enabled = false;
+  std::string splitting = "random";  ///< or "joints"
+  double energy_j_m2 = 3e5;          ///< effective work of fracture
+  double spread = 2;                 ///< exponent of the chance to break
+  double separation_share = 0.01;    ///< of the energy that the hit took
+  double min_volume_m3 = 0.01;
+  std::int64_t max_generation = 6;
+  std::int64_t seed = 1;
 };
 
 /// [blocks.NAME]: bodies from elsewhere, meshes or shapes, placed once or many times.
@@ -237,6 +253,7 @@ struct Site {
   SolverSettings solver;
   OutputSettings output;
   BaseMotionSettings base_motion;
+  FragmentationSettings fragmentation;
   JointNorth joint_north;
   std::vector<JointSettings> joints;        ///< in the order of the file, as all named sections
   std::vector<MaterialSettings> materials;  ///< at least one: "rock" with the defaults

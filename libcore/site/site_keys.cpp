@@ -126,7 +126,9 @@ template <> const std::vector<SiteKey<MaterialSettings>>& keys_of() {
       {"friction_deg", &S::friction_deg, "friction angle between blocks", angle_below_90, "", friction_hint},
       {"cohesion_pa", &S::cohesion_pa, "cohesion between blocks", not_negative},
       {"tension_pa", &S::tension_pa, "tensile strength between blocks", not_negative},
-      {"cor", &S::cor, "coefficient of restitution between blocks", share}};
+      {"cor", &S::cor, "coefficient of restitution between blocks", share},
+      {"strength_mpa", &S::strength_mpa, "uniaxial compressive strength of the rock: small blocks are crushed by what is pressed through them; 0: none is", {0, 1000}, "", "hard rock has 50 to 250 MPa"},
+      {"crush_below", &S::crush_below, "only blocks smaller than this share of the median volume are crushed", share}};
   return table;
 }
 template <> const std::vector<SiteKey<GroundSettings>>& keys_of() {
@@ -169,6 +171,7 @@ template <> const std::vector<SiteKey<SolverSettings>>& keys_of() {
       {"shear_stiffness_ratio", &S::shear_stiffness_ratio, "shear over normal stiffness", {0, 10, true, false}},
       {"cor", &S::cor, "coefficient of restitution everywhere", share},
       {"strain", &S::strain, "strain degrees of freedom", any, "auto|on|off"},
+      {"end_when_standing", &S::end_when_standing, "a run in which no block moved more than 0.1 m or is faster than 2 mm/s after 3 s ends there, and says so"},
       {"max_passes", &S::max_passes, "passes of the contact iteration of a lone block in one step, law talus", {1, 10000}},
       {"seed", &S::seed, "seed of the run", not_negative},
       {"n_runs", &S::n_runs, "runs with seeds counted up", {1, 1000000}},
@@ -233,7 +236,8 @@ template <> const std::vector<SiteKey<OutputSettings>>& keys_of() {
       {"checkpoint_interval_s", &S::checkpoint_interval_s, "wall time between checkpoints", positive},
       {"cell_size_m", &S::cell_size_m, "cell size of maps; that of the TRN when not given", positive},
       {"passages", &S::passages, "record passages of cells"},
-      {"strain", &S::strain, "record strains"}};
+      {"strain", &S::strain, "record strains"},
+      {"frames", &S::frames, "keep all frames of a run that has ended; else the first and the last"}};
   return table;
 }
 template <> const std::vector<SiteKey<BaseMotionSettings>>& keys_of() {
@@ -246,6 +250,19 @@ template <> const std::vector<SiteKey<BaseMotionSettings>>& keys_of() {
       {"start_s", &S::start_s, "when it starts", not_negative},
       {"duration_s", &S::duration_s, "how long it lasts", positive},
       {"direction_deg", &S::direction_deg, "azimuth of a harmonic motion", azimuth}};
+  return table;
+}
+template <> const std::vector<SiteKey<FragmentationSettings>>& keys_of() {
+  using S = FragmentationSettings;
+  static const std::vector<SiteKey<S>> table = {
+      {"enabled", &S::enabled, "blocks break in two when they are hit hard, and their pieces again (law talus)"},
+      {"splitting", &S::splitting, "planes along which they break: of any direction, or parallel to the joint sets", any, "random|joints"},
+      {"energy_j_m2", &S::energy_j_m2, "effective work of fracture, all losses included", positive},
+      {"spread", &S::spread, "exponent k of the chance to break, 1 - 2^-(energy of the hit / work)^k", {0, 1000, true, false}},
+      {"separation_share", &S::separation_share, "share of the energy that the hit took that drives the pieces apart", share},
+      {"min_volume_m3", &S::min_volume_m3, "no piece is smaller", positive},
+      {"max_generation", &S::max_generation, "breaks, one after the other", {1, 12}},
+      {"seed", &S::seed, "seed of planes and of what breaks", not_negative}};
   return table;
 }
 template <> const std::vector<SiteKey<PlacedSettings>>& keys_of() {

@@ -28,6 +28,11 @@ constexpr double least_renewed = 0.05, most_renewed = 20;  // of what a slip mis
 constexpr int most_steps = 30, most_convex_steps = 100;    // of Newton in a round
 constexpr int whole_steps = 6;                             // before its line search
 
+constexpr int most_turns = 12;  // of Newton, for one contact alone
+
+using Vec2 = Eigen::Vector2d;
+using Mat2 = Eigen::Matrix2d;
+
 /// An impact being solved; a struct so that its parts share what they all need.
 struct Solver {
   std::span<const ImpactBody> bodies;
@@ -234,14 +239,15 @@ struct Solver {
     return worst;
   }
 
+  static Mat3 cross_matrix(const Vec3& x) {
+    Mat3 X;
+    X << 0, -x.z(), x.y(), x.z(), 0, -x.x(), -x.y(), x.x(), 0;
+    return X;
+  }
+
   // T(arm)^T K T(arm') of a contact's tangent.
   static Mat6 block(const Mat3& K, const Vec3& arm_left, const Vec3& arm_right) {
-    const auto cross = [](const Vec3& x) {
-      Mat3 X;
-      X << 0, -x.z(), x.y(), x.z(), 0, -x.x(), -x.y(), x.x(), 0;
-      return X;
-    };
-    const Mat3 left = cross(arm_left), right = cross(arm_right);
+    const Mat3 left = cross_matrix(arm_left), right = cross_matrix(arm_right);
     Mat6 B;
     B << K, -K * right, left * K, -left * K * right;
     return B;
@@ -420,6 +426,60 @@ struct Solver {
     return gives;
   }
 
+  // Speed of a contact's point per impulse on it.
+  [[nodiscard]] Mat3 compliance(size_t i) const {
+    const auto of_body = [](const ImpactBody& body, const Vec3& arm) -> Mat3 {
+      const Mat3 X = cross_matrix(arm);
+      return body.per_mass * Mat3::Identity() - X * body.per_inertia * X;
+    };
+    const ImpactContact& c = contacts[i];
+    Mat3 W = of_body(bodies[c.a], w.rows[i].arm_a);
+    if (c.b >= 0) W += of_body(bodies[c.b], w.rows[i].arm_b);
+    return W;
+  }
+
+  // One contact alone: it sticks, or slides along a direction in which what friction leaves of the
+  // slip points. False where that direction is not found.
+  bool solve_one() {
+    const ImpactContact& c = contacts[0];
+    Row& row = w.rows[0];
+    const Vec3& n = c.normal;
+    ++passes;
+    const Mat3 W = compliance(0);
+    const Vec3 u = point_velocity(w.before, 0);
+    const double normal = n.dot(W * n), missing = row.target - n.dot(u);
+    if (!c.is_bond && missing <= 0) return true;
+    row.impulse = W.ldlt().solve(row.target * n - u);
+    const double p_n = n.dot(row.impulse);
+    if (c.is_bond || (p_n >= 0 && (row.impulse - p_n * n).norm() <= c.friction * p_n)) return true;
+    const Vec3 t = n.unitOrthogonal(), s = n.cross(t);
+    const Vec2 across(t.dot(u), s.dot(u)), coupling(t.dot(W * n), s.dot(W * n));
+    Mat2 A;
+    A << t.dot(W * t), t.dot(W * s), s.dot(W * t), s.dot(W * s);
+    Vec2 direction = across;
+    for (int k = 0; k < most_turns; ++k) {
+      ++passes;
+      direction.normalize();
+      if (!direction.allFinite()) return false;
+      const double gives = normal - c.friction * coupling.dot(direction);
+      if (!(gives > 0)) return false;
+      const double pressed = missing / gives;
+      const Vec2 per_pressed = coupling - c.friction * (A * direction);
+      const Vec2 slip = across + pressed * per_pressed, turned(-direction.y(), direction.x());
+      const double error = turned.dot(slip);
+      if (std::abs(error) <= tolerance * scale && direction.dot(slip) >= 0) {
+        row.impulse = pressed * (n - c.friction * (direction.x() * t + direction.y() * s));
+        return true;
+      }
+      const double pressed_by_turn = pressed * c.friction * coupling.dot(turned) / gives;
+      const double error_by_turn =
+          -direction.dot(slip) +
+          turned.dot(pressed_by_turn * per_pressed - pressed * c.friction * (A * turned));
+      direction -= (error / error_by_turn) * turned;
+    }
+    return false;
+  }
+
   void begin_rounds() {
     w.velocity = w.before;
     for (Row& row : w.rows) row.expected.setZero();
@@ -441,6 +501,7 @@ struct Solver {
   // not settled is nearly a solution, and whatever its slips are it gains no energy without
   // restitution (theory 1.12).
   bool solve() {
+    find_pattern();
     begin_rounds();
     set_form(false);
     if (solve_rounds(false, most_rounds, first_stiffness)) return true;
@@ -544,7 +605,6 @@ Impact solve_impact(std::span<ImpactBody> bodies, std::span<ImpactContact> conta
   Impact out;
   Solver solver{bodies, contacts, work};
   solver.begin();
-  solver.find_pattern();
   for (size_t i = 0; i < contacts.size(); ++i) {
     ImpactContact& c = contacts[i];
     c.approach = c.normal.dot(solver.point_velocity(work.before, i));
@@ -552,7 +612,8 @@ Impact solve_impact(std::span<ImpactBody> bodies, std::span<ImpactContact> conta
       work.rows[i].target = -c.fall.at(c.restitution, -c.approach) * c.approach;
   }
   const double before = solver.energy(work.before);
-  out.converged = solver.solve();
+  out.converged =
+      (contacts.size() == 1 && work.turns.empty() && solver.solve_one()) || solver.solve();
   solver.take_impulses();
   if (solver.energy(work.velocity) > (1 + gain_rounding) * before)
     out.converged = solver.lower_restitution(out) && out.converged;
@@ -576,6 +637,9 @@ Impact solve_impact(std::span<ImpactBody> bodies, std::span<ImpactContact> conta
     out.by_rolling -=
         turn.couple.dot(Vec3(work.before.segment<3>(at) + work.velocity.segment<3>(at)) / 2);
   }
+  // many contacts that jam bodies press them and each other at will: what they take together stands
+  out.by_friction =
+      std::clamp(out.by_friction, 0.0, std::max(0.0, out.dissipated - out.by_rolling));
   return out;
 }
 

@@ -26,8 +26,10 @@ inline constexpr double stiffest_in_island = 1;
 inline constexpr double stiffest_at_rest = 30;
 /// [blocks] A small island has at most so many ...
 inline constexpr std::size_t small_island = 8;
-/// [blocks] ... or so many that hang together without a ring: a column.
+/// [blocks] ... or so many that hang together without a ring: a column ...
 inline constexpr std::size_t small_tree = 64;
+/// [g times the sum of thicknesses] ... whose squared speeds are below this: it stands or topples.
+inline constexpr double column_falls = 0.1;
 /// [-] Stiffness of a contact that bears little, slips or opens: times that for its own mass.
 inline constexpr double bears_little = 3;
 /// [thickness] Overlap of a contact at rest under its load: it is as stiff as that asks ...
@@ -47,10 +49,11 @@ inline constexpr double most_sag_of_thickness = 2e-2;
 inline constexpr double far_sag = 4;
 /// [-] k_n dt^2 / m of the stiffest contact by its load.
 inline constexpr double stiffest_by_load = 4e5;
-/// [-] That is softer by so much where forces are not found ...
-inline constexpr double easing = 64;
-/// [-] ... up to so many times a step, before substeps are halved.
-inline constexpr int most_eased = 2;
+/// [-] That is softer by so much where forces are not found, and stays so for `most_rests`. Tried:
+/// 64, then as much again; the first changes little and is in vain ...
+inline constexpr double easing = 4096;
+/// [-] ... so many times a step, before substeps are halved.
+inline constexpr int most_eased = 1;
 /// [-] A contact at rest becomes stiffer by so much a step, beyond what the masses ask for ...
 inline constexpr double stiffens = 2;
 /// [-] ... one that slips or opens softer by so much.
@@ -281,6 +284,12 @@ inline constexpr double stiffening = 4;
 inline constexpr double soft_goal = 1e-6;
 /// [-] Sweeps of Gauss and Seidel, when that fails too.
 inline constexpr int most_sweeps = 2000;
+
+// --- breakage ----------------------------------------------------------------------------------
+
+/// [s] Loads that crush a block are means over this time, so that hits count and steps do not. It
+/// lies between the duration of a hit of rock on rock (about 1 ms) and that of a jam (seconds).
+inline constexpr double load_time = 0.1;
 
 // --- rest --------------------------------------------------------------------------------------
 

@@ -27,7 +27,7 @@ struct OneContact {
 /// throughout.
 [[gnu::always_inline]] inline void evaluate(const Vec3& velocity, ContactRow& row) {
   const double w[3] = {velocity.x(), velocity.y(), velocity.z()};
-  Found<double> found;
+  Found<double> found{};
   contact_law(OneContact{row}, w, row.state, Evaluation::coupled, found);
   row.state = found.state;
   for (int k = 0; k < 3; ++k) row.impulse[k] = found.impulse[k];

@@ -1,6 +1,7 @@
 #include "step/impact.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "contact/search.hpp"
 #include "step/soil.hpp"
@@ -83,9 +84,9 @@ void reserve_impacts(size_t n_contacts, ImpactScratch& scratch) {
   ImpactBody body;  // an impact makes the rest
   body.per_mass = 1;
   body.velocity[2] = -1;
-  ImpactContact contact;
-  contact.normal = Vec3::UnitZ();
-  (void)solve_impact({&body, 1}, {&contact, 1}, w);
+  std::array<ImpactContact, 2> contacts;  // one alone is solved in closed form
+  for (ImpactContact& contact : contacts) contact.normal = Vec3::UnitZ();
+  (void)solve_impact({&body, 1}, contacts, w);
 }
 
 ImpactResult apply_impact(const Scene& scene, int b, double touch, const HitSpeeds& speeds,

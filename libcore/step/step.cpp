@@ -8,6 +8,8 @@
 #include "motion/rotation.hpp"
 #include "scene/yielding.hpp"
 #include "solver/law_numbers.hpp"
+#include "step/breakage.hpp"
+#include "step/crushing.hpp"
 #include "step/deep_blocks.hpp"
 #include "step/flight.hpp"
 #include "step/impact.hpp"
@@ -66,13 +68,19 @@ State start(const Scene& scene) {
   if (std::any_of(grounds.begin(), grounds.end(),
                   [](const GroundClass& ground) { return ground.scar_rate > 0; }))
     state.slid.resize(n);
+  if (!scene.crush_load.empty()) state.load.resize(n);
   state.yielding = start_yielding(scene);
   state.bonds = start_bonds(scene);
+  if (!scene.fragments.empty()) {
+    state.hit_loss.assign(n, 0);
+    state.n_hits.assign(n, 0);
+  }
   if (scene.settings.strains) {
     state.strain.assign(n, Vec6::Zero());
     state.strain_rate.assign(n, Vec6::Zero());
   }
   for (size_t b = 0; b < n; ++b) {
+    if (!is_released(scene, b)) keep_unborn(state, b);
     state.memory[b].reserve(expected_contacts);
     state.motion[b].pose = scene.blocks.rest[b];
     state.motion[b].velocity = scene.blocks.velocity[b];
@@ -84,7 +92,7 @@ State start(const Scene& scene) {
   if (scene.settings.trn_contacts && (is_paper || scene.settings.static_start)) {
     std::optional<Work> work;  // none where all blocks are above the ground
     for (size_t b = 0; b < n; ++b) {
-      if (spins(scene, b) || is_above_ground(scene, b)) continue;
+      if (!is_released(scene, b) || spins(scene, b) || is_above_ground(scene, b)) continue;
       if (!work) work = make_work(scene);
       (is_paper ? bond_block : settle_block)(scene, static_cast<int>(b), state, *work);
     }
@@ -174,6 +182,8 @@ StepReport step(const Scene& scene, State& state, Work& work) {
   else
     advance_talus(scene, state, work, report);
   state.time += scene.settings.dt;
+  break_blocks(scene, state, work);
+  crush_blocks(scene, state);
   note_deep_blocks(scene, state, work.deep, report);
   note_mishaps(scene, report, state);
   ++state.counters.steps;

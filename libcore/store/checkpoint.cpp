@@ -13,20 +13,25 @@ namespace talus {
 // A field added to one of these structs and forgotten here would be lost on --resume: the sizes
 // say that a list has to be looked at again.
 
-static_assert(sizeof(Motion) == 112 && sizeof(EnergyLedger) == 64 && sizeof(RunCounters) == 64);
+static_assert(sizeof(Motion) == 112 && sizeof(EnergyLedger) == 72 && sizeof(RunCounters) == 64);
 static_assert(sizeof(ContactMemory) == 136 &&
-              sizeof(HealthRow) == 192 + 8 * substep_cut_names.size());
-static_assert(sizeof(State) == 8 + 17 * 24 + sizeof(EnergyLedger) + sizeof(RunCounters) +
+              sizeof(HealthRow) == 200 + 8 * substep_cut_names.size());
+static_assert(sizeof(State) == 8 + 22 * 24 + sizeof(EnergyLedger) + sizeof(RunCounters) +
                                    sizeof(PairState) + sizeof(PlacedHulls) + sizeof(FenceState) +
                                    sizeof(YieldingState) + sizeof(Mishaps));
 static_assert(sizeof(YieldingState) == 3 * 24 && sizeof(Yielded) == 56);
 static_assert(sizeof(StemMet) == 64 && sizeof(StemHit) == 80);
 static_assert(sizeof(FenceState) == 24 && sizeof(FenceHit) == 104 && sizeof(BlockBond) == 48);
 static_assert(sizeof(PairState) == 280 && sizeof(PlacedHulls) == 192 && sizeof(ListedPair) == 96);
+static_assert(sizeof(BlockLoad) == 192 && sizeof(CrushedBlock) == 72 && sizeof(Break) == 80);
 static_assert(sizeof(SlidWay) == 16 && sizeof(DeepBlock) == 64 && sizeof(Mishap) == 48 &&
               sizeof(Mishaps) == 5 * 48);
 static_assert(sizeof(PairWatch) == 16 && sizeof(HeldPoint) == 24);
 
+template <class Archive>
+void fields(Fields<Archive>& archive, Mat3& value) {
+  for (int i = 0; i < 9; ++i) archive(value.data()[i]);
+}
 template <class Archive>
 void fields(Fields<Archive>& archive, Pose& pose) {
   archive(pose.position, pose.attitude);
@@ -38,7 +43,7 @@ void fields(Fields<Archive>& archive, Motion& motion) {
 template <class Archive>
 void fields(Fields<Archive>& archive, EnergyLedger& ledger) {
   archive(ledger.friction, ledger.impact, ledger.contact, ledger.base, ledger.fence, ledger.rolling,
-          ledger.drag, ledger.removed);
+          ledger.drag, ledger.breakage, ledger.removed);
 }
 template <class Archive>
 void fields(Fields<Archive>& archive, BlockBond& bond) {
@@ -78,6 +83,20 @@ void fields(Fields<Archive>& archive, DeepBlock& deep) {
           deep.is_deep, deep.is_too_fast);
 }
 template <class Archive>
+void fields(Fields<Archive>& archive, BlockLoad& load) {
+  archive(load.press, load.push, load.step_press, load.step_push);
+}
+template <class Archive>
+void fields(Fields<Archive>& archive, CrushedBlock& crushed) {
+  archive(crushed.block, crushed.time, crushed.load, crushed.strength, crushed.place,
+          crushed.volume, crushed.mass);
+}
+template <class Archive>
+void fields(Fields<Archive>& archive, Break& broken) {
+  archive(broken.block, broken.first_piece, broken.released, broken.generation, broken.time,
+          broken.place, broken.volume, broken.hit_loss, broken.fracture, broken.separation);
+}
+template <class Archive>
 void fields(Fields<Archive>& archive, Mishap& mishap) {
   archive(mishap.block, mishap.partner, mishap.depth, mishap.time, mishap.place);
 }
@@ -100,10 +119,6 @@ void fields(Fields<Archive>& archive, ContactMemory& memory) {
   archive(memory.key.mode, memory.key.body_b, memory.key.feature_a, memory.key.feature_b,
           memory.normal, memory.shear, memory.slip_direction, memory.offset, memory.gap_end,
           memory.normal_force, memory.stiffness, memory.bond_area, memory.state, memory.rests);
-}
-template <class Archive>
-void fields(Fields<Archive>& archive, Mat3& value) {
-  for (int i = 0; i < 9; ++i) archive(value.data()[i]);
 }
 template <class Archive>
 void fields(Fields<Archive>& archive, Box& box) {
@@ -140,8 +155,9 @@ void fields(Fields<Archive>& archive, State& state) {
   archive(state.time, state.motion, state.local_time, state.flight_end, state.phase,
           state.acceleration, state.spin_rate, state.support, state.paper.rebound, state.rest_pose,
           state.rest_steps, state.strain, state.strain_rate, state.memory, state.pairs,
-          state.placed, state.bonds, state.deep, state.slid, state.mishaps, state.yielding,
-          state.fence, state.stem_hits, state.ledger, state.counters);
+          state.placed, state.bonds, state.deep, state.slid, state.load, state.crushed,
+          state.hit_loss, state.n_hits, state.breaks, state.mishaps, state.yielding, state.fence,
+          state.stem_hits, state.ledger, state.counters);
 }
 template <class Archive>
 void fields(Fields<Archive>& archive, PassageValues& values) {
@@ -171,7 +187,7 @@ void fields(Fields<Archive>& archive, HealthRow& row) {
           row.unconverged, row.left_domain, row.fell_through, row.not_finite,
           row.largest_penetration, row.translation, row.rotation, row.potential, row.elastic,
           row.friction, row.impact, row.contact, row.base, row.fence, row.rolling, row.drag,
-          row.removed);
+          row.breakage, row.removed);
   for (std::int64_t& n : row.cuts) archive(n);
 }
 template <class Archive>
@@ -204,6 +220,16 @@ bool fits(const Checkpoint& checkpoint, std::size_t n_blocks, int n_cells) {
                           state.memory.size(), state.deep.size(), sampler.next.size(),
                           sampler.latest.size()}))
     return false;
+  if (!state.load.empty() && state.load.size() != n_blocks) return false;
+  if (state.hit_loss.size() != state.n_hits.size() ||
+      (!state.n_hits.empty() && state.n_hits.size() != n_blocks))
+    return false;
+  for (const Break& broken : state.breaks)
+    if (broken.block < 0 || broken.first_piece < 0 ||
+        std::max(broken.block, broken.first_piece + 1) >= static_cast<int>(n_blocks))
+      return false;
+  for (const CrushedBlock& crushed : state.crushed)
+    if (crushed.block < 0 || crushed.block >= static_cast<int>(n_blocks)) return false;
   const Mishaps& mishaps = state.mishaps;
   for (const Mishap& mishap : {mishaps.deepest, mishaps.unconverged, mishaps.not_finite,
                                mishaps.left_domain, mishaps.fell_through})

@@ -1,5 +1,6 @@
 #include "store/run_file_tables_hdf5.hpp"
 
+#include <algorithm>
 #include <set>
 #include <string>
 #include <type_traits>
@@ -240,6 +241,70 @@ void panel_columns(Visit&& column) {
 }
 
 template <class Visit>
+void break_columns(Visit&& column) {
+  column(
+      "block", "1", "body that broke", [](Break & b) -> auto& { return b.block; });
+  column(
+      "first_piece", "1", "the first of its two pieces; the other is the next body",
+      [](Break & b) -> auto& { return b.first_piece; });
+  column(
+      "released", "1", "released block that the body was part of",
+      [](Break & b) -> auto& { return b.released; });
+  column(
+      "generation", "1", "breaks of the released block before that, from piece to piece",
+      [](Break & b) -> auto& { return b.generation; });
+  column(
+      "time_s", "s", "when it broke", [](Break & b) -> auto& { return b.time; });
+  column(
+      "position_x_m", "m", "its centroid then, local",
+      [](Break & b) -> auto& { return b.place.x(); });
+  column(
+      "position_y_m", "m", "its centroid then, local",
+      [](Break & b) -> auto& { return b.place.y(); });
+  column(
+      "position_z_m", "m", "its centroid then, local",
+      [](Break & b) -> auto& { return b.place.z(); });
+  column(
+      "volume_m3", "m3", "of the body", [](Break & b) -> auto& { return b.volume; });
+  column(
+      "hit_loss_j", "J", "normal energy that the hit took, or left of it to a piece",
+      [](Break & b) -> auto& { return b.hit_loss; });
+  column(
+      "fracture_j", "J", "work of fracture, part of that",
+      [](Break & b) -> auto& { return b.fracture; });
+  column(
+      "separation_j", "J", "kinetic energy that drives the pieces apart, part of that",
+      [](Break & b) -> auto& { return b.separation; });
+}
+
+template <class Visit>
+void crushed_columns(Visit&& column) {
+  column(
+      "block", "1", "index of the block", [](CrushedBlock & c) -> auto& { return c.block; });
+  column(
+      "time_s", "s", "when it was crushed", [](CrushedBlock & c) -> auto& { return c.time; });
+  column(
+      "load_n", "N", "that was pressed through it, mean over 0.1 s",
+      [](CrushedBlock & c) -> auto& { return c.load; });
+  column(
+      "strength_n", "N", "load that it could bear",
+      [](CrushedBlock & c) -> auto& { return c.strength; });
+  column(
+      "position_x_m", "m", "centroid, where its debris stays, local",
+      [](CrushedBlock & c) -> auto& { return c.place.x(); });
+  column(
+      "position_y_m", "m", "centroid, where its debris stays, local",
+      [](CrushedBlock & c) -> auto& { return c.place.y(); });
+  column(
+      "position_z_m", "m", "centroid, where its debris stays, local",
+      [](CrushedBlock & c) -> auto& { return c.place.z(); });
+  column(
+      "volume_m3", "m3", "of the block", [](CrushedBlock & c) -> auto& { return c.volume; });
+  column(
+      "mass_kg", "kg", "of the block", [](CrushedBlock & c) -> auto& { return c.mass; });
+}
+
+template <class Visit>
 void deep_columns(Visit&& column) {
   column(
       "block", "1", "index of the block", [](DeepRow & d) -> auto& { return d.block; });
@@ -356,6 +421,15 @@ void health_columns(Visit&& column) {
       [](HealthRow & h) -> auto& { return h.removed; });
 }
 
+// Missing where nothing broke or was crushed.
+template <class Visit>
+void breakage_column(Visit&& column) {
+  column(
+      "breakage_loss_j", "J",
+      "kinetic energy of blocks that were crushed, and work of fracture, since the start",
+      [](HealthRow & h) -> auto& { return h.breakage; });
+}
+
 // Missing in runs of earlier versions.
 template <class Visit>
 void soil_columns(Visit&& column) {
@@ -420,6 +494,38 @@ void write_passage_table(H5Writer& file, const std::vector<Passage>& rows) {
               [](auto&& column) { passage_columns(column); });
 }
 
+void write_part_rows(H5Writer& file, const std::vector<PartRow>& rows) {
+  file.group("rows", "one row per cell, run and block that passed it");
+  const auto put = [&](const char* name, const char* units, const char* meaning, auto&& value) {
+    using Value = std::remove_cvref_t<decltype(value(rows.front()))>;
+    std::vector<Value> values;
+    values.reserve(rows.size());
+    for (const PartRow& row : rows) values.push_back(value(row));
+    file.array<Value>(std::string("rows/") + name, values, {values.size()}, units, meaning);
+  };
+  put("run", "1", "index of the run", [](const PartRow& row) { return row.run; });
+  passage_columns([&](const char* name, const char* units, const char* meaning, auto field) {
+    if (std::string(name) == "cell") return;  // those of the group cells
+    put(name, units, meaning, [&field](const PartRow& row) {
+      Passage passage = row.passage;
+      return field(passage);
+    });
+  });
+}
+
+std::vector<PartRow> read_part_rows(const H5Reader& file, std::size_t first, std::size_t n) {
+  std::vector<PartRow> rows(n);
+  const std::vector<std::int32_t> run = file.rows<std::int32_t>("rows/run", 1, first, n);
+  for (std::size_t i = 0; i < n; ++i) rows[i].run = run[i];
+  passage_columns([&](const char* name, const char*, const char*, auto field) {
+    if (std::string(name) == "cell") return;
+    using Value = FieldType<Passage, decltype(field)>;
+    const std::vector<Value> values = file.rows<Value>(std::string("rows/") + name, 1, first, n);
+    for (std::size_t i = 0; i < n; ++i) field(rows[i].passage) = values[i];
+  });
+  return rows;
+}
+
 void write_crossing_table(H5Writer& file, const std::vector<Crossing>& rows) {
   write_table(file, "crossings", "one row per block and line that it crossed or passed beside",
               rows, [](auto&& column) { crossing_columns(column); });
@@ -433,6 +539,16 @@ void write_panel_table(H5Writer& file, const std::vector<PanelRow>& rows) {
 void write_hit_table(H5Writer& file, const std::vector<FenceHit>& rows) {
   write_table(file, "fence_hits", "one row per block and panel that it touched", rows,
               [](auto&& column) { hit_columns(column); });
+}
+
+void write_break_table(H5Writer& file, const std::vector<Break>& rows) {
+  write_table(file, "breaks", "one row per block or piece that broke in two, by time", rows,
+              [](auto&& column) { break_columns(column); });
+}
+
+void write_crushed_table(H5Writer& file, const std::vector<CrushedBlock>& rows) {
+  write_table(file, "crushed_blocks", "one row per block that was crushed, by time", rows,
+              [](auto&& column) { crushed_columns(column); });
 }
 
 void write_tree_hit_table(H5Writer& file, const std::vector<TreeHitRow>& rows) {
@@ -450,10 +566,13 @@ void write_health_table(H5Writer& file, const std::vector<HealthRow>& rows) {
   const bool has_soil = std::any_of(rows.begin(), rows.end(), [](const HealthRow& row) {
     return row.rolling != 0 || row.drag != 0;
   });
+  const bool any_breakage =
+      std::any_of(rows.begin(), rows.end(), [](const HealthRow& row) { return row.breakage != 0; });
   write_table(file, "health", "how the computation went, interval by interval", rows,
-              [has_soil](auto&& column) {
+              [has_soil, any_breakage](auto&& column) {
                 health_columns(column);
                 if (has_soil) soil_columns(column);
+                if (any_breakage) breakage_column(column);
                 cut_columns(column);
               });
 }
@@ -491,6 +610,15 @@ std::vector<FenceHit> read_hit_table(const H5Reader& file) {
   return read_table<FenceHit>(file, "fence_hits", [](auto&& column) { hit_columns(column); });
 }
 
+std::vector<Break> read_break_table(const H5Reader& file) {
+  return read_table<Break>(file, "breaks", [](auto&& column) { break_columns(column); });
+}
+
+std::vector<CrushedBlock> read_crushed_table(const H5Reader& file) {
+  return read_table<CrushedBlock>(file, "crushed_blocks",
+                                  [](auto&& column) { crushed_columns(column); });
+}
+
 std::vector<TreeHitRow> read_tree_hit_table(const H5Reader& file) {
   return read_table<TreeHitRow>(file, "tree_hits", [](auto&& column) { tree_hit_columns(column); });
 }
@@ -516,6 +644,9 @@ std::vector<HealthRow> read_health_table(const H5Reader& file, bool only_faults)
         row.rolling = read.rolling;
         row.drag = read.drag;
       });
+  read_beside(
+      file, "health/breakage_loss_j", rows, [](auto&& column) { breakage_column(column); },
+      [](const HealthRow& read, HealthRow& row) { row.breakage = read.breakage; });
   return rows;
 }
 

@@ -17,6 +17,7 @@ struct RunParam {
   std::string key;  ///< long option name or site-file key, unit in the name
   std::string value;
   std::string source;  ///< "default", "cli", or the place in the site file ("file, line 7")
+  bool operator==(const RunParam&) const = default;
 };
 
 /// A file read or written, with its digest; `sha256` is empty when the content was not hashed.
@@ -25,18 +26,21 @@ struct RunArtifact {
   std::string path;  ///< absolute
   std::string sha256;
   std::int64_t n_bytes = 0;
+  bool operator==(const RunArtifact&) const = default;
 };
 
 struct RunMetric {
   std::string name;
   double value = 0;
   std::string unit;
+  bool operator==(const RunMetric&) const = default;
 };
 
 struct RunEvent {
   double time_s = 0;  ///< since the run's start [s]
   std::string level;  ///< "info", "warning" or "error"
   std::string text;
+  bool operator==(const RunEvent&) const = default;
 };
 
 struct RunCheck {
@@ -44,6 +48,7 @@ struct RunCheck {
   double value = 0;
   double limit = 0;
   bool pass = false;
+  bool operator==(const RunCheck&) const = default;
 };
 
 /// One run of one tool.
@@ -65,6 +70,7 @@ struct RunRecord {
   std::vector<RunMetric> metrics;
   std::vector<RunEvent> events;
   std::vector<RunCheck> checks;
+  bool operator==(const RunRecord&) const = default;
 };
 
 /// Somebody else has held the registry for as long as was waited.
@@ -96,6 +102,18 @@ std::int64_t add_run(const std::string& db, const RunRecord& run, int wait_ms = 
 /// Takes over all runs of another registry: one that still goes on in `db` (same tool, host,
 /// process and start) is completed, any other is added. Returns how many there were.
 int adopt_runs(const std::string& db, const std::string& other);
+
+/// What merge_runs did with the runs of other registries.
+struct RegistryMerge {
+  int n_added = 0;
+  int n_completed = 0;  ///< were known as running, and have ended since
+  int n_known = 0;      ///< were there already, the same
+};
+
+/// Takes over all runs of other registries, in the order of their starts, in one transaction: all
+/// or none. A run (tool, host, process, start, folder and command) that is known is not added
+/// again. Throws InputError when two entries of one run that has ended differ.
+RegistryMerge merge_runs(const std::string& db, const std::vector<std::string>& others);
 
 /// All runs without their details, in the order of their rows. Throws InputError when `db` does not
 /// exist or is not a registry.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 
 #include "base/error.hpp"
 #include "base/text.hpp"
@@ -207,30 +208,147 @@ void read_details(SQLite::Database& database, RunRecord& run) {
                           check.getColumn(2).getDouble(), check.getColumn(3).getInt() != 0});
 }
 
+std::int64_t insert_running(SQLite::Database& database, const RunRecord& run) {
+  insert(database,
+         "INSERT INTO run (content_id, tool, version, git_commit, command_line, folder, host, "
+         "cpu, process_id, started, ended, status, exit_code, cpu_time_s, wall_time_s, "
+         "peak_memory_kb) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, '', 'running', -1, 0, 0, 0)",
+         run.content_id, run.tool, run.version, run.git_commit, run.command_line, run.folder,
+         run.host, run.cpu, run.process_id, run.started);
+  const std::int64_t id = database.getLastInsertRowid();
+  for (const RunParam& param : run.params)
+    insert(database, "INSERT INTO param VALUES (?, ?, ?, ?)", id, param.key, param.value,
+           param.source);
+  insert_files(database, "run_input", id, run.inputs);
+  return id;
+}
+
+// The row `run.id` as it is now: also of a run that still goes on.
+void complete(SQLite::Database& database, const RunRecord& run) {
+  replace_results(database, run);
+  insert(database,
+         "UPDATE run SET ended = ?, status = ?, exit_code = ?, cpu_time_s = ?, wall_time_s = ?, "
+         "peak_memory_kb = ? WHERE id = ?",
+         run.ended, run.status, run.exit_code, run.cpu_time_s, run.wall_time_s, run.peak_memory_kb,
+         run.id);
+}
+
 std::int64_t begin_row(const std::string& db, const RunRecord& run, int wait_ms) {
   return with_registry(db, [&] {
     SQLite::Database database = open_to_write(db, wait_ms);
     SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
-    insert(database,
-           "INSERT INTO run (content_id, tool, version, git_commit, command_line, folder, host, "
-           "cpu, process_id, started, ended, status, exit_code, cpu_time_s, wall_time_s, "
-           "peak_memory_kb) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, '', 'running', -1, 0, 0, 0)",
-           run.content_id, run.tool, run.version, run.git_commit, run.command_line, run.folder,
-           run.host, run.cpu, run.process_id, run.started);
-    const std::int64_t id = database.getLastInsertRowid();
-    for (const RunParam& param : run.params)
-      insert(database, "INSERT INTO param VALUES (?, ?, ?, ?)", id, param.key, param.value,
-             param.source);
-    insert_files(database, "run_input", id, run.inputs);
+    const std::int64_t id = insert_running(database, run);
     transaction.commit();
     return id;
   });
+}
+
+std::vector<RunRecord> read_rows(SQLite::Database& database) {
+  SQLite::Statement row(database, std::string(run_columns) + "ORDER BY id");
+  std::vector<RunRecord> runs;
+  while (row.executeStep()) runs.push_back(read_columns(row));
+  return runs;
 }
 
 bool is_same_run(const RunRecord& a, const RunRecord& b) {
   return a.tool == b.tool && a.host == b.host && a.process_id == b.process_id &&
          a.started == b.started;
 }
+
+// --- merging -----------------------------------------------------------------------------------
+
+// What tells one run from all others. Process numbers repeat in containers, so where and with which
+// words it was started counts too.
+std::string identity_of(const RunRecord& run) {
+  std::string words;
+  for (const std::string& word : {run.tool, run.host, std::to_string(run.process_id), run.started,
+                                  run.folder, run.command_line})
+    words += word + '\n';
+  return words;
+}
+
+struct RunSource {
+  RunRecord run;
+  std::string db;  ///< that it stands in
+};
+
+std::vector<RunSource> read_sources(const std::vector<std::string>& files) {
+  std::vector<RunSource> sources;
+  for (const std::string& db : files) {
+    with_registry(db, [&] {
+      SQLite::Database database = open_to_read(db);
+      for (RunRecord& run : read_rows(database)) {
+        read_details(database, run);
+        sources.push_back({std::move(run), db});
+      }
+    });
+  }
+  // Ancestry goes by rows: a run stands below those that made its inputs.
+  std::stable_sort(sources.begin(), sources.end(), [](const RunSource& a, const RunSource& b) {
+    return a.run.started < b.run.started;
+  });
+  return sources;
+}
+
+class RegistryMerger {
+ public:
+  RegistryMerger(SQLite::Database& database, std::string db)
+      : database_(database), db_(std::move(db)) {
+    for (const RunRecord& run : read_rows(database)) known_[identity_of(run)] = {run.id, db_};
+  }
+
+  void take(const RunSource& source) {
+    RunRecord run = source.run;
+    const auto known = known_.find(identity_of(run));
+    if (known == known_.end()) {
+      run.id = insert_running(database_, run);
+      complete(database_, run);
+      known_[identity_of(run)] = {run.id, source.db};
+      ++merge.n_added;
+      return;
+    }
+    run.id = known->second.id;
+    const RunRecord there = row(run.id);
+    if (run == there || run.status == "running") {
+      ++merge.n_known;
+    } else if (there.status == "running") {
+      complete(database_, run);
+      ++merge.n_completed;
+    } else {
+      refuse_difference(source, there, known->second.db);
+    }
+  }
+
+  RegistryMerge merge;
+
+ private:
+  struct Place {
+    std::int64_t id;
+    std::string db;
+  };
+
+  [[nodiscard]] RunRecord row(std::int64_t id) {
+    SQLite::Statement statement(database_, std::string(run_columns) + "WHERE id = ?");
+    statement.bind(1, id);
+    statement.executeStep();
+    RunRecord run = read_columns(statement);
+    read_details(database_, run);
+    return run;
+  }
+
+  [[noreturn]] static void refuse_difference(const RunSource& source, const RunRecord& there,
+                                             const std::string& other_db) {
+    throw InputError({source.db},
+                     "run " + std::to_string(source.run.id) + " (" + there.tool + " on " +
+                         there.host + ", process " + std::to_string(there.process_id) +
+                         ", started " + there.started + ") is not as it stands in " + other_db,
+                     "one of them was changed or damaged: leave it out; nothing was merged");
+  }
+
+  SQLite::Database& database_;
+  std::string db_;
+  std::map<std::string, Place> known_;
+};
 
 }  // namespace
 
@@ -289,23 +407,27 @@ void finish_run(const std::string& db, const RunRecord& run, int wait_ms) {
   with_registry(db, [&] {
     SQLite::Database database = open_to_write(db, wait_ms);
     SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
-    replace_results(database, run);
-    insert(database,
-           "UPDATE run SET ended = ?, status = ?, exit_code = ?, cpu_time_s = ?, wall_time_s = ?, "
-           "peak_memory_kb = ? WHERE id = ?",
-           run.ended, run.status, run.exit_code, run.cpu_time_s, run.wall_time_s,
-           run.peak_memory_kb, run.id);
+    complete(database, run);
     transaction.commit();
+  });
+}
+
+RegistryMerge merge_runs(const std::string& db, const std::vector<std::string>& others) {
+  const std::vector<RunSource> sources = read_sources(others);
+  return with_registry(db, [&] {
+    SQLite::Database database = open_to_write(db, registry_wait_ms());
+    SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
+    RegistryMerger merger(database, db);
+    for (const RunSource& source : sources) merger.take(source);
+    transaction.commit();
+    return merger.merge;
   });
 }
 
 std::vector<RunRecord> list_runs(const std::string& db) {
   return with_registry(db, [&] {
     SQLite::Database database = open_to_read(db);
-    SQLite::Statement row(database, std::string(run_columns) + "ORDER BY id");
-    std::vector<RunRecord> runs;
-    while (row.executeStep()) runs.push_back(read_columns(row));
-    return runs;
+    return read_rows(database);
   });
 }
 

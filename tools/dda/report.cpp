@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/text.hpp"
+#include "post/fragment_sizes.hpp"
 #include "record/deep_rows.hpp"
 #include "tools/frame/moved_json.hpp"
 
@@ -113,7 +114,7 @@ std::string trouble_summary(const Json& report) {
   const auto said = [&report](const char* key, const std::string& what) {
     return report[key].get<std::int64_t>() == 0 ? "" : ", " + report[key].dump() + what;
   };
-  return said("left_domain", " left the terrain") +
+  return said("n_breaks", " breaks into two") + said("left_domain", " left the terrain") +
          said("unconverged", " steps of a block accepted unconverged");
 }
 
@@ -166,6 +167,54 @@ std::string deep_warning(const RunFile& file) {
   return words + (rows.size() > most ? "; all stand in deep_blocks of the run" : "");
 }
 
+// Blocks that were crushed: which, when, where, by what load.
+Json crushed_blocks_of(const RunFile& file) {
+  Json list = Json::array();
+  for (const CrushedBlock& row : file.crushed) {
+    const Vec3 at = row.place + file.info.origin;
+    list.push_back({{"block", row.block},
+                    {"time_s", row.time},
+                    {"load_n", row.load},
+                    {"strength_n", row.strength},
+                    {"position_m", {at.x(), at.y(), at.z()}},
+                    {"volume_m3", row.volume},
+                    {"mass_kg", row.mass}});
+  }
+  return list;
+}
+
+// What the run says of them in one line.
+std::string crushed_warning(const RunFile& file) {
+  double volume = 0, mass = 0, all = 0;
+  for (const CrushedBlock& row : file.crushed) volume += row.volume, mass += row.mass;
+  for (const double m : file.blocks.mass) all += m;
+  const CrushedBlock& first = file.crushed.front();
+  const Vec3 at = first.place + file.info.origin;
+  const bool is_one = file.crushed.size() == 1;
+  return counted(static_cast<std::int64_t>(file.crushed.size()), "small block") + " of " +
+         text(volume, 3) + " m3, " + text(100 * mass / all, 3) + " % of the mass, " +
+         (is_one ? "was" : "were") +
+         " crushed; the debris bears nothing and counts where it lies (" +
+         (is_one ? "" : "first ") + "block " + std::to_string(first.block) + " at " +
+         text(first.time, 4) + " s near " + text(at.x(), 7) + ", " + text(at.y(), 7) + ", " +
+         text(at.z(), 5) + "; all stand in crushed_blocks of the run)";
+}
+
+// Pieces of blocks that broke, and what their breaking took.
+Json fragments_of(const RunFile& file) {
+  const FragmentSizes sizes = fragment_sizes(file);
+  double fracture = 0;
+  for (const Break& row : file.breaks) fracture += row.fracture;
+  Json json = {{"n_pieces", sizes.n_pieces},
+               {"n_unbroken", sizes.n_unbroken},
+               {"unbroken_share", sizes.unbroken_share},
+               {"largest_m3", sizes.largest},
+               {"fracture_j", fracture},
+               {"fractal_dimension", nullptr}};
+  if (std::isfinite(sizes.dimension)) json["fractal_dimension"] = sizes.dimension;
+  return json;
+}
+
 }  // namespace
 
 Json plan_json(const ScenePlan& plan) {
@@ -191,6 +240,7 @@ Json run_report(const Runner& runner, const ScenePlan& plan, double cpu_s) {
                {"impacts", counters.impacts},
                {"unconverged", counters.unconverged},
                {"left_domain", counters.left_domain},
+               {"n_breaks", file.breaks.size()},
                {"n_passages", file.passages.size()},
                {"n_crossings", file.crossings.size()},
                {"n_fence_hits", file.fence_hits.size()},
@@ -208,6 +258,8 @@ Json run_report(const Runner& runner, const ScenePlan& plan, double cpu_s) {
                               {"limit", check.limit},
                               {"pass", check.pass},
                               {"where", check.where}});
+  json["crushed_blocks"] = crushed_blocks_of(file);
+  if (!file.breaks.empty()) json["fragments"] = fragments_of(file);
   json["deep_blocks"] = deep_blocks_of(file);
   json["plan"] = plan_json(plan);
   return json;
@@ -236,11 +288,13 @@ void warn_of_standing_mass(Tool& tool, const RunFile& file) {
 
 void record_health(Tool& tool, Runner& runner) {
   runner.file.deep = deep_rows(runner.scene, runner.state, runner.crossings.rows);
-  if (!runner.file.deep.empty()) {
-    const std::string words = deep_warning(runner.file);
+  runner.file.crushed = runner.state.crushed;
+  const auto warn = [&](const std::string& words) {
     tool.warn(words);
     runner.file.info.warnings += (runner.file.info.warnings.empty() ? "" : "\n") + words;
-  }
+  };
+  if (!runner.file.crushed.empty()) warn(crushed_warning(runner.file));
+  if (!runner.file.deep.empty()) warn(deep_warning(runner.file));
   for (const HealthCheck& check : health_checks(runner)) {
     const std::string hint = health_hint(check.name);
     tool.check(check.name, check.value, check.limit, check.pass,

@@ -8,13 +8,15 @@
 
 #include "base/processor_time.hpp"
 #include "base/text.hpp"
+#include "post/reduce.hpp"
+#include "record/pieces.hpp"
 #include "run/runner.hpp"
 #include "scene/site_scene.hpp"
 #include "store/xdmf_hdf5.hpp"
 #include "terrain/trn_flags.hpp"
 #include "tools/dda/report.hpp"
-#include "tools/dda/settings.hpp"
 #include "tools/frame/build_info.hpp"
+#include "tools/frame/run_settings.hpp"
 #include "tools/frame/scene_inputs.hpp"
 #include "tools/frame/site_crs.hpp"
 #include "tools/frame/site_options.hpp"
@@ -63,7 +65,7 @@ void declare(Tool& tool, SiteOptions& site, Options& o) {
   // All that was given or read counts for the run's id, but for what a resumed run may differ in.
   // The site file counts by its effective values.
   tool.leave_out_of_run_id(site.names());
-  tool.leave_out_of_run_id({"resume", "output.checkpoint_interval_s"});
+  tool.leave_out_of_run_id({"resume", "output.checkpoint_interval_s", "output.frames"});
 }
 
 // --- the plan ----------------------------------------------------------------------------------
@@ -140,7 +142,9 @@ Runner runner_of(Tool& tool, const Scene& scene, const RunOptions& options,
   }
   RunFile part;
   try {
-    part = read_run_file(part_of(o));
+    RunParts parts;
+    parts.merge_pieces = false;  // all bodies that may still come off
+    part = read_run_file(part_of(o), parts);
   } catch (const InputError& error) {
     if (!tool.overwrite())
       throw InputError({}, error.what(), "--overwrite starts again from the beginning");
@@ -198,8 +202,9 @@ class Checkpoints {
   Clock::time_point next_ = Clock::now() + to_duration(interval_s_);
 };
 
-// To the end, to a broken limit, or to a signal.
-void compute(Tool& tool, Runner& runner, const std::string& part, double interval_s) {
+// To the end, to a broken limit, to where the mass stands, or to a signal.
+void compute(Tool& tool, Runner& runner, const std::string& part, double interval_s,
+             bool may_end_standing) {
   Checkpoints checkpoints(tool, part, interval_s);
   const ProgressFunction progress = tool.progress();
   std::size_t n_rows = runner.file.health.size();
@@ -213,18 +218,33 @@ void compute(Tool& tool, Runner& runner, const std::string& part, double interva
     if (runner.file.health.size() > n_rows) {  // once an interval: clocks and limits
       n_rows = runner.file.health.size();
       if (has_failed(runner)) break;
+      if (may_end_standing && stands(runner)) break;
       progress(std::min(1.0, runner.state.time / runner.options.duration));
       checkpoints.write_if_due(runner);
     }
   }
   finish(runner);
+  if (!may_end_standing || is_over(runner) || has_failed(runner)) return;
+  const std::string words = "the mass stands: no block moved more than " + text(standing_within_m) +
+                            " m in " + text(runner.state.time, 3) + " s; the other " +
+                            text(runner.options.duration - runner.state.time, 3) +
+                            " s were left out";
+  tool.warn(words);
+  runner.file.info.warnings += (runner.file.info.warnings.empty() ? "" : "\n") + words;
 }
 
-void write_outputs(Tool& tool, Runner& runner, const Options& o) {
+void write_outputs(Tool& tool, Runner& runner, const Site& site, const Trn& trn, const Options& o) {
   runner.file.info.status = "done";
   record_health(tool, runner);
   update_file(runner, false);
-  write_run_file(tool.stage(o.out), runner.file);
+  const std::string path = tool.stage(o.out);
+  if (site.output.frames) {
+    write_run_file(path, runner.file);
+    merge_pieces(runner.file);
+  } else {
+    merge_pieces(runner.file);  // the reach is that of the pieces
+    write_run_file(path, without_frames(runner.file, trn, {}));
+  }
   if (o.xdmf.empty()) return;
   const fs::path data = xdmf_data_of(o);
   write_xdmf(tool.stage(o.xdmf), tool.stage(data.string()), data.filename().string(), runner.file);
@@ -267,14 +287,16 @@ int main(int argc, char** argv) {
     warn_of_plan(tool, site, plan, inputs);
     check_start(tool, site, inputs, o.files, plan.block_contacts);
     tool.detail(as_text(plan));
+    cut_fragments(tool, site, inputs);
     RunFile file = new_file(tool.run_id(), site, inputs, plan);
     const BlockSet blocks = inputs.parts.blocks;
     const Scene scene = make_site_scene(site, plan, std::move(inputs.parts));
     file.blocks = run_blocks(scene, blocks);
     Runner runner =
         runner_of(tool, scene, run_options(site, plan, o), inputs.lines, std::move(file), o);
-    compute(tool, runner, part_of(o), site.output.checkpoint_interval_s);
-    write_outputs(tool, runner, o);
+    compute(tool, runner, part_of(o), site.output.checkpoint_interval_s,
+            site.solver.end_when_standing);
+    write_outputs(tool, runner, site, scene.ground.trn, o);
     const Json report = run_report(runner, plan, processor_seconds() - cpu_start);
     for (const char* key : {"steps", "impacts", "unconverged", "left_domain", "largest_speed_m_s"})
       tool.metric(key, report[key].get<double>(),

@@ -5,6 +5,7 @@
 
 #include "base/csv.hpp"
 #include "base/sha256.hpp"
+#include "post/reduce.hpp"
 #include "tools/frame/shipped_data.hpp"
 #include "tools/frame/site_places.hpp"
 
@@ -22,15 +23,35 @@ void check_built_alike(const RunFile& run, const FenceSettings& expected, const 
   check_same_fence(*stood, expected, file, site_file);
 }
 
+// What touched a standing fence is told by its panels, or else by the frames alone.
+void check_frames(const RunFile& run, int line, const std::string& file) {
+  const bool has_panels = std::any_of(run.panels.begin(), run.panels.end(),
+                                      [line](const PanelRow& panel) { return panel.line == line; });
+  if (has_panels || !run.reach) return;
+  throw InputError({file}, "has no frames, and did not record what its fences met",
+                   "give the run with its frames");
+}
+
 // The line of each fence in a run.
 std::vector<int> lines_of(const RunFile& run, const std::vector<FenceCase>& fences,
                           const std::string& file, const std::string& site_file) {
   std::vector<int> lines;
   for (const FenceCase& fence : fences) {
     lines.push_back(find_line(run, fence, file, site_file));
-    if (run.lines[lines.back()].standing) check_built_alike(run, fence.settings, file, site_file);
+    if (!run.lines[lines.back()].standing) continue;
+    check_built_alike(run, fence.settings, file, site_file);
+    check_frames(run, lines.back(), file);
   }
   return lines;
+}
+
+// Largest speeds of the runs of a part that were not left out, by cell.
+void add_speeds(GroundSums& sums, const PartInput& part) {
+  constexpr std::uint64_t most_rows = 1'000'000;
+  for_each_strip(part.file, 1, {}, most_rows, [&](const auto& by_run) {
+    for (std::size_t r = 0; r < by_run.size(); ++r)
+      if (part.member[r] >= 0) add_speeds(sums, by_run[r]);
+  });
 }
 
 }  // namespace
@@ -78,17 +99,21 @@ FenceRuns read_fence_runs(RunInputs& inputs, const std::vector<std::string>& wit
   FenceRuns out;
   out.grid = passage_grid(trn, 0);
   std::vector<FenceRun> runs;
-  const auto take = [&](RunFile& run, int index) {
-    if (run.grid.n_rows > 0) out.grid = run.grid;
-    add_run(runs.size() < inputs.files.size() ? out.ground_with : out.ground_without, out.grid, run,
-            inputs.rest_speed_m_s);
-    const std::vector<int> lines = lines_of(run, fences, inputs.members[index].file, site_file);
-    runs.push_back(run_at_fences(run, index, fences, lines, code, settings, trn));
+  const auto take_into = [&](GroundSums& ground) {
+    return [&](RunFile& run, int index) {
+      if (run.grid.n_rows > 0) out.grid = run.grid;
+      add_run(ground, out.grid, run, inputs.rest_speed_m_s);
+      const std::string file = where_of(inputs.members[index]);
+      const std::vector<int> lines = lines_of(run, fences, file, site_file);
+      runs.push_back(run_at_fences(run, index, fences, lines, code, settings, trn));
+    };
   };
   const RunParts parts{.checkpoint = false};
-  inputs.read(parts, take);
-  const std::size_t n_with = runs.size();
-  inputs.read(without_files, parts, take);
+  inputs.read(parts, take_into(out.ground_with));
+  const std::size_t n_with = runs.size(), n_parts_with = inputs.parts().size();
+  inputs.read(without_files, "runs_without", parts, take_into(out.ground_without));
+  for (std::size_t p = 0; p < inputs.parts().size(); ++p)
+    add_speeds(p < n_parts_with ? out.ground_with : out.ground_without, inputs.parts()[p]);
   const auto split = [&](std::size_t first, std::size_t last) {
     return FenceRunGroup{{inputs.members.begin() + first, inputs.members.begin() + last},
                          {runs.begin() + first, runs.begin() + last}};

@@ -16,7 +16,7 @@ VectorStyle verdict_style(SymbolKind kind, double size) {
           "verdict",
           {{"stopped", "stopped", {51, 160, 44, 255}},
            {"pierced", "pierced", {227, 26, 28, 255}},
-           {"free_border", "free border", {253, 191, 111, 255}},
+           {"free_border", "freeboard", {253, 191, 111, 255}},
            {"overtopped", "overtopped", {255, 127, 0, 255}},
            {"bypassed_left", "bypassed on the left", {106, 61, 154, 255}},
            {"bypassed_right", "bypassed on the right", {202, 178, 214, 255}},

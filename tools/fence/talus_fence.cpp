@@ -17,7 +17,7 @@ namespace {
 using namespace talus;  // NOLINT: a program of its own
 
 struct Options {
-  std::string out, json, csv, change, code = "uni";
+  std::string out, json, csv, change, without_from, code = "uni";
   std::vector<std::string> without;
   FenceResultSettings result;
 };
@@ -28,7 +28,8 @@ void declare(Tool& tool, Options& o) {
   tool.output("-o,--out", o.out, "fields, posts and arrivals (GeoPackage)")->required();
   tool.json_output(o.json, "verdicts, statistics, design check, comparison (JSON)");
   tool.output("--csv", o.csv, "one row a block and fence: its verdict (CSV)");
-  tool.inputs("--without", o.without, "runs without the fence, to compare with");
+  tool.inputs("--without", o.without, "runs or parts without the fence, to compare with");
+  tool.input("--without-from", o.without_from, "list of these, a line each, taken as well");
   tool.output("--change", o.change,
               "deposit and speed with the fences minus those of --without (GeoTIFF; style and "
               "picture beside it)");
@@ -80,7 +81,7 @@ void warn_of(Tool& tool, const FenceCase& fence, std::size_t i, const FenceResul
 
 MapTags output_tags(Tool& tool, const RunInputs& inputs, const FenceRuns& runs,
                     const std::string& remark) {
-  MapTags tags = tags_of(runs.with.members);
+  MapTags tags = tags_of(runs.with.members, inputs.left_out);
   tags.insert(tags.begin(), {{"RUN_ID", tool.run_id()}, {"RUN_SET", inputs.run_set()}});
   if (n_runs(runs.without) > 0)
     for (const auto& [name, value] : tags_of(runs.without.members))
@@ -101,6 +102,10 @@ void write_change(Tool& tool, const std::string& path, const FenceRuns& runs, co
 void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& inputs) {
   const Site& site = site_options.load();
   const FenceCode code = read_fence_code(o.code);
+  for (const std::string& path : listed_files(o.without_from)) {
+    tool.read_also("without", path);
+    o.without.push_back(path);
+  }
   if (!o.change.empty() && o.without.empty())
     throw InputError({"", 0, "--change"}, "has nothing to compare with",
                      "give runs without the fences by --without");
@@ -111,7 +116,7 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& inpu
       read_fence_runs(inputs, o.without, fences, code.code, o.result.design.free_border, site.file);
   const bool compared = n_runs(runs.without) > 0;
 
-  const ShareBasis basis = verdict_basis(runs.with, o.result.seed);
+  const ShareBasis basis = verdict_basis(runs.with, inputs.failed_share());
   std::vector<FenceResult> results;
   Json fence_list = Json::array();
   std::string summary;
@@ -133,7 +138,7 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& inpu
   Json tag_list;
   for (const auto& [key, value] : tags) tag_list[key] = value;
   Json result = {{"run_id", tool.run_id()}, {"tags", tag_list}, {"fences", fence_list}};
-  add_faults(result, faults_of(inputs.members));
+  add_faults(result, faults_of(inputs.members, inputs.left_out));
   if (compared)
     result["deposit_change"] = deposit_change_json(runs.ground_with, runs.ground_without);
   tool.result(result, summary);

@@ -10,14 +10,18 @@ namespace talus {
 [[nodiscard]] inline Json fault_json(const std::vector<RunFault>& faults) {
   Json list = Json::array();
   for (const RunFault& fault : faults)
-    list.push_back({{"run", fault.name}, {"run_id", fault.run_id}, {"reason", fault.words}});
+    list.push_back({{"run", fault.name},
+                    {"run_id", fault.run_id},
+                    {"seed", fault.seed},
+                    {"reason", fault.words}});
   return list;
 }
 
-/// Adds the keys failed_runs and unfinished_runs.
+/// Adds the keys failed_runs, unfinished_runs and, where there are any, left_out_runs.
 inline void add_faults(Json& result, const RunFaults& faults) {
   result["failed_runs"] = fault_json(faults.failed);
   result["unfinished_runs"] = fault_json(faults.unfinished);
+  if (!faults.left_out.empty()) result["left_out_runs"] = fault_json(faults.left_out);
 }
 
 }  // namespace talus

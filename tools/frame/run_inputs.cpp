@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <sstream>
 
+#include "base/read_file.hpp"
 #include "base/sha256.hpp"
+#include "base/text.hpp"
 #include "post/deposit.hpp"
 #include "tools/frame/command_line.hpp"
 
@@ -24,19 +27,39 @@ std::uintmax_t bytes_of(const std::vector<std::string>& paths) {
   return sum;
 }
 
+// What results depend on: which runs, and how far each came.
+std::string content_of(const std::vector<RunMember>& runs) {
+  std::vector<std::string> ids;
+  for (const RunMember& run : runs)
+    ids.push_back(run.info.run_id + " " + run.info.status + " " + text(run.info.time));
+  return run_set_id(std::move(ids));
+}
+
 }  // namespace
 
-RunInputs::RunInputs(Tool& tool) : tool_(tool) {
-  tool.inputs("run", files, "runs written by talus-dda (HDF5), in any order");
+RunInputs::RunInputs(Tool& tool, RunUse use) : tool_(tool) {
+  tool.inputs("run", files_, "runs of talus-dda and parts of talus-reduce (HDF5), in any order")
+      ->required(false);
+  tool.input("--runs-from", runs_from_, "list of runs and parts, a line each, taken as well");
   tool.input("--trn", trn_file, "terrain of the runs (GeoTIFF of talus-trn)")->required();
+  tool.flag("--allow-unfinished", allow_unfinished,
+            "take runs that were interrupted before their end; every output is marked");
+  tool.leave_out_of_run_id({"run", "runs-from", "without", "without-from", "compare",
+                            "compare-from"});  // the runs themselves stand for them
+  if (use == RunUse::reduced) {
+    max_failed_share = 0;
+    return;
+  }
   tool.option("--rest-speed-m-s", rest_speed_m_s,
               "blocks slower than this at the end count as deposited [m/s]")
       ->check(number_between(0, 1000));
-  tool.flag("--allow-unfinished", allow_unfinished,
-            "take runs that were interrupted before their end; every output is marked");
   tool.option("--missing", n_missing,
               "runs that were wanted and are not there: every output says so")
       ->check(number_between(0, 1e9));
+  tool.option("--max-failed-share", max_failed_share,
+              "up to this share, runs that failed are left out and widen the intervals; of more, "
+              "every output says so")
+      ->check(number_between(0, 1));
 }
 
 const Trn& RunInputs::trn() {
@@ -46,36 +69,125 @@ const Trn& RunInputs::trn() {
   return trn_;
 }
 
-void RunInputs::read(const std::vector<std::string>& paths, const RunParts& parts,
-                     const std::function<void(RunFile&, int)>& take) {
-  if (set_options_.trn_sha256.empty())
-    set_options_ = {allow_unfinished, trn_file, sha256_of_file(trn_file)};
-  const bool at_once = parts.only_last_frame && bytes_of(paths) <= most_at_once;
-  std::vector<RunMember> found;
-  std::vector<RunFile> runs;
-  for (const std::string& path : paths) {
-    RunFile run = at_once ? read_run_file(path, parts) : read_run_head(path);
-    found.push_back(member_of(path, run));
-    check_member(found.back(), members.empty() ? found.front() : members.front(), set_options_);
-    if (!at_once) continue;
-    std::vector<HealthRow>().swap(run.health);
-    runs.push_back(std::move(run));
-    tool_.progress()(static_cast<double>(runs.size()) / static_cast<double>(paths.size()));
+const std::vector<std::string>& RunInputs::files() {
+  if (has_listed_) return files_;
+  has_listed_ = true;
+  for (const std::string& path : listed_files(runs_from_)) {
+    tool_.read_also("run", path);
+    files_.push_back(path);
   }
+  if (files_.empty() && runs_from_.empty())
+    throw UsageError({"", 0, "run"}, "no run is named", "give RUN.h5..., or --runs-from FILE");
+  if (files_.empty()) throw InputError({runs_from_}, "names no run", "give it a line a run");
+  return files_;
+}
+
+// The runs of a set, before they are put in order.
+struct RunInputs::Found {
+  std::vector<RunMember> members;
+  std::vector<Place> places;
+  std::vector<RunFile> runs;  // held; of runs of parts, and of all where not all are held, empty
+};
+
+RunInputs::Found RunInputs::look_at(const std::vector<std::string>& paths, const RunParts& parts,
+                                    bool at_once) {
+  Found found;
+  const ProgressFunction progress = tool_.progress();
+  const auto add = [&](const std::string& name, RunFile&& run, const Place& place) {
+    found.members.push_back(member_of(name, run));
+    if (place.part >= 0) found.members.back().part = part_files_[place.part];
+    check_member(found.members.back(), members.empty() ? found.members.front() : members.front(),
+                 set_options_);
+    found.places.push_back(place);
+    if (!at_once || place.part >= 0) run = {};
+    std::vector<HealthRow>().swap(run.health);
+    found.runs.push_back(std::move(run));
+  };
+  std::size_t n_read = 0;
+  for (const std::string& path : paths) {
+    if (is_part_file(path)) {
+      const int p = static_cast<int>(parts_.size());
+      parts_.push_back({PartFile(path), {}});
+      part_files_.push_back(path);
+      const Part& part = parts_.back().file.part;
+      parts_.back().member.assign(static_cast<std::size_t>(n_runs(part)), -1);
+      for (int r = 0; r < n_runs(part); ++r) add(part.name[r], run_of(part, r), {p, r});
+    } else {
+      add(path, at_once ? read_run_file(path, parts) : read_run_head(path), {});
+    }
+    progress(static_cast<double>(++n_read) / static_cast<double>(paths.size()));
+  }
+  return found;
+}
+
+void RunInputs::leave_out_failed(Found& found, bool is_first) {
+  const auto is_failed = [](const RunMember& run) { return run.info.status == "failed"; };
+  const auto n_failed = std::count_if(found.members.begin(), found.members.end(), is_failed);
+  const FailedShare failed =
+      talus::failed_share(static_cast<int>(found.members.size()), static_cast<int>(n_failed),
+                          is_first ? n_missing : 0, max_failed_share);
+  last_failed_share_ = failed.share;
+  if (is_first) failed_share_ = failed.share;
+  if (!failed.is_left_out || n_failed == 0) return;
+  Found kept;
+  for (std::size_t i = 0; i < found.members.size(); ++i) {
+    if (is_failed(found.members[i])) {
+      left_out.push_back(std::move(found.members[i]));
+      continue;
+    }
+    kept.members.push_back(std::move(found.members[i]));
+    kept.places.push_back(found.places[i]);
+    kept.runs.push_back(std::move(found.runs[i]));
+  }
+  found = std::move(kept);
+}
+
+// Lengths of a run without frames are those that were measured when it had them.
+void RunInputs::check_reach(const RunFile& run, const RunMember& member) const {
+  if (!run.reach || run.reach->tolerance == path_tolerance_m) return;
+  throw InputError(
+      {where_of(member)},
+      "has no frames, and its lengths are of paths simplified to " + text(run.reach->tolerance) +
+          " m, expected " + text(path_tolerance_m) + " m",
+      "give --path-tolerance-m " + text(run.reach->tolerance) + ", or runs with their frames");
+}
+
+void RunInputs::read(const std::vector<std::string>& paths, const std::string& role,
+                     const RunParts& parts, const std::function<void(RunFile&, int)>& take) {
+  const bool is_first = set_options_.trn_sha256.empty();
+  if (is_first) set_options_ = {allow_unfinished, trn_file, sha256_of_file(trn_file)};
+  const bool at_once = parts.only_last_frame && bytes_of(paths) <= most_at_once;
+  Found found = look_at(paths, parts, at_once);
+  static_cast<void>(order_by_id(found.members));  // the same run twice
+  tool_.content_read(role, content_of(found.members));
+  leave_out_failed(found, is_first);
   const std::size_t first = members.size();
-  const std::vector<int> order = order_by_id(found);
-  for (const int i : order) members.push_back(std::move(found[i]));
+  const std::vector<int> order = order_by_id(found.members);
+  for (const int i : order) {
+    const Place place = found.places[i];
+    if (place.part >= 0) parts_[place.part].member[place.run] = static_cast<int>(members.size());
+    members.push_back(std::move(found.members[i]));
+    places_.push_back(place);
+  }
+  if (is_first) n_first_ = members.size();
   const auto hand_over = [&](RunFile& run, int i) {
     members[i].n_moving = balance_of(run, rest_speed_m_s).n_moving;
+    check_reach(run, members[i]);
     take(run, i);
   };
   if (at_once) {
-    for (std::size_t k = 0; k < runs.size(); ++k)
-      hand_over(runs[order[k]], static_cast<int>(first + k));
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      const Place place = places_[first + k];
+      RunFile run = place.part >= 0 ? run_of(parts_[place.part].file.part, place.run)
+                                    : std::move(found.runs[order[k]]);
+      hand_over(run, static_cast<int>(first + k));
+    }
     return;
   }
   read_members(first, parts, [&](RunFile& run, int i) {
+    const std::string part = members[i].part;
     members[i] = member_of(members[i].file, run);
+    members[i].part = part;
     hand_over(run, i);
   });
 }
@@ -90,7 +202,9 @@ void RunInputs::read_members(std::size_t first, const RunParts& parts,
   const auto n = static_cast<double>(members.size() - first);
   for (std::size_t i = first; i < members.size(); ++i) {
     progress(static_cast<double>(i - first) / n);
-    RunFile run = read_run_file(members[i].file, parts);
+    const Place place = places_[i];
+    RunFile run = place.part >= 0 ? run_of(parts_[place.part].file.part, place.run)
+                                  : read_run_file(members[i].file, parts);
     take(run, static_cast<int>(i));
   }
   progress(1);
@@ -115,21 +229,39 @@ void RunInputs::warn_of_ends() const {
 
 std::string RunInputs::run_set() const {
   std::vector<std::string> ids;
-  for (std::size_t i = 0; i < files.size(); ++i) ids.push_back(members[i].info.run_id);
+  for (std::size_t i = 0; i < n_first_; ++i) ids.push_back(members[i].info.run_id);
   return run_set_id(std::move(ids));
 }
 
 std::string RunInputs::remark() const {
-  const RunFaults faults = faults_of(members);
-  std::string words = text(faults), short_words = headline(faults);
+  const RunFaults faults = faults_of(members, left_out);
+  std::string words = text(faults), short_words = headline(faults), few = left_out_text(faults);
   if (n_missing > 0) {
-    const std::string missing = std::to_string(n_missing) + " of " +
-                                std::to_string(static_cast<int>(members.size()) + n_missing) +
-                                " runs missing";
-    for (std::string* all : {&words, &short_words}) *all += (all->empty() ? "" : "; ") + missing;
+    const int n_wanted = static_cast<int>(n_first_ + left_out.size()) + n_missing;
+    const std::string missing =
+        std::to_string(n_missing) + " of " + std::to_string(n_wanted) + " runs missing";
+    const auto add = [&missing](std::string& to) { to += (to.empty() ? "" : "; ") + missing; };
+    if (n_missing + static_cast<int>(left_out.size()) <= max_failed_share * n_wanted) {
+      add(few);
+    } else {
+      add(words);
+      add(short_words);
+    }
   }
+  if (!few.empty()) tool_.warn(few + ": the intervals of shares count them");
   if (!words.empty()) tool_.warn(words + ": every output says so");
   return short_words;
+}
+
+std::vector<std::string> listed_files(const std::string& list) {
+  std::vector<std::string> files;
+  if (list.empty()) return files;
+  std::istringstream lines(read_file(list));
+  for (std::string line; std::getline(lines, line);) {
+    if (line.ends_with("\r")) line.pop_back();
+    if (!line.empty()) files.push_back(line);
+  }
+  return files;
 }
 
 void mark_layers(std::vector<VectorLayer>& layers, const std::string& remark) {

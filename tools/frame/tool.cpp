@@ -36,10 +36,17 @@ std::string one_line(std::string words) {
 
 // The value of an option on a command line that could not be parsed; "" where it is not there.
 std::string word_after(const std::string& option, int argc, char** argv) {
-  for (int i = 1; i + 1 < argc; ++i)
-    if (argv[i] == option) return argv[i + 1];
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word == option && i + 1 < argc) return argv[i + 1];
+    if (word.starts_with(option + "=")) return word.substr(option.size() + 1);
+  }
   return "";
 }
+
+// The levels of messages. A hint belongs to the error before it.
+constexpr const char *info_level = "info", *warning_level = "warning", *error_level = "error",
+                     *hint_level = "hint";
 
 }  // namespace
 
@@ -62,7 +69,6 @@ struct Tool::Impl {
   bool in_place = false;    // the outputs
   std::vector<std::string> failures;
   std::set<std::string> hints;  // for what failed
-  bool on_terminal = isatty(STDERR_FILENO) == 1;
   ProgressLine progress_line;
 
   Impl(std::string tool_name, std::string purpose)
@@ -72,9 +78,23 @@ struct Tool::Impl {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
 
-  void print(const std::string& text) {
-    progress_line.end("");
-    std::cerr << labelled(text) << std::endl;
+  void say(const char* level, const std::string& text) {
+    progress_line.end();
+    std::cerr << (options.messages == "json" ? as_object(level, text) : as_words(level, text))
+              << std::endl;
+  }
+
+  std::string as_words(const std::string& level, const std::string& text) const {
+    if (level == info_level) return labelled(text);
+    if (level == hint_level) return labelled("  hint: " + text);
+    return labelled(name + (level == warning_level ? ": warning: " : ": ") + text);
+  }
+
+  std::string as_object(const std::string& level, const std::string& text) const {
+    nlohmann::ordered_json object = {{"level", level}, {"tool", name}};
+    if (!options.label.empty()) object["label"] = options.label;
+    object["text"] = text;
+    return object.dump(-1, ' ', false, Json::error_handler_t::replace);
   }
 
   std::string labelled(const std::string& text) const {
@@ -127,7 +147,7 @@ struct Tool::Impl {
       record.id = start_run(registry_path(options), record);
     } catch (const RegistryBusy& error) {
       is_late = true;
-      print(name + ": warning: " + error.what() + "; the run is recorded when it has ended");
+      say(warning_level, std::string(error.what()) + "; the run is recorded when it has ended");
     }
     record.content_id.clear();  // the body may name further inputs
   }
@@ -152,13 +172,14 @@ struct Tool::Impl {
   // An output is worth more than its entry: this stands in a registry of its own then.
   void keep_late_record(const std::string& why) {
     const std::string db = registry_path(options), late = late_registry(db);
-    std::string found = "warning: " + why + "; whatever this run wrote is in place, its entry ";
+    const std::string found = why + "; whatever this run wrote is in place, its entry ";
     try {
       add_run(late, record);
-      print(name + ": " + found + "is in " + late);
-      print("  hint: talus-runs --db " + db + " adopt enters it once the registry can be written");
+      say(warning_level, found + "is in " + late);
+      say(hint_level,
+          "talus-runs --db " + db + " adopt enters it once the registry can be written");
     } catch (const InputError&) {
-      print(name + ": " + found + "is lost");
+      say(warning_level, found + "is lost");
     }
   }
 
@@ -222,7 +243,7 @@ struct Tool::Impl {
     try {
       put_in_place(kept, now);
     } catch (const InputError& error) {
-      print(name + ": " + error.what());
+      say(error_level, error.what());
     }
   }
 
@@ -232,7 +253,7 @@ struct Tool::Impl {
     remove_staged(staged);
     staged.clear();
     event("error", what);
-    print(name + ": " + what);
+    say(error_level, what);
     say_hint(hint);
     failures.push_back(what);
     return code;
@@ -240,12 +261,12 @@ struct Tool::Impl {
 
   void say_hint(const std::string& hint) {
     if (hint.empty()) return;
-    print("  hint: " + hint);
+    say(hint_level, hint);
     hints.insert(hint);
   }
 
   // For who started many runs and lists what became of them.
-  void write_failures(int code) const {
+  void write_failures(int code) {
     if (options.failures.empty()) return;
     std::error_code error;
     fs::remove(options.failures, error);
@@ -254,7 +275,7 @@ struct Tool::Impl {
     const char* outputs = in_place ? "kept\t" : "none\t";
     for (const std::string& what : failures) file << outputs << one_line(what) << '\n';
     for (const std::string& hint : hints) file << "hint\t" << one_line(hint) << '\n';
-    if (!file.flush()) std::cerr << name << ": " << options.failures << ": cannot be written\n";
+    if (!file.flush()) say(error_level, options.failures + ": cannot be written");
   }
 
   int guarded(const std::function<int()>& work) {
@@ -278,7 +299,7 @@ struct Tool::Impl {
   int work_and_commit(const std::function<void()>& body) {
     progress_line.restart();
     body();
-    progress_line.end(" - done.");
+    progress_line.done();
     if (stop_requested()) throw Interrupted();
     commit_outputs();
     print_result();
@@ -287,7 +308,7 @@ struct Tool::Impl {
       if (check.pass) continue;
       const std::string what =
           check.name + " is " + text(check.value, 6) + ", limit " + text(check.limit, 6);
-      print(name + ": health: " + what);
+      say(error_level, "health: " + what);
       say_hint(check_hints[i]);
       failures.push_back(what);
     }
@@ -381,25 +402,25 @@ ProgressFunction Tool::progress() {
   impl_->progress_line.restart();
   return [this](double share) {
     if (stop_requested()) throw Interrupted();
-    if (impl_->on_terminal && !impl_->options.quiet) impl_->progress_line.show(share);
+    impl_->progress_line.show(share);
   };
 }
 
 bool Tool::interrupted() const { return stop_requested(); }
 
 void Tool::info(const std::string& text) {
-  if (!impl_->options.quiet) impl_->print(text);
+  if (!impl_->options.quiet) impl_->say(info_level, text);
 }
 
 void Tool::detail(const std::string& text) {
-  if (impl_->options.verbose && !impl_->options.quiet) impl_->print(text);
+  if (impl_->options.verbose && !impl_->options.quiet) impl_->say(info_level, text);
 }
 
 void Tool::record(const std::string& text) { impl_->event("info", text); }
 
 void Tool::warn(const std::string& text) {
   impl_->event("warning", text);
-  if (!impl_->options.quiet) impl_->print(impl_->name + ": warning: " + text);
+  if (!impl_->options.quiet) impl_->say(warning_level, text);
 }
 
 void Tool::layer_read(Json entry) {
@@ -457,14 +478,20 @@ int Tool::run(int argc, char** argv, const std::function<void()>& body) {
   } catch (const CLI::Success& wanted) {  // --help, --version
     return impl.app.exit(wanted);
   } catch (const CLI::ParseError& error) {
-    std::cerr << impl.name << ": " << error.what() << "\n  hint: " << impl.name << " --help\n";
-    impl.failures.push_back(error.what());
+    // What was given before or behind the fault has not been read.
     impl.options.failures = word_after("--failures", argc, argv);
+    impl.options.messages = word_after("--messages", argc, argv);
+    impl.options.label.clear();
+    impl.say(error_level, error.what());
+    impl.say(hint_level, impl.name + " --help");
+    impl.failures.push_back(error.what());
     impl.write_failures(usage_wrong);
     return usage_wrong;
   }
   listen_for_signals();
   impl.progress_line.label(impl.options.label);
+  impl.progress_line.form(progress_form(impl.options.progress, isatty(STDERR_FILENO) == 1,
+                                        impl.options.quiet, impl.options.messages == "json"));
 
   int code = impl.guarded([&] {
     if (impl.options.print_config) {

@@ -40,6 +40,15 @@ void add_common_options(const std::string& tool, CLI::App& app, ToolOptions& opt
         app.add_option("--label", options.label, "put this word before every message"),
         app.add_option("--failures", options.failures,
                        "write what failed to this file too; none is left when nothing did"),
+        app.add_option("--progress", options.progress,
+                       "how much is done: on a terminal in place, else a line a minute (auto); a "
+                       "line a second (plain, json), or none")
+            ->check(CLI::IsMember({"auto", "plain", "json", "none"}))
+            ->capture_default_str(),
+        app.add_option("--messages", options.messages,
+                       "what is said on standard error: text, or json, an object a line")
+            ->check(CLI::IsMember({"text", "json"}))
+            ->capture_default_str(),
         app.add_flag("--print-config", options.print_config,
                      "print the effective settings and where each came from, then end")}) {
     option->group("Common options");

@@ -33,9 +33,11 @@ struct ToolOptions {
 
   bool quiet = false, verbose = false, json = false, overwrite = false, no_db = false,
        print_config = false;
-  std::string db;        ///< as given; empty: beside the first output
-  std::string label;     ///< before every message, to tell runs apart
-  std::string failures;  ///< file for what failed; empty: not wanted
+  std::string db;                 ///< as given; empty: beside the first output
+  std::string label;              ///< before every message, to tell runs apart
+  std::string failures;           ///< file for what failed; empty: not wanted
+  std::string progress = "auto";  ///< auto, plain, json or none
+  std::string messages = "text";  ///< text or json
 };
 
 /// Adds the options of every tool to `app`, whose values go to `options`.

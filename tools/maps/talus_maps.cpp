@@ -4,10 +4,13 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <optional>
 
 #include "base/text.hpp"
+#include "post/maps/compare.hpp"
 #include "post/maps/map_layers.hpp"
 #include "post/maps/map_style.hpp"
+#include "post/reduce.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/fault_json.hpp"
 #include "tools/frame/map_output.hpp"
@@ -21,11 +24,12 @@ using talus::RunFile;
 using talus::Tool;
 
 struct Options {
-  std::string folder;
+  std::string folder, compare_from;
+  std::vector<std::string> compared;
   double cell_size_m = std::numeric_limits<double>::quiet_NaN();
   talus::MapSettings settings;
   bool png = false;
-  double memory_mb = 2000;
+  double memory_mb = 2000, half_width = 0.05;
   std::vector<std::string> creation_options;
 
   // Rows that may be held: each twice while they are sorted.
@@ -49,6 +53,12 @@ void declare(Tool& tool, Options& o) {
   tool.option("--memory-mb", o.memory_mb,
               "for rows of passages [MB]; more of them are taken in several readings of the runs")
       ->check(talus::number_between(1e-3, 1e7));
+  tool.option("--half-width", o.half_width,
+              "wanted of the interval of reach_probability: says how many runs to add")
+      ->check(talus::number_between(1e-4, 0.5));
+  tool.inputs("--compare", o.compared,
+              "runs or parts to compare with: compare.tif holds what these have more");
+  tool.input("--compare-from", o.compare_from, "list of these, a line each, taken as well");
   tool.option("--co", o.creation_options, "creation option of the COGs, NAME=VALUE")
       ->check(talus::check_creation_option);
   tool.footer("Example:\n  talus-maps run_1.h5 run_2.h5 --trn slope.tif -o maps --png");
@@ -62,37 +72,77 @@ struct Gathered {
   std::vector<std::uint32_t> rows_of_cell;  // of the map
   std::uint64_t n_rows = 0;
   std::vector<std::vector<talus::MapRow>> rows;  // of each run; empty when they are too many
+  std::vector<std::vector<double>> weight;       // of the blocks of each run; empty: 1 each
+  int n_to_add = 0;  // runs, for the half width that is wanted; known when layers are made
 };
 
+// Behind the rows of the same run that came before.
+void add_rows(std::vector<std::vector<talus::MapRow>>& all, std::vector<talus::MapRow> rows,
+              std::size_t member) {
+  if (all.size() <= member) all.resize(member + 1);
+  if (all[member].empty())
+    all[member] = std::move(rows);
+  else
+    all[member].insert(all[member].end(), rows.begin(), rows.end());
+}
+
+// One of the two ensembles among the inputs.
+struct RunRange {
+  int first = 0;               // of RunInputs::members; the rows' run counts from here
+  std::size_t first_part = 0;  // of RunInputs::parts()
+};
+
+// The rows of the parts over a tile of the map: `take` gets those of a run, by its place.
+void take_rows_of_parts(const talus::RunInputs& runs, const RunRange& range,
+                        const talus::MapGrid& map, const std::vector<std::vector<double>>& weight,
+                        const talus::MapTile& tile, std::uint64_t most,
+                        const std::function<void(std::vector<talus::MapRow>, int)>& take) {
+  for (std::size_t p = range.first_part; p < runs.parts().size(); ++p) {
+    const talus::PartInput& part = runs.parts()[p];
+    talus::for_each_strip(part.file, map.factor, tile, most, [&](const auto& by_run) {
+      for (std::size_t r = 0; r < by_run.size(); ++r)
+        if (const int run = part.member[r] - range.first; run >= 0 && !by_run[r].empty())
+          take(talus::map_rows(by_run[r], part.file.part.grid, map, weight[run], tile), run);
+    });
+  }
+}
+
 // All that does not grow with the number of runs, and the rows as long as they are few enough.
-Gathered gather(talus::RunInputs& runs, const Options& o) {
+Gathered gather(talus::RunInputs& runs, const std::vector<std::string>& paths,
+                const std::string& role, const Options& o) {
   Gathered out;
+  const RunRange range{static_cast<int>(runs.members.size()), runs.parts().size()};
   const talus::RunParts parts{.crossings = false,
                               .checkpoint = false,
                               .only_last_frame = true,
                               .only_faults = true,
                               .words = false};
-  runs.read(parts, [&](RunFile& run, int index) {
-    if (run.grid.n_rows == 0)
-      throw talus::InputError({runs.members[index].file}, "holds no passages",
-                              "set [output] passages = true and run talus-dda again");
-    if (index == 0) {
-      out.map = talus::map_grid(run.grid, o.cell_size_m, "--cell-size-m");
-      out.rows_of_cell.assign(static_cast<std::size_t>(out.map.grid.n_rows) * out.map.grid.n_cols,
-                              0);
-    }
-    std::vector<talus::MapRow> rows =
-        talus::map_rows(run.passages, run.grid, out.map, run.blocks.weight);
+  const auto count = [&](std::vector<talus::MapRow> rows, std::size_t member) {
     for (const talus::MapRow& row : rows) ++out.rows_of_cell[row.cell];
     out.n_rows += rows.size();
     if (out.n_rows > o.most_rows())
       std::vector<std::vector<talus::MapRow>>().swap(out.rows);
     else
-      out.rows.push_back(std::move(rows));
+      add_rows(out.rows, std::move(rows), member);
+  };
+  runs.read(paths, role, parts, [&](RunFile& run, int index) {
+    if (run.grid.n_rows == 0)
+      throw talus::InputError({runs.members[index].file}, "holds no passages",
+                              "set [output] passages = true and run talus-dda again");
+    if (index == range.first) {
+      out.map = talus::map_grid(run.grid, o.cell_size_m, "--cell-size-m");
+      out.rows_of_cell.assign(static_cast<std::size_t>(out.map.grid.n_rows) * out.map.grid.n_cols,
+                              0);
+    }
+    count(talus::map_rows(run.passages, run.grid, out.map, run.blocks.weight), index - range.first);
+    out.weight.push_back(run.blocks.weight);
     out.released.weight.push_back(runs.members[index].weight);
     out.released.n_blocks.push_back(runs.members[index].n_blocks);
     talus::add_deposit(out.deposit, out.map.grid, run, runs.rest_speed_m_s);
   });
+  take_rows_of_parts(runs, range, out.map, out.weight, {}, o.most_rows(),
+                     [&](auto rows, int run) { count(std::move(rows), run); });
+  out.released.failed_share = runs.last_failed_share();
   return out;
 }
 
@@ -120,12 +170,17 @@ std::vector<MapLayer> layers_of(Tool& tool, talus::RunInputs& runs, Gathered& g,
                                                 ? talus::tiles_of(g.rows_of_cell, o.most_rows())
                                                 : std::vector<talus::MapTile>{{}};
   for (const talus::MapTile& tile : tiles) {
-    if (g.rows.empty())
-      runs.read_again(only_passages, [&](RunFile& run, int) {
-        g.rows.push_back(talus::map_rows(run.passages, run.grid, g.map, run.blocks.weight, tile));
+    if (g.rows.empty()) {
+      runs.read_again(only_passages, [&](RunFile& run, int member) {
+        add_rows(g.rows, talus::map_rows(run.passages, run.grid, g.map, run.blocks.weight, tile),
+                 member);
       });
+      take_rows_of_parts(runs, {}, g.map, g.weight, tile, o.most_rows(),
+                         [&](auto rows, int member) { add_rows(g.rows, std::move(rows), member); });
+    }
     const talus::CellRows cells = talus::group_by_cell(std::move(g.rows), g.rows_of_cell.size());
     g.rows.clear();
+    g.n_to_add = std::max(g.n_to_add, talus::runs_to_add(cells, g.released, o.half_width));
     add_tile({cells, g.deposit, g.map.grid.cell_size, g.released, o.settings}, tool.progress(),
              layers);
   }
@@ -139,9 +194,40 @@ const std::vector<std::uint32_t>& touched_cells(const std::vector<MapLayer>& lay
       ->cell;
 }
 
+// What the runs of --compare have more than the others. Both are held at once.
+MapLayer comparison_of(talus::RunInputs& runs, const Gathered& a, const Options& o) {
+  Gathered b = gather(runs, o.compared, "runs_compared", o);
+  if (a.n_rows + b.n_rows > o.most_rows())
+    throw talus::InputError({"", 0, "--compare"},
+                            "needs memory for all " + std::to_string(a.n_rows + b.n_rows) +
+                                " rows of passages of both sets of runs",
+                            "give more --memory-mb, or coarser cells (--cell-size-m)");
+  const talus::CellRows cells_a = talus::group_by_cell(a.rows, a.rows_of_cell.size()),
+                        cells_b = talus::group_by_cell(std::move(b.rows), b.rows_of_cell.size());
+  return talus::comparison_layer({cells_a, a.released}, {cells_b, b.released});
+}
+
+// Tags of a map of differences: those of the runs that are compared too.
+talus::MapTags comparison_tags(const talus::RunInputs& runs, std::size_t n_first,
+                               talus::MapTags tags) {
+  const std::vector<talus::RunMember> compared(
+      runs.members.begin() + static_cast<std::ptrdiff_t>(n_first), runs.members.end());
+  for (const auto& [name, value] : talus::tags_of(compared))
+    if (name == "N_RUNS" || name == "DENOMINATOR" || name == "HEALTH")
+      tags.emplace_back(name + "_COMPARED", value);
+  return tags;
+}
+
 void run_tool(Tool& tool, Options& o, talus::RunInputs& runs) {
   const talus::Trn& trn = runs.trn();
-  Gathered gathered = gather(runs, o);
+  for (const std::string& path : talus::listed_files(o.compare_from)) {
+    tool.read_also("compare", path);
+    o.compared.push_back(path);
+  }
+  Gathered gathered = gather(runs, runs.files(), "runs", o);
+  const std::vector<talus::RunMember> members = runs.members;
+  std::optional<MapLayer> comparison;
+  if (!o.compared.empty()) comparison = comparison_of(runs, gathered, o);
   const std::uint64_t n_rows = gathered.n_rows;
   const talus::PassageGrid grid = gathered.map.grid;
   const auto layers = layers_of(tool, runs, gathered, o);
@@ -149,11 +235,17 @@ void run_tool(Tool& tool, Options& o, talus::RunInputs& runs) {
   if (n_rows == 0) tool.warn("no block passed any cell: the maps are empty");
   runs.warn_of_ends();
 
-  auto tags = talus::tags_of(runs.members);
+  auto tags = talus::tags_of(members, runs.left_out);
   tags.insert(tags.begin(), {{"RUN_ID", tool.run_id()}, {"RUN_SET", runs.run_set()}});
   const std::string remark = runs.remark();
   if (!remark.empty()) tags.emplace_back("REMARK", remark);
   if (runs.n_missing > 0) tags.emplace_back("N_MISSING", std::to_string(runs.n_missing));
+  tags.emplace_back("REACH_UPPER_BOUND_ELSEWHERE",
+                    talus::text(talus::reach_bound_elsewhere(gathered.released), 6));
+  tags.emplace_back("RUNS_TO_ADD", std::to_string(gathered.n_to_add) + " for a half width of " +
+                                       talus::text(o.half_width) +
+                                       " where reach_probability is above " +
+                                       talus::text(talus::least_reach));
   const talus::MapFrame frame = talus::map_frame(trn, grid, o.png, touched);
   Json files = Json::array();
   bool shows_maximum = false;
@@ -168,19 +260,26 @@ void run_tool(Tool& tool, Options& o, talus::RunInputs& runs) {
     for (const auto& band : layer.bands) bands.push_back(band.name);
     files.push_back({{"file", path}, {"shown_band", shown}, {"bands", bands}});
   }
+  if (comparison) {
+    const std::string path = (std::filesystem::path(o.folder) / "compare.tif").string();
+    talus::write_map(tool, frame, path, *comparison,
+                     talus::change_style(*comparison, remark, {0.01, 0.02, 0.05, 0.1, 0.2, 0.5}),
+                     comparison_tags(runs, members.size(), tags), o.creation_options);
+    files.push_back({{"file", path}, {"shown_band", comparison->bands[0].name}});
+  }
   if (shows_maximum && n_rows > 0)
     tool.warn("cells with too few passages for a 95th percentile: styles show the maximum");
   tool.metric("passages", static_cast<double>(n_rows), "1");
   tool.metric("cells_touched", static_cast<double>(touched.size()), "1");
-  Json result = {{"run_id", tool.run_id()},       {"n_runs", runs.members.size()},
+  Json result = {{"run_id", tool.run_id()},       {"n_runs", members.size()},
                  {"n_passages", n_rows},          {"n_cells_touched", touched.size()},
-                 {"cell_size_m", grid.cell_size}, {"layers", files}};
-  talus::add_faults(result, talus::faults_of(runs.members));
-  tool.result(result,
-              std::to_string(layers.size()) + " maps of " + std::to_string(runs.members.size()) +
-                  (runs.members.size() == 1 ? " run" : " runs") + ", " + std::to_string(n_rows) +
-                  " passages over " + std::to_string(touched.size()) + " cells of " +
-                  talus::text(grid.cell_size, 4) + " m, in " + o.folder);
+                 {"cell_size_m", grid.cell_size}, {"runs_to_add", gathered.n_to_add},
+                 {"half_width", o.half_width},    {"layers", files}};
+  talus::add_faults(result, talus::faults_of(runs.members, runs.left_out));
+  tool.result(result, std::to_string(layers.size()) + " maps of " + std::to_string(members.size()) +
+                          (members.size() == 1 ? " run" : " runs") + ", " + std::to_string(n_rows) +
+                          " passages over " + std::to_string(touched.size()) + " cells of " +
+                          talus::text(grid.cell_size, 4) + " m, in " + o.folder);
 }
 
 }  // namespace

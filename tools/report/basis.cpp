@@ -62,11 +62,14 @@ std::string shape_of(const PlacedSettings& placed) {
 std::string sureness(const ReportData& data) {
   const std::size_t n = data.runs.size();
   std::vector<std::vector<std::string>> rows;
-  rows.push_back({"Runs", std::to_string(n) + (n < 10 ? ": fewer than 10 give no interval for "
-                                                        "shares and percentiles of a mass that "
-                                                        "moves together"
-                                                      : ": intervals come from the bootstrap over "
-                                                        "runs")});
+  std::string runs =
+      std::to_string(n) + (n < 10 ? ": fewer than 10 give no interval for shares and "
+                                    "percentiles of a mass that moves together"
+                                  : ": intervals come from the variance between runs; "
+                                    "they hold no error of the model");
+  if (n >= 10 && !data.runs_to_add.empty())
+    runs += ". Runs to add: " + xml_escaped(data.runs_to_add);
+  rows.push_back({"Runs", runs});
   if (const Json rmse = value_at(data.trn, {"reference", "rmse_m"}); rmse.is_number())
     rows.push_back(
         {"Terrain", "RMSE " + number_text(rmse, 3) + " m against " +

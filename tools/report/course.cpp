@@ -53,7 +53,7 @@ std::string health_section(const ReportData& data) {
                                             &HealthRow::shortest_dt)),
                      "A step ends at an impact, so steps may be very short without anything being "
                      "wrong. Gaps: no step with a search for contacts.");
-  return html_section("health", "Health certificate", out + "</div>\n");
+  return html_section("health", "Numerical checks", out + "</div>\n");
 }
 
 }  // namespace talus

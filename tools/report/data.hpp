@@ -29,11 +29,13 @@ struct ReportData {
   std::vector<RunFile> runs;  ///< info and health, by seed and name; frames left out    (n_runs)
   std::vector<std::string> run_names;  ///< "1", or "CASE_1"                            (n_runs)
   RunFaults faults;                    ///< of these runs
+  int n_in_parts = 0;                  ///< of them, without frames of their own
   RunFile shown;                       ///< the run of the animation, whole
   std::string shown_name;
   std::vector<LimitOverRuns> limits;
   std::vector<RunRecord> steps;  ///< each behind those whose outputs it read
   std::string run_id, version;
+  std::string runs_to_add;  ///< in the words of the map of reach; "": there is none
 };
 
 /// "1 of 12 runs failed its numerical checks"; "" where nothing is wrong. What the fences rest on

@@ -88,6 +88,16 @@ std::string arrival_tables(const Json& fence) {
   return out;
 }
 
+// Below every number that a rigid fence has made.
+std::string wall_note(const Json& fence) {
+  if (value_at(fence, {"capacity_kj"}).is_number() || !value_at(fence, {"standing"}).is_boolean() ||
+      !value_at(fence, {"standing"}).get<bool>())
+    return "";
+  return html_note(
+      "Without capacity_kj the fence is a rigid wall, which no net is: it stops what would break "
+      "one.");
+}
+
 // What came to the fence, and what it holds.
 std::string arrivals(const Json& fence) {
   const Json whole = value_at(fence, {"whole"}), kept = value_at(fence, {"kept_from_passing_m3"});
@@ -99,7 +109,8 @@ std::string arrivals(const Json& fence) {
            : std::string()) +
       ", storage behind the fence " + number_text(value_at(fence, {"storage_m3"})) + " m&sup3;.";
   if (number_text(value_at(whole, {"n"})) == "0")
-    return arrival_tables(fence) + html_paragraph("Nothing came to the fence. " + held);
+    return arrival_tables(fence) + html_paragraph("Nothing came to the fence. " + held) +
+           wall_note(fence);
   return arrival_tables(fence) +
          html_paragraph(
              "Arrivals: " + number_text(value_at(fence, {"arrivals", "first_touches"})) +
@@ -108,7 +119,8 @@ std::string arrivals(const Json& fence) {
              " crossings of its line. Most in a run: " +
              number_text(value_at(whole, {"most_hits_in_a_run"})) + "; within one second up to " +
              number_text(value_at(whole, {"hits_in_that_second"})) + " with " +
-             number_text(value_at(whole, {"energy_in_one_second_kj"})) + " kJ together. " + held);
+             number_text(value_at(whole, {"energy_in_one_second_kj"})) + " kJ together. " + held) +
+         wall_note(fence);
 }
 
 std::string field_table(const Json& fields) {
@@ -180,9 +192,11 @@ std::string fence_section(const ReportData& data) {
            number_text(value_at(fence, {"height_m"})) + " m high</h3>\n" + fence_verdict(fence);
     out += derivation_table(value_at(fence, {"design", "whole", "derivation"}));
     out += verdict_table(value_at(fence, {"verdicts"})) + arrivals(fence);
-    out += html_fold("Each field between two posts", field_table(value_at(fence, {"fields"})));
+    out += html_fold("Each field between two posts",
+                     field_table(value_at(fence, {"fields"})) + wall_note(fence));
     if (!value_at(fence, {"comparison"}).is_null())
-      out += "<h3>With and without</h3>\n" + comparison_table(value_at(fence, {"comparison"}));
+      out += "<h3>With and without</h3>\n" + comparison_table(value_at(fence, {"comparison"})) +
+             wall_note(fence);
     if (value_at(fence, {"notes"}).is_array())
       for (const Json& remark : fence["notes"]) out += html_note(word_text(remark));
     const Json guessed = value_at(fence, {"design", "from_memory"});

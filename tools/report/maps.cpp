@@ -11,9 +11,11 @@ namespace talus {
 std::string map_section(const ReportData& data) {
   std::string out = html_figure(
       plan_view_svg(data.shown, data.terrain, data.hillshade_png),
-      "<span class=\"key\"><i class=\"start\"></i>start<i class=\"way\"></i>ways of the "
+      "<span class=\"key\"><i class=\"start\"></i>start<i class=\"way\"></i>paths of the "
       "centroids<i class=\"end\"></i>end<i class=\"fence\"></i>fence line</span>. Run " +
-          xml_escaped(data.shown_name) + "; north is up.");
+          xml_escaped(data.shown_name) +
+          (data.shown.reach ? ", which has no frames between start and end" : "") +
+          "; north is up.");
   out += html_paragraph(
       "Every cell counts a block once, with its largest value over all steps of the solver. Shares "
       "are parts of a sum over blocks, not over tons: " +

@@ -37,7 +37,7 @@ std::string page_head(const ReportData& data, const std::string& style) {
                                   {"fences", "Fences"},
                                   {"trees", "Trees"},
                                   {"curves", "Over time"},
-                                  {"health", "Health"},
+                                  {"health", "Numerical checks"},
                                   {"assumed", "Assumptions"},
                                   {"plan", "Plan"},
                                   {"provenance", "Provenance"}}) {

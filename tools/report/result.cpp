@@ -98,6 +98,9 @@ std::string reach_tiles(const Json& r) {
          html_fact(number_text(of("L_path_m", "max")) + " m",
                    "L, run-out of the farthest block along its path, " + over_runs(r, "largest") +
                        extreme_percentile(length, "p95", " m") + unsettled(r)) +
+         html_fact(number_text(of("L95_m", "max")) + " m",
+                   "L95, straight from its top, within which 95 % of the mass that moved came, " +
+                       over_runs(r, "largest")) +
          html_fact(number_text(of("reach_angle_path_deg", "min"), 3) + "&deg;",
                    "angle of reach, atan(H/L), " + over_runs(r, "smallest") +
                        extreme_percentile(angle, "p05", "&deg;"));
@@ -136,15 +139,16 @@ std::string fault_table(const RunFaults& faults) {
 std::string health_verdict(const ReportData& data) {
   const std::string wrong = headline(data.faults);
   if (!wrong.empty())
-    return "<div class=\"verdict fail\"><b>Health: fail.</b> " + xml_escaped(wrong) +
+    return "<div class=\"verdict fail\"><b>Numerical checks: failed.</b> " + xml_escaped(wrong) +
            ". What these runs say is not to be relied on before the cause is found; see <a "
-           "href=\"#health\">health</a>.</div>\n" +
+           "href=\"#health\">the checks</a>.</div>\n" +
            fault_table(data.faults);
   if (all_pass(data.runs, data.limits))
-    return "<div class=\"verdict pass\"><b>Health: pass.</b> All runs finished within their "
+    return "<div class=\"verdict pass\"><b>Numerical checks: passed.</b> All runs finished within "
+           "their "
            "limits.</div>\n";
-  return "<div class=\"verdict fail\"><b>Health: fail.</b> A limit is broken; see <a "
-         "href=\"#health\">health</a>.</div>\n";
+  return "<div class=\"verdict fail\"><b>Numerical checks: failed.</b> A limit is broken; see <a "
+         "href=\"#health\">the checks</a>.</div>\n";
 }
 
 std::string standing_mass(const Json& moved) {
@@ -155,6 +159,22 @@ std::string standing_mass(const Json& moved) {
   return "<div class=\"verdict warn\"><b>Less than half of the released mass moved.</b> L and the "
          "angle of reach are those of few blocks, not of the released volume: see whether the "
          "failure surface comes out at the foot of the source.</div>\n";
+}
+
+// Failed runs, few enough to be left out.
+std::string left_out_verdict(const Json& runout) {
+  const Json runs = value_at(runout, {"left_out_runs"});
+  if (!runs.is_array() || runs.empty()) return "";
+  std::vector<std::vector<std::string>> rows;
+  for (const Json& run : runs)
+    rows.push_back({word_text(value_at(run, {"run"})), number_text(value_at(run, {"seed"})),
+                    word_text(value_at(run, {"reason"}))});
+  return "<div class=\"verdict warn\"><b>" +
+         counted(static_cast<std::int64_t>(runs.size()), "run") +
+         " failed and left out.</b> Intervals of shares count them: all may have reached a place, "
+         "or "
+         "none.</div>\n" +
+         html_table({"run", "seed", "broken limit, its value"}, rows);
 }
 
 // Runs that were wanted and gave no result: what is shown is of the rest.
@@ -178,7 +198,7 @@ std::string result_section(const ReportData& data) {
   out += html_fact(number_text(value_at(data.blocks, {"n_blocks"})), "blocks");
   out += html_fact(number_text(value_at(data.blocks, {"volume_m3"})) + " m&sup3;", "released rock");
   out += "</div>\n" + standing_mass(moved) + health_verdict(data);
-  out += missing_verdict(data.runout);
+  out += left_out_verdict(data.runout) + missing_verdict(data.runout);
   if (value_at(data.fence, {"fences"}).is_array())
     for (const Json& fence : data.fence["fences"]) out += fence_verdict(fence);
   return html_section("result", "Result", out);

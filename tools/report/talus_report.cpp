@@ -4,14 +4,18 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <memory>
 #include <set>
+#include <tuple>
 
 #include "base/sha256.hpp"
 #include "base/text.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/raster_gdal.hpp"
 #include "io/style.hpp"
+#include "io/tags_gdal.hpp"
 #include "post/maps/map_layers.hpp"
+#include "record/part_file.hpp"
 #include "report/plan_view.hpp"
 #include "report/qgis_project.hpp"
 #include "report/styles_gdal.hpp"
@@ -36,59 +40,111 @@ struct Options {
 
 // --- runs ----------------------------------------------------------------------------------------
 
-// The files of runs/ whose run was evaluated: RUNOUT.json names them, others are left from before.
-std::vector<fs::path> evaluated_runs(const ResultFolder& folder, const Json& runout) {
-  const std::vector<std::string> listed = ids_of(runout);
-  const std::set<std::string> ids(listed.begin(), listed.end());
-  std::vector<std::pair<std::int64_t, fs::path>> found;
-  for (const auto& entry : fs::directory_iterator(folder.required("runs", "talus-dda"))) {
-    const std::string name = entry.path().filename().string();
-    if (!name.starts_with("run_") || !name.ends_with(".h5")) continue;  // staged ones are hidden
-    const RunInfo info =
-        read_run_file(entry.path().string(), {false, false, false, false, false}).info;
-    if (ids.count(info.run_id) > 0) found.emplace_back(info.seed, entry.path());
-  }
-  if (found.size() != ids.size())
-    throw InputError({folder.path("runs").string()},
-                     "holds " + std::to_string(found.size()) + " of the " +
-                         std::to_string(ids.size()) + " runs that runout.json is made from",
-                     "make the run-out again");
-  std::sort(found.begin(), found.end());
+// Where a run stands: in a file of its own, or in a part.
+struct RunPlace {
+  std::int64_t seed = 0;
+  fs::path file;
+  std::shared_ptr<const PartFile> part;  // null: a run file
+  int run = 0;                           // of the part
+  std::string run_id;
+};
+
+RunFile read_place(const RunPlace& place, bool whole) {
+  if (place.part == nullptr)
+    return read_run_file(place.file.string(), whole ? RunParts{true, false, true, true, false}
+                                                    : RunParts{false, false, false, true, false});
+  RunFile run = run_of(place.part->part, place.run);
+  if (!whole) run.frames = {};
+  return run;
+}
+
+std::vector<fs::path> files_in(const fs::path& folder, const std::string& begin) {
   std::vector<fs::path> files;
-  for (const auto& [seed, path] : found) files.push_back(path);
+  if (!fs::exists(folder)) return files;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with(begin) && name.ends_with(".h5") &&
+        name[0] != '.')  // staged ones are hidden
+      files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
   return files;
 }
 
-// The run whose event came farthest along the path; the first of them.
-std::string farthest_run(const Json& runout) {
+// The runs that were evaluated, of runs/ or else of parts/: RUNOUT.json names them, others are left
+// from before. By seed and name.
+std::vector<RunPlace> evaluated_runs(const ResultFolder& folder, const Json& runout) {
+  const std::vector<std::string> listed = ids_of(runout);
+  std::set<std::string> ids(listed.begin(), listed.end());
+  const std::size_t n_wanted = ids.size();
+  std::vector<RunPlace> found;
+  for (const fs::path& file : files_in(folder.path("runs"), "run_")) {
+    const RunInfo info = read_run_file(file.string(), {false, false, false, false, false}).info;
+    if (ids.erase(info.run_id) > 0) found.push_back({info.seed, file, nullptr, 0, info.run_id});
+  }
+  for (const fs::path& file : files_in(folder.path("parts"), "")) {
+    if (ids.empty()) break;
+    const auto part = std::make_shared<const PartFile>(file.string());
+    for (int r = 0; r < n_runs(part->part); ++r) {
+      const RunInfo& info = part->part.runs[r].info;
+      if (ids.erase(info.run_id) > 0)
+        found.push_back({info.seed, part->part.name[r], part, r, info.run_id});
+    }
+  }
+  if (!ids.empty())
+    throw InputError({folder.path("runs").string()},
+                     "holds " + std::to_string(found.size()) + " of the " +
+                         std::to_string(n_wanted) +
+                         " runs that runout.json is made from, those of parts/ counted",
+                     "make the run-out again");
+  std::sort(found.begin(), found.end(), [](const RunPlace& a, const RunPlace& b) {
+    return std::tie(a.seed, a.file, a.run_id) < std::tie(b.seed, b.file, b.run_id);
+  });
+  return found;
+}
+
+// The run whose event came farthest along the path, of those with frames if any has; the first of
+// them.
+std::string farthest_run(const Json& runout, const std::vector<RunPlace>& places) {
+  std::set<std::string> with_frames;
+  for (const RunPlace& place : places)
+    if (place.part == nullptr) with_frames.insert(place.run_id);
   std::string id;
   double farthest = -1;
   for (const Json& run : runout.at("runs")) {
+    const std::string run_id = run.at("run_id").get<std::string>();
+    if (!with_frames.empty() && with_frames.count(run_id) == 0) continue;
     const Json length = run.at("event").value("L_path_m", Json());
     if (!id.empty() && !(length.is_number() && length.get<double>() > farthest)) continue;
-    id = run.at("run_id").get<std::string>();
+    id = run_id;
     farthest = length.is_number() ? length.get<double>() : -1;
   }
   return id;
 }
 
-void read_runs(Tool& tool, const ResultFolder& folder, const std::vector<fs::path>& files,
+void read_runs(Tool& tool, const ResultFolder& folder, const std::vector<RunPlace>& places,
                const ProgressFunction& progress, ReportData& data) {
-  const std::string shown = farthest_run(data.runout);
+  const std::string shown = farthest_run(data.runout, places);
   std::vector<RunMember> members;
-  for (const fs::path& path : files) {
-    progress(0.5 * static_cast<double>(data.runs.size()) / static_cast<double>(files.size()));
-    tool.read_also("run", path.string());
-    RunFile run = read_run_file(path.string(), {false, false, false, true, false});
-    check_site_of(run, path.string(), data.site, folder);
-    data.run_names.push_back(path.stem().string().substr(4));  // without "run_"
+  for (const RunPlace& place : places) {
+    progress(0.5 * static_cast<double>(data.runs.size()) / static_cast<double>(places.size()));
+    if (place.part == nullptr)
+      tool.read_also("run", place.file.string());
+    else
+      ++data.n_in_parts;
+    RunFile run = read_place(place, false);
+    check_site_of(run, place.file.string(), data.site, folder);
+    data.run_names.push_back(place.file.stem().string().substr(4));  // without "run_"
     if (run.info.run_id == shown) {
-      data.shown = read_run_file(path.string(), {true, false, true, true, false});
+      data.shown = read_place(place, true);
       data.shown_name = data.run_names.back();
     }
-    members.push_back(member_of(path.string(), run));
+    members.push_back(member_of(place.file.string(), run));
+    if (place.part != nullptr) run.blocks.vertices.clear();
     data.runs.push_back(std::move(run));
   }
+  for (const fs::path& file : files_in(folder.path("parts"), ""))
+    if (data.n_in_parts > 0) tool.read_also("part", file.string());
   data.faults = faults_of(members);
   if (const std::string words = talus::text(data.faults); !words.empty())
     tool.warn(words + ": every part of the report says so");
@@ -115,13 +171,14 @@ void add_steps(const std::string& db, const std::string& sha256, std::int64_t be
 }
 
 void read_registry(const std::string& db, const ResultFolder& folder,
-                   const std::vector<fs::path>& files, const ProgressFunction& progress,
+                   const std::vector<RunPlace>& places, const ProgressFunction& progress,
                    ReportData& data) {
   if (!fs::exists(db)) return;
   constexpr std::int64_t latest = std::numeric_limits<std::int64_t>::max();
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    progress(0.5 + 0.4 * static_cast<double>(i) / static_cast<double>(files.size()));
-    add_limits(writer_of(db, sha256_of_file(files[i].string()), latest).checks, data.limits);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    progress(0.5 + 0.4 * static_cast<double>(i) / static_cast<double>(places.size()));
+    if (places[i].part != nullptr) continue;  // its file may be gone
+    add_limits(writer_of(db, sha256_of_file(places[i].file.string()), latest).checks, data.limits);
   }
   std::set<std::int64_t> seen;
   const std::string a_map = std::string("maps/") + map_layers().front().name + ".tif";
@@ -161,10 +218,12 @@ ReportData read_data(Tool& tool, const Site& site, ResultFolder& folder,
       data.maps.push_back({path.stem().string(), folder.text("maps/" + path.filename().string()),
                            folder.text("maps/" + path.stem().string() + ".qml")});
   }
-  const std::vector<fs::path> files = evaluated_runs(folder, data.runout);
-  read_runs(tool, folder, files, progress, data);
+  if (folder.has("maps/reach.tif"))
+    data.runs_to_add = tag_of(folder.path("maps/reach.tif").string(), "RUNS_TO_ADD");
+  const std::vector<RunPlace> places = evaluated_runs(folder, data.runout);
+  read_runs(tool, folder, places, progress, data);
   data.bed = read_trn(ground_of(data.runs[0].info, folder));
-  read_registry(tool.registry(), folder, files, progress, data);
+  read_registry(tool.registry(), folder, places, progress, data);
   data.run_id = tool.run_id();
   return data;
 }

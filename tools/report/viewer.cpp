@@ -24,10 +24,14 @@ std::vector<double> line_heights(const std::vector<RecordLine>& lines,
   return heights;
 }
 
+bool has_frames(const ReportData& data) {
+  return !data.shown.frames.time.empty() && !data.shown.reach;
+}
+
 }  // namespace
 
 std::string viewer_section(const ReportData& data) {
-  if (data.shown.frames.time.empty()) return "";
+  if (!has_frames(data)) return "";
   return html_section(
       "animation", "Animation",
       html_paragraph(
@@ -39,7 +43,7 @@ std::string viewer_section(const ReportData& data) {
 }
 
 std::string viewer_script(const ReportData& data, const std::string& viewer) {
-  if (data.shown.frames.time.empty()) return "";
+  if (!has_frames(data)) return "";
   return "<script type=\"application/json\" id=\"scene\">" +
          viewer_scene(data.shown, data.bed, line_heights(data.shown.lines, data.site.fences)) +
          "</script>\n<script>\n" + viewer +

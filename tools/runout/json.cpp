@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "post/runout/runout_text.hpp"
 #include "tools/frame/moved_json.hpp"
@@ -22,18 +23,58 @@ Json line_json(const ReachLine& line) {
 
 Json energy_json(const EnergyShares& s) {
   if (!(s.put_in > 0)) return {};
-  return {
-      {"put_in_kj", s.put_in / 1e3}, {"friction", s.friction},    {"impact", s.impact},
-      {"contact", s.contact},        {"fence", s.fence},          {"removed", s.removed},
-      {"kinetic_left", s.kinetic},   {"elastic_left", s.elastic}, {"unaccounted", s.unaccounted}};
+  return {{"put_in_kj", s.put_in / 1e3}, {"friction", s.friction},    {"impact", s.impact},
+          {"contact", s.contact},        {"fence", s.fence},          {"breakage", s.breakage},
+          {"removed", s.removed},        {"kinetic_left", s.kinetic}, {"elastic_left", s.elastic},
+          {"unaccounted", s.unaccounted}};
 }
 
 // Null where the number is nowhere finite.
-Json spread(const std::vector<RunoutRun>& runs, double (*value)(const RunoutRun&)) {
-  const Spread s = spread_over(runs, value);
+Json spread(const std::vector<RunoutRun>& runs, const std::vector<int>& some,
+            double (*value)(const RunoutRun&)) {
+  const Spread s = spread_over(runs, some, value);
   if (s.n == 0) return {};
   return {{"n", s.n},     {"mean", s.mean}, {"min", s.smallest}, {"p05", s.p05},
           {"p50", s.p50}, {"p95", s.p95},   {"max", s.largest}};
+}
+
+// Of the mass without its few farthest blocks; null where nothing moved.
+Json mass_json(const EventReach& event) {
+  if (!event.moved.any()) return {};
+  const MassReach& m = event.mass;
+  return {{"moved_volume_m3", m.moved_volume},
+          {"H95_m", m.height},
+          {"L95_m", m.length},
+          {"reach_angle_95_deg", number_or_null(m.angle() * degrees)},
+          {"blocks_beyond", m.n_beyond},
+          {"share_beyond", m.beyond_share},
+          {"toe_share", m.toe_share},
+          {"outliers", m.n_outliers}};
+}
+
+Json spread_of(const std::vector<RunoutRun>& runs, const std::vector<int>& some) {
+  return {
+      {"H_m", spread(runs, some, [](const RunoutRun& r) { return r.event.event.height; })},
+      {"L_path_m", spread(runs, some, [](const RunoutRun& r) { return r.event.event.path; })},
+      {"L_chord_m", spread(runs, some, [](const RunoutRun& r) { return r.event.event.chord; })},
+      {"reach_angle_path_deg",
+       spread(runs, some, [](const RunoutRun& r) { return r.event.event.path_angle() * degrees; })},
+      {"reach_angle_chord_deg",
+       spread(runs, some,
+              [](const RunoutRun& r) { return r.event.event.chord_angle() * degrees; })},
+      {"L95_m", spread(runs, some, [](const RunoutRun& r) { return r.event.mass.length; })},
+      {"H95_m", spread(runs, some, [](const RunoutRun& r) { return r.event.mass.height; })},
+      {"reach_angle_95_deg",
+       spread(runs, some, [](const RunoutRun& r) { return r.event.mass.angle() * degrees; })},
+      {"H_cm_over_L_cm", spread(runs, some, [](const RunoutRun& r) {
+         return r.event.centre_of_mass.height / r.event.centre_of_mass.path;
+       })}};
+}
+
+Json drawn_json(const RunoutRun& run) {
+  Json values = Json::object();
+  for (const DrawnValue& value : run.drawn) values[value.name] = value.value;
+  return values;
 }
 
 }  // namespace
@@ -56,9 +97,12 @@ Json run_json(const RunoutRun& r, double friction_deg) {
   return {{"run_id", r.member.info.run_id},
           {"seed", r.member.info.seed},
           {"status", r.member.info.status},
+          {"case", case_of(r.member.file)},
+          {"drawn", drawn_json(r)},
           {"did_move", e.moved.any()},
           {"moved", moved_json(e.moved)},
           {"event", line_json(e.event)},
+          {"mass_95", mass_json(e)},
           {"toe_block", e.moved.any() ? Json(e.toe_block) : Json()},
           {"toe_fate", e.moved.any() ? Json(text(e.toe_fate)) : Json()},
           {"angle_monotone_along_path", e.moved.any() ? Json(e.profile.monotone) : Json()},
@@ -73,16 +117,23 @@ Json run_json(const RunoutRun& r, double friction_deg) {
 }
 
 Json spread_json(const std::vector<RunoutRun>& runs) {
-  return {{"H_m", spread(runs, [](const RunoutRun& r) { return r.event.event.height; })},
-          {"L_path_m", spread(runs, [](const RunoutRun& r) { return r.event.event.path; })},
-          {"L_chord_m", spread(runs, [](const RunoutRun& r) { return r.event.event.chord; })},
-          {"reach_angle_path_deg",
-           spread(runs, [](const RunoutRun& r) { return r.event.event.path_angle() * degrees; })},
-          {"reach_angle_chord_deg",
-           spread(runs, [](const RunoutRun& r) { return r.event.event.chord_angle() * degrees; })},
-          {"H_cm_over_L_cm", spread(runs, [](const RunoutRun& r) {
-             return r.event.centre_of_mass.height / r.event.centre_of_mass.path;
-           })}};
+  std::vector<int> all(runs.size());
+  std::iota(all.begin(), all.end(), 0);
+  return spread_of(runs, all);
+}
+
+Json cases_json(const std::vector<RunoutRun>& runs) {
+  Json list = Json::array();
+  for (const RunoutCase& one : cases_of(runs)) {
+    const auto n_moved_runs = std::count_if(one.runs.begin(), one.runs.end(),
+                                            [&](int i) { return runs[i].event.moved.any(); });
+    list.push_back({{"case", one.name},
+                    {"n_runs", one.runs.size()},
+                    {"n_runs_moved", n_moved_runs},
+                    {"moved", moved_json(one.moved)},
+                    {"spread_over_runs", spread_of(runs, one.runs)}});
+  }
+  return list;
 }
 
 Json mobility_json(const std::vector<MobilityRelation>& relations,

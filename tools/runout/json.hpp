@@ -15,6 +15,8 @@ namespace talus {
 /// `friction_deg`: shown beside H/L of the centre of mass; NaN: not shown.
 [[nodiscard]] Json run_json(const RunoutRun& run, double friction_deg);
 
+/// A row a case, with the spread over its runs; empty where there is one.
+[[nodiscard]] Json cases_json(const std::vector<RunoutRun>& runs);
 [[nodiscard]] Json spread_json(const std::vector<RunoutRun>& runs);
 
 [[nodiscard]] Json mobility_json(const std::vector<MobilityRelation>& relations,

@@ -94,6 +94,7 @@ VectorLayer path_layer(const std::vector<RunoutRun>& runs, const MapPlace& map, 
       vector_qml({SymbolKind::line, "", {{"", "", {31, 78, 121, 160}}}, 0.3})};
   for (const RunoutRun& r : runs)
     for (const BlockReach& b : r.event.blocks) {
+      if (!r.has_frames) break;
       const TimedPath& path = r.paths[b.block];
       if (path.point.empty()) continue;
       VectorFeature f = line_feature(path.point, path.time, map);
@@ -106,7 +107,7 @@ VectorLayer path_layer(const std::vector<RunoutRun>& runs, const MapPlace& map, 
 
 VectorLayer path_point_layer(const std::vector<RunoutRun>& runs, const MapPlace& map) {
   VectorLayer layer{"path_points",
-                    "points of the simplified ways",
+                    "points of the simplified paths",
                     GeometryType::point_z,
                     {{"run_id", FieldType::text},
                      {"block", FieldType::integer},
@@ -204,7 +205,12 @@ VectorLayer run_layer(const std::vector<RunoutRun>& runs, const MapPlace& map) {
                      {"L_chord_m", FieldType::real},
                      {"reach_angle_path_deg", FieldType::real},
                      {"reach_angle_chord_deg", FieldType::real},
-                     {"toe_fate", FieldType::text}},
+                     {"toe_fate", FieldType::text},
+                     {"moved_volume_m3", FieldType::real},
+                     {"H95_m", FieldType::real},
+                     {"L95_m", FieldType::real},
+                     {"reach_angle_95_deg", FieldType::real},
+                     {"outliers", FieldType::integer}},
                     {},
                     vector_qml({SymbolKind::point,
                                 "status",
@@ -232,7 +238,12 @@ VectorLayer run_layer(const std::vector<RunoutRun>& runs, const MapPlace& map) {
                 e.chord,
                 e.path_angle() * degrees,
                 e.chord_angle() * degrees,
-                m.any() ? FieldValue(std::string(text(r.event.toe_fate))) : FieldValue()};
+                m.any() ? FieldValue(std::string(text(r.event.toe_fate))) : FieldValue(),
+                r.event.mass.moved_volume,
+                r.event.mass.height,
+                r.event.mass.length,
+                r.event.mass.angle() * degrees,
+                whole(r.event.mass.n_outliers)};
     layer.features.push_back(std::move(f));
   }
   return layer;

@@ -1,13 +1,17 @@
 // tools/runout/talus_runout.cpp
 // How far runs came: deposit, paths, streamline, angle of reach, mobility. Page:
 // docs/tools/talus-runout.md
+#include <algorithm>
 #include <cmath>
 
+#include "base/text.hpp"
 #include "io/geopackage_gdal.hpp"
 #include "post/maps/map_layers.hpp"
 #include "post/maps/map_style.hpp"
+#include "post/reduce.hpp"
 #include "post/runout/mobility.hpp"
 #include "post/runout/runout_text.hpp"
+#include "scene/site_scene.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/fault_json.hpp"
 #include "tools/frame/map_output.hpp"
@@ -47,24 +51,69 @@ void declare(Tool& tool, Options& o) {
   tool.footer("Example:\n  talus-runout run.h5 --trn slope.tif -o runout.gpkg --json runout.json");
 }
 
-RunoutRuns read_runs(RunInputs& inputs, const Options& o, const Trn& trn) {
-  const ReachSettings settings{o.tolerance_m, inputs.rest_speed_m_s};
-  std::vector<RunoutRun> runs;
-  PassageGrid grid;
-  inputs.read({.crossings = false, .checkpoint = false}, [&](RunFile& run, int index) {
-    grid = run.grid.n_rows > 0 ? run.grid : passage_grid(trn, 0);
-    runs.push_back(runout_run(run, inputs.members[index], grid, trn, settings));
+// Cells that runs of a part passed; all of them, unless runs were left out.
+void add_cells(RunoutSums& sums, const PartInput& part) {
+  const bool is_whole = std::find(part.member.begin(), part.member.end(), -1) == part.member.end();
+  if (is_whole) {
+    for (const std::int32_t cell : part.file.cell) add_cell(sums, cell);
+    return;
+  }
+  constexpr std::uint64_t most_rows = 1'000'000;
+  for_each_strip(part.file, 1, {}, most_rows, [&](const auto& by_run) {
+    for (std::size_t r = 0; r < by_run.size(); ++r)
+      if (part.member[r] >= 0)
+        for (const Passage& passage : by_run[r]) add_cell(sums, passage.cell);
   });
-  return add_up(std::move(runs), grid);
 }
 
-// The relations mostly use the chord or the axis of the path: L is the chord.
+// Friction and restitution of the ground as the run drew them, where it scatters them.
+// Nothing of a run whose settings this version does not read.
+std::vector<DrawnValue> drawn_by(const RunInfo& info) {
+  Site site;
+  try {
+    site = parse_site(info.config, info.run_id);
+  } catch (const InputError&) {
+    return {};
+  }
+  std::vector<DrawnValue> values;
+  for (const GroundSettings& ground : drawn_grounds(site)) {
+    values.push_back({"friction_deg." + ground.name, ground.friction_deg});
+    if (site.solver.cor_scatter > 0) values.push_back({"cor." + ground.name, ground.cor});
+  }
+  return values;
+}
+
+RunoutRuns read_runs(RunInputs& inputs, const Options& o, const Trn& trn) {
+  const ReachSettings settings{o.tolerance_m, inputs.rest_speed_m_s};
+  inputs.path_tolerance_m = o.tolerance_m;
+  RunoutSums sums;
+  inputs.read({.crossings = false, .checkpoint = false}, [&](RunFile& run, int index) {
+    add_run(sums, run, inputs.members[index], run.grid.n_rows > 0 ? run.grid : passage_grid(trn, 0),
+            trn, settings);
+    sums.runs.back().drawn = drawn_by(run.info);
+  });
+  for (const PartInput& part : inputs.parts()) add_cells(sums, part);
+  return add_up(std::move(sums));
+}
+
+// Paths and curves are those of the runs that have frames.
+void warn_of_runs_without_frames(Tool& tool, const RunoutRuns& all) {
+  const auto n = std::count_if(all.runs.begin(), all.runs.end(),
+                               [](const RunoutRun& run) { return !run.has_frames; });
+  if (n > 0)
+    tool.warn(std::to_string(n) + " of " +
+              counted(static_cast<std::int64_t>(all.runs.size()), "run") +
+              " have no frames: paths, their points and the curves leave them out");
+}
+
+// The relations are of masses, not of single blocks: V is what moved, H and L are those of 95 % of
+// it, straight.
 std::vector<MobilityEvent> events_of(const std::vector<RunoutRun>& runs, bool confined) {
   std::vector<MobilityEvent> events;
   for (const RunoutRun& r : runs)
     if (r.event.moved.any())
-      events.push_back({r.member.info.run_id, r.balance.released, r.event.event.height,
-                        r.event.event.chord, confined});
+      events.push_back({r.member.info.run_id, r.event.mass.moved_volume, r.event.mass.height,
+                        r.event.mass.length, confined});
   return events;
 }
 
@@ -109,13 +158,14 @@ void run_tool(Tool& tool, Options& o, RunInputs& inputs) {
                          : read_csv(o.mobility));
   const Trn& trn = inputs.trn();
   const RunoutRuns all = read_runs(inputs, o, trn);
-  MapTags tags = tags_of(inputs.members);
+  MapTags tags = tags_of(inputs.members, inputs.left_out);
   tags.insert(tags.begin(), {{"RUN_ID", tool.run_id()}, {"RUN_SET", inputs.run_set()}});
   const std::string remark = inputs.remark();
   if (!remark.empty()) tags.emplace_back("REMARK", remark);
   if (inputs.n_missing > 0) tags.emplace_back("N_MISSING", std::to_string(inputs.n_missing));
   inputs.warn_of_ends();
   warn_of_standing_mass(tool, all);
+  warn_of_runs_without_frames(tool, all);
 
   const AllTrees trees = trees_of(all);
   std::vector<VectorLayer> layers = runout_layers(all, trn.origin, o.tolerance_m);
@@ -143,10 +193,11 @@ void run_tool(Tool& tool, Options& o, RunInputs& inputs) {
                  {"swept_area_m2", swept_area(all)},
                  {"path_tolerance_m", o.tolerance_m},
                  {"spread_over_runs", spread_json(all.runs)},
+                 {"cases", cases_json(all.runs)},
                  {"runs", runs},
                  {"mobility", mobility_json(relations, events)}};
   if (trees.any) result["trees"] = trees_json(summary_of(trees.runs), trn.origin);
-  add_faults(result, faults_of(inputs.members));
+  add_faults(result, faults_of(inputs.members, inputs.left_out));
   tool.result(result, runout_summary(all));
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <set>
 
 #include "base/sha256.hpp"
@@ -215,6 +216,79 @@ void show_ancestry(talus::Tool& tool, const std::string& db, const std::string& 
   tool.result(std::move(document), text);
 }
 
+// --- summary and merging
+// --------------------------------------------------------------------------------------
+
+// How the runs of a tool ended, and what they took.
+struct Outcomes {
+  int n_done = 0, n_failed = 0, n_interrupted = 0, n_running = 0;
+  double cpu_time_s = 0;
+  std::string first_started, last_ended;
+
+  void add(const talus::RunRecord& run) {
+    ++(run.status == "done"          ? n_done
+       : run.status == "failed"      ? n_failed
+       : run.status == "interrupted" ? n_interrupted
+                                     : n_running);
+    cpu_time_s += run.cpu_time_s;
+    if (first_started.empty() || run.started < first_started) first_started = run.started;
+    last_ended = std::max(last_ended, run.ended);
+  }
+};
+
+Json as_json(const std::string& tool, const Outcomes& o) {
+  return {{"tool", tool},
+          {"n_done", o.n_done},
+          {"n_failed", o.n_failed},
+          {"n_interrupted", o.n_interrupted},
+          {"n_running", o.n_running},
+          {"cpu_time_s", o.cpu_time_s},
+          {"first_started", o.first_started},
+          {"last_ended", o.last_ended}};
+}
+
+std::string summary_line(const std::string& tool, const Outcomes& o) {
+  std::string line = padded(tool, 14);
+  for (const int n : {o.n_done, o.n_failed, o.n_interrupted, o.n_running})
+    line += padded(std::to_string(n), 13);
+  return line + padded(talus::text(o.cpu_time_s, 4) + " s", 13) + padded(o.first_started, 22) +
+         (o.last_ended.empty() ? "-" : o.last_ended);
+}
+
+void show_summary(talus::Tool& tool, const std::string& db) {
+  std::map<std::string, Outcomes> of_tool;
+  Outcomes all;
+  for (const auto& run : talus::list_runs(db)) {
+    of_tool[run.tool].add(run);
+    all.add(run);
+  }
+  std::string lines =
+      "tool          done         failed       interrupted  running      cpu          first "
+      "started   "
+      "      last ended";
+  Json tools = Json::array();
+  for (const auto& [name, outcomes] : of_tool) {
+    lines += "\n" + summary_line(name, outcomes);
+    tools.push_back(as_json(name, outcomes));
+  }
+  lines += "\n" + summary_line("all", all);
+  tool.result({{"tools", tools}, {"all", as_json("all", all)}}, lines);
+}
+
+void merge(talus::Tool& tool, const std::vector<std::string>& files, const std::string& out) {
+  for (const std::string& file : files)
+    if (std::filesystem::exists(out) && std::filesystem::exists(file) &&
+        std::filesystem::equivalent(out, file))
+      throw talus::InputError({file}, "is the registry that is written to itself",
+                              "name the others; what is in it already stays");
+  const talus::RegistryMerge done = talus::merge_runs(out, files);
+  tool.result(
+      {{"n_added", done.n_added}, {"n_completed", done.n_completed}, {"n_known", done.n_known}},
+      out + ": " + talus::counted(done.n_added, "run") + " added, " +
+          std::to_string(done.n_completed) + " completed, " + std::to_string(done.n_known) +
+          " were there");
+}
+
 // What was taken over is removed.
 void adopt_late(talus::Tool& tool, const std::string& db, const std::vector<std::string>& files) {
   int n = 0;
@@ -233,8 +307,9 @@ void adopt_late(talus::Tool& tool, const std::string& db, const std::vector<std:
 int main(int argc, char** argv) {
   std::string id, file;
   std::string db = "runs.sqlite";
-  std::vector<std::string> late;
-  bool prov = false;
+  std::string merged;
+  std::vector<std::string> late, parts;
+  bool prov = false, summary = false;
   talus::Tool tool("talus-runs",
                    "Reads the run registry: what was run, from what, with which outcome.");
   tool.app().remove_option(tool.app().get_option("--db"));
@@ -245,6 +320,8 @@ int main(int argc, char** argv) {
           .add_option("--db", db, "run registry; trace looks for it beside FILE and one folder up")
           ->capture_default_str();
   CLI::App* list = tool.app().add_subcommand("list", "all runs, a line each");
+  list->add_flag("--summary", summary,
+                 "a line a tool: how many ended how, CPU time, from when to when");
   CLI::App* show =
       tool.app().add_subcommand("show", "one run with options, files, metrics and events");
   show->add_option("ID", id, "row number, or the beginning of a content id")->required();
@@ -256,9 +333,18 @@ int main(int argc, char** argv) {
   CLI::App* adopt = tool.app().add_subcommand(
       "adopt", "enter the runs that ended while the registry could not be written");
   adopt->add_option("FILE", late, "what such a run left [all beside the registry: DB.late-*]");
+  CLI::App* join = tool.app().add_subcommand(
+      "merge", "enter all runs of other registries, each once (of shards, of machines)");
+  join->add_option("FILE", parts, "registries; they stay as they are")->required();
+  join->add_option("-o,--out", merged, "registry to enter them in; made where there is none")
+      ->required();
 
   return tool.run(argc, argv, [&] {
-    if (adopt->parsed()) {
+    if (join->parsed()) {
+      merge(tool, parts, merged);
+    } else if (list->parsed() && summary) {
+      show_summary(tool, db);
+    } else if (adopt->parsed()) {
       adopt_late(tool, db, late.empty() ? talus::late_registries(db) : late);
     } else if (list->parsed()) {
       Json runs = Json::array();

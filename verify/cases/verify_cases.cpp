@@ -42,7 +42,7 @@ VerifyCase bounce_case(const std::string& name, double restitution, Landing land
       .name = name,
       .claim = "three rebounds from 5 m at COR " + text(restitution) + " have the heights e^2k h",
       .reference = "closed form",
-      .norm = "relative, largest of three",
+      .norm = "of the first fall, largest of three",
       .test = "LawTalus.BouncesToTheHeightAskedFor",
       .bound = 1e-11,
       .run = [=](const Settings& s) { return bounce(s, restitution, landing); }};

@@ -31,7 +31,11 @@ std::set<std::uint32_t> cells_of(const GroundSums& with, const GroundSums& witho
 void add_run(GroundSums& sums, const PassageGrid& grid, const RunFile& run, double rest_speed) {
   ++sums.n_runs;
   add_deposit(sums.deposit, grid, run, rest_speed);
-  for (const Passage& passage : run.passages) {
+  add_speeds(sums, run.passages);
+}
+
+void add_speeds(GroundSums& sums, std::span<const Passage> passages) {
+  for (const Passage& passage : passages) {
     float& speed = sums.speed[static_cast<std::uint32_t>(passage.cell)];
     speed = std::max(speed, passage.largest.speed);
   }

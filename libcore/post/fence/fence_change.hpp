@@ -5,6 +5,8 @@
 // paper: Zhang et al. 2018, Fig. 14
 #pragma once
 
+#include <span>
+
 #include "post/deposit.hpp"
 #include "post/maps/maps.hpp"
 
@@ -17,6 +19,8 @@ struct GroundSums {
   std::map<std::uint32_t, float> speed;  ///< largest of any block and run over the cell [m/s]
 };
 void add_run(GroundSums& sums, const PassageGrid& grid, const RunFile& run, double rest_speed);
+/// Passages of a run that add_run() did not have.
+void add_speeds(GroundSums& sums, std::span<const Passage> passages);
 
 /// Layer fence_change with the bands deposit_thickness_change (means over runs) and
 /// velocity_max_change; 0 where neither side has anything.

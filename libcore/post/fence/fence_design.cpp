@@ -174,7 +174,7 @@ void judge(DesignResult& result, bool enough, bool first_touches) {
 void add_fence_steps(DesignResult& result, const DesignCode& code, const DesignInput& input,
                      const Fence& fence) {
   const bool given = !std::isnan(input.free_border);
-  result.steps.push_back({"f_min", "free border", result.free_border, "m",
+  result.steps.push_back({"f_min", "freeboard", result.free_border, "m",
                           given ? "given (--free-border-m)"
                                 : "max(" + text(factor(code, "f_min_m")) + " m, " +
                                       text(factor(code, "f_min_share_of_block")) +

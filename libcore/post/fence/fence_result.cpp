@@ -140,7 +140,7 @@ FenceResult fence_result(const FenceCase& fence_case, std::size_t index, const F
   return r;
 }
 
-ShareBasis verdict_basis(const FenceRunGroup& group, std::uint64_t seed) {
+ShareBasis verdict_basis(const FenceRunGroup& group, double failed_share) {
   std::vector<double> released;
   bool single_blocks = true;
   for (const FenceRun& run : group.runs) {
@@ -149,7 +149,7 @@ ShareBasis verdict_basis(const FenceRunGroup& group, std::uint64_t seed) {
     released.push_back(weight);
     single_blocks = single_blocks && run.weight.size() <= 1;
   }
-  return share_basis(released, single_blocks, fence_resamples, seed);
+  return share_basis(released, single_blocks, failed_share);
 }
 
 VerdictShare verdict_share(const FenceRunGroup& group, std::size_t fence, Verdict verdict,

@@ -53,8 +53,9 @@ struct FenceResult {
                                        const std::vector<BarrierClass>& classes,
                                        const FenceResultSettings& settings, const Trn& trn);
 
-/// The weight of the runs' blocks, which shares of verdicts are parts of.
-[[nodiscard]] ShareBasis verdict_basis(const FenceRunGroup& group, std::uint64_t seed);
+/// The weight of the runs' blocks, which shares of verdicts are parts of. `failed_share`: of the
+/// runs that were wanted.
+[[nodiscard]] ShareBasis verdict_basis(const FenceRunGroup& group, double failed_share);
 
 /// How many blocks of all runs have a verdict at a fence.
 struct VerdictShare {

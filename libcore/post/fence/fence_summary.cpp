@@ -3,37 +3,15 @@
 #include <algorithm>
 #include <limits>
 
-#include "post/statistics.hpp"
+#include "post/percentile_bounds.hpp"
 
 namespace talus {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-struct Bounds {
-  bool runs_repeat = false;
-  int n_runs_here = 0;
-  const RunResamples* resamples = nullptr;
-};
-
-// Places of the upper bounds by the bootstrap over runs in the ascending list; -1 where there is
-// none.
-std::vector<int> bootstrap_bounds(const std::vector<const FenceArrival*>& ascending,
-                                  const RunResamples& resamples) {
-  std::vector<RunWeight> descending;
-  for (auto a = ascending.rbegin(); a != ascending.rend(); ++a)
-    descending.push_back({(*a)->run, (*a)->weight});
-  std::vector<double> levels;
-  for (std::size_t k = percentile_levels.size(); k-- > 0;) levels.push_back(percentile_levels[k].p);
-  std::vector<int> places = bootstrap_upper_places(descending, resamples, levels);
-  std::reverse(places.begin(), places.end());
-  for (int& place : places)
-    if (place >= 0) place = static_cast<int>(ascending.size()) - 1 - place;
-  return places;
-}
-
 QuantitySummary summary_of(const std::vector<FenceArrival>& arrivals, double n_eff,
-                           const Bounds& bounds, double (*quantity)(const FenceArrival&)) {
+                           PercentileBounds& bounds, double (*quantity)(const FenceArrival&)) {
   std::vector<const FenceArrival*> ascending;
   for (const FenceArrival& a : arrivals) ascending.push_back(&a);
   std::sort(ascending.begin(), ascending.end(),
@@ -42,23 +20,21 @@ QuantitySummary summary_of(const std::vector<FenceArrival>& arrivals, double n_e
               return x != y ? x < y : a->weight < b->weight;
             });
   std::vector<WeightedValue> values;
-  for (const FenceArrival* a : ascending) values.push_back({quantity(*a), a->weight});
+  std::vector<RunWeight> runs;
+  for (const FenceArrival* a : ascending) {
+    values.push_back({quantity(*a), a->weight});
+    runs.push_back({a->run, a->weight});
+  }
   QuantitySummary summary;
   summary.largest = values.empty() ? none : values.back().value;
-  const bool by_runs = bounds.runs_repeat && bounds.n_runs_here >= least_runs_to_resample;
-  std::vector<int> places;
-  if (by_runs) places = bootstrap_bounds(ascending, *bounds.resamples);
-  const int n = static_cast<int>(n_eff + 1e-9);
+  const BoundPlaces upper = upper_bound_places(bounds, runs);
   for (std::size_t k = 0; k < percentile_levels.size(); ++k) {
     const double p = percentile_levels[k].p;
     BoundedPercentile& out = summary.percentile[k];
     out = {none, none};
-    if (n < smallest_sample(p)) continue;
+    if (static_cast<int>(n_eff + 1e-9) < smallest_sample(p)) continue;
     out.value = weighted_percentile(values, p);
-    if (!bounds.runs_repeat)
-      out.upper = weighted_percentile(values, static_cast<double>(upper_bound_rank(n, p)) / n);
-    else if (by_runs && places[k] >= 0)
-      out.upper = values[places[k]].value;
+    if (upper[k] >= 0) out.upper = values[upper[k]].value;
   }
   return summary;
 }
@@ -95,23 +71,17 @@ FencePartSummary summarise(const std::vector<FenceArrival>& given, int n_runs, s
   summary.per_run = static_cast<double>(summary.n) / n_runs;
   summary.n_eff = effective_size(w, w_sq);
   summary.mean_angle = angle / w;
-  Bounds bounds;
   int n_twice = 0;
   for (std::size_t i = 0; i < sorted.size();) {
     std::vector<FenceArrival> of_run;
     for (const int run = sorted[i].run; i < sorted.size() && sorted[i].run == run; ++i)
       of_run.push_back(sorted[i]);
-    ++bounds.n_runs_here;
-    bounds.runs_repeat |= of_run.size() > 1;
     n_twice += of_run.size() > 1;
     summary.most_in_a_run = std::max(summary.most_in_a_run, static_cast<int>(of_run.size()));
     find_busiest_second(of_run, summary);
   }
   summary.runs_hit_twice = static_cast<double>(n_twice) / n_runs;
-  RunResamples resamples;
-  if (bounds.runs_repeat && bounds.n_runs_here >= least_runs_to_resample)
-    resamples = resample_runs(n_runs, fence_resamples, seed);
-  bounds.resamples = &resamples;
+  PercentileBounds bounds(n_runs, fence_resamples, seed);
   const auto of = [&](double (*quantity)(const FenceArrival&)) {
     return summary_of(sorted, summary.n_eff, bounds, quantity);
   };

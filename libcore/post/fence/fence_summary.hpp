@@ -39,8 +39,8 @@ struct FencePartSummary {
   double window_energy = 0;             ///< largest sum of energies within one second, any run [J]
   int window_hits = 0;                  ///< of that second
 };
-/// `n_runs`: all of them, also those without an arrival. Bounds by ranks when no run has two
-/// arrivals here, else by the bootstrap over runs (seeded).
+/// `n_runs`: all of them, also those without an arrival. Bounds: percentile_bounds.hpp; `seed` is
+/// that of its bootstrap.
 [[nodiscard]] FencePartSummary summarise(const std::vector<FenceArrival>& arrivals, int n_runs,
                                          std::uint64_t seed);
 

@@ -12,7 +12,7 @@ MapLayer of_quantity(const MapLayerKind& kind, const MapSources& from) {
   return quantity_layer(kind.name, from.cells, quantity, from.released, from.settings);
 }
 MapLayer of_reach(const MapLayerKind& /*kind*/, const MapSources& from) {
-  return reach_layer(from.cells, from.cell_size, from.released, from.settings);
+  return reach_layer(from.cells, from.cell_size, from.released);
 }
 MapLayer of_exceedance(const MapLayerKind& /*kind*/, const MapSources& from) {
   return exceedance_layer(from.cells, from.released);

@@ -81,10 +81,11 @@ std::string intensity(const std::string& unit, double upper) {
 
 }  // namespace
 
-RasterStyle change_style(const MapLayer& layer, const std::string& remark) {
+RasterStyle change_style(const MapLayer& layer, const std::string& remark,
+                         const std::vector<double>& breaks) {
   const MapBand& band = layer.bands[0];
   return {1, band.name + " [" + band.unit + "]",
-          change_classes({0.05, 0.25, 0.5, 1, 2, 4}, " " + band.unit), remark};
+          change_classes(breaks, band.unit == "1" ? "" : " " + band.unit), remark};
 }
 
 RasterStyle map_style(const MapLayer& layer, const std::string& remark) {

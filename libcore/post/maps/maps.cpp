@@ -4,12 +4,10 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <optional>
 #include <span>
 
 #include "base/error.hpp"
-#include "post/share_interval.hpp"
-#include "post/statistics.hpp"
+#include "post/percentile_bounds.hpp"
 
 namespace talus {
 namespace {
@@ -56,37 +54,6 @@ double sum(std::span<const double> values) {
   return total;
 }
 
-// Resamples of the runs, drawn when a cell first needs them.
-class LazyResamples {
- public:
-  LazyResamples(int n_runs, const MapSettings& settings) : n_runs_(n_runs), settings_(settings) {}
-  const RunResamples& get() {
-    if (!resamples_) resamples_ = resample_runs(n_runs_, settings_.n_resamples, settings_.seed);
-    return *resamples_;
-  }
-
- private:
-  int n_runs_;
-  MapSettings settings_;
-  std::optional<RunResamples> resamples_;
-};
-
-// Ranks of upper bounds, computed once for each sample size.
-class BoundRanks {
- public:
-  explicit BoundRanks(double p) : p_(p) {}
-  int of(int n) {
-    if (static_cast<std::size_t>(n) >= rank_.size()) rank_.resize(n + 1, not_computed);
-    if (rank_[n] == not_computed) rank_[n] = upper_bound_rank(n, p_);
-    return rank_[n];
-  }
-
- private:
-  static constexpr int not_computed = -1;
-  double p_;
-  std::vector<int> rank_;
-};
-
 // The values of one quantity in one cell, ascending, with the running sum of their weights.
 struct CellSample {
   struct Item {
@@ -94,17 +61,13 @@ struct CellSample {
     std::int32_t run;
   };
   std::vector<Item> items;
+  std::vector<RunWeight> runs;  // of the items
   std::vector<double> weight_up_to;
   double mean = 0, n_eff = 0;
-  int n_runs = 0;            // that came here
-  bool runs_repeat = false;  // some run came with several blocks
 
   void fill(std::span<const MapRow> rows, float PassageValues::*member) {
     items.clear();
     double total = 0, total_sq = 0, moment = 0;
-    n_runs = 0;
-    runs_repeat = false;
-    std::int32_t last_run = -1;
     for (const MapRow& row : rows) {
       const float value = row.largest.*member;
       if (std::isnan(value) || !(row.weight > 0)) continue;
@@ -112,11 +75,6 @@ struct CellSample {
       total += row.weight;
       total_sq += static_cast<double>(row.weight) * row.weight;
       moment += static_cast<double>(row.weight) * value;
-      if (row.run == last_run)
-        runs_repeat = true;
-      else
-        ++n_runs;
-      last_run = row.run;
     }
     mean = moment / total;
     n_eff = effective_size(total, total_sq);
@@ -124,8 +82,12 @@ struct CellSample {
       return a.value != b.value ? a.value < b.value : a.weight < b.weight;
     });
     weight_up_to.resize(items.size());
+    runs.clear();
     double running = 0;
-    for (std::size_t i = 0; i < items.size(); ++i) weight_up_to[i] = running += items[i].weight;
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      weight_up_to[i] = running += items[i].weight;
+      runs.push_back({items[i].run, items[i].weight});
+    }
   }
 
   // As weighted_percentile(), by bisection.
@@ -135,38 +97,6 @@ struct CellSample {
     return items[std::min<std::size_t>(at - weight_up_to.begin(), items.size() - 1)].value;
   }
 };
-
-// Upper 95 % bounds of the percentiles; NaN where the sample gives none. Passages of different runs
-// are independent, and ranks bound them exactly; blocks of one run are not, and the runs are
-// resampled.
-std::array<double, percentile_levels.size()> upper_bounds(const CellSample& sample,
-                                                          std::span<BoundRanks> ranks,
-                                                          LazyResamples& resamples) {
-  std::array<double, percentile_levels.size()> bounds;
-  bounds.fill(none);
-  const int n = static_cast<int>(sample.n_eff + 1e-9);
-  std::size_t n_bounded = 0;  // the lower percentiles need fewer
-  while (n_bounded < bounds.size() && n >= smallest_sample(percentile_levels[n_bounded].p))
-    ++n_bounded;
-  if (!sample.runs_repeat) {
-    for (std::size_t k = 0; k < n_bounded; ++k)
-      bounds[k] = sample.percentile(static_cast<double>(ranks[k].of(n)) / n);
-    return bounds;
-  }
-  if (sample.n_runs < least_runs_to_resample || n_bounded == 0) return bounds;
-  std::vector<RunWeight> descending;
-  descending.reserve(sample.items.size());
-  for (auto item = sample.items.rbegin(); item != sample.items.rend(); ++item)
-    descending.push_back({item->run, item->weight});
-  std::vector<double> levels;
-  for (std::size_t k = n_bounded; k-- > 0;) levels.push_back(percentile_levels[k].p);
-  const std::vector<int> places = bootstrap_upper_places(descending, resamples.get(), levels);
-  for (std::size_t k = 0; k < n_bounded; ++k) {
-    const int place = places[n_bounded - 1 - k];
-    if (place >= 0) bounds[k] = sample.items[sample.items.size() - 1 - place].value;
-  }
-  return bounds;
-}
 
 MapBand band(std::string name, std::string unit, std::string description, std::size_t n_touched,
              bool zero_elsewhere = false) {
@@ -189,22 +119,17 @@ MapLayer empty_quantity_layer(const std::string& name, const QuantityText& text,
   for (const PercentileLevel& p : percentile_levels)
     add(std::string(p.name) + "_hi",
         std::string("upper 95 % confidence bound of ") + p.name +
-            "; by ranks where no run passed twice, else by the bootstrap over runs; nodata where "
-            "the sample gives none");
+            "; by ranks where no run passed twice, else over runs; nodata where the sample gives "
+            "none");
   return layer;
 }
 
-// What the intervals of reach_probability rest on.
-ShareBasis reach_basis(const Released& released, const MapSettings& settings) {
-  const bool single_blocks = std::all_of(released.n_blocks.begin(), released.n_blocks.end(),
-                                         [](int count) { return count <= 1; });
-  return share_basis(released.weight, single_blocks, settings.n_resamples, settings.seed);
-}
-
-// Weight of each run that came; `rows` by run.
-void weigh_runs(std::span<const MapRow> rows, std::vector<RunWeight>& parts) {
+// Weight of each run that came and `counts`; `rows` by run.
+template <class Test>
+void weigh_runs(std::span<const MapRow> rows, const Test& counts, std::vector<RunWeight>& parts) {
   parts.clear();
   for (const MapRow& row : rows) {
+    if (!counts(row)) continue;
     if (parts.empty() || parts.back().run != row.run) parts.push_back({row.run, 0});
     parts.back().weight += row.weight;
   }
@@ -231,6 +156,12 @@ std::vector<MapBand> empty_reach_bands(std::size_t n) {
            "and where there are too few runs",
            n),
       band("run_share", "1", "share of the runs in which any block crossed the cell", n, true),
+      band("run_share_lo", "1",
+           "lower bound of the 95 % interval of run_share; nodata where no block came", n),
+      band("run_share_hi", "1",
+           "upper bound of the 95 % interval of run_share; nodata where no block came: there it is "
+           "the tag REACH_UPPER_BOUND_ELSEWHERE",
+           n),
       band("passage_per_m", "1/m",
            "sum over crossing blocks of 1 / (width of the cell seen across the block's "
            "heading)",
@@ -240,14 +171,18 @@ std::vector<MapBand> empty_reach_bands(std::size_t n) {
 
 }  // namespace
 
+ShareBasis share_basis_of(const Released& released) {
+  const bool single_blocks = std::all_of(released.n_blocks.begin(), released.n_blocks.end(),
+                                         [](int count) { return count <= 1; });
+  return share_basis(released.weight, single_blocks, released.failed_share);
+}
+
 MapLayer quantity_layer(const std::string& name, const CellRows& cells, MapQuantity quantity,
                         const Released& released, const MapSettings& settings) {
   const QuantityText& text = text_of(quantity);
   MapLayer layer = empty_quantity_layer(name, text, cells);
   constexpr std::size_t n_p = percentile_levels.size();
-  std::vector<BoundRanks> ranks;
-  for (const PercentileLevel& p : percentile_levels) ranks.emplace_back(p.p);
-  LazyResamples resamples(n_runs(released), settings);
+  PercentileBounds bounds(n_runs(released), settings.n_resamples, settings.seed);
   CellSample sample;
   for (std::size_t i = 0; i < cells.cell.size(); ++i) {
     sample.fill(rows_of(cells, i), text.member);
@@ -257,23 +192,22 @@ MapLayer quantity_layer(const std::string& name, const CellRows& cells, MapQuant
     };
     put(0, sample.mean);
     put(1 + n_p, sample.items.back().value);
-    const auto bounds = upper_bounds(sample, ranks, resamples);
+    const BoundPlaces upper = upper_bound_places(bounds, sample.runs);
     for (std::size_t k = 0; k < n_p; ++k) {
       const double p = percentile_levels[k].p;
       const int needed = settings.min_passages > 0 ? settings.min_passages : smallest_sample(p);
       if (sample.n_eff + 1e-9 >= needed) put(1 + k, sample.percentile(p));
-      put(2 + n_p + k, bounds[k]);
+      if (upper[k] >= 0) put(2 + n_p + k, sample.items[upper[k]].value);
     }
   }
   return layer;
 }
 
-MapLayer reach_layer(const CellRows& cells, double cell_size, const Released& released,
-                     const MapSettings& settings) {
+MapLayer reach_layer(const CellRows& cells, double cell_size, const Released& released) {
   const std::size_t n = cells.cell.size();
   MapLayer layer{"", cells.cell, empty_reach_bands(n)};
   const double total = sum(released.weight);
-  const ShareBasis basis = reach_basis(released, settings);
+  const ShareBasis basis = share_basis_of(released);
   std::vector<RunWeight> parts;
   for (std::size_t i = 0; i < n; ++i) {
     const auto rows = rows_of(cells, i);
@@ -286,13 +220,17 @@ MapLayer reach_layer(const CellRows& cells, double cell_size, const Released& re
       per_m += 1 / (width_across(rows[k].heading) * cell_size);
     }
     const double share = total > 0 ? std::min(1.0, w / total) : 0;
-    weigh_runs(rows, parts);
+    weigh_runs(
+        rows, [](const MapRow&) { return true; }, parts);
     const Interval interval = share_interval(basis, parts, share);
+    const Interval of_runs = run_share_interval(basis, runs);
     const std::array values = {static_cast<double>(rows.size()),
                                share,
                                interval.low,
                                interval.high,
                                static_cast<double>(runs) / n_runs(released),
+                               of_runs.low,
+                               of_runs.high,
                                per_m,
                                effective_size(w, w_sq)};
     for (std::size_t b = 0; b < values.size(); ++b)
@@ -301,22 +239,60 @@ MapLayer reach_layer(const CellRows& cells, double cell_size, const Released& re
   return layer;
 }
 
+double reach_bound_elsewhere(const Released& released) {
+  return run_share_interval(share_basis_of(released), 0).high;
+}
+
+int runs_to_add(const CellRows& cells, const Released& released, double half) {
+  const double total = sum(released.weight);
+  const ShareBasis basis = share_basis_of(released);
+  std::vector<RunWeight> parts;
+  int most = 0;
+  for (std::size_t i = 0; i < cells.cell.size() && basis.bounded && total > 0; ++i) {
+    weigh_runs(
+        rows_of(cells, i), [](const MapRow&) { return true; }, parts);
+    double w = 0;
+    for (const RunWeight& part : parts) w += part.weight;
+    const double share = std::min(1.0, w / total);
+    if (share <= least_reach) continue;
+    most =
+        std::max(most, runs_to_add(n_runs(released), trials_of(basis, parts, share), share, half));
+  }
+  return most;
+}
+
 MapLayer exceedance_layer(const CellRows& cells, const Released& released) {
   MapLayer layer{"", cells.cell, {}};
   const double total = sum(released.weight);
+  const ShareBasis basis = share_basis_of(released);
+  const std::size_t n = cells.cell.size();
+  std::vector<RunWeight> parts;
   for (const int limit_kj : {30, 300}) {
+    const std::string name = "p_exceed_" + std::to_string(limit_kj) + "kJ";
     MapBand out =
-        band("p_exceed_" + std::to_string(limit_kj) + "kJ", "1",
+        band(name, "1",
              "weight of the blocks whose kinetic energy with spin was above " +
                  std::to_string(limit_kj) + " kJ over the cell / weight of all released blocks",
-             cells.cell.size(), true);
-    for (std::size_t i = 0; i < cells.cell.size(); ++i) {
+             n, true);
+    const char* const nodata = "; nodata where no block came and where there are too few runs";
+    MapBand low =
+                band(name + "_lo", "1", "lower bound of the 95 % interval of " + name + nodata, n),
+            high =
+                band(name + "_hi", "1", "upper bound of the 95 % interval of " + name + nodata, n);
+    for (std::size_t i = 0; i < n; ++i) {
+      const float limit = 1e3F * static_cast<float>(limit_kj);
+      weigh_runs(
+          rows_of(cells, i), [limit](const MapRow& r) { return r.largest.total_energy > limit; },
+          parts);
       double w = 0;
-      for (const MapRow& row : rows_of(cells, i))
-        if (row.largest.total_energy > 1e3F * static_cast<float>(limit_kj)) w += row.weight;
-      out.value[i] = static_cast<float>(total > 0 ? std::min(1.0, w / total) : 0);
+      for (const RunWeight& part : parts) w += part.weight;
+      const double share = total > 0 ? std::min(1.0, w / total) : 0;
+      const Interval interval = share_interval(basis, parts, share);
+      out.value[i] = static_cast<float>(share);
+      low.value[i] = static_cast<float>(interval.low);
+      high.value[i] = static_cast<float>(interval.high);
     }
-    layer.bands.push_back(std::move(out));
+    for (MapBand* made : {&out, &low, &high}) layer.bands.push_back(std::move(*made));
   }
   return layer;
 }

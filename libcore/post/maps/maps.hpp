@@ -15,6 +15,7 @@
 
 #include "io/overview.hpp"
 #include "post/maps/map_rows.hpp"
+#include "post/share_interval.hpp"
 
 namespace talus {
 
@@ -22,7 +23,11 @@ namespace talus {
 struct Released {
   std::vector<double> weight;  ///< sum over the run's blocks                       (n_runs)
   std::vector<int> n_blocks;   ///<                                                 (n_runs)
+  double failed_share = 0;     ///< of the runs that were wanted, left out here [-]
 };
+
+/// What the intervals of shares rest on.
+[[nodiscard]] ShareBasis share_basis_of(const Released& released);
 
 struct MapSettings {
   int min_passages = 0;    ///< for any percentile; 0: Wilks (5, 29, 59, 299 for p50 to p99)
@@ -58,10 +63,17 @@ enum class MapQuantity {
 [[nodiscard]] MapLayer quantity_layer(const std::string& name, const CellRows& cells,
                                       MapQuantity quantity, const Released& released,
                                       const MapSettings& settings);
-/// n_pass, reach_probability with bounds, share of runs, passage_per_m, n_eff.
+/// n_pass, reach_probability and share of runs with bounds, passage_per_m, n_eff.
 [[nodiscard]] MapLayer reach_layer(const CellRows& cells, double cell_size,
-                                   const Released& released, const MapSettings& settings);
-/// p_exceed_30kJ, p_exceed_300kJ.
+                                   const Released& released);
+/// The upper 95 % bound of the share of runs that come over a cell that none came over.
+[[nodiscard]] double reach_bound_elsewhere(const Released& released);
+/// Shares of reach that are worth more runs [-].
+inline constexpr double least_reach = 0.01;
+/// Runs to add so that the interval of reach_probability is nowhere wider than 2 `half` where it is
+/// above least_reach; 0: none, also where there are too few runs to tell.
+[[nodiscard]] int runs_to_add(const CellRows& cells, const Released& released, double half);
+/// p_exceed_30kJ, p_exceed_300kJ with bounds.
 [[nodiscard]] MapLayer exceedance_layer(const CellRows& cells, const Released& released);
 /// first_arrival.
 [[nodiscard]] MapLayer arrival_layer(const CellRows& cells);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/error.hpp"
 #include "record/motion.hpp"
 
 namespace talus {
@@ -29,39 +30,39 @@ double kinetic_rotation(const RunFile& run, int block, const FrameBlock& at) {
   return 0.5 * spin.cwiseAbs2().dot(run.blocks.inertia[block]);
 }
 
-BlockReach block_reach(const RunFile& run, int block, const ReachSettings& settings) {
-  BlockReach out;
-  out.block = block;
-  out.fate = fate_of(run, block, settings.rest_speed);
-  out.reach = reach_along(simplified(block_path(run, block), settings.tolerance).point);
+// Raises the largest speed and energy of a block by its frames.
+void raise_by_frames(RunReach& reach, const RunFile& run, int block) {
   for (int k = 0; k < n_frames(run.frames); ++k) {
     const FrameBlock at = frame_block(run, k, block);
     const double speed = at.velocity.norm();
-    out.max_speed = std::max(out.max_speed, speed);
-    out.max_energy = std::max(out.max_energy, 0.5 * run.blocks.mass[block] * speed * speed +
-                                                  kinetic_rotation(run, block, at));
+    reach.max_speed[block] = std::max(reach.max_speed[block], speed);
+    reach.max_energy[block] =
+        std::max(reach.max_energy[block],
+                 0.5 * run.blocks.mass[block] * speed * speed + kinetic_rotation(run, block, at));
   }
-  return out;
 }
 
 // The recorder has seen every step, the frames only their own moments.
-void raise_by_passages(std::vector<BlockReach>& blocks, const std::vector<Passage>& passages) {
+void raise_by_passages(RunReach& reach, const std::vector<Passage>& passages) {
   for (const Passage& passage : passages) {
-    BlockReach& b = blocks[passage.block];
-    b.max_speed = std::max<double>(b.max_speed, passage.largest.speed);
-    b.max_energy = std::max<double>(b.max_energy, passage.largest.total_energy);
+    double &speed = reach.max_speed[passage.block], &energy = reach.max_energy[passage.block];
+    speed = std::max<double>(speed, passage.largest.speed);
+    energy = std::max<double>(energy, passage.largest.total_energy);
+  }
+}
+
+// Raises `top` to the highest vertex of a block before it moved.
+void raise_to_highest(const RunFile& run, int block, Vec3& top) {
+  const Pose pose = first_pose(run, block);
+  for (int v = run.blocks.vertex_begin[block]; v < run.blocks.vertex_begin[block + 1]; ++v) {
+    const Vec3 at = place(pose, run.blocks.vertices[v]);
+    if (at.z() > top.z()) top = at;
   }
 }
 
 Vec3 highest_point(const RunFile& run) {
   Vec3 top(0, 0, -std::numeric_limits<double>::infinity());
-  for (int block = 0; block < n_blocks(run); ++block) {
-    const Pose pose = first_pose(run, block);
-    for (int v = run.blocks.vertex_begin[block]; v < run.blocks.vertex_begin[block + 1]; ++v) {
-      const Vec3 at = place(pose, run.blocks.vertices[v]);
-      if (at.z() > top.z()) top = at;
-    }
-  }
+  for (int block = 0; block < n_blocks(run); ++block) raise_to_highest(run, block, top);
   return top;
 }
 
@@ -85,27 +86,27 @@ Vec3 outermost_point(const RunFile& run, int block, const std::vector<Vec3>& pat
 // The block that is farthest from the top, whatever its fate: one that still moves must not be left
 // out of L. The length of its path says less: a block that danced in a hollow has a long one.
 // Blocks that stayed where they were bound the source, not the run-out.
-int find_toe_block(const EventReach& event, const RunFile& run,
+int find_toe_block(const RunFile& run, const Vec3& top,
                    const std::vector<WeightedValue>& displacement) {
   int toe = -1;
   double farthest = -1;
-  for (const BlockReach& b : event.blocks) {
-    if (!(displacement[b.block].value > moved_m)) continue;
-    const double distance = plan_distance(event.top, last_pose(run, b.block).position);
+  for (int block = 0; block < n_blocks(run); ++block) {
+    if (!(displacement[block].value > moved_m)) continue;
+    const double distance = plan_distance(top, last_pose(run, block).position);
     if (distance <= farthest) continue;
     farthest = distance;
-    toe = b.block;
+    toe = block;
   }
   return toe;
 }
 
-std::vector<Vec3> streamline(const RunFile& run, const EventReach& event, const Trn& trn,
-                             double tolerance, Vec3& toe) {
-  const std::vector<Vec3> path = simplified(block_path(run, event.toe_block), tolerance).point;
-  toe = outermost_point(run, event.toe_block, path, trn);
+std::vector<Vec3> streamline_of(const RunFile& run, const Vec3& top, int toe_block, const Trn& trn,
+                                double tolerance) {
+  const std::vector<Vec3> path = simplified(block_path(run, toe_block), tolerance).point;
+  const Vec3 toe = outermost_point(run, toe_block, path, trn);
   // The path is put on the ground, so that bounces and the block's own size do not bend the
   // profile.
-  std::vector<Vec3> line{event.top};
+  std::vector<Vec3> line{top};
   for (Vec3 at : path) {
     const double ground = elevation_at(trn, at.x(), at.y());
     if (!std::isnan(ground)) at.z() = ground;
@@ -117,10 +118,48 @@ std::vector<Vec3> streamline(const RunFile& run, const EventReach& event, const 
 
 }  // namespace
 
-double AngleProfile::at_end() const { return angle.empty() ? none : angle.back(); }
+double MassReach::angle() const { return angle_of(height, length); }
 
-double ReachLine::path_angle() const { return angle_of(height, path); }
-double ReachLine::chord_angle() const { return angle_of(height, chord); }
+MassReach mass_reach(const RunFile& run, const std::vector<WeightedValue>& displacement) {
+  struct End {
+    double distance, z, mass;
+  };
+  MassReach reach;
+  Vec3 top(0, 0, -std::numeric_limits<double>::infinity());
+  const auto has_moved = [&](int block) { return displacement[block].value > moved_m; };
+  for (int block = 0; block < n_blocks(run); ++block)
+    if (has_moved(block)) raise_to_highest(run, block, top);
+  std::vector<End> ends;
+  double all = 0;
+  for (int block = 0; block < n_blocks(run); ++block) {
+    if (!has_moved(block)) continue;
+    const Vec3 at = last_pose(run, block).position;
+    ends.push_back({plan_distance(top, at), at.z(), run.blocks.mass[block]});
+    all += run.blocks.mass[block];
+    reach.moved_volume += run.blocks.volume[block];
+  }
+  if (ends.empty()) return {none, none, 0, none, none, 0, 0};
+  std::stable_sort(ends.begin(), ends.end(),
+                   [](const End& a, const End& b) { return a.distance < b.distance; });
+  double within = 0;
+  for (const End& end : ends) {
+    if (within < reach_share * all * (1 - 1e-12)) {
+      reach.length = end.distance;
+      reach.height = top.z() - end.z;
+    }
+    within += end.mass;
+  }
+  for (const End& end : ends) {
+    if (end.distance <= reach.length) continue;
+    ++reach.n_beyond;
+    reach.beyond_share += end.mass / all;
+    reach.n_outliers += end.distance > outlier_factor * reach.length;
+  }
+  reach.toe_share = ends.back().mass / all;
+  return reach;
+}
+
+double AngleProfile::at_end() const { return angle.empty() ? none : angle.back(); }
 
 TimedPath block_path(const RunFile& run, int block) {
   TimedPath path;
@@ -222,30 +261,56 @@ AngleProfile angle_profile(std::span<const Vec3> points, double from, double tol
   return profile;
 }
 
+RunReach reach_of_frames(const RunFile& run, const Trn& trn, const ReachSettings& settings) {
+  RunReach reach;
+  reach.tolerance = settings.tolerance;
+  const auto n = static_cast<std::size_t>(n_blocks(run));
+  reach.max_speed.assign(n, 0);
+  reach.max_energy.assign(n, 0);
+  for (int block = 0; block < n_blocks(run); ++block) {
+    reach.block.push_back(
+        reach_along(simplified(block_path(run, block), settings.tolerance).point));
+    raise_by_frames(reach, run, block);
+  }
+  raise_by_passages(reach, run.passages);
+  const std::vector<WeightedValue> displacement = displacements(run);
+  if (!moved_of(displacement).any()) return reach;
+  reach.centre_of_mass =
+      reach_along(simplified(centre_of_mass_path(run), settings.tolerance).point);
+  const Vec3 top = highest_point(run);
+  reach.streamline =
+      streamline_of(run, top, find_toe_block(run, top, displacement), trn, settings.tolerance);
+  return reach;
+}
+
 EventReach event_reach(const RunFile& run, const Trn& trn, const ReachSettings& settings) {
+  TALUS_ASSERT(!run.reach || run.reach->tolerance == settings.tolerance);
+  const RunReach reach = run.reach ? *run.reach : reach_of_frames(run, trn, settings);
   EventReach event;
   double drop = 0, length = 0;
   for (int block = 0; block < n_blocks(run); ++block) {
-    event.blocks.push_back(block_reach(run, block, settings));
-    drop += run.blocks.mass[block] * event.blocks.back().reach.height;
-    length += run.blocks.mass[block] * event.blocks.back().reach.path;
+    event.blocks.push_back({block, fate_of(run, block, settings.rest_speed), reach.block[block],
+                            reach.max_speed[block], reach.max_energy[block]});
+    drop += run.blocks.mass[block] * reach.block[block].height;
+    length += run.blocks.mass[block] * reach.block[block].path;
   }
-  raise_by_passages(event.blocks, run.passages);
   const std::vector<WeightedValue> displacement = displacements(run);
   event.moved = moved_of(displacement);
   if (!event.moved.any()) {
     event.event = event.centre_of_mass = {none, none, none};
     event.sum_angle = event.profile.smallest = event.profile.smallest_at = none;
+    event.mass = mass_reach(run, displacement);
     return event;
   }
-  event.top = highest_point(run);
+  event.streamline = reach.streamline;
+  event.top = event.streamline.front();
+  event.toe = event.streamline.back();
   event.sum_angle = angle_of(drop, length);
-  event.centre_of_mass =
-      reach_along(simplified(centre_of_mass_path(run), settings.tolerance).point);
-  event.toe_block = find_toe_block(event, run, displacement);
+  event.centre_of_mass = reach.centre_of_mass;
+  event.toe_block = find_toe_block(run, event.top, displacement);
   event.toe_fate = event.blocks[event.toe_block].fate;
-  event.streamline = streamline(run, event, trn, settings.tolerance, event.toe);
   event.event = reach_along(event.streamline);
+  event.mass = mass_reach(run, displacement);
   // From where the toe block started: the piece from the top to there may lead sideways.
   event.profile = angle_profile(std::span<const Vec3>(event.streamline).subspan(1),
                                 0.1 * event.event.path, settings.tolerance);
@@ -281,18 +346,20 @@ EnergyShares energy_shares(const RunFile& run) {
   if (run.health.empty()) return shares;
   const HealthRow &start = run.health.front(), &end = run.health.back();
   const double at_start = start.translation + start.rotation + start.friction + start.impact +
-                          start.contact + start.fence + start.removed + start.elastic - start.base;
+                          start.contact + start.fence + start.breakage + start.removed +
+                          start.elastic - start.base;
   shares.put_in = start.potential - end.potential + at_start + end.base;
   if (!(shares.put_in > 0)) return {};
   shares.friction = end.friction / shares.put_in;
   shares.impact = end.impact / shares.put_in;
   shares.contact = end.contact / shares.put_in;
   shares.fence = end.fence / shares.put_in;
+  shares.breakage = end.breakage / shares.put_in;
   shares.removed = end.removed / shares.put_in;
   shares.kinetic = (end.translation + end.rotation) / shares.put_in;
   shares.elastic = end.elastic / shares.put_in;
   shares.unaccounted = 1 - shares.friction - shares.impact - shares.contact - shares.fence -
-                       shares.removed - shares.kinetic - shares.elastic;
+                       shares.breakage - shares.removed - shares.kinetic - shares.elastic;
   return shares;
 }
 

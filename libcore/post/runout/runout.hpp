@@ -12,6 +12,7 @@
 
 #include "post/deposit.hpp"
 #include "post/moved.hpp"
+#include "record/reach.hpp"
 #include "terrain/trn.hpp"
 
 namespace talus {
@@ -35,14 +36,7 @@ struct TimedPath {
 [[nodiscard]] double horizontal_length(
     std::span<const Vec3> points);  ///< along the path, in plan [m]
 
-/// H and L between two points, and Eq. (29): beta = atan(H / L).
-struct ReachLine {
-  double height = 0;                         ///< H, positive downwards [m]
-  double path = 0;                           ///< L along the path, in plan [m]
-  double chord = 0;                          ///< L straight from end to end, in plan [m]
-  [[nodiscard]] double path_angle() const;   ///< [rad]; NaN for no length
-  [[nodiscard]] double chord_angle() const;  ///< [rad]; NaN for no length
-};
+/// H and L from the first to the last point.
 [[nodiscard]] ReachLine reach_along(std::span<const Vec3> points);
 
 /// The angle from a path's first point to each of its points, along the path.
@@ -74,6 +68,23 @@ struct BlockReach {
   double max_energy = 0;  ///< of translation and rotation, over the same [J]
 };
 
+/// How far a mass came without its few farthest blocks.
+inline constexpr double reach_share = 0.95;    ///< of the mass that moved
+inline constexpr double outlier_factor = 1.2;  ///< a block beyond so many times that reach is one
+
+/// Plan distance from the highest point of what moved within which `reach_share` of the mass that
+/// moved is at the end, by centroids. NaN where no block moved.
+struct MassReach {
+  double height = 0;                   ///< H95, down to the block that is as far [m]
+  double length = 0;                   ///< L95, straight, in plan [m]
+  int n_beyond = 0;                    ///< blocks farther than that
+  double beyond_share = 0;             ///< their share of the mass that moved [-]
+  double toe_share = 0;                ///< of the farthest block [-]
+  int n_outliers = 0;                  ///< blocks beyond outlier_factor times L95
+  double moved_volume = 0;             ///< of the blocks that moved [m3]
+  [[nodiscard]] double angle() const;  ///< atan(H95 / L95) [rad]
+};
+
 /// What Eq. (29) needs, and what stands beside it.
 ///
 /// Where no block moved (moved.hpp) there is no run-out: no toe block and no streamline, and the
@@ -86,6 +97,7 @@ struct EventReach {
   Fate toe_fate = Fate::deposited;  ///< a toe block that still moves goes farther yet
   std::vector<Vec3> streamline;     ///< top, the toe block's path on the ground, toe [m]
   ReachLine event;                  ///< along the streamline
+  MassReach mass;                   ///< of what moved, without its few farthest blocks
   AngleProfile profile;             ///< along the streamline from the toe block's start
   ReachLine centre_of_mass;         ///< H_cm, L_cm along the path of the centre of mass
   double sum_angle = 0;  ///< atan(sum m H / sum m L) over blocks: tan(phi) for pure sliding [rad]
@@ -97,9 +109,18 @@ struct ReachSettings {
   double rest_speed = 0.05;  ///< [m/s]
 };
 
-/// Throws nothing; a run without frames has not moved.
+/// What the frames and passages of a run tell of its reach.
+[[nodiscard]] RunReach reach_of_frames(const RunFile& run, const Trn& trn,
+                                       const ReachSettings& settings);
+
+/// Throws nothing; a run without frames has not moved. Where `run.reach` stands for the frames, the
+/// settings' tolerance must be that of it.
 [[nodiscard]] EventReach event_reach(const RunFile& run, const Trn& trn,
                                      const ReachSettings& settings);
+
+/// Of the blocks that moved; `displacement` [m] and mass of each block.
+[[nodiscard]] MassReach mass_reach(const RunFile& run,
+                                   const std::vector<WeightedValue>& displacement);
 
 /// One row of the curves over time.
 struct CurveRow {
@@ -116,7 +137,7 @@ struct CurveRow {
 /// run's own balance error.
 struct EnergyShares {
   double put_in = 0;  ///< loss of potential energy + kinetic energy at the start + input [J]
-  double friction = 0, impact = 0, contact = 0, removed = 0, kinetic = 0, elastic = 0;
+  double friction = 0, impact = 0, contact = 0, breakage = 0, removed = 0, kinetic = 0, elastic = 0;
   double fence = 0;  ///< taken by panels of fences that gave way
   double unaccounted = 0;
 };

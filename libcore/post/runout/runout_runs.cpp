@@ -2,28 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <map>
+#include <numeric>
 
 #include "post/statistics.hpp"
 
 namespace talus {
-namespace {
 
-void sort_and_unite(std::vector<std::uint32_t>& cells) {
-  std::sort(cells.begin(), cells.end());
-  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
-}
-
-}  // namespace
-
-RunoutRun runout_run(const RunFile& run, const RunMember& member, const PassageGrid& grid,
-                     const Trn& trn, const ReachSettings& settings) {
+RunoutRun runout_run(const RunFile& run, const RunMember& member, const Trn& trn,
+                     const ReachSettings& settings) {
   RunoutRun r;
   r.member = member;
   r.event = event_reach(run, trn, settings);
   r.balance = balance_of(run, settings.rest_speed);
   r.energy = energy_shares(run);
+  r.has_frames = !run.reach;
   for (int b = 0; b < n_blocks(run); ++b) {
-    r.paths.push_back(simplified(block_path(run, b), settings.tolerance));
+    if (r.has_frames) r.paths.push_back(simplified(block_path(run, b), settings.tolerance));
     const Pose pose = last_pose(run, b);
     r.footprints.push_back(footprint(run, b, pose));
     r.end.push_back(pose.position);
@@ -33,28 +29,40 @@ RunoutRun runout_run(const RunFile& run, const RunMember& member, const PassageG
   for (const WeightedValue& d : displacements(run)) r.displacement.push_back(d.value);
   r.trees = {run.forests, run.tree_hits};
   r.curves = curves(run);
-  for (const Passage& passage : run.passages)
-    r.cells.push_back(static_cast<std::uint32_t>(passage.cell));
-  sort_and_unite(r.cells);
-  add_deposit(r.deposit, grid, run, settings.rest_speed);
   return r;
 }
 
-RunoutRuns add_up(std::vector<RunoutRun> runs, const PassageGrid& grid) {
+void add_run(RunoutSums& sums, const RunFile& run, const RunMember& member, const PassageGrid& grid,
+             const Trn& trn, const ReachSettings& settings) {
+  sums.grid = grid;
+  sums.runs.push_back(runout_run(run, member, trn, settings));
+  for (const Passage& passage : run.passages) add_cell(sums, passage.cell);
+  DepositSums deposit;
+  add_deposit(deposit, grid, run, settings.rest_speed);
+  add(sums.deposit, deposit);
+}
+
+void add_cell(RunoutSums& sums, std::int32_t cell) {
+  const auto n_cells = static_cast<std::size_t>(sums.grid.n_rows) * sums.grid.n_cols;
+  if (sums.is_passed.size() < n_cells) sums.is_passed.resize(n_cells, 0);
+  sums.is_passed[cell] = 1;
+}
+
+RunoutRuns add_up(RunoutSums sums) {
   RunoutRuns out;
-  out.grid = grid;
-  out.runs = std::move(runs);
+  out.grid = sums.grid;
+  out.runs = std::move(sums.runs);
+  out.deposit = std::move(sums.deposit);
   std::vector<WeightedValue> displacement;
   for (const RunoutRun& r : out.runs) {
     for (std::size_t b = 0; b < r.mass.size(); ++b)
       displacement.push_back({r.displacement[b], r.mass[b]});
     add(out.balance, r.balance);
-    add(out.deposit, r.deposit);
-    out.cells.insert(out.cells.end(), r.cells.begin(), r.cells.end());
     out.released.weight.push_back(r.member.weight);
     out.released.n_blocks.push_back(r.member.n_blocks);
   }
-  sort_and_unite(out.cells);
+  for (std::size_t cell = 0; cell < sums.is_passed.size(); ++cell)
+    if (sums.is_passed[cell] != 0) out.cells.push_back(static_cast<std::uint32_t>(cell));
   out.moved = moved_of(std::move(displacement));
   return out;
 }
@@ -64,10 +72,40 @@ double swept_area(const RunoutRuns& all) {
 }
 
 Spread spread_over(const std::vector<RunoutRun>& runs, double (*value)(const RunoutRun&)) {
+  std::vector<int> all(runs.size());
+  std::iota(all.begin(), all.end(), 0);
+  return spread_over(runs, all, value);
+}
+
+std::string case_of(const std::string& file) {
+  const std::string stem = std::filesystem::path(file).stem().string();
+  const std::size_t last = stem.rfind('_');
+  if (stem.rfind("run_", 0) != 0 || last <= 4 || last == std::string::npos) return "";
+  return stem.substr(4, last - 4);
+}
+
+std::vector<RunoutCase> cases_of(const std::vector<RunoutRun>& runs) {
+  std::map<std::string, std::vector<int>> by_name;
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    by_name[case_of(runs[i].member.file)].push_back(static_cast<int>(i));
+  std::vector<RunoutCase> cases;
+  if (by_name.size() < 2) return cases;
+  for (auto& [name, of_case] : by_name) {
+    std::vector<WeightedValue> displacement;
+    for (const int i : of_case)
+      for (std::size_t b = 0; b < runs[i].mass.size(); ++b)
+        displacement.push_back({runs[i].displacement[b], runs[i].mass[b]});
+    cases.push_back({name, of_case, moved_of(std::move(displacement))});
+  }
+  return cases;
+}
+
+Spread spread_over(const std::vector<RunoutRun>& runs, const std::vector<int>& some,
+                   double (*value)(const RunoutRun&)) {
   std::vector<WeightedValue> values;
   double sum = 0;
-  for (const RunoutRun& r : runs)
-    if (const double v = value(r); std::isfinite(v)) values.push_back({v, 1}), sum += v;
+  for (const int i : some)
+    if (const double v = value(runs[i]); std::isfinite(v)) values.push_back({v, 1}), sum += v;
   if (values.empty()) return {};
   sort_values(values);
   return {values.size(),

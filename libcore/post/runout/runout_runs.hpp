@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "post/run_set.hpp"
@@ -13,9 +14,16 @@
 
 namespace talus {
 
+/// A value that a run drew, by the name of its column.
+struct DrawnValue {
+  std::string name;
+  double value = 0;
+};
+
 /// What is kept of a run once it has been read.
 struct RunoutRun {
   RunMember member;
+  std::vector<DrawnValue> drawn;  ///< where it is known
   EventReach event;
   Balance balance;
   EnergyShares energy;
@@ -26,13 +34,10 @@ struct RunoutRun {
   std::vector<double> mass;                   ///< [kg]                              (n_blocks)
   std::vector<double> displacement;           ///< [m]                               (n_blocks)
   RunTrees trees;
-  std::vector<CurveRow> curves;
-  std::vector<std::uint32_t> cells;  ///< that any block passed, ascending
-  DepositSums deposit;
+  std::vector<CurveRow> curves;  ///< of a run without frames: start and end
+  bool has_frames = true;        ///< else there are no paths
 };
-/// `grid` of the deposit.
-[[nodiscard]] RunoutRun runout_run(const RunFile& run, const RunMember& member,
-                                   const PassageGrid& grid, const Trn& trn,
+[[nodiscard]] RunoutRun runout_run(const RunFile& run, const RunMember& member, const Trn& trn,
                                    const ReachSettings& settings);
 
 /// All runs, in the order of their ids, with their sums.
@@ -45,7 +50,18 @@ struct RunoutRuns {
   Moved moved;       ///< the mass of all runs together
   PassageGrid grid;  ///< of cells and deposit
 };
-[[nodiscard]] RunoutRuns add_up(std::vector<RunoutRun> runs, const PassageGrid& grid);
+/// What runs add as they are read, in the order of their ids. `grid`: of cells and deposit.
+struct RunoutSums {
+  PassageGrid grid;
+  std::vector<RunoutRun> runs;
+  DepositSums deposit;
+  std::vector<std::uint8_t> is_passed;  ///< 1: by any block of any run               (n_cells)
+};
+void add_run(RunoutSums& sums, const RunFile& run, const RunMember& member, const PassageGrid& grid,
+             const Trn& trn, const ReachSettings& settings);
+void add_cell(RunoutSums& sums, std::int32_t cell);
+
+[[nodiscard]] RunoutRuns add_up(RunoutSums sums);
 
 /// Area of all cells that any block of any run passed [m2].
 [[nodiscard]] double swept_area(const RunoutRuns& all);
@@ -56,6 +72,22 @@ struct Spread {
   double mean = 0, smallest = 0, p05 = 0, p50 = 0, p95 = 0, largest = 0;
 };
 [[nodiscard]] Spread spread_over(const std::vector<RunoutRun>& runs,
+                                 double (*value)(const RunoutRun&));
+
+/// The variant of settings that a run belongs to: "low" of run_low_3.h5; "" of run_3.h5.
+[[nodiscard]] std::string case_of(const std::string& file);
+
+/// The runs of one case.
+struct RunoutCase {
+  std::string name;
+  std::vector<int> runs;  ///< of RunoutRuns::runs
+  Moved moved;            ///< the mass of its runs together
+};
+/// By name; empty where all runs are of one case.
+[[nodiscard]] std::vector<RunoutCase> cases_of(const std::vector<RunoutRun>& runs);
+
+/// spread_over() of some runs.
+[[nodiscard]] Spread spread_over(const std::vector<RunoutRun>& runs, const std::vector<int>& some,
                                  double (*value)(const RunoutRun&));
 
 /// Runs in which a block moved: the others have no run-out.

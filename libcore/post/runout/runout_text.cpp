@@ -49,10 +49,14 @@ std::string reach_of_runs(const std::vector<RunoutRun>& runs) {
   const auto angle = [](const RunoutRun& r) { return r.event.event.path_angle() * degrees; };
   const auto n = static_cast<std::size_t>(n_moved(runs));
   const RunoutRun& farthest = *farthest_run(runs);
+  const auto length_95 = [](const RunoutRun& r) { return r.event.mass.length; };
+  const auto angle_95 = [](const RunoutRun& r) { return r.event.mass.angle() * degrees; };
   return "run-out of " + counted(static_cast<std::int64_t>(n), "run") +
          (n < runs.size() ? " that moved" : "") + ": H " + range_of(runs, 5, height) + " m, L " +
          range_of(runs, 5, path) + " m along the path, angle of reach " + range_of(runs, 4, angle) +
-         " deg; farthest: " + name_of(farthest, runs) + unsettled_toe(farthest.event);
+         " deg; farthest: " + name_of(farthest, runs) + unsettled_toe(farthest.event) +
+         "\n95 % of what moved came within " + range_of(runs, 4, length_95) + " m of its top (" +
+         range_of(runs, 3, angle_95) + " deg)";
 }
 
 std::string reach_of_run(const std::string& run_id, const EventReach& reach) {
@@ -63,7 +67,8 @@ std::string reach_of_run(const std::string& run_id, const EventReach& reach) {
                           " deg (" + text(e.chord_angle() * degrees, 4) + " deg)" +
                           unsettled_toe(reach);
   const std::string line = energy_line_text(reach.profile);
-  return line.empty() ? out : out + "\n" + line;
+  const std::string mass = "\n" + text(reach.mass);
+  return out + mass + (line.empty() ? "" : "\n" + line);
 }
 
 std::string reach_text(const std::vector<RunoutRun>& runs) {
@@ -101,21 +106,83 @@ std::string energy_line_text(const AngleProfile& profile) {
          text(profile.smallest * degrees, 3) + " deg";
 }
 
+std::string text(const MassReach& reach) {
+  const auto percent = [](double share) { return text(100 * share, 2) + " %"; };
+  std::string words = percent(reach_share) + " of what moved came within " + text(reach.length, 4) +
+                      " m of its top, " + text(reach.height, 4) + " m below (" +
+                      text(reach.angle() * degrees, 3) + " deg)";
+  if (reach.n_beyond > 0)
+    words += "; " + counted(reach.n_beyond, "block") + ", " + percent(reach.beyond_share) +
+             " of it, went farther, the farthest is " + percent(reach.toe_share) + " of it";
+  if (reach.n_outliers > 0)
+    words += "; " + counted(reach.n_outliers, "outlier") + " beyond " + text(outlier_factor) +
+             " times that";
+  return words;
+}
+
+std::string cases_text(const std::vector<RunoutRun>& runs) {
+  std::string lines;
+  const std::vector<RunoutCase> cases = cases_of(runs);
+  for (const RunoutCase& one : cases) {
+    const Spread length =
+        spread_over(runs, one.runs, [](const RunoutRun& r) { return r.event.event.path; });
+    const Spread mass_length =
+        spread_over(runs, one.runs, [](const RunoutRun& r) { return r.event.mass.length; });
+    const Spread angle = spread_over(
+        runs, one.runs, [](const RunoutRun& r) { return r.event.event.path_angle() * degrees; });
+    lines += "\ncase " + (one.name.empty() ? std::string("without a name") : one.name) + ": " +
+             std::to_string(length.n) + " of " +
+             counted(static_cast<std::int64_t>(one.runs.size()), "run") + " moved, " +
+             text(100 * one.moved.share, 3) + " % of the mass by more than " + text(moved_m) + " m";
+    if (length.n > 0)
+      lines += "; largest L " + text(length.largest, 4) + " m, L95 " +
+               text(mass_length.largest, 4) + " m, smallest angle of reach " +
+               text(angle.smallest, 3) + " deg";
+  }
+  if (cases.empty()) return "";
+  return lines + "\nwhat stands for all runs together counts each run of each case alike";
+}
+
 std::string runout_summary(const RunoutRuns& all) {
   const std::string standing = standing_runs(all.runs);
   return (standing.empty() ? "" : standing + "\n") +
          (all.runs.size() > 1 ? "moved, all runs together: " : "moved: ") + text(all.moved) + "\n" +
-         reach_text(all.runs) + "\nvolume: released " + text(all.balance.released, 6) +
-         " m3 = deposited " + text(all.balance.deposited, 6) + " + moving " +
-         text(all.balance.moving, 6) + " + left " + text(all.balance.left, 6);
+         reach_text(all.runs) + cases_text(all.runs) + "\nvolume: released " +
+         text(all.balance.released, 6) + " m3 = deposited " + text(all.balance.deposited, 6) +
+         " + moving " + text(all.balance.moving, 6) + " + left " + text(all.balance.left, 6);
 }
 
 std::string run_csv(const std::vector<RunoutRun>& runs) {
-  std::string out =
-      csv_line({"run_id", "seed", "status", "moved", "share_moved_1_m", "share_moved_20_m",
-                "displacement_p50_m", "displacement_p90_m", "displacement_p95_m",
-                "displacement_max_m", "H_m", "L_path_m", "L_chord_m", "reach_angle_path_deg",
-                "reach_angle_chord_deg", "toe_block", "toe_fate"});
+  std::vector<std::string> headings = {"run_id",
+                                       "seed",
+                                       "status",
+                                       "moved",
+                                       "share_moved_1_m",
+                                       "share_moved_20_m",
+                                       "displacement_p50_m",
+                                       "displacement_p90_m",
+                                       "displacement_p95_m",
+                                       "displacement_max_m",
+                                       "H_m",
+                                       "L_path_m",
+                                       "L_chord_m",
+                                       "reach_angle_path_deg",
+                                       "reach_angle_chord_deg",
+                                       "toe_block",
+                                       "toe_fate",
+                                       "moved_volume_m3",
+                                       "H95_m",
+                                       "L95_m",
+                                       "reach_angle_95_deg",
+                                       "blocks_beyond_L95",
+                                       "share_beyond_L95",
+                                       "toe_share",
+                                       "outliers",
+                                       "case"};
+  const std::vector<DrawnValue> drawn =
+      runs.empty() ? std::vector<DrawnValue>{} : runs.front().drawn;
+  for (const DrawnValue& value : drawn) headings.push_back(value.name);
+  std::string out = csv_line(headings);
   for (const RunoutRun& r : runs) {
     const Moved& m = r.event.moved;
     std::vector<std::string> row = {r.member.info.run_id, std::to_string(r.member.info.seed),
@@ -129,8 +196,21 @@ std::string run_csv(const std::vector<RunoutRun>& runs) {
         row.push_back(text(value, 9));
       row.push_back(std::to_string(r.event.toe_block));
       row.emplace_back(text(r.event.toe_fate));
+      const MassReach& mass = r.event.mass;
+      for (const double value :
+           {mass.moved_volume, mass.height, mass.length, mass.angle() * degrees,
+            static_cast<double>(mass.n_beyond), mass.beyond_share, mass.toe_share,
+            static_cast<double>(mass.n_outliers)})
+        row.push_back(text(value, 7));
     }
-    row.resize(17);
+    row.resize(25);
+    row.push_back(case_of(r.member.file));
+    for (const DrawnValue& column : drawn) {
+      const auto found = std::find_if(r.drawn.begin(), r.drawn.end(), [&](const DrawnValue& value) {
+        return value.name == column.name;
+      });
+      row.push_back(found == r.drawn.end() ? "" : text(found->value, 7));
+    }
     out += csv_line(row);
   }
   return out;
@@ -156,7 +236,8 @@ std::string curve_csv(const std::vector<RunoutRun>& runs, const Vec3& origin) {
   std::string out =
       csv_line({"run_id", "time_s", "x_m", "y_m", "z_m", "mean_speed_m_s", "max_speed_m_s",
                 "front_m", "translational_energy_kj", "rotational_energy_kj"});
-  for (const RunoutRun& r : runs)
+  for (const RunoutRun& r : runs) {
+    if (!r.has_frames) continue;
     for (const CurveRow& row : r.curves) {
       const Vec3 at = row.centre_of_mass + origin;
       out += csv_line({r.member.info.run_id, text(row.time, 9), text(at.x(), 11), text(at.y(), 11),
@@ -164,6 +245,7 @@ std::string curve_csv(const std::vector<RunoutRun>& runs, const Vec3& origin) {
                        text(row.front, 7), text(row.translation / 1e3, 7),
                        text(row.rotation / 1e3, 7)});
     }
+  }
   return out;
 }
 

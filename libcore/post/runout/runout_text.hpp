@@ -23,11 +23,20 @@ namespace talus {
 /// "19 of 36 runs did not move (no block by more than 1 m)"; "" when all moved.
 [[nodiscard]] std::string standing_runs(const std::vector<RunoutRun>& runs);
 
+/// "95 % of what moved came within 162 m of its top, 126 m below (37.8 deg); 10 blocks, 4 % of it,
+/// went farther; the farthest is 0.3 % of it, an outlier"
+[[nodiscard]] std::string text(const MassReach& reach);
+
+/// A line a case: runs that moved, mass that moved, largest L and L95, smallest angle; "" where
+/// there is one case.
+[[nodiscard]] std::string cases_text(const std::vector<RunoutRun>& runs);
+
 /// Where the angle of the energy line that passes all of the ground is smaller than that to the toe
 /// by a degree or more: which angle to take, and why; "" else.
 [[nodiscard]] std::string energy_line_text(const AngleProfile& profile);
 
-/// A row (CSV) for each frame of each run. `origin`: map coordinates of the local origin [m].
+/// A row (CSV) for each frame of each run that has them. `origin`: map coordinates of the local
+/// origin [m].
 [[nodiscard]] std::string curve_csv(const std::vector<RunoutRun>& runs, const Vec3& origin);
 
 }  // namespace talus

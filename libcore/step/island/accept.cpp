@@ -7,6 +7,8 @@
 #include "scene/fence.hpp"
 #include "scene/stems.hpp"
 #include "solver/law_numbers.hpp"
+#include "step/breakage.hpp"
+#include "step/crushing.hpp"
 #include "step/deep_blocks.hpp"
 #include "step/flight.hpp"
 #include "step/island/island_soil.hpp"
@@ -30,6 +32,7 @@ struct SubstepAcceptance {
   std::vector<Segment>& segments;
   DeepWork& deep;
   StepReport& report;
+  bool is_eased = false;
 
   // Energy that contacts took, by kind; push_bodies() adds that of bodies that give way.
   void account(size_t r) {
@@ -39,9 +42,55 @@ struct SubstepAcceptance {
     const double p_n = normal.dot(impulse);
     const Vec3 p_t = impulse - p_n * normal;
     const Vec3 path = path_of_impulse(members, free, system, hits, r);
+    const double loss = -p_n * normal.dot(path);  // < 0: others drove its bodies apart
     if (!gives_way(system, r))
-      (contact.hit >= 0 ? state.ledger.impact : state.ledger.contact) -= p_n * normal.dot(path);
+      (contact.hit >= 0 && loss > 0 ? state.ledger.impact : state.ledger.contact) += loss;
     state.ledger.friction -= p_t.dot(path);
+    if (state.load.empty()) return;
+    add_load(scene, contact.a, normal, p_n, impulse, state);
+    add_load(scene, contact.b, normal, p_n, -impulse, state);
+  }
+
+  // Normal energy that the contact of a hit took; below zero where others drove its bodies apart.
+  [[nodiscard]] double hit_loss_of(size_t r) const {
+    if (system.contacts[r].hit < 0 || system.contacts[r].waits || gives_way(system, r) ||
+        lane_of(system, r).state() == ContactState::open)
+      return 0;
+    const RowIn<const RowGroup> lane = lane_of(system, r);
+    const Vec3 path = path_of_impulse(members, free, system, hits, r);
+    return -lane.normal().dot(lane.impulse()) * lane.normal().dot(path);
+  }
+
+  // What hits take, the ground and fixed bodies have no part in; two blocks have half of it each.
+  // Where a hit is passed on through a block, one contact takes what another gives back: all
+  // together have what the hits of the substep took, so that breaking takes no more.
+  void add_hit_losses() {
+    double taken = 0, given = 0;
+    const auto sum = [&](int, int, double loss) { (loss > 0 ? taken : given) += std::abs(loss); };
+    for_each_hit_loss(sum);
+    if (taken <= given) return;
+    for_each_hit_loss([&](int a, int b, double found) {
+      const double loss = std::max(0.0, found) * (1 - given / taken);
+      add_hit_loss(a, b < 0 ? loss : loss / 2, state);
+      add_hit_loss(b, loss / 2, state);
+    });
+  }
+
+  // Calls take(block a, block b, loss) for every contact that was hit, and where hits were stopped.
+  template <class Take>
+  void for_each_hit_loss(const Take& take) const {
+    for (const HitImpulse& hit : hits.impulses) take(hit.a, hit.b, hit.loss);
+    for (size_t r = 0; r < system.contacts.size(); ++r)
+      take(system.contacts[r].a, system.contacts[r].b, hit_loss_of(r));
+  }
+
+  // Hits load their blocks too.
+  void add_hit_loads() {
+    for (const HitImpulse& hit : hits.impulses) {
+      const double p_n = std::max(0.0, hit.normal.dot(hit.impulse));
+      add_load(scene, hit.a, hit.normal, p_n, hit.impulse, state);
+      add_load(scene, hit.b, hit.normal, p_n, -hit.impulse, state);
+    }
   }
 
   // Share of offset_relaxed() by which an overlap is pressed out. That is a speed, whatever it
@@ -64,8 +113,7 @@ struct SubstepAcceptance {
     const auto moves = [&](int b) {
       return b >= 0 && free.substeps[members.at(b)].start.velocity.norm() > members.of(b).slow;
     };
-    const bool eases =
-        members.is_eased || (system.is_hard && (moves(contact.a) || moves(contact.b)));
+    const bool eases = is_eased || (system.is_hard && (moves(contact.a) || moves(contact.b)));
     return static_cast<std::uint8_t>(eases ? law::most_rests : std::max(0, contact.rests - 1));
   }
 
@@ -140,6 +188,8 @@ struct SubstepAcceptance {
       if (pair.b < 0 && !gives_way(system, r)) end.ground_impulse[pair.a] += lane.impulse();
       remember_contact(r, path, overlap);
     }
+    if (!state.hit_loss.empty()) add_hit_losses();
+    if (!state.load.empty()) add_hit_loads();
   }
 
   // The path of a member: in one piece, or from hit to hit and on from the last.
@@ -256,8 +306,17 @@ void accept(const Scene& scene, const IslandMembers& members, const FreeMotions&
             const IslandSystem& system, const SubstepHits& hits, bool converged,
             const SubstepTries& tries, SubstepEnd& end, State& state,
             std::vector<Segment>& segments, DeepWork& deep, StepReport& report) {
-  SubstepAcceptance acceptance{scene, members, free,     system, hits,
-                               end,   state,   segments, deep,   report};
+  SubstepAcceptance acceptance{scene,
+                               members,
+                               free,
+                               system,
+                               hits,
+                               end,
+                               state,
+                               segments,
+                               deep,
+                               report,
+                               tries.eased > 0 && free.t > 0};
   report.n_impacts += hits.n_hits;
   if (!converged || !hits.converged) {
     note_unconverged(heaviest_of(scene, members), report);

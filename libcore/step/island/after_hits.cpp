@@ -128,10 +128,10 @@ PairRest rest_of(const HitLooks& looks, const BodyPair& pair, const FreeMotions&
   double from = looks.hits.members[ka].clock;
   if (rest.has_b) from = std::max(from, looks.hits.members[kb].clock);
   rest.length = std::max(free.h - from, shortest_rest * free.h);
-  rest.a = looks.place(ka, looks.motion_of(ka, from));
+  rest.a = looks.member_at(ka, from).placed;
   rest.end_a = free_end(free, ka);
   if (!rest.has_b) return rest;
-  rest.b = looks.place(kb, looks.motion_of(kb, from));
+  rest.b = looks.member_at(kb, from).placed;
   rest.end_b = free_end(free, kb);
   return rest;
 }

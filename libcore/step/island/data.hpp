@@ -39,6 +39,7 @@ struct PairSearch {  // clang-format off
   std::vector<Vec3> rotation;               ///< rotation vector ahead [rad]             (n_bodies)
   std::vector<double> turn;                 ///< path of turning ahead [m]               (n_bodies)
   std::vector<std::uint8_t> moving, awake;  ///<                                         (n_blocks)
+  std::vector<std::uint8_t> absent;         ///< 1: touches nothing; empty: none      (n_blocks)
   BodyGrid grid;                            ///< the fixed bodies, where they stood first
   std::vector<int> shifted;                 ///< bodies: the fixed ones whose pose is not that
   std::vector<int> near;                    ///< scratch: fixed bodies near a block
@@ -136,6 +137,12 @@ struct PlacedMotion {
   Vec3 velocity = Vec3::Zero(), spin = Vec3::Zero();
 };
 
+/// The same, with its attitude and momentum.
+struct MemberMotion {
+  Motion motion;
+  PlacedMotion placed;
+};
+
 /// A member between two of its hits. Until its first what bore it in the substep before goes on.
 struct FlyingMember {
   Motion motion;               ///< at `clock`
@@ -147,6 +154,9 @@ struct FlyingMember {
   int version = 0;       ///< number of changes of its motion
   int end_version = -1;  ///< of `end`
   PlacedMotion end;      ///< at the end of the substep
+  int now_version = -1;  ///< of `now` ...
+  double now_time = -1;  ///< ... and its time, that which was asked for last [s]
+  MemberMotion now;
 };
 
 /// A time at which a pair has to be looked at, since it may be hit then.
@@ -175,6 +185,14 @@ struct TouchingContact {
   int pair = 0;    ///< of the island
 };
 
+/// What a contact of a hit did to its blocks.
+struct HitImpulse {
+  int a = 0, b = -1;            ///< blocks; b = -1: the ground or a fixed body
+  Vec3 normal = Vec3::Zero();   ///< from B to A
+  Vec3 impulse = Vec3::Zero();  ///< on A [N s]
+  double loss = 0;              ///< normal energy that it took; < 0: it gave back [J]
+};
+
 /// 6 find_hits: what is hit, when, and how the members move with that.
 struct SubstepHits {  // clang-format off
   std::vector<Hit> hits;                    ///< in the order in which they were found
@@ -183,6 +201,7 @@ struct SubstepHits {  // clang-format off
   std::vector<double> pair_time;            ///< when contacts change velocities [s]     (n_pairs)
   std::vector<Vec6> displacement;           ///< by contact, hits aside                  (n_members)
   std::vector<Vec6> thrown;                 ///< displacement by hits                    (n_members)
+  std::vector<HitImpulse> impulses;         ///< where blocks may break or be crushed, else none
   std::vector<Vec3> bond_impulse;           ///< of contacts with bonds, by hits [N s]; empty: none
   double dissipated = 0;                    ///< by hits, but for friction [J]
   double by_friction = 0;                   ///< ... by friction and by what bore members [J]

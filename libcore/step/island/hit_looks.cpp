@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "motion/rotation.hpp"
 #include "scene/fence.hpp"
@@ -128,6 +129,17 @@ PlacedMotion HitLooks::place(size_t k, const Motion& motion) const {
           R * in_body.cwiseProduct(members.numbers[k].per_inertia)};
 }
 
+const MemberMotion& HitLooks::member_at(size_t k, double time) const {
+  FlyingMember& flying = hits.members[k];
+  if (flying.now_version != flying.version || flying.now_time != time) {
+    flying.now.motion = motion_of(k, time);
+    flying.now.placed = place(k, flying.now.motion);
+    flying.now_version = flying.version;
+    flying.now_time = time;
+  }
+  return flying.now;
+}
+
 const PlacedMotion& HitLooks::end_of_member(size_t k) const {
   FlyingMember& flying = hits.members[k];
   if (flying.end_version != flying.version) {
@@ -164,8 +176,8 @@ void HitLooks::look_ahead(size_t p, double from, double not_before) const {
   const auto ka = static_cast<size_t>(pair.a), kb = static_cast<size_t>(std::max(pair.b, 0));
   const double h = free.h, rest = h - from;
   if (!(rest > 0)) return;
-  const PlacedMotion a = place(ka, motion_of(ka, from));
-  const PlacedMotion b = pair.b < 0 ? PlacedMotion{} : place(kb, motion_of(kb, from));
+  const PlacedMotion& a = member_at(ka, from).placed;
+  const PlacedMotion* b = pair.b < 0 ? nullptr : &member_at(kb, from).placed;
   const PlacedMotion& end_a = end_of_member(ka);
   const PlacedMotion* end_b = pair.b < 0 ? nullptr : &end_of_member(kb);
   const double resting = members.numbers[ka].resting_speed, open = hit_window * size_of(p);
@@ -174,7 +186,7 @@ void HitLooks::look_ahead(size_t p, double from, double not_before) const {
   for (const size_t r : contacts_of(system, p)) {
     const KeptContact& contact = system.contacts[r];
     if (contact.bond_area != 0 || lane_of(system, r).normal_limit() < no_normal_limit) continue;
-    const RowMotion now = row_motion(free, system, r, a, pair.b < 0 ? nullptr : &b);
+    const RowMotion now = row_motion(free, system, r, a, b);
     const RowMotion then = row_motion(free, system, r, end_a, end_b);
     PairLook of_row;
     of_row.time = h + 1;
@@ -187,7 +199,7 @@ void HitLooks::look_ahead(size_t p, double from, double not_before) const {
         of_row.time = from + rest * std::max((now.speed + resting) / change,
                                              std::min(1.0, 2 * now.speed / change));
       }
-    } else if (then.gap <= contact.touch && of_row.speed > 0) {
+    } else if (then.gap <= contact.touch && of_row.speed > resting) {
       of_row.time = from + time_to_close(now.gap, now.speed, then.gap, rest);
       of_row.from = from;
       of_row.gap = now.gap;
@@ -243,7 +255,7 @@ double slip_of(const ImpactContact& contact, const PlacedMotion& body) {
 void HitLooks::find_touching_ground(size_t p, double time) const {
   const auto k = static_cast<size_t>(system.island.pairs[p].a);
   const BlockNumbers& c = members.numbers[k];
-  const Motion m = motion_of(k, time);
+  const Motion& m = member_at(k, time).motion;
   const double margin = 1e-2 * c.radius;
   (void)find_contacts(scene.ground, scene.blocks.shapes, members.blocks[k], m.pose,
                       Mat3::Identity(), margin, making.world_vertices, making.found,
@@ -276,11 +288,11 @@ void HitLooks::find_touching_bodies(size_t p, double time) const {
   const Hulls& hulls = scene.blocks.hulls;
   const auto ka = static_cast<size_t>(pair.a);
   const BlockNumbers& c = members.numbers[ka];
-  place_body(hulls, of.block_a, motion_of(ka, time).pose, hits.placed);
-  place_body(
-      hulls, of.block_b,
-      pair.b < 0 ? search.poses[of.block_b] : motion_of(static_cast<size_t>(pair.b), time).pose,
-      hits.placed);
+  place_body(hulls, of.block_a, member_at(ka, time).motion.pose, hits.placed);
+  place_body(hulls, of.block_b,
+             pair.b < 0 ? search.poses[of.block_b]
+                        : member_at(static_cast<size_t>(pair.b), time).motion.pose,
+             hits.placed);
   hits.held.clear();
   hits.manifolds.clear();
   hits.points.clear();
@@ -329,25 +341,26 @@ void HitLooks::look_at(const PairLook& look) const {
   find_touching(p, look.time);
   if (hits.touching.empty()) return look_on();
   const auto ka = static_cast<size_t>(pair.a);
-  const PlacedMotion a = place(ka, motion_of(ka, look.time));
-  PlacedMotion b;
-  if (pair.b >= 0) {
-    const auto kb = static_cast<size_t>(pair.b);
-    b = place(kb, motion_of(kb, look.time));
-  }
-  double least = hits.touching.front().gap, approach_of_least = 0;
+  const PlacedMotion& a = member_at(ka, look.time).placed;
+  const PlacedMotion* b =
+      pair.b < 0 ? nullptr : &member_at(static_cast<size_t>(pair.b), look.time).placed;
+  // what comes fast enough to be hit: what was hit already, or slides, tells nothing of its time
+  constexpr double none = std::numeric_limits<double>::infinity();
+  const double resting = members.numbers[ka].resting_speed;
+  double least = none, approach_of_least = 0;
   for (TouchingContact& touching : hits.touching) {
     ImpactContact& c = touching.of;
     Vec3 u = velocity_of(a, c.point - a.position);
-    if (pair.b >= 0) u -= velocity_of(b, c.point - b.position);
+    if (b != nullptr) u -= velocity_of(*b, c.point - b->position);
     c.approach = c.normal.dot(u);
-    if (touching.gap <= least) least = touching.gap, approach_of_least = c.approach;
+    if (c.approach < -resting && touching.gap <= least)
+      least = touching.gap, approach_of_least = c.approach;
   }
+  if (least == none) return look_on();
   PairLook again = look;
   ++again.tries;
   if (again.tries <= most_looks_for_time) {
     if (least > open) {  // not yet
-      if (!(approach_of_least < 0)) return look_on();
       again.from = look.time;
       again.gap = least;
       again.time = look.time - least / approach_of_least;
@@ -355,7 +368,9 @@ void HitLooks::look_at(const PairLook& look) const {
       return;
     }
     if (least < -open && look.gap > open) {  // it was hit before
-      again.time = look.from + (look.time - look.from) * look.gap / (look.gap - least);
+      again.time = look.time - least / approach_of_least;
+      if (again.time <= look.from)
+        again.time = look.from + (look.time - look.from) * look.gap / (look.gap - least);
       if (again.time < look.time) return push(again);
     }
   } else if (least > open) {
@@ -365,7 +380,6 @@ void HitLooks::look_at(const PairLook& look) const {
   const double below = std::max(least, 0.0) + open;
   for (const TouchingContact& touching : hits.touching)
     if (touching.gap <= below) fastest = std::max(fastest, -touching.of.approach);
-  if (fastest <= members.numbers[ka].resting_speed) return look_on();
   for (const TouchingContact& touching : hits.touching)
     if (touching.gap <= below && touching.of.approach <= parts * fastest)
       hits.batch.push_back(touching);

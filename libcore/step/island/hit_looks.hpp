@@ -28,6 +28,8 @@ struct HitLooks {
   void begin() const;
   /// Motion of member k at `time`, not before its last hit.
   [[nodiscard]] Motion motion_of(std::size_t k, double time) const;
+  /// The same, kept for who asks next for the same time.
+  [[nodiscard]] const MemberMotion& member_at(std::size_t k, double time) const;
   /// A look at pair `p` as its rows say from `from` on, if they say that it may be hit; not before
   /// `not_before`.
   void look_ahead(std::size_t p, double from, double not_before) const;

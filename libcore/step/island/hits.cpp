@@ -71,13 +71,10 @@ struct HitPhase {
         for (const size_t r : contacts_of(system, static_cast<size_t>(p))) {
           const KeptContact& contact = system.contacts[r];
           if (contact.bond_area == 0) continue;
-          const PlacedMotion a = looks.place(static_cast<size_t>(pair.a),
-                                             looks.motion_of(static_cast<size_t>(pair.a), time));
-          PlacedMotion b;
-          if (pair.b >= 0)
-            b = looks.place(static_cast<size_t>(pair.b),
-                            looks.motion_of(static_cast<size_t>(pair.b), time));
-          const RowMotion at_hit = row_motion(free, system, r, a, pair.b < 0 ? nullptr : &b);
+          const PlacedMotion& a = looks.member_at(static_cast<size_t>(pair.a), time).placed;
+          const PlacedMotion* b =
+              pair.b < 0 ? nullptr : &looks.member_at(static_cast<size_t>(pair.b), time).placed;
+          const RowMotion at_hit = row_motion(free, system, r, a, b);
           TouchingContact bond;
           bond.of.a = pair.a;
           bond.of.b = pair.b;
@@ -155,6 +152,35 @@ struct HitPhase {
     hits.hit_members.add(static_cast<int>(k));
   }
 
+  // What the contacts that were solved did to blocks that may break or be crushed. All together
+  // they took no more than `taken`.
+  void note_impulses(int group, double taken) const {
+    const auto speed_of = [&](const ImpactContact& c, int body) {
+      const ImpactBody& of = hits.bodies[body];
+      return c.normal.dot(of.velocity.head<3>() +
+                          of.velocity.tail<3>().cross(c.point - of.position));
+    };
+    size_t i = 0;
+    const size_t begin = hits.impulses.size();
+    double sum = 0;
+    for (const TouchingContact& touching : hits.batch) {
+      if (group_of(touching.of.a) != group) continue;
+      const ImpactContact& c = hits.contacts[i++];
+      if (c.is_bond) continue;
+      const double after = speed_of(c, c.a) - (c.b < 0 ? 0 : speed_of(c, c.b));
+      HitImpulse out;
+      out.a = members.blocks[touching.of.a];
+      if (touching.of.b >= 0) out.b = members.blocks[touching.of.b];
+      out.normal = c.normal;
+      out.impulse = c.impulse;
+      out.loss = -c.normal.dot(c.impulse) * (c.approach + after) / 2;
+      sum += out.loss;
+      hits.impulses.push_back(out);
+    }
+    if (sum <= taken) return;
+    for (size_t k = begin; k < hits.impulses.size(); ++k) hits.impulses[k].loss *= taken / sum;
+  }
+
   // Solves the contacts of the batch whose members are of `group`. `stops`: without rebound.
   void solve_group(int group, double time, bool stops) const {
     hits.bodies.clear();
@@ -163,7 +189,7 @@ struct HitPhase {
     for (const size_t k : hits.changed) {
       if (group_of(static_cast<int>(k)) != group) continue;
       hits.local[k] = static_cast<int>(hits.bodies.size());
-      hits.before.push_back(looks.motion_of(k, time));
+      hits.before.push_back(looks.member_at(k, time).motion);
       hits.bodies.push_back(body_of(k, hits.before.back()));
     }
     for (const TouchingContact& touching : hits.batch) {
@@ -191,6 +217,8 @@ struct HitPhase {
         throw_member(k, time, hits.before[i], hits.bodies[i]);
         ++i;
       }
+    if (!looks.state.load.empty() || !looks.state.hit_loss.empty())
+      note_impulses(group, impact.dissipated - impact.by_friction - impact.by_rolling);
     if (!system.has_bonds) return;
     i = 0;
     for (const TouchingContact& touching : hits.batch) {
@@ -244,6 +272,7 @@ struct HitPhase {
     looks.begin();
     hits.hits.clear();
     hits.paths.clear();
+    hits.impulses.clear();
     hits.dissipated = hits.by_friction = hits.by_rolling = 0;
     hits.n_hits = hits.passes = 0;
     hits.converged = true;

@@ -31,14 +31,21 @@ void release_members(IslandMembers& members) {
   for (const int b : members.blocks) members.place[b] = -1;
 }
 
-void see_size(const Scene& scene, const PairSearch& search, std::span<const int> manifolds,
-              IslandMembers& members) {
+void see_size(const Scene& scene, const State& state, const PairSearch& search,
+              std::span<const int> manifolds, IslandMembers& members) {
   const auto n_pairs = std::count_if(manifolds.begin(), manifolds.end(), [&](int i) {
     const PairManifold& m = search.pairs.manifolds[i];
     return !is_fixed(scene, m.block_b) && has_points(m);
   });
   const size_t n = members.size();
-  members.is_small = n <= small_island || (n <= small_tree && static_cast<size_t>(n_pairs) < n);
+  double thickness = 0, speed = 0;
+  for (size_t k = 0; k < n; ++k) {
+    thickness += members.numbers[k].thickness;
+    speed = std::max(speed, state.motion[members.block(k)].velocity.norm());
+  }
+  const bool is_column = n <= small_tree && static_cast<size_t>(n_pairs) < n &&
+                         speed * speed < law::column_falls * scene.gravity.norm() * thickness;
+  members.is_small = n <= small_island || is_column;
 }
 
 // What a contact gives must not grow with what lies above it, with the step, or with small blocks:

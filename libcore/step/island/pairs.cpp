@@ -76,7 +76,7 @@ void search_marked(const Scene& scene, double h, State& state, PairSearch& searc
   const PairReport found =
       find_pair_contacts(blocks.hulls, state.placed,
                          {search.step, search.turn, search.awake, n_fixed(scene), &search.grid,
-                          search.shifted, scene.settings.block_contacts},
+                          search.shifted, scene.settings.block_contacts, search.absent},
                          settings, state.pairs, search.pairs);
   search.n_fixed_near += found.n_fixed_near;
   add_stem_pairs(scene, state, settings.margin, search);
@@ -243,6 +243,17 @@ double longest_substep(const Scene& scene, const State& state, const PairSearch&
   return part > 1 ? std::max(h / std::ceil(part), shortest) : h;
 }
 
+namespace {
+
+// Blocks that touch nothing; none at all where nothing breaks or is crushed.
+void list_absent(const State& state, std::vector<std::uint8_t>& absent) {
+  absent.clear();
+  if (state.hit_loss.empty() && state.crushed.empty()) return;
+  for (const Phase phase : state.phase) absent.push_back(bears_nothing(phase) ? 1 : 0);
+}
+
+}  // namespace
+
 void form_islands(const Scene& scene, State& state, Work& work) {
   PairSearch& search = work.search;
   const int n = n_blocks(scene);
@@ -254,6 +265,7 @@ void form_islands(const Scene& scene, State& state, Work& work) {
   search.turn.resize(size);
   search.moving.assign(n, 1);
   search.awake.resize(n);
+  list_absent(state, search.absent);
   place_fixed(scene, state, search);
   // the full plan and blocks that meet each other follow all of them
   const bool may_be_far = scene.settings.flight && scene.settings.trn_contacts &&
@@ -267,7 +279,8 @@ void form_islands(const Scene& scene, State& state, Work& work) {
     const bool is_near =
         !may_be_far || (moves && !is_far_from_fixed(scene, state, b, margin, search));
     n_near += is_near;
-    search.moving[i] = is_near || none_placed;
+    const bool is_there = search.absent.empty() || search.absent[i] == 0;
+    search.moving[i] = (is_near && is_there) || none_placed;
     search.awake[i] = is_near && moves;
     search.step[i].setZero();
     search.turn[i] = 0;

@@ -42,8 +42,8 @@ void find_pairs(const Scene& scene, const IslandMembers& members, double h, Stat
 // --- 3 choose_stiffness (step/island/members.cpp)
 // ---------------------------------------------------
 /// Fills IslandMembers::is_small, which holds for a step.
-void see_size(const Scene& scene, const PairSearch& search, std::span<const int> manifolds,
-              IslandMembers& members);
+void see_size(const Scene& scene, const State& state, const PairSearch& search,
+              std::span<const int> manifolds, IslandMembers& members);
 /// Fills the stiffness of the members' numbers; `eased`: SubstepTries.
 void choose_stiffness(const Scene& scene, const State& state, const PairSearch& search,
                       std::span<const int> manifolds, int eased, IslandMembers& members);

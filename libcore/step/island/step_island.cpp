@@ -132,7 +132,7 @@ double prepare_substep(const Scene& scene, int k, double t, double ahead, State&
       find_pairs(scene, w.members, ahead, state, search, w.manifolds);
   }
   const StageTimer timer(w.clock, IslandStage::choose_stiffness);
-  if (begins) see_size(scene, search, w.manifolds, w.members);
+  if (begins) see_size(scene, state, search, w.manifolds, w.members);
   choose_stiffness(scene, state, search, w.manifolds, w.tries.eased, w.members);
   return longest_substep(scene, state, search, w.members, w.manifolds, ahead);
 }

@@ -6,6 +6,7 @@
 #include "contact/past_ridge.hpp"
 #include "contact/search.hpp"
 #include "solver/law_numbers.hpp"
+#include "step/breakage.hpp"
 #include "step/deep_blocks.hpp"
 #include "step/flight.hpp"
 #include "step/impact.hpp"
@@ -98,6 +99,7 @@ struct Advance {
   // contact that was foreseen is hit besides those that touch; without it nothing would be hit,
   // again and again.
   bool impact() {
+    const Motion before = motion();
     if (!state.slid.empty()) work.soil.slid = state.slid[i()];
     work.soil.hit_time = state.local_time[i()];
     const HitSpeeds speeds{c.resting_speed, c.located_speed};
@@ -111,6 +113,8 @@ struct Advance {
     was_fast = hit.is_fast;
     state.ledger.impact += hit.dissipated - hit.by_rolling;
     state.ledger.rolling += hit.by_rolling;
+    add_ground_hit_loss(scene, b, before, motion(), work.contacts, hit.dissipated - hit.by_rolling,
+                        state);
     ++report.n_impacts;
     report.passes += hit.passes;
     if (!hit.converged) note_unconverged(b, report);

@@ -19,11 +19,13 @@ needs talus-site gdal sqlite3 tomlplusplus
 needs talus-trn gdal proj sqlite3
 needs talus-tin gdal gmp proj sqlite3
 needs talus-maps gdal hdf5_serial proj sqlite3
-needs talus-runout gdal hdf5_serial proj sqlite3
+needs talus-reduce gdal hdf5_serial proj sqlite3
+needs talus-runout gdal hdf5_serial proj sqlite3 tomlplusplus
 needs talus-fence gdal hdf5_serial proj sqlite3 tomlplusplus
 needs talus-report gdal hdf5_serial proj sqlite3 tomlplusplus
 needs talus-dda gdal hdf5_serial proj sqlite3 tomlplusplus
 needs talus-verify gdal hdf5_serial proj sqlite3 tomlplusplus
 needs talus-blocks gdal gmp hdf5_serial proj sqlite3 tomlplusplus
+needs talus-check gdal gmp hdf5_serial proj sqlite3 tomlplusplus
 needs talus-source gdal gmp proj sqlite3 tomlplusplus
 exit 0

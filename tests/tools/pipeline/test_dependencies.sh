@@ -21,7 +21,7 @@ would_be "report*1" "a comment in the site file"
 
 sed -i 's/^height_m = 8/height_m = 7/' slope/site.toml
 would
-would_be "dda*2 fence*1 maps*1 report*1 runout*1" "another fence"
+would_be "check*1 dda*2 fence*1 maps*1 report*1 runout*1" "another fence"
 sed -i 's/^height_m = 7/height_m = 8/' slope/site.toml
 would
 would_be "report*1" "a fence that was moved and put back, and a comment"
@@ -45,7 +45,7 @@ made slope
 
 sed -i 's/^plane_dip_deg = 33/plane_dip_deg = 32/' slope/site.toml
 would
-would_be "blocks*1 dda*2 fence*1 maps*1 report*1 runout*1" "another failure plane"
+would_be "blocks*1 check*1 dda*2 fence*1 maps*1 report*1 runout*1" "another failure plane"
 sed -i 's/^plane_dip_deg = 32/plane_dip_deg = 33/' slope/site.toml
 
 touch slope/contours.gpkg
@@ -53,7 +53,7 @@ would
 would_be "" "the same contours with another time"
 cp "$source_dir/sample_sites/maungawhau/contours.gpkg" slope/contours.gpkg
 would
-would_be "blocks*1 dda*2 fence*1 maps*1 report*1 runout*1 tin*1 trn*1" "other contours"
+would_be "blocks*1 check*1 dda*2 fence*1 maps*1 report*1 runout*1 tin*1 trn*1" "other contours"
 cp "$source_dir/sample_sites/designed/contours.gpkg" slope/contours.gpkg
 
 sed -i 's/^friction_deg = 25/friction_deg = 250/' slope/site.toml

@@ -41,7 +41,7 @@ chmod +x tools/talus-dda
 broken() { expect 2 make -C slope BIN="$PWD/tools/" WITHOUT=no "$@"; }
 broken -j2 RUNS=4
 says "2 of 4 runs failed:"
-says "  run_2: did not end by itself: it was killed, or the machine was out of memory (no result)"
+says "  run_2: did not end by itself: it was killed, the machine was out of memory, or what starts it (BIN) lost it (no result)"
 says "  run_3: "
 [ ! -e slope/out/runs/run_2.h5 ] && [ ! -e slope/out/runs/run_3.h5 ] || fail "a run without result has a file"
 grep -q '"REMARK": "2 of 4 runs missing"' slope/out/runout.json || fail "the run-out does not say that runs are missing"

@@ -17,6 +17,21 @@ out="-o bad.tif --report bad.json --hillshade bad.png"
 grid good.asc 10 1 2 3 4 5 6 7 8 9
 gdal_translate -q -a_srs EPSG:32632 good.asc good.tif
 
+# a picture of the ground is not the ground, with a place on the map or without
+gdaldem hillshade -q good.tif shade.tif
+refused "as the shades of a picture" talus-trn shade.tif $out
+says "give the elevation model itself"
+gdal_translate -q -of PNG shade.tif shade.png
+refused "as the shades of a picture" talus-trn shade.png $out
+rm -f shade.png.aux.xml
+refused "as the shades of a picture" talus-trn shade.png $out
+# heights that are truly whole metres below 256 go by way of the command that is named
+gdal_translate -q -ot Byte -a_nodata none good.tif bytes.tif
+refused "as the shades of a picture" talus-trn bytes.tif $out
+says "gdal_translate -ot Float32 bytes.tif heights.tif"
+gdal_translate -q -ot Float32 bytes.tif heights.tif
+expect 0 talus-trn heights.tif -o whole_metres.tif --no-db -q
+
 # CRS
 refused "there is no CRS" talus-trn good.asc $out
 gdal_translate -q -a_srs EPSG:4326 -a_ullr 11.33 47.05 11.34 47.04 good.asc degrees.tif

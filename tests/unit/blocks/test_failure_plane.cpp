@@ -145,6 +145,26 @@ TEST(FailurePlane, AreaThatFindSourceRefusesIsRefused) {
 }
 
 // V-shaped bed: half of the mass over the flank that rises towards the east.
+// A bank before the outline holds a mass that reaches the outline, and none that comes out above
+// it.
+TEST(StepsAtFoot, AreMeasuredWhereTheRockEnds) {
+  const auto slope = [](double y) { return y < 20 ? 25.0 : y; };  // the bank lies south of y = 20
+  const Trn ground = grid(60, 60, 2, [&](double, double y) { return slope(y); });
+  const Area area = rectangle(30, 21, 90, 100);
+  const auto largest = [&](double exit) {
+    const Trn bed = grid(
+        60, 60, 2, [&](double, double y) { return std::min(slope(y), exit + 0.8 * (y - exit)); });
+    double step = 0;
+    for (const FootStep& at : steps_at_foot(ground, bed, area, std::numbers::pi))
+      step = std::max(step, at.height);
+    return step;
+  };
+  EXPECT_NEAR(largest(60), 0, 1e-9);
+  EXPECT_NEAR(largest(22), 3, 1e-9);
+  EXPECT_NEAR(largest(12), 25 - 19.2, 1e-9);
+  EXPECT_EQ(largest(200), 0) << "no rock";
+}
+
 TEST(ShareOverRisingBed, HalfOfASymmetricHollow) {
   const Trn ground = grid(31, 31, 1, [](double, double) { return 20.0; });
   const Trn bed = grid(31, 31, 1, [](double x, double) { return std::abs(x - 15); });

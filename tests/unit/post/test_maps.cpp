@@ -220,7 +220,7 @@ TEST(ReachLayer, CountsEachBlockOnceWithItsWeight) {
     const HandMade made = random_runs(7, 6, true, 0.2, 5);
     const MapGrid map = map_grid(made.grid, made.grid.cell_size * factor, "");
     const CellRows cells = made.cells(map);
-    const MapLayer layer = reach_layer(cells, map.grid.cell_size, made.released(), {});
+    const MapLayer layer = reach_layer(cells, map.grid.cell_size, made.released());
     double total = 0;
     for (const double w : made.released().weight) total += w;
     const auto known = by_cell(made, factor);
@@ -248,10 +248,39 @@ TEST(ReachLayer, CountsEachBlockOnceWithItsWeight) {
 TEST(ReachLayer, BoundsTheProbabilityByWilsonForSingleBlocks) {
   HandMade made = random_runs(100, 1, false, 0, 1);
   for (int run = 0; run < 10; ++run) made.runs[run].passages = {Passage{}};
-  const MapLayer layer = reach_layer(made.cells(), 2, made.released(), {});
+  const MapLayer layer = reach_layer(made.cells(), 2, made.released());
   EXPECT_FLOAT_EQ(band_named(layer, "reach_probability").value[0], 0.1F);
   EXPECT_NEAR(band_named(layer, "reach_probability_lo").value[0], 0.05523, 1e-5);
   EXPECT_NEAR(band_named(layer, "reach_probability_hi").value[0], 0.17437, 1e-5);
+}
+
+// 40 runs of one block, 4 of which came: 0.10 of 40 trials; 141 are wanted for a half width of
+// 0.05.
+TEST(RunsToAdd, AreThoseOfTheWorstCell) {
+  HandMade made = random_runs(40, 1, false, 0, 1);
+  for (int run = 0; run < 4; ++run) made.runs[run].passages = {Passage{}};
+  EXPECT_EQ(runs_to_add(made.cells(), made.released(), 0.05), 101);
+  Passage half;
+  half.cell = 3;
+  for (int run = 0; run < 20; ++run) made.runs[run].passages.push_back(half);
+  EXPECT_EQ(runs_to_add(made.cells(), made.released(), 0.05), 341);  // 381 wanted where R = 0.5
+  EXPECT_EQ(runs_to_add(made.cells(), made.released(), 0.2), 0);
+}
+
+// Two of the 102 runs that were wanted failed: the rest says 10 of 100.
+TEST(ReachLayer, CountsFailedRunsIntoItsIntervals) {
+  HandMade made = random_runs(100, 1, false, 0, 1);
+  for (int run = 0; run < 10; ++run) made.runs[run].passages = {Passage{}};
+  Released released = made.released();
+  EXPECT_NEAR(reach_bound_elsewhere(released), 0.036993, 5e-7);
+  released.failed_share = 0.02;
+  const MapLayer layer = reach_layer(made.cells(), 2, released);
+  EXPECT_FLOAT_EQ(band_named(layer, "reach_probability").value[0], 0.1F);
+  for (const std::string name : {"reach_probability", "run_share"}) {
+    EXPECT_NEAR(band_named(layer, name + "_lo").value[0], 0.05523 * 0.98, 1e-5);
+    EXPECT_NEAR(band_named(layer, name + "_hi").value[0], 0.17437 * 0.98 + 0.02, 1e-5);
+  }
+  EXPECT_NEAR(reach_bound_elsewhere(released), 0.036993 * 0.98 + 0.02, 5e-7);
 }
 
 TEST(ExceedanceLayer, SharesTheWeightAboveTheThresholdNotAtIt) {
@@ -317,7 +346,7 @@ TEST(MapTiles, ChangeNothing) {
       const CellRows cells = group_by_cell(
           std::move(rows), static_cast<std::size_t>(map.grid.n_rows) * map.grid.n_cols);
       return std::vector{
-          reach_layer(cells, 2, made.released(), {}),
+          reach_layer(cells, 2, made.released()),
           quantity_layer("height", cells, MapQuantity::centroid_height, made.released(), {}),
           arrival_layer(cells)};
     };
@@ -349,7 +378,7 @@ TEST(OnGrid, TellsZeroFromNodata) {
   p.cell = 1;
   made.runs[0].passages = {p};
   const CellRows cells = made.cells();
-  const MapLayer reach = reach_layer(cells, 2, made.released(), {});
+  const MapLayer reach = reach_layer(cells, 2, made.released());
   const MapLayer speed = quantity_layer("velocity", cells, MapQuantity::speed, made.released(), {});
   EXPECT_EQ(on_grid(reach, band_named(reach, "n_pass"), 3, -9999), (std::vector<float>{0, 1, 0}));
   EXPECT_EQ(on_grid(speed, band_named(speed, "velocity_max"), 3, -9999),
@@ -362,7 +391,7 @@ TEST(Maps, OfNoPassageAtAllAreEmpty) {
   const HandMade made = random_runs(2, 3, false, 0, 1);
   const CellRows cells = made.cells();
   EXPECT_TRUE(cells.cell.empty());
-  EXPECT_EQ(reach_layer(cells, 2, made.released(), {}).bands.size(), 7U);
+  EXPECT_EQ(reach_layer(cells, 2, made.released()).bands.size(), 9U);
   EXPECT_EQ(quantity_layer("speed", cells, MapQuantity::speed, made.released(), {}).bands.size(),
             10U);
 }

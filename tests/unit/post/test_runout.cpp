@@ -8,6 +8,7 @@
 
 #include "base/random.hpp"
 #include "post/runout/runout.hpp"
+#include "post/runout/runout_runs.hpp"
 #include "post/runout/runout_text.hpp"
 #include "run_maker.hpp"
 
@@ -69,6 +70,52 @@ TEST(EventReach, OfAStraightSlideIsExact) {
     EXPECT_DOUBLE_EQ(event.blocks[0].max_speed, 3);
     EXPECT_DOUBLE_EQ(event.blocks[0].max_energy, 0.5 * 16000 * 9);
   }
+}
+
+// The first of 21 cubes stays, the k-th ends 10 k m away and k m lower, but the last runs to 400 m:
+// 95 % of the twenty that moved are within 190 m.
+TEST(MassReach, LeavesOutTheFewFarthestBlocks) {
+  RunFile run;
+  std::vector<FrameBlock> start, end;
+  for (int block = 0; block < 21; ++block) {
+    add_box(run, {2, 2, 2}, {0, 0, 100});
+    start.push_back(standing({0, 0, 100}));
+    const double way = block == 20 ? 400 : 10.0 * block;
+    end.push_back(standing({way, 0, 100 - way / 10}));
+  }
+  add_frame(run, 0, start);
+  add_frame(run, 1, end);
+  const MassReach reach = mass_reach(run, displacements(run));
+  // The top is a corner of a cube, a metre above and beside its centre, on either side.
+  EXPECT_NEAR(reach.length, 190, 1.1);
+  EXPECT_NEAR(reach.height, 1 + 19, 1e-9);
+  EXPECT_EQ(reach.n_beyond, 1);
+  EXPECT_NEAR(reach.beyond_share, 0.05, 1e-12);
+  EXPECT_NEAR(reach.toe_share, 0.05, 1e-12);
+  EXPECT_EQ(reach.n_outliers, 1);
+  EXPECT_NEAR(reach.moved_volume, 20 * 8, 1e-9);
+  EXPECT_NEAR(reach.angle(), std::atan(reach.height / reach.length), 1e-12);
+}
+
+// The top is that of what moved: a mass that stays above it does not lengthen the run-out.
+TEST(MassReach, BeginsAtTheTopOfWhatMoved) {
+  RunFile run;
+  add_box(run, {2, 2, 2}, {-300, 0, 300});
+  add_box(run, {2, 2, 2}, {0, 0, 100});
+  add_frame(run, 0, {standing({-300, 0, 300}), standing({0, 0, 100})});
+  add_frame(run, 1, {standing({-300, 0, 300}), standing({50, 0, 80})});
+  const MassReach reach = mass_reach(run, displacements(run));
+  EXPECT_NEAR(reach.length, 50, 1.5);
+  EXPECT_NEAR(reach.height, 21, 1e-9);
+  EXPECT_EQ(reach.n_beyond, 0);
+}
+
+TEST(MassReach, OfAMassThatStaysIsNone) {
+  RunFile run;
+  add_box(run, {2, 2, 2}, {0, 0, 100});
+  add_frame(run, 0, {standing({0, 0, 100})});
+  add_frame(run, 1, {standing({0.5, 0, 100})});
+  EXPECT_TRUE(std::isnan(mass_reach(run, displacements(run)).length));
 }
 
 // The toe is where the deposit ends, not where the longest path ends.
@@ -246,4 +293,29 @@ TEST(EventReach, OfARunWithoutFramesHasNoAngle) {
   const EventReach event = event_reach(run, bent_trn(), {});
   EXPECT_TRUE(std::isnan(event.event.path_angle()));
   EXPECT_EQ(event.toe_block, -1);
+}
+
+TEST(RunoutCases, StandByTheNamesOfTheirFiles) {
+  EXPECT_EQ(case_of("out/runs/run_low_3.h5"), "low");
+  EXPECT_EQ(case_of("run_3.h5"), "");
+  EXPECT_EQ(case_of("other_low_3.h5"), "");
+  std::vector<RunoutRun> runs(3);
+  for (int k = 0; k < 3; ++k) {
+    runs[k].member.file = k == 1 ? "run_high_1.h5" : "run_low_" + std::to_string(k) + ".h5";
+    runs[k].mass = {1};
+    runs[k].displacement = {k == 1 ? 0.0 : 30.0};
+    runs[k].event.mass.length = 10 * k;
+  }
+  const std::vector<RunoutCase> cases = cases_of(runs);
+  ASSERT_EQ(cases.size(), 2u);
+  EXPECT_EQ(cases[0].name, "high");
+  EXPECT_EQ(cases[0].moved.share, 0);
+  EXPECT_EQ(cases[1].runs, (std::vector<int>{0, 2}));
+  EXPECT_EQ(cases[1].moved.share, 1);
+  const Spread spread =
+      spread_over(runs, cases[1].runs, [](const RunoutRun& r) { return r.event.mass.length; });
+  EXPECT_EQ(spread.n, 2u);
+  EXPECT_EQ(spread.largest, 20);
+  runs.erase(runs.begin() + 1);
+  EXPECT_TRUE(cases_of(runs).empty());
 }

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -203,16 +204,55 @@ TEST(BootstrapUpperPlaces, CoverThePercentileOfRunsWhoseBlocksGoTogether) {
   EXPECT_LE(covered_as_if_independent, 300 * 0.80);
 }
 
-TEST(BootstrapShare, IsExactWhenAllRunsAgreeAndWideWhenTheyDoNot) {
-  const RunResamples resamples = resample_runs(20, 400, 2);
-  const std::vector<double> released = resampled_sums(resamples, std::vector<double>(20, 10.0));
-  std::vector<RunWeight> same, all_or_none;
-  for (int run = 0; run < 20; ++run) same.push_back({run, 3});
-  for (int run = 0; run < 6; ++run) all_or_none.push_back({run, 10});
-  EXPECT_DOUBLE_EQ(bootstrap_share(same, released, resamples).low, 0.3);
-  EXPECT_DOUBLE_EQ(bootstrap_share(same, released, resamples).high, 0.3);
-  // 20 trials with share 0.3: two standard deviations are 0.2
-  const Interval interval = bootstrap_share(all_or_none, released, resamples);
-  EXPECT_NEAR(interval.low, 0.1, 0.051);
-  EXPECT_NEAR(interval.high, 0.5, 0.051);
+TEST(RankInterval, HasThePublishedTwoSidedRanks) {
+  const auto expect = [](int n, double p, int low, int high) {
+    const RankInterval ranks = rank_interval(n, p);
+    EXPECT_EQ(ranks.low, low) << n << " " << p;
+    EXPECT_EQ(ranks.high, high) << n << " " << p;
+  };
+  expect(100, 0.95, 90, 100);
+  expect(1000, 0.95, 936, 964);
+  expect(1000, 0.99, 983, 997);
+  expect(10000, 0.95, 9457, 9543);
+  expect(10000, 0.99, 9880, 9920);
+  EXPECT_EQ(rank_interval(50, 0.99).high, 0);
+}
+
+// Wilks: the largest, second and third largest value bound from these sizes on, not one less.
+TEST(BoundRank, HasWilksOrders) {
+  struct Row {
+    double p;
+    int order, n;
+  };
+  for (const Row& row : {Row{0.9, 1, 29},
+                         {0.95, 1, 59},
+                         {0.99, 1, 299},
+                         {0.999, 1, 2995},
+                         {0.95, 2, 93},
+                         {0.95, 3, 124},
+                         {0.99, 2, 473},
+                         {0.99, 3, 628}}) {
+    EXPECT_EQ(upper_bound_rank(row.n, row.p), row.n - row.order + 1) << row.n;
+    EXPECT_NE(upper_bound_rank(row.n - 1, row.p), row.n - row.order) << row.n;
+  }
+}
+
+TEST(Quantiles, AreThoseOfTheTables) {
+  EXPECT_NEAR(normal_quantile(0.975), 1.959963984540054, 1e-12);
+  EXPECT_NEAR(normal_quantile(0.95), 1.6448536269514722, 1e-12);
+  EXPECT_NEAR(normal_quantile(0.2), -0.8416212335729143, 1e-12);
+  const std::array<std::pair<int, double>, 8> table = {{{1, 12.706204736432095},
+                                                        {2, 4.302652729911275},
+                                                        {3, 3.182446305284263},
+                                                        {4, 2.7764451051977987},
+                                                        {5, 2.570581835636314},
+                                                        {10, 2.2281388519649385},
+                                                        {39, 2.0226909200367604},
+                                                        {100, 1.983971518523552}}};
+  for (const auto& [degrees, t] : table) EXPECT_NEAR(student_quantile(degrees, 0.975), t, 1e-9);
+  EXPECT_NEAR(student_quantile(10, 0.95), 1.8124611228107335, 1e-9);
+  // the expansion goes on where the finite sums end
+  EXPECT_NEAR(student_quantile(100, 0.95), student_quantile(101, 0.95), 2e-4);
+  EXPECT_GT(student_quantile(100, 0.975), student_quantile(101, 0.975));
+  EXPECT_NEAR(student_quantile(120, 0.975), 1.979930405082417, 1e-9);
 }

@@ -19,22 +19,25 @@ using namespace talus::cases;
 
 struct Answers {
   Phase phase;
-  bool takes_part, does_not_move, exists;
+  bool takes_part, does_not_move, exists, bears_nothing;
 };
 
 TEST(Phase, QuestionsOfEachState) {
-  const std::array<Answers, 6> table = {{{Phase::near_ground, true, false, true},
-                                         {Phase::flight, true, false, true},
-                                         {Phase::asleep, true, true, true},
-                                         {Phase::left_domain, false, true, true},
-                                         {Phase::stopped, false, true, true},
-                                         {Phase::unborn, false, true, false}}};
+  const std::array<Answers, 8> table = {{{Phase::near_ground, true, false, true, false},
+                                         {Phase::flight, true, false, true, false},
+                                         {Phase::asleep, true, true, true, false},
+                                         {Phase::left_domain, false, true, true, false},
+                                         {Phase::stopped, false, true, true, false},
+                                         {Phase::unborn, false, true, false, true},
+                                         {Phase::crushed, false, true, true, true},
+                                         {Phase::broken, false, true, false, true}}};
   EXPECT_EQ(table.size(), static_cast<std::size_t>(last_phase) + 1);
   for (std::size_t k = 0; k < table.size(); ++k) {
     EXPECT_EQ(static_cast<std::size_t>(table[k].phase), k);
     EXPECT_EQ(takes_part(table[k].phase), table[k].takes_part) << k;
     EXPECT_EQ(does_not_move(table[k].phase), table[k].does_not_move) << k;
     EXPECT_EQ(exists(table[k].phase), table[k].exists) << k;
+    EXPECT_EQ(bears_nothing(table[k].phase), table[k].bears_nothing) << k;
   }
 }
 

@@ -89,6 +89,19 @@ TEST(Plausibility, DepthBeyondTheReliefIsRefused) {
   EXPECT_NE(doubts[1].finding.find("800 m deep"), std::string::npos);
 }
 
+// A hint does not name what the site file says already.
+TEST(Plausibility, HintsKnowTheFailureSurface) {
+  PlausibilityFacts facts = sound();
+  facts.step_at_foot = 5;
+  EXPECT_NE(doubts_of(facts).at(0).hint.find("\"daylighting\""), std::string::npos);
+  facts.daylights = true;
+  EXPECT_EQ(doubts_of(facts).at(0).hint.find("\"daylighting\""), std::string::npos);
+  facts = sound();
+  facts.mean_depth = 800;
+  facts.depth_key = "source.plane_point_m";
+  EXPECT_EQ(doubts_of(facts).at(0).key, "source.plane_point_m");
+}
+
 TEST(Plausibility, OutlookHasThreeClasses) {
   EXPECT_EQ(outlook_of(0.05), Outlook::stands);
   EXPECT_EQ(outlook_of(0.1), Outlook::goes_in_part);

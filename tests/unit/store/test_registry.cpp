@@ -61,5 +61,55 @@ TEST_F(Registry, AdoptingCompletesTheRowOfTheSameRunAndAddsOthers) {
   EXPECT_EQ(runs_that_wrote(path("a.sqlite"), std::string(64, 'a')).size(), 2u);
 }
 
+// --- merging -----------------------------------------------------------------------------------
+
+TEST_F(Registry, MergingTwiceAddsNoRunTwiceAndKeepsAllThatIsKnownOfIt) {
+  add_run(path("a.sqlite"), run_of(1));
+  add_run(path("b.sqlite"), run_of(2));
+  add_run(path("b.sqlite"), run_of(1));
+  const std::vector<std::string> others = {path("a.sqlite"), path("b.sqlite")};
+  const RegistryMerge first = merge_runs(path("all.sqlite"), others);
+  EXPECT_EQ(first.n_added, 2);
+  EXPECT_EQ(first.n_known, 1);
+  const RegistryMerge second = merge_runs(path("all.sqlite"), others);
+  EXPECT_EQ(second.n_added, 0);
+  EXPECT_EQ(second.n_known, 3);
+  ASSERT_EQ(list_runs(path("all.sqlite")).size(), 2u);
+  RunRecord merged = read_run(path("all.sqlite"), "1");
+  merged.id = 0;
+  EXPECT_EQ(merged, run_of(1));
+}
+
+TEST_F(Registry, MergingRefusesTwoEntriesOfARunThatDifferAndThenMergesNothing) {
+  RunRecord other = run_of(1);
+  other.outputs[0].sha256 = std::string(64, 'b');
+  add_run(path("a.sqlite"), run_of(2));
+  add_run(path("a.sqlite"), run_of(1));
+  add_run(path("b.sqlite"), other);
+  add_run(path("all.sqlite"), run_of(3));
+  EXPECT_THROW(merge_runs(path("all.sqlite"), {path("a.sqlite"), path("b.sqlite")}), InputError);
+  EXPECT_EQ(list_runs(path("all.sqlite")).size(), 1u);
+}
+
+TEST_F(Registry, MergingCompletesARunThatWasGoingOnAndNotTheOtherWayRound) {
+  (void)start_run(path("a.sqlite"), run_of(1));
+  add_run(path("b.sqlite"), run_of(1));
+  EXPECT_EQ(merge_runs(path("all.sqlite"), {path("a.sqlite")}).n_added, 1);
+  EXPECT_EQ(list_runs(path("all.sqlite"))[0].status, "running");
+  EXPECT_EQ(merge_runs(path("all.sqlite"), {path("b.sqlite")}).n_completed, 1);
+  EXPECT_EQ(merge_runs(path("all.sqlite"), {path("a.sqlite")}).n_known, 1);
+  ASSERT_EQ(list_runs(path("all.sqlite")).size(), 1u);
+  EXPECT_EQ(list_runs(path("all.sqlite"))[0].status, "done");
+}
+
+TEST_F(Registry, MergedRunsStandInTheOrderOfTheirStarts) {
+  RunRecord later = run_of(1), sooner = run_of(2);
+  later.started = "2026-01-02T03:04:06Z";
+  add_run(path("a.sqlite"), later);
+  add_run(path("b.sqlite"), sooner);
+  merge_runs(path("all.sqlite"), {path("a.sqlite"), path("b.sqlite")});
+  EXPECT_EQ(list_runs(path("all.sqlite"))[0].process_id, 2);
+}
+
 }  // namespace
 }  // namespace talus

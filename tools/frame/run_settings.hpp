@@ -1,4 +1,4 @@
-// tools/dda/settings.hpp
+// tools/frame/run_settings.hpp
 // What is odd about the settings of a run: refused, or said to the user.
 #pragma once
 
@@ -17,6 +17,10 @@ void check_times(const Site& site);
 
 /// Warns of settings that do nothing, or that are unusual. Returns the warnings for the run file.
 [[nodiscard]] std::vector<std::string> warn_of_settings(Tool& tool, const Site& site);
+
+/// Adds the pieces into which blocks may break to the blocks of `inputs`, where [fragmentation] is
+/// enabled; warns of blocks that stay whole.
+void cut_fragments(Tool& tool, const Site& site, DdaInputs& inputs);
 
 /// Warns of blocks that pass through each other, and of strains asked for that are not computed;
 /// adds to inputs.warnings.

@@ -1,4 +1,4 @@
-#include "tools/dda/settings.hpp"
+#include "tools/frame/run_settings.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -107,6 +107,29 @@ std::vector<std::string> warn_of_settings(Tool& tool, const Site& site) {
     tool.warn(where_of(site, value.key).text() + ": " + warnings.back());
   }
   return warnings;
+}
+
+void cut_fragments(Tool& tool, const Site& site, DdaInputs& inputs) {
+  if (!site.fragmentation.enabled) return;
+  const auto warn = [&](const std::string& words) {
+    inputs.warnings.push_back(words);
+    tool.warn(words);
+  };
+  if (site.solver.law != "talus") return warn("[fragmentation] does nothing with law paper");
+  BlockSet& blocks = inputs.parts.blocks;
+  const int n = n_blocks(blocks);
+  inputs.parts.fragments = add_fragments(blocks, split_settings(site, blocks));
+  int n_of_parts = 0, n_small = 0;
+  for (int b = 0; b < n; ++b) {
+    if (inputs.parts.fragments[static_cast<std::size_t>(b)].first_piece >= 0) continue;
+    const bool is_of_parts = blocks.convex_part_begin[b + 1] - blocks.convex_part_begin[b] > 1;
+    ++(is_of_parts ? n_of_parts : n_small);
+  }
+  tool.detail(counted(n, "block") + " may break into " + std::to_string(n_blocks(blocks) - n) +
+              " pieces of all sizes");
+  if (n_of_parts > 0) warn(counted(n_of_parts, "block") + " of several convex parts cannot break");
+  if (n_small > 0)
+    warn(counted(n_small, "block") + " cannot break into pieces of [fragmentation] min_volume_m3");
 }
 
 void warn_of_plan(Tool& tool, const Site& site, const ScenePlan& plan, DdaInputs& inputs) {

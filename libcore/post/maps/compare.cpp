@@ -1,0 +1,139 @@
+#include "post/maps/compare.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <span>
+
+#include "post/percentile_bounds.hpp"
+
+namespace talus {
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+struct Compared {
+  const char *name, *unit;
+  float PassageValues::*member;
+  double scale;
+};
+constexpr std::array<Compared, 3> quantities = {
+    {{"velocity", "m/s", &PassageValues::speed, 1},
+     {"ke_total", "kJ", &PassageValues::total_energy, 1e-3},
+     {"pass_height_top", "m", &PassageValues::top_height, 1}}};
+struct Level {
+  const char* name;
+  double p;
+};
+constexpr std::array<Level, 2> levels = {{{"p50", 0.5}, {"p95", 0.95}}};
+
+// One side, read cell by cell in ascending order.
+struct Side {
+  explicit Side(const Ensemble& of) : ensemble(of), basis(share_basis_of(of.released)) {}
+
+  const Ensemble& ensemble;
+  ShareBasis basis;
+  std::size_t next = 0;  // the first touched cell that was not passed by
+
+  std::span<const MapRow> rows_at(std::uint32_t cell) {
+    const CellRows& cells = ensemble.cells;
+    while (next < cells.cell.size() && cells.cell[next] < cell) ++next;
+    if (next == cells.cell.size() || cells.cell[next] != cell) return {};
+    return std::span(cells.rows)
+        .subspan(cells.begin[next], cells.begin[next + 1] - cells.begin[next]);
+  }
+};
+
+Estimate reach_of(const Side& side, std::span<const MapRow> rows) {
+  std::vector<RunWeight> parts;
+  double weight = 0;
+  for (const MapRow& row : rows) {
+    if (parts.empty() || parts.back().run != row.run) parts.push_back({row.run, 0});
+    parts.back().weight += row.weight;
+    weight += row.weight;
+  }
+  const double share = std::min(1.0, weight / side.basis.over.whole);
+  const Interval interval = share_interval(side.basis, parts, share);
+  return {share, interval.low, interval.high};
+}
+
+Estimate percentile_of(std::span<const MapRow> rows, const Compared& quantity, double p) {
+  struct Item {
+    float value;
+    RunWeight run;
+  };
+  std::vector<Item> items;
+  for (const MapRow& row : rows) {
+    const float value = row.largest.*quantity.member;
+    if (!std::isnan(value) && row.weight > 0) items.push_back({value, {row.run, row.weight}});
+  }
+  std::sort(items.begin(), items.end(), [](const Item& a, const Item& b) {
+    return a.value != b.value ? a.value < b.value : a.run.weight < b.run.weight;
+  });
+  std::vector<RunWeight> runs;
+  for (const Item& item : items) runs.push_back(item.run);
+  const BoundedPlaces places = percentile_places(runs, p);
+  const auto value_at = [&](int place) {
+    return place < 0 ? none : static_cast<double>(items[place].value) * quantity.scale;
+  };
+  return {value_at(places.place), value_at(places.low), value_at(places.high)};
+}
+
+void add_bands(MapLayer& layer, const std::string& name, const std::string& unit,
+               const std::string& what) {
+  const std::size_t n = layer.cell.size();
+  const auto add = [&](const std::string& end, const std::string& begin) {
+    layer.bands.push_back({name + end, unit, begin + what, false,
+                           std::vector<float>(n, std::numeric_limits<float>::quiet_NaN()),
+                           OverviewValue::farthest_from_zero});
+  };
+  add("", "");
+  add("_lo", "lower bound of the 95 % interval of the ");
+  add("_hi", "upper bound of the 95 % interval of the ");
+}
+
+void put(MapLayer& layer, std::size_t band, std::size_t cell, const Difference& d) {
+  layer.bands[band].value[cell] = static_cast<float>(d.value);
+  layer.bands[band + 1].value[cell] = static_cast<float>(d.low);
+  layer.bands[band + 2].value[cell] = static_cast<float>(d.high);
+}
+
+}  // namespace
+
+Difference difference(const Estimate& a, const Estimate& b) {
+  const double d = b.value - a.value;
+  return {d, d - std::hypot(b.value - b.low, a.high - a.value),
+          d + std::hypot(b.high - b.value, a.value - a.low)};
+}
+
+MapLayer comparison_layer(const Ensemble& a, const Ensemble& b) {
+  MapLayer layer{"compare", {}, {}};
+  std::set_union(a.cells.cell.begin(), a.cells.cell.end(), b.cells.cell.begin(), b.cells.cell.end(),
+                 std::back_inserter(layer.cell));
+  add_bands(
+      layer, "reach_probability_difference", "1",
+      "weight of the blocks that crossed the cell / weight of all released blocks: that of the "
+      "runs compared with minus that of the others");
+  for (const Compared& quantity : quantities)
+    for (const Level& level : levels)
+      add_bands(layer, std::string(quantity.name) + "_" + level.name + "_difference", quantity.unit,
+                std::string(level.name) + " of " + quantity.name +
+                    " over the blocks that crossed the cell: that of the runs compared with minus "
+                    "that of the others");
+  Side side_a(a), side_b(b);
+  for (std::size_t i = 0; i < layer.cell.size(); ++i) {
+    const auto rows_a = side_a.rows_at(layer.cell[i]), rows_b = side_b.rows_at(layer.cell[i]);
+    std::size_t band = 0;
+    put(layer, band, i, difference(reach_of(side_a, rows_a), reach_of(side_b, rows_b)));
+    for (const Compared& quantity : quantities)
+      for (const Level& level : levels)
+        put(layer, band += 3, i,
+            difference(percentile_of(rows_a, quantity, level.p),
+                       percentile_of(rows_b, quantity, level.p)));
+  }
+  return layer;
+}
+
+}  // namespace talus

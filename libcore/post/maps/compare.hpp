@@ -1,0 +1,33 @@
+// libcore/post/maps/compare.hpp: public
+// What one ensemble of runs has more than another, cell by cell, and how sure that is.
+// in:    passages of both by cell of one map
+// out:   differences of reach and percentiles with their 95 % intervals
+//
+// The ensembles are independent. The interval of a difference is made of those of both sides, each
+// taken as far as it reaches towards the other (Newcombe 1998; Zou and Donner 2008).
+#pragma once
+
+#include "post/maps/maps.hpp"
+
+namespace talus {
+
+struct Ensemble {
+  const CellRows& cells;
+  const Released& released;
+};
+
+/// Of b - a.
+struct Difference {
+  double value = 0, low = 0, high = 0;
+};
+/// A side with its interval; NaN where there is none.
+struct Estimate {
+  double value = 0, low = 0, high = 0;
+};
+[[nodiscard]] Difference difference(const Estimate& a, const Estimate& b);
+
+/// `b` minus `a` over the cells that either touched: reach_probability_difference, and of speed,
+/// energy and height of the top the differences of p50 and p95, each with _lo and _hi.
+[[nodiscard]] MapLayer comparison_layer(const Ensemble& a, const Ensemble& b);
+
+}  // namespace talus

@@ -1,0 +1,324 @@
+#include "report/check_view.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "base/text.hpp"
+#include "report/chart.hpp"
+#include "report/encode.hpp"
+#include "report/map_marks.hpp"
+
+namespace talus {
+namespace {
+
+using std::size_t;
+
+std::string number(double value) { return text(std::round(value * 100) / 100); }
+
+// --- the map -----------------------------------------------------------------------------------
+
+struct DrawnBox {
+  Vec2 low = Vec2::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  void add(const Vec2& p) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+};
+
+DrawnBox drawn_box(const CheckView& view) {
+  DrawnBox box;
+  for (const auto& ring : view.source)
+    for (const Vec2& p : ring) box.add(p);
+  for (const ViewedFence& fence : view.fences)
+    for (const Vec3& p : fence.line.points) box.add(p.head<2>());
+  for (const auto& line : view.fall_lines)
+    for (const Vec2& p : line) box.add(p);
+  for (const OutlinedBlock& block : view.blocks)
+    for (const Vec2& p : block.outline) box.add(p);
+  return box;
+}
+
+// Metres of the drawing: x to the east, y to the south, zero at the north-west node.
+class Drawing {
+ public:
+  explicit Drawing(const Trn& trn) : trn_(trn) {}
+  [[nodiscard]] Vec2 at(const Vec2& p) const {
+    return {p.x() - trn_.node0.x(), trn_.node0.y() - p.y()};
+  }
+  [[nodiscard]] std::string path(const std::vector<Vec2>& points, bool closed) const {
+    std::string out;
+    for (const Vec2& p : points) {
+      const Vec2 q = at(p);
+      out += (out.empty() ? "M" : "L") + number(q.x()) + " " + number(q.y());
+    }
+    return out + (closed ? "Z" : "");
+  }
+  [[nodiscard]] std::string segment(const Vec2& a, const Vec2& b) const {
+    const Vec2 p = at(a), q = at(b);
+    return "M" + number(p.x()) + " " + number(p.y()) + "L" + number(q.x()) + " " + number(q.y());
+  }
+
+ private:
+  const Trn& trn_;
+};
+
+std::string shape(const std::string& css_class, const std::string& d, const std::string& title) {
+  if (d.empty()) return "";
+  return "<path class=\"" + css_class + "\" d=\"" + d + "\">" +
+         (title.empty() ? "" : "<title>" + xml_escaped(title) + "</title>") + "</path>\n";
+}
+
+// Where a contour crosses a triangle with these corners.
+bool crossing(const std::array<Vec3, 3>& corners, double level, Vec2& from, Vec2& to) {
+  int n = 0;
+  std::array<Vec2, 3> found;
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 &a = corners[k], &b = corners[(k + 1) % 3];
+    if ((a.z() > level) == (b.z() > level)) continue;
+    const double share = (level - a.z()) / (b.z() - a.z());
+    found[n++] = (a + share * (b - a)).head<2>();
+  }
+  if (n != 2) return false;
+  from = found[0];
+  to = found[1];
+  return true;
+}
+
+// Contours of the ground, seen at no more than this many nodes a side, so that a page stays small.
+constexpr int most_nodes = 160;
+
+std::string contours(const Trn& ground, const Drawing& draw, double interval, bool bold) {
+  const int stride = std::max(1, std::max(ground.n_rows, ground.n_cols) / most_nodes);
+  std::string d;
+  const auto add = [&](const std::array<Vec3, 3>& corners) {
+    if (!std::isfinite(corners[0].z() + corners[1].z() + corners[2].z())) return;
+    const auto [low, high] = std::minmax({corners[0].z(), corners[1].z(), corners[2].z()});
+    const double zero = ground.origin.z();  // contours lie at round heights of the map
+    for (double k = std::ceil((low + zero) / interval); k * interval <= high + zero; ++k) {
+      const bool is_bold = std::fmod(std::abs(k), 5) == 0;
+      Vec2 from, to;
+      if (is_bold == bold && crossing(corners, k * interval - zero, from, to))
+        d += draw.segment(from, to);
+    }
+  };
+  for (int r = 0; r + stride < ground.n_rows; r += stride)
+    for (int c = 0; c + stride < ground.n_cols; c += stride) {
+      const Vec3 north_west = node_point(ground, r, c),
+                 south_east = node_point(ground, r + stride, c + stride);
+      add({north_west, node_point(ground, r + stride, c), south_east});
+      add({north_west, south_east, node_point(ground, r, c + stride)});
+    }
+  return d;
+}
+
+// Sides of cells between two classes of ground. `cell_class` belongs to the whole terrain, of which
+// `part` is a part.
+std::string class_borders(const CheckView& view, const Trn& part, const Trn& whole,
+                          const Drawing& draw) {
+  if (view.cell_class.empty()) return "";
+  const auto class_at = [&](const Vec2& p) {
+    const Cell cell = locate(whole, p.x(), p.y()).cell;
+    return view.cell_class[static_cast<size_t>(first_triangle(whole, cell)) / 2];
+  };
+  std::string d;
+  const double half = part.cell_size / 2;
+  for (int r = 0; r + 1 < part.n_rows; ++r)
+    for (int c = 0; c + 1 < part.n_cols; ++c) {
+      const Vec2 corner = node_point(part, r, c).head<2>();
+      const Vec2 middle = corner + Vec2(half, -half);
+      const Vec2 east = middle + Vec2(2 * half, 0), south = middle - Vec2(0, 2 * half);
+      const Vec2 far = corner + Vec2(2 * half, -2 * half);
+      if (c + 2 < part.n_cols && class_at(middle) != class_at(east))
+        d += draw.segment(corner + Vec2(2 * half, 0), far);
+      if (r + 2 < part.n_rows && class_at(middle) != class_at(south))
+        d += draw.segment(corner - Vec2(0, 2 * half), far);
+    }
+  return d;
+}
+
+const char* class_of(BlockOutlook outlook) {
+  switch (outlook) {
+    case BlockOutlook::goes:
+      return "goes";
+    case BlockOutlook::stays:
+      return "stays";
+    case BlockOutlook::holds_others:
+      break;
+  }
+  return "holds";
+}
+
+// --- the section -------------------------------------------------------------------------------
+
+struct SectionPoint {
+  double along = 0;  // in plan, from the start of the line [m]
+  double ground = 0, bed = 0;
+};
+
+std::vector<SectionPoint> points_along(const std::vector<Vec2>& line, const Trn& ground,
+                                       const Trn& bed) {
+  std::vector<SectionPoint> points;
+  double before = 0;
+  for (size_t k = 0; k + 1 < line.size(); ++k) {
+    const double length = (line[k + 1] - line[k]).norm();
+    const int n = std::max(1, static_cast<int>(std::ceil(2 * length / ground.cell_size)));
+    for (int i = 0; i < n; ++i) {
+      const Vec2 p = line[k] + static_cast<double>(i) / n * (line[k + 1] - line[k]);
+      points.push_back({before + length * i / n, elevation_at(ground, p.x(), p.y()),
+                        elevation_at(bed, p.x(), p.y())});
+    }
+    before += length;
+  }
+  return points;
+}
+
+// Where the section crosses a fence: how far along, and how high the ground is there.
+std::vector<std::pair<double, double>> fences_across(const CheckView& view, const Trn& ground,
+                                                     size_t fence) {
+  std::vector<std::pair<double, double>> found;
+  const auto& posts = view.fences[fence].line.points;
+  double before = 0;
+  for (size_t k = 0; k + 1 < view.section.size(); ++k) {
+    const Vec2 a = view.section[k], step = view.section[k + 1] - a;
+    for (size_t i = 0; i + 1 < posts.size(); ++i) {
+      const Vec2 b = posts[i].head<2>(), side = posts[i + 1].head<2>() - b;
+      const double cross = step.x() * side.y() - step.y() * side.x();
+      if (cross == 0) continue;
+      const Vec2 d = b - a;
+      const double s = (d.x() * side.y() - d.y() * side.x()) / cross;
+      const double t = (d.x() * step.y() - d.y() * step.x()) / cross;
+      if (s < 0 || s >= 1 || t < 0 || t > 1) continue;
+      const Vec2 p = a + s * step;
+      found.emplace_back(before + s * step.norm(), elevation_at(ground, p.x(), p.y()));
+    }
+    before += step.norm();
+  }
+  return found;
+}
+
+}  // namespace
+
+double contour_interval(double low, double high) {
+  const double wanted = std::max(high - low, 1e-3) / 20;
+  const double power = std::pow(10, std::floor(std::log10(wanted)));
+  for (const double factor : {1.0, 2.0, 5.0})
+    if (factor * power >= wanted * (1 - 1e-9)) return factor * power;
+  return 10 * power;
+}
+
+double contour_interval(const Trn& ground) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const double z : ground.elevation)
+    if (std::isfinite(z)) low = std::min(low, z), high = std::max(high, z);
+  return low < high ? contour_interval(low, high) : 0;
+}
+
+Trn part_for(const CheckView& view, const Trn& ground) {
+  const DrawnBox box = drawn_box(view);
+  if (!(box.low.x() <= box.high.x())) return ground;
+  const double margin = std::max(0.15 * (box.high - box.low).maxCoeff(), 5 * ground.cell_size);
+  const Cell north_west = locate(ground, box.low.x() - margin, box.high.y() + margin).cell;
+  const Cell south_east = locate(ground, box.high.x() + margin, box.low.y() - margin).cell;
+  Trn part = ground;
+  part.n_rows = south_east.row - north_west.row + 2;
+  part.n_cols = south_east.col - north_west.col + 2;
+  part.node0 = node_point(ground, north_west.row, north_west.col).head<2>();
+  part.elevation.clear();
+  for (int r = 0; r < part.n_rows; ++r)
+    for (int c = 0; c < part.n_cols; ++c)
+      part.elevation.push_back(
+          ground.elevation[node_index(ground, north_west.row + r, north_west.col + c)]);
+  return part;
+}
+
+std::string check_map_svg(const CheckView& view, const Trn& ground,
+                          std::string_view hillshade_png) {
+  const Trn part = part_for(view, ground);
+  const Drawing draw(part);
+  const double cell = part.cell_size, width = (part.n_cols - 1) * cell,
+               height = (part.n_rows - 1) * cell;
+  std::string out = "<svg class=\"plan check\" viewBox=\"0 0 " + number(width) + " " +
+                    number(height) + "\" role=\"img\" aria-label=\"map of the source\">\n" +
+                    "<image x=\"" + number(-cell / 2) + "\" y=\"" + number(-cell / 2) +
+                    "\" width=\"" + number(part.n_cols * cell) + "\" height=\"" +
+                    number(part.n_rows * cell) + "\" preserveAspectRatio=\"none\" href=\"" +
+                    data_address("image/png", hillshade_png) + "\"/>\n";
+  if (const double interval = contour_interval(part); interval > 0) {
+    const std::string title = "contours every " + text(interval) + " m";
+    out += shape("contour", contours(part, draw, interval, false), title);
+    out += shape("contour bold", contours(part, draw, interval, true), title);
+  }
+  out += shape("ground-class", class_borders(view, part, ground, draw), "border of ground classes");
+  for (const auto& line : view.fall_lines) out += shape("fall", draw.path(line, false), "");
+  for (const OutlinedBlock& block : view.blocks)
+    out += shape(class_of(block.outlook), draw.path(block.outline, true), block.title);
+  for (const auto& ring : view.source) out += shape("source", draw.path(ring, true), "source");
+  for (const FootMark& mark : view.foot) {
+    const Vec2 at = draw.at(mark.place);
+    out += "<circle class=\"" + std::string(mark.step > 0.1 ? "step" : "clear") + "\" cx=\"" +
+           number(at.x()) + "\" cy=\"" + number(at.y()) + "\" r=\"" + number(cell / 4) +
+           "\"><title>" +
+           (mark.step > 0.1 ? "step of " + text(mark.step, 2) + " m" : "comes out here") +
+           "</title></circle>\n";
+  }
+  out += shape("section", draw.path(view.section, false), "section");
+  for (const ViewedFence& fence : view.fences) {
+    std::vector<Vec2> plan;
+    for (const Vec3& p : fence.line.points) plan.emplace_back(p.head<2>());
+    out += shape("fence", draw.path(plan, false), "fence " + fence.line.name);
+  }
+  return out + scale_and_north({0, 0}, {width, height}) + "</svg>\n";
+}
+
+std::string section_svg(const CheckView& view, const Trn& ground, const Trn& bed) {
+  const std::vector<SectionPoint> points = points_along(view.section, ground, bed);
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const SectionPoint& p : points) {
+    if (!std::isfinite(p.ground)) continue;
+    low = std::min({low, p.ground, std::isfinite(p.bed) ? p.bed : p.ground});
+    high = std::max(high, p.ground);
+  }
+  if (points.empty() || !(low < high) || points.back().along <= 0) return "";
+  constexpr double wide = 1000, left = 70, right = 20, top = 16, bottom = 44;
+  const double scale = (wide - left - right) / points.back().along;
+  const double tall = top + bottom + scale * (high - low);
+  const auto x = [&](double along) { return left + scale * along; };
+  const auto y = [&](double z) { return top + scale * (high - z); };
+  std::string out = "<svg class=\"section\" viewBox=\"0 0 " + number(wide) + " " + number(tall) +
+                    "\" role=\"img\" aria-label=\"section along the motion\">\n";
+  const double zero = ground.origin.z();
+  for (const double tick : round_ticks(low + zero, high + zero, 5)) {
+    if (tick < low + zero || tick > high + zero) continue;
+    out += "<path class=\"grid\" d=\"M" + number(left) + " " + number(y(tick - zero)) + "H" +
+           number(wide - right) + "\"/><text text-anchor=\"end\" x=\"" + number(left - 6) +
+           "\" y=\"" + number(y(tick - zero) + 4) + "\">" + text(tick) + " m</text>\n";
+  }
+  for (const double tick : round_ticks(0, points.back().along, 8))
+    if (tick <= points.back().along)
+      out += "<text text-anchor=\"middle\" x=\"" + number(x(tick)) + "\" y=\"" +
+             number(tall - bottom + 20) + "\">" + text(tick) + "</text>\n";
+  out += "<text text-anchor=\"middle\" x=\"" + number(wide / 2) + "\" y=\"" + number(tall - 6) +
+         "\">distance along the section [m]</text>\n";
+  std::string surface, back, line;
+  for (const SectionPoint& p : points) {
+    if (!std::isfinite(p.ground)) continue;
+    line += (line.empty() ? "M" : "L") + number(x(p.along)) + " " + number(y(p.ground));
+    if (!std::isfinite(p.bed)) continue;
+    const std::string at = number(x(p.along)) + " ";
+    surface += (surface.empty() ? "M" : "L") + at + number(y(p.ground));
+    back = "L" + at + number(y(std::min(p.bed, p.ground))) + back;
+  }
+  out += shape("mass", surface + back + "Z", "between the ground and the failure surface");
+  out += shape("surface", line, "ground");
+  for (size_t k = 0; k < view.fences.size(); ++k)
+    for (const auto& [along, z] : fences_across(view, ground, k))
+      out += shape(
+          "fence",
+          "M" + number(x(along)) + " " + number(y(z)) + "V" + number(y(z + view.fences[k].height)),
+          "fence " + view.fences[k].line.name);
+  return out + "</svg>\n";
+}
+
+}  // namespace talus

@@ -1,0 +1,78 @@
+# What a program can read of a tool that works: lines or objects, also where there is no terminal, that
+# begin at once and end with all done; messages as objects.
+command -v python3 >/dev/null || skip "needs python3"
+printf 'hello' >in.txt
+# objects FILE: each line is an object; prints them as Python lists
+objects() { python3 -c 'import json, sys; print([json.loads(line) for line in open(sys.argv[1])])' "$1" || { cat "$1" >&2; fail "not an object a line"; }; }
+
+# a tool that does one thing only
+expect 0 frame-probe in.txt -o a.txt --progress=json -q
+[ "$(objects err)" = "[{'progress': 1.0, 'eta_s': 0}]" ] || fail "the end is told as $(cat err)"
+expect 0 frame-probe in.txt -o a.txt --overwrite --progress=plain -q
+[ "$(cat err)" = "100 %" ] || fail "the end is told as $(cat err)"
+for form in auto none; do
+  expect 0 frame-probe in.txt -o a.txt --overwrite --progress=$form -q
+  [ ! -s err ] || fail "--progress=$form -q says $(cat err)"
+done
+expect 2 frame-probe in.txt -o a.txt --progress=loud
+
+# one that takes its time, seen while it goes on
+: >lines
+frame-probe in.txt -o b.txt --mode wait --progress=json --label run_7 2>lines &
+process=$!
+n=0
+until [ "$(wc -l <lines)" -ge 4 ]; do
+  n=$((n + 1))
+  [ $n -lt 600 ] || fail "no progress is told while the tool works"
+  sleep 0.05
+done
+kill -TERM $process
+wait $process || true
+python3 - lines <<'END' || fail "progress: $(cat lines)"
+import json, sys
+lines = [json.loads(line) for line in open(sys.argv[1]) if line.startswith("{")]
+shares = [line["progress"] for line in lines]
+assert shares[0] == 0 and shares == sorted(shares) and shares[-1] > 0, shares
+assert all(line["label"] == "run_7" for line in lines)
+assert "eta_s" not in lines[0] and all(isinstance(line.get("eta_s", 0), int) for line in lines)
+assert any("eta_s" in line for line in lines) or shares[-1] <= 0.02
+END
+: >lines
+frame-probe in.txt -o b.txt --mode wait --progress=plain 2>lines &
+process=$!
+n=0
+until [ "$(grep -c '^[0-9]* %' lines)" -ge 2 ]; do
+  n=$((n + 1))
+  [ $n -lt 600 ] || fail "no progress is told while the tool works"
+  sleep 0.05
+done
+kill -TERM $process
+wait $process || true
+if grep -q "$(printf '\r')" lines; then fail "lines are rewritten in place where there is no terminal"; fi
+
+# messages
+expect 0 frame-probe in.txt -o c.txt --messages=json --progress=none
+[ "$(objects err)" = "[{'level': 'warning', 'tool': 'frame-probe', 'text': 'a warning'}]" ] || fail "messages: $(cat err)"
+expect 1 frame-probe in.txt -o d.txt --messages json --mode refuse --label run_7
+[ "$(objects err)" = "[{'level': 'error', 'tool': 'frame-probe', 'label': 'run_7', 'text': 'in.txt:3: found a, expected b'}, {'level': 'hint', 'tool': 'frame-probe', 'label': 'run_7', 'text': 'write b'}]" ] || fail "messages: $(cat err)"
+expect 3 frame-probe in.txt -o e.txt --messages=json --mode check -q
+[ "$(objects err)" = "[{'level': 'error', 'tool': 'frame-probe', 'text': 'health: largest_penetration_m is 2, limit 1'}]" ] || fail "messages: $(cat err)"
+expect 2 frame-probe in.txt -o h.txt --colour red --messages=json
+objects err >found
+grep -q "'level': 'error'.*--colour.*'level': 'hint'" found || fail "a wrong command line: $(cat err)"
+expect 0 frame-probe in.txt -o f.txt --messages=json
+objects err >found
+grep -q "'progress': 1.0" found || fail "with messages as objects progress is one, too: $(cat err)"
+
+# they are no settings of a run
+frame-probe in.txt -o g.txt --json --no-db --messages=json --progress=json >one 2>err
+frame-probe in.txt -o g.txt --json --no-db --overwrite >two 2>err
+cmp one two || fail "how a tool speaks makes another run of it"
+
+# every tool
+for tool in "${bin%%:*}"/talus-*; do
+  [ -x "$tool" ] && [ ! -d "$tool" ] || continue
+  "$tool" --help >help
+  grep -q -- '--progress.*{auto,plain,json,none}' help && grep -q -- '--messages.*{text,json}' help ||
+    fail "${tool##*/} has no --progress or --messages"
+done

@@ -1,0 +1,23 @@
+# make looks before it runs: what cannot be meant ends it with a page, each time, until it is accepted.
+. "$source_dir/tests/tools/pipeline/common.sh"
+site slope
+made slope check
+prints "will it move: "
+[ -s slope/out/check.html ] && [ -s slope/out/check.json ] || fail "no page"
+[ ! -e slope/out/runs/run_1.h5 ] || fail "a run was computed"
+made slope check
+if grep -q "will it move" out; then fail "the look was taken again"; fi
+made slope runs
+if grep -q "will it move" out; then fail "the look was taken again"; fi
+
+site deep
+# The failure plane some 80 m below the ground
+sed -i 's/^\(plane_point_m = \[[^,]*,[^,]*, *\)[-0-9.]*/\1-20/' deep/site.toml
+for time in first second; do
+  expect 2 make -C deep BIN=
+  says "deep on average"
+  [ -s deep/out/check.html ] || fail "no page the $time time"
+  [ ! -e deep/out/runs/run_1.h5 ] || fail "a run was computed the $time time"
+done
+made deep check CHECK_FLAGS='--accept-doubts --probe-s 0'
+prints "REFUSED: source.plane_point_m"

@@ -1,0 +1,92 @@
+# Runs in shards: together they are the runs of `make runs`, with one registry; a shard makes nothing
+# that others read, and what it was given to do last is done.
+. "$source_dir/tests/tools/pipeline/common.sh"
+few='RUNS=5 WITHOUT=no'
+# shard NUMBER ARGUMENTS...
+shard() {
+  k=$1
+  shift
+  # shellcheck disable=SC2086  # words of make
+  made slope $few SHARD="$k" SHARDS=2 "$@" runs-shard
+}
+refused() {
+  text=$1
+  shift
+  # shellcheck disable=SC2086
+  expect 2 make -C slope BIN= $few "$@"
+  says "$text"
+}
+site slope
+
+# what a shard needs is made before, by one make
+refused "a shard makes runs alone: make prepare" SHARD=1 SHARDS=2 runs-shard
+made slope $few prepare
+prints "5 runs to make"
+[ -s slope/out/blocks.h5 ] || fail "prepare made no blocks"
+[ -z "$(ls slope/out/runs)" ] || fail "prepare made runs"
+
+# with so many runs that others read them from lists, a shard still looks at its own alone
+shard 1 most_named=3 SHARD_LAST='ls out/runs >last_step.txt'
+[ "$(tr '\n' ' ' <slope/last_step.txt)" = "run_1.h5 run_3.h5 run_5.h5 " ] || fail "the last step saw $(cat slope/last_step.txt)"
+prints "runs: 3 done, 0 failed, 0 to go"
+made slope $few prepare
+prints "2 runs to make"
+shard 2
+[ ! -e slope/out/shards/merged ] || fail "a shard merged registries"
+made slope $few prepare
+prints "0 runs to make"
+made slope $few -j2 maps runout
+prints "5 runs added"
+made slope $few maps runout
+prints "Nothing to be done for 'maps'"
+expect 0 talus-runs --db slope/out/runs.sqlite list --summary --json
+python3 -c '
+import json
+tools = {t["tool"]: t for t in json.load(open("out"))["tools"]}
+assert tools["talus-dda"]["n_done"] == 5, tools
+' || fail "the registry does not hold each run once"
+expect 0 talus-runs trace slope/out/maps/reach.tif
+prints "--seed 5 "
+
+# the bytes of one make
+site whole
+made whole $few -j2 maps runout
+diff -r -q -x 'runs.sqlite*' -x .digests -x shards slope/out whole/out >differences ||
+  { cat differences >&2; fail "the outputs of shards and of make -j2 differ"; }
+
+# another site file: not made by a shard; another seed range: only what lacks
+cp slope/site.toml kept.toml
+sed -i 's/^spacing_m = 7.8/spacing_m = 7.9/' slope/site.toml
+refused "is to be made again, and a shard makes runs alone" SHARD=1 SHARDS=2 runs-shard
+cp kept.toml slope/site.toml
+made slope RUNS=6 WITHOUT=no prepare
+prints "6 runs to make"
+
+# a run that fails its health does not end a shard; one that was killed does
+mkdir tools
+for tool in "${bin%%:*}"/talus-*; do [ ! -f "$tool" ] || ln -s "$tool" tools; done
+rm tools/talus-dda
+cat >tools/talus-dda <<'END'
+#!/bin/sh
+case " $* " in
+  *" --seed 1 "*) set -- "$@" --set solver.max_penetration_m=1e-9 ;;
+  *" --seed 2 "*) kill -9 $$ ;;
+esac
+exec talus-dda "$@"
+END
+chmod +x tools/talus-dda
+expect 0 make -C slope BIN="$PWD/tools/" $few SHARD=1 SHARDS=2 runs-shard
+prints "2 done, 1 failed, 0 to go"
+expect 2 make -C slope BIN="$PWD/tools/" $few SHARD=2 SHARDS=2 SHARD_LAST='touch not_done' runs-shard
+says "run_2: did not end by itself"
+[ ! -e slope/not_done ] || fail "the last step of a shard that lacks a run was done"
+
+# what cannot be meant
+refused "runs-shard needs SHARD and SHARDS" runs-shard
+refused "SHARD is '0', expected a whole number, 1 or more" SHARD=0 SHARDS=2 runs-shard
+refused "SHARD is 3, expected a number up to SHARDS: 2" SHARD=3 SHARDS=2 runs-shard
+refused "SHARD goes with the goal runs-shard" SHARD=1 SHARDS=2 maps
+refused "submit needs SHARDS" submit
+refused "submit stands alone" SHARDS=2 submit maps
+made slope clean
+nothing_left slope/out/shards

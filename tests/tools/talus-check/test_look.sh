@@ -1,0 +1,92 @@
+# A look before the run: volumes, what moves, what stands before the mass, fences, time; what cannot
+# be meant is refused and shown.
+. "$source_dir/tests/tools/talus-blocks/scene.sh"
+make_site '[ground.rock]' 'friction_deg = 28' '[fence.low]' 'line = [[500010, 5200006], [500036, 5200006]]' \
+  '[fence.high]' 'line = [[500010, 5200042], [500036, 5200042]]'
+
+# cut OPTIONS...: blocks; look OPTIONS...: cut with the same, and looked at
+cut() { blocks --trn-out bed.tif --overwrite -q "$@"; }
+look() {
+  cut "$@" || return
+  talus-check site.toml --trn trn.tif --bed bed.tif --blocks blocks.h5 -o check.html --report check.json \
+    --overwrite --no-db "$@"
+}
+
+# A hollow with a step at its foot: it stands in part, and the look says on what it leans.
+expect 0 look
+prints "of blocks, "
+prints "will it move: "
+prints "at the foot it leans on a step of up to"
+prints "doubt: source.failure_surface: the mass leans on a step of up to"
+prints "fence low: 26 m long"
+prints "doubt: fence.high: no fall line from the source comes to it"
+prints "time: a run takes about"
+for part in "Will it move?" 'class="plan check"' 'class="section"' 'class="step"' "Blocks that hold others" \
+  "stereonet" "fall lines that come to it"; do
+  grep -qF "$part" check.html || fail "the page does not have: $part"
+done
+if grep -q '<script\|http://\|https://' check.html; then fail "the page asks for something"; fi
+three="$(value check.json volume_of_blocks_m3) $(value check.json volume_of_prisms_m3) $(value check.json volume_at_nodes_m3)"
+for volume in $three; do
+  holds "($volume / $(value check.json volume_of_prisms_m3) - 1) ^ 2 < 0.03 ^ 2"
+done
+hollow=$(value check.json moved_share)
+holds "$(value check.json duration_asked_for_s) >= 10"
+
+# The same inputs give the same page; a run count is no part of it.
+mv check.html first.html
+expect 0 look
+cmp -s check.html first.html || fail "another page"
+expect 0 talus-check site.toml --trn trn.tif --bed bed.tif --blocks blocks.h5 -o check.html --overwrite --no-db --runs 40
+cmp -s check.html first.html || fail "the count of runs changed the page"
+prints "40 runs about"
+
+# A plane that comes out at the foot: more goes, and nothing stands before it.
+expect 0 look --set source.failure_surface=daylighting
+holds "$(value check.json moved_share) > $hollow"
+holds "$(value check.json share_of_foot_with_a_step) < 0.2"
+
+# The hollow without what leans on its foot.
+expect 0 blocks --overwrite --set source.daylight=sliding --report blocks.json
+says "can leave along sliding; the rest leans on the foot and is left out"
+holds "$(value blocks.json leans_on_the_foot_m3) > 0"
+holds "($(value blocks.json hollow_volume_m3) - $(value blocks.json leans_on_the_foot_m3)) / $(value blocks.json prism_volume_m3) - 1 < 1e-9"
+expect 1 blocks --overwrite --set source.daylight=slide
+says "there is no joint set slide; there are: sliding, rear, lateral"
+expect 1 blocks --overwrite --set source.daylight='sliding + sliding'
+says "are parallel"
+
+# Friction above the dip: it stands.
+expect 0 look --set ground.rock.friction_deg=60 --set material.rock.friction_deg=60
+prints "it stands"
+prints "this is no rockslide"
+if grep -q "ends after 3 s" out; then fail "a mass with a splinter that falls off ends early"; fi
+expect 0 look --set ground.rock.friction_deg=85 --set material.rock.friction_deg=80
+prints "a run in which nothing moves ends after 3 s"
+
+# Without the engine
+cut
+expect 0 talus-check site.toml --trn trn.tif --bed bed.tif --blocks blocks.h5 --no-db --probe-s 0
+prints "no probe of the engine was made"
+
+# What cannot be meant: 800 m for 8 m; the page is there and says so.
+rm check.html
+blocks --trn-out bed.tif --overwrite -q --set source.depth_m=800 --set joints.sliding.spacing_m=60 \
+  --set joints.rear.spacing_m=60 --set joints.lateral.spacing_m=60 2>err || { cat err; fail "no blocks"; }
+deep() {
+  talus-check site.toml --trn trn.tif --bed bed.tif --blocks blocks.h5 -o check.html --overwrite --no-db --probe-s 0 \
+    --set source.depth_m=800 "$@"
+}
+expect 1 deep
+says "deep on average"
+says "of the relief over it"
+says "--accept-doubts goes on with it"
+grep -q "cannot be meant" check.html || fail "the page does not say what is refused"
+expect 0 deep --accept-doubts
+prints "REFUSED: source.depth_m"
+
+# Faults that the engine would find late
+expect 1 look --set solver.duration_s=0.001
+says "less than a time step"
+expect 1 talus-check site.toml --trn trn.tif --bed trn.tif --blocks blocks.h5 --no-db
+says "below the ground"

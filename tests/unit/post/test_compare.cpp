@@ -1,0 +1,83 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/random.hpp"
+#include "post/maps/compare.hpp"
+
+using namespace talus;
+
+namespace {
+
+// `n_runs` runs of one block, each of which comes over cell 7 with probability `share` at a speed
+// of `speed` (1 + u).
+struct Made {
+  CellRows cells;
+  Released released;
+};
+Made runs_over(int n_runs, double share, double speed, std::uint64_t seed) {
+  Random random(seed);
+  std::vector<std::vector<MapRow>> rows(n_runs);
+  for (auto& of_run : rows) {
+    if (random.uniform() >= share) continue;
+    MapRow row;
+    row.cell = 7;
+    row.largest.speed = static_cast<float>(speed * (1 + random.uniform()));
+    of_run.push_back(row);
+  }
+  Made made;
+  made.cells = group_by_cell(std::move(rows), 20);
+  made.released.weight.assign(n_runs, 1);
+  made.released.n_blocks.assign(n_runs, 1);
+  return made;
+}
+
+std::size_t band_of(const MapLayer& layer, const std::string& name) {
+  for (std::size_t b = 0; b < layer.bands.size(); ++b)
+    if (layer.bands[b].name == name) return b;
+  throw std::runtime_error("no band " + name);
+}
+
+}  // namespace
+
+// Newcombe (1998), table II, method 10: 56/70 - 48/80 is 0.2, 0.0524 to 0.3339.
+TEST(Difference, HasThePublishedInterval) {
+  const auto estimate = [](double hits, double n) {
+    const Interval i = wilson_interval(hits / n, n);
+    return Estimate{hits / n, i.low, i.high};
+  };
+  const Difference d = difference(estimate(48, 80), estimate(56, 70));
+  EXPECT_NEAR(d.value, 0.2, 1e-12);
+  EXPECT_NEAR(d.low, 0.0524, 5e-5);
+  EXPECT_NEAR(d.high, 0.3339, 5e-5);
+}
+
+TEST(ComparisonLayer, HoldsTheTrueDifference) {
+  int reach = 0, speed = 0;
+  constexpr int n_trials = 200;
+  for (int trial = 0; trial < n_trials; ++trial) {
+    const Made a = runs_over(150, 0.5, 10, 2 * trial), b = runs_over(200, 0.7, 12, 2 * trial + 1);
+    const MapLayer layer = comparison_layer({a.cells, a.released}, {b.cells, b.released});
+    ASSERT_EQ(layer.cell, std::vector<std::uint32_t>{7});
+    const auto holds = [&](const std::string& name, double truth) {
+      const std::size_t band = band_of(layer, name);
+      return layer.bands[band + 1].value[0] <= truth && truth <= layer.bands[band + 2].value[0];
+    };
+    reach += holds("reach_probability_difference", 0.2);
+    speed += holds("velocity_p50_difference", 3);  // 18 - 15 m/s
+  }
+  EXPECT_GE(reach, 0.92 * n_trials);
+  EXPECT_GE(speed, 0.92 * n_trials);
+}
+
+// Where one of both never came its reach is 0, with the bound that it has there, and there is no
+// percentile to compare.
+TEST(ComparisonLayer, OfACellThatOneSideNeverReached) {
+  const Made a = runs_over(100, 0, 10, 1), b = runs_over(100, 0.6, 10, 2);
+  const MapLayer layer = comparison_layer({a.cells, a.released}, {b.cells, b.released});
+  const double share = layer.bands[0].value[0];
+  EXPECT_NEAR(share, 0.6, 0.15);
+  const Interval i = wilson_interval(share, 100);
+  EXPECT_NEAR(layer.bands[1].value[0], share - std::hypot(share - i.low, 0.036993), 1e-5);
+  EXPECT_TRUE(std::isnan(layer.bands[band_of(layer, "velocity_p50_difference")].value[0]));
+}

@@ -1,0 +1,354 @@
+#include "tools/check/look.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "base/processor_time.hpp"
+#include "io/raster_gdal.hpp"
+#include "scene/site_scene.hpp"
+#include "site/joint_plan.hpp"
+#include "site/plan.hpp"
+#include "terrain/smooth.hpp"
+#include "terrain/trn_flags.hpp"
+#include "tools/frame/failure_plane_choice.hpp"
+#include "tools/frame/run_settings.hpp"
+#include "tools/frame/source_cut.hpp"
+
+namespace talus {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+constexpr int n_sliders = 60;
+
+// --- the source --------------------------------------------------------------------------------
+
+double tangent_of_set(const Site& site, const PlannedSet& planned) {
+  const JointSettings& section = site.joints[planned.section];
+  const MaterialSettings& rock = site.materials[material_index(site, site.source.material)];
+  return std::tan((std::isnan(section.friction_deg) ? rock.friction_deg : section.friction_deg) *
+                  degree);
+}
+
+std::vector<KinematicSet> kinematic_sets(const BlocksWork& work) {
+  std::vector<KinematicSet> sets;
+  for (const PlannedSet& planned : work.sets) {
+    KinematicSet set;
+    set.name = planned.set.name;
+    set.mean = {planned.set.dip, planned.set.dip_direction};
+    set.friction = tangent_of_set(work.site, planned);
+    for (const Vec3& measured : planned.measured_poles) set.draws.push_back(attitude(measured));
+    if (set.draws.empty()) set.draws = drawn_attitudes(planned.set);
+    sets.push_back(std::move(set));
+  }
+  return sets;
+}
+
+double node_volume(const Trn& ground, const Trn& bed, const Area& area, double polygon_area) {
+  double sum = 0;
+  int n = 0;
+  for (int r = 0; r < ground.n_rows; ++r)
+    for (int c = 0; c < ground.n_cols; ++c) {
+      const Vec3 node = node_point(ground, r, c);
+      if (std::isnan(node.z()) || !contains(area, Vec2(node.head<2>()))) continue;
+      sum += node.z() - bed.elevation[node_index(ground, r, c)];
+      ++n;
+    }
+  return n > 0 ? polygon_area * sum / n : 0;
+}
+
+// The shorter of the two widths of the area: along its fall line and across it.
+double width_of(const Area& area, double azimuth) {
+  const Vec2 down(std::sin(azimuth), std::cos(azimuth)), across(down.y(), -down.x());
+  double width = std::numeric_limits<double>::infinity();
+  for (const Vec2& axis : {down, across}) {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const auto& ring : area.rings)
+      for (const Vec2& p : ring) {
+        low = std::min(low, p.dot(axis));
+        high = std::max(high, p.dot(axis));
+      }
+    width = std::min(width, high - low);
+  }
+  return width;
+}
+
+// What a user changes to have another depth.
+std::string depth_key(const SourceSettings& source) {
+  const std::string& surface = source.failure_surface;
+  if (surface == "plane") return "source.plane_point_m";
+  if (surface == "raster" || surface == "thickness") return "source.raster";
+  if (surface == "daylighting") return "source.failure_surface";
+  if (surface != "slbl") return "source.depth_m";
+  return source.slbl_scenario.empty() ? "source.slbl_sag_m" : "source.slbl_scenario";
+}
+
+std::vector<BedColumn> columns_of(const Trn& ground, const Trn& bed, const Area& area,
+                                  double friction) {
+  std::vector<BedColumn> columns;
+  for (int t = 0; t < n_triangles(ground); ++t) {
+    if (!is_known(ground, t)) continue;
+    const auto above = triangle_corners(ground, t), below = triangle_corners(bed, t);
+    const Vec3 middle = (above[0] + above[1] + above[2]) / 3;
+    const double depth = middle.z() - (below[0].z() + below[1].z() + below[2].z()) / 3;
+    if (!(depth > 0) || !contains(area, Vec2(middle.head<2>()))) continue;
+    columns.push_back({triangle_gradient(bed, t), depth, friction, 0});
+  }
+  return columns;
+}
+
+// The direction that the failure surface falls in: of the plane or wedge that was taken, else of
+// the slope.
+double motion_of(const BlocksWork& work, const Attitude& slope) {
+  const std::string& surface = work.site.source.failure_surface;
+  if (surface == "daylighting" && work.planes.best >= 0)
+    return work.planes.planes[work.planes.best].attitude.dip_direction;
+  if (surface == "daylighting" && work.wedge >= 0) return work.wedges[work.wedge].line.trend;
+  if (surface == "plane") return work.site.source.plane_dip_direction_deg * degree;
+  return slope.dip_direction;
+}
+
+void look_at_mass(Look& look) {
+  const BlocksWork& work = look.work;
+  const Trn &ground = work.ground, &bed = look.inputs.parts.trn;
+  look.measure = measure_mass(ground, bed, work.area);
+  look.volume.prism = look.measure.volume;
+  for (const double volume : look.inputs.parts.blocks.volume) look.volume.cut += volume;
+  look.volume.nodes = node_volume(ground, bed, work.area, area_of(work.area));
+  look.mean_depth = look.measure.plan_area > 0 ? look.measure.volume / look.measure.plan_area : 0;
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (size_t v = 0; v < look.measure.vertices.size(); v += 2) {  // on the ground, below it, ...
+    low = std::min(low, look.measure.vertices[v].z());
+    high = std::max(high, look.measure.vertices[v].z());
+  }
+  look.relief = high - low;
+  look.width = width_of(work.area, look.slope.dip_direction);
+  look.foot = steps_at_foot(ground, bed, work.area, look.motion);
+  double all = 0, stepped = 0;
+  for (const FootStep& at : look.foot) {
+    look.step = std::max(look.step, at.height);
+    all += at.weight;
+    if (at.height > 0.1) stepped += at.weight;
+  }
+  look.step_share = all > 0 ? stepped / all : 0;
+  look.rising_share = share_over_rising_bed(ground, bed, work.area, look.motion);
+  look.equilibrium =
+      least_factor(columns_of(ground, bed, work.area, std::tan(work.planes.friction)), look.motion);
+}
+
+void look_at_joints(Look& look) {
+  const BlocksWork& work = look.work;
+  const std::vector<KinematicSet> sets = kinematic_sets(work);
+  look.kinematics = kinematics_of(face_in(work.ground, work.area), sets);
+  look.smooth_kinematics = kinematics_of(face_in(smoothed(work.ground), work.area), sets);
+  const BlockSet& blocks = look.inputs.parts.blocks;
+  FaceFriction friction;
+  for (const KinematicSet& set : sets) friction.of_set.push_back(set.friction);
+  friction.of_bed = std::tan(work.planes.friction);
+  const MaterialSettings& rock =
+      work.site.materials[material_index(work.site, work.site.source.material)];
+  friction.of_rock = std::tan(rock.friction_deg * degree);
+  std::vector<double> weight;
+  for (const double volume : blocks.volume)
+    weight.push_back(volume * rock.density_kg_m3 * work.site.solver.gravity_m_s2);
+  look.peel = peel_off(contacts_of(blocks, friction), weight);
+}
+
+void look_at_source(Tool& tool, const std::vector<std::uint8_t>& classes, Look& look) {
+  BlocksWork& work = look.work;
+  work.area = read_source_area(tool, work);
+  look.slope = mean_slope(work.ground, work.area);
+  if (!look.is_cut) return;
+  plan_sets(tool, work);
+  std::vector<JointSet> sets;
+  for (const PlannedSet& planned : work.sets) sets.push_back(planned.set);
+  work.planes = find_failure_planes(work.ground, work.area, sets,
+                                    friction_below(work.site, work.ground, work.area, classes),
+                                    work.site.source.sliding_set, where_of_area(work));
+  find_wedges(work);
+  if (work.planes.best < 0) work.wedge = best_wedge(work.wedges, "");
+  look.motion = motion_of(work, look.slope);
+  look_at_mass(look);
+  look_at_joints(look);
+}
+
+// --- the way down ------------------------------------------------------------------------------
+
+// Some sixty places spread over the source, or where the blocks are.
+std::vector<Vec2> starts_of(const Look& look) {
+  std::vector<Vec2> places;
+  if (look.work.has_source()) {
+    const Trn& ground = look.work.ground;
+    for (int r = 0; r < ground.n_rows; ++r)
+      for (int c = 0; c < ground.n_cols; ++c) {
+        const Vec2 p = node_point(ground, r, c).head<2>();
+        if (contains(look.work.area, p)) places.push_back(p);
+      }
+  } else {
+    for (const Vec3& at : look.inputs.parts.blocks.centroid) places.push_back(at.head<2>());
+  }
+  std::vector<Vec2> some;
+  const size_t n = std::min<size_t>(n_sliders, places.size());
+  for (size_t k = 0; k < n; ++k) some.push_back(places[(2 * k + 1) * places.size() / (2 * n)]);
+  return some;
+}
+
+bool cross(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
+  const auto side = [](const Vec2& p, const Vec2& q, const Vec2& r) {
+    const Vec2 along = q - p, to = r - p;
+    return along.x() * to.y() - along.y() * to.x() > 0;
+  };
+  return side(a, b, c) != side(a, b, d) && side(c, d, a) != side(c, d, b);
+}
+
+bool crosses(const std::vector<Vec2>& path, const RecordLine& line) {
+  for (size_t k = 0; k + 1 < path.size(); ++k)
+    for (size_t i = 0; i + 1 < line.points.size(); ++i)
+      if (cross(path[k], path[k + 1], line.points[i].head<2>(), line.points[i + 1].head<2>()))
+        return true;
+  return false;
+}
+
+void look_at_paths(Look& look) {
+  const Site& site = look.work.site;
+  SlidingFriction friction;
+  friction.tangent.clear();
+  for (const GroundSettings& ground : site.grounds)
+    friction.tangent.push_back(std::tan(ground.friction_deg * degree));
+  friction.cell_class = look.inputs.parts.cell_class;
+  const Trn smooth = smoothed(look.work.ground);
+  std::vector<double> times;
+  for (const Vec2& start : starts_of(look)) {
+    look.slides.push_back(slide_from(smooth, friction, start, true));
+    times.push_back(look.slides.back().time);
+  }
+  look.travel_duration = duration_for(times);
+}
+
+const FenceSettings* fence_of(const Site& site, const std::string& line) {
+  for (const FenceSettings& fence : site.fences)
+    if (line == fence.name || line.rfind(fence.name + ".", 0) == 0) return &fence;
+  return nullptr;
+}
+
+void look_at_fences(Look& look) {
+  for (const RecordLine& line : look.inputs.lines) {
+    FenceLook fence;
+    fence.line = line;
+    fence.stands = line.standing;
+    const FenceSettings* settings = fence_of(look.work.site, line.name);
+    fence.height = settings != nullptr ? settings->height_m : 0;
+    fence.low = std::numeric_limits<double>::infinity();
+    fence.high = -fence.low;
+    for (const Vec3& post : line.points) {
+      fence.low = std::min(fence.low, post.z());
+      fence.high = std::max(fence.high, post.z());
+      fence.is_in_source |=
+          look.work.has_source() && contains(look.work.area, Vec2(post.head<2>()));
+    }
+    for (const Slide& slide : look.slides) fence.n_fall_lines += crosses(slide.points, line);
+    look.fences.push_back(std::move(fence));
+  }
+}
+
+double known_area(const Trn& trn) {
+  double n = 0;
+  for (int t = 0; t < n_triangles(trn); ++t) n += is_known(trn, t);
+  return n * trn.cell_size * trn.cell_size / 2;
+}
+
+void doubt_fences(Look& look) {
+  for (const FenceLook& fence : look.fences) {
+    const std::string key = "fence." + fence.line.name;
+    if (fence.is_in_source)
+      look.doubts.push_back({key, "a post stands in the source: the fence goes with the mass",
+                             "move the fence out of the source", 1, 0, false});
+    if (!look.slides.empty() && fence.n_fall_lines == 0)
+      look.doubts.push_back({key, "no fall line from the source comes to it",
+                             "look at the map: is it below the source?", 0, 1, false});
+  }
+}
+
+}  // namespace
+
+Look look_at(Tool& tool, const Site& site, const CheckFiles& files) {
+  check_times(site);
+  static_cast<void>(warn_of_settings(tool, site));
+  Look look;
+  look.files = files;
+  look.work.site = site;
+  look.work.ground = read_trn(files.trn);
+  look.inputs = read_dda_inputs(tool, site, {files.bed, files.blocks, false});
+  look.is_cut = look.work.is_cut();
+  const Trn& bed = look.inputs.parts.trn;
+  const Trn& ground = look.work.ground;
+  if (bed.n_rows != ground.n_rows || bed.n_cols != ground.n_cols || bed.node0 != ground.node0 ||
+      bed.origin != ground.origin)
+    throw InputError({files.bed}, "is not the terrain of " + files.trn + ", lowered",
+                     "give --bed what talus-blocks --trn-out made of this --trn");
+  if (look.work.has_source()) look_at_source(tool, look.inputs.parts.cell_class, look);
+  look_at_paths(look);
+  look_at_fences(look);
+  return look;
+}
+
+bool can_be_probed(const Look& look) { return look.work.site.solver.law == "talus"; }
+
+void probe_look(Tool& tool, double duration, Look& look) {
+  Site site = look.work.site;
+  site.solver.time_step_s = probe_step_s;
+  site.solver.min_time_step_s = site.solver.max_time_step_s = not_given;
+  const Trn& trn = look.inputs.parts.trn;
+  const ScenePlan plan =
+      make_plan(plan_facts(site, look.inputs.parts.blocks, trn, ground_flags(trn)), false);
+  check_start(tool, site, look.inputs, {look.files.bed, look.files.blocks, false},
+              plan.block_contacts);
+  const Scene scene = make_site_scene(site, plan, look.inputs.parts);
+  if (!(duration > 0)) return;
+  const double start = processor_seconds();
+  const ProgressFunction progress = tool.progress();
+  look.probe = probe(scene, duration, [&](double share) {
+    progress(share);
+    return tool.interrupted();
+  });
+  look.probe_cpu_s = processor_seconds() - start;
+  look.is_probed = true;
+}
+
+void find_doubts(Look& look) {
+  const Site& site = look.work.site;
+  PlausibilityFacts facts;
+  facts.cell_size = look.work.ground.cell_size;
+  facts.n_blocks = n_blocks(look.inputs.parts.blocks);
+  facts.duration = site.solver.duration_s;
+  facts.travel_duration = look.travel_duration;
+  if (look.work.has_source()) {
+    facts.polygon_area = area_of(look.work.area);
+    facts.terrain_area = known_area(look.work.ground);
+  }
+  if (look.is_cut) {
+    facts.mean_depth = look.mean_depth;
+    facts.max_depth = look.measure.max_depth;
+    facts.depth_key = depth_key(site.source);
+    facts.relief = look.relief;
+    if (site.source.failure_surface == "normal_depth") facts.normal_depth = site.source.depth_m;
+    facts.width = look.width;
+    for (const PlannedSet& planned : look.work.sets)
+      facts.smallest_spacing = std::isnan(facts.smallest_spacing)
+                                   ? planned.set.mean_spacing
+                                   : std::min(facts.smallest_spacing, planned.set.mean_spacing);
+    facts.daylights = site.source.failure_surface == "daylighting";
+    facts.step_at_foot = look.step;
+    facts.step_share = look.step_share;
+    facts.sliding_spacing = facts.smallest_spacing;
+    if (look.is_probed) facts.moved_share = look.probe.moved_share;
+  }
+  look.doubts = doubts_of(facts);
+  if (!look.probe.fault.empty())
+    look.doubts.push_back({"solver.time_step_s", "the probe broke a limit: " + look.probe.fault,
+                           "see docs/tools/talus-dda.md, health", 1, 0, false});
+  doubt_fences(look);
+}
+
+}  // namespace talus

@@ -1,0 +1,86 @@
+// tools/check/look.hpp
+// All that a look at a site finds before anything is computed.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "blocks/bed_equilibrium.hpp"
+#include "blocks/kinematics.hpp"
+#include "blocks/removability.hpp"
+#include "run/probe.hpp"
+#include "site/plausibility.hpp"
+#include "terrain/slider.hpp"
+#include "tools/frame/scene_inputs.hpp"
+#include "tools/frame/source_work.hpp"
+#include "tools/frame/tool.hpp"
+
+namespace talus {
+
+struct CheckFiles {
+  std::string trn, bed, blocks;
+};
+
+/// The volume of the mass in three ways [m3].
+struct ThreeVolumes {
+  double cut = 0;    ///< of the blocks
+  double prism = 0;  ///< between ground and bed inside the polygon, exact
+  double nodes = 0;  ///< area of the polygon times the mean depth at its nodes
+};
+
+/// What of the fall lines comes to a fence.
+struct FenceLook {
+  RecordLine line;
+  double height = 0;          ///< [m]
+  bool stands = false;        ///< it stops blocks
+  double low = 0, high = 0;   ///< of its base, local z [m]
+  int n_fall_lines = 0;       ///< that cross it
+  bool is_in_source = false;  ///< a post stands in the source
+};
+
+struct Look {
+  CheckFiles files;
+  BlocksWork work;   ///< site, ground, area, sets, planes, wedges
+  DdaInputs inputs;  ///< bed, blocks, classes of ground, lines of fences
+  bool is_cut = false;
+
+  // the mass; of a source that is cut
+  MassMeasure measure;
+  ThreeVolumes volume;
+  double mean_depth = 0, relief = 0, width = 0;  ///< [m]
+  Attitude slope;
+  double motion = 0;  ///< azimuth of the failure surface's fall, or of the slope's [rad]
+  std::vector<FootStep> foot;
+  double step = 0,
+         step_share = 0;    ///< largest step at the foot [m]; share of it with one above 0.1 m
+  double rising_share = 0;  ///< of the mass over bed that rises against the motion
+  BedEquilibrium equilibrium;
+  Kinematics kinematics, smooth_kinematics;  ///< of the triangles, and of means of 3 x 3 nodes
+  PeelOff peel;
+
+  // the way down
+  std::vector<Slide> slides;
+  double travel_duration = 0;  ///< that they ask for [s]
+  std::vector<FenceLook> fences;
+
+  // the engine
+  bool is_probed = false;
+  Probe probe;
+  double probe_cpu_s = 0;
+
+  std::vector<Doubt> doubts;
+};
+
+/// Reads the files and looks at everything but the engine.
+[[nodiscard]] Look look_at(Tool& tool, const Site& site, const CheckFiles& files);
+
+/// Adds the probe: `duration` s of the run.
+void probe_look(Tool& tool, double duration, Look& look);
+
+/// After all else.
+void find_doubts(Look& look);
+
+/// Whether the run can be computed as a packed mass (law talus).
+[[nodiscard]] bool can_be_probed(const Look& look);
+
+}  // namespace talus

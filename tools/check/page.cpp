@@ -1,0 +1,287 @@
+#include "tools/check/page.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "base/grouped_text.hpp"
+#include "base/text.hpp"
+#include "geometry/convex_outline.hpp"
+#include "io/block_pictures.hpp"
+#include "io/hillshade_gdal.hpp"
+#include "report/check_view.hpp"
+#include "report/html.hpp"
+#include "tools/check/words.hpp"
+#include "tools/frame/failure_plane_choice.hpp"
+
+namespace talus {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+std::string percent(double share) { return text(std::round(100 * share)) + " %"; }
+
+// Each line of a text as an item.
+std::string lines_of(const std::string& words) {
+  std::string out = "<ul>\n<li>";
+  for (const char c : xml_escaped(words)) c == '\n' ? out += "</li>\n<li>" : out += c;
+  return out + "</li>\n</ul>\n";
+}
+
+std::string doubts_section(const Look& look) {
+  std::string out;
+  for (const Doubt& doubt : look.doubts)
+    out += "<div class=\"verdict " + std::string(doubt.is_refused ? "fail" : "warn") + "\"><b>" +
+           (doubt.is_refused ? "cannot be meant: " : "") + xml_escaped(doubt.key) +
+           "</b>: " + xml_escaped(doubt.finding) + ".<br>" + xml_escaped(doubt.hint) + "</div>\n";
+  if (out.empty()) out = "<div class=\"verdict pass\">Nothing looks other than it should.</div>\n";
+  return html_section("doubts", "Doubts", out);
+}
+
+std::string motion_section(const Look& look) {
+  std::string facts;
+  if (look.is_probed) {
+    const double share = look.probe.moved_share;
+    facts += html_fact(percent(share),
+                       "of the mass is on its way after " + text(look.probe.time, 3) +
+                           " s of the engine: it " + text(outlook_of(share)),
+                       share < 0.1 ? "two bad" : "two");
+  }
+  if (look.is_cut) {
+    facts += html_fact(percent(look.peel.share),
+                       "can slide or fall off block by block, without being pushed");
+    facts += html_fact(
+        look.step > 0.1 ? text(look.step, 2) + " m" : "none",
+        look.step > 0.1 ? "highest step at the foot, along " + percent(look.step_share) + " of it"
+                        : "step at the foot");
+    facts += html_fact(text(look.equilibrium.factor, 2),
+                       "factor of safety of the mass as one; says little of the share that goes");
+  }
+  std::string out = "<div class=\"facts\">\n" + facts + "</div>\n" + lines_of(motion_text(look));
+  if (!look.is_cut) return html_section("motion", "Will it move?", out);
+  const std::string planes =
+      planes_text(look.work.planes, look.inputs.origin) +
+      wedges_text(look.work.wedges, look.work.planes.best < 0, look.work.wedge);
+  return html_section("motion", "Will it move?",
+                      out + "<h3>Planes and wedges that daylight</h3>\n" + lines_of(planes));
+}
+
+// --- pictures ----------------------------------------------------------------------------------
+
+BlockOutlook outlook_of_block(const Look& look, int b) {
+  const bool holds =
+      !look.peel.locks.empty() &&
+      std::any_of(look.peel.locks.begin(), look.peel.locks.end(),
+                  [b](const Lock& lock) { return lock.block == b && lock.freed >= 0.01; });
+  if (look.is_probed)
+    return look.probe.goes[b] ? BlockOutlook::goes
+           : holds            ? BlockOutlook::holds_others
+                              : BlockOutlook::stays;
+  if (!look.is_cut) return BlockOutlook::goes;
+  return look.peel.round[b] >= 0 ? BlockOutlook::goes
+         : holds                 ? BlockOutlook::holds_others
+                                 : BlockOutlook::stays;
+}
+
+std::vector<OutlinedBlock> outlined_blocks(const Look& look) {
+  const BlockSet& set = look.inputs.parts.blocks;
+  std::vector<OutlinedBlock> blocks;
+  for (int b = 0; b < n_blocks(set); ++b) {
+    std::vector<Vec2> corners;
+    for (int v = set.block_vertex_begin[b]; v < set.block_vertex_begin[b + 1]; ++v)
+      corners.emplace_back(set.vertices[v].head<2>());
+    blocks.push_back({convex_outline(corners), outlook_of_block(look, b),
+                      "block " + std::to_string(b) + ", " + text(set.volume[b], 4) + " m3"});
+  }
+  return blocks;
+}
+
+Vec2 middle_of(const Look& look) {
+  Vec2 sum = Vec2::Zero();
+  double volume = 0;
+  const BlockSet& set = look.inputs.parts.blocks;
+  for (int b = 0; b < n_blocks(set); ++b) {
+    sum += set.volume[b] * set.centroid[b].head<2>();
+    volume += set.volume[b];
+  }
+  return sum / volume;
+}
+
+// Straight down over the source, then along the longest fall line.
+std::vector<Vec2> section_line(const Look& look) {
+  const double azimuth = look.is_cut ? look.motion : look.slope.dip_direction;
+  const Vec2 down(std::sin(azimuth), std::cos(azimuth)), middle = middle_of(look);
+  double half = look.work.ground.cell_size * 5;
+  for (const auto& ring : look.work.area.rings)
+    for (const Vec2& p : ring) half = std::max(half, std::abs((p - middle).dot(down)));
+  std::vector<Vec2> line = {middle - 1.6 * half * down, middle};
+  const auto nearest =
+      std::min_element(look.slides.begin(), look.slides.end(), [&](const Slide& a, const Slide& b) {
+        return (a.points.front() - middle).norm() < (b.points.front() - middle).norm();
+      });
+  const bool has_path = nearest != look.slides.end() && nearest->path > half;
+  if (has_path) {
+    const double ahead = (nearest->points.front() - middle).dot(down);
+    for (const Vec2& p : nearest->points)
+      if ((p - middle).dot(down) > std::max(0.0, ahead) + look.work.ground.cell_size)
+        line.push_back(p);
+  }
+  if (!has_path || line.size() < 3) line.emplace_back(middle + 3 * half * down);
+  return line;
+}
+
+CheckView view_of(const Look& look) {
+  CheckView view;
+  view.source = look.work.area.rings;
+  for (const FenceLook& fence : look.fences) view.fences.push_back({fence.line, fence.height});
+  view.cell_class = look.inputs.parts.cell_class;
+  for (const Slide& slide : look.slides)
+    if (slide.points.size() > 1) view.fall_lines.push_back(slide.points);
+  view.blocks = outlined_blocks(look);
+  for (const FootStep& at : look.foot) view.foot.push_back({at.place, at.height});
+  view.section = section_line(look);
+  return view;
+}
+
+constexpr const char* map_key =
+    "<span class=\"key\"><i class=\"goes\"></i>block that goes <i class=\"stays\"></i>block that "
+    "stays <i class=\"holds\"></i>block that holds others <i class=\"source-key\"></i>source "
+    "<i class=\"fall-key\"></i>fall lines <i class=\"section-key\"></i>section <i "
+    "class=\"fence\"></i>fence. Dots along the foot: green where the failure surface comes out, "
+    "red where the mass leans on a step; dashed: border of ground classes.</span>";
+
+// The interval is that of the map; each fifth contour is bold.
+std::string caption_of_map(const Trn& part) {
+  return map_key + (" Contours every " + text(contour_interval(part)) + " m.");
+}
+
+std::string map_section(const Look& look) {
+  const CheckView view = view_of(look);
+  const Trn part = part_for(view, look.work.ground);
+  std::string out =
+      html_figure(check_map_svg(view, look.work.ground, hillshade_png(part)), caption_of_map(part));
+  const std::string section = section_svg(view, look.work.ground, look.inputs.parts.trn);
+  if (!section.empty())
+    out += html_figure(section,
+                       "Section along the motion, heights and lengths at one scale: what lies "
+                       "between the ground and the failure surface is the mass.");
+  return html_section("map", "Map and section", out);
+}
+
+std::string kinematics_section(const Look& look) {
+  if (!look.is_cut) return "";
+  const Kinematics &face = look.kinematics, &smooth = look.smooth_kinematics;
+  const auto cell = [](const FaceShare& a, const FaceShare& b) {
+    const std::string spread =
+        a.p10 == a.p90 ? "" : " (" + percent(a.p10) + " to " + percent(a.p90) + ")";
+    return percent(a.mean) + spread + ", " + percent(b.mean);
+  };
+  std::vector<std::vector<std::string>> rows;
+  for (size_t s = 0; s < face.sets.size(); ++s)
+    rows.push_back({xml_escaped(face.sets[s].name),
+                    cell(face.sets[s].sliding, smooth.sets[s].sliding),
+                    cell(face.sets[s].sliding_lateral, smooth.sets[s].sliding_lateral),
+                    cell(face.sets[s].toppling, smooth.sets[s].toppling), ""});
+  std::vector<NetLine> lines;
+  for (size_t p = 0; p < face.pairs.size(); ++p) {
+    const PairKinematics& pair = face.pairs[p];
+    const std::string name = face.sets[pair.first].name + " + " + face.sets[pair.second].name;
+    rows.push_back({xml_escaped(name), cell(pair.sliding, smooth.pairs[p].sliding), "",
+                    cell(pair.toppling, smooth.pairs[p].toppling),
+                    pair.wedge.on_both ? text(pair.wedge.factor, 3) : "on one plane"});
+    if (!pair.wedge.line.isZero())
+      lines.push_back({name, pair.wedge.line, pair.sliding.mean > 0.005});
+  }
+  std::vector<NetSet> net;
+  for (const PlannedSet& planned : look.work.sets)
+    net.push_back({planned.set.name, pole(planned.set.dip, planned.set.dip_direction),
+                   planned.measured_poles.empty()
+                       ? std::vector<Vec3>{pole(planned.set.dip, planned.set.dip_direction)}
+                       : planned.measured_poles});
+  const NetZones zones{look.slope.dip, look.slope.dip_direction, look.work.planes.friction,
+                       lateral_limit_deg * degree, toppling_limit_deg * degree};
+  return html_section(
+      "kinematics", "Joints against the face",
+      html_paragraph(
+          "Shares of the face, by area, on which a set or a pair of sets is free; second "
+          "number: of means of 3 x 3 nodes. They look at the face alone. What holds a "
+          "mass is the bed at its foot.") +
+          html_table({"Set or pair", "slides", "slides within 20&deg; of the fall line", "topples",
+                      "factor of safety"},
+                     rows) +
+          html_figure(
+              html_svg(kinematic_net_svg(net, pole(look.slope.dip, look.slope.dip_direction), zones,
+                                         lines),
+                       "stereonet of the joint sets and the slope"),
+              "Stereonet of the mean sets and of the mean slope."));
+}
+
+std::string locks_section(const Look& look) {
+  if (look.peel.locks.empty()) return "";
+  const BlockSet& set = look.inputs.parts.blocks;
+  std::vector<std::vector<std::string>> rows;
+  for (size_t k = 0; k < std::min<size_t>(10, look.peel.locks.size()); ++k) {
+    const Lock& lock = look.peel.locks[k];
+    const Vec3 at = set.centroid[lock.block] + look.inputs.origin;
+    const BlockMode& mode = look.peel.mode[lock.block];
+    rows.push_back({std::to_string(lock.block), text(set.volume[lock.block], 3),
+                    text(std::round(at.x())) + ", " + text(std::round(at.y())) + ", " +
+                        text(std::round(at.z())),
+                    mode.is_free() ? "friction, factor " + text(mode.factor(), 3) : "no way out",
+                    percent(lock.freed)});
+  }
+  return html_section(
+      "locks", "Blocks that hold others",
+      html_table({"Block", "m&sup3;", "x, y, z [m]", "held by", "of the mass that it alone holds"},
+                 rows, {true, true, false, false, true}));
+}
+
+std::string fence_section(const Look& look) {
+  if (look.fences.empty()) return "";
+  std::vector<std::vector<std::string>> rows;
+  for (const FenceLook& fence : look.fences)
+    rows.push_back(
+        {xml_escaped(fence.line.name), fence.stands ? "stands" : "line only",
+         text(fence.line.chainage.back(), 4), text(fence.height, 3),
+         text(std::round(fence.low + look.inputs.origin.z())) + " to " +
+             text(std::round(fence.high + look.inputs.origin.z())),
+         std::to_string(fence.n_fall_lines) + " of " + std::to_string(look.slides.size())});
+  return html_section("fences", "Fences",
+                      html_table({"Fence", "", "length [m]", "height [m]", "base at [m]",
+                                  "fall lines that come to it"},
+                                 rows, {false, false, true, true, false, false}));
+}
+
+std::string source_section(const Look& look) {
+  if (!look.is_cut) return "";
+  const auto cubic = [](double volume) { return grouped_text(volume, 5); };
+  const auto metres = [](double length) { return text(length, 4); };
+  const std::vector<std::vector<std::string>> rows = {
+      {"volume of the blocks [m&sup3;]", cubic(look.volume.cut)},
+      {"between ground and failure surface [m&sup3;]", cubic(look.volume.prism)},
+      {"area of the polygon times mean depth at its nodes [m&sup3;]", cubic(look.volume.nodes)},
+      {"area of the polygon [m&sup2;]", cubic(area_of(look.work.area))},
+      {"mean depth, vertical [m]", metres(look.mean_depth)},
+      {"largest depth, vertical [m]", metres(look.measure.max_depth)},
+      {"relief over the mass [m]", metres(look.relief)},
+      {"blocks", std::to_string(n_blocks(look.inputs.parts.blocks))}};
+  return html_section("source", "Source", html_table({"", ""}, rows, {false, true}));
+}
+
+}  // namespace
+
+std::string check_page(const Look& look, const std::string& run_id, const std::string& style) {
+  const std::string name = xml_escaped(look.work.site.info.name);
+  return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta "
+         "name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
+         name + ": a look before the run</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>\n" +
+         style + "</style>\n</head>\n<body>\n<header>\n<h1>" + name +
+         "</h1>\n<p class=\"soft\">A look before the run, id <code>" + run_id +
+         "</code></p>\n</header>\n<main>\n" + doubts_section(look) + motion_section(look) +
+         map_section(look) + source_section(look) + kinematics_section(look) + locks_section(look) +
+         fence_section(look) + html_section("time", "Time", lines_of(time_text(look, 1, false))) +
+         "</main>\n</body>\n</html>\n";
+}
+
+}  // namespace talus

@@ -1,0 +1,112 @@
+// tools/check/talus_check.cpp
+// A look at a site before anything is computed: a picture, and what numbers say of it. Page:
+// docs/tools/talus-check.md
+#include <algorithm>
+
+#include "base/text.hpp"
+#include "io/write_bytes.hpp"
+#include "tools/check/look.hpp"
+#include "tools/check/page.hpp"
+#include "tools/check/words.hpp"
+#include "tools/frame/shipped_data.hpp"
+#include "tools/frame/site_crs.hpp"
+#include "tools/frame/site_options.hpp"
+#include "tools/frame/tool.hpp"
+
+namespace {
+
+using namespace talus;  // NOLINT: a program of its own
+
+struct Options {
+  CheckFiles files;
+  std::string page, report;
+  double probe_s = -1;  // chosen by the number of blocks
+  std::int64_t n_runs = 0;
+  bool accept_doubts = false;
+};
+
+void declare(Tool& tool, Options& o) {
+  tool.input("--trn", o.files.trn, "terrain before the slide (talus-trn)")->required();
+  tool.input("--bed", o.files.bed, "terrain that the blocks lie on (talus-blocks --trn-out)")
+      ->required();
+  tool.input("--blocks", o.files.blocks, "block set (talus-blocks)")->required();
+  tool.output("-o,--out", o.page, "page with map, section and numbers (HTML)");
+  tool.output("--report", o.report, "the numbers (JSON)");
+  tool.app()
+      .add_option("--probe-s", o.probe_s,
+                  "seconds of the run that the engine computes, 0: none; not given: 3, with some "
+                  "thousand blocks 1 or none")
+      ->check(CLI::Range(0.0, 60.0));
+  tool.option("--runs", o.n_runs,
+              "runs that are to be computed, for their time; 0: [solver] n_runs")
+      ->check(CLI::Range(0, 1000000));
+  tool.flag("--accept-doubts", o.accept_doubts, "go on with what cannot be meant");
+  tool.footer(
+      "Example:\n  talus-check site.toml --trn trn.tif --bed bed.tif --blocks blocks.h5 -o "
+      "check.html");
+}
+
+// Also where the site is refused: the page is what shows why.
+void write(Tool& tool, const std::string& path, const std::string& content) {
+  const auto* const bytes = reinterpret_cast<const unsigned char*>(content.data());
+  write_bytes(tool.stage_also_if_refused(path), {bytes, content.size()});
+}
+
+bool has_refused(const Look& look) {
+  return std::any_of(look.doubts.begin(), look.doubts.end(),
+                     [](const Doubt& doubt) { return doubt.is_refused; });
+}
+
+// As long as the probe stays a matter of seconds.
+double probe_duration(const Options& o, const Look& look) {
+  if (!can_be_probed(look) || (has_refused(look) && !o.accept_doubts)) return 0;
+  if (o.probe_s >= 0) return o.probe_s;
+  constexpr double most_cpu_s = 20;
+  const double second = cpu_s_of_a_packed_second(n_blocks(look.inputs.parts.blocks), probe_step_s);
+  return 3 * second <= most_cpu_s ? 3 : second <= most_cpu_s ? 1 : 0;
+}
+
+void refuse_what_cannot_be_meant(const Site& site, const Look& look) {
+  std::string findings;
+  const Doubt* first = nullptr;
+  for (const Doubt& doubt : look.doubts) {
+    if (!doubt.is_refused) continue;
+    if (first == nullptr) first = &doubt;
+    findings += (findings.empty() ? "" : "; ") + doubt.finding;
+  }
+  if (first != nullptr)
+    throw InputError(where_of(site, first->key), findings,
+                     first->hint +
+                         "; --accept-doubts goes on with it (make "
+                         "CHECK_FLAGS=--accept-doubts)");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options o;
+  Tool tool("talus-check",
+            "Looks at a site before anything is computed: will the mass move, is everything where "
+            "it should be, how long will it take.");
+  SiteOptions site_options(tool);
+  declare(tool, o);
+  tool.leave_out_of_run_id({"runs"});  // for the time alone, which is said and not written
+  return tool.run(argc, argv, [&] {
+    const Site& site = site_options.load();
+    check_site_crs(site);
+    Look look = look_at(tool, site, o.files);
+    find_doubts(look);
+    probe_look(tool, probe_duration(o, look), look);
+    if (tool.interrupted()) throw Interrupted();
+    find_doubts(look);
+    const Json report = check_json(look, tool.run_id());
+    if (!o.page.empty())
+      write(tool, o.page,
+            check_page(look, tool.run_id(),
+                       shipped_data("report/report.css") + shipped_data("check/check.css")));
+    if (!o.report.empty()) write(tool, o.report, report.dump(2) + "\n");
+    for (const Doubt& doubt : look.doubts) tool.record(doubt.key + ": " + doubt.finding);
+    if (!o.accept_doubts) refuse_what_cannot_be_meant(site, look);
+    tool.result(report, check_text(look, o.n_runs > 0 ? o.n_runs : site.solver.n_runs));
+  });
+}
