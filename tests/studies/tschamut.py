@@ -60,7 +60,7 @@ class Slope:
         self.tools, self.folder, self.broken = tools, folder, []
         self.releases = rows_of(data / "release_points.csv")
         self.sizes = {r["block_id"]: r for r in rows_of(data / "block_metadata.csv")}
-        self.run("talus-trn", data / "terrain.asc", "-o", "trn.tif", "--crs", "EPSG:2056")
+        self.run("talus-trn", data / "terrain.asc", "-o", "trn.tif", "--crs", "none")
 
     def blocks(self, n, points):
         """Name of the site file and the blocks of `n` hulls a release."""
