@@ -7,6 +7,9 @@
 #   SHARD, SHARDS   shards.mk
 # A run that was stopped goes on where it was (--resume). One that fails stops no other: what can be made
 # is made, then make lists what failed and ends with an error.
+# What the cases count among one another, for all that evaluates runs: WEIGHTS = low=1 high=3. Without it runs
+# count alike, and outputs say that they are no probabilities.
+evaluate_flags = $(WEIGHTS:%=--case-weight %) $(EVALUATE_FLAGS)
 RUNS ?= $(SITE_RUNS)
 SEED ?= $(SITE_SEED)
 WITHOUT ?= $(SITE_FENCES_STAND)
@@ -37,7 +40,7 @@ run_inputs := $(OUT)/blocks.h5 $(STAGES)/run.txt $(STAGES)/dda.flags $(STAGES)/d
 newer_runs = $(shell find $(wildcard $(OUT)/runs $(OUT)/without) -name 'run_$2*.h5' $(addprefix -newer ,$1))
 fresh_runs = $(foreach case,$(or $(CASES),-),$(call newer_runs,$(run_inputs) $(if $(CASES),$(STAGES)/case_$(case).flags $(STAGES)/case_$(case).files),$(if $(CASES),$(case)_)))
 # Those of the goals: maps and run-out need none without fences.
-goal_runs = $(run_files) $(if $(filter-out maps runout,$(wanted)),$(without_files))
+goal_runs = $(run_files) $(if $(filter-out maps runout hazard trace,$(wanted)),$(without_files))
 wanted_runs = $(or $(if $(SHARD),$(shard_runs)),$(filter $(MAKECMDGOALS),$(goal_runs)),$(goal_runs))
 count_runs = $(if $(runs_begun),,$(eval runs_begun := $(shell date +%s))$(eval n_to_make := $(words $(filter-out $(fresh_runs),$(wanted_runs)))))
 run_progress := $(STAGES)/.progress$(if $(SHARD),-$(SHARD)-of-$(SHARDS))
@@ -78,7 +81,7 @@ outcomes = sh $(PIPELINES)run_outcomes.sh $1 $(failed_marks) $(call named,$2)
 counted_runs = $(words $1) run$(if $(filter 1,$(words $1)),,s)
 run_there = $$($(call outcomes,there,$1))
 # The last goal that has to do with runs comes after the others and lists what failed.
-run_goals := runs runout maps fence report all
+run_goals := runs runout maps fence hazard trace report all
 asked := $(filter $(run_goals),$(or $(MAKECMDGOALS),all))
 last_goal := $(if $(filter all,$(asked)),all,$(lastword $(asked)))
 $(if $(last_goal),$(last_goal): | $(filter-out $(last_goal),$(asked)))

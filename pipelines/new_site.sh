@@ -100,9 +100,17 @@ measure_slope() {
       --assume-joints "$part/.joints" --no-db >/dev/null
 }
 
+# Make parts names at blanks, and takes # $ % : for orders: a path with any of them is reached by a link.
+rules=$(seen_from_site "$pipelines")
+case $rules in
+  *[!A-Za-z0-9_./,@+=-]*)
+    ln -s "$rules" "$part/.pipelines" ||
+      say "the path of the pipelines, $rules, holds letters that make does not take, and no link can be made here" 1
+    rules=.pipelines ;;
+esac
 cat >"$part/Makefile" <<END
 # \`make help\` lists the targets, site.toml says what is computed.
-include $(seen_from_site "$pipelines")/site.mk
+include $rules/site.mk
 END
 { head_of_site; rest_of_site; } >"$part/site.toml"
 if ! "${tools}talus-source" --help >/dev/null 2>&1; then

@@ -9,23 +9,29 @@ map_names := reach velocity ke_translational ke_total pass_height_centroid \
 map_products := $(foreach suffix,tif png qml,$(map_names:%=maps/%.$(suffix)))
 fence_products := fence.gpkg fence.json fence.csv
 change_products := change.tif change.qml change.png
+hazard_products := hazard.json
+trace_products := trace.gpkg trace.json links.csv
+# maps by limits of the recipe, rasters by objects
+hazard_patterns := $(foreach suffix,tif png qml tif.aux.xml png.aux.xml,$(addprefix hazard/,event_exceed.$(suffix) event_frequency.$(suffix) \
+  passage_frequency.$(suffix) return_period_*.$(suffix) ke_T*.$(suffix) probability.$(suffix) intensity.$(suffix) class.$(suffix) class_certain.$(suffix))) hazard/hazard.gpkg
+trace_patterns := $(foreach suffix,tif png qml tif.aux.xml png.aux.xml,sources/source_*.$(suffix))
 report_products := report.html site.qgz
 products := $(tin_products) $(trn_products) $(block_products) $(check_products) $(runout_products) $(map_products) \
-  $(fence_products) $(change_products) $(report_products)
+  $(fence_products) $(change_products) $(hazard_products) $(trace_products) $(report_products)
 
 # As patterns of the shell: a style that comes with its raster, runs by seed and case with their checkpoints, the registry, what a stage
 # reads, side files that GDAL and QGIS write beside a raster, and hidden names of tools that were killed.
-stages_made := tin trn blocks check run runs dda runout maps fence report case_*
+stages_made := tin trn blocks check run runs dda runout maps fence hazard trace report case_*
 made_patterns := thickness.qml runs/run_*[0-9].h5 runs/run_*[0-9].h5.part runs/run_*[0-9].h5.part.new \
   without/run_*[0-9].h5 without/run_*[0-9].h5.part without/run_*[0-9].h5.part.new \
   runs.sqlite runs.sqlite-wal runs.sqlite-shm runs.sqlite.late-* data.ok \
-  $(addsuffix .aux.xml,$(filter %.tif %.png,$(products))) \
+  $(addsuffix .aux.xml,$(filter %.tif %.png,$(products))) $(hazard_patterns) $(trace_patterns) stages/class_*.list \
   $(foreach ending,txt flags files,$(stages_made:%=stages/%.$(ending))) \
   stages/runs.list stages/without.list stages/runs.list.there stages/without.list.there \
   shards/*-of-*.sqlite shards/*-of-*.sqlite-wal shards/*-of-*.sqlite-shm shards/*-of-*.sqlite.late-* \
   shards/merged shards/jobs shards/log/*_*.txt stages/.progress* \
   stages/.digests stages/failed/run_*[0-9] stages/failed/without_run_*[0-9] \
-  $(addsuffix .*.part-*-*,$(sort $(dir $(products))) runs/ without/ stages/)
+  $(addsuffix .*.part-*-*,$(sort $(dir $(products))) runs/ without/ stages/ hazard/ sources/)
 # The mark of a folder that the pipeline has written into; it goes last.
 mark_of_out := stages/site.mk
-made_folders := maps runs without shards/log shards stages/failed stages
+made_folders := maps hazard sources runs without shards/log shards stages/failed stages

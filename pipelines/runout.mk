@@ -1,7 +1,7 @@
 # Runs -> deposit, paths, run-out, angle of reach, mobility.
 # in: RUNOUT_FLAGS (e.g. --friction-deg 30)   out: $(OUT)/runout.gpkg, .json, .csv, .svg, $(OUT)/runs.csv, $(OUT)/curves.csv,
 # $(OUT)/thickness.tif
-$(eval $(call remember,runout,$(EVALUATE_FLAGS) $(RUNOUT_FLAGS)))
+$(eval $(call remember,runout,$(evaluate_flags) $(RUNOUT_FLAGS)))
 runout_files := $(addprefix $(OUT)/,$(runout_products))
 runout: $(runout_files) ## runs -> deposit, paths, angle of reach
 $(eval $(call together,$(runout_files)))
@@ -9,5 +9,5 @@ $(OUT)/runout.gpkg: $(run_files) $(OUT)/blocks.h5 $(STAGES)/runs.flags $(STAGES)
 	$(call say,runout: $(call counted_runs,$(run_files)) -> run-out)
 	@$(call outcomes,some,$(run_files))
 	$(Q)$(BIN)talus-runout $(call run_there,$(run_files)) --trn $(OUT)/bed.tif -o $(OUT)/runout.gpkg --json $(OUT)/runout.json --csv $(OUT)/runout.csv \
-	  --svg $(OUT)/runout.svg --run-table $(OUT)/runs.csv --curves $(OUT)/curves.csv --thickness $(OUT)/thickness.tif $(EVALUATE_FLAGS) $(RUNOUT_FLAGS) --overwrite $(DB)
+	  --svg $(OUT)/runout.svg --run-table $(OUT)/runs.csv --curves $(OUT)/curves.csv --thickness $(OUT)/thickness.tif $(evaluate_flags) $(RUNOUT_FLAGS) --overwrite $(DB)
 	$(call made,talus-runout)

@@ -15,4 +15,10 @@ std::string grouped_text(double value, int digits) {
   return (value < 0 ? "-" : "") + out;
 }
 
+std::string needed_text(double value, int digits) {
+  if (!(value > 0 && value < 1e9)) return grouped_text(value, digits);
+  const double unit = std::pow(10, std::floor(std::log10(value)) + 1 - digits);
+  return grouped_text(std::ceil(value / unit * (1 - 1e-12)) * unit, digits);
+}
+
 }  // namespace talus

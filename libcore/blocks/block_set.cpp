@@ -58,7 +58,7 @@ bool lists(const std::vector<int>& begin, size_t n, size_t end) {
 std::string broken_size(const BlockSet& set) {
   const size_t n = set.volume.size(), n_pairs = set.pair_blocks.size();
   if (set.part_begin.empty()) return "part_begin is empty";
-  const std::array<std::pair<const char*, bool>, 8> lengths = {{
+  const std::array<std::pair<const char*, bool>, 9> lengths = {{
       {"block_vertex_begin", lists(set.block_vertex_begin, n, set.vertices.size())},
       {"face_begin", lists(set.face_begin, set.joint_set.size(), set.face_vertices.size())},
       {"block_face_begin", lists(set.block_face_begin, n, set.joint_set.size())},
@@ -69,6 +69,7 @@ std::string broken_size(const BlockSet& set) {
       {"material, centroid, second_moment, velocity or spin",
        set.material.size() == n && set.centroid.size() == n && set.second_moment.size() == n &&
            set.velocity.size() == n && set.spin.size() == n},
+      {"weight", set.weight.empty() || set.weight.size() == n},
       {"pair_joint_set, pair_area, pair_normal or pair_point",
        set.pair_joint_set.size() == n_pairs && set.pair_area.size() == n_pairs &&
            set.pair_normal.size() == n_pairs && set.pair_point.size() == n_pairs},
@@ -118,6 +119,8 @@ std::string broken_block(const BlockSet& set, int b) {
   for (int v = set.block_vertex_begin[b]; v < set.block_vertex_begin[b + 1]; ++v)
     if (!set.vertices[v].allFinite()) return "has a vertex that is not finite";
   if (set.volume[b] <= 0) return "has no volume";
+  if (!set.weight.empty() && !(set.weight[b] > 0 && std::isfinite(set.weight[b])))
+    return "has a weight that is not above 0";
   for (int p = first_part; p < last_part; ++p) {
     const SurfaceFault fault = check_surface(convex_part(set, p)).fault;
     if (fault != SurfaceFault::none) return std::string("has a convex part that is ") + text(fault);
@@ -154,6 +157,8 @@ void add_body(BlockSet& set, const Body& body) {
   set.second_moment.push_back(sum.second);
   set.velocity.push_back(body.velocity);
   set.spin.push_back(body.spin);
+  if (body.weight != 1 && set.weight.empty()) set.weight.assign(set.volume.size() - 1, 1);
+  if (body.weight != 1 || !set.weight.empty()) set.weight.push_back(body.weight);
 }
 
 Polyhedron block_shell(const BlockSet& set, int b) {

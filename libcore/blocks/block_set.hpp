@@ -55,6 +55,7 @@ struct BlockSet {  // clang-format off
   std::vector<Mat3> second_moment;           ///< central, world axes, theory 1.3 [m5]  (n_blocks)
   std::vector<Vec3> velocity;                ///< at the start [m/s]                  (n_blocks)
   std::vector<Vec3> spin;                    ///< at the start, world axes [rad/s]    (n_blocks)
+  std::vector<double> weight;  ///< in statistics, e.g. events a year; empty: 1 each  (n_blocks)
 
   // bodies that share a joint face as cut, for reports; a < b, sorted. Bonds act on the faces that
   // start_bonds() finds where the blocks are.
@@ -80,6 +81,7 @@ struct Body {
   int material = 0;
   Vec3 velocity = Vec3::Zero();  ///< [m/s]
   Vec3 spin = Vec3::Zero();      ///< [rad/s]
+  double weight = 1;             ///< in statistics
 };
 /// Appends a body; its moments are those of its shell, or of its parts taken together.
 void add_body(BlockSet& set, const Body& body);

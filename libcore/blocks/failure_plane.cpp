@@ -273,17 +273,26 @@ std::vector<PlaneAtShare> planes_by_share(const Trn& ground, const Area& area,
   return rows;
 }
 
-double share_over_rising_bed(const Trn& ground, const Trn& bed, const Area& area, double azimuth) {
-  const Vec2 motion = heading(azimuth);
-  double all = 0, rising = 0;
+std::vector<BedColumn> bed_columns(const Trn& ground, const Trn& bed, const Area& area,
+                                   double friction) {
+  std::vector<BedColumn> columns;
   for (int t = 0; t < n_triangles(ground); ++t) {
     if (!is_known(ground, t)) continue;
     const auto above = triangle_corners(ground, t), below = triangle_corners(bed, t);
     const Vec3 middle = (above[0] + above[1] + above[2]) / 3;
     const double depth = middle.z() - (below[0].z() + below[1].z() + below[2].z()) / 3;
     if (!(depth > 0) || !contains(area, Vec2(middle.head<2>()))) continue;
-    all += depth;
-    if (triangle_gradient(bed, t).dot(motion) > 0) rising += depth;
+    columns.push_back({triangle_gradient(bed, t), depth, friction, 0});
+  }
+  return columns;
+}
+
+double share_over_rising_bed(const Trn& ground, const Trn& bed, const Area& area, double azimuth) {
+  const Vec2 motion = heading(azimuth);
+  double all = 0, rising = 0;
+  for (const BedColumn& column : bed_columns(ground, bed, area, 0)) {
+    all += column.weight;
+    if (column.gradient.dot(motion) > 0) rising += column.weight;
   }
   return all > 0 ? rising / all : 0;
 }

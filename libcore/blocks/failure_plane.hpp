@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "blocks/bed_equilibrium.hpp"
 #include "blocks/joint_sets.hpp"
 #include "blocks/source.hpp"
 #include "terrain/trn.hpp"
@@ -58,6 +59,11 @@ struct FootStep {
 /// The foot for a motion along `azimuth` [rad].
 [[nodiscard]] std::vector<FootStep> steps_at_foot(const Trn& ground, const Trn& bed,
                                                   const Area& area, double azimuth);
+
+/// The mass between ground and bed inside the area, a column a triangle; as weight its mean depth
+/// [m], since the triangles have one area. `friction`: tangent, of all.
+[[nodiscard]] std::vector<BedColumn> bed_columns(const Trn& ground, const Trn& bed,
+                                                 const Area& area, double friction);
 
 /// Share of the mass between ground and bed, inside the area, over bed that rises in the direction
 /// `azimuth` [rad].

@@ -63,12 +63,11 @@ std::vector<PoleGroup> farthest_apart(const std::vector<Vec3>& poles, int n_grou
   std::vector<PoleGroup> groups(1);
   std::vector<int> all(poles.size());
   for (size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i);
-  groups[0].mean = mean_axis(poles, all);
+  const Vec3 mean = mean_axis(poles, all);
+  groups[0].mean = mean;
   // The first centre is the pole nearest to the common mean; each next one is the farthest.
   for (const Vec3& pole : poles)
-    if (std::abs(pole.dot(mean_axis(poles, all))) >
-        std::abs(groups[0].mean.dot(mean_axis(poles, all))))
-      groups[0].mean = pole;
+    if (std::abs(pole.dot(mean)) > std::abs(groups[0].mean.dot(mean))) groups[0].mean = pole;
   while (static_cast<int>(groups.size()) < n_groups) {
     const Vec3* farthest = &poles[0];
     double smallest = std::numeric_limits<double>::infinity();

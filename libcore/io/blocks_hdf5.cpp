@@ -118,6 +118,8 @@ void write_blocks(const std::string& path, const BlockSet& set,
   file.texts("joint_set_names", set.joint_set_names, "names of the joint sets");
   for_each_array(set,
                  [&](const About& about, const auto& values) { write_array(file, about, values); });
+  if (!set.weight.empty())
+    write_array(file, {"weight", "1", "weight in statistics, e.g. events a year"}, set.weight);
   write_bytes(path, file.image());
 }
 
@@ -134,6 +136,7 @@ BlockSet read_blocks(const std::string& path) {
   set.material_names = file.texts("material_names");
   set.joint_set_names = file.texts("joint_set_names");
   for_each_array(set, [&](const About& about, auto& values) { read_array(file, about, values); });
+  if (file.has("weight")) read_array(file, {"weight", "1", ""}, set.weight);
   const std::string broken = broken_promise(set);
   if (!broken.empty()) throw InputError({path}, broken, "the file is damaged; make it again");
   return set;

@@ -10,6 +10,7 @@
 #include "io/crs_gdal.hpp"
 #include "io/crs_place_gdal.hpp"
 #include "io/errors_gdal.hpp"
+#include "io/network_gdal.hpp"
 #include "io/raster_bands_gdal.hpp"
 
 namespace talus {
@@ -24,6 +25,7 @@ using Dataset = std::unique_ptr<GDALDataset, CloseDataset>;
 
 Dataset open_classes(const std::string& path, const Trn& trn) {
   register_gdal_drivers();
+  check_virtual(path);
   GdalErrors errors;
   Dataset dataset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR));
   if (!dataset)

@@ -6,6 +6,7 @@
 #include <ogr_spatialref.h>
 
 #include "base/error.hpp"
+#include "io/network_gdal.hpp"
 
 namespace talus {
 namespace {
@@ -48,6 +49,7 @@ void GdalErrors::note(bool is_failure, bool is_warning, const char* message) {
 void register_gdal_drivers() {
   static const bool once = [] {
     GDALAllRegister();
+    forbid_network();
     check_proj_database();
     if (CPLGetConfigOption("GDAL_CACHEMAX", nullptr) == nullptr) GDALSetCacheMax64(128 << 20);
     return true;

@@ -250,11 +250,25 @@ struct H5Reader::Impl {
   Id file;
   std::size_t most_bytes = 0;  // no array can be longer: deflate packs 1032 to 1 at best
 
+  // A link to another file, and values that stand in one, are none that Talus writes: whoever gives
+  // such a file wants another one read.
+  void check_links() const {
+    const auto found = [](hid_t, const char* name, const H5L_info_t* link, void* to) -> herr_t {
+      if (link->type == H5L_TYPE_HARD) return 0;
+      *static_cast<std::string*>(to) = name;
+      return 1;
+    };
+    std::string link;
+    if (H5Lvisit(file, H5_INDEX_NAME, H5_ITER_NATIVE, found, &link) > 0)
+      fail(link, "is a link, to another place or file");
+  }
+
   explicit Impl(const std::string& name) : path(name), file(open(name)) {
     if (!file.valid())
       throw InputError({path}, "is not an HDF5 file that Talus wrote, or it is damaged",
                        "make it again with the tool that wrote it");
     std::error_code error;
+    check_links();
     most_bytes = 65536 + 1100 * static_cast<std::size_t>(std::filesystem::file_size(path, error));
   }
 
@@ -265,6 +279,8 @@ struct H5Reader::Impl {
     const Id access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     // an array is read once: a large table of its chunks costs more than it gives
     H5Pset_cache(access, 0, 13, 1 << 20, 1);
+    // Files are whole when they get their names, so no lock is needed; some servers refuse one.
+    H5Pset_file_locking(access, false, true);
     return {H5Fopen(name.c_str(), H5F_ACC_RDONLY, access), H5Fclose};
   }
 
@@ -276,6 +292,9 @@ struct H5Reader::Impl {
   [[nodiscard]] Id set(const std::string& name) const {
     Id id(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
     if (!id.valid()) fail(name, "is missing");
+    const Id list(H5Dget_create_plist(id), H5Pclose);
+    if (H5Pget_external_count(list) > 0 || H5Pget_layout(list) == H5D_VIRTUAL)
+      fail(name, "has its values in another file");
     return id;
   }
 

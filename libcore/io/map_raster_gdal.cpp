@@ -30,10 +30,10 @@ void write_cells(GDALRasterBand& band, const std::vector<float>& value) {
 }
 
 // Smallest, largest, mean and standard deviation, kept in the file for styles and legends.
-void set_statistics(GDALRasterBand& band, const std::vector<float>& value) {
+void set_statistics(GDALRasterBand& band, const std::vector<float>& value, float nodata) {
   double low = INFINITY, high = -INFINITY, sum = 0, sum_sq = 0, n = 0;
   for (const float v : value) {
-    if (v == MapRaster::nodata) continue;
+    if (v == nodata) continue;
     low = std::min<double>(low, v);
     high = std::max<double>(high, v);
     sum += v;
@@ -46,8 +46,9 @@ void set_statistics(GDALRasterBand& band, const std::vector<float>& value) {
 }
 
 Dataset to_dataset(const MapRaster& raster) {
-  Dataset dataset = create_in_memory(raster.n_cols, raster.n_rows,
-                                     static_cast<int>(raster.bands.size()), GDT_Float32);
+  Dataset dataset =
+      create_in_memory(raster.n_cols, raster.n_rows, static_cast<int>(raster.bands.size()),
+                       raster.is_codes ? GDT_Byte : GDT_Float32);
   if (!dataset) return nullptr;
   std::array<double, 6> transform = {raster.corner.x(), raster.cell_size, 0, raster.corner.y(), 0,
                                      -raster.cell_size};
@@ -58,12 +59,20 @@ Dataset to_dataset(const MapRaster& raster) {
   for (std::size_t b = 0; b < raster.bands.size(); ++b) {
     const MapRasterBand& from = raster.bands[b];
     GDALRasterBand& band = *dataset->GetRasterBand(static_cast<int>(b) + 1);
-    band.SetNoDataValue(MapRaster::nodata);
+    band.SetNoDataValue(raster.nodata_value());
     band.SetDescription(from.name.c_str());
     band.SetUnitType(from.unit.c_str());
     band.SetMetadataItem("long_name", from.long_name.c_str());
     write_cells(band, from.value);
-    set_statistics(band, from.value);
+    set_statistics(band, from.value, raster.nodata_value());
+    if (b == 0 && !raster.colours.empty()) {
+      GDALColorTable table;
+      for (const auto& [code, c] : raster.colours) {
+        const GDALColorEntry entry{c[0], c[1], c[2], c[3]};
+        table.SetColorEntry(code, &entry);
+      }
+      band.SetColorTable(&table);
+    }
   }
   return dataset;
 }
@@ -80,8 +89,8 @@ void add_overviews(GDALDataset& dataset, const MapRaster& raster) {
     for (int i = 0; i < band.GetOverviewCount(); ++i) {
       GDALRasterBand& overview = *band.GetOverview(i);
       write_cells(overview, overview_of(raster.bands[b].value, raster.n_rows, raster.n_cols,
-                                        overview.GetYSize(), overview.GetXSize(), MapRaster::nodata,
-                                        raster.bands[b].overview));
+                                        overview.GetYSize(), overview.GetXSize(),
+                                        raster.nodata_value(), raster.bands[b].overview));
     }
   }
 }

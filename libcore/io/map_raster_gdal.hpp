@@ -4,6 +4,8 @@
 // out:   COG (deflate, overviews without averaging), PNG
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <map>
 #include <string>
 #include <utility>
@@ -25,12 +27,17 @@ struct MapRasterBand {
 
 struct MapRaster {
   static constexpr float nodata = -9999;
+  static constexpr float nodata_of_codes = 255;
   Vec2 corner = Vec2::Zero();  ///< map coordinates of the north-west corner [m]
   double cell_size = 0;        ///< [m]
   int n_rows = 0, n_cols = 0;
   std::string crs_wkt;
   std::vector<MapRasterBand> bands;
   std::vector<std::pair<std::string, std::string>> tags;  ///< of the whole file, e.g. RUN_ID
+  /// Bands are bytes that stand for something, 255: nodata, not floats.
+  bool is_codes = false;
+  std::vector<std::pair<int, std::array<std::uint8_t, 4>>> colours = {};  ///< of codes, of band 1
+  [[nodiscard]] float nodata_value() const { return is_codes ? nodata_of_codes : nodata; }
 };
 
 /// Writes a COG, byte by byte the same for the same raster and options. Overviews take one

@@ -18,6 +18,7 @@
 #include "io/crs_operation_gdal.hpp"
 #include "io/crs_place_gdal.hpp"
 #include "io/errors_gdal.hpp"
+#include "io/network_gdal.hpp"
 #include "io/raster_bands_gdal.hpp"
 #include "terrain/elevation.hpp"
 #include "terrain/lone_levels.hpp"
@@ -41,6 +42,7 @@ std::string size_text(int n_rows, int n_cols) {
 
 Dataset open_raster(const std::string& path) {
   register_gdal_drivers();
+  check_virtual(path);
   GdalErrors errors;
   Dataset dataset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR));
   if (!dataset)

@@ -37,7 +37,8 @@ std::string prop(const std::string& key, const std::string& value) {
          attribute("value", value) + "/>\n";
 }
 
-std::string symbol_layer(const VectorStyle& style, const Colour& colour) {
+std::string symbol_layer(const VectorStyle& style, const VectorStyle::Class& of) {
+  const Colour& colour = of.colour;
   const std::string size = text(style.size_mm);
   switch (style.kind) {
     case SymbolKind::point:
@@ -58,7 +59,7 @@ std::string symbol_layer(const VectorStyle& style, const Colour& colour) {
   Colour outline = colour;
   outline[3] = 255;
   return "SimpleFill\" enabled=\"1\" pass=\"0\" locked=\"0\">\n        <Option type=\"Map\">\n" +
-         prop("color", list_colour(colour)) + prop("style", "solid") +
+         prop("color", list_colour(colour)) + prop("style", of.fill) +
          prop("outline_color", list_colour(outline)) + prop("outline_style", "solid") +
          prop("outline_width", size) + prop("outline_width_unit", "MM");
 }
@@ -69,16 +70,21 @@ std::string symbol(const VectorStyle& style, std::size_t i) {
                                                             : "fill";
   return "      <symbol" + attribute("type", kind) + attribute("name", std::to_string(i)) +
          " alpha=\"1\" clip_to_extent=\"1\" force_rhr=\"0\">\n        <layer class=\"" +
-         symbol_layer(style, style.classes[i].colour) +
+         symbol_layer(style, style.classes[i]) +
          "        </Option>\n        </layer>\n      </symbol>\n";
 }
 
 }  // namespace
 
-Colour colour_of(const RasterStyle& style, double value) {
+const StyleClass* class_of(const RasterStyle& style, double value) {
   for (const StyleClass& c : style.classes)
-    if (value <= c.upper) return c.colour;
-  return {0, 0, 0, 0};
+    if (value <= c.upper) return &c;
+  return nullptr;
+}
+
+Colour colour_of(const RasterStyle& style, double value) {
+  const StyleClass* const found = class_of(style, value);
+  return found ? found->colour : Colour{0, 0, 0, 0};
 }
 
 std::string raster_qml(const RasterStyle& style) {

@@ -16,17 +16,21 @@ using Colour = std::array<std::uint8_t, 4>;  ///< red, green, blue, alpha
 struct StyleClass {
   double upper = 0;
   Colour colour{};
-  std::string label;  ///< with its unit
+  std::string label;        ///< with its unit
+  bool is_hatched = false;  ///< on white, in pictures
 };
 
 struct RasterStyle {
-  int band = 1;                     ///< that is shown, from 1
-  std::string title;                ///< of the legend, with the unit
-  std::vector<StyleClass> classes;  ///< ascending; the last one's limit is infinite
-  std::string remark = {};          ///< that no picture may lack; empty: none
+  int band = 1;                         ///< that is shown, from 1
+  std::string title;                    ///< of the legend, with the unit
+  std::vector<StyleClass> classes;      ///< ascending; the last limit is infinite, but of codes
+  std::string remark = {};              ///< that no picture may lack; empty: none
+  std::vector<std::string> notes = {};  ///< lines below the picture: what it rests on
 };
 
-/// The colour of a value; transparent for NaN.
+/// The class of a value; null for NaN and above all.
+[[nodiscard]] const StyleClass* class_of(const RasterStyle& style, double value);
+/// Its colour; transparent where there is none.
 [[nodiscard]] Colour colour_of(const RasterStyle& style, double value);
 
 /// A style file that QGIS (3.22 and later) takes up when it lies beside the raster: NAME.qml.
@@ -41,6 +45,7 @@ struct VectorStyle {
   struct Class {
     std::string value, label;
     Colour colour{};
+    std::string fill = "solid";  ///< of polygons, as QGIS names it: "b_diagonal", "no"
   };
   std::vector<Class> classes;
   double size_mm = 0.4;  ///< width of lines and outlines, diameter of points

@@ -11,6 +11,7 @@
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "io/errors_gdal.hpp"
+#include "io/network_gdal.hpp"
 #include "io/point_table.hpp"
 
 namespace talus {
@@ -169,6 +170,7 @@ VectorDataset open_vectors(const SourcePath& path) {
       return made;
     }
   }
+  check_virtual(source);
   const GdalErrors errors;
   opened.dataset = GDALDatasetUniquePtr(
       GDALDataset::Open(source.c_str(), GDAL_OF_VECTOR | GDAL_OF_VERBOSE_ERROR));

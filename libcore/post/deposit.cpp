@@ -108,7 +108,14 @@ Fate fate_of(const RunFile& run, int block, double rest_speed) {
 }
 
 double weight_of(const RunFile& run, int block) {
-  return run.blocks.weight.empty() ? 1 : run.blocks.weight[block];
+  return run.run_weight * (run.blocks.weight.empty() ? 1 : run.blocks.weight[block]);
+}
+
+std::vector<double> weights_of(const RunFile& run) {
+  if (run.run_weight == 1) return run.blocks.weight;
+  std::vector<double> weights;
+  for (int block = 0; block < n_blocks(run); ++block) weights.push_back(weight_of(run, block));
+  return weights;
 }
 
 Pose first_pose(const RunFile& run, int block) {
@@ -179,7 +186,13 @@ void add_deposit(DepositSums& sums, const PassageGrid& grid, const RunFile& run,
   for (int block = 0; block < n_blocks(run); ++block) {
     if (fate_of(run, block, rest_speed) != Fate::deposited) continue;
     const Pose pose = last_pose(run, block);
-    add_volume(sums.volume, grid, run, block, pose);
+    if (run.run_weight == 1) {
+      add_volume(sums.volume, grid, run, block, pose);
+    } else {
+      std::map<std::uint32_t, double> volume;
+      add_volume(volume, grid, run, block, pose);
+      for (const auto& [cell, value] : volume) sums.volume[cell] += run.run_weight * value;
+    }
     const double row = std::floor((grid.corner.y() - pose.position.y()) / grid.cell_size);
     const double col = std::floor((pose.position.x() - grid.corner.x()) / grid.cell_size);
     if (!(row >= 0 && row < grid.n_rows && col >= 0 && col < grid.n_cols)) continue;

@@ -14,6 +14,7 @@ namespace talus {
 
 inline constexpr double moved_m = 1;        ///< a block displaced by more has moved [m]
 inline constexpr double moved_far_m = 20;   ///< [m]
+inline constexpr double event_share = 0.1;  ///< of the mass that moves in an event
 inline constexpr double least_moved = 0.5;  ///< share of the mass below which a reader is warned
 
 /// Displacement: straight from a centroid's place at the start to that at the end, in space.
@@ -24,6 +25,8 @@ struct Moved {
   double p50 = 0, p90 = 0, p95 = 0;  ///< displacement that this share of the mass stays below [m]
   double largest = 0;                ///< of any block [m]
   [[nodiscard]] bool any() const { return largest > moved_m; }  ///< a block moved
+  /// Enough of the mass moved to call it one; else single blocks fell, or none.
+  [[nodiscard]] bool is_event() const { return share >= event_share; }
 };
 /// NaN where there is no mass.
 [[nodiscard]] Moved moved_of(std::vector<WeightedValue> displacement_and_mass);

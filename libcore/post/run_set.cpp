@@ -85,7 +85,8 @@ auto sum_of(const std::vector<RunMember>& runs, Field field) {
 }  // namespace
 
 RunMember member_of(const std::string& file, const RunFile& run) {
-  RunMember member{file, run.info, run.grid, n_blocks(run), 0, 0, 0, 0, 0, 0, 0, ""};
+  RunMember member{file, run.info, run.grid, n_blocks(run), 0, 0, 0, 0, 0,
+                   0,    0,        "",       run.run_weight};
   for (std::string* words : {&member.info.config, &member.info.plan}) std::string().swap(*words);
   for (int block = 0; block < member.n_blocks; ++block) member.weight += weight_of(run, block);
   for (const HealthRow& row : run.health) {
@@ -96,6 +97,70 @@ RunMember member_of(const std::string& file, const RunFile& run) {
     member.not_finite = row.not_finite;
   }
   return member;
+}
+
+std::string case_of(const std::string& file) {
+  const std::string stem = file_name(file);
+  const std::size_t last = stem.rfind('_');
+  if (stem.rfind("run_", 0) != 0 || last <= 4 || last == std::string::npos) return "";
+  return stem.substr(4, last - 4);
+}
+
+std::vector<CaseWeight> cases_of(const std::vector<RunMember>& runs,
+                                 const std::vector<CaseWeight>& given) {
+  std::map<std::string, CaseWeight> by_name;
+  for (const CaseWeight& one : given) by_name[one.name] = {one.name, one.weight, 0};
+  for (const RunMember& run : runs) {
+    const std::string name = case_of(run.file);
+    if (!given.empty() && !by_name.contains(name))
+      throw InputError({where_of(run)}, "is of case '" + name + "', which has no --case-weight",
+                       "give each case of the runs its weight, or leave its runs out");
+    by_name[name].name = name;
+    ++by_name[name].n_runs;
+  }
+  std::vector<CaseWeight> cases;
+  double sum = 0;
+  for (auto& [name, one] : by_name) {
+    if (one.n_runs == 0)
+      throw InputError({"", 0, "--case-weight"}, "names case '" + name + "', which has no run",
+                       "cases are those of the names run_CASE_SEED.h5");
+    if (given.empty()) one.weight = one.n_runs;
+    sum += one.weight;
+    cases.push_back(one);
+  }
+  for (CaseWeight& one : cases) one.weight /= sum;
+  return cases;
+}
+
+std::vector<double> run_weights(const std::vector<RunMember>& runs,
+                                const std::vector<CaseWeight>& cases) {
+  std::map<std::string, double> factor;
+  for (const CaseWeight& one : cases)
+    factor[one.name] = one.weight * static_cast<double>(runs.size()) / one.n_runs;
+  std::vector<double> weights;
+  for (const RunMember& run : runs) weights.push_back(factor[case_of(run.file)]);
+  return weights;
+}
+
+std::string text(const std::vector<CaseWeight>& cases) {
+  std::string words;
+  for (const CaseWeight& one : cases)
+    words += (words.empty() ? "" : ", ") + (one.name.empty() ? "no name" : one.name) + " " +
+             text(one.weight, 3) + " (" + counted(one.n_runs, "run") + ")";
+  return words;
+}
+
+std::vector<CaseWeight> case_shares(const std::vector<RunMember>& runs) {
+  std::map<std::string, CaseWeight> by_name;
+  for (const RunMember& run : runs) {
+    CaseWeight& one = by_name.try_emplace(case_of(run.file), CaseWeight{"", 0, 0}).first->second;
+    one.name = case_of(run.file);
+    one.weight += run.run_weight / static_cast<double>(runs.size());
+    ++one.n_runs;
+  }
+  std::vector<CaseWeight> cases;
+  for (const auto& [name, one] : by_name) cases.push_back(one);
+  return cases;
 }
 
 std::string where_of(const RunMember& run) {
@@ -221,7 +286,7 @@ std::vector<std::pair<std::string, std::string>> tags_of(const std::vector<RunMe
       {"N_RUNS", n_runs},
       {"N_FAILED", std::to_string(faults.failed.size() + faults.left_out.size())},
       {"N_UNFINISHED", std::to_string(faults.unfinished.size())},
-      {"DENOMINATOR", "W = " + text(weight, 9) + ", the weight of all " +
+      {"DENOMINATOR", "N = " + text(weight, 9) + ", the statistical weight of all " +
                           std::to_string(sum_of(runs, &RunMember::n_blocks)) +
                           " blocks released in " + n_runs + (runs.size() == 1 ? " run" : " runs")}};
   if (!runs.empty()) {
@@ -229,6 +294,8 @@ std::vector<std::pair<std::string, std::string>> tags_of(const std::vector<RunMe
     tags.emplace_back("VERSION", runs[0].info.version);
   }
   tags.emplace_back("N_MOVING_AT_END", std::to_string(sum_of(runs, &RunMember::n_moving)));
+  if (const std::vector<CaseWeight> cases = case_shares(runs); cases.size() > 1)
+    tags.emplace_back("CASES", text(cases));
   if (!left_out.empty()) tags.emplace_back("N_LEFT_OUT", std::to_string(left_out.size()));
   const std::string wrong = text(faults), left_out_words = left_out_text(faults);
   const std::string health = wrong.empty() ? "all runs finished within their limits" : wrong;

@@ -19,18 +19,40 @@ struct RunMember {
   PassageGrid grid;
   int n_blocks = 0;
   int n_moving = 0;   ///< at the end, by the evaluation's own limit of speed
-  double weight = 0;  ///< sum over its blocks
+  double weight = 0;  ///< sum over its blocks, times run_weight
   // health over the whole run
   double largest_penetration = 0;                 ///< [m]
   std::int64_t unconverged = 0;                   ///< block steps accepted without convergence
   std::int64_t left_domain = 0;                   ///< blocks
   std::int64_t fell_through = 0, not_finite = 0;  ///< steps
   std::string part;                               ///< file of the part that it stands in; "": none
+  double run_weight = 1;  ///< how much it counts among the others, 1 on average [-]
 };
 /// What messages name.
 [[nodiscard]] std::string where_of(const RunMember& run);
 /// Of a run read in any parts; health, blocks and weight as far as they were read.
 [[nodiscard]] RunMember member_of(const std::string& file, const RunFile& run);
+
+/// The variant of settings that a run belongs to: "low" of run_low_3.h5; "" of run_3.h5.
+[[nodiscard]] std::string case_of(const std::string& file);
+
+/// What a case counts among others.
+struct CaseWeight {
+  std::string name;   ///< "": of runs without one
+  double weight = 1;  ///< above 0; the sum of all is 1 after cases_of()
+  int n_runs = 0;
+};
+/// The cases of the runs, by name, with their shares of the whole: as `given`, or by their number
+/// of runs where none is. Throws InputError when a case of the runs is not given, or has no runs.
+[[nodiscard]] std::vector<CaseWeight> cases_of(const std::vector<RunMember>& runs,
+                                               const std::vector<CaseWeight>& given);
+/// What each run counts so that the cases have their shares: 1 on average.        (n_runs)
+[[nodiscard]] std::vector<double> run_weights(const std::vector<RunMember>& runs,
+                                              const std::vector<CaseWeight>& cases);
+/// The cases of runs that have been weighed, by name, with their shares of the whole.
+[[nodiscard]] std::vector<CaseWeight> case_shares(const std::vector<RunMember>& runs);
+/// "low 0.25 (20 runs), high 0.75 (20 runs)"
+[[nodiscard]] std::string text(const std::vector<CaseWeight>& cases);
 
 struct RunSetOptions {
   bool allow_unfinished = false;

@@ -80,7 +80,16 @@ ShareBasis share_basis(std::span<const double> released, bool single_blocks, dou
   }
   basis.n_eff = effective_size(basis.over.whole, basis.over.squares);
   basis.failed_share = failed_share;
+  weigh_runs_of(basis, std::vector<double>(released.size(), 1.0));
   return basis;
+}
+
+void weigh_runs_of(ShareBasis& basis, std::span<const double> run_weight) {
+  basis.runs = {static_cast<int>(run_weight.size()), 0, 0};
+  for (const double weight : run_weight) {
+    basis.runs.whole += weight;
+    basis.runs.squares += weight * weight;
+  }
 }
 
 Interval share_interval(const ShareBasis& basis, std::span<const RunWeight> parts, double share) {
@@ -103,9 +112,9 @@ Interval interval_of_none_or_all(const ShareBasis& basis, bool all) {
   return with_failed(wilson_interval(all ? 1 : 0, basis.n_eff), basis.failed_share);
 }
 
-Interval run_share_interval(const ShareBasis& basis, int n_hit) {
-  const double n = basis.over.n_runs;
-  return with_failed(wilson_interval(n_hit / n, n), basis.failed_share);
+Interval run_share_interval(const ShareBasis& basis, double share) {
+  return with_failed(wilson_interval(share, effective_size(basis.runs.whole, basis.runs.squares)),
+                     basis.failed_share);
 }
 
 Interval with_failed(const Interval& interval, double failed_share) {

@@ -53,6 +53,7 @@ struct ShareBasis {
   ShareOver over;
   double n_eff = 0;         ///< effective number of runs [-]
   double failed_share = 0;  ///< of the runs that were wanted [-]
+  ShareOver runs;           ///< the runs themselves, 1 each unless they are weighed
 };
 [[nodiscard]] ShareBasis share_basis(std::span<const double> released, bool single_blocks,
                                      double failed_share = 0);
@@ -62,6 +63,9 @@ struct ShareBasis {
 [[nodiscard]] Interval share_interval(const ShareBasis& basis, std::span<const RunWeight> parts,
                                       double share);
 
+/// Runs that do not all count alike, e.g. those of weighed cases.                  (n_runs)
+void weigh_runs_of(ShareBasis& basis, std::span<const double> run_weight);
+
 /// How many trials the share is worth (share_sample); NaN where there are too few runs.
 [[nodiscard]] double trials_of(const ShareBasis& basis, std::span<const RunWeight> parts,
                                double share);
@@ -69,8 +73,9 @@ struct ShareBasis {
 /// Of no block (`all` false) or of all: each effective run is a trial. NaN where there are too few.
 [[nodiscard]] Interval interval_of_none_or_all(const ShareBasis& basis, bool all);
 
-/// Of the share of runs in which something happened, `n_hit` of them.
-[[nodiscard]] Interval run_share_interval(const ShareBasis& basis, int n_hit);
+/// Of the share of runs in which something happened, each run with its weight.
+[[nodiscard]] Interval run_share_interval(const ShareBasis& basis, double share);
+Interval run_share_interval(const ShareBasis& basis, int n_runs) = delete;  // a count is no share
 
 /// The interval of a share of the runs that did not fail, for all that were wanted.
 [[nodiscard]] Interval with_failed(const Interval& interval, double failed_share);

@@ -4,8 +4,8 @@
 // out:   a file that has the same bytes in whatever order the runs came
 //
 // Rows of passages stand by cell, then run, then block, so that a map takes a range of cells of
-// many parts, each read once from front to end. Runs of the same blocks, or the same lines, share
-// them.
+// many parts, each read once from front to end. Runs of the same blocks, the same lines or objects
+// share them.
 #pragma once
 
 #include <memory>
@@ -21,12 +21,14 @@ struct Part {
   double path_tolerance = 0;  ///< of the reach of all runs [m]
   PassageGrid grid;           ///< 0 rows: the runs recorded no passages
   bool passages_by_centroid = false;
-  std::vector<std::string> name;   ///< file that the run stood in, with its folder      (n_runs)
-  std::vector<RunFile> runs;       ///< without blocks, lines, passages, checkpoint       (n_runs)
+  std::vector<std::string> name;  ///< file that the run stood in, with its folder      (n_runs)
+  std::vector<RunFile> runs;  ///< without blocks, lines, objects, passages, checkpoint  (n_runs)
   std::vector<RunBlocks> blocks;   ///< different ones
   std::vector<int> blocks_of_run;  ///< index into `blocks`                               (n_runs)
   std::vector<std::vector<RecordLine>> lines;  ///< different ones
   std::vector<int> lines_of_run;               ///< index into `lines`                    (n_runs)
+  std::vector<std::vector<RecordObject>> objects;  ///< different ones
+  std::vector<int> objects_of_run;                 ///< index into `objects`              (n_runs)
 };
 [[nodiscard]] inline int n_runs(const Part& part) { return static_cast<int>(part.runs.size()); }
 
@@ -37,7 +39,8 @@ struct Part {
 /// The run's `reach` must be given, and its pieces merged (record/pieces.hpp).
 struct PartBuilder {
   Part part;
-  std::vector<std::pair<std::string, int>> known_blocks, known_lines;  ///< digest, index; sorted
+  std::vector<std::pair<std::string, int>> known_blocks, known_lines,
+      known_objects;  ///< digest, index; sorted
 };
 void add_run(PartBuilder& builder, const std::string& name, RunFile run);
 

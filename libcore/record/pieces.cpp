@@ -135,6 +135,19 @@ void merge_crossings(const Lineage& lineage, RunFile& run) {
   for (const auto& [key, row] : rows) run.crossings.push_back(row);
 }
 
+void merge_object_hits(const Lineage& lineage, RunFile& run) {
+  std::map<std::pair<std::int32_t, std::int32_t>, ObjectHit> rows;  // by object, then block
+  for (const ObjectHit& row : run.object_hits)
+    for (const int piece : lineage.pieces[static_cast<size_t>(row.block)]) {
+      ObjectHit of_piece = row;
+      of_piece.block = piece;
+      const auto [at, is_new] = rows.try_emplace({row.object, piece}, of_piece);
+      if (!is_new) at->second = joined(at->second, of_piece);
+    }
+  run.object_hits.clear();
+  for (const auto& [key, row] : rows) run.object_hits.push_back(row);
+}
+
 // What one body did alone is done by the largest of its pieces.
 void rename_alone(const Lineage& lineage, RunFile& run) {
   const auto rename = [&lineage](std::int32_t& block) {
@@ -155,6 +168,7 @@ void merge_pieces(RunFile& run) {
   merge_frames(lineage, run);
   merge_passages(lineage, run);
   merge_crossings(lineage, run);
+  merge_object_hits(lineage, run);
   rename_alone(lineage, run);
   RunBlocks& blocks = run.blocks;
   keep_faces(lineage.bodies, blocks);

@@ -15,7 +15,7 @@ namespace talus {
 
 /// Replaces the bodies of `run` by those that exist at its end; does nothing where nothing can
 /// break. Hits on fences and what a body did alone go to its largest piece. Needs phases; frames,
-/// passages and crossings as far as they were read.
+/// passages, crossings and hits of objects as far as they were read.
 void merge_pieces(RunFile& run);
 
 }  // namespace talus

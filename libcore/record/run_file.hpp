@@ -16,6 +16,7 @@
 
 #include "record/crossings.hpp"
 #include "record/frames.hpp"
+#include "record/object_hits.hpp"
 #include "record/passages.hpp"
 #include "record/reach.hpp"
 #include "scene/forest.hpp"
@@ -149,17 +150,22 @@ struct RunFile {
   bool passages_by_centroid = false;
   std::vector<Passage> passages;  ///< by block, then cell
   std::vector<RecordLine> lines;
-  std::vector<Crossing> crossings;    ///< by line, then block
-  std::vector<FenceHit> fence_hits;   ///< by time, step by step
-  std::vector<PanelRow> panels;       ///< of the fences that stood, by line
-  std::vector<ForestInfo> forests;    ///< that stood
-  std::vector<TreeHitRow> tree_hits;  ///< by time, step by step
+  std::vector<Crossing> crossings;  ///< by line, then block
+  std::vector<RecordObject> objects;
+  std::vector<ObjectHit> object_hits;  ///< by object, then block
+  std::vector<FenceHit> fence_hits;    ///< by time, step by step
+  std::vector<PanelRow> panels;        ///< of the fences that stood, by line
+  std::vector<ForestInfo> forests;     ///< that stood
+  std::vector<TreeHitRow> tree_hits;   ///< by time, step by step
   std::vector<HealthRow> health;
   std::vector<DeepRow> deep;          ///< by block
   std::vector<Break> breaks;          ///< by time; blocks by their number in the run
   std::vector<CrushedBlock> crushed;  ///< by time
   std::vector<Phase> phase;           ///< at info.time; empty: not known               (n_blocks)
   std::vector<std::uint8_t> checkpoint;  ///< store/checkpoint.hpp; empty when the run is done
+  /// How much it counts among the runs that are evaluated with it, 1 on average; not in the file
+  /// [-]
+  double run_weight = 1;
 };
 
 [[nodiscard]] inline int n_blocks(const RunFile& run) {
@@ -174,6 +180,7 @@ struct RunFile {
 /// What to read beside info and blocks; files of many runs are read for their passages alone.
 struct RunParts {
   bool frames = true, passages = true, crossings = true, health = true, checkpoint = true;
+  bool objects = true;           ///< and what hit them
   bool only_last_frame = false;  ///< of the frames
   bool only_faults = false;      ///< of the health, penetrations and counts of what went wrong
   bool words = true;             ///< info's config and plan

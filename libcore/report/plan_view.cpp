@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "base/grouped_text.hpp"
 #include "base/text.hpp"
 #include "post/deposit.hpp"
 #include "post/runout/runout.hpp"
@@ -48,7 +49,7 @@ std::string blocks_of(const RunFile& run, const Trn& trn) {
   std::string starts, paths, ends;
   for (int b = 0; b < n_blocks(run); ++b) {
     const std::string name =
-        "block " + std::to_string(b) + ", " + text(run.blocks.volume[b], 4) + " m3";
+        "block " + std::to_string(b) + ", " + grouped_text(run.blocks.volume[b]) + " m3";
     starts += shape("start", path_of(footprint(run, b, first_pose(run, b)), place, true), name);
     if (n_frames(run.frames) == 0) continue;
     const TimedPath path = simplified(block_path(run, b), 0.25);

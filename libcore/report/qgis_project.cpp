@@ -188,9 +188,16 @@ std::string scale_bar(const QgisProject& project, double x, double y, double map
               text_style(8, false));
 }
 
+// QGIS evaluates what stands between [% and %] in a label: words of others must not.
+std::string without_expressions(std::string words) {
+  for (std::size_t at = words.find("[%"); at != std::string::npos; at = words.find("[%", at))
+    words.insert(at + 1, " ");
+  return words;
+}
+
 std::string layout_xml(const QgisProject& project) {
   std::string words;
-  for (const std::string& line : project.layout_lines) words += line + "\n";
+  for (const std::string& line : project.layout_lines) words += without_expressions(line) + "\n";
   words += "printed [% format_date(now(), 'yyyy-MM-dd') %]";
   std::string out =
       "<Layout name=\"Map\" units=\"mm\" printResolution=\"300\" worldFileMap=\"\">\n"
@@ -200,11 +207,11 @@ std::string layout_xml(const QgisProject& project) {
          item(65638, "00000000-0000-4000-8000-000000000000", 0, 0, 297, 210,
               "frame=\"false\" background=\"true\"", std::string(white_symbol) + "\n") +
          "</PageCollection>\n";
-  out +=
-      map_item(project, 10, 22, 200, 165) + legend_item(214, 22) +
-      scale_bar(project, 12, 172, 200) +
-      label_item("00000000-0000-4000-8000-000000000004", 10, 8, 277, 10, 16, true, project.title) +
-      label_item("00000000-0000-4000-8000-000000000005", 10, 189, 277, 18, 7.5, false, words);
+  out += map_item(project, 10, 22, 200, 165) + legend_item(214, 22) +
+         scale_bar(project, 12, 172, 200) +
+         label_item("00000000-0000-4000-8000-000000000004", 10, 8, 277, 10, 16, true,
+                    without_expressions(project.title)) +
+         label_item("00000000-0000-4000-8000-000000000005", 10, 189, 277, 18, 7.5, false, words);
   return out + "</Layout>\n";
 }
 

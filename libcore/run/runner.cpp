@@ -21,6 +21,7 @@ void record(Runner& runner, const Segment& segment) {
   runner.motion.follow(segment, runner.scene.blocks.inertia[b]);
   if (runner.options.passages) record_passages(runner.passages, runner.scene, runner.motion);
   record_crossings(runner.crossings, runner.scene, segment);
+  record_objects(runner.objects, runner.scene, runner.motion);
   record_frames(runner.sampler, runner.scene, runner.motion,
                 strain_of(runner.state, segment.block));
 }
@@ -271,6 +272,7 @@ Runner make_runner(const Scene& scene, const RunOptions& options, std::vector<Re
                 make_work(scene),
                 {},
                 start_crossings(scene, std::move(lines)),
+                start_objects(scene, file.objects),
                 start_frames(scene, options.frame_interval),
                 {},
                 {},
@@ -321,6 +323,7 @@ Runner resume_run(const Scene& scene, const RunOptions& options, std::vector<Rec
         static_cast<std::int32_t>(runner.crossings.rows.size());
     runner.crossings.rows.push_back(row);
   }
+  restore(runner.objects, runner.file.object_hits);
   return runner;
 }
 
@@ -391,6 +394,7 @@ void update_file(Runner& runner, bool with_checkpoint) {
     file.passages = sorted(runner.passages.table);
   }
   file.crossings = sorted(runner.crossings);
+  file.object_hits = sorted(runner.objects);
   file.fence_hits = runner.state.fence.hits;
   file.panels = panel_rows(runner.scene.fixed, runner.state.yielding);
   file.tree_hits = tree_hit_rows(runner.scene, runner.state);
@@ -437,6 +441,15 @@ RunBlocks run_blocks(const Scene& scene, const BlockSet& set) {
     blocks.generation.push_back(fragment.generation);
     blocks.weight.push_back(fragment.volume_share);
   }
+  if (blocks.weight.empty())
+    blocks.weight = set.weight;
+  else
+    for (std::size_t b = 0; b < blocks.weight.size() && !set.weight.empty(); ++b) {
+      std::size_t released = b;
+      while (blocks.parent[released] >= 0)
+        released = static_cast<std::size_t>(blocks.parent[released]);
+      blocks.weight[b] *= set.weight[released];
+    }
   for (std::size_t b = 0; b < blocks.rest.size(); ++b) {
     const Pose& rest = blocks.rest[b];
     for (int v = set.block_vertex_begin[b]; v < set.block_vertex_begin[b + 1]; ++v)

@@ -11,6 +11,7 @@
 #include "blocks/block_set.hpp"
 #include "record/crossings.hpp"
 #include "record/frames.hpp"
+#include "record/object_hits.hpp"
 #include "record/passages.hpp"
 #include "record/run_file.hpp"
 #include "scene/scene.hpp"
@@ -56,6 +57,7 @@ struct Runner {
   Work work;
   PassageRecorder passages;
   CrossingRecorder crossings;
+  ObjectRecorder objects;
   FrameSampler sampler;
   SegmentMotion motion;     ///< of the segment at hand
   HealthRow interval;       ///< since the last row of health
@@ -63,8 +65,8 @@ struct Runner {
   RunFile file;
 };
 
-/// A run at time 0; `info` and `faces` of the blocks' shells go into its file. `scene` must outlive
-/// it.
+/// A run at time 0; `info` and `faces` of the blocks' shells go into its file, whose objects are
+/// watched. `scene` must outlive it.
 [[nodiscard]] Runner begin_run(const Scene& scene, const RunOptions& options,
                                std::vector<RecordLine> lines, RunFile file);
 /// A run where the checkpoint in `file` left it: what follows equals, bit for bit, what would have

@@ -32,6 +32,16 @@ void check_material(const Material& m, const std::string& name) {
     throw InputError(where, "Poisson's ratio is " + text(m.poisson) + ", expected 0 to below 0.5");
 }
 
+// Beyond any rock, and what steps can follow: a step is cut to a part of a turn.
+void check_speed(const char* what, double speed, const char* unit, int block) {
+  constexpr double largest = 1000;
+  if (speed <= largest) return;
+  throw InputError({"", 0, "block " + std::to_string(block)},
+                   std::string(what) + " with " + text(speed, 4) + " " + unit +
+                       ", expected at most " + text(largest),
+                   "see velocity_m_s and spin_rad_s of its section [blocks.*]");
+}
+
 void add_block(Scene& scene, const BlockSet& set, int b, const Material& material) {
   const auto i = static_cast<std::size_t>(b);
   Blocks& blocks = scene.blocks;
@@ -41,6 +51,8 @@ void add_block(Scene& scene, const BlockSet& set, int b, const Material& materia
   if (!(volume > 0) || !(S.minCoeff() > 0))
     throw InputError({"", 0, "block " + std::to_string(b)}, "has no volume or no extent",
                      "remove it from the block set, or rebuild the set with talus-blocks");
+  check_speed("moves at the start", set.velocity[i].norm(), "m/s", b);
+  check_speed("spins at the start", set.spin[i].norm(), "rad/s", b);
   blocks.mass.push_back(material.density * volume);
   blocks.volume.push_back(volume);
   blocks.inertia.push_back(material.density * Vec3(S.y() + S.z(), S.x() + S.z(), S.x() + S.y()));

@@ -236,6 +236,37 @@ struct PlacedSettings {
   bool random_orientation = false;
   std::vector<double> velocity_m_s, spin_rad_s;
   std::int64_t seed = 1, n_per_point = 1;
+  double frequency_per_a = not_given;     ///< of events at each release point; bodies' weights
+  double frequency_per_m2_a = not_given;  ///< of sloping area of a release grid, instead
+};
+
+/// [hazard]: what hazard classes are made by.
+struct HazardSettings {
+  std::string recipe = "switzerland_ti";  ///< a name of share/hazard, or a file
+  std::string mode = "diffuse";           ///< or "localized": one compartment that may fail
+  std::string split;  ///< which side of a recipe's undecided cells; not given: the recipe's own
+};
+
+/// [hazard.class.NAME]: how often what was simulated for a class of volumes happens. Exactly one of
+/// the four ways.
+struct HazardClassSettings {
+  std::string name;
+  int line = 0;
+  double frequency_per_a = not_given;
+  double events = not_given, observed_a = not_given;  ///< so many events in so many years
+  double failure_probability = not_given, in_years = not_given;
+  bool by_weights = false;  ///< weights of blocks are frequencies, see PlacedSettings
+};
+
+/// [object.NAME]: what is endangered; it stops nothing.
+struct ObjectSettings {
+  std::string name;
+  int line_number = 0;
+  std::vector<Vec3> polygon, line, position_m;  ///< map x, y; one of them, or file
+  std::string file, layer, where;
+  double width_m = not_given;   ///< of a line
+  double radius_m = not_given;  ///< about points
+  std::string kind;             ///< "house", "road": printed
 };
 
 /// Where the value of a key came from.
@@ -261,6 +292,9 @@ struct Site {
   std::vector<FenceSettings> fences;
   std::vector<ForestSettings> forests;
   std::vector<PlacedSettings> blocks;
+  std::vector<ObjectSettings> objects;
+  HazardSettings hazard;
+  std::vector<HazardClassSettings> hazard_classes;
   std::map<std::string, ValueSource> sources;  ///< "joints.J1.dip_deg" -> where it came from
   std::vector<std::string> sections;           ///< that stand in the file
 };

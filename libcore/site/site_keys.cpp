@@ -70,7 +70,7 @@ template <> const std::vector<SiteKey<SourceSettings>>& keys_of() {
       {"plane_dip_direction_deg", &S::plane_dip_direction_deg, "dip direction of a failure plane", azimuth, "", dip_hint},
       {"plane_point_m", &S::plane_point_m, "map x, y, z of a point of the plane", any, "", "", 3, 3},
       {"raster", &S::raster, "elevations of the failure surface; thickness: depths of the mass below the ground, upright"},
-      {"slbl_curvature_m", &S::slbl_curvature_m, "SLBL: how far a node may lie below the mean of its highest and lowest of four neighbours", not_negative},
+      {"slbl_curvature_m", &S::slbl_curvature_m, "SLBL: tolerance C (curvature): each node goes down to the mean of its highest and lowest neighbour less C; 0: no curvature; usual choice: slbl_scenario", not_negative},
       {"slbl_sag_m", &S::slbl_sag_m, "SLBL: how far the surface sags below the line from the upper to the lower end of the source, instead of slbl_curvature_m; the same on every cell size", not_negative},
       {"slbl_scenario", &S::slbl_scenario, "SLBL: min (no sag), max (0.41 of the height of the source) or inter (half of that), instead of slbl_sag_m", any, "min|inter|max"},
       {"slbl_max_depth_m", &S::slbl_max_depth_m, "SLBL: largest depth", positive},
@@ -166,7 +166,7 @@ template <> const std::vector<SiteKey<SolverSettings>>& keys_of() {
       {"time_step_s", &S::time_step_s, "time step, which law talus cuts where it must; not given: 0.005, law paper 0.0001", {0, 1, true, false}},
       {"min_time_step_s", &S::min_time_step_s, "smallest time step", {0, 1, true, false}},
       {"max_time_step_s", &S::max_time_step_s, "largest time step", {0, 1, true, false}},
-      {"gravity_m_s2", &S::gravity_m_s2, "gravity, downwards", not_negative},
+      {"gravity_m_s2", &S::gravity_m_s2, "gravity, downwards", {0, 1000}},
       {"normal_stiffness_n_m", &S::normal_stiffness_n_m, "penalty stiffness of a contact", positive},
       {"shear_stiffness_ratio", &S::shear_stiffness_ratio, "shear over normal stiffness", {0, 10, true, false}},
       {"cor", &S::cor, "coefficient of restitution everywhere", share},
@@ -175,7 +175,7 @@ template <> const std::vector<SiteKey<SolverSettings>>& keys_of() {
       {"max_passes", &S::max_passes, "passes of the contact iteration of a lone block in one step, law talus", {1, 10000}},
       {"seed", &S::seed, "seed of the run", not_negative},
       {"n_runs", &S::n_runs, "runs with seeds counted up", {1, 1000000}},
-      {"start_jitter_m_s", &S::start_jitter_m_s, "random velocity at the start", not_negative},
+      {"start_jitter_m_s", &S::start_jitter_m_s, "random velocity at the start", {0, 1000}},
       {"friction_scatter_deg", &S::friction_scatter_deg, "standard deviation of the ground's friction between runs", {0, 45}},
       {"cor_scatter", &S::cor_scatter, "standard deviation of the ground's restitution between runs", share},
       {"rolling_scatter", &S::rolling_scatter, "standard deviation of the logarithm of the ground's rolling resistance between runs", {0, 2}},
@@ -245,7 +245,7 @@ template <> const std::vector<SiteKey<BaseMotionSettings>>& keys_of() {
   static const std::vector<SiteKey<S>> table = {
       {"file", &S::file, "CSV with columns time_s, ax_m_s2, ay_m_s2, az_m_s2"},
       {"scale", &S::scale, "factor on the accelerations"},
-      {"amplitude_m_s2", &S::amplitude_m_s2, "amplitude of a harmonic motion", not_negative},
+      {"amplitude_m_s2", &S::amplitude_m_s2, "amplitude of a harmonic motion", {0, 1000}},
       {"frequency_hz", &S::frequency_hz, "frequency of a harmonic motion", positive},
       {"start_s", &S::start_s, "when it starts", not_negative},
       {"duration_s", &S::duration_s, "how long it lasts", positive},
@@ -292,7 +292,42 @@ template <> const std::vector<SiteKey<PlacedSettings>>& keys_of() {
       {"velocity_m_s", &S::velocity_m_s, "initial velocity x, y, z", any, "", "", 3, 3},
       {"spin_rad_s", &S::spin_rad_s, "initial angular velocity x, y, z", any, "", "", 3, 3},
       {"seed", &S::seed, "seed of shapes and orientations", not_negative},
-      {"n_per_point", &S::n_per_point, "bodies at each release point", {1, 100000}}};
+      {"n_per_point", &S::n_per_point, "bodies at each release point", {1, 100000}},
+      {"frequency_per_a", &S::frequency_per_a, "events a year at each release point, shared by its bodies as their weights", positive},
+      {"frequency_per_m2_a", &S::frequency_per_m2_a, "events a year and m2 of the release grid's sloping area, as the weights of its bodies", positive}};
+  return table;
+}
+template <> const std::vector<SiteKey<ObjectSettings>>& keys_of() {
+  using S = ObjectSettings;
+  static const std::vector<SiteKey<S>> table = {
+      {"polygon", &S::polygon, "outline of an area, map x, y", any, "", "an area needs three points", 3},
+      {"line", &S::line, "points of a line, map x, y", any, "", "a line needs two points", 2},
+      {"position_m", &S::position_m, "map x, y of points", any, "", "", 1},
+      {"file", &S::file, "vector file with areas, or with lines (width_m) or points (radius_m), instead"},
+      {"layer", &S::layer, "its layer or layers"},
+      {"where", &S::where, "attribute filter on its features"},
+      {"width_m", &S::width_m, "width of lines", positive},
+      {"radius_m", &S::radius_m, "radius about points", positive},
+      {"kind", &S::kind, "what it is, e.g. house, road: printed"}};
+  return table;
+}
+template <> const std::vector<SiteKey<HazardSettings>>& keys_of() {
+  using S = HazardSettings;
+  static const std::vector<SiteKey<S>> table = {
+      {"recipe", &S::recipe, "how classes are made: a name of share/hazard, or a file like those"},
+      {"mode", &S::mode, "many sources that fail again and again, or one that may fail once", any, "diffuse|localized"},
+      {"split", &S::split, "side of cells that a recipe leaves open; the recipe's own when not given", any, "a|b"}};
+  return table;
+}
+template <> const std::vector<SiteKey<HazardClassSettings>>& keys_of() {
+  using S = HazardClassSettings;
+  static const std::vector<SiteKey<S>> table = {
+      {"frequency_per_a", &S::frequency_per_a, "events a year", positive},
+      {"events", &S::events, "events that were counted, instead", not_negative},
+      {"observed_a", &S::observed_a, "years in which they were counted", positive},
+      {"failure_probability", &S::failure_probability, "that the mass fails, mode localized", {0, 1, true, false}},
+      {"in_years", &S::in_years, "within so many years", positive},
+      {"by_weights", &S::by_weights, "weights of blocks are their frequencies, of [blocks.*] frequency_per_a or frequency_per_m2_a"}};
   return table;
 }
 // clang-format on

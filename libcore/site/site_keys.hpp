@@ -59,9 +59,13 @@ template <> const std::vector<SiteKey<OutputSettings>>& keys_of();
 template <> const std::vector<SiteKey<BaseMotionSettings>>& keys_of();
 template <> const std::vector<SiteKey<FragmentationSettings>>& keys_of();
 template <> const std::vector<SiteKey<PlacedSettings>>& keys_of();
+template <> const std::vector<SiteKey<ObjectSettings>>& keys_of();
+template <> const std::vector<SiteKey<HazardSettings>>& keys_of();
+template <> const std::vector<SiteKey<HazardClassSettings>>& keys_of();
 // clang-format on
 
-/// Calls visit(name, section) for the single sections and visit(group, vector) for the named ones.
+/// Calls visit(name, section) for the single sections and visit(group, vector) for the named ones,
+/// whose group may be a part of a section ("hazard.class").
 template <class SiteType, class Visit>
 void for_each_group(SiteType& site, Visit&& visit) {
   visit("site", site.info);
@@ -78,6 +82,9 @@ void for_each_group(SiteType& site, Visit&& visit) {
   visit("base_motion", site.base_motion);
   visit("fragmentation", site.fragmentation);
   visit("output", site.output);
+  visit("object", site.objects);
+  visit("hazard", site.hazard);
+  visit("hazard.class", site.hazard_classes);
 }
 
 }  // namespace talus

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -38,6 +39,37 @@ const char* type_name(toml::node_type type) {
     default:
       return "a date or time";
   }
+}
+
+// Parts of the longest dotted key ("a.b.c": 3), as far as the text has any: the parser, and what
+// frees its tables, go as deep. Text between quotes is a part of its own.
+int longest_dotted_key(const std::string& text, int& line) {
+  int longest = 0, parts = 1, here = 1;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '.') {
+      if (++parts > longest) longest = parts, line = here;
+    } else if (c == '"' || c == '\'') {
+      const std::size_t end = text.find_first_of(std::string{c, '\n'}, i + 1);
+      if (end != std::string::npos && text[end] == c) i = end;
+    } else if (c == '#') {
+      i = std::min(text.find('\n', i), text.size()) - 1;
+    } else if (std::string_view("=[]{},\n").find(c) != std::string_view::npos) {
+      parts = 1;
+      here += c == '\n';
+    }
+  }
+  return longest;
+}
+
+// Throws InputError besides what the parser throws.
+toml::table parsed(const std::string& text, const std::string& path) {
+  constexpr int deepest = 1000;
+  int line = 0;
+  if (const int n = longest_dotted_key(text, line); n > deepest)
+    throw InputError({path, line}, "a key of " + std::to_string(n) + " parts, expected one or two",
+                     "a key is SECTION.NAME or NAME");
+  return toml::parse(text, path);
 }
 
 int line_of(const toml::node& node) { return static_cast<int>(node.source().begin.line); }
@@ -200,6 +232,11 @@ const SiteKey<Section>& key_named(std::string_view name, const std::string& sect
 template <class Section>
 constexpr bool stands_beside_named = std::is_same_v<Section, JointNorth>;
 
+// [hazard] holds the named sections [hazard.class.NAME].
+bool is_group_within(const std::string& section, std::string_view key) {
+  return section == "hazard" && key == "class";
+}
+
 template <class Section>
 bool has_key(std::string_view name) {
   const auto& keys = keys_of<Section>();
@@ -210,6 +247,7 @@ template <class Section>
 void read_section(Site& site, Section& section, const std::string& name, const toml::table& table) {
   for (const auto& [key_text, node] : table) {
     if (stands_beside_named<Section> && !has_key<Section>(key_text.str())) continue;
+    if (is_group_within(name, key_text.str())) continue;
     const Where where{site.file, line_of(node)};
     const auto& key = key_named<Section>(key_text.str(), name, where);
     read_value(section, key, std::string(key_text.str()), node, where);
@@ -218,6 +256,7 @@ void read_section(Site& site, Section& section, const std::string& name, const t
 }
 
 int& line_field(FenceSettings& fence) { return fence.line_number; }
+int& line_field(ObjectSettings& object) { return object.line_number; }
 template <class Section>
 int& line_field(Section& section) {
   return section.line;
@@ -283,7 +322,8 @@ struct GroupReader {
   }
   template <class Section>
   void operator()(const char* name, std::vector<Section>& sections) const {
-    if (const toml::node* node = root.get(name)) {
+    const toml::node_view<const toml::node> found = root.at_path(name);
+    if (const toml::node* node = found.node()) {
       site.sections.emplace_back(name);
       read_named(site, sections, name, table_of(*node, {site.file, line_of(*node)}, name));
     }
@@ -346,7 +386,7 @@ void check_names(const Site& site) {
 // `value` as a TOML value; plain text when it is none.
 toml::table parsed_value(const std::string& value) {
   try {
-    toml::table table = toml::parse("value = " + value);
+    toml::table table = parsed("value = " + value, "--set");
     if (table.size() == 1) return table;
   } catch (const toml::parse_error&) {
     // not a TOML value: text without quotes
@@ -356,26 +396,26 @@ toml::table parsed_value(const std::string& value) {
 
 struct Overrider {
   Site& site;
-  std::string group, name, key;  // name is empty for single sections
+  std::string section, key;  // "hazard", "fence.upper", "hazard.class.V1"
   const toml::node& node;
   bool& is_done;
 
   template <class Section>
-  void set(Section& section, const std::string& path) const {
+  void set(Section& fields, const std::string& path) const {
     const Where where{"", 0, "command line"};
     const auto& row = key_named<Section>(key, path, where);
-    read_value(section, row, path + "." + key, node, where);
+    read_value(fields, row, path + "." + key, node, where);
     site.sources[path + "." + key] = {ValueSource::from_cli, 0};
     is_done = true;
   }
   template <class Section>
-  void operator()(const char* candidate, Section& section) const {
-    if (group == candidate && name.empty()) set(section, group);
+  void operator()(const char* candidate, Section& fields) const {
+    if (section == candidate) set(fields, section);
   }
   template <class Section>
   void operator()(const char* candidate, std::vector<Section>& sections) const {
-    for (Section& section : sections)
-      if (group == candidate && name == section.name) set(section, group + "." + name);
+    for (Section& fields : sections)
+      if (section == candidate + ("." + fields.name)) set(fields, section);
   }
 };
 
@@ -386,7 +426,7 @@ Site parse_site(const std::string& text, const std::string& path) {
   site.file = path;
   toml::table root;
   try {
-    root = toml::parse(text, path);
+    root = parsed(text, path);
   } catch (const toml::parse_error& error) {
     const std::string finding(error.description());
     const bool is_twice = finding.find("redefine") != std::string::npos;
@@ -413,17 +453,12 @@ void override_value(Site& site, const std::string& key, const std::string& value
     throw InputError({"", 0, "command line"}, "\"" + key + "\" is not section.key",
                      "e.g. solver.duration_s");
   const std::string group = key.substr(0, first);
-  const std::string name = first == last ? "" : key.substr(first + 1, last - first - 1);
   const toml::table holder = parsed_value(value);
   const toml::node* node = holder.get("value");
   const toml::value<std::string> plain(value);
   bool is_done = false;
-  const Overrider overrider{site,
-                            group,
-                            name,
-                            key.substr(last + 1),
-                            node ? *node : static_cast<const toml::node&>(plain),
-                            is_done};
+  const Overrider overrider{site, key.substr(0, last), key.substr(last + 1),
+                            node ? *node : static_cast<const toml::node&>(plain), is_done};
   for_each_group(site, overrider);
   if (!is_done) {
     Texts known;

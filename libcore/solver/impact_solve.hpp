@@ -65,7 +65,7 @@ struct Impact {
 /// Scratch of solve_impact.
 struct ImpactWork {  // clang-format off
   struct Row {
-    Vec3 arm_a, arm_b;                   ///< from the centroids [m]
+    Vec3 arm_a = Vec3::Zero(), arm_b = Vec3::Zero();  ///< from the centroids [m]
     double target = 0;                   ///< normal speed that is asked for [m/s]
     double normal_damping = 0, shear_damping = 0;  ///< [kg]
     Vec3 expected = Vec3::Zero();        ///< impulse that the solution is sought around [N s]

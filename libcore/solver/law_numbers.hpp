@@ -50,10 +50,10 @@ inline constexpr double far_sag = 4;
 /// [-] k_n dt^2 / m of the stiffest contact by its load.
 inline constexpr double stiffest_by_load = 4e5;
 /// [-] That is softer by so much where forces are not found, and stays so for `most_rests`. Tried:
-/// 64, then as much again; the first changes little and is in vain ...
+/// 64; it changes little and is in vain ...
 inline constexpr double easing = 4096;
-/// [-] ... so many times a step, before substeps are halved.
-inline constexpr int most_eased = 1;
+/// [-] ... then all of the island is soft, at once where a block moves; then substeps are halved.
+inline constexpr int most_eased = 2;
 /// [-] A contact at rest becomes stiffer by so much a step, beyond what the masses ask for ...
 inline constexpr double stiffens = 2;
 /// [-] ... one that slips or opens softer by so much.

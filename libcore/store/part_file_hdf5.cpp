@@ -50,6 +50,20 @@ std::string digest_of(const std::vector<RecordLine>& lines) {
   return sum.hex();
 }
 
+std::string digest_of(const std::vector<RecordObject>& objects) {
+  Sha256 sum;
+  for (const RecordObject& object : objects) {
+    for (const std::string* word : {&object.name, &object.kind})
+      sum.add(word->c_str(), word->size() + 1);
+    sum.add(&object.radius, sizeof object.radius);
+    for (const ObjectPart& part : object.parts) {
+      hash(sum, part.points);
+      sum.add(&part.is_area, sizeof part.is_area);
+    }
+  }
+  return sum.hex();
+}
+
 // The index of what a digest stands for; `is_new` when it has not been seen before.
 int index_of(std::vector<std::pair<std::string, int>>& known, const std::string& digest,
              bool& is_new) {
@@ -209,6 +223,11 @@ constexpr InfoNumber info_numbers[] = {
     {"duration_s", "s", "simulated time asked for", &RunInfo::duration},
     {"time_s", "s", "simulated time reached", &RunInfo::time}};
 
+bool has_objects(const Part& part) {
+  return std::any_of(part.objects.begin(), part.objects.end(),
+                     [](const auto& objects) { return !objects.empty(); });
+}
+
 void write_runs(H5Writer& file, const Part& part) {
   const RunInfo& first = part.runs.front().info;
   file.attribute("", "format", std::string(format_name));
@@ -238,6 +257,8 @@ void write_runs(H5Writer& file, const Part& part) {
   file.array<std::int64_t>("runs/seed", seeds, {seeds.size()}, "1", "seed");
   put_indices(file, "runs/blocks", part.blocks_of_run, "index of its set of blocks");
   put_indices(file, "runs/lines", part.lines_of_run, "index of its set of lines");
+  if (has_objects(part))
+    put_indices(file, "runs/objects", part.objects_of_run, "index of its set of objects");
 }
 
 void read_runs(const H5Reader& file, const std::string& path, Part& part) {
@@ -280,6 +301,9 @@ void read_runs(const H5Reader& file, const std::string& path, Part& part) {
   same("blocks", part.blocks_of_run.size());
   part.lines_of_run = file.array<std::int32_t>("runs/lines", 1);
   same("lines", part.lines_of_run.size());
+  part.objects_of_run.assign(part.runs.size(), 0);
+  if (file.has("runs/objects")) part.objects_of_run = file.array<std::int32_t>("runs/objects", 1);
+  same("objects", part.objects_of_run.size());
 }
 
 void check_index(const std::vector<int>& index, std::size_t n, const Where& where) {
@@ -310,6 +334,15 @@ void write_sets(H5Writer& file, const Part& part) {
   }
   write_lines(file, lines);
   put_indices(file, "lines/set_begin", begin, "lines of set s: [s], [s + 1)");
+  if (!has_objects(part)) return;
+  std::vector<RecordObject> objects;
+  begin = {0};
+  for (const std::vector<RecordObject>& of_set : part.objects) {
+    extend(objects, of_set);
+    begin.push_back(static_cast<int>(objects.size()));
+  }
+  write_objects(file, objects);
+  put_indices(file, "objects/set_begin", begin, "objects of set s: [s], [s + 1)");
 }
 
 void read_sets(const H5Reader& file, const std::string& path, Part& part) {
@@ -327,6 +360,17 @@ void read_sets(const H5Reader& file, const std::string& path, Part& part) {
   for (std::size_t s = 0; s + 1 < line_begin.size(); ++s)
     part.lines.push_back(piece(lines, line_begin[s], line_begin[s + 1]));
   check_index(part.lines_of_run, part.lines.size(), {path, 0, "runs/lines"});
+  if (!file.has("objects")) {
+    part.objects.resize(1);
+    return;
+  }
+  const std::vector<RecordObject> objects = read_objects(file, path);
+  const std::vector<int> object_begin = file.array<std::int32_t>("objects/set_begin", 1);
+  check_begin(object_begin, object_begin.empty() ? 0 : object_begin.size() - 1, objects.size(),
+              {path, 0, "objects/set_begin"});
+  for (std::size_t s = 0; s + 1 < object_begin.size(); ++s)
+    part.objects.push_back(piece(objects, object_begin[s], object_begin[s + 1]));
+  check_index(part.objects_of_run, part.objects.size(), {path, 0, "runs/objects"});
 }
 
 // Poses at the start and the end, and how far each block came.
@@ -476,6 +520,9 @@ void write_tables(H5Writer& file, const Part& part) {
       file, "crossings", part, true, [](const RunFile& run) { return run.crossings; },
       write_crossing_table);
   write_rows(
+      file, "object_hits", part, has_objects(part),
+      [](const RunFile& run) { return run.object_hits; }, write_object_hit_table);
+  write_rows(
       file, "fence_panels", part, false, [](const RunFile& run) { return run.panels; },
       write_panel_table);
   write_rows(
@@ -506,6 +553,8 @@ void read_tables(const H5Reader& file, const std::string& path, Part& part) {
   take(
       "crossings", read_crossing_table, [](RunFile & run) -> auto& { return run.crossings; });
   take(
+      "object_hits", read_object_hit_table, [](RunFile & run) -> auto& { return run.object_hits; });
+  take(
       "fence_panels", read_panel_table, [](RunFile & run) -> auto& { return run.panels; });
   take(
       "fence_hits", read_hit_table, [](RunFile & run) -> auto& { return run.fence_hits; });
@@ -524,6 +573,7 @@ void read_tables(const H5Reader& file, const std::string& path, Part& part) {
   for (int r = 0; r < n_runs(part); ++r) {
     RunFile run = run_of(part, r);
     check_crossings(run, path);
+    check_object_hits(run, path);
     check_fences(run, path);
     check_tree_hits(run, path);
     check_breaks(run, path);
@@ -557,6 +607,7 @@ RunFile run_of(const Part& part, int run) {
   RunFile out = part.runs[run];
   out.blocks = part.blocks[part.blocks_of_run[run]];
   out.lines = part.lines[part.lines_of_run[run]];
+  out.objects = part.objects[part.objects_of_run[run]];
   out.grid = part.grid;
   out.passages_by_centroid = part.passages_by_centroid;
   return out;
@@ -579,9 +630,12 @@ void add_run(PartBuilder& builder, const std::string& name, RunFile run) {
   if (is_new) part.blocks.push_back(blocks);
   part.lines_of_run.push_back(index_of(builder.known_lines, digest_of(run.lines), is_new));
   if (is_new) part.lines.push_back(run.lines);
+  part.objects_of_run.push_back(index_of(builder.known_objects, digest_of(run.objects), is_new));
+  if (is_new) part.objects.push_back(run.objects);
   part.name.push_back(name);
   run.blocks = {};
   run.lines.clear();
+  run.objects.clear();
   std::vector<Passage>().swap(run.passages);
   run.checkpoint.clear();
   run.frames.strain.clear();

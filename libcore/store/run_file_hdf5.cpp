@@ -170,6 +170,20 @@ void read_crossings(const H5Reader& file, const std::string& path, RunFile& run)
   check_crossings(run, path);
 }
 
+// Only in runs of sites with objects.
+void write_object_hits(H5Writer& file, const RunFile& run) {
+  if (run.objects.empty()) return;
+  write_objects(file, run.objects);
+  write_object_hit_table(file, run.object_hits);
+}
+
+void read_object_hits(const H5Reader& file, const std::string& path, RunFile& run) {
+  if (!file.has("objects")) return;
+  run.objects = read_objects(file, path);
+  run.object_hits = read_object_hit_table(file);
+  check_object_hits(run, path);
+}
+
 // Only in runs with fences that stood.
 void write_fences(H5Writer& file, const RunFile& run) {
   if (run.panels.empty()) return;
@@ -265,6 +279,7 @@ RunFile read_run_file(const std::string& path, const RunParts& parts) {
     read_crossings(file, path, run);
     read_fences(file, path, run);
   }
+  if (parts.objects) read_object_hits(file, path, run);
   if (parts.trees) read_trees(file, path, run);
   if (parts.health) {
     run.health = read_health_table(file, parts.only_faults);
@@ -297,6 +312,7 @@ void write_run_file(const std::string& path, const RunFile& run) {
   write_reach(file, run);
   if (run.grid.n_rows > 0) write_passages(file, run);
   write_crossings(file, run);
+  write_object_hits(file, run);
   write_fences(file, run);
   write_trees(file, run);
   write_health_table(file, run.health);

@@ -171,6 +171,68 @@ PassageGrid read_grid(const H5Reader& file, const std::string& group, const std:
   return grid;
 }
 
+void write_objects(H5Writer& file, const std::vector<RecordObject>& objects) {
+  std::vector<std::string> names, kinds;
+  std::vector<double> radius, points;
+  std::vector<int> part_begin{0}, begin{0}, is_area;
+  for (const RecordObject& object : objects) {
+    names.push_back(object.name);
+    kinds.push_back(object.kind);
+    radius.push_back(object.radius);
+    for (const ObjectPart& part : object.parts) {
+      is_area.push_back(part.is_area ? 1 : 0);
+      for (const Vec2& p : part.points) points.insert(points.end(), {p.x(), p.y()});
+      begin.push_back(static_cast<int>(points.size() / 2));
+    }
+    part_begin.push_back(static_cast<int>(is_area.size()));
+  }
+  file.group("objects", "the objects that hits belong to");
+  file.texts("objects/name", names, "name of the object");
+  file.texts("objects/kind", kinds, "what it is");
+  file.array<double>("objects/radius_m", radius, {radius.size()}, "m",
+                     "about its lines and points");
+  put_indices(file, "objects/part_begin", part_begin, "parts of object o: [o], [o + 1)");
+  put_indices(file, "objects/is_area", is_area, "1: the part is an area, 0: a line or a point");
+  put_indices(file, "objects/begin", begin, "points of part p: [p], [p + 1)");
+  file.array<double>("objects/points_m", points, {points.size() / 2, 2}, "m", "local x, y");
+}
+
+std::vector<RecordObject> read_objects(const H5Reader& file, const std::string& path) {
+  const std::vector<std::string> names = file.texts("objects/name"),
+                                 kinds = file.texts("objects/kind");
+  const std::vector<double> radius = file.array<double>("objects/radius_m", 1);
+  const std::vector<int> part_begin = file.array<std::int32_t>("objects/part_begin", 1);
+  const std::vector<int> is_area = file.array<std::int32_t>("objects/is_area", 1);
+  const std::vector<int> begin = file.array<std::int32_t>("objects/begin", 1);
+  const std::vector<double> points = file.array<double>("objects/points_m", 2);
+  if (kinds.size() != names.size() || radius.size() != names.size())
+    throw InputError({path, 0, "objects"}, "does not have a row for each object");
+  check_begin(part_begin, names.size(), is_area.size(), {path, 0, "objects/part_begin"});
+  check_begin(begin, is_area.size(), points.size() / 2, {path, 0, "objects/begin"});
+  std::vector<RecordObject> objects;
+  for (std::size_t o = 0; o < names.size(); ++o) {
+    RecordObject object{names[o], kinds[o], {}, radius[o]};
+    for (int p = part_begin[o]; p < part_begin[o + 1]; ++p) {
+      ObjectPart part;
+      part.is_area = is_area[p] != 0;
+      for (int i = begin[p]; i < begin[p + 1]; ++i)
+        part.points.emplace_back(points[2 * i], points[2 * i + 1]);
+      if (part.points.empty()) throw InputError({path, 0, "objects/begin"}, "has an empty part");
+      object.parts.push_back(std::move(part));
+    }
+    objects.push_back(std::move(object));
+  }
+  return objects;
+}
+
+void check_object_hits(const RunFile& run, const std::string& path) {
+  for (const ObjectHit& row : run.object_hits)
+    if (row.block < 0 || row.block >= n_blocks(run) || row.object < 0 ||
+        row.object >= static_cast<int>(run.objects.size()))
+      throw InputError({path, 0, "object_hits"},
+                       "a row names a block or object that does not exist");
+}
+
 void write_lines(H5Writer& file, const std::vector<RecordLine>& lines) {
   std::vector<std::string> names;
   std::vector<Vec3> points;

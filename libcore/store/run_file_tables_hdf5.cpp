@@ -51,6 +51,52 @@ void passage_columns(Visit&& column) {
 }
 
 template <class Visit>
+void object_hit_columns(Visit&& column) {
+  using Hit = ObjectHit;
+  column(
+      "block", "1", "index of the block", [](Hit & h) -> auto& { return h.block; });
+  column(
+      "object", "1", "index of the object", [](Hit & h) -> auto& { return h.object; });
+  column(
+      "time_s", "s", "of the first touch in plan", [](Hit & h) -> auto& { return h.time; });
+  column(
+      "position_x_m", "m", "centroid then, local x",
+      [](Hit & h) -> auto& { return h.position.x(); });
+  column(
+      "position_y_m", "m", "centroid then, local y",
+      [](Hit & h) -> auto& { return h.position.y(); });
+  column(
+      "position_z_m", "m", "centroid then, local z",
+      [](Hit & h) -> auto& { return h.position.z(); });
+  column(
+      "speed_m_s", "m/s", "of the centroid then", [](Hit & h) -> auto& { return h.speed; });
+  column(
+      "translational_energy_j", "J", "then",
+      [](Hit & h) -> auto& { return h.translational_energy; });
+  column(
+      "total_energy_j", "J", "with rotation, then",
+      [](Hit & h) -> auto& { return h.total_energy; });
+  column(
+      "top_height_m", "m", "highest vertex above the ground below the centroid, then",
+      [](Hit & h) -> auto& { return h.top_height; });
+  column(
+      "bottom_height_m", "m", "lowest vertex above it, then",
+      [](Hit & h) -> auto& { return h.bottom_height; });
+  column(
+      "largest_speed_m_s", "m/s", "while over the object",
+      [](Hit & h) -> auto& { return h.largest_speed; });
+  column(
+      "largest_translational_energy_j", "J", "while over the object",
+      [](Hit & h) -> auto& { return h.largest_translational_energy; });
+  column(
+      "largest_total_energy_j", "J", "while over the object",
+      [](Hit & h) -> auto& { return h.largest_total_energy; });
+  column(
+      "largest_top_height_m", "m", "while over the object",
+      [](Hit & h) -> auto& { return h.largest_top_height; });
+}
+
+template <class Visit>
 void crossing_columns(Visit&& column) {
   column(
       "block", "1", "index of the block", [](Crossing & c) -> auto& { return c.block; });
@@ -531,6 +577,11 @@ void write_crossing_table(H5Writer& file, const std::vector<Crossing>& rows) {
               rows, [](auto&& column) { crossing_columns(column); });
 }
 
+void write_object_hit_table(H5Writer& file, const std::vector<ObjectHit>& rows) {
+  write_table(file, "object_hits", "one row per block and object that it touched", rows,
+              [](auto&& column) { object_hit_columns(column); });
+}
+
 void write_panel_table(H5Writer& file, const std::vector<PanelRow>& rows) {
   write_table(file, "fence_panels", "one row per panel of the fences that stood, at the end", rows,
               [](auto&& column) { panel_columns(column); });
@@ -600,6 +651,11 @@ std::vector<Passage> read_passage_table(const H5Reader& file) {
 
 std::vector<Crossing> read_crossing_table(const H5Reader& file) {
   return read_table<Crossing>(file, "crossings", [](auto&& column) { crossing_columns(column); });
+}
+
+std::vector<ObjectHit> read_object_hit_table(const H5Reader& file) {
+  return read_table<ObjectHit>(file, "object_hits",
+                               [](auto&& column) { object_hit_columns(column); });
 }
 
 std::vector<PanelRow> read_panel_table(const H5Reader& file) {

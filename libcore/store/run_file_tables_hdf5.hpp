@@ -17,6 +17,7 @@ namespace talus {
 void write_passage_table(H5Writer& file, const std::vector<Passage>& rows);
 /// The group rows of a part: run and passage without its cell.
 void write_part_rows(H5Writer& file, const std::vector<PartRow>& rows);
+void write_object_hit_table(H5Writer& file, const std::vector<ObjectHit>& rows);
 void write_crossing_table(H5Writer& file, const std::vector<Crossing>& rows);
 void write_panel_table(H5Writer& file, const std::vector<PanelRow>& rows);
 void write_hit_table(H5Writer& file, const std::vector<FenceHit>& rows);
@@ -30,6 +31,7 @@ void write_health_table(H5Writer& file, const std::vector<HealthRow>& rows);
 /// `n` rows from `first` on; cells stay 0.
 [[nodiscard]] std::vector<PartRow> read_part_rows(const H5Reader& file, std::size_t first,
                                                   std::size_t n);
+[[nodiscard]] std::vector<ObjectHit> read_object_hit_table(const H5Reader& file);
 [[nodiscard]] std::vector<Crossing> read_crossing_table(const H5Reader& file);
 [[nodiscard]] std::vector<PanelRow> read_panel_table(const H5Reader& file);
 [[nodiscard]] std::vector<FenceHit> read_hit_table(const H5Reader& file);

@@ -73,7 +73,8 @@ struct RunRecord {
   bool operator==(const RunRecord&) const = default;
 };
 
-/// Somebody else has held the registry for as long as was waited.
+/// A registry that cannot be written now: somebody else has held it for as long as was waited, the
+/// disk is full, it is another user's.
 struct RegistryBusy : InputError {
   using InputError::InputError;
 };

@@ -100,6 +100,25 @@ SQLite::Database open_to_read(const std::string& db) {
   return database;
 }
 
+// What is wrong with the moment, the disk or the rights, not with the registry that was named.
+bool may_pass(int code, const std::string& db) {
+  switch (code) {
+    case SQLITE_BUSY:
+    case SQLITE_LOCKED:
+    case SQLITE_PROTOCOL:
+    case SQLITE_FULL:
+    case SQLITE_IOERR:
+    case SQLITE_NOLFS:
+    case SQLITE_READONLY:
+    case SQLITE_PERM:
+      return true;
+    case SQLITE_CANTOPEN:  // the rights, not a name that was misspelt
+      return std::filesystem::is_regular_file(db);
+    default:
+      return false;
+  }
+}
+
 // SQLite's own errors become input errors that name the registry.
 template <class Work>
 auto with_registry(const std::string& db, Work&& work) {
@@ -107,7 +126,7 @@ auto with_registry(const std::string& db, Work&& work) {
     return work();
   } catch (const SQLite::Exception& error) {
     const std::string finding = std::string("the run registry cannot be used: ") + error.what();
-    if (error.getErrorCode() == SQLITE_BUSY) throw RegistryBusy({db}, finding, way_out);
+    if (may_pass(error.getErrorCode(), db)) throw RegistryBusy({db}, finding, way_out);
     refuse(db, finding);
   }
 }

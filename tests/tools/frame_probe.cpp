@@ -23,11 +23,13 @@ int main(int argc, char** argv) {
     if (mode == "fail") throw talus::NumericsError("the energy grew");
     if (mode == "throw") throw std::runtime_error("a surprise");
     if (mode == "check") tool.check("largest_penetration_m", 2, 1, false);
-    if (mode == "wait")
+    if (mode == "wait") {
+      const auto tell = tool.progress();
       for (int i = 0; i < 600; ++i) {
-        tool.progress()(i / 600.0);
+        tell(i / 600.0);
         std::this_thread::sleep_for(std::chrono::milliseconds(50));
       }
+    }
     if (mode == "hold")
       while (std::filesystem::exists("hold"))
         std::this_thread::sleep_for(std::chrono::milliseconds(20));

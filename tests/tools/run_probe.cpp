@@ -4,14 +4,17 @@
 //   run-probe DIR N_RUNS [site=NAME] [version=V] [status=running|failed] [standing=1] [empty=1]
 //             [blocks=N] [step=H] [frames=DT] [seed=K] [height=H] [capacity=KJ|none]
 //             [hits=stopped|held|broken|pile] [moving=1] [still=N] [still_runs=N]
+//             [objects=watched|drawn] [weight=W]
 // Box b of run r (edge 1 m, 2600 kg) starts at rest at x = 11, y = 10 + 6 b and slides with
 // a = 3 m/s2 along the slope for 4 s (24 m), then brakes evenly to rest within 2 s (12 m more); its
 // speed is that of run 0 times 1 + 0.01 r. Written: DIR/slope.tif, DIR/run_<r>.h5, DIR/site.toml.
 // hits: what a standing fence recorded. Each block that crosses the line touches it with the motion
 // of the crossing; then it does not cross (stopped), crosses 0.1 s later with half the energy in a
 // panel pushed 100 m (held) or in a broken one (broken), or nothing touches or crosses (pile).
-// moving: at the end, all of them. still: the first N boxes, still_runs: all boxes of the first N
-// runs stay where they are.
+// objects: a house in the way of box 0, a hut in that of box 2, a shed that nothing reaches;
+// watched by the runs, or drawn in the site file alone. weight: of each box. moving: at the end,
+// all of them. still: the first N boxes, still_runs: all boxes of the first N runs stay where they
+// are.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -111,7 +114,21 @@ std::string site_text(const Words& words) {
          "height_m = " +
          word(words, "height", "3") + "\n" +
          (capacity == "none" ? "" : "capacity_kj = " + capacity + "\n") +
-         "post_spacing_m = 8\nactive = false\n";
+         "post_spacing_m = 8\nactive = false\n" +
+         (words.contains("objects")
+              ? "\n[object.house]\npolygon = [[250030, 350008], [250036, 350008], [250036, "
+                "350012], "
+                "[250030, 350012]]\nkind = \"house\"\n[object.hut]\nposition_m = [250033, "
+                "350022]\nradius_m = 1.5\n[object.shed]\npolygon = [[250062, 350008], [250066, "
+                "350008], [250066, 350012]]\n"
+              : "");
+}
+
+std::vector<RecordObject> objects_of(const Words& words) {
+  if (word(words, "objects", "") != "watched") return {};
+  return {{"house", "house", {{{{30, 8}, {36, 8}, {36, 12}, {30, 12}}, true}}, 0},
+          {"hut", "", {{{{33, 22}}, false}}, 1.5},
+          {"shed", "", {{{{62, 8}, {66, 8}, {66, 12}}, true}}, 0}};
 }
 
 void record_hits(RunFile& run, const std::string& kind) {
@@ -164,6 +181,7 @@ RunFile make_run(const Words& words, int r, const std::string& trn_sha256) {
   PassageRecorder passages = start_passages(scene, passage_grid(scene.ground.trn, 0), false);
   CrossingRecorder crossings = start_crossings(
       scene, {record_line("check", posts_on_ground(scene.ground.trn, {{30, 4}, {30, 20}}, 8, {}))});
+  ObjectRecorder objects = start_objects(scene, objects_of(words));
   FrameSampler sampler = start_frames(scene, interval);
   const double scale = 1 + 0.01 * r;
   const double n_still = number(words, "still", 0), n_still_runs = number(words, "still_runs", 0);
@@ -177,6 +195,7 @@ RunFile make_run(const Words& words, int r, const std::string& trn_sha256) {
       motion.follow(segment, scene.blocks.inertia[static_cast<std::size_t>(b)]);
       record_passages(passages, scene, motion);
       record_crossings(crossings, scene, segment);
+      record_objects(objects, scene, motion);
       record_frames(sampler, scene, motion, Vec6::Zero());
     }
   }
@@ -189,6 +208,10 @@ RunFile make_run(const Words& words, int r, const std::string& trn_sha256) {
   run.lines[0].standing = number(words, "standing", 0) != 0;
   run.info.config = print_config(parse_site(site_text(words), "site.toml"));
   run.crossings = sorted(crossings);
+  run.objects = objects.objects;
+  run.object_hits = sorted(objects);
+  if (words.contains("weight"))
+    run.blocks.weight.assign(run.blocks.mass.size(), number(words, "weight", 1));
   if (words.contains("hits")) record_hits(run, words.at("hits"));
   run.health = {health_at(scene, 0, 0), health_at(scene, 8, 18 * scale)};
   run.phase.assign(run.blocks.mass.size(), Phase::asleep);

@@ -165,7 +165,7 @@ Json blocks_json(const BlocksWork& work, const std::string& run_id) {
 }
 
 std::string blocks_summary(const Json& report) {
-  const auto number = [](const Json& value) { return grouped_text(value.get<double>(), 4); };
+  const auto number = [](const Json& value) { return grouped_text(value.get<double>()); };
   const Json& sizes = report["sizes"];
   std::string lines = counted(report["n_blocks"].get<int>(), "block") + ", " +
                       number(report["volume_m3"]) + " m3; V10 " + number(sizes["v10_m3"]) +
@@ -180,7 +180,7 @@ std::string blocks_summary(const Json& report) {
            "; " + counted(cut["n_slivers_merged"].get<int>(), "sliver") + " (" +
            number(cut["slivers_merged_m3"]) + " m3) given to a neighbour";
   lines += "\nthe mass covers " + number(cut["mass_area_m2"]) + " m2, " +
-           text(100 * cut["mass_area_share"].get<double>(), 4) + " % of the polygon of " +
+           text(100 * cut["mass_area_share"].get<double>(), 3) + " % of the polygon of " +
            number(cut["polygon_area_m2"]) + " m2";
   if (!cut["exact"].get<bool>())
     lines += "\nmade convex: volume " + text(100 * cut["convexified_change"].get<double>(), 3) +

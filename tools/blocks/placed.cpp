@@ -143,7 +143,7 @@ double length_of(const std::vector<Vec2>& line) {
 
 std::vector<Vec3> release_from_file(const PlacedContext& context, const PlacedSettings& section) {
   const std::string path = resolved(context.site, section.release_file);
-  context.tool.read_also("blocks." + section.name + ".release", path);
+  read_data(context.tool, "blocks." + section.name + ".release", path);
   const bool along_lines = !std::isnan(section.release_spacing_m);
   const std::string key = "blocks." + section.name + ".release_";
   const VectorKind kind = along_lines ? VectorKind::lines : VectorKind::points;
@@ -233,12 +233,45 @@ std::vector<Body> bodies_to_copy(const PlacedContext& context, const PlacedSetti
   return meshes;
 }
 
+bool has_frequency(const PlacedSettings& section) {
+  return !std::isnan(section.frequency_per_a) || !std::isnan(section.frequency_per_m2_a);
+}
+
+// Events a year that each body stands for; 1 where no frequency is given. A point of a release grid
+// stands for the square of its spacing, of sloping area.
+double weight_of(const PlacedSettings& section) {
+  if (!has_frequency(section)) return 1;
+  const double of_point =
+      std::isnan(section.frequency_per_a)
+          ? section.frequency_per_m2_a * section.release_spacing_m * section.release_spacing_m
+          : section.frequency_per_a;
+  return of_point / static_cast<double>(section.n_per_point);
+}
+
+void check_frequency(const PlacedContext& context, const PlacedSettings& section) {
+  const Where where = where_of_section(context, section);
+  if (!std::isnan(section.frequency_per_a) && !std::isnan(section.frequency_per_m2_a))
+    throw InputError(where, "has both frequency_per_a and frequency_per_m2_a",
+                     "give the one of each release point, or the one of area");
+  if (!std::isnan(section.frequency_per_m2_a) && !section.release_grid)
+    throw InputError(where, "has frequency_per_m2_a, and its bodies do not stand for an area",
+                     "frequency_per_m2_a needs release_grid = true; points have frequency_per_a");
+  for (const PlacedSettings& other : context.site.blocks)
+    if (has_frequency(other) != has_frequency(section))
+      throw InputError(where,
+                       std::string("has ") + (has_frequency(section) ? "a" : "no") +
+                           " frequency, and blocks." + other.name + " has " +
+                           (has_frequency(section) ? "none" : "one"),
+                       "bodies are weighed by their frequencies: give one to each section");
+}
+
 void add_bodies(const PlacedContext& context, const PlacedSettings& section,
                 std::vector<Body> bodies, BlockSet& set) {
   for (Body& body : bodies) {
     body.material = material_index(context.site, section.material);
     body.velocity = vector_of(section.velocity_m_s);
     body.spin = vector_of(section.spin_rad_s);
+    body.weight = weight_of(section);
     add_body(set, body);
   }
 }
@@ -271,6 +304,7 @@ void add_section(const PlacedContext& context, const PlacedSettings& section, Bl
         where_of_section(context, section),
         section.file.empty() ? "neither file nor shape is given" : "both file and shape are given",
         "a body is one or the other");
+  check_frequency(context, section);
   if (section.in_place) {
     add_bodies(context, section, bodies_in_place(context, section), set);
     return;

@@ -9,6 +9,8 @@
 #include "tools/blocks/json.hpp"
 #include "tools/blocks/outputs.hpp"
 #include "tools/blocks/placed.hpp"
+#include "tools/blocks/sizes.hpp"
+#include "tools/frame/command_line.hpp"
 #include "tools/frame/site_crs.hpp"
 #include "tools/frame/site_options.hpp"
 #include "tools/frame/source_cut.hpp"
@@ -22,11 +24,12 @@ struct Options {
   std::string trn;
   BlocksOutputs files;
   bool exact = false;
+  SizeOptions sizes;
 };
 
 void declare(Tool& tool, Options& o) {
-  tool.input("--trn", o.trn, "terrain before the slide (talus-trn)")->required();
-  tool.output("-o,--out", o.files.blocks, "block set to write (HDF5)")->required();
+  tool.input("--trn", o.trn, "terrain before the slide (talus-trn)");
+  tool.output("-o,--out", o.files.blocks, "block set to write (HDF5)");
   tool.app().add_flag("--exact", o.exact,
                       "keep blocks as they are cut, non-convex at the ground, as unions of convex "
                       "parts; default: convex inside their joint cell");
@@ -38,9 +41,11 @@ void declare(Tool& tool, Options& o) {
   tool.output("--size-curve", o.files.size_curve, "size distribution of the blocks (SVG)");
   tool.output_folder("--obj", o.files.obj_folder,
                      "folder for one OBJ file a block, map coordinates");
+  declare_sizes(tool, o.sizes);
   tool.footer(
-      "Example:\n  talus-blocks site.toml --trn slope.tif -o blocks.h5 --trn-out bed.tif "
-      "--footprints blocks.gpkg --report blocks.json");
+      "Examples:\n  talus-blocks site.toml --trn slope.tif -o blocks.h5 --trn-out bed.tif "
+      "--footprints blocks.gpkg --report blocks.json\n"
+      "  talus-blocks --sizes list.csv --anchor-volume-m3 1 --anchor-years 10");
 }
 
 std::string hash_of(const Options& o, const BlocksWork& work) {
@@ -64,6 +69,15 @@ void check_ground(const BlocksWork& work, const std::string& path) {
         problem.mend_to.empty() ? "" : "reproject it: talus-trn --t-srs " + problem.mend_to);
 }
 
+// What is needed unless a list of sizes is looked at.
+void check_given(const SiteOptions& site, const Options& o) {
+  for (const auto& [name, value] :
+       {std::pair{"site", site.file()}, {"--trn", o.trn}, {"--out", o.files.blocks}})
+    if (value.empty())
+      throw UsageError({"", 0, name}, "is not given",
+                       "talus-blocks SITE.toml --trn TRN.tif -o BLOCKS.h5, or --sizes LIST.csv");
+}
+
 void record_metrics(Tool& tool, const Json& report) {
   tool.metric("n_blocks", report["n_blocks"].get<double>(), "1");
   tool.metric("volume_m3", report["volume_m3"].get<double>(), "m3");
@@ -78,9 +92,11 @@ int main(int argc, char** argv) {
   Tool tool("talus-blocks",
             "Cuts the rock mass of a source into blocks by its joints, or takes blocks from "
             "meshes and shapes.");
-  SiteOptions site(tool);
+  SiteOptions site(tool, false);
   declare(tool, o);
   return tool.run(argc, argv, [&] {
+    if (!o.sizes.list.empty()) return report_sizes(tool, o.sizes);
+    check_given(site, o);
     BlocksWork work;
     work.site = site.load();
     check_site_crs(work.site);

@@ -84,20 +84,6 @@ std::string depth_key(const SourceSettings& source) {
   return source.slbl_scenario.empty() ? "source.slbl_sag_m" : "source.slbl_scenario";
 }
 
-std::vector<BedColumn> columns_of(const Trn& ground, const Trn& bed, const Area& area,
-                                  double friction) {
-  std::vector<BedColumn> columns;
-  for (int t = 0; t < n_triangles(ground); ++t) {
-    if (!is_known(ground, t)) continue;
-    const auto above = triangle_corners(ground, t), below = triangle_corners(bed, t);
-    const Vec3 middle = (above[0] + above[1] + above[2]) / 3;
-    const double depth = middle.z() - (below[0].z() + below[1].z() + below[2].z()) / 3;
-    if (!(depth > 0) || !contains(area, Vec2(middle.head<2>()))) continue;
-    columns.push_back({triangle_gradient(bed, t), depth, friction, 0});
-  }
-  return columns;
-}
-
 // The direction that the failure surface falls in: of the plane or wedge that was taken, else of
 // the slope.
 double motion_of(const BlocksWork& work, const Attitude& slope) {
@@ -133,8 +119,8 @@ void look_at_mass(Look& look) {
   }
   look.step_share = all > 0 ? stepped / all : 0;
   look.rising_share = share_over_rising_bed(ground, bed, work.area, look.motion);
-  look.equilibrium =
-      least_factor(columns_of(ground, bed, work.area, std::tan(work.planes.friction)), look.motion);
+  look.equilibrium = least_factor(
+      bed_columns(ground, bed, work.area, std::tan(work.planes.friction)), look.motion);
 }
 
 void look_at_joints(Look& look) {

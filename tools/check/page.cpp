@@ -92,7 +92,7 @@ std::vector<OutlinedBlock> outlined_blocks(const Look& look) {
     for (int v = set.block_vertex_begin[b]; v < set.block_vertex_begin[b + 1]; ++v)
       corners.emplace_back(set.vertices[v].head<2>());
     blocks.push_back({convex_outline(corners), outlook_of_block(look, b),
-                      "block " + std::to_string(b) + ", " + text(set.volume[b], 4) + " m3"});
+                      "block " + std::to_string(b) + ", " + grouped_text(set.volume[b]) + " m3"});
   }
   return blocks;
 }
@@ -243,7 +243,7 @@ std::string fence_section(const Look& look) {
   for (const FenceLook& fence : look.fences)
     rows.push_back(
         {xml_escaped(fence.line.name), fence.stands ? "stands" : "line only",
-         text(fence.line.chainage.back(), 4), text(fence.height, 3),
+         grouped_text(fence.line.chainage.back()), text(fence.height, 3),
          text(std::round(fence.low + look.inputs.origin.z())) + " to " +
              text(std::round(fence.high + look.inputs.origin.z())),
          std::to_string(fence.n_fall_lines) + " of " + std::to_string(look.slides.size())});
@@ -255,8 +255,8 @@ std::string fence_section(const Look& look) {
 
 std::string source_section(const Look& look) {
   if (!look.is_cut) return "";
-  const auto cubic = [](double volume) { return grouped_text(volume, 5); };
-  const auto metres = [](double length) { return text(length, 4); };
+  const auto cubic = [](double volume) { return grouped_text(volume, 4); };
+  const auto metres = [](double length) { return grouped_text(length); };
   const std::vector<std::vector<std::string>> rows = {
       {"volume of the blocks [m&sup3;]", cubic(look.volume.cut)},
       {"between ground and failure surface [m&sup3;]", cubic(look.volume.prism)},

@@ -15,6 +15,7 @@ namespace {
 constexpr double degree = std::numbers::pi / 180;
 
 std::string percent(double share) { return text(std::round(100 * share)) + " %"; }
+// Volumes found in several ways are compared: a digit more.
 std::string cubic(double volume) { return grouped_text(volume, 4) + " m3"; }
 double azimuth_deg(double azimuth) { return std::fmod(azimuth / degree + 360, 360); }
 

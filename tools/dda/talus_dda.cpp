@@ -110,6 +110,7 @@ RunFile new_file(const std::string& run_id, const Site& site, const DdaInputs& i
   info.config = print_config(site);
   info.plan = plan_json(plan).dump(1);
   file.forests = inputs.forests;
+  file.objects = inputs.objects;
   for (const std::string& line : inputs.warnings)
     info.warnings += (info.warnings.empty() ? "" : "\n") + line;
   return file;

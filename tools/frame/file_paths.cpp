@@ -1,5 +1,7 @@
 #include "tools/frame/file_paths.hpp"
 
+#include <cctype>
+
 #include "base/source_path.hpp"
 #include "base/text.hpp"
 
@@ -44,6 +46,13 @@ std::vector<std::string> sidecars_of(const std::string& path) {
   for (const char* extension : {".shx", ".dbf", ".prj", ".cpg"})
     files.push_back(fs::path(path).replace_extension(extension).string());
   return files;
+}
+
+std::string file_word(const std::string& name) {
+  std::string out;
+  for (const char c : name)
+    out += std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_' ? c : '_';
+  return out;
 }
 
 }  // namespace talus

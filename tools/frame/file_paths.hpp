@@ -26,6 +26,10 @@ namespace talus {
 /// Absolute and without links, as far as it exists; a virtual path as it is.
 [[nodiscard]] std::string absolute_path(const std::string& path);
 
+/// A name of the site file as part of the name of a file: other signs than letters, digits, - and _
+/// become _.
+[[nodiscard]] std::string file_word(const std::string& name);
+
 /// "." for a name alone.
 [[nodiscard]] std::filesystem::path folder_of(const std::filesystem::path& path);
 

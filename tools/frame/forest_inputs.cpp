@@ -73,7 +73,7 @@ std::optional<Area> area_of(const ForestSection& s) {
   }
   if (f.polygon_file.empty()) return std::nullopt;
   const std::string path = resolved(s.site, f.polygon_file);
-  s.tool.read_also(s.name(), path);
+  read_data(s.tool, s.name(), path);
   VectorShapes found = read_layer(
       s.tool, s.name(),
       {path, f.polygon_layer, f.polygon_where, VectorKind::areas, s.name() + ".polygon_"},
@@ -216,7 +216,7 @@ std::vector<Stem> listed_stems(const ForestSection& s) {
   const ForestSettings& f = s.forest;
   check_list_keys(s);
   StemList list{resolved(s.site, f.stems_file), {}};
-  s.tool.read_also(s.name(), list.path);
+  read_data(s.tool, s.name(), list.path);
   list.points = read_layer(s.tool, s.name(),
                            {list.path,
                             f.stems_layer,

@@ -7,6 +7,7 @@
 #include "io/crs_gdal.hpp"
 #include "io/raster_gdal.hpp"
 #include "tools/frame/forest_section.hpp"
+#include "tools/frame/vector_inputs.hpp"
 
 namespace talus {
 namespace {
@@ -43,7 +44,7 @@ void check_crs(const ForestSection& s, const DemFile& raster) {
 StandRaster read_raster(const ForestSection& s, const char* key, const std::string& file,
                         const MapBox& box) {
   const std::string path = resolved(s.site, file);
-  s.tool.read_also(s.name() + "." + key, path);
+  read_data(s.tool, s.name() + "." + key, path);
   DemOptions options;
   options.crs_may_be_missing = true;
   const DemFile raster(path, options);

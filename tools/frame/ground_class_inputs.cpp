@@ -40,7 +40,7 @@ void add_ground_areas(Tool& tool, const Site& site, const Trn& trn, int index,
   }
   if (ground.polygon_file.empty()) return;
   const std::string path = resolved(site, ground.polygon_file);
-  tool.read_also(section, path);
+  read_data(tool, section, path);
   VectorShapes found = read_layer(
       tool, section,
       {path, ground.polygon_layer, ground.polygon_where, VectorKind::areas, section + ".polygon_"},
@@ -66,7 +66,7 @@ std::vector<std::uint8_t> raster_classes(Tool& tool, const Site& site, const Trn
     return std::vector<std::uint8_t>(n_cells, static_cast<std::uint8_t>(elsewhere));
   }
   const std::string path = resolved(site, site.terrain.ground_raster);
-  tool.read_also("ground_raster", path);
+  read_data(tool, "ground_raster", path);
   const std::vector<std::int32_t> values = read_cell_classes(path, trn);
   tool.content_read("ground_raster", digest_of(values));
   return classes_of_cells(values, class_of, elsewhere, path);

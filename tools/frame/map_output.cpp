@@ -13,10 +13,12 @@ MapRaster raster_of(const MapFrame& frame, const MapLayer& layer) {
   raster.n_rows = frame.grid.n_rows;
   raster.n_cols = frame.grid.n_cols;
   raster.crs_wkt = frame.crs_wkt;
+  raster.is_codes = layer.is_codes;
+  const float nodata = raster.nodata_value();
   for (const MapBand& band : layer.bands) {
-    std::vector<float> value = on_grid(layer, band, frame.known.size(), MapRaster::nodata);
+    std::vector<float> value = on_grid(layer, band, frame.known.size(), nodata);
     for (std::size_t i = 0; i < value.size(); ++i)
-      if (!frame.known[i] && value[i] == 0) value[i] = MapRaster::nodata;
+      if (!frame.known[i] && value[i] == 0) value[i] = nodata;
     raster.bands.push_back(
         {band.name, band.unit, band.description, std::move(value), band.overview});
   }
@@ -55,6 +57,16 @@ CellWindow window_around(const PassageGrid& grid, const std::vector<std::uint32_
           std::max(0, w.col_begin - margin), std::min(grid.n_cols, w.col_end + margin)};
 }
 
+// Cells of the picture whose class is not certain; empty: it is not asked for.
+std::vector<bool> uncertain_cells(const MapFrame& frame, const MapLayer* certain) {
+  if (!certain) return {};
+  const std::vector<float> all =
+      on_grid(*certain, certain->bands[0], frame.known.size(), MapRaster::nodata_of_codes);
+  std::vector<bool> uncertain;
+  for (const float value : part_of(all, frame.grid, frame.drawn)) uncertain.push_back(value == 0);
+  return uncertain;
+}
+
 }  // namespace
 
 MapFrame map_frame(const Trn& trn, const PassageGrid& grid, bool png,
@@ -71,10 +83,13 @@ MapFrame map_frame(const Trn& trn, const PassageGrid& grid, bool png,
 
 std::string write_map(Tool& tool, const MapFrame& frame, const std::string& path,
                       const MapLayer& layer, const RasterStyle& style, MapTags tags,
-                      const std::vector<std::string>& creation_options) {
+                      const std::vector<std::string>& creation_options, const MapLayer* certain) {
   MapRaster raster = raster_of(frame, layer);
   const std::size_t shown = static_cast<std::size_t>(style.band) - 1;
   tags.emplace_back("SHOWN_BAND", layer.bands[shown].name);
+  if (layer.is_codes && layer.bands.size() == 1)  // what a GeoTIFF may have
+    for (const StyleClass& c : style.classes)
+      raster.colours.emplace_back(static_cast<int>(c.upper), c.colour);
   raster.tags = std::move(tags);
   write_map_raster(tool.stage(path), raster, creation_options);
   const auto beside = [&path](const char* extension) {
@@ -85,7 +100,7 @@ std::string write_map(Tool& tool, const MapFrame& frame, const std::string& path
     write_png(tool.stage(beside(".png")),
               map_picture(frame.shading, part_of(frame.grid, frame.drawn),
                           part_of(raster.bands[shown].value, frame.grid, frame.drawn),
-                          MapRaster::nodata, style));
+                          raster.nodata_value(), style, uncertain_cells(frame, certain)));
   return layer.bands[shown].name;
 }
 

@@ -39,8 +39,10 @@ struct MapFrame {
 
 /// Stages `path` (NAME.tif) and its sidecars. Cells without known ground that nothing touched hold
 /// nodata. Adds the tag SHOWN_BAND. Returns the band that the style shows. Throws InputError.
+/// `certain`: where its first band is 0 the picture is hatched; null: nowhere.
 std::string write_map(Tool& tool, const MapFrame& frame, const std::string& path,
                       const MapLayer& layer, const RasterStyle& style, MapTags tags,
-                      const std::vector<std::string>& creation_options = {});
+                      const std::vector<std::string>& creation_options = {},
+                      const MapLayer* certain = nullptr);
 
 }  // namespace talus

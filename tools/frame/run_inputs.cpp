@@ -35,6 +35,21 @@ std::string content_of(const std::vector<RunMember>& runs) {
   return run_set_id(std::move(ids));
 }
 
+CaseWeight case_weight(const std::string& text) {
+  const std::size_t at = text.rfind('=');
+  CaseWeight out{text.substr(0, std::min(at, text.size())), 0, 0};
+  if (at == std::string::npos || !parse_double(text.substr(at + 1), out.weight)) out.weight = 0;
+  return out;
+}
+
+std::string check_case_weight(const std::string& text) {
+  const double weight = case_weight(text).weight;
+  return weight >= 1e-9 && weight <= 1e9 ? ""
+                                         : text +
+                                               " is no weight of a case, expected NAME=WEIGHT "
+                                               "with a weight from 1e-9 to 1e9";
+}
+
 }  // namespace
 
 RunInputs::RunInputs(Tool& tool, RunUse use) : tool_(tool) {
@@ -60,6 +75,11 @@ RunInputs::RunInputs(Tool& tool, RunUse use) : tool_(tool) {
               "up to this share, runs that failed are left out and widen the intervals; of more, "
               "every output says so")
       ->check(number_between(0, 1));
+  tool.option("--case-weight", weights_given,
+              "NAME=WEIGHT: what a case (run_NAME_SEED.h5) counts among the others; of each case")
+      ->allow_extra_args(false)
+      ->check(check_case_weight);
+  tool.option("--only-case", only_case, "takes the runs of this case alone");
 }
 
 const Trn& RunInputs::trn() {
@@ -142,6 +162,36 @@ void RunInputs::leave_out_failed(Found& found, bool is_first) {
   found = std::move(kept);
 }
 
+void RunInputs::take_one_case(Found& found) const {
+  if (only_case.empty()) return;
+  Found kept;
+  std::string others;
+  for (std::size_t i = 0; i < found.members.size(); ++i) {
+    if (case_of(found.members[i].file) != only_case) continue;
+    kept.members.push_back(std::move(found.members[i]));
+    kept.places.push_back(found.places[i]);
+    kept.runs.push_back(std::move(found.runs[i]));
+  }
+  if (kept.members.empty())
+    throw InputError(
+        {"", 0, "--only-case"}, "no run is of case '" + only_case + "'",
+        "cases are those of the names run_CASE_SEED.h5: " + text(cases_of(found.members, {})));
+  found = std::move(kept);
+}
+
+void RunInputs::weigh(std::vector<RunMember>& found, bool is_first) {
+  std::vector<CaseWeight> given;
+  for (const std::string& one : weights_given) given.push_back(case_weight(one));
+  const std::vector<CaseWeight> cases = cases_of(found, given);
+  if (is_first) cases_ = cases;
+  if (given.empty()) return;
+  const std::vector<double> weights = run_weights(found, cases);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    found[i].run_weight = weights[i];
+    found[i].weight *= weights[i];
+  }
+}
+
 // Lengths of a run without frames are those that were measured when it had them.
 void RunInputs::check_reach(const RunFile& run, const RunMember& member) const {
   if (!run.reach || run.reach->tolerance == path_tolerance_m) return;
@@ -158,9 +208,11 @@ void RunInputs::read(const std::vector<std::string>& paths, const std::string& r
   if (is_first) set_options_ = {allow_unfinished, trn_file, sha256_of_file(trn_file)};
   const bool at_once = parts.only_last_frame && bytes_of(paths) <= most_at_once;
   Found found = look_at(paths, parts, at_once);
+  take_one_case(found);
   static_cast<void>(order_by_id(found.members));  // the same run twice
   tool_.content_read(role, content_of(found.members));
   leave_out_failed(found, is_first);
+  weigh(found.members, is_first);
   const std::size_t first = members.size();
   const std::vector<int> order = order_by_id(found.members);
   for (const int i : order) {
@@ -180,6 +232,7 @@ void RunInputs::read(const std::vector<std::string>& paths, const std::string& r
       const Place place = places_[first + k];
       RunFile run = place.part >= 0 ? run_of(parts_[place.part].file.part, place.run)
                                     : std::move(found.runs[order[k]]);
+      run.run_weight = members[first + k].run_weight;
       hand_over(run, static_cast<int>(first + k));
     }
     return;
@@ -205,6 +258,7 @@ void RunInputs::read_members(std::size_t first, const RunParts& parts,
     const Place place = places_[i];
     RunFile run = place.part >= 0 ? run_of(parts_[place.part].file.part, place.run)
                                   : read_run_file(members[i].file, parts);
+    run.run_weight = members[i].run_weight;
     take(run, static_cast<int>(i));
   }
   progress(1);
@@ -247,6 +301,13 @@ std::string RunInputs::remark() const {
       add(words);
       add(short_words);
     }
+  }
+  if (pools_unasked()) {
+    const std::string pooled = "runs of " + std::to_string(cases_.size()) +
+                               " cases pooled, each run alike: no probability";
+    short_words += (short_words.empty() ? "" : "; ") + pooled;
+    tool_.warn(pooled + " (" + text(cases_) +
+               "): give --case-weight NAME=WEIGHT of each, or --only-case NAME");
   }
   if (!few.empty()) tool_.warn(few + ": the intervals of shares count them");
   if (!words.empty()) tool_.warn(words + ": every output says so");

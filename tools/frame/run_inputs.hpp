@@ -66,6 +66,11 @@ class RunInputs {
   /// Of those that were read last.
   [[nodiscard]] double last_failed_share() const { return last_failed_share_; }
 
+  /// The cases of the runs named by RUN.h5... with their shares of the whole.
+  [[nodiscard]] const std::vector<CaseWeight>& cases() const { return cases_; }
+  /// Several cases that nobody weighed: what stands for all of them is no probability.
+  [[nodiscard]] bool pools_unasked() const { return cases_.size() > 1 && weights_given.empty(); }
+
   /// Warns when blocks were still moving as their runs ended, or had left the known terrain:
   /// deposits leave them out.
   void warn_of_ends() const;
@@ -74,6 +79,8 @@ class RunInputs {
   double rest_speed_m_s = 0.05;
   double path_tolerance_m = 0.5;  ///< that lengths of paths are wanted with
   double max_failed_share = 0.02;
+  std::vector<std::string> weights_given;  ///< NAME=WEIGHT of --case-weight
+  std::string only_case;                   ///< of --only-case
   bool allow_unfinished = false;
   int n_missing = 0;                ///< runs that were wanted and gave no file
   std::vector<RunMember> members;   ///< of the files read so far; of one call by run id
@@ -88,6 +95,8 @@ class RunInputs {
   [[nodiscard]] Found look_at(const std::vector<std::string>& paths, const RunParts& parts,
                               bool at_once);
   void leave_out_failed(Found& found, bool is_first);
+  void take_one_case(Found& found) const;
+  void weigh(std::vector<RunMember>& found, bool is_first);
   void check_reach(const RunFile& run, const RunMember& member) const;
   void read_members(std::size_t first, const RunParts& parts,
                     const std::function<void(RunFile&, int)>& take);
@@ -99,6 +108,7 @@ class RunInputs {
   std::vector<std::string> files_;
   std::string runs_from_;
   bool has_listed_ = false;
+  std::vector<CaseWeight> cases_;  // of RUN.h5...
   std::vector<PartInput> parts_;
   std::vector<std::string> part_files_;  // of parts_
   std::vector<Place> places_;            // of members

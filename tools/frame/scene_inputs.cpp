@@ -240,6 +240,7 @@ DdaInputs read_dda_inputs(Tool& tool, const Site& site, const DdaFiles& files) {
   std::vector<FenceLine> lines;
   for (const FenceSettings& fence : site.fences) add_lines(tool, site, fence, inputs, lines);
   check_fences_apart(tool, site, parts.trn, lines);
+  inputs.objects = site_objects(tool, site, parts.trn);
   return inputs;
 }
 

@@ -20,8 +20,9 @@ struct DdaFiles {
 
 struct DdaInputs {
   SceneParts parts;
-  std::vector<RecordLine> lines;    ///< of [fence.*], on the ground
-  std::vector<ForestInfo> forests;  ///< of [forest.*] that stand, set by check_start()
+  std::vector<RecordLine> lines;      ///< of [fence.*], on the ground
+  std::vector<RecordObject> objects;  ///< of [object.*]
+  std::vector<ForestInfo> forests;    ///< of [forest.*] that stand, set by check_start()
   std::string crs_wkt;
   Vec3 origin = Vec3::Zero();  ///< of the TRN: everything is relative to it
   std::string trn_sha256, trn_digest;

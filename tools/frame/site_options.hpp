@@ -17,13 +17,15 @@ namespace talus {
 /// Declares SITE.toml and --set on a tool; load() reads the file once and applies the overrides.
 class SiteOptions {
  public:
-  explicit SiteOptions(Tool& tool) {
-    tool.input("site", file_, "site file (TOML)");
+  /// `required`: else the tool has a use without a site file, and load() must not be called for it.
+  explicit SiteOptions(Tool& tool, bool required = true) {
+    tool.input("site", file_, "site file (TOML)")->required(required);
     tool.app()
         .add_option("--set", overrides_, "override a key of the site file: section.key=value")
         ->allow_extra_args(false);
     tool.more_config([this] {
       std::vector<ConfigValue> values;
+      if (file_.empty()) return values;
       for (const EffectiveValue& entry : effective_values(load()))
         if (!entry.value.empty())
           values.push_back({entry.section + "." + entry.key, entry.value,

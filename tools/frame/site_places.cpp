@@ -1,9 +1,14 @@
 #include "tools/frame/site_places.hpp"
 
+#include <cmath>
+
 #include "base/error.hpp"
+#include "base/text.hpp"
+#include "io/areas_gdal.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/crs_operation_gdal.hpp"
 #include "io/crs_place_gdal.hpp"
+#include "terrain/extent_text.hpp"
 #include "tools/frame/vector_inputs.hpp"
 
 namespace talus {
@@ -49,7 +54,7 @@ std::vector<RecordLine> fence_lines(Tool& tool, const Site& site, const Trn& trn
     found.push_back(local_points(tool, site, trn, fence.line, "fence." + fence.name + ".line"));
   if (!fence.line_file.empty()) {
     const std::string path = resolved(site, fence.line_file);
-    tool.read_also("fence." + fence.name, path);
+    read_data(tool, "fence." + fence.name, path);
     const std::string section = "fence." + fence.name;
     VectorShapes shapes = read_layer(
         tool, section,
@@ -61,6 +66,109 @@ std::vector<RecordLine> fence_lines(Tool& tool, const Site& site, const Trn& trn
     }
   }
   return lines_of_fence(fence, trn, found, where);
+}
+
+namespace {
+
+Where where_of_object(const Site& site, const ObjectSettings& object) {
+  return {site.file, object.line_number, "object." + object.name};
+}
+
+// What the keys of a section name: where, and of which kind.
+VectorKind kind_of(const Site& site, const ObjectSettings& object) {
+  const int n = !object.polygon.empty() + !object.line.empty() + !object.position_m.empty() +
+                !object.file.empty();
+  if (n != 1)
+    throw InputError(where_of_object(site, object),
+                     n == 0 ? "has no place" : "has more than one place",
+                     "give one of polygon, line, position_m or file");
+  const bool has_width = !std::isnan(object.width_m), has_radius = !std::isnan(object.radius_m);
+  if (has_width && has_radius)
+    throw InputError(where_of_object(site, object), "has both width_m and radius_m",
+                     "width_m is of lines, radius_m of points");
+  if (!object.line.empty() && !has_width)
+    throw InputError(where_of_object(site, object), "is a line without a width",
+                     "give width_m, e.g. that of the road");
+  if (!object.position_m.empty() && !has_radius)
+    throw InputError(where_of_object(site, object), "is a point without a radius",
+                     "give radius_m, or an outline as polygon");
+  if (!object.polygon.empty() && (has_width || has_radius))
+    throw InputError(where_of_object(site, object), "is an area with width_m or radius_m",
+                     "leave them out: a polygon is taken as it is");
+  if (!object.line.empty() || (!object.file.empty() && has_width)) return VectorKind::lines;
+  if (!object.position_m.empty() || (!object.file.empty() && has_radius)) return VectorKind::points;
+  return VectorKind::areas;
+}
+
+std::vector<std::vector<Vec3>> shapes_of(Tool& tool, const Site& site, const Trn& trn,
+                                         const ObjectSettings& object, VectorKind kind) {
+  const std::string section = "object." + object.name;
+  if (!object.polygon.empty())
+    return {local_points(tool, site, trn, object.polygon, section + ".polygon")};
+  if (!object.line.empty()) return {local_points(tool, site, trn, object.line, section + ".line")};
+  std::vector<std::vector<Vec3>> shapes;
+  if (!object.position_m.empty()) {
+    for (const Vec3& p : local_points(tool, site, trn, object.position_m, section + ".position_m"))
+      shapes.push_back({p});
+    return shapes;
+  }
+  const std::string path = resolved(site, object.file);
+  tool.read_also(section, path);
+  VectorShapes found = read_layer(
+      tool, section, {path, object.layer, object.where, kind, section + "."}, trn.crs_wkt);
+  for (std::vector<Vec3>& shape : found.shapes) {
+    for (Vec3& p : shape) p -= trn.origin;
+    shapes.push_back(std::move(shape));
+  }
+  return shapes;
+}
+
+void check_on_terrain(Tool& tool, const Site& site, const Trn& trn, const ObjectSettings& object,
+                      const RecordObject& made) {
+  std::size_t n = 0, n_off = 0;
+  for (const ObjectPart& part : made.parts)
+    for (const Vec2& p : part.points) {
+      ++n;
+      n_off += std::isnan(elevation_at(trn, p.x(), p.y()));
+    }
+  if (n_off == 0) return;
+  if (n_off < n) {
+    tool.warn("object." + object.name + ": " + std::to_string(n_off) + " of its " +
+              std::to_string(n) + " points lie outside of the known terrain, where nothing comes");
+    return;
+  }
+  const Vec2 place = made.parts[0].points[0] + trn.origin.head<2>();
+  throw InputError(where_of_object(site, object),
+                   "lies outside of the known terrain, at (" + text(place.x(), 10) + ", " +
+                       text(place.y(), 10) + "); " + extent_text(trn),
+                   "make the terrain larger, or check the order (x east, y north) and the "
+                   "coordinate system of its points");
+}
+
+}  // namespace
+
+std::vector<RecordObject> site_objects(Tool& tool, const Site& site, const Trn& trn) {
+  std::vector<RecordObject> objects;
+  for (const ObjectSettings& object : site.objects) {
+    const VectorKind kind = kind_of(site, object);
+    RecordObject made{object.name, object.kind, {}, 0};
+    if (kind == VectorKind::lines) made.radius = object.width_m / 2;
+    if (kind == VectorKind::points) made.radius = object.radius_m;
+    for (const std::vector<Vec3>& shape : shapes_of(tool, site, trn, object, kind)) {
+      ObjectPart part;
+      part.is_area = kind == VectorKind::areas;
+      for (const Vec3& p : shape) part.points.push_back(p.head<2>());
+      if (part.is_area) {
+        if (part.points.size() > 3 && part.points.front() == part.points.back())
+          part.points.pop_back();
+        check_polygon(part.points, where_of_object(site, object));
+      }
+      made.parts.push_back(std::move(part));
+    }
+    check_on_terrain(tool, site, trn, object, made);
+    objects.push_back(std::move(made));
+  }
+  return objects;
 }
 
 void check_fences_apart(Tool& tool, const Site& site, const Trn& trn,

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "record/fence_lines.hpp"
+#include "record/object_hits.hpp"
 #include "site/site.hpp"
 #include "terrain/trn.hpp"
 #include "tools/frame/tool.hpp"
@@ -23,6 +24,11 @@ namespace talus {
 /// lines_of_fence().
 [[nodiscard]] std::vector<RecordLine> fence_lines(Tool& tool, const Site& site, const Trn& trn,
                                                   const FenceSettings& fence);
+
+/// The objects of all [object.*]. Throws InputError for one without a place or with several, lines
+/// without a width, points without a radius, outlines that cross themselves, and an object that
+/// lies outside of the known terrain; warns of one that lies partly outside.
+[[nodiscard]] std::vector<RecordObject> site_objects(Tool& tool, const Site& site, const Trn& trn);
 
 /// As check_fences_apart() of record/fence_lines.hpp, whose sentences become warnings.
 void check_fences_apart(Tool& tool, const Site& site, const Trn& trn,

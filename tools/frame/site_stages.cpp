@@ -25,9 +25,11 @@ const std::vector<Stage>& stages() {
       {"blocks", {"site.crs", "source", "joints", "blocks", "material"}},
       {"run",
        {"site.name", "site.crs", "terrain.ground_raster", "material", "joints", "ground", "solver",
-        "fence", "forest", "base_motion", "output", "-solver.seed", "-solver.n_runs",
+        "fence", "forest", "base_motion", "output", "object", "-solver.seed", "-solver.n_runs",
         "-output.checkpoint_interval_s"}},
       {"fence", {"site.name", "site.crs", "fence"}},
+      {"hazard", {"site.name", "site.crs", "hazard"}},
+      {"trace", {"site.name", "site.crs", "object", "hazard"}},
   };
   return list;
 }

@@ -44,7 +44,7 @@ Area read_area(Tool& tool, const BlocksWork& work) {
     return without_repeated_corners(area);
   }
   const std::string path = resolved(work.site, source.polygon_file);
-  tool.read_also("source.polygon_file", path);
+  read_data(tool, "source.polygon_file", path);
   const VectorShapes found = read_layer(
       tool, "source",
       {path, source.polygon_layer, source.polygon_where, VectorKind::areas, "source.polygon_"},
@@ -71,7 +71,7 @@ void check_heights_of_surface(Tool& tool, const BlocksWork& work, const DemFile&
 std::vector<double> read_failure_raster(Tool& tool, const BlocksWork& work) {
   const std::string path = resolved(work.site, work.site.source.raster);
   const bool is_thickness = work.site.source.failure_surface == "thickness";
-  tool.read_also("source.raster", path);
+  read_data(tool, "source.raster", path);
   DemOptions options;
   options.crs_may_be_missing = true;
   const DemFile raster(path, options);

@@ -1,5 +1,6 @@
 #include "tools/frame/tool.hpp"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 #include <iostream>
 #include <set>
 
+#include "base/network.hpp"
 #include "base/text.hpp"
 #include "store/runs.hpp"
 #include "tools/frame/command_line.hpp"
@@ -42,6 +44,15 @@ std::string word_after(const std::string& option, int argc, char** argv) {
     if (word.starts_with(option + "=")) return word.substr(option.size() + 1);
   }
   return "";
+}
+
+// A program may be started with its standard files closed. The next file to be opened would get the
+// number of one of them, and messages would go into it. To a closed output nothing can be written.
+void occupy_standard_files() {
+  constexpr const char* stand_ins[] = {"/dev/null", "/dev/full", "/dev/null"};
+  for (int number = STDIN_FILENO; number <= STDERR_FILENO; ++number)
+    if (fcntl(number, F_GETFD) == -1 && open(stand_ins[number], O_RDWR) < 0)
+      static_cast<void>(open("/dev/null", O_RDWR));
 }
 
 // The levels of messages. A hint belongs to the error before it.
@@ -471,6 +482,7 @@ void Tool::leave_out_of_run_id(const std::vector<std::string>& names) {
 }
 
 int Tool::run(int argc, char** argv, const std::function<void()>& body) {
+  occupy_standard_files();
   Impl& impl = *impl_;
   try {
     impl.app.parse(arguments_of(argc, argv, impl.app));
@@ -488,6 +500,7 @@ int Tool::run(int argc, char** argv, const std::function<void()>& body) {
     impl.write_failures(usage_wrong);
     return usage_wrong;
   }
+  if (impl.options.network) allow_network();
   listen_for_signals();
   impl.progress_line.label(impl.options.label);
   impl.progress_line.form(progress_form(impl.options.progress, isatty(STDERR_FILENO) == 1,

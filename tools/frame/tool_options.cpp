@@ -49,6 +49,8 @@ void add_common_options(const std::string& tool, CLI::App& app, ToolOptions& opt
                        "what is said on standard error: text, or json, an object a line")
             ->check(CLI::IsMember({"text", "json"}))
             ->capture_default_str(),
+        app.add_flag("--allow-network", options.network,
+                     "inputs may lead to other machines and to files that they do not name openly"),
         app.add_flag("--print-config", options.print_config,
                      "print the effective settings and where each came from, then end")}) {
     option->group("Common options");

@@ -38,6 +38,7 @@ struct ToolOptions {
   std::string failures;           ///< file for what failed; empty: not wanted
   std::string progress = "auto";  ///< auto, plain, json or none
   std::string messages = "text";  ///< text or json
+  bool network = false;           ///< may be used
 };
 
 /// Adds the options of every tool to `app`, whose values go to `options`.

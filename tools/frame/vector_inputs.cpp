@@ -1,8 +1,12 @@
 #include "tools/frame/vector_inputs.hpp"
 
+#include <algorithm>
+
 #include "base/grouped_text.hpp"
 #include "base/sha256.hpp"
 #include "base/text.hpp"
+#include "io/dataset_files_gdal.hpp"
+#include "tools/frame/file_paths.hpp"
 
 namespace talus {
 namespace {
@@ -49,6 +53,20 @@ void add_layer_options(Tool& tool, const std::string& prefix, const std::string&
               "layer of " + of + ", again for each further one; empty: the only one that fits")
       ->join();
   tool.option(prefix + "where", choice.where, "filter on " + of + ", e.g. \"ELEV > 900\"");
+}
+
+void read_members(Tool& tool, const std::string& role, const std::string& path) {
+  const std::string file = file_of(path);
+  if (file.empty() || is_virtual(file)) return;
+  const std::vector<std::string> known = sidecars_of(file);  // that the tool reads anyway
+  for (const std::string& member : dataset_files(file))
+    if (member != file && std::count(known.begin(), known.end(), member) == 0)
+      tool.read_also(role, member);
+}
+
+void read_data(Tool& tool, const std::string& role, const std::string& path) {
+  tool.read_also(role, path);
+  read_members(tool, role, path);
 }
 
 std::string sentence_on(const LayerReading& taken) {

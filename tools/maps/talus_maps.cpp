@@ -134,10 +134,12 @@ Gathered gather(talus::RunInputs& runs, const std::vector<std::string>& paths,
       out.rows_of_cell.assign(static_cast<std::size_t>(out.map.grid.n_rows) * out.map.grid.n_cols,
                               0);
     }
-    count(talus::map_rows(run.passages, run.grid, out.map, run.blocks.weight), index - range.first);
-    out.weight.push_back(run.blocks.weight);
+    count(talus::map_rows(run.passages, run.grid, out.map, talus::weights_of(run)),
+          index - range.first);
+    out.weight.push_back(talus::weights_of(run));
     out.released.weight.push_back(runs.members[index].weight);
     out.released.n_blocks.push_back(runs.members[index].n_blocks);
+    out.released.run_weight.push_back(run.run_weight);
     talus::add_deposit(out.deposit, out.map.grid, run, runs.rest_speed_m_s);
   });
   take_rows_of_parts(runs, range, out.map, out.weight, {}, o.most_rows(),
@@ -172,7 +174,8 @@ std::vector<MapLayer> layers_of(Tool& tool, talus::RunInputs& runs, Gathered& g,
   for (const talus::MapTile& tile : tiles) {
     if (g.rows.empty()) {
       runs.read_again(only_passages, [&](RunFile& run, int member) {
-        add_rows(g.rows, talus::map_rows(run.passages, run.grid, g.map, run.blocks.weight, tile),
+        add_rows(g.rows,
+                 talus::map_rows(run.passages, run.grid, g.map, talus::weights_of(run), tile),
                  member);
       });
       take_rows_of_parts(runs, {}, g.map, g.weight, tile, o.most_rows(),
@@ -218,6 +221,51 @@ talus::MapTags comparison_tags(const talus::RunInputs& runs, std::size_t n_first
   return tags;
 }
 
+// Tags of every map.
+talus::MapTags tags_of_maps(Tool& tool, const Options& o, const talus::RunInputs& runs,
+                            const std::vector<talus::RunMember>& members, const Gathered& gathered,
+                            const std::string& remark) {
+  talus::MapTags tags = talus::tags_of(members, runs.left_out);
+  tags.insert(tags.begin(), {{"RUN_ID", tool.run_id()}, {"RUN_SET", runs.run_set()}});
+  if (!remark.empty()) tags.emplace_back("REMARK", remark);
+  if (runs.n_missing > 0) tags.emplace_back("N_MISSING", std::to_string(runs.n_missing));
+  tags.emplace_back("REACH_UPPER_BOUND_ELSEWHERE",
+                    talus::text(talus::reach_bound_elsewhere(gathered.released), 6));
+  tags.emplace_back("RUNS_TO_ADD", std::to_string(gathered.n_to_add) + " for a half width of " +
+                                       talus::text(o.half_width) +
+                                       " where reach_probability is above " +
+                                       talus::text(talus::least_reach));
+  return tags;
+}
+
+std::string file_of_layer(const Options& o, const std::string& name) {
+  return (std::filesystem::path(o.folder) / (name + ".tif")).string();
+}
+
+// The maps as files: an entry each, and whether a style shows largest values.
+struct WrittenMaps {
+  Json files = Json::array();
+  bool shows_maximum = false;
+};
+
+WrittenMaps write_layers(Tool& tool, const Options& o, const talus::MapFrame& frame,
+                         const std::vector<MapLayer>& layers, const std::string& remark,
+                         const talus::MapTags& tags) {
+  WrittenMaps written;
+  const talus::ProgressFunction progress = tool.progress();
+  for (const MapLayer& layer : layers) {
+    progress(static_cast<double>(written.files.size()) / static_cast<double>(layers.size()));
+    const std::string path = file_of_layer(o, layer.name);
+    const std::string shown = talus::write_map(
+        tool, frame, path, layer, talus::map_style(layer, remark), tags, o.creation_options);
+    written.shows_maximum = written.shows_maximum || shown == layer.name + "_max";
+    Json bands = Json::array();
+    for (const auto& band : layer.bands) bands.push_back(band.name);
+    written.files.push_back({{"file", path}, {"shown_band", shown}, {"bands", bands}});
+  }
+  return written;
+}
+
 void run_tool(Tool& tool, Options& o, talus::RunInputs& runs) {
   const talus::Trn& trn = runs.trn();
   for (const std::string& path : talus::listed_files(o.compare_from)) {
@@ -235,46 +283,25 @@ void run_tool(Tool& tool, Options& o, talus::RunInputs& runs) {
   if (n_rows == 0) tool.warn("no block passed any cell: the maps are empty");
   runs.warn_of_ends();
 
-  auto tags = talus::tags_of(members, runs.left_out);
-  tags.insert(tags.begin(), {{"RUN_ID", tool.run_id()}, {"RUN_SET", runs.run_set()}});
   const std::string remark = runs.remark();
-  if (!remark.empty()) tags.emplace_back("REMARK", remark);
-  if (runs.n_missing > 0) tags.emplace_back("N_MISSING", std::to_string(runs.n_missing));
-  tags.emplace_back("REACH_UPPER_BOUND_ELSEWHERE",
-                    talus::text(talus::reach_bound_elsewhere(gathered.released), 6));
-  tags.emplace_back("RUNS_TO_ADD", std::to_string(gathered.n_to_add) + " for a half width of " +
-                                       talus::text(o.half_width) +
-                                       " where reach_probability is above " +
-                                       talus::text(talus::least_reach));
+  const talus::MapTags tags = tags_of_maps(tool, o, runs, members, gathered, remark);
   const talus::MapFrame frame = talus::map_frame(trn, grid, o.png, touched);
-  Json files = Json::array();
-  bool shows_maximum = false;
-  const talus::ProgressFunction progress = tool.progress();
-  for (const MapLayer& layer : layers) {
-    progress(static_cast<double>(files.size()) / static_cast<double>(layers.size()));
-    const std::string path = (std::filesystem::path(o.folder) / (layer.name + ".tif")).string();
-    const std::string shown = talus::write_map(
-        tool, frame, path, layer, talus::map_style(layer, remark), tags, o.creation_options);
-    shows_maximum = shows_maximum || shown == layer.name + "_max";
-    Json bands = Json::array();
-    for (const auto& band : layer.bands) bands.push_back(band.name);
-    files.push_back({{"file", path}, {"shown_band", shown}, {"bands", bands}});
-  }
+  WrittenMaps written = write_layers(tool, o, frame, layers, remark, tags);
   if (comparison) {
-    const std::string path = (std::filesystem::path(o.folder) / "compare.tif").string();
+    const std::string path = file_of_layer(o, "compare");
     talus::write_map(tool, frame, path, *comparison,
                      talus::change_style(*comparison, remark, {0.01, 0.02, 0.05, 0.1, 0.2, 0.5}),
                      comparison_tags(runs, members.size(), tags), o.creation_options);
-    files.push_back({{"file", path}, {"shown_band", comparison->bands[0].name}});
+    written.files.push_back({{"file", path}, {"shown_band", comparison->bands[0].name}});
   }
-  if (shows_maximum && n_rows > 0)
+  if (written.shows_maximum && n_rows > 0)
     tool.warn("cells with too few passages for a 95th percentile: styles show the maximum");
   tool.metric("passages", static_cast<double>(n_rows), "1");
   tool.metric("cells_touched", static_cast<double>(touched.size()), "1");
   Json result = {{"run_id", tool.run_id()},       {"n_runs", members.size()},
                  {"n_passages", n_rows},          {"n_cells_touched", touched.size()},
                  {"cell_size_m", grid.cell_size}, {"runs_to_add", gathered.n_to_add},
-                 {"half_width", o.half_width},    {"layers", files}};
+                 {"half_width", o.half_width},    {"layers", written.files}};
   talus::add_faults(result, talus::faults_of(runs.members, runs.left_out));
   tool.result(result, std::to_string(layers.size()) + " maps of " + std::to_string(members.size()) +
                           (members.size() == 1 ? " run" : " runs") + ", " + std::to_string(n_rows) +

@@ -45,7 +45,8 @@ std::string health_section(const ReportData& data) {
   out += "<div class=\"charts\">\n";
   out += html_figure(chart_svg(energy_chart(data.shown)),
                      "Run " + xml_escaped(data.shown_name) +
-                         ": the sum of what moves and what was spent lies on what has fallen.");
+                         ": the energy balance closes where the sum of moving and spent energy "
+                         "meets the line of fall energy.");
   out += html_figure(chart_svg(health_chart(data.runs, "Largest penetration in the interval", "m",
                                             &HealthRow::largest_penetration)),
                      "");

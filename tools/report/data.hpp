@@ -22,10 +22,11 @@ struct ReportData {
   explicit ReportData(const Site& of_site) : site(of_site) {}
 
   const Site& site;
-  Json tin, trn, blocks, runout, fence;  ///< reports of the tools
-  Trn terrain, bed;                      ///< before the slide; what the blocks slide on
+  Json tin, trn, blocks, runout, fence, hazard, trace;  ///< reports of the tools
+  Trn terrain, bed;  ///< before the slide; what the blocks slide on
   std::string hillshade_png, mobility_svg, stereonet_svg, sizes_svg, curves_csv, change_png;
   std::vector<MapPicture> maps;
+  std::vector<std::pair<std::string, std::string>> hazard_pngs;  ///< name of the map, picture
   std::vector<RunFile> runs;  ///< info and health, by seed and name; frames left out    (n_runs)
   std::vector<std::string> run_names;  ///< "1", or "CASE_1"                            (n_runs)
   RunFaults faults;                    ///< of these runs

@@ -139,6 +139,22 @@ void leave_out_maps(ResultFolder& folder, const std::string& run_set) {
   folder.leave_out({others.begin(), others.end()}, of_other_runs);
 }
 
+// Classes and traces of other runs, or of a site file that no longer has them.
+void leave_out_hazard(ResultFolder& folder, const Site& site, const std::string& run_set) {
+  const auto check = [&](const char* json, const std::vector<std::string>& with, bool is_of_site,
+                         const char* what) {
+    if (!folder.has(json)) return;
+    std::vector<std::string> names{json};
+    names.insert(names.end(), with.begin(), with.end());
+    if (!is_of_site)
+      folder.leave_out(names, std::string("the site has no ") + what);
+    else if (origin_of(folder, json).run_set != run_set)
+      folder.leave_out(names, of_other_runs);
+  };
+  check("hazard.json", {"hazard/hazard.gpkg"}, true, "");
+  check("trace.json", {"trace.gpkg"}, !site.objects.empty(), "objects");
+}
+
 // The terrain's report says what it was made from.
 void leave_out_tin(ResultFolder& folder) {
   if (!folder.has("trn.json")) return;
@@ -153,6 +169,7 @@ void leave_out_others(ResultFolder& folder, const Site& site, const Json& runout
   const std::string run_set = run_set_id(ids_of(runout));
   leave_out_fences(folder, site, run_set);
   leave_out_maps(folder, run_set);
+  leave_out_hazard(folder, site, run_set);
   leave_out_tin(folder);
   if (folder.has("runout.gpkg") &&
       origin_of(folder, "runout.gpkg").run_id != text_at(runout, "/run_id"))

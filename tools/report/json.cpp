@@ -1,6 +1,5 @@
 #include "tools/report/json.hpp"
 
-#include "base/grouped_text.hpp"
 #include "base/text.hpp"
 
 namespace talus {

@@ -5,6 +5,7 @@
 #include <initializer_list>
 #include <string>
 
+#include "base/grouped_text.hpp"
 #include "tools/frame/tool.hpp"
 
 namespace talus {
@@ -13,7 +14,7 @@ namespace talus {
 [[nodiscard]] Json value_at(const Json& json, std::initializer_list<const char*> keys);
 
 /// A number with `digits` significant digits, a whole one with all; "yes" or "no" of a truth value.
-[[nodiscard]] std::string number_text(const Json& value, int digits = 4);
+[[nodiscard]] std::string number_text(const Json& value, int digits = shown_digits);
 
 /// A share, 0 to 1, in percent with its sign.
 [[nodiscard]] std::string percent_text(const Json& value);

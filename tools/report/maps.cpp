@@ -17,8 +17,9 @@ std::string map_section(const ReportData& data) {
           (data.shown.reach ? ", which has no frames between start and end" : "") +
           "; north is up.");
   out += html_paragraph(
-      "Every cell counts a block once, with its largest value over all steps of the solver. Shares "
-      "are parts of a sum over blocks, not over tons: " +
+      "Every cell counts a block once, with its largest value over all steps of the solver. A "
+      "share is that of the number of blocks, whatever their size, times the statistical weight of "
+      "their run: " +
       word_text(value_at(data.runout, {"tags", "DENOMINATOR"})) +
       ". With few passages the maps show largest values, else the 95th percentile: the heading of "
       "the picture's legend says which (_max or _p95).");

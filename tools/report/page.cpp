@@ -7,8 +7,10 @@
 #include "tools/report/basis.hpp"
 #include "tools/report/course.hpp"
 #include "tools/report/fences.hpp"
+#include "tools/report/hazard.hpp"
 #include "tools/report/json.hpp"
 #include "tools/report/maps.hpp"
+#include "tools/report/objects.hpp"
 #include "tools/report/result.hpp"
 #include "tools/report/runout.hpp"
 #include "tools/report/trees.hpp"
@@ -34,6 +36,8 @@ std::string page_head(const ReportData& data, const std::string& style) {
                                   {"maps", "Maps"},
                                   {"animation", "Animation"},
                                   {"runout", "Run-out"},
+                                  {"hazard", "Hazard classes"},
+                                  {"objects", "Objects"},
                                   {"fences", "Fences"},
                                   {"trees", "Trees"},
                                   {"curves", "Over time"},
@@ -42,6 +46,8 @@ std::string page_head(const ReportData& data, const std::string& style) {
                                   {"plan", "Plan"},
                                   {"provenance", "Provenance"}}) {
     if (id == std::string("trees") && tree_section(data).empty()) continue;
+    if (id == std::string("hazard") && hazard_section(data).empty()) continue;
+    if (id == std::string("objects") && object_section(data).empty()) continue;
     out += std::string("<a href=\"#") + id + "\">" + title + "</a>";
   }
   return out + "</nav>\n</header>\n<main>\n";
@@ -82,6 +88,8 @@ std::string report_page(const ReportData& data, const std::string& viewer,
   std::string main;
   for (const std::string& section : {map_section(data), viewer_section(data), runout_section(data)})
     main += html_marked(section, xml_escaped(remark));
+  for (const std::string& section : {hazard_section(data), object_section(data)})
+    if (!section.empty()) main += html_marked(section, xml_escaped(remark));
   main += html_marked(fence_section(data), xml_escaped(fence_remark));
   if (const std::string trees = tree_section(data); !trees.empty())
     main += html_marked(trees, xml_escaped(remark));

@@ -72,6 +72,17 @@ std::string trouble_tiles(const ReportData& data) {
                      "did not move: no block by more than " + text(moved_m) +
                          " m. They have no L, H and angle of reach",
                      "bad");
+  const int n_few = count_runs(data.runout, [](const Json& run) {
+    return value_at(run, {"did_move"}) == Json(true) && value_at(run, {"is_event"}) == Json(false);
+  });
+  if (n_few > 0)
+    out += html_fact(std::to_string(n_few) + " of " + counted(n_all, "run"),
+                     "moved less than 10 % of the mass: single blocks, no event", "bad");
+  const Json chance = value_at(data.runout, {"event_probability"});
+  if (n_still + n_few > 0 && chance.is_number())
+    out += html_fact(percent_text(chance),
+                     "of the runs are events. Maps and shares count all runs (total); of an event "
+                     "(conditional) they are divided by this");
   return out;
 }
 

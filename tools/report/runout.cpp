@@ -12,17 +12,23 @@
 namespace talus {
 namespace {
 
-// "Over the 17 of 36 runs that moved"
+// "Over the 17 of 36 runs that are events (at least 10 % of the mass moved)"
 std::string over_which(const Json& runout) {
-  const std::string n = number_text(value_at(runout, {"n_runs_moved"})),
+  const std::string n = number_text(value_at(runout, {"n_events"})),
                     all = number_text(value_at(runout, {"n_runs"}));
-  return n == all ? "Over the runs" : "Over the " + n + " of " + all + " runs that moved";
+  return n == all ? "Over the runs"
+                  : "Over the " + n + " of " + all +
+                        " runs that are events (at least 10 % of the mass moved)";
 }
 
 std::string spread_table(const Json& runout) {
-  const Json spread = value_at(runout, {"spread_over_runs"});
+  const Json spread = value_at(runout, {"spread_over_events"});
   if (number_text(value_at(runout, {"n_runs_moved"})) == "0")
     return html_paragraph("No block moved in any run: there is no run-out.");
+  if (number_text(value_at(runout, {"n_events"})) == "0")
+    return html_paragraph(
+        "In no run did 10 % of the mass move: single blocks fell, and there is no event to "
+        "average.");
   static const std::pair<const char*, const char*> rows[] = {
       {"H_m", "H, drop from top to toe [m]"},
       {"L_path_m", "L along the path [m]"},
@@ -62,16 +68,25 @@ std::string case_table(const Json& runout) {
     rows.push_back({word_text(value_at(one, {"case"})),
                     number_text(value_at(one, {"n_runs_moved"})) + " of " +
                         number_text(value_at(one, {"n_runs"})),
+                    percent_text(value_at(one, {"event_probability"})),
+                    percent_text(value_at(one, {"weight"})),
                     share.is_number() ? text(100 * share.get<double>(), 3) + " %" : "",
                     number_text(value_at(spread, {"L_path_m", "p50"})),
                     number_text(value_at(spread, {"L_path_m", "max"})),
                     number_text(value_at(spread, {"L95_m", "max"})),
                     number_text(value_at(spread, {"reach_angle_path_deg", "min"}), 3)});
   }
-  return html_table({"case", "runs that moved", "mass that moved more than 1 m", "L, median [m]",
-                     "L, largest [m]", "L95, largest [m]", "angle of reach, smallest [deg]"},
-                    rows, {false, true, true, true, true, true, true}) +
-         html_note("All other numbers and maps of this page count each run of each case alike.");
+  return html_table({"case", "runs that moved", "events", "weight", "mass that moved more than 1 m",
+                     "L, median [m]", "L, largest [m]", "L95, largest [m]",
+                     "angle of reach, smallest [deg]"},
+                    rows, {false, true, true, true, true, true, true, true, true}) +
+         html_note(
+             value_at(runout, {"cases_weighed"}) == Json(true)
+                 ? "All other numbers and maps of this page take the cases together, with "
+                   "these weights."
+                 : "Nobody gave the cases weights (make WEIGHTS='CASE=NUMBER ...'): all other "
+                   "numbers and maps of this page count each run alike, and their shares are "
+                   "no probabilities.");
 }
 
 std::string mobility_table(const Json& mobility) {
@@ -129,11 +144,12 @@ std::string runout_section(const ReportData& data) {
   const Json balance = value_at(data.runout, {"balance"});
   std::string out = case_table(data.runout) + spread_table(data.runout) + energy_line_note(data) +
                     friction_paragraph(data);
-  out += html_paragraph(
-      "Volume: released " + number_text(value_at(balance, {"released_m3"})) +
-      " m&sup3; = at rest " + number_text(value_at(balance, {"deposited_m3"})) +
-      " + still moving " + number_text(value_at(balance, {"moving_m3"})) + " + left the terrain " +
-      number_text(value_at(balance, {"left_domain_m3"})) + " (sum over the runs).");
+  out += html_paragraph("Volume: released " + number_text(value_at(balance, {"released_m3"}), 4) +
+                        " m&sup3; = at rest " +
+                        number_text(value_at(balance, {"deposited_m3"}), 4) + " + still moving " +
+                        number_text(value_at(balance, {"moving_m3"}), 4) + " + left the terrain " +
+                        number_text(value_at(balance, {"left_domain_m3"}), 4) +
+                        " (sum over the runs).");
   if (number_text(value_at(balance, {"n_moving"})) != "0")
     out += html_note(
         number_text(value_at(balance, {"n_moving"})) +

@@ -22,11 +22,13 @@
 #include "report/zip.hpp"
 #include "tools/frame/build_info.hpp"
 #include "tools/frame/fault_json.hpp"
+#include "tools/frame/file_paths.hpp"
 #include "tools/frame/shipped_data.hpp"
 #include "tools/frame/site_options.hpp"
 #include "tools/frame/tool.hpp"
 #include "tools/report/data.hpp"
 #include "tools/report/folder.hpp"
+#include "tools/report/hazard.hpp"
 #include "tools/report/page.hpp"
 
 namespace {
@@ -201,6 +203,11 @@ ReportData read_data(Tool& tool, const Site& site, ResultFolder& folder,
   data.trn = folder.json("trn.json");
   data.blocks = folder.json("blocks.json");
   data.fence = folder.json("fence.json");
+  data.hazard = folder.json("hazard.json");
+  data.trace = folder.json("trace.json");
+  for (const std::string& name : hazard_maps_of(data.hazard))
+    if (folder.has("hazard/" + name + ".png"))
+      data.hazard_pngs.emplace_back(name, folder.text("hazard/" + name + ".png"));
   data.hillshade_png = folder.text("hillshade.png");
   data.mobility_svg = folder.text("runout.svg");
   data.stereonet_svg = folder.text("stereonet.svg");
@@ -267,6 +274,34 @@ void add_maps(QgisProject& project, const Options& o, const ResultFolder& folder
   }
 }
 
+// Classes and objects above the maps that they are made of; the class as polygons is what is seen.
+void add_hazard(QgisProject& project, const Options& o, const ResultFolder& folder,
+                const ReportData& data) {
+  add_package(project, o, folder, "trace.gpkg", "Objects", {"source_cells", "links"});
+  if (data.trace.is_object())
+    for (const Json& object : data.trace.at("objects")) {
+      const std::string base = "sources/source_" + file_word(text_at(object, "/name"));
+      if (folder.has(base + ".tif"))
+        project.layers.push_back({"Objects", "sources of " + text_at(object, "/name"),
+                                  relative_to(o.qgis, folder.path(base + ".tif")),
+                                  QgisLayer::raster, folder.text(base + ".qml"), false});
+    }
+  if (!data.hazard.is_object()) return;
+  if (data.hazard.at("classes").is_array()) {
+    add_package(project, o, folder, "hazard/hazard.gpkg", "Hazard classes", {"classes_smoothed"});
+    if (data.hazard.contains("notes") && data.hazard["notes"].is_array())
+      for (const Json& note : data.hazard["notes"])
+        if (note.is_string()) project.layout_lines.push_back(note.get<std::string>());
+  }
+  for (const std::string& name : hazard_maps_of(data.hazard)) {
+    const std::string base = "hazard/" + name;
+    if (!folder.has(base + ".tif")) continue;
+    project.layers.push_back({"Frequency and return period", name,
+                              relative_to(o.qgis, folder.path(base + ".tif")), QgisLayer::raster,
+                              folder.text(base + ".qml"), false});
+  }
+}
+
 QgisProject project_of(const ReportData& data, const Options& o, const ResultFolder& folder) {
   const Trn& trn = data.terrain;
   QgisProject project;
@@ -291,6 +326,7 @@ QgisProject project_of(const ReportData& data, const Options& o, const ResultFol
     project.layers.push_back({"Fences", "change by the fence",
                               relative_to(o.qgis, folder.path("change.tif")), QgisLayer::raster,
                               folder.text("change.qml"), false});
+  add_hazard(project, o, folder, data);
   add_package(project, o, folder, "runout.gpkg", "Paths",
               {"path_points", "paths", "envelope", "runs", "tree_hits"});
   add_package(project, o, folder, "blocks.gpkg", "Source", {"blocks"});

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 #include "post/runout/runout_text.hpp"
 #include "tools/frame/moved_json.hpp"
@@ -71,6 +70,14 @@ Json spread_of(const std::vector<RunoutRun>& runs, const std::vector<int>& some)
        })}};
 }
 
+// Of the weight of all runs.
+double share_of(const std::vector<RunoutRun>& runs, const std::vector<int>& some) {
+  double of_some = 0, all = 0;
+  for (const int i : some) of_some += runs[i].member.run_weight;
+  for (const RunoutRun& run : runs) all += run.member.run_weight;
+  return of_some / all;
+}
+
 Json drawn_json(const RunoutRun& run) {
   Json values = Json::object();
   for (const DrawnValue& value : run.drawn) values[value.name] = value.value;
@@ -100,6 +107,8 @@ Json run_json(const RunoutRun& r, double friction_deg) {
           {"case", case_of(r.member.file)},
           {"drawn", drawn_json(r)},
           {"did_move", e.moved.any()},
+          {"is_event", e.moved.is_event()},
+          {"run_weight", r.member.run_weight},
           {"moved", moved_json(e.moved)},
           {"event", line_json(e.event)},
           {"mass_95", mass_json(e)},
@@ -116,10 +125,12 @@ Json run_json(const RunoutRun& r, double friction_deg) {
           {"energy_shares", energy_json(r.energy)}};
 }
 
-Json spread_json(const std::vector<RunoutRun>& runs) {
-  std::vector<int> all(runs.size());
-  std::iota(all.begin(), all.end(), 0);
-  return spread_of(runs, all);
+void add_spreads(Json& to, const std::vector<RunoutRun>& runs, const std::vector<int>& some) {
+  const std::vector<int> events = events_among(runs, some);
+  to["n_events"] = events.size();
+  to["event_probability"] = event_probability(runs, some);
+  to["spread_over_runs"] = spread_of(runs, some);
+  to["spread_over_events"] = spread_of(runs, events);
 }
 
 Json cases_json(const std::vector<RunoutRun>& runs) {
@@ -129,9 +140,10 @@ Json cases_json(const std::vector<RunoutRun>& runs) {
                                             [&](int i) { return runs[i].event.moved.any(); });
     list.push_back({{"case", one.name},
                     {"n_runs", one.runs.size()},
+                    {"weight", share_of(runs, one.runs)},
                     {"n_runs_moved", n_moved_runs},
-                    {"moved", moved_json(one.moved)},
-                    {"spread_over_runs", spread_of(runs, one.runs)}});
+                    {"moved", moved_json(one.moved)}});
+    add_spreads(list.back(), runs, one.runs);
   }
   return list;
 }

@@ -17,7 +17,9 @@ namespace talus {
 
 /// A row a case, with the spread over its runs; empty where there is one.
 [[nodiscard]] Json cases_json(const std::vector<RunoutRun>& runs);
-[[nodiscard]] Json spread_json(const std::vector<RunoutRun>& runs);
+/// How many of some runs are events, with which probability, and the spread over those that moved
+/// and over the events.
+void add_spreads(Json& to, const std::vector<RunoutRun>& runs, const std::vector<int>& some);
 
 [[nodiscard]] Json mobility_json(const std::vector<MobilityRelation>& relations,
                                  const std::vector<MobilityEvent>& events);

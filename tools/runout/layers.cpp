@@ -186,31 +186,55 @@ VectorLayer end_layer(const std::vector<RunoutRun>& runs, const MapPlace& map) {
   return layer;
 }
 
+std::vector<VectorField> run_fields() {
+  std::vector<VectorField> fields = {{"run_id", FieldType::text},
+                                     {"seed", FieldType::integer},
+                                     {"status", FieldType::text},
+                                     {"moved", FieldType::integer}};
+  for (const char* name :
+       {"share_moved_1_m", "share_moved_20_m", "displacement_p50_m", "displacement_p90_m",
+        "displacement_p95_m", "displacement_max_m", "H_m", "L_path_m", "L_chord_m",
+        "reach_angle_path_deg", "reach_angle_chord_deg"})
+    fields.push_back({name, FieldType::real});
+  fields.push_back({"toe_fate", FieldType::text});
+  for (const char* name : {"moved_volume_m3", "H95_m", "L95_m", "reach_angle_95_deg"})
+    fields.push_back({name, FieldType::real});
+  fields.push_back({"outliers", FieldType::integer});
+  return fields;
+}
+
+std::vector<FieldValue> run_values(const RunoutRun& r) {
+  const Moved& m = r.event.moved;
+  const ReachLine& e = r.event.event;
+  const MassReach& mass = r.event.mass;
+  return {r.member.info.run_id,
+          whole(r.member.info.seed),
+          r.member.info.status,
+          whole(m.any() ? 1 : 0),
+          m.share,
+          m.share_far,
+          m.p50,
+          m.p90,
+          m.p95,
+          m.largest,
+          e.height,
+          e.path,
+          e.chord,
+          e.path_angle() * degrees,
+          e.chord_angle() * degrees,
+          m.any() ? FieldValue(std::string(text(r.event.toe_fate))) : FieldValue(),
+          mass.moved_volume,
+          mass.height,
+          mass.length,
+          mass.angle() * degrees,
+          whole(mass.n_outliers)};
+}
+
 VectorLayer run_layer(const std::vector<RunoutRun>& runs, const MapPlace& map) {
   VectorLayer layer{"runs",
                     "centre of mass at the end of each run, with how much of the mass moved",
                     GeometryType::point_z,
-                    {{"run_id", FieldType::text},
-                     {"seed", FieldType::integer},
-                     {"status", FieldType::text},
-                     {"moved", FieldType::integer},
-                     {"share_moved_1_m", FieldType::real},
-                     {"share_moved_20_m", FieldType::real},
-                     {"displacement_p50_m", FieldType::real},
-                     {"displacement_p90_m", FieldType::real},
-                     {"displacement_p95_m", FieldType::real},
-                     {"displacement_max_m", FieldType::real},
-                     {"H_m", FieldType::real},
-                     {"L_path_m", FieldType::real},
-                     {"L_chord_m", FieldType::real},
-                     {"reach_angle_path_deg", FieldType::real},
-                     {"reach_angle_chord_deg", FieldType::real},
-                     {"toe_fate", FieldType::text},
-                     {"moved_volume_m3", FieldType::real},
-                     {"H95_m", FieldType::real},
-                     {"L95_m", FieldType::real},
-                     {"reach_angle_95_deg", FieldType::real},
-                     {"outliers", FieldType::integer}},
+                    run_fields(),
                     {},
                     vector_qml({SymbolKind::point,
                                 "status",
@@ -219,31 +243,9 @@ VectorLayer run_layer(const std::vector<RunoutRun>& runs, const MapPlace& map) {
                                  {"running", "run not finished", {120, 120, 120, 255}}},
                                 2})};
   for (const RunoutRun& r : runs) {
-    const Moved& m = r.event.moved;
-    const ReachLine& e = r.event.event;
     VectorFeature f;
     f.points = {map(r.curves.empty() ? Vec3(Vec3::Zero()) : r.curves.back().centre_of_mass)};
-    f.values = {r.member.info.run_id,
-                whole(r.member.info.seed),
-                r.member.info.status,
-                whole(m.any() ? 1 : 0),
-                m.share,
-                m.share_far,
-                m.p50,
-                m.p90,
-                m.p95,
-                m.largest,
-                e.height,
-                e.path,
-                e.chord,
-                e.path_angle() * degrees,
-                e.chord_angle() * degrees,
-                m.any() ? FieldValue(std::string(text(r.event.toe_fate))) : FieldValue(),
-                r.event.mass.moved_volume,
-                r.event.mass.height,
-                r.event.mass.length,
-                r.event.mass.angle() * degrees,
-                whole(r.event.mass.n_outliers)};
+    f.values = run_values(r);
     layer.features.push_back(std::move(f));
   }
   return layer;

@@ -111,7 +111,7 @@ void warn_of_runs_without_frames(Tool& tool, const RunoutRuns& all) {
 std::vector<MobilityEvent> events_of(const std::vector<RunoutRun>& runs, bool confined) {
   std::vector<MobilityEvent> events;
   for (const RunoutRun& r : runs)
-    if (r.event.moved.any())
+    if (r.event.moved.is_event())
       events.push_back({r.member.info.run_id, r.event.mass.moved_volume, r.event.mass.height,
                         r.event.mass.length, confined});
   return events;
@@ -129,7 +129,7 @@ void write_thickness(Tool& tool, const Options& o, const RunoutRuns& all, const 
 // Where little moved, the reach of a few blocks must not look like that of the volume.
 void warn_of_standing_mass(Tool& tool, const RunoutRuns& all) {
   if (const std::string words = standing_runs(all.runs); !words.empty())
-    tool.warn(words + ": no run-out, left out of means and of H, L and the angle of reach");
+    tool.warn(words + ": no run-out of these, and means are over the events alone");
   if (const std::string words = standing_mass_warning(all.moved);
       !words.empty() && n_moved(all.runs) > 0)
     tool.warn(words);
@@ -192,10 +192,11 @@ void run_tool(Tool& tool, Options& o, RunInputs& inputs) {
                  {"balance", balance_json(all.balance)},
                  {"swept_area_m2", swept_area(all)},
                  {"path_tolerance_m", o.tolerance_m},
-                 {"spread_over_runs", spread_json(all.runs)},
                  {"cases", cases_json(all.runs)},
+                 {"cases_weighed", !inputs.pools_unasked()},
                  {"runs", runs},
                  {"mobility", mobility_json(relations, events)}};
+  add_spreads(result, all.runs, all_of(all.runs));
   if (trees.any) result["trees"] = trees_json(summary_of(trees.runs), trn.origin);
   add_faults(result, faults_of(inputs.members, inputs.left_out));
   tool.result(result, runout_summary(all));

@@ -34,12 +34,15 @@ bool names_a_file(const std::string& section, const std::string& key) {
   static const std::set<std::string> keys = {"contours", "breaklines", "spots",         "boundary",
                                              "dem",      "raster",     "ground_raster", "file"};
   if (section == "site" || section == "solver" || section == "output") return false;
+  if (section == "hazard") return false;  // a recipe may be a name: file_named()
   return keys.count(key) > 0 || (key.size() > 5 && key.ends_with("_file")) ||
          (section.starts_with("forest.") && key.ends_with("_raster"));
 }
 
 std::string file_named(const Site& site, const EffectiveValue& value) {
-  if (value.value.empty() || !names_a_file(value.section, value.key)) return "";
+  const bool is_recipe = value.section == "hazard" && value.key == "recipe" &&
+                         unquoted(value.value).ends_with(".toml");
+  if (value.value.empty() || !(is_recipe || names_a_file(value.section, value.key))) return "";
   const std::string file = file_of(resolved(site, unquoted(value.value)));
   return is_virtual(file) ? "" : file;
 }
@@ -224,6 +227,19 @@ std::string make_variables(const Site& site) {
                        "use letters, digits and _-+=,./@:");
     fences += " " + plain_name(fence.name, where_of(site, "fence." + fence.name));
   }
+  // Names of sections as words of a rule.
+  const auto words_of = [&site](const std::string& group, const auto& sections) {
+    std::string words;
+    for (const auto& section : sections) {
+      const std::string key = group + "." + section.name;
+      if (section.name.find_first_of(" #%/=@:") != std::string::npos)
+        throw InputError(where_of(site, key),
+                         "the name " + section.name + " cannot stand in a makefile",
+                         "use letters, digits and _-+,.");
+      words += " " + plain_name(section.name, where_of(site, key));
+    }
+    return words;
+  };
   const bool any_active = std::any_of(site.fences.begin(), site.fences.end(),
                                       [](const FenceSettings& fence) { return fence.active; });
   std::string out = "# written by talus-site from the site file\n";
@@ -238,6 +254,8 @@ std::string make_variables(const Site& site) {
   line("SITE_SEED", std::to_string(site.solver.seed));
   line("SITE_FENCES", fences);
   line("SITE_FENCES_STAND", any_active ? "yes" : "");
+  line("SITE_HAZARD_CLASSES", words_of("hazard.class", site.hazard_classes));
+  line("SITE_OBJECTS", words_of("object", site.objects));
   return out;
 }
 

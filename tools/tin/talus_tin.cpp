@@ -164,6 +164,15 @@ void say_reading(Tool& tool, const Options& o, const talus::ContourReading& read
     if (!taken->file.empty()) tool.layer_read(talus::entry_on(*taken, role));
 }
 
+void read_members_of_sources(Tool& tool, const Options& o) {
+  const talus::ContourSources& s = o.sources;
+  for (const auto& [role, path] :
+       {std::pair{"contours", &s.contours.path}, std::pair{"labels", &s.labels.path},
+        std::pair{"breaklines", &s.breaklines.path}, std::pair{"spots", &s.spots.path},
+        std::pair{"boundary", &s.boundary.path}})
+    talus::read_members(tool, role, *path);
+}
+
 ContourMap read_map(Tool& tool, Options& o, talus::ContourReading& reading) {
   read_crs_options(o);
   ContourMap map = talus::read_contours(o.sources, reading);
@@ -387,6 +396,7 @@ int main(int argc, char** argv) {
   declare(tool, o);
   return tool.run(argc, argv, [&] {
     check_together(o);
+    read_members_of_sources(tool, o);
     talus::Tin tin;
     const Json report = o.of_points ? build_of_points(tool, o, tin) : build(tool, o, tin);
     talus::write_tin(tool.stage(o.out), tin);

@@ -538,6 +538,10 @@ int main(int argc, char** argv) {
   declare(tool, o);
   return tool.run(argc, argv, [&] {
     std::vector<std::string> operations;
+    if (!talus::is_tin_file(o.source)) talus::read_members(tool, "source", o.source);
+    talus::read_members(tool, "like", o.like);
+    talus::read_members(tool, "reference", o.reference);
+    talus::read_members(tool, "reference-points", o.reference_points.path);
     const Trn trn =
         talus::is_tin_file(o.source) ? trn_of_tin(tool, o) : trn_of_dem(tool, o, operations);
     talus::check_trn(trn, o.source);

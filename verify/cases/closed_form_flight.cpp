@@ -93,7 +93,8 @@ CaseResult bounce(const Settings& settings, double restitution, Landing landing)
                  Vec3::Zero());
   double low = 0;
   for (const Vec3& v : cube.vertices) low = std::max(low, -v.z());
-  const Body body = body_of(moved(cube, Mat3::Identity(), Vec3::Zero(), Vec3(0.1, 0.2, low + fall)));
+  const Body body =
+      body_of(moved(cube, Mat3::Identity(), Vec3::Zero(), Vec3(0.1, 0.2, low + fall)));
   Run run(on_plane(settings, slope_frame(0, 0), ground_of(25, restitution), body, 10));
   double error = 0, expected = fall, height = 0;
   int found = 0;

@@ -37,11 +37,11 @@ struct Fence {
 [[nodiscard]] double base_at(const Fence& fence, double chainage);
 
 enum class Verdict {
-  stopped,        ///< came at the fence below its free border with no more energy than its capacity
-  pierced,        ///< came with more energy than the capacity
-  free_border,    ///< top above h - f_min, bottom not above h: the border or the rope is hit
-  overtopped,     ///< bottom above h
-  bypassed_left,  ///< passed beside the end on the left, seen in the direction of moving
+  stopped,         ///< came at the fence below its freeboard with no more energy than its capacity
+  pierced,         ///< came with more energy than the capacity
+  free_border,     ///< top above h - f_min, bottom not above h: the border or the rope is hit
+  overtopped,      ///< bottom above h
+  bypassed_left,   ///< passed beside the end on the left, seen in the direction of moving
   bypassed_right,  ///< on the right
   underpassed,     ///< top below the base: through a dip between two posts
   not_reached,     ///< neither crossed the line nor passed beside it
@@ -86,7 +86,7 @@ struct FenceArrival {
                                                  int run);
 
 /// Where nothing stopped the blocks: what would become of an arrival. `free_border`: f_min [m].
-/// The order of precedence: beside, underpassed, overtopped, pierced, free border, stopped.
+/// The order of precedence: beside, underpassed, overtopped, pierced, freeboard, stopped.
 [[nodiscard]] Verdict expected_verdict(const FenceArrival& arrival, const Fence& fence,
                                        double free_border);
 

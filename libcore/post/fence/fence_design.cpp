@@ -190,16 +190,16 @@ void add_fence_steps(DesignResult& result, const DesignCode& code, const DesignI
                             "m", "by the deflection (--deflection-m)"});
 }
 
-// "needs 1,315 kJ (class 4) and a height of 2.92 m"
+// "needs 1,320 kJ (class 4) and a height of 2.92 m"
 std::string needs(const DesignResult& r) {
-  const std::string largest = r.largest_class > 0 ? ": above the largest, " +
-                                                        grouped_text(r.largest_class / 1e3, 4) +
-                                                        " kJ; a net is no option"
-                                                  : "";
-  return "needs " + grouped_text(r.required_capacity / 1e3, 4) + " kJ (" +
+  const std::string largest = r.largest_class > 0
+                                  ? ": above the largest, " + grouped_text(r.largest_class / 1e3) +
+                                        " kJ; a net is no option"
+                                  : "";
+  return "needs " + needed_text(r.required_capacity / 1e3) + " kJ (" +
          (r.smallest_class == "none" ? "no ETAG class" + largest
                                      : "ETAG class " + r.smallest_class) +
-         ") and a height of " + text(r.required_height, 3) + " m";
+         ") and a height of " + needed_text(r.required_height) + " m";
 }
 
 // f_min as given, or that of the code.

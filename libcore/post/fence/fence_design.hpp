@@ -77,7 +77,7 @@ struct DesignResult {
   double design_energy = 0;      ///< E_d [J]
   double required_capacity = 0;  ///< E_d with the factor on the barrier [J]
   double design_height = 0;      ///< [m]
-  double required_height = 0;    ///< with the free border [m]
+  double required_height = 0;    ///< with the freeboard [m]
   double free_border = 0;        ///< f_min [m]
   std::string smallest_class;    ///< of barrier_classes; "none" when no class is enough
   double largest_class = 0;      ///< of all classes [J]

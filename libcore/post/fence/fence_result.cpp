@@ -27,8 +27,8 @@ double volume_behind(const FenceRunGroup& group, std::size_t fence) {
   double volume = 0;
   for (const FenceRun& run : group.runs)
     for (const FenceArrival& crossing : passed_for_good(run.at_fence[fence]))
-      volume += crossing.volume;
-  return volume / n_runs(group);
+      volume += run.run_weight * crossing.volume;
+  return volume / weight_of_runs(group);
 }
 
 // Rock volume that the fence would hold, a run, in the run where it is largest [m3].
@@ -79,7 +79,8 @@ void set_design_block(DesignInput& input, const std::vector<FenceArrival>& arriv
 DesignInput design_input(const DesignInput& given, const FenceRunGroup& group,
                          const std::vector<FenceArrival>& arrivals) {
   DesignInput input = given;
-  for (const FenceRun& run : group.runs) input.mean_block_size += run.block_size / n_runs(group);
+  for (const FenceRun& run : group.runs)
+    input.mean_block_size += run.run_weight * run.block_size / weight_of_runs(group);
   input.density = group.runs[0].density;
   if (std::isnan(input.block_volume))
     set_design_block(input, arrivals);
@@ -183,29 +184,29 @@ VerdictShare verdict_share(const FenceRunGroup& group, std::size_t fence, Verdic
 
 GroundBehind ground_behind(const FenceRunGroup& group, std::size_t fence) {
   GroundBehind out;
-  const int n = n_runs(group);
-  double weight = 0, weight_sq = 0, total = 0;
+  double weight = 0, weight_sq = 0, total = 0, weight_moved = 0;
   std::vector<WeightedValue> energy;
   for (const FenceRun& run : group.runs) {
     for (const double w : run.weight) total += w;
     for (const FenceArrival& a : passed_for_good(run.at_fence[fence])) {
       weight += a.weight;
       weight_sq += a.weight * a.weight;
-      out.volume += a.volume;
+      out.volume += run.run_weight * a.volume;
       ++out.n;
       energy.push_back({a.energy(), a.weight});
     }
     if (std::isnan(run.event.path)) continue;
     ++out.n_moved;
-    out.path += run.event.path;
-    out.path_angle_deg += run.event.path_angle() * degrees;
-    out.centre_of_mass_path += run.centre.path;
+    weight_moved += run.run_weight;
+    out.path += run.run_weight * run.event.path;
+    out.path_angle_deg += run.run_weight * run.event.path_angle() * degrees;
+    out.centre_of_mass_path += run.run_weight * run.centre.path;
   }
   for (double* sum : {&out.path, &out.path_angle_deg, &out.centre_of_mass_path})
-    *sum = out.n_moved > 0 ? *sum / out.n_moved : none;
+    *sum = out.n_moved > 0 ? *sum / weight_moved : none;
   sort_values(energy);
   out.share = weight / total;
-  out.volume /= n;
+  out.volume /= weight_of_runs(group);
   const bool enough = effective_size(weight, weight_sq) + 1e-9 >= smallest_sample(0.5);
   out.energy_p50 = enough ? weighted_percentile(energy, 0.5) : none;
   out.energy_largest = energy.empty() ? none : energy.back().value;

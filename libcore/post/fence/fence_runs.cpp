@@ -90,6 +90,7 @@ FenceRun run_at_fences(const RunFile& run, int index, const std::vector<FenceCas
   out.event = event.event;
   out.centre = event.centre_of_mass;
   out.volume = run.blocks.volume;
+  out.run_weight = run.run_weight;
   double mass = 0, volume = 0;
   for (int b = 0; b < n_blocks(run); ++b) {
     out.weight.push_back(weight_of(run, b));
@@ -104,6 +105,12 @@ FenceRun run_at_fences(const RunFile& run, int index, const std::vector<FenceCas
     out.at_fence.push_back(
         run_at_fence(run, index, fences[i].fence, line[i], f_min, settings.rest_speed));
   return out;
+}
+
+double weight_of_runs(const FenceRunGroup& group) {
+  double sum = 0;
+  for (const FenceRun& run : group.runs) sum += run.run_weight;
+  return sum;
 }
 
 std::vector<FenceArrival> arrivals_at(const FenceRunGroup& group, std::size_t fence) {

@@ -48,6 +48,7 @@ struct RunAtFence {
 struct FenceRun {
   std::vector<double> volume;        ///< of each block [m3]                         (n_blocks)
   std::vector<double> weight;        ///<                                            (n_blocks)
+  double run_weight = 1;             ///< how much it counts among the others [-]
   double density = 0;                ///< of all its rock [kg/m3]
   double block_size = 0;             ///< mean of the cube roots of the volumes [m]
   ReachLine event, centre;           ///< of the whole run, and of its centre of mass
@@ -69,6 +70,8 @@ struct FenceRunGroup {
   std::vector<RunMember> members;  ///<                                              (n_runs)
   std::vector<FenceRun> runs;      ///<                                              (n_runs)
 };
+/// Sum of the runs' weights.
+[[nodiscard]] double weight_of_runs(const FenceRunGroup& group);
 [[nodiscard]] inline int n_runs(const FenceRunGroup& group) {
   return static_cast<int>(group.runs.size());
 }

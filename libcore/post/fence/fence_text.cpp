@@ -49,7 +49,7 @@ std::string design_text(const FenceResult& r) {
   const bool is_other = r.basis == DesignBasis::without_fence;
   return "; " +
          (is_other ? "design by " + basis_text(r) + ", largest energy " +
-                         grouped_text(r.at_basis.energy.largest / 1e3, 4) + " kJ: "
+                         grouped_text(r.at_basis.energy.largest / 1e3) + " kJ: "
                    : std::string()) +
          text(r.design);
 }
@@ -118,7 +118,7 @@ std::string fence_summary(const FenceCase& fence, std::size_t index, const Fence
   const std::string out = verdicts_text(fence, index, group);
   if (result.whole.n == 0) return out + " nothing came to it" + design_text(result);
   return out + " " + arrivals_text(result) + ": largest energy " +
-         grouped_text(result.whole.energy.largest / 1e3, 4) + " kJ, highest top " +
+         grouped_text(result.whole.energy.largest / 1e3) + " kJ, highest top " +
          text(result.whole.top.largest, 3) + " m" + design_text(result);
 }
 

@@ -128,16 +128,55 @@ int text_width(const std::string& words, int height) {
   return width;
 }
 
-void draw_legend(Picture& picture, int row, int col, const RasterStyle& style) {
+// Whether a pixel lies on a line of a hatching that rises to the right, or falls.
+bool is_on_hatch(int row, int col, int distance, bool rises) {
+  return (rises ? row + col : row - col + 100000 * distance) % distance < 2;
+}
+
+constexpr int class_hatch = 6, uncertain_hatch = 9;  // [pixels]
+constexpr const char* uncertain_words = "hatched: class not certain";
+
+// Around words at blanks, to at most `width` pixels a line.
+std::vector<std::string> wrapped(const std::vector<std::string>& lines, int width) {
+  std::vector<std::string> out;
+  for (const std::string& line : lines) {
+    std::string now;
+    std::size_t begin = 0;
+    while (begin < line.size()) {
+      const std::size_t end = std::min(line.find(' ', begin), line.size());
+      const std::string word = line.substr(begin, end - begin);
+      if (!now.empty() && text_width(now + " " + word, letter_height) > width) {
+        out.push_back(now);
+        now = "  " + word;
+      } else {
+        now += (now.empty() ? "" : " ") + word;
+      }
+      begin = end + 1;
+    }
+    out.push_back(now);
+  }
+  return out;
+}
+
+// Colour of a class at a pixel.
+Colour shown_at(const StyleClass* of, int row, int col) {
+  if (!of) return {};
+  if (of->is_hatched && !is_on_hatch(row, col, class_hatch, false)) return {255, 255, 255, 255};
+  return of->colour;
+}
+
+void draw_legend(Picture& picture, int row, int col, const RasterStyle& style, bool any_uncertain) {
   const Colour black{0, 0, 0, 255};
   draw_text(picture, row, col, letter_height, style.title, black);
   row += 2 * letter_height;
   for (const StyleClass& c : style.classes) {
     fill(picture, row - 1, col - 1, letter_height + 4, 26, black);
-    fill(picture, row, col, letter_height + 2, 24, over(220, c.colour));
+    for (int r = row; r < row + letter_height + 2; ++r)
+      for (int k = col; k < col + 24; ++k) put(picture, r, k, over(220, shown_at(&c, r, k)));
     draw_text(picture, row + 1, col + 34, letter_height, c.label, black);
     row += letter_height + 8;
   }
+  if (any_uncertain) draw_text(picture, row + 1, col, letter_height, uncertain_words, black);
 }
 
 // A red strip across the picture with the remark in white, as large as its width allows.
@@ -152,10 +191,11 @@ void draw_remark(Picture& picture, const std::string& remark) {
               {255, 255, 255, 255});
 }
 
-int legend_width(const RasterStyle& style) {
+int legend_width(const RasterStyle& style, bool any_uncertain) {
   int width = text_width(style.title, letter_height);
   for (const StyleClass& c : style.classes)
     width = std::max(width, 34 + text_width(c.label, letter_height));
+  if (any_uncertain) width = std::max(width, text_width(uncertain_words, letter_height));
   return width + 30;
 }
 
@@ -215,12 +255,17 @@ Shading shading_of(const Trn& trn, const PassageGrid& grid) {
 }
 
 Picture map_picture(const Shading& shading, const PassageGrid& grid,
-                    const std::vector<float>& value, float nodata, const RasterStyle& style) {
-  const int legend_rows = 40 + static_cast<int>(style.classes.size() + 1) * (letter_height + 8);
+                    const std::vector<float>& value, float nodata, const RasterStyle& style,
+                    const std::vector<bool>& uncertain) {
+  const bool any_uncertain = !uncertain.empty();
+  const int legend_rows = 40 + static_cast<int>(style.classes.size() + 2) * (letter_height + 8);
   Picture picture;
-  picture.n_cols = shading.n_cols + legend_width(style);
+  picture.n_cols = shading.n_cols + legend_width(style, any_uncertain);
   const int top = style.remark.empty() ? 0 : strip_height;
-  picture.n_rows = top + std::max(shading.n_rows, legend_rows);
+  const int bottom = top + std::max(shading.n_rows, legend_rows);
+  const std::vector<std::string> notes = wrapped(style.notes, picture.n_cols - 24);
+  picture.n_rows = bottom;
+  if (!notes.empty()) picture.n_rows += 16 + static_cast<int>(notes.size()) * (letter_height + 6);
   picture.pixel.assign(
       static_cast<std::size_t>(picture.n_rows) * static_cast<std::size_t>(picture.n_cols),
       Colour{255, 255, 255, 255});
@@ -230,10 +275,18 @@ Picture map_picture(const Shading& shading, const PassageGrid& grid,
       if (std::isnan(*ground)) continue;
       const auto row = static_cast<std::size_t>((r + 0.5) / shading.per_cell);
       const auto col = static_cast<std::size_t>((c + 0.5) / shading.per_cell);
-      const float v = value[row * static_cast<std::size_t>(grid.n_cols) + col];
-      put(picture, top + r, c, over(*ground, v == nodata ? Colour{} : colour_of(style, v)));
+      const std::size_t cell = row * static_cast<std::size_t>(grid.n_cols) + col;
+      const float v = value[cell];
+      const StyleClass* const of = v == nodata ? nullptr : class_of(style, v);
+      put(picture, top + r, c,
+          any_uncertain && uncertain[cell] && is_on_hatch(r, c, uncertain_hatch, true)
+              ? Colour{40, 40, 40, 255}
+              : over(*ground, shown_at(of, r, c)));
     }
-  draw_legend(picture, top + 12, shading.n_cols + 16, style);
+  draw_legend(picture, top + 12, shading.n_cols + 16, style, any_uncertain);
+  for (std::size_t i = 0; i < notes.size(); ++i)
+    draw_text(picture, bottom + 10 + static_cast<int>(i) * (letter_height + 6), 12, letter_height,
+              notes[i], {0, 0, 0, 255});
   if (top > 0) draw_remark(picture, style.remark);
   return picture;
 }

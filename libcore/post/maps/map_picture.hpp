@@ -25,10 +25,12 @@ struct Shading {
 [[nodiscard]] Shading shading_of(const Trn& trn, const PassageGrid& grid);
 
 /// Each cell in the colour of its class laid over the ground at 75 %; the legend on the right, the
-/// style's remark in a red strip above.
+/// style's remark in a red strip above, its notes below. `uncertain`: cells that are hatched in
+/// black, and the legend says so; empty: none.
 [[nodiscard]] Picture map_picture(const Shading& shading, const PassageGrid& grid,
                                   const std::vector<float>& value, float nodata,
-                                  const RasterStyle& style);
+                                  const RasterStyle& style,
+                                  const std::vector<bool>& uncertain = {});
 
 /// Words in capitals of strokes, `height` pixels high, at the upper left corner (row, col); lower
 /// case is drawn as small capitals. Returns the column behind the last letter.

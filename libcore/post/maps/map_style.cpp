@@ -12,24 +12,6 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// From pale yellow over orange and red to dark purple.
-Colour ramp(double share) {
-  constexpr std::array<std::array<double, 3>, 6> stops = {{{255, 249, 196},
-                                                           {254, 217, 118},
-                                                           {253, 141, 60},
-                                                           {227, 26, 28},
-                                                           {158, 1, 66},
-                                                           {73, 0, 106}}};
-  const double place = std::clamp(share, 0.0, 1.0) * (stops.size() - 1);
-  const auto i = std::min<std::size_t>(static_cast<std::size_t>(place), stops.size() - 2);
-  const double s = place - static_cast<double>(i);
-  Colour colour{0, 0, 0, 255};
-  for (std::size_t k = 0; k < 3; ++k)
-    colour[k] =
-        static_cast<std::uint8_t>(std::lround(stops[i][k] + s * (stops[i + 1][k] - stops[i][k])));
-  return colour;
-}
-
 // From the largest loss (blue) over no change (transparent) to the largest gain (red).
 std::vector<StyleClass> change_classes(const std::vector<double>& limits, const std::string& unit) {
   std::vector<StyleClass> classes;
@@ -49,7 +31,7 @@ std::vector<StyleClass> change_classes(const std::vector<double>& limits, const 
   classes.push_back({limits[0], {255, 255, 255, 0}, "within " + text(limits[0]) + unit});
   for (std::size_t i = 0; i < limits.size(); ++i)
     classes.push_back({i + 1 < limits.size() ? limits[i + 1] : infinity,
-                       ramp((static_cast<double>(i) + 1) / n), label("more", i)});
+                       map_ramp((static_cast<double>(i) + 1) / n), label("more", i)});
   return classes;
 }
 
@@ -81,6 +63,23 @@ std::string intensity(const std::string& unit, double upper) {
 
 }  // namespace
 
+Colour map_ramp(double share) {
+  constexpr std::array<std::array<double, 3>, 6> stops = {{{255, 249, 196},
+                                                           {254, 217, 118},
+                                                           {253, 141, 60},
+                                                           {227, 26, 28},
+                                                           {158, 1, 66},
+                                                           {73, 0, 106}}};
+  const double place = std::clamp(share, 0.0, 1.0) * (stops.size() - 1);
+  const auto i = std::min<std::size_t>(static_cast<std::size_t>(place), stops.size() - 2);
+  const double s = place - static_cast<double>(i);
+  Colour colour{0, 0, 0, 255};
+  for (std::size_t k = 0; k < 3; ++k)
+    colour[k] =
+        static_cast<std::uint8_t>(std::lround(stops[i][k] + s * (stops[i + 1][k] - stops[i][k])));
+  return colour;
+}
+
 RasterStyle change_style(const MapLayer& layer, const std::string& remark,
                          const std::vector<double>& breaks) {
   const MapBand& band = layer.bands[0];
@@ -102,13 +101,13 @@ RasterStyle map_style(const MapLayer& layer, const std::string& remark) {
   const double n = static_cast<double>(kind.breaks.size());
   for (std::size_t i = 0; i < kind.breaks.size(); ++i) {
     const double upper = kind.breaks[i];
-    style.classes.push_back({upper, ramp(static_cast<double>(i) / n),
+    style.classes.push_back({upper, map_ramp(static_cast<double>(i) / n),
                              (lower.empty() ? "up to " : lower + " - ") + text(upper, 9) + unit +
                                  intensity(band.unit, upper)});
     lower = text(upper, 9);
   }
   style.classes.push_back(
-      {infinity, ramp(1), "above " + lower + unit + intensity(band.unit, infinity)});
+      {infinity, map_ramp(1), "above " + lower + unit + intensity(band.unit, infinity)});
   return style;
 }
 

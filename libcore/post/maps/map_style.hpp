@@ -7,6 +7,9 @@
 
 namespace talus {
 
+/// From pale yellow at 0 over orange and red to dark purple at 1.
+[[nodiscard]] Colour map_ramp(double share);
+
 /// The style of a layer. It shows the 95th percentile where nearly all cells that blocks came over
 /// have one (19 of 20), else the maximum: a map must not leave out places that were reached. For
 /// layers without percentiles it shows their main band. Energies break at 30 and 300 kJ, the limits

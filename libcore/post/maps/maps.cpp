@@ -48,6 +48,10 @@ std::span<const MapRow> rows_of(const CellRows& cells, std::size_t i) {
 
 int n_runs(const Released& released) { return static_cast<int>(released.weight.size()); }
 
+double weight_of_run(const Released& released, std::int32_t run) {
+  return released.run_weight.empty() ? 1 : released.run_weight[run];
+}
+
 double sum(std::span<const double> values) {
   double total = 0;
   for (const double value : values) total += value;
@@ -174,7 +178,9 @@ std::vector<MapBand> empty_reach_bands(std::size_t n) {
 ShareBasis share_basis_of(const Released& released) {
   const bool single_blocks = std::all_of(released.n_blocks.begin(), released.n_blocks.end(),
                                          [](int count) { return count <= 1; });
-  return share_basis(released.weight, single_blocks, released.failed_share);
+  ShareBasis basis = share_basis(released.weight, single_blocks, released.failed_share);
+  if (!released.run_weight.empty()) weigh_runs_of(basis, released.run_weight);
+  return basis;
 }
 
 MapLayer quantity_layer(const std::string& name, const CellRows& cells, MapQuantity quantity,
@@ -212,23 +218,24 @@ MapLayer reach_layer(const CellRows& cells, double cell_size, const Released& re
   for (std::size_t i = 0; i < n; ++i) {
     const auto rows = rows_of(cells, i);
     double w = 0, w_sq = 0, per_m = 0;
-    int runs = 0;
+    double runs = 0;
     for (std::size_t k = 0; k < rows.size(); ++k) {
       w += rows[k].weight;
       w_sq += static_cast<double>(rows[k].weight) * rows[k].weight;
-      runs += k == 0 || rows[k].run != rows[k - 1].run;
+      if (k == 0 || rows[k].run != rows[k - 1].run) runs += weight_of_run(released, rows[k].run);
       per_m += 1 / (width_across(rows[k].heading) * cell_size);
     }
     const double share = total > 0 ? std::min(1.0, w / total) : 0;
     weigh_runs(
         rows, [](const MapRow&) { return true; }, parts);
     const Interval interval = share_interval(basis, parts, share);
-    const Interval of_runs = run_share_interval(basis, runs);
+    const double of_all = std::min(1.0, runs / basis.runs.whole);
+    const Interval of_runs = run_share_interval(basis, of_all);
     const std::array values = {static_cast<double>(rows.size()),
                                share,
                                interval.low,
                                interval.high,
-                               static_cast<double>(runs) / n_runs(released),
+                               of_all,
                                of_runs.low,
                                of_runs.high,
                                per_m,
@@ -240,7 +247,7 @@ MapLayer reach_layer(const CellRows& cells, double cell_size, const Released& re
 }
 
 double reach_bound_elsewhere(const Released& released) {
-  return run_share_interval(share_basis_of(released), 0).high;
+  return run_share_interval(share_basis_of(released), 0.0).high;
 }
 
 int runs_to_add(const CellRows& cells, const Released& released, double half) {

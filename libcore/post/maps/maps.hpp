@@ -24,6 +24,7 @@ struct Released {
   std::vector<double> weight;  ///< sum over the run's blocks                       (n_runs)
   std::vector<int> n_blocks;   ///<                                                 (n_runs)
   double failed_share = 0;     ///< of the runs that were wanted, left out here [-]
+  std::vector<double> run_weight = {};  ///< empty: 1 each                          (n_runs)
 };
 
 /// What the intervals of shares rest on.
@@ -48,6 +49,7 @@ struct MapLayer {
   std::string name;                 ///< of the file, without extension; given by map_layers.hpp
   std::vector<std::uint32_t> cell;  ///< that the values stand for, ascending       (n_touched)
   std::vector<MapBand> bands;
+  bool is_codes = false;  ///< whole numbers 0 to 254 that stand for something, not quantities
 };
 
 /// The five quantities whose per-block maxima are described by mean, percentiles, bounds, maximum.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <map>
 #include <numeric>
 
@@ -56,10 +55,11 @@ RunoutRuns add_up(RunoutSums sums) {
   std::vector<WeightedValue> displacement;
   for (const RunoutRun& r : out.runs) {
     for (std::size_t b = 0; b < r.mass.size(); ++b)
-      displacement.push_back({r.displacement[b], r.mass[b]});
+      displacement.push_back({r.displacement[b], r.member.run_weight * r.mass[b]});
     add(out.balance, r.balance);
     out.released.weight.push_back(r.member.weight);
     out.released.n_blocks.push_back(r.member.n_blocks);
+    out.released.run_weight.push_back(r.member.run_weight);
   }
   for (std::size_t cell = 0; cell < sums.is_passed.size(); ++cell)
     if (sums.is_passed[cell] != 0) out.cells.push_back(static_cast<std::uint32_t>(cell));
@@ -72,16 +72,7 @@ double swept_area(const RunoutRuns& all) {
 }
 
 Spread spread_over(const std::vector<RunoutRun>& runs, double (*value)(const RunoutRun&)) {
-  std::vector<int> all(runs.size());
-  std::iota(all.begin(), all.end(), 0);
-  return spread_over(runs, all, value);
-}
-
-std::string case_of(const std::string& file) {
-  const std::string stem = std::filesystem::path(file).stem().string();
-  const std::size_t last = stem.rfind('_');
-  if (stem.rfind("run_", 0) != 0 || last <= 4 || last == std::string::npos) return "";
-  return stem.substr(4, last - 4);
+  return spread_over(runs, all_of(runs), value);
 }
 
 std::vector<RunoutCase> cases_of(const std::vector<RunoutRun>& runs) {
@@ -103,13 +94,18 @@ std::vector<RunoutCase> cases_of(const std::vector<RunoutRun>& runs) {
 Spread spread_over(const std::vector<RunoutRun>& runs, const std::vector<int>& some,
                    double (*value)(const RunoutRun&)) {
   std::vector<WeightedValue> values;
-  double sum = 0;
-  for (const int i : some)
-    if (const double v = value(runs[i]); std::isfinite(v)) values.push_back({v, 1}), sum += v;
+  double sum = 0, weight = 0;
+  for (const int i : some) {
+    const double v = value(runs[i]), of_run = runs[i].member.run_weight;
+    if (!std::isfinite(v)) continue;
+    values.push_back({v, of_run});
+    sum += of_run * v;
+    weight += of_run;
+  }
   if (values.empty()) return {};
   sort_values(values);
   return {values.size(),
-          sum / static_cast<double>(values.size()),
+          sum / weight,
           values.front().value,
           weighted_percentile(values, 0.05),
           weighted_percentile(values, 0.5),
@@ -120,6 +116,28 @@ Spread spread_over(const std::vector<RunoutRun>& runs, const std::vector<int>& s
 int n_moved(const std::vector<RunoutRun>& runs) {
   return static_cast<int>(std::count_if(
       runs.begin(), runs.end(), [](const RunoutRun& run) { return run.event.moved.any(); }));
+}
+
+std::vector<int> all_of(const std::vector<RunoutRun>& runs) {
+  std::vector<int> all(runs.size());
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+std::vector<int> events_among(const std::vector<RunoutRun>& runs, const std::vector<int>& some) {
+  std::vector<int> events;
+  for (const int i : some)
+    if (runs[i].event.moved.is_event()) events.push_back(i);
+  return events;
+}
+
+double event_probability(const std::vector<RunoutRun>& runs, const std::vector<int>& some) {
+  double of_events = 0, all = 0;
+  for (const int i : some) {
+    all += runs[i].member.run_weight;
+    if (runs[i].event.moved.is_event()) of_events += runs[i].member.run_weight;
+  }
+  return of_events / all;
 }
 
 const RunoutRun* farthest_run(const std::vector<RunoutRun>& runs) {

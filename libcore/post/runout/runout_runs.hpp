@@ -47,7 +47,7 @@ struct RunoutRuns {
   std::vector<std::uint32_t> cells;  ///< that any block of any run passed, ascending
   DepositSums deposit;
   Released released;
-  Moved moved;       ///< the mass of all runs together
+  Moved moved;       ///< the mass of all runs together, each with its weight
   PassageGrid grid;  ///< of cells and deposit
 };
 /// What runs add as they are read, in the order of their ids. `grid`: of cells and deposit.
@@ -74,9 +74,6 @@ struct Spread {
 [[nodiscard]] Spread spread_over(const std::vector<RunoutRun>& runs,
                                  double (*value)(const RunoutRun&));
 
-/// The variant of settings that a run belongs to: "low" of run_low_3.h5; "" of run_3.h5.
-[[nodiscard]] std::string case_of(const std::string& file);
-
 /// The runs of one case.
 struct RunoutCase {
   std::string name;
@@ -92,6 +89,13 @@ struct RunoutCase {
 
 /// Runs in which a block moved: the others have no run-out.
 [[nodiscard]] int n_moved(const std::vector<RunoutRun>& runs);
+/// Runs that are events (moved.hpp); places of them in `runs`.
+[[nodiscard]] std::vector<int> events_among(const std::vector<RunoutRun>& runs,
+                                            const std::vector<int>& some);
+/// Share of the runs that are events, each run with its weight [-].
+[[nodiscard]] double event_probability(const std::vector<RunoutRun>& runs,
+                                       const std::vector<int>& some);
+[[nodiscard]] std::vector<int> all_of(const std::vector<RunoutRun>& runs);
 
 /// The run whose event came farthest along the path, the first of them; null when none moved.
 [[nodiscard]] const RunoutRun* farthest_run(const std::vector<RunoutRun>& runs);

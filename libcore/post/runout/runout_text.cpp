@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/csv.hpp"
+#include "base/grouped_text.hpp"
 #include "base/text.hpp"
 
 namespace talus {
@@ -12,16 +13,16 @@ namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
 
-// "101.4 to 103.3": smallest and largest of the runs that moved.
+// "101 to 103": smallest and largest of the runs that moved.
 template <class Value>
-std::string range_of(const std::vector<RunoutRun>& runs, int digits, const Value& value) {
+std::string range_of(const std::vector<RunoutRun>& runs, const Value& value) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const RunoutRun& run : runs) {
     if (!run.event.moved.any()) continue;
     low = std::min(low, value(run));
     high = std::max(high, value(run));
   }
-  return text(low, digits) + " to " + text(high, digits);
+  return grouped_text(low) + " to " + grouped_text(high);
 }
 
 // ", its farthest block still moving"
@@ -52,19 +53,19 @@ std::string reach_of_runs(const std::vector<RunoutRun>& runs) {
   const auto length_95 = [](const RunoutRun& r) { return r.event.mass.length; };
   const auto angle_95 = [](const RunoutRun& r) { return r.event.mass.angle() * degrees; };
   return "run-out of " + counted(static_cast<std::int64_t>(n), "run") +
-         (n < runs.size() ? " that moved" : "") + ": H " + range_of(runs, 5, height) + " m, L " +
-         range_of(runs, 5, path) + " m along the path, angle of reach " + range_of(runs, 4, angle) +
+         (n < runs.size() ? " that moved" : "") + ": H " + range_of(runs, height) + " m, L " +
+         range_of(runs, path) + " m along the path, angle of reach " + range_of(runs, angle) +
          " deg; farthest: " + name_of(farthest, runs) + unsettled_toe(farthest.event) +
-         "\n95 % of what moved came within " + range_of(runs, 4, length_95) + " m of its top (" +
-         range_of(runs, 3, angle_95) + " deg)";
+         "\n95 % of what moved came within " + range_of(runs, length_95) + " m of its top (" +
+         range_of(runs, angle_95) + " deg)";
 }
 
 std::string reach_of_run(const std::string& run_id, const EventReach& reach) {
   const ReachLine& e = reach.event;
-  const std::string out = "run-out of run " + run_id + ": H " + text(e.height, 5) + " m, L " +
-                          text(e.path, 5) + " m along the path (" + text(e.chord, 5) +
-                          " m straight), angle of reach " + text(e.path_angle() * degrees, 4) +
-                          " deg (" + text(e.chord_angle() * degrees, 4) + " deg)" +
+  const std::string out = "run-out of run " + run_id + ": H " + grouped_text(e.height) + " m, L " +
+                          grouped_text(e.path) + " m along the path (" + grouped_text(e.chord) +
+                          " m straight), angle of reach " + text(e.path_angle() * degrees, 3) +
+                          " deg (" + text(e.chord_angle() * degrees, 3) + " deg)" +
                           unsettled_toe(reach);
   const std::string line = energy_line_text(reach.profile);
   const std::string mass = "\n" + text(reach.mass);
@@ -77,6 +78,52 @@ std::string reach_text(const std::vector<RunoutRun>& runs) {
                          : reach_of_run(runs[0].member.info.run_id, runs[0].event);
 }
 
+// A column of the table of runs.
+struct RunColumn {
+  const char* heading;
+  bool only_if_moved;  // else empty: there is no run-out
+  std::string (*value)(const RunoutRun&);
+};
+using Run = const RunoutRun&;
+constexpr RunColumn run_columns[] = {
+    {"run_id", false, [](Run r) { return r.member.info.run_id; }},
+    {"seed", false, [](Run r) { return std::to_string(r.member.info.seed); }},
+    {"status", false, [](Run r) { return r.member.info.status; }},
+    {"moved", false, [](Run r) { return std::string(r.event.moved.any() ? "1" : "0"); }},
+    {"share_moved_1_m", false, [](Run r) { return text(r.event.moved.share, 7); }},
+    {"share_moved_20_m", false, [](Run r) { return text(r.event.moved.share_far, 7); }},
+    {"displacement_p50_m", false, [](Run r) { return text(r.event.moved.p50, 7); }},
+    {"displacement_p90_m", false, [](Run r) { return text(r.event.moved.p90, 7); }},
+    {"displacement_p95_m", false, [](Run r) { return text(r.event.moved.p95, 7); }},
+    {"displacement_max_m", false, [](Run r) { return text(r.event.moved.largest, 7); }},
+    {"H_m", true, [](Run r) { return text(r.event.event.height, 9); }},
+    {"L_path_m", true, [](Run r) { return text(r.event.event.path, 9); }},
+    {"L_chord_m", true, [](Run r) { return text(r.event.event.chord, 9); }},
+    {"reach_angle_path_deg", true,
+     [](Run r) { return text(r.event.event.path_angle() * degrees, 9); }},
+    {"reach_angle_chord_deg", true,
+     [](Run r) { return text(r.event.event.chord_angle() * degrees, 9); }},
+    {"toe_block", true, [](Run r) { return std::to_string(r.event.toe_block); }},
+    {"toe_fate", true, [](Run r) { return std::string(text(r.event.toe_fate)); }},
+    {"moved_volume_m3", true, [](Run r) { return text(r.event.mass.moved_volume, 7); }},
+    {"H95_m", true, [](Run r) { return text(r.event.mass.height, 7); }},
+    {"L95_m", true, [](Run r) { return text(r.event.mass.length, 7); }},
+    {"reach_angle_95_deg", true, [](Run r) { return text(r.event.mass.angle() * degrees, 7); }},
+    {"blocks_beyond_L95", true, [](Run r) { return std::to_string(r.event.mass.n_beyond); }},
+    {"share_beyond_L95", true, [](Run r) { return text(r.event.mass.beyond_share, 7); }},
+    {"toe_share", true, [](Run r) { return text(r.event.mass.toe_share, 7); }},
+    {"outliers", true, [](Run r) { return std::to_string(r.event.mass.n_outliers); }},
+    {"case", false, [](Run r) { return case_of(r.member.file); }},
+    {"event", false, [](Run r) { return std::string(r.event.moved.is_event() ? "1" : "0"); }},
+    {"run_weight", false, [](Run r) { return text(r.member.run_weight, 7); }},
+};
+
+std::string drawn_text(const RunoutRun& run, const std::string& name) {
+  const auto found = std::find_if(run.drawn.begin(), run.drawn.end(),
+                                  [&](const DrawnValue& value) { return value.name == name; });
+  return found == run.drawn.end() ? "" : text(found->value, 7);
+}
+
 }  // namespace
 
 std::string standing_runs(const std::vector<RunoutRun>& runs) {
@@ -86,19 +133,27 @@ std::string standing_runs(const std::vector<RunoutRun>& runs) {
     ++n;
     n_stopped += run.member.info.status != "done";
   }
-  if (n == 0) return "";
+  const auto n_all = static_cast<std::int64_t>(runs.size());
+  const auto n_events = static_cast<std::int64_t>(events_among(runs, all_of(runs)).size());
+  const std::int64_t n_few = n_all - n - n_events;
+  const std::string few = n_few == 0 ? ""
+                                     : std::to_string(n_few) + " of " + counted(n_all, "run") +
+                                           " moved less than " + text(100 * event_share) +
+                                           " % of the mass";
+  if (n == 0) return few;
   const std::string stopped =
       n_stopped == 0 ? ""
                      : "; " + std::to_string(n_stopped) + " of them failed or were interrupted";
   return std::to_string(n) + " of " + counted(static_cast<std::int64_t>(runs.size()), "run") +
-         " did not move (no block by more than " + text(moved_m) + " m" + stopped + ")";
+         " did not move (no block by more than " + text(moved_m) + " m" + stopped + ")" +
+         (few.empty() ? "" : ", and " + few);
 }
 
 std::string energy_line_text(const AngleProfile& profile) {
   constexpr double matters = 1 / degrees;
   const double at_toe = profile.at_end();
   if (!(at_toe - profile.smallest >= matters)) return "";
-  return "energy line: the ground flattens at " + text(profile.smallest_at, 4) +
+  return "energy line: the ground flattens at " + grouped_text(profile.smallest_at) +
          " m from where the farthest block started and is steeper again beyond. A line of " +
          text(at_toe * degrees, 3) +
          " deg (start to toe) ends there; a model that works with a "
@@ -108,9 +163,9 @@ std::string energy_line_text(const AngleProfile& profile) {
 
 std::string text(const MassReach& reach) {
   const auto percent = [](double share) { return text(100 * share, 2) + " %"; };
-  std::string words = percent(reach_share) + " of what moved came within " + text(reach.length, 4) +
-                      " m of its top, " + text(reach.height, 4) + " m below (" +
-                      text(reach.angle() * degrees, 3) + " deg)";
+  std::string words = percent(reach_share) + " of what moved came within " +
+                      grouped_text(reach.length) + " m of its top, " + grouped_text(reach.height) +
+                      " m below (" + text(reach.angle() * degrees, 3) + " deg)";
   if (reach.n_beyond > 0)
     words += "; " + counted(reach.n_beyond, "block") + ", " + percent(reach.beyond_share) +
              " of it, went farther, the farthest is " + percent(reach.toe_share) + " of it";
@@ -130,17 +185,22 @@ std::string cases_text(const std::vector<RunoutRun>& runs) {
         spread_over(runs, one.runs, [](const RunoutRun& r) { return r.event.mass.length; });
     const Spread angle = spread_over(
         runs, one.runs, [](const RunoutRun& r) { return r.event.event.path_angle() * degrees; });
+    const std::size_t n_events = events_among(runs, one.runs).size();
     lines += "\ncase " + (one.name.empty() ? std::string("without a name") : one.name) + ": " +
              std::to_string(length.n) + " of " +
-             counted(static_cast<std::int64_t>(one.runs.size()), "run") + " moved, " +
+             counted(static_cast<std::int64_t>(one.runs.size()), "run") + " moved" +
+             (n_events < length.n ? " (" + std::to_string(n_events) + " events)" : "") + ", " +
              text(100 * one.moved.share, 3) + " % of the mass by more than " + text(moved_m) + " m";
     if (length.n > 0)
-      lines += "; largest L " + text(length.largest, 4) + " m, L95 " +
-               text(mass_length.largest, 4) + " m, smallest angle of reach " +
+      lines += "; largest L " + grouped_text(length.largest) + " m, L95 " +
+               grouped_text(mass_length.largest) + " m, smallest angle of reach " +
                text(angle.smallest, 3) + " deg";
   }
   if (cases.empty()) return "";
-  return lines + "\nwhat stands for all runs together counts each run of each case alike";
+  std::vector<RunMember> members;
+  for (const RunoutRun& run : runs) members.push_back(run.member);
+  return lines + "\nwhat stands for all runs together weighs the cases as " +
+         text(case_shares(members));
 }
 
 std::string runout_summary(const RunoutRuns& all) {
@@ -148,69 +208,23 @@ std::string runout_summary(const RunoutRuns& all) {
   return (standing.empty() ? "" : standing + "\n") +
          (all.runs.size() > 1 ? "moved, all runs together: " : "moved: ") + text(all.moved) + "\n" +
          reach_text(all.runs) + cases_text(all.runs) + "\nvolume: released " +
-         text(all.balance.released, 6) + " m3 = deposited " + text(all.balance.deposited, 6) +
-         " + moving " + text(all.balance.moving, 6) + " + left " + text(all.balance.left, 6);
+         grouped_text(all.balance.released, 4) + " m3 = deposited " +
+         grouped_text(all.balance.deposited, 4) + " + moving " +
+         grouped_text(all.balance.moving, 4) + " + left " + grouped_text(all.balance.left, 4);
 }
 
 std::string run_csv(const std::vector<RunoutRun>& runs) {
-  std::vector<std::string> headings = {"run_id",
-                                       "seed",
-                                       "status",
-                                       "moved",
-                                       "share_moved_1_m",
-                                       "share_moved_20_m",
-                                       "displacement_p50_m",
-                                       "displacement_p90_m",
-                                       "displacement_p95_m",
-                                       "displacement_max_m",
-                                       "H_m",
-                                       "L_path_m",
-                                       "L_chord_m",
-                                       "reach_angle_path_deg",
-                                       "reach_angle_chord_deg",
-                                       "toe_block",
-                                       "toe_fate",
-                                       "moved_volume_m3",
-                                       "H95_m",
-                                       "L95_m",
-                                       "reach_angle_95_deg",
-                                       "blocks_beyond_L95",
-                                       "share_beyond_L95",
-                                       "toe_share",
-                                       "outliers",
-                                       "case"};
+  std::vector<std::string> headings;
+  for (const RunColumn& column : run_columns) headings.emplace_back(column.heading);
   const std::vector<DrawnValue> drawn =
       runs.empty() ? std::vector<DrawnValue>{} : runs.front().drawn;
   for (const DrawnValue& value : drawn) headings.push_back(value.name);
   std::string out = csv_line(headings);
   for (const RunoutRun& r : runs) {
-    const Moved& m = r.event.moved;
-    std::vector<std::string> row = {r.member.info.run_id, std::to_string(r.member.info.seed),
-                                    r.member.info.status, m.any() ? "1" : "0"};
-    for (const double value : {m.share, m.share_far, m.p50, m.p90, m.p95, m.largest})
-      row.push_back(text(value, 7));
-    if (m.any()) {
-      const ReachLine& e = r.event.event;
-      for (const double value :
-           {e.height, e.path, e.chord, e.path_angle() * degrees, e.chord_angle() * degrees})
-        row.push_back(text(value, 9));
-      row.push_back(std::to_string(r.event.toe_block));
-      row.emplace_back(text(r.event.toe_fate));
-      const MassReach& mass = r.event.mass;
-      for (const double value :
-           {mass.moved_volume, mass.height, mass.length, mass.angle() * degrees,
-            static_cast<double>(mass.n_beyond), mass.beyond_share, mass.toe_share,
-            static_cast<double>(mass.n_outliers)})
-        row.push_back(text(value, 7));
-    }
-    row.resize(25);
-    row.push_back(case_of(r.member.file));
-    for (const DrawnValue& column : drawn) {
-      const auto found = std::find_if(r.drawn.begin(), r.drawn.end(), [&](const DrawnValue& value) {
-        return value.name == column.name;
-      });
-      row.push_back(found == r.drawn.end() ? "" : text(found->value, 7));
-    }
+    std::vector<std::string> row;
+    for (const RunColumn& column : run_columns)
+      row.push_back(column.only_if_moved && !r.event.moved.any() ? "" : column.value(r));
+    for (const DrawnValue& value : drawn) row.push_back(drawn_text(r, value.name));
     out += csv_line(row);
   }
   return out;

@@ -20,7 +20,8 @@ namespace talus {
 /// A row (CSV) for each run: how much of the mass moved and how far, H, L and angle of reach.
 [[nodiscard]] std::string run_csv(const std::vector<RunoutRun>& runs);
 
-/// "19 of 36 runs did not move (no block by more than 1 m)"; "" when all moved.
+/// "19 of 36 runs did not move (no block by more than 1 m), and 5 of 36 runs moved less than 10 %
+/// of the mass"; "" when all are events.
 [[nodiscard]] std::string standing_runs(const std::vector<RunoutRun>& runs);
 
 /// "95 % of what moved came within 162 m of its top, 126 m below (37.8 deg); 10 blocks, 4 % of it,

@@ -32,7 +32,7 @@ struct SubstepAcceptance {
   std::vector<Segment>& segments;
   DeepWork& deep;
   StepReport& report;
-  bool is_eased = false;
+  bool is_eased = false;  // its forces were not found at first
 
   // Energy that contacts took, by kind; push_bodies() adds that of bodies that give way.
   void account(size_t r) {

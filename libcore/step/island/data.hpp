@@ -61,7 +61,6 @@ struct IslandMembers {  // clang-format off
   std::vector<BlockNumbers> numbers;        ///<                                         (n_members)
   std::vector<int> place;                   ///< of a body in `blocks`, -1: not in it    (n_bodies)
   bool is_small = false;                    ///< the island's matrix is cheap to factor
-  bool is_eased = false;                    ///< soft, since forces were not found and blocks move
   std::vector<double> bearing;              ///< mass of the heaviest block touched [kg] (n_members)
   // clang-format on
   [[nodiscard]] std::size_t size() const { return blocks.size(); }

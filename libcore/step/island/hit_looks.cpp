@@ -252,6 +252,24 @@ double slip_of(const ImpactContact& contact, const PlacedMotion& body) {
 
 }  // namespace
 
+TouchingContact& HitLooks::add_touching(size_t p, const Vec3& normal, const Vec3& point, double gap,
+                                        const ContactKey& key, const GroundClass& faces) const {
+  const BodyPair& pair = system.island.pairs[p];
+  TouchingContact touching;
+  touching.of.a = pair.a;
+  touching.of.b = pair.b;
+  touching.of.normal = normal;
+  touching.of.point = point;
+  touching.of.friction = faces.friction;
+  touching.of.restitution = faces.restitution;
+  touching.of.resting_speed = members.numbers[static_cast<size_t>(pair.a)].resting_speed;
+  touching.key = key;
+  touching.gap = gap;
+  touching.pair = static_cast<int>(p);
+  hits.touching.push_back(touching);
+  return hits.touching.back();
+}
+
 void HitLooks::find_touching_ground(size_t p, double time) const {
   const auto k = static_cast<size_t>(system.island.pairs[p].a);
   const BlockNumbers& c = members.numbers[k];
@@ -262,23 +280,15 @@ void HitLooks::find_touching_ground(size_t p, double time) const {
                       &near_ground[members.block(k)]);
   for (const Contact& found : making.found) {
     const GroundClass& ground = scene.ground.classes[found.ground_class];
+    TouchingContact& touching = add_touching(
+        p, found.normal, talus::place(m.pose, found.point_a) - found.gap / 2 * found.normal,
+        found.gap, found.key, ground);
     const int b = members.blocks[k];
-    TouchingContact touching;
-    touching.of.a = static_cast<int>(k);
-    touching.of.normal = found.normal;
-    touching.of.point = talus::place(m.pose, found.point_a) - found.gap / 2 * found.normal;
-    touching.of.friction = ground.friction;
-    touching.of.restitution = ground.restitution;
     touching.of.fall = fall_on(ground, c.mass);
     touching.of.arm = arm_on(scene, ground, b);
-    touching.of.resting_speed = c.resting_speed;
-    touching.key = found.key;
     if (varies_friction(ground))
       touching.of.friction = friction_on(ground, slip_of(touching.of, place(k, m)),
                                          way_slid(state, ground, b, free.t + time));
-    touching.gap = found.gap;
-    touching.pair = static_cast<int>(p);
-    hits.touching.push_back(touching);
   }
 }
 
@@ -287,7 +297,6 @@ void HitLooks::find_touching_bodies(size_t p, double time) const {
   const PairManifold& of = search.pairs.manifolds[system.pair_manifold[p]];
   const Hulls& hulls = scene.blocks.hulls;
   const auto ka = static_cast<size_t>(pair.a);
-  const BlockNumbers& c = members.numbers[ka];
   place_body(hulls, of.block_a, member_at(ka, time).motion.pose, hits.placed);
   place_body(hulls, of.block_b,
              pair.b < 0 ? search.poses[of.block_b]
@@ -310,18 +319,8 @@ void HitLooks::find_touching_bodies(size_t p, double time) const {
       pair.b < 0 ? fixed_class(scene, fixed_of(scene, of.block_b)) : pair_class(scene, m);
   for (int i = m.point_begin; i < m.point_end; ++i) {
     const PairPoint& point = hits.points[i];
-    TouchingContact touching;
-    touching.of.a = pair.a;
-    touching.of.b = pair.b;
-    touching.of.normal = m.normal;
-    touching.of.point = point.point_b + point.gap / 2 * m.normal;
-    touching.of.friction = faces.friction;
-    touching.of.restitution = faces.restitution;
-    touching.of.resting_speed = c.resting_speed;
-    touching.key = point.key;
-    touching.gap = point.gap;
-    touching.pair = static_cast<int>(p);
-    hits.touching.push_back(touching);
+    add_touching(p, m.normal, point.point_b + point.gap / 2 * m.normal, point.gap, point.key,
+                 faces);
   }
 }
 

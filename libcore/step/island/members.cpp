@@ -73,8 +73,7 @@ void choose_stiffness(const Scene& scene, const State& state, const PairSearch& 
     return state.motion[static_cast<size_t>(b)].velocity.norm() > slow * g * dt;
   };
   const bool any_moves = std::any_of(members.blocks.begin(), members.blocks.end(), moves);
-  members.is_eased = any_moves && eased > 0;
-  const bool is_soft = members.is_eased || (any_moves && !members.is_small);
+  const bool is_soft = eased > (any_moves ? 0 : 1) || (any_moves && !members.is_small);
   const double stiffest = stiffest_by_load / std::pow(law::easing, eased);
   for (size_t k = 0; k < members.size(); ++k) {
     BlockNumbers& c = members.numbers[k];

@@ -50,6 +50,26 @@ kill -TERM $process
 wait $process || true
 if grep -q "$(printf '\r')" lines; then fail "lines are rewritten in place where there is no terminal"; fi
 
+# unasked: in place on a terminal; where there is none, nothing of the first minute
+frame-probe in.txt -o b.txt --mode wait 2>lines &
+process=$!
+python3 - <<'END' || fail "a terminal is told nothing, or lines instead of one in place"
+import os, pty, signal, subprocess, time
+ours, theirs = pty.openpty()
+tool = subprocess.Popen(["frame-probe", "in.txt", "-o", "t.txt", "--mode", "wait"], stderr=theirs)
+os.close(theirs)
+told = b""
+end = time.monotonic() + 30
+while told.count(b"\r\x1b[K") < 3 and time.monotonic() < end:
+    told += os.read(ours, 4096)
+tool.send_signal(signal.SIGTERM)
+tool.wait()
+assert told.count(b"\r\x1b[K") >= 3 and b" %" not in told, told
+END
+kill -TERM $process
+wait $process || true
+if grep -q '[0-9] %\|\.\.\.' lines; then fail "without a terminal the first seconds are told: $(cat lines)"; fi
+
 # messages
 expect 0 frame-probe in.txt -o c.txt --messages=json --progress=none
 [ "$(objects err)" = "[{'level': 'warning', 'tool': 'frame-probe', 'text': 'a warning'}]" ] || fail "messages: $(cat err)"

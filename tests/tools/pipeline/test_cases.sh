@@ -11,7 +11,8 @@ made slope -j2 "$@" runout
 prints "2 of 4 runs did not move"
 prints "case far: 2 of 2 runs moved"
 prints "case near: 0 of 2 runs moved, 0 % of the mass"
-prints "what stands for all runs together counts each run of each case alike"
+prints "what stands for all runs together weighs the cases as far 0.5 (2 runs), near 0.5 (2 runs)"
+says "warning: runs of 2 cases pooled, each run alike: no probability (far 0.5 (2 runs), near 0.5 (2 runs))"
 made slope "$@" report
 python3 - <<'PY' || fail "cases are not side by side"
 import csv, json
@@ -27,4 +28,44 @@ for case, mean in ('far', 15), ('near', 70):
 page = open('slope/out/report.html').read()
 assert '2 of 2' in page and '0 of 2' in page and 'mass that moved more than 1 m' in page
 assert page.count('the fence is a rigid wall') >= 2, page.count('the fence is a rigid wall')
+PY
+
+# Weighed: a share of all is the weighed mean of the cases' own, in maps, fences and run-out alike.
+fails() { expect 2 make -C slope BIN= "$@" runout; }
+fails "$@" WEIGHTS=far=1
+says "WEIGHTS has none of case near"
+fails "$@" WEIGHTS='far=1 nearer=2'
+says "WEIGHTS names 'nearer=2'"
+made slope "$@" WEIGHTS='far=1 near=3' MAPS_FLAGS= maps runout
+grep -q "pooled" err && fail "weighed cases are said to be pooled: $(cat err)"
+for case in far near; do
+  expect 0 talus-maps slope/out/runs/run_*.h5 --trn slope/out/bed.tif --only-case $case -o maps_$case --no-db
+done
+expect 1 talus-maps slope/out/runs/run_*.h5 --trn slope/out/bed.tif --only-case high -o maps_high --no-db
+says "no run is of case 'high'"
+expect 1 talus-maps slope/out/runs/run_*.h5 --trn slope/out/bed.tif --case-weight far=1 -o maps_high --no-db
+says "is of case 'near', which has no --case-weight"
+expect 2 talus-maps slope/out/runs/run_*.h5 --trn slope/out/bed.tif --case-weight far=0 -o maps_high --no-db
+PATH=/usr/bin:$PATH python3 - <<'PY' || fail "maps do not weigh the cases"
+import json
+try:
+    from osgeo import gdal
+except ImportError:
+    raise SystemExit(0)
+def band(folder, name):
+    data = gdal.Open(folder + '/reach.tif')
+    for i in range(1, data.RasterCount + 1):
+        if data.GetRasterBand(i).GetDescription() == name:
+            return data.GetRasterBand(i).ReadAsArray()
+for name in 'reach_probability', 'run_share':
+    all_, far, near = (band(f, name) for f in ('slope/out/maps', 'maps_far', 'maps_near'))
+    assert far.max() > 0 and abs(far - near).max() > .02, (name, far.max())
+    assert abs(all_ - .25 * far - .75 * near).max() < 1e-6, name
+tags = gdal.Open('slope/out/maps/reach.tif').GetMetadata()
+assert tags['CASES'] == 'far 0.25 (2 runs), near 0.75 (2 runs)' and 'REMARK' not in tags, tags
+r = json.load(open('slope/out/runout.json'))
+far, near = r['cases']
+assert r['n_events'] == 2 and abs(r['event_probability'] - .25) < 1e-12, r['event_probability']
+assert abs(r['moved']['share_moved_1_m'] - .25 * far['moved']['share_moved_1_m']) < 1e-12
+assert (far['weight'], near['weight']) == (.25, .75)
 PY

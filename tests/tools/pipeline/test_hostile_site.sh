@@ -16,6 +16,16 @@ refused terrain layer '"a\nall: ; touch hurt"' "line break or control character"
 refused 'fence."x;touch hurt"' line '[[0, 0], [1, 1]]' "cannot stand in a makefile"
 refused 'fence."$(shell touch hurt)"' line '[[0, 0], [1, 1]]' "cannot stand in a makefile"
 
+# a key of parts without end overflows no stack, neither in the file nor on the command line
+awk 'BEGIN { print "[output]"; for (i = 0; i < 60000; i++) printf "a."; print "a = 1" }' >deep.toml
+expect 1 talus-site deep.toml -o stages --no-db
+says "deep.toml:2: a key of 60001 parts, expected one or two"
+awk 'BEGIN { print "[output]"; printf "x = {"; for (i = 0; i < 60000; i++) printf "\"=\"."; print "a = 1}" }' >deep.toml
+expect 1 talus-site deep.toml -o stages --no-db
+says "a key of 60001 parts"
+printf '[site] # %s\nname = "%s"\n' "$(head -c 3000 /dev/zero | tr '\0' .)" "$(head -c 3000 /dev/zero | tr '\0' .)" >dots.toml
+expect 0 talus-site dots.toml -o dots --no-db
+
 # a name and a layer may hold what they like, and files blanks and letters of any alphabet
 site odd
 mv odd/contours.gpkg "odd/Höhen linien #1.gpkg"

@@ -51,6 +51,15 @@ expect 0 new built dem.tif source.geojson "$source_dir/pipelines" absent
 says "the tools are not built"
 grep -q 'THE SLOPE WAS NOT MEASURED' built/site.toml || fail "the site file does not warn"
 
+# pipelines in a folder whose path make would part or take for an order, also for a site made from there
+mkdir 'My #1 Projects'
+cp -r "$source_dir/pipelines" 'My #1 Projects/pipelines'
+expect 0 new blank dem.tif source.geojson 'My #1 Projects/pipelines'
+expect 0 make -C blank BIN= terrain
+[ -s blank/out/trn.tif ] || fail "no terrain"
+expect 0 make -C blank BIN= new-site NAME=beside DEM="$PWD/dem.tif" SOURCE="$PWD/source.geojson"
+expect 0 make -C beside BIN= help
+
 # by make: a name that make or the shell would part or run is refused before anything runs
 site here
 made here new-site NAME=there-2 DEM="$PWD/dem.tif" SOURCE="$PWD/source.geojson"

@@ -52,3 +52,10 @@ cmp plain.txt.sets facets.csv.sets || fail "a section's own declination was not 
 sets facets.csv '[joints]' 'declination_deg = 3.5'
 says "warning: "
 says "which know no compass; set declination_deg = 0 in [joints.m]"
+
+# facets of a point cloud: 100,000 are few (seconds; with a mean for each of them it were minutes)
+awk 'BEGIN { srand(1); for (i = 0; i < 100000; i++) printf "%.2f %.2f\n", (i % 2 ? 80 : 170) + 10 * rand(), 60 + 10 * rand() }' >many.txt
+sed '/^\[joints/,/^$/d' site.toml >many.toml
+printf '\n[joints.m]\nmeasured_file = "many.txt"\nn_sets = 2\nspacing_m = 20\nfisher_k = 0\n' >>many.toml
+timeout 120 talus-blocks many.toml --trn trn.tif -o many.h5 --no-db --overwrite >out 2>err || fail "100,000 orientations: exit code $?: $(cat err)"
+says "many.txt: 100000 orientations"

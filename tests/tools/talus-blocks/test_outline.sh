@@ -37,7 +37,7 @@ for cell in 10 5 2.5; do
     holds "($(value r.json prism_volume_m3) / $prism - 1) ^ 2 < 1e-10"
     holds "(($(value r.json volume_m3) + $(value r.json slivers_left_out_m3)) / $prism - 1) ^ 2 < 1e-10"
     holds "($(value r.json mass_area_share) - 1) ^ 2 < 1e-12"
-    prints "the mass covers 3000 m2, 100 % of the polygon of 3000 m2"
+    prints "the mass covers 3,000 m2, 100 % of the polygon of 3,000 m2"
     if grep -q "warning" err; then fail "warns of a sound source: $(cat err)"; fi
   done
 done

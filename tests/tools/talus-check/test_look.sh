@@ -61,7 +61,7 @@ expect 0 look --set ground.rock.friction_deg=60 --set material.rock.friction_deg
 prints "it stands"
 prints "this is no rockslide"
 if grep -q "ends after 3 s" out; then fail "a mass with a splinter that falls off ends early"; fi
-expect 0 look --set ground.rock.friction_deg=85 --set material.rock.friction_deg=80
+expect 0 look --set ground.rock.friction_deg=60 --set material.rock.friction_deg=60 --set source.min_block_volume_m3=10
 prints "a run in which nothing moves ends after 3 s"
 
 # Without the engine

@@ -143,3 +143,10 @@ expect 0 talus-dda site.toml --trn slope.tif --blocks blocks.h5 -o together.h5 -
 expect 0 run_dda -o alone.h5 --duration-s 0.1
 says "warning: 3 blocks move as if each were alone"
 exit 0
+
+# a spin that no step can follow is refused before the run, whatever wrote the block set
+sed 's/^spin_rad_s.*/spin_rad_s = [1e9, 1, 0]/' site.toml >spins.toml
+grep -q 1e9 spins.toml || fail "no spin in the site file"
+expect 0 talus-blocks spins.toml --trn slope.tif -o spins.h5 --no-db
+expect 1 talus-dda spins.toml --trn slope.tif --blocks spins.h5 -o spins_run.h5 --no-db
+says "block 0: spins at the start with 1e+09 rad/s, expected at most 1000"

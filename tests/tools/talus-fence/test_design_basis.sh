@@ -17,7 +17,7 @@ prints 'not judged: too few arrivals, 2 of the 59 that the code needs; by the la
 cp out f.out
 # ten times the rock: no class is large enough
 expect 0 talus-fence open/site.toml open/run_*.h5 --trn open/slope.tif -o n.gpkg --json n.json --design-block-m3 10
-prints '(no ETAG class: above the largest, 4500 kJ; a net is no option)'
+prints '(no ETAG class: above the largest, 4,500 kJ; a net is no option)'
 cp out n.out
 ogrinfo -q -al o.gpkg fences >o.layer
 ogrinfo -q -al f.gpkg fences >f.layer

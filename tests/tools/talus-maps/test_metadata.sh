@@ -6,7 +6,7 @@ for name in reach velocity ke_translational ke_total pass_height_centroid pass_h
   [ -f "maps/$name.tif" ] && [ -f "maps/$name.qml" ] || fail "maps/$name is missing"
   gdalinfo "maps/$name.tif" >info
   for word in 'EPSG",31254' 'NoData Value=-9999' 'Unit Type:' 'Description =' 'long_name=' RUN_ID= N_RUNS=3 \
-      'DENOMINATOR=W = 3' HEALTH= HEALTH_LARGEST_PENETRATION_M=0.002 LAYOUT=COG; do
+      'DENOMINATOR=N = 3' HEALTH= HEALTH_LARGEST_PENETRATION_M=0.002 LAYOUT=COG; do
     grep -qF -- "$word" info || fail "maps/$name.tif does not say $word"
   done
   grep -q 'colorrampshader' "maps/$name.qml" || fail "maps/$name.qml is no style"

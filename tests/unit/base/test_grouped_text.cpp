@@ -18,4 +18,18 @@ TEST(GroupedText, IsThatOfTextElsewhere) {
     EXPECT_EQ(talus::grouped_text(value, 4), talus::text(value, 4));
 }
 
+TEST(GroupedText, ShowsThreeDigitsUnlessMoreAreAskedFor) {
+  EXPECT_EQ(talus::grouped_text(79219.6), "79,200");
+  EXPECT_EQ(talus::grouped_text(168.34), "168");
+  EXPECT_EQ(talus::grouped_text(33.7412), "33.7");
+}
+
+TEST(GroupedText, RoundsUpWhatIsNeeded) {
+  EXPECT_EQ(talus::needed_text(1311.2), "1,320");
+  EXPECT_EQ(talus::needed_text(1310), "1,310");
+  EXPECT_EQ(talus::needed_text(9991), "10,000");
+  EXPECT_EQ(talus::needed_text(2.911), "2.92");
+  EXPECT_EQ(talus::needed_text(0), "0");
+}
+
 }  // namespace

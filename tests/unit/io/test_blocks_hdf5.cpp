@@ -1,13 +1,16 @@
 #include <gtest/gtest.h>
+#include <hdf5.h>
 
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <sstream>
 
 #include "base/error.hpp"
 #include "base/random.hpp"
 #include "base/sha256.hpp"
 #include "io/blocks_hdf5.hpp"
+#include "io/seal.hpp"
 
 namespace {
 
@@ -103,4 +106,80 @@ TEST(BlocksHdf5, DamagedFilesAreRefused) {
     }
   }
   EXPECT_THROW(static_cast<void>(read_blocks(scratch("not there.h5"))), InputError);
+}
+
+namespace {
+
+// A stranger seals what he makes as Talus does.
+void resealed(const std::string& path, const std::function<void(hid_t)>& change) {
+  constexpr std::uintmax_t seal_size = 77;
+  std::filesystem::resize_file(path, std::filesystem::file_size(path) - seal_size);
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  ASSERT_GE(file, 0);
+  change(file);
+  ASSERT_GE(H5Fclose(file), 0);
+  const std::string bytes = bytes_of(path);
+  std::ofstream(path, std::ios::binary | std::ios::app) << seal_of(bytes.data(), bytes.size());
+}
+
+}  // namespace
+
+TEST(BlocksHdf5, LeadToNoOtherFile) {
+  const std::string path = scratch("links.h5"), other = scratch("other.h5");
+  write_blocks(other, some_blocks());
+  const auto refuses = [&](const std::function<void(hid_t)>& change) {
+    write_blocks(path, some_blocks());
+    resealed(path, change);
+    try {
+      static_cast<void>(read_blocks(path));
+      ADD_FAILURE() << "it was read";
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("another"), std::string::npos) << error.what();
+    }
+  };
+  std::string name;
+  const auto first_array = [&](hid_t file) {
+    name.clear();
+    H5Lvisit(
+        file, H5_INDEX_NAME, H5_ITER_NATIVE,
+        [](hid_t at, const char* link, const H5L_info_t*, void* to) -> herr_t {
+          const hid_t object = H5Oopen(at, link, H5P_DEFAULT);
+          const bool is_array = H5Iget_type(object) == H5I_DATASET;
+          H5Oclose(object);
+          if (is_array) *static_cast<std::string*>(to) = link;
+          return is_array ? 1 : 0;
+        },
+        &name);
+    ASSERT_NE(name, "");
+  };
+  EXPECT_NO_THROW({  // the seal alone is no reason to refuse
+    write_blocks(path, some_blocks());
+    resealed(path, first_array);
+    static_cast<void>(read_blocks(path));
+  });
+  refuses([&](hid_t file) {
+    H5Ldelete(file, name.c_str(), H5P_DEFAULT);
+    EXPECT_GE(H5Lcreate_external(other.c_str(), name.c_str(), file, name.c_str(), H5P_DEFAULT,
+                                 H5P_DEFAULT),
+              0);
+  });
+  refuses([&](hid_t file) {
+    H5Lmove(file, name.c_str(), file, "elsewhere", H5P_DEFAULT, H5P_DEFAULT);
+    EXPECT_GE(H5Lcreate_soft("/elsewhere", file, name.c_str(), H5P_DEFAULT, H5P_DEFAULT), 0);
+  });
+  refuses([&](hid_t file) {  // values in another file, without a link
+    const hid_t before = H5Dopen2(file, name.c_str(), H5P_DEFAULT);
+    const hid_t type = H5Dget_type(before), space = H5Dget_space(before);
+    H5Dclose(before);
+    H5Ldelete(file, name.c_str(), H5P_DEFAULT);
+    const hid_t list = H5Pcreate(H5P_DATASET_CREATE);
+    EXPECT_GE(H5Pset_external(list, "/etc/passwd", 0, H5F_UNLIMITED), 0);
+    const hid_t after = H5Dcreate2(file, name.c_str(), type, space, H5P_DEFAULT, list, H5P_DEFAULT);
+    EXPECT_GE(after, 0);
+    // a file is whole when nothing of it is open any more
+    EXPECT_GE(H5Dclose(after), 0);
+    EXPECT_GE(H5Tclose(type), 0);
+    EXPECT_GE(H5Sclose(space), 0);
+    EXPECT_GE(H5Pclose(list), 0);
+  });
 }

@@ -345,7 +345,7 @@ TEST(DesignCode, OfUniMultipliesSpeedPercentileAndDesignMass) {
   EXPECT_EQ(r.governs, "energy");
   EXPECT_EQ(r.verdict, DesignVerdict::does_not_meet);
   EXPECT_EQ(text(r),
-            "does not meet the code, energy governs: needs 1096 kJ (ETAG class 4) and a height of "
+            "does not meet the code, energy governs: needs 1,100 kJ (ETAG class 4) and a height of "
             "2.92 m");
 }
 
@@ -412,7 +412,7 @@ TEST(CheckDesign, NamesNoClassAboveTheLargest) {
   const DesignInput input{60, 0.8, 2700, 2, false, NAN, NAN};
   const DesignResult r = check_design(uni(), classes, input, hundred_arrivals(), straight_fence());
   EXPECT_EQ(r.smallest_class, "none");
-  EXPECT_NE(text(r).find("(no ETAG class: above the largest, 4500 kJ; a net is no option)"),
+  EXPECT_NE(text(r).find("(no ETAG class: above the largest, 4,500 kJ; a net is no option)"),
             std::string::npos)
       << text(r);
 }
@@ -552,4 +552,34 @@ TEST(DesignCode, RefusesAFileWithoutAFactor) {
   EXPECT_THROW(static_cast<void>(design_code(
                    parse_csv("key,value,unit,mark,source\nformula,uni,,v,\n", "x.csv"))),
                InputError);
+}
+
+// A run that counts three times is as good as the same run three times.
+TEST(FenceShares, WeighRunsAsIfTheyStoodThereSoManyTimes) {
+  FenceRun near, far;
+  near.volume = far.volume = {2};
+  near.weight = far.weight = {1};
+  near.event.path = 50;
+  far.event.path = 90;
+  near.at_fence.resize(1);
+  far.at_fence.resize(1);
+  near.at_fence[0].verdicts = {{0, 0, Verdict::not_reached, -1}};
+  far.at_fence[0].verdicts = {{0, 0, Verdict::pierced, -1}};
+  FenceArrival crossing;
+  crossing.passed_for_good = true;
+  crossing.volume = 2;
+  far.at_fence[0].crossings = {crossing};
+  const FenceRunGroup repeated{std::vector<RunMember>(4), {near, far, far, far}};
+  far.run_weight = 3;
+  far.weight = {3};
+  far.at_fence[0].crossings[0].weight = 3;
+  const FenceRunGroup weighed{std::vector<RunMember>(2), {near, far}};
+  const GroundBehind a = ground_behind(weighed, 0), b = ground_behind(repeated, 0);
+  EXPECT_DOUBLE_EQ(a.share, 0.75);
+  EXPECT_DOUBLE_EQ(a.share, b.share);
+  EXPECT_DOUBLE_EQ(a.volume, b.volume);
+  EXPECT_DOUBLE_EQ(a.path, 80);
+  EXPECT_DOUBLE_EQ(a.path, b.path);
+  EXPECT_DOUBLE_EQ(verdict_share(weighed, 0, Verdict::pierced, verdict_basis(weighed, 0)).share,
+                   0.75);
 }

@@ -256,6 +256,27 @@ TEST(ReachLayer, BoundsTheProbabilityByWilsonForSingleBlocks) {
 
 // 40 runs of one block, 4 of which came: 0.10 of 40 trials; 141 are wanted for a half width of
 // 0.05.
+// A run that counts three times is as good as the same run three times, but for how sure that is.
+TEST(ReachLayer, WeighsRunsAsIfTheyStoodThereSoManyTimes) {
+  HandMade made = random_runs(2, 3, false, 0.4, 5), repeated = made;
+  repeated.runs.push_back(made.runs[1]);
+  repeated.runs.push_back(made.runs[1]);
+  for (double& weight : made.runs[1].weight) weight *= 3;
+  Released weighed = made.released();
+  weighed.run_weight = {1, 3};
+  const MapLayer a = reach_layer(made.cells(), 2, weighed);
+  const MapLayer b = reach_layer(repeated.cells(), 2, repeated.released());
+  int n = 0;
+  for (std::size_t k = 0; k < a.bands.size(); ++k) {
+    if (a.bands[k].name != "reach_probability" && a.bands[k].name != "run_share") continue;
+    ++n;
+    EXPECT_EQ(a.bands[k].value, b.bands[k].value) << a.bands[k].name;
+  }
+  EXPECT_EQ(n, 2);
+  // effective runs: (1 + 3)^2 / (1 + 9)
+  EXPECT_NEAR(reach_bound_elsewhere(weighed), wilson_interval(0, 1.6).high, 1e-12);
+}
+
 TEST(RunsToAdd, AreThoseOfTheWorstCell) {
   HandMade made = random_runs(40, 1, false, 0, 1);
   for (int run = 0; run < 4; ++run) made.runs[run].passages = {Passage{}};

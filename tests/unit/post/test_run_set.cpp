@@ -85,3 +85,25 @@ TEST(CheckMember, TakesFailedRunsAndRefusesInterruptedOnes) {
   EXPECT_THROW(check_member(running, running, {false, "trn.tif", ""}), InputError);
   EXPECT_NO_THROW(check_member(running, running, {true, "trn.tif", ""}));
 }
+
+// Cases of 1 and 3 runs that shall count 1 : 1: the lone run counts for three of the others.
+TEST(CaseWeights, MakeRunsCountSoThatCasesHaveTheirShares) {
+  const std::vector<RunMember> runs = {
+      member("run_high_1.h5", 1, "done"), member("run_low_1.h5", 2, "done"),
+      member("run_low_2.h5", 3, "done"), member("run_low_3.h5", 4, "done")};
+  const std::vector<CaseWeight> cases = cases_of(runs, {{"low", 2}, {"high", 2}});
+  const std::vector<double> weights = run_weights(runs, cases);
+  EXPECT_EQ(text(cases), "high 0.5 (1 run), low 0.5 (3 runs)");
+  EXPECT_DOUBLE_EQ(weights[0], 2);
+  for (int k = 1; k < 4; ++k) EXPECT_DOUBLE_EQ(weights[k], 2.0 / 3);
+  const std::vector<double> alike = run_weights(runs, cases_of(runs, {}));
+  for (const double weight : alike) EXPECT_DOUBLE_EQ(weight, 1);
+  EXPECT_EQ(tag(runs, "CASES"), "high 0.25 (1 run), low 0.75 (3 runs)");
+}
+
+TEST(CaseWeights, AreOfEachCaseAndOfNoOther) {
+  const std::vector<RunMember> runs = {member("run_high_1.h5", 1, "done"),
+                                       member("run_low_1.h5", 2, "done")};
+  EXPECT_THROW((void)cases_of(runs, {{"low", 1}}), InputError);
+  EXPECT_THROW((void)cases_of(runs, {{"low", 1}, {"high", 1}, {"mid", 1}}), InputError);
+}

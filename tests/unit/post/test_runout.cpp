@@ -319,3 +319,28 @@ TEST(RunoutCases, StandByTheNamesOfTheirFiles) {
   runs.erase(runs.begin() + 1);
   EXPECT_TRUE(cases_of(runs).empty());
 }
+
+// Of four runs one stood, one lost a stone, two are events of weight 1 and 0.5.
+TEST(RunoutRuns, AreEventsWhereATenthOfTheMassMoved) {
+  std::vector<RunoutRun> runs(4);
+  const std::vector<double> share = {0, 0.02, 0.1, 0.9}, length = {std::nan(""), 70, 100, 130};
+  const std::vector<double> weight = {1.5, 1, 1, 0.5};
+  for (int k = 0; k < 4; ++k) {
+    runs[k].member.run_weight = weight[k];
+    runs[k].member.info.status = "done";
+    runs[k].event.moved.share = share[k];
+    runs[k].event.moved.largest = share[k] > 0 ? 50 : 0;
+    runs[k].event.mass.length = length[k];
+  }
+  const std::vector<int> events = events_among(runs, all_of(runs));
+  EXPECT_EQ(events, (std::vector<int>{2, 3}));
+  EXPECT_DOUBLE_EQ(event_probability(runs, all_of(runs)), 1.5 / 4);
+  const auto of_mass = [](const RunoutRun& r) { return r.event.mass.length; };
+  const Spread given_an_event = spread_over(runs, events, of_mass);
+  EXPECT_DOUBLE_EQ(given_an_event.mean, (100 + 0.5 * 130) / 1.5);
+  EXPECT_EQ(given_an_event.smallest, 100);
+  EXPECT_EQ(spread_over(runs, of_mass).smallest, 70);
+  EXPECT_EQ(standing_runs(runs),
+            "1 of 4 runs did not move (no block by more than 1 m), and 1 of 4 runs moved less than "
+            "10 % of the mass");
+}

@@ -106,7 +106,8 @@ TEST(ShareInterval, OfRunsThatAgreeCountsRuns) {
 
 TEST(RunShareInterval, IsWilsonsOfTheRuns) {
   const auto of = [](int n_hit, int n) {
-    return run_share_interval(share_basis(std::vector<double>(n, 7.0), false), n_hit);
+    return run_share_interval(share_basis(std::vector<double>(n, 7.0), false),
+                              static_cast<double>(n_hit) / n);
   };
   EXPECT_NEAR(of(0, 10).high, 0.277533, 5e-7);
   EXPECT_NEAR(of(0, 100).high, 0.036993, 5e-7);

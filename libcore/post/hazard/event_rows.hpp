@@ -1,0 +1,33 @@
+// libcore/post/hazard/event_rows.hpp
+// Passages as hazard classes count them.
+// in:    passages of a run by cell (post/maps/map_rows.hpp), its blocks, a recipe
+// out:   rows of 20 bytes, by cell, then run
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "post/hazard/recipe.hpp"
+#include "post/maps/map_rows.hpp"
+#include "record/run_file.hpp"
+
+namespace talus {
+
+struct EventRow {
+  std::uint32_t cell = 0;
+  std::int32_t run = 0;
+  float energy = 0;     ///< largest kinetic energy with spin of a block over the cell [kJ]
+  float intensity = 0;  ///< what the recipe's breaks divide, raised by its rule for masses
+  float weight = 1;     ///< of the block
+};
+
+/// Of the passages of one run. Where it released more than the recipe's volume of a mass, a block
+/// that is not alone in a cell has at least the intensity of a mass.
+[[nodiscard]] std::vector<EventRow> event_rows(const std::vector<MapRow>& rows,
+                                               const RunBlocks& blocks, const Recipe& recipe,
+                                               int run);
+
+/// By cell, run, then all else, so that the rows alone say their order.
+void sort_events(std::vector<EventRow>& rows);
+
+}  // namespace talus

@@ -1,0 +1,136 @@
+#include "post/hazard/frequency.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "base/error.hpp"
+#include "base/text.hpp"
+
+namespace talus {
+namespace {
+
+// P(Gamma(a) <= x): the series below a + 1, the continued fraction above (Abramowitz and Stegun
+// 6.5.29, 6.5.31).
+double gamma_below(double a, double x) {
+  if (x <= 0) return 0;
+  const double front = std::exp(a * std::log(x) - x - std::lgamma(a));
+  if (x < a + 1) {
+    double term = 1 / a, sum = term;
+    for (double n = a + 1; term > 1e-17 * sum; ++n) sum += term *= x / n;
+    return front * sum;
+  }
+  constexpr double least = std::numeric_limits<double>::min() / 1e-16;
+  double b = x + 1 - a, c = 1 / least, d = 1 / b, h = d;
+  for (int i = 1; i < 10000; ++i) {
+    const double an = -i * (i - a);
+    b += 2;
+    d = an * d + b;
+    if (std::abs(d) < least) d = least;
+    c = b + an / c;
+    if (std::abs(c) < least) c = least;
+    d = 1 / d;
+    h *= d * c;
+    if (std::abs(d * c - 1) < 1e-16) break;
+  }
+  return 1 - front * h;
+}
+
+Where where_of_class(const Site& site, const HazardClassSettings& section) {
+  return {site.file, section.line, "hazard.class." + section.name};
+}
+
+bool is_given(double value) { return !std::isnan(value); }
+
+// The pair of keys that only say something together.
+void check_pair(const Where& where, const char* one, double value, const char* other,
+                double other_value) {
+  if (is_given(value) == is_given(other_value)) return;
+  throw InputError(where,
+                   std::string("has ") + (is_given(value) ? one : other) + " without " +
+                       (is_given(value) ? other : one),
+                   std::string("give both ") + one + " and " + other);
+}
+
+HazardClass class_of(const Site& site, const HazardClassSettings& s) {
+  const Where where = where_of_class(site, s);
+  check_pair(where, "events", s.events, "observed_a", s.observed_a);
+  check_pair(where, "failure_probability", s.failure_probability, "in_years", s.in_years);
+  const int n = is_given(s.frequency_per_a) + is_given(s.events) + is_given(s.failure_probability) +
+                s.by_weights;
+  if (n != 1)
+    throw InputError(where, n == 0 ? "has no frequency" : "has more than one frequency",
+                     "give one of frequency_per_a, events with observed_a, failure_probability "
+                     "with in_years, or by_weights");
+  const bool is_failure = is_given(s.failure_probability),
+             localized = site.hazard.mode == "localized";
+  if (is_failure != localized)
+    throw InputError(where,
+                     is_failure ? "has a failure_probability, and mode of [hazard] is diffuse"
+                                : "has a frequency, and mode of [hazard] is localized",
+                     "one mass that may fail once is mode = \"localized\" with "
+                     "failure_probability and in_years; sources that fail again and again are "
+                     "mode = \"diffuse\" with a frequency");
+  HazardClass out;
+  out.name = s.name;
+  if (is_failure) {
+    out.kind = FrequencyKind::of_failure;
+    out.probability = s.failure_probability;
+    out.years = s.in_years;
+  } else if (s.by_weights) {
+    out.kind = FrequencyKind::of_weights;
+  } else if (is_given(s.events)) {
+    out.frequency = rate_of_events(s.events, s.observed_a);
+  } else {
+    out.frequency = {s.frequency_per_a, s.frequency_per_a, s.frequency_per_a};
+  }
+  return out;
+}
+
+}  // namespace
+
+double gamma_quantile(double shape, double p) {
+  TALUS_ASSERT(shape > 0 && p > 0 && p < 1);
+  double low = 0, high = shape + 1;
+  while (gamma_below(shape, high) < p) high *= 2;
+  for (int i = 0; i < 2000 && high - low > 1e-12 * high; ++i) {
+    const double middle = low > 0 ? (low + high) / 2 : high / 16;
+    (gamma_below(shape, middle) < p ? low : high) = middle;
+  }
+  return (low + high) / 2;
+}
+
+Rate rate_of_events(double events, double years) {
+  const double shape = events + 0.5;
+  return {shape / years, gamma_quantile(shape, 0.05) / years, gamma_quantile(shape, 0.95) / years};
+}
+
+std::vector<HazardClass> hazard_classes(const Site& site) {
+  std::vector<HazardClass> classes;
+  for (const HazardClassSettings& section : site.hazard_classes) {
+    classes.push_back(class_of(site, section));
+    if (classes.back().years != classes.front().years)
+      throw InputError(where_of_class(site, section),
+                       "is of a failure within " + text(section.in_years) + " years, class " +
+                           classes.front().name + " within " + text(classes.front().years),
+                       "probabilities of one map need one number of years");
+  }
+  return classes;
+}
+
+std::string words_of(const HazardClass& kind) {
+  if (kind.kind == FrequencyKind::of_weights)
+    return kind.name + ": each block by its own frequency, its weight";
+  if (kind.kind == FrequencyKind::of_failure)
+    return kind.name + ": fails with probability " + text(kind.probability, 4) + " in " +
+           text(kind.years, 4) + " years";
+  const Rate& f = kind.frequency;
+  std::string out = kind.name + ": " + text(f.value, 3) + " a year";
+  if (f.low != f.high) out += " (90 % within " + text(f.low, 3) + " - " + text(f.high, 3) + ")";
+  return out;
+}
+
+double equivalent_rate(double probability, double years) {
+  return -std::log1p(-probability) / years;
+}
+
+}  // namespace talus

@@ -1,0 +1,53 @@
+// libcore/post/hazard/frequency.hpp: public
+// How often what was simulated happens.
+// in:    [hazard] and [hazard.class.*] of the site file
+// out:   a frequency a class, or the probability of a single failure, with bounds
+//
+// Events that were counted have the frequency of Jeffreys' posterior, Gamma(k + 1/2, T): its mean,
+// and its 5 and 95 % as bounds. A frequency that is given is taken as exact.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "site/site.hpp"
+
+namespace talus {
+
+/// Events a year; also what frequency and share together give a cell.
+struct Rate {
+  double value = 0, low = 0, high = 0;  ///< [1/a]
+};
+
+/// The x that a Gamma variable of `shape` > 0 and rate 1 stays below with probability p, 0 < p < 1;
+/// to 1e-10 of x.
+[[nodiscard]] double gamma_quantile(double shape, double p);
+
+/// Of k events in `years`.
+[[nodiscard]] Rate rate_of_events(double events, double years);
+
+enum class FrequencyKind {
+  of_events,   ///< a run is an event
+  of_failure,  ///< a run is the one failure that may come
+  of_weights,  ///< each block is a source of its own, with its weight as its frequency
+};
+
+/// A class of volumes.
+struct HazardClass {
+  std::string name;
+  FrequencyKind kind = FrequencyKind::of_events;
+  Rate frequency;                     ///< of_events
+  double probability = 0, years = 0;  ///< of_failure: within so many years [a]
+};
+
+/// The classes of a site, none where it has none. Throws InputError for one with no frequency, with
+/// several, or of another mode than [hazard]; and for failures within different numbers of years.
+[[nodiscard]] std::vector<HazardClass> hazard_classes(const Site& site);
+
+/// "V1: 0.0233 a year (0.0072 - 0.0471; 3 events in 150 years)"
+[[nodiscard]] std::string words_of(const HazardClass& kind);
+
+/// A year of a constant danger that adds up to `probability` within `years` [1/a].
+[[nodiscard]] double equivalent_rate(double probability, double years);
+
+}  // namespace talus

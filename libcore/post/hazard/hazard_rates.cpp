@@ -1,0 +1,232 @@
+#include "post/hazard/hazard_rates.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+namespace talus {
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+void add(Rate& sum, const Rate& more) {
+  sum.value += more.value;
+  sum.low += more.low;
+  sum.high += more.high;
+}
+
+// Of a class in which each block is a source.
+Rate rate_of_weights(const HazardRuns& runs, std::span<const RunWeight> parts) {
+  double sum = 0;
+  for (const RunWeight& part : parts) sum += part.weight;
+  const double share = std::min(1.0, sum / runs.basis.over.whole);
+  const Interval interval = share_interval(runs.basis, parts, share);
+  const double all = runs.basis.over.whole / runs.n;
+  return {all * share, all * interval.low, all * interval.high};
+}
+
+bool comes_within(double rate, double period) { return rate * period >= 1 - rate_rounding; }
+
+}  // namespace
+
+Rate share_of(const HazardRuns& runs, int n_hit) {
+  const double share = static_cast<double>(n_hit) / runs.n;
+  const Interval interval = run_share_interval(runs.basis, share);
+  return {share, interval.low, interval.high};
+}
+
+Rate rate_of(const HazardRuns& runs, int n_hit) {
+  const Rate share = share_of(runs, n_hit);
+  const HazardClass& kind = runs.kind;
+  if (kind.kind == FrequencyKind::of_failure) {
+    const auto rate = [&kind](double p) {
+      return equivalent_rate(kind.probability * p, kind.years);
+    };
+    return {rate(share.value), rate(share.low), rate(share.high)};
+  }
+  return {kind.frequency.value * share.value, kind.frequency.low * share.low,
+          kind.frequency.high * share.high};
+}
+
+double largest_rate_elsewhere(std::span<const HazardRuns> classes) {
+  double sum = 0;
+  for (const HazardRuns& runs : classes)
+    sum += runs.kind.kind == FrequencyKind::of_weights ? rate_of_weights(runs, {}).high
+                                                       : rate_of(runs, 0).high;
+  return sum;
+}
+
+HazardRates::HazardRates(std::span<const HazardRuns> classes)
+    : classes_(classes), n_hit_(classes.size()), parts_(classes.size()) {
+  for (std::size_t c = 0; c < classes.size(); ++c) {
+    any_weights_ = any_weights_ || classes[c].kind.kind == FrequencyKind::of_weights;
+    kind_of_run_.resize(static_cast<std::size_t>(classes[c].first + classes[c].n), c);
+  }
+}
+
+std::size_t HazardRates::kind_of(int run) const {
+  return kind_of_run_[static_cast<std::size_t>(run)];
+}
+
+template <class Counts>
+Rate HazardRates::rate_of_rows(std::span<const EventRow> rows, Counts&& counts) {
+  std::fill(n_hit_.begin(), n_hit_.end(), 0);
+  for (std::vector<RunWeight>& parts : parts_) parts.clear();
+  std::int32_t last = -1;
+  for (const EventRow& row : rows) {
+    if (!counts(row)) continue;
+    const std::size_t c = kind_of(row.run);
+    if (classes_[c].kind.kind == FrequencyKind::of_weights) {
+      if (row.run != last) parts_[c].push_back({row.run - classes_[c].first, 0});
+      parts_[c].back().weight += row.weight;
+    }
+    n_hit_[c] += row.run != last;
+    last = row.run;
+  }
+  Rate sum;
+  for (std::size_t c = 0; c < classes_.size(); ++c)
+    add(sum, classes_[c].kind.kind == FrequencyKind::of_weights
+                 ? rate_of_weights(classes_[c], parts_[c])
+                 : rate_of(classes_[c], n_hit_[c]));
+  return sum;
+}
+
+std::vector<Rate> HazardRates::above(std::span<const EventRow> rows,
+                                     std::span<const double> breaks) {
+  std::vector<Rate> rates{rate_of_rows(rows, [](const EventRow&) { return true; })};
+  for (const double limit : breaks)
+    rates.push_back(rate_of_rows(rows, [limit](const EventRow& r) { return r.intensity > limit; }));
+  return rates;
+}
+
+std::vector<Rate> HazardRates::shares_above(std::span<const EventRow> rows,
+                                            std::span<const double> breaks, std::size_t kind) {
+  std::vector<Rate> shares;
+  for (std::size_t i = 0; i <= breaks.size(); ++i) {
+    int n_hit = 0;
+    std::int32_t last = -1;
+    for (const EventRow& row : rows) {
+      if (kind_of(row.run) != kind || (i > 0 && !(row.intensity > breaks[i - 1]))) continue;
+      n_hit += row.run != last;
+      last = row.run;
+    }
+    shares.push_back(share_of(classes_[kind], n_hit));
+  }
+  return shares;
+}
+
+std::vector<double> HazardRates::passages_above(std::span<const EventRow> rows,
+                                                std::span<const double> breaks) {
+  std::vector<double> sums(breaks.size() + 1, 0);
+  for (const EventRow& row : rows) {
+    const HazardRuns& runs = classes_[kind_of(row.run)];
+    const double each = runs.kind.kind == FrequencyKind::of_weights ? 1 : runs.kind.frequency.value;
+    for (std::size_t i = 0; i < sums.size(); ++i)
+      if (i == 0 || row.intensity > breaks[i - 1]) sums[i] += each * row.weight / runs.n;
+  }
+  return sums;
+}
+
+void HazardRates::find_events(std::span<const EventRow> rows) {
+  events_.clear();
+  std::int32_t last = -1;
+  for (const EventRow& row : rows) {  // of one run one behind the other
+    const auto c = static_cast<std::int32_t>(kind_of(row.run));
+    const bool is_each =
+        classes_[static_cast<std::size_t>(c)].kind.kind == FrequencyKind::of_weights;
+    if (!is_each && row.run == last)
+      events_.back().energy = std::max(events_.back().energy, row.energy);
+    else
+      events_.push_back({row.energy, row.weight, c, row.run});
+    last = row.run;
+  }
+  std::sort(events_.begin(), events_.end(), [](const Event& a, const Event& b) {
+    return std::tie(b.energy, a.run, a.weight) < std::tie(a.energy, b.run, b.weight);
+  });
+}
+
+// Of events with the largest energies, `n_events` of them.
+Rate HazardRates::rate_of_first(std::size_t n_events) {
+  std::fill(n_hit_.begin(), n_hit_.end(), 0);
+  for (std::vector<RunWeight>& parts : parts_) parts.clear();
+  for (std::size_t i = 0; i < n_events; ++i) {
+    const auto c = static_cast<std::size_t>(events_[i].kind);
+    ++n_hit_[c];
+    if (classes_[c].kind.kind == FrequencyKind::of_weights)
+      parts_[c].push_back({events_[i].run - classes_[c].first, events_[i].weight});
+  }
+  Rate sum;
+  for (std::size_t c = 0; c < classes_.size(); ++c) {
+    if (classes_[c].kind.kind != FrequencyKind::of_weights) {
+      add(sum, rate_of(classes_[c], n_hit_[c]));
+      continue;
+    }
+    std::vector<RunWeight>& parts = parts_[c];  // each run once
+    std::stable_sort(parts.begin(), parts.end(),
+                     [](const RunWeight& a, const RunWeight& b) { return a.run < b.run; });
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      if (n > 0 && parts[n - 1].run == parts[i].run)
+        parts[n - 1].weight += parts[i].weight;
+      else
+        parts[n++] = parts[i];
+    }
+    parts.resize(n);
+    add(sum, rate_of_weights(classes_[c], parts));
+  }
+  return sum;
+}
+
+std::vector<Rate> HazardRates::energies(std::span<const EventRow> rows,
+                                        std::span<const double> periods) {
+  find_events(rows);
+  std::vector<Rate> out(periods.size(), Rate{none, none, none});
+  // So many events in, each rate comes often enough; the energy of the last of them is the answer.
+  const auto settle = [&](std::size_t n, const Rate& rate, std::vector<std::array<bool, 3>>& done) {
+    const float energy = n == 0 ? std::nanf("") : events_[n - 1].energy;
+    for (std::size_t t = 0; t < periods.size(); ++t) {
+      const std::array<double, 3> values = {rate.value, rate.low, rate.high};
+      const std::array<double*, 3> to = {&out[t].value, &out[t].low, &out[t].high};
+      for (std::size_t k = 0; k < 3; ++k)
+        if (!done[t][k] && comes_within(values[k], periods[t])) {
+          done[t][k] = true;
+          *to[k] = energy;
+        }
+    }
+  };
+  std::vector<std::array<bool, 3>> done(periods.size(), {false, false, false});
+  settle(0, rate_of_first(0), done);
+  if (any_weights_) {  // each rate costs all events before it: halve
+    for (std::size_t t = 0; t < periods.size(); ++t)
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (done[t][k]) continue;
+        const auto often = [&](std::size_t n) {
+          const Rate rate = rate_of_first(n);
+          return comes_within(k == 0 ? rate.value : k == 1 ? rate.low : rate.high, periods[t]);
+        };
+        if (events_.empty() || !often(events_.size())) continue;
+        std::size_t low = 0, high = events_.size();
+        while (high - low > 1) {
+          const std::size_t middle = (low + high) / 2;
+          (often(middle) ? high : low) = middle;
+        }
+        (k == 0 ? out[t].value : k == 1 ? out[t].low : out[t].high) = events_[high - 1].energy;
+      }
+    return out;
+  }
+  std::vector<Rate> of_class;
+  for (const HazardRuns& runs : classes_) of_class.push_back(rate_of(runs, 0));
+  std::fill(n_hit_.begin(), n_hit_.end(), 0);
+  for (std::size_t i = 0; i < events_.size(); ++i) {
+    const auto c = static_cast<std::size_t>(events_[i].kind);
+    of_class[c] = rate_of(classes_[c], ++n_hit_[c]);
+    Rate sum;
+    for (const Rate& rate : of_class) add(sum, rate);
+    settle(i + 1, sum, done);
+  }
+  return out;
+}
+
+}  // namespace talus

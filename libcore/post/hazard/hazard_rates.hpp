@@ -1,0 +1,76 @@
+// libcore/post/hazard/hazard_rates.hpp: public
+// How often a cell is reached, and with what energy.
+// in:    rows of one cell; the classes with their runs
+// out:   rates of events with bounds, the energy that is exceeded once in a time
+//
+// An event is a run of its class: however many blocks of it cross a cell, it is one. The share of
+// runs has Wilson's interval (post/share_interval.hpp), the frequency its own; the bounds of a rate
+// are the products of both ends, so they hold together what each leaves open. Where blocks are
+// sources of their own, with weights as frequencies, each block is an event.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "post/hazard/event_rows.hpp"
+#include "post/hazard/frequency.hpp"
+#include "post/share_interval.hpp"
+
+namespace talus {
+
+/// A class of volumes and the runs that stand for it: `first` to before `first` + `n`.
+struct HazardRuns {
+  HazardClass kind;
+  ShareBasis basis;
+  int first = 0, n = 0;
+};
+
+/// Of events of which `n_hit` of the runs of the class were any.
+[[nodiscard]] Rate rate_of(const HazardRuns& runs, int n_hit);
+/// Of events without a frequency: the share of runs, as a rate of 1 a year.
+[[nodiscard]] Rate share_of(const HazardRuns& runs, int n_hit);
+
+/// What the runs say about places that none of them reached: at most so often [1/a].
+[[nodiscard]] double largest_rate_elsewhere(std::span<const HazardRuns> classes);
+
+class HazardRates {
+ public:
+  /// `classes` in the order of their runs; must outlive the calls.
+  explicit HazardRates(std::span<const HazardRuns> classes);
+
+  /// Rates of events whose intensity was above each limit; the first limit is being there at all.
+  /// `rows` of one cell, sorted.                                            (n_breaks + 1)
+  [[nodiscard]] std::vector<Rate> above(std::span<const EventRow> rows,
+                                        std::span<const double> breaks);
+  /// Shares of the runs of one class, in the same way.
+  [[nodiscard]] std::vector<Rate> shares_above(std::span<const EventRow> rows,
+                                               std::span<const double> breaks, std::size_t kind);
+  /// Blocks a year, in the same way, without bounds [1/a].
+  [[nodiscard]] std::vector<double> passages_above(std::span<const EventRow> rows,
+                                                   std::span<const double> breaks);
+  /// The largest energy that is reached or exceeded at least once in each of `periods`; NaN: none.
+  /// low and high are those at the bounds of the rate; high NaN also where the runs do not bound
+  /// it.                                                                    (n_periods) [kJ]
+  [[nodiscard]] std::vector<Rate> energies(std::span<const EventRow> rows,
+                                           std::span<const double> periods);
+
+ private:
+  struct Event {
+    float energy = 0, weight = 0;
+    std::int32_t kind = 0, run = 0;
+  };
+  [[nodiscard]] std::size_t kind_of(int run) const;
+  template <class Counts>
+  [[nodiscard]] Rate rate_of_rows(std::span<const EventRow> rows, Counts&& counts);
+  [[nodiscard]] Rate rate_of_first(std::size_t n_events);
+  void find_events(std::span<const EventRow> rows);
+
+  std::span<const HazardRuns> classes_;
+  bool any_weights_ = false;
+  std::vector<int> n_hit_;                     // scratch: of each class
+  std::vector<std::vector<RunWeight>> parts_;  // scratch: of each class of weights
+  std::vector<Event> events_;                  // scratch: of a cell, the largest energy first
+  std::vector<std::size_t> kind_of_run_;
+};
+
+}  // namespace talus

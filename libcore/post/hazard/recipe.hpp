@@ -1,0 +1,72 @@
+// libcore/post/hazard/recipe.hpp
+// How an authority makes hazard classes: numbers that change from place to place, so they are data.
+// in:    a file as those of share/hazard (TOML)
+// out:   intensities, return periods, the matrix of classes, the rule for masses, colours
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+
+namespace talus {
+
+struct RecipeClass {
+  std::string name, label;
+  int code = 0;  ///< 1 to 254, a higher one is worse
+  std::array<std::uint8_t, 3> rgb{};
+  bool is_hatched = false;
+};
+
+/// A cell of the matrix: what is chosen by the split, and the side not chosen.
+struct MatrixCell {
+  std::array<int, 2> of_side{-1, -1};  ///< index into Recipe::classes, sides a and b; -1: no class
+  int number = 0;                      ///< that the authority gives to the cell; 0: none
+};
+
+enum class IntensityBy { total_energy, translational_energy, block_volume };
+
+struct Recipe {
+  std::string name, edition, source, mark;
+  std::string sha256;  ///< of the file's text
+  IntensityBy by = IntensityBy::total_energy;
+  std::vector<double> breaks;            ///< ascending [kJ or m3]
+  std::vector<std::string> intensities;  ///< from the weakest                  (n_breaks + 1)
+  std::vector<double> return_periods;    ///< ascending [a]                     (n_periods)
+  std::vector<std::vector<MatrixCell>> matrix;  ///< by intensity, then period
+  int side = 0;                                 ///< of cells with two classes: 0 a, 1 b
+  int beyond = -1;         ///< class of what is reached more rarely than all periods; -1: none
+  double mass_volume = 0;  ///< released volume above which blocks are a mass; 0: no rule [m3]
+  double alone_s = 3;      ///< a block is alone with no other in the cell within so long [s]
+  int mass_intensity = 0;  ///< that a cell reached by a mass has at least, from 0
+  std::vector<RecipeClass> classes;  ///< by code
+};
+
+/// Reads a recipe. Throws InputError with the line for what is missing, does not fit together, or
+/// is unknown: holes of the matrix, classes that are not described, breaks that do not ascend.
+[[nodiscard]] Recipe parse_recipe(const std::string& text, const std::string& path);
+
+/// "300kJ", "0.25m3": what stands in the names of bands.
+[[nodiscard]] std::string break_name(const Recipe& recipe, double value);
+/// "weak, up to 30 kJ", of intensity i.
+[[nodiscard]] std::string intensity_words(const Recipe& recipe, std::size_t i);
+
+inline constexpr int no_class = 255;  ///< in rasters
+/// A rate that lacks so little of 1 / period has that period: weights are single precision [-].
+inline constexpr double rate_rounding = 1e-6;
+
+struct ClassChoice {
+  int code = no_class;
+  int number = 0;  ///< of the matrix cell that decides; 0: none
+};
+/// The intensity that is reached at least once in `period`: 0 none, else from 1. `rates`: of
+/// reaching the cell, then of each break [1/a], from the weakest              (n_breaks + 1)
+[[nodiscard]] int intensity_at(const Recipe& recipe, std::span<const double> rates, double period);
+/// The worst class of all return periods; the one beyond them where none is reached and the cell
+/// is; none where it is not.
+[[nodiscard]] ClassChoice class_of(const Recipe& recipe, std::span<const double> rates);
+
+}  // namespace talus

@@ -1,0 +1,225 @@
+// The part of post/hazard/recipe.hpp that reads the file.
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "base/sha256.hpp"
+#include "base/text.hpp"
+#include "post/hazard/recipe.hpp"
+
+namespace talus {
+namespace {
+
+class RecipeReader {
+ public:
+  RecipeReader(const toml::table& root, const std::string& path) : root_(root), path_(path) {}
+
+  Recipe read() {
+    check_keys(root_, "",
+               {"name", "edition", "source", "mark", "intensity", "return_period_a", "matrix",
+                "numbers", "split", "beyond", "mass", "class"});
+    for (const auto& [key, field] : {std::pair{"name", &recipe_.name},
+                                     {"edition", &recipe_.edition},
+                                     {"source", &recipe_.source},
+                                     {"mark", &recipe_.mark}})
+      *field = word(root_, key, key);
+    read_intensity();
+    recipe_.return_periods = numbers(root_, "return_period_a", "return_period_a");
+    read_classes();
+    read_matrix();
+    if (root_.contains("numbers")) read_numbers();
+    const std::string side = root_.contains("split") ? word(root_, "split", "split") : "a";
+    if (side != "a" && side != "b")
+      refuse(root_.get("split"), "split", "is \"" + side + "\", expected a or b");
+    recipe_.side = side == "b";
+    if (root_.contains("beyond"))
+      recipe_.beyond = class_named(root_.get("beyond"), word(root_, "beyond", "beyond"), "beyond");
+    if (root_.contains("mass")) read_mass();
+    return recipe_;
+  }
+
+ private:
+  [[noreturn]] void refuse(const toml::node* node, const std::string& item,
+                           const std::string& finding, const std::string& hint = "") const {
+    throw InputError(
+        {path_, node ? static_cast<int>(node->source().begin.line) : 0, item}, finding,
+        hint.empty() ? "share/hazard/switzerland_ti.toml shows how a recipe is written" : hint);
+  }
+  void check_keys(const toml::table& table, const std::string& of,
+                  const std::vector<std::string>& known) const {
+    for (const auto& [key, node] : table)
+      if (std::find(known.begin(), known.end(), key.str()) == known.end()) {
+        std::string all;
+        for (const std::string& name : known) all += (all.empty() ? "known: " : ", ") + name;
+        refuse(&node, of + std::string(key.str()), "is not a key of a recipe", all);
+      }
+  }
+  const toml::node& needed(const toml::table& table, const char* key,
+                           const std::string& item) const {
+    const toml::node* node = table.get(key);
+    if (!node) refuse(&table, item, "is missing");
+    return *node;
+  }
+  std::string word(const toml::table& table, const char* key, const std::string& item) const {
+    const toml::node& node = needed(table, key, item);
+    if (!node.is_string() || node.as_string()->get().empty()) refuse(&node, item, "is not a text");
+    return node.as_string()->get();
+  }
+  double number(const toml::node& node, const std::string& item) const {
+    const auto value = node.value<double>();
+    if (!node.is_number() || !value || !std::isfinite(*value))
+      refuse(&node, item, "is not a number");
+    return *value;
+  }
+  const toml::array& list(const toml::node& node, const std::string& item, std::size_t n) const {
+    if (!node.is_array()) refuse(&node, item, "is not a list");
+    const toml::array& out = *node.as_array();
+    if (out.empty() || (n > 0 && out.size() != n))
+      refuse(&node, item,
+             "has " + std::to_string(out.size()) + " entries, expected " +
+                 (n > 0 ? std::to_string(n) : std::string("one or more")));
+    return out;
+  }
+  // Positive and ascending.
+  std::vector<double> numbers(const toml::table& table, const char* key,
+                              const std::string& item) const {
+    std::vector<double> out;
+    const toml::node& node = needed(table, key, item);
+    for (const toml::node& entry : list(node, item, 0)) {
+      out.push_back(number(entry, item));
+      if (!(out.back() > (out.size() > 1 ? out[out.size() - 2] : 0)))
+        refuse(&node, item, "does not ascend from above 0");
+    }
+    return out;
+  }
+  const toml::table& section(const toml::table& table, const char* key,
+                             const std::string& item) const {
+    const toml::node& node = needed(table, key, item);
+    if (!node.is_table()) refuse(&node, item, "is not a section");
+    return *node.as_table();
+  }
+
+  void read_intensity() {
+    const toml::table& table = section(root_, "intensity", "intensity");
+    check_keys(table, "intensity.", {"by", "breaks", "names"});
+    const std::string by = word(table, "by", "intensity.by");
+    if (by == "total_energy_kj")
+      recipe_.by = IntensityBy::total_energy;
+    else if (by == "translational_energy_kj")
+      recipe_.by = IntensityBy::translational_energy;
+    else if (by == "block_volume_m3")
+      recipe_.by = IntensityBy::block_volume;
+    else
+      refuse(table.get("by"), "intensity.by",
+             "is \"" + by +
+                 "\", expected total_energy_kj, translational_energy_kj or block_volume_m3");
+    recipe_.breaks = numbers(table, "breaks", "intensity.breaks");
+    const toml::node& names = needed(table, "names", "intensity.names");
+    for (const toml::node& entry : list(names, "intensity.names", recipe_.breaks.size() + 1)) {
+      if (!entry.is_string()) refuse(&entry, "intensity.names", "is not a list of texts");
+      recipe_.intensities.push_back(entry.as_string()->get());
+    }
+  }
+
+  void read_classes() {
+    const toml::table& table = section(root_, "class", "class");
+    for (const auto& [key, node] : table) {
+      const std::string name(key.str()), item = "class." + name;
+      if (!node.is_table()) refuse(&node, item, "is not a section");
+      const toml::table& of = *node.as_table();
+      check_keys(of, item + ".", {"code", "rgb", "label", "hatched"});
+      RecipeClass out;
+      out.name = name;
+      out.label = word(of, "label", item + ".label");
+      const double code = number(needed(of, "code", item + ".code"), item + ".code");
+      if (code != std::floor(code) || code < 1 || code >= no_class)
+        refuse(of.get("code"), item + ".code", "is " + text(code) + ", expected 1 to 254");
+      out.code = static_cast<int>(code);
+      const toml::array& rgb = list(needed(of, "rgb", item + ".rgb"), item + ".rgb", 3);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double part = number(rgb[k], item + ".rgb");
+        if (!(part >= 0 && part <= 255)) refuse(&rgb, item + ".rgb", "is not within 0 to 255");
+        out.rgb[k] = static_cast<std::uint8_t>(part);
+      }
+      out.is_hatched = of["hatched"].value_or(false);
+      for (const RecipeClass& other : recipe_.classes)
+        if (other.code == out.code)
+          refuse(&node, item, "has the code of class " + other.name, "give each class its own");
+      recipe_.classes.push_back(out);
+    }
+    std::sort(recipe_.classes.begin(), recipe_.classes.end(),
+              [](const auto& a, const auto& b) { return a.code < b.code; });
+  }
+
+  int class_named(const toml::node* node, const std::string& name, const std::string& item) const {
+    if (name == "none") return -1;
+    for (std::size_t i = 0; i < recipe_.classes.size(); ++i)
+      if (recipe_.classes[i].name == name) return static_cast<int>(i);
+    refuse(node, item, "names class \"" + name + "\", which no [class." + name + "] describes",
+           "describe it, or write \"none\"");
+  }
+
+  void read_matrix() {
+    const toml::node& matrix = needed(root_, "matrix", "matrix");
+    for (const toml::node& row : list(matrix, "matrix", recipe_.intensities.size())) {
+      std::vector<MatrixCell> cells;
+      const std::string item = "matrix, row " + std::to_string(recipe_.matrix.size() + 1);
+      for (const toml::node& entry : list(row, item, recipe_.return_periods.size())) {
+        if (!entry.is_string() || entry.as_string()->get().empty())
+          refuse(&entry, item, "has a cell without a class", "write \"none\" where there is none");
+        const std::string words = entry.as_string()->get();
+        const std::size_t bar = words.find('|');
+        const std::string a = words.substr(0, bar),
+                          b = bar == std::string::npos ? a : words.substr(bar + 1);
+        cells.push_back({{class_named(&entry, a, item), class_named(&entry, b, item)}, 0});
+      }
+      recipe_.matrix.push_back(std::move(cells));
+    }
+  }
+
+  void read_numbers() {
+    const toml::array& rows = list(*root_.get("numbers"), "numbers", recipe_.matrix.size());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const toml::array& row = list(rows[i], "numbers", recipe_.return_periods.size());
+      for (std::size_t t = 0; t < row.size(); ++t)
+        recipe_.matrix[i][t].number = static_cast<int>(number(row[t], "numbers"));
+    }
+  }
+
+  void read_mass() {
+    const toml::table& table = section(root_, "mass", "mass");
+    check_keys(table, "mass.", {"volume_m3", "intensity", "alone_s"});
+    recipe_.mass_volume = number(needed(table, "volume_m3", "mass.volume_m3"), "mass.volume_m3");
+    if (!(recipe_.mass_volume > 0)) refuse(&table, "mass.volume_m3", "is not above 0");
+    if (table.contains("alone_s")) recipe_.alone_s = number(*table.get("alone_s"), "mass.alone_s");
+    const std::string name = word(table, "intensity", "mass.intensity");
+    const auto at = std::find(recipe_.intensities.begin(), recipe_.intensities.end(), name);
+    if (at == recipe_.intensities.end())
+      refuse(table.get("intensity"), "mass.intensity",
+             "is \"" + name + "\", which is none of intensity.names");
+    recipe_.mass_intensity = static_cast<int>(at - recipe_.intensities.begin());
+  }
+
+  const toml::table& root_;
+  std::string path_;
+  Recipe recipe_;
+};
+
+}  // namespace
+
+Recipe parse_recipe(const std::string& text, const std::string& path) {
+  try {
+    Recipe recipe = RecipeReader(toml::parse(text, path), path).read();
+    Sha256 sum;
+    sum.add(text.data(), text.size());
+    recipe.sha256 = sum.hex();
+    return recipe;
+  } catch (const toml::parse_error& error) {
+    throw InputError({path, static_cast<int>(error.source().begin.line)},
+                     std::string(error.description()), "a recipe must be TOML");
+  }
+}
+
+}  // namespace talus

@@ -1,0 +1,21 @@
+# Runs and frequencies -> return periods and hazard classes (GeoTIFF with style and picture, GeoPackage).
+# in: [hazard], [hazard.class.*], HAZARD_FLAGS (e.g. --cell-size-m 10)   out: $(OUT)/hazard/*.tif, .qml, .png,
+#     $(OUT)/hazard/hazard.gpkg, $(OUT)/hazard.json
+# With several classes the runs of class C are those of the case C (CASES, dda.mk). Without frequencies there are no
+# classes, and talus-hazard says why.
+$(eval $(call remember,hazard,$(EVALUATE_FLAGS) $(HAZARD_FLAGS)))
+hazard_files := $(addprefix $(OUT)/,$(hazard_products))
+hazard: $(hazard_files) ## runs and frequencies -> return periods, hazard classes
+$(eval $(call together,$(hazard_files)))
+# class_list(CLASS): writes the list of its runs
+class_list = sh $(PIPELINES)run_outcomes.sh there $(failed_marks) $(filter $(OUT)/runs/run_$1_%,$(run_files)) | tr ' ' '\n' | grep '\.h5$$' >$(STAGES)/class_$1.list || :
+several_classes := $(word 2,$(SITE_HAZARD_CLASSES))
+hazard_runs = $(if $(several_classes),$(foreach class,$(SITE_HAZARD_CLASSES),--class $(class)=@$(STAGES)/class_$(class).list),$(call run_there,$(run_files)))
+$(OUT)/hazard.json: $(run_files) $(OUT)/blocks.h5 $(STAGES)/hazard.txt $(STAGES)/runs.flags $(STAGES)/hazard.flags $(STAGES)/hazard.files
+	$(call say,hazard: $(call counted_runs,$(run_files)) -> return periods and classes)
+	@$(call outcomes,some,$(run_files))
+	@rm -f $(addprefix $(OUT)/,$(hazard_patterns))
+	@$(if $(several_classes),$(foreach class,$(SITE_HAZARD_CLASSES),$(call class_list,$(class));))
+	$(Q)$(BIN)talus-hazard site.toml $(hazard_runs) --trn $(OUT)/bed.tif -o $(OUT)/hazard --json $(OUT)/hazard.json --png \
+	  $(EVALUATE_FLAGS) $(HAZARD_FLAGS) --overwrite $(DB)
+	$(call made,talus-hazard)

@@ -1,0 +1,33 @@
+# Goals hazard and trace: what the report and the project show of them; clean takes all of it away.
+. "$source_dir/tests/tools/pipeline/common.sh"
+site slope
+made slope RUNS=2 hazard
+grep -q 'no frequency is given' err || fail 'hazard without frequencies does not say why there are no classes'
+[ -f slope/out/hazard/event_exceed.tif ] && [ ! -e slope/out/hazard/class.tif ] || fail 'classes without frequencies'
+cat >>slope/site.toml <<'TOML'
+
+[object.road]
+position_m = PLACE
+radius_m = 30
+[hazard.class.all]
+frequency_per_a = 0.01
+TOML
+place=$(ogr2ogr -f CSV /vsistdout/ slope/out/blocks.gpkg -dialect SQLite -sql "SELECT ST_X(ST_Centroid(geom)) x, ST_Y(ST_Centroid(geom)) y FROM blocks LIMIT 1" 2>/dev/null | tail -1)
+sed -i "s/PLACE/[$place]/" slope/site.toml
+made slope RUNS=2 report
+for file in hazard/class.tif hazard/class.png hazard/hazard.gpkg trace.gpkg links.csv sources/source_road.tif; do
+  [ -f "slope/out/$file" ] || fail "no $file"
+done
+for words in 'What endangers the objects, and where to act' 'Hazard classes' 'road: where to act'; do
+  grep -q "$words" slope/out/report.html || fail "the report does not say: $words"
+done
+unzip -p slope/out/site.qgz >project 2>/dev/null || python3 -c "
+import zipfile, sys
+z = zipfile.ZipFile('slope/out/site.qgz'); sys.stdout.write(z.read(z.namelist()[0]).decode())" >project
+for group in 'Hazard classes' 'Frequency and return period' 'Objects'; do
+  grep -q "layer-tree-group name=\"$group\"" project || fail "the project has no group $group"
+done
+made slope RUNS=2 report
+prints 'Nothing to be done'
+made slope clean
+[ ! -e slope/out ] || fail "left: $(find slope/out)"

@@ -1,0 +1,39 @@
+# What cannot be said is not written, and the tool says why and what to do.
+run-probe . 10 blocks=2
+expect 0 talus-hazard site.toml run_*.h5 --trn slope.tif -o none --json none.json
+says 'no frequency is given: classes, return periods and frequencies are not written'
+[ -f none/event_exceed.tif ] && [ ! -e none/class.tif ] && [ ! -e none/hazard.gpkg ] || fail 'classes without frequencies'
+grep -q '"why_no_classes": "no frequency is given' none.json || fail 'the result does not say why'
+
+site() { { cat site.toml; printf '%s\n' "$@"; } >bad.toml; }
+refused() { words=$1; shift; expect 1 talus-hazard bad.toml "$@" --trn slope.tif -o bad; says "$words"; nothing_left bad/class.tif bad/event_exceed.tif; }
+site '[hazard.class.V1]'
+refused 'hazard.class.V1: has no frequency' run_0.h5
+site '[hazard.class.V1]' 'frequency_per_a = 1' '[hazard.class.V5]' 'frequency_per_a = 1'
+refused 'nothing says which runs are of which' run_0.h5
+refused 'has no [hazard.class.V2]' --class V2=run_0.h5
+refused 'class V5 has no runs' --class V1=run_0.h5
+refused 'there is no such file' --class V1=run_0.h5 --class V5=gone.h5
+site '[hazard.class.V1]' 'by_weights = true'
+refused 'has blocks without weights' run_0.h5
+site '[hazard.class.V1]' 'failure_probability = 0.1' 'in_years = 50'
+refused 'mode of [hazard] is diffuse' run_0.h5
+site '[hazard]' 'recipe = "switzerland_zh"' '[hazard.class.V1]' 'frequency_per_a = 1'
+refused 'neither known nor a file' run_0.h5
+sed 's/\["red", "red", "red"\]/["red", "red"]/' "$source_dir/share/hazard/switzerland_ti.toml" >holes.toml
+site '[hazard]' 'recipe = "holes.toml"' '[hazard.class.V1]' 'frequency_per_a = 1'
+refused 'has 2 entries, expected 3' run_0.h5
+says 'holes.toml:'
+
+# a mass that may fail once has a probability and no return period; weights are frequencies
+site '[hazard]' 'mode = "localized"' '[hazard.class.V1]' 'failure_probability = 0.1' 'in_years = 50'
+expect 0 talus-hazard bad.toml run_*.h5 --trn slope.tif -o localized
+[ ! -e localized/return_period_0kJ.tif ] || fail 'a return period of a single failure'
+value=$(gdallocationinfo -valonly -b 1 localized/probability.tif 10 10)
+[ "$(echo "$value" | cut -c1-6)" = 0.1000 ] || [ "$(echo "$value" | cut -c1-3)" = 0.1 ] || fail "probability $value"
+mkdir weighed
+run-probe weighed 10 blocks=2 weight=0.01
+site '[hazard.class.V1]' 'by_weights = true'
+expect 0 talus-hazard bad.toml weighed/run_*.h5 --trn weighed/slope.tif -o weights
+value=$(gdallocationinfo -valonly -b 1 weights/return_period_0kJ.tif 10 10)
+[ "$(echo "$value" | cut -c1-3)" = 100 ] || fail "return period of a block of 0.01 a year: $value"

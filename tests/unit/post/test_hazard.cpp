@@ -1,0 +1,328 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/read_file.hpp"
+#include "post/hazard/hazard_maps.hpp"
+
+namespace {
+
+using namespace talus;  // NOLINT: a test
+
+std::string shipped() {
+  return read_file(std::string(TALUS_SOURCE_DIR) + "/share/hazard/switzerland_ti.toml");
+}
+
+Recipe swiss(const std::string& side = "a") {
+  Recipe recipe = parse_recipe(shipped(), "switzerland_ti.toml");
+  recipe.side = side == "b";
+  return recipe;
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
+std::string refusal_of_recipe(const std::string& text) {
+  try {
+    static_cast<void>(parse_recipe(text, "r.toml"));
+  } catch (const InputError& error) {
+    return std::string(error.what()) + " | " + error.hint();
+  }
+  return "accepted";
+}
+
+std::string refusal_of_site(const std::string& text) {
+  try {
+    static_cast<void>(hazard_classes(parse_site(text, "s.toml")));
+  } catch (const InputError& error) {
+    return std::string(error.what()) + " | " + error.hint();
+  }
+  return "accepted";
+}
+
+// A class of `n` runs of single blocks from run `first` on.
+HazardRuns runs_of(double frequency, int first, int n) {
+  HazardRuns runs;
+  runs.kind.name = "V" + std::to_string(first);
+  runs.kind.frequency = {frequency, frequency, frequency};
+  runs.first = first;
+  runs.n = n;
+  const std::vector<double> released(static_cast<std::size_t>(n), 1);
+  runs.basis = share_basis(released, true);
+  return runs;
+}
+
+EventRow row(int run, float energy) { return {7, run, energy, energy, 1}; }
+
+std::string class_of_periods(const Recipe& recipe, double any, double medium, double strong) {
+  const auto rate = [](double period) { return period > 0 ? 1 / period : 0; };
+  const std::vector<double> rates{rate(any), rate(medium), rate(strong)};
+  const int code = class_of(recipe, rates).code;
+  for (const RecipeClass& c : recipe.classes)
+    if (c.code == code) return c.name;
+  return "none";
+}
+
+}  // namespace
+
+TEST(Hazard, OfThreeVolumeClassesIsTheSumOfFrequencyTimesReach) {
+  // P(reach), P(> 30 kJ), P(> 300 kJ) of 100 runs a class
+  const std::vector<HazardRuns> classes{runs_of(0.10, 0, 100), runs_of(0.02, 100, 100),
+                                        runs_of(0.004, 200, 100)};
+  const int counts[3][3] = {{6, 2, 0}, {15, 12, 3}, {40, 39, 32}};
+  std::vector<EventRow> rows;
+  for (int c = 0; c < 3; ++c)
+    for (int i = 0; i < counts[c][0]; ++i)
+      rows.push_back(row(100 * c + i, i < counts[c][2] ? 400 : i < counts[c][1] ? 100 : 10));
+  sort_events(rows);
+  HazardRates at(classes);
+  const std::vector<Rate> rates = at.above(rows, std::vector<double>{30, 300});
+  ASSERT_EQ(rates.size(), 3u);
+  const double lambda[3] = {0.010600, 0.005960, 0.001880}, period[3] = {94.3, 167.8, 531.9},
+               in_50[3] = {0.4114, 0.2577, 0.0897};
+  std::vector<double> values;
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_NEAR(rates[i].value, lambda[i], 1e-9);
+    EXPECT_NEAR(1 / rates[i].value, period[i], 0.05);
+    EXPECT_NEAR(1 - std::exp(-50 * rates[i].value), in_50[i], 5e-5);
+    EXPECT_LT(rates[i].low, rates[i].value);
+    EXPECT_GT(rates[i].high, rates[i].value);
+    values.push_back(rates[i].value);
+  }
+  const Recipe recipe = swiss();
+  EXPECT_EQ(intensity_at(recipe, values, 30), 0);
+  EXPECT_EQ(intensity_at(recipe, values, 100), 1);
+  EXPECT_EQ(intensity_at(recipe, values, 300), 2);
+  EXPECT_EQ(class_of(recipe, values).number, 4);
+  EXPECT_EQ(class_of(recipe, values).code, 2);      // 4a: yellow
+  EXPECT_EQ(class_of(swiss("b"), values).code, 3);  // 4b: blue
+}
+
+TEST(Hazard, ClassesAreThoseOfTheSwissMatrix) {
+  const Recipe a = swiss(), b = swiss("b");
+  EXPECT_EQ(class_of_periods(a, 29, 400, 0), "blue");
+  EXPECT_EQ(class_of_periods(a, 31, 400, 0), "yellow");
+  EXPECT_EQ(class_of_periods(a, 99, 299, 0), "yellow");
+  EXPECT_EQ(class_of_periods(a, 50, 50, 301), "blue");
+  EXPECT_EQ(class_of_periods(a, 299, 299, 299), "red");
+  EXPECT_EQ(class_of_periods(a, 301, 301, 301), "residual");
+  EXPECT_EQ(class_of_periods(a, 20, 29, 500), "blue");
+  EXPECT_EQ(class_of_periods(b, 20, 29, 500), "red");
+  EXPECT_EQ(class_of_periods(a, 20, 90, 250), "red");
+  EXPECT_EQ(class_of_periods(a, 0, 0, 0), "none");
+  EXPECT_EQ(class_of_periods(a, 30, 0, 0), "blue");  // the period itself belongs to the class
+}
+
+TEST(Hazard, EnergiesOfReturnPeriodsAreCumulatedFromAbove) {
+  const std::vector<std::pair<float, double>> events = {
+      {12, 0.002}, {45, 0.004}, {80, 0.001}, {310, 0.0008}, {900, 0.0002}, {1500, 0.00005}};
+  std::vector<HazardRuns> classes;
+  std::vector<EventRow> rows;
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    classes.push_back(runs_of(events[i].second, static_cast<int>(i), 1));
+    rows.push_back(row(static_cast<int>(i), events[i].first));
+  }
+  HazardRates at(classes);
+  const std::vector<double> below{11.9, 44.9, 79.9, 309.9, 899.9, 1499.9},
+      cumulated{0.00805, 0.00605, 0.00205, 0.00105, 0.00025, 0.00005};
+  const std::vector<Rate> rates = at.above(rows, below);
+  for (std::size_t i = 0; i < cumulated.size(); ++i)
+    EXPECT_NEAR(rates[i + 1].value, cumulated[i], 1e-12);
+  const std::vector<Rate> energy = at.energies(rows, std::vector<double>{100, 300, 1000, 5000});
+  EXPECT_TRUE(std::isnan(energy[0].value));
+  EXPECT_EQ(energy[1].value, 45);
+  EXPECT_EQ(energy[2].value, 310);
+  EXPECT_EQ(energy[3].value, 900);
+}
+
+TEST(Hazard, OfASingleFailureHasAProbabilityAndAnEquivalentRate) {
+  EXPECT_NEAR(equivalent_rate(0.1 * 0.02, 50), 4.004e-5, 5e-9);
+  EXPECT_NEAR(1 / equivalent_rate(0.1 * 0.02, 50), 24975, 1);
+  EXPECT_NEAR(equivalent_rate(0.1 * 0.3, 50), 6.092e-4, 5e-8);
+  HazardRuns runs = runs_of(0, 0, 10);
+  runs.kind.kind = FrequencyKind::of_failure;
+  runs.kind.probability = 0.1;
+  runs.kind.years = 50;
+  EXPECT_NEAR(1 / rate_of(runs, 3).value, 1642, 1);
+  HazardSources sources{{runs}, swiss(), true};
+  const std::vector<MapLayer> layers = hazard_layers(sources, {row(0, 1), row(1, 1), row(2, 1)});
+  ASSERT_GT(layers.size(), 1u);
+  EXPECT_EQ(layers[1].name, "probability");  // and no return period
+  EXPECT_NEAR(layers[1].bands[0].value[0], 0.03, 1e-7);
+  for (const MapLayer& layer : layers)
+    EXPECT_EQ(layer.name.find("return_period"), std::string::npos);
+}
+
+TEST(Hazard, OfAMassCountsRunsNotBlocks) {
+  // 12 of 40 runs with blocks above 300 kJ, each of 50 blocks: T 667 a, 440 to 1,107 a.
+  std::vector<HazardRuns> classes{runs_of(1.0 / 200, 0, 40)};
+  classes[0].basis = share_basis(std::vector<double>(40, 50), false);
+  std::vector<EventRow> rows;
+  for (int run = 0; run < 12; ++run)
+    for (int block = 0; block < 3; ++block) rows.push_back(row(run, 350));
+  HazardRates at(classes);
+  const Rate rate = at.above(rows, std::vector<double>{300})[1];
+  EXPECT_NEAR(rate.value, 0.0015, 1e-12);
+  EXPECT_NEAR(1 / rate.value, 667, 0.5);
+  EXPECT_NEAR(rate.low * 200, 0.1807, 5e-5);
+  EXPECT_NEAR(rate.high * 200, 0.4543, 5e-5);
+  EXPECT_NEAR(1 / rate.high, 440, 0.5);
+  EXPECT_NEAR(1 / rate.low, 1107, 1);
+  EXPECT_NEAR(at.passages_above(rows, {})[0], 36.0 / 40 / 200, 1e-12);
+}
+
+TEST(Hazard, RaisesCellsOfAMassAndLeavesOutliersTheirEnergy) {
+  const Recipe recipe = swiss();
+  RunBlocks blocks;
+  blocks.volume = {60, 60, 1};
+  std::vector<MapRow> rows(4);
+  const float times[4] = {10, 12.5F, 20, 5};
+  const int cells[4] = {3, 3, 3, 4}, of[4] = {0, 1, 2, 2};
+  for (int i = 0; i < 4; ++i) {
+    rows[i].cell = static_cast<std::uint32_t>(cells[i]);
+    rows[i].block = of[i];
+    rows[i].first_time = times[i];
+    rows[i].largest.total_energy = 5e3F;
+  }
+  const std::vector<EventRow> made = event_rows(rows, blocks, recipe, 0);
+  EXPECT_GT(made[0].intensity, 300);
+  EXPECT_GT(made[1].intensity, 300);
+  EXPECT_EQ(made[2].intensity, 5);  // 7.5 s behind the others
+  EXPECT_EQ(made[3].intensity, 5);
+  EXPECT_EQ(made[0].energy, 5);
+  blocks.volume = {30, 30, 1};  // no mass
+  EXPECT_EQ(event_rows(rows, blocks, recipe, 0)[0].intensity, 5);
+}
+
+TEST(Hazard, OfWeightsIsTheSumOfTheBlocksFrequencies) {
+  HazardRuns runs = runs_of(0, 0, 20);
+  runs.kind.kind = FrequencyKind::of_weights;
+  runs.basis = share_basis(std::vector<double>(20, 0.5), false);  // 0.5 a year released a run
+  const std::vector<HazardRuns> classes{runs};
+  std::vector<EventRow> rows;
+  for (int run = 0; run < 10; ++run)
+    for (const float energy : {20.0F, 40.0F}) rows.push_back({7, run, energy, energy, 0.01F});
+  sort_events(rows);
+  HazardRates at(classes);
+  const std::vector<Rate> rates = at.above(rows, std::vector<double>{30});
+  EXPECT_NEAR(rates[0].value, 0.01, 1e-8);  // 2 blocks of 0.01 in half of the runs
+  EXPECT_NEAR(rates[1].value, 0.005, 1e-8);
+  EXPECT_LT(rates[0].low, rates[0].value);
+  const std::vector<Rate> energy = at.energies(rows, std::vector<double>{100, 200, 210, 99});
+  EXPECT_EQ(energy[0].value, 20);
+  EXPECT_EQ(energy[1].value, 40);
+  EXPECT_EQ(energy[2].value, 40);
+  EXPECT_TRUE(std::isnan(energy[3].value));
+}
+
+TEST(Hazard, IsBoundedWhereNoRunCame) {
+  const std::vector<HazardRuns> ten{runs_of(1, 0, 10)}, hundred{runs_of(1, 0, 100)};
+  EXPECT_NEAR(largest_rate_elsewhere(ten), 0.277533, 1e-6);
+  EXPECT_NEAR(largest_rate_elsewhere(hundred), 0.036993, 1e-6);
+}
+
+TEST(Hazard, ClassesAreCertainOnlyWhereBothBoundsAgree) {
+  const Recipe recipe = swiss();
+  const auto certain = [&](double frequency, int n, int n_hit) {
+    HazardSources sources{{runs_of(frequency, 0, n)}, recipe, true};
+    std::vector<EventRow> rows;
+    for (int run = 0; run < n_hit; ++run) rows.push_back(row(run, 500));
+    const std::vector<MapLayer> layers = hazard_layers(sources, rows);
+    EXPECT_EQ(layers.back().name, certainty_layer);
+    return layers.back().bands[0].value[0] == 1;
+  };
+  EXPECT_TRUE(certain(0.1, 1000, 900));  // once in 11 years, red at both ends
+  EXPECT_FALSE(certain(0.01, 40, 12));   // 333 years, 220 to 553: red or residual
+}
+
+TEST(Hazard, FrequenciesOfCountedEventsAreJeffreys) {
+  // quantiles of Gamma(1/2, 1) are z^2 / 2 of the normal law, of Gamma(1, 1) -ln(1 - p)
+  EXPECT_NEAR(gamma_quantile(0.5, 0.95), 1.959963985 * 1.959963985 / 2, 1e-8);
+  EXPECT_NEAR(gamma_quantile(1, 0.05), -std::log(0.95), 1e-11);
+  EXPECT_NEAR(gamma_quantile(3.5, 0.5), 6.345811195521515 / 2, 1e-8);  // chi squared of 7
+  const Rate rate = rate_of_events(3, 150);
+  EXPECT_NEAR(rate.value, 3.5 / 150, 1e-15);
+  EXPECT_NEAR(rate.low, 2.16734990929806 / 2 / 150, 1e-9);   // chi squared of 7, 5 %
+  EXPECT_NEAR(rate.high, 14.0671404493402 / 2 / 150, 1e-9);  // 95 %
+  EXPECT_GT(rate_of_events(0, 100).value, 0);
+}
+
+TEST(Hazard, SectionsOfTheSiteSayEachClassOnce) {
+  const Site site = parse_site(
+      "[hazard]\nsplit = \"b\"\n[hazard.class.V1]\nevents = 3\nobserved_a = 150\n"
+      "[hazard.class.V5]\nfrequency_per_a = 0.004\n",
+      "s.toml");
+  EXPECT_EQ(site.hazard.split, "b");
+  const std::vector<HazardClass> classes = hazard_classes(site);
+  ASSERT_EQ(classes.size(), 2u);
+  EXPECT_EQ(classes[0].name, "V1");
+  EXPECT_NEAR(classes[0].frequency.value, 3.5 / 150, 1e-12);
+  EXPECT_EQ(classes[1].frequency.low, 0.004);
+  Site changed = site;
+  override_value(changed, "hazard.class.V5.frequency_per_a", "0.01");
+  override_value(changed, "hazard.split", "a");
+  EXPECT_EQ(changed.hazard_classes[1].frequency_per_a, 0.01);
+  EXPECT_EQ(changed.hazard.split, "a");
+  EXPECT_TRUE(hazard_classes(parse_site("[hazard]\n", "s.toml")).empty());
+
+  EXPECT_NE(refusal_of_site("[hazard.class.V1]\n").find("has no frequency"), std::string::npos);
+  EXPECT_NE(refusal_of_site("[hazard.class.V1]\nevents = 3\n").find("events without observed_a"),
+            std::string::npos);
+  EXPECT_NE(refusal_of_site("[hazard.class.V1]\nfrequency_per_a = 1\nby_weights = true\n")
+                .find("more than one frequency"),
+            std::string::npos);
+  EXPECT_NE(refusal_of_site("[hazard.class.V1]\nfailure_probability = 0.1\nin_years = 50\n")
+                .find("mode of [hazard] is diffuse"),
+            std::string::npos);
+  EXPECT_NE(
+      refusal_of_site("[hazard]\nmode = \"localized\"\n[hazard.class.V1]\nfrequency_per_a = 1\n")
+          .find("mode of [hazard] is localized"),
+      std::string::npos);
+  EXPECT_NE(refusal_of_site("[hazard]\nmode = \"localized\"\n"
+                            "[hazard.class.A]\nfailure_probability = 0.1\nin_years = 50\n"
+                            "[hazard.class.B]\nfailure_probability = 0.1\nin_years = 30\n")
+                .find("within 30 years"),
+            std::string::npos);
+  EXPECT_NE(refusal_of_site("[hazard.class.V1]\nfrequncy_per_a = 1\n")
+                .find("did you mean frequency_per_a?"),
+            std::string::npos);
+}
+
+TEST(Recipe, HolesAreRefusedWithTheirPlace) {
+  const std::string whole = shipped();
+  EXPECT_EQ(refusal_of_recipe(whole), "accepted");
+  const auto expect = [&](const std::string& from, const std::string& to,
+                          const std::string& words) {
+    const std::string said = refusal_of_recipe(replaced(whole, from, to));
+    EXPECT_NE(said.find(words), std::string::npos) << said;
+    EXPECT_NE(said.find("r.toml:"), std::string::npos) << said;
+  };
+  expect("[\"red\", \"red\", \"red\"]", "[\"red\", \"red\"]", "has 2 entries, expected 3");
+  expect(", [\"red\", \"red\", \"red\"]]", "]", "has 2 entries, expected 3");
+  expect("[\"red\", \"red\", \"red\"]", "[\"red\", \"\", \"red\"]", "has a cell without a class");
+  expect("[\"red\", \"red\", \"red\"]", "[\"red\", \"green\", \"red\"]", "names class \"green\"");
+  expect("breaks = [30, 300]", "breaks = [300, 30]", "does not ascend");
+  expect("breaks = [30, 300]", "breaks = [30]", "has 3 entries, expected 2");
+  expect("return_period_a = [30, 100, 300]\n", "", "return_period_a");
+  expect("beyond = \"residual\"", "beyond = \"rest\"", "names class \"rest\"");
+  expect("code = 4", "code = 3", "has the code of class");
+  expect("code = 4", "code = 400", "expected 1 to 254");
+  expect("intensity = \"strong\"", "intensity = \"mighty\"", "none of intensity.names");
+  expect("split = \"a\"", "split = \"c\"", "expected a or b");
+  expect("mark = \"v\"", "makr = \"v\"", "is not a key of a recipe");
+  expect("label = \"low hazard\"", "", "class.yellow.label");
+}
+
+TEST(Recipe, SmoothingTakesTheMostOfTheNeighbours) {
+  // a single cell disappears, a straight border stays where it is
+  std::vector<int> codes(25, no_class);
+  codes[12] = 4;
+  EXPECT_EQ(smoothed_classes(codes, 5, 5, 1)[12], no_class);
+  for (int row = 0; row < 5; ++row)
+    for (int col = 0; col < 5; ++col)
+      codes[static_cast<std::size_t>(row) * 5 + col] = col < 2 ? 4 : 2;
+  EXPECT_EQ(smoothed_classes(codes, 5, 5, 3), codes);
+}

@@ -1,0 +1,154 @@
+#include "tools/hazard/inputs.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "base/read_file.hpp"
+#include "base/text.hpp"
+#include "post/reduce.hpp"
+#include "tools/frame/shipped_data.hpp"
+
+namespace talus {
+namespace {
+
+const std::vector<std::string> shipped_recipes = {"switzerland_ti"};
+
+const RunParts only_passages{.crossings = false,
+                             .checkpoint = false,
+                             .objects = false,
+                             .only_last_frame = true,
+                             .only_faults = true,
+                             .words = false,
+                             .trees = false};
+
+using TakeRows = std::function<void(const std::vector<MapRow>&, const RunBlocks&, int)>;
+
+// Rows of the parts from `first_part` on, over a tile of the map.
+void take_rows_of_parts(const RunInputs& runs, std::size_t first_part, const MapGrid& map,
+                        const MapTile& tile, std::uint64_t most, const TakeRows& take) {
+  for (std::size_t p = first_part; p < runs.parts().size(); ++p) {
+    const PartInput& part = runs.parts()[p];
+    const Part& content = part.file.part;
+    for_each_strip(part.file, map.factor, tile, most, [&](const auto& by_run) {
+      for (std::size_t r = 0; r < by_run.size(); ++r)
+        if (part.member[r] >= 0 && !by_run[r].empty()) {
+          const RunBlocks& blocks =
+              content.blocks[static_cast<std::size_t>(content.blocks_of_run[r])];
+          take(map_rows(by_run[r], content.grid, map, blocks.weight, tile), blocks, part.member[r]);
+        }
+    });
+  }
+}
+
+void check_weights(const HazardClass& kind, const RunFile& run, const std::string& file) {
+  if (kind.kind != FrequencyKind::of_weights || !run.blocks.weight.empty()) return;
+  throw InputError({file}, "has blocks without weights, and class " + kind.name + " is by_weights",
+                   "give frequency_per_a or frequency_per_m2_a to [blocks.*] and run talus-blocks "
+                   "and talus-dda again, or give the class a frequency");
+}
+
+}  // namespace
+
+Recipe read_recipe(Tool& tool, const Site& site) {
+  const std::string& name = site.hazard.recipe;
+  const Where where = where_of(site, "hazard.recipe");
+  Recipe recipe;
+  if (std::find(shipped_recipes.begin(), shipped_recipes.end(), name) != shipped_recipes.end()) {
+    const auto data = shipped_data("hazard/" + name + ".toml");
+    recipe = parse_recipe(std::string(data), "share/hazard/" + name + ".toml");
+  } else {
+    const std::string path = resolved(site, name);
+    if (!std::filesystem::exists(path)) {
+      std::string known;
+      for (const std::string& other : shipped_recipes) known += (known.empty() ? "" : ", ") + other;
+      throw InputError(where, "recipe is \"" + name + "\", which is neither known nor a file",
+                       "known: " + known + "; or the path of a file like share/hazard/" +
+                           shipped_recipes[0] + ".toml");
+    }
+    tool.read_also("recipe", path);
+    recipe = parse_recipe(read_file(path), path);
+  }
+  if (!site.hazard.split.empty()) recipe.side = site.hazard.split == "b";
+  return recipe;
+}
+
+HazardInputs read_hazard_inputs(RunInputs& runs, const std::vector<ClassFiles>& files,
+                                const std::vector<HazardClass>& classes, const Recipe& recipe,
+                                double cell_size_m, std::uint64_t most_rows) {
+  HazardInputs out;
+  out.sources.recipe = recipe;
+  out.sources.has_frequencies = !classes.empty();
+  bool are_too_many = false;
+  const auto count = [&](const std::vector<EventRow>& rows) {
+    for (const EventRow& row : rows) ++out.rows_of_cell[row.cell];
+    out.n_rows += rows.size();
+    are_too_many = are_too_many || out.n_rows > most_rows;
+    if (are_too_many)
+      std::vector<EventRow>().swap(out.rows);
+    else
+      out.rows.insert(out.rows.end(), rows.begin(), rows.end());
+  };
+  for (std::size_t c = 0; c < files.size(); ++c) {
+    HazardRuns of_class;
+    if (!classes.empty()) of_class.kind = classes[c];
+    of_class.kind.name = files[c].name;
+    of_class.first = static_cast<int>(runs.members.size());
+    const std::size_t first_part = runs.parts().size();
+    std::vector<double> released;
+    bool single = true;
+    runs.read(files[c].files, "class." + files[c].name, only_passages,
+              [&](RunFile& run, int index) {
+                const RunMember& member = runs.members[static_cast<std::size_t>(index)];
+                if (run.grid.n_rows == 0)
+                  throw InputError({where_of(member)}, "holds no passages",
+                                   "set [output] passages = true and run talus-dda again");
+                check_weights(of_class.kind, run, where_of(member));
+                if (out.rows_of_cell.empty()) {
+                  out.map = map_grid(run.grid, cell_size_m, "--cell-size-m");
+                  out.rows_of_cell.assign(
+                      static_cast<std::size_t>(out.map.grid.n_rows) * out.map.grid.n_cols, 0);
+                }
+                count(event_rows(map_rows(run.passages, run.grid, out.map, run.blocks.weight),
+                                 run.blocks, recipe, index));
+                released.push_back(member.weight);
+                single = single && member.n_blocks <= 1;
+              });
+    take_rows_of_parts(runs, first_part, out.map, {}, most_rows,
+                       [&](const std::vector<MapRow>& rows, const RunBlocks& blocks, int run) {
+                         count(event_rows(rows, blocks, recipe, run));
+                       });
+    of_class.n = static_cast<int>(released.size());
+    of_class.basis = share_basis(released, single, runs.last_failed_share());
+    out.sources.classes.push_back(std::move(of_class));
+  }
+  return out;
+}
+
+std::vector<MapLayer> read_hazard_layers(RunInputs& runs, HazardInputs& inputs,
+                                         std::uint64_t most_rows) {
+  if (inputs.n_rows <= most_rows) {
+    sort_events(inputs.rows);
+    return hazard_layers(inputs.sources, inputs.rows);
+  }
+  std::vector<MapLayer> layers;
+  for (const MapTile& tile : tiles_of(inputs.rows_of_cell, most_rows)) {
+    std::vector<EventRow> rows;
+    const auto add = [&](const std::vector<MapRow>& from, const RunBlocks& blocks, int run) {
+      const std::vector<EventRow> made = event_rows(from, blocks, inputs.sources.recipe, run);
+      rows.insert(rows.end(), made.begin(), made.end());
+    };
+    runs.read_again(only_passages, [&](RunFile& run, int index) {
+      add(map_rows(run.passages, run.grid, inputs.map, run.blocks.weight, tile), run.blocks, index);
+    });
+    take_rows_of_parts(runs, 0, inputs.map, tile, most_rows, add);
+    sort_events(rows);
+    std::vector<MapLayer> of_tile = hazard_layers(inputs.sources, rows);
+    if (layers.empty())
+      layers = std::move(of_tile);
+    else
+      for (std::size_t i = 0; i < layers.size(); ++i) append(layers[i], of_tile[i]);
+  }
+  return layers;
+}
+
+}  // namespace talus

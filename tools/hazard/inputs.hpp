@@ -1,0 +1,34 @@
+// tools/hazard/inputs.hpp
+// What talus-hazard reads: which runs are of which class, the recipe, the passages.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "post/hazard/hazard_maps.hpp"
+#include "tools/frame/class_runs.hpp"
+#include "tools/frame/site_options.hpp"
+
+namespace talus {
+
+/// The recipe of [hazard], with its split. Throws InputError (parse_recipe).
+[[nodiscard]] Recipe read_recipe(Tool& tool, const Site& site);
+
+/// All that the runs give, once they are read; rows as long as they are few enough.
+struct HazardInputs {
+  HazardSources sources;
+  MapGrid map;
+  std::vector<std::uint32_t> rows_of_cell;  ///< of the map
+  std::uint64_t n_rows = 0;
+  std::vector<EventRow> rows;  ///< empty when they are more than `most_rows`
+};
+[[nodiscard]] HazardInputs read_hazard_inputs(RunInputs& runs, const std::vector<ClassFiles>& files,
+                                              const std::vector<HazardClass>& classes,
+                                              const Recipe& recipe, double cell_size_m,
+                                              std::uint64_t most_rows);
+
+/// The layers, tile by tile where the rows are too many.
+[[nodiscard]] std::vector<MapLayer> read_hazard_layers(RunInputs& runs, HazardInputs& inputs,
+                                                       std::uint64_t most_rows);
+
+}  // namespace talus

@@ -1,0 +1,250 @@
+// tools/hazard/talus_hazard.cpp
+// Frequencies, return periods and hazard classes from runs. Page: docs/tools/talus-hazard.md
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+#include "base/text.hpp"
+#include "tools/frame/build_info.hpp"
+#include "tools/frame/command_line.hpp"
+#include "tools/frame/fault_json.hpp"
+#include "tools/frame/map_output.hpp"
+#include "tools/hazard/inputs.hpp"
+#include "tools/hazard/layers.hpp"
+
+namespace {
+
+using namespace talus;  // NOLINT: a program of its own
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string folder, json;
+  std::vector<std::string> of_class;
+  double cell_size_m = std::numeric_limits<double>::quiet_NaN();
+  bool png = false;
+  double memory_mb = 600;
+  std::vector<std::string> creation_options;
+
+  // Rows that may be held: a list that grows holds up to three times what stands in it.
+  [[nodiscard]] std::uint64_t most_rows() const {
+    return static_cast<std::uint64_t>(memory_mb * 1e6 / (3 * sizeof(EventRow)));
+  }
+};
+
+void declare(Tool& tool, Options& o) {
+  tool.output_folder("-o,--out", o.folder, "folder for the maps")->required();
+  add_class_option(tool, o.of_class);
+  tool.option("--cell-size-m", o.cell_size_m,
+              "cell of the maps, a whole multiple of the recorded one [m]; nan: as recorded")
+      ->check(number_between(0, 1e6, true));
+  tool.flag("--png", o.png, "a picture of each map over hillshade beside it");
+  tool.json_output(o.json, "the result (JSON)");
+  tool.option("--memory-mb", o.memory_mb,
+              "for rows of passages [MB]; more of them are taken in several readings of the runs")
+      ->check(number_between(1e-3, 1e7));
+  tool.option("--co", o.creation_options, "creation option of the COGs, NAME=VALUE")
+      ->check(check_creation_option);
+  tool.footer(
+      "Example:\n  talus-hazard site.toml run_1.h5 run_2.h5 --trn bed.tif -o hazard --png\n"
+      "  talus-hazard site.toml --class V1=small.h5 --class V2=large.h5 --trn bed.tif -o hazard");
+}
+
+std::string short_hash(const std::string& sha256) { return sha256.substr(0, 12); }
+
+std::string recipe_words(const Recipe& recipe) {
+  return "recipe: " + recipe.name + ", " + recipe.edition + ", split " +
+         (recipe.side == 0 ? "a" : "b") + ", mark " + recipe.mark + ", sha256 " +
+         short_hash(recipe.sha256);
+}
+
+std::string frequency_words(const std::vector<HazardClass>& classes) {
+  std::string out;
+  for (const HazardClass& c : classes) out += (out.empty() ? "" : "; ") + words_of(c);
+  return out;
+}
+
+std::string elsewhere_words(double rate) {
+  if (!(rate > 0)) return "of places that no run reached these runs say nothing";
+  return "places that no run reached: an event at most once in " + text(1 / rate, 3) +
+         " years (95 %)";
+}
+
+std::string run_words(const HazardSources& sources) {
+  std::string out;
+  for (const HazardRuns& runs : sources.classes)
+    out += (out.empty() ? "" : ", ") + std::to_string(runs.n) +
+           (runs.n == 1 ? " run of class " : " runs of class ") + runs.kind.name;
+  return out;
+}
+
+// What every map says below its picture, and in its tags.
+std::vector<std::string> notes_of(const Site& site, const HazardSources& sources,
+                                  const std::vector<HazardClass>& classes) {
+  std::vector<std::string> notes{site.info.name + ": " + run_words(sources) + "; talus " +
+                                 build_version};
+  if (classes.empty()) return notes;
+  notes.push_back("frequencies: " + frequency_words(classes));
+  notes.push_back(elsewhere_words(largest_rate_elsewhere(sources.classes)));
+  notes.push_back(recipe_words(sources.recipe));
+  return notes;
+}
+
+MapTags tags_of(Tool& tool, const Site& site, RunInputs& runs, const HazardSources& sources,
+                const std::vector<HazardClass>& classes, const std::string& remark) {
+  MapTags tags = talus::tags_of(runs.members, runs.left_out);
+  std::vector<std::string> ids;
+  for (const RunMember& member : runs.members) ids.push_back(member.info.run_id);
+  tags.insert(tags.begin(), {{"RUN_ID", tool.run_id()}, {"RUN_SET", run_set_id(std::move(ids))}});
+  if (!remark.empty()) tags.emplace_back("REMARK", remark);
+  if (runs.n_missing > 0) tags.emplace_back("N_MISSING", std::to_string(runs.n_missing));
+  if (classes.empty()) {
+    tags.emplace_back("FREQUENCIES", "none are given");
+    return tags;
+  }
+  const Recipe& recipe = sources.recipe;
+  tags.emplace_back("RECIPE", recipe.name);
+  tags.emplace_back("RECIPE_EDITION", recipe.edition);
+  tags.emplace_back("RECIPE_SOURCE", recipe.source);
+  tags.emplace_back("RECIPE_MARK", recipe.mark);
+  tags.emplace_back("RECIPE_SHA256", recipe.sha256);
+  tags.emplace_back("SPLIT", recipe.side == 0 ? "a" : "b");
+  tags.emplace_back("MODE", site.hazard.mode);
+  tags.emplace_back("FREQUENCIES", frequency_words(classes));
+  const double elsewhere = largest_rate_elsewhere(sources.classes);
+  if (!std::isnan(elsewhere))
+    tags.emplace_back("FREQUENCY_UPPER_BOUND_ELSEWHERE", text(elsewhere, 6) + " 1/a");
+  return tags;
+}
+
+const MapLayer* layer_named(const std::vector<MapLayer>& layers, const std::string& name) {
+  const auto at = std::find_if(layers.begin(), layers.end(),
+                               [&](const MapLayer& layer) { return layer.name == name; });
+  return at == layers.end() ? nullptr : &*at;
+}
+
+Json class_areas(const MapLayer& layer, const MapLayer& certainty, const Recipe& recipe,
+                 double cell_size) {
+  Json out = Json::array();
+  for (const RecipeClass& c : recipe.classes) {
+    double n = 0, n_certain = 0;
+    for (std::size_t i = 0; i < layer.cell.size(); ++i)
+      if (layer.bands[0].value[i] == static_cast<float>(c.code)) {
+        ++n;
+        n_certain += certainty.bands[0].value[i] == 1 ? 1 : 0;
+      }
+    const double area = cell_size * cell_size;
+    out.push_back({{"class", c.name},
+                   {"code", c.code},
+                   {"label", c.label},
+                   {"area_m2", n * area},
+                   {"certain_area_m2", n_certain * area}});
+  }
+  return out;
+}
+
+Json rate_json(const HazardClass& kind) {
+  if (kind.kind == FrequencyKind::of_failure)
+    return {
+        {"class", kind.name}, {"failure_probability", kind.probability}, {"in_years", kind.years}};
+  if (kind.kind == FrequencyKind::of_weights) return {{"class", kind.name}, {"by_weights", true}};
+  return {{"class", kind.name},
+          {"frequency_per_a", kind.frequency.value},
+          {"low_per_a", kind.frequency.low},
+          {"high_per_a", kind.frequency.high}};
+}
+
+// The longest return period of the recipe that places which no run reached may still have.
+void warn_of_elsewhere(Tool& tool, const HazardSources& sources) {
+  const double rate = largest_rate_elsewhere(sources.classes);
+  const std::vector<double>& periods = sources.recipe.return_periods;
+  if (std::isnan(rate)) {
+    tool.warn(
+        "fewer than 10 runs of a class by weights: its rates have no bounds, and no class is "
+        "certain");
+    return;
+  }
+  if (rate * periods.back() < 1) return;
+  tool.warn("places that no run reached may be reached once in " + text(1 / rate, 3) +
+            " years, which is within the " + text(periods.back()) +
+            " years of the recipe: more runs are needed to call them free");
+}
+
+void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& runs) {
+  const Site& site = site_options.load();
+  const std::vector<HazardClass> classes = hazard_classes(site);
+  const Recipe recipe = read_recipe(tool, site);
+  const std::vector<ClassFiles> files = class_files(tool, runs, o.of_class, classes, site.file);
+  const Trn& trn = runs.trn();
+  HazardInputs inputs =
+      read_hazard_inputs(runs, files, classes, recipe, o.cell_size_m, o.most_rows());
+  const std::vector<MapLayer> layers = read_hazard_layers(runs, inputs, o.most_rows());
+  const HazardSources& sources = inputs.sources;
+  if (inputs.n_rows == 0) tool.warn("no block passed any cell: the maps are empty");
+  runs.warn_of_ends();
+  const std::string why =
+      "no frequency is given: classes, return periods and frequencies are not written; give "
+      "[hazard.class.NAME] frequency_per_a, events with observed_a, or failure_probability with "
+      "in_years in " +
+      site.file;
+  if (classes.empty())
+    tool.warn(why);
+  else
+    warn_of_elsewhere(tool, sources);
+  const std::string remark = runs.remark();
+  const MapTags tags = tags_of(tool, site, runs, sources, classes, remark);
+  const std::vector<std::string> notes = notes_of(site, sources, classes);
+  const PassageGrid& grid = inputs.map.grid;
+  const MapFrame frame = map_frame(trn, grid, o.png, layers[0].cell);
+  const MapLayer* const certainty = layer_named(layers, certainty_layer);
+  Json written = Json::array();
+  for (const MapLayer& layer : layers) {
+    const std::string path = (fs::path(o.folder) / (layer.name + ".tif")).string();
+    const std::string shown =
+        write_map(tool, frame, path, layer, hazard_style(layer, recipe, remark, notes), tags,
+                  o.creation_options, layer.name == "class" ? certainty : nullptr);
+    Json bands = Json::array();
+    for (const MapBand& band : layer.bands) bands.push_back(band.name);
+    written.push_back({{"file", path}, {"shown_band", shown}, {"bands", bands}});
+  }
+  Json result = {{"run_id", tool.run_id()},       {"tags", Json::object()},
+                 {"n_runs", runs.members.size()}, {"n_cells_touched", layers[0].cell.size()},
+                 {"cell_size_m", grid.cell_size}, {"layers", written}};
+  for (const auto& [key, value] : tags) result["tags"][key] = value;
+  std::string summary =
+      std::to_string(layers.size()) + " maps of " + run_words(sources) + " in " + o.folder;
+  if (const MapLayer* of_class = layer_named(layers, "class")) {
+    std::vector<VectorLayer> polygons =
+        hazard_polygons(*of_class, *certainty, grid, trn.origin, recipe, notes);
+    mark_layers(polygons, remark);
+    write_geopackage(tool.stage((fs::path(o.folder) / "hazard.gpkg").string()), trn.crs_wkt,
+                     polygons, tags);
+    result["classes"] = class_areas(*of_class, *certainty, recipe, grid.cell_size);
+    result["notes"] = notes;
+    Json rates = Json::array();
+    for (const HazardClass& c : classes) rates.push_back(rate_json(c));
+    result["frequencies"] = rates;
+    result["rate_elsewhere_per_a"] = number_or_null(largest_rate_elsewhere(sources.classes));
+    for (const Json& area : result["classes"])
+      summary += "\n" + area["class"].get<std::string>() + " (" + area["label"].get<std::string>() +
+                 "): " + text(area["area_m2"].get<double>() / 1e4, 4) + " ha, " +
+                 text(area["certain_area_m2"].get<double>() / 1e4, 4) + " ha of it certain";
+  } else {
+    result["classes"] = nullptr;
+    result["why_no_classes"] = why;
+  }
+  add_faults(result, faults_of(runs.members, runs.left_out));
+  tool.metric("passages", static_cast<double>(inputs.n_rows), "1");
+  tool.result(result, summary);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  Tool tool("talus-hazard", "Frequencies, return periods and hazard classes from runs.");
+  SiteOptions site(tool);
+  RunInputs runs(tool);
+  declare(tool, options);
+  return tool.run(argc, argv, [&] { run_tool(tool, options, site, runs); });
+}

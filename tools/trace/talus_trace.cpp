@@ -1,0 +1,309 @@
+// tools/trace/talus_trace.cpp
+// Which source hits which object. Page: docs/tools/talus-trace.md
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+#include "base/text.hpp"
+#include "post/hazard/hazard_rates.hpp"
+#include "post/reduce.hpp"
+#include "tools/frame/class_runs.hpp"
+#include "tools/frame/command_line.hpp"
+#include "tools/frame/fault_json.hpp"
+#include "tools/frame/map_output.hpp"
+#include "tools/frame/site_options.hpp"
+#include "tools/frame/site_places.hpp"
+#include "tools/trace/layers.hpp"
+
+namespace {
+
+using namespace talus;  // NOLINT: a program of its own
+namespace fs = std::filesystem;
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+struct Options {
+  std::string out, csv, json, rasters;
+  std::vector<std::string> of_class;
+  double source_cell_m = none;
+  bool by_cells = false, png = false;
+};
+
+void declare(Tool& tool, Options& o) {
+  tool.output("-o,--out", o.out, "objects, source cells and links (GeoPackage)")->required();
+  tool.output("--csv", o.csv, "one row a source cell and object (CSV)");
+  tool.json_output(o.json, "the result (JSON)");
+  tool.output_folder("--rasters", o.rasters, "folder for a raster of source cells an object");
+  tool.flag("--png", o.png, "a picture of each raster over hillshade beside it");
+  add_class_option(tool, o.of_class);
+  tool.option("--source-cell-m", o.source_cell_m,
+              "cells that blocks are put together by where they were released [m]; nan: the "
+              "terrain's")
+      ->check(number_between(1e-3, 1e6, true));
+  tool.flag("--by-cells", o.by_cells,
+            "count passages of cells also where runs watched the objects themselves");
+  tool.footer(
+      "Example:\n  talus-trace site.toml run_1.h5 run_2.h5 --trn bed.tif -o trace.gpkg --csv "
+      "links.csv --rasters sources");
+}
+
+/// What is read, class by class.
+struct Traced {
+  TraceSums sums;
+  std::vector<HazardRuns> classes;
+};
+
+const RunParts wanted{.crossings = false,
+                      .checkpoint = false,
+                      .only_last_frame = true,
+                      .only_faults = true,
+                      .words = false,
+                      .trees = false};
+
+// Whether the cells are needed for what the run did not watch; then it must have them.
+bool needs_cells(const RunFile& run, const TraceSums& sums, const Options& o,
+                 const RunMember& member) {
+  for (const RecordObject& object : sums.objects) {
+    if (!o.by_cells && watched_as(run, object) >= 0) continue;
+    if (run.grid.n_rows > 0) return true;
+    throw InputError({where_of(member)},
+                     "did not watch object " + object.name + ", and holds no passages",
+                     "run talus-dda again with the site file as it is, or with [output] passages "
+                     "= true");
+  }
+  return false;
+}
+
+// Hits by cells of the runs of parts from `first_part` on.
+void add_hits_of_parts(const RunInputs& runs, std::size_t first_part, const ObjectCells& cells,
+                       const Options& o, TraceSums& sums) {
+  constexpr std::uint64_t most_rows = 1'000'000;
+  for (std::size_t p = first_part; p < runs.parts().size(); ++p) {
+    const PartInput& part = runs.parts()[p];
+    std::vector<CellHits> hits(part.member.size());
+    for_each_strip(part.file, 1, {}, most_rows, [&](const auto& by_run) {
+      for (std::size_t r = 0; r < by_run.size(); ++r)
+        if (part.member[r] >= 0) add_cell_hits(hits[r], cells, by_run[r], part.file.part.grid);
+    });
+    for (std::size_t r = 0; r < hits.size(); ++r)
+      if (part.member[r] >= 0)
+        add_hits(sums, run_of(part.file.part, static_cast<int>(r)), part.member[r], hits[r],
+                 o.by_cells);
+  }
+}
+
+Traced trace(Tool& tool, const Site& site, RunInputs& runs, const Options& o,
+             const std::vector<HazardClass>& classes) {
+  const Trn& trn = runs.trn();
+  Traced out;
+  out.sums.objects = site_objects(tool, site, trn);
+  if (out.sums.objects.empty())
+    throw InputError({site.file}, "has no section [object.*]",
+                     "add one with its polygon, line or position_m, or a file with them");
+  out.sums.sources = passage_grid(trn, o.source_cell_m);
+  ObjectCells cells;
+  bool by_centroid = false;
+  for (const ClassFiles& files : class_files(tool, runs, o.of_class, classes, site.file)) {
+    HazardRuns of_class;
+    if (!classes.empty()) of_class.kind = classes[out.classes.size()];
+    of_class.first = static_cast<int>(runs.members.size());
+    const std::size_t first_part = runs.parts().size();
+    std::vector<double> released;
+    bool single = true, any_cells = false;
+    runs.read(files.files, "class." + files.name, wanted, [&](RunFile& run, int index) {
+      const RunMember& member = runs.members[static_cast<std::size_t>(index)];
+      const bool needs = needs_cells(run, out.sums, o, member);
+      if (needs && cells.empty()) cells = object_cells(run.grid, out.sums.objects);
+      any_cells = any_cells || needs;
+      by_centroid = by_centroid || (needs && run.passages_by_centroid);
+      add_run(out.sums, run, runs.rest_speed_m_s, o.by_cells);
+      if (needs) {
+        CellHits hits;
+        add_cell_hits(hits, cells, run.passages, run.grid);
+        add_hits(out.sums, run, index, hits, o.by_cells);
+      }
+      released.push_back(member.weight);
+      single = single && member.n_blocks <= 1;
+    });
+    if (any_cells) add_hits_of_parts(runs, first_part, cells, o, out.sums);
+    of_class.n = static_cast<int>(released.size());
+    of_class.basis = share_basis(released, single, runs.last_failed_share());
+    out.classes.push_back(std::move(of_class));
+  }
+  finish(out.sums);
+  if (by_centroid)
+    tool.warn(
+        "cells were passed by centroids alone (--passages-by centroid): blocks that touch an "
+        "object with their side may be missed");
+  return out;
+}
+
+// Events a year at an object, as talus-hazard counts them.
+void put_rate(const Traced& traced, int object, TracedObject& to) {
+  std::vector<EventRow> rows;
+  for (const TraceHit& hit : traced.sums.hits)
+    if (hit.object == object)
+      rows.push_back(
+          {0, hit.run, static_cast<float>(hit.energy / 1e3), 0, static_cast<float>(hit.weight)});
+  sort_events(rows);
+  HazardRates rates(traced.classes);
+  const Rate rate = rates.above(rows, {})[0];
+  to.rate = rate.value;
+  to.rate_low = rate.low;
+  to.rate_high = rate.high;
+}
+
+Json sources_json(const Traced& traced, int object, const std::vector<SourceLink>& links,
+                  const Vec3& origin) {
+  constexpr std::size_t most = 5;
+  Json out = Json::array();
+  for (const SourceLink& link : links) {
+    if (link.object != object || out.size() == most) continue;
+    const Vec2 at = place_of_source(traced.sums, link.source) + origin.head<2>();
+    out.push_back({{"source_cell", link.source},
+                   {"x_m", at.x()},
+                   {"y_m", at.y()},
+                   {"n_hits", link.n_hits},
+                   {"p_hit", link.p_hit},
+                   {"share_of_hits", link.share_of_hits},
+                   {"ke_p95_kj", number_or_null(link.energy_p95)}});
+  }
+  return out;
+}
+
+Json object_json(const RecordObject& object, const TracedObject& traced, bool has_rate) {
+  const ObjectTrace& t = traced.trace;
+  Json out = {
+      {"name", object.name},
+      {"kind", object.kind},
+      {"method", t.method},
+      {"n_runs_hit", t.n_runs_hit},
+      {"n_hits", t.n_hits},
+      {"run_share", t.run_share},
+      {"run_share_interval", {t.run_share_interval.low, t.run_share_interval.high}},
+      {"hits_a_run", t.hits_a_run},
+      {"block_share", t.weight_share},
+      {"block_share_interval",
+       {number_or_null(t.weight_share_interval.low), number_or_null(t.weight_share_interval.high)}},
+      {"volume_share", t.volume_share},
+      {"ke_p50_kj", number_or_null(t.energy.p50)},
+      {"ke_p95_kj", number_or_null(t.energy.p95)},
+      {"ke_p95_hi_kj", number_or_null(t.energy.p95_high)},
+      {"ke_max_kj", number_or_null(t.energy.largest)},
+      {"top_height_p95_m", number_or_null(t.top_height_p95)},
+      {"first_arrival_s", number_or_null(t.first_arrival)},
+      {"deposited_m3_a_run", t.deposited_a_run},
+      {"n_sources_50_90_100", t.n_sources}};
+  if (has_rate)
+    out["frequency_per_a"] = {number_or_null(traced.rate), number_or_null(traced.rate_low),
+                              number_or_null(traced.rate_high)};
+  return out;
+}
+
+// What must add up, and does.
+Json conservation(const Traced& traced, const std::vector<SourceLink>& links) {
+  const TraceSums& sums = traced.sums;
+  Json objects = Json::array();
+  for (std::size_t o = 0; o < sums.objects.size(); ++o) {
+    double share = 0;
+    int n = 0;
+    for (const SourceLink& link : links)
+      if (link.object == static_cast<int>(o)) {
+        share += link.share_of_hits;
+        n += link.n_hits;
+      }
+    objects.push_back(
+        {{"object", sums.objects[o].name}, {"hits_from_sources", n}, {"sum_of_shares", share}});
+  }
+  double n_released = 0, n_none = 0;
+  for (const auto& [cell, source] : sums.source) {
+    n_released += source.n;
+    n_none += source.n_none;
+  }
+  return {{"objects", objects},
+          {"n_released", n_released},
+          {"n_hit_none", n_none},
+          {"n_hits_and_none", static_cast<double>(sums.hits.size()) + n_none}};
+}
+
+std::string summary_of(const std::string& name, const TracedObject& o, bool has_rate, int n) {
+  const ObjectTrace& t = o.trace;
+  std::string out = name + ": hit in " + std::to_string(t.n_runs_hit) + " of " + std::to_string(n) +
+                    " runs (95 %: " + text(t.run_share_interval.low, 3) + " - " +
+                    text(t.run_share_interval.high, 3) + ")";
+  if (has_rate && o.rate > 0) out += ", once in " + text(1 / o.rate, 3) + " years";
+  if (t.n_hits == 0) return out;
+  out += ", " + std::to_string(t.n_hits) + " blocks, up to " + text(t.energy.largest, 3) + " kJ";
+  return out + "; half of them from " + std::to_string(t.n_sources[0]) + " of " +
+         std::to_string(t.n_sources[2]) + " source cells";
+}
+
+void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& runs) {
+  const Site& site = site_options.load();
+  const std::vector<HazardClass> classes = hazard_classes(site);
+  const Traced traced = trace(tool, site, runs, o, classes);
+  const TraceSums& sums = traced.sums;
+  const Trn& trn = runs.trn();
+  runs.warn_of_ends();
+  const std::string remark = runs.remark();
+  const std::vector<SourceLink> links = source_links(sums);
+  const ShareBasis basis = share_basis(sums.released, sums.single_blocks, runs.failed_share());
+  std::vector<TracedObject> objects;
+  Json list = Json::array();
+  std::string summary;
+  for (int i = 0; i < static_cast<int>(sums.objects.size()); ++i) {
+    TracedObject object{object_trace(sums, i, basis, links), none, none, none};
+    if (!classes.empty()) put_rate(traced, i, object);
+    const RecordObject& of = sums.objects[static_cast<std::size_t>(i)];
+    if (object.trace.method != "recorded")
+      tool.warn("object " + of.name + " was not watched by " +
+                (object.trace.method == "both" ? "some of the runs" : "the runs") +
+                ": its hits are counted by the cells that it lies in, none too few and some too "
+                "many, with the largest energy over these cells");
+    list.push_back(object_json(of, object, !classes.empty()));
+    list.back()["sources"] = sources_json(traced, i, links, trn.origin);
+    summary += (i > 0 ? "\n" : "") + summary_of(of.name, object, !classes.empty(), n_runs(sums));
+    objects.push_back(std::move(object));
+  }
+  MapTags tags = tags_of(runs.members, runs.left_out);
+  std::vector<std::string> ids;
+  for (const RunMember& member : runs.members) ids.push_back(member.info.run_id);
+  tags.insert(tags.begin(), {{"RUN_ID", tool.run_id()}, {"RUN_SET", run_set_id(std::move(ids))}});
+  if (!remark.empty()) tags.emplace_back("REMARK", remark);
+  std::vector<VectorLayer> layers = trace_layers(sums, objects, links, trn);
+  mark_layers(layers, remark);
+  write_geopackage(tool.stage(o.out), trn.crs_wkt, layers, tags);
+  if (!o.csv.empty()) tool.write_text(o.csv, link_csv(sums, links, trn.origin));
+  if (!o.rasters.empty()) {
+    std::vector<std::uint32_t> touched;
+    for (const auto& [cell, source] : sums.source) touched.push_back(cell);
+    const MapFrame frame = map_frame(trn, sums.sources, o.png, touched);
+    for (int i = 0; i < static_cast<int>(sums.objects.size()); ++i) {
+      const MapLayer layer = source_layer(sums, i, links);
+      write_map(tool, frame, (fs::path(o.rasters) / (layer.name + ".tif")).string(), layer,
+                source_style(sums.objects[static_cast<std::size_t>(i)].name, remark), tags);
+    }
+  }
+  Json result = {{"run_id", tool.run_id()},
+                 {"tags", Json::object()},
+                 {"n_runs", n_runs(sums)},
+                 {"source_cell_m", sums.sources.cell_size},
+                 {"n_source_cells", sums.source.size()},
+                 {"objects", list},
+                 {"conservation", conservation(traced, links)}};
+  for (const auto& [key, value] : tags) result["tags"][key] = value;
+  add_faults(result, faults_of(runs.members, runs.left_out));
+  tool.result(result, summary);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  Tool tool("talus-trace", "Which source hits which object, how often and how hard.");
+  SiteOptions site(tool);
+  RunInputs runs(tool);
+  declare(tool, options);
+  return tool.run(argc, argv, [&] { run_tool(tool, options, site, runs); });
+}
