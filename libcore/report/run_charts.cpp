@@ -53,11 +53,12 @@ Chart energy_chart(const RunFile& run) {
   if (run.health.empty()) return chart;
   const HealthRow& first = run.health.front();
   const double start = first.translation + first.rotation + first.potential + first.elastic +
-                       first.friction + first.impact + first.contact + first.breakage +
-                       first.removed - first.base;
+                       first.friction + first.impact + first.contact + first.rolling + first.drag +
+                       first.breakage + first.removed - first.base;
   for (const HealthRow& row : run.health) {
     const double moving = row.translation + row.rotation + row.elastic;
-    const double spent = row.friction + row.impact + row.contact + row.breakage + row.removed;
+    const double spent = row.friction + row.impact + row.contact + row.rolling + row.drag +
+                         row.breakage + row.removed;
     const double values[] = {start - row.potential + row.base, moving, row.friction, row.impact,
                              moving + spent};
     for (std::size_t k = 0; k < chart.series.size(); ++k) {

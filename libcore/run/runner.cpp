@@ -104,6 +104,8 @@ void close_interval(Runner& runner) {
   row.contact = state.ledger.contact;
   row.base = state.ledger.base;
   row.fence = state.ledger.fence;
+  row.rolling = state.ledger.rolling;
+  row.drag = state.ledger.drag;
   row.breakage = state.ledger.breakage;
   row.removed = state.ledger.removed;
   runner.file.health.push_back(row);
@@ -139,8 +141,8 @@ double energy_gain(const Runner& runner, const HealthRow& row) {
   // out what its integrator damps.
   double known = now - runner.energy_start - row.base;
   if (runner.scene.settings.law == Law::talus)
-    known += std::max(
-        0.0, row.friction + row.impact + row.contact + row.fence + row.breakage + row.removed);
+    known += std::max(0.0, row.friction + row.impact + row.contact + row.fence + row.rolling +
+                               row.drag + row.breakage + row.removed);
   return known / turned_over(runner, row);
 }
 
@@ -148,7 +150,8 @@ double energy_gain(const Runner& runner, const HealthRow& row) {
 double least_restitution(const Scene& scene) {
   double least = 1;
   const auto meet = [&least](const std::vector<GroundClass>& classes) {
-    for (const GroundClass& c : classes) least = std::min(least, c.restitution);
+    for (const GroundClass& c : classes)
+      least = std::min(least, c.half_speed > 0 || c.half_energy > 0 ? 0 : c.restitution);
   };
   meet(scene.ground.classes);
   meet(scene.joints.of_block);
@@ -162,8 +165,8 @@ double least_restitution(const Scene& scene) {
 // with full restitution not hits either.
 double energy_loss(const Runner& runner, const HealthRow& row, double restitution) {
   const double now = row.translation + row.rotation + row.potential + row.elastic;
-  double lost =
-      runner.energy_start + row.base - now - row.friction - row.fence - row.breakage - row.removed;
+  double lost = runner.energy_start + row.base - now - row.friction - row.fence - row.rolling -
+                row.drag - row.breakage - row.removed;
   if (restitution < 1) lost -= row.impact;
   return lost / turned_over(runner, row);
 }

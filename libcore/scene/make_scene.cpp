@@ -102,6 +102,12 @@ void check_scene(const Scene& scene) {
       throw InputError({}, "restitution is " + text(g.restitution) + ", expected 0 to 1");
     if (!(g.cohesion >= 0 && g.tension >= 0))
       throw InputError({}, "cohesion or tensile strength is negative");
+    for (const double law :
+         {g.half_speed, g.half_energy, g.rolling, g.bearing, g.scar_friction, g.scar_rate,
+          g.scar_decay, g.weak_friction, g.weakening_speed, g.drag_per_time, g.drag_per_way})
+      if (!(law >= 0 && std::isfinite(law)))
+        throw InputError({},
+                         "a number of ground that gives way is " + text(law) + ", expected >= 0");
   }
   const AccelerationRecord& base = scene.base;
   if (base.time.size() != base.acceleration.size())

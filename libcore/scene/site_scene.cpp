@@ -17,12 +17,31 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
+double or_none(double value) { return std::isnan(value) ? 0 : value; }
+
+// What ground that gives way does.
+void set_yielding(const GroundSettings& drawn, GroundClass& made) {
+  made.half_speed = or_none(drawn.cor_half_speed_m_s);
+  made.half_energy = 1e3 * or_none(drawn.cor_half_energy_kj);
+  made.rolling = or_none(drawn.rolling_resistance);
+  made.bearing = 1e3 * or_none(drawn.bearing_kpa);
+  if (!std::isnan(drawn.spin_resistance)) made.spinning = drawn.spin_resistance;
+  made.scar_friction = or_none(drawn.scar_friction);
+  made.scar_rate = or_none(drawn.scar_rate_1_m);
+  made.scar_decay = or_none(drawn.scar_decay_1_s);
+  made.weakening_speed = or_none(drawn.weakening_speed_m_s);
+  made.weak_friction = std::tan(or_none(drawn.friction_weak_deg) * degree);
+  made.drag_per_time = drawn.drag_1_s;
+  made.drag_per_way = drawn.drag_1_m;
+}
+
 GroundClass ground_class(const GroundSettings& drawn) {
   GroundClass made;
   made.friction = std::tan(drawn.friction_deg * degree);
   made.cohesion = drawn.cohesion_pa;
   made.tension = drawn.tension_pa;
   made.restitution = drawn.cor;
+  set_yielding(drawn, made);
   return made;
 }
 
@@ -117,7 +136,8 @@ Settings settings_of(const SolverSettings& solver, const ScenePlan& plan) {
 
 std::vector<GroundSettings> drawn_grounds(const Site& site) {
   const SolverSettings& solver = site.solver;
-  Random scatter(static_cast<std::uint64_t>(solver.seed), "scatter of ground");
+  const auto seed = static_cast<std::uint64_t>(solver.seed);
+  Random scatter(seed, "scatter of ground"), rolling_scatter(seed, "scatter of rolling");
   std::vector<GroundSettings> drawn = site.grounds;
   for (GroundSettings& ground : drawn) {
     const double friction_shift = solver.friction_scatter_deg * scatter.normal();
@@ -125,6 +145,10 @@ std::vector<GroundSettings> drawn_grounds(const Site& site) {
     const double cor = std::isnan(solver.cor) ? ground.cor : solver.cor;
     ground.friction_deg = std::clamp(ground.friction_deg + friction_shift, 0.0, 89.0);
     ground.cor = std::clamp(cor + cor_shift, 0.0, 1.0);
+    const double factor = std::exp(solver.rolling_scatter * rolling_scatter.normal());
+    ground.rolling_resistance *= factor;
+    ground.spin_resistance *= factor;
+    ground.bearing_kpa /= factor * factor;
   }
   return drawn;
 }

@@ -30,8 +30,16 @@ struct EnergyLedger {
   double contact = 0;   ///< dissipated or stored by normal contact and strain damping
   double base = 0;      ///< put in by base motion and point loads
   double fence = 0;     ///< taken by panels of fences, and what else gave way
+  double rolling = 0;   ///< dissipated by rolling and pivoting resistance, in hits too
+  double drag = 0;      ///< dissipated by drag of the ground
   double breakage = 0;  ///< kinetic energy of crushed blocks, and work of fracture
   double removed = 0;   ///< kinetic energy of blocks stopped at the domain's edge
+};
+
+/// What a block has slid, on ground whose friction follows that.
+struct SlidWay {
+  double way = 0;   ///< [m]
+  double time = 0;  ///< when it did so last [s]
 };
 
 /// Counts since the start.
@@ -122,6 +130,7 @@ struct State : BlockLives {  // clang-format off
   PlacedHulls placed;                       ///< where the pairs were searched last
   std::vector<BlockBond> bonds;             ///< sorted by block_a, block_b            (n_bonds)
   std::vector<DeepBlock> deep;              ///<                                     (n_blocks)
+  std::vector<SlidWay> slid;                ///< empty: friction follows no way      (n_blocks)
   std::vector<BlockLoad> load;              ///< empty: none is crushed                 (n_blocks)
   std::vector<CrushedBlock> crushed;        ///< by time
   std::vector<double> hit_loss;             ///< of the step under way; empty: none breaks [J] (n_blocks)

@@ -112,7 +112,16 @@ struct GroundSettings {
   int line = 0;
   double friction_deg = 30;
   double cohesion_pa = 0, tension_pa = 0;
-  double cor = 0.3;  ///< along the normal
+  double cor = 0.3;                       ///< along the normal
+  std::string soil;                       ///< fills keys that are not given; libcore/site/soils.hpp
+  double cor_half_speed_m_s = not_given;  ///< approach at which the COR is half of `cor`
+  double cor_half_energy_kj = not_given;  ///< or energy of the approach
+  double rolling_resistance = not_given;  ///< largest couple over normal force and radius
+  double spin_resistance = not_given;     ///< of pivoting; not given: as rolling
+  double bearing_kpa = not_given;         ///< rolling resistance by the block's size instead
+  double scar_friction = not_given, scar_rate_1_m = not_given, scar_decay_1_s = not_given;
+  double drag_1_s = 0, drag_1_m = 0;
+  double friction_weak_deg = not_given, weakening_speed_m_s = not_given;
   std::vector<Vec3> polygon;
   std::string polygon_file, polygon_layer, polygon_where;
   std::vector<double> raster_values;  ///< of TerrainSettings::ground_raster, whole numbers
@@ -133,7 +142,7 @@ struct SolverSettings {
   std::int64_t max_passes = 50;
   std::int64_t seed = 1, n_runs = 1;
   double start_jitter_m_s = 0;
-  double friction_scatter_deg = 0, cor_scatter = 0;
+  double friction_scatter_deg = 0, cor_scatter = 0, rolling_scatter = 0;
   double max_penetration_m = not_given;
   double max_energy_gain = 0.01;       ///< share of the fall energy; more makes the run fail
   double max_lost_share = 0;           ///< of the blocks; more makes the run fail
@@ -300,7 +309,7 @@ struct PlaceSettings {
 
 /// Where the value of a key came from.
 struct ValueSource {
-  enum Kind { from_default, from_file, from_cli, from_draw } kind = from_default;
+  enum Kind { from_default, from_file, from_cli, from_soil, from_draw } kind = from_default;
   int line = 0;         ///< in the site file
   std::string words{};  ///< of a draw: "sample 7 of uncertainty.friction"
 };
@@ -345,10 +354,11 @@ struct Site {
 /// or plain text where the key takes text. Throws InputError as read_site does.
 void override_value(Site& site, const std::string& key, const std::string& value);
 
-/// A value in effect, as TOML, and where it came from: "default", "file, line 7", "cli",
-/// "sample 7 of uncertainty.friction".
+/// A value in effect, as TOML, and where it came from: "default", "file, line 7", "cli", "soil
+/// meadow (calibrated at one site)", "sample 7 of uncertainty.friction".
 struct EffectiveValue {
   std::string section, key, value, source;  ///< value is empty when not given
+  std::string note = {};                    ///< where what it stands for is from; mostly empty
 };
 [[nodiscard]] std::vector<EffectiveValue> effective_values(const Site& site);
 

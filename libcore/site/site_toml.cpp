@@ -11,6 +11,7 @@
 #include "base/read_file.hpp"
 #include "base/text.hpp"
 #include "site/site_keys.hpp"
+#include "site/soils.hpp"
 
 namespace talus {
 namespace {
@@ -466,6 +467,7 @@ Site parse_site(const std::string& text, const std::string& path) {
   check_groups(root, path);
   for_each_group(site, GroupReader{site, root});
   fill_defaults(site);
+  fill_from_soils(site);
   check_names(site);
   return site;
 }
@@ -494,6 +496,7 @@ void override_value(Site& site, const std::string& key, const std::string& value
                      known.empty() ? did_you_mean(group, group_names())
                                    : did_you_mean(key.substr(0, last), known));
   }
+  fill_from_soils(site);
   check_names(site);
 }
 

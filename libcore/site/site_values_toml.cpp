@@ -5,10 +5,12 @@
 #include <cctype>
 #include <cmath>
 #include <sstream>
+#include <type_traits>
 #include <variant>
 
 #include "base/text.hpp"
 #include "site/site_keys.hpp"
+#include "site/soils.hpp"
 
 namespace talus {
 namespace {
@@ -75,16 +77,31 @@ struct ValueLister {
           [&](auto field) {
             const auto& value = fields.*field;
             values.push_back({section, key.name, is_given(value) ? literal(value) : "",
-                              source_of(path + "." + key.name)});
+                              source_of(fields, key.name, path), note_on(fields, key.name)});
           },
           key.field);
   }
-  std::string source_of(const std::string& path) const {
-    const auto found = site.sources.find(path);
+  template <class Section>
+  std::string source_of(const Section& fields, const std::string& key,
+                        const std::string& path) const {
+    const auto found = site.sources.find(path + "." + key);
     if (found == site.sources.end()) return "default";
-    if (found->second.kind == ValueSource::from_cli) return "cli";
-    if (found->second.kind == ValueSource::from_draw) return found->second.words;
-    return "file, line " + std::to_string(found->second.line);
+    const ValueSource& source = found->second;
+    if constexpr (std::is_same_v<Section, GroundSettings>)
+      if (const Soil* soil = soil_named(fields.soil);
+          soil != nullptr && source.kind == ValueSource::from_soil)
+        return std::string("soil ") + soil->name + " (" + soil->mark + ")";
+    if (source.kind == ValueSource::from_cli) return "cli";
+    if (source.kind == ValueSource::from_draw) return source.words;
+    return "file, line " + std::to_string(source.line);
+  }
+  // How sure the values of a soil are, and where they are from.
+  template <class Section>
+  static std::string note_on(const Section& fields, const std::string& key) {
+    if constexpr (std::is_same_v<Section, GroundSettings>)
+      if (const Soil* soil = soil_named(fields.soil); soil != nullptr && key == "soil")
+        return std::string(soil->mark) + ": " + soil->source;
+    return "";
   }
   template <class Section>
   void operator()(const char* name, const Section& fields) const {
@@ -139,6 +156,7 @@ std::string print_config(const Site& site) {
     section = entry.section;
     out += entry.value.empty() ? "# " + entry.key + ": not given\n"
                                : entry.key + " = " + entry.value + "  # " + entry.source + "\n";
+    if (!entry.note.empty()) out += "# " + entry.note + "\n";
   }
   return out;
 }

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "solver/one_contact.hpp"
+
 namespace talus {
 namespace {
 
@@ -40,6 +42,7 @@ struct Solver {
   double rounding = 0;       // of velocities [m/s]
   double renewed = 1;        // share of what a slip misses that a round adds
   bool has_missing = false;  // of the round before
+  bool is_held = false;      // bounds of couples are those expected
   int passes = 0;
 
   [[nodiscard]] Vec6 of(const Eigen::VectorXd& v, int k) const { return v.segment<6>(6 * k); }
@@ -89,6 +92,68 @@ struct Solver {
       scale = std::max(scale, point_velocity(w.before, i).norm());
     }
     rounding = 1e-14 * fastest;
+    list_turns();
+  }
+
+  void list_turns() {
+    w.turns.clear();
+    w.turn_of.clear();
+    for (size_t i = 0; i < contacts.size(); ++i) {
+      const ImpactContact& c = contacts[i];
+      if (c.b >= 0 || (c.arm.rolling == 0 && c.arm.spinning == 0)) continue;
+      if (w.turn_of.empty()) w.turn_of.assign(bodies.size(), -1);
+      int& at = w.turn_of[static_cast<size_t>(c.a)];
+      if (at < 0) {
+        at = static_cast<int>(w.turns.size());
+        w.turns.push_back({});
+        w.turns.back().body = c.a;
+        w.turns.back().damping = 1 / bodies[static_cast<size_t>(c.a)].per_inertia.trace();
+      }
+      ImpactWork::Turn& turn = w.turns[static_cast<size_t>(at)];
+      turn.lever = std::max(turn.lever, w.rows[i].arm_a.norm());
+    }
+  }
+
+  // Turn of a contact that bounds one; nullptr: it bounds none.
+  [[nodiscard]] ImpactWork::Turn* turn_of(const ImpactContact& c) const {
+    if (c.b >= 0 || w.turn_of.empty() || w.turn_of[static_cast<size_t>(c.a)] < 0) return nullptr;
+    return &w.turns[static_cast<size_t>(w.turn_of[static_cast<size_t>(c.a)])];
+  }
+
+  // Couples at velocities v, whose contacts are evaluated: about those expected, within what the
+  // normal impulses let them be; in the convex form what those expected do.
+  void add_couples(const Eigen::VectorXd& v) {
+    for (ImpactWork::Turn& turn : w.turns) turn.bounds = {};
+    for (size_t i = 0; i < contacts.size(); ++i)
+      if (ImpactWork::Turn* turn = turn_of(contacts[i]))
+        turn->bounds.add(contacts[i].arm, contacts[i].normal.dot(w.rows[i].impulse),
+                         contacts[i].normal);
+    for (ImpactWork::Turn& turn : w.turns) {
+      const Vec3 spin = v.segment<3>(6 * turn.body + 3) - turn.expected / turn.damping;
+      turn.law.damping = turn.damping;
+      talus::evaluate(spin, is_held ? turn.held : turn.bounds, turn.law);
+      turn.couple = turn.law.couple;
+      turn.tangent = tangent(turn.law);
+      w.residual.segment<3>(6 * turn.body + 3) -= turn.couple;
+    }
+  }
+
+  void add_couple_tangents() {
+    for (const ImpactWork::Turn& turn : w.turns)
+      w.matrix.diagonal[w.matrix.pattern.place[static_cast<size_t>(turn.body)]]
+          .bottomRightCorner<3, 3>() += turn.tangent;
+    if (is_held) return;
+    for (size_t i = 0; i < contacts.size(); ++i) {
+      const ImpactContact& c = contacts[i];
+      const Row& row = w.rows[i];
+      const ImpactWork::Turn* turn = turn_of(c);
+      if (turn == nullptr || !(c.normal.dot(row.impulse) > 0)) continue;
+      const Vec3 by_velocity = row.tangent.transpose() * c.normal;  // -d p_n / d u
+      Vec6 by_motion;
+      by_motion << by_velocity, row.arm_a.cross(by_velocity);
+      w.matrix.diagonal[w.matrix.pattern.place[static_cast<size_t>(c.a)]].bottomRows<3>() -=
+          by_bound(turn->law, c.arm) * by_motion.transpose();
+    }
   }
 
   // The law at velocity `u` of the contact's point: impulse and tangent.
@@ -163,6 +228,7 @@ struct Solver {
       w.residual.segment<3>(6 * c.b) += row.impulse;
       w.residual.segment<3>(6 * c.b + 3) += row.arm_b.cross(row.impulse);
     }
+    if (!w.turns.empty()) add_couples(v);
     double worst = 0;
     for (size_t k = 0; k < bodies.size(); ++k) {
       const auto at = static_cast<Eigen::Index>(6 * k);
@@ -217,6 +283,7 @@ struct Solver {
       add_blocks<6>(w.matrix, c.a, c.b, -block(row.tangent, row.arm_a, row.arm_b),
                     -block(row.tangent, row.arm_b, row.arm_a));
     }
+    if (!w.turns.empty()) add_couple_tangents();
   }
 
   // Newton's step from what balance() left; false where the matrix is singular.
@@ -283,6 +350,23 @@ struct Solver {
       row.normal_damping *= factor;
       row.shear_damping *= factor;
     }
+    for (ImpactWork::Turn& turn : w.turns) turn.damping *= factor;
+  }
+
+  // Couples found are those expected from now on, and so are their bounds.
+  double renew_couples() {
+    double gives = 0;
+    for (ImpactWork::Turn& turn : w.turns) {
+      gives = std::max(gives, turn.lever * (turn.couple - turn.expected).norm() / turn.damping);
+      turn.expected = turn.couple;
+      if (!is_held) continue;
+      const double missing = std::abs(turn.bounds.rolling - turn.held.rolling) +
+                             std::abs(turn.bounds.spinning - turn.held.spinning);
+      gives = std::max(
+          gives, turn.lever * missing * bodies[static_cast<size_t>(turn.body)].per_inertia.trace());
+      turn.held = turn.bounds;
+    }
+    return gives;
   }
 
   // Rounds until no contact gives way any more, with ever stiffer contacts: what sticks, slides or
@@ -314,7 +398,7 @@ struct Solver {
 
   // Impulses and slips found are those expected from now on: by how much they were not [m/s].
   double renew(bool is_convex) {
-    double gives = 0, along_change = 0, change = 0;
+    double gives = renew_couples(), along_change = 0, change = 0;
     for (size_t i = 0; i < contacts.size(); ++i) {
       Row& row = w.rows[i];
       const Vec3& n = contacts[i].normal;
@@ -399,10 +483,15 @@ struct Solver {
   void begin_rounds() {
     w.velocity = w.before;
     for (Row& row : w.rows) row.expected.setZero();
+    for (ImpactWork::Turn& turn : w.turns) {
+      turn.expected.setZero();
+      turn.held = {};
+    }
   }
 
   void set_form(bool is_convex) {
     for (Row& row : w.rows) row.slip = is_convex ? 0 : -1;
+    is_held = is_convex;
     has_missing = false;
     renewed = 1;
   }
@@ -422,10 +511,13 @@ struct Solver {
       if (solve_rounds(true, convex_rounds, k == 0 ? first_stiffness : stiffness_ratio))
         return true;
       w.kept = w.rows;
+      w.kept_turns = w.turns;
       w.kept_velocity = w.velocity;
       set_form(false);
       if (solve_rounds(false, most_rounds, stiffness_ratio / 100)) return true;
       w.rows.swap(w.kept);
+      w.turns.swap(w.kept_turns);
+      is_held = true;
       w.velocity.swap(w.kept_velocity);
       has_missing = false;
       renewed = 1;
@@ -469,6 +561,9 @@ struct Solver {
       add(c.a, row.arm_a, row.impulse);
       if (c.b >= 0) add(c.b, row.arm_b, -row.impulse);
     }
+    for (const ImpactWork::Turn& turn : w.turns)
+      w.velocity.segment<3>(6 * turn.body + 3) +=
+          bodies[static_cast<size_t>(turn.body)].per_inertia * turn.couple;
   }
 
   // The largest share of the restitution that gains no energy.
@@ -479,6 +574,8 @@ struct Solver {
       w.full_impulse.push_back(row.impulse);
       row.target = 0;
     }
+    w.full_couple.clear();
+    for (const ImpactWork::Turn& turn : w.turns) w.full_couple.push_back(turn.couple);
     const bool solved = solve();
     take_impulses();
     w.full -= w.velocity;
@@ -490,6 +587,8 @@ struct Solver {
     w.velocity += out.share * gained;
     for (size_t i = 0; i < w.rows.size(); ++i)
       w.rows[i].impulse += out.share * (w.full_impulse[i] - w.rows[i].impulse);
+    for (size_t i = 0; i < w.turns.size(); ++i)
+      w.turns[i].couple += out.share * (w.full_couple[i] - w.turns[i].couple);
     return solved;
   }
 };
@@ -510,10 +609,11 @@ Impact solve_impact(std::span<ImpactBody> bodies, std::span<ImpactContact> conta
     ImpactContact& c = contacts[i];
     c.approach = c.normal.dot(solver.point_velocity(work.before, i));
     if (!c.is_bond && c.approach < -c.resting_speed)
-      work.rows[i].target = -c.restitution * c.approach;
+      work.rows[i].target = -c.fall.at(c.restitution, -c.approach) * c.approach;
   }
   const double before = solver.energy(work.before);
-  out.converged = (contacts.size() == 1 && solver.solve_one()) || solver.solve();
+  out.converged =
+      (contacts.size() == 1 && work.turns.empty() && solver.solve_one()) || solver.solve();
   solver.take_impulses();
   if (solver.energy(work.velocity) > (1 + gain_rounding) * before)
     out.converged = solver.lower_restitution(out) && out.converged;
@@ -532,8 +632,14 @@ Impact solve_impact(std::span<ImpactBody> bodies, std::span<ImpactContact> conta
         (solver.point_velocity(work.before, i) + solver.point_velocity(work.velocity, i)) / 2;
     out.by_friction -= (c.impulse - c.normal.dot(c.impulse) * c.normal).dot(mean);
   }
+  for (const ImpactWork::Turn& turn : work.turns) {
+    const Eigen::Index at = 6 * turn.body + 3;
+    out.by_rolling -=
+        turn.couple.dot(Vec3(work.before.segment<3>(at) + work.velocity.segment<3>(at)) / 2);
+  }
   // many contacts that jam bodies press them and each other at will: what they take together stands
-  out.by_friction = std::clamp(out.by_friction, 0.0, std::max(0.0, out.dissipated));
+  out.by_friction =
+      std::clamp(out.by_friction, 0.0, std::max(0.0, out.dissipated - out.by_rolling));
   return out;
 }
 

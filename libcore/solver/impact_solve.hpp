@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "motion/displacement.hpp"
+#include "solver/angular_row.hpp"
 #include "solver/block_lu.hpp"
 
 namespace talus {
@@ -24,13 +25,26 @@ struct ImpactBody {
   Vec6 velocity = Vec6::Zero();         ///< of the centroid, and spin; in: before, out: after
 };
 
+/// How a restitution falls with the approach v > 0: to that at no speed over 1 + per_speed v +
+/// per_square v^2. All zero: it does not.
+struct RestitutionFall {
+  double per_speed = 0;   ///< [s/m]
+  double per_square = 0;  ///< [s2/m2]
+
+  [[nodiscard]] double at(double restitution, double v) const {
+    return restitution / (1 + v * (per_speed + per_square * v));
+  }
+};
+
 /// A contact of two of the bodies, or of one with the ground. One point, common to both bodies.
 struct ImpactContact {
   int a = 0, b = -1;           ///< bodies; b = -1: the ground
   Vec3 normal = Vec3::Zero();  ///< unit, from B to A
   Vec3 point = Vec3::Zero();   ///< local axes [m]
   double friction = 0;         ///< tan(phi) [-]
-  double restitution = 0;      ///< of the normal speed [-]
+  double restitution = 0;      ///< of the normal speed, at no speed [-]
+  RestitutionFall fall;        ///< ... at the approach
+  RowArm arm;                  ///< of the couple on A that resists its rolling on the ground
   double resting_speed = 0;    ///< a slower approach returns nothing [m/s]
   bool is_bond = false;        ///< holds A to B whatever the force
   // out
@@ -45,6 +59,7 @@ struct Impact {
   double share = 1;        ///< of the restitution: below 1 where all of it would gain energy
   double dissipated = 0;   ///< kinetic energy lost, >= 0 [J]
   double by_friction = 0;  ///< ... of it by friction [J]
+  double by_rolling = 0;   ///< ... of it by couples [J]
 };
 
 /// Scratch of solve_impact.
@@ -59,6 +74,21 @@ struct ImpactWork {  // clang-format off
     Vec3 impulse = Vec3::Zero();         ///< [N s]
     Mat3 tangent = Mat3::Zero();         ///< - d impulse / d velocity [kg]
   };
+  /// A body that the ground resists to roll on it.
+  struct Turn {
+    int body = 0;
+    double damping = 0;                  ///< [kg m2]
+    double lever = 0;                    ///< turns spin into velocity [m]
+    CoupleBounds bounds;                 ///< by the impulses at hand
+    CoupleBounds held;                   ///< by those expected
+    Vec3 expected = Vec3::Zero();        ///< couple that the solution is sought around [N m s]
+    Vec3 couple = Vec3::Zero();          ///< [N m s]
+    Mat3 tangent = Mat3::Zero();         ///< - d couple / d spin [kg m2]
+    AngularRow law;                      ///< at the last evaluation
+  };
+  std::vector<Turn> turns, kept_turns;   ///< mostly none
+  std::vector<int> turn_of;              ///< of a body, -1: none; empty: no turns         (n_bodies)
+  std::vector<Vec3> full_couple;         ///< with all of the restitution
   std::vector<Row> rows, kept;           ///<                                            (n_contacts)
   std::vector<Vec3> full_impulse;        ///< with all of the restitution                (n_contacts)
   Eigen::VectorXd before, velocity, kept_velocity, full, tried, residual, step;  ///<   (6 n_bodies)

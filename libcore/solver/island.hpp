@@ -119,6 +119,7 @@ struct Island {  // clang-format off
   std::vector<BodyPair> pairs;     ///< a pair may appear more than once                (n_pairs)
   std::vector<RowGroup> rows;      ///< row r is lane r % 2 of rows[r / 2]; pair by pair (n_groups)
   std::vector<AngularRow> angular; ///< of the pairs that have one, mostly none
+  std::vector<RowArm> arms;        ///< of their rows, pair by pair
 };  // clang-format on
 
 [[nodiscard]] inline int n_bodies(const Island& island) {
@@ -139,15 +140,16 @@ struct Island {  // clang-format off
       .subspan(begin, static_cast<std::size_t>(pair.row_end + 1) / 2 - begin);
 }
 
-/// Sum of the normal impulses of rows.
-[[nodiscard]] inline double normal_impulses(std::span<const RowGroup> groups) {
-  Two sum{};
-  for (const RowGroup& g : groups) {
-    const Two p_n =
-        g.normal[0] * g.impulse[0] + g.normal[1] * g.impulse[1] + g.normal[2] * g.impulse[2];
-    sum += p_n > 0 ? p_n : Two{};
+/// What the normal impulses of a pair let its angular row bear.
+[[nodiscard]] inline CoupleBounds couple_bounds(const Island& island, const BodyPair& pair) {
+  CoupleBounds bounds;
+  const auto arm_begin = static_cast<std::size_t>(island.angular[pair.angular].arm_begin);
+  for (int r = pair.row_begin; r < pair.row_end; ++r) {
+    const RowIn<const RowGroup> row = row_of(island, r);
+    const auto i = static_cast<std::size_t>(r - pair.row_begin);
+    bounds.add(island.arms[arm_begin + i], row.normal_impulse(), row.normal());
   }
-  return sum[0] + sum[1];
+  return bounds;
 }
 
 /// Adds a pair without rows, its bodies where they are.

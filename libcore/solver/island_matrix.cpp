@@ -137,27 +137,27 @@ void prepare_matrix(const Island& island, IslandMatrix& matrix) {
 
 namespace {
 
-// W, and with `rest` the change of the bound, of the angular row beside the rows of `groups`.
-void add_couple(const AngularRow& turn, std::span<const RowGroup> groups, Packed<6>& W,
-                Mat6* rest) {
+// W, and with `rest` the change of the bounds, of the angular row of a pair.
+void add_couple(const Island& island, const BodyPair& pair, Packed<6>& W, Mat6* rest) {
+  const AngularRow& turn = island.angular[pair.angular];
   const Mat3 across = tangent(turn);
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j <= i; ++j) W(3 + i, 3 + j) += across(i, j);
-  if (rest == nullptr || turn.state != ContactState::slip) return;
-  for (const RowGroup& group : groups)
-    for (int lane = 0; lane < 2; ++lane) {
-      const RowIn<const RowGroup> row(group, lane);
-      if (row.state() == ContactState::open || row.normal_impulse() <= 0) continue;
-      rest->bottomRows<3>() -= (turn.arm * row.value(&RowGroup::normal_tangent)) * turn.direction *
-                               generalised<6>(row.arm(), row.normal()).transpose();
-    }
+  if (rest == nullptr) return;
+  for (int r = pair.row_begin; r < pair.row_end; ++r) {
+    const RowIn<const RowGroup> row = row_of(island, r);
+    if (row.state() == ContactState::open || row.normal_impulse() <= 0) continue;
+    const RowArm& arm = island.arms[turn.arm_begin + r - pair.row_begin];
+    rest->bottomRows<3>() -= (row.value(&RowGroup::normal_tangent) * by_bound(turn, arm)) *
+                             generalised<6>(row.arm(), row.normal()).transpose();
+  }
 }
 
 // The tangent of a pair's rows and of its angular row; false where no contact presses.
 bool sum_pair(Island& island, const BodyPair& pair, Packed<6>& W, Mat6* rest) {
   const std::span<RowGroup> groups = groups_of(island, pair);
   const bool closed = sum_tangents(groups, W, rest);
-  if (pair.angular >= 0) add_couple(island.angular[pair.angular], groups, W, rest);
+  if (pair.angular >= 0) add_couple(island, pair, W, rest);
   return closed;
 }
 

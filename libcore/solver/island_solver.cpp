@@ -110,7 +110,7 @@ struct Solve {
       if (pair.angular < 0) continue;
       PairEvaluation& now = evaluations[i];
       AngularRow& turn = island.angular[pair.angular];
-      talus::evaluate(Vec3(now.motion.tail<3>()), normal_impulses(now.groups), turn);
+      talus::evaluate(Vec3(now.motion.tail<3>()), couple_bounds(island, pair), turn);
       for (int k = 0; k < 3; ++k) now.sum[3 + k][0] += turn.couple[k];
       now.changed = true;
     }
@@ -221,8 +221,26 @@ struct Solve {
     return ++n_linear % all_every != 0 && few * work.moving.size() < work.speed.size();
   }
 
+  // Takes off the residual what couples that are about to hold ask for.
+  void aim_couples() {
+    for (const int p : work.matrix.active.pairs) {
+      const BodyPair& pair = island.pairs[p];
+      if (pair.angular < 0) continue;
+      const Vec3 couple = aimed(island.angular[pair.angular]);
+      work.residual[pair.a].tail<3>() += couple;
+      if (pair.b >= 0) work.residual[pair.b].tail<3>() -= couple;
+    }
+  }
+
   // K step = -residual.
   void find_step() {
+    if (island.angular.empty()) return find_step_to_residual();
+    work.unaimed = work.residual;
+    aim_couples();
+    find_step_to_residual();
+    work.residual.swap(work.unaimed);
+  }
+  void find_step_to_residual() {
     const bool exact = direct && law == Evaluation::coupled;
     update_tangents(island, exact ? Tangent::exact : Tangent::symmetric, work.matrix);
     if (direct) {

@@ -51,6 +51,7 @@ struct IslandWork {  // clang-format off
   std::vector<Vec6> velocity;      ///< before momentum is kept; where a solution that continues
                                    ///< this one starts                                 (n_bodies)
   std::vector<Vec6> residual;      ///< M (v - v_free) - sum B^T p                       (n_bodies)
+  std::vector<Vec6> unaimed;       ///< the same, where couples aim at holding           (n_bodies)
   std::vector<Vec6> per_impulse;   ///< speed of a body's points per impulse [1/kg, 1/(kg m)]
   std::vector<double> speed;       ///< of the residual [m/s]                            (n_bodies)
   std::vector<int> moving;         ///< bodies whose residual is above the tolerance

@@ -45,14 +45,18 @@ void add_tangent(const Vec3& X, const Mat3& A, Mat<Dof>& H) {
   }
 }
 
-// Sum of the normal impulses that bound an angular row.
-double pressed_on(const AngularRow& turn, std::span<const ContactRow> rows) {
-  double sum = 0;
+// What the normal impulses let an angular row bear.
+template <int Dof>
+CoupleBounds bounds_of(const BlockSystem<Dof>& system, const AngularRow& turn,
+                       std::span<const ContactRow> rows) {
+  CoupleBounds bounds;
   for (int i = turn.row_begin; i < turn.row_end; ++i) {
     const ContactRow& row = rows[i];
-    sum += std::max(0.0, row.normal.dot(row.impulse));
+    if (row.waits || row.state == ContactState::open) continue;
+    bounds.add(system.arms[turn.arm_begin + i - turn.row_begin], row.normal.dot(row.impulse),
+               row.normal);
   }
-  return sum;
+  return bounds;
 }
 
 // What angular rows add to the residual whose rows were evaluated, and to its derivative: apart,
@@ -61,7 +65,7 @@ template <int Dof>
 [[gnu::noinline]] void add_couples(const BlockSystem<Dof>& system, std::span<const ContactRow> rows,
                                    Vec<Dof>& r) {
   for (AngularRow& turn : system.angular) {
-    evaluate(Vec3(system.velocity.template segment<3>(3)), pressed_on(turn, rows), turn);
+    evaluate(Vec3(system.velocity.template segment<3>(3)), bounds_of(system, turn, rows), turn);
     r.template segment<3>(3) -= turn.couple;
   }
 }
@@ -71,11 +75,12 @@ template <int Dof>
                                            std::span<const ContactRow> rows, Mat<Dof>& H) {
   for (const AngularRow& turn : system.angular) {
     H.template block<3, 3>(3, 3) += tangent(turn);
-    if (turn.state != ContactState::slip) continue;
     for (int i = turn.row_begin; i < turn.row_end; ++i) {  // the bound follows the normal impulse
       const ContactRow& row = rows[i];
-      if (row.state == ContactState::open || row.normal.dot(row.impulse) <= 0) continue;
-      H.template middleRows<3>(3) -= (turn.arm * row.normal_tangent) * turn.direction *
+      if (row.waits || row.state == ContactState::open || row.normal.dot(row.impulse) <= 0)
+        continue;
+      const RowArm& arm = system.arms[turn.arm_begin + i - turn.row_begin];
+      H.template middleRows<3>(3) -= (row.normal_tangent * by_bound(turn, arm)) *
                                      generalised<Dof>(row.arm, row.normal).transpose();
     }
   }
@@ -186,6 +191,7 @@ template <int Dof>
     const Vec<Dof> from = system.velocity;
     Mat<Dof> H = derivative<Dof>(system, rows);
     Vec<Dof> step = -r;
+    for (const AngularRow& turn : system.angular) step.template segment<3>(3) -= aimed(turn);
     solve_dense<Dof>(H, step);
     double fraction = 1;
     for (int i = 0;; ++i, fraction /= 2) {
@@ -228,16 +234,15 @@ double sweep_couples(const Mat<Dof>& per_mass, std::span<const ContactRow> rows,
   double change = 0;
   for (AngularRow& turn : system.angular) {
     const double give = per_mass.template block<3, 3>(3, 3).trace() + 1 / turn.damping;
-    const Vec3 trial = system.velocity.template segment<3>(3) + turn.spring_spin;
-    Vec3 couple = turn.couple - (trial + turn.couple / turn.damping) / give;
-    turn.cap = turn.arm * pressed_on(turn, rows);
-    const double size = couple.norm();
-    turn.state = turn.cap <= 0 ? ContactState::open : ContactState::stick;
-    if (size > turn.cap) couple *= turn.cap / size;
-    if (size > turn.cap && turn.cap > 0) turn.state = ContactState::slip;
-    const Vec<Dof> dv = per_mass.template middleCols<3>(3) * (couple - turn.couple);
+    const Vec3 spin = system.velocity.template segment<3>(3), before = turn.couple;
+    // the couple that its own law asks for, of a spin that gives way to it
+    AngularRow next = turn;
+    next.damping = 1 / give;
+    evaluate(Vec3(spin + before * (1 / turn.damping - give)), bounds_of(system, turn, rows), next);
+    next.damping = turn.damping;
+    turn = next;
+    const Vec<Dof> dv = per_mass.template middleCols<3>(3) * (turn.couple - before);
     system.velocity += dv;
-    turn.couple = couple;
     for (int i = turn.row_begin; i < turn.row_end; ++i)
       change = std::max(change, point_velocity<Dof>(dv, rows[i].arm).norm());
   }

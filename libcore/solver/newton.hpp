@@ -24,6 +24,7 @@ struct BlockSystem {
   Vec velocity;                   ///< in: first guess; out: at the end of the step
   double tolerance = 0;           ///< largest residual, as a velocity of the block's points [m/s]
   std::span<AngularRow> angular;  ///< couples beside the rows, bounded by them; mostly none
+  std::span<const RowArm> arms;   ///< of their rows
 };
 
 struct NewtonResult {

@@ -78,27 +78,68 @@ struct OneContact {
 
 // --- couples -----------------------------------------------------------------------------------
 
-/// Evaluates the row for the relative spin and the sum of the normal impulses.
-inline void evaluate(const Vec3& spin, double normal_impulse, AngularRow& row) {
-  Found<double> found;
-  bool within;
-  found.cap = row.cap = row.arm * normal_impulse;
-  const Vec3 trial = spin + row.spring_spin;
-  hold(row.damping, trial.squaredNorm(), found, within);
-  row.couple = -row.damping * trial;
-  row.state = row.cap <= 0 ? ContactState::open : ContactState::stick;
-  if (within) return;
-  row.direction = trial / found.trial_speed;
-  row.couple = -row.cap * row.direction;
-  row.slip_tangent = row.cap / found.trial_speed;
-  if (row.cap > 0) row.state = ContactState::slip;
+/// A part of a couple: -damping times `spin`, or where that is more than `cap`, of that size.
+///
+/// A couple that stops a spin jumps to the other side of its bound where a step of Newton has gone
+/// past the stop, and back. So where the couple that the last step reckoned with, less what stops
+/// the spin now, is within the bound, the part aims at holding.
+inline void evaluate_part(const Vec3& spin, const AngularRow& row, double cap, CouplePart& part) {
+  const Vec3 reckoned = part.aims ? Vec3(-row.damping * spin) : part.couple;
+  const double speed = spin.norm();
+  part.spin = spin;
+  part.aims = false;
+  if (row.damping * speed <= cap) {
+    part.state = cap > 0 ? ContactState::stick : ContactState::open;
+    part.couple = -row.damping * spin;
+    return;
+  }
+  part.direction = spin / speed;
+  part.slip_tangent = cap / speed;
+  part.couple = -cap * part.direction;
+  part.state = cap > 0 ? ContactState::slip : ContactState::open;
+  part.aims = cap > 0 && row.inertia > 0 && (reckoned - row.inertia * spin).norm() <= cap;
 }
 
-/// -d couple / d spin [kg m2] where it was evaluated, at a constant bound.
+/// Evaluates the row for the relative spin.
+inline void evaluate(const Vec3& spin, const CoupleBounds& bounds, AngularRow& row) {
+  const double pressed = bounds.normal.norm();
+  row.normal = pressed > 0 ? Vec3(bounds.normal / pressed) : Vec3(Vec3::Zero());
+  const Vec3 along = row.normal.dot(spin) * row.normal;
+  evaluate_part(spin - along, row, bounds.rolling, row.rolling);
+  evaluate_part(along, row, bounds.spinning, row.spinning);
+  row.couple = row.rolling.couple + row.spinning.couple;
+}
+
+/// What a step of Newton has to take off the residual where a part aims at holding.
+[[nodiscard]] inline Vec3 aimed(const AngularRow& row) {
+  Vec3 sum = Vec3::Zero();
+  for (const CouplePart* part : {&row.rolling, &row.spinning})
+    if (part->aims) sum += part->couple + row.damping * part->spin;
+  return sum;
+}
+
+/// -d couple / d spin [kg m2] where it was evaluated, at constant bounds and mean normal.
 [[nodiscard]] inline Mat3 tangent(const AngularRow& row) {
-  if (row.state == ContactState::open) return Mat3::Zero();
-  if (row.state == ContactState::stick) return row.damping * Mat3::Identity();
-  return row.slip_tangent * (Mat3::Identity() - row.direction * row.direction.transpose());
+  const Mat3 along = row.normal * row.normal.transpose();
+  Mat3 A = Mat3::Zero();
+  if (row.rolling.state == ContactState::stick || row.rolling.aims)
+    A = row.damping * (Mat3::Identity() - along);
+  else if (row.rolling.state == ContactState::slip)
+    A = row.rolling.slip_tangent *
+        (Mat3::Identity() - along - row.rolling.direction * row.rolling.direction.transpose());
+  if (row.spinning.state == ContactState::stick || row.spinning.aims) A += row.damping * along;
+  return A;
+}
+
+/// -d couple / d (normal impulse) of a contact with arms `arm`: what slips follows its bound.
+[[nodiscard]] inline Vec3 by_bound(const AngularRow& row, const RowArm& arm) {
+  Vec3 change = Vec3::Zero();
+  const auto slips = [](const CouplePart& part) {
+    return part.state == ContactState::slip && !part.aims;
+  };
+  if (slips(row.rolling)) change += arm.rolling * row.rolling.direction;
+  if (slips(row.spinning)) change += arm.spinning * row.spinning.direction;
+  return change;
 }
 
 }  // namespace

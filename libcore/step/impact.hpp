@@ -25,6 +25,7 @@ struct ImpactResult {
   bool converged = true;
   int passes = 0;
   double dissipated = 0;  ///< kinetic energy lost, >= 0 [J]
+  double by_rolling = 0;  ///< ... of it by resistance to rolling [J]
 };
 
 /// Applies the impact law to `motion` of block b at its pose; contacts closer than `touch` take

@@ -8,6 +8,7 @@
 #include "contact/contact.hpp"
 #include "contact/search.hpp"
 #include "scene/state.hpp"
+#include "solver/angular_row.hpp"
 #include "solver/contact_row.hpp"
 #include "solver/impact_solve.hpp"
 #include "step/deep_work.hpp"
@@ -27,6 +28,16 @@ struct Segment {
   Vec3 acceleration = Vec3::Zero();  ///< of the centroid, constant over the segment [m/s2]
 };
 
+/// What ground that gives way does over a substep of one block (step/soil.hpp).
+struct SoilWork {
+  std::vector<AngularRow> turns;    ///< one, or none
+  std::vector<RowArm> arms;         ///< of the rows; empty: no turn
+  std::vector<double> speed_start;  ///< of slip of the rows; empty: friction does not vary [m/s]
+  bool varies = false;              ///< friction of a row does
+  SlidWay slid;                     ///< of the block, for a hit
+  double hit_time = 0;              ///< of that [s]
+};
+
 struct Work {  // clang-format off
   // find_contacts: candidates of the block at hand
   std::vector<Vec3> world_vertices;          ///< at the predicted pose [m]
@@ -34,6 +45,7 @@ struct Work {  // clang-format off
   std::vector<NearFeatures> near_ground;     ///< what each block may touch there      (n_blocks)
   // make_rows, solve_contacts
   std::vector<ContactRow> rows;              ///< of the block at hand
+  SoilWork soil;                             ///< beside them
   std::vector<ContactMemory> unbonded;       ///< its memory, less the bonds that its substep breaks
   // apply_impact
   ImpactScratch impact;

@@ -13,10 +13,10 @@ namespace talus {
 // A field added to one of these structs and forgotten here would be lost on --resume: the sizes
 // say that a list has to be looked at again.
 
-static_assert(sizeof(Motion) == 112 && sizeof(EnergyLedger) == 56 && sizeof(RunCounters) == 64);
+static_assert(sizeof(Motion) == 112 && sizeof(EnergyLedger) == 72 && sizeof(RunCounters) == 64);
 static_assert(sizeof(ContactMemory) == 136 &&
-              sizeof(HealthRow) == 184 + 8 * substep_cut_names.size());
-static_assert(sizeof(State) == 8 + 21 * 24 + sizeof(EnergyLedger) + sizeof(RunCounters) +
+              sizeof(HealthRow) == 200 + 8 * substep_cut_names.size());
+static_assert(sizeof(State) == 8 + 22 * 24 + sizeof(EnergyLedger) + sizeof(RunCounters) +
                                    sizeof(PairState) + sizeof(PlacedHulls) + sizeof(FenceState) +
                                    sizeof(YieldingState) + sizeof(Mishaps));
 static_assert(sizeof(YieldingState) == 3 * 24 && sizeof(Yielded) == 56);
@@ -24,7 +24,8 @@ static_assert(sizeof(StemMet) == 64 && sizeof(StemHit) == 80);
 static_assert(sizeof(FenceState) == 24 && sizeof(FenceHit) == 104 && sizeof(BlockBond) == 48);
 static_assert(sizeof(PairState) == 280 && sizeof(PlacedHulls) == 192 && sizeof(ListedPair) == 96);
 static_assert(sizeof(BlockLoad) == 192 && sizeof(CrushedBlock) == 72 && sizeof(Break) == 80);
-static_assert(sizeof(DeepBlock) == 64 && sizeof(Mishap) == 48 && sizeof(Mishaps) == 5 * 48);
+static_assert(sizeof(SlidWay) == 16 && sizeof(DeepBlock) == 64 && sizeof(Mishap) == 48 &&
+              sizeof(Mishaps) == 5 * 48);
 static_assert(sizeof(PairWatch) == 16 && sizeof(HeldPoint) == 24);
 
 template <class Archive>
@@ -41,8 +42,8 @@ void fields(Fields<Archive>& archive, Motion& motion) {
 }
 template <class Archive>
 void fields(Fields<Archive>& archive, EnergyLedger& ledger) {
-  archive(ledger.friction, ledger.impact, ledger.contact, ledger.base, ledger.fence,
-          ledger.breakage, ledger.removed);
+  archive(ledger.friction, ledger.impact, ledger.contact, ledger.base, ledger.fence, ledger.rolling,
+          ledger.drag, ledger.breakage, ledger.removed);
 }
 template <class Archive>
 void fields(Fields<Archive>& archive, BlockBond& bond) {
@@ -105,6 +106,10 @@ void fields(Fields<Archive>& archive, Mishaps& mishaps) {
           mishaps.fell_through);
 }
 template <class Archive>
+void fields(Fields<Archive>& archive, SlidWay& slid) {
+  archive(slid.way, slid.time);
+}
+template <class Archive>
 void fields(Fields<Archive>& archive, RunCounters& counters) {
   archive(counters.steps, counters.substeps, counters.flight_skips, counters.impacts,
           counters.passes, counters.unconverged, counters.cut_back, counters.left_domain);
@@ -150,9 +155,9 @@ void fields(Fields<Archive>& archive, State& state) {
   archive(state.time, state.motion, state.local_time, state.flight_end, state.phase,
           state.acceleration, state.spin_rate, state.support, state.paper.rebound, state.rest_pose,
           state.rest_steps, state.strain, state.strain_rate, state.memory, state.pairs,
-          state.placed, state.bonds, state.deep, state.load, state.crushed, state.hit_loss,
-          state.n_hits, state.breaks, state.mishaps, state.yielding, state.fence, state.stem_hits,
-          state.ledger, state.counters);
+          state.placed, state.bonds, state.deep, state.slid, state.load, state.crushed,
+          state.hit_loss, state.n_hits, state.breaks, state.mishaps, state.yielding, state.fence,
+          state.stem_hits, state.ledger, state.counters);
 }
 template <class Archive>
 void fields(Fields<Archive>& archive, PassageValues& values) {
@@ -181,7 +186,8 @@ void fields(Fields<Archive>& archive, HealthRow& row) {
   archive(row.time, row.shortest_dt, row.steps, row.substeps, row.passes, row.flips, row.impacts,
           row.unconverged, row.left_domain, row.fell_through, row.not_finite,
           row.largest_penetration, row.translation, row.rotation, row.potential, row.elastic,
-          row.friction, row.impact, row.contact, row.base, row.fence, row.breakage, row.removed);
+          row.friction, row.impact, row.contact, row.base, row.fence, row.rolling, row.drag,
+          row.breakage, row.removed);
   for (std::int64_t& n : row.cuts) archive(n);
 }
 template <class Archive>
@@ -192,7 +198,7 @@ void fields(Fields<Archive>& archive, Checkpoint& checkpoint) {
 
 namespace {
 
-constexpr std::uint64_t format = 0x30316b6365686374;  // "tcheck10"
+constexpr std::uint64_t format = 0x31316b6365686374;  // "tcheck11"
 constexpr std::size_t digest_length = 64;
 
 std::string digest_of(std::span<const std::uint8_t> bytes) {

@@ -478,6 +478,17 @@ void breakage_column(Visit&& column) {
 
 // Missing in runs of earlier versions.
 template <class Visit>
+void soil_columns(Visit&& column) {
+  column(
+      "rolling_loss_j", "J", "dissipated by rolling and pivoting resistance since the start",
+      [](HealthRow & h) -> auto& { return h.rolling; });
+  column(
+      "drag_loss_j", "J", "dissipated by drag of the ground since the start",
+      [](HealthRow & h) -> auto& { return h.drag; });
+}
+
+// Missing in runs of earlier versions.
+template <class Visit>
 void cut_columns(Visit&& column) {
   for (std::size_t k = 0; k < substep_cut_names.size(); ++k)
     column(
@@ -603,15 +614,36 @@ void write_deep_table(H5Writer& file, const std::vector<DeepRow>& rows) {
 }
 
 void write_health_table(H5Writer& file, const std::vector<HealthRow>& rows) {
+  const bool has_soil = std::any_of(rows.begin(), rows.end(), [](const HealthRow& row) {
+    return row.rolling != 0 || row.drag != 0;
+  });
   const bool any_breakage =
       std::any_of(rows.begin(), rows.end(), [](const HealthRow& row) { return row.breakage != 0; });
   write_table(file, "health", "how the computation went, interval by interval", rows,
-              [any_breakage](auto&& column) {
+              [has_soil, any_breakage](auto&& column) {
                 health_columns(column);
+                if (has_soil) soil_columns(column);
                 if (any_breakage) breakage_column(column);
                 cut_columns(column);
               });
 }
+
+namespace {
+
+// Columns of health that not all runs have.
+template <class Columns, class Take>
+void read_beside(const H5Reader& file, const std::string& first, std::vector<HealthRow>& rows,
+                 Columns&& columns, Take&& take) {
+  if (!file.has(first)) return;
+  const std::vector<HealthRow> read = read_table<HealthRow>(file, "health", columns);
+  if (read.size() != rows.size())
+    throw InputError({first}, "has " + std::to_string(read.size()) +
+                                  " rows, the columns beside it have " +
+                                  std::to_string(rows.size()));
+  for (std::size_t i = 0; i < rows.size(); ++i) take(read[i], rows[i]);
+}
+
+}  // namespace
 
 std::vector<Passage> read_passage_table(const H5Reader& file) {
   return read_table<Passage>(file, "passages", [](auto&& column) { passage_columns(column); });
@@ -657,20 +689,20 @@ std::vector<HealthRow> read_health_table(const H5Reader& file, bool only_faults)
     wanted = {"unconverged", "left_domain", "fell_through", "not_finite", "largest_penetration_m"};
   std::vector<HealthRow> rows = read_table<HealthRow>(
       file, "health", [](auto&& column) { health_columns(column); }, wanted);
-  if (!only_faults && file.has("health/breakage_loss_j")) {
-    const auto breakage = file.array<double>("health/breakage_loss_j", 1);
-    if (breakage.size() != rows.size())
-      throw InputError({"health/breakage_loss_j"}, "has not as many rows as the columns beside it");
-    for (std::size_t i = 0; i < rows.size(); ++i) rows[i].breakage = breakage[i];
-  }
-  if (only_faults || !file.has(std::string("health/cut_") + substep_cut_names.front())) return rows;
-  const std::vector<HealthRow> cuts =
-      read_table<HealthRow>(file, "health", [](auto&& column) { cut_columns(column); });
-  if (cuts.size() != rows.size())
-    throw InputError({"health/cut_"}, "has " + std::to_string(cuts.size()) +
-                                          " rows, the columns beside it have " +
-                                          std::to_string(rows.size()));
-  for (std::size_t i = 0; i < rows.size(); ++i) rows[i].cuts = cuts[i].cuts;
+  if (only_faults) return rows;
+  read_beside(
+      file, std::string("health/cut_") + substep_cut_names.front(), rows,
+      [](auto&& column) { cut_columns(column); },
+      [](const HealthRow& read, HealthRow& row) { row.cuts = read.cuts; });
+  read_beside(
+      file, "health/rolling_loss_j", rows, [](auto&& column) { soil_columns(column); },
+      [](const HealthRow& read, HealthRow& row) {
+        row.rolling = read.rolling;
+        row.drag = read.drag;
+      });
+  read_beside(
+      file, "health/breakage_loss_j", rows, [](auto&& column) { breakage_column(column); },
+      [](const HealthRow& read, HealthRow& row) { row.breakage = read.breakage; });
   return rows;
 }
 

@@ -1,26 +1,33 @@
 #!/usr/bin/env python3
 """Validation against 18 runs of the rockfall tests at Tschamut (2014): run-out and angle of reach.
 
-  python3 tests/studies/tschamut.py [BIN] [-o FOLDER] [--data FOLDER]
+  python3 tests/studies/tschamut.py [BIN] [-o FOLDER] [--data FOLDER] [--quick]
 
 Each observed release is simulated with many blocks of its size and mass that start in random attitudes,
 each alone, on the 5 m terrain that comes with the data. That terrain is interpolated from positions of
-rolling blocks, so only distributions are compared. Two sets of parameters: from the literature, with
-nothing fitted; and the best of a grid over friction angle and COR, which is also fitted to one half of
-the runs and held against the other. Writes tschamut.csv (all settings), tschamut.svg (distributions)
-and prints the table of docs/validation.md.
+rolling blocks, so only distributions are compared:
+
+- `soil = "meadow"` as it is, with nothing fitted, and firm ground with values of the literature;
+- the same meadow with hulls of 8, 12 and 40 points, and with other friction and time steps;
+- rolling resistance and half speed from a grid, fitted to one half of the runs and held against the other.
+
+Intervals are of the 18 runs drawn again (bootstrap). Writes tschamut.csv (the grid), tschamut.svg
+(distributions) and prints the tables of docs/validation.md. --quick: the meadow alone.
 """
 import argparse
 import csv
 import math
+import random
 import statistics
 import subprocess
 import sys
 from pathlib import Path
 
-LITERATURE = (30.0, 0.30)  # friction [degrees], COR; docs/validation.md says from where
-FRICTIONS_DEG = (15, 17.5, 20, 22.5, 25, 30, 35, 40)
-CORS = (0.05, 0.15, 0.3, 0.45)
+FIRM = {"friction_deg": 30, "cor": 0.3}  # docs/validation.md says from where
+MEADOW = {"soil": "meadow"}
+ROLLING = (0.05, 0.08, 0.11, 0.14, 0.17, 0.20, 0.25, 0.30)
+HALF_SPEEDS = (5, 10, 20)
+POINTS = (8, 12, 20, 40)  # of the hulls
 DENSITY_KG_M3 = 2650
 N_A_RELEASE = {"grid": 12, "final": 60}
 QUANTITIES = {"run-out [m]": "chord_length_m", "angle of reach [deg]": "reach_angle_chord_deg"}
@@ -31,13 +38,13 @@ def rows_of(path):
         return list(csv.DictReader(file))
 
 
-def site_text(releases, sizes, n):
-    """The site file: a section a release, `n` blocks each."""
+def site_text(releases, sizes, n, points):
+    """The site file: a section a release, `n` blocks each, hulls of `points` points."""
     text = (f'[site]\nname = "tschamut"\n[material.gneiss]\ndensity_kg_m3 = {DENSITY_KG_M3}\n'
             '[ground.meadow]\n[solver]\nduration_s = 60\nmax_lost_share = 1\n')
     for r in releases:
         size = sizes[r["block_id"]]
-        text += (f'[blocks.{r["trajectory_id"]}]\nshape = "rock"\n'
+        text += (f'[blocks.{r["trajectory_id"]}]\nshape = "rock"\nn_points = {points}\n'
                  f'size_m = [{size["size_x_m"]}, {size["size_y_m"]}, {size["size_z_m"]}]\n'
                  f'volume_m3 = {float(r["mass_kg"]) / DENSITY_KG_M3:.6f}\n'
                  f'position_m = [[{r["x_m"]}, {r["y_m"]}]]\nheight_above_ground_m = 0.1\n'
@@ -47,16 +54,21 @@ def site_text(releases, sizes, n):
 
 
 class Slope:
-    """Terrain and releases, simulated with any friction and COR."""
+    """Terrain and releases, simulated on any ground."""
 
     def __init__(self, tools, data, folder):
         self.tools, self.folder, self.broken = tools, folder, []
         self.releases = rows_of(data / "release_points.csv")
         self.sizes = {r["block_id"]: r for r in rows_of(data / "block_metadata.csv")}
-        self.run("talus-trn", data / "terrain.asc", "-o", "trn.tif", "--crs", "EPSG:2056")
-        for name, n in N_A_RELEASE.items():
-            (folder / f"{name}.toml").write_text(site_text(self.releases, self.sizes, n))
+        self.run("talus-trn", data / "terrain.asc", "-o", "trn.tif", "--crs", "none")
+
+    def blocks(self, n, points):
+        """Name of the site file and the blocks of `n` hulls a release."""
+        name = f"rocks_{n}_{points}"
+        if not (self.folder / f"{name}.h5").exists():
+            (self.folder / f"{name}.toml").write_text(site_text(self.releases, self.sizes, n, points))
             self.run("talus-blocks", f"{name}.toml", "--trn", "trn.tif", "-o", f"{name}.h5")
+        return name
 
     def run(self, tool, *words):
         done = subprocess.run([str(self.tools / tool), *map(str, words), "--no-db", "-q", "--overwrite"],
@@ -66,11 +78,13 @@ class Slope:
         elif done.returncode != 0:
             sys.exit(done.stderr)
 
-    def simulate(self, name, friction_deg, cor):
+    def simulate(self, ground, n="grid", points=20, *more):
         """Rows of talus-runout, one a block, in the order of the releases."""
+        name = self.blocks(N_A_RELEASE[n], points)
+        words = [w for key, value in ground.items() for w in ("--set", f"ground.meadow.{key}={value}")]
         self.run("talus-dda", f"{name}.toml", "--trn", "trn.tif", "--blocks", f"{name}.h5", "-o",
                  "run.h5", "--independent", "--frame-interval-s", 1, "--set", "output.passages=false",
-                 "--set", f"ground.meadow.friction_deg={friction_deg}", "--set", f"ground.meadow.cor={cor}")
+                 *words, *more)
         self.run("talus-runout", "run.h5", "--trn", "trn.tif", "-o", "run.gpkg", "--csv", "run.csv",
                  "--allow-unfinished")
         return rows_of(self.folder / "run.csv")
@@ -116,18 +130,56 @@ def best_setting(grid, seen, releases):
     return min(grid, key=lambda s: distance(quantity(grid[s], "run-out [m]", n, releases), wanted))
 
 
+def interval(rows, n, seen, ticks=400):
+    """95 % of the area between the distributions of run-out, of the runs drawn again."""
+    draw, areas = random.Random(1), []
+    per_release = [quantity(rows, "run-out [m]", n, [r]) for r in range(len(seen["run-out [m]"]))]
+    for _ in range(ticks):
+        runs = [draw.randrange(len(per_release)) for _ in per_release]
+        areas.append(distance([x for r in runs for x in per_release[r]],
+                              [seen["run-out [m]"][r] for r in runs]))
+    return percentile(areas, 0.025), percentile(areas, 0.975)
+
+
 # --- what is shown ---------------------------------------------------------------------------------
+
+def lost_share(rows):
+    return sum(row["fate"] == "left_domain" for row in rows) / len(rows)
+
+
+def figures(values):
+    return [statistics.mean(values)] + [percentile(values, p) for p in (0.1, 0.5, 0.9)]
+
 
 def table(cases, seen):
     """Rows of Markdown: each set of parameters beside what was seen; lost: left the terrain."""
-    print("| | friction [deg], COR | quantity | mean | p10 | p50 | p90 | area between the distributions "
+    print("| | ground | quantity | mean | p10 | p50 | p90 | area between the distributions (95 %) "
           "| left the terrain |\n|---|---|---|---|---|---|---|---|---|")
-    for name, setting, values, lost in cases:
+    for name, setting, values, lost, (low, high) in cases:
         for q, list_of in values.items():
-            figures = [statistics.mean(list_of)] + [percentile(list_of, p) for p in (0.1, 0.5, 0.9)]
             apart = "" if list_of is seen[q] else f"{distance(list_of, seen[q]):.1f}"
-            print(f"| {name} | {setting} | {q} | " + " | ".join(f"{x:.1f}" for x in figures)
+            if apart and q == "run-out [m]":
+                apart += f" ({low:.1f} to {high:.1f})"
+            print(f"| {name} | {setting} | {q} | " + " | ".join(f"{x:.1f}" for x in figures(list_of))
                   + f" | {apart} | {lost} |")
+
+
+def variants(slope, seen):
+    """How far the meadow runs out with other shapes, friction and steps: rows of Markdown."""
+    n = N_A_RELEASE["grid"]
+    every = range(len(slope.releases))
+    print("\n| hull, ground, step | mean | p10 | p50 | p90 | area | left the terrain |\n|---|---|---|---|---|---|---|")
+    kinds = [(f"{p} points", MEADOW, p, ()) for p in POINTS]
+    kinds += [(f"{p} points, no rolling resistance", MEADOW | {"rolling_resistance": 0}, p, ()) for p in POINTS]
+    kinds += [(f"friction {f} degrees", MEADOW | {"friction_deg": f}, 20, ()) for f in (31, 39, 45)]
+    kinds += [(f"step {h} s", MEADOW, 20, ("--set", f"solver.time_step_s={h}"))
+              for h in (0.0025, 0.00125)]
+    kinds += [(f"bearing {q} kPa", MEADOW | {"bearing_kpa": q}, 20, ()) for q in (50, 82, 200)]
+    for words, ground, points, more in kinds:
+        rows = slope.simulate(ground, "grid", points, *more)
+        values = quantity(rows, "run-out [m]", n, every)
+        print(f"| {words} | " + " | ".join(f"{x:.0f}" for x in figures(values))
+              + f" | {distance(values, seen['run-out [m]']):.1f} | {100 * lost_share(rows):.0f} % |")
 
 
 COLOURS = ("#222222", "#c1272d", "#0057a8")
@@ -164,12 +216,12 @@ def panel(left, title, lists, ticks):
 def picture(cases):
     out = ('<svg xmlns="http://www.w3.org/2000/svg" width="760" height="330" font-family="sans-serif" '
            'font-size="12"><rect width="760" height="330" fill="white"/>')
-    for k, (name, setting, _, _) in enumerate(cases):
+    for k, (name, setting, *_) in enumerate(cases):
         words = f"{name} ({setting})" if setting else name
         out += (f'<path d="M{50 + 240 * k} 18h20" stroke="{COLOURS[k]}" stroke-width="2"/>'
                 f'<text x="{75 + 240 * k}" y="22">{words}</text>')
     for k, (q, ticks) in enumerate(zip(QUANTITIES, ([0, 50, 100, 150, 200], [15, 20, 25, 30, 35, 40]))):
-        out += panel(60 + 365 * k, q, [values[q] for _, _, values, _ in cases], ticks)
+        out += panel(60 + 365 * k, q, [case[2][q] for case in cases], ticks)
     return out + "</svg>\n"
 
 
@@ -179,38 +231,45 @@ def main():
     parser.add_argument("bin", nargs="?", default=here / "build/release/tools", type=Path)
     parser.add_argument("-o", "--out", default=here / "build/tschamut", type=Path)
     parser.add_argument("--data", default=here / "../shared/data/experiments/tschamut2014", type=Path)
+    parser.add_argument("--quick", action="store_true")
     args = parser.parse_args()
     args.out.mkdir(parents=True, exist_ok=True)
     seen = observed(args.data)
     slope = Slope(args.bin.resolve(), args.data.resolve(), args.out)
     every = range(len(slope.releases))
 
-    grid = {(f, c): slope.simulate("grid", f, c) for f in FRICTIONS_DEG for c in CORS}
-    with open(args.out / "tschamut.csv", "w", encoding="utf-8") as file:
-        file.write("friction_deg,cor,mean_runout_m,distance_runout_m,distance_angle_deg\n")
-        for (f, c), rows in grid.items():
-            values = {q: quantity(rows, q, N_A_RELEASE["grid"], every) for q in QUANTITIES}
-            file.write(f"{f},{c},{statistics.mean(values['run-out [m]']):.2f},"
-                       + ",".join(f"{distance(values[q], seen[q]):.2f}" for q in QUANTITIES) + "\n")
-
-    calibrated = best_setting(grid, seen, every)
-    cases = [("observed, 18 runs", "", seen, "")]
-    for name, (f, c) in (("literature", LITERATURE), ("calibrated", calibrated)):
-        rows = slope.simulate("final", f, c)
-        lost = sum(row["fate"] == "left_domain" for row in rows) / len(rows)
-        values = {q: quantity(rows, q, N_A_RELEASE["final"], every) for q in QUANTITIES}
-        cases.append((name, f"{f:g}, {c:g}", values, f"{100 * lost:.0f} %"))
+    n = N_A_RELEASE["final"]
+    cases = [("observed, 18 runs", "", seen, "", (0, 0))]
+    for name, setting, ground in (("meadow", "nothing fitted", MEADOW), ("firm", "30, 0.3", FIRM)):
+        rows = slope.simulate(ground, "final")
+        values = {q: quantity(rows, q, n, every) for q in QUANTITIES}
+        cases.append((name, setting, values, f"{100 * lost_share(rows):.0f} %", interval(rows, n, seen)))
+        if args.quick:
+            break
     table(cases, seen)
+    if args.quick:
+        return
+    (args.out / "tschamut.svg").write_text(picture(cases), encoding="utf-8")
+    variants(slope, seen)
+
+    grid = {(r, v): slope.simulate(MEADOW | {"rolling_resistance": r, "cor_half_speed_m_s": v})
+            for r in ROLLING for v in HALF_SPEEDS}
+    with open(args.out / "tschamut.csv", "w", encoding="utf-8") as file:
+        file.write("rolling_resistance,cor_half_speed_m_s,mean_runout_m,distance_runout_m,distance_angle_deg\n")
+        for (r, v), rows in grid.items():
+            values = {q: quantity(rows, q, N_A_RELEASE["grid"], every) for q in QUANTITIES}
+            file.write(f"{r},{v},{statistics.mean(values['run-out [m]']):.2f},"
+                       + ",".join(f"{distance(values[q], seen[q]):.2f}" for q in QUANTITIES) + "\n")
+    print(f"\nfitted to all: {best_setting(grid, seen, every)}")
     for begin in (0, 1):  # fitted to every second run, held against the others
         fitted, held = list(every)[begin::2], list(every)[1 - begin::2]
         setting = best_setting(grid, seen, fitted)
         apart = [distance(quantity(grid[s], "run-out [m]", N_A_RELEASE["grid"], held),
-                          [seen["run-out [m]"][r] for r in held]) for s in (setting, LITERATURE)]
+                          [seen["run-out [m]"][r] for r in held]) for s in (setting, (0.17, 10))]
         print(f"fitted to {len(fitted)} runs: {setting}; the other {len(held)}: {apart[0]:.1f} m apart, "
-              f"with the literature's {apart[1]:.1f} m")
+              f"with the meadow's own {apart[1]:.1f} m")
     for words in slope.broken:
         print(words)
-    (args.out / "tschamut.svg").write_text(picture(cases), encoding="utf-8")
 
 
 if __name__ == "__main__":

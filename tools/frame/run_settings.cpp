@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/text.hpp"
+#include "site/soils.hpp"
 
 namespace talus {
 namespace {
@@ -84,6 +85,12 @@ std::vector<std::string> warn_of_settings(Tool& tool, const Site& site) {
                          ".max_deflection_m does nothing without capacity_kj: the fence is rigid");
       tool.warn(warnings.back());
     }
+  for (const GroundSettings& ground : site.grounds)
+    if (site.solver.law == "paper" && gives_way(ground)) {
+      warnings.push_back("ground." + ground.name +
+                         " gives way with law talus alone: law paper knows its friction and COR");
+      tool.warn(warnings.back());
+    }
   const SolverSettings& solver = site.solver;
   if (!site.quantities.empty() && site.uncertainty.sample == 0) {
     warnings.push_back(std::to_string(site.quantities.size()) +
@@ -94,12 +101,13 @@ std::vector<std::string> warn_of_settings(Tool& tool, const Site& site) {
   }
   if (solver.seed != SolverSettings{}.seed && site.uncertainty.sample == 0 &&
       solver.start_jitter_m_s == 0 && solver.friction_scatter_deg == 0 && solver.cor_scatter == 0 &&
+      solver.rolling_scatter == 0 &&
       std::none_of(site.forests.begin(), site.forests.end(), [](const ForestSettings& forest) {
         return forest.active && forest.new_stand_per_run;
       })) {
     warnings.push_back(
-        "the seed draws nothing: start_jitter_m_s, friction_scatter_deg and cor_scatter are 0, so "
-        "other seeds give the same run");
+        "the seed draws nothing: start_jitter_m_s, friction_scatter_deg, cor_scatter and "
+        "rolling_scatter are 0, so other seeds give the same run");
     tool.warn(warnings.back());
   }
   for (const UnusualValue& value : unusual_values(site)) {

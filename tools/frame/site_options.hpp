@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "site/site.hpp"
+#include "site/soils.hpp"
 #include "site/uncertainty.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/tool.hpp"
@@ -31,7 +32,8 @@ class SiteOptions {
       if (file_.empty()) return values;
       for (const EffectiveValue& entry : effective_values(load()))
         if (!entry.value.empty())
-          values.push_back({entry.section + "." + entry.key, entry.value, entry.source});
+          values.push_back({entry.section + "." + entry.key, entry.value,
+                            entry.source + (entry.note.empty() ? "" : "; " + entry.note)});
       return values;
     });
     if (draws_)
@@ -63,6 +65,7 @@ class SiteOptions {
           [&] { override_value(site, word.substr(0, equals), word.substr(equals + 1)); });
     }
     check_uncertainty(site);
+    check_grounds(site);
     if (draws_) apply_draws(site, *draws_);
     site_ = std::make_unique<Site>(std::move(site));
     return *site_;

@@ -3,6 +3,7 @@
 #include "base/text.hpp"
 #include "report/html.hpp"
 #include "report/provenance.hpp"
+#include "site/soils.hpp"
 #include "tools/report/json.hpp"
 
 namespace talus {
@@ -45,6 +46,19 @@ std::string failure_plane(const ReportData& data) {
   return "";
 }
 
+// What the bodies of a section look like.
+std::string shape_of(const PlacedSettings& placed) {
+  if (placed.shape.empty()) return "meshes of " + placed.file;
+  std::string size;
+  for (const double edge : placed.size_m) size += (size.empty() ? ", " : " x ") + text(edge, 3);
+  if (!size.empty()) size += " m";
+  if (placed.shape == "rock")
+    return "rocks of " + std::to_string(placed.n_points) + " points" + size;
+  if (placed.shape == "prism")
+    return "prisms of " + std::to_string(placed.n_sides) + " sides" + size;
+  return placed.shape + size;
+}
+
 std::string sureness(const ReportData& data) {
   const std::size_t n = data.runs.size();
   std::vector<std::vector<std::string>> rows;
@@ -65,6 +79,15 @@ std::string sureness(const ReportData& data) {
     rows.push_back({"Terrain", "not compared with a better one (TRN_FLAGS = --reference DEM)"});
   rows.push_back({"Ground", number_text(value_at(data.trn, {"grid", "cell_size_m"})) +
                                 " m cells: what is smaller, the run does not see"});
+  for (const GroundSettings& ground : data.site.grounds)
+    if (const Soil* soil = soil_named(ground.soil))
+      rows.push_back({"Soil", "<code>ground." + xml_escaped(ground.name) + "</code> is " +
+                                  xml_escaped(soil->name) + ": " + soil->mark + ". " +
+                                  xml_escaped(soil->source)});
+  for (const PlacedSettings& placed : data.site.blocks)
+    rows.push_back({"Shape", "<code>blocks." + xml_escaped(placed.name) +
+                                 "</code>: " + xml_escaped(shape_of(placed)) +
+                                 ". Rounder shapes run out farther on the same ground"});
   if (const Json flat = value_at(data.tin, {"flat", "share_before"}); flat.is_number())
     rows.push_back({"Contours", "every " +
                                     number_text(value_at(data.tin, {"contours", "interval_m"})) +

@@ -148,4 +148,38 @@ CaseResult border_slide(const Settings& settings);
 /// before, error 1 less that.
 CaseResult elastic_restitution(const Settings& settings, double young);
 
+// --- ground that gives way (closed_form_soil.cpp) ---------------------------------------------
+
+/// Cube dropped on its face from 5 m, COR 0.9 that falls by speed (v_h 10 m/s) or by energy (20
+/// kJ): largest relative error of the first three heights.
+CaseResult falling_restitution(const Settings& settings, bool by_energy);
+
+/// Prism of n sides, as heavy as a ball of its radius, that rolls at 2 m/s on the flat: relative
+/// error of the way to its stop by rolling resistance and plastic hits of its edges.
+CaseResult rolling_stop(const Settings& settings, int n_sides, double resistance);
+
+/// Critical rolling initiation angle of a prism with rolling resistance, tan = tan(pi / n) + mu_r
+/// R_e / (R cos(pi / n)): error by bisection [deg].
+CaseResult resisted_rolling_angle(const Settings& settings, int n_sides, double resistance);
+
+/// Cube that pivots on its face at 10 rad/s without friction: relative error of the time to its
+/// stop.
+CaseResult pivoting_stop(const Settings& settings);
+
+/// Ground whose friction grows from tan(phi) = `least` to 2 along the way slid.
+GroundClass scarring_ground(double least, double rate, double decay);
+/// Slab at `speed` on the flat: relative error of the way to its stop.
+CaseResult scarring_stop(const Settings& settings, const GroundClass& ground, double speed);
+/// Slab from rest on 35 degrees: relative error of its largest speed or of the way to its stop.
+CaseResult scarring_creep(const Settings& settings, const GroundClass& ground);
+
+/// Slab at `speed` on the flat, friction 0.84 at rest and 0.11 at high speed: the same.
+CaseResult weakening_stop(const Settings& settings, double speed);
+
+/// Slab from rest on 40 degrees, friction 30 degrees, drag per time (0.6 1/s, 5 s) or per way (0.02
+/// 1/m, 10 s): relative error of its speed, by time or by way, and of its way.
+CaseResult dragged_slide(const Settings& settings, bool per_way);
+/// Slab at 10 m/s on the flat, friction 0.3, drag 0.5 1/s: relative error of the way to its stop.
+CaseResult dragged_stop(const Settings& settings);
+
 }  // namespace talus::cases

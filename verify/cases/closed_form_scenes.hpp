@@ -4,6 +4,7 @@
 // closed_form_sliding.cpp  blocks that stand or slide: planes, wedge, column, bond, shaken base
 // closed_form_rolling.cpp  prisms that roll, columns that rock
 // closed_form_events.cpp   what happens within a step: bounces, rolling, take-off, edges, borders
+// closed_form_soil.cpp     ground that gives way: COR, rolling resistance, friction, drag
 // closed_form_flight.cpp   free flight and spin, and what an impact leaves
 #pragma once
 

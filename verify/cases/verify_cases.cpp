@@ -215,6 +215,68 @@ std::vector<VerifyCase> single_block_cases() {
   };
 }
 
+// Ground that gives way. Law paper knows none of it: its errors are those of firm ground.
+std::vector<VerifyCase> soil_cases() {
+  const auto of_soil = [](VerifyCase c) {
+    c.paper_dt = {1e-2, 1e-3};
+    return c;
+  };
+  return {
+      of_soil({.name = "soil_bounce",
+               .claim = "three rebounds from 5 m at a COR that falls with the speed of the hit",
+               .reference = "closed form",
+               .norm = "relative, largest of three",
+               .test = "Soil.RestitutionFallsWithSpeedOrEnergy",
+               .bound = 1e-6,
+               .run = [](const Settings& s) { return falling_restitution(s, false); }}),
+      of_soil({.name = "soil_rolling",
+               .claim = "a prism of 64 sides rolls to its stop, rolling resistance 0.1",
+               .reference = "closed form of plastic hits of its edges",
+               .norm = "relative",
+               .test = "Soil.PrismRollsToItsStop",
+               .bound = 0.01,
+               .run = [](const Settings& s) { return rolling_stop(s, 64, 0.1); }}),
+      of_soil({.name = "soil_rolling_angle",
+               .claim = "a prism of 6 sides starts to roll at 32.594 degrees, resistance 0.05",
+               .reference = "closed form",
+               .norm = "degrees",
+               .test = "Soil.PrismStartsToRollAtItsAngle",
+               .bound = 0.02,
+               .run = [](const Settings& s) { return resisted_rolling_angle(s, 6, 0.05); }}),
+      of_soil({.name = "soil_pivoting",
+               .claim = "a cube that pivots on its face stops in time, resistance 0.1",
+               .reference = "closed form",
+               .norm = "relative",
+               .test = "Soil.PivotingStopsInTime",
+               .bound = 1e-3,
+               .run = pivoting_stop}),
+      of_soil({.name = "soil_scar",
+               .claim = "a slab at 10 m/s stops on ground whose friction grows as it slides",
+               .reference = "closed form",
+               .norm = "relative",
+               .test = "Soil.ScarsStopASlab",
+               .bound = 1e-3,
+               .run =
+                   [](const Settings& s) {
+                     return scarring_stop(s, scarring_ground(0.25, 1.25, 100), 10);
+                   }}),
+      of_soil({.name = "soil_weakening",
+               .claim = "a slab at 10 m/s stops on ground whose friction falls with its speed",
+               .reference = "integrated closed form",
+               .norm = "relative",
+               .test = "Soil.FrictionWeakensWithSpeed",
+               .bound = 1e-3,
+               .run = [](const Settings& s) { return weakening_stop(s, 10); }}),
+      of_soil({.name = "soil_drag",
+               .claim = "a slab slides down 40 degrees against drag of 0.6 per second, 5 s",
+               .reference = "closed form",
+               .norm = "relative",
+               .test = "Soil.DragSlowsASlide",
+               .bound = 1e-3,
+               .run = [](const Settings& s) { return dragged_slide(s, false); }}),
+  };
+}
+
 std::vector<VerifyCase> block_cases() {
   const auto of_blocks = [](int n, VerifyCase c) {
     c.n_blocks = n;
@@ -369,6 +431,7 @@ void add_full_study(const VerifyCase& c, std::vector<Method>& methods) {
 const std::vector<VerifyCase>& verify_cases() {
   static const std::vector<VerifyCase> list = [] {
     std::vector<VerifyCase> all = single_block_cases();
+    for (VerifyCase& c : soil_cases()) all.push_back(std::move(c));
     for (VerifyCase& c : block_cases()) all.push_back(std::move(c));
     return all;
   }();

@@ -11,6 +11,7 @@
 #include "step/crushing.hpp"
 #include "step/deep_blocks.hpp"
 #include "step/flight.hpp"
+#include "step/island/island_soil.hpp"
 #include "step/island/stages.hpp"
 #include "step/substep.hpp"
 
@@ -235,7 +236,8 @@ struct SubstepAcceptance {
     if (!external.isZero(0))
       state.ledger.base +=
           members.numbers[k].mass * external.dot(motion.pose.position - s.start.pose.position);
-    state.motion[members.block(k)] = motion;
+    state.motion[members.block(k)] =
+        end_drag(scene, members, free, system, k, motion, state.motion[members.block(k)], state);
     if (!is_finite(motion)) stop_at(s.start, members.block(k), state, report);
     state.local_time[members.block(k)] = free.t + free.h;
     ++report.substeps;
@@ -249,6 +251,7 @@ struct SubstepAcceptance {
     for (const int k : hits.hit_members.items) forget_rates(scene, members.blocks[k], state);
     state.ledger.impact += hits.dissipated;
     state.ledger.friction += hits.by_friction;
+    state.ledger.rolling += hits.by_rolling;
     report.shortest_dt = report.shortest_dt > 0 ? std::min(report.shortest_dt, free.h) : free.h;
   }
 
@@ -322,6 +325,7 @@ void accept(const Scene& scene, const IslandMembers& members, const FreeMotions&
   if (system.fell_through) report.flags = report.flags | StepFlag::fell_through;
   break_bonds(tries, state);
   acceptance.remember();
+  end_soil(scene, members, free, system, hits, state);
   acceptance.move_all();
   acceptance.note_touched_panels();
   acceptance.note_touched_stems();

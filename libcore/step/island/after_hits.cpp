@@ -206,6 +206,10 @@ Vec6 change_by_pair(const IslandSystem& system, size_t p, int k) {
     sum.head<3>() += sign * impulse;
     sum.tail<3>() += sign * arm.cross(impulse);
   }
+  if (pair.angular >= 0) {  // a couple acts with the contacts that bound it
+    const Vec3& couple = system.island.angular[static_cast<size_t>(pair.angular)].couple;
+    sum.tail<3>() += k == pair.a ? couple : Vec3(-couple);
+  }
   return solve_mass(system.island.mass[k], sum);
 }
 

@@ -6,6 +6,7 @@
 #include "base/make_room.hpp"
 #include "scene/yielding.hpp"
 #include "solver/law_numbers.hpp"
+#include "step/island/island_soil.hpp"
 #include "step/island/stages.hpp"
 #include "step/substep.hpp"
 
@@ -124,6 +125,7 @@ struct ContactMaker {
     system.island.pairs.clear();
     system.island.rows.clear();
     system.island.angular.clear();
+    system.island.arms.clear();
     system.first_contact.clear();
     system.ground_pair.clear();
     system.waiting.clear();
@@ -195,6 +197,7 @@ struct ContactMaker {
     if (making.rows.empty()) return true;
     system.ground_pair.back() = static_cast<int>(system.island.pairs.size());
     begin_pair(static_cast<int>(k), -1, -1);
+    begin_soil(scene, state, b, c, s, free.t, making.rows, system.island);
     for (ContactRow& row : making.rows) {
       for (Vec3* v : {&row.normal, &row.arm, &row.drift, &row.shear, &row.shear_velocity,
                       &row.slip_start, &row.free_move, &row.arm_start})

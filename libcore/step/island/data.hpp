@@ -204,6 +204,7 @@ struct SubstepHits {  // clang-format off
   std::vector<Vec3> bond_impulse;           ///< of contacts with bonds, by hits [N s]; empty: none
   double dissipated = 0;                    ///< by hits, but for friction [J]
   double by_friction = 0;                   ///< ... by friction and by what bore members [J]
+  double by_rolling = 0;                    ///< ... by resistance to rolling [J]
   int n_hits = 0;                           ///< contacts hit, and how often
   int passes = 0;                           ///< of their solutions
   bool converged = true;

@@ -8,6 +8,7 @@
 #include "scene/fence.hpp"
 #include "solver/law_numbers.hpp"
 #include "step/flight.hpp"
+#include "step/soil.hpp"
 #include "step/substep.hpp"
 
 namespace talus {
@@ -241,8 +242,18 @@ void HitLooks::take_due(std::vector<PairLook>& due) const {
   }
 }
 
-void HitLooks::add_touching(size_t p, const Vec3& normal, const Vec3& point, double gap,
-                            const ContactKey& key, const GroundClass& faces) const {
+namespace {
+
+// Speed across the normal of a contact's point on a body that moves so [m/s].
+double slip_of(const ImpactContact& contact, const PlacedMotion& body) {
+  const Vec3 u = velocity_of(body, contact.point - body.position);
+  return (u - contact.normal.dot(u) * contact.normal).norm();
+}
+
+}  // namespace
+
+TouchingContact& HitLooks::add_touching(size_t p, const Vec3& normal, const Vec3& point, double gap,
+                                        const ContactKey& key, const GroundClass& faces) const {
   const BodyPair& pair = system.island.pairs[p];
   TouchingContact touching;
   touching.of.a = pair.a;
@@ -256,6 +267,7 @@ void HitLooks::add_touching(size_t p, const Vec3& normal, const Vec3& point, dou
   touching.gap = gap;
   touching.pair = static_cast<int>(p);
   hits.touching.push_back(touching);
+  return hits.touching.back();
 }
 
 void HitLooks::find_touching_ground(size_t p, double time) const {
@@ -268,9 +280,15 @@ void HitLooks::find_touching_ground(size_t p, double time) const {
                       &near_ground[members.block(k)]);
   for (const Contact& found : making.found) {
     const GroundClass& ground = scene.ground.classes[found.ground_class];
-    add_touching(p, found.normal,
-                 talus::place(m.pose, found.point_a) - found.gap / 2 * found.normal, found.gap,
-                 found.key, ground);
+    TouchingContact& touching = add_touching(
+        p, found.normal, talus::place(m.pose, found.point_a) - found.gap / 2 * found.normal,
+        found.gap, found.key, ground);
+    const int b = members.blocks[k];
+    touching.of.fall = fall_on(ground, c.mass);
+    touching.of.arm = arm_on(scene, ground, b);
+    if (varies_friction(ground))
+      touching.of.friction = friction_on(ground, slip_of(touching.of, place(k, m)),
+                                         way_slid(state, ground, b, free.t + time));
   }
 }
 

@@ -46,8 +46,8 @@ struct HitLooks {
   void push(const PairLook& look) const;
   [[nodiscard]] double size_of(std::size_t p) const;
   void find_touching(std::size_t p, double time) const;
-  void add_touching(std::size_t p, const Vec3& normal, const Vec3& point, double gap,
-                    const ContactKey& key, const GroundClass& faces) const;
+  TouchingContact& add_touching(std::size_t p, const Vec3& normal, const Vec3& point, double gap,
+                                const ContactKey& key, const GroundClass& faces) const;
   void find_touching_ground(std::size_t p, double time) const;
   void find_touching_bodies(std::size_t p, double time) const;
 };

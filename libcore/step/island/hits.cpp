@@ -208,7 +208,8 @@ struct HitPhase {
       return;
     }
     hits.converged = hits.converged && impact.converged;
-    hits.dissipated += impact.dissipated - impact.by_friction;
+    hits.dissipated += impact.dissipated - impact.by_friction - impact.by_rolling;
+    hits.by_rolling += impact.by_rolling;
     hits.by_friction += impact.by_friction;
     size_t i = 0;
     for (const size_t k : hits.changed)
@@ -217,7 +218,7 @@ struct HitPhase {
         ++i;
       }
     if (!looks.state.load.empty() || !looks.state.hit_loss.empty())
-      note_impulses(group, impact.dissipated - impact.by_friction);
+      note_impulses(group, impact.dissipated - impact.by_friction - impact.by_rolling);
     if (!system.has_bonds) return;
     i = 0;
     for (const TouchingContact& touching : hits.batch) {
@@ -272,7 +273,7 @@ struct HitPhase {
     hits.hits.clear();
     hits.paths.clear();
     hits.impulses.clear();
-    hits.dissipated = hits.by_friction = 0;
+    hits.dissipated = hits.by_friction = hits.by_rolling = 0;
     hits.n_hits = hits.passes = 0;
     hits.converged = true;
     hits.hit_members.reset(members.size());

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "solver/law_numbers.hpp"
+#include "step/island/island_soil.hpp"
 #include "step/island/stages.hpp"
 
 namespace talus {
@@ -94,6 +95,8 @@ void solve_with_hits(const Scene& scene, const State& state, const PairSearch& s
     const int settlings = round == 0 && free.t == 0 ? law::most_settlings : 0;
     for (int i = 0; i < settlings && stiffen_to_load(members, free.h, system); ++i)
       if (!solve_on(true)) return;
+    if (round == 0 && renew_friction(scene, state, members, free, hits, system) && !solve_on(true))
+      return;
     const StageTimer timer(clock, IslandStage::find_hits);
     if (close_waiting(members, free, system, hits) == 0) return;
   }

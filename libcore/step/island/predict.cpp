@@ -1,4 +1,5 @@
 // Stage 4 of an island's step: each member without contact.
+#include "step/island/island_soil.hpp"
 #include "step/island/stages.hpp"
 #include "step/substep.hpp"
 
@@ -47,7 +48,7 @@ void predict(const Scene& scene, const State& state, const IslandMembers& member
   for (size_t k = 0; k < members.size(); ++k) {
     const BlockNumbers& c = members.numbers[k];
     Substep& s = free.substeps[k];
-    s = predict(scene, members.blocks[k], c, state.motion[members.block(k)], t, h);
+    s = predict(scene, members.blocks[k], c, begin_drag(scene, state, members.block(k), h), t, h);
     free.turns.push_back({s.R * s.R_start.transpose(), s.R_start * s.spin_start, s.R * s.spin_free,
                           s.R * c.per_inertia.asDiagonal() * s.R.transpose()});
     add_body(scene, state, c, s, free.turns.back(), members.block(k), island);

@@ -11,6 +11,7 @@
 #include "step/flight.hpp"
 #include "step/impact.hpp"
 #include "step/loads.hpp"
+#include "step/lone/lone_soil.hpp"
 #include "step/lone/lone_substep.hpp"
 
 namespace talus {
@@ -70,10 +71,27 @@ struct Advance {
     const Vec3 external = s.free_acceleration - scene.gravity;
     if (!external.isZero(0))
       state.ledger.base += c.mass * external.dot(end.pose.position - s.start.pose.position);
-    motion() = end;
+    if (any_drags(scene)) {
+      drag(s, end);
+    } else {
+      motion() = end;
+    }
     state.local_time[i()] = t_next;
     report.shortest_dt = report.shortest_dt > 0 ? std::min(report.shortest_dt, s.h) : s.h;
     ++report.substeps;
+  }
+
+  // Ground drags for half of the substep at its start, and for half at its end, where something
+  // presses the block then.
+  Motion dragged_at_start(double h) {
+    if (state.memory[i()].empty() || !any_drags(scene)) return motion();
+    return after_drag(scene, motion(), h / 2);
+  }
+  void drag(const Substep& s, const Motion& end) {
+    const auto energy = [this](const Motion& m) { return kinetic_energy(scene, i(), m); };
+    state.ledger.drag += energy(motion()) - energy(s.start);
+    motion() = state.memory[i()].empty() ? end : after_drag(scene, end, s.h / 2);
+    state.ledger.drag += energy(end) - energy(motion());
   }
 
   // True when the block is hit where it is. The gap of edges over a substep is not quite linear:
@@ -82,6 +100,8 @@ struct Advance {
   // again and again.
   bool impact() {
     const Motion before = motion();
+    if (!state.slid.empty()) work.soil.slid = state.slid[i()];
+    work.soil.hit_time = state.local_time[i()];
     const HitSpeeds speeds{c.resting_speed, c.located_speed};
     ImpactResult hit = apply_impact(scene, b, 2 * c.touch, speeds, motion(), work);
     if (!hit.hit && is_foreseen) {
@@ -91,8 +111,10 @@ struct Advance {
     is_foreseen = false;
     if (!hit.hit) return false;
     was_fast = hit.is_fast;
-    state.ledger.impact += hit.dissipated;
-    add_ground_hit_loss(scene, b, before, motion(), work.contacts, hit.dissipated, state);
+    state.ledger.impact += hit.dissipated - hit.by_rolling;
+    state.ledger.rolling += hit.by_rolling;
+    add_ground_hit_loss(scene, b, before, motion(), work.contacts, hit.dissipated - hit.by_rolling,
+                        state);
     ++report.n_impacts;
     report.passes += hit.passes;
     if (!hit.converged) note_unconverged(b, report);
@@ -153,7 +175,7 @@ struct Advance {
   // Substep of h from t; h is shortened to the first impact or when the forces do not converge.
   template <int Dof>
   Attempt attempt(double t, double& h, bool last) {
-    Substep s = predict(scene, b, c, motion(), t, h);
+    Substep s = predict(scene, b, c, dragged_at_start(h), t, h);
     if constexpr (Dof == 12) {
       s.is_straining = true;
       s.straining = strain_tensor(state.strain_rate[i()]);
@@ -186,7 +208,9 @@ struct Advance {
       }
     if (!last && goes_through_ridge(s)) return shorten(h / 2, h);
     BlockSystem<Dof> system = make_system<Dof>(scene, b, c, s, state);
-    const NewtonResult newton = solve(s, system);
+    begin_soil(scene, b, c, s, state, t, work);
+    const NewtonResult newton =
+        solve_on_soil(scene, b, s, state, t, system, work, [&] { return solve(s, system); });
     report.passes += newton.passes;
     if (!newton.converged) {
       if (!last) {
@@ -203,6 +227,7 @@ struct Advance {
     if (hit < s.h && !last) return shorten(hit, h);
     if (near.reach == Reach::below) report.flags = report.flags | StepFlag::fell_through;
     remember(c, s, solved, state, work, b, report);
+    end_soil(scene, b, s, t, system, work, state);
     if constexpr (Dof == 12) {
       state.strain[i()] += h / 2 * (state.strain_rate[i()] + system.velocity.template tail<6>());
       state.strain_rate[i()] = system.velocity.template tail<6>();

@@ -9,6 +9,7 @@
 
 #include "base/random.hpp"
 #include "site/site.hpp"
+#include "site/soils.hpp"
 
 namespace {
 
@@ -210,4 +211,80 @@ TEST(Site, MangledFilesNeverCrash) {
     }
     EXPECT_FALSE(refusal(text).empty());
   }
+}
+
+// --- soils -------------------------------------------------------------------------------------
+
+TEST(SiteSoil, FillsKeysThatAreNotGiven) {
+  Site site = parse_site("[ground.g]\nsoil = 'meadow'\nfriction_deg = 31\n", "s/site.toml");
+  const talus::GroundSettings& ground = site.grounds.at(0);
+  EXPECT_EQ(ground.friction_deg, 31);
+  EXPECT_EQ(ground.cor, 0.9);
+  EXPECT_EQ(ground.cor_half_speed_m_s, 10);
+  EXPECT_EQ(ground.rolling_resistance, 0.17);
+  const std::string printed = talus::print_config(site);
+  EXPECT_NE(printed.find("cor = 0.9  # soil meadow (calibrated at one site)"), std::string::npos);
+  EXPECT_NE(printed.find("friction_deg = 31  # file, line 3"), std::string::npos);
+  EXPECT_NE(printed.find("\n# calibrated at one site: 18 runs at Tschamut"), std::string::npos);
+  EXPECT_EQ(parse_site(printed, "s/site.toml").grounds.at(0).cor, 0.9);
+}
+
+TEST(SiteSoil, AnotherOneTakesThePlaceOfWhatTheFirstFilled) {
+  Site site = parse_site("[ground.g]\nsoil = 'meadow'\n", "s/site.toml");
+  talus::override_value(site, "ground.g.soil", "swamp");
+  EXPECT_EQ(site.grounds[0].cor, 0);
+  EXPECT_TRUE(std::isnan(site.grounds[0].cor_half_speed_m_s));
+  EXPECT_EQ(site.grounds[0].friction_deg, 30);
+  talus::override_value(site, "ground.g.rolling_resistance", "0.1");
+  talus::override_value(site, "ground.g.soil", "scree");
+  EXPECT_EQ(site.grounds[0].rolling_resistance, 0.1);
+  EXPECT_EQ(site.grounds[0].cor_half_speed_m_s, 11);
+}
+
+TEST(SiteSoil, LeavesOutWhatAGivenKeyExcludes) {
+  const Site site =
+      parse_site("[ground.g]\nsoil = 'talus'\nbearing_kpa = 90\ncor_half_energy_kj = 5\n", "s");
+  EXPECT_TRUE(std::isnan(site.grounds[0].rolling_resistance));
+  EXPECT_TRUE(std::isnan(site.grounds[0].cor_half_speed_m_s));
+  talus::check_grounds(site);
+}
+
+// Every soil is a choice of the key, and every choice a soil.
+TEST(SiteSoil, TheKeyNamesEverySoil) {
+  std::string names;
+  for (const talus::Soil& soil : talus::soils()) {
+    names += (names.empty() ? "" : "|") + std::string(soil.name);
+    EXPECT_EQ(refusal(std::string("[ground.g]\nsoil = '") + soil.name + "'\n"), "accepted");
+  }
+  EXPECT_NE(refusal("[ground.g]\nsoil = 'lawn'\n").find("\"lawn\", expected one of " + names),
+            std::string::npos);
+}
+
+std::string refusal_of_ground(const std::string& keys) {
+  try {
+    talus::check_grounds(parse_site("[ground.g]\n" + keys, "s/site.toml"));
+  } catch (const InputError& error) {
+    return std::string(error.what()) + " | " + error.hint();
+  }
+  return "accepted";
+}
+
+TEST(SiteSoil, KeysThatExcludeOrNeedEachOtherAreRefused) {
+  EXPECT_EQ(refusal_of_ground("cor_half_speed_m_s = 5\ncor_half_energy_kj = 3\n"),
+            "s/site.toml:3: [ground.g] has cor_half_speed_m_s and cor_half_energy_kj, which "
+            "exclude each other | one says how COR falls: by speed, or by energy");
+  const auto says = [](const std::string& keys, const std::string& words) {
+    EXPECT_NE(refusal_of_ground(keys).find(words), std::string::npos) << refusal_of_ground(keys);
+  };
+  says("rolling_resistance = 0.1\nbearing_kpa = 90\n", "rolling_resistance and bearing_kpa");
+  says("scar_friction = 2\n", "scar_friction without scar_rate_1_m");
+  says("scar_decay_1_s = 2\n", "scar_decay_1_s without scar_friction");
+  says("scar_friction = 0.2\nscar_rate_1_m = 1\nscar_decay_1_s = 9\n", "below the tangent");
+  says("friction_weak_deg = 10\n", "friction_weak_deg without weakening_speed_m_s");
+  says("friction_weak_deg = 40\nweakening_speed_m_s = 4\n", "above friction_deg, 30");
+  says(
+      "scar_friction = 2\nscar_rate_1_m = 1\nscar_decay_1_s = 9\nfriction_weak_deg = 5\n"
+      "weakening_speed_m_s = 4\n",
+      "scar_friction and friction_weak_deg");
+  says("rolling_resistance = 0.1\nspin_resistance = 0.05\ndrag_1_s = 1\n", "accepted");
 }

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "solver/island_solver.hpp"
 #include "solver/newton.hpp"
@@ -38,8 +39,8 @@ ContactRow contact_of_disc() {
 AngularRow resistance() {
   AngularRow turn;
   turn.row_end = 1;
-  turn.arm = arm;
   turn.damping = damping;
+  turn.inertia = inertia;
   return turn;
 }
 
@@ -60,12 +61,14 @@ struct Lone {
   BlockSystem<6> system;
   std::array<ContactRow, 1> rows = {contact_of_disc()};
   std::array<AngularRow, 1> turns = {resistance()};
+  std::array<RowArm, 1> arms = {RowArm{arm, arm}};
 
   Vec6 step_from(const Vec6& v, double dip) {
     system.mass = mass_of_disc();
     system.free_velocity = system.velocity = v + pull(dip);
     system.tolerance = 1e-12;
     system.angular = turns;
+    system.arms = arms;
     EXPECT_TRUE(solve_contacts(system, std::span(rows), 60).converged);
     return system.velocity;
   }
@@ -89,6 +92,7 @@ struct InIsland {
     open_pair(0, other, island);
     add_row(contact_of_disc(), island);
     island.angular = {resistance()};
+    island.arms = {RowArm{arm, arm}};
     island.pairs[0].angular = 0;
     IslandSettings settings;
     settings.tolerance = 1e-12;
@@ -135,7 +139,7 @@ TEST(AngularRow, HoldsItInAnIsland) { expect_to_stand_up_to_its_slope(InIsland()
 TEST(AngularRow, StopsADiscAndDoesNotTurnItBack) {
   Lone disc;
   EXPECT_LT(disc.step_from(rolling(1e-3), 0).norm(), 1e-6);
-  EXPECT_EQ(disc.turns[0].state, ContactState::stick);
+  EXPECT_EQ(disc.turns[0].rolling.state, ContactState::stick);
 }
 
 TEST(AngularRow, BearsNothingWhereNothingPresses) {
@@ -144,20 +148,42 @@ TEST(AngularRow, BearsNothingWhereNothingPresses) {
   v[2] = 1;
   EXPECT_EQ(disc.step_from(v, 0), v + pull(0));
   EXPECT_TRUE(disc.turns[0].couple.isZero(0));
-  EXPECT_EQ(disc.turns[0].state, ContactState::open);
+  EXPECT_EQ(disc.turns[0].rolling.state, ContactState::open);
 }
 
-TEST(AngularRow, TakesItsSpringForSpin) {
-  AngularRow row = resistance();
+// In the step in which it stops, Newton's method finds that in few passes.
+TEST(AngularRow, StopsADiscInFewPasses) {
+  for (const double speed : {0.2, 0.5, 0.9, 1.0, 1.2}) {
+    Lone disc;
+    disc.system.mass = mass_of_disc();
+    const double loss = arm / radius * mass * g * step / rolling_mass;
+    disc.system.free_velocity = disc.system.velocity = rolling(speed * loss) + pull(0);
+    disc.system.tolerance = 1e-12;
+    disc.system.angular = disc.turns;
+    disc.system.arms = disc.arms;
+    const NewtonResult result = solve_contacts(disc.system, std::span(disc.rows), 60);
+    EXPECT_TRUE(result.converged) << speed;
+    EXPECT_LE(result.passes, 12) << speed;
+  }
+}
+
+// Rolling across the normal and pivoting along it have bounds of their own.
+TEST(AngularRow, BoundsRollingAndPivotingApart) {
+  AngularRow row;
   row.damping = 2;
-  row.spring_spin = Vec3(0, 0.25, 0);
-  evaluate(Vec3(0, 0.5, 0), 100, row);
-  EXPECT_EQ(row.couple, Vec3(0, -1.5, 0));
-  evaluate(Vec3(0, 0.75, 0), 100, row);  // 2 x 1 is what it bears
-  EXPECT_EQ(row.state, ContactState::stick);
-  evaluate(Vec3(0, 0.76, 0), 100, row);
-  EXPECT_EQ(row.state, ContactState::slip);
-  EXPECT_EQ(row.couple, Vec3(0, -2, 0));
+  CoupleBounds bounds;
+  bounds.add({0.02, 0.05}, 60, Vec3::UnitZ());
+  bounds.add({0.02, 0.05}, 40, Vec3::UnitZ());
+  bounds.add({0.02, 0.05}, -1, Vec3::UnitZ());  // pulls
+  evaluate(Vec3(0, 0.5, 0), bounds, row);
+  EXPECT_EQ(row.couple, Vec3(0, -1, 0));
+  EXPECT_EQ(row.rolling.state, ContactState::stick);
+  evaluate(Vec3(0, 3, 10), bounds, row);
+  EXPECT_EQ(row.couple, Vec3(0, -2, -5));
+  EXPECT_EQ(row.rolling.state, ContactState::slip);
+  EXPECT_EQ(row.spinning.state, ContactState::slip);
+  evaluate(Vec3(0, 0, -1), bounds, row);
+  EXPECT_EQ(row.couple, Vec3(0, 0, 2));
 }
 
 // The disc rolls on a plate that is free to move: what it loses the plate has.
@@ -186,6 +212,151 @@ TEST(AngularRow, KeepsMomentumBetweenTwoBodies) {
   const double pressed = row_of(island, 0).normal_impulse();
   EXPECT_GT(pressed, 0.1);
   EXPECT_NEAR(island.angular[0].couple.norm(), arm * pressed, 1e-12);
+}
+
+// --- a ball ------------------------------------------------------------------------------------
+
+constexpr double earth = 9.80665;
+
+/// A ball that rolls or pivots on a plane in steps of `h`.
+struct Ball {
+  double h, dip = 0, rolling = 0, spinning = 0, friction = 1;
+  Vec6 velocity = Vec6::Zero();
+  double path = 0;
+
+  static Mat6 mass_matrix() {
+    Mat6 M = Mat6::Zero();
+    M.diagonal() << Vec3::Constant(mass), Vec3::Constant(0.4 * mass * radius * radius);
+    return M;
+  }
+  void advance() {
+    BlockSystem<6> system;
+    std::array<ContactRow, 1> rows = {contact_of_disc()};
+    rows[0].friction = friction;
+    std::array<AngularRow, 1> turns = {resistance()};
+    const std::array<RowArm, 1> arms = {RowArm{rolling * radius, spinning * radius}};
+    Vec6 pulled = Vec6::Zero();
+    pulled[0] = earth * std::sin(dip) * h, pulled[2] = -earth * std::cos(dip) * h;
+    system.mass = mass_matrix();
+    system.free_velocity = system.velocity = velocity + pulled;
+    system.tolerance = 1e-12;
+    system.angular = turns;
+    system.arms = arms;
+    EXPECT_TRUE(solve_contacts(system, std::span(rows), 60).converged);
+    path += h / 2 * (velocity[0] + system.velocity[0]);
+    velocity = system.velocity;
+  }
+};
+
+class BallOnSoil : public testing::TestWithParam<double> {};
+INSTANTIATE_TEST_SUITE_P(Steps, BallOnSoil, testing::Values(5e-3, 2.5e-3, 1.25e-3));
+
+Ball rolling_ball(double h, double dip_deg, double resistance, double speed) {
+  Ball ball{h};
+  ball.dip = dip_deg * std::numbers::pi / 180;
+  ball.rolling = ball.spinning = resistance;
+  ball.velocity = rolling(speed);
+  return ball;
+}
+
+TEST_P(BallOnSoil, StopsOnTheFlat) {
+  const double resistances[] = {0.05, 0.1, 0.17, 0.3};
+  const double ways[] = {142.760, 71.380, 41.988, 23.793};
+  for (int i = 0; i < 4; ++i) {
+    Ball ball = rolling_ball(GetParam(), 0, resistances[i], 10);
+    double time = 0;
+    for (; ball.velocity[0] > 1e-3 && time < 60; time += GetParam()) ball.advance();
+    EXPECT_NEAR(ball.path, ways[i], 1e-3 * ways[i]);
+    if (resistances[i] == 0.17) {
+      EXPECT_NEAR(time, 8.398, 1e-3 * 8.398);
+    }
+  }
+}
+
+TEST_P(BallOnSoil, AcceleratesDownASlope) {
+  const double resistances[] = {0.05, 0.1, 0.17, 0.3};
+  const double accelerations[] = {2.06665, 1.73753, 1.27677, 0.42107};
+  for (int i = 0; i < 4; ++i) {
+    Ball ball = rolling_ball(GetParam(), 20, resistances[i], 0);
+    for (int k = 0; k < 200; ++k) ball.advance();
+    EXPECT_NEAR(ball.velocity[0] / (200 * GetParam()), accelerations[i], 1e-4);
+  }
+  Ball held = rolling_ball(GetParam(), 20, 0.36397 * 1.001, 0);
+  for (int k = 0; k < 200; ++k) held.advance();
+  EXPECT_LT(held.velocity.norm(), 1e-6);
+}
+
+TEST_P(BallOnSoil, StopsDownAGentleSlope) {
+  Ball ball = rolling_ball(GetParam(), 8, 0.17, 10);
+  for (int k = 0; ball.velocity[0] > 1e-3 && k < 100000; ++k) ball.advance();
+  EXPECT_NEAR(ball.path, 244.683, 1e-3 * 244.683);
+}
+
+TEST_P(BallOnSoil, PivotsToItsStop) {
+  Ball ball{GetParam()};
+  ball.spinning = 0.1;
+  ball.friction = 0;
+  ball.velocity[5] = 10;
+  double time = 0;
+  for (; ball.velocity[5] > 1e-3 && time < 60; time += GetParam()) ball.advance();
+  const double expected = 0.4 * radius * 10 / (0.1 * earth);
+  EXPECT_NEAR(time, expected, GetParam());
+}
+
+// --- a pendulum --------------------------------------------------------------------------------
+
+// A cube of 1 m that hangs on two points 0.3 m above its centre, let go at 10 degrees.
+struct Pendulum {
+  double h, resistance, angle = 10 * std::numbers::pi / 180, rate = 0;
+  static constexpr double m = 1000, lever = 0.3;
+
+  void advance() {
+    const double middle = angle + h / 2 * rate;
+    const Vec3 up(std::sin(middle), 0, std::cos(middle));  // to the points
+    const Vec3 axis = Vec3::UnitY();
+    std::array<ContactRow, 2> rows;
+    for (int i = 0; i < 2; ++i) {
+      rows[i].normal = Vec3::UnitZ();
+      rows[i].arm = lever * up + (i == 0 ? 0.2 : -0.2) * axis;
+      rows[i].normal_damping = rows[i].shear_damping = 1e11;
+      rows[i].friction = 100;
+    }
+    BlockSystem<6> system;
+    system.mass.setZero();
+    system.mass.diagonal() << Vec3::Constant(m), Vec3::Constant(m / 6);
+    const Vec3 v = -(rate * axis).cross(lever * up);
+    system.free_velocity << v - h * earth * Vec3::UnitZ(), rate * axis;
+    system.velocity = system.free_velocity;
+    system.tolerance = 1e-11;
+    AngularRow turn;
+    turn.row_end = 2;
+    turn.damping = 1e9;
+    turn.inertia = m / 6;
+    std::array<AngularRow, 1> turns = {turn};
+    const double lever_arm = resistance * std::cbrt(3 / (4 * std::numbers::pi));
+    const std::array<RowArm, 2> arms = {RowArm{lever_arm, lever_arm}, RowArm{lever_arm, lever_arm}};
+    system.angular = turns;
+    system.arms = arms;
+    EXPECT_TRUE(solve_contacts(system, std::span(rows), 60).converged);
+    const double next = system.velocity[4];
+    angle += h / 2 * (rate + next);
+    rate = next;
+  }
+};
+
+TEST_P(BallOnSoil, APendulumOnTwoPointsComesToRest) {
+  const double resistances[] = {0.01, 0.02}, times[] = {3.712, 1.856};
+  const double rest = 0.522 * std::numbers::pi / 180;
+  for (int i = 0; i < 2; ++i) {
+    Pendulum swing{GetParam(), resistances[i]};
+    double time = 0, rested = 0;
+    for (; time < 8; time += GetParam()) {
+      swing.advance();
+      if (std::abs(swing.rate) > 1e-4) rested = time + GetParam();
+    }
+    EXPECT_NEAR(rested, times[i], 0.02 * times[i]);
+    EXPECT_NEAR(swing.angle, rest, 0.02 * 10 * std::numbers::pi / 180) << resistances[i];
+  }
 }
 
 }  // namespace

@@ -1,0 +1,39 @@
+// libcore/site/soils.hpp: public
+// Kinds of ground by name, with values of the keys of [ground.*] and where these are from.
+// in:    `soil` of a section
+// out:   the keys of the section that are not given
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "site/site.hpp"
+
+namespace talus {
+
+/// A kind of ground. NaN: the key is not set.
+struct Soil {
+  const char* name;
+  double friction_deg, cor, cor_half_speed_m_s, rolling_resistance;
+  const char* mark;    ///< how sure the values are
+  const char* source;  ///< where they are from
+};
+
+[[nodiscard]] std::span<const Soil> soils();
+
+/// The soil of that name; nullptr: there is none.
+[[nodiscard]] const Soil* soil_named(const std::string& name);
+
+/// Fills the keys of each ground that its soil sets and that are not given, and notes in
+/// Site::sources that they are from there. A key that excludes one that is given is left out.
+void fill_from_soils(Site& site);
+
+/// Whether a key of the section makes its ground give way: COR that falls, resistance to rolling,
+/// friction that varies, drag.
+[[nodiscard]] bool gives_way(const GroundSettings& ground);
+
+/// Throws InputError for keys of a section [ground.*] that exclude each other, or that need one
+/// that is not given.
+void check_grounds(const Site& site);
+
+}  // namespace talus

@@ -1,0 +1,159 @@
+#include "step/island/island_soil.hpp"
+
+#include <algorithm>
+
+#include "step/substep.hpp"
+
+namespace talus {
+namespace {
+
+using std::size_t;
+
+bool any_varies(const Scene& scene) {
+  const std::vector<GroundClass>& classes = scene.ground.classes;
+  return std::any_of(classes.begin(), classes.end(), varies_friction);
+}
+
+const GroundClass& class_of_contact(const Scene& scene, const KeptContact& contact) {
+  return scene.ground.classes[static_cast<size_t>(contact.ground_class)];
+}
+
+double across(const Vec3& normal, const Vec3& velocity) {
+  return (velocity - normal.dot(velocity) * normal).norm();
+}
+
+// Motion of a member after its hits, without contact forces: at its last hit, or at the start.
+Vec6 start_of(const FreeMotions& free, const SubstepHits& hits, const Island& island, size_t k) {
+  if (hits.hit_members.contains(static_cast<int>(k))) return island.free_velocity[k];
+  Vec6 v;
+  v << free.substeps[k].start.velocity, free.turns[k].spin_start;
+  return v;
+}
+
+// Mean speed of slip of a contact with the ground over the substep.
+double mean_slip(const FreeMotions& free, const SubstepHits& hits, const IslandSystem& system,
+                 size_t r) {
+  const Island& island = system.island;
+  const Vec3 normal = lane_of(system, r).normal();
+  const auto start = [&](size_t k) { return start_of(free, hits, island, k); };
+  const auto end = [&](size_t k) -> const Vec6& { return island.velocity[k]; };
+  return (across(normal, relative(system, r, start)) + across(normal, relative(system, r, end))) /
+         2;
+}
+
+// Time in which contacts press member k.
+double pressed_time(const FreeMotions& free, const SubstepHits& hits, size_t k) {
+  return free.h - (hits.hit_members.contains(static_cast<int>(k)) ? hits.members[k].clock : 0);
+}
+
+bool is_pressed(const IslandSystem& system, size_t k) {
+  const int pair = system.ground_pair[k];
+  if (pair < 0) return false;
+  for (const size_t r : contacts_of(system, static_cast<size_t>(pair)))
+    if (!system.contacts[r].waits && lane_of(system, r).state() != ContactState::open) return true;
+  return false;
+}
+
+bool remembers_ground(const State& state, size_t b) {
+  const std::vector<ContactMemory>& memory = state.memory[b];
+  return std::any_of(memory.begin(), memory.end(), [](const ContactMemory& contact) {
+    return contact.key.body_b == ground_name && contact.normal_force > 0;
+  });
+}
+
+// The contact of member k with the ground that presses most; the number of contacts: none.
+size_t pressed_most(const IslandSystem& system, size_t k) {
+  size_t found = system.contacts.size();
+  double most = 0;
+  for (const size_t r : contacts_of(system, static_cast<size_t>(system.ground_pair[k]))) {
+    const double p_n = lane_of(system, r).normal_impulse();
+    if (!system.contacts[r].waits && p_n > most) most = p_n, found = r;
+  }
+  return found;
+}
+
+void slide_member(const Scene& scene, const IslandMembers& members, const FreeMotions& free,
+                  const IslandSystem& system, const SubstepHits& hits, size_t k, State& state) {
+  if (system.ground_pair[k] < 0) return;
+  const size_t r = pressed_most(system, k);
+  if (r == system.contacts.size()) return;
+  const GroundClass& ground = class_of_contact(scene, system.contacts[r]);
+  const bool slips = lane_of(system, r).state() == ContactState::slip;
+  const double speed = slips ? mean_slip(free, hits, system, r) : 0;
+  const double path = speed > creep_speed(scene, free.h) ? pressed_time(free, hits, k) * speed : 0;
+  const int b = members.blocks[k];
+  slide_on(b, way_slid(state, ground, b, free.t), path, free.t + free.h, state);
+}
+
+}  // namespace
+
+Motion begin_drag(const Scene& scene, const State& state, size_t b, double h) {
+  const Motion& motion = state.motion[b];
+  if (!any_drags(scene) || !remembers_ground(state, b)) return motion;
+  return after_drag(scene, motion, h / 2);
+}
+
+void begin_soil(const Scene& scene, const State& state, int b, const BlockNumbers& c,
+                const Substep& s, double t, std::span<ContactRow> rows, Island& island) {
+  const int turn = add_turn(scene, b, c, s.h, rows, island.angular, island.arms);
+  island.pairs.back().angular = turn;
+  const Vec3 velocity = s.R.transpose() * s.start.velocity;
+  const Vec3 spin = s.R.transpose() * (s.R_start * s.spin_start);
+  for (ContactRow& row : rows) {
+    const GroundClass& ground = class_of_contact(scene, row);
+    if (!varies_friction(ground)) continue;
+    const double speed = across(row.normal, velocity + spin.cross(row.arm));
+    row.friction = mean_friction(ground, speed, way_slid(state, ground, b, t), s.h * speed);
+  }
+}
+
+bool renew_friction(const Scene& scene, const State& state, const IslandMembers& members,
+                    const FreeMotions& free, const SubstepHits& hits, IslandSystem& system) {
+  if (!any_varies(scene)) return false;
+  bool any = false;
+  for (size_t k = 0; k < members.size(); ++k) {
+    if (system.ground_pair[k] < 0) continue;
+    for (const size_t r : contacts_of(system, static_cast<size_t>(system.ground_pair[k]))) {
+      const GroundClass& ground = class_of_contact(scene, system.contacts[r]);
+      if (system.contacts[r].waits || !varies_friction(ground) ||
+          lane_of(system, r).state() != ContactState::slip)
+        continue;
+      const double speed = mean_slip(free, hits, system, r);
+      const double way = way_slid(state, ground, members.blocks[k], free.t);
+      lane_of(system, r).set(
+          &RowGroup::friction,
+          mean_friction(ground, speed, way, pressed_time(free, hits, k) * speed));
+      note_change(system, r);
+      any = true;
+    }
+  }
+  return any;
+}
+
+void end_soil(const Scene& scene, const IslandMembers& members, const FreeMotions& free,
+              const IslandSystem& system, const SubstepHits& hits, State& state) {
+  const Island& island = system.island;
+  if (!island.angular.empty())
+    for (size_t k = 0; k < members.size(); ++k) {
+      const int pair = system.ground_pair[k];
+      if (pair < 0 || island.pairs[pair].angular < 0) continue;
+      const Vec6 mean = (start_of(free, hits, island, k) + island.velocity[k]) / 2;
+      state.ledger.rolling -= island.angular[island.pairs[pair].angular].couple.dot(mean.tail<3>());
+    }
+  if (state.slid.empty()) return;
+  for (size_t k = 0; k < members.size(); ++k)
+    slide_member(scene, members, free, system, hits, k, state);
+}
+
+Motion end_drag(const Scene& scene, const IslandMembers& members, const FreeMotions& free,
+                const IslandSystem& system, size_t k, const Motion& end, const Motion& before,
+                State& state) {
+  if (!any_drags(scene)) return end;
+  const auto energy = [&](const Motion& m) { return kinetic_energy(scene, members.block(k), m); };
+  state.ledger.drag += energy(before) - energy(free.substeps[k].start);
+  const Motion dragged = is_pressed(system, k) ? after_drag(scene, end, free.h / 2) : end;
+  state.ledger.drag += energy(end) - energy(dragged);
+  return dragged;
+}
+
+}  // namespace talus

@@ -1,0 +1,75 @@
+// libcore/step/soil.hpp
+// What ground that gives way does to a block: couples against rolling and pivoting, friction that
+// follows the way slid or the speed, drag. Nothing is computed where no class of ground asks for
+// it.
+// in:    classes of ground, rows of a block's contacts with it
+// out:   angular rows, friction of the rows, motions after drag
+// theory 1.13; docs/site-file.md
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "scene/scene.hpp"
+#include "scene/state.hpp"
+#include "solver/angular_row.hpp"
+#include "solver/contact_row.hpp"
+#include "solver/impact_solve.hpp"
+#include "step/substep_numbers.hpp"
+
+namespace talus {
+
+/// Whether a class of ground resists rolling or pivoting; has friction that follows the way slid
+/// or the speed; has drag.
+[[nodiscard]] inline bool resists_rolling(const GroundClass& ground) {
+  return ground.rolling > 0 || ground.bearing > 0 || ground.spinning > 0;
+}
+[[nodiscard]] inline bool varies_friction(const GroundClass& ground) {
+  return ground.scar_rate > 0 || ground.weakening_speed > 0;
+}
+[[nodiscard]] inline bool drags(const GroundClass& ground) {
+  return ground.drag_per_time > 0 || ground.drag_per_way > 0;
+}
+
+/// How the restitution on `ground` falls for a block of `mass` [kg].
+[[nodiscard]] RestitutionFall fall_on(const GroundClass& ground, double mass);
+
+/// Arms of the couples on `ground` of block b: mu_r R_e and mu_s R_e with R_e the radius of the
+/// sphere of its volume; by the ground's bearing strength mu_r = 4 / (3 pi) sqrt(8 rho g R_e / (3
+/// q)), at most 0.5.
+[[nodiscard]] RowArm arm_on(const Scene& scene, const GroundClass& ground, int b);
+
+/// Adds the angular row of block b beside `rows`, and the arms of these, where one of them is on
+/// ground that resists rolling. `arms` and `turns` grow; returns the row's index, -1: none.
+int add_turn(const Scene& scene, int b, const BlockNumbers& c, double h,
+             std::span<const ContactRow> rows, std::vector<AngularRow>& turns,
+             std::vector<RowArm>& arms);
+
+/// tan(phi) at slip `speed`, after a way slid of `way`.
+[[nodiscard]] double friction_on(const GroundClass& ground, double speed, double way);
+/// Its mean over a substep that goes on from `way` by `path`, at the mean speed of slip `speed`:
+/// exact in the work of friction that follows the way.
+[[nodiscard]] double mean_friction(const GroundClass& ground, double speed, double way,
+                                   double path);
+
+/// Way that block b has slid on ground whose friction follows it, at time t: less what it has
+/// forgotten off the ground [m].
+[[nodiscard]] double way_slid(const State& state, const GroundClass& ground, int b, double t);
+[[nodiscard]] double way_slid(const SlidWay& slid, const GroundClass& ground, double t);
+/// The block goes on sliding by `path` up to time t, from `way`.
+void slide_on(int b, double way, double path, double t, State& state);
+
+/// Speed of slip below which a way is not slid: what sticks creeps [m/s].
+[[nodiscard]] double creep_speed(const Scene& scene, double h);
+
+/// The class of ground below the centroid of a block; nullptr: none is known there.
+[[nodiscard]] const GroundClass* class_below(const Scene& scene, const Vec3& position);
+
+/// `motion` of block b after drag for a time of `h`, where the ground below it drags; exact for
+/// drag alone.
+[[nodiscard]] Motion after_drag(const Scene& scene, const Motion& motion, double h);
+
+/// Whether a class of ground drags.
+[[nodiscard]] bool any_drags(const Scene& scene);
+
+}  // namespace talus

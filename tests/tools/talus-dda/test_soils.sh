@@ -1,0 +1,52 @@
+# Soils: a raster of them, what --print-config says, what is refused.
+. "$source_dir/tests/tools/talus-dda/common.sh"
+make_inputs
+
+cat >>site.toml <<'END'
+[ground.grass]
+soil = "meadow"
+raster_values = [1]
+[ground.bare]
+soil = "rock"
+rolling_resistance = 0
+raster_values = [2]
+[terrain]
+ground_raster = "classes.asc"
+END
+make_classes() {
+  awk -v value="$1" 'BEGIN {
+    print "ncols 16\nnrows 11\nxllcorner 499995\nyllcorner 4999995\ncellsize 10\nNODATA_value -9999"
+    for (r = 0; r < 11; r++) { line = ""; for (c = 0; c < 16; c++) line = line " " value; print line }
+  }' >classes.asc
+}
+make_classes 1
+
+expect 0 run_dda -o run.h5 --print-config
+prints "ground.grass.soil = 'meadow'"
+prints "calibrated at one site: 18 runs at Tschamut"
+prints "ground.grass.rolling_resistance = 0.17"
+prints "soil meadow (calibrated at one site)"
+prints "soil rock (estimate, not calibrated)"
+
+speed() { # speed VALUE: the largest of the run on that soil
+  make_classes "$1"
+  expect 0 run_dda -o run.h5 --overwrite --json
+  sed -n 's/.*"largest_speed_m_s": \([0-9.]*\).*/\1/p' out | head -n 1
+}
+grass=$(speed 1)
+bare=$(speed 2)
+[ "$grass" != "$bare" ] || fail "meadow and rock give the same run: $grass m/s"
+
+refuses() { # refuses WORDS --set KEY=VALUE ...
+  words=$1
+  shift
+  expect "$exit_code" run_dda -o bad.h5 "$@"
+  says "$words"
+  nothing_left bad.h5
+}
+exit_code=2
+refuses "expected one of rock|thin_soil|talus|scree|meadow|soft_soil|swamp|asphalt" --set ground.grass.soil=lawn
+exit_code=1
+refuses "has rolling_resistance and bearing_kpa, which exclude each other" \
+  --set ground.grass.rolling_resistance=0.1 --set ground.grass.bearing_kpa=80
+refuses "has scar_friction without scar_rate_1_m" --set ground.grass.scar_friction=2
