@@ -21,7 +21,9 @@ static_assert(sizeof(State) == 8 + 22 * 24 + sizeof(EnergyLedger) + sizeof(RunCo
                                    sizeof(YieldingState) + sizeof(Mishaps));
 static_assert(sizeof(YieldingState) == 3 * 24 && sizeof(Yielded) == 56);
 static_assert(sizeof(StemMet) == 64 && sizeof(StemHit) == 80);
-static_assert(sizeof(FenceState) == 24 && sizeof(FenceHit) == 104 && sizeof(BlockBond) == 48);
+static_assert(sizeof(FenceState) == 24 && sizeof(FenceHit) == 104);
+// Of the face of a bond what joints have: they do not give way as ground does.
+static_assert(sizeof(BlockBond) == 16 + sizeof(GroundClass) && sizeof(GroundClass) == 128);
 static_assert(sizeof(PairState) == 280 && sizeof(PlacedHulls) == 192 && sizeof(ListedPair) == 96);
 static_assert(sizeof(BlockLoad) == 192 && sizeof(CrushedBlock) == 72 && sizeof(Break) == 80);
 static_assert(sizeof(SlidWay) == 16 && sizeof(DeepBlock) == 64 && sizeof(Mishap) == 48 &&
