@@ -543,9 +543,11 @@ std::vector<DrawnKey> drawn_keys(const Site& site, DrawScope scope) {
 
 void apply_draws(Site& site, DrawScope scope) {
   const std::int64_t sample = site.uncertainty.sample, mass = rock_mass(site.uncertainty);
+  // rock is cut once for all samples of its mass, and named alike by all of them
+  const std::int64_t named = scope == DrawScope::rock && mass > 0 ? mass : sample;
   for (const DrawnKey& drawn : drawn_keys(site, scope)) {
     const std::string words =
-        "sample " + std::to_string(sample) + " of uncertainty." + drawn.quantity;
+        "sample " + std::to_string(named) + " of uncertainty." + drawn.quantity;
     set_number(site, drawn.key, drawn.value, {ValueSource::from_draw, 0, words});
   }
   if (scope == DrawScope::rock && mass > 0) site.uncertainty.sample = mass;
