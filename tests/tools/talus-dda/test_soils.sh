@@ -28,7 +28,7 @@ prints "ground.grass.rolling_resistance = 0.17"
 prints "soil meadow (calibrated at one site)"
 prints "soil rock (estimate, not calibrated)"
 
-displacement() { # displacement VALUE: what that 90 % of the mass stays below on that soil
+displacement() { # displacement VALUE: the one that 90 % of the mass stays below on that soil
   make_classes "$1"
   expect 0 run_dda -o run.h5 --overwrite --json
   sed -n 's/.*"displacement_p90_m": \([0-9.]*\).*/\1/p' out | head -n 1
