@@ -16,11 +16,11 @@
 #include "terrain/trn_flags.hpp"
 #include "tools/dda/report.hpp"
 #include "tools/frame/build_info.hpp"
+#include "tools/frame/options.hpp"
 #include "tools/frame/run_settings.hpp"
 #include "tools/frame/scene_inputs.hpp"
 #include "tools/frame/site_crs.hpp"
 #include "tools/frame/site_options.hpp"
-#include "tools/frame/tool.hpp"
 #include "tools/frame/whole_runs.hpp"
 
 namespace {

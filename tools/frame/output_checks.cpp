@@ -8,6 +8,7 @@
 
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/file_paths.hpp"
+#include "tools/frame/options.hpp"
 
 namespace talus {
 namespace fs = std::filesystem;

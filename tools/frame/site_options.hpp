@@ -12,7 +12,7 @@
 #include "site/soils.hpp"
 #include "site/uncertainty.hpp"
 #include "tools/frame/command_line.hpp"
-#include "tools/frame/tool.hpp"
+#include "tools/frame/options.hpp"
 
 namespace talus {
 

@@ -1,5 +1,3 @@
-#include "tools/frame/tool.hpp"
-
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -19,6 +17,7 @@
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/exit_code.hpp"
 #include "tools/frame/file_paths.hpp"
+#include "tools/frame/options.hpp"
 #include "tools/frame/output_checks.hpp"
 #include "tools/frame/progress_line.hpp"
 #include "tools/frame/run_record.hpp"
@@ -371,6 +370,10 @@ void Tool::json_output(std::string& path, const std::string& help) {
   option->default_str("");
   impl_->options.json_path = &path;
   impl_->options.json_option = option;
+}
+
+CLI::Option* Tool::flag(const std::string& name, bool& value, const std::string& help) {
+  return app().add_flag(name, value, help);
 }
 
 void Tool::footer(const std::string& text) { app().footer(text); }

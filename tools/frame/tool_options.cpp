@@ -6,6 +6,7 @@
 #include "base/text.hpp"
 #include "tools/frame/build_info.hpp"
 #include "tools/frame/file_paths.hpp"
+#include "tools/frame/options.hpp"
 
 namespace talus {
 namespace {

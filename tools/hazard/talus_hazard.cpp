@@ -10,6 +10,7 @@
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/fault_json.hpp"
 #include "tools/frame/map_output.hpp"
+#include "tools/frame/options.hpp"
 #include "tools/hazard/inputs.hpp"
 #include "tools/hazard/layers.hpp"
 

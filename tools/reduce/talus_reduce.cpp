@@ -6,6 +6,7 @@
 #include "post/reduce.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/fault_json.hpp"
+#include "tools/frame/options.hpp"
 #include "tools/frame/run_inputs.hpp"
 
 namespace {

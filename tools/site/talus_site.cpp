@@ -13,9 +13,9 @@
 #include "base/text.hpp"
 #include "io/dataset_files_gdal.hpp"
 #include "tools/frame/file_paths.hpp"
+#include "tools/frame/options.hpp"
 #include "tools/frame/site_options.hpp"
 #include "tools/frame/site_stages.hpp"
-#include "tools/frame/tool.hpp"
 #include "tools/site/file_digests.hpp"
 
 namespace {

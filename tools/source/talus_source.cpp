@@ -9,10 +9,10 @@
 #include "base/text.hpp"
 #include "io/raster_gdal.hpp"
 #include "tools/frame/failure_plane_choice.hpp"
+#include "tools/frame/options.hpp"
 #include "tools/frame/site_crs.hpp"
 #include "tools/frame/site_options.hpp"
 #include "tools/frame/source_cut.hpp"
-#include "tools/frame/tool.hpp"
 
 namespace {
 

@@ -14,7 +14,7 @@
 #include "terrain/point_tin.hpp"
 #include "terrain/tin_mesh.hpp"
 #include "tools/frame/command_line.hpp"
-#include "tools/frame/tool.hpp"
+#include "tools/frame/options.hpp"
 #include "tools/frame/vector_inputs.hpp"
 #include "tools/tin/doubts.hpp"
 

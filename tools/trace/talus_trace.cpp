@@ -12,6 +12,7 @@
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/fault_json.hpp"
 #include "tools/frame/map_output.hpp"
+#include "tools/frame/options.hpp"
 #include "tools/frame/site_options.hpp"
 #include "tools/frame/site_places.hpp"
 #include "tools/trace/layers.hpp"
