@@ -162,6 +162,10 @@ CaseResult rolling_stop(const Settings& settings, int n_sides, double resistance
 /// R_e / (R cos(pi / n)): error by bisection [deg].
 CaseResult resisted_rolling_angle(const Settings& settings, int n_sides, double resistance);
 
+/// Cube on its edge, its weight off it: how far off it stands, in arms mu_r R_e; error by bisection
+/// of the one that is known, 1.
+CaseResult standing_on_edge(const Settings& settings, double resistance);
+
 /// Cube that pivots on its face at 10 rad/s without friction: relative error of the time to its
 /// stop.
 CaseResult pivoting_stop(const Settings& settings);
@@ -175,6 +179,9 @@ CaseResult scarring_creep(const Settings& settings, const GroundClass& ground);
 
 /// Slab at `speed` on the flat, friction 0.84 at rest and 0.11 at high speed: the same.
 CaseResult weakening_stop(const Settings& settings, double speed);
+/// The same slab on 20 degrees: relative error of the speed above which it runs away, at which
+/// friction is tan(20 degrees), 7.497 m/s.
+CaseResult weakening_runaway(const Settings& settings);
 
 /// Slab from rest on 40 degrees, friction 30 degrees, drag per time (0.6 1/s, 5 s) or per way (0.02
 /// 1/m, 10 s): relative error of its speed, by time or by way, and of its way.

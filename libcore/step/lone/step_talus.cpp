@@ -227,7 +227,7 @@ struct Advance {
     if (hit < s.h && !last) return shorten(hit, h);
     if (near.reach == Reach::below) report.flags = report.flags | StepFlag::fell_through;
     remember(c, s, solved, state, work, b, report);
-    end_soil(scene, b, s, t, system, work, state);
+    end_soil(scene, b, s, t, system, solved, work, state);
     if constexpr (Dof == 12) {
       state.strain[i()] += h / 2 * (state.strain_rate[i()] + system.velocity.template tail<6>());
       state.strain_rate[i()] = system.velocity.template tail<6>();
