@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "base/memory.hpp"
 #include "base/processor_time.hpp"
 #include "base/text.hpp"
 #include "post/reduce.hpp"
@@ -135,6 +136,16 @@ void check_leftover(Tool& tool, const Options& o) {
   if (!fs::exists(part_of(o)) || o.resume || tool.overwrite()) return;
   throw InputError({part_of(o)}, "is what a run that was stopped left behind",
                    "--resume goes on with it, --overwrite starts again");
+}
+
+// Frames and records of health stay in memory until the run ends.
+void ask_for_frames(const Scene& scene, const RunOptions& options, const Site& site) {
+  constexpr double bytes_per_block = 128, bytes_per_interval = 512;
+  const double n = options.duration / options.frame_interval;
+  require_memory(n * (bytes_per_block * n_blocks(scene) + bytes_per_interval),
+                 where_of(site, "output.frame_interval_s"),
+                 text(n, 3) + " frames of " + counted(n_blocks(scene), "block"),
+                 "set a longer frame_interval_s or a shorter duration_s");
 }
 
 // From the checkpoint when there is one and it is asked for, else from the beginning.
@@ -297,8 +308,9 @@ int main(int argc, char** argv) {
     const BlockSet blocks = inputs.parts.blocks;
     const Scene scene = make_site_scene(site, plan, std::move(inputs.parts));
     file.blocks = run_blocks(scene, blocks);
-    Runner runner =
-        runner_of(tool, scene, run_options(site, plan, o), inputs.lines, std::move(file), o);
+    const RunOptions options = run_options(site, plan, o);
+    ask_for_frames(scene, options, site);
+    Runner runner = runner_of(tool, scene, options, inputs.lines, std::move(file), o);
     compute(tool, runner, part_of(o), site.output.checkpoint_interval_s,
             site.solver.end_when_standing);
     write_outputs(tool, runner, site, scene.ground.trn, o);

@@ -39,6 +39,7 @@ struct ToolOptions {
   std::string progress = "auto";  ///< auto, plain, json or none
   std::string messages = "text";  ///< text or json
   bool network = false;           ///< may be used
+  double memory_mb = 0;           ///< most to take [MB]; 0: what is free
 };
 
 /// Adds the options of every tool to `app`, whose values go to `options`.

@@ -30,11 +30,15 @@ struct Options {
   double cell_size_m = std::numeric_limits<double>::quiet_NaN();
   talus::MapSettings settings;
   bool png = false;
-  double memory_mb = 2000, half_width = 0.05;
+  double half_width = 0.05;
+  const CLI::Option* memory = nullptr;  // --memory-mb, of every tool
   std::vector<std::string> creation_options;
 
   // Rows that may be held: each twice while they are sorted.
   [[nodiscard]] std::uint64_t most_rows() const {
+    constexpr double usual_mb = 2000;
+    const double given_mb = memory->count() > 0 ? memory->as<double>() : 0;
+    const double memory_mb = given_mb > 0 ? given_mb : usual_mb;
     return static_cast<std::uint64_t>(memory_mb * 1e6 / (2 * sizeof(talus::MapRow)));
   }
 };
@@ -51,9 +55,7 @@ void declare(Tool& tool, Options& o) {
       ->check(CLI::Range(20, 10000));
   tool.option("--seed", o.settings.seed, "of the bootstrap");
   tool.flag("--png", o.png, "a picture of each map over hillshade beside it");
-  tool.option("--memory-mb", o.memory_mb,
-              "for rows of passages [MB]; more of them are taken in several readings of the runs")
-      ->check(talus::number_between(1e-3, 1e7));
+  o.memory = tool.app().get_option("--memory-mb");
   tool.option("--half-width", o.half_width,
               "wanted of the interval of reach_probability: says how many runs to add")
       ->check(talus::number_between(1e-4, 0.5));
