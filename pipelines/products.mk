@@ -26,7 +26,7 @@ stages_made := tin trn blocks rock check run runs dda runout maps fence place pl
 made_patterns := thickness.qml rock/blocks_*[0-9].h5 rock/bed_*[0-9].tif rock/bed_*[0-9].tif.aux.xml runs/run_*[0-9].h5 runs/run_*[0-9].h5.part runs/run_*[0-9].h5.part.new \
   without/run_*[0-9].h5 without/run_*[0-9].h5.part without/run_*[0-9].h5.part.new \
   runs.sqlite runs.sqlite-wal runs.sqlite-shm runs.sqlite.late-* data.ok \
-  $(addsuffix .aux.xml,$(filter %.tif %.png,$(products))) $(hazard_patterns) $(trace_patterns) stages/class_*.list \
+  $(addsuffix .aux.xml,$(filter %.tif %.png,$(products))) $(hazard_patterns) $(trace_patterns) stages/class_*.list stages/class_*.list.there \
   $(foreach ending,txt flags files,$(stages_made:%=stages/%.$(ending))) \
   stages/runs.list stages/without.list stages/runs.list.there stages/without.list.there \
   shards/*-of-*.sqlite shards/*-of-*.sqlite-wal shards/*-of-*.sqlite-shm shards/*-of-*.sqlite.late-* \
