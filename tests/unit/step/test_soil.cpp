@@ -241,6 +241,37 @@ TEST(SoilHits, NoneGainsEnergyAndAllAreTheSameWhenRepeated) {
   EXPECT_GT(n_rolled, 3000);
 }
 
+// First hit of a cube in any attitude that falls on a plane, no restitution, friction 0.6: means of
+// the push over m v and of the energy kept are those of a computation of one contact.
+TEST(SoilHits, OfACubeInAnyAttitudeTakeTheirMeanShare) {
+  Random random(7, "attitudes");
+  const Polyhedron cube = box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5));
+  GroundClass ground;
+  ground.friction = 0.6;
+  Scene scene = scene_of(plane_trn(slope_frame(0, 0), 5, 50), ground,
+                         {body_of(moved(cube, Mat3::Identity(), Vec3::Zero(), Vec3(0, 0, 2)))}, {});
+  State state = start(scene);
+  Work work = make_work(scene);
+  constexpr int n = 20000;
+  double pushed = 0, kept = 0;
+  for (int i = 0; i < n; ++i) {
+    Motion motion = state.motion[0];
+    motion.pose.attitude =
+        Quat(random.normal(), random.normal(), random.normal(), random.normal()).normalized();
+    double lowest = 0;
+    for (const Vec3& v : cube.vertices) lowest = std::min(lowest, (motion.pose.attitude * v).z());
+    motion.pose.position = Vec3(0.3, 0.2, -lowest);
+    motion.velocity = Vec3(0, 0, -5);
+    motion.angular_momentum.setZero();
+    const double before = kinetic_energy(scene, 0, motion);
+    ASSERT_TRUE(apply_impact(scene, 0, 1e-9, {0.01, 0.01}, motion, work).hit) << i;
+    pushed += (motion.velocity.z() + 5) / 5;
+    kept += kinetic_energy(scene, 0, motion) / before;
+  }
+  EXPECT_NEAR(pushed / n, 0.794, 0.01);
+  EXPECT_NEAR(kept / n, 0.200, 0.01);
+}
+
 double balance_of(const Scene& scene, double duration, double& rolled, double& dragged) {
   State state = start(scene);
   Work work = make_work(scene);
