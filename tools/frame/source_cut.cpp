@@ -237,7 +237,10 @@ void warn_of_mass(Tool& tool, const BlocksWork& work, const MassMeasure& measure
   if (mass.area < least_share_covered(work) * mass.polygon_area)
     tool.warn("the mass covers " + text(100 * mass.area / mass.polygon_area, 3) +
               " % of the source polygon: elsewhere the failure surface does not lie below the "
-              "ground; check depth, plane or raster");
+              "ground; " +
+              (work.site.source.failure_surface == "daylighting"
+                   ? "is the polygon what is meant? Its outline may follow the mass"
+                   : "check depth, plane or raster"));
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (size_t v = 0; v < measure.vertices.size(); v += 2)  // on the ground, below it, and so on
     low = std::min(low, measure.vertices[v].z()), high = std::max(high, measure.vertices[v].z());
@@ -405,11 +408,11 @@ void cut_source(Tool& tool, bool exact, BlocksWork& work) {
   if (complex.n_uncut > 0)
     tool.warn(std::to_string(complex.n_uncut) + " cells could not be cut and stayed in one piece");
   if (work.cut.n_dropped > 0)
-    tool.warn(std::to_string(work.cut.n_dropped) + " slivers without a neighbour were left out, " +
-              text(work.cut.dropped_volume, 3) + " m3 in all");
+    tool.warn("left out, since they have no neighbour: " + counted(work.cut.n_dropped, "sliver") +
+              ", " + text(work.cut.dropped_volume, 3) + " m3 in all");
   if (work.cut.n_below_limits > 0)
-    tool.warn(std::to_string(work.cut.n_below_limits) +
-              " blocks are below the limits for slivers after they were made convex");
+    tool.warn("below the limits for slivers after they were made convex: " +
+              counted(work.cut.n_below_limits, "block"));
   if (work.cut.n_short_edged > 0)
     tool.warn(counted(work.cut.n_short_edged, "block") +
               " with edges of convex parts that are shorter than min_block_edge_m, between the "

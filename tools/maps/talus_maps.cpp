@@ -25,7 +25,7 @@ using talus::RunFile;
 using talus::Tool;
 
 struct Options {
-  std::string folder, compare_from;
+  std::string folder, compare_from, window_of;
   std::vector<std::string> compared;
   double cell_size_m = std::numeric_limits<double>::quiet_NaN();
   talus::MapSettings settings;
@@ -55,6 +55,8 @@ void declare(Tool& tool, Options& o) {
       ->check(CLI::Range(20, 10000));
   tool.option("--seed", o.settings.seed, "of the bootstrap");
   tool.flag("--png", o.png, "a picture of each map over hillshade beside it");
+  tool.input("--window-of", o.window_of,
+             "map of the same cells: pictures show what its picture shows");
   o.memory = tool.app().get_option("--memory-mb");
   tool.option("--half-width", o.half_width,
               "wanted of the interval of reach_probability: says how many runs to add")
@@ -290,7 +292,10 @@ void run_tool(Tool& tool, Options& o, talus::RunInputs& runs) {
 
   const std::string remark = runs.remark();
   const talus::MapTags tags = tags_of_maps(tool, o, runs, members, gathered, remark);
-  const talus::MapFrame frame = talus::map_frame(trn, grid, o.png, touched);
+  std::optional<talus::CellWindow> window;
+  if (!o.window_of.empty())
+    window = talus::window_of_map(o.window_of, grid, {"", 0, "--window-of"});
+  const talus::MapFrame frame = talus::map_frame(trn, grid, o.png, touched, window);
   WrittenMaps written = write_layers(tool, o, frame, layers, remark, tags);
   if (comparison) {
     const std::string path = file_of_layer(o, "compare");

@@ -139,16 +139,26 @@ void leave_out_fences(ResultFolder& folder, const Site& site, const std::string&
   }
 }
 
-void leave_out_maps(ResultFolder& folder, const std::string& run_set) {
-  if (!folder.has("maps")) return;
+// Maps of a folder that are of other runs than these.
+void leave_out_maps(ResultFolder& folder, const std::string& maps, const std::string& run_set) {
+  if (!folder.has(maps)) return;
   std::set<std::string> others;
-  for (const auto& entry : fs::directory_iterator(folder.path("maps"))) {
+  for (const auto& entry : fs::directory_iterator(folder.path(maps))) {
     const std::string file = entry.path().filename().string();
     if (!file.ends_with(".tif") || file[0] == '.') continue;
-    if (origin_of(folder, "maps/" + file).run_set == run_set) continue;
-    for (const std::string& name : with_sidecars("maps/" + file)) others.insert(name);
+    if (origin_of(folder, maps + "/" + file).run_set == run_set) continue;
+    for (const std::string& name : with_sidecars(maps + "/" + file)) others.insert(name);
   }
   folder.leave_out({others.begin(), others.end()}, of_other_runs);
+}
+
+// The ids of the runs of each case.
+std::map<std::string, std::vector<std::string>> ids_by_case(const Json& runout) {
+  std::map<std::string, std::vector<std::string>> ids;
+  for (const Json& run : runout.at("runs"))
+    if (const std::string name = text_at(run, "/case"); !name.empty())
+      ids[name].push_back(run["run_id"].get<std::string>());
+  return ids;
 }
 
 // Classes and traces of other runs, or of a site file that no longer has them.
@@ -194,7 +204,13 @@ void leave_out_tin(ResultFolder& folder) {
 void leave_out_others(ResultFolder& folder, const Site& site, const Json& runout) {
   const std::string run_set = run_set_id(ids_of(runout));
   leave_out_fences(folder, site, run_set);
-  leave_out_maps(folder, run_set);
+  leave_out_maps(folder, "maps", run_set);
+  for (const auto& [name, ids] : ids_by_case(runout)) {
+    const std::string of_case = run_set_id(ids), fence = "fences/" + name + "/fence.json";
+    leave_out_maps(folder, "maps/" + name, of_case);
+    if (folder.has(fence) && (site.fences.empty() || origin_of(folder, fence).run_set != of_case))
+      folder.leave_out({fence}, site.fences.empty() ? "the site has no fences" : of_other_runs);
+  }
   leave_out_hazard(folder, site, run_set);
   leave_out_places(folder, site, run_set);
   leave_out_tin(folder);

@@ -56,6 +56,11 @@ CaseResult thin_plate(const Settings& settings);
 /// below 0 for what collisions cost.
 CaseResult collision(const Settings& settings, double restitution);
 
+/// Sixteen columns that dip into the slope, on a stepped base, as Goodman and Bray (1976) have
+/// them: the friction angle from which the toe stands without help, by bisection: error [deg].
+/// Expected: their limit equilibrium, 38.146 degrees.
+CaseResult columns_topple(const Settings& settings);
+
 /// Row of 14 upright plates of which the first is pushed: relative error of the time that the wave
 /// takes from the fourth to the twelfth. Against angles alone, rigid, contacts by projected
 /// Gauss-Seidel at steps of 2e-5 s.
