@@ -1,4 +1,5 @@
-// What sections of a site file say, as a digest of their effective values (site/section_digest.hpp).
+// What sections of a site file say, as a digest of their effective values
+// (site/section_digest.hpp).
 #include <algorithm>
 #include <filesystem>
 
@@ -13,7 +14,8 @@ bool is_in(const std::string& section, const std::string& wanted) {
 }
 
 std::string without_quotes(const std::string& value) {
-  return value.size() > 1 && value.front() == '"' ? value.substr(1, value.size() - 2) : value;
+  const bool is_quoted = value.size() > 1 && (value.front() == '"' || value.front() == '\'');
+  return is_quoted ? value.substr(1, value.size() - 2) : value;
 }
 
 // Of a file that a value names; "" where it names none.

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <limits>
 
+#include "base/memory.hpp"
 #include "base/text.hpp"
 #include "site/section_digest.hpp"
 #include "tools/frame/build_info.hpp"
@@ -174,6 +175,7 @@ void warn_of_elsewhere(Tool& tool, const HazardSources& sources) {
 }
 
 void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& runs) {
+  limit_memory(0);  // --memory-mb is for rows alone; the rest needs what is free
   const Site& site = site_options.load();
   const std::vector<HazardClass> classes = hazard_classes(site);
   const Recipe recipe = read_recipe(tool, site);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "base/memory.hpp"
 #include "base/text.hpp"
 #include "post/maps/compare.hpp"
 #include "post/maps/map_layers.hpp"
@@ -274,6 +275,7 @@ WrittenMaps write_layers(Tool& tool, const Options& o, const talus::MapFrame& fr
 }
 
 void run_tool(Tool& tool, Options& o, talus::RunInputs& runs) {
+  talus::limit_memory(0);  // --memory-mb is for rows alone; the rest needs what is free
   const talus::Trn& trn = runs.trn();
   for (const std::string& path : talus::listed_files(o.compare_from)) {
     tool.read_also("compare", path);
