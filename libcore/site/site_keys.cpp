@@ -166,6 +166,7 @@ template <> const std::vector<SiteKey<SolverSettings>>& keys_of() {
       {"time_step_s", &S::time_step_s, "time step, which law talus cuts where it must; not given: 0.005, law paper 0.0001", {0, 1, true, false}},
       {"min_time_step_s", &S::min_time_step_s, "smallest time step", {0, 1, true, false}},
       {"max_time_step_s", &S::max_time_step_s, "largest time step", {0, 1, true, false}},
+      {"accuracy", &S::accuracy, "law talus: error of the way of what moves, as a share; a step whose estimate is larger is cut", {0, 1, true, false}},
       {"gravity_m_s2", &S::gravity_m_s2, "gravity, downwards", {0, 1000}},
       {"normal_stiffness_n_m", &S::normal_stiffness_n_m, "penalty stiffness of a contact", positive},
       {"shear_stiffness_ratio", &S::shear_stiffness_ratio, "shear over normal stiffness", {0, 10, true, false}},

@@ -86,6 +86,10 @@ CaseResult rocking_ratio(const Settings& settings);
 /// for 10 s (Newmark's sliding block): relative error of the displacement, 3.196940 m.
 CaseResult shaken_block(const Settings& settings);
 
+/// Slab on the flat, friction 15 degrees, base motion 4 sin(2 pi 0.7 (t - 0.3)) m/s2 at 60 degrees
+/// east of north from 0.3 to 2.7 s: error of its way after 4 s along and across that, over the way.
+CaseResult harmonic_slide(const Settings& settings);
+
 /// Block of 0.2 m sliding down a slope that eases from 27 to 23 degrees, friction 25 degrees:
 /// relative error of the run-out L = H / tan(phi) (energy line; the curve's own friction is below
 /// 0.2 %).

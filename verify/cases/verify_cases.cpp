@@ -5,6 +5,7 @@
 #include "base/text.hpp"
 #include "verify/cases/block_cases.hpp"
 #include "verify/cases/case_run.hpp"
+#include "verify/cases/pile_scenes.hpp"
 #include "verify/cases/stem_case.hpp"
 
 namespace talus {
@@ -422,6 +423,151 @@ std::vector<VerifyCase> block_cases() {
   };
 }
 
+// What happens within a step, at its time.
+std::vector<VerifyCase> event_cases() {
+  return {
+      {.name = "rolling_64",
+       .claim = "a prism of 64 sides rolls down 5 degrees from rest, 2 s",
+       .reference = "pivot, plastic hit, next pivot",
+       .norm = "of the way, largest",
+       .test = "Events.PrismsRollHitByHit",
+       .bound = 1e-3,
+       .run =
+           [](const Settings& s) {
+             return prism_rolls(s, {64, 5, 0}, 2);
+           },
+       .shortest_strained_dt = 1},
+      {.name = "bounces_on_slope",
+       .claim = "a slab falls flat on 20 degrees at COR 0.8 and friction 25 degrees, all bounces",
+       .reference = "closed form",
+       .norm = "relative",
+       .test = "Events.AFlatSlabBouncesDownASlope",
+       .bound = 1e-3,
+       .run = [](const Settings& s) { return bouncing_slab(s, 0.8); }},
+      {.name = "top",
+       .claim = "a top of twelve sides spins on its tip at 60 rad/s, 3 s",
+       .reference = "Lagrange's top, integrated",
+       .norm = "degrees",
+       .test = "Events.ATopNutates",
+       .bound = 0.1,
+       .run = [](const Settings& s) { return spinning_top(s, 60); },
+       .shortest_strained_dt = 1},
+      {.name = "lifted",
+       .claim = "the ground drops away from a slab at twice gravity, stops, and is met again",
+       .reference = "closed form",
+       .norm = "of the largest height",
+       .test = "Events.DroppingGroundLetsGoInTheMiddleOfAStep",
+       .bound = 1e-3,
+       .run = lifted_slab},
+      {.name = "harmonic",
+       .claim = "a slab slides on the flat in a harmonic motion at 60 degrees to east, 4 s",
+       .reference = "Newmark's sliding block, integrated",
+       .norm = "relative",
+       .test = "Events.AHarmonicMotionSlidesASlab",
+       .bound = 1e-3,
+       .run = harmonic_slide},
+      {.name = "over_edge",
+       .claim = "a slab slides over the edge of a cliff at 3 m/s and tips, 1.5 s",
+       .reference = "integrated closed form",
+       .norm = "m",
+       .test = "Events.ASlabTipsOverAnEdge",
+       .bound = 1e-3,
+       .run = slab_over_edge},
+      {.name = "border",
+       .claim = "a slab slides from friction 10 onto friction 22 degrees, 1.6 s",
+       .reference = "integrated closed form",
+       .norm = "relative",
+       .test = "Events.FrictionChangesWhereTheBorderIs",
+       .bound = 1e-4,
+       .run = border_slide},
+  };
+}
+
+std::vector<VerifyCase> contact_cases() {
+  const auto of_blocks = [](int n, VerifyCase c) {
+    c.n_blocks = n;
+    c.paper_dt = {1e-2, 1e-3};
+    return c;
+  };
+  return {
+      of_blocks(8, {.name = "tower_topples",
+                    .claim = "eight cubes topple at 1.05 of their angle, time to 0.2 rad",
+                    .reference = "one rigid column, integrated",
+                    .norm = "relative",
+                    .test = "Piles.TowerTopplesWhenARigidOneDoes",
+                    .bound = 0.01,
+                    .run = tower_topples}),
+      of_blocks(16, {.name = "twin_towers",
+                     .claim = "two towers of eight cubes side by side stand at 0.97 of that, 2 s",
+                     .reference = "rest",
+                     .norm = "of a side",
+                     .test = "Piles/PileStands.UpToTheAngleOfARigidOne",
+                     .bound = 1e-3,
+                     .run =
+                         [](const Settings& s) {
+                           return pile_moves(s, {.across = 2, .high = 8, .share = 0.97}, 2);
+                         }}),
+      of_blocks(
+          10,
+          {.name = "stack_of_1_cm",
+           .claim = "ten cubes of 1 cm on each other sag by no more, 1 s",
+           .reference = "rest",
+           .norm = "of a side",
+           .test = "Sides/Sag.OfAStackOfTenIsAPartOfItsSide",
+           .bound = 1e-4,
+           .run = [](const Settings& s) { return pile_moves(s, {.high = 10, .side = 0.01}, 1); }}),
+      of_blocks(2, {.name = "tumbling_pairs",
+                    .claim = "cubes that tumble at up to 14 rad/s and meet return COR 0.9",
+                    .reference = "what momentum and angular momentum say",
+                    .norm = "COR, worst hit",
+                    .test = "Hits.EveryHitOfATumblingPairReturnsItsRestitution",
+                    .bound = 0.01,
+                    .run = [](const Settings& s) { return tumbling_pairs(s, 0.9); }}),
+      of_blocks(2, {.name = "borne_slab",
+                    .claim = "a cube rebounds from a slab that the ground bears, COR 0.7",
+                    .reference = "hits in turn in one dimension",
+                    .norm = "relative",
+                    .test = "Hits.ACubeReboundsFromABorneSlabAsHitByHit",
+                    .bound = 0.01,
+                    .run = borne_slab}),
+      of_blocks(5, {.name = "unequal_row",
+                    .claim = "five unequal blocks in a row pass a hit on at COR 0.9",
+                    .reference = "event by event in one dimension",
+                    .norm = "of the speed of the first",
+                    .test = "Hits.AnUnequalRowPassesItsHitsOnInOrder",
+                    .bound = 0.01,
+                    .run = unequal_row}),
+      of_blocks(6, {.name = "plastic_row",
+                    .claim = "six cubes in a row hit and go on together",
+                    .reference = "momentum",
+                    .norm = "relative",
+                    .test = "Hits.APlasticPileUpStaysTogether",
+                    .bound = 1e-3,
+                    .run = plastic_row}),
+      of_blocks(8, {.name = "elastic_bowl",
+                    .claim = "eight elastic cubes in a bowl keep their energy, 4 s",
+                    .reference = "conservation",
+                    .norm = "relative",
+                    .test = "Hits.ElasticBoxesInABowlKeepTheirEnergy",
+                    .bound = 0.01,
+                    .run = elastic_bowl}),
+      of_blocks(2, {.name = "parts_on_ridge",
+                    .claim = "a plate of two parts rests on a ridge of 20 degrees, 1 s",
+                    .reference = "rest",
+                    .norm = "of its size",
+                    .test = "PartsOnRidges.APlateOfTwoPartsDoesNotSinkIn",
+                    .bound = 1e-4,
+                    .run = [](const Settings& s) { return parts_on_ridge(s, 10); }}),
+      of_blocks(2, {.name = "parts_land_flat",
+                    .claim = "a slab of two parts falls flat with friction and stays flat",
+                    .reference = "symmetry",
+                    .norm = "of the speed of the hit",
+                    .test = "Verify/EachCase.IsWithinItsBound",
+                    .bound = 1e-3,
+                    .run = parts_land_flat}),
+  };
+}
+
 // What a method changes of the settings of its law.
 struct Change {
   double stiffness = 0;
@@ -475,8 +621,10 @@ void add_full_study(const VerifyCase& c, std::vector<Method>& methods) {
 const std::vector<VerifyCase>& verify_cases() {
   static const std::vector<VerifyCase> list = [] {
     std::vector<VerifyCase> all = single_block_cases();
+    for (VerifyCase& c : event_cases()) all.push_back(std::move(c));
     for (VerifyCase& c : soil_cases()) all.push_back(std::move(c));
     for (VerifyCase& c : block_cases()) all.push_back(std::move(c));
+    for (VerifyCase& c : contact_cases()) all.push_back(std::move(c));
     return all;
   }();
   return list;
