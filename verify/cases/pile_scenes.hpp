@@ -80,11 +80,11 @@ struct Pile {
 /// angle since the start, q'' = g R sin(q + q_0) / (i^2 + R^2), in steps so short that the midpoint
 /// rule is exact to 1e-6.
 [[nodiscard]] inline double rigid_topple_time(const Pile& pile, double angle) {
-  const double half = pile.side / 2, middle = half * pile.high, g = 10;
+  const double half = pile.side / 2, middle = half * pile.high, gravity = 10;
   const double square = (half * half + middle * middle) / 3;  // of the radius of gyration
   const double arm_sq = half * half + middle * middle;
   const double lean = dip_of(pile) - std::atan(half / middle);  // of the centroid over the edge
-  const double rate = g * std::sqrt(arm_sq) / (square + arm_sq), dt = 1e-5;
+  const double rate = gravity * std::sqrt(arm_sq) / (square + arm_sq), dt = 1e-5;
   double q = 0, speed = 0, time = 0;
   while (q < angle) {
     speed += dt * rate * std::sin(lean + q + dt / 2 * speed);
