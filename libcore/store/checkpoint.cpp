@@ -15,7 +15,7 @@ namespace talus {
 
 static_assert(sizeof(Motion) == 112 && sizeof(EnergyLedger) == 72 && sizeof(RunCounters) == 64);
 static_assert(sizeof(ContactMemory) == 136 &&
-              sizeof(HealthRow) == 200 + 8 * substep_cut_names.size());
+              sizeof(HealthRow) == 208 + 8 * substep_cut_names.size());
 static_assert(sizeof(State) == 8 + 22 * 24 + sizeof(EnergyLedger) + sizeof(RunCounters) +
                                    sizeof(PairState) + sizeof(PlacedHulls) + sizeof(FenceState) +
                                    sizeof(YieldingState) + sizeof(Mishaps));
