@@ -139,7 +139,7 @@ struct SolverSettings {
   double cor = not_given;              ///< overrides those of materials and ground
   std::string strain = "auto";
   bool end_when_standing = true;  ///< a run in which nothing moves ends after some seconds
-  double accuracy = 0.005;  ///< of the way of what moves: see Settings
+  double accuracy = 0.005;        ///< of the way of what moves: see Settings
   std::int64_t max_passes = 50;
   std::int64_t seed = 1, n_runs = 1;
   double start_jitter_m_s = 0;
