@@ -26,6 +26,7 @@ struct QgisProject {
   std::array<double, 4> extent{};         ///< x_min, y_min, x_max, y_max of the layout's map [m]
   std::vector<std::string> layout_lines;  ///< below the layout's title: what the map rests on
   std::vector<QgisLayer> layers;          ///< top to bottom
+  bool is_edited = false;                 ///< layers of it are: new corners snap to those there are
 };
 
 /// Throws nothing; text is escaped. The layout takes the date when it is printed.
