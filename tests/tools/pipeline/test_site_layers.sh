@@ -28,9 +28,16 @@ shown drawn/out/fence.gpkg >found
 cmp -s expected found || fail "the fence lies elsewhere"
 [ -s found ] || fail "there is no fence"
 
-# looked at, touched, packed anew, a style or a remark written: nothing is made again
+# looked at, touched, packed anew, a style or a remark written: nothing is made again, and ids stay
+id_of_source() {
+  expect 0 talus-source drawn/site.toml --trn drawn/out/trn.tif -o source.json --overwrite --db ids.sqlite
+  sqlite3 ids.sqlite "SELECT content_id FROM run ORDER BY id DESC LIMIT 1"
+}
+before=$(id_of_source)
 edit drawn "UPDATE fences SET remark = 'moved last year'"
+edit drawn "UPDATE source SET remark = 'drawn anew'"
 edit drawn "VACUUM"
+[ "$(id_of_source)" = "$before" ] || fail "a remark makes another run id"
 made drawn -n fence
 if grep -q '^talus-' out; then fail "no value changed, and make would start a tool"; fi
 

@@ -21,3 +21,11 @@ TEST(QgisProject, LetsNoWordsOfOthersBeEvaluated) {
     ++n_expressions;
   EXPECT_EQ(n_expressions, 1u);  // the date of printing
 }
+
+TEST(QgisProject, SnapsWhereItsLayersAreEdited) {
+  QgisProject project;
+  project.extent = {0, 0, 100, 100};
+  EXPECT_EQ(qgis_project_xml(project).find("<snapping-settings"), std::string::npos);
+  project.is_edited = true;
+  EXPECT_NE(qgis_project_xml(project).find("<snapping-settings enabled=\"1\""), std::string::npos);
+}
