@@ -140,6 +140,7 @@ struct SolverSettings {
   double cor = not_given;              ///< overrides those of materials and ground
   std::string strain = "auto";
   bool end_when_standing = true;  ///< a run in which nothing moves ends after some seconds
+  double accuracy = 0.005;        ///< of the way of what moves: see Settings
   std::int64_t max_passes = 50;
   std::int64_t seed = 1, n_runs = 1;
   double start_jitter_m_s = 0;
@@ -328,6 +329,7 @@ struct Site {
   std::string file;         ///< path as given
   std::string folder;       ///< of the file; relative paths in it start there
   std::string layers_file;  ///< that sections were taken from, as SiteInfo::layers says it
+  std::map<std::string, std::string> layer_digests;  ///< "fence.valley" -> of its features there
   SiteInfo info;
   TerrainSettings terrain;
   SourceSettings source;

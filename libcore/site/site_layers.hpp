@@ -33,6 +33,7 @@ struct LayerSection {
   std::string group, name;  ///< "fence", "valley"; name is empty for [source]
   std::string place;        ///< "site.gpkg, layer fences, feature 2": for messages
   std::vector<Value> values;
+  std::string digest = {};  ///< of the features
 };
 
 /// Takes sections in, behind those of the site file. Throws InputError as read_site(), and for a

@@ -187,9 +187,9 @@ template <class Archive>
 void fields(Fields<Archive>& archive, HealthRow& row) {
   archive(row.time, row.shortest_dt, row.steps, row.substeps, row.passes, row.flips, row.impacts,
           row.unconverged, row.left_domain, row.fell_through, row.not_finite,
-          row.largest_penetration, row.translation, row.rotation, row.potential, row.elastic,
-          row.friction, row.impact, row.contact, row.base, row.fence, row.rolling, row.drag,
-          row.breakage, row.removed);
+          row.largest_penetration, row.largest_error, row.translation, row.rotation, row.potential,
+          row.elastic, row.friction, row.impact, row.contact, row.base, row.fence, row.rolling,
+          row.drag, row.breakage, row.removed);
   for (std::int64_t& n : row.cuts) archive(n);
 }
 template <class Archive>
@@ -200,7 +200,7 @@ void fields(Fields<Archive>& archive, Checkpoint& checkpoint) {
 
 namespace {
 
-constexpr std::uint64_t format = 0x31316b6365686374;  // "tcheck11"
+constexpr std::uint64_t format = 0x32316b6365686374;  // "tcheck12"
 constexpr std::size_t digest_length = 64;
 
 std::string digest_of(std::span<const std::uint8_t> bytes) {

@@ -61,9 +61,11 @@ struct Reader {
     for (LayerSection& section : sections)
       if (section.name == name) return section;
     LayerSection section{layer.section, name, place, {}};
+    const std::string filter = name.empty() ? "" : "name = '" + name + "'";
+    section.digest = digest_of_features(resolved(site, site.info.layers), layer.name, filter);
     section.values.push_back({layer.prefix + "file", site.info.layers});
     section.values.push_back({layer.prefix + "layer", layer.name});
-    if (!name.empty()) section.values.push_back({layer.prefix + "where", "name = '" + name + "'"});
+    if (!filter.empty()) section.values.push_back({layer.prefix + "where", filter});
     sections.push_back(std::move(section));
     return sections.back();
   }

@@ -1,5 +1,5 @@
 // tools/frame/site_options.hpp
-// The site file as every tool that reads one takes it: the file, the layers that stand for
+// The site file as every tool that reads one takes it: the file, layers that stand for its
 // sections,
 // --set, and what --print-config shows.
 #pragma once
@@ -13,8 +13,8 @@
 #include "site/soils.hpp"
 #include "site/uncertainty.hpp"
 #include "tools/frame/command_line.hpp"
+#include "tools/frame/options.hpp"
 #include "tools/frame/site_layers.hpp"
-#include "tools/frame/tool.hpp"
 
 namespace talus {
 

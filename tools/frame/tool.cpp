@@ -1,5 +1,3 @@
-#include "tools/frame/tool.hpp"
-
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -13,12 +11,14 @@
 #include <iostream>
 #include <set>
 
+#include "base/memory.hpp"
 #include "base/network.hpp"
 #include "base/text.hpp"
 #include "store/runs.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/exit_code.hpp"
 #include "tools/frame/file_paths.hpp"
+#include "tools/frame/options.hpp"
 #include "tools/frame/output_checks.hpp"
 #include "tools/frame/progress_line.hpp"
 #include "tools/frame/run_record.hpp"
@@ -35,6 +35,16 @@ std::string one_line(std::string words) {
   std::replace_if(
       words.begin(), words.end(), [](char c) { return c == '\n' || c == '\t'; }, ' ');
   return words;
+}
+
+// A file that --failures may replace or remove: none yet, or such a list.
+bool may_hold_failures(const std::string& path) {
+  std::error_code error;
+  if (!fs::exists(path, error)) return !error;
+  std::ifstream file(path);
+  std::string word;
+  return fs::is_regular_file(path, error) &&
+         (!std::getline(file, word, '\t') || word == "kept" || word == "none");
 }
 
 // The value of an option on a command line that could not be parsed; "" where it is not there.
@@ -149,6 +159,9 @@ struct Tool::Impl {
   }
 
   void begin(int argc, char** argv) {
+    if (!options.failures.empty() && !may_hold_failures(options.failures))
+      throw InputError({options.failures}, "is something else than a list of failures",
+                       "name a file for --failures that may be replaced");
     begin_record(name, command_text(argc, argv), record);
     for (const ConfigValue& value : settings_of(app, options))
       record.params.push_back({value.key, value.value, value.source});
@@ -168,6 +181,9 @@ struct Tool::Impl {
     } catch (const RegistryBusy& error) {
       is_late = true;
       say(warning_level, std::string(error.what()) + "; the run is recorded when it has ended");
+    } catch (const InputError&) {  // none, nor will it be one at the end
+      registered = false;
+      throw;
     }
     record.content_id.clear();  // the body may name further inputs
   }
@@ -287,7 +303,7 @@ struct Tool::Impl {
 
   // For who started many runs and lists what became of them.
   void write_failures(int code) {
-    if (options.failures.empty()) return;
+    if (options.failures.empty() || !may_hold_failures(options.failures)) return;
     std::error_code error;
     fs::remove(options.failures, error);
     if (code == done) return;
@@ -311,6 +327,9 @@ struct Tool::Impl {
       return fail(stopped, "interrupted", "");
     } catch (const std::bad_alloc&) {
       return fail(input_unusable, "out of memory", "give it more memory, or a smaller window");
+    } catch (const fs::filesystem_error& error) {  // a link to itself, a name that is too long
+      return fail(input_unusable,
+                  InputError({error.path1().string()}, error.code().message()).what(), "");
     } catch (const std::exception& error) {
       return fail(input_unusable, std::string("unexpected: ") + error.what(), "");
     }
@@ -383,6 +402,10 @@ void Tool::json_output(std::string& path, const std::string& help) {
   option->default_str("");
   impl_->options.json_path = &path;
   impl_->options.json_option = option;
+}
+
+CLI::Option* Tool::flag(const std::string& name, bool& value, const std::string& help) {
+  return app().add_flag(name, value, help);
 }
 
 void Tool::footer(const std::string& text) { app().footer(text); }
@@ -522,6 +545,8 @@ int Tool::run(int argc, char** argv, const std::function<void()>& body) {
     return usage_wrong;
   }
   if (impl.options.network) allow_network();
+  constexpr double megabyte = 1e6;
+  limit_memory(impl.options.memory_mb * megabyte);
   listen_for_signals();
   impl.progress_line.label(impl.options.label);
   impl.progress_line.form(progress_form(impl.options.progress, isatty(STDERR_FILENO) == 1,

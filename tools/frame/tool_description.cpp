@@ -4,6 +4,7 @@
 
 #include "base/text.hpp"
 #include "tools/frame/build_info.hpp"
+#include "tools/frame/options.hpp"
 
 namespace talus {
 namespace {

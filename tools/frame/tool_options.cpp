@@ -5,7 +5,9 @@
 
 #include "base/text.hpp"
 #include "tools/frame/build_info.hpp"
+#include "tools/frame/command_line.hpp"
 #include "tools/frame/file_paths.hpp"
+#include "tools/frame/options.hpp"
 
 namespace talus {
 namespace {
@@ -55,6 +57,11 @@ void add_common_options(const std::string& tool, CLI::App& app, ToolOptions& opt
         app.add_option("--describe", options.describe,
                        "print what the tool takes and gives, for programs that call it, then end")
             ->check(CLI::IsMember({"json"})),
+        app.add_option("--memory-mb", options.memory_mb,
+                       "most memory to take [MB]; more is refused before it is taken; 0: what is "
+                       "free on this machine")
+            ->check(number_between(0, 1e9))
+            ->capture_default_str(),
         app.add_flag("--print-config", options.print_config,
                      "print the effective settings and where each came from, then end")}) {
     option->group("Common options");

@@ -26,6 +26,8 @@ struct ReportData {
   Trn terrain, bed;  ///< before the slide; what the blocks slide on
   std::string hillshade_png, mobility_svg, stereonet_svg, sizes_svg, curves_csv, change_png;
   std::vector<MapPicture> maps;
+  CasePictures case_maps;                                        ///< of several cases
+  std::vector<std::pair<std::string, Json>> case_fences;         ///< the same, as `fence`
   std::vector<std::pair<std::string, std::string>> hazard_pngs;  ///< name of the map, picture
   std::vector<RunFile> runs;  ///< info and health, by seed and name; frames left out    (n_runs)
   std::vector<std::string> run_names;  ///< "1", or "CASE_1"                            (n_runs)

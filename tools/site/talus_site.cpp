@@ -14,9 +14,9 @@
 #include "io/dataset_files_gdal.hpp"
 #include "io/feature_tables_gdal.hpp"
 #include "tools/frame/file_paths.hpp"
+#include "tools/frame/options.hpp"
 #include "tools/frame/site_options.hpp"
 #include "tools/frame/site_stages.hpp"
-#include "tools/frame/tool.hpp"
 #include "tools/site/file_digests.hpp"
 #include "tools/site/new_layers.hpp"
 

@@ -1,4 +1,4 @@
-// tests/unit/step/pile_scenes.hpp
+// verify/cases/pile_scenes.hpp
 // Piles of equal cubes, face on face and side by side, on a slope.
 #pragma once
 
@@ -10,7 +10,7 @@
 #include "step/step.hpp"
 #include "verify/cases/cases.hpp"
 
-namespace talus::test {
+namespace talus::cases {
 
 /// On a dip of `share` of that at which a column of the pile topples, atan(1 / high).
 struct Pile {
@@ -26,9 +26,7 @@ struct Pile {
   return pile.share * std::atan(1.0 / pile.high);
 }
 
-[[nodiscard]] inline Scene scene_of_pile(const Pile& pile) {
-  using namespace talus::cases;
-  Settings settings;
+[[nodiscard]] inline Scene scene_of_pile(const Pile& pile, Settings settings = {}) {
   settings.dt = pile.step;
   settings.sleep = false;
   const SlopeFrame frame = slope_frame(dip_of(pile) * 180 / std::numbers::pi, 30);
@@ -96,4 +94,4 @@ struct Pile {
   return time;
 }
 
-}  // namespace talus::test
+}  // namespace talus::cases
