@@ -291,6 +291,11 @@ std::string layout_xml(const QgisProject& project) {
   return out + "</Layout>\n";
 }
 
+// To corners of all layers, 12 pixels around the cursor.
+constexpr const char* snapping =
+    R"(<snapping-settings enabled="1" type="1" mode="2" tolerance="12" unit="1" intersection-snapping="0" self-snapping="0" scaleDependencyMode="0" minScale="0" maxScale="0"><individual-layer-settings/></snapping-settings>
+)";
+
 }  // namespace
 
 std::string qgis_project_xml(const QgisProject& project) {
@@ -300,6 +305,7 @@ std::string qgis_project_xml(const QgisProject& project) {
       xml_escaped(project.title) + "\">\n<homePath path=\"\"/>\n<title>" +
       xml_escaped(project.title) + "</title>\n<projectCrs>" + crs_xml(project) + "</projectCrs>\n" +
       metadata_xml(project, "projectMetadata", project.title) + layer_tree(project) +
+      (project.is_edited ? snapping : "") +
       "<mapcanvas name=\"theMapCanvas\"><units>meters</units><extent><xmin>" +
       text(project.extent[0]) + "</xmin><ymin>" + text(project.extent[1]) + "</ymin><xmax>" +
       text(project.extent[2]) + "</xmax><ymax>" + text(project.extent[3]) +

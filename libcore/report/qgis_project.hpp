@@ -27,6 +27,7 @@ struct QgisProject {
   std::vector<std::string> layout_lines;  ///< below the layout's title: what the map rests on
   double contour_interval = 0;            ///< of layers of that kind [m]
   std::vector<QgisLayer> layers;          ///< top to bottom
+  bool is_edited = false;                 ///< layers of it are: new corners snap to those there are
 };
 
 /// Throws nothing; text is escaped. The layout takes the date and the scale when it is printed, and

@@ -10,8 +10,8 @@
 
 namespace talus {
 
-/// Of the effective values of `sections` ("object" stands for all [object.*]) and of the bytes of
-/// the files that they name.
+/// Of the effective values of `sections` ("object" stands for all [object.*]), of the bytes of the
+/// files that they name, and of the features of layers that stand for them (site_layers.hpp).
 [[nodiscard]] std::string section_digest(const Site& site,
                                          const std::vector<std::string>& sections);
 

@@ -22,6 +22,7 @@ std::string without_quotes(const std::string& value) {
 std::string digest_of_file(const Site& site, const EffectiveValue& entry) {
   if (!entry.key.ends_with("file") && entry.key != "recipe") return "";
   const std::string name = without_quotes(entry.value);
+  if (name == site.layers_file) return "";  // its features count, below
   const std::string path = resolved(site, name.substr(0, name.find('|')));
   std::error_code error;
   return !name.empty() && std::filesystem::is_regular_file(path, error) ? sha256_of_file(path) : "";
@@ -40,6 +41,10 @@ std::string section_digest(const Site& site, const std::vector<std::string>& sec
                              digest_of_file(site, entry) + "\n";
     hash.add(line.data(), line.size());
   }
+  for (const auto& [section, digest] : site.layer_digests)
+    if (std::any_of(sections.begin(), sections.end(),
+                    [&](const std::string& wanted) { return is_in(section, wanted); }))
+      hash.add(digest.data(), digest.size());
   return hash.hex().substr(0, 16);
 }
 

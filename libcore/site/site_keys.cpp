@@ -28,7 +28,8 @@ template <> const std::vector<SiteKey<SiteInfo>>& keys_of() {
   static const std::vector<SiteKey<S>> table = {
       {"name", &S::name, "name of the site"},
       {"crs", &S::crs, "coordinate system of the coordinates in this file, e.g. EPSG:31287"},
-      {"description", &S::description, "free text"}};
+      {"description", &S::description, "free text"},
+      {"layers", &S::layers, "GeoPackage whose layers stand for sections: source, fences, grounds, objects, forest, release points, places"}};
   return table;
 }
 template <> const std::vector<SiteKey<TerrainSettings>>& keys_of() {

@@ -24,6 +24,7 @@
 #include "tools/frame/run_record.hpp"
 #include "tools/frame/staged_files.hpp"
 #include "tools/frame/stop_signals.hpp"
+#include "tools/frame/tool_description.hpp"
 #include "tools/frame/tool_options.hpp"
 
 namespace talus {
@@ -65,9 +66,15 @@ void occupy_standard_files() {
       static_cast<void>(open("/dev/null", O_RDWR));
 }
 
+// Thrown while words are parsed, before it is asked whether all that is needed is there.
+struct CallForDescription : CLI::Success {};
+
 // The levels of messages. A hint belongs to the error before it.
 constexpr const char *info_level = "info", *warning_level = "warning", *error_level = "error",
                      *hint_level = "hint";
+
+// The role, in the registry, of a file that does not count by its bytes.
+constexpr const char* by_content_role = "by content";
 
 }  // namespace
 
@@ -82,6 +89,7 @@ struct Tool::Impl {
   RunRecord record;
   std::vector<std::string> check_hints;  // of record.checks
   RunIdParts id_parts;
+  std::set<std::string> by_content;  // files of read_by_content()
   Json result;
   Json layers_read = Json::array();
   std::string summary;
@@ -128,6 +136,7 @@ struct Tool::Impl {
 
   void add_input(const std::string& role, const std::string& path) {
     const std::string file = file_of(path);
+    if (role != by_content_role && by_content.contains(absolute_path(file))) return;
     if (!is_virtual(file) && !fs::exists(file_behind(file)))
       throw InputError({file}, "there is no such file", "check the path given for " + role);
     record.inputs.push_back(artifact_of(role, file));
@@ -349,6 +358,9 @@ struct Tool::Impl {
 Tool::Tool(std::string name, std::string purpose)
     : impl_(std::make_unique<Impl>(std::move(name), std::move(purpose))) {
   add_common_options(impl_->name, impl_->app, impl_->options);
+  impl_->app.get_option("--describe")->each([](const std::string& form) {
+    if (form == "json") throw CallForDescription();
+  });
 }
 
 Tool::~Tool() = default;
@@ -440,6 +452,12 @@ ProgressFunction Tool::progress() {
   };
 }
 
+void Tool::read_by_content(const std::string& path) {
+  if (!impl_->by_content.insert(absolute_path(file_of(path))).second) return;
+  impl_->add_input(by_content_role, path);
+  impl_->id_parts.left_out.insert(by_content_role);
+}
+
 bool Tool::interrupted() const { return stop_requested(); }
 
 void Tool::info(const std::string& text) {
@@ -510,6 +528,9 @@ int Tool::run(int argc, char** argv, const std::function<void()>& body) {
   try {
     impl.app.parse(arguments_of(argc, argv, impl.app));
     check_output_names(impl.options);
+  } catch (const CallForDescription&) {
+    std::cout << description_of(impl.name, impl.app, impl.options).dump(2) << std::endl;
+    return std::cout ? done : input_unusable;
   } catch (const CLI::Success& wanted) {  // --help, --version
     return impl.app.exit(wanted);
   } catch (const CLI::ParseError& error) {

@@ -86,6 +86,9 @@ class Tool {
   void write_text(const std::string& path, const std::string& content);
   /// A file that was read but is not an option's value (named in a site file, member of a set).
   void read_also(const std::string& role, const std::string& path);
+  /// A file whose bytes do not count for run_id(), since content_read() says what was read of it;
+  /// call it before read_also() names the file.
+  void read_by_content(const std::string& path);
   /// To hand to long work; throws Interrupted after SIGINT, SIGTERM or SIGHUP.
   [[nodiscard]] ProgressFunction progress();
   [[nodiscard]] bool interrupted() const;  ///< one of these has come

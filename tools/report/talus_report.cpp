@@ -21,6 +21,7 @@
 #include "report/qgis_project.hpp"
 #include "report/styles_gdal.hpp"
 #include "report/zip.hpp"
+#include "site/site_layers.hpp"
 #include "tools/frame/build_info.hpp"
 #include "tools/frame/fault_json.hpp"
 #include "tools/frame/file_paths.hpp"
@@ -355,6 +356,23 @@ void add_hazard(QgisProject& project, const Options& o, const ResultFolder& fold
   }
 }
 
+// What the site is made from, to be edited: the styles and forms are those of the file.
+void add_inputs(QgisProject& project, const Options& o, const Site& site) {
+  if (site.layers_file.empty()) return;
+  static constexpr QgisLayer::Kind kinds[] = {QgisLayer::raster, QgisLayer::point, QgisLayer::line,
+                                              QgisLayer::polygon};
+  const std::string path = resolved(site, site.layers_file);
+  const std::vector<StyledLayer> layers = styled_layers(path);
+  for (const SiteLayer& known : site_layers())
+    for (const StyledLayer& layer : layers)
+      if (known.name == layer.name)
+        project.layers.push_back({"Inputs (edit, then make)", known.title,
+                                  relative_to(o.qgis, path) + "|layername=" + layer.name,
+                                  kinds[layer.shape], layer.qml.empty() ? plain_style() : layer.qml,
+                                  true});
+  project.is_edited = true;
+}
+
 // Of the relief in the window [m].
 double interval_in(const Trn& trn, const PlanWindow& window) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -390,6 +408,7 @@ QgisProject project_of(const ReportData& data, const Options& o, const ResultFol
       "run id " + data.run_id + ", Talus " + data.version + ", CRS " + crs_name(trn.crs_wkt),
       tag("DENOMINATOR"), "health: " + tag("HEALTH")};
 
+  add_inputs(project, o, data.site);
   add_package(project, o, folder, "fence.gpkg", "Fences", {"fence_fields", "fence_posts"});
   if (folder.has("change.tif"))
     project.layers.push_back({"Fences", "change by the fence",

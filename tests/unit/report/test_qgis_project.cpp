@@ -37,3 +37,11 @@ TEST(QgisProject, LayoutHasGridNorthScaleAndATitleBlock) {
         "contour-interval=\"20\"", "contour-index-interval=\"100\"", "name=\"Speed [m/s]\""})
     EXPECT_NE(xml.find(part), std::string::npos) << part;
 }
+
+TEST(QgisProject, SnapsWhereItsLayersAreEdited) {
+  QgisProject project;
+  project.extent = {0, 0, 100, 100};
+  EXPECT_EQ(qgis_project_xml(project).find("<snapping-settings"), std::string::npos);
+  project.is_edited = true;
+  EXPECT_NE(qgis_project_xml(project).find("<snapping-settings enabled=\"1\""), std::string::npos);
+}
