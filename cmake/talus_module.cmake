@@ -4,8 +4,15 @@
 # name ends in _boost, _cgal, _gdal, _hdf5, _sqlite or _toml becomes part of talus_NAME_cgal and so on, which
 # alone sees that library. A tool therefore links what it uses and nothing else.
 
+option(TALUS_TOGETHER "Compile several sources of a target as one" ON)
+
 add_library(talus_options INTERFACE)
-target_compile_options(talus_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Werror)
+target_compile_options(talus_options INTERFACE -Wall -Wextra -Wpedantic -Werror)
+if(NOT TALUS_TOGETHER)  # a local name may be that of a function of another source
+  target_compile_options(talus_options INTERFACE -Wshadow)
+elseif(CMAKE_CXX_COMPILER_ID STREQUAL GNU)  # which takes a source of a group for a header
+  target_compile_options(talus_options INTERFACE -Wno-subobject-linkage)
+endif()
 target_include_directories(talus_options INTERFACE ${PROJECT_SOURCE_DIR}/libcore ${PROJECT_SOURCE_DIR})
 
 # The headers that nearly every source includes are compiled once. A source names all that it uses
@@ -24,9 +31,8 @@ function(talus_precompiled target owner)
   endif()
 endfunction()
 
-# Sources of a target are compiled several at a time, in groups whose names cannot meet: each reads the
-# headers once. A name added since the last configuration may meet another: configure again.
-option(TALUS_TOGETHER "Compile several sources of a target as one" ON)
+# Sources of a target are compiled several at a time, in groups whose names cannot meet: each group
+# reads the headers once. A name added since the last configuration may meet another: configure again.
 find_package(Python3 COMPONENTS Interpreter)
 function(talus_together target)
   if(NOT TALUS_TOGETHER OR NOT Python3_FOUND)
@@ -34,6 +40,7 @@ function(talus_together target)
   endif()
   get_target_property(sources ${target} SOURCES)
   list(FILTER sources INCLUDE REGEX "\\.cpp$")
+  list(FILTER sources EXCLUDE REGEX "_avx2\\.cpp$")  # code for wide registers stays apart
   list(TRANSFORM sources PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/ REGEX "^[^/]")
   execute_process(
     COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/cmake/source_groups.py ${PROJECT_SOURCE_DIR}/libcore 8 ${sources}
