@@ -14,8 +14,10 @@ for pattern in $patterns "$mark"; do
     [ -d "$file" ] || rm -f -- "$file"
   done
 done
-for folder in $folders; do
-  [ -d "$out/$folder" ] && rmdir -- "$out/$folder" 2>/dev/null || true
+for pattern in $folders; do
+  for folder in "$out"/$pattern; do
+    [ -d "$folder" ] && rmdir -- "$folder" 2>/dev/null || true
+  done
 done
 rmdir -- "$out" 2>/dev/null && exit 0
 echo "clean: not made by the pipeline, so left in $out:" $(cd "$out" && ls -A)

@@ -7,10 +7,13 @@ $(eval $(call remember,hazard,$(class_flags) $(HAZARD_FLAGS)))
 hazard_files := $(addprefix $(OUT)/,$(hazard_products))
 hazard: $(hazard_files) ## runs and frequencies -> return periods, hazard classes
 $(eval $(call together,$(hazard_files)))
-# class_list(CLASS): writes the list of its runs
-class_list = sh $(PIPELINES)run_outcomes.sh there $(failed_marks) $(filter $(OUT)/runs/run_$1_%,$(run_files)) | tr ' ' '\n' | grep '\.h5$$' >$(STAGES)/class_$1.list || :
+# class_list(CLASS): a command that writes the list of its runs that have a result. No line of the shell holds the names
+# of many runs: make writes them.
+class_runs = $(filter $(OUT)/runs/run_$1_%,$(run_files))
+write_class = $(if $(is_dry_run),,$(file >$(STAGES)/class_$1.list)$(foreach file,$(call class_runs,$1),$(file >>$(STAGES)/class_$1.list,$(file))))
+class_list = $(call write_class,$1)sh $(PIPELINES)run_outcomes.sh there $(failed_marks) --from $(STAGES)/class_$1.list >/dev/null
 several_classes := $(word 2,$(SITE_HAZARD_CLASSES))
-hazard_runs = $(if $(several_classes),$(foreach class,$(SITE_HAZARD_CLASSES),--class $(class)=@$(STAGES)/class_$(class).list),$(call run_there,$(run_files)))
+hazard_runs = $(if $(several_classes),$(foreach class,$(SITE_HAZARD_CLASSES),--class $(class)=@$(STAGES)/class_$(class).list.there),$(call run_there,$(run_files)))
 $(OUT)/hazard.json: $(run_files) $(OUT)/blocks.h5 $(STAGES)/hazard.txt $(STAGES)/runs.flags $(STAGES)/hazard.flags $(STAGES)/hazard.files
 	$(call say,hazard: $(call counted_runs,$(run_files)) -> return periods and classes)
 	@$(call outcomes,some,$(run_files))

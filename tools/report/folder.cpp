@@ -154,6 +154,7 @@ void leave_out_hazard(ResultFolder& folder, const Site& site, const std::string&
   };
   check("hazard.json", {"hazard/hazard.gpkg"}, true, "");
   check("trace.json", {"trace.gpkg"}, !site.objects.empty(), "objects");
+  check("fence_search.json", {"fence_search.gpkg"}, !site.fence_searches.empty(), "fence searches");
 }
 
 void leave_out_places(ResultFolder& folder, const Site& site, const std::string& run_set) {

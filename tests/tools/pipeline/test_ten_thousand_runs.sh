@@ -29,3 +29,26 @@ prints "--array=1-300 "
 # shellcheck disable=SC2086
 expect 0 make -C slope BIN="$PWD/tools/" $many maps
 [ "$(cat slope/out/maps/reach.tif)" = "10000 runs" ] || fail "talus-maps was given $(cat slope/out/maps/reach.tif)"
+
+# by class: 5,000 runs of each case, in a list a class
+for tool in hazard trace; do
+  rm "tools/talus-$tool"
+  cat >"tools/talus-$tool" <<'END'
+#!/bin/sh
+counts=
+for word; do
+  case $word in V?=@*) counts="$counts ${word%%=*} $(grep -c "^out/runs/run_${word%%=*}_.*h5$" "${word#*@}")" ;; esac
+done
+mkdir -p out/hazard
+for file in hazard.json trace.gpkg trace.json links.csv; do echo "$counts" >out/$file; done
+END
+  chmod +x "tools/talus-$tool"
+done
+printf '[hazard.class.V%s]\nfrequency_per_a = 0.01\n' 1 2 >>slope/site.toml
+many="RUNS=5000 WITHOUT=no CASES=V1\\ V2"
+eval "made slope $many prepare"
+(cd slope/out/runs && for case in V1 V2; do seq -f "run_${case}_%.0f.h5" 5000; done | while read -r name; do echo run >"$name"; done)
+eval "expect 0 make -C slope BIN=\"\$PWD/tools/\" $many hazard trace"
+for file in hazard.json trace.gpkg; do
+  [ "$(cat slope/out/$file)" = " V1 5000 V2 5000" ] || fail "$file was made from $(cat slope/out/$file)"
+done
