@@ -3,7 +3,7 @@
 make_search() {
   make_terrain
   make_site
-  sed -i -e '/^\[fence.low\]/,/^active/d' -e 's/^duration_s = .*/duration_s = 8\nfriction_scatter_deg = 2/' site.toml
+  sed -i -e '/^\[fence.low\]/,/^active/d' -e 's/^duration_s = .*/duration_s = 11\nfriction_scatter_deg = 2/' site.toml
   cat >>site.toml <<'END'
 [object.house]
 polygon = [[500085, 5000025], [500095, 5000025], [500095, 5000075], [500085, 5000075]]
