@@ -3,7 +3,8 @@
 get_property(tools GLOBAL PROPERTY TALUS_TOOLS)
 
 install(DIRECTORY pipelines/ DESTINATION ${CMAKE_INSTALL_DATADIR}/talus/pipelines
-        FILES_MATCHING PATTERN "*.mk" PATTERN "new_site.sh" PATTERN "clean.sh" PATTERN "run_outcomes.sh")
+        FILES_MATCHING PATTERN "*.mk" PATTERN "*.sh" PATTERN "*.smk" PATTERN "demo.sh" EXCLUDE
+        PATTERN "install_packages.sh" EXCLUDE)
 foreach(site designed maungawhau)
   install(DIRECTORY sample_sites/${site} DESTINATION ${CMAKE_INSTALL_DATADIR}/talus/sample_sites
           PATTERN out EXCLUDE)
@@ -15,6 +16,19 @@ foreach(tool ${tools})
   install(FILES share/bash-completion/talus RENAME ${tool}
           DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
 endforeach()
+
+# The QGIS plug-in: a zip to install from within QGIS (target qgis-plugin), and with the package at the place
+# where QGIS of Debian looks for plug-ins.
+file(GLOB qgis_plugin_files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/qgis/talus/*)
+list(FILTER qgis_plugin_files EXCLUDE REGEX "__pycache__")
+install(FILES ${qgis_plugin_files} DESTINATION ${CMAKE_INSTALL_DATADIR}/qgis/python/plugins/talus)
+set(qgis_plugin_zip ${CMAKE_CURRENT_BINARY_DIR}/talus-qgis-${PROJECT_VERSION}.zip)
+list(TRANSFORM qgis_plugin_files REPLACE "^${PROJECT_SOURCE_DIR}/qgis/" "" OUTPUT_VARIABLE qgis_plugin_names)
+add_custom_command(OUTPUT ${qgis_plugin_zip} DEPENDS ${qgis_plugin_files} VERBATIM
+  COMMAND ${CMAKE_COMMAND} -E tar cf ${qgis_plugin_zip} --format=zip --mtime=2000-01-01 -- ${qgis_plugin_names}
+  WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}/qgis)
+add_custom_target(qgis-plugin ALL DEPENDS ${qgis_plugin_zip})
+install(FILES ${qgis_plugin_zip} DESTINATION ${CMAKE_INSTALL_DATADIR}/talus)
 
 find_program(HELP2MAN help2man)
 if(HELP2MAN)

@@ -1,6 +1,6 @@
 #!/bin/sh
 # clean.sh OUT MARK PATTERNS FOLDERS: removes from OUT what the pipeline made: files by PATTERNS (one
-# argument, parted by blanks), then MARK, then FOLDERS and OUT where nothing is left in them. Without
+# argument, parted by blanks), then MARK, then FOLDERS (patterns too) and OUT where nothing is left in them. Without
 # MARK nothing in OUT is the pipeline's, and nothing goes. Says what stays.
 set -eu
 out=$1 mark=$2 patterns=$3 folders=$4
@@ -9,14 +9,20 @@ if ! grep -q '^# written by talus-site' "$out/$mark" 2>/dev/null; then
   echo "clean: $out holds nothing that the pipeline made: all of it stays"
   exit 0
 fi
-for pattern in $patterns "$mark"; do
+set -f  # patterns are of OUT, not of the folder that make runs in
+set -- $patterns "$mark"
+set +f
+for pattern; do
   for file in "$out"/$pattern; do
     [ -d "$file" ] || rm -f -- "$file"
   done
 done
-for pattern in $folders; do
-  for folder in "$out"/$pattern; do
-    [ -d "$folder" ] && rmdir -- "$folder" 2>/dev/null || true
+set -f
+set -- $folders
+set +f
+for folder; do
+  for path in "$out"/$folder; do
+    [ -d "$path" ] && rmdir -- "$path" 2>/dev/null || true
   done
 done
 rmdir -- "$out" 2>/dev/null && exit 0

@@ -2,6 +2,7 @@
 tin_products := tin.ply tin.json
 trn_products := trn.tif trn.json hillshade.png
 block_products := blocks.h5 bed.tif blocks.json blocks.gpkg stereonet.svg sizes.svg
+source_products := source.json source.gpkg
 check_products := check.html check.json
 runout_products := runout.gpkg runout.json runout.csv runout.svg runs.csv sensitivity.csv curves.csv thickness.tif
 map_names := reach velocity ke_translational ke_total pass_height_centroid \
@@ -19,16 +20,17 @@ trace_patterns := $(foreach suffix,tif png qml tif.aux.xml png.aux.xml,sources/s
 search_products := fence_search.json fence_search.gpkg
 screen_products := search/screen.json search/screen.gpkg
 report_products := report.html site.qgz
-products := $(tin_products) $(trn_products) $(block_products) $(check_products) $(runout_products) $(map_products) \
+products := $(tin_products) $(trn_products) $(source_products) $(block_products) $(check_products) $(runout_products) $(map_products) \
   $(fence_products) $(change_products) $(places_products) $(hazard_products) $(trace_products) $(search_products) $(screen_products) $(report_products)
 
 # As patterns of the shell: a style that comes with its raster, runs by seed and case with their checkpoints, the registry, what a stage
 # reads, side files that GDAL and QGIS write beside a raster, and hidden names of tools that were killed.
 stages_made := tin trn blocks rock check run runs dda runout maps fence place places hazard trace search verify report case_*
+case_maps := $(foreach suffix,tif png qml tif.aux.xml png.aux.xml,$(map_names:%=maps/*/%.$(suffix)))
 made_patterns := thickness.qml rock/blocks_*[0-9].h5 rock/bed_*[0-9].tif rock/bed_*[0-9].tif.aux.xml runs/run_*[0-9].h5 runs/run_*[0-9].h5.part runs/run_*[0-9].h5.part.new \
   without/run_*[0-9].h5 without/run_*[0-9].h5.part without/run_*[0-9].h5.part.new \
   runs.sqlite runs.sqlite-wal runs.sqlite-shm runs.sqlite.late-* data.ok \
-  $(addsuffix .aux.xml,$(filter %.tif %.png,$(products))) $(hazard_patterns) $(trace_patterns) stages/class_*.list stages/class_*.list.there \
+  $(addsuffix .aux.xml,$(filter %.tif %.png,$(products))) $(hazard_patterns) $(trace_patterns) $(case_maps) fences/*/fence.json fences/*/fence.gpkg stages/class_*.list stages/class_*.list.there \
   search/*-[1-9].toml search/*-10.toml search/*.list search/*.list.there search/new/*.toml search/charts/fence_search_*.svg \
   verify/*-*/run_*[0-9].h5 verify/*-*/run_*[0-9].h5.part verify/*-*/run_*[0-9].h5.part.new stages/failed/verify_*_run_*[0-9] \
   $(foreach ending,txt flags files,$(stages_made:%=stages/%.$(ending))) \
@@ -36,7 +38,7 @@ made_patterns := thickness.qml rock/blocks_*[0-9].h5 rock/bed_*[0-9].tif rock/be
   shards/*-of-*.sqlite shards/*-of-*.sqlite-wal shards/*-of-*.sqlite-shm shards/*-of-*.sqlite.late-* \
   shards/merged shards/jobs shards/log/*_*.txt stages/.progress* \
   stages/.digests stages/failed/run_*[0-9] stages/failed/without_run_*[0-9] \
-  $(addsuffix .*.part-*-*,$(sort $(dir $(products))) runs/ without/ rock/ stages/ hazard/ sources/ search/new/ search/charts/)
+  $(addsuffix .*.part-*-*,$(sort $(dir $(products))) maps/*/ fences/*/ runs/ without/ rock/ stages/ hazard/ sources/ search/new/ search/charts/)
 # The mark of a folder that the pipeline has written into; it goes last.
 mark_of_out := stages/site.mk
-made_folders := maps hazard sources search/new search/charts search verify/* verify runs without rock shards/log shards stages/failed stages
+made_folders := maps/* maps fences/* fences hazard sources search/new search/charts search verify/* verify runs without rock shards/log shards stages/failed stages

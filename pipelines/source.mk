@@ -1,5 +1,6 @@
 # Terrain and site file -> on which planes of its joint sets the mass could leave, on the terminal.
-# in: site.toml   out: $(OUT)/source.json
+# in: site.toml   out: $(OUT)/source.json, $(OUT)/source.gpkg
 .PHONY: source
 source: $(OUT)/trn.tif ## which planes of the joint sets daylight, before anything is cut
-	$(BIN)talus-source site.toml --trn $(OUT)/trn.tif -o $(OUT)/source.json --overwrite $(DB)
+	$(BIN)talus-source site.toml --trn $(OUT)/trn.tif -o $(OUT)/source.json \
+	  --layers $(OUT)/source.gpkg --overwrite $(DB)

@@ -4,25 +4,17 @@
 #include <cmath>
 
 #include "base/text.hpp"
+#include "blocks/area_side.hpp"
+#include "geometry/touching_boxes.hpp"
 
 namespace talus {
 namespace {
-
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 double ring_area(const std::vector<Vec2>& ring) {
   double twice = 0;
   for (size_t k = 0; k < ring.size(); ++k)
     twice += cross(ring[k] - ring[0], ring[(k + 1) % ring.size()] - ring[0]);
   return twice / 2;
-}
-
-bool on_segment(const Vec2& a, const Vec2& b, const Vec2& p) {
-  const Vec2 along = b - a;
-  const double length_sq = along.squaredNorm();
-  if (length_sq == 0) return (p - a).squaredNorm() == 0;
-  const double t = (p - a).dot(along) / length_sq;
-  return t >= 0 && t <= 1 && std::abs(cross(along, p - a)) <= 1e-9 * length_sq;
 }
 
 struct Segment {
@@ -44,6 +36,16 @@ bool collide(const Segment& s, const Segment& t) {
     return true;
   return on_segment(s.a, s.b, t.a) || on_segment(s.a, s.b, t.b) || on_segment(t.a, t.b, s.a) ||
          on_segment(t.a, t.b, s.b);
+}
+
+std::vector<Box2> boxes_of(const std::vector<Segment>& segments) {
+  std::vector<Box2> boxes;
+  boxes.reserve(segments.size());
+  for (const Segment& s : segments) {
+    const Vec2 room = Vec2::Constant(reach_of(s.a, s.b));
+    boxes.push_back({s.a.cwiseMin(s.b) - room, s.a.cwiseMax(s.b) + room});
+  }
+  return boxes;
 }
 
 std::string place_text(const Vec2& local, const Vec3& origin) {
@@ -90,9 +92,7 @@ bool contains(const Area& area, const Vec2& point) {
     for (size_t k = 0; k < ring.size(); ++k) {
       const Vec2 &a = ring[k], &b = ring[(k + 1) % ring.size()];
       if (on_segment(a, b, point)) return true;
-      if ((a.y() > point.y()) == (b.y() > point.y())) continue;
-      const double x = a.x() + (point.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
-      if (point.x() < x) inside = !inside;
+      if (is_left_of(a, b, point)) inside = !inside;
     }
   return inside;
 }
@@ -121,10 +121,8 @@ void check_area(const Area& area, const Vec3& origin, const Where& where) {
     for (size_t k = 0; k < ring.size(); ++k)
       segments.push_back({ring[k], ring[(k + 1) % ring.size()], i, k, ring.size()});
   }
-  for (size_t i = 0; i < segments.size(); ++i)
-    for (size_t j = i + 1; j < segments.size(); ++j)
-      if (collide(segments[i], segments[j]))
-        throw crossing(segments[i], segments[j], origin, where);
+  for (const auto& [i, j] : touching_boxes(boxes_of(segments)).pairs)
+    if (collide(segments[i], segments[j])) throw crossing(segments[i], segments[j], origin, where);
 }
 
 }  // namespace talus

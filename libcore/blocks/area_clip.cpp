@@ -5,6 +5,8 @@
 #include <map>
 #include <set>
 
+#include "blocks/prepared_area.hpp"
+
 namespace talus {
 namespace {
 
@@ -198,6 +200,7 @@ std::vector<TriangleInArea> triangles_in(const Trn& trn, const Area& given) {
   for (size_t s = 0; s < sides.size(); ++s)
     register_side(trn, sides[s], static_cast<int>(s), tolerance, sides_at);
   const PlanBox box = box_of(area);
+  const PreparedArea prepared(area);
   std::vector<TriangleInArea> found;
   for (int r = row_at(trn, box.high.y()); r <= row_at(trn, box.low.y()); ++r)
     for (int c = column_at(trn, box.low.x()); c <= column_at(trn, box.high.x()); ++c)
@@ -209,7 +212,7 @@ std::vector<TriangleInArea> triangles_in(const Trn& trn, const Area& given) {
         const auto near = sides_at.find(one.triangle);
         if (near != sides_at.end()) cut_triangle(one, sides, near->second, tolerance);
         std::erase_if(one.pieces,
-                      [&](const Ring& ring) { return !contains(area, middle_of(ring)); });
+                      [&](const Ring& ring) { return !prepared.contains(middle_of(ring)); });
         if (!one.pieces.empty()) found.push_back(std::move(one));
       }
   return found;

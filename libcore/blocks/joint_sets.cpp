@@ -22,15 +22,24 @@ std::pair<Vec3, Vec3> frame_across(const Vec3& axis) {
   return {u, axis.cross(u)};
 }
 
-// Open discs of one plane inside the ball: Poisson centres in the square around the ball's section,
-// wide enough that discs from outside reach in.
+// Half the side of the square around the ball's section, wide enough that discs from outside reach
+// in.
+double half_square(const JointSet& set, double radius) { return radius + set.disc_diameter / 2; }
+
+// Centres of discs on a unit of area: what they leave whole of it is 1 - persistence.
+double disc_density(const JointSet& set) {
+  const double disc_radius = set.disc_diameter / 2;
+  return -std::log1p(-set.persistence) / (pi * disc_radius * disc_radius);
+}
+
+// Open discs of one plane inside the ball: Poisson centres in the square around its section.
 std::vector<Disc> draw_discs(const JointSet& set, const Plane& plane, const Vec3& centre,
                              double radius, Random& random) {
   const double disc_radius = set.disc_diameter / 2;
   const Vec3 middle = centre - distance(plane, centre) * plane.normal;
   const auto [u, v] = frame_across(plane.normal);
-  const double half = radius + disc_radius;
-  const double density = -std::log1p(-set.persistence) / (pi * disc_radius * disc_radius);
+  const double half = half_square(set, radius);
+  const double density = disc_density(set);
   std::vector<Disc> discs;
   // A Poisson process row by row: exponential steps along a line of unit density.
   for (double along = random.exponential(); along < density * 4 * half * half;
@@ -124,7 +133,9 @@ double draw_spacing(const JointSet& set, Random& random) {
 Vec3 draw_fisher(const Vec3& mean, double k, Random& random) {
   // Inverse of the distribution of cos t, written so that large k does not overflow.
   const double drawn = random.uniform();
-  const double cosine = 1 + std::log(drawn + (1 - drawn) * std::exp(-2 * k)) / k;
+  const double cosine =
+      k < 1e-3 ? 1 + std::log1p((1 - drawn) * std::expm1(-2 * k)) / k  // 1 + small: digits lost
+               : 1 + std::log(drawn + (1 - drawn) * std::exp(-2 * k)) / k;
   const double sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
   const double turn = random.uniform(0, 2 * pi);
   const auto [u, v] = frame_across(mean);
@@ -156,6 +167,12 @@ std::vector<Joint> draw_joints(const JointSet& set, int index, const Vec3& centr
        along -= draw_spacing(set, random))
     if (along < reach) add(along);
   return joints;
+}
+
+double expected_discs(const JointSet& set, double radius) {
+  if (set.persistence >= 1) return 0;
+  const double half = half_square(set, radius);
+  return 2 * radius / set.mean_spacing * disc_density(set) * 4 * half * half;
 }
 
 double expected_cells(const std::vector<JointSet>& sets, const MassMeasure& mass) {

@@ -77,6 +77,9 @@ struct MassMeasure {
   double max_depth = 0;            ///< vertical [m]
 };
 
+/// Mean number of discs that draw_joints() draws for a ball [m]; 0 for a persistence of 1.
+[[nodiscard]] double expected_discs(const JointSet& set, double radius);
+
 /// Mean number of joint cells in a mass, taking every joint as through-going; 1 at least. Sets of
 /// which less than one joint is expected to cross the mass are left out. Of the others, with
 /// spacings s and normals n, what there is of the first kind is counted:

@@ -9,6 +9,7 @@
 
 #include "base/text.hpp"
 #include "blocks/area_clip.hpp"
+#include "blocks/prepared_area.hpp"
 #include "terrain/extent_text.hpp"
 
 namespace talus {
@@ -28,12 +29,13 @@ std::vector<int> nodes_inside(const Trn& ground, const Area& area, const Where& 
                              place_text(p, ground.origin) + "; " + extent_text(ground),
                          "move the source or make the terrain larger; if it lies far away, check "
                          "the order (x east, y north) and the coordinate system of its points");
+  const PreparedArea prepared(area);
   std::vector<int> nodes;
   for (int r = 0; r < ground.n_rows; ++r)
     for (int c = 0; c < ground.n_cols; ++c) {
       const Vec2 p(ground.node0.x() + c * ground.cell_size,
                    ground.node0.y() - r * ground.cell_size);
-      if (contains(area, p)) nodes.push_back(static_cast<int>(node_index(ground, r, c)));
+      if (prepared.contains(p)) nodes.push_back(static_cast<int>(node_index(ground, r, c)));
     }
   if (nodes.empty())
     throw InputError(where,
@@ -179,8 +181,9 @@ double nearest_raster_depth(const Trn& ground, const std::vector<int>& nodes, in
 // from the ground.
 void lower_to_surface(const Trn& ground, const Area& area, const std::vector<int>& nodes,
                       const SourceOptions& options, const Where& where, SourceMass& mass) {
+  const PreparedArea prepared(area);
   for (const int node : nodes) {
-    const bool is_inside = contains(area, place_of(ground, node));
+    const bool is_inside = prepared.contains(place_of(ground, node));
     double z;
     if (!is_inside && options.kind == FailureSurface::raster && std::isnan(options.raster[node])) {
       z = ground.elevation[node] - nearest_raster_depth(ground, nodes, node, options);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "contact/neighbours.hpp"
 #include "contact/separating_axis.hpp"
@@ -73,22 +75,20 @@ std::vector<JointContact> joint_contacts(const Hulls& hulls, const PlacedHulls& 
 }
 
 std::vector<BlockOverlap> block_overlaps(const Hulls& hulls, const PlacedHulls& placed,
-                                         double tolerance) {
+                                         double tolerance, int n_moving) {
   std::vector<BlockOverlap> overlaps;
+  std::map<std::pair<int, int>, std::size_t> place_of;  // of a pair in the list
   AxisScratch scratch;
   for (const auto& [a, b] : close_parts(hulls, placed, 0)) {
+    if (hulls.body[a] >= n_moving && hulls.body[b] >= n_moving) continue;
     const AxisChoice axis = find_axis(hulls, placed, a, b, -tolerance, {}, scratch);
     if (!axis.touches) continue;
     const Moments common = moments(common_part(hulls, placed, a, b));
     if (!(common.volume > 0)) continue;
     const int block_a = hulls.body[a], block_b = hulls.body[b];
-    const auto known = std::find_if(overlaps.begin(), overlaps.end(), [&](const BlockOverlap& o) {
-      return o.block_a == block_a && o.block_b == block_b;
-    });
-    BlockOverlap& sum = known != overlaps.end()
-                            ? *known
-                            : overlaps.emplace_back(
-                                  BlockOverlap{block_a, block_b, 0, 0, Vec3::Zero(), Vec3::Zero()});
+    const auto [known, is_new] = place_of.try_emplace({block_a, block_b}, overlaps.size());
+    if (is_new) overlaps.push_back({block_a, block_b, 0, 0, Vec3::Zero(), Vec3::Zero()});
+    BlockOverlap& sum = overlaps[known->second];
     sum.point =
         (sum.volume * sum.point + common.volume * common.centroid) / (sum.volume + common.volume);
     sum.volume += common.volume;

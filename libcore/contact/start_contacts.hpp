@@ -5,6 +5,7 @@
 // theory: docs/theory.md 1.7 (bond areas)
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "contact/hulls.hpp"
@@ -36,9 +37,11 @@ struct BlockOverlap {
   Vec3 normal = Vec3::Zero();  ///< of the deepest pair of parts, unit, from B to A
 };
 
-/// All pairs of blocks that overlap by more than `tolerance` [m], deepest first.
-[[nodiscard]] std::vector<BlockOverlap> block_overlaps(const Hulls& hulls,
-                                                       const PlacedHulls& placed, double tolerance);
+/// All pairs of blocks that overlap by more than `tolerance` [m], deepest first. Bodies from
+/// number `n_moving` on stand still: their pairs among themselves are left out.
+[[nodiscard]] std::vector<BlockOverlap> block_overlaps(
+    const Hulls& hulls, const PlacedHulls& placed, double tolerance,
+    int n_moving = std::numeric_limits<int>::max());
 
 /// Part p where it is now, as a polyhedron; tags are the joint sets.
 [[nodiscard]] Polyhedron placed_part(const Hulls& hulls, const PlacedHulls& placed, int p);

@@ -105,6 +105,9 @@ void check_format(const H5Reader& file, const std::string& path) {
 
 void write_blocks(const std::string& path, const BlockSet& set,
                   const std::map<std::string, std::string>& tags) {
+  if (const std::string broken = broken_promise(set); !broken.empty())
+    throw InputError({}, "the blocks cannot be what they must be: " + broken,
+                     "look for heights, sizes or depths beyond what a slope has");
   H5Writer file;
   file.attribute("", "format", std::string(format_name));
   file.attribute("", "format_version", format_version);

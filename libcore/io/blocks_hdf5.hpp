@@ -10,7 +10,8 @@
 namespace talus {
 
 /// Writes the whole set; the same set and tags give the same bytes. `tags` become text attributes
-/// of the root, e.g. RUN_ID. Throws InputError when anything cannot be written.
+/// of the root, e.g. RUN_ID. Throws InputError when anything cannot be written, or the set breaks a
+/// promise: no file is written that read_blocks() would call damaged.
 void write_blocks(const std::string& path, const BlockSet& set,
                   const std::map<std::string, std::string>& tags = {});
 

@@ -86,7 +86,10 @@ std::vector<OGRLayer*> layers_named(const std::string& word, const OpenLayer& so
 }
 
 void choose_by_name(const LayerChoice& choice, const std::string& names, OpenLayer& source) {
-  for (const std::string& word : parted(names, '\n')) {
+  std::vector<std::string> words = parted(names, '\n');
+  // A name may hold line breaks or blanks alone.
+  if (words.empty() || source.dataset->GetLayerByName(names.c_str()) != nullptr) words = {names};
+  for (const std::string& word : words) {
     const std::vector<OGRLayer*> found = layers_named(word, source);
     if (found.empty() && source.is_drawing) {
       source.wanted.push_back(word);

@@ -25,8 +25,12 @@ class FixedDate {
 
 OGRwkbGeometryType ogr_type(GeometryType type) {
   switch (type) {
+    case GeometryType::point:
+      return wkbPoint;
     case GeometryType::point_z:
       return wkbPoint25D;
+    case GeometryType::line:
+      return wkbLineString;
     case GeometryType::line_zm:
       return wkbLineStringZM;
     case GeometryType::multi_polygon:
@@ -38,6 +42,12 @@ OGRwkbGeometryType ogr_type(GeometryType type) {
 }
 
 std::unique_ptr<OGRGeometry> line_of(const VectorFeature& feature) {
+  auto line = std::make_unique<OGRLineString>();
+  for (const Vec3& p : feature.points) line->addPoint(p.x(), p.y());
+  return line;
+}
+
+std::unique_ptr<OGRGeometry> line_zm_of(const VectorFeature& feature) {
   auto line = std::make_unique<OGRLineString>();
   for (std::size_t i = 0; i < feature.points.size(); ++i) {
     const Vec3& p = feature.points[i];
@@ -63,11 +73,15 @@ std::unique_ptr<OGRGeometry> multi_polygon_of(const VectorFeature& feature) {
 
 std::unique_ptr<OGRGeometry> geometry_of(const VectorFeature& feature, GeometryType type) {
   switch (type) {
+    case GeometryType::point:
+      return std::make_unique<OGRPoint>(feature.points.at(0).x(), feature.points.at(0).y());
     case GeometryType::point_z:
       return std::make_unique<OGRPoint>(feature.points.at(0).x(), feature.points.at(0).y(),
                                         feature.points.at(0).z());
-    case GeometryType::line_zm:
+    case GeometryType::line:
       return line_of(feature);
+    case GeometryType::line_zm:
+      return line_zm_of(feature);
     case GeometryType::multi_polygon:
       return multi_polygon_of(feature);
     case GeometryType::none:
@@ -110,10 +124,12 @@ void write_layer(GDALDataset& dataset, OGRSpatialReference* crs, const VectorLay
       dataset.CreateLayer(layer.name.c_str(), crs, ogr_type(layer.type), options.List());
   if (out == nullptr) return;
   for (const VectorField& field : layer.fields) {
-    const OGRFieldType type = field.type == FieldType::integer ? OFTInteger64
-                              : field.type == FieldType::real  ? OFTReal
-                                                               : OFTString;
+    const OGRFieldType type = field.type == FieldType::integer   ? OFTInteger64
+                              : field.type == FieldType::real    ? OFTReal
+                              : field.type == FieldType::boolean ? OFTInteger
+                                                                 : OFTString;
     OGRFieldDefn definition(field.name.c_str(), type);
+    if (field.type == FieldType::boolean) definition.SetSubType(OFSTBoolean);
     static_cast<void>(out->CreateField(&definition));
   }
   write_features(*out, layer);

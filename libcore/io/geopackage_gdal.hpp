@@ -14,13 +14,13 @@ namespace talus {
 /// A value of an attribute; monostate is NULL.
 using FieldValue = std::variant<std::monostate, std::int64_t, double, std::string>;
 
-enum class FieldType { integer, real, text };
+enum class FieldType { integer, real, text, boolean };
 struct VectorField {
   std::string name;  ///< unit in the name
   FieldType type = FieldType::real;
 };
 
-enum class GeometryType { point_z, line_zm, multi_polygon, none };
+enum class GeometryType { point, point_z, line, line_zm, multi_polygon, none };
 
 /// Points of one feature: a point, a line, or the rings of polygons; map coordinates [m].
 struct VectorFeature {

@@ -10,6 +10,7 @@
 #include <type_traits>
 
 #include "base/error.hpp"
+#include "base/memory.hpp"
 #include "io/seal.hpp"
 
 namespace talus {
@@ -308,6 +309,12 @@ struct H5Reader::Impl {
     return {extent.begin(), extent.end()};
   }
 
+  // Before the array is taken: a packed one may be a thousand times as long as its file.
+  void ask_for_memory(const std::string& name, std::size_t n, std::size_t size) const {
+    require_memory(static_cast<double>(n) * static_cast<double>(size), {path, 0, name},
+                   std::to_string(n) + " values", "evaluate fewer runs at a time");
+  }
+
   // Number of columns, checked; the values fit into `most_bytes`.
   std::size_t check(const std::string& name, const Shape& shape, std::size_t columns,
                     std::size_t size) const {
@@ -398,7 +405,9 @@ std::vector<T> H5Reader::array(const std::string& path, std::size_t columns) con
   const Id set = impl_->set(path);
   impl_->check_class(path, set, std::is_integral_v<T>);
   const Shape shape = impl_->shape_of(path, set);
-  std::vector<T> values(shape[0] * impl_->check(path, shape, columns, sizeof(T)));
+  const std::size_t n = shape[0] * impl_->check(path, shape, columns, sizeof(T));
+  impl_->ask_for_memory(path, n, sizeof(T));
+  std::vector<T> values(n);
   impl_->check_storage(path, set, shape);
   if (!values.empty() &&
       H5Dread(set, native_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
@@ -415,6 +424,7 @@ std::vector<T> H5Reader::rows(const std::string& path, std::size_t columns, std:
   const std::size_t row = impl_->check(path, shape, columns, sizeof(T));
   impl_->check_storage(path, set, shape);
   if (first > shape[0] || n > shape[0] - first) impl_->fail(path, "has fewer rows than asked for");
+  impl_->ask_for_memory(path, n * row, sizeof(T));
   std::vector<T> values(n * row);
   if (values.empty()) return values;
   std::vector<hsize_t> start(shape.size(), 0), count(shape.begin(), shape.end());
@@ -455,6 +465,7 @@ std::vector<std::string> H5Reader::texts(const std::string& path) const {
   const Shape shape = impl_->shape_of(path, set);
   impl_->check(path, shape, 1, length);
   impl_->check_storage(path, set, shape);
+  impl_->ask_for_memory(path, shape[0] * length, 1);
   std::vector<char> bytes(shape[0] * length);
   if (!bytes.empty() && H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data()) < 0)
     impl_->fail(path, "cannot be read: its content is damaged");

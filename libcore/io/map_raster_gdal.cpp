@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "base/error.hpp"
+#include "base/memory.hpp"
 #include "io/errors_gdal.hpp"
 
 namespace talus {
@@ -18,6 +19,11 @@ using Dataset = std::unique_ptr<GDALDataset>;
 constexpr int tile_size = 512;  // of the COG driver: smaller rasters have no overviews
 
 Dataset create_in_memory(int n_cols, int n_rows, int n_bands, GDALDataType type) {
+  constexpr double n_copies = 2;  // itself, and what the file is made of
+  require_memory(n_copies * GDALGetDataTypeSizeBytes(type) * n_bands * n_cols * n_rows, {},
+                 "maps of " + std::to_string(n_bands) + " bands and " + std::to_string(n_cols) +
+                     " x " + std::to_string(n_rows) + " cells",
+                 "make the cells larger");
   GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("MEM");
   return Dataset(driver->Create("", n_cols, n_rows, n_bands, type, nullptr));
 }

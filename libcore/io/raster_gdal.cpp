@@ -13,6 +13,7 @@
 #include <set>
 #include <utility>
 
+#include "base/memory.hpp"
 #include "base/text.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/crs_operation_gdal.hpp"
@@ -436,6 +437,9 @@ void for_each_row(const DemFile& dem, const RowResampler& part, const ProgressFu
                   const Visit& visit) {
   const int first = part.first_row(), last = part.last_row();
   const auto n_cols = static_cast<std::size_t>(part.n_cols());
+  constexpr double bytes_per_cell = 16;  // as read, and as GDAL keeps it
+  require_memory(bytes_per_cell * rows_at_once * static_cast<double>(n_cols), {dem.path()},
+                 "rows of " + std::to_string(n_cols) + " cells", "choose a smaller window");
   std::vector<double> strip(rows_at_once * n_cols);
   for (int row = first, n_rows = 0; row <= last; row += n_rows) {
     // strips end where rows of tiles do, so that no tile is unpacked twice

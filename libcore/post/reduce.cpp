@@ -48,6 +48,7 @@ std::vector<HealthRow> short_health(const std::vector<HealthRow>& rows) {
   HealthRow rest = rows.back();
   for (std::size_t i = 1; i + 1 < rows.size(); ++i) {
     add_counts(rest, rows[i]);
+    rest.largest_error = std::max(rest.largest_error, rows[i].largest_error);
     rest.largest_penetration = std::max(rest.largest_penetration, rows[i].largest_penetration);
     if (rows[i].shortest_dt > 0 &&
         !(rest.shortest_dt > 0 && rest.shortest_dt < rows[i].shortest_dt))

@@ -144,7 +144,12 @@ std::vector<Vec3> posts_on_ground(const Trn& trn, const std::vector<Vec2>& corne
   double length = 0;
   for (std::size_t i = 0; i + 1 < corners.size(); ++i)
     length += (corners[i + 1] - corners[i]).norm();
-  constexpr double most_posts = 1e5;
+  constexpr double most_posts = 1e4;  // each is asked for in each step of each block
+  if (static_cast<double>(corners.size()) > most_posts)
+    throw InputError(where,
+                     "the line has " + std::to_string(corners.size()) + " points, expected up to " +
+                         text(most_posts),
+                     "simplify it, such as ogr2ogr -simplify 0.5 simple.gpkg lines.gpkg");
   if (!(length / spacing <= most_posts))
     throw InputError(where,
                      "posts every " + text(spacing) + " m are " + text(length / spacing, 3) +

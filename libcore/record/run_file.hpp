@@ -85,6 +85,7 @@ struct HealthRow {
   std::int64_t left_domain = 0;                   ///< blocks that have left the known terrain
   std::int64_t fell_through = 0, not_finite = 0;  ///< steps so far with such a block
   std::array<std::int64_t, substep_cut_names.size()> cuts{};  ///< substeps made again, by reason
+  double largest_error = 0;                                   ///< estimated of a substep [-]
   double largest_penetration = 0;                             ///< [m]
   double translation = 0, rotation = 0, potential = 0, elastic = 0;   ///< at `time` [J]
   double friction = 0, impact = 0, contact = 0, base = 0, fence = 0;  ///< since the start [J]

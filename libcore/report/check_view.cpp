@@ -27,7 +27,21 @@ struct DrawnBox {
   }
 };
 
-DrawnBox drawn_box(const CheckView& view) {
+// Along the outlines of an area, so that a long side is found where it passes.
+std::vector<Vec2> points_along(const NamedArea& area, double spacing) {
+  std::vector<Vec2> points;
+  for (const auto& polygon : area.polygons) {
+    const std::vector<Vec2>& ring = polygon[0];
+    for (size_t k = 0; k < ring.size(); ++k) {
+      const Vec2 side = ring[(k + 1) % ring.size()] - ring[k];
+      const int n = std::max(1, static_cast<int>(std::ceil(side.norm() / spacing)));
+      for (int i = 0; i < n; ++i) points.emplace_back(ring[k] + static_cast<double>(i) / n * side);
+    }
+  }
+  return points;
+}
+
+DrawnBox drawn_box(const CheckView& view, double spacing) {
   DrawnBox box;
   for (const auto& ring : view.source)
     for (const Vec2& p : ring) box.add(p);
@@ -37,6 +51,15 @@ DrawnBox drawn_box(const CheckView& view) {
     for (const Vec2& p : line) box.add(p);
   for (const OutlinedBlock& block : view.blocks)
     for (const Vec2& p : block.outline) box.add(p);
+  // A road may be long: what lies far off would make all else small.
+  DrawnBox near = box;
+  const Vec2 reach = Vec2::Constant((box.high - box.low).maxCoeff());
+  near.add(box.low - reach);
+  near.add(box.high + reach);
+  for (const NamedArea& object : view.objects)
+    for (const Vec2& p : points_along(object, spacing))
+      if ((p.array() >= near.low.array()).all() && (p.array() <= near.high.array()).all())
+        box.add(p);
   return box;
 }
 
@@ -138,6 +161,34 @@ std::string class_borders(const CheckView& view, const Trn& part, const Trn& who
   return d;
 }
 
+std::string rings_of(const NamedArea& area, const Drawing& draw) {
+  std::string d;
+  for (const auto& polygon : area.polygons)
+    for (const auto& ring : polygon) d += draw.path(ring, true);
+  return d;
+}
+
+// Beside the middle of the points, so that the mark stays free; a hundredth of the width is a unit.
+std::string label(const std::string& css_class, const std::vector<Vec2>& points,
+                  const std::string& words, const Drawing& draw, double width, double height) {
+  Vec2 sum = Vec2::Zero();
+  int n = 0;
+  for (const Vec2& p : points) {
+    const Vec2 at = draw.at(p);
+    if (at.x() < 0 || at.y() < 0 || at.x() > width || at.y() > height) continue;
+    sum += at;
+    ++n;
+  }
+  if (n == 0) return "";
+  const double unit = width / 100;
+  const bool is_right = sum.x() / n > 0.7 * width;
+  return "<text class=\"" + css_class + "\" font-size=\"" + number(2.4 * unit) +
+         "\" stroke-width=\"" + number(0.5 * unit) + "\" text-anchor=\"" +
+         (is_right ? "end" : "start") + "\" x=\"" +
+         number(sum.x() / n + (is_right ? -unit : unit)) + "\" y=\"" + number(sum.y() / n - unit) +
+         "\">" + xml_escaped(words) + "</text>\n";
+}
+
 const char* class_of(BlockOutlook outlook) {
   switch (outlook) {
     case BlockOutlook::goes:
@@ -216,7 +267,7 @@ double contour_interval(const Trn& ground) {
 }
 
 Trn part_for(const CheckView& view, const Trn& ground) {
-  const DrawnBox box = drawn_box(view);
+  const DrawnBox box = drawn_box(view, ground.cell_size);
   if (!(box.low.x() <= box.high.x())) return ground;
   const double margin = std::max(0.15 * (box.high - box.low).maxCoeff(), 5 * ground.cell_size);
   const Cell north_west = locate(ground, box.low.x() - margin, box.high.y() + margin).cell;
@@ -231,6 +282,17 @@ Trn part_for(const CheckView& view, const Trn& ground) {
       part.elevation.push_back(
           ground.elevation[node_index(ground, north_west.row + r, north_west.col + c)]);
   return part;
+}
+
+bool is_drawn(const NamedArea& object, const Trn& part) {
+  const Drawing draw(part);
+  const double width = (part.n_cols - 1) * part.cell_size,
+               height = (part.n_rows - 1) * part.cell_size;
+  const std::vector<Vec2> points = points_along(object, part.cell_size);
+  return std::any_of(points.begin(), points.end(), [&](const Vec2& p) {
+    const Vec2 at = draw.at(p);
+    return at.x() >= 0 && at.y() >= 0 && at.x() <= width && at.y() <= height;
+  });
 }
 
 std::string check_map_svg(const CheckView& view, const Trn& ground,
@@ -251,13 +313,17 @@ std::string check_map_svg(const CheckView& view, const Trn& ground,
     out += shape("contour bold", contours(part, draw, interval, true), title);
   }
   out += shape("ground-class", class_borders(view, part, ground, draw), "border of ground classes");
+  for (const NamedArea& object : view.objects)
+    out += shape("object", rings_of(object, draw), object.title);
   for (const auto& line : view.fall_lines) out += shape("fall", draw.path(line, false), "");
   for (const OutlinedBlock& block : view.blocks)
     out += shape(class_of(block.outlook), draw.path(block.outline, true), block.title);
   for (const auto& ring : view.source) out += shape("source", draw.path(ring, true), "source");
+  for (const NamedArea& surface : view.surfaces)
+    out += shape("proposed", rings_of(surface, draw), surface.title);
   for (const FootMark& mark : view.foot) {
     const Vec2 at = draw.at(mark.place);
-    out += "<circle class=\"" + std::string(mark.step > 0.1 ? "step" : "clear") + "\" cx=\"" +
+    out += "<circle class=\"" + std::string(mark.holds ? "step" : "clear") + "\" cx=\"" +
            number(at.x()) + "\" cy=\"" + number(at.y()) + "\" r=\"" + number(cell / 4) +
            "\"><title>" +
            (mark.step > 0.1 ? "step of " + text(mark.step, 2) + " m" : "comes out here") +
@@ -268,7 +334,10 @@ std::string check_map_svg(const CheckView& view, const Trn& ground,
     std::vector<Vec2> plan;
     for (const Vec3& p : fence.line.points) plan.emplace_back(p.head<2>());
     out += shape("fence", draw.path(plan, false), "fence " + fence.line.name);
+    out += label("fence-name", plan, fence.line.name, draw, width, height);
   }
+  for (const NamedArea& object : view.objects)
+    out += label("object-name", points_along(object, cell), object.name, draw, width, height);
   return out + scale_and_north({0, 0}, {width, height}) + "</svg>\n";
 }
 

@@ -24,12 +24,19 @@ struct OutlinedBlock {
 /// A point of the foot and the height of the step there.
 struct FootMark {
   Vec2 place = Vec2::Zero();
-  double step = 0;  ///< [m]
+  double step = 0;     ///< [m]
+  bool holds = false;  ///< it is not low for the blocks
 };
 
 struct ViewedFence {
   RecordLine line;    ///< on the ground
   double height = 0;  ///< [m]
+};
+
+/// An area with a name: an object, or what could leave on a plane or wedge.
+struct NamedArea {
+  std::string name, title;
+  std::vector<std::vector<std::vector<Vec2>>> polygons;  ///< polygon, ring, points
 };
 
 struct CheckView {
@@ -40,6 +47,8 @@ struct CheckView {
   std::vector<OutlinedBlock> blocks;
   std::vector<FootMark> foot;
   std::vector<Vec2> section;  ///< line of the section
+  std::vector<NamedArea> objects;
+  std::vector<NamedArea> surfaces;  ///< that the mass could leave on
 };
 
 /// Elevation interval of contours that makes about twenty of them between two heights: 1, 2, 5 or
@@ -48,8 +57,12 @@ struct CheckView {
 /// Of this ground; 0 where it has no relief [m].
 [[nodiscard]] double contour_interval(const Trn& ground);
 
-/// The part of the terrain that source, fences and fall lines lie in, with a margin.
+/// The part of the terrain that source, fences and fall lines lie in, with a margin, and of objects
+/// what is no farther from these than their extent.
 [[nodiscard]] Trn part_for(const CheckView& view, const Trn& ground);
+
+/// Whether a point of the object lies in the part that is drawn.
+[[nodiscard]] bool is_drawn(const NamedArea& object, const Trn& part);
 
 /// `ground`: what part_for() gave; `hillshade_png`: a pixel a node of it.
 [[nodiscard]] std::string check_map_svg(const CheckView& view, const Trn& ground,

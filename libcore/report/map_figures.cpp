@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/text.hpp"
 #include "post/maps/map_layers.hpp"
 #include "report/html.hpp"
 #include "report/map_legend.hpp"
@@ -16,14 +17,44 @@ std::string map_figure(const MapLayerKind& kind, const MapPicture& picture) {
                                                        ".tif</code>" + html_legend(picture.qml));
 }
 
+// What one looks at first: where blocks come to, how fast, with which energy, and where they stay.
+bool is_of_decisions(const std::string& name) {
+  return name == "reach" || name == "velocity" || name == "ke_total" || name == "deposit";
+}
+
+const MapPicture* picture_of(const std::vector<MapPicture>& pictures, const std::string& name) {
+  const auto found = std::find_if(pictures.begin(), pictures.end(),
+                                  [&name](const MapPicture& p) { return p.name == name; });
+  return found == pictures.end() ? nullptr : &*found;
+}
+
 }  // namespace
+
+std::string case_figures(const CasePictures& cases, bool of_decisions) {
+  std::string out;
+  for (const MapLayerKind& kind : map_layers()) {
+    if (is_of_decisions(kind.name) != of_decisions) continue;
+    std::string row;
+    for (const auto& [name, pictures] : cases) {
+      const MapPicture* const picture = picture_of(pictures, kind.name);
+      if (picture == nullptr) continue;
+      const std::string which = std::string(kind.title) + ", case " + name;
+      row += html_figure(html_png(picture->png, xml_escaped(which)),
+                         "<b>Case " + xml_escaped(name) + "</b>. <code>maps/" + xml_escaped(name) +
+                             "/" + kind.name + ".tif</code>" + html_legend(picture->qml));
+    }
+    if (!row.empty())
+      out += std::string("<h3>") + kind.title + " [" + kind.unit + "]</h3>\n<p>" + kind.caption +
+             ".</p>\n<div class=\"maps\">\n" + row + "</div>\n";
+  }
+  return out;
+}
 
 std::string map_figures(const std::vector<MapPicture>& pictures) {
   std::string out = "<div class=\"maps\">\n";
   for (const MapLayerKind& kind : map_layers()) {
-    const auto found = std::find_if(pictures.begin(), pictures.end(),
-                                    [&kind](const MapPicture& p) { return p.name == kind.name; });
-    if (found != pictures.end()) out += map_figure(kind, *found);
+    const MapPicture* const picture = picture_of(pictures, kind.name);
+    if (picture != nullptr) out += map_figure(kind, *picture);
   }
   return out + "</div>\n";
 }

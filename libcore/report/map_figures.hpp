@@ -5,6 +5,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace talus {
@@ -15,5 +16,11 @@ struct MapPicture {
 
 /// One figure a layer that has a picture.
 [[nodiscard]] std::string map_figures(const std::vector<MapPicture>& pictures);
+
+/// Pictures of several cases, by the name of the case.
+using CasePictures = std::vector<std::pair<std::string, std::vector<MapPicture>>>;
+/// A row a layer that has a picture, the cases side by side; of the layers that decisions are made
+/// by, or of all others.
+[[nodiscard]] std::string case_figures(const CasePictures& cases, bool of_decisions);
 
 }  // namespace talus

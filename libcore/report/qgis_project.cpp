@@ -69,7 +69,26 @@ std::string inner_of(const std::string& qml) {
   return qml.substr(begin + 1, end - begin - 1);
 }
 
-std::string style_of(const QgisLayer& layer) {
+std::string line_symbol(const char* name, double width_mm, const char* colour) {
+  return std::string("<symbol type=\"line\" alpha=\"1\" name=\"") + name +
+         "\" clip_to_extent=\"1\"><layer class=\"SimpleLine\" enabled=\"1\" pass=\"0\" "
+         "locked=\"0\"><prop k=\"line_color\" v=\"" +
+         colour + "\"/><prop k=\"line_style\" v=\"solid\"/><prop k=\"line_width\" v=\"" +
+         text(width_mm) + "\"/><prop k=\"line_width_unit\" v=\"MM\"/></layer></symbol>\n";
+}
+
+// Each fifth contour is bold.
+std::string contour_style(double interval) {
+  return "<pipe><rasterrenderer type=\"contour\" band=\"1\" opacity=\"1\" alphaBand=\"-1\" "
+         "nodataColor=\"\" downscale=\"4\" contour-interval=\"" +
+         text(interval) + "\" contour-index-interval=\"" + text(5 * interval) + "\"><symbols>\n" +
+         line_symbol("contour", 0.1, "110,70,20,120") +
+         line_symbol("index", 0.25, "110,70,20,180") +
+         "</symbols></rasterrenderer></pipe>\n<blendMode>0</blendMode>\n";
+}
+
+std::string style_of(const QgisProject& project, const QgisLayer& layer) {
+  if (layer.kind == QgisLayer::contours) return contour_style(project.contour_interval);
   if (layer.kind != QgisLayer::hillshade) return inner_of(layer.style);
   return R"(<pipe><rasterrenderer type="hillshade" band="1" azimuth="315" angle="45" zfactor="1" multidirection="1" opacity="1" alphaBand="-1" nodataColor=""/>
 <brightnesscontrast brightness="20" contrast="0" gamma="1"/><huesaturation saturation="0" grayscaleMode="0"/><rasterresampler maxOversampling="2" zoomedInResampler="bilinear"/></pipe>
@@ -78,7 +97,7 @@ std::string style_of(const QgisLayer& layer) {
 }
 
 std::string layer_xml(const QgisProject& project, std::size_t i) {
-  static const char* const geometry[] = {"", "", "Point", "Line", "Polygon"};
+  static const char* const geometry[] = {"", "", "", "Point", "Line", "Polygon"};
   const QgisLayer& layer = project.layers[i];
   std::string out = is_vector(layer) ? std::string("<maplayer type=\"vector\" geometry=\"") +
                                            geometry[layer.kind] + "\" "
@@ -90,7 +109,7 @@ std::string layer_xml(const QgisProject& project, std::size_t i) {
          (is_vector(layer) ? " encoding=\"UTF-8\">ogr" : ">gdal") + "</provider>\n" +
          metadata_xml(project, "resourceMetadata", layer.name + " (" + project.remark + ")");
   if (!project.remark.empty()) out += "<abstract>" + xml_escaped(project.remark) + "</abstract>\n";
-  return out + style_of(layer) + "</maplayer>\n";
+  return out + style_of(project, layer) + "</maplayer>\n";
 }
 
 // --- the print layout: A4 across -----------------------------------------------------------------
@@ -140,13 +159,43 @@ std::array<double, 4> framed(const std::array<double, 4>& extent, double width, 
   return {cx - scale * width, cy - scale * height, cx + scale * width, cy + scale * height};
 }
 
+// 1, 2 or 5 times a power of ten, at most `largest`.
+double round_length(double largest) {
+  const double power = std::pow(10, std::floor(std::log10(largest)));
+  for (const double factor : {5.0, 2.0})
+    if (factor * power <= largest) return factor * power;
+  return power;
+}
+
+// Crosses where coordinates are round, with the coordinates outside of the frame.
+std::string grid(double interval) {
+  std::string sides;
+  for (const char* side : {"left", "right", "top", "bottom"}) {
+    const bool is_named = side == std::string("left") || side == std::string("bottom");
+    const bool is_upright = side == std::string("left") || side == std::string("right");
+    sides += " " + std::string(side) + "AnnotationDisplay=\"" + (is_named ? "0" : "3") + "\" " +
+             side + "AnnotationPosition=\"1\" " + side + "AnnotationDirection=\"" +
+             (is_upright ? "1" : "0") + "\" " + side + "FrameDivisions=\"0\"";
+  }
+  return "<ComposerMapGrid name=\"Coordinates\" show=\"1\" gridStyle=\"1\" crossLength=\"2\" "
+         "unit=\"0\" offsetX=\"0\" offsetY=\"0\" intervalX=\"" +
+         text(interval) + "\" intervalY=\"" + text(interval) +
+         "\" gridFrameStyle=\"0\" gridFrameSideFlags=\"15\" showAnnotation=\"1\" "
+         "annotationFormat=\"0\" annotationPrecision=\"0\" frameAnnotationDistance=\"1\" "
+         "annotationFontColor=\"60,60,60,255\" blendMode=\"0\" position=\"3\"" +
+         sides + ">\n<lineStyle>" + line_symbol("", 0.15, "60,60,60,255") +
+         "</lineStyle>\n<annotationFontProperties description=\"Sans "
+         "Serif,6,-1,5,50,0,0,0,0,0\" style=\"\"/>\n</ComposerMapGrid>\n";
+}
+
 std::string map_item(const QgisProject& project, double x, double y, double width, double height) {
   const auto [x_min, y_min, x_max, y_max] = framed(project.extent, width, height);
   return item(65639, map_uuid, x, y, width, height,
               "id=\"Map\" frame=\"true\" background=\"true\" followPreset=\"false\" "
               "keepLayerSet=\"false\" mapRotation=\"0\" drawCanvasItems=\"true\" mapFlags=\"1\"",
               "<Extent xmin=\"" + text(x_min) + "\" ymin=\"" + text(y_min) + "\" xmax=\"" +
-                  text(x_max) + "\" ymax=\"" + text(y_max) + "\"/>\n");
+                  text(x_max) + "\" ymax=\"" + text(y_max) + "\"/>\n" +
+                  grid(round_length(std::max(x_max - x_min, 1e-3) / 4)));
 }
 
 std::string legend_item(double x, double y) {
@@ -169,13 +218,7 @@ std::string legend_item(double x, double y) {
 
 std::string scale_bar(const QgisProject& project, double x, double y, double map_width) {
   const auto extent = framed(project.extent, map_width, map_width);
-  const double quarter = (extent[2] - extent[0]) / 8;
-  double step = std::pow(10, std::floor(std::log10(quarter)));
-  for (const double factor : {5.0, 2.0})
-    if (factor * step <= quarter) {
-      step *= factor;
-      break;
-    }
+  const double step = round_length(std::max(extent[2] - extent[0], 1e-3) / 8);
   return item(65646, "00000000-0000-4000-8000-000000000003", x, y, 60, 12,
               std::string("id=\"Scale\" frame=\"false\" background=\"true\" style=\"Single Box\" "
                           "unitType=\"meters\" unitLabel=\"m\" numMapUnitsPerScaleBarUnit=\"1\" "
@@ -188,6 +231,37 @@ std::string scale_bar(const QgisProject& project, double x, double y, double map
               text_style(8, false));
 }
 
+// A drawing as a file's content (base64): an arrow and N.
+constexpr const char* north_arrow =
+    "PHN2ZyB4bWxucz0iaHR0cDovL3d3dy53My5vcmcvMjAwMC9zdmciIHZpZXdCb3g9IjAgMCAyMCAzMCI+PHBhdGggZD0i"
+    "TTEwIDlMMTUgMjhMMTAgMjRMNSAyOFoiIGZpbGw9IiMwMDAiIHN0cm9rZT0iI2ZmZiIgc3Ryb2tlLXdpZHRoPSIuNSIv"
+    "Pjx0ZXh0IHg9IjEwIiB5PSI4IiBmb250LXNpemU9IjkiIGZvbnQtZmFtaWx5PSJzYW5zLXNlcmlmIiB0ZXh0LWFuY2hv"
+    "cj0ibWlkZGxlIj5OPC90ZXh0Pjwvc3ZnPg==";
+
+std::string north(double x, double y) {
+  return item(65640, "00000000-0000-4000-8000-000000000006", x, y, 10, 15,
+              std::string("id=\"North\" frame=\"false\" background=\"false\" mode=\"0\" "
+                          "resizeMode=\"0\" anchorPoint=\"4\" pictureRotation=\"0\" "
+                          "northMode=\"0\" northOffset=\"0\" file=\"base64:") +
+                  north_arrow + "\"",
+              "");
+}
+
+// What whoever signs the sheet fills in, as variables of the project.
+constexpr const char* title_block =
+    "Scale 1 : [% format_number(map_get(item_variables('Map'), 'map_scale'), 0) %] (A4)\n"
+    "Scenario: [% coalesce(nullif(@scenario, ''), '................................') %]\n"
+    "For: [% coalesce(nullif(@client, ''), '................................') %]\n"
+    "Prepared by: [% coalesce(nullif(@prepared_by, ''), '................................') %]\n"
+    "Printed [% format_date(now(), 'yyyy-MM-dd') %]     Signature:";
+constexpr const char* caution =
+    "Simulated, on assumptions that report.html lists; no survey and no hazard zoning by itself.";
+
+constexpr const char* variables =
+    "<Variables><variableNames type=\"QStringList\"><value>prepared_by</value><value>client</value>"
+    "<value>scenario</value></variableNames><variableValues type=\"QStringList\"><value></value>"
+    "<value></value><value></value></variableValues></Variables>";
+
 // QGIS evaluates what stands between [% and %] in a label: words of others must not.
 std::string without_expressions(std::string words) {
   for (std::size_t at = words.find("[%"); at != std::string::npos; at = words.find("[%", at))
@@ -198,7 +272,7 @@ std::string without_expressions(std::string words) {
 std::string layout_xml(const QgisProject& project) {
   std::string words;
   for (const std::string& line : project.layout_lines) words += without_expressions(line) + "\n";
-  words += "printed [% format_date(now(), 'yyyy-MM-dd') %]";
+  words += caution;
   std::string out =
       "<Layout name=\"Map\" units=\"mm\" printResolution=\"300\" worldFileMap=\"\">\n"
       "<PageCollection>\n";
@@ -207,13 +281,20 @@ std::string layout_xml(const QgisProject& project) {
          item(65638, "00000000-0000-4000-8000-000000000000", 0, 0, 297, 210,
               "frame=\"false\" background=\"true\"", std::string(white_symbol) + "\n") +
          "</PageCollection>\n";
-  out += map_item(project, 10, 22, 200, 165) + legend_item(214, 22) +
-         scale_bar(project, 12, 172, 200) +
-         label_item("00000000-0000-4000-8000-000000000004", 10, 8, 277, 10, 16, true,
-                    without_expressions(project.title)) +
-         label_item("00000000-0000-4000-8000-000000000005", 10, 189, 277, 18, 7.5, false, words);
+  out +=
+      map_item(project, 16, 20, 192, 152) + legend_item(213, 20) +
+      scale_bar(project, 18, 158, 192) + north(196, 22) +
+      label_item("00000000-0000-4000-8000-000000000004", 10, 8, 277, 10, 16, true,
+                 without_expressions(project.title)) +
+      label_item("00000000-0000-4000-8000-000000000005", 16, 180, 190, 26, 7, false, words) +
+      label_item("00000000-0000-4000-8000-000000000007", 213, 178, 76, 28, 8, false, title_block);
   return out + "</Layout>\n";
 }
+
+// To corners of all layers, 12 pixels around the cursor.
+constexpr const char* snapping =
+    R"(<snapping-settings enabled="1" type="1" mode="2" tolerance="12" unit="1" intersection-snapping="0" self-snapping="0" scaleDependencyMode="0" minScale="0" maxScale="0"><individual-layer-settings/></snapping-settings>
+)";
 
 }  // namespace
 
@@ -224,6 +305,7 @@ std::string qgis_project_xml(const QgisProject& project) {
       xml_escaped(project.title) + "\">\n<homePath path=\"\"/>\n<title>" +
       xml_escaped(project.title) + "</title>\n<projectCrs>" + crs_xml(project) + "</projectCrs>\n" +
       metadata_xml(project, "projectMetadata", project.title) + layer_tree(project) +
+      (project.is_edited ? snapping : "") +
       "<mapcanvas name=\"theMapCanvas\"><units>meters</units><extent><xmin>" +
       text(project.extent[0]) + "</xmin><ymin>" + text(project.extent[1]) + "</ymin><xmax>" +
       text(project.extent[2]) + "</xmax><ymax>" + text(project.extent[3]) +
@@ -235,8 +317,9 @@ std::string qgis_project_xml(const QgisProject& project) {
     out += "<layer id=\"" + id_of(project, i) + "\"/>\n";
   out +=
       "</layerorder>\n<properties><Paths><Absolute type=\"bool\">false</Absolute></Paths>"
-      "<SpatialRefSys><ProjectionsEnabled type=\"int\">1</ProjectionsEnabled></SpatialRefSys>"
-      "</properties>\n<Layouts>\n";
+      "<SpatialRefSys><ProjectionsEnabled type=\"int\">1</ProjectionsEnabled></SpatialRefSys>";
+  out += variables;
+  out += "</properties>\n<Layouts>\n";
   return out + layout_xml(project) + "</Layouts>\n</qgis>\n";
 }
 

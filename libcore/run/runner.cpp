@@ -84,6 +84,7 @@ void add_to_interval(HealthRow& row, const StepReport& report) {
   for (std::size_t k = 0; k < row.cuts.size(); ++k) row.cuts[k] += report.cuts[k];
   row.fell_through += has(report.flags, StepFlag::fell_through) ? 1 : 0;
   row.not_finite += has(report.flags, StepFlag::not_finite) ? 1 : 0;
+  row.largest_error = std::max(row.largest_error, report.largest_error);
   row.largest_penetration = std::max(row.largest_penetration, report.largest_penetration);
   if (report.shortest_dt > 0 && (row.shortest_dt == 0 || report.shortest_dt < row.shortest_dt))
     row.shortest_dt = report.shortest_dt;

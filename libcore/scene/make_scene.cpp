@@ -92,6 +92,8 @@ void check_scene(const Scene& scene) {
                      "give [solver] normal_stiffness_n_m; the paper takes k_n = E = 5e10");
   if (!(s.normal_stiffness >= 0))
     throw InputError({}, "normal stiffness is " + text(s.normal_stiffness) + " N/m, expected >= 0");
+  if (!(s.accuracy > 0))
+    throw InputError({}, "accuracy is " + text(s.accuracy) + ", expected above 0");
   if (!(s.shear_ratio > 0))
     throw InputError(
         {}, "ratio of shear to normal stiffness is " + text(s.shear_ratio) + ", expected above 0");

@@ -64,7 +64,7 @@ std::vector<StartOverlap> start_overlaps(const BlockSet& blocks,
   place_hulls(hulls, poses, {}, {}, placed);
   std::vector<StartOverlap> found;
   const int n = n_blocks(blocks);
-  for (const BlockOverlap& overlap : block_overlaps(hulls, placed, tolerance)) {
+  for (const BlockOverlap& overlap : block_overlaps(hulls, placed, tolerance, n)) {
     const bool with_panel = overlap.block_b >= n;
     if (overlap.block_a >= n || (!with_panel && !among_blocks)) continue;
     StartOverlap start{overlap, 0, false};

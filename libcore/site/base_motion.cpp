@@ -34,6 +34,22 @@ void check_times(const Site& site, const AccelerationRecord& record, double dura
         "add a sample of zero at 0 s");
 }
 
+// As amplitude_m_s2 alone may be; the scale counts.
+void check_accelerations(const Site& site, const AccelerationRecord& record) {
+  constexpr double most = 1000;
+  const auto check = [&](const Vec3& acceleration, const std::string& key,
+                         const std::string& when) {
+    if (acceleration.norm() <= most) return;
+    throw InputError(where_of(site, "base_motion." + key),
+                     "the acceleration of the ground is " + text(acceleration.norm(), 6) + " m/s2" +
+                         when + ", expected at most " + text(most),
+                     "accelerations are in m/s2, not in g or cm/s2; see scale");
+  };
+  check(record.harmonic.amplitude, "amplitude_m_s2", "");
+  for (std::size_t i = 0; i < record.acceleration.size(); ++i)
+    check(record.acceleration[i], "file", " at " + text(record.time[i], 6) + " s");
+}
+
 }  // namespace
 
 AccelerationRecord read_acceleration_csv(const std::string& path) {
@@ -81,6 +97,7 @@ AccelerationRecord base_motion(const Site& site, double duration) {
   }
   record.harmonic.amplitude *= settings.scale;
   for (Vec3& acceleration : record.acceleration) acceleration *= settings.scale;
+  check_accelerations(site, record);
   return record;
 }
 

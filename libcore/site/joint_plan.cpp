@@ -55,6 +55,14 @@ void plan_spacing(const Site& site, const JointSettings& section, JointSet& set)
   set.spacing = Spacing::lognormal;
   if (std::isnan(section.spacing_std_m))
     missing(site, section, "spacing_std_m", "spacing = \"lognormal\" needs it [m]");
+  // Beyond it most joints lie closer than any rock is jointed, and a few gaps hold all of the mean.
+  constexpr double most_means = 10;
+  if (section.spacing_std_m > most_means * section.spacing_m)
+    throw InputError(where_of(site, path + ".spacing_std_m"),
+                     "spacing_std_m is " + text(section.spacing_std_m) + ", expected at most " +
+                         text(most_means) + " times spacing_m, " +
+                         text(most_means * section.spacing_m),
+                     "measured spacings scatter by one to three times their mean");
   set.spacing_a = section.spacing_std_m;
 }
 
@@ -140,6 +148,13 @@ std::vector<PlannedSet> plan_joint_sets(const Site& site,
     planned.set.dip_direction = turned_azimuth(section.dip_direction_deg, turn_deg) * degree;
     sets.push_back(std::move(planned));
   }
+  constexpr std::size_t most = 30;
+  if (sets.size() > most)
+    throw InputError({site.file, site.joints.back().line},
+                     "there are " + std::to_string(sets.size()) + " joint sets, expected at most " +
+                         std::to_string(most),
+                     "put orientations that belong together into one [joints.*], with fisher_k "
+                     "for their scatter");
   check_names(site, sets);
   return sets;
 }

@@ -80,14 +80,14 @@ void look_at_resolution(const PlausibilityFacts& f, Doubts& doubts) {
 }
 
 void look_at_motion(const PlausibilityFacts& f, Doubts& doubts) {
-  doubts.above(f.step_at_foot / f.sliding_spacing, {0.3, never_high}, "source.failure_surface",
-               "the mass leans on a step of up to " + metres(f.step_at_foot) + " along " +
-                   percent(f.step_share) + " of its foot",
-               f.daylights
-                   ? "move the lower edge of the source to where the surface comes out, or leave "
-                     "out what leans on it: daylight = \"...\""
-                   : "a surface that comes out at the foot: failure_surface = \"daylighting\", or "
-                     "daylight = \"...\" (talus-source lists what there is)");
+  doubts.above(
+      f.step_at_foot / f.sliding_spacing, {low_step_spacings, never_high}, "source.failure_surface",
+      "the mass leans on a step of up to " + metres(f.step_at_foot) + " along " +
+          percent(f.step_share) + " of its foot",
+      f.daylights ? "move the lower edge of the source to where the surface comes out, or leave "
+                    "out what leans on it: daylight = \"...\""
+                  : "a surface that comes out at the foot: failure_surface = \"daylighting\", or "
+                    "daylight = \"...\" (talus-source lists what there is)");
   doubts.below(f.moved_share, {0.9, never_low}, "source.failure_surface",
                f.moved_share < 0.1 ? "this is no rockslide: " + percent(f.moved_share) +
                                          " of the mass goes in the probe, the rest stands"
@@ -96,6 +96,10 @@ void look_at_motion(const PlausibilityFacts& f, Doubts& doubts) {
                                          "to stay",
                "look at the step at the foot, at friction against the dip of the failure surface, "
                "and at the blocks that lock");
+  doubts.above(f.left_share, {0.01, never_high}, "terrain",
+               percent(f.left_share) + " of the fall lines from the source leave the known terrain",
+               "take more of the slope below (window_m, or a larger elevation model): what leaves "
+               "the terrain is counted, and not followed");
   doubts.below(f.duration, {f.travel_duration, never_low}, "solver.duration_s",
                "the run lasts " + text(f.duration, 3) + " s, sliders from the source ask for " +
                    text(std::ceil(f.travel_duration), 3) + " s",

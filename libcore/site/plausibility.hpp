@@ -10,6 +10,9 @@
 
 namespace talus {
 
+/// Steps at the foot below this many spacings are low for the blocks.
+inline constexpr double low_step_spacings = 0.3;
+
 /// NaN where a number does not apply.
 struct PlausibilityFacts {
   static constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -25,11 +28,12 @@ struct PlausibilityFacts {
   double n_blocks = none;                      ///< that a run would move
   bool daylights = false;                      ///< the surface is a plane or wedge that comes out
   double step_at_foot = none;                  ///< largest height that the mass leans on [m]
-  double step_share = none;                    ///< of the foot with such a step [-]
+  double step_share = none;                    ///< of the foot with a step that counts [-]
   double sliding_spacing = none;               ///< of the set that slides [m]
   double duration = none;                      ///< of the run [s]
   double travel_duration = none;               ///< that sliders from the source ask for [s]
   double moved_share = none;                   ///< of the mass in the probe [-]
+  double left_share = none;                    ///< of the fall lines that leave the terrain [-]
 };
 
 struct Doubt {

@@ -9,6 +9,7 @@ Where where_of(const Site& site, const std::string& key) {
   if (found == site.sources.end()) return {site.file};
   if (found->second.kind == ValueSource::from_cli) return {"", 0, "command line"};
   if (found->second.kind == ValueSource::from_soil) return {site.file};
+  if (found->second.kind == ValueSource::from_layer) return {found->second.words};
   return {site.file, found->second.line};
 }
 

@@ -24,6 +24,7 @@ struct SiteInfo {
   std::string name;  ///< of the site; the name of its folder when not given
   std::string crs;   ///< e.g. "EPSG:31287"; what the coordinates in this file are in
   std::string description;
+  std::string layers;  ///< GeoPackage whose layers stand for sections; empty once they were taken
 };
 
 /// [terrain]: what talus-tin and talus-trn are called with.
@@ -139,6 +140,7 @@ struct SolverSettings {
   double cor = not_given;              ///< overrides those of materials and ground
   std::string strain = "auto";
   bool end_when_standing = true;  ///< a run in which nothing moves ends after some seconds
+  double accuracy = 0.005;        ///< of the way of what moves: see Settings
   std::int64_t max_passes = 50;
   std::int64_t seed = 1, n_runs = 1;
   double start_jitter_m_s = 0;
@@ -331,14 +333,25 @@ struct PlaceSettings {
 
 /// Where the value of a key came from.
 struct ValueSource {
-  enum Kind { from_default, from_file, from_cli, from_soil, from_draw } kind = from_default;
-  int line = 0;         ///< in the site file
-  std::string words{};  ///< of a draw: "sample 7 of uncertainty.friction"
+  enum Kind {
+    from_default,
+    from_file,
+    from_cli,
+    from_soil,
+    from_draw,
+    from_layer
+  } kind = from_default;
+  int line = 0;  ///< in the site file
+  /// Of a draw: "sample 7 of uncertainty.friction"; of a layer: "site.gpkg, layer fences, feature
+  /// 2".
+  std::string words{};
 };
 
 struct Site {
-  std::string file;    ///< path as given
-  std::string folder;  ///< of the file; relative paths in it start there
+  std::string file;         ///< path as given
+  std::string folder;       ///< of the file; relative paths in it start there
+  std::string layers_file;  ///< that sections were taken from, as SiteInfo::layers says it
+  std::map<std::string, std::string> layer_digests;  ///< "fence.valley" -> of its features there
   SiteInfo info;
   TerrainSettings terrain;
   SourceSettings source;

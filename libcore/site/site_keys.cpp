@@ -28,7 +28,8 @@ template <> const std::vector<SiteKey<SiteInfo>>& keys_of() {
   static const std::vector<SiteKey<S>> table = {
       {"name", &S::name, "name of the site"},
       {"crs", &S::crs, "coordinate system of the coordinates in this file, e.g. EPSG:31287"},
-      {"description", &S::description, "free text"}};
+      {"description", &S::description, "free text"},
+      {"layers", &S::layers, "GeoPackage whose layers stand for sections: source, fences, grounds, objects, forest, release points, places"}};
   return table;
 }
 template <> const std::vector<SiteKey<TerrainSettings>>& keys_of() {
@@ -166,6 +167,7 @@ template <> const std::vector<SiteKey<SolverSettings>>& keys_of() {
       {"time_step_s", &S::time_step_s, "time step, which law talus cuts where it must; not given: 0.005, law paper 0.0001", {0, 1, true, false}},
       {"min_time_step_s", &S::min_time_step_s, "smallest time step", {0, 1, true, false}},
       {"max_time_step_s", &S::max_time_step_s, "largest time step", {0, 1, true, false}},
+      {"accuracy", &S::accuracy, "law talus: error of the way of what moves, as a share; a step whose estimate is larger is cut", {0, 1, true, false}},
       {"gravity_m_s2", &S::gravity_m_s2, "gravity, downwards", {0, 1000}},
       {"normal_stiffness_n_m", &S::normal_stiffness_n_m, "penalty stiffness of a contact", positive},
       {"shear_stiffness_ratio", &S::shear_stiffness_ratio, "shear over normal stiffness", {0, 10, true, false}},
@@ -192,7 +194,7 @@ template <> const std::vector<SiteKey<FenceSettings>>& keys_of() {
       {"line_file", &S::line_file, "vector file with the fence line, instead of line"},
       {"line_layer", &S::line_layer, "its layer or layers"},
       {"line_where", &S::line_where, "attribute filter on the lines"},
-      {"height_m", &S::height_m, "height above the ground", positive},
+      {"height_m", &S::height_m, "height above the ground", {0, 1000, true, false}},
       {"capacity_kj", &S::capacity_kj, "energy that a panel takes before it breaks; rigid when not given", positive},
       {"max_deflection_m", &S::max_deflection_m, "deflection at which one block has used up the capacity; half the height when not given", positive},
       {"post_spacing_m", &S::post_spacing_m, "distance of posts", positive},
@@ -222,7 +224,7 @@ template <> const std::vector<SiteKey<ForestSettings>>& keys_of() {
       {"fe_conifer", &S::fe_conifer, "factor on the energy that breaks a conifer", {0, 10, true, false}},
       {"fe_broadleaf", &S::fe_broadleaf, "the same of a broadleaf", {0, 10, true, false}},
       {"deflection_m", &S::deflection_m, "path of the block over which a stem takes its energy", {0, 10, true, false}},
-      {"height_m", &S::height_m, "height above the ground up to which stems stop blocks", positive},
+      {"height_m", &S::height_m, "height above the ground up to which stems stop blocks", {0, 1000, true, false}},
       {"friction_deg", &S::friction_deg, "friction angle between block and stem", angle_below_90, "", friction_hint},
       {"seed", &S::seed, "seed of the stand", not_negative},
       {"new_stand_per_run", &S::new_stand_per_run, "each [solver] seed draws a stand of its own"},
@@ -280,7 +282,7 @@ template <> const std::vector<SiteKey<PlacedSettings>>& keys_of() {
       {"n_points", &S::n_points, "points of a rock", {4, 500}},
       {"material", &S::material, "material of the bodies"},
       {"position_m", &S::position_m, "map x, y or x, y, z of each body", any, "", "", 1},
-      {"height_above_ground_m", &S::height_above_ground_m, "height of the lowest vertex above the ground below it", not_negative},
+      {"height_above_ground_m", &S::height_above_ground_m, "height of the lowest vertex above the ground below it", {0, 100000}},
       {"release_file", &S::release_file, "vector file of release points or lines"},
       {"release_layer", &S::release_layer, "its layer or layers"},
       {"release_where", &S::release_where, "attribute filter on the points or lines"},
@@ -362,7 +364,7 @@ template <> const std::vector<SiteKey<UncertaintySettings>>& keys_of() {
       {"n_samples", &S::n_samples, "samples of a hypercube, which has no others", {0, 1e7}},
       {"sample", &S::sample, "which sample this run is, from 1; 0: nothing is drawn. The pipeline gives each run that of its seed", {0, 4e9}},
       {"rock_masses", &S::rock_masses, "sets of blocks that are cut, each with its own joints; runs take them in turn. 0: one, by what this file says", {0, 1000000}},
-      {"terrain_rmse_m", &S::terrain_rmse_m, "error of the terrain's elevations, root of the mean square: each rock mass gets a ground of its own. 0: none", not_negative},
+      {"terrain_rmse_m", &S::terrain_rmse_m, "error of the terrain's elevations, root of the mean square: each rock mass gets a ground of its own. 0: none", {0, 1000}},
       {"terrain_correlation_m", &S::terrain_correlation_m, "distance over which errors of the terrain are alike; 10 cells when not given", positive},
       {"max_failed_share", &S::max_failed_share, "up to this share of the runs may fail: they are left out, and widen the intervals", share}};
   return table;

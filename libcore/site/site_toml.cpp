@@ -11,6 +11,7 @@
 #include "base/read_file.hpp"
 #include "base/text.hpp"
 #include "site/site_keys.hpp"
+#include "site/site_layers.hpp"
 #include "site/soils.hpp"
 
 namespace talus {
@@ -448,6 +449,63 @@ struct Overrider {
   }
 };
 
+// --- layers ------------------------------------------------------------------------------------
+
+// Databases have no list and often no truth value: text that is TOML where the key is no text.
+struct LayerNode {
+  const std::string& words;
+  template <class Field>
+  toml::table operator()(Field) const {
+    return parsed_value(words);
+  }
+  template <class Section>
+  toml::table operator()(bool Section::*) const {
+    return parsed_value(words == "1" ? "true" : words == "0" ? "false" : words);
+  }
+  template <class Section>
+  toml::table operator()(std::string Section::*) const {
+    return toml::table{{"value", words}};
+  }
+};
+
+struct SectionTaker {
+  Site& site;
+  const LayerSection& from;
+
+  void take_value(auto& fields, const std::string& path, const LayerSection::Value& value) const {
+    using Section = std::remove_reference_t<decltype(fields)>;
+    const Where where{from.place};
+    const SiteKey<Section>& row = key_named<Section>(value.key, path, where);
+    const auto given = site.sources.find(path + "." + row.name);
+    if (given != site.sources.end() && given->second.kind != ValueSource::from_soil)
+      throw InputError(where,
+                       std::string(row.name) + " of [" + path + "] stands here and in " +
+                           (given->second.kind == ValueSource::from_layer
+                                ? given->second.words
+                                : site.file + ":" + std::to_string(given->second.line)),
+                       "say it once: take it out of one of the two");
+    const toml::table holder = std::visit(LayerNode{value.text}, row.field);
+    read_value(fields, row, path + "." + row.name, *holder.get("value"), where);
+    site.sources[path + "." + row.name] = {ValueSource::from_layer, 0, from.place};
+  }
+  template <class Section>
+  void operator()(const char* name, Section& fields) const {
+    if (!from.name.empty() || from.group != name) return;
+    for (const auto& value : from.values) take_value(fields, name, value);
+  }
+  template <class Section>
+  void operator()(const char* group, std::vector<Section>& sections) const {
+    if (from.name.empty() || from.group != group) return;
+    const auto is_it = [this](const Section& section) { return section.name == from.name; };
+    auto at = std::find_if(sections.begin(), sections.end(), is_it);
+    if (at == sections.end()) {
+      at = sections.emplace(sections.end());
+      at->name = from.name;
+    }
+    for (const auto& value : from.values) take_value(*at, group + ("." + from.name), value);
+  }
+};
+
 }  // namespace
 
 Site parse_site(const std::string& text, const std::string& path) {
@@ -495,6 +553,18 @@ void override_value(Site& site, const std::string& key, const std::string& value
     throw InputError({"", 0, "command line"}, "no section [" + key.substr(0, last) + "]",
                      known.empty() ? did_you_mean(group, group_names())
                                    : did_you_mean(key.substr(0, last), known));
+  }
+  fill_from_soils(site);
+  check_names(site);
+}
+
+void take_sections(Site& site, const std::vector<LayerSection>& sections) {
+  for (const LayerSection& section : sections) {
+    for_each_group(site, SectionTaker{site, section});
+    site.layer_digests[section.group + (section.name.empty() ? "" : "." + section.name)] =
+        section.digest;
+    if (std::find(site.sections.begin(), site.sections.end(), section.group) == site.sections.end())
+      site.sections.push_back(section.group);
   }
   fill_from_soils(site);
   check_names(site);

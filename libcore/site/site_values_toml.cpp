@@ -92,7 +92,8 @@ struct ValueLister {
           soil != nullptr && source.kind == ValueSource::from_soil)
         return std::string("soil ") + soil->name + " (" + soil->mark + ")";
     if (source.kind == ValueSource::from_cli) return "cli";
-    if (source.kind == ValueSource::from_draw) return source.words;
+    if (source.kind == ValueSource::from_draw || source.kind == ValueSource::from_layer)
+      return source.words;
     return "file, line " + std::to_string(source.line);
   }
   // How sure the values of a soil are, and where they are from.

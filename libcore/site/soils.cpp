@@ -15,7 +15,7 @@ constexpr const char* estimated = "estimate, not calibrated";
 
 constexpr const char* from_tschamut =
     "18 runs at Tschamut (Volkwein and Gerber 2018, doi 10.16904/envidat.34), blocks of 40 to 79 "
-    "kg as hulls of 20 points";
+    "kg as hulls of 20 points, by a prototype of this program";
 constexpr const char* from_judgement =
     "cor and cor_half_speed_m_s for what a hull of 20 points returns in all, rolling_resistance by "
     "judgement between bare rock and meadow; no field test";

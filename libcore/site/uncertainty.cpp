@@ -421,12 +421,15 @@ void check_quantity(const Site& site, const QuantitySettings& q) {
 
 // The short form of the same.
 void check_scatter(const Site& site, const QuantitySettings& q) {
-  const auto check = [&](const char* key, double scatter, const char* scatter_key) {
+  const auto check = [&](const char* key, double scatter, const std::string& scatter_key,
+                         const char* is = " is a normal that is added") {
     for (const std::string& path : q.keys)
       if (scatter > 0 && group_of(path) == "ground" && last_word(path) == key)
         refuse(site, q, "keys", path + " is drawn here, and scatters by [solver] " + scatter_key,
-               std::string("take one of them out; ") + scatter_key + " is a normal that is added");
+               "take one of them out; " + scatter_key + is);
   };
+  for (const char* key : {"rolling_resistance", "spin_resistance", "bearing_kpa"})
+    check(key, site.solver.rolling_scatter, "rolling_scatter", " is a lognormal factor");
   check("friction_deg", site.solver.friction_scatter_deg, "friction_scatter_deg");
   check("cor", site.solver.cor_scatter, "cor_scatter");
 }
@@ -543,9 +546,11 @@ std::vector<DrawnKey> drawn_keys(const Site& site, DrawScope scope) {
 
 void apply_draws(Site& site, DrawScope scope) {
   const std::int64_t sample = site.uncertainty.sample, mass = rock_mass(site.uncertainty);
+  // rock is cut once for all samples of its mass, and named alike by all of them
+  const std::int64_t named = scope == DrawScope::rock && mass > 0 ? mass : sample;
   for (const DrawnKey& drawn : drawn_keys(site, scope)) {
     const std::string words =
-        "sample " + std::to_string(sample) + " of uncertainty." + drawn.quantity;
+        "sample " + std::to_string(named) + " of uncertainty." + drawn.quantity;
     set_number(site, drawn.key, drawn.value, {ValueSource::from_draw, 0, words});
   }
   if (scope == DrawScope::rock && mass > 0) site.uncertainty.sample = mass;

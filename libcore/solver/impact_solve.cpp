@@ -456,7 +456,8 @@ struct Solver {
     const Vec2 across(t.dot(u), s.dot(u)), coupling(t.dot(W * n), s.dot(W * n));
     Mat2 A;
     A << t.dot(W * t), t.dot(W * s), s.dot(W * t), s.dot(W * s);
-    Vec2 direction = across;
+    // a contact that does not slip before slides where the push across its lever throws it
+    Vec2 direction = across.isZero(0) ? coupling : across;
     for (int k = 0; k < most_turns; ++k) {
       ++passes;
       direction.normalize();

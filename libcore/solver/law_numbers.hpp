@@ -183,6 +183,12 @@ inline constexpr double longest_turn = 60;
 inline constexpr int most_halvings = 4;
 /// [-] Cuts of a substep where what gives way is used up.
 inline constexpr int most_used_up_cuts = 24;
+/// [thickness] What a block errs by is a share of its way, or of this where that is more.
+inline constexpr double way_at_rest = 1e-2;
+/// [-] A substep that is not accurate is made anew with at most so small a part of its length ...
+inline constexpr double most_parts = 4;
+/// [-] ... and the next may be longer than one that is, by this factor.
+inline constexpr double most_lengthening = 4;
 /// [in a step] Cuts where a block would end deep in something.
 inline constexpr int most_deep_cuts = 8;
 /// [thickness] A hit that ends deeper than this cuts the substep: health allows `deep_share` ...

@@ -143,7 +143,8 @@ void add_ground_hit_loss(const Scene& scene, int b, const Motion& before, const 
   const double impulse = scene.blocks.mass[i] * normal.dot(after.velocity - before.velocity);
   const double path =
       normal.dot(velocity_at(scene, i, before, point) + velocity_at(scene, i, after, point)) / 2;
-  state.hit_loss[i] += std::clamp(-impulse * path, 0.0, dissipated);
+  // what couples took of a hit may be more than the rest of it lost
+  state.hit_loss[i] += std::clamp(-impulse * path, 0.0, std::max(0.0, dissipated));
 }
 
 double chance_of_breaking(double loss, double work, double spread) {

@@ -31,12 +31,13 @@ enum class SubstepCut : std::uint8_t {
   unconverged,       ///< its forces did not converge: half
   contact_left_out,  ///< a contact that was left out closes: the same with all contacts
   deep,              ///< a block would end deep in something: ends after the hit that does it
+  inaccurate,        ///< its forces change by more than Settings::accuracy allows: shorter
   bond_broken,       ///< a bond carries more than it holds: the same without it
   yielding_used_up,  ///< what gives way has taken all that it can: ends there
 };
-inline constexpr std::array<const char*, 6> substep_cut_names = {
-    "yielding_touched", "unconverged",     "contact_left_out", "deep",
-    "bond_broken",      "yielding_used_up"};
+inline constexpr std::array<const char*, 7> substep_cut_names = {
+    "yielding_touched", "unconverged", "contact_left_out", "deep",
+    "inaccurate",       "bond_broken", "yielding_used_up"};
 
 struct StepReport {
   StepFlag flags = StepFlag::none;
@@ -55,6 +56,9 @@ struct StepReport {
   double sum_penetration = 0;  ///< over contacts that press [m]
   /// Substeps of islands of law talus that were made again, by SubstepCut.
   std::array<int, substep_cut_names.size()> cuts{};
+  /// Largest error estimated of a substep that was accepted, as a share of the way (step/
+  /// accuracy.hpp) [-].
+  double largest_error = 0;
   double shortest_dt = 0;  ///< shortest substep; 0 when no block searched contact [s]
 };
 

@@ -15,13 +15,15 @@ namespace talus {
 
 static_assert(sizeof(Motion) == 112 && sizeof(EnergyLedger) == 72 && sizeof(RunCounters) == 64);
 static_assert(sizeof(ContactMemory) == 136 &&
-              sizeof(HealthRow) == 200 + 8 * substep_cut_names.size());
+              sizeof(HealthRow) == 208 + 8 * substep_cut_names.size());
 static_assert(sizeof(State) == 8 + 22 * 24 + sizeof(EnergyLedger) + sizeof(RunCounters) +
                                    sizeof(PairState) + sizeof(PlacedHulls) + sizeof(FenceState) +
                                    sizeof(YieldingState) + sizeof(Mishaps));
 static_assert(sizeof(YieldingState) == 3 * 24 && sizeof(Yielded) == 56);
 static_assert(sizeof(StemMet) == 64 && sizeof(StemHit) == 80);
-static_assert(sizeof(FenceState) == 24 && sizeof(FenceHit) == 104 && sizeof(BlockBond) == 48);
+static_assert(sizeof(FenceState) == 24 && sizeof(FenceHit) == 104);
+// Of the face of a bond what joints have: they do not give way as ground does.
+static_assert(sizeof(BlockBond) == 16 + sizeof(GroundClass) && sizeof(GroundClass) == 128);
 static_assert(sizeof(PairState) == 280 && sizeof(PlacedHulls) == 192 && sizeof(ListedPair) == 96);
 static_assert(sizeof(BlockLoad) == 192 && sizeof(CrushedBlock) == 72 && sizeof(Break) == 80);
 static_assert(sizeof(SlidWay) == 16 && sizeof(DeepBlock) == 64 && sizeof(Mishap) == 48 &&
@@ -185,9 +187,9 @@ template <class Archive>
 void fields(Fields<Archive>& archive, HealthRow& row) {
   archive(row.time, row.shortest_dt, row.steps, row.substeps, row.passes, row.flips, row.impacts,
           row.unconverged, row.left_domain, row.fell_through, row.not_finite,
-          row.largest_penetration, row.translation, row.rotation, row.potential, row.elastic,
-          row.friction, row.impact, row.contact, row.base, row.fence, row.rolling, row.drag,
-          row.breakage, row.removed);
+          row.largest_penetration, row.largest_error, row.translation, row.rotation, row.potential,
+          row.elastic, row.friction, row.impact, row.contact, row.base, row.fence, row.rolling,
+          row.drag, row.breakage, row.removed);
   for (std::int64_t& n : row.cuts) archive(n);
 }
 template <class Archive>
@@ -198,7 +200,7 @@ void fields(Fields<Archive>& archive, Checkpoint& checkpoint) {
 
 namespace {
 
-constexpr std::uint64_t format = 0x31316b6365686374;  // "tcheck11"
+constexpr std::uint64_t format = 0x32316b6365686374;  // "tcheck12"
 constexpr std::size_t digest_length = 64;
 
 std::string digest_of(std::span<const std::uint8_t> bytes) {

@@ -487,14 +487,31 @@ void soil_columns(Visit&& column) {
       [](HealthRow & h) -> auto& { return h.drag; });
 }
 
+constexpr auto by_accuracy = static_cast<std::size_t>(SubstepCut::inaccurate);
+
 // Missing in runs of earlier versions.
 template <class Visit>
 void cut_columns(Visit&& column) {
-  for (std::size_t k = 0; k < substep_cut_names.size(); ++k)
+  for (std::size_t k = 0; k < substep_cut_names.size(); ++k) {
+    if (k == by_accuracy) continue;
     column(
         (std::string("cut_") + substep_cut_names[k]).c_str(), "1",
         "substeps of islands made again for this reason in the interval (docs/theory.md, stage 8)",
         [k](HealthRow & h) -> auto& { return h.cuts[k]; });
+  }
+}
+
+// Missing in runs of earlier versions.
+template <class Visit>
+void accuracy_columns(Visit&& column) {
+  column(
+      "cut_inaccurate", "1",
+      "substeps made again in the interval because of their estimated error ([solver] accuracy)",
+      [](HealthRow & h) -> auto& { return h.cuts[by_accuracy]; });
+  column(
+      "largest_error", "1",
+      "largest estimated error of a substep that was accepted in the interval, over the way",
+      [](HealthRow & h) -> auto& { return h.largest_error; });
 }
 
 template <class Row, class Field>
@@ -625,6 +642,7 @@ void write_health_table(H5Writer& file, const std::vector<HealthRow>& rows) {
                 if (has_soil) soil_columns(column);
                 if (any_breakage) breakage_column(column);
                 cut_columns(column);
+                accuracy_columns(column);
               });
 }
 
@@ -694,6 +712,12 @@ std::vector<HealthRow> read_health_table(const H5Reader& file, bool only_faults)
       file, std::string("health/cut_") + substep_cut_names.front(), rows,
       [](auto&& column) { cut_columns(column); },
       [](const HealthRow& read, HealthRow& row) { row.cuts = read.cuts; });
+  read_beside(
+      file, "health/cut_inaccurate", rows, [](auto&& column) { accuracy_columns(column); },
+      [](const HealthRow& read, HealthRow& row) {
+        row.cuts[by_accuracy] = read.cuts[by_accuracy];
+        row.largest_error = read.largest_error;
+      });
   read_beside(
       file, "health/rolling_loss_j", rows, [](auto&& column) { soil_columns(column); },
       [](const HealthRow& read, HealthRow& row) {

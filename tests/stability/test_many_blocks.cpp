@@ -17,6 +17,13 @@ using namespace talus::stability;
 // A pile of four cubes is 4 high and 1 wide: it topples where tan(dip) > 1/4, dip > 14.04 degrees.
 TEST(ManyBlocks, PileTopplesWhereItsWeightLeavesItsBase) { EXPECT_LT(pile_topples({}).error, 0.5); }
 
+// What the columns lean with on one another, and which of them slide, is found by the engine.
+TEST(ManyBlocks, ColumnsToppleAsGoodmanAndBraySay) {
+  const CaseResult result = columns_topple({});
+  EXPECT_NEAR(result.expected, 38.146, 1e-3);
+  EXPECT_LT(result.error, 0.5);
+}
+
 TEST(ManyBlocks, BlockSlidesOnABlock) { EXPECT_LT(block_on_block({}).error, 2e-3); }
 
 TEST(ManyBlocks, WedgeSlidesInAGrooveOfTwoBlocks) { EXPECT_LT(groove({}).error, 5e-3); }

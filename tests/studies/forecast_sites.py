@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""forecast_sites.py OUT [N [SEED]]: folders of N sites drawn at random, for forecast.sh.
+"""Sites for forecast.py: a slope of the Serles, and sites drawn at random.
 
 The ground is one of the elevation models of ../shared/data/dem, the source a rectangle on a slope of 36 to 58 degrees;
 joints, friction and the kind of failure surface are drawn. Needs python3-gdal.
@@ -7,7 +7,6 @@ joints, friction and the kind of failure surface are drawn. Needs python3-gdal.
 import math
 import os
 import random
-import sys
 
 from osgeo import gdal, osr
 
@@ -52,6 +51,7 @@ def write(out, **values):
         f.write(site_text.format(**values))
     with open(os.path.join(folder, 'Makefile'), 'w') as f:
         f.write(f'include {root}/pipelines/site.mk\n')
+    return folder
 
 
 def slope_at(z, cell, row, col, half):
@@ -87,19 +87,27 @@ def drawn_site(draw, name, out):
         'failure_surface = "slbl"\nslbl_scenario = "inter"'])
     spread = lambda azimuth, by: round((azimuth + draw.uniform(-by, by)) % 360)
     spacing = lambda: round(draw.uniform(9, 14), 1)
-    write(out, name=name, crs=f'EPSG:{code}', dem=dem, polygon=polygon, surface=surface,
+    return write(out, name=name, crs=f'EPSG:{code}', dem=dem, polygon=polygon, surface=surface,
           sliding=(round(dip - draw.uniform(3, 14)), spread(aspect, 15), spacing()),
           rear=(round(draw.uniform(74, 88)), spread(aspect + 180, 20), spacing()),
           lateral=(round(draw.uniform(78, 88)), spread(aspect + 90, 20), spacing()),
           friction=round(draw.uniform(24, 34)), duration=20)
 
 
-def main():
-    out = sys.argv[1]
-    n, seed = (int(word) for word in (sys.argv[2:] + ['10', '1'][len(sys.argv) - 2:])[:2])
+def drawn(out, seed):
+    """Folders without end, each of a site drawn anew: the same ones for the same seed."""
     draw = random.Random(seed)
-    for k in range(n):
-        drawn_site(draw, f'drawn_{k}', out)
+    k = 0
+    while True:
+        yield drawn_site(draw, f'drawn_{seed}_{k}', out)
+        k += 1
 
 
-main()
+def serles(out):
+    """The north face of the Serles: 60 x 50 m, a hollow of 8 m, three sets 8 m apart."""
+    x, y = 79120, 222100
+    return write(out, name='serles', crs='EPSG:31254',
+                 dem=os.path.join(root, '..', 'shared', 'data', 'dem', 'serles_10m.tif'),
+                 polygon=[[x - 30, y - 25], [x + 30, y - 25], [x + 30, y + 25], [x - 30, y + 25]],
+                 surface='failure_surface = "normal_depth"\ndepth_m = 8', sliding=(30, 340, 8), rear=(68, 355, 8),
+                 lateral=(82, 78, 8), friction=28, duration=40)

@@ -5,7 +5,10 @@
 
 Each observed release is simulated with many blocks of its size and mass that start in random attitudes,
 each alone, on the 5 m terrain that comes with the data. That terrain is interpolated from positions of
-rolling blocks, so only distributions are compared:
+rolling blocks, so only distributions are compared. Blocks start where they were measured, up to 1.4 m
+above that terrain, with the measured velocity; --settle lifts those that it would bury.
+
+Compared are:
 
 - `soil = "meadow"` as it is, with nothing fitted, and firm ground with values of the literature;
 - the same meadow with hulls of 8, 12 and 40 points, and with other friction and time steps;
@@ -47,7 +50,7 @@ def site_text(releases, sizes, n, points):
         text += (f'[blocks.{r["trajectory_id"]}]\nshape = "rock"\nn_points = {points}\n'
                  f'size_m = [{size["size_x_m"]}, {size["size_y_m"]}, {size["size_z_m"]}]\n'
                  f'volume_m3 = {float(r["mass_kg"]) / DENSITY_KG_M3:.6f}\n'
-                 f'position_m = [[{r["x_m"]}, {r["y_m"]}]]\nheight_above_ground_m = 0.1\n'
+                 f'position_m = [[{r["x_m"]}, {r["y_m"]}, {r["z_m"]}]]\n'
                  f'velocity_m_s = [{r["vx_mps"]}, {r["vy_mps"]}, {r["vz_mps"]}]\n'
                  f'random_orientation = true\nn_per_point = {n}\nseed = {int(r["trajectory_id"][1:])}\n')
     return text
@@ -83,7 +86,7 @@ class Slope:
         name = self.blocks(N_A_RELEASE[n], points)
         words = [w for key, value in ground.items() for w in ("--set", f"ground.meadow.{key}={value}")]
         self.run("talus-dda", f"{name}.toml", "--trn", "trn.tif", "--blocks", f"{name}.h5", "-o",
-                 "run.h5", "--independent", "--frame-interval-s", 1, "--set", "output.passages=false",
+                 "run.h5", "--independent", "--settle", "--frame-interval-s", 1, "--set", "output.passages=false",
                  *words, *more)
         self.run("talus-runout", "run.h5", "--trn", "trn.tif", "-o", "run.gpkg", "--csv", "run.csv",
                  "--allow-unfinished")

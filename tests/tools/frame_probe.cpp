@@ -5,7 +5,7 @@
 #include <fstream>
 #include <thread>
 
-#include "tools/frame/tool.hpp"
+#include "tools/frame/options.hpp"
 
 int main(int argc, char** argv) {
   std::string source, target, second, mode = "copy";

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "base/memory.hpp"
 #include "base/text.hpp"
 #include "blocks/least_size.hpp"
 #include "blocks/part_faces.hpp"
@@ -12,6 +13,7 @@
 #include "blocks/placement.hpp"
 #include "blocks/shapes.hpp"
 #include "blocks/solid.hpp"
+#include "geometry/repeated_points.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/mesh.hpp"
 #include "site/joint_plan.hpp"
@@ -125,12 +127,16 @@ std::vector<Body> mesh_bodies(const PlacedContext& context, const PlacedSettings
 void check_number(const PlacedContext& context, const PlacedSettings& section, double n_places,
                   double n_at_each) {
   const auto most = static_cast<double>(context.site.source.max_blocks);
-  if (n_places * n_at_each <= most) return;
-  throw InputError(where_of_section(context, section),
-                   "would release about " + text(std::round(n_places * n_at_each)) +
-                       " bodies, expected at most " + text(most),
-                   "widen release_spacing_m, lower n_per_point, or set source.max_blocks to what "
-                   "your machine can take");
+  if (n_places * n_at_each > most)
+    throw InputError(where_of_section(context, section),
+                     "would release about " + text(std::round(n_places * n_at_each)) +
+                         " bodies, expected at most " + text(most),
+                     "widen release_spacing_m, lower n_per_point, or set source.max_blocks to what "
+                     "your machine can take");
+  constexpr double bytes_per_body = 6700;  // as cut ones, docs/tools/talus-blocks.md
+  require_memory(bytes_per_body * n_places * n_at_each, where_of_section(context, section),
+                 text(std::round(n_places * n_at_each)) + " bodies",
+                 "widen release_spacing_m or lower n_per_point");
 }
 
 // --- positions ---------------------------------------------------------------------------------
@@ -163,6 +169,29 @@ std::vector<Vec3> release_from_file(const PlacedContext& context, const PlacedSe
   return positions;
 }
 
+// A place that is named twice is one place: two bodies in it would be one inside the other, or,
+// each alone, would count twice.
+std::vector<Vec3> each_place_once(const PlacedContext& context, const PlacedSettings& section,
+                                  const std::vector<Vec3>& positions) {
+  constexpr double same_place = 1e-3;  // [m]
+  const std::vector<int> repeated = repeated_points(positions, same_place);
+  std::vector<Vec3> kept;
+  const Vec3* last = nullptr;
+  for (size_t i = 0; i < positions.size(); ++i)
+    if (repeated[i] < 0)
+      kept.push_back(positions[i]);
+    else
+      last = &positions[i];
+  if (last == nullptr) return kept;
+  const Vec3 place = *last + context.ground.origin;
+  context.tool.warn("blocks." + section.name + ": " +
+                    std::to_string(positions.size() - kept.size()) + " of " +
+                    std::to_string(positions.size()) +
+                    " release places repeat another one, such as (" + text(place.x(), 10) + ", " +
+                    text(place.y(), 10) + "): each is taken once; n_per_point releases several");
+  return kept;
+}
+
 std::vector<Vec3> positions_of(const PlacedContext& context, const PlacedSettings& section) {
   std::vector<Vec3> positions =
       local_points(context.tool, context.site, context.ground, section.position_m,
@@ -186,7 +215,7 @@ std::vector<Vec3> positions_of(const PlacedContext& context, const PlacedSetting
   if (positions.empty())
     throw InputError(where_of_section(context, section), "the bodies have no place",
                      "give position_m, release_file or release_grid");
-  return positions;
+  return each_place_once(context, section, positions);
 }
 
 // Turned, moved to the place and, unless its height is given, set on the ground.

@@ -7,6 +7,7 @@
 #include "base/text.hpp"
 #include "blocks/size_fit.hpp"
 #include "tools/frame/command_line.hpp"
+#include "tools/frame/options.hpp"
 
 namespace talus {
 namespace {

@@ -16,10 +16,10 @@
 #include "tools/blocks/placed.hpp"
 #include "tools/blocks/sizes.hpp"
 #include "tools/frame/command_line.hpp"
+#include "tools/frame/options.hpp"
 #include "tools/frame/site_crs.hpp"
 #include "tools/frame/site_options.hpp"
 #include "tools/frame/source_cut.hpp"
-#include "tools/frame/tool.hpp"
 
 namespace {
 

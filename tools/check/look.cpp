@@ -6,7 +6,9 @@
 #include <numbers>
 
 #include "base/processor_time.hpp"
+#include "geometry/convex_outline.hpp"
 #include "io/raster_gdal.hpp"
+#include "record/object_hits.hpp"
 #include "scene/site_scene.hpp"
 #include "site/joint_plan.hpp"
 #include "site/plan.hpp"
@@ -95,6 +97,15 @@ double motion_of(const BlocksWork& work, const Attitude& slope) {
   return slope.dip_direction;
 }
 
+// Of the joint sets; NaN without any [m].
+double smallest_spacing(const BlocksWork& work) {
+  double smallest = PlausibilityFacts::none;
+  for (const PlannedSet& planned : work.sets)
+    smallest = std::isnan(smallest) ? planned.set.mean_spacing
+                                    : std::min(smallest, planned.set.mean_spacing);
+  return smallest;
+}
+
 void look_at_mass(Look& look) {
   const BlocksWork& work = look.work;
   const Trn &ground = work.ground, &bed = look.inputs.parts.trn;
@@ -111,11 +122,12 @@ void look_at_mass(Look& look) {
   look.relief = high - low;
   look.width = width_of(work.area, look.slope.dip_direction);
   look.foot = steps_at_foot(ground, bed, work.area, look.motion);
+  look.low_step = std::max(look.low_step, low_step_spacings * smallest_spacing(work));
   double all = 0, stepped = 0;
   for (const FootStep& at : look.foot) {
     look.step = std::max(look.step, at.height);
     all += at.weight;
-    if (at.height > 0.1) stepped += at.weight;
+    if (at.height > look.low_step) stepped += at.weight;
   }
   look.step_share = all > 0 ? stepped / all : 0;
   look.rising_share = share_over_rising_bed(ground, bed, work.area, look.motion);
@@ -154,6 +166,7 @@ void look_at_source(Tool& tool, const std::vector<std::uint8_t>& classes, Look& 
                                     work.site.source.sliding_set, where_of_area(work));
   find_wedges(work);
   if (work.planes.best < 0) work.wedge = best_wedge(work.wedges, "");
+  look.surfaces = outlined_surfaces(work);
   look.motion = motion_of(work, look.slope);
   look_at_mass(look);
   look_at_joints(look);
@@ -238,10 +251,47 @@ void look_at_fences(Look& look) {
   }
 }
 
+// Whether a path comes onto the object: looked at every metre.
+bool comes_to(const std::vector<Vec2>& path, const RecordObject& object) {
+  for (std::size_t k = 0; k < path.size(); ++k) {
+    const Vec2 step = k + 1 < path.size() ? Vec2(path[k + 1] - path[k]) : Vec2::Zero();
+    const int n = std::max(1, static_cast<int>(std::ceil(step.norm())));
+    for (int i = 0; i < n; ++i)
+      if (gap_to(object, Vec2(path[k] + static_cast<double>(i) / n * step)) <= 0) return true;
+  }
+  return false;
+}
+
+void look_at_objects(Look& look) {
+  const BlockSet& set = look.inputs.parts.blocks;
+  for (const RecordObject& object : look.inputs.objects) {
+    ObjectLook found;
+    found.object = object;
+    found.distance = std::numeric_limits<double>::infinity();
+    for (int b = 0; b < n_blocks(set); ++b) {
+      std::vector<Vec2> corners;
+      for (int v = set.block_vertex_begin[b]; v < set.block_vertex_begin[b + 1]; ++v)
+        corners.emplace_back(set.vertices[v].head<2>());
+      found.distance = std::min(found.distance, gap_to(object, convex_outline(corners)));
+    }
+    found.is_in_source = found.distance <= 0;
+    for (const Slide& slide : look.slides) found.n_fall_lines += comes_to(slide.points, object);
+    look.objects.push_back(std::move(found));
+  }
+}
+
 double known_area(const Trn& trn) {
   double n = 0;
   for (int t = 0; t < n_triangles(trn); ++t) n += is_known(trn, t);
   return n * trn.cell_size * trn.cell_size / 2;
+}
+
+void doubt_objects(Look& look) {
+  for (const ObjectLook& object : look.objects)
+    if (object.is_in_source)
+      look.doubts.push_back({"object." + object.object.name,
+                             "it stands on the mass, and goes with it",
+                             "is it where it should be? Look at the map", 1, 0, false});
 }
 
 void doubt_fences(Look& look) {
@@ -276,6 +326,7 @@ Look look_at(Tool& tool, const Site& site, const CheckFiles& files) {
   if (look.work.has_source()) look_at_source(tool, look.inputs.parts.cell_class, look);
   look_at_paths(look);
   look_at_fences(look);
+  look_at_objects(look);
   return look;
 }
 
@@ -309,6 +360,11 @@ void find_doubts(Look& look) {
   facts.n_blocks = n_blocks(look.inputs.parts.blocks);
   facts.duration = site.solver.duration_s;
   facts.travel_duration = look.travel_duration;
+  if (!look.slides.empty()) {
+    const auto n_left = std::count_if(look.slides.begin(), look.slides.end(),
+                                      [](const Slide& slide) { return slide.left; });
+    facts.left_share = static_cast<double>(n_left) / static_cast<double>(look.slides.size());
+  }
   if (look.work.has_source()) {
     facts.polygon_area = area_of(look.work.area);
     facts.terrain_area = known_area(look.work.ground);
@@ -320,10 +376,7 @@ void find_doubts(Look& look) {
     facts.relief = look.relief;
     if (site.source.failure_surface == "normal_depth") facts.normal_depth = site.source.depth_m;
     facts.width = look.width;
-    for (const PlannedSet& planned : look.work.sets)
-      facts.smallest_spacing = std::isnan(facts.smallest_spacing)
-                                   ? planned.set.mean_spacing
-                                   : std::min(facts.smallest_spacing, planned.set.mean_spacing);
+    facts.smallest_spacing = smallest_spacing(look.work);
     facts.daylights = site.source.failure_surface == "daylighting";
     facts.step_at_foot = look.step;
     facts.step_share = look.step_share;
@@ -335,6 +388,7 @@ void find_doubts(Look& look) {
     look.doubts.push_back({"solver.time_step_s", "the probe broke a limit: " + look.probe.fault,
                            "see docs/tools/talus-dda.md, health", 1, 0, false});
   doubt_fences(look);
+  doubt_objects(look);
 }
 
 }  // namespace talus

@@ -11,6 +11,7 @@
 #include "run/probe.hpp"
 #include "site/plausibility.hpp"
 #include "terrain/slider.hpp"
+#include "tools/frame/failure_outlines.hpp"
 #include "tools/frame/scene_inputs.hpp"
 #include "tools/frame/source_work.hpp"
 #include "tools/frame/tool.hpp"
@@ -38,6 +39,14 @@ struct FenceLook {
   bool is_in_source = false;  ///< a post stands in the source
 };
 
+/// What of the fall lines comes to an object.
+struct ObjectLook {
+  RecordObject object;
+  double distance = 0;        ///< in plan, from the nearest block [m]
+  int n_fall_lines = 0;       ///< that come onto it
+  bool is_in_source = false;  ///< a block stands on it
+};
+
 struct Look {
   CheckFiles files;
   BlocksWork work;   ///< site, ground, area, sets, planes, wedges
@@ -52,16 +61,19 @@ struct Look {
   double motion = 0;  ///< azimuth of the failure surface's fall, or of the slope's [rad]
   std::vector<FootStep> foot;
   double step = 0,
-         step_share = 0;    ///< largest step at the foot [m]; share of it with one above 0.1 m
+         step_share = 0;    ///< largest step at the foot [m]; share of it with one that counts
+  double low_step = 0.1;    ///< from where on a step counts: it is not low for the blocks [m]
   double rising_share = 0;  ///< of the mass over bed that rises against the motion
   BedEquilibrium equilibrium;
   Kinematics kinematics, smooth_kinematics;  ///< of the triangles, and of means of 3 x 3 nodes
   PeelOff peel;
+  std::vector<OutlinedSurface> surfaces;  ///< that the mass could leave on
 
   // the way down
   std::vector<Slide> slides;
   double travel_duration = 0;  ///< that they ask for [s]
   std::vector<FenceLook> fences;
+  std::vector<ObjectLook> objects;
 
   // the engine
   bool is_probed = false;

@@ -14,6 +14,7 @@
 #include "report/html.hpp"
 #include "tools/check/words.hpp"
 #include "tools/frame/failure_plane_choice.hpp"
+#include "tools/frame/site_places.hpp"
 
 namespace talus {
 namespace {
@@ -51,10 +52,11 @@ std::string motion_section(const Look& look) {
   if (look.is_cut) {
     facts += html_fact(percent(look.peel.share),
                        "can slide or fall off block by block, without being pushed");
-    facts += html_fact(
-        look.step > 0.1 ? text(look.step, 2) + " m" : "none",
-        look.step > 0.1 ? "highest step at the foot, along " + percent(look.step_share) + " of it"
-                        : "step at the foot");
+    facts += html_fact(look.step > 0.1 ? text(look.step, 2) + " m" : "none",
+                       look.step > 0.1
+                           ? "highest step at the foot; higher than " + text(look.low_step, 2) +
+                                 " m, a part of a block, along " + percent(look.step_share)
+                           : "step at the foot");
     facts += html_fact(text(look.equilibrium.factor, 2),
                        "factor of safety of the mass as one; says little of the share that goes");
   }
@@ -139,8 +141,16 @@ CheckView view_of(const Look& look) {
   for (const Slide& slide : look.slides)
     if (slide.points.size() > 1) view.fall_lines.push_back(slide.points);
   view.blocks = outlined_blocks(look);
-  for (const FootStep& at : look.foot) view.foot.push_back({at.place, at.height});
+  for (const FootStep& at : look.foot)
+    view.foot.push_back({at.place, at.height, at.height > look.low_step});
   view.section = section_line(look);
+  for (const ObjectLook& object : look.objects)
+    view.objects.push_back(
+        {object.object.name, "object " + object.object.name, polygons_of(object.object)});
+  for (const OutlinedSurface& surface : look.surfaces)
+    view.surfaces.push_back({surface.sets,
+                             (surface.is_wedge ? "wedge of " : "plane of ") + title_of(surface),
+                             surface.polygons});
   return view;
 }
 
@@ -149,18 +159,30 @@ constexpr const char* map_key =
     "stays <i class=\"holds\"></i>block that holds others <i class=\"source-key\"></i>source "
     "<i class=\"fall-key\"></i>fall lines <i class=\"section-key\"></i>section <i "
     "class=\"fence\"></i>fence. Dots along the foot: green where the failure surface comes out, "
-    "red where the mass leans on a step; dashed: border of ground classes.</span>";
+    "red where the mass leans on a step that is not low for its blocks; dashed: border of ground "
+    "classes.</span>";
 
 // The interval is that of the map; each fifth contour is bold.
-std::string caption_of_map(const Trn& part) {
-  return map_key + (" Contours every " + text(contour_interval(part)) + " m.");
+std::string caption_of_map(const CheckView& view, const Trn& part) {
+  std::string words = map_key;
+  if (!view.surfaces.empty())
+    words +=
+        " <span class=\"key\"><i class=\"proposed-key\"></i>mass that could leave on a plane or "
+        "wedge of the joint sets (<code>make source</code>: source.gpkg).</span>";
+  std::string far;
+  for (const NamedArea& object : view.objects)
+    if (!is_drawn(object, part)) far += (far.empty() ? "" : ", ") + xml_escaped(object.name);
+  if (!view.objects.empty())
+    words += " <span class=\"key\"><i class=\"object-key\"></i>object.</span>";
+  if (!far.empty()) words += " Beyond the map: " + far + ".";
+  return words + " Contours every " + text(contour_interval(part)) + " m.";
 }
 
 std::string map_section(const Look& look) {
   const CheckView view = view_of(look);
   const Trn part = part_for(view, look.work.ground);
-  std::string out =
-      html_figure(check_map_svg(view, look.work.ground, hillshade_png(part)), caption_of_map(part));
+  std::string out = html_figure(check_map_svg(view, look.work.ground, hillshade_png(part)),
+                                caption_of_map(view, part));
   const std::string section = section_svg(view, look.work.ground, look.inputs.parts.trn);
   if (!section.empty())
     out += html_figure(section,
@@ -253,6 +275,22 @@ std::string fence_section(const Look& look) {
                                  rows, {false, false, true, true, false, false}));
 }
 
+std::string object_section(const Look& look) {
+  if (look.objects.empty()) return "";
+  std::vector<std::vector<std::string>> rows;
+  for (const ObjectLook& object : look.objects)
+    rows.push_back(
+        {xml_escaped(object.object.name), xml_escaped(object.object.kind),
+         grouped_text(object.distance, 3),
+         std::to_string(object.n_fall_lines) + " of " + std::to_string(look.slides.size())});
+  return html_section(
+      "objects", "Objects",
+      html_table({"Object", "kind", "from the mass, in plan [m]", "fall lines that come to it"},
+                 rows, {false, false, true, false}) +
+          html_note("Fall lines are those of points that slide; blocks that roll and bounce go "
+                    "farther. An object that none comes to is not safe for that."));
+}
+
 std::string source_section(const Look& look) {
   if (!look.is_cut) return "";
   const auto cubic = [](double volume) { return grouped_text(volume, 4); };
@@ -280,7 +318,8 @@ std::string check_page(const Look& look, const std::string& run_id, const std::s
          "</h1>\n<p class=\"soft\">A look before the run, id <code>" + run_id +
          "</code></p>\n</header>\n<main>\n" + doubts_section(look) + motion_section(look) +
          map_section(look) + source_section(look) + kinematics_section(look) + locks_section(look) +
-         fence_section(look) + html_section("time", "Time", lines_of(time_text(look, 1, false))) +
+         fence_section(look) + object_section(look) +
+         html_section("time", "Time", lines_of(time_text(look, 1, false))) +
          "</main>\n</body>\n</html>\n";
 }
 

@@ -8,10 +8,10 @@
 #include "tools/check/look.hpp"
 #include "tools/check/page.hpp"
 #include "tools/check/words.hpp"
+#include "tools/frame/options.hpp"
 #include "tools/frame/shipped_data.hpp"
 #include "tools/frame/site_crs.hpp"
 #include "tools/frame/site_options.hpp"
-#include "tools/frame/tool.hpp"
 
 namespace {
 

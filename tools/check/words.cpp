@@ -61,6 +61,7 @@ Json source_json(const Look& look) {
           {"motion_deg", azimuth_deg(look.motion)},
           {"largest_step_at_foot_m", look.step},
           {"share_of_foot_with_a_step", look.step_share},
+          {"low_step_m", look.low_step},
           {"share_over_rising_bed", look.rising_share},
           {"factor_of_safety", number_or_null(look.equilibrium.factor)},
           {"peel_off_share", look.peel.share},
@@ -119,6 +120,15 @@ std::string fences_text(const Look& look) {
   return words;
 }
 
+std::string objects_text(const Look& look) {
+  std::string words;
+  for (const ObjectLook& object : look.objects)
+    words += "\nobject " + object.object.name + ": " + text(std::round(object.distance)) +
+             " m from the mass in plan; " + std::to_string(object.n_fall_lines) + " of " +
+             std::to_string(look.slides.size()) + " fall lines come to it";
+  return words;
+}
+
 std::string seconds_text(double seconds) {
   if (seconds < 90) return text(std::max(1.0, std::round(seconds))) + " s";
   if (seconds < 5400) return text(std::round(seconds / 60)) + " min";
@@ -141,9 +151,13 @@ std::string motion_text(const Look& look) {
   if (!look.peel.locks.empty())
     words += ": block " + std::to_string(look.peel.locks[0].block) + " alone holds " +
              percent(look.peel.locks[0].freed);
-  words += look.step > 0.1 ? "\n  at the foot it leans on a step of up to " + text(look.step, 2) +
-                                 " m along " + percent(look.step_share)
-                           : "\n  at the foot nothing stands before it";
+  if (look.step > look.low_step)
+    words += "\n  at the foot it leans on a step of up to " + text(look.step, 2) +
+             " m, higher than " + text(look.low_step, 2) + " m along " + percent(look.step_share);
+  else
+    words += look.step > 0.1 ? "\n  at the foot steps are low for the blocks: up to " +
+                                   text(look.step, 2) + " m"
+                             : "\n  at the foot nothing stands before it";
   if (look.rising_share > 0.005)
     words += "; " + percent(look.rising_share) + " lies over bed that rises against the motion";
   return words + "\n  kinematics of the face: " + kinematics_text(look.kinematics);
@@ -190,6 +204,14 @@ Json check_json(const Look& look, const std::string& run_id) {
                       {"lowest_base_m", fence.low + look.inputs.origin.z()},
                       {"highest_base_m", fence.high + look.inputs.origin.z()},
                       {"fall_lines", fence.n_fall_lines}});
+  Json objects = Json::array(), outlines = Json::array();
+  for (const ObjectLook& object : look.objects)
+    objects.push_back({{"object", object.object.name},
+                       {"kind", object.object.kind},
+                       {"distance_m", object.distance},
+                       {"fall_lines", object.n_fall_lines}});
+  for (const OutlinedSurface& surface : look.surfaces)
+    outlines.push_back(outline_json(surface, look.inputs.origin));
   Json json = {{"tool", "talus-check"},
                {"site", site.info.name},
                {"run_id", run_id},
@@ -199,6 +221,7 @@ Json check_json(const Look& look, const std::string& run_id) {
     json["source"] = source_json(look);
     json["kinematics"] = kinematics_json(look.kinematics);
     json["kinematics_of_3x3_means"] = kinematics_json(look.smooth_kinematics);
+    json["outlines"] = outlines;
     json["failure_planes"] =
         planes_json(look.work.planes, look.work.wedges, look.work.wedge, look.inputs.origin);
   }
@@ -209,6 +232,7 @@ Json check_json(const Look& look, const std::string& run_id) {
                      {"fault", look.probe.fault.empty() ? Json() : Json(look.probe.fault)}};
   json["fall_lines"] = {{"n", look.slides.size()}, {"duration_asked_for_s", look.travel_duration}};
   json["fences"] = fences;
+  json["objects"] = objects;
   if (site.solver.law == "talus")
     json["expected_cpu_s"] = expected_cpu_s(n_blocks(look.inputs.parts.blocks),
                                             site.solver.duration_s, time_step(site.solver));
@@ -218,7 +242,8 @@ Json check_json(const Look& look, const std::string& run_id) {
 std::string check_text(const Look& look, std::int64_t n_runs) {
   std::string words =
       look.is_cut ? source_text(look) : counted(n_blocks(look.inputs.parts.blocks), "block");
-  words += "\n" + motion_text(look) + fences_text(look) + "\n" + time_text(look, n_runs, true);
+  words += "\n" + motion_text(look) + fences_text(look) + objects_text(look) + "\n" +
+           time_text(look, n_runs, true);
   if (look.doubts.empty()) return words + "\nno doubts";
   for (const Doubt& doubt : look.doubts)
     words += std::string("\n") + (doubt.is_refused ? "REFUSED: " : "doubt: ") + doubt.key + ": " +

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "base/memory.hpp"
 #include "base/processor_time.hpp"
 #include "base/text.hpp"
 #include "post/reduce.hpp"
@@ -16,11 +17,11 @@
 #include "terrain/trn_flags.hpp"
 #include "tools/dda/report.hpp"
 #include "tools/frame/build_info.hpp"
+#include "tools/frame/options.hpp"
 #include "tools/frame/run_settings.hpp"
 #include "tools/frame/scene_inputs.hpp"
 #include "tools/frame/site_crs.hpp"
 #include "tools/frame/site_options.hpp"
-#include "tools/frame/tool.hpp"
 #include "tools/frame/whole_runs.hpp"
 
 namespace {
@@ -56,6 +57,7 @@ void declare(Tool& tool, SiteOptions& site, Options& o) {
   site.option(tool, "--law", "solver.law", "contact law, talus or paper");
   site.option(tool, "--duration-s", "solver.duration_s", "time simulated");
   site.option(tool, "--time-step-s", "solver.time_step_s", "time step");
+  site.option(tool, "--accuracy", "solver.accuracy", "error of the way of what moves, as a share");
   site.option(tool, "--seed", "solver.seed", "seed of scatter and jitter");
   site.option(tool, "--frame-interval-s", "output.frame_interval_s", "time between frames");
   site.option(tool, "--checkpoint-interval-s", "output.checkpoint_interval_s",
@@ -135,6 +137,16 @@ void check_leftover(Tool& tool, const Options& o) {
   if (!fs::exists(part_of(o)) || o.resume || tool.overwrite()) return;
   throw InputError({part_of(o)}, "is what a run that was stopped left behind",
                    "--resume goes on with it, --overwrite starts again");
+}
+
+// Frames and records of health stay in memory until the run ends.
+void ask_for_frames(const Scene& scene, const RunOptions& options, const Site& site) {
+  constexpr double bytes_per_block = 128, bytes_per_interval = 512;
+  const double n = options.duration / options.frame_interval;
+  require_memory(n * (bytes_per_block * n_blocks(scene) + bytes_per_interval),
+                 where_of(site, "output.frame_interval_s"),
+                 text(n, 3) + " frames of " + counted(n_blocks(scene), "block"),
+                 "set a longer frame_interval_s or a shorter duration_s");
 }
 
 // From the checkpoint when there is one and it is asked for, else from the beginning.
@@ -298,8 +310,9 @@ int main(int argc, char** argv) {
     const BlockSet blocks = inputs.parts.blocks;
     const Scene scene = make_site_scene(site, plan, std::move(inputs.parts));
     file.blocks = run_blocks(scene, blocks);
-    Runner runner =
-        runner_of(tool, scene, run_options(site, plan, o), inputs.lines, std::move(file), o);
+    const RunOptions options = run_options(site, plan, o);
+    ask_for_frames(scene, options, site);
+    Runner runner = runner_of(tool, scene, options, inputs.lines, std::move(file), o);
     compute(tool, runner, part_of(o), site.output.checkpoint_interval_s,
             site.solver.end_when_standing);
     write_outputs(tool, runner, site, scene.ground.trn, o);

@@ -6,11 +6,13 @@
 #include <numbers>
 
 #include "base/text.hpp"
+#include "site/section_digest.hpp"
 #include "tools/fence-search/output.hpp"
 #include "tools/frame/class_runs.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/fault_json.hpp"
 #include "tools/frame/map_output.hpp"
+#include "tools/frame/options.hpp"
 #include "tools/frame/site_options.hpp"
 
 namespace {
@@ -255,7 +257,10 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& runs
           (fs::path(o.charts) / ("fence_search_" + cases[s].settings->name + ".svg")).string(),
           search_chart(cases[s], answers[s]));
   }
-  Json result = {{"run_id", tool.run_id()}, {"tags", Json::object()}, {"searches", list}};
+  Json result = {{"run_id", tool.run_id()},
+                 {"tags", Json::object()},
+                 {"sections", section_digest(site, {"object", "hazard", "fence_search"})},
+                 {"searches", list}};
   for (const auto& [key, value] : tags) result["tags"][key] = value;
   add_faults(result, faults_of(members, runs.left_out));
   tool.result(result, summary);

@@ -9,6 +9,7 @@
 #include "tools/fence/layers.hpp"
 #include "tools/frame/fault_json.hpp"
 #include "tools/frame/map_output.hpp"
+#include "tools/frame/options.hpp"
 #include "tools/frame/run_inputs.hpp"
 #include "tools/frame/site_options.hpp"
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "tools/frame/command_line.hpp"
+#include "tools/frame/options.hpp"
 
 namespace talus {
 namespace {

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "base/text.hpp"
+#include "tools/frame/options.hpp"
 
 namespace talus {
 namespace {

@@ -3,12 +3,15 @@
 // written down so that a shell reads it again.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "base/error.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace talus {
 

@@ -8,7 +8,9 @@
 
 #include "base/text.hpp"
 #include "blocks/area.hpp"
+#include "blocks/prepared_area.hpp"
 #include "contact/cylinder_contact.hpp"
+#include "geometry/repeated_points.hpp"
 #include "scene/stems.hpp"
 #include "terrain/grid_frame.hpp"
 #include "tools/frame/forest_section.hpp"
@@ -154,6 +156,7 @@ std::vector<Stem> drawn_stems(const ForestSection& s) {
       f.nrtrees_raster.empty() ? cells_of_polygon(s, box) : cells_of_rasters(s, box);
   check_number(s, area, cells);
   const StandSeed seed{f.seed, f.name, f.new_stand_per_run ? 1 + s.site.solver.seed : 0};
+  const PreparedArea prepared(area ? *area : Area{});
   std::vector<DrawnStem> drawn;
   std::vector<Stem> stems;
   for (const StockedCell& c : cells) {
@@ -162,7 +165,7 @@ std::vector<Stem> drawn_stems(const ForestSection& s) {
     for (const DrawnStem& stem : drawn) {
       const Vec2 at = stem.at - s.trn.origin.head<2>();
       const double z = elevation_at(s.trn, at.x(), at.y());
-      if (std::isnan(z) || (area && !contains(*area, at))) continue;
+      if (std::isnan(z) || (area && !prepared.contains(at))) continue;
       stems.push_back(stem_of(f, Vec3(at.x(), at.y(), z), stem.dbh, stem.is_conifer ? 0 : 1));
       stems.back().id = static_cast<std::int32_t>(stems.size()) - 1;
     }
@@ -212,6 +215,29 @@ int species_of(const StemList& list, size_t row) {
   throw InputError(list.where(row), "conifer is " + conifer + ", expected 1 or 0");
 }
 
+// Two stems in one place are one: the thickest is kept.
+std::vector<Stem> each_place_once(const ForestSection& s, std::vector<Stem> stems) {
+  constexpr double same_place = 0.01;  // [m]
+  std::vector<Vec3> feet;
+  for (const Stem& stem : stems) feet.push_back(stem.foot);
+  const std::vector<int> repeated = repeated_points(feet, same_place);
+  std::vector<Stem> kept;
+  std::vector<size_t> place_of(stems.size());
+  for (size_t i = 0; i < stems.size(); ++i) {
+    if (repeated[i] < 0) {
+      place_of[i] = kept.size();
+      kept.push_back(stems[i]);
+    } else if (Stem& known = kept[place_of[repeated[i]]]; stems[i].radius > known.radius) {
+      known = stems[i];
+    }
+  }
+  if (kept.size() < stems.size())
+    s.warn(std::to_string(stems.size() - kept.size()) + " of " +
+           counted(static_cast<std::int64_t>(stems.size()), "stem") +
+           " stand where another one does: of each place the thickest is taken");
+  return kept;
+}
+
 std::vector<Stem> listed_stems(const ForestSection& s) {
   const ForestSettings& f = s.forest;
   check_list_keys(s);
@@ -239,7 +265,7 @@ std::vector<Stem> listed_stems(const ForestSection& s) {
   if (!stems.empty() && stems.size() < n)
     s.warn(std::to_string(n - stems.size()) + " of " +
            counted(static_cast<std::int64_t>(n), "stem") + " lie off the known ground, left out");
-  return stems;
+  return each_place_once(s, std::move(stems));
 }
 
 // --- stems in blocks ---------------------------------------------------------------------------

@@ -70,6 +70,7 @@ StandRaster read_raster(const ForestSection& s, const char* key, const std::stri
                      "the terrain reaches from " + text(box.low.x(), 9) + ", " +
                          text(box.low.y(), 9) + " to " + text(box.high.x(), 9) + ", " +
                          text(box.high.y(), 9));
+  check_size(out.frame, path);
   out.value.resize(static_cast<size_t>(out.frame.n_rows) * static_cast<size_t>(out.frame.n_cols));
   raster.read(row, out.frame.n_rows, col, out.frame.n_cols, out.value.data());
   Sha256 hash;

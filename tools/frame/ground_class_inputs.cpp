@@ -76,7 +76,9 @@ std::vector<std::uint8_t> raster_classes(Tool& tool, const Site& site, const Trn
 
 std::vector<std::uint8_t> ground_classes(Tool& tool, const Site& site, const Trn& trn) {
   const int n = static_cast<int>(site.grounds.size());
-  if (n == 1 && site.terrain.ground_raster.empty()) return {};
+  const bool is_everywhere = n == 1 && site.terrain.ground_raster.empty() &&
+                             !has_area(site.grounds[0]) && site.grounds[0].raster_values.empty();
+  if (is_everywhere) return {};
   if (n > 255)
     throw InputError({site.file}, std::to_string(n) + " sections [ground.*], expected up to 255");
   const int elsewhere = ground_elsewhere(site);

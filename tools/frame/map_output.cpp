@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <sstream>
+
+#include "base/error.hpp"
+#include "io/tags_gdal.hpp"
 
 namespace talus {
 namespace {
@@ -57,6 +61,13 @@ CellWindow window_around(const PassageGrid& grid, const std::vector<std::uint32_
           std::max(0, w.col_begin - margin), std::min(grid.n_cols, w.col_end + margin)};
 }
 
+std::string text(const CellWindow& w, const PassageGrid& grid) {
+  std::string words;
+  for (const int number : {w.row_begin, w.row_end, w.col_begin, w.col_end})
+    words += std::to_string(number) + " ";
+  return words + "of " + std::to_string(grid.n_rows) + " " + std::to_string(grid.n_cols);
+}
+
 // Cells of the picture whose class is not certain; empty: it is not asked for.
 std::vector<bool> uncertain_cells(const MapFrame& frame, const MapLayer* certain) {
   if (!certain) return {};
@@ -69,9 +80,30 @@ std::vector<bool> uncertain_cells(const MapFrame& frame, const MapLayer* certain
 
 }  // namespace
 
+CellWindow window_of_map(const std::string& path, const PassageGrid& grid, const Where& where) {
+  std::istringstream words(tag_of(path, "PICTURE_CELLS"));
+  CellWindow w;
+  int n_rows = 0, n_cols = 0;
+  std::string of;
+  words >> w.row_begin >> w.row_end >> w.col_begin >> w.col_end >> of >> n_rows >> n_cols;
+  const bool is_inside = w.row_begin >= 0 && w.row_begin < w.row_end && w.row_end <= n_rows &&
+                         w.col_begin >= 0 && w.col_begin < w.col_end && w.col_end <= n_cols;
+  if (!words || !is_inside)
+    throw InputError(where, path + " does not say which cells its picture shows",
+                     "name a map that talus-maps --png wrote");
+  if (n_rows != grid.n_rows || n_cols != grid.n_cols)
+    throw InputError(where,
+                     path + " has " + std::to_string(n_rows) + " x " + std::to_string(n_cols) +
+                         " cells, these maps " + std::to_string(grid.n_rows) + " x " +
+                         std::to_string(grid.n_cols),
+                     "give both the same --cell-size-m");
+  return w;
+}
+
 MapFrame map_frame(const Trn& trn, const PassageGrid& grid, bool png,
-                   const std::vector<std::uint32_t>& touched) {
-  const CellWindow drawn = window_around(grid, touched);
+                   const std::vector<std::uint32_t>& touched,
+                   const std::optional<CellWindow>& window) {
+  const CellWindow drawn = window ? *window : window_around(grid, touched);
   return {grid.corner + trn.origin.head<2>(),
           grid,
           trn.crs_wkt,
@@ -87,6 +119,7 @@ std::string write_map(Tool& tool, const MapFrame& frame, const std::string& path
   MapRaster raster = raster_of(frame, layer);
   const std::size_t shown = static_cast<std::size_t>(style.band) - 1;
   tags.emplace_back("SHOWN_BAND", layer.bands[shown].name);
+  if (frame.png) tags.emplace_back("PICTURE_CELLS", text(frame.drawn, frame.grid));
   if (layer.is_codes && layer.bands.size() == 1)  // what a GeoTIFF may have
     for (const StyleClass& c : style.classes)
       raster.colours.emplace_back(static_cast<int>(c.upper), c.colour);

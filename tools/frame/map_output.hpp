@@ -4,6 +4,7 @@
 // out:   NAME.tif (COG), NAME.qml, NAME.png
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -32,14 +33,23 @@ struct MapFrame {
   CellWindow drawn;  ///< of the pictures
   Shading shading;   ///< of that; empty without `png`
 };
-/// Pictures show the cells `touched` and half as much again on each side, ten cells at least, since
-/// on a large terrain a slide is a dot; all of the grid when there are none.
+/// The pictures' part of the grid that a map of the same cells says (tag PICTURE_CELLS), so that
+/// pictures of several sets of runs stand side by side. Throws InputError for a map without
+/// pictures or of other cells.
+[[nodiscard]] CellWindow window_of_map(const std::string& path, const PassageGrid& grid,
+                                       const Where& where);
+
+/// Pictures show `window`, or without it the cells `touched` and half as much again on each side,
+/// ten cells at least, since on a large terrain a slide is a dot; all of the grid when there are
+/// none.
 [[nodiscard]] MapFrame map_frame(const Trn& trn, const PassageGrid& grid, bool png,
-                                 const std::vector<std::uint32_t>& touched);
+                                 const std::vector<std::uint32_t>& touched,
+                                 const std::optional<CellWindow>& window = {});
 
 /// Stages `path` (NAME.tif) and its sidecars. Cells without known ground that nothing touched hold
-/// nodata. Adds the tag SHOWN_BAND. Returns the band that the style shows. Throws InputError.
-/// `certain`: where its first band is 0 the picture is hatched; null: nowhere.
+/// nodata. Adds the tags SHOWN_BAND and, with pictures, PICTURE_CELLS. Returns the band that the
+/// style shows. Throws InputError. `certain`: where its first band is 0 the picture is hatched;
+/// null: nowhere.
 std::string write_map(Tool& tool, const MapFrame& frame, const std::string& path,
                       const MapLayer& layer, const RasterStyle& style, MapTags tags,
                       const std::vector<std::string>& creation_options = {},

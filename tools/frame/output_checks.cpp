@@ -8,6 +8,7 @@
 
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/file_paths.hpp"
+#include "tools/frame/options.hpp"
 
 namespace talus {
 namespace fs = std::filesystem;
@@ -53,6 +54,13 @@ void check_output_file(const fs::path& path, const std::vector<RunArtifact>& inp
   if (fs::exists(path) && !fs::is_regular_file(path))
     throw InputError({path.string()}, "is no regular file, expected a file name to write",
                      "outputs are written beside it and renamed when they are whole");
+  // Work in progress has a longer name: .NAME.part-HOST-PROCESS.EXT
+  constexpr std::size_t longest = 160;
+  if (path.filename().string().size() > longest)
+    throw InputError({path.string()},
+                     "the name has " + std::to_string(path.filename().string().size()) +
+                         " bytes, expected at most " + std::to_string(longest),
+                     "give the output a shorter name");
   check_folder(folder_of(path));
 }
 

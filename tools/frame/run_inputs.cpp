@@ -10,6 +10,7 @@
 #include "post/deposit.hpp"
 #include "terrain/trn_digest.hpp"
 #include "tools/frame/command_line.hpp"
+#include "tools/frame/options.hpp"
 
 namespace talus {
 namespace {

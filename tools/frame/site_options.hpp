@@ -1,6 +1,7 @@
 // tools/frame/site_options.hpp
-// The site file as every tool that reads one takes it: the file, --set, and what --print-config
-// shows.
+// The site file as every tool that reads one takes it: the file, layers that stand for its
+// sections,
+// --set, and what --print-config shows.
 #pragma once
 
 #include <memory>
@@ -13,7 +14,8 @@
 #include "site/soils.hpp"
 #include "site/uncertainty.hpp"
 #include "tools/frame/command_line.hpp"
-#include "tools/frame/tool.hpp"
+#include "tools/frame/options.hpp"
+#include "tools/frame/site_layers.hpp"
 
 namespace talus {
 
@@ -23,7 +25,7 @@ class SiteOptions {
  public:
   /// `required`: else the tool has a use without a site file, and load() must not be called for it.
   explicit SiteOptions(Tool& tool, std::optional<DrawScope> draws = {}, bool required = true)
-      : draws_(draws) {
+      : tool_(tool), draws_(draws) {
     tool.input("site", file_, "site file (TOML)")->required(required);
     tool.app()
         .add_option("--set", overrides_, "override a key of the site file: section.key=value")
@@ -63,6 +65,7 @@ class SiteOptions {
   const Site& load() {
     if (site_) return *site_;
     Site site = additions_.empty() ? read_site(file_) : parse_site(with_additions(), file_);
+    read_site_layers(tool_, site);
     for (const std::string& word : overrides_) {
       const std::size_t equals = word.find('=');
       if (equals == std::string::npos)
@@ -71,6 +74,8 @@ class SiteOptions {
       from_command_line(
           [&] { override_value(site, word.substr(0, equals), word.substr(equals + 1)); });
     }
+    if (!site.info.layers.empty())
+      throw UsageError({"", 0, "--set"}, "cannot name site.layers", "name it in the site file");
     check_uncertainty(site);
     check_grounds(site);
     if (draws_) apply_draws(site, *draws_);
@@ -89,6 +94,7 @@ class SiteOptions {
     return text;
   }
 
+  Tool& tool_;
   std::string file_;
   std::vector<std::string> overrides_, additions_, names_{"site", "set"};
   std::unique_ptr<Site> site_;

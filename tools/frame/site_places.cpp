@@ -5,6 +5,7 @@
 #include "base/error.hpp"
 #include "base/text.hpp"
 #include "io/areas_gdal.hpp"
+#include "io/buffer_gdal.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/crs_operation_gdal.hpp"
 #include "io/crs_place_gdal.hpp"
@@ -169,6 +170,17 @@ std::vector<RecordObject> site_objects(Tool& tool, const Site& site, const Trn& 
     objects.push_back(std::move(made));
   }
   return objects;
+}
+
+std::vector<std::vector<std::vector<Vec2>>> polygons_of(const RecordObject& object) {
+  std::vector<std::vector<std::vector<Vec2>>> out;
+  for (const ObjectPart& part : object.parts) {
+    if (part.is_area)
+      out.push_back({part.points});
+    else
+      for (auto& polygon : buffer_of(part.points, object.radius)) out.push_back(std::move(polygon));
+  }
+  return out;
 }
 
 void check_fences_apart(Tool& tool, const Site& site, const Trn& trn,

@@ -30,6 +30,10 @@ namespace talus {
 /// lies outside of the known terrain; warns of one that lies partly outside.
 [[nodiscard]] std::vector<RecordObject> site_objects(Tool& tool, const Site& site, const Trn& trn);
 
+/// The area of an object: its outlines, and what lies within its radius of lines and points;
+/// polygon, ring, points, local [m].
+[[nodiscard]] std::vector<std::vector<std::vector<Vec2>>> polygons_of(const RecordObject& object);
+
 /// As check_fences_apart() of record/fence_lines.hpp, whose sentences become warnings.
 void check_fences_apart(Tool& tool, const Site& site, const Trn& trn,
                         const std::vector<FenceLine>& lines);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/grouped_text.hpp"
+#include "base/memory.hpp"
 #include "base/read_file.hpp"
 #include "base/text.hpp"
 #include "blocks/base_level.hpp"
@@ -236,7 +237,10 @@ void warn_of_mass(Tool& tool, const BlocksWork& work, const MassMeasure& measure
   if (mass.area < least_share_covered(work) * mass.polygon_area)
     tool.warn("the mass covers " + text(100 * mass.area / mass.polygon_area, 3) +
               " % of the source polygon: elsewhere the failure surface does not lie below the "
-              "ground; check depth, plane or raster");
+              "ground; " +
+              (work.site.source.failure_surface == "daylighting"
+                   ? "is the polygon what is meant? Its outline may follow the mass"
+                   : "check depth, plane or raster"));
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (size_t v = 0; v < measure.vertices.size(); v += 2)  // on the ground, below it, and so on
     low = std::min(low, measure.vertices[v].z()), high = std::max(high, measure.vertices[v].z());
@@ -264,6 +268,27 @@ void check_expected(const MassMeasure& measure, BlocksWork& work) {
                          text(std::round(work.expected)) + " blocks, expected at most " +
                          text(most),
                      "widen the spacings, or set source.max_blocks to what your machine can take");
+  constexpr double bytes_per_block = 6700;  // docs/tools/talus-blocks.md
+  require_memory(bytes_per_block * work.expected, where_of(work.site, "source.max_blocks"),
+                 text(std::round(work.expected)) + " blocks", "widen the spacings");
+}
+
+// Discs are drawn one by one, and each piece of rock asks those of the joints that cross it.
+void check_discs(const BlocksWork& work, double radius) {
+  constexpr double most = 1e7;
+  double n = 0;
+  for (const PlannedSet& planned : work.sets) n += expected_discs(planned.set, radius);
+  if (n <= most) return;
+  const auto most_of_all = std::max_element(
+      work.sets.begin(), work.sets.end(), [radius](const PlannedSet& a, const PlannedSet& b) {
+        return expected_discs(a.set, radius) < expected_discs(b.set, radius);
+      });
+  const JointSettings& section = work.site.joints[most_of_all->section];
+  throw InputError(
+      {work.site.file, section.line, "joints." + section.name},
+      "the joints would be about " + text(n, 3) + " discs, expected at most " + text(most),
+      "raise disc_diameter_m, or set persistence = 1: discs smaller than a joint "
+      "cell part nothing");
 }
 
 // The ball around the mass, which the joints must cross.
@@ -271,6 +296,7 @@ void draw_all_joints(const MassMeasure& measure, BlocksWork& work) {
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
   for (const Vec3& p : measure.vertices) low = low.cwiseMin(p), high = high.cwiseMax(p);
   const Vec3 centre = (low + high) / 2;
+  check_discs(work, (high - low).norm() / 2);
   for (size_t s = 0; s < work.sets.size(); ++s)
     for (Joint& joint :
          draw_joints(work.sets[s].set, static_cast<int>(s), centre, (high - low).norm() / 2,
@@ -299,6 +325,19 @@ void say_turns(Tool& tool, const Site& site) {
   }
 }
 
+// Each corner parts the mass along two walls, which is exact and not cheap.
+void check_number_of_corners(const Area& area, const Where& where) {
+  constexpr std::size_t most = 10000;
+  std::size_t n = 0;
+  for (const auto& ring : area.rings) n += ring.size();
+  if (n > most)
+    throw InputError(where,
+                     "the source area has " + std::to_string(n) + " corners, expected at most " +
+                         std::to_string(most),
+                     "simplify the outline to what the joints can show, such as ogr2ogr -simplify "
+                     "0.5 simple.gpkg outline.gpkg");
+}
+
 }  // namespace
 
 Where where_of_area(const BlocksWork& work) {
@@ -309,6 +348,7 @@ Where where_of_area(const BlocksWork& work) {
 
 Area read_source_area(Tool& tool, const BlocksWork& work) {
   Area area = read_area(tool, work);
+  check_number_of_corners(area, where_of_area(work));
   check_area(area, work.ground.origin, where_of_area(work));
   return area;
 }
@@ -368,11 +408,11 @@ void cut_source(Tool& tool, bool exact, BlocksWork& work) {
   if (complex.n_uncut > 0)
     tool.warn(std::to_string(complex.n_uncut) + " cells could not be cut and stayed in one piece");
   if (work.cut.n_dropped > 0)
-    tool.warn(std::to_string(work.cut.n_dropped) + " slivers without a neighbour were left out, " +
-              text(work.cut.dropped_volume, 3) + " m3 in all");
+    tool.warn("left out, since they have no neighbour: " + counted(work.cut.n_dropped, "sliver") +
+              ", " + text(work.cut.dropped_volume, 3) + " m3 in all");
   if (work.cut.n_below_limits > 0)
-    tool.warn(std::to_string(work.cut.n_below_limits) +
-              " blocks are below the limits for slivers after they were made convex");
+    tool.warn("below the limits for slivers after they were made convex: " +
+              counted(work.cut.n_below_limits, "block"));
   if (work.cut.n_short_edged > 0)
     tool.warn(counted(work.cut.n_short_edged, "block") +
               " with edges of convex parts that are shorter than min_block_edge_m, between the "

@@ -1,5 +1,3 @@
-#include "tools/frame/tool.hpp"
-
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -13,17 +11,20 @@
 #include <iostream>
 #include <set>
 
+#include "base/memory.hpp"
 #include "base/network.hpp"
 #include "base/text.hpp"
 #include "store/runs.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/exit_code.hpp"
 #include "tools/frame/file_paths.hpp"
+#include "tools/frame/options.hpp"
 #include "tools/frame/output_checks.hpp"
 #include "tools/frame/progress_line.hpp"
 #include "tools/frame/run_record.hpp"
 #include "tools/frame/staged_files.hpp"
 #include "tools/frame/stop_signals.hpp"
+#include "tools/frame/tool_description.hpp"
 #include "tools/frame/tool_options.hpp"
 
 namespace talus {
@@ -34,6 +35,16 @@ std::string one_line(std::string words) {
   std::replace_if(
       words.begin(), words.end(), [](char c) { return c == '\n' || c == '\t'; }, ' ');
   return words;
+}
+
+// A file that --failures may replace or remove: none yet, or such a list.
+bool may_hold_failures(const std::string& path) {
+  std::error_code error;
+  if (!fs::exists(path, error)) return !error;
+  std::ifstream file(path);
+  std::string word;
+  return fs::is_regular_file(path, error) &&
+         (!std::getline(file, word, '\t') || word == "kept" || word == "none");
 }
 
 // The value of an option on a command line that could not be parsed; "" where it is not there.
@@ -55,9 +66,15 @@ void occupy_standard_files() {
       static_cast<void>(open("/dev/null", O_RDWR));
 }
 
+// Thrown while words are parsed, before it is asked whether all that is needed is there.
+struct CallForDescription : CLI::Success {};
+
 // The levels of messages. A hint belongs to the error before it.
 constexpr const char *info_level = "info", *warning_level = "warning", *error_level = "error",
                      *hint_level = "hint";
+
+// The role, in the registry, of a file that does not count by its bytes.
+constexpr const char* by_content_role = "by content";
 
 }  // namespace
 
@@ -72,6 +89,7 @@ struct Tool::Impl {
   RunRecord record;
   std::vector<std::string> check_hints;  // of record.checks
   RunIdParts id_parts;
+  std::set<std::string> by_content;  // files of read_by_content()
   Json result;
   Json layers_read = Json::array();
   std::string summary;
@@ -118,6 +136,7 @@ struct Tool::Impl {
 
   void add_input(const std::string& role, const std::string& path) {
     const std::string file = file_of(path);
+    if (role != by_content_role && by_content.contains(absolute_path(file))) return;
     if (!is_virtual(file) && !fs::exists(file_behind(file)))
       throw InputError({file}, "there is no such file", "check the path given for " + role);
     record.inputs.push_back(artifact_of(role, file));
@@ -140,6 +159,9 @@ struct Tool::Impl {
   }
 
   void begin(int argc, char** argv) {
+    if (!options.failures.empty() && !may_hold_failures(options.failures))
+      throw InputError({options.failures}, "is something else than a list of failures",
+                       "name a file for --failures that may be replaced");
     begin_record(name, command_text(argc, argv), record);
     for (const ConfigValue& value : settings_of(app, options))
       record.params.push_back({value.key, value.value, value.source});
@@ -159,6 +181,9 @@ struct Tool::Impl {
     } catch (const RegistryBusy& error) {
       is_late = true;
       say(warning_level, std::string(error.what()) + "; the run is recorded when it has ended");
+    } catch (const InputError&) {  // none, nor will it be one at the end
+      registered = false;
+      throw;
     }
     record.content_id.clear();  // the body may name further inputs
   }
@@ -278,7 +303,7 @@ struct Tool::Impl {
 
   // For who started many runs and lists what became of them.
   void write_failures(int code) {
-    if (options.failures.empty()) return;
+    if (options.failures.empty() || !may_hold_failures(options.failures)) return;
     std::error_code error;
     fs::remove(options.failures, error);
     if (code == done) return;
@@ -302,6 +327,9 @@ struct Tool::Impl {
       return fail(stopped, "interrupted", "");
     } catch (const std::bad_alloc&) {
       return fail(input_unusable, "out of memory", "give it more memory, or a smaller window");
+    } catch (const fs::filesystem_error& error) {  // a link to itself, a name that is too long
+      return fail(input_unusable,
+                  InputError({error.path1().string()}, error.code().message()).what(), "");
     } catch (const std::exception& error) {
       return fail(input_unusable, std::string("unexpected: ") + error.what(), "");
     }
@@ -330,6 +358,9 @@ struct Tool::Impl {
 Tool::Tool(std::string name, std::string purpose)
     : impl_(std::make_unique<Impl>(std::move(name), std::move(purpose))) {
   add_common_options(impl_->name, impl_->app, impl_->options);
+  impl_->app.get_option("--describe")->each([](const std::string& form) {
+    if (form == "json") throw CallForDescription();
+  });
 }
 
 Tool::~Tool() = default;
@@ -371,6 +402,10 @@ void Tool::json_output(std::string& path, const std::string& help) {
   option->default_str("");
   impl_->options.json_path = &path;
   impl_->options.json_option = option;
+}
+
+CLI::Option* Tool::flag(const std::string& name, bool& value, const std::string& help) {
+  return app().add_flag(name, value, help);
 }
 
 void Tool::footer(const std::string& text) { app().footer(text); }
@@ -415,6 +450,12 @@ ProgressFunction Tool::progress() {
     if (stop_requested()) throw Interrupted();
     impl_->progress_line.show(share);
   };
+}
+
+void Tool::read_by_content(const std::string& path) {
+  if (!impl_->by_content.insert(absolute_path(file_of(path))).second) return;
+  impl_->add_input(by_content_role, path);
+  impl_->id_parts.left_out.insert(by_content_role);
 }
 
 bool Tool::interrupted() const { return stop_requested(); }
@@ -487,6 +528,9 @@ int Tool::run(int argc, char** argv, const std::function<void()>& body) {
   try {
     impl.app.parse(arguments_of(argc, argv, impl.app));
     check_output_names(impl.options);
+  } catch (const CallForDescription&) {
+    std::cout << description_of(impl.name, impl.app, impl.options).dump(2) << std::endl;
+    return std::cout ? done : input_unusable;
   } catch (const CLI::Success& wanted) {  // --help, --version
     return impl.app.exit(wanted);
   } catch (const CLI::ParseError& error) {
@@ -501,6 +545,8 @@ int Tool::run(int argc, char** argv, const std::function<void()>& body) {
     return usage_wrong;
   }
   if (impl.options.network) allow_network();
+  constexpr double megabyte = 1e6;
+  limit_memory(impl.options.memory_mb * megabyte);
   listen_for_signals();
   impl.progress_line.label(impl.options.label);
   impl.progress_line.form(progress_form(impl.options.progress, isatty(STDERR_FILENO) == 1,

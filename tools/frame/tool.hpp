@@ -4,7 +4,6 @@
 // only catch. A tool is a list of options and one function. docs/tools/common.md
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <functional>
 #include <memory>
@@ -14,6 +13,11 @@
 
 #include "base/error.hpp"
 #include "base/progress.hpp"
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
 
 namespace talus {
 
@@ -57,13 +61,10 @@ class Tool {
   /// Lets --json name a file that the result is written to; without a name it prints, as always.
   void json_output(std::string& path, const std::string& help);
   /// A value; its default is shown by --help, and its effective value is recorded with its source.
+  /// Include options.hpp to declare some.
   template <class T>
-  CLI::Option* option(const std::string& name, T& value, const std::string& help) {
-    return app().add_option(name, value, help)->capture_default_str();
-  }
-  CLI::Option* flag(const std::string& name, bool& value, const std::string& help) {
-    return app().add_flag(name, value, help);
-  }
+  CLI::Option* option(const std::string& name, T& value, const std::string& help);
+  CLI::Option* flag(const std::string& name, bool& value, const std::string& help);
   /// Remarks below the options in --help, e.g. an example.
   void footer(const std::string& text);
   /// Settings beyond the command line (a site file's), asked for once the command line is known;
@@ -85,6 +86,9 @@ class Tool {
   void write_text(const std::string& path, const std::string& content);
   /// A file that was read but is not an option's value (named in a site file, member of a set).
   void read_also(const std::string& role, const std::string& path);
+  /// A file whose bytes do not count for run_id(), since content_read() says what was read of it;
+  /// call it before read_also() names the file.
+  void read_by_content(const std::string& path);
   /// To hand to long work; throws Interrupted after SIGINT, SIGTERM or SIGHUP.
   [[nodiscard]] ProgressFunction progress();
   [[nodiscard]] bool interrupted() const;  ///< one of these has come

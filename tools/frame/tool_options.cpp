@@ -5,7 +5,9 @@
 
 #include "base/text.hpp"
 #include "tools/frame/build_info.hpp"
+#include "tools/frame/command_line.hpp"
 #include "tools/frame/file_paths.hpp"
+#include "tools/frame/options.hpp"
 
 namespace talus {
 namespace {
@@ -44,6 +46,7 @@ void add_common_options(const std::string& tool, CLI::App& app, ToolOptions& opt
                        "how much is done: on a terminal in place, else a line a minute (auto); a "
                        "line a second (plain, json), or none")
             ->check(CLI::IsMember({"auto", "plain", "json", "none"}))
+            ->envname("TALUS_PROGRESS")
             ->capture_default_str(),
         app.add_option("--messages", options.messages,
                        "what is said on standard error: text, or json, an object a line")
@@ -51,6 +54,14 @@ void add_common_options(const std::string& tool, CLI::App& app, ToolOptions& opt
             ->capture_default_str(),
         app.add_flag("--allow-network", options.network,
                      "inputs may lead to other machines and to files that they do not name openly"),
+        app.add_option("--describe", options.describe,
+                       "print what the tool takes and gives, for programs that call it, then end")
+            ->check(CLI::IsMember({"json"})),
+        app.add_option("--memory-mb", options.memory_mb,
+                       "most memory to take [MB]; more is refused before it is taken; 0: what is "
+                       "free on this machine")
+            ->check(number_between(0, 1e9))
+            ->capture_default_str(),
         app.add_flag("--print-config", options.print_config,
                      "print the effective settings and where each came from, then end")}) {
     option->group("Common options");

@@ -38,7 +38,9 @@ struct ToolOptions {
   std::string failures;           ///< file for what failed; empty: not wanted
   std::string progress = "auto";  ///< auto, plain, json or none
   std::string messages = "text";  ///< text or json
+  std::string describe;           ///< json, or empty: the tool does its work
   bool network = false;           ///< may be used
+  double memory_mb = 0;           ///< most to take [MB]; 0: what is free
 };
 
 /// Adds the options of every tool to `app`, whose values go to `options`.

@@ -7,6 +7,7 @@
 #include "base/text.hpp"
 #include "io/dataset_files_gdal.hpp"
 #include "tools/frame/file_paths.hpp"
+#include "tools/frame/options.hpp"
 
 namespace talus {
 namespace {

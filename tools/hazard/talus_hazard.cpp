@@ -5,11 +5,14 @@
 #include <filesystem>
 #include <limits>
 
+#include "base/memory.hpp"
 #include "base/text.hpp"
+#include "site/section_digest.hpp"
 #include "tools/frame/build_info.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/fault_json.hpp"
 #include "tools/frame/map_output.hpp"
+#include "tools/frame/options.hpp"
 #include "tools/hazard/inputs.hpp"
 #include "tools/hazard/layers.hpp"
 
@@ -23,11 +26,14 @@ struct Options {
   std::vector<std::string> of_class;
   double cell_size_m = std::numeric_limits<double>::quiet_NaN();
   bool png = false;
-  double memory_mb = 600;
+  const CLI::Option* memory = nullptr;  // --memory-mb, of every tool
   std::vector<std::string> creation_options;
 
   // Rows that may be held: a list that grows holds up to three times what stands in it.
   [[nodiscard]] std::uint64_t most_rows() const {
+    constexpr double usual_mb = 600;
+    const double given_mb = memory->count() > 0 ? memory->as<double>() : 0;
+    const double memory_mb = given_mb > 0 ? given_mb : usual_mb;
     return static_cast<std::uint64_t>(memory_mb * 1e6 / (3 * sizeof(EventRow)));
   }
 };
@@ -40,9 +46,7 @@ void declare(Tool& tool, Options& o) {
       ->check(number_between(0, 1e6, true));
   tool.flag("--png", o.png, "a picture of each map over hillshade beside it");
   tool.json_output(o.json, "the result (JSON)");
-  tool.option("--memory-mb", o.memory_mb,
-              "for rows of passages [MB]; more of them are taken in several readings of the runs")
-      ->check(number_between(1e-3, 1e7));
+  o.memory = tool.app().get_option("--memory-mb");
   tool.option("--co", o.creation_options, "creation option of the COGs, NAME=VALUE")
       ->check(check_creation_option);
   tool.footer(
@@ -171,6 +175,7 @@ void warn_of_elsewhere(Tool& tool, const HazardSources& sources) {
 }
 
 void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& runs) {
+  limit_memory(0);  // --memory-mb is for rows alone; the rest needs what is free
   const Site& site = site_options.load();
   const std::vector<HazardClass> classes = hazard_classes(site);
   const Recipe recipe = read_recipe(tool, site);
@@ -207,9 +212,13 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& runs
     for (const MapBand& band : layer.bands) bands.push_back(band.name);
     written.push_back({{"file", path}, {"shown_band", shown}, {"bands", bands}});
   }
-  Json result = {{"run_id", tool.run_id()},       {"tags", Json::object()},
-                 {"n_runs", runs.members.size()}, {"n_cells_touched", layers[0].cell.size()},
-                 {"cell_size_m", grid.cell_size}, {"layers", written}};
+  Json result = {{"run_id", tool.run_id()},
+                 {"tags", Json::object()},
+                 {"sections", section_digest(site, {"hazard"})},
+                 {"n_runs", runs.members.size()},
+                 {"n_cells_touched", layers[0].cell.size()},
+                 {"cell_size_m", grid.cell_size},
+                 {"layers", written}};
   for (const auto& [key, value] : tags) result["tags"][key] = value;
   std::string summary =
       std::to_string(layers.size()) + " maps of " + run_words(sources) + " in " + o.folder;

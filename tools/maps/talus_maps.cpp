@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "base/memory.hpp"
 #include "base/text.hpp"
 #include "post/maps/compare.hpp"
 #include "post/maps/map_layers.hpp"
@@ -14,6 +15,7 @@
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/fault_json.hpp"
 #include "tools/frame/map_output.hpp"
+#include "tools/frame/options.hpp"
 #include "tools/frame/run_inputs.hpp"
 
 namespace {
@@ -24,16 +26,20 @@ using talus::RunFile;
 using talus::Tool;
 
 struct Options {
-  std::string folder, compare_from;
+  std::string folder, compare_from, window_of;
   std::vector<std::string> compared;
   double cell_size_m = std::numeric_limits<double>::quiet_NaN();
   talus::MapSettings settings;
   bool png = false;
-  double memory_mb = 2000, half_width = 0.05;
+  double half_width = 0.05;
+  const CLI::Option* memory = nullptr;  // --memory-mb, of every tool
   std::vector<std::string> creation_options;
 
   // Rows that may be held: each twice while they are sorted.
   [[nodiscard]] std::uint64_t most_rows() const {
+    constexpr double usual_mb = 2000;
+    const double given_mb = memory->count() > 0 ? memory->as<double>() : 0;
+    const double memory_mb = given_mb > 0 ? given_mb : usual_mb;
     return static_cast<std::uint64_t>(memory_mb * 1e6 / (2 * sizeof(talus::MapRow)));
   }
 };
@@ -50,9 +56,9 @@ void declare(Tool& tool, Options& o) {
       ->check(CLI::Range(20, 10000));
   tool.option("--seed", o.settings.seed, "of the bootstrap");
   tool.flag("--png", o.png, "a picture of each map over hillshade beside it");
-  tool.option("--memory-mb", o.memory_mb,
-              "for rows of passages [MB]; more of them are taken in several readings of the runs")
-      ->check(talus::number_between(1e-3, 1e7));
+  tool.input("--window-of", o.window_of,
+             "map of the same cells: pictures show what its picture shows");
+  o.memory = tool.app().get_option("--memory-mb");
   tool.option("--half-width", o.half_width,
               "wanted of the interval of reach_probability: says how many runs to add")
       ->check(talus::number_between(1e-4, 0.5));
@@ -269,6 +275,7 @@ WrittenMaps write_layers(Tool& tool, const Options& o, const talus::MapFrame& fr
 }
 
 void run_tool(Tool& tool, Options& o, talus::RunInputs& runs) {
+  talus::limit_memory(0);  // --memory-mb is for rows alone; the rest needs what is free
   const talus::Trn& trn = runs.trn();
   for (const std::string& path : talus::listed_files(o.compare_from)) {
     tool.read_also("compare", path);
@@ -287,7 +294,10 @@ void run_tool(Tool& tool, Options& o, talus::RunInputs& runs) {
 
   const std::string remark = runs.remark();
   const talus::MapTags tags = tags_of_maps(tool, o, runs, members, gathered, remark);
-  const talus::MapFrame frame = talus::map_frame(trn, grid, o.png, touched);
+  std::optional<talus::CellWindow> window;
+  if (!o.window_of.empty())
+    window = talus::window_of_map(o.window_of, grid, {"", 0, "--window-of"});
+  const talus::MapFrame frame = talus::map_frame(trn, grid, o.png, touched, window);
   WrittenMaps written = write_layers(tool, o, frame, layers, remark, tags);
   if (comparison) {
     const std::string path = file_of_layer(o, "compare");

@@ -7,6 +7,7 @@
 #include "base/text.hpp"
 #include "post/places.hpp"
 #include "post/reduce.hpp"
+#include "site/section_digest.hpp"
 #include "tools/frame/fault_json.hpp"
 #include "tools/frame/run_inputs.hpp"
 #include "tools/frame/site_options.hpp"
@@ -173,6 +174,7 @@ void run_tool(Tool& tool, const Site& site, RunInputs& inputs) {
                           : "add " + counted(most, "run") + " to " + std::to_string(n_runs);
   Json result = {{"run_id", tool.run_id()},
                  {"run_set", inputs.run_set()},
+                 {"sections", section_digest(site, {"place", "fence"})},
                  {"n_runs", n_runs},
                  {"runs_to_add", most},
                  {"places", list}};

@@ -1,11 +1,14 @@
 // tools/reduce/talus_reduce.cpp
 // Runs, and parts of runs, to one part. Page: docs/tools/talus-reduce.md
+#include <algorithm>
 #include <filesystem>
 
+#include "base/memory.hpp"
 #include "base/text.hpp"
 #include "post/reduce.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/fault_json.hpp"
+#include "tools/frame/options.hpp"
 #include "tools/frame/run_inputs.hpp"
 
 namespace {
@@ -34,6 +37,16 @@ std::string name_of(const RunMember& run) {
   return (path.parent_path().filename() / path.filename()).string();
 }
 
+// Room for `n` more rows. All of them are sorted together.
+void make_room(std::vector<PartRow>& rows, std::size_t n, const std::string& file) {
+  if (rows.size() + n <= rows.capacity()) return;
+  const std::size_t wanted = std::max(rows.size() + n, rows.capacity() + rows.capacity() / 2);
+  require_memory(static_cast<double>(wanted) * sizeof(PartRow), {file},
+                 std::to_string(wanted) + " rows of passages",
+                 "make several parts, each of fewer runs");
+  rows.reserve(wanted);
+}
+
 void run_tool(Tool& tool, const Options& o, RunInputs& inputs) {
   const Trn& trn = inputs.trn();
   inputs.path_tolerance_m = o.tolerance_m;
@@ -41,6 +54,7 @@ void run_tool(Tool& tool, const Options& o, RunInputs& inputs) {
   PartBuilder builder;
   std::vector<PartRow> rows;
   inputs.read({.checkpoint = false}, [&](RunFile& run, int index) {
+    make_room(rows, run.passages.size(), inputs.members[index].file);
     for (const Passage& passage : run.passages) rows.push_back({index, passage});
     run = without_frames(std::move(run), trn, settings);
     run.health = short_health(run.health);
@@ -49,8 +63,10 @@ void run_tool(Tool& tool, const Options& o, RunInputs& inputs) {
   constexpr std::uint64_t most_rows = 1'000'000;
   for (const PartInput& part : inputs.parts())
     for_each_strip(part.file, 1, {}, most_rows, [&](const auto& by_run) {
-      for (std::size_t r = 0; r < by_run.size(); ++r)
+      for (std::size_t r = 0; r < by_run.size(); ++r) {
+        make_room(rows, by_run[r].size(), o.out);
         for (const Passage& passage : by_run[r]) rows.push_back({part.member[r], passage});
+      }
     });
   sort_rows(rows);
   write_part_file(tool.stage(o.out), builder.part, rows);

@@ -27,6 +27,8 @@ struct ReportData {
   std::string hillshade_png, mobility_svg, stereonet_svg, sizes_svg, curves_csv, change_png;
   std::vector<std::string> search_svgs;  ///< of each fence search
   std::vector<MapPicture> maps;
+  CasePictures case_maps;                                        ///< of several cases
+  std::vector<std::pair<std::string, Json>> case_fences;         ///< the same, as `fence`
   std::vector<std::pair<std::string, std::string>> hazard_pngs;  ///< name of the map, picture
   std::vector<RunFile> runs;  ///< info and health, by seed and name; frames left out    (n_runs)
   std::vector<std::string> run_names;  ///< "1", or "CASE_1"                            (n_runs)

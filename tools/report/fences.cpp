@@ -162,6 +162,30 @@ std::string comparison_table(const Json& comparison) {
                     {false, true, true, true});
 }
 
+// Each fence in each case; where both are known what comes to its line without it.
+std::string case_fence_table(const ReportData& data) {
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& [name, report] : data.case_fences)
+    for (const Json& fence : value_at(report, {"fences"})) {
+      const Json open = value_at(fence, {"at_open_line"});
+      const Json came = open.is_object() ? open : value_at(fence, {"whole"});
+      rows.push_back({word_text(value_at(fence, {"name"})), xml_escaped(name),
+                      number_text(value_at(came, {"n"})),
+                      number_text(value_at(came, {"energy_kj", "p95"})),
+                      number_text(value_at(came, {"energy_kj", "max"})),
+                      number_text(value_at(came, {"top_height_m", "max"}), 3),
+                      word_text(value_at(fence, {"design", "whole", "verdict"}))});
+    }
+  if (rows.empty()) return "";
+  return "<h3>Case by case</h3>\n" +
+         html_table({"fence", "case", "arrivals", "energy p95 [kJ]", "largest [kJ]",
+                     "top, largest [m]", "verdict"},
+                    rows, {false, false, true, true, true, true, false}) +
+         html_note(value_at(data.runout, {"cases_weighed"}) == Json(true)
+                       ? "Below: the cases together, by their weights."
+                       : "Below: the runs of all cases, each alike, which no verdict rests on.");
+}
+
 }  // namespace
 
 std::string fence_verdict(const Json& fence) {
@@ -183,9 +207,27 @@ std::string fence_verdict(const Json& fence) {
   return out + ".</div>\n";
 }
 
+std::string fence_verdicts(const ReportData& data) {
+  std::string out;
+  const auto add = [&out](const Json& report) {
+    const Json fences = value_at(report, {"fences"});
+    if (fences.is_array())
+      for (const Json& fence : fences) out += fence_verdict(fence);
+  };
+  if (data.case_fences.empty() || value_at(data.runout, {"cases_weighed"}) == Json(true)) {
+    add(data.fence);
+    return out;
+  }
+  for (const auto& [name, report] : data.case_fences) {
+    out += "<h4>Case " + xml_escaped(name) + "</h4>\n";
+    add(report);
+  }
+  return out;
+}
+
 std::string fence_section(const ReportData& data) {
   if (!value_at(data.fence, {"fences"}).is_array()) return "";
-  std::string out;
+  std::string out = case_fence_table(data);
   for (const Json& fence : data.fence["fences"]) {
     out += "<h3>" + word_text(value_at(fence, {"name"})) + ": " +
            number_text(value_at(fence, {"length_m"})) + " m long, " +

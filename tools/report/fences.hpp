@@ -11,6 +11,10 @@ namespace talus {
 /// Whether a fence meets its design code, and what it would need; `fence` of the fences' JSON.
 [[nodiscard]] std::string fence_verdict(const Json& fence);
 
+/// The verdicts that count: of each case where there are several that nobody weighed, else of all
+/// runs.
+[[nodiscard]] std::string fence_verdicts(const ReportData& data);
+
 /// The chapter; empty without the fences' JSON.
 [[nodiscard]] std::string fence_section(const ReportData& data);
 

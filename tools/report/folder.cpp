@@ -8,6 +8,7 @@
 #include "base/sha256.hpp"
 #include "io/tags_gdal.hpp"
 #include "post/run_set.hpp"
+#include "site/section_digest.hpp"
 #include "site/uncertainty.hpp"
 #include "tools/frame/site_stages.hpp"
 
@@ -107,6 +108,16 @@ std::vector<std::string> with_sidecars(const std::string& name) {
   return {name, base + ".png", base + ".qml"};
 }
 
+// Whether the file says that it was made with what the site file says of these sections now.
+bool is_of_sections(const ResultFolder& folder, const std::string& name, const Site& site,
+                    const std::vector<std::string>& sections) {
+  return text_at(folder.glance(name), "/sections") == section_digest(site, sections);
+}
+
+std::string of_other_sections(const std::string& names) {
+  return "made with other " + names + " than the site file has";
+}
+
 const char* const of_other_runs = "not of the runs that runout.json is of";
 
 void leave_out_fences(ResultFolder& folder, const Site& site, const std::string& run_set) {
@@ -128,22 +139,33 @@ void leave_out_fences(ResultFolder& folder, const Site& site, const std::string&
   }
 }
 
-void leave_out_maps(ResultFolder& folder, const std::string& run_set) {
-  if (!folder.has("maps")) return;
+// Maps of a folder that are of other runs than these.
+void leave_out_maps(ResultFolder& folder, const std::string& maps, const std::string& run_set) {
+  if (!folder.has(maps)) return;
   std::set<std::string> others;
-  for (const auto& entry : fs::directory_iterator(folder.path("maps"))) {
+  for (const auto& entry : fs::directory_iterator(folder.path(maps))) {
     const std::string file = entry.path().filename().string();
     if (!file.ends_with(".tif") || file[0] == '.') continue;
-    if (origin_of(folder, "maps/" + file).run_set == run_set) continue;
-    for (const std::string& name : with_sidecars("maps/" + file)) others.insert(name);
+    if (origin_of(folder, maps + "/" + file).run_set == run_set) continue;
+    for (const std::string& name : with_sidecars(maps + "/" + file)) others.insert(name);
   }
   folder.leave_out({others.begin(), others.end()}, of_other_runs);
+}
+
+// The ids of the runs of each case.
+std::map<std::string, std::vector<std::string>> ids_by_case(const Json& runout) {
+  std::map<std::string, std::vector<std::string>> ids;
+  for (const Json& run : runout.at("runs"))
+    if (const std::string name = text_at(run, "/case"); !name.empty())
+      ids[name].push_back(run["run_id"].get<std::string>());
+  return ids;
 }
 
 // Classes and traces of other runs, or of a site file that no longer has them.
 void leave_out_hazard(ResultFolder& folder, const Site& site, const std::string& run_set) {
   const auto check = [&](const char* json, const std::vector<std::string>& with, bool is_of_site,
-                         const char* what) {
+                         const char* what, const std::vector<std::string>& sections,
+                         const char* sections_named) {
     if (!folder.has(json)) return;
     std::vector<std::string> names{json};
     names.insert(names.end(), with.begin(), with.end());
@@ -151,10 +173,14 @@ void leave_out_hazard(ResultFolder& folder, const Site& site, const std::string&
       folder.leave_out(names, std::string("the site has no ") + what);
     else if (origin_of(folder, json).run_set != run_set)
       folder.leave_out(names, of_other_runs);
+    else if (!is_of_sections(folder, json, site, sections))
+      folder.leave_out(names, of_other_sections(sections_named));
   };
-  check("hazard.json", {"hazard/hazard.gpkg"}, true, "");
-  check("trace.json", {"trace.gpkg"}, !site.objects.empty(), "objects");
-  check("fence_search.json", {"fence_search.gpkg"}, !site.fence_searches.empty(), "fence searches");
+  check("hazard.json", {"hazard/hazard.gpkg"}, true, "", {"hazard"}, "[hazard*]");
+  check("trace.json", {"trace.gpkg"}, !site.objects.empty(), "objects", {"object", "hazard"},
+        "[object.*] or [hazard*]");
+  check("fence_search.json", {"fence_search.gpkg"}, !site.fence_searches.empty(), "fence searches",
+        {"object", "hazard", "fence_search"}, "[object.*], [hazard*] or [fence_search.*]");
 }
 
 void leave_out_places(ResultFolder& folder, const Site& site, const std::string& run_set) {
@@ -163,6 +189,8 @@ void leave_out_places(ResultFolder& folder, const Site& site, const std::string&
     folder.leave_out({"places.json"}, "the site has no places");
   else if (text_at(folder.glance("places.json"), "/run_set") != run_set)
     folder.leave_out({"places.json"}, of_other_runs);
+  else if (!is_of_sections(folder, "places.json", site, {"place", "fence"}))
+    folder.leave_out({"places.json"}, of_other_sections("[place.*] or [fence.*]"));
 }
 
 // The terrain's report says what it was made from.
@@ -178,7 +206,13 @@ void leave_out_tin(ResultFolder& folder) {
 void leave_out_others(ResultFolder& folder, const Site& site, const Json& runout) {
   const std::string run_set = run_set_id(ids_of(runout));
   leave_out_fences(folder, site, run_set);
-  leave_out_maps(folder, run_set);
+  leave_out_maps(folder, "maps", run_set);
+  for (const auto& [name, ids] : ids_by_case(runout)) {
+    const std::string of_case = run_set_id(ids), fence = "fences/" + name + "/fence.json";
+    leave_out_maps(folder, "maps/" + name, of_case);
+    if (folder.has(fence) && (site.fences.empty() || origin_of(folder, fence).run_set != of_case))
+      folder.leave_out({fence}, site.fences.empty() ? "the site has no fences" : of_other_runs);
+  }
   leave_out_hazard(folder, site, run_set);
   leave_out_places(folder, site, run_set);
   leave_out_tin(folder);

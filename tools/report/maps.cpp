@@ -8,6 +8,22 @@
 
 namespace talus {
 
+namespace {
+
+// Cases stand side by side. Maps of all of them together come behind, and folded where nobody said
+// what a case counts.
+std::string all_maps(const ReportData& data) {
+  if (data.case_maps.empty()) return map_figures(data.maps);
+  std::string out = "<h3>Maps case by case</h3>\n" + case_figures(data.case_maps, true) +
+                    html_fold("Other maps case by case", case_figures(data.case_maps, false));
+  if (value_at(data.runout, {"cases_weighed"}) == Json(true))
+    return out + "<h3>All cases together, by their weights</h3>\n" + map_figures(data.maps);
+  return out +
+         html_fold("All cases pooled, each run alike: no probability", map_figures(data.maps));
+}
+
+}  // namespace
+
 std::string map_section(const ReportData& data) {
   std::string out = html_figure(
       plan_view_svg(data.shown, data.terrain, data.hillshade_png),
@@ -23,7 +39,7 @@ std::string map_section(const ReportData& data) {
       word_text(value_at(data.runout, {"tags", "DENOMINATOR"})) +
       ". With few passages the maps show largest values, else the 95th percentile: the heading of "
       "the picture's legend says which (_max or _p95).");
-  return html_section("maps", "Maps", out + map_figures(data.maps));
+  return html_section("maps", "Maps", out + all_maps(data));
 }
 
 }  // namespace talus

@@ -10,6 +10,7 @@
 #include "tools/report/fences.hpp"
 #include "tools/report/folder.hpp"
 #include "tools/report/json.hpp"
+#include "tools/report/runout.hpp"
 
 namespace talus {
 namespace {
@@ -208,10 +209,12 @@ std::string result_section(const ReportData& data) {
   out += html_fact(std::to_string(n), n == 1 ? "run" : "runs");
   out += html_fact(number_text(value_at(data.blocks, {"n_blocks"})), "blocks");
   out += html_fact(number_text(value_at(data.blocks, {"volume_m3"})) + " m&sup3;", "released rock");
-  out += "</div>\n" + standing_mass(moved) + health_verdict(data);
+  out += "</div>\n";
+  if (const std::string cases = case_table(r); !cases.empty())
+    out += "<h3>Case by case</h3>\n" + cases;
+  out += standing_mass(moved) + health_verdict(data);
   out += left_out_verdict(data.runout) + missing_verdict(data.runout);
-  if (value_at(data.fence, {"fences"}).is_array())
-    for (const Json& fence : data.fence["fences"]) out += fence_verdict(fence);
+  out += fence_verdicts(data);
   return html_section("result", "Result", out);
 }
 

@@ -57,38 +57,6 @@ std::string spread_table(const Json& runout) {
                           "; p50: half of them lie below, p95: 95 in 100 lie below."));
 }
 
-// Cases beside one another; what stands for all runs together mixes them.
-std::string case_table(const Json& runout) {
-  const Json cases = value_at(runout, {"cases"});
-  if (!cases.is_array() || cases.empty()) return "";
-  std::vector<std::vector<std::string>> rows;
-  for (const Json& one : cases) {
-    const Json spread = value_at(one, {"spread_over_runs"});
-    const Json share = value_at(one, {"moved", "share_moved_1_m"});
-    rows.push_back({word_text(value_at(one, {"case"})),
-                    number_text(value_at(one, {"n_runs_moved"})) + " of " +
-                        number_text(value_at(one, {"n_runs"})),
-                    percent_text(value_at(one, {"event_probability"})),
-                    percent_text(value_at(one, {"weight"})),
-                    share.is_number() ? text(100 * share.get<double>(), 3) + " %" : "",
-                    number_text(value_at(spread, {"L_path_m", "p50"})),
-                    number_text(value_at(spread, {"L_path_m", "max"})),
-                    number_text(value_at(spread, {"L95_m", "max"})),
-                    number_text(value_at(spread, {"reach_angle_path_deg", "min"}), 3)});
-  }
-  return html_table({"case", "runs that moved", "events", "weight", "mass that moved more than 1 m",
-                     "L, median [m]", "L, largest [m]", "L95, largest [m]",
-                     "angle of reach, smallest [deg]"},
-                    rows, {false, true, true, true, true, true, true, true, true}) +
-         html_note(
-             value_at(runout, {"cases_weighed"}) == Json(true)
-                 ? "All other numbers and maps of this page take the cases together, with "
-                   "these weights."
-                 : "Nobody gave the cases weights (make WEIGHTS='CASE=NUMBER ...'): all other "
-                   "numbers and maps of this page count each run alike, and their shares are "
-                   "no probabilities.");
-}
-
 std::string mobility_table(const Json& mobility) {
   std::vector<std::vector<std::string>> rows;
   if (mobility.is_array())
@@ -139,11 +107,41 @@ std::string energy_line_note(const ReportData& data) {
 
 }  // namespace
 
+std::string case_table(const Json& runout) {
+  const Json cases = value_at(runout, {"cases"});
+  if (!cases.is_array() || cases.empty()) return "";
+  std::vector<std::vector<std::string>> rows;
+  for (const Json& one : cases) {
+    const Json spread = value_at(one, {"spread_over_runs"});
+    const Json share = value_at(one, {"moved", "share_moved_1_m"});
+    rows.push_back({word_text(value_at(one, {"case"})),
+                    number_text(value_at(one, {"n_runs_moved"})) + " of " +
+                        number_text(value_at(one, {"n_runs"})),
+                    percent_text(value_at(one, {"event_probability"})),
+                    percent_text(value_at(one, {"weight"})),
+                    share.is_number() ? text(100 * share.get<double>(), 3) + " %" : "",
+                    number_text(value_at(spread, {"L_path_m", "p50"})),
+                    number_text(value_at(spread, {"L_path_m", "max"})),
+                    number_text(value_at(spread, {"L95_m", "max"})),
+                    number_text(value_at(spread, {"reach_angle_path_deg", "min"}), 3)});
+  }
+  return html_table({"case", "runs that moved", "events", "weight", "mass that moved more than 1 m",
+                     "L, median [m]", "L, largest [m]", "L95, largest [m]",
+                     "angle of reach, smallest [deg]"},
+                    rows, {false, true, true, true, true, true, true, true, true}) +
+         html_note(
+             value_at(runout, {"cases_weighed"}) == Json(true)
+                 ? "All other numbers and maps of this page take the cases together, with "
+                   "these weights."
+                 : "Nobody gave the cases weights (make WEIGHTS='CASE=NUMBER ...'): all other "
+                   "numbers and maps of this page count each run alike, and their shares are "
+                   "no probabilities.");
+}
+
 std::string runout_section(const ReportData& data) {
   if (data.runout.is_null()) return "";
   const Json balance = value_at(data.runout, {"balance"});
-  std::string out = case_table(data.runout) + spread_table(data.runout) + energy_line_note(data) +
-                    friction_paragraph(data);
+  std::string out = spread_table(data.runout) + energy_line_note(data) + friction_paragraph(data);
   out += html_paragraph("Volume: released " + number_text(value_at(balance, {"released_m3"}), 4) +
                         " m&sup3; = at rest " +
                         number_text(value_at(balance, {"deposited_m3"}), 4) + " + still moving " +

@@ -9,6 +9,9 @@
 
 namespace talus {
 
+/// Cases beside one another, and what the rest of the page makes of them; empty without cases.
+[[nodiscard]] std::string case_table(const Json& runout);
+
 /// Empty without the run-out's JSON.
 [[nodiscard]] std::string runout_section(const ReportData& data);
 

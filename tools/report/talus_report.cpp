@@ -16,16 +16,18 @@
 #include "io/tags_gdal.hpp"
 #include "post/maps/map_layers.hpp"
 #include "record/part_file.hpp"
+#include "report/check_view.hpp"
 #include "report/plan_view.hpp"
 #include "report/qgis_project.hpp"
 #include "report/styles_gdal.hpp"
 #include "report/zip.hpp"
+#include "site/site_layers.hpp"
 #include "tools/frame/build_info.hpp"
 #include "tools/frame/fault_json.hpp"
 #include "tools/frame/file_paths.hpp"
+#include "tools/frame/options.hpp"
 #include "tools/frame/shipped_data.hpp"
 #include "tools/frame/site_options.hpp"
-#include "tools/frame/tool.hpp"
 #include "tools/frame/whole_runs.hpp"
 #include "tools/report/data.hpp"
 #include "tools/report/folder.hpp"
@@ -203,6 +205,33 @@ void read_registry(const std::string& db, const ResultFolder& folder,
 
 // --- the page ------------------------------------------------------------------------------------
 
+// The pictures of a folder with maps, by name.
+std::vector<MapPicture> pictures_in(const ResultFolder& folder, const std::string& maps) {
+  std::vector<MapPicture> pictures;
+  if (!folder.has(maps)) return pictures;
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder.path(maps)))
+    if (entry.path().extension() == ".png" && entry.path().filename().string()[0] != '.' &&
+        folder.has(maps + "/" + entry.path().filename().string()))
+      names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  for (const std::string& name : names)
+    pictures.push_back(
+        {name, folder.text(maps + "/" + name + ".png"), folder.text(maps + "/" + name + ".qml")});
+  return pictures;
+}
+
+// Of several cases those that have a result of their own.
+std::vector<std::string> cases_with(const ResultFolder& folder, const Json& runout,
+                                    const std::string& before, const std::string& behind) {
+  std::vector<std::string> names;
+  const Json cases = runout.value("cases", Json::array());
+  for (const Json& one : cases)
+    if (cases.size() > 1 && folder.has(before + one.at("case").get<std::string>() + behind))
+      names.push_back(one.at("case").get<std::string>());
+  return names;
+}
+
 ReportData read_data(Tool& tool, const Site& site, ResultFolder& folder,
                      const ProgressFunction& progress) {
   ReportData data(site);
@@ -233,17 +262,11 @@ ReportData read_data(Tool& tool, const Site& site, ResultFolder& folder,
   data.sizes_svg = folder.text("sizes.svg");
   data.curves_csv = folder.text("curves.csv");
   data.change_png = folder.text("change.png");
-  if (folder.has("maps")) {
-    std::vector<fs::path> pictures;
-    for (const auto& entry : fs::directory_iterator(folder.path("maps")))
-      if (entry.path().extension() == ".png" && entry.path().filename().string()[0] != '.')
-        if (folder.has("maps/" + entry.path().filename().string()))
-          pictures.push_back(entry.path());
-    std::sort(pictures.begin(), pictures.end());
-    for (const fs::path& path : pictures)
-      data.maps.push_back({path.stem().string(), folder.text("maps/" + path.filename().string()),
-                           folder.text("maps/" + path.stem().string() + ".qml")});
-  }
+  for (const std::string& name : cases_with(folder, data.runout, "fences/", "/fence.json"))
+    data.case_fences.emplace_back(name, folder.json("fences/" + name + "/fence.json"));
+  data.maps = pictures_in(folder, "maps");
+  for (const std::string& name : cases_with(folder, data.runout, "maps/", "/reach.tif"))
+    data.case_maps.emplace_back(name, pictures_in(folder, "maps/" + name));
   if (folder.has("maps/reach.tif"))
     data.runs_to_add = tag_of(folder.path("maps/reach.tif").string(), "RUNS_TO_ADD");
   const std::vector<RunPlace> places = evaluated_runs(folder, data.runout);
@@ -283,14 +306,32 @@ void add_package(QgisProject& project, const Options& o, const ResultFolder& fol
   }
 }
 
+std::string name_in_words(const MapLayerKind& kind) {
+  const bool has_unit = kind.unit != std::string("1");
+  return kind.title + (has_unit ? " [" + std::string(kind.unit) + "]" : "");
+}
+
 void add_maps(QgisProject& project, const Options& o, const ResultFolder& folder) {
   for (const MapLayerKind& kind : map_layers()) {
     const std::string base = std::string("maps/") + kind.name;
     if (!folder.has(base + ".tif")) continue;
-    project.layers.push_back({kind.group, kind.name,
+    project.layers.push_back({kind.group, name_in_words(kind),
                               relative_to(o.qgis, folder.path(base + ".tif")), QgisLayer::raster,
                               folder.text(base + ".qml"), kind.is_visible});
   }
+}
+
+// Of each case by itself, where there are several.
+void add_case_maps(QgisProject& project, const Options& o, const ResultFolder& folder,
+                   const ReportData& data) {
+  for (const auto& [name, pictures] : data.case_maps)
+    for (const MapLayerKind& kind : map_layers()) {
+      const std::string base = "maps/" + name + "/" + kind.name;
+      if (!folder.has(base + ".tif")) continue;
+      project.layers.push_back({"Case " + name, name_in_words(kind) + ", case " + name,
+                                relative_to(o.qgis, folder.path(base + ".tif")), QgisLayer::raster,
+                                folder.text(base + ".qml"), false});
+    }
 }
 
 // Classes and objects above the maps that they are made of; the class as polygons is what is seen.
@@ -322,6 +363,39 @@ void add_hazard(QgisProject& project, const Options& o, const ResultFolder& fold
   }
 }
 
+// What the site is made from, to be edited: the styles and forms are those of the file.
+void add_inputs(QgisProject& project, const Options& o, const Site& site) {
+  if (site.layers_file.empty()) return;
+  static constexpr QgisLayer::Kind kinds[] = {QgisLayer::raster, QgisLayer::point, QgisLayer::line,
+                                              QgisLayer::polygon};
+  const std::string path = resolved(site, site.layers_file);
+  const std::vector<StyledLayer> layers = styled_layers(path);
+  for (const SiteLayer& known : site_layers())
+    for (const StyledLayer& layer : layers)
+      if (known.name == layer.name)
+        project.layers.push_back({"Inputs (edit, then make)", known.title,
+                                  relative_to(o.qgis, path) + "|layername=" + layer.name,
+                                  kinds[layer.shape], layer.qml.empty() ? plain_style() : layer.qml,
+                                  true});
+  project.is_edited = true;
+}
+
+// Of the relief in the window [m].
+double interval_in(const Trn& trn, const PlanWindow& window) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (int r = 0; r < trn.n_rows; ++r)
+    for (int c = 0; c < trn.n_cols; ++c) {
+      const Vec3 node = node_point(trn, r, c);
+      const Vec2 at = node.head<2>();
+      if (std::isnan(node.z()) || (at.array() < window.low.array()).any() ||
+          (at.array() > window.high.array()).any())
+        continue;
+      low = std::min(low, node.z());
+      high = std::max(high, node.z());
+    }
+  return low < high ? contour_interval(low, high) : 0;
+}
+
 QgisProject project_of(const ReportData& data, const Options& o, const ResultFolder& folder) {
   const Trn& trn = data.terrain;
   QgisProject project;
@@ -341,16 +415,25 @@ QgisProject project_of(const ReportData& data, const Options& o, const ResultFol
       "run id " + data.run_id + ", Talus " + data.version + ", CRS " + crs_name(trn.crs_wkt),
       tag("DENOMINATOR"), "health: " + tag("HEALTH")};
 
+  add_inputs(project, o, data.site);
   add_package(project, o, folder, "fence.gpkg", "Fences", {"fence_fields", "fence_posts"});
   if (folder.has("change.tif"))
     project.layers.push_back({"Fences", "change by the fence",
                               relative_to(o.qgis, folder.path("change.tif")), QgisLayer::raster,
                               folder.text("change.qml"), false});
   add_hazard(project, o, folder, data);
-  add_package(project, o, folder, "runout.gpkg", "Paths",
-              {"path_points", "paths", "envelope", "runs", "tree_hits"});
+  // Footprints of many runs would cover the maps.
+  std::set<std::string> hidden = {"path_points", "paths", "envelope", "runs", "tree_hits"};
+  if (data.runs.size() > 1) hidden.insert("deposit");
+  add_package(project, o, folder, "runout.gpkg", "Paths", hidden);
   add_package(project, o, folder, "blocks.gpkg", "Source", {"blocks"});
+  add_case_maps(project, o, folder, data);
   add_maps(project, o, folder);
+  project.contour_interval = interval_in(trn, window);
+  if (project.contour_interval > 0)
+    project.layers.push_back({"Terrain", "contours every " + text(project.contour_interval) + " m",
+                              relative_to(o.qgis, folder.path("trn.tif")), QgisLayer::contours, "",
+                              true});
   project.layers.push_back({"Terrain", "hillshade", relative_to(o.qgis, folder.path("trn.tif")),
                             QgisLayer::hillshade, "", true});
   return project;

@@ -18,6 +18,7 @@
 #include "tools/frame/fault_json.hpp"
 #include "tools/frame/map_output.hpp"
 #include "tools/frame/moved_json.hpp"
+#include "tools/frame/options.hpp"
 #include "tools/frame/run_inputs.hpp"
 #include "tools/frame/shipped_data.hpp"
 #include "tools/runout/json.hpp"

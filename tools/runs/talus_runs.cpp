@@ -10,8 +10,8 @@
 #include "base/sha256.hpp"
 #include "base/text.hpp"
 #include "store/runs.hpp"
+#include "tools/frame/options.hpp"
 #include "tools/frame/run_record.hpp"
-#include "tools/frame/tool.hpp"
 
 namespace {
 

@@ -12,11 +12,13 @@
 #include "base/source_path.hpp"
 #include "base/text.hpp"
 #include "io/dataset_files_gdal.hpp"
+#include "io/feature_tables_gdal.hpp"
 #include "tools/frame/file_paths.hpp"
+#include "tools/frame/options.hpp"
 #include "tools/frame/site_options.hpp"
 #include "tools/frame/site_stages.hpp"
-#include "tools/frame/tool.hpp"
 #include "tools/site/file_digests.hpp"
+#include "tools/site/new_layers.hpp"
 
 namespace {
 
@@ -81,6 +83,24 @@ std::string digests_of(const std::string& path, FileDigests& digests) {
   return out;
 }
 
+// Of a layer that stands for sections its features count, as the key names them: another fence is
+// no other source. A GIS also changes bytes of the file when it only looks at it.
+std::string digest_of_layer(const Site& site, const EffectiveValue& value) {
+  const std::string prefix = value.key.substr(0, value.key.size() - std::string("file").size());
+  std::string layer, where;
+  for (const EffectiveValue& other : effective_values(site)) {
+    if (other.section != value.section) continue;
+    if (other.key == prefix + "layer") layer = unquoted(other.value);
+    if (other.key == prefix + "where") where = unquoted(other.value);
+  }
+  return " " + digest_of_features(resolved(site, site.layers_file), layer, where);
+}
+
+bool is_of_layers(const Site& site, const EffectiveValue& value) {
+  return !site.layers_file.empty() && value.key.ends_with("file") &&
+         unquoted(value.value) == site.layers_file;
+}
+
 // What a stage reads, a line a value; files by their content.
 std::string settings_of(const Site& site, const std::string& stage, FileDigests& digests) {
   std::string out = "# what the stage " + stage + " reads of the site file\n";
@@ -88,7 +108,9 @@ std::string settings_of(const Site& site, const std::string& stage, FileDigests&
     if (value.value.empty() || !is_read(site, stage, value)) continue;
     out += value.section + "." + value.key + " = " + value.value;
     const std::string file = file_named(site, value);
-    if (!file.empty()) out += "  # sha256" + digests_of(file, digests);
+    if (!file.empty())
+      out += "  # sha256" +
+             (is_of_layers(site, value) ? digest_of_layer(site, value) : digests_of(file, digests));
     out += "\n";
   }
   return out;
@@ -309,26 +331,35 @@ int main(int argc, char** argv) {
   std::string folder;
   std::vector<std::string> given;
   Tool tool("talus-site", "Parts the site file into what each stage of the pipeline reads.");
-  SiteOptions site_options(tool);
-  tool.output_folder("-o,--out", folder, "folder for a file a stage, and site.mk")->required();
+  SiteOptions site_options(tool, {}, false);
+  NewLayers new_layers;
+  CLI::Option* const out =
+      tool.output_folder("-o,--out", folder, "folder for a file a stage, and site.mk");
   tool.app()
       .add_option(
           "--given", given,
           "NAME=FILE: a file that make was given; DIR/NAME.files lists those of a NAME with "
           "their digests")
       ->allow_extra_args(false);
-  tool.footer("Example:\n  talus-site site.toml -o out/stages --overwrite --no-db");
+  declare_new_layers(tool, new_layers);
+  tool.footer(
+      "Example:\n  talus-site site.toml -o out/stages --overwrite --no-db\n"
+      "  talus-site --new-layers site.gpkg --crs-of dem.tif --source release.gpkg --no-db");
   return tool.run(argc, argv, [&] {
+    if (!new_layers.out.empty()) return make_new_layers(tool, new_layers);
+    if (site_options.file().empty() || out->count() == 0)
+      throw UsageError({"", 0, "talus-site"}, "needs a site file and a folder to write to",
+                       "talus-site site.toml -o out/stages, or --new-layers site.gpkg");
     const Site& site = site_options.load();
     const std::string variables = make_variables(site);
     check_files(site);
-    const fs::path out = folder, memory = out / ".digests";
+    const fs::path stages = folder, memory = stages / ".digests";
     FileDigests digests(fs::is_regular_file(memory) ? read_file(memory.string()) : "");
-    write_if_changed(tool, out / "site.mk", variables);
+    write_if_changed(tool, stages / "site.mk", variables);
     for (const std::string& stage : stage_names())
-      write_if_changed(tool, out / (stage + ".txt"), settings_of(site, stage, digests));
+      write_if_changed(tool, stages / (stage + ".txt"), settings_of(site, stage, digests));
     for (const auto& [name, list] : lists_of(given, digests))
-      write_if_changed(tool, out / (name + ".files"), list);
+      write_if_changed(tool, stages / (name + ".files"), list);
     write_if_changed(tool, memory, digests.as_text());
     if (const std::string words = draws_text(site); !words.empty())
       tool.result(draws_json(site), words);

@@ -8,11 +8,12 @@
 #include "base/grouped_text.hpp"
 #include "base/text.hpp"
 #include "io/raster_gdal.hpp"
+#include "tools/frame/failure_outlines.hpp"
 #include "tools/frame/failure_plane_choice.hpp"
+#include "tools/frame/options.hpp"
 #include "tools/frame/site_crs.hpp"
 #include "tools/frame/site_options.hpp"
 #include "tools/frame/source_cut.hpp"
-#include "tools/frame/tool.hpp"
 
 namespace {
 
@@ -20,14 +21,18 @@ using namespace talus;  // NOLINT: a program of its own
 
 constexpr double degree = std::numbers::pi / 180;
 
+const std::vector<double> shares_of_foot = {1, 0.95, 0.9, 0.75, 0.5};
+
 struct Options {
-  std::string trn, report, assumed;
+  std::string trn, report, layers, assumed;
   int n_blocks = 50;
 };
 
 void declare(Tool& tool, Options& o) {
   tool.input("--trn", o.trn, "terrain before the slide (talus-trn)")->required();
   tool.output("-o,--out", o.report, "slope, sets and planes (JSON)");
+  tool.output("--layers", o.layers,
+              "areas of the masses that could leave, by set and by share of the foot (GeoPackage)");
   tool.output("--assume-joints", o.assumed,
               "[source] and [joints.*] for a slope whose joints nobody has measured (TOML)");
   tool.option("--blocks", o.n_blocks, "blocks that the assumed sets should make")
@@ -76,9 +81,8 @@ Json shares_json(const BlocksWork& work) {
   Json rows = Json::array();
   for (const FailurePlane& plane : work.planes.planes) {
     if (!plane.why_not.empty()) continue;
-    for (const PlaneAtShare& row :
-         planes_by_share(work.ground, work.area, plane.attitude, {1, 0.95, 0.9, 0.75, 0.5},
-                         where_of_area(work))) {
+    for (const PlaneAtShare& row : planes_by_share(work.ground, work.area, plane.attitude,
+                                                   shares_of_foot, where_of_area(work))) {
       const Vec3 point = row.point + work.ground.origin;
       rows.push_back({{"set", plane.set},
                       {"free_share_of_foot", row.share},
@@ -88,6 +92,18 @@ Json shares_json(const BlocksWork& work) {
     }
   }
   return rows;
+}
+
+// The outline of each plane at each share of the foot.
+std::vector<OutlinedSurface> outlines_by_share(const BlocksWork& work) {
+  std::vector<OutlinedSurface> surfaces;
+  for (const FailurePlane& plane : work.planes.planes) {
+    if (!plane.why_not.empty()) continue;
+    for (const PlaneAtShare& row : planes_by_share(work.ground, work.area, plane.attitude,
+                                                   shares_of_foot, where_of_area(work)))
+      if (row.volume > 0) surfaces.push_back(outlined_plane(work, plane, row.point, row.share));
+  }
+  return surfaces;
 }
 
 // "bedding by the share of the foot: 100 % 41,000 m3, 95 % ..."
@@ -142,7 +158,18 @@ int main(int argc, char** argv) {
         {"site", work.site.info.name},
         {"run_id", tool.run_id()},
         {"failure_planes", planes_json(work.planes, work.wedges, work.wedge, work.ground.origin)},
-        {"by_share_of_foot", shares}};
+        {"by_share_of_foot", shares},
+        {"outlines", Json::array()}};
+    const std::vector<OutlinedSurface> surfaces = outlined_surfaces(work);
+    for (const OutlinedSurface& surface : surfaces)
+      report["outlines"].push_back(outline_json(surface, work.ground.origin));
+    if (!o.layers.empty()) {
+      VectorLayer by_share = outline_layer(outlines_by_share(work), work.ground.origin);
+      by_share.name = "planes_by_share_of_foot";
+      by_share.description = "the same planes, laid so that they come out along other shares";
+      write_geopackage(tool.stage(o.layers), work.ground.crs_wkt,
+                       {outline_layer(surfaces, work.ground.origin), by_share});
+    }
     if (!o.assumed.empty()) {
       const Assumed assumed = assume_joints(work, work.planes.friction, o.n_blocks);
       tool.write_text(o.assumed, assumed.toml);

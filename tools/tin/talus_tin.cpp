@@ -4,6 +4,7 @@
 #include <malloc.h>
 #endif
 
+#include "base/memory.hpp"
 #include "base/text.hpp"
 #include "io/contours_gdal.hpp"
 #include "io/crs_gdal.hpp"
@@ -14,7 +15,7 @@
 #include "terrain/point_tin.hpp"
 #include "terrain/tin_mesh.hpp"
 #include "tools/frame/command_line.hpp"
-#include "tools/frame/tool.hpp"
+#include "tools/frame/options.hpp"
 #include "tools/frame/vector_inputs.hpp"
 #include "tools/tin/doubts.hpp"
 
@@ -247,8 +248,18 @@ void mend(Tool& tool, const Options& o, const ContourMap& map,
     tool.warn(std::to_string(mended.n_unsolved) + " places were left flat: nothing holds them");
 }
 
+// What becomes of the points takes several times their own memory; docs/tools/talus-tin.md.
+void ask_for_memory(const ContourMap& map, std::size_t n_points) {
+  constexpr double bytes_per_point = 210;
+  talus::require_memory(
+      bytes_per_point * static_cast<double>(n_points), {map.source},
+      "triangles of " + std::to_string(n_points) + " points",
+      "take a part of the map (--boundary, ogr2ogr -clipsrc), or simplify its lines");
+}
+
 // Triangles of the cleaned lines, mended as asked for. Frees what it no longer needs as it goes.
 talus::TriangleMesh make_mesh(Tool& tool, const Options& o, ContourMap& map, Json& report) {
+  ask_for_memory(map, map.contours.points.size() + map.breaklines.points.size() + map.spots.size());
   const double interval = talus::contour_interval(map);
   std::vector<talus::DoubtRow> rows = talus::rows_below_land(map);
   talus::CleanLines clean = talus::clean_or_mend(tool, o.doubts, map, rows, report);
@@ -340,6 +351,7 @@ Json build_of_points(Tool& tool, Options& o, talus::Tin& tin) {
   read_crs_options(o);
   ContourMap map = talus::read_ground_points(o.sources, reading);
   say_reading(tool, o, reading);
+  ask_for_memory(map, map.spots.size());
   std::vector<talus::DoubtRow> rows = talus::rows_below_land(map);
   for (talus::DoubtRow& row : rows) row.what = "point";
   talus::PointMesh found = talus::mesh_of_points(std::move(map.spots), map.source);

@@ -5,10 +5,10 @@
 
 #include "base/csv.hpp"
 #include "base/text.hpp"
-#include "io/buffer_gdal.hpp"
 #include "post/hazard/hazard_maps.hpp"
 #include "post/maps/map_style.hpp"
 #include "tools/frame/file_paths.hpp"
+#include "tools/frame/site_places.hpp"
 
 namespace talus {
 namespace {
@@ -21,14 +21,8 @@ void move(Polygons& polygons, const Vec2& by) {
       for (Vec2& p : ring) p += by;
 }
 
-Polygons area_of(const RecordObject& object, const Vec2& origin) {
-  Polygons out;
-  for (const ObjectPart& part : object.parts) {
-    if (part.is_area)
-      out.push_back({part.points});
-    else
-      for (auto& polygon : buffer_of(part.points, object.radius)) out.push_back(std::move(polygon));
-  }
+Polygons area_on_map(const RecordObject& object, const Vec2& origin) {
+  Polygons out = polygons_of(object);
   move(out, origin);
   return out;
 }
@@ -85,7 +79,7 @@ VectorLayer object_layer(const TraceSums& sums, const std::vector<TracedObject>&
     const ObjectTrace& t = objects[o].trace;
     const RecordObject& object = sums.objects[o];
     VectorFeature f;
-    f.polygons = area_of(object, origin);
+    f.polygons = area_on_map(object, origin);
     const auto period = [](double rate) { return rate > 0 ? 1 / rate : std::nan(""); };
     f.values = {object.name,
                 object.kind,

@@ -19,7 +19,7 @@
 #include "terrain/trn_quality.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/doubts_layer.hpp"
-#include "tools/frame/tool.hpp"
+#include "tools/frame/options.hpp"
 #include "tools/frame/vector_inputs.hpp"
 
 namespace {

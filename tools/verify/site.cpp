@@ -8,6 +8,7 @@
 #include "tools/frame/build_info.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/machine.hpp"
+#include "tools/frame/site_layers.hpp"
 #include "verify/study/ensemble.hpp"
 
 namespace talus {
@@ -131,7 +132,8 @@ std::string table_of(const std::vector<Candidate>& list, const std::vector<Ensem
 std::string study_site(Tool& tool, const SiteStudyOptions& o, const std::string& out) {
   const double tolerance = tolerance_of(o.tolerance);
   const auto q = static_cast<std::size_t>(quantity_of(o.quantity));
-  const Site site = read_site(o.site);
+  Site site = read_site(o.site);
+  read_site_layers(tool, site);
   DdaInputs inputs = read_dda_inputs(tool, site, o.files);
   check_start(tool, site, inputs, o.files, plan_for(site, inputs.parts).block_contacts);
   const std::vector<Candidate> list =

@@ -56,9 +56,58 @@ CaseResult thin_plate(const Settings& settings);
 /// below 0 for what collisions cost.
 CaseResult collision(const Settings& settings, double restitution);
 
+/// Sixteen columns that dip into the slope, on a stepped base, as Goodman and Bray (1976) have
+/// them: the friction angle from which the toe stands without help, by bisection: error [deg].
+/// Expected: their limit equilibrium, 38.146 degrees.
+CaseResult columns_topple(const Settings& settings);
+
 /// Row of 14 upright plates of which the first is pushed: relative error of the time that the wave
 /// takes from the fourth to the twelfth. Against angles alone, rigid, contacts by projected
 /// Gauss-Seidel at steps of 2e-5 s.
 CaseResult dominoes(const Settings& settings);
+
+// --- piles, hits, edges and bodies of several parts (contact_cases.cpp) ------------------------
+
+/// Tower of eight cubes at 1.05 of the dip at which it topples: relative error of the time in which
+/// one has turned by 0.2 rad, against one rigid column.
+CaseResult tower_topples(const Settings& settings);
+
+struct Pile;
+/// A pile that should stand: the farthest that a cube gets within `duration_s`, over its side.
+CaseResult pile_moves(const Settings& settings, const Pile& pile, double duration_s);
+
+/// Twelve pairs of tumbling cubes that meet in space, no friction: largest error of the restitution
+/// of their hits [-].
+CaseResult tumbling_pairs(const Settings& settings, double restitution);
+
+/// Cube that falls from 2 m on a slab of eight times its mass that the ground bears, COR 0.7:
+/// relative error of its speed after, against hits in turn in one dimension.
+CaseResult borne_slab(const Settings& settings);
+
+/// Five unequal blocks in a row, 2 cm apart, the first at 10 m/s, COR 0.9, 1 s: largest error of a
+/// speed over 10 m/s, against event by event.
+CaseResult unequal_row(const Settings& settings);
+
+/// Six cubes in a row that do not rebound, the first at 10 m/s: largest relative error of a speed
+/// at the end, or of a distance of neighbours over the side.
+CaseResult plastic_row(const Settings& settings);
+
+/// Eight elastic cubes in a bowl, no friction, 4 s: change of their energy as a part of it.
+CaseResult elastic_bowl(const Settings& settings);
+
+/// Top of what follows [m].
+inline constexpr double ridge_height = 10;
+/// A wall along y whose top is a ridge at `x`; its sides stand at `half_angle_deg` to the vertical.
+[[nodiscard]] Body ridge_wall(double half_angle_deg, double x);
+/// A plate on the top of the ridge, cut in two by an upright plane whose normal lies at
+/// `azimuth_deg` to x, `off` the middle.
+[[nodiscard]] Body split_plate(double azimuth_deg, double off);
+/// That plate, cut 0.1 m off its middle at 30 degrees to the ridge, at rest on it for 1 s: how far
+/// it sinks, over its size.
+CaseResult parts_on_ridge(const Settings& settings, double half_angle_deg);
+
+/// Slab of two parts that falls flat from 1.25 m at 1 m/s sideways, friction 30 degrees, COR 0.5:
+/// speed that the hit turns it at, over that of the hit.
+CaseResult parts_land_flat(const Settings& settings);
 
 }  // namespace talus::cases

@@ -86,6 +86,10 @@ CaseResult rocking_ratio(const Settings& settings);
 /// for 10 s (Newmark's sliding block): relative error of the displacement, 3.196940 m.
 CaseResult shaken_block(const Settings& settings);
 
+/// Slab on the flat, friction 15 degrees, base motion 4 sin(2 pi 0.7 (t - 0.3)) m/s2 at 60 degrees
+/// east of north from 0.3 to 2.7 s: error of its way after 4 s along and across that, over the way.
+CaseResult harmonic_slide(const Settings& settings);
+
 /// Block of 0.2 m sliding down a slope that eases from 27 to 23 degrees, friction 25 degrees:
 /// relative error of the run-out L = H / tan(phi) (energy line; the curve's own friction is below
 /// 0.2 %).
@@ -162,6 +166,10 @@ CaseResult rolling_stop(const Settings& settings, int n_sides, double resistance
 /// R_e / (R cos(pi / n)): error by bisection [deg].
 CaseResult resisted_rolling_angle(const Settings& settings, int n_sides, double resistance);
 
+/// Cube on its edge, its weight off it: how far off it stands, in arms mu_r R_e; error by bisection
+/// of the one that is known, 1.
+CaseResult standing_on_edge(const Settings& settings, double resistance);
+
 /// Cube that pivots on its face at 10 rad/s without friction: relative error of the time to its
 /// stop.
 CaseResult pivoting_stop(const Settings& settings);
@@ -175,6 +183,9 @@ CaseResult scarring_creep(const Settings& settings, const GroundClass& ground);
 
 /// Slab at `speed` on the flat, friction 0.84 at rest and 0.11 at high speed: the same.
 CaseResult weakening_stop(const Settings& settings, double speed);
+/// The same slab on 20 degrees: relative error of the speed above which it runs away, at which
+/// friction is tan(20 degrees), 7.497 m/s.
+CaseResult weakening_runaway(const Settings& settings);
 
 /// Slab from rest on 40 degrees, friction 30 degrees, drag per time (0.6 1/s, 5 s) or per way (0.02
 /// 1/m, 10 s): relative error of its speed, by time or by way, and of its way.

@@ -227,6 +227,35 @@ CaseResult shaken_block(const Settings& settings) {
   return run.finish(value, expected, std::abs(value / expected - 1));
 }
 
+CaseResult harmonic_slide(const Settings& settings) {
+  constexpr double amplitude = 4, frequency = 2 * std::numbers::pi * 0.7, begin = 0.3, end = 2.7;
+  const Vec3 along(std::sin(60 * degree), std::cos(60 * degree), 0);
+  const Body body = body_of(box(Vec3(-0.5, -0.5, 0), Vec3(0.5, 0.5, 0.2)));
+  Scene scene = on_plane(settings, slope_frame(0, 0), ground_of(15), body, 15);
+  scene.base.harmonic = {amplitude * along, frequency, begin, end};
+  Run run(std::move(scene));
+  const Vec3 from = run.motion().pose.position;
+  run.advance_to(4);
+  const Vec3 way = run.motion().pose.position - from;
+  const double expected = timed_reference(run.result, [&] {
+    constexpr double h = 2e-5;
+    const double friction = g * std::tan(15 * degree);
+    double x = 0, v = 0;
+    for (double t = 0; t < run.state.time; t += h) {
+      const bool shakes = t >= begin && t < end;
+      const double a = shakes ? -amplitude * std::sin(frequency * (t + h / 2 - begin)) : 0;
+      // what friction may do in the interval brings it to rest at most
+      const double driven = v + h * a;
+      const double next = driven - std::copysign(std::min(h * friction, std::abs(driven)), driven);
+      x += h * (v + next) / 2;
+      v = next;
+    }
+    return x;
+  });
+  const double off = std::hypot(way.dot(along) - expected, way.cross(along).norm());
+  return run.finish(way.dot(along), expected, std::abs(off / expected));
+}
+
 CaseResult energy_line(const Settings& settings) {
   // The slope eases from 27 to 23 degrees over 400 m: v^2 / R stays below g / 500
   const double steep = std::tan(27 * degree), gentle = std::tan(23 * degree), reach = 400;

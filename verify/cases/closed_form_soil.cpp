@@ -48,6 +48,14 @@ double root_of(double low, double high, const std::function<double(double)>& f) 
   return (low + high) / 2;
 }
 
+GroundClass weakening_ground() {
+  GroundClass ground;
+  ground.friction = 0.84;
+  ground.weak_friction = 0.11;
+  ground.weakening_speed = 4;
+  return ground;
+}
+
 // Integral of scarring friction along the way slid.
 double scar_integral(const GroundClass& ground, double x) {
   const double k = ground.scar_rate;
@@ -144,6 +152,36 @@ CaseResult resisted_rolling_angle(const Settings& settings, int n_sides, double 
   return total;
 }
 
+CaseResult standing_on_edge(const Settings& settings, double resistance) {
+  const SlopeFrame flat = slope_frame(0, 0);
+  GroundClass ground = ground_of(60);
+  ground.rolling = resistance;
+  const double arm = resistance * std::cbrt(3 / (4 * pi));
+  CaseResult total;
+  const auto falls = [&](double arms) {
+    const double tilt = pi / 4 + std::asin(arms * arm / std::sqrt(0.5));
+    Polyhedron cube =
+        moved(box(Vec3(-0.5, -0.5, 0), Vec3(0.5, 0.5, 1)),
+              Eigen::AngleAxisd(tilt, Vec3::UnitY()).toRotationMatrix(), Vec3::Zero());
+    double lowest = 0;
+    for (const Vec3& v : cube.vertices) lowest = std::min(lowest, v.z());
+    cube = moved(cube, Mat3::Identity(), Vec3::Zero(), Vec3(0.13, 0.21, -lowest));
+    Run run(on_plane(settings, flat, ground, body_of(cube), 10));
+    const Quat from = run.motion().pose.attitude;
+    bool fallen = false;
+    while (!fallen && run.state.time < 6) {
+      run.advance();
+      fallen = run.motion().pose.attitude.angularDistance(from) > 0.1;
+    }
+    add_counts(run.counted(), total);
+    return fallen;
+  };
+  total.expected = 1;
+  total.value = bisect(0.9, 1.1, 8, falls);
+  total.error = std::abs(total.value - 1);
+  return total;
+}
+
 CaseResult pivoting_stop(const Settings& settings) {
   constexpr double spin = 10, resistance = 0.1;
   const SlopeFrame flat = slope_frame(0, 0);
@@ -198,11 +236,8 @@ CaseResult scarring_creep(const Settings& settings, const GroundClass& ground) {
 
 CaseResult weakening_stop(const Settings& settings, double speed) {
   const SlopeFrame flat = slope_frame(0, 0);
-  GroundClass ground;
-  ground.friction = 0.84;
-  ground.weak_friction = 0.11;
-  ground.weakening_speed = 4;
-  Run run = slab_run(settings, flat, ground, speed, 25);
+  // the run-out of the fastest is 190 m on earth
+  Run run = slab_run(settings, flat, weakening_ground(), speed, speed > 10 ? 250 : 25);
   const double way = way_to_rest(flat, run, 30);
   double expected = 0;  // integral of v / (g mu(v)), by Simpson's rule
   constexpr int n = 2000;
@@ -212,6 +247,24 @@ CaseResult weakening_stop(const Settings& settings, double speed) {
     expected += (i == 0 || i == n ? 1 : i % 2 == 1 ? 4 : 2) * v / (g * mu) * speed / n / 3;
   }
   return run.finish(way, expected, std::abs(way / expected - 1));
+}
+
+CaseResult weakening_runaway(const Settings& settings) {
+  const SlopeFrame frame = slope_frame(20, 0);
+  const GroundClass ground = weakening_ground();
+  CaseResult total;
+  const auto runs_away = [&](double speed) {
+    Run run = slab_run(settings, frame, ground, speed, 25);
+    run.advance_to(1);
+    add_counts(run.counted(), total);
+    return run.motion().velocity.norm() > speed;
+  };
+  total.expected = ground.weakening_speed * ((ground.friction - ground.weak_friction) /
+                                                 (std::tan(20 * degree) - ground.weak_friction) -
+                                             1);
+  total.value = bisect(0.9 * total.expected, 1.1 * total.expected, 14, runs_away);
+  total.error = std::abs(total.value / total.expected - 1);
+  return total;
 }
 
 CaseResult dragged_slide(const Settings& settings, bool per_way) {

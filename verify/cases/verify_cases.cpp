@@ -5,6 +5,7 @@
 #include "base/text.hpp"
 #include "verify/cases/block_cases.hpp"
 #include "verify/cases/case_run.hpp"
+#include "verify/cases/pile_scenes.hpp"
 #include "verify/cases/stem_case.hpp"
 
 namespace talus {
@@ -229,6 +230,13 @@ std::vector<VerifyCase> soil_cases() {
                .test = "Soil.RestitutionFallsWithSpeedOrEnergy",
                .bound = 1e-6,
                .run = [](const Settings& s) { return falling_restitution(s, false); }}),
+      of_soil({.name = "soil_bounce_energy",
+               .claim = "three rebounds from 5 m at a COR that falls with the energy of the hit",
+               .reference = "closed form",
+               .norm = "relative, largest of three",
+               .test = "Soil.RestitutionFallsWithSpeedOrEnergy",
+               .bound = 1e-6,
+               .run = [](const Settings& s) { return falling_restitution(s, true); }}),
       of_soil({.name = "soil_rolling",
                .claim = "a prism of 64 sides rolls to its stop, rolling resistance 0.1",
                .reference = "closed form of plastic hits of its edges",
@@ -243,6 +251,13 @@ std::vector<VerifyCase> soil_cases() {
                .test = "Soil.PrismStartsToRollAtItsAngle",
                .bound = 0.02,
                .run = [](const Settings& s) { return resisted_rolling_angle(s, 6, 0.05); }}),
+      of_soil({.name = "soil_edge",
+               .claim = "a cube stands on its edge while its weight is within mu_r R_e of it",
+               .reference = "closed form",
+               .norm = "of that arm",
+               .test = "Soil.CubeStandsOnItsEdgeWithinItsArm",
+               .bound = 0.01,
+               .run = [](const Settings& s) { return standing_on_edge(s, 0.1); }}),
       of_soil({.name = "soil_pivoting",
                .claim = "a cube that pivots on its face stops in time, resistance 0.1",
                .reference = "closed form",
@@ -260,6 +275,15 @@ std::vector<VerifyCase> soil_cases() {
                    [](const Settings& s) {
                      return scarring_stop(s, scarring_ground(0.25, 1.25, 100), 10);
                    }}),
+      of_soil(
+          {.name = "soil_creep",
+           .claim = "a slab let go on 35 degrees comes to rest on ground that it scars",
+           .reference = "closed form",
+           .norm = "relative, of its largest speed and its way",
+           .test = "Soil.ScarsHoldASlabThatCreeps",
+           .bound = 1e-3,
+           .run =
+               [](const Settings& s) { return scarring_creep(s, scarring_ground(0.35, 2, 150)); }}),
       of_soil({.name = "soil_weakening",
                .claim = "a slab at 10 m/s stops on ground whose friction falls with its speed",
                .reference = "integrated closed form",
@@ -267,6 +291,13 @@ std::vector<VerifyCase> soil_cases() {
                .test = "Soil.FrictionWeakensWithSpeed",
                .bound = 1e-3,
                .run = [](const Settings& s) { return weakening_stop(s, 10); }}),
+      of_soil({.name = "soil_runaway",
+               .claim = "a slab on 20 degrees runs away above 7.497 m/s where friction weakens",
+               .reference = "closed form",
+               .norm = "relative",
+               .test = "Soil.FrictionWeakensWithSpeed",
+               .bound = 1e-3,
+               .run = weakening_runaway}),
       of_soil({.name = "soil_drag",
                .claim = "a slab slides down 40 degrees against drag of 0.6 per second, 5 s",
                .reference = "closed form",
@@ -274,6 +305,20 @@ std::vector<VerifyCase> soil_cases() {
                .test = "Soil.DragSlowsASlide",
                .bound = 1e-3,
                .run = [](const Settings& s) { return dragged_slide(s, false); }}),
+      of_soil({.name = "soil_drag_way",
+               .claim = "a slab slides down 40 degrees against drag of 0.02 per metre, 10 s",
+               .reference = "closed form",
+               .norm = "relative",
+               .test = "Soil.DragSlowsASlide",
+               .bound = 1e-3,
+               .run = [](const Settings& s) { return dragged_slide(s, true); }}),
+      of_soil({.name = "soil_drag_stop",
+               .claim = "a slab at 10 m/s stops by friction 0.3 and drag of 0.5 per second",
+               .reference = "closed form",
+               .norm = "relative",
+               .test = "Soil.DragStopsASlide",
+               .bound = 1e-3,
+               .run = dragged_stop}),
   };
 }
 
@@ -378,6 +423,151 @@ std::vector<VerifyCase> block_cases() {
   };
 }
 
+// What happens within a step, at its time.
+std::vector<VerifyCase> event_cases() {
+  return {
+      {.name = "rolling_64",
+       .claim = "a prism of 64 sides rolls down 5 degrees from rest, 2 s",
+       .reference = "pivot, plastic hit, next pivot",
+       .norm = "of the way, largest",
+       .test = "Events.PrismsRollHitByHit",
+       .bound = 1e-3,
+       .run =
+           [](const Settings& s) {
+             return prism_rolls(s, {64, 5, 0}, 2);
+           },
+       .shortest_strained_dt = 1},
+      {.name = "bounces_on_slope",
+       .claim = "a slab falls flat on 20 degrees at COR 0.8 and friction 25 degrees, all bounces",
+       .reference = "closed form",
+       .norm = "relative",
+       .test = "Events.AFlatSlabBouncesDownASlope",
+       .bound = 1e-3,
+       .run = [](const Settings& s) { return bouncing_slab(s, 0.8); }},
+      {.name = "top",
+       .claim = "a top of twelve sides spins on its tip at 60 rad/s, 3 s",
+       .reference = "Lagrange's top, integrated",
+       .norm = "degrees",
+       .test = "Events.ATopNutates",
+       .bound = 0.1,
+       .run = [](const Settings& s) { return spinning_top(s, 60); },
+       .shortest_strained_dt = 1},
+      {.name = "lifted",
+       .claim = "the ground drops away from a slab at twice gravity, stops, and is met again",
+       .reference = "closed form",
+       .norm = "of the largest height",
+       .test = "Events.DroppingGroundLetsGoInTheMiddleOfAStep",
+       .bound = 1e-3,
+       .run = lifted_slab},
+      {.name = "harmonic",
+       .claim = "a slab slides on the flat in a harmonic motion at 60 degrees to east, 4 s",
+       .reference = "Newmark's sliding block, integrated",
+       .norm = "relative",
+       .test = "Events.AHarmonicMotionSlidesASlab",
+       .bound = 1e-3,
+       .run = harmonic_slide},
+      {.name = "over_edge",
+       .claim = "a slab slides over the edge of a cliff at 3 m/s and tips, 1.5 s",
+       .reference = "integrated closed form",
+       .norm = "m",
+       .test = "Events.ASlabTipsOverAnEdge",
+       .bound = 1e-3,
+       .run = slab_over_edge},
+      {.name = "border",
+       .claim = "a slab slides from friction 10 onto friction 22 degrees, 1.6 s",
+       .reference = "integrated closed form",
+       .norm = "relative",
+       .test = "Events.FrictionChangesWhereTheBorderIs",
+       .bound = 1e-4,
+       .run = border_slide},
+  };
+}
+
+std::vector<VerifyCase> contact_cases() {
+  const auto of_blocks = [](int n, VerifyCase c) {
+    c.n_blocks = n;
+    c.paper_dt = {1e-2, 1e-3};
+    return c;
+  };
+  return {
+      of_blocks(8, {.name = "tower_topples",
+                    .claim = "eight cubes topple at 1.05 of their angle, time to 0.2 rad",
+                    .reference = "one rigid column, integrated",
+                    .norm = "relative",
+                    .test = "Piles.TowerTopplesWhenARigidOneDoes",
+                    .bound = 0.01,
+                    .run = tower_topples}),
+      of_blocks(16, {.name = "twin_towers",
+                     .claim = "two towers of eight cubes side by side stand at 0.97 of that, 2 s",
+                     .reference = "rest",
+                     .norm = "of a side",
+                     .test = "Piles/PileStands.UpToTheAngleOfARigidOne",
+                     .bound = 1e-3,
+                     .run =
+                         [](const Settings& s) {
+                           return pile_moves(s, {.across = 2, .high = 8, .share = 0.97}, 2);
+                         }}),
+      of_blocks(
+          10,
+          {.name = "stack_of_1_cm",
+           .claim = "ten cubes of 1 cm on each other sag by no more, 1 s",
+           .reference = "rest",
+           .norm = "of a side",
+           .test = "Sides/Sag.OfAStackOfTenIsAPartOfItsSide",
+           .bound = 1e-4,
+           .run = [](const Settings& s) { return pile_moves(s, {.high = 10, .side = 0.01}, 1); }}),
+      of_blocks(2, {.name = "tumbling_pairs",
+                    .claim = "cubes that tumble at up to 14 rad/s and meet return COR 0.9",
+                    .reference = "what momentum and angular momentum say",
+                    .norm = "COR, worst hit",
+                    .test = "Hits.EveryHitOfATumblingPairReturnsItsRestitution",
+                    .bound = 0.01,
+                    .run = [](const Settings& s) { return tumbling_pairs(s, 0.9); }}),
+      of_blocks(2, {.name = "borne_slab",
+                    .claim = "a cube rebounds from a slab that the ground bears, COR 0.7",
+                    .reference = "hits in turn in one dimension",
+                    .norm = "relative",
+                    .test = "Hits.ACubeReboundsFromABorneSlabAsHitByHit",
+                    .bound = 0.01,
+                    .run = borne_slab}),
+      of_blocks(5, {.name = "unequal_row",
+                    .claim = "five unequal blocks in a row pass a hit on at COR 0.9",
+                    .reference = "event by event in one dimension",
+                    .norm = "of the speed of the first",
+                    .test = "Hits.AnUnequalRowPassesItsHitsOnInOrder",
+                    .bound = 0.01,
+                    .run = unequal_row}),
+      of_blocks(6, {.name = "plastic_row",
+                    .claim = "six cubes in a row hit and go on together",
+                    .reference = "momentum",
+                    .norm = "relative",
+                    .test = "Hits.APlasticPileUpStaysTogether",
+                    .bound = 1e-3,
+                    .run = plastic_row}),
+      of_blocks(8, {.name = "elastic_bowl",
+                    .claim = "eight elastic cubes in a bowl keep their energy, 4 s",
+                    .reference = "conservation",
+                    .norm = "relative",
+                    .test = "Hits.ElasticBoxesInABowlKeepTheirEnergy",
+                    .bound = 0.01,
+                    .run = elastic_bowl}),
+      of_blocks(2, {.name = "parts_on_ridge",
+                    .claim = "a plate of two parts rests on a ridge of 20 degrees, 1 s",
+                    .reference = "rest",
+                    .norm = "of its size",
+                    .test = "PartsOnRidges.APlateOfTwoPartsDoesNotSinkIn",
+                    .bound = 1e-4,
+                    .run = [](const Settings& s) { return parts_on_ridge(s, 10); }}),
+      of_blocks(2, {.name = "parts_land_flat",
+                    .claim = "a slab of two parts falls flat with friction and stays flat",
+                    .reference = "symmetry",
+                    .norm = "of the speed of the hit",
+                    .test = "Verify/EachCase.IsWithinItsBound",
+                    .bound = 1e-3,
+                    .run = parts_land_flat}),
+  };
+}
+
 // What a method changes of the settings of its law.
 struct Change {
   double stiffness = 0;
@@ -431,8 +621,10 @@ void add_full_study(const VerifyCase& c, std::vector<Method>& methods) {
 const std::vector<VerifyCase>& verify_cases() {
   static const std::vector<VerifyCase> list = [] {
     std::vector<VerifyCase> all = single_block_cases();
+    for (VerifyCase& c : event_cases()) all.push_back(std::move(c));
     for (VerifyCase& c : soil_cases()) all.push_back(std::move(c));
     for (VerifyCase& c : block_cases()) all.push_back(std::move(c));
+    for (VerifyCase& c : contact_cases()) all.push_back(std::move(c));
     return all;
   }();
   return list;

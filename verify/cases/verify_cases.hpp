@@ -24,7 +24,8 @@ struct VerifyCase {
   double bound = 0;       ///< law talus at the default step must stay below, unit of `norm`
   std::function<cases::CaseResult(const Settings&)> run;
   int n_blocks = 1;
-  double shortest_strained_dt = 0;    ///< law talus with strains: shorter steps take minutes [s]
+  /// Law talus with strains: shorter steps take minutes, or blur hits in a row; 1: is rigid [s].
+  double shortest_strained_dt = 0;
   bool has_strains = false;           ///< runs with strains whatever the settings say
   std::vector<double> paper_dt = {};  ///< steps of law paper; empty: those of all cases [s]
 };

@@ -12,6 +12,7 @@
 #include "verify/cases/block_cases.hpp"
 #include "verify/cases/case_run.hpp"
 #include "verify/cases/cases.hpp"
+#include "verify/cases/pile_scenes.hpp"
 
 namespace talus {
 namespace {
@@ -291,6 +292,43 @@ Seen stack(int n, double dip_deg, double friction_deg, double dt) {
   return seen;
 }
 
+// A tower of eight at a share of the dip at which it topples, 3 s: how far a cube moves.
+Seen lean(double share, double dt) {
+  Run run(scene_of_pile({.high = 8, .share = share, .step = dt}));
+  Seen seen = watch(run, 3);
+  for (int b = 0; b < n_blocks(run.scene); ++b)
+    seen.error = std::max(seen.error,
+                          (run.motion(b).pose.position - run.scene.blocks.rest[b].position).norm());
+  return seen;
+}
+
+// What a case says of itself.
+Seen seen_of(const CaseResult& result) {
+  Seen seen;
+  seen.error = result.error;
+  seen.finite = std::isfinite(result.error) && !has(result.flags, StepFlag::not_finite);
+  seen.left = has(result.flags, StepFlag::left_domain);
+  return seen;
+}
+
+void add_contacts(std::vector<Corner>& corners) {
+  for (const double share : {0.5, 0.8, 0.9, 0.97})
+    corners.push_back({"lean of a tower of eight", share, "1", "at rest, over its angle, 3 s",
+                       "movement over the side", 1e-3,
+                       [share] { return lean(share, Settings{}.dt); }});
+  for (const double share : {0.5, 0.8, 0.93})
+    corners.push_back({"lean of a tower of eight, 20 ms", share, "1",
+                       "at rest, over its angle, 3 s", "movement over the side", 1e-3,
+                       [share] { return lean(share, 0.02); }});
+  for (const double cor : {0.5, 0.9, 0.99, 1.0})
+    corners.push_back({"COR with spin", cor, "1", "pairs of tumbling cubes meet in space",
+                       "COR, worst hit", 0.01, [cor] { return seen_of(tumbling_pairs({}, cor)); }});
+  for (const double half_angle : {10.0, 30.0, 45.0, 60.0, 80.0})
+    corners.push_back({"half angle of a ridge", half_angle, "degrees",
+                       "a plate of two parts at rest on it, 1 s", "sinks, over its size", 1e-4,
+                       [half_angle] { return seen_of(parts_on_ridge({}, half_angle)); }});
+}
+
 void add_blocks(std::vector<Corner>& corners) {
   const double dt = Settings{}.dt;
   const std::string norm = "movement over the side";
@@ -354,6 +392,7 @@ std::vector<Corner> stability_corners() {
   add_slides(corners);
   add_throws(corners);
   add_blocks(corners);
+  add_contacts(corners);
   return corners;
 }
 

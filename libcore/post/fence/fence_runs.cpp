@@ -36,7 +36,8 @@ int find_line(const RunFile& run, const FenceCase& fence, const std::string& fil
   for (std::size_t l = 0; l < run.lines.size(); ++l) {
     if (run.lines[l].name != fence.line.name) continue;
     const std::vector<Vec3>&a = run.lines[l].points, &b = fence.line.points;
-    const auto same = [](const Vec3& p, const Vec3& q) { return (p - q).norm() < 1e-3; };
+    // heights are those of the run's own ground, which may be another one in each run
+    const auto same = [](const Vec3& p, const Vec3& q) { return (p - q).head<2>().norm() < 1e-3; };
     if (a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(), same))
       return static_cast<int>(l);
     throw InputError({file},
@@ -80,6 +81,17 @@ std::vector<FenceArrival> passed_for_good(const RunAtFence& at) {
   return out;
 }
 
+namespace {
+
+// The fence as it stands on the ground of this run.
+Fence fence_of_run(const RecordLine& line, Fence fence) {
+  fence.post = line.points;
+  fence.chainage = line.chainage;
+  return fence;
+}
+
+}  // namespace
+
 FenceRun run_at_fences(const RunFile& run, int index, const std::vector<FenceCase>& fences,
                        const std::vector<int>& line, const DesignCode& code,
                        const FenceRunSettings& settings, const Trn& trn) {
@@ -102,8 +114,9 @@ FenceRun run_at_fences(const RunFile& run, int index, const std::vector<FenceCas
   const double f_min =
       std::isnan(settings.free_border) ? free_border(code, out.block_size) : settings.free_border;
   for (std::size_t i = 0; i < fences.size(); ++i)
-    out.at_fence.push_back(
-        run_at_fence(run, index, fences[i].fence, line[i], f_min, settings.rest_speed));
+    out.at_fence.push_back(run_at_fence(run, index,
+                                        fence_of_run(run.lines[line[i]], fences[i].fence), line[i],
+                                        f_min, settings.rest_speed));
   return out;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/memory.hpp"
 #include "base/text.hpp"
 
 namespace talus {
@@ -52,10 +53,20 @@ std::uint32_t map_cell(const Passage& passage, const PassageGrid& recorded, cons
          static_cast<std::uint32_t>(col);
 }
 
+// Counts, marks and sums of each cell, before there is any map.
+MapGrid with_room(MapGrid map) {
+  constexpr double bytes_per_cell = 24;
+  require_memory(bytes_per_cell * map.grid.n_rows * map.grid.n_cols, {},
+                 "maps of " + std::to_string(map.grid.n_cols) + " x " +
+                     std::to_string(map.grid.n_rows) + " cells",
+                 "make the cells larger (--cell-size-m)");
+  return map;
+}
+
 }  // namespace
 
 MapGrid map_grid(const PassageGrid& recorded, double cell_size, const std::string& item) {
-  if (std::isnan(cell_size) || cell_size == 0) return {recorded, 1};
+  if (std::isnan(cell_size) || cell_size == 0) return with_room({recorded, 1});
   const double ratio = cell_size / recorded.cell_size;
   const double factor = std::round(ratio);
   if (!(factor >= 1) || std::abs(ratio - factor) > 1e-9 * factor || factor > 1e6)
@@ -69,7 +80,7 @@ MapGrid map_grid(const PassageGrid& recorded, double cell_size, const std::strin
   map.grid.cell_size = recorded.cell_size * k;
   map.grid.n_rows = (recorded.n_rows + k - 1) / k;
   map.grid.n_cols = (recorded.n_cols + k - 1) / k;
-  return map;
+  return with_room(map);
 }
 
 std::vector<MapRow> map_rows(std::span<const Passage> passages, const PassageGrid& recorded,

@@ -7,6 +7,7 @@
 #include "scene/stems.hpp"
 #include "scene/yielding.hpp"
 #include "solver/law_numbers.hpp"
+#include "step/accuracy.hpp"
 #include "step/island/stages.hpp"
 #include "step/island/stems.hpp"
 
@@ -195,6 +196,39 @@ struct SubstepCheck {
     }
   }
 
+  // --- accuracy --------------------------------------------------------------------------------
+
+  // What the forces of member k leave. Nobody knows what pressed before where nothing did, or hits
+  // did, or blocks are let go.
+  [[nodiscard]] WayError error_of(size_t k) const {
+    const size_t b = members.block(k);
+    if (hits.members[k].was_hit || state.acceleration[b] == scene.gravity) return {};
+    const Substep& s = free.substeps[k];
+    const FreeTurn& turn = free.turns[k];
+    const Vec6 by_contact = change(system.island, k);
+    const double h = free.h;
+    const Vec3 spin_end = turn.spin_end + by_contact.tail<3>();
+    const Vec3 mean = (s.free.velocity + by_contact.head<3>() - s.start.velocity) / h,
+               spin_rate = (spin_end - turn.spin_start) / h;
+    const Vec3 path = s.free.pose.position - s.start.pose.position + end.displacement[k].head<3>();
+    return error_of_way(members.numbers[k], mean - state.acceleration[b],
+                        spin_rate - s.R * state.spin_rate[b], path,
+                        h / 2 * (turn.spin_start + spin_end), h, tries.last_h);
+  }
+
+  // What the substep may err by, over the way of the mass that moves.
+  [[nodiscard]] double error_over_way() const {
+    if (free.t == 0) return 0;
+    double share = 0, momentum = 0;
+    for (size_t k = 0; k < members.size(); ++k) {
+      const BlockNumbers& c = members.numbers[k];
+      const WayError of = error_of(k);
+      share += c.mass * of.way * share_of(of, c.thickness);
+      momentum += c.mass * of.way;
+    }
+    return momentum > 0 ? share / momentum : 0;
+  }
+
   // --- in this order ---------------------------------------------------------------------------
 
   [[nodiscard]] SubstepVerdict run(bool converged) const {
@@ -210,6 +244,9 @@ struct SubstepCheck {
       if (const double first = std::min(end_of_deepening_hit(), end_of_throw_into_ground());
           first < h)
         return SubstepVerdict::again(SubstepCut::deep, first);
+    end.error = error_over_way();
+    if (const double shorter = accurate_substep(scene.settings, end.error, h); shorter < h)
+      return SubstepVerdict::again(SubstepCut::inaccurate, shorter);
     if (overloads_bonds()) return SubstepVerdict::again(bond_broken, h);
     find_pushes();
     const double used_up = std::min(time_to_first_break(scene, state.yielding, end.pushes, h),

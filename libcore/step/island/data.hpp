@@ -238,6 +238,7 @@ struct SubstepEnd {  // clang-format off
   std::vector<Vec6> displacement;           ///< by contact                              (n_members)
   std::vector<double> farthest;             ///< that contact moves a point [m]          (n_members)
   std::vector<BondLoad> bond_loads;         ///< by bond                                 (n_loaded)
+  double error = 0;                         ///< estimated, as a share of the way [-]
   std::vector<YieldPush> pushes;            ///< on fixed bodies that give way
   // 9 accept
   std::vector<std::uint8_t> pressed;        ///< 1: by a contact                         (n_members)
@@ -264,8 +265,10 @@ struct SubstepTries {
   bool takes_all = false;   ///< contacts that may be left out are not
   std::vector<int> broken;  ///< bonds that it breaks: see bond_number()
   // of the step
-  int eased = 0;      ///< contacts are softer, because it did not converge
-  int deep_cuts = 0;  ///< because a block would end deep in something
+  double last_h = 0;   ///< length of the substep before, or of the step [s]
+  double longest = 0;  ///< the next one is not tried longer, because of its error [s]
+  int eased = 0;       ///< contacts are softer, because it did not converge
+  int deep_cuts = 0;   ///< because a block would end deep in something
 };
 
 /// The island at hand: nothing of it outlives its step.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "solver/law_numbers.hpp"
+#include "step/accuracy.hpp"
 #include "step/island/stages.hpp"
 #include "step/substep.hpp"
 
@@ -54,6 +55,8 @@ void note_cut(SubstepCut reason, const SubstepEnd& end, SubstepTries& tries) {
     case SubstepCut::contact_left_out:
       tries.takes_all = true;
       break;
+    case SubstepCut::inaccurate:
+      break;
     case SubstepCut::deep:
       ++tries.deep_cuts;
       break;
@@ -65,6 +68,14 @@ void note_cut(SubstepCut reason, const SubstepEnd& end, SubstepTries& tries) {
       ++tries.used_up_cuts;
       break;
   }
+}
+
+// How far the next substep may go by the error of this one.
+void note_accuracy(const Scene& scene, double h, double error, SubstepTries& tries,
+                   StepReport& report) {
+  report.largest_error = std::max(report.largest_error, error);
+  tries.last_h = h;
+  tries.longest = longest_after(scene.settings, error, h, tries.longest);
 }
 
 // Stages 4 to 9: attempts from `t`, the first over `h`, until one holds or a member is found off
@@ -81,6 +92,7 @@ void make_substep(const Scene& scene, double t, double h, State& state, Work& wo
     if (verdict.kind == SubstepVerdict::Kind::left) return;
     if (verdict.kind == SubstepVerdict::Kind::accept) {
       const StageTimer timer(w.clock, IslandStage::accept);
+      note_accuracy(scene, h, w.end.error, w.tries, report);
       accept(scene, w.members, w.free, w.system, w.hits, solution.converged, w.tries, w.end, state,
              work.segments, work.deep, report);
       return;
@@ -91,6 +103,7 @@ void make_substep(const Scene& scene, double t, double h, State& state, Work& wo
     if (verdict.reason == SubstepCut::unconverged)
       choose_stiffness(scene, state, work.search, w.manifolds, w.tries.eased, w.members);
     h = verdict.h;
+    if (verdict.reason == SubstepCut::inaccurate) w.tries.longest = h;
   }
 }
 
@@ -147,10 +160,12 @@ void advance_island(const Scene& scene, int k, double t_end, State& state, Work&
     gather_members(scene, blocks_of(work.search.groups, k), w.members);
   }
   w.tries.deep_cuts = w.tries.eased = 0;
+  w.tries.last_h = t_end - state.time;
+  w.tries.longest = no_normal_limit;
   double t = state.time, ahead = t_end - t;
   while (t < t_end && !w.members.blocks.empty()) {
     const double longest = prepare_substep(scene, k, t, ahead, state, work);
-    make_substep(scene, t, longest, state, work, report);
+    make_substep(scene, t, std::min(longest, w.tries.longest), state, work, report);
     t = state.local_time[w.members.block(0)];
     if (t_end - t < 1e-9 * scene.settings.dt) t = t_end;
     stop_outsiders(scene, t_end, state, work, report);

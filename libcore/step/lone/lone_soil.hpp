@@ -6,6 +6,7 @@
 #include <span>
 
 #include "solver/newton.hpp"
+#include "step/lone/lone_substep.hpp"
 #include "step/soil.hpp"
 #include "step/substep_numbers.hpp"
 #include "step/work.hpp"
@@ -77,13 +78,20 @@ NewtonResult solve_on_soil(const Scene& scene, int b, const Substep& s, const St
   return {again.converged, result.passes + again.passes};
 }
 
-/// Books the work of couples, and the way slid of the contact that presses most.
+/// Turn of the free motion whose cross product with a point's lever in the middle of the substep is
+/// the path of that point: axes of the body, at its start as at its end [rad].
+[[nodiscard]] inline Vec3 turn_of_levers(const Substep& s) {
+  const Quat by = s.start.pose.attitude.conjugate() * s.free.pose.attitude;
+  return 2 / by.w() * by.vec();
+}
+
+/// Books the work of couples, along the turn on which contacts do theirs (a mean of spins misses
+/// some of the turn that contacts add), and the way slid of the contact that presses most.
 template <int Dof>
 void end_soil(const Scene& scene, int b, const Substep& s, double t, const BlockSystem<Dof>& system,
-              const Work& work, State& state) {
-  const Vec3 start = s.R.transpose() * (s.R_start * s.spin_start);
-  const Vec3 mean = (start + Vec3(system.velocity.template segment<3>(3))) / 2;
-  for (const AngularRow& turn : work.soil.turns) state.ledger.rolling -= turn.couple.dot(mean);
+              const Solved<Dof>& solved, const Work& work, State& state) {
+  for (const AngularRow& turn : work.soil.turns)
+    state.ledger.rolling -= turn.couple.dot(turn_of_levers(s) + solved.turn) / s.h;
   if (!work.soil.varies || state.slid.empty()) return;
   double most = 0;
   const ContactRow* pressed = nullptr;

@@ -6,6 +6,7 @@
 #include "contact/past_ridge.hpp"
 #include "contact/search.hpp"
 #include "solver/law_numbers.hpp"
+#include "step/accuracy.hpp"
 #include "step/breakage.hpp"
 #include "step/deep_blocks.hpp"
 #include "step/flight.hpp"
@@ -58,6 +59,8 @@ struct Advance {
   bool was_fast = false;      // the last hit was no slow one, which ends a substep and no more
   bool on_plane = false;      // it slides, and in the substep it cannot meet another plane
   bool breaks_bonds = false;  // of the substep under way; what is left is in work.unbonded
+  double last_h = 0;          // of the substep before [s]
+  double longest_h = 0;       // the next one is not tried longer, because of its error [s]
 
   [[nodiscard]] size_t i() const { return static_cast<size_t>(b); }
   Motion& motion() { return state.motion[i()]; }
@@ -194,6 +197,7 @@ struct Advance {
       report.n_flips += static_cast<int>(state.memory[i()].size());
       state.memory[i()].clear();
       relax_strain();
+      note_accuracy(0, h);
       finish(s, s.free, t, t + h);
       forget_rates(scene, b, state);
       return Attempt::done;
@@ -225,9 +229,15 @@ struct Advance {
     const Solved<Dof> solved = solved_motion(c, s, system);
     const double hit = first_hit(c, s, solved, work);
     if (hit < s.h && !last) return shorten(hit, h);
+    const double error = error_over_way(s, solved.end);
+    if (const double shorter = accurate_substep(scene.settings, error, h); shorter < h && !last) {
+      ++report.cuts[static_cast<size_t>(SubstepCut::inaccurate)];
+      return shorten(longest_h = shorter, h);
+    }
+    note_accuracy(error, h);
     if (near.reach == Reach::below) report.flags = report.flags | StepFlag::fell_through;
     remember(c, s, solved, state, work, b, report);
-    end_soil(scene, b, s, t, system, work, state);
+    end_soil(scene, b, s, t, system, solved, work, state);
     if constexpr (Dof == 12) {
       state.strain[i()] += h / 2 * (state.strain_rate[i()] + system.velocity.template tail<6>());
       state.strain_rate[i()] = system.velocity.template tail<6>();
@@ -235,6 +245,25 @@ struct Advance {
     finish(s, solved.end, t, t + h);
     set_rates(scene, b, c, s, solved.end, state);
     return hit <= s.h ? Attempt::impact : Attempt::done;
+  }
+
+  // What the substep may err by, over the block's way: 0 where nobody knows what pressed before.
+  [[nodiscard]] double error_over_way(const Substep& s, const Motion& end) const {
+    const Vec3& before = state.acceleration[i()];
+    if (state.local_time[i()] == 0 || before == scene.gravity || !state.strain.empty()) return 0;
+    const Vec3 spin_end =
+        (end.pose.attitude.conjugate() * end.angular_momentum).cwiseProduct(c.per_inertia);
+    const Vec3 mean = (end.velocity - s.start.velocity) / s.h;
+    return share_of(
+        error_of_way(c, mean - before, (spin_end - s.spin_start) / s.h - state.spin_rate[i()],
+                     end.pose.position - s.start.pose.position, s.h / 2 * (s.spin_start + spin_end),
+                     s.h, last_h),
+        c.thickness);
+  }
+  void note_accuracy(double error, double h) {
+    report.largest_error = std::max(report.largest_error, error);
+    last_h = h;
+    longest_h = longest_after(scene.settings, error, h, longest_h);
   }
 
   // Whether a vertex or an edge has gone through a ridge in a substep, so that the contacts at its
@@ -273,9 +302,9 @@ struct Advance {
   // begins or ceases to move in it. What drives the block before that counts in the mean and does
   // nothing: the speed errs by up to an eighth of how far the acceleration ranges, times h.
   [[nodiscard]] bool is_rough(double t, double h) const {
-    constexpr double accuracy = 5e-3;  // of what gravity does in a step
     if (scene.base.time.empty()) return false;
-    return h / 8 * range_of_base(scene.base, t, t + h) > accuracy * c.gravity * scene.settings.dt;
+    return h / 8 * range_of_base(scene.base, t, t + h) >
+           scene.settings.accuracy * c.gravity * scene.settings.dt;
   }
 
   // A bond that opened is gone; bonds that slip are gone when no other holds the block any more, so
@@ -379,8 +408,9 @@ struct Advance {
   // that speed in what the block does next, and by that times the substep in where it is. A block
   // that strains comes to rest by its strains, of which an impact knows nothing.
   void locate_hits() {
-    constexpr double of_own = 5e-3, of_resting = 2e-2;
-    const double slow = std::max(of_own * top_speed(), of_resting * c.resting_speed);
+    constexpr double of_resting = 2e-2;
+    const double slow =
+        std::max(scene.settings.accuracy * top_speed(), of_resting * c.resting_speed);
     c.located_speed = state.strain.empty() ? std::min(c.resting_speed, slow) : c.resting_speed;
   }
 
@@ -437,6 +467,8 @@ struct Advance {
     const auto count_event = [&] {
       if (++events > law::most_events) c.resting_speed *= 2;
     };
+    last_h = t_end - state.time;
+    longest_h = no_normal_limit;
     while (state.local_time[i()] < t_end) {
       bool flew = false;
       if (state.phase[i()] == Phase::flight) {
@@ -457,7 +489,7 @@ struct Advance {
         }
       }
       locate_hits();
-      double h = std::min(t_end - t, longest_substep(t_end - t));
+      double h = std::min({t_end - t, longest_h, longest_substep(t_end - t)});
       Attempt outcome = Attempt::shorter;
       breaks_bonds = false;
       for (int tries = 1; outcome == Attempt::shorter; ++tries)

@@ -60,6 +60,21 @@ expect 2 frame-probe in.txt -o new.txt --colour red --failures what.txt
 grep -q "^none${tab}.*--colour" what.txt || fail "what failed: $(cat what.txt)"
 expect 0 frame-probe in.txt -o kept.txt --overwrite --failures what.txt
 [ ! -e what.txt ] || fail "nothing failed, and yet there is: $(cat what.txt)"
+# names that leave no room for work in progress are refused before it
+long=$(printf 'x%.0s' $(seq 161))
+expect 1 frame-probe in.txt -o "$long"
+says 'the name has 161 bytes, expected at most 160'
+# a folder or file whose name cannot be is said as such
+ln -s loop loop
+expect 1 frame-probe loop -o new.txt
+says 'loop'
+grep -q unexpected err && fail 'a link to itself is an unexpected failure'
+# a file that is something else is not replaced, nor removed when nothing fails
+echo precious >mine.txt
+expect 1 frame-probe in.txt -o new.txt --failures mine.txt
+says 'mine.txt: is something else than a list of failures'
+expect 2 frame-probe in.txt -o new.txt --colour red --failures mine.txt
+[ "$(cat mine.txt)" = precious ] || fail '--failures replaced a file'
 frame-probe in.txt -o one.txt --json --no-db --label a --failures b.txt >labelled
 frame-probe in.txt -o one.txt --json --no-db --overwrite >plain
 cmp labelled plain || fail "a label makes another run of it"

@@ -30,6 +30,18 @@ assert '2 of 2' in page and '0 of 2' in page and 'mass that moved more than 1 m'
 assert page.count('the fence is a rigid wall') >= 2, page.count('the fence is a rigid wall')
 PY
 
+# Maps of each case stand side by side, in one window; pooled ones are folded and say what they are.
+python3 - <<'PY' || fail "maps of the cases are not side by side"
+import struct
+page = open('slope/out/report.html').read()
+for words in 'Maps case by case', 'maps/far/reach.tif', 'maps/near/ke_total.tif', '<h4>Case far</h4>', 'All cases pooled, each run alike: no probability':
+    assert words in page, words
+size = lambda path: struct.unpack('>II', open(path, 'rb').read(24)[16:])
+sizes = {size(f'slope/out/maps/{case}reach.png') for case in ('', 'far/', 'near/')}
+assert len(sizes) == 1, sizes
+PY
+unzip -p slope/out/site.qgz site.qgs | grep -q 'name="Case far"' || fail "the project has no maps of the cases"
+
 # Weighed: a share of all is the weighed mean of the cases' own, in maps, fences and run-out alike.
 fails() { expect 2 make -C slope BIN= "$@" runout; }
 fails "$@" WEIGHTS=far=1
@@ -38,9 +50,22 @@ fails "$@" WEIGHTS='far=1 nearer=2'
 says "WEIGHTS names 'nearer=2'"
 made slope "$@" WEIGHTS='far=1 near=3' MAPS_FLAGS= maps runout
 grep -q "pooled" err && fail "weighed cases are said to be pooled: $(cat err)"
+made slope "$@" WEIGHTS='far=1 near=3' MAPS_FLAGS= report
+grep -q "All cases together, by their weights" slope/out/report.html || fail "the page does not say that cases are weighed"
 for case in far near; do
   expect 0 talus-maps slope/out/runs/run_*.h5 --trn slope/out/bed.tif --only-case $case -o maps_$case --no-db
+  for band in 1 2; do
+    [ "$(gdalinfo -checksum maps_$case/reach.tif | grep -m $band Checksum | tail -n 1)" = \
+      "$(gdalinfo -checksum slope/out/maps/$case/reach.tif | grep -m $band Checksum | tail -n 1)" ] ||
+      fail "maps/$case is not that of case $case"
+  done
 done
+expect 1 talus-maps slope/out/runs/run_*.h5 --trn slope/out/bed.tif --only-case far -o maps_x --cell-size-m 20 --png \
+  --window-of slope/out/maps/reach.tif --no-db
+says "give both the same --cell-size-m"
+expect 1 talus-maps slope/out/runs/run_*.h5 --trn slope/out/bed.tif --only-case far -o maps_x --png \
+  --window-of slope/out/trn.tif --no-db
+says "does not say which cells its picture shows"
 expect 1 talus-maps slope/out/runs/run_*.h5 --trn slope/out/bed.tif --only-case high -o maps_high --no-db
 says "no run is of case 'high'"
 expect 1 talus-maps slope/out/runs/run_*.h5 --trn slope/out/bed.tif --case-weight far=1 -o maps_high --no-db
@@ -69,3 +94,7 @@ assert r['n_events'] == 2 and abs(r['event_probability'] - .25) < 1e-12, r['even
 assert abs(r['moved']['share_moved_1_m'] - .25 * far['moved']['share_moved_1_m']) < 1e-12
 assert (far['weight'], near['weight']) == (.25, .75)
 PY
+
+# All of it goes with the rest.
+made slope clean
+[ ! -d slope/out ] || fail "clean left: $(find slope/out -type f)"

@@ -14,6 +14,8 @@ expect 0 new "my slopes/a_slope" dem.tif source.geojson "$source_dir/pipelines"
 prints "my slopes/a_slope is made"
 prints "sliding (36 degrees towards 180): "
 grep -q '^failure_surface = "daylighting"' "my slopes/a_slope/site.toml" || fail "the surface does not daylight"
+grep -q '^layers = "site.gpkg"' "my slopes/a_slope/site.toml" || fail "the layers are not named"
+ogrinfo -so "my slopes/a_slope/site.gpkg" source | grep -q 'Feature Count: 1' || fail "the source is not in its layer"
 expect 0 make -C "my slopes/a_slope" BIN= blocks
 prints "failure plane of set sliding: dips 36 degrees towards 180"
 [ -s "my slopes/a_slope/out/blocks.h5" ] || fail "no blocks"
@@ -21,14 +23,18 @@ expect 1 new "my slopes/a_slope" dem.tif source.geojson
 says "a_slope exists already"
 expect 1 new absent/other dem.tif source.geojson
 says "absent: there is no such folder"
-expect 2 new other dem.tif
-says "give a folder, the ground and the release polygon"
+expect 2 new other
+says "give a folder and the ground"
 expect 1 new other absent.tif source.geojson
 says "absent.tif: there is no such file"
 expect 1 new other dem.tif dem.tif
 says "dem.tif: not a vector file"
 expect 0 new contours "$source_dir/sample_sites/designed/contours.gpkg" source.geojson "$source_dir/pipelines"
 grep -q '^contours = ' contours/site.toml || fail "the contour map was not taken as one"
+expect 0 new undrawn dem.tif "" "$source_dir/pipelines"
+says "there is no source yet: draw it in the layer source of site.gpkg"
+ogrinfo -so undrawn/site.gpkg source | grep -q 'Feature Count: 0' || fail "a source from nowhere"
+expect 0 make -C undrawn BIN= terrain
 nothing_left other
 [ -z "$(find . -name '.new-site*' -o -name .slope -o -name .joints)" ] || fail "parts of new-site are left"
 
@@ -50,6 +56,10 @@ grep -q 'THE SLOPE WAS NOT MEASURED' far/site.toml || fail "the site file does n
 expect 0 new built dem.tif source.geojson "$source_dir/pipelines" absent
 says "the tools are not built"
 grep -q 'THE SLOPE WAS NOT MEASURED' built/site.toml || fail "the site file does not warn"
+grep -q '^polygon_file = "../source.geojson"' built/site.toml || fail "the source is not named"
+expect 1 new built-2 dem.tif "" "$source_dir/pipelines" absent
+says "give SOURCE"
+nothing_left built-2
 
 # pipelines in a folder whose path make would part or take for an order, also for a site made from there
 mkdir 'My #1 Projects'

@@ -60,10 +60,15 @@ for source in sources:
 groups = [g.get("name") for g in project.find("layer-tree-group").findall("layer-tree-group")]
 assert groups == ["Fences", "Paths", "Source", "Hazard", "Terrain"], groups
 hazard = next(g for g in project.find("layer-tree-group") if g.get("name") == "Hazard")
-shown = {layer.get("name") for layer in hazard.findall("layer-tree-layer")}
+layers = hazard.findall("layer-tree-layer")
+shown = {os.path.basename(layer.get("source"))[:-4] for layer in layers}
 made = {name[:-4] for name in os.listdir(f"{out}/maps") if name.endswith(".tif")}
 assert shown == made and len(made) == 10, f"maps {made}, in the project {shown}"
-assert project.find("Layouts/Layout") is not None
+names = {layer.get("name") for layer in layers}
+assert "Energy [kJ]" in names and not names & made, f"names of files: {names}"
+assert "contours every" in archive.read(archive.namelist()[0]).decode(), "no contours"
+layout = project.find("Layouts/Layout")
+assert layout is not None and layout.find(".//ComposerMapGrid") is not None, "a layout without coordinates"
 END
 
 rm slope/out/runs/run_1.h5

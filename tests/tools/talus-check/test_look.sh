@@ -41,6 +41,26 @@ expect 0 talus-check site.toml --trn trn.tif --bed bed.tif --blocks blocks.h5 -o
 cmp -s check.html first.html || fail "the count of runs changed the page"
 prints "40 runs about"
 
+# Objects are drawn and named, and so is what could leave on a plane; one on the mass is doubted.
+cat site.toml >bare.toml
+cat >>site.toml <<'EOF'
+[object.road]
+line = [[500000, 5200008], [500050, 5200008]]
+width_m = 4
+[object.hut]
+kind = "house"
+polygon = [[500022, 5200030], [500026, 5200030], [500026, 5200034], [500022, 5200034]]
+EOF
+expect 0 look
+prints "object road: "
+prints "fall lines come to it"
+prints "doubt: object.hut: it stands on the mass"
+for part in 'class="object"' '>road</text>' '>hut</text>' 'class="proposed"' '<td>house</td>'; do
+  grep -qF "$part" check.html || fail "the page does not have: $part"
+done
+holds "$(value check.json outlined_m3) > 0"
+mv bare.toml site.toml
+
 # A plane that comes out at the foot: more goes, and nothing stands before it.
 expect 0 look --set source.failure_surface=daylighting
 holds "$(value check.json moved_share) > $hollow"

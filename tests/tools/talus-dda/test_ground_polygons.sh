@@ -28,6 +28,13 @@ sed 's/polygon_file = "rough.geojson"/&\npolygon = [[500000, 5000000], [500150, 
 expect 0 talus-dda both.toml --trn slope.tif --blocks blocks.h5 --no-db --independent -o both.h5 --json
 grep -q "\"largest_speed_m_s\": $once" out || fail "a polygon in file and site file cancels itself"
 
+# the area of a section holds also where it is the only one: elsewhere nothing is said
+for area in 'polygon = [[500000, 5000000], [500150, 5000000], [500150, 5000100]]' 'polygon_file = "rough.geojson"' 'raster_values = [1]'; do
+  awk -v area="$area" '/^\[/ { in_ground = /^\[ground/ } !in_ground { print } END { print "[ground.only]"; print area }' site.toml >only.toml
+  expect 1 talus-dda only.toml --trn slope.tif --blocks blocks.h5 --no-db --independent -o only.h5
+  says "no section [ground.*] holds outside the polygons and where the raster says nothing"
+done
+
 # corners out of order
 sed 's/polygon_file = .*/polygon = [[500000, 5000000], [500150, 5000100], [500150, 5000000], [500000, 5000100]]/' site.toml >bow.toml
 expect 1 talus-dda bow.toml --trn slope.tif --blocks blocks.h5 --no-db --independent -o bow.h5

@@ -47,7 +47,7 @@ says 'no such file'
 expect 2 talus-maps run_0.h5 --trn slope.tif -o maps --resamples 3
 expect 2 talus-maps --trn slope.tif -o maps
 
-for value in "--rest-speed-m-s nan" "--cell-size-m -8" "--memory-mb 0"; do
+for value in "--rest-speed-m-s nan" "--cell-size-m -8" "--memory-mb -1"; do
   expect 2 talus-maps run_0.h5 --trn slope.tif -o refused $value
   says 'out of range'
 done

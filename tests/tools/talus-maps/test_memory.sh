@@ -10,4 +10,4 @@ expect 0 talus-maps run_*.h5 --trn slope.tif -o coarse --cell-size-m 4
 expect 0 talus-maps run_*.h5 --trn slope.tif -o coarse_tiled --cell-size-m 4 --memory-mb 0.005
 for folder in coarse coarse_tiled; do gdal_translate -q -of ENVI "$folder/ke_total.tif" "$folder.raw"; done
 cmp coarse.raw coarse_tiled.raw || fail 'tiles of coarser cells differ'
-expect 2 talus-maps run_0.h5 --trn slope.tif -o none --memory-mb 0
+expect 2 talus-maps run_0.h5 --trn slope.tif -o none --memory-mb -1

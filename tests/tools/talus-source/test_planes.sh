@@ -14,6 +14,19 @@ prints "lateral (85 degrees towards 95): dips across the slope, 85 degrees off i
 expect 0 blocks --set source.failure_surface=daylighting --report blocks.json
 holds "$(value blocks.json prism_volume_m3) == $(value source.json volume_m3)"
 
+# What would leave, as an area: of the volume that is cut but for what each cell that the plane comes out in hides.
+expect 0 talus-source site.toml --trn trn.tif -o source.json --layers source.gpkg --no-db --overwrite
+holds "($(value source.json outlined_m3) / $(value source.json volume_m3) - 1) ^ 2 < 0.02 ^ 2"
+ogrinfo -q -sql "select sum(st_area(geom)) as a, sum(taken) as n from failure_surfaces" source.gpkg >layer
+grep -q 'n (Integer.*) = 1' layer || { cat layer; fail "not one surface is taken"; }
+a=$(sed -n 's/.*a (Real) = //p' layer)
+holds "$a > 100 && $a < $(value source.json volume_m3)"
+[ "$(ogrinfo -q -sql "select count(*) as n from planes_by_share_of_foot" source.gpkg | sed -n 's/.*n (Integer.*) = //p')" = 5 ] ||
+  fail "not five shares of the foot"
+cp source.gpkg first.gpkg
+expect 0 talus-source site.toml --trn trn.tif --layers source.gpkg --no-db --overwrite
+cmp -s source.gpkg first.gpkg || fail "another layer for the same inputs"
+
 expect 0 talus-source site.toml --trn trn.tif --no-db --set ground.rock.friction_deg=39.5
 prints "sliding (35 degrees towards 180): is no steeper than the friction angle of 39.5 degrees"
 prints "the slope is no steeper than friction"

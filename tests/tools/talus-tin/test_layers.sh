@@ -52,6 +52,13 @@ is_map two.gpkg --layer "index, between"
 is_map two.gpkg --layer "*"
 is_map 'two.gpkg|layername=index,between'
 refused "there is no layer \"betwen\"; there are: index, between" two.gpkg --layer index --layer betwen
+refused 'there is no layer " "; there are: index, between' two.gpkg --layer ' '
+refused 'there is no layer ","' two.gpkg --layer ,
+odd_name='line one
+line two'
+ogr2ogr -q -nln "$odd_name" odd.gpkg map.geojson
+ogr2ogr -q -update -nln other odd.gpkg map.geojson
+is_map odd.gpkg --layer "$odd_name"
 ogr2ogr -q -update -nln far -t_srs EPSG:32633 two.gpkg map.geojson
 refused "the CRS of layer index is" two.gpkg --layer "index,far"
 # one map in 2-D, whose layers call the elevation by different names

@@ -26,6 +26,14 @@ python3 check.py || fail 'the trace is another one'
 [ -f sources/source_house.png ] && [ -f sources/source_house.qml ] || fail 'no picture or style'
 for layer in objects links source_cells; do ogrinfo -q trace.gpkg | grep -q "$layer" || fail "no layer $layer"; done
 
+# names that differ in signs alone would be one raster
+sed -e 's#object.house#object."a/b"#' -e 's#object.hut#object.a_b#' site.toml >names.toml
+expect 1 talus-trace names.toml run_*.h5 --trn slope.tif -o names.gpkg --rasters names
+says 'names.toml:'
+says 'object.a_b: has the same raster as object a/b, source_a_b.tif'
+nothing_left names.gpkg names/source_a_b.tif
+expect 0 talus-trace names.toml run_*.h5 --trn slope.tif -o names.gpkg
+
 # parts in any order
 expect 0 talus-reduce run_0.h5 run_3.h5 run_6.h5 run_9.h5 --trn slope.tif -o a.h5
 expect 0 talus-reduce run_1.h5 run_2.h5 run_4.h5 run_5.h5 run_7.h5 --trn slope.tif -o b.h5

@@ -5,6 +5,7 @@
 
 #include "base/error.hpp"
 #include "blocks/failure_plane.hpp"
+#include "blocks/mass_outline.hpp"
 #include "scenes.hpp"
 
 namespace {
@@ -186,4 +187,33 @@ TEST(AssumedJointSets, DipBetweenFrictionAndSlopeAndMakeAboutThatManyBlocks) {
   const double skew = std::sin(40 * degree) * std::sin(85 * degree);
   EXPECT_NEAR(sets[0].mean_spacing, std::cbrt(volume / 27 * skew), 0.05);
   EXPECT_TRUE(assumed_joint_sets(even_slope(), area, 40 * degree, 64, {}).empty());
+}
+
+// The plane comes out between two rows of nodes, at y = 51.
+TEST(MassOutline, EndsWhereThePlaneComesOutOfTheGround) {
+  const double rise = 1 - std::tan(30 * degree);
+  double area = 0, volume = 0;
+  for (const MassPiece& piece : mass_above(even_slope(), rectangle(31, 40, 71, 70.5),
+                                           {{{30 * degree, 180 * degree}, {10, 51, 51}}})) {
+    volume += piece.volume;
+    area += area_of(Area{{piece.outline}});
+    for (const Vec2& p : piece.outline) {
+      EXPECT_GE(p.y(), 51 - 1e-9);
+      EXPECT_LE(p.y(), 70.5 + 1e-9);
+    }
+  }
+  EXPECT_NEAR(area, 40 * 19.5, 1e-9);
+  EXPECT_NEAR(volume, 40 * rise * 19.5 * 19.5 / 2, 1e-9);
+}
+
+// Two planes that meet in a level line along the fall: the higher one carries the mass, and each
+// half of it is a wedge with its closed form.
+TEST(MassOutline, LiesOnTheHigherOfItsPlanes) {
+  const Trn ground = grid(60, 60, 2, [](double, double) { return 20.0; });
+  double volume[2] = {0, 0};
+  for (const MassPiece& piece : mass_above(
+           ground, rectangle(20, 33, 80, 77),
+           {{{45 * degree, 90 * degree}, {50, 0, 5}}, {{45 * degree, 270 * degree}, {50, 0, 5}}}))
+    volume[piece.plane] += piece.volume;
+  for (const double half : volume) EXPECT_NEAR(half, 44 * 15 * 15 / 2.0, 1e-8);
 }

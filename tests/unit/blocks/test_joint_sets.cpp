@@ -131,6 +131,36 @@ TEST(DrawJoints, DiscsLeaveTheAskedShareOpen) {
 }
 
 // Against the number of joint cells in a box, counted by cutting it.
+// Before they are drawn, so that a slip of the pen is refused and not computed.
+TEST(ExpectedDiscs, AreAsManyAsAreDrawn) {
+  JointSet set;
+  set.name = "J";
+  set.mean_spacing = 2;
+  set.persistence = 0.6;
+  set.disc_diameter = 3;
+  double n = 0;
+  constexpr int n_seeds = 30;
+  for (int seed = 0; seed < n_seeds; ++seed)
+    for (const Joint& joint : draw_joints(set, 0, Vec3::Zero(), 20, seed))
+      n += static_cast<double>(joint.discs.size());
+  const double expected = n_seeds * expected_discs(set, 20);
+  EXPECT_NEAR(n, expected, 0.06 * expected);  // planes in the ball: 19 or 20 of 20
+  set.disc_diameter = 1e-3;
+  EXPECT_GT(expected_discs(set, 20), 1e9);
+  set.persistence = 1;
+  EXPECT_EQ(expected_discs(set, 20), 0);
+}
+
+TEST(DrawFisher, IsUniformWhereTheConcentrationVanishes) {
+  for (const double k : {1e-300, 1e-12, 9e-4}) {
+    Random random(4);
+    Vec3 sum = Vec3::Zero();
+    constexpr int n = 20000;
+    for (int i = 0; i < n; ++i) sum += draw_fisher(Vec3::UnitZ(), k, random);
+    EXPECT_LT(sum.norm() / n, 4 / std::sqrt(double{n})) << k;
+  }
+}
+
 TEST(ExpectedCells, IsThatOfTheArrangement) {
   const std::vector<JointSet> four = {joint_set(30, 90, 3, "a"), joint_set(80, 20, 4, "b"),
                                       joint_set(70, 200, 5, "c"), joint_set(50, 300, 6, "d")};

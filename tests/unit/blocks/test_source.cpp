@@ -2,8 +2,11 @@
 
 #include <cmath>
 #include <functional>
+#include <numbers>
 
 #include "base/error.hpp"
+#include "base/random.hpp"
+#include "blocks/prepared_area.hpp"
 #include "blocks/source.hpp"
 #include "scenes.hpp"
 
@@ -36,6 +39,53 @@ TEST(Area, HolesAndBordersCount) {
   EXPECT_FALSE(contains(area, {5, 5}));
   EXPECT_FALSE(contains(area, {11, 5}));
   EXPECT_EQ(refusal([&] { check_area(area, Vec3::Zero(), {}); }), "accepted");
+}
+
+// A star of n tips about (50, 50), with a hole.
+Area star(int n) {
+  Area area;
+  area.rings.resize(2);
+  for (int k = 0; k < 2 * n; ++k) {
+    const double angle = std::numbers::pi * k / n, radius = k % 2 == 0 ? 40 : 20;
+    area.rings[0].emplace_back(50 + radius * std::cos(angle), 50 + radius * std::sin(angle));
+  }
+  area.rings[1] = {{45, 45}, {55, 45}, {55, 55}, {45, 55}};
+  return area;
+}
+
+TEST(PreparedArea, HoldsWhatTheAreaHolds) {
+  Random random(9);
+  for (const Area& area : {rectangle(0, 0, 10, 10), star(3), star(50), star(1000), Area{}}) {
+    const PreparedArea prepared(area);
+    const auto same = [&](const Vec2& p) { EXPECT_EQ(prepared.contains(p), contains(area, p)); };
+    for (int i = 0; i < 2000; ++i) same({random.uniform(-10, 110), random.uniform(-10, 110)});
+    for (const auto& ring : area.rings)
+      for (size_t k = 0; k < ring.size(); ++k) {  // corners, and points of sides
+        const Vec2 &a = ring[k], &b = ring[(k + 1) % ring.size()];
+        same(a);
+        same(a + random.uniform() * (b - a));
+        same({a.x() - 1, a.y()});
+      }
+    same({5, 1e300});
+    same({std::nan(""), 5});
+  }
+}
+
+TEST(PreparedArea, LooksAtFewSidesHoweverManyThereAre) {
+  Random random(9);
+  for (const int n : {100, 1000, 10000, 100000}) {
+    Area circle;
+    circle.rings.resize(1);
+    for (int k = 0; k < n; ++k) {
+      const double angle = 2 * std::numbers::pi * k / n;
+      circle.rings[0].emplace_back(50 + 40 * std::cos(angle), 50 + 40 * std::sin(angle));
+    }
+    const PreparedArea prepared(circle);
+    double sum = 0;
+    for (int i = 0; i < 1000; ++i)
+      sum += static_cast<double>(prepared.n_looked_at({50, random.uniform(10, 90)}));
+    EXPECT_LT(sum / 1000, 8) << n;
+  }
 }
 
 TEST(Area, OutlinesThatCrossThemselvesAreRefused) {

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <hdf5.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -77,6 +78,14 @@ TEST(BlocksHdf5, TheSameBlocksGiveTheSameBytes) {
   write_blocks(a, some_blocks());
   write_blocks(b, some_blocks());
   EXPECT_EQ(sha256_of_file(a), sha256_of_file(b));
+}
+
+TEST(BlocksHdf5, WhatWouldBeCalledDamagedIsNotWritten) {
+  const std::string path = scratch("unwritten.h5");
+  BlockSet set = some_blocks();
+  set.volume[0] = std::nan("");
+  EXPECT_THROW(write_blocks(path, set), InputError);
+  EXPECT_FALSE(std::filesystem::exists(path));
 }
 
 TEST(BlocksHdf5, AnEmptySetIsASetToo) {

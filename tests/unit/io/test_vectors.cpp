@@ -9,6 +9,7 @@
 #include "io/block_pictures.hpp"
 #include "io/crs_gdal.hpp"
 #include "io/footprints_gdal.hpp"
+#include "io/union_gdal.hpp"
 #include "io/vectors_gdal.hpp"
 
 namespace {
@@ -365,4 +366,40 @@ TEST(Pictures, NamesOfUsersAreEscaped) {
   EXPECT_EQ(svg.find("<J"), std::string::npos);
   EXPECT_NE(svg.find("&lt;J&amp;1&gt;"), std::string::npos);
   EXPECT_NE(size_curve_svg({1, 2, 50}).find("V50 = 50"), std::string::npos);
+}
+
+// Nine squares without the middle one, one of them in halves: corners of the halves lie on sides of
+// the others, and all are off by rounding.
+TEST(UnionOf, PiecesThatMeetMakeOneAreaWithItsHole) {
+  const auto box = [](double x0, double y0, double x1, double y1) {
+    const double off = 1e-9 * std::sin(100 * x0 + y1);
+    return std::vector<Vec2>{{x0 + off, y0}, {x1, y0 - off}, {x1 + off, y1}, {x0, y1 + off}};
+  };
+  std::vector<std::vector<Vec2>> pieces;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      if (i == 1 && j == 1) continue;
+      if (i == 1 && j == 0) {
+        pieces.push_back(box(1, 0, 1 + 1 / 3.0, 1));
+        pieces.push_back(box(1 + 1 / 3.0, 0, 2, 1));
+        continue;
+      }
+      pieces.push_back(box(i, j, i + 1, j + 1));
+    }
+  pieces.push_back(box(7, 7, 8, 8));
+  const auto joined = union_of(pieces, 1e-4);
+  ASSERT_EQ(joined.size(), 2u);
+  std::size_t n_rings = 0, n_corners = 0;
+  for (const auto& polygon : joined)
+    for (const auto& ring : polygon) {
+      ++n_rings;
+      n_corners += ring.size();
+    }
+  EXPECT_EQ(n_rings, 3u);
+  EXPECT_EQ(n_corners, 12u);
+}
+
+TEST(UnionOf, NothingAndSliversAreNothing) {
+  EXPECT_TRUE(union_of({}, 1e-4).empty());
+  EXPECT_TRUE(union_of({{{0, 0}, {50, 0}, {50, 1e-5}}}, 1e-4).empty());
 }

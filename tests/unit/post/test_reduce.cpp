@@ -52,6 +52,7 @@ RunFile random_run(int number, bool tall) {
     row.steps = 10 + k;
     row.unconverged = k % 3;
     row.largest_penetration = random.uniform();
+    row.largest_error = row.largest_penetration / 3;
     row.shortest_dt = k == 0 ? 0 : 0.001 + random.uniform();
     row.left_domain = k / 10;
     row.potential = -1000.0 * k;
@@ -136,17 +137,19 @@ TEST(ShortHealth, SaysTheSameOfTheRun) {
   kept.health = short_health(run.health);
   ASSERT_EQ(kept.health.size(), 2U);
   std::int64_t steps[2] = {0, 0}, unconverged[2] = {0, 0};
-  double deepest[2] = {0, 0}, shortest[2] = {1, 1};
+  double deepest[2] = {0, 0}, error[2] = {0, 0}, shortest[2] = {1, 1};
   for (int i = 0; i < 2; ++i)
     for (const HealthRow& row : (i == 0 ? run : kept).health) {
       steps[i] += row.steps;
       unconverged[i] += row.unconverged;
       deepest[i] = std::max(deepest[i], row.largest_penetration);
+      error[i] = std::max(error[i], row.largest_error);
       if (row.shortest_dt > 0) shortest[i] = std::min(shortest[i], row.shortest_dt);
     }
   EXPECT_EQ(steps[0], steps[1]);
   EXPECT_EQ(unconverged[0], unconverged[1]);
   EXPECT_EQ(deepest[0], deepest[1]);
+  EXPECT_EQ(error[0], error[1]);
   EXPECT_EQ(shortest[0], shortest[1]);
   EXPECT_EQ(kept.health.back().left_domain, run.health.back().left_domain);
   EXPECT_EQ(energy_shares(run).friction, energy_shares(kept).friction);

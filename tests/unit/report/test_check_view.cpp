@@ -29,7 +29,7 @@ CheckView view() {
   fence.line.points = {{40, 30, 30}, {60, 30, 30}};
   fence.height = 4;
   made.fences = {fence};
-  made.foot = {{{50, 60}, 0}, {{55, 60}, 2.5}};
+  made.foot = {{{50, 60}, 0, false}, {{55, 60}, 2.5, true}};
   made.blocks = {{{{45, 65}, {50, 65}, {50, 70}}, BlockOutlook::holds_others, "block 3 < 4"}};
   return made;
 }
@@ -66,6 +66,28 @@ TEST(CheckView, MapShowsEachThingOnce) {
     EXPECT_GE(count(svg, part), 1u) << part;
   EXPECT_EQ(count(svg, "class=\"fence\""), 1u);
   EXPECT_EQ(count(svg, "nan"), 0u);
+}
+
+// A road that leaves the map is drawn as far as the map goes; what lies beyond it is not.
+TEST(CheckView, ObjectsAndSurfacesAreDrawnAndNamed) {
+  CheckView made = view();
+  const double before = part_for(made, slope(600)).n_rows;
+  made.objects = {{"house <1>", "object house", {{{{50, 40}, {54, 40}, {54, 44}}}}},
+                  {"road", "object road", {{{{30, 34}, {900, 34}, {900, 36}, {30, 36}}}}},
+                  {"far", "object far", {{{{900, 900}, {910, 900}, {910, 910}}}}}};
+  made.surfaces = {{"sliding", "plane of sliding", {{{{42, 62}, {58, 62}, {58, 78}}}}}};
+  const Trn ground = slope(600), part = part_for(made, ground);
+  EXPECT_LT(part.n_rows, 2 * before);
+  EXPECT_TRUE(is_drawn(made.objects[0], part));
+  EXPECT_TRUE(is_drawn(made.objects[1], part));
+  EXPECT_FALSE(is_drawn(made.objects[2], part));
+  const std::string svg = check_map_svg(made, ground, "png");
+  EXPECT_EQ(count(svg, "class=\"object\""), 3u);
+  EXPECT_EQ(count(svg, ">house &lt;1&gt;</text>"), 1u);
+  EXPECT_EQ(count(svg, ">road</text>"), 2u);  // and the fence of that name
+  EXPECT_EQ(count(svg, ">far</text>"), 0u);
+  EXPECT_EQ(count(svg, "class=\"proposed\""), 1u);
+  EXPECT_EQ(count(svg, "plane of sliding"), 1u);
 }
 
 TEST(CheckView, SectionHasTheMassAndTheFences) {

@@ -53,3 +53,18 @@ TEST(MapFigures, LeaveOutLayersWithoutAPicture) {
   EXPECT_EQ(count(one, "<figure"), 1U);
   EXPECT_NE(one.find(map_layers().back().title), std::string::npos);
 }
+
+// Each layer once a case, in one of the two parts.
+TEST(CaseFigures, StandSideBySideLayerByLayer) {
+  std::vector<MapPicture> pictures;
+  for (const MapLayerKind& kind : map_layers()) pictures.push_back({kind.name, "a picture", ""});
+  const CasePictures cases = {{"far", pictures}, {"<near>", pictures}};
+  const std::string first = case_figures(cases, true), rest = case_figures(cases, false);
+  EXPECT_EQ(count(first, "<figure") + count(rest, "<figure"), 2 * map_layers().size());
+  EXPECT_EQ(count(first, "<h3>"), 4U);
+  EXPECT_EQ(count(first, "<div class=\"maps\">"), 4U);
+  EXPECT_EQ(count(first, "<code>maps/far/velocity.tif</code>"), 1U);
+  EXPECT_EQ(count(first + rest, "<near>"), 0U);
+  EXPECT_LT(first.find("maps/far/velocity"), first.find("maps/&lt;near&gt;/velocity"));
+  EXPECT_LT(first.find("maps/&lt;near&gt;/velocity"), first.find("maps/far/ke_total"));
+}

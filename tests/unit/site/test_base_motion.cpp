@@ -62,6 +62,32 @@ TEST(BaseMotion, OfASiteIsHarmonicFromItsStartToItsEnd) {
   EXPECT_EQ(talus::base_motion(site, 10).harmonic.end, 10);
 }
 
+TEST(BaseMotion, BeyondAnythingIsRefusedAlsoByItsScale) {
+  const auto refusal = [](const talus::Site& site) -> std::string {
+    try {
+      static_cast<void>(talus::base_motion(site, 1));
+    } catch (const talus::InputError& error) {
+      return error.what();
+    }
+    return "taken";
+  };
+  talus::Site site;
+  site.base_motion.amplitude_m_s2 = 10;
+  site.base_motion.frequency_hz = 1;
+  site.base_motion.scale = 100;
+  EXPECT_EQ(refusal(site), "taken");
+  site.base_motion.scale = -101;
+  EXPECT_NE(refusal(site).find("1010 m/s2, expected at most 1000"), std::string::npos);
+  site.base_motion.scale = 1e300;
+  EXPECT_NE(refusal(site), "taken");
+  const Csv csv("time_s,ax_m_s2,ay_m_s2,az_m_s2\n0,1,0,0\n0.5,0,0,-2000\n2,0,0,0\n");
+  talus::Site recorded;
+  recorded.base_motion.file = csv.path;
+  EXPECT_NE(refusal(recorded).find("2000 m/s2 at 0.5 s"), std::string::npos);
+  recorded.base_motion.scale = 0.5;
+  EXPECT_EQ(refusal(recorded), "taken");
+}
+
 TEST(BaseMotion, IsSaidOnceAndWhole) {
   talus::Site site;
   site.base_motion.frequency_hz = 1;

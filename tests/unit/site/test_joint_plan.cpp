@@ -56,6 +56,19 @@ TEST(PlanJointSets, MissingAndContradictingKeysAreNamed) {
             "s.toml:5: two joint sets are called m_1: one is made by [joints.m]");
 }
 
+TEST(PlanJointSets, NumbersBeyondWhatRockShowsAreRefused) {
+  const std::string set = "dip_deg = 4\ndip_direction_deg = 1\nspacing_m = 2\n";
+  const std::string wide = "[joints.a]\n" + set + "spacing = 'lognormal'\nspacing_std_m = ";
+  EXPECT_EQ(refusal(wide + "20\n"), "accepted");
+  EXPECT_EQ(refusal(wide + "20.5\n"),
+            "s.toml:6: spacing_std_m is 20.5, expected at most 10 times spacing_m, 20");
+  std::string many;
+  for (int i = 0; i < 30; ++i) many += "[joints.j" + std::to_string(i) + "]\n" + set;
+  EXPECT_EQ(refusal(many), "accepted");
+  EXPECT_NE(refusal(many + "[joints.last]\n" + set).find("31 joint sets, expected at most 30"),
+            std::string::npos);
+}
+
 // A sliver is a hundredth of the mean joint cell in the mass, whatever the number of sets.
 TEST(PlanLimits, FollowTheExpectedCells) {
   const Site site = parse_site("[source]\ndepth_m = 5\n", "s.toml");

@@ -28,6 +28,7 @@ PlausibilityFacts sound() {
   facts.duration = 60;
   facts.travel_duration = 40;
   facts.moved_share = 0.95;
+  facts.left_share = 0;
   return facts;
 }
 
@@ -58,6 +59,7 @@ TEST(Plausibility, EachLimitHasItsDoubtAndItsKey) {
                 {&F::terrain_area, 9000, 0, "terrain"},
                 {&F::n_blocks, 1500, 0, "joints.spacing_m"},
                 {&F::step_at_foot, 2.5, 0, "source.failure_surface"},
+                {&F::left_share, 0.1, 0, "terrain"},
                 {&F::moved_share, 0.5, 0, "source.failure_surface"},
                 {&F::duration, 30, 0, "solver.duration_s"}};
   for (const auto& [field, odd, absurd, key] : limits) {

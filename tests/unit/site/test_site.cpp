@@ -9,6 +9,7 @@
 
 #include "base/random.hpp"
 #include "site/site.hpp"
+#include "site/site_layers.hpp"
 #include "site/soils.hpp"
 
 namespace {
@@ -287,4 +288,84 @@ TEST(SiteSoil, KeysThatExcludeOrNeedEachOtherAreRefused) {
       "weakening_speed_m_s = 4\n",
       "scar_friction and friction_weak_deg");
   says("rolling_resistance = 0.1\nspin_resistance = 0.05\ndrag_1_s = 1\n", "accepted");
+}
+
+// --- layers that stand for sections
+// ---------------------------------------------------------------
+
+namespace {
+
+talus::LayerSection section_of(const std::string& group, const std::string& name,
+                               std::vector<talus::LayerSection::Value> values) {
+  return {group, name, "site.gpkg, layer x, feature 2", std::move(values)};
+}
+
+std::string refusal_of_layer(const std::string& text, const talus::LayerSection& section) {
+  Site site = parse_site(text, "s/site.toml");
+  try {
+    take_sections(site, {section});
+  } catch (const InputError& error) {
+    return std::string(error.what()) + " | " + error.hint();
+  }
+  return "accepted";
+}
+
+}  // namespace
+
+TEST(SiteLayers, ASectionOfALayerIsAsOneOfTheFile) {
+  Site site = parse_site(whole, "s/site.toml");
+  take_sections(site,
+                {section_of("fence", "road",
+                            {{"line_file", "site.gpkg"}, {"height_m", "4"}, {"active", "false"}}),
+                 section_of("blocks", "two", {{"shape", "box"}, {"size_m", "[1, 2, 3]"}}),
+                 section_of("ground", "scree", {{"cor", "0.2"}})});
+  ASSERT_EQ(site.fences.size(), 1u);
+  EXPECT_EQ(site.fences[0].name, "road");
+  EXPECT_EQ(site.fences[0].height_m, 4);
+  EXPECT_FALSE(site.fences[0].active);
+  EXPECT_EQ(site.fences[0].post_spacing_m, 10);  // the default
+  ASSERT_EQ(site.blocks.size(), 2u);
+  EXPECT_EQ(site.blocks[1].size_m, (std::vector<double>{1, 2, 3}));
+  ASSERT_EQ(site.grounds.size(), 1u);  // joins the section that stands in the file
+  EXPECT_EQ(site.grounds[0].friction_deg, 32);
+  EXPECT_EQ(site.grounds[0].cor, 0.2);
+  for (const talus::EffectiveValue& value : effective_values(site)) {
+    if (value.section == "fence.road" && value.key == "height_m") {
+      EXPECT_EQ(value.source, "site.gpkg, layer x, feature 2");
+    }
+  }
+}
+
+TEST(SiteLayers, WhatIsPrintedReadsBackWithoutTheLayers) {
+  Site site = parse_site(whole, "s/site.toml");
+  take_sections(site, {section_of("fence", "road",
+                                  {{"line_file", "site.gpkg"}, {"line_where", "name = 'road'"}})});
+  const Site again = parse_site(print_config(site), "s/site.toml");
+  ASSERT_EQ(again.fences.size(), 1u);
+  EXPECT_EQ(again.fences[0].line_where, "name = 'road'");
+}
+
+TEST(SiteLayers, AKeyIsSaidOnceAndHeldToItsRange) {
+  EXPECT_EQ(refusal_of_layer(whole, section_of("source", "", {{"depth_m", "5"}})),
+            "site.gpkg, layer x, feature 2: depth_m of [source] stands here and in s/site.toml:9 | "
+            "say it once: take it out of one of the two");
+  EXPECT_NE(refusal_of_layer(whole, section_of("fence", "road", {{"height_m", "-4"}}))
+                .find("site.gpkg, layer x, feature 2: fence.road.height_m is -4, expected above 0"),
+            std::string::npos);
+  EXPECT_NE(refusal_of_layer(whole, section_of("ground", "new", {{"soil", "moss"}})).find("soil"),
+            std::string::npos);
+  EXPECT_EQ(refusal_of_layer(whole, section_of("ground", "new", {{"soil", "scree"}})), "accepted");
+}
+
+TEST(SiteLayers, EveryFieldOfALayerIsAKeyOfItsSection) {
+  for (const talus::SiteLayer& layer : talus::site_layers()) {
+    const std::string section = has_names(layer) ? layer.section + ".NAME" : layer.section;
+    std::set<std::string> keys;
+    for (const talus::KeyDescription& row : talus::site_keys())
+      if (row.section == section) keys.insert(row.key);
+    for (const std::string& field : layer.fields)
+      EXPECT_TRUE(keys.count(field)) << layer.name << ": " << field;
+    for (const char* key : {"file", "layer", "where"})
+      EXPECT_TRUE(keys.count(layer.prefix + key)) << layer.name << ": " << key;
+  }
 }

@@ -186,6 +186,31 @@ TEST(Uncertainty, EffectiveValuesSayWhichSampleTheyAreOf) {
             "normal, mean 0, standard deviation 2 (back-analysis of 3 events)");
 }
 
+// A key that a soil filled has a value, so it can be drawn around that; its other keys stay the
+// soil's.
+TEST(Uncertainty, KeysThatASoilFilledAreDrawnAroundItsValues) {
+  const std::string text =
+      "[ground.slope]\nsoil = \"meadow\"\n[uncertainty.rolling]\n"
+      "keys = \"ground.slope.rolling_resistance\"\napply = \"factor\"\n"
+      "distribution = \"lognormal\"\nstd = 0.2\n";
+  std::set<double> drawn;
+  for (std::int64_t sample = 1; sample <= 4; ++sample) {
+    Site site = site_of(text, sample);
+    apply_draws(site, DrawScope::all);
+    const double rolling = site.grounds[0].rolling_resistance;
+    EXPECT_TRUE(rolling > 0.17 / 3 && rolling < 0.17 * 3) << rolling;
+    drawn.insert(rolling);
+    const std::string printed = print_config(site);
+    EXPECT_TRUE(has(printed, "  # sample " + std::to_string(sample) + " of uncertainty.rolling\n"));
+    EXPECT_TRUE(has(printed, "cor = 0.9  # soil meadow (calibrated at one site)"));
+    EXPECT_EQ(parse_site(printed, "run").grounds[0].rolling_resistance, rolling);
+  }
+  EXPECT_EQ(drawn.size(), 4U);
+  EXPECT_FALSE(drawn.contains(0.17));
+  EXPECT_THROW((void)site_of(text + "[solver]\nrolling_scatter = 0.2\n"), InputError);
+  EXPECT_TRUE(has(print_config(site_of(text)), "rolling_resistance = 0.17  # soil meadow"));
+}
+
 TEST(Uncertainty, TheCommandLineHoldsAKey) {
   Site site = site_of(whole, 4);
   override_value(site, "ground.slope.friction_deg", "25");

@@ -64,6 +64,27 @@ double budget(const Scene& scene, const State& state) {
          l.removed - l.base;
 }
 
+// Where couples took more than a hit lost as a whole (its restitution gives back), the rest is
+// below zero: nothing of that breaks a block.
+TEST(Breakage, HitsWhoseRestIsBelowZeroAddNothing) {
+  const Body cube = body_of(box(Vec3(-0.5, -0.5, 0), Vec3(0.5, 0.5, 1)), Vec3(0, 0, -3));
+  const Scene scene = breaking({cube}, {}, {});
+  State state = start(scene);
+  state.hit_loss.assign(1, 0);
+  Motion after = state.motion[0];
+  after.velocity = Vec3(0, 0, 1);
+  Contact contact;
+  contact.normal = Vec3::UnitZ();
+  contact.point_a = Vec3(0, 0, -0.5);
+  for (const double dissipated : {-1.0, -1e-18, 0.0}) {
+    add_ground_hit_loss(scene, 0, state.motion[0], after, {&contact, 1}, dissipated, state);
+    EXPECT_EQ(state.hit_loss[0], 0) << dissipated;
+  }
+  const double lost = scene.blocks.mass[0] * (3 * 3 - 1) / 2;
+  add_ground_hit_loss(scene, 0, state.motion[0], after, {&contact, 1}, 1e9, state);
+  EXPECT_NEAR(state.hit_loss[0], lost, 1e-9 * lost);
+}
+
 // Test F1. Pieces of a spinning block keep mass, momentum, angular momentum, energy and second
 // moments.
 TEST(Breakage, PiecesInheritTheMotionExactly) {

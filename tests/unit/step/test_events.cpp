@@ -39,6 +39,11 @@ TEST(Events, DroppingGroundLetsGoInTheMiddleOfAStep) {
   EXPECT_LT(lifted_slab(with_step(0.02)).error, 5e-3);
 }
 
+TEST(Events, AHarmonicMotionSlidesASlab) {
+  EXPECT_LT(harmonic_slide({}).error, 1e-3);
+  EXPECT_LT(harmonic_slide(with_step(0.02)).error, 5e-3);
+}
+
 TEST(Events, ASlabTipsOverAnEdge) {
   EXPECT_LT(slab_over_edge({}).error, 1e-3);
   EXPECT_LT(slab_over_edge(with_step(0.02)).error, 5e-3);

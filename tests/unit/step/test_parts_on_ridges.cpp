@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "step/step.hpp"
+#include "verify/cases/block_cases.hpp"
 #include "verify/cases/cases.hpp"
 
 namespace {
@@ -11,26 +12,9 @@ namespace {
 using namespace talus;
 using namespace talus::cases;
 
-constexpr double top = 10;  // height of every ridge [m]
+constexpr double top = ridge_height;  // [m]
 
 double cot_of(double angle_deg) { return 1 / std::tan(angle_deg * std::numbers::pi / 180); }
-
-// A wall along y whose top is a ridge at `x`; its sides stand at `half_angle_deg` to the vertical.
-Body wall(double half_angle_deg, double x) {
-  const double cot = cot_of(half_angle_deg), w = std::min(1.4, 0.9 * top / cot);
-  std::vector<Vec3> vertices;
-  for (const double y : {-3.0, 3.0})
-    for (const Vec2& p :
-         {Vec2(-w, 0), Vec2(w, 0), Vec2(w, top - w * cot), Vec2(0, top), Vec2(-w, top - w * cot)})
-      vertices.emplace_back(x + p.x(), y, p.y());
-  return body_of(polyhedron(vertices, {{0, 1, 2, 3, 4},
-                                       {9, 8, 7, 6, 5},
-                                       {1, 0, 5, 6},
-                                       {2, 1, 6, 7},
-                                       {3, 2, 7, 8},
-                                       {4, 3, 8, 9},
-                                       {0, 4, 9, 5}}));
-}
 
 // A pillar with a square top that ends in a point.
 Body pillar(double half_angle_deg, const Vec2& at) {
@@ -49,18 +33,6 @@ Body pillar(double half_angle_deg, const Vec2& at) {
                                        {5, 6, 8},
                                        {6, 7, 8},
                                        {7, 4, 8}}));
-}
-
-// A plate on the top of the ridge, cut in two by an upright plane whose normal lies at
-// `azimuth_deg` to x, `off` the middle.
-Body plate(double azimuth_deg, double off) {
-  const double azimuth = azimuth_deg * std::numbers::pi / 180;
-  const Vec3 normal(std::cos(azimuth), std::sin(azimuth), 0);
-  const Polyhedron whole = box(Vec3(-3, -2, top), Vec3(3, 2, top + 0.6));
-  Body body;
-  body.parts = {clip_convex(whole, {normal, off}, 0, 1e-9),
-                clip_convex(whole, {-normal, -off}, 0, 1e-9)};
-  return body;
 }
 
 // Two slabs that fall to both sides of their seam at half of the ridge's slope, 0.6 m thick.
@@ -108,8 +80,8 @@ double sunk(const Scene& scene) {
 Sunk on_ridges(const Body& body, double half_angle_deg, double apart = 0) {
   const double cot = cot_of(half_angle_deg);
   const auto ridges = [&](double x, double) { return top - cot * std::abs(std::abs(x) - apart); };
-  std::vector<Body> bodies = {body, wall(half_angle_deg, apart)};
-  if (apart > 0) bodies.push_back(wall(half_angle_deg, -apart));
+  std::vector<Body> bodies = {body, ridge_wall(half_angle_deg, apart)};
+  if (apart > 0) bodies.push_back(ridge_wall(half_angle_deg, -apart));
   return {sunk(scene_of(plane_trn(slope_frame(0, 0), 5, 50), ground_of(60), bodies, {})),
           sunk(scene_of(make_trn(ridges, 0.5, 20), ground_of(60), {body}, {}))};
 }
@@ -121,7 +93,7 @@ TEST(PartsOnRidges, APlateOfTwoPartsDoesNotSinkIn) {
   for (int half_angle_deg = 10; half_angle_deg <= 80; half_angle_deg += 10)
     for (const double azimuth_deg : {0.0, 30.0, 90.0})
       for (const double off : {0.0, 1e-6, 1e-4, 3e-3, 0.1, 1.0}) {
-        const Sunk by = on_ridges(plate(azimuth_deg, off), half_angle_deg);
+        const Sunk by = on_ridges(split_plate(azimuth_deg, off), half_angle_deg);
         EXPECT_LT(by.on_blocks, 1e-4 * size) << half_angle_deg << " " << azimuth_deg << " " << off;
         EXPECT_LT(by.on_ground, 1e-4 * size) << half_angle_deg << " " << azimuth_deg << " " << off;
       }

@@ -7,12 +7,12 @@
 #include <string>
 
 #include "step/step.hpp"
-#include "unit/step/pile_scenes.hpp"
+#include "verify/cases/pile_scenes.hpp"
 
 namespace {
 
 using namespace talus;
-using talus::test::Pile;
+using talus::cases::Pile;
 
 struct Named {
   const char* name;
@@ -40,7 +40,7 @@ INSTANTIATE_TEST_SUITE_P(
 // 5 s, no more than 1e-3 of a side.
 TEST_P(PileStands, UpToTheAngleOfARigidOne) {
   const Pile& pile = GetParam().pile;
-  EXPECT_LT(talus::test::farthest(pile, 5), 1e-3 * pile.side);
+  EXPECT_LT(talus::cases::farthest(pile, 5), 1e-3 * pile.side);
 }
 
 // What lies on a slope beyond it falls.
@@ -48,7 +48,7 @@ TEST(Piles, FallBeyondTheAngleOfARigidOne) {
   for (const Pile& pile :
        {Pile{.high = 8, .share = 1.01}, Pile{.high = 16, .share = 1.01},
         Pile{.across = 2, .high = 8, .share = 1.01}, Pile{.high = 8, .share = 1.01, .step = 0.02}})
-    EXPECT_GT(talus::test::farthest(pile, 12), 0.5) << pile.across << " x " << pile.high;
+    EXPECT_GT(talus::cases::farthest(pile, 12), 0.5) << pile.across << " x " << pile.high;
 }
 
 class Sag : public testing::TestWithParam<double> {};
@@ -56,7 +56,7 @@ INSTANTIATE_TEST_SUITE_P(Sides, Sag, testing::Values(10, 1, 0.1, 0.01));
 
 TEST_P(Sag, OfAStackOfTenIsAPartOfItsSide) {
   const Pile pile{.high = 10, .side = GetParam(), .share = 0};
-  EXPECT_LT(talus::test::farthest(pile, 2), 1e-4 * pile.side);
+  EXPECT_LT(talus::cases::farthest(pile, 2), 1e-4 * pile.side);
 }
 
 // Cubes that touch on all sides, friction 21 degrees on a slope of 20.
@@ -64,7 +64,7 @@ TEST(Piles, LatticeHoldsOnASlope) {
   for (const double step : {0.005, 0.02}) {
     Pile pile{.along = 4, .across = 4, .high = 2, .step = step, .friction_deg = 21};
     pile.share = 20 * std::numbers::pi / 180 / std::atan(0.5);
-    EXPECT_LT(talus::test::farthest(pile, 3), 1e-3) << step;
+    EXPECT_LT(talus::cases::farthest(pile, 3), 1e-3) << step;
   }
 }
 
@@ -72,8 +72,8 @@ TEST(Piles, LatticeHoldsOnASlope) {
 TEST(Piles, TowerTopplesWhenARigidOneDoes) {
   for (const double step : {0.005, 0.02}) {
     const Pile pile{.high = 8, .share = 1.05, .step = step};
-    const double exact = talus::test::rigid_topple_time(pile, 0.2);
-    EXPECT_NEAR(talus::test::topple_time(pile, 0.2, 1.5 * exact), exact, 0.01 * exact) << step;
+    const double exact = talus::cases::rigid_topple_time(pile, 0.2);
+    EXPECT_NEAR(talus::cases::topple_time(pile, 0.2, 1.5 * exact), exact, 0.01 * exact) << step;
   }
 }
 
@@ -82,9 +82,9 @@ TEST(Piles, TowerStandsUnderABlockAThousandTimesAsHeavy) {
   for (const double step : {0.005, 0.02}) {
     Pile pile{.high = 6, .share = 0, .step = step, .heavy = 1000};
     pile.share = (step > 0.01 ? 0.93 : 0.97) * std::atan(0.5 / 5.4851) / std::atan(1.0 / 6);
-    EXPECT_LT(talus::test::farthest(pile, 5), 1e-3) << step;
+    EXPECT_LT(talus::cases::farthest(pile, 5), 1e-3) << step;
     pile.share *= 1.01 / (step > 0.01 ? 0.93 : 0.97);
-    EXPECT_GT(talus::test::farthest(pile, 12), 0.5) << step;
+    EXPECT_GT(talus::cases::farthest(pile, 12), 0.5) << step;
   }
 }
 

@@ -3,11 +3,11 @@
 
 #include <string>
 
-#include "unit/step/pile_scenes.hpp"
+#include "verify/cases/pile_scenes.hpp"
 
 namespace {
 
-using talus::test::Pile;
+using talus::cases::Pile;
 
 struct Named {
   const char* name;
@@ -31,19 +31,19 @@ INSTANTIATE_TEST_SUITE_P(
 // 20 s, no more than 1e-2 of a side: high towers rock a little.
 TEST_P(PileStandsLong, UpToTheAngleOfARigidOne) {
   const Pile& pile = GetParam().pile;
-  EXPECT_LT(talus::test::farthest(pile, 20), 1e-2 * pile.side);
+  EXPECT_LT(talus::cases::farthest(pile, 20), 1e-2 * pile.side);
 }
 
 TEST(PilesLong, HighTowersFallBeyondTheAngleOfARigidOne) {
   for (const int high : {24, 32})
-    EXPECT_GT(talus::test::farthest({.high = high, .share = 1.01}, 20), 0.5) << high;
+    EXPECT_GT(talus::cases::farthest({.high = high, .share = 1.01}, 20), 0.5) << high;
 }
 
 TEST(PilesLong, TowerOf24TopplesWhenARigidOneDoes) {
   for (const double step : {0.005, 0.02}) {
     const Pile pile{.high = 24, .share = 1.05, .step = step};
-    const double exact = talus::test::rigid_topple_time(pile, 0.2);
-    EXPECT_NEAR(talus::test::topple_time(pile, 0.2, 1.5 * exact), exact, 0.03 * exact) << step;
+    const double exact = talus::cases::rigid_topple_time(pile, 0.2);
+    EXPECT_NEAR(talus::cases::topple_time(pile, 0.2, 1.5 * exact), exact, 0.03 * exact) << step;
   }
 }
 

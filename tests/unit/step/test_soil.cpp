@@ -13,6 +13,7 @@
 #include "step/substep.hpp"
 #include "tests/unit/step/rough_scene.hpp"
 #include "verify/cases/closed_form.hpp"
+#include "verify/cases/closed_form_scenes.hpp"
 
 namespace {
 
@@ -106,6 +107,10 @@ TEST_P(Soil, CubeStandsOnItsEdgeWithinItsArm) {
   EXPECT_GT(turned_in(cube_on_edge(settings, 0.01 * arm, 0), 4), 0.5);
 }
 
+TEST_P(Soil, CubeFallsOffItsEdgeBeyondItsArm) {
+  EXPECT_LT(standing_on_edge(settings, 0.1).error, 0.01);
+}
+
 // What stands so falls asleep.
 TEST(SoilRest, CubeOnItsEdgeComesToRest) {
   const Scene scene = cube_on_edge({}, 0.02, 0.1);
@@ -160,7 +165,9 @@ TEST_P(Soil, ScarsStopASlab) {
 TEST_P(Soil, ScarsHoldASlabThatCreeps) { EXPECT_LT(scarring_creep(settings, medium).error, 1e-3); }
 
 TEST_P(Soil, FrictionWeakensWithSpeed) {
-  for (const double speed : {5.0, 10.0}) EXPECT_LT(weakening_stop(settings, speed).error, 1e-3);
+  for (const double speed : {5.0, 10.0, 30.0})
+    EXPECT_LT(weakening_stop(settings, speed).error, 1e-3) << speed;
+  EXPECT_LT(weakening_runaway(settings).error, 1e-3);
 }
 
 // --- drag --------------------------------------------------------------------------------------
@@ -234,6 +241,37 @@ TEST(SoilHits, NoneGainsEnergyAndAllAreTheSameWhenRepeated) {
   EXPECT_GT(n_rolled, 3000);
 }
 
+// First hit of a cube in any attitude that falls on a plane, no restitution, friction 0.6: means of
+// the push over m v and of the energy kept are those of a computation of one contact.
+TEST(SoilHits, OfACubeInAnyAttitudeTakeTheirMeanShare) {
+  Random random(7, "attitudes");
+  const Polyhedron cube = box(Vec3(-0.5, -0.5, -0.5), Vec3(0.5, 0.5, 0.5));
+  GroundClass ground;
+  ground.friction = 0.6;
+  Scene scene = scene_of(plane_trn(slope_frame(0, 0), 5, 50), ground,
+                         {body_of(moved(cube, Mat3::Identity(), Vec3::Zero(), Vec3(0, 0, 2)))}, {});
+  State state = start(scene);
+  Work work = make_work(scene);
+  constexpr int n = 20000;
+  double pushed = 0, kept = 0;
+  for (int i = 0; i < n; ++i) {
+    Motion motion = state.motion[0];
+    motion.pose.attitude =
+        Quat(random.normal(), random.normal(), random.normal(), random.normal()).normalized();
+    double lowest = 0;
+    for (const Vec3& v : cube.vertices) lowest = std::min(lowest, (motion.pose.attitude * v).z());
+    motion.pose.position = Vec3(0.3, 0.2, -lowest);
+    motion.velocity = Vec3(0, 0, -5);
+    motion.angular_momentum.setZero();
+    const double before = kinetic_energy(scene, 0, motion);
+    ASSERT_TRUE(apply_impact(scene, 0, 1e-9, {0.01, 0.01}, motion, work).hit) << i;
+    pushed += (motion.velocity.z() + 5) / 5;
+    kept += kinetic_energy(scene, 0, motion) / before;
+  }
+  EXPECT_NEAR(pushed / n, 0.794, 0.01);
+  EXPECT_NEAR(kept / n, 0.200, 0.01);
+}
+
 double balance_of(const Scene& scene, double duration, double& rolled, double& dragged) {
   State state = start(scene);
   Work work = make_work(scene);
@@ -251,7 +289,9 @@ double balance_of(const Scene& scene, double duration, double& rolled, double& d
 }
 
 // Kinetic, potential and what all laws took add up to what there was. With restitution the block
-// hardly presses the ground, and hits are what is tested; without it scars and drag act as well.
+// hardly presses the ground, and hits are what is tested: they close to rounding. Without it scars
+// and drag act as well, on a block that turns while it presses: there a step is exact in energy to
+// the second order alone, on firm ground too.
 TEST_P(Soil, BalanceOfATumblingBlockCloses) {
   for (const double restitution : {0.9, 0.0}) {
     Scene scene = rough_scene(settings);
@@ -263,10 +303,31 @@ TEST_P(Soil, BalanceOfATumblingBlockCloses) {
     RecordProperty(of + "error", std::to_string(1e9 * error) + "e-9");
     RecordProperty(of + "rolled_j", std::to_string(rolled));
     RecordProperty(of + "dragged_j", std::to_string(dragged));
-    EXPECT_LT(std::abs(error), 1e-3) << restitution;
+    EXPECT_LT(std::abs(error), restitution > 0 ? 1e-9 : 1e-6) << restitution;
     EXPECT_GT(rolled, 0) << restitution;
     EXPECT_GT(dragged, 0) << restitution;
   }
+}
+
+// Where nothing turns all laws close to 1e-9 in steps as well: a slab that slides, alone and with
+// another one on it, in an island.
+TEST_P(Soil, BalanceOfASlidingSlabCloses) {
+  const SlopeFrame frame = slope_frame(40, 20);
+  const auto slab = [&](double half, double low, double high) {
+    return body_of(box_in(frame, Vec3::Zero(), Vec3(-half, -half, low), Vec3(half, half, high)),
+                   frame.dip);
+  };
+  GroundClass ground = all_laws();
+  ground.restitution = 0;
+  double rolled = 0, dragged = 0;
+  const Scene alone = on_plane(settings, frame, ground, slab(0.5, 0, 0.05), 60, 1, 40 * frame.dip);
+  EXPECT_LT(std::abs(balance_of(alone, 2, rolled, dragged)), 1e-9);
+  EXPECT_GT(dragged, 0);
+  ground.scar_friction = ground.scar_rate = ground.scar_decay = 0;  // it would tip over
+  const Scene stack =
+      scene_of(plane_trn(frame, 2, 60), ground, {slab(1, 0, 0.5), slab(0.5, 0.5, 0.8)}, settings);
+  EXPECT_LT(std::abs(balance_of(stack, 2, rolled, dragged)), 1e-9);
+  EXPECT_GT(dragged, 0);
 }
 
 }  // namespace

@@ -88,6 +88,7 @@ RunFile sample(int n_frames, int n_rows) {
   run.health[2].friction = 1e6;
   for (std::size_t k = 0; k < run.health[1].cuts.size(); ++k)
     run.health[1].cuts[k] = 10 + static_cast<std::int64_t>(k);
+  run.health[1].largest_error = 0.25;
   run.checkpoint = {1, 2, 3, 255};
   run.phase = {talus::Phase::asleep, talus::Phase::left_domain};
   run.blocks.weight = {1, 0.25};
@@ -173,6 +174,7 @@ TEST(RunFile, ReadsBackWhatWasWritten) {
   EXPECT_EQ(back.health[2].unconverged, 5);
   EXPECT_EQ(back.health[2].friction, 1e6);
   EXPECT_EQ(back.health[1].cuts, run.health[1].cuts);
+  EXPECT_EQ(back.health[1].largest_error, 0.25);
   EXPECT_EQ(back.checkpoint, run.checkpoint);
 }
 

@@ -1,4 +1,4 @@
-// tests/unit/step/pile_scenes.hpp
+// verify/cases/pile_scenes.hpp
 // Piles of equal cubes, face on face and side by side, on a slope.
 #pragma once
 
@@ -10,7 +10,7 @@
 #include "step/step.hpp"
 #include "verify/cases/cases.hpp"
 
-namespace talus::test {
+namespace talus::cases {
 
 /// On a dip of `share` of that at which a column of the pile topples, atan(1 / high).
 struct Pile {
@@ -26,9 +26,7 @@ struct Pile {
   return pile.share * std::atan(1.0 / pile.high);
 }
 
-[[nodiscard]] inline Scene scene_of_pile(const Pile& pile) {
-  using namespace talus::cases;
-  Settings settings;
+[[nodiscard]] inline Scene scene_of_pile(const Pile& pile, Settings settings = {}) {
   settings.dt = pile.step;
   settings.sleep = false;
   const SlopeFrame frame = slope_frame(dip_of(pile) * 180 / std::numbers::pi, 30);
@@ -82,11 +80,11 @@ struct Pile {
 /// angle since the start, q'' = g R sin(q + q_0) / (i^2 + R^2), in steps so short that the midpoint
 /// rule is exact to 1e-6.
 [[nodiscard]] inline double rigid_topple_time(const Pile& pile, double angle) {
-  const double half = pile.side / 2, middle = half * pile.high, g = 10;
+  const double half = pile.side / 2, middle = half * pile.high, gravity = 10;
   const double square = (half * half + middle * middle) / 3;  // of the radius of gyration
   const double arm_sq = half * half + middle * middle;
   const double lean = dip_of(pile) - std::atan(half / middle);  // of the centroid over the edge
-  const double rate = g * std::sqrt(arm_sq) / (square + arm_sq), dt = 1e-5;
+  const double rate = gravity * std::sqrt(arm_sq) / (square + arm_sq), dt = 1e-5;
   double q = 0, speed = 0, time = 0;
   while (q < angle) {
     speed += dt * rate * std::sin(lean + q + dt / 2 * speed);
@@ -96,4 +94,4 @@ struct Pile {
   return time;
 }
 
-}  // namespace talus::test
+}  // namespace talus::cases

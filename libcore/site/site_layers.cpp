@@ -1,0 +1,44 @@
+#include "site/site_layers.hpp"
+
+namespace talus {
+
+const std::vector<SiteLayer>& site_layers() {
+  using enum SiteLayer::Shape;
+  static const std::vector<SiteLayer> layers = {
+      {"release_points",
+       "blocks",
+       points,
+       "release_",
+       "Release points",
+       {"shape", "volume_m3", "size_m", "material", "height_above_ground_m", "random_orientation",
+        "n_per_point", "frequency_per_a"}},
+      {"object_points", "object", points, "", "Objects: points", {"kind", "radius_m"}},
+      {"fences",
+       "fence",
+       lines,
+       "line_",
+       "Fences",
+       {"active", "height_m", "capacity_kj", "max_deflection_m", "post_spacing_m", "cor",
+        "friction_deg"}},
+      {"object_lines", "object", lines, "", "Objects: lines", {"kind", "width_m"}},
+      {"objects", "object", areas, "", "Objects", {"kind"}},
+      {"places", "place", areas, "polygon_", "Places", {"half_width"}},
+      {"source", "source", areas, "polygon_", "Source", {"failure_surface", "depth_m"}},
+      {"forest",
+       "forest",
+       areas,
+       "polygon_",
+       "Forest",
+       {"active", "stems_per_ha", "dbh_mean_cm", "dbh_std_cm", "conifer_share", "height_m"}},
+      {"grounds",
+       "ground",
+       areas,
+       "polygon_",
+       "Grounds",
+       {"soil", "friction_deg", "cor", "rolling_resistance", "bearing_kpa", "drag_1_m"}}};
+  return layers;
+}
+
+bool has_names(const SiteLayer& layer) { return layer.section != "source"; }
+
+}  // namespace talus

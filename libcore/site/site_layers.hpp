@@ -1,0 +1,43 @@
+// libcore/site/site_layers.hpp: public
+// Layers that stand for sections of the site file: what is drawn and edited in a GIS, a feature a
+// place. Fields have the names of keys. Page: docs/site-layers.md
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "site/site.hpp"
+
+namespace talus {
+
+/// One layer of a site.gpkg.
+struct SiteLayer {
+  enum Shape { areas, lines, points };
+  std::string name;     ///< "fences"
+  std::string section;  ///< of all of its features ("source"), or the group of theirs ("fence")
+  Shape shape = areas;
+  std::string prefix;               ///< of the keys that name file, layer and filter: "line_"
+  std::string title;                ///< for people
+  std::vector<std::string> fields;  ///< keys that the layer is made with; more may be added
+};
+[[nodiscard]] const std::vector<SiteLayer>& site_layers();
+
+/// Whether each feature has a name, which stands for [fence.NAME]; the features of [source] do not.
+[[nodiscard]] bool has_names(const SiteLayer& layer);
+
+/// What a layer says of one section.
+struct LayerSection {
+  struct Value {
+    std::string key, text;  ///< text as in --set; without quotes
+  };
+  std::string group, name;  ///< "fence", "valley"; name is empty for [source]
+  std::string place;        ///< "site.gpkg, layer fences, feature 2": for messages
+  std::vector<Value> values;
+  std::string digest = {};  ///< of the features
+};
+
+/// Takes sections in, behind those of the site file. Throws InputError as read_site(), and for a
+/// key that the site file gives too.
+void take_sections(Site& site, const std::vector<LayerSection>& sections);
+
+}  // namespace talus

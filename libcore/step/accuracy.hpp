@@ -1,0 +1,53 @@
+// libcore/step/accuracy.hpp
+// How far a substep errs, told by how its forces change: law talus takes them as constant in it.
+// docs/theory.md, stage 8
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/types.hpp"
+#include "scene/scene.hpp"
+#include "solver/law_numbers.hpp"
+#include "step/substep_numbers.hpp"
+
+namespace talus {
+
+/// Error of a block's place after a substep, estimated, and the way of its points in it [m].
+struct WayError {
+  double error = 0, way = 0;
+};
+
+/// From the changes of the mean acceleration and spin rate since the substep of `last_h` before.
+/// What changes linearly, by c over h, leaves c h^2 / 12.
+[[nodiscard]] inline WayError error_of_way(const BlockNumbers& c, const Vec3& change,
+                                           const Vec3& change_of_spin, const Vec3& path,
+                                           const Vec3& turn, double h, double last_h) {
+  const double over_h = std::min(1.0, 2 * h / (h + last_h));
+  const double changed = change.norm() + c.radius * change_of_spin.norm();
+  return {over_h * changed * h * h / 12, path.norm() + c.radius * turn.norm()};
+}
+
+/// As a share of the way, or of a part of the thickness where that is more [-].
+[[nodiscard]] inline double share_of(const WayError& of, double thickness) {
+  return of.error / (of.way + law::way_at_rest * thickness);
+}
+
+/// Length of a substep whose error is allowed: `h` where `share`, that of `h`, is [s].
+[[nodiscard]] inline double accurate_substep(const Settings& settings, double share, double h) {
+  const double excess = share / settings.accuracy, shortest = settings.dt / law::most_substeps;
+  if (!(excess > 1) || h <= shortest) return h;
+  return std::max(shortest, h / std::min(law::most_parts, std::ceil(std::sqrt(excess))));
+}
+
+/// The longest substep that is tried after one of `h` whose error is `share`, `longest` having been
+/// that before. What was cut short for another reason says nothing [s].
+[[nodiscard]] inline double longest_after(const Settings& settings, double share, double h,
+                                          double longest) {
+  constexpr double sure = 0.8;
+  if (h < longest) return longest;
+  const double room = settings.accuracy / std::max(share, 1e-300);
+  return h * std::clamp(std::sqrt(sure * room), 1.0, law::most_lengthening);
+}
+
+}  // namespace talus

@@ -1,0 +1,72 @@
+"""The provider: an algorithm a tool, an algorithm a goal of make, and one for a new site."""
+import os
+
+from qgis.core import QgsApplication, QgsProcessingProvider, QgsSettings
+from qgis.PyQt.QtGui import QIcon
+
+from . import tools
+from .goal_algorithm import GoalAlgorithm
+from .new_site_algorithm import NewSiteAlgorithm
+from .tool_algorithm import ToolAlgorithm
+
+FOLDER_SETTING = "TALUS_FOLDER"
+
+
+def tools_folder():
+    """Folder of the tools as set; empty: they are on the search path."""
+    found = QgsSettings().value("Processing/Configuration/" + FOLDER_SETTING, "", type=str)
+    return found if found and os.path.isdir(found) else ""
+
+
+class TalusProvider(QgsProcessingProvider):
+    def id(self):
+        return "talus"
+
+    def name(self):
+        return "Talus"
+
+    def longName(self):
+        return "Talus rockslide hazard"
+
+    def icon(self):
+        return QIcon(os.path.join(os.path.dirname(__file__), "talus.svg"))
+
+    def warningMessage(self):
+        if tools.tool_path("talus-site", tools_folder()):
+            return ""
+        return ("The tools of Talus were not found: install the package talus, or name their folder under "
+                "Settings, Options, Processing, Providers, Talus.")
+
+    def load(self):
+        self.add_settings()
+        self.refreshAlgorithms()
+        return True
+
+    def add_settings(self):
+        """The panel of settings belongs to a plugin that may be off; the setting itself does not need it."""
+        try:
+            from processing.core.ProcessingConfig import ProcessingConfig, Setting
+        except ImportError:
+            return
+        ProcessingConfig.settingIcons["Talus"] = self.icon()
+        ProcessingConfig.addSetting(Setting("Talus", FOLDER_SETTING,
+                                            "Folder of the tools (empty: the search path)", "",
+                                            valuetype=Setting.FOLDER))
+        ProcessingConfig.readSettings()
+
+    def unload(self):
+        try:
+            from processing.core.ProcessingConfig import ProcessingConfig
+            ProcessingConfig.removeSetting(FOLDER_SETTING)
+        except (ImportError, KeyError):
+            pass
+
+    def loadAlgorithms(self):
+        folder = tools_folder()
+        cache = os.path.join(QgsApplication.qgisSettingsDirPath(), "talus_tools.json")
+        for tool in tools.descriptions(folder, cache):
+            for command in tool.get("commands", [None]):
+                self.addAlgorithm(ToolAlgorithm(tool, command))
+        for goal in tools.goals(folder):
+            self.addAlgorithm(GoalAlgorithm(goal))
+        self.addAlgorithm(NewSiteAlgorithm())

@@ -1,0 +1,11 @@
+#include <gtest/gtest.h>
+
+#include "many_parts.hpp"
+
+namespace {
+
+TEST(ManyPartsLong, TenThousandPairsAreBorneAlongTheLeastPathOut) {
+  EXPECT_LE(talus::test::follow_pairs(10000), 2);
+}
+
+}  // namespace

@@ -1,0 +1,16 @@
+// tools/frame/site_layers.hpp
+// The layers of a site.gpkg that stand for sections of the site file. Page: docs/site-layers.md
+#pragma once
+
+#include "site/site.hpp"
+#include "tools/frame/tool.hpp"
+
+namespace talus {
+
+/// Takes in what the GeoPackage of [site] layers says; nothing where the site file names none. Its
+/// features count for the run's id, its bytes do not: a GIS changes these when it looks at it.
+/// Throws InputError: no such file, none of the layers, a feature without a name or with one that
+/// is none, a misspelt field, features of one name that disagree, and as take_sections().
+void read_site_layers(Tool& tool, Site& site);
+
+}  // namespace talus
