@@ -285,7 +285,7 @@ struct FenceSearchSettings {
   std::vector<double> heights_m{3, 4, 5, 6};  ///< ascending
   std::vector<double> classes_kj;             ///< ascending; not given: share/codes
   std::vector<double> prices_per_m;           ///< one a class; not given: relative ones
-  double price_per_m2 = 0;                    ///< of a metre of length and of height, on top
+  double price_per_m2 = not_given;            ///< of a metre of length and of height, on top
   std::string code = "uni";                   ///< uni, onr or a file
   double post_spacing_m = 10;
   std::int64_t min_fields = 3, end_fields = 1;

@@ -326,7 +326,7 @@ template <> const std::vector<SiteKey<FenceSearchSettings>>& keys_of() {
       {"heights_m", &S::heights_m, "heights of fences that can be built, ascending", positive, "", "", 1},
       {"classes_kj", &S::classes_kj, "energies that a field can take, ascending; those of share/codes/barrier_classes.csv when not given", positive, "", "", 1},
       {"prices_per_m", &S::prices_per_m, "price of a metre of fence, one a class; 1 + 0.2 k for class k from 0 when not given", positive, "", "", 1},
-      {"price_per_m2", &S::price_per_m2, "on top of it, for a metre of fence and of height", not_negative},
+      {"price_per_m2", &S::price_per_m2, "on top of it, for a metre of fence and of height; 0 with prices_per_m, 0.1 without when not given", not_negative},
       {"code", &S::code, "design code: uni, onr, or a data file"},
       {"post_spacing_m", &S::post_spacing_m, "distance of posts", positive},
       {"min_fields", &S::min_fields, "fewest fields of a fence", {1, 100}},

@@ -16,9 +16,9 @@ namespace {
 
 constexpr double same_place = 0.01;  // of posts, in plan [m]
 
-const RunParts wanted{.frames = false,
-                      .passages = false,
-                      .checkpoint = false,
+// With passages: their grid is what runs that are read later must agree with.
+const RunParts wanted{.checkpoint = false,
+                      .only_last_frame = true,
                       .only_faults = true,
                       .words = false,
                       .trees = false};
@@ -42,7 +42,9 @@ SearchSettings what_can_be_built(const Site& site, const FenceSearchSettings& se
                          " for the " + std::to_string(what.capacities.size()) +
                          " classes of share/codes/barrier_classes.csv",
                      "give one for each class, or give classes_kj as well");
-  what.price_per_m2 = search.price_per_m2;
+  what.price_per_m2 = !std::isnan(search.price_per_m2) ? search.price_per_m2
+                      : search.prices_per_m.empty()    ? 0.1
+                                                       : 0;
   what.spacing = search.post_spacing_m;
   what.min_fields = static_cast<int>(search.min_fields);
   what.end_fields = static_cast<int>(search.end_fields);

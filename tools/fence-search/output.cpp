@@ -391,31 +391,29 @@ std::vector<VectorLayer> search_layers(const std::vector<SearchCase>& searches,
 
 std::string search_chart(const SearchCase& search, const SearchAnswer& answer) {
   Chart chart;
-  chart.title = "What a fence for " + search.object.name + " costs, and what it leaves";
-  chart.x_label = search.settings->prices_per_m.empty()
-                      ? "cost, relative: metres of the lightest class"
-                      : "cost";
-  chart.y_label = "runs that hit it [%]";
+  chart.title = "What a fence for " + search.object.name + " costs, and what it lets through";
+  chart.x_label = search.settings->prices_per_m.empty() ? "cost (relative)" : "cost";
+  chart.y_label = "of the hits [%]";
   ChartSeries all = points("not beaten by another", "#9ecae1", 2.5);
   for (const FenceOption& option : answer.result.front) {
     all.x.push_back(option.cost);
-    all.y.push_back(100 * option.residual);
+    all.y.push_back(100 * (1 - option.stopped));
   }
-  ChartSeries curve{"most stopped for its cost", "#3182bd", {0}, {100 * share_now(search.runs)}};
+  ChartSeries curve{"most stopped for its cost", "#3182bd", {0}, {100}};
   for (const FenceOption& option : cost_curve(answer.result.front)) {
     curve.x.push_back(option.cost);  // a step: what is paid for so far holds until then
     curve.y.push_back(curve.y.back());
     curve.x.push_back(option.cost);
-    curve.y.push_back(100 * option.residual);
+    curve.y.push_back(100 * (1 - option.stopped));
   }
   ChartSeries predicted = points("proposals, predicted", "#cb181d", 4);
   ChartSeries verified = points("proposals, verified with other runs", "#238b45", 4);
   for (const Proposal& proposal : answer.proposals) {
     predicted.x.push_back(proposal.option.cost);
-    predicted.y.push_back(100 * proposal.option.residual);
+    predicted.y.push_back(100 * (1 - proposal.option.stopped));
     if (!proposal.verified) continue;
     verified.x.push_back(proposal.option.cost);
-    verified.y.push_back(100 * proposal.verified->residual);
+    verified.y.push_back(100 * proposal.verified->hits_a_run / hits_a_run(search.runs));
   }
   for (const ChartSeries& series : {all, curve, predicted, verified})
     if (!series.x.empty()) chart.series.push_back(series);

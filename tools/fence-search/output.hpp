@@ -46,7 +46,8 @@ struct SearchAnswer {
                                                      const std::vector<SearchAnswer>& answers,
                                                      const Vec3& origin);
 
-/// Cost against what is left: the front, proposals as predicted and as verified (SVG).
+/// Cost against the share of hits that is let through: the front, proposals as predicted and as
+/// verified (SVG).
 [[nodiscard]] std::string search_chart(const SearchCase& search, const SearchAnswer& answer);
 
 }  // namespace talus

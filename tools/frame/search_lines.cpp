@@ -42,11 +42,11 @@ void check_settings(const Site& site, const FenceSearchSettings& search) {
   check_ascending(site, search, "classes_kj", search.classes_kj);
   if (!search.prices_per_m.empty() && !search.classes_kj.empty() &&
       search.prices_per_m.size() != search.classes_kj.size())
-    throw InputError(
-        where_of(site, "fence_search." + name + ".prices_per_m"),
-        "has " + counted(static_cast<std::int64_t>(search.prices_per_m.size()), "price") + " for " +
-            counted(static_cast<std::int64_t>(search.classes_kj.size()), "class"),
-        "give one price for each of classes_kj");
+    throw InputError(where_of(site, "fence_search." + name + ".prices_per_m"),
+                     "has " +
+                         counted(static_cast<std::int64_t>(search.prices_per_m.size()), "price") +
+                         " for " + std::to_string(search.classes_kj.size()) + " classes",
+                     "give one price for each of classes_kj");
 }
 
 // Why there is no line, and what to change.

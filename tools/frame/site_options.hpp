@@ -57,7 +57,10 @@ class SiteOptions {
 
   /// Declares --add: files with further sections, as if they stood at the end of the site file.
   void take_additions(Tool& tool) {
-    tool.inputs("--add", additions_, "further sections, e.g. a fence of talus-fence-search (TOML)");
+    tool.app()
+        .add_option("--add", additions_,
+                    "further sections, e.g. a fence of talus-fence-search (TOML)")
+        ->allow_extra_args(false);
     names_.emplace_back("add");
   }
 
@@ -90,7 +93,10 @@ class SiteOptions {
  private:
   [[nodiscard]] std::string with_additions() const {
     std::string text = read_file(file_, "give the path of a site.toml");
-    for (const std::string& file : additions_) text += "\n" + read_file(file);
+    for (const std::string& file : additions_) {
+      tool_.read_also("add", file);
+      text += "\n" + read_file(file, "it is named by --add");
+    }
     return text;
   }
 

@@ -74,14 +74,16 @@ std::string search_text(const Json& search, const std::string& svg) {
   const Json proposals = value_at(search, {"proposals"}), curve = value_at(search, {"curve"});
   if (is_fence && proposals.is_array()) out += proposal_table(proposals);
   if (!svg.empty())
-    out += html_figure(html_svg(svg, "cost against what is left"),
-                       "Cost and what is left. <code>fence_search.gpkg</code> has the lines.");
+    out += html_figure(
+        html_svg(svg, "cost against what is let through"),
+        "Cost and the share of hits let through. <code>fence_search.gpkg</code> has the lines.");
   if (curve.is_array() && !curve.empty())
     out += html_fold("Most stopped for its cost", curve_table(curve));
   if (value_at(search, {"prices_given"}) == false)
     out += html_note(
-        "No prices are given: a cost is metres of the lightest class, and each class costs a fifth "
-        "of that more.");
+        "No prices are given: costs only rank. A metre costs 1, and 0.2 more for each class, 0.1 "
+        "for "
+        "each metre of height.");
   return out;
 }
 

@@ -162,8 +162,10 @@ void add_pieces(const Trn& trn, const RecordObject& object, const std::vector<Ve
   };
   for (const Vec2& p : evenly_spaced(line, settings.spacing)) {
     const double z = elevation_at(trn, p.x(), p.y()), distance = gap_to(object, p);
-    const bool in_zone = !std::isnan(z) && distance > settings.nearest - 1e-3 * settings.spacing &&
-                         distance < settings.farthest + 1e-3 * settings.spacing;
+    // a line of equal distance has it but for the error of the grid
+    const double tolerance = (settings.by_contours ? 1e-3 : 0.1) * settings.spacing;
+    const bool in_zone = !std::isnan(z) && distance > settings.nearest - tolerance &&
+                         distance < settings.farthest + tolerance;
     const bool stands = in_zone && slope_at(trn, p) <= settings.ground_slope;
     if (!stands) {
       out.n_cut += in_zone;
