@@ -52,7 +52,8 @@ expect 0 talus-fence site.toml --add proposals/house-1.toml other_*.h5 --trn slo
 prints 'fence house-1'
 
 # nothing hits an object that lies aside
-sed 's/50000\([27]5\)\]/50000\1]/; s/^polygon = .*/polygon = [[500085, 5000001], [500095, 5000001], [500095, 5000009], [500085, 5000009]]/' site.toml >aside.toml
+sed -e 's/^polygon = .*/polygon = [[500085, 5000001], [500095, 5000001], [500095, 5000009], [500085, 5000009]]/' \
+  -e 's/^protect/min_fields = 1\nend_fields = 0\nprotect/' site.toml >aside.toml
 mv aside.toml site.toml
 runs aside 1 2
 expect 0 search aside_*.h5 -o aside.gpkg --json aside.json
