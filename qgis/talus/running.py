@@ -84,21 +84,27 @@ class OwnStyle(QgsProcessingLayerPostProcessorInterface):
         layer.triggerRepaint()
 
 
-own_style = OwnStyle()  # QGIS keeps no reference to it
+kept = []
+
+
+def own_style():
+    """One for each layer: the context deletes those of its layers, and Python must not do so before."""
+    kept.append(OwnStyle())
+    return kept[-1]
 
 
 def show(path, context):
     """Has the layers of a file loaded when the algorithm has ended, with the styles that lie with them."""
     for source, name in sources_in(path):
         details = QgsProcessingContext.LayerDetails(name, context.project(), name)
-        details.setPostProcessor(own_style)
+        details.setPostProcessor(own_style())
         context.addLayerToLoadOnCompletion(source, details)
 
 
 def style(path, context):
     """The same for a layer that QGIS loads itself, as the output of a parameter."""
     if context.willLoadLayerOnCompletion(path):
-        context.layerToLoadOnCompletionDetails(path).setPostProcessor(own_style)
+        context.layerToLoadOnCompletionDetails(path).setPostProcessor(own_style())
 
 
 def path_of_layer(layer):

@@ -172,7 +172,8 @@ def words_of(option, value):
     if not is_given(option, value):
         return []
     values = value if isinstance(value, (list, tuple)) else [value]
-    words = [repr(v) if isinstance(v, float) else str(v) for v in values]
+    # QGIS makes 8 to 8.0, which would be another setting, and another run id
+    words = [repr(v).removesuffix(".0") if isinstance(v, float) else str(v) for v in values]
     if option["positional"]:
         return words
     # One word, so that a value may begin with a dash; each further value names the option again.

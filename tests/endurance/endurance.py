@@ -433,11 +433,16 @@ def part_write(bench):
 
 def loads_at_mb(bench, job):
     """Address space in which the tool and its libraries are loaded: --version works."""
-    for mb in range(32, 4096, 16):
-        code, _, _ = bench.run([job.name, "--version"], bench.work, **memory_limit(bench, mb))
-        if code == 0:
-            return mb
-    sys.exit(f"{job.name} cannot be loaded")
+    def loads(mb):
+        return bench.run([job.name, "--version"], bench.work, **memory_limit(bench, mb))[0] == 0
+
+    too_little, enough = 16, 4096
+    if not loads(enough):
+        sys.exit(f"{job.name} cannot be loaded")
+    while enough - too_little > 16:
+        mb = (too_little + enough) // 2
+        too_little, enough = (too_little, mb) if loads(mb) else (mb, enough)
+    return enough
 
 
 def part_memory(bench):

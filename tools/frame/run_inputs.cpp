@@ -165,9 +165,8 @@ void RunInputs::leave_out_failed(Found& found, bool is_first) {
 }
 
 void RunInputs::take_one_case(Found& found) const {
-  if (only_case.empty()) return;
+  if (only_case.empty() || found.members.empty()) return;
   Found kept;
-  std::string others;
   for (std::size_t i = 0; i < found.members.size(); ++i) {
     if (case_of(found.members[i].file) != only_case) continue;
     kept.members.push_back(std::move(found.members[i]));

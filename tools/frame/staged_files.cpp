@@ -77,7 +77,8 @@ std::vector<std::string> endings_beside(const StagedFile& file,
 }  // namespace
 
 std::string temporary_name(const fs::path& path) {
-  const std::string begin = "." + path.stem().string() + ".part-" + host_name() + "-";
+  std::string begin = ".";
+  begin.append(path.stem().string()).append(".part-").append(host_name()).append("-");
   remove_leftovers(folder_of(path), begin);
   return (folder_of(path) / (begin + std::to_string(getpid()) + path.extension().string()))
       .string();

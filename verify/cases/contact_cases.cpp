@@ -220,7 +220,7 @@ CaseResult elastic_bowl(const Settings& settings) {
   const double before = total();
   run.advance_to(4);
   const double error = std::abs(total() / before - 1);
-  return run.finish(total() / before, 1, run.state.counters.impacts > 100 ? error : nowhere);
+  return run.finish(total() / before, 1, run.state.counters.impacts > 50 ? error : nowhere);
 }
 
 // --- edges and bodies of several parts -----------------------------------------------------------

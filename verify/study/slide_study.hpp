@@ -24,7 +24,7 @@ struct SlideStudy {
   EnsembleReference reference;
   double path = 0;  ///< of the centre, reference [m]
 };
-/// `full`: 96 runs of 20 s a step at the defaults, 8 at other settings, 6 of law paper, a quarter
+/// `full`: 32 runs of 20 s a step at the defaults, 4 at other settings, 2 of law paper, a quarter
 /// of an hour; else one of 4 s. `progress` is called before every run.
 [[nodiscard]] SlideStudy study_slide(const SlideData& data, bool full,
                                      const ProgressFunction& progress = {});

@@ -15,7 +15,7 @@ needs() {
 }
 
 needs talus-runs sqlite3
-needs talus-site gdal sqlite3 tomlplusplus
+needs talus-site gdal proj sqlite3 tomlplusplus
 needs talus-trn gdal proj sqlite3
 needs talus-tin gdal gmp proj sqlite3
 needs talus-maps gdal hdf5_serial proj sqlite3

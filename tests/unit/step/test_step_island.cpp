@@ -469,7 +469,10 @@ struct OnLevelGround {
   explicit OnLevelGround(const std::vector<Body>& bodies)
       : scene(scene_of(plane_trn(slope_frame(0, 0), 5, 50), ground_of(30, 0.5), bodies, {})),
         state(start(scene)),
-        work(make_work(scene)) {}
+        work(make_work(scene)) {
+    // tests put blocks elsewhere between steps, which is no change of force to be followed
+    scene.settings.accuracy = 1e9;
+  }
   void go() { step(scene, state, work); }
 
   Scene scene;
