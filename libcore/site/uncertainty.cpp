@@ -1,5 +1,6 @@
 #include "site/uncertainty.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
