@@ -24,6 +24,26 @@ function(talus_precompiled target owner)
   endif()
 endfunction()
 
+# Sources of a target are compiled several at a time, in groups whose names cannot meet: each reads the
+# headers once. A name added since the last configuration may meet another: configure again.
+option(TALUS_TOGETHER "Compile several sources of a target as one" ON)
+find_package(Python3 COMPONENTS Interpreter)
+function(talus_together target)
+  if(NOT TALUS_TOGETHER OR NOT Python3_FOUND)
+    return()
+  endif()
+  get_target_property(sources ${target} SOURCES)
+  list(FILTER sources INCLUDE REGEX "\\.cpp$")
+  list(TRANSFORM sources PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/ REGEX "^[^/]")
+  execute_process(
+    COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/cmake/source_groups.py ${PROJECT_SOURCE_DIR}/libcore 8 ${sources}
+    OUTPUT_VARIABLE groups OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+  foreach(source group IN ZIP_LISTS sources groups)
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${group})
+  endforeach()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+endfunction()
+
 set(TALUS_LIBRARY_boost Boost::headers)
 set(TALUS_LIBRARY_cgal CGAL::CGAL)
 set(TALUS_LIBRARY_gdal GDAL::GDAL PROJ::proj)
@@ -41,6 +61,7 @@ function(talus_module name)
   if(plain)
     add_library(talus_${name} STATIC ${plain})
     talus_precompiled(talus_${name} talus_base)
+    talus_together(talus_${name})
     set(scope PUBLIC)
   else()
     add_library(talus_${name} INTERFACE)
@@ -54,6 +75,7 @@ function(talus_module name)
     if(own)
       add_library(talus_${name}_${library} STATIC ${own})
       talus_precompiled(talus_${name}_${library} talus_base)
+      talus_together(talus_${name}_${library})
       target_link_libraries(talus_${name}_${library} PUBLIC talus_${name}
                             PRIVATE ${TALUS_LIBRARY_${library}})
       foreach(module ${modules})  # io_hdf5 serves store_hdf5

@@ -152,8 +152,7 @@ CaseResult borne_slab(const Settings& settings) {
   return run.finish(value, cube, std::abs(value / cube - 1));
 }
 
-CaseResult unequal_row(const Settings& settings) {
-  constexpr double e = 0.9;
+CaseResult unequal_row(const Settings& settings, double e) {
   const std::vector<double> length = {1, 3, 0.5, 2, 1};
   std::vector<Body> bodies;
   std::vector<double> place, speed(length.size(), 0);

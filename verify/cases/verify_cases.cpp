@@ -536,7 +536,7 @@ std::vector<VerifyCase> contact_cases() {
                     .norm = "of the speed of the first",
                     .test = "Hits.AnUnequalRowPassesItsHitsOnInOrder",
                     .bound = 0.01,
-                    .run = unequal_row}),
+                    .run = [](const Settings& settings) { return unequal_row(settings); }}),
       of_blocks(6, {.name = "plastic_row",
                     .claim = "six cubes in a row hit and go on together",
                     .reference = "momentum",

@@ -470,7 +470,8 @@ struct OnLevelGround {
       : scene(scene_of(plane_trn(slope_frame(0, 0), 5, 50), ground_of(30, 0.5), bodies, {})),
         state(start(scene)),
         work(make_work(scene)) {
-    // tests put blocks elsewhere between steps, which is no change of force to be followed
+    // tests put blocks elsewhere between steps, which is no change of force to be followed;
+    // ADeepCornerThatMovesOnIsPressedOutWithAccuracyAsWithout leaves them where they are
     scene.settings.accuracy = 1e9;
   }
   void go() { step(scene, state, work); }
@@ -704,6 +705,25 @@ TEST(StepIsland, WhatDeepensADeepHitWithTheGroundIsPressedOut) {
   thrown.go();
   // by the ground, by the block above, by the ground and by the block again: e = 0.5
   EXPECT_NEAR(thrown.state.motion[0].velocity.z(), 3.4375 - 10 * 5e-3, 1e-6);
+}
+
+// A corner that moves on from where it is, step after step, is pressed out to the bit as without
+// an estimate of the error, which finds nothing to cut.
+TEST(StepIsland, ADeepCornerThatMovesOnIsPressedOutWithAccuracyAsWithout) {
+  const auto depth_after = [](auto corner, double accuracy) {
+    corner.scene.settings.accuracy = accuracy;
+    int n_cut = 0;
+    for (int i = 0; i < 60; ++i) {
+      corner.place(corner.depth(), 0.3);
+      n_cut += step(corner.scene, corner.state, corner.work)
+                   .cuts[static_cast<std::size_t>(SubstepCut::inaccurate)];
+    }
+    EXPECT_EQ(n_cut, 0);
+    EXPECT_LT(corner.depth(), 0.065);
+    return corner.depth();
+  };
+  EXPECT_EQ(depth_after(CornerInTable(0.05, 1), 5e-3), depth_after(CornerInTable(0.05, 1), 1e9));
+  EXPECT_EQ(depth_after(CornerInGround(0.05, 1), 5e-3), depth_after(CornerInGround(0.05, 1), 1e9));
 }
 
 TEST(StepIsland, LargeBlockRestsOnSmallOnes) { EXPECT_LT(large_on_small({}).error, 1e-3); }
