@@ -36,9 +36,9 @@ SHARD_LAST ?=
 # reduced(PART,RUNS): a line of the recipe. The names of many runs are more than a line of the shell holds: a list has
 # them.
 shard_list = $(OUT)/shards/$(subst /,_,$1)$(SHARD)-of-$(SHARDS).list
-write_list = $(if $(is_dry_run),,$(file >$1)$(foreach run,$2,$(file >>$1,$(run))))
+write_shard_list = $(if $(is_dry_run),,$(file >$1)$(foreach run,$2,$(file >>$1,$(run))))
 define reduced
-$(call write_list,$(call shard_list,$1),$2)$(Q)sh $(PIPELINES)reduce.sh make $(OUT)/parts/$1$(SHARD)-of-$(SHARDS).h5 $(failed_marks) $(call shard_list,$1) \
+$(call write_shard_list,$(call shard_list,$1),$2)$(Q)sh $(PIPELINES)reduce.sh make $(OUT)/parts/$1$(SHARD)-of-$(SHARDS).h5 $(failed_marks) $(call shard_list,$1) \
   $(BIN)talus-reduce --trn $(ground_of_runs) $(DB)
 
 endef
@@ -65,6 +65,6 @@ shard_registries := $(if $(SHARD)$(notes_runs),,$(wildcard $(OUT)/shards/*.sqlit
 ifneq ($(and $(registry),$(shard_registries)),)
 $(OUT)/shards/merged: $(shard_registries) $(wildcard $(OUT)/shards/*.sqlite-wal)
 	$(Q)$(BIN)talus-runs merge $(filter %.sqlite,$^) -o $(registry) && touch $@
-$(OUT)/maps/reach.tif $(OUT)/runout.gpkg $(OUT)/report.html $(if $(SITE_FENCES),$(OUT)/fence.gpkg) $(if $(SITE_PLACES),$(OUT)/places.json) $(OUT)/hazard.json $(OUT)/trace.gpkg: | $(OUT)/shards/merged
+$(OUT)/maps/reach.tif $(OUT)/runout.gpkg $(OUT)/report.html $(if $(SITE_FENCES),$(OUT)/fence.gpkg) $(if $(SITE_PLACES),$(OUT)/places.json) $(OUT)/hazard.json $(OUT)/trace.gpkg $(if $(SITE_FENCE_SEARCHES),$(OUT)/search/screen.json): | $(OUT)/shards/merged
 %.sqlite-wal: ;
 endif
