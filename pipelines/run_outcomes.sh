@@ -123,7 +123,9 @@ list() {
 case $what in
   there)
     if [ -z "$lists" ]; then
-      results "$@" | in_parts | sed 's,^\(.*/\)*without/,--without &,' | tr '\n' ' '
+      # --without takes all that follows it, so what stands without fences comes last
+      results "$@" | in_parts |
+        awk '/(^|\/)without\// { last = last " --without " $0; next } { print } END { print last }' | tr '\n' ' '
     else
       print_lists
     fi

@@ -27,8 +27,9 @@ both_ways() {
   made slope "$@"
   prints "Nothing to be done for 'all'"
 }
-both_ways RUNS=2 CASES='low high' WEIGHTS='low=3 high=1' CASE_low='--set ground.slope.friction_deg=24' \
+set -- RUNS=2 CASES='low high' WEIGHTS='low=3 high=1' CASE_low='--set ground.slope.friction_deg=24' \
   CASE_high='--set ground.slope.friction_deg=32'
+both_ways "$@"
 parts='out/parts/high_1-of-2.h5 out/parts/high_2-of-2.h5 out/parts/low_1-of-2.h5 out/parts/low_2-of-2.h5'
 for product in maps/reach.tif places.json; do was_made_by slope $product " $parts --trn"; done
 without=$(echo "$parts" | sed 's,out/parts/,--without out/parts/without/,g')
@@ -38,6 +39,12 @@ for class in low high; do
 out/parts/${class}_2-of-2.h5" ] || fail "class $class is made from $(cat slope/out/stages/class_$class.list.in_parts)"
 done
 was_made_by slope hazard.json "--class high=@out/stages/class_high.list.in_parts"
+
+# parts beside runs, with and without fences
+rm slope/out/parts/low_1-of-2.runs slope/out/parts/without/high_2-of-2.runs slope/out/fence.gpkg
+made slope "$@"
+was_made_by slope fence.gpkg " out/parts/low_2-of-2.h5 out/runs/run_low_1.h5 --without out/parts/without/high_1-of-2.h5 "
+same_results slope whole
 
 # Seeds 1 and 3 keep their frames: their runs stand in no part. Run-out takes the part of the other one, too.
 sed -i '/^\[hazard/,$d' slope/site.toml
