@@ -8,7 +8,7 @@ set -eu
 state='%s %.9Y %n'
 
 counts() {
-  [ -f "$1" ] && cut -d' ' -f3 "$1" | xargs stat -c "$state" 2>/dev/null | cmp -s - "$1"
+  [ -f "$1" ] && cut -d' ' -f3- "$1" | xargs -d '\n' stat -c "$state" 2>/dev/null | cmp -s - "$1"
 }
 
 case $1 in
@@ -26,11 +26,11 @@ case $1 in
       rm -f "$kept" "$part"
       exit 0
     fi
-    if counts "$kept" && sed 1d "$kept" | cut -d' ' -f3 | cmp -s - "$there"; then exit 0; fi
+    if counts "$kept" && sed 1d "$kept" | cut -d' ' -f3- | cmp -s - "$there"; then exit 0; fi
     mkdir -p "${part%/*}"
     "$@" --runs-from "$there" -o "$part" --overwrite
     # The list comes last: a part without it is none.
-    { echo "$part"; cat "$there"; } | xargs stat -c "$state" >"$kept.$$"
+    { echo "$part"; cat "$there"; } | xargs -d '\n' stat -c "$state" >"$kept.$$"
     mv "$kept.$$" "$kept"
     ;;
 esac
