@@ -247,6 +247,12 @@ ReportData read_data(Tool& tool, const Site& site, ResultFolder& folder,
   if (folder.has("places.json")) data.places = folder.json("places.json");
   data.hazard = folder.json("hazard.json");
   data.trace = folder.json("trace.json");
+  data.search = folder.json("fence_search.json");
+  if (data.search.is_object() && data.search.contains("searches"))
+    for (const Json& search : data.search["searches"]) {
+      const std::string file = "search/charts/fence_search_" + text_at(search, "/name") + ".svg";
+      data.search_svgs.push_back(folder.has(file) ? folder.text(file) : "");
+    }
   for (const std::string& name : hazard_maps_of(data.hazard))
     if (folder.has("hazard/" + name + ".png"))
       data.hazard_pngs.emplace_back(name, folder.text("hazard/" + name + ".png"));
@@ -331,6 +337,7 @@ void add_case_maps(QgisProject& project, const Options& o, const ResultFolder& f
 // Classes and objects above the maps that they are made of; the class as polygons is what is seen.
 void add_hazard(QgisProject& project, const Options& o, const ResultFolder& folder,
                 const ReportData& data) {
+  add_package(project, o, folder, "fence_search.gpkg", "Fence search", {"candidates", "front"});
   add_package(project, o, folder, "trace.gpkg", "Objects", {"source_cells", "links"});
   if (data.trace.is_object())
     for (const Json& object : data.trace.at("objects")) {
