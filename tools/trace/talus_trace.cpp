@@ -237,8 +237,7 @@ Json conservation(const Traced& traced, const std::vector<SourceLink>& links) {
 
 std::string summary_of(const std::string& name, const TracedObject& o, bool has_rate, int n) {
   const ObjectTrace& t = o.trace;
-  std::string out =
-      name + ": hit in " + std::to_string(t.n_runs_hit) + " of " + counted(n, "run");
+  std::string out = name + ": hit in " + std::to_string(t.n_runs_hit) + " of " + counted(n, "run");
   if (!std::isnan(t.run_share_interval.high))
     out += " (95 %: " + text(t.run_share_interval.low, 3) + " - " +
            text(t.run_share_interval.high, 3) + ")";
