@@ -4,8 +4,20 @@
 # name ends in _boost, _cgal, _gdal, _hdf5, _sqlite or _toml becomes part of talus_NAME_cgal and so on, which
 # alone sees that library. A tool therefore links what it uses and nothing else.
 
+option(TALUS_TOGETHER "Compile several sources of a target as one" ON)
+
 add_library(talus_options INTERFACE)
-target_compile_options(talus_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Werror)
+target_compile_options(talus_options INTERFACE -Wall -Wextra -Wpedantic -Werror)
+if(TALUS_TOGETHER)
+  # A tool takes from a group what it calls, and needs no library that the rest of the group calls.
+  target_compile_options(talus_options INTERFACE -ffunction-sections -fdata-sections)
+  target_link_options(talus_options INTERFACE LINKER:--gc-sections)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)  # which takes a source of a group for a header
+    target_compile_options(talus_options INTERFACE -Wno-subobject-linkage)
+  endif()
+else()  # in a group, a local name may be that of a function of another source
+  target_compile_options(talus_options INTERFACE -Wshadow)
+endif()
 target_include_directories(talus_options INTERFACE ${PROJECT_SOURCE_DIR}/libcore ${PROJECT_SOURCE_DIR})
 
 # The headers that nearly every source includes are compiled once. A source names all that it uses
@@ -22,6 +34,26 @@ function(talus_precompiled target owner)
   else()
     target_precompile_headers(${target} REUSE_FROM ${owner})
   endif()
+endfunction()
+
+# Sources of a target are compiled several at a time, in groups whose names cannot meet: each group
+# reads the headers once. A name added since the last configuration may meet another: configure again.
+find_package(Python3 COMPONENTS Interpreter)
+function(talus_together target)
+  if(NOT TALUS_TOGETHER OR NOT Python3_FOUND)
+    return()
+  endif()
+  get_target_property(sources ${target} SOURCES)
+  list(FILTER sources INCLUDE REGEX "\\.cpp$")
+  list(FILTER sources EXCLUDE REGEX "_avx2\\.cpp$")  # code for wide registers stays apart
+  list(TRANSFORM sources PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/ REGEX "^[^/]")
+  execute_process(
+    COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/cmake/source_groups.py ${PROJECT_SOURCE_DIR}/libcore 8 ${sources}
+    OUTPUT_VARIABLE groups OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+  foreach(source group IN ZIP_LISTS sources groups)
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${group})
+  endforeach()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
 endfunction()
 
 set(TALUS_LIBRARY_boost Boost::headers)
@@ -41,6 +73,7 @@ function(talus_module name)
   if(plain)
     add_library(talus_${name} STATIC ${plain})
     talus_precompiled(talus_${name} talus_base)
+    talus_together(talus_${name})
     set(scope PUBLIC)
   else()
     add_library(talus_${name} INTERFACE)
@@ -54,6 +87,7 @@ function(talus_module name)
     if(own)
       add_library(talus_${name}_${library} STATIC ${own})
       talus_precompiled(talus_${name}_${library} talus_base)
+      talus_together(talus_${name}_${library})
       target_link_libraries(talus_${name}_${library} PUBLIC talus_${name}
                             PRIVATE ${TALUS_LIBRARY_${library}})
       foreach(module ${modules})  # io_hdf5 serves store_hdf5

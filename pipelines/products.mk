@@ -17,24 +17,29 @@ trace_products := trace.gpkg trace.json links.csv
 hazard_patterns := $(foreach suffix,tif png qml tif.aux.xml png.aux.xml,$(addprefix hazard/,event_exceed.$(suffix) event_frequency.$(suffix) \
   passage_frequency.$(suffix) return_period_*.$(suffix) ke_T*.$(suffix) probability.$(suffix) intensity.$(suffix) class.$(suffix) class_certain.$(suffix))) hazard/hazard.gpkg
 trace_patterns := $(foreach suffix,tif png qml tif.aux.xml png.aux.xml,sources/source_*.$(suffix))
+search_products := fence_search.json fence_search.gpkg
+screen_products := search/screen.json search/screen.gpkg
 report_products := report.html site.qgz
 products := $(tin_products) $(trn_products) $(source_products) $(block_products) $(check_products) $(runout_products) $(map_products) \
-  $(fence_products) $(change_products) $(places_products) $(hazard_products) $(trace_products) $(report_products)
+  $(fence_products) $(change_products) $(places_products) $(hazard_products) $(trace_products) $(search_products) $(screen_products) $(report_products)
 
 # As patterns of the shell: a style that comes with its raster, runs by seed and case with their checkpoints, the registry, what a stage
 # reads, side files that GDAL and QGIS write beside a raster, and hidden names of tools that were killed.
-stages_made := tin trn blocks rock check run runs dda runout maps fence place places hazard trace report case_*
+stages_made := tin trn blocks rock check run runs dda runout maps fence place places hazard trace search verify report case_*
 case_maps := $(foreach suffix,tif png qml tif.aux.xml png.aux.xml,$(map_names:%=maps/*/%.$(suffix)))
 made_patterns := thickness.qml rock/blocks_*[0-9].h5 rock/bed_*[0-9].tif rock/bed_*[0-9].tif.aux.xml runs/run_*[0-9].h5 runs/run_*[0-9].h5.part runs/run_*[0-9].h5.part.new \
   without/run_*[0-9].h5 without/run_*[0-9].h5.part without/run_*[0-9].h5.part.new \
   runs.sqlite runs.sqlite-wal runs.sqlite-shm runs.sqlite.late-* data.ok \
-  $(addsuffix .aux.xml,$(filter %.tif %.png,$(products))) $(hazard_patterns) $(trace_patterns) $(case_maps) fences/*/fence.json fences/*/fence.gpkg stages/class_*.list stages/class_*.list.there \
+  $(addsuffix .aux.xml,$(filter %.tif %.png,$(products))) $(hazard_patterns) $(trace_patterns) $(case_maps) fences/*/fence.json fences/*/fence.gpkg stages/class_*.list stages/class_*.list.there stages/class_*.list.in_parts \
+  search/*-[1-9].toml search/*-10.toml search/*.list search/*.list.there search/new/*.toml search/charts/fence_search_*.svg \
+  verify/*-*/run_*[0-9].h5 verify/*-*/run_*[0-9].h5.part verify/*-*/run_*[0-9].h5.part.new stages/failed/verify_*_run_*[0-9] \
   $(foreach ending,txt flags files,$(stages_made:%=stages/%.$(ending))) \
-  stages/runs.list stages/without.list stages/runs.list.there stages/without.list.there \
+  stages/runs.list stages/without.list stages/runs.list.there stages/without.list.there stages/runs.list.in_parts stages/without.list.in_parts \
+  parts/*-of-*.h5 parts/*-of-*.runs parts/without/*-of-*.h5 parts/without/*-of-*.runs shards/*-of-*.list shards/*-of-*.list.there \
   shards/*-of-*.sqlite shards/*-of-*.sqlite-wal shards/*-of-*.sqlite-shm shards/*-of-*.sqlite.late-* \
   shards/merged shards/jobs shards/log/*_*.txt stages/.progress* \
   stages/.digests stages/failed/run_*[0-9] stages/failed/without_run_*[0-9] \
-  $(addsuffix .*.part-*-*,$(sort $(dir $(products))) maps/*/ fences/*/ runs/ without/ rock/ stages/ hazard/ sources/)
+  $(addsuffix .*.part-*-*,$(sort $(dir $(products))) maps/*/ fences/*/ runs/ without/ parts/ parts/without/ rock/ stages/ hazard/ sources/ search/new/ search/charts/)
 # The mark of a folder that the pipeline has written into; it goes last.
 mark_of_out := stages/site.mk
-made_folders := maps/* maps fences/* fences hazard sources runs without rock shards/log shards stages/failed stages
+made_folders := maps/* maps fences/* fences hazard sources search/new search/charts search verify/* verify runs without parts/without parts rock shards/log shards stages/failed stages

@@ -82,6 +82,7 @@ PlanFacts plan_facts(const Site& site, const BlockSet& blocks, const Trn& trn,
         std::max({facts.largest_cohesion, joints.cohesion_pa, joints.tension_pa});
   }
   facts.n_fences = static_cast<int>(site.fences.size());
+  facts.n_fence_searches = static_cast<int>(site.fence_searches.size());
   for (const FenceSettings& fence : site.fences)
     facts.n_standing += fence.active && site.solver.law == "talus";
   facts.breaks = site.fragmentation.enabled && site.solver.law == "talus";
@@ -151,8 +152,13 @@ ScenePlan make_plan(const PlanFacts& facts, bool full) {
   plan.passages = add(
       kept_by_full(full, {"passages", facts.passages, "one row a block and cell, for maps",
                           facts.passages ? "[output] passages" : "[output] passages is false"}));
-  plan.crossings = add({"crossings", facts.n_fences > 0, "one row a block and line of [fence.*]",
-                        counted(facts.n_fences, "fence")});
+  const std::string searches =
+      facts.n_fence_searches == 0
+          ? ""
+          : " and candidates of [fence_search.*]: " + std::to_string(facts.n_fence_searches);
+  plan.crossings =
+      add({"crossings", facts.n_fences + facts.n_fence_searches > 0,
+           "one row a block and line of [fence.*]", counted(facts.n_fences, "fence") + searches});
   add({"standing fences", facts.n_standing > 0,
        "panels as fixed bodies where a fence is active, law talus",
        counted(facts.n_standing, "fence")});

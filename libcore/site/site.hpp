@@ -272,6 +272,28 @@ struct ObjectSettings {
   std::string kind;             ///< "house", "road": printed
 };
 
+/// [fence_search.NAME]: where a fence would protect an object best.
+struct FenceSearchSettings {
+  std::string name;
+  int line = 0;
+  std::string protect;                     ///< name of an [object.*]
+  std::vector<double> between_m{10, 150};  ///< nearest and farthest from the object, in plan
+  double step_m = 5;                       ///< from one candidate line to the next
+  std::string style = "contour";           ///< or "offset"
+  std::int64_t max_candidates = 60;
+  double share = 0.95;                        ///< of the hits on the object, to be stopped
+  std::vector<double> heights_m{3, 4, 5, 6};  ///< ascending
+  std::vector<double> classes_kj;             ///< ascending; not given: share/codes
+  std::vector<double> prices_per_m;           ///< one a class; not given: relative ones
+  double price_per_m2 = not_given;            ///< of a metre of length and of height, on top
+  std::string code = "uni";                   ///< uni, onr or a file
+  double post_spacing_m = 10;
+  std::int64_t min_fields = 3, end_fields = 1;
+  double max_length_m = not_given;
+  double max_line_slope_deg = 20, max_ground_slope_deg = 50;
+  bool two_fences = true;
+};
+
 /// [uncertainty]: how the quantities of [uncertainty.NAME] are drawn.
 struct UncertaintySettings {
   std::string sampling = "sobol";
@@ -348,6 +370,7 @@ struct Site {
   std::vector<QuantitySettings> quantities;
   std::vector<PlaceSettings> places;
   std::vector<ObjectSettings> objects;
+  std::vector<FenceSearchSettings> fence_searches;
   HazardSettings hazard;
   std::vector<HazardClassSettings> hazard_classes;
   std::map<std::string, ValueSource> sources;  ///< "joints.J1.dip_deg" -> where it came from

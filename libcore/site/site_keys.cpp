@@ -314,6 +314,29 @@ template <> const std::vector<SiteKey<ObjectSettings>>& keys_of() {
       {"kind", &S::kind, "what it is, e.g. house, road: printed"}};
   return table;
 }
+template <> const std::vector<SiteKey<FenceSearchSettings>>& keys_of() {
+  using S = FenceSearchSettings;
+  static const std::vector<SiteKey<S>> table = {
+      {"protect", &S::protect, "the [object.*] that the fence is for"},
+      {"between_m", &S::between_m, "nearest and farthest distance of the fence from the object, in plan", not_negative, "", "", 2, 2},
+      {"step_m", &S::step_m, "from one candidate line to the next: in plan (offset), in height (contour)", positive},
+      {"style", &S::style, "candidate lines: contours of the ground, or lines of equal distance to the object", any, "contour|offset"},
+      {"max_candidates", &S::max_candidates, "more lines than this: the step grows until they are no more", {1, 500}},
+      {"share", &S::share, "of the hits on the object, to be stopped", {0, 1, true, false}},
+      {"heights_m", &S::heights_m, "heights of fences that can be built, ascending", positive, "", "", 1},
+      {"classes_kj", &S::classes_kj, "energies that a field can take, ascending; those of share/codes/barrier_classes.csv when not given", positive, "", "", 1},
+      {"prices_per_m", &S::prices_per_m, "price of a metre of fence, one a class; 1 + 0.2 k for class k from 0 when not given", positive, "", "", 1},
+      {"price_per_m2", &S::price_per_m2, "on top of it, for a metre of fence and of height; 0 with prices_per_m, 0.1 without when not given", not_negative},
+      {"code", &S::code, "design code: uni, onr, or a data file"},
+      {"post_spacing_m", &S::post_spacing_m, "distance of posts", positive},
+      {"min_fields", &S::min_fields, "fewest fields of a fence", {1, 100}},
+      {"end_fields", &S::end_fields, "fields added at each end, beyond what is to be stopped", {0, 10}},
+      {"max_length_m", &S::max_length_m, "longest fence; no limit when not given", positive},
+      {"max_line_slope_deg", &S::max_line_slope_deg, "steepest slope along a fence", {0, 90, true, false}},
+      {"max_ground_slope_deg", &S::max_ground_slope_deg, "steepest ground that a fence can stand on", {0, 90, true, false}},
+      {"two_fences", &S::two_fences, "also look for pairs of fences: two rows, or side by side"}};
+  return table;
+}
 template <> const std::vector<SiteKey<HazardSettings>>& keys_of() {
   using S = HazardSettings;
   static const std::vector<SiteKey<S>> table = {

@@ -63,6 +63,7 @@ template <> const std::vector<SiteKey<UncertaintySettings>>& keys_of();
 template <> const std::vector<SiteKey<QuantitySettings>>& keys_of();
 template <> const std::vector<SiteKey<PlaceSettings>>& keys_of();
 template <> const std::vector<SiteKey<ObjectSettings>>& keys_of();
+template <> const std::vector<SiteKey<FenceSearchSettings>>& keys_of();
 template <> const std::vector<SiteKey<HazardSettings>>& keys_of();
 template <> const std::vector<SiteKey<HazardClassSettings>>& keys_of();
 // clang-format on
@@ -89,6 +90,7 @@ void for_each_group(SiteType& site, Visit&& visit) {
   visit("uncertainty", site.quantities);
   visit("place", site.places);
   visit("object", site.objects);
+  visit("fence_search", site.fence_searches);
   visit("hazard", site.hazard);
   visit("hazard.class", site.hazard_classes);
 }

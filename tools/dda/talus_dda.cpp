@@ -280,6 +280,7 @@ int main(int argc, char** argv) {
   Options o;
   Tool tool("talus-dda", "Moves blocks by three-dimensional discontinuous deformation analysis.");
   SiteOptions site_options(tool, DrawScope::all);
+  site_options.take_additions(tool);
   declare(tool, site_options, o);
   bool is_written = false;
   const int code = tool.run(argc, argv, [&] {

@@ -1,12 +1,8 @@
 #include "tools/fence/inputs.hpp"
 
 #include <algorithm>
-#include <filesystem>
 
-#include "base/csv.hpp"
-#include "base/sha256.hpp"
 #include "post/reduce.hpp"
-#include "tools/frame/shipped_data.hpp"
 #include "tools/frame/site_places.hpp"
 
 namespace talus {
@@ -55,27 +51,6 @@ void add_speeds(GroundSums& sums, const PartInput& part) {
 }
 
 }  // namespace
-
-FenceCode read_fence_code(const std::string& name) {
-  const bool shipped = name == "uni" || name == "onr";
-  const std::string file = name == "uni" ? "codes/uni_11211-4.csv" : "codes/onr_24810.csv";
-  FenceCode out;
-  out.classes = barrier_classes(
-      parse_csv(shipped_data("codes/barrier_classes.csv"), "share/codes/barrier_classes.csv"));
-  if (!shipped && !std::filesystem::exists(name))
-    throw InputError({"", 0, "--code"}, "is \"" + name + "\", which is no file",
-                     "give uni, onr, or a data file like those of share/codes/");
-  if (shipped) {
-    Sha256 hash;
-    hash.add(shipped_data(file).data(), shipped_data(file).size());
-    out.code = design_code(parse_csv(shipped_data(file), "share/" + file));
-    out.sha256 = hash.hex();
-  } else {
-    out.code = design_code(read_csv(name));
-    out.sha256 = sha256_of_file(name);
-  }
-  return out;
-}
 
 std::vector<FenceCase> fence_cases(Tool& tool, const Site& site, const Trn& trn) {
   std::vector<FenceCase> cases;

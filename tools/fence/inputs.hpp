@@ -1,25 +1,16 @@
 // tools/fence/inputs.hpp
-// What talus-fence reads: design codes, the fences of the site file, and the runs at them.
+// What talus-fence reads: the fences of the site file, and the runs at them.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "post/fence/fence_runs.hpp"
+#include "tools/frame/fence_code.hpp"
 #include "tools/frame/run_inputs.hpp"
 #include "tools/frame/tool.hpp"
 
 namespace talus {
-
-/// A design code and the barrier classes, as they were read.
-struct FenceCode {
-  DesignCode code;
-  std::string sha256;  ///< of the code's file
-  std::vector<BarrierClass> classes;
-};
-/// `name`: uni, onr, or a data file. Throws InputError when it is none of them, or as
-/// design_code().
-[[nodiscard]] FenceCode read_fence_code(const std::string& name);
 
 /// Every line of every [fence.*], on the ground. Throws InputError when there is none, or as
 /// fence_lines().

@@ -150,6 +150,7 @@ int main(int argc, char** argv) {
   Options options;
   Tool tool("talus-fence", "What fences would meet, what they hold and what they change.");
   SiteOptions site(tool);
+  site.take_additions(tool);
   RunInputs runs(tool);
   declare(tool, options);
   return tool.run(argc, argv, [&] { run_tool(tool, options, site, runs); });

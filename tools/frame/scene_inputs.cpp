@@ -16,6 +16,7 @@
 #include "terrain/trn_digest.hpp"
 #include "tools/frame/forest_inputs.hpp"
 #include "tools/frame/ground_class_inputs.hpp"
+#include "tools/frame/search_lines.hpp"
 #include "tools/frame/site_places.hpp"
 #include "tools/frame/vector_inputs.hpp"
 
@@ -241,6 +242,9 @@ DdaInputs read_dda_inputs(Tool& tool, const Site& site, const DdaFiles& files) {
   for (const FenceSettings& fence : site.fences) add_lines(tool, site, fence, inputs, lines);
   check_fences_apart(tool, site, parts.trn, lines);
   inputs.objects = site_objects(tool, site, parts.trn);
+  for (const FenceSearchSettings& search : site.fence_searches)
+    for (RecordLine& line : search_candidates(tool, site, parts.trn, search, inputs.objects).lines)
+      inputs.lines.push_back(std::move(line));
   return inputs;
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "base/read_file.hpp"
 #include "site/site.hpp"
 #include "site/soils.hpp"
 #include "site/uncertainty.hpp"
@@ -54,10 +55,19 @@ class SiteOptions {
         help + " [" + key + "]");
   }
 
+  /// Declares --add: files with further sections, as if they stood at the end of the site file.
+  void take_additions(Tool& tool) {
+    tool.app()
+        .add_option("--add", additions_,
+                    "further sections, e.g. a fence of talus-fence-search (TOML)")
+        ->allow_extra_args(false);
+    names_.emplace_back("add");
+  }
+
   /// Throws InputError (read_site, check_uncertainty, apply_draws), UsageError (--set).
   const Site& load() {
     if (site_) return *site_;
-    Site site = read_site(file_);
+    Site site = additions_.empty() ? read_site(file_) : parse_site(with_additions(), file_);
     read_site_layers(tool_, site);
     for (const std::string& word : overrides_) {
       const std::size_t equals = word.find('=');
@@ -81,9 +91,18 @@ class SiteOptions {
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
 
  private:
+  [[nodiscard]] std::string with_additions() const {
+    std::string text = read_file(file_, "give the path of a site.toml");
+    for (const std::string& file : additions_) {
+      tool_.read_also("add", file);
+      text += "\n" + read_file(file, "it is named by --add");
+    }
+    return text;
+  }
+
   Tool& tool_;
   std::string file_;
-  std::vector<std::string> overrides_, names_{"site", "set"};
+  std::vector<std::string> overrides_, additions_, names_{"site", "set"};
   std::unique_ptr<Site> site_;
   std::optional<DrawScope> draws_;
 };

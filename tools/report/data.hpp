@@ -22,9 +22,10 @@ struct ReportData {
   explicit ReportData(const Site& of_site) : site(of_site) {}
 
   const Site& site;
-  Json tin, trn, blocks, runout, fence, places, hazard, trace;  ///< reports of the tools
+  Json tin, trn, blocks, runout, fence, places, hazard, trace, search;  ///< reports of tools
   Trn terrain, bed;  ///< before the slide; what the blocks slide on
   std::string hillshade_png, mobility_svg, stereonet_svg, sizes_svg, curves_csv, change_png;
+  std::vector<std::string> search_svgs;  ///< of each fence search
   std::vector<MapPicture> maps;
   CasePictures case_maps;                                        ///< of several cases
   std::vector<std::pair<std::string, Json>> case_fences;         ///< the same, as `fence`

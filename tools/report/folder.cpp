@@ -179,6 +179,8 @@ void leave_out_hazard(ResultFolder& folder, const Site& site, const std::string&
   check("hazard.json", {"hazard/hazard.gpkg"}, true, "", {"hazard"}, "[hazard*]");
   check("trace.json", {"trace.gpkg"}, !site.objects.empty(), "objects", {"object", "hazard"},
         "[object.*] or [hazard*]");
+  check("fence_search.json", {"fence_search.gpkg"}, !site.fence_searches.empty(), "fence searches",
+        {"object", "hazard", "fence_search"}, "[object.*], [hazard*] or [fence_search.*]");
 }
 
 void leave_out_places(ResultFolder& folder, const Site& site, const std::string& run_set) {

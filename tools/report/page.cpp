@@ -13,6 +13,7 @@
 #include "tools/report/objects.hpp"
 #include "tools/report/result.hpp"
 #include "tools/report/runout.hpp"
+#include "tools/report/search.hpp"
 #include "tools/report/trees.hpp"
 #include "tools/report/uncertainty.hpp"
 #include "tools/report/viewer.hpp"
@@ -39,6 +40,7 @@ std::string page_head(const ReportData& data, const std::string& style) {
                                   {"runout", "Run-out"},
                                   {"hazard", "Hazard classes"},
                                   {"objects", "Objects"},
+                                  {"search", "Where a fence belongs"},
                                   {"fences", "Fences"},
                                   {"trees", "Trees"},
                                   {"uncertainty", "Uncertainty"},
@@ -51,6 +53,7 @@ std::string page_head(const ReportData& data, const std::string& style) {
     if (id == std::string("uncertainty") && uncertainty_section(data).empty()) continue;
     if (id == std::string("hazard") && hazard_section(data).empty()) continue;
     if (id == std::string("objects") && object_section(data).empty()) continue;
+    if (id == std::string("search") && search_section(data).empty()) continue;
     if (id == std::string("fences") && fence_section(data).empty()) continue;
     out += std::string("<a href=\"#") + id + "\">" + title + "</a>";
   }
@@ -92,7 +95,8 @@ std::string report_page(const ReportData& data, const std::string& viewer,
   std::string main;
   for (const std::string& section : {map_section(data), viewer_section(data), runout_section(data)})
     main += html_marked(section, xml_escaped(remark));
-  for (const std::string& section : {hazard_section(data), object_section(data)})
+  for (const std::string& section :
+       {hazard_section(data), object_section(data), search_section(data)})
     if (!section.empty()) main += html_marked(section, xml_escaped(remark));
   main += html_marked(fence_section(data), xml_escaped(fence_remark));
   if (const std::string trees = tree_section(data); !trees.empty())

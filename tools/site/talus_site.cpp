@@ -44,8 +44,12 @@ bool names_a_file(const std::string& section, const std::string& key) {
 std::string file_named(const Site& site, const EffectiveValue& value) {
   const bool is_recipe = value.section == "hazard" && value.key == "recipe" &&
                          unquoted(value.value).ends_with(".toml");
-  if (value.value.empty() || !(is_recipe || names_a_file(value.section, value.key))) return "";
-  const std::string file = file_of(resolved(site, unquoted(value.value)));
+  const std::string word = unquoted(value.value);
+  const bool is_code = value.section.starts_with("fence_search.") && value.key == "code" &&
+                       word != "uni" && word != "onr";
+  if (value.value.empty() || !(is_recipe || is_code || names_a_file(value.section, value.key)))
+    return "";
+  const std::string file = file_of(resolved(site, word));
   return is_virtual(file) ? "" : file;
 }
 
@@ -280,10 +284,13 @@ std::string make_variables(const Site& site) {
   line("SITE_ROCK_MASSES",
        site.uncertainty.rock_masses == 0 ? "" : std::to_string(site.uncertainty.rock_masses));
   line("SITE_MAX_FAILED_SHARE", text(site.uncertainty.max_failed_share));
+  line("SITE_FRAMES", site.output.frames ? "yes" : "");
+  line("SITE_WHOLE_SHARE", text(site.output.whole_share));
   line("SITE_PLACES", site.places.empty() ? "" : "yes");
   line("SITE_FENCES_STAND", any_active ? "yes" : "");
   line("SITE_HAZARD_CLASSES", words_of("hazard.class", site.hazard_classes));
   line("SITE_OBJECTS", words_of("object", site.objects));
+  line("SITE_FENCE_SEARCHES", words_of("fence_search", site.fence_searches));
   return out;
 }
 

@@ -51,7 +51,28 @@ std::vector<FenceArrival> arrivals_on_line(const FenceRunGroup& group, std::size
   return out;
 }
 
-// The design block: the 95th percentile of the blocks that arrive, the largest of too few.
+// What is given, and what the blocks say of the rest.
+DesignInput design_input(const DesignInput& given, const FenceRunGroup& group,
+                         const std::vector<FenceArrival>& arrivals) {
+  DesignInput input = given;
+  for (const FenceRun& run : group.runs)
+    input.mean_block_size += run.run_weight * run.block_size / weight_of_runs(group);
+  input.density = group.runs[0].density;
+  if (std::isnan(input.block_volume))
+    set_design_block(input, arrivals);
+  else
+    input.block_source = "given (--design-block-m3)";
+  return input;
+}
+
+DesignBasis basis_of(const FenceRuns& runs, std::size_t index) {
+  if (!stood(runs.with, index)) return DesignBasis::open_line;
+  return n_runs(runs.without) > 0 && !stood(runs.without, index) ? DesignBasis::without_fence
+                                                                 : DesignBasis::first_touches;
+}
+
+}  // namespace
+
 void set_design_block(DesignInput& input, const std::vector<FenceArrival>& arrivals) {
   constexpr double level = 0.95;
   std::vector<WeightedValue> volumes;
@@ -74,28 +95,6 @@ void set_design_block(DesignInput& input, const std::vector<FenceArrival>& arriv
   input.block_source = "largest of the " + n + arrive + "; the 95th percentile needs " +
                        std::to_string(smallest_sample(level));
 }
-
-// What is given, and what the blocks say of the rest.
-DesignInput design_input(const DesignInput& given, const FenceRunGroup& group,
-                         const std::vector<FenceArrival>& arrivals) {
-  DesignInput input = given;
-  for (const FenceRun& run : group.runs)
-    input.mean_block_size += run.run_weight * run.block_size / weight_of_runs(group);
-  input.density = group.runs[0].density;
-  if (std::isnan(input.block_volume))
-    set_design_block(input, arrivals);
-  else
-    input.block_source = "given (--design-block-m3)";
-  return input;
-}
-
-DesignBasis basis_of(const FenceRuns& runs, std::size_t index) {
-  if (!stood(runs.with, index)) return DesignBasis::open_line;
-  return n_runs(runs.without) > 0 && !stood(runs.without, index) ? DesignBasis::without_fence
-                                                                 : DesignBasis::first_touches;
-}
-
-}  // namespace
 
 FenceResult fence_result(const FenceCase& fence_case, std::size_t index, const FenceRuns& runs,
                          const DesignCode& code, const std::vector<BarrierClass>& classes,

@@ -47,6 +47,9 @@ struct FenceResult {
   double kept = 0;      ///< from passing, a run, by the comparison, as it lies [m3]; NaN: none
   int side = 0;         ///< where blocks come from: +1 left of the line, -1 right
 };
+/// The design block: the 95th percentile of the blocks that arrive, the largest of too few.
+void set_design_block(DesignInput& input, const std::vector<FenceArrival>& arrivals);
+
 /// Of fence number `index` of the site.
 [[nodiscard]] FenceResult fence_result(const FenceCase& fence, std::size_t index,
                                        const FenceRuns& runs, const DesignCode& code,

@@ -24,6 +24,7 @@ needs talus-runout gdal hdf5_serial proj sqlite3 tomlplusplus
 needs talus-fence gdal hdf5_serial proj sqlite3 tomlplusplus
 needs talus-hazard gdal hdf5_serial proj sqlite3 tomlplusplus
 needs talus-trace gdal hdf5_serial proj sqlite3 tomlplusplus
+needs talus-fence-search gdal hdf5_serial proj sqlite3 tomlplusplus
 needs talus-report gdal hdf5_serial proj sqlite3 tomlplusplus
 needs talus-dda gdal hdf5_serial proj sqlite3 tomlplusplus
 needs talus-verify gdal hdf5_serial proj sqlite3 tomlplusplus

@@ -1,0 +1,55 @@
+# Searches that cannot be made are refused with their section and a way out; so are runs that do not fit.
+. "$source_dir/tests/tools/talus-fence-search/common.sh"
+make_search
+cp site.toml good.toml
+runs run 1 2
+# refused SED WORDS WAY_OUT: of the search, and of the run that would watch its lines
+refused() {
+  sed "$1" good.toml >site.toml
+  expect 1 search run_1.h5 -o s.gpkg
+  says "$2"
+  says "$3"
+  expect 1 run_dda -o bad.h5
+  says "$2"
+  nothing_left s.gpkg bad.h5
+}
+refused 's/^between_m.*/between_m = [60, 20]/' 'there is no room between these' 'the nearest distance from the object first'
+refused 's/^between_m.*/between_m = [300, 400]/' 'has no room: no known ground 300 to 400 m from object house' 'make the terrain larger'
+refused 's/^max_ground.*/max_ground_slope_deg = 20/' 'has no room: no line' 'raise max_line_slope_deg or max_ground_slope_deg'
+refused 's/^max_ground.*/min_fields = 40/' 'is 400 m long' 'lower min_fields'
+refused 's/^protect.*/protect = "hause"/' 'protects "hause", which is no object' 'did you mean house?'
+refused '/^protect/d' 'does not say what it protects' 'protect names an [object.*]: house'
+refused '/^\[object/,/^polygon/d' 'has no object to protect' 'add [object.NAME]'
+refused 's/^max_ground.*/heights_m = [4, 3]/' 'heights_m does not ascend' 'the least first'
+refused 's/^max_ground.*/classes_kj = [100, 500]\nprices_per_m = [1]/' 'has 1 price for 2 classes' 'one price for each'
+sed '/^\[fence_search/,$d' good.toml >site.toml
+expect 1 search run_1.h5 -o s.gpkg
+says 'has no section [fence_search.*]'
+
+# runs that did not watch these lines, or watched others
+cp site.toml without.toml
+expect 0 talus-dda without.toml --trn slope.tif --blocks blocks.h5 --no-db --independent --duration-s 1 -o blind.h5
+cp good.toml site.toml
+expect 1 search blind.h5 -o s.gpkg
+says 'did not watch the candidate lines of fence_search.house'
+says 'run talus-dda again'
+sed -i 's/^between_m.*/between_m = [12, 40]/' site.toml
+expect 1 search run_1.h5 -o s.gpkg
+says 'in another place than it has now'
+cp good.toml site.toml
+expect 1 search run_1.h5 -o s.gpkg --search hause
+says 'did you mean house?'
+
+# verifying runs: of the search itself, without the fence, of no proposal
+expect 0 search run_1.h5 run_2.h5 -o s.gpkg --proposals p
+says 'too few'
+runs other 11 11
+expect 1 search run_1.h5 run_2.h5 -o v.gpkg --verified house-1=run_1.h5
+says 'verify with other seeds'
+expect 1 search run_1.h5 run_2.h5 -o v.gpkg --verified house-1=other_11.h5
+says 'did not have fence house-1 standing where it is now'
+expect 1 search run_1.h5 run_2.h5 -o v.gpkg --verified house-9=other_11.h5
+says 'which is no proposal of these runs'
+expect 2 search run_1.h5 -o v.gpkg --verified house-1
+says 'expected NAME=FILE or NAME=@LIST'
+nothing_left v.gpkg

@@ -1,0 +1,281 @@
+#include "tools/fence-search/inputs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "base/text.hpp"
+#include "post/trace/trace.hpp"
+#include "tools/frame/class_runs.hpp"
+#include "tools/frame/fence_code.hpp"
+#include "tools/frame/site_places.hpp"
+
+namespace talus {
+namespace {
+
+constexpr double same_place = 0.01;  // of posts, in plan [m]
+
+// With passages: their grid is what runs that are read later must agree with.
+const RunParts wanted{.checkpoint = false,
+                      .only_last_frame = true,
+                      .only_faults = true,
+                      .words = false,
+                      .trees = false};
+
+SearchSettings what_can_be_built(const Site& site, const FenceSearchSettings& search,
+                                 const FenceCode& code) {
+  SearchSettings what;
+  what.share = search.share;
+  what.heights = search.heights_m;
+  for (const double kj : search.classes_kj) what.capacities.push_back(kj * 1e3);
+  if (search.classes_kj.empty())
+    for (const BarrierClass& c : code.classes) what.capacities.push_back(c.mel);
+  what.prices_per_m = search.prices_per_m;
+  if (search.prices_per_m.empty())
+    for (std::size_t k = 0; k < what.capacities.size(); ++k)
+      what.prices_per_m.push_back(1 + 0.2 * static_cast<double>(k));
+  if (what.prices_per_m.size() != what.capacities.size())
+    throw InputError(where_of(site, "fence_search." + search.name + ".prices_per_m"),
+                     "has " +
+                         counted(static_cast<std::int64_t>(what.prices_per_m.size()), "price") +
+                         " for the " + std::to_string(what.capacities.size()) +
+                         " classes of share/codes/barrier_classes.csv",
+                     "give one for each class, or give classes_kj as well");
+  what.price_per_m2 = !std::isnan(search.price_per_m2) ? search.price_per_m2
+                      : search.prices_per_m.empty()    ? 0.1
+                                                       : 0;
+  what.spacing = search.post_spacing_m;
+  what.min_fields = static_cast<int>(search.min_fields);
+  what.end_fields = static_cast<int>(search.end_fields);
+  if (!std::isnan(search.max_length_m)) what.max_length = search.max_length_m;
+  what.two_fences = search.two_fences;
+  return what;
+}
+
+bool same_in_plan(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Vec3& p, const Vec3& q) {
+    return (p - q).head<2>().norm() <= same_place;
+  });
+}
+
+int line_named(const RunFile& run, const std::string& name) {
+  for (std::size_t l = 0; l < run.lines.size(); ++l)
+    if (run.lines[l].name == name) return static_cast<int>(l);
+  return -1;
+}
+
+// The line of a run that is a candidate of the search as it is now.
+int candidate_of(const RunFile& run, const SearchLine& line, const std::string& file,
+                 const std::string& search) {
+  const int at = line_named(run, line.name);
+  if (at < 0)
+    throw InputError({file}, "did not watch the candidate lines of fence_search." + search,
+                     "run talus-dda again with the site file as it is");
+  if (!same_in_plan(run.lines[at].points, line.fence.post))
+    throw InputError({file}, "watched line " + line.name + " in another place than it has now",
+                     "the terrain or [fence_search." + search +
+                         "] has changed since: run talus-dda again; where each rock mass has a "
+                         "ground of its own, style = \"offset\" keeps lines where they are");
+  return at;
+}
+
+int object_in(const RunFile& run, const RecordObject& object, const std::string& file) {
+  const int at = watched_as(run, object);
+  if (at >= 0) return at;
+  throw InputError({file}, "did not watch object " + object.name,
+                   "run talus-dda again with the site file as it is");
+}
+
+// When each block first touches the object; infinite: never.
+std::vector<double> touches_of(const RunFile& run, int object) {
+  std::vector<double> out(static_cast<std::size_t>(n_blocks(run)),
+                          std::numeric_limits<double>::infinity());
+  for (const ObjectHit& hit : run.object_hits)
+    if (hit.object == object) out[hit.block] = std::min(out[hit.block], hit.time);
+  return out;
+}
+
+void add_run(SearchCase& of, const RunFile& run, int index, const std::string& file) {
+  const std::vector<double> touched = touches_of(run, object_in(run, of.object, file));
+  SearchRuns& runs = of.runs;
+  runs.weight.push_back(0);
+  runs.n_hits.push_back(0);
+  for (int b = 0; b < n_blocks(run); ++b) {
+    if (!std::isfinite(touched[b])) continue;
+    runs.weight.back() += weight_of(run, b);
+    ++runs.n_hits.back();
+  }
+  for (SearchLine& line : of.lines) {
+    const int at = candidate_of(run, line, file, of.settings->name);
+    Fence fence = line.fence;
+    fence.post = run.lines[at].points;  // heights of the ground that the run had
+    for (const FenceArrival& arrival : line_crossings(run, at, fence, index)) {
+      if (arrival.beside) continue;
+      const double touch = touched[arrival.block];
+      line.hits.push_back(
+          {arrival, runs.n_blocks + arrival.block, std::isfinite(touch) && arrival.time < touch});
+    }
+  }
+  runs.n_blocks += n_blocks(run);
+  ++runs.n_runs;
+  of.on_object.push_back(touched);
+}
+
+struct Rock {
+  double mass = 0, volume = 0, sizes = 0;
+  std::int64_t n = 0;
+};
+
+void set_sides(std::vector<SearchLine>& lines, const Trn& trn) {
+  for (SearchLine& line : lines) {
+    int to_left = 0;
+    for (const SearchHit& hit : line.hits) to_left += hit.arrival.direction;
+    Fence of_some_height = line.fence;
+    of_some_height.height = 5;
+    line.side = to_left != 0 ? (to_left > 0 ? -1 : 1) : uphill_side(of_some_height, trn);
+    sort_hits(line);
+  }
+}
+
+}  // namespace
+
+std::vector<SearchCase> search_cases(Tool& tool, const Site& site, const std::string& only,
+                                     const Trn& trn) {
+  if (site.fence_searches.empty())
+    throw InputError({site.file}, "has no section [fence_search.*]",
+                     "add one that names the object to protect: [fence_search.NAME] protect = "
+                     "\"OBJECT\"");
+  const std::vector<RecordObject> objects = site_objects(tool, site, trn);
+  std::vector<SearchCase> cases;
+  std::vector<std::string> names;
+  for (const FenceSearchSettings& search : site.fence_searches) {
+    names.push_back(search.name);
+    if (!only.empty() && search.name != only) continue;
+    SearchCase of;
+    of.settings = &search;
+    const SearchCandidates candidates = search_candidates(tool, site, trn, search, objects);
+    of.object = objects[protected_object(site, search)];
+    const bool is_shipped = search.code == "uni" || search.code == "onr";
+    const std::string code_file = is_shipped ? search.code : resolved(site, search.code);
+    if (!is_shipped) tool.read_also("code." + search.name, code_file);
+    const FenceCode code = read_fence_code(code_file);
+    of.code = code.code;
+    of.code_sha256 = code.sha256;
+    of.what = what_can_be_built(site, search, code);
+    of.step = candidates.step;
+    for (const RecordLine& line : candidates.lines) {
+      SearchLine made;
+      made.name = line.name;
+      made.fence.name = line.name;
+      made.fence.post = line.points;
+      made.fence.chainage = line.chainage;
+      of.lines.push_back(std::move(made));
+    }
+    cases.push_back(std::move(of));
+  }
+  if (cases.empty()) {
+    const std::string nearest = nearest_name(only, names);
+    throw InputError(
+        {site.file}, "has no [fence_search." + only + "]",
+        nearest.empty() ? "give the name of one that it has" : "did you mean " + nearest + "?");
+  }
+  return cases;
+}
+
+void read_search_runs(Tool& tool, RunInputs& runs, const Site& site,
+                      const std::vector<std::string>& of_class, std::vector<SearchCase>& cases) {
+  const std::vector<HazardClass> classes = hazard_classes(site);
+  Rock rock;
+  std::vector<double> released;
+  std::vector<HazardRuns> rates;
+  bool single = true;
+  for (const ClassFiles& files : class_files(tool, runs, of_class, classes, site.file)) {
+    HazardRuns of;
+    if (!classes.empty()) of.kind = classes[rates.size()];
+    of.first = static_cast<int>(runs.members.size());
+    runs.read(files.files, "class." + files.name, wanted, [&](RunFile& run, int index) {
+      const RunMember& member = runs.members[static_cast<std::size_t>(index)];
+      for (SearchCase& search : cases) add_run(search, run, index, where_of(member));
+      for (int b = 0; b < n_blocks(run); ++b) {
+        rock.mass += run.blocks.mass[b];
+        rock.volume += run.blocks.volume[b];
+        rock.sizes += std::cbrt(run.blocks.volume[b]);
+        ++rock.n;
+      }
+      released.push_back(member.weight);
+      single = single && member.n_blocks <= 1;
+    });
+    of.n = static_cast<int>(runs.members.size()) - of.first;
+    const auto first = released.begin() + of.first;
+    of.basis =
+        share_basis(std::vector<double>(first, released.end()), single, runs.last_failed_share(),
+                    units_of({runs.members.begin() + of.first, runs.members.end()}));
+    rates.push_back(std::move(of));
+  }
+  const std::vector<int> units = units_of(runs.members);
+  std::vector<double> run_weight;
+  for (const RunMember& member : runs.members) run_weight.push_back(member.run_weight);
+  for (SearchCase& search : cases) {
+    search.runs.unit = units;
+    search.runs.basis = share_basis(released, single, runs.failed_share(), units);
+    if (units.empty()) weigh_runs_of(search.runs.basis, run_weight);
+    search.runs.density = rock.mass / rock.volume;
+    search.runs.mean_block_size = rock.sizes / static_cast<double>(rock.n);
+    if (!classes.empty()) search.classes = rates;
+    set_sides(search.lines, runs.trn());
+  }
+}
+
+VerifiedFence read_verified(RunInputs& runs, const std::string& name,
+                            const std::vector<std::string>& files, const std::vector<Fence>& fences,
+                            const RecordObject& object) {
+  std::set<std::string> of_search;
+  for (const RunMember& member : runs.members) of_search.insert(member.info.run_id);
+  const std::size_t before = runs.members.size();
+  VerifiedFence out;
+  std::vector<RunWeight> hit;
+  std::vector<double> released;
+  bool single = true;
+  double hits = 0;
+  runs.read(files, "verified." + name, wanted, [&](RunFile& run, int index) {
+    const RunMember& member = runs.members[static_cast<std::size_t>(index)];
+    const std::string file = where_of(member);
+    if (of_search.contains(run.info.run_id))
+      throw InputError({file}, "is one of the runs that the search was made from",
+                       "verify with other seeds: what was found from these fits them too well");
+    for (const Fence& fence : fences) {
+      const int at = line_named(run, fence.name);
+      if (at < 0 || !run.lines[at].standing || !same_in_plan(run.lines[at].points, fence.post))
+        throw InputError({file}, "did not have fence " + fence.name + " standing where it is now",
+                         "run talus-dda with --add of the proposal's file, and law \"talus\"");
+    }
+    const std::vector<double> touched = touches_of(run, object_in(run, object, file));
+    bool is_hit = false;
+    for (int block = 0; block < n_blocks(run); ++block) {
+      if (!std::isfinite(touched[block])) continue;
+      hits += weight_of(run, block);
+      is_hit = true;
+    }
+    if (is_hit) hit.push_back({out.n_runs, member.run_weight});
+    released.push_back(member.weight);
+    single = single && member.n_blocks <= 1;
+    ++out.n_runs;
+  });
+  const std::vector<RunMember> members(runs.members.begin() + static_cast<std::ptrdiff_t>(before),
+                                       runs.members.end());
+  ShareBasis basis = share_basis(released, single, runs.last_failed_share(), units_of(members));
+  if (basis.unit.empty()) {
+    std::vector<double> weights;
+    for (const RunMember& member : members) weights.push_back(member.run_weight);
+    weigh_runs_of(basis, weights);
+  }
+  double weight = 0;
+  for (const RunWeight& run : hit) weight += run.weight;
+  out.residual = std::min(1.0, weight / out.n_runs);
+  out.interval = run_share_interval(basis, hit);
+  out.hits_a_run = hits / out.n_runs;
+  return out;
+}
+
+}  // namespace talus

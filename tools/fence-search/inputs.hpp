@@ -1,0 +1,54 @@
+// tools/fence-search/inputs.hpp
+// What talus-fence-search reads: runs that watched the candidate lines, and runs in which a
+// proposal stood.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "post/fence_search/paths.hpp"
+#include "post/hazard/hazard_rates.hpp"
+#include "tools/frame/run_inputs.hpp"
+#include "tools/frame/search_lines.hpp"
+
+namespace talus {
+
+/// One [fence_search.*] with what the runs say of it.
+struct SearchCase {
+  const FenceSearchSettings* settings = nullptr;
+  RecordObject object;
+  SearchSettings what;  ///< can be built, and what it costs
+  DesignCode code;
+  std::string code_sha256;
+  double step = 0;  ///< of the candidates [m]
+  std::vector<SearchLine> lines;
+  SearchRuns runs;
+  std::vector<HazardRuns> classes;             ///< frequencies; empty: none
+  std::vector<std::vector<double>> on_object;  ///< time of the first touch, by run and block [s]
+};
+
+/// The searches of a site; `only`: the one of this name, "" all. Throws InputError where there is
+/// none, and as search_candidates().
+[[nodiscard]] std::vector<SearchCase> search_cases(Tool& tool, const Site& site,
+                                                   const std::string& only, const Trn& trn);
+
+/// Reads the runs into all cases. Throws InputError for runs that did not watch the lines of a
+/// search, or its object.
+void read_search_runs(Tool& tool, RunInputs& runs, const Site& site,
+                      const std::vector<std::string>& of_class, std::vector<SearchCase>& cases);
+
+/// What comes to an object behind a fence that stands.
+struct VerifiedFence {
+  int n_runs = 0;
+  double residual = 0;  ///< share of runs with a block on the object
+  Interval interval;    ///< 95 %
+  double hits_a_run = 0;
+};
+/// Reads runs in which `fences` stood, by their names. Throws InputError where they did not stand
+/// there, and for runs that are among those of the search.
+[[nodiscard]] VerifiedFence read_verified(RunInputs& runs, const std::string& name,
+                                          const std::vector<std::string>& files,
+                                          const std::vector<Fence>& fences,
+                                          const RecordObject& object);
+
+}  // namespace talus

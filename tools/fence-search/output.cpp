@@ -1,0 +1,423 @@
+#include "tools/fence-search/output.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/grouped_text.hpp"
+#include "base/text.hpp"
+#include "io/style.hpp"
+#include "report/chart.hpp"
+
+namespace talus {
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+std::string percent(double share) { return text(100 * share, 3) + " %"; }
+
+std::string bounded(double share, const Interval& interval) {
+  if (std::isnan(interval.high)) return percent(share);
+  return percent(share) + " (" + text(100 * interval.low, 3) + " - " +
+         text(100 * interval.high, 3) + ")";
+}
+
+// Events a year in which runs of `hit` happen; NaN where no frequencies are known.
+Rate rate_of_runs(const SearchCase& search, const std::vector<RunWeight>& hit) {
+  const bool by_weights = std::any_of(
+      search.classes.begin(), search.classes.end(),
+      [](const HazardRuns& runs) { return runs.kind.kind == FrequencyKind::of_weights; });
+  if (search.classes.empty() || by_weights) return {none, none, none};
+  std::vector<EventRow> rows;
+  for (const RunWeight& run : hit) rows.push_back({0, run.run, 1, 0, 1});
+  sort_events(rows);
+  HazardRates rates(search.classes);
+  return rates.above(rows, {})[0];
+}
+
+std::vector<RunWeight> hit_now(const SearchRuns& runs) {
+  std::vector<RunWeight> out;
+  for (int r = 0; r < runs.n_runs; ++r)
+    if (runs.n_hits[r] > 0) out.push_back({r, runs.basis.run_weight[r]});
+  return out;
+}
+double share_now(const SearchRuns& runs) {
+  double weight = 0;
+  for (const RunWeight& run : hit_now(runs)) weight += run.weight;
+  return std::min(1.0, weight / runs.n_runs);
+}
+double hits_a_run(const SearchRuns& runs) { return weight_on_object(runs) / runs.n_runs; }
+
+// "60 m long, 4 m high, 500 kJ"; of two both.
+std::string size_text(const FenceOption& option) {
+  std::string out;
+  for (const OptionPart& part : option.parts)
+    out += (out.empty() ? "" : " and ") + text(length(part.placed), 3) + " m long, " +
+           text(part.placed.height) + " m high, " + grouped_text(part.placed.capacity / 1e3) +
+           " kJ";
+  return out;
+}
+
+std::string faults_text(const FenceOption& option) {
+  std::string out;
+  for (const SearchFault fault : option.faults)
+    out += (out.empty() ? "" : ", ") + std::string(text(fault));
+  return out;
+}
+
+// What the nearest option lacks, with numbers.
+std::string lacking(const SearchCase& search, const FenceOption& option) {
+  std::string out;
+  const auto add = [&](const std::string& words) { out += (out.empty() ? "" : "; ") + words; };
+  for (const SearchFault fault : option.faults) {
+    if (fault == SearchFault::share)
+      add("it stops " + percent(option.stopped) + " of the hits, asked for are " +
+          percent(search.what.share));
+    for (const OptionPart& part : option.parts) {
+      if (fault == SearchFault::height && part.demand.height > part.placed.height)
+        add("it needs a height of " + needed_text(part.demand.height) + " m, the highest is " +
+            text(search.what.heights.back()) + " m");
+      const double energy = std::max(part.demand.capacity, part.loads.second);
+      if (fault == SearchFault::energy && energy > part.placed.capacity)
+        add("it needs " + needed_text(energy / 1e3) + " kJ, the strongest class takes " +
+            grouped_text(search.what.capacities.back() / 1e3) + " kJ");
+      if (fault == SearchFault::storage && part.retained > part.storage)
+        add("half of the runs bring it more than " + grouped_text(part.retained) +
+            " m3, it has room for " + grouped_text(part.storage) + " m3");
+      if (fault == SearchFault::length && length(part.placed) > search.what.max_length)
+        add("it is " + text(length(part.placed), 3) + " m long, the longest allowed " +
+            text(search.what.max_length) + " m");
+    }
+  }
+  return out;
+}
+
+Json interval_json(const Interval& interval) {
+  return {number_or_null(interval.low), number_or_null(interval.high)};
+}
+
+Json line_json(const Fence& fence, const Vec3& origin) {
+  Json points = Json::array();
+  for (const Vec3& post : fence.post) {
+    const Vec3 at = post + origin;
+    points.push_back({std::round(at.x() * 1e3) / 1e3, std::round(at.y() * 1e3) / 1e3,
+                      std::round(at.z() * 1e2) / 1e2});
+  }
+  return points;
+}
+
+Json part_json(const SearchCase& search, const OptionPart& part) {
+  return {{"line", part.placed.line >= 0 ? Json(search.lines[part.placed.line].name) : Json()},
+          {"from_m", part.placed.from},
+          {"to_m", part.placed.to},
+          {"fields", part.placed.n_fields},
+          {"height_m", part.placed.height},
+          {"capacity_kj", part.placed.capacity / 1e3},
+          {"needed_height_m", number_or_null(part.demand.height)},
+          {"needed_capacity_kj", number_or_null(part.demand.capacity / 1e3)},
+          {"design_hits", part.demand.n},
+          {"enough_hits_for_the_code", part.demand.is_bounded},
+          {"field_energy_single_kj", part.loads.single / 1e3},
+          {"field_energy_one_second_kj", part.loads.second / 1e3},
+          {"field_energy_run_kj", part.loads.run / 1e3},
+          {"retained_m3_p50", part.retained},
+          {"storage_m3", part.storage}};
+}
+
+Json option_json(const SearchCase& search, const FenceOption& option) {
+  Json parts = Json::array();
+  for (const OptionPart& part : option.parts) parts.push_back(part_json(search, part));
+  const Rate rate = rate_of_runs(search, option.hit);
+  Json faults = Json::array();
+  for (const SearchFault fault : option.faults) faults.push_back(text(fault));
+  Json json = {{"length_m", option.length},
+               {"height_m", option.height},
+               {"capacity_kj", option.capacity / 1e3},
+               {"cost", option.cost},
+               {"stopped_share", number_or_null(option.stopped)},
+               {"residual_run_share", option.residual},
+               {"residual_interval", interval_json(option.residual_interval)},
+               {"governs", governs(option)},
+               {"lacks", faults},
+               {"fences", parts}};
+  if (!std::isnan(rate.value))
+    json["residual_per_a"] = {number_or_null(rate.value), number_or_null(rate.low),
+                              number_or_null(rate.high)};
+  return json;
+}
+
+Json proposal_json(const SearchCase& search, const Proposal& proposal, const Vec3& origin) {
+  Json json = option_json(search, proposal.option);
+  json["name"] = proposal.name;
+  json["moves"] = proposal.n_moves;
+  Json lines = Json::array();
+  for (const Fence& fence : proposal.fences)
+    lines.push_back({{"name", fence.name}, {"posts", line_json(fence, origin)}});
+  json["lines"] = lines;
+  json["verified"] = Json();
+  if (const auto& verified = proposal.verified)
+    json["verified"] = {
+        {"n_runs", verified->n_runs},
+        {"residual_run_share", verified->residual},
+        {"residual_interval", interval_json(verified->interval)},
+        {"hits_a_run", verified->hits_a_run},
+        {"stopped_share", number_or_null(1 - verified->hits_a_run / hits_a_run(search.runs))},
+        {"comparison", comparison_of(proposal)}};
+  return json;
+}
+
+FieldValue whole(std::int64_t value) { return value; }
+
+VectorFeature line_of(const Fence& fence, const Vec3& origin) {
+  VectorFeature f;
+  for (const Vec3& post : fence.post) f.points.push_back(post + origin);
+  f.measure = fence.chainage;
+  return f;
+}
+
+std::vector<VectorField> option_fields() {
+  return {{"search", FieldType::text},        {"name", FieldType::text},
+          {"length_m", FieldType::real},      {"height_m", FieldType::real},
+          {"capacity_kj", FieldType::real},   {"cost", FieldType::real},
+          {"stopped_share", FieldType::real}, {"residual", FieldType::real},
+          {"residual_lo", FieldType::real},   {"residual_hi", FieldType::real},
+          {"verified", FieldType::real},      {"verified_lo", FieldType::real},
+          {"verified_hi", FieldType::real},   {"comparison", FieldType::text},
+          {"lacks", FieldType::text},         {"governs", FieldType::text}};
+}
+
+std::vector<FieldValue> option_values(const SearchCase& search, const std::string& name,
+                                      const FenceOption& option, const Proposal* proposal) {
+  const bool is_verified = proposal != nullptr && proposal->verified;
+  return {search.settings->name,
+          name,
+          option.length,
+          option.height,
+          option.capacity / 1e3,
+          option.cost,
+          option.stopped,
+          option.residual,
+          option.residual_interval.low,
+          option.residual_interval.high,
+          is_verified ? proposal->verified->residual : none,
+          is_verified ? proposal->verified->interval.low : none,
+          is_verified ? proposal->verified->interval.high : none,
+          is_verified ? comparison_of(*proposal) : std::string(),
+          faults_text(option),
+          governs(option)};
+}
+
+void add_candidates(VectorLayer& layer, const SearchCase& search, const Vec3& origin) {
+  for (const SearchLine& line : search.lines) {
+    VectorFeature f = line_of(line.fence, origin);
+    const auto n = std::count_if(line.hits.begin(), line.hits.end(),
+                                 [](const SearchHit& hit) { return hit.matters; });
+    f.values = {search.settings->name, line.name, length(line.fence),
+                whole(static_cast<std::int64_t>(line.hits.size())), whole(n)};
+    layer.features.push_back(std::move(f));
+  }
+}
+
+ChartSeries points(const std::string& name, const char* colour, double marker) {
+  return {name, colour, {}, {}, 0, marker};
+}
+
+}  // namespace
+
+std::string comparison_of(const Proposal& proposal) {
+  if (!proposal.verified || std::isnan(proposal.verified->interval.high) ||
+      std::isnan(proposal.option.residual_interval.high))
+    return "";
+  const VerifiedFence& verified = *proposal.verified;
+  const FenceOption& predicted = proposal.option;
+  if (shares_agree(predicted.residual, predicted.residual_interval, verified.residual,
+                   verified.interval))
+    return "as predicted";
+  return verified.residual < predicted.residual ? "better than predicted" : "worse than predicted";
+}
+
+std::string proposal_toml(const Proposal& proposal, const Vec3& origin) {
+  std::string out = "# A proposal of talus-fence-search: " + size_text(proposal.option) +
+                    ".\n# Put it into the site file, or give it to talus-dda with --add.\n";
+  for (const Fence& fence : proposal.fences) {
+    std::string line;
+    double longest = 0;
+    for (std::size_t i = 0; i < fence.post.size(); ++i) {
+      const Vec3 at = fence.post[i] + origin;
+      const auto coordinate = [](double value) { return text(std::round(value * 1e3) / 1e3); };
+      line += (i > 0 ? ", [" : "[") + coordinate(at.x()) + ", " + coordinate(at.y()) + "]";
+      if (i > 0) longest = std::max(longest, fence.chainage[i] - fence.chainage[i - 1]);
+    }
+    out += "[fence.\"" + fence.name + "\"]\nline = [" + line +
+           "]\nheight_m = " + text(fence.height) + "\ncapacity_kj = " + text(fence.capacity / 1e3) +
+           "\npost_spacing_m = " + text(std::ceil(longest * 100 + 1) / 100) + "\nactive = true\n";
+  }
+  return out;
+}
+
+std::string answer_text(const SearchCase& search, const SearchAnswer& answer) {
+  const SearchRuns& runs = search.runs;
+  const std::vector<RunWeight> now = hit_now(runs);
+  std::string out = search.settings->name + ": ";
+  if (now.empty())
+    return out + "nothing hits " + search.object.name + " in " + counted(runs.n_runs, "run") +
+           ": no fence is the best";
+  out += search.object.name + " is hit in " + std::to_string(now.size()) + " of " +
+         counted(runs.n_runs, "run");
+  if (answer.proposals.empty()) {
+    out += "; no fence of this kind";
+    if (answer.result.nearest.parts.empty())
+      return out + ": no candidate line has room for one where the blocks pass";
+    return out + ": of " + counted(answer.result.n_options, "option") + " the nearest is " +
+           size_text(answer.result.nearest) + ": " + lacking(search, answer.result.nearest);
+  }
+  const bool is_verified = std::any_of(answer.proposals.begin(), answer.proposals.end(),
+                                       [](const Proposal& p) { return p.verified.has_value(); });
+  const Proposal& first = answer.proposals[answer.best >= 0 ? answer.best : 0];
+  out += "; " +
+         std::string(is_verified && answer.best < 0 ? "none held what was predicted; first "
+                                                    : "cheapest fence ") +
+         first.name + ": " + size_text(first.option) + ", cost " + grouped_text(first.option.cost) +
+         "; predicted: it is hit in " +
+         bounded(first.option.residual, first.option.residual_interval) + " of the runs";
+  if (!first.verified) return out + ", not verified";
+  out += "; with the fence standing and " + counted(first.verified->n_runs, "other run") + ": " +
+         bounded(first.verified->residual, first.verified->interval);
+  const std::string comparison = comparison_of(first);
+  return comparison.empty() ? out : out + ", " + comparison;
+}
+
+Json search_json(const SearchCase& search, const SearchAnswer& answer, const Vec3& origin) {
+  const SearchRuns& runs = search.runs;
+  const std::vector<RunWeight> now = hit_now(runs);
+  const Interval interval = run_share_interval(runs.basis, now);
+  const Rate rate = rate_of_runs(search, now);
+  Json front = Json::array(), curve = Json::array(), proposals = Json::array();
+  for (const FenceOption& option : answer.result.front)
+    front.push_back(option_json(search, option));
+  for (const FenceOption& option : cost_curve(answer.result.front))
+    curve.push_back(option_json(search, option));
+  for (const Proposal& proposal : answer.proposals)
+    proposals.push_back(proposal_json(search, proposal, origin));
+  const char* const verdict = now.empty()                ? "none needed"
+                              : answer.proposals.empty() ? "no fence of this kind"
+                                                         : "fence";
+  Json json = {{"name", search.settings->name},
+               {"protects", search.object.name},
+               {"answer", answer_text(search, answer)},
+               {"verdict", verdict},
+               {"n_runs", runs.n_runs},
+               {"n_runs_hit", now.size()},
+               {"run_share", share_now(runs)},
+               {"run_share_interval", interval_json(interval)},
+               {"hits_a_run", hits_a_run(runs)},
+               {"share_wanted", search.what.share},
+               {"code", search.code.file},
+               {"code_sha256", search.code_sha256},
+               {"prices_given", !search.settings->prices_per_m.empty()},
+               {"n_candidates", search.lines.size()},
+               {"step_m", search.step},
+               {"n_options", answer.result.n_options},
+               {"best", answer.best >= 0 ? Json(answer.proposals[answer.best].name) : Json()},
+               {"nearest", answer.proposals.empty() && !answer.result.nearest.parts.empty()
+                               ? option_json(search, answer.result.nearest)
+                               : Json()},
+               {"proposals", proposals},
+               {"curve", curve},
+               {"front", front}};
+  if (!std::isnan(rate.value))
+    json["hit_per_a"] = {number_or_null(rate.value), number_or_null(rate.low),
+                         number_or_null(rate.high)};
+  return json;
+}
+
+std::vector<VectorLayer> search_layers(const std::vector<SearchCase>& searches,
+                                       const std::vector<SearchAnswer>& answers,
+                                       const Vec3& origin) {
+  const auto line_style = [](Colour colour, double size) {
+    return vector_qml({SymbolKind::line, "", {{"", "", colour}}, size});
+  };
+  VectorLayer candidates{"candidates",
+                         "lines that were screened",
+                         GeometryType::line_zm,
+                         {{"search", FieldType::text},
+                          {"line", FieldType::text},
+                          {"length_m", FieldType::real},
+                          {"n_crossings", FieldType::integer},
+                          {"n_on_the_object", FieldType::integer}},
+                         {},
+                         line_style({150, 150, 150, 255}, 0.2)};
+  VectorLayer front{"front",
+                    "options that no other beats in all respects",
+                    GeometryType::line_zm,
+                    option_fields(),
+                    {},
+                    line_style({49, 130, 189, 160}, 0.5)};
+  VectorLayer proposals{
+      "proposals", "fences that do what is asked for", GeometryType::line_zm, option_fields(),
+      {},          line_style({203, 24, 29, 255}, 1.0)};
+  VectorLayer posts{"posts",
+                    "posts of the proposals",
+                    GeometryType::point_z,
+                    {{"fence", FieldType::text}, {"post", FieldType::integer}},
+                    {},
+                    vector_qml({SymbolKind::point, "", {{"", "", {203, 24, 29, 255}}}, 1.6})};
+  for (std::size_t s = 0; s < searches.size(); ++s) {
+    const SearchCase& search = searches[s];
+    add_candidates(candidates, search, origin);
+    int number = 0;
+    for (const FenceOption& option : answers[s].result.front) {
+      const std::string name = search.settings->name + " front " + std::to_string(++number);
+      for (const OptionPart& part : option.parts) {
+        VectorFeature f = line_of(fence_on(search.lines[part.placed.line], part.placed), origin);
+        f.values = option_values(search, name, option, nullptr);
+        front.features.push_back(std::move(f));
+      }
+    }
+    for (const Proposal& proposal : answers[s].proposals)
+      for (const Fence& fence : proposal.fences) {
+        VectorFeature f = line_of(fence, origin);
+        f.values = option_values(search, proposal.name, proposal.option, &proposal);
+        proposals.features.push_back(std::move(f));
+        for (std::size_t p = 0; p < fence.post.size(); ++p) {
+          VectorFeature post;
+          post.points = {fence.post[p] + origin};
+          post.values = {fence.name, whole(static_cast<std::int64_t>(p))};
+          posts.features.push_back(std::move(post));
+        }
+      }
+  }
+  return {candidates, front, proposals, posts};
+}
+
+std::string search_chart(const SearchCase& search, const SearchAnswer& answer) {
+  Chart chart;
+  chart.title = "What a fence for " + search.object.name + " costs, and what it lets through";
+  chart.x_label = search.settings->prices_per_m.empty() ? "cost (relative)" : "cost";
+  chart.y_label = "of the hits [%]";
+  ChartSeries all = points("not beaten by another", "#9ecae1", 2.5);
+  for (const FenceOption& option : answer.result.front) {
+    all.x.push_back(option.cost);
+    all.y.push_back(100 * (1 - option.stopped));
+  }
+  ChartSeries curve{"most stopped for its cost", "#3182bd", {0}, {100}};
+  for (const FenceOption& option : cost_curve(answer.result.front)) {
+    curve.x.push_back(option.cost);  // a step: what is paid for so far holds until then
+    curve.y.push_back(curve.y.back());
+    curve.x.push_back(option.cost);
+    curve.y.push_back(100 * (1 - option.stopped));
+  }
+  ChartSeries predicted = points("proposals, predicted", "#cb181d", 4);
+  ChartSeries verified = points("proposals, verified with other runs", "#238b45", 4);
+  for (const Proposal& proposal : answer.proposals) {
+    predicted.x.push_back(proposal.option.cost);
+    predicted.y.push_back(100 * (1 - proposal.option.stopped));
+    if (!proposal.verified) continue;
+    verified.x.push_back(proposal.option.cost);
+    verified.y.push_back(100 * proposal.verified->hits_a_run / hits_a_run(search.runs));
+  }
+  for (const ChartSeries& series : {all, curve, predicted, verified})
+    if (!series.x.empty()) chart.series.push_back(series);
+  return chart_file(chart);
+}
+
+}  // namespace talus
