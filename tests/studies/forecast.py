@@ -4,13 +4,14 @@
   python3 tests/studies/forecast.py OUT [--bin FOLDER] [--drawn N] [--seed K] [--duration S] [--most-s S] [--jobs J]
                                     [FOLDER...]
 
-All sites are looked at first (`make check`); then each gets one run, the cheapest first; a site that is said to
-take more than --most-s of processor time is named and left out. The share of the mass that the probe sees on its way stands beside the share
-that moved more than 1 m by the end; the time that the check says for this machine beside the processor time of
-talus-dda. Sites: FOLDER..., else the four shared slopes, a slope of the Serles and N (10) drawn at random
-(forecast_sites.py). Drawn sites that offer no mass (refused by the check, or no plane daylights) are named and
+All sites are looked at first (`make check`); then each gets one run, the cheapest first. A site that is said to take
+more than --most-s of processor time is named and left out. The share of the mass that the probe sees on its way
+stands beside the share that moved more than 1 m by the end; the time that the check says for this machine beside the
+processor time of talus-dda. Sites: FOLDER..., else the four shared slopes, a slope of the Serles and N (10) drawn at
+random (forecast_sites.py). Drawn sites that offer no mass (refused by the check, or no plane daylights) are named and
 replaced by the next ones drawn. What is in OUT already is not computed again, so the study can be ended and begun anew
-at any time; sites.csv there holds the table of what is known so far. Needs python3-gdal.
+at any time; sites.csv there holds the table of what is known so far.
+Needs python3-gdal.
 """
 import argparse
 import concurrent.futures
@@ -96,7 +97,9 @@ def summary(rows):
 
 def tell(row):
     """Prints what is known of a site; false where that is why nothing is."""
-    said = f"forecast {row['forecast']:.2f}, {row['blocks']} blocks; {row['said_s']:.0f} s said" if 'blocks' in row else ''
+    said = ''
+    if 'blocks' in row:
+        said = f"forecast {row['forecast']:.2f}, {row['blocks']} blocks; {row['said_s']:.0f} s said"
     if 'cpu_s' in row:
         said += f", {row['cpu_s']:.1f} s used; moved {row['moved']:.2f}; {kind(row['forecast'])}, {kind(row['moved'])}"
     print(row['site'] + ': ' + '; '.join(part for part in (said, row.get('why_not')) if part), flush=True)

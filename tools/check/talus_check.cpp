@@ -34,7 +34,7 @@ void declare(Tool& tool, Options& o) {
   tool.output("--report", o.report, "the numbers (JSON)");
   tool.app()
       .add_option("--probe-s", o.probe_s,
-                  "seconds of the run that the engine computes, 0: none; not given: 3, with some "
+                  "seconds of the run that the engine computes, 0: none; not given: 4, with some "
                   "thousand blocks 1 or none")
       ->check(CLI::Range(0.0, 60.0));
   tool.option("--runs", o.n_runs,
@@ -63,7 +63,7 @@ double probe_duration(const Options& o, const Look& look) {
   if (o.probe_s >= 0) return o.probe_s;
   constexpr double most_cpu_s = 20;
   const double second = cpu_s_of_a_packed_second(n_blocks(look.inputs.parts.blocks), probe_step_s);
-  return 3 * second <= most_cpu_s ? 3 : second <= most_cpu_s ? 1 : 0;
+  return 4 * second <= most_cpu_s ? 4 : second <= most_cpu_s ? 1 : 0;
 }
 
 void refuse_what_cannot_be_meant(const Site& site, const Look& look) {
