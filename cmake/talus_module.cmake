@@ -8,10 +8,15 @@ option(TALUS_TOGETHER "Compile several sources of a target as one" ON)
 
 add_library(talus_options INTERFACE)
 target_compile_options(talus_options INTERFACE -Wall -Wextra -Wpedantic -Werror)
-if(NOT TALUS_TOGETHER)  # a local name may be that of a function of another source
+if(TALUS_TOGETHER)
+  # A tool takes from a group what it calls, and needs no library that the rest of the group calls.
+  target_compile_options(talus_options INTERFACE -ffunction-sections -fdata-sections)
+  target_link_options(talus_options INTERFACE LINKER:--gc-sections)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)  # which takes a source of a group for a header
+    target_compile_options(talus_options INTERFACE -Wno-subobject-linkage)
+  endif()
+else()  # in a group, a local name may be that of a function of another source
   target_compile_options(talus_options INTERFACE -Wshadow)
-elseif(CMAKE_CXX_COMPILER_ID STREQUAL GNU)  # which takes a source of a group for a header
-  target_compile_options(talus_options INTERFACE -Wno-subobject-linkage)
 endif()
 target_include_directories(talus_options INTERFACE ${PROJECT_SOURCE_DIR}/libcore ${PROJECT_SOURCE_DIR})
 

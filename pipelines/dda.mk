@@ -82,7 +82,10 @@ named = $(if $(run_lists),$(call list_of,$1,$(run_files),runs) $(call list_of,$(
 # outcomes(WHAT,FILES)
 outcomes = most_failed=$(SITE_MAX_FAILED_SHARE) sh $(PIPELINES)run_outcomes.sh $1 $(failed_marks) $(call named,$2)
 counted_runs = $(words $1) run$(if $(filter 1,$(words $1)),,s)
-run_there = $$($(call outcomes,there,$1))
+# run_there(FILES): options of a tool that evaluates: parts where shards made some (shards.mk), and the other runs.
+# framed_there(FILES): for one that wants the frames, which parts have not.
+run_there = $$(parts=$(parts_taken) $(call outcomes,there,$1))
+framed_there = $(if $(keep_frames),$$($(call outcomes,there,$1)),$(run_there))
 # The last goal that has to do with runs comes after the others and lists what failed.
 run_goals := runs runout maps fence hazard trace fence-search report all
 asked := $(filter $(run_goals),$(or $(MAKECMDGOALS),all))

@@ -12,11 +12,11 @@ $(eval $(call remember,verify,$(VERIFY_RUNS)))
 ifneq ($(SITE_FENCE_SEARCHES),)
 search_files := $(addprefix $(OUT)/,$(search_products))
 $(eval $(call together,$(addprefix $(OUT)/,$(screen_products))))
-search_tool = $(Q)$(BIN)talus-fence-search site.toml $(hazard_runs) --trn $(ground_of_runs) $(class_flags) $(SEARCH_FLAGS) --overwrite $(DB)
+search_tool = $(Q)$(BIN)talus-fence-search site.toml $(framed_hazard_runs) --trn $(ground_of_runs) $(class_flags) $(SEARCH_FLAGS) --overwrite $(DB)
 $(OUT)/search/screen.json: $(run_files) $(OUT)/blocks.h5 $(STAGES)/search.txt $(STAGES)/runs.flags $(STAGES)/search.flags $(STAGES)/search.files | $(OUT)/search
 	$(call say,fence-search: $(call counted_runs,$(run_files)) -> candidate lines screened)
 	@$(call outcomes,some,$(run_files))
-	@$(if $(several_classes),$(foreach class,$(SITE_HAZARD_CLASSES),$(call class_list,$(class));))
+	@$(if $(several_classes),$(foreach class,$(SITE_HAZARD_CLASSES),$(call framed_class_list,$(class));))
 	$(search_tool) -o $(OUT)/search/screen.gpkg --json $(OUT)/search/screen.json --proposals $(OUT)/search/new
 	@$(if $(is_dry_run),:,sh $(PIPELINES)proposals.sh take $(OUT)/search $(OUT)/verify)
 	$(call made,talus-fence-search)

@@ -11,9 +11,14 @@ $(eval $(call together,$(hazard_files)))
 # of many runs: make writes them.
 class_runs = $(filter $(OUT)/runs/run_$1_%,$(run_files))
 write_class = $(if $(is_dry_run),,$(file >$(STAGES)/class_$1.list)$(foreach file,$(call class_runs,$1),$(file >>$(STAGES)/class_$1.list,$(file))))
-class_list = $(call write_class,$1)sh $(PIPELINES)run_outcomes.sh there $(failed_marks) --from $(STAGES)/class_$1.list >/dev/null
+class_list_by = $(call write_class,$1)parts=$2 sh $(PIPELINES)run_outcomes.sh there $(failed_marks) --from $(STAGES)/class_$1.list >/dev/null
+class_list = $(call class_list_by,$1,$(parts_taken))
+framed_class_list = $(call class_list_by,$1,$(if $(keep_frames),,$(parts_taken)))
 several_classes := $(word 2,$(SITE_HAZARD_CLASSES))
-hazard_runs = $(if $(several_classes),$(foreach class,$(SITE_HAZARD_CLASSES),--class $(class)=@$(STAGES)/class_$(class).list.there),$(call run_there,$(run_files)))
+classes_in = $(foreach class,$(SITE_HAZARD_CLASSES),--class $(class)=@$(STAGES)/class_$(class).list.$(if $1,in_parts,there))
+hazard_runs = $(if $(several_classes),$(call classes_in,$(parts_taken)),$(call run_there,$(run_files)))
+# For a tool that wants the frames, which parts have not.
+framed_hazard_runs = $(if $(several_classes),$(call classes_in,$(if $(keep_frames),,$(parts_taken))),$(call framed_there,$(run_files)))
 $(OUT)/hazard.json: $(run_files) $(OUT)/blocks.h5 $(STAGES)/hazard.txt $(STAGES)/runs.flags $(STAGES)/hazard.flags $(STAGES)/hazard.files
 	$(call say,hazard: $(call counted_runs,$(run_files)) -> return periods and classes)
 	@$(call outcomes,some,$(run_files))

@@ -7,12 +7,13 @@
 is_dry_run := $(findstring n,$(short_flags))$(findstring q,$(short_flags))
 
 # --- the tools: of this checkout when it is built whole, else on the search path ---
-tool_names := site tin trn blocks check dda runout maps fence places hazard trace fence-search report
+tool_names := site tin trn blocks check dda reduce runout maps fence places hazard trace fence-search report
 whole_build = $(if $(word $(words $(tool_names)),$(wildcard $(tool_names:%=$1talus-%))),$1)
 BIN ?= $(firstword $(call whole_build,$(PIPELINES)../build/release/tools/) $(call whole_build,$(PIPELINES)../build/demo/tools/))
 wanted := $(or $(MAKECMDGOALS),all)
 needed_tools := site tin trn $(if $(filter-out terrain,$(wanted)),blocks) $(if $(filter-out terrain blocks,$(wanted)),check) \
-  $(if $(filter-out terrain blocks check,$(wanted)),dda) $(if $(filter-out terrain blocks check runs runs-shard prepare,$(wanted)),runout maps fence places hazard trace fence-search report)
+  $(if $(filter-out terrain blocks check,$(wanted)),dda) $(if $(filter-out terrain blocks check runs runs-shard prepare,$(wanted)),runout maps fence places hazard trace fence-search report) \
+  $(if $(filter runs-shard,$(wanted)),$(if $(filter no,$(REDUCE)),,reduce))
 missing_tools := $(shell for tool in $(needed_tools); do command -v $(BIN)talus-$$tool >/dev/null || echo talus-$$tool; done)
 ifneq ($(missing_tools),)
 $(error $(missing_tools) cannot be found$(if $(BIN), in $(BIN)): $(if $(wildcard $(PIPELINES)demo.sh),build first: sh $(PIPELINES)demo.sh; or )name the folder of the tools with a slash at its end: make BIN=/where/tools/)

@@ -150,7 +150,7 @@ is_measured=yes
 grep -q '^\[joints' "$part/.joints" || joints_for_no_slope >>"$part/.joints"
 { head_of_site; cat "$part/.joints"; rest_of_site; } >"$part/site.toml"
 [ $is_measured = no ] ||
-  "${tools}talus-source" "$part/site.toml" --trn "$part/.slope/trn.tif" --no-db
+  (cd "$part" && "${tools}talus-source" site.toml --trn .slope/trn.tif --no-db)
 rm -rf "$part/.slope" "$part/.joints" "$part/.log"
 
 cat >"$part/README.md" <<END

@@ -30,15 +30,16 @@ case_maps := $(foreach suffix,tif png qml tif.aux.xml png.aux.xml,$(map_names:%=
 made_patterns := thickness.qml rock/blocks_*[0-9].h5 rock/bed_*[0-9].tif rock/bed_*[0-9].tif.aux.xml runs/run_*[0-9].h5 runs/run_*[0-9].h5.part runs/run_*[0-9].h5.part.new \
   without/run_*[0-9].h5 without/run_*[0-9].h5.part without/run_*[0-9].h5.part.new \
   runs.sqlite runs.sqlite-wal runs.sqlite-shm runs.sqlite.late-* data.ok \
-  $(addsuffix .aux.xml,$(filter %.tif %.png,$(products))) $(hazard_patterns) $(trace_patterns) $(case_maps) fences/*/fence.json fences/*/fence.gpkg stages/class_*.list stages/class_*.list.there \
+  $(addsuffix .aux.xml,$(filter %.tif %.png,$(products))) $(hazard_patterns) $(trace_patterns) $(case_maps) fences/*/fence.json fences/*/fence.gpkg stages/class_*.list stages/class_*.list.there stages/class_*.list.in_parts \
   search/*-[1-9].toml search/*-10.toml search/*.list search/*.list.there search/new/*.toml search/charts/fence_search_*.svg \
   verify/*-*/run_*[0-9].h5 verify/*-*/run_*[0-9].h5.part verify/*-*/run_*[0-9].h5.part.new stages/failed/verify_*_run_*[0-9] \
   $(foreach ending,txt flags files,$(stages_made:%=stages/%.$(ending))) \
-  stages/runs.list stages/without.list stages/runs.list.there stages/without.list.there \
+  stages/runs.list stages/without.list stages/runs.list.there stages/without.list.there stages/runs.list.in_parts stages/without.list.in_parts \
+  parts/*-of-*.h5 parts/*-of-*.runs parts/without/*-of-*.h5 parts/without/*-of-*.runs shards/*-of-*.list shards/*-of-*.list.there \
   shards/*-of-*.sqlite shards/*-of-*.sqlite-wal shards/*-of-*.sqlite-shm shards/*-of-*.sqlite.late-* \
   shards/merged shards/jobs shards/log/*_*.txt stages/.progress* \
   stages/.digests stages/failed/run_*[0-9] stages/failed/without_run_*[0-9] \
-  $(addsuffix .*.part-*-*,$(sort $(dir $(products))) maps/*/ fences/*/ runs/ without/ rock/ stages/ hazard/ sources/ search/new/ search/charts/)
+  $(addsuffix .*.part-*-*,$(sort $(dir $(products))) maps/*/ fences/*/ runs/ without/ parts/ parts/without/ rock/ stages/ hazard/ sources/ search/new/ search/charts/)
 # The mark of a folder that the pipeline has written into; it goes last.
 mark_of_out := stages/site.mk
-made_folders := maps/* maps fences/* fences hazard sources search/new search/charts search verify/* verify runs without rock shards/log shards stages/failed stages
+made_folders := maps/* maps fences/* fences hazard sources search/new search/charts search verify/* verify runs without parts/without parts rock shards/log shards stages/failed stages

@@ -2,11 +2,13 @@
 # What became of the runs of a site. MARKS is a folder with a file a run that failed (talus-dda
 # --failures): "kept" or "none", whether there is a result, and what failed.
 #   run_outcomes.sh there  MARKS RUN...   options of a tool that evaluates: the runs that have a result
+#   run_outcomes.sh results MARKS RUN...  prints the names of the runs that have a result, a line each
 #   run_outcomes.sh some   MARKS RUN...   ends with 1, and with the list, when no run has a result
 #   run_outcomes.sh ended  MARKS RUN...   ends with 1, and with the list, when a run has no result for no fault of its own
 #   run_outcomes.sh failed MARKS RUN...   prints the names of the runs that failed
 #   run_outcomes.sh list   MARKS RUN...   lists what failed in which run; ends with 1 when any did
 # RUN may also be --from LIST, a file with a name a line; then `there` names lists of those that have a result.
+# With the variable `parts`, a folder, `there` names parts of runs (reduce.sh) in place of the runs that they hold.
 set -eu
 what=$1 marks=$2
 shift 2
@@ -41,13 +43,12 @@ is_cut_off() {
   grep -q "^none$tab.*\(did not end by itself\|interrupted\)" "$mark"
 }
 
-n=0 n_there=0 n_failed=0 n_cut_off=0 there= failed=
+n=0 n_there=0 n_failed=0 n_cut_off=0 failed=
 for run in "$@"; do
   n=$((n + 1))
   look_at "$run"
   if has_result "$run"; then
     n_there=$((n_there + 1))
-    case $run in without/* | */without/*) there="$there --without $run" ;; *) there="$there $run" ;; esac
   fi
   if [ -f "$mark" ] || [ ! -f "$run" ]; then
     n_failed=$((n_failed + 1)) failed="$failed $run"
@@ -55,15 +56,41 @@ for run in "$@"; do
   fi
 done
 
+results() {
+  for run in "$@"; do
+    look_at "$run"
+    if has_result "$run"; then echo "$run"; fi
+  done
+}
+
+# Of names of runs, a line each, those that parts hold are replaced by these parts. One that holds another run, or one
+# that was made again since, does not count.
+in_parts() {
+  [ -n "${parts:-}" ] || { cat; return; }
+  awk '
+    !is_run && FNR == 1 { part[++n] = $3; next }
+    !is_run { held[n, ++n_held[n]] = $3; next }
+    { run[++m] = $1; is_wanted[$1] = 1 }
+    END {
+      for (p = 1; p <= n; ++p) {
+        fits = n_held[p] > 0
+        for (r = 1; r <= n_held[p]; ++r) if (!(held[p, r] in is_wanted)) fits = 0
+        if (!fits) continue
+        print part[p]
+        for (r = 1; r <= n_held[p]; ++r) delete is_wanted[held[p, r]]
+      }
+      for (r = 1; r <= m; ++r) if (run[r] in is_wanted) print run[r]
+    }' $(sh "${0%/*}/reduce.sh" valid "$parts") is_run=1 -
+}
+
 # A list beside each that was given, replaced in one go: several tools may ask at a time.
 print_lists() {
   for list in $lists; do
-    for run in $(cat "$list"); do
-      look_at "$run"
-      if has_result "$run"; then echo "$run"; fi
-    done >"$list.there.$$"
-    mv "$list.there.$$" "$list.there"
-    case $list in */without.list) echo "--without-from $list.there" ;; *) echo "--runs-from $list.there" ;; esac
+    new=$list.there
+    [ -z "${parts:-}" ] || new=$list.in_parts
+    results $(cat "$list") | in_parts >"$new.$$"
+    mv "$new.$$" "$new"
+    case $list in */without.list) echo "--without-from $new" ;; *) echo "--runs-from $new" ;; esac
   done
 }
 
@@ -96,12 +123,15 @@ list() {
 case $what in
   there)
     if [ -z "$lists" ]; then
-      echo $there
+      # --without takes all that follows it, so what stands without fences comes last
+      results "$@" | in_parts |
+        awk '/(^|\/)without\// { last = last " --without " $0; next } { print } END { print last }' | tr '\n' ' '
     else
       print_lists
     fi
     [ "$n_there" -eq "$n" ] || echo --missing $((n - n_there))
     ;;
+  results) results "$@" ;;
   some) [ "$n_there" -gt 0 ] || { list >&2; exit 1; } ;;
   ended) [ "$n_cut_off" -eq 0 ] || { list >&2; exit 1; } ;;
   failed) echo $failed ;;

@@ -6,7 +6,7 @@
 #                                  further options of the tools
 #   EVALUATE_FLAGS                 of all tools that evaluate runs (e.g. --rest-speed-m-s 0.1)
 #   RUNS, SEED, CASES, WEIGHTS, WITHOUT   dda.mk; RUNS=auto, RUNS_MOST: as many as [place.*] want (auto_runs.sh)
-#   SHARDS, SHARD, SBATCH_FLAGS    shards.mk, slurm.mk
+#   SHARDS, SHARD, REDUCE, SBATCH_FLAGS    shards.mk, slurm.mk
 # and so may the command line (make RUNS=50 -j4). V=1 shows every command. Every rule is one tool: files
 # in, files out.
 

@@ -14,7 +14,7 @@ FINAL ?= all
 # quoted(TEXT): a word of the shell
 quoted = '$(subst ','\'',$1)'
 # Of the command line, and of the environment what these rules know.
-known_variables := OUT BIN CONTOURS DEM RUNS SEED CASES WEIGHTS WITHOUT DB SHARD_LAST EVALUATE_FLAGS \
+known_variables := OUT BIN CONTOURS DEM RUNS SEED CASES WEIGHTS WITHOUT DB REDUCE SHARD_LAST EVALUATE_FLAGS \
   $(foreach stage,TIN TRN BLOCKS CHECK DDA RUNOUT MAPS FENCE PLACES HAZARD TRACE REPORT,$(stage)_FLAGS) $(filter CASE_%,$(.VARIABLES))
 not_handed_on := SHARD SHARDS SHARDS_AT_ONCE SBATCH_FLAGS FINAL BIN SENT MAKEOVERRIDES MAKEFLAGS MFLAGS GNUMAKEFLAGS -% .%
 given_variables = $(filter-out $(not_handed_on),$(foreach name,$(.VARIABLES),$(if $(filter command override,$(firstword $(origin $(name)))),$(name))) \

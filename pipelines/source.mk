@@ -2,5 +2,6 @@
 # in: site.toml   out: $(OUT)/source.json, $(OUT)/source.gpkg
 .PHONY: source
 source: $(OUT)/trn.tif ## which planes of the joint sets daylight, before anything is cut
-	$(BIN)talus-source site.toml --trn $(OUT)/trn.tif -o $(OUT)/source.json \
+	$(call say,source: on which planes of the joint sets could it leave)
+	$(Q)$(BIN)talus-source site.toml --trn $(OUT)/trn.tif -o $(OUT)/source.json \
 	  --layers $(OUT)/source.gpkg --overwrite $(DB)

@@ -1,5 +1,5 @@
 # What make is given is looked at before anything runs.
-# in: OUT (site.mk), RUNS, SEED, WITHOUT, CASES, WEIGHTS (dda.mk), SHARD, SHARDS (shards.mk)   out: an error that says what is expected
+# in: OUT (site.mk), RUNS, SEED, WITHOUT, CASES, WEIGHTS (dda.mk), SHARD, SHARDS, REDUCE (shards.mk)   out: an error that says what is expected
 
 # A word of a rule and of a recipe: neither can carry what make or the shell would part or run.
 ifneq ($(words $(OUT)),1)
@@ -25,6 +25,7 @@ $(if $(filter runs-shard,$(shard_goals)),$(if $(and $(SHARD),$(SHARDS)),,$(error
 $(if $(filter submit,$(shard_goals)),$(if $(SHARDS),,$(error submit needs SHARDS, the number of jobs, e.g. 40: so that each takes 10 to 60 minutes)))
 $(foreach name,SHARD SHARDS SHARDS_AT_ONCE,$(if $($(name)),$(if $(and $(call is_number,$($(name))),$(subst 0,,$($(name)))),,$(error $(name) is '$($(name))', expected a whole number, 1 or more))))
 $(if $(SHARD),$(if $(filter runs-shard,$(shard_goals)),,$(error SHARD goes with the goal runs-shard))$(if $(filter-out $(shell seq $(or $(SHARDS),1)),$(SHARD)),$(error SHARD is $(SHARD), expected a number up to SHARDS: $(SHARDS))))
+$(if $(filter-out yes no,$(REDUCE)),$(error REDUCE is '$(REDUCE)', expected yes or no))
 $(if $(filter-out yes no,$(WITHOUT)),$(error WITHOUT is '$(WITHOUT)', expected yes or no))
 $(foreach one,$(WEIGHTS),$(if $(filter $(firstword $(subst =, ,$(one))),$(CASES)),,$(error WEIGHTS names '$(one)', expected CASE=NUMBER for each of CASES: $(CASES))))
 $(if $(WEIGHTS),$(foreach case,$(CASES),$(if $(filter $(case)=%,$(WEIGHTS)),,$(error WEIGHTS has none of case $(case), expected CASE=NUMBER for each of CASES))))

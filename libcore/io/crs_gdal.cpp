@@ -99,7 +99,16 @@ std::string crs_name(const std::string& crs_wkt) {
   const OGRSpatialReference srs = parse(crs_wkt);
   const char* name = srs.GetName();
   const std::string code = authority(srs);
-  if (!name) return code.empty() ? "a CRS without a name" : code;
+  // What GDAL and PROJ write where there is none.
+  const auto is_name = [](const char* word) {
+    return word && word != std::string("unnamed") && word != std::string("unknown");
+  };
+  if (!is_name(name)) {
+    if (!code.empty()) return code;
+    const char* geographic = srs.GetAttrValue("GEOGCS");
+    return "a CRS without a name" +
+           (is_name(geographic) ? " (of " + std::string(geographic) + ")" : std::string());
+  }
   return code.empty() ? std::string(name) : code + " (" + name + ")";
 }
 

@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "base/grouped_text.hpp"
 #include "base/text.hpp"
 #include "post/deposit.hpp"
 
@@ -44,8 +45,8 @@ std::vector<WeightedValue> displacements(const RunFile& run) {
 std::string text(const Moved& moved) {
   return percent(moved.share) + " of the mass moved more than " + text(moved_m) + " m, " +
          percent(moved.share_far) + " more than " + text(moved_far_m) +
-         " m; displacement by mass: p50 " + text(moved.p50, 3) + " m, p90 " + text(moved.p90, 3) +
-         " m, p95 " + text(moved.p95, 3) + " m";
+         " m; displacement by mass: p50 " + grouped_text(moved.p50, 3) + " m, p90 " +
+         grouped_text(moved.p90, 3) + " m, p95 " + grouped_text(moved.p95, 3) + " m";
 }
 
 std::string standing_mass_warning(const Moved& moved) {

@@ -44,6 +44,22 @@ std::vector<Vec2> plan_of(const std::vector<Vec3>& points) {
   return plan;
 }
 
+std::string object_of(const RecordObject& object, const Place& place) {
+  std::string out;
+  for (const ObjectPart& part : object.parts) {
+    if (part.is_area || part.points.size() > 1) {
+      out += shape(part.is_area ? "object" : "object line",
+                   path_of(part.points, place, part.is_area), object.name);
+    } else if (!part.points.empty()) {
+      const Vec2 at = place.of(part.points[0].x(), part.points[0].y());
+      out += "<circle class=\"object\" cx=\"" + number(at.x()) + "\" cy=\"" + number(at.y()) +
+             "\" r=\"" + number(object.radius) + "\"><title>" + xml_escaped(object.name) +
+             "</title></circle>\n";
+    }
+  }
+  return out;
+}
+
 std::string blocks_of(const RunFile& run, const Trn& trn) {
   const Place place{trn};
   std::string starts, paths, ends;
@@ -92,6 +108,7 @@ std::string plan_view_svg(const RunFile& run, const Trn& trn, std::string_view h
                     number(trn.n_cols * cell) + "\" height=\"" + number(trn.n_rows * cell) +
                     "\" preserveAspectRatio=\"none\" href=\"" +
                     data_address("image/png", hillshade_png) + "\"/>\n";
+  for (const RecordObject& object : run.objects) out += object_of(object, place);
   out += blocks_of(run, trn);
   for (const RecordLine& line : run.lines)
     out += shape("fence", path_of(plan_of(line.points), place, false), "fence " + line.name);

@@ -1,6 +1,6 @@
 // libcore/report/plan_view.hpp: public
 // A map of a run as SVG over the hillshade: where the mass started, which way each block took,
-// where it came to rest, lines of fences. Scale bar and north arrow.
+// where it came to rest, lines of fences, objects. Scale bar and north arrow.
 #pragma once
 
 #include <string>

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 
 #include "base/text.hpp"
 #include "report/html.hpp"
@@ -35,12 +36,74 @@ std::string file_list(const std::vector<RunArtifact>& files, const std::string& 
   return out;
 }
 
+// The words of a command for the shell, as they are quoted.
+std::vector<std::string> words_of(const std::string& command) {
+  std::vector<std::string> words;
+  std::string word;
+  bool is_quoted = false;
+  for (std::size_t i = 0; i < command.size(); ++i) {
+    if (command[i] == '\\' && !is_quoted && i + 1 < command.size())
+      word += command[i++];
+    else if (command[i] == '\'')
+      is_quoted = !is_quoted;
+    if (command[i] != ' ' || is_quoted) {
+      word += command[i];
+      continue;
+    }
+    if (!word.empty()) words.push_back(word);
+    word.clear();
+  }
+  if (!word.empty()) words.push_back(word);
+  return words;
+}
+
+bool holds_runs(const RunArtifact& file) {
+  return file.role == "run" || file.role == "without" || file.role == "part";
+}
+
+// Without the registry, which is another one for runs that were computed in shards, and with one
+// name for all runs of an option, which may be named by parts of them: they stand beside it.
+std::string short_command(const RunRecord& step) {
+  std::set<fs::path> runs;
+  for (const RunArtifact& file : step.inputs)
+    if (holds_runs(file)) runs.insert(fs::path(file.path).lexically_normal());
+  const std::vector<std::string> words = words_of(bare_command(step.command_line));
+  std::set<std::string> named;
+  std::string out;
+  const auto add = [&out](const std::string& word) { out += (out.empty() ? "" : " ") + word; };
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (words[i] == "--db") {
+      ++i;
+      continue;
+    }
+    const bool is_without = words[i] == "--without" && i + 1 < words.size();
+    const std::string& file = words[is_without ? i + 1 : i];
+    if (runs.count((fs::path(step.folder) / file).lexically_normal()) == 0) {
+      add(words[i]);
+      continue;
+    }
+    i += is_without ? 1 : 0;
+    const std::string name = is_without ? "--without RUN.h5..." : "RUN.h5...";
+    if (named.insert(name).second) add(name);
+  }
+  return out;
+}
+
 // The command, and what it said of its inputs: operations by which they were reprojected.
 std::string command_cell(const RunRecord& step) {
-  std::string cell = "<code>" + xml_escaped(bare_command(step.command_line)) + "</code>";
+  std::string cell = "<code>" + xml_escaped(short_command(step)) + "</code>";
   for (const RunEvent& event : step.events)
     if (event.level == "info") cell += "<br>" + xml_escaped(event.text);
   return cell;
+}
+
+// Lists of runs, and parts of them, are left out: the runs are there themselves.
+std::vector<RunArtifact> shown_inputs(const RunRecord& step) {
+  std::vector<RunArtifact> shown;
+  for (const RunArtifact& file : step.inputs)
+    if (file.role != "runs-from" && file.role != "without-from" && file.role != "part")
+      shown.push_back(file);
+  return shown;
 }
 
 }  // namespace
@@ -50,7 +113,7 @@ std::string provenance_table(const std::vector<RunRecord>& steps, const std::str
   for (const RunRecord& step : steps)
     rows.push_back({command_cell(step), xml_escaped(step.version + " (" + step.git_commit + ")"),
                     "<code>" + xml_escaped(step.content_id) + "</code>",
-                    file_list(step.inputs, site_file), file_list(step.outputs, site_file)});
+                    file_list(shown_inputs(step), site_file), file_list(step.outputs, site_file)});
   return html_table({"command", "version", "run id", "read", "wrote"}, rows);
 }
 

@@ -12,7 +12,9 @@
 namespace talus {
 
 /// A row a step: command, version, run id, files read and written with the beginning of their
-/// digests; paths below the folder of `site_file` are relative to it.
+/// digests; paths below the folder of `site_file` are relative to it. So that shards and one make
+/// give the same table, a command names its runs and parts by RUN.h5..., and neither the registry
+/// nor inputs of the role "part" are shown: the runs of a part stand beside it.
 [[nodiscard]] std::string provenance_table(const std::vector<RunRecord>& steps,
                                            const std::string& site_file);
 

@@ -101,7 +101,8 @@ void look_at_motion(const PlausibilityFacts& f, Doubts& doubts) {
                "take more of the slope below (window_m, or a larger elevation model): what leaves "
                "the terrain is counted, and not followed");
   doubts.below(f.duration, {f.travel_duration, never_low}, "solver.duration_s",
-               "the run lasts " + text(f.duration, 3) + " s, sliders from the source ask for " +
+               "the run lasts " + text(f.duration, 3) +
+                   " s; points that slide from the source ask for " +
                    text(std::ceil(f.travel_duration), 3) + " s",
                "duration_s = " + text(std::ceil(f.travel_duration)));
 }

@@ -31,9 +31,9 @@ struct PlausibilityFacts {
   double step_share = none;                    ///< of the foot with a step that counts [-]
   double sliding_spacing = none;               ///< of the set that slides [m]
   double duration = none;                      ///< of the run [s]
-  double travel_duration = none;               ///< that sliders from the source ask for [s]
-  double moved_share = none;                   ///< of the mass in the probe [-]
-  double left_share = none;                    ///< of the fall lines that leave the terrain [-]
+  double travel_duration = none;  ///< that points that slide from the source ask for [s]
+  double moved_share = none;      ///< of the mass in the probe [-]
+  double left_share = none;       ///< of the fall lines that leave the terrain [-]
 };
 
 struct Doubt {

@@ -61,12 +61,15 @@ void check_version(SQLite::Database& database, const std::string& db) {
                    ", expected " + std::to_string(schema_version) + ")");
 }
 
+bool is_empty(SQLite::Database& database) {
+  return database.execAndGet("SELECT count(*) FROM sqlite_master").getInt() == 0;
+}
+
 // Two processes may come to an empty file at once: both wait for the write lock, the second finds
 // the tables made.
 void make_tables(SQLite::Database& database) {
   SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
-  const bool is_empty = database.execAndGet("SELECT count(*) FROM sqlite_master").getInt() == 0;
-  if (is_empty) {
+  if (is_empty(database)) {
     database.exec(schema);
     database.exec("PRAGMA user_version = " + std::to_string(schema_version));
   }
@@ -92,10 +95,14 @@ SQLite::Database open_to_write(const std::string& db, int wait_ms) {
   return database;
 }
 
-SQLite::Database open_to_read(const std::string& db) {
+SQLite::Database open_there(const std::string& db) {
   if (!std::filesystem::exists(db))
     throw InputError({db}, "there is no such registry", "name it with --db");
-  SQLite::Database database(db, SQLite::OPEN_READWRITE, registry_wait_ms());
+  return {db, SQLite::OPEN_READWRITE, registry_wait_ms()};
+}
+
+SQLite::Database open_to_read(const std::string& db) {
+  SQLite::Database database = open_there(db);
   check_version(database, db);
   return database;
 }
@@ -295,7 +302,9 @@ std::vector<RunSource> read_sources(const std::vector<std::string>& files) {
   std::vector<RunSource> sources;
   for (const std::string& db : files) {
     with_registry(db, [&] {
-      SQLite::Database database = open_to_read(db);
+      SQLite::Database database = open_there(db);
+      if (is_empty(database)) return;  // a tool was killed before its first entry
+      check_version(database, db);
       for (RunRecord& run : read_rows(database)) {
         read_details(database, run);
         sources.push_back({std::move(run), db});

@@ -18,7 +18,7 @@ class GoalAlgorithm(QgsProcessingAlgorithm):
         return GoalAlgorithm(self.goal)
 
     def name(self):
-        return "make_" + self.goal.name
+        return "make_" + self.goal.name.replace("-", "_")
 
     def displayName(self):
         return "make " + self.goal.name

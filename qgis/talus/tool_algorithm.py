@@ -69,7 +69,7 @@ class ToolAlgorithm(QgsProcessingAlgorithm):
         return ToolAlgorithm(self.tool, self.command)
 
     def name(self):
-        words = re.sub("^talus-", "", self.tool["tool"])
+        words = re.sub("^talus-", "", self.tool["tool"]).replace("-", "_")
         return words + ("_" + self.command["name"] if self.command else "")
 
     def displayName(self):

@@ -36,7 +36,7 @@ def tool_names(folder=""):
             entries = os.listdir(place or ".")
         except OSError:
             continue
-        names.update(e for e in entries if re.fullmatch(r"talus-[a-z]+", e) and tool_path(e, folder))
+        names.update(e for e in entries if re.fullmatch(r"talus-[a-z-]+", e) and tool_path(e, folder))
     return sorted(names)
 
 
@@ -238,9 +238,9 @@ def said(line):
     if runs:
         done = int(runs.group(1)) + int(runs.group(2))
         return Said("runs", 100 * done / (done + int(runs.group(3))))
-    if re.search(r"(^|: )talus-[a-z]+: warning: |^\S+: WARNING: ", line):
+    if re.search(r"(^|: )talus-[a-z-]+: warning: |^\S+: WARNING: ", line):
         return Said("warning", line)
-    if re.match(r"make(\[\d+\])?: \*\*\* |\S*\.mk:\d+: \*\*\* |(\S+: )?talus-[a-z]+: |new-site: ", line):
+    if re.match(r"make(\[\d+\])?: \*\*\* |\S*\.mk:\d+: \*\*\* |(\S+: )?talus-[a-z-]+: |new-site: ", line):
         return Said("error", line)
     return Said("info", line)
 

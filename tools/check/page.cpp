@@ -51,12 +51,12 @@ std::string motion_section(const Look& look) {
   }
   if (look.is_cut) {
     facts += html_fact(percent(look.peel.share),
-                       "can slide or fall off block by block, without being pushed");
+                       "can slide or fall off, one block at a time and without a push");
     facts += html_fact(look.step > 0.1 ? text(look.step, 2) + " m" : "none",
-                       look.step > 0.1
-                           ? "highest step at the foot; higher than " + text(look.low_step, 2) +
-                                 " m, a part of a block, along " + percent(look.step_share)
-                           : "step at the foot");
+                       look.step > 0.1 ? "highest step at the foot; " + percent(look.step_share) +
+                                             " of the foot has one of more than " +
+                                             text(look.low_step, 2) + " m, which holds blocks"
+                                       : "step at the foot");
     facts += html_fact(text(look.equilibrium.factor, 2),
                        "factor of safety of the mass as one; says little of the share that goes");
   }
@@ -110,13 +110,30 @@ Vec2 middle_of(const Look& look) {
   return sum / volume;
 }
 
-// Straight down over the source, then along the longest fall line.
-std::vector<Vec2> section_line(const Look& look) {
+Vec2 direction_of_motion(const Look& look) {
   const double azimuth = look.is_cut ? look.motion : look.slope.dip_direction;
-  const Vec2 down(std::sin(azimuth), std::cos(azimuth)), middle = middle_of(look);
+  return {std::sin(azimuth), std::cos(azimuth)};
+}
+
+// How far the source reaches from its middle, along the motion [m].
+double half_of_source(const Look& look) {
+  const Vec2 down = direction_of_motion(look), middle = middle_of(look);
   double half = look.work.ground.cell_size * 5;
   for (const auto& ring : look.work.area.rings)
     for (const Vec2& p : ring) half = std::max(half, std::abs((p - middle).dot(down)));
+  return half;
+}
+
+// Straight down over the source alone.
+std::vector<Vec2> section_of_source(const Look& look) {
+  const Vec2 reach = 1.6 * half_of_source(look) * direction_of_motion(look);
+  return {middle_of(look) - reach, middle_of(look) + reach};
+}
+
+// Straight down over the source, then along the longest fall line.
+std::vector<Vec2> section_line(const Look& look) {
+  const Vec2 down = direction_of_motion(look), middle = middle_of(look);
+  const double half = half_of_source(look);
   std::vector<Vec2> line = {middle - 1.6 * half * down, middle};
   const auto nearest =
       std::min_element(look.slides.begin(), look.slides.end(), [&](const Slide& a, const Slide& b) {
@@ -178,16 +195,33 @@ std::string caption_of_map(const CheckView& view, const Trn& part) {
   return words + " Contours every " + text(contour_interval(part)) + " m.";
 }
 
+double length_of(const std::vector<Vec2>& line) {
+  double length = 0;
+  for (size_t k = 1; k < line.size(); ++k) length += (line[k] - line[k - 1]).norm();
+  return length;
+}
+
+// Where the fall lines are long, the mass is a speck in their section: it gets one of its own.
+std::string section_figures(const Look& look, CheckView view) {
+  const Trn &ground = look.work.ground, &bed = look.inputs.parts.trn;
+  const std::string along = section_svg(view, ground, bed);
+  if (along.empty()) return "";
+  std::string out =
+      html_figure(along,
+                  "Section along the motion, heights and lengths at one scale: what lies between "
+                  "the ground and the failure surface is the mass.");
+  const std::vector<Vec2> near = section_of_source(look);
+  if (length_of(view.section) < 3 * length_of(near)) return out;
+  view.section = near;
+  return out + html_figure(section_svg(view, ground, bed), "The same at the source.");
+}
+
 std::string map_section(const Look& look) {
-  const CheckView view = view_of(look);
+  CheckView view = view_of(look);
   const Trn part = part_for(view, look.work.ground);
   std::string out = html_figure(check_map_svg(view, look.work.ground, hillshade_png(part)),
                                 caption_of_map(view, part));
-  const std::string section = section_svg(view, look.work.ground, look.inputs.parts.trn);
-  if (!section.empty())
-    out += html_figure(section,
-                       "Section along the motion, heights and lengths at one scale: what lies "
-                       "between the ground and the failure surface is the mass.");
+  out += section_figures(look, std::move(view));
   return html_section("map", "Map and section", out);
 }
 

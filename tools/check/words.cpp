@@ -146,8 +146,8 @@ std::string motion_text(const Look& look) {
   else
     words = "will it move: no probe of the engine was made";
   if (!look.is_cut) return words;
-  words += "\n  block by block " + percent(look.peel.share) + " can slide or fall off; " +
-           percent(look.peel.locked_share) + " is locked";
+  words += "\n  one block at a time, without a push, " + percent(look.peel.share) +
+           " can slide or fall off; " + percent(look.peel.locked_share) + " is locked";
   if (!look.peel.locks.empty())
     words += ": block " + std::to_string(look.peel.locks[0].block) + " alone holds " +
              percent(look.peel.locks[0].freed);

@@ -74,9 +74,8 @@ void warn_of(Tool& tool, const FenceCase& fence, std::size_t i, const FenceResul
   if (result.basis == DesignBasis::first_touches && result.at_basis.n > 0)
     tool.warn(name + ": " + basis_note(result, fence.settings.name));
   if (result.design.verdict == DesignVerdict::too_few)
-    tool.warn(name + ": " + std::to_string(result.at_basis.n) +
-              " arrivals are too few for the percentiles of the code, which need " +
-              std::to_string(result.design.n_needed) +
+    tool.warn(name + ": too few arrivals for the percentiles of the code, " +
+              std::to_string(result.at_basis.n) + " of " + std::to_string(result.design.n_needed) +
               ": the largest values stand in for them, and nothing is judged");
 }
 

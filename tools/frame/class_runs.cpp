@@ -23,6 +23,7 @@ void add_class_option(Tool& tool, std::vector<std::string>& given) {
                   "NAME=RUN.h5 or NAME=@LIST: runs or parts of [hazard.class.NAME]; not needed "
                   "for a single class")
       ->allow_extra_args(false);
+  tool.leave_out_of_run_id({"class"});  // the runs themselves stand for it, as in class_files()
 }
 
 std::vector<ClassFiles> class_files(Tool& tool, RunInputs& runs,
@@ -58,6 +59,7 @@ std::vector<ClassFiles> class_files(Tool& tool, RunInputs& runs,
     for (const std::string& path : listed_files(file.substr(1))) at->files.push_back(path);
   }
   for (const ClassFiles& c : out) {
+    tool.leave_out_of_run_id({"class." + c.name});
     if (c.files.empty())
       throw InputError(
           {site_file}, "class " + c.name + " has no runs",

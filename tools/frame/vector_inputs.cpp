@@ -27,7 +27,7 @@ std::string digest_of(const VectorShapes& found) {
 std::string sentence_on(const VectorShapes& found, const VectorQuery& query) {
   std::string words = sentence_on(found);
   if (query.kind == VectorKind::areas)
-    words += " of " + grouped_text(found.area_m2, 6) + " m2 in all";
+    words += " of " + grouped_text(found.area_m2, 4) + " m2 in all";
   if (found.n_united > 0)
     words += "; " + std::to_string(found.n_united) + " that overlap or touch were united to " +
              std::to_string(found.n_made);

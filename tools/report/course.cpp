@@ -9,7 +9,8 @@
 namespace talus {
 
 std::string curve_section(const ReportData& data) {
-  if (data.curves_csv.empty()) return "";
+  // Runs that keep no frames have no curves: the file holds its heading alone.
+  if (data.curves_csv.find('\n') + 1 >= data.curves_csv.size()) return "";
   const CsvTable table = parse_csv(data.curves_csv, "curves.csv");
   std::string out = "<div class=\"charts\">\n";
   for (const auto& [column, title, unit] :

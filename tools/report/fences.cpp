@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "base/grouped_text.hpp"
 #include "base/text.hpp"
 #include "report/html.hpp"
 #include "tools/report/json.hpp"
@@ -59,14 +60,25 @@ std::string arrival_table(const Json& whole) {
 }
 
 // From the design block and speed to what is needed, each number with its source.
+// What is needed is rounded up, here as in the verdict.
+std::string needed_number(const Json& value) {
+  return value.is_number() ? needed_text(value.get<double>(), 3) : number_text(value);
+}
+
+bool is_needed(const Json& step) {
+  const std::string symbol = word_text(value_at(step, {"symbol"}));
+  return symbol == "E_req" || symbol == "h_req";
+}
+
 std::string derivation_table(const Json& steps) {
   std::vector<std::vector<std::string>> rows;
   if (steps.is_array())
     for (const Json& step : steps)
-      rows.push_back(
-          {word_text(value_at(step, {"symbol"})), word_text(value_at(step, {"name"})),
-           number_text(value_at(step, {"value"})) + " " + word_text(value_at(step, {"unit"})),
-           word_text(value_at(step, {"source"}))});
+      rows.push_back({word_text(value_at(step, {"symbol"})), word_text(value_at(step, {"name"})),
+                      (is_needed(step) ? needed_number(value_at(step, {"value"}))
+                                       : number_text(value_at(step, {"value"}))) +
+                          " " + word_text(value_at(step, {"unit"})),
+                      word_text(value_at(step, {"source"}))});
   if (rows.empty()) return "";
   return "<h3>Derivation of the design values</h3>\n" +
          html_table({"", "", "value", "from"}, rows, {false, false, true, false});
@@ -123,6 +135,7 @@ std::string arrivals(const Json& fence) {
          wall_note(fence);
 }
 
+// What comes to a standing fence, and what it needs by the runs without it, are counted apart.
 std::string field_table(const Json& fields) {
   std::vector<std::vector<std::string>> rows;
   if (fields.is_array())
@@ -133,14 +146,19 @@ std::string field_table(const Json& fields) {
            number_text(value_at(f, {"energy_kj", "max"})),
            number_text(value_at(f, {"top_height_m", "max"}), 3),
            number_text(value_at(f, {"storage_m3"})),
-           number_text(value_at(f, {"design", "required_capacity_kj"})),
-           number_text(value_at(f, {"design", "required_height_m"}), 3),
+           number_text(value_at(f, {"design", "arrivals"})),
+           needed_number(value_at(f, {"design", "required_capacity_kj"})),
+           needed_number(value_at(f, {"design", "required_height_m"})),
            word_text(value_at(f, {"design", "smallest_class"})),
            word_text(value_at(f, {"design", "verdict"}))});
-  return html_table(
-      {"field [m]", "arrivals", "energy p95 [kJ]", "largest [kJ]", "top, largest [m]",
-       "storage [m&sup3;]", "capacity needed [kJ]", "height needed [m]", "ETAG class", "verdict"},
-      rows, {false, true, true, true, true, true, true, true});
+  return html_table({"field [m]", "arrivals", "energy p95 [kJ]", "largest [kJ]", "top, largest [m]",
+                     "storage [m&sup3;]", "arrivals for design", "capacity needed [kJ]",
+                     "height needed [m]", "ETAG class", "verdict"},
+                    rows, {false, true, true, true, true, true, true, true, true}) +
+         html_note(
+             "The first columns hold what came to the fence in these runs, the last five the "
+             "design check by its own arrivals, with its verdict (\"nothing came\": none of "
+             "them).");
 }
 
 std::string comparison_table(const Json& comparison) {

@@ -28,7 +28,9 @@ std::string map_section(const ReportData& data) {
   std::string out = html_figure(
       plan_view_svg(data.shown, data.terrain, data.hillshade_png),
       "<span class=\"key\"><i class=\"start\"></i>start<i class=\"way\"></i>paths of the "
-      "centroids<i class=\"end\"></i>end<i class=\"fence\"></i>fence line</span>. Run " +
+      "centroids<i class=\"end\"></i>end" +
+          std::string(data.shown.lines.empty() ? "" : "<i class=\"fence\"></i>fence line") +
+          (data.shown.objects.empty() ? "" : "<i class=\"object\"></i>object") + "</span>. Run " +
           xml_escaped(data.shown_name) +
           (data.shown.reach ? ", which has no frames between start and end" : "") +
           "; north is up.");

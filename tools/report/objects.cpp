@@ -1,11 +1,17 @@
 #include "tools/report/objects.hpp"
 
+#include <cmath>
+
 #include "base/text.hpp"
 #include "report/html.hpp"
 #include "tools/report/json.hpp"
 
 namespace talus {
 namespace {
+
+std::string whole_metres(const Json& value) {
+  return value.is_number() ? text(std::round(value.get<double>()), 12) : number_text(value);
+}
 
 std::string interval_text(const Json& pair) {
   if (!pair.is_array() || pair.size() != 2 || !pair[0].is_number()) return "";
@@ -59,10 +65,10 @@ std::string where_to_act(const Json& object, const Json& cell_size) {
                         "these, the strongest of all:");
   std::vector<std::vector<std::string>> rows;
   for (const Json& s : sources)
-    rows.push_back(
-        {number_text(value_at(s, {"x_m"}), 9) + ", " + number_text(value_at(s, {"y_m"}), 9),
-         percent_text(value_at(s, {"share_of_hits"})), percent_text(value_at(s, {"p_hit"})),
-         number_text(value_at(s, {"n_hits"})), number_text(value_at(s, {"ke_p95_kj"}), 3)});
+    rows.push_back({whole_metres(value_at(s, {"x_m"})) + ", " + whole_metres(value_at(s, {"y_m"})),
+                    percent_text(value_at(s, {"share_of_hits"})),
+                    percent_text(value_at(s, {"p_hit"})), number_text(value_at(s, {"n_hits"})),
+                    number_text(value_at(s, {"ke_p95_kj"}), 3)});
   return out + html_table({"source cell, x, y [m]", "of the object's hits",
                            "of the cell's blocks hit it", "hits", "energy p95 [kJ]"},
                           rows, {false, true, true, true, true});

@@ -54,6 +54,7 @@ std::string page_head(const ReportData& data, const std::string& style) {
     if (id == std::string("hazard") && hazard_section(data).empty()) continue;
     if (id == std::string("objects") && object_section(data).empty()) continue;
     if (id == std::string("search") && search_section(data).empty()) continue;
+    if (id == std::string("fences") && fence_section(data).empty()) continue;
     out += std::string("<a href=\"#") + id + "\">" + title + "</a>";
   }
   return out + "</nav>\n</header>\n<main>\n";

@@ -148,10 +148,11 @@ std::string runout_section(const ReportData& data) {
                         number_text(value_at(balance, {"moving_m3"}), 4) + " + left the terrain " +
                         number_text(value_at(balance, {"left_domain_m3"}), 4) +
                         " (sum over the runs).");
-  if (number_text(value_at(balance, {"n_moving"})) != "0")
+  const std::string n_moving = number_text(value_at(balance, {"n_moving"}));
+  if (n_moving != "0")
     out += html_note(
-        number_text(value_at(balance, {"n_moving"})) +
-        " blocks still moved when their run ended: L counts them where they were at that moment. "
+        n_moving + (n_moving == "1" ? " block" : " blocks") +
+        " still moved when their run ended: L counts them where they were at that moment. "
         "With a longer [solver] duration_s they come to rest.");
   if (!data.mobility_svg.empty())
     out += html_figure(html_svg(data.mobility_svg, "H over L against volume"),

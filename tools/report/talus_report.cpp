@@ -175,15 +175,52 @@ RunRecord writer_of(const std::string& db, const std::string& sha256, std::int64
   return {};
 }
 
+// Runs in place of a part, which talus-reduce made of them and of other parts. The part goes to
+// `parts`.
+void add_runs(const std::string& db, const RunArtifact& file, std::int64_t before,
+              std::vector<RunArtifact>& runs, std::vector<RunArtifact>& parts) {
+  const bool is_part = fs::exists(file.path) && is_part_file(file.path);
+  const RunRecord record = is_part ? writer_of(db, file.sha256, before) : RunRecord{};
+  if (record.id == 0) {
+    runs.push_back(file);
+    return;
+  }
+  parts.push_back({"part", file.path, file.sha256, file.n_bytes});
+  for (RunArtifact input : record.inputs) {
+    if (input.role != "run") continue;
+    input.role = file.role;
+    add_runs(db, input, record.id, runs, parts);
+  }
+}
+
+// What a step read, its runs by name, numbers by their value: the same however they were spread
+// over parts.
+std::vector<RunArtifact> inputs_of(const std::string& db, const RunRecord& step) {
+  std::vector<RunArtifact> files, runs, parts;
+  for (const RunArtifact& file : step.inputs) {
+    if (file.role == "run" || file.role == "without")
+      add_runs(db, file, step.id, runs, parts);
+    else
+      files.push_back(file);
+  }
+  std::stable_sort(runs.begin(), runs.end(), [](const RunArtifact& a, const RunArtifact& b) {
+    return std::tuple(a.path.size(), a.path) < std::tuple(b.path.size(), b.path);
+  });
+  files.insert(files.end(), runs.begin(), runs.end());
+  files.insert(files.end(), parts.begin(), parts.end());
+  return files;
+}
+
 // Depth first, so that each step stands behind those whose outputs it reads.
 void add_steps(const std::string& db, const std::string& sha256, std::int64_t before,
                std::set<std::int64_t>& seen, std::vector<RunRecord>& steps) {
   if (sha256.empty()) return;
-  const RunRecord record = writer_of(db, sha256, before);
+  RunRecord record = writer_of(db, sha256, before);
   if (record.id == 0 || !seen.insert(record.id).second) return;
+  record.inputs = inputs_of(db, record);
   for (const RunArtifact& input : record.inputs)
-    add_steps(db, input.sha256, record.id, seen, steps);
-  steps.push_back(record);
+    if (input.role != "part") add_steps(db, input.sha256, record.id, seen, steps);
+  steps.push_back(std::move(record));
 }
 
 void read_registry(const std::string& db, const ResultFolder& folder,

@@ -284,6 +284,8 @@ std::string make_variables(const Site& site) {
   line("SITE_ROCK_MASSES",
        site.uncertainty.rock_masses == 0 ? "" : std::to_string(site.uncertainty.rock_masses));
   line("SITE_MAX_FAILED_SHARE", text(site.uncertainty.max_failed_share));
+  line("SITE_FRAMES", site.output.frames ? "yes" : "");
+  line("SITE_WHOLE_SHARE", text(site.output.whole_share));
   line("SITE_PLACES", site.places.empty() ? "" : "yes");
   line("SITE_FENCES_STAND", any_active ? "yes" : "");
   line("SITE_HAZARD_CLASSES", words_of("hazard.class", site.hazard_classes));

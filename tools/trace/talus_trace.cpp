@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 
+#include "base/grouped_text.hpp"
 #include "base/text.hpp"
 #include "post/hazard/hazard_rates.hpp"
 #include "post/reduce.hpp"
@@ -236,14 +237,13 @@ Json conservation(const Traced& traced, const std::vector<SourceLink>& links) {
 
 std::string summary_of(const std::string& name, const TracedObject& o, bool has_rate, int n) {
   const ObjectTrace& t = o.trace;
-  std::string out =
-      name + ": hit in " + std::to_string(t.n_runs_hit) + " of " + std::to_string(n) + " runs";
+  std::string out = name + ": hit in " + std::to_string(t.n_runs_hit) + " of " + counted(n, "run");
   if (!std::isnan(t.run_share_interval.high))
     out += " (95 %: " + text(t.run_share_interval.low, 3) + " - " +
            text(t.run_share_interval.high, 3) + ")";
   if (has_rate && o.rate > 0) out += ", once in " + text(1 / o.rate, 3) + " years";
   if (t.n_hits == 0) return out;
-  out += ", " + std::to_string(t.n_hits) + " blocks, up to " + text(t.energy.largest, 3) + " kJ";
+  out += ", " + counted(t.n_hits, "block") + ", up to " + grouped_text(t.energy.largest, 3) + " kJ";
   return out + "; half of them from " + std::to_string(t.n_sources[0]) + " of " +
          std::to_string(t.n_sources[2]) + " source cells";
 }

@@ -44,8 +44,8 @@ std::vector<Method> slide_methods(bool full) {
 // what is compared with the reference, and the reference, are means of many.
 int slide_runs(const Method& method, bool full) {
   if (!full) return 1;
-  if (method.settings.law == Law::paper) return 2;
-  return method.name == "talus" ? 32 : 4;
+  if (method.settings.law == Law::paper) return 6;
+  return method.name == "talus" ? 96 : 8;
 }
 
 double down_the_slope(const Vec3&, const Vec3& now) { return 320 - now.y(); }

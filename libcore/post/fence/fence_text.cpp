@@ -151,9 +151,9 @@ std::vector<std::string> fence_notes(const FenceCase& fence, std::size_t index,
                            : "The fence has no capacity_kj: no block counts as piercing it, and "
                              "the design check leaves its energy open.");
   if (const int n = n_unsettled(group, index); n > 0)
-    notes.push_back(std::to_string(n) +
-                    " of the blocks that the fence stopped were still moving when their run ended: "
-                    "they may pass it yet.");
+    notes.push_back(std::to_string(n) + " of the blocks that the fence stopped " +
+                    (n == 1 ? "was" : "were") +
+                    " still moving when the run ended: they may pass it yet.");
   if (std::string broken = broken_text(index, group); !broken.empty())
     notes.push_back(std::move(broken));
   for (std::string& remark : build_remarks(code, fence.fence)) notes.push_back(std::move(remark));

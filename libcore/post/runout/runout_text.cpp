@@ -207,8 +207,11 @@ std::string runout_summary(const RunoutRuns& all) {
   const std::string standing = standing_runs(all.runs);
   return (standing.empty() ? "" : standing + "\n") +
          (all.runs.size() > 1 ? "moved, all runs together: " : "moved: ") + text(all.moved) + "\n" +
-         reach_text(all.runs) + cases_text(all.runs) + "\nvolume: released " +
-         grouped_text(all.balance.released, 4) + " m3 = deposited " +
+         reach_text(all.runs) + cases_text(all.runs) + "\nvolume" +
+         (all.runs.size() > 1
+              ? " of all " + counted(static_cast<std::int64_t>(all.runs.size()), "run")
+              : "") +
+         ": released " + grouped_text(all.balance.released, 4) + " m3 = deposited " +
          grouped_text(all.balance.deposited, 4) + " + moving " +
          grouped_text(all.balance.moving, 4) + " + left " + grouped_text(all.balance.left, 4);
 }

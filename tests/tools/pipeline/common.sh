@@ -20,3 +20,13 @@ same() {
   diff -r -q --exclude='runs.sqlite*' --exclude=.digests --exclude='.*.part-*' "$1/out" "$2/out" >differences ||
     { cat differences >&2; fail "the outputs of $1 and $2 differ"; }
 }
+# same_results FOLDER FOLDER: as `same`, but for what shards leave: their registries and parts
+same_results() {
+  diff -r -q -x 'runs.sqlite*' -x .digests -x shards -x parts -x '*.list' -x '*.in_parts' -x '.progress-*' -x '.*.part-*' "$1/out" "$2/out" >differences ||
+    { cat differences >&2; fail "the results of $1, by shards, and of $2, by one make, differ"; }
+}
+# was_made_by FOLDER FILE TEXT: the command that made FILE holds TEXT
+was_made_by() {
+  talus-runs --db "$1/out/runs.sqlite" trace "$1/out/$2" | sed -n 2p >made_by
+  grep -qF -e "$3" made_by || { cat made_by >&2; fail "$2 of $1 was not made by: $3"; }
+}

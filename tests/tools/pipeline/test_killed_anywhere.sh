@@ -56,4 +56,17 @@ for group in $groups; do
   done
 done
 same whole killed
+
+# and of a shard that makes a run and its part
+for _ in 1 2 3; do
+  rm -f killed/out/runs/run_1.h5
+  setsid make -C killed BIN= $few SHARD=1 SHARDS=2 runs-shard >log 2>&1 &
+  group=$!
+  drawn $((whole_ms / 4))
+  sleep "$(printf '%d.%03d' $((drawn / 1000)) $((drawn % 1000)))"
+  kill -s KILL -- -$group 2>/dev/null || true
+  wait $group 2>/dev/null || true
+  made killed $few -j2
+  same_results killed whole
+done
 expect 0 talus-runs --db killed/out/runs.sqlite list --summary

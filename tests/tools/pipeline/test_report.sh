@@ -36,6 +36,7 @@ for section in "result maps animation runout fences curves health assumed plan p
 for link in page.links:
     assert link.startswith(("data:", "#")), f"not in the file: {link[:80]}"
     if link.startswith("#"): assert link[1:] in page.ids, link
+assert text.count("arrivals for design") == 1, "the fields do not say what their verdict rests on"
 assert "<b>&\"" not in text, "the site's name is markup"
 assert "&lt;b&gt;&amp;&quot; name" in text
 assert len(re.findall(r'src="data:image/png', text)) == 11, "ten maps and the change by the fence"

@@ -10,15 +10,12 @@ by_snakemake() {
 by_snakemake
 site whole
 made whole RUNS=5 WITHOUT=no -j2 maps runout
-alike() {
-  diff -r -q -x 'runs.sqlite*' -x .digests -x shards slope/out whole/out >differences ||
-    { cat differences >&2; fail "the outputs by Snakemake and by make -j2 differ"; }
-}
-alike
+same_results slope whole
+was_made_by slope maps/reach.tif "talus-maps out/parts/1-of-3.h5 out/parts/2-of-3.h5 out/parts/3-of-3.h5 --trn"
 expect 0 talus-runs --db slope/out/runs.sqlite list --summary
 grep -q '^talus-dda  *5  *0 ' out || fail "the registry: $(cat out)"
 [ -z "$(find slope/out/shards -name '*.ended')" ] || fail "marks of Snakemake are left"
 by_snakemake
-alike
+same_results slope whole
 expect 0 talus-runs --db slope/out/runs.sqlite list --summary
 grep -q '^talus-dda  *5  *0 ' out || fail "runs were made again: $(cat out)"

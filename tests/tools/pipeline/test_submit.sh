@@ -65,7 +65,7 @@ prints "job 103: shards 1 of 2, 3 runs to make"
 has 103 --array=1
 carry_out 103 1
 carry_out 104
-[ -s "a slope/out/maps/reach.tif" ] || fail "the last job made no maps"
+was_made_by "a slope" maps/reach.tif "talus-maps out/parts/low_1-of-2.h5 out/parts/low_2-of-2.h5 --trn"
 expect 0 make -C "a slope" BIN= "$@" submit
 prints "job 105: make maps runout"
 if grep -q dependency stand_in/105; then fail "the last job waits for none"; fi

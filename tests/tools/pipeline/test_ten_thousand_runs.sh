@@ -10,7 +10,7 @@ n=0
 for word; do
   case $word in
     out/runs/run_*.h5) n=$((n + 1)) ;;
-    *.list.there) n=$((n + $(grep -c '^out/runs/run_.*h5$' "$word"))) ;;
+    *.list.in_parts) n=$((n + $(grep -c '^out/runs/run_.*h5$' "$word"))) ;;
   esac
 done
 mkdir -p out/maps

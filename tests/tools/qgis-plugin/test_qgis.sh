@@ -24,11 +24,11 @@ grep -q "The tools of Talus were not found" out err || fail "it is not said that
 expect 0 "$qgis" list
 for tool in "${bin%%:*}"/talus-*; do
   [ -f "$tool" ] && [ -x "$tool" ] || continue
-  id=${tool##*/talus-}
+  id=$(echo "${tool##*/talus-}" | tr - _)
   [ "$id" = runs ] && id=runs_list
   grep -q "talus:$id	" out || fail "there is no algorithm for $tool"
 done
-for goal in all terrain blocks check runs runout maps fence hazard trace report clean; do
+for goal in all terrain blocks check runs runout maps fence fence_search hazard trace report clean; do
   grep -q "talus:make_$goal	" out || fail "there is no algorithm for make $goal"
 done
 

@@ -25,6 +25,7 @@ for part in "Will it move?" 'class="plan check"' 'class="section"' 'class="step"
   "stereonet" "fall lines that come to it"; do
   grep -qF "$part" check.html || fail "the page does not have: $part"
 done
+if grep -q 'The same at the source' check.html; then fail "a short slope has two sections"; fi
 if grep -q '<script\|http://\|https://' check.html; then fail "the page asks for something"; fi
 three="$(value check.json volume_of_blocks_m3) $(value check.json volume_of_prisms_m3) $(value check.json volume_at_nodes_m3)"
 for volume in $three; do

@@ -15,6 +15,7 @@ look lechtal_kotcliff lechtal_kotcliff_5m.tif
 look lechtal_kotdam lechtal_kotdam_5m.tif
 look gschnitz_gar gschnitz_gar_5m.tif
 look salisbury_crags salisbury_crags_dsm_2m5.tif
+grep -q 'The same at the source' gschnitz_gar.html || fail "a long slope has no section of its source"
 
 python3 - <<'PY' || fail "other shares"
 import json

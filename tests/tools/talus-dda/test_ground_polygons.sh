@@ -17,7 +17,7 @@ speed() { # speed FEATURES: the largest of the run
 }
 once=$(speed "$polygon")
 twice=$(speed "$polygon,$polygon")
-says "rough.geojson: layer rough, 2 polygons of 15000 m2 in all; 2 that overlap or touch were united to 1"
+says "rough.geojson: layer rough, 2 polygons of 15,000 m2 in all; 2 that overlap or touch were united to 1"
 nested=$(speed "$polygon,$inner")
 [ "$twice" = "$once" ] || fail "a polygon named twice: $twice m/s, once $once m/s"
 [ "$nested" = "$once" ] || fail "a polygon in another one: $nested m/s, without it $once m/s"

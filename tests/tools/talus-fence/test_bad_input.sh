@@ -17,7 +17,7 @@ sed 's/, \[250030, 350020\]//' site.toml >point.toml
 expect 1 talus-fence point.toml run_0.h5 --trn slope.tif -o f.gpkg
 nothing_left f.gpkg
 expect 0 talus-fence site.toml run_0.h5 run_1.h5 run_2.h5 --trn slope.tif -o f.gpkg --json f.json
-says '3 arrivals are too few'
+says 'too few arrivals for the percentiles of the code, 3 of '
 grep -q '"enough_arrivals": false' f.json || fail 'three arrivals are enough?'
 ogrinfo -q -al f.gpkg fence_fields >fields
 grep -q 'verdict (String) = too few arrivals' fields || fail 'a field of three arrivals is judged'

@@ -26,6 +26,7 @@ expect 0 talus-runout runs/run_*.h5 --trn runs/slope.tif -o three.gpkg --json th
 says '1 of 3 runs did not move'
 prints '1 of 3 runs did not move (no block by more than 1 m)'
 prints 'run-out of 2 runs that moved: H '
+prints 'volume of all 3 runs: released '
 prints 'moved, all runs together: 66.7 % of the mass moved more than 1 m, 66.7 % more than 20 m'
 python3 - <<'PY' || fail 'a run that did not move counts'
 import csv, json

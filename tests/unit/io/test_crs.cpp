@@ -73,6 +73,8 @@ TEST(Crs, SameSystemsAreRecognisedHoweverTheyAreWritten) {
   EXPECT_FALSE(talus::same_crs(utm, ""));
   EXPECT_TRUE(talus::same_crs("", ""));
   EXPECT_EQ(talus::crs_name(utm), "EPSG:32632 (WGS 84 / UTM zone 32N)");
+  const std::string nameless = crs_from_user("+proj=utm +zone=10 +datum=NAD27", "--crs");
+  EXPECT_EQ(talus::crs_name(nameless), "a CRS without a name");
 }
 
 // UTM alone and UTM with EGM96 heights are one system in plan.

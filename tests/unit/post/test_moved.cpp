@@ -27,6 +27,7 @@ TEST(Moved, CountsTheMassThatWentMoreThanAMetre) {
   EXPECT_EQ(text(moved),
             "30 % of the mass moved more than 1 m, 30 % more than 20 m; displacement by mass: p50 "
             "0.9 m, p90 50 m, p95 50 m");
+  EXPECT_NE(text(moved_of({{1354, 1}})).find("p50 1,350 m"), std::string::npos);
   EXPECT_NE(standing_mass_warning(moved).find("only 30 % of the mass moved"), std::string::npos);
 }
 

@@ -27,3 +27,28 @@ TEST(ProvenanceTable, DoesNotDependOnWhereProgramsAndSiteLie) {
   EXPECT_NE(table.find("<code>a.gpkg</code> <code>0123456789ab</code>"), std::string::npos);
   EXPECT_NE(table.find("<code>out/tin.ply</code> <code>not hashed</code>"), std::string::npos);
 }
+
+TEST(ProvenanceTable, DoesNotDependOnPartsOfRunsOrOnTheRegistry) {
+  const std::string site = std::filesystem::weakly_canonical(std::filesystem::current_path());
+  const RunArtifact run{"run", site + "/out/runs/run_1.h5", "0123456789abcdef", 1};
+  const RunArtifact other{"without", site + "/out/without/run_1.h5", "fedcba9876543210", 1};
+  const auto table = [&](const std::string& command, std::vector<RunArtifact> inputs) {
+    RunRecord step;
+    step.folder = site;
+    step.command_line = command;
+    step.inputs = std::move(inputs);
+    return provenance_table({step}, site + "/site.toml");
+  };
+  const std::string of_runs =
+      table("talus-fence out/runs/run_1.h5 --without out/without/run_1.h5 --db out/runs.sqlite",
+            {run, other});
+  EXPECT_EQ(of_runs, table("talus-fence out/parts/1-of-1.h5 --without out/parts/without/1-of-1.h5 "
+                           "--db 'a registry'",
+                           {run,
+                            other,
+                            {"part", site + "/out/parts/1-of-1.h5", "1", 1},
+                            {"part", site + "/out/parts/without/1-of-1.h5", "2", 1}}));
+  EXPECT_NE(of_runs.find("<code>talus-fence RUN.h5... --without RUN.h5...</code>"),
+            std::string::npos);
+  EXPECT_NE(of_runs.find("run_1.h5</code> <code>0123456789ab</code>"), std::string::npos);
+}

@@ -61,3 +61,17 @@ TEST(PlanWindow, HoldsTheRunAndStaysOnTheTerrain) {
   EXPECT_DOUBLE_EQ(all.low.x(), 0);
   EXPECT_DOUBLE_EQ(all.high.y(), 200);
 }
+
+TEST(PlanView, ObjectsAreDrawnAndNamed) {
+  const Trn trn = talus::testing::plane_trn(0.5, 2, 101, 101);
+  RunFile run = sliding_box();
+  EXPECT_EQ(plan_view_svg(run, trn, "png").find("class=\"object"), std::string::npos);
+  run.objects = {{"house <1>", "house", {{{{60, 90}, {64, 90}, {64, 94}}, true}}, 0},
+                 {"road", "road", {{{{42, 80}, {88, 80}}, false}}, 3},
+                 {"mast", "mast", {{{{70, 95}}, false}}, 2}};
+  const std::string svg = plan_view_svg(run, trn, "png");
+  for (const char* part : {"class=\"object\" d=\"", "house &lt;1&gt;</title>",
+                           "class=\"object line\" d=\"", "<circle class=\"object\"", "r=\"2\""})
+    EXPECT_NE(svg.find(part), std::string::npos) << part;
+  EXPECT_EQ(svg.find("nan"), std::string::npos);
+}

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 
 #include "store/runs.hpp"
 
@@ -78,6 +79,12 @@ TEST_F(Registry, MergingTwiceAddsNoRunTwiceAndKeepsAllThatIsKnownOfIt) {
   RunRecord merged = read_run(path("all.sqlite"), "1");
   merged.id = 0;
   EXPECT_EQ(merged, run_of(1));
+}
+
+TEST_F(Registry, ARegistryWhoseToolWasKilledBeforeItsFirstEntryAddsNothing) {
+  std::ofstream(path("begun.sqlite")).close();
+  add_run(path("b.sqlite"), run_of(2));
+  EXPECT_EQ(merge_runs(path("all.sqlite"), {path("begun.sqlite"), path("b.sqlite")}).n_added, 1);
 }
 
 TEST_F(Registry, MergingRefusesTwoEntriesOfARunThatDifferAndThenMergesNothing) {
