@@ -122,6 +122,81 @@ void add_run(SearchCase& of, const RunFile& run, int index, const std::string& f
   of.on_object.push_back(touched);
 }
 
+// What a run of each class counts so that all count by how often their events happen, 1 on average
+// over all runs; `n`: runs of each. All alike where there is one class, and where each block has a
+// frequency of its own.
+std::vector<double> class_factors(const std::vector<HazardRuns>& classes,
+                                  const std::vector<int>& n) {
+  std::vector<double> often;
+  double all = 0, n_all = 0;
+  for (std::size_t c = 0; c < classes.size(); ++c) {
+    const HazardClass& kind = classes[c].kind;
+    if (classes.size() == 1 || kind.kind == FrequencyKind::of_weights)
+      return std::vector<double>(classes.size(), 1.0);
+    often.push_back(kind.kind == FrequencyKind::of_failure ? kind.probability
+                                                           : kind.frequency.value);
+    all += often.back();
+    n_all += n[c];
+  }
+  for (std::size_t c = 0; c < classes.size(); ++c) often[c] *= n_all / (all * n[c]);
+  return often;
+}
+
+void weigh_classes(RunInputs& runs, const std::vector<HazardRuns>& classes,
+                   std::vector<double>& released, std::vector<SearchCase>& cases) {
+  std::vector<int> n;
+  for (const HazardRuns& of : classes) n.push_back(of.n);
+  const std::vector<double> factors = class_factors(classes, n);
+  std::vector<double> factor;  // by run
+  for (std::size_t c = 0; c < classes.size(); ++c)
+    factor.insert(factor.end(), static_cast<std::size_t>(n[c]), factors[c]);
+  for (std::size_t r = 0; r < factor.size(); ++r) {
+    runs.members[r].run_weight *= factor[r];
+    runs.members[r].weight *= factor[r];
+    released[r] *= factor[r];
+    for (SearchCase& search : cases) search.runs.weight[r] *= factor[r];
+  }
+  for (SearchCase& search : cases)
+    for (SearchLine& line : search.lines)
+      for (SearchHit& hit : line.hits)
+        hit.arrival.weight *= factor[static_cast<std::size_t>(hit.arrival.run)];
+}
+
+// The same for runs in which a fence stood, by the names of their files; by run.
+std::vector<double> verified_factors(const std::vector<RunMember>& members,
+                                     const std::vector<HazardRuns>& classes) {
+  if (classes.size() < 2) return std::vector<double>(members.size(), 1.0);
+  std::vector<int> n(classes.size(), 0);
+  std::vector<std::size_t> kind;
+  for (const RunMember& member : members) {
+    const std::string name = case_of(member.file);
+    const auto found = std::find_if(classes.begin(), classes.end(),
+                                    [&](const HazardRuns& of) { return of.kind.name == name; });
+    if (found == classes.end())
+      throw InputError({where_of(member)}, "is of no class of [hazard.class.*] by its name",
+                       "name runs of class " + classes[0].kind.name + " run_" +
+                           classes[0].kind.name + "_SEED.h5");
+    kind.push_back(static_cast<std::size_t>(found - classes.begin()));
+    ++n[kind.back()];
+  }
+  for (std::size_t c = 0; c < classes.size(); ++c)
+    if (n[c] == 0)
+      throw InputError({"", 0, "--verified"}, "has no run of class " + classes[c].kind.name,
+                       "give runs of all classes, named run_CLASS_SEED.h5");
+  const std::vector<double> factors = class_factors(classes, n);
+  std::vector<double> out;
+  for (const std::size_t c : kind) out.push_back(factors[c]);
+  return out;
+}
+
+void warn_of_standing(Tool& tool, const std::set<std::string>& standing) {
+  std::string names;
+  for (const std::string& name : standing) names += (names.empty() ? "" : ", ") + name;
+  if (!names.empty())
+    tool.warn("fences stood in the runs: " + names +
+              "; what is searched is one more fence, and what these stop counts as no hit");
+}
+
 struct Rock {
   double mass = 0, volume = 0, sizes = 0;
   std::int64_t n = 0;
@@ -189,6 +264,7 @@ void read_search_runs(Tool& tool, RunInputs& runs, const Site& site,
   Rock rock;
   std::vector<double> released;
   std::vector<HazardRuns> rates;
+  std::set<std::string> standing;
   bool single = true;
   for (const ClassFiles& files : class_files(tool, runs, of_class, classes, site.file)) {
     HazardRuns of;
@@ -203,6 +279,8 @@ void read_search_runs(Tool& tool, RunInputs& runs, const Site& site,
         rock.sizes += std::cbrt(run.blocks.volume[b]);
         ++rock.n;
       }
+      for (const RecordLine& line : run.lines)
+        if (line.standing) standing.insert(line.name);
       released.push_back(member.weight);
       single = single && member.n_blocks <= 1;
     });
@@ -213,13 +291,15 @@ void read_search_runs(Tool& tool, RunInputs& runs, const Site& site,
                     units_of({runs.members.begin() + of.first, runs.members.end()}));
     rates.push_back(std::move(of));
   }
+  warn_of_standing(tool, standing);
+  if (!classes.empty()) weigh_classes(runs, rates, released, cases);
   const std::vector<int> units = units_of(runs.members);
   std::vector<double> run_weight;
   for (const RunMember& member : runs.members) run_weight.push_back(member.run_weight);
   for (SearchCase& search : cases) {
     search.runs.unit = units;
     search.runs.basis = share_basis(released, single, runs.failed_share(), units);
-    if (units.empty()) weigh_runs_of(search.runs.basis, run_weight);
+    weigh_runs_of(search.runs.basis, run_weight);
     search.runs.density = rock.mass / rock.volume;
     search.runs.mean_block_size = rock.sizes / static_cast<double>(rock.n);
     if (!classes.empty()) search.classes = rates;
@@ -229,52 +309,60 @@ void read_search_runs(Tool& tool, RunInputs& runs, const Site& site,
 
 VerifiedFence read_verified(RunInputs& runs, const std::string& name,
                             const std::vector<std::string>& files, const std::vector<Fence>& fences,
-                            const RecordObject& object) {
-  std::set<std::string> of_search;
-  for (const RunMember& member : runs.members) of_search.insert(member.info.run_id);
+                            const SearchCase& search) {
+  std::set<std::string> ids;
+  std::set<std::int64_t> seeds;
+  for (int r = 0; r < search.runs.n_runs; ++r) {
+    ids.insert(runs.members[r].info.run_id);
+    seeds.insert(runs.members[r].info.seed);
+  }
   const std::size_t before = runs.members.size();
-  VerifiedFence out;
-  std::vector<RunWeight> hit;
-  std::vector<double> released;
+  std::vector<double> hits;  // on the object, by run
   bool single = true;
-  double hits = 0;
   runs.read(files, "verified." + name, wanted, [&](RunFile& run, int index) {
     const RunMember& member = runs.members[static_cast<std::size_t>(index)];
     const std::string file = where_of(member);
-    if (of_search.contains(run.info.run_id))
-      throw InputError({file}, "is one of the runs that the search was made from",
-                       "verify with other seeds: what was found from these fits them too well");
+    const char* const way_out =
+        "verify with other seeds: what was found from these fits them too well";
+    if (ids.contains(run.info.run_id))
+      throw InputError({file}, "is one of the runs that the search was made from", way_out);
+    if (seeds.contains(run.info.seed))
+      throw InputError({file},
+                       "has seed " + std::to_string(run.info.seed) +
+                           ", as has one of the runs that the search was made from",
+                       way_out);
     for (const Fence& fence : fences) {
       const int at = line_named(run, fence.name);
       if (at < 0 || !run.lines[at].standing || !same_in_plan(run.lines[at].points, fence.post))
         throw InputError({file}, "did not have fence " + fence.name + " standing where it is now",
                          "run talus-dda with --add of the proposal's file, and law \"talus\"");
     }
-    const std::vector<double> touched = touches_of(run, object_in(run, object, file));
-    bool is_hit = false;
-    for (int block = 0; block < n_blocks(run); ++block) {
-      if (!std::isfinite(touched[block])) continue;
-      hits += weight_of(run, block);
-      is_hit = true;
-    }
-    if (is_hit) hit.push_back({out.n_runs, member.run_weight});
-    released.push_back(member.weight);
+    const std::vector<double> touched = touches_of(run, object_in(run, search.object, file));
+    hits.push_back(0);
+    for (int block = 0; block < n_blocks(run); ++block)
+      if (std::isfinite(touched[block])) hits.back() += weight_of(run, block);
     single = single && member.n_blocks <= 1;
-    ++out.n_runs;
   });
   const std::vector<RunMember> members(runs.members.begin() + static_cast<std::ptrdiff_t>(before),
                                        runs.members.end());
-  ShareBasis basis = share_basis(released, single, runs.last_failed_share(), units_of(members));
-  if (basis.unit.empty()) {
-    std::vector<double> weights;
-    for (const RunMember& member : members) weights.push_back(member.run_weight);
-    weigh_runs_of(basis, weights);
-  }
+  const std::vector<double> factor = verified_factors(members, search.classes);
+  VerifiedFence out;
+  out.n_runs = static_cast<int>(members.size());
+  std::vector<RunWeight> hit;
+  std::vector<double> released, weights;
   double weight = 0;
-  for (const RunWeight& run : hit) weight += run.weight;
+  for (int r = 0; r < out.n_runs; ++r) {
+    released.push_back(factor[r] * members[r].weight);
+    weights.push_back(factor[r] * members[r].run_weight);
+    out.hits_a_run += factor[r] * hits[r] / out.n_runs;
+    if (!(hits[r] > 0)) continue;
+    hit.push_back({r, weights.back()});
+    weight += weights.back();
+  }
+  ShareBasis basis = share_basis(released, single, runs.last_failed_share(), units_of(members));
+  weigh_runs_of(basis, weights);
   out.residual = std::min(1.0, weight / out.n_runs);
   out.interval = run_share_interval(basis, hit);
-  out.hits_a_run = hits / out.n_runs;
   return out;
 }
 

@@ -32,8 +32,9 @@ struct SearchCase {
 [[nodiscard]] std::vector<SearchCase> search_cases(Tool& tool, const Site& site,
                                                    const std::string& only, const Trn& trn);
 
-/// Reads the runs into all cases. Throws InputError for runs that did not watch the lines of a
-/// search, or its object.
+/// Reads the runs into all cases. Runs of several classes count by how often their events happen.
+/// Warns of fences that stood. Throws InputError for runs that did not watch the lines of a search,
+/// or its object.
 void read_search_runs(Tool& tool, RunInputs& runs, const Site& site,
                       const std::vector<std::string>& of_class, std::vector<SearchCase>& cases);
 
@@ -44,11 +45,12 @@ struct VerifiedFence {
   Interval interval;    ///< 95 %
   double hits_a_run = 0;
 };
-/// Reads runs in which `fences` stood, by their names. Throws InputError where they did not stand
-/// there, and for runs that are among those of the search.
+/// Reads runs in which `fences` stood, by their names; of several classes those of class C are
+/// named run_C_SEED.h5. Throws InputError where the fences did not stand there, for runs that are
+/// among those of the search or have the seed of one, and for runs of no class.
 [[nodiscard]] VerifiedFence read_verified(RunInputs& runs, const std::string& name,
                                           const std::vector<std::string>& files,
                                           const std::vector<Fence>& fences,
-                                          const RecordObject& object);
+                                          const SearchCase& search);
 
 }  // namespace talus

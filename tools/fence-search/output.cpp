@@ -270,12 +270,14 @@ std::string answer_text(const SearchCase& search, const SearchAnswer& answer) {
     return out + ": of " + counted(answer.result.n_options, "option") + " the nearest is " +
            size_text(answer.result.nearest) + ": " + lacking(search, answer.result.nearest);
   }
-  const bool is_verified = std::any_of(answer.proposals.begin(), answer.proposals.end(),
-                                       [](const Proposal& p) { return p.verified.has_value(); });
+  const bool is_any_worse =
+      std::any_of(answer.proposals.begin(), answer.proposals.end(),
+                  [](const Proposal& p) { return comparison_of(p) == "worse than predicted"; });
   const Proposal& first = answer.proposals[answer.best >= 0 ? answer.best : 0];
   out += "; " +
-         std::string(is_verified && answer.best < 0 ? "none held what was predicted; first "
-                                                    : "cheapest fence ") +
+         std::string(answer.best > 0                   ? "cheapest fence that holds "
+                     : answer.best < 0 && is_any_worse ? "no fence held what was predicted; first "
+                                                       : "cheapest fence ") +
          first.name + ": " + size_text(first.option) + ", cost " + grouped_text(first.option.cost) +
          "; predicted: it is hit in " +
          bounded(first.option.residual, first.option.residual_interval) + " of the runs";
@@ -314,6 +316,8 @@ Json search_json(const SearchCase& search, const SearchAnswer& answer, const Vec
                {"code", search.code.file},
                {"code_sha256", search.code_sha256},
                {"prices_given", !search.settings->prices_per_m.empty()},
+               {"prices_per_m", search.what.prices_per_m},
+               {"price_per_m2", search.what.price_per_m2},
                {"n_candidates", search.lines.size()},
                {"step_m", search.step},
                {"n_options", answer.result.n_options},
@@ -393,7 +397,7 @@ std::string search_chart(const SearchCase& search, const SearchAnswer& answer) {
   Chart chart;
   chart.title = "What a fence for " + search.object.name + " costs, and what it lets through";
   chart.x_label = search.settings->prices_per_m.empty() ? "cost (relative)" : "cost";
-  chart.y_label = "of the hits [%]";
+  chart.y_label = "hits let through [%]";
   ChartSeries all = points("not beaten by another", "#9ecae1", 2.5);
   for (const FenceOption& option : answer.result.front) {
     all.x.push_back(option.cost);
@@ -406,8 +410,8 @@ std::string search_chart(const SearchCase& search, const SearchAnswer& answer) {
     curve.x.push_back(option.cost);
     curve.y.push_back(100 * (1 - option.stopped));
   }
-  ChartSeries predicted = points("proposals, predicted", "#cb181d", 4);
-  ChartSeries verified = points("proposals, verified with other runs", "#238b45", 4);
+  ChartSeries predicted = points("proposals, predicted", "#cb181d", 6);
+  ChartSeries verified = points("proposals, verified with other runs", "#238b45", 3);
   for (const Proposal& proposal : answer.proposals) {
     predicted.x.push_back(proposal.option.cost);
     predicted.y.push_back(100 * (1 - proposal.option.stopped));

@@ -185,7 +185,7 @@ void verify_all(RunInputs& runs, Verified files, const std::vector<SearchCase>& 
       const auto found = files.find(proposal.name);
       if (found == files.end()) continue;
       proposal.verified =
-          read_verified(runs, proposal.name, found->second, proposal.fences, cases[s].object);
+          read_verified(runs, proposal.name, found->second, proposal.fences, cases[s]);
       files.erase(found);
       const std::string comparison = comparison_of(proposal);
       if (answers[s].best < 0 && !comparison.empty() && comparison != "worse than predicted")

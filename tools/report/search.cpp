@@ -81,9 +81,9 @@ std::string search_text(const Json& search, const std::string& svg) {
     out += html_fold("Most stopped for its cost", curve_table(curve));
   if (value_at(search, {"prices_given"}) == false)
     out += html_note(
-        "No prices are given: costs only rank. A metre costs 1, and 0.2 more for each class, 0.1 "
-        "for "
-        "each metre of height.");
+        "No prices of classes are given: costs only rank. A metre costs 1, and 0.2 more for each "
+        "class, " +
+        number_text(value_at(search, {"price_per_m2"}), 3) + " for each metre of height.");
   return out;
 }
 

@@ -179,12 +179,14 @@ bool is_within(const Posts& posts, const Posts& start, double farthest) {
                      [&](const Vec3& p) { return is_near(p.head<2>(), line, farthest); });
 }
 
-// Hits of what matters lie in end fields, which shall have none.
-bool has_free_ends(const SearchLine& line, int end_fields) {
+// What shall be stopped is held without the end fields.
+bool has_free_ends(const SearchLine& line, int end_fields, double needed) {
   const int last = n_fields(line.fence) - end_fields;
-  return std::none_of(line.hits.begin(), line.hits.end(), [&](const SearchHit& hit) {
-    return hit.matters && (hit.arrival.field < end_fields || hit.arrival.field >= last);
-  });
+  double held = 0;
+  for (const SearchHit& hit : line.hits)
+    if (hit.matters && hit.arrival.field >= end_fields && hit.arrival.field < last)
+      held += hit.arrival.weight;
+  return held >= needed * (1 - 1e-9);
 }
 
 }  // namespace
@@ -266,6 +268,7 @@ RefinedFence refine(const SearchRuns& runs, const std::vector<BlockPath>& paths,
     out.option = cheapest_on(runs, {out.line}, whole_of(out.line), code, settings, trn);
     return out;
   };
+  const double needed = settings.share * weight_on_object(runs);
   RefinedFence best = evaluated(start.post);
   for (int round = 0; round < limits.most_rounds; ++round) {
     std::optional<RefinedFence> better;
@@ -277,7 +280,8 @@ RefinedFence refine(const SearchRuns& runs, const std::vector<BlockPath>& paths,
       ++best.n_tried;
       RefinedFence moved = evaluated(posts);
       const FenceOption& so_far = better ? better->option : best.option;
-      if (!moved.option.faults.empty() || !has_free_ends(moved.line, settings.end_fields)) continue;
+      if (!moved.option.faults.empty() || !has_free_ends(moved.line, settings.end_fields, needed))
+        continue;
       if (!so_far.faults.empty() || moved.option.cost < so_far.cost * (1 - 1e-3))
         better = std::move(moved);
     }

@@ -32,12 +32,15 @@ double storage_of(const Search& s, const PlacedFence& placed) {
 }
 
 // The shortest stretch of a line for `share` of all hits on the object, `gone` ones left out: they
-// are `before` of it already.
+// are `before` of it already. Only where end fields still find room on the line.
 std::optional<PlacedFence> place_for(const Search& s, int line, double share,
                                      const std::vector<bool>& gone = {}, double before = 0) {
+  const double ends = s.settings.end_fields * s.settings.spacing;
+  const double last = length(s.lines[line].fence) - ends;
   std::vector<std::pair<double, double>> hits;
   for (const SearchHit& hit : s.lines[line].hits)
-    if (hit.matters && (gone.empty() || !gone[hit.block]))
+    if (hit.matters && hit.arrival.chainage >= ends && hit.arrival.chainage <= last &&
+        (gone.empty() || !gone[hit.block]))
       hits.emplace_back(hit.arrival.chainage, hit.arrival.weight);
   std::sort(hits.begin(), hits.end());
   std::vector<double> place, weight;

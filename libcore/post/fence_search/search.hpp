@@ -98,8 +98,8 @@ struct FenceSearchResult {
 /// Those of the front that no cheaper one equals in what is stopped: a curve, by cost.
 [[nodiscard]] std::vector<FenceOption> cost_curve(const std::vector<FenceOption>& front);
 
-/// Whether two shares, of `n_a` and `n_b` independent trials, differ by no more than chance would
-/// have it 19 times of 20 (Newcombe 1998, method 10).
+/// Whether two shares with their 95 % intervals, of trials that are independent of each other,
+/// differ by no more than chance would have it 19 times of 20 (Newcombe 1998, method 10).
 [[nodiscard]] bool shares_agree(double a, const Interval& of_a, double b, const Interval& of_b);
 
 }  // namespace talus

@@ -46,6 +46,9 @@ says 'too few'
 runs other 11 11
 expect 1 search run_1.h5 run_2.h5 -o v.gpkg --verified house-1=run_1.h5
 says 'verify with other seeds'
+runs same 1 1 --add p/house-1.toml
+expect 1 search run_1.h5 run_2.h5 -o v.gpkg --verified house-1=same_1.h5
+says 'has seed 1, as has one of the runs'
 expect 1 search run_1.h5 run_2.h5 -o v.gpkg --verified house-1=other_11.h5
 says 'did not have fence house-1 standing where it is now'
 expect 1 search run_1.h5 run_2.h5 -o v.gpkg --verified house-9=other_11.h5

@@ -51,6 +51,25 @@ grep -q '"best": "house-1"' verified.json || fail 'what holds is not the best'
 expect 0 talus-fence site.toml --add proposals/house-1.toml other_*.h5 --trn slope.tif -o fence.gpkg --no-db
 prints 'fence house-1'
 
+# runs of two classes count by how often these happen: 0.01 and 0.04 a year, only the rare one hits
+runs short 1 6 --duration-s 1
+sed 's/^\[fence_search/[hazard]\n[hazard.class.rare]\nfrequency_per_a = 0.01\n[hazard.class.often]\nfrequency_per_a = 0.04\n&/' \
+  site.toml >classes.toml
+ls run_*.h5 >rare.list
+ls short_*.h5 >often.list
+expect 0 talus-fence-search classes.toml --trn slope.tif --no-db --class rare=@rare.list --class often=@often.list \
+  -o classes.gpkg --json classes.json --no-refine
+python3 - <<'PY' || fail 'classes do not count by their frequency'
+import json
+s = json.load(open('classes.json'))['searches'][0]
+assert abs(s['run_share'] - 0.2) < 1e-12, s['run_share']
+assert abs(s['hit_per_a'][0] - 0.01) < 1e-12 and abs(s['hits_a_run'] - 0.6) < 1e-12, s
+PY
+
+# a fence that stood is said
+expect 0 search other_101.h5 other_102.h5 -o standing.gpkg
+says 'fences stood in the runs: house-1'
+
 # nothing hits an object that lies aside
 sed -e 's/^polygon = .*/polygon = [[500085, 5000001], [500095, 5000001], [500095, 5000009], [500085, 5000009]]/' \
   -e 's/^protect/min_fields = 1\nend_fields = 0\nprotect/' site.toml >aside.toml

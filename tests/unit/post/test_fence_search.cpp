@@ -319,6 +319,20 @@ TEST(FenceSearch, EndFieldsLieBesideWhatIsStoppedAndTheFenceOnItsLine) {
   EXPECT_DOUBLE_EQ(shifted->to, 30);
 }
 
+TEST(FenceSearch, AStretchIsSoughtWhereEndFieldsHaveRoom) {
+  // the two nearest hits lie at the end of the line
+  Slope scene = scene_of({40});
+  for (int r = 0; r < 12; ++r) add_run(scene, {{2, 3, 100, 105}}, {50e3}, 0.1);
+  SearchSettings settings = plain_settings(0.2);
+  settings.share = 0.5;
+  settings.spacing = 10;
+  settings.end_fields = 1;
+  const FenceSearchResult found = searched(scene, settings);
+  ASSERT_FALSE(found.proposals.empty());
+  EXPECT_DOUBLE_EQ(found.proposals[0].parts[0].placed.from, 90);
+  EXPECT_DOUBLE_EQ(found.proposals[0].stopped, 0.5);
+}
+
 TEST(FenceSearch, SharesThatChanceTellsApartDoNotAgree) {
   EXPECT_TRUE(shares_agree(0.03, wilson_interval(0.03, 100), 0.07, wilson_interval(0.07, 100)));
   EXPECT_FALSE(shares_agree(0.03, wilson_interval(0.03, 100), 0.20, wilson_interval(0.20, 100)));
@@ -416,15 +430,19 @@ TEST(FencePaths, GiveTheCrossingsOfLinesThatNobodyWatched) {
   EXPECT_TRUE(late.hits.empty());
 }
 
-TEST(FencePaths, ARefinedFenceIsMovedToWhereBlocksComeWithLess) {
-  // blocks along x, ever faster: the farther up (smaller x) the cheaper, within 5 m
+namespace {
+
+// A fence at x = 80, from y = 15 to 55, refined for blocks that come along x at these y, ever
+// faster: the farther up (smaller x) the cheaper. The light class is enough up to 78.5 m.
+RefinedFence refined_for(const std::vector<double>& places, double share, int end_fields) {
+  const int n = static_cast<int>(places.size());
   RunFile run;
-  for (int b = 0; b < 2; ++b) add_box(run, {0.5, 0.5, 0.5}, {0, 30.0 + 10 * b, 100});
+  for (const double y : places) add_box(run, {0.5, 0.5, 0.5}, {0, y, 100});
   for (int k = 0; k <= 60; ++k) {
     std::vector<FrameBlock> at;
-    for (int b = 0; b < 2; ++b) {
+    for (const double y : places) {
       const double x = 50 + k;
-      at.push_back(standing({x, 30.0 + 10 * b, 100 - 0.5 * x + 0.5}));
+      at.push_back(standing({x, y, 100 - 0.5 * x + 0.5}));
       at.back().velocity = {std::sqrt(2 * energy_a_metre * x / 250), 0, 0};
     }
     add_frame(run, 0.1 * k, at);
@@ -433,12 +451,13 @@ TEST(FencePaths, ARefinedFenceIsMovedToWhereBlocksComeWithLess) {
   SearchRuns& runs = scene.runs;
   std::vector<BlockPath> paths;
   for (int r = 0; r < 12; ++r) {
-    add_paths(paths, run, r, 2 * r, {9, 9}, {{{{80, 0}, {80, 80}}}, 20});
-    runs.weight.push_back(2);
-    runs.n_hits.push_back(2);
+    add_paths(paths, run, r, n * r, std::vector<double>(places.size(), 9),
+              {{{{80, 0}, {80, 80}}}, 20});
+    runs.weight.push_back(n);
+    runs.n_hits.push_back(n);
   }
   runs.n_runs = 12;
-  runs.n_blocks = 24;
+  runs.n_blocks = 12 * n;
   runs.density = 2000;
   runs.mean_block_size = 0.5;
   runs.basis = share_basis(runs.weight, false);
@@ -446,6 +465,8 @@ TEST(FencePaths, ARefinedFenceIsMovedToWhereBlocksComeWithLess) {
   settings.capacities = {370e3, 500e3};
   settings.prices_per_m = {1, 2};
   settings.spacing = 10;
+  settings.share = share;
+  settings.end_fields = end_fields;
   Fence start;
   for (int k = 0; k <= 4; ++k) {
     start.post.emplace_back(80, 15 + 10.0 * k, 60);
@@ -453,10 +474,25 @@ TEST(FencePaths, ARefinedFenceIsMovedToWhereBlocksComeWithLess) {
   }
   RefineLimits limits;
   limits.farthest = 8;
-  const RefinedFence refined =
-      refine(runs, paths, start, 1, plain_code(), settings, scene.trn, limits);
+  return refine(runs, paths, start, 1, plain_code(), settings, scene.trn, limits);
+}
+
+}  // namespace
+
+TEST(FencePaths, ARefinedFenceIsMovedToWhereBlocksComeWithLess) {
+  const RefinedFence refined = refined_for({30, 40}, 1, 0);
   EXPECT_TRUE(refined.option.faults.empty());
   EXPECT_GT(refined.n_moves, 0);
-  EXPECT_EQ(refined.option.capacity, 370e3);  // enough up to 78.5 m
-  EXPECT_LE(refined.option.length, 20.5);     // fields that nothing meets are taken away
+  EXPECT_EQ(refined.option.capacity, 370e3);
+  EXPECT_LE(refined.option.length, 20.5);  // fields that nothing meets are taken away
+}
+
+TEST(FencePaths, BlocksBeyondTheShareDoNotKeepAFenceFromBeingRefined) {
+  // a third of the blocks meets an end field; without it the share is held all the same
+  const RefinedFence refined = refined_for({20, 30, 40}, 0.6, 1);
+  EXPECT_TRUE(refined.option.faults.empty());
+  EXPECT_EQ(refined.option.capacity, 370e3);
+  EXPECT_GE(refined.option.stopped, 0.6);
+  // where it is not, nothing is moved
+  EXPECT_EQ(refined_for({20, 30, 40}, 0.9, 1).n_moves, 0);
 }
