@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "site/plausibility.hpp"
 
@@ -114,8 +115,10 @@ TEST(Plausibility, OutlookHasThreeClasses) {
 }
 
 TEST(ExpectedTime, GrowsWithBlocksAndShorterSteps) {
-  EXPECT_NEAR(cpu_s_of_a_packed_second(400, 0.01), 1.9, 0.1);
-  EXPECT_NEAR(cpu_s_of_a_packed_second(1000, 0.01), 7.5, 0.3);
+  for (const auto& [n_blocks, measured] : {std::pair{70, 0.6}, {150, 1.1}, {258, 3.0}}) {
+    EXPECT_LT(cpu_s_of_a_packed_second(n_blocks, 0.01), 1.5 * measured) << n_blocks;
+    EXPECT_GT(cpu_s_of_a_packed_second(n_blocks, 0.01), measured / 1.5) << n_blocks;
+  }
   EXPECT_NEAR(cpu_s_of_a_packed_second(400, 0.005) / cpu_s_of_a_packed_second(400, 0.01), 1.7,
               1e-9);
   // 389 blocks, 60 s: 69 were measured; 431 blocks: 111
