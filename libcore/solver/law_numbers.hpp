@@ -199,6 +199,8 @@ inline constexpr double deepened = 0.02;
 inline constexpr double after_hit = 1.0 / 32;
 /// [-] Repetitions of a lone block's substep, to find an event or to converge.
 inline constexpr int most_tries = 24;
+/// [-] ... once no forces were found in the step, so that it ends.
+inline constexpr int tries_once_unconverged = 6;
 /// [thickness] A lone block has gone through a ridge when it is so deep behind it ...
 inline constexpr double deep_past_ridge = 0.03;
 /// [thickness] ... and no point moved less than this.

@@ -50,12 +50,14 @@ template <int Dof>
 CoupleBounds bounds_of(const BlockSystem<Dof>& system, const AngularRow& turn,
                        std::span<const ContactRow> rows) {
   CoupleBounds bounds;
+  if (turn.is_off) return bounds;
   for (int i = turn.row_begin; i < turn.row_end; ++i) {
     const ContactRow& row = rows[i];
     if (row.waits || row.state == ContactState::open) continue;
     bounds.add(system.arms[turn.arm_begin + i - turn.row_begin], row.normal.dot(row.impulse),
                row.normal);
   }
+  if (!turn.held_normal.isZero(0)) bounds.normal = turn.held_normal;
   return bounds;
 }
 
@@ -75,6 +77,7 @@ template <int Dof>
                                            std::span<const ContactRow> rows, Mat<Dof>& H) {
   for (const AngularRow& turn : system.angular) {
     H.template block<3, 3>(3, 3) += tangent(turn);
+    if (turn.is_off) continue;
     for (int i = turn.row_begin; i < turn.row_end; ++i) {  // the bound follows the normal impulse
       const ContactRow& row = rows[i];
       if (row.waits || row.state == ContactState::open || row.normal.dot(row.impulse) <= 0)
@@ -227,6 +230,23 @@ NewtonResult solve_stiffening(BlockSystem<Dof>& system, std::span<ContactRow> ro
   }
 }
 
+// With couples about the mean normal of the contacts as they press without couples. Where a block
+// spins about an axis all but across its mean normal, what it pivots changes sign with that normal,
+// which follows the impulses: then no velocity may be found that agrees with itself.
+template <int Dof>
+NewtonResult solve_holding_normals(BlockSystem<Dof>& system, std::span<ContactRow> rows,
+                                   int max_passes) {
+  system.velocity = system.free_velocity;
+  for (AngularRow& turn : system.angular) turn.is_off = true;
+  const NewtonResult without = solve_coupled(system, rows, max_passes, 0);
+  for (AngularRow& turn : system.angular) {
+    turn.is_off = false;
+    turn.held_normal = bounds_of(system, turn, rows).normal;
+  }
+  const NewtonResult with = solve_coupled(system, rows, max_passes, 0);
+  return {with.converged, without.passes + with.passes};
+}
+
 // One sweep over the angular rows; returns the largest change of spin times its lever.
 template <int Dof>
 double sweep_couples(const Mat<Dof>& per_mass, std::span<const ContactRow> rows,
@@ -302,8 +322,11 @@ NewtonResult solve_contacts(BlockSystem<Dof>& system, std::span<ContactRow> rows
   const auto go_on = [&](const NewtonResult& next) {
     result = {next.converged, result.passes + next.passes};
   };
+  if (!result.converged && !system.angular.empty())
+    go_on(solve_holding_normals(system, rows, max_passes));
   if (!result.converged) go_on(solve_stiffening(system, rows, max_passes));
   if (!result.converged) go_on(solve_sweeps(system, rows));
+  for (AngularRow& turn : system.angular) turn.held_normal.setZero();
   return result;
 }
 

@@ -61,6 +61,7 @@ struct Advance {
   bool breaks_bonds = false;  // of the substep under way; what is left is in work.unbonded
   double last_h = 0;          // of the substep before [s]
   double longest_h = 0;       // the next one is not tried longer, because of its error [s]
+  int most_tries = law::most_tries;  // of a substep; fewer once no forces were found in the step
 
   [[nodiscard]] size_t i() const { return static_cast<size_t>(b); }
   Motion& motion() { return state.motion[i()]; }
@@ -223,6 +224,7 @@ struct Advance {
       }
       note_unconverged(b, report);
       report.flags = report.flags | StepFlag::unconverged;
+      most_tries = law::tries_once_unconverged;
     }
     if (!last && (changes_bearing() || bond_fails()) && is_rough(t, h)) return shorten(h / 2, h);
     if (break_bonds()) return Attempt::shorter;
@@ -493,7 +495,7 @@ struct Advance {
       Attempt outcome = Attempt::shorter;
       breaks_bonds = false;
       for (int tries = 1; outcome == Attempt::shorter; ++tries)
-        outcome = attempt<Dof>(t, h, tries >= law::most_tries);
+        outcome = attempt<Dof>(t, h, tries >= most_tries);
       if (t_end - state.local_time[i()] < 1e-9 * scene.settings.dt) state.local_time[i()] = t_end;
       if (outcome == Attempt::impact) count_event();
       was_hit = outcome == Attempt::impact && impact();
