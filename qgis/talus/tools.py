@@ -200,11 +200,13 @@ def command_line(tool, values, folder="", command=None):
 def goal_command(site, goal, variables, jobs=1, folder=""):
     """Program and arguments of a goal of make in a site's folder; `variables` as NAME=VALUE.
 
-    Make hands an environment on, so the tools say how far they are as objects.
+    Make hands an environment on, so the tools say how far they are as objects. It runs the tools that
+    the plug-in offers, not those of a checkout that its rules might find.
     """
     words = ["TALUS_PROGRESS=json", "make", "-C", site, "-j%d" % max(1, jobs), "--no-print-directory", goal]
-    if folder:
-        words.append("BIN=" + os.path.join(folder, ""))
+    place = folder or os.path.dirname(tool_path("talus-site"))
+    if place:
+        words.append("BIN=" + os.path.join(place, ""))
     return "env", words + [v for v in variables if v]
 
 

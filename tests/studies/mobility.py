@@ -52,8 +52,8 @@ def relation_cell(result, name):
     chance, cell = of(relation, "exceedance_probability"), f"{of(relation, 'L_over_expected'):.2f}"
     if chance == chance:
         return f"{cell} ({100 * chance:.0f} %)"
-    expected = statistics.mean(run["event"]["L_chord_m"] for run in result["runs"])
-    return cell + (" beyond" if expected > of(relation, "L_on_lower_line_m") else "")
+    beyond = [run["L_over_expected"] * run["L_expected_m"] > run["L_on_lower_line_m"] for run in relation["runs"]]
+    return cell + (" beyond" if statistics.mean(beyond) > 0.5 else "")
 
 
 def line(words):
