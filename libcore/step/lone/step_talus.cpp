@@ -176,6 +176,34 @@ struct Advance {
     return Attempt::shorter;
   }
 
+  // A substep in which nothing touches the block: it flies, perhaps on beyond it.
+  Attempt go_free(const Substep& s, double t, double& h, bool last) {
+    work.rows.clear();
+    if (!last && changes_bearing() && is_rough(t, h)) return shorten(h / 2, h);
+    const bool lifts_off = !state.memory[i()].empty();
+    if (lifts_off && free_fall_only() && begin_flight(t, 2 * h)) return Attempt::flight;
+    report.n_flips += static_cast<int>(state.memory[i()].size());
+    state.memory[i()].clear();
+    relax_strain();
+    note_accuracy(0, h);
+    finish(s, s.free, t, t + h);
+    forget_rates(scene, b, state);
+    return Attempt::done;
+  }
+
+  // Whether a new contact is hit where the substep begins; it is then the one that is foreseen.
+  bool is_hit_at_start() {
+    for (const ContactRow& row : work.rows) {
+      if (row.memory >= 0 || row.gap_start > c.touch ||
+          row.gap_start <= -law::deep_share * c.thickness || row.speed_start >= -c.located_speed)
+        continue;
+      foreseen = work.contacts[row.contact];
+      is_foreseen = true;
+      return true;
+    }
+    return false;
+  }
+
   // Substep of h from t; h is shortened to the first impact or when the forces do not converge.
   template <int Dof>
   Attempt attempt(double t, double& h, bool last) {
@@ -190,27 +218,9 @@ struct Advance {
                       on_plane ? margin_on_plane(h) : search_margin(c, h), work.world_vertices,
                       work.contacts, &work.near_ground[i()]);
     if (near.reach == Reach::off_ground) return Attempt::left;
-    if (work.contacts.empty()) {
-      work.rows.clear();
-      if (!last && changes_bearing() && is_rough(t, h)) return shorten(h / 2, h);
-      const bool lifts_off = !state.memory[i()].empty();
-      if (lifts_off && free_fall_only() && begin_flight(t, 2 * h)) return Attempt::flight;
-      report.n_flips += static_cast<int>(state.memory[i()].size());
-      state.memory[i()].clear();
-      relax_strain();
-      note_accuracy(0, h);
-      finish(s, s.free, t, t + h);
-      forget_rates(scene, b, state);
-      return Attempt::done;
-    }
+    if (work.contacts.empty()) return go_free(s, t, h, last);
     make_rows(scene, b, c, s, breaks_bonds ? work.unbonded : state.memory[i()], work);
-    for (const ContactRow& row : work.rows)
-      if (row.memory < 0 && row.gap_start <= c.touch &&
-          row.gap_start > -law::deep_share * c.thickness && row.speed_start < -c.located_speed) {
-        foreseen = work.contacts[row.contact];
-        is_foreseen = true;
-        return Attempt::impact;
-      }
+    if (is_hit_at_start()) return Attempt::impact;
     if (!last && goes_through_ridge(s)) return shorten(h / 2, h);
     BlockSystem<Dof> system = make_system<Dof>(scene, b, c, s, state);
     begin_soil(scene, b, c, s, state, t, work);
