@@ -400,6 +400,24 @@ struct Solve {
     return false;
   }
 
+  // Newton with the exact tangent from the best velocities so far: friction bounds that follow the
+  // normal forces couple the rows, and renewals of bounds get close but settle slowly.
+  bool solve_exact() {
+    direct = n_bodies(island) <= settings.direct_fallback;
+    if (!direct || !std::isfinite(best_residual)) return false;
+    work.velocity = work.best;
+    work.matrix.changed_pairs.fill();
+    activate_all(island, work.matrix);
+    work.at_best = false;
+    double residual = evaluate(Evaluation::coupled);
+    const int most_passes = result.passes + law::passes_an_exact_step * law::exact_steps;
+    for (int steps = 0; steps < law::exact_steps && result.passes < most_passes; ++steps) {
+      residual = advance(true);
+      if (residual <= tolerance) return true;
+    }
+    return false;
+  }
+
   // The law with D_n and D_t at most `ratio` times the reduced mass.
   double soften(double ratio) {
     for (const BodyPair& pair : island.pairs) {
@@ -455,7 +473,7 @@ struct Solve {
     tolerance = std::max(settings.tolerance, work.rounding);
     direct = n_bodies(island) <= settings.direct_bodies;
     result.converged = solve_coupled(settings.max_passes / law::coupled_share) || solve_held() ||
-                       solve_stiffening();
+                       solve_exact() || solve_stiffening();
     if (result.converged) {
       keep_momentum();
     } else {
