@@ -1,5 +1,6 @@
 // Stage 6 of an island's step, its end: hits become part of the motion without contact, about which
-// the contacts that press are solved. A body that was hit is pressed from its last hit on.
+// the contacts that press are solved. What pressed a body before goes on over all of the substep;
+// what is new presses it from its last hit on.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -114,19 +115,31 @@ void take_member(const HitLooks& looks, size_t k, FreeMotions& free, IslandSyste
   island.velocity[k] = island.free_velocity[k];
 }
 
-/// What is left of the substep after the last hit of the bodies of a pair.
+// Where pairs that press all along had times of their own, impulses of a jam that balance would not:
+// they would push a block by their size times the difference of these times.
+bool pressed_before(const IslandSystem& system, size_t p) {
+  for (const size_t r : contacts_of(system, p))
+    if (system.contacts[r].memory >= 0 && !system.contacts[r].waits) return true;
+  return false;
+}
+
+/// The part of the substep over which the contacts of a pair press: all of it where they pressed
+/// before, else what is left after the last hit of its bodies.
 struct PairRest {
   double length = 0;  // [s]
   bool has_b = false;
   PlacedMotion a, b, end_a, end_b;  // at its begin, and at the end without contact
 };
 
-PairRest rest_of(const HitLooks& looks, const BodyPair& pair, const FreeMotions& free) {
+PairRest rest_of(const HitLooks& looks, const IslandSystem& system, size_t p,
+                 const FreeMotions& free) {
+  const BodyPair& pair = system.island.pairs[p];
   const auto ka = static_cast<size_t>(pair.a), kb = static_cast<size_t>(std::max(pair.b, 0));
   PairRest rest;
   rest.has_b = pair.b >= 0;
   double from = looks.hits.members[ka].clock;
   if (rest.has_b) from = std::max(from, looks.hits.members[kb].clock);
+  if (pressed_before(system, p)) from = 0;
   rest.length = std::max(free.h - from, shortest_rest * free.h);
   rest.a = looks.member_at(ka, from).placed;
   rest.end_a = free_end(free, ka);
@@ -181,11 +194,11 @@ void take_row(const HitLooks& looks, size_t r, const PairRest& of, const FreeMot
                   slip_speed > 0 ? Vec3(slip / slip_speed) : Vec3(Vec3::Zero()));
 }
 
-// The pair acts in the middle of what is left of the substep.
+// The pair acts in the middle of the time over which it presses.
 void take_pair(const HitLooks& looks, size_t p, const FreeMotions& free, IslandSystem& system,
                SubstepHits& hits) {
   BodyPair& pair = system.island.pairs[p];
-  const PairRest rest = rest_of(looks, pair, free);
+  const PairRest rest = rest_of(looks, system, p, free);
   hits.pair_time[p] = free.h - rest.length / 2;
   if (rest.has_b)
     pair.shift =
