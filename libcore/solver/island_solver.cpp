@@ -401,16 +401,19 @@ struct Solve {
   }
 
   // Newton with the exact tangent from the best velocities so far: friction bounds that follow the
-  // normal forces couple the rows, and renewals of bounds get close but settle slowly.
+  // normal forces couple the rows, and renewals of bounds get close but settle slowly. Not for
+  // islands that are factored in any case: they have had it.
   bool solve_exact() {
-    direct = n_bodies(island) <= settings.direct_fallback;
-    if (!direct || !std::isfinite(best_residual)) return false;
+    const int n = n_bodies(island);
+    if (n <= settings.direct_bodies || n > settings.direct_fallback) return false;
+    if (!std::isfinite(best_residual)) return false;
+    direct = true;
     work.velocity = work.best;
     work.matrix.changed_pairs.fill();
     activate_all(island, work.matrix);
     work.at_best = false;
     double residual = evaluate(Evaluation::coupled);
-    const int most_passes = result.passes + law::passes_an_exact_step * law::exact_steps;
+    const int most_passes = result.passes + settings.max_passes / law::exact_share;
     for (int steps = 0; steps < law::exact_steps && result.passes < most_passes; ++steps) {
       residual = advance(true);
       if (residual <= tolerance) return true;
@@ -444,14 +447,16 @@ struct Solve {
     for (const RowGroup& group : island.rows)
       work.damping.push_back({group.normal_damping, group.shear_damping});
     direct = n_bodies(island) <= settings.direct_fallback;
+    const int left = static_cast<int>((1 - law::held_share) * settings.max_passes);
+    const int most_passes = std::max(settings.max_passes, result.passes + left);
     for (double ratio = first_ratio;; ratio *= ratio_growth) {
       tracking = ratio >= work.stiffness_ratio;
       double residual = soften(std::min(ratio, settings.stiffest));
       const double goal = tracking ? tolerance : tolerance + soft_tolerance * residual;
-      for (int steps = 0; residual > goal && result.passes < settings.max_passes; ++steps)
+      for (int steps = 0; residual > goal && result.passes < most_passes; ++steps)
         residual = advance(steps >= law::island_free_steps);
       if (tracking) return residual <= tolerance;
-      if (!std::isfinite(residual) || result.passes >= settings.max_passes) return false;
+      if (!std::isfinite(residual) || result.passes >= most_passes) return false;
     }
   }
 

@@ -267,11 +267,11 @@ inline constexpr double renews_well = 0.9;
 inline constexpr double least_renewal = 0.25;
 /// [-] Steps by the law from what they give go on while each leaves no more of the residual.
 inline constexpr double finishing = 0.3;
-/// [-] Newton steps with the exact tangent from what held bounds leave. Tried: none; that mass takes
-/// twice as long. 8: a tenth longer.
+/// [-] Newton steps with the exact tangent from what held bounds leave. Tried: none; that mass
+/// takes twice as long. 8: a tenth longer.
 inline constexpr int exact_steps = 16;
-/// [passes] Each has so many with what shortens it, on average.
-inline constexpr int passes_an_exact_step = 3;
+/// [passes allowed] ... and in one in so many.
+inline constexpr int exact_share = 4;
 /// [slope at the start] A step with held bounds ends where the slope along it is less.
 inline constexpr double level = 0.3;
 /// [-] Places looked at along it, ...

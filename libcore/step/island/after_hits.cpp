@@ -115,8 +115,8 @@ void take_member(const HitLooks& looks, size_t k, FreeMotions& free, IslandSyste
   island.velocity[k] = island.free_velocity[k];
 }
 
-// Where pairs that press all along had times of their own, impulses of a jam that balance would not:
-// they would push a block by their size times the difference of these times.
+// Where pairs that press all along had times of their own, impulses of a jam that balance would
+// not: they would push a block by their size times the difference of these times.
 bool pressed_before(const IslandSystem& system, size_t p) {
   for (const size_t r : contacts_of(system, p))
     if (system.contacts[r].memory >= 0 && !system.contacts[r].waits) return true;
