@@ -65,8 +65,12 @@ double share_of_mass(const Scene& scene, int block) {
   return mass[static_cast<size_t>(block)] / std::accumulate(mass.begin(), mass.end(), 0.0);
 }
 
+// Deep in a fence, or deep before it came to one: what a fence got of it may be wrong. What lies
+// there and is pressed by the next ones has done all that is read of it.
 bool met_fence(const State& state, std::span<const Crossing> crossings, const DeepRow& row) {
-  const auto is_of = [&row](const auto& met) { return met.block == row.block; };
+  const auto is_of = [&row](const auto& met) {
+    return met.block == row.block && met.time >= row.first_time;
+  };
   return row.partner == DeepRow::fence ||
          std::any_of(state.fence.hits.begin(), state.fence.hits.end(), is_of) ||
          std::any_of(crossings.begin(), crossings.end(), [&](const Crossing& crossing) {

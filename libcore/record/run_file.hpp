@@ -119,7 +119,7 @@ struct DeepRow {
   Vec3 place = Vec3::Zero();           ///< of its centroid when it was deepest, local [m]
   double mass_share = 0;               ///< of the mass of all blocks [-]
   std::int32_t ends_in_toe = 0;        ///< 1: farther from the top than 95 % of the mass
-  std::int32_t met_fence = 0;          ///< 1: touched a fence, or crossed its line
+  std::int32_t met_fence = 0;          ///< 1: in a fence, or deep before it touched or crossed one
   std::int32_t is_too_fast = 0;        ///< 1: was faster than its fall can have made it
 };
 

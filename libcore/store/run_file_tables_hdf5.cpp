@@ -392,7 +392,7 @@ void deep_columns(Visit&& column) {
       "ends_in_toe", "1", "1: it ends farther from the top than 95 % of the mass",
       [](DeepRow & d) -> auto& { return d.ends_in_toe; });
   column(
-      "met_fence", "1", "1: it touched a fence or crossed its line",
+      "met_fence", "1", "1: it was in a fence, or deep before it touched one or crossed its line",
       [](DeepRow & d) -> auto& { return d.met_fence; });
   column(
       "is_too_fast", "1", "1: it was faster than its fall can have made it",

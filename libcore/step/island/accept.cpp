@@ -128,7 +128,7 @@ struct SubstepAcceptance {
     const Vec3 normal = lane.normal(), impulse = lane.impulse();
     const bool was_hit = contact.hit >= 0;
     if (was_hit &&
-        (contact.fixed >= 0 || overlap <= law::remembered_hit * thickness_of(members, contact)))
+        (gives_way(system, r) || overlap <= law::remembered_hit * thickness_of(members, contact)))
       return;
     const double p_n = normal.dot(impulse);
     std::vector<ContactMemory>& memories = state.memory[contact.a];
