@@ -111,6 +111,9 @@ void check_scene(const Scene& scene) {
         throw InputError({},
                          "a number of ground that gives way is " + text(law) + ", expected >= 0");
   }
+  for (const Canopy& canopy : scene.canopies)
+    if (!(canopy.drag >= 0 && std::isfinite(canopy.drag)))
+      throw InputError({}, "drag of a forest is " + text(canopy.drag) + " kg/s, expected >= 0");
   const AccelerationRecord& base = scene.base;
   if (base.time.size() != base.acceleration.size())
     throw InputError({}, "base motion has " + std::to_string(base.time.size()) + " times and " +

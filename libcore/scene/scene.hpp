@@ -13,6 +13,7 @@
 #include "contact/shapes.hpp"
 #include "motion/displacement.hpp"
 #include "motion/pose.hpp"
+#include "scene/canopy.hpp"
 #include "scene/fixed_bodies.hpp"
 #include "scene/forest.hpp"
 #include "scene/joint_classes.hpp"
@@ -85,6 +86,7 @@ struct Scene {
   Fragmentation fragmentation;
   FixedBodies fixed;                 ///< law talus: fences, blocky slope; found through hulls
   Forest forest;                     ///< law talus: stems of trees, found by place
+  std::vector<Canopy> canopies;      ///< law talus: forests that drag
   Vec3 gravity = Vec3(0, 0, -9.81);  ///< [m/s2]
   std::vector<PointLoad> loads;      ///< sorted by block
   AccelerationRecord base;           ///< empty: the ground stands still

@@ -183,6 +183,7 @@ Scene make_site_scene(const Site& site, const ScenePlan& plan, SceneParts parts)
   add_jitter(scene.blocks, solver.start_jitter_m_s, seed);
   for (const StandingFence& fence : parts.fences) add_fence(scene, fence);
   if (!parts.stems.empty()) add_forest(scene, std::move(parts.stems), std::move(parts.stem_faces));
+  scene.canopies = std::move(parts.canopies);
   check_scene(scene);
   return scene;
 }

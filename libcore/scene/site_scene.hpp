@@ -24,6 +24,7 @@ struct SceneParts {
   std::vector<StandingFence> fences;    ///< that stand in the run
   std::vector<Stem> stems;              ///< of the forests that stand in it
   std::vector<GroundClass> stem_faces;  ///< by Stem::section
+  std::vector<Canopy> canopies;         ///< of the forests that drag
 };
 
 /// The effective time step: [solver] time_step_s, else 5 ms for law talus and 0.1 ms for law paper,

@@ -31,7 +31,7 @@ struct EnergyLedger {
   double base = 0;      ///< put in by base motion and point loads
   double fence = 0;     ///< taken by panels of fences, and what else gave way
   double rolling = 0;   ///< dissipated by rolling and pivoting resistance, in hits too
-  double drag = 0;      ///< dissipated by drag of the ground
+  double drag = 0;      ///< dissipated by drag of ground and forests
   double breakage = 0;  ///< kinetic energy of crushed blocks, and work of fracture
   double removed = 0;   ///< kinetic energy of blocks stopped at the domain's edge
 };

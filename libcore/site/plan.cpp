@@ -87,7 +87,8 @@ PlanFacts plan_facts(const Site& site, const BlockSet& blocks, const Trn& trn,
     facts.n_standing += fence.active && site.solver.law == "talus";
   facts.breaks = site.fragmentation.enabled && site.solver.law == "talus";
   for (const ForestSettings& forest : site.forests)
-    facts.n_forests += forest.active && site.solver.law == "talus";
+    if (forest.active && site.solver.law == "talus")
+      ++(forest.drag_kg_s > 0 ? facts.n_canopies : facts.n_forests);
   facts.has_base_motion = !site.base_motion.file.empty() || site.base_motion.amplitude_m_s2 > 0;
   facts.stress_wanted = site.output.strain;
   facts.strain = site.solver.strain;
@@ -165,6 +166,9 @@ ScenePlan make_plan(const PlanFacts& facts, bool full) {
   if (facts.n_forests > 0)
     add({"forest", true, "stems by place, looked at where a block is near",
          counted(facts.n_forests, "forest")});
+  if (facts.n_canopies > 0)
+    add({"drag of forests", true, "in each substep by place; no flight goes over such a forest",
+         counted(facts.n_canopies, "forest")});
   plan.strains_in_frames = add(kept_by_full(
       full && plan.strains, {"strains in frames", facts.stress_wanted && plan.strains,
                              "stored where asked for and computed",

@@ -35,7 +35,8 @@ struct PlanFacts {
   int n_fences = 0;
   int n_fence_searches = 0;
   int n_standing = 0;   ///< fences that stop blocks
-  int n_forests = 0;    ///< that do
+  int n_forests = 0;    ///< of stems that do
+  int n_canopies = 0;   ///< forests that drag, law talus
   bool breaks = false;  ///< blocks may break: their pieces meet
   bool has_base_motion = false;
   bool stress_wanted = false;   ///< [output] strain

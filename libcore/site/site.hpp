@@ -165,7 +165,7 @@ struct FenceSettings {
   double cor = 0.1, friction_deg = 30;
 };
 
-/// [forest.NAME]: stems that stand in the way, drawn or from a list.
+/// [forest.NAME]: stems that stand in the way, drawn or from a list; or drag without stems.
 struct ForestSettings {
   std::string name;
   int line = 0;
@@ -179,6 +179,7 @@ struct ForestSettings {
   double fe_conifer = 0.93, fe_broadleaf = 1.59;     ///< FE of the energy that breaks a stem
   double deflection_m = 0.5;                         ///< over which it takes that energy
   double height_m = 20, friction_deg = 16.7;
+  double drag_kg_s = 0;  ///< d of the force -d v on a block below the canopy
   std::int64_t seed = 1;
   bool new_stand_per_run = false;
   bool active = true;

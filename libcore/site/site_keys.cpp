@@ -224,8 +224,9 @@ template <> const std::vector<SiteKey<ForestSettings>>& keys_of() {
       {"fe_conifer", &S::fe_conifer, "factor on the energy that breaks a conifer", {0, 10, true, false}},
       {"fe_broadleaf", &S::fe_broadleaf, "the same of a broadleaf", {0, 10, true, false}},
       {"deflection_m", &S::deflection_m, "path of the block over which a stem takes its energy", {0, 10, true, false}},
-      {"height_m", &S::height_m, "height above the ground up to which stems stop blocks", {0, 1000, true, false}},
+      {"height_m", &S::height_m, "height above the ground up to which stems stop blocks, or the canopy drags them", {0, 1000, true, false}},
       {"friction_deg", &S::friction_deg, "friction angle between block and stem", angle_below_90, "", friction_hint},
+      {"drag_kg_s", &S::drag_kg_s, "viscous drag on a block in the polygon below height_m, instead of stems: 250 open, 500 medium, 750 dense forest", {0, 100000}},
       {"seed", &S::seed, "seed of the stand", not_negative},
       {"new_stand_per_run", &S::new_stand_per_run, "each [solver] seed draws a stand of its own"},
       {"active", &S::active, "whether it stands in the run"}};

@@ -1,4 +1,4 @@
-// libcore/step/breakage.hpp
+// libcore/step/breakage.hpp: public
 // Blocks that break when they are hit: their pieces, cut before the run (blocks/fragments.hpp),
 // take their place.
 // in:    normal energy that the hits of a step took from each block

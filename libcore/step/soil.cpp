@@ -31,6 +31,16 @@ double scar_work(const GroundClass& ground, double way) {
                                      (way * std::atan(x) - std::log1p(x * x) / (2 * kappa));
 }
 
+void drag_on_ground(const Scene& scene, double h, Motion& motion) {
+  const GroundClass* ground = class_below(scene, motion.pose.position);
+  if (ground == nullptr || !drags(*ground)) return;
+  const double per_time = std::exp(-ground->drag_per_time * h);
+  const double speed = motion.velocity.norm();
+  const double per_way = 1 / (1 + ground->drag_per_way * speed * h);
+  motion.velocity *= per_time * per_way;
+  motion.angular_momentum *= per_time * per_way;
+}
+
 }  // namespace
 
 RestitutionFall fall_on(const GroundClass& ground, double mass) {
@@ -110,20 +120,17 @@ const GroundClass* class_below(const Scene& scene, const Vec3& x) {
               .classes[static_cast<size_t>(class_of(scene.ground, triangle_at(trn, x.x(), x.y())))];
 }
 
-Motion after_drag(const Scene& scene, const Motion& motion, double h) {
-  const GroundClass* ground = class_below(scene, motion.pose.position);
+Motion after_drag(const Scene& scene, int b, const Motion& motion, bool is_pressed, double h) {
   Motion out = motion;
-  if (ground == nullptr || !drags(*ground)) return out;
-  const double per_time = std::exp(-ground->drag_per_time * h);
-  const double speed = motion.velocity.norm();
-  const double per_way = 1 / (1 + ground->drag_per_way * speed * h);
-  out.velocity *= per_time * per_way;
-  out.angular_momentum *= per_time * per_way;
+  if (is_pressed) drag_on_ground(scene, h, out);
+  const double drag = drag_at(scene.canopies, scene.ground.trn, motion.pose.position);
+  if (drag > 0) out.velocity *= std::exp(-drag * h / scene.blocks.mass[static_cast<size_t>(b)]);
   return out;
 }
 
 bool any_drags(const Scene& scene) {
-  return std::any_of(scene.ground.classes.begin(), scene.ground.classes.end(), drags);
+  return !scene.canopies.empty() ||
+         std::any_of(scene.ground.classes.begin(), scene.ground.classes.end(), drags);
 }
 
 }  // namespace talus

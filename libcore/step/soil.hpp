@@ -1,7 +1,7 @@
 // libcore/step/soil.hpp
 // What ground that gives way does to a block: couples against rolling and pivoting, friction that
-// follows the way slid or the speed, drag. Nothing is computed where no class of ground asks for
-// it.
+// follows the way slid or the speed, drag; and the drag of forests. Nothing is computed where no
+// class of ground and no forest asks for it.
 // in:    classes of ground, rows of a block's contacts with it
 // out:   angular rows, friction of the rows, motions after drag
 // theory 1.13; docs/site-file.md
@@ -65,11 +65,12 @@ void slide_on(int b, double way, double path, double t, State& state);
 /// The class of ground below the centroid of a block; nullptr: none is known there.
 [[nodiscard]] const GroundClass* class_below(const Scene& scene, const Vec3& position);
 
-/// `motion` of block b after drag for a time of `h`, where the ground below it drags; exact for
-/// drag alone.
-[[nodiscard]] Motion after_drag(const Scene& scene, const Motion& motion, double h);
+/// `motion` of block b after drag for a time of `h`: of the ground below it where it `is_pressed`
+/// on that, and of the forests around it, which leave its spin; exact for each alone.
+[[nodiscard]] Motion after_drag(const Scene& scene, int b, const Motion& motion, bool is_pressed,
+                                double h);
 
-/// Whether a class of ground drags.
+/// Whether a class of ground or a forest drags.
 [[nodiscard]] bool any_drags(const Scene& scene);
 
 }  // namespace talus

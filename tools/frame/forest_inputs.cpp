@@ -48,13 +48,26 @@ void check_stand_keys(const ForestSection& s) {
   const bool has_raster = !f.nrtrees_raster.empty();
   if (std::isnan(f.stems_per_ha) && !has_raster)
     s.refuse("does not say how many stems there are",
-             "give stems_per_ha, nrtrees_raster or stems_file");
+             "give stems_per_ha, nrtrees_raster or stems_file; or drag_kg_s above 0 without any");
   if (!std::isnan(f.stems_per_ha) && f.polygon.empty() && f.polygon_file.empty())
     s.refuse("does not say where it stands", "give polygon, polygon_file or nrtrees_raster");
   for (const char* key : {"dbhmean_raster", "dbhstd_raster", "conif_percent_raster"})
     if (s.is_given(key) && !has_raster)
       s.refuse(std::string("has ") + key + " without nrtrees_raster",
                "give nrtrees_raster, stems on a hectare, on the same cells");
+}
+
+void check_drag_keys(const ForestSection& s) {
+  for (const char* key : {"stems_per_ha", "nrtrees_raster", "dbhmean_raster", "dbhstd_raster",
+                          "conif_percent_raster", "stems_file"})
+    if (s.is_given(key))
+      s.refuse(
+          std::string("has both drag_kg_s and ") + key,
+          "drag stands for trees that are not known one by one: leave one of them out, or give "
+          "what grows below the stems a section of its own");
+  s.refuse_both("polygon", "polygon_file");
+  if (s.forest.polygon.empty() && s.forest.polygon_file.empty())
+    s.refuse("does not say where it drags", "give polygon or polygon_file");
 }
 
 // --- where it stands ---------------------------------------------------------------------------
@@ -105,6 +118,10 @@ MapBox box_of(const Area& area, const Trn& trn) {
   return box;
 }
 
+[[noreturn]] void refuse_outside(const ForestSection& s) {
+  s.refuse("lies outside the terrain", "draw it on the terrain, or take a larger window");
+}
+
 // --- a stand -----------------------------------------------------------------------------------
 
 std::vector<StockedCell> cells_of_polygon(const ForestSection& s, const MapBox& box) {
@@ -150,8 +167,7 @@ std::vector<Stem> drawn_stems(const ForestSection& s) {
   check_stand_keys(s);
   const std::optional<Area> area = area_of(s);
   const MapBox box = area ? box_of(*area, s.trn) : box_of_terrain(s.trn);
-  if (box.is_empty())
-    s.refuse("lies outside the terrain", "draw it on the terrain, or take a larger window");
+  if (box.is_empty()) refuse_outside(s);
   const std::vector<StockedCell> cells =
       f.nrtrees_raster.empty() ? cells_of_polygon(s, box) : cells_of_rasters(s, box);
   check_number(s, area, cells);
@@ -171,6 +187,18 @@ std::vector<Stem> drawn_stems(const ForestSection& s) {
     }
   }
   return stems;
+}
+
+// --- a canopy ----------------------------------------------------------------------------------
+
+Canopy dragging_canopy(const ForestSection& s) {
+  const ForestSettings& f = s.forest;
+  check_drag_keys(s);
+  const Area area = *area_of(s);
+  if (box_of(area, s.trn).is_empty()) refuse_outside(s);
+  s.tool.info(s.name() + ": drag of " + text(f.drag_kg_s) + " kg/s on " +
+              text(area_of(area) / 1e4, 3) + " ha");
+  return make_canopy(area, f.height_m, f.drag_kg_s);
 }
 
 // --- a list ------------------------------------------------------------------------------------
@@ -334,6 +362,10 @@ StandingForests read_forests(Tool& tool, const Site& site, const Trn& trn, const
   for (const ForestSettings& forest : site.forests) {
     if (!forest.active || site.solver.law != "talus") continue;
     const ForestSection s{tool, site, trn, forest, out.warnings};
+    if (forest.drag_kg_s > 0) {
+      out.canopies.push_back(dragging_canopy(s));
+      continue;
+    }
     std::vector<Stem> stems = forest.stems_file.empty() ? drawn_stems(s) : listed_stems(s);
     if (stems.empty() && !(forest.stems_per_ha == 0))
       s.refuse("has no stem on the terrain",

@@ -216,6 +216,7 @@ void check_start(Tool& tool, const Site& site, DdaInputs& inputs, const DdaFiles
   StandingForests forests = read_forests(tool, site, parts.trn, parts.blocks);
   parts.stems = std::move(forests.stems);
   parts.stem_faces = std::move(forests.faces);
+  parts.canopies = std::move(forests.canopies);
   inputs.forests = std::move(forests.forests);
   inputs.warnings.insert(inputs.warnings.end(), forests.warnings.begin(), forests.warnings.end());
 }

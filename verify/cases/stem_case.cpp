@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "scene/stems.hpp"
 #include "verify/cases/case_run.hpp"
@@ -44,6 +45,23 @@ CaseResult stem(const Settings& settings) {
     add_counts(one, all);
   }
   return all;
+}
+
+CaseResult dragged_flight(const Settings& settings) {
+  constexpr double heavy = 1000, drag = 500, speed = 15, low = 5;
+  const Material material;
+  const double half = std::cbrt(heavy / material.density) / 2;
+  const Body body =
+      body_of(box(Vec3(-half, -half, low - half), Vec3(half, half, low + half)), Vec3(speed, 0, 0));
+  Scene scene = scene_of(plane_trn(slope_frame(0, 0), 1, 60), {}, {body}, settings, material);
+  scene.gravity = Vec3::Zero();
+  const Area around{{{Vec2(-50, -50), Vec2(50, -50), Vec2(50, 50), Vec2(-50, 50)}}};
+  scene.canopies = {make_canopy(around, 20, drag)};
+  Run run(std::move(scene));
+  const double from = run.motion().pose.position.x(), expected = heavy * speed / drag;
+  run.advance_to(40);
+  const double way = run.motion().pose.position.x() - from;
+  return run.finish(way, expected, std::abs(way / expected - 1));
 }
 
 }  // namespace talus::cases

@@ -1,5 +1,5 @@
 // verify/cases/stem_case.hpp
-// A stem of a tree that stops a block, or breaks.
+// A stem of a tree that stops a block, or breaks; a forest that drags.
 #pragma once
 
 #include "verify/cases/closed_form.hpp"
@@ -10,5 +10,9 @@ namespace talus::cases {
 /// and 25 m/s: largest error of its speed behind the stem, v'^2 = v^2 - 2 E / m or 0, relative to
 /// the speed before.
 CaseResult stem(const Settings& settings);
+
+/// A cube of 1000 kg flies at 15 m/s without gravity through a forest that drags by 500 kg/s, 40 s:
+/// relative error of its way, m v / d = 30 m.
+CaseResult dragged_flight(const Settings& settings);
 
 }  // namespace talus::cases

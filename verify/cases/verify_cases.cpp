@@ -4,6 +4,7 @@
 
 #include "base/text.hpp"
 #include "verify/cases/block_cases.hpp"
+#include "verify/cases/breakage_case.hpp"
 #include "verify/cases/case_run.hpp"
 #include "verify/cases/pile_scenes.hpp"
 #include "verify/cases/stem_case.hpp"
@@ -13,17 +14,24 @@ namespace {
 
 using namespace cases;
 
+void keep_worst(const CaseResult& one, CaseResult& worst) {
+  if (one.error >= worst.error) {
+    worst.value = one.value;
+    worst.expected = one.expected;
+    worst.error = one.error;
+  }
+  add_counts(one, worst);
+}
+
 CaseResult worst_rolling_angle(const Settings& settings) {
   CaseResult worst;
-  for (int n = 3; n <= 12; ++n) {
-    const CaseResult one = rolling_angle(settings, n);
-    if (one.error >= worst.error) {
-      worst.value = one.value;
-      worst.expected = one.expected;
-      worst.error = one.error;
-    }
-    add_counts(one, worst);
-  }
+  for (int n = 3; n <= 12; ++n) keep_worst(rolling_angle(settings, n), worst);
+  return worst;
+}
+
+CaseResult worst_breaking_speed(const Settings& settings) {
+  CaseResult worst;
+  for (const double side : {0.3, 1.0, 3.0}) keep_worst(breaking_speed(settings, side), worst);
   return worst;
 }
 
@@ -392,6 +400,30 @@ std::vector<VerifyCase> block_cases() {
                     .test = "Stems/CentralHit.TakesTheCapacityAndNoMore",
                     .bound = 1e-3,
                     .run = stem}),
+      of_blocks(1, {.name = "forest_drag",
+                    .claim = "a block of 1000 kg stops after 30 m in a forest of 500 kg/s",
+                    .reference = "closed form, m v / d",
+                    .norm = "relative",
+                    .test = "Canopies.StopABlockInTheAir",
+                    .bound = 1e-6,
+                    .run = dragged_flight,
+                    .paper_dt = {1e-2, 1e-3}}),
+      of_blocks(2, {.name = "break_pieces",
+                    .claim = "500 J drive pieces of 1000 and 1600 kg apart",
+                    .reference = "momentum and energy",
+                    .norm = "relative, of velocities and energy",
+                    .test = "Breakage.SeparationEnergyDrivesPiecesApart",
+                    .bound = 1e-9,
+                    .run = pieces_part,
+                    .paper_dt = {1e-2, 1e-3}}),
+      of_blocks(2, {.name = "break_speed",
+                    .claim = "cubes of 0.3, 1 and 3 m break from 16.786, 9.194 and 5.308 m/s on",
+                    .reference = "closed form, sqrt(2 G / (rho a (1 - e^2)))",
+                    .norm = "relative, worst of three",
+                    .test = "BreakageAtStep.ThresholdSpeedFallsWithTheRootOfSize",
+                    .bound = 1e-3,
+                    .run = worst_breaking_speed,
+                    .paper_dt = {1e-2, 1e-3}}),
       of_blocks(10, {.name = "stack_10",
                      .claim = "a stack of ten cubes stands still, 4 s",
                      .reference = "rest",

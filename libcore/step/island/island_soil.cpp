@@ -89,8 +89,8 @@ void slide_member(const Scene& scene, const IslandMembers& members, const FreeMo
 
 Motion begin_drag(const Scene& scene, const State& state, size_t b, double h) {
   const Motion& motion = state.motion[b];
-  if (!any_drags(scene) || !remembers_ground(state, b)) return motion;
-  return after_drag(scene, motion, h / 2);
+  if (!any_drags(scene)) return motion;
+  return after_drag(scene, static_cast<int>(b), motion, remembers_ground(state, b), h / 2);
 }
 
 void begin_soil(const Scene& scene, const State& state, int b, const BlockNumbers& c,
@@ -151,7 +151,8 @@ Motion end_drag(const Scene& scene, const IslandMembers& members, const FreeMoti
   if (!any_drags(scene)) return end;
   const auto energy = [&](const Motion& m) { return kinetic_energy(scene, members.block(k), m); };
   state.ledger.drag += energy(before) - energy(free.substeps[k].start);
-  const Motion dragged = is_pressed(system, k) ? after_drag(scene, end, free.h / 2) : end;
+  const Motion dragged =
+      after_drag(scene, members.blocks[k], end, is_pressed(system, k), free.h / 2);
   state.ledger.drag += energy(end) - energy(dragged);
   return dragged;
 }

@@ -10,7 +10,7 @@
 
 namespace talus {
 
-/// Stage 4: motion that block b begins the substep with, where the ground drags it.
+/// Stage 4: motion that block b begins the substep with, after drag.
 [[nodiscard]] Motion begin_drag(const Scene& scene, const State& state, std::size_t b, double h);
 
 /// Stage 5: angular row of the pair that was opened last, of block b with the ground, and friction
@@ -26,7 +26,7 @@ bool renew_friction(const Scene& scene, const State& state, const IslandMembers&
 /// Stage 9: work of couples, and the ways that members have slid.
 void end_soil(const Scene& scene, const IslandMembers& members, const FreeMotions& free,
               const IslandSystem& system, const SubstepHits& hits, State& state);
-/// ... and motion of member k, which began the step with `before`, after the ground has dragged it.
+/// ... and motion of member k, which began the step with `before`, after drag.
 [[nodiscard]] Motion end_drag(const Scene& scene, const IslandMembers& members,
                               const FreeMotions& free, const IslandSystem& system, std::size_t k,
                               const Motion& end, const Motion& before, State& state);

@@ -85,16 +85,16 @@ struct Advance {
     ++report.substeps;
   }
 
-  // Ground drags for half of the substep at its start, and for half at its end, where something
-  // presses the block then.
-  Motion dragged_at_start(double h) {
-    if (state.memory[i()].empty() || !any_drags(scene)) return motion();
-    return after_drag(scene, motion(), h / 2);
+  // Drag acts for half of the substep at its start, and for half at its end; that of the ground
+  // where something presses the block then.
+  Motion dragged(const Motion& from, double h) {
+    return after_drag(scene, b, from, !state.memory[i()].empty(), h / 2);
   }
+  Motion dragged_at_start(double h) { return any_drags(scene) ? dragged(motion(), h) : motion(); }
   void drag(const Substep& s, const Motion& end) {
     const auto energy = [this](const Motion& m) { return kinetic_energy(scene, i(), m); };
     state.ledger.drag += energy(motion()) - energy(s.start);
-    motion() = state.memory[i()].empty() ? end : after_drag(scene, end, s.h / 2);
+    motion() = dragged(end, s.h);
     state.ledger.drag += energy(end) - energy(motion());
   }
 
@@ -362,7 +362,7 @@ struct Advance {
     return cell / 8 / (top_speed() + std::sqrt(c.gravity * cell) + 1e-300);
   }
 
-  // Flies on from t, where nothing can be hit for longer than `shortest`.
+  // Flies on from t, where for longer than `shortest` nothing can be hit and no forest drags.
   bool begin_flight(double t, double shortest) {
     const double longest = std::min(1e3, law::longest_turn / (spin_speed() + 1e-300));
     // where strains let go the vertices move
@@ -371,7 +371,10 @@ struct Advance {
         flying_body(motion(), scene.blocks.inertia[i()], c.radius,
                     is_rigid ? vertices_of(scene.blocks.shapes, b) : std::span<const Vec3>());
     body.touch = 2 * c.touch;
-    const double safe = free_time(scene.ground, body, scene.gravity, longest);
+    double safe = free_time(scene.ground, body, scene.gravity, longest);
+    while (safe > shortest &&
+           comes_over(scene.canopies, body.position, body.velocity, scene.gravity, safe))
+      safe /= 2;
     if (!(safe > shortest)) {
       state.flight_end[i()] = t + time_for_another_view();
       return false;

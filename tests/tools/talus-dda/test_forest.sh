@@ -75,6 +75,21 @@ n = json.load(open('out'))['trees']['n_stems']
 assert abs(n - 800) < 4 * 800 ** 0.5, n  # 0.4 ha
 PY
 
+# drag instead of stems: blocks stop sooner, the plan and the log say so
+displacement() { sed -n 's/.*"displacement_p90_m": \([0-9.]*\).*/\1/p' out | head -n 1; }
+with_forest drag "$polygon\ndrag_kg_s = 20000"
+expect 0 run drag --json
+says 'forest.wood: drag of 20000 kg/s on 0.36 ha'
+dragged=$(displacement)
+grep -q trees out && fail 'a forest without stems is told of as one of stems'
+expect 0 talus-dda drag.toml --trn slope.tif --blocks blocks.h5 -o still.h5 --no-db --json \
+  --set forest.wood.active=false
+awk "BEGIN { exit !($dragged < 0.8 * $(displacement)) }" ||
+  fail "through the wood $dragged m, without it $(displacement) m"
+expect 0 talus-dda drag.toml --trn slope.tif --blocks blocks.h5 --no-db --plan
+prints 'on   drag of forests: 1 forest'
+grep -q 'on   forest:' out && fail 'the plan tells of stems'
+
 # nothing of it where there is none: no table, no line, the same bytes
 with_forest none "$polygon\nstems_per_ha = 400\nactive = false"
 expect 0 run none --json
@@ -102,6 +117,13 @@ refused 'polygon = [[600050, 5000010], [600095, 5000010], [600095, 5000090]]\nst
   'forest.wood: lies outside the terrain'
 refused "$polygon\nstems_per_ha = 0.01" 'forest.wood: has no stem on the terrain'
 refused "$polygon\nstems_per_ha = 400\ndbh_cm = 3" 'unknown key dbh_cm'
+refused "$polygon\ndrag_kg_s = -1" 'drag_kg_s is -1, expected 0 to 1e+05'
+refused 'drag_kg_s = 500' 'forest.wood: does not say where it drags'
+for stems in 'stems_per_ha = 400' 'stems_file = "stems.geojson"' 'nrtrees_raster = "nrtrees.asc"'; do
+  refused "$polygon\ndrag_kg_s = 500\n$stems" "forest.wood: has both drag_kg_s and ${stems%% *}"
+done
+refused 'polygon = [[600050, 5000010], [600095, 5000010], [600095, 5000090]]\ndrag_kg_s = 500' \
+  'forest.wood: lies outside the terrain'
 raster nothing.asc 0 0
 refused 'nrtrees_raster = "nrtrees.asc"\ndbhmean_raster = "nothing.asc"' 'dbhmean_raster is 0 where nrtrees_raster has trees'
 raster percent.asc 150 150

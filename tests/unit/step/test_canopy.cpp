@@ -1,0 +1,188 @@
+// Drag of forests: closed forms in the air and in contact, alone and in an island, and where it
+// does not act.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <vector>
+
+#include "base/error.hpp"
+#include "step/soil.hpp"
+#include "step/step.hpp"
+#include "tests/unit/step/rough_scene.hpp"
+#include "verify/cases/case_run.hpp"
+#include "verify/cases/cases.hpp"
+#include "verify/cases/closed_form_scenes.hpp"
+#include "verify/cases/stem_case.hpp"
+
+namespace {
+
+using namespace talus;
+using namespace talus::cases;
+
+constexpr double drag = 500, heavy = 1000;        // [kg/s], [kg]
+const double half = std::cbrt(heavy / 2500) / 2;  // of a cube, density of Material{}
+
+Canopy canopy_on(double x_low, double x_high, double height = 20) {
+  return make_canopy({{{Vec2(x_low, -50), Vec2(x_high, -50), Vec2(x_high, 50), Vec2(x_low, 50)}}},
+                     height, drag);
+}
+
+Body cube_at(const Vec3& centre, const Vec3& velocity, const Vec3& spin = Vec3::Zero()) {
+  return body_of(box(centre - Vec3::Constant(half), centre + Vec3::Constant(half)), velocity, spin);
+}
+
+Scene in_forest(const Settings& settings, const std::vector<Body>& bodies, const Canopy& canopy,
+                double gravity = 0) {
+  Scene scene = scene_of(plane_trn(slope_frame(0, 0), 1, 60), {}, bodies, settings);
+  scene.gravity = Vec3(0, 0, -gravity);
+  scene.canopies = {canopy};
+  return scene;
+}
+
+double kinetic(const Run& run) {
+  const Energies e = energies(run.scene, run.state);
+  return e.translation + e.rotation;
+}
+
+// Where a cube gets that starts at x = 0 with 15 m/s.
+double way_of(Run& run, double time) {
+  run.advance_to(time);
+  return run.motion().pose.position.x();
+}
+
+class Canopies : public testing::TestWithParam<double> {
+ protected:
+  Settings settings;
+  void SetUp() override { settings.dt = GetParam(); }
+};
+INSTANTIATE_TEST_SUITE_P(Steps, Canopies,
+                         testing::Values(Settings{}.dt, Settings{}.dt / 2, Settings{}.dt / 4));
+
+// Test T6.
+TEST_P(Canopies, StopABlockInTheAir) { EXPECT_LT(dragged_flight(settings).error, 1e-6); }
+
+TEST_P(Canopies, LeaveTheSpinAndTakeWhatTheyBook) {
+  cases::Run run(in_forest(settings, {cube_at(Vec3(0, 0, 5), Vec3(15, 0, 0), Vec3(1, -3, 2))},
+                           canopy_on(-50, 50)));
+  const Vec3 spin = run.motion().angular_momentum;
+  const double before = kinetic(run);
+  run.advance_to(2);
+  EXPECT_EQ(run.motion().angular_momentum, spin);
+  EXPECT_NEAR(run.motion().velocity.x(), 15 * std::exp(-1), 1e-9);
+  EXPECT_GT(run.state.ledger.drag, 0.8 * 0.5 * heavy * 15 * 15);
+  EXPECT_NEAR(kinetic(run) + run.state.ledger.drag, before, 1e-11 * before);
+}
+
+// A fall of 1 s from 15 m: v = g / nu (1 - exp(-nu t)).
+TEST_P(Canopies, SlowAFall) {
+  cases::Run run(
+      in_forest(settings, {cube_at(Vec3(0, 0, 15), Vec3::Zero())}, canopy_on(-50, 50), g));
+  run.advance_to(1);
+  const double nu = drag / heavy, v = g / nu * (1 - std::exp(-nu)),
+               z = 15 - g / nu * (1 - (1 - std::exp(-nu)) / nu);
+  EXPECT_NEAR(run.motion().velocity.z(), -v, 1e-5 * v);
+  EXPECT_NEAR(run.motion().pose.position.z(), z, 1e-5 * z);
+}
+
+// A slab that slides on the flat stops as on ground of the same drag (case D2).
+TEST_P(Canopies, StopASlide) {
+  constexpr double mu = 0.3, speed = 10, nu = 0.5;
+  GroundClass ground;
+  ground.friction = mu;
+  const Body slab =
+      body_of(box(Vec3(-0.5, -0.5, 0), Vec3(0.5, 0.5, 0.05)), Vec3(speed, 0, 0));  // 125 kg
+  Scene scene = scene_of(plane_trn(slope_frame(0, 0), 1, 40), ground, {slab}, settings);
+  scene.canopies = {canopy_on(-50, 50)};
+  scene.canopies[0].drag = nu * scene.blocks.mass[0];
+  cases::Run run(std::move(scene));
+  const double before = kinetic(run);
+  run.advance_to(3);
+  const double expected = speed / nu - mu * g / (nu * nu) * std::log(1 + nu * speed / (mu * g));
+  EXPECT_NEAR(run.motion().pose.position.x(), expected, 1e-3 * expected);
+  const EnergyLedger& l = run.state.ledger;
+  EXPECT_GT(l.drag, 0.3 * before);
+  EXPECT_NEAR(kinetic(run) + l.friction + l.contact + l.impact + l.drag, before, 1e-7 * before);
+}
+
+// One cube before another, in an island: both stop where one would, and press each other no more
+// than before.
+TEST_P(Canopies, StopAnIsland) {
+  const Vec3 velocity(15, 0, 0);
+  cases::Run run(in_forest(
+      settings, {cube_at(Vec3(0, 0, 5), velocity), cube_at(Vec3(2 * half, 0, 5), velocity)},
+      canopy_on(-50, 50)));
+  const double before = kinetic(run);
+  EXPECT_NEAR(way_of(run, 40), 30, 1e-3);
+  EXPECT_NEAR(run.motion(1).pose.position.x() - run.motion(0).pose.position.x(), 2 * half, 1e-6);
+  EXPECT_EQ(run.work.search.joined.size(), 1u);  // to the end
+  EXPECT_NEAR(run.state.ledger.drag, before, 1e-9 * before);
+}
+
+// A flight ends before the forest, and the block is dragged from its edge on: known to half a step.
+TEST_P(Canopies, AreNotFlownOver) {
+  cases::Run run(in_forest(settings, {cube_at(Vec3(0, 0, 5), Vec3(15, 0, 0))}, canopy_on(10, 50)));
+  EXPECT_NEAR(way_of(run, 42), 40, 15 * settings.dt / 2);
+  EXPECT_GT(run.state.counters.flight_skips, 0);
+}
+
+// Above a canopy and beside it a block moves as if there were none, over it step by step.
+TEST(Canopy, DragsNothingOutsideIt) {
+  for (const Canopy& canopy : {canopy_on(-50, -1), canopy_on(30, 50), canopy_on(-50, 50, 4)}) {
+    cases::Run run(in_forest({}, {cube_at(Vec3(0, 0, 5), Vec3(15, 0, 0))}, canopy));
+    EXPECT_NEAR(way_of(run, 1.5), 22.5, 1e-11);
+    EXPECT_EQ(run.state.ledger.drag, 0);
+  }
+}
+
+// Of two forests on one place both drag.
+TEST(Canopy, DragsAddUp) {
+  const std::vector<Canopy> both = {canopy_on(-50, 50), canopy_on(0, 50, 6)};
+  const Trn trn = plane_trn(slope_frame(0, 0), 1, 60);
+  EXPECT_EQ(drag_at(both, trn, Vec3(-1, 0, 5)), drag);
+  EXPECT_EQ(drag_at(both, trn, Vec3(1, 0, 5)), 2 * drag);
+  EXPECT_EQ(drag_at(both, trn, Vec3(1, 0, 7)), drag);
+  EXPECT_EQ(drag_at(both, trn, Vec3(1, 0, 21)), 0);
+  EXPECT_EQ(drag_at(both, trn, Vec3(51, 0, 5)), 0);
+  EXPECT_EQ(drag_at(both, trn, Vec3(200, 0, 5)), 0);
+}
+
+// The way of a mass centre that turns back is wider than its ends.
+TEST(Canopy, IsComeOverByWhatTurnsBackInIt) {
+  const std::vector<Canopy> canopies = {canopy_on(10, 50)};
+  const auto comes = [&](double x, double v, double a, double time) {
+    return comes_over(canopies, Vec3(x, 0, 5), Vec3(v, 0, 0), Vec3(a, 0, -10), time);
+  };
+  EXPECT_FALSE(comes(0, 15, 0, 0.6));
+  EXPECT_TRUE(comes(0, 15, 0, 0.7));
+  EXPECT_TRUE(comes(0, 15, -10, 3));  // to 11.25 m and back
+  EXPECT_FALSE(comes(0, 14, -10, 3));
+  EXPECT_TRUE(comes(70, -15, 0, 10));
+  EXPECT_FALSE(comes_over({}, Vec3::Zero(), Vec3::UnitX(), Vec3::Zero(), 1e3));
+}
+
+// A tumbling block that bounces through a forest: the plan with all searches has the same bits.
+TEST(Canopy, IsMetAlikeInTheFullPlan) {
+  Settings full;
+  full.flight = false;
+  const auto run_with = [](const Settings& settings) {
+    Scene scene = rough_scene(settings);
+    scene.canopies = {canopy_on(-38, -20, 3)};
+    cases::Run run(std::move(scene));
+    run.advance_to(6);
+    return run;
+  };
+  const cases::Run one = run_with({}), other = run_with(full);
+  EXPECT_EQ(one.motion().pose.position, other.motion().pose.position);
+  EXPECT_EQ(one.motion().angular_momentum, other.motion().angular_momentum);
+  EXPECT_GT(one.state.ledger.drag, 0);
+  EXPECT_EQ(one.state.ledger.drag, other.state.ledger.drag);
+}
+
+TEST(Canopy, OfNegativeDragIsRefused) {
+  Scene scene = in_forest({}, {cube_at(Vec3(0, 0, 5), Vec3::Zero())}, canopy_on(0, 1));
+  scene.canopies[0].drag = -1;
+  EXPECT_THROW(check_scene(scene), InputError);
+}
+
+}  // namespace
