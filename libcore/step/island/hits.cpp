@@ -134,13 +134,21 @@ struct HitPhase {
     return body;
   }
 
+  // Work of what bore member k on its way to its first hit, where it has motion `before`.
+  [[nodiscard]] double work_of_bearing(size_t k, double time, const Motion& before) const {
+    const FlyingMember& flying = hits.members[k];
+    Vec3 way = before.pose.position - flying.motion.pose.position;
+    if (const double until = flying.borne_until; until < time)
+      way = until * (flying.motion.velocity +
+                     until / 2 * (free.substeps[k].free_acceleration + flying.borne));
+    return members.numbers[k].mass * flying.borne.dot(way);
+  }
+
   // Member k is at its hit, and moves on from there.
   void throw_member(size_t k, double time, const Motion& before, const ImpactBody& after) const {
     FlyingMember& flying = hits.members[k];
     if (time > flying.clock) hits.paths.push_back({k, flying.clock, time, flying.motion, before});
-    if (!flying.was_hit)
-      hits.by_friction -= members.numbers[k].mass *
-                          flying.borne.dot(before.pose.position - flying.motion.pose.position);
+    if (!flying.was_hit) hits.by_friction -= work_of_bearing(k, time, before);
     flying.motion.pose = before.pose;
     flying.motion.velocity = after.velocity.head<3>();
     flying.motion.angular_momentum =

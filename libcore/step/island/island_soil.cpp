@@ -137,7 +137,8 @@ void end_soil(const Scene& scene, const IslandMembers& members, const FreeMotion
     for (size_t k = 0; k < members.size(); ++k) {
       const int pair = system.ground_pair[k];
       if (pair < 0 || island.pairs[pair].angular < 0) continue;
-      const Vec6 mean = (start_of(free, hits, island, k) + island.velocity[k]) / 2;
+      // between the end without contact and the end, as for contacts (path_of_impulse())
+      const Vec6 mean = (island.free_velocity[k] + island.velocity[k]) / 2;
       state.ledger.rolling -= island.angular[island.pairs[pair].angular].couple.dot(mean.tail<3>());
     }
   if (state.slid.empty()) return;
