@@ -477,7 +477,8 @@ struct Solve {
       prepare();
     tolerance = std::max(settings.tolerance, work.rounding);
     direct = n_bodies(island) <= settings.direct_bodies;
-    result.converged = solve_coupled(settings.max_passes / law::coupled_share) || solve_held() ||
+    const int share = direct ? law::coupled_share_if_factored : law::coupled_share;
+    result.converged = solve_coupled(settings.max_passes / share) || solve_held() ||
                        solve_exact() || solve_stiffening();
     if (result.converged) {
       keep_momentum();
