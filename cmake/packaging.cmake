@@ -55,6 +55,7 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_DEPENDS fonts-dejavu-core)  # the letters of maps
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "make, gdal-bin")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "qgis, bash-completion")
 include(CPack)

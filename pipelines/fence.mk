@@ -1,6 +1,6 @@
 # Runs -> what reaches each fence of the site, what it holds and changes.
 # in: [fence.*], FENCE_FLAGS (e.g. --code onr)   out: $(OUT)/fence.gpkg, .json, .csv, and with runs without the fences
-#     $(OUT)/change.tif, .qml, .png; nothing for a site without fences;
+#     $(OUT)/change.tif, .qml, .png, .pdf; nothing for a site without fences;
 #     of several CASES also $(OUT)/fences/CASE/fence.gpkg, .json
 $(eval $(call remember,fence,$(evaluate_flags) $(FENCE_FLAGS)))
 ifneq ($(SITE_FENCES),)

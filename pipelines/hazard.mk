@@ -1,5 +1,5 @@
-# Runs and frequencies -> return periods and hazard classes (GeoTIFF with style and picture, GeoPackage).
-# in: [hazard], [hazard.class.*], HAZARD_FLAGS (e.g. --cell-size-m 10)   out: $(OUT)/hazard/*.tif, .qml, .png,
+# Runs and frequencies -> return periods and hazard classes (GeoTIFF with style and page, GeoPackage).
+# in: [hazard], [hazard.class.*], HAZARD_FLAGS (e.g. --cell-size-m 10)   out: $(OUT)/hazard/*.tif, .qml, .png, .pdf,
 #     $(OUT)/hazard/hazard.gpkg, $(OUT)/hazard.json
 # With several classes the runs of class C are those of the case C (CASES, dda.mk). Without frequencies there are no
 # classes, and talus-hazard says why.
@@ -24,6 +24,6 @@ $(OUT)/hazard.json: $(run_files) $(OUT)/blocks.h5 $(STAGES)/hazard.txt $(STAGES)
 	@$(call outcomes,some,$(run_files))
 	@rm -f $(addprefix $(OUT)/,$(hazard_patterns))
 	@$(if $(several_classes),$(foreach class,$(SITE_HAZARD_CLASSES),$(call class_list,$(class));))
-	$(Q)$(BIN)talus-hazard site.toml $(hazard_runs) --trn $(ground_of_runs) -o $(OUT)/hazard --json $(OUT)/hazard.json --png \
+	$(Q)$(BIN)talus-hazard site.toml $(hazard_runs) --trn $(ground_of_runs) -o $(OUT)/hazard --json $(OUT)/hazard.json --png --pdf \
 	  $(class_flags) $(HAZARD_FLAGS) --overwrite $(DB)
 	$(call made,talus-hazard)

@@ -7,16 +7,16 @@ check_products := check.html check.json
 runout_products := runout.gpkg runout.json runout.csv runout.svg runs.csv sensitivity.csv curves.csv thickness.tif
 map_names := reach velocity ke_translational ke_total pass_height_centroid \
   pass_height_top exceedance deposit arrival energy_line
-map_products := $(foreach suffix,tif png qml,$(map_names:%=maps/%.$(suffix)))
+map_products := $(foreach suffix,tif png pdf qml,$(map_names:%=maps/%.$(suffix)))
 fence_products := fence.gpkg fence.json fence.csv
-change_products := change.tif change.qml change.png
+change_products := change.tif change.qml change.png change.pdf
 places_products := places.json
 hazard_products := hazard.json
 trace_products := trace.gpkg trace.json links.csv
 # maps by limits of the recipe, rasters by objects
-hazard_patterns := $(foreach suffix,tif png qml tif.aux.xml png.aux.xml,$(addprefix hazard/,event_exceed.$(suffix) event_frequency.$(suffix) \
+hazard_patterns := $(foreach suffix,tif png pdf qml tif.aux.xml png.aux.xml,$(addprefix hazard/,event_exceed.$(suffix) event_frequency.$(suffix) \
   passage_frequency.$(suffix) return_period_*.$(suffix) ke_T*.$(suffix) probability.$(suffix) intensity.$(suffix) class.$(suffix) class_certain.$(suffix))) hazard/hazard.gpkg
-trace_patterns := $(foreach suffix,tif png qml tif.aux.xml png.aux.xml,sources/source_*.$(suffix))
+trace_patterns := $(foreach suffix,tif png pdf qml tif.aux.xml png.aux.xml,sources/source_*.$(suffix))
 search_products := fence_search.json fence_search.gpkg
 screen_products := search/screen.json search/screen.gpkg
 report_products := report.html site.qgz
@@ -26,7 +26,7 @@ products := $(tin_products) $(trn_products) $(source_products) $(block_products)
 # As patterns of the shell: a style that comes with its raster, runs by seed and case with their checkpoints, the registry, what a stage
 # reads, side files that GDAL and QGIS write beside a raster, and hidden names of tools that were killed.
 stages_made := tin trn blocks rock check run runs dda runout maps fence place places hazard trace search verify report case_*
-case_maps := $(foreach suffix,tif png qml tif.aux.xml png.aux.xml,$(map_names:%=maps/*/%.$(suffix)))
+case_maps := $(foreach suffix,tif png pdf qml tif.aux.xml png.aux.xml,$(map_names:%=maps/*/%.$(suffix)))
 made_patterns := thickness.qml rock/blocks_*[0-9].h5 rock/bed_*[0-9].tif rock/bed_*[0-9].tif.aux.xml runs/run_*[0-9].h5 runs/run_*[0-9].h5.part runs/run_*[0-9].h5.part.new \
   without/run_*[0-9].h5 without/run_*[0-9].h5.part without/run_*[0-9].h5.part.new \
   runs.sqlite runs.sqlite-wal runs.sqlite-shm runs.sqlite.late-* data.ok \

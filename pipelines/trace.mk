@@ -1,6 +1,6 @@
 # Runs -> which source hits which object of the site.
 # in: [object.*], TRACE_FLAGS (e.g. --source-cell-m 10)   out: $(OUT)/trace.gpkg, .json, $(OUT)/links.csv,
-#     $(OUT)/sources/source_OBJECT.tif, .qml, .png
+#     $(OUT)/sources/source_OBJECT.tif, .qml, .png, .pdf
 $(eval $(call remember,trace,$(class_flags) $(TRACE_FLAGS)))
 trace_files := $(addprefix $(OUT)/,$(trace_products))
 trace: $(trace_files) ## runs -> which source hits which object
@@ -11,5 +11,5 @@ $(OUT)/trace.gpkg: $(run_files) $(OUT)/blocks.h5 $(STAGES)/trace.txt $(STAGES)/r
 	@rm -f $(addprefix $(OUT)/,$(trace_patterns))
 	@$(if $(several_classes),$(foreach class,$(SITE_HAZARD_CLASSES),$(call class_list,$(class));))
 	$(Q)$(BIN)talus-trace site.toml $(hazard_runs) --trn $(ground_of_runs) -o $(OUT)/trace.gpkg --json $(OUT)/trace.json \
-	  --csv $(OUT)/links.csv --rasters $(OUT)/sources --png $(class_flags) $(TRACE_FLAGS) --overwrite $(DB)
+	  --csv $(OUT)/links.csv --rasters $(OUT)/sources --png --pdf $(class_flags) $(TRACE_FLAGS) --overwrite $(DB)
 	$(call made,talus-trace)

@@ -19,6 +19,7 @@ MODULES = ["base", "sampling", "geometry", "motion", "terrain", "blocks", "site"
            "io", "record", "store", "run", "post", "report", "verify"]
 LIBRARY_HEADERS = {
     "boost": re.compile(r"^boost/"),
+    "cairo": re.compile(r"^(cairo|pango)"),
     "cgal": re.compile(r"^(CGAL|boost)/"),
     "gdal": re.compile(r"^(gdal|ogr|cpl_|proj)"),
     "hdf5": re.compile(r"^(hdf5|H5)"),

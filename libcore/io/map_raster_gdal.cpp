@@ -152,20 +152,4 @@ void write_map_raster(const std::string& path, const MapRaster& raster,
   check_written(path, is_written, errors);
 }
 
-void write_png(const std::string& path, const Picture& picture) {
-  register_gdal_drivers();
-  const GdalErrors errors;
-  const Dataset source = create_in_memory(picture.n_cols, picture.n_rows, 4, GDT_Byte);
-  bool is_written = source != nullptr;
-  if (source) {
-    void* const pixels = const_cast<std::array<std::uint8_t, 4>*>(picture.pixel.data());
-    const CPLErr status = source->RasterIO(GF_Write, 0, 0, picture.n_cols, picture.n_rows, pixels,
-                                           picture.n_cols, picture.n_rows, GDT_Byte, 4, nullptr, 4,
-                                           static_cast<GSpacing>(4) * picture.n_cols, 1, nullptr);
-    source->GetRasterBand(4)->SetColorInterpretation(GCI_AlphaBand);
-    is_written = status == CE_None && copy_to("PNG", path, *source, {}) != nullptr;
-  }
-  check_written(path, is_written, errors);
-}
-
 }  // namespace talus

@@ -1,7 +1,7 @@
 // libcore/io/map_raster_gdal.hpp: public
-// Results as rasters: cloud-optimised GeoTIFF with bands that say what they hold, and pictures.
+// Results as rasters: cloud-optimised GeoTIFF with bands that say what they hold.
 // in:    bands of cells from north to south, west to east
-// out:   COG (deflate, overviews without averaging), PNG
+// out:   COG (deflate, overviews without averaging)
 #pragma once
 
 #include <array>
@@ -13,7 +13,6 @@
 
 #include "base/types.hpp"
 #include "io/overview.hpp"
-#include "io/picture.hpp"
 
 namespace talus {
 
@@ -46,8 +45,5 @@ struct MapRaster {
 /// Throws InputError when it cannot be written whole.
 void write_map_raster(const std::string& path, const MapRaster& raster,
                       const std::vector<std::string>& creation_options = {});
-
-/// Writes a PNG. Throws InputError when it cannot be written whole.
-void write_png(const std::string& path, const Picture& picture);
 
 }  // namespace talus

@@ -1,6 +1,6 @@
 // libcore/io/style.hpp: public
 // How results are coloured: classes with limits, colours and labels; the same ones in QGIS styles,
-// in pictures and in legends.
+// on pages and in legends.
 #pragma once
 
 #include <array>
@@ -17,15 +17,17 @@ struct StyleClass {
   double upper = 0;
   Colour colour{};
   std::string label;        ///< with its unit
-  bool is_hatched = false;  ///< on white, in pictures
+  bool is_hatched = false;  ///< on white, on pages
 };
 
 struct RasterStyle {
   int band = 1;                         ///< that is shown, from 1
-  std::string title;                    ///< of the legend, with the unit
+  std::string title;                    ///< in QGIS: name of the band, with the unit
   std::vector<StyleClass> classes;      ///< ascending; the last limit is infinite, but of codes
   std::string remark = {};              ///< that no picture may lack; empty: none
-  std::vector<std::string> notes = {};  ///< lines below the picture: what it rests on
+  std::vector<std::string> notes = {};  ///< paragraphs of a page: what the map rests on
+  std::string heading = {};             ///< of a page, in words
+  std::string legend = {};              ///< above the classes of a page, in words, with the unit
 };
 
 /// The class of a value; null for NaN and above all.

@@ -181,11 +181,12 @@ void add_volume(std::map<std::uint32_t, double>& volume, const PassageGrid& grid
       add_triangle(volume, grid, {corner(blocks.face_begin[f]), corner(i), corner(i + 1)});
 }
 
-void add_deposit(DepositSums& sums, const PassageGrid& grid, const RunFile& run,
-                 double rest_speed) {
+void add_deposit(DepositSums& sums, const PassageGrid& grid, const RunFile& run, double rest_speed,
+                 double least) {
   for (int block = 0; block < n_blocks(run); ++block) {
     if (fate_of(run, block, rest_speed) != Fate::deposited) continue;
     const Pose pose = last_pose(run, block);
+    if (least >= 0 && !((pose.position - run.blocks.rest[block].position).norm() > least)) continue;
     if (run.run_weight == 1) {
       add_volume(sums.volume, grid, run, block, pose);
     } else {

@@ -48,7 +48,10 @@ struct DepositSums {
   std::map<std::uint32_t, double> weight;  ///< of those
   std::map<std::uint32_t, double> volume;  ///< of all blocks at rest, over the cell [m3]
 };
-void add_deposit(DepositSums& sums, const PassageGrid& grid, const RunFile& run, double rest_speed);
+/// Blocks that are displaced by `least` or less since they were cut are left out; below 0: none
+/// [m].
+void add_deposit(DepositSums& sums, const PassageGrid& grid, const RunFile& run, double rest_speed,
+                 double least = -1);
 void add(DepositSums& sums, const DepositSums& other);
 
 /// n_deposit, deposit_fraction, deposit_thickness (mean over runs).

@@ -33,7 +33,7 @@ void declare(Tool& tool, Options& o) {
   tool.input("--without-from", o.without_from, "list of these, a line each, taken as well");
   tool.output("--change", o.change,
               "deposit and speed with the fences minus those of --without (GeoTIFF; style and "
-              "picture beside it)");
+              "pages beside it)");
   tool.option("--code", o.code, "design code: uni, onr, or a data file (CSV)");
   tool.option("--consequence-class", design.consequence_class, "of ONR 24810")
       ->check(CLI::Range(1, 3));
@@ -92,10 +92,10 @@ MapTags output_tags(Tool& tool, const RunInputs& inputs, const FenceRuns& runs,
   return tags;
 }
 
-void write_change(Tool& tool, const std::string& path, const FenceRuns& runs, const Trn& trn,
+void write_change(Tool& tool, RunInputs& inputs, const std::string& path, const FenceRuns& runs,
                   const MapTags& tags, const std::string& remark) {
   const MapLayer layer = change_layer(runs.ground_with, runs.ground_without, runs.grid.cell_size);
-  write_map(tool, map_frame(trn, runs.grid, true, layer.cell), path, layer,
+  write_map(tool, map_frame(inputs, runs.grid, {.png = true, .pdf = true}, layer.cell), path, layer,
             change_style(layer, remark), tags);
 }
 
@@ -130,7 +130,7 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& inpu
   inputs.warn_of_ends();
   const std::string remark = inputs.remark();
   const MapTags tags = output_tags(tool, inputs, runs, remark);
-  if (!o.change.empty()) write_change(tool, o.change, runs, trn, tags, remark);
+  if (!o.change.empty()) write_change(tool, inputs, o.change, runs, tags, remark);
   std::vector<VectorLayer> layers = fence_layers(fences, results, runs.with, trn.origin);
   mark_layers(layers, remark);
   write_geopackage(tool.stage(o.out), trn.crs_wkt, layers, tags);

@@ -5,7 +5,12 @@
 #include <sstream>
 
 #include "base/error.hpp"
+#include "base/text.hpp"
+#include "io/crs_gdal.hpp"
 #include "io/tags_gdal.hpp"
+#include "post/maps/map_page_cairo.hpp"
+#include "post/maps/page_font_cairo.hpp"
+#include "tools/frame/options.hpp"
 
 namespace talus {
 namespace {
@@ -29,24 +34,6 @@ MapRaster raster_of(const MapFrame& frame, const MapLayer& layer) {
   return raster;
 }
 
-PassageGrid part_of(const PassageGrid& grid, const CellWindow& w) {
-  PassageGrid part = grid;
-  part.corner += grid.cell_size * Vec2(w.col_begin, -w.row_begin);
-  part.n_rows = w.row_end - w.row_begin;
-  part.n_cols = w.col_end - w.col_begin;
-  return part;
-}
-
-std::vector<float> part_of(const std::vector<float>& value, const PassageGrid& grid,
-                           const CellWindow& w) {
-  std::vector<float> part;
-  for (int row = w.row_begin; row < w.row_end; ++row) {
-    const auto first = value.begin() + static_cast<std::ptrdiff_t>(row) * grid.n_cols;
-    part.insert(part.end(), first + w.col_begin, first + w.col_end);
-  }
-  return part;
-}
-
 CellWindow window_around(const PassageGrid& grid, const std::vector<std::uint32_t>& touched) {
   if (touched.empty()) return {0, grid.n_rows, 0, grid.n_cols};
   CellWindow w{grid.n_rows, 0, grid.n_cols, 0};
@@ -56,26 +43,73 @@ CellWindow window_around(const PassageGrid& grid, const std::vector<std::uint32_
     w = {std::min(w.row_begin, row), std::max(w.row_end, row + 1), std::min(w.col_begin, col),
          std::max(w.col_end, col + 1)};
   }
-  const int margin = std::max({10, (w.row_end - w.row_begin) / 2, (w.col_end - w.col_begin) / 2});
+  const int margin = std::max({5, (w.row_end - w.row_begin) / 4, (w.col_end - w.col_begin) / 4});
   return {std::max(0, w.row_begin - margin), std::min(grid.n_rows, w.row_end + margin),
           std::max(0, w.col_begin - margin), std::min(grid.n_cols, w.col_end + margin)};
 }
 
-std::string text(const CellWindow& w, const PassageGrid& grid) {
+std::string window_text(const CellWindow& w, const PassageGrid& grid) {
   std::string words;
   for (const int number : {w.row_begin, w.row_end, w.col_begin, w.col_end})
     words += std::to_string(number) + " ";
   return words + "of " + std::to_string(grid.n_rows) + " " + std::to_string(grid.n_cols);
 }
 
-// Cells of the picture whose class is not certain; empty: it is not asked for.
+// Cells whose class is not certain; empty: it is not asked for.
 std::vector<bool> uncertain_cells(const MapFrame& frame, const MapLayer* certain) {
   if (!certain) return {};
-  const std::vector<float> all =
-      on_grid(*certain, certain->bands[0], frame.known.size(), MapRaster::nodata_of_codes);
   std::vector<bool> uncertain;
-  for (const float value : part_of(all, frame.grid, frame.drawn)) uncertain.push_back(value == 0);
+  for (const float value :
+       on_grid(*certain, certain->bands[0], frame.known.size(), MapRaster::nodata_of_codes))
+    uncertain.push_back(value == 0);
   return uncertain;
+}
+
+PageSize size_of(const PageOptions& pages) {
+  return pages.size == "a3" ? PageSize::a3 : PageSize::a4;
+}
+
+MapView view_of(const PageLayout& layout, const PassageGrid& grid, const CellWindow& w) {
+  const Vec2 north_west = grid.corner + grid.cell_size * Vec2(w.col_begin, -w.row_begin),
+             south_east = grid.corner + grid.cell_size * Vec2(w.col_end, -w.row_end);
+  return view_of(layout, {north_west.x(), south_east.y()}, {south_east.x(), north_west.y()});
+}
+
+std::string tag(const MapTags& tags, const std::string& name) {
+  for (const auto& [key, value] : tags)
+    if (key == name) return value;
+  return "";
+}
+
+std::string run_words(const MapTags& tags) {
+  const std::string n = tag(tags, "N_RUNS");
+  return n + (n == "1" ? " run" : " runs");
+}
+
+// Runs, model and limits: what a reader of one page alone must know.
+std::vector<std::string> words_of(const MapFrame& frame, const MapTags& tags) {
+  const std::string cases = tag(tags, "CASES"), health = tag(tags, "HEALTH");
+  return {"Runs: " + run_words(tags) + (cases.empty() ? "" : " of the cases " + cases) + ", set " +
+              tag(tags, "RUN_SET") + "; " + health + ". Map " + tag(tags, "RUN_ID") + ".",
+          "Model: three-dimensional discontinuous deformation analysis of blocks on a terrain of "
+          "triangles (DDA), law \"" +
+              frame.law + "\", Talus " + tag(tags, "VERSION") + "; cells of " +
+              text(frame.grid.cell_size, 4) + " m.",
+          "Coordinates: " + crs_name(frame.crs_wkt) + "; north is that of the grid.",
+          "Computed for the source, joints, ground and friction that were assumed, no forecast: an "
+          "expert has to judge it before anything is decided by it."};
+}
+
+MapPage page_of(const MapFrame& frame, const RasterStyle& style, const MapTags& tags) {
+  MapPage page;
+  page.size = size_of(frame.pages);
+  page.title = style.heading;
+  page.subtitle = "Site " + tag(tags, "SITE") + ", " + run_words(tags);
+  page.words = words_of(frame, tags);
+  page.style = style;
+  page.grid = frame.grid;
+  page.origin = frame.corner - frame.grid.corner;
+  return page;
 }
 
 }  // namespace
@@ -90,7 +124,7 @@ CellWindow window_of_map(const std::string& path, const PassageGrid& grid, const
                          w.col_begin >= 0 && w.col_begin < w.col_end && w.col_end <= n_cols;
   if (!words || !is_inside)
     throw InputError(where, path + " does not say which cells its picture shows",
-                     "name a map that talus-maps --png wrote");
+                     "name a map that talus-maps --png or --pdf wrote");
   if (n_rows != grid.n_rows || n_cols != grid.n_cols)
     throw InputError(where,
                      path + " has " + std::to_string(n_rows) + " x " + std::to_string(n_cols) +
@@ -100,17 +134,31 @@ CellWindow window_of_map(const std::string& path, const PassageGrid& grid, const
   return w;
 }
 
-MapFrame map_frame(const Trn& trn, const PassageGrid& grid, bool png,
+void add_page_options(Tool& tool, PageOptions& pages) {
+  tool.flag("--png", pages.png, "a page of each map beside it, as a picture");
+  tool.flag("--pdf", pages.pdf, "the same page as PDF");
+  tool.option("--page", pages.size, "size of the pages: a4 or a3")
+      ->check(CLI::IsMember({"a4", "a3"}));
+}
+
+MapFrame map_frame(RunInputs& runs, const PassageGrid& grid, const PageOptions& pages,
                    const std::vector<std::uint32_t>& touched,
                    const std::optional<CellWindow>& window) {
-  const CellWindow drawn = window ? *window : window_around(grid, touched);
-  return {grid.corner + trn.origin.head<2>(),
-          grid,
-          trn.crs_wkt,
-          known_cells(trn, grid),
-          png,
-          drawn,
-          png ? shading_of(trn, part_of(grid, drawn)) : Shading{}};
+  const Trn& trn = runs.trn();
+  MapFrame frame;
+  frame.corner = grid.corner + trn.origin.head<2>();
+  frame.grid = grid;
+  frame.crs_wkt = trn.crs_wkt;
+  frame.known = known_cells(trn, grid);
+  frame.pages = pages;
+  frame.drawn = window ? *window : window_around(grid, touched);
+  if (!pages.any()) return frame;
+  require_font();
+  const PageLayout layout = layout_of(size_of(pages));
+  frame.ground = map_ground(trn, layout, view_of(layout, grid, frame.drawn));
+  frame.places = runs.places();
+  if (!runs.members.empty()) frame.law = runs.members[0].info.law;
+  return frame;
 }
 
 std::string write_map(Tool& tool, const MapFrame& frame, const std::string& path,
@@ -119,7 +167,7 @@ std::string write_map(Tool& tool, const MapFrame& frame, const std::string& path
   MapRaster raster = raster_of(frame, layer);
   const std::size_t shown = static_cast<std::size_t>(style.band) - 1;
   tags.emplace_back("SHOWN_BAND", layer.bands[shown].name);
-  if (frame.png) tags.emplace_back("PICTURE_CELLS", text(frame.drawn, frame.grid));
+  if (frame.pages.any()) tags.emplace_back("PICTURE_CELLS", window_text(frame.drawn, frame.grid));
   if (layer.is_codes && layer.bands.size() == 1)  // what a GeoTIFF may have
     for (const StyleClass& c : style.classes)
       raster.colours.emplace_back(static_cast<int>(c.upper), c.colour);
@@ -129,11 +177,15 @@ std::string write_map(Tool& tool, const MapFrame& frame, const std::string& path
     return std::filesystem::path(path).replace_extension(extension).string();
   };
   tool.write_text(beside(".qml"), raster_qml(style));
-  if (frame.png)
-    write_png(tool.stage(beside(".png")),
-              map_picture(frame.shading, part_of(frame.grid, frame.drawn),
-                          part_of(raster.bands[shown].value, frame.grid, frame.drawn),
-                          raster.nodata_value(), style, uncertain_cells(frame, certain)));
+  if (!frame.pages.any()) return layer.bands[shown].name;
+  MapPage page = page_of(frame, style, raster.tags);
+  page.nodata = raster.nodata_value();
+  page.value = std::move(raster.bands[shown].value);
+  page.uncertain = uncertain_cells(frame, certain);
+  if (frame.pages.png)
+    tool.write_text(beside(".png"), map_page_png(page, frame.ground, frame.places));
+  if (frame.pages.pdf)
+    tool.write_text(beside(".pdf"), map_page_pdf(page, frame.ground, frame.places));
   return layer.bands[shown].name;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 #include <sstream>
 
 #include "base/read_file.hpp"
@@ -251,16 +252,36 @@ void RunInputs::read_again(const RunParts& parts, const std::function<void(RunFi
   read_members(0, parts, take);
 }
 
+RunFile RunInputs::read_member(std::size_t i, const RunParts& parts) const {
+  const Place place = places_[i];
+  RunFile run = place.part >= 0 ? run_of(parts_[place.part].file.part, place.run)
+                                : read_run_file(members[i].file, parts);
+  run.run_weight = members[i].run_weight;
+  return run;
+}
+
+MapPlaces RunInputs::places() const {
+  constexpr std::size_t most_sets = 100;
+  const RunParts parts{.frames = false,
+                       .passages = false,
+                       .health = false,
+                       .checkpoint = false,
+                       .words = false,
+                       .trees = false};
+  MapPlaces out;
+  std::set<std::string> known;
+  for (std::size_t i = 0; i < members.size() && known.size() < most_sets; ++i)
+    if (known.insert(members[i].info.blocks_hash).second) add_places(out, read_member(i, parts));
+  return out;
+}
+
 void RunInputs::read_members(std::size_t first, const RunParts& parts,
                              const std::function<void(RunFile&, int)>& take) {
   const ProgressFunction progress = tool_.progress();
   const auto n = static_cast<double>(members.size() - first);
   for (std::size_t i = first; i < members.size(); ++i) {
     progress(static_cast<double>(i - first) / n);
-    const Place place = places_[i];
-    RunFile run = place.part >= 0 ? run_of(parts_[place.part].file.part, place.run)
-                                  : read_run_file(members[i].file, parts);
-    run.run_weight = members[i].run_weight;
+    RunFile run = read_member(i, parts);
     take(run, static_cast<int>(i));
   }
   progress(1);

@@ -8,6 +8,7 @@
 
 #include "io/geopackage_gdal.hpp"
 #include "io/raster_gdal.hpp"
+#include "post/maps/map_places.hpp"
 #include "post/run_set.hpp"
 #include "record/part_file.hpp"
 #include "tools/frame/tool.hpp"
@@ -50,6 +51,10 @@ class RunInputs {
 
   /// Reads all members once more, in the same order; those of parts without their passages.
   void read_again(const RunParts& parts, const std::function<void(RunFile&, int)>& take);
+
+  /// What stands on maps of the runs read so far: sources, fences and objects of the first run of
+  /// each block set, of a hundred sets at most.
+  [[nodiscard]] MapPlaces places() const;
 
   /// Those among the files read so far.
   [[nodiscard]] const std::vector<PartInput>& parts() const { return parts_; }
@@ -98,6 +103,7 @@ class RunInputs {
   void take_one_case(Found& found) const;
   void weigh(std::vector<RunMember>& found, bool is_first);
   void check_reach(const RunFile& run, const RunMember& member) const;
+  [[nodiscard]] RunFile read_member(std::size_t i, const RunParts& parts) const;
   void read_members(std::size_t first, const RunParts& parts,
                     const std::function<void(RunFile&, int)>& take);
 

@@ -25,7 +25,7 @@ struct Options {
   std::string folder, json;
   std::vector<std::string> of_class;
   double cell_size_m = std::numeric_limits<double>::quiet_NaN();
-  bool png = false;
+  PageOptions pages;
   const CLI::Option* memory = nullptr;  // --memory-mb, of every tool
   std::vector<std::string> creation_options;
 
@@ -44,7 +44,7 @@ void declare(Tool& tool, Options& o) {
   tool.option("--cell-size-m", o.cell_size_m,
               "cell of the maps, a whole multiple of the recorded one [m]; nan: as recorded")
       ->check(number_between(0, 1e6, true));
-  tool.flag("--png", o.png, "a picture of each map over hillshade beside it");
+  add_page_options(tool, o.pages);
   tool.json_output(o.json, "the result (JSON)");
   o.memory = tool.app().get_option("--memory-mb");
   tool.option("--co", o.creation_options, "creation option of the COGs, NAME=VALUE")
@@ -200,7 +200,7 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& runs
   const MapTags tags = tags_of(tool, site, runs, sources, classes, remark);
   const std::vector<std::string> notes = notes_of(site, sources, classes);
   const PassageGrid& grid = inputs.map.grid;
-  const MapFrame frame = map_frame(trn, grid, o.png, layers[0].cell);
+  const MapFrame frame = map_frame(runs, grid, o.pages, layers[0].cell);
   const MapLayer* const certainty = layer_named(layers, certainty_layer);
   Json written = Json::array();
   for (const MapLayer& layer : layers) {

@@ -11,6 +11,7 @@
 #include "post/maps/compare.hpp"
 #include "post/maps/map_layers.hpp"
 #include "post/maps/map_style.hpp"
+#include "post/moved.hpp"
 #include "post/reduce.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/fault_json.hpp"
@@ -30,7 +31,7 @@ struct Options {
   std::vector<std::string> compared;
   double cell_size_m = std::numeric_limits<double>::quiet_NaN();
   talus::MapSettings settings;
-  bool png = false;
+  talus::PageOptions pages;
   double half_width = 0.05;
   const CLI::Option* memory = nullptr;  // --memory-mb, of every tool
   std::vector<std::string> creation_options;
@@ -55,9 +56,8 @@ void declare(Tool& tool, Options& o) {
   tool.option("--resamples", o.settings.n_resamples, "resamples of the bootstrap over runs")
       ->check(CLI::Range(20, 10000));
   tool.option("--seed", o.settings.seed, "of the bootstrap");
-  tool.flag("--png", o.png, "a picture of each map over hillshade beside it");
-  tool.input("--window-of", o.window_of,
-             "map of the same cells: pictures show what its picture shows");
+  talus::add_page_options(tool, o.pages);
+  tool.input("--window-of", o.window_of, "map of the same cells: pages show what its pages show");
   o.memory = tool.app().get_option("--memory-mb");
   tool.option("--half-width", o.half_width,
               "wanted of the interval of reach_probability: says how many runs to add")
@@ -146,7 +146,7 @@ Gathered gather(talus::RunInputs& runs, const std::vector<std::string>& paths,
     out.released.weight.push_back(runs.members[index].weight);
     out.released.n_blocks.push_back(runs.members[index].n_blocks);
     out.released.run_weight.push_back(run.run_weight);
-    talus::add_deposit(out.deposit, out.map.grid, run, runs.rest_speed_m_s);
+    talus::add_deposit(out.deposit, out.map.grid, run, runs.rest_speed_m_s, talus::moved_m);
   });
   take_rows_of_parts(runs, range, out.map, out.weight, {}, o.most_rows(),
                      [&](auto rows, int run) { count(std::move(rows), run); });
@@ -276,7 +276,7 @@ WrittenMaps write_layers(Tool& tool, const Options& o, const talus::MapFrame& fr
 
 void run_tool(Tool& tool, Options& o, talus::RunInputs& runs) {
   talus::limit_memory(0);  // --memory-mb is for rows alone; the rest needs what is free
-  const talus::Trn& trn = runs.trn();
+  (void)runs.trn();        // read first: a wrong one is refused before long work
   for (const std::string& path : talus::listed_files(o.compare_from)) {
     tool.read_also("compare", path);
     o.compared.push_back(path);
@@ -297,7 +297,7 @@ void run_tool(Tool& tool, Options& o, talus::RunInputs& runs) {
   std::optional<talus::CellWindow> window;
   if (!o.window_of.empty())
     window = talus::window_of_map(o.window_of, grid, {"", 0, "--window-of"});
-  const talus::MapFrame frame = talus::map_frame(trn, grid, o.png, touched, window);
+  const talus::MapFrame frame = talus::map_frame(runs, grid, o.pages, touched, window);
   WrittenMaps written = write_layers(tool, o, frame, layers, remark, tags);
   if (comparison) {
     const std::string path = file_of_layer(o, "compare");

@@ -39,8 +39,8 @@ std::string map_section(const ReportData& data) {
       "share is that of the number of blocks, whatever their size, times the statistical weight of "
       "their run: " +
       word_text(value_at(data.runout, {"tags", "DENOMINATOR"})) +
-      ". With few passages the maps show largest values, else the 95th percentile: the heading of "
-      "the picture's legend says which (_max or _p95).");
+      ". With few passages the maps show largest values, else the 95th percentile: the legend "
+      "says which. <code>NAME.pdf</code> beside each map is its page, to be printed.");
   return html_section("maps", "Maps", out + all_maps(data));
 }
 

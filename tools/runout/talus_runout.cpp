@@ -129,12 +129,12 @@ std::vector<MobilityEvent> events_of(const std::vector<RunoutRun>& runs, bool co
   return events;
 }
 
-void write_thickness(Tool& tool, const Options& o, const RunoutRuns& all, const Trn& trn,
+void write_thickness(Tool& tool, const Options& o, const RunoutRuns& all, RunInputs& inputs,
                      const MapTags& tags, const std::string& remark) {
   MapLayer layer =
       make_layer(deposit_kind(), {{}, all.deposit, all.grid.cell_size, all.released, {}});
   layer.bands.erase(layer.bands.begin(), layer.bands.begin() + 2);
-  write_map(tool, map_frame(trn, all.grid, false, layer.cell), o.thickness, layer,
+  write_map(tool, map_frame(inputs, all.grid, {}, layer.cell), o.thickness, layer,
             map_style(layer, remark), tags);
 }
 
@@ -193,7 +193,7 @@ void run_tool(Tool& tool, Options& o, RunInputs& inputs) {
   if (!o.sensitivity.empty()) tool.write_text(o.sensitivity, sensitivity_csv(sensitivity));
   if (!o.curves.empty()) tool.write_text(o.curves, curve_csv(all.runs, trn.origin));
   if (!o.svg.empty()) tool.write_text(o.svg, mobility_svg(relations, events));
-  if (!o.thickness.empty()) write_thickness(tool, o, all, trn, tags, remark);
+  if (!o.thickness.empty()) write_thickness(tool, o, all, inputs, tags, remark);
 
   Json runs = Json::array(), tag_list;
   for (const RunoutRun& r : all.runs) runs.push_back(run_json(r, o.friction_deg));

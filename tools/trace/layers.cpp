@@ -6,7 +6,7 @@
 #include "base/csv.hpp"
 #include "base/text.hpp"
 #include "post/hazard/hazard_maps.hpp"
-#include "post/maps/map_style.hpp"
+#include "post/maps/ramp.hpp"
 #include "tools/frame/file_paths.hpp"
 #include "tools/frame/site_places.hpp"
 
@@ -48,9 +48,9 @@ VectorStyle p_style(SymbolKind kind, double size_mm) {
   VectorStyle style{kind, "p_class", {}, size_mm};
   double low = 0;
   for (std::size_t i = 0; i < p_limits.size(); ++i) {
-    style.classes.push_back({std::to_string(i + 1),
-                             "hits with probability " + text(low) + " - " + text(p_limits[i]),
-                             map_ramp((static_cast<double>(i) + 0.5) / p_limits.size())});
+    style.classes.push_back(
+        {std::to_string(i + 1), "hits with probability " + text(low) + " - " + text(p_limits[i]),
+         ramp_colour(Ramp::probability, (static_cast<double>(i) + 0.5) / p_limits.size())});
     low = p_limits[i];
   }
   return style;
@@ -219,8 +219,10 @@ MapLayer source_layer(const TraceSums& sums, int object, const std::vector<Sourc
 RasterStyle source_style(const std::string& object, const std::string& remark) {
   RasterStyle style;
   style.title = "hits " + object + " [1]";
+  style.heading = "Where blocks that hit " + object + " come from";
+  style.legend = "Share of the blocks released in the cell that hit " + object;
   style.remark = remark;
-  style.classes = stepped_classes({0, 0.01, 0.05, 0.1, 0.2, 0.5}, "", false);
+  style.classes = stepped_classes({0, 0.01, 0.05, 0.1, 0.2, 0.5}, "", false, Ramp::probability);
   style.classes[0] = {0, {190, 190, 190, 255}, "0"};
   return style;
 }

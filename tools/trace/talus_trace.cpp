@@ -32,7 +32,8 @@ struct Options {
   std::string out, csv, json, rasters;
   std::vector<std::string> of_class;
   double source_cell_m = none;
-  bool by_cells = false, png = false;
+  bool by_cells = false;
+  PageOptions pages;
 };
 
 void declare(Tool& tool, Options& o) {
@@ -40,7 +41,7 @@ void declare(Tool& tool, Options& o) {
   tool.output("--csv", o.csv, "one row a source cell and object (CSV)");
   tool.json_output(o.json, "the result (JSON)");
   tool.output_folder("--rasters", o.rasters, "folder for a raster of source cells an object");
-  tool.flag("--png", o.png, "a picture of each raster over hillshade beside it");
+  add_page_options(tool, o.pages);
   add_class_option(tool, o.of_class);
   tool.option("--source-cell-m", o.source_cell_m,
               "cells that blocks are put together by where they were released [m]; nan: the "
@@ -309,7 +310,7 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& runs
   if (!o.rasters.empty()) {
     std::vector<std::uint32_t> touched;
     for (const auto& [cell, source] : sums.source) touched.push_back(cell);
-    const MapFrame frame = map_frame(trn, sums.sources, o.png, touched);
+    const MapFrame frame = map_frame(runs, sums.sources, o.pages, touched);
     for (int i = 0; i < static_cast<int>(sums.objects.size()); ++i) {
       const MapLayer layer = source_layer(sums, i, links);
       write_map(tool, frame, (fs::path(o.rasters) / (layer.name + ".tif")).string(), layer,

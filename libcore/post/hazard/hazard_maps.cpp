@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <limits>
 
 #include "base/text.hpp"
-#include "post/maps/map_style.hpp"
 
 namespace talus {
 namespace {
@@ -228,9 +228,16 @@ std::vector<StyleClass> intensity_colours(const Recipe& recipe) {
   std::vector<StyleClass> classes{{0, {255, 255, 255, 0}, "none"}};
   const auto n = static_cast<double>(recipe.intensities.size());
   for (std::size_t i = 0; i < recipe.intensities.size(); ++i)
-    classes.push_back({static_cast<double>(i) + 1, map_ramp((static_cast<double>(i) + 1) / n),
+    classes.push_back({static_cast<double>(i) + 1,
+                       ramp_colour(Ramp::intensity, (static_cast<double>(i) + 1) / n),
                        intensity_words(recipe, i)});
   return classes;
+}
+
+std::string capital(std::string words) {
+  if (!words.empty())
+    words[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(words[0])));
+  return words;
 }
 
 std::vector<double> longer_than(const std::vector<double>& periods) {
@@ -242,12 +249,12 @@ std::vector<double> longer_than(const std::vector<double>& periods) {
 }  // namespace
 
 std::vector<StyleClass> stepped_classes(const std::vector<double>& limits, const std::string& unit,
-                                        bool is_deep_low) {
+                                        bool is_deep_low, Ramp ramp) {
   std::vector<StyleClass> classes;
   const auto n = static_cast<double>(limits.size());
   const auto colour = [&](std::size_t i) {
     const double share = static_cast<double>(i) / n;
-    return map_ramp(is_deep_low ? 1 - share : share);
+    return ramp_colour(ramp, is_deep_low ? 1 - share : share);
   };
   std::string lower;
   for (std::size_t i = 0; i < limits.size(); ++i) {
@@ -269,11 +276,15 @@ RasterStyle hazard_style(const MapLayer& layer, const Recipe& recipe, const std:
   if (layer.name == "class") {
     style.classes = class_colours(recipe);
     style.title = "hazard class";
+    style.heading = "Hazard classes";
+    style.legend = "Class by " + recipe.name;
     return style;
   }
   if (layer.name == certainty_layer) {
     style.classes = {{0, {40, 40, 40, 255}, "not certain"}, {1, {190, 190, 190, 255}, "certain"}};
     style.title = "class certain";
+    style.heading = "Certainty of the hazard classes";
+    style.legend = "The same class at both bounds of the frequencies";
     return style;
   }
   if (layer.name == "intensity") {
@@ -281,19 +292,34 @@ RasterStyle hazard_style(const MapLayer& layer, const Recipe& recipe, const std:
     shown = &layer.bands.back();
     style.classes = intensity_colours(recipe);
     style.title = shown->name;
+    style.heading = "Intensity within " + text(recipe.return_periods.back()) + " years";
+    style.legend = "Reached at least once in that time";
     return style;
   }
   if (layer.name.starts_with("return_period")) {
-    style.classes = stepped_classes(longer_than(recipe.return_periods), " a", true);
+    style.classes =
+        stepped_classes(longer_than(recipe.return_periods), " a", true, Ramp::frequency);
+    style.heading =
+        "Return period of " + shown->description.substr(sizeof("1 / frequency of ") - 1);
+    style.legend = "Years between two events [a]";
   } else if (layer.name.starts_with("ke_T")) {
-    style.classes = stepped_classes({3, 30, 100, 300, 1000, 3000, 10000}, " kJ", false);
+    style.classes =
+        stepped_classes({3, 30, 100, 300, 1000, 3000, 10000}, " kJ", false, Ramp::energy);
+    style.heading = "Kinetic energy within " + layer.name.substr(4) + " years";
+    style.legend = "Largest, with rotation, that comes at least once in that time [kJ]";
   } else if (layer.name == "event_exceed" || layer.name == "probability") {
-    style.classes = stepped_classes({0.001, 0.01, 0.05, 0.1, 0.2, 0.5, 0.9}, "", false);
+    style.classes =
+        stepped_classes({0.001, 0.01, 0.05, 0.1, 0.2, 0.5, 0.9}, "", false, Ramp::probability);
+    const bool is_share = layer.name == "event_exceed";
+    style.heading = is_share ? "Probability of reach in an event" : "Probability of reach";
+    style.legend = capital(shown->description);
   } else {
     std::vector<double> rates;
     for (const double period : longer_than(recipe.return_periods))
       rates.insert(rates.begin(), 1 / period);
-    style.classes = stepped_classes(rates, " a year", false);
+    style.classes = stepped_classes(rates, " a year", false, Ramp::frequency);
+    style.heading = layer.name == "event_frequency" ? "Frequency of events" : "Frequency of blocks";
+    style.legend = capital(shown->description) + " [1/a]";
   }
   style.title = shown->name + " [" + shown->unit + "]";
   return style;

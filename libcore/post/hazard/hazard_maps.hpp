@@ -10,6 +10,7 @@
 #include "io/style.hpp"
 #include "post/hazard/hazard_rates.hpp"
 #include "post/maps/maps.hpp"
+#include "post/maps/ramp.hpp"
 
 namespace talus {
 
@@ -29,14 +30,15 @@ struct HazardSources {
 [[nodiscard]] std::vector<MapLayer> hazard_layers(const HazardSources& sources,
                                                   const std::vector<EventRow>& rows);
 
-/// How a layer is drawn. `notes` are printed below the picture.
+/// How a layer is drawn. `notes` are printed beside the map.
 [[nodiscard]] RasterStyle hazard_style(const MapLayer& layer, const Recipe& recipe,
                                        const std::string& remark,
                                        const std::vector<std::string>& notes);
 
 /// Classes with ascending limits; `is_deep_low`: small values are the bad ones.
 [[nodiscard]] std::vector<StyleClass> stepped_classes(const std::vector<double>& limits,
-                                                      const std::string& unit, bool is_deep_low);
+                                                      const std::string& unit, bool is_deep_low,
+                                                      Ramp ramp);
 
 /// Of the cells of layer "class": whether it is certain, its bounds, the number in the matrix.
 inline constexpr const char* certainty_layer = "class_certain";

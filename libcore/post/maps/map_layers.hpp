@@ -9,6 +9,7 @@
 
 #include "post/deposit.hpp"
 #include "post/maps/maps.hpp"
+#include "post/maps/ramp.hpp"
 
 namespace talus {
 
@@ -24,9 +25,11 @@ struct MapSources {
 struct MapLayerKind {
   const char* name;            ///< of the file, without extension, and in QGIS
   const char* title;           ///< of the picture in the report
+  const char* heading;         ///< of the page
   const char* caption;         ///< below the picture, HTML; the unit is added
   const char* unit;            ///< of the band that is shown
   const char* shown_band;      ///< empty: percentile or maximum, see map_style()
+  Ramp ramp;                   ///< its colours
   std::vector<double> breaks;  ///< upper ends of the classes, ascending; one more lies above
   bool zero_is_transparent;
   const char* group;    ///< in the layer tree of QGIS

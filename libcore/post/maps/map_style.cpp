@@ -15,23 +15,19 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // From the largest loss (blue) over no change (transparent) to the largest gain (red).
 std::vector<StyleClass> change_classes(const std::vector<double>& limits, const std::string& unit) {
   std::vector<StyleClass> classes;
-  const auto n = static_cast<double>(limits.size());
+  const double n = std::max(1.0, static_cast<double>(limits.size()) - 1);
   const auto label = [&](const char* word, std::size_t i) {
     if (i + 1 == limits.size()) return word + (" by more than " + text(limits[i])) + unit;
     return std::string(word) + " by " + text(limits[i]) + " - " + text(limits[i + 1]) + unit;
   };
   for (std::size_t i = limits.size(); i-- > 0;) {
-    const double share = (static_cast<double>(i) + 1) / n;
-    const auto part = [share](double pale, double deep) {
-      return static_cast<std::uint8_t>(std::lround(pale + share * (deep - pale)));
-    };
     classes.push_back(
-        {-limits[i], {part(222, 8), part(235, 48), part(247, 107), 255}, label("less", i)});
+        {-limits[i], ramp_colour(Ramp::less, static_cast<double>(i) / n), label("less", i)});
   }
   classes.push_back({limits[0], {255, 255, 255, 0}, "within " + text(limits[0]) + unit});
   for (std::size_t i = 0; i < limits.size(); ++i)
     classes.push_back({i + 1 < limits.size() ? limits[i + 1] : infinity,
-                       map_ramp((static_cast<double>(i) + 1) / n), label("more", i)});
+                       ramp_colour(Ramp::more, static_cast<double>(i) / n), label("more", i)});
   return classes;
 }
 
@@ -55,6 +51,20 @@ int shown_band(const MapLayer& layer, const std::string& wanted) {
              : std::max(0, find(layer.name + "_max"));
 }
 
+// What a value of the shown band is of the blocks that came over the cell, and its unit.
+std::string legend_words(const MapLayer& layer, const MapBand& band) {
+  if (band.name == layer.name + "_p95")
+    return "95 % of all blocks over the cell stay below [" + band.unit + "]";
+  if (band.name == layer.name + "_max")
+    return "Largest value of all blocks over the cell [" + band.unit + "]";
+  if (layer.name == "reach") return "Blocks over the cell / all released blocks";
+  if (layer.name == "exceedance") return "Blocks over the cell with more / all released blocks";
+  if (layer.name == "deposit") return "Mean over the runs; rock that never moved is left out [m]";
+  if (layer.name == "arrival") return "Earliest block of all runs [s]";
+  if (layer.name == "energy_line") return "Smallest of all blocks over the cell [degrees]";
+  return band.name + " [" + band.unit + "]";
+}
+
 // The Swiss classes of intensity by kinetic energy.
 std::string intensity(const std::string& unit, double upper) {
   if (unit != "kJ") return "";
@@ -63,28 +73,17 @@ std::string intensity(const std::string& unit, double upper) {
 
 }  // namespace
 
-Colour map_ramp(double share) {
-  constexpr std::array<std::array<double, 3>, 6> stops = {{{255, 249, 196},
-                                                           {254, 217, 118},
-                                                           {253, 141, 60},
-                                                           {227, 26, 28},
-                                                           {158, 1, 66},
-                                                           {73, 0, 106}}};
-  const double place = std::clamp(share, 0.0, 1.0) * (stops.size() - 1);
-  const auto i = std::min<std::size_t>(static_cast<std::size_t>(place), stops.size() - 2);
-  const double s = place - static_cast<double>(i);
-  Colour colour{0, 0, 0, 255};
-  for (std::size_t k = 0; k < 3; ++k)
-    colour[k] =
-        static_cast<std::uint8_t>(std::lround(stops[i][k] + s * (stops[i + 1][k] - stops[i][k])));
-  return colour;
-}
-
 RasterStyle change_style(const MapLayer& layer, const std::string& remark,
                          const std::vector<double>& breaks) {
   const MapBand& band = layer.bands[0];
-  return {1, band.name + " [" + band.unit + "]",
-          change_classes(breaks, band.unit == "1" ? "" : " " + band.unit), remark};
+  RasterStyle style{1, band.name + " [" + band.unit + "]",
+                    change_classes(breaks, band.unit == "1" ? "" : " " + band.unit), remark};
+  const bool is_of_fences = layer.name == "fence_change";
+  style.heading =
+      is_of_fences ? "Change of the deposit by the fences" : "Change of the probability of reach";
+  style.legend = is_of_fences ? "Thickness with the fences minus without [m]"
+                              : "Runs compared with minus the others, share of the blocks";
+  return style;
 }
 
 RasterStyle map_style(const MapLayer& layer, const std::string& remark) {
@@ -94,6 +93,8 @@ RasterStyle map_style(const MapLayer& layer, const std::string& remark) {
   const MapBand& band = layer.bands[index];
   style.band = index + 1;
   style.title = band.name + " [" + band.unit + "]";
+  style.heading = kind.heading;
+  style.legend = legend_words(layer, band);
   style.remark = remark;
   const std::string unit = band.unit == "1" ? "" : " " + band.unit;
   if (kind.zero_is_transparent) style.classes.push_back({0, {255, 255, 255, 0}, "0" + unit});
@@ -101,13 +102,13 @@ RasterStyle map_style(const MapLayer& layer, const std::string& remark) {
   const double n = static_cast<double>(kind.breaks.size());
   for (std::size_t i = 0; i < kind.breaks.size(); ++i) {
     const double upper = kind.breaks[i];
-    style.classes.push_back({upper, map_ramp(static_cast<double>(i) / n),
+    style.classes.push_back({upper, ramp_colour(kind.ramp, static_cast<double>(i) / n),
                              (lower.empty() ? "up to " : lower + " - ") + text(upper, 9) + unit +
                                  intensity(band.unit, upper)});
     lower = text(upper, 9);
   }
-  style.classes.push_back(
-      {infinity, map_ramp(1), "above " + lower + unit + intensity(band.unit, infinity)});
+  style.classes.push_back({infinity, ramp_colour(kind.ramp, 1),
+                           "above " + lower + unit + intensity(band.unit, infinity)});
   return style;
 }
 

@@ -4,11 +4,9 @@
 
 #include "io/style.hpp"
 #include "post/maps/maps.hpp"
+#include "post/maps/ramp.hpp"
 
 namespace talus {
-
-/// From pale yellow at 0 over orange and red to dark purple at 1.
-[[nodiscard]] Colour map_ramp(double share);
 
 /// The style of a layer. It shows the 95th percentile where nearly all cells that blocks came over
 /// have one (19 of 20), else the maximum: a map must not leave out places that were reached. For

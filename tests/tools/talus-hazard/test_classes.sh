@@ -6,7 +6,7 @@ cat >>site.toml <<'TOML'
 [hazard.class.V1]
 frequency_per_a = 0.0136
 TOML
-expect 0 talus-hazard site.toml run_*.h5 --trn slope.tif -o maps --png --json hazard.json
+expect 0 talus-hazard site.toml run_*.h5 --trn slope.tif -o maps --png --pdf --json hazard.json
 prints 'maps of 12 runs of class V1'
 value() { gdallocationinfo -valonly -b "$2" "maps/$1.tif" "$3" 10; }
 # cells of 2 m: column 10 is passed by box 0 at 99 to 129 kJ, column 5 at the start by less than 30
@@ -26,16 +26,16 @@ for word in 'RECIPE=Switzerland, canton Ticino' RECIPE_EDITION RECIPE_SHA256 'SP
 done
 gdalinfo maps/class.tif | grep -q 'Type=Byte' || fail 'class.tif is not of bytes'
 gdalinfo maps/class.tif | grep -q '3: 85,142,213,255' || fail 'no colour of class blue'
-[ -f maps/class.png ] && [ -f maps/ke_T300.qml ] || fail 'no picture or style'
+[ -f maps/class.png ] && [ -f maps/class.pdf ] && [ -f maps/ke_T300.qml ] || fail 'no page or style'
 ogr2ogr -f CSV classes.csv maps/hazard.gpkg classes && grep -q '^blue,.*medium hazard' classes.csv || fail 'no polygon of class blue'
 grep -q 'frequencies: V1: 0.0136 a year' classes.csv || fail 'polygons do not say what they rest on'
 ogrinfo -q maps/hazard.gpkg | grep -q classes_smoothed || fail 'no smoothed classes'
 
 expect 0 talus-reduce run_1.h5 run_4.h5 run_7.h5 --trn slope.tif -o third.h5
 expect 0 talus-reduce run_0.h5 run_2.h5 run_3.h5 run_5.h5 run_6.h5 run_8.h5 --trn slope.tif -o half.h5
-expect 0 talus-hazard site.toml run_9.h5 half.h5 run_11.h5 third.h5 run_10.h5 --trn slope.tif -o parts --png
-expect 0 talus-hazard site.toml run_*.h5 --trn slope.tif -o tiles --png --memory-mb 0.004
-for file in maps/*.tif maps/*.png maps/*.qml; do
+expect 0 talus-hazard site.toml run_9.h5 half.h5 run_11.h5 third.h5 run_10.h5 --trn slope.tif -o parts --png --pdf
+expect 0 talus-hazard site.toml run_*.h5 --trn slope.tif -o tiles --png --pdf --memory-mb 0.004
+for file in maps/*.tif maps/*.png maps/*.pdf maps/*.qml; do
   cmp "$file" "parts/${file#maps/}" || fail "$file depends on how the runs are read"
 done
 for file in maps/*.tif; do  # its settings stand in the tags

@@ -144,6 +144,26 @@ TEST(DepositLayer, HoldsTheDepositedVolume) {
   EXPECT_NEAR(thickness * 4 * 3, volume, 1e-4 * volume);
 }
 
+// Rock that stays where it was cut is no deposit where only what moved is asked for.
+TEST(DepositLayer, LeavesOutWhatDidNotMoveFarEnough) {
+  RunFile run;
+  for (int i = 0; i < 3; ++i) add_box(run, {2, 2, 2}, {0, 0, 0});
+  add_frame(run, 0, {standing({0, 0, 0}), standing({0.6, 0, 0.8}), standing({0, 3, -4})});
+  const auto count = [&run](double least) {
+    DepositSums sums;
+    add_deposit(sums, grid, run, 0.05, least);
+    double n = 0, volume = 0;
+    for (const auto& [cell, value] : sums.count) n += value;
+    for (const auto& [cell, value] : sums.volume) volume += value;
+    EXPECT_NEAR(volume, 8 * n, 1e-9);
+    return n;
+  };
+  EXPECT_EQ(count(-1), 3);
+  EXPECT_EQ(count(0), 2);
+  EXPECT_EQ(count(1), 1);  // displaced by 1 m: not more
+  EXPECT_EQ(count(5), 0);
+}
+
 // A ring of cells with a hole, a cell apart, and one that only meets it in a corner.
 TEST(Outline, KeepsHolesAndPartsCellsThatMeetInACorner) {
   const PassageGrid small{Vec2(0, 5), 1, 5, 5};

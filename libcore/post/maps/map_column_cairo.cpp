@@ -1,0 +1,168 @@
+#include "post/maps/map_column_cairo.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/text.hpp"
+
+namespace talus {
+namespace {
+
+constexpr double row_height = 4.9, swatch_width = 8, swatch_height = 3.7, label_x = 10.5;  // [mm]
+const Letters heading{2.9, true}, label{2.5}, small{2.15, false, 0, {70, 70, 70, 255}};
+
+// As it looks over ground of middle brightness.
+Colour over_ground(const Colour& colour) {
+  constexpr double ground = 232;
+  Colour out{0, 0, 0, 255};
+  const double share = cell_opacity * colour[3] / 255;
+  for (std::size_t k = 0; k < 3; ++k)
+    out[k] = static_cast<std::uint8_t>(std::lround((1 - share) * ground + share * colour[k]));
+  return out;
+}
+
+// One entry below the other, from `top` on; knows where the next one comes.
+class Column {
+ public:
+  Column(Pen& pen, const PageBox& box) : pen_(pen), x_(box.x), y_(box.y), width_(box.width) {}
+
+  [[nodiscard]] double bottom() const { return y_; }
+  void skip(double height) { y_ += height; }
+
+  void words(const std::string& words, Letters letters) {
+    letters.width = width_;
+    y_ += pen_.words({x_, y_}, words, letters);
+  }
+
+  void class_row(const StyleClass& c) {
+    const PageBox box{x_, y_, swatch_width, swatch_height};
+    pen_.box(box, c.is_hatched ? Colour{255, 255, 255, 255} : over_ground(c.colour));
+    if (c.is_hatched) pen_.hatch(box, class_hatch_mm, false, hatch_stroke(c.colour));
+    pen_.frame(box, {0.1, {60, 60, 60, 255}});
+    row_label(c.label);
+  }
+
+  void uncertain_row() {
+    const PageBox box{x_, y_, swatch_width, swatch_height};
+    pen_.hatch(box, uncertain_hatch_mm, true, hatch_stroke({30, 30, 30, 255}));
+    pen_.frame(box, {0.1, {60, 60, 60, 255}});
+    row_label("class not certain");
+  }
+
+  void line_row(const Stroke& stroke, const std::string& words) {
+    const double y = y_ + swatch_height / 2;
+    pen_.line({{x_, y}, {x_ + swatch_width, y}}, stroke);
+    row_label(words);
+  }
+
+  void area_row(const Stroke& stroke, const std::string& words) {
+    pen_.frame({x_ + 0.5, y_ + 0.3, swatch_width - 1, swatch_height - 0.6}, stroke);
+    row_label(words);
+  }
+
+  void scale_and_north(const MapView& view, const std::string& paper) {
+    const double length = bar_length(view), mm = 1000 * length / view.scale;
+    pen_.words({x_, y_}, "Scale 1 : " + spaced(view.scale) + " on " + paper, heading);
+    draw_north({x_ + width_ - 4, y_ + 1});
+    const double top = y_ + 10;
+    for (int k = 0; k < 4; ++k) {
+      const PageBox part{x_ + 2 + k * mm / 4, top, mm / 4, 1.6};
+      pen_.box(part, k % 2 == 0 ? Colour{0, 0, 0, 255} : Colour{255, 255, 255, 255});
+      pen_.frame(part, {0.15});
+    }
+    const bool in_km = length >= 2000;
+    for (const double share : {0.0, 0.5, 1.0})
+      pen_.words_about(
+          {x_ + 2 + share * mm, top - 2}, 0,
+          text(share * length / (in_km ? 1000 : 1)) + (share == 1 ? in_km ? " km" : " m" : ""),
+          {2.3});
+    y_ = top + 5;
+  }
+
+ private:
+  void row_label(const std::string& words) {
+    Letters letters = label;
+    letters.width = width_ - label_x;
+    const double height = pen_.size_of(words, letters).y();
+    pen_.words({x_ + label_x, y_ + std::max(0.0, (swatch_height - height) / 2)}, words, letters);
+    y_ += std::max(row_height, height + 1);
+  }
+
+  // The tip of an arrow to the north of the grid is at `tip`.
+  void draw_north(const Vec2& tip) {
+    const Vec2 left = tip + Vec2(-2.4, 8), right = tip + Vec2(2.4, 8), foot = tip + Vec2(0, 6.2);
+    pen_.area({tip, foot, left}, {0, 0, 0, 255});
+    pen_.line({tip, right, foot}, {0.2}, true);
+    pen_.words_about(tip + Vec2(0, 10), 0, "N", {3.2, true});
+  }
+
+  Pen& pen_;
+  double x_, y_, width_;
+};
+
+void draw_legend(Column& column, const MapPage& page) {
+  column.words(page.style.legend, heading);
+  column.skip(1.2);
+  // the largest on top, as heights are read
+  for (auto c = page.style.classes.rbegin(); c != page.style.classes.rend(); ++c)
+    if (c->colour[3] > 0) column.class_row(*c);
+  if (!page.uncertain.empty()) column.uncertain_row();
+}
+
+void draw_signs(Column& column, const MapGround& ground, const MapPlaces& places) {
+  column.skip(2);
+  if (!places.source.empty()) column.area_row(source_stroke(), "source of the released rock");
+  const auto any_line = [&places](bool stands) {
+    return std::any_of(places.lines.begin(), places.lines.end(),
+                       [stands](const RecordLine& line) { return line.standing == stands; });
+  };
+  if (any_line(true)) column.line_row(line_stroke(true), "fence that stands");
+  if (any_line(false)) column.line_row(line_stroke(false), "line without a fence");
+  if (!places.objects.empty()) column.area_row(object_stroke(), "object");
+  if (ground.contour_interval > 0)
+    column.line_row(contour_stroke(true), "heights every " + text(ground.contour_interval) +
+                                              " m, numbered every " +
+                                              text(5 * ground.contour_interval) + " m");
+}
+
+void draw_foot(Column& column, const MapPage& page, const MapGround& ground) {
+  column.scale_and_north(ground.view, page.size == PageSize::a3 ? "A3" : "A4");
+  for (const auto& list : {page.style.notes, page.words})
+    for (const std::string& paragraph : list) {
+      column.words(paragraph, small);
+      column.skip(0.9);
+    }
+}
+
+}  // namespace
+
+Stroke contour_stroke(bool is_numbered) {
+  return {is_numbered ? 0.26 : 0.12,
+          {110, 75, 40, static_cast<std::uint8_t>(is_numbered ? 200 : 150)}};
+}
+Stroke source_stroke() { return {0.45, {0, 0, 0, 255}, {1.8, 0.9}, true}; }
+Stroke line_stroke(bool stands) {
+  if (stands) return {1.0, {0, 0, 0, 255}, {}, true};
+  return {0.4, {0, 0, 0, 255}, {0.5, 0.8}, true};
+}
+Stroke object_stroke() { return {0.5, {0, 90, 178, 255}, {}, true}; }
+Stroke hatch_stroke(const Colour& colour) { return {0.28, colour}; }
+
+std::string spaced(double value) {
+  std::string digits = text(value);
+  const std::size_t begin = digits.starts_with('-') ? 1 : 0;
+  const std::size_t end = std::min(digits.find('.'), digits.size());
+  for (std::size_t i = end; i > begin + 3; i -= 3) digits.insert(i - 3, "\u202f");
+  return digits;
+}
+
+ColumnHeights draw_column(Pen& pen, const PageBox& box, double foot, const MapPage& page,
+                          const MapGround& ground, const MapPlaces& places) {
+  Column top(pen, box), below(pen, {box.x, foot, box.width, 0});
+  draw_legend(top, page);
+  draw_signs(top, ground, places);
+  draw_foot(below, page, ground);
+  return {top.bottom() - box.y, below.bottom() - foot};
+}
+
+}  // namespace talus

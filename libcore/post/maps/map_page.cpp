@@ -1,0 +1,114 @@
+#include "post/maps/map_page.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+
+namespace talus {
+namespace {
+
+// The smallest of `steps` times a power of ten that is at least `value`.
+double rounded_up(double value, std::span<const double> steps) {
+  const double power = std::pow(10, std::floor(std::log10(value)));
+  constexpr double rounding = 1 + 1e-9;
+  for (const double step : steps)
+    if (step * power * rounding >= value) return step * power;
+  return 10 * power;
+}
+
+constexpr double per_mm = 0.001;  // metres of paper
+
+// Samples at the nodes of a grid over the view, one more than its squares on each side.
+SampledField sampled(const Trn& trn, const MapView& view, double spacing) {
+  SampledField field;
+  field.corner = {view.low.x(), view.high.y()};
+  field.spacing = spacing;
+  field.n_cols = static_cast<int>(std::ceil((view.high.x() - view.low.x()) / spacing)) + 1;
+  field.n_rows = static_cast<int>(std::ceil((view.high.y() - view.low.y()) / spacing)) + 1;
+  for (int row = 0; row < field.n_rows; ++row)
+    for (int col = 0; col < field.n_cols; ++col) {
+      const Vec2 at = field.corner + spacing * Vec2(col, -row);
+      field.value.push_back(elevation_at(trn, at.x(), at.y()) + trn.origin.z());
+    }
+  return field;
+}
+
+void add_contours(MapGround& ground, const Trn& trn) {
+  constexpr double line_mm = 0.8;  // between samples: finer ones are not seen
+  constexpr double most_lines = 30;
+  const double spacing = std::max(line_mm * per_mm * ground.view.scale, trn.cell_size / 2);
+  const SampledField field = sampled(trn, ground.view, spacing);
+  double low = INFINITY, high = -INFINITY;
+  for (const double z : field.value)
+    if (!std::isnan(z)) {
+      low = std::min(low, z);
+      high = std::max(high, z);
+    }
+  if (!(high > low)) return;
+  ground.contour_interval = round_up((high - low) / most_lines);
+  std::vector<double> levels;
+  const double first = std::ceil(low / ground.contour_interval),
+               last = std::floor(high / ground.contour_interval);
+  for (double k = first; k <= last; ++k) levels.push_back(k * ground.contour_interval);
+  ground.contours = level_lines(field, levels);
+}
+
+}  // namespace
+
+PageLayout layout_of(PageSize size) {
+  const bool is_a3 = size == PageSize::a3;
+  constexpr double margin = 8, title = 14, beside_map = 5, below_map = 5, gap = 5;
+  PageLayout out;
+  out.width = is_a3 ? 420 : 297;
+  out.height = is_a3 ? 297 : 210;
+  const double column = is_a3 ? 84 : 66;
+  out.column = {out.width - margin - column, margin + title, column,
+                out.height - 2 * margin - title};
+  out.map = {margin + beside_map, margin + title,
+             out.width - 2 * margin - beside_map - gap - column,
+             out.height - 2 * margin - title - below_map};
+  return out;
+}
+
+double round_scale(double value) {
+  constexpr std::array<double, 10> steps = {1, 1.25, 1.5, 2, 2.5, 3, 4, 5, 6, 8};
+  return rounded_up(value, steps);
+}
+
+double round_up(double value) {
+  constexpr std::array<double, 3> steps = {1, 2, 5};
+  return rounded_up(value, steps);
+}
+
+double round_down(double value) {
+  const double power = std::pow(10, std::floor(std::log10(value)));
+  for (const double step : {5.0, 2.0})
+    if (step * power <= value * (1 + 1e-9)) return step * power;
+  return power;
+}
+
+MapView view_of(const PageLayout& layout, const Vec2& low, const Vec2& high) {
+  const Vec2 frame = per_mm * Vec2(layout.map.width, layout.map.height);
+  MapView view;
+  view.scale = round_scale(((high - low).array() / frame.array()).maxCoeff());
+  const Vec2 middle = (low + high) / 2, half = view.scale * frame / 2;
+  view.low = middle - half;
+  view.high = middle + half;
+  return view;
+}
+
+MapGround map_ground(const Trn& trn, const PageLayout& layout, const MapView& view) {
+  constexpr double square_mm = 0.34;  // two pixels of a picture
+  MapGround ground;
+  ground.view = view;
+  ground.shading_cell = std::max(square_mm * per_mm * view.scale, trn.cell_size / 4);
+  const double cells_per_mm = per_mm * view.scale / ground.shading_cell;
+  ground.shading = shading_of(trn, {Vec2(view.low.x(), view.high.y()), ground.shading_cell,
+                                    static_cast<int>(std::ceil(layout.map.height * cells_per_mm)),
+                                    static_cast<int>(std::ceil(layout.map.width * cells_per_mm))});
+  add_contours(ground, trn);
+  return ground;
+}
+
+}  // namespace talus
