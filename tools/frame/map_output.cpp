@@ -92,9 +92,9 @@ std::vector<std::string> words_of(const MapFrame& frame, const MapTags& tags) {
   return {"Runs: " + run_words(tags) + (cases.empty() ? "" : " of the cases " + cases) + ", set " +
               tag(tags, "RUN_SET") + "; " + health + ". Map " + tag(tags, "RUN_ID") + ".",
           "Model: three-dimensional discontinuous deformation analysis of blocks on a terrain of "
-          "triangles (DDA), law \"" +
-              frame.law + "\", Talus " + tag(tags, "VERSION") + "; cells of " +
-              text(frame.grid.cell_size, 4) + " m.",
+          "triangles (DDA)" +
+              (frame.law.empty() ? "" : ", law \"" + frame.law + "\"") + ", Talus " +
+              tag(tags, "VERSION") + "; cells of " + text(frame.grid.cell_size, 4) + " m.",
           "Coordinates: " + crs_name(frame.crs_wkt) + "; north is that of the grid.",
           "Computed for the source, joints, ground and friction that were assumed, no forecast: an "
           "expert has to judge it before anything is decided by it."};

@@ -37,7 +37,8 @@ class Column {
   void class_row(const StyleClass& c) {
     const PageBox box{x_, y_, swatch_width, swatch_height};
     pen_.box(box, c.is_hatched ? Colour{255, 255, 255, 255} : over_ground(c.colour));
-    if (c.is_hatched) pen_.hatch(box, class_hatch_mm, false, hatch_stroke(c.colour));
+    if (c.is_hatched)
+      pen_.hatch(box, class_hatch_mm, false, hatch_stroke(c.colour, class_hatch_width));
     pen_.frame(box, {0.1, {60, 60, 60, 255}});
     row_label(c.label);
   }
@@ -146,7 +147,7 @@ Stroke line_stroke(bool stands) {
   return {0.4, {0, 0, 0, 255}, {0.5, 0.8}, true};
 }
 Stroke object_stroke() { return {0.5, {0, 90, 178, 255}, {}, true}; }
-Stroke hatch_stroke(const Colour& colour) { return {0.28, colour}; }
+Stroke hatch_stroke(const Colour& colour, double width) { return {width, colour}; }
 
 std::string spaced(double value) {
   std::string digits = text(value);

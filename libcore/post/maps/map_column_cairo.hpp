@@ -14,8 +14,8 @@ inline constexpr double cell_opacity = 0.8;
 [[nodiscard]] Stroke source_stroke();
 [[nodiscard]] Stroke line_stroke(bool stands);  ///< of a fence, or of a line that stops nothing
 [[nodiscard]] Stroke object_stroke();
-[[nodiscard]] Stroke hatch_stroke(const Colour& colour);
-inline constexpr double class_hatch_mm = 1.0, uncertain_hatch_mm = 1.4;
+[[nodiscard]] Stroke hatch_stroke(const Colour& colour, double width = 0.28);
+inline constexpr double class_hatch_mm = 1.2, class_hatch_width = 0.5, uncertain_hatch_mm = 1.4;
 
 /// 1757200 as "1 757 200".
 [[nodiscard]] std::string spaced(double value);

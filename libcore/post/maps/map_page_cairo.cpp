@@ -119,7 +119,8 @@ class MapDrawing {
       for (int col = w.col_begin; col < w.col_end; ++col) {
         const StyleClass* const c = class_at(row, col);
         if (c && c->is_hatched)
-          pen_.hatch(box_of(row, col, 1, 1), class_hatch_mm, false, hatch_stroke(c->colour));
+          pen_.hatch(box_of(row, col, 1, 1), class_hatch_mm, false,
+                     hatch_stroke(c->colour, class_hatch_width));
         if (c && !page_.uncertain.empty() && page_.uncertain[index(row, col)])
           pen_.hatch(box_of(row, col, 1, 1), uncertain_hatch_mm, true,
                      hatch_stroke({30, 30, 30, 255}));

@@ -18,5 +18,5 @@ done
 grep -q 'CreationDate' a/reach.pdf && fail 'a page says when it was made'
 grep -q '/MediaBox \[ 0 0 1190.551181 841.889764 \]' a/reach.pdf || fail 'the page is not A3'
 gdalinfo a/reach.png | grep -q 'Size is 2480, 1754' || fail 'the picture is not A3 at 150 dots an inch'
-expect 1 talus-maps run_0.h5 --trn slope.tif -o d --page a5
+expect 2 talus-maps run_0.h5 --trn slope.tif -o d --page a5
 says 'a4'
