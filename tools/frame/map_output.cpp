@@ -153,6 +153,7 @@ MapFrame map_frame(RunInputs& runs, const PassageGrid& grid, const PageOptions& 
   frame.pages = pages;
   frame.drawn = window ? *window : window_around(grid, touched);
   if (!pages.any()) return frame;
+  require_page_memory();
   require_font();
   const PageLayout layout = layout_of(size_of(pages));
   frame.ground = map_ground(trn, layout, view_of(layout, grid, frame.drawn));

@@ -3,11 +3,12 @@
 #include <pango/pangocairo.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <new>
 
 #include "base/error.hpp"
 
 namespace talus {
-
 void require_font(const std::string& family) {
   PangoFontFamily** families = nullptr;
   int n = 0;
@@ -20,6 +21,13 @@ void require_font(const std::string& family) {
     throw InputError({}, "the font " + family + ", which maps are lettered with, is not installed",
                      "install it (Debian: apt-get install fonts-dejavu-core), or leave out --png "
                      "and --pdf");
+}
+
+void require_page_memory() {
+  constexpr std::size_t pages = std::size_t{page_memory_mb} << 20;
+  void* volatile room = std::malloc(pages);  // volatile: else it need not be asked for
+  if (room == nullptr) throw std::bad_alloc();
+  std::free(room);
 }
 
 }  // namespace talus
