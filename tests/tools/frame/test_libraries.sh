@@ -18,7 +18,7 @@ needs talus-runs sqlite3
 needs talus-site gdal proj sqlite3 tomlplusplus
 needs talus-trn gdal proj sqlite3
 needs talus-tin gdal gmp proj sqlite3
-needs talus-maps gdal hdf5_serial proj sqlite3
+needs talus-maps cairo gdal glib-2.0 gobject-2.0 hdf5_serial pango-1.0 pangocairo-1.0 proj sqlite3
 needs talus-reduce gdal hdf5_serial proj sqlite3
 needs talus-runout gdal hdf5_serial proj sqlite3 tomlplusplus
 needs talus-fence gdal hdf5_serial proj sqlite3 tomlplusplus
