@@ -20,10 +20,10 @@ needs talus-trn gdal proj sqlite3
 needs talus-tin gdal gmp proj sqlite3
 needs talus-maps cairo gdal glib-2.0 gobject-2.0 hdf5_serial pango-1.0 pangocairo-1.0 proj sqlite3
 needs talus-reduce gdal hdf5_serial proj sqlite3
-needs talus-runout gdal hdf5_serial proj sqlite3 tomlplusplus
-needs talus-fence gdal hdf5_serial proj sqlite3 tomlplusplus
-needs talus-hazard gdal hdf5_serial proj sqlite3 tomlplusplus
-needs talus-trace gdal hdf5_serial proj sqlite3 tomlplusplus
+needs talus-runout cairo gdal glib-2.0 gobject-2.0 hdf5_serial pango-1.0 pangocairo-1.0 proj sqlite3 tomlplusplus
+needs talus-fence cairo gdal glib-2.0 gobject-2.0 hdf5_serial pango-1.0 pangocairo-1.0 proj sqlite3 tomlplusplus
+needs talus-hazard cairo gdal glib-2.0 gobject-2.0 hdf5_serial pango-1.0 pangocairo-1.0 proj sqlite3 tomlplusplus
+needs talus-trace cairo gdal glib-2.0 gobject-2.0 hdf5_serial pango-1.0 pangocairo-1.0 proj sqlite3 tomlplusplus
 needs talus-fence-search gdal hdf5_serial proj sqlite3 tomlplusplus
 needs talus-report gdal hdf5_serial proj sqlite3 tomlplusplus
 needs talus-dda gdal hdf5_serial proj sqlite3 tomlplusplus
