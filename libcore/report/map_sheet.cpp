@@ -33,7 +33,7 @@ std::string contours_of(const MapSheet& sheet) {
   std::string out = path("contour", thin, "") + path("contour five", thick, "");
   for (const LevelLabel& label : level_labels(sheet.ground, size / per_mm)) {
     const Vec2 at = per_mm * label.at;
-    out += "<text class=\"height\" transform=\"translate(" + number(at.x()) + " " + number(at.y()) +
+    out += "<text class=\"level\" transform=\"translate(" + number(at.x()) + " " + number(at.y()) +
            ") rotate(" + number(-label.angle * 180 / M_PI) +
            ")\" dy=\".35em\" text-anchor=\"middle\">" + text(label.level) + "</text>";
   }

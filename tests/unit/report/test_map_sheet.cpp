@@ -35,7 +35,7 @@ TEST(MapSheet, GroundAndPlacesAreDrawnOnceForAllMaps) {
   sheet.lines = {record_line("lower", {{60, 85, 0}, {80, 85, 0}})};
   const std::string once = sheet_definitions(sheet);
   for (const char* part :
-       {"id=\"map-ground\"", "id=\"map-places\"", "class=\"contour five\"", "class=\"height\"",
+       {"id=\"map-ground\"", "id=\"map-places\"", "class=\"contour five\"", "class=\"level\"",
         "class=\"grid\"", "class=\"source\"", "class=\"object\" d=\"", "house &lt;1&gt;</title>",
         "class=\"object line\" d=\"", "<circle class=\"object\"", "r=\"2\"",
         "line lower without a fence</title>"})
