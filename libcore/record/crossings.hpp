@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scene/scene.hpp"
@@ -25,6 +26,13 @@ struct RecordLine {
   std::vector<double> chainage;  ///< of the points, horizontal, from the first [m]  (n_points)
   bool standing = false;         ///< a fence that stops blocks; false: a line that stops nothing
 };
+
+/// Where a search thinks of a fence: lines of this name are watched, but nobody asked for a fence
+/// there. Their names go on with that of the search and a number.
+inline constexpr std::string_view candidate_prefix = "fence_search.";
+[[nodiscard]] inline bool is_candidate(const RecordLine& line) {
+  return line.name.starts_with(candidate_prefix);
+}
 
 /// The corners of a line and, between them, posts at equal distances not longer than `spacing`, all
 /// on the ground. Throws InputError at `where` for fewer than two corners, two in a row at the same

@@ -295,6 +295,18 @@ MapView view_of_maps(const ResultFolder& folder, const ReportData& data) {
   return view_of(layout_of(PageSize::a4), window.low, window.high);
 }
 
+// As talus-hazard hatches its page.
+void hatch_class_map(const ResultFolder& folder, ReportData& data) {
+  const std::string classes = "hazard/class.tif", certain = "hazard/class_certain.tif";
+  for (MapPicture& map : data.hazard_maps) {
+    if (map.name != "class" || !folder.has(certain)) continue;
+    for (const Json& row : data.hazard.at("classes"))
+      if (row.value("hatched", false)) map.weak.push_back(row.at("code").get<int>());
+    hatch_classes(map.cells, folder.path(classes).string(), folder.path(certain).string(), map.weak,
+                  data.sheet.ground.view, data.sheet.origin);
+  }
+}
+
 void read_maps(const ResultFolder& folder, ReportData& data) {
   MapSheet& sheet = data.sheet;
   sheet.ground = map_ground(data.terrain, layout_of(PageSize::a4), view_of_maps(folder, data));
@@ -311,6 +323,7 @@ void read_maps(const ResultFolder& folder, ReportData& data) {
   for (const std::string& name : hazard_maps_of(data.hazard))
     for (MapPicture& picture : picture_of(folder, "hazard/" + name, sheet))
       data.hazard_maps.push_back(std::move(picture));
+  hatch_class_map(folder, data);
   data.change_map = picture_of(folder, "change", sheet);
 }
 
