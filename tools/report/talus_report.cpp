@@ -14,6 +14,7 @@
 #include "io/raster_gdal.hpp"
 #include "io/style.hpp"
 #include "io/tags_gdal.hpp"
+#include "io/vectors_gdal.hpp"
 #include "post/maps/map_layers.hpp"
 #include "record/part_file.hpp"
 #include "report/check_view.hpp"
@@ -327,6 +328,20 @@ void read_maps(const ResultFolder& folder, ReportData& data) {
   data.change_map = picture_of(folder, "change", sheet);
 }
 
+// The paths of all blocks of all runs, as talus-runout writes them; none for runs without frames.
+std::vector<std::vector<Vec3>> trails_in(const ResultFolder& folder, const Vec3& origin) {
+  const std::string path = folder.path("runout.gpkg").string();
+  const std::vector<StyledLayer> layers = styled_layers(path);
+  if (std::none_of(layers.begin(), layers.end(),
+                   [](const StyledLayer& layer) { return layer.name == "paths"; }))
+    return {};
+  std::vector<std::vector<Vec3>> trails =
+      read_vectors({path, "paths", "", VectorKind::lines}, "").shapes;
+  for (std::vector<Vec3>& trail : trails)
+    for (Vec3& p : trail) p -= origin;
+  return trails;
+}
+
 ReportData read_data(Tool& tool, const Site& site, ResultFolder& folder,
                      const ProgressFunction& progress) {
   ReportData data(site);
@@ -348,6 +363,7 @@ ReportData read_data(Tool& tool, const Site& site, ResultFolder& folder,
       const std::string file = "search/charts/fence_search_" + text_at(search, "/name") + ".svg";
       data.search_svgs.push_back(folder.has(file) ? folder.text(file) : "");
     }
+  if (folder.has("runout.gpkg")) data.trails = trails_in(folder, data.terrain.origin);
   data.mobility_svg = folder.text("runout.svg");
   data.stereonet_svg = folder.text("stereonet.svg");
   data.sizes_svg = folder.text("sizes.svg");
