@@ -307,9 +307,9 @@ std::string error_text(const LineSums& sums) {
                  " % in the median, 95 % by less than " + text(100 * change.p95, 2) +
                  " %, and nine in ten errors are smaller than that";
   const std::string by_cells =
-      "by the cells under the line: upper bounds, no block too few, up to a third too many, each "
-      "with its largest values over these cells (energy 1.1 to 1.5 times that at the line in the "
-      "median, many times where blocks stop on it)";
+      "by the cells under the line: upper bounds, each block with its largest values over these "
+      "cells; none too few, a few per cent too many where blocks move on, many times too many "
+      "where they come to rest at the line";
   if (sums.n_by_cells == 0) return by_frames;
   if (sums.n_by_frames == 0) return by_cells;
   return counted(sums.n_by_frames, "run") + " " + by_frames + "; " +

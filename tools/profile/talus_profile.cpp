@@ -168,10 +168,11 @@ LineProfile evaluated(LineSums sums, const RunInputs& runs, double bin_m, const 
 
 void warn_of(Tool& tool, const LineSums& sums) {
   if (sums.n_by_cells > 0)
-    tool.warn(counted(sums.n_by_cells, "run") + " of " + std::to_string(n_runs(sums)) +
-              (sums.n_by_cells == 1 ? " has" : " have") +
-              " no frames: what crosses the line is told by the cells under it, none too few and "
-              "up to a third too many, with the largest values over these cells");
+    tool.warn(
+        counted(sums.n_by_cells, "run") + " of " + std::to_string(n_runs(sums)) +
+        (sums.n_by_cells == 1 ? " has" : " have") +
+        " no frames: what crosses the line is told by the cells under it: upper bounds, far too "
+        "high where blocks come to rest at the line");
   if (sums.n_by_cells > 0 && sums.by_centroid)
     tool.warn(
         "cells were passed by centroids alone (--passages-by centroid): blocks that touch the line "
