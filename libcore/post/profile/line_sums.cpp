@@ -6,7 +6,7 @@
 #include <tuple>
 #include <utility>
 
-#include "record/motion.hpp"
+#include "post/profile/whole_bodies.hpp"
 #include "terrain/trn_walk.hpp"
 
 namespace talus {
@@ -27,22 +27,6 @@ PlanBox box_of(const RecordLine& line) {
   return box;
 }
 
-double spin_energy(const RunFile& run, const FrameBlock& at, int b) {
-  const Vec3 spin = at.attitude.conjugate() * at.spin;  // body axes
-  return 0.5 * spin.cwiseAbs2().dot(run.blocks.inertia[b]);
-}
-
-// Of the lowest and the highest vertex above the centroid [m].
-std::pair<double, double> reach_up_and_down(const RunFile& run, const FrameBlock& at, int b) {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (int v = run.blocks.vertex_begin[b]; v < run.blocks.vertex_begin[b + 1]; ++v) {
-    const double z = (at.attitude * run.blocks.vertices[v]).z();
-    low = std::min(low, z);
-    high = std::max(high, z);
-  }
-  return {low, high};
-}
-
 LineCrossing crossing_of_block(const RunFile& run, int index, int b) {
   LineCrossing out;
   out.at.run = index;
@@ -54,49 +38,50 @@ LineCrossing crossing_of_block(const RunFile& run, int index, int b) {
   return out;
 }
 
-LineCrossing crossing_between(const RunFile& run, int index, int b, int k, const LineMeeting& met,
+// Of block b on a way in plan from frame k to the next, as the body that it then is part of.
+LineCrossing crossing_between(const RunFile& run, int index, int b, const WholeBodies& bodies,
+                              int k, const Vec2& start, const Vec2& end, const LineMeeting& met,
                               const Trn& trn) {
-  const FrameBlock from = frame_block(run, k, b), to = frame_block(run, k + 1, b);
   const auto between = [&](double a, double z) { return a + met.share * (z - a); };
   LineCrossing out = crossing_of_block(run, index, b);
   FenceArrival& at = out.at;
   at.time = between(run.frames.time[k], run.frames.time[k + 1]);
+  const std::span<const int> rows = bodies.rows_with(b, at.time);
+  const BodyState from = body_state(run, k, rows), to = body_state(run, k + 1, rows);
   at.chainage = met.chainage;
   at.direction = met.direction;
   at.field = met.segment;
   at.speed = between(from.velocity.norm(), to.velocity.norm());
-  at.spin = between(from.spin.norm(), to.spin.norm());
-  const double mass = run.blocks.mass[b];
-  const double translation_from = translational_energy(mass, from.velocity);
-  const double translation_to = translational_energy(mass, to.velocity);
-  const double rotation_from = spin_energy(run, from, b), rotation_to = spin_energy(run, to, b);
-  at.translation = between(translation_from, translation_to);
-  at.rotation = between(rotation_from, rotation_to);
-  out.energy_change = std::abs(translation_to + rotation_to - translation_from - rotation_from);
-  out.place = from.position + met.share * (to.position - from.position);
+  at.spin = none;
+  at.translation = between(from.translation, to.translation);
+  at.rotation = between(from.rotation, to.rotation);
+  out.energy_change = std::abs(to.translation + to.rotation - from.translation - from.rotation);
+  out.place << start + met.share * (end - start), between(from.position.z(), to.position.z());
   at.centroid = out.place.z() - elevation_at(trn, out.place.x(), out.place.y());
-  const auto [low_from, high_from] = reach_up_and_down(run, from, b);
-  const auto [low_to, high_to] = reach_up_and_down(run, to, b);
-  at.bottom = at.centroid + between(low_from, low_to);
-  at.top = at.centroid + between(high_from, high_to);
+  at.top = at.centroid + between(from.top, to.top);
+  at.bottom = at.centroid + between(from.bottom, to.bottom);
   return out;
 }
 
 void add_frame_crossings(LineSums& sums, const RunFile& run, int index, const Trn& trn) {
   const PlanBox box = box_of(sums.line);
+  const WholeBodies bodies(run);
   for (int b = 0; b < n_blocks(run); ++b) {
     LineCrossing first;
     first.n_crossings = 0;
-    Vec2 to = frame_block(run, 0, b).position.head<2>();
+    const auto place = [&](int k) {
+      return body_place(run, k, bodies.rows_with(b, run.frames.time[k]));
+    };
+    Vec2 to = place(0);
     for (int k = 0; k + 1 < n_frames(run.frames); ++k) {
       const Vec2 from = to;
-      to = frame_block(run, k + 1, b).position.head<2>();
+      to = place(k + 1);  // of a piece, when it has come off since: its way goes on from its block
       if (from == to || (from.cwiseMin(to).array() > box.high.array()).any() ||
           (from.cwiseMax(to).array() < box.low.array()).any())
         continue;
       for (const LineMeeting& met : line_meetings(sums.line, from, to)) {
         if (first.n_crossings == 0) {
-          first = crossing_between(run, index, b, k, met, trn);
+          first = crossing_between(run, index, b, bodies, k, from, to, met, trn);
           continue;
         }
         ++first.n_crossings;

@@ -101,6 +101,51 @@ TEST(LineSums, KeepTheFirstCrossingAndCountReturns) {
   EXPECT_TRUE(beside.crossings.empty());
 }
 
+// Two pieces of a block that breaks between two lines: at the first they are the block, with its
+// place, height and energy, at the second each is itself.
+TEST(LineSums, OfPiecesAreThoseOfTheirBlockUntilItBreaks) {
+  const Trn trn = plane_trn(0, 5, 21, 11);
+  RunFile run;
+  add_box(run, {2, 1, 1}, {0, 20, 101});
+  add_box(run, {1, 1, 3}, {1.5, 20, 101});
+  for (int k = 0; k <= 40; ++k) {  // 10 m/s; after 2 s the second one is twice as fast
+    const double t = 0.1 * k, late = std::max(0.0, t - 2.05);
+    FrameBlock a = standing({10 * t, 20, 101}), b = standing({1.5 + 10 * t + 10 * late, 20, 101});
+    a.velocity = {10, 0, 0};
+    b.velocity = {t > 2.05 ? 20.0 : 10.0, 0, 0};
+    add_frame(run, t, {a, b});
+  }
+  run.blocks.body = {4, 5};
+  Break broken;
+  broken.block = 0;
+  broken.first_piece = 4;
+  broken.time = 2.05;
+  run.breaks = {broken};
+  const double mass_a = 4000, mass_b = 6000;
+
+  LineSums sums = start_line(line_of(trn, {{12, 10}, {12, 30}}, 5));
+  add_run(sums, run, trn);
+  finish(sums);
+  ASSERT_EQ(sums.crossings.size(), 2u);
+  for (const LineCrossing& crossing : sums.crossings) {
+    EXPECT_NEAR(crossing.at.time, (12 - 0.6 * 1.5) / 10, 1e-9);  // when their common centre does
+    EXPECT_NEAR(crossing.at.energy(), 0.5 * (mass_a + mass_b) * 100, 1e-3);
+    EXPECT_NEAR(crossing.at.top, 2.5, 1e-6);
+    EXPECT_NEAR(crossing.at.bottom, -0.5, 1e-6);
+  }
+  EXPECT_DOUBLE_EQ(sums.crossings[0].mass, mass_a);
+  EXPECT_DOUBLE_EQ(sums.crossings[1].mass, mass_b);
+
+  LineSums later = start_line(line_of(trn, {{32, 10}, {32, 30}}, 5));
+  add_run(later, run, trn);
+  finish(later);
+  ASSERT_EQ(later.crossings.size(), 2u);
+  EXPECT_NEAR(later.crossings[0].at.energy(), 0.5 * mass_a * 100, 1e-3);
+  EXPECT_NEAR(later.crossings[1].at.energy(), 0.5 * mass_b * 400, 1e-3);
+  EXPECT_NEAR(later.crossings[0].at.time, 3.2, 1e-9);
+  EXPECT_NEAR(later.crossings[0].at.top, 1.5, 1e-6);
+}
+
 // Without frames a block counts once, where it first came over a cell of the line, with the largest
 // of all of them; cells beside the line do not count.
 TEST(LineSums, OfCellsAreTheLargestOverThem) {
