@@ -44,6 +44,19 @@ inline constexpr std::string_view candidate_prefix = "fence_search.";
 /// a row at the same place.
 [[nodiscard]] RecordLine record_line(std::string name, std::vector<Vec3> points);
 
+/// Where a straight way in plan meets a line.
+struct LineMeeting {
+  int segment = 0;      ///< of the line, from 0
+  int direction = 0;    ///< +1: to the left of the line seen from its first point, -1: right
+  double share = 0;     ///< of the way, 0 to 1 [-]
+  double chainage = 0;  ///< from the line's first point [m]
+};
+/// In the order of the way from `a` to `b`. Ways that follow one another meet the line as often as
+/// the whole path does: none is missed or seen twice where one ends on the line or at a corner.
+/// What passes beside the ends does not meet it.
+[[nodiscard]] std::vector<LineMeeting> line_meetings(const RecordLine& line, const Vec2& a,
+                                                     const Vec2& b);
+
 struct Crossing {
   std::int32_t block = 0, line = 0;
   std::int32_t segment = 0;    ///< of the line, from 0
