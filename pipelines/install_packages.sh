@@ -4,7 +4,7 @@
 set -eu
 
 build="g++ cmake ninja-build make ccache libgdal-dev libcgal-dev libboost-dev libeigen3-dev libhdf5-dev
-  libsqlite3-dev libsqlitecpp-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-dev gdal-bin proj-data git help2man
+  libsqlite3-dev libsqlitecpp-dev libssl-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-dev gdal-bin proj-data git help2man
   python3 pkgconf libpango1.0-dev fonts-dejavu-core"
 test="libgtest-dev librapidcheck-dev clang-format-14 sqlite3 hdf5-tools procps"
 # without these their tests are skipped, with a line that says so

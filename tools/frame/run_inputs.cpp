@@ -8,8 +8,8 @@
 #include "base/read_file.hpp"
 #include "base/sha256.hpp"
 #include "base/text.hpp"
+#include "io/trn_digest.hpp"
 #include "post/deposit.hpp"
-#include "terrain/trn_digest.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/options.hpp"
 

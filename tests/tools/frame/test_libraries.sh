@@ -14,22 +14,22 @@ needs() {
   [ "$found" = "$(printf '%s ' "$@")" ] || fail "$tool is linked with $found, expected $*"
 }
 
-needs talus-runs sqlite3
-needs talus-site gdal proj sqlite3 tomlplusplus
-needs talus-trn gdal proj sqlite3
-needs talus-tin gdal gmp proj sqlite3
-needs talus-maps cairo gdal glib-2.0 gobject-2.0 hdf5_serial pango-1.0 pangocairo-1.0 proj sqlite3
-needs talus-reduce gdal hdf5_serial proj sqlite3
-needs talus-runout cairo gdal glib-2.0 gobject-2.0 hdf5_serial pango-1.0 pangocairo-1.0 proj sqlite3 tomlplusplus
-needs talus-fence cairo gdal glib-2.0 gobject-2.0 hdf5_serial pango-1.0 pangocairo-1.0 proj sqlite3 tomlplusplus
-needs talus-hazard cairo gdal glib-2.0 gobject-2.0 hdf5_serial pango-1.0 pangocairo-1.0 proj sqlite3 tomlplusplus
-needs talus-trace cairo gdal glib-2.0 gobject-2.0 hdf5_serial pango-1.0 pangocairo-1.0 proj sqlite3 tomlplusplus
-needs talus-profile gdal hdf5_serial proj sqlite3
-needs talus-fence-search gdal hdf5_serial proj sqlite3 tomlplusplus
-needs talus-report gdal hdf5_serial proj sqlite3 tomlplusplus
-needs talus-dda gdal hdf5_serial proj sqlite3 tomlplusplus
-needs talus-verify gdal hdf5_serial proj sqlite3 tomlplusplus
-needs talus-blocks gdal gmp hdf5_serial proj sqlite3 tomlplusplus
-needs talus-check gdal gmp hdf5_serial proj sqlite3 tomlplusplus
-needs talus-source gdal gmp proj sqlite3 tomlplusplus
+needs talus-runs crypto sqlite3
+needs talus-site crypto gdal proj sqlite3 tomlplusplus
+needs talus-trn crypto gdal proj sqlite3
+needs talus-tin crypto gdal gmp proj sqlite3
+needs talus-maps cairo crypto gdal glib-2.0 gobject-2.0 hdf5_serial pango-1.0 pangocairo-1.0 proj sqlite3
+needs talus-reduce crypto gdal hdf5_serial proj sqlite3
+needs talus-runout cairo crypto gdal glib-2.0 gobject-2.0 hdf5_serial pango-1.0 pangocairo-1.0 proj sqlite3 tomlplusplus
+needs talus-fence cairo crypto gdal glib-2.0 gobject-2.0 hdf5_serial pango-1.0 pangocairo-1.0 proj sqlite3 tomlplusplus
+needs talus-hazard cairo crypto gdal glib-2.0 gobject-2.0 hdf5_serial pango-1.0 pangocairo-1.0 proj sqlite3 tomlplusplus
+needs talus-trace cairo crypto gdal glib-2.0 gobject-2.0 hdf5_serial pango-1.0 pangocairo-1.0 proj sqlite3 tomlplusplus
+needs talus-profile crypto gdal hdf5_serial proj sqlite3
+needs talus-fence-search crypto gdal hdf5_serial proj sqlite3 tomlplusplus
+needs talus-report crypto gdal hdf5_serial proj sqlite3 tomlplusplus
+needs talus-dda crypto gdal hdf5_serial proj sqlite3 tomlplusplus
+needs talus-verify crypto gdal hdf5_serial proj sqlite3 tomlplusplus
+needs talus-blocks crypto gdal gmp hdf5_serial proj sqlite3 tomlplusplus
+needs talus-check crypto gdal gmp hdf5_serial proj sqlite3 tomlplusplus
+needs talus-source crypto gdal gmp proj sqlite3 tomlplusplus
 exit 0

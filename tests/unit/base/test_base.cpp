@@ -49,12 +49,9 @@ TEST(NearestName, FindsTheMisspeltAndLeavesTheUnlike) {
   EXPECT_EQ(nearest_name("colour", known), "");
 }
 
-class Sha256Test : public testing::TestWithParam<bool> {};  // with the processor's extensions?
-INSTANTIATE_TEST_SUITE_P(Extensions, Sha256Test, testing::Bool());
-
-TEST_P(Sha256Test, EqualsPublishedDigests) {
+TEST(Sha256Test, EqualsPublishedDigests) {
   const auto digest = [](const std::string& bytes) {
-    Sha256 hash(GetParam());
+    Sha256 hash;
     hash.add(bytes.data(), bytes.size());
     return hash.hex();
   };
@@ -66,13 +63,13 @@ TEST_P(Sha256Test, EqualsPublishedDigests) {
             "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
 }
 
-TEST_P(Sha256Test, DoesNotDependOnHowBytesArrive) {
+TEST(Sha256Test, DoesNotDependOnHowBytesArrive) {
   std::string bytes;
   for (int i = 0; i < 1000; ++i) bytes += static_cast<char>(i * 7);
-  Sha256 whole(GetParam());
+  Sha256 whole;
   whole.add(bytes.data(), bytes.size());
   Random random(2);
-  Sha256 parts(GetParam());
+  Sha256 parts;
   for (size_t at = 0; at < bytes.size();) {
     const size_t n = std::min<size_t>(1 + random.below(130), bytes.size() - at);
     parts.add(bytes.data() + at, n);

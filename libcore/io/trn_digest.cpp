@@ -1,4 +1,4 @@
-#include "terrain/trn_digest.hpp"
+#include "io/trn_digest.hpp"
 
 #include <array>
 #include <cmath>

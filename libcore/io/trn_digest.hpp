@@ -1,4 +1,4 @@
-// libcore/terrain/trn_digest.hpp: public
+// libcore/io/trn_digest.hpp: public
 // What a terrain is, in 64 digits: ties blocks and runs to the ground that they were made for.
 #pragma once
 
