@@ -161,6 +161,23 @@ bool sum_pair(Island& island, const BodyPair& pair, Packed<6>& W, Mat6* rest) {
   return closed;
 }
 
+// Symmetric tangents of `pairs`, and by how much they changed: each is its pair's alone.
+void renew_tangents(Island& island, std::span<const int> pairs, IslandMatrix& matrix) {
+  if (matrix.change.size() < pairs.size()) matrix.change.resize(pairs.size());
+  in_chunks(matrix.workers, pairs.size(), 32, 128, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) {
+      const auto p = static_cast<size_t>(pairs[i]);
+      const BodyPair& pair = island.pairs[p];
+      Packed<6> change;
+      if (matrix.pair_closed[p]) subtract(matrix.pair[p], change);
+      matrix.pair_closed[p] = sum_pair(island, pair, matrix.pair[p], nullptr);
+      add(matrix.pair[p], change);
+      if (pair.b >= 0) matrix.coupling[p] = {single(matrix.pair[p]), single(matrix.shift[p])};
+      matrix.change[i] = change;
+    }
+  });
+}
+
 }  // namespace
 
 void update_tangents(Island& island, Tangent tangent, IslandMatrix& matrix) {
@@ -171,20 +188,21 @@ void update_tangents(Island& island, Tangent tangent, IslandMatrix& matrix) {
     matrix.rest.resize(island.pairs.size());
   else
     matrix.coupling.resize(island.pairs.size());
-  for (const int changed : matrix.changed_pairs.items) {
-    const auto p = static_cast<size_t>(changed);
-    const BodyPair& pair = island.pairs[p];
-    if (exact) {
+  const std::vector<int>& changed = matrix.changed_pairs.items;
+  if (exact) {
+    for (const int p : changed) {
       matrix.rest[p].setZero();
-      matrix.pair_closed[p] = sum_pair(island, pair, matrix.pair[p], &matrix.rest[p]);
-      continue;
+      matrix.pair_closed[p] = sum_pair(island, island.pairs[p], matrix.pair[p], &matrix.rest[p]);
     }
-    Packed<6> change;
-    if (matrix.pair_closed[p]) subtract(matrix.pair[p], change);
-    matrix.pair_closed[p] = sum_pair(island, pair, matrix.pair[p], nullptr);
-    add(matrix.pair[p], change);
-    add_to_diagonals(pair, change, matrix.shift[p], matrix);
-    if (pair.b >= 0) matrix.coupling[p] = {single(matrix.pair[p]), single(matrix.shift[p])};
+    return matrix.changed_pairs.clear();
+  }
+  // all at once where threads share the work, else so few that they stay near
+  const size_t batch = matrix.workers == nullptr ? size_t{32} : changed.size();
+  for (size_t begin = 0; begin < changed.size(); begin += batch) {
+    const auto some = std::span(changed).subspan(begin, std::min(batch, changed.size() - begin));
+    renew_tangents(island, some, matrix);
+    for (size_t i = 0; i < some.size(); ++i)
+      add_to_diagonals(island.pairs[some[i]], matrix.change[i], matrix.shift[some[i]], matrix);
   }
   matrix.changed_pairs.clear();
 }

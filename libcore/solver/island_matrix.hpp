@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/index_set.hpp"
+#include "base/workers.hpp"
 #include "solver/block_lu.hpp"
 #include "solver/island.hpp"
 #include "solver/newton.hpp"
@@ -52,6 +53,7 @@ struct ActiveBodies {  // clang-format off
 };
 
 struct IslandMatrix {
+  Workers* workers = nullptr;      ///< share the loops; nullptr: there are none
   // prepare_matrix
   std::vector<int> pair_begin, pairs_of; ///< pairs of body i: pairs_of[pair_begin[i]] to
                                          ///< pairs_of[pair_begin[i + 1]], ascending
@@ -64,6 +66,7 @@ struct IslandMatrix {
   std::vector<Mat6> rest;          ///< exact: what W has besides                     (n_pairs or 0)
   std::vector<SingleCoupling> coupling;    ///< symmetric: the same, of two bodies (n_pairs or 0)
   std::vector<std::uint8_t> pair_closed;   ///< W != 0                                  (n_pairs)
+  std::vector<Packed<6>> change;   ///< scratch: of W, of pairs that changed
   std::vector<Packed<6>> own;      ///< M + contacts with the ground [kg .. kg m2]      (n_bodies)
   std::vector<Packed<6>> diagonal; ///< diagonal block of K, symmetric tangents         (n_bodies)
   // activate, choose_active, activate_all
