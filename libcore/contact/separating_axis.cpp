@@ -9,9 +9,12 @@
 #include "base/error.hpp"
 #include "contact/entrance.hpp"
 #include "contact/lanes.hpp"
+#include "contact/pair_axes.hpp"
 
 namespace talus {
 namespace {
+
+using Parts = PartPair;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double none = -infinity;
@@ -24,20 +27,6 @@ constexpr double seam_ratio = 5e-3, touch_ratio = 1e-3;
 constexpr double as_good_as_free = 0.1;      // what is left of an overlap
 constexpr double longest_hold_ratio = 0.02;  // of the smaller radius, and at most longest_hold
 constexpr double longest_hold = 0.05;        // [m]
-
-// The two parts with what the functions below ask for all the time.
-struct Parts {
-  const Hulls& hulls;
-  const PlacedHulls& placed;
-  int a, b;
-};
-
-int slot(const Hulls& hulls, int part, int vertex) { return hulls.vertex_begin[part] + vertex; }
-
-Vec3 edge_direction(const Parts& parts, int part, const HullEdge& edge) {
-  return parts.placed.vertices[slot(parts.hulls, part, edge.b)] -
-         parts.placed.vertices[slot(parts.hulls, part, edge.a)];
-}
 
 // direction . normal for all normals of `part` into its row, padded.
 void normal_dots(const Parts& parts, int part, const Vec3& direction, double* row) {
@@ -56,11 +45,6 @@ struct BestEdges {
   int a = -1, b = -1;
   Vec3 normal = Vec3::Zero();
 };
-
-// Are two edges parallel within a degree, or is one of them without length? Of their cross product.
-bool are_parallel(const Vec3& along_a, const Vec3& along_b, const Vec3& cross) {
-  return !(cross.squaredNorm() > parallel_sin_sq * along_a.squaredNorm() * along_b.squaredNorm());
-}
 
 // Two edges whose arcs cross; `points_to_a`: their cross product does.
 void consider_edges(const Parts& parts, int e_a, int e_b, const Vec3& along_a, bool points_to_a,
@@ -219,70 +203,7 @@ bool has_pieces(const Hulls& hulls, int part) {
   return hulls.part_begin[body + 1] - hulls.part_begin[body] > 1;
 }
 
-// The vertex of `part` that lies farthest against `normal`.
-int farthest_vertex(const Hulls& hulls, const PlacedHulls& placed, int part, const Vec3& normal) {
-  int farthest = hulls.vertex_begin[part];
-  double lowest = infinity;
-  for (int v = farthest; v < hulls.vertex_begin[part + 1]; ++v) {
-    const double height = normal.dot(placed.vertices[v]);
-    if (height < lowest) farthest = v;
-    lowest = std::min(lowest, height);
-  }
-  return farthest;
-}
-
 // --- bodies of several parts ---
-
-// Pairs of edges of two parts, each part taken alone, whose Gauss arcs cross; with `active` those
-// of the bodies' surfaces. Few pairs of parts come here: no lanes, no list of near edges.
-template <class Visit>
-void for_each_crossing(const Parts& parts, bool active, Visit&& visit) {
-  const Hulls& hulls = parts.hulls;
-  const auto n_edges = [&](int part) {
-    return active ? hulls.n_active_edges[part]
-                  : hulls.edge_begin[part + 1] - hulls.edge_begin[part];
-  };
-  const auto normals = [&](int part, const HullEdge& e) {
-    const int first = hulls.face_begin[part];
-    return std::array{normal_at(parts.placed, first + (active ? e.arc_left : e.left)),
-                      normal_at(parts.placed, first + (active ? e.arc_right : e.right))};
-  };
-  for (int i = 0; i < n_edges(parts.a); ++i) {
-    const HullEdge& edge_a = hulls.edges[hulls.edge_begin[parts.a] + i];
-    const auto [left_a, right_a] = normals(parts.a, edge_a);
-    const Vec3 along_a = edge_direction(parts, parts.a, edge_a);
-    const Vec3& from_a = parts.placed.vertices[slot(hulls, parts.a, edge_a.a)];
-    for (int k = 0; k < n_edges(parts.b); ++k) {
-      const HullEdge& edge_b = hulls.edges[hulls.edge_begin[parts.b] + k];
-      const auto [left_b, right_b] = normals(parts.b, edge_b);
-      const double a_left = along_a.dot(left_b), a_right = along_a.dot(right_b);
-      if (!(a_left * a_right < 0)) continue;
-      const Vec3 along_b = edge_direction(parts, parts.b, edge_b);
-      const double b_left = along_b.dot(left_a), b_right = along_b.dot(right_a);
-      if (!(b_left * b_right < 0) || !(a_left * b_right < 0)) continue;
-      Vec3 normal = along_a.cross(along_b);
-      if (are_parallel(along_a, along_b, normal)) continue;
-      normal *= (a_right > 0 ? 1 : -1) / normal.norm();
-      visit(normal, normal.dot(from_a - parts.placed.vertices[slot(hulls, parts.b, edge_b.a)]));
-    }
-  }
-}
-
-// Faces of both parts by their normal from B to A, and the separation along it.
-template <class Visit>
-void for_each_face_normal(const Parts& parts, Visit&& visit) {
-  for (const int part : {parts.a, parts.b}) {
-    const int begin = parts.hulls.face_begin[part];
-    for (int face = begin; face < begin + parts.hulls.n_faces[part]; ++face) {
-      const Vec3 outward = normal_at(parts.placed, face);
-      const Vec3 normal = part == parts.b ? outward : Vec3(-outward);
-      const int other = part == parts.a ? parts.b : parts.a;
-      const Vec3& nearest =
-          parts.placed.vertices[farthest_vertex(parts.hulls, parts.placed, other, outward)];
-      visit(normal, outward.dot(nearest) - parts.placed.offset[face], parts.hulls.cover[face]);
-    }
-  }
-}
 
 // How far two parts are apart once A has moved; at least `enough` is as good as more.
 double apart_after(const Parts& parts, const Vec3& moved, double enough) {

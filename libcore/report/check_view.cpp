@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <numbers>
 
 #include "base/text.hpp"
 #include "report/chart.hpp"
@@ -112,28 +114,71 @@ bool crossing(const std::array<Vec3, 3>& corners, double level, Vec2& from, Vec2
 // Contours of the ground, seen at no more than this many nodes a side, so that a page stays small.
 constexpr int most_nodes = 160;
 
-std::string contours(const Trn& ground, const Drawing& draw, double interval, bool bold) {
+// visit(k, from, to): where the contour at k intervals of the map's height crosses a triangle.
+template <typename Visit>
+void visit_crossings(const Trn& ground, double interval, const Visit& visit) {
   const int stride = std::max(1, std::max(ground.n_rows, ground.n_cols) / most_nodes);
-  std::string d;
-  const auto add = [&](const std::array<Vec3, 3>& corners) {
+  const auto look_at = [&](const std::array<Vec3, 3>& corners) {
     if (!std::isfinite(corners[0].z() + corners[1].z() + corners[2].z())) return;
     const auto [low, high] = std::minmax({corners[0].z(), corners[1].z(), corners[2].z()});
     const double zero = ground.origin.z();  // contours lie at round heights of the map
     for (double k = std::ceil((low + zero) / interval); k * interval <= high + zero; ++k) {
-      const bool is_bold = std::fmod(std::abs(k), 5) == 0;
       Vec2 from, to;
-      if (is_bold == bold && crossing(corners, k * interval - zero, from, to))
-        d += draw.segment(from, to);
+      if (crossing(corners, k * interval - zero, from, to)) visit(k, from, to);
     }
   };
   for (int r = 0; r + stride < ground.n_rows; r += stride)
     for (int c = 0; c + stride < ground.n_cols; c += stride) {
       const Vec3 north_west = node_point(ground, r, c),
                  south_east = node_point(ground, r + stride, c + stride);
-      add({north_west, node_point(ground, r + stride, c), south_east});
-      add({north_west, south_east, node_point(ground, r, c + stride)});
+      look_at({north_west, node_point(ground, r + stride, c), south_east});
+      look_at({north_west, south_east, node_point(ground, r, c + stride)});
     }
+}
+
+bool is_bold(double k) { return std::fmod(std::abs(k), 5) == 0; }
+
+std::string contours(const Trn& ground, const Drawing& draw, double interval, bool bold) {
+  std::string d;
+  visit_crossings(ground, interval, [&](double k, const Vec2& from, const Vec2& to) {
+    if (is_bold(k) == bold) d += draw.segment(from, to);
+  });
   return d;
+}
+
+// Heights of the bold contours, each once, one above the other near the western border.
+std::string contour_heights(const Trn& ground, const Drawing& draw, double interval, double width,
+                            double height) {
+  const double unit = width / 100, column = 8 * unit, margin = 5 * unit;
+  struct Place {
+    Vec2 at = Vec2::Zero(), along = Vec2::Zero();
+    double off = 0;  // from the column
+  };
+  std::map<double, Place> places;  // by k
+  visit_crossings(ground, interval, [&](double k, const Vec2& from, const Vec2& to) {
+    const Vec2 a = draw.at(from), b = draw.at(to), at = (a + b) / 2;
+    if (!is_bold(k) || at.x() < margin || at.x() > width - margin || at.y() < margin ||
+        at.y() > height - margin)
+      return;
+    const double off = std::abs(at.x() - column);
+    const auto found = places.find(k);
+    if (found == places.end() || off < found->second.off) places[k] = {at, b - a, off};
+  });
+  std::string out;
+  std::vector<Vec2> drawn;
+  for (const auto& [k, place] : places) {
+    const auto is_near = [&p = place.at, unit](const Vec2& q) { return (p - q).norm() < 6 * unit; };
+    if (std::any_of(drawn.begin(), drawn.end(), is_near)) continue;
+    drawn.push_back(place.at);
+    double turn = std::atan2(place.along.y(), place.along.x()) * 180 / std::numbers::pi;
+    turn += turn > 90 ? -180 : turn <= -90 ? 180 : 0;  // never upside down
+    const std::string x = number(place.at.x()), y = number(place.at.y());
+    out += "<text class=\"height\" font-size=\"" + number(1.6 * unit) + "\" stroke-width=\"" +
+           number(0.5 * unit) + "\" text-anchor=\"middle\" dy=\"0.35em\" x=\"" + x + "\" y=\"" + y +
+           "\" transform=\"rotate(" + number(turn) + " " + x + " " + y + ")\">" +
+           text(k * interval) + "</text>\n";
+  }
+  return out;
 }
 
 // Sides of cells between two classes of ground. `cell_class` belongs to the whole terrain, of which
@@ -311,6 +356,7 @@ std::string check_map_svg(const CheckView& view, const Trn& ground,
     const std::string title = "contours every " + text(interval) + " m";
     out += shape("contour", contours(part, draw, interval, false), title);
     out += shape("contour bold", contours(part, draw, interval, true), title);
+    out += contour_heights(part, draw, interval, width, height);
   }
   out += shape("ground-class", class_borders(view, part, ground, draw), "border of ground classes");
   for (const NamedArea& object : view.objects)

@@ -67,15 +67,18 @@ int thinner_of(const Scene& scene, int a, int b) {
 void measure_pairs(const Scene& scene, const State& state, DeepWork& w) {
   w.overlap_depth.assign(w.is_suspect.size(), 0);
   w.overlap_partner.assign(w.is_suspect.size(), ground_name);
-  for_each_listed(scene, state, w, [&](const PairWatch& pair, int a, int b) {
+  int last_a = -1, last_b = -1;
+  for_each_listed(scene, state, w, [&](const PairWatch&, int a, int b) {
     if (is_fixed(scene, b) && !stands(scene, state, fixed_of(scene, b))) return;
     const int thin = thinner_of(scene, a, b);
     const auto i = static_cast<size_t>(thin);
     if (w.is_suspect[i] == 0) return;
-    const AxisChoice axis =
-        find_axis(scene.blocks.hulls, w.placed, pair.part_a, pair.part_b, 0, {}, w.axis);
-    if (!axis.touches || -axis.separation <= w.overlap_depth[i]) return;
-    w.overlap_depth[i] = -axis.separation;
+    if (a == last_a && b == last_b) return;  // another pair of parts of the same bodies
+    last_a = a;
+    last_b = b;
+    const double depth = body_overlap(scene.blocks.hulls, w.placed, a, b, w.overlaps);
+    if (depth <= w.overlap_depth[i]) return;
+    w.overlap_depth[i] = depth;
     w.overlap_partner[i] = name_of_body(scene, thin == a ? b : a);
   });
 }

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "contact/body_overlap.hpp"
 #include "contact/ground_depth.hpp"
 #include "contact/hulls.hpp"
-#include "contact/separating_axis.hpp"
 
 namespace talus {
 
@@ -19,7 +19,7 @@ struct DeepWork {  // clang-format off
   std::vector<int> fixed;                 ///< bodies: the fixed ones that suspects may be in
   std::vector<Mat3> stretch;              ///< empty for rigid blocks                    (n_bodies)
   PlacedHulls placed;
-  AxisScratch axis;
+  BodyOverlapScratch overlaps;
   GroundDepthScratch ground;
   std::vector<double> overlap_depth;      ///< with other bodies [m]                     (n_blocks)
   std::vector<int> overlap_partner;       ///<                                           (n_blocks)

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/processor_time.hpp"
+#include "base/text.hpp"
 #include "geometry/convex_outline.hpp"
 #include "io/raster_gdal.hpp"
 #include "record/object_hits.hpp"
@@ -209,6 +210,25 @@ bool crosses(const std::vector<Vec2>& path, const RecordLine& line) {
   return false;
 }
 
+double gap(const Vec2& p, const Vec2& a, const Vec2& b) {
+  const Vec2 side = b - a;
+  const double length = side.squaredNorm();
+  const double share = length > 0 ? std::clamp((p - a).dot(side) / length, 0.0, 1.0) : 0;
+  return (p - a - share * side).norm();
+}
+
+// In plan, of lines that do not cross: the least lies at an end of one of two segments.
+double gap(const std::vector<Vec2>& path, const RecordLine& line) {
+  double least = std::numeric_limits<double>::infinity();
+  for (size_t k = 0; k + 1 < path.size(); ++k)
+    for (size_t i = 0; i + 1 < line.points.size(); ++i) {
+      const Vec2 a = line.points[i].head<2>(), b = line.points[i + 1].head<2>();
+      least = std::min({least, gap(path[k], a, b), gap(path[k + 1], a, b),
+                        gap(a, path[k], path[k + 1]), gap(b, path[k], path[k + 1])});
+    }
+  return least;
+}
+
 void look_at_paths(Look& look) {
   const Site& site = look.work.site;
   SlidingFriction friction;
@@ -246,7 +266,12 @@ void look_at_fences(Look& look) {
       fence.is_in_source |=
           look.work.has_source() && contains(look.work.area, Vec2(post.head<2>()));
     }
-    for (const Slide& slide : look.slides) fence.n_fall_lines += crosses(slide.points, line);
+    fence.nearest = std::numeric_limits<double>::infinity();
+    for (const Slide& slide : look.slides) {
+      const bool comes = crosses(slide.points, line);
+      fence.n_fall_lines += comes;
+      fence.nearest = std::min(fence.nearest, comes ? 0 : gap(slide.points, line));
+    }
     look.fences.push_back(std::move(fence));
   }
 }
@@ -301,8 +326,13 @@ void doubt_fences(Look& look) {
       look.doubts.push_back({key, "a post stands in the source: the fence goes with the mass",
                              "move the fence out of the source", 1, 0, false});
     if (!look.slides.empty() && fence.n_fall_lines == 0)
-      look.doubts.push_back({key, "no fall line from the source comes to it",
-                             "look at the map: is it below the source?", 0, 1, false});
+      look.doubts.push_back(
+          {key,
+           "no fall line from the source comes to it; the nearest ends or passes " +
+               text(fence.nearest, 2) + " m away",
+           "a mass spreads beside its fall lines, and may still come: look at the "
+           "map, is it below the source?",
+           0, 1, false});
   }
 }
 

@@ -36,6 +36,7 @@ struct FenceLook {
   bool stands = false;        ///< it stops blocks
   double low = 0, high = 0;   ///< of its base, local z [m]
   int n_fall_lines = 0;       ///< that cross it
+  double nearest = 0;         ///< distance of the nearest fall line; 0 where one crosses it [m]
   bool is_in_source = false;  ///< a post stands in the source
 };
 

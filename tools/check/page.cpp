@@ -306,7 +306,9 @@ std::string fence_section(const Look& look) {
   return html_section("fences", "Fences",
                       html_table({"Fence", "", "length [m]", "height [m]", "base at [m]",
                                   "fall lines that come to it"},
-                                 rows, {false, false, true, true, false, false}));
+                                 rows, {false, false, true, true, false, false}) +
+                          html_note("A mass spreads beside its fall lines: a fence that none "
+                                    "comes to may still be reached."));
 }
 
 std::string object_section(const Look& look) {

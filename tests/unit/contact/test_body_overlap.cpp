@@ -1,0 +1,37 @@
+#include <gtest/gtest.h>
+
+#include "contact/body_overlap.hpp"
+#include "many_parts.hpp"
+
+using namespace talus;
+using namespace talus::test;
+
+// Against faces and all products of edges, pair of parts by pair.
+TEST(BodyOverlap, IsTheLeastPathOutOfAllParts) {
+  Random random(7);
+  BodyOverlapScratch scratch;
+  int n_other = 0;
+  for (int trial = 0; trial < 400; ++trial) {
+    const Pressed pair = press_together(random, uniform(random, 0, 0.6));
+    const std::vector<WaysOut> ways = ways_out_of_bodies(pair.bodies, 0, 1);
+    const double least = least_path(ways).length;
+    const double found = body_overlap(pair.bodies.hulls, pair.bodies.placed, 0, 1, scratch);
+    EXPECT_NEAR(found, least, 1e-9 + 2e-3 * least) << "trial " << trial;
+    double deepest = 0;  // of the parts alone
+    for (const WaysOut& way : ways)
+      deepest = std::max(deepest, *std::min_element(way.h.begin(), way.h.end()));
+    n_other += std::abs(deepest - least) > 0.01 * least;
+  }
+  EXPECT_GT(n_other, 20) << "no pair in which the parts alone say something else";
+}
+
+TEST(BodyOverlap, OfBodiesApartIsNone) {
+  Random random(8);
+  BodyOverlapScratch scratch;
+  for (int trial = 0; trial < 50; ++trial) {
+    Pressed pair = press_together(random, 0);
+    pair.bodies.poses[0].position += 10 * Vec3::UnitX();
+    place(pair.bodies);
+    EXPECT_EQ(body_overlap(pair.bodies.hulls, pair.bodies.placed, 0, 1, scratch), 0);
+  }
+}
