@@ -1,4 +1,4 @@
-// libcore/contact/separating_axis.hpp: public
+// libcore/contact/separating_axis.hpp
 // The axis along which two convex parts are farthest apart, or overlap least.
 // in:    two placed parts, the axis that held before
 // out:   the axis, the separation along it, and how far the parts may move before another can win

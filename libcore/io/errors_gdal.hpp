@@ -1,4 +1,4 @@
-// libcore/io/errors_gdal.hpp
+// libcore/io/errors_gdal.hpp: public
 // Keeps GDAL from printing and holds what it would have said, for our own messages.
 #pragma once
 

@@ -76,6 +76,8 @@ Frame frame_of(const Chart& chart) {
       if (!frame.is_drawn(line.x[i], line.y[i])) continue;
       frame.x.add(frame.scaled_x(line.x[i]));
       frame.y.add(frame.scaled(line.y[i]));
+      if (!line.y_high.empty() && frame.is_drawn(line.x[i], line.y_high[i]))
+        frame.y.add(frame.scaled(line.y_high[i]));
     }
   if (frame.x.is_empty()) frame.x = {0, 1}, frame.y = {0, 1};
   if (!chart.log_y && frame.y.low > 0 && frame.y.low < 0.5 * frame.y.high) frame.y.low = 0;
@@ -140,6 +142,18 @@ std::string line_path(const ChartSeries& line, const Frame& frame) {
          text(line.width) + "\"/>\n";
 }
 
+std::string band_path(const ChartSeries& band, const Frame& frame) {
+  std::string path;
+  const auto add = [&](double x, double y) {
+    if (frame.is_drawn(x, y))
+      path += (path.empty() ? "M" : "L") + px(frame.at_x(frame.scaled_x(x))) + " " +
+              px(frame.at_y(frame.scaled(y)));
+  };
+  for (std::size_t i = 0; i < band.x.size(); ++i) add(band.x[i], band.y[i]);
+  for (std::size_t i = band.x.size(); i-- > 0;) add(band.x[i], band.y_high[i]);
+  return "<path d=\"" + path + "Z\" fill=\"" + band.colour + "\" fill-opacity=\"0.22\"/>\n";
+}
+
 std::string circles(const ChartSeries& line, const Frame& frame) {
   std::string out;
   for (std::size_t i = 0; i < line.x.size(); ++i)
@@ -157,8 +171,9 @@ std::string legend(const Chart& chart) {
     const ChartSeries& line = chart.series[i];
     if (line.name.empty()) continue;
     const auto [x, y] = places[i];
-    out += "<path d=\"M" + px(x) + " " + px(y) + "h16\" stroke=\"" + line.colour +
-           "\" stroke-width=\"3\"/>\n" + label(x + 21, y + 4, "start", xml_escaped(line.name));
+    out += "<path d=\"M" + px(x) + " " + px(y) + "h16\" stroke=\"" + line.colour + "\"" +
+           (line.y_high.empty() ? " stroke-width=\"3\"" : " stroke-width=\"9\" opacity=\"0.22\"") +
+           "/>\n" + label(x + 21, y + 4, "start", xml_escaped(line.name));
   }
   return out;
 }
@@ -184,6 +199,7 @@ std::string chart_svg(const Chart& chart) {
                     "\" y=\"14\">" + xml_escaped(chart.title) + "</text>\n";
   out += axes(chart, frame) + legend(chart);
   for (const ChartSeries& line : chart.series) {
+    if (!line.y_high.empty()) out += band_path(line, frame);
     if (line.width > 0) out += line_path(line, frame);
     if (line.marker > 0) out += circles(line, frame);
   }

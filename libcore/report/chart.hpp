@@ -13,8 +13,9 @@ struct ChartSeries {
   std::string name;    ///< in the legend; empty: none
   std::string colour;  ///< CSS
   std::vector<double> x, y;
-  double width = 1.8;  ///< of the stroke; 0: no line [px]
-  double marker = 0;   ///< radius of a circle at each point; 0: none [px]
+  double width = 1.8;               ///< of the stroke; 0: no line [px]
+  double marker = 0;                ///< radius of a circle at each point; 0: none [px]
+  std::vector<double> y_high = {};  ///< a band from y up to it instead of a line; empty: none
 };
 
 struct Chart {

@@ -10,11 +10,11 @@
 namespace talus {
 namespace {
 
-std::string map_figure(const MapLayerKind& kind, const MapPicture& picture) {
-  const std::string title = kind.title;
-  return html_figure(html_png(picture.png, title), "<b>" + title + "</b>: " + kind.caption + " [" +
-                                                       kind.unit + "]. <code>maps/" + kind.name +
-                                                       ".tif</code>" + html_legend(picture.qml));
+std::string layer_figure(const MapSheet& sheet, const MapLayerKind& kind,
+                         const MapPicture& picture) {
+  return map_figure(sheet, picture, kind.title, kind.unit,
+                    std::string("<b>") + kind.title + "</b>: " + kind.caption + " [" + kind.unit +
+                        "]. <code>maps/" + kind.name + ".tif</code>");
 }
 
 // What one looks at first: where blocks come to, how fast, with which energy, and where they stay.
@@ -30,7 +30,13 @@ const MapPicture* picture_of(const std::vector<MapPicture>& pictures, const std:
 
 }  // namespace
 
-std::string case_figures(const CasePictures& cases, bool of_decisions) {
+std::string map_figure(const MapSheet& sheet, const MapPicture& picture, const std::string& alt,
+                       const std::string& unit, const std::string& caption) {
+  return html_figure(cells_svg(sheet, picture.cells, alt, unit),
+                     caption + html_legend(picture.qml));
+}
+
+std::string case_figures(const MapSheet& sheet, const CasePictures& cases, bool of_decisions) {
   std::string out;
   for (const MapLayerKind& kind : map_layers()) {
     if (is_of_decisions(kind.name) != of_decisions) continue;
@@ -39,9 +45,9 @@ std::string case_figures(const CasePictures& cases, bool of_decisions) {
       const MapPicture* const picture = picture_of(pictures, kind.name);
       if (picture == nullptr) continue;
       const std::string which = std::string(kind.title) + ", case " + name;
-      row += html_figure(html_png(picture->png, xml_escaped(which)),
-                         "<b>Case " + xml_escaped(name) + "</b>. <code>maps/" + xml_escaped(name) +
-                             "/" + kind.name + ".tif</code>" + html_legend(picture->qml));
+      row += map_figure(sheet, *picture, which, kind.unit,
+                        "<b>Case " + xml_escaped(name) + "</b>. <code>maps/" + xml_escaped(name) +
+                            "/" + kind.name + ".tif</code>");
     }
     if (!row.empty())
       out += std::string("<h3>") + kind.title + " [" + kind.unit + "]</h3>\n<p>" + kind.caption +
@@ -50,11 +56,11 @@ std::string case_figures(const CasePictures& cases, bool of_decisions) {
   return out;
 }
 
-std::string map_figures(const std::vector<MapPicture>& pictures) {
+std::string map_figures(const MapSheet& sheet, const std::vector<MapPicture>& pictures) {
   std::string out = "<div class=\"maps\">\n";
   for (const MapLayerKind& kind : map_layers()) {
     const MapPicture* const picture = picture_of(pictures, kind.name);
-    if (picture != nullptr) out += map_figure(kind, *picture);
+    if (picture != nullptr) out += layer_figure(sheet, kind, *picture);
   }
   return out + "</div>\n";
 }

@@ -1,5 +1,5 @@
 // libcore/report/map_figures.hpp: public
-// The pictures of the map layers in a report, each with its caption and legend.
+// The map layers in a report, each with its caption and legend.
 // in:    what talus-maps wrote beside each raster
 // out:   HTML, in the order of the table of layers (post/maps/map_layers.hpp)
 #pragma once
@@ -8,19 +8,28 @@
 #include <utility>
 #include <vector>
 
+#include "report/map_sheet.hpp"
+
 namespace talus {
 
 struct MapPicture {
-  std::string name, png, qml;  ///< of maps/NAME.*; qml may be empty
+  std::string name, qml;  ///< of maps/NAME.*
+  CellPicture cells;
 };
 
 /// One figure a layer that has a picture.
-[[nodiscard]] std::string map_figures(const std::vector<MapPicture>& pictures);
+[[nodiscard]] std::string map_figures(const MapSheet& sheet,
+                                      const std::vector<MapPicture>& pictures);
+/// A figure with its legend; `caption` is HTML.
+[[nodiscard]] std::string map_figure(const MapSheet& sheet, const MapPicture& picture,
+                                     const std::string& alt, const std::string& unit,
+                                     const std::string& caption);
 
 /// Pictures of several cases, by the name of the case.
 using CasePictures = std::vector<std::pair<std::string, std::vector<MapPicture>>>;
 /// A row a layer that has a picture, the cases side by side; of the layers that decisions are made
 /// by, or of all others.
-[[nodiscard]] std::string case_figures(const CasePictures& cases, bool of_decisions);
+[[nodiscard]] std::string case_figures(const MapSheet& sheet, const CasePictures& cases,
+                                       bool of_decisions);
 
 }  // namespace talus

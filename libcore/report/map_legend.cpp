@@ -1,5 +1,7 @@
 #include "report/map_legend.hpp"
 
+#include <limits>
+
 namespace talus {
 namespace {
 
@@ -12,6 +14,24 @@ std::string attribute(const std::string& xml, const std::string& name) {
 }
 
 }  // namespace
+
+RasterStyle style_of(const std::string& qml) {
+  RasterStyle style;
+  const std::string band = attribute(qml, "band");
+  style.band = band.empty() ? 1 : std::stoi(band);
+  for (std::size_t i = qml.find("<item "); i != std::string::npos; i = qml.find("<item ", i + 1)) {
+    const std::string item = qml.substr(i, qml.find("/>", i) - i);
+    const std::string limit = attribute(item, "value"), colour = attribute(item, "color");
+    StyleClass c;
+    c.upper = limit == "inf" ? std::numeric_limits<double>::infinity() : std::stod(limit);
+    c.label = attribute(item, "label");
+    for (std::size_t k = 0; k < 3; ++k)
+      c.colour[k] = static_cast<std::uint8_t>(std::stoi(colour.substr(1 + 2 * k, 2), nullptr, 16));
+    c.colour[3] = static_cast<std::uint8_t>(std::stoi(attribute(item, "alpha")));
+    style.classes.push_back(std::move(c));
+  }
+  return style;
+}
 
 std::string html_legend(const std::string& qml) {
   std::string out;

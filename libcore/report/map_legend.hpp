@@ -6,7 +6,12 @@
 
 #include <string>
 
+#include "io/style.hpp"
+
 namespace talus {
+
+/// Band and classes of the style; no classes for an empty one.
+[[nodiscard]] RasterStyle style_of(const std::string& qml);
 
 /// Empty for a style without classes.
 [[nodiscard]] std::string html_legend(const std::string& qml);

@@ -1,12 +1,11 @@
 // libcore/report/plan_view.hpp: public
-// A map of a run as SVG over the hillshade: where the mass started, which way each block took,
-// where it came to rest, lines of fences, objects. Scale bar and north arrow.
+// A map of a run as SVG: where the mass started, which way each block took, where it came to rest.
 #pragma once
 
 #include <string>
-#include <string_view>
 
 #include "record/run_file.hpp"
+#include "report/map_sheet.hpp"
 #include "terrain/trn.hpp"
 
 namespace talus {
@@ -19,8 +18,7 @@ struct PlanWindow {
 /// terrain for a run without frames and lines.
 [[nodiscard]] PlanWindow plan_window(const RunFile& run, const Trn& trn);
 
-/// `hillshade_png`: a pixel a node of `trn`. Throws nothing; a run without frames shows no paths.
-[[nodiscard]] std::string plan_view_svg(const RunFile& run, const Trn& trn,
-                                        std::string_view hillshade_png);
+/// Throws nothing; a run without frames shows no paths.
+[[nodiscard]] std::string plan_view_svg(const RunFile& run, const MapSheet& sheet);
 
 }  // namespace talus

@@ -13,6 +13,41 @@ std::string run_colour(std::size_t i) {
   return colours[i % 8];
 }
 
+// At a time between two points; what has ended keeps its last value.
+double value_at(const ChartSeries& line, double x) {
+  const auto behind = std::upper_bound(line.x.begin(), line.x.end(), x);
+  const auto i = static_cast<std::size_t>(behind - line.x.begin());
+  if (i == 0) return line.y.front();
+  if (i == line.x.size()) return line.y.back();
+  const double share = (x - line.x[i - 1]) / (line.x[i] - line.x[i - 1]);
+  return line.y[i - 1] + share * (line.y[i] - line.y[i - 1]);
+}
+
+// The median over the runs and all of them as a band, at the times of the run that lasted longest.
+Chart as_band(Chart chart) {
+  constexpr std::size_t most_points = 250;
+  const ChartSeries& longest = *std::max_element(
+      chart.series.begin(), chart.series.end(),
+      [](const ChartSeries& a, const ChartSeries& b) { return a.x.back() < b.x.back(); });
+  const std::size_t step = longest.x.size() / most_points + 1;
+  ChartSeries band{"smallest to largest of the runs", "#1f5fa8", {}, {}, 0};
+  ChartSeries middle{"median", "#1f5fa8", {}, {}, 2.2};
+  for (std::size_t i = 0; i < longest.x.size(); i += step) {
+    std::vector<double> values;
+    for (const ChartSeries& run : chart.series) values.push_back(value_at(run, longest.x[i]));
+    std::sort(values.begin(), values.end());
+    band.x.push_back(longest.x[i]);
+    band.y.push_back(values.front());
+    band.y_high.push_back(values.back());
+    middle.x.push_back(longest.x[i]);
+    const std::size_t half = values.size() / 2;
+    middle.y.push_back(values.size() % 2 == 1 ? values[half]
+                                              : (values[half - 1] + values[half]) / 2);
+  }
+  chart.series = {std::move(band), std::move(middle)};
+  return chart;
+}
+
 }  // namespace
 
 Chart curve_chart(const CsvTable& table, const std::string& column, const std::string& title,
@@ -26,7 +61,8 @@ Chart curve_chart(const CsvTable& table, const std::string& column, const std::s
     chart.series[found->second].x.push_back(table.number(row, "time_s"));
     chart.series[found->second].y.push_back(table.number(row, column));
   }
-  return chart;
+  constexpr std::size_t least_for_a_band = 3;
+  return chart.series.size() < least_for_a_band ? chart : as_band(std::move(chart));
 }
 
 Chart health_chart(const std::vector<RunFile>& runs, const std::string& title,

@@ -11,7 +11,8 @@
 
 namespace talus {
 
-/// A column of talus-runout's curves (curve_csv) against time, a line a run.
+/// A column of talus-runout's curves (curve_csv) against time: a line a run; of three runs
+/// or more the median, and a band from the smallest to the largest.
 [[nodiscard]] Chart curve_chart(const CsvTable& table, const std::string& column,
                                 const std::string& title, const std::string& unit);
 

@@ -74,6 +74,33 @@ std::vector<Body> large_on_a_layer(const SlopeFrame& frame) {
   return bodies;
 }
 
+// A large block falls on small ones that the ground bears: impulses on a small one are large and
+// balance. No step displaces it farther than the speeds that it has would take it.
+TEST(ManyBlocks, ImpulsesThatBalanceDisplaceNothing) {
+  for (const double speed : {4.0, 8.0, 12.0}) {
+    std::vector<Body> bodies = large_on_a_layer(slope_frame(0, 0));
+    Settings settings;
+    settings.dt = 5e-3;
+    Scene scene = on_plane(slope_frame(0, 0), bodies, 30, 30, settings, 2, 40);
+    State state = start(scene);
+    state.motion[0].pose.position.z() += 0.3;
+    state.motion[0].pose.attitude = Quat(Eigen::AngleAxisd(0.01, Vec3(1, 2, 0).normalized()));
+    state.motion[0].velocity = Vec3(1, 0, -speed);
+    double farther = 0;
+    for (int k = 0; k < 100; ++k) {
+      const State before = state;
+      run(scene, settings.dt, state);
+      for (size_t b = 1; b < state.motion.size(); ++b) {
+        const Motion &from = before.motion[b], &to = state.motion[b];
+        const double path = (to.pose.position - from.pose.position).norm();
+        const double fastest = std::max({from.velocity.norm(), to.velocity.norm(), speed});
+        farther = std::max(farther, path - settings.dt * fastest);
+      }
+    }
+    EXPECT_LE(farther, 0) << speed;
+  }
+}
+
 // Contacts of small blocks among large ones are as stiff as they have to bear: a large one sinks in
 // by no more than 2 g dt^2 a contact, slides on them as one with them, and no step is repeated for
 // the sake of stiff contacts that bear nothing, but the first two, while what they bear is not

@@ -24,12 +24,13 @@ struct ReportData {
   const Site& site;
   Json tin, trn, blocks, runout, fence, places, hazard, trace, search;  ///< reports of tools
   Trn terrain, bed;  ///< before the slide; what the blocks slide on
-  std::string hillshade_png, mobility_svg, stereonet_svg, sizes_svg, curves_csv, change_png;
+  std::string mobility_svg, stereonet_svg, sizes_svg, curves_csv;
   std::vector<std::string> search_svgs;  ///< of each fence search
-  std::vector<MapPicture> maps;
-  CasePictures case_maps;                                        ///< of several cases
-  std::vector<std::pair<std::string, Json>> case_fences;         ///< the same, as `fence`
-  std::vector<std::pair<std::string, std::string>> hazard_pngs;  ///< name of the map, picture
+  MapSheet sheet;                        ///< what the maps share
+  std::vector<MapPicture> maps, hazard_maps;
+  std::vector<MapPicture> change_map;                     ///< one, or none
+  CasePictures case_maps;                                 ///< of several cases
+  std::vector<std::pair<std::string, Json>> case_fences;  ///< the same, as `fence`
   std::vector<RunFile> runs;  ///< info and health, by seed and name; frames left out    (n_runs)
   std::vector<std::string> run_names;  ///< "1", or "CASE_1"                            (n_runs)
   RunFaults faults;                    ///< of these runs

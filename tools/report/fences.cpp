@@ -269,9 +269,9 @@ std::string fence_section(const ReportData& data) {
           list + ".");
     }
   }
-  if (!data.change_png.empty())
-    out += html_figure(html_png(data.change_png, "change by the fence"),
-                       "What the fence changes: with minus without. <code>change.tif</code>");
+  for (const MapPicture& map : data.change_map)
+    out += map_figure(data.sheet, map, "change by the fence", "1",
+                      "What the fence changes: with minus without. <code>change.tif</code>");
   return html_section("fences", "Fences", out);
 }
 

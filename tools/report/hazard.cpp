@@ -30,8 +30,9 @@ std::string notes_of(const Json& hazard) {
 
 std::string caption_of(const std::string& name) {
   if (name == "class")
-    return "Hazard class; hatched in black: another class at a bound of the "
-           "frequencies or of the share of runs.";
+    return "Hazard class. <code>hazard/class.png</code> hatches where a bound of the frequencies "
+           "or "
+           "of the share of runs gives another class.";
   if (name == "intensity") return "Intensity that is reached within the longest return period.";
   if (name.starts_with("return_period"))
     return "How many years lie between two events, on average.";
@@ -42,9 +43,14 @@ std::string caption_of(const std::string& name) {
   return "Events or blocks a year.";
 }
 
-std::string figure_of(const std::string& name, const std::string& png) {
-  return html_figure(html_png(png, name),
-                     caption_of(name) + " <code>hazard/" + name + ".tif</code>");
+std::string unit_of(const std::string& name) {
+  if (name.starts_with("return_period")) return "years";
+  return name.starts_with("ke_T") ? "kJ" : "1";
+}
+
+std::string figure_of(const MapSheet& sheet, const MapPicture& map) {
+  return map_figure(sheet, map, map.name, unit_of(map.name),
+                    caption_of(map.name) + " <code>hazard/" + map.name + ".tif</code>");
 }
 
 }  // namespace
@@ -70,12 +76,8 @@ std::string hazard_section(const ReportData& data) {
   else
     out += class_table(classes) + notes_of(data.hazard);
   std::string more;
-  for (const auto& [name, png] : data.hazard_pngs) {
-    if (name == "class")
-      out += figure_of(name, png);
-    else
-      more += figure_of(name, png);
-  }
+  for (const MapPicture& map : data.hazard_maps)
+    (map.name == "class" ? out : more) += figure_of(data.sheet, map);
   if (!more.empty()) out += html_fold("Return periods, energies and frequencies", more);
   return html_section("hazard", "Hazard classes", out);
 }

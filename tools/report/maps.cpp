@@ -13,27 +13,30 @@ namespace {
 // Cases stand side by side. Maps of all of them together come behind, and folded where nobody said
 // what a case counts.
 std::string all_maps(const ReportData& data) {
-  if (data.case_maps.empty()) return map_figures(data.maps);
-  std::string out = "<h3>Maps case by case</h3>\n" + case_figures(data.case_maps, true) +
-                    html_fold("Other maps case by case", case_figures(data.case_maps, false));
+  if (data.case_maps.empty()) return map_figures(data.sheet, data.maps);
+  std::string out =
+      "<h3>Maps case by case</h3>\n" + case_figures(data.sheet, data.case_maps, true) +
+      html_fold("Other maps case by case", case_figures(data.sheet, data.case_maps, false));
   if (value_at(data.runout, {"cases_weighed"}) == Json(true))
-    return out + "<h3>All cases together, by their weights</h3>\n" + map_figures(data.maps);
-  return out +
-         html_fold("All cases pooled, each run alike: no probability", map_figures(data.maps));
+    return out + "<h3>All cases together, by their weights</h3>\n" +
+           map_figures(data.sheet, data.maps);
+  return out + html_fold("All cases pooled, each run alike: no probability",
+                         map_figures(data.sheet, data.maps));
 }
 
 }  // namespace
 
 std::string map_section(const ReportData& data) {
   std::string out = html_figure(
-      plan_view_svg(data.shown, data.terrain, data.hillshade_png),
-      "<span class=\"key\"><i class=\"start\"></i>start<i class=\"way\"></i>paths of the "
+      plan_view_svg(data.shown, data.sheet),
+      "<span class=\"key\"><i class=\"source\"></i>source<i class=\"start\"></i>start<i "
+      "class=\"way\"></i>paths of the "
       "centroids<i class=\"end\"></i>end" +
           std::string(data.shown.lines.empty() ? "" : "<i class=\"fence\"></i>fence line") +
           (data.shown.objects.empty() ? "" : "<i class=\"object\"></i>object") + "</span>. Run " +
           xml_escaped(data.shown_name) +
           (data.shown.reach ? ", which has no frames between start and end" : "") +
-          "; north is up.");
+          "; heights every " + text(data.sheet.ground.contour_interval) + " m; north is up.");
   out += html_paragraph(
       "Every cell counts a block once, with its largest value over all steps of the solver. A "
       "share is that of the number of blocks, whatever their size, times the statistical weight of "

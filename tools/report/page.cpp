@@ -89,8 +89,7 @@ std::string fence_remark_of(const ReportData& data) {
   return remark.is_string() ? remark.get<std::string>() : remark_of(data);
 }
 
-std::string report_page(const ReportData& data, const std::string& viewer,
-                        const std::string& style) {
+std::string report_page(const ReportData& data, const PageFiles& files) {
   const std::string remark = remark_of(data), fence_remark = fence_remark_of(data);
   std::string main;
   for (const std::string& section : {map_section(data), viewer_section(data), runout_section(data)})
@@ -109,10 +108,12 @@ std::string report_page(const ReportData& data, const std::string& viewer,
     main += html_marked(section, xml_escaped(remark));
   const std::string first = remark.empty() ? fence_remark : remark;
   main = html_marked(result_section(data), xml_escaped(first)) + main;
-  return page_head(data, style) + in_print_frame(main, first) +
+  return page_head(data, files.style) + sheet_definitions(data.sheet) +
+         in_print_frame(main, first) +
          "</main>\n<footer>Talus is free software (GPL-3.0-or-later), without any warranty. A "
          "model is not the slope: limits and assumptions stand in docs/limits.md.</footer>\n" +
-         viewer_script(data, viewer) + page_script + "</body>\n</html>\n";
+         viewer_script(data, files.viewer) + "<script>\n" + files.maps +
+         "\ntalusMaps();\n</script>\n" + page_script + "</body>\n</html>\n";
 }
 
 }  // namespace talus

@@ -8,8 +8,10 @@
 
 namespace talus {
 
-/// `viewer` is the script of the 3-D viewer, `style` the page's CSS.
-[[nodiscard]] std::string report_page(const ReportData& data, const std::string& viewer,
-                                      const std::string& style);
+/// What is shipped with the tool.
+struct PageFiles {
+  std::string style, viewer, maps;  ///< CSS, scripts of the 3-D viewer and of the maps
+};
+[[nodiscard]] std::string report_page(const ReportData& data, const PageFiles& files);
 
 }  // namespace talus

@@ -17,6 +17,7 @@
 #include "post/maps/map_layers.hpp"
 #include "record/part_file.hpp"
 #include "report/check_view.hpp"
+#include "report/map_cells_gdal.hpp"
 #include "report/plan_view.hpp"
 #include "report/qgis_project.hpp"
 #include "report/styles_gdal.hpp"
@@ -242,19 +243,33 @@ void read_registry(const std::string& db, const ResultFolder& folder,
 
 // --- the page ------------------------------------------------------------------------------------
 
+// Of a raster that the folder has, with its style.
+std::vector<MapPicture> picture_of(const ResultFolder& folder, const std::string& base,
+                                   const MapSheet& sheet) {
+  if (!folder.has(base + ".tif") || !folder.has(base + ".qml")) return {};
+  const std::string qml = folder.text(base + ".qml");
+  static_cast<void>(folder.text(base + ".tif"));  // named in the registry
+  MapPicture picture{
+      fs::path(base).filename().string(), qml,
+      read_cell_picture(folder.path(base + ".tif").string(), qml, sheet.ground.view, sheet.origin)};
+  if (picture.cells.png.empty()) return {};  // nothing of it is in view
+  return {std::move(picture)};
+}
+
 // The pictures of a folder with maps, by name.
-std::vector<MapPicture> pictures_in(const ResultFolder& folder, const std::string& maps) {
+std::vector<MapPicture> pictures_in(const ResultFolder& folder, const std::string& maps,
+                                    const MapSheet& sheet) {
   std::vector<MapPicture> pictures;
   if (!folder.has(maps)) return pictures;
   std::vector<std::string> names;
   for (const auto& entry : fs::directory_iterator(folder.path(maps)))
-    if (entry.path().extension() == ".png" && entry.path().filename().string()[0] != '.' &&
+    if (entry.path().extension() == ".tif" && entry.path().filename().string()[0] != '.' &&
         folder.has(maps + "/" + entry.path().filename().string()))
       names.push_back(entry.path().stem().string());
   std::sort(names.begin(), names.end());
   for (const std::string& name : names)
-    pictures.push_back(
-        {name, folder.text(maps + "/" + name + ".png"), folder.text(maps + "/" + name + ".qml")});
+    for (MapPicture& picture : picture_of(folder, maps + "/" + name, sheet))
+      pictures.push_back(std::move(picture));
   return pictures;
 }
 
@@ -267,6 +282,36 @@ std::vector<std::string> cases_with(const ResultFolder& folder, const Json& runo
     if (cases.size() > 1 && folder.has(before + one.at("case").get<std::string>() + behind))
       names.push_back(one.at("case").get<std::string>());
   return names;
+}
+
+// The view of the pages of maps, or what the shown run needs.
+MapView view_of_maps(const ResultFolder& folder, const ReportData& data) {
+  PlanWindow window = plan_window(data.shown, data.terrain);
+  if (folder.has("maps/reach.tif"))
+    if (const auto shown = cells_on_pages(folder.path("maps/reach.tif").string())) {
+      const Vec2 origin = data.terrain.origin.head<2>();
+      window = {shown->first - origin, shown->second - origin};
+    }
+  return view_of(layout_of(PageSize::a4), window.low, window.high);
+}
+
+void read_maps(const ResultFolder& folder, ReportData& data) {
+  MapSheet& sheet = data.sheet;
+  sheet.ground = map_ground(data.terrain, layout_of(PageSize::a4), view_of_maps(folder, data));
+  sheet.shading_png = shading_png(sheet.ground.shading);
+  sheet.origin = data.terrain.origin.head<2>();
+  MapPlaces places;
+  add_places(places, data.shown);
+  sheet.source = rim_of(places.source);
+  sheet.lines = std::move(places.lines);
+  sheet.objects = std::move(places.objects);
+  data.maps = pictures_in(folder, "maps", sheet);
+  for (const std::string& name : cases_with(folder, data.runout, "maps/", "/reach.tif"))
+    data.case_maps.emplace_back(name, pictures_in(folder, "maps/" + name, sheet));
+  for (const std::string& name : hazard_maps_of(data.hazard))
+    for (MapPicture& picture : picture_of(folder, "hazard/" + name, sheet))
+      data.hazard_maps.push_back(std::move(picture));
+  data.change_map = picture_of(folder, "change", sheet);
 }
 
 ReportData read_data(Tool& tool, const Site& site, ResultFolder& folder,
@@ -290,25 +335,18 @@ ReportData read_data(Tool& tool, const Site& site, ResultFolder& folder,
       const std::string file = "search/charts/fence_search_" + text_at(search, "/name") + ".svg";
       data.search_svgs.push_back(folder.has(file) ? folder.text(file) : "");
     }
-  for (const std::string& name : hazard_maps_of(data.hazard))
-    if (folder.has("hazard/" + name + ".png"))
-      data.hazard_pngs.emplace_back(name, folder.text("hazard/" + name + ".png"));
-  data.hillshade_png = folder.text("hillshade.png");
   data.mobility_svg = folder.text("runout.svg");
   data.stereonet_svg = folder.text("stereonet.svg");
   data.sizes_svg = folder.text("sizes.svg");
   data.curves_csv = folder.text("curves.csv");
-  data.change_png = folder.text("change.png");
   for (const std::string& name : cases_with(folder, data.runout, "fences/", "/fence.json"))
     data.case_fences.emplace_back(name, folder.json("fences/" + name + "/fence.json"));
-  data.maps = pictures_in(folder, "maps");
-  for (const std::string& name : cases_with(folder, data.runout, "maps/", "/reach.tif"))
-    data.case_maps.emplace_back(name, pictures_in(folder, "maps/" + name));
   if (folder.has("maps/reach.tif"))
     data.runs_to_add = tag_of(folder.path("maps/reach.tif").string(), "RUNS_TO_ADD");
   const std::vector<RunPlace> places = evaluated_runs(folder, data.runout);
   read_runs(tool, folder, places, progress, data);
   data.bed = read_trn(ground_of(data.shown.info, folder));
+  read_maps(folder, data);
   read_registry(tool.registry(), folder, places, progress, data);
   data.run_id = tool.run_id();
   return data;
@@ -483,7 +521,8 @@ void run_tool(Tool& tool, const Options& o, const Site& site) {
   progress(0.9);
   std::string qgs;
   if (!o.qgis.empty()) qgs = qgis_project_xml(project_of(data, o, folder));
-  tool.write_text(o.out, report_page(data, shipped_data("viewer.js"), shipped_data("report.css")));
+  tool.write_text(o.out, report_page(data, {shipped_data("report.css"), shipped_data("viewer.js"),
+                                            shipped_data("maps.js")}));
   if (!o.qgis.empty())
     tool.write_text(o.qgis, zip_archive({{fs::path(o.qgis).stem().string() + ".qgs", qgs}}));
   Json result = {{"run_id", data.run_id},

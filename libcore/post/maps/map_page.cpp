@@ -54,6 +54,42 @@ void add_contours(MapGround& ground, const Trn& trn) {
   ground.contours = level_lines(field, levels);
 }
 
+// The heights of one line, apart from those that are there.
+void add_labels(const LevelLine& line, const MapView& view, const Vec2& size,
+                std::vector<LevelLabel>& labels) {
+  constexpr double half = 4, apart = 40, from_frame = 6, most_bend = 0.3, step = 5;  // mm, radians
+  std::vector<Vec2> points;
+  std::vector<double> length{0};
+  for (const Vec2& p : line.points) {
+    points.emplace_back(1000 * (p.x() - view.low.x()) / view.scale,
+                        1000 * (view.high.y() - p.y()) / view.scale);
+    if (points.size() > 1)
+      length.push_back(length.back() + (points.back() - points[points.size() - 2]).norm());
+  }
+  const auto along = [&](double s) -> Vec2 {
+    const auto i = std::clamp<std::ptrdiff_t>(
+        std::upper_bound(length.begin(), length.end(), s) - length.begin(), 1,
+        static_cast<std::ptrdiff_t>(length.size()) - 1);
+    const double piece = length[i] - length[i - 1];
+    return points[i - 1] +
+           (piece > 0 ? (s - length[i - 1]) / piece : 0) * (points[i] - points[i - 1]);
+  };
+  for (double s = half; s + half <= length.back(); s += step) {
+    const Vec2 middle = along(s), a = middle - along(s - half), b = along(s + half) - middle;
+    const double bend = std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
+    const bool is_inside =
+        (middle.array() > from_frame).all() && ((size - middle).array() > from_frame).all();
+    if (std::abs(bend) > most_bend || !is_inside) continue;
+    if (std::any_of(labels.begin(), labels.end(),
+                    [&](const LevelLabel& l) { return (l.at - middle).norm() < apart; }))
+      continue;
+    const Vec2 direction = a + b;
+    double angle = std::atan2(-direction.y(), direction.x());
+    if (std::abs(angle) > M_PI / 2) angle += M_PI;
+    labels.push_back({line.level, middle, angle});
+  }
+}
+
 }  // namespace
 
 PageLayout layout_of(PageSize size) {
@@ -109,6 +145,17 @@ MapGround map_ground(const Trn& trn, const PageLayout& layout, const MapView& vi
                                     static_cast<int>(std::ceil(layout.map.width * cells_per_mm))});
   add_contours(ground, trn);
   return ground;
+}
+
+bool is_numbered(const MapGround& ground, const LevelLine& line) {
+  return std::lround(line.level / ground.contour_interval) % 5 == 0;
+}
+
+std::vector<LevelLabel> level_labels(const MapGround& ground, const Vec2& size) {
+  std::vector<LevelLabel> labels;
+  for (const LevelLine& line : ground.contours)
+    if (is_numbered(ground, line)) add_labels(line, ground.view, size, labels);
+  return labels;
 }
 
 }  // namespace talus

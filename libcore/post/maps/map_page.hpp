@@ -63,6 +63,17 @@ struct MapGround {
 };
 [[nodiscard]] MapGround map_ground(const Trn& trn, const PageLayout& layout, const MapView& view);
 
+/// Every fifth line bears its height.
+[[nodiscard]] bool is_numbered(const MapGround& ground, const LevelLine& line);
+/// Where a height stands: in the middle of `at`, along its line.
+struct LevelLabel {
+  double level = 0;        ///< [m]
+  Vec2 at = Vec2::Zero();  ///< from the upper left corner of the frame [mm]
+  double angle = 0;        ///< anticlockwise from the east, upright [rad]
+};
+/// Heights where their lines are straight and no other height is near, in a frame of `size` [mm].
+[[nodiscard]] std::vector<LevelLabel> level_labels(const MapGround& ground, const Vec2& size);
+
 struct MapPage {
   PageSize size = PageSize::a4;
   std::string title, subtitle;     ///< what is shown; of which site and runs

@@ -130,48 +130,14 @@ class MapDrawing {
   void draw_contours() {
     for (const bool numbered : {false, true})
       for (const LevelLine& line : ground_.contours)
-        if (is_numbered(line) == numbered) pen_.line(at(line.points), contour_stroke(numbered));
+        if (is_numbered(ground_, line) == numbered)
+          pen_.line(at(line.points), contour_stroke(numbered));
   }
   void draw_heights() {
-    std::vector<Vec2> labels;
-    for (const LevelLine& line : ground_.contours)
-      if (is_numbered(line)) draw_height(line, labels);
+    for (const LevelLabel& label : level_labels(ground_, {frame_.width, frame_.height}))
+      pen_.words_about(Vec2(frame_.x, frame_.y) + label.at, label.angle, text(label.level),
+                       {2.0, false, 0, {95, 60, 30, 255}, true});
   }
-  [[nodiscard]] bool is_numbered(const LevelLine& line) const {
-    return std::lround(line.level / ground_.contour_interval) % 5 == 0;
-  }
-
-  // The height where its line is straight and no other height is near.
-  void draw_height(const LevelLine& line, std::vector<Vec2>& labels) {
-    constexpr double half = 4, apart = 40, from_frame = 6, most_bend = 0.3;  // mm, radians
-    const std::vector<Vec2> points = at(line.points);
-    std::vector<double> length{0};
-    for (std::size_t i = 1; i < points.size(); ++i)
-      length.push_back(length.back() + (points[i] - points[i - 1]).norm());
-    const auto along = [&](double s) -> Vec2 {
-      const auto i = std::clamp<std::ptrdiff_t>(
-          std::upper_bound(length.begin(), length.end(), s) - length.begin(), 1,
-          static_cast<std::ptrdiff_t>(length.size()) - 1);
-      const double piece = length[i] - length[i - 1];
-      return points[i - 1] +
-             (piece > 0 ? (s - length[i - 1]) / piece : 0) * (points[i] - points[i - 1]);
-    };
-    constexpr double step = 5;
-    for (double s = half; s + half <= length.back(); s += step) {
-      const Vec2 middle = along(s), a = middle - along(s - half), b = along(s + half) - middle;
-      const double bend = std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
-      if (std::abs(bend) > most_bend || !is_inside(middle, from_frame)) continue;
-      if (std::any_of(labels.begin(), labels.end(),
-                      [&](const Vec2& l) { return (l - middle).norm() < apart; }))
-        continue;
-      const Vec2 direction = a + b;
-      double angle = std::atan2(-direction.y(), direction.x());
-      if (std::abs(angle) > M_PI / 2) angle += M_PI;
-      pen_.words_about(middle, angle, text(line.level), {2.0, false, 0, {95, 60, 30, 255}, true});
-      labels.push_back(middle);
-    }
-  }
-
   void draw_places() {
     draw_source();
     for (const RecordObject& object : places_.objects) draw_object(object);

@@ -71,16 +71,16 @@ std::string grid_lines(const Axis& x, const Axis& y) {
   return out;
 }
 
-constexpr std::array colours = {"#1b6ca8", "#c8553d", "#3a7d44", "#8d5fa8",
-                                "#b8860b", "#4a7c86", "#a23b72", "#666666"};
-
-// Of the n-th line: no two are alike. Those of relations from memory are dashed.
-std::string stroke_of(const MobilityRelation& r, std::size_t n, const std::string& width) {
-  const bool again = n >= colours.size();
-  const std::string dashes = r.from_memory ? (again ? "9 3 2 3" : "5 4") : (again ? "2 3" : "");
-  return std::string("stroke=\"") + colours[n % colours.size()] + "\" stroke-width=\"" + width +
-         "\"" + (dashes.empty() ? "" : " stroke-dasharray=\"" + dashes + "\"");
-}
+// The relations of the chart: one a kind of event, of all paths, read in print.
+struct Charted {
+  const char* id;
+  const char* words;
+  const char* colour;
+};
+constexpr std::array charted = {
+    Charted{"corominas_rockfall_all", "rockfalls (Corominas 1996)", "#c8553d"},
+    Charted{"corominas_slide_all", "translational slides (Corominas 1996)", "#1b6ca8"},
+    Charted{"mitchell_hl", "rock avalanches (Mitchell et al. 2019)", "#3a7d44"}};
 
 // The part of a relation's line inside the axes.
 std::string relation_line(const MobilityRelation& r, const Axis& x, const Axis& y,
@@ -95,6 +95,21 @@ std::string relation_line(const MobilityRelation& r, const Axis& x, const Axis& 
   }
   if (!(from < to)) return "";
   return line(x.at(from), y.at(r.a + r.b * from), x.at(to), y.at(r.a + r.b * to), stroke);
+}
+
+// Between a relation and its lower 95 % line, inside the axes.
+std::string band_below(const MobilityRelation& r, const Axis& x, const Axis& y,
+                       const std::string& colour) {
+  std::string points;
+  const auto add = [&](double log_v, double a) {
+    const double log_hl = std::clamp(a + r.b * log_v, y.low, y.high);
+    points += (points.empty() ? "" : " ") + number(x.at(log_v)) + "," + number(y.at(log_hl));
+  };
+  constexpr int n = 36;  // points: a line that leaves the axes bends there
+  const double step = (x.high - x.low) / n;
+  for (int i = 0; i <= n; ++i) add(x.low + i * step, r.a);
+  for (int i = n; i >= 0; --i) add(x.low + i * step, r.a - r.lower);
+  return "<polygon points=\"" + points + "\" fill=\"" + colour + "\" fill-opacity=\"0.15\"/>\n";
 }
 
 }  // namespace
@@ -152,19 +167,23 @@ std::string mobility_svg(const std::vector<MobilityRelation>& relations,
                          const std::vector<MobilityEvent>& events) {
   const Axis x{0, 9, 60, 560}, y{std::log10(0.05), std::log10(2.5), 430, 40};
   std::string out =
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 900 480\" width=\"900\" "
-      "height=\"480\" font-family=\"sans-serif\" font-size=\"12\">\n"
-      "<rect width=\"900\" height=\"480\" fill=\"white\"/>\n";
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 580 480\" width=\"580\" "
+      "height=\"480\" font-family=\"sans-serif\" font-size=\"13\">\n"
+      "<rect width=\"580\" height=\"480\" fill=\"white\"/>\n";
   out += grid_lines(x, y);
-  std::size_t n_lines = 0;
-  for (const MobilityRelation& r : relations) {
-    if (r.kind != MobilityKind::hl_power) continue;
-    const double at = 52 + 20 * static_cast<double>(n_lines);
-    out += relation_line(r, x, y, stroke_of(r, n_lines, "1.5"));
-    out += line(580, at - 4, 604, at - 4, stroke_of(r, n_lines, "2"));
-    out += label(610, at, "start", r.id + (r.from_memory ? " (unchecked)" : ""));
-    ++n_lines;
-  }
+  double at = 340;
+  for (const Charted& shown : charted)
+    for (const MobilityRelation& r : relations) {
+      if (r.id != shown.id) continue;
+      const std::string stroke = std::string("stroke=\"") + shown.colour + "\" stroke-width=\"2\"";
+      if (r.id == std::string("corominas_slide_all")) out += band_below(r, x, y, shown.colour);
+      out += relation_line(r, x, y, stroke) + line(72, at - 4, 96, at - 4, stroke);
+      out += label(104, at, "start", shown.words);
+      at += 20;
+    }
+  out += "<rect x=\"72\" y=\"" + number(at - 10) +
+         "\" width=\"24\" height=\"12\" fill=\"#1b6ca8\" fill-opacity=\"0.15\"/>\n" +
+         label(104, at, "start", "slides down to their lower 95 % line");
   for (const MobilityEvent& event : events) {
     if (!(event.volume > 0 && event.height > 0 && event.length > 0)) continue;
     const double log_v = std::clamp(std::log10(event.volume), x.low, x.high);
@@ -173,8 +192,8 @@ std::string mobility_svg(const std::vector<MobilityRelation>& relations,
            "\" r=\"5\" fill=\"black\" fill-opacity=\"0.6\"><title>" + event.name +
            "</title></circle>\n";
   }
-  out += "<circle cx=\"592\" cy=\"452\" r=\"5\" fill=\"black\" fill-opacity=\"0.6\"/>\n";
-  out += label(610, 456, "start", "this event (a point a run)");
+  out += "<circle cx=\"84\" cy=\"416\" r=\"5\" fill=\"black\" fill-opacity=\"0.6\"/>\n";
+  out += label(104, 420, "start", "this event (a point a run)");
   return out + "</svg>\n";
 }
 

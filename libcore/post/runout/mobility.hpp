@@ -46,8 +46,8 @@ struct MobilityRow {
 };
 [[nodiscard]] MobilityRow compare(const MobilityRelation& relation, const MobilityEvent& event);
 
-/// H/L against V, both logarithmic: the relations of kind hl_power as lines (dashed when from
-/// memory), the events as points.
+/// H/L against V, both logarithmic: a relation for rockfalls, one for slides with a band down to
+/// its lower 95 % line, one for rock avalanches, none from memory; the events as points.
 [[nodiscard]] std::string mobility_svg(const std::vector<MobilityRelation>& relations,
                                        const std::vector<MobilityEvent>& events);
 

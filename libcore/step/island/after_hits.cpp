@@ -1,6 +1,6 @@
 // Stage 6 of an island's step, its end: hits become part of the motion without contact, about which
-// the contacts that press are solved. What pressed a body before goes on over all of the substep;
-// what is new presses it from its last hit on.
+// the contacts that press are solved. What presses a body that was pressed before does so over all
+// of the substep; another is pressed from its last hit on.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -115,16 +115,28 @@ void take_member(const HitLooks& looks, size_t k, FreeMotions& free, IslandSyste
   island.velocity[k] = island.free_velocity[k];
 }
 
-// Where pairs that press all along had times of their own, impulses of a jam that balance would
-// not: they would push a block by their size times the difference of these times.
 bool pressed_before(const IslandSystem& system, size_t p) {
   for (const size_t r : contacts_of(system, p))
     if (system.contacts[r].memory >= 0 && !system.contacts[r].waits) return true;
   return false;
 }
 
-/// The part of the substep over which the contacts of a pair press: all of it where they pressed
-/// before, else what is left after the last hit of its bodies.
+// Members that something pressed before. Where their pairs had times of their own, impulses of a
+// jam that balance would not: they would displace a block by their size times the difference of
+// these times.
+void find_pressed(const IslandSystem& system, size_t n_members,
+                  std::vector<std::uint8_t>& is_pressed) {
+  is_pressed.assign(n_members, 0);
+  for (size_t p = 0; p < system.island.pairs.size(); ++p) {
+    if (!pressed_before(system, p)) continue;
+    const BodyPair& pair = system.island.pairs[p];
+    is_pressed[static_cast<size_t>(pair.a)] = 1;
+    if (pair.b >= 0) is_pressed[static_cast<size_t>(pair.b)] = 1;
+  }
+}
+
+/// The part of the substep over which the contacts of a pair press: all of it where something
+/// pressed one of its bodies before, else what is left after their last hit.
 struct PairRest {
   double length = 0;  // [s]
   bool has_b = false;
@@ -139,7 +151,8 @@ PairRest rest_of(const HitLooks& looks, const IslandSystem& system, size_t p,
   rest.has_b = pair.b >= 0;
   double from = looks.hits.members[ka].clock;
   if (rest.has_b) from = std::max(from, looks.hits.members[kb].clock);
-  if (pressed_before(system, p)) from = 0;
+  const std::vector<std::uint8_t>& is_pressed = looks.hits.is_pressed;
+  if (is_pressed[ka] != 0 || (rest.has_b && is_pressed[kb] != 0)) from = 0;
   rest.length = std::max(free.h - from, shortest_rest * free.h);
   rest.a = looks.member_at(ka, from).placed;
   rest.end_a = free_end(free, ka);
@@ -252,6 +265,7 @@ void take_hits(const HitLooks& looks, FreeMotions& free, IslandSystem& system, S
   }
   for (const int k : hits.hit_members.items)
     take_member(looks, static_cast<size_t>(k), free, system, hits);
+  if (!hits.hit_members.items.empty()) find_pressed(system, n, hits.is_pressed);
   const auto was_hit = [&](int k) { return k >= 0 && hits.hit_members.contains(k); };
   if (!hits.hit_members.items.empty())
     for (size_t p = 0; p < system.island.pairs.size(); ++p) {

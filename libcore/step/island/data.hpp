@@ -216,6 +216,7 @@ struct SubstepHits {  // clang-format off
   std::vector<int> pair_begin, pairs;       ///< pairs of each member
   std::vector<int> n_looks, n_pair_hits;    ///<                                         (n_pairs)
   std::vector<std::uint8_t> is_closed;      ///< 1: looked at no more                    (n_pairs)
+  std::vector<std::uint8_t> is_pressed;     ///< 1: by something, before the hits        (n_members)
   std::vector<TouchingContact> touching, batch;
   std::vector<int> group;                   ///< of members hit at one time              (n_members)
   std::vector<int> local;                   ///< body of a member in the impact at hand  (n_members)

@@ -6,7 +6,7 @@ sed -i 's/^duration_s = .*/duration_s = 2/' slope/site.toml  # blocks move more 
 sed -i 's/^name = "designed"/name = "<b>\&\\" name"/' slope/site.toml
 made slope -j2
 python3 - slope/out <<'END' || fail "see above"
-import html.parser, os, re, sys, zipfile
+import base64, html.parser, json, os, re, struct, sys, zipfile, zlib
 import xml.etree.ElementTree as xml
 out = sys.argv[1]
 text = open(f"{out}/report.html", encoding="utf-8").read()
@@ -39,8 +39,18 @@ for link in page.links:
 assert text.count("arrivals for design") == 1, "the fields do not say what their verdict rests on"
 assert "<b>&\"" not in text, "the site's name is markup"
 assert "&lt;b&gt;&amp;&quot; name" in text
-assert len(re.findall(r'src="data:image/png', text)) == 11, "ten maps and the change by the fence"
-assert text.count('class="legend"') == 10, "a map without its legend in the page's letters"
+assert text.count('<image class="cells"') == 11, "ten maps and the change by the fence"
+assert text.count('class="legend"') == 11, "a map without its legend in the page's letters"
+assert text.count('data:image/png') == 12, "the ground is not drawn once for all maps"
+maps = [json.loads(values) for values in re.findall(r'<script type="application/json">(.*?)</script>', text)]
+assert len(maps) == 11, "a map without values"
+for one in maps:
+    values = zlib.decompress(base64.b64decode(one["values"]))
+    assert len(values) == 4 * one["n_rows"] * one["n_cols"], "values that are not those of the cells"
+values = zlib.decompress(base64.b64decode(maps[0]["values"]))
+fastest = max(v for v in struct.unpack(f"<{len(values) // 4}f", values) if v == v)
+assert maps[0]["unit"] == "m/s" and f"<b>{fastest:.3g} m/s</b>" in text, f"{fastest} is not the largest speed"
+assert len(text) < 4e6, f"{len(text)} bytes"
 assert "path of the centre of mass of all blocks" in text, "nothing says whether the mass went"
 assert "<th class=\"n\">value</th>" in text and "<th class=\"n\">p95</th></tr>" not in text, "a spread of one run"
 assert "Nothing came to the fence" in text, "energies of no arrivals"

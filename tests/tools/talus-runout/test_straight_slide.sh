@@ -23,7 +23,7 @@ assert abs(run['energy_shares']['friction'] - 1) < 1e-12
 assert len(j['mobility']) == 17
 assert sum(m['from_memory'] for m in j['mobility']) == 6
 PY
-grep -q 'corominas_rockfall_all' mobility.svg || fail 'the chart has no legend'
+grep -q 'rockfalls (Corominas 1996)' mobility.svg || fail 'the chart has no legend'
 ogrinfo -so runout.gpkg paths | grep -q '3D Measured Line String' || fail 'paths hold no time'
 for layer in envelope deposit paths path_points streamline reach_points runs; do
   ogrinfo -q runout.gpkg -sql "SELECT f_table_name FROM layer_styles WHERE f_table_name = '$layer' AND useAsDefault" | grep -q "$layer" || fail "$layer has no style"

@@ -16,7 +16,7 @@ TEST(BodyOverlap, IsTheLeastPathOutOfAllParts) {
     const std::vector<WaysOut> ways = ways_out_of_bodies(pair.bodies, 0, 1);
     const double least = least_path(ways).length;
     const double found = body_overlap(pair.bodies.hulls, pair.bodies.placed, 0, 1, scratch);
-    EXPECT_NEAR(found, least, 1e-9 + 2e-3 * least) << "trial " << trial;
+    EXPECT_NEAR(found, least, 1e-9) << "trial " << trial;
     double deepest = 0;  // of the parts alone
     for (const WaysOut& way : ways)
       deepest = std::max(deepest, *std::min_element(way.h.begin(), way.h.end()));

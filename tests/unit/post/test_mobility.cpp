@@ -5,6 +5,7 @@
 #include <set>
 
 #include "base/error.hpp"
+#include "base/text.hpp"
 #include "post/runout/mobility.hpp"
 
 using namespace talus;
@@ -61,18 +62,26 @@ TEST(Mobility, FixedAngleIsALine) {
               100 / std::tan(33 * std::numbers::pi / 180), 1e-9);
 }
 
-TEST(Mobility, NoTwoLinesOfTheChartLookAlike) {
+// The slides' line at 1e3 m3, log10(H/L) = -0.159 - 0.068 * 3, and its lower 95 % line, 0.435
+// below.
+TEST(Mobility, ChartShowsThreeRelationsAndABand) {
   const std::string svg = mobility_svg(shipped(), {});
-  const std::string legend = "<line x1=\"580\"";
   std::set<std::string> strokes;
-  std::size_t n = 0;
+  const std::string legend = "<line x1=\"72\"";
   for (std::size_t at = svg.find(legend); at != std::string::npos; at = svg.find(legend, at + 1)) {
     const std::size_t stroke = svg.find("stroke=", at);
     strokes.insert(svg.substr(stroke, svg.find("/>", stroke) - stroke));
-    ++n;
   }
-  EXPECT_GT(n, 8U);
-  EXPECT_EQ(strokes.size(), n);
+  EXPECT_EQ(strokes.size(), 3U);
+  const std::size_t band = svg.find("<polygon points=\"");
+  ASSERT_NE(band, std::string::npos);
+  for (const double log_hl : {-0.363, -0.798}) {
+    const double low = std::log10(0.05), high = std::log10(2.5);
+    const double y = 430 - (log_hl - low) / (high - low) * 390, x = 60 + 3.0 / 9 * 500;
+    const auto tenth = [](double v) { return talus::text(std::round(v * 10) / 10); };
+    EXPECT_NE(svg.find(" " + tenth(x) + "," + tenth(y) + " ", band), std::string::npos) << log_hl;
+  }
+  EXPECT_EQ(svg.find("unchecked"), std::string::npos);
 }
 
 TEST(Mobility, OfAnEventWithoutLengthSaysNothing) {

@@ -27,10 +27,9 @@ std::string qml_of(const MapLayerKind& kind) {
 // Every row of the table has its place in the report, with a legend of all classes that are drawn.
 TEST(MapFigures, ShowEveryLayerOfTheTableWithItsLegend) {
   std::vector<MapPicture> pictures;
-  for (const MapLayerKind& kind : map_layers())
-    pictures.push_back({kind.name, "a picture", qml_of(kind)});
+  for (const MapLayerKind& kind : map_layers()) pictures.push_back({kind.name, qml_of(kind), {}});
   std::reverse(pictures.begin(), pictures.end());
-  const std::string all = map_figures(pictures);
+  const std::string all = map_figures({}, pictures);
   EXPECT_EQ(count(all, "<figure"), map_layers().size());
   std::size_t at = 0;
   for (const MapLayerKind& kind : map_layers()) {
@@ -49,7 +48,7 @@ TEST(MapFigures, ShowEveryLayerOfTheTableWithItsLegend) {
 }
 
 TEST(MapFigures, LeaveOutLayersWithoutAPicture) {
-  const std::string one = map_figures({{map_layers().back().name, "a picture", ""}});
+  const std::string one = map_figures({}, {{map_layers().back().name, "", {}}});
   EXPECT_EQ(count(one, "<figure"), 1U);
   EXPECT_NE(one.find(map_layers().back().title), std::string::npos);
 }
@@ -57,9 +56,9 @@ TEST(MapFigures, LeaveOutLayersWithoutAPicture) {
 // Each layer once a case, in one of the two parts.
 TEST(CaseFigures, StandSideBySideLayerByLayer) {
   std::vector<MapPicture> pictures;
-  for (const MapLayerKind& kind : map_layers()) pictures.push_back({kind.name, "a picture", ""});
+  for (const MapLayerKind& kind : map_layers()) pictures.push_back({kind.name, "", {}});
   const CasePictures cases = {{"far", pictures}, {"<near>", pictures}};
-  const std::string first = case_figures(cases, true), rest = case_figures(cases, false);
+  const std::string first = case_figures({}, cases, true), rest = case_figures({}, cases, false);
   EXPECT_EQ(count(first, "<figure") + count(rest, "<figure"), 2 * map_layers().size());
   EXPECT_EQ(count(first, "<h3>"), 4U);
   EXPECT_EQ(count(first, "<div class=\"maps\">"), 4U);

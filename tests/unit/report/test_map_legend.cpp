@@ -19,3 +19,18 @@ TEST(HtmlLegend, NamesTheClassesThatAreDrawn) {
 }
 
 TEST(HtmlLegend, IsEmptyWithoutAStyle) { EXPECT_EQ(html_legend(""), ""); }
+
+TEST(StyleOf, ReadsWhatRasterQmlWrites) {
+  RasterStyle style;
+  style.band = 3;
+  style.classes = {{0.25, {0, 0, 0, 0}, "none"},
+                   {std::numeric_limits<double>::infinity(), {1, 128, 255, 255}, "above"}};
+  const RasterStyle read = style_of(raster_qml(style));
+  EXPECT_EQ(read.band, 3);
+  ASSERT_EQ(read.classes.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(read.classes[i].upper, style.classes[i].upper);
+    EXPECT_EQ(read.classes[i].colour, style.classes[i].colour);
+    EXPECT_EQ(read.classes[i].label, style.classes[i].label);
+  }
+}

@@ -14,6 +14,21 @@ TEST(CurveChart, HasALineForEachRun) {
   EXPECT_NE(chart.series[0].colour, chart.series[1].colour);
 }
 
+// Medians of 0, 2, 7 and of 4, 5, 7: run c has ended and keeps its value; b is half way at 1 s.
+TEST(CurveChart, ShowsMedianAndBandOfThreeRuns) {
+  const CsvTable table =
+      parse_csv("run_id,time_s,front_m\na,0,0\na,1,4\na,2,4\nb,0,2\nb,2,8\nc,0,7\n", "curves.csv");
+  const Chart chart = curve_chart(table, "front_m", "Front", "m");
+  ASSERT_EQ(chart.series.size(), 2u);
+  EXPECT_EQ(chart.series[0].x, (std::vector<double>{0, 1, 2}));
+  EXPECT_EQ(chart.series[0].y, (std::vector<double>{0, 4, 4}));
+  EXPECT_EQ(chart.series[0].y_high, (std::vector<double>{7, 7, 8}));
+  EXPECT_EQ(chart.series[1].y, (std::vector<double>{2, 5, 7}));
+  const std::string svg = chart_svg(chart);
+  EXPECT_NE(svg.find("fill-opacity"), std::string::npos);
+  EXPECT_NE(svg.find(">median</text>"), std::string::npos);
+}
+
 // 10 MJ fall; 4 move, 3 went into friction, 2 into impacts, 1 was removed. The run started with
 // 1 MJ of motion, and the base gave 2 more, which friction took.
 TEST(EnergyChart, SumLiesOnWhatHasFallen) {

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
+#include "post/maps/map_page.hpp"
 #include "report/encode.hpp"
 #include "report/plan_view.hpp"
 #include "report/viewer_scene.hpp"
@@ -62,16 +63,14 @@ TEST(PlanWindow, HoldsTheRunAndStaysOnTheTerrain) {
   EXPECT_DOUBLE_EQ(all.high.y(), 200);
 }
 
-TEST(PlanView, ObjectsAreDrawnAndNamed) {
+TEST(PlanView, HoldsWhatTheRunDid) {
   const Trn trn = talus::testing::plane_trn(0.5, 2, 101, 101);
-  RunFile run = sliding_box();
-  EXPECT_EQ(plan_view_svg(run, trn, "png").find("class=\"object"), std::string::npos);
-  run.objects = {{"house <1>", "house", {{{{60, 90}, {64, 90}, {64, 94}}, true}}, 0},
-                 {"road", "road", {{{{42, 80}, {88, 80}}, false}}, 3},
-                 {"mast", "mast", {{{{70, 95}}, false}}, 2}};
-  const std::string svg = plan_view_svg(run, trn, "png");
-  for (const char* part : {"class=\"object\" d=\"", "house &lt;1&gt;</title>",
-                           "class=\"object line\" d=\"", "<circle class=\"object\"", "r=\"2\""})
+  MapSheet sheet;
+  const PageLayout layout = layout_of(PageSize::a4);
+  sheet.ground = map_ground(trn, layout, view_of(layout, {40, 80}, {90, 120}));
+  const std::string svg = plan_view_svg(sliding_box(), sheet);
+  for (const char* part : {"<path class=\"start\"", "<path class=\"way\"", "<path class=\"end\"",
+                           "href=\"#map-ground\"", "href=\"#map-places\""})
     EXPECT_NE(svg.find(part), std::string::npos) << part;
   EXPECT_EQ(svg.find("nan"), std::string::npos);
 }

@@ -1,0 +1,34 @@
+// libcore/report/map_cells_gdal.hpp: public
+// Rasters of maps as pictures of a page.
+// in:    NAME.tif and NAME.qml as the tools write them
+// out:   PNG and values; the same bytes for the same input
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "report/map_sheet.hpp"
+
+namespace talus {
+
+/// The cells of the band that the style shows, as far as they lie in the view, in its colours.
+/// Values have three digits; of more than 250,000 cells there are none. Throws InputError when the
+/// file is no raster.
+[[nodiscard]] CellPicture read_cell_picture(const std::string& path, const std::string& qml,
+                                            const MapView& view, const Vec2& origin);
+
+/// South-western and north-eastern corner of the cells that the pages of a map show, map
+/// coordinates [m]; none for a map without pages.
+[[nodiscard]] std::optional<std::pair<Vec2, Vec2>> cells_on_pages(const std::string& path);
+
+/// The rim of the footprints of blocks together, which may overlap and lie up to 0.2 m apart; rings
+/// without the last point. [m]
+[[nodiscard]] std::vector<std::vector<Vec2>> rim_of(
+    const std::vector<std::vector<Vec2>>& footprints);
+
+/// In grey.
+[[nodiscard]] std::string shading_png(const Shading& shading);
+
+}  // namespace talus

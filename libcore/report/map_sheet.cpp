@@ -1,0 +1,160 @@
+#include "report/map_sheet.hpp"
+
+#include <cmath>
+
+#include "base/grouped_text.hpp"
+#include "base/text.hpp"
+#include "report/encode.hpp"
+#include "report/map_marks.hpp"
+
+namespace talus {
+namespace {
+
+std::string number(double value) { return text(std::round(value * 100) / 100); }
+
+Vec2 size_of(const MapSheet& sheet) { return sheet.ground.view.high - sheet.ground.view.low; }
+
+std::string path(const std::string& css_class, const std::string& d, const std::string& title) {
+  return "<path class=\"" + css_class + "\" d=\"" + d + "\">" +
+         (title.empty() ? "" : "<title>" + xml_escaped(title) + "</title>") + "</path>\n";
+}
+
+std::string words(const Vec2& at, const std::string& anchor, const std::string& content) {
+  return "<text x=\"" + number(at.x()) + "\" y=\"" + number(at.y()) + "\"" +
+         (anchor.empty() ? "" : " text-anchor=\"" + anchor + "\"") + ">" + content + "</text>";
+}
+
+std::string contours_of(const MapSheet& sheet) {
+  std::string thin, thick;
+  for (const LevelLine& line : sheet.ground.contours)
+    (is_numbered(sheet.ground, line) ? thick : thin) += sheet_path(sheet, line.points, false);
+  const Vec2 size = size_of(sheet);
+  const double per_mm = sheet.ground.view.scale / 1000;
+  std::string out = path("contour", thin, "") + path("contour five", thick, "");
+  for (const LevelLabel& label : level_labels(sheet.ground, size / per_mm)) {
+    const Vec2 at = per_mm * label.at;
+    out += "<text class=\"level\" transform=\"translate(" + number(at.x()) + " " + number(at.y()) +
+           ") rotate(" + number(-label.angle * 180 / M_PI) +
+           ")\" dy=\".35em\" text-anchor=\"middle\">" + text(label.level) + "</text>";
+  }
+  return out;
+}
+
+// Lines of round coordinates, which stand at the left and the lower side.
+std::string grid_of(const MapSheet& sheet) {
+  const MapView& view = sheet.ground.view;
+  const double spacing = 2 * grid_spacing(view);  // letters are larger than on paper
+  const Vec2 low = view.low + sheet.origin, high = view.high + sheet.origin, size = size_of(sheet);
+  const double unit = size.x() / 100;
+  std::string lines, labels;
+  for (double k = std::ceil(low.x() / spacing); k * spacing <= high.x(); ++k) {
+    const double x = k * spacing - low.x();
+    lines += "M" + number(x) + " 0V" + number(size.y());
+    if (x > 12 * unit && x < size.x() - 12 * unit)
+      labels += words({x, size.y() - 0.8 * unit}, "middle", grouped_text(k * spacing, 9) + " E");
+  }
+  for (double k = std::ceil(low.y() / spacing); k * spacing <= high.y(); ++k) {
+    const double y = high.y() - k * spacing;
+    lines += "M0 " + number(y) + "H" + number(size.x());
+    if (y > 4 * unit && y < size.y() - 8 * unit)
+      labels += words({0.8 * unit, y - 0.5 * unit}, "", grouped_text(k * spacing, 9) + " N");
+  }
+  return path("grid", lines, "") + "<g class=\"coordinates\">" + labels + "</g>\n";
+}
+
+std::string object_of(const MapSheet& sheet, const RecordObject& object) {
+  std::string out;
+  for (const ObjectPart& part : object.parts) {
+    if (part.is_area || part.points.size() > 1) {
+      out += path(part.is_area ? "object" : "object line",
+                  sheet_path(sheet, part.points, part.is_area), object.name);
+    } else if (!part.points.empty()) {
+      const Vec2 at = on_sheet(sheet, part.points[0]);
+      out += "<circle class=\"object\" cx=\"" + number(at.x()) + "\" cy=\"" + number(at.y()) +
+             "\" r=\"" + number(object.radius) + "\"><title>" + xml_escaped(object.name) +
+             "</title></circle>\n";
+    }
+  }
+  return out;
+}
+
+std::string places_of(const MapSheet& sheet) {
+  std::string out, rings;
+  for (const std::vector<Vec2>& ring : sheet.source) rings += sheet_path(sheet, ring, true);
+  if (!rings.empty()) out += path("source", rings, "source");
+  for (const RecordObject& object : sheet.objects) out += object_of(sheet, object);
+  for (const RecordLine& line : sheet.lines) {
+    std::vector<Vec2> points;
+    for (const Vec3& p : line.points) points.emplace_back(p.head<2>());
+    const std::string d = sheet_path(sheet, points, false);
+    out += line.standing ? path("fence", d, "fence " + line.name)
+                         : path("fence line", d, "line " + line.name + " without a fence");
+  }
+  return out;
+}
+
+std::string labels_of(const CellPicture& cells) {
+  std::string out;
+  for (const auto& [code, label] : cells.labels)
+    out += (out.empty() ? "" : ",") + ("\"" + std::to_string(code)) + "\":" + json_string(label);
+  return "{" + out + "}";
+}
+
+}  // namespace
+
+std::string sheet_path(const MapSheet& sheet, const std::vector<Vec2>& points, bool is_closed) {
+  std::string out;
+  for (const Vec2& p : points) {
+    const Vec2 at = on_sheet(sheet, p);
+    out += (out.empty() ? "M" : "L") + number(at.x()) + " " + number(at.y());
+  }
+  return out + (is_closed ? "Z" : "");
+}
+
+std::string sheet_definitions(const MapSheet& sheet) {
+  const Shading& shading = sheet.ground.shading;
+  const double cell = sheet.ground.shading_cell;
+  const Vec2 low = sheet.ground.view.low + sheet.origin,
+             high = sheet.ground.view.high + sheet.origin;
+  return "<svg class=\"none\" width=\"0\" height=\"0\" aria-hidden=\"true\" id=\"sheet\" "
+         "data-west=\"" +
+         number(low.x()) + "\" data-north=\"" + number(high.y()) + "\"><defs>\n" +
+         "<g id=\"map-ground\"><image width=\"" + number(shading.n_cols * cell) + "\" height=\"" +
+         number(shading.n_rows * cell) + "\" preserveAspectRatio=\"none\" href=\"" +
+         data_address("image/png", sheet.shading_png) + "\"/></g>\n<g id=\"map-places\">" +
+         contours_of(sheet) + grid_of(sheet) + places_of(sheet) + "</g>\n</defs></svg>\n";
+}
+
+std::string sheet_svg(const MapSheet& sheet, const std::string& between, const std::string& alt) {
+  const Vec2 size = size_of(sheet);
+  return "<div class=\"sheet\"><svg class=\"plan\" viewBox=\"0 0 " + number(size.x()) + " " +
+         number(size.y()) + "\" font-size=\"" + number(0.022 * size.x()) +
+         "\" role=\"img\" aria-label=\"" + xml_escaped(alt) + "\"><use href=\"#map-ground\"/>\n" +
+         between + "<use href=\"#map-places\"/>\n" +
+         scale_and_north({0, 0}, {size.x(), 0.93 * size.y()}) + "</svg></div>\n";
+}
+
+std::string cells_svg(const MapSheet& sheet, const CellPicture& cells, const std::string& alt,
+                      const std::string& unit) {
+  const Vec2 at = on_sheet(sheet, cells.corner);
+  const auto attribute = [](const char* name, double value) {
+    return std::string(" ") + name + "=\"" + number(value) + "\"";
+  };
+  std::string out = sheet_svg(
+      sheet,
+      "<image class=\"cells\"" + attribute("x", at.x()) + attribute("y", at.y()) +
+          attribute("width", cells.n_cols * cells.cell_size) +
+          attribute("height", cells.n_rows * cells.cell_size) +
+          " preserveAspectRatio=\"none\" href=\"" + data_address("image/png", cells.png) + "\"/>",
+      alt);
+  if (cells.values.empty()) return out;
+  constexpr std::string_view end = "</div>\n";
+  return out.substr(0, out.size() - end.size()) +
+         "<script type=\"application/json\">{\"x\":" + text(at.x()) + ",\"y\":" + text(at.y()) +
+         ",\"cell\":" + text(cells.cell_size) + ",\"n_cols\":" + std::to_string(cells.n_cols) +
+         ",\"n_rows\":" + std::to_string(cells.n_rows) + ",\"unit\":" + json_string(unit) +
+         ",\"labels\":" + labels_of(cells) + ",\"values\":\"" + base64(cells.values) +
+         "\"}</script></div>\n";
+}
+
+}  // namespace talus
