@@ -6,8 +6,8 @@
 namespace talus {
 namespace {
 
-constexpr int n_waits_awake = 10'000;  // of some tens of nanoseconds each
-constexpr int n_waits_alone = 500;     // before a thread that waits gives way to others
+constexpr int n_waits_alone = 500;    // before a thread that waits gives way to others
+constexpr int n_waits_awake = 2'000;  // of at most a microsecond each; then it sleeps
 
 constexpr std::uint64_t chunks_of(std::uint64_t left) { return left & 0xFFFF'FFFFu; }
 
@@ -65,7 +65,7 @@ void Workers::serve() {
   while (!ends_) {
     for (int n = 0; n < n_waits_awake; ++n) {
       if (take_chunk()) n = 0;
-      wait_a_moment(0);
+      wait_a_moment(n);
     }
     std::unique_lock lock(mutex_);
     ++n_asleep_;

@@ -93,7 +93,7 @@ void sweep(IncompleteFactor& factor, bool upwards, const ForNeeded& for_needed, 
     return;
   }
   if (factor.done.size() < n) factor.done.resize(n, 0);
-  const std::uint32_t number = ++factor.n_sweeps;
+  const std::uint64_t number = ++factor.n_sweeps;
   in_chunks(factor.workers, n, rows_a_chunk, least_rows, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
       const size_t k = upwards ? i : n - 1 - i;
@@ -127,9 +127,15 @@ void for_rows(const IncompleteFactor& factor, const Work& work) {
 // The sum of work(k), in the order of places.
 template <class Work>
 double sum_rows(IncompleteFactor& factor, const Work& work) {
-  for_rows(factor, [&](size_t k) { factor.terms[k] = work(k); });
+  const size_t n = factor.order.size();
   double sum = 0;
-  for (size_t k = 0; k < factor.order.size(); ++k) sum += factor.terms[k];
+  if (!has_workers(factor)) {
+    for (size_t k = 0; k < n; ++k) sum += work(k);
+    return sum;
+  }
+  factor.terms.resize(n);
+  for_rows(factor, [&](size_t k) { factor.terms[k] = work(k); });
+  for (size_t k = 0; k < n; ++k) sum += factor.terms[k];
   return sum;
 }
 
@@ -231,7 +237,6 @@ LinearResult solve_conjugate_gradients(IncompleteFactor& factor, std::span<const
   auto &sum = factor.sum, &scratch = factor.scratch;
   for (auto* vectors : {&r, &p, &q, &t, &scratch}) vectors->resize(n);
   sum.assign(n, Vec6::Zero());
-  factor.terms.resize(n);
   solve_lower(
       factor, [&](size_t k) -> Vec6 { return -b[static_cast<size_t>(factor.order[k])]; }, r);
   const auto precondition = [&](size_t k) -> Vec6 { return factor.pivot[k].lazyProduct(r[k]); };

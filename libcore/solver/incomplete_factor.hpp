@@ -46,9 +46,9 @@ struct IncompleteFactor {  // clang-format off
   std::vector<Mat6> per_pivot;       ///< D_i^-1                                         (n_active)
   std::vector<Mat6> rest;            ///< A_i - 2 D_i                                    (n_active)
   std::vector<Vec6> residual, direction, product, sum, by_upper, scratch;
-  std::vector<double> terms;         ///< of a sum, in its order                        (n_active)
-  std::vector<std::uint32_t> done;   ///< number of the last sweep that made this row   (n_active)
-  std::uint32_t n_sweeps = 0;
+  std::vector<double> terms;         ///< of a sum, in its order; threads only          (n_active)
+  std::vector<std::uint64_t> done;   ///< number of the last sweep that made this row; threads only
+  std::uint64_t n_sweeps = 0;
 };  // clang-format on
 
 /// Heights of the bodies' centroids: `down` points along gravity, of any length.
