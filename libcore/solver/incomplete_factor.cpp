@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <atomic>
 
+#include "base/make_room.hpp"
+
 namespace talus {
 namespace {
 
@@ -43,7 +45,10 @@ void list_row_of(const Island& island, const IslandMatrix& matrix, int body,
     const int before = factor.place[static_cast<size_t>(other)];
     if (before < 0 || before > own) continue;
     const size_t at = factor.lower_pair.size();
-    if (at == factor.lower.size()) factor.lower.emplace_back();
+    if (at == factor.lower.size()) {
+      make_room(factor.lower);
+      factor.lower.emplace_back();
+    }
     factor.lower[at].before = before;
     factor.lower_pair.push_back(p);
   }

@@ -31,7 +31,7 @@ talus() {
 # peer BLOCKS TERRAIN SECONDS: a line "BLOCKS ode CPU CPU 0"
 peer() {
   [ -x "$ode" ] || return 0
-  (cd "$TALUS_PEERS_DIR" && "$ode" scene=F mode=def terrain="$2" blocks="blocks_$1.obj" T="$3") |
+  (cd "$folder" && "$ode" scene=F mode=def terrain="$2" blocks="blocks_$1.obj" T="$3") |
     tail -1 | awk -v n="$1" '{
       for (i = 1; i <= NF; i++) if (split($i, part, "=") == 2 && part[1] == "cpu") cpu = part[2]
       print n, "ode", cpu, cpu, 0 }'

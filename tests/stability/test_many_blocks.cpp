@@ -226,7 +226,7 @@ TEST(ManyBlocks, SharedByThreadsInTwoThreadsAndMoreHaveTheSameBits) {
 }
 
 TEST(ManyBlocks, HundredsInTwoThreadsAndMoreHaveTheSameBits) {
-  expect_bits_of_one_thread(20, 20, 0.1);
+  expect_bits_of_one_thread(20, 20, 0.05);
 }
 
 }  // namespace
