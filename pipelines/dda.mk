@@ -43,7 +43,7 @@ run_inputs := $(OUT)/blocks.h5 $(STAGES)/run.txt $(if $(SITE_ROCK_MASSES),$(STAG
 newer_runs = $(shell find $(wildcard $(OUT)/runs $(OUT)/without) -name 'run_$2*.h5' $(addprefix -newer ,$1))
 fresh_runs = $(foreach case,$(or $(CASES),-),$(call newer_runs,$(run_inputs) $(if $(CASES),$(STAGES)/case_$(case).flags $(STAGES)/case_$(case).files),$(if $(CASES),$(case)_)))
 # Those of the goals: maps and run-out need none without fences.
-goal_runs = $(run_files) $(if $(filter-out maps runout places hazard trace fence-search fence-verified,$(wanted)),$(without_files))
+goal_runs = $(run_files) $(if $(filter-out maps runout places hazard trace profile fence-search fence-verified,$(wanted)),$(without_files))
 wanted_runs = $(or $(if $(SHARD),$(shard_runs)),$(filter $(MAKECMDGOALS),$(goal_runs)),$(goal_runs))
 count_runs = $(if $(runs_begun),,$(eval runs_begun := $(shell date +%s))$(eval n_to_make := $(words $(filter-out $(fresh_runs),$(wanted_runs)))))
 run_progress := $(STAGES)/.progress$(if $(SHARD),-$(SHARD)-of-$(SHARDS))
@@ -87,7 +87,7 @@ counted_runs = $(words $1) run$(if $(filter 1,$(words $1)),,s)
 run_there = $$(parts=$(parts_taken) $(call outcomes,there,$1))
 framed_there = $(if $(keep_frames),$$($(call outcomes,there,$1)),$(run_there))
 # The last goal that has to do with runs comes after the others and lists what failed.
-run_goals := runs runout maps fence hazard trace fence-search report all
+run_goals := runs runout maps fence hazard trace profile fence-search report all
 asked := $(filter $(run_goals),$(or $(MAKECMDGOALS),all))
 last_goal := $(if $(filter all,$(asked)),all,$(lastword $(asked)))
 $(if $(last_goal),$(last_goal): | $(filter-out $(last_goal),$(asked)))

@@ -14,15 +14,18 @@ sh pipelines/install_packages.sh build
 export CCACHE_SLOPPINESS=pch_defines,time_macros  # lets ccache keep files that use a precompiled header
 cmake --preset release -DTALUS_TESTS=OFF -DTALUS_BENCH=OFF -B build/demo >/dev/null
 compiled=$(ls build/demo/tools/talus-report 2>/dev/null || true)
-[ -n "$compiled" ] || echo "Building the tools: 5 to 10 minutes on two cores, once. Then the site: half a minute."
+[ -n "$compiled" ] || echo "Building the tools: 5 to 10 minutes on two cores, once. Then the site: a minute or two."
 cmake --build build/demo --target pipeline
+goals=all
+grep -q '^\[fence_search' "sample_sites/$site/site.toml" && goals='all fence-search'
 code=0
-make -j"$(nproc)" -C "sample_sites/$site" BIN="$PWD/build/demo/tools/" || code=$?
+# shellcheck disable=SC2086  # a list of words
+make -j"$(nproc)" -C "sample_sites/$site" BIN="$PWD/build/demo/tools/" $goals || code=$?
 out=sample_sites/$site/out
 [ -f "$out/report.html" ] || exit "$code"
 echo
 echo "The results are in $out. Look at:"
-echo "  $out/report.html   maps, fence verdict, 3-D animation, health, what was assumed (any browser)"
+echo "  $out/report.html   maps, fence verdicts, 3-D animation, health, what was assumed (any browser)"
 echo "  $out/site.qgz      the same as a QGIS project (QGIS 3.22 or later)"
 echo "Your own slope: docs/tutorial.md"
 exit "$code"

@@ -7,13 +7,13 @@
 is_dry_run := $(findstring n,$(short_flags))$(findstring q,$(short_flags))
 
 # --- the tools: of this checkout when it is built whole, else on the search path ---
-tool_names := site tin trn blocks check dda reduce runout maps fence places hazard trace fence-search report
+tool_names := site tin trn blocks check dda reduce runout maps fence places hazard trace profile fence-search report
 whole_build = $(if $(word $(words $(tool_names)),$(wildcard $(tool_names:%=$1talus-%))),$1)
 BIN ?= $(firstword $(call whole_build,$(PIPELINES)../build/release/tools/) $(call whole_build,$(PIPELINES)../build/demo/tools/))
 wanted := $(or $(MAKECMDGOALS),all)
 needed_tools := site tin trn $(if $(filter-out terrain,$(wanted)),blocks) $(if $(filter-out terrain blocks,$(wanted)),check) \
   $(if $(filter-out terrain blocks check,$(wanted)),dda) $(if $(filter-out terrain blocks check runs runs-shard prepare,$(wanted)),runout maps fence places hazard trace fence-search report) \
-  $(if $(filter runs-shard,$(wanted)),$(if $(filter no,$(REDUCE)),,reduce))
+  $(if $(filter runs-shard,$(wanted)),$(if $(filter no,$(REDUCE)),,reduce)) $(filter profile,$(wanted))
 missing_tools := $(shell for tool in $(needed_tools); do command -v $(BIN)talus-$$tool >/dev/null || echo talus-$$tool; done)
 ifneq ($(missing_tools),)
 $(error $(missing_tools) cannot be found$(if $(BIN), in $(BIN)): $(if $(wildcard $(PIPELINES)demo.sh),build first: sh $(PIPELINES)demo.sh; or )name the folder of the tools with a slash at its end: make BIN=/where/tools/)
@@ -56,6 +56,7 @@ given_files := $(if $(CONTOURS),--given tin=$(CONTOURS)) $(call given,tin,$(TIN_
   $(call given,dda,$(filter-out %.xmf,$(DDA_FLAGS))) $(foreach case,$(CASES),$(call given,case_$(case),$(CASE_$(case)))) \
   $(call given,runout,$(RUNOUT_FLAGS)) $(call given,maps,$(MAPS_FLAGS)) $(call given,fence,$(FENCE_FLAGS)) \
   $(call given,hazard,$(HAZARD_FLAGS)) $(call given,trace,$(TRACE_FLAGS)) $(call given,search,$(SEARCH_FLAGS)) \
+  $(if $(LINE),--given 'profile=$(LINE)') $(call given,profile,$(PROFILE_FLAGS)) \
   --given report=site.toml $(call given,report,$(REPORT_FLAGS))
 
 ifeq ($(is_dry_run),)

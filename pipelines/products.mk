@@ -17,15 +17,16 @@ trace_products := trace.gpkg trace.json links.csv
 hazard_patterns := $(foreach suffix,tif png pdf qml tif.aux.xml png.aux.xml,$(addprefix hazard/,event_exceed.$(suffix) event_frequency.$(suffix) \
   passage_frequency.$(suffix) return_period_*.$(suffix) ke_T*.$(suffix) probability.$(suffix) intensity.$(suffix) class.$(suffix) class_certain.$(suffix))) hazard/hazard.gpkg
 trace_patterns := $(foreach suffix,tif png pdf qml tif.aux.xml png.aux.xml,sources/source_*.$(suffix))
+profile_products := $(addprefix profile/,profile.gpkg profile.json crossings.csv bins.csv stations.csv ground.svg count.svg energy.svg speed.svg height.svg)
 search_products := fence_search.json fence_search.gpkg
 screen_products := search/screen.json search/screen.gpkg
 report_products := report.html site.qgz
 products := $(tin_products) $(trn_products) $(source_products) $(block_products) $(check_products) $(runout_products) $(map_products) \
-  $(fence_products) $(change_products) $(places_products) $(hazard_products) $(trace_products) $(search_products) $(screen_products) $(report_products)
+  $(fence_products) $(change_products) $(places_products) $(hazard_products) $(trace_products) $(profile_products) $(search_products) $(screen_products) $(report_products)
 
 # As patterns of the shell: a style that comes with its raster, runs by seed and case with their checkpoints, the registry, what a stage
 # reads, side files that GDAL and QGIS write beside a raster, and hidden names of tools that were killed.
-stages_made := tin trn blocks rock check run runs dda runout maps fence place places hazard trace search verify report case_*
+stages_made := tin trn blocks rock check run runs dda runout maps fence place places hazard trace profile search verify report case_*
 case_maps := $(foreach suffix,tif png pdf qml tif.aux.xml png.aux.xml,$(map_names:%=maps/*/%.$(suffix)))
 made_patterns := thickness.qml rock/blocks_*[0-9].h5 rock/bed_*[0-9].tif rock/bed_*[0-9].tif.aux.xml runs/run_*[0-9].h5 runs/run_*[0-9].h5.part runs/run_*[0-9].h5.part.new \
   without/run_*[0-9].h5 without/run_*[0-9].h5.part without/run_*[0-9].h5.part.new \
@@ -42,4 +43,4 @@ made_patterns := thickness.qml rock/blocks_*[0-9].h5 rock/bed_*[0-9].tif rock/be
   $(addsuffix .*.part-*-*,$(sort $(dir $(products))) maps/*/ fences/*/ runs/ without/ parts/ parts/without/ rock/ stages/ hazard/ sources/ search/new/ search/charts/)
 # The mark of a folder that the pipeline has written into; it goes last.
 mark_of_out := stages/site.mk
-made_folders := maps/* maps fences/* fences hazard sources search/new search/charts search verify/* verify runs without parts/without parts rock shards/log shards stages/failed stages
+made_folders := maps/* maps fences/* fences hazard sources profile search/new search/charts search verify/* verify runs without parts/without parts rock shards/log shards stages/failed stages

@@ -65,6 +65,6 @@ shard_registries := $(if $(SHARD)$(notes_runs),,$(wildcard $(OUT)/shards/*.sqlit
 ifneq ($(and $(registry),$(shard_registries)),)
 $(OUT)/shards/merged: $(shard_registries) $(wildcard $(OUT)/shards/*.sqlite-wal)
 	$(Q)$(BIN)talus-runs merge $(filter %.sqlite,$^) -o $(registry) && touch $@
-$(OUT)/maps/reach.tif $(OUT)/runout.gpkg $(OUT)/report.html $(if $(SITE_FENCES),$(OUT)/fence.gpkg) $(if $(SITE_PLACES),$(OUT)/places.json) $(OUT)/hazard.json $(OUT)/trace.gpkg $(if $(SITE_FENCE_SEARCHES),$(OUT)/search/screen.json): | $(OUT)/shards/merged
+$(OUT)/maps/reach.tif $(OUT)/runout.gpkg $(OUT)/report.html $(if $(SITE_FENCES),$(OUT)/fence.gpkg) $(if $(SITE_PLACES),$(OUT)/places.json) $(OUT)/hazard.json $(OUT)/trace.gpkg $(if $(LINE),$(OUT)/profile/profile.gpkg) $(if $(SITE_FENCE_SEARCHES),$(OUT)/search/screen.json): | $(OUT)/shards/merged
 %.sqlite-wal: ;
 endif

@@ -2,7 +2,7 @@
 # site.toml; the Makefile may set
 #   CONTOURS or DEM                what the ground is made from, instead of [terrain]
 #   TIN_FLAGS, TRN_FLAGS, BLOCKS_FLAGS, CHECK_FLAGS, DDA_FLAGS, RUNOUT_FLAGS, MAPS_FLAGS, FENCE_FLAGS,
-#   PLACES_FLAGS, HAZARD_FLAGS, TRACE_FLAGS, SEARCH_FLAGS
+#   PLACES_FLAGS, HAZARD_FLAGS, TRACE_FLAGS, PROFILE_FLAGS, SEARCH_FLAGS
 #                                  further options of the tools
 #   EVALUATE_FLAGS                 of all tools that evaluate runs (e.g. --rest-speed-m-s 0.1)
 #   RUNS, SEED, CASES, WEIGHTS, WITHOUT   dda.mk; RUNS=auto, RUNS_MOST: as many as [place.*] want (auto_runs.sh)
@@ -20,7 +20,7 @@ include $(PIPELINES)products.mk
 
 .DEFAULT_GOAL := all
 .SUFFIXES:
-.PHONY: all terrain blocks check runs runout maps fence hazard trace fence-search report clean help
+.PHONY: all terrain blocks check runs runout maps fence hazard trace profile fence-search report clean help
 RUNS_MOST ?= 1600
 
 all: check report ## everything, up to the report
@@ -29,7 +29,7 @@ clean: ## remove what was made, and nothing else
 	@sh $(PIPELINES)clean.sh '$(OUT)' '$(mark_of_out)' '$(products) $(made_patterns)' '$(made_folders)'
 
 # The goals in the order of the pipeline, and those that the site's Makefile adds.
-help_files := $(addprefix $(PIPELINES),site.mk trn.mk source.mk blocks.mk check.mk dda.mk runout.mk maps.mk fence.mk places.mk hazard.mk trace.mk fence_search.mk report.mk shards.mk slurm.mk new_site.mk) \
+help_files := $(addprefix $(PIPELINES),site.mk trn.mk source.mk blocks.mk check.mk dda.mk runout.mk maps.mk fence.mk places.mk hazard.mk trace.mk profile.mk fence_search.mk report.mk shards.mk slurm.mk new_site.mk) \
   $(filter-out $(PIPELINES)%,$(MAKEFILE_LIST))
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  \1: \2/p' $(help_files)$(if $(wildcard manifest.sha256),, | grep -v '^  data:')
@@ -95,6 +95,7 @@ include $(PIPELINES)fence.mk
 include $(PIPELINES)places.mk
 include $(PIPELINES)hazard.mk
 include $(PIPELINES)trace.mk
+include $(PIPELINES)profile.mk
 include $(PIPELINES)fence_search.mk
 include $(PIPELINES)report.mk
 include $(PIPELINES)shards.mk

@@ -1,5 +1,5 @@
 # What make is given is looked at before anything runs.
-# in: OUT (site.mk), RUNS, SEED, WITHOUT, CASES, WEIGHTS (dda.mk), SHARD, SHARDS, REDUCE (shards.mk)   out: an error that says what is expected
+# in: OUT (site.mk), RUNS, SEED, WITHOUT, CASES, WEIGHTS (dda.mk), SHARD, SHARDS, REDUCE (shards.mk), LINE (profile.mk)   out: an error that says what is expected
 
 # A word of a rule and of a recipe: neither can carry what make or the shell would part or run.
 ifneq ($(words $(OUT)),1)
@@ -7,6 +7,12 @@ $(error OUT is '$(OUT)', expected the name of a folder without blanks; the site'
 endif
 $(foreach sign,' " ` $$ ; & | < > * ? : %,$(if $(findstring $(sign),$(OUT)),$(error OUT is $(OUT), expected the name of a folder without $(sign))))
 override OUT := $(strip $(OUT))
+$(if $(filter profile,$(MAKECMDGOALS)),$(if $(LINE),,$(error profile needs LINE, a file with one line: make profile LINE=road.geojson)))
+ifneq ($(LINE),)
+$(if $(word 2,$(LINE)),$(error LINE is '$(LINE)', expected the name of one file without blanks))
+$(foreach sign,' " ` $$ ; & | < > * ? : %,$(if $(findstring $(sign),$(LINE)),$(error LINE is $(LINE), expected a file name without $(sign))))
+$(if $(wildcard $(LINE)),,$(error LINE is $(LINE): there is no such file))
+endif
 
 no_digits = $(subst 0,,$(subst 1,,$(subst 2,,$(subst 3,,$(subst 4,,$(subst 5,,$(subst 6,,$(subst 7,,$(subst 8,,$(subst 9,,$1))))))))))
 is_number = $(and $(filter 1,$(words $1)),$(if $(call no_digits,$(strip $1)),,yes))

@@ -202,6 +202,26 @@ RecordLine record_line(std::string name, std::vector<Vec3> points) {
   return line;
 }
 
+std::vector<LineMeeting> line_meetings(const RecordLine& line, const Vec2& a, const Vec2& b) {
+  std::vector<LineMeeting> out;
+  // meet() decides; what lies apart by more than rounding is spared it
+  const Vec2 slack = Vec2::Constant(1e-6);
+  const Vec2 low = a.cwiseMin(b) - slack, high = a.cwiseMax(b) + slack;
+  for (int i = 0; i < n_parts(line); ++i) {
+    const LinePart part = part_of(line, i);
+    if ((part.start.cwiseMin(part.end).array() > high.array()).any() ||
+        (part.start.cwiseMax(part.end).array() < low.array()).any())
+      continue;
+    const Meeting at = meet(part, a, b);
+    if (!at.found || (part.is_first && at.w < 0) || (part.is_last && at.w > 1)) continue;
+    out.push_back({i, at.direction, at.s,
+                   line.chainage[i] + at.w * (line.chainage[i + 1] - line.chainage[i])});
+  }
+  std::stable_sort(out.begin(), out.end(),
+                   [](const LineMeeting& p, const LineMeeting& q) { return p.share < q.share; });
+  return out;
+}
+
 CrossingRecorder start_crossings(const Scene& scene, std::vector<RecordLine> lines) {
   const auto n = static_cast<std::size_t>(n_blocks(scene));
   CrossingRecorder recorder{std::move(lines), {}, {}, {}};

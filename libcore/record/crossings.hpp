@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scene/scene.hpp"
@@ -26,6 +27,13 @@ struct RecordLine {
   bool standing = false;         ///< a fence that stops blocks; false: a line that stops nothing
 };
 
+/// Where a search thinks of a fence: lines of this name are watched, but nobody asked for a fence
+/// there. Their names go on with that of the search and a number.
+inline constexpr std::string_view candidate_prefix = "fence_search.";
+[[nodiscard]] inline bool is_candidate(const RecordLine& line) {
+  return line.name.starts_with(candidate_prefix);
+}
+
 /// The corners of a line and, between them, posts at equal distances not longer than `spacing`, all
 /// on the ground. Throws InputError at `where` for fewer than two corners, two in a row at the same
 /// place, more than 1e5 posts, and for a post outside the known terrain.
@@ -35,6 +43,19 @@ struct RecordLine {
 /// Chainages of `points`. Throws InputError naming the line for fewer than two points, or two in
 /// a row at the same place.
 [[nodiscard]] RecordLine record_line(std::string name, std::vector<Vec3> points);
+
+/// Where a straight way in plan meets a line.
+struct LineMeeting {
+  int segment = 0;      ///< of the line, from 0
+  int direction = 0;    ///< +1: to the left of the line seen from its first point, -1: right
+  double share = 0;     ///< of the way, 0 to 1 [-]
+  double chainage = 0;  ///< from the line's first point [m]
+};
+/// In the order of the way from `a` to `b`. Ways that follow one another meet the line as often as
+/// the whole path does: none is missed or seen twice where one ends on the line or at a corner.
+/// What passes beside the ends does not meet it.
+[[nodiscard]] std::vector<LineMeeting> line_meetings(const RecordLine& line, const Vec2& a,
+                                                     const Vec2& b);
 
 struct Crossing {
   std::int32_t block = 0, line = 0;

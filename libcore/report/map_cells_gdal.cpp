@@ -59,6 +59,48 @@ float three_digits(float value) {
   return static_cast<float>(std::round(value / unit) * unit);
 }
 
+// The cells of a band in the view; NaN where there is no data.
+struct Window {
+  CellPicture cells;  // corner, size and numbers
+  std::vector<float> value;
+  bool holds_bytes = false;
+};
+
+Window window_of(const std::string& path, int band_number, const MapView& view,
+                 const Vec2& origin) {
+  register_gdal_drivers();
+  const GdalErrors errors;
+  const Dataset file(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY));
+  std::array<double, 6> place{};
+  if (!file || file->GetRasterCount() < band_number ||
+      file->GetGeoTransform(place.data()) != CE_None)
+    throw InputError({path}, "cannot be read as a map: " + errors.failure(), "make the maps again");
+  GDALRasterBand* const band = file->GetRasterBand(band_number);
+  Window out;
+  CellPicture& cells = out.cells;
+  cells.cell_size = place[1];
+  const Vec2 corner = Vec2(place[0], place[3]) - origin;
+  const auto limited = [&](double metres, int n) {
+    return static_cast<int>(std::clamp(metres / cells.cell_size, 0.0, 1.0 * n));
+  };
+  const int n_cols = file->GetRasterXSize(), n_rows = file->GetRasterYSize();
+  const int col = limited(view.low.x() - corner.x(), n_cols),
+            row = limited(corner.y() - view.high.y(), n_rows);
+  cells.n_cols = std::min(n_cols, limited(view.high.x() - corner.x(), n_cols) + 1) - col;
+  cells.n_rows = std::min(n_rows, limited(corner.y() - view.low.y(), n_rows) + 1) - row;
+  if (cells.n_cols <= 0 || cells.n_rows <= 0) return {};
+  cells.corner = corner + cells.cell_size * Vec2(col, -row);
+  out.value.resize(static_cast<std::size_t>(cells.n_cols) * cells.n_rows);
+  if (band->RasterIO(GF_Read, col, row, cells.n_cols, cells.n_rows, out.value.data(), cells.n_cols,
+                     cells.n_rows, GDT_Float32, 0, 0, nullptr) != CE_None)
+    throw InputError({path}, "cannot be read: " + errors.failure(), "make the maps again");
+  const auto nodata = static_cast<float>(band->GetNoDataValue());
+  for (float& v : out.value)
+    if (v == nodata) v = std::nanf("");
+  out.holds_bytes = band->GetRasterDataType() == GDT_Byte;
+  return out;
+}
+
 }  // namespace
 
 std::string shading_png(const Shading& shading) {
@@ -118,47 +160,34 @@ std::optional<std::pair<Vec2, Vec2>> cells_on_pages(const std::string& path) {
 
 CellPicture read_cell_picture(const std::string& path, const std::string& qml, const MapView& view,
                               const Vec2& origin) {
-  register_gdal_drivers();
-  const GdalErrors errors;
-  const Dataset file(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY));
   const RasterStyle style = style_of(qml);
-  std::array<double, 6> place{};
-  if (!file || file->GetRasterCount() < style.band ||
-      file->GetGeoTransform(place.data()) != CE_None)
-    throw InputError({path}, "cannot be read as a map: " + errors.failure(), "make the maps again");
-  GDALRasterBand* const band = file->GetRasterBand(style.band);
-  CellPicture out;
-  out.cell_size = place[1];
-  const Vec2 corner = Vec2(place[0], place[3]) - origin;
-  const auto limited = [&](double metres, int n) {
-    return static_cast<int>(std::clamp(metres / out.cell_size, 0.0, 1.0 * n));
-  };
-  const int n_cols = file->GetRasterXSize(), n_rows = file->GetRasterYSize();
-  const int col = limited(view.low.x() - corner.x(), n_cols),
-            row = limited(corner.y() - view.high.y(), n_rows);
-  out.n_cols = std::min(n_cols, limited(view.high.x() - corner.x(), n_cols) + 1) - col;
-  out.n_rows = std::min(n_rows, limited(corner.y() - view.low.y(), n_rows) + 1) - row;
-  if (out.n_cols <= 0 || out.n_rows <= 0) return {};
-  out.corner = corner + out.cell_size * Vec2(col, -row);
-  std::vector<float> value(static_cast<std::size_t>(out.n_cols) * out.n_rows);
-  if (band->RasterIO(GF_Read, col, row, out.n_cols, out.n_rows, value.data(), out.n_cols,
-                     out.n_rows, GDT_Float32, 0, 0, nullptr) != CE_None)
-    throw InputError({path}, "cannot be read: " + errors.failure(), "make the maps again");
-  const auto nodata = static_cast<float>(band->GetNoDataValue());
+  Window window = window_of(path, style.band, view, origin);
+  CellPicture out = std::move(window.cells);
+  if (window.value.empty()) return out;
   Bytes colours;
-  for (float& v : value) {
-    if (v == nodata) v = std::nanf("");
+  for (float& v : window.value) {
     const Colour colour = colour_of(style, v);
     colours.insert(colours.end(), colour.begin(), colour.end());
     v = three_digits(v);
   }
   out.png = png_of(out.n_rows, out.n_cols, 4, std::move(colours));
-  if (band->GetRasterDataType() == GDT_Byte)
+  if (window.holds_bytes)
     for (const StyleClass& c : style.classes)
       out.labels.emplace_back(static_cast<int>(c.upper), c.label);
   constexpr std::size_t most_values = 250'000;
-  if (value.size() <= most_values) out.values = deflated(value);
+  if (window.value.size() <= most_values) out.values = deflated(window.value);
   return out;
+}
+
+void hatch_classes(CellPicture& picture, const std::string& classes, const std::string& certain,
+                   const std::vector<int>& weak, const MapView& view, const Vec2& origin) {
+  const Window code = window_of(classes, 1, view, origin),
+               sure = window_of(certain, 1, view, origin);
+  const auto is_code_weak = [&weak](float v) {
+    return std::any_of(weak.begin(), weak.end(), [v](int c) { return v == static_cast<float>(c); });
+  };
+  for (const float v : code.value) picture.weak.push_back(is_code_weak(v));
+  for (const float v : sure.value) picture.unsure.push_back(v == 0);
 }
 
 }  // namespace talus

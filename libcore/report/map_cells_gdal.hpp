@@ -19,6 +19,11 @@ namespace talus {
 [[nodiscard]] CellPicture read_cell_picture(const std::string& path, const std::string& qml,
                                             const MapView& view, const Vec2& origin);
 
+/// Hatches cells of a map of classes: in white those of the codes `weak`, in black those where the
+/// first band of `certain`, of the same cells, is 0. Throws InputError as read_cell_picture.
+void hatch_classes(CellPicture& picture, const std::string& classes, const std::string& certain,
+                   const std::vector<int>& weak, const MapView& view, const Vec2& origin);
+
 /// South-western and north-eastern corner of the cells that the pages of a map show, map
 /// coordinates [m]; none for a map without pages.
 [[nodiscard]] std::optional<std::pair<Vec2, Vec2>> cells_on_pages(const std::string& path);

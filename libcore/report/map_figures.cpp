@@ -32,8 +32,9 @@ const MapPicture* picture_of(const std::vector<MapPicture>& pictures, const std:
 
 std::string map_figure(const MapSheet& sheet, const MapPicture& picture, const std::string& alt,
                        const std::string& unit, const std::string& caption) {
-  return html_figure(cells_svg(sheet, picture.cells, alt, unit),
-                     caption + html_legend(picture.qml));
+  return html_figure(
+      cells_svg(sheet, picture.cells, alt, unit),
+      caption + html_legend(picture.qml, picture.weak, !picture.cells.unsure.empty()));
 }
 
 std::string case_figures(const MapSheet& sheet, const CasePictures& cases, bool of_decisions) {

@@ -15,6 +15,7 @@ namespace talus {
 struct MapPicture {
   std::string name, qml;  ///< of maps/NAME.*
   CellPicture cells;
+  std::vector<int> weak = {};  ///< codes of classes that are hatched in white
 };
 
 /// One figure a layer that has a picture.

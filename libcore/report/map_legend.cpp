@@ -1,5 +1,6 @@
 #include "report/map_legend.hpp"
 
+#include <algorithm>
 #include <limits>
 
 namespace talus {
@@ -33,14 +34,19 @@ RasterStyle style_of(const std::string& qml) {
   return style;
 }
 
-std::string html_legend(const std::string& qml) {
+std::string html_legend(const std::string& qml, const std::vector<int>& weak, bool has_unsure) {
   std::string out;
   for (std::size_t i = qml.find("<item "); i != std::string::npos; i = qml.find("<item ", i + 1)) {
     const std::string item = qml.substr(i, qml.find("/>", i) - i);
     if (attribute(item, "alpha") == "0") continue;
-    out += "<span><i style=\"background:" + attribute(item, "color") + "\"></i>" +
+    const bool is_weak = std::any_of(weak.begin(), weak.end(), [&](int code) {
+      return attribute(item, "value") == std::to_string(code);
+    });
+    out += std::string("<span><i") + (is_weak ? " class=\"weak\"" : "") +
+           " style=\"background-color:" + attribute(item, "color") + "\"></i>" +
            attribute(item, "label") + "</span> ";
   }
+  if (has_unsure) out += "<span><i class=\"unsure\"></i>class not certain</span> ";
   return out.empty() ? "" : "<span class=\"legend\">" + out + "</span>";
 }
 

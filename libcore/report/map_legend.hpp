@@ -5,6 +5,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "io/style.hpp"
 
@@ -13,7 +14,9 @@ namespace talus {
 /// Band and classes of the style; no classes for an empty one.
 [[nodiscard]] RasterStyle style_of(const std::string& qml);
 
-/// Empty for a style without classes.
-[[nodiscard]] std::string html_legend(const std::string& qml);
+/// Empty for a style without classes. `weak`: codes of classes that the map hatches in white;
+/// `has_unsure`: it hatches cells in black.
+[[nodiscard]] std::string html_legend(const std::string& qml, const std::vector<int>& weak = {},
+                                      bool has_unsure = false);
 
 }  // namespace talus

@@ -93,6 +93,35 @@ std::string places_of(const MapSheet& sheet) {
   return out;
 }
 
+// Cells that are marked, a rectangle a stretch of a row.
+std::string hatch_of(const MapSheet& sheet, const CellPicture& cells,
+                     const std::vector<bool>& marked, const std::string& kind) {
+  const Vec2 at = on_sheet(sheet, cells.corner);
+  std::string d;
+  for (int row = 0; row < cells.n_rows && !marked.empty(); ++row) {
+    const auto is_marked = [&, first = static_cast<std::size_t>(row) * cells.n_cols](int col) {
+      return col < cells.n_cols && marked[first + col];
+    };
+    for (int col = 0, end = 0; col < cells.n_cols; col = end + 1) {
+      for (end = col; is_marked(end);) ++end;
+      if (end == col) continue;
+      const double size = cells.cell_size, length = (end - col) * size;
+      d += "M" + number(at.x() + col * size) + " " + number(at.y() + row * size) + "h" +
+           number(length) + "v" + number(size) + "h" + number(-length) + "z";
+    }
+  }
+  return d.empty() ? "" : path(kind, d, "");
+}
+
+// Stripes at 45 degrees, `distance` apart.
+std::string hatch_pattern(const std::string& name, double distance, bool rises, double width,
+                          const std::string& colour) {
+  return "<pattern id=\"" + name + "\" patternUnits=\"userSpaceOnUse\" width=\"" +
+         number(distance) + "\" height=\"" + number(distance) + "\" patternTransform=\"rotate(" +
+         (rises ? "45" : "-45") + ")\"><path d=\"M0 0V" + number(distance) + "\" stroke=\"" +
+         colour + "\" stroke-width=\"" + number(width) + "\"/></pattern>\n";
+}
+
 std::string labels_of(const CellPicture& cells) {
   std::string out;
   for (const auto& [code, label] : cells.labels)
@@ -119,6 +148,10 @@ std::string sheet_definitions(const MapSheet& sheet) {
   return "<svg class=\"none\" width=\"0\" height=\"0\" aria-hidden=\"true\" id=\"sheet\" "
          "data-west=\"" +
          number(low.x()) + "\" data-north=\"" + number(high.y()) + "\"><defs>\n" +
+         hatch_pattern("weak", 0.012 * (high.x() - low.x()), false, 0.012 * (high.x() - low.x()),
+                       "#fff") +
+         hatch_pattern("unsure", 0.01 * (high.x() - low.x()), true, 0.003 * (high.x() - low.x()),
+                       "#1e1e1e") +
          "<g id=\"map-ground\"><image width=\"" + number(shading.n_cols * cell) + "\" height=\"" +
          number(shading.n_rows * cell) + "\" preserveAspectRatio=\"none\" href=\"" +
          data_address("image/png", sheet.shading_png) + "\"/></g>\n<g id=\"map-places\">" +
@@ -134,19 +167,23 @@ std::string sheet_svg(const MapSheet& sheet, const std::string& between, const s
          scale_and_north({0, 0}, {size.x(), 0.93 * size.y()}) + "</svg></div>\n";
 }
 
-std::string cells_svg(const MapSheet& sheet, const CellPicture& cells, const std::string& alt,
-                      const std::string& unit) {
+std::string cells_image(const MapSheet& sheet, const CellPicture& cells) {
   const Vec2 at = on_sheet(sheet, cells.corner);
   const auto attribute = [](const char* name, double value) {
     return std::string(" ") + name + "=\"" + number(value) + "\"";
   };
-  std::string out = sheet_svg(
-      sheet,
-      "<image class=\"cells\"" + attribute("x", at.x()) + attribute("y", at.y()) +
-          attribute("width", cells.n_cols * cells.cell_size) +
-          attribute("height", cells.n_rows * cells.cell_size) +
-          " preserveAspectRatio=\"none\" href=\"" + data_address("image/png", cells.png) + "\"/>",
-      alt);
+  return "<image class=\"cells\"" + attribute("x", at.x()) + attribute("y", at.y()) +
+         attribute("width", cells.n_cols * cells.cell_size) +
+         attribute("height", cells.n_rows * cells.cell_size) +
+         " preserveAspectRatio=\"none\" href=\"" + data_address("image/png", cells.png) + "\"/>" +
+         hatch_of(sheet, cells, cells.weak, "weak") +
+         hatch_of(sheet, cells, cells.unsure, "unsure");
+}
+
+std::string cells_svg(const MapSheet& sheet, const CellPicture& cells, const std::string& alt,
+                      const std::string& unit) {
+  const Vec2 at = on_sheet(sheet, cells.corner);
+  const std::string out = sheet_svg(sheet, cells_image(sheet, cells), alt);
   if (cells.values.empty()) return out;
   constexpr std::string_view end = "</div>\n";
   return out.substr(0, out.size() - end.size()) +

@@ -29,6 +29,7 @@ struct CellPicture {
   int n_rows = 0, n_cols = 0;
   std::string values;  ///< floats from north to south, by zlib; empty: not shown
   std::vector<std::pair<int, std::string>> labels;  ///< of codes; empty: values are numbers
+  std::vector<bool> weak, unsure;  ///< cells hatched in white, in black; empty: none
 };
 
 /// What all maps use: an SVG that is not seen itself.
@@ -37,6 +38,8 @@ struct CellPicture {
 /// Ground, `between`, places, marks.
 [[nodiscard]] std::string sheet_svg(const MapSheet& sheet, const std::string& between,
                                     const std::string& alt);
+/// The cells by themselves, with their hatches: to stand between.
+[[nodiscard]] std::string cells_image(const MapSheet& sheet, const CellPicture& cells);
 /// A map of cells, with the value at the cursor where the page's script runs.
 [[nodiscard]] std::string cells_svg(const MapSheet& sheet, const CellPicture& cells,
                                     const std::string& alt, const std::string& unit);

@@ -51,7 +51,8 @@ PlanWindow plan_window(const RunFile& run, const Trn& trn) {
   const std::vector<double>& p = run.frames.position;
   for (std::size_t i = 0; i + 2 < p.size(); i += 3) add({p[i], p[i + 1]});
   for (const RecordLine& line : run.lines)
-    for (const Vec3& point : line.points) add(point.head<2>());
+    if (!is_candidate(line))
+      for (const Vec3& point : line.points) add(point.head<2>());
   const Vec2 south_west(trn.node0.x(), trn.node0.y() - (trn.n_rows - 1) * trn.cell_size);
   const Vec2 north_east(trn.node0.x() + (trn.n_cols - 1) * trn.cell_size, trn.node0.y());
   if (!(w.low.x() <= w.high.x())) return {south_west, north_east};

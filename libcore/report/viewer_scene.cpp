@@ -108,10 +108,29 @@ std::string fences_json(const RunFile& run, const std::vector<double>& height, d
   return "[" + out + "]";
 }
 
+// Every k-th trail, so that all runs are drawn alike.
+std::string trails_json(const std::vector<std::vector<Vec3>>& trails, double z_origin,
+                        std::size_t max_points) {
+  std::size_t n_points = 0;
+  for (const std::vector<Vec3>& trail : trails) n_points += trail.size();
+  const std::size_t stride = std::max<std::size_t>(1, (n_points + max_points - 1) / max_points);
+  std::vector<float> position;
+  std::vector<std::uint32_t> begin = {0};
+  for (std::size_t i = 0; i < trails.size(); i += stride) {
+    for (const Vec3& p : trails[i])
+      for (const double value : {p.x(), p.y(), p.z() - z_origin})
+        position.push_back(static_cast<float>(value));
+    begin.push_back(static_cast<std::uint32_t>(position.size() / 3));
+  }
+  return "{\"n\":" + std::to_string(begin.size() - 1) +
+         ",\"n_all\":" + std::to_string(trails.size()) + ",\"begin\":\"" + base64(begin) +
+         "\",\"position_m\":\"" + base64(position) + "\"}";
+}
+
 }  // namespace
 
-std::string viewer_scene(const RunFile& run, const Trn& trn,
-                         const std::vector<double>& fence_height_m, const ViewerLimits& limits) {
+std::string viewer_scene(const RunFile& run, const Trn& trn, const ViewerPlaces& places,
+                         const ViewerLimits& limits) {
   if (n_frames(run.frames) == 0 || n_blocks(run) == 0)
     throw InputError({run.info.run_id}, "holds no frames", "run talus-dda again");
   double z_origin = std::numeric_limits<double>::infinity();
@@ -120,7 +139,9 @@ std::string viewer_scene(const RunFile& run, const Trn& trn,
   return "{\"terrain\":" + terrain_json(trn, part_around(run, trn, limits.max_nodes), z_origin) +
          ",\n\"blocks\":" + blocks_json(run.blocks, n_blocks(run)) +
          ",\n\"frames\":" + frames_json(run, z_origin, limits.max_pose_bytes) +
-         ",\n\"fences\":" + fences_json(run, fence_height_m, z_origin) + "}";
+         ",\n\"fences\":" + fences_json(run, places.fence_height, z_origin) +
+         ",\n\"trails\":" + trails_json(places.trails, z_origin, limits.max_trail_points) +
+         ",\n\"contour_m\":" + text(places.contour_interval) + "}";
 }
 
 }  // namespace talus

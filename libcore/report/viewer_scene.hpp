@@ -1,7 +1,7 @@
 // libcore/report/viewer_scene.hpp: public
 // A run as the data of the 3-D viewer (tools/report/viewer.js).
 // in:    a run with frames, its terrain
-// out:   JSON: terrain, blocks, frames and fences in local coordinates, arrays in base64
+// out:   JSON: terrain, blocks, frames, fences and trails in local coordinates, arrays in base64
 #pragma once
 
 #include <string>
@@ -16,11 +16,18 @@ namespace talus {
 struct ViewerLimits {
   int max_nodes = 200000;                ///< of the terrain; coarser nodes beyond
   std::size_t max_pose_bytes = 6000000;  ///< of all frames; frames are left out evenly beyond
+  std::size_t max_trail_points = 40000;  ///< trails are left out evenly beyond
 };
 
-/// `fence_height_m`: one a line of the run, 0 hides it. Throws InputError for a run without frames.
+/// What is drawn beside the run.
+struct ViewerPlaces {
+  std::vector<double> fence_height;            ///< one a line of the run, 0 hides it [m]
+  std::vector<std::vector<Vec3>> trails = {};  ///< of all runs, local [m]
+  double contour_interval = 0;                 ///< 0: no contours [m]
+};
+
+/// Throws InputError for a run without frames.
 [[nodiscard]] std::string viewer_scene(const RunFile& run, const Trn& trn,
-                                       const std::vector<double>& fence_height_m,
-                                       const ViewerLimits& limits = {});
+                                       const ViewerPlaces& places, const ViewerLimits& limits = {});
 
 }  // namespace talus

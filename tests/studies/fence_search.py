@@ -117,8 +117,8 @@ def command(folder, log, *words, allowed=(0,)):
 
 
 def run(folder, tools, name, seed, *more):
-    """A run that is not there yet; one that breaks a limit of its health (3) is evaluated all the same. None where
-    it takes 5 s of processor time, thirty times that of the others."""
+    """A run that is not there yet, also one that breaks a limit of its health (3). None where it takes 5 s of
+    processor time, thirty times that of the others."""
     out = f'{name}/run_{seed}.h5'
     os.makedirs(f'{folder}/{name}', exist_ok=True)
     if not os.path.exists(f'{folder}/{out}') and not os.path.exists(f'{folder}/{out}.endless'):
@@ -132,8 +132,11 @@ def run(folder, tools, name, seed, *more):
 
 
 def hits_in(file):
+    """Hits on the object; None where the run broke a limit of its health, as the tool leaves it out."""
     import h5py
     with h5py.File(file) as run_file:
+        if run_file.attrs['status'] == b'failed':
+            return None
         return len(run_file['object_hits/block']) if 'object_hits' in run_file else 0
 
 
@@ -160,8 +163,8 @@ def study(site, options):
     seeds = range(options.runs + 1, options.runs + 1 + options.repetitions * options.again)
     again = [run(folder, tools, f'with_{name}', seed, '--add', f'proposals/{name}.toml', '--set', 'output.frames=false')
              for seed in seeds]
-    groups = [[hits_in(f'{folder}/{file}') for file in again[k:k + options.again] if file]
-              for k in range(0, len(again), options.again)]
+    counted = [hits_in(f'{folder}/{file}') if file else None for file in again]
+    groups = [[h for h in counted[k:k + options.again] if h is not None] for k in range(0, len(counted), options.again)]
     n = options.again
     hits = [h for group in groups for h in group]
     again = [file for file in again if file]
@@ -180,6 +183,9 @@ def study(site, options):
                     if one['name'] == found['name'])
     assert abs(verified['residual_run_share'] - together) < 1e-12, verified
     percent = '{:.3g}'.format
+    failed = len(again) - len(hits)
+    if failed:
+        print(f'  {failed} of {len(again)} runs with the fence broke a limit of their health and are left out')
     print(f'  hit without a fence in {percent(100 * found["run_share"])} % of {found["n_runs"]} runs, '
           f'{found["hits_a_run"]:.2f} hits a run; predicted {percent(100 * predicted)} % '
           f'({percent(100 * interval[0])} - {percent(100 * interval[1])})\n'

@@ -4,7 +4,7 @@
 //   run-probe DIR N_RUNS [site=NAME] [version=V] [status=running|failed] [standing=1] [empty=1]
 //             [blocks=N] [step=H] [frames=DT] [seed=K] [height=H] [capacity=KJ|none]
 //             [hits=stopped|held|broken|pile] [moving=1] [still=N] [still_runs=N]
-//             [objects=watched|drawn] [weight=W]
+//             [objects=watched|drawn] [weight=W] [passages=no]
 // Box b of run r (edge 1 m, 2600 kg) starts at rest at x = 11, y = 10 + 6 b and slides with
 // a = 3 m/s2 along the slope for 4 s (24 m), then brakes evenly to rest within 2 s (12 m more); its
 // speed is that of run 0 times 1 + 0.01 r. Written: DIR/slope.tif, DIR/run_<r>.h5, DIR/site.toml.
@@ -14,7 +14,7 @@
 // objects: a house in the way of box 0, a hut in that of box 2, a shed that nothing reaches;
 // watched by the runs, or drawn in the site file alone. weight: of each box. moving: at the end,
 // all of them. still: the first N boxes, still_runs: all boxes of the first N runs stay where they
-// are.
+// are. passages=no: the run did not record any.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -202,8 +202,9 @@ RunFile make_run(const Words& words, int r, const std::string& trn_sha256) {
   flush_passages(passages);
   for (const Frame& frame : take_frames(sampler, 6)) append(run.frames, frame, false);
   append(run.frames, last_frame(sampler, 8), false);
-  run.grid = passages.grid;
-  if (number(words, "empty", 0) == 0) run.passages = sorted(passages.table);
+  const bool has_passages = word(words, "passages", "") != "no";
+  if (has_passages) run.grid = passages.grid;
+  if (has_passages && number(words, "empty", 0) == 0) run.passages = sorted(passages.table);
   run.lines = crossings.lines;
   run.lines[0].standing = number(words, "standing", 0) != 0;
   run.info.config = print_config(parse_site(site_text(words), "site.toml"));

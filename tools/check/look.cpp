@@ -253,11 +253,12 @@ const FenceSettings* fence_of(const Site& site, const std::string& line) {
 
 void look_at_fences(Look& look) {
   for (const RecordLine& line : look.inputs.lines) {
+    const FenceSettings* settings = fence_of(look.work.site, line.name);
+    if (settings == nullptr) continue;  // a candidate of a search: nobody asked for a fence there
     FenceLook fence;
     fence.line = line;
     fence.stands = line.standing;
-    const FenceSettings* settings = fence_of(look.work.site, line.name);
-    fence.height = settings != nullptr ? settings->height_m : 0;
+    fence.height = settings->height_m;
     fence.low = std::numeric_limits<double>::infinity();
     fence.high = -fence.low;
     for (const Vec3& post : line.points) {

@@ -96,10 +96,14 @@ std::vector<Proposal> placed_proposals(const SearchCase& search, const FenceSear
   return out;
 }
 
-// Frames of the runs near the single fences, all runs; none where a run has no frames.
-std::vector<std::vector<BlockPath>> paths_near(RunInputs& runs,
-                                               const std::vector<SearchCase>& cases,
-                                               const std::vector<SearchAnswer>& answers) {
+// Frames of the runs near the single fences, all runs; none where a run has no frames or its blocks
+// broke, since pieces would count beside the block that they are part of.
+struct NearPaths {
+  std::vector<std::vector<BlockPath>> of_search;
+  std::string why_not;
+};
+NearPaths paths_near(RunInputs& runs, const std::vector<SearchCase>& cases,
+                     const std::vector<SearchAnswer>& answers) {
   std::vector<Corridor> corridors(cases.size());
   for (std::size_t s = 0; s < cases.size(); ++s)
     for (const Proposal& proposal : answers[s].proposals) {
@@ -108,8 +112,8 @@ std::vector<std::vector<BlockPath>> paths_near(RunInputs& runs,
       for (const Vec3& post : proposal.fences[0].post) line.push_back(post.head<2>());
       corridors[s].lines.push_back(std::move(line));
     }
-  std::vector<std::vector<BlockPath>> paths(cases.size());
-  bool has_frames = true;
+  NearPaths near;
+  near.of_search.resize(cases.size());
   int first_block = 0;
   const RunParts wanted{.passages = false,
                         .crossings = false,
@@ -119,14 +123,17 @@ std::vector<std::vector<BlockPath>> paths_near(RunInputs& runs,
                         .words = false,
                         .trees = false};
   runs.read_again(wanted, [&](RunFile& run, int index) {
-    has_frames = has_frames && !run.reach && n_frames(run.frames) > 2;
-    for (std::size_t s = 0; has_frames && s < cases.size(); ++s)
+    if (run.reach || n_frames(run.frames) <= 2)
+      near.why_not = "some runs have no frames";
+    else if (!run.breaks.empty())
+      near.why_not = "blocks broke in some runs";
+    for (std::size_t s = 0; near.why_not.empty() && s < cases.size(); ++s)
       if (!corridors[s].lines.empty())
-        add_paths(paths[s], run, index, first_block, cases[s].on_object[index], corridors[s]);
+        add_paths(near.of_search[s], run, index, first_block, cases[s].on_object[index],
+                  corridors[s]);
     first_block += n_blocks(run);
   });
-  if (!has_frames) paths.clear();
-  return paths;
+  return near;
 }
 
 void refine_all(Tool& tool, RunInputs& runs, const std::vector<SearchCase>& cases,
@@ -135,9 +142,10 @@ void refine_all(Tool& tool, RunInputs& runs, const std::vector<SearchCase>& case
   for (const SearchAnswer& answer : answers)
     for (const Proposal& proposal : answer.proposals) any = any || proposal.fences.size() == 1;
   if (!any) return;
-  const std::vector<std::vector<BlockPath>> paths = paths_near(runs, cases, answers);
-  if (paths.empty()) {
-    tool.warn("some runs have no frames: fences are not refined, and stand on candidate lines");
+  const NearPaths near = paths_near(runs, cases, answers);
+  const std::vector<std::vector<BlockPath>>& paths = near.of_search;
+  if (!near.why_not.empty()) {
+    tool.warn(near.why_not + ": fences are not refined, and stand on candidate lines");
     return;
   }
   for (std::size_t s = 0; s < cases.size(); ++s) {

@@ -117,7 +117,7 @@ SearchCandidates search_candidates(Tool& tool, const Site& site, const Trn& trn,
   out.step = found.step;
   for (std::size_t i = 0; i < found.lines.size(); ++i)
     out.lines.push_back(
-        record_line("fence_search." + search.name + "." + std::to_string(i + 1),
+        record_line(std::string(candidate_prefix) + search.name + "." + std::to_string(i + 1),
                     posts_on_ground(trn, found.lines[i], 1.001 * search.post_spacing_m,
                                     where_of_search(site, search))));
   return out;

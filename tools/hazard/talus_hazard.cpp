@@ -141,6 +141,7 @@ Json class_areas(const MapLayer& layer, const MapLayer& certainty, const Recipe&
     out.push_back({{"class", c.name},
                    {"code", c.code},
                    {"label", c.label},
+                   {"hatched", c.is_hatched},
                    {"area_m2", n * area},
                    {"certain_area_m2", n_certain * area}});
   }

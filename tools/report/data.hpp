@@ -37,6 +37,7 @@ struct ReportData {
   int n_in_parts = 0;                  ///< of them, without frames of their own
   RunFile shown;                       ///< the run of the animation, whole
   std::string shown_name;
+  std::vector<std::vector<Vec3>> trails;  ///< of the blocks of all runs, local
   std::vector<LimitOverRuns> limits;
   std::vector<RunRecord> steps;  ///< each behind those whose outputs it read
   std::string run_id, version;

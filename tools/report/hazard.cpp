@@ -30,9 +30,8 @@ std::string notes_of(const Json& hazard) {
 
 std::string caption_of(const std::string& name) {
   if (name == "class")
-    return "Hazard class. <code>hazard/class.png</code> hatches where a bound of the frequencies "
-           "or "
-           "of the share of runs gives another class.";
+    return "Hazard class. Hatched in black: a bound of the frequencies or of the share of runs "
+           "gives another class.";
   if (name == "intensity") return "Intensity that is reached within the longest return period.";
   if (name.starts_with("return_period"))
     return "How many years lie between two events, on average.";

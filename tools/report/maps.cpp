@@ -32,7 +32,7 @@ std::string map_section(const ReportData& data) {
       "<span class=\"key\"><i class=\"source\"></i>source<i class=\"start\"></i>start<i "
       "class=\"way\"></i>paths of the "
       "centroids<i class=\"end\"></i>end" +
-          std::string(data.shown.lines.empty() ? "" : "<i class=\"fence\"></i>fence line") +
+          std::string(data.sheet.lines.empty() ? "" : "<i class=\"fence\"></i>fence line") +
           (data.shown.objects.empty() ? "" : "<i class=\"object\"></i>object") + "</span>. Run " +
           xml_escaped(data.shown_name) +
           (data.shown.reach ? ", which has no frames between start and end" : "") +

@@ -1,8 +1,9 @@
 #include "tools/report/runout.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
-#include <set>
 #include <utility>
 
 #include "base/text.hpp"
@@ -81,13 +82,27 @@ std::string mobility_table(const Json& mobility) {
 
 // What H/L of the centre of mass is compared with: tan(phi) of the ground, as the runs had it.
 std::string friction_paragraph(const ReportData& data) {
-  std::set<std::string> grounds;
+  std::map<std::string, std::pair<double, double>> grounds;  // least and most friction [deg]
   for (const RunFile& run : data.runs)
-    for (const GroundSettings& ground : parse_site(run.info.config, run.info.run_id).grounds)
-      grounds.insert(xml_escaped(ground.name) + ": tan " + text(ground.friction_deg, 4) +
-                     "&deg; = " + text(std::tan(ground.friction_deg * std::numbers::pi / 180), 3));
+    for (const GroundSettings& ground : parse_site(run.info.config, run.info.run_id).grounds) {
+      auto& [low, high] =
+          grounds.try_emplace(ground.name, ground.friction_deg, ground.friction_deg).first->second;
+      low = std::min(low, ground.friction_deg);
+      high = std::max(high, ground.friction_deg);
+    }
+  const auto tangent = [](double degrees) {
+    return text(std::tan(degrees * std::numbers::pi / 180), 3);
+  };
   std::string list;
-  for (const std::string& ground : grounds) list += (list.empty() ? "" : "; ") + ground;
+  for (const auto& [name, range] : grounds) {
+    const auto& [low, high] = range;
+    list += (list.empty() ? "" : "; ") + xml_escaped(name) + ": ";
+    if (low == high)
+      list += "tan " + text(low, 4) + "&deg; = " + tangent(low);
+    else
+      list += tangent(low) + " to " + tangent(high) + " in the runs, for " + text(low, 3) + " to " +
+              text(high, 3) + "&deg;";
+  }
   return html_paragraph(
       "A mass that only slides has H/L of its centre of mass equal to the tangent of "
       "the ground's friction angle (" +

@@ -66,13 +66,41 @@ std::string curve_table(const Json& curve) {
                     rows, {false, true, true, true, true, true, true});
 }
 
-std::string search_text(const Json& search, const std::string& svg) {
+std::string reach_cells(const ReportData& data) {
+  for (const MapPicture& map : data.maps)
+    if (map.name == "reach") return cells_image(data.sheet, map.cells);
+  return "";
+}
+
+// Where the proposals stand, on the map of reach.
+std::string proposal_map(const ReportData& data, const Json& proposals) {
+  std::string paths;
+  for (const Json& proposal : proposals) {
+    const Json lines = value_at(proposal, {"lines"});
+    if (!lines.is_array()) continue;
+    for (const Json& line : lines) {
+      std::vector<Vec2> posts;
+      for (const Json& post : line.at("posts"))
+        posts.emplace_back(Vec2(post[0].get<double>(), post[1].get<double>()) - data.sheet.origin);
+      paths += "<path class=\"proposal\" d=\"" + sheet_path(data.sheet, posts, false) +
+               "\"><title>" + word_text(value_at(line, {"name"})) + "</title></path>\n";
+    }
+  }
+  if (paths.empty()) return "";
+  return html_figure(sheet_svg(data.sheet, reach_cells(data) + paths, "where the proposals stand"),
+                     "<span class=\"key\"><i class=\"proposal\"></i>proposed fence<i "
+                     "class=\"fence\"></i>fence that stands<i "
+                     "class=\"object\"></i>object</span>; in colour where blocks came.");
+}
+
+std::string search_text(const ReportData& data, const Json& search, const std::string& svg) {
   const std::string name = word_text(value_at(search, {"name"}));
   const bool is_fence = value_at(search, {"verdict"}) == "fence";
   std::string out = "<h3>" + name + "</h3>\n<div class=\"verdict\">" +
                     word_text(value_at(search, {"answer"})) + ".</div>\n";
   const Json proposals = value_at(search, {"proposals"}), curve = value_at(search, {"curve"});
-  if (is_fence && proposals.is_array()) out += proposal_table(proposals);
+  if (is_fence && proposals.is_array())
+    out += proposal_table(proposals) + proposal_map(data, proposals);
   if (!svg.empty())
     out += html_figure(
         html_svg(svg, "cost against what is let through"),
@@ -94,7 +122,7 @@ std::string search_section(const ReportData& data) {
   if (!searches.is_array() || searches.empty()) return "";
   std::string out;
   for (std::size_t s = 0; s < searches.size(); ++s)
-    out += search_text(searches[s], s < data.search_svgs.size() ? data.search_svgs[s] : "");
+    out += search_text(data, searches[s], s < data.search_svgs.size() ? data.search_svgs[s] : "");
   out += html_note(
       "Predicted shares rest on runs in which candidate lines stopped nothing, and fit these runs "
       "too well; verified ones on runs with other seeds in which the fence stood. A fence adds up "

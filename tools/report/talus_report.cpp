@@ -14,6 +14,7 @@
 #include "io/raster_gdal.hpp"
 #include "io/style.hpp"
 #include "io/tags_gdal.hpp"
+#include "io/vectors_gdal.hpp"
 #include "post/maps/map_layers.hpp"
 #include "record/part_file.hpp"
 #include "report/check_view.hpp"
@@ -295,6 +296,18 @@ MapView view_of_maps(const ResultFolder& folder, const ReportData& data) {
   return view_of(layout_of(PageSize::a4), window.low, window.high);
 }
 
+// As talus-hazard hatches its page.
+void hatch_class_map(const ResultFolder& folder, ReportData& data) {
+  const std::string classes = "hazard/class.tif", certain = "hazard/class_certain.tif";
+  for (MapPicture& map : data.hazard_maps) {
+    if (map.name != "class" || !folder.has(certain)) continue;
+    for (const Json& row : data.hazard.at("classes"))
+      if (row.value("hatched", false)) map.weak.push_back(row.at("code").get<int>());
+    hatch_classes(map.cells, folder.path(classes).string(), folder.path(certain).string(), map.weak,
+                  data.sheet.ground.view, data.sheet.origin);
+  }
+}
+
 void read_maps(const ResultFolder& folder, ReportData& data) {
   MapSheet& sheet = data.sheet;
   sheet.ground = map_ground(data.terrain, layout_of(PageSize::a4), view_of_maps(folder, data));
@@ -311,7 +324,22 @@ void read_maps(const ResultFolder& folder, ReportData& data) {
   for (const std::string& name : hazard_maps_of(data.hazard))
     for (MapPicture& picture : picture_of(folder, "hazard/" + name, sheet))
       data.hazard_maps.push_back(std::move(picture));
+  hatch_class_map(folder, data);
   data.change_map = picture_of(folder, "change", sheet);
+}
+
+// The paths of all blocks of all runs, as talus-runout writes them; none for runs without frames.
+std::vector<std::vector<Vec3>> trails_in(const ResultFolder& folder, const Vec3& origin) {
+  const std::string path = folder.path("runout.gpkg").string();
+  const std::vector<StyledLayer> layers = styled_layers(path);
+  if (std::none_of(layers.begin(), layers.end(),
+                   [](const StyledLayer& layer) { return layer.name == "paths"; }))
+    return {};
+  std::vector<std::vector<Vec3>> trails =
+      read_vectors({path, "paths", "", VectorKind::lines}, "").shapes;
+  for (std::vector<Vec3>& trail : trails)
+    for (Vec3& p : trail) p -= origin;
+  return trails;
 }
 
 ReportData read_data(Tool& tool, const Site& site, ResultFolder& folder,
@@ -335,6 +363,7 @@ ReportData read_data(Tool& tool, const Site& site, ResultFolder& folder,
       const std::string file = "search/charts/fence_search_" + text_at(search, "/name") + ".svg";
       data.search_svgs.push_back(folder.has(file) ? folder.text(file) : "");
     }
+  if (folder.has("runout.gpkg")) data.trails = trails_in(folder, data.terrain.origin);
   data.mobility_svg = folder.text("runout.svg");
   data.stereonet_svg = folder.text("stereonet.svg");
   data.sizes_svg = folder.text("sizes.svg");

@@ -34,10 +34,16 @@ std::string viewer_section(const ReportData& data) {
   if (!has_frames(data)) return "";
   return html_section(
       "animation", "Animation",
-      html_paragraph(
-          "Run " + xml_escaped(data.shown_name) +
-          (data.runs.size() > 1 ? ", the one of the farthest run-out." : ".") +
-          " Drag to turn, right-drag or shift-drag to move, wheel to zoom, click a block.") +
+      html_paragraph("Run " + xml_escaped(data.shown_name) +
+                     (data.runs.size() > 1 ? ", the one of the farthest run-out." : ".") +
+                     " Drag to turn, right-drag, shift-drag or two fingers to move, wheel or two "
+                     "fingers to zoom, "
+                     "click a block." +
+                     (data.trails.empty()
+                          ? std::string()
+                          : std::string(" Trails: the paths of all blocks of all runs.")) +
+                     " The ground has lines of height every " +
+                     text(data.sheet.ground.contour_interval) + " m.") +
           "<div id=\"viewer\"><p class=\"viewer-none\">The animation needs JavaScript; all results "
           "stand in the maps, tables and curves of this page.</p></div>\n");
 }
@@ -45,7 +51,9 @@ std::string viewer_section(const ReportData& data) {
 std::string viewer_script(const ReportData& data, const std::string& viewer) {
   if (!has_frames(data)) return "";
   return "<script type=\"application/json\" id=\"scene\">" +
-         viewer_scene(data.shown, data.bed, line_heights(data.shown.lines, data.site.fences)) +
+         viewer_scene(data.shown, data.bed,
+                      {line_heights(data.shown.lines, data.site.fences), data.trails,
+                       data.sheet.ground.contour_interval}) +
          "</script>\n<script>\n" + viewer +
          "\nwindow.talus = talusViewer(document.getElementById('viewer'), "
          "JSON.parse(document.getElementById('scene').textContent));\n</script>\n";

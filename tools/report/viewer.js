@@ -2,7 +2,8 @@
 // The 3-D viewer of the HTML report: terrain, blocks and fences over time, in plain WebGL2.
 // in:  talusViewer(element, scene); scene as talus-report writes it (docs/formats.md#viewer):
 //      terrain {n_rows, n_cols, cell_size_m, x0_m, y0_m, z_m}, blocks {n, position_m, block, mass_kg},
-//      frames {time_s, pose}, fences [{name, points_m, height_m}]; arrays are base64, little-endian
+//      frames {time_s, pose}, fences [{name, points_m, height_m}], trails {n, n_all, begin, position_m},
+//      contour_m; arrays are base64, little-endian
 // The poses of all frames lie in one texture; the vertex shader takes two frames and interpolates,
 // so that a frame costs one draw call however many blocks there are. z is up.
 'use strict';
@@ -14,6 +15,7 @@ function talusViewer(root, scene) {
   // --- elements -----------------------------------------------------------------------------------
   root.innerHTML = `
     <canvas tabindex="0" aria-label="3-D view of the run: drag to turn, right-drag or shift-drag to move, wheel to zoom"></canvas>
+    <svg class="viewer-north" viewBox="-12 -14 24 28" aria-hidden="true"><path d="M0 -12L5 6L0 2L-5 6Z"/></svg>
     <div class="viewer-bar">
       <button type="button" class="viewer-play" aria-label="play">&#9654;</button>
       <input type="range" class="viewer-time" min="0" max="1" step="any" value="0" aria-label="time">
@@ -21,12 +23,13 @@ function talusViewer(root, scene) {
       <label>pace <select class="viewer-pace"><option value="0.25">&frac14;</option><option value="1" selected>1</option>
         <option value="4">4</option><option value="16">16</option></select></label>
       <label><input type="checkbox" class="viewer-fences" checked> fences</label>
+      <label class="viewer-trails-label"><input type="checkbox" class="viewer-trails"> <span>trails</span></label>
     </div>
     <div class="viewer-legend"><span>0</span><i></i><span class="viewer-top"></span></div>
     <div class="viewer-block" aria-live="polite">Click a block to see its speed and energy.</div>`;
   const find = (name) => root.querySelector(name);
   const canvas = find('canvas');
-  const gl = canvas.getContext('webgl2', {antialias: true, preserveDrawingBuffer: true});
+  const gl = canvas.getContext('webgl2', {alpha: false, antialias: true, preserveDrawingBuffer: true});
   if (!gl) {
     root.innerHTML = '<p class="viewer-none">This browser has no WebGL2, so the animation cannot be shown. ' +
         'All results stand in the maps, tables and curves of this page.</p>';
@@ -68,8 +71,18 @@ function talusViewer(root, scene) {
   const ground = program(
       `in vec3 position; uniform mat4 view; out vec3 p;
        void main() { p = position; gl_Position = view * vec4(position, 1.0); }`,
-      `in vec3 p; out vec4 colour; uniform vec4 tint;${light}
-       void main() { colour = vec4(lit(tint.rgb, p), tint.a); }`);
+      `in vec3 p; out vec4 colour; uniform vec4 tint; uniform float interval, zero;${light}
+       void main() {
+         colour = vec4(lit(tint.rgb, p), tint.a);
+         if (interval <= 0.0) return;
+         float level = (p.z + zero) / interval, from = abs(fract(level + 0.5) - 0.5), pixel = fwidth(level);
+         bool five = mod(round(level), 5.0) == 0.0;
+         float line = (1.0 - smoothstep(0.5, 1.5, from / max(pixel, 1e-6))) * (1.0 - smoothstep(0.2, 0.6, pixel));
+         colour.rgb = mix(colour.rgb, vec3(0.37, 0.24, 0.12), line * (five ? 0.75 : 0.35));
+       }`);
+  const lines = program(
+      `in vec3 position; uniform mat4 view; void main() { gl_Position = view * vec4(position, 1.0); }`,
+      `out vec4 colour; uniform vec4 tint; void main() { colour = tint; }`);
   const rock = program(
       `in vec3 position; in uint block; uniform mat4 view; uniform sampler2D poses; uniform int width, count, frame;
        uniform float share; out vec3 p; flat out uint id; out float speed;
@@ -147,7 +160,19 @@ function talusViewer(root, scene) {
     return mesh(ground, [['position', new Float32Array(corners), 3]]);
   };
 
+  // All trails as pairs of points.
+  const trailMesh = () => {
+    const points = floats(scene.trails.position_m), begin = new Uint32Array(bytes(scene.trails.begin)), pairs = [];
+    for (let t = 0; t < scene.trails.n; ++t)
+      for (let i = begin[t]; i + 1 < begin[t + 1]; ++i) pairs.push(i, i + 1);
+    return mesh(lines, [['position', points, 3]], new Uint32Array(pairs));
+  };
+
   const terrain = terrainMesh();
+  const trails = trailMesh();
+  if (trails.n === 0) find('.viewer-trails-label').remove();
+  else if (scene.trails.n < scene.trails.n_all)
+    find('.viewer-trails-label span').textContent = `trails (${scene.trails.n} of ${scene.trails.n_all})`;
   const fences = fenceMesh();
   const blocks = mesh(rock, [['position', floats(scene.blocks.position_m), 3],
                              ['block', new Uint32Array(bytes(scene.blocks.block)), 1]]);
@@ -217,11 +242,11 @@ function talusViewer(root, scene) {
     return {frame, share: nFrames > 1 ? Math.min(1, Math.max(0, (now - times[frame]) / span)) : 0};
   };
 
-  const drawMesh = (made) => {
+  const drawMesh = (made, kind = gl.TRIANGLES) => {
     if (made.n === 0) return;
     gl.bindVertexArray(made.array);
-    if (made.indexed) gl.drawElements(gl.TRIANGLES, made.n, gl.UNSIGNED_INT, 0);
-    else gl.drawArrays(gl.TRIANGLES, 0, made.n);
+    if (made.indexed) gl.drawElements(kind, made.n, gl.UNSIGNED_INT, 0);
+    else gl.drawArrays(kind, 0, made.n);
   };
 
   const drawBlocks = (matrix, picking) => {
@@ -238,11 +263,22 @@ function talusViewer(root, scene) {
     drawMesh(blocks);
   };
 
-  const drawGround = (made, matrix, tint) => {
+  const drawGround = (made, matrix, tint, interval) => {
     gl.useProgram(ground.made);
     gl.uniformMatrix4fv(ground.uniforms.view, false, matrix);
     gl.uniform4fv(ground.uniforms.tint, tint);
+    gl.uniform1f(ground.uniforms.interval, interval);
+    gl.uniform1f(ground.uniforms.zero, zero);
     drawMesh(made);
+  };
+  // Heights of the drawing begin at the lowest node: what is left of it above a thick line.
+  const zero = scene.contour_m > 0 ? scene.terrain.z_origin_m % (5 * scene.contour_m) : 0;
+
+  const drawTrails = (matrix) => {
+    gl.useProgram(lines.made);
+    gl.uniformMatrix4fv(lines.uniforms.view, false, matrix);
+    gl.uniform4fv(lines.uniforms.tint, [0.45, 0.08, 0.1, 0.5]);
+    drawMesh(trails, gl.LINES);
   };
 
   const draw = () => {
@@ -255,14 +291,15 @@ function talusViewer(root, scene) {
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     gl.enable(gl.DEPTH_TEST);
     const {matrix} = viewMatrix();
-    drawGround(terrain, matrix, [0.74, 0.72, 0.66, 1]);
+    drawGround(terrain, matrix, [0.74, 0.72, 0.66, 1], scene.contour_m);
     drawBlocks(matrix, false);
-    if (find('.viewer-fences').checked) {
-      gl.enable(gl.BLEND);
-      gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
-      drawGround(fences, matrix, [0.15, 0.45, 0.25, 0.6]);
-      gl.disable(gl.BLEND);
-    }
+    gl.enable(gl.BLEND);
+    gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
+    if (find('.viewer-trails')?.checked) drawTrails(matrix);
+    if (find('.viewer-fences').checked) drawGround(fences, matrix, [0.1, 0.6, 0.25, 0.85], 0);
+    gl.disable(gl.BLEND);
+    const turn = Math.atan2(Math.cos(camera.azimuth), -Math.sin(camera.height) * Math.sin(camera.azimuth));
+    find('.viewer-north').style.transform = `rotate(${turn}rad)`;
     showNumbers();
   };
 
@@ -322,28 +359,55 @@ function talusViewer(root, scene) {
 
   // --- hands --------------------------------------------------------------------------------------
   let held = null;
+  const fingers = new Map();  // that are down, by id: their last place
+  // Of two fingers: how far apart they are, and their middle.
+  const pair = () => {
+    const [a, b] = [...fingers.values()];
+    return {apart: Math.max(1, Math.hypot(a.x - b.x, a.y - b.y)), x: (a.x + b.x) / 2, y: (a.y + b.y) / 2};
+  };
+  const moveBy = (dx, dy) => {
+    const {right, up} = viewMatrix(), step = camera.distance / canvas.clientHeight;
+    camera.target = camera.target.map((v, k) => v - step * dx * right[k] + step * dy * up[k]);
+  };
   canvas.addEventListener('pointerdown', (e) => {
+    fingers.set(e.pointerId, {x: e.offsetX, y: e.offsetY});
     held = {x: e.offsetX, y: e.offsetY, moved: false, shift: e.button === 2 || e.shiftKey};
     canvas.setPointerCapture(e.pointerId);
   });
   canvas.addEventListener('pointermove', (e) => {
     if (!held) return;
+    if (fingers.size === 2 && fingers.has(e.pointerId)) {
+      const last = pair();
+      fingers.set(e.pointerId, {x: e.offsetX, y: e.offsetY});
+      const next = pair();
+      camera.distance *= last.apart / next.apart;
+      moveBy(next.x - last.x, next.y - last.y);
+      Object.assign(held, {x: e.offsetX, y: e.offsetY, moved: true});
+      ask();
+      return;
+    }
     const dx = e.offsetX - held.x, dy = e.offsetY - held.y;
     if (Math.hypot(dx, dy) < 3 && !held.moved) return;
     Object.assign(held, {x: e.offsetX, y: e.offsetY, moved: true});
     if (held.shift) {
-      const {right, up} = viewMatrix(), step = camera.distance / canvas.clientHeight;
-      camera.target = camera.target.map((v, k) => v - step * dx * right[k] + step * dy * up[k]);
+      moveBy(dx, dy);
     } else {
       camera.azimuth -= 0.006 * dx;
       camera.height = Math.min(1.55, Math.max(-0.2, camera.height + 0.006 * dy));
     }
     ask();
   });
+  // The finger that stays goes on from where it is.
+  const letGo = (e) => {
+    fingers.delete(e.pointerId);
+    const [rest] = [...fingers.values()];
+    held = rest ? {...rest, moved: true, shift: false} : null;
+  };
   canvas.addEventListener('pointerup', (e) => {
     if (held && !held.moved) pick(e.offsetX, e.offsetY);
-    held = null;
+    letGo(e);
   });
+  canvas.addEventListener('pointercancel', (e) => letGo(e));
   canvas.addEventListener('contextmenu', (e) => e.preventDefault());
   canvas.addEventListener('wheel', (e) => {
     e.preventDefault();
@@ -367,6 +431,7 @@ function talusViewer(root, scene) {
     ask();
   });
   find('.viewer-fences').addEventListener('change', ask);
+  find('.viewer-trails')?.addEventListener('change', ask);
   new ResizeObserver(ask).observe(canvas);
   ask();
   return {play: () => setPlaying(true), seek: (t) => { now = t; ask(); }, pick, state: () => ({now, playing, chosen})};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/text.hpp"
 
@@ -110,16 +111,34 @@ void draw_legend(Column& column, const MapPage& page) {
   if (!page.uncertain.empty()) column.uncertain_row();
 }
 
+// Whether the frame may show a part of what `points` bound.
+template <class Points>
+bool is_seen(const MapView& view, const Points& points) {
+  Vec2 low = Vec2::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (const auto& p : points) {
+    low = low.cwiseMin(Vec2(p[0], p[1]));
+    high = high.cwiseMax(Vec2(p[0], p[1]));
+  }
+  return (low.array() <= view.high.array()).all() && (high.array() >= view.low.array()).all();
+}
+
 void draw_signs(Column& column, const MapGround& ground, const MapPlaces& places) {
   column.skip(2);
+  const MapView& view = ground.view;
+  const bool any_object =
+      std::any_of(places.objects.begin(), places.objects.end(), [&view](const RecordObject& o) {
+        return std::any_of(o.parts.begin(), o.parts.end(),
+                           [&view](const ObjectPart& part) { return is_seen(view, part.points); });
+      });
   if (!places.source.empty()) column.area_row(source_stroke(), "source of the released rock");
-  const auto any_line = [&places](bool stands) {
-    return std::any_of(places.lines.begin(), places.lines.end(),
-                       [stands](const RecordLine& line) { return line.standing == stands; });
+  const auto any_line = [&](bool stands) {
+    return std::any_of(places.lines.begin(), places.lines.end(), [&](const RecordLine& line) {
+      return line.standing == stands && is_seen(view, line.points);
+    });
   };
   if (any_line(true)) column.line_row(line_stroke(true), "fence that stands");
   if (any_line(false)) column.line_row(line_stroke(false), "line without a fence");
-  if (!places.objects.empty()) column.area_row(object_stroke(), "object");
+  if (any_object) column.area_row(object_stroke(), "object");
   if (ground.contour_interval > 0)
     column.line_row(contour_stroke(true), "heights every " + text(ground.contour_interval) +
                                               " m, numbered every " +

@@ -10,7 +10,8 @@ namespace talus {
 
 struct MapPlaces {
   std::vector<std::vector<Vec2>> source;  ///< a ring for each block as cut, local [m]
-  std::vector<RecordLine> lines;          ///< fences, and lines that stop nothing
+  std::vector<RecordLine>
+      lines;  ///< fences, and lines that stop nothing; no candidates of a search
   std::vector<RecordObject> objects;
 };
 

@@ -20,7 +20,10 @@ std::vector<LineReach> reach_of_lines(const RunFile& run) {
     line.share += weight_of(run, crossing.block) / total;
     line.energy = std::max(line.energy, crossing.translational_energy + crossing.rotational_energy);
   }
-  return lines;
+  std::vector<LineReach> asked_for;
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    if (!is_candidate(run.lines[i])) asked_for.push_back(lines[i]);
+  return asked_for;
 }
 
 RunoutRun runout_run(const RunFile& run, const RunMember& member, const Trn& trn,

@@ -24,6 +24,7 @@ needs talus-runout cairo gdal glib-2.0 gobject-2.0 hdf5_serial pango-1.0 pangoca
 needs talus-fence cairo gdal glib-2.0 gobject-2.0 hdf5_serial pango-1.0 pangocairo-1.0 proj sqlite3 tomlplusplus
 needs talus-hazard cairo gdal glib-2.0 gobject-2.0 hdf5_serial pango-1.0 pangocairo-1.0 proj sqlite3 tomlplusplus
 needs talus-trace cairo gdal glib-2.0 gobject-2.0 hdf5_serial pango-1.0 pangocairo-1.0 proj sqlite3 tomlplusplus
+needs talus-profile gdal hdf5_serial proj sqlite3
 needs talus-fence-search gdal hdf5_serial proj sqlite3 tomlplusplus
 needs talus-report gdal hdf5_serial proj sqlite3 tomlplusplus
 needs talus-dda gdal hdf5_serial proj sqlite3 tomlplusplus

@@ -39,6 +39,11 @@ a, b = (json.load(open(f + '.json'))['searches'] for f in ('plain', 'part'))
 assert a == b
 PY
 
+# pieces would count beside the block that they are part of
+runs broken 13 14 --set fragmentation.enabled=true --set fragmentation.energy_j_m2=1e4
+expect 0 search run_*.h5 broken_*.h5 -o broken.gpkg --json broken.json
+says 'blocks broke in some runs: fences are not refined'
+
 # it stands in other runs
 runs other 101 112 --add proposals/house-1.toml
 ls other_*.h5 >list

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "base/error.hpp"
 #include "hand_made.hpp"
 #include "record/crossings.hpp"
@@ -178,6 +180,48 @@ TEST(Crossings, MissNothingByTheirClearance) {
 TEST(Crossings, RefuseALineWithoutLength) {
   EXPECT_THROW((void)talus::record_line("f", {{0, 0, 0}}), talus::InputError);
   EXPECT_THROW((void)talus::record_line("f", {{0, 0, 0}, {0, 0, 5}}), talus::InputError);
+}
+
+// Of any path the same crossings are found as the recorder finds: at corners, along the line, where
+// a step ends on it. Whole numbers make all of these happen.
+TEST(LineMeetings, AreThoseThatTheRecorderCounts) {
+  talus::Random random(5, "meetings");
+  const Scene scene = scene_with_box();
+  const auto whole = [&] { return std::floor(random.uniform(0, 5)); };
+  int n_met = 0;
+  for (int trial = 0; trial < 2000; ++trial) {
+    std::vector<Vec3> points{{whole(), whole(), 0}};
+    while (points.size() < 4) {
+      const Vec3 next(whole(), whole(), 0);
+      if (next != points.back()) points.push_back(next);
+    }
+    Motion at = moving({whole(), whole(), 0}, {0, 0, 0});
+    std::vector<Segment> path;
+    for (int i = 0; i < 12; ++i) {
+      at.velocity = Vec3(whole(), whole(), 0) - at.pose.position;
+      path.push_back(slide(0, at, i, i + 1, Vec3::Zero(), Vec3::Zero()));
+      at = path.back().end;
+    }
+    const CrossingRecorder recorder = recorded(scene, {points}, path);
+    const talus::RecordLine line = talus::record_line("line", points);
+    std::vector<std::pair<double, talus::LineMeeting>> met;
+    for (const Segment& step : path)
+      for (const talus::LineMeeting& meeting : line_meetings(
+               line, step.start.pose.position.head<2>(), step.end.pose.position.head<2>()))
+        met.emplace_back(step.t_start + meeting.share, meeting);
+    const bool has_row = !recorder.rows.empty() && !recorder.rows[0].beside;
+    ASSERT_EQ(met.size(), has_row ? recorder.rows[0].n_crossings : 0) << trial;
+    if (!has_row) continue;
+    ++n_met;
+    // of several in one step the recorder keeps that of the first segment
+    const auto is_one = [&](const auto& m) {
+      return std::abs(m.first - recorder.rows[0].time) < 1e-9;
+    };
+    EXPECT_TRUE(std::any_of(met.begin(), met.end(), is_one));
+    EXPECT_LE(met[0].first, recorder.rows[0].time + 1e-12);
+    EXPECT_GE(met[0].first, recorder.rows[0].time - 1 - 1e-12);
+  }
+  EXPECT_GT(n_met, 500);
 }
 
 }  // namespace

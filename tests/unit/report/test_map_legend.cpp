@@ -13,9 +13,21 @@ TEST(HtmlLegend, NamesTheClassesThatAreDrawn) {
   style.classes = {{0, {0, 0, 0, 0}, "none"},
                    {10, {255, 0, 0, 255}, "up to 10 m/s"},
                    {std::numeric_limits<double>::infinity(), {0, 0, 255, 255}, "> 10 m/s"}};
-  EXPECT_EQ(html_legend(raster_qml(style)),
-            "<span class=\"legend\"><span><i style=\"background:#ff0000\"></i>up to 10 m/s</span> "
-            "<span><i style=\"background:#0000ff\"></i>&gt; 10 m/s</span> </span>");
+  EXPECT_EQ(
+      html_legend(raster_qml(style)),
+      "<span class=\"legend\"><span><i style=\"background-color:#ff0000\"></i>up to 10 m/s</span> "
+      "<span><i style=\"background-color:#0000ff\"></i>&gt; 10 m/s</span> </span>");
+}
+
+TEST(HtmlLegend, ShowsWhatIsHatched) {
+  RasterStyle style;
+  style.classes = {{1, {255, 248, 103, 255}, "residual"}, {2, {255, 248, 103, 255}, "low"}};
+  const std::string legend = html_legend(raster_qml(style), {1}, true);
+  EXPECT_NE(legend.find("<i class=\"weak\" style=\"background-color:#fff867\"></i>residual<"),
+            std::string::npos)
+      << legend;
+  EXPECT_NE(legend.find("<i style=\"background-color:#fff867\"></i>low<"), std::string::npos);
+  EXPECT_NE(legend.find("<i class=\"unsure\"></i>class not certain<"), std::string::npos);
 }
 
 TEST(HtmlLegend, IsEmptyWithoutAStyle) { EXPECT_EQ(html_legend(""), ""); }

@@ -41,6 +41,22 @@ TEST(ViewerScene, FacesAreTriangles) {
             std::string::npos);
 }
 
+TEST(ViewerScene, TrailsAreThoseOfAllRunsAndLeftOutEvenly) {
+  const Trn trn = talus::testing::plane_trn(0.5, 2, 101, 101);
+  ViewerPlaces places;
+  for (int i = 0; i < 6; ++i) places.trails.push_back({{1.0 * i, 0, 5}, {1.0 * i, 2, 4}});
+  const auto holds = [](const std::string& json, const std::string& part) {
+    return json.find(part) != std::string::npos;
+  };
+  EXPECT_TRUE(holds(viewer_scene(sliding_box(), trn, places), "\"n\":6,\"n_all\":6"));
+  ViewerLimits limits;
+  limits.max_trail_points = 6;
+  const std::string thinned = viewer_scene(sliding_box(), trn, places, limits);
+  const std::vector<float> three = {0, 0, 5, 0, 2, 4, 2, 0, 5, 2, 2, 4, 4, 0, 5, 4, 2, 4};
+  EXPECT_TRUE(holds(thinned, "\"n\":3,\"n_all\":6"));
+  EXPECT_TRUE(holds(thinned, base64(three)));
+}
+
 TEST(ViewerScene, LongRunsAndLargeTerrainsAreThinned) {
   RunFile run = sliding_box();
   for (int k = 3; k < 1000; ++k)

@@ -1,0 +1,153 @@
+#include "post/profile/line_result.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <set>
+
+#include "post/statistics.hpp"
+
+namespace talus {
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr std::uint64_t bootstrap_seed = 1;
+
+Envelope envelope_of(std::vector<WeightedValue> values) {
+  std::erase_if(values, [](const WeightedValue& v) { return std::isnan(v.value); });
+  if (values.empty()) return {none, none, none};
+  sort_values(values);
+  Envelope out{weighted_percentile(values, 0.5), none, values.back().value};
+  double w = 0, w_sq = 0;
+  for (const WeightedValue& v : values) {
+    w += v.weight;
+    w_sq += v.weight * v.weight;
+  }
+  if (effective_size(w, w_sq) + 1e-9 >= smallest_sample(0.95))
+    out.p95 = weighted_percentile(values, 0.95);
+  return out;
+}
+
+Envelope envelope_of(const std::vector<CellValue>& values, double CellValue::*quantity) {
+  std::vector<WeightedValue> out;
+  out.reserve(values.size());
+  for (const CellValue& value : values) out.push_back({value.*quantity, value.weight});
+  return envelope_of(std::move(out));
+}
+
+// By the runs' weights, of the runs that have passages.
+double share_of_runs(const LineSums& sums, const std::vector<CellValue>& values) {
+  std::set<int> runs;
+  for (const CellValue& value : values) runs.insert(value.run);
+  double hit = 0, all = 0;
+  for (int r = 0; r < n_runs(sums); ++r) {
+    if (!sums.has_passages[r]) continue;
+    all += sums.released.run_weight[r];
+    if (runs.count(r) > 0) hit += sums.released.run_weight[r];
+  }
+  return all > 0 ? hit / all : none;
+}
+
+// The cell under a station; that of the line's part which ends there at the last one.
+const LineCell* cell_at(const LineSums& sums, double chainage) {
+  const auto after =
+      std::upper_bound(sums.cells.begin(), sums.cells.end(), chainage,
+                       [](double value, const LineCell& cell) { return value < cell.from; });
+  return after == sums.cells.begin() ? nullptr : &*(after - 1);
+}
+
+}  // namespace
+
+std::vector<double> bin_limits(double line_length, double length) {
+  if (std::isnan(length)) {
+    const double least = line_length / 25, power = std::pow(10, std::floor(std::log10(least)));
+    for (const double factor : {1.0, 2.0, 5.0, 10.0}) {
+      length = factor * power;
+      if (length >= least) break;
+    }
+  }
+  std::vector<double> limits{0};
+  // a rest shorter than a thousandth of a bin is rounding
+  for (int i = 1; i * length < line_length - 1e-3 * length; ++i) limits.push_back(i * length);
+  limits.push_back(line_length);
+  return limits;
+}
+
+AcrossSummary across_summary(const LineSums& sums, const ShareBasis& basis, double from,
+                             double to) {
+  AcrossSummary out;
+  out.from = from;
+  out.to = to;
+  const bool is_last = to >= sums.line.chainage.back();
+  const double all_runs =
+      std::accumulate(sums.released.run_weight.begin(), sums.released.run_weight.end(), 0.0);
+  std::vector<FenceArrival> arrivals;
+  std::vector<RunWeight> parts;
+  double mass = 0, blocks = 0, weight = 0;
+  out.first_arrival = none;
+  for (const LineCrossing& crossing : sums.crossings) {
+    const FenceArrival& at = crossing.at;
+    if (at.chainage < from || (at.chainage >= to && !is_last)) continue;
+    arrivals.push_back(at);
+    if (parts.empty() || parts.back().run != at.run) {
+      parts.push_back({at.run, 0});
+      out.share_of_runs += crossing.run_weight / all_runs;
+    }
+    parts.back().weight += at.weight;
+    weight += at.weight;
+    mass += crossing.run_weight * crossing.mass;
+    blocks += crossing.run_weight;
+    out.first_arrival = std::fmin(out.first_arrival, at.time);
+  }
+  const double released =
+      std::accumulate(sums.released.weight.begin(), sums.released.weight.end(), 0.0);
+  out.blocks = summarise(arrivals, n_runs(sums), bootstrap_seed, sums.released.unit);
+  out.n_runs_hit = static_cast<int>(parts.size());
+  out.share_of_runs = std::min(1.0, out.share_of_runs);
+  out.interval_of_runs = run_share_interval(basis, parts);
+  out.a_run = blocks / all_runs;
+  out.share_of_blocks = std::min(1.0, weight / released);
+  out.interval_of_blocks = parts.empty() ? interval_of_none_or_all(basis, false)
+                                         : share_interval(basis, parts, out.share_of_blocks);
+  out.mass_a_run = mass / all_runs;
+  out.share_of_mass =
+      std::min(1.0, mass / std::accumulate(sums.mass.begin(), sums.mass.end(), 0.0));
+  return out;
+}
+
+std::vector<StationSummary> station_summaries(const LineSums& sums) {
+  std::vector<StationSummary> out;
+  for (std::size_t i = 0; i < sums.line.points.size(); ++i) {
+    StationSummary station;
+    station.chainage = sums.line.chainage[i];
+    station.place = sums.line.points[i];
+    static const std::vector<CellValue> nothing;
+    const LineCell* cell = cell_at(sums, station.chainage);
+    const auto found = cell == nullptr ? sums.values.end() : sums.values.find(cell->cell);
+    const std::vector<CellValue>& values = found == sums.values.end() ? nothing : found->second;
+    station.n_blocks = static_cast<int>(values.size());
+    station.share_of_runs = share_of_runs(sums, values);
+    station.energy = envelope_of(values, &CellValue::energy);
+    station.speed = envelope_of(values, &CellValue::speed);
+    station.top = envelope_of(values, &CellValue::top);
+    out.push_back(station);
+  }
+  return out;
+}
+
+EnergyChange energy_change(const LineSums& sums) {
+  std::vector<WeightedValue> values;
+  for (const LineCrossing& crossing : sums.crossings)
+    if (!crossing.by_cells && crossing.at.energy() > 0)
+      values.push_back({crossing.energy_change / crossing.at.energy(), 1});
+  sort_values(values);
+  return {weighted_percentile(values, 0.5), weighted_percentile(values, 0.95)};
+}
+
+std::string method_text(const LineSums& sums) {
+  if (sums.n_by_cells == 0) return "frames";
+  return sums.n_by_frames == 0 ? "cells" : "frames and cells";
+}
+
+}  // namespace talus
