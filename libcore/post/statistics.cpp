@@ -11,7 +11,6 @@
 namespace talus {
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 // p n and sums of weights are rounded; what differs by less than this share is equal.
 constexpr double rounding = 1e-12;
 

@@ -270,7 +270,7 @@ Runner make_runner(const Scene& scene, const RunOptions& options, std::vector<Re
   Runner runner{scene,
                 options,
                 {},
-                make_work(scene),
+                make_work(scene, options.workers),
                 {},
                 start_crossings(scene, std::move(lines)),
                 start_objects(scene, file.objects),

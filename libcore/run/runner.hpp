@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/workers.hpp"
 #include "blocks/block_set.hpp"
 #include "record/crossings.hpp"
 #include "record/frames.hpp"
@@ -38,6 +39,7 @@ struct RunOptions {
   double passage_cell_size = std::numeric_limits<double>::quiet_NaN();  ///< NaN: the TRN's [m]
   bool strain = false;                                                  ///< store strains in frames
   RunLimits limits;
+  Workers* workers = nullptr;  ///< share the loops of a step; the bits do not depend on them
 };
 
 /// One limit and how the run stands to it.

@@ -54,7 +54,7 @@ template <class V, class Rows>
   // what is left of the second derivative: of one that slips across x, of one that sticks along e
   const V stretch = along > 0 ? 1 + share : none + 1;
   const V across = force * stretch * speed_sq * per_norm * per_norm;
-  found.slip_tangent = rubs ? across : within & (along > 0) ? shear_damping * share : none;
+  found.slip_tangent = rubs ? across : (within & (along > 0)) ? shear_damping * share : none;
   found.trial_speed = norm;
   found.rubs = false;
 }

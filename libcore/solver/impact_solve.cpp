@@ -30,6 +30,8 @@ constexpr int whole_steps = 6;                             // before its line se
 
 constexpr int most_turns = 12;  // of Newton, for one contact alone
 
+constexpr size_t least_shared = 128;  // contacts: below, threads wait more than they spare
+
 using Vec2 = Eigen::Vector2d;
 using Mat2 = Eigen::Matrix2d;
 
@@ -218,10 +220,16 @@ struct Solver {
       w.residual.segment<3>(at) = dv.head<3>() / bodies[k].per_mass;
       w.residual.segment<3>(at + 3) = bodies[k].inertia * dv.tail<3>();
     }
+    const auto find = [&](size_t i) { evaluate(contacts[i], point_velocity(v, i), w.rows[i]); };
+    const bool shared = w.workers != nullptr && contacts.size() >= least_shared;
+    if (shared)
+      in_chunks(w.workers, contacts.size(), 16, least_shared, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) find(i);
+      });
     for (size_t i = 0; i < contacts.size(); ++i) {
       const ImpactContact& c = contacts[i];
-      Row& row = w.rows[i];
-      evaluate(c, point_velocity(v, i), row);
+      if (!shared) find(i);
+      const Row& row = w.rows[i];
       w.residual.segment<3>(6 * c.a) -= row.impulse;
       w.residual.segment<3>(6 * c.a + 3) -= row.arm_a.cross(row.impulse);
       if (c.b < 0) continue;

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/workers.hpp"
 #include "motion/displacement.hpp"
 #include "solver/angular_row.hpp"
 #include "solver/block_lu.hpp"
@@ -86,6 +87,7 @@ struct ImpactWork {  // clang-format off
     Mat3 tangent = Mat3::Zero();         ///< - d couple / d spin [kg m2]
     AngularRow law;                      ///< at the last evaluation
   };
+  Workers* workers = nullptr;            ///< share the contacts of a large group
   std::vector<Turn> turns, kept_turns;   ///< mostly none
   std::vector<int> turn_of;              ///< of a body, -1: none; empty: no turns         (n_bodies)
   std::vector<Vec3> full_couple;         ///< with all of the restitution

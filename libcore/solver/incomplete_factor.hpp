@@ -11,6 +11,7 @@
 // construction: a pair adds W to A_j and takes at most W from A_i, since D_j >= M_j + W.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -24,17 +25,30 @@ struct LowerBlock {
   Mat6 block;      ///< L_ij
 };
 
+/// The same block from the side of the other body.
+struct UpperBlock {
+  int after = 0;  ///< place of the row that it stands in
+  int block = 0;  ///< index into IncompleteFactor::lower
+};
+
 /// Scratch: everything by place in the order of elimination.
 struct IncompleteFactor {  // clang-format off
+  Workers* workers = nullptr;        ///< share the loops: those of the matrix
   std::vector<double> height;        ///< against gravity [m]                            (n_bodies)
   std::vector<int> order;            ///< active bodies by place                         (n_active)
   std::vector<int> place;            ///< of each body, -1: not active                   (n_bodies)
   std::vector<LowerBlock> lower;     ///< row by row
+  std::vector<int> lower_pair;       ///< pair of each block of `lower`
   std::vector<int> lower_begin;      ///< of the row at each place                    (n_active + 1)
+  std::vector<UpperBlock> upper;     ///< column by column, from the last row up; threads only
+  std::vector<int> upper_begin;      ///< of the column at each place                 (n_active + 1)
   std::vector<Mat6> pivot;           ///< D_i                                            (n_active)
   std::vector<Mat6> per_pivot;       ///< D_i^-1                                         (n_active)
   std::vector<Mat6> rest;            ///< A_i - 2 D_i                                    (n_active)
   std::vector<Vec6> residual, direction, product, sum, by_upper, scratch;
+  std::vector<double> terms;         ///< of a sum, in its order; threads only          (n_active)
+  std::vector<std::uint64_t> done;   ///< number of the last sweep that made this row; threads only
+  std::uint64_t n_sweeps = 0;
 };  // clang-format on
 
 /// Heights of the bodies' centroids: `down` points along gravity, of any length.

@@ -60,28 +60,13 @@ void list_pairs(const Island& island, IslandMatrix& matrix) {
 void begin_sums(const Island& island, IslandMatrix& matrix) {
   matrix.changed_pairs.fill();
   matrix.pair_closed.assign(island.pairs.size(), 0);
-  matrix.changed_bodies.fill();
-  for (size_t i = 0; i < island.mass.size(); ++i)
-    matrix.own[i] = matrix.diagonal[i] = packed<6>(island.mass[i]);
+  for (size_t i = 0; i < island.mass.size(); ++i) matrix.diagonal[i] = packed<6>(island.mass[i]);
 }
 
 void add_to_diagonals(const BodyPair& pair, const Packed<6>& W, const Vec3& shift,
                       IslandMatrix& matrix) {
-  const auto a = static_cast<size_t>(pair.a), b = static_cast<size_t>(pair.b);
-  add(W, matrix.diagonal[a]);
-  matrix.changed_bodies.add(pair.a);
-  if (pair.b < 0) {
-    add(W, matrix.own[a]);
-    return;
-  }
-  add_carried(W, shift, matrix.diagonal[b]);
-  matrix.changed_bodies.add(pair.b);
-}
-
-void list_coupled(const Island& island, IslandMatrix& matrix) {
-  matrix.active.coupled.clear();
-  for (const int p : matrix.active.pairs)
-    if (matrix.pair_closed[p] && island.pairs[p].b >= 0) matrix.active.coupled.push_back(p);
+  add(W, matrix.diagonal[static_cast<size_t>(pair.a)]);
+  if (pair.b >= 0) add_carried(W, shift, matrix.diagonal[static_cast<size_t>(pair.b)]);
 }
 
 // What the active bodies have to do with.
@@ -98,7 +83,6 @@ void read_active(const Island& island, IslandMatrix& matrix) {
       active.pairs.push_back(p);
       if (other >= 0 && !both) active.others.add(other);
     }
-  list_coupled(island, matrix);
 }
 
 }  // namespace
@@ -124,15 +108,10 @@ void prepare_matrix(const Island& island, IslandMatrix& matrix) {
   matrix.pair.resize(n_pairs);
   matrix.changed_pairs.reset(n_pairs);
   for (size_t p = 0; p < n_pairs; ++p) prepare_pair(island, p, matrix);
-  matrix.changed_bodies.reset(n);
   matrix.active.bodies.reset(n);
   matrix.active.others.reset(n);
   activate_all(island, matrix);
-  for (auto* blocks : {&matrix.own, &matrix.diagonal}) blocks->resize(n);
-  for (auto* blocks : {&matrix.single_own, &matrix.inverse}) blocks->resize(n);
-  for (auto* vectors :
-       {&matrix.residual, &matrix.preconditioned, &matrix.direction, &matrix.product, &matrix.sum})
-    vectors->assign(n, {});
+  matrix.diagonal.resize(n);
 }
 
 namespace {
@@ -161,41 +140,46 @@ bool sum_pair(Island& island, const BodyPair& pair, Packed<6>& W, Mat6* rest) {
   return closed;
 }
 
+// Symmetric tangents of `pairs`, and by how much they changed: each is its pair's alone.
+void renew_tangents(Island& island, std::span<const int> pairs, IslandMatrix& matrix) {
+  if (matrix.change.size() < pairs.size()) matrix.change.resize(pairs.size());
+  in_chunks(matrix.workers, pairs.size(), 32, 128, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) {
+      const auto p = static_cast<size_t>(pairs[i]);
+      const BodyPair& pair = island.pairs[p];
+      Packed<6> change;
+      if (matrix.pair_closed[p]) subtract(matrix.pair[p], change);
+      matrix.pair_closed[p] = sum_pair(island, pair, matrix.pair[p], nullptr);
+      add(matrix.pair[p], change);
+      matrix.change[i] = change;
+    }
+  });
+}
+
 }  // namespace
 
 void update_tangents(Island& island, Tangent tangent, IslandMatrix& matrix) {
   if (tangent != matrix.tangent) begin_sums(island, matrix);
   matrix.tangent = tangent;
   const bool exact = tangent == Tangent::exact;
-  if (exact)
-    matrix.rest.resize(island.pairs.size());
-  else
-    matrix.coupling.resize(island.pairs.size());
-  for (const int changed : matrix.changed_pairs.items) {
-    const auto p = static_cast<size_t>(changed);
-    const BodyPair& pair = island.pairs[p];
-    if (exact) {
+  if (exact) matrix.rest.resize(island.pairs.size());
+  const std::vector<int>& changed = matrix.changed_pairs.items;
+  if (exact) {
+    for (const int p : changed) {
       matrix.rest[p].setZero();
-      matrix.pair_closed[p] = sum_pair(island, pair, matrix.pair[p], &matrix.rest[p]);
-      continue;
+      matrix.pair_closed[p] = sum_pair(island, island.pairs[p], matrix.pair[p], &matrix.rest[p]);
     }
-    Packed<6> change;
-    if (matrix.pair_closed[p]) subtract(matrix.pair[p], change);
-    matrix.pair_closed[p] = sum_pair(island, pair, matrix.pair[p], nullptr);
-    add(matrix.pair[p], change);
-    add_to_diagonals(pair, change, matrix.shift[p], matrix);
-    if (pair.b >= 0) matrix.coupling[p] = {single(matrix.pair[p]), single(matrix.shift[p])};
+    return matrix.changed_pairs.clear();
+  }
+  // all at once where threads share the work, else so few that they stay near
+  const size_t batch = matrix.workers == nullptr ? size_t{32} : changed.size();
+  for (size_t begin = 0; begin < changed.size(); begin += batch) {
+    const auto some = std::span(changed).subspan(begin, std::min(batch, changed.size() - begin));
+    renew_tangents(island, some, matrix);
+    for (size_t i = 0; i < some.size(); ++i)
+      add_to_diagonals(island.pairs[some[i]], matrix.change[i], matrix.shift[some[i]], matrix);
   }
   matrix.changed_pairs.clear();
-}
-
-void invert_diagonals(IslandMatrix& matrix) {
-  for (const int body : matrix.changed_bodies.items) {
-    const auto i = static_cast<size_t>(body);
-    matrix.single_own[i] = single(matrix.own[i]);
-    matrix.inverse[i] = single(inverse(matrix.diagonal[i]));
-  }
-  matrix.changed_bodies.clear();
 }
 
 void activate(const Island& island, std::span<const int> bodies, IslandMatrix& matrix) {
@@ -224,75 +208,6 @@ void activate_all(const Island& island, IslandMatrix& matrix) {
   active.others.clear();
   active.pairs.resize(island.pairs.size());
   std::iota(active.pairs.begin(), active.pairs.end(), 0);
-  list_coupled(island, matrix);
-}
-
-[[gnu::flatten]] void multiply(const Island& island, const IslandMatrix& matrix,
-                               std::span<const SingleVector> x, std::span<SingleVector> y) {
-  for (const int body : matrix.active.bodies.items) {
-    const auto i = static_cast<size_t>(body);
-    y[i] = product(matrix.single_own[i], x[i]);
-  }
-  for (const int p : matrix.active.coupled) {
-    const auto k = static_cast<size_t>(p);
-    const auto a = static_cast<size_t>(island.pairs[k].a);
-    const auto b = static_cast<size_t>(island.pairs[k].b);
-    const SingleCoupling& pair = matrix.coupling[k];
-    SingleVector u = x[a] - x[b];  // relative_motion()
-    u.linear -= cross(x[b].angular, pair.shift);
-    SingleVector f = product(pair.W, u);
-    y[a] = y[a] + f;
-    f.angular += cross(pair.shift, f.linear);  // carried_to_b()
-    y[b] = y[b] - f;
-  }
-}
-
-[[gnu::flatten]] LinearResult solve_conjugate_gradients(const Island& island, IslandMatrix& matrix,
-                                                        std::span<const Vec6> b, double tolerance,
-                                                        int max_iterations, std::span<Vec6> x) {
-  auto& r = matrix.residual;
-  auto& z = matrix.preconditioned;
-  auto& p = matrix.direction;
-  auto& q = matrix.product;
-  auto& sum = matrix.sum;
-  double rz = 0;
-  for (const int body : matrix.active.bodies.items) {
-    const auto i = static_cast<size_t>(body);
-    r[i] = single(Vec6(-b[i]));
-    p[i] = product(matrix.inverse[i], r[i]);
-    rz += dot(r[i], p[i]);
-  }
-  const double goal = tolerance * tolerance * rz;
-  LinearResult result;
-  while (rz > goal && result.iterations < max_iterations) {
-    ++result.iterations;
-    multiply(island, matrix, p, q);
-    double curvature = 0;
-    for (const int body : matrix.active.bodies.items) curvature += dot(p[body], q[body]);
-    if (!(curvature > 0)) break;
-    const auto step = static_cast<float>(rz / curvature);
-    double rz_next = 0;
-    for (const int body : matrix.active.bodies.items) {
-      const auto i = static_cast<size_t>(body);
-      sum[i] = sum[i] + step * p[i];
-      r[i] = r[i] - step * q[i];
-      z[i] = product(matrix.inverse[i], r[i]);
-      rz_next += dot(r[i], z[i]);
-    }
-    const auto ratio = static_cast<float>(rz_next / rz);
-    rz = rz_next;
-    for (const int body : matrix.active.bodies.items) {
-      const auto i = static_cast<size_t>(body);
-      p[i] = z[i] + ratio * p[i];
-    }
-  }
-  for (const int body : matrix.active.bodies.items) {
-    const auto i = static_cast<size_t>(body);
-    x[i] = in_double(sum[i]);
-    p[i] = sum[i] = {};  // a body that is not active next time stands
-  }
-  result.converged = rz <= goal;
-  return result;
 }
 
 namespace {

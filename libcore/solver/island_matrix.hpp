@@ -1,6 +1,6 @@
 // libcore/solver/island_matrix.hpp
 // The matrix of one Newton step of an island, K = M + sum B_c^T K_c B_c, kept pair by pair, and its
-// solution by conjugate gradients or block LU.
+// solution by block LU; by conjugate gradients: solver/incomplete_factor.hpp.
 // theory 1.6, 3.4; docs/design-notes.md (why pairs are not spread over three blocks)
 #pragma once
 
@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "base/index_set.hpp"
+#include "base/workers.hpp"
 #include "solver/block_lu.hpp"
 #include "solver/island.hpp"
 #include "solver/newton.hpp"
 #include "solver/packed_matrix.hpp"
 #include "solver/row_groups.hpp"
-#include "solver/single_matrix.hpp"
 
 namespace talus {
 
@@ -36,43 +36,31 @@ namespace talus {
 /// matrix is the exact derivative, and not symmetric. `none`: not summed yet.
 enum class Tangent : std::uint8_t { none, symmetric, exact };
 
-/// What conjugate gradients take of a pair of two bodies.
-struct SingleCoupling {
-  SingleMatrix W;  ///< IslandMatrix::pair
-  Four shift;      ///< IslandMatrix::shift [m]
-};
-
 /// Bodies that a linear solution moves while the others stand, and what it reads of the island:
 /// costs go with these, not with the island.
 struct ActiveBodies {  // clang-format off
   IndexSet bodies;
-  IndexSet others;           ///< that share a pair with an active body
-  std::vector<int> pairs;    ///< with an active body
-  std::vector<int> coupled;  ///< of these, those of two bodies with W != 0
+  IndexSet others;         ///< that share a pair with an active body
+  std::vector<int> pairs;  ///< with an active body
 };
 
 struct IslandMatrix {
+  Workers* workers = nullptr;      ///< share the loops; nullptr: there are none
   // prepare_matrix
   std::vector<int> pair_begin, pairs_of; ///< pairs of body i: pairs_of[pair_begin[i]] to
                                          ///< pairs_of[pair_begin[i + 1]], ascending
   std::vector<Vec3> shift;         ///< x_A - x_B [m]                                   (n_pairs)
   IndexSet changed_pairs;          ///< whose tangent has to be summed again
-  IndexSet changed_bodies;         ///< one of whose pairs changed since
   // update_tangents
   Tangent tangent = Tangent::none;         ///< what `pair` and `rest` hold
   std::vector<Packed<6>> pair;     ///< W of pair p, its symmetric part                 (n_pairs)
   std::vector<Mat6> rest;          ///< exact: what W has besides                     (n_pairs or 0)
-  std::vector<SingleCoupling> coupling;    ///< symmetric: the same, of two bodies (n_pairs or 0)
   std::vector<std::uint8_t> pair_closed;   ///< W != 0                                  (n_pairs)
-  std::vector<Packed<6>> own;      ///< M + contacts with the ground [kg .. kg m2]      (n_bodies)
-  std::vector<Packed<6>> diagonal; ///< diagonal block of K, symmetric tangents         (n_bodies)
+  std::vector<Packed<6>> change;   ///< scratch: of W, of pairs that changed
+  std::vector<Packed<6>> diagonal; ///< of K, symmetric tangents [kg .. kg m2]          (n_bodies)
   // activate, choose_active, activate_all
   ActiveBodies active;
-  // invert_diagonals
-  std::vector<SingleMatrix> single_own;    ///<                                         (n_bodies)
-  std::vector<SingleMatrix> inverse;       ///< of the diagonal block                   (n_bodies)
-  // solvers; `direction` and `sum` of bodies that are not active are 0
-  std::vector<SingleVector> residual, preconditioned, direction, product, sum;  ///<    (n_bodies)
+  // solve_direct
   std::vector<std::pair<int, int>> edges;  ///< graph for the factorisation
   BlockLu<6> lu;
 };  // clang-format on
@@ -94,9 +82,6 @@ void prepare_pair(const Island& island, std::size_t pair, IslandMatrix& matrix);
 /// rows' states.
 void update_tangents(Island& island, Tangent tangent, IslandMatrix& matrix);
 
-/// Brings the inverse diagonal blocks of bodies with changed pairs up to date.
-void invert_diagonals(IslandMatrix& matrix);
-
 /// Makes `bodies`, which may repeat, active and no others.
 void activate(const Island& island, std::span<const int> bodies, IslandMatrix& matrix);
 void activate_all(const Island& island, IslandMatrix& matrix);
@@ -105,22 +90,10 @@ void activate_all(const Island& island, IslandMatrix& matrix);
 /// contact.
 void choose_active(const Island& island, std::span<const int> moving, IslandMatrix& matrix);
 
-/// y = K x for the active bodies, with symmetric tangents and after invert_diagonals.
-void multiply(const Island& island, const IslandMatrix& matrix, std::span<const SingleVector> x,
-              std::span<SingleVector> y);
-
 struct LinearResult {
   bool converged = false;
   int iterations = 0;
 };
-
-/// K x = -b by conjugate gradients from zero, preconditioned with the diagonal blocks, until the
-/// residual in the preconditioner's norm has fallen to `tolerance` of its start. Active bodies
-/// only; x of the others stays as it is. In single precision: `tolerance` above 1e-4 or so. Needs
-/// symmetric tangents and invert_diagonals.
-LinearResult solve_conjugate_gradients(const Island& island, IslandMatrix& matrix,
-                                       std::span<const Vec6> b, double tolerance,
-                                       int max_iterations, std::span<Vec6> x);
 
 /// K x = -b by block LU, with either tangent; all bodies. A singular matrix gives an x that is not
 /// finite.

@@ -17,6 +17,8 @@ using std::size_t;
 using law::all_every, law::few, law::first_ratio, law::hopeless, law::ratio_growth, law::slack,
     law::soft_tolerance;
 
+constexpr size_t least_shared = 128;  // pairs: below, threads wait more than they spare
+
 /// One solve; a struct so that its parts share what they all need.
 struct Solve {
   Island& island;
@@ -116,28 +118,57 @@ struct Solve {
     }
   }
 
+  using FewPairs = std::array<PairEvaluation, 32>;  // few enough to stay near
+
+  [[gnu::always_inline]] void evaluate_few(std::span<const int> pairs, Evaluation evaluation,
+                                           FewPairs& now) {
+    for (size_t i = 0; i < pairs.size(); ++i) {
+      const auto p = static_cast<size_t>(pairs[i]);
+      const BodyPair& pair = island.pairs[p];
+      now[i].groups = groups_of(island, pair);
+      now[i].motion = work.velocity[pair.a];
+      if (pair.b >= 0)
+        now[i].motion = relative_motion(now[i].motion, work.velocity[pair.b], work.matrix.shift[p]);
+    }
+    evaluate_pairs(std::span(now).first(pairs.size()), evaluation,
+                   direct || evaluation == Evaluation::held ? 0 : slack);
+    if (!island.angular.empty()) evaluate_couples(pairs, now);
+  }
+
+  void take_impulse(int p, bool changed, const Vec6& impulse) {
+    if (changed) work.matrix.changed_pairs.add(p);
+    add_impulse(static_cast<size_t>(p), impulse);
+  }
+
   // Contacts of active bodies; what a body at rest had from them before is replaced.
   [[gnu::flatten]] void evaluate_contacts(std::span<const int> pairs, Evaluation evaluation) {
-    std::array<PairEvaluation, 32> now;  // few enough to stay near
+    if (work.matrix.workers != nullptr && pairs.size() >= least_shared)
+      return evaluate_shared(pairs, evaluation);
+    FewPairs now;
     for (size_t begin = 0; begin < pairs.size(); begin += now.size()) {
       const auto some = pairs.subspan(begin, std::min(now.size(), pairs.size() - begin));
-      for (size_t i = 0; i < some.size(); ++i) {
-        const auto p = static_cast<size_t>(some[i]);
-        const BodyPair& pair = island.pairs[p];
-        now[i].groups = groups_of(island, pair);
-        now[i].motion = work.velocity[pair.a];
-        if (pair.b >= 0)
-          now[i].motion =
-              relative_motion(now[i].motion, work.velocity[pair.b], work.matrix.shift[p]);
-      }
-      evaluate_pairs(std::span(now).first(some.size()), evaluation,
-                     direct || evaluation == Evaluation::held ? 0 : slack);
-      if (!island.angular.empty()) evaluate_couples(some, now);
-      for (size_t i = 0; i < some.size(); ++i) {
-        if (now[i].changed) work.matrix.changed_pairs.add(some[i]);
-        add_impulse(static_cast<size_t>(some[i]), now[i].impulse());
-      }
+      evaluate_few(some, evaluation, now);
+      for (size_t i = 0; i < some.size(); ++i)
+        take_impulse(some[i], now[i].changed, now[i].impulse());
     }
+  }
+
+  // The same in several threads; what pairs add to the residual of bodies comes after, in order.
+  void evaluate_shared(std::span<const int> pairs, Evaluation evaluation) {
+    std::vector<PairImpulse>& found = work.evaluated;
+    if (found.size() < pairs.size()) found.resize(pairs.size());
+    in_chunks(work.matrix.workers, pairs.size(), std::tuple_size_v<FewPairs>, least_shared,
+              [&](size_t begin, size_t end) { evaluate_part(pairs, begin, end, evaluation); });
+    for (size_t i = 0; i < pairs.size(); ++i)
+      take_impulse(pairs[i], found[i].changed, found[i].impulse);
+  }
+
+  [[gnu::flatten]] void evaluate_part(std::span<const int> pairs, size_t begin, size_t end,
+                                      Evaluation evaluation) {
+    FewPairs now;
+    evaluate_few(pairs.subspan(begin, end - begin), evaluation, now);
+    for (size_t i = begin; i < end; ++i)
+      work.evaluated[i] = {now[i - begin].impulse(), now[i - begin].changed};
   }
 
   void add_impulse(size_t p, const Vec6& f) {

@@ -44,9 +44,15 @@ struct Damping {
   Two normal, shear;
 };
 
+/// What an evaluation finds for a pair.
+struct PairImpulse {
+  Vec6 impulse;
+  bool changed = false;  ///< its tangent did
+};
+
 /// Scratch of solve_island; reused from call to call, it stops allocating.
 struct IslandWork {  // clang-format off
-  IslandMatrix matrix;
+  IslandMatrix matrix;             ///< its workers share the other loops too
   IncompleteFactor factor;
   std::vector<Vec6> velocity;      ///< before momentum is kept; where a solution that continues
                                    ///< this one starts                                 (n_bodies)
@@ -55,6 +61,7 @@ struct IslandWork {  // clang-format off
   std::vector<Vec6> per_impulse;   ///< speed of a body's points per impulse [1/kg, 1/(kg m)]
   std::vector<double> speed;       ///< of the residual [m/s]                            (n_bodies)
   std::vector<int> moving;         ///< bodies whose residual is above the tolerance
+  std::vector<PairImpulse> evaluated;  ///< scratch, of active pairs; threads only
   std::vector<Vec6> pair_impulse;  ///< sum B^T p of a pair, about A                     (n_pairs)
   std::vector<Vec6> step;          ///< of Newton                                        (n_bodies)
   std::vector<Vec6> from;          ///< velocity before the step                         (n_bodies)

@@ -110,8 +110,9 @@ void hold_friction(RowGroup& group, double share) {
     const double p_n = n.dot(impulse);
     const double strength = group.friction[lane] * std::max(p_n, 0.0) + group.cohesion[lane];
     const double bound = group.state[lane] != open_lanes[lane] ? strength : 0;
-    double& held = group.bound[lane];
-    held = held < 0 ? bound : held + share * (bound - held);
+    const double before = group.bound[lane];
+    const double held = before < 0 ? bound : before + share * (bound - before);
+    group.bound[lane] = held;
     group.held_share[lane] = 0;
     group.held_bound[lane] = held;
     const Vec3 friction = p_n * n - impulse;

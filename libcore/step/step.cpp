@@ -100,8 +100,9 @@ State start(const Scene& scene) {
   return state;
 }
 
-Work make_work(const Scene& scene) {
+Work make_work(const Scene& scene, Workers* workers) {
   Work work;
+  work.island.solver.matrix.workers = work.island.hits.impact.workers = workers;
   size_t most_vertices = 0;
   for (int b = 0; b < n_blocks(scene); ++b)
     most_vertices = std::max(most_vertices, vertices_of(scene.blocks.shapes, b).size());

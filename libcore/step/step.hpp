@@ -18,8 +18,9 @@ namespace talus {
 /// micrometres).
 [[nodiscard]] State start(const Scene& scene);
 
-/// Buffers for `scene`, large enough that step() does not allocate.
-[[nodiscard]] Work make_work(const Scene& scene);
+/// Buffers for `scene`, large enough that step() does not allocate. `workers` share its loops and
+/// outlive it; the bits are the same with any number of them, and without.
+[[nodiscard]] Work make_work(const Scene& scene, Workers* workers = nullptr);
 
 /// Advances all blocks to state.time + settings.dt.
 ///

@@ -122,23 +122,6 @@ void assemble_rows(benchmark::State& state) {
   count_per(state, "per_row", 2 * parts.island.rows.size());
 }
 
-void invert_all_diagonals(benchmark::State& state) {
-  Parts parts = solved_pile();
-  for (auto _ : state) {
-    parts.work.matrix.changed_bodies.fill();
-    invert_diagonals(parts.work.matrix);
-  }
-  count_per(state, "per_body", parts.island.mass.size());
-}
-
-void multiply_matrix(benchmark::State& state) {
-  Parts parts = solved_pile();
-  auto& matrix = parts.work.matrix;
-  activate_all(parts.island, matrix);
-  for (auto _ : state) talus::multiply(parts.island, matrix, matrix.direction, matrix.product);
-  count_per(state, "per_pair", matrix.active.coupled.size());
-}
-
 void invert_6x6(benchmark::State& state) {
   Parts parts = solved_pile();
   for (auto _ : state)
@@ -149,8 +132,6 @@ void invert_6x6(benchmark::State& state) {
 
 BENCHMARK(evaluate_rows)->Arg(2)->Arg(4);
 BENCHMARK(assemble_rows);
-BENCHMARK(invert_all_diagonals);
-BENCHMARK(multiply_matrix);
 BENCHMARK(invert_6x6);
 
 }  // namespace

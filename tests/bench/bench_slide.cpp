@@ -1,12 +1,14 @@
 // The peers' slide (scene F): 39 blocks on 2,240 triangles, friction 25 degrees, COR 0.7, 20 s.
-// TALUS_PEERS_DIR=... bench_slide; counters: mean position s (down the slope) and x, the largest
-// penetration, steps accepted unconverged, and the error of the energy balance over the fall.
+// TALUS_PEERS_DIR=... [TALUS_BENCH_THREADS=n] bench_slide; counters: mean position s (down the
+// slope) and x, the largest penetration, steps accepted unconverged, and the error of the energy
+// balance over the fall.
 #include <benchmark/benchmark.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <fstream>
 
+#include "base/workers.hpp"
 #include "slide_scene.hpp"
 #include "step/step.hpp"
 
@@ -50,7 +52,8 @@ void slide_by(benchmark::State& run, Law law) {
                                   static_cast<std::uint64_t>(run.range(2)));
   for (auto _ : run) {
     State state = start(scene);
-    Work work = make_work(scene);
+    Workers workers(bench::n_threads());
+    Work work = make_work(scene, workers.n_threads() > 1 ? &workers : nullptr);
     const double before = mechanical_energy(scene, state);
     double deepest = 0, depth = 0, closed = 0;
     while (state.time < duration - settings.dt / 2) {
@@ -87,7 +90,7 @@ BENCHMARK(Slide)
     ->Iterations(1);
 BENCHMARK(Slide)
     ->Name("SlideDense")
-    ->ArgsProduct({{39, 390, 3900}, {10, 50, 100, 200, 300}, {0}, {1, 5, 10, 30}})
+    ->ArgsProduct({{39, 390, 3900}, {10, 50, 100, 200, 300}, {0}, {1, 5, 10, 30, 100}})
     ->Unit(benchmark::kSecond)
     ->Iterations(1);
 BENCHMARK(SlidePaper)

@@ -2,6 +2,7 @@
 // The peers' slide (scene F): terrain_F.asc and blocks_N.obj of the folder TALUS_PEERS_DIR.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 #include <fstream>
@@ -23,6 +24,12 @@ inline std::string text_of_file(const std::string& path) {
 inline std::string peers_folder() {
   const char* folder = std::getenv("TALUS_PEERS_DIR");
   return folder != nullptr ? folder : "";
+}
+
+/// Threads that share a step: TALUS_BENCH_THREADS, else one.
+inline int n_threads() {
+  const char* n = std::getenv("TALUS_BENCH_THREADS");
+  return n != nullptr ? std::max(1, std::atoi(n)) : 1;
 }
 
 /// Terrain and the N = 39, 390 or 3,900 blocks. Throws InputError.

@@ -5,6 +5,7 @@
 
 #include <thread>
 
+#include "base/workers.hpp"
 #include "stability/block_scenes.hpp"
 #include "verify/cases/block_cases.hpp"
 
@@ -198,6 +199,34 @@ TEST(ManyBlocks, RunsInTwoThreadsHaveTheSameBits) {
   first.join();
   EXPECT_GT(alone.counters.impacts, 20);
   for (const State& state : beside) expect_same_bits(alone, state);
+}
+
+// Stones of a wall on a slope that is too steep for them: a step shared by threads has the bits of
+// one thread, also where it goes on in another number of them.
+void expect_bits_of_one_thread(int n_courses, int n_long, double duration) {
+  const Scene scene =
+      on_plane(slope_frame(35, 30), wall_of(n_courses, n_long, 1), 25, 25, {}, 2, 40);
+  State alone = start(scene);
+  run(scene, duration, alone);
+  for (const int n_threads : {2, 3, 8}) {
+    Workers workers(n_threads);
+    Work work = make_work(scene, &workers);
+    State shared = start(scene);
+    run(scene, duration / 2, shared, work);
+    State resumed = shared;
+    run(scene, duration - duration / 2, shared, work);
+    expect_same_bits(alone, shared);
+    run(scene, duration - duration / 2, resumed);
+    expect_same_bits(alone, resumed);
+  }
+}
+
+TEST(ManyBlocks, SharedByThreadsInTwoThreadsAndMoreHaveTheSameBits) {
+  expect_bits_of_one_thread(6, 6, 0.3);
+}
+
+TEST(ManyBlocks, HundredsInTwoThreadsAndMoreHaveTheSameBits) {
+  expect_bits_of_one_thread(20, 20, 0.05);
 }
 
 }  // namespace

@@ -225,7 +225,7 @@ Json plan_json(const ScenePlan& plan) {
   return list;
 }
 
-Json run_report(const Runner& runner, const ScenePlan& plan, double cpu_s) {
+Json run_report(const Runner& runner, const ScenePlan& plan, double from_s, double cpu_s) {
   const RunFile& file = runner.file;
   const RunCounters& counters = runner.state.counters;
   const Vec3 moved = mean_displacement(file);
@@ -249,7 +249,8 @@ Json run_report(const Runner& runner, const ScenePlan& plan, double cpu_s) {
                {"largest_speed_m_s", largest_speed(file)},
                {"mean_displacement_m", {moved.x(), moved.y(), moved.z()}},
                {"moved", moved_json(moved_of(displacements(file)))},
-               {"cpu_time_s", cpu_s}};
+               {"cpu_time_s", cpu_s},
+               {"simulated_s_per_cpu_s", cpu_s > 0 ? (file.info.time - from_s) / cpu_s : 0}};
   if (!file.forests.empty()) json["trees"] = trees_on(file);
   json["health"] = Json::array();
   for (const HealthCheck& check : health_checks(runner))
@@ -278,7 +279,8 @@ std::string run_summary(const Json& report, const RunFile& file) {
          (fell < 0 ? "rose " : "fell ") + text(std::abs(fell), 4) + " m, " +
          text(moved_of(displacements(file))) + "; largest speed " + number("largest_speed_m_s") +
          " m/s, " + count("n_passages", "passage") + ", " + count("n_crossings", "crossing") +
-         fence_summary(report) + tree_summary(report) + trouble_summary(report);
+         fence_summary(report) + tree_summary(report) + trouble_summary(report) + "; " +
+         text(report["simulated_s_per_cpu_s"].get<double>(), 3) + " s simulated per CPU second";
 }
 
 void warn_of_standing_mass(Tool& tool, const RunFile& file) {

@@ -13,9 +13,10 @@ namespace talus {
 /// What was left out of a scene, with the rule and its reason.
 [[nodiscard]] Json plan_json(const ScenePlan& plan);
 
-/// Counters, largest speed, mean displacement, panels and health of a run. `cpu_s`: its CPU time
-/// [s].
-[[nodiscard]] Json run_report(const Runner& runner, const ScenePlan& plan, double cpu_s);
+/// Counters, largest speed, mean displacement, panels and health of a run, which took `cpu_s` from
+/// the time `from_s` on [s].
+[[nodiscard]] Json run_report(const Runner& runner, const ScenePlan& plan, double from_s,
+                              double cpu_s);
 
 /// run_report() of the run `file` in one line.
 [[nodiscard]] std::string run_summary(const Json& report, const RunFile& file);

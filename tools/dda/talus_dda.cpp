@@ -9,6 +9,7 @@
 #include "base/memory.hpp"
 #include "base/processor_time.hpp"
 #include "base/text.hpp"
+#include "base/workers.hpp"
 #include "post/reduce.hpp"
 #include "record/pieces.hpp"
 #include "run/runner.hpp"
@@ -33,6 +34,7 @@ struct Options {
   DdaFiles files;
   std::string out, xdmf, plan, passages_by = "footprint";
   bool resume = false, independent = false;
+  int threads = 1;  // 0: as many as there are
 };
 
 void declare(Tool& tool, SiteOptions& site, Options& o) {
@@ -54,6 +56,10 @@ void declare(Tool& tool, SiteOptions& site, Options& o) {
   tool.option("--passages-by", o.passages_by,
               "a cell is passed while the footprint or only the centroid is over it")
       ->check(CLI::IsMember({"footprint", "centroid"}));
+  tool.option("--threads", o.threads,
+              "threads that share a step; 0: all that the machine or the Slurm task gives, one "
+              "inside make -j; the run has the same bytes with any number")
+      ->check(CLI::Range(0, 1024));
   site.option(tool, "--law", "solver.law", "contact law, talus or paper");
   site.option(tool, "--duration-s", "solver.duration_s", "time simulated");
   site.option(tool, "--time-step-s", "solver.time_step_s", "time step");
@@ -69,7 +75,7 @@ void declare(Tool& tool, SiteOptions& site, Options& o) {
   // The site file counts by its effective values.
   tool.leave_out_of_run_id(site.names());
   tool.leave_out_of_run_id(
-      {"resume", "output.checkpoint_interval_s", "output.frames", "output.whole_share"});
+      {"resume", "threads", "output.checkpoint_interval_s", "output.frames", "output.whole_share"});
 }
 
 // --- the plan ----------------------------------------------------------------------------------
@@ -219,6 +225,15 @@ class Checkpoints {
   Clock::time_point next_ = Clock::now() + to_duration(interval_s_);
 };
 
+// Blocks below which no loop is long enough to be shared.
+constexpr int least_shared_blocks = 64;
+
+// How many threads share a step.
+int n_threads(const Scene& scene, const ScenePlan& plan, const Options& o) {
+  if (!plan.block_contacts || n_blocks(scene) < least_shared_blocks) return 1;
+  return o.threads > 0 ? o.threads : threads_by_default();
+}
+
 // To the end, to a broken limit, to where the mass stands, or to a signal.
 void compute(Tool& tool, Runner& runner, const std::string& part, double interval_s,
              bool may_end_standing) {
@@ -310,13 +325,17 @@ int main(int argc, char** argv) {
     const BlockSet blocks = inputs.parts.blocks;
     const Scene scene = make_site_scene(site, plan, std::move(inputs.parts));
     file.blocks = run_blocks(scene, blocks);
-    const RunOptions options = run_options(site, plan, o);
+    RunOptions options = run_options(site, plan, o);
+    Workers workers(n_threads(scene, plan, o));
+    if (workers.n_threads() > 1) options.workers = &workers;
+    tool.detail(counted(workers.n_threads(), "thread"));
     ask_for_frames(scene, options, site);
     Runner runner = runner_of(tool, scene, options, inputs.lines, std::move(file), o);
+    const double from_s = runner.state.time;
     compute(tool, runner, part_of(o), site.output.checkpoint_interval_s,
             site.solver.end_when_standing);
     write_outputs(tool, runner, site, scene.ground.trn, o);
-    const Json report = run_report(runner, plan, processor_seconds() - cpu_start);
+    const Json report = run_report(runner, plan, from_s, processor_seconds() - cpu_start);
     for (const char* key : {"steps", "impacts", "unconverged", "left_domain", "largest_speed_m_s"})
       tool.metric(key, report[key].get<double>(),
                   std::string(key) == "largest_speed_m_s" ? "m/s" : "1");

@@ -5,7 +5,6 @@
 #include "base/random.hpp"
 #include "solver/block_lu.hpp"
 #include "solver/packed_matrix.hpp"
-#include "solver/single_matrix.hpp"
 
 namespace {
 
@@ -99,27 +98,6 @@ TEST(Packed, InverseIsThatOfTheFullMatrix) {
     EXPECT_LT(
         (talus::unpacked(talus::inverse(P)) * S - Eigen::Matrix<double, 6, 6>::Identity()).norm(),
         1e-13);
-  }
-}
-
-TEST(SingleMatrix, ProductsAreThoseOfDoubles) {
-  using talus::Vec3;
-  talus::Random random(6, "single");
-  constexpr double rounding = 1e-6;
-  for (int round = 0; round < 50; ++round) {
-    const auto A = random_block<6>(random);
-    const Eigen::Matrix<double, 6, 6> S = A * A.transpose();
-    const talus::Vec6 x = A.col(0), y = A.col(1);
-    const Vec3 u = x.head<3>(), v = x.tail<3>();
-    const talus::SingleVector single_x = talus::single(x);
-    EXPECT_LT(
-        (talus::in_double(product(talus::single(talus::packed<6>(S)), single_x)) - S * x).norm(),
-        rounding * S.norm() * x.norm());
-    EXPECT_NEAR(dot(single_x, talus::single(y)), x.dot(y), rounding * x.norm() * y.norm());
-    const talus::Four across = talus::cross(single_x.linear, single_x.angular);
-    EXPECT_LT((Vec3(across[0], across[1], across[2]) - u.cross(v)).norm(),
-              rounding * u.norm() * v.norm());
-    EXPECT_EQ(across[3], 0);
   }
 }
 

@@ -197,7 +197,8 @@ TEST(SolveImpact, BondsHoldThroughTheHit) {
   EXPECT_NEAR(bodies[1].velocity[2], 2, 1e-9);
 }
 
-// Many bodies hit at one time: the matrix is sparse, the answer the same law.
+// Many bodies hit at one time: the matrix is sparse, the answer the same law, and the same bits in
+// several threads.
 TEST(SolveImpact, LargeGroupsKeepWhatMustBeKept) {
   Random random(3);
   ImpactWork work;
@@ -212,9 +213,20 @@ TEST(SolveImpact, LargeGroupsKeepWhatMustBeKept) {
       for (const double y : {-0.5, 0.5})
         contacts.push_back(contact(k, k - 1, Vec3(0, 0, 1), Vec3(x, y, k), 0.5, 0.5));
   const double before = energy(bodies);
+  const std::vector<ImpactBody> bodies_before = bodies;
+  const std::vector<ImpactContact> contacts_before = contacts;
   EXPECT_TRUE(solve_impact(bodies, contacts, work).converged);
   EXPECT_LT(energy(bodies), before);
   for (const ImpactContact& c : contacts) EXPECT_GE(c.normal.dot(at(bodies, c)), -1e-9);
+  for (const int n_threads : {2, 3}) {
+    Workers workers(n_threads);
+    ImpactWork shared_work;
+    shared_work.workers = &workers;
+    std::vector<ImpactBody> shared = bodies_before;
+    std::vector<ImpactContact> shared_contacts = contacts_before;
+    EXPECT_TRUE(solve_impact(shared, shared_contacts, shared_work).converged);
+    for (int k = 0; k < n; ++k) EXPECT_EQ(shared[k].velocity, bodies[k].velocity) << k;
+  }
 }
 
 }  // namespace

@@ -484,4 +484,31 @@ TEST(SolveIsland, GivesTheSameBitsWithNewAndUsedScratch) {
     EXPECT_EQ(first.velocity[i], second.velocity[i]);
 }
 
+// A wall that moves: laws, tangents, factor and conjugate gradients are all shared.
+TEST(SolveIsland, SharedInTwoThreadsAndMoreGivesTheSameBits) {
+  talus::Random random(72, "threads");
+  const LawOfScene law;
+  Island start = talus::scenes::wall(20, 20, law);
+  for (Vec6& v : start.free_velocity)
+    for (int k = 0; k < 3; ++k) v[k] += law.gravity * law.step * (random.uniform() - 0.5);
+  IslandSettings settings;
+  settings.tolerance = 1e-9 * law.gravity * law.step;
+  Island alone = start;
+  IslandWork work;
+  const IslandResult one = solve_island(alone, settings, work);
+  EXPECT_TRUE(one.converged);
+  EXPECT_GT(one.linear_iterations, 10);
+  for (const int n_threads : {2, 3, 4}) {
+    talus::Workers workers(n_threads);
+    IslandWork shared_work;
+    shared_work.matrix.workers = &workers;
+    Island shared = start;
+    const IslandResult result = solve_island(shared, settings, shared_work);
+    EXPECT_EQ(result.passes, one.passes) << n_threads;
+    EXPECT_EQ(result.linear_iterations, one.linear_iterations) << n_threads;
+    for (std::size_t i = 0; i < alone.velocity.size(); ++i)
+      ASSERT_EQ(shared.velocity[i], alone.velocity[i]) << n_threads << " threads, body " << i;
+  }
+}
+
 }  // namespace
