@@ -120,6 +120,26 @@ std::string raster_qml(const RasterStyle& style) {
   return out;
 }
 
+namespace {
+
+// Around a point, above a line, inside an area.
+std::string labeling(const VectorStyle& style) {
+  if (style.label.empty()) return "";
+  const char* const placement = style.kind == SymbolKind::point  ? "0"
+                                : style.kind == SymbolKind::line ? "2"
+                                                                 : "1";
+  return "  <labeling type=\"simple\"><settings calloutType=\"simple\"><text-style" +
+         attribute("fieldName", style.label) +
+         " isExpression=\"1\" fontFamily=\"Sans Serif\" fontSize=\"9\" fontSizeUnit=\"Point\" "
+         "textColor=\"20,20,20,255\"><text-buffer bufferDraw=\"1\" bufferSize=\"0.8\" "
+         "bufferSizeUnits=\"MM\" bufferColor=\"255,255,255,255\"/></text-style><text-format/>"
+         "<placement placement=\"" +
+         placement +
+         "\" placementFlags=\"10\"/><rendering obstacle=\"0\"/></settings></labeling>\n";
+}
+
+}  // namespace
+
 std::string vector_qml(const VectorStyle& style) {
   std::string out = document_type;
   out += "<qgis version=\"3.22.16\" styleCategories=\"AllStyleCategories\">\n";
@@ -139,6 +159,7 @@ std::string vector_qml(const VectorStyle& style) {
     for (std::size_t i = 0; i < style.classes.size(); ++i) out += symbol(style, i);
     out += "    </symbols>\n  </renderer-v2>\n";
   }
+  out += labeling(style);
   const int geometry = style.kind == SymbolKind::point ? 0 : style.kind == SymbolKind::line ? 1 : 2;
   out +=
       "  <blendMode>0</blendMode>\n  <featureBlendMode>0</featureBlendMode>\n"

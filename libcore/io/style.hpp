@@ -50,7 +50,8 @@ struct VectorStyle {
     std::string fill = "solid";  ///< of polygons, as QGIS names it: "b_diagonal", "no"
   };
   std::vector<Class> classes;
-  double size_mm = 0.4;  ///< width of lines and outlines, diameter of points
+  double size_mm = 0.4;    ///< width of lines and outlines, diameter of points
+  std::string label = {};  ///< expression of QGIS, written beside each feature; empty: none
 };
 [[nodiscard]] std::string vector_qml(const VectorStyle& style);
 

@@ -25,6 +25,20 @@ std::string crs_xml(const QgisProject& project) {
 
 // --- the tree of layers --------------------------------------------------------------------------
 
+// The classes of a raster without the name of its band, which QGIS puts before them.
+std::string nodes_xml(const QgisLayer& layer) {
+  if (layer.kind != QgisLayer::raster) return "";
+  std::string order;
+  int n = 0;
+  for (std::size_t i = layer.style.find("<item "); i != std::string::npos;
+       i = layer.style.find("<item ", i + 1))
+    order += (n > 0 ? "," : "") + std::to_string(n + 1), ++n;
+  if (n == 0) return "";
+  return "<customproperties><Option type=\"Map\"><Option name=\"legend/node-order\" "
+         "type=\"QString\" value=\"" +
+         order + "\"/></Option></customproperties>";
+}
+
 std::string layer_tree(const QgisProject& project) {
   std::vector<std::string> groups;
   for (const QgisLayer& layer : project.layers)
@@ -41,7 +55,7 @@ std::string layer_tree(const QgisProject& project) {
              xml_escaped(layer.name) + "\" source=\"./" + xml_escaped(layer.source) +
              "\" providerKey=\"" + (is_vector(layer) ? "ogr" : "gdal") + "\" checked=\"" +
              (layer.visible ? "Qt::Checked" : "Qt::Unchecked") + "\" expanded=\"" +
-             (layer.visible ? "1" : "0") + "\"/>\n";
+             (layer.visible ? "1" : "0") + "\">" + nodes_xml(layer) + "</layer-tree-layer>\n";
     }
     out += "</layer-tree-group>\n";
   }
@@ -102,6 +116,7 @@ std::string layer_xml(const QgisProject& project, std::size_t i) {
   std::string out = is_vector(layer) ? std::string("<maplayer type=\"vector\" geometry=\"") +
                                            geometry[layer.kind] + "\" "
                                      : std::string("<maplayer type=\"raster\" ");
+  if (layer.style.find("<labeling") != std::string::npos) out += "labelsEnabled=\"1\" ";
   out += "styleCategories=\"AllStyleCategories\" hasScaleBasedVisibilityFlag=\"0\">\n<id>" +
          id_of(project, i) + "</id>\n<datasource>./" + xml_escaped(layer.source) +
          "</datasource>\n<layername>" + xml_escaped(layer.name) + "</layername>\n<srs>" +
@@ -137,15 +152,20 @@ std::string text_style(double size_pt, bool bold) {
          "multilineHeight=\"1.1\"/>\n";
 }
 
+// As QGIS writes a font.
+std::string font_description(double size_pt, bool bold) {
+  return "description=\"Sans Serif," + text(size_pt) + ",-1,5," + (bold ? "75" : "50") +
+         ",0,0,0,0,0\" style=\"\"";
+}
+
 std::string label_item(const std::string& uuid, double x, double y, double width, double height,
                        double size_pt, bool bold, const std::string& words) {
   return item(65641, uuid, x, y, width, height,
               "frame=\"false\" background=\"false\" htmlState=\"0\" halign=\"1\" valign=\"32\" "
               "marginX=\"0\" marginY=\"0\" labelText=\"" +
                   xml_escaped(words) + "\"",
-              "<LabelFont description=\"Sans Serif," + text(size_pt) + ",-1,5," +
-                  (bold ? "75" : "50") +
-                  ",0,0,0,0,0\" style=\"\"/>\n<FontColor red=\"0\" green=\"0\" blue=\"0\" "
+              "<LabelFont " + font_description(size_pt, bold) +
+                  "/>\n<FontColor red=\"0\" green=\"0\" blue=\"0\" "
                   "alpha=\"255\"/>\n");
 }
 
@@ -200,12 +220,22 @@ std::string map_item(const QgisProject& project, double x, double y, double widt
 
 std::string legend_item(double x, double y) {
   std::string styles;
-  for (const auto& [name, size] :
-       {std::pair{"title", 11.0}, {"group", 9.0}, {"subgroup", 8.0}, {"symbolLabel", 7.0}})
-    styles += "<style name=\"" + std::string(name) +
-              "\" alignment=\"1\" indent=\"0\" marginTop=\"1\" "
-              "marginLeft=\"2\">" +
-              text_style(size, size > 8.5) + "</style>\n";
+  struct Style {
+    const char* name;
+    double size_pt, above_mm;
+  };
+  constexpr Style all[] = {{"title", 11, 1},
+                           {"group", 8, 1.5},
+                           {"subgroup", 7.5, 0.8},
+                           {"symbol", 7, 0.8},
+                           {"symbolLabel", 7, 0.8}};
+  for (const Style& style : all) {
+    const bool is_bold = style.size_pt > 7.6;
+    styles += "<style name=\"" + std::string(style.name) +
+              "\" alignment=\"1\" indent=\"0\" marginTop=\"" + text(style.above_mm) +
+              "\" marginLeft=\"2\"><styleFont " + font_description(style.size_pt, is_bold) + "/>" +
+              text_style(style.size_pt, is_bold) + "</style>\n";  // QGIS 3.22, 3.30
+  }
   return item(
       65642, "00000000-0000-4000-8000-000000000002", x, y, 70, 120,
       std::string("id=\"Legend\" frame=\"false\" background=\"true\" title=\"\" "

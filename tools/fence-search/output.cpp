@@ -337,8 +337,8 @@ Json search_json(const SearchCase& search, const SearchAnswer& answer, const Vec
 std::vector<VectorLayer> search_layers(const std::vector<SearchCase>& searches,
                                        const std::vector<SearchAnswer>& answers,
                                        const Vec3& origin) {
-  const auto line_style = [](Colour colour, double size) {
-    return vector_qml({SymbolKind::line, "", {{"", "", colour}}, size});
+  const auto line_style = [](Colour colour, double size, const char* label = "") {
+    return vector_qml({SymbolKind::line, "", {{"", "", colour}}, size, label});
   };
   VectorLayer candidates{"candidates",
                          "lines that were screened",
@@ -356,9 +356,12 @@ std::vector<VectorLayer> search_layers(const std::vector<SearchCase>& searches,
                     option_fields(),
                     {},
                     line_style({49, 130, 189, 160}, 0.5)};
-  VectorLayer proposals{
-      "proposals", "fences that do what is asked for", GeometryType::line_zm, option_fields(),
-      {},          line_style({203, 24, 29, 255}, 1.0)};
+  VectorLayer proposals{"proposals",
+                        "fences that do what is asked for",
+                        GeometryType::line_zm,
+                        option_fields(),
+                        {},
+                        line_style({203, 24, 29, 255}, 1.0, "\"name\"")};
   VectorLayer posts{"posts",
                     "posts of the proposals",
                     GeometryType::point_z,

@@ -67,7 +67,7 @@ VectorLayer whole_layer(const std::vector<FenceCase>& fences,
                     GeometryType::line_zm,
                     {{"fence", FieldType::text}, {"arrivals", FieldType::integer}},
                     {},
-                    vector_qml({SymbolKind::line, "verdict", verdict_classes(), 1.4})};
+                    vector_qml({SymbolKind::line, "verdict", verdict_classes(), 1.4, "\"fence\""})};
   for (const char* name : {"design_energy_kj", "required_capacity_kj", "required_height_m"})
     layer.fields.push_back({name, FieldType::real});
   for (const char* name : {"smallest_class", "basis", "verdict", "verdict_text"})
@@ -128,12 +128,13 @@ VectorLayer field_layer(const std::vector<FenceCase>& fences,
 
 VectorLayer post_layer(const std::vector<FenceCase>& fences,
                        const std::vector<FenceResult>& results, const Vec3& origin) {
-  VectorLayer layer{"fence_posts",
-                    "posts, with the arrivals nearest to each",
-                    GeometryType::point_z,
-                    part_fields({{"fence", FieldType::text}, {"post", FieldType::integer}}),
-                    {},
-                    vector_qml({SymbolKind::point, "", {{"", "", {60, 60, 60, 255}}}, 1.6})};
+  VectorLayer layer{
+      "fence_posts",
+      "posts, with the arrivals nearest to each",
+      GeometryType::point_z,
+      part_fields({{"fence", FieldType::text}, {"post", FieldType::integer}}),
+      {},
+      vector_qml({SymbolKind::point, "", {{"", "", {60, 60, 60, 255}}}, 1.6, "\"post\""})};
   for (std::size_t i = 0; i < fences.size(); ++i)
     for (std::size_t p = 0; p < results[i].posts.size(); ++p) {
       VectorFeature feature;

@@ -415,13 +415,16 @@ std::string name_in_words(const MapLayerKind& kind) {
   return kind.title + (has_unit ? " [" + std::string(kind.unit) + "]" : "");
 }
 
-void add_maps(QgisProject& project, const Options& o, const ResultFolder& folder) {
+// Two maps over each other show neither: where there are classes they are what is seen.
+void add_maps(QgisProject& project, const Options& o, const ResultFolder& folder,
+              const ReportData& data) {
+  const bool has_classes = data.hazard.is_object() && data.hazard.at("classes").is_array();
   for (const MapLayerKind& kind : map_layers()) {
     const std::string base = std::string("maps/") + kind.name;
     if (!folder.has(base + ".tif")) continue;
     project.layers.push_back({kind.group, name_in_words(kind),
                               relative_to(o.qgis, folder.path(base + ".tif")), QgisLayer::raster,
-                              folder.text(base + ".qml"), kind.is_visible});
+                              folder.text(base + ".qml"), kind.is_visible && !has_classes});
   }
 }
 
@@ -532,7 +535,7 @@ QgisProject project_of(const ReportData& data, const Options& o, const ResultFol
   add_package(project, o, folder, "runout.gpkg", "Paths", hidden);
   add_package(project, o, folder, "blocks.gpkg", "Source", {"blocks"});
   add_case_maps(project, o, folder, data);
-  add_maps(project, o, folder);
+  add_maps(project, o, folder, data);
   project.contour_interval = interval_in(trn, window);
   if (project.contour_interval > 0)
     project.layers.push_back({"Terrain", "contours every " + text(project.contour_interval) + " m",

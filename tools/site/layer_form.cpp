@@ -139,20 +139,6 @@ std::string form_xml(const SiteLayer& layer) {
          std::string(has_names(layer) ? "\"name\"" : "\"fid\"") + "</previewExpression>\n";
 }
 
-// The names of features beside them.
-constexpr const char* labels =
-    R"(  <labeling type="simple"><settings calloutType="simple"><text-style fieldName="name" fontFamily="Sans Serif" fontSize="9" fontSizeUnit="Point" textColor="20,20,20,255" isExpression="0"><text-buffer bufferDraw="1" bufferSize="0.8" bufferSizeUnits="MM" bufferColor="255,255,255,255"/></text-style><text-format/><placement placement="%" placementFlags="10"/><rendering obstacle="0"/></settings></labeling>
-)";
-
-std::string labels_xml(const SiteLayer& layer) {
-  std::string out = labels;
-  // Around a point, above a line, inside an area.
-  const char* const placement = layer.shape == SiteLayer::points  ? "0"
-                                : layer.shape == SiteLayer::lines ? "2"
-                                                                  : "1";
-  return out.replace(out.find('%'), 1, placement);
-}
-
 VectorStyle style_of(const SiteLayer& layer) {
   static const std::map<std::string, Colour> colours = {
       {"release_points", {178, 24, 43, 255}}, {"object_points", {84, 39, 136, 255}},
@@ -164,7 +150,7 @@ VectorStyle style_of(const SiteLayer& layer) {
                           : layer.shape == SiteLayer::lines ? SymbolKind::line
                                                             : SymbolKind::polygon;
   const double size = kind == SymbolKind::point ? 3 : layer.name == "fences" ? 1 : 0.5;
-  return {kind, "", {{"", "", colours.at(layer.name)}}, size};
+  return {kind, "", {{"", "", colours.at(layer.name)}}, size, has_names(layer) ? "\"name\"" : ""};
 }
 
 }  // namespace
@@ -181,7 +167,7 @@ std::vector<KeyDescription> fields_of(const SiteLayer& layer) {
 std::string layer_form_qml(const SiteLayer& layer) {
   std::string qml = vector_qml(style_of(layer));
   const std::size_t end = qml.rfind("</qgis>");
-  return qml.insert(end, (has_names(layer) ? labels_xml(layer) : "") + form_xml(layer));
+  return qml.insert(end, form_xml(layer));
 }
 
 }  // namespace talus

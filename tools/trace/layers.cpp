@@ -58,16 +58,17 @@ VectorStyle p_style(SymbolKind kind, double size_mm) {
 
 VectorLayer object_layer(const TraceSums& sums, const std::vector<TracedObject>& objects,
                          const Vec2& origin) {
-  VectorLayer layer{"objects",
-                    "endangered objects and what comes to them",
-                    GeometryType::multi_polygon,
-                    {{"object", FieldType::text},
-                     {"kind", FieldType::text},
-                     {"method", FieldType::text},
-                     {"n_runs_hit", FieldType::integer},
-                     {"n_hits", FieldType::integer}},
-                    {},
-                    vector_qml({SymbolKind::polygon, "", {{"", "", {200, 30, 30, 120}}}, 0.6})};
+  VectorLayer layer{
+      "objects",
+      "endangered objects and what comes to them",
+      GeometryType::multi_polygon,
+      {{"object", FieldType::text},
+       {"kind", FieldType::text},
+       {"method", FieldType::text},
+       {"n_runs_hit", FieldType::integer},
+       {"n_hits", FieldType::integer}},
+      {},
+      vector_qml({SymbolKind::polygon, "", {{"", "", {200, 30, 30, 120}}}, 0.6, "\"object\""})};
   for (const char* name :
        {"run_share",          "run_share_lo",    "run_share_hi",       "hits_a_run",
         "block_share",        "volume_share",    "ke_p50_kj",          "ke_p95_kj",
