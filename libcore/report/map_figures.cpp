@@ -10,9 +10,9 @@
 namespace talus {
 namespace {
 
-std::string layer_figure(const MapSheet& sheet, const MapLayerKind& kind,
+std::string layer_figure(const Texts& texts, const MapSheet& sheet, const MapLayerKind& kind,
                          const MapPicture& picture) {
-  return map_figure(sheet, picture, kind.title, kind.unit,
+  return map_figure(texts, sheet, picture, kind.title, kind.unit,
                     std::string("<b>") + kind.title + "</b>: " + kind.caption + " [" + kind.unit +
                         "]. <code>maps/" + kind.name + ".tif</code>");
 }
@@ -30,14 +30,16 @@ const MapPicture* picture_of(const std::vector<MapPicture>& pictures, const std:
 
 }  // namespace
 
-std::string map_figure(const MapSheet& sheet, const MapPicture& picture, const std::string& alt,
-                       const std::string& unit, const std::string& caption) {
+std::string map_figure(const Texts& texts, const MapSheet& sheet, const MapPicture& picture,
+                       const std::string& alt, const std::string& unit,
+                       const std::string& caption) {
   return html_figure(
       cells_svg(sheet, picture.cells, alt, unit),
-      caption + html_legend(picture.qml, picture.weak, !picture.cells.unsure.empty()));
+      caption + html_legend(texts, picture.qml, picture.weak, !picture.cells.unsure.empty()));
 }
 
-std::string case_figures(const MapSheet& sheet, const CasePictures& cases, bool of_decisions) {
+std::string case_figures(const Texts& texts, const MapSheet& sheet, const CasePictures& cases,
+                         bool of_decisions) {
   std::string out;
   for (const MapLayerKind& kind : map_layers()) {
     if (is_of_decisions(kind.name) != of_decisions) continue;
@@ -45,10 +47,12 @@ std::string case_figures(const MapSheet& sheet, const CasePictures& cases, bool 
     for (const auto& [name, pictures] : cases) {
       const MapPicture* const picture = picture_of(pictures, kind.name);
       if (picture == nullptr) continue;
-      const std::string which = std::string(kind.title) + ", case " + name;
-      row += map_figure(sheet, *picture, which, kind.unit,
-                        "<b>Case " + xml_escaped(name) + "</b>. <code>maps/" + xml_escaped(name) +
-                            "/" + kind.name + ".tif</code>");
+      const std::string which =
+          texts.of("maps.layer_of_case", {{"layer", kind.title}, {"case", name}});
+      row +=
+          map_figure(texts, sheet, *picture, which, kind.unit,
+                     "<b>" + texts.of("words.case", {{"case", xml_escaped(name)}}) +
+                         "</b>. <code>maps/" + xml_escaped(name) + "/" + kind.name + ".tif</code>");
     }
     if (!row.empty())
       out += std::string("<h3>") + kind.title + " [" + kind.unit + "]</h3>\n<p>" + kind.caption +
@@ -57,11 +61,12 @@ std::string case_figures(const MapSheet& sheet, const CasePictures& cases, bool 
   return out;
 }
 
-std::string map_figures(const MapSheet& sheet, const std::vector<MapPicture>& pictures) {
+std::string map_figures(const Texts& texts, const MapSheet& sheet,
+                        const std::vector<MapPicture>& pictures) {
   std::string out = "<div class=\"maps\">\n";
   for (const MapLayerKind& kind : map_layers()) {
     const MapPicture* const picture = picture_of(pictures, kind.name);
-    if (picture != nullptr) out += layer_figure(sheet, kind, *picture);
+    if (picture != nullptr) out += layer_figure(texts, sheet, kind, *picture);
   }
   return out + "</div>\n";
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "report/map_sheet.hpp"
+#include "report/texts.hpp"
 
 namespace talus {
 
@@ -19,18 +20,18 @@ struct MapPicture {
 };
 
 /// One figure a layer that has a picture.
-[[nodiscard]] std::string map_figures(const MapSheet& sheet,
+[[nodiscard]] std::string map_figures(const Texts& texts, const MapSheet& sheet,
                                       const std::vector<MapPicture>& pictures);
 /// A figure with its legend; `caption` is HTML.
-[[nodiscard]] std::string map_figure(const MapSheet& sheet, const MapPicture& picture,
-                                     const std::string& alt, const std::string& unit,
-                                     const std::string& caption);
+[[nodiscard]] std::string map_figure(const Texts& texts, const MapSheet& sheet,
+                                     const MapPicture& picture, const std::string& alt,
+                                     const std::string& unit, const std::string& caption);
 
 /// Pictures of several cases, by the name of the case.
 using CasePictures = std::vector<std::pair<std::string, std::vector<MapPicture>>>;
 /// A row a layer that has a picture, the cases side by side; of the layers that decisions are made
 /// by, or of all others.
-[[nodiscard]] std::string case_figures(const MapSheet& sheet, const CasePictures& cases,
-                                       bool of_decisions);
+[[nodiscard]] std::string case_figures(const Texts& texts, const MapSheet& sheet,
+                                       const CasePictures& cases, bool of_decisions);
 
 }  // namespace talus

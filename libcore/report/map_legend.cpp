@@ -34,7 +34,8 @@ RasterStyle style_of(const std::string& qml) {
   return style;
 }
 
-std::string html_legend(const std::string& qml, const std::vector<int>& weak, bool has_unsure) {
+std::string html_legend(const Texts& texts, const std::string& qml, const std::vector<int>& weak,
+                        bool has_unsure) {
   std::string out;
   for (std::size_t i = qml.find("<item "); i != std::string::npos; i = qml.find("<item ", i + 1)) {
     const std::string item = qml.substr(i, qml.find("/>", i) - i);
@@ -46,7 +47,8 @@ std::string html_legend(const std::string& qml, const std::vector<int>& weak, bo
            " style=\"background-color:" + attribute(item, "color") + "\"></i>" +
            attribute(item, "label") + "</span> ";
   }
-  if (has_unsure) out += "<span><i class=\"unsure\"></i>class not certain</span> ";
+  if (has_unsure)
+    out += "<span><i class=\"unsure\"></i>" + texts.of("maps.not_certain") + "</span> ";
   return out.empty() ? "" : "<span class=\"legend\">" + out + "</span>";
 }
 

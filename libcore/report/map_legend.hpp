@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "io/style.hpp"
+#include "report/texts.hpp"
 
 namespace talus {
 
@@ -16,7 +17,7 @@ namespace talus {
 
 /// Empty for a style without classes. `weak`: codes of classes that the map hatches in white;
 /// `has_unsure`: it hatches cells in black.
-[[nodiscard]] std::string html_legend(const std::string& qml, const std::vector<int>& weak = {},
-                                      bool has_unsure = false);
+[[nodiscard]] std::string html_legend(const Texts& texts, const std::string& qml,
+                                      const std::vector<int>& weak = {}, bool has_unsure = false);
 
 }  // namespace talus

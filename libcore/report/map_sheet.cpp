@@ -78,17 +78,18 @@ std::string object_of(const MapSheet& sheet, const RecordObject& object) {
   return out;
 }
 
-std::string places_of(const MapSheet& sheet) {
+std::string places_of(const Texts& texts, const MapSheet& sheet) {
   std::string out, rings;
   for (const std::vector<Vec2>& ring : sheet.source) rings += sheet_path(sheet, ring, true);
-  if (!rings.empty()) out += path("source", rings, "source");
+  if (!rings.empty()) out += path("source", rings, texts.of("maps.source_place"));
   for (const RecordObject& object : sheet.objects) out += object_of(sheet, object);
   for (const RecordLine& line : sheet.lines) {
     std::vector<Vec2> points;
     for (const Vec3& p : line.points) points.emplace_back(p.head<2>());
     const std::string d = sheet_path(sheet, points, false);
-    out += line.standing ? path("fence", d, "fence " + line.name)
-                         : path("fence line", d, "line " + line.name + " without a fence");
+    out += line.standing
+               ? path("fence", d, texts.of("maps.fence_place", {{"fence", line.name}}))
+               : path("fence line", d, texts.of("maps.line_place", {{"line", line.name}}));
   }
   return out;
 }
@@ -140,7 +141,7 @@ std::string sheet_path(const MapSheet& sheet, const std::vector<Vec2>& points, b
   return out + (is_closed ? "Z" : "");
 }
 
-std::string sheet_definitions(const MapSheet& sheet) {
+std::string sheet_definitions(const Texts& texts, const MapSheet& sheet) {
   const Shading& shading = sheet.ground.shading;
   const double cell = sheet.ground.shading_cell;
   const Vec2 low = sheet.ground.view.low + sheet.origin,
@@ -155,7 +156,7 @@ std::string sheet_definitions(const MapSheet& sheet) {
          "<g id=\"map-ground\"><image width=\"" + number(shading.n_cols * cell) + "\" height=\"" +
          number(shading.n_rows * cell) + "\" preserveAspectRatio=\"none\" href=\"" +
          data_address("image/png", sheet.shading_png) + "\"/></g>\n<g id=\"map-places\">" +
-         contours_of(sheet) + grid_of(sheet) + places_of(sheet) + "</g>\n</defs></svg>\n";
+         contours_of(sheet) + grid_of(sheet) + places_of(texts, sheet) + "</g>\n</defs></svg>\n";
 }
 
 std::string sheet_svg(const MapSheet& sheet, const std::string& between, const std::string& alt) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "post/maps/map_page.hpp"
+#include "report/texts.hpp"
 
 namespace talus {
 
@@ -33,7 +34,7 @@ struct CellPicture {
 };
 
 /// What all maps use: an SVG that is not seen itself.
-[[nodiscard]] std::string sheet_definitions(const MapSheet& sheet);
+[[nodiscard]] std::string sheet_definitions(const Texts& texts, const MapSheet& sheet);
 
 /// Ground, `between`, places, marks.
 [[nodiscard]] std::string sheet_svg(const MapSheet& sheet, const std::string& between,

@@ -25,11 +25,11 @@ std::vector<Vec2> plan_of(const std::vector<Vec3>& points) {
   return plan;
 }
 
-std::string blocks_of(const RunFile& run, const MapSheet& sheet) {
+std::string blocks_of(const Texts& texts, const RunFile& run, const MapSheet& sheet) {
   std::string starts, paths, ends;
   for (int b = 0; b < n_blocks(run); ++b) {
-    const std::string name =
-        "block " + std::to_string(b) + ", " + grouped_text(run.blocks.volume[b]) + " m3";
+    const std::string name = texts.of(
+        "maps.block", {{"n", std::to_string(b)}, {"volume", grouped_text(run.blocks.volume[b])}});
     starts += shape("start", sheet_path(sheet, footprint(run, b, first_pose(run, b)), true), name);
     if (n_frames(run.frames) == 0) continue;
     const TimedPath path = simplified(block_path(run, b), 0.25);
@@ -61,8 +61,8 @@ PlanWindow plan_window(const RunFile& run, const Trn& trn) {
           (w.high.array() + margin).matrix().cwiseMin(north_east)};
 }
 
-std::string plan_view_svg(const RunFile& run, const MapSheet& sheet) {
-  return sheet_svg(sheet, blocks_of(run, sheet), "map of the run");
+std::string plan_view_svg(const Texts& texts, const RunFile& run, const MapSheet& sheet) {
+  return sheet_svg(sheet, blocks_of(texts, run, sheet), texts.of("maps.plan_picture"));
 }
 
 }  // namespace talus

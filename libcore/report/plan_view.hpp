@@ -6,6 +6,7 @@
 
 #include "record/run_file.hpp"
 #include "report/map_sheet.hpp"
+#include "report/texts.hpp"
 #include "terrain/trn.hpp"
 
 namespace talus {
@@ -19,6 +20,7 @@ struct PlanWindow {
 [[nodiscard]] PlanWindow plan_window(const RunFile& run, const Trn& trn);
 
 /// Throws nothing; a run without frames shows no paths.
-[[nodiscard]] std::string plan_view_svg(const RunFile& run, const MapSheet& sheet);
+[[nodiscard]] std::string plan_view_svg(const Texts& texts, const RunFile& run,
+                                        const MapSheet& sheet);
 
 }  // namespace talus

@@ -25,11 +25,14 @@ std::string shown_path(const std::string& path, const std::string& site_file) {
   return relative.empty() ? path : relative.string();
 }
 
-std::string file_list(const std::vector<RunArtifact>& files, const std::string& site_file) {
+std::string file_list(const Texts& texts, const std::vector<RunArtifact>& files,
+                      const std::string& site_file) {
   std::vector<std::string> lines;
   for (const RunArtifact& file : files)
-    lines.push_back("<code>" + xml_escaped(shown_path(file.path, site_file)) + "</code> <code>" +
-                    (file.sha256.empty() ? "not hashed" : file.sha256.substr(0, 12)) + "</code>");
+    lines.push_back(
+        "<code>" + xml_escaped(shown_path(file.path, site_file)) + "</code> <code>" +
+        (file.sha256.empty() ? texts.of("provenance.not_hashed") : file.sha256.substr(0, 12)) +
+        "</code>");
   std::sort(lines.begin(), lines.end());
   std::string out;
   for (const std::string& line : lines) out += (out.empty() ? "" : "<br>") + line;
@@ -108,13 +111,15 @@ std::vector<RunArtifact> shown_inputs(const RunRecord& step) {
 
 }  // namespace
 
-std::string provenance_table(const std::vector<RunRecord>& steps, const std::string& site_file) {
+std::string provenance_table(const Texts& texts, const std::vector<RunRecord>& steps,
+                             const std::string& site_file) {
   std::vector<std::vector<std::string>> rows;
   for (const RunRecord& step : steps)
     rows.push_back({command_cell(step), xml_escaped(step.version + " (" + step.git_commit + ")"),
                     "<code>" + xml_escaped(step.content_id) + "</code>",
-                    file_list(shown_inputs(step), site_file), file_list(step.outputs, site_file)});
-  return html_table({"command", "version", "run id", "read", "wrote"}, rows);
+                    file_list(texts, shown_inputs(step), site_file),
+                    file_list(texts, step.outputs, site_file)});
+  return html_table(texts.list("provenance.heads"), rows);
 }
 
 }  // namespace talus

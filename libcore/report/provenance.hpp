@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "report/texts.hpp"
 #include "store/runs.hpp"
 
 namespace talus {
@@ -15,7 +16,7 @@ namespace talus {
 /// digests; paths below the folder of `site_file` are relative to it. So that shards and one make
 /// give the same table, a command names its runs and parts by RUN.h5..., and neither the registry
 /// nor inputs of the role "part" are shown: the runs of a part stand beside it.
-[[nodiscard]] std::string provenance_table(const std::vector<RunRecord>& steps,
+[[nodiscard]] std::string provenance_table(const Texts& texts, const std::vector<RunRecord>& steps,
                                            const std::string& site_file);
 
 }  // namespace talus

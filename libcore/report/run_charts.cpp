@@ -24,14 +24,14 @@ double value_at(const ChartSeries& line, double x) {
 }
 
 // The median over the runs and all of them as a band, at the times of the run that lasted longest.
-Chart as_band(Chart chart) {
+Chart as_band(const Texts& texts, Chart chart) {
   constexpr std::size_t most_points = 250;
   const ChartSeries& longest = *std::max_element(
       chart.series.begin(), chart.series.end(),
       [](const ChartSeries& a, const ChartSeries& b) { return a.x.back() < b.x.back(); });
   const std::size_t step = longest.x.size() / most_points + 1;
-  ChartSeries band{"smallest to largest of the runs", "#1f5fa8", {}, {}, 0};
-  ChartSeries middle{"median", "#1f5fa8", {}, {}, 2.2};
+  ChartSeries band{texts.of("curves.band"), "#1f5fa8", {}, {}, 0};
+  ChartSeries middle{texts.of("curves.median"), "#1f5fa8", {}, {}, 2.2};
   for (std::size_t i = 0; i < longest.x.size(); i += step) {
     std::vector<double> values;
     for (const ChartSeries& run : chart.series) values.push_back(value_at(run, longest.x[i]));
@@ -50,9 +50,9 @@ Chart as_band(Chart chart) {
 
 }  // namespace
 
-Chart curve_chart(const CsvTable& table, const std::string& column, const std::string& title,
-                  const std::string& unit) {
-  Chart chart{title, "time [s]", unit, {}, false};
+Chart curve_chart(const Texts& texts, const CsvTable& table, const std::string& column,
+                  const std::string& title, const std::string& unit) {
+  Chart chart{title, texts.of("curves.time"), unit, {}, false};
   std::map<std::string, std::size_t> place;
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
     const std::string& run = table.at(row, "run_id");
@@ -62,12 +62,12 @@ Chart curve_chart(const CsvTable& table, const std::string& column, const std::s
     chart.series[found->second].y.push_back(table.number(row, column));
   }
   constexpr std::size_t least_for_a_band = 3;
-  return chart.series.size() < least_for_a_band ? chart : as_band(std::move(chart));
+  return chart.series.size() < least_for_a_band ? chart : as_band(texts, std::move(chart));
 }
 
-Chart health_chart(const std::vector<RunFile>& runs, const std::string& title,
+Chart health_chart(const Texts& texts, const std::vector<RunFile>& runs, const std::string& title,
                    const std::string& unit, double HealthRow::*field) {
-  Chart chart{title, "time [s]", unit, {}, true};
+  Chart chart{title, texts.of("curves.time"), unit, {}, true};
   for (std::size_t i = 0; i < runs.size(); ++i) {
     ChartSeries line{"", run_colour(i), {}, {}, 1.4};
     for (const HealthRow& row : runs[i].health) {
@@ -79,13 +79,13 @@ Chart health_chart(const std::vector<RunFile>& runs, const std::string& title,
   return chart;
 }
 
-Chart energy_chart(const RunFile& run) {
-  Chart chart{"Energy balance", "time [s]", "MJ", {}, false};
-  chart.series = {{"fallen", "#1c2126", {}, {}},
-                  {"moving", "#1f5fa8", {}, {}},
-                  {"friction", "#c2491d", {}, {}},
-                  {"impacts", "#a8871c", {}, {}},
-                  {"sum", "#2f8a3c", {}, {}, 3.2}};
+Chart energy_chart(const Texts& texts, const RunFile& run) {
+  Chart chart{texts.of("health.energy"), texts.of("curves.time"), "MJ", {}, false};
+  chart.series = {{texts.of("health.fallen"), "#1c2126", {}, {}},
+                  {texts.of("health.moving"), "#1f5fa8", {}, {}},
+                  {texts.of("health.friction"), "#c2491d", {}, {}},
+                  {texts.of("health.impacts"), "#a8871c", {}, {}},
+                  {texts.of("health.sum"), "#2f8a3c", {}, {}, 3.2}};
   if (run.health.empty()) return chart;
   const HealthRow& first = run.health.front();
   const double start = first.translation + first.rotation + first.potential + first.elastic +

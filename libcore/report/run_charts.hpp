@@ -8,20 +8,23 @@
 #include "base/csv.hpp"
 #include "record/run_file.hpp"
 #include "report/chart.hpp"
+#include "report/texts.hpp"
 
 namespace talus {
 
 /// A column of talus-runout's curves (curve_csv) against time: a line a run; of three runs
 /// or more the median, and a band from the smallest to the largest.
-[[nodiscard]] Chart curve_chart(const CsvTable& table, const std::string& column,
-                                const std::string& title, const std::string& unit);
+[[nodiscard]] Chart curve_chart(const Texts& texts, const CsvTable& table,
+                                const std::string& column, const std::string& title,
+                                const std::string& unit);
 
 /// A field of the health against time, a line a run, on a logarithmic axis.
-[[nodiscard]] Chart health_chart(const std::vector<RunFile>& runs, const std::string& title,
-                                 const std::string& unit, double HealthRow::*field);
+[[nodiscard]] Chart health_chart(const Texts& texts, const std::vector<RunFile>& runs,
+                                 const std::string& title, const std::string& unit,
+                                 double HealthRow::*field);
 
 /// Where the energy of a run is [MJ]: what moves and what was spent adds up to what the fall, the
 /// start and the motion of the base gave.
-[[nodiscard]] Chart energy_chart(const RunFile& run);
+[[nodiscard]] Chart energy_chart(const Texts& texts, const RunFile& run);
 
 }  // namespace talus

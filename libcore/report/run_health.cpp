@@ -7,6 +7,13 @@
 #include "report/html.hpp"
 
 namespace talus {
+namespace {
+
+std::string n_of(const Texts& texts, const std::string& n, const std::string& all) {
+  return texts.of("words.n_of", {{"n", n}, {"all", all}});
+}
+
+}  // namespace
 
 void add_limits(const std::vector<RunCheck>& checks, std::vector<LimitOverRuns>& limits) {
   for (const RunCheck& check : checks) {
@@ -25,19 +32,21 @@ bool all_pass(const std::vector<RunFile>& runs, const std::vector<LimitOverRuns>
                      [](const LimitOverRuns& limit) { return limit.n_failed == 0; });
 }
 
-std::string limit_table(const std::vector<LimitOverRuns>& limits, std::size_t n_runs) {
+std::string limit_table(const Texts& texts, const std::vector<LimitOverRuns>& limits,
+                        std::size_t n_runs) {
   std::vector<std::vector<std::string>> rows;
   for (const LimitOverRuns& limit : limits) {
     const bool pass = limit.n_failed == 0;
     rows.push_back({xml_escaped(limit.name), text(limit.worst, 4), text(limit.limit, 4),
-                    std::to_string(limit.n_failed) + " of " + std::to_string(n_runs),
-                    pass ? "<b class=\"pass\">pass</b>" : "<b class=\"fail\">fail</b>"});
+                    n_of(texts, std::to_string(limit.n_failed), std::to_string(n_runs)),
+                    pass ? "<b class=\"pass\">" + texts.of("health.kept") + "</b>"
+                         : "<b class=\"fail\">" + texts.of("health.broken") + "</b>"});
   }
-  return html_table({"limit", "worst value", "limit", "runs beyond it", ""}, rows,
-                    {false, true, true, true, false});
+  return html_table(texts.list("health.limit_heads"), rows, {false, true, true, true, false});
 }
 
-std::string counter_table(const std::vector<RunFile>& runs, const std::vector<std::string>& names) {
+std::string counter_table(const Texts& texts, const std::vector<RunFile>& runs,
+                          const std::vector<std::string>& names) {
   std::vector<std::vector<std::string>> rows;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const RunFile& run = runs[i];
@@ -53,19 +62,18 @@ std::string counter_table(const std::vector<RunFile>& runs, const std::vector<st
         shortest = row.shortest_dt;
     }
     rows.push_back({xml_escaped(names[i]), xml_escaped(run.info.status),
-                    text(run.info.time, 4) + " of " + text(run.info.duration, 4),
+                    n_of(texts, text(run.info.time, 4), text(run.info.duration, 4)),
                     std::to_string(sum.steps), text(shortest, 3), std::to_string(sum.impacts),
                     std::to_string(sum.unconverged), text(sum.largest_penetration, 3),
                     std::to_string(sum.left_domain)});
   }
-  return html_table({"run", "status", "time [s]", "steps", "shortest step [s]", "impacts",
-                     "steps of a block accepted unconverged", "largest penetration [m]",
-                     "blocks that left the terrain"},
-                    rows, {false, false, true, true, true, true, true, true, true});
+  return html_table(texts.list("health.counter_heads"), rows,
+                    {false, false, true, true, true, true, true, true, true});
 }
 
-std::string cut_table(const std::vector<RunFile>& runs, const std::vector<std::string>& names) {
-  std::vector<std::string> heads = {"run"};
+std::string cut_table(const Texts& texts, const std::vector<RunFile>& runs,
+                      const std::vector<std::string>& names) {
+  std::vector<std::string> heads = {texts.of("health.run")};
   heads.insert(heads.end(), substep_cut_names.begin(), substep_cut_names.end());
   std::vector<std::vector<std::string>> rows;
   bool any = false;
@@ -83,17 +91,19 @@ std::string cut_table(const std::vector<RunFile>& runs, const std::vector<std::s
   return any ? html_table(heads, rows, is_number) : "";
 }
 
-std::string deep_table(const std::vector<RunFile>& runs, const std::vector<std::string>& names) {
+std::string deep_table(const Texts& texts, const std::vector<RunFile>& runs,
+                       const std::vector<std::string>& names) {
   std::vector<std::vector<std::string>> rows;
   for (std::size_t i = 0; i < runs.size(); ++i)
     for (const DeepRow& deep : runs[i].deep) {
       const Vec3 at = deep.place + runs[i].info.origin;
-      std::string matters = deep.ends_in_toe != 0 ? "ends in the toe" : "";
-      const auto add = [&matters](int is_so, const char* what) {
-        if (is_so != 0) matters += std::string(matters.empty() ? "" : ", ") + what;
+      std::string matters;
+      const auto add = [&](int is_so, const char* what) {
+        if (is_so != 0) matters += (matters.empty() ? "" : ", ") + texts.of(what);
       };
-      add(deep.met_fence, "met a fence");
-      add(deep.is_too_fast, "too fast for its fall");
+      add(deep.ends_in_toe, "health.ends_in_toe");
+      add(deep.met_fence, "health.met_fence");
+      add(deep.is_too_fast, "health.too_fast");
       rows.push_back({xml_escaped(names[i]), std::to_string(deep.block),
                       xml_escaped(partner_name(deep, runs[i].lines)), text(deep.depth, 3),
                       text(deep.thickness, 3), std::to_string(deep.steps), text(deep.time, 4),
@@ -101,9 +111,7 @@ std::string deep_table(const std::vector<RunFile>& runs, const std::vector<std::
                       text(100 * deep.mass_share, 3), matters});
     }
   if (rows.empty()) return "";
-  return html_table({"run", "block", "in", "depth [m]", "thickness [m]", "steps", "deepest at [s]",
-                     "x [m]", "y [m]", "z [m]", "of the mass [%]", "why it matters"},
-                    rows,
+  return html_table(texts.list("health.deep_heads"), rows,
                     {false, true, false, true, true, true, true, true, true, true, true, false});
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "record/run_file.hpp"
+#include "report/texts.hpp"
 #include "store/runs.hpp"
 
 namespace talus {
@@ -27,19 +28,20 @@ void add_limits(const std::vector<RunCheck>& checks, std::vector<LimitOverRuns>&
                             const std::vector<LimitOverRuns>& limits);
 
 /// A row a limit.
-[[nodiscard]] std::string limit_table(const std::vector<LimitOverRuns>& limits, std::size_t n_runs);
+[[nodiscard]] std::string limit_table(const Texts& texts, const std::vector<LimitOverRuns>& limits,
+                                      std::size_t n_runs);
 
 /// A row a run: how far it came, its steps, and what was not as it should be. `names`: one a run.
-[[nodiscard]] std::string counter_table(const std::vector<RunFile>& runs,
+[[nodiscard]] std::string counter_table(const Texts& texts, const std::vector<RunFile>& runs,
                                         const std::vector<std::string>& names);
 
 /// A row a run: how often islands made a substep again, by reason (docs/theory.md, stage 8); empty
 /// when none did.
-[[nodiscard]] std::string cut_table(const std::vector<RunFile>& runs,
+[[nodiscard]] std::string cut_table(const Texts& texts, const std::vector<RunFile>& runs,
                                     const std::vector<std::string>& names);
 
 /// A row a block that was deep in something; empty when there was none. `names`: one a run.
-[[nodiscard]] std::string deep_table(const std::vector<RunFile>& runs,
+[[nodiscard]] std::string deep_table(const Texts& texts, const std::vector<RunFile>& runs,
                                      const std::vector<std::string>& names);
 
 }  // namespace talus

@@ -4,12 +4,14 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "post/run_set.hpp"
 #include "record/run_file.hpp"
 #include "report/map_figures.hpp"
 #include "report/run_health.hpp"
+#include "report/texts.hpp"
 #include "site/site.hpp"
 #include "store/runs.hpp"
 #include "terrain/trn.hpp"
@@ -19,9 +21,10 @@ namespace talus {
 
 /// Everything that the sections show; JSON is null and text empty where a file is missing.
 struct ReportData {
-  explicit ReportData(const Site& of_site) : site(of_site) {}
+  ReportData(const Site& of_site, Texts of_page) : site(of_site), texts(std::move(of_page)) {}
 
   const Site& site;
+  Texts texts;                                                          ///< the words of the page
   Json tin, trn, blocks, runout, fence, places, hazard, trace, search;  ///< reports of tools
   Trn terrain, bed;  ///< before the slide; what the blocks slide on
   std::string mobility_svg, stereonet_svg, sizes_svg, curves_csv;

@@ -9,7 +9,7 @@
 namespace talus {
 
 /// Whether a fence meets its design code, and what it would need; `fence` of the fences' JSON.
-[[nodiscard]] std::string fence_verdict(const Json& fence);
+[[nodiscard]] std::string fence_verdict(const Texts& texts, const Json& fence);
 
 /// The verdicts that count: of each case where there are several that nobody weighed, else of all
 /// runs.

@@ -9,15 +9,14 @@
 namespace talus {
 namespace {
 
-std::string class_table(const Json& classes) {
+std::string class_table(const Texts& texts, const Json& classes) {
   std::vector<std::vector<std::string>> rows;
   for (auto row = classes.rbegin(); row != classes.rend(); ++row) {
     const Json area = value_at(*row, {"area_m2"}), certain = value_at(*row, {"certain_area_m2"});
     rows.push_back({word_text(value_at(*row, {"class"})), word_text(value_at(*row, {"label"})),
                     number_text(area), number_text(certain)});
   }
-  return html_table({"class", "", "area [m&sup2;]", "of it certain [m&sup2;]"}, rows,
-                    {false, false, true, true});
+  return html_table(texts.list("hazard.heads"), rows, {false, false, true, true});
 }
 
 std::string notes_of(const Json& hazard) {
@@ -28,28 +27,24 @@ std::string notes_of(const Json& hazard) {
   return out;
 }
 
-std::string caption_of(const std::string& name) {
-  if (name == "class")
-    return "Hazard class. Hatched in black: a bound of the frequencies or of the share of runs "
-           "gives another class.";
-  if (name == "intensity") return "Intensity that is reached within the longest return period.";
-  if (name.starts_with("return_period"))
-    return "How many years lie between two events, on average.";
-  if (name.starts_with("ke_T"))
-    return "Largest energy that comes at least once in " + name.substr(4) + " years.";
-  if (name == "probability") return "Probability within the years of the failure.";
-  if (name == "event_exceed") return "Share of the runs that reach the place.";
-  return "Events or blocks a year.";
+std::string caption_of(const Texts& texts, const std::string& name) {
+  if (name == "class") return texts.of("hazard.class_map");
+  if (name == "intensity") return texts.of("hazard.intensity_map");
+  if (name.starts_with("return_period")) return texts.of("hazard.return_period_map");
+  if (name.starts_with("ke_T")) return texts.of("hazard.energy_map", {{"years", name.substr(4)}});
+  if (name == "probability") return texts.of("hazard.probability_map");
+  if (name == "event_exceed") return texts.of("hazard.exceedance_map");
+  return texts.of("hazard.frequency_map");
 }
 
-std::string unit_of(const std::string& name) {
-  if (name.starts_with("return_period")) return "years";
+std::string unit_of(const Texts& texts, const std::string& name) {
+  if (name.starts_with("return_period")) return texts.of("hazard.years");
   return name.starts_with("ke_T") ? "kJ" : "1";
 }
 
-std::string figure_of(const MapSheet& sheet, const MapPicture& map) {
-  return map_figure(sheet, map, map.name, unit_of(map.name),
-                    caption_of(map.name) + " <code>hazard/" + map.name + ".tif</code>");
+std::string figure_of(const Texts& texts, const MapSheet& sheet, const MapPicture& map) {
+  return map_figure(texts, sheet, map, map.name, unit_of(texts, map.name),
+                    caption_of(texts, map.name) + " <code>hazard/" + map.name + ".tif</code>");
 }
 
 }  // namespace
@@ -67,18 +62,19 @@ std::vector<std::string> hazard_maps_of(const Json& hazard) {
 
 std::string hazard_section(const ReportData& data) {
   if (!data.hazard.is_object()) return "";
+  const Texts& texts = data.texts;
   std::string out;
   const Json classes = value_at(data.hazard, {"classes"});
   if (!classes.is_array())
-    out += html_paragraph(
-        "There are no classes: " + word_text(value_at(data.hazard, {"why_no_classes"})) + ".");
+    out += html_paragraph(texts.of(
+        "hazard.no_classes", {{"why", word_text(value_at(data.hazard, {"why_no_classes"}))}}));
   else
-    out += class_table(classes) + notes_of(data.hazard);
+    out += class_table(texts, classes) + notes_of(data.hazard);
   std::string more;
   for (const MapPicture& map : data.hazard_maps)
-    (map.name == "class" ? out : more) += figure_of(data.sheet, map);
-  if (!more.empty()) out += html_fold("Return periods, energies and frequencies", more);
-  return html_section("hazard", "Hazard classes", out);
+    (map.name == "class" ? out : more) += figure_of(texts, data.sheet, map);
+  if (!more.empty()) out += html_fold(texts.of("hazard.other_maps"), more);
+  return html_section("hazard", texts.of("hazard.title"), out);
 }
 
 }  // namespace talus

@@ -24,6 +24,14 @@ std::string percent_text(const Json& value) {
   return value.is_number() ? text(100 * value.get<double>(), 3) + " %" : "&ndash;";
 }
 
+std::string range_text(const Texts& texts, const std::string& low, const std::string& high) {
+  return texts.of("words.range", {{"low", low}, {"high", high}});
+}
+
+std::string runs_text(const Texts& texts, std::int64_t n) {
+  return texts.counted(n, "words.run", "words.runs");
+}
+
 std::string word_text(const Json& value) {
   return value.is_string() ? xml_escaped(value.get<std::string>()) : "";
 }

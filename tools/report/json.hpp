@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/grouped_text.hpp"
+#include "report/texts.hpp"
 #include "tools/frame/tool.hpp"
 
 namespace talus {
@@ -18,6 +19,13 @@ namespace talus {
 
 /// A share, 0 to 1, in percent with its sign.
 [[nodiscard]] std::string percent_text(const Json& value);
+
+/// "12 % to 25 %", of two texts.
+[[nodiscard]] std::string range_text(const Texts& texts, const std::string& low,
+                                     const std::string& high);
+
+/// "12 runs".
+[[nodiscard]] std::string runs_text(const Texts& texts, std::int64_t n);
 
 /// A text, escaped; empty where there is none.
 [[nodiscard]] std::string word_text(const Json& value);

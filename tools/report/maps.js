@@ -55,7 +55,7 @@ function talusMaps() {
     const bar = document.createElement('div'), out = document.createElement('output');
     bar.className = 'zoom';
     out.className = 'value';
-    bar.innerHTML = '<button type="button" aria-label="nearer">+</button><button type="button" aria-label="farther">&minus;</button>';
+    bar.innerHTML = '<button type="button" aria-label="{{maps.nearer}}">+</button><button type="button" aria-label="{{maps.farther}}">&minus;</button>';
     sheet.append(bar, out);
     let map = null, asked = false;
     const held = new Map();  // pointers that are down, by id: their last place on the screen
@@ -70,7 +70,7 @@ function talusMaps() {
         valuesOf(script).then((made) => { map = made; tell(e); });
       }
       const round = (value) => Math.round(value).toLocaleString('en');
-      out.textContent = (map ? wordsOf(map, x, y) + ' at ' : '') + round(Number(place.west) + x) + ' E, ' +
+      out.textContent = (map ? wordsOf(map, x, y) + ' {{maps.at}} ' : '') + round(Number(place.west) + x) + ' E, ' +
           round(Number(place.north) - y) + ' N';
     };
     const middle = () => ({x: shown.x + shown.width / 2, y: shown.y + shown.width * height / width / 2});

@@ -21,55 +21,88 @@
 namespace talus {
 namespace {
 
+// Within the quotation marks of a script.
+std::string in_script(const std::string& words) {
+  std::string out;
+  for (const char c : words) {
+    if (c == '\\' || c == '\'' || c == '`') out += '\\';
+    out += c;
+  }
+  return out;
+}
+
+// A script with words in place of its {{keys}}.
+std::string with_texts(const std::string& script, const Texts& texts) {
+  std::string out;
+  std::size_t done = 0;
+  for (std::size_t at = script.find("{{"); at != std::string::npos; at = script.find("{{", done)) {
+    const std::size_t end = script.find("}}", at);
+    out +=
+        script.substr(done, at - done) + in_script(texts.of(script.substr(at + 2, end - at - 2)));
+    done = end + 2;
+  }
+  return out + script.substr(done);
+}
+
 std::string page_head(const ReportData& data, const std::string& style) {
   const SiteInfo& info = data.site.info;
-  std::string out =
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta "
-      "name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
-      xml_escaped(info.name) +
-      ": rockslide hazard</title>\n<link rel=\"icon\" "
-      "href=\"data:,\">\n<style>\n" +
-      style + "</style>\n</head>\n<body>\n<header>\n<h1>" + xml_escaped(info.name) + "</h1>\n";
+  const Texts& texts = data.texts;
+  std::string out = "<!DOCTYPE html>\n<html lang=\"" + texts.of("page.language") +
+                    "\">\n<head>\n<meta charset=\"utf-8\">\n<meta "
+                    "name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
+                    texts.of("page.title", {{"site", xml_escaped(info.name)}}) +
+                    "</title>\n<link rel=\"icon\" "
+                    "href=\"data:,\">\n<style>\n" +
+                    style + "</style>\n</head>\n<body>\n<header>\n<h1>" + xml_escaped(info.name) +
+                    "</h1>\n";
   if (!info.description.empty()) out += html_paragraph(xml_escaped(info.description));
-  out += "<p class=\"soft\">Rockslide hazard report by Talus " + xml_escaped(data.version) +
-         ", run id " + "<code>" + data.run_id + "</code>, " +
-         word_text(value_at(data.trn, {"grid", "crs"})) + "<span id=\"written\"></span></p>\n<nav>";
-  for (const auto& [id, title] : {std::pair{"result", "Result"},
-                                  {"maps", "Maps"},
-                                  {"animation", "Animation"},
-                                  {"runout", "Run-out"},
-                                  {"hazard", "Hazard classes"},
-                                  {"objects", "Objects"},
-                                  {"search", "Where a fence belongs"},
-                                  {"fences", "Fences"},
-                                  {"trees", "Trees"},
-                                  {"uncertainty", "Uncertainty"},
-                                  {"curves", "Over time"},
-                                  {"health", "Numerical checks"},
-                                  {"assumed", "Assumptions"},
-                                  {"plan", "Plan"},
-                                  {"provenance", "Provenance"}}) {
+  out += "<p class=\"soft\">" +
+         texts.of("page.made_by", {{"version", xml_escaped(data.version)},
+                                   {"run_id", data.run_id},
+                                   {"crs", word_text(value_at(data.trn, {"grid", "crs"}))}}) +
+         "<span id=\"written\"></span></p>\n<nav>";
+  for (const auto& [id, title] : {std::pair{"result", "nav.result"},
+                                  {"maps", "nav.maps"},
+                                  {"animation", "nav.animation"},
+                                  {"runout", "nav.runout"},
+                                  {"hazard", "nav.hazard"},
+                                  {"objects", "nav.objects"},
+                                  {"search", "nav.search"},
+                                  {"fences", "nav.fences"},
+                                  {"trees", "nav.trees"},
+                                  {"uncertainty", "nav.uncertainty"},
+                                  {"curves", "nav.curves"},
+                                  {"health", "nav.health"},
+                                  {"assumed", "nav.assumed"},
+                                  {"plan", "nav.plan"},
+                                  {"provenance", "nav.provenance"}}) {
     if (id == std::string("trees") && tree_section(data).empty()) continue;
     if (id == std::string("uncertainty") && uncertainty_section(data).empty()) continue;
     if (id == std::string("hazard") && hazard_section(data).empty()) continue;
     if (id == std::string("objects") && object_section(data).empty()) continue;
     if (id == std::string("search") && search_section(data).empty()) continue;
     if (id == std::string("fences") && fence_section(data).empty()) continue;
-    out += std::string("<a href=\"#") + id + "\">" + title + "</a>";
+    out += std::string("<a href=\"#") + id + "\">" + texts.of(title) + "</a>";
   }
   return out + "</nav>\n</header>\n<main>\n";
 }
 
 // Shows when the file was written, which its bytes do not tell, and opens what is folded for print.
-constexpr const char* page_script =
-    "<script>\n"
-    "const changed = new Date(document.lastModified), two = (n) => String(n).padStart(2, '0');\n"
-    "document.getElementById('written').textContent = `, file written ${changed.getFullYear()}-"
-    "${two(changed.getMonth() + 1)}-${two(changed.getDate())} "
-    "${two(changed.getHours())}:${two(changed.getMinutes())}`;\n"
-    "addEventListener('beforeprint', () => "
-    "document.querySelectorAll('details').forEach((d) => { d.open = true; }));\n"
-    "</script>\n";
+std::string page_script(const Texts& texts) {
+  return "<script>\n"
+         "const changed = new Date(document.lastModified), two = (n) => String(n).padStart(2, "
+         "'0');\n"
+         "document.getElementById('written').textContent = `" +
+         in_script(texts.of(
+             "page.file_written",
+             {{"time",
+               "${changed.getFullYear()}-${two(changed.getMonth() + 1)}-${two(changed.getDate())} "
+               "${two(changed.getHours())}:${two(changed.getMinutes())}"}})) +
+         "`;\n"
+         "addEventListener('beforeprint', () => "
+         "document.querySelectorAll('details').forEach((d) => { d.open = true; }));\n"
+         "</script>\n";
+}
 
 // The remark as a head that a browser repeats on every printed page, since the heading of a section
 // may stand pages before. On a screen the frame is not seen.
@@ -108,12 +141,11 @@ std::string report_page(const ReportData& data, const PageFiles& files) {
     main += html_marked(section, xml_escaped(remark));
   const std::string first = remark.empty() ? fence_remark : remark;
   main = html_marked(result_section(data), xml_escaped(first)) + main;
-  return page_head(data, files.style) + sheet_definitions(data.sheet) +
-         in_print_frame(main, first) +
-         "</main>\n<footer>Talus is free software (GPL-3.0-or-later), without any warranty. A "
-         "model is not the slope: limits and assumptions stand in docs/limits.md.</footer>\n" +
-         viewer_script(data, files.viewer) + "<script>\n" + files.maps +
-         "\ntalusMaps();\n</script>\n" + page_script + "</body>\n</html>\n";
+  return page_head(data, files.style) + sheet_definitions(data.texts, data.sheet) +
+         in_print_frame(main, first) + "</main>\n<footer>" + data.texts.of("page.footer") +
+         "</footer>\n" + viewer_script(data, with_texts(files.viewer, data.texts)) + "<script>\n" +
+         with_texts(files.maps, data.texts) + "\ntalusMaps();\n</script>\n" +
+         page_script(data.texts) + "</body>\n</html>\n";
 }
 
 }  // namespace talus

@@ -10,7 +10,7 @@
 namespace talus {
 
 /// Cases beside one another, and what the rest of the page makes of them; empty without cases.
-[[nodiscard]] std::string case_table(const Json& runout);
+[[nodiscard]] std::string case_table(const Texts& texts, const Json& runout);
 
 /// Empty without the run-out's JSON.
 [[nodiscard]] std::string runout_section(const ReportData& data);

@@ -8,6 +8,7 @@
 #include <set>
 #include <tuple>
 
+#include "base/read_file.hpp"
 #include "base/sha256.hpp"
 #include "base/text.hpp"
 #include "io/crs_gdal.hpp"
@@ -22,6 +23,7 @@
 #include "report/plan_view.hpp"
 #include "report/qgis_project.hpp"
 #include "report/styles_gdal.hpp"
+#include "report/texts.hpp"
 #include "report/zip.hpp"
 #include "site/site_layers.hpp"
 #include "tools/frame/build_info.hpp"
@@ -42,7 +44,7 @@ using namespace talus;  // NOLINT: a program of its own
 namespace fs = std::filesystem;
 
 struct Options {
-  std::string dir, out, qgis;
+  std::string dir, out, qgis, texts;
 };
 
 // --- runs ----------------------------------------------------------------------------------------
@@ -342,9 +344,23 @@ std::vector<std::vector<Vec3>> trails_in(const ResultFolder& folder, const Vec3&
   return trails;
 }
 
-ReportData read_data(Tool& tool, const Site& site, ResultFolder& folder,
+// The words of the page, those of a file in place of the shipped ones.
+Texts page_texts(Tool& tool, const std::string& file) {
+  Texts texts = parse_texts(shipped_data("texts.toml"), "texts.toml");
+  if (file.empty()) return texts;
+  const std::vector<std::string> missing = texts.replace_by(parse_texts(read_file(file), file));
+  if (missing.empty()) return texts;
+  std::string first;
+  for (std::size_t i = 0; i < std::min<std::size_t>(missing.size(), 3); ++i)
+    first += (first.empty() ? "" : ", ") + missing[i];
+  tool.warn(file + ": lacks " + counted(std::ssize(missing), "text") + " of the page (" + first +
+            (missing.size() > 3 ? ", ..." : "") + "): there the shipped ones stand");
+  return texts;
+}
+
+ReportData read_data(Tool& tool, const Site& site, const std::string& texts, ResultFolder& folder,
                      const ProgressFunction& progress) {
-  ReportData data(site);
+  ReportData data(site, page_texts(tool, texts));
   data.version = build_version;
   data.terrain = read_trn(folder.required("trn.tif", "talus-trn"));
   folder.required("runout.json", "talus-runout");
@@ -549,7 +565,7 @@ QgisProject project_of(const ReportData& data, const Options& o, const ResultFol
 void run_tool(Tool& tool, const Options& o, const Site& site) {
   ResultFolder folder(tool, o.dir);
   const ProgressFunction progress = tool.progress();
-  const ReportData data = read_data(tool, site, folder, progress);
+  const ReportData data = read_data(tool, site, o.texts, folder, progress);
   progress(0.9);
   std::string qgs;
   if (!o.qgis.empty()) qgs = qgis_project_xml(project_of(data, o, folder));
@@ -577,6 +593,9 @@ int main(int argc, char** argv) {
   tool.app().add_option("--dir", o.dir, "folder with the results of the site")->required();
   tool.output("-o,--out", o.out, "report to write (HTML, one file)")->required();
   tool.output("--qgis", o.qgis, "project to write (QGZ), with paths relative to it");
+  tool.input("--texts", o.texts,
+             "words of the page (TOML) in place of those shipped, all or some: share/talus/report/"
+             "texts.toml has all");
   tool.footer(
       "Example:\n  talus-report site.toml --dir out -o out/report.html --qgis out/site.qgz");
   return tool.run(argc, argv, [&] { run_tool(tool, o, site.load()); });

@@ -8,7 +8,7 @@
 namespace talus {
 namespace {
 
-std::string forest_table(const Json& forests) {
+std::string forest_table(const Texts& texts, const Json& forests) {
   std::vector<std::vector<std::string>> rows;
   for (const Json& forest : forests) {
     std::vector<std::string> row = {word_text(value_at(forest, {"forest"}))};
@@ -16,12 +16,10 @@ std::string forest_table(const Json& forests) {
       row.push_back(number_text(value_at(forest, {key})));
     rows.push_back(row);
   }
-  return html_table(
-      {"forest", "runs", "stems", "of them hit, mean", "broken, mean", "energy taken, mean [kJ]"},
-      rows, {false, true, true, true, true, true});
+  return html_table(texts.list("trees.forest_heads"), rows, {false, true, true, true, true, true});
 }
 
-std::string stem_table(const Json& stems) {
+std::string stem_table(const Texts& texts, const Json& stems) {
   std::vector<std::vector<std::string>> rows;
   for (const Json& stem : stems) {
     std::vector<std::string> row = {
@@ -34,10 +32,8 @@ std::string stem_table(const Json& stems) {
       row.push_back(number_text(value_at(stem, {key}), 3));
     rows.push_back(row);
   }
-  return html_table(
-      {"stem", "species", "x, y [m]", "DBH [cm]", "capacity [kJ]", "runs that hit it", "blocks",
-       "runs that broke it", "most energy taken at once [kJ]", "least left [kJ]"},
-      rows, {false, false, false, true, true, true, true, true, true, true});
+  return html_table(texts.list("trees.stem_heads"), rows,
+                    {false, false, false, true, true, true, true, true, true, true});
 }
 
 }  // namespace
@@ -46,18 +42,18 @@ std::string tree_section(const ReportData& data) {
   const Json forests = value_at(data.runout, {"trees", "forests"});
   const Json stems = value_at(data.runout, {"trees", "stems"});
   if (!forests.is_array() || forests.empty()) return "";
-  std::string out = forest_table(forests);
+  const Texts& texts = data.texts;
+  std::string out = forest_table(texts, forests);
   if (!stems.is_array() || stems.empty()) {
-    out += html_paragraph("No block reached a stem.");
+    out += html_paragraph(texts.of("trees.none_hit"));
   } else {
     const std::string n = number_text(value_at(data.runout, {"trees", "n_stems_hit"}));
-    out += html_fold("The " + std::to_string(stems.size()) + " stems that were hit most, of " + n,
-                     stem_table(stems));
-    out += html_note(
-        "All hits stand in layers trees_hit and tree_hits of <code>runout.gpkg</code>. A stem "
-        "takes energy up to its capacity, over all blocks that hit it in a run.");
+    out +=
+        html_fold(texts.of("trees.most_hit", {{"shown", std::to_string(stems.size())}, {"all", n}}),
+                  stem_table(texts, stems));
+    out += html_note(texts.of("trees.note"));
   }
-  return html_section("trees", "Trees", out);
+  return html_section("trees", texts.of("trees.title"), out);
 }
 
 }  // namespace talus

@@ -16,29 +16,26 @@ namespace {
 
 // --- what was drawn ----------------------------------------------------------------------------
 
-std::string quantity_table(const Site& site) {
+std::string quantity_table(const Texts& texts, const Site& site) {
   std::vector<std::vector<std::string>> rows;
   for (const QuantitySettings& quantity : site.quantities)
     rows.push_back({"<code>" + xml_escaped(quantity.name) + "</code>",
                     xml_escaped(text_of(site, quantity)),
-                    is_rock(quantity) ? "how the rock is cut" : "how blocks move"});
-  return rows.empty() ? "" : html_table({"quantity", "drawn from", "decides"}, rows);
+                    texts.of(is_rock(quantity) ? "uncertainty.cuts" : "uncertainty.moves")});
+  return rows.empty() ? "" : html_table(texts.list("uncertainty.quantity_heads"), rows);
 }
 
-std::string masses_note(const Site& site) {
+std::string masses_note(const Texts& texts, const Site& site) {
   const UncertaintySettings& u = site.uncertainty;
-  if (u.rock_masses == 0)
-    return "All runs move the same blocks: how the rock is jointed is not in the intervals.";
-  return std::to_string(u.rock_masses) +
-         " rock masses, each cut anew, are taken in turn. Runs of one mass are not independent: "
-         "intervals count each mass once." +
-         (u.terrain_rmse_m > 0 ? " Each mass has a ground of its own, off by " +
-                                     text(u.terrain_rmse_m, 3) + " m (root of the mean square)."
-                               : "");
+  if (u.rock_masses == 0) return texts.of("uncertainty.one_mass");
+  return texts.of("uncertainty.masses", {{"n", std::to_string(u.rock_masses)}}) +
+         (u.terrain_rmse_m > 0
+              ? " " + texts.of("uncertainty.grounds", {{"rmse", text(u.terrain_rmse_m, 3)}})
+              : "");
 }
 
 // The runs with what they drew; all stand in runs.csv.
-std::string drawn_table(const Json& runout) {
+std::string drawn_table(const Texts& texts, const Json& runout) {
   constexpr std::size_t most = 200;
   const Json runs = value_at(runout, {"runs"});
   std::vector<std::string> headings;
@@ -48,7 +45,7 @@ std::string drawn_table(const Json& runout) {
     const Json drawn = value_at(run, {"drawn"});
     if (!drawn.is_object() || !drawn.contains("sample")) continue;
     if (headings.empty()) {
-      headings = {"seed", "L [m]"};
+      headings = texts.list("uncertainty.drawn_heads");
       for (const auto& [name, value] : drawn.items()) headings.push_back(name);
     }
     if (rows.size() == most) break;
@@ -64,10 +61,10 @@ std::string drawn_table(const Json& runout) {
   });
   const std::string note =
       runs.size() > rows.size()
-          ? html_note(std::to_string(rows.size()) + " of " + std::to_string(runs.size()) +
-                      " runs; all stand in runs.csv.")
+          ? html_note(texts.of("uncertainty.drawn_note", {{"n", std::to_string(rows.size())},
+                                                          {"all", std::to_string(runs.size())}}))
           : "";
-  return html_fold("What each run drew",
+  return html_fold(texts.of("uncertainty.drawn"),
                    html_table(headings, rows, std::vector<bool>(headings.size(), true)) + note);
 }
 
@@ -110,29 +107,32 @@ std::string bars_svg(const std::vector<Bar>& bars, const std::string& title) {
 }
 
 // "L_path_m" in words.
-std::string result_words(const std::string& result) {
+std::string result_words(const Texts& texts, const std::string& result) {
   static const std::map<std::string, std::string> words = {
-      {"L_path_m", "Run-out L of the farthest block, along its path"},
-      {"reach_angle_path_deg", "Angle of reach"},
-      {"L95_m", "L95, of 95 % of what moved"},
-      {"share_moved_1_m", "Share of the mass that moved"}};
-  if (const auto found = words.find(result); found != words.end()) return found->second;
+      {"L_path_m", "uncertainty.length"},
+      {"reach_angle_path_deg", "uncertainty.angle"},
+      {"L95_m", "uncertainty.length_95"},
+      {"share_moved_1_m", "uncertainty.moved"}};
+  if (const auto found = words.find(result); found != words.end()) return texts.of(found->second);
   const std::size_t dot = result.find('.');
   const std::string line = result.substr(dot + 1);
-  return result.starts_with("crossed.") ? "Share of the blocks that cross the line of " + line
-                                        : "Largest energy at the line of " + line;
+  return texts.of(
+      result.starts_with("crossed.") ? "uncertainty.crossed" : "uncertainty.largest_energy",
+      {{"line", line}});
 }
 
 // The rows of one result: a table, and a picture with both numbers.
-std::string result_part(const std::string& result, const std::vector<Json>& rows) {
+std::string result_part(const Texts& texts, const std::string& result,
+                        const std::vector<Json>& rows) {
   const bool is_enough = std::any_of(rows.begin(), rows.end(), [](const Json& row) {
     return value_at(row, {"first_order"}).is_number();
   });
-  const std::string title = result_words(result);
+  const std::string title = result_words(texts, result);
   if (!is_enough)
-    return html_note(xml_escaped(title) + ": not enough runs, " +
-                     number_text(value_at(rows[0], {"n_runs"})) + " of " +
-                     std::to_string(least_runs_for_sensitivity) + ".");
+    return html_note(texts.of("uncertainty.too_few_runs",
+                              {{"result", xml_escaped(title)},
+                               {"n", number_text(value_at(rows[0], {"n_runs"}))},
+                               {"needed", std::to_string(least_runs_for_sensitivity)}}));
   std::vector<Bar> shares, correlations;
   std::vector<std::vector<std::string>> table;
   for (const Json& row : rows) {
@@ -143,17 +143,18 @@ std::string result_part(const std::string& result, const std::vector<Json>& rows
     table.push_back({"<code>" + xml_escaped(name) + "</code>", number_text(share, 2),
                      number_text(rank, 2), number_text(value_at(row, {"n_runs"}))});
   }
-  const std::string svg = bars_svg(shares, "share of the variance that it alone explains"),
-                    svg_rank = bars_svg(correlations, "rank correlation");
+  const std::string svg = bars_svg(shares, texts.of("uncertainty.shares")),
+                    svg_rank = bars_svg(correlations, texts.of("uncertainty.ranks"));
   return "<h3>" + xml_escaped(title) + "</h3>\n" +
-         html_table({"quantity", "first-order index", "rank correlation", "runs"}, table,
-                    {false, true, true, true}) +
-         html_figure(html_svg(svg, "first-order indices") +
-                         (correlations.empty() ? "" : html_svg(svg_rank, "rank correlations")),
-                     xml_escaped(title) + ".");
+         html_table(texts.list("uncertainty.index_heads"), table, {false, true, true, true}) +
+         html_figure(
+             html_svg(svg, texts.of("uncertainty.share_picture")) +
+                 (correlations.empty() ? ""
+                                       : html_svg(svg_rank, texts.of("uncertainty.rank_picture"))),
+             xml_escaped(title) + ".");
 }
 
-std::string sensitivity_part(const Json& runout) {
+std::string sensitivity_part(const Texts& texts, const Json& runout) {
   const Json list = value_at(runout, {"sensitivity"});
   if (!list.is_array() || list.empty()) return "";
   std::vector<std::pair<std::string, std::vector<Json>>> by_result;
@@ -162,47 +163,45 @@ std::string sensitivity_part(const Json& runout) {
     if (by_result.empty() || by_result.back().first != result) by_result.push_back({result, {}});
     by_result.back().second.push_back(row);
   }
-  std::string out = "<h3>What results owe to what was drawn</h3>\n";
-  for (const auto& [result, rows] : by_result) out += result_part(result, rows);
-  return out + html_note(
-                   "From the same runs. An index has an error of about one over the root of the "
-                   "number of runs; what is smaller, or below 0, is none. Indices that sum to less "
-                   "than 1 leave the rest to quantities together, and to what the seed draws.");
+  std::string out = "<h3>" + texts.of("uncertainty.sensitivity") + "</h3>\n";
+  for (const auto& [result, rows] : by_result) out += result_part(texts, result, rows);
+  return out + html_note(texts.of("uncertainty.note"));
 }
 
 // --- places ------------------------------------------------------------------------------------
 
-std::string place_table(const Json& places) {
+std::string place_table(const Texts& texts, const Json& places) {
   std::vector<std::vector<std::string>> rows;
   if (const Json list = value_at(places, {"places"}); list.is_array())
     for (const Json& place : list) {
       const Json low = value_at(place, {"share_low"}), high = value_at(place, {"share_high"});
-      rows.push_back({word_text(value_at(place, {"place"})),
-                      percent_text(value_at(place, {"share_of_blocks"})),
-                      low.is_number() ? percent_text(low) + " to " + percent_text(high) : "-",
-                      percent_text(value_at(place, {"share_of_runs"})),
-                      number_text(value_at(place, {"half_width"}), 2),
-                      number_text(value_at(place, {"wanted_half_width"}), 2),
-                      number_text(value_at(place, {"runs_to_add"}))});
+      rows.push_back(
+          {word_text(value_at(place, {"place"})),
+           percent_text(value_at(place, {"share_of_blocks"})),
+           low.is_number() ? range_text(texts, percent_text(low), percent_text(high)) : "-",
+           percent_text(value_at(place, {"share_of_runs"})),
+           number_text(value_at(place, {"half_width"}), 2),
+           number_text(value_at(place, {"wanted_half_width"}), 2),
+           number_text(value_at(place, {"runs_to_add"}))});
     }
   if (rows.empty()) return "";
-  return "<h3>Places</h3>\n" +
-         html_table({"place", "blocks that reach it", "95 % interval", "runs that reach it",
-                     "half width", "wanted", "runs to add"},
-                    rows, {false, true, true, true, true, true, true});
+  return "<h3>" + texts.of("uncertainty.places") + "</h3>\n" +
+         html_table(texts.list("uncertainty.place_heads"), rows,
+                    {false, true, true, true, true, true, true});
 }
 
 }  // namespace
 
 std::string uncertainty_section(const ReportData& data) {
-  const std::string places = place_table(data.places);
+  const Texts& texts = data.texts;
+  const std::string places = place_table(texts, data.places);
   const bool is_drawn = !data.site.quantities.empty() || data.site.uncertainty.rock_masses > 0;
-  const std::string sensitivity = sensitivity_part(data.runout);
+  const std::string sensitivity = sensitivity_part(texts, data.runout);
   if (!is_drawn && places.empty() && sensitivity.empty()) return "";
-  std::string out = quantity_table(data.site);
-  if (is_drawn) out += html_paragraph(masses_note(data.site));
-  out += drawn_table(data.runout) + places + sensitivity;
-  return html_section("uncertainty", "What differs from run to run", out);
+  std::string out = quantity_table(texts, data.site);
+  if (is_drawn) out += html_paragraph(masses_note(texts, data.site));
+  out += drawn_table(texts, data.runout) + places + sensitivity;
+  return html_section("uncertainty", texts.of("uncertainty.title"), out);
 }
 
 }  // namespace talus

@@ -32,20 +32,17 @@ bool has_frames(const ReportData& data) {
 
 std::string viewer_section(const ReportData& data) {
   if (!has_frames(data)) return "";
+  const Texts& texts = data.texts;
   return html_section(
-      "animation", "Animation",
-      html_paragraph("Run " + xml_escaped(data.shown_name) +
-                     (data.runs.size() > 1 ? ", the one of the farthest run-out." : ".") +
-                     " Drag to turn, right-drag, shift-drag or two fingers to move, wheel or two "
-                     "fingers to zoom, "
-                     "click a block." +
-                     (data.trails.empty()
-                          ? std::string()
-                          : std::string(" Trails: the paths of all blocks of all runs.")) +
-                     " The ground has lines of height every " +
-                     text(data.sheet.ground.contour_interval) + " m.") +
-          "<div id=\"viewer\"><p class=\"viewer-none\">The animation needs JavaScript; all results "
-          "stand in the maps, tables and curves of this page.</p></div>\n");
+      "animation", texts.of("animation.title"),
+      html_paragraph(
+          texts.of(data.runs.size() > 1 ? "animation.farthest_run" : "animation.run",
+                   {{"run", xml_escaped(data.shown_name)}}) +
+          " " + texts.of("animation.how_to") + " " +
+          (data.trails.empty() ? "" : texts.of("animation.trails") + " ") +
+          texts.of("animation.ground", {{"interval", text(data.sheet.ground.contour_interval)}})) +
+          "<div id=\"viewer\"><p class=\"viewer-none\">" + texts.of("animation.needs_script") +
+          "</p></div>\n");
 }
 
 std::string viewer_script(const ReportData& data, const std::string& viewer) {

@@ -14,25 +14,25 @@ function talusViewer(root, scene) {
 
   // --- elements -----------------------------------------------------------------------------------
   root.innerHTML = `
-    <canvas tabindex="0" aria-label="3-D view of the run: drag to turn, right-drag or shift-drag to move, wheel to zoom"></canvas>
+    <canvas tabindex="0" aria-label="{{viewer.canvas}}"></canvas>
     <svg class="viewer-north" viewBox="-12 -14 24 28" aria-hidden="true"><path d="M0 -12L5 6L0 2L-5 6Z"/></svg>
     <div class="viewer-bar">
-      <button type="button" class="viewer-play" aria-label="play">&#9654;</button>
-      <input type="range" class="viewer-time" min="0" max="1" step="any" value="0" aria-label="time">
+      <button type="button" class="viewer-play" aria-label="{{viewer.play}}">&#9654;</button>
+      <input type="range" class="viewer-time" min="0" max="1" step="any" value="0" aria-label="{{viewer.time}}">
       <output class="viewer-clock"></output>
-      <label>pace <select class="viewer-pace"><option value="0.25">&frac14;</option><option value="1" selected>1</option>
+      <label>{{viewer.pace}} <select class="viewer-pace"><option value="0.25">&frac14;</option><option value="1" selected>1</option>
         <option value="4">4</option><option value="16">16</option></select></label>
-      <label><input type="checkbox" class="viewer-fences" checked> fences</label>
-      <label class="viewer-trails-label"><input type="checkbox" class="viewer-trails"> <span>trails</span></label>
+      <label><input type="checkbox" class="viewer-fences" checked> {{viewer.fences}}</label>
+      <label class="viewer-trails-label"><input type="checkbox" class="viewer-trails"> <span>{{viewer.trails}}</span></label>
     </div>
     <div class="viewer-legend"><span>0</span><i></i><span class="viewer-top"></span></div>
-    <div class="viewer-block" aria-live="polite">Click a block to see its speed and energy.</div>`;
+    <div class="viewer-block" aria-live="polite">{{viewer.click}}</div>`;
   const find = (name) => root.querySelector(name);
   const canvas = find('canvas');
   const gl = canvas.getContext('webgl2', {alpha: false, antialias: true, preserveDrawingBuffer: true});
   if (!gl) {
-    root.innerHTML = '<p class="viewer-none">This browser has no WebGL2, so the animation cannot be shown. ' +
-        'All results stand in the maps, tables and curves of this page.</p>';
+    root.innerHTML = '<p class="viewer-none">{{viewer.no_webgl}} ' +
+        '{{viewer.elsewhere}}</p>';
     return null;
   }
 
@@ -172,7 +172,7 @@ function talusViewer(root, scene) {
   const trails = trailMesh();
   if (trails.n === 0) find('.viewer-trails-label').remove();
   else if (scene.trails.n < scene.trails.n_all)
-    find('.viewer-trails-label span').textContent = `trails (${scene.trails.n} of ${scene.trails.n_all})`;
+    find('.viewer-trails-label span').textContent = `{{viewer.trails}} (${scene.trails.n} {{viewer.of}} ${scene.trails.n_all})`;
   const fences = fenceMesh();
   const blocks = mesh(rock, [['position', floats(scene.blocks.position_m), 3],
                              ['block', new Uint32Array(bytes(scene.blocks.block)), 1]]);
@@ -313,9 +313,9 @@ function talusViewer(root, scene) {
       return at(frame) + share * (at(frame + 1) - at(frame));
     };
     const mass = scene.blocks.mass_kg[chosen], speed = value(3);
-    find('.viewer-block').textContent = `Block ${chosen}: ${speed.toFixed(2)} m/s, ` +
-        `${(0.0005 * mass * speed * speed).toPrecision(4)} kJ (translation), ${(mass / 1000).toPrecision(4)} t, ` +
-        `elevation ${(value(2) + (scene.terrain.z_origin_m || 0)).toFixed(1)} m`;
+    find('.viewer-block').textContent = `{{viewer.block}} ${chosen}: ${speed.toFixed(2)} m/s, ` +
+        `${(0.0005 * mass * speed * speed).toPrecision(4)} kJ ({{viewer.translation}}), ${(mass / 1000).toPrecision(4)} t, ` +
+        `{{viewer.elevation}} ${(value(2) + (scene.terrain.z_origin_m || 0)).toFixed(1)} m`;
   };
 
   const ask = () => {
@@ -340,7 +340,7 @@ function talusViewer(root, scene) {
     if (on && now >= times[nFrames - 1]) now = times[0];
     before = performance.now();
     find('.viewer-play').innerHTML = on ? '&#10073;&#10073;' : '&#9654;';
-    find('.viewer-play').setAttribute('aria-label', on ? 'pause' : 'play');
+    find('.viewer-play').setAttribute('aria-label', on ? '{{viewer.pause}}' : '{{viewer.play}}');
     ask();
   };
 
@@ -353,7 +353,7 @@ function talusViewer(root, scene) {
     const pixel = new Uint8Array(4), scale = canvas.width / canvas.clientWidth;
     gl.readPixels(Math.round(x * scale), Math.round(canvas.height - y * scale), 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
     chosen = pixel[0] + 256 * pixel[1] + 65536 * pixel[2] - 1;
-    if (chosen < 0) find('.viewer-block').textContent = 'Click a block to see its speed and energy.';
+    if (chosen < 0) find('.viewer-block').textContent = '{{viewer.click}}';
     ask();
   };
 

@@ -6,6 +6,7 @@
 #include "post/maps/map_layers.hpp"
 #include "post/maps/map_style.hpp"
 #include "report/map_figures.hpp"
+#include "unit/report/shipped_texts.hpp"
 
 using namespace talus;
 
@@ -29,7 +30,7 @@ TEST(MapFigures, ShowEveryLayerOfTheTableWithItsLegend) {
   std::vector<MapPicture> pictures;
   for (const MapLayerKind& kind : map_layers()) pictures.push_back({kind.name, qml_of(kind), {}});
   std::reverse(pictures.begin(), pictures.end());
-  const std::string all = map_figures({}, pictures);
+  const std::string all = map_figures(talus::testing::shipped_texts(), {}, pictures);
   EXPECT_EQ(count(all, "<figure"), map_layers().size());
   std::size_t at = 0;
   for (const MapLayerKind& kind : map_layers()) {
@@ -48,7 +49,8 @@ TEST(MapFigures, ShowEveryLayerOfTheTableWithItsLegend) {
 }
 
 TEST(MapFigures, LeaveOutLayersWithoutAPicture) {
-  const std::string one = map_figures({}, {{map_layers().back().name, "", {}}});
+  const std::string one =
+      map_figures(talus::testing::shipped_texts(), {}, {{map_layers().back().name, "", {}}});
   EXPECT_EQ(count(one, "<figure"), 1U);
   EXPECT_NE(one.find(map_layers().back().title), std::string::npos);
 }
@@ -58,7 +60,8 @@ TEST(CaseFigures, StandSideBySideLayerByLayer) {
   std::vector<MapPicture> pictures;
   for (const MapLayerKind& kind : map_layers()) pictures.push_back({kind.name, "", {}});
   const CasePictures cases = {{"far", pictures}, {"<near>", pictures}};
-  const std::string first = case_figures({}, cases, true), rest = case_figures({}, cases, false);
+  const std::string first = case_figures(talus::testing::shipped_texts(), {}, cases, true),
+                    rest = case_figures(talus::testing::shipped_texts(), {}, cases, false);
   EXPECT_EQ(count(first, "<figure") + count(rest, "<figure"), 2 * map_layers().size());
   EXPECT_EQ(count(first, "<h3>"), 4U);
   EXPECT_EQ(count(first, "<div class=\"maps\">"), 4U);

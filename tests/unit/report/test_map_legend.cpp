@@ -4,6 +4,7 @@
 
 #include "io/style.hpp"
 #include "report/map_legend.hpp"
+#include "unit/report/shipped_texts.hpp"
 
 using namespace talus;
 
@@ -14,7 +15,7 @@ TEST(HtmlLegend, NamesTheClassesThatAreDrawn) {
                    {10, {255, 0, 0, 255}, "up to 10 m/s"},
                    {std::numeric_limits<double>::infinity(), {0, 0, 255, 255}, "> 10 m/s"}};
   EXPECT_EQ(
-      html_legend(raster_qml(style)),
+      html_legend(talus::testing::shipped_texts(), raster_qml(style)),
       "<span class=\"legend\"><span><i style=\"background-color:#ff0000\"></i>up to 10 m/s</span> "
       "<span><i style=\"background-color:#0000ff\"></i>&gt; 10 m/s</span> </span>");
 }
@@ -22,7 +23,8 @@ TEST(HtmlLegend, NamesTheClassesThatAreDrawn) {
 TEST(HtmlLegend, ShowsWhatIsHatched) {
   RasterStyle style;
   style.classes = {{1, {255, 248, 103, 255}, "residual"}, {2, {255, 248, 103, 255}, "low"}};
-  const std::string legend = html_legend(raster_qml(style), {1}, true);
+  const std::string legend =
+      html_legend(talus::testing::shipped_texts(), raster_qml(style), {1}, true);
   EXPECT_NE(legend.find("<i class=\"weak\" style=\"background-color:#fff867\"></i>residual<"),
             std::string::npos)
       << legend;
@@ -30,7 +32,9 @@ TEST(HtmlLegend, ShowsWhatIsHatched) {
   EXPECT_NE(legend.find("<i class=\"unsure\"></i>class not certain<"), std::string::npos);
 }
 
-TEST(HtmlLegend, IsEmptyWithoutAStyle) { EXPECT_EQ(html_legend(""), ""); }
+TEST(HtmlLegend, IsEmptyWithoutAStyle) {
+  EXPECT_EQ(html_legend(talus::testing::shipped_texts(), ""), "");
+}
 
 TEST(StyleOf, ReadsWhatRasterQmlWrites) {
   RasterStyle style;

@@ -2,6 +2,7 @@
 
 #include "report/map_sheet.hpp"
 #include "unit/post/run_maker.hpp"
+#include "unit/report/shipped_texts.hpp"
 
 using namespace talus;
 
@@ -33,7 +34,7 @@ TEST(MapSheet, GroundAndPlacesAreDrawnOnceForAllMaps) {
                    {"road", "road", {{{{42, 80}, {88, 80}}, false}}, 3},
                    {"mast", "mast", {{{{70, 95}}, false}}, 2}};
   sheet.lines = {record_line("lower", {{60, 85, 0}, {80, 85, 0}})};
-  const std::string once = sheet_definitions(sheet);
+  const std::string once = sheet_definitions(talus::testing::shipped_texts(), sheet);
   for (const char* part :
        {"id=\"map-ground\"", "id=\"map-places\"", "class=\"contour five\"", "class=\"level\"",
         "class=\"grid\"", "class=\"source\"", "class=\"object\" d=\"", "house &lt;1&gt;</title>",

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "report/provenance.hpp"
+#include "unit/report/shipped_texts.hpp"
 
 using namespace talus;
 
@@ -14,7 +15,7 @@ std::string table_in(const std::string& programs, const std::string& site) {
   step.command_line = programs + "talus-tin a.gpkg -o out/tin.ply";
   step.inputs = {{"contours", site + "/a.gpkg", "0123456789abcdef", 1}};
   step.outputs = {{"output", site + "/out/tin.ply", "", 1}};
-  return provenance_table({step}, site + "/site.toml");
+  return provenance_table(talus::testing::shipped_texts(), {step}, site + "/site.toml");
 }
 
 }  // namespace
@@ -37,7 +38,7 @@ TEST(ProvenanceTable, DoesNotDependOnPartsOfRunsOrOnTheRegistry) {
     step.folder = site;
     step.command_line = command;
     step.inputs = std::move(inputs);
-    return provenance_table({step}, site + "/site.toml");
+    return provenance_table(talus::testing::shipped_texts(), {step}, site + "/site.toml");
   };
   const std::string of_runs =
       table("talus-fence out/runs/run_1.h5 --without out/without/run_1.h5 --db out/runs.sqlite",

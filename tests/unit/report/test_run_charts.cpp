@@ -1,12 +1,13 @@
 #include <gtest/gtest.h>
 
 #include "report/run_charts.hpp"
+#include "unit/report/shipped_texts.hpp"
 
 using namespace talus;
 
 TEST(CurveChart, HasALineForEachRun) {
   const CsvTable table = parse_csv("run_id,time_s,front_m\na,0,0\nb,0,1\na,2,5\n", "curves.csv");
-  const Chart chart = curve_chart(table, "front_m", "Front", "m");
+  const Chart chart = curve_chart(talus::testing::shipped_texts(), table, "front_m", "Front", "m");
   ASSERT_EQ(chart.series.size(), 2u);
   EXPECT_EQ(chart.series[0].x, (std::vector<double>{0, 2}));
   EXPECT_EQ(chart.series[0].y, (std::vector<double>{0, 5}));
@@ -18,7 +19,7 @@ TEST(CurveChart, HasALineForEachRun) {
 TEST(CurveChart, ShowsMedianAndBandOfThreeRuns) {
   const CsvTable table =
       parse_csv("run_id,time_s,front_m\na,0,0\na,1,4\na,2,4\nb,0,2\nb,2,8\nc,0,7\n", "curves.csv");
-  const Chart chart = curve_chart(table, "front_m", "Front", "m");
+  const Chart chart = curve_chart(talus::testing::shipped_texts(), table, "front_m", "Front", "m");
   ASSERT_EQ(chart.series.size(), 2u);
   EXPECT_EQ(chart.series[0].x, (std::vector<double>{0, 1, 2}));
   EXPECT_EQ(chart.series[0].y, (std::vector<double>{0, 4, 4}));
@@ -46,7 +47,7 @@ TEST(EnergyChart, SumLiesOnWhatHasFallen) {
   row.removed = 1e6;
   row.base = 2e6;
   run.health.push_back(row);
-  const Chart chart = energy_chart(run);
+  const Chart chart = energy_chart(talus::testing::shipped_texts(), run);
   ASSERT_EQ(chart.series.size(), 5u);
   EXPECT_EQ(chart.series[0].name, "sum");
   EXPECT_EQ(chart.series[1].name, "fallen");

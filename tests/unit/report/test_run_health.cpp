@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "report/run_health.hpp"
+#include "unit/report/shipped_texts.hpp"
 
 using namespace talus;
 
@@ -13,7 +14,9 @@ TEST(RunHealth, ALimitKeepsTheWorstOfItsRuns) {
   EXPECT_EQ(limits[0].worst, 0.7);
   EXPECT_EQ(limits[0].n_failed, 1);
   EXPECT_EQ(limits[1].n_failed, 0);
-  EXPECT_NE(limit_table(limits, 3).find("<td class=\"n\">1 of 3</td>"), std::string::npos);
+  EXPECT_NE(
+      limit_table(talus::testing::shipped_texts(), limits, 3).find("<td class=\"n\">1 of 3</td>"),
+      std::string::npos);
 }
 
 TEST(RunHealth, PassesWhenAllRunsAreDoneWithinTheirLimits) {
@@ -32,7 +35,7 @@ TEST(RunHealth, CountersAreThoseOfTheWholeRun) {
   for (HealthRow& row : run.health) row.steps = 100;
   run.health[0].shortest_dt = 0.002;
   run.health[1].shortest_dt = 0.001;
-  const std::string table = counter_table({run}, {"CASE_1"});
+  const std::string table = counter_table(talus::testing::shipped_texts(), {run}, {"CASE_1"});
   EXPECT_NE(table.find("<td>CASE_1</td>"), std::string::npos);
   EXPECT_NE(table.find("<td class=\"n\">300</td><td class=\"n\">0.001</td>"), std::string::npos);
 }
@@ -40,18 +43,18 @@ TEST(RunHealth, CountersAreThoseOfTheWholeRun) {
 TEST(RunHealth, CutsAreSummedByReason) {
   RunFile run;
   run.health.resize(2);
-  EXPECT_EQ(cut_table({run}, {"CASE_1"}), "");
+  EXPECT_EQ(cut_table(talus::testing::shipped_texts(), {run}, {"CASE_1"}), "");
   const auto deep = static_cast<std::size_t>(SubstepCut::deep);
   run.health[0].cuts[deep] = 3;
   run.health[1].cuts[deep] = 4;
-  const std::string table = cut_table({run}, {"CASE_1"});
+  const std::string table = cut_table(talus::testing::shipped_texts(), {run}, {"CASE_1"});
   EXPECT_NE(table.find("bond_broken"), std::string::npos);
   EXPECT_NE(table.find("<td class=\"n\">7</td><td class=\"n\">0</td>"), std::string::npos);
 }
 
 TEST(RunHealth, BlocksThatWereDeepAreNamedWithTheirPlaceOnTheMap) {
   std::vector<RunFile> runs(2);
-  EXPECT_EQ(deep_table(runs, {"1", "2"}), "");
+  EXPECT_EQ(deep_table(talus::testing::shipped_texts(), runs, {"1", "2"}), "");
   runs[1].info.origin = {500000, 5000000, 0};
   DeepRow row;
   row.block = 43;
@@ -59,7 +62,7 @@ TEST(RunHealth, BlocksThatWereDeepAreNamedWithTheirPlaceOnTheMap) {
   row.place = {12.5, 7, 900};
   row.met_fence = 1;
   runs[1].deep = {row};
-  const std::string table = deep_table(runs, {"1", "2"});
+  const std::string table = deep_table(talus::testing::shipped_texts(), runs, {"1", "2"});
   EXPECT_NE(table.find("<td>the ground</td><td class=\"n\">0.185</td>"), std::string::npos);
   EXPECT_NE(table.find("500012.5"), std::string::npos);
   EXPECT_NE(table.find("met a fence"), std::string::npos);

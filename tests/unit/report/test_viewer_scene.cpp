@@ -6,6 +6,7 @@
 #include "report/plan_view.hpp"
 #include "report/viewer_scene.hpp"
 #include "unit/post/run_maker.hpp"
+#include "unit/report/shipped_texts.hpp"
 
 using namespace talus;
 
@@ -84,7 +85,7 @@ TEST(PlanView, HoldsWhatTheRunDid) {
   MapSheet sheet;
   const PageLayout layout = layout_of(PageSize::a4);
   sheet.ground = map_ground(trn, layout, view_of(layout, {40, 80}, {90, 120}));
-  const std::string svg = plan_view_svg(sliding_box(), sheet);
+  const std::string svg = plan_view_svg(talus::testing::shipped_texts(), sliding_box(), sheet);
   for (const char* part : {"<path class=\"start\"", "<path class=\"way\"", "<path class=\"end\"",
                            "href=\"#map-ground\"", "href=\"#map-places\""})
     EXPECT_NE(svg.find(part), std::string::npos) << part;

@@ -1,0 +1,52 @@
+// libcore/report/texts.hpp: public
+// The words of a page, each under its key: an office rewords or translates them without compiling.
+// in:    TOML, a section a part of the page: texts, and lists of texts (the heads of a table)
+// out:   HTML, values in place of {name}
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace talus {
+
+class Texts {
+ public:
+  /// One text, or a list of them.
+  struct Entry {
+    std::vector<std::string> texts;
+    bool is_list = false;
+    int line = 0;  ///< of the file
+  };
+
+  /// None yet; `path` is the file that they stand in.
+  explicit Texts(std::string path) : path_(std::move(path)) {}
+  /// Throws InputError for a brace that begins no {name}.
+  void add(const std::string& key, Entry entry);
+
+  /// Takes the texts of `other` in place of its own. Returns the keys that `other` lacks. Throws
+  /// InputError for a key, a kind, a length of a list or a {name} that is not here too.
+  std::vector<std::string> replace_by(const Texts& other);
+
+  /// {name} and what stands in its place, as HTML.
+  using Values = std::initializer_list<std::pair<std::string_view, std::string>>;
+  [[nodiscard]] std::string of(const std::string& key, Values values = {}) const;
+  /// One of two texts by a number, which is their {n}.
+  [[nodiscard]] std::string counted(std::int64_t n, const std::string& one,
+                                    const std::string& several) const;
+  [[nodiscard]] const std::vector<std::string>& list(const std::string& key) const;
+
+ private:
+  std::string path_;
+  std::map<std::string, Entry> entries_;  ///< by "section.key"
+};
+
+/// Of a file's content. A line break within a text counts as a space. Throws InputError with the
+/// line for what is no TOML, no text, or a brace that begins no {name}.
+[[nodiscard]] Texts parse_texts(const std::string& content, const std::string& path);
+
+}  // namespace talus
