@@ -49,7 +49,8 @@ std::vector<StyledLayer> styled_layers(const std::string& path) {
   const auto styles = styles_of(*dataset);
   std::vector<StyledLayer> layers;
   for (OGRLayer* layer : dataset->GetLayers()) {
-    StyledLayer found{layer->GetName(), shape_of(layer->GetGeomType()), ""};
+    StyledLayer found{layer->GetName(), shape_of(layer->GetGeomType()), "",
+                      layer->GetFeatureCount() == 0};
     if (found.shape == StyledLayer::none) continue;
     if (const auto style = styles.find(found.name); style != styles.end())
       found.qml = style->second;

@@ -11,6 +11,7 @@ struct StyledLayer {
   std::string name;
   enum Shape { none, point, line, polygon } shape = none;
   std::string qml;  ///< its default style; empty: none
+  bool is_empty = false;
 };
 
 /// Layers with a geometry, in the order of the file. Throws InputError when it cannot be read.

@@ -334,8 +334,9 @@ void read_maps(const ResultFolder& folder, ReportData& data) {
 std::vector<std::vector<Vec3>> trails_in(const ResultFolder& folder, const Vec3& origin) {
   const std::string path = folder.path("runout.gpkg").string();
   const std::vector<StyledLayer> layers = styled_layers(path);
-  if (std::none_of(layers.begin(), layers.end(),
-                   [](const StyledLayer& layer) { return layer.name == "paths"; }))
+  if (std::none_of(layers.begin(), layers.end(), [](const StyledLayer& layer) {
+        return layer.name == "paths" && !layer.is_empty;
+      }))
     return {};
   std::vector<std::vector<Vec3>> trails =
       read_vectors({path, "paths", "", VectorKind::lines}, "").shapes;

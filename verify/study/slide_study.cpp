@@ -128,8 +128,8 @@ std::string slide_table(const SlideStudy& study) {
   const char* names[] = {"centre", "nine tenths", "spread"};
   std::string reference;
   for (std::size_t q = 0; q < quantity_names.size(); ++q)
-    reference += (q ? ",\n" : "\n") + std::string(names[q]) + " " + text(study.reference.mean[q], 5) +
-                 " ± " + text(study.reference.band[q], 2) + " m";
+    reference += (q ? ",\n" : "\n") + std::string(names[q]) + " " +
+                 text(study.reference.mean[q], 5) + " ± " + text(study.reference.band[q], 2) + " m";
   return table + "\nReference, the shortest steps extrapolated to none:" + reference + ".\n";
 }
 

@@ -8,7 +8,7 @@ expect 0 talus-verify slide_20 bounce_face oblique stack_10 slide39 -o v --no-db
 prints '| `bounce_face` |'
 grep -q "on the Pareto front of both laws in" v/verification.md || fail "nothing said of the front"
 prints "v/verification.md"
-grep -q "^Reference, the shortest steps extrapolated to none: centre " v/verification.md || fail "no reference of the slide"
+grep -A 1 '^Reference, the shortest steps extrapolated to none:$' v/verification.md | grep -q '^centre ' || fail "no reference of the slide"
 grep -q '| !\[oblique\](oblique.svg) |' v/verification.md || fail "no diagram on the page"
 n=$(head -1 v/verify.csv | tr ',' '\n' | wc -l)
 [ "$n" -eq 19 ] || fail "verify.csv has $n columns"
