@@ -128,25 +128,25 @@ VectorLayer path_point_layer(const std::vector<RunoutRun>& runs, const MapPlace&
 }
 
 VectorLayer streamline_layer(const std::vector<RunoutRun>& runs, const MapPlace& map) {
-  VectorLayer layer{
-      "streamline",
-      "from the top of the source to the toe of the deposit, M = horizontal "
-      "distance in m",
-      GeometryType::line_zm,
-      {{"run_id", FieldType::text},
-       {"H_m", FieldType::real},
-       {"L_path_m", FieldType::real},
-       {"L_chord_m", FieldType::real},
-       {"reach_angle_path_deg", FieldType::real},
-       {"reach_angle_chord_deg", FieldType::real},
-       {"angle_monotone_along_path", FieldType::integer},
-       {"smallest_angle_along_path_deg", FieldType::real}},
-      {},
-      vector_qml({SymbolKind::line,
-                  "",
-                  {{"", "", {200, 30, 30, 255}}},
-                  0.8,
-                  "'L ' || round(\"L_path_m\") || ' m, H ' || round(\"H_m\") || ' m'"})};
+  VectorLayer layer{"streamline",
+                    "from the top of the source to the toe of the deposit, M = horizontal "
+                    "distance in m",
+                    GeometryType::line_zm,
+                    {{"run_id", FieldType::text},
+                     {"H_m", FieldType::real},
+                     {"L_path_m", FieldType::real},
+                     {"L_chord_m", FieldType::real},
+                     {"reach_angle_path_deg", FieldType::real},
+                     {"reach_angle_chord_deg", FieldType::real},
+                     {"angle_monotone_along_path", FieldType::integer},
+                     {"smallest_angle_along_path_deg", FieldType::real}},
+                    {},
+                    vector_qml({SymbolKind::line,
+                                "",
+                                {{"", "", {200, 30, 30, 255}}},
+                                0.8,
+                                "CASE WHEN \"L_path_m\" = maximum(\"L_path_m\") THEN 'L ' || "
+                                "round(\"L_path_m\") || ' m, H ' || round(\"H_m\") || ' m' END"})};
   for (const RunoutRun& r : runs) {
     const EventReach& e = r.event;
     if (e.streamline.empty()) continue;
