@@ -175,6 +175,33 @@ void warn_of_elsewhere(Tool& tool, const HazardSources& sources) {
             " years of the recipe: more runs are needed to call them free");
 }
 
+// The maps of all layers; what the result says of each.
+Json write_layers(Tool& tool, const Options& o, const MapFrame& frame, const Recipe& recipe,
+                  const std::vector<MapLayer>& layers, const std::string& remark,
+                  const std::vector<std::string>& notes, const MapTags& tags) {
+  const MapLayer* const certainty = layer_named(layers, certainty_layer);
+  Json written = Json::array();
+  for (const MapLayer& layer : layers) {
+    const std::string path = (fs::path(o.folder) / (layer.name + ".tif")).string();
+    const std::string shown =
+        write_map(tool, frame, path, layer, hazard_style(layer, recipe, remark, notes), tags,
+                  o.creation_options, layer.name == "class" ? certainty : nullptr);
+    Json bands = Json::array();
+    for (const MapBand& band : layer.bands) bands.push_back(band.name);
+    written.push_back({{"file", path}, {"shown_band", shown}, {"bands", bands}});
+  }
+  return written;
+}
+
+std::string area_lines(const Json& classes) {
+  std::string lines;
+  for (const Json& area : classes)
+    lines += "\n" + area["class"].get<std::string>() + " (" + area["label"].get<std::string>() +
+             "): " + text(area["area_m2"].get<double>() / 1e4, 4) + " ha, " +
+             text(area["certain_area_m2"].get<double>() / 1e4, 4) + " ha of it certain";
+  return lines;
+}
+
 void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& runs) {
   limit_memory(0);  // --memory-mb is for rows alone; the rest needs what is free
   const Site& site = site_options.load();
@@ -203,23 +230,13 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& runs
   const PassageGrid& grid = inputs.map.grid;
   const MapFrame frame = map_frame(runs, grid, o.pages, layers[0].cell);
   const MapLayer* const certainty = layer_named(layers, certainty_layer);
-  Json written = Json::array();
-  for (const MapLayer& layer : layers) {
-    const std::string path = (fs::path(o.folder) / (layer.name + ".tif")).string();
-    const std::string shown =
-        write_map(tool, frame, path, layer, hazard_style(layer, recipe, remark, notes), tags,
-                  o.creation_options, layer.name == "class" ? certainty : nullptr);
-    Json bands = Json::array();
-    for (const MapBand& band : layer.bands) bands.push_back(band.name);
-    written.push_back({{"file", path}, {"shown_band", shown}, {"bands", bands}});
-  }
   Json result = {{"run_id", tool.run_id()},
                  {"tags", Json::object()},
                  {"sections", section_digest(site, {"hazard"})},
                  {"n_runs", runs.members.size()},
                  {"n_cells_touched", layers[0].cell.size()},
                  {"cell_size_m", grid.cell_size},
-                 {"layers", written}};
+                 {"layers", write_layers(tool, o, frame, recipe, layers, remark, notes, tags)}};
   for (const auto& [key, value] : tags) result["tags"][key] = value;
   std::string summary =
       std::to_string(layers.size()) + " maps of " + run_words(sources) + " in " + o.folder;
@@ -235,10 +252,7 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& runs
     for (const HazardClass& c : classes) rates.push_back(rate_json(c));
     result["frequencies"] = rates;
     result["rate_elsewhere_per_a"] = number_or_null(largest_rate_elsewhere(sources.classes));
-    for (const Json& area : result["classes"])
-      summary += "\n" + area["class"].get<std::string>() + " (" + area["label"].get<std::string>() +
-                 "): " + text(area["area_m2"].get<double>() / 1e4, 4) + " ha, " +
-                 text(area["certain_area_m2"].get<double>() / 1e4, 4) + " ha of it certain";
+    summary += area_lines(result["classes"]);
   } else {
     result["classes"] = nullptr;
     result["why_no_classes"] = why;
