@@ -38,6 +38,9 @@ run = $(if $(is_dry_run),,$(count_runs)$(file >$(failed_marks)/$2,none$(tab)$(no
 # Whoever asks for the file of one run is told at once that it failed (make out/runs/run_3.h5).
 goes_on := $(if $(filter $(OUT)/%,$(MAKECMDGOALS)),,-)
 
+# More than three runs are one line each: what came of it.
+say_run = $(if $(word 4,$(run_files)),,$(call say,$1))
+
 # How far the runs are: what is to be made is counted when the first one starts, and all that they read is made.
 run_inputs := $(OUT)/blocks.h5 $(STAGES)/run.txt $(if $(SITE_ROCK_MASSES),$(STAGES)/rock.txt) $(STAGES)/dda.flags $(STAGES)/dda.files
 newer_runs = $(shell find $(wildcard $(OUT)/runs $(OUT)/without) -name 'run_$2*.h5' $(addprefix -newer ,$1))
@@ -58,11 +61,11 @@ $(foreach case,$(CASES),$(eval $(filter $(OUT)/runs/run_$(case)_% $(OUT)/without
 notes_runs := $(filter submit prepare,$(MAKECMDGOALS))
 ifeq ($(notes_runs),)
 $(OUT)/runs/run_%.h5:
-	$(call say,dda: run_$*)
+	$(call say_run,dda: run_$*)
 	$(call run,run_$*,run_$*)
 	$(call run_ended,run_$*,run_$*)
 $(OUT)/without/run_%.h5:
-	$(call say,dda: run_$* without fences)
+	$(call say_run,dda: run_$* without fences)
 	$(call run,without/run_$*,without_run_$*) $(SITE_FENCES:%=--set fence.%.active=false)
 	$(call run_ended,without/run_$*,without_run_$*)
 else

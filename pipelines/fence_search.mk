@@ -36,7 +36,7 @@ all_verify_files := $(foreach proposal,$(PROPOSALS),$(call verify_files,$(propos
 verify_mass = $(if $(rock_masses),$(shell echo $$((($(seed_of_run) - 1) % $(rock_masses) + 1))))
 define verify_rule
 $(OUT)/verify/$1/run_%.h5: $(OUT)/search/$1.toml $(run_inputs) | $(OUT)/verify/$1 $(failed_marks)
-	$$(call say,dda: run_$$* with $1)
+	$$(call say_run,dda: run_$$* with $1)
 	$$(file >$(failed_marks)/verify_$1_run_$$*,none$(tab)$(not_ended))-$$(Q)$(BIN)talus-dda site.toml --add $(OUT)/search/$1.toml \
 	  --trn $$(if $$(verify_mass),$(OUT)/rock/bed_$$(verify_mass).tif,$(OUT)/bed.tif) --blocks $$(if $$(verify_mass),$(OUT)/rock/blocks_$$(verify_mass).h5,$(OUT)/blocks.h5) \
 	  -o $$@ $$(run_options) --label $1/run_$$* --failures $(failed_marks)/verify_$1_run_$$* --resume --overwrite $(DB)

@@ -2,17 +2,19 @@
 
 #include <array>
 #include <bit>
+#include <type_traits>
 
 namespace talus {
 namespace {
 
 template <class T>
 std::string little_endian(const std::vector<T>& values) {
+  using Bits = std::conditional_t<sizeof(T) == 2, std::uint16_t, std::uint32_t>;
   std::string bytes;
-  bytes.reserve(4 * values.size());
+  bytes.reserve(sizeof(T) * values.size());
   for (const T value : values) {
-    const auto bits = std::bit_cast<std::uint32_t>(value);
-    for (int k = 0; k < 4; ++k) bytes += static_cast<char>(bits >> (8 * k) & 255u);
+    const std::uint32_t bits = std::bit_cast<Bits>(value);
+    for (std::size_t k = 0; k < sizeof(T); ++k) bytes += static_cast<char>(bits >> (8 * k) & 255u);
   }
   return bytes;
 }
@@ -36,6 +38,9 @@ std::string base64(std::string_view bytes) {
 
 std::string base64(const std::vector<float>& values) { return base64(little_endian(values)); }
 std::string base64(const std::vector<std::uint32_t>& values) {
+  return base64(little_endian(values));
+}
+std::string base64(const std::vector<std::uint16_t>& values) {
   return base64(little_endian(values));
 }
 

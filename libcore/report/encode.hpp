@@ -11,9 +11,10 @@ namespace talus {
 
 /// Base64 with padding (RFC 4648).
 [[nodiscard]] std::string base64(std::string_view bytes);
-/// Numbers as little-endian bytes in base64, in single precision.
+/// Numbers as little-endian bytes in base64.
 [[nodiscard]] std::string base64(const std::vector<float>& values);
 [[nodiscard]] std::string base64(const std::vector<std::uint32_t>& values);
+[[nodiscard]] std::string base64(const std::vector<std::uint16_t>& values);
 
 /// "data:TYPE;base64,..." of a file's content.
 [[nodiscard]] std::string data_address(const std::string& media_type, std::string_view bytes);

@@ -1,7 +1,9 @@
 #include "report/viewer_scene.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "base/error.hpp"
@@ -39,59 +41,142 @@ Part part_around(const RunFile& run, const Trn& trn, int max_nodes) {
   return part;
 }
 
+// Numbers of one kind as 16 bits each: low + step * word.
+struct Packing {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  static constexpr int last = 65534;            // of the words that are numbers
+  static constexpr std::uint16_t none = 65535;  // unknown
+
+  void hold(double value) {
+    if (std::isnan(value)) return;
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  [[nodiscard]] double step() const { return high > low ? (high - low) / last : 1; }
+  [[nodiscard]] std::uint16_t word(double value) const {
+    return std::isnan(value) ? none
+                             : static_cast<std::uint16_t>(std::lround((value - low) / step()));
+  }
+  [[nodiscard]] std::string json() const {
+    return "[" + text(high >= low ? low : 0, 9) + "," + text(step(), 9) + "]";
+  }
+};
+
+// Counts and numbers of things, as short as they allow.
+std::string counts_json(const std::vector<std::uint32_t>& counts) {
+  const bool is_short = std::all_of(counts.begin(), counts.end(), [](auto i) { return i < 65536; });
+  if (!is_short) return "{\"bytes\":4,\"all\":\"" + base64(counts) + "\"}";
+  const std::vector<std::uint16_t> words(counts.begin(), counts.end());
+  return "{\"bytes\":2,\"all\":\"" + base64(words) + "\"}";
+}
+
 std::string terrain_json(const Trn& trn, const Part& part, double z_origin) {
-  std::vector<float> z;
+  std::vector<double> z;
+  Packing packing;
   for (int r = 0; r < part.n_rows(); ++r)
-    for (int c = 0; c < part.n_cols(); ++c)
-      z.push_back(static_cast<float>(
+    for (int c = 0; c < part.n_cols(); ++c) {
+      z.push_back(
           node_point(trn, part.row_first + r * part.step, part.col_first + c * part.step).z() -
-          z_origin));
+          z_origin);
+      packing.hold(z.back());
+    }
+  std::vector<std::uint16_t> words;
+  for (const double value : z) words.push_back(packing.word(value));
   const Vec3 corner = node_point(trn, part.row_first, part.col_first);
   return "{\"n_rows\":" + std::to_string(part.n_rows()) +
          ",\"n_cols\":" + std::to_string(part.n_cols()) +
          ",\"cell_size_m\":" + text(trn.cell_size * part.step) + ",\"x0_m\":" + text(corner.x()) +
-         ",\"y0_m\":" + text(corner.y()) + ",\"z_origin_m\":" + text(z_origin) + ",\"z_m\":\"" +
-         base64(z) + "\"}";
+         ",\"y0_m\":" + text(corner.y()) + ",\"z_origin_m\":" + text(z_origin) +
+         ",\"z_m\":" + packing.json() + ",\"z\":\"" + base64(words) + "\"}";
 }
 
-// Faces as fans of triangles in body axes; beside each corner the block it belongs to.
+// Corners of block b count from its own first vertex.
 std::string blocks_json(const RunBlocks& blocks, int n) {
-  std::vector<float> position;
-  std::vector<std::uint32_t> owner;
+  Packing packing;
+  for (const Vec3& vertex : blocks.vertices)
+    for (const double value : vertex) packing.hold(value);
+  std::vector<std::uint16_t> vertices;
+  std::vector<std::uint32_t> n_vertices, n_faces, face_sizes, corners;
   std::string mass;
   for (int b = 0; b < n; ++b) {
     mass += (b > 0 ? "," : "") + text(blocks.mass[b], 7);
-    for (int f = blocks.block_face_begin[b]; f < blocks.block_face_begin[b + 1]; ++f)
-      for (int k = blocks.face_begin[f] + 1; k + 1 < blocks.face_begin[f + 1]; ++k)
-        for (const int corner : {blocks.face_begin[f], k, k + 1}) {
-          const Vec3& vertex = blocks.vertices[blocks.face_vertices[corner]];
-          for (int axis = 0; axis < 3; ++axis) position.push_back(static_cast<float>(vertex[axis]));
-          owner.push_back(static_cast<std::uint32_t>(b));
-        }
-  }
-  return "{\"n\":" + std::to_string(n) + ",\"mass_kg\":[" + mass + "],\"position_m\":\"" +
-         base64(position) + "\",\"block\":\"" + base64(owner) + "\"}";
-}
-
-std::string frames_json(const RunFile& run, double z_origin, std::size_t max_bytes) {
-  const int n = n_blocks(run), count = n_frames(run.frames);
-  const std::size_t bytes = static_cast<std::size_t>(n) * count * 32;
-  const int stride = static_cast<int>((bytes + max_bytes - 1) / max_bytes);
-  std::vector<float> pose;
-  std::string time;
-  for (int k = 0; k < count; ++k) {
-    if (stride > 1 && k % stride != 0 && k != count - 1) continue;
-    time += (time.empty() ? "" : ",") + text(run.frames.time[k], 9);
-    for (int b = 0; b < n; ++b) {
-      const FrameBlock block = frame_block(run, k, b);
-      const Quat& q = block.attitude;
-      for (const double value :
-           {block.position.x(), block.position.y(), block.position.z() - z_origin,
-            block.velocity.norm(), q.x(), q.y(), q.z(), q.w()})
-        pose.push_back(static_cast<float>(value));
+    n_vertices.push_back(blocks.vertex_begin[b + 1] - blocks.vertex_begin[b]);
+    n_faces.push_back(blocks.block_face_begin[b + 1] - blocks.block_face_begin[b]);
+    for (int v = blocks.vertex_begin[b]; v < blocks.vertex_begin[b + 1]; ++v)
+      for (const double value : blocks.vertices[v]) vertices.push_back(packing.word(value));
+    for (int f = blocks.block_face_begin[b]; f < blocks.block_face_begin[b + 1]; ++f) {
+      face_sizes.push_back(blocks.face_begin[f + 1] - blocks.face_begin[f]);
+      for (int k = blocks.face_begin[f]; k < blocks.face_begin[f + 1]; ++k)
+        corners.push_back(blocks.face_vertices[k] - blocks.vertex_begin[b]);
     }
   }
-  return "{\"time_s\":[" + time + "],\"pose\":\"" + base64(pose) + "\"}";
+  return "{\"n\":" + std::to_string(n) + ",\"mass_kg\":[" + mass +
+         "],\"n_vertices\":" + counts_json(n_vertices) + ",\"n_faces\":" + counts_json(n_faces) +
+         ",\"face_sizes\":" + counts_json(face_sizes) + ",\"corners\":" + counts_json(corners) +
+         ",\"vertex_m\":" + packing.json() + ",\"vertices\":\"" + base64(vertices) + "\"}";
+}
+
+// The frames of a run, eight words a block: x y z, speed, quaternion x y z w.
+struct PackedFrames {
+  std::array<Packing, 5> packing;  // x, y, z, speed, quaternion
+  std::vector<std::uint16_t> words;
+};
+
+PackedFrames packed_frames(const RunFile& run, double z_origin) {
+  const int n = n_blocks(run), count = n_frames(run.frames);
+  const auto numbers = [&run, z_origin](int k, int b) {
+    const FrameBlock block = frame_block(run, k, b);
+    const Quat& q = block.attitude;
+    return std::array<double, 8>{block.position.x(),
+                                 block.position.y(),
+                                 block.position.z() - z_origin,
+                                 block.velocity.norm(),
+                                 q.x(),
+                                 q.y(),
+                                 q.z(),
+                                 q.w()};
+  };
+  PackedFrames packed;
+  packed.packing[4] = {-1, 1};
+  for (int k = 0; k < count; ++k)
+    for (int b = 0; b < n; ++b)
+      for (int i = 0; i < 4; ++i) packed.packing[i].hold(numbers(k, b)[i]);
+  for (int k = 0; k < count; ++k)
+    for (int b = 0; b < n; ++b) {
+      const std::array<double, 8> all = numbers(k, b);
+      for (int i = 0; i < 8; ++i)
+        packed.words.push_back(packed.packing[std::min(i, 4)].word(all[i]));
+    }
+  return packed;
+}
+
+// A block whose words never change stands in the first frame alone.
+std::string frames_json(const RunFile& run, double z_origin, std::size_t max_bytes) {
+  const auto n = static_cast<std::size_t>(n_blocks(run));
+  const auto count = static_cast<std::size_t>(n_frames(run.frames));
+  const PackedFrames packed = packed_frames(run, z_origin);
+  const auto pose = [&packed, n](std::size_t k, std::size_t b) {
+    return packed.words.begin() + static_cast<std::ptrdiff_t>(8 * (k * n + b));
+  };
+  std::vector<std::uint32_t> moved;
+  for (std::size_t b = 0; b < n; ++b) {
+    std::size_t k = 1;
+    while (k < count && std::equal(pose(0, b), pose(0, b) + 8, pose(k, b))) ++k;
+    if (k < count) moved.push_back(static_cast<std::uint32_t>(b));
+  }
+  const std::size_t stride =
+      std::max<std::size_t>(1, (16 * (moved.size() * (count - 1) + n) + max_bytes - 1) / max_bytes);
+  std::vector<std::uint16_t> words(pose(0, 0), pose(0, 0) + static_cast<std::ptrdiff_t>(8 * n));
+  std::string time = text(run.frames.time[0], 9);
+  for (std::size_t k = 1; k < count; ++k) {
+    if (k % stride != 0 && k != count - 1) continue;
+    time += "," + text(run.frames.time[k], 9);
+    for (const std::uint32_t b : moved) words.insert(words.end(), pose(k, b), pose(k, b) + 8);
+  }
+  std::string packing;
+  for (const Packing& part : packed.packing) packing += (packing.empty() ? "" : ",") + part.json();
+  return "{\"time_s\":[" + time + "],\"moved\":" + counts_json(moved) + ",\"packing\":[" + packing +
+         "],\"pose\":\"" + base64(words) + "\"}";
 }
 
 std::string fences_json(const RunFile& run, const std::vector<double>& height, double z_origin) {

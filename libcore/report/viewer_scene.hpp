@@ -15,7 +15,7 @@ namespace talus {
 /// How much of a run the page may hold.
 struct ViewerLimits {
   int max_nodes = 200000;                ///< of the terrain; coarser nodes beyond
-  std::size_t max_pose_bytes = 6000000;  ///< of all frames; frames are left out evenly beyond
+  std::size_t max_pose_bytes = 1800000;  ///< of all frames; frames are left out evenly beyond
   std::size_t max_trail_points = 40000;  ///< trails are left out evenly beyond
 };
 

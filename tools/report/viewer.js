@@ -1,9 +1,7 @@
 // tools/report/viewer.js
 // The 3-D viewer of the HTML report: terrain, blocks and fences over time, in plain WebGL2.
 // in:  talusViewer(element, scene); scene as talus-report writes it (docs/formats.md#viewer):
-//      terrain {n_rows, n_cols, cell_size_m, x0_m, y0_m, z_m}, blocks {n, position_m, block, mass_kg},
-//      frames {time_s, pose}, fences [{name, points_m, height_m}], trails {n, n_all, begin, position_m},
-//      contour_m; arrays are base64, little-endian
+//      terrain, blocks, frames, fences, trails, contour_m; arrays are base64, little-endian
 // The poses of all frames lie in one texture; the vertex shader takes two frames and interpolates,
 // so that a frame costs one draw call however many blocks there are. z is up.
 'use strict';
@@ -11,6 +9,8 @@
 function talusViewer(root, scene) {
   const bytes = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer;
   const floats = (text) => new Float32Array(bytes(text));
+  const words = (text) => new Uint16Array(bytes(text));
+  const counts = ({bytes: size, all}) => size === 2 ? words(all) : new Uint32Array(bytes(all));
 
   // --- elements -----------------------------------------------------------------------------------
   root.innerHTML = `
@@ -39,7 +39,25 @@ function talusViewer(root, scene) {
   // --- data ---------------------------------------------------------------------------------------
   const times = scene.frames.time_s;
   const nBlocks = scene.blocks.n, nFrames = times.length;
-  const pose = floats(scene.frames.pose);  // x y z speed, qx qy qz qw: a frame, a block
+  // x y z speed, qx qy qz qw: a frame, a block. The words hold all blocks once, then those that move.
+  const unpackedPose = () => {
+    const packed = words(scene.frames.pose), moved = counts(scene.frames.moved);
+    const number = scene.frames.packing, size = 8 * nBlocks;
+    const all = new Float32Array(size * nFrames);
+    const put = (at, from) => {
+      for (let k = 0; k < 8; ++k) {
+        const [low, step] = number[Math.min(k, 4)];
+        all[at + k] = low + step * packed[from + k];
+      }
+    };
+    for (let b = 0; b < nBlocks; ++b) put(8 * b, 8 * b);
+    for (let f = 1, from = size; f < nFrames; ++f) {
+      all.copyWithin(size * f, size * (f - 1), size * f);
+      for (let i = 0; i < moved.length; ++i, from += 8) put(size * f + 8 * moved[i], from);
+    }
+    return all;
+  };
+  const pose = unpackedPose();
   let topSpeed = 1e-6;
   for (let i = 3; i < pose.length; i += 8) topSpeed = Math.max(topSpeed, pose[i]);
   find('.viewer-top').textContent = topSpeed.toFixed(topSpeed < 10 ? 1 : 0) + ' m/s';
@@ -134,7 +152,8 @@ function talusViewer(root, scene) {
   };
 
   const terrainMesh = () => {
-    const t = scene.terrain, z = floats(t.z_m);
+    const t = scene.terrain, [low, step] = t.z_m;
+    const z = Float32Array.from(words(t.z), (word) => word === 65535 ? NaN : low + step * word);
     const points = new Float32Array(3 * z.length), triangles = [];
     for (let r = 0, i = 0; r < t.n_rows; ++r)
       for (let c = 0; c < t.n_cols; ++c, ++i)
@@ -160,6 +179,22 @@ function talusViewer(root, scene) {
     return mesh(ground, [['position', new Float32Array(corners), 3]]);
   };
 
+  // Faces as fans of triangles in body axes; beside each corner the block that it belongs to.
+  const blockMesh = () => {
+    const {blocks} = scene, [low, step] = blocks.vertex_m;
+    const vertices = words(blocks.vertices), corners = counts(blocks.corners);
+    const nVertices = counts(blocks.n_vertices), nFaces = counts(blocks.n_faces), sizes = counts(blocks.face_sizes);
+    const points = [], owners = [];
+    for (let b = 0, f = 0, c = 0, first = 0; b < nBlocks; first += nVertices[b], ++b)
+      for (const last = f + nFaces[b]; f < last; c += sizes[f], ++f)
+        for (let k = 1; k + 1 < sizes[f]; ++k)
+          for (const corner of [c, c + k, c + k + 1]) {
+            for (let axis = 0; axis < 3; ++axis) points.push(low + step * vertices[3 * (first + corners[corner]) + axis]);
+            owners.push(b);
+          }
+    return mesh(rock, [['position', new Float32Array(points), 3], ['block', new Uint32Array(owners), 1]]);
+  };
+
   // All trails as pairs of points.
   const trailMesh = () => {
     const points = floats(scene.trails.position_m), begin = new Uint32Array(bytes(scene.trails.begin)), pairs = [];
@@ -174,8 +209,7 @@ function talusViewer(root, scene) {
   else if (scene.trails.n < scene.trails.n_all)
     find('.viewer-trails-label span').textContent = `{{viewer.trails}} (${scene.trails.n} {{viewer.of}} ${scene.trails.n_all})`;
   const fences = fenceMesh();
-  const blocks = mesh(rock, [['position', floats(scene.blocks.position_m), 3],
-                             ['block', new Uint32Array(bytes(scene.blocks.block)), 1]]);
+  const blocks = blockMesh();
 
   const width = 2048;
   const texture = gl.createTexture();
