@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "solver/impact_few.hpp"
 #include "solver/one_contact.hpp"
 
 namespace talus {
@@ -535,6 +536,15 @@ struct Solver {
     return false;
   }
 
+  // From the impulses in the rows where contacts are few.
+  bool solve_any() {
+    if (contacts.size() == 1 && w.turns.empty() && solve_one()) return true;
+    if (contacts.size() > 1 && contacts.size() <= most_few && w.turns.empty() &&
+        solve_few(bodies, contacts, w.before, scale, w, passes))
+      return true;
+    return solve();
+  }
+
   [[nodiscard]] double energy(const Eigen::VectorXd& v) const {
     double sum = 0;
     for (size_t k = 0; k < bodies.size(); ++k) {
@@ -585,7 +595,7 @@ struct Solver {
     }
     w.full_couple.clear();
     for (const ImpactWork::Turn& turn : w.turns) w.full_couple.push_back(turn.couple);
-    const bool solved = solve();
+    const bool solved = solve_any();
     take_impulses();
     w.full -= w.velocity;
     const Eigen::VectorXd& gained = w.full;
@@ -621,8 +631,7 @@ Impact solve_impact(std::span<ImpactBody> bodies, std::span<ImpactContact> conta
       work.rows[i].target = -c.fall.at(c.restitution, -c.approach) * c.approach;
   }
   const double before = solver.energy(work.before);
-  out.converged =
-      (contacts.size() == 1 && work.turns.empty() && solver.solve_one()) || solver.solve();
+  out.converged = solver.solve_any();
   solver.take_impulses();
   if (solver.energy(work.velocity) > (1 + gain_rounding) * before)
     out.converged = solver.lower_restitution(out) && out.converged;

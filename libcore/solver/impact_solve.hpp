@@ -6,6 +6,8 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <array>
+#include <cstddef>
 #include <span>
 #include <utility>
 #include <vector>
@@ -63,6 +65,21 @@ struct Impact {
   double by_rolling = 0;   ///< ... of it by couples [J]
 };
 
+/// Scratch of the solution in the impulses of few contacts (impact_few.hpp). Sizes are bounded, so
+/// that nothing of it is on the heap.
+struct FewContacts {
+  static constexpr std::size_t most = 16;  ///< contacts
+  template <int columns>
+  using Array = Eigen::Matrix<double, Eigen::Dynamic, columns, 0, 3 * static_cast<int>(most),
+                              columns == 1 ? 1 : 3 * static_cast<int>(most)>;
+  Array<Eigen::Dynamic> response;    ///< velocity per impulse [1/kg]
+  Array<Eigen::Dynamic> matrix;      ///< of Newton's equations [-]
+  Array<1> impulse, residual;        ///< [N s]
+  Array<1> slip_before, slip;        ///< velocities of the contacts' points [m/s]
+  std::array<double, most> feels{};  ///< velocity per impulse of a contact alone [1/kg]
+  Eigen::PartialPivLU<Array<Eigen::Dynamic>> factor;
+};
+
 /// Scratch of solve_impact.
 struct ImpactWork {  // clang-format off
   struct Row {
@@ -94,6 +111,7 @@ struct ImpactWork {  // clang-format off
   std::vector<Row> rows, kept;           ///<                                            (n_contacts)
   std::vector<Vec3> full_impulse;        ///< with all of the restitution                (n_contacts)
   Eigen::VectorXd before, velocity, kept_velocity, full, tried, residual, step;  ///<   (6 n_bodies)
+  FewContacts few;
   BlockLu<6> matrix;
   std::vector<std::pair<int, int>> edges;
   std::vector<Vec6> blocks;              ///<                                            (n_bodies)

@@ -234,7 +234,7 @@ struct SubstepCheck {
   [[nodiscard]] SubstepVerdict run(bool converged) const {
     using enum SubstepCut;
     const double h = free.h;
-    if (!converged && tries.eased < law::most_eased) return SubstepVerdict::again(unconverged, h);
+    if (!converged && can_ease(members, tries)) return SubstepVerdict::again(unconverged, h);
     if (!converged && tries.halvings < most_halvings)
       return SubstepVerdict::again(unconverged, h / 2);
     set_displacements(free.h, system, hits, end.displacement);

@@ -409,7 +409,7 @@ struct ContactMaker {
   }
 
   // Gaps at the end of the substep without contact forces, and how fast each member may be thrown
-  // by the fastest of its own hits.
+  // by the fastest of its own hits and those near it.
   void look_ahead() {
     const double h = free.h;
     std::vector<double>& bound = making.hit_speed_bound;
@@ -434,11 +434,25 @@ struct ContactMaker {
         note_hit(m.block_b, speed);
       }
     }
+    for (int round = 0; round < law::throw_rounds; ++round) pass_on();
+  }
+
+  // What is thrown throws its neighbours.
+  void pass_on() {
+    std::vector<double>& bound = making.hit_speed_bound;
+    making.hit_speed_before = bound;
+    for (const int i : manifolds) {
+      const PairManifold& m = search.pairs.manifolds[i];
+      if (is_fixed(scene, m.block_b) || !has_points(m)) continue;
+      const size_t a = members.at(m.block_a), b = members.at(m.block_b);
+      bound[a] = std::max(bound[a], making.hit_speed_before[b]);
+      bound[b] = std::max(bound[b], making.hit_speed_before[a]);
+    }
   }
 
   // Contacts of two blocks. A new one is left out where its gap is wider than a quarter of what
-  // gravity does in the substep and twice what hits throw the two; check_substep() sees whether it
-  // closed all the same, and then the substep is made again with all. In one piece, as
+  // gravity does in the substep and twice what hits near them throw; check_substep() sees whether
+  // it closed all the same, and then the substep is made again with all. In one piece, as
   // add_ground(): a contact is many small functions, and their calls are a twentieth of a step.
   [[gnu::flatten]] void add_points(int manifold) {
     const double h = free.h;

@@ -22,6 +22,7 @@
 #include "solver/impact_solve.hpp"
 #include "solver/island_groups.hpp"
 #include "solver/island_solver.hpp"
+#include "solver/law_numbers.hpp"
 #include "solver/newton.hpp"
 #include "step/report.hpp"
 #include "step/stage_clock.hpp"
@@ -61,6 +62,7 @@ struct IslandMembers {  // clang-format off
   std::vector<BlockNumbers> numbers;        ///<                                         (n_members)
   std::vector<int> place;                   ///< of a body in `blocks`, -1: not in it    (n_bodies)
   bool is_small = false;                    ///< the island's matrix is cheap to factor
+  bool is_soft = false;                     ///< no load makes its contacts stiffer
   std::vector<double> bearing;              ///< mass of the heaviest block touched [kg] (n_members)
   // clang-format on
   [[nodiscard]] std::size_t size() const { return blocks.size(); }
@@ -115,7 +117,8 @@ struct ContactMaking {  // clang-format off
   std::vector<Contact> found;               ///< with the ground, of the member at hand
   std::vector<ContactRow> rows;             ///< of these
   std::vector<ContactMemory> unbonded;      ///< memory of a member whose bond with the ground broke
-  std::vector<double> hit_speed_bound;      ///< that its own hits may give it, about [m/s] (n_members)
+  std::vector<double> hit_speed_bound;      ///< that hits near it may give it, about [m/s] (n_members)
+  std::vector<double> hit_speed_before;     ///< ... by hits one pair nearer [m/s]       (n_members)
   int touched_by = -1;                      ///< block whose memories `touched` is of
   std::vector<int> touched;                 ///< body B of each memory
   std::vector<int> continued;               ///< memory that a manifold's point continues
@@ -371,6 +374,12 @@ template <class Of>
 [[nodiscard]] inline int bond_number(int n_bonds, const KeptContact& contact) {
   return contact.bond >= 0 ? contact.bond : n_bonds + contact.a;
 }
+
+/// Whether contacts of the island would be softer in another attempt that did not converge.
+[[nodiscard]] inline bool can_ease(const IslandMembers& members, const SubstepTries& tries) {
+  return tries.eased < law::most_eased && !members.is_soft;
+}
+
 [[nodiscard]] inline bool is_broken(const SubstepTries& tries, int bond) {
   return std::find(tries.broken.begin(), tries.broken.end(), bond) != tries.broken.end();
 }

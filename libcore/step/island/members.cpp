@@ -75,6 +75,7 @@ void choose_stiffness(const Scene& scene, const State& state, const PairSearch& 
   const bool any_moves = std::any_of(members.blocks.begin(), members.blocks.end(), moves);
   const bool is_soft = eased > (any_moves ? 0 : 1) || (any_moves && !members.is_small);
   const double stiffest = stiffest_by_load / std::pow(law::easing, eased);
+  members.is_soft = is_soft;
   for (size_t k = 0; k < members.size(); ++k) {
     BlockNumbers& c = members.numbers[k];
     c.slow = slow * g * dt;

@@ -45,12 +45,18 @@ void begin_substep(SubstepTries& tries) {
 }
 
 // Notes why a substep is made again.
-void note_cut(SubstepCut reason, const SubstepEnd& end, SubstepTries& tries) {
+void note_cut(SubstepCut reason, const SubstepEnd& end, const IslandMembers& members,
+              SubstepTries& tries) {
   switch (reason) {
     case SubstepCut::yielding_touched:
       break;
     case SubstepCut::unconverged:
-      ++(tries.eased < law::most_eased ? tries.eased : tries.halvings);
+      if (can_ease(members, tries)) {
+        ++tries.eased;
+      } else {
+        tries.eased = law::most_eased;
+        ++tries.halvings;
+      }
       break;
     case SubstepCut::contact_left_out:
       tries.takes_all = true;
@@ -99,7 +105,7 @@ void make_substep(const Scene& scene, double t, double h, State& state, Work& wo
     }
     ++report.cuts[static_cast<size_t>(verdict.reason)];
     state.counters.cut_back += verdict.reason == SubstepCut::unconverged;
-    note_cut(verdict.reason, w.end, w.tries);
+    note_cut(verdict.reason, w.end, w.members, w.tries);
     if (verdict.reason == SubstepCut::unconverged)
       choose_stiffness(scene, state, work.search, w.manifolds, w.tries.eased, w.members);
     h = verdict.h;
