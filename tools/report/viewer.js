@@ -1,6 +1,6 @@
 // tools/report/viewer.js
 // The 3-D viewer of the HTML report: terrain, blocks and fences over time, in plain WebGL2.
-// in:  talusViewer(element, scene); scene as talus-report writes it (docs/formats.md#viewer):
+// in:  talusViewer(element, scene); scene as talus-report writes it (docs/reference/formats.md#viewer):
 //      terrain {n_rows, n_cols, cell_size_m, x0_m, y0_m, z_m}, blocks {n, position_m, block, mass_kg},
 //      frames {time_s, pose}, fences [{name, points_m, height_m}], trails {n, n_all, begin, position_m},
 //      contour_m; arrays are base64, little-endian
