@@ -27,5 +27,5 @@ echo
 echo "The results are in $out. Look at:"
 echo "  $out/report.html   maps, fence verdicts, 3-D animation, health, what was assumed (any browser)"
 echo "  $out/site.qgz      the same as a QGIS project (QGIS 3.22 or later)"
-echo "Your own slope: docs/tutorial.md"
+echo "Your own slope: docs/guide/tutorial.md"
 exit "$code"

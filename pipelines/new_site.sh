@@ -32,7 +32,7 @@ seen_from_site() { realpath -m --relative-to="$name" "$1"; }
 head_of_site() {
   cat <<END
 # Everything here is assumed until somebody has measured it.
-# All keys with unit, default and range: docs/site-file.md
+# All keys with unit, default and range: docs/reference/site-file.md
 [site]
 name = "$(basename "$name")"
 END

@@ -1,7 +1,8 @@
 // libcore/blocks/block_set.hpp: public
 // The blocks of a site as flat arrays: what talus-blocks writes and talus-dda moves.
 // in:    the cut rock mass, meshes or shapes
-// out:   bodies at rest, in place, relative to `origin`; see docs/formats.md for the HDF5 names
+// out:   bodies at rest, in place, relative to `origin`; see docs/reference/formats.md for the HDF5
+// names
 //
 // A body is one or several convex parts that move as one. The parts are its collision shape; the
 // shell is its closed outward surface, for moments, friction by face and for looking at. Both index

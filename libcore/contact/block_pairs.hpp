@@ -3,7 +3,7 @@
 // while its motion budget lasts; features that meet, for a thousandth of the thickness.
 // in:    placed hulls, and how far the bodies may move in the coming step
 // out:   manifolds sorted by part of A, then part of B
-// theory: docs/theory.md 2.1-2.3, 2.6
+// theory: docs/theory/theory.md 2.1-2.3, 2.6
 #pragma once
 
 #include <array>

@@ -2,7 +2,7 @@
 // How far two bodies are in each other, as bodies: no contact is asked.
 // in:    two placed bodies, each of one or more convex parts
 // out:   the least displacement along an axis of their parts that frees them
-// theory: docs/theory.md 2.1
+// theory: docs/theory/theory.md 2.1
 #pragma once
 
 #include <vector>

@@ -2,7 +2,7 @@
 // A face of one convex part clipped by the sides of a face of another.
 // in:    two placed parts and a face of each
 // out:   a polygon whose corners say which features meet there
-// theory: docs/theory.md 2.6 (Sutherland-Hodgman)
+// theory: docs/theory/theory.md 2.6 (Sutherland-Hodgman)
 #pragma once
 
 #include <vector>

@@ -2,7 +2,7 @@
 // The convex parts of all blocks as the search of contacts between blocks reads them.
 // in:    the parts of each body (block set), then the pose of each body at every step
 // out:   vertices in local axes, and face normals as padded arrays of x, y and z
-// theory: docs/theory.md 2.2 (edges and their Gauss arcs), 2.6
+// theory: docs/theory/theory.md 2.2 (edges and their Gauss arcs), 2.6
 #pragma once
 
 #include <cstdint>

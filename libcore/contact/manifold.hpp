@@ -2,7 +2,7 @@
 // The contact points of two convex parts along a given axis.
 // in:    two placed parts and the axis that find_axis chose
 // out:   which features meet; then one normal and a point, a gap and a share of the area for each
-// theory: docs/theory.md 1.6 (one form for all modes), 2.6 (clipping)
+// theory: docs/theory/theory.md 1.6 (one form for all modes), 2.6 (clipping)
 #pragma once
 
 #include <span>

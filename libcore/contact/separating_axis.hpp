@@ -2,7 +2,7 @@
 // The axis along which two convex parts are farthest apart, or overlap least.
 // in:    two placed parts, the axis that held before
 // out:   the axis, the separation along it, and how far the parts may move before another can win
-// theory: docs/theory.md 2.2 (entrance tests), 2.3 (choice among candidates), 2.6
+// theory: docs/theory/theory.md 2.2 (entrance tests), 2.3 (choice among candidates), 2.6
 #pragma once
 
 #include <cstdint>

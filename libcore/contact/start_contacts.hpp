@@ -2,7 +2,7 @@
 // Who touches whom before anything moves: joint faces in contact, where bonds act, and overlaps,
 // which are an error of the input.
 // in:    hulls placed as cut
-// theory: docs/theory.md 1.7 (bond areas)
+// theory: docs/theory/theory.md 1.7 (bond areas)
 #pragma once
 
 #include <limits>

@@ -2,7 +2,7 @@
 // Closed polyhedra as plain data: vertices and polygons, their exact moments, their checks, and the
 // cutting of convex ones by a plane.
 // in:    nothing but coordinates; keep them near the local origin, never absolute map coordinates
-// theory: docs/theory.md 1.3 (moments by the simplex integrals)
+// theory: docs/theory/theory.md 1.3 (moments by the simplex integrals)
 #pragma once
 
 #include <span>

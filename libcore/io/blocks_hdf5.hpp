@@ -1,5 +1,5 @@
 // libcore/io/blocks_hdf5.hpp: public
-// The block set as an HDF5 file; docs/formats.md lists its datasets.
+// The block set as an HDF5 file; docs/reference/formats.md lists its datasets.
 #pragma once
 
 #include <map>

@@ -4,7 +4,7 @@
 //
 // D = (u v w, r_x r_y r_z, e_x e_y e_z, g_yz g_zx g_xy): translation of the centroid [m], rotation
 // [rad], normal strains and engineering shear strains [-]. Printed (2b), row 2, column 12 has
-// (x - z0) / 2; right is (x - x0) / 2 (docs/theory.md).
+// (x - z0) / 2; right is (x - x0) / 2 (docs/theory/theory.md).
 #pragma once
 
 #include "base/types.hpp"

@@ -1,5 +1,5 @@
 // libcore/record/part_file.hpp: public
-// Many runs as one file, exactly, without their frames: docs/formats.md#part
+// Many runs as one file, exactly, without their frames: docs/reference/formats.md#part
 // in:    runs whose frames are the first and the last alone (RunFile::reach), rows of passages
 // out:   a file that has the same bytes in whatever order the runs came
 //

@@ -1,6 +1,6 @@
 // libcore/record/reach.hpp: public
 // How far the blocks of a run came, as it is kept where the frames between start and end are not.
-// Definitions: docs/formats.md#run-out
+// Definitions: docs/reference/formats.md#run-out
 #pragma once
 
 #include <cmath>

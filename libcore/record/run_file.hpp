@@ -1,5 +1,5 @@
 // libcore/record/run_file.hpp: public
-// One run as a file: who moved where, when and how. docs/formats.md#run
+// One run as a file: who moved where, when and how. docs/reference/formats.md#run
 // in:    what the recorder holds
 // out:   an HDF5 file that is whole at any moment, or none
 //

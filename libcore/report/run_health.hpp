@@ -35,8 +35,8 @@ void add_limits(const std::vector<RunCheck>& checks, std::vector<LimitOverRuns>&
 [[nodiscard]] std::string counter_table(const Texts& texts, const std::vector<RunFile>& runs,
                                         const std::vector<std::string>& names);
 
-/// A row a run: how often islands made a substep again, by reason (docs/theory.md, stage 8); empty
-/// when none did.
+/// A row a run: how often islands made a substep again, by reason (docs/theory/theory.md, stage 8);
+/// empty when none did.
 [[nodiscard]] std::string cut_table(const Texts& texts, const std::vector<RunFile>& runs,
                                     const std::vector<std::string>& names);
 

@@ -1,7 +1,7 @@
 // libcore/scene/bonds.hpp: public
 // Bonds that hold joint faces together until they break, and the class of the faces that touch.
 // in:    joint classes of the scene; who lies against whom before anything moves
-// theory 1.7 (bonded area, brittle), docs/design-notes.md
+// theory 1.7 (bonded area, brittle), docs/developing/design-notes.md
 #pragma once
 
 #include <span>

@@ -2,7 +2,7 @@
 // Forests that drag what goes through their undergrowth and crowns, and have no stem in them.
 // in:    areas in plan, heights above the ground
 // out:   viscous drag on the mass centre of a block, -d v
-// docs/theory.md, Stems; step/soil.hpp applies it
+// docs/theory/theory.md, Stems; step/soil.hpp applies it
 #pragma once
 
 #include <vector>

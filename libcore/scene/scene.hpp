@@ -1,7 +1,7 @@
 // libcore/scene/scene.hpp: public
 // What a run is made of, read once and const afterwards: ground, blocks at rest, loads, settings.
 // in:    plain data; make_scene() in scene/make_scene.hpp fills it from a block set
-// paper: Zhang et al. 2018, Sect. 2; docs/theory.md
+// paper: Zhang et al. 2018, Sect. 2; docs/theory/theory.md
 #pragma once
 
 #include <vector>
@@ -22,7 +22,7 @@
 
 namespace talus {
 
-/// `paper`: penalty springs, open-close iteration, fixed step. `talus`: docs/theory.md.
+/// `paper`: penalty springs, open-close iteration, fixed step. `talus`: docs/theory/theory.md.
 enum class Law { talus, paper };
 
 /// How a run is computed. The defaults of law talus serve every scene; those that a site file may

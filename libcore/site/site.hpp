@@ -1,7 +1,8 @@
 // libcore/site/site.hpp: public
 // The site file as plain structs: one struct a section, one field a key, its default beside it.
 // Every tool reads the whole file and takes its own sections. A new key is a field here and a row
-// in the table of site_keys.cpp; docs/site-file.md holds that table, and a test compares them.
+// in the table of site_keys.cpp; docs/reference/site-file.md holds that table, and a test compares
+// them.
 //
 // A field named like its key, unit included. NaN, an empty text and an empty list mean "not given".
 #pragma once
@@ -59,7 +60,7 @@ struct SourceSettings {
   std::int64_t seed = 1;
   std::int64_t max_blocks = 20000;
   double min_block_volume_m3 = not_given;    ///< not given: 1e-2 of the mean joint cell
-  double min_block_thickness_m = not_given;  ///< see docs/site-file.md
+  double min_block_thickness_m = not_given;  ///< see docs/reference/site-file.md
   double min_block_edge_m = not_given;  ///< not given: 1e-3 of the cube root of the block's volume
   double max_block_aspect = 50;
   double max_convex_loss = 0.05;  ///< share of a block's volume; above it the block stays exact

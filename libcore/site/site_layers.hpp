@@ -1,6 +1,6 @@
 // libcore/site/site_layers.hpp: public
 // Layers that stand for sections of the site file: what is drawn and edited in a GIS, a feature a
-// place. Fields have the names of keys. Page: docs/site-layers.md
+// place. Fields have the names of keys. Page: docs/guide/site-layers.md
 #pragma once
 
 #include <string>

@@ -2,7 +2,7 @@
 // Conjugate gradients for the matrix of an island, K = M + sum B_c^T K_c B_c, preconditioned with
 // an incomplete elimination of its bodies from the lowest to the highest, as loads are carried. in:
 // island, its matrix with symmetric tangents, active bodies, right side out:    the step of the
-// active bodies theory: 3.4; docs/design-notes.md
+// active bodies theory: 3.4; docs/developing/design-notes.md
 //
 // K = L + A + L^T, A the diagonal blocks, L what couples a body to those eliminated before. The
 // factor (D + L) D^-1 (D + L)^T drops what elimination would add between bodies that share no pair:

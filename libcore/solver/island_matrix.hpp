@@ -1,7 +1,7 @@
 // libcore/solver/island_matrix.hpp
 // The matrix of one Newton step of an island, K = M + sum B_c^T K_c B_c, kept pair by pair, and its
 // solution by block LU; by conjugate gradients: solver/incomplete_factor.hpp.
-// theory 1.6, 3.4; docs/design-notes.md (why pairs are not spread over three blocks)
+// theory 1.6, 3.4; docs/developing/design-notes.md (why pairs are not spread over three blocks)
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,7 @@
 // libcore/solver/newton.hpp: public
 // Contact impulses of one block: semismooth Newton on the balance of momentum.
-// theory 1.7, 1.10; docs/design-notes.md (why the friction bound is iterated inside the step)
+// theory 1.7, 1.10; docs/developing/design-notes.md (why the friction bound is iterated inside the
+// step)
 #pragma once
 
 #include <Eigen/Geometry>

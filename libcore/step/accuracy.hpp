@@ -1,6 +1,6 @@
 // libcore/step/accuracy.hpp
 // How far a substep errs, told by how its forces change: law talus takes them as constant in it.
-// docs/theory.md, stage 8
+// docs/theory/theory.md, stage 8
 #pragma once
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 // class of ground and no forest asks for it.
 // in:    classes of ground, rows of a block's contacts with it
 // out:   angular rows, friction of the rows, motions after drag
-// theory 1.13; docs/site-file.md
+// theory 1.13; docs/reference/site-file.md
 #pragma once
 
 #include <span>

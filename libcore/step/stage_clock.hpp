@@ -10,7 +10,7 @@
 
 namespace talus {
 
-/// Stage n of docs/theory.md, "One step of an island", is number n - 1 here.
+/// Stage n of docs/theory/theory.md, "One step of an island", is number n - 1 here.
 enum class IslandStage : std::uint8_t {
   gather_members,
   find_pairs,

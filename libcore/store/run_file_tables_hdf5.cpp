@@ -494,10 +494,9 @@ template <class Visit>
 void cut_columns(Visit&& column) {
   for (std::size_t k = 0; k < substep_cut_names.size(); ++k) {
     if (k == by_accuracy) continue;
-    column(
-        (std::string("cut_") + substep_cut_names[k]).c_str(), "1",
-        "substeps of islands made again for this reason in the interval (docs/theory.md, stage 8)",
-        [k](HealthRow & h) -> auto& { return h.cuts[k]; });
+    column((std::string("cut_") + substep_cut_names[k]).c_str(), "1",
+           "substeps of islands made again for this reason in the interval (docs/theory, stage 8)",
+           [k](HealthRow & h) -> auto& { return h.cuts[k]; });
   }
 }
 

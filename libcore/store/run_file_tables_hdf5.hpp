@@ -1,6 +1,6 @@
 // libcore/store/run_file_tables_hdf5.hpp
 // The tables of a run file: passages, crossings, fence panels and hits, health. A row is a struct,
-// a column one of its fields, stored as an array with its unit. docs/formats.md#run
+// a column one of its fields, stored as an array with its unit. docs/reference/formats.md#run
 //
 // Within the module: run_file_hdf5.cpp writes and reads what stands beside them and checks what
 // rows refer to.

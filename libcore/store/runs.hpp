@@ -2,7 +2,7 @@
 // The run registry: who ran what on which inputs, with which options and outcome. One SQLite file
 // (WAL), shared by any number of processes; every write is one BEGIN IMMEDIATE transaction.
 // The tables are those of W3C PROV: run = Activity, artifact = Entity, run_input = used,
-// run_output = wasGeneratedBy. docs/formats.md#registry
+// run_output = wasGeneratedBy. docs/reference/formats.md#registry
 #pragma once
 
 #include <cstdint>

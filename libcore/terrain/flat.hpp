@@ -1,7 +1,7 @@
 // libcore/terrain/flat.hpp: public
 // Flat triangles of a contour map: three corners at one height, on summits, ridges, in pits and on
 // valley floors, where the ground is not flat. Finds them, and finds points inside them that mend.
-// method: docs/design-notes.md, "Flat triangles"
+// method: docs/developing/design-notes.md, "Flat triangles"
 #pragma once
 
 #include <array>

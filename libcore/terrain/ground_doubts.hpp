@@ -3,7 +3,7 @@
 // spikes, pits, ground that is too low for any land.
 // in:    a TRN
 // out:   places to look at
-// method: docs/limits.md, "Rasters"
+// method: docs/guide/limits.md, "Rasters"
 #pragma once
 
 #include <cstdint>

@@ -3,7 +3,7 @@
 // gaps and rims where a file declares no nodata value (0, -999, 255, 9999 ...).
 // in:    rows of elevations, from the first one on
 // out:   the area that stands off most
-// method: docs/limits.md, "Rasters"
+// method: docs/guide/limits.md, "Rasters"
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 #!/bin/sh
-# All faults against all tools, and the table of docs/measurements.md.
+# All faults against all tools, and the table of docs/evidence/measurements.md.
 #   sh tests/endurance/run.sh          the short form, as among the tests
 #   sh tests/endurance/run.sh long     hundreds of kills, 10,000 registered runs, the release tools
 #                                      against those of preset dev and of a build in another folder;
@@ -31,5 +31,5 @@ esac
 result=0
 python3 -u tests/endurance/endurance.py --bin "$(bins "$PWD/build/release")" --source "$PWD" \
   --work build/endurance "$@" || result=1
-python3 tests/endurance/write_table.py build/endurance.rows docs/measurements.md
+python3 tests/endurance/write_table.py build/endurance.rows docs/evidence/measurements.md
 exit $result

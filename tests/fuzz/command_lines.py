@@ -239,7 +239,7 @@ class Bench:
     def go(self):
         self.prepare()
         keys, section = [], ""
-        for line in (Path(self.args.source) / "docs/site-file.md").read_text().splitlines():
+        for line in (Path(self.args.source) / "docs/reference/site-file.md").read_text().splitlines():
             if head := re.match(r"### \[(.*)\]", line):
                 section = head[1].replace("NAME", self.random.choice(["a", "J1", "rock"]))
             elif row := re.match(r"\| `(\w+)` \|", line):

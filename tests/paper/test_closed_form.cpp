@@ -1,6 +1,6 @@
 // The closed forms of theory 4 with law talus: one default setting for all. Each case runs at the
 // default step, at dt = 1e-2 and at a small step; the bounds are those asked for, not those reached
-// (docs/verification.md lists what is reached).
+// (docs/evidence/verification.md lists what is reached).
 #include <gtest/gtest.h>
 
 #include "verify/cases/closed_form.hpp"

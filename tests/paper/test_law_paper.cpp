@@ -1,6 +1,6 @@
 // Law paper on the paper's four benchmarks: what the printed method gives, bounded loosely, since
-// its errors are its own (docs/verification.md reports them). What it must do exactly is asserted
-// tightly.
+// its errors are its own (docs/evidence/verification.md reports them). What it must do exactly is
+// asserted tightly.
 #include <gtest/gtest.h>
 
 #include "step/step.hpp"

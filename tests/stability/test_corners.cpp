@@ -1,5 +1,5 @@
 // Every corner of the stability chart: finite, no energy from nothing, no block in the ground, and
-// as right as the chart in docs/verification.md says.
+// as right as the chart in docs/evidence/verification.md says.
 #include <gtest/gtest.h>
 
 #include <ostream>
@@ -30,7 +30,7 @@ std::string name_of(const testing::TestParamInfo<Corner>& info) {
 INSTANTIATE_TEST_SUITE_P(Stability, Corners, testing::ValuesIn(stability_corners()), name_of);
 
 // What the chart shows outside its tolerance: contacts too soft for the weight on them
-// (docs/measurements.md).
+// (docs/evidence/measurements.md).
 // A tower of eight shakes by centimetres at 20 ms where it leans by about half of its angle.
 bool is_known_to_err(const Corner& c) {
   return (c.axis == "k_n" && c.value <= 1e6) ||

@@ -4,7 +4,7 @@
   python3 tests/studies/designed_slide.py [BIN [OUT]]
 
 BIN: folder of the executables (default: build/release/tools); OUT: kept results (default: a temporary
-folder). Prints the tables of docs/measurements.md: mean over the seeds, in brackets the range, and the CPU
+folder). Prints the tables of docs/evidence/measurements.md: mean over the seeds, in brackets the range, and the CPU
 time of talus-dda, median over the seeds (from the registry); after the first one the mean speed of the mass over
 time, of one run at the default step.
 """

@@ -1,6 +1,6 @@
 #!/bin/sh
 # designed_step.sh [BIN [OUT]]: which time step the designed slide needs, without its fence: its first 2 s,
-# and its 20 s with law paper beside. Prints the tables of docs/measurements.md; OUT/first and OUT/whole hold
+# and its 20 s with law paper beside. Prints the tables of docs/evidence/measurements.md; OUT/first and OUT/whole hold
 # the diagrams and the settings found. BIN: folder of the executables.
 set -eu
 cd "$(dirname "$0")/../.."

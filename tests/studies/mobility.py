@@ -4,7 +4,7 @@
   python3 tests/studies/mobility.py BIN NAME=FOLDER[:FRICTION_DEG]...
 
 FOLDER holds runs/run_*.h5 (or run_*.h5) and bed.tif, as the pipeline leaves them. Prints the table of
-docs/validation.md: volume, H and L of the event (chord from the top of the source to the toe), of its
+docs/evidence/validation.md: volume, H and L of the event (chord from the top of the source to the toe), of its
 centre of mass beside tan(friction); then a line a relation: L over what it expects, and the chance that it
 is exceeded where the relation has a scatter, or "beyond" where L is above that of its lower 95 % line.
 Relations from memory and those of debris flows are left out.

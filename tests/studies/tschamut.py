@@ -8,7 +8,7 @@ each alone, on the 5 m terrain that comes with the data. That terrain is interpo
 rolling blocks, so only distributions are compared. Blocks start where they were measured, up to 1.4 m
 above that terrain, with the measured velocity; --settle lifts those that it would bury.
 
-Printed are the tables of docs/validation.md, in its order:
+Printed are the tables of docs/evidence/validation.md, in its order:
 
 - the slope on the way from each release to where its block lay;
 - `soil = "meadow"` as it is, with nothing fitted, and firm ground with values of the literature, then the
@@ -30,7 +30,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-FIRM = {"friction_deg": 30, "cor": 0.3}  # docs/validation.md says from where
+FIRM = {"friction_deg": 30, "cor": 0.3}  # docs/evidence/validation.md says from where
 MEADOW = {"soil": "meadow"}
 ROLLING = (0.05, 0.08, 0.11, 0.14, 0.17, 0.20, 0.25, 0.30)
 HALF_SPEEDS = (5, 10, 20)

@@ -1,5 +1,5 @@
 // tools/fence/json.hpp
-// Results at fences as talus-fence writes them to JSON. Keys: docs/formats.md#fence
+// Results at fences as talus-fence writes them to JSON. Keys: docs/reference/formats.md#fence
 #pragma once
 
 #include "post/fence/fence_result.hpp"

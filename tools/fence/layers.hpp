@@ -1,6 +1,6 @@
 // tools/fence/layers.hpp
 // Results at fences as layers of the GeoPackage that talus-fence writes, with their styles.
-// Attributes: docs/formats.md#fence
+// Attributes: docs/reference/formats.md#fence
 #pragma once
 
 #include <vector>

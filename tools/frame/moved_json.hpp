@@ -1,6 +1,6 @@
 // tools/frame/moved_json.hpp
 // How much of the mass moved, as talus-dda and talus-runout write it to JSON.
-// Keys: docs/formats.md#run-out
+// Keys: docs/reference/formats.md#run-out
 #pragma once
 
 #include "post/moved.hpp"

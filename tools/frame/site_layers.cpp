@@ -114,7 +114,7 @@ void read_site_layers(Tool& tool, Site& site) {
   const std::vector<FeatureTable> tables = read_feature_tables(path, names);
   if (tables.empty())
     throw InputError(where, path + " has none of the layers that stand for sections",
-                     "they are called source, fences, grounds ...: docs/site-layers.md");
+                     "they are called source, fences, grounds ...: docs/guide/site-layers.md");
   std::vector<LayerSection> sections;
   for (const FeatureTable& table : tables) {
     const auto layer = std::find_if(site_layers().begin(), site_layers().end(),

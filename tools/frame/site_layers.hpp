@@ -1,5 +1,6 @@
 // tools/frame/site_layers.hpp
-// The layers of a site.gpkg that stand for sections of the site file. Page: docs/site-layers.md
+// The layers of a site.gpkg that stand for sections of the site file. Page:
+// docs/guide/site-layers.md
 #pragma once
 
 #include "site/site.hpp"

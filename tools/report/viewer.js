@@ -1,6 +1,6 @@
 // tools/report/viewer.js
 // The 3-D viewer of the HTML report: terrain, blocks and fences over time, in plain WebGL2.
-// in:  talusViewer(element, scene); scene as talus-report writes it (docs/formats.md#viewer):
+// in:  talusViewer(element, scene); scene as talus-report writes it (docs/reference/formats.md#viewer):
 //      terrain, blocks, frames, fences, trails, contour_m; arrays are base64, little-endian
 // The poses of all frames lie in one texture; the vertex shader takes two frames and interpolates,
 // so that a frame costs one draw call however many blocks there are. z is up.

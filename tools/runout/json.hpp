@@ -1,5 +1,5 @@
 // tools/runout/json.hpp
-// How far runs came, as talus-runout writes it to JSON. Keys: docs/formats.md#run-out
+// How far runs came, as talus-runout writes it to JSON. Keys: docs/reference/formats.md#run-out
 #pragma once
 
 #include <vector>

@@ -1,6 +1,6 @@
 // tools/runout/layers.hpp
 // How far runs came, as layers of the GeoPackage that talus-runout writes, with their styles.
-// Attributes: docs/formats.md#run-out
+// Attributes: docs/reference/formats.md#run-out
 #pragma once
 
 #include <vector>

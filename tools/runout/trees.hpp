@@ -1,5 +1,6 @@
 // tools/runout/trees.hpp
-// Hit trees of runs, as layers of the GeoPackage and as JSON. Attributes: docs/formats.md#run-out
+// Hit trees of runs, as layers of the GeoPackage and as JSON. Attributes:
+// docs/reference/formats.md#run-out
 #pragma once
 
 #include <string>

@@ -1,6 +1,6 @@
 // verify/study/page.hpp
-// The page of a study, docs/verification.md: what is claimed, against what, the error, the CPU
-// time, the test; diagrams, stability chart, what leaving out saves, and what is not verified.
+// The page of a study, docs/evidence/verification.md: what is claimed, against what, the error, the
+// CPU time, the test; diagrams, stability chart, what leaving out saves, and what is not verified.
 // in:    everything that was measured, and the page's text with marks (page.md.in)
 // out:   Markdown, each figure of it from what was measured
 #pragma once

@@ -3,7 +3,7 @@
 // in:    crossings of the fences' lines, recorded where nothing stops the blocks, or with the fence
 //        standing, then with what touched its panels; the terrain
 // out:   one verdict a block, storage behind the fence
-// Definitions: docs/formats.md#fence
+// Definitions: docs/reference/formats.md#fence
 #pragma once
 
 #include <array>

@@ -3,7 +3,7 @@
 // the whole, its fields and posts, storage, and the ground behind it with and without the fence.
 // in:    runs at the fences (fence_runs.hpp), the design code
 // out:   numbers; their words stand in fence_text.hpp
-// Definitions: docs/formats.md#fence
+// Definitions: docs/reference/formats.md#fence
 #pragma once
 
 #include <vector>

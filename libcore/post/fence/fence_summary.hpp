@@ -2,7 +2,7 @@
 // Statistics of what comes at a fence, at one of its fields or at one of its posts.
 // in:    arrivals of all runs (fence.hpp)
 // out:   percentiles of energy, height and speed with their bounds; several hits
-// Definitions: docs/formats.md#fence
+// Definitions: docs/reference/formats.md#fence
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
 // libcore/post/maps/maps.hpp: public
 // Hazard maps: what blocks of one or many runs did over each cell.
 // in:    passages of runs by cell (map_rows.hpp)
-// out:   bands over the cells that were touched; definitions in docs/formats.md#maps
+// out:   bands over the cells that were touched; definitions in docs/reference/formats.md#maps
 //
 // A block counts once in a cell, with its largest value there. The rows of a cell are put in the
 // order of run and block before anything is summed, so the same runs give the same bytes in

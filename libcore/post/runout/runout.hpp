@@ -2,7 +2,7 @@
 // How far a run came: paths, streamline, H, L and the angle of reach of the event, of each block
 // and of the centre of mass; curves over time; where the energy went.
 // in:    frames of one run, its terrain
-// paper: Zhang et al. 2018, Eq. (29) and Fig. 14; definitions in docs/formats.md#run-out
+// paper: Zhang et al. 2018, Eq. (29) and Fig. 14; definitions in docs/reference/formats.md#run-out
 #pragma once
 
 #include <array>

@@ -2,7 +2,7 @@
 // When pairs of an island may be hit within its substep, and what touches when they are: the looks
 // of stage 6. Between its hits a member moves freely; a pair is looked at when the gaps of its rows
 // say that it may be hit, and where it is then, its features are searched anew.
-// theory 1.12, "6 Hits" in docs/theory.md
+// theory 1.12, "6 Hits" in docs/theory/theory.md
 #pragma once
 
 #include <span>

@@ -1,8 +1,8 @@
 // libcore/step/island/stages.hpp
 // The step of an island in nine stages: law talus for blocks within reach of each other. Each stage
 // names what it reads and fills; step_island.cpp is the page that puts them in order. Numbers,
-// names and equations: docs/theory.md, "One step of an island".
-// theory 1.6, 1.7, 1.10, 1.12, 3.5; docs/design-notes.md
+// names and equations: docs/theory/theory.md, "One step of an island".
+// theory 1.6, 1.7, 1.10, 1.12, 3.5; docs/developing/design-notes.md
 #pragma once
 
 #include <span>

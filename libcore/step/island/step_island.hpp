@@ -2,7 +2,7 @@
 // Law talus for blocks within reach of each other: islands, their joint substeps and impacts.
 // in:    motion of all blocks; ground and hulls of the scene
 // out:   motion and contact memory of the blocks of an island at the end of the step
-// theory 1.6, 1.7, 1.10, 1.12, 3.5; docs/design-notes.md
+// theory 1.6, 1.7, 1.10, 1.12, 3.5; docs/developing/design-notes.md
 #pragma once
 
 #include "scene/scene.hpp"

@@ -2,7 +2,7 @@
 // Law talus: the equations of one substep of one block, and what it leaves for the next.
 // in:    the predicted substep and the rows of its contacts
 // out:   the system that newton.hpp solves, the motion at the end, contact memory
-// theory: 1.8, 1.10; docs/design-notes.md
+// theory: 1.8, 1.10; docs/developing/design-notes.md
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 // libcore/step/lone/step_talus.hpp
 // Law talus for one block: prediction, contact rows, semismooth Newton, impacts at their time,
-// flight. theory 1.10 (correction about the free motion), 1.12 (impacts); docs/design-notes.md
+// flight. theory 1.10 (correction about the free motion), 1.12 (impacts);
+// docs/developing/design-notes.md
 #pragma once
 
 #include "scene/scene.hpp"

@@ -22,7 +22,7 @@ namespace talus {
 
 /// Moves the blocks `members` (ascending) by one step of settings.dt, with the contacts between
 /// them of `manifolds`, indices into work.search.pairs sorted by block. Eq. (28) is applied only
-/// where blocks do not meet: in a mass it throws them about (docs/measurements.md).
+/// where blocks do not meet: in a mass it throws them about (docs/evidence/measurements.md).
 void advance_island_paper(const Scene& scene, std::span<const int> members,
                           std::span<const int> manifolds, State& state, Work& work,
                           StepReport& report);

@@ -1,7 +1,7 @@
 # A stage is repeated when what it reads has changed, and not else.
 . "$source_dir/tests/tools/pipeline/common.sh"
 # Sections of which stages read single keys: none may be forgotten.
-for key in $(sed -n '/^### \[terrain\]/,/^### /s/^| `\([a-z_0-9]*\)`.*/\1/p' "$source_dir/docs/site-file.md"); do
+for key in $(sed -n '/^### \[terrain\]/,/^### /s/^| `\([a-z_0-9]*\)`.*/\1/p' "$source_dir/docs/reference/site-file.md"); do
   grep -q "\"terrain.$key\"" "$source_dir/tools/frame/site_stages.cpp" || fail "no stage of talus-site reads terrain.$key"
 done
 

@@ -1,4 +1,4 @@
-# The lines of docs/pipeline.md for GNU parallel: shards as its jobs, to the bytes of one make.
+# The lines of docs/reference/pipeline.md for GNU parallel: shards as its jobs, to the bytes of one make.
 . "$source_dir/tests/tools/pipeline/common.sh"
 command -v parallel >/dev/null || skip "needs GNU parallel (Debian package parallel)"
 parallel --version 2>/dev/null | grep -q '^GNU parallel' || skip "needs GNU parallel, and this parallel is another one"

@@ -122,7 +122,7 @@ TEST(MapLayers, AreThoseOfThePipelineAndOfThePages) {
     if (word != "\\") of_make.insert(word);
   for (const MapLayerKind& kind : map_layers()) of_table.insert(kind.name);
   EXPECT_EQ(of_make, of_table);
-  const std::string formats = text_of(TALUS_SOURCE_DIR "/docs/formats.md"),
+  const std::string formats = text_of(TALUS_SOURCE_DIR "/docs/reference/formats.md"),
                     page = text_of(TALUS_SOURCE_DIR "/docs/tools/talus-maps.md");
   for (const std::string& name : of_table) {
     EXPECT_NE(formats.find("| `" + name), std::string::npos) << name;

@@ -166,7 +166,8 @@ TEST(Site, EveryKeyIsDescribedAndUnique) {
   EXPECT_TRUE(seen.count("joints.NAME.dip_deg"));
 }
 
-// docs/site-file.md holds the table of keys; TALUS_PRINT_KEYS=1 prints what should stand there.
+// docs/reference/site-file.md holds the table of keys; TALUS_PRINT_KEYS=1 prints what should stand
+// there.
 TEST(Site, ThePageOfKeysIsTheTable) {
   std::string rows, section;
   for (const auto& row : talus::site_keys()) {
@@ -181,7 +182,7 @@ TEST(Site, ThePageOfKeysIsTheTable) {
             " | " + row.help + " |\n";
   }
   if (std::getenv("TALUS_PRINT_KEYS")) std::cout << rows;
-  std::ifstream file(std::string(TALUS_SOURCE_DIR) + "/docs/site-file.md");
+  std::ifstream file(std::string(TALUS_SOURCE_DIR) + "/docs/reference/site-file.md");
   std::ostringstream page;
   page << file.rdbuf();
   EXPECT_NE(page.str().find(rows), std::string::npos) << "the table of keys has changed";

@@ -18,7 +18,7 @@ using namespace talus;
 using namespace talus::cases;
 
 std::string theory() {
-  std::ifstream file(std::string(TALUS_SOURCE_DIR) + "/docs/theory.md");
+  std::ifstream file(std::string(TALUS_SOURCE_DIR) + "/docs/theory/theory.md");
   std::ostringstream page;
   page << file.rdbuf();
   return page.str();

@@ -1,5 +1,5 @@
 // What the scene plan leaves out, against the same scene with it kept: to the bit, or within what
-// docs/verification.md says.
+// docs/evidence/verification.md says.
 #include <gtest/gtest.h>
 
 #include <ostream>

@@ -1,4 +1,4 @@
-// The page of a study, and docs/verification.md as the program would write it now.
+// The page of a study, and docs/evidence/verification.md as the program would write it now.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -84,7 +84,7 @@ TEST(StudyPage, FillsEveryMark) {
 // command on it.
 class CommittedPage : public testing::Test {
  protected:
-  const std::string page = read_file(source + "/docs/verification.md");
+  const std::string page = read_file(source + "/docs/evidence/verification.md");
 };
 
 TEST_F(CommittedPage, HasEveryCaseAsItIsNow) {
@@ -132,7 +132,7 @@ TEST_F(CommittedPage, IsOfTheFullStudyOfACommit) {
   EXPECT_TRUE(contains(page, " full study."));
   const std::regex picture("\\]\\((verification/[^)]*)\\)");
   for (std::sregex_iterator it(page.begin(), page.end(), picture), end; it != end; ++it)
-    EXPECT_TRUE(std::filesystem::exists(source + "/docs/" + it->str(1))) << it->str(1);
+    EXPECT_TRUE(std::filesystem::exists(source + "/docs/evidence/" + it->str(1))) << it->str(1);
 }
 
 // A test that a case names exists: TEST, TEST_F or TEST_P of that suite and name.
