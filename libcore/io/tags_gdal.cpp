@@ -16,4 +16,18 @@ std::string tag_of(const std::string& path, const std::string& name) {
   return value != nullptr ? value : "";
 }
 
+std::vector<BandTags> band_tags(const std::string& path) {
+  register_gdal_drivers();
+  const GdalErrors quiet;
+  const std::unique_ptr<GDALDataset> dataset(GDALDataset::Open(path.c_str(), GDAL_OF_READONLY));
+  std::vector<BandTags> bands;
+  for (int i = 1; dataset && i <= dataset->GetRasterCount(); ++i) {
+    GDALRasterBand* const band = dataset->GetRasterBand(i);
+    const char* const meaning = band->GetMetadataItem("long_name");
+    bands.push_back(
+        {band->GetDescription(), band->GetUnitType(), meaning != nullptr ? meaning : ""});
+  }
+  return bands;
+}
+
 }  // namespace talus
