@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 
 #include "base/error.hpp"
@@ -22,8 +23,8 @@ struct TreeDeleter {
 using Tree = std::unique_ptr<CPLXMLNode, TreeDeleter>;
 
 // Kinds of items, as a layout names them.
-constexpr const char *map_type = "65639", *label_type = "65641", *legend_type = "65642",
-                     *scale_bar_type = "65646";
+constexpr const char *map_type = "65639", *picture_type = "65640", *label_type = "65641",
+                     *legend_type = "65642", *scale_bar_type = "65646";
 
 std::string value_of(const CPLXMLNode* node, const char* name) {
   return CPLGetXMLValue(node, name, "");
@@ -241,6 +242,7 @@ class Filler {
       const std::string place = where + ", item " + value_of(item, "id");
       if (type == label_type)
         fill_attribute(item, "labelText", place, value_of(item, "htmlState") == "1");
+      if (type == picture_type) set(item, "file", from_here(value_of(item, "file")));
       if (type == legend_type) fill_attribute(item, "title", place);
       if (type == scale_bar_type) fill_scale_bar(item, width);
     }
@@ -313,7 +315,18 @@ class Filler {
     CPLAddXMLChild(qgis_, literal(map_canvas_xml(project_)));
   }
 
+  // A path that begins where the template lies, from anywhere.
+  [[nodiscard]] std::string from_here(const std::string& path) const {
+    if (!path.starts_with("./") && !path.starts_with("../")) return path;
+    const auto folder = std::filesystem::absolute(from_.path).parent_path();
+    return (folder / path).lexically_normal().string();
+  }
+
   void fill_layers() const {
+    CPLXMLNode* const own = element(qgis_, "projectlayers");
+    for (CPLXMLNode* layer : children(own, "maplayer"))
+      if (CPLXMLNode* const source = CPLGetXMLNode(layer, "datasource"))
+        CPLSetXMLValue(source, "", from_here(value_of(source, "")).c_str());
     CPLXMLNode* const root = element(qgis_, "layer-tree-group");
     CPLXMLNode* place = nullptr;
     for (CPLXMLNode* group : children(root, "layer-tree-group"))
@@ -328,7 +341,7 @@ class Filler {
       *at = tree;
       remove(root, place);
     }
-    put_first(element(qgis_, "projectlayers"), layers_xml(project_));
+    put_first(own, layers_xml(project_));
     put_first(element(qgis_, "layerorder"), layer_order_xml(project_));
   }
 

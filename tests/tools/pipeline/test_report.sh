@@ -63,7 +63,7 @@ assert "Numerical checks: passed" in text and "talus-tin contours.gpkg" in text
 archive = zipfile.ZipFile(f"{out}/site.qgz")
 assert archive.testzip() is None
 project = xml.fromstring(archive.read(archive.namelist()[0]))
-sources = [e.text for e in project.iter("datasource")]
+sources = [e.text for e in project.find("projectlayers").iter("datasource")]
 assert len(sources) > 15, sources
 for source in sources:
     assert source.startswith("./"), source

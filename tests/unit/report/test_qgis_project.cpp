@@ -148,6 +148,21 @@ TEST(QgisProject, LayersOfTheTemplateStayAroundThoseOfTheSite) {
   EXPECT_TRUE(has(placed, "<maplayer />") || has(placed, "<maplayer/>"));
 }
 
+TEST(QgisProject, FilesOfTheTemplateAreFoundFromWhereItLies) {
+  QgisTemplate from = small("");
+  from.path = "/office/templates/a.qgs";
+  const std::string with =
+      "<projectlayers><maplayer><datasource>../parcels.gpkg|layername=a</datasource></maplayer>"
+      "<maplayer><datasource>url=https://a.example</datasource></maplayer></projectlayers>";
+  from.xml.insert(from.xml.find("</qgis>"), with);
+  from.xml.insert(from.xml.find("<LayoutItem"), "<LayoutItem type=\"65640\" file=\"./logo.svg\"/>");
+  const std::string xml = qgis_project_xml(project_of("a", "b"), from);
+  for (const char* part :
+       {"<datasource>/office/parcels.gpkg|layername=a</datasource>",
+        "<datasource>url=https://a.example</datasource>", "file=\"/office/templates/logo.svg\""})
+    EXPECT_TRUE(has(xml, part)) << part;
+}
+
 TEST(QgisProject, LayersSayWhatTheyAreAndWhatElseTheyCanShow) {
   QgisProject project = project_of("a", "b");
   project.run = "run id 1f, Talus 1";
