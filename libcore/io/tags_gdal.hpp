@@ -14,7 +14,11 @@ struct BandTags {
   std::string name, unit;
   std::string meaning;  ///< what a value of it is
 };
-/// Of each band of a raster that map_raster_gdal.hpp wrote; none when it cannot be read.
-[[nodiscard]] std::vector<BandTags> band_tags(const std::string& path);
+struct RasterTags {
+  std::string shown;  ///< tag SHOWN_BAND: the name of a band
+  std::vector<BandTags> bands;
+};
+/// Of a raster that map_raster_gdal.hpp wrote; nothing when it cannot be read.
+[[nodiscard]] RasterTags raster_tags(const std::string& path);
 
 }  // namespace talus

@@ -24,6 +24,11 @@ std::string crs_xml(const QgisProject& project) {
 
 // --- the tree of layers --------------------------------------------------------------------------
 
+std::string shown_name(const QgisLayer& layer) { return without_expressions(layer.name); }
+
+constexpr const char* hidden_title =
+    "<Option name=\"legend/title-style\" type=\"QString\" value=\"hidden\"/>";
+
 std::string node_order_xml(const std::string& order, const std::string& more = "") {
   return "<customproperties><Option type=\"Map\"><Option name=\"legend/node-order\" "
          "type=\"QString\" value=\"" +
@@ -34,17 +39,10 @@ std::string node_order_xml(const std::string& order, const std::string& more = "
 // those that nobody sees. Contours are one line, named by the layer.
 std::string nodes_xml(const QgisLayer& layer) {
   if (layer.kind == QgisLayer::contours)
-    return node_order_xml("0",
-                          "<Option name=\"cached_name\" type=\"QString\" value=\"\"/>"
-                          "<Option name=\"legend/title-label\" type=\"QString\" "
-                          "value=\" \"/><Option name=\"legend/title-style\" "
-                          "type=\"QString\" value=\"hidden\"/><Option "
-                          "name=\"legend/label-0\" type=\"QString\" value=\"" +
-                              xml_escaped(layer.name) + "\"/>");
-  if (layer.kind == QgisLayer::hillshade)
-    return node_order_xml("",
-                          "<Option name=\"legend/title-style\" type=\"QString\" "
-                          "value=\"hidden\"/>");
+    return node_order_xml("0", hidden_title + ("<Option name=\"legend/label-0\" type=\"QString\" "
+                                               "value=\"" +
+                                               xml_escaped(shown_name(layer)) + "\"/>"));
+  if (layer.kind == QgisLayer::hillshade) return node_order_xml("", hidden_title);
   if (layer.kind != QgisLayer::raster) return "";
   std::string order;
   int n = 0;
@@ -57,8 +55,6 @@ std::string nodes_xml(const QgisLayer& layer) {
   }
   return n == 0 ? "" : node_order_xml(order);
 }
-
-std::string shown_name(const QgisLayer& layer) { return without_expressions(layer.name); }
 
 // What the properties of a layer show of it.
 std::string metadata_xml(const QgisProject& project, const QgisLayer& layer) {

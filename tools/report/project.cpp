@@ -109,18 +109,28 @@ void show_farthest(QgisProject& project, const ReportData& data) {
       }
 }
 
+std::string unit_words(const BandTags& band, const std::string& before, const std::string& after) {
+  return band.unit.empty() || band.unit == "1" ? "" : before + band.unit + after;
+}
+
 // A raster with its definition and unit.
 QgisLayer raster_layer(const std::string& file, const ResultFolder& folder, const std::string& base,
-                       const std::string& group, const std::string& name) {
-  const std::string path = folder.path(base + ".tif").string();
-  QgisLayer layer{
-      group, name, relative_to(file, path), QgisLayer::raster, folder.text(base + ".qml"), false};
-  const std::string shown = tag_of(path, "SHOWN_BAND");
-  for (const BandTags& band : band_tags(path))
-    if (band.name == shown)
-      layer.about =
-          band.meaning + (band.unit == "1" || band.unit.empty() ? "" : "; in " + band.unit);
+                       const std::string& group, const std::string& name, const RasterTags& tags) {
+  QgisLayer layer{group,
+                  name,
+                  relative_to(file, folder.path(base + ".tif")),
+                  QgisLayer::raster,
+                  folder.text(base + ".qml"),
+                  false};
+  for (const BandTags& band : tags.bands)
+    if (band.name == tags.shown) layer.about = band.meaning + unit_words(band, "; in ", "");
   return layer;
+}
+
+QgisLayer raster_layer(const std::string& file, const ResultFolder& folder, const std::string& base,
+                       const std::string& group, const std::string& name) {
+  return raster_layer(file, folder, base, group, name,
+                      raster_tags(folder.path(base + ".tif").string()));
 }
 
 // "velocity_p95" of the map velocity -> "95th percentile"; empty for a map of one quantity.
@@ -133,23 +143,20 @@ std::string band_words(const std::string& map, const std::string& band) {
 // A map with a style a band of its quantity, in the name which one is shown.
 QgisLayer map_layer(const std::string& file, const ResultFolder& folder, const std::string& base,
                     const MapLayerKind& kind) {
-  const std::string path = folder.path(base + ".tif").string();
-  QgisLayer layer = raster_layer(file, folder, base, kind.group, kind.title);
-  const std::string shown = tag_of(path, "SHOWN_BAND");
-  const std::vector<BandTags> bands = band_tags(path);
+  const RasterTags tags = raster_tags(folder.path(base + ".tif").string());
+  const std::vector<BandTags>& bands = tags.bands;
+  QgisLayer layer = raster_layer(file, folder, base, kind.group, kind.title, tags);
   const auto at = std::find_if(bands.begin(), bands.end(),
-                               [&shown](const BandTags& band) { return band.name == shown; });
+                               [&tags](const BandTags& band) { return band.name == tags.shown; });
   if (at == bands.end()) return layer;
-  if (layer.shown = band_words(kind.name, shown); layer.shown.empty()) {
-    if (at->unit != "1") layer.name += " [" + at->unit + "]";
-    return layer;
-  }
-  layer.name += ", " + layer.shown + (at->unit == "1" ? "" : " [" + at->unit + "]");
+  layer.shown = band_words(kind.name, tags.shown);
+  layer.name += (layer.shown.empty() ? "" : ", " + layer.shown) + unit_words(*at, " [", "]");
+  if (layer.shown.empty()) return layer;
   const std::string number = "band=\"" + std::to_string(at - bands.begin() + 1) + "\"";
   const std::size_t of_shown = layer.style.find(number);
   for (std::size_t i = 0; i < bands.size() && of_shown != std::string::npos; ++i) {
     const std::string name = band_words(kind.name, bands[i].name);
-    if (name.empty() || bands[i].unit != at->unit || bands[i].name == shown) continue;
+    if (name.empty() || bands[i].unit != at->unit || bands[i].name == tags.shown) continue;
     std::string style = layer.style;
     style.replace(of_shown, number.size(), "band=\"" + std::to_string(i + 1) + "\"");
     layer.other_styles.emplace_back(name, std::move(style));
