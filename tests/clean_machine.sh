@@ -43,6 +43,6 @@ cp "$root"/talus/build/demo/talus_*.deb "$root.deb/"
 timed "$root.deb" "apt-get update -qq && apt-get install -y -qq --no-install-recommends /talus_*.deb make gdal-bin man-db"
 timed "$root.deb" "cp -r /usr/share/talus/sample_sites/designed /site && cd /site && sed -i 's|include .*|include /usr/share/talus/pipelines/site.mk|' Makefile && make && test -s out/report.html"
 timed "$root.deb" "man -w talus-report"
-timed "$root.deb" "test -s /usr/share/qgis/python/plugins/talus/metadata.txt && ls /usr/share/talus/talus-qgis-*.zip && test -s /usr/share/talus/report/texts.toml"
+timed "$root.deb" "test -s /usr/share/qgis/python/plugins/talus/metadata.txt && ls /usr/share/talus/talus-qgis-*.zip && test -s /usr/share/talus/report/texts.toml && test -s /usr/share/talus/report/project.qgs"
 
 timed "$root" "cd /talus && sh tests/run.sh"

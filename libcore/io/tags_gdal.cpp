@@ -16,4 +16,21 @@ std::string tag_of(const std::string& path, const std::string& name) {
   return value != nullptr ? value : "";
 }
 
+RasterTags raster_tags(const std::string& path) {
+  register_gdal_drivers();
+  const GdalErrors quiet;
+  const std::unique_ptr<GDALDataset> dataset(
+      GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY));
+  RasterTags tags;
+  if (!dataset) return tags;
+  if (const char* shown = dataset->GetMetadataItem("SHOWN_BAND")) tags.shown = shown;
+  for (int i = 1; i <= dataset->GetRasterCount(); ++i) {
+    GDALRasterBand* const band = dataset->GetRasterBand(i);
+    const char* const meaning = band->GetMetadataItem("long_name");
+    tags.bands.push_back(
+        {band->GetDescription(), band->GetUnitType(), meaning != nullptr ? meaning : ""});
+  }
+  return tags;
+}
+
 }  // namespace talus

@@ -3,10 +3,22 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace talus {
 
 /// The tag `name` of the file; "" when it has none or cannot be read.
 [[nodiscard]] std::string tag_of(const std::string& path, const std::string& name);
+
+struct BandTags {
+  std::string name, unit;
+  std::string meaning;  ///< what a value of it is
+};
+struct RasterTags {
+  std::string shown;  ///< tag SHOWN_BAND: the name of a band
+  std::vector<BandTags> bands;
+};
+/// Of a raster that map_raster_gdal.hpp wrote; nothing when it cannot be read.
+[[nodiscard]] RasterTags raster_tags(const std::string& path);
 
 }  // namespace talus

@@ -52,6 +52,9 @@ std::vector<StyledLayer> styled_layers(const std::string& path) {
     StyledLayer found{layer->GetName(), shape_of(layer->GetGeomType()), "",
                       layer->GetFeatureCount() == 0};
     if (found.shape == StyledLayer::none) continue;
+    if (const char* words = layer->GetMetadataItem("DESCRIPTION")) found.description = words;
+    for (int i = 0; i < layer->GetLayerDefn()->GetFieldCount(); ++i)
+      found.fields.emplace_back(layer->GetLayerDefn()->GetFieldDefn(i)->GetNameRef());
     if (const auto style = styles.find(found.name); style != styles.end())
       found.qml = style->second;
     layers.push_back(std::move(found));

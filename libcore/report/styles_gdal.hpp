@@ -12,6 +12,8 @@ struct StyledLayer {
   enum Shape { none, point, line, polygon } shape = none;
   std::string qml;  ///< its default style; empty: none
   bool is_empty = false;
+  std::string description{};          ///< of the layer, in the file
+  std::vector<std::string> fields{};  ///< names, without that of the feature's number
 };
 
 /// Layers with a geometry, in the order of the file. Throws InputError when it cannot be read.

@@ -1,8 +1,8 @@
 // tests/tools/run_probe.cpp
 // Runs with known answers for the tests of the tools that evaluate runs: single boxes that slide
 // straight down a plane (30 degrees, cells of 2 m), recorded by the recorder itself.
-//   run-probe DIR N_RUNS [site=NAME] [version=V] [status=running|failed] [standing=1] [empty=1]
-//             [blocks=N] [step=H] [frames=DT] [seed=K] [height=H] [capacity=KJ|none]
+//   run-probe DIR N_RUNS [site=NAME] [name=NAME] [version=V] [status=running|failed] [standing=1]
+//             [empty=1] [blocks=N] [step=H] [frames=DT] [seed=K] [height=H] [capacity=KJ|none]
 //             [hits=stopped|held|broken|pile] [moving=1] [still=N] [still_runs=N]
 //             [objects=watched|drawn] [weight=W] [passages=no]
 // Box b of run r (edge 1 m, 2600 kg) starts at rest at x = 11, y = 10 + 6 b and slides with
@@ -14,7 +14,7 @@
 // objects: a house in the way of box 0, a hut in that of box 2, a shed that nothing reaches;
 // watched by the runs, or drawn in the site file alone. weight: of each box. moving: at the end,
 // all of them. still: the first N boxes, still_runs: all boxes of the first N runs stay where they
-// are. passages=no: the run did not record any.
+// are. passages=no: the run did not record any. name: of the site file, site: of the runs.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -109,7 +109,8 @@ HealthRow health_at(const Scene& scene, double time, double drop) {
 
 std::string site_text(const Words& words) {
   const std::string capacity = word(words, "capacity", "250");
-  return "[site]\nname = \"probe\"\n\n[fence.check]\n"
+  return "[site]\nname = \"" + word(words, "name", "probe") +
+         "\"\n\n[fence.check]\n"
          "line = [[250030, 350004], [250030, 350020]]\n"
          "height_m = " +
          word(words, "height", "3") + "\n" +

@@ -1,7 +1,6 @@
 // tools/report/talus_report.cpp
 // The results of a site as one HTML file and as a QGIS project. Page: docs/tools/talus-report.md
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <memory>
@@ -11,9 +10,7 @@
 #include "base/read_file.hpp"
 #include "base/sha256.hpp"
 #include "base/text.hpp"
-#include "io/crs_gdal.hpp"
 #include "io/raster_gdal.hpp"
-#include "io/style.hpp"
 #include "io/tags_gdal.hpp"
 #include "io/vectors_gdal.hpp"
 #include "post/maps/map_layers.hpp"
@@ -21,11 +18,10 @@
 #include "report/check_view.hpp"
 #include "report/map_cells_gdal.hpp"
 #include "report/plan_view.hpp"
-#include "report/qgis_project.hpp"
+#include "report/qgis_template_gdal.hpp"
 #include "report/styles_gdal.hpp"
 #include "report/texts.hpp"
 #include "report/zip.hpp"
-#include "site/site_layers.hpp"
 #include "tools/frame/build_info.hpp"
 #include "tools/frame/fault_json.hpp"
 #include "tools/frame/file_paths.hpp"
@@ -37,6 +33,7 @@
 #include "tools/report/folder.hpp"
 #include "tools/report/hazard.hpp"
 #include "tools/report/page.hpp"
+#include "tools/report/project.hpp"
 
 namespace {
 
@@ -44,7 +41,7 @@ using namespace talus;  // NOLINT: a program of its own
 namespace fs = std::filesystem;
 
 struct Options {
-  std::string dir, out, qgis, texts;
+  std::string dir, out, qgis, qgis_template, texts;
 };
 
 // --- runs ----------------------------------------------------------------------------------------
@@ -398,169 +395,10 @@ ReportData read_data(Tool& tool, const Site& site, const std::string& texts, Res
   return data;
 }
 
-// --- the QGIS project ----------------------------------------------------------------------------
-
-// Of layers that bring none: an outline that covers nothing.
-std::string plain_style() {
-  return vector_qml({SymbolKind::polygon, "", {{"", "", {42, 87, 184, 60}}}, 0.5});
-}
-
-// Where the project lies, paths in it begin.
-std::string relative_to(const std::string& project, const fs::path& path) {
-  const fs::path folder = fs::absolute(fs::path(project)).parent_path();
-  return fs::absolute(path).lexically_normal().lexically_relative(folder.lexically_normal());
-}
-
-void add_package(QgisProject& project, const Options& o, const ResultFolder& folder,
-                 const std::string& file, const std::string& group,
-                 const std::set<std::string>& hidden) {
-  if (!folder.has(file)) return;
-  static constexpr QgisLayer::Kind kinds[] = {QgisLayer::raster, QgisLayer::point, QgisLayer::line,
-                                              QgisLayer::polygon};
-  for (const StyledLayer& layer : styled_layers(folder.path(file).string())) {
-    std::string name = layer.name;
-    std::replace(name.begin(), name.end(), '_', ' ');
-    project.layers.push_back({group, name,
-                              relative_to(o.qgis, folder.path(file)) + "|layername=" + layer.name,
-                              kinds[layer.shape], layer.qml.empty() ? plain_style() : layer.qml,
-                              hidden.count(layer.name) == 0});
-  }
-}
-
-std::string name_in_words(const MapLayerKind& kind) {
-  const bool has_unit = kind.unit != std::string("1");
-  return kind.title + (has_unit ? " [" + std::string(kind.unit) + "]" : "");
-}
-
-// Two maps over each other show neither: where there are classes they are what is seen.
-void add_maps(QgisProject& project, const Options& o, const ResultFolder& folder,
-              const ReportData& data) {
-  const bool has_classes = data.hazard.is_object() && data.hazard.at("classes").is_array();
-  for (const MapLayerKind& kind : map_layers()) {
-    const std::string base = std::string("maps/") + kind.name;
-    if (!folder.has(base + ".tif")) continue;
-    project.layers.push_back({kind.group, name_in_words(kind),
-                              relative_to(o.qgis, folder.path(base + ".tif")), QgisLayer::raster,
-                              folder.text(base + ".qml"), kind.is_visible && !has_classes});
-  }
-}
-
-// Of each case by itself, where there are several.
-void add_case_maps(QgisProject& project, const Options& o, const ResultFolder& folder,
-                   const ReportData& data) {
-  for (const auto& [name, pictures] : data.case_maps)
-    for (const MapLayerKind& kind : map_layers()) {
-      const std::string base = "maps/" + name + "/" + kind.name;
-      if (!folder.has(base + ".tif")) continue;
-      project.layers.push_back({"Case " + name, name_in_words(kind) + ", case " + name,
-                                relative_to(o.qgis, folder.path(base + ".tif")), QgisLayer::raster,
-                                folder.text(base + ".qml"), false});
-    }
-}
-
-// Classes and objects above the maps that they are made of; the class as polygons is what is seen.
-void add_hazard(QgisProject& project, const Options& o, const ResultFolder& folder,
-                const ReportData& data) {
-  add_package(project, o, folder, "fence_search.gpkg", "Fence search", {"candidates", "front"});
-  add_package(project, o, folder, "trace.gpkg", "Objects", {"source_cells", "links"});
-  if (data.trace.is_object())
-    for (const Json& object : data.trace.at("objects")) {
-      const std::string base = "sources/source_" + file_word(text_at(object, "/name"));
-      if (folder.has(base + ".tif"))
-        project.layers.push_back({"Objects", "sources of " + text_at(object, "/name"),
-                                  relative_to(o.qgis, folder.path(base + ".tif")),
-                                  QgisLayer::raster, folder.text(base + ".qml"), false});
-    }
-  if (!data.hazard.is_object()) return;
-  if (data.hazard.at("classes").is_array()) {
-    add_package(project, o, folder, "hazard/hazard.gpkg", "Hazard classes", {"classes_smoothed"});
-    if (data.hazard.contains("notes") && data.hazard["notes"].is_array())
-      for (const Json& note : data.hazard["notes"])
-        if (note.is_string()) project.layout_lines.push_back(note.get<std::string>());
-  }
-  for (const std::string& name : hazard_maps_of(data.hazard)) {
-    const std::string base = "hazard/" + name;
-    if (!folder.has(base + ".tif")) continue;
-    project.layers.push_back({"Frequency and return period", name,
-                              relative_to(o.qgis, folder.path(base + ".tif")), QgisLayer::raster,
-                              folder.text(base + ".qml"), false});
-  }
-}
-
-// What the site is made from, to be edited: the styles and forms are those of the file.
-void add_inputs(QgisProject& project, const Options& o, const Site& site) {
-  if (site.layers_file.empty()) return;
-  static constexpr QgisLayer::Kind kinds[] = {QgisLayer::raster, QgisLayer::point, QgisLayer::line,
-                                              QgisLayer::polygon};
-  const std::string path = resolved(site, site.layers_file);
-  const std::vector<StyledLayer> layers = styled_layers(path);
-  for (const SiteLayer& known : site_layers())
-    for (const StyledLayer& layer : layers)
-      if (known.name == layer.name)
-        project.layers.push_back({"Inputs (edit, then make)", known.title,
-                                  relative_to(o.qgis, path) + "|layername=" + layer.name,
-                                  kinds[layer.shape], layer.qml.empty() ? plain_style() : layer.qml,
-                                  true});
-  project.is_edited = true;
-}
-
-// Of the relief in the window [m].
-double interval_in(const Trn& trn, const PlanWindow& window) {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (int r = 0; r < trn.n_rows; ++r)
-    for (int c = 0; c < trn.n_cols; ++c) {
-      const Vec3 node = node_point(trn, r, c);
-      const Vec2 at = node.head<2>();
-      if (std::isnan(node.z()) || (at.array() < window.low.array()).any() ||
-          (at.array() > window.high.array()).any())
-        continue;
-      low = std::min(low, node.z());
-      high = std::max(high, node.z());
-    }
-  return low < high ? contour_interval(low, high) : 0;
-}
-
-QgisProject project_of(const ReportData& data, const Options& o, const ResultFolder& folder) {
-  const Trn& trn = data.terrain;
-  QgisProject project;
-  project.remark = remark_of(data).empty() ? fence_remark_of(data) : remark_of(data);
-  project.title = data.site.info.name + ": rockslide hazard" +
-                  (project.remark.empty() ? "" : " (" + project.remark + ")");
-  project.crs_wkt = trn.crs_wkt;
-  if (const std::string name = crs_name(trn.crs_wkt); name.starts_with("EPSG:"))
-    project.crs_authid = name.substr(0, name.find(' '));
-  const PlanWindow window = plan_window(data.shown, trn);
-  const Vec2 origin = trn.origin.head<2>(), low = window.low + origin, high = window.high + origin;
-  project.extent = {low.x(), low.y(), high.x(), high.y()};
-  const auto tag = [&data](const std::string& name) {
-    return text_at(data.runout, ("/tags/" + name).c_str());
-  };
-  project.layout_lines = {
-      "run id " + data.run_id + ", Talus " + data.version + ", CRS " + crs_name(trn.crs_wkt),
-      tag("DENOMINATOR"), "health: " + tag("HEALTH")};
-
-  add_inputs(project, o, data.site);
-  add_package(project, o, folder, "fence.gpkg", "Fences", {"fence_fields", "fence_posts"});
-  if (folder.has("change.tif"))
-    project.layers.push_back({"Fences", "change by the fence",
-                              relative_to(o.qgis, folder.path("change.tif")), QgisLayer::raster,
-                              folder.text("change.qml"), false});
-  add_hazard(project, o, folder, data);
-  // Footprints of many runs would cover the maps.
-  std::set<std::string> hidden = {"path_points", "paths", "envelope", "runs", "tree_hits"};
-  if (data.runs.size() > 1) hidden.insert("deposit");
-  add_package(project, o, folder, "runout.gpkg", "Paths", hidden);
-  add_package(project, o, folder, "blocks.gpkg", "Source", {"blocks"});
-  add_case_maps(project, o, folder, data);
-  add_maps(project, o, folder, data);
-  project.contour_interval = interval_in(trn, window);
-  if (project.contour_interval > 0)
-    project.layers.push_back({"Terrain", "contours every " + text(project.contour_interval) + " m",
-                              relative_to(o.qgis, folder.path("trn.tif")), QgisLayer::contours, "",
-                              true});
-  project.layers.push_back({"Terrain", "hillshade", relative_to(o.qgis, folder.path("trn.tif")),
-                            QgisLayer::hillshade, "", true});
-  return project;
+// The layout and settings of the project, an office's in place of the shipped ones.
+QgisTemplate qgis_template(const Options& o) {
+  if (o.qgis_template.empty()) return {"project.qgs", shipped_data("project.qgs")};
+  return read_qgis_template(o.qgis_template);
 }
 
 void run_tool(Tool& tool, const Options& o, const Site& site) {
@@ -569,7 +407,7 @@ void run_tool(Tool& tool, const Options& o, const Site& site) {
   const ReportData data = read_data(tool, site, o.texts, folder, progress);
   progress(0.9);
   std::string qgs;
-  if (!o.qgis.empty()) qgs = qgis_project_xml(project_of(data, o, folder));
+  if (!o.qgis.empty()) qgs = qgis_project_xml(project_of(data, o.qgis, folder), qgis_template(o));
   tool.write_text(o.out, report_page(data, {shipped_data("report.css"), shipped_data("viewer.js"),
                                             shipped_data("maps.js")}));
   if (!o.qgis.empty())
@@ -593,7 +431,12 @@ int main(int argc, char** argv) {
   SiteOptions site(tool);
   tool.app().add_option("--dir", o.dir, "folder with the results of the site")->required();
   tool.output("-o,--out", o.out, "report to write (HTML, one file)")->required();
-  tool.output("--qgis", o.qgis, "project to write (QGZ), with paths relative to it");
+  CLI::Option* const qgis =
+      tool.output("--qgis", o.qgis, "project to write (QGZ), with paths relative to it");
+  tool.input("--qgis-template", o.qgis_template,
+             "project (QGS or QGZ) saved by QGIS 3.22 or later, whose layouts and settings the "
+             "project takes in place of the shipped ones: share/talus/report/project.qgs")
+      ->needs(qgis);
   tool.input("--texts", o.texts,
              "words of the page (TOML) in place of those shipped, all or some: share/talus/report/"
              "texts.toml has all");
