@@ -24,7 +24,8 @@ Mat3 cross_matrix(const Vec3& x) {
 struct Few {
   std::span<const ImpactBody> bodies;
   std::span<const ImpactContact> contacts;
-  ImpactWork& w;
+  std::span<ImpactRow> rows;
+  FewContacts& few;
 
   [[nodiscard]] Eigen::Index n() const { return static_cast<Eigen::Index>(3 * contacts.size()); }
 
@@ -36,12 +37,11 @@ struct Few {
   }
 
   void set_responses() const {
-    FewContacts& few = w.few;
     few.response.setZero(n(), n());
     for (size_t i = 0; i < contacts.size(); ++i)
       for (size_t j = 0; j <= i; ++j) {
         const ImpactContact &ci = contacts[i], &cj = contacts[j];
-        const ImpactWork::Row &ri = w.rows[i], &rj = w.rows[j];
+        const ImpactRow &ri = rows[i], &rj = rows[j];
         Mat3 W = Mat3::Zero();
         if (ci.a == cj.a) W += response(ci.a, ri.arm_a, rj.arm_a);
         if (ci.b >= 0 && ci.b == cj.b) W += response(ci.b, ri.arm_b, rj.arm_b);
@@ -58,8 +58,8 @@ struct Few {
     const auto of = [&](int k, const Vec3& arm) -> Vec3 {
       return v.segment<3>(6 * k) + v.segment<3>(6 * k + 3).cross(arm);
     };
-    Vec3 u = of(c.a, w.rows[i].arm_a);
-    if (c.b >= 0) u -= of(c.b, w.rows[i].arm_b);
+    Vec3 u = of(c.a, rows[i].arm_a);
+    if (c.b >= 0) u -= of(c.b, rows[i].arm_b);
     return u;
   }
 
@@ -84,7 +84,6 @@ struct Few {
 
   // What the impulses miss of the law [m/s]; sets Newton's equations.
   double set_equations() const {
-    FewContacts& few = w.few;
     few.slip = few.slip_before;
     few.slip.noalias() += few.response * few.impulse;
     double worst = 0;
@@ -93,7 +92,7 @@ struct Few {
       const ImpactContact& c = contacts[i];
       const double feels = few.feels[i];
       const Vec3 p = few.impulse.segment<3>(at);
-      const Vec3 missing = few.slip.segment<3>(at) - w.rows[i].target * c.normal;
+      const Vec3 missing = few.slip.segment<3>(at) - rows[i].target * c.normal;
       Mat3 by_trial;
       const Vec3 error = p - projected(c, p - missing / feels, by_trial);
       worst = std::max(worst, feels * error.norm());
@@ -105,7 +104,6 @@ struct Few {
   }
 
   bool solve(const Eigen::VectorXd& velocity, double scale, int& passes) const {
-    FewContacts& few = w.few;
     few.slip_before.resize(n());
     few.impulse.resize(n());
     few.residual.resize(n());
@@ -113,7 +111,7 @@ struct Few {
     for (size_t i = 0; i < contacts.size(); ++i) {
       const auto at = static_cast<Eigen::Index>(3 * i);
       few.slip_before.segment<3>(at) = point_velocity(velocity, i);
-      few.impulse.segment<3>(at) = w.rows[i].impulse;
+      few.impulse.segment<3>(at) = rows[i].impulse;
       few.feels[i] = few.response.block<3, 3>(at, at).trace() / 3;
     }
     for (int k = 0; k < most_steps; ++k) {
@@ -131,13 +129,14 @@ struct Few {
 }  // namespace
 
 bool solve_few(std::span<const ImpactBody> bodies, std::span<const ImpactContact> contacts,
-               const Eigen::VectorXd& velocity, double scale, ImpactWork& work, int& passes) {
-  const Few few{bodies, contacts, work};
-  few.set_responses();
-  const bool found = few.solve(velocity, scale, passes);
+               const Eigen::VectorXd& velocity, double scale, std::span<ImpactRow> rows,
+               FewContacts& few, int& passes) {
+  const Few problem{bodies, contacts, rows, few};
+  problem.set_responses();
+  const bool found = problem.solve(velocity, scale, passes);
   for (size_t i = 0; i < contacts.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(3 * i);
-    work.rows[i].impulse = found ? Vec3(work.few.impulse.segment<3>(at)) : Vec3(Vec3::Zero());
+    rows[i].impulse = found ? Vec3(few.impulse.segment<3>(at)) : Vec3(Vec3::Zero());
   }
   return found;
 }

@@ -5,7 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include "solver/impact_few.hpp"
 #include "solver/one_contact.hpp"
 
 namespace talus {
@@ -539,8 +538,8 @@ struct Solver {
   // From the impulses in the rows where contacts are few.
   bool solve_any() {
     if (contacts.size() == 1 && w.turns.empty() && solve_one()) return true;
-    if (contacts.size() > 1 && contacts.size() <= most_few && w.turns.empty() &&
-        solve_few(bodies, contacts, w.before, scale, w, passes))
+    if (contacts.size() > 1 && contacts.size() <= FewContacts::most && w.turns.empty() &&
+        solve_few(bodies, contacts, w.before, scale, w.rows, w.few, passes))
       return true;
     return solve();
   }

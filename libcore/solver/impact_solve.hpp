@@ -6,8 +6,6 @@
 #pragma once
 
 #include <Eigen/Dense>
-#include <array>
-#include <cstddef>
 #include <span>
 #include <utility>
 #include <vector>
@@ -16,44 +14,10 @@
 #include "motion/displacement.hpp"
 #include "solver/angular_row.hpp"
 #include "solver/block_lu.hpp"
+#include "solver/impact_contacts.hpp"
+#include "solver/impact_few.hpp"
 
 namespace talus {
-
-/// A body at the time of the impact; local axes.
-struct ImpactBody {
-  double per_mass = 0;                  ///< [1/kg]
-  Mat3 inertia = Mat3::Identity();      ///< [kg m2]
-  Mat3 per_inertia = Mat3::Identity();  ///< its inverse [1/(kg m2)]
-  Vec3 position = Vec3::Zero();         ///< of the centroid [m]
-  Vec6 velocity = Vec6::Zero();         ///< of the centroid, and spin; in: before, out: after
-};
-
-/// How a restitution falls with the approach v > 0: to that at no speed over 1 + per_speed v +
-/// per_square v^2. All zero: it does not.
-struct RestitutionFall {
-  double per_speed = 0;   ///< [s/m]
-  double per_square = 0;  ///< [s2/m2]
-
-  [[nodiscard]] double at(double restitution, double v) const {
-    return restitution / (1 + v * (per_speed + per_square * v));
-  }
-};
-
-/// A contact of two of the bodies, or of one with the ground. One point, common to both bodies.
-struct ImpactContact {
-  int a = 0, b = -1;           ///< bodies; b = -1: the ground
-  Vec3 normal = Vec3::Zero();  ///< unit, from B to A
-  Vec3 point = Vec3::Zero();   ///< local axes [m]
-  double friction = 0;         ///< tan(phi) [-]
-  double restitution = 0;      ///< of the normal speed, at no speed [-]
-  RestitutionFall fall;        ///< ... at the approach
-  RowArm arm;                  ///< of the couple on A that resists its rolling on the ground
-  double resting_speed = 0;    ///< a slower approach returns nothing [m/s]
-  bool is_bond = false;        ///< holds A to B whatever the force
-  // out
-  double approach = 0;          ///< normal speed before, < 0: approaches [m/s]
-  Vec3 impulse = Vec3::Zero();  ///< on A; B gets the opposite [N s]
-};
 
 /// What an impact came to.
 struct Impact {
@@ -65,33 +29,9 @@ struct Impact {
   double by_rolling = 0;   ///< ... of it by couples [J]
 };
 
-/// Scratch of the solution in the impulses of few contacts (impact_few.hpp). Sizes are bounded, so
-/// that nothing of it is on the heap.
-struct FewContacts {
-  static constexpr std::size_t most = 16;  ///< contacts
-  template <int columns>
-  using Array = Eigen::Matrix<double, Eigen::Dynamic, columns, 0, 3 * static_cast<int>(most),
-                              columns == 1 ? 1 : 3 * static_cast<int>(most)>;
-  Array<Eigen::Dynamic> response;    ///< velocity per impulse [1/kg]
-  Array<Eigen::Dynamic> matrix;      ///< of Newton's equations [-]
-  Array<1> impulse, residual;        ///< [N s]
-  Array<1> slip_before, slip;        ///< velocities of the contacts' points [m/s]
-  std::array<double, most> feels{};  ///< velocity per impulse of a contact alone [1/kg]
-  Eigen::PartialPivLU<Array<Eigen::Dynamic>> factor;
-};
-
 /// Scratch of solve_impact.
 struct ImpactWork {  // clang-format off
-  struct Row {
-    Vec3 arm_a = Vec3::Zero(), arm_b = Vec3::Zero();  ///< from the centroids [m]
-    double target = 0;                   ///< normal speed that is asked for [m/s]
-    double normal_damping = 0, shear_damping = 0;  ///< [kg]
-    Vec3 expected = Vec3::Zero();        ///< impulse that the solution is sought around [N s]
-    double missing_slip = 0;             ///< of the last round [m/s]
-    double slip = -1;                    ///< taken as known; < 0: it is not [m/s]
-    Vec3 impulse = Vec3::Zero();         ///< [N s]
-    Mat3 tangent = Mat3::Zero();         ///< - d impulse / d velocity [kg]
-  };
+  using Row = ImpactRow;
   /// A body that the ground resists to roll on it.
   struct Turn {
     int body = 0;

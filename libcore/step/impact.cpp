@@ -84,7 +84,7 @@ void reserve_impacts(size_t n_contacts, ImpactScratch& scratch) {
   ImpactBody body;  // an impact makes the rest
   body.per_mass = 1;
   body.velocity[2] = -1;
-  std::array<ImpactContact, 2> contacts;  // one alone is solved in closed form
+  std::array<ImpactContact, FewContacts::most + 1> contacts;  // fewer need less
   for (ImpactContact& contact : contacts) contact.normal = Vec3::UnitZ();
   (void)solve_impact({&body, 1}, contacts, w);
 }

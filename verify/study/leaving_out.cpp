@@ -204,7 +204,8 @@ void add_plans(const SlideData& slide, bool full, std::vector<Omission>& out) {
   add_rigid("lone rock, 12 s", 12, lone);
   add_many("lone rock, 12 s", 48, 12, lone);
   add_rigid("slide of 39 blocks, 2 s", 2, slope);
-  add_all("slide of 39 blocks, 2 s", 2, slope);
+  // until the mass is chaotic: from 1.7 s on whatever differs grows sixfold in 0.2 s
+  add_all("slide of 39 blocks, 1.5 s", 1.5, slope);
   if (full) add_many("slide of 39 blocks, 20 s", 8, 20, slope);
   add_rigid("stack of ten at rest, 20 s", 20, stack);
   add_all("stack of ten at rest, 20 s", 20, stack);

@@ -1,0 +1,60 @@
+// libcore/solver/impact_contacts.hpp
+// The bodies and contacts of an impact (impact_solve.hpp).
+#pragma once
+
+#include <Eigen/Dense>
+
+#include "motion/displacement.hpp"
+#include "solver/angular_row.hpp"
+
+namespace talus {
+
+/// A body at the time of the impact; local axes.
+struct ImpactBody {
+  double per_mass = 0;                  ///< [1/kg]
+  Mat3 inertia = Mat3::Identity();      ///< [kg m2]
+  Mat3 per_inertia = Mat3::Identity();  ///< its inverse [1/(kg m2)]
+  Vec3 position = Vec3::Zero();         ///< of the centroid [m]
+  Vec6 velocity = Vec6::Zero();         ///< of the centroid, and spin; in: before, out: after
+};
+
+/// How a restitution falls with the approach v > 0: to that at no speed over 1 + per_speed v +
+/// per_square v^2. All zero: it does not.
+struct RestitutionFall {
+  double per_speed = 0;   ///< [s/m]
+  double per_square = 0;  ///< [s2/m2]
+
+  [[nodiscard]] double at(double restitution, double v) const {
+    return restitution / (1 + v * (per_speed + per_square * v));
+  }
+};
+
+/// A contact of two of the bodies, or of one with the ground. One point, common to both bodies.
+struct ImpactContact {
+  int a = 0, b = -1;           ///< bodies; b = -1: the ground
+  Vec3 normal = Vec3::Zero();  ///< unit, from B to A
+  Vec3 point = Vec3::Zero();   ///< local axes [m]
+  double friction = 0;         ///< tan(phi) [-]
+  double restitution = 0;      ///< of the normal speed, at no speed [-]
+  RestitutionFall fall;        ///< ... at the approach
+  RowArm arm;                  ///< of the couple on A that resists its rolling on the ground
+  double resting_speed = 0;    ///< a slower approach returns nothing [m/s]
+  bool is_bond = false;        ///< holds A to B whatever the force
+  // out
+  double approach = 0;          ///< normal speed before, < 0: approaches [m/s]
+  Vec3 impulse = Vec3::Zero();  ///< on A; B gets the opposite [N s]
+};
+
+/// What is known of a contact while it is solved.
+struct ImpactRow {  // clang-format off
+  Vec3 arm_a = Vec3::Zero(), arm_b = Vec3::Zero();  ///< from the centroids [m]
+  double target = 0;                   ///< normal speed that is asked for [m/s]
+  double normal_damping = 0, shear_damping = 0;  ///< [kg]
+  Vec3 expected = Vec3::Zero();        ///< impulse that the solution is sought around [N s]
+  double missing_slip = 0;             ///< of the last round [m/s]
+  double slip = -1;                    ///< taken as known; < 0: it is not [m/s]
+  Vec3 impulse = Vec3::Zero();         ///< [N s]
+  Mat3 tangent = Mat3::Zero();         ///< - d impulse / d velocity [kg]
+};  // clang-format on
+
+}  // namespace talus
