@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "base/error.hpp"
+#include "base/memory.hpp"
 #include "base/text.hpp"
 
 namespace talus {
@@ -142,6 +143,7 @@ void take_names(const LineBefore& before, ColumnText& columns) {
 
 ColumnText parse_columns(const std::string& text, const std::string& file) {
   check_encoding(text, file);
+  require_memory_for_words(text, file);
   ColumnText columns;
   columns.file = file;
   LineBefore before;

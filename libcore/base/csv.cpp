@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "base/error.hpp"
+#include "base/memory.hpp"
 #include "base/read_file.hpp"
 #include "base/text.hpp"
 
@@ -87,7 +88,11 @@ CsvTable parse_csv(const std::string& content, const std::string& file, bool fil
   return table;
 }
 
-CsvTable read_csv(const std::string& path) { return parse_csv(read_file(path), path); }
+CsvTable read_csv(const std::string& path) {
+  const std::string content = read_file(path);
+  require_memory_for_words(content, path);
+  return parse_csv(content, path);
+}
 
 std::string csv_line(const std::vector<std::string>& values) {
   std::string line;

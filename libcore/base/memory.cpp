@@ -8,6 +8,7 @@
 #include <fstream>
 #include <limits>
 #include <sstream>
+#include <string_view>
 
 #include "base/text.hpp"
 
@@ -136,6 +137,23 @@ void require_memory(double bytes, const Where& where, const std::string& what,
           megabytes(most, false) +
           (given.is_given ? ", what --memory-mb leaves" : ", what is free on this machine"),
       way_out + ", or give more with --memory-mb");
+}
+
+void require_memory_for_words(const std::string& content, const std::string& file) {
+  double n_words = 0, n_lines = 0;
+  char before = '\n';
+  for (const char c : content) {
+    const bool ends = std::string_view(" \t,;\n").find(c) != std::string_view::npos;
+    const bool ended = std::string_view(" \t,;\n").find(before) != std::string_view::npos;
+    n_words += ends && !ended ? 1 : 0;
+    n_lines += c == '\n' ? 1 : 0;
+    before = c;
+  }
+  constexpr double bytes_per_line = 48;  // its list of words, its number
+  const double bytes = 2 * static_cast<double>(content.size()) +
+                       static_cast<double>(sizeof(std::string)) * n_words +
+                       bytes_per_line * n_lines;
+  require_memory(bytes, {file}, "the words of the table", "leave out lines that are not needed");
 }
 
 }  // namespace talus

@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "base/error.hpp"
+#include "base/memory.hpp"
 
 namespace talus {
 
@@ -13,6 +14,9 @@ std::string read_file(const std::string& path, const std::string& hint) {
   std::array<char, 1 << 16> buffer;
   do {
     file.read(buffer.data(), buffer.size());
+    if (content.size() + buffer.size() > content.capacity())  // it will take twice as much
+      require_memory(2 * static_cast<double>(content.capacity()), {path}, "more of its bytes",
+                     "check that it is the file that you mean");
     content.append(buffer.data(), static_cast<std::size_t>(file.gcount()));
   } while (file);
   if (!file.eof()) throw InputError({path}, "cannot be read", hint);

@@ -5,7 +5,8 @@
 
 namespace talus {
 
-/// The bytes of a file. Throws InputError with `hint` when it cannot be read to its end.
+/// The bytes of a file. Throws InputError with `hint` when it cannot be read to its end, and when
+/// it goes on for longer than there is memory.
 [[nodiscard]] std::string read_file(const std::string& path, const std::string& hint = "");
 
 }  // namespace talus

@@ -26,6 +26,7 @@ double largest_along(const Polyhedron& body, const Vec3& direction) {
 
 // A triangle of the bed: the rock is below its plane, within its three vertical sides.
 struct Facet {
+  std::array<Vec3, 3> corners;
   Plane above;                 // inside = above the bed
   std::array<Plane, 3> sides;  // inside = over the triangle
 };
@@ -34,6 +35,7 @@ Facet facet_of(const Trn& bed, int triangle) {
   const auto corners = triangle_corners(bed, triangle);
   const TrianglePlane plane = triangle_plane(bed, triangle);
   Facet facet;
+  facet.corners = corners;
   facet.above = plane_through(plane.point, -plane.normal);
   for (int k = 0; k < 3; ++k) {
     const Vec3 along = corners[(k + 1) % 3] - corners[k];
@@ -65,6 +67,32 @@ std::vector<Facet> facets_below(const Trn& bed, const Polyhedron& body) {
   return facets;
 }
 
+// Supporting planes of the body at its faces that look down or sideways, and at its box: what lies
+// outside of one has nothing of the body in it or below it.
+std::vector<Plane> lower_planes(const Polyhedron& body) {
+  std::vector<Plane> planes;
+  for (int f = 0; f < n_faces(body); ++f) {
+    const Vec3 normal = face_normal(body, f);
+    if (normal.z() <= 0) planes.push_back({normal, largest_along(body, normal)});
+  }
+  for (const Vec3& side : {Vec3(-1, 0, 0), Vec3(1, 0, 0), Vec3(0, -1, 0), Vec3(0, 1, 0)})
+    planes.push_back({side, largest_along(body, side)});
+  return planes;
+}
+
+// Leaves out facets that the body clears by so much that no tolerance makes an overlap: where it
+// covers thousands, nearly all are such. A body that is cut clears them for good.
+void leave_out_cleared(std::vector<Facet>& facets, const Polyhedron& body, double tolerance) {
+  const std::vector<Plane> planes = lower_planes(body);
+  std::erase_if(facets, [&](const Facet& facet) {
+    return std::any_of(planes.begin(), planes.end(), [&](const Plane& plane) {
+      return std::all_of(facet.corners.begin(), facet.corners.end(), [&](const Vec3& corner) {
+        return distance(plane, corner) > 1000 * tolerance;
+      });
+    });
+  });
+}
+
 // The part of the body that stands in the rock below the facet.
 Polyhedron overlap(const Polyhedron& body, const Facet& facet, double tolerance) {
   const bool is_clear = std::all_of(body.vertices.begin(), body.vertices.end(), [&](const Vec3& v) {
@@ -88,7 +116,9 @@ struct Overlaps {
   int largest = -1;           // part with the largest volume
 };
 
-Overlaps find_overlaps(const Polyhedron& body, const std::vector<Facet>& facets, double tolerance) {
+// Leaves out facets that can have none, now and when more is cut off the body.
+Overlaps find_overlaps(const Polyhedron& body, std::vector<Facet>& facets, double tolerance) {
+  leave_out_cleared(facets, body, tolerance);
   Overlaps found;
   double largest_volume = 0;
   for (const Facet& facet : facets) {
@@ -106,7 +136,7 @@ Overlaps find_overlaps(const Polyhedron& body, const std::vector<Facet>& facets,
 }
 
 // One plane above all of the bed.
-Polyhedron raised_off_at_once(Polyhedron body, const std::vector<Facet>& facets, const Vec3& normal,
+Polyhedron raised_off_at_once(Polyhedron body, std::vector<Facet> facets, const Vec3& normal,
                               double tolerance) {
   const Overlaps overlaps = find_overlaps(body, facets, tolerance);
   double offset = -std::numeric_limits<double>::infinity();
@@ -119,9 +149,10 @@ Polyhedron raised_off_at_once(Polyhedron body, const std::vector<Facet>& facets,
 // One plane after the other, each clearing the largest overlap left; of the normals that `choose`
 // gives, the one that costs least.
 template <class Choose>
-Polyhedron raised_off_by_steps(Polyhedron body, const std::vector<Facet>& facets, Choose choose,
+Polyhedron raised_off_by_steps(Polyhedron body, std::vector<Facet> facets, Choose choose,
                                double tolerance) {
-  for (size_t step = 0; step <= facets.size() && n_faces(body) > 0; ++step) {
+  const size_t most_steps = facets.size();
+  for (size_t step = 0; step <= most_steps && n_faces(body) > 0; ++step) {
     const Overlaps overlaps = find_overlaps(body, facets, tolerance);
     if (overlaps.largest < 0) return body;
     Polyhedron best;

@@ -104,8 +104,11 @@ class JointCellTree {
 
   bool parts_rock(const Leaf& leaf, int j) {
     int sides = 0;
-    for (const Piece& piece : leaf.pieces) sides |= cutter_.sides_of(piece, j);
-    return sides == 3;
+    for (const Piece& piece : leaf.pieces) {
+      sides |= cutter_.sides_of(piece, j);
+      if (sides == 3) return true;
+    }
+    return false;
   }
 
   // The next joint that cuts the leaf, taken off its list: of the joints that are whole, the one in

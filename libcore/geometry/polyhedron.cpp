@@ -328,6 +328,9 @@ struct Clipper {
   Polyhedron out{};
   std::vector<int> copy{};                       // of old vertices, -1 = not yet
   std::vector<std::array<int, 3>> cut_points{};  // (low, high, new index)
+  std::vector<std::array<int, 2>> cap_edges{};   // on the plane, from where the cap enters each
+  std::vector<int> inner{};                      // part of one face
+  std::vector<char> on_plane{};                  // its vertices
 
   int kept(int v) {
     if (copy[v] < 0) {
@@ -349,10 +352,12 @@ struct Clipper {
 
 // The inner part of one face; also notes its edge on the plane, from where it enters to where it
 // leaves the cap (the cap runs the other way round).
-void clip_face(Clipper& c, int f, std::vector<std::array<int, 2>>& cap_edges) {
+void clip_face(Clipper& c, int f) {
   const auto loop = face(c.body, f);
-  std::vector<int> inner;
-  std::vector<bool> on_plane;
+  std::vector<int>& inner = c.inner;
+  std::vector<char>& on_plane = c.on_plane;
+  inner.clear();
+  on_plane.clear();
   bool any_inside = false;
   for (size_t k = 0; k < loop.size(); ++k) {
     const int a = loop[k], b = loop[(k + 1) % loop.size()];
@@ -365,20 +370,19 @@ void clip_face(Clipper& c, int f, std::vector<std::array<int, 2>>& cap_edges) {
   add_face(c.out, inner, c.body.face_tag[f]);
   for (size_t k = 0; k < inner.size(); ++k)
     if (on_plane[k] && on_plane[(k + 1) % inner.size()])
-      cap_edges.push_back({inner[(k + 1) % inner.size()], inner[k]});
+      c.cap_edges.push_back({inner[(k + 1) % inner.size()], inner[k]});
 }
 
 // Closes the hole that the cut has left: its edges, chained.
 void add_cap(Polyhedron& out, const std::vector<std::array<int, 2>>& cap_edges, int tag) {
-  std::map<int, int> next;
+  std::vector<int> next(out.vertices.size(), -1);
   for (const auto& [from, to] : cap_edges) next[from] = to;
   std::vector<int> loop;
   int v = cap_edges.front()[0];
   do {
     loop.push_back(v);
-    const auto found = next.find(v);
-    if (found == next.end()) return;  // touched along an edge only: nothing to close
-    v = found->second;
+    v = next[v];
+    if (v < 0) return;  // touched along an edge only: nothing to close
   } while (v != loop.front() && loop.size() <= cap_edges.size());
   if (loop.size() >= 3) add_face(out, loop, tag);
 }
@@ -398,9 +402,13 @@ Polyhedron clip_convex(const Polyhedron& body, const Plane& plane, int tag, doub
   if (!any_inside) return {};
   Clipper clipper{body, side};
   clipper.copy.assign(side.size(), -1);
-  std::vector<std::array<int, 2>> cap_edges;
-  for (int f = 0; f < n_faces(body); ++f) clip_face(clipper, f, cap_edges);
-  if (!cap_edges.empty()) add_cap(clipper.out, cap_edges, tag);
+  Polyhedron& out = clipper.out;
+  out.vertices.reserve(side.size() + 8);
+  out.face_begin.reserve(body.face_begin.size() + 1);
+  out.face_vertices.reserve(body.face_vertices.size() + 16);
+  out.face_tag.reserve(body.face_tag.size() + 1);
+  for (int f = 0; f < n_faces(body); ++f) clip_face(clipper, f);
+  if (!clipper.cap_edges.empty()) add_cap(out, clipper.cap_edges, tag);
   return std::move(clipper.out);
 }
 

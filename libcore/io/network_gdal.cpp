@@ -112,10 +112,16 @@ std::vector<NamedSource> sources_in(const std::string& xml) {
   return sources;
 }
 
-void check_virtual(const fs::path& path, int depth) {
-  constexpr int deepest = 16;
+// `n_read`: virtual data sets read so far. Each may name the next one many times.
+void check_virtual(const fs::path& path, int depth, int& n_read) {
+  constexpr int deepest = 16, most = 10000;
   if (!fs::is_regular_file(path) || !is_virtual_data(path.string())) return;
   const Where where{path.string()};
+  if (++n_read > most)
+    throw InputError(where,
+                     "is one of more than " + std::to_string(most) +
+                         " virtual data sets that lead to one another",
+                     "gdal_translate the first of them to a GeoTIFF where it is trusted");
   if (depth > deepest)
     throw InputError(where, "is a virtual data set of virtual data sets without end");
   const std::string text = read_file(path.string());
@@ -127,7 +133,7 @@ void check_virtual(const fs::path& path, int depth) {
     if (is_elsewhere(source.name))
       throw InputError(where, "names " + source.name + ", which " + refusal, way_out);
     check_virtual(source.is_beside ? path.parent_path() / source.name : fs::path(source.name),
-                  depth + 1);
+                  depth + 1, n_read);
   }
 }
 
@@ -148,7 +154,8 @@ void forbid_network() {
 void check_virtual(const std::string& path) {
   if (network_is_allowed()) return;
   if (is_elsewhere(path)) throw InputError({path}, refusal, way_out);
-  check_virtual(fs::path(path), 0);
+  int n_read = 0;
+  check_virtual(fs::path(path), 0, n_read);
 }
 
 }  // namespace talus

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "base/error.hpp"
 #include "base/text.hpp"
@@ -239,11 +240,17 @@ void record_crossings(CrossingRecorder& recorder, const Scene& scene, const Segm
   clearance -= moved;
   if (clearance > 0 || moved == 0) return;
   clearance = distance_to_lines(recorder.lines, b);
+  std::vector<std::pair<int, Meeting>> met;  // part of the line, and where; mostly none or one
   for (std::size_t l = 0; l < recorder.lines.size(); ++l) {
     const RecordLine& line = recorder.lines[l];
+    met.clear();
     for (int i = 0; i < n_parts(line); ++i)
       if (const Meeting meeting = meet(part_of(line, i), a, b); meeting.found)
-        add(recorder, static_cast<int>(l), crossing_at(scene, line, i, segment, meeting));
+        met.emplace_back(i, meeting);
+    std::stable_sort(met.begin(), met.end(),
+                     [](const auto& p, const auto& q) { return p.second.s < q.second.s; });
+    for (const auto& [i, meeting] : met)
+      add(recorder, static_cast<int>(l), crossing_at(scene, line, i, segment, meeting));
   }
 }
 

@@ -36,7 +36,7 @@ inline constexpr std::string_view candidate_prefix = "fence_search.";
 
 /// The corners of a line and, between them, posts at equal distances not longer than `spacing`, all
 /// on the ground. Throws InputError at `where` for fewer than two corners, two in a row at the same
-/// place, more than 1e5 posts, and for a post outside the known terrain.
+/// place, more than 1e4 posts, and for a post outside the known terrain.
 [[nodiscard]] std::vector<Vec3> posts_on_ground(const Trn& trn, const std::vector<Vec2>& corners,
                                                 double spacing, const Where& where);
 

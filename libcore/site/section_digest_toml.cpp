@@ -32,19 +32,18 @@ std::string digest_of_file(const Site& site, const EffectiveValue& entry) {
 
 std::string section_digest(const Site& site, const std::vector<std::string>& sections) {
   Sha256 hash;
+  const auto is_wanted = [&](const std::string& section) {
+    return std::any_of(sections.begin(), sections.end(),
+                       [&](const std::string& wanted) { return is_in(section, wanted); });
+  };
   for (const EffectiveValue& entry : effective_values(site)) {
-    const bool is_wanted =
-        std::any_of(sections.begin(), sections.end(),
-                    [&](const std::string& wanted) { return is_in(entry.section, wanted); });
-    if (!is_wanted) continue;
+    if (!is_wanted(entry.section)) continue;
     const std::string line = entry.section + "." + entry.key + " = " + entry.value + "\n" +
                              digest_of_file(site, entry) + "\n";
     hash.add(line.data(), line.size());
   }
   for (const auto& [section, digest] : site.layer_digests)
-    if (std::any_of(sections.begin(), sections.end(),
-                    [&](const std::string& wanted) { return is_in(section, wanted); }))
-      hash.add(digest.data(), digest.size());
+    if (is_wanted(section)) hash.add(digest.data(), digest.size());
   return hash.hex().substr(0, 16);
 }
 

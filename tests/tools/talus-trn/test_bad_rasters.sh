@@ -58,6 +58,19 @@ refused 'elevations are in "ft"' talus-trn feet_high.vrt $out
 gdal_translate -q -a_srs EPSG:32632 -a_ullr 500000 5000030 500030 5000000.5 good.asc oblong.tif
 refused "expected squares" talus-trn oblong.tif $out
 says "gdalwarp -r bilinear -tr"
+# each names the next ten times
+gdal_translate -q -of VRT good.tif chain_6.vrt
+for i in 5 4 3 2 1 0; do
+  {
+    echo '<VRTDataset rasterXSize="3" rasterYSize="3"><VRTRasterBand dataType="Float32" band="1">'
+    for k in 1 2 3 4 5 6 7 8 9 10; do
+      echo "<SimpleSource><SourceFilename relativeToVRT=\"1\">chain_$((i + 1)).vrt</SourceFilename></SimpleSource>"
+    done
+    echo '</VRTRasterBand></VRTDataset>'
+  } >chain_$i.vrt
+done
+refused "more than 10000 virtual data sets" talus-trn chain_0.vrt $out
+
 gdal_translate -q -of VRT good.tif rotated.vrt
 sed -i 's#<GeoTransform>.*</GeoTransform>#<GeoTransform>500000,9.8,1.7,5000030,1.7,-9.8</GeoTransform>#' rotated.vrt
 refused "rotated" talus-trn rotated.vrt $out

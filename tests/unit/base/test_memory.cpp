@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "base/memory.hpp"
+#include "base/read_file.hpp"
 
 using namespace talus;
 namespace fs = std::filesystem;
@@ -94,6 +95,27 @@ TEST(RequireMemory, WhatWasTakenCounts) {
   const std::vector<char> taken(50'000'000, 1);
   EXPECT_NE(refusal(40e6), "taken");
   EXPECT_EQ(taken.back(), 1);
+}
+
+TEST(RequireMemory, CountsTheWordsOfATable) {
+  std::string table;
+  for (int line = 0; line < 100000; ++line) table += "1.25, -2,3\n";
+  const Limited limited(14e6);  // 1.1 MB twice, 300,000 words, 100,000 lines
+  EXPECT_THROW(talus::require_memory_for_words(table, "t.csv"), InputError);
+  const Limited wider(20e6);
+  EXPECT_NO_THROW(talus::require_memory_for_words(table, "t.csv"));
+}
+
+// A device that never ends, given as an input.
+TEST(RequireMemory, EndsTheReadingOfAFileWithoutEnd) {
+  const Limited limited(200e6);
+  try {
+    (void)talus::read_file("/dev/zero");
+    FAIL() << "read";
+  } catch (const InputError& error) {
+    EXPECT_TRUE(std::string(error.what()).starts_with("/dev/zero: more of its bytes need about "))
+        << error.what();
+  }
 }
 
 TEST(RequireMemory, WithoutALimitTheMachineDecides) {

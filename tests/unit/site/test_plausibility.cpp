@@ -66,8 +66,8 @@ TEST(Plausibility, EachLimitHasItsDoubtAndItsKey) {
   for (const auto& [field, odd, absurd, key] : limits) {
     const std::vector<Doubt> doubts = with(field, odd);
     ASSERT_FALSE(doubts.empty()) << key << " " << odd;
-    EXPECT_TRUE(std::any_of(doubts.begin(), doubts.end(), [&](const Doubt& doubt) {
-      return doubt.key == key;
+    EXPECT_TRUE(std::any_of(doubts.begin(), doubts.end(), [&wanted = key](const Doubt& doubt) {
+      return doubt.key == wanted;
     })) << key;
     for (const Doubt& doubt : doubts) {
       EXPECT_FALSE(doubt.is_refused) << doubt.finding;
