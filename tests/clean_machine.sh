@@ -36,7 +36,7 @@ rm -rf "$root/talus"
 git -c safe.directory='*' clone -q "$checkout" "$root/talus"
 timed "$root" "cd /talus && sh pipelines/demo.sh"
 timed "$root" "cd /talus && make -C sample_sites/maungawhau clean && sh pipelines/demo.sh"
-timed "$root" "cd /talus && apt-get install -y -qq --no-install-recommends dpkg-dev file && cd build/demo && cpack"
+timed "$root" "cd /talus && apt-get install -y -qq --no-install-recommends dpkg-dev file && cmake --build build/demo --target package"
 
 bare "$root.deb"
 cp "$root"/talus/build/demo/talus_*.deb "$root.deb/"
