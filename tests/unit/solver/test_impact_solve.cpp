@@ -99,6 +99,14 @@ TEST(SolveImpact, OneContactReturnsItsRestitution) {
   }
 }
 
+// The k-th of a column that meets what is below. Drawn one by one: arguments have no order.
+ImpactBody random_box(Random& random, int k) {
+  const Vec3 spin = random_vector(random, 3);
+  const Vec3 velocity = Vec3(0, 0, -2.0 * k) + random_vector(random, 1);
+  const Vec3 size = Vec3::Ones() + random_vector(random, 0.4);
+  return box_body(size, Vec3(0, 0, k), velocity, spin);
+}
+
 // Any contacts with any restitutions and friction: no energy is gained, nothing approaches
 // afterwards, impulses are in their cones, momenta are kept.
 TEST(SolveImpact, KeepsWhatMustBeKept) {
@@ -108,16 +116,15 @@ TEST(SolveImpact, KeepsWhatMustBeKept) {
   for (int i = 0; i < 400; ++i) {
     const int n = 2 + i % 7;
     std::vector<ImpactBody> bodies;
-    for (int k = 0; k < n; ++k)
-      bodies.push_back(box_body(Vec3::Ones() + random_vector(random, 0.4), Vec3(0, 0, k),
-                                Vec3(0, 0, -2.0 * k) + random_vector(random, 1),
-                                random_vector(random, 3)));
+    for (int k = 0; k < n; ++k) bodies.push_back(random_box(random, k));
     std::vector<ImpactContact> contacts;
     for (int k = 1; k < n; ++k)
       for (int j = 0; j < 1 + i % 4; ++j) {
-        const ImpactContact c = contact(k, k - 1, Vec3(0, 0, 1) + random_vector(random, 0.1),
-                                        Vec3(0, 0, k - 0.5) + random_vector(random, 0.4),
-                                        i % 4 == 3 ? 1 : random.uniform(), random.uniform(0, 1.2));
+        const double friction = random.uniform(0, 1.2);
+        const double restitution = i % 4 == 3 ? 1 : random.uniform();
+        const Vec3 point = Vec3(0, 0, k - 0.5) + random_vector(random, 0.4);
+        const Vec3 normal = Vec3(0, 0, 1) + random_vector(random, 0.1);
+        const ImpactContact c = contact(k, k - 1, normal, point, restitution, friction);
         if (c.normal.dot(at(bodies, c)) < 0) contacts.push_back(c);
       }
     const double before = energy(bodies);
