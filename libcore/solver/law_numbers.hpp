@@ -21,8 +21,9 @@ inline constexpr double stiffest_lone = 400;
 /// [-] The same in an island, before a contact knows what it bears. Tried: 400 for all; the forces
 /// of masses in motion are not found.
 inline constexpr double stiffest_in_island = 1;
-/// [-] The same where the island's matrix is cheap to factor, and of blocks that rest. Tried: 1 for
-/// blocks that rest; twin towers near the angle at which they topple sway and fall.
+/// [-] The same where the island's matrix is cheap to factor, and of a mass that stands since the
+/// start. Tried: 1 for these; twin towers near the angle at which they topple sway and fall. 30 for
+/// all that rests; a mass that comes to rest is thrown up again and again.
 inline constexpr double stiffest_at_rest = 30;
 /// [blocks] A small island has at most so many ...
 inline constexpr std::size_t small_island = 8;
@@ -317,7 +318,8 @@ inline constexpr double load_time = 0.1;
 /// [steps] A block, or all of an island, stays in place for so long before it is left out. Tried: a
 /// limit on speed; one trembling block keeps an island awake.
 inline constexpr int steps_before_sleep = 200;
-/// [thickness] In place: no point went farther than this, or g dt^2 where that is less.
+/// [thickness] In place: no point went farther than this, or g dt^2 where that is less. A block has
+/// left its place where its centroid is farther from where it was at the start.
 inline constexpr double rests_within = 1e-3;
 
 }  // namespace talus::law

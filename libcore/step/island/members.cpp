@@ -51,10 +51,11 @@ void see_size(const Scene& scene, const State& state, const PairSearch& search,
 // What a contact gives must not grow with what lies above it, with the step, or with small blocks:
 // a tower of springs leans by the sum of what they give, and buckles. So a contact at rest is as
 // stiff as its load of the last step asks for an overlap of `sag`, whatever that takes. Contacts
-// that slip, open or bear little stay soft, and all of a large island of which a block moves: stiff
-// ones that close press a small block with forces far beyond its weight, and take many passes. A
-// small block may bear a large one: its contacts are as stiff as the heaviest block that it touches
-// asks for before they know what they bear.
+// that slip, open or bear little stay soft, and all of a large island of which a block moves or has
+// left its place: stiff ones that close press a small block with forces far beyond its weight, and
+// take many passes; and a mass that has come to rest would be thrown up by the overlap that is
+// pressed out when it stiffens. A small block may bear a large one: its contacts are as stiff as
+// the heaviest block that it touches asks for before they know what they bear.
 void choose_stiffness(const Scene& scene, const State& state, const PairSearch& search,
                       std::span<const int> manifolds, int eased, IslandMembers& members) {
   members.bearing.clear();
@@ -72,7 +73,15 @@ void choose_stiffness(const Scene& scene, const State& state, const PairSearch& 
   const auto moves = [&](int b) {
     return state.motion[static_cast<size_t>(b)].velocity.norm() > slow * g * dt;
   };
-  const bool any_moves = std::any_of(members.blocks.begin(), members.blocks.end(), moves);
+  const auto has_left = [&](int b) {
+    const auto i = static_cast<size_t>(b);
+    const double path = (state.motion[i].pose.position - scene.blocks.rest[i].position).norm();
+    return path > law::rests_within * scene.blocks.shapes.thickness[i];
+  };
+  const auto is_any = [&](const auto& so) {
+    return std::any_of(members.blocks.begin(), members.blocks.end(), so);
+  };
+  const bool any_moves = is_any(moves) || (!members.is_small && is_any(has_left));
   const bool is_soft = eased > (any_moves ? 0 : 1) || (any_moves && !members.is_small);
   const double stiffest = stiffest_by_load / std::pow(law::easing, eased);
   members.is_soft = is_soft;

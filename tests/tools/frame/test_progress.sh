@@ -21,7 +21,7 @@ expect 2 frame-probe in.txt -o a.txt --progress=loud
 frame-probe in.txt -o b.txt --mode wait --progress=json --label run_7 2>lines &
 process=$!
 n=0
-until [ "$(wc -l <lines)" -ge 4 ]; do
+until [ "$(grep -c eta_s lines)" -ge 3 ]; do
   n=$((n + 1))
   [ $n -lt 600 ] || fail "no progress is told while the tool works"
   sleep 0.05
@@ -36,6 +36,12 @@ assert shares[0] == 0 and shares == sorted(shares) and shares[-1] > 0, shares
 assert all(line["label"] == "run_7" for line in lines)
 assert "eta_s" not in lines[0] and all(isinstance(line.get("eta_s", 0), int) for line in lines)
 assert any("eta_s" in line for line in lines) or shares[-1] <= 0.02
+# the rest takes as long a share as what is done: the time so far, of which eta_s speaks, only grows
+told = [(line["progress"], line["eta_s"]) for line in lines if "eta_s" in line]
+assert all(eta > 0 for share, eta in told), told
+for (share, eta), (next_share, next_eta) in zip(told, told[1:]):
+    rounding = next_share / (1 - next_share)  # eta_s is in whole seconds
+    assert next_eta * rounding >= eta * share / (1 - share) - rounding, told
 END
 : >lines
 frame-probe in.txt -o b.txt --mode wait --progress=plain 2>lines &

@@ -78,4 +78,28 @@ TEST(Step, BlockThatIsShakenByMicrometresFallsAsleep) {
   EXPECT_NEAR(moving.ledger.contact, 2 * scene.blocks.mass[0], 1e-9 * scene.blocks.mass[0]);
 }
 
+// A heap of bricks that falls on its foot: more blocks than are factored. Once it lies it lies
+// still, and falls asleep.
+TEST(StepIsland, MassThatCameToRestFallsAsleep) {
+  std::vector<Body> bricks;
+  for (int row = 0; row < 6; ++row)
+    for (int k = 0; k < 6 - row; ++k) {
+      const double x = k + 0.5 * row + 0.003 * ((7 * k + 3 * row) % 5),
+                   z = 0.3 + 0.52 * row + 0.004 * ((5 * k + row) % 4);
+      bricks.push_back(body_of(box(Vec3(x, -0.5, z), Vec3(x + 0.97, 0.5, z + 0.5))));
+    }
+  const Scene scene = scene_of(plane_trn(slope_frame(0, 0), 0.5, 20), ground_of(30), bricks, {});
+  State state = start(scene);
+  Work work = make_work(scene);
+  double fastest = 0;  // from 3 s on
+  while (state.time < 6) {
+    step(scene, state, work);
+    if (state.time < 3) continue;
+    for (const Motion& motion : state.motion) fastest = std::max(fastest, motion.velocity.norm());
+  }
+  const auto n_asleep = std::count(state.phase.begin(), state.phase.end(), Phase::asleep);
+  EXPECT_EQ(n_asleep, std::ssize(state.phase));
+  EXPECT_LT(fastest, 1e-3);
+}
+
 }  // namespace
