@@ -65,7 +65,8 @@ cor = 0.3
 
 [solver]
 duration_s = 60
-# friction_scatter_deg = 2    # lets runs of other seeds differ (make RUNS=10)
+start_jitter_m_s = 1e-4       # speed at the start, drawn: runs of other seeds differ (make RUNS=10)
+# friction_scatter_deg = 2    # so does friction that is drawn for each run
 
 END
   if [ -n "$layers" ]; then

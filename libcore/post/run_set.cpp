@@ -84,9 +84,25 @@ auto sum_of(const std::vector<RunMember>& runs, Field field) {
 
 }  // namespace
 
+namespace {
+
+// Of the energies at the end: runs that differ in anything do not agree in all of them.
+std::string outcome_of(const RunFile& run) {
+  if (run.health.empty()) return "";
+  const HealthRow& end = run.health.back();
+  Sha256 hash;
+  hash.add(run.info.blocks_hash.c_str(), run.info.blocks_hash.size() + 1);
+  for (const double value : {end.time, end.translation, end.rotation, end.potential, end.friction,
+                             end.impact, end.contact, end.fence})
+    hash.add(&value, sizeof value);
+  return hash.hex();
+}
+
+}  // namespace
+
 RunMember member_of(const std::string& file, const RunFile& run) {
-  RunMember member{file, run.info, run.grid, n_blocks(run), 0, 0, 0, 0, 0,
-                   0,    0,        "",       run.run_weight};
+  RunMember member{file, run.info, run.grid, n_blocks(run),  0, 0, 0, 0, 0,
+                   0,    0,        "",       run.run_weight, ""};
   for (std::string* words : {&member.info.config, &member.info.plan}) std::string().swap(*words);
   for (int block = 0; block < member.n_blocks; ++block) member.weight += weight_of(run, block);
   for (const HealthRow& row : run.health) {
@@ -96,6 +112,7 @@ RunMember member_of(const std::string& file, const RunFile& run) {
     member.fell_through = row.fell_through;
     member.not_finite = row.not_finite;
   }
+  member.outcome = outcome_of(run);
   return member;
 }
 
@@ -214,16 +231,61 @@ std::vector<int> order_by_id(const std::vector<RunMember>& runs) {
   return order;
 }
 
-std::vector<int> units_of(const std::vector<RunMember>& runs) {
+namespace {
+
+// A number from 0 for each run, equal where the keys are; `n`: how many there are.
+std::vector<int> numbered(const std::vector<std::string>& keys, std::size_t& n) {
   std::map<std::string, int> known;
-  std::vector<int> unit;
-  for (const RunMember& run : runs) {
-    if (run.info.terrain_digest.empty()) return {};
-    unit.push_back(
-        known.try_emplace(run.info.blocks_hash, static_cast<int>(known.size())).first->second);
+  std::vector<int> number;
+  for (const std::string& key : keys)
+    number.push_back(known.try_emplace(key, static_cast<int>(known.size())).first->second);
+  n = known.size();
+  return number;
+}
+
+// Equal for runs that are the same: what comes out of them is, and the seed of one draws nothing. A
+// mass that stands comes out the same whatever is drawn; its runs are trials all the same.
+std::vector<std::string> sameness(const std::vector<RunMember>& runs) {
+  std::set<std::string> undrawn;
+  for (const RunMember& run : runs)
+    if (run.info.warnings.find(seed_draws_nothing) != std::string::npos)
+      undrawn.insert(run.outcome);
+  std::vector<std::string> keys;
+  for (const RunMember& run : runs)
+    keys.push_back(!run.outcome.empty() && undrawn.contains(run.outcome)
+                       ? run.outcome
+                       : "run " + std::to_string(keys.size()));
+  return keys;
+}
+
+}  // namespace
+
+std::vector<int> units_of(const std::vector<RunMember>& runs) {
+  std::size_t n = 0;
+  std::vector<std::string> masses;
+  for (const RunMember& run : runs)
+    if (!run.info.terrain_digest.empty()) masses.push_back(run.info.blocks_hash);
+  if (masses.size() == runs.size()) {
+    std::vector<int> unit = numbered(masses, n);
+    if (n > 1 && n < runs.size()) return unit;
   }
-  if (known.size() < 2 || known.size() == runs.size()) return {};
+  std::vector<int> unit = numbered(sameness(runs), n);
+  if (n == runs.size()) unit.clear();
   return unit;
+}
+
+int n_repeats(const std::vector<RunMember>& runs) {
+  std::size_t n = 0;
+  numbered(sameness(runs), n);
+  return static_cast<int>(runs.size() - n);
+}
+
+std::string repeats_text(const std::vector<RunMember>& runs) {
+  const int n = n_repeats(runs);
+  if (n == 0) return "";
+  return std::to_string(n) + " of " + std::to_string(runs.size()) +
+         (n == 1 ? " runs repeats another one: its seed draws nothing"
+                 : " runs repeat another one: their seeds draw nothing");
 }
 
 std::vector<std::string> names_of(const std::vector<RunMember>& runs) {
@@ -316,6 +378,7 @@ std::vector<std::pair<std::string, std::string>> tags_of(const std::vector<RunMe
   if (const std::vector<CaseWeight> cases = case_shares(runs); cases.size() > 1)
     tags.emplace_back("CASES", text(cases));
   if (!left_out.empty()) tags.emplace_back("N_LEFT_OUT", std::to_string(left_out.size()));
+  if (const int n = n_repeats(runs); n > 0) tags.emplace_back("N_REPEATS", std::to_string(n));
   const std::string wrong = text(faults), left_out_words = left_out_text(faults);
   const std::string health = wrong.empty() ? "all runs finished within their limits" : wrong;
   tags.emplace_back("HEALTH",

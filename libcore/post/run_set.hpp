@@ -27,6 +27,7 @@ struct RunMember {
   std::int64_t fell_through = 0, not_finite = 0;  ///< steps
   std::string part;                               ///< file of the part that it stands in; "": none
   double run_weight = 1;  ///< how much it counts among the others, 1 on average [-]
+  std::string outcome;    ///< digest of its energies at the end; "": it has none
 };
 /// What messages name.
 [[nodiscard]] std::string where_of(const RunMember& run);
@@ -69,8 +70,9 @@ void check_member(const RunMember& run, const RunMember& first, const RunSetOpti
 /// Order by run id. Throws InputError naming both files when the same run is given twice.
 [[nodiscard]] std::vector<int> order_by_id(const std::vector<RunMember>& runs);
 
-/// Which runs count as one, for they move the same one of several rock masses: a number from 0 for
-/// each run. Empty where each run counts for itself, as those of one mass alone do.     (n_runs)
+/// Which runs count as one, for they move the same one of several rock masses, or are the same but
+/// for a seed that draws nothing: a number from 0 for each run. Empty where each run counts for
+/// itself, as those of one mass alone do.                                               (n_runs)
 [[nodiscard]] std::vector<int> units_of(const std::vector<RunMember>& runs);
 
 /// The file's name without folder and ending; with the folder where two of the runs share it.
@@ -108,6 +110,11 @@ struct FailedShare {
 /// The runs that were left out, the first few of them; "" when none were.
 [[nodiscard]] std::string left_out_text(const RunFaults& faults);
 
+/// How many runs are the same as another one but for a seed that draws nothing.
+[[nodiscard]] int n_repeats(const std::vector<RunMember>& runs);
+/// "2 of 3 runs repeat another one: their seeds draw nothing"; "" where none does.
+[[nodiscard]] std::string repeats_text(const std::vector<RunMember>& runs);
+
 /// Digest of the runs' ids in whatever order (16 digits): equal for evaluations of the same runs.
 [[nodiscard]] std::string run_set_id(std::vector<std::string> run_ids);
 
@@ -115,7 +122,7 @@ struct FailedShare {
 [[nodiscard]] std::vector<std::string> warnings_of(const std::vector<RunMember>& runs);
 
 /// Tags N_RUNS, N_FAILED, N_UNFINISHED, DENOMINATOR, VERSION, SITE, HEALTH, HEALTH_* and, where
-/// there are any, N_LEFT_OUT and WARNINGS; the same in whatever order the runs come.
+/// there are any, N_LEFT_OUT, N_REPEATS and WARNINGS; the same in whatever order the runs come.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> tags_of(
     const std::vector<RunMember>& runs, const std::vector<RunMember>& left_out = {});
 

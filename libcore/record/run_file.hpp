@@ -93,6 +93,9 @@ struct HealthRow {
   double removed = 0;                                                 ///< since the start [J]
 };
 
+/// How the warning of a run begins that is the same with any seed.
+inline constexpr const char* seed_draws_nothing = "the seed draws nothing";
+
 /// A panel of a fence that stood, as it was at the end.
 struct PanelRow {
   std::int32_t line = 0, panel = 0;  ///< panel: number in its line, from 0

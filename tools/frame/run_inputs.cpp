@@ -325,6 +325,12 @@ std::string RunInputs::remark() const {
       add(short_words);
     }
   }
+  if (const std::string repeats = repeats_text(members); !repeats.empty()) {
+    short_words += (short_words.empty() ? "" : "; ") + repeats;
+    tool_.warn(repeats +
+               "; they count as one in every interval. Give [solver] start_jitter_m_s (1e-4 does), "
+               "or another scatter, so that seeds differ");
+  }
   if (pools_unasked()) {
     const std::string pooled = "runs of " + std::to_string(cases_.size()) +
                                " cases pooled, each run alike: no probability";

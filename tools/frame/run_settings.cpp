@@ -105,9 +105,9 @@ std::vector<std::string> warn_of_settings(Tool& tool, const Site& site) {
       std::none_of(site.forests.begin(), site.forests.end(), [](const ForestSettings& forest) {
         return forest.active && forest.new_stand_per_run;
       })) {
-    warnings.push_back(
-        "the seed draws nothing: start_jitter_m_s, friction_scatter_deg, cor_scatter and "
-        "rolling_scatter are 0, so other seeds give the same run");
+    warnings.push_back(std::string(seed_draws_nothing) +
+                       ": start_jitter_m_s, friction_scatter_deg, cor_scatter and "
+                       "rolling_scatter are 0, so other seeds give the same run");
     tool.warn(warnings.back());
   }
   for (const UnusualValue& value : unusual_values(site)) {

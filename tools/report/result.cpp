@@ -162,6 +162,13 @@ std::string health_verdict(const ReportData& data) {
                                           : html_verdict("fail", texts.of("result.limit_broken"));
 }
 
+// Runs of other seeds that are one and the same.
+std::string repeats_verdict(const ReportData& data) {
+  if (data.repeats.empty()) return "";
+  return html_verdict("warn",
+                      data.texts.of("result.repeats", {{"repeats", xml_escaped(data.repeats)}}));
+}
+
 std::string standing_mass(const Texts& texts, const Json& moved) {
   if (!(number_or(value_at(moved, {"share_moved_1_m"}), 1) < least_moved)) return "";
   if (!(number_or(value_at(moved, {"displacement_max_m"}), 0) > moved_m))
@@ -207,7 +214,7 @@ std::string result_section(const ReportData& data) {
   out += "</div>\n";
   if (const std::string cases = case_table(texts, r); !cases.empty())
     out += "<h3>" + texts.of("result.by_case") + "</h3>\n" + cases;
-  out += standing_mass(texts, moved) + health_verdict(data);
+  out += standing_mass(texts, moved) + health_verdict(data) + repeats_verdict(data);
   out += left_out_verdict(texts, data.runout) + missing_verdict(texts, data.runout);
   out += fence_verdicts(data);
   return html_section("result", texts.of("result.title"), out);

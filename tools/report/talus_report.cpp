@@ -163,6 +163,7 @@ void read_runs(Tool& tool, const ResultFolder& folder, const std::vector<RunPlac
   for (const fs::path& file : files_in(folder.path("parts"), ""))
     if (data.n_in_parts > 0) tool.read_also("part", file.string());
   data.faults = faults_of(members);
+  data.repeats = repeats_text(members);
   if (const std::string words = talus::text(data.faults); !words.empty())
     tool.warn(words + ": every part of the report says so");
 }

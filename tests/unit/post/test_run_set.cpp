@@ -86,6 +86,36 @@ TEST(CheckMember, TakesFailedRunsAndRefusesInterruptedOnes) {
   EXPECT_NO_THROW(check_member(running, running, {true, "trn.tif", ""}));
 }
 
+// Seeds 2 and 3 draw nothing: three runs are one, and intervals know it. What a seed draws makes a
+// trial of its own, whatever comes out.
+TEST(RunSet, RunsThatAreTheSameButForTheirSeedCountOnce) {
+  RunFile file;
+  file.health.resize(1);
+  file.health[0].friction = 7;
+  file.info.run_id = "a";
+  const RunMember first = member_of("run_1.h5", file);
+  file.info.run_id = "b";
+  file.info.warnings = "a note\n" + std::string(seed_draws_nothing) + ": for a reason";
+  const RunMember second = member_of("run_2.h5", file);
+  file.info.run_id = "c";
+  const RunMember third = member_of("run_3.h5", file);
+  EXPECT_EQ(n_repeats({first, second, third}), 2);
+  EXPECT_EQ(units_of({first, second, third}), (std::vector<int>{0, 0, 0}));
+  EXPECT_EQ(repeats_text({first, second, third}),
+            "2 of 3 runs repeat another one: their seeds draw nothing");
+  const auto tags = tags_of({first, second, third});
+  EXPECT_TRUE(std::any_of(tags.begin(), tags.end(), [](const auto& tag) {
+    return tag == std::pair<std::string, std::string>("N_REPEATS", "2");
+  }));
+  file.health[0].friction = 8;  // e.g. of another case
+  const RunMember other = member_of("run_far_2.h5", file);
+  EXPECT_EQ(units_of({second, other, third}), (std::vector<int>{0, 1, 0}));
+  EXPECT_EQ(repeats_text({first, other}), "");
+  EXPECT_TRUE(units_of({second, other}).empty());
+  file.info.warnings = "";
+  EXPECT_EQ(n_repeats({member_of("run_1.h5", file), member_of("run_2.h5", file)}), 0);
+}
+
 // Beds of rock masses differ; what they were cut from does not.
 TEST(RunSet, RunsOfSeveralRockMassesBelongTogetherOnTheTerrainBefore) {
   RunMember first;
