@@ -12,6 +12,23 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double across = 1e-12;      // cosine: an axis across the direction of a displacement
 constexpr double same_place = 1e-12;  // [m]
 
+// No more than this are two parts in each other: what their faces say, a fraction of all axes.
+double depth_by_faces(const PartPair& parts) {
+  double depth = infinity;
+  for_each_face_normal(parts, [&](const Vec3&, double separation, FaceCover) {
+    depth = std::min(depth, -separation);
+  });
+  return depth;
+}
+
+template <class Visit>
+void for_each_pair(const Hulls& hulls, const PlacedHulls& placed, int body_a, int body_b,
+                   Visit&& visit) {
+  for (int a = hulls.part_begin[body_a]; a < hulls.part_begin[body_a + 1]; ++a)
+    for (int b = hulls.part_begin[body_b]; b < hulls.part_begin[body_b + 1]; ++b)
+      visit(PartPair{hulls, placed, a, b});
+}
+
 void add_ways(const PartPair& parts, BodyOverlapScratch& scratch) {
   scratch.begin.push_back(static_cast<int>(scratch.ways.size()));
   for_each_face_normal(parts, [&](const Vec3& normal, double separation, FaceCover) {
@@ -64,12 +81,19 @@ double path_along(const BodyOverlapScratch& scratch, const Vec3& direction, doub
 }  // namespace
 
 double body_overlap(const Hulls& hulls, const PlacedHulls& placed, int body_a, int body_b,
-                    BodyOverlapScratch& scratch) {
+                    double ignored, BodyOverlapScratch& scratch) {
   scratch.ways.clear();
   scratch.begin.clear();
-  for (int a = hulls.part_begin[body_a]; a < hulls.part_begin[body_a + 1]; ++a)
-    for (int b = hulls.part_begin[body_b]; b < hulls.part_begin[body_b + 1]; ++b)
-      add_ways({hulls, placed, a, b}, scratch);
+  int n_pairs = 0;
+  double deepest = 0;
+  for_each_pair(hulls, placed, body_a, body_b, [&](const PartPair& parts) {
+    ++n_pairs;
+    deepest = std::max(deepest, depth_by_faces(parts));
+  });
+  // out of one of several parts may be into the next: what faces say then bounds nothing
+  if (deepest <= (n_pairs == 1 ? ignored : 0)) return 0;
+  for_each_pair(hulls, placed, body_a, body_b,
+                [&](const PartPair& parts) { add_ways(parts, scratch); });
   scratch.begin.push_back(static_cast<int>(scratch.ways.size()));
   double least = infinity;
   for (std::size_t pair = 0; pair + 1 < scratch.begin.size(); ++pair) {

@@ -25,8 +25,9 @@ struct BodyOverlapScratch {
 
 /// The least displacement of A, along a normal of a face or of two edges of a pair of parts that
 /// overlap, that takes it out of all parts of B [m]. Out of one part may be into the next: such a
-/// displacement goes on until all are left. 0: the bodies do not overlap.
+/// displacement goes on until all are left. 0: the bodies do not overlap. An overlap of up to
+/// `ignored` [m] may come out as 0, which is found sooner.
 [[nodiscard]] double body_overlap(const Hulls& hulls, const PlacedHulls& placed, int body_a,
-                                  int body_b, BodyOverlapScratch& scratch);
+                                  int body_b, double ignored, BodyOverlapScratch& scratch);
 
 }  // namespace talus

@@ -64,7 +64,8 @@ int thinner_of(const Scene& scene, int a, int b) {
   return thickness[b] < thickness[a] ? b : a;
 }
 
-void measure_pairs(const Scene& scene, const State& state, DeepWork& w) {
+// Overlaps that are neither deep nor more than `largest` [m] may be left out.
+void measure_pairs(const Scene& scene, const State& state, double largest, DeepWork& w) {
   w.overlap_depth.assign(w.is_suspect.size(), 0);
   w.overlap_partner.assign(w.is_suspect.size(), ground_name);
   int last_a = -1, last_b = -1;
@@ -76,7 +77,9 @@ void measure_pairs(const Scene& scene, const State& state, DeepWork& w) {
     if (a == last_a && b == last_b) return;  // another pair of parts of the same bodies
     last_a = a;
     last_b = b;
-    const double depth = body_overlap(scene.blocks.hulls, w.placed, a, b, w.overlaps);
+    const double deep = law::deep_share * scene.blocks.shapes.thickness[i];
+    const double ignored = std::max(w.overlap_depth[i], std::min(largest, deep));
+    const double depth = body_overlap(scene.blocks.hulls, w.placed, a, b, ignored, w.overlaps);
     if (depth <= w.overlap_depth[i]) return;
     w.overlap_depth[i] = depth;
     w.overlap_partner[i] = name_of_body(scene, thin == a ? b : a);
@@ -116,7 +119,7 @@ bool is_too_fast(const Scene& scene, const State& state, size_t b) {
 int partner_of(const Scene& scene, const State& state, int b, DeepWork& w) {
   w.is_suspect[static_cast<size_t>(b)] = 1;
   place_suspects(scene, state, w);
-  measure_pairs(scene, state, w);
+  measure_pairs(scene, state, 0, w);
   w.is_suspect[static_cast<size_t>(b)] = 0;
   return overlap_of(scene, b, w).partner;
 }
@@ -153,7 +156,7 @@ void note_deep_blocks(const Scene& scene, State& state, DeepWork& w, StepReport&
   const bool any = std::find(w.is_suspect.begin(), w.is_suspect.end(), 1) != w.is_suspect.end();
   if (any) {
     place_suspects(scene, state, w);
-    measure_pairs(scene, state, w);
+    measure_pairs(scene, state, report.largest_penetration, w);
   }
   for (size_t b = 0; b < state.deep.size(); ++b) {
     DeepBlock& deep = state.deep[b];

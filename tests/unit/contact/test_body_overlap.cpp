@@ -15,7 +15,7 @@ TEST(BodyOverlap, IsTheLeastPathOutOfAllParts) {
     const Pressed pair = press_together(random, uniform(random, 0, 0.6));
     const std::vector<WaysOut> ways = ways_out_of_bodies(pair.bodies, 0, 1);
     const double least = least_path(ways).length;
-    const double found = body_overlap(pair.bodies.hulls, pair.bodies.placed, 0, 1, scratch);
+    const double found = body_overlap(pair.bodies.hulls, pair.bodies.placed, 0, 1, 0, scratch);
     EXPECT_NEAR(found, least, 1e-9) << "trial " << trial;
     double deepest = 0;  // of the parts alone
     for (const WaysOut& way : ways)
@@ -32,6 +32,37 @@ TEST(BodyOverlap, OfBodiesApartIsNone) {
     Pressed pair = press_together(random, 0);
     pair.bodies.poses[0].position += 10 * Vec3::UnitX();
     place(pair.bodies);
-    EXPECT_EQ(body_overlap(pair.bodies.hulls, pair.bodies.placed, 0, 1, scratch), 0);
+    EXPECT_EQ(body_overlap(pair.bodies.hulls, pair.bodies.placed, 0, 1, 0, scratch), 0);
   }
+}
+
+// Convex bodies, and bodies of several parts, each second.
+TEST(BodyOverlap, WhatIsIgnoredIsAtMostThatDeep) {
+  Random random(9);
+  BodyOverlapScratch scratch;
+  int n_left_out = 0, n_found = 0;
+  for (int trial = 0; trial < 400; ++trial) {
+    Bodies bodies;
+    if (trial % 2 == 0) {
+      for (int i = 0; i < 2; ++i)
+        add(bodies, {convex_body(random, Vec3(0.5, 0.7, 0.9), 2)},
+            {uniform(random, 0.3, 0.6) * i * direction(random), attitude(random)});
+      place(bodies);
+    } else {
+      bodies = press_together(random, uniform(random, 0, 0.6)).bodies;
+    }
+    const auto overlap = [&](double ignored) {
+      return body_overlap(bodies.hulls, bodies.placed, 0, 1, ignored, scratch);
+    };
+    const double all = overlap(0), ignored = uniform(random, 0, 1.2) * all;
+    const double found = overlap(ignored);
+    if (all > ignored) {
+      EXPECT_EQ(found, all) << "trial " << trial;
+    }
+    EXPECT_TRUE(found == all || found == 0) << "trial " << trial;
+    n_left_out += all > 0 && found == 0;
+    n_found += all > 0 && found == all;
+  }
+  EXPECT_GT(n_left_out, 10);
+  EXPECT_GT(n_found, 100);
 }
