@@ -15,7 +15,8 @@ namespace talus::test {
 // A convex body cut into parts by random planes, one after the other through a random part; of some
 // bodies a part is left out, so that they are not convex.
 inline std::vector<Polyhedron> parts_of_a_body(Random& random) {
-  const Vec3 half(uniform(random, 0.4, 1), uniform(random, 0.4, 1), uniform(random, 0.4, 1));
+  Vec3 half;
+  for (const int axis : {2, 1, 0}) half[axis] = uniform(random, 0.4, 1);
   std::vector<Polyhedron> parts = {convex_body(random, half, static_cast<int>(random() % 3))};
   const std::size_t n = 2 + random() % 3;
   for (int trial = 0; parts.size() < n && trial < 20; ++trial) {
