@@ -39,10 +39,12 @@ void add_ways(const PartPair& parts, BodyOverlapScratch& scratch) {
   });
 }
 
-bool overlap(const BodyOverlapScratch& scratch, std::size_t pair) {
+// The least displacement that takes the parts of a pair apart; 0 or less: they are.
+double least_depth(const BodyOverlapScratch& scratch, std::size_t pair) {
+  double least = infinity;
   for (int k = scratch.begin[pair]; k < scratch.begin[pair + 1]; ++k)
-    if (scratch.ways[k].depth <= 0) return false;
-  return true;
+    least = std::min(least, scratch.ways[k].depth);
+  return least;
 }
 
 // From where to where along a direction the parts of a pair overlap.
@@ -62,8 +64,13 @@ void range_along(const BodyOverlapScratch& scratch, std::size_t pair, const Vec3
   }
 }
 
-// How far A moves along a direction until it is out of all of B; `enough` is as good as more.
-double path_along(const BodyOverlapScratch& scratch, const Vec3& direction, double enough) {
+// How far A moves along a direction until it is out of all of B; `enough` is as good as more. The
+// parts of pair `first` overlap: those it has to leave at least.
+double path_along(const BodyOverlapScratch& scratch, std::size_t first, const Vec3& direction,
+                  double enough) {
+  double begin_of_first = 0, end_of_first = 0;
+  range_along(scratch, first, direction, begin_of_first, end_of_first);
+  if (end_of_first >= enough) return end_of_first;
   double at = 0;
   for (bool moved = true; moved && at < enough;) {
     moved = false;
@@ -76,6 +83,18 @@ double path_along(const BodyOverlapScratch& scratch, const Vec3& direction, doub
     }
   }
   return at;
+}
+
+// Of the paths along the ways out of pairs that overlap those shorter than `least`. A path may be
+// shorter than its way's depth, as it leaves through other faces; `all`: those ways count too.
+double shorter_path(const BodyOverlapScratch& scratch, bool all, double least) {
+  for (std::size_t pair = 0; pair + 1 < scratch.begin.size(); ++pair) {
+    if (least_depth(scratch, pair) <= 0) continue;
+    for (int k = scratch.begin[pair]; k < scratch.begin[pair + 1]; ++k)
+      if (all || scratch.ways[k].depth < least)
+        least = std::min(least, path_along(scratch, pair, scratch.ways[k].axis, least));
+  }
+  return least;
 }
 
 }  // namespace
@@ -95,14 +114,14 @@ double body_overlap(const Hulls& hulls, const PlacedHulls& placed, int body_a, i
   for_each_pair(hulls, placed, body_a, body_b,
                 [&](const PartPair& parts) { add_ways(parts, scratch); });
   scratch.begin.push_back(static_cast<int>(scratch.ways.size()));
-  double least = infinity;
-  for (std::size_t pair = 0; pair + 1 < scratch.begin.size(); ++pair) {
-    if (!overlap(scratch, pair)) continue;
-    for (int k = scratch.begin[pair]; k < scratch.begin[pair + 1]; ++k)
-      if (scratch.ways[k].depth < least)
-        least = std::min(least, path_along(scratch, scratch.ways[k].axis, least));
-  }
-  return least < infinity ? least : 0;
+  double bound = 0;  // no path is shorter: it leaves each pair
+  for (std::size_t pair = 0; pair + 1 < scratch.begin.size(); ++pair)
+    bound = std::max(bound, least_depth(scratch, pair));
+  if (bound <= same_place) return 0;
+  const double least = shorter_path(scratch, false, infinity);
+  if (least <= bound + same_place) return least;
+  const double other = shorter_path(scratch, true, least);
+  return other < least - same_place ? other : least;
 }
 
 }  // namespace talus

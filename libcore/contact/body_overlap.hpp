@@ -23,10 +23,10 @@ struct BodyOverlapScratch {
   std::vector<int> begin;    ///< of each pair's ways
 };
 
-/// The least displacement of A, along a normal of a face or of two edges of a pair of parts that
-/// overlap, that takes it out of all parts of B [m]. Out of one part may be into the next: such a
-/// displacement goes on until all are left. 0: the bodies do not overlap. An overlap of up to
-/// `ignored` [m] may come out as 0, which is found sooner.
+/// The least displacement of A that takes it out of all parts of B [m], of those along a normal of
+/// a face, or of two edges whose Gauss arcs cross, of a pair of parts that overlap. Out of one part
+/// may be into the next: such a displacement goes on until all are left. 0: the bodies do not
+/// overlap. An overlap of up to `ignored` [m] may come out as 0, which is found sooner.
 [[nodiscard]] double body_overlap(const Hulls& hulls, const PlacedHulls& placed, int body_a,
                                   int body_b, double ignored, BodyOverlapScratch& scratch);
 

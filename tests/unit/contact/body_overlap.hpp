@@ -3,7 +3,9 @@
 // asked. Out of one part may be into the next, so paths count only where they leave all of them.
 #pragma once
 
+#include <algorithm>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "convex_bodies.hpp"
@@ -12,19 +14,48 @@ namespace talus::test {
 
 /// A part of A is out of a part of B once A has moved by x with u . x >= h for one of these.
 struct WaysOut {
-  std::vector<Vec3> u;    ///< unit
-  std::vector<double> h;  ///< [m]
+  std::vector<Vec3> u;        ///< unit
+  std::vector<double> h;      ///< [m]
+  std::vector<bool> is_face;  ///< of the surface that bounds all x at which the parts overlap
 };
+
+/// Do parts meet in more than a line along `u`, which leads out of B? Their corners farthest that
+/// way, within 1e-12 m, then span a plane.
+inline bool meet_in_face(const Hulls& hulls, const PlacedHulls& placed, int a, int b, const Vec3& u,
+                         double h) {
+  std::vector<Vec3> list;
+  double low_a = std::numeric_limits<double>::infinity();
+  for (int v = hulls.vertex_begin[a]; v < hulls.vertex_begin[a + 1]; ++v)
+    low_a = std::min(low_a, u.dot(placed.vertices[v]));
+  for (const auto& [part, level] : {std::pair{a, low_a}, std::pair{b, low_a + h}}) {
+    const Vec3* first = nullptr;
+    for (int v = hulls.vertex_begin[part]; v < hulls.vertex_begin[part + 1]; ++v) {
+      const Vec3& x = placed.vertices[v];
+      if (std::abs(u.dot(x) - level) > 1e-12) continue;
+      if (first != nullptr) list.push_back(x - *first);
+      if (first == nullptr) first = &x;
+    }
+    if (first == nullptr) return false;
+  }
+  for (const Vec3& one : list)
+    for (const Vec3& two : list)
+      if (one.cross(two).norm() > 1e-9) return true;
+  return false;
+}
 
 /// Faces, and all products of edges both ways round.
 inline WaysOut ways_out(const Hulls& hulls, const PlacedHulls& placed, int a, int b) {
   WaysOut ways;
-  const auto add_way = [&](const Vec3& n) {
+  const auto add_way = [&](const Vec3& n, bool is_face) {
+    const double h = -separation_along(hulls, placed, a, b, n);
     ways.u.push_back(n);
-    ways.h.push_back(-separation_along(hulls, placed, a, b, n));
+    ways.h.push_back(h);
+    ways.is_face.push_back(is_face || meet_in_face(hulls, placed, a, b, n, h));
   };
-  for (int f = 0; f < hulls.n_faces[a]; ++f) add_way(-normal_at(placed, hulls.face_begin[a] + f));
-  for (int f = 0; f < hulls.n_faces[b]; ++f) add_way(normal_at(placed, hulls.face_begin[b] + f));
+  for (int f = 0; f < hulls.n_faces[a]; ++f)
+    add_way(-normal_at(placed, hulls.face_begin[a] + f), true);
+  for (int f = 0; f < hulls.n_faces[b]; ++f)
+    add_way(normal_at(placed, hulls.face_begin[b] + f), true);
   const auto directions = [&](int p) {
     std::vector<Vec3> list;
     for (int e = hulls.edge_begin[p]; e < hulls.edge_begin[p + 1]; ++e) {
@@ -41,8 +72,8 @@ inline WaysOut ways_out(const Hulls& hulls, const PlacedHulls& placed, int a, in
     for (const Vec3& v : directions(b)) {
       const Vec3 n = u.cross(v);
       if (n.norm() < 1e-9) continue;
-      add_way(n.normalized());
-      add_way(-n.normalized());
+      add_way(n.normalized(), false);
+      add_way(-n.normalized(), false);
     }
   return ways;
 }
@@ -81,27 +112,18 @@ inline double path_along(const std::vector<WaysOut>& pairs, const Vec3& directio
   return at;
 }
 
-/// The least path out, and where it leads.
-struct LeastPath {
-  double length = 0;  ///< 0: they do not overlap [m]
-  Vec3 direction = Vec3::Zero();
-};
-
-/// Of the paths along the axes of parts that overlap.
-inline LeastPath least_path(const std::vector<WaysOut>& pairs) {
-  LeastPath least;
-  least.length = std::numeric_limits<double>::infinity();
+/// The least path out of those along the axes of parts that overlap; 0: none do. Any axis may lead
+/// it: a path may leave through another face, before its own axis' depth.
+inline double least_path(const std::vector<WaysOut>& pairs) {
+  double least = std::numeric_limits<double>::infinity();
   bool overlap = false;
   for (const WaysOut& ways : pairs) {
     if (*std::min_element(ways.h.begin(), ways.h.end()) <= 0) continue;
     overlap = true;
-    for (std::size_t k = 0; k < ways.u.size(); ++k) {
-      if (ways.h[k] >= least.length) continue;
-      const double length = path_along(pairs, ways.u[k]);
-      if (length < least.length) least = {length, ways.u[k]};
-    }
+    for (std::size_t k = 0; k < ways.u.size(); ++k)
+      if (ways.is_face[k]) least = std::min(least, path_along(pairs, ways.u[k]));
   }
-  return overlap ? least : LeastPath{};
+  return overlap ? least : 0;
 }
 
 }  // namespace talus::test

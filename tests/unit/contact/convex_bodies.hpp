@@ -18,14 +18,17 @@ inline double uniform(Random& random, double low, double high) {
   return std::uniform_real_distribution<double>(low, high)(random);
 }
 
+// Drawn one by one: the order in which a call's arguments are drawn would be the compiler's.
 inline Vec3 direction(Random& random) {
   std::normal_distribution<double> normal;
-  return Vec3(normal(random), normal(random), normal(random)).normalized();
+  const double z = normal(random), y = normal(random), x = normal(random);
+  return Vec3(x, y, z).normalized();
 }
 
 inline Quat attitude(Random& random) {
   std::normal_distribution<double> normal;
-  return Quat(normal(random), normal(random), normal(random), normal(random)).normalized();
+  const double z = normal(random), y = normal(random), x = normal(random), w = normal(random);
+  return Quat(w, x, y, z).normalized();
 }
 
 /// A box of the given half sides with some of it cut off by random planes.

@@ -67,8 +67,8 @@ Motion thrown_over_bumps(double least_height, Random& random) {
   Motion m;
   const double x = random.uniform(-40, 40), y = random.uniform(-40, 40);
   m.pose.position = {x, y, bumps(x, y) + least_height + 3 * std::pow(random.uniform(0, 1), 3)};
-  m.pose.attitude = Quat(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1),
-                         random.uniform(-1, 1))
+  m.pose.attitude = Quat{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1),
+                         random.uniform(-1, 1)}
                         .normalized();
   m.velocity = {random.uniform(-15, 15), random.uniform(-15, 15), random.uniform(-5, 5)};
   return m;
@@ -85,7 +85,8 @@ double deepest(const Scene& scene, const Pose& pose) {
   return gap;
 }
 
-// The vertices tell more than the ball, the more the less the block spins.
+// The vertices tell more than the ball, the more the less the block spins. Long flights are rare
+// and weigh most: of 400, the sum scatters by 3 %. Braces: compilers draw in the same order.
 TEST(FreeTime, NoPartOfABlockIsBelowTheGroundBeforeIt) {
   const Scene scene = scene_of(make_trn(bumps, 1, 60), {},
                                {body_of(box(Vec3(-0.5, -0.4, -0.2), Vec3(0.5, 0.4, 0.2)))}, {});
@@ -94,9 +95,9 @@ TEST(FreeTime, NoPartOfABlockIsBelowTheGroundBeforeIt) {
   Random random(6, "free time of a block");
   for (const double fastest : {0.0, 1.0, 10.0}) {
     double sum = 0, sum_of_ball = 0;
-    for (int trial = 0; trial < 400; ++trial) {
+    for (int trial = 0; trial < 10000; ++trial) {
       Motion m = thrown_over_bumps(0.2, random);
-      const Vec3 spin(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+      const Vec3 spin{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
       m.angular_momentum = angular_momentum(m.pose.attitude, fastest * spin, inertia);
       if (deepest(scene, m.pose) < 0) continue;
       const double T = free_time(
