@@ -126,12 +126,12 @@ TEST(Manifold, PointsLieOnBothSurfaces) {
   for (int k = 0; k < 3000; ++k) {
     Bodies bodies;
     const bool needle = k % 5 == 0;
-    for (int i = 0; i < 2; ++i)
-      add(bodies,
-          convex_body(random,
-                      needle && i == 0 ? Vec3(2, 0.01, 0.01) : Vec3(1, uniform(random, 0.2, 1), 1),
-                      k % 7),
-          {direction(random), attitude(random)});
+    for (int i = 0; i < 2; ++i) {
+      const Pose pose{direction(random), attitude(random)};
+      const Vec3 half =
+          needle && i == 0 ? Vec3(2, 0.01, 0.01) : Vec3(1, uniform(random, 0.2, 1), 1);
+      add(bodies, convex_body(random, half, k % 7), pose);
+    }
     place(bodies);
     const double depth = 1e-5;
     press(bodies, 0, 1, -direction(random), 0);
