@@ -82,11 +82,7 @@ auto sum_of(const std::vector<RunMember>& runs, Field field) {
   return total;
 }
 
-}  // namespace
-
-namespace {
-
-// Of the energies at the end: runs that differ in anything do not agree in all of them.
+// Of blocks and energies at the end: runs that move in different ways do not agree in all of them.
 std::string outcome_of(const RunFile& run) {
   if (run.health.empty()) return "";
   const HealthRow& end = run.health.back();
