@@ -82,16 +82,19 @@ auto sum_of(const std::vector<RunMember>& runs, Field field) {
   return total;
 }
 
-// Of blocks and energies at the end: runs that move in different ways do not agree in all of them.
+// Of blocks and overlaps, which every tool reads (RunParts::only_faults): runs that move in
+// different ways do not agree in all of them. "": nothing was pressed, or health was not read.
 std::string outcome_of(const RunFile& run) {
-  if (run.health.empty()) return "";
-  const HealthRow& end = run.health.back();
   Sha256 hash;
   hash.add(run.info.blocks_hash.c_str(), run.info.blocks_hash.size() + 1);
-  for (const double value : {end.time, end.translation, end.rotation, end.potential, end.friction,
-                             end.impact, end.contact, end.fence})
-    hash.add(&value, sizeof value);
-  return hash.hex();
+  bool any = false;
+  for (const HealthRow& row : run.health) {
+    any |= row.largest_penetration > 0;
+    hash.add(&row.largest_penetration, sizeof row.largest_penetration);
+    hash.add(&row.unconverged, sizeof row.unconverged);
+    hash.add(&row.left_domain, sizeof row.left_domain);
+  }
+  return any ? hash.hex() : "";
 }
 
 }  // namespace

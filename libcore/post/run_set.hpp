@@ -27,7 +27,7 @@ struct RunMember {
   std::int64_t fell_through = 0, not_finite = 0;  ///< steps
   std::string part;                               ///< file of the part that it stands in; "": none
   double run_weight = 1;  ///< how much it counts among the others, 1 on average [-]
-  std::string outcome;    ///< digest of its energies at the end; "": it has none
+  std::string outcome;    ///< digest of its overlaps in time; "": none
 };
 /// What messages name.
 [[nodiscard]] std::string where_of(const RunMember& run);

@@ -91,7 +91,8 @@ TEST(CheckMember, TakesFailedRunsAndRefusesInterruptedOnes) {
 TEST(RunSet, RunsThatAreTheSameButForTheirSeedCountOnce) {
   RunFile file;
   file.health.resize(1);
-  file.health[0].friction = 7;
+  file.health[0].largest_penetration = 7e-4;
+  file.health[0].friction = 9;
   file.info.run_id = "a";
   const RunMember first = member_of("run_1.h5", file);
   file.info.run_id = "b";
@@ -100,6 +101,8 @@ TEST(RunSet, RunsThatAreTheSameButForTheirSeedCountOnce) {
   file.info.run_id = "c";
   const RunMember third = member_of("run_3.h5", file);
   EXPECT_EQ(n_repeats({first, second, third}), 2);
+  file.health[0].friction = 0;  // as maps read it: what went wrong alone
+  EXPECT_EQ(member_of("run_3.h5", file).outcome, third.outcome);
   EXPECT_EQ(units_of({first, second, third}), (std::vector<int>{0, 0, 0}));
   EXPECT_EQ(repeats_text({first, second, third}),
             "2 of 3 runs repeat another one: their seeds draw nothing");
@@ -107,7 +110,7 @@ TEST(RunSet, RunsThatAreTheSameButForTheirSeedCountOnce) {
   EXPECT_TRUE(std::any_of(tags.begin(), tags.end(), [](const auto& tag) {
     return tag == std::pair<std::string, std::string>("N_REPEATS", "2");
   }));
-  file.health[0].friction = 8;  // e.g. of another case
+  file.health[0].largest_penetration = 8e-4;  // e.g. of another case
   const RunMember other = member_of("run_far_2.h5", file);
   EXPECT_EQ(units_of({second, other, third}), (std::vector<int>{0, 1, 0}));
   EXPECT_EQ(repeats_text({first, other}), "");
