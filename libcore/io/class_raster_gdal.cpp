@@ -10,7 +10,6 @@
 #include "io/crs_gdal.hpp"
 #include "io/crs_place_gdal.hpp"
 #include "io/errors_gdal.hpp"
-#include "io/network_gdal.hpp"
 #include "io/raster_bands_gdal.hpp"
 
 namespace talus {
@@ -18,20 +17,8 @@ namespace {
 
 using std::size_t;
 
-struct CloseDataset {
-  void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
-};
-using Dataset = std::unique_ptr<GDALDataset, CloseDataset>;
-
 Dataset open_classes(const std::string& path, const Trn& trn) {
-  register_gdal_drivers();
-  check_virtual(path);
-  GdalErrors errors;
-  Dataset dataset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR));
-  if (!dataset)
-    throw InputError({path}, "cannot be opened as a raster: " + errors.failure(),
-                     "gdalinfo " + path + " shows what GDAL makes of it");
-  refuse_several_rasters(*dataset, path);
+  Dataset dataset = open_raster(path);
   check_one_band(*dataset, path);
   const std::string crs = wkt_of(dataset->GetSpatialRef());
   if (!crs.empty() && !trn.crs_wkt.empty() && !same_crs(crs, trn.crs_wkt))

@@ -3,26 +3,30 @@
 #include <cpl_conv.h>
 #include <cpl_error.h>
 #include <cpl_http.h>
+#include <cpl_minixml.h>
+#include <cpl_string.h>
 #include <cpl_vsi_virtual.h>
-#include <gdal.h>
+#include <gdal_priv.h>
 #include <ogr_srs_api.h>
+#include <ogrsf_frmts.h>
 
+#include <cctype>
 #include <cerrno>
-#include <filesystem>
-#include <fstream>
+#include <cstring>
 #include <memory>
+#include <regex>
 #include <string>
 #include <vector>
 
 #include "base/error.hpp"
 #include "base/network.hpp"
-#include "base/read_file.hpp"
+#include "io/foreign_hdf5.hpp"
 
 namespace talus {
-namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* refusal = "is on a network, which this tool does not use";
+constexpr const char* permission = "--allow-network";
 constexpr const char* way_out =
     "fetch it first and name the copy, or give --allow-network for files that you trust";
 
@@ -75,48 +79,158 @@ CPLHTTPResult* fetch_nothing(const char* url, CSLConstList /*options*/, GDALProg
   return result;
 }
 
+// Drivers whose headers name the file of raw bytes to read, or (MRF) the file to write.
+constexpr const char* raw_drivers[] = {"EIR",  "ERS",  "ILWIS", "ISIS2",  "ISIS3",
+                                       "MRF",  "NDF",  "PAux",  "PCIDSK", "PDS",
+                                       "PDS4", "FAST", "MFF",   "SNODAS"};
+
+using Open = GDALDataset* (*)(GDALOpenInfo*);
+
+// GDAL's own words for what it opened: the file may spell them in many ways.
+bool takes_raw_bytes(GDALDataset& dataset) {
+  char** const xml = dataset.GetMetadata("xml:VRT");
+  if (xml == nullptr || std::strstr(xml[0], "\"VRTRawRasterBand\"") == nullptr) return false;
+  CPLError(CE_Failure, CPLE_OpenFailed,
+           "a virtual raster takes the raw bytes of a file as heights, which needs %s", permission);
+  return true;
+}
+
+// A virtual table reads whatever its module reads: texts, tables and vectors of the machine. Those
+// of indices and of SpatiaLite's own lists read the data base alone.
+bool is_own_table(std::string sql) {
+  for (char& c : sql) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  static const std::regex own(
+      "create virtual table [^()]* using (rtree|rtree_i32|geopoly|fts[345]|virtualspatialindex|"
+      "virtualelementary|virtualknn2?)[ (][^]*");
+  return sql.find("/*") == std::string::npos && sql.find("--") == std::string::npos &&
+         std::regex_match(sql, own);
+}
+
+bool has_foreign_tables(GDALDataset& database) {
+  OGRLayer* const tables = database.ExecuteSQL(
+      "SELECT '' AS name, '' AS sql UNION ALL "
+      "SELECT name, sql FROM sqlite_master WHERE type = 'table' AND rootpage = 0",
+      nullptr, nullptr);
+  std::string found = tables == nullptr ? "(its list cannot be read)" : "";
+  if (tables != nullptr) {
+    for (const auto& row : *tables)
+      if (const std::string sql = row->GetFieldAsString(1); !sql.empty() && !is_own_table(sql))
+        found = row->GetFieldAsString(0);
+    database.ReleaseResultSet(tables);
+  }
+  if (found.empty()) return false;
+  CPLError(CE_Failure, CPLE_OpenFailed,
+           "the virtual table %s of a data base reads other files, which needs %s", found.c_str(),
+           permission);
+  return true;
+}
+
+// HDF5 and netCDF 4. Looked at while GDAL has it closed: both open it in ways that exclude each
+// other.
+bool is_kept_elsewhere(const CPLStringList& files) {
+  std::string found;
+  try {
+    const std::string file = files.empty() ? "" : files[0];
+    found = file.starts_with("/vsi") ? "a packed file" : kept_in_another_file(file);
+  } catch (const InputError& error) {
+    found = error.what();
+  }
+  if (!found.empty())
+    CPLError(CE_Failure, CPLE_OpenFailed, "what %s holds may stand in another file, which needs %s",
+             found.c_str(), permission);
+  return !found.empty();
+}
+
+// What a driver opens is handed on, or closed again where it reads what nobody named.
+enum class Guarded { vrt, sqlite, geopackage, hdf5, hdf5_image, netcdf, bag };
+
+GDALDataset* open_checked(Guarded kind, Open original, GDALOpenInfo* info) {
+  GDALDatasetUniquePtr dataset(original(info));
+  if (!dataset) return nullptr;
+  bool is_refused = false;
+  if (kind == Guarded::vrt) {
+    is_refused = takes_raw_bytes(*dataset);
+  } else if (kind == Guarded::sqlite || kind == Guarded::geopackage) {
+    is_refused = has_foreign_tables(*dataset);
+  } else {
+    const CPLStringList files(dataset->GetFileList());
+    dataset.reset();
+    is_refused = is_kept_elsewhere(files);
+    if (!is_refused) dataset.reset(original(info));
+  }
+  return is_refused ? nullptr : dataset.release();
+}
+
+template <Guarded kind>
+void guard(const char* driver_name) {
+  static Open original = nullptr;
+  auto* const driver = static_cast<GDALDriver*>(GDALGetDriverByName(driver_name));
+  if (driver == nullptr || driver->pfnOpen == nullptr) return;
+  original = driver->pfnOpen;
+  driver->pfnOpen = [](GDALOpenInfo* info) { return open_checked(kind, original, info); };
+}
+
 // The beginning of a virtual data set is that of an XML file of one of these.
-bool is_virtual_data(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string begin(4096, '\0');
-  file.read(begin.data(), static_cast<std::streamsize>(begin.size()));
-  begin.resize(static_cast<std::size_t>(file.gcount()));
+bool is_virtual_data(const std::string& begin) {
   for (const char* mark : {"<VRTDataset", "<OGRVRTDataSource", "<OGRVRTLayer", "<GDAL_WMS"})
     if (begin.find(mark) != std::string::npos) return true;
   return false;
 }
 
-bool is_elsewhere(const std::string& source) {
-  for (const char* folder : network_folders)
-    if (source.find(folder) != std::string::npos) return true;
-  return source.find("://") != std::string::npos;
+// The text of a virtual data set, which may also stand in place of its name; "" for other files.
+std::string virtual_text(const std::string& name) {
+  if (name.find('<') != std::string::npos && is_virtual_data(name)) return name;
+  VSIStatBufL stat;
+  if (VSIStatL(name.c_str(), &stat) != 0 || !VSI_ISREG(stat.st_mode)) return "";
+  const std::unique_ptr<VSILFILE, int (*)(VSILFILE*)> file(VSIFOpenL(name.c_str(), "rb"),
+                                                           VSIFCloseL);
+  if (!file) return "";
+  std::string text(4096, '\0');
+  text.resize(VSIFReadL(text.data(), 1, text.size(), file.get()));
+  if (!is_virtual_data(text)) return "";
+  text.resize(stat.st_size);
+  VSIFSeekL(file.get(), 0, SEEK_SET);
+  text.resize(VSIFReadL(text.data(), 1, text.size(), file.get()));
+  return text;
 }
 
-// What a virtual data set takes its values from.
-struct NamedSource {
-  std::string name;
-  bool is_beside = false;  // relative to the folder of the data set
-};
+// A scheme, which the name of a raster within an HDF5 file (HDF5:"a.h5"://group/b) has not.
+bool is_elsewhere(const std::string& source) {
+  static const std::regex scheme("(^|[^A-Za-z0-9.+-])[A-Za-z][A-Za-z0-9+-]*://");
+  for (const char* folder : network_folders)
+    if (source.find(folder) != std::string::npos) return true;
+  return std::regex_search(source, scheme);
+}
 
-std::vector<NamedSource> sources_in(const std::string& xml) {
-  std::vector<NamedSource> sources;
-  for (const char* tag : {"<SourceFilename", "<SourceDataset", "<SrcDataSource"})
-    for (std::size_t at = xml.find(tag); at != std::string::npos; at = xml.find(tag, at + 1)) {
-      const std::size_t begin = xml.find('>', at), end = xml.find('<', begin);
-      if (end == std::string::npos) break;
-      const std::string attributes = xml.substr(at, begin - at);
-      sources.push_back({xml.substr(begin + 1, end - begin - 1),
-                         attributes.find("=\"1\"") != std::string::npos ||
-                             attributes.find("='1'") != std::string::npos});
+// Adds what a virtual data set in `folder` takes its values from. GDAL distinguishes no case.
+void add_sources(const CPLXMLNode* node, const char* folder, std::vector<std::string>& sources) {
+  for (; node != nullptr; node = node->psNext) {
+    if (node->eType != CXT_Element) continue;
+    for (const char* tag : {"SourceFilename", "SourceDataset", "SrcDataSource"}) {
+      if (!EQUAL(node->pszValue, tag)) continue;
+      const char* const name = CPLGetXMLValue(node, nullptr, "");
+      const bool is_beside = CPLTestBool(CPLGetXMLValue(node, "relativeToVRT", "0"));
+      sources.emplace_back(is_beside ? CPLProjectRelativeFilename(folder, name) : name);
     }
+    add_sources(node->psChild, folder, sources);
+  }
+}
+
+std::vector<std::string> sources_in(const std::string& name, const std::string& xml) {
+  const CPLErrorStateBackuper kept;
+  const CPLErrorHandlerPusher quiet(CPLQuietErrorHandler);
+  const CPLXMLTreeCloser tree(CPLParseXMLString(xml.c_str()));
+  std::vector<std::string> sources;
+  add_sources(tree.get(), std::string(CPLGetPath(name.c_str())).c_str(), sources);
   return sources;
 }
 
 // `n_read`: virtual data sets read so far. Each may name the next one many times.
-void check_virtual(const fs::path& path, int depth, int& n_read) {
+void check_virtual(const std::string& name, int depth, int& n_read) {
   constexpr int deepest = 16, most = 10000;
-  if (!fs::is_regular_file(path) || !is_virtual_data(path.string())) return;
-  const Where where{path.string()};
+  const std::string text = virtual_text(name);
+  if (text.empty()) return;
+  const Where where{name};
   if (++n_read > most)
     throw InputError(where,
                      "is one of more than " + std::to_string(most) +
@@ -124,25 +238,36 @@ void check_virtual(const fs::path& path, int depth, int& n_read) {
                      "gdal_translate the first of them to a GeoTIFF where it is trusted");
   if (depth > deepest)
     throw InputError(where, "is a virtual data set of virtual data sets without end");
-  const std::string text = read_file(path.string());
   if (text.find("<GDAL_WMS") != std::string::npos) throw InputError(where, refusal, way_out);
-  if (text.find("VRTRawRasterBand") != std::string::npos)
-    throw InputError(where, "takes the raw bytes of a file as heights",
-                     "gdal_translate it to a GeoTIFF where it is trusted, or give --allow-network");
-  for (const NamedSource& source : sources_in(text)) {
-    if (is_elsewhere(source.name))
-      throw InputError(where, "names " + source.name + ", which " + refusal, way_out);
-    check_virtual(source.is_beside ? path.parent_path() / source.name : fs::path(source.name),
-                  depth + 1, n_read);
+  for (const std::string& source : sources_in(name, text)) {
+    if (is_elsewhere(source))
+      throw InputError(where, "names " + source + ", which " + refusal, way_out);
+    check_virtual(source, depth + 1, n_read);
   }
+}
+
+// GDAL ends with a fault where one is destroyed (3.6), so they stay.
+void take_out(const char* driver_name) {
+  static std::vector<GDALDriverH> taken;
+  const GDALDriverH driver = GDALGetDriverByName(driver_name);
+  if (driver == nullptr) return;
+  GDALDeregisterDriver(driver);
+  taken.push_back(driver);
 }
 
 }  // namespace
 
 void forbid_network() {
   if (network_is_allowed()) return;
-  for (const char* name : network_drivers)
-    if (const GDALDriverH driver = GDALGetDriverByName(name)) GDALDeregisterDriver(driver);
+  for (const char* name : network_drivers) take_out(name);
+  for (const char* name : raw_drivers) take_out(name);
+  guard<Guarded::vrt>("VRT");
+  guard<Guarded::sqlite>("SQLite");
+  guard<Guarded::geopackage>("GPKG");
+  guard<Guarded::hdf5>("HDF5");
+  guard<Guarded::hdf5_image>("HDF5Image");
+  guard<Guarded::netcdf>("netCDF");
+  guard<Guarded::bag>("BAG");
   CPLSetConfigOption("GDAL_VRT_ENABLE_PYTHON", "NO");
   CPLSetConfigOption("GML_DOWNLOAD_SCHEMA", "NO");
   static NoFiles no_files;
@@ -155,7 +280,19 @@ void check_virtual(const std::string& path) {
   if (network_is_allowed()) return;
   if (is_elsewhere(path)) throw InputError({path}, refusal, way_out);
   int n_read = 0;
-  check_virtual(fs::path(path), 0, n_read);
+  check_virtual(path, 0, n_read);
+}
+
+std::string needs_permission(const std::string& failure) {
+  if (failure.find(permission) != std::string::npos)
+    return std::string("give ") + permission +
+           " for files that you trust, or copy what they hold: "
+           "gdal_translate to a GeoTIFF, ogr2ogr to a GeoPackage";
+  if (network_is_allowed() || failure.find("not recognized") == std::string::npos) return "";
+  std::string names;
+  for (const char* name : raw_drivers) names += (names.empty() ? "" : ", ") + std::string(name);
+  return "is it a raster? Formats whose header names another file need " + std::string(permission) +
+         ": " + names;
 }
 
 }  // namespace talus

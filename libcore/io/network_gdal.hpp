@@ -7,12 +7,17 @@
 
 namespace talus {
 
-/// Once drivers are registered: those that live on a network are taken out, file systems and
-/// downloads over one are refused, PROJ fetches no grids, virtual rasters run no Python.
+/// Once drivers are registered: those that live on a network and those whose headers name a file of
+/// raw bytes are taken out, file systems and downloads over a network are refused, PROJ fetches no
+/// grids, virtual rasters run no Python and take no raw bytes, data bases have no virtual tables
+/// that read other files.
 void forbid_network();
 
-/// Throws InputError where a virtual data set, or one that it names, is of a network or takes the
-/// raw bytes of a file.
+/// Throws InputError where a virtual data set, or one that it names, is of a network.
 void check_virtual(const std::string& path);
+
+/// The way out where GDAL's failure to open or read a file comes from what forbid_network() takes
+/// out; empty where it does not.
+[[nodiscard]] std::string needs_permission(const std::string& failure);
 
 }  // namespace talus

@@ -8,6 +8,8 @@
 
 #include "base/error.hpp"
 #include "base/text.hpp"
+#include "io/errors_gdal.hpp"
+#include "io/network_gdal.hpp"
 
 namespace talus {
 namespace {
@@ -42,8 +44,6 @@ void replace_all(const std::string& from, const std::string& to, std::string& in
     in.replace(at, from.size(), to);
 }
 
-}  // namespace
-
 void refuse_several_rasters(GDALDataset& dataset, const std::string& path) {
   const std::vector<std::string> names = subdatasets(dataset);
   if (names.empty() || (names.size() == 1 && dataset.GetRasterCount() > 0)) return;
@@ -51,6 +51,25 @@ void refuse_several_rasters(GDALDataset& dataset, const std::string& path) {
                    "holds " + counted(static_cast<int>(names.size()), "raster") +
                        ", expected one: " + list_of(names),
                    "give the name of one of them in place of the file: '" + names.front() + "'");
+}
+
+}  // namespace
+
+void CloseDataset::operator()(GDALDataset* dataset) const { GDALClose(dataset); }
+
+Dataset open_raster(const std::string& path) {
+  register_gdal_drivers();
+  check_virtual(path);
+  const GdalErrors errors;
+  Dataset dataset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR));
+  if (!dataset) {
+    const std::string way_out = needs_permission(errors.failure());
+    throw InputError(
+        {path}, "cannot be opened as a raster: " + errors.failure(),
+        way_out.empty() ? "gdalinfo " + path + " shows what GDAL makes of it" : way_out);
+  }
+  refuse_several_rasters(*dataset, path);
+  return dataset;
 }
 
 void check_one_band(GDALDataset& dataset, const std::string& path) {

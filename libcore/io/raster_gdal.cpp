@@ -32,25 +32,8 @@ constexpr double nodata_written = -9999;
 constexpr double lattice_tolerance = 1e-3;  // of a cell, at the far end of the raster
 constexpr int rows_at_once = 256;
 
-struct CloseDataset {
-  void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
-};
-using Dataset = std::unique_ptr<GDALDataset, CloseDataset>;
-
 std::string size_text(int n_rows, int n_cols) {
   return std::to_string(n_cols) + " x " + std::to_string(n_rows) + " cells";
-}
-
-Dataset open_raster(const std::string& path) {
-  register_gdal_drivers();
-  check_virtual(path);
-  GdalErrors errors;
-  Dataset dataset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR));
-  if (!dataset)
-    throw InputError({path}, "cannot be opened as a raster: " + errors.failure(),
-                     "gdalinfo " + path + " shows what GDAL makes of it");
-  refuse_several_rasters(*dataset, path);
-  return dataset;
 }
 
 // The command that makes metres of heights in another unit; the system that they are in says the
@@ -400,12 +383,14 @@ void DemFile::read(int row, int n_rows, int col, int n_cols, double* elevation) 
     status = impl_->band->GetMaskBand()->RasterIO(GF_Read, col, row, n_cols, n_rows, mask.data(),
                                                   n_cols, n_rows, GDT_Byte, 0, 0, nullptr);
   }
-  if (status != CE_None || errors.failed())
+  if (status != CE_None || errors.failed()) {
+    const std::string way_out = needs_permission(errors.failure());
     throw InputError(
         {impl_->path},
         "reading rows " + std::to_string(row) + " to " + std::to_string(row + n_rows - 1) + " of " +
             size_text(impl_->frame.n_rows, impl_->frame.n_cols) + " failed: " + errors.failure(),
-        "the file is damaged or cut short: fetch it again");
+        way_out.empty() ? "the file is damaged or cut short: fetch it again" : way_out);
+  }
   for (std::size_t i = 0; i < n; ++i) {
     double& z = elevation[i];
     if (std::isnan(z) || z == impl_->nodata || (!mask.empty() && mask[i] < least_known)) {

@@ -175,10 +175,12 @@ VectorDataset open_vectors(const SourcePath& path) {
   opened.dataset = GDALDatasetUniquePtr(
       GDALDataset::Open(source.c_str(), GDAL_OF_VECTOR | GDAL_OF_VERBOSE_ERROR));
   if (opened.dataset) return opened;
+  const std::string way_out = needs_permission(errors.failure());
   throw InputError(
       {path.file},
       "cannot be opened as vectors" + (errors.failed() ? ": " + errors.failure() : std::string()),
-      "ogrinfo " + command_words(source) + " shows what GDAL makes of it");
+      way_out.empty() ? "ogrinfo " + command_words(source) + " shows what GDAL makes of it"
+                      : way_out);
 }
 
 }  // namespace talus

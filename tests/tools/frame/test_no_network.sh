@@ -1,5 +1,5 @@
-# Nothing reaches out: a file of a stranger asks no other machine, whatever it names, and takes no raw
-# bytes of other files. --allow-network lets it.
+# Nothing reaches out: a file of a stranger asks no other machine, whatever it names.
+# --allow-network lets it.
 command -v python3 >/dev/null || skip "needs python3"
 cat >listener.py <<'END'
 import http.server, sys
@@ -31,8 +31,7 @@ source_of 0 "/vsigzip//vsicurl/$site/dem.tif.gz" >nested.vrt
 source_of 1 curl.vrt >outer.vrt
 printf '<GDAL_WMS><Service name="TMS"><ServerUrl>%s/${z}/${x}/${y}</ServerUrl></Service><DataWindow><UpperLeftX>500000</UpperLeftX><UpperLeftY>5200040</UpperLeftY><LowerRightX>500040</LowerRightX><LowerRightY>5200000</LowerRightY><TileLevel>0</TileLevel></DataWindow><Projection>EPSG:32633</Projection><BlockSizeX>8</BlockSizeX><BlockSizeY>8</BlockSizeY><BandsCount>1</BandsCount></GDAL_WMS>\n' "$site" >wms.xml
 source_of 0 "WMS:$site/wms?REQUEST=GetMap" >wms.vrt
-printf '%s<VRTRasterBand dataType="Byte" band="1" subClass="VRTRawRasterBand"><SourceFilename relativeToVRT="0">/etc/passwd</SourceFilename><ImageOffset>0</ImageOffset><PixelOffset>1</PixelOffset><LineOffset>8</LineOffset></VRTRasterBand></VRTDataset>\n' "$frame" >raw.vrt
-for file in curl.vrt nested.vrt outer.vrt wms.xml wms.vrt raw.vrt; do
+for file in curl.vrt nested.vrt outer.vrt wms.xml wms.vrt; do
   expect 1 talus-trn $file -o t.tif --no-db
   says hint
 done
