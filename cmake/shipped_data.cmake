@@ -28,5 +28,7 @@ const std::string& shipped_data(const std::string& name) {
 
 }  // namespace talus
 ]])
+  # clang warns of texts above 65,536 bytes, which both compilers take
+  set_source_files_properties(${source} PROPERTIES COMPILE_OPTIONS -Wno-overlength-strings)
   set(${out} ${source} PARENT_SCOPE)
 endfunction()

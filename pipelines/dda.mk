@@ -50,7 +50,8 @@ goal_runs = $(run_files) $(if $(filter-out maps runout places hazard trace profi
 wanted_runs = $(or $(if $(SHARD),$(shard_runs)),$(filter $(MAKECMDGOALS),$(goal_runs)),$(goal_runs))
 count_runs = $(if $(runs_begun),,$(eval runs_begun := $(shell date +%s))$(eval n_to_make := $(words $(filter-out $(fresh_runs),$(wanted_runs)))))
 run_progress := $(STAGES)/.progress$(if $(SHARD),-$(SHARD)-of-$(SHARDS))
-$(if $(is_dry_run),,$(if $(wildcard $(run_progress)),$(shell rm -f $(run_progress))))
+# The second make of fence_search.mk works while runs of the first one may still end.
+$(if $(is_dry_run)$(filter fence-verified,$(MAKECMDGOALS)),,$(if $(wildcard $(run_progress)),$(shell rm -f $(run_progress))))
 # run_ended(NAME,MARK)
 run_ended = $(if $(is_dry_run),,@sh $(PIPELINES)run_ended.sh $1 $(failed_marks)/$2 $(run_progress) $(n_to_make) $(runs_begun) $(if $(goes_on),,must)$(if $(findstring s,$(short_flags)), >/dev/null))
 

@@ -73,7 +73,7 @@ void look_at_resolution(const PlausibilityFacts& f, Doubts& doubts) {
   doubts.above(f.polygon_area / f.terrain_area, {0.3, never_high}, "terrain",
                "the source covers " + percent(f.polygon_area / f.terrain_area) +
                    " of the terrain: the mass will leave it",
-               "take more of the slope below (window_m, or a larger elevation model)");
+               "extend the terrain down the slope (window_m, or a larger elevation model)");
   doubts.above(f.n_blocks, {1000, never_high}, "joints.spacing_m",
                text(f.n_blocks) + " blocks take long to compute",
                "widen the spacings at first; see the time below");
@@ -89,7 +89,7 @@ void look_at_motion(const PlausibilityFacts& f, Doubts& doubts) {
                   : "a surface that comes out at the foot: failure_surface = \"daylighting\", or "
                     "daylight = \"...\" (talus-source lists what there is)");
   doubts.below(f.moved_share, {0.9, never_low}, "source.failure_surface",
-               f.moved_share < 0.1 ? "this is no rockslide: " + percent(f.moved_share) +
+               f.moved_share < 0.1 ? "this is not a rockslide: " + percent(f.moved_share) +
                                          " of the mass goes in the probe, the rest stands"
                                    : percent(f.moved_share) +
                                          " of the mass goes in the probe: the rest is likely "
@@ -98,7 +98,7 @@ void look_at_motion(const PlausibilityFacts& f, Doubts& doubts) {
                "and at the blocks that lock");
   doubts.above(f.left_share, {0.01, never_high}, "terrain",
                percent(f.left_share) + " of the fall lines from the source leave the known terrain",
-               "take more of the slope below (window_m, or a larger elevation model): what leaves "
+               "extend the terrain down the slope (window_m, or a larger elevation model): what leaves "
                "the terrain is counted, and not followed");
   doubts.below(f.duration, {f.travel_duration, never_low}, "solver.duration_s",
                "the run lasts " + text(f.duration, 3) +

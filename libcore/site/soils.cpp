@@ -93,7 +93,7 @@ struct GroundCheck {
     exclude("rolling_resistance", &G::rolling_resistance, "bearing_kpa", &G::bearing_kpa,
             "bearing_kpa gives the rolling resistance by the size of the block");
     exclude("scar_friction", &G::scar_friction, "friction_weak_deg", &G::friction_weak_deg,
-            "friction follows the way slid, or the speed");
+            "friction follows the slid distance, or the speed");
     need("scar_friction", &G::scar_friction, "scar_rate_1_m", &G::scar_rate_1_m);
     need("scar_friction", &G::scar_friction, "scar_decay_1_s", &G::scar_decay_1_s);
     need("scar_rate_1_m", &G::scar_rate_1_m, "scar_friction", &G::scar_friction);

@@ -20,7 +20,7 @@ namespace {
 using namespace talus;
 using namespace talus::cases;
 
-// Ground that gives way in all ways; its friction follows the way slid, or the speed.
+// Ground that gives way in all ways; its friction follows the slid distance, or the speed.
 GroundClass yielding_ground(bool scars) {
   GroundClass ground;
   ground.friction = 0.5;

@@ -346,7 +346,7 @@ Look look_at(Tool& tool, const Site& site, const CheckFiles& files) {
   look.files = files;
   look.work.site = site;
   look.work.ground = read_trn(files.trn);
-  look.inputs = read_dda_inputs(tool, site, {files.bed, files.blocks, false});
+  look.inputs = read_dda_inputs(tool, site, {files.bed, files.blocks, files.settle});
   look.is_cut = look.work.is_cut();
   const Trn& bed = look.inputs.parts.trn;
   const Trn& ground = look.work.ground;
@@ -368,9 +368,10 @@ void probe_look(Tool& tool, double duration, Look& look) {
   site.solver.time_step_s = probe_step_s;
   site.solver.min_time_step_s = site.solver.max_time_step_s = not_given;
   const Trn& trn = look.inputs.parts.trn;
-  const ScenePlan plan =
-      make_plan(plan_facts(site, look.inputs.parts.blocks, trn, ground_flags(trn)), false);
-  check_start(tool, site, look.inputs, {look.files.bed, look.files.blocks, false},
+  PlanFacts facts = plan_facts(site, look.inputs.parts.blocks, trn, ground_flags(trn));
+  facts.independent = look.files.independent;
+  const ScenePlan plan = make_plan(facts, false);
+  check_start(tool, site, look.inputs, {look.files.bed, look.files.blocks, look.files.settle},
               plan.block_contacts);
   const Scene scene = make_site_scene(site, plan, look.inputs.parts);
   if (!(duration > 0)) return;

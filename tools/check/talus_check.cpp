@@ -34,12 +34,15 @@ void declare(Tool& tool, Options& o) {
   tool.output("--report", o.report, "the numbers (JSON)");
   tool.app()
       .add_option("--probe-s", o.probe_s,
-                  "seconds of the run that the engine computes, 0: none; not given: 4, with some "
-                  "thousand blocks 1 or none")
+                  "seconds of the run that the engine computes, 0: none; not given: 4, or 1 or "
+                  "none with so many blocks that the probe would take more than 20 CPU s")
       ->check(CLI::Range(0.0, 60.0));
   tool.option("--runs", o.n_runs,
               "runs that are to be computed, for their time; 0: [solver] n_runs")
       ->check(CLI::Range(0, 1000000));
+  tool.flag("--independent", o.files.independent, "the runs move each block as if it were alone");
+  tool.flag("--settle", o.files.settle,
+            "the runs lift blocks onto the ground and move small overlaps apart");
   tool.flag("--accept-doubts", o.accept_doubts, "go on with what cannot be meant");
   tool.footer(
       "Example:\n  talus-check site.toml --trn trn.tif --bed bed.tif --blocks blocks.h5 -o "

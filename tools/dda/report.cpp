@@ -111,11 +111,13 @@ std::string tree_summary(const Json& report) {
 
 // What a user must not miss, where there is any.
 std::string trouble_summary(const Json& report) {
-  const auto said = [&report](const char* key, const std::string& what) {
-    return report[key].get<std::int64_t>() == 0 ? "" : ", " + report[key].dump() + what;
+  const auto said = [&report](const char* key, const std::string& of, const std::string& what) {
+    const auto n = report[key].get<std::int64_t>();
+    return n == 0 ? "" : ", " + counted(n, of) + what;
   };
-  return said("n_breaks", " breaks into two") + said("left_domain", " left the terrain") +
-         said("unconverged", " steps of a block accepted unconverged");
+  return said("n_breaks", "break", " into two") +
+         said("left_domain", "block", " left the terrain") +
+         said("unconverged", "block step", " accepted unconverged");
 }
 
 // The way out of a broken limit, by what its name says.

@@ -34,6 +34,7 @@ const std::vector<Stage>& stages() {
         "solver",
         "fence",
         "forest",
+        "fragmentation",
         "base_motion",
         "output",
         "object",

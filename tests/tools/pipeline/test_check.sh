@@ -21,3 +21,22 @@ for time in first second; do
 done
 made deep check CHECK_FLAGS='--accept-doubts --probe-s 0'
 prints "REFUSED: source.plane_point_m"
+
+# Rocks on a grid, closer than they are wide: none meets another in runs that move each alone.
+site rocks
+awk '/^\[/ { kept = !/^\[joints/ } kept && !/^(failure_surface|plane_)/' slope/site.toml >rocks/site.toml
+cat >>rocks/site.toml <<'END'
+
+[blocks.rock]
+shape = "rock"
+size_m = [1.2, 1.0, 0.8]
+release_grid = true
+release_spacing_m = 0.9
+height_above_ground_m = 0.5
+END
+expect 2 make -C rocks BIN= check
+says "pairs overlap" "--independent"
+made rocks check DDA_FLAGS=--independent
+grep -q '"is_probed": *true\|"moved_share"' rocks/out/check.json || fail "no forecast of rocks that fall alone"
+made rocks check DDA_FLAGS=--independent
+if grep -q "will it move" out; then fail "the look was taken again"; fi

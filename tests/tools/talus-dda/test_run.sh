@@ -48,7 +48,7 @@ expect 0 run_dda -o still.h5 --set output.passages=false --duration-s 2
 grep -q "largest speed [1-9]" out || fail "no speed without passages"
 grep -q "unconverged\|left the terrain" out && fail "trouble is said where there is none"
 expect 0 run_dda -o gone.h5 --duration-s 20 --set ground.ground.friction_deg=0
-grep -q "3 left the terrain" out || fail "the summary does not say that blocks left the terrain"
+grep -q "3 blocks left the terrain" out || fail "the summary does not say that blocks left the terrain"
 expect 3 run_dda -o lost.h5 --duration-s 20 --set ground.ground.friction_deg=0 --set solver.max_lost_share=0
 says "; take a larger terrain, or give max_lost_share"
 
