@@ -73,6 +73,11 @@ made slope terrain DEM=mosaic.vrt
 replaced slope/mine.tif dem.tif
 would terrain DEM=mosaic.vrt
 would_be "trn " "an older part of a mosaic"
+gdalbuildvrt -q slope/mosaics.vrt slope/mosaic.vrt
+made slope terrain DEM=mosaics.vrt
+replaced slope/mine.tif other.tif
+would terrain DEM=mosaics.vrt
+would_be "trn " "an older part of a mosaic of mosaics"
 made slope terrain DEM=mine.tif
 gdalinfo -stats slope/mine.tif >/dev/null
 [ -s slope/mine.tif.aux.xml ] || fail "no statistics beside the elevation model"
