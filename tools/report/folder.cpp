@@ -193,6 +193,20 @@ void leave_out_places(ResultFolder& folder, const Site& site, const std::string&
     folder.leave_out({"places.json"}, of_other_sections("[place.*] or [fence.*]"));
 }
 
+// Curves name their runs, all of one evaluation.
+void leave_out_curves(ResultFolder& folder, const std::vector<std::string>& ids) {
+  if (!folder.has("curves.csv")) return;
+  std::istringstream lines(read_file(folder.path("curves.csv").string()));
+  std::string line;
+  std::getline(lines, line);  // names of the columns
+  while (std::getline(lines, line)) {
+    const std::string id = line.substr(0, line.find(','));
+    if (std::find(ids.begin(), ids.end(), id) != ids.end()) continue;
+    folder.leave_out({"curves.csv"}, of_other_runs);
+    return;
+  }
+}
+
 // The terrain's report says what it was made from.
 void leave_out_tin(ResultFolder& folder) {
   if (!folder.has("trn.json")) return;
@@ -216,6 +230,7 @@ void leave_out_others(ResultFolder& folder, const Site& site, const Json& runout
   leave_out_hazard(folder, site, run_set);
   leave_out_places(folder, site, run_set);
   leave_out_tin(folder);
+  leave_out_curves(folder, ids_of(runout));
   if (folder.has("runout.gpkg") &&
       origin_of(folder, "runout.gpkg").run_id != text_at(runout, "/run_id"))
     folder.leave_out({"runout.gpkg"}, "not of the run of talus-runout that runout.json is of");

@@ -33,3 +33,9 @@ left_out 'made with other [place.*] or [fence.*] than the site file has'
 sed -i 's/250012/250010/g' school.geojson
 report site.toml
 all_there
+
+# curves of other runs, by their ids
+printf 'run_id,time_s\n0123456789abcdef,0\n' >results/curves.csv
+report site.toml
+left_out 'curves.csv: not of the runs that runout.json is of'
+rm results/curves.csv
