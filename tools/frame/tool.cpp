@@ -162,6 +162,9 @@ struct Tool::Impl {
     if (!options.failures.empty() && !may_hold_failures(options.failures))
       throw InputError({options.failures}, "is something else than a list of failures",
                        "name a file for --failures that may be replaced");
+    if (options.db == ":memory:")
+      throw UsageError({"", 0, "--db"}, "is :memory:, which SQLite takes for no file",
+                       "name a file, or run with --no-db");
     begin_record(name, command_text(argc, argv), record);
     for (const ConfigValue& value : settings_of(app, options))
       record.params.push_back({value.key, value.value, value.source});
