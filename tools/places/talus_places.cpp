@@ -8,9 +8,9 @@
 #include "post/fence/fence_runs.hpp"
 #include "post/places.hpp"
 #include "post/reduce.hpp"
-#include "site/section_digest.hpp"
 #include "tools/frame/fault_json.hpp"
 #include "tools/frame/run_inputs.hpp"
+#include "tools/frame/section_state.hpp"
 #include "tools/frame/site_options.hpp"
 #include "tools/frame/site_places.hpp"
 #include "tools/frame/vector_inputs.hpp"
@@ -183,7 +183,7 @@ void run_tool(Tool& tool, const Site& site, RunInputs& inputs) {
                           : "add " + counted(most, "run") + " to " + std::to_string(n_runs);
   Json result = {{"run_id", tool.run_id()},
                  {"run_set", inputs.run_set()},
-                 {"sections", section_digest(site, {"place", "fence"})},
+                 {"sections", section_state(site, {"place", "fence"})},
                  {"n_runs", n_runs},
                  {"runs_to_add", most},
                  {"places", list}};

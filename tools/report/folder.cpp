@@ -8,8 +8,8 @@
 #include "base/sha256.hpp"
 #include "io/tags_gdal.hpp"
 #include "post/run_set.hpp"
-#include "site/section_digest.hpp"
 #include "site/uncertainty.hpp"
+#include "tools/frame/section_state.hpp"
 #include "tools/frame/site_stages.hpp"
 
 namespace talus {
@@ -111,7 +111,7 @@ std::vector<std::string> with_sidecars(const std::string& name) {
 // Whether the file says that it was made with what the site file says of these sections now.
 bool is_of_sections(const ResultFolder& folder, const std::string& name, const Site& site,
                     const std::vector<std::string>& sections) {
-  return text_at(folder.glance(name), "/sections") == section_digest(site, sections);
+  return text_at(folder.glance(name), "/sections") == section_state(site, sections);
 }
 
 std::string of_other_sections(const std::string& names) {

@@ -9,7 +9,6 @@
 #include "base/text.hpp"
 #include "post/hazard/hazard_rates.hpp"
 #include "post/reduce.hpp"
-#include "site/section_digest.hpp"
 #include "tools/frame/class_runs.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/fault_json.hpp"
@@ -17,6 +16,7 @@
 #include "tools/frame/map_output.hpp"
 #include "tools/frame/object_files.hpp"
 #include "tools/frame/options.hpp"
+#include "tools/frame/section_state.hpp"
 #include "tools/frame/site_options.hpp"
 #include "tools/frame/site_places.hpp"
 #include "tools/trace/layers.hpp"
@@ -299,7 +299,7 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& runs
   }
   Json result = {{"run_id", tool.run_id()},
                  {"tags", Json::object()},
-                 {"sections", section_digest(site, {"object", "hazard"})},
+                 {"sections", section_state(site, {"object", "hazard"})},
                  {"n_runs", n_runs(sums)},
                  {"source_cell_m", sums.sources.cell_size},
                  {"n_source_cells", sums.source.size()},
