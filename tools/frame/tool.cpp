@@ -535,7 +535,8 @@ int Tool::run(int argc, char** argv, const std::function<void()>& body) {
     std::cout << description_of(impl.name, impl.app, impl.options).dump(2) << std::endl;
     return std::cout ? done : input_unusable;
   } catch (const CLI::Success& wanted) {  // --help, --version
-    return impl.app.exit(wanted);
+    const int code = impl.app.exit(wanted);
+    return std::cout.flush() ? code : input_unusable;
   } catch (const CLI::ParseError& error) {
     // What was given before or behind the fault has not been read.
     impl.options.failures = word_after("--failures", argc, argv);
@@ -558,6 +559,7 @@ int Tool::run(int argc, char** argv, const std::function<void()>& body) {
   int code = impl.guarded([&] {
     if (impl.options.print_config) {
       print_settings(settings_of(impl.app, impl.options), std::cout);
+      if (!std::cout.flush()) throw InputError({"standard output"}, "cannot be written");
       return static_cast<int>(done);
     }
     impl.begin(argc, argv);
