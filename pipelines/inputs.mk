@@ -32,6 +32,12 @@ ifneq ($(foreign),)
 $(error $(firstword $(foreign)) was not made by the pipeline, which would replace it: name another OUT, or move it away)
 endif
 
+# Make goes by times there: beside results of the future, of another clock, what has changed looks older.
+ahead := $(shell find $(OUT)/ -type f -newermt '60 seconds' -print -quit 2>/dev/null)
+ifneq ($(ahead),)
+$(error $(ahead) has a time of the future, so that make would not repeat what has changed: set the clock, or the time of such files: find $(OUT)/ -newermt now -exec touch {} +)
+endif
+
 # --- data that a manifest lists: checked again when one of them is another file ---
 ifneq ($(wildcard manifest.sha256),)
 data_state := $(shell cut -c67- manifest.sha256 | tr '\n' '\0' | xargs -0 stat -L -c '%n %s %i %y %z' -- manifest.sha256 2>&1)
