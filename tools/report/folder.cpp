@@ -255,6 +255,16 @@ std::map<std::string, EffectiveValue> values_of(const std::string& config) {
   return values;
 }
 
+// The sections of grounds of the text of print_config(), those that `other` has too.
+std::vector<std::string> shared_grounds(const std::string& config, const std::string& other) {
+  std::istringstream lines(config);
+  std::vector<std::string> sections;
+  for (std::string line; std::getline(lines, line);)
+    if (line.starts_with("[ground.") && other.find("\n" + line + "\n") != std::string::npos)
+      sections.push_back(line);
+  return sections;
+}
+
 // By [uncertainty]: differs from run to run.
 bool is_drawn(const EffectiveValue& value) {
   return value.source.starts_with("sample ") || value.source.starts_with("rock mass ");
@@ -292,6 +302,12 @@ void check_site_of(const RunFile& run, const std::string& path, const Site& site
         "was computed with " + key + " = " + given(old) + "; in the site file it is " + given(now),
         "give the site file that the runs were made with, or make them again");
   }
+  const std::string config = print_config(site);
+  if (shared_grounds(run.info.config, config) != shared_grounds(config, run.info.config))
+    throw InputError({path},
+                     "was computed with the sections [ground.*] in another order than in the site "
+                     "file: where two overlap the later one applies",
+                     "give the site file that the runs were made with, or make them again");
 }
 
 std::string ground_of(const RunInfo& run, const ResultFolder& folder) {

@@ -31,3 +31,15 @@ expect 0 talus-runout slope/out/runs/run_2.h5 --trn slope/out/bed.tif -o slope/o
 report
 says "left out: runout.svg: of a run of talus-runout that these results were not made from"
 says "left out: curves.csv: not of the runs that runout.json is of"
+
+# grounds that overlap, in another order
+strip() { printf '[ground.%s]\npolygon = [[500080, 5200150], [500160, 5200150], [500160, 5200245]]\nfriction_deg = %s\n' "$1" "$2"; }
+{ cat slope/site.toml && strip scree 35 && strip grass 20; } >slope/one.toml
+{ cat slope/site.toml && strip grass 20 && strip scree 35; } >slope/two.toml
+mkdir -p by_hand/runs
+cp slope/out/bed.tif slope/out/trn.tif by_hand
+expect 0 talus-dda slope/one.toml --trn by_hand/bed.tif --blocks slope/out/blocks.h5 -o by_hand/runs/run_1.h5 --no-db
+expect 0 talus-runout by_hand/runs/run_1.h5 --trn by_hand/bed.tif -o by_hand/runout.gpkg --json by_hand/runout.json --no-db
+expect 0 talus-report slope/one.toml --dir by_hand -o report.html --no-db
+expect 1 talus-report slope/two.toml --dir by_hand -o report.html --no-db --overwrite
+says "was computed with the sections [ground.*] in another order"
