@@ -32,6 +32,12 @@ ifneq ($(foreign),)
 $(error $(firstword $(foreign)) was not made by the pipeline, which would replace it: name another OUT, or move it away)
 endif
 
+# Make goes by times there: beside results of the future, of another clock, what has changed looks older.
+ahead := $(shell find $(OUT)/ -type f -newermt '60 seconds' -print -quit 2>/dev/null)
+ifneq ($(ahead),)
+$(error $(ahead) has a time of the future, so that make would not repeat what has changed: set the clock, or the time of such files: find $(OUT)/ -newermt now -exec touch {} +)
+endif
+
 # --- data that a manifest lists: checked again when one of them is another file ---
 ifneq ($(wildcard manifest.sha256),)
 data_state := $(shell cut -c67- manifest.sha256 | tr '\n' '\0' | xargs -0 stat -L -c '%n %s %i %y %z' -- manifest.sha256 2>&1)
@@ -47,14 +53,16 @@ endif
 endif
 
 # --- what a stage reads ---
-# named_in(FLAGS): files that options name (--like FILE, --like=FILE); not folders, nor what lies in OUT.
-named_in = $(filter-out $(OUT)/%,$(foreach name,$(wildcard $(foreach word,$1,$(lastword $(subst =, ,$(word))))),$(if $(wildcard $(name)/.),,$(name))))
+# named_in(FLAGS): files that options name (--like FILE, --set 'KEY="FILE"', "FILE|layername=A"); not folders, nor what
+# lies in OUT.
+words_in = $(subst =, ,$(subst |, ,$(subst ",,$(subst ',,$1))))
+named_in = $(filter-out $(OUT)/%,$(foreach name,$(wildcard $(call words_in,$1)),$(if $(wildcard $(name)/.),,$(name))))
 # given(NAME,FLAGS): options of talus-site for the files of a list, which may be empty
 given = --given $1= $(foreach name,$(call named_in,$2),--given '$1=$(subst ','\'',$(name))')
 given_files := $(if $(CONTOURS),--given tin=$(CONTOURS)) $(call given,tin,$(TIN_FLAGS)) \
   $(if $(DEM),--given trn=$(DEM)) $(call given,trn,$(TRN_FLAGS)) $(call given,blocks,$(BLOCKS_FLAGS)) $(call given,check,$(CHECK_FLAGS)) \
   $(call given,dda,$(filter-out %.xmf,$(DDA_FLAGS))) $(foreach case,$(CASES),$(call given,case_$(case),$(CASE_$(case)))) \
-  $(call given,runout,$(RUNOUT_FLAGS)) $(call given,maps,$(MAPS_FLAGS)) $(call given,fence,$(FENCE_FLAGS)) \
+  $(call given,runout,$(RUNOUT_FLAGS)) $(call given,maps,$(MAPS_FLAGS)) $(call given,fence,$(FENCE_FLAGS)) $(call given,places,$(PLACES_FLAGS)) \
   $(call given,hazard,$(HAZARD_FLAGS)) $(call given,trace,$(TRACE_FLAGS)) $(call given,search,$(SEARCH_FLAGS)) \
   $(if $(LINE),--given 'profile=$(LINE)') $(call given,profile,$(PROFILE_FLAGS)) \
   --given report=site.toml $(call given,report,$(REPORT_FLAGS))

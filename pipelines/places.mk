@@ -3,7 +3,7 @@
 $(eval $(call remember,places,$(evaluate_flags) $(PLACES_FLAGS)))
 ifneq ($(SITE_PLACES),)
 places_files := $(OUT)/places.json
-$(OUT)/places.json: $(run_files) $(OUT)/blocks.h5 $(STAGES)/place.txt $(STAGES)/runs.flags $(STAGES)/places.flags
+$(OUT)/places.json: $(run_files) $(OUT)/blocks.h5 $(STAGES)/place.txt $(STAGES)/runs.flags $(STAGES)/places.flags $(STAGES)/places.files
 	$(call say,places: $(call counted_runs,$(run_files)) -> places)
 	@$(call outcomes,some,$(run_files))
 	$(Q)$(BIN)talus-places site.toml $(call run_there,$(run_files)) --trn $(ground_of_runs) --json $@ $(evaluate_flags) $(PLACES_FLAGS) --overwrite $(DB)

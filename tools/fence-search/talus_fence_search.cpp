@@ -6,13 +6,13 @@
 #include <numbers>
 
 #include "base/text.hpp"
-#include "site/section_digest.hpp"
 #include "tools/fence-search/output.hpp"
 #include "tools/frame/class_runs.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/fault_json.hpp"
 #include "tools/frame/map_output.hpp"
 #include "tools/frame/options.hpp"
+#include "tools/frame/section_state.hpp"
 #include "tools/frame/site_options.hpp"
 
 namespace {
@@ -267,7 +267,7 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& runs
   }
   Json result = {{"run_id", tool.run_id()},
                  {"tags", Json::object()},
-                 {"sections", section_digest(site, {"object", "hazard", "fence_search"})},
+                 {"sections", section_state(site, {"object", "hazard", "fence_search"})},
                  {"searches", list}};
   for (const auto& [key, value] : tags) result["tags"][key] = value;
   add_faults(result, faults_of(members, runs.left_out));

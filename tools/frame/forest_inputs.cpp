@@ -162,10 +162,10 @@ Stem stem_of(const ForestSettings& forest, const Vec3& foot, double dbh, int spe
   return stem;
 }
 
-std::vector<Stem> drawn_stems(const ForestSection& s) {
+std::vector<Stem> drawn_stems(const ForestSection& s, std::optional<Area>& area) {
   const ForestSettings& f = s.forest;
   check_stand_keys(s);
-  const std::optional<Area> area = area_of(s);
+  area = area_of(s);
   const MapBox box = area ? box_of(*area, s.trn) : box_of_terrain(s.trn);
   if (box.is_empty()) refuse_outside(s);
   const std::vector<StockedCell> cells =
@@ -191,14 +191,56 @@ std::vector<Stem> drawn_stems(const ForestSection& s) {
 
 // --- a canopy ----------------------------------------------------------------------------------
 
-Canopy dragging_canopy(const ForestSection& s) {
+Canopy dragging_canopy(const ForestSection& s, std::optional<Area>& area) {
   const ForestSettings& f = s.forest;
   check_drag_keys(s);
-  const Area area = *area_of(s);
-  if (box_of(area, s.trn).is_empty()) refuse_outside(s);
+  area = area_of(s);
+  if (box_of(*area, s.trn).is_empty()) refuse_outside(s);
   s.tool.info(s.name() + ": drag of " + text(f.drag_kg_s) + " kg/s on " +
-              text(area_of(area) / 1e4, 3) + " ha");
-  return make_canopy(area, f.height_m, f.drag_kg_s);
+              text(area_of(*area) / 1e4, 3) + " ha");
+  return make_canopy(*area, f.height_m, f.drag_kg_s);
+}
+
+// --- stands in one place -----------------------------------------------------------------------
+
+/// A section that holds in an area.
+struct StandArea {
+  std::string name;  ///< "forest.upper"
+  bool drags = false;
+  Area area;
+};
+
+// The share of an area that lies in another one, by 100 x 100 places in the box around it.
+double share_within(const Area& area, const Area& other, const Trn& trn) {
+  const MapBox box = box_of(area, trn);
+  const PreparedArea here(area), there(other);
+  int n = 0, n_within = 0;
+  for (int row = 0; row < 100; ++row)
+    for (int col = 0; col < 100; ++col) {
+      const Vec2 share((col + 0.5) / 100, (row + 0.5) / 100);
+      const Vec2 at = box.low + share.cwiseProduct(box.high - box.low) - trn.origin.head<2>();
+      if (!here.contains(at)) continue;
+      ++n;
+      n_within += there.contains(at) ? 1 : 0;
+    }
+  return n == 0 ? 0 : static_cast<double>(n_within) / n;
+}
+
+// Two sections may share ground on purpose, species or layers of a wood. A stand that is there
+// twice counts twice. Borders that were drawn twice share slivers.
+void add_stand(const ForestSection& s, const std::optional<Area>& area,
+               std::vector<StandArea>& stands) {
+  constexpr double slivers = 0.05;
+  if (!area) return;
+  const bool drags = s.forest.drag_kg_s > 0;
+  for (const StandArea& other : stands) {
+    if (other.drags != drags) continue;
+    const double share = share_within(*area, other.area, s.trn);
+    if (share > slivers)
+      s.warn(text(100 * share, 3) + " % of its area lies in " + other.name + ": there " +
+             (drags ? "the drag of both acts" : "the stems of both stand"));
+  }
+  stands.push_back({s.name(), drags, *area});
 }
 
 // --- a list ------------------------------------------------------------------------------------
@@ -243,9 +285,10 @@ int species_of(const StemList& list, size_t row) {
   throw InputError(list.where(row), "conifer is " + conifer + ", expected 1 or 0");
 }
 
+constexpr double same_place = 0.01;  // of two stems [m]
+
 // Two stems in one place are one: the thickest is kept.
 std::vector<Stem> each_place_once(const ForestSection& s, std::vector<Stem> stems) {
-  constexpr double same_place = 0.01;  // [m]
   std::vector<Vec3> feet;
   for (const Stem& stem : stems) feet.push_back(stem.foot);
   const std::vector<int> repeated = repeated_points(feet, same_place);
@@ -294,6 +337,23 @@ std::vector<Stem> listed_stems(const ForestSection& s) {
     s.warn(std::to_string(n - stems.size()) + " of " +
            counted(static_cast<std::int64_t>(n), "stem") + " lie off the known ground, left out");
   return each_place_once(s, std::move(stems));
+}
+
+// Stems of a section that stand where those of sections before it do: a list given twice.
+void check_apart(const ForestSection& s, const std::vector<Stem>& stems,
+                 const StandingForests& before) {
+  std::vector<Vec3> feet;
+  for (const std::vector<Stem>* list : {&before.stems, &stems})
+    for (const Stem& stem : *list) feet.push_back(stem.foot);
+  const std::vector<int> repeated = repeated_points(feet, same_place);
+  const auto n_before = static_cast<std::ptrdiff_t>(before.stems.size());
+  const auto first = std::find_if(repeated.begin() + n_before, repeated.end(),
+                                  [n_before](int other) { return other >= 0 && other < n_before; });
+  if (first == repeated.end()) return;
+  const Vec3 at = feet[first - repeated.begin()] + s.trn.origin;
+  s.refuse("has a stem where forest." + before.forests[before.stems[*first].section].name +
+               " has one, at " + text(at.x(), 9) + ", " + text(at.y(), 9),
+           "leave one of the two out: the same stem would stand there twice");
 }
 
 // --- stems in blocks ---------------------------------------------------------------------------
@@ -359,17 +419,22 @@ void leave_out_in_blocks(const ForestSection& s, const StartBlocks& blocks,
 StandingForests read_forests(Tool& tool, const Site& site, const Trn& trn, const BlockSet& blocks) {
   StandingForests out;
   std::optional<StartBlocks> start;
+  std::vector<StandArea> stands;
   for (const ForestSettings& forest : site.forests) {
     if (!forest.active || site.solver.law != "talus") continue;
     const ForestSection s{tool, site, trn, forest, out.warnings};
+    std::optional<Area> area;
     if (forest.drag_kg_s > 0) {
-      out.canopies.push_back(dragging_canopy(s));
+      out.canopies.push_back(dragging_canopy(s, area));
+      add_stand(s, area, stands);
       continue;
     }
-    std::vector<Stem> stems = forest.stems_file.empty() ? drawn_stems(s) : listed_stems(s);
+    std::vector<Stem> stems = forest.stems_file.empty() ? drawn_stems(s, area) : listed_stems(s);
+    add_stand(s, area, stands);
     if (stems.empty() && !(forest.stems_per_ha == 0))
       s.refuse("has no stem on the terrain",
                "check where it lies, and how many stems on a hectare there are");
+    if (!forest.stems_file.empty()) check_apart(s, stems, out);
     if (!start) start.emplace(blocks);
     leave_out_in_blocks(s, *start, stems);
     for (Stem& stem : stems) stem.section = static_cast<std::int32_t>(out.forests.size());

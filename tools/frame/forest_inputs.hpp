@@ -30,7 +30,8 @@ struct StandingForests {
 /// start. Throws InputError for a forest that does not say where it stands or says it twice, that
 /// has no stem on the terrain, that has stems and drags, with keys or rasters that do not go
 /// together, with more than 1e6 stems, stems without a diameter, of an unknown species, and a
-/// listed stem that stands in a block.
+/// listed stem that stands in a block or where one of a section before does. Warns of stands of one
+/// kind that share ground.
 [[nodiscard]] StandingForests read_forests(Tool& tool, const Site& site, const Trn& trn,
                                            const BlockSet& blocks);
 

@@ -1,6 +1,8 @@
 #include "tools/frame/site_places.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/error.hpp"
 #include "base/text.hpp"
@@ -9,6 +11,7 @@
 #include "io/crs_gdal.hpp"
 #include "io/crs_operation_gdal.hpp"
 #include "io/crs_place_gdal.hpp"
+#include "scene/site_fence.hpp"
 #include "terrain/extent_text.hpp"
 #include "tools/frame/vector_inputs.hpp"
 
@@ -34,6 +37,53 @@ void bring_to_ground(Tool& tool, const Site& site, const Trn& ground, const std:
   tool.info(key + ": " + sentence_on(operation));
   tool.record(key + ": " + sentence_on(operation));
   if (const std::string doubt = doubt_on(operation); !doubt.empty()) tool.warn(key + ": " + doubt);
+}
+
+// The part of a segment, as shares of its length, that lies within `near` of another one.
+std::pair<double, double> part_near(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d,
+                                    double near) {
+  const double length = (b - a).norm();
+  const Vec2 along = (b - a) / length, across(-along.y(), along.x());
+  const Vec2 from((c - a).dot(along), (c - a).dot(across));
+  const Vec2 to((d - a).dot(along), (d - a).dot(across));
+  double low = 0, high = 1;  // shares of c-d whose distance across is at most `near`
+  const double rise = to.y() - from.y();
+  if (rise == 0) {
+    if (std::abs(from.y()) > near) return {0, 0};
+  } else {
+    const double one = (-near - from.y()) / rise, other = (near - from.y()) / rise;
+    low = std::max(low, std::min(one, other));
+    high = std::min(high, std::max(one, other));
+    if (low >= high) return {0, 0};
+  }
+  const double x = from.x() + low * (to.x() - from.x()), y = from.x() + high * (to.x() - from.x());
+  return {std::clamp(std::min(x, y) / length, 0.0, 1.0),
+          std::clamp(std::max(x, y) / length, 0.0, 1.0)};
+}
+
+// Two fences that share a stretch of ground count and stop the same blocks twice there. Fences that
+// cross, or meet at a corner, share less than two metres.
+void check_share_no_ground(Tool& tool, const Site& site, const Trn& trn, const FenceLine& one,
+                           const FenceLine& other) {
+  constexpr double near = 0.1, shared_m = 2;
+  const std::vector<Vec3>&p = one.line.points, &q = other.line.points;
+  double length = 0;
+  Vec2 at = Vec2::Zero();
+  for (std::size_t i = 0; i + 1 < p.size(); ++i)
+    for (std::size_t j = 0; j + 1 < q.size(); ++j) {
+      const Vec2 a = p[i].head<2>(), b = p[i + 1].head<2>();
+      const auto [from, to] = part_near(a, b, q[j].head<2>(), q[j + 1].head<2>(), near);
+      if (length == 0 && to > from) at = a + from * (b - a) + trn.origin.head<2>();
+      length += (to - from) * (b - a).norm();
+    }
+  if (length <= shared_m || lies_along(p, q) || lies_along(q, p)) return;
+  const std::string finding = "lies on fence " + other.line.name + " along " + text(length, 3) +
+                              " m, from " + text(at.x(), 9) + ", " + text(at.y(), 9) + " on";
+  if (one.fence != other.fence && !(one.fence->active && other.fence->active))
+    return tool.warn("fence " + one.line.name + " " + finding + ": both count the same blocks");
+  throw InputError({site.file, one.fence->line_number, "fence." + one.line.name},
+                   finding + ": two fences would stand there",
+                   "end one of them where the other one begins");
 }
 
 }  // namespace
@@ -186,6 +236,9 @@ std::vector<std::vector<std::vector<Vec2>>> polygons_of(const RecordObject& obje
 void check_fences_apart(Tool& tool, const Site& site, const Trn& trn,
                         const std::vector<FenceLine>& lines) {
   for (const std::string& doubt : check_fences_apart(site.file, trn, lines)) tool.warn(doubt);
+  for (std::size_t later = 0; later < lines.size(); ++later)
+    for (std::size_t earlier = 0; earlier < later; ++earlier)
+      check_share_no_ground(tool, site, trn, lines[later], lines[earlier]);
 }
 
 }  // namespace talus

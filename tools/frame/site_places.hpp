@@ -34,7 +34,8 @@ namespace talus {
 /// polygon, ring, points, local [m].
 [[nodiscard]] std::vector<std::vector<std::vector<Vec2>>> polygons_of(const RecordObject& object);
 
-/// As check_fences_apart() of record/fence_lines.hpp, whose sentences become warnings.
+/// As check_fences_apart() of record/fence_lines.hpp, whose sentences become warnings; and the same
+/// for fences that share more than two metres of ground.
 void check_fences_apart(Tool& tool, const Site& site, const Trn& trn,
                         const std::vector<FenceLine>& lines);
 

@@ -162,6 +162,9 @@ struct Tool::Impl {
     if (!options.failures.empty() && !may_hold_failures(options.failures))
       throw InputError({options.failures}, "is something else than a list of failures",
                        "name a file for --failures that may be replaced");
+    if (options.db == ":memory:")
+      throw UsageError({"", 0, "--db"}, "is :memory:, which SQLite takes for no file",
+                       "name a file, or run with --no-db");
     begin_record(name, command_text(argc, argv), record);
     for (const ConfigValue& value : settings_of(app, options))
       record.params.push_back({value.key, value.value, value.source});
@@ -532,7 +535,8 @@ int Tool::run(int argc, char** argv, const std::function<void()>& body) {
     std::cout << description_of(impl.name, impl.app, impl.options).dump(2) << std::endl;
     return std::cout ? done : input_unusable;
   } catch (const CLI::Success& wanted) {  // --help, --version
-    return impl.app.exit(wanted);
+    const int code = impl.app.exit(wanted);
+    return std::cout.flush() ? code : input_unusable;
   } catch (const CLI::ParseError& error) {
     // What was given before or behind the fault has not been read.
     impl.options.failures = word_after("--failures", argc, argv);
@@ -555,6 +559,7 @@ int Tool::run(int argc, char** argv, const std::function<void()>& body) {
   int code = impl.guarded([&] {
     if (impl.options.print_config) {
       print_settings(settings_of(impl.app, impl.options), std::cout);
+      if (!std::cout.flush()) throw InputError({"standard output"}, "cannot be written");
       return static_cast<int>(done);
     }
     impl.begin(argc, argv);

@@ -5,7 +5,7 @@
 #include "base/grouped_text.hpp"
 #include "base/sha256.hpp"
 #include "base/text.hpp"
-#include "io/dataset_files_gdal.hpp"
+#include "tools/frame/data_files.hpp"
 #include "tools/frame/file_paths.hpp"
 #include "tools/frame/options.hpp"
 
@@ -60,7 +60,7 @@ void read_members(Tool& tool, const std::string& role, const std::string& path) 
   const std::string file = file_of(path);
   if (file.empty() || is_virtual(file)) return;
   const std::vector<std::string> known = sidecars_of(file);  // that the tool reads anyway
-  for (const std::string& member : dataset_files(file))
+  for (const std::string& member : data_files(file))
     if (member != file && std::count(known.begin(), known.end(), member) == 0)
       tool.read_also(role, member);
 }

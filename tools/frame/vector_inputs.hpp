@@ -14,7 +14,7 @@ namespace talus {
 void add_layer_options(Tool& tool, const std::string& prefix, const std::string& of,
                        LayerChoice& choice);
 
-/// Further files that a data set named to the tool is made of (dataset_files_gdal.hpp) become
+/// Further files that a data set named to the tool is made of (data_files.hpp) become
 /// inputs: other bytes in any of them make another run. Call it before the data set is read.
 void read_members(Tool& tool, const std::string& role, const std::string& path);
 /// Tool::read_also() of a data set and of these.

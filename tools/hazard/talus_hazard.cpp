@@ -7,12 +7,12 @@
 
 #include "base/memory.hpp"
 #include "base/text.hpp"
-#include "site/section_digest.hpp"
 #include "tools/frame/build_info.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/fault_json.hpp"
 #include "tools/frame/map_output.hpp"
 #include "tools/frame/options.hpp"
+#include "tools/frame/section_state.hpp"
 #include "tools/hazard/inputs.hpp"
 #include "tools/hazard/layers.hpp"
 
@@ -232,7 +232,7 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& runs
   const MapLayer* const certainty = layer_named(layers, certainty_layer);
   Json result = {{"run_id", tool.run_id()},
                  {"tags", Json::object()},
-                 {"sections", section_digest(site, {"hazard"})},
+                 {"sections", section_state(site, {"hazard"})},
                  {"n_runs", runs.members.size()},
                  {"n_cells_touched", layers[0].cell.size()},
                  {"cell_size_m", grid.cell_size},

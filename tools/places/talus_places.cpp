@@ -5,11 +5,12 @@
 #include <limits>
 
 #include "base/text.hpp"
+#include "post/fence/fence_runs.hpp"
 #include "post/places.hpp"
 #include "post/reduce.hpp"
-#include "site/section_digest.hpp"
 #include "tools/frame/fault_json.hpp"
 #include "tools/frame/run_inputs.hpp"
+#include "tools/frame/section_state.hpp"
 #include "tools/frame/site_options.hpp"
 #include "tools/frame/site_places.hpp"
 #include "tools/frame/vector_inputs.hpp"
@@ -59,20 +60,24 @@ std::vector<Place> places_of(Tool& tool, const Site& site, const Trn& trn,
   return places;
 }
 
+// The lines of the fence that a place names, as the site file has them; none for another place.
+std::vector<FenceCase> lines_of(Tool& tool, const Site& site, const Trn& trn, const Place& place) {
+  std::vector<FenceCase> lines;
+  for (const FenceSettings& fence : site.fences) {
+    if (place.line.empty() || fence.name != place.line) continue;
+    for (const RecordLine& line : fence_lines(tool, site, trn, fence))
+      lines.push_back({fence, line, {}});
+  }
+  return lines;
+}
+
 // What the runs say of the places.
 struct Reached {
   std::vector<Place> places;
+  std::vector<std::vector<FenceCase>> lines;  // by place
   Released released;
   std::vector<std::vector<double>> weight;  // by place, of each run
 };
-
-void check_line(const Place& place, const RunFile& run, const RunMember& member) {
-  if (!place.cells.empty()) return;
-  for (const RecordLine& line : run.lines)
-    if (line.name == place.line || line.name.starts_with(place.line + ".")) return;
-  throw InputError({where_of(member)}, "did not record the line of fence " + place.line,
-                   "make the runs again with this site file");
-}
 
 void add_run(Reached& all, const RunFile& run, const std::vector<Passage>& passages, int at) {
   for (std::size_t p = 0; p < all.places.size(); ++p)
@@ -94,8 +99,12 @@ Reached read_all(Tool& tool, const Site& site, RunInputs& inputs) {
     if (index == 0) {
       all.places = places_of(tool, site, inputs.trn(), run.grid);
       all.weight.resize(all.places.size());
+      for (const Place& place : all.places)
+        all.lines.push_back(lines_of(tool, site, inputs.trn(), place));
     }
-    for (const Place& place : all.places) check_line(place, run, inputs.members[index]);
+    for (const std::vector<FenceCase>& lines : all.lines)
+      for (const FenceCase& line : lines)
+        static_cast<void>(find_line(run, line, where_of(inputs.members[index]), site.file));
     all.released.weight.push_back(inputs.members[index].weight);
     all.released.n_blocks.push_back(inputs.members[index].n_blocks);
     all.released.run_weight.push_back(run.run_weight);
@@ -174,7 +183,7 @@ void run_tool(Tool& tool, const Site& site, RunInputs& inputs) {
                           : "add " + counted(most, "run") + " to " + std::to_string(n_runs);
   Json result = {{"run_id", tool.run_id()},
                  {"run_set", inputs.run_set()},
-                 {"sections", section_digest(site, {"place", "fence"})},
+                 {"sections", section_state(site, {"place", "fence"})},
                  {"n_runs", n_runs},
                  {"runs_to_add", most},
                  {"places", list}};

@@ -8,8 +8,8 @@
 #include "base/sha256.hpp"
 #include "io/tags_gdal.hpp"
 #include "post/run_set.hpp"
-#include "site/section_digest.hpp"
 #include "site/uncertainty.hpp"
+#include "tools/frame/section_state.hpp"
 #include "tools/frame/site_stages.hpp"
 
 namespace talus {
@@ -111,7 +111,7 @@ std::vector<std::string> with_sidecars(const std::string& name) {
 // Whether the file says that it was made with what the site file says of these sections now.
 bool is_of_sections(const ResultFolder& folder, const std::string& name, const Site& site,
                     const std::vector<std::string>& sections) {
-  return text_at(folder.glance(name), "/sections") == section_digest(site, sections);
+  return text_at(folder.glance(name), "/sections") == section_state(site, sections);
 }
 
 std::string of_other_sections(const std::string& names) {
@@ -193,6 +193,20 @@ void leave_out_places(ResultFolder& folder, const Site& site, const std::string&
     folder.leave_out({"places.json"}, of_other_sections("[place.*] or [fence.*]"));
 }
 
+// Curves name their runs, all of one evaluation.
+void leave_out_curves(ResultFolder& folder, const std::vector<std::string>& ids) {
+  if (!folder.has("curves.csv")) return;
+  std::istringstream lines(read_file(folder.path("curves.csv").string()));
+  std::string line;
+  std::getline(lines, line);  // names of the columns
+  while (std::getline(lines, line)) {
+    const std::string id = line.substr(0, line.find(','));
+    if (std::find(ids.begin(), ids.end(), id) != ids.end()) continue;
+    folder.leave_out({"curves.csv"}, of_other_runs);
+    return;
+  }
+}
+
 // The terrain's report says what it was made from.
 void leave_out_tin(ResultFolder& folder) {
   if (!folder.has("trn.json")) return;
@@ -216,6 +230,7 @@ void leave_out_others(ResultFolder& folder, const Site& site, const Json& runout
   leave_out_hazard(folder, site, run_set);
   leave_out_places(folder, site, run_set);
   leave_out_tin(folder);
+  leave_out_curves(folder, ids_of(runout));
   if (folder.has("runout.gpkg") &&
       origin_of(folder, "runout.gpkg").run_id != text_at(runout, "/run_id"))
     folder.leave_out({"runout.gpkg"}, "not of the run of talus-runout that runout.json is of");
@@ -238,6 +253,16 @@ std::map<std::string, EffectiveValue> values_of(const std::string& config) {
                                    line.substr(source + 4)};
   }
   return values;
+}
+
+// The sections of grounds of the text of print_config(), those that `other` has too.
+std::vector<std::string> shared_grounds(const std::string& config, const std::string& other) {
+  std::istringstream lines(config);
+  std::vector<std::string> sections;
+  for (std::string line; std::getline(lines, line);)
+    if (line.starts_with("[ground.") && other.find("\n" + line + "\n") != std::string::npos)
+      sections.push_back(line);
+  return sections;
 }
 
 // By [uncertainty]: differs from run to run.
@@ -277,6 +302,12 @@ void check_site_of(const RunFile& run, const std::string& path, const Site& site
         "was computed with " + key + " = " + given(old) + "; in the site file it is " + given(now),
         "give the site file that the runs were made with, or make them again");
   }
+  const std::string config = print_config(site);
+  if (shared_grounds(run.info.config, config) != shared_grounds(config, run.info.config))
+    throw InputError({path},
+                     "was computed with the sections [ground.*] in another order than in the site "
+                     "file: where two overlap the later one applies",
+                     "give the site file that the runs were made with, or make them again");
 }
 
 std::string ground_of(const RunInfo& run, const ResultFolder& folder) {

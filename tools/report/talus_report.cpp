@@ -242,6 +242,54 @@ void read_registry(const std::string& db, const ResultFolder& folder,
       add_steps(db, sha256_of_file(folder.path(name).string()), latest, seen, data.steps);
 }
 
+// Files beside the main one of a tool that do not say which run they are of. One that the registry
+// knows from other work, of which nothing was read for these results, is left out.
+void leave_out_of_other_work(const std::string& db, ResultFolder& folder, ReportData& data) {
+  if (data.steps.empty()) return;
+  std::set<std::string> tools, read{sha256_of_file(folder.path("runout.json").string())};
+  for (const RunRecord& step : data.steps) {
+    tools.insert(step.tool);
+    for (const RunArtifact& file : step.inputs) read.insert(file.sha256);
+  }
+  for (const char* name : {"tin.json", "trn.json", "blocks.json", "stereonet.svg", "sizes.svg",
+                           "runout.svg", "curves.csv"}) {
+    if (!folder.has(name)) continue;
+    constexpr std::int64_t latest = std::numeric_limits<std::int64_t>::max();
+    const RunRecord by = writer_of(db, sha256_of_file(folder.path(name).string()), latest);
+    const auto is_read = [&read](const RunArtifact& file) { return read.contains(file.sha256); };
+    if (by.id == 0 || !tools.contains(by.tool) ||
+        std::any_of(by.outputs.begin(), by.outputs.end(), is_read))
+      continue;
+    folder.leave_out({name}, "of a run of " + by.tool + " that these results were not made from");
+  }
+  if (!folder.has("tin.json")) data.tin = nullptr;
+  if (!folder.has("trn.json")) data.trn = nullptr;
+  if (!folder.has("blocks.json")) data.blocks = nullptr;
+  if (!folder.has("stereonet.svg")) data.stereonet_svg.clear();
+  if (!folder.has("sizes.svg")) data.sizes_svg.clear();
+  if (!folder.has("runout.svg")) data.mobility_svg.clear();
+  if (!folder.has("curves.csv")) data.curves_csv.clear();
+}
+
+// Inputs from outside of the folder that hold something else by now: the results are of what they
+// held. The site file was compared value by value, files that count by their content elsewhere.
+void warn_of_changed_inputs(Tool& tool, const ResultFolder& folder,
+                            const std::vector<RunRecord>& steps) {
+  const std::string results = (fs::path(absolute_path(folder.path("").string())) / "").string();
+  std::set<std::pair<std::string, std::string>> seen;
+  for (const RunRecord& step : steps)
+    for (const RunArtifact& file : step.inputs) {
+      const bool is_result = file.path.starts_with(results) || file.role == "run" ||
+                             file.role == "without" || file.role == "part";
+      if (is_result || file.role == "site" || file.role == "by content" ||
+          !fs::is_regular_file(file.path) || !seen.insert({file.path, file.sha256}).second)
+        continue;
+      if (sha256_of_file(file.path) != file.sha256)
+        tool.warn(file.path + ": has changed since " + step.tool +
+                  " read it: these results are of what it held; make them again");
+    }
+}
+
 // --- the page ------------------------------------------------------------------------------------
 
 // Of a raster that the folder has, with its style.
@@ -392,6 +440,8 @@ ReportData read_data(Tool& tool, const Site& site, const std::string& texts, Res
   data.bed = read_trn(ground_of(data.shown.info, folder));
   read_maps(folder, data);
   read_registry(tool.registry(), folder, places, progress, data);
+  leave_out_of_other_work(tool.registry(), folder, data);
+  warn_of_changed_inputs(tool, folder, data.steps);
   data.run_id = tool.run_id();
   return data;
 }

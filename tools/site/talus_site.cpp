@@ -11,9 +11,10 @@
 #include "base/read_file.hpp"
 #include "base/source_path.hpp"
 #include "base/text.hpp"
-#include "io/dataset_files_gdal.hpp"
 #include "io/feature_tables_gdal.hpp"
+#include "tools/frame/data_files.hpp"
 #include "tools/frame/file_paths.hpp"
+#include "tools/frame/object_files.hpp"
 #include "tools/frame/options.hpp"
 #include "tools/frame/site_options.hpp"
 #include "tools/frame/site_stages.hpp"
@@ -74,7 +75,7 @@ bool is_read(const Site& site, const std::string& stage, const EffectiveValue& v
 
 // Digests of the files that a data set is made of. GDAL does not name the encoding of a Shapefile.
 std::string digests_of(const std::string& path, FileDigests& digests) {
-  const std::vector<std::string> members = dataset_files(path);
+  const std::vector<std::string> members = data_files(path);
   std::set<std::string> files(members.begin(), members.end());
   for (const std::string& file : sidecars_of(path))
     if (fs::is_regular_file(file)) files.insert(file);
@@ -172,11 +173,12 @@ const std::string& plain_name(const std::string& name, const Where& where) {
   return name;
 }
 
-// The name of a file as a prerequisite.
+// The name of a file as a prerequisite and as a word of a recipe. At its beginning - is an option,
+// # a remark of the shell.
 std::string make_word(const std::string& path, const Site& site) {
-  std::string out;
+  std::string out = !path.empty() && (path[0] == '-' || path[0] == '#') ? "./" : "";
   for (const char c : plain_name(path, {site.file}))
-    out += c == ' ' || c == '#' || c == ':' || c == '%' ? std::string("\\") + c : std::string(1, c);
+    out += c == ' ' || c == '#' || c == ':' ? std::string("\\") + c : std::string(1, c);
   return out;
 }
 
@@ -355,6 +357,7 @@ int main(int argc, char** argv) {
     const Site& site = site_options.load();
     const std::string variables = make_variables(site);
     check_files(site);
+    check_object_files(site);
     const fs::path stages = folder, memory = stages / ".digests";
     FileDigests digests(fs::is_regular_file(memory) ? read_file(memory.string()) : "");
     write_if_changed(tool, stages / "site.mk", variables);

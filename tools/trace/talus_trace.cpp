@@ -4,19 +4,19 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
-#include <map>
 
 #include "base/grouped_text.hpp"
 #include "base/text.hpp"
 #include "post/hazard/hazard_rates.hpp"
 #include "post/reduce.hpp"
-#include "site/section_digest.hpp"
 #include "tools/frame/class_runs.hpp"
 #include "tools/frame/command_line.hpp"
 #include "tools/frame/fault_json.hpp"
 #include "tools/frame/file_paths.hpp"
 #include "tools/frame/map_output.hpp"
+#include "tools/frame/object_files.hpp"
 #include "tools/frame/options.hpp"
+#include "tools/frame/section_state.hpp"
 #include "tools/frame/site_options.hpp"
 #include "tools/frame/site_places.hpp"
 #include "tools/trace/layers.hpp"
@@ -249,29 +249,9 @@ std::string summary_of(const std::string& name, const TracedObject& o, bool has_
          std::to_string(t.n_sources[2]) + " source cells";
 }
 
-// A raster an object: names that differ in signs alone would be one file.
-void check_file_names(const Site& site) {
-  constexpr std::size_t longest = 100;
-  std::map<std::string, std::string> object_of;  // file, name
-  for (const ObjectSettings& object : site.objects) {
-    const Where where{site.file, object.line_number, "object." + object.name};
-    const std::string word = file_word(object.name);
-    if (word.size() > longest)
-      throw InputError(where,
-                       "the name has " + std::to_string(word.size()) + " bytes, expected at most " +
-                           std::to_string(longest) + " for a file",
-                       "give it a shorter name, or leave --rasters out");
-    const auto [known, is_new] = object_of.emplace(word, object.name);
-    if (!is_new)
-      throw InputError(
-          where, "has the same raster as object " + known->second + ", source_" + word + ".tif",
-          "give it a name that differs in letters or digits");
-  }
-}
-
 void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& runs) {
   const Site& site = site_options.load();
-  if (!o.rasters.empty()) check_file_names(site);
+  if (!o.rasters.empty()) check_object_files(site);
   const std::vector<HazardClass> classes = hazard_classes(site);
   const Traced traced = trace(tool, site, runs, o, classes);
   const TraceSums& sums = traced.sums;
@@ -319,7 +299,7 @@ void run_tool(Tool& tool, Options& o, SiteOptions& site_options, RunInputs& runs
   }
   Json result = {{"run_id", tool.run_id()},
                  {"tags", Json::object()},
-                 {"sections", section_digest(site, {"object", "hazard"})},
+                 {"sections", section_state(site, {"object", "hazard"})},
                  {"n_runs", n_runs(sums)},
                  {"source_cell_m", sums.sources.cell_size},
                  {"n_source_cells", sums.source.size()},

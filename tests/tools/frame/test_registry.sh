@@ -44,3 +44,8 @@ prints "$id"
 [ ! -e elsewhere/runs.sqlite ] || fail "--no-db wrote a registry"
 expect 0 frame-probe elsewhere/plain.txt -o elsewhere/out.txt --factor-m 3 --json --overwrite
 if grep -q "$id" out; then fail "the id does not depend on the options"; fi
+
+# SQLite's name for a database without a file is none for a registry
+expect 2 frame-probe out.txt -o three.txt --db :memory:
+says "--db: is :memory:, which SQLite takes for no file"
+nothing_left three.txt

@@ -20,3 +20,11 @@ frame-probe in.txt -o none.txt --db r.sqlite >&- 2>&- <&- && fail "a closed stan
 same none.txt
 expect 0 talus-runs list --db r.sqlite
 [ "$(grep -c frame-probe out)" = 2 ] || fail "not two runs: $(cat out)"
+
+# what only prints says so, too
+for words in --help --version '--describe json' '-o none.txt --print-config'; do
+  frame-probe in.txt $words >/dev/full 2>err && fail "$words: a full standard output is no fault"
+  frame-probe in.txt $words >&- 2>err && fail "$words: a closed standard output is no fault"
+  frame-probe in.txt $words >out 2>err || fail "$words: $(cat err)"
+  [ -s out ] || fail "$words prints nothing"
+done

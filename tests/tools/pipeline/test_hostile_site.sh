@@ -38,3 +38,25 @@ printf 'include stages/site.mk\nall: ; @echo $(SITE_TIN_FLAGS)\n' >Makefile
 expect 0 make
 prints '--layer $(shell touch hurt)'"'"';touch hurt'
 nothing_left hurt odd/hurt
+
+# names that begin as an option or as a remark of the shell do, and the sign of a pattern
+for name in -c.gpkg '#1.gpkg' 'steep 30%.gpkg'; do
+  site odd
+  mv odd/contours.gpkg "odd/$name"
+  sed -i "s/^contours = .*/contours = \"$name\"/" odd/site.toml
+  rm -rf odd/out
+  made odd terrain
+  [ -s odd/out/trn.tif ] || fail "no terrain from $name"
+  made odd -n terrain
+  if grep -q '^talus-' out; then fail "nothing changed, and make would start a tool for $name"; fi
+  rm "odd/$name"
+done
+
+# two objects of one file name are refused before anything runs
+site twins
+for name in Müller Möller; do
+  printf '[object."%s"]\nposition_m = [[500100, 5200100]]\nradius_m = 2\n' $name >>twins/site.toml
+done
+expect 1 talus-site twins/site.toml -o twins/stages --no-db
+says "object.Möller: has the same raster as object Müller"
+nothing_left twins/stages/site.mk

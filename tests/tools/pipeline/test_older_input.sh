@@ -73,6 +73,11 @@ made slope terrain DEM=mosaic.vrt
 replaced slope/mine.tif dem.tif
 would terrain DEM=mosaic.vrt
 would_be "trn " "an older part of a mosaic"
+gdalbuildvrt -q slope/mosaics.vrt slope/mosaic.vrt
+made slope terrain DEM=mosaics.vrt
+replaced slope/mine.tif other.tif
+would terrain DEM=mosaics.vrt
+would_be "trn " "an older part of a mosaic of mosaics"
 made slope terrain DEM=mine.tif
 gdalinfo -stats slope/mine.tif >/dev/null
 [ -s slope/mine.tif.aux.xml ] || fail "no statistics beside the elevation model"
@@ -91,3 +96,17 @@ made map terrain
 replaced map/contours.gpkg "$source_dir/sample_sites/maungawhau/contours.gpkg"
 expect 2 make -C map BIN= terrain
 says "The data of this site are missing or differ"
+
+# results with times of the future, of a clock that was set back: what is changed now would look older
+rm map/manifest.sha256
+cp "$source_dir/sample_sites/designed/contours.gpkg" map/contours.gpkg
+made map terrain
+touch -d '+1 hour' map/out/tin.ply map/out/tin.json map/out/trn.tif map/out/trn.json
+sed -i 's/^cell_size_m = 8/cell_size_m = 4/' map/site.toml
+for flags in -n -s; do
+  expect 2 make -C map BIN= $flags terrain
+  says "has a time of the future"
+done
+(cd map && eval "$(sed -n 's/.*such files: \(find .* +\)\..*/\1/p' ../err)")
+made map terrain
+gdalinfo map/out/trn.tif | grep -q 'Pixel Size = (4.0' || fail "a terrain of the future was left as it was"

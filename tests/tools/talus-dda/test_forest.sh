@@ -140,3 +140,20 @@ sed 's/500050, 5000030/500020, 5000030/' stems.geojson >inside.geojson
 refused 'stems_file = "inside.geojson"' 'stands in block 0 at the start'
 sed 's/\[500060, 5000050\]/[300000, 5000050]/; s/\[500050, 5000030\]/[300000, 5000030]/' stems.geojson >off.geojson
 refused 'stems_file = "off.geojson"' 'forest.wood: has no stem on the terrain'
+
+# two sections on the same ground count twice: said; one stem in two lists is refused
+{ cat drawn.toml && printf '[forest.again]\n%b\nstems_per_ha = 1500\n' "$polygon"; } >twice.toml
+expect 0 run twice --json
+says "warning: forest.again: 100 % of its area lies in forest.wood: there the stems of both stand"
+half='polygon = [[500070, 5000010], [500110, 5000010], [500110, 5000090], [500070, 5000090]]'
+{ cat drawn.toml && printf '[forest.fog]\n%b\ndrag_kg_s = 250\n' "$half"; } >layers.toml
+expect 0 run layers --json
+if grep -q 'lies in' err; then fail 'undergrowth below stems is no second stand'; fi
+printf '[forest.mist]\n%b\ndrag_kg_s = 250\n' "$polygon" >>layers.toml
+expect 0 talus-dda layers.toml --trn slope.tif --blocks blocks.h5 -o layers2.h5 --no-db
+says "forest.mist: 56 % of its area lies in forest.fog: there the drag of both acts"
+printf 'x,y,dbh_cm\n500060,5000030,40\n500060,5000050,40\n' >one_list.csv
+{ cat site.toml && printf '[forest.a]\nstems_file = "one_list.csv"\n[forest.b]\nstems_file = "one_list.csv"\n'; } >lists.toml
+expect 1 run lists --json
+says "forest.b: has a stem where forest.a has one, at 500060, 5000030"
+nothing_left lists.h5

@@ -73,3 +73,17 @@ refused file.toml "fence.low.2: lies on fence low.1 all along" "hint: delete the
 collection "$line" >lines.geojson
 expect 0 talus-dda file.toml --trn slope.tif --blocks blocks.h5 --no-db --independent -o f.h5
 says "lines.geojson: layer lines, 1 line"
+
+# fences that share a part of their lines; crossing ones and those that meet do not
+{ stands; fence beyond '[[500060, 5000050], [500060, 5000098]]' 'capacity_kj = 2000'; } >half.toml
+rm -f f.h5
+refused half.toml "fence.beyond: lies on fence low along 40 m, from 500060, 5000050 on" \
+  "hint: end one of them where the other one begins"
+{ stands; fence skew '[[500060.05, 5000098], [500060.05, 5000060], [500080, 5000060]]' ''; } >skew.toml
+refused skew.toml "fence.skew: lies on fence low along 30"
+{ stands; fence beyond '[[500060, 5000050], [500060, 5000098]]' 'active = false'; } >half.toml
+expect 0 talus-dda half.toml --trn slope.tif --blocks blocks.h5 --no-db --independent -o f.h5
+says "warning: fence beyond lies on fence low along 40 m"
+{ stands; fence next '[[500060, 5000090], [500060, 5000098]]' ''; fence over '[[500055, 5000040], [500065, 5000045]]' ''; } >meet.toml
+expect 0 talus-dda meet.toml --trn slope.tif --blocks blocks.h5 --no-db --independent -o f.h5 --overwrite
+if grep -q 'lies on' err; then fail "fences that meet or cross share no ground: $(cat err)"; fi

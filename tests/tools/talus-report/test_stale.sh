@@ -33,3 +33,30 @@ left_out 'made with other [place.*] or [fence.*] than the site file has'
 sed -i 's/250012/250010/g' school.geojson
 report site.toml
 all_there
+
+# curves of other runs, by their ids
+printf 'run_id,time_s\n0123456789abcdef,0\n' >results/curves.csv
+report site.toml
+left_out 'curves.csv: not of the runs that runout.json is of'
+rm results/curves.csv
+
+# all files of a Shapefile, and what an archive holds
+if command -v ogr2ogr >/dev/null && command -v python3 >/dev/null; then
+  sed -e 's/"properties":{}/"properties":{"kind":"school"}/' school.geojson >kind.geojson
+  ogr2ogr -q -f "ESRI Shapefile" school.shp kind.geojson
+  sed -e 's/"school"/"stable"/' kind.geojson >stable.geojson
+  ogr2ogr -q -f "ESRI Shapefile" stable.shp stable.geojson
+  zip() { python3 -c "import zipfile; zipfile.ZipFile('map.zip', 'w').write('kind.geojson')"; }
+  zip
+  for file in school.shp map.zip/kind.geojson; do
+    sed "s#^polygon_file = \"school.geojson\"#polygon_file = \"$file\"#" site.toml >other.toml
+    expect 0 talus-places other.toml results/runs/*.h5 --trn results/trn.tif --json results/places.json --overwrite --no-db
+    report other.toml
+    all_there
+    cp stable.dbf school.dbf
+    sed -i 's/"kind":"/"kind":"x/' kind.geojson
+    zip
+    report other.toml
+    left_out 'places.json'
+  done
+fi
