@@ -45,7 +45,7 @@ std::array<double, 6> place_of(GDALDataset& dataset, const std::string& path) {
 void check_ground_place(GDALDataset& dataset, const std::array<double, 6>& g,
                         const std::string& path, const Trn& trn) {
   const std::string own = wkt_of(dataset.GetSpatialRef());
-  Place place{
+  CrsExtent place{
       own.empty() ? trn.crs_wkt : own,
       {g[0], g[3] + dataset.GetRasterYSize() * g[5], g[0] + dataset.GetRasterXSize() * g[1], g[3]}};
   place.is_raster = true;

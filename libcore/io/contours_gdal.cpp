@@ -78,7 +78,7 @@ void check_place_of(const LayerChoice& choice, const OpenLayer& source, const st
                     const std::string& work_crs, const std::vector<Vec3>& points,
                     ContourReading& reading) {
   if (crs.empty() || points.empty()) return;
-  Place place{crs, window_of(points), work_crs};
+  CrsExtent place{crs, window_of(points), work_crs};
   place.has_crs_option = place.has_unit_option = std::string(source.role.options) == "--";
   place.layer = source.layer->GetName();
   place.geometry_column = source.layer->GetGeometryColumn();

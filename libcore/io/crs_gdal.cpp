@@ -87,9 +87,12 @@ std::string crs_from_user(const std::string& user_text, const std::string& optio
   if (user_text == "none") return {};
   const GdalErrors errors;
   OGRSpatialReference srs;
-  if (user_text.empty() || srs.SetFromUserInput(user_text.c_str()) != OGRERR_NONE)
+  // A file of that name would be read without being an input.
+  constexpr const char* limits[] = {"ALLOW_NETWORK_ACCESS=NO", "ALLOW_FILE_ACCESS=NO", nullptr};
+  if (user_text.empty() || srs.SetFromUserInput(user_text.c_str(), limits) != OGRERR_NONE)
     throw InputError({"", 0, option}, "\"" + user_text + "\" is not a CRS",
-                     "write EPSG:code, for example EPSG:31287, or a PROJ string");
+                     "write EPSG:code, for example EPSG:31287, a PROJ string or WKT (of a file: "
+                     "--crs \"$(cat FILE.prj)\")");
   return wkt_of(&srs);
 }
 

@@ -257,7 +257,7 @@ MapWindow mapped(const MapWindow& w, const std::function<Vec2(const Vec2&)>& cha
           std::max(a.y(), b.y())};
 }
 
-std::string mended_command(const Place& place, const Where& where, const std::string& function,
+std::string mended_command(const CrsExtent& place, const Where& where, const std::string& function,
                            const MapWindow& moved) {
   const std::string code = crs_code(place.crs_wkt);
   const std::string named = code == "CRS" ? std::string() : " -a_srs " + code;
@@ -277,7 +277,7 @@ std::string mended_command(const Place& place, const Where& where, const std::st
 
 class Guesses {
  public:
-  Guesses(const Place& place, const Where& where, const Systems& systems)
+  Guesses(const CrsExtent& place, const Where& where, const Systems& systems)
       : place_(place), where_(where), systems_(systems) {}
 
   [[nodiscard]] std::optional<Guess> best() const {
@@ -317,7 +317,7 @@ class Guesses {
   }
 
  private:
-  const Place& place_;
+  const CrsExtent& place_;
   const Where& where_;
   const Systems& systems_;
 
@@ -403,13 +403,13 @@ class Guesses {
 
 // --- the checks ----------------------------------------------------------------------------------
 
-std::string outside_words(const Place& place, const Ground& ground) {
+std::string outside_words(const CrsExtent& place, const Ground& ground) {
   return "its coordinates, " + extent_words(place.extent) + ", lie outside the area that " +
          crs_name(ground.wkt()) + " is made for" +
          (ground.area() ? " (" + area_text(*ground.area()) + ")" : "");
 }
 
-std::string way_out(const Place& place, const Where& where) {
+std::string way_out(const CrsExtent& place, const Where& where) {
   if (place.has_crs_option)
     return "is it the CRS of these coordinates? name the right one with --crs EPSG:code";
   if (!place.crs_said_in.empty())
@@ -420,7 +420,7 @@ std::string way_out(const Place& place, const Where& where) {
                          : "ogr2ogr -a_srs EPSG:code named.gpkg " + where.file);
 }
 
-void check_degrees(const Guesses& guesses, const Place& place, const Where& where) {
+void check_degrees(const Guesses& guesses, const CrsExtent& place, const Where& where) {
   const auto guess = guesses.degrees();
   if (!guess) return;
   throw InputError(where,
@@ -430,7 +430,7 @@ void check_degrees(const Guesses& guesses, const Place& place, const Where& wher
 }
 
 void check_area(const Systems& systems, const std::vector<Vec2>& places, const Guesses& guesses,
-                const Place& place, const Where& where, std::vector<std::string>& warnings) {
+                const CrsExtent& place, const Where& where, std::vector<std::string>& warnings) {
   const Verdict verdict = systems.verdict(places);
   if (verdict == Verdict::inside) return;
   const auto guess = guesses.best();
@@ -441,7 +441,7 @@ void check_area(const Systems& systems, const std::vector<Vec2>& places, const G
   warnings.push_back(where.text() + ": " + finding + ": is it the right CRS?");
 }
 
-std::string way_to_zone(const Place& place, const Where& where, const Vec2& lon_lat) {
+std::string way_to_zone(const CrsExtent& place, const Where& where, const Vec2& lon_lat) {
   const std::string zone = utm_zone(lon_lat);
   const std::string to = zone.empty() ? "EPSG:code" : zone;
   if (!place.way_to_other_crs.empty()) return place.way_to_other_crs + " " + to;
@@ -452,7 +452,7 @@ std::string way_to_zone(const Place& place, const Where& where, const Vec2& lon_
               : " reprojects");
 }
 
-void check_axes(const Ground& ground, const std::vector<Vec2>& places, const Place& place,
+void check_axes(const Ground& ground, const std::vector<Vec2>& places, const CrsExtent& place,
                 const Where& where, std::vector<std::string>& warnings) {
   Axes worst;
   double worst_stretch = 0, askew = 0;
@@ -520,7 +520,7 @@ DegreeWindow degrees_of(const std::string& crs_wkt, const MapWindow& window) {
   return found;
 }
 
-std::vector<std::string> check_place(const Place& place, const Where& where) {
+std::vector<std::string> check_place(const CrsExtent& place, const Where& where) {
   std::vector<std::string> warnings;
   if (place.crs_wkt.empty()) return warnings;
   const GdalErrors errors;
@@ -546,7 +546,7 @@ std::string reason_to_replace(const std::string& own, const std::string& given,
   if (!named.is_on_earth() || !wanted.is_on_earth()) return {};
   const std::vector<Vec2> places = places_of(named, extent);
   const Systems systems{named, named};
-  const Place place{own, extent};
+  const CrsExtent place{own, extent};
   const bool is_nowhere =
       systems.verdict(places) == Verdict::far || Guesses(place, {}, systems).degrees().has_value();
   if (is_nowhere) return "where its coordinates cannot be";

@@ -45,7 +45,7 @@ struct CrsProblem {
 [[nodiscard]] CrsProblem find_crs_problem(const std::string& crs_wkt, const Vec2& place);
 
 /// What was read, and how the person who gave it can say what it is.
-struct Place {
+struct CrsExtent {
   std::string crs_wkt;           ///< of the coordinates; empty: local, nothing is checked
   MapWindow extent;              ///< of what was read; of a raster the outer edges of its cells
   std::string work_wkt{};        ///< system that is computed in; empty: crs_wkt
@@ -62,7 +62,7 @@ struct Place {
 /// metre on the map is not within 1 % of one on the ground. The finding says what they would fit:
 /// x and y exchanged, degrees, feet, millimetres, zone numbers before the eastings ... Returns
 /// sentences to warn of: places somewhat outside, a grid north far from north.
-std::vector<std::string> check_place(const Place& place, const Where& where);
+std::vector<std::string> check_place(const CrsExtent& place, const Where& where);
 
 /// Why a user may give a file another system than it names: its coordinates cannot be in that one,
 /// or that has no known datum and the other the same projection. Goes on "the CRS is EPSG:25832,

@@ -202,15 +202,18 @@ std::string in_words(const std::map<std::string, std::int64_t>& counts) {
 
 std::string way_to_shape(const OpenLayer& source, const LayerChoice& choice) {
   const auto has = [&source](const char* kind) { return source.passed_over.count(kind) > 0; };
-  if (std::string(source.role.options) == "--" && source.role.shape == LayerShape::line) {
+  const bool are_contours =
+      std::string(source.role.options) == "--" && source.role.shape == LayerShape::line;
+  if (are_contours) {
     if (source.is_drawing && has("face"))
       return "a surface of faces needs no contours: talus-trn " + command_words(choice.path) +
              " -o terrain.tif --crs EPSG:code";
     if (has("point")) return "--points makes a TIN of points of the ground";
   }
   if (source.role.shape == LayerShape::line && has("polygon"))
-    return "outlines that each stand at one height: ogr2ogr -nlt MULTILINESTRING lines.gpkg " +
-           command_words(choice.path) + "; bands between two heights are no contours";
+    return (are_contours ? "outlines that each stand at one height: " : "their outlines: ") +
+           ("ogr2ogr -nlt MULTILINESTRING lines.gpkg " + command_words(choice.path)) +
+           (are_contours ? "; bands between two heights are no contours" : "");
   if (source.role.shape == LayerShape::face && has("line"))
     return "contours make a TIN: talus-tin " + command_words(choice.path) + " -o tin.ply";
   if (source.role.shape == LayerShape::polygon && has("open line"))

@@ -47,8 +47,9 @@ bool fits(int ogr_type, LayerShape shape) {
     case LayerShape::face:
       return OGR_GT_HasZ(type) != 0 && (flat == wkbPolygon || flat == wkbTriangle ||
                                         flat == wkbPolyhedralSurface || flat == wkbTIN);
-    default:
-      return flat == wkbPolygon || flat == wkbMultiPolygon;
+    default:  // GDAL calls surfaces of faces linear polygons, too
+      return (flat == wkbPolygon || flat == wkbMultiPolygon) &&
+             OGR_GT_IsSubClassOf(wkbFlatten(type), wkbPolyhedralSurface) == 0;
   }
 }
 

@@ -312,7 +312,7 @@ void DemFile::Impl::open() {
 void DemFile::Impl::check_place_of(const MapWindow& edges, const std::string& work_crs,
                                    bool has_options) {
   if (crs.empty() || !is_finite(edges)) return;
-  Place place{crs, edges, work_crs};
+  CrsExtent place{crs, edges, work_crs};
   place.has_crs_option = has_options;
   place.is_raster = true;
   for (std::string& warning : check_place(place, {path}))

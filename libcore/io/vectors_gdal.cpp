@@ -132,7 +132,7 @@ std::vector<Vec3> all_points(const Rings& shapes) {
 void check_place_of(const std::string& crs, const std::string& work_crs, OGRLayer& layer,
                     const Where& where, VectorShapes& found) {
   if (crs.empty() || found.shapes.empty()) return;
-  Place place{crs, window_of(all_points(found.shapes)), work_crs};
+  CrsExtent place{crs, window_of(all_points(found.shapes)), work_crs};
   place.layer = layer.GetName();
   place.geometry_column = layer.GetGeometryColumn();
   for (std::string& warning : check_place(place, {parse_source_path(where.file).source}))

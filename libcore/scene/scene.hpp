@@ -33,7 +33,7 @@ struct Settings {
   double dt = 0.005;            ///< time step, > 0; law talus shortens it where it must [s]
   double normal_stiffness = 0;  ///< k_n, > 0; 0 lets law talus choose [N/m]
   double shear_ratio = 0.4;     ///< k_s / k_n [-]
-  double accuracy = 0.005;      ///< law talus: estimated error of a moving block's displacement, as a share of it [-]
+  double accuracy = 0.005;      ///< law talus: error of the way of what moves, as a share [-]
   double tolerance_factor = 1;  ///< law talus: on the residual at which forces count as found [-]
   int max_passes = 50;          ///< law talus, a lone block: of Newton, before a step is repeated
   bool static_start = true;     ///< law talus: blocks at rest start in equilibrium with the ground

@@ -82,8 +82,10 @@ SQLite::Database open_to_write(const std::string& db, int wait_ms) {
   // the mode is changed only where it is not WAL yet, and tried again until the other one is done.
   for (int attempt = 0; database.execAndGet("PRAGMA journal_mode").getString() != "wal";
        ++attempt) {
+    if (20 * attempt > wait_ms) refuse(db, "cannot keep a journal (WAL)");
     try {
       database.exec("PRAGMA journal_mode = WAL");
+      if (database.execAndGet("PRAGMA journal_mode").getString() != "wal") sqlite3_sleep(20);
     } catch (const SQLite::Exception& error) {
       if (error.getErrorCode() != SQLITE_BUSY || 20 * attempt > wait_ms) throw;
       sqlite3_sleep(20);

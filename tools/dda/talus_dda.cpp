@@ -63,7 +63,8 @@ void declare(Tool& tool, SiteOptions& site, Options& o) {
   site.option(tool, "--law", "solver.law", "contact law, talus or paper");
   site.option(tool, "--duration-s", "solver.duration_s", "time simulated");
   site.option(tool, "--time-step-s", "solver.time_step_s", "time step");
-  site.option(tool, "--accuracy", "solver.accuracy", "estimated error of a moving block's displacement, as a share of it");
+  site.option(tool, "--accuracy", "solver.accuracy",
+              "estimated error of a moving block's displacement, as a share of it");
   site.option(tool, "--seed", "solver.seed", "seed of scatter and jitter");
   site.option(tool, "--frame-interval-s", "output.frame_interval_s", "time between frames");
   site.option(tool, "--checkpoint-interval-s", "output.checkpoint_interval_s",

@@ -206,7 +206,7 @@ std::string crs_of_tin(Tool& tool, const talus::Tin& tin, const MapWindow& data,
     throw InputError({o.source}, problem.finding,
                      "a TIN is not reprojected: make it from the contours with talus-tin --t-srs " +
                          (problem.mend_to.empty() ? "EPSG:code" : problem.mend_to));
-  talus::Place place{crs, data};
+  talus::CrsExtent place{crs, data};
   place.way_to_other_crs =
       "a TIN is not reprojected: make it from the contours with talus-tin --t-srs";
   place.crs_said_in = o.crs.empty() ? "the file" : "--crs";

@@ -87,3 +87,13 @@ says "warning: fence beyond lies on fence low along 40 m"
 { stands; fence next '[[500060, 5000090], [500060, 5000098]]' ''; fence over '[[500055, 5000040], [500065, 5000045]]' ''; } >meet.toml
 expect 0 talus-dda meet.toml --trn slope.tif --blocks blocks.h5 --no-db --independent -o f.h5 --overwrite
 if grep -q 'lies on' err; then fail "fences that meet or cross share no ground: $(cat err)"; fi
+
+# surfaces of faces are no areas
+for surface in TIN POLYHEDRALSURFACE; do
+  printf 'id,WKT\n1,"%s Z (((500000 5000000 1,500150 5000000 1,500150 5000100 1,500000 5000000 1)))"\n' $surface >surface.csv
+  rm -f faces.gpkg
+  ogr2ogr -q -f GPKG -nln faces -a_srs EPSG:32632 faces.gpkg surface.csv 2>/dev/null
+  { cat site.toml && printf '[ground.rough]\npolygon_file = "faces.gpkg"\nfriction_deg = 60\n'; } >faces.toml
+  expect 1 talus-dda faces.toml --trn slope.tif --blocks blocks.h5 --no-db --independent -o faces.h5
+  says "faces.gpkg: layer faces: holds no polygons, but 1 surface; expected polygons or closed lines"
+done

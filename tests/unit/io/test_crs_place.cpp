@@ -10,9 +10,9 @@ namespace {
 
 using talus::check_place;
 using talus::crs_from_user;
+using talus::CrsExtent;
 using talus::InputError;
 using talus::MapWindow;
-using talus::Place;
 using talus::Vec2;
 
 std::string wkt(const std::string& crs) { return crs_from_user(crs, "--crs"); }
@@ -29,7 +29,7 @@ struct Outcome {
   }
 };
 
-Outcome outcome_of(const Place& place) {
+Outcome outcome_of(const CrsExtent& place) {
   Outcome outcome;
   try {
     outcome.warnings = check_place(place, {"map.gpkg"});
@@ -41,7 +41,7 @@ Outcome outcome_of(const Place& place) {
 }
 
 Outcome outcome_at(const char* crs, double x, double y, const char* work = "") {
-  Place place{wkt(crs), window_at(x, y), std::string(work).empty() ? "" : wkt(work)};
+  CrsExtent place{wkt(crs), window_at(x, y), std::string(work).empty() ? "" : wkt(work)};
   place.has_crs_option = place.has_unit_option = true;
   place.layer = "map";
   return outcome_of(place);
@@ -102,7 +102,7 @@ TEST(CrsPlace, ExchangedCoordinatesAreNamed) {
   EXPECT_TRUE(outcome.says("with x and y exchanged they would lie in it")) << outcome.refusal;
   EXPECT_NE(outcome.hint.find("SwapCoords(geometry)"), std::string::npos) << outcome.hint;
   // latitude first, to be reprojected
-  Place place{wkt("EPSG:4326"), {46.9, 11.0, 46.91, 11.01}, wkt("EPSG:25832")};
+  CrsExtent place{wkt("EPSG:4326"), {46.9, 11.0, 46.91, 11.01}, wkt("EPSG:25832")};
   EXPECT_TRUE(outcome_of(place).says("with x and y exchanged they would lie in it"));
 }
 
@@ -110,8 +110,8 @@ TEST(CrsPlace, DegreesUnderACrsInMetresAreNamed) {
   for (const char* crs :
        {"EPSG:25832", "EPSG:27700"}) {  // 0, 0 lies inside of the area of the latter
     const bool is_british = std::string(crs) == "EPSG:27700";
-    Place place{wkt(crs),
-                is_british ? MapWindow{-3.2, 55.9, -3.1, 56} : MapWindow{11, 47, 11.1, 47.1}};
+    CrsExtent place{wkt(crs),
+                    is_british ? MapWindow{-3.2, 55.9, -3.1, 56} : MapWindow{11, 47, 11.1, 47.1}};
     place.has_crs_option = true;
     const Outcome outcome = outcome_of(place);
     EXPECT_TRUE(outcome.says("they look like degrees")) << outcome.refusal;
