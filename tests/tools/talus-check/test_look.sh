@@ -80,7 +80,7 @@ says "are parallel"
 # Friction above the dip: it stands.
 expect 0 look --set ground.rock.friction_deg=60 --set material.rock.friction_deg=60
 prints "it stands"
-prints "this is no rockslide"
+prints "this is not a rockslide"
 if grep -q "ends after 3 s" out; then fail "a mass with a splinter that falls off ends early"; fi
 expect 0 look --set ground.rock.friction_deg=60 --set material.rock.friction_deg=60 --set source.min_block_volume_m3=10
 prints "a run in which nothing moves ends after 3 s"
