@@ -37,8 +37,9 @@ std::string refusal_of(const std::string& raster) {
 }
 
 struct ForeignHdf5 : testing::Test {
-  std::string folder = testing::TempDir();
-  std::string path = folder + "foreign.h5";
+  // of each test its own: they run side by side
+  std::string path =
+      testing::TempDir() + testing::UnitTest::GetInstance()->current_test_info()->name() + ".h5";
   hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
 };
 
@@ -54,7 +55,7 @@ TEST_F(ForeignHdf5, OwnValuesAreRead) {
 
 TEST_F(ForeignHdf5, RawBytesOfAnotherFileAreFound) {
   const hid_t list = H5Pcreate(H5P_DATASET_CREATE);
-  const std::string raw = folder + "foreign.raw";
+  const std::string raw = path + ".raw";
   H5Pset_external(list, raw.c_str(), 0, n_rows * n_cols * sizeof(float));
   const hid_t group = H5Gcreate2(file, "deep", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
   add_set(group, "heights", list);
@@ -77,7 +78,7 @@ TEST_F(ForeignHdf5, OtherFilesAreNone) {
   H5Fclose(file);
   std::ofstream(path) << "ncols 4\n";
   EXPECT_EQ(kept_in_another_file(path), "");
-  EXPECT_EQ(kept_in_another_file(folder + "missing.h5"), "");
+  EXPECT_EQ(kept_in_another_file(path + ".missing"), "");
 }
 
 }  // namespace

@@ -110,7 +110,7 @@ TEST(Plausibility, OutlookHasThreeClasses) {
   EXPECT_EQ(outlook_of(0.1), Outlook::goes_in_part);
   EXPECT_EQ(outlook_of(0.9), Outlook::goes_in_part);
   EXPECT_EQ(outlook_of(0.95), Outlook::goes);
-  EXPECT_NE(with(&PlausibilityFacts::moved_share, 0.05)[0].finding.find("no rockslide"),
+  EXPECT_NE(with(&PlausibilityFacts::moved_share, 0.05)[0].finding.find("not a rockslide"),
             std::string::npos);
 }
 
