@@ -14,8 +14,9 @@
 #include <cerrno>
 #include <cstring>
 #include <memory>
-#include <regex>
+#include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/error.hpp"
@@ -95,15 +96,30 @@ bool takes_raw_bytes(GDALDataset& dataset) {
   return true;
 }
 
+// The module of a virtual table in small letters; "" where the statement is spelled otherwise than
+// SQLite, GDAL and SpatiaLite spell it.
+std::string module_of(std::string sql) {
+  constexpr std::string_view begin = "create virtual table ";
+  for (char& c : sql) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (!sql.starts_with(begin) || sql.size() == begin.size()) return "";
+  std::size_t at = begin.size();
+  const char quote = sql[at] == '[' ? ']' : sql[at];
+  const bool is_quoted = quote == '"' || quote == '\'' || quote == '`' || quote == ']';
+  at = is_quoted ? sql.find(quote, at + 1) + 1 : sql.find(' ', at);
+  constexpr std::string_view using_word = " using ";
+  if (at == 0 || at == std::string::npos || sql.compare(at, using_word.size(), using_word) != 0)
+    return "";
+  at += using_word.size();
+  return sql.substr(at, sql.find_first_of(" (", at) - at);
+}
+
 // A virtual table reads whatever its module reads: texts, tables and vectors of the machine. Those
 // of indices and of SpatiaLite's own lists read the data base alone.
-bool is_own_table(std::string sql) {
-  for (char& c : sql) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  static const std::regex own(
-      "create virtual table [^()]* using (rtree|rtree_i32|geopoly|fts[345]|virtualspatialindex|"
-      "virtualelementary|virtualknn2?)[ (][^]*");
-  return sql.find("/*") == std::string::npos && sql.find("--") == std::string::npos &&
-         std::regex_match(sql, own);
+bool is_own_table(const std::string& sql) {
+  static const std::set<std::string> own = {
+      "rtree", "rtree_i32",           "geopoly",           "fts3",       "fts4",
+      "fts5",  "virtualspatialindex", "virtualelementary", "virtualknn", "virtualknn2"};
+  return own.contains(module_of(sql));
 }
 
 bool has_foreign_tables(GDALDataset& database) {
@@ -161,11 +177,22 @@ GDALDataset* open_checked(Guarded kind, Open original, GDALOpenInfo* info) {
   return is_refused ? nullptr : dataset.release();
 }
 
+// GDAL ends with a fault where one is destroyed (3.6), so they stay.
+void take_out(const char* driver_name) {
+  static std::vector<GDALDriverH> taken;
+  const GDALDriverH driver = GDALGetDriverByName(driver_name);
+  if (driver == nullptr) return;
+  GDALDeregisterDriver(driver);
+  taken.push_back(driver);
+}
+
+// A driver that opens by other ways cannot be guarded, and is taken out.
 template <Guarded kind>
 void guard(const char* driver_name) {
   static Open original = nullptr;
   auto* const driver = static_cast<GDALDriver*>(GDALGetDriverByName(driver_name));
-  if (driver == nullptr || driver->pfnOpen == nullptr) return;
+  if (driver == nullptr) return;
+  if (driver->pfnOpen == nullptr) return take_out(driver_name);
   original = driver->pfnOpen;
   driver->pfnOpen = [](GDALOpenInfo* info) { return open_checked(kind, original, info); };
 }
@@ -194,12 +221,22 @@ std::string virtual_text(const std::string& name) {
   return text;
 }
 
-// A scheme, which the name of a raster within an HDF5 file (HDF5:"a.h5"://group/b) has not.
+// A name with a scheme (http://), which that of a raster within an HDF5 file has not
+// (HDF5:"a.h5"://group/b).
 bool is_elsewhere(const std::string& source) {
-  static const std::regex scheme("(^|[^A-Za-z0-9.+-])[A-Za-z][A-Za-z0-9+-]*://");
   for (const char* folder : network_folders)
     if (source.find(folder) != std::string::npos) return true;
-  return std::regex_search(source, scheme);
+  const auto is_of_scheme = [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '+' || c == '-';
+  };
+  for (std::size_t at = source.find("://"); at != std::string::npos;
+       at = source.find("://", at + 1)) {
+    std::size_t begin = at;
+    while (begin > 0 && is_of_scheme(source[begin - 1])) --begin;
+    const bool is_ending = begin > 0 && source[begin - 1] == '.';  // HDF5:a.h5://b
+    if (begin < at && !is_ending) return true;
+  }
+  return false;
 }
 
 // Adds what a virtual data set in `folder` takes its values from. GDAL distinguishes no case.
@@ -244,15 +281,6 @@ void check_virtual(const std::string& name, int depth, int& n_read) {
       throw InputError(where, "names " + source + ", which " + refusal, way_out);
     check_virtual(source, depth + 1, n_read);
   }
-}
-
-// GDAL ends with a fault where one is destroyed (3.6), so they stay.
-void take_out(const char* driver_name) {
-  static std::vector<GDALDriverH> taken;
-  const GDALDriverH driver = GDALGetDriverByName(driver_name);
-  if (driver == nullptr) return;
-  GDALDeregisterDriver(driver);
-  taken.push_back(driver);
 }
 
 }  // namespace

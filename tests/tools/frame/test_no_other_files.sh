@@ -28,12 +28,14 @@ write("label.ers", 'DatasetHeader Begin\n DataFile = "' + secret + '"\n DataSetT
       "   Northings = 5200040\n  RegistrationCoord End\n  NrOfBands = 1\n RasterInfo End\nDatasetHeader End\n")
 write("secret.csv", "z,WKT\n700,\"LINESTRING(500000 5200000,500050 5200000)\"\n710,\"LINESTRING(500000 5200050,500050 5200050)\"\n")
 for name, sql in (("table", "CREATE VIRTUAL TABLE contours USING VirtualOGR('%s')"),
+                  ("named", "CREATE VIRTUAL TABLE \"a using rtree(\" USING VirtualOGR('%s')"),
                   ("spelled", "create /**/ virtual table contours using/**/VirtualOGR('%s')")):
+    table = "a using rtree(" if name == "named" else "contours"
     base = sqlite3.connect(name + ".sqlite")
     base.execute("CREATE TABLE a (b)")
     base.execute("PRAGMA writable_schema = 1")
-    base.execute("INSERT INTO sqlite_master VALUES ('table', 'contours', 'contours', 0, ?)",
-                 (sql % (here + "/secret.csv"),))
+    base.execute("INSERT INTO sqlite_master VALUES ('table', ?, ?, 0, ?)",
+                 (table, table, sql % (here + "/secret.csv")))
     base.commit()
     base.close()
 END
@@ -43,9 +45,9 @@ for file in raw case entity in_zip lower inline; do
 done
 expect 1 talus-trn label.ers -o t.tif --no-db --crs none
 says "ERS" "--allow-network"
-for file in table spelled; do
+for file in table named spelled; do
   expect 1 talus-tin $file.sqlite -o t.ply --no-db --crs EPSG:32633
-  says "virtual table contours" "--allow-network"
+  says "virtual table " "--allow-network"
 done
 # they would be read, and are with permission
 for file in raw case entity in_zip lower inline; do
