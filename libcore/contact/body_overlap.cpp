@@ -1,5 +1,6 @@
 #include "contact/body_overlap.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <limits>
 
@@ -97,6 +98,88 @@ double shorter_path(const BodyOverlapScratch& scratch, bool all, double least) {
   return least;
 }
 
+// --- displacements in any direction ------------------------------------------------------------
+
+constexpr int most_tried = 2000;
+constexpr double is_out = 1e-9;  // [m] so little inside of a part is out of it
+
+double left_to_go(const WayOut& way, const Vec3& x) { return way.depth - way.axis.dot(x); }
+
+// The part that A is in deepest after a displacement; -1: it is out of all.
+int deepest_pair(const BodyOverlapScratch& scratch, const Vec3& x) {
+  int deepest = -1;
+  double most = is_out;
+  for (std::size_t pair = 0; pair + 1 < scratch.begin.size(); ++pair) {
+    double least = infinity;
+    for (int k = scratch.begin[pair]; k < scratch.begin[pair + 1] && least > most; ++k)
+      least = std::min(least, left_to_go(scratch.ways[k], x));
+    if (least > most) most = least, deepest = static_cast<int>(pair);
+  }
+  return deepest;
+}
+
+// Takes x where it goes far enough along all ways of `d`, and is shorter than what was found.
+void take_shorter(const BodyOverlapScratch& scratch, const Vec3& x, Displacement& d) {
+  const double length = x.norm();
+  if (!(length < d.length)) return;
+  for (int i = 0; i < d.n_ways; ++i)
+    if (left_to_go(scratch.ways[d.ways[i]], x) > is_out / 2) return;
+  d.x = x;
+  d.length = length;
+}
+
+// The shortest displacement that goes to the end of the last way of `d` and as far along the others
+// as these ask for: it ends on one, two or three of the planes. False: there is none, or it is no
+// shorter than `least`.
+bool shorten(const BodyOverlapScratch& scratch, double least, Displacement& d) {
+  const auto way = [&](int i) -> const WayOut& { return scratch.ways[d.ways[i]]; };
+  const int last = d.n_ways - 1;
+  const WayOut& a = way(last);
+  d.length = least;
+  take_shorter(scratch, a.depth * a.axis, d);
+  for (int i = 0; i < last; ++i) {
+    const WayOut& b = way(i);
+    const double c = a.axis.dot(b.axis), sin_sq = 1 - c * c;
+    if (!(sin_sq > across)) continue;
+    const double of_a = (a.depth - c * b.depth) / sin_sq, of_b = (b.depth - c * a.depth) / sin_sq;
+    take_shorter(scratch, of_a * a.axis + of_b * b.axis, d);
+    for (int k = 0; k < i; ++k) {
+      Mat3 planes;
+      planes << a.axis.transpose(), b.axis.transpose(), way(k).axis.transpose();
+      if (!(std::abs(planes.determinant()) > across)) continue;
+      take_shorter(scratch, planes.inverse() * Vec3(a.depth, b.depth, way(k).depth), d);
+    }
+  }
+  return d.length < least;
+}
+
+// The shortest of all displacements that lead out of every part, if one is shorter than `least`.
+// Tried from the shortest on, each asks for a way out of the part that A is in deepest: the first
+// that is out of all parts is the shortest.
+double least_displacement(double least, BodyOverlapScratch& scratch) {
+  std::vector<Displacement>& heap = scratch.tried;
+  const auto is_longer = [](const Displacement& a, const Displacement& b) {
+    return a.length > b.length;
+  };
+  heap.assign(1, Displacement{});
+  for (int n = 0; n < most_tried && !heap.empty(); ++n) {
+    std::pop_heap(heap.begin(), heap.end(), is_longer);
+    const Displacement shortest = heap.back();
+    heap.pop_back();
+    const int pair = deepest_pair(scratch, shortest.x);
+    if (pair < 0) return shortest.length;
+    if (shortest.n_ways == Displacement::most_ways) return least;
+    for (int k = scratch.begin[pair]; k < scratch.begin[pair + 1]; ++k) {
+      Displacement next = shortest;
+      next.ways[next.n_ways++] = k;
+      if (!shorten(scratch, least, next)) continue;
+      heap.push_back(next);
+      std::push_heap(heap.begin(), heap.end(), is_longer);
+    }
+  }
+  return least;
+}
+
 }  // namespace
 
 double body_overlap(const Hulls& hulls, const PlacedHulls& placed, int body_a, int body_b,
@@ -120,8 +203,7 @@ double body_overlap(const Hulls& hulls, const PlacedHulls& placed, int body_a, i
   if (bound <= same_place) return 0;
   const double least = shorter_path(scratch, false, infinity);
   if (least <= bound + same_place) return least;
-  const double other = shorter_path(scratch, true, least);
-  return other < least - same_place ? other : least;
+  return least_displacement(shorter_path(scratch, true, least), scratch);
 }
 
 }  // namespace talus

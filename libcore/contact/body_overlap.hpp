@@ -1,10 +1,11 @@
 // libcore/contact/body_overlap.hpp: public
 // How far two bodies are in each other, as bodies: no contact is asked.
 // in:    two placed bodies, each of one or more convex parts
-// out:   the least displacement along an axis of their parts that frees them
+// out:   the least displacement that frees them
 // theory: docs/theory/theory.md 2.1
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "contact/hulls.hpp"
@@ -17,16 +18,26 @@ struct WayOut {
   double depth = 0;          ///< [m]
 };
 
-/// Arrays that body_overlap fills anew; kept to spare allocation.
-struct BodyOverlapScratch {
-  std::vector<WayOut> ways;  ///< pair of parts by pair
-  std::vector<int> begin;    ///< of each pair's ways
+/// A displacement of A and the ways out that it goes to the end of, or beyond.
+struct Displacement {
+  static constexpr int most_ways = 6;
+  Vec3 x = Vec3::Zero();
+  double length = 0;  ///< [m]
+  int n_ways = 0;
+  std::array<int, most_ways> ways{};
 };
 
-/// The least displacement of A that takes it out of all parts of B [m], of those along a normal of
-/// a face, or of two edges whose Gauss arcs cross, of a pair of parts that overlap. Out of one part
-/// may be into the next: such a displacement goes on until all are left. 0: the bodies do not
-/// overlap. An overlap of up to `ignored` [m] may come out as 0, which is found sooner.
+/// Arrays that body_overlap fills anew; kept to spare allocation.
+struct BodyOverlapScratch {
+  std::vector<WayOut> ways;         ///< pair of parts by pair
+  std::vector<int> begin;           ///< of each pair's ways
+  std::vector<Displacement> tried;  ///< a heap, the shortest first
+};
+
+/// The least displacement of A that takes it out of all parts of B [m]. Out of one part may be into
+/// the next: in a notch it leads out of both flanks at once. Where the search for it takes too long
+/// (deep in many parts): the least along an axis of a pair of parts. 0: the bodies do not overlap.
+/// An overlap of up to `ignored` [m] may come out as 0, which is found sooner.
 [[nodiscard]] double body_overlap(const Hulls& hulls, const PlacedHulls& placed, int body_a,
                                   int body_b, double ignored, BodyOverlapScratch& scratch);
 

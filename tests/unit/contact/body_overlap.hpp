@@ -1,6 +1,6 @@
 // tests/unit/contact/body_overlap.hpp
-// The least path that frees two bodies of several convex parts, by brute force: no contact is
-// asked. Out of one part may be into the next, so paths count only where they leave all of them.
+// What frees two bodies of several convex parts, by brute force: no contact is asked. Out of one
+// part may be into the next, so paths and displacements count only where they leave all of them.
 #pragma once
 
 #include <algorithm>
@@ -124,6 +124,46 @@ inline double least_path(const std::vector<WaysOut>& pairs) {
       if (ways.is_face[k]) least = std::min(least, path_along(pairs, ways.u[k]));
   }
   return overlap ? least : 0;
+}
+
+/// Is A out of all parts of B once it has moved by x?
+inline bool is_out(const std::vector<WaysOut>& pairs, const Vec3& x) {
+  return std::all_of(pairs.begin(), pairs.end(), [&x](const WaysOut& ways) {
+    for (std::size_t k = 0; k < ways.u.size(); ++k)
+      if (ways.u[k].dot(x) >= ways.h[k] - 1e-9) return true;
+    return false;
+  });
+}
+
+/// The least displacement in any direction: it ends on one, two or three planes of faces. All of
+/// these ends are tried that are nearer than `least`.
+inline double least_displacement(const std::vector<WaysOut>& pairs, double least) {
+  std::vector<Vec3> u;
+  std::vector<double> h;
+  for (const WaysOut& ways : pairs)
+    for (std::size_t k = 0; k < ways.u.size(); ++k)
+      if (ways.is_face[k] && std::abs(ways.h[k]) < least) {
+        u.push_back(ways.u[k]);
+        h.push_back(ways.h[k]);
+      }
+  const auto try_end = [&](const Vec3& x) {
+    if (x.norm() < least && is_out(pairs, x)) least = x.norm();
+  };
+  for (std::size_t i = 0; i < u.size(); ++i) {
+    try_end(h[i] * u[i]);
+    for (std::size_t j = 0; j < i; ++j) {
+      const Vec3 along = u[i].cross(u[j]);
+      const double square = along.squaredNorm();
+      if (square < 1e-12) continue;
+      const Vec3 foot = (h[i] * u[j] - h[j] * u[i]).cross(along) / square;
+      if (foot.norm() >= least) continue;
+      try_end(foot);
+      for (std::size_t k = 0; k < j; ++k)
+        if (const double rate = u[k].dot(along); std::abs(rate) > 1e-9)
+          try_end(foot + (h[k] - u[k].dot(foot)) / rate * along);
+    }
+  }
+  return least;
 }
 
 }  // namespace talus::test
